@@ -1,0 +1,136 @@
+# make            build/rasp                 make check     set-up, build, every test (5 minutes or less)
+# make demo       set-up, build, a tour      make help      the other targets and the variables
+
+BUILD ?= build
+OPT ?= -O2 -g
+PREFIX ?= /usr/local
+SECONDS ?= 60
+JOBS ?= $(shell getconf _NPROCESSORS_ONLN)
+ifeq ($(origin CC),default)
+CC = gcc
+endif
+
+# ISA=v2|v3|v4 builds all of rasp for that level of x86-64 instead of choosing per function at run time.
+ifdef ISA
+ARCH ?= -march=x86-64-$(ISA) -DRASP_NO_CLONES
+endif
+# SAN=1: address and undefined-behaviour sanitizers; any finding ends the program.
+ifeq ($(SAN),1)
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -DRASP_NO_CLONES
+else
+SANITIZE = $(SAN)
+endif
+
+# -Wno-pass-failed: clang reports loops it does not vectorise at -O0 and -O1; gcc does not know the name and ignores it.
+WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wvla -Wstrict-prototypes -Wmissing-prototypes \
+       -Wno-pass-failed
+PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto
+CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
+LIBS = $(shell pkg-config --libs $(PKGS)) -lsleef -lm
+
+REVISION := $(shell git describe --always --dirty --abbrev=12 2> /dev/null || echo unknown)
+
+SRC = $(filter-out src/main.c,$(wildcard src/*.c src/*/*.c))
+OBJ = $(SRC:src/%.c=$(BUILD)/%.o)
+UNIT = $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
+FUZZ = $(patsubst tests/fuzz/%.c,$(BUILD)/%,$(wildcard tests/fuzz/fuzz_*.c))
+BENCH = $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
+SUB = @$(MAKE) --no-print-directory -j$(JOBS)
+
+all: $(BUILD)/rasp
+
+$(BUILD)/rasp: $(BUILD)/main.o $(BUILD)/librasp.a
+	$(CC) $(CFLAGS) -o $@ $^ $(LIBS)
+
+$(BUILD)/librasp.a: $(OBJ) $(BUILD)/files
+	rm -f $@ && ar rcs $@ $(OBJ)
+
+$(BUILD)/%.o: src/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(DEFINES) -MMD -MP -c -o $@ $<
+
+# `rasp --version --verbose` says what it was made from.
+$(BUILD)/cmd/version.o: private DEFINES = -DRASP_REVISION='"$(REVISION)"' -DRASP_FLAGS='"$(strip $(CFLAGS))"'
+$(BUILD)/cmd/version.o: $(BUILD)/revision
+
+unit: $(UNIT)
+$(BUILD)/tests/%: tests/unit/%.c $(BUILD)/librasp.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -MMD -MP -Itests/unit -o $@ $< $(BUILD)/librasp.a $(shell pkg-config --libs check) $(LIBS)
+
+# Other flags, another compiler, another list of files in the same folder: what depends on them is made again.
+$(BUILD)/flags: FORCE
+	@mkdir -p $(@D); echo '$(CC) $(CFLAGS)' | cmp -s - $@ || echo '$(CC) $(CFLAGS)' > $@
+$(BUILD)/files: FORCE
+	@mkdir -p $(@D); echo '$(OBJ)' | cmp -s - $@ || echo '$(OBJ)' > $@
+$(BUILD)/revision: FORCE
+	@mkdir -p $(@D); echo '$(REVISION)' | cmp -s - $@ || echo '$(REVISION)' > $@
+
+demo:
+	@scripts/setup.sh build demo
+	$(SUB) all
+	BUILD=$(BUILD) scripts/demo.sh
+
+check:
+	@scripts/setup.sh build test
+	$(SUB) all unit
+	@BUILD=$(BUILD) CC=$(CC) tests/run.sh
+
+# Every warning is an error, with both compilers.
+warnings:
+	$(SUB) BUILD=$(BUILD)/gcc CC=gcc WERROR=-Werror all unit
+	$(SUB) BUILD=$(BUILD)/clang CC=clang WERROR=-Werror all unit
+
+sanitize:
+	$(SUB) BUILD=$(BUILD)/sanitize SAN=1 OPT="-O1 -g" all unit
+	@BUILD=$(BUILD)/sanitize tests/run.sh unit cli faults
+
+# The same bytes from every build, on every CPU, in every run: tests/bytes/.
+bytes: all
+	@BUILD=$(BUILD) JOBS=$(JOBS) tests/run.sh bytes
+
+# SECONDS in total, shared by the fuzz targets; what they find is left in build/fuzz/.
+fuzz:
+	$(SUB) BUILD=$(BUILD)/fuzz CC=clang SAN="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -DRASP_NO_CLONES" OPT="-O1 -g" fuzzers
+	@tests/fuzz/run.sh $(BUILD)/fuzz $(SECONDS)
+fuzzers: $(FUZZ)
+$(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(BUILD)/librasp.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -fsanitize=fuzzer -Itests/fuzz -o $@ $< $(BUILD)/librasp.a $(LIBS)
+
+# What takes long: reports that are committed (evidence/), and timings (tests/bench/, programs and scripts).
+evidence: all
+	@BUILD=$(BUILD) scripts/run_all.sh evidence
+bench: all $(BENCH)
+	@BUILD=$(BUILD) scripts/run_all.sh tests/bench
+$(BUILD)/bench/%: tests/bench/%.c $(BUILD)/librasp.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -MMD -MP -o $@ $< $(BUILD)/librasp.a $(LIBS)
+
+install: all
+	install -D -m 755 $(BUILD)/rasp $(DESTDIR)$(PREFIX)/bin/rasp
+	for page in man/*.1; do install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man1 $$page || exit 1; done
+	for page in man/*.5; do install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man5 $$page || exit 1; done
+	for folder in scenes surfaces irs; do install -d $(DESTDIR)$(PREFIX)/share/rasp/$$folder && \
+	    cp -R $$folder/. $(DESTDIR)$(PREFIX)/share/rasp/$$folder || exit 1; done
+	install -D -m 644 LICENSE $(DESTDIR)$(PREFIX)/share/doc/rasp/LICENSE
+
+uninstall:
+	rm -f $(DESTDIR)$(PREFIX)/bin/rasp $(DESTDIR)$(PREFIX)/share/man/man1/rasp*.1 $(DESTDIR)$(PREFIX)/share/man/man5/rasp*.5
+	rm -rf $(DESTDIR)$(PREFIX)/share/rasp $(DESTDIR)$(PREFIX)/share/doc/rasp
+
+clean:
+	rm -rf $(BUILD)
+
+help:
+	@echo 'all (default)  $(BUILD)/rasp             unit       the unit test programs'
+	@echo 'demo           set-up, build, tour    check      set-up, build, every test'
+	@echo 'warnings       -Werror, gcc, clang    sanitize   unit, cli and faults under ASan and UBSan'
+	@echo 'bytes          same bytes, all builds fuzz       SECONDS=60 of fuzzing'
+	@echo 'evidence       the long reports       bench      timings'
+	@echo 'install        PREFIX, DESTDIR        clean      removes $(BUILD)'
+	@echo 'variables: BUILD CC OPT ISA=v2|v3|v4 SAN=1 WERROR=-Werror JOBS PREFIX DESTDIR'
+
+-include $(OBJ:.o=.d) $(BUILD)/main.d $(UNIT:=.d) $(BENCH:=.d)
+FORCE:
+.PHONY: all unit demo check warnings sanitize bytes fuzz fuzzers evidence bench install uninstall clean help FORCE

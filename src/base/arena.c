@@ -1,0 +1,105 @@
+#include "base/arena.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/err.h"
+
+enum { ARENA_ALIGN = 64, ARENA_CHUNK = 1 << 16 };
+
+struct chunk {
+    struct chunk *next;
+    size_t used, size; /* bytes after the header, which takes one alignment unit */
+};
+
+struct arena {
+    struct chunk *chunks;
+    size_t bytes;
+};
+
+static _Noreturn void arena_full(size_t count, size_t size)
+{
+    fprintf(stderr, "rasp: error: out of memory (%zu x %zu bytes asked for)\n", count, size);
+    _exit(ERR_MEMORY);
+}
+
+static void *aligned_bytes(size_t size)
+{
+    void *p = NULL;
+    return posix_memalign(&p, ARENA_ALIGN, size) == 0 ? p : NULL;
+}
+
+struct arena *arena_open(void)
+{
+    struct arena *a = calloc(1, sizeof *a);
+    if (!a)
+        arena_full(1, sizeof *a);
+    return a;
+}
+
+void arena_close(struct arena *a)
+{
+    if (!a)
+        return;
+    for (struct chunk *c = a->chunks, *next; c; c = next) {
+        next = c->next;
+        free(c);
+    }
+    free(a);
+}
+
+static struct chunk *chunk_add(struct arena *a, size_t need)
+{
+    size_t size = need > ARENA_CHUNK ? need : ARENA_CHUNK;
+    struct chunk *c = size <= SIZE_MAX - ARENA_ALIGN ? aligned_bytes(size + ARENA_ALIGN) : NULL;
+    if (!c)
+        arena_full(1, need);
+    *c = (struct chunk){.next = a->chunks, .size = size};
+    a->chunks = c;
+    return c;
+}
+
+void *arena_take(struct arena *a, size_t count, size_t size)
+{
+    struct chunk *c = a->chunks;
+    size_t need;
+    if (size && count > (SIZE_MAX / 2) / size)
+        arena_full(count, size);
+    need = (count * size + ARENA_ALIGN - 1) / ARENA_ALIGN * ARENA_ALIGN;
+    if (need == 0)
+        need = ARENA_ALIGN;
+    if (!c || c->size - c->used < need)
+        c = chunk_add(a, need);
+    void *p = (char *)c + ARENA_ALIGN + c->used;
+    c->used += need;
+    a->bytes += need;
+    return memset(p, 0, need);
+}
+
+char *arena_text(struct arena *a, const char *s)
+{
+    size_t n = strlen(s) + 1;
+    return memcpy(arena_take(a, n, 1), s, n);
+}
+
+char *arena_format(struct arena *a, const char *format, ...)
+{
+    va_list ap, again;
+    va_start(ap, format);
+    va_copy(again, ap);
+    int n = vsnprintf(NULL, 0, format, ap);
+    va_end(ap);
+    char *s = arena_take(a, (size_t)(n < 0 ? 0 : n) + 1, 1);
+    vsnprintf(s, (size_t)(n < 0 ? 0 : n) + 1, format, again);
+    va_end(again);
+    return s;
+}
+
+size_t arena_bytes(const struct arena *a)
+{
+    return a->bytes;
+}

@@ -1,0 +1,203 @@
+/* See args.h. Values and operands point into argv; only the arrays that hold them are the arena's. */
+#include "base/args.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+
+struct words {
+    char *const *argv;
+    int argc, at;
+};
+
+static int option_count(const struct args_option *options)
+{
+    int n = 0;
+    while (options[n].name)
+        n++;
+    return n;
+}
+
+static int option_long(const struct args_option *options, const char *name, size_t length)
+{
+    for (int i = 0; options[i].name; i++)
+        if (strlen(options[i].name) == length && !strncmp(options[i].name, name, length))
+            return i;
+    return -1;
+}
+
+static int option_letter(const struct args_option *options, char letter)
+{
+    for (int i = 0; options[i].name; i++)
+        if (options[i].letter == letter)
+            return i;
+    return -1;
+}
+
+static int option_named(const struct args *g, const char *name)
+{
+    int i = option_long(g->options, name, strlen(name));
+    if (i < 0) {
+        fprintf(stderr, "rasp: option --%s is asked for but in no table\n", name);
+        abort();
+    }
+    return i;
+}
+
+/* What was meant by an unknown long name: the only option that begins so, else the nearest. */
+static const char *long_meant(const struct args_option *options, const char *name, struct arena *a)
+{
+    const char *meant = NULL;
+    int n = option_count(options), hits = 0;
+    const char **names = ARENA_TAKE(a, const char *, n + 2);
+    for (int i = 0; i < n; i++) {
+        names[i] = options[i].name;
+        if (!strncmp(names[i], name, strlen(name))) {
+            meant = names[i];
+            hits++;
+        }
+    }
+    names[n] = "help";
+    return hits == 1 ? meant : text_nearest(name, names);
+}
+
+static bool long_unknown(const struct args_option *options, const char *name, struct arena *a, struct err *e)
+{
+    const char *meant = long_meant(options, name, a);
+    if (meant)
+        return err_set(e, ERR_USAGE, "no option --%s; did you mean --%s?", name, meant);
+    return err_set(e, ERR_USAGE, "no option --%s", name);
+}
+
+/* Notes that option i was given, with its value if it takes one. */
+static bool option_take(struct args *g, int i, const char *value, struct err *e)
+{
+    if (g->given[i] > 0 && !g->options[i].many)
+        return err_set(e, ERR_USAGE, "--%s is given twice", g->options[i].name);
+    g->values[i][g->given[i]++] = value;
+    return true;
+}
+
+static bool value_missing(const struct args_option *o, struct err *e)
+{
+    return err_set(e, ERR_USAGE, "--%s needs a value: --%s=%s", o->name, o->name, o->value);
+}
+
+static bool long_parse(struct args *g, struct words *w, struct arena *a, struct err *e)
+{
+    const char *text = w->argv[w->at++] + 2, *equals = strchr(text, '=');
+    size_t length = equals ? (size_t)(equals - text) : strlen(text);
+    int i = option_long(g->options, text, length);
+    if (length == 4 && !strncmp(text, "help", 4) && i < 0) {
+        g->help = true;
+        return true;
+    }
+    if (i < 0)
+        return long_unknown(g->options, arena_format(a, "%.*s", (int)length, text), a, e);
+    const struct args_option *o = &g->options[i];
+    if (!o->value)
+        return equals ? err_set(e, ERR_USAGE, "--%s takes no value", o->name) : option_take(g, i, NULL, e);
+    if (equals)
+        return option_take(g, i, equals + 1, e);
+    return w->at < w->argc ? option_take(g, i, w->argv[w->at++], e) : value_missing(o, e);
+}
+
+static bool letters_parse(struct args *g, struct words *w, struct err *e)
+{
+    for (const char *p = w->argv[w->at++] + 1; *p && !g->help; p++) {
+        int i = option_letter(g->options, *p);
+        if (i < 0 && *p == 'h') {
+            g->help = true;
+            break;
+        }
+        if (i < 0)
+            return err_set(e, ERR_USAGE, "no option -%c", *p);
+        const struct args_option *o = &g->options[i];
+        if (!o->value) {
+            if (!option_take(g, i, NULL, e))
+                return false;
+            continue;
+        }
+        if (p[1])
+            return option_take(g, i, p + 1, e);
+        return w->at < w->argc ? option_take(g, i, w->argv[w->at++], e) : value_missing(o, e);
+    }
+    return true;
+}
+
+static void args_clear(struct args *g, const struct args_option *options, int argc, struct arena *a)
+{
+    int n = option_count(options);
+    *g = (struct args){.options = options};
+    g->values = ARENA_TAKE(a, const char **, n + 1);
+    g->given = ARENA_TAKE(a, int, n + 1);
+    g->operands = ARENA_TAKE(a, const char *, argc + 1);
+    for (int i = 0; i < n; i++)
+        g->values[i] = ARENA_TAKE(a, const char *, argc + 1);
+}
+
+bool args_parse(struct args *g, const struct args_option *options, int argc, char *const *argv, struct arena *a, struct err *e)
+{
+    struct words w = {argv, argc, 0};
+    bool ended = false;
+    args_clear(g, options, argc, a);
+    while (w.at < argc && !g->help) {
+        const char *word = argv[w.at];
+        if (ended || word[0] != '-' || !word[1]) {
+            g->operands[g->n_operands++] = word;
+            w.at++;
+        } else if (!strcmp(word, "--")) {
+            ended = true;
+            w.at++;
+        } else if (!(word[1] == '-' ? long_parse(g, &w, a, e) : letters_parse(g, &w, e))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool args_given(const struct args *g, const char *name)
+{
+    return g->given[option_named(g, name)] > 0;
+}
+
+const char *args_value(const struct args *g, const char *name)
+{
+    int i = option_named(g, name);
+    return g->given[i] ? g->values[i][g->given[i] - 1] : NULL;
+}
+
+const char **args_values(const struct args *g, const char *name, int *n)
+{
+    int i = option_named(g, name);
+    *n = g->given[i];
+    return g->values[i];
+}
+
+bool args_number(const struct args *g, const char *name, const double range[2], double *value, struct err *e)
+{
+    const char *text = args_value(g, name);
+    double x;
+    if (!text)
+        return true;
+    if (!text_double(text, &x))
+        return err_set(e, ERR_USAGE, "--%s: '%s' is not a number", name, text);
+    if (x < range[0] || x > range[1])
+        return err_set(e, ERR_USAGE, "--%s: %s is not between %g and %g", name, text, range[0], range[1]);
+    *value = x;
+    return true;
+}
+
+bool args_whole(const struct args *g, const char *name, const long range[2], long *value, struct err *e)
+{
+    double x = (double)*value;
+    if (!args_number(g, name, (const double[2]){(double)range[0], (double)range[1]}, &x, e))
+        return false;
+    if (x != rint(x))
+        return err_set(e, ERR_USAGE, "--%s: '%s' is not a whole number", name, args_value(g, name));
+    *value = (long)x;
+    return true;
+}

@@ -1,0 +1,208 @@
+/* Collects errors and shows them with the line they are about: see diag.h. */
+#include "base/diag.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+
+enum { LINE_SHOWN = 160, LINE_BEFORE = 60, WORD_SHOWN = 40 };
+
+struct span {
+    const char *start;
+    size_t size;
+};
+
+struct diag *diag_open(struct arena *a)
+{
+    struct diag *d = ARENA_TAKE(a, struct diag, 1);
+    d->arena = a;
+    d->errors = ARENA_TAKE(a, struct diag_error, DIAG_KEPT);
+    return d;
+}
+
+static void clean(char *s)
+{
+    for (; *s; s++)
+        if ((unsigned char)*s < 0x20 || *s == 0x7f)
+            *s = '?';
+}
+
+static const char *cleaned(struct arena *a, const char *s)
+{
+    char *copy = arena_text(a, s);
+    clean(copy);
+    return copy;
+}
+
+bool diag_add(struct diag *d, struct diag_place at, const char *help, const char *format, ...)
+{
+    char text[1024];
+    va_list ap;
+    if (d->n < DIAG_KEPT) {
+        va_start(ap, format);
+        vsnprintf(text, sizeof text, format, ap);
+        va_end(ap);
+        d->errors[d->n] = (struct diag_error){at, cleaned(d->arena, text), help ? cleaned(d->arena, help) : NULL, d->n};
+    }
+    d->n++;
+    return false;
+}
+
+static size_t bytes_of(const char *s, size_t size, size_t characters)
+{
+    size_t at = 0;
+    uint32_t code;
+    while (at < size && characters-- > 0) {
+        int n = text_utf8(s + at, size - at, &code);
+        at += n ? (size_t)n : 1;
+    }
+    return at;
+}
+
+const char *diag_shown(struct diag *d, const char *text)
+{
+    size_t size = strlen(text), cut = bytes_of(text, size, WORD_SHOWN);
+    return arena_format(d->arena, "%.*s%s", (int)cut, text, cut < size ? "..." : "");
+}
+
+/* Bytes of the line break at s (YAML's: LF, CR, CR LF, NEL, LS, PS); 0: none. */
+static size_t break_at(const char *s, size_t size)
+{
+    if (s[0] == '\r')
+        return size > 1 && s[1] == '\n' ? 2 : 1;
+    if (s[0] == '\n')
+        return 1;
+    if (size > 1 && memcmp(s, "\xc2\x85", 2) == 0)
+        return 2;
+    return size > 2 && (memcmp(s, "\xe2\x80\xa8", 3) == 0 || memcmp(s, "\xe2\x80\xa9", 3) == 0) ? 3 : 0;
+}
+
+static struct span line_of(const struct diag_source *source, int line)
+{
+    const char *s = source->text, *end = s + source->size;
+    const char *start = s;
+    for (int at = 1; s < end;) {
+        size_t n = break_at(s, (size_t)(end - s));
+        if (n && at == line)
+            break;
+        s += n ? n : 1;
+        if (n) {
+            at++;
+            start = s;
+        }
+    }
+    return (struct span){start, (size_t)(s - start)};
+}
+
+/* A long line is shown from a little before the column; *column is moved with it. */
+static struct span line_window(struct span line, int *column)
+{
+    size_t n = text_utf8_count(line.start, line.size);
+    if (n <= LINE_SHOWN)
+        return line;
+    size_t skip = *column > LINE_BEFORE ? (size_t)(*column - LINE_BEFORE) : 0;
+    size_t from = bytes_of(line.start, line.size, skip);
+    *column -= (int)skip;
+    return (struct span){line.start + from, bytes_of(line.start + from, line.size - from, LINE_SHOWN)};
+}
+
+static void show_caret(FILE *out, struct span line, int column, int width)
+{
+    size_t before = bytes_of(line.start, line.size, (size_t)(column - 1)), rest = line.size - before;
+    while (rest > 0 && (line.start[before + rest - 1] == ' ' || line.start[before + rest - 1] == '\t'))
+        rest--;
+    int most = (int)text_utf8_count(line.start + before, rest);
+    if (width <= 0 || width > most)
+        width = most;
+    fputs("      | ", out);
+    for (size_t i = 0, step; i < before; i += step) {
+        step = bytes_of(line.start + i, before - i, 1);
+        fputc(line.start[i] == '\t' ? '\t' : ' ', out);
+    }
+    fputc('^', out);
+    for (int i = 1; i < width; i++)
+        fputc('~', out);
+    fputc('\n', out);
+}
+
+static void show_line(FILE *out, const struct diag_place *at)
+{
+    int column = at->column < 1 ? 1 : at->column;
+    struct span line = line_window(line_of(at->source, at->line), &column);
+    if (at->source->option)
+        fputs("      | ", out);
+    else
+        fprintf(out, "%5d | ", at->line);
+    fprintf(out, "%.*s\n", (int)line.size, line.start);
+    show_caret(out, line, column, at->width);
+}
+
+static const char *header(struct diag *d, const struct diag_error *x)
+{
+    const struct diag_source *source = x->at.source;
+    if (!source)
+        return arena_format(d->arena, "error: %s", x->text);
+    const char *name = cleaned(d->arena, source->name);
+    if (x->at.line == 0 || source->option)
+        return arena_format(d->arena, "%s: error: %s", name, x->text);
+    return arena_format(d->arena, "%s:%d:%d: error: %s", name, x->at.line, x->at.column, x->text);
+}
+
+static void show(FILE *out, struct diag *d, const struct diag_error *x)
+{
+    fprintf(out, "%s\n", header(d, x));
+    if (x->at.source && x->at.line > 0)
+        show_line(out, &x->at);
+    if (x->help)
+        fprintf(out, "      = help: %s\n", x->help);
+}
+
+static int by_place(const void *pa, const void *pb)
+{
+    const struct diag_error *a = pa, *b = pb;
+    int oa = a->at.source ? a->at.source->order : -1, ob = b->at.source ? b->at.source->order : -1;
+    if (oa != ob)
+        return oa < ob ? -1 : 1;
+    if (a->at.line != b->at.line)
+        return a->at.line < b->at.line ? -1 : 1;
+    if (a->at.column != b->at.column)
+        return a->at.column < b->at.column ? -1 : 1;
+    return a->serial < b->serial ? -1 : a->serial > b->serial;
+}
+
+static int sorted(struct diag *d)
+{
+    int kept = d->n < DIAG_KEPT ? d->n : DIAG_KEPT;
+    qsort(d->errors, (size_t)kept, sizeof *d->errors, by_place);
+    return kept;
+}
+
+const char *diag_text(struct diag *d)
+{
+    char *buffer = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&buffer, &size);
+    if (!out)
+        return "out of memory\n";
+    int kept = sorted(d);
+    for (int i = 0; i < kept && i < DIAG_SHOWN; i++)
+        show(out, d, &d->errors[i]);
+    if (d->n > DIAG_SHOWN)
+        fprintf(out, "... and %d more\n", d->n - DIAG_SHOWN);
+    fprintf(out, "%d error%s\n", d->n, d->n == 1 ? "" : "s");
+    bool complete = fclose(out) == 0 && buffer;
+    const char *text = complete ? arena_text(d->arena, buffer) : "out of memory\n";
+    free(buffer);
+    return text;
+}
+
+const char *diag_first(struct diag *d)
+{
+    if (sorted(d) == 0)
+        return "";
+    const char *first = header(d, &d->errors[0]);
+    return d->n == 1 ? first : arena_format(d->arena, "%s (and %d more)", first, d->n - 1);
+}

@@ -1,0 +1,33 @@
+/* One error and the trail of where it happened. Its kinds are the exit codes of the program (man rasp, EXIT STATUS). */
+#ifndef BASE_ERR_H
+#define BASE_ERR_H
+#include <stdbool.h>
+
+enum err_kind {
+    ERR_NONE = 0,
+    ERR_DIFFERS = 1,      /* compare: the two differ                              */
+    ERR_USAGE = 64,       /* the command line                                     */
+    ERR_SCENE = 65,       /* the scene or the data it names; a refused promise    */
+    ERR_INPUT = 66,       /* an input file is missing or unreadable               */
+    ERR_UNBUILT = 69,     /* the feature is not built in                          */
+    ERR_NUMBERS = 70,     /* not finite, energy grew: a numerical failure         */
+    ERR_MEMORY = 71,      /* out of memory                                        */
+    ERR_CREATE = 73,      /* an output cannot be created                          */
+    ERR_IO = 74,          /* reading or writing failed half-way                   */
+    ERR_INTERRUPTED = 75  /* stopped by a signal: run again to resume             */
+};
+
+struct err {
+    enum err_kind kind;
+    char text[1024];
+};
+
+/* Sets the error, unless one is set already (the first cause wins), and returns false, so that
+   `return err_set(e, ERR_INPUT, "...")` is the whole of a failure. */
+bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Puts "where: " before the text of an error that is set; returns false. */
+bool err_at(struct err *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,172 @@
+/* See outfile.h. The data needs no fsync: the promise is against a program that dies, not against a power cut.
+
+   open(folder, O_TMPFILE)      an inode without a name: gone when the program is
+   linkat(/proc/self/fd/N)      a hidden name in the same folder, for linkat cannot replace an existing file
+   rename                       over the target, atomically
+
+   Whatever the reason why O_TMPFILE fails (NFS and FUSE do not have it, old kernels answer EISDIR), and where /proc is not mounted,
+   the hidden name is there from the start. */
+#include "base/outfile.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { NAMES = 10000 };
+
+/* Length of the folder part of a path with its last slash; 0: the current folder. */
+static int folder_length(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (int)(slash - path) + 1 : 0;
+}
+
+static void hidden_name(struct outfile *o, int k)
+{
+    snprintf(o->temporary, sizeof o->temporary, "%.*s.rasp-%ld-%d.part", folder_length(o->target), o->target, (long)getpid(), k);
+}
+
+static bool open_unnamed(struct outfile *o)
+{
+    char folder[sizeof o->target + 2], proc[64];
+    snprintf(folder, sizeof folder, "%.*s.", folder_length(o->target), o->target);
+    o->fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    if (o->fd < 0)
+        return false;
+    snprintf(proc, sizeof proc, "/proc/self/fd/%d", o->fd);
+    if (access(proc, F_OK) == 0)
+        return true;
+    close(o->fd);
+    return false;
+}
+
+static bool open_hidden(struct outfile *o)
+{
+    for (int k = 0; k < NAMES; k++) {
+        hidden_name(o, k);
+        o->fd = open(o->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (o->fd >= 0)
+            return true;
+        if (errno != EEXIST)
+            break;
+    }
+    o->temporary[0] = '\0';
+    return false;
+}
+
+static bool set_target(struct outfile *o, const char *target, struct err *e)
+{
+    struct stat s;
+    char whole[4096]; /* PATH_MAX, which realpath wants */
+    size_t n = strlen(target);
+    if (n == 0)
+        return err_set(e, ERR_CREATE, "an output needs a name");
+    if (n >= sizeof o->target)
+        return err_set(e, ERR_CREATE, "%.60s...: the path is too long", target);
+    if (target[n - 1] == '/')
+        return err_set(e, ERR_CREATE, "%s: is the name of a folder; a file name is needed", target);
+    memcpy(o->target, target, n + 1);
+    if (stat(target, &s) != 0)
+        return true;
+    if (!S_ISREG(s.st_mode))
+        return err_set(e, ERR_CREATE, "%s: %s", target,
+                       S_ISDIR(s.st_mode) ? "is a folder; a file name is needed" : "is not a regular file and would be replaced");
+    if (access(target, W_OK) != 0)
+        return err_set(e, ERR_CREATE, "%s: exists and cannot be written: %s", target, strerror(errno));
+    if (realpath(target, whole))
+        memcpy(o->target, whole, strlen(whole) + 1);
+    return true;
+}
+
+static bool open_one(struct outfile *o, const char *target, bool unnamed, struct err *e)
+{
+    *o = (struct outfile){.fd = -1};
+    if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || open_hidden(o)))
+        return true;
+    err_set(e, ERR_CREATE, "%s: cannot be created: %s", target, errno == ENOENT ? "its folder does not exist" : strerror(errno));
+    o->target[0] = '\0';
+    return false;
+}
+
+bool outfile_open_fd(struct outfile *o, const char *target, struct err *e)
+{
+    return open_one(o, target, true, e);
+}
+
+bool outfile_open_hidden(struct outfile *o, const char *target, struct err *e)
+{
+    return open_one(o, target, false, e);
+}
+
+bool outfile_open(struct outfile *o, const char *target, struct err *e)
+{
+    if (!outfile_open_fd(o, target, e))
+        return false;
+    o->stream = fdopen(o->fd, "w+");
+    if (o->stream)
+        return true;
+    err_set(e, ERR_CREATE, "%s: cannot be created: %s", target, strerror(errno));
+    outfile_drop(o);
+    return false;
+}
+
+/* Gives an unnamed file its hidden name. */
+static bool name_it(struct outfile *o)
+{
+    char proc[64];
+    snprintf(proc, sizeof proc, "/proc/self/fd/%d", o->fd);
+    for (int k = 0; k < NAMES; k++) {
+        hidden_name(o, k);
+        if (linkat(AT_FDCWD, proc, AT_FDCWD, o->temporary, AT_SYMLINK_FOLLOW) == 0)
+            return true;
+        if (errno != EEXIST)
+            break;
+    }
+    o->temporary[0] = '\0';
+    return false;
+}
+
+static bool close_it(struct outfile *o)
+{
+    int bad = o->stream ? fclose(o->stream) : close(o->fd);
+    o->stream = NULL;
+    o->fd = -1;
+    return bad == 0;
+}
+
+static bool flush_it(struct outfile *o)
+{
+    if (!o->stream)
+        return true;
+    if (fflush(o->stream) != 0)
+        return false;
+    errno = EIO; /* an earlier write failed; its reason is not kept by the stream */
+    return !ferror(o->stream);
+}
+
+bool outfile_commit(struct outfile *o, struct err *e)
+{
+    if (o->target[0] == '\0')
+        return err_set(e, ERR_IO, "an output that is closed already cannot be committed");
+    if (flush_it(o) && (o->temporary[0] || name_it(o)) && close_it(o) && rename(o->temporary, o->target) == 0) {
+        o->target[0] = o->temporary[0] = '\0';
+        return true;
+    }
+    err_set(e, ERR_IO, "%s: cannot be written: %s", o->target, strerror(errno));
+    outfile_drop(o);
+    return false;
+}
+
+void outfile_drop(struct outfile *o)
+{
+    if (o->target[0] == '\0')
+        return;
+    if (o->fd >= 0)
+        close_it(o);
+    if (o->temporary[0])
+        unlink(o->temporary);
+    o->target[0] = o->temporary[0] = '\0';
+}

@@ -1,0 +1,25 @@
+/* An output that has no name until it is complete: an unnamed file (O_TMPFILE) in the target's folder, linked under a temporary
+   name and renamed over the target when it is committed; where the file system has no unnamed files, a hidden temporary name.
+   A program that is killed leaves nothing half-written (but for that hidden name, ".rasp-*.part", where it had to be used).
+   A target that is a symbolic link replaces what the link points to; a target that is a device, a pipe, a folder or is write-protected
+   is refused. */
+#ifndef BASE_OUTFILE_H
+#define BASE_OUTFILE_H
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "base/err.h"
+
+struct outfile {
+    FILE *stream;      /* NULL when only fd is used (libsndfile)          */
+    int fd;
+    char target[4096], temporary[4200]; /* temporary is empty while the file is unnamed */
+};
+
+bool outfile_open(struct outfile *o, const char *target, struct err *e);      /* ERR_CREATE */
+bool outfile_open_fd(struct outfile *o, const char *target, struct err *e);   /* same, without a stream */
+bool outfile_open_hidden(struct outfile *o, const char *target, struct err *e); /* _fd by the hidden name at once, for tests */
+bool outfile_commit(struct outfile *o, struct err *e);   /* flushes, checks, names; closes either way; ERR_IO */
+void outfile_drop(struct outfile *o);                    /* closes and leaves nothing; harmless when closed */
+
+#endif

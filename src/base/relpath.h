@@ -1,0 +1,10 @@
+/* File names seen from another folder. */
+#ifndef BASE_RELPATH_H
+#define BASE_RELPATH_H
+#include "base/arena.h"
+
+/* `file` (relative to the current folder, or absolute) as it is called from `folder` (NULL or "": the current one). Symbolic links in
+   folders are followed, the file's own is not. Absolute when the two have no folder but / in common, or when a folder cannot be found. */
+const char *relpath_make(const char *file, const char *folder, struct arena *a);
+
+#endif

@@ -1,0 +1,35 @@
+/* Texts: numbers without leftovers, names that are nearly right, UTF-8. Nothing here depends on the locale (none is ever set). */
+#ifndef BASE_TEXT_H
+#define BASE_TEXT_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Bytes of the decimal number that s starts with: sign, digits with at most one point, exponent; 0: none. */
+size_t text_number_length(const char *s);
+
+/* The number in s[0..n), which must be one as a whole, times 10^power, rounded once (the decimal exponent is moved, nothing is
+   multiplied). False: not a number, more than 400 characters, infinite, or not zero but rounded to zero. */
+bool text_scaled(const char *s, size_t n, int power, double *x);
+
+/* Whole strings: a decimal number; a whole number from low to high; digits only, up to 2^64 - 1. */
+bool text_double(const char *s, double *x);
+bool text_int(const char *s, int low, int high, int *x);
+bool text_u64(const char *s, uint64_t *x);
+
+/* Shortest decimal digits that read back as the same double: x = 0.DIGITS * 10^*exponent, x finite and >= 0. */
+void text_digits(double x, char digits[20], int *exponent);
+
+/* Damerau-Levenshtein distance (insert, delete, replace, exchange neighbours), bytes; 99 for words over 63 bytes. */
+int text_distance(const char *a, const char *b);
+
+/* The nearest of the names (NULL-terminated), not farther than 3 and than half the word's length; NULL: none. */
+const char *text_nearest(const char *word, const char *const *names);
+
+/* Bytes of the UTF-8 character that s[0..n) starts with, and its code; 0: not valid UTF-8 (or n = 0). */
+int text_utf8(const char *s, size_t n, uint32_t *code);
+
+/* Characters in s[0..n); bytes that are not valid UTF-8 count as one each. */
+size_t text_utf8_count(const char *s, size_t n);
+
+#endif

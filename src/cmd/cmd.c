@@ -1,0 +1,65 @@
+/* What several subcommands share: reading a scene with the command line's changes, and --help. */
+#include "cmd/cmd.h"
+
+#include <string.h>
+
+#include "base/wrap.h"
+#include "scene/scene_read.h"
+
+static struct scene_overrides overrides(struct cmd_call *c)
+{
+    int n;
+    const char **set = args_values(&c->args, "set", &n), *seed = args_value(&c->args, "seed");
+    const char **all = ARENA_TAKE(c->arena, const char *, n + 1);
+    memcpy(all, set, (size_t)n * sizeof *set);
+    if (seed)
+        all[n++] = arena_format(c->arena, "seed=%s", seed);
+    return (struct scene_overrides){all, n};
+}
+
+bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e)
+{
+    struct scene_overrides over = overrides(c);
+    const char *messages = NULL;
+    struct err cause = {0};
+    if (scene_read(file, &over, c->arena, s, &messages, &cause))
+        return true;
+    if (!messages || !*messages)
+        return err_set(e, cause.kind, "%s", cause.text);
+    fputs(messages, stderr);
+    if (messages[strlen(messages) - 1] != '\n')
+        fputc('\n', stderr);
+    return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_INPUT ? "or a file it includes cannot be read" : "is not a valid scene");
+}
+
+static void print_option(const struct args_option *o)
+{
+    char head[64], letter[8] = "    ";
+    if (o->letter)
+        snprintf(letter, sizeof letter, "-%c, ", o->letter);
+    int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, o->name, o->value ? "=" : "", o->value ? o->value : "");
+    printf("%-26s  ", head);
+    wrap_print(stdout, o->help, n > 26 ? n + 2 : 28, "                            ");
+}
+
+static void print_indented(const char *lines)
+{
+    for (const char *p = lines; *p;) {
+        size_t n = strcspn(p, "\n");
+        printf("  %.*s\n", (int)n, p);
+        p += n + (p[n] == '\n');
+    }
+}
+
+void cmd_print_help(const struct command *m)
+{
+    static const struct args_option help = {"help", 'h', NULL, false, "this text"};
+    printf("rasp %s: %s\n\nExamples:\n", m->name, m->summary);
+    print_indented(m->examples);
+    printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
+    wrap_print(stdout, m->does, 0, "");
+    printf("\nOptions:\n");
+    for (const struct args_option *o = m->options; o->name; o++)
+        print_option(o);
+    print_option(&help);
+}

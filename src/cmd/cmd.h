@@ -1,0 +1,43 @@
+/* What a subcommand is. foo.c in this folder exports `const struct command foo_command`; commands.c lists them.
+
+   main parses the options, calls run, and gives its return value as the exit code. When run leaves an error in *e, main prints
+   "rasp foo: error: text" on stderr and the exit code is e->kind. Data goes to stdout (main closes and checks it), messages to stderr;
+   stdin is never read. */
+#ifndef CMD_CMD_H
+#define CMD_CMD_H
+#include "base/arena.h"
+#include "base/args.h"
+#include "base/err.h"
+#include "scene/scene.h"
+
+struct cmd_call {
+    struct args args;    /* options and operands, their number already checked */
+    struct arena *arena; /* lives until the command ends                       */
+};
+
+struct command {
+    const char *name;
+    const char *summary;                /* half a line for the list of commands, no full stop          */
+    const char *does;                   /* a paragraph or two for --help                               */
+    const char *operands;               /* as in the usage line: "SCENE...", "A B"; "": none           */
+    int least, most;                    /* number of operands; most < 0: any number                    */
+    const struct args_option *options;  /* ends with {0}; never NULL                                   */
+    const char *examples;               /* shell lines, each ending in \n; a line may end in # comment */
+    int (*run)(struct cmd_call *c, struct err *e);
+};
+
+extern const struct command check_command, explain_command, new_command, render_command, plan_command, compare_command,
+    plot_command;
+
+/* Rows for the option table of every command that reads scenes; cmd_read_scene heeds them. */
+#define CMD_SCENE_OPTIONS                                                                                                     \
+    {"set", 's', "PATH=VALUE", true, "sets a key of the scene, as in --set motion.rate='3 Hz'; may be repeated, the last wins"}, \
+    {"seed", 0, "NUMBER", false, "sets the scene's seed; same as --set seed=NUMBER"}
+
+/* scene_read with the command line's --set and --seed. Prints the scene's messages on stderr; then *e holds their kind and a summary. */
+bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e);
+
+/* --help of one command: summary, examples, usage, options. */
+void cmd_print_help(const struct command *m);
+
+#endif

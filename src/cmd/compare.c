@@ -1,0 +1,140 @@
+/* rasp compare: two sounds or two tables, the first being the reference. The halves are compare_sound.c and compare_table.c. */
+#include "cmd/compare.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/text.h"
+#include "cmd/cmd.h"
+
+/* By its first bytes, else by its name; a pipe is a table, for its bytes could not be read twice. ERR_INPUT: not there. */
+static bool is_sound(const char *path, bool *sound, struct err *e)
+{
+    static const char *const magics[] = {"RIFF", "RF64", "riff", "FORM", "fLaC", "OggS", "caff", ".snd", NULL};
+    static const char *const names[] = {".wav", ".w64", ".aif", ".aiff", ".flac", ".ogg", ".caf", ".au", NULL};
+    struct stat s;
+    char head[5] = "";
+    *sound = false;
+    if (stat(path, &s) != 0)
+        return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
+    FILE *f = S_ISREG(s.st_mode) ? fopen(path, "rb") : NULL;
+    if (f) {
+        head[fread(head, 1, 4, f)] = '\0';
+        fclose(f);
+    }
+    const char *dot = strrchr(path, '.');
+    for (int i = 0; magics[i]; i++)
+        *sound = *sound || !strcmp(head, magics[i]) || (dot && !strcasecmp(dot, names[i]));
+    return true;
+}
+
+/* NAME=ABS,REL; the name may hold = itself. */
+static bool column_tolerance(const char *text, struct table_distance_tolerance *t, struct arena *a, struct err *e)
+{
+    char *name = arena_text(a, text), *equals = strrchr(name, '='), *comma = equals ? strchr(equals, ',') : NULL;
+    if (comma) {
+        *equals = *comma = '\0';
+        *t = (struct table_distance_tolerance){.column = name};
+        if (text_double(equals + 1, &t->abs) && text_double(comma + 1, &t->rel) && t->abs >= 0 && t->rel >= 0)
+            return true;
+    }
+    return err_set(e, ERR_USAGE, "--column: '%s' is not of the form NAME=ABS,REL, as in speed_m_per_s=1e-6,0.001", text);
+}
+
+/* Of the tolerances for all others the first counts, of those for one column the last: so the command line overrides the file. */
+static bool gather_tolerances(const struct cmd_call *c, struct compare_ask *ask, struct err *e)
+{
+    static const double range[2] = {0, HUGE_VAL};
+    const struct table_distance_tolerance *file = NULL;
+    const char *path = args_value(&c->args, "tolerance");
+    int columns, n = 0, rows = 0;
+    const char **texts = args_values(&c->args, "column", &columns);
+    if (path && !(file = table_distance_read(path, c->arena, e)))
+        return false;
+    while (file && file[rows].column)
+        rows++;
+    struct table_distance_tolerance *list = ARENA_TAKE(c->arena, struct table_distance_tolerance, rows + columns + 2);
+    ask->tolerances = list;
+    if (args_given(&c->args, "abs") || args_given(&c->args, "rel"))
+        list[n++].column = "*";
+    if (!args_number(&c->args, "abs", range, &list[0].abs, e) || !args_number(&c->args, "rel", range, &list[0].rel, e))
+        return false;
+    for (int i = 0; i < rows; i++)
+        list[n++] = file[i];
+    for (int i = 0; i < columns; i++)
+        if (!column_tolerance(texts[i], &list[n++], c->arena, e))
+            return false;
+    return true;
+}
+
+static bool gather_limits(const struct cmd_call *c, struct compare_ask *ask, struct err *e)
+{
+    static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
+    return args_number(&c->args, "snr", any, &ask->snr, e) && args_number(&c->args, "lsb", positive, &ask->lsb, e) &&
+           args_number(&c->args, "third-octave", positive, &ask->third_octave, e);
+}
+
+/* The first of the options that was given, or NULL. */
+static const char *given_of(const struct cmd_call *c, const char *const *names)
+{
+    for (; *names; names++)
+        if (args_given(&c->args, *names))
+            return *names;
+    return NULL;
+}
+
+static int compare_run(struct cmd_call *c, struct err *e)
+{
+    static const char *const for_sounds[] = {"snr", "lsb", "third-octave", NULL}, *const for_tables[] = {"tolerance", "column", "abs", "rel", NULL};
+    const char **files = c->args.operands, *sounds = given_of(c, for_sounds), *tables = given_of(c, for_tables);
+    bool a, b, exact = args_given(&c->args, "exact");
+    struct compare_ask ask = {.files = {files[0], files[1]}, .json = args_given(&c->args, "json"), .quiet = args_given(&c->args, "quiet"),
+                              .exact = exact || (!sounds && !tables), .snr = NAN, .lsb = NAN, .third_octave = NAN, .arena = c->arena};
+    if (!is_sound(files[0], &a, e) || !is_sound(files[1], &b, e))
+        return (int)e->kind;
+    if (a != b)
+        err_set(e, ERR_USAGE, "%s is a %s and %s is a %s: they cannot be compared", files[0], a ? "sound" : "table", files[1],
+                b ? "sound" : "table");
+    else if (a ? tables != NULL : sounds != NULL)
+        err_set(e, ERR_USAGE, "--%s is for %s, and these are %s", a ? tables : sounds, a ? "tables" : "sounds", a ? "sounds" : "tables");
+    else if (exact && tables)
+        err_set(e, ERR_USAGE, "--exact leaves no room for --%s", tables);
+    if (e->kind || !gather_limits(c, &ask, e) || !gather_tolerances(c, &ask, e))
+        return (int)e->kind;
+    return a ? compare_sound(&ask, e) : compare_table(&ask, e);
+}
+
+static const struct args_option options[] = {
+    {"exact", 'e', NULL, false, "every sample or cell must be the same (the default when no limit is given)"},
+    {"snr", 0, "DB", false, "sounds: the difference is at least this far below A (signal-to-noise ratio)"},
+    {"lsb", 0, "N", false, "sounds: no sample differs by more than N steps of the coarser integer encoding"},
+    {"third-octave", 0, "DB", false, "sounds: no third-octave band within 60 dB of the loudest differs by more; alone, rates may differ"},
+    {"tolerance", 't', "FILE", false, "tables: a table column,abs,rel of tolerances; the column * stands for all others"},
+    {"column", 'c', "NAME=ABS,REL", true, "tables: the tolerance of one column; overrides the file"},
+    {"abs", 0, "X", false, "tables: absolute tolerance of all columns not named; overrides the file's *"},
+    {"rel", 0, "Y", false, "tables: relative tolerance of all columns not named; overrides the file's *"},
+    {"json", 'j', NULL, false, "prints the figures as one JSON object; null stands for an infinite figure or one that is not there"},
+    {"quiet", 'q', NULL, false, "prints nothing when all criteria are met"},
+    {0}};
+
+const struct command compare_command = {
+    .name = "compare",
+    .summary = "compare two sounds or two tables within tolerances",
+    .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing samples, the first, the largest "
+            "difference, the signal-to-noise ratio and the third-octave levels; for CSV tables the misses of each column and the worst of "
+            "them. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
+            "The exit code is 0 when the criteria are met, 1 when they are not, and never 0 when a file is missing or empty.",
+    .operands = "A B",
+    .least = 2,
+    .most = 2,
+    .options = options,
+    .examples = "rasp compare golden.wav new.wav\n"
+                "rasp compare --snr 80 --third-octave 0.1 golden.wav new.wav\n"
+                "rasp compare --lsb 1 golden.wav new.wav\n"
+                "rasp compare --tolerance tolerance.csv golden.csv new.csv\n"
+                "rasp compare --abs 1e-9 --rel 1e-6 --column events=0,0 golden.csv new.csv\n",
+    .run = compare_run,
+};

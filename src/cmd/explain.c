@@ -1,0 +1,147 @@
+/* rasp explain: what a scene may say, and what a scene says in full. */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/text.h"
+#include "base/wrap.h"
+#include "cmd/cmd.h"
+#include "output/force_table.h"
+#include "scene/keys_man.h"
+#include "scene/keys_reference.h"
+#include "scene/keys_text.h"
+#include "scene/scene_write.h"
+
+static bool is_scene_file(const char *word)
+{
+    size_t n = strlen(word);
+    return strchr(word, '/') || (n > 5 && !strcmp(word + n - 5, ".yaml")) || (n > 4 && !strcmp(word + n - 4, ".yml")) ||
+           access(word, F_OK) == 0;
+}
+
+static void explain_scene(struct cmd_call *c, const char *file, struct err *e)
+{
+    struct scene s;
+    if (cmd_read_scene(c, file, &s, e))
+        fputs(scene_write(&s, NULL, c->arena), stdout);
+}
+
+static const struct key_knob *find_knob(const char *path)
+{
+    const char *name = strncmp(path, "accuracy.", 9) ? path : path + 9;
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        if (!strcmp(k->name, name))
+            return k;
+    return NULL;
+}
+
+static bool is_name(const char *path, const char **names)
+{
+    for (; *names; names++)
+        if (!strcmp(*names, path))
+            return true;
+    return false;
+}
+
+static void list_columns(void)
+{
+    fputs("  columns\n", stdout);
+    for (const struct table_column *t = force_table_columns; t->name; t++) {
+        int n = printf("    %-22s ", t->name);
+        wrap_print(stdout, t->meaning, n, "                           ");
+    }
+}
+
+/* True when there was something of that name to explain. */
+static bool explain_path(const char *path, const char **names, struct arena *a)
+{
+    const struct key *k = keys_find(path);
+    const struct key_knob *knob = find_knob(path);
+    if (k) {
+        keys_text_print_key(stdout, k, a);
+        if (!strcmp(path, "output.diagnostics.columns"))
+            list_columns();
+    } else if (knob)
+        keys_text_print_knob(stdout, knob, a);
+    else if (!strcmp(path, "accuracy"))
+        keys_text_print_accuracy(stdout, a);
+    else if (is_name(path, names))
+        keys_text_print_map(stdout, path, a);
+    else
+        return false;
+    return true;
+}
+
+/* Every path that ends in the word: "motion.rate or output.diagnostics.rate"; NULL: none. */
+static const char *endings(const char *word, const char **names, struct arena *a)
+{
+    const char *found = NULL;
+    for (; *names; names++) {
+        const char *dot = strrchr(*names, '.');
+        if (dot && !strcmp(dot + 1, word))
+            found = found ? arena_format(a, "%s or %s", found, *names) : *names;
+    }
+    return found;
+}
+
+static void unknown(const char *word, const char **names, struct arena *a, struct err *e)
+{
+    const char *meant = endings(word, names, a);
+    meant = meant ? meant : text_nearest(word, names);
+    if (meant)
+        err_set(e, ERR_USAGE, "no key, section or scene file '%s'; did you mean %s?", word, meant);
+    else
+        err_set(e, ERR_USAGE, "no key, section or scene file '%s'; rasp explain shows every key", word);
+}
+
+static void print_man(const char *part, struct arena *a, struct err *e)
+{
+    if (!strcmp(part, "keys"))
+        keys_man_print(stdout, a);
+    else if (!strcmp(part, "columns"))
+        for (const struct table_column *t = force_table_columns; t->name; t++)
+            printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
+    else
+        err_set(e, ERR_USAGE, "--man: '%s' is neither keys nor columns", part);
+}
+
+static int explain_run(struct cmd_call *c, struct err *e)
+{
+    const char *word = c->args.n_operands ? c->args.operands[0] : NULL;
+    const char **names = keys_text_names(c->arena);
+    if (args_given(&c->args, "man"))
+        print_man(args_value(&c->args, "man"), c->arena, e);
+    else if (!word)
+        keys_reference_print(stdout, c->arena);
+    else if (explain_path(keys_text_plain(word), names, c->arena))
+        return 0;
+    else if (is_scene_file(word))
+        explain_scene(c, word, e);
+    else
+        unknown(word, names, c->arena, e);
+    return 0;
+}
+
+static const struct args_option options[] = {
+    CMD_SCENE_OPTIONS,
+    {"man", 0, "keys|columns", false, "prints a part of man rasp-scene(5), in mdoc"},
+    {0},
+};
+
+const struct command explain_command = {
+    .name = "explain",
+    .summary = "says what a key means, or all that a scene leaves unsaid",
+    .does = "Without an operand: a scene with every key there is, explained. With a key or a section (motion.rate, motion, "
+            "accuracy.oversampling): its type, unit, range, default and meaning. With a scene file: the effective scene, in which every "
+            "default and accuracy knob is written out; rendering it gives the same bytes.",
+    .operands = "[KEY | SECTION | SCENE]",
+    .least = 0,
+    .most = 1,
+    .options = options,
+    .examples = "rasp explain > every-key.yaml\n"
+                "rasp explain motion.rate\n"
+                "rasp explain accuracy\n"
+                "rasp explain scrape.yaml > effective.yaml\n",
+    .run = explain_run,
+};

@@ -1,0 +1,60 @@
+/* See inputs.h. */
+#include "cmd/inputs.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "scene/keys.h"
+
+static const char *why_unreadable(const char *file)
+{
+    struct stat s;
+    if (stat(file, &s) != 0 || access(file, R_OK) != 0)
+        return strerror(errno);
+    return S_ISREG(s.st_mode) ? NULL : "is not a file";
+}
+
+static void add(const char **missing, const char *where, const char *file, struct arena *a)
+{
+    const char *why = file ? why_unreadable(file) : NULL;
+    if (why)
+        *missing = arena_format(a, "%s%s%s: %s: %s", *missing, **missing ? "; " : "", where, file, why);
+}
+
+static bool are_there(const struct scene *s, struct arena *a, struct err *e)
+{
+    const char *missing = "";
+    for (int i = 0; i < s->n_contacts; i++)
+        for (const struct key *k = keys_table; k->path; k++)
+            if (k->of == KEY_CONTACT && k->type == KEY_FILE)
+                add(&missing, k->path, *(const char **)((char *)&s->contacts[i] + k->offset), a);
+    for (int i = 0; i < s->n_inputs && !*missing; i++)
+        add(&missing, "inputs", s->inputs[i].file, a);
+    return !*missing || err_set(e, ERR_INPUT, "%s", missing);
+}
+
+static bool is_pinned(const struct input *p, struct err *e)
+{
+    char hex[HASH_TEXT];
+    if (!p->sha256)
+        return true;
+    if (!hash_file(p->file, hex, e))
+        return false;
+    if (!strcmp(hex, p->sha256))
+        return true;
+    return err_set(e, ERR_SCENE, "inputs: %s has changed: its sha256 is %s, not %s; restore the file, or remove its entry to use it as it is", p->file,
+                   hex, p->sha256);
+}
+
+bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
+{
+    if (!are_there(s, a, e))
+        return false;
+    for (int i = 0; i < s->n_inputs; i++)
+        if (!is_pinned(&s->inputs[i], e))
+            return false;
+    return true;
+}

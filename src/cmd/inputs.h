@@ -1,0 +1,14 @@
+/* The files that a scene names, before anything is computed from them. */
+#ifndef CMD_INPUTS_H
+#define CMD_INPUTS_H
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+#include "scene/scene.h"
+
+/* Every file that a key names or `inputs` pins can be read (ERR_INPUT: names all that cannot), and what is pinned is as it was
+   (ERR_SCENE). */
+bool inputs_check(const struct scene *s, struct arena *a, struct err *e);
+
+#endif

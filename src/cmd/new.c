@@ -1,0 +1,74 @@
+/* rasp new: a starter scene. */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "base/outfile.h"
+#include "base/text.h"
+#include "cmd/cmd.h"
+#include "cmd/starters.h"
+
+static int list(void)
+{
+    for (const struct starter *s = starters_table; s->name; s++)
+        printf("%-9s %s\n", s->name, s->summary);
+    return 0;
+}
+
+static bool unknown(const char *name, struct err *e)
+{
+    const char *names[16] = {NULL};
+    for (int i = 0; starters_table[i].name && i < 15; i++)
+        names[i] = starters_table[i].name;
+    const char *meant = text_nearest(name, names);
+    if (meant)
+        return err_set(e, ERR_USAGE, "no starter scene '%s'; did you mean '%s'? (rasp new --list shows all)", name, meant);
+    return err_set(e, ERR_USAGE, "no starter scene '%s'; rasp new --list shows all", name);
+}
+
+static bool write_file(const struct starter *s, const char *file, bool force, struct arena *a, struct err *e)
+{
+    struct outfile o;
+    if (!force && access(file, F_OK) == 0)
+        return err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
+    if (!outfile_open(&o, file, e))
+        return false;
+    starters_print(o.stream, s, a);
+    return outfile_commit(&o, e);
+}
+
+static int new_run(struct cmd_call *c, struct err *e)
+{
+    const char *name = c->args.n_operands ? c->args.operands[0] : starters_table[0].name;
+    const char *file = args_value(&c->args, "output");
+    const struct starter *s = starters_find(name);
+    if (args_given(&c->args, "list"))
+        return list();
+    if (!s)
+        unknown(name, e);
+    else if (file)
+        write_file(s, file, args_given(&c->args, "force"), c->arena, e);
+    else
+        starters_print(stdout, s, c->arena);
+    return 0;
+}
+
+static const struct args_option options[] = {
+    {"output", 'o', "FILE", false, "the file to write; without it the scene goes to standard output"},
+    {"force", 'f', NULL, false, "overwrites FILE if it exists"},
+    {"list", 0, NULL, false, "lists the starter scenes"},
+    {0},
+};
+
+const struct command new_command = {
+    .name = "new",
+    .summary = "writes a commented starter scene",
+    .does = "Writes the starter scene NAME (scrape, if none is named), with every line explained. It can be rendered as it is.",
+    .operands = "[NAME]",
+    .least = 0,
+    .most = 1,
+    .options = options,
+    .examples = "rasp new --list                  # which there are\n"
+                "rasp new -o scrape.yaml          # the default\n"
+                "rasp new grip -o grip.yaml       # a tool held in the hand\n",
+    .run = new_run,
+};

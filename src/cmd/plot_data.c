@@ -1,0 +1,216 @@
+/* The data of `rasp plot`: a sound or a table of diagnostics, and what a render writes beside it (NAME.json: title and contacts; NAME.csv or
+   NAME.CONTACT.csv), brought down to one value per column of pixels. A column shows the smallest and largest sample, the largest magnitude of
+   the peak force, the root of the mean square force, the mean of the rest: nothing falls between two columns. */
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cmd/plot.h"
+#include "file/csv.h"
+#include "file/wav.h"
+
+static const char *const plot_names[] = {
+    [PLOT_PEAK] = "force_peak_n", [PLOT_RMS] = "force_rms_n", [PLOT_NORMAL] = "normal_force_n", [PLOT_ALPHA] = "alpha_m"};
+
+bool plot_has(const struct plot_page *p, enum plot_column column)
+{
+    for (int i = 0; i < p->n_tables; i++)
+        if (p->tables[i].x[column])
+            return true;
+    return false;
+}
+
+/* ------------------------------------------------------------------ times */
+
+/* The time shown, once the end of the data is known. */
+static bool span_set(struct plot_page *p, double end, struct err *e)
+{
+    p->from = isnan(p->from) ? 0 : p->from;
+    if (p->from >= end || (!isnan(p->to) && p->to > end + 1e-9))
+        return err_set(e, ERR_USAGE, "--%s: %s ends at %.6g s", p->from >= end ? "from" : "to", p->file, end);
+    p->to = isnan(p->to) ? end : p->to;
+    return p->from < p->to || err_set(e, ERR_USAGE, "--from must be before --to");
+}
+
+/* ------------------------------------------------------------------ sound */
+
+static void sound_columns(struct plot_sound *o, const double *x, long first, long last)
+{
+    double squares = 0;
+    for (int c = 0; c < o->n; c++) {
+        long from = first + (last - first) * c / o->n, to = first + (last - first) * (c + 1) / o->n;
+        o->least[c] = o->most[c] = x[from > first ? from - 1 : from]; /* columns join */
+        for (long i = from; i < to; i++) {
+            o->least[c] = fmin(o->least[c], x[i]);
+            o->most[c] = fmax(o->most[c], x[i]);
+            o->peak = fmax(o->peak, fabs(x[i]));
+            squares += x[i] * x[i];
+        }
+    }
+    o->rms = sqrt(squares / (double)(last - first));
+}
+
+/* The first channel: rasp writes the same on all. */
+static bool sound_gather(struct plot_page *p, struct err *e)
+{
+    struct plot_sound *o = ARENA_TAKE(p->arena, struct plot_sound, 1);
+    struct wav w;
+    if (!wav_read(p->file, p->arena, &w, e) || !span_set(p, (double)w.frames / w.rate, e))
+        return false;
+    for (size_t i = 0; i < w.frames; i++)
+        w.x[i] = w.x[i * (size_t)w.channels];
+    long first = (long)floor(p->from * w.rate), last = (long)fmin(ceil(p->to * w.rate), (double)w.frames);
+    o->rate = w.rate;
+    o->n = last - first < PLOT_COLUMNS ? (int)(last - first) : PLOT_COLUMNS;
+    o->least = ARENA_TAKE(p->arena, double, o->n);
+    o->most = ARENA_TAKE(p->arena, double, o->n);
+    sound_columns(o, w.x, first, last);
+    spectrogram_make(&(struct spectrogram_of){w.x, w.frames, w.rate, p->from, p->to, PLOT_COLUMNS}, p->arena, &o->spectrogram);
+    p->sound = o;
+    return true;
+}
+
+/* ------------------------------------------------------------------ tables */
+
+/* Column of a row at a time; -1: not shown. */
+static int pixel_of(const struct plot_page *p, double time, int columns)
+{
+    double at = (time - p->from) / (p->to - p->from) * columns;
+    return at >= 0 && time <= p->to ? (int)fmin(at, columns - 1) : -1;
+}
+
+/* Adds one row to its column of pixels. */
+static bool row_add(struct plot_table *t, const struct csv *csv, size_t row, int at, struct err *e)
+{
+    for (int k = 0; k < PLOT_TABLE_COLUMNS; k++) {
+        double v;
+        if (!t->x[k])
+            continue;
+        if (!csv_number(csv, row, csv_column(csv, plot_names[k]), &v, e))
+            return false;
+        t->x[k][at] = k == PLOT_PEAK ? fmax(t->x[k][at], fabs(v)) : t->x[k][at] + (k == PLOT_RMS ? v * v : v);
+    }
+    return true;
+}
+
+/* Sums become means; columns of pixels without a row are left out. */
+static void table_pack(struct plot_table *t, const int *rows, int columns)
+{
+    for (int c = 0; c < columns; c++) {
+        if (rows[c] == 0)
+            continue;
+        t->time[t->n] = t->time[c] / rows[c];
+        for (int k = 0; k < PLOT_TABLE_COLUMNS; k++) {
+            if (!t->x[k])
+                continue;
+            double v = k == PLOT_PEAK ? t->x[k][c] : t->x[k][c] / rows[c];
+            t->x[k][t->n] = k == PLOT_RMS ? sqrt(v) : v;
+            t->most[k] = fmax(t->most[k], t->x[k][t->n]);
+        }
+        t->n++;
+    }
+}
+
+static bool table_rows(const struct plot_page *p, const struct csv *csv, const double *times, struct plot_table *t, struct err *e)
+{
+    int *rows = ARENA_TAKE(p->arena, int, PLOT_COLUMNS);
+    t->time = ARENA_TAKE(p->arena, double, PLOT_COLUMNS);
+    for (int k = 0; k < PLOT_TABLE_COLUMNS; k++)
+        if (csv_column(csv, plot_names[k]) >= 0)
+            t->x[k] = ARENA_TAKE(p->arena, double, PLOT_COLUMNS);
+    for (size_t row = 0; row < csv->rows; row++) {
+        int at = pixel_of(p, times[row], PLOT_COLUMNS);
+        if (at < 0)
+            continue;
+        t->time[at] += times[row];
+        rows[at]++;
+        if (!row_add(t, csv, row, at, e))
+            return false;
+    }
+    table_pack(t, rows, PLOT_COLUMNS);
+    return true;
+}
+
+/* Times of the rows, and where the last one ends. */
+static bool table_times(const struct csv *csv, double *times, double *end, struct err *e)
+{
+    int column = csv_column(csv, "time_s");
+    size_t n = csv->rows;
+    if (column < 0 || n == 0)
+        return err_set(e, ERR_SCENE, "%s: %s: not a table of diagnostics", csv->file, column < 0 ? "no column time_s" : "no rows");
+    for (size_t row = 0; row < n; row++)
+        if (!csv_number(csv, row, column, &times[row], e))
+            return false;
+    *end = n > 1 ? times[n - 1] + (times[n - 1] - times[0]) / (double)(n - 1) : times[0];
+    return true;
+}
+
+/* One table; it sets the time shown when there is no sound. */
+static bool table_add(struct plot_page *p, const char *path, const char *name, struct err *e)
+{
+    struct csv csv;
+    struct plot_table *t = &p->tables[p->n_tables];
+    double end;
+    t->name = name;
+    if (!csv_read(path, p->arena, &csv, e))
+        return false;
+    double *times = ARENA_TAKE(p->arena, double, csv.rows + 1);
+    if (!table_times(&csv, times, &end, e) || (!p->sound && !span_set(p, end, e)) || !table_rows(p, &csv, times, t, e))
+        return false;
+    p->n_tables++;
+    return true;
+}
+
+/* ------------------------------------------------------------------ what lies beside the sound */
+
+static const char *beside(const struct plot_page *p, const char *ending)
+{
+    size_t n = strlen(p->file);
+    n -= n > 4 && p->file[n - 4] == '.' ? 4 : 0;
+    return arena_format(p->arena, "%.*s%s", (int)n, p->file, ending);
+}
+
+/* The title that the summary keeps, if there is one. */
+static void title_find(struct plot_page *p, const json_t *summary)
+{
+    const char *text = json_string_value(json_object_get(summary, "scene"));
+    if (!p->title)
+        p->title = arena_text(p->arena, text && *text ? text : p->file);
+}
+
+static bool tables_find(struct plot_page *p, const json_t *summary, struct err *e)
+{
+    const json_t *contacts = json_object_get(summary, "contacts");
+    size_t n = json_array_size(contacts);
+    const char *path = beside(p, ".csv");
+    p->tables = ARENA_TAKE(p->arena, struct plot_table, n + 1);
+    if (n <= 1)
+        return access(path, F_OK) != 0 || table_add(p, path, "", e);
+    for (size_t i = 0; i < n; i++) {
+        const char *name = json_string_value(json_object_get(json_array_get(contacts, i), "name"));
+        path = name ? beside(p, arena_format(p->arena, ".%s.csv", name)) : "";
+        if (access(path, F_OK) == 0 && !table_add(p, path, arena_text(p->arena, name), e))
+            return false;
+    }
+    return true;
+}
+
+bool plot_data(struct plot_page *p, struct err *e)
+{
+    size_t n = strlen(p->file);
+    bool table = n > 4 && strcmp(p->file + n - 4, ".csv") == 0, ok;
+    json_t *summary = json_load_file(beside(p, ".json"), 0, NULL);
+    title_find(p, summary);
+    if (table) {
+        p->tables = ARENA_TAKE(p->arena, struct plot_table, 1);
+        ok = table_add(p, p->file, "", e);
+    } else {
+        ok = sound_gather(p, e) && tables_find(p, summary, e);
+    }
+    json_decref(summary);
+    if (!ok || p->sound || plot_has(p, PLOT_PEAK) || plot_has(p, PLOT_RMS) || plot_has(p, PLOT_NORMAL) || plot_has(p, PLOT_ALPHA))
+        return ok;
+    return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file, plot_names[PLOT_PEAK],
+                   plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
+}

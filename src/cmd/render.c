@@ -1,0 +1,109 @@
+/* rasp render: scenes into sounds. */
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/interrupt.h"
+#include "cmd/cmd.h"
+#include "pipeline/render.h"
+
+static const struct args_option render_options[] = {
+    {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: beside nothing, in the current folder"},
+    CMD_SCENE_OPTIONS,
+    {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON"},
+    {"quiet", 'q', NULL, false, "print only warnings and errors"},
+    {0},
+};
+
+/* NAME of .../NAME.yaml, NAME.yml or NAME.scene.yaml */
+static char *scene_stem(struct arena *a, const char *file)
+{
+    static const char *const endings[] = {".yaml", ".yml", ".scene"};
+    const char *slash = strrchr(file, '/');
+    char *stem = arena_text(a, slash ? slash + 1 : file);
+    for (int k = 0; k < 3; k++) {
+        size_t n = strlen(stem), m = strlen(endings[k]);
+        if (n > m && strcmp(stem + n - m, endings[k]) == 0)
+            stem[n - m] = '\0';
+    }
+    return stem;
+}
+
+static const char *render_base(struct cmd_call *c, const char *file, struct err *e)
+{
+    const char *o = args_value(&c->args, "output"), *stem = scene_stem(c->arena, file);
+    size_t n = o ? strlen(o) : 0;
+    struct stat st;
+    if (!o)
+        return stem;
+    if (n == 0)
+        return err_set(e, ERR_USAGE, "--output is empty"), NULL;
+    if (o[n - 1] == '/' || (stat(o, &st) == 0 && S_ISDIR(st.st_mode)))
+        return arena_format(c->arena, "%s%s%s", o, o[n - 1] == '/' ? "" : "/", stem);
+    if (c->args.n_operands > 1)
+        return err_set(e, ERR_USAGE, "--output %s: for several scenes it must be a folder that exists, or end in /", o), NULL;
+    if (n < 5 || strcmp(o + n - 4, ".wav") != 0 || o[n - 5] == '/')
+        return err_set(e, ERR_USAGE, "--output %s: must end in .wav (the other files are named after it) or in / (a folder)", o), NULL;
+    return arena_format(c->arena, "%.*s", (int)n - 4, o);
+}
+
+/* Creates the folder of -o FOLDER/ when it is not there; its parent must be. */
+static bool render_folder(struct cmd_call *c, struct err *e)
+{
+    const char *o = args_value(&c->args, "output");
+    struct stat st;
+    if (!o || o[0] == '\0' || o[strlen(o) - 1] != '/' || stat(o, &st) == 0)
+        return true;
+    return mkdir(o, 0777) == 0 || err_set(e, ERR_CREATE, "the folder %s cannot be created: is its parent there, and writable?", o);
+}
+
+static void render_print(struct cmd_call *c, const struct scene *s, const struct render_report *r)
+{
+    for (int i = 0; i < r->n_warnings; i++)
+        fprintf(stderr, "%s: warning: %s\n", s->file, r->warnings[i]);
+    if (args_given(&c->args, "json"))
+        fputs(r->summary, stdout);
+    else if (!args_given(&c->args, "quiet"))
+        for (int i = 0; i < r->n_files; i++)
+            if (strcmp(r->files[i].kind, "scene") != 0 && strcmp(r->files[i].kind, "summary") != 0)
+                printf("%s  %.3f s, %.0f times real time\n", r->files[i].path, (double)r->frames / s->output.sample_rate,
+                       (double)r->frames / s->output.sample_rate / (r->cpu > 1e-9 ? r->cpu : 1e-9));
+}
+
+static bool render_one(struct cmd_call *c, const char *file, struct err *e)
+{
+    struct scene s;
+    struct render_report report;
+    const char *base = render_base(c, file, e);
+    if (!base || !cmd_read_scene(c, file, &s, e) || !render_folder(c, e))
+        return false;
+    if (!render_scene(&s, base, c->arena, &report, e))
+        return err_at(e, "%s", file);
+    render_print(c, &s, &report);
+    return true;
+}
+
+static int render_run(struct cmd_call *c, struct err *e)
+{
+    interrupt_catch();
+    for (int i = 0; i < c->args.n_operands; i++)
+        if (!render_one(c, c->args.operands[i], e))
+            return (int)e->kind;
+    return 0;
+}
+
+const struct command render_command = {
+    .name = "render",
+    .summary = "renders scenes into sound files",
+    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv (if the scene asks for diagnostics), NAME.scene.yaml (the effective "
+            "scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor). Nothing half-written is ever "
+            "left behind. With several scenes, the first that fails ends the run.",
+    .operands = "SCENE...",
+    .least = 1,
+    .most = -1,
+    .options = render_options,
+    .examples = "rasp render scenes/basswood_scrape.yaml\n"
+                "rasp render scenes/basswood_scrape.yaml -o fast.wav --set 'motion.rate=4 Hz'\n"
+                "rasp render scenes/*.yaml -o out/ --set accuracy=draft\n",
+    .run = render_run,
+};

@@ -1,0 +1,132 @@
+/* Starter scenes as lines of keys and values; the comment above a key is its meaning in keys.def. They render as they are: no line that is
+   on names a file. */
+#include "cmd/starters.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/wrap.h"
+#include "scene/keys_text.h"
+
+#define ON(where, what) {.path = where, .value = what}
+#define OFF(where, what) {.path = where, .value = what, .off = true}
+#define END {.path = NULL}
+#define ROUGHNESS                                                                                                    \
+    ON("surface.roughness.exponent", "-2.4"), ON("surface.roughness.rms", "4 um"), ON("surface.roughness.longest", "2 mm"), \
+        ON("surface.roughness.shortest", "20 um")
+#define SURFACE_RESPONSE OFF("surface.response", "plank.csv")
+#define SCRAPER ON("scraper.mass", "20 g"), OFF("scraper.response", "tool.csv")
+#define STROKES                                                                                                       \
+    ON("motion.path", "back_and_forth"), ON("motion.from", "[0 cm, 0 cm]"), ON("motion.to", "[4.5 cm, 0 cm]"), ON("motion.rate", "2 Hz"), \
+        ON("motion.duration", "2 s")
+#define LINE ON("motion.path", "line"), ON("motion.from", "[0 cm, 0 cm]"), ON("motion.to", "[10 cm, 0 cm]")
+#define HAND ON("grip.angle", "30 deg"), ON("grip.azimuth", "0 deg"), ON("grip.friction", "0.3")
+#define OUTPUT ON("output.sample_rate", "48 kHz"), ON("output.encoding", "pcm24"), ON("output.diagnostics.rate", "1 kHz")
+#define TAIL OUTPUT, ON("accuracy", "standard"), END
+
+static const struct keys_line scrape[] = {ON("rasp", "1"), ON("title", "a tool scraped back and forth"), ON("seed", "1"), ROUGHNESS,
+                                          SURFACE_RESPONSE, SCRAPER, STROKES, OFF("load.constant", "1.5 N"), TAIL};
+
+static const struct keys_line stroke[] = {ON("rasp", "1"), ON("title", "one stroke from rest to rest"), ON("seed", "1"), ROUGHNESS,
+                                          SURFACE_RESPONSE, SCRAPER, LINE, ON("motion.duration", "0.8 s"), ON("motion.law", "minimum_jerk"),
+                                          TAIL};
+
+static const struct keys_line grip[] = {ON("rasp", "1"), ON("title", "a tool held in the hand"), ON("seed", "1"), ROUGHNESS,
+                                        SURFACE_RESPONSE, SCRAPER, STROKES, HAND, OFF("contact.limiter.force_range", "[0.2 N, 5 N]"), TAIL};
+
+static const struct keys_line profile[] = {ON("rasp", "1"),
+                                           ON("title", "a measured surface"),
+                                           OFF("surface.height_map", "profile.npy"),
+                                           OFF("surface.pitch", "5 um"),
+                                           OFF("surface.height_scale", "1 um"),
+                                           ON("surface.along", "path"),
+                                           ON("surface.off_map", "mirror"),
+                                           ROUGHNESS,
+                                           SURFACE_RESPONSE,
+                                           SCRAPER,
+                                           LINE,
+                                           ON("motion.speed", "10 cm/s"),
+                                           TAIL};
+
+static const struct keys_line paper[] = {ON("rasp", "1"), ON("title", "the equations as printed"), ON("seed", "1"), ROUGHNESS,
+                                         SURFACE_RESPONSE, SCRAPER, STROKES, HAND, ON("contact.force", "paper"), ON("contact.beta1", "0.05"),
+                                         ON("contact.beta2", "1"), ON("contact.limiter.alpha_min", "1 cm"),
+                                         ON("contact.limiter.alpha_max", "5 cm"), ON("contact.limiter.zeta", "0.95"), TAIL};
+
+static const struct keys_line contacts_head[] = {ON("rasp", "1"), ON("title", "two tools on one plank"), ON("seed", "1"), END};
+static const struct keys_line contacts_rod[] = {ON("name", "rod"), ROUGHNESS, SURFACE_RESPONSE, SCRAPER, LINE, ON("motion.speed", "5 cm/s"), END};
+static const struct keys_line contacts_comb[] = {ON("name", "comb"),
+                                                 ON("start", "0.5 s"),
+                                                 ON("gain", "0.5"),
+                                                 ON("surface.roughness.rms", "9 um"),
+                                                 SURFACE_RESPONSE,
+                                                 ON("scraper.mass", "8 g"),
+                                                 LINE,
+                                                 ON("motion.speed", "20 cm/s"),
+                                                 END};
+static const struct keys_line contacts_tail[] = {TAIL};
+
+const struct starter starters_table[] = {
+    {"scrape", "a tool scraped back and forth on a rough surface",
+     "The forces of a scrape go into a CSV. For sound, give the surface or the scraper a response: remove the # before it.", scrape, {NULL}, NULL},
+    {"stroke", "one straight stroke from rest to rest",
+     "One stroke as a hand makes it. For sound, give the surface or the scraper a response.", stroke, {NULL}, NULL},
+    {"grip", "a tool held in the hand: the normal force follows the motion",
+     "The tool's inertia presses it down where it turns round (equations 8 and 9), and a harder pressed tool follows the surface more "
+     "closely (equation 7). For sound, give the surface or the scraper a response.",
+     grip, {NULL}, NULL},
+    {"profile", "a measured height profile in place of a synthetic one",
+     "Renders with a synthetic profile. For a measured one, remove the # before height_map, pitch and height_scale, and remove the "
+     "section roughness: exactly one of the two may be given.",
+     profile, {NULL}, NULL},
+    {"paper", "the contact force exactly as the 2021 paper prints it", "Equations 2 and 3 as printed, instead of the default, which keeps momentum.", paper,
+     {NULL}, NULL},
+    {"contacts", "two contacts whose sounds add up",
+     "Every contact has its own surface, scraper and motion; rasp render --set contacts.comb.gain=0.2 changes one.", contacts_head,
+     {contacts_rod, contacts_comb}, contacts_tail},
+    {NULL, NULL, NULL, NULL, {NULL}, NULL},
+};
+
+const struct starter *starters_find(const char *name)
+{
+    for (const struct starter *s = starters_table; s->name; s++)
+        if (!strcmp(s->name, name))
+            return s;
+    return NULL;
+}
+
+static const char *meaning(const char *path)
+{
+    const struct key *k = keys_find(path);
+    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+        if (!strcmp(p->path, path))
+            return p->meaning;
+    return k ? k->meaning : NULL;
+}
+
+static void print_lines(FILE *f, const struct keys_line *lines, const struct keys_style *style, struct arena *a)
+{
+    int n = 0;
+    while (lines[n].path)
+        n++;
+    struct keys_line *told = ARENA_TAKE(a, struct keys_line, n);
+    for (int i = 0; i < n; i++) {
+        told[i] = lines[i];
+        told[i].comment = style->comments ? meaning(lines[i].path) : NULL;
+    }
+    keys_yaml_print(f, told, n, style);
+}
+
+void starters_print(FILE *f, const struct starter *s, struct arena *a)
+{
+    fprintf(f, "# ");
+    wrap_print(f, s->about, 2, "# ");
+    fprintf(f, "# Every key: rasp explain. One key: rasp explain motion.rate. A bare number is in SI units.\n\n");
+    print_lines(f, s->head, &(struct keys_style){.comments = true}, a);
+    if (s->items[0])
+        fputs("\ncontacts:\n", f);
+    for (int i = 0; s->items[i]; i++)
+        print_lines(f, s->items[i], &(struct keys_style){.indent = 4, .item = true}, a);
+    if (s->tail)
+        print_lines(f, s->tail, &(struct keys_style){.comments = true}, a);
+}

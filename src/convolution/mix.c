@@ -1,0 +1,50 @@
+/* Total response: the surface's sound and the scraper's (papers/000 section 2.4), times the contact's gain. */
+#include <string.h>
+
+#include "stage.h"
+
+static bool mix_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0);
+}
+
+static double mix_work(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return 3;
+}
+
+static bool mix_open(struct stage_run *r, struct err *e)
+{
+    (void)r, (void)e;
+    return true;
+}
+
+static bool mix_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    const struct board *b = r->board;
+    double *y = board_at(b, ITEM_SOUND, from), gain = r->contact->gain;
+    const enum item parts[] = {ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND};
+    (void)e;
+    memset(y, 0, (size_t)(to - from) * sizeof *y);
+    for (int k = 0; k < 2; k++) {
+        const double *x = board_has(b, parts[k]) ? board_at(b, parts[k], from) : NULL;
+        for (long n = 0; x && n < to - from; n++)
+            y[n] += gain * x[n];
+    }
+    return true;
+}
+
+const struct stage mix_stage = {
+    .name = "mix",
+    .does = "sum of the surface's and the scraper's sound",
+    .paper = "000 eq. 11",
+    .idle = "nothing rings",
+    .takes = ITEM_BIT(ITEM_SURFACE_SOUND) | ITEM_BIT(ITEM_SCRAPER_SOUND),
+    .gives = ITEM_BIT(ITEM_SOUND),
+    .wanted = mix_wanted,
+    .work = mix_work,
+    .open = mix_open,
+    .run = mix_run,
+};

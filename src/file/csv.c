@@ -1,0 +1,248 @@
+/* See csv.h. The file is read as a whole and taken apart in place: unquoting only shortens a cell, and the comma or line end after
+   it becomes its terminator, so cells are pointers into the file. */
+#include "file/csv.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "file/bytes.h"
+
+struct csv_reader {
+    const char *file;
+    struct arena *arena;
+    char *at, *end;  /* *end is 0 */
+    int line;
+    struct err *e;
+};
+
+enum { MOST_COLUMNS = 10000 }; /* names are searched one by one */
+
+enum csv_ends { CSV_BAD, CSV_COMMA, CSV_LINE, CSV_FILE };
+
+static bool csv_bad(const struct csv_reader *r, int line, const char *what)
+{
+    return err_set(r->e, ERR_SCENE, "%s:%d: %s", r->file, line, what);
+}
+
+/* Steps over what follows a cell and ends the cell there (at `last`, which may lie before). */
+static enum csv_ends csv_after(struct csv_reader *r, char *last)
+{
+    enum csv_ends ends = CSV_FILE;
+    if (r->at < r->end && *r->at == ',') {
+        ends = CSV_COMMA;
+        r->at++;
+    } else if (r->at < r->end) {
+        if (*r->at == '\r' && *++r->at != '\n')
+            return csv_bad(r, r->line, "a carriage return that is not at the end of a line"), CSV_BAD;
+        ends = CSV_LINE;
+        r->at++;
+        r->line++;
+    }
+    *last = '\0';
+    return ends;
+}
+
+static enum csv_ends csv_quoted(struct csv_reader *r, char **cell)
+{
+    int line = r->line;
+    char *to = ++r->at;
+    *cell = to;
+    for (; r->at < r->end; *to++ = *r->at++) {
+        if (*r->at == '\n')
+            r->line++;
+        if (*r->at != '"')
+            continue;
+        if (*++r->at == '"')
+            continue;
+        if (r->at < r->end && !strchr(",\r\n", *r->at))
+            return csv_bad(r, r->line, "text after a closing quote; a quote inside a quoted cell is written twice"), CSV_BAD;
+        return csv_after(r, to);
+    }
+    return csv_bad(r, line, "a quote is opened here and never closed"), CSV_BAD;
+}
+
+static enum csv_ends csv_cell(struct csv_reader *r, char **cell)
+{
+    if (*r->at == '"')
+        return csv_quoted(r, cell);
+    *cell = r->at;
+    r->at += strcspn(r->at, ",\r\n\"");
+    if (*r->at == '"')
+        return csv_bad(r, r->line, "a quote inside a cell that does not begin with one"), CSV_BAD;
+    return csv_after(r, r->at);
+}
+
+static size_t csv_count(const char *at, const char *end, char c)
+{
+    size_t n = 0;
+    while ((at = memchr(at, c, (size_t)(end - at))) != NULL) {
+        n++;
+        at++;
+    }
+    return n;
+}
+
+static char *trim(char *s)
+{
+    s += strspn(s, " \t");
+    size_t n = strlen(s);
+    while (n > 0 && strchr(" \t", s[n - 1]))
+        s[--n] = '\0';
+    return s;
+}
+
+/* Takes a whole line, without its end, as a string. */
+static char *csv_take_line(struct csv_reader *r)
+{
+    char *s = r->at, *stop = memchr(s, '\n', (size_t)(r->end - s));
+    r->at = stop ? stop + 1 : r->end;
+    r->line++;
+    if (stop)
+        *stop = '\0';
+    size_t n = strlen(s);
+    if (n > 0 && s[n - 1] == '\r')
+        s[n - 1] = '\0';
+    return s;
+}
+
+static bool csv_comments(struct csv_reader *r, struct csv *t)
+{
+    while (r->at < r->end && strchr("#\r\n", *r->at)) {
+        int line = r->line;
+        char *s = csv_take_line(r);
+        if (*s != '#')
+            continue;
+        char *colon = strchr(s, ':'), *value = colon ? colon + 1 : s + 1;
+        if (colon)
+            *colon = '\0';
+        t->comments[t->n_comments++] = (struct csv_pair){colon ? trim(s + 1) : "", trim(value), line};
+    }
+    return r->at < r->end || csv_bad(r, r->line, "there is no header line");
+}
+
+static bool csv_header(struct csv_reader *r, struct csv *t)
+{
+    int line = r->line;
+    for (enum csv_ends ends = CSV_COMMA; ends == CSV_COMMA;) {
+        char *cell;
+        if ((ends = csv_cell(r, &cell)) == CSV_BAD)
+            return false;
+        if (!*cell)
+            return err_set(r->e, ERR_SCENE, "%s:%d: column %zu has no name", r->file, line, t->columns + 1);
+        if (csv_column(t, cell) >= 0)
+            return err_set(r->e, ERR_SCENE, "%s:%d: two columns are called '%s'", r->file, line, cell);
+        if (t->columns == MOST_COLUMNS)
+            return err_set(r->e, ERR_SCENE, "%s:%d: more than %d columns", r->file, line, MOST_COLUMNS);
+        t->names[t->columns++] = cell;
+    }
+    return true;
+}
+
+/* Only blank lines are left. */
+static bool csv_at_end(struct csv_reader *r)
+{
+    return r->at + strspn(r->at, "\r\n") == r->end;
+}
+
+static bool csv_row(struct csv_reader *r, struct csv *t)
+{
+    int line = r->line;
+    size_t n = 0;
+    if (strchr("\r\n", *r->at))
+        return csv_bad(r, line, "a blank line among the rows (an empty cell of a table with one column is written \"\")");
+    for (enum csv_ends ends = CSV_COMMA; ends == CSV_COMMA; n++) {
+        char *cell;
+        if ((ends = csv_cell(r, &cell)) == CSV_BAD)
+            return false;
+        if (n < t->columns)
+            t->cells[t->rows * t->columns + n] = cell;
+    }
+    if (n != t->columns)
+        return err_set(r->e, ERR_SCENE, "%s:%d: %zu cells, where the header has %zu columns", r->file, line, n, t->columns);
+    t->lines[t->rows++] = line;
+    return true;
+}
+
+/* Room by the most there can be: a cell ends at a comma or a line end. */
+static void csv_room(const struct csv_reader *r, struct csv *t)
+{
+    size_t lines = csv_count(r->at, r->end, '\n') + 1, cells = csv_count(r->at, r->end, ',') + lines;
+    t->comments = ARENA_TAKE(r->arena, struct csv_pair, lines);
+    t->names = ARENA_TAKE(r->arena, const char *, cells);
+    t->cells = ARENA_TAKE(r->arena, const char *, cells);
+    t->lines = ARENA_TAKE(r->arena, int, lines);
+}
+
+bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e)
+{
+    struct bytes b;
+    *t = (struct csv){.file = arena_text(a, path)};
+    if (!bytes_read(path, a, &b, e))
+        return false;
+    const char *nul = memchr(b.at, '\0', b.n);
+    if (nul)
+        return err_set(e, ERR_SCENE, "%s:%zu: a NUL byte: this is not text", path, csv_count(b.at, nul, '\n') + 1);
+    struct csv_reader r = {t->file, a, b.at, b.at + b.n, 1, e};
+    if (b.n >= 3 && !memcmp(b.at, "\xef\xbb\xbf", 3)) /* the byte order mark of spreadsheet programs */
+        r.at += 3;
+    csv_room(&r, t);
+    if (!csv_comments(&r, t) || !csv_header(&r, t))
+        return false;
+    while (!csv_at_end(&r))
+        if (!csv_row(&r, t))
+            return false;
+    return true;
+}
+
+int csv_column(const struct csv *t, const char *name)
+{
+    for (size_t i = 0; i < t->columns; i++)
+        if (!strcmp(t->names[i], name))
+            return (int)i;
+    return -1;
+}
+
+bool csv_number(const struct csv *t, size_t row, int column, double *value, struct err *e)
+{
+    const char *s = t->cells[row * t->columns + (size_t)column];
+    char *end;
+    double v = strtod(s, &end);
+    bool whole = end > s && end[strspn(end, " \t")] == '\0' && strspn(s, " \t0123456789+-.eE") == strlen(s);
+    if (!whole || !isfinite(v))
+        return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not a %snumber", t->file, t->lines[row], t->names[column], s,
+                       whole ? "finite " : "");
+    *value = v;
+    return true;
+}
+
+const char *csv_comment(const struct csv *t, const char *key)
+{
+    for (size_t i = 0; i < t->n_comments; i++)
+        if (!strcmp(t->comments[i].key, key))
+            return t->comments[i].value;
+    return NULL;
+}
+
+void csv_put_text(FILE *f, const char *text)
+{
+    if (!text[strcspn(text, ",\"\r\n#")]) {
+        fputs(text, f);
+        return;
+    }
+    fputc('"', f);
+    for (; *text; text++) {
+        if (*text == '"')
+            fputc('"', f);
+        fputc(*text, f);
+    }
+    fputc('"', f);
+}
+
+void csv_put_number(FILE *f, double value)
+{
+    if (isnan(value))
+        fputs("nan", f); /* printf would write the sign of a NaN */
+    else
+        fprintf(f, "%.9g", value);
+}

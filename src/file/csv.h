@@ -1,0 +1,45 @@
+/* Comma-separated tables: reading (RFC 4180 quoting, '#' comment lines before the header kept as key: value pairs, LF or CRLF)
+   and writing (LF, %.9g). A comment without a colon is a pair with the key "". Blank lines may stand before the header and at the
+   end of the file; a cell's blanks belong to it. */
+#ifndef FILE_CSV_H
+#define FILE_CSV_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+
+struct csv_pair {
+    const char *key, *value;
+    int line;
+};
+
+struct csv {
+    const char *file;
+    struct csv_pair *comments; /* "# key: value" lines before the header        */
+    size_t n_comments;
+    const char **names;        /* the header                                    */
+    size_t columns, rows;
+    const char **cells;        /* [rows][columns], unquoted text, never NULL    */
+    int *lines;                /* [rows] line each row starts on                */
+};
+
+/* ERR_INPUT missing or unreadable; ERR_SCENE: no header, a row with another number of cells, an open quote, NUL bytes,
+   duplicate or empty column names; the text says file:line: what. */
+bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e);
+
+/* Column by name, or -1. */
+int csv_column(const struct csv *t, const char *name);
+
+/* A cell as a finite number; ERR_SCENE "file:line: column 'name': ... is not a number". */
+bool csv_number(const struct csv *t, size_t row, int column, double *value, struct err *e);
+
+/* The value of a comment, or NULL. */
+const char *csv_comment(const struct csv *t, const char *key);
+
+/* Writing: a cell of text, quoted where that is needed, and one of a number (%.9g; "nan", "inf"); the caller puts the commas. */
+void csv_put_text(FILE *f, const char *text);
+void csv_put_number(FILE *f, double value);
+
+#endif

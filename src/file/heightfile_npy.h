@@ -1,0 +1,11 @@
+/* The NPY half of heightfile.h. */
+#ifndef FILE_HEIGHTFILE_NPY_H
+#define FILE_HEIGHTFILE_NPY_H
+#include "file/bytes.h"
+#include "file/heightfile.h"
+
+bool heightfile_npy_is(const struct bytes *b);
+/* Fills columns, rows, z; the pitch is NAN. Does not look for holes. */
+bool heightfile_npy_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e);
+
+#endif

@@ -1,0 +1,269 @@
+/* The writer of wav.h; the reader is wav_read.c.
+
+   Integers are made here, because libsndfile truncates and clips doubles: rint(x 2^(bits-1)), handed over in the upper bits of an int,
+   which libsndfile shifts back. libsndfile's own RF64 with automatic downgrade is not used: it writes WAVE_FORMAT_EXTENSIBLE, which
+   Python's wave module and others refuse, and a PEAK chunk with the time of day that cannot be switched off there. So the file starts
+   as plain RIFF; when its samples outgrow that, they are copied to an RF64 file that goes on from there, and the time stamp of its
+   PEAK chunk is put to zero at the end. */
+#include "file/wav.h"
+
+#include <errno.h>
+#include <float.h>
+#include <math.h>
+#include <sndfile.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/outfile.h"
+#include "num/real.h"
+
+enum { PIECE = 4096 /* samples converted at a time */, COPY = 1 << 16 /* bytes; at least one frame */ };
+
+struct wav_out {
+    SNDFILE *sound;
+    struct outfile out;
+    struct wav_format format;
+    char *path;
+    double frames, riff_bytes;
+    bool long_file; /* RF64 already */
+};
+
+static int encoding(int bits)
+{
+    switch (bits) {
+    case 16: return SF_FORMAT_PCM_16;
+    case 24: return SF_FORMAT_PCM_24;
+    case -32: return SF_FORMAT_FLOAT;
+    case -64: return SF_FORMAT_DOUBLE;
+    default: return 0;
+    }
+}
+
+static bool text_given(const char *s)
+{
+    return s && *s;
+}
+
+/* Starts a sound on w->out. */
+static bool sound_open(struct wav_out *w, int container, struct err *e)
+{
+    const struct wav_format *f = &w->format;
+    SF_INFO i = {.samplerate = (int)f->rate, .channels = f->channels, .format = container | encoding(f->bits)};
+    w->sound = sf_open_fd(w->out.fd, SFM_WRITE, &i, 0);
+    if (!w->sound)
+        return err_set(e, ERR_CREATE, "%s: libsndfile cannot write this format: %s", w->path, sf_strerror(NULL));
+    sf_command(w->sound, SFC_SET_ADD_PEAK_CHUNK, NULL, SF_FALSE);
+    if ((text_given(f->title) && sf_set_string(w->sound, SF_STR_TITLE, f->title)) ||
+        (text_given(f->comment) && sf_set_string(w->sound, SF_STR_COMMENT, f->comment)))
+        return err_set(e, ERR_CREATE, "%s: libsndfile refuses the title or comment: %s", w->path, sf_strerror(w->sound));
+    return true;
+}
+
+static bool check_format(const char *path, const struct wav_format *f, struct err *e)
+{
+    if (!encoding(f->bits))
+        return err_set(e, ERR_SCENE, "%s: %d bits: only 16 and 24 (integers), -32 and -64 (floating point) can be written", path, f->bits);
+    if (!(f->rate >= 1 && f->rate <= 1e7) || f->rate != floor(f->rate))
+        return err_set(e, ERR_SCENE, "%s: a WAV's sample rate is a whole number of Hz up to 1e7, not %.9g", path, f->rate);
+    if (f->channels < 1 || f->channels > 1024)
+        return err_set(e, ERR_SCENE, "%s: a WAV has 1 to 1024 channels, not %d", path, f->channels);
+    return true;
+}
+
+static void wav_free(struct wav_out *w)
+{
+    if (w->sound)
+        sf_close(w->sound);
+    outfile_drop(&w->out);
+    free((char *)w->format.title);
+    free((char *)w->format.comment);
+    free(w->path);
+    free(w);
+}
+
+static struct wav_out *wav_new(const char *path, const struct wav_format *f)
+{
+    struct wav_out *w = calloc(1, sizeof *w);
+    if (!w)
+        return NULL;
+    w->format = *f;
+    w->path = strdup(path);
+    w->format.title = f->title ? strdup(f->title) : NULL;
+    w->format.comment = f->comment ? strdup(f->comment) : NULL;
+    if (w->path && (w->format.title || !f->title) && (w->format.comment || !f->comment))
+        return w;
+    wav_free(w);
+    return NULL;
+}
+
+struct wav_out *wav_create(const char *path, const struct wav_format *f, struct err *e)
+{
+    if (!check_format(path, f, e))
+        return NULL;
+    struct wav_out *w = wav_new(path, f);
+    if (!w) {
+        err_set(e, ERR_MEMORY, "%s: out of memory", path);
+        return NULL;
+    }
+    double header = 4096 + 2.0 * (double)((text_given(f->title) ? strlen(f->title) : 0) + (text_given(f->comment) ? strlen(f->comment) : 0));
+    w->riff_bytes = f->riff_bytes > 0 ? f->riff_bytes : 4294967295.0 - header;
+    if (outfile_open_fd(&w->out, path, e) && sound_open(w, SF_FORMAT_WAV, e))
+        return w;
+    wav_free(w);
+    return NULL;
+}
+
+static bool write_failed(const struct wav_out *w, struct err *e)
+{
+    const char *why = errno ? strerror(errno) : sf_strerror(w->sound);
+    return err_set(e, ERR_IO, "%s: cannot be written: %s", w->path, why);
+}
+
+static int frame_bytes(const struct wav_out *w)
+{
+    return abs(w->format.bits) / 8 * w->format.channels;
+}
+
+/* Copies the sound data of the short file `from` to w, byte by byte. */
+static bool copy_data(struct wav_out *w, SNDFILE *from, struct err *e)
+{
+    sf_count_t frame = frame_bytes(w), most = COPY / frame * frame;
+    double left = w->frames * (double)frame;
+    char *piece = malloc((size_t)most);
+    bool ok = piece || err_set(e, ERR_MEMORY, "%s: out of memory", w->path);
+    while (ok && left > 0) {
+        sf_count_t n = left < (double)most ? (sf_count_t)left : most;
+        errno = 0;
+        if (sf_read_raw(from, piece, n) != n)
+            ok = err_set(e, ERR_IO, "%s: what has been written cannot be read back", w->path);
+        else if (sf_write_raw(w->sound, piece, n) != n)
+            ok = write_failed(w, e);
+        left -= (double)n;
+    }
+    free(piece);
+    return ok;
+}
+
+static bool go_long(struct wav_out *w, struct err *e)
+{
+    SF_INFO i = {0};
+    struct outfile was = w->out;
+    bool closed = sf_close(w->sound) == 0;
+    w->sound = NULL;
+    w->long_file = true;
+    if (!closed)
+        return err_set(e, ERR_IO, "%s: cannot be written", w->path);
+    if (!outfile_open_fd(&w->out, w->path, e)) {
+        outfile_drop(&was);
+        return false;
+    }
+    SNDFILE *from = lseek(was.fd, 0, SEEK_SET) == 0 ? sf_open_fd(was.fd, SFM_READ, &i, 0) : NULL;
+    bool ok = from || err_set(e, ERR_IO, "%s: what has been written cannot be read back", w->path);
+    ok = ok && sound_open(w, SF_FORMAT_RF64, e) && copy_data(w, from, e);
+    if (from)
+        sf_close(from);
+    outfile_drop(&was);
+    return ok;
+}
+
+static bool sample_bad(const struct wav_out *w, size_t i, double x, struct err *e)
+{
+    int channels = w->format.channels, bits = w->format.bits;
+    double frame = w->frames + (double)(i / (size_t)channels), seconds = frame / w->format.rate;
+    int channel = (int)(i % (size_t)channels) + 1;
+    if (!isfinite(x))
+        return err_set(e, ERR_NUMBERS, "%s: frame %.0f (%.6f s), channel %d: the sample is %g", w->path, frame, seconds, channel, x);
+    if (bits < 0)
+        return err_set(e, ERR_SCENE, "%s: frame %.0f (%.6f s), channel %d: %g is too large for 32-bit floating point", w->path, frame,
+                       seconds, channel, x);
+    return err_set(e, ERR_SCENE,
+                   "%s: frame %.0f (%.6f s), channel %d: %.6f is %+.2f dB re full scale, beyond the range of %d-bit integers; lower the "
+                   "level or write floating point", w->path, frame, seconds, channel, x, 20 * real_log10(fabs(x)), bits);
+}
+
+static bool write_integers(struct wav_out *w, const double *x, size_t n, struct err *e)
+{
+    int y[PIECE], bits = w->format.bits;
+    double scale = (double)(1 << (bits - 1));
+    for (size_t i = 0; i < n; i++) {
+        double v = rint(x[i] * scale);
+        if (!(v >= -scale && v <= scale - 1))
+            return sample_bad(w, i, x[i], e);
+        y[i] = (int)v * (1 << (32 - bits));
+    }
+    errno = 0;
+    return sf_write_int(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
+}
+
+static bool write_floats(struct wav_out *w, const double *x, size_t n, struct err *e)
+{
+    float y[PIECE];
+    for (size_t i = 0; i < n; i++) {
+        if (!(fabs(x[i]) <= FLT_MAX))
+            return sample_bad(w, i, x[i], e);
+        y[i] = (float)x[i];
+    }
+    errno = 0;
+    return sf_write_float(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
+}
+
+static bool write_doubles(struct wav_out *w, const double *x, size_t n, struct err *e)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i]))
+            return sample_bad(w, i, x[i], e);
+    errno = 0;
+    return sf_write_double(w->sound, x, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
+}
+
+static bool write_piece(struct wav_out *w, const double *x, size_t n, struct err *e)
+{
+    int bits = w->format.bits;
+    return bits > 0 ? write_integers(w, x, n, e) : bits == -32 ? write_floats(w, x, n, e) : write_doubles(w, x, n, e);
+}
+
+bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e)
+{
+    size_t channels = (size_t)w->format.channels, most = PIECE / channels;
+    if (!w->long_file && (w->frames + (double)frames) * frame_bytes(w) > w->riff_bytes && !go_long(w, e))
+        return false;
+    for (size_t done = 0, n; done < frames; done += n) {
+        n = frames - done < most ? frames - done : most;
+        if (!write_piece(w, x + done * channels, n * channels, e))
+            return false;
+        w->frames += (double)n;
+    }
+    return true;
+}
+
+/* Puts the time stamp of an RF64 file's PEAK chunk to zero. Layout: "RF64", size, "WAVE", then chunks: name, size, content. */
+static bool clear_peak_time(struct wav_out *w, struct err *e)
+{
+    unsigned char head[8], zero[4] = {0};
+    for (off_t at = 12; pread(w->out.fd, head, 8, at) == 8 && memcmp(head, "data", 4) != 0;) {
+        off_t size = head[4] + 256 * head[5] + 65536 * head[6];
+        if (!memcmp(head, "PEAK", 4) && pwrite(w->out.fd, zero, 4, at + 12) != 4)
+            return write_failed(w, e);
+        at += 8 + size + size % 2;
+    }
+    return true;
+}
+
+bool wav_commit(struct wav_out *w, struct err *e)
+{
+    errno = 0;
+    bool ok = sf_error(w->sound) == 0 || write_failed(w, e);
+    if (sf_close(w->sound) != 0)
+        ok = err_set(e, ERR_IO, "%s: cannot be written", w->path);
+    w->sound = NULL;
+    ok = ok && (!w->long_file || clear_peak_time(w, e)) && outfile_commit(&w->out, e);
+    wav_free(w);
+    return ok;
+}
+
+void wav_drop(struct wav_out *w)
+{
+    if (w)
+        wav_free(w);
+}

@@ -1,0 +1,52 @@
+/* YAML as a tree in which every node knows its place, read with libyaml (file/yaml_parse.h).
+
+   Scalars stay texts: what `yes`, `010` or `1:30` mean is up to who reads them. */
+#ifndef FILE_YAML_H
+#define FILE_YAML_H
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/diag.h"
+
+enum yaml_kind { YAML_SCALAR, YAML_MAP, YAML_LIST };
+
+struct yaml_node {
+    enum yaml_kind kind;
+    struct diag_place at;
+    const char *text;        /* of a scalar, UTF-8 without NUL        */
+    bool plain;              /* a scalar without quotes               */
+    struct yaml_node *key;   /* the scalar that is its key in a map   */
+    struct yaml_node *next;  /* in the same map or list               */
+    struct yaml_node *first; /* of a map or list                      */
+    struct yaml_node *last;
+    int n;                   /* items of a map or list                */
+};
+
+struct yaml {
+    struct arena *arena;
+    struct diag *diag;
+    int nodes;     /* read so far                                     */
+    int sources;   /* made so far                                     */
+    bool missing;  /* a file could not be read (ERR_INPUT)            */
+};
+
+struct yaml *yaml_open(struct arena *a);
+
+/* A text in memory as a source; an option's text is shown without line numbers. The name and the text must outlive it. */
+struct diag_source *yaml_source(struct yaml *y, const char *name, const char *text, size_t size);
+
+/* `null` or `~`. */
+bool yaml_null(const struct yaml_node *node);
+
+/* Value of a key of a map; of a dotted path through maps. NULL: there is none (or something on the way is not a map). */
+struct yaml_node *yaml_get(const struct yaml_node *map, const char *key);
+struct yaml_node *yaml_find(struct yaml_node *map, const char *path);
+
+/* A new scalar or an empty map or list. */
+struct yaml_node *yaml_make(struct yaml *y, enum yaml_kind kind, struct diag_place at, const char *text);
+
+/* Appends to a map (key is a scalar) or a list (key NULL). */
+void yaml_append(struct yaml_node *parent, struct yaml_node *key, struct yaml_node *value);
+
+#endif

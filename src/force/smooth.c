@@ -1,0 +1,218 @@
+/* Gaussian smoothing, papers/000 section 2.2, last paragraph: the limiter's harmonics are removed by "a Gaussian moving average following
+   the non-linearity", its width in proportion to alpha.
+
+     sigma(t) = contact.smoothing alpha(t) / 0.03 m        s
+
+   Directional force: each element of force spreads with its own sigma, y(t) = integral f(t') G(t - t'; sigma(t')) dt', so that momentum is
+   kept. Paper: the same on the limited curvature. The paper's "average half window size of 5 samples at a sampling rate of 44.1kHz" is read
+   as an 11-sample window of 5 sigma: 50 us; in seconds here, so that the sound does not depend on the sample rate.
+
+   Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes every 64 sub-samples and
+   an element between two nodes spreads with both kernels, linearly weighted (error of second order in sigma's change over 64 sub-samples). */
+#include <math.h>
+#include <string.h>
+
+#include "num/filter.h"
+#include "num/lanes.h"
+#include "num/vecmath.h"
+#include "stage.h"
+#include "surface/limiter.h"
+
+enum { SMOOTH_NODE = 64 };
+
+struct smooth {
+    enum item item;
+    bool varies;
+    int reach;              /* sub-samples to each side                          */
+    double per_alpha;       /* sigma in sub-samples per metre of alpha           */
+    struct filter still;    /* the kernel when alpha does not vary               */
+    double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps */
+    double *raw;            /* unsmoothed values from sub-sample raw_first on    */
+    double *sum;            /* smoothed so far, from sub-sample sum_first on     */
+    long raw_first, raw_end, sum_first, node; /* node: sub-sample where the next segment begins */
+    size_t room;
+};
+
+static double smooth_alpha(const struct contact *c, double alpha)
+{
+    return c->contact.limiter.curve == LIMITER_TANH ? alpha : 0.03;
+}
+
+static bool smooth_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return c->contact.smoothing > 0 && c->contact.force == FORCE_DIRECTIONAL;
+}
+
+static bool smooth_curvature_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return c->contact.smoothing > 0 && c->contact.force == FORCE_PAPER;
+}
+
+static double smooth_work(const struct contact *c, const struct scene *s)
+{
+    double over = s->accuracy.oversampling, alpha = c->grip.given ? c->contact.limiter.alpha_max : 0.03;
+    double taps = 13 * c->contact.smoothing * smooth_alpha(c, alpha) / 0.03 * s->output.sample_rate * over + 1;
+    return taps * over * (c->grip.given && c->contact.limiter.curve == LIMITER_TANH ? 4 : 2);
+}
+
+static bool smooth_open_item(struct stage_run *r, enum item item)
+{
+    struct smooth *s = ARENA_TAKE(r->arena, struct smooth, 1);
+    struct board *b = r->board;
+    const struct contact *c = r->contact;
+    s->item = item;
+    s->varies = b->limiter != NULL;
+    s->per_alpha = c->contact.smoothing / 0.03 * b->rate * b->over;
+    double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
+    s->still = filter_gaussian(r->arena, s->per_alpha * widest);
+    s->reach = s->still.reach;
+    r->ahead = (s->reach + (s->varies ? SMOOTH_NODE : 0)) / b->over + 2;
+    s->room = (size_t)((STAGE_BLOCK + 2 * r->ahead + 4) * b->over + 2 * s->reach);
+    s->raw = ARENA_TAKE(r->arena, double, s->room);
+    s->sum = ARENA_TAKE(r->arena, double, s->room + SMOOTH_NODE);
+    s->raw_first = s->sum_first = -s->reach;
+    for (int k = 0; k < 2; k++)
+        s->kernel[k] = ARENA_TAKE(r->arena, double, 2 * s->reach + 1);
+    s->node = -SMOOTH_NODE;
+    r->state = s;
+    return true;
+}
+
+static bool smooth_open(struct stage_run *r, struct err *e)
+{
+    (void)e;
+    return smooth_open_item(r, ITEM_SUBFORCE);
+}
+
+static bool smooth_curvature_open(struct stage_run *r, struct err *e)
+{
+    (void)e;
+    return smooth_open_item(r, ITEM_CURVATURE);
+}
+
+/* Keeps raw values from `keep` on and adds those up to `end`. */
+static void smooth_take(struct smooth *s, const struct board *b, long keep, long end)
+{
+    if (keep > s->raw_first) {
+        memmove(s->raw, s->raw + (keep - s->raw_first), (size_t)(s->raw_end - keep) * sizeof *s->raw);
+        s->raw_first = keep;
+    }
+    const double *x = board_at(b, s->item, s->raw_end / b->over);
+    memcpy(s->raw + (s->raw_end - s->raw_first), x, (size_t)(end - s->raw_end) * sizeof *s->raw);
+    s->raw_end = end;
+}
+
+/* y[i] = sum_j tap[j] x[i + j], eight outputs at a time. */
+LANES_CLONES
+static void smooth_still(const struct filter *f, const double *x, double *y, long n)
+{
+    for (long i = 0; i < n; i += LANES) {
+        double sum[LANES] = {0};
+        int some = n - i < LANES ? (int)(n - i) : LANES;
+        for (int j = 0; j < 2 * f->reach + 1; j++)
+#pragma omp simd
+            for (int l = 0; l < LANES; l++)
+                sum[l] += f->tap[j] * x[i + l + j];
+        for (int l = 0; l < some; l++)
+            y[i + l] = sum[l];
+    }
+}
+
+/* sum[i + t] += a k0[t] + b k1[t] for every element i of a segment, a and b its shares for the two kernels. */
+LANES_CLONES
+static void smooth_spread(const double *x, const double *k0, const double *k1, double *sum, int taps)
+{
+    for (int i = 0; i < SMOOTH_NODE; i++) {
+        double later = (double)i / SMOOTH_NODE, a = (1 - later) * x[i], b = later * x[i];
+#pragma omp simd
+        for (int t = 0; t < taps; t++)
+            sum[i + t] += a * k0[t] + b * k1[t];
+    }
+}
+
+static void smooth_kernel(const struct smooth *s, double alpha, double *k)
+{
+    double sigma = s->per_alpha * alpha, sum = 0;
+    for (int t = 0; t <= 2 * s->reach; t++)
+        k[t] = -0.5 * (t - s->reach) * (t - s->reach) / (sigma * sigma);
+    vecmath_exp((size_t)(2 * s->reach + 1), k, k);
+    for (int t = 0; t <= 2 * s->reach; t++)
+        sum += k[t];
+    for (int t = 0; t <= 2 * s->reach; t++)
+        k[t] /= sum;
+}
+
+/* Spreads segments until all that reaches below sub-sample `end` is there. */
+static void smooth_segments(struct smooth *s, const struct board *b, long end)
+{
+    while (s->node - s->reach < end) {
+        long next = s->node + SMOOTH_NODE;
+        double *swap = s->kernel[0];
+        s->kernel[0] = s->kernel[1];
+        s->kernel[1] = swap;
+        smooth_kernel(s, *(board_at(b, ITEM_ALPHA, next / b->over) + next % b->over), s->kernel[1]);
+        if (s->node >= 0)
+            smooth_spread(s->raw + (s->node - s->raw_first), s->kernel[0], s->kernel[1], s->sum + (s->node - s->reach - s->sum_first),
+                          2 * s->reach + 1);
+        s->node = next;
+    }
+}
+
+/* Hands over the finished sums of [first, end) and makes room behind them. */
+static void smooth_hand_over(struct smooth *s, double *y, long first, long end)
+{
+    size_t used = (size_t)(end - s->sum_first), whole = s->room + SMOOTH_NODE;
+    memcpy(y, s->sum + (first - s->sum_first), (size_t)(end - first) * sizeof *y);
+    memmove(s->sum, s->sum + used, (whole - used) * sizeof *y);
+    memset(s->sum + (whole - used), 0, used * sizeof *y);
+    s->sum_first = end;
+}
+
+static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    struct smooth *s = r->state;
+    const struct board *b = r->board;
+    long first = from * b->over, end = to * b->over;
+    double *y = board_at(b, s->item, from);
+    (void)e;
+    if (!s->varies) {
+        smooth_take(s, b, first - s->reach, (to + r->ahead - 1) * b->over);
+        smooth_still(&s->still, s->raw + (first - s->reach - s->raw_first), y, end - first);
+        return true;
+    }
+    long keep = s->node < 0 ? s->raw_first : s->node;
+    smooth_take(s, b, keep, (to + r->ahead - 1) * b->over);
+    smooth_segments(s, b, end);
+    smooth_hand_over(s, y, first, end);
+    return true;
+}
+
+const struct stage smooth_stage = {
+    .name = "smooth",
+    .does = "Gaussian smoothing of the force, sigma in proportion to alpha",
+    .paper = "000 sec. 2.2",
+    .idle = "contact.smoothing is 0, or contact.force is paper",
+    .needs = ITEM_BIT(ITEM_SUBFORCE),
+    .takes = ITEM_BIT(ITEM_ALPHA),
+    .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .wanted = smooth_wanted,
+    .work = smooth_work,
+    .open = smooth_open,
+    .run = smooth_run,
+};
+
+const struct stage smooth_curvature_stage = {
+    .name = "smooth_curvature",
+    .does = "Gaussian smoothing of the limited curvature",
+    .paper = "000 sec. 2.2",
+    .idle = "contact.smoothing is 0, or contact.force is directional",
+    .needs = ITEM_BIT(ITEM_CURVATURE),
+    .takes = ITEM_BIT(ITEM_ALPHA),
+    .gives = ITEM_BIT(ITEM_CURVATURE),
+    .wanted = smooth_curvature_wanted,
+    .work = smooth_work,
+    .open = smooth_curvature_open,
+    .run = smooth_run,
+};

@@ -1,0 +1,125 @@
+/* Kernels. The decimator is a Kaiser-windowed ideal low-pass g, made to undo the droop of the interval means by a short symmetric
+   polynomial filter. With T = 1/(over fs), times in T, f in 1/T:
+
+       g(t) = sin(2 pi fc t)/(pi t) I0(beta sqrt(1 - (t/R)^2))/I0(beta),   t = j + 1/2,  fc = 0.5/over
+       droop of a mean: sinc f = sin(phi)/phi, phi = pi f;  y = sin^2 phi is the response of the taps (-1, 2, -1)/4
+       1/sinc f = asin(sqrt y)/sqrt y = sum over k of c[k] T_k(2 y/y_top - 1),  0 <= y <= y_top = sin^2(pi 0.4535/over)
+
+   Every step of T_k lengthens the kernel by one tap at either end. beta and R are Kaiser's (J. F. Kaiser, "Nonrecursive digital
+   filter design using the I0-sinh window function", ISCAS 1974) for ATTENUATION dB:
+   beta = 0.1102 (A - 8.7), 2 R = (A - 7.95)/(2.285 dw), dw = 2 pi (0.5465 - 0.4535)/over.
+
+   Why not the window on the inverse Fourier transform of the whole wanted response: a window smooths what it multiplies, and 1/sinc
+   is curved; for over = 1 that would be wrong by 3e-4. Here the window acts on a flat pass band, which smoothing leaves flat. */
+#include "num/filter.h"
+
+#include "num/real.h"
+
+#define PASS 0.4535        /* in units of fs */
+#define STOP 0.5465
+#define ATTENUATION 122.0  /* dB; 120 are promised */
+#define DROOP_LEFT 5e-7    /* largest relative error of the polynomial in the pass band */
+
+enum { NODES = 64 }; /* of the Chebyshev interpolation; over = 1, where c[k] falls slowest (as 1.34^-k), uses 31 */
+
+struct droop {
+    double y_top, c[NODES];
+    int order; /* c[0..order] are used */
+};
+
+/* Modified Bessel function of the first kind, order 0: sum of ((x/2)^k/k!)^2, all terms positive. */
+static double bessel_i0(double x)
+{
+    double sum = 1, term = 1, q = 0.25 * x * x;
+    for (int k = 1; term > 1e-17 * sum; k++) {
+        term *= q / ((double)k * k);
+        sum += term;
+    }
+    return sum;
+}
+
+static int low_pass_reach(int over)
+{
+    double width = 2 * REAL_PI * (STOP - PASS) / over;
+    return (int)ceil((ATTENUATION - 7.95) / (2.285 * width) / 2);
+}
+
+/* g[i], i = 0..2 reach-1 at t = i - reach + 1/2. */
+static void low_pass(double *g, int reach, int over)
+{
+    double beta = 0.1102 * (ATTENUATION - 8.7);
+    for (int j = 0; j < reach; j++) {
+        double t = j + 0.5, u = t / reach;
+        double ideal = real_sinpi(t / over) / (REAL_PI * t);
+        g[reach + j] = g[reach - 1 - j] = ideal * bessel_i0(beta * sqrt((1 - u) * (1 + u)));
+    }
+}
+
+/* Interpolation of 1/sinc at the zeros of T_NODES, cut where the sum of what is left out is DROOP_LEFT. */
+static struct droop droop_make(int over)
+{
+    double edge = real_sinpi(PASS / over), left = 0;
+    struct droop d = {.y_top = edge * edge, .order = NODES - 1};
+    for (int i = 0; i < NODES; i++) {
+        double y = 0.5 * d.y_top * (1 + real_cospi((i + 0.5) / NODES));
+        double wanted = real_atan2(sqrt(y), sqrt(1 - y)) / sqrt(y);
+        for (int k = 0; k < NODES; k++)
+            d.c[k] += (k ? 2.0 : 1.0) / NODES * wanted * real_cospi(k * (i + 0.5) / NODES);
+    }
+    while (d.order > 0 && left + fabs(d.c[d.order]) < DROOP_LEFT)
+        left += fabs(d.c[d.order--]);
+    return d;
+}
+
+/* (2 y/y_top - 1) applied to b, at i; b is zero outside 0..n-1. */
+static double step(const double *b, int i, int n, double y_top)
+{
+    double before = i > 0 ? b[i - 1] : 0, after = i + 1 < n ? b[i + 1] : 0;
+    return (2 * b[i] - (before + after)) / (2 * y_top) - b[i];
+}
+
+/* Clenshaw's sum of c[k] T_k applied to g: b_k = c_k g + 2 Z b_{k+1} - b_{k+2}; the last step has Z in place of 2 Z. */
+static double *droop_undone(struct arena *a, const struct droop *d, const double *g, int n)
+{
+    double *b = ARENA_TAKE(a, double, n), *b1 = ARENA_TAKE(a, double, n), *b2 = ARENA_TAKE(a, double, n);
+    for (int k = d->order; k >= 0; k--) {
+        for (int i = 0; i < n; i++)
+            b[i] = d->c[k] * g[i] + (k ? 2 : 1) * step(b1, i, n, d->y_top) - b2[i];
+        double *oldest = b2;
+        b2 = b1, b1 = b, b = oldest;
+    }
+    return b1;
+}
+
+/* Sum 1; added from the ends, where the taps are small, to the middle. */
+static void normalise(double *tap, int n)
+{
+    double sum = 0;
+    for (int i = 0; i < n / 2; i++)
+        sum += tap[i] + tap[n - 1 - i];
+    sum += n % 2 ? tap[n / 2] : 0;
+    for (int i = 0; i < n; i++)
+        tap[i] /= sum;
+}
+
+struct filter filter_decimator(struct arena *a, int over)
+{
+    struct droop d = droop_make(over);
+    int inner = low_pass_reach(over), reach = inner + d.order;
+    double *g = ARENA_TAKE(a, double, 2 * reach);
+    low_pass(g + d.order, inner, over);
+    double *tap = droop_undone(a, &d, g, 2 * reach);
+    normalise(tap, 2 * reach);
+    return (struct filter){reach, tap};
+}
+
+struct filter filter_gaussian(struct arena *a, double sigma)
+{
+    int reach = (int)ceil(6.5 * sigma);
+    double *tap = ARENA_TAKE(a, double, 2 * reach + 1);
+    tap[reach] = 1;
+    for (int j = 1; j <= reach; j++)
+        tap[reach + j] = tap[reach - j] = real_exp(-0.5 * (j / sigma) * (j / sigma));
+    normalise(tap, 2 * reach + 1);
+    return (struct filter){reach, tap};
+}

@@ -1,0 +1,28 @@
+/* Linear-phase kernels: the decimator of sub-interval means, and Gaussians. */
+#ifndef NUM_FILTER_H
+#define NUM_FILTER_H
+#include "base/arena.h"
+
+/* A symmetric kernel. filter_gaussian: 2 reach + 1 taps, tap[j + reach], j = -reach..reach. filter_decimator: 2 reach taps,
+   tap[j + reach], j = -reach..reach-1, tap[reach + j] = tap[reach - 1 - j]. */
+struct filter {
+    int reach;
+    double *tap;
+};
+
+/* Decimator from means over intervals of T = 1/(over fs) to samples at fs, over >= 1. The mean with index i is that over
+   [i, i+1) T; output n is the signal at t = n/fs, which is the boundary between intervals over n - 1 and over n:
+
+       output[n] = sum over j = -reach..reach-1 of tap[j + reach] mean[over n + j].
+
+   From the continuous signal to the output (the droop of the means, sin(pi f T)/(pi f T), included) the gain is 1 within 2e-6 up
+   to 0.4535 fs, at most 1e-6 (-120 dB) from 0.5465 fs to over fs/2, and 1 to rounding at 0; the phase is 0. Content beyond
+   over fs/2 has been aliased by taking means and cannot be stopped here. For over = 1 the stop band lies beyond fs/2 and the kernel
+   interpolates half a sample; its gain falls to 0 at fs/2. */
+struct filter filter_decimator(struct arena *a, int over);
+
+/* Sampled, normalised Gaussian (sum 1 to rounding) of standard deviation sigma >= 0 samples, cut at 6.5 sigma; sigma = 0 gives
+   the unit impulse. The sampled Gaussian's own deviation is sigma within 1e-6 for sigma >= 1; for smaller ones it is less. */
+struct filter filter_gaussian(struct arena *a, double sigma);
+
+#endif

@@ -1,0 +1,29 @@
+/* Vector loops with the same bits on every CPU. LANES_CLONES before the definition of a hot function compiles it for AVX-512
+   (x86-64-v4), AVX2 (x86-64-v3) and any x86-64, and the loader takes the best one the CPU has. The bits agree because such
+   loops use + - * / sqrt and selections only, without contraction (-ffp-contract=off), and because sums run over LANES
+   accumulators in a fixed order, whatever the width of a register:
+
+       LANES_CLONES
+       double dot(size_t n, const double *x, const double *y)
+       {
+           double sum[LANES] = {0};
+           ... for (i = 0; i + LANES <= n; i += LANES)
+       #pragma omp simd
+                   for (int l = 0; l < LANES; l++) sum[l] += x[i + l] * y[i + l];
+           ... add sum[0..7] in order, then the rest
+
+   Nothing is cloned with clang (version 14 gives the dispatcher another name than the function, so that other files do not
+   find it), nor when the instruction set is set by hand (`make ISA=v3` defines RASP_NO_CLONES), nor under the sanitizers, whose
+   run time is not ready yet when the loader picks a clone. A cloned function must not be static inline. */
+#ifndef NUM_LANES_H
+#define NUM_LANES_H
+
+enum { LANES = 8 }; /* doubles per group: one register of AVX-512, two of AVX2, four of SSE2 */
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__AVX2__) && !defined(RASP_NO_CLONES)
+#define LANES_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define LANES_CLONES
+#endif
+
+#endif

@@ -1,0 +1,229 @@
+/* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's start, T = 1/rate: kinematics,
+   normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its sign) of the audio-rate force over the
+   samples in the interval; events are counted in it. Rows end with the motion. Numbers are printed with %.9g, lines end in LF. */
+#include "output/force_table.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "stage.h"
+#include "surface/limiter.h"
+#include "trajectory/load.h"
+#include "trajectory/trajectory.h"
+
+enum column { TIME, X, Y, STROKE, SPEED, VELOCITY, ACCELERATION, NORMAL, ALPHA, MEAN, RMS, PEAK, LIFT_OFFS, COLUMNS };
+
+const struct table_column force_table_columns[] = {
+    [TIME] = {"time_s", "time since the start of the scene"},
+    [X] = {"x_m", "position of the contact"},
+    [Y] = {"y_m", "position of the contact"},
+    [STROKE] = {"stroke_m", "signed distance along the stroke, 0 where the motion starts"},
+    [SPEED] = {"speed_m_per_s", "magnitude of the velocity"},
+    [VELOCITY] = {"velocity_m_per_s", "velocity along the stroke, negative on the way back"},
+    [ACCELERATION] = {"acceleration_m_per_s2", "acceleration along the stroke"},
+    [NORMAL] = {"normal_force_n", "normal force; 0 while the scraper is lifted off"},
+    [ALPHA] = {"alpha_m", "the limiter's alpha (only with a limiter)"},
+    [MEAN] = {"force_mean_n", "mean contact force over the row's samples"},
+    [RMS] = {"force_rms_n", "rms contact force over the row's samples"},
+    [PEAK] = {"force_peak_n", "contact force of largest magnitude among the row's samples, with its sign"},
+    [LIFT_OFFS] = {"lift_offs", "number of times the scraper lifts off in the row (only with a grip)"},
+    [COLUMNS] = {NULL, NULL},
+};
+
+struct force_table {
+    bool wanted[COLUMNS];
+    double value[COLUMNS];
+    double sum, squares, peak;  /* of the row being filled */
+    long samples, lift_offs, row, rows;
+    double alpha;
+};
+
+static int column_find(const char *name)
+{
+    for (int k = 0; k < COLUMNS; k++)
+        if (strcmp(force_table_columns[k].name, name) == 0)
+            return k;
+    return -1;
+}
+
+static bool column_exists(const struct contact *c, int k)
+{
+    return k == ALPHA ? c->contact.limiter.curve == LIMITER_TANH : k == LIFT_OFFS ? c->grip.given : true;
+}
+
+/* Does the scene ask for any column from `first` to `last`? */
+static bool column_asked(const struct contact *c, const struct scene *s, int first, int last)
+{
+    const char **names = s->output.diagnostics.columns;
+    for (int k = first; k <= last; k++) {
+        if (!names && column_exists(c, k))
+            return true;
+        for (int i = 0; names && names[i]; i++)
+            if (column_find(names[i]) == k)
+                return true;
+    }
+    return false;
+}
+
+static unsigned force_table_asks(const struct contact *c, const struct scene *s)
+{
+    unsigned items = 0;
+    if (column_asked(c, s, STROKE, STROKE) || column_asked(c, s, X, Y))
+        items |= ITEM_BIT(ITEM_POSITION);
+    if (column_asked(c, s, SPEED, VELOCITY))
+        items |= ITEM_BIT(ITEM_VELOCITY);
+    if (column_asked(c, s, ACCELERATION, ACCELERATION))
+        items |= ITEM_BIT(ITEM_ACCELERATION);
+    if (c->grip.given && (column_asked(c, s, NORMAL, NORMAL) || column_asked(c, s, LIFT_OFFS, LIFT_OFFS)))
+        items |= ITEM_BIT(ITEM_LOAD);
+    if (c->grip.given && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA))
+        items |= ITEM_BIT(ITEM_ALPHA);
+    if (column_asked(c, s, MEAN, PEAK))
+        items |= ITEM_BIT(ITEM_FORCE);
+    return items ? items : ITEM_BIT(ITEM_POSITION);
+}
+
+static bool force_table_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)c;
+    return s->output.diagnostics.given;
+}
+
+static double force_table_work(const struct contact *c, const struct scene *s)
+{
+    return 4 + 900 * s->output.diagnostics.rate / s->output.sample_rate * (column_asked(c, s, MEAN, PEAK) ? 2 : 1);
+}
+
+static bool columns_choose(struct force_table *t, const struct stage_run *r, struct err *e)
+{
+    const char **names = r->scene->output.diagnostics.columns, *all[COLUMNS + 1] = {0};
+    for (int k = 0; k < COLUMNS; k++) {
+        t->wanted[k] = !names && column_exists(r->contact, k);
+        all[k] = force_table_columns[k].name;
+    }
+    for (int i = 0; names && names[i]; i++) {
+        int k = column_find(names[i]);
+        const char *near = k < 0 ? text_nearest(names[i], all) : NULL;
+        if (k < 0)
+            return err_set(e, ERR_SCENE, "output.diagnostics.columns: there is no column '%s'%s%s%s", names[i],
+                           near ? "; did you mean '" : "; see man rasp-scene, DIAGNOSTICS", near ? near : "", near ? "'?" : "");
+        if (!column_exists(r->contact, k))
+            return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no %s: it needs %s", r->contact->name, names[i],
+                           k == ALPHA ? "contact.limiter.curve: tanh" : "a grip");
+        t->wanted[k] = true;
+    }
+    return true;
+}
+
+static bool force_table_open(struct stage_run *r, struct err *e)
+{
+    struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
+    const char *comma = "";
+    r->state = t;
+    if (!columns_choose(t, r, e))
+        return false;
+    t->alpha = limiter_constant(r->contact);
+    t->rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
+    for (int k = 0; k < COLUMNS; k++)
+        if (t->wanted[k]) {
+            fprintf(r->board->table->stream, "%s%s", comma, force_table_columns[k].name);
+            comma = ",";
+        }
+    fputc('\n', r->board->table->stream);
+    r->ahead = 1;
+    return true;
+}
+
+/* Kinematics, normal force and alpha at the row's instant. */
+static void row_instant(struct force_table *t, const struct stage_run *r, double at)
+{
+    const struct board *b = r->board;
+    const struct trajectory *tr = b->trajectory;
+    double *v = t->value, u, velocity, acceleration;
+    trajectory_at(tr, 1, &at, &u, &velocity, &acceleration);
+    v[TIME] = r->contact->start + at;
+    v[STROKE] = u;
+    v[X] = tr->from[0] + u * tr->e[0];
+    v[Y] = tr->from[1] + u * tr->e[1];
+    v[VELOCITY] = velocity;
+    v[SPEED] = fabs(velocity);
+    v[ACCELERATION] = acceleration;
+    v[NORMAL] = b->load ? fmax(load_at(b->load, acceleration), 0)
+                        : isnan(r->contact->load.constant) ? r->contact->scraper.mass * r->contact->contact.gravity
+                                                           : r->contact->load.constant;
+    v[ALPHA] = t->alpha;
+    if (b->limiter)
+        limiter_alpha(b->limiter, 1, &v[NORMAL], &v[ALPHA]);
+}
+
+static void row_write(struct force_table *t, FILE *out)
+{
+    const char *comma = "";
+    double n = t->samples > 0 ? (double)t->samples : 1;
+    t->value[MEAN] = t->sum / n;
+    t->value[RMS] = sqrt(t->squares / n);
+    t->value[PEAK] = t->peak;
+    t->value[LIFT_OFFS] = (double)t->lift_offs;
+    for (int k = 0; k < COLUMNS; k++)
+        if (t->wanted[k]) {
+            fprintf(out, "%s%.9g", comma, t->value[k]);
+            comma = ",";
+        }
+    fputc('\n', out);
+    t->sum = t->squares = t->peak = 0;
+    t->samples = t->lift_offs = 0;
+}
+
+static void row_frame(struct force_table *t, const struct board *b, long n)
+{
+    if (board_has(b, ITEM_FORCE)) {
+        double f = *board_at(b, ITEM_FORCE, n);
+        t->sum += f;
+        t->squares += f * f;
+        t->peak = fabs(f) > fabs(t->peak) ? f : t->peak;
+    }
+    t->samples++;
+    if (board_has(b, ITEM_LOAD) && t->wanted[LIFT_OFFS]) {
+        const double *load = board_at(b, ITEM_LOAD, n);
+        for (int j = 0; j < b->over; j++)
+            t->lift_offs += load[j] >= 0 && load[j + 1] < 0;
+    }
+}
+
+static void rows_before(struct force_table *t, const struct stage_run *r, long end)
+{
+    for (; t->row < end; t->row++) {
+        row_instant(t, r, (double)t->row / r->scene->output.diagnostics.rate);
+        row_write(t, r->board->table->stream);
+    }
+}
+
+/* A sample belongs to row floor(n rate_d / rate); a row is written when the first sample behind it comes, even if it has none itself, the
+   last ones with the motion's last sample. */
+static bool force_table_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    struct force_table *t = r->state;
+    double rate = r->scene->output.diagnostics.rate, fs = r->board->rate;
+    for (long n = from; n < to && t->row < t->rows; n++) {
+        long row = (long)floor((double)n * rate / fs);
+        rows_before(t, r, row < t->rows ? row : t->rows);
+        row_frame(t, r->board, n);
+        if (n == r->board->moving - 1)
+            rows_before(t, r, t->rows);
+    }
+    return ferror(r->board->table->stream) ? err_set(e, ERR_IO, "the diagnostics table cannot be written (is the disk full?)") : true;
+}
+
+const struct stage force_table_stage = {
+    .name = "force_table",
+    .does = "rows of diagnostics",
+    .paper = "",
+    .idle = "no output.diagnostics",
+    .asks = force_table_asks,
+    .gives = ITEM_BIT(ITEM_TABLE),
+    .wanted = force_table_wanted,
+    .work = force_table_work,
+    .open = force_table_open,
+    .run = force_table_run,
+};

@@ -1,0 +1,18 @@
+/* Diagnostics: a CSV of the physics of one contact, at a control rate. */
+#ifndef OUTPUT_FORCE_TABLE_H
+#define OUTPUT_FORCE_TABLE_H
+#include <stdio.h>
+
+/* Where the rows go. */
+struct table_sink {
+    FILE *stream;
+};
+
+struct table_column {
+    const char *name, *meaning;
+};
+
+/* All columns there are, in their order; ends with a NULL name. */
+extern const struct table_column force_table_columns[];
+
+#endif

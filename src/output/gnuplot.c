@@ -1,0 +1,95 @@
+#include "output/gnuplot.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+/* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore are not ignored by it. */
+static int spawn(pid_t *pid, const int fd[3])
+{
+    char *argv[] = {(char[]){"gnuplot"}, (char[]){"-d"}, NULL};
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t how;
+    sigset_t pipes;
+    sigemptyset(&pipes);
+    sigaddset(&pipes, SIGPIPE);
+    posix_spawn_file_actions_init(&files);
+    posix_spawnattr_init(&how);
+    posix_spawnattr_setsigdefault(&how, &pipes);
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF);
+    for (int k = 0; k < 3; k++)
+        posix_spawn_file_actions_adddup2(&files, fd[k], k);
+    int code = posix_spawnp(pid, argv[0], &files, &how, argv, environ);
+    posix_spawnattr_destroy(&how);
+    posix_spawn_file_actions_destroy(&files);
+    return code;
+}
+
+bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
+{
+    int ends[2], code;
+    *g = (struct gnuplot){.complaints = tmpfile()};
+    if (!g->complaints || pipe2(ends, O_CLOEXEC) != 0) {
+        if (g->complaints)
+            fclose(g->complaints);
+        return err_set(e, ERR_CREATE, "gnuplot cannot be started: %s", strerror(errno));
+    }
+    code = spawn(&g->pid, (const int[3]){ends[0], output, fileno(g->complaints)});
+    close(ends[0]);
+    g->in = code == 0 ? fdopen(ends[1], "w") : NULL;
+    if (g->in)
+        return true;
+    close(ends[1]);
+    fclose(g->complaints);
+    if (code == 0)
+        waitpid(g->pid, NULL, 0);
+    if (code == ENOENT || code == EACCES)
+        return err_set(e, ERR_UNBUILT, "the program gnuplot draws the plot and is not on the PATH: install it (Debian: gnuplot-nox and, for the "
+                                       "labels, fonts-dejavu-core)");
+    return err_set(e, ERR_CREATE, "gnuplot cannot be started: %s", strerror(code ? code : errno));
+}
+
+/* The first line of what it complained about that holds more than blanks and the mark of a column. */
+static void first_complaint(FILE *f, char *line, int size)
+{
+    rewind(f);
+    while (fgets(line, size, f)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (line[strspn(line, " \t^")])
+            return;
+    }
+    snprintf(line, (size_t)size, "it said nothing");
+}
+
+bool gnuplot_close(struct gnuplot *g, struct err *e)
+{
+    char line[400];
+    int status = 0;
+    bool taken = fclose(g->in) == 0; /* false: it ended before it had read all */
+    while (waitpid(g->pid, &status, 0) < 0 && errno == EINTR)
+        continue;
+    bool ok = taken && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (!ok) {
+        first_complaint(g->complaints, line, sizeof line);
+        err_set(e, ERR_IO, "gnuplot failed: %s", line);
+    }
+    fclose(g->complaints);
+    return ok;
+}
+
+void gnuplot_put_text(struct gnuplot *g, const char *text)
+{
+    fputc('\'', g->in);
+    for (const char *p = text; *p; p++) {
+        if (*p == '\'')
+            fputc('\'', g->in);
+        fputc((unsigned char)*p < ' ' || *p == 127 ? '?' : *p, g->in);
+    }
+    fputc('\'', g->in);
+}

@@ -1,0 +1,32 @@
+/* The scene's sound on its way to the WAV: ramps, level, and the measures that the summary reports. */
+#ifndef OUTPUT_SOUND_H
+#define OUTPUT_SOUND_H
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+#include "scene/scene.h"
+
+struct sound;
+
+struct sound_report {
+    double peak, rms;     /* of the unscaled sound, in the response's quantity */
+    double lufs;          /* of the file; NAN: not measured                    */
+    double gain;          /* file value per unit of the quantity               */
+    bool silent;
+};
+
+/* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. */
+struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e);
+
+/* The next n samples (quantity units); they are ramped in place. */
+bool sound_add(struct sound *o, double *x, long n, struct err *e);
+
+/* Scales and writes what is not written yet. ERR_SCENE: clipping, or a loudness that cannot be measured. */
+bool sound_finish(struct sound *o, struct sound_report *report, struct err *e);
+
+/* Gives the file its name, or leaves nothing. Either ends it. */
+bool sound_commit(struct sound *o, struct err *e);
+void sound_drop(struct sound *o);
+
+#endif

@@ -1,0 +1,136 @@
+#include "pipeline/plan.h"
+
+#include <string.h>
+
+static const char *const plan_names[ITEM_COUNT] = {
+    [ITEM_POSITION] = "position",           [ITEM_VELOCITY] = "velocity",
+    [ITEM_ACCELERATION] = "acceleration",   [ITEM_LOAD] = "load",
+    [ITEM_ALPHA] = "alpha",                 [ITEM_SURFACE] = "surface",
+    [ITEM_CURVATURE] = "curvature",         [ITEM_SLOPE] = "slope",
+    [ITEM_SUBFORCE] = "subforce",           [ITEM_FORCE] = "force",
+    [ITEM_SURFACE_SOUND] = "surface_sound", [ITEM_SCRAPER_SOUND] = "scraper_sound",
+    [ITEM_SOUND] = "sound",                 [ITEM_TABLE] = "table",
+};
+
+const char *plan_item(enum item item)
+{
+    return plan_names[item];
+}
+
+unsigned plan_targets(const struct contact *c, const struct scene *s)
+{
+    bool sounds = c->gain != 0 && (c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0));
+    return (sounds ? ITEM_BIT(ITEM_SOUND) : 0) | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
+}
+
+static bool plan_nothing_asked(const struct contact *c, struct err *e)
+{
+    return err_set(e, ERR_SCENE,
+                   "contact '%s': nothing is asked of it: give surface.response (or scraper.response) for a sound, or output.diagnostics for "
+                   "a table of its physics",
+                   c->name);
+}
+
+/* One bit of a set, for a message. */
+static const char *first_name(unsigned items)
+{
+    for (int i = 0; i < ITEM_COUNT; i++)
+        if (items & ITEM_BIT(i))
+            return plan_names[i];
+    return "nothing";
+}
+
+struct liveness {
+    unsigned need, hard, done; /* read by something later; of these those without which it cannot run; given by a later stage */
+    const char *by[ITEM_COUNT];
+};
+
+/* A stage that is needed becomes part of the plan. */
+static bool plan_keep(const struct stage *st, const struct contact *c, const struct scene *s, struct liveness *l, struct err *e)
+{
+    unsigned makes = st->gives & ~st->needs, needs = st->needs | (st->asks ? st->asks(c, s) : 0);
+    if (makes & l->done)
+        return err_set(e, ERR_SCENE, "contact '%s': two stages give %s: '%s' and one after it", c->name, first_name(makes & l->done),
+                       st->name);
+    l->done |= makes;
+    l->need &= ~makes;
+    l->hard &= ~makes;
+    l->need |= needs | st->takes;
+    l->hard |= needs;
+    for (int i = 0; i < ITEM_COUNT; i++)
+        if ((needs & ITEM_BIT(i)))
+            l->by[i] = st->name;
+    return true;
+}
+
+bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a, struct plan *p,
+               struct err *e)
+{
+    struct liveness l = {0};
+    *p = (struct plan){.contact = c, .targets = plan_targets(c, s)};
+    if (!p->targets)
+        return plan_nothing_asked(c, e);
+    while (table[p->n])
+        p->n++;
+    p->rows = ARENA_TAKE(a, struct plan_row, p->n);
+    l.need = l.hard = p->targets;
+    for (int i = p->n - 1; i >= 0; i--) {
+        const struct stage *st = table[i];
+        p->rows[i] = (struct plan_row){st, PLAN_UNWANTED, 0};
+        if (!st->wanted(c, s))
+            continue;
+        /* a stage is needed when something reads what it gives, or, making an item a second time, would clash with who gave it */
+        p->rows[i].verdict = st->gives & (l.need | (l.done & ~st->needs)) ? PLAN_RUNS : PLAN_UNNEEDED;
+        if (p->rows[i].verdict != PLAN_RUNS)
+            continue;
+        p->alive |= l.need & st->gives;
+        p->rows[i].work = st->work(c, s);
+        if (!plan_keep(st, c, s, &l, e))
+            return false;
+    }
+    p->alive |= p->targets;
+    if (l.hard)
+        return err_set(e, ERR_SCENE, "contact '%s': nothing in this scene gives its %s%s%s", c->name, first_name(l.hard),
+                       l.by[__builtin_ctz(l.hard)] ? ", which is needed by " : "",
+                       l.by[__builtin_ctz(l.hard)] ? l.by[__builtin_ctz(l.hard)] : "");
+    return true;
+}
+
+/* ------------------------------------------------------------------ text */
+
+static void names_text(unsigned items, char *out, size_t size)
+{
+    out[0] = '\0';
+    for (int i = 0; i < ITEM_COUNT; i++)
+        if (items & ITEM_BIT(i))
+            snprintf(out + strlen(out), size - strlen(out), "%s%s", out[0] ? " " : "", plan_names[i]);
+}
+
+static void row_print(const struct plan *p, const struct plan_row *r, double whole, FILE *out)
+{
+    char from[200], to[200];
+    names_text((r->stage->needs | r->stage->takes) & p->alive, from, sizeof from);
+    names_text(r->stage->gives & p->alive, to, sizeof to);
+    fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * r->work / whole : 0, from, from[0] ? " " : "", to);
+    fprintf(out, "  %-20s          %s%s%s%s\n", "", r->stage->does, r->stage->paper[0] ? " [" : "", r->stage->paper,
+            r->stage->paper[0] ? "]" : "");
+}
+
+void plan_print(const struct plan *p, FILE *out)
+{
+    char targets[200];
+    double whole = 0;
+    names_text(p->targets, targets, sizeof targets);
+    for (int i = 0; i < p->n; i++)
+        whole += p->rows[i].work;
+    fprintf(out, "contact '%s': %s\n", p->contact->name, targets);
+    for (int i = 0; i < p->n; i++)
+        if (p->rows[i].verdict == PLAN_RUNS)
+            row_print(p, &p->rows[i], whole, out);
+    fprintf(out, "  about %.0f operations per audio sample\n", whole);
+    for (int i = 0; i < p->n; i++)
+        if (p->rows[i].verdict == PLAN_UNWANTED)
+            fprintf(out, "  not run: %-20s %s\n", p->rows[i].stage->name, p->rows[i].stage->idle);
+        else if (p->rows[i].verdict == PLAN_UNNEEDED)
+            fprintf(out, "  not run: %-20s nothing that is asked for needs it\n", p->rows[i].stage->name);
+}

@@ -1,0 +1,39 @@
+/* Which stages a contact runs: those the scene wants and whose results something later needs. */
+#ifndef PIPELINE_PLAN_H
+#define PIPELINE_PLAN_H
+#include <stdio.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+#include "stage.h"
+
+enum plan_verdict { PLAN_RUNS, PLAN_UNWANTED, PLAN_UNNEEDED };
+
+struct plan_row {
+    const struct stage *stage;
+    enum plan_verdict verdict;
+    double work;              /* predicted operations per audio sample */
+};
+
+struct plan {
+    const struct contact *contact;
+    unsigned targets, alive;  /* items asked for; items that something reads */
+    int n;
+    struct plan_row *rows;    /* one per stage of the table, in its order    */
+};
+
+/* What a scene asks of a contact: its sound when it has a response, rows of diagnostics when they are asked for. */
+unsigned plan_targets(const struct contact *c, const struct scene *s);
+
+/* Walks the table (ends with NULL) backwards from the targets, a compiler's liveness analysis. ERR_SCENE: nothing gives an item that is
+   needed; two stages give it; nothing is asked for. */
+bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a, struct plan *p,
+               struct err *e);
+
+/* The plan as text: what runs, from what to what, at what share of the predicted cost; what does not run, and why not. */
+void plan_print(const struct plan *p, FILE *out);
+
+/* "an item", for messages. */
+const char *plan_item(enum item item);
+
+#endif

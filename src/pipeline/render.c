@@ -1,0 +1,216 @@
+#include "pipeline/render.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "base/interrupt.h"
+#include "base/outfile.h"
+#include "base/stopwatch.h"
+#include "output/force_table.h"
+#include "pipeline/stages.h"
+#include "pipeline/summary.h"
+#include "scene/scene_write.h"
+#include "trajectory/trajectory.h"
+
+struct part {                /* one contact at work */
+    struct plan plan;
+    struct run run;
+    long start;              /* frame of the scene at which it begins */
+    bool open;
+    struct outfile csv;
+    struct table_sink sink;
+    char *csv_path;
+};
+
+struct render {
+    const struct scene *scene;
+    const char *base;
+    struct arena *arena;
+    struct part *parts;
+    bool sounds;
+    long frames;
+    struct sound *sound;
+    char *wav_path, *scene_path, *summary_path;
+    struct outfile effective, summary;
+    struct render_report *report;
+};
+
+static bool render_pins(const struct scene *s, struct err *e)
+{
+    for (int i = 0; i < s->n_inputs; i++) {
+        char hex[HASH_TEXT];
+        if (!s->inputs[i].sha256)
+            continue;
+        if (!hash_file(s->inputs[i].file, hex, e))
+            return false;
+        if (strcmp(hex, s->inputs[i].sha256) != 0)
+            return err_set(e, ERR_SCENE,
+                           "%s: this is not the file the scene was made with (sha256 %.12s..., expected %.12s...); restore it, or take its "
+                           "entry out of `inputs`",
+                           s->inputs[i].file, hex, s->inputs[i].sha256);
+    }
+    return true;
+}
+
+static bool render_plans(struct render *r, struct err *e)
+{
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        struct part *p = &r->parts[i];
+        if (!plan_make(stages_table, &r->scene->contacts[i], r->scene, r->arena, &p->plan, e))
+            return false;
+        r->sounds = r->sounds || p->plan.targets & ITEM_BIT(ITEM_SOUND);
+        p->start = (long)rint(r->scene->contacts[i].start * r->scene->output.sample_rate);
+    }
+    return true;
+}
+
+/* Opens the tables, so that the stages can write their headers, then the stages. */
+static bool render_runs(struct render *r, struct err *e)
+{
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        struct part *p = &r->parts[i];
+        bool several = r->scene->n_contacts > 1;
+        p->csv_path = arena_format(r->arena, several ? "%s.%s.csv" : "%s.csv", r->base, p->plan.contact->name);
+        if (p->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&p->csv, p->csv_path, e))
+            return false;
+        p->sink.stream = p->csv.stream;
+        if (!run_open(&p->run, &p->plan, r->scene, &p->sink, e))
+            return false;
+        p->open = true;
+    }
+    return true;
+}
+
+/* Length of the whole: the last motion's end and the tail. */
+static void render_length(struct render *r)
+{
+    double tail = r->scene->output.tail, ring = 0, rate = r->scene->output.sample_rate;
+    long end = 0;
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        struct part *p = &r->parts[i];
+        end = p->start + p->run.board.moving > end ? p->start + p->run.board.moving : end;
+        ring = fmax(ring, p->run.board.ring);
+    }
+    r->frames = end + (r->sounds ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
+}
+
+static bool render_open(struct render *r, struct err *e)
+{
+    r->wav_path = arena_format(r->arena, "%s.wav", r->base);
+    r->scene_path = arena_format(r->arena, "%s.scene.yaml", r->base);
+    r->summary_path = arena_format(r->arena, "%s.json", r->base);
+    if (!render_pins(r->scene, e) || !render_plans(r, e) || !outfile_open(&r->effective, r->scene_path, e) ||
+        !outfile_open(&r->summary, r->summary_path, e) || !render_runs(r, e))
+        return false;
+    render_length(r);
+    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->frames, r->arena, e)))
+        return false;
+    return true;
+}
+
+/* One contact's share of the frames [from, to). */
+static bool part_block(struct part *p, long from, long to, double *mix, struct err *e)
+{
+    long begin = from - p->start > 0 ? from - p->start : 0, end = to - p->start;
+    if (end <= begin)
+        return true;
+    if (!run_block(&p->run, end, e))
+        return false;
+    if (!board_has(&p->run.board, ITEM_SOUND))
+        return true;
+    const double *x = board_at(&p->run.board, ITEM_SOUND, begin);
+    for (long n = begin; n < end; n++)
+        mix[n + p->start - from] += x[n - begin];
+    return true;
+}
+
+static bool render_blocks(struct render *r, struct err *e)
+{
+    double mix[STAGE_BLOCK];
+    for (long from = 0; from < r->frames; from += STAGE_BLOCK) {
+        long to = from + STAGE_BLOCK < r->frames ? from + STAGE_BLOCK : r->frames;
+        memset(mix, 0, sizeof mix);
+        if (interrupt_seen())
+            return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+        for (int i = 0; i < r->scene->n_contacts; i++)
+            if (!part_block(&r->parts[i], from, to, mix, e))
+                return false;
+        if (r->sound && !sound_add(r->sound, mix, to - from, e))
+            return false;
+    }
+    return true;
+}
+
+static const char *folder_of(const char *path, struct arena *a)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? arena_format(a, "%.*s", slash == path ? 1 : (int)(slash - path), path) : ".";
+}
+
+static bool render_finish(struct render *r, double start[2], struct err *e)
+{
+    struct render_report *report = r->report;
+    if (r->sound && !sound_finish(r->sound, &report->sound, e))
+        return false;
+    report->frames = r->frames;
+    report->sounds = r->sounds;
+    report->seconds = stopwatch_wall() - start[0];
+    report->cpu = stopwatch_cpu() - start[1];
+    const struct run **runs = ARENA_TAKE(r->arena, const struct run *, r->scene->n_contacts);
+    for (int i = 0; i < r->scene->n_contacts; i++)
+        runs[i] = &r->parts[i].run;
+    summary_warnings(r->scene, runs, report, r->arena);
+    report->summary = summary_text(r->scene, runs, report, r->arena);
+    fputs(scene_write(r->scene, folder_of(r->scene_path, r->arena), r->arena), r->effective.stream);
+    fputs(report->summary, r->summary.stream);
+    return true;
+}
+
+static void report_file(struct render *r, const char *kind, const char *path)
+{
+    r->report->files[r->report->n_files++] = (struct render_file){kind, path};
+}
+
+static bool render_commit(struct render *r, struct err *e)
+{
+    r->report->files = ARENA_TAKE(r->arena, struct render_file, r->scene->n_contacts + 3);
+    for (int i = 0; i < r->scene->n_contacts; i++)
+        if (r->parts[i].csv.stream) {
+            if (!outfile_commit(&r->parts[i].csv, e))
+                return false;
+            report_file(r, "csv", r->parts[i].csv_path);
+        }
+    if (!outfile_commit(&r->effective, e) || !outfile_commit(&r->summary, e) || (r->sound && !sound_commit(r->sound, e)))
+        return false;
+    report_file(r, "scene", r->scene_path);
+    report_file(r, "summary", r->summary_path);
+    if (r->sounds)
+        report_file(r, "wav", r->wav_path);
+    return true;
+}
+
+static void render_close(struct render *r)
+{
+    sound_drop(r->sound);
+    outfile_drop(&r->effective);
+    outfile_drop(&r->summary);
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        outfile_drop(&r->parts[i].csv);
+        if (r->parts[i].open)
+            run_close(&r->parts[i].run);
+    }
+}
+
+bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e)
+{
+    double start[2] = {stopwatch_wall(), stopwatch_cpu()};
+    struct render r = {.scene = s, .base = base, .arena = a, .report = report, .parts = ARENA_TAKE(a, struct part, s->n_contacts)};
+    *report = (struct render_report){0};
+    for (int i = 0; i < s->n_contacts; i++)
+        r.parts[i].csv.fd = -1;
+    r.effective.fd = r.summary.fd = -1;
+    bool ok = render_open(&r, e) && render_blocks(&r, e) && render_finish(&r, start, e) && render_commit(&r, e);
+    render_close(&r);
+    return ok;
+}

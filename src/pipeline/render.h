@@ -1,0 +1,29 @@
+/* A scene into its files. */
+#ifndef PIPELINE_RENDER_H
+#define PIPELINE_RENDER_H
+#include "base/arena.h"
+#include "base/err.h"
+#include "output/sound.h"
+#include "pipeline/run.h"
+
+struct render_file {
+    const char *kind, *path; /* "wav", "csv", "scene", "summary" */
+};
+
+struct render_report {
+    long frames;
+    double seconds, cpu;           /* wall clock and CPU time of the whole render */
+    struct sound_report sound;
+    bool sounds;                   /* there is a WAV */
+    struct render_file *files;
+    int n_files;
+    const char *summary;           /* the JSON text */
+    const char *warnings[32];
+    int n_warnings;
+};
+
+/* Renders to BASE.wav (if anything sounds), BASE.csv or BASE.CONTACT.csv (diagnostics), BASE.scene.yaml (the effective scene) and BASE.json
+   (the summary). Nothing has a name before everything is complete. */
+bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e);
+
+#endif

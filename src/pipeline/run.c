@@ -1,0 +1,159 @@
+/* The runner. Stage k reads up to ahead_k frames beyond those it makes, so whatever makes its inputs must lead it by that much:
+
+     offset(stage) = max over later stages c that read what it gives of offset(c) + ahead(c)
+
+   and each call of run_block(to) runs every stage, in the order of the plan, up to frame to + offset. A signal holds the frames from
+   offset(giver) back to the slowest reader's first. Every item that is given is checked to be finite. */
+#include "pipeline/run.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/stopwatch.h"
+
+static unsigned reads(const struct stage_run *r)
+{
+    return r->stage->needs | r->stage->takes | (r->stage->asks ? r->stage->asks(r->contact, r->scene) : 0);
+}
+
+static void run_offsets(struct run *r)
+{
+    for (int i = r->n - 1; i >= 0; i--)
+        for (int k = i + 1; k < r->n; k++)
+            if (reads(&r->stages[k]) & r->stages[i].stage->gives) {
+                long lead = r->stages[k].offset + r->stages[k].ahead;
+                r->stages[i].offset = lead > r->stages[i].offset ? lead : r->stages[i].offset;
+            }
+}
+
+static int item_per_frame(const struct board *b, enum item item)
+{
+    if (item == ITEM_SURFACE || item == ITEM_TABLE)
+        return 0;
+    return item < ITEM_FORCE ? b->over : 1;
+}
+
+/* Frames that a signal must hold: from the first that the slowest reader looks back to, to the end of its giver's block. */
+static void run_signal(struct run *r, enum item item)
+{
+    struct signal *s = &r->board.signals[item];
+    long lead = 0, behind = 0;
+    int per_frame = item_per_frame(&r->board, item);
+    if (!(r->plan.alive & ITEM_BIT(item)) || !per_frame)
+        return;
+    for (int i = 0; i < r->n; i++) {
+        const struct stage_run *st = &r->stages[i];
+        if (st->stage->gives & ITEM_BIT(item) && st->offset > lead)
+            lead = st->offset;
+        if (reads(st) & ITEM_BIT(item) && st->back - st->offset > behind)
+            behind = st->back - st->offset;
+    }
+    s->per_frame = per_frame;
+    s->first = -behind;
+    s->capacity = behind + 2 * STAGE_BLOCK + lead + 1;
+    s->x = ARENA_TAKE(r->arena, double, s->capacity * per_frame + 8);
+}
+
+static bool run_open_stages(struct run *r, struct err *e)
+{
+    for (int i = 0; i < r->plan.n; i++) {
+        const struct stage *st = r->plan.rows[i].stage;
+        if (r->plan.rows[i].verdict != PLAN_RUNS)
+            continue;
+        struct stage_run *one = &r->stages[r->n];
+        *one = (struct stage_run){.stage = st, .scene = r->scene, .contact = r->plan.contact, .board = &r->board, .arena = r->arena};
+        size_t before = arena_bytes(r->arena);
+        double start = stopwatch_cpu();
+        r->n++;
+        if (!st->open(one, e))
+            return false;
+        one->seconds = stopwatch_cpu() - start;
+        one->bytes = arena_bytes(r->arena) - before;
+    }
+    return true;
+}
+
+bool run_open(struct run *r, const struct plan *p, const struct scene *s, struct table_sink *table, struct err *e)
+{
+    *r = (struct run){.scene = s, .plan = *p, .arena = arena_open()};
+    r->board = (struct board){.rate = s->output.sample_rate, .over = (int)s->accuracy.oversampling, .alive = p->alive, .quantity = -1,
+                              .table = table};
+    r->stages = ARENA_TAKE(r->arena, struct stage_run, p->n);
+    if (!run_open_stages(r, e)) {
+        run_close(r);
+        return false;
+    }
+    run_offsets(r);
+    for (int i = 0; i < ITEM_COUNT; i++)
+        run_signal(r, (enum item)i);
+    return true;
+}
+
+/* Makes room for frames up to `end` by dropping the oldest. */
+static void signal_slide(struct signal *s, long end)
+{
+    long drop = end - (s->first + s->capacity);
+    if (!s->per_frame || drop <= 0)
+        return;
+    size_t gone = (size_t)(drop * s->per_frame), all = (size_t)(s->capacity * s->per_frame);
+    memmove(s->x, s->x + gone, (all - gone) * sizeof *s->x);
+    memset(s->x + (all - gone), 0, gone * sizeof *s->x);
+    s->first += drop;
+}
+
+static bool run_finite(const struct stage_run *r, long from, long to, struct err *e)
+{
+    for (int item = 0; item < ITEM_COUNT; item++) {
+        const struct signal *s = &r->board->signals[item];
+        if (!(r->stage->gives & ITEM_BIT(item)) || !s->per_frame)
+            continue;
+        const double *x = board_at(r->board, (enum item)item, from);
+        double sum = 0; /* stays 0 unless some x is not finite */
+#pragma omp simd reduction(+ : sum)
+        for (long i = 0; i < (to - from) * s->per_frame; i++)
+            sum += x[i] * 0;
+        if (sum != 0)
+            return err_set(e, ERR_NUMBERS, "contact '%s': stage '%s' made a %s that is not finite, at about %.6g s", r->contact->name,
+                           r->stage->name, plan_item((enum item)item), (double)from / r->board->rate);
+    }
+    return true;
+}
+
+static bool stage_block(struct stage_run *st, long to, struct err *e)
+{
+    while (st->done < to) {
+        long end = st->done + STAGE_BLOCK < to ? st->done + STAGE_BLOCK : to;
+        for (int i = 0; i < ITEM_COUNT; i++)
+            if (st->stage->gives & ITEM_BIT(i) && !(st->stage->needs & ITEM_BIT(i)))
+                signal_slide(&st->board->signals[i], end + 1);
+        double start = stopwatch_cpu();
+        if (!st->stage->run(st, st->done, end, e))
+            return false;
+        st->seconds += stopwatch_cpu() - start;
+        st->blocks++;
+        if (!run_finite(st, st->done, end, e))
+            return false;
+        st->done = end;
+    }
+    return true;
+}
+
+bool run_block(struct run *r, long to, struct err *e)
+{
+    for (int i = 0; i < r->n; i++) {
+        struct stage_run *st = &r->stages[i];
+        if (st->stage->run && !stage_block(st, to + st->offset, e))
+            return false;
+    }
+    return true;
+}
+
+void run_close(struct run *r)
+{
+    for (int i = r->n - 1; i >= 0; i--)
+        if (r->stages[i].stage->close)
+            r->stages[i].stage->close(&r->stages[i]);
+    arena_close(r->arena);
+    r->arena = NULL;
+    r->n = 0;
+}

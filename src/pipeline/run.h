@@ -1,0 +1,23 @@
+/* Runs the plan of one contact, block by block: memory does not grow with duration. */
+#ifndef PIPELINE_RUN_H
+#define PIPELINE_RUN_H
+#include "pipeline/plan.h"
+
+struct run {
+    const struct scene *scene;
+    struct plan plan;
+    struct arena *arena;
+    struct board board;
+    struct stage_run *stages; /* those of the plan, in order */
+    int n;
+};
+
+/* Opens the plan's stages and lays out the board; the first error closes what was opened. */
+bool run_open(struct run *r, const struct plan *p, const struct scene *s, struct table_sink *table, struct err *e);
+
+/* Frames [run so far, to): the sound is then on the board as ITEM_SOUND (if the plan has it). At most STAGE_BLOCK frames a call. */
+bool run_block(struct run *r, long to, struct err *e);
+
+void run_close(struct run *r);
+
+#endif

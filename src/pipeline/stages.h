@@ -1,0 +1,13 @@
+/* The table of all stages. */
+#ifndef PIPELINE_STAGES_H
+#define PIPELINE_STAGES_H
+#include "stage.h"
+
+#define STAGE(name) extern const struct stage name##_stage;
+#include "pipeline/stages.def"
+#undef STAGE
+
+/* Ends with NULL. */
+extern const struct stage *const stages_table[];
+
+#endif

@@ -1,0 +1,95 @@
+#include "pipeline/summary.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "num/real.h"
+#include "response/modes.h"
+#include "trajectory/load.h"
+
+static void warn(struct render_report *report, const char *text)
+{
+    if (report->n_warnings < (int)(sizeof report->warnings / sizeof report->warnings[0]))
+        report->warnings[report->n_warnings++] = text;
+}
+
+void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
+{
+    for (int i = 0; i < s->n_contacts; i++) {
+        const struct board *b = &runs[i]->board;
+        for (int k = 0; k < b->n_warnings; k++)
+            warn(report, b->warnings[k]);
+        if (b->lifted > 0)
+            warn(report, arena_format(a, "contact '%s': the hand lifts the scraper off for %.4g s in all (negative normal force); no force then",
+                                      s->contacts[i].name, b->lifted));
+    }
+    if (report->sounds && report->sound.silent)
+        warn(report, "the sound is silent: no level was set");
+}
+
+/* A number, or null for one that is not finite. */
+static json_t *number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
+}
+
+static double decibel(double x)
+{
+    return x > 0 ? 20 * real_log10(x) : -HUGE_VAL;
+}
+
+static json_t *sound_json(const struct scene *s, const struct run *const *runs, const struct render_report *report)
+{
+    static const char *const units[] = {"m", "m/s", "m/s^2"};
+    const struct sound_report *o = &report->sound;
+    int quantity = -1;
+    for (int i = 0; i < s->n_contacts; i++)
+        quantity = runs[i]->board.quantity >= 0 ? runs[i]->board.quantity : quantity;
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit", quantity >= 0 ? units[quantity] : "the impulse response's", "peak",
+                     number(o->peak), "rms", number(o->rms), "gain", number(o->gain), "gain_db", number(decibel(o->gain)), "peak_dbfs",
+                     number(decibel(o->gain * o->peak)), "rms_dbfs", number(decibel(o->gain * o->rms)), "silent", o->silent);
+}
+
+static json_t *stages_json(const struct run *run, double cpu)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < run->n; i++) {
+        const struct stage_run *st = &run->stages[i];
+        json_array_append_new(all, json_pack("{s:s, s:o, s:o, s:I, s:I}", "stage", st->stage->name, "cpu_s", number(st->seconds), "share",
+                                             number(cpu > 0 ? st->seconds / cpu : 0), "blocks", (json_int_t)st->blocks, "bytes",
+                                             (json_int_t)st->bytes));
+    }
+    return all;
+}
+
+static json_t *contact_json(const struct run *run, double cpu)
+{
+    const struct board *b = &run->board;
+    json_t *c = json_pack("{s:s, s:o, s:o}", "name", run->plan.contact->name, "lifted_off_s", number(b->lifted), "stages",
+                          stages_json(run, cpu));
+    if (b->load)
+        json_object_set_new(c, "normal_force_n", json_pack("[o, o]", number(b->load->least), number(b->load->most)));
+    return c;
+}
+
+const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, struct arena *a)
+{
+    double duration = (double)report->frames / s->output.sample_rate;
+    json_t *contacts = json_array(), *remarks = json_array();
+    for (int i = 0; i < s->n_contacts; i++)
+        json_array_append_new(contacts, contact_json(runs[i], report->cpu));
+    for (int i = 0; i < report->n_warnings; i++)
+        json_array_append_new(remarks, json_string(report->warnings[i]));
+    json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
+                              (json_int_t)report->frames, "sample_rate_hz", number(s->output.sample_rate), "duration_s", number(duration),
+                              "wall_s", number(report->seconds), "cpu_s", number(report->cpu), "real_time_factor",
+                              number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks);
+    if (report->sounds)
+        json_object_set_new(whole, "sound", sound_json(s, runs, report));
+    char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);
+    const char *kept = arena_format(a, "%s\n", text ? text : "{}");
+    free(text);
+    json_decref(whole);
+    return kept;
+}

@@ -1,0 +1,12 @@
+/* What a render has to say: remarks, and the JSON beside the WAV. */
+#ifndef PIPELINE_SUMMARY_H
+#define PIPELINE_SUMMARY_H
+#include "pipeline/render.h"
+
+/* Gathers the runs' remarks, and those on the whole. */
+void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a);
+
+/* JSON: sound, level, cost per stage, remarks. Times make it differ from run to run; nothing in it reaches a sample. */
+const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, struct arena *a);
+
+#endif

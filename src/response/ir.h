@@ -1,0 +1,33 @@
+/* An impulse response as samples: read from a WAV, or sampled from modes. In both, h is ready for convolution/overlap_add.h:
+   scaled by 1/rate, its first sample half of h(0+) (plus the direct term of an acceleration table), so that y = sum h[n - m] f[m]
+   is in the response's quantity for f in newtons. See ir.c. */
+#ifndef RESPONSE_IR_H
+#define RESPONSE_IR_H
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+#include "response/modes.h"
+
+struct ir {
+    size_t length;
+    double *h; /* [length], quantity per newton and sample */
+};
+
+/* Number of samples n with n/rate < t0 (t0 > 0, s), at least 1. */
+size_t ir_length(double rate, double t0);
+
+/* A mono WAV: sample value x[n] is the response at t = n/rate in its quantity per N s, as it stands (nothing is rescaled), the first one
+   h(0+). Cut to t < t0 (s); NAN: whole. Errors: as wav_read; ERR_SCENE when its rate is not `rate` (Hz), when it is not mono, or
+   silent before t0. */
+bool ir_read(const char *path, double rate, double t0, struct arena *a, struct ir *ir, struct err *e);
+
+/* Samples modes into impulse responses at that rate (Hz); every mode must lie below rate/2 (modes_drop_above). */
+struct ir_sampler;
+struct ir_sampler *ir_sampler_make(struct arena *a, const struct modes *m, double rate);
+
+/* The response h[length] of complex gains [n] (as from modes_gains_at). Absolute error <= 1e-12 sum |gain| / rate up to 1e5 samples. */
+void ir_sample(struct ir_sampler *s, const double *gain_re, const double *gain_im, double *h, size_t length);
+
+#endif

@@ -1,0 +1,83 @@
+/* keys.def, choices.def and accuracy.def as tables. */
+#include "scene/keys.h"
+
+#include <string.h>
+
+#include "scene/scene.h"
+
+#define CHOICES(name) static const struct choice words_##name[] = {
+#define CHOICE(name, word, meaning) {word, meaning},
+#define CHOICES_END {NULL, NULL}};
+#include "scene/choices.def"
+#undef CHOICES
+#undef CHOICE
+#undef CHOICES_END
+
+#define OFFSET_SCENE(field) offsetof(struct scene, field)
+#define OFFSET_CONTACT(field) offsetof(struct contact, field)
+#define TYPE_NUMBER .type = KEY_NUMBER
+#define TYPE_WHOLE .type = KEY_WHOLE
+#define TYPE_TIME_OR_AUTO .type = KEY_TIME_OR_AUTO
+#define TYPE_COUNT .type = KEY_COUNT
+#define TYPE_SEED .type = KEY_SEED
+#define TYPE_TEXT .type = KEY_TEXT
+#define TYPE_FILE .type = KEY_FILE
+#define TYPE_POINT .type = KEY_POINT
+#define TYPE_RANGE .type = KEY_RANGE
+#define TYPE_LIST .type = KEY_LIST
+#define TYPE_CHOICE(name) .type = KEY_CHOICE, .choices = words_##name
+#define TYPE_CHOICE_MOTION_PATH TYPE_CHOICE(MOTION_PATH)
+#define TYPE_CHOICE_SPEED_LAW TYPE_CHOICE(SPEED_LAW)
+#define TYPE_CHOICE_ALONG TYPE_CHOICE(ALONG)
+#define TYPE_CHOICE_OFF_MAP TYPE_CHOICE(OFF_MAP)
+#define TYPE_CHOICE_CONTACT_KIND TYPE_CHOICE(CONTACT_KIND)
+#define TYPE_CHOICE_FORCE_KIND TYPE_CHOICE(FORCE_KIND)
+#define TYPE_CHOICE_LIMITER_CURVE TYPE_CHOICE(LIMITER_CURVE)
+#define TYPE_CHOICE_ENGINE TYPE_CHOICE(ENGINE)
+#define TYPE_CHOICE_EXTRAPOLATE TYPE_CHOICE(EXTRAPOLATE)
+#define TYPE_CHOICE_ENCODING TYPE_CHOICE(ENCODING)
+
+#define KEY(owner, field, where, kind, unit, lowest, highest, preset, when, text) \
+    {.of = KEY_##owner, .offset = OFFSET_##owner(field), .path = where, TYPE_##kind, .dimension = KEY_##unit, \
+     .low = lowest, .high = highest, .standard = preset, .applies = when, .meaning = text},
+#define SECTION(...)
+#define ALTERNATIVE(...)
+const struct key keys_table[] = {
+#include "scene/keys.def"
+    {.path = NULL}};
+#undef KEY
+#undef SECTION
+#undef ALTERNATIVE
+
+#define KEY(...)
+#define SECTION(owner, field, where, text) \
+    {.of = KEY_##owner, .offset = OFFSET_##owner(field.given), .path = where, .meaning = text},
+#define ALTERNATIVE(...)
+const struct key_section keys_sections[] = {
+#include "scene/keys.def"
+    {.path = NULL}};
+#undef SECTION
+#undef ALTERNATIVE
+
+#define SECTION(...)
+#define ALTERNATIVE(n, ...) {.least = n, .paths = {__VA_ARGS__}},
+const struct key_alternative keys_alternatives[] = {
+#include "scene/keys.def"
+    {.paths = {NULL}}};
+
+#define KNOB(knob, lowest, highest, integer, draft, standard, best, reference, text) \
+    {.name = #knob, .low = lowest, .high = highest, .whole = integer, .preset = {draft, standard, best, reference}, \
+     .offset = offsetof(struct accuracy, knob), .meaning = text},
+const struct key_knob keys_knobs[] = {
+#include "scene/accuracy.def"
+    {.name = NULL}};
+
+const char *const keys_presets[5] = {"draft", "standard", "high", "reference", NULL};
+
+const struct key *keys_find(const char *path)
+{
+    for (const struct key *k = keys_table; k->path; k++)
+        if (strcmp(k->path, path) == 0)
+            return k;
+    return NULL;
+}

@@ -1,0 +1,71 @@
+/* The rows of keys.def and choices.def as tables, for the reader, the effective scene, `explain`, `new` and the man page. */
+#ifndef SCENE_KEYS_H
+#define SCENE_KEYS_H
+#include <stddef.h>
+
+enum key_struct { KEY_SCENE, KEY_CONTACT };
+enum key_type {
+    KEY_NUMBER,        /* double, NAN when not given                      */
+    KEY_WHOLE,         /* double that must be a whole number              */
+    KEY_TIME_OR_AUTO,  /* double, NAN for the word auto                   */
+    KEY_COUNT,         /* int                                             */
+    KEY_SEED,          /* uint64_t                                        */
+    KEY_TEXT,          /* const char *, NULL when not given               */
+    KEY_FILE,          /* const char *, resolved path                     */
+    KEY_POINT,         /* double[2]                                       */
+    KEY_RANGE,         /* double[2], first < second, NAN when not given   */
+    KEY_LIST,          /* const char **, NULL-terminated; NULL not given  */
+    KEY_CHOICE         /* int, index into choices                         */
+};
+enum key_dimension {
+    KEY_NONE, KEY_LENGTH, KEY_TIME, KEY_FREQUENCY, KEY_MASS, KEY_FORCE, KEY_SPEED, KEY_ACCELERATION, KEY_ANGLE, KEY_DECIBEL,
+    KEY_LUFS, KEY_FORCE_COEFFICIENT, KEY_OUTPUT
+};
+
+struct choice {
+    const char *word, *meaning; /* a table ends with word NULL */
+};
+
+struct key {
+    enum key_struct of;
+    size_t offset;              /* of the field in struct scene or struct contact */
+    const char *path;
+    enum key_type type;
+    enum key_dimension dimension;
+    double low, high;
+    const char *standard;       /* the default; NULL: must be given; "": may be left out */
+    const char *applies;        /* "key=word" or NULL */
+    const char *meaning;
+    const struct choice *choices;
+};
+
+struct key_section {
+    enum key_struct of;
+    size_t offset;              /* of its bool */
+    const char *path, *meaning;
+};
+
+struct key_alternative {
+    int least;
+    const char *paths[5];       /* ends with NULL */
+};
+
+struct key_knob {
+    const char *name;
+    double low, high;
+    int whole;
+    double preset[4];           /* draft, standard, high, reference */
+    size_t offset;              /* of its double in struct accuracy */
+    const char *meaning;
+};
+
+/* Tables end with a NULL path (name). */
+extern const struct key keys_table[];
+extern const struct key_section keys_sections[];
+extern const struct key_alternative keys_alternatives[]; /* ends with paths[0] NULL */
+extern const struct key_knob keys_knobs[];
+extern const char *const keys_presets[5];                /* ends with NULL */
+
+const struct key *keys_find(const char *path);
+
+#endif

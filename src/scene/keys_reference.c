@@ -1,0 +1,159 @@
+/* See keys_reference.h. From the tables come keys, defaults, ranges, meanings; only what has no default is shown by an example from here.
+   A key is commented out when it stands for something else than the scene shows: a rival of a key that is given, a section that is not,
+   or a key that does not apply. */
+#include "scene/keys_reference.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "scene/keys_text.h"
+#include "scene/keys_yaml.h"
+
+static const struct {
+    const char *path, *value;
+    bool off;
+} examples[] = {
+    {"rasp", "1", false},
+    {"title", "\"a tool scraped back and forth on a rough plank\"", false},
+    {"surface.height_map", "plank.npy", true},
+    {"surface.pitch", "5 um", true},
+    {"surface.response", "plank.csv", true},
+    {"scraper.mass", "20 g", false},
+    {"scraper.response", "tool.csv", true},
+    {"motion.path", "back_and_forth", false},
+    {"motion.to", "[4.5 cm, 0 cm]", false},
+    {"motion.rate", "2 Hz", false},
+    {"motion.speed", "10 cm/s", true},
+    {"motion.duration", "2 s", false},
+    {"load.constant", "1.5 N", true},
+    {"contact.limiter.force_range", "[0.2 N, 5 N]", true},
+    {"output.level.full_scale", "0.01", true},
+    {"output.level.peak", "-3 dB", true},
+    {"output.level.rms", "-20 dB", true},
+    {"output.level.lufs", "-23 LUFS", true},
+    {"output.diagnostics.columns", "[time_s, speed_m_per_s, normal_force_n]", true},
+    {NULL, NULL, false},
+};
+
+static const char *const sections_off[] = {"grip", NULL};
+
+static const char head[] =
+    "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"
+    "# A line that begins with #key: is an alternative or may be left out; remove the # to use it.\n"
+    "# A bare number is in SI units (m, s, kg, N, Hz, rad); with a unit it is what the unit says: 20 g, 5.6 um, 30 deg.\n"
+    "\n";
+
+static const char tail[] =
+    "\n"
+    "# Several contacts, whose sounds add up, stand in a list instead of at the top level:\n"
+    "#contacts:\n"
+    "#  - name: rod\n"
+    "#    surface: {roughness: {rms: 4 um}}\n"
+    "#    scraper: {mass: 20 g}\n"
+    "#    motion: {path: line, to: [10 cm, 0 cm], speed: 5 cm/s}\n"
+    "#  - name: comb\n"
+    "#    start: 0.5 s\n"
+    "#    surface: {roughness: {rms: 9 um}}\n"
+    "#    scraper: {mass: 8 g}\n"
+    "#    motion: {path: line, to: [10 cm, 0 cm], speed: 20 cm/s}\n"
+    "\n"
+    "# Scene files to build on: maps merge, lists are replaced, this file wins. Names are as seen from this file.\n"
+    "#include: [plank.yaml, hand.yaml]\n";
+
+static int example(const char *path)
+{
+    for (int i = 0; examples[i].path; i++)
+        if (!strcmp(examples[i].path, path))
+            return i;
+    return -1;
+}
+
+const char *keys_reference_example(const char *path)
+{
+    int i = example(path);
+    return i < 0 ? NULL : examples[i].value;
+}
+
+static const char *shown(const struct key *k)
+{
+    const char *value = keys_reference_example(k->path);
+    return value ? value : k->standard ? k->standard : "";
+}
+
+static bool applies(const struct key *k)
+{
+    const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
+    if (!equals)
+        return true;
+    for (const struct key *other = keys_table; other->path; other++)
+        if (!strncmp(other->path, k->applies, (size_t)(equals - k->applies)) && !other->path[equals - k->applies])
+            return !strcmp(shown(other), equals + 1);
+    return false;
+}
+
+static bool is_off(const struct key *k)
+{
+    int i = example(k->path);
+    for (const char *const *s = sections_off; *s; s++)
+        if (!strncmp(k->path, *s, strlen(*s)) && k->path[strlen(*s)] == '.')
+            return true;
+    return (i >= 0 && examples[i].off) || (i < 0 && k->standard && !*k->standard) || !applies(k);
+}
+
+static const char *rivals(const char *path, struct arena *a)
+{
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
+        for (int i = 0; t->paths[i]; i++)
+            if (!strcmp(t->paths[i], path))
+                return arena_format(a, "; %s", keys_text_rivals(t, a));
+    return "";
+}
+
+static const char *comment(const struct key *k, struct arena *a)
+{
+    const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a);
+    const char *all = arena_format(a, "%s%s%s%s%s%s", k->meaning, range ? "; " : "", range ? range : "", when ? "; only " : "",
+                                   when ? when : "", rivals(k->path, a));
+    for (const struct choice *c = k->choices; c && c->word; c++)
+        all = arena_format(a, "%s\n- %s: %s", all, c->word, c->meaning);
+    return all;
+}
+
+static const char *knob_comment(const struct key_knob *k, struct arena *a)
+{
+    const char *all = arena_format(a, "%s; %.6g to %.6g;", k->meaning, k->low, k->high);
+    for (int i = 0; i < 4; i++)
+        all = arena_format(a, "%s %s %s%s", all, keys_presets[i], keys_yaml_number(k->preset[i], a), i < 3 ? "," : "");
+    return all;
+}
+
+static void print_accuracy(FILE *f, struct arena *a)
+{
+    int n = 1, room = 1;
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        room++;
+    struct keys_line *lines = ARENA_TAKE(a, struct keys_line, room);
+    lines[0] = (struct keys_line){.path = "accuracy.preset", .value = "standard"};
+    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+        if (!strcmp(p->path, "accuracy.preset"))
+            lines[0].comment = p->meaning;
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        lines[n++] = (struct keys_line){.path = arena_format(a, "accuracy.%s", k->name),
+                                        .value = keys_yaml_number(k->preset[1], a),
+                                        .comment = knob_comment(k, a)};
+    keys_yaml_print(f, lines, n, &(struct keys_style){.comments = true});
+}
+
+void keys_reference_print(FILE *f, struct arena *a)
+{
+    int n = 0;
+    while (keys_table[n].path)
+        n++;
+    struct keys_line *lines = ARENA_TAKE(a, struct keys_line, n);
+    for (int i = 0; i < n; i++)
+        lines[i] = (struct keys_line){keys_table[i].path, shown(&keys_table[i]), comment(&keys_table[i], a), is_off(&keys_table[i])};
+    fputs(head, f);
+    keys_yaml_print(f, lines, n, &(struct keys_style){.comments = true});
+    print_accuracy(f, a);
+    fputs(tail, f);
+}

@@ -1,0 +1,34 @@
+/* What the key tables say, in words: for `rasp explain`, the reference scene and man rasp-scene(5). */
+#ifndef SCENE_KEYS_TEXT_H
+#define SCENE_KEYS_TEXT_H
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "base/arena.h"
+#include "scene/keys.h"
+
+/* Keys of a scene that are not rows of keys.def: they give the others their place. Ends with path NULL. */
+struct keys_text_frame {
+    const char *path, *type, *meaning;
+};
+extern const struct keys_text_frame keys_text_frames[];
+
+const char *keys_text_unit(enum key_dimension d);                         /* SI unit; "": none                        */
+const char *keys_text_type(const struct key *k);                          /* "length (a bare number is in m)"          */
+const char *keys_text_range(const struct key *k, struct arena *a);        /* "1 nm to 1 cm"; NULL: no range           */
+const char *keys_text_default(const struct key *k);                       /* "4 um", "must be given", "not given"     */
+const char *keys_text_applies(const struct key *k, struct arena *a);      /* "where motion.path is line"; NULL: always */
+const char *keys_text_rivals(const struct key_alternative *t, struct arena *a); /* "exactly one of a, b"             */
+bool keys_text_has(const struct key_alternative *t, const char *path);    /* is it, or the section it is in, a rival? */
+
+/* Every path a scene may use: keys, sections and the maps between them, knobs, frames. NULL-terminated, each once. */
+const char **keys_text_names(struct arena *a);
+/* The row for a path as written in a scene or after --set: "contacts.rod.motion.rate" is "motion.rate". */
+const char *keys_text_plain(const char *path);
+
+void keys_text_print_key(FILE *f, const struct key *k, struct arena *a);
+void keys_text_print_map(FILE *f, const char *path, struct arena *a); /* what a map holds: its keys, a line each   */
+void keys_text_print_knob(FILE *f, const struct key_knob *k, struct arena *a);
+void keys_text_print_accuracy(FILE *f, struct arena *a);              /* the table of presets                      */
+
+#endif

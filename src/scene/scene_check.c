@@ -1,0 +1,251 @@
+/* Missing keys, keys that do not apply, alternatives: see scene_check.h. */
+#include "scene/scene_check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/scene.h"
+#include "scene/scene_values.h"
+
+enum applies { APPLIES_NO, APPLIES_YES, APPLIES_UNKNOWN };
+
+static const char *label(const struct scene_part *p, const char *path)
+{
+    return arena_format(p->yaml->arena, "%s%s", p->prefix, path);
+}
+
+/* ------------------------------------------------------------------ does a key apply? */
+
+/* Unknown: the value that decides it is itself in error. */
+static enum applies applies(const struct scene_part *p, const struct key *k)
+{
+    char other[128];
+    if (!k->applies)
+        return APPLIES_YES;
+    size_t n = strcspn(k->applies, "=");
+    snprintf(other, sizeof other, "%.*s", (int)n, k->applies);
+    const struct key *decides = keys_find(other);
+    const struct yaml_node *node = yaml_find(p->map, other);
+    if (applies(p, decides) != APPLIES_YES)
+        return applies(p, decides);
+    if (!node && !decides->standard)
+        return APPLIES_UNKNOWN;
+    int i = node ? scene_values_choice(decides->choices, node) : -1;
+    if (node && i < 0)
+        return APPLIES_UNKNOWN;
+    return strcmp(node ? decides->choices[i].word : decides->standard, k->applies + n + 1) == 0 ? APPLIES_YES : APPLIES_NO;
+}
+
+static void not_applicable(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
+{
+    struct arena *a = p->yaml->arena;
+    int n = (int)strcspn(k->applies, "=");
+    const struct yaml_node *decides = yaml_find(p->map, arena_format(a, "%.*s", n, k->applies));
+    const char *now = decides ? arena_format(a, "it is %s", decides->text) : "it is not given";
+    diag_add(p->yaml->diag, node->key->at,
+             arena_format(a, "remove it, or set %s%.*s to %s (now %s)", p->prefix, n, k->applies, k->applies + n + 1, now),
+             "%s applies only where %s%.*s is %s", label(p, k->path), p->prefix, n, k->applies, k->applies + n + 1);
+}
+
+/* ------------------------------------------------------------------ what is missing */
+
+/* The innermost map on the way to the path; NULL: something that is not a map is in the way (and told elsewhere). */
+static const struct yaml_node *innermost(const struct scene_part *p, const char *path, const char **rest)
+{
+    const struct yaml_node *at = p->map;
+    *rest = path;
+    for (const char *dot = strchr(path, '.'); dot; dot = strchr(dot + 1, '.')) {
+        const struct yaml_node *next = yaml_find(p->map, arena_format(p->yaml->arena, "%.*s", (int)(dot - path), path));
+        if (!next)
+            break;
+        if (next->kind != YAML_MAP)
+            return NULL;
+        at = next;
+        *rest = dot + 1;
+    }
+    return at;
+}
+
+static struct diag_place place_of(const struct scene_part *p, const struct yaml_node *map)
+{
+    if (map->key)
+        return map->key->at;
+    if (*p->prefix)
+        return map->at;
+    return (struct diag_place){map->at.source, 1, 1, 0};
+}
+
+/* "rate: 2 Hz", or "motion: {rate: 2 Hz}" where there is no motion yet. */
+static const char *line_for(const struct scene_part *p, const char *rest, const char *value)
+{
+    const char *line = value;
+    char path[128];
+    snprintf(path, sizeof path, "%s", rest);
+    for (char *dot = strrchr(path, '.'); dot; dot = strrchr(path, '.')) {
+        line = arena_format(p->yaml->arena, "{%s: %s}", dot + 1, line);
+        *dot = '\0';
+    }
+    return arena_format(p->yaml->arena, "%s: %s", path, line);
+}
+
+static const char *add_cure(const struct scene_part *p, const char *rest, const char *path)
+{
+    const struct key *k = keys_find(path);
+    return arena_format(p->yaml->arena, "add for instance: %s", line_for(p, rest, k ? scene_values_example(p->yaml, k) : "{}"));
+}
+
+static void missing(const struct scene_part *p, const char *path)
+{
+    const char *rest;
+    const struct yaml_node *map = innermost(p, path, &rest);
+    if (map)
+        diag_add(p->yaml->diag, place_of(p, map), add_cure(p, rest, path), "%s is missing", label(p, path));
+}
+
+static bool in_absent_section(const struct scene_part *p, const char *path)
+{
+    for (const struct key_section *s = keys_sections; s->path; s++) {
+        size_t n = strlen(s->path);
+        if (strncmp(path, s->path, n) == 0 && path[n] == '.' && !yaml_find(p->map, s->path))
+            return true;
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------ keys */
+
+static void key_fill(const struct scene_part *p, const struct key *k)
+{
+    const struct yaml_node *node = yaml_find(p->map, k->path);
+    enum applies a = applies(p, k);
+    scene_values_clear(p, k);
+    if (node && a == APPLIES_NO)
+        not_applicable(p, k, node);
+    else if (node)
+        scene_values_read(p, k, node);
+    else if (a == APPLIES_YES && k->standard)
+        scene_values_default(p, k);
+    else if (a == APPLIES_YES && !in_absent_section(p, k->path))
+        missing(p, k->path);
+}
+
+/* ------------------------------------------------------------------ alternatives */
+
+static enum key_struct owner_of(const char *path)
+{
+    const struct key *k = keys_find(path);
+    for (const struct key_section *s = keys_sections; !k && s->path; s++)
+        if (strcmp(s->path, path) == 0)
+            return s->of;
+    return k ? k->of : KEY_CONTACT;
+}
+
+static enum applies path_applies(const struct scene_part *p, const char *path)
+{
+    const struct key *k = keys_find(path);
+    return k ? applies(p, k) : APPLIES_YES;
+}
+
+/* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */
+static bool before(const struct diag_place *a, const struct diag_place *b)
+{
+    const struct diag_source *of_a = a->source, *of_b = b->source;
+    if (of_a == of_b)
+        return a->line != b->line ? a->line < b->line : a->column < b->column;
+    if (of_a->option != of_b->option)
+        return of_b->option;
+    return of_a->option == (of_a->order < of_b->order);
+}
+
+static void both_given(const struct scene_part *p, const struct yaml_node *const nodes[2], const char *const names[2])
+{
+    bool swap = before(&nodes[1]->key->at, &nodes[0]->key->at);
+    const struct yaml_node *first = nodes[swap], *second = nodes[!swap];
+    const struct diag_source *other = first->key->at.source;
+    struct arena *a = p->yaml->arena;
+    const char *gone = label(p, names[swap]), *where = other->name;
+    if (!other->option)
+        where = arena_format(a, "%s line %d", where, first->key->at.line);
+    const char *cure = arena_format(a, "%s stands in %s; remove one of them", gone, where);
+    if (other != second->key->at.source)
+        cure = arena_format(a, "%s, or take that one away with %s: null", cure, gone);
+    diag_add(p->yaml->diag, second->key->at, cure, "%s and %s exclude each other", label(p, names[!swap]), gone);
+}
+
+/* The alternatives that could be given, in words. */
+static void none_given(const struct scene_part *p, const char *const *candidates, int n)
+{
+    const char *rest, *all = "";
+    const struct yaml_node *map = innermost(p, candidates[0], &rest);
+    if (n == 1) {
+        missing(p, candidates[0]);
+        return;
+    }
+    for (int i = 0; i < n; i++)
+        all = arena_format(p->yaml->arena, "%s%s%s", all, i == 0 ? "" : i == n - 1 ? " or " : ", ", label(p, candidates[i]));
+    if (map)
+        diag_add(p->yaml->diag, place_of(p, map), add_cure(p, rest, candidates[0]), "%s must be given", all);
+}
+
+static void alternative_check(const struct scene_part *p, const struct key_alternative *alternative)
+{
+    const char *candidates[5], *given[2] = {NULL, NULL};
+    const struct yaml_node *nodes[2] = {NULL, NULL};
+    int n = 0, n_given = 0;
+    for (int i = 0; alternative->paths[i]; i++) {
+        const char *path = alternative->paths[i];
+        enum applies a = path_applies(p, path);
+        const struct yaml_node *node = yaml_find(p->map, path);
+        if (a == APPLIES_UNKNOWN)
+            return;
+        if (a == APPLIES_YES)
+            candidates[n++] = path;
+        if (!node || a == APPLIES_NO)
+            continue;
+        nodes[n_given > 0] = node;
+        given[n_given > 0] = path;
+        if (++n_given > 1)
+            both_given(p, nodes, given);
+    }
+    if (n_given < alternative->least && n > 0)
+        none_given(p, candidates, n);
+}
+
+void scene_check_fill(const struct scene_part *p)
+{
+    for (const struct key *k = keys_table; k->path; k++)
+        if (k->of == p->of)
+            key_fill(p, k);
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (s->of == p->of)
+            *(bool *)((char *)p->to + s->offset) = yaml_find(p->map, s->path) != NULL;
+    for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++)
+        if (owner_of(x->paths[0]) == p->of)
+            alternative_check(p, x);
+}
+
+/* ------------------------------------------------------------------ values against each other */
+
+static void contradiction(const struct scene_part *p, const char *const paths[2], const char *says)
+{
+    const struct yaml_node *a = yaml_find(p->map, paths[0]), *b = yaml_find(p->map, paths[1]);
+    const struct yaml_node *at = a ? a : b;
+    const char *gap = a && b ? "" : " (the other is the default; give both)";
+    diag_add(p->yaml->diag, at ? at->at : place_of(p, p->map), NULL, "%s %s %s%s", label(p, paths[0]), says, label(p, paths[1]), gap);
+}
+
+void scene_check_contact(const struct scene_part *p)
+{
+    static const char *const ends[2] = {"motion.to", "motion.from"};
+    static const char *const alphas[2] = {"contact.limiter.alpha_min", "contact.limiter.alpha_max"};
+    static const char *const waves[2] = {"surface.roughness.shortest", "surface.roughness.longest"};
+    const struct contact *c = p->to;
+    const struct limiter *l = &c->contact.limiter;
+    const struct roughness *r = &c->surface.roughness;
+    if (c->motion.to[0] == c->motion.from[0] && c->motion.to[1] == c->motion.from[1])
+        contradiction(p, ends, "must differ from");
+    if (l->alpha_min > l->alpha_max)
+        contradiction(p, alphas, "must not be greater than");
+    if (r->given && r->shortest >= r->longest)
+        contradiction(p, waves, "must be less than");
+}

@@ -1,0 +1,99 @@
+/* Contacts: see scene_contacts.h. */
+#include "scene/scene_contacts.h"
+
+#include <string.h>
+
+#include "scene/keys.h"
+#include "scene/scene_check.h"
+#include "scene/scene_keys.h"
+#include "scene/scene_values.h"
+
+static bool is_name(const char *s)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
+    return *s && !(*s >= '0' && *s <= '9') && s[strspn(s, letters)] == '\0';
+}
+
+static const char *name_of(const struct yaml_node *map)
+{
+    const struct yaml_node *name = yaml_get(map, "name");
+    return name && name->kind == YAML_SCALAR ? name->text : NULL;
+}
+
+static void name_check(struct yaml *y, const struct yaml_node *map)
+{
+    const char *name = name_of(map);
+    if (name && *name && !is_name(name))
+        diag_add(y->diag, yaml_get(map, "name")->at, "write for instance: name: left_hand",
+                 "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'", diag_shown(y->diag, name));
+}
+
+static void contact_read(struct yaml *y, struct yaml_node *map, const char *prefix, struct contact *c)
+{
+    struct scene_part part = {y, map, prefix, KEY_CONTACT, c};
+    name_check(y, map);
+    scene_check_fill(&part);
+    scene_check_contact(&part);
+}
+
+static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)
+{
+    const char *name = name_of(map);
+    return name && is_name(name) ? arena_format(y->arena, "contacts.%s.", name) : arena_format(y->arena, "contacts.%d.", index);
+}
+
+/* Told at a contact whose name an earlier one has; a contact without a name is called "contact". */
+static void unique_check(struct yaml *y, const struct yaml_node *list, const struct yaml_node *map)
+{
+    const char *name = name_of(map);
+    for (const struct yaml_node *other = list->first; other != map; other = other->next) {
+        const char *taken = name_of(other);
+        if (other->kind != YAML_MAP || strcmp(taken ? taken : "contact", name ? name : "contact") != 0)
+            continue;
+        diag_add(y->diag, name ? yaml_get(map, "name")->at : map->at, "give each contact a name of its own, such as: name: left_hand",
+                 "two contacts are named '%s'", name ? diag_shown(y->diag, name) : "contact");
+        return;
+    }
+}
+
+static void entry_read(struct yaml *y, const struct yaml_node *list, struct yaml_node *map, struct contact *c)
+{
+    int index = 0;
+    for (const struct yaml_node *other = list->first; other != map; other = other->next)
+        index++;
+    const char *prefix = prefix_of(y, map, index);
+    if (map->kind != YAML_MAP) {
+        diag_add(y->diag, map->at, "write for instance: - name: left_hand", "an entry of contacts must be a map of keys, not %s",
+                 scene_values_kind(y, map));
+        return;
+    }
+    unique_check(y, list, map);
+    scene_keys_check(y, map, SCENE_KEYS_ENTRY, prefix);
+    contact_read(y, map, prefix, c);
+}
+
+static void list_read(struct yaml *y, struct yaml_node *list, struct scene *s)
+{
+    if (list->kind != YAML_LIST || list->n == 0 || list->n > 1000) {
+        diag_add(y->diag, list->at, "write each contact as an entry: - name: left_hand",
+                 "contacts must be a list of 1 to 1000 contacts, not %s",
+                 list->kind == YAML_LIST ? arena_format(y->arena, "of %d", list->n) : scene_values_kind(y, list));
+        return;
+    }
+    s->contacts = ARENA_TAKE(y->arena, struct contact, list->n);
+    for (struct yaml_node *map = list->first; map; map = map->next)
+        entry_read(y, list, map, &s->contacts[s->n_contacts++]);
+}
+
+void scene_contacts_read(struct yaml *y, struct yaml_node *root, struct scene *s)
+{
+    struct yaml_node *list = yaml_get(root, "contacts");
+    scene_keys_check(y, root, list ? SCENE_KEYS_TOP : SCENE_KEYS_SINGLE, "");
+    if (list) {
+        list_read(y, list, s);
+        return;
+    }
+    s->contacts = ARENA_TAKE(y->arena, struct contact, 1);
+    s->n_contacts = 1;
+    contact_read(y, root, "", s->contacts);
+}

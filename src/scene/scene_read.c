@@ -1,0 +1,64 @@
+/* From a scene's text to its struct: the tree with includes and overrides, unknown keys, values, what is missing or contradicts.
+   Each step tells its errors and goes on, so that all are told at once; only a tree that cannot be read ends it early. */
+#include "scene/scene_read.h"
+
+#include <string.h>
+
+#include "file/yaml_bytes.h"
+#include "scene/accuracy.h"
+#include "scene/scene_check.h"
+#include "scene/scene_contacts.h"
+#include "scene/scene_inputs.h"
+#include "scene/scene_merge.h"
+
+static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
+{
+    struct scene_part top = {y, root, "", KEY_SCENE, s};
+    scene_contacts_read(y, root, s);
+    scene_check_fill(&top);
+    accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
+    scene_inputs_read(y, yaml_get(root, "inputs"), s);
+}
+
+static void source_read(struct yaml *y, const struct diag_source *source, const struct scene_overrides *over, struct scene *s)
+{
+    struct yaml_node *root = scene_merge_text(y, source);
+    *s = (struct scene){.file = arena_text(y->arena, source->name)};
+    if (!root)
+        return;
+    for (int i = 0; over && i < over->n; i++)
+        scene_merge_set(y, root, over->set[i]);
+    scene_merge_drop_nulls(root);
+    tree_read(y, root, s);
+}
+
+static bool finish(struct yaml *y, const char **messages, struct err *e)
+{
+    *messages = "";
+    if (y->diag->n == 0)
+        return true;
+    *messages = diag_text(y->diag);
+    return err_set(e, y->missing ? ERR_INPUT : ERR_SCENE, "%s", diag_first(y->diag));
+}
+
+bool scene_read_text(const char *text, size_t n, const char *name, const struct scene_overrides *over, struct arena *a,
+                     struct scene *s, const char **messages, struct err *e)
+{
+    struct yaml *y = yaml_open(a);
+    char *copy = arena_take(a, n + 1, 1);
+    if (n > 0)
+        memcpy(copy, text, n);
+    source_read(y, yaml_source(y, arena_text(a, name), copy, n), over, s);
+    return finish(y, messages, e);
+}
+
+bool scene_read(const char *file, const struct scene_overrides *over, struct arena *a, struct scene *s, const char **messages,
+                struct err *e)
+{
+    struct yaml *y = yaml_open(a);
+    struct diag_source *source = yaml_bytes_read(y, file, (struct diag_place){NULL, 0, 0, 0});
+    *s = (struct scene){.file = file};
+    if (source)
+        source_read(y, source, over, s);
+    return finish(y, messages, e);
+}

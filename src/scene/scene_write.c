@@ -1,0 +1,221 @@
+/* The effective scene, from the rows of keys.def and accuracy.def: SI bare numbers that read back to the last bit, strings quoted.
+   A key is left out when it does not apply, or when it may be left out and is not given. One contact is written at the top level, several
+   as a list. `inputs` names every file of the scene once, with its sha256 as it is now. */
+#include "scene/scene_write.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "base/relpath.h"
+#include "scene/keys.h"
+#include "scene/keys_yaml.h"
+
+struct writer {
+    FILE *f;
+    const char *beside;
+    struct arena *a;
+    struct keys_line *lines; /* room for one owner's keys */
+    int n;
+};
+
+static const void *field(const struct key *k, const void *owner)
+{
+    return (const char *)owner + k->offset;
+}
+
+static double number(const struct key *k, const void *owner)
+{
+    return *(const double *)field(k, owner);
+}
+
+static const char *text(const struct key *k, const void *owner)
+{
+    return *(const char *const *)field(k, owner);
+}
+
+static const char *word(const struct key *k, const void *owner)
+{
+    return k->choices[*(const int *)field(k, owner)].word;
+}
+
+static const char *pair_value(const double *x, struct arena *a)
+{
+    if (isnan(x[0]))
+        return NULL;
+    return arena_format(a, "[%s, %s]", keys_yaml_number(x[0], a), keys_yaml_number(x[1], a));
+}
+
+static const char *list_value(const char *const *items, struct arena *a)
+{
+    const char *all = "";
+    if (!items)
+        return NULL;
+    for (int i = 0; items[i]; i++)
+        all = arena_format(a, "%s%s%s", all, i ? ", " : "", keys_yaml_quoted(items[i], a));
+    return arena_format(a, "[%s]", all);
+}
+
+static const char *text_value(const struct key *k, const void *owner, struct writer *w)
+{
+    const char *s = text(k, owner);
+    if (!s)
+        return NULL;
+    return keys_yaml_quoted(k->type == KEY_FILE ? relpath_make(s, w->beside, w->a) : s, w->a);
+}
+
+/* YAML text of the key's value; NULL: not given. */
+static const char *value(const struct key *k, const void *owner, struct writer *w)
+{
+    switch (k->type) {
+    case KEY_NUMBER:
+    case KEY_WHOLE: return isnan(number(k, owner)) ? NULL : keys_yaml_number(number(k, owner), w->a);
+    case KEY_TIME_OR_AUTO: return isnan(number(k, owner)) ? "auto" : keys_yaml_number(number(k, owner), w->a);
+    case KEY_COUNT: return arena_format(w->a, "%d", *(const int *)field(k, owner));
+    case KEY_SEED: return arena_format(w->a, "%" PRIu64, *(const uint64_t *)field(k, owner));
+    case KEY_TEXT:
+    case KEY_FILE: return text_value(k, owner, w);
+    case KEY_POINT:
+    case KEY_RANGE: return pair_value(field(k, owner), w->a);
+    case KEY_LIST: return list_value(*(const char **const *)field(k, owner), w->a);
+    case KEY_CHOICE: return word(k, owner);
+    }
+    return NULL;
+}
+
+static bool applies(const struct key *k, const void *owner)
+{
+    const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
+    if (!equals)
+        return true;
+    for (const struct key *other = keys_table; other->path; other++)
+        if (strlen(other->path) == (size_t)(equals - k->applies) && !strncmp(other->path, k->applies, strlen(other->path)))
+            return applies(other, owner) && !strcmp(word(other, owner), equals + 1);
+    return false;
+}
+
+/* Is every section that the key stands in given? */
+static bool in_given_sections(const struct key *k, const void *owner)
+{
+    for (const struct key_section *s = keys_sections; s->path; s++) {
+        size_t n = strlen(s->path);
+        if (!strncmp(k->path, s->path, n) && k->path[n] == '.' && !*(const bool *)((const char *)owner + s->offset))
+            return false;
+    }
+    return true;
+}
+
+static void take(struct writer *w, const struct key *k, const void *owner)
+{
+    const char *v = applies(k, owner) && in_given_sections(k, owner) ? value(k, owner, w) : NULL;
+    if (v)
+        w->lines[w->n++] = (struct keys_line){.path = k->path, .value = v};
+}
+
+static void flush(struct writer *w, int indent, bool item)
+{
+    keys_yaml_print(w->f, w->lines, w->n, &(struct keys_style){.indent = indent, .item = item});
+    w->n = 0;
+}
+
+static void write_contacts(struct writer *w, const struct scene *s)
+{
+    bool list = s->n_contacts > 1;
+    if (list)
+        fputs("contacts:\n", w->f);
+    for (int i = 0; i < s->n_contacts; i++) {
+        for (const struct key *k = keys_table; k->path; k++)
+            if (k->of == KEY_CONTACT)
+                take(w, k, &s->contacts[i]);
+        flush(w, list ? 4 : 0, list);
+    }
+}
+
+/* The scene's keys in table order, the contacts where the first of their keys stands. */
+static void write_keys(struct writer *w, const struct scene *s)
+{
+    bool contacts = false;
+    for (const struct key *k = keys_table; k->path; k++) {
+        if (k->of == KEY_SCENE) {
+            take(w, k, s);
+        } else if (!contacts) {
+            flush(w, 0, false);
+            write_contacts(w, s);
+            contacts = true;
+        }
+    }
+    flush(w, 0, false);
+}
+
+static void write_accuracy(struct writer *w, const struct scene *s)
+{
+    fputs("accuracy:\n", w->f);
+    if (s->accuracy.preset)
+        fprintf(w->f, "  preset: %s\n", s->accuracy.preset);
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        fprintf(w->f, "  %s: %s\n", k->name, keys_yaml_number(*(const double *)((const char *)&s->accuracy + k->offset), w->a));
+}
+
+/* ------------------------------------------------------------------ inputs */
+
+static const char *pinned(const struct scene *s, const char *file)
+{
+    for (int i = 0; i < s->n_inputs; i++)
+        if (s->inputs[i].sha256 && !strcmp(s->inputs[i].file, file))
+            return s->inputs[i].sha256;
+    return NULL;
+}
+
+/* A file that cannot be read keeps the hash it was pinned to; without one it is listed unpinned, with a remark. */
+static void write_input(struct writer *w, const struct scene *s, const char *file)
+{
+    char hex[HASH_TEXT];
+    struct err unreadable = {0};
+    const char *sha256 = hash_file(file, hex, &unreadable) ? hex : pinned(s, file);
+    fprintf(w->f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, w->beside, w->a), w->a));
+    if (sha256)
+        fprintf(w->f, "    sha256: \"%s\"\n", sha256);
+    else
+        fputs("    # could not be read when this was written\n", w->f);
+}
+
+/* Writes the file unless an earlier key of the same or an earlier contact names it too. */
+static void write_input_once(struct writer *w, const struct scene *s, const char *file, const char **seen)
+{
+    const char **p = seen;
+    for (; *p; p++)
+        if (!strcmp(*p, file))
+            return;
+    if (p == seen)
+        fputs("inputs:\n", w->f);
+    *p = file;
+    write_input(w, s, file);
+}
+
+static void write_inputs(struct writer *w, const struct scene *s, int n_keys)
+{
+    const char **seen = ARENA_TAKE(w->a, const char *, (size_t)n_keys * (size_t)(s->n_contacts + 1) + 1);
+    for (int i = 0; i < s->n_contacts; i++)
+        for (const struct key *k = keys_table; k->path; k++)
+            if (k->of == KEY_CONTACT && k->type == KEY_FILE && text(k, &s->contacts[i]))
+                write_input_once(w, s, text(k, &s->contacts[i]), seen);
+}
+
+const char *scene_write(const struct scene *s, const char *beside, struct arena *a)
+{
+    char *memory = NULL;
+    size_t size = 0;
+    int n_keys = 0;
+    while (keys_table[n_keys].path)
+        n_keys++;
+    struct writer w = {open_memstream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0};
+    write_keys(&w, s);
+    write_accuracy(&w, s);
+    write_inputs(&w, s, n_keys);
+    fclose(w.f);
+    const char *kept = arena_text(a, memory);
+    free(memory);
+    return kept;
+}

@@ -1,0 +1,307 @@
+/* Quantities with units: see units.h. */
+#include "scene/units.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/text.h"
+
+enum { DEGREES = 1000 /* in place of a power of ten */, LONGEST = 200 /* characters */ };
+
+static const struct {
+    const char *name, *example;
+    const char *common[9]; /* units to name in messages; the first is SI's */
+} dimensions[] = {
+    [KEY_NONE] = {"a plain number", "0.5", {""}},
+    [KEY_LENGTH] = {"a length", "3 cm", {"m", "cm", "mm", "um", "nm"}},
+    [KEY_TIME] = {"a time", "10 ms", {"s", "ms", "us", "ns"}},
+    [KEY_FREQUENCY] = {"a frequency", "2 Hz", {"Hz", "kHz", "MHz", "mHz"}},
+    [KEY_MASS] = {"a mass", "20 g", {"kg", "g", "mg"}},
+    [KEY_FORCE] = {"a force", "1.5 N", {"N", "mN", "kN"}},
+    [KEY_SPEED] = {"a speed", "10 cm/s", {"m/s", "cm/s", "mm/s"}},
+    [KEY_ACCELERATION] = {"an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2"}},
+    [KEY_ANGLE] = {"an angle", "30 deg", {"rad", "deg", "mrad"}},
+    [KEY_DECIBEL] = {"a level in decibels", "-3 dB", {"dB"}},
+    [KEY_LUFS] = {"a loudness", "-23 LUFS", {"LUFS"}},
+    [KEY_FORCE_COEFFICIENT] = {"a force coefficient", "0.05 N s/m", {"N s/m", "N (s/m)^beta2"}},
+    [KEY_OUTPUT] = {"a length, speed or acceleration", "1 mm/s", {"", "m", "mm", "um", "nm", "m/s", "mm/s", "m/s^2"}},
+};
+
+static const struct unit {
+    const char *name;
+    enum key_dimension dimension;
+    int power;            /* of ten, to SI */
+    const char *prefixes;
+} units[] = {
+    {"m", KEY_LENGTH, 0, "numckMG"},
+    {"s", KEY_TIME, 0, "numkMG"},
+    {"Hz", KEY_FREQUENCY, 0, "numkMG"},
+    {"g", KEY_MASS, -3, "numkMG"},
+    {"N", KEY_FORCE, 0, "numkMG"},
+    {"m/s", KEY_SPEED, 0, "numckMG"},
+    {"m/s^2", KEY_ACCELERATION, 0, "numckMG"},
+    {"m/s2", KEY_ACCELERATION, 0, "numckMG"},
+    {"m/s\xc2\xb2", KEY_ACCELERATION, 0, "numckMG"},
+    {"rad", KEY_ANGLE, 0, "num"},
+    {"deg", KEY_ANGLE, DEGREES, ""},
+    {"\xc2\xb0", KEY_ANGLE, DEGREES, ""},
+    {"dB", KEY_DECIBEL, 0, ""},
+    {"dBFS", KEY_DECIBEL, 0, ""},
+    {"LUFS", KEY_LUFS, 0, ""},
+    {"N s/m", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
+    {"N*s/m", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
+    {"N (s/m)^beta2", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
+};
+
+static const struct prefix {
+    const char *name;
+    char letter;
+    int power;
+} prefixes[] = {{"n", 'n', -9}, {"u", 'u', -6}, {"\xc2\xb5", 'u', -6}, {"\xce\xbc", 'u', -6}, {"m", 'm', -3},
+                {"c", 'c', -2}, {"k", 'k', 3},  {"M", 'M', 6},         {"G", 'G', 9}};
+
+const char *units_name(enum key_dimension d)
+{
+    return dimensions[d].name;
+}
+
+const char *units_example(enum key_dimension d)
+{
+    return dimensions[d].example;
+}
+
+/* ------------------------------------------------------------------ reading */
+
+static bool matches(const struct unit *u, const char *text, int *power)
+{
+    *power = u->power;
+    if (strcmp(u->name, text) == 0)
+        return true;
+    for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
+        size_t n = strlen(prefixes[i].name);
+        *power = u->power + prefixes[i].power;
+        if (strncmp(text, prefixes[i].name, n) == 0 && strcmp(text + n, u->name) == 0 && strchr(u->prefixes, prefixes[i].letter))
+            return true;
+    }
+    return false;
+}
+
+static const struct unit *find(const char *text, int *power)
+{
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
+        if (matches(&units[i], text, power))
+            return &units[i];
+    return NULL;
+}
+
+static bool fits(const struct unit *u, enum key_dimension d)
+{
+    if (d == KEY_OUTPUT)
+        return u->dimension == KEY_LENGTH || u->dimension == KEY_SPEED || u->dimension == KEY_ACCELERATION;
+    return u->dimension == d;
+}
+
+static bool fault_set(struct units_fault *f, const char *text, const char *cure)
+{
+    *f = (struct units_fault){text, cure};
+    return false;
+}
+
+static const char *example_cure(enum key_dimension d, struct arena *a)
+{
+    return arena_format(a, "write for instance: %s", dimensions[d].example);
+}
+
+static bool has_common(enum key_dimension d)
+{
+    return dimensions[d].common[0][0] || dimensions[d].common[1];
+}
+
+static const char *unit_cure(const char *number, const char *unit, enum key_dimension d, struct arena *a)
+{
+    const char *const *common = dimensions[d].common;
+    const char *all = "";
+    for (int i = 0; common[i]; i++) {
+        if (common[i][0] && strcasecmp(common[i], unit) == 0)
+            return arena_format(a, "did you mean %s %s?", number, common[i]);
+        all = arena_format(a, "%s%s%s", all, *all ? ", " : "", common[i]);
+    }
+    return arena_format(a, "units: %s; write for instance: %s", all, dimensions[d].example);
+}
+
+static const char *without_article(enum key_dimension d)
+{
+    return strchr(dimensions[d].name, ' ') + 1;
+}
+
+static bool unit_fault(struct units_fault *f, const char *number, const char *unit, enum key_dimension d, struct arena *a)
+{
+    int power;
+    const struct unit *other = find(unit, &power);
+    const char *needs = dimensions[d].name;
+    if (other && !has_common(d))
+        return fault_set(f, arena_format(a, "needs %s without a unit, not %s", needs, dimensions[other->dimension].name),
+                         arena_format(a, "write: %s", number));
+    if (other)
+        return fault_set(f, arena_format(a, "needs %s; %s is a unit of %s", needs, unit, without_article(other->dimension)), example_cure(d, a));
+    if (strcmp(unit, "%") == 0)
+        return fault_set(f, arena_format(a, "needs %s, not a percentage", needs), "write a share, such as 0.3 for 30 %");
+    if (!has_common(d))
+        return fault_set(f, arena_format(a, "needs %s; '%s' follows it", needs, unit), arena_format(a, "write: %s", number));
+    return fault_set(f, arena_format(a, "needs %s; '%s' is not a unit that is known", needs, unit), unit_cure(number, unit, d, a));
+}
+
+/* The text with each character of `of` replaced by `by` (0: left out). */
+static const char *replaced(const char *text, char of, char by, struct arena *a)
+{
+    char *copy = arena_text(a, text), *to = copy;
+    for (const char *s = text; *s; s++)
+        if (*s != of)
+            *to++ = *s;
+        else if (by)
+            *to++ = by;
+    *to = '\0';
+    return copy;
+}
+
+static bool is_word(const char *text, const char *const *words)
+{
+    for (; *words; words++)
+        if (strcasecmp(text, *words) == 0)
+            return true;
+    return false;
+}
+
+/* What does not even start with a number. */
+static bool word_fault(struct units_fault *f, const char *text, enum key_dimension d, struct arena *a)
+{
+    static const char *const truths[] = {"yes", "no", "true", "false", "on", "off", "y", "n", NULL};
+    static const char *const infinite[] = {".inf", "-.inf", "+.inf", "inf", "-inf", "+inf", ".nan", "nan", "infinity", "-infinity", NULL};
+    const char *needs = dimensions[d].name;
+    if (!*text)
+        return fault_set(f, arena_format(a, "has no value; it needs %s", needs), example_cure(d, a));
+    if (is_word(text, truths))
+        return fault_set(f, arena_format(a, "needs %s, not the yes/no word '%s'", needs, text), example_cure(d, a));
+    if (is_word(text, infinite))
+        return fault_set(f, arena_format(a, "needs %s that is finite, not '%s'", needs, text), example_cure(d, a));
+    return fault_set(f, arena_format(a, "needs %s, not '%s'", needs, text), example_cure(d, a));
+}
+
+static const char *clock_cure(const char *text, enum key_dimension d, struct arena *a)
+{
+    double minutes, seconds;
+    const char *colon = strchr(text, ':');
+    if (d == KEY_TIME && text_scaled(text, (size_t)(colon - text), 0, &minutes) && text_double(colon + 1, &seconds))
+        return arena_format(a, "write it in seconds: %g s", minutes * 60 + seconds);
+    return example_cure(d, a);
+}
+
+/* Notations that other readers take for a number in their own way: leading zeros, 0x.., 1_000, 1,5, 1:30, 1 000. */
+static bool notation_fault(struct units_fault *f, const char *text, enum key_dimension d, struct arena *a)
+{
+    size_t sign = *text == '+' || *text == '-', n = text_number_length(text);
+    const char *digits = text + sign, *rest = text + n + strspn(text + n, " \t");
+    size_t zeros = strspn(digits, "0");
+    if (digits[0] == '0' && strchr("xXoObB", digits[1]) && digits[1])
+        return !fault_set(f, "needs a decimal number, not a hexadecimal, octal or binary one", example_cure(d, a));
+    if (zeros > 0 && digits[zeros] >= '0' && digits[zeros] <= '9')
+        return !fault_set(f, "needs a number without leading zeros, which some take for octal",
+                          arena_format(a, "write: %.*s%s", (int)sign, text, digits + zeros));
+    if (digits[0] == '0' && digits[1] == '0')
+        return !fault_set(f, "needs a number without leading zeros, which some take for octal", "write: 0");
+    if (text[n] == '_')
+        return !fault_set(f, "needs a number without underscores", arena_format(a, "write: %s", replaced(text, '_', 0, a)));
+    if (text[n] == ',')
+        return !fault_set(f, "needs a number with a decimal point, not a comma", arena_format(a, "write: %s", replaced(text, ',', '.', a)));
+    if (text[n] == ':')
+        return !fault_set(f, "needs one number, not a clock time or ratio", clock_cure(text, d, a));
+    if ((*rest >= '0' && *rest <= '9') || *rest == '.' || *rest == '+' || *rest == '-')
+        return !fault_set(f, arena_format(a, "needs one number; '%s' follows it", rest), example_cure(d, a));
+    return false;
+}
+
+static bool number_read(const char *text, size_t n, int power, double *x)
+{
+    char copy[LONGEST + 1];
+    if (power != DEGREES)
+        return text_scaled(text, n, power, x);
+    if (!text_scaled(text, n, 0, x))
+        return false;
+    memcpy(copy, text, n);
+    copy[n] = '\0';
+    *x = (double)(strtold(copy, NULL) * (3.14159265358979323846264338327950288L / 180));
+    return true;
+}
+
+bool units_read(const char *text, enum key_dimension d, double *x, struct arena *a, struct units_fault *f)
+{
+    size_t n = text_number_length(text);
+    const char *unit = text + n + strspn(text + n, " \t");
+    const char *number = arena_format(a, "%.*s", (int)n, text);
+    int power = 0;
+    if (strlen(text) > LONGEST)
+        return fault_set(f, "is too long for a number", example_cure(d, a));
+    if (n == 0)
+        return word_fault(f, text, d, a);
+    if (notation_fault(f, text, d, a))
+        return false;
+    if (*unit) {
+        const struct unit *u = find(unit, &power);
+        if (!u || !fits(u, d))
+            return unit_fault(f, number, unit, d, a);
+    }
+    if (number_read(text, n, power, x))
+        return true;
+    return fault_set(f, "is a number too large, too small or too long to be read", example_cure(d, a));
+}
+
+/* ------------------------------------------------------------------ writing */
+
+/* 0.DIGITS * 10^e in plain notation where that is short. */
+static const char *decimal(const char *digits, int e, struct arena *a)
+{
+    int n = (int)strlen(digits);
+    if (e < -3 || e > 15)
+        return arena_format(a, "%c%s%se%d", digits[0], n > 1 ? "." : "", digits + 1, e - 1);
+    if (e <= 0)
+        return arena_format(a, "0.%.*s%s", -e, "000", digits);
+    if (e >= n)
+        return arena_format(a, "%s%.*s", digits, e - n, "000000000000000");
+    return arena_format(a, "%.*s.%s", e, digits, digits + e);
+}
+
+/* The largest common unit that leaves at least 1, else the smallest; SI's for a zero. */
+static const struct unit *fitting_unit(enum key_dimension d, int exponent, int *power, const char **name)
+{
+    const struct unit *best = NULL;
+    for (int i = 0; dimensions[d].common[i]; i++) {
+        int p;
+        const struct unit *u = find(dimensions[d].common[i], &p);
+        if (!u || p == DEGREES || p == -2)
+            continue;
+        bool leaves_one = exponent - p >= 1, best_leaves_one = best && exponent - *power >= 1;
+        if (!best || (leaves_one && (!best_leaves_one || p > *power)) || (!leaves_one && !best_leaves_one && p < *power)) {
+            best = u;
+            *power = p;
+            *name = dimensions[d].common[i];
+        }
+    }
+    return best;
+}
+
+const char *units_text(double x, enum key_dimension d, struct arena *a)
+{
+    char digits[20];
+    int exponent, power = 0;
+    const char *name = "";
+    text_digits(fabs(x), digits, &exponent);
+    bool known = d != KEY_OUTPUT && d != KEY_NONE && fitting_unit(d, x == 0 ? 1 : exponent, &power, &name);
+    if (x == 0 && known) {
+        power = 0;
+        name = dimensions[d].common[0];
+    }
+    return arena_format(a, "%s%s%s%s", x < 0 ? "-" : "", decimal(digits, exponent - power, a), known ? " " : "", name);
+}

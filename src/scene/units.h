@@ -1,0 +1,29 @@
+/* Quantities with units, exact to the last bit.
+
+   A quantity is a decimal number, optional spaces, and a unit of the key's dimension; a bare number is SI. Powers of ten move the
+   number's decimal exponent before the one rounding to double, so that 20 g is the double nearest to 0.02; degrees are multiplied
+   by pi/180 in 64-bit-mantissa arithmetic and rounded once. Prefixes n, u (both code points of micro), m, k, M, G with m, s, Hz, g,
+   N, rad and what is made of them, c with metres. */
+#ifndef SCENE_UNITS_H
+#define SCENE_UNITS_H
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "scene/keys.h"
+
+struct units_fault {
+    const char *text; /* follows the key's name: "needs a length; g is a unit of mass" */
+    const char *cure;
+};
+
+/* *x in SI. False: the fault says why. */
+bool units_read(const char *text, enum key_dimension d, double *x, struct arena *a, struct units_fault *fault);
+
+/* "a frequency"; "2 Hz". */
+const char *units_name(enum key_dimension d);
+const char *units_example(enum key_dimension d);
+
+/* A value as a person would write it, such as 20 g, 1 nm or 50 us; reads back as the same double. */
+const char *units_text(double x, enum key_dimension d, struct arena *a);
+
+#endif

@@ -1,0 +1,120 @@
+/* What a stage is, and the board that the stages of one contact share.
+
+   A stage file holds its equations and ends in one `const struct stage foo_stage`; pipeline/stages.def lists them in the order in
+   which sound is made. The planner (pipeline/plan.h) walks that list backwards from what the scene asks for and keeps a stage only if
+   the scene wants it and something later needs what it gives. The runner (pipeline/run.h) opens what is kept, lays out the board, and
+   runs blocks. What is not kept is neither opened nor run nor allocated.
+
+   Items of the board are endless signals, of which a window is held: `per_frame` values for each audio sample (frame). Frames before 0
+   are zero. A stage says when it is opened how far around a frame it reads (back, ahead); the runner then lets everything before it run
+   that much ahead in time, so that no stage delays or buffers for another. Values of sub-sampled items belong to the instant
+   (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_SLOPE and ITEM_SUBFORCE, which are exact means over the interval that starts there. */
+#ifndef STAGE_H
+#define STAGE_H
+#include <assert.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+#include "scene/scene.h"
+
+enum item {
+    ITEM_POSITION,      /* m, signed distance along the stroke     over per frame */
+    ITEM_VELOCITY,      /* m/s along the stroke, signed            over per frame */
+    ITEM_ACCELERATION,  /* m/s^2 along the stroke                  over per frame */
+    ITEM_LOAD,          /* N, normal force; negative: lifted off   over per frame */
+    ITEM_ALPHA,         /* m, limiter                              over per frame */
+    ITEM_SURFACE,       /* board->profile, read at any place       no signal      */
+    ITEM_CURVATURE,     /* 1/m, limited curvature (paper mode)     over per frame */
+    ITEM_SLOPE,         /* mean |slope|^beta2 (paper mode)         over per frame */
+    ITEM_SUBFORCE,      /* N, contact force                        over per frame */
+    ITEM_FORCE,         /* N                                       1 per frame    */
+    ITEM_SURFACE_SOUND, /* the response's quantity                 1 per frame    */
+    ITEM_SCRAPER_SOUND, /* the response's quantity                 1 per frame    */
+    ITEM_SOUND,         /* the response's quantity                 1 per frame    */
+    ITEM_TABLE,         /* diagnostics rows                        no signal      */
+    ITEM_COUNT
+};
+#define ITEM_BIT(item) (1u << (item))
+
+struct trajectory;
+struct load_law;
+struct limiter_law;
+struct profile;
+struct table_sink;
+
+struct signal {
+    int per_frame;          /* 0: not a signal, or not in this plan */
+    long first, capacity;   /* frames held: [first, first + capacity) */
+    double *x;
+};
+
+struct board {
+    double rate;            /* Hz, frames per second                       */
+    int over;               /* sub-intervals per frame                     */
+    long moving;            /* frames that the motion touches              */
+    unsigned alive;         /* items that some stage of the plan reads     */
+    struct signal signals[ITEM_COUNT];
+    const struct trajectory *trajectory;
+    const struct load_law *load;
+    const struct limiter_law *limiter;
+    struct profile *profile;
+    struct table_sink *table;
+    int quantity;           /* enum modes_quantity of the sound; -1: none yet, -2: not stated (WAV responses) */
+    double ring;            /* s, until the slowest response has decayed by 80 dB */
+    double lifted;          /* s during which the scraper was lifted off         */
+    const char *warnings[16];
+    int n_warnings;
+};
+
+enum { STAGE_BLOCK = 1024 };    /* most frames of one call of run */
+
+struct stage_run {          /* one stage at work */
+    const struct stage *stage;
+    const struct scene *scene;
+    const struct contact *contact;
+    struct board *board;
+    struct arena *arena;
+    void *state;
+    int back, ahead;        /* frames read around a frame; set by open     */
+    long offset, done;      /* the runner's: lead, and frames done         */
+    double seconds;         /* CPU time spent                              */
+    size_t bytes;           /* memory taken                                */
+    long blocks;            /* calls of run                                */
+};
+
+struct stage {
+    const char *name, *does;
+    const char *paper;          /* equations followed; "" if none                         */
+    const char *idle;           /* why a scene may not want it, for `rasp plan`           */
+    unsigned needs, takes, gives; /* sets of items; takes: read if something gives it; needs and gives: refined in place */
+    unsigned (*asks)(const struct contact *, const struct scene *); /* further needs; may be NULL */
+    bool (*wanted)(const struct contact *, const struct scene *);
+    double (*work)(const struct contact *, const struct scene *);   /* predicted operations per audio sample */
+    bool (*open)(struct stage_run *, struct err *);
+    bool (*run)(struct stage_run *, long from, long to, struct err *); /* frames [from, to); may be NULL */
+    void (*close)(struct stage_run *);                                 /* may be NULL */
+};
+
+/* Values of an item from a frame on; at least up to the frames that the runner has promised. */
+static inline double *board_at(const struct board *b, enum item item, long frame)
+{
+    const struct signal *s = &b->signals[item];
+    assert(s->per_frame > 0 && frame >= s->first && frame <= s->first + s->capacity);
+    return s->x + (frame - s->first) * s->per_frame;
+}
+
+static inline bool board_has(const struct board *b, enum item item)
+{
+    return b->signals[item].per_frame > 0;
+}
+
+/* A remark for the summary, printed once at the end; text must live as long as the arena. */
+static inline void board_warn(struct board *b, const char *text)
+{
+    if (b->n_warnings < (int)(sizeof b->warnings / sizeof b->warnings[0]))
+        b->warnings[b->n_warnings++] = text;
+}
+
+#endif

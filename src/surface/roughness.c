@@ -1,0 +1,166 @@
+/* Procedural roughness, the "depth maps synthesized from statistics" that papers/000 section 2.2 plans.
+
+     P(k) = P0 (max(k, 1/longest))^exponent   for k < 1/shortest, 0 above        one-sided density, k in cycles/m
+     rms^2 = integral of P dk
+
+   The heights are independent blocks of N samples at a pitch of shortest / 4, each a random spectrum of P (Gaussian real and imaginary
+   parts from the counter (block, line)) brought to space by an inverse FFT; successive blocks overlap by half under the window
+   w(i) = sin(pi (i + 1/2) / N), whose squares add to 1, so that the mean square height is the same everywhere. A block spans at least 8 times
+   the longest wavelength. Any place can be read without the places before it; nothing repeats (2^64 blocks). The window convolves the
+   spectrum with its own, 1.2 lines wide, which is the only departure from P in the mean.
+
+   What is drawn are the spline's coefficients: line j is divided by the response (2 + cos(2 pi j / N)) / 3 of reading a spline at its
+   knots, so that the heights at the knots have P. */
+#include "surface/roughness.h"
+
+#include <stdlib.h>
+
+#include "num/fft.h"
+#include "num/real.h"
+#include "stage.h"
+
+enum { ROUGHNESS_KEPT = 4 };
+
+struct block {
+    long index;
+    bool filled;
+    double *c;
+};
+
+struct rough {
+    long n;                 /* samples of a block, even */
+    double *window, *spread;/* [n], [n/2+1]: window; standard deviation of a line's real and imaginary part */
+    struct fft *fft;
+    struct noise stream;
+    struct block blocks[ROUGHNESS_KEPT]; /* block b lies in slot b mod ROUGHNESS_KEPT */
+    double *re, *im, *normal;
+};
+
+double roughness_density(const struct roughness *r, double k)
+{
+    double k0 = 1 / r->longest, k1 = 1 / r->shortest, a = r->exponent;
+    /* integral of (max(k, k0)/k0)^a from 0 to k1 */
+    double rest = fabs(a + 1) < 1e-9 ? k0 * real_log(k1 / k0) : k0 / (a + 1) * (real_pow(k1 / k0, a + 1) - 1);
+    double p0 = r->rms * r->rms / (k0 + rest);
+    return k >= k1 ? 0 : k <= k0 ? p0 : p0 * real_pow(k / k0, a);
+}
+
+/* Density in lines of 1/(n pitch) cycles/m: a line's two parts have variance P dk / 4 each in the sum c_j e^(i..) + conjugate. */
+static void rough_spread(struct rough *g, const struct roughness *recipe, double pitch)
+{
+    double dk = 1 / ((double)g->n * pitch);
+    for (long j = 1; j < g->n / 2; j++) {
+        double spline = (2 + real_cospi(2 * (double)j / (double)g->n)) / 3;
+        g->spread[j] = sqrt(roughness_density(recipe, (double)j * dk) * dk / 4) / spline;
+    }
+}
+
+static void block_fill(struct rough *g, struct block *b, long index)
+{
+    noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
+    g->re[0] = g->im[0] = g->re[g->n / 2] = g->im[g->n / 2] = 0;
+    for (long j = 1; j < g->n / 2; j++) {
+        g->re[j] = g->normal[2 * j] * g->spread[j];
+        g->im[j] = g->normal[2 * j + 1] * g->spread[j];
+    }
+    fft_inverse(g->fft, g->re, g->im, b->c);
+    for (long i = 0; i < g->n; i++)
+        b->c[i] *= g->window[i];
+    b->index = index;
+    b->filled = true;
+}
+
+static const double *block_at(struct rough *g, long index)
+{
+    struct block *b = &g->blocks[((index % ROUGHNESS_KEPT) + ROUGHNESS_KEPT) % ROUGHNESS_KEPT];
+    if (!b->filled || b->index != index)
+        block_fill(g, b, index);
+    return b->c;
+}
+
+/* Coefficient i is the sum of blocks b = floor(i / half) and b - 1, block b beginning at b half. */
+static void roughness_read(struct profile *p, long first, long n, double *c)
+{
+    struct rough *g = p->state;
+    long half = g->n / 2;
+    while (n > 0) {
+        long b = first >= 0 ? first / half : -((-first + half - 1) / half), from = first - b * half;
+        long some = half - from < n ? half - from : n;
+        const double *new = block_at(g, b) + from, *old = block_at(g, b - 1) + half + from;
+        for (long i = 0; i < some; i++)
+            c[i] = new[i] + old[i];
+        c += some;
+        first += some;
+        n -= some;
+    }
+}
+
+static void roughness_close(struct profile *p)
+{
+    struct rough *g = p->state;
+    fft_close(g->fft);
+}
+
+struct profile *roughness_make(struct arena *a, const struct roughness *recipe, struct noise stream)
+{
+    struct profile *p = ARENA_TAKE(a, struct profile, 1);
+    struct rough *g = ARENA_TAKE(a, struct rough, 1);
+    double pitch = recipe->shortest / 4, span = 8 * recipe->longest / pitch;
+    long n = (long)fft_good_size((size_t)(span < 4096 ? 4096 : span));
+    *g = (struct rough){.n = n, .stream = stream, .fft = fft_open((size_t)n), .window = ARENA_TAKE(a, double, n),
+                        .spread = ARENA_TAKE(a, double, n / 2 + 1), .re = ARENA_TAKE(a, double, n / 2 + 1),
+                        .im = ARENA_TAKE(a, double, n / 2 + 1), .normal = ARENA_TAKE(a, double, n)};
+    for (int k = 0; k < ROUGHNESS_KEPT; k++)
+        g->blocks[k].c = ARENA_TAKE(a, double, n);
+    for (long i = 0; i < n; i++)
+        g->window[i] = real_sinpi(((double)i + 0.5) / (double)n);
+    rough_spread(g, recipe, pitch);
+    *p = (struct profile){.pitch = pitch, .from = -HUGE_VAL, .to = HUGE_VAL, .read = roughness_read, .state = g, .close = roughness_close};
+    return p;
+}
+
+/* ------------------------------------------------------------------ the stage */
+
+static bool roughness_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return c->surface.roughness.given;
+}
+
+static double roughness_work(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return 40;
+}
+
+static bool roughness_open(struct stage_run *r, struct err *e)
+{
+    const struct roughness *recipe = &r->contact->surface.roughness;
+    if (recipe->longest <= recipe->shortest)
+        return err_set(e, ERR_SCENE, "contact '%s': surface.roughness: longest (%g m) must be more than shortest (%g m)", r->contact->name,
+                       recipe->longest, recipe->shortest);
+    if (recipe->longest / recipe->shortest > 1e5)
+        return err_set(e, ERR_SCENE, "contact '%s': surface.roughness: longest is more than 100 000 times shortest; lower longest",
+                       r->contact->name);
+    char *stream = arena_format(r->arena, "roughness/%s", r->contact->name);
+    r->board->profile = roughness_make(r->arena, recipe, noise_make(r->scene->seed, stream));
+    return true;
+}
+
+static void roughness_stage_close(struct stage_run *r)
+{
+    if (r->board->profile)
+        r->board->profile->close(r->board->profile);
+}
+
+const struct stage roughness_stage = {
+    .name = "roughness",
+    .does = "procedural profile with a power-law spectrum",
+    .paper = "000 sec. 2.2",
+    .idle = "no surface.roughness",
+    .gives = ITEM_BIT(ITEM_SURFACE),
+    .wanted = roughness_wanted,
+    .work = roughness_work,
+    .open = roughness_open,
+    .close = roughness_stage_close,
+};

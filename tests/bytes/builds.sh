@@ -1,0 +1,69 @@
+# Same scene, same bytes: the WAV and the CSV of every scene have one sha256 whatever the compiler, the optimisation, the
+# instruction set, the functions libm picks for this CPU, and the run.
+. "$ROOT/tests/lib/test.sh"
+BUILDS=${BYTES:-$BUILD/bytes}
+JOBS=${JOBS:-$(getconf _NPROCESSORS_ONLN)}
+
+# build NAME VARIABLE=VALUE...: rasp in a folder of its own.
+build() {
+    local name=$1
+    shift
+    env -u MAKEFLAGS -u MAKELEVEL make -s -C "$ROOT" -j"$JOBS" BUILD="$BUILDS/$name" "$@" all > log 2>&1 || { fail "the build '$name' fails:" && tail -n 20 log; }
+}
+
+# sums PROGRAM: sha256 of every file it makes of the scenes, in a folder of its own.
+sums() {
+    rm -rf rendered && mkdir rendered
+    printf '%s\n' "$ROOT"/scenes/*.yaml | xargs -P "$JOBS" -I{} "$1" render --quiet -o rendered/ {} > log 2>&1 || cat log
+    (cd rendered && find . -type f \( -name '*.wav' -o -name '*.csv' \) -print0 | sort -z | xargs -0r sha256sum)
+}
+
+# same NAME PROGRAM: its sums must be those of the first program asked.
+same() {
+    sums "$2" > got
+    [ -s want ] || cp got want
+    cmp -s want got && echo "same bytes: $1" && return
+    fail "other bytes: $1"
+    diff want got
+}
+
+cpu_has() {
+    case $1 in
+        v2) grep -qw sse4_2 /proc/cpuinfo ;;
+        v3) grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo ;;
+        v4) grep -qw avx512vl /proc/cpuinfo && grep -qw avx512bw /proc/cpuinfo ;;
+    esac
+}
+
+same "gcc -O2, best of the CPU" "$BUILD/rasp"
+scenes=("$ROOT"/scenes/*.yaml)
+[ "$(wc -l < want)" -ge ${#scenes[@]} ] || fail "only $(wc -l < want) files of ${#scenes[@]} scenes"
+same "a second run" "$BUILD/rasp"
+
+# Without FMA and AVX the C library picks other exp, log, sin ...: the probe shows that it does.
+hidden=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F
+cat > probe.c << 'END'
+#include <math.h>
+#include <stdio.h>
+int main(void)
+{
+    double sum = 0;
+    for (int i = 1; i < 100000; i++)
+        sum += exp(i * 1e-4) * sin(i * 0.37);
+    printf("%a\n", sum);
+}
+END
+"${CC:-gcc}" -O0 -o probe probe.c -lm
+if [ "$(./probe)" = "$(GLIBC_TUNABLES=$hidden ./probe)" ]; then
+    echo "left out: this C library's functions are the same without FMA"
+else
+    GLIBC_TUNABLES=$hidden same "libm without FMA" "$BUILD/rasp"
+fi
+
+build gcc-O0 CC=gcc OPT=-O0 && same "gcc -O0" "$BUILDS/gcc-O0/rasp"
+build clang-O2 CC=clang OPT=-O2 && same "clang -O2" "$BUILDS/clang-O2/rasp"
+for isa in v2 v3 v4; do
+    cpu_has $isa || { echo "left out: this CPU has no x86-64-$isa"; continue; }
+    build gcc-$isa CC=gcc OPT=-O2 ISA=$isa && same "gcc -O2 for x86-64-$isa" "$BUILDS/gcc-$isa/rasp"
+done
+finish

@@ -1,0 +1,6 @@
+# Every starter scene renders as it is: forces in a CSV, no sound, since nothing rings.
+for kind in $(rasp new --list | cut -d ' ' -f 1); do
+    rasp new $kind -o $kind.yaml
+    rasp render --quiet --set output.tail=0 $kind.yaml
+    ls $kind*.csv
+done

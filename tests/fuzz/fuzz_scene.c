@@ -1,0 +1,17 @@
+/* The scene reader: any text is either a scene or refused with messages. */
+#include "fuzz.h"
+#include "scene/scene_read.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct fuzz_file f = fuzz_open(data, size);
+    struct arena *a = arena_open();
+    struct scene s = {0};
+    struct err e = {0};
+    const struct scene_overrides none = {0};
+    const char *messages = NULL;
+    fuzz_check(scene_read(f.path, &none, a, &s, &messages, &e), &e);
+    arena_close(a);
+    close(f.fd);
+    return 0;
+}

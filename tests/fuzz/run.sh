@@ -1,0 +1,34 @@
+#!/bin/bash
+# Runs each fuzz target for its share of the time, two at once:  tests/fuzz/run.sh FOLDER SECONDS
+# Starts from tests/fuzz/corpus/NAME and what earlier runs found new; an input that breaks a target is left in FOLDER/found/.
+set -uo pipefail
+cd "$(dirname "$0")" || exit 1
+folder=$(realpath "$1") seconds=${2:-60}
+targets=(fuzz_*.c)
+cores=$(getconf _NPROCESSORS_ONLN)
+share=$((seconds * (cores < 2 ? 1 : 2) / ${#targets[@]}))
+export folder share
+mkdir -p "$folder/found" "$folder/corpus"
+
+# Called through xargs below.
+# shellcheck disable=SC2317
+fuzz() {
+    local name=${1#fuzz_} log
+    name=${name%.c}
+    log=$folder/$name.log
+    mkdir -p "$folder/corpus/$name"
+    if ASAN_OPTIONS=allocator_may_return_null=1 "$folder/fuzz_$name" -max_total_time="$((share > 0 ? share : 1))" -max_len=16384 -timeout=10 \
+        -rss_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$folder/found/$name-" "$folder/corpus/$name" "corpus/$name" > "$log" 2>&1 < /dev/null
+    then
+        echo "ok fuzz/$name ($(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs)"
+    else
+        echo "FAILED fuzz/$name"$'\n'"$(tail -n 60 "$log" | sed 's/^/    /')"
+    fi
+}
+export -f fuzz
+printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -c 'fuzz {}' | tee "$folder/results"
+
+passed=$(grep -c '^ok fuzz/' "$folder/results")
+failed=$((${#targets[@]} - passed))
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]

@@ -1,0 +1,148 @@
+# The kinds of tests: kind_KIND NAME runs one test in the empty folder it stands in and prints why it fails. Sourced by tests/run.sh.
+# shellcheck shell=bash
+
+kind_unit() {
+    [ -x "$BUILD/tests/$1" ] || { echo "not built: $BUILD/tests/$1 (make unit)"; return 1; }
+    "$BUILD/tests/$1"
+}
+
+kind_tidy() { bash "$ROOT/tests/tidy/$1.sh"; }
+kind_faults() { bash "$ROOT/tests/faults/$1.sh"; }
+kind_hard() { bash "$ROOT/tests/hard/$1.sh"; }
+kind_bytes() { bash "$ROOT/tests/bytes/$1.sh"; }
+
+# ------------------------------------------------------------------ cli: output, errors, exit code
+
+kind_cli() {
+    local part missed=0 base=$ROOT/tests/cli/$1 got
+    got=$(mktemp -d "$SCRATCH/got.XXXXXXXX")
+    cli_run "$1" "$got"
+    [ "$(cat "$got/exit")" != 77 ] || { tail -n 1 "$got/out"; return 77; }
+    for part in out err exit; do
+        cli_expected "$base" $part | diff -u --label "expected $part" --label "$part" - "$got/$part" || missed=1
+    done
+    cli_left_over || missed=1
+    return $missed
+}
+
+# Runs the case; out, err, exit go to folder $2, with the folders of this run named ROOT and TMP.
+cli_run() {
+    local code=0
+    bash -eu -o pipefail "$ROOT/tests/cli/$1.sh" > "$2/out" 2> "$2/err" < /dev/null || code=$?
+    sed -i -e "s|$PWD|TMP|g" -e "s|$ROOT|ROOT|g" "$2/out" "$2/err"
+    echo $code > "$2/exit"
+}
+
+# What is not written down: no output, exit code 0.
+cli_expected() {
+    if [ -f "$1.$2" ]; then cat "$1.$2"; elif [ "$2" = exit ]; then echo 0; fi
+}
+
+cli_left_over() {
+    local left
+    left=$(find . -name '.*tmp*' -o -name '.rasp-*')
+    [ -z "$left" ] || { echo "left behind:" $left; return 1; }
+}
+
+cli_set() {
+    local part got base=$ROOT/tests/cli/$1
+    got=$(mktemp -d "$SCRATCH/got.XXXXXXXX")
+    cli_run "$1" "$got"
+    for part in out err; do
+        if [ -s "$got/$part" ]; then cp "$got/$part" "$base.$part"; else rm -f "$base.$part"; fi
+    done
+    if [ "$(cat "$got/exit")" = 0 ]; then rm -f "$base.exit"; else cp "$got/exit" "$base.exit"; fi
+}
+
+# ------------------------------------------------------------------ plans: what runs for each scene, and what does not
+
+plan_of() { (cd "$ROOT" && rasp plan "scenes/$1.yaml"); }
+
+kind_plans() {
+    [ -f "$ROOT/tests/plans/$1.plan" ] || { echo "no tests/plans/$1.plan; tests/run.sh --set plans/$1 makes it"; return 1; }
+    plan_of "$1" > plan || return
+    diff -u --label "expected plan" --label plan "$ROOT/tests/plans/$1.plan" plan
+}
+
+plans_set() {
+    mkdir -p "$ROOT/tests/plans"
+    plan_of "$1" > plan && cp plan "$ROOT/tests/plans/$1.plan"
+}
+
+# ------------------------------------------------------------------ golden: the sound and the physics of each scene
+
+# Kept: NAME.wav and NAME.csv files of a scene whose output is called "sound".
+golden_files() { (cd "$1" && find . -maxdepth 1 \( -name '*.wav' -o -name '*.csv' \) -printf '%P\n' | sort); }
+
+kind_golden() {
+    local kept=$ROOT/tests/golden/$1
+    [ -d "$kept" ] || { echo "no tests/golden/$1; tests/run.sh --set golden/$1 makes it"; return 1; }
+    mkdir first again
+    rasp render "$ROOT/scenes/$1.yaml" -o first/sound.wav || return
+    golden_same "$kept" first || return
+    rasp render first/sound.scene.yaml -o again/sound.wav || return
+    golden_same "$kept" again || { echo "(rendered from the effective scene)"; return 1; }
+}
+
+# Same files, same bytes; else `rasp compare` says how far off.
+golden_same() {
+    local file missed=0
+    diff -u --label "expected files" --label files <(golden_files "$1") <(golden_files "$2") || return
+    for file in $(golden_files "$1"); do
+        cmp -s "$1/$file" "$2/$file" && continue
+        echo "$file is not what $1 holds:"
+        rasp compare "$1/$file" "$2/$file"
+        missed=1
+    done
+    return $missed
+}
+
+golden_set() {
+    local kept=$ROOT/tests/golden/$1
+    rasp render "$ROOT/scenes/$1.yaml" -o sound.wav || return
+    rm -rf "$kept"
+    mkdir -p "$kept"
+    for file in $(golden_files .); do cp "$file" "$kept/"; done
+}
+
+# ------------------------------------------------------------------ docs: the examples of README and man pages are run
+
+kind_docs() {
+    local block n=0
+    tree_copy tree
+    mkdir blocks
+    awk -v kind="${1##*.}" -f "$ROOT/tests/lib/examples.awk" "$ROOT/$1"
+    for block in blocks/*; do
+        n=$((n + 1))
+        (cd tree && bash -e "../$block") > log 2>&1 && continue
+        echo "example $n of $1 fails:"
+        sed 's/^/    /' "$block"
+        tail -n 20 log
+        return 1
+    done
+    [ $n -gt 0 ] || { echo "no examples in $1"; return 77; }
+}
+
+# The files of the tree an example may use or write beside; the built program is there too.
+tree_copy() {
+    local entry
+    mkdir "$1"
+    for entry in "$ROOT"/*; do
+        case $entry in "$ROOT"/build* | "$BUILD") ;; *) cp -r "$entry" "$1/" ;; esac
+    done
+    ln -s "$BUILD" "$1/build"
+}
+
+# ------------------------------------------------------------------ --set
+
+set_tests() {
+    local test kind name folder
+    SCRATCH=$(mktemp -d)
+    for test; do
+        kind=${test%%/*} name=${test#*/}
+        declare -F "${kind}_set" > /dev/null || { echo "$test: only cli, plans and golden tests have expected files" >&2; return 64; }
+        folder=$(mktemp -d "$SCRATCH/run.XXXXXXXX")
+        (cd "$folder" && "${kind}_set" "$name") || { echo "$test: not set" >&2; return 1; }
+    done
+    rm -rf "$SCRATCH"
+}

@@ -1,0 +1,113 @@
+#!/bin/bash
+# Runs the tests and counts them.
+#     tests/run.sh [KIND | KIND/NAME ...]      default: every kind but bytes
+#     tests/run.sh --list [KIND ...]
+#     tests/run.sh --set KIND/NAME ...         renews the expected files of cli, plans and golden tests: look at the diff
+# BUILD is the build folder (default build), JOBS how many run at once. The last line is "N passed, N failed[, N skipped]";
+# the exit code is 0 only if something ran and nothing failed. What each kind is: tests/README.md.
+set -uo pipefail
+ROOT=$(realpath "$(dirname "$0")/..")
+BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
+JOBS=${JOBS:-$(getconf _NPROCESSORS_ONLN)}
+PATH=$BUILD:$PATH
+export ROOT BUILD PATH LC_ALL=C
+unset CDPATH
+cd "$ROOT" || exit 1
+shopt -s nullglob
+. tests/lib/kinds.sh
+
+ALL_KINDS="golden unit docs hard tidy faults cli plans"
+
+# tests_of KIND: its tests, one KIND/NAME per line.
+tests_of() {
+    local path
+    case $1 in
+        unit) for path in tests/unit/test_*.c; do name_of unit "$path" .c; done ;;
+        cli) for path in tests/cli/*.sh; do name_of cli "$path" .sh; done ;;
+        plans | golden) for path in scenes/*.yaml; do name_of "$1" "$path" .yaml; done ;;
+        docs) for path in *.md src/README.md tests/README.md man/*.[15]; do if [ -f "$path" ]; then echo "docs/$path"; fi; done ;;
+        tidy | faults | hard | bytes) for path in tests/"$1"/*.sh; do name_of "$1" "$path" .sh; done ;;
+        *) echo "tests/run.sh: no kind of test is called '$1'" >&2; exit 64 ;;
+    esac
+}
+
+name_of() {
+    local name=${2##*/}
+    echo "$1/${name%"$3"}"
+}
+
+# run_one KIND/NAME: one line (and the output of a failure), and a line "passed failed skipped" in $COUNTS.
+run_one() {
+    local kind=${1%%/*} name=${1#*/} log folder code=0 counts
+    folder=$(mktemp -d "$SCRATCH/run.XXXXXXXX")
+    log=$(mktemp "$SCRATCH/log.XXXXXXXX")
+    (cd "$folder" && "kind_$kind" "$name") > "$log" 2>&1 < /dev/null || code=$?
+    counts=$(counts_of "$code" "$log")
+    echo "$counts" >> "$COUNTS"
+    report "$code" "$1" "$log" "$counts"
+    rm -rf "$folder" "$log"
+}
+
+# A unit test program says how many tests it holds; any other test is one.
+counts_of() {
+    local line
+    if line=$(tail -n 1 "$2" | grep -Eo '[0-9]+ passed, [0-9]+ failed$'); then
+        set -- "$1" $line
+        [ "$1" = 0 ] || [ "$4" != 0 ] || set -- "$1" "$2" passed, 1
+        echo "$2 $4 0"
+    else
+        case $1 in 0) echo 1 0 0 ;; 77) echo 0 0 1 ;; *) echo 0 1 0 ;; esac
+    fi
+}
+
+# One write, so that lines of tests that run at the same time do not mix.
+report() {
+    local text
+    case $1 in
+        0) text="ok $2" && [ "${4%% *}" = 1 ] || text="ok $2 (${4%% *})" ;;
+        77) text="skip $2: $(tail -n 1 "$3")" ;;
+        *) text="FAILED $2"$'\n'"$(tail -n 60 "$3" | sed 's/^/    /')" ;;
+    esac
+    printf '%s\n' "$text"
+}
+
+if [ "${1:-}" = --one ]; then
+    run_one "$2"
+    exit
+fi
+if [ "${1:-}" = --set ]; then
+    shift
+    set_tests "$@"
+    exit
+fi
+list=false
+if [ "${1:-}" = --list ]; then
+    list=true
+    shift
+fi
+
+# shellcheck disable=SC2086
+[ $# -gt 0 ] || set -- $ALL_KINDS
+tests=$(for wanted; do case $wanted in */*) echo "$wanted" ;; *) tests_of "$wanted" || exit ;; esac; done) || exit
+if $list; then
+    echo "$tests"
+    exit
+fi
+
+SCRATCH=$(mktemp -d)
+COUNTS=$SCRATCH/counts
+export SCRATCH COUNTS
+: > "$COUNTS"
+trap 'rm -rf "$SCRATCH"' EXIT
+echo "$tests" | sed '/^$/d' | xargs -r -d '\n' -P "$JOBS" -I{} tests/run.sh --one {}
+
+awk -v expected="$(echo "$tests" | grep -c .)" '
+    { passed += $1; failed += $2; skipped += $3 }
+    END {
+        if (NR < expected) { print expected - NR " tests did not report"; failed += expected - NR }
+        if (!passed && !failed) print "no test ran"
+        printf "%d passed, %d failed", passed, failed
+        if (skipped) printf ", %d skipped", skipped
+        printf "\n"
+        exit failed > 0 || passed == 0
+    }' "$COUNTS"

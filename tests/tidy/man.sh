@@ -1,0 +1,25 @@
+# Man pages are well-formed, and say what rasp says: scripts/man.sh makes them again as they are.
+. "$ROOT/tests/lib/test.sh"
+
+# stale FOLDER: pages in it that scripts/man.sh would make otherwise.
+stale() {
+    local name
+    mkdir -p fresh
+    "$ROOT/scripts/man.sh" fresh || echo "scripts/man.sh failed"
+    for name in rasp.1 rasp-scene.5; do
+        cmp -s "fresh/$name" "$1/$name" || echo "man/$name is not fresh: run scripts/man.sh and look at the diff"
+    done
+}
+
+mkdir planted
+"$ROOT/scripts/man.sh" planted
+echo planted >> planted/rasp.1
+[ "$(stale planted)" = "man/rasp.1 is not fresh: run scripts/man.sh and look at the diff" ] || fail "man: a planted line was not caught"
+
+wrong=$(stale "$ROOT/man")
+[ -z "$wrong" ] || fail "$wrong"
+
+command -v mandoc > /dev/null || { [ "$FAILURES" != 0 ] || skip "mandoc is not installed"; finish; }
+shopt -s nullglob
+mandoc -T lint -W warning "$ROOT"/man/*.[157] || fail "mandoc: see above"
+finish

@@ -1,0 +1,27 @@
+# The home of every name is known from the name: what foo.o exports is called foo or foo_*.
+. "$ROOT/tests/lib/test.sh"
+
+# names OBJECT: exported names that do not follow from the object's name. A clone's name continues after a dot.
+names() {
+    local home=${1##*/}
+    home=${home%.o}
+    nm --defined-only --extern-only --format=posix "$1" | awk -v home="$home" '
+        { sub(/\..*/, "", $1) }
+        $1 != home && index($1, home "_") != 1 && !seen[$1]++ { print home ".o exports " $1 }'
+}
+
+mkdir planted
+echo 'int right(void); int right(void) { return 0; } int right_too; int wrong;' > planted/right.c
+"${CC:-gcc}" -c -o planted/right.o planted/right.c
+[ "$(names planted/right.o)" = "right.o exports wrong" ] || fail "names: a planted name was not caught"
+
+objects=0
+while read -r source; do
+    object=$BUILD/${source%.c}.o
+    [ -f "$object" ] || { fail "not built: $object"; continue; }
+    objects=$((objects + 1))
+    wrong=$(names "$object")
+    [ -z "$wrong" ] || fail "$wrong"
+done < <(cd "$ROOT/src" && find . -name '*.c' -printf '%P\n')
+[ $objects -gt 0 ] || fail "no objects in $BUILD"
+finish

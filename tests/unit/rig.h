@@ -1,0 +1,109 @@
+/* A piece of the pipeline under test: a scene's stages up to an item, and a probe that keeps what that item holds. */
+#ifndef RIG_H
+#define RIG_H
+#include <stdbool.h>
+
+#include "pipeline/plan.h"
+#include "pipeline/run.h"
+#include "pipeline/stages.h"
+#include "scene/scene_read.h"
+#include "unit.h"
+
+struct rig {
+    struct arena *arena;
+    struct scene scene;
+    struct run run;
+    double *x;          /* [frames * per_frame] */
+    long frames;
+    int per_frame;
+};
+
+static struct {
+    enum item item;
+    struct rig *rig;
+} rig_probe;
+
+static inline bool rig_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return true;
+}
+
+static inline double rig_work(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return 1;
+}
+
+static inline unsigned rig_asks(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return ITEM_BIT(rig_probe.item);
+}
+
+static inline bool rig_open(struct stage_run *r, struct err *e)
+{
+    (void)r, (void)e;
+    return true;
+}
+
+static inline bool rig_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    struct rig *g = rig_probe.rig;
+    (void)e;
+    g->per_frame = r->board->signals[rig_probe.item].per_frame;
+    if (!g->x)
+        g->x = calloc((size_t)(g->frames * g->per_frame), sizeof *g->x);
+    memcpy(g->x + from * g->per_frame, board_at(r->board, rig_probe.item, from), (size_t)((to - from) * g->per_frame) * sizeof *g->x);
+    return true;
+}
+
+static const struct stage rig_stage = {.name = "probe", .does = "", .paper = "", .idle = "", .gives = ITEM_BIT(ITEM_TABLE),
+                                       .asks = rig_asks, .wanted = rig_wanted, .work = rig_work, .open = rig_open, .run = rig_run};
+
+static inline struct scene rig_scene(struct arena *a, const char *text)
+{
+    struct scene s;
+    struct err e = {0};
+    const char *messages = "";
+    if (!scene_read_text(text, strlen(text), "rig.yaml", &(struct scene_overrides){0}, a, &s, &messages, &e))
+        ck_abort_msg("%s%s", messages, e.text);
+    s.output.diagnostics.given = true;
+    return s;
+}
+
+/* Runs the scene's (only) contact for so many frames, in blocks of `block`, and keeps the item. */
+static inline struct rig *rig_record(struct scene *s, enum item item, long frames, int block)
+{
+    const struct stage *table[64];
+    struct rig *g = calloc(1, sizeof *g);
+    struct plan p;
+    struct err e = {0};
+    int n = 0;
+    for (; stages_table[n]; n++)
+        table[n] = stages_table[n] == &force_table_stage ? &rig_stage : stages_table[n];
+    table[n] = NULL;
+    rig_probe.item = item;
+    rig_probe.rig = g;
+    g->arena = arena_open();
+    g->frames = frames;
+    ck_assert_msg(plan_make(table, &s->contacts[0], s, g->arena, &p, &e), "%s", e.text);
+    ck_assert_msg(run_open(&g->run, &p, s, NULL, &e), "%s", e.text);
+    for (long to = block; ; to += block) {
+        ck_assert_msg(run_block(&g->run, to < frames ? to : frames, &e), "%s", e.text);
+        if (to >= frames)
+            break;
+    }
+    g->scene = *s;
+    return g;
+}
+
+static inline void rig_close(struct rig *g)
+{
+    run_close(&g->run);
+    free(g->x);
+    arena_close(g->arena);
+    free(g);
+}
+
+#endif

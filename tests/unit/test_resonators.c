@@ -1,0 +1,284 @@
+/* The judge is the defining sum in long double, y[n] = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f[m] with half of h(0+) at m = n,
+   h in closed form: O(N^2) per mode, nothing in common with the recursion. */
+#include "unit.h"
+
+#include <complex.h>
+
+#include "convolution/resonators.h"
+
+enum { MAX = 64, N = 3000 };
+#define RATE 48000.0
+
+struct scene {
+    struct modes m;
+    double frequency[MAX], decay[MAX], size[MAX], phase[MAX];
+    double re[MAX], im[MAX];
+};
+
+static unsigned long long seed;
+
+static double draw(void)
+{
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
+static struct scene scene_of(int n, double lowest, double highest)
+{
+    struct scene s = {.m = {.n = n, .places = 1, .quantity = MODES_VELOCITY}};
+    seed = 7;
+    for (int i = 0; i < n; i++) {
+        s.frequency[i] = lowest * pow(highest / lowest, n > 1 ? i / (n - 1.0) : 0.0);
+        s.decay[i] = 2 + 80 * draw();
+        s.size[i] = 2 * draw() - 1;
+        s.phase[i] = 6 * draw() - 3;
+    }
+    return s;
+}
+
+static struct scene *wire(struct scene *s)
+{
+    s->m.frequency = s->frequency;
+    s->m.decay = s->decay;
+    s->m.gain_re = s->re;
+    s->m.gain_im = s->im;
+    return s;
+}
+
+/* The mode shapes: sin((i + 1) pi x) changes its sign along the way x(n). */
+static void gains(const struct scene *s, double n, double *re, double *im)
+{
+    double x = 0.5 + 0.45 * sin(2 * M_PI * n / 2500.0);
+    for (int i = 0; i < s->m.n; i++) {
+        double a = s->size[i] * sin((i % 4 + 1) * M_PI * x);
+        re[i] = a * cos(s->phase[i]);
+        im[i] = a * sin(s->phase[i]);
+    }
+}
+
+static void force(double *f, int n)
+{
+    seed = 99;
+    for (int i = 0; i < n; i++)
+        f[i] = 2 * draw() - 1;
+}
+
+/* gain(n) as a function of the sample; direct: D of acceleration. */
+static void brute(const struct scene *s, const double *f, double *y, int n)
+{
+    static double re[N][MAX], im[N][MAX];
+    static long double er[N], ei[N];
+    for (int k = 0; k < n; k++) {
+        gains(s, k, re[k], im[k]);
+        y[k] = 0;
+    }
+    for (int i = 0; i < s->m.n; i++) {
+        long double complex pole = -s->decay[i] + 2 * acosl(-1.0L) * s->frequency[i] * (long double complex)I;
+        for (int k = 0; k < n; k++) {
+            long double complex v = cexpl(pole * k / (long double)RATE) / RATE;
+            er[k] = creall(v);
+            ei[k] = cimagl(v);
+        }
+        for (int k = 0; k < n; k++) {
+            long double sum = im[k][i] * f[k] * er[0] / 2;
+            for (int m = 0; m < k; m++)
+                sum += (im[m][i] * er[k - m] + re[m][i] * ei[k - m]) * f[m];
+            y[k] += (double)sum;
+        }
+    }
+}
+
+/* The bank with gains given every `ramp` samples. */
+static void bank(struct scene *s, const double *f, double *y, int n, int ramp)
+{
+    struct arena *a = arena_open();
+    struct resonators *r = resonators_make(a, &wire(s)->m, RATE, ramp);
+    double re[MAX], im[MAX];
+    gains(s, -1, re, im);
+    resonators_set_gains(r, re, im);
+    memset(y, 0, (size_t)n * sizeof *y);
+    for (int at = 0; at < n; at += ramp) {
+        int frames = n - at < ramp ? n - at : ramp;
+        gains(s, at + frames - 1, re, im);
+        resonators_run(r, f + at, y + at, frames, re, im);
+    }
+    arena_close(a);
+}
+
+/* Root-mean-square of the difference, relative to b. */
+static double apart(const double *a, const double *b, int n)
+{
+    double d = 0, s = 0;
+    for (int i = 0; i < n; i++) {
+        d += (a[i] - b[i]) * (a[i] - b[i]);
+        s += b[i] * b[i];
+    }
+    return sqrt(d / s);
+}
+
+static double against_brute(int modes, double lowest, double highest, int ramp)
+{
+    double faster = ramp > 1 ? 30 : 1; /* decays: the more independent the errors of single samples, the steadier their sum */
+    static double f[N], y[N], z[N];
+    struct scene s = scene_of(modes, lowest, highest);
+    for (int i = 0; i < modes; i++)
+        s.decay[i] *= faster;
+    force(f, N);
+    brute(&s, f, z, N);
+    bank(&s, f, y, N, ramp);
+    return apart(y, z, N);
+}
+
+/* Rounding alone: about 1e-16 a step over 3000 steps. */
+START_TEST(equals_the_defining_sum)
+{
+    static const int counts[] = {1, 7, 8, 9, 51};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        double d = against_brute(counts[i], 90, 18000, 1);
+        printf("%d modes, gains at every sample: %.2e\n", counts[i], d);
+        ck_assert_double_lt(d, 1e-12);
+    }
+    double near_nyquist = against_brute(3, 0.49 * RATE, 0.4989 * RATE, 1);
+    ck_assert_double_lt(near_nyquist, 1e-12);
+}
+END_TEST
+
+/* Linear between exact gains: error of order ramp^2, 12.04 dB per halving. The noise makes a single step uncertain. */
+START_TEST(ramped_gains_converge_at_order_2)
+{
+    double last = 0, first = 0;
+    for (int ramp = 64; ramp >= 4; ramp /= 2) {
+        double d = 20 * log10(against_brute(40, 90, 20000, ramp));
+        printf("ramp %2d: %.1f dB\n", ramp, d);
+        if (ramp == 64)
+            first = d;
+        else
+            ck_assert_double_eq_tol(last - d, 12.04, 1.5);
+        last = d;
+    }
+    ck_assert_double_eq_tol((first - last) / 4, 12.04, 0.5);
+}
+END_TEST
+
+/* While gains rest, the same samples to the bit, however they are cut; and y is added to. */
+START_TEST(cuts_do_not_matter)
+{
+    static double f[N], y[N], z[N];
+    struct scene s = scene_of(51, 60, 20000);
+    force(f, N);
+    for (int i = 0; i < N; i++)
+        y[i] = z[i] = 0;
+    struct arena *a = arena_open();
+    struct resonators *p = resonators_make(a, &wire(&s)->m, RATE, 64), *q = resonators_make(a, &s.m, RATE, 4096);
+    double re[MAX], im[MAX];
+    gains(&s, 100, re, im);
+    resonators_set_gains(p, re, im);
+    resonators_set_gains(q, re, im);
+    resonators_run(p, f, y, N, re, im);
+    for (int at = 0, n = 1; at < N; at += n, n = n % 97 + 13)
+        resonators_run(q, f + at, z + at, at + n < N ? n : N - at, re, im);
+    ck_assert(memcmp(y, z, sizeof y) == 0);
+    resonators_run(p, f, y, 0, re, im);
+    arena_close(a);
+}
+END_TEST
+
+/* Pole measured from the sound: y[n+1] + c1 y[n] + c2 y[n-1] = 0 solved by least squares. */
+START_TEST(frequency_and_decay_are_the_tables)
+{
+    static double y[N];
+    static const double frequency[] = {20, 440, 5000, 0.49 * RATE}, decay[] = {0.5, 6.9, 300, 12};
+    for (int k = 0; k < 4; k++) {
+        struct scene s = {.m = {.n = 1, .places = 1, .quantity = MODES_VELOCITY}, .frequency = {frequency[k]}, .decay = {decay[k]}};
+        struct arena *a = arena_open();
+        struct resonators *r = resonators_make(a, &wire(&s)->m, RATE, 64);
+        double f[N] = {1}, re = 0.3, im = 0.4;
+        long double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
+        resonators_set_gains(r, &re, &im);
+        memset(y, 0, sizeof y);
+        resonators_run(r, f, y, N, &re, &im);
+        for (int n = 2; n < N - 1; n++) {
+            long double u = y[n], v = y[n - 1], w = y[n + 1];
+            aa += u * u, ab += u * v, bb += v * v, ac += u * w, bc += v * w;
+        }
+        long double det = aa * bb - ab * ab, c1 = (ac * bb - bc * ab) / det, c2 = (bc * aa - ac * ab) / det;
+        double radius = sqrt((double)-c2), found = acos((double)(c1 / 2) / radius) / (2 * M_PI) * RATE, rate = -log(radius) * RATE;
+        printf("f %.9g -> %.12g, decay %.9g -> %.12g\n", frequency[k], found, decay[k], rate);
+        ck_assert_double_lt(fabs(found / frequency[k] - 1), 1e-8);
+        ck_assert_double_lt(fabs(rate / decay[k] - 1), 1e-6); /* T60 = ln(1000)/decay; the fit, not the bank, is the limit */
+        arena_close(a);
+    }
+}
+END_TEST
+
+START_TEST(silence)
+{
+    static double f[N], y[N];
+    struct scene s = scene_of(51, 60, 20000);
+    struct arena *a = arena_open();
+    for (int i = 0; i < 51; i++)
+        s.decay[i] = 8 + i; /* 1e-200 after 58 s at the latest */
+    struct resonators *r = resonators_make(a, &wire(&s)->m, RATE, 64);
+    double re[MAX], im[MAX], none[MAX] = {0};
+    ck_assert(resonators_silent(r));
+    force(f, N);
+    resonators_set_gains(r, none, none);
+    resonators_run(r, f, y, N, none, none); /* gains of zero make no sound */
+    for (int i = 0; i < N; i++)
+        ck_assert(y[i] == 0.0);
+    ck_assert(resonators_silent(r));
+    gains(&s, 100, re, im);
+    resonators_set_gains(r, re, im);
+    resonators_run(r, f, y, N, re, im);
+    ck_assert(!resonators_silent(r));
+    memset(f, 0, sizeof f);
+    for (int block = 0; block < 60 * (int)RATE / N; block++) {
+        memset(y, 0, sizeof y);
+        for (int at = 0; at < N; at += 60)
+            resonators_run(r, f + at, y + at, 60, re, im);
+    }
+    for (int i = 0; i < N; i++)
+        ck_assert(y[i] == 0.0);
+    ck_assert(resonators_silent(r));
+    arena_close(a);
+}
+END_TEST
+
+/* No modes at all: no sound. */
+START_TEST(no_modes)
+{
+    struct modes m = {.quantity = MODES_VELOCITY};
+    struct arena *a = arena_open();
+    struct resonators *r = resonators_make(a, &m, RATE, 64);
+    double f[3] = {1, 2, 3}, y[3] = {4, 5, 6};
+    resonators_run(r, f, y, 3, NULL, NULL);
+    ck_assert(y[0] == 4 && y[2] == 6 && resonators_silent(r));
+    arena_close(a);
+}
+END_TEST
+
+/* Acceleration is the derivative of velocity: under a steady force a free-standing mode ends at rest, so the sum of h_a and the direct
+   term vanish together. Without the term it is the whole of D f. The trapezium rule leaves (omega/rate)^2/12 = 1e-4 of it. */
+START_TEST(acceleration_has_its_direct_term)
+{
+    enum { LONG = 48000 };
+    static double f[LONG], y[LONG];
+    struct scene s = {.m = {.n = 1, .places = 1, .quantity = MODES_ACCELERATION}, .frequency = {250}, .decay = {30}};
+    struct arena *a = arena_open();
+    double omega = 2 * M_PI * 250, velocity = 3.0, re, im;
+    double complex gain = velocity * I * (-30 + I * omega); /* h_v = velocity cos(omega t) e^(-30 t) = Im(velocity j e^(s t)) */
+    re = creal(gain), im = cimag(gain);
+    struct resonators *r = resonators_make(a, &wire(&s)->m, RATE, 64);
+    ck_assert_double_eq_tol(modes_direct(&s.m, &re, &im), velocity, 1e-12);
+    for (int i = 0; i < LONG; i++)
+        f[i] = 1;
+    resonators_set_gains(r, &re, &im);
+    resonators_run(r, f, y, LONG, &re, &im);
+    ck_assert_double_lt(fabs(y[LONG - 1]), 2e-4 * velocity);
+    ck_assert_double_gt(fabs(y[0]), 0.9 * velocity);
+    arena_close(a);
+}
+END_TEST
+
+UNIT("resonators", equals_the_defining_sum, ramped_gains_converge_at_order_2, cuts_do_not_matter, frequency_and_decay_are_the_tables,
+     silence, no_modes, acceleration_has_its_direct_term)

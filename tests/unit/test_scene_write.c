@@ -1,0 +1,270 @@
+/* scene/scene_write.c: what has been written reads back as the same scene, field by field (to the bit), and is written as the same text
+   again. Fields are walked by the tables of keys.h, compared here by their C types. */
+#include "unit.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "scene/keys.h"
+#include "scene/keys_yaml.h"
+#include "scene/scene_read.h"
+#include "scene/scene_write.h"
+
+static const char PLAIN[] = "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 20 g}\n"
+                            "motion: {path: back_and_forth, to: [4.5 cm, 0], rate: 2 Hz, duration: 2 s}\n";
+static const char FULL[] =
+    "rasp: 1\ntitle: \"a \\\"b\\\" \\\\ \\t \\n # {c}: [d], \\u00e9 \\u2028 \\ufeff \\x7f \\x85 \\U0001F600\"\nseed: 18446744073709551615\n"
+    "name: 'yes'\nstart: 0.1\ngain: -0.3333333333333333\n"
+    "surface: {height_map: files/map.npy, pitch: 5.6 um, height_scale: 1 nm, along: x, off_map: wrap, origin: [0.1, 0.2],\n"
+    "  response: files/plank.csv, modes: 7, response_length: 0.3, convolution: overlap_add, extrapolate: nearest}\n"
+    "scraper: {mass: 0.1 g, weight: 0.7, response: files/plank.csv, modes: 3, response_length: 20 ms, convolution: resonators}\n"
+    "motion: {path: line, from: [1e-3, 0.3], to: [0.7 mm, 12.3 cm], speed: 0.1, law: minimum_jerk}\n"
+    "grip: {angle: 30 deg, azimuth: 77 deg, friction: 0.123}\n"
+    "contact: {force: paper, beta1: 0.7, beta2: 1.1, smoothing: 0, limiter: {alpha_min: 7 mm, force_range: [0.1, 5]}}\n"
+    "output: {sample_rate: 44.1 kHz, encoding: float64, channels: 2, level: {lufs: -23}, ramp: 0, tail: 0.3,\n"
+    "  diagnostics: {rate: 100, columns: [time_s, speed_m_per_s]}}\n"
+    "accuracy: {preset: high, oversampling: 5, overlap_hop: 7 ms}\n";
+static const char NONE[] = "rasp: 1\nsurface: {height_map: files/map.npy, pitch: 1 um}\nscraper: {mass: 1}\nload: {constant: 0.1}\n"
+                           "motion: {path: line, to: [1, 1], duration: 0.3}\ncontact: {limiter: {curve: none}}\naccuracy: draft\n";
+static const char SEVERAL[] = "rasp: 1\ncontacts:\n"
+                              "  - {name: rod, surface: {roughness: {rms: 4 um}, response: files/plank.csv}, scraper: {mass: 20 g},\n"
+                              "     motion: {path: line, to: [10 cm, 0], speed: 5 cm/s}}\n"
+                              "  - {name: comb, start: 0.5, gain: 0.5, surface: {height_map: files/map.npy, pitch: 1 um},\n"
+                              "     scraper: {mass: 8 g, response: files/plank.csv}, motion: {path: line, to: [0, 10 cm], duration: 1},\n"
+                              "     grip: {angle: 0.1}}\n"
+                              "output: {diagnostics: {}}\n";
+static const char *const scenes[] = {PLAIN, FULL, NONE, SEVERAL};
+enum { SCENES = sizeof scenes / sizeof scenes[0] };
+
+static struct arena *a;
+static char root[] = "/tmp/rasp-write-XXXXXX";
+
+static void put(const char *name, const char *text)
+{
+    FILE *f = fopen(name, "w");
+    ck_assert_ptr_nonnull(f);
+    fputs(text, f);
+    fclose(f);
+}
+
+static void enter(void)
+{
+    a = arena_open();
+    ck_assert_ptr_nonnull(mkdtemp(root));
+    ck_assert_int_eq(chdir(root), 0);
+    ck_assert(mkdir("in", 0700) == 0 && mkdir("in/files", 0700) == 0 && mkdir("out", 0700) == 0);
+    put("in/files/plank.csv", "a table\n");
+    put("in/files/map.npy", "a map\n");
+}
+
+static void leave(void)
+{
+    static const char *const files[] = {"in/files/plank.csv", "in/files/map.npy", "in/scene.yaml", "out/scene.yaml"},
+                             *const folders[] = {"in/files", "in", "out", root};
+    for (int i = 0; i < 4; i++)
+        unlink(files[i]);
+    for (int i = 0; i < 4; i++)
+        rmdir(folders[i]);
+    arena_close(a);
+}
+
+static bool try_read(const char *file, const struct scene_overrides *over, struct scene *s, const char **messages)
+{
+    struct err e = {0};
+    return scene_read(file, over, a, s, messages, &e);
+}
+
+static void must_read(const char *file, struct scene *s)
+{
+    const char *messages = "";
+    ck_assert_msg(try_read(file, NULL, s, &messages), "%s", messages);
+}
+
+/* ------------------------------------------------------------------ comparison */
+
+static bool same_double(double x, double y)
+{
+    return isnan(x) ? isnan(y) : memcmp(&x, &y, sizeof x) == 0;
+}
+
+static bool same_text(const char *x, const char *y)
+{
+    return x && y ? !strcmp(x, y) : x == y;
+}
+
+static bool same_file(const char *x, const char *y)
+{
+    struct stat s, t;
+    return x && y ? stat(x, &s) == 0 && stat(y, &t) == 0 && s.st_ino == t.st_ino : x == y;
+}
+
+static bool same_list(const char *const *x, const char *const *y)
+{
+    for (; x && y && *x && *y; x++, y++)
+        if (strcmp(*x, *y) != 0)
+            return false;
+    return x && y ? *x == *y : x == y;
+}
+
+static bool same_field(const struct key *k, const void *x, const void *y)
+{
+    const double *xd = x, *yd = y;
+    switch (k->type) {
+    case KEY_NUMBER:
+    case KEY_WHOLE:
+    case KEY_TIME_OR_AUTO: return same_double(*xd, *yd);
+    case KEY_POINT:
+    case KEY_RANGE: return same_double(xd[0], yd[0]) && same_double(xd[1], yd[1]);
+    case KEY_COUNT:
+    case KEY_CHOICE: return *(const int *)x == *(const int *)y;
+    case KEY_SEED: return *(const uint64_t *)x == *(const uint64_t *)y;
+    case KEY_TEXT: return same_text(*(const char *const *)x, *(const char *const *)y);
+    case KEY_FILE: return same_file(*(const char *const *)x, *(const char *const *)y);
+    case KEY_LIST: return same_list(*(const char *const *const *)x, *(const char *const *const *)y);
+    }
+    return false;
+}
+
+static void same_part(enum key_struct of, const void *x, const void *y, const char *text)
+{
+    for (const struct key *k = keys_table; k->path; k++)
+        if (k->of == of)
+            ck_assert_msg(same_field(k, (const char *)x + k->offset, (const char *)y + k->offset), "%s differs after:\n%s", k->path, text);
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (s->of == of)
+            ck_assert_msg(*((const bool *)((const char *)x + s->offset)) == *((const bool *)((const char *)y + s->offset)), "%s: given", s->path);
+}
+
+static void same_scene(const struct scene *x, const struct scene *y, const char *text)
+{
+    same_part(KEY_SCENE, x, y, text);
+    ck_assert_int_eq(x->n_contacts, y->n_contacts);
+    for (int i = 0; i < x->n_contacts; i++)
+        same_part(KEY_CONTACT, &x->contacts[i], &y->contacts[i], text);
+    ck_assert_str_eq(x->accuracy.preset, y->accuracy.preset);
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        ck_assert_msg(same_double(*(const double *)((const char *)&x->accuracy + k->offset), *(const double *)((const char *)&y->accuracy + k->offset)),
+                      "%s", k->name);
+}
+
+static void round_trip(const struct scene *s)
+{
+    struct scene again;
+    const char *text = scene_write(s, "out", a);
+    put("out/scene.yaml", text);
+    must_read("out/scene.yaml", &again);
+    same_scene(s, &again, text);
+    ck_assert_str_eq(scene_write(&again, "out", a), text);
+}
+
+/* ------------------------------------------------------------------ tests */
+
+START_TEST(test_round_trip)
+{
+    struct scene s;
+    enter();
+    for (int i = 0; i < SCENES; i++) {
+        put("in/scene.yaml", scenes[i]);
+        must_read("in/scene.yaml", &s);
+        round_trip(&s);
+    }
+    leave();
+}
+END_TEST
+
+/* Between low and high, in the logarithm if both are above 0; bits at random otherwise. */
+static double any_between(double low, double high)
+{
+    double u = drand48();
+    return low > 0 ? fmin(high, fmax(low, low * pow(high / low, u))) : low + u * (high - low);
+}
+
+/* --set for each of the scene's numbers that is given, with a probability of a half. */
+static void any_numbers(const struct scene *s, struct scene_overrides *over)
+{
+    for (const struct key *k = keys_table; k->path; k++) {
+        const void *owner = k->of == KEY_SCENE ? (const void *)s : (const void *)s->contacts;
+        bool number = k->type == KEY_NUMBER && !isnan(*(const double *)((const char *)owner + k->offset));
+        if (number && drand48() < 0.5)
+            over->set[over->n++] = arena_format(a, "%s=%.17g", k->path, any_between(k->low, k->high));
+    }
+}
+
+START_TEST(test_any_numbers)
+{
+    int tried = 0, good = 0;
+    enter();
+    srand48(1);
+    for (int i = 0; i < 3; i++) {
+        struct scene s, varied;
+        const char *messages;
+        put("in/scene.yaml", scenes[i]);
+        must_read("in/scene.yaml", &s);
+        for (int j = 0; j < 400; j++) {
+            struct scene_overrides over = {ARENA_TAKE(a, const char *, 128), 0};
+            any_numbers(&s, &over);
+            tried++;
+            if (!try_read("in/scene.yaml", &over, &varied, &messages)) /* alpha_min above alpha_max, a motion too long ... */
+                continue;
+            good++;
+            round_trip(&varied);
+        }
+    }
+    leave();
+    ck_assert_msg(good > tried / 20, "only %d of %d are scenes", good, tried);
+}
+END_TEST
+
+START_TEST(test_what_does_not_apply_is_left_out)
+{
+    static const char *const absent[] = {" rate:", "origin:", "leak:", "alpha:", "grip:", "roughness:", "level:", "title:", "columns:", "speed:"};
+    struct scene s;
+    enter();
+    put("in/scene.yaml", "rasp: 1\nsurface: {height_map: files/map.npy, pitch: 1 um}\nscraper: {mass: 1}\n"
+                         "motion: {path: line, to: [1, 1], duration: 0.3}\ncontact: {force: paper, limiter: {curve: none}}\n");
+    must_read("in/scene.yaml", &s);
+    const char *text = scene_write(&s, "in", a);
+    for (size_t i = 0; i < sizeof absent / sizeof absent[0]; i++)
+        ck_assert_msg(!strstr(text, absent[i]), "%s is in:\n%s", absent[i], text);
+    ck_assert_ptr_nonnull(strstr(text, "  law: constant\n"));
+    leave();
+}
+END_TEST
+
+START_TEST(test_inputs)
+{
+    struct scene s;
+    char hex[HASH_TEXT];
+    enter();
+    put("in/scene.yaml", SEVERAL);
+    must_read("in/scene.yaml", &s);
+    hash_bytes("a table\n", 8, hex);
+    const char *text = scene_write(&s, "out", a);
+    const char *entry = arena_format(a, "  - file: \"../in/files/plank.csv\"\n    sha256: \"%s\"\n", hex);
+    ck_assert_msg(strstr(text, entry) != NULL, "%s lacks\n%s", text, entry);
+    ck_assert_msg(!strstr(strstr(text, entry) + 10, "- file: \"../in/files/plank.csv\""), "listed twice:\n%s", text);
+    unlink("in/files/plank.csv");
+    text = scene_write(&s, "out", a);
+    ck_assert_ptr_nonnull(strstr(text, "plank.csv\"\n    # could not be read when this was written\n"));
+    s.n_inputs = 1;
+    s.inputs = &(struct input){"in/files/plank.csv", hex};
+    ck_assert_str_eq(strstr(scene_write(&s, "out", a), entry), strstr(scene_write(&s, "out", a), "  - file: \"../in/files/plank.csv\""));
+    leave();
+}
+END_TEST
+
+START_TEST(test_numbers)
+{
+    static const struct {
+        double x;
+        const char *text;
+    } cases[] = {{0.1, "0.1"}, {0.02, "0.02"}, {1.0 / 3, "0.3333333333333333"}, {0.1 + 0.2, "0.30000000000000004"}, {48000, "48000"}, {5e-5, "5e-05"}};
+    a = arena_open();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        ck_assert_str_eq(keys_yaml_number(cases[i].x, a), cases[i].text);
+    arena_close(a);
+}
+END_TEST
+
+UNIT("scene_write", test_round_trip, test_any_numbers, test_what_does_not_apply_is_left_out, test_inputs, test_numbers)

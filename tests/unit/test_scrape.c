@@ -1,0 +1,270 @@
+/* The scraping force against a slow plain reference: S' by Runge-Kutta 4 in time with libm's tanh, 4000 steps per sub-interval's worth
+   of path, means by summation. Tolerances say what the closed forms leave out. */
+#include "rig.h"
+#include "surface/limiter.h"
+#include "surface/profile.h"
+#include "trajectory/load.h"
+#include "trajectory/trajectory.h"
+
+static const char *const head = "rasp: 1\n"
+                                "seed: 5\n"
+                                "output: {diagnostics: {}, sample_rate: 48000}\n"
+                                "scraper: {mass: 20 g}\n";
+
+static const char *const reversing = "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.4 cm, 0], rate: 30 Hz, duration: 0.05 s}\n";
+
+static struct scene made(struct arena *a, const char *rest)
+{
+    return rig_scene(a, arena_format(a, "%s%s", head, rest));
+}
+
+struct judge {
+    struct profile *p;
+    const struct trajectory *tr;
+    double offset, scale, leak, alpha, beta1, beta2, mass;
+    bool limiter;
+};
+
+static double judge_bend(const struct judge *j, double u)
+{
+    double q = (j->offset + j->scale * u) / j->p->pitch, cell = floor(q), bend[2], work[4];
+    profile_knots(j->p, (long)cell, 2, work, (struct profile_knots){.curvature = bend});
+    double c = j->scale * j->scale * (bend[0] + (q - cell) * (bend[1] - bend[0]));
+    return j->limiter ? tanh(j->alpha * c) / j->alpha : c;
+}
+
+static double judge_rate(const struct judge *j, double t, double slope)
+{
+    double u, v;
+    trajectory_at(j->tr, 1, &t, &u, &v, NULL);
+    return v * judge_bend(j, u) - fabs(v) * slope / j->leak;
+}
+
+/* Means of the force over n sub-intervals of length dt from 0 on. */
+static void judge_run(const struct judge *j, long n, double dt, int steps, double *force)
+{
+    double slope = 0, momentum = 0, h = dt / steps;
+    for (long i = 0; i < n; i++) {
+        double across = 0, u, v;
+        for (int k = 0; k < steps; k++) {
+            double t = (double)i * dt + k * h, middle = t + h / 2, before = slope;
+            double a = judge_rate(j, t, slope), b = judge_rate(j, middle, slope + h / 2 * a), c = judge_rate(j, middle, slope + h / 2 * b),
+                   d = judge_rate(j, t + h, slope + h * c);
+            slope += h / 6 * (a + 2 * b + 2 * c + d);
+            trajectory_at(j->tr, 1, &middle, &u, &v, NULL);
+            across += h * pow(fabs(v * 0.5 * (before + slope)), j->beta2);
+        }
+        double end = (double)(i + 1) * dt;
+        trajectory_at(j->tr, 1, &end, &u, &v, NULL);
+        force[i] = (j->mass * v * slope - momentum) / dt + j->beta1 * across / dt;
+        momentum = j->mass * v * slope;
+    }
+}
+
+static struct judge judge_of(const struct rig *g)
+{
+    const struct contact *c = &g->scene.contacts[0];
+    const struct board *b = &g->run.board;
+    bool x = c->surface.along == ALONG_X;
+    return (struct judge){.p = b->profile, .tr = b->trajectory, .offset = x ? b->trajectory->from[0] - c->surface.origin[0] : 0,
+                          .scale = x ? b->trajectory->e[0] : 1, .leak = c->contact.leak, .alpha = limiter_constant(c),
+                          .beta1 = c->contact.beta1, .beta2 = c->contact.beta2, .mass = c->scraper.mass,
+                          .limiter = c->contact.limiter.curve == LIMITER_TANH};
+}
+
+/* Relative rms difference between the stage's sub-forces and the judge's over the first frames. */
+static double against_judge(const char *rest, long frames, int steps)
+{
+    struct arena *a = arena_open();
+    struct scene s = made(a, rest);
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, frames, 1024);
+    struct judge j = judge_of(g);
+    long n = frames * g->per_frame;
+    double *want = calloc((size_t)n, sizeof *want), off = 0, all = 0;
+    judge_run(&j, n, 1 / (48000.0 * g->per_frame), steps, want);
+    for (long i = 0; i < n; i++) {
+        off += (g->x[i] - want[i]) * (g->x[i] - want[i]);
+        all += want[i] * want[i];
+    }
+    free(want);
+    rig_close(g);
+    arena_close(a);
+    printf("relative rms difference %.3g (rms force %.3g N)\n", sqrt(off / all), sqrt(all / (double)n));
+    return sqrt(off / all);
+}
+
+/* Vertical force only, through three reversals and at varying speed. The closed form leaves out (pitch/leak)^2/24 = 3e-7 of a piece's
+   variation; the judge's own steps meet the knots' kinks at second order. */
+START_TEST(vertical_force_through_reversals)
+{
+    double off = against_judge(arena_format(arena_open(), "%s%s", "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\n",
+                                            reversing),
+                               1600, 200);
+    ck_assert_double_lt(off, 1e-5);
+}
+END_TEST
+
+/* Without the limiter T is linear in a piece and only quadrature of the judge is left. */
+START_TEST(unlimited_force_through_reversals)
+{
+    double off = against_judge(
+        arena_format(arena_open(), "%s%s",
+                     "surface: {roughness: {rms: 1 um, shortest: 100 um}}\ncontact: {beta1: 0, smoothing: 0 s, limiter: {curve: none}}\n", reversing),
+        1600, 200);
+    ck_assert_double_lt(off, 1e-6);
+}
+END_TEST
+
+/* Both forces; the horizontal one dominates with this beta1. */
+START_TEST(horizontal_force)
+{
+    const char *const models[] = {"{beta1: 5, smoothing: 0 s}", "{beta1: 5, beta2: 2, smoothing: 0 s}", "{beta1: 5, beta2: 0.8, smoothing: 0 s}"};
+    const double bounds[] = {1e-4, 1e-3, 1e-3}; /* zeros of S' inside a piece are met by straight lines; the speed by its mean */
+    for (int k = 0; k < 3; k++) {
+        double off = against_judge(arena_format(arena_open(), "surface: {roughness: {rms: 5 um}}\ncontact: %s\n%s", models[k], reversing), 1600, 200);
+        ck_assert_double_lt(off, bounds[k]);
+    }
+}
+END_TEST
+
+/* A stroke at 45 degrees over a profile along x: curvature along the path is half of z''. */
+START_TEST(oblique_stroke_over_an_extruded_profile)
+{
+    double off = against_judge("surface: {roughness: {rms: 5 um}, along: x}\ncontact: {beta1: 0.05, smoothing: 0 s}\n"
+                               "motion: {path: line, from: [1 cm, 0], to: [0.5 cm, 5 mm], speed: 20 cm/s}\n",
+                               1200, 200);
+    ck_assert_double_lt(off, 1e-4);
+}
+END_TEST
+
+/* Exact means: four sub-intervals' mean is the mean over the sample, whatever lies in between (3e-7, as above). */
+START_TEST(means_are_exact)
+{
+    double *coarse = NULL, worst = 0, rms = 0;
+    struct arena *a = arena_open();
+    for (int over = 1; over <= 4; over *= 4) {
+        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\naccuracy: {oversampling: %d}\n%s",
+                                              over, reversing));
+        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
+        if (!coarse) {
+            coarse = g->x;
+            g->x = NULL;
+        } else
+            for (long n = 0; n < 2400; n++) {
+                double mean = (g->x[4 * n] + g->x[4 * n + 1] + g->x[4 * n + 2] + g->x[4 * n + 3]) / 4;
+                worst = fmax(worst, fabs(mean - coarse[n]));
+                rms += coarse[n] * coarse[n] / 2400;
+            }
+        rig_close(g);
+    }
+    printf("worst difference %.3g N of rms %.3g N\n", worst, sqrt(rms));
+    ck_assert_double_lt(worst, 1e-5 * sqrt(rms));
+    ck_assert_double_gt(rms, 0);
+}
+END_TEST
+
+/* The same bits however the frames are cut into blocks, with everything on. */
+START_TEST(blocks_do_not_matter)
+{
+    struct arena *a = arena_open();
+    const char *rest = arena_format(a, "surface: {roughness: {rms: 5 um}}\ngrip: {}\n%s", reversing);
+    struct scene s = made(a, rest);
+    struct rig *one = rig_record(&s, ITEM_FORCE, 3000, 1024), *other = rig_record(&s, ITEM_FORCE, 3000, 77);
+    ck_assert_int_eq(memcmp(one->x, other->x, 3000 * sizeof *one->x), 0);
+    double most = 0;
+    for (long n = 0; n < 3000; n++)
+        most = fmax(most, fabs(one->x[n]));
+    ck_assert_double_gt(most, 1e-3);
+    rig_close(one);
+    rig_close(other);
+}
+END_TEST
+
+/* A flat surface (4 samples of nothing) gives exactly no force. */
+START_TEST(flat_surface_is_silent)
+{
+    struct arena *a = arena_open();
+    struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 1 um}}\n%s", reversing));
+    s.contacts[0].surface.roughness.rms = 0;
+    struct rig *g = rig_record(&s, ITEM_FORCE, 2000, 1024);
+    for (long n = 0; n < 2000; n++)
+        ck_assert(g->x[n] == 0);
+    rig_close(g);
+}
+END_TEST
+
+/* A limiter that never bites is no limiter; one that always bites bounds |S''| by 1/alpha, so |force| <= m v^2/alpha + leak and S' a terms. */
+START_TEST(limits_of_the_limiter)
+{
+    struct arena *a = arena_open();
+    const char *const curves[] = {"{curve: none}", "{alpha: 1e-6}", "{alpha: 1000}"};
+    double *x[3], largest = 0;
+    for (int k = 0; k < 3; k++) {
+        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 1 um, shortest: 1 mm, longest: 2 mm}}\n"
+                                                 "contact: {beta1: 0, smoothing: 0 s, limiter: %s}\n%s", curves[k], reversing));
+        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2000, 1024);
+        x[k] = g->x;
+        g->x = NULL;
+        rig_close(g);
+    }
+    for (long i = 0; i < 8000; i++) {
+        ck_assert_double_eq_tol(x[1][i], x[0][i], 1e-6 * fabs(x[0][i]) + 1e-9);
+        largest = fmax(largest, fabs(x[2][i]));
+    }
+    /* top speed pi 30 Hz 4 mm = 0.377 m/s; |S'| <= leak/alpha */
+    double v = 0.377, acceleration = 71.1;
+    ck_assert_double_lt(largest, 0.02 * (2 * v * v / 1000 + acceleration * 2e-3 / 1000) * 1.01);
+    ck_assert_double_gt(largest, 0.02 * v * v / 1000 * 0.2);
+}
+END_TEST
+
+/* The hand lifts the scraper: exactly no force while N < 0, counted. omega^2 L tan theta = 4.2 g here. */
+START_TEST(no_force_while_lifted_off)
+{
+    struct arena *a = arena_open();
+    struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}}\ngrip: {angle: 30 deg}\ncontact: {smoothing: 0 s}\n%s", reversing));
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
+    const struct board *b = &g->run.board;
+    double lifted = 0;
+    for (long i = 0; i < 2400 * 4; i++) {
+        double t[2] = {(double)i / 192000, (double)(i + 1) / 192000}, acceleration[2];
+        trajectory_at(b->trajectory, 2, t, NULL, NULL, acceleration);
+        bool up = load_at(b->load, acceleration[0]) + load_at(b->load, acceleration[1]) < 0;
+        if (up)
+            ck_assert(g->x[i] == 0);
+        lifted += up ? 1.0 / 192000 : 0;
+    }
+    ck_assert_double_gt(lifted, 0.015);
+    ck_assert_double_eq_tol(b->lifted, lifted, 1e-4);
+    rig_close(g);
+}
+END_TEST
+
+/* Equations 2 and 3 as printed, at constant speed: the mean over a sub-interval against 400 point values of the formulas. */
+START_TEST(printed_equations)
+{
+    struct arena *a = arena_open();
+    struct scene s = made(a, "surface: {roughness: {rms: 5 um}, along: x}\ncontact: {force: paper, beta1: 0.2, beta2: 1.5, smoothing: 0 s}\n"
+                             "motion: {path: line, from: [1 cm, 0], to: [1.6 cm, 8 mm], speed: 20 cm/s}\n");
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 400, 1024);
+    struct judge j = judge_of(g);
+    double off = 0, all = 0, vx = 0.2 * 0.6;
+    for (long i = 0; i < 1600; i++) {
+        double mean = 0;
+        for (int k = 0; k < 400; k++) {
+            double q = (0.01 + vx * ((double)i + (k + 0.5) / 400) / 192000) / j.p->pitch, cell = floor(q), f = q - cell, bend[2], slope[2], work[4];
+            profile_knots(j.p, (long)cell, 2, work, (struct profile_knots){.curvature = bend, .slope = slope});
+            double z2 = bend[0] + f * (bend[1] - bend[0]), z1 = slope[0] + j.p->pitch * (f * bend[0] + f * f / 2 * (bend[1] - bend[0]));
+            mean += (0.02 * tanh(j.alpha * z2) / j.alpha * vx * vx + 0.2 * pow(fabs(vx * z1), 1.5)) / 400;
+        }
+        off += (g->x[i] - mean) * (g->x[i] - mean);
+        all += mean * mean;
+    }
+    printf("relative rms difference %.3g\n", sqrt(off / all));
+    ck_assert_double_lt(sqrt(off / all), 1e-3); /* Simpson's rule on |z'|^1.5 near its zeros, and the judge's 400 points */
+    rig_close(g);
+}
+END_TEST
+
+UNIT("scrape", vertical_force_through_reversals, unlimited_force_through_reversals, horizontal_force, oblique_stroke_over_an_extruded_profile,
+     means_are_exact, blocks_do_not_matter, flat_surface_is_silent, limits_of_the_limiter, no_force_while_lifted_off, printed_equations)

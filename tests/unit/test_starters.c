@@ -1,0 +1,155 @@
+/* cmd/starters.c and scene/keys_reference.c: what rasp itself writes for people to start from must be scenes, ask for something to be
+   computed, name no file, and hide no mistake in what is commented out. */
+#include "unit.h"
+
+#include "cmd/starters.h"
+#include "scene/keys.h"
+#include "scene/keys_reference.h"
+#include "scene/keys_text.h"
+#include "scene/scene_read.h"
+
+static struct arena *a;
+static struct scene s;
+
+static char *starter_text(const struct starter *starter, size_t *size)
+{
+    char *text = NULL;
+    FILE *f = open_memstream(&text, size);
+    starters_print(f, starter, a);
+    fclose(f);
+    return text;
+}
+
+static char *reference_text(size_t *size)
+{
+    char *text = NULL;
+    FILE *f = open_memstream(&text, size);
+    keys_reference_print(f, a);
+    fclose(f);
+    return text;
+}
+
+static void must_read(const char *text, const char *name, const struct scene_overrides *over)
+{
+    const char *messages = "";
+    struct err e = {0};
+    ck_assert_msg(scene_read_text(text, strlen(text), name, over, a, &s, &messages, &e), "%s\n%s", messages, text);
+}
+
+START_TEST(test_starters_are_scenes)
+{
+    a = arena_open();
+    for (const struct starter *starter = starters_table; starter->name; starter++) {
+        size_t size;
+        char *text = starter_text(starter, &size);
+        must_read(text, starter->name, NULL);
+        ck_assert_msg(s.output.diagnostics.given, "%s asks for nothing", starter->name);
+        for (int i = 0; i < s.n_contacts; i++)
+            ck_assert(!s.contacts[i].surface.response.file && !s.contacts[i].scraper.response.file && !s.contacts[i].surface.height_map);
+        free(text);
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* Every "#key: value" line, set by its path from the starter's table, is a value that the key takes. */
+START_TEST(test_what_is_off_is_right_too)
+{
+    a = arena_open();
+    for (const struct starter *starter = starters_table; starter->name; starter++)
+        for (const struct keys_line *l = starter->head; l->path; l++) {
+            size_t size;
+            const char *set[] = {arena_format(a, "%s=%s", l->path, l->value), "surface.roughness=null"};
+            bool map = !strncmp(l->path, "surface.height_map", 18) || !strncmp(l->path, "surface.pitch", 13) || !strcmp(l->path, "surface.height_scale");
+            char *text = starter_text(starter, &size);
+            const char *both[] = {set[0], set[1], "surface.height_map=x.npy", "surface.pitch=1 um"};
+            if (l->off && map)
+                must_read(text, starter->name, &(struct scene_overrides){both, 4});
+            else if (l->off)
+                must_read(text, starter->name, &(struct scene_overrides){set, 1});
+            free(text);
+        }
+    arena_close(a);
+}
+END_TEST
+
+START_TEST(test_reference_is_a_scene_with_the_defaults)
+{
+    size_t size;
+    struct scene given;
+    a = arena_open();
+    char *text = reference_text(&size);
+    must_read(text, "reference", NULL);
+    given = s;
+    must_read("rasp: 1\ntitle: a tool scraped back and forth on a rough plank\nsurface: {roughness: {}}\nscraper: {mass: 20 g}\n"
+              "motion: {path: back_and_forth, to: [4.5 cm, 0], rate: 2 Hz, duration: 2 s}\noutput: {diagnostics: {}}\n",
+              "short", NULL);
+    ck_assert(given.contacts->contact.leak == s.contacts->contact.leak);
+    ck_assert(given.contacts->contact.limiter.alpha == s.contacts->contact.limiter.alpha);
+    ck_assert(given.contacts->surface.roughness.rms == s.contacts->surface.roughness.rms);
+    ck_assert(given.output.sample_rate == s.output.sample_rate && given.output.encoding == s.output.encoding);
+    ck_assert(given.output.diagnostics.given && given.contacts->surface.roughness.given && !given.contacts->grip.given);
+    ck_assert(given.accuracy.oversampling == s.accuracy.oversampling && isnan(given.output.tail));
+    free(text);
+    arena_close(a);
+}
+END_TEST
+
+/* Each key has its line in the reference, on or off, with a value; one without a default needs an example. */
+START_TEST(test_reference_has_every_key)
+{
+    size_t size;
+    a = arena_open();
+    char *text = reference_text(&size);
+    for (const struct key *k = keys_table; k->path; k++) {
+        const char *dot = strrchr(k->path, '.'), *name = dot ? dot + 1 : k->path;
+        ck_assert_msg((k->standard && *k->standard) || keys_reference_example(k->path), "%s needs an example in keys_reference.c", k->path);
+        ck_assert_msg(strstr(text, arena_format(a, "\n%s: ", name)) || strstr(text, arena_format(a, " %s: ", name)) ||
+                          strstr(text, arena_format(a, "#%s: ", name)),
+                      "%s is not in the reference", k->path);
+    }
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        ck_assert_ptr_nonnull(strstr(text, arena_format(a, "  %s: ", k->name)));
+    free(text);
+    arena_close(a);
+}
+END_TEST
+
+/* Examples that the reference shows commented out are values that their keys take. */
+START_TEST(test_examples_are_taken)
+{
+    static const char *const with[][2] = {{"surface.pitch", "surface.height_map=x.npy"}, {"surface.height_map", "surface.pitch=1 um"}};
+    static const char base[] = "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1}\nmotion: {path: line, to: [1, 1], duration: 1}\n"
+                               "output: {diagnostics: {}}\n";
+    a = arena_open();
+    for (const struct key *k = keys_table; k->path; k++) {
+        const char *value = keys_reference_example(k->path), *set[4];
+        struct scene_overrides over = {set, 0};
+        if (!value || !strncmp(k->path, "motion.rate", 11) || !strcmp(k->path, "motion.path"))
+            continue;
+        set[over.n++] = arena_format(a, "%s=%s", k->path, value);
+        for (int i = 0; i < 2; i++)
+            if (!strcmp(k->path, with[i][0])) {
+                set[over.n++] = with[i][1];
+                set[over.n++] = "surface.roughness=null";
+            }
+        if (!strcmp(k->path, "motion.speed"))
+            set[over.n++] = "motion.duration=null";
+        must_read(base, "base", &over);
+    }
+    arena_close(a);
+}
+END_TEST
+
+START_TEST(test_plain_paths)
+{
+    ck_assert_str_eq(keys_text_plain("motion.rate"), "motion.rate");
+    ck_assert_str_eq(keys_text_plain("contacts.rod.motion.rate"), "motion.rate");
+    ck_assert_str_eq(keys_text_plain("contacts.motion.rate"), "motion.rate");
+    ck_assert_str_eq(keys_text_plain("contacts.rod"), "rod");
+    ck_assert_str_eq(keys_text_plain("contacts"), "contacts");
+}
+END_TEST
+
+UNIT("starters", test_starters_are_scenes, test_what_is_off_is_right_too, test_reference_is_a_scene_with_the_defaults, test_reference_has_every_key,
+     test_examples_are_taken, test_plain_paths)
