@@ -91,7 +91,7 @@ struct stage {
     unsigned needs, takes, gives; /* sets of items; takes: read if something gives it; needs and gives: refined in place */
     unsigned (*asks)(const struct contact *, const struct scene *); /* further needs; may be NULL */
     bool (*wanted)(const struct contact *, const struct scene *);
-    double (*work)(const struct contact *, const struct scene *);   /* predicted operations per audio sample */
+    double (*work)(const struct contact *, const struct scene *);   /* predicted cycles per audio sample */
     bool (*open)(struct stage_run *, struct err *);
     bool (*run)(struct stage_run *, long from, long to, struct err *); /* frames [from, to); may be NULL */
     void (*close)(struct stage_run *);                                 /* may be NULL */

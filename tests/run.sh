@@ -9,7 +9,7 @@ set -uo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
 JOBS=${JOBS:-$(getconf _NPROCESSORS_ONLN)}
-PATH=$BUILD:$PATH
+PATH=$BUILD:$PATH # so no folder in $BUILD may be called like a program
 export ROOT BUILD PATH LC_ALL=C
 unset CDPATH
 cd "$ROOT" || exit 1

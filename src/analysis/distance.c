@@ -52,8 +52,9 @@ double distance_band_centre(int band)
 
 double distance_band_nominal(int band)
 {
-    static const double names[DISTANCE_BANDS] = {25,  31.5, 40,   50,   63,   80,   100,  125,  160,  200,  250,  315,   400,   500,   630,
-                                                 800, 1000, 1250, 1600, 2000, 2500, 3150, 4000, 5000, 6300, 8000, 10000, 12500, 16000, 20000};
+    static const double names[DISTANCE_BANDS] = {25,  31.5, 40,   50,   63,   80,   100,  125,  160,  200,
+                                                 250, 315,  400,  500,  630,  800,  1000, 1250, 1600, 2000,
+                                                 2500, 3150, 4000, 5000, 6300, 8000, 10000, 12500, 16000, 20000};
     return names[band];
 }
 

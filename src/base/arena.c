@@ -93,8 +93,10 @@ char *arena_format(struct arena *a, const char *format, ...)
     va_copy(again, ap);
     int n = vsnprintf(NULL, 0, format, ap);
     va_end(ap);
-    char *s = arena_take(a, (size_t)(n < 0 ? 0 : n) + 1, 1);
-    vsnprintf(s, (size_t)(n < 0 ? 0 : n) + 1, format, again);
+    size_t size = n < 0 ? 1 : (size_t)n + 1;
+    char *s = arena_take(a, size, 1);
+    if (n > 0)
+        vsnprintf(s, size, format, again);
     va_end(again);
     return s;
 }

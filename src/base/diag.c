@@ -19,21 +19,26 @@ struct diag *diag_open(struct arena *a)
 {
     struct diag *d = ARENA_TAKE(a, struct diag, 1);
     d->arena = a;
-    d->errors = ARENA_TAKE(a, struct diag_error, DIAG_KEPT);
     return d;
 }
 
-static void clean(char *s)
+/* Bytes of the character at s if it can be shown as it is; 0: it is a control character or not valid UTF-8. */
+static int showable(const char *s, size_t size)
 {
-    for (; *s; s++)
-        if ((unsigned char)*s < 0x20 || *s == 0x7f)
-            *s = '?';
+    uint32_t code = 0;
+    int n = text_utf8(s, size, &code);
+    return code >= 0x20 && (code < 0x7f || code >= 0xa0) ? n : 0;
 }
 
 static const char *cleaned(struct arena *a, const char *s)
 {
     char *copy = arena_text(a, s);
-    clean(copy);
+    for (size_t i = 0, size = strlen(copy); i < size;) {
+        int n = showable(copy + i, size - i);
+        if (n == 0)
+            copy[i] = '?';
+        i += n ? (size_t)n : 1;
+    }
     return copy;
 }
 
@@ -41,6 +46,8 @@ bool diag_add(struct diag *d, struct diag_place at, const char *help, const char
 {
     char text[1024];
     va_list ap;
+    if (!d->errors)
+        d->errors = ARENA_TAKE(d->arena, struct diag_error, DIAG_KEPT);
     if (d->n < DIAG_KEPT) {
         va_start(ap, format);
         vsnprintf(text, sizeof text, format, ap);
@@ -128,6 +135,18 @@ static void show_caret(FILE *out, struct span line, int column, int width)
     fputc('\n', out);
 }
 
+/* What cannot be shown is one '?' for each character, so that the caret stays below its place. */
+static void show_text(FILE *out, struct span line)
+{
+    for (size_t i = 0, step; i < line.size; i += step) {
+        step = bytes_of(line.start + i, line.size - i, 1);
+        if (line.start[i] == '\t' || showable(line.start + i, line.size - i))
+            fwrite(line.start + i, 1, step, out);
+        else
+            fputc('?', out);
+    }
+}
+
 static void show_line(FILE *out, const struct diag_place *at)
 {
     int column = at->column < 1 ? 1 : at->column;
@@ -136,7 +155,8 @@ static void show_line(FILE *out, const struct diag_place *at)
         fputs("      | ", out);
     else
         fprintf(out, "%5d | ", at->line);
-    fprintf(out, "%.*s\n", (int)line.size, line.start);
+    show_text(out, line);
+    fputc('\n', out);
     show_caret(out, line, column, at->width);
 }
 

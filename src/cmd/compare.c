@@ -88,7 +88,8 @@ static const char *given_of(const struct cmd_call *c, const char *const *names)
 
 static int compare_run(struct cmd_call *c, struct err *e)
 {
-    static const char *const for_sounds[] = {"snr", "lsb", "third-octave", NULL}, *const for_tables[] = {"tolerance", "column", "abs", "rel", NULL};
+    static const char *const for_sounds[] = {"snr", "lsb", "third-octave", NULL};
+    static const char *const for_tables[] = {"tolerance", "column", "abs", "rel", NULL};
     const char **files = c->args.operands, *sounds = given_of(c, for_sounds), *tables = given_of(c, for_tables);
     bool a, b, exact = args_given(&c->args, "exact");
     struct compare_ask ask = {.files = {files[0], files[1]}, .json = args_given(&c->args, "json"), .quiet = args_given(&c->args, "quiet"),
@@ -123,9 +124,9 @@ static const struct args_option options[] = {
 const struct command compare_command = {
     .name = "compare",
     .summary = "compare two sounds or two tables within tolerances",
-    .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing samples, the first, the largest "
-            "difference, the signal-to-noise ratio and the third-octave levels; for CSV tables the misses of each column and the worst of "
-            "them. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
+    .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing samples, the first, the "
+            "largest difference, the signal-to-noise ratio and the third-octave levels; for CSV tables the misses of each column and the "
+            "worst of them. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
             "The exit code is 0 when the criteria are met, 1 when they are not, and never 0 when a file is missing or empty.",
     .operands = "A B",
     .least = 2,

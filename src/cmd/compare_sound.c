@@ -64,8 +64,8 @@ static void judge_form(struct verdict *v)
     double off = fabs((double)a->frames / a->rate - (double)b->frames / b->rate);
     bool near = bands_alone && off <= 1.000001 / fmin(a->rate, b->rate);
     bool held = v->alike && (v->shape || near);
-    const char *says = arena_format(ask->arena, "the sounds differ in%s%s%s", v->alike ? "" : " channels,", a->rate == b->rate ? "" : " rate,",
-                                    off > 0 ? " length," : "");
+    const char *says = arena_format(ask->arena, "the sounds differ in%s%s%s", v->alike ? "" : " channels,",
+                                    a->rate == b->rate ? "" : " rate,", off > 0 ? " length," : "");
     says = arena_format(ask->arena, "%.*s", (int)strlen(says) - 1, says); /* without the last comma */
     judge(v, (struct criterion){"form", NAN, NAN, held, held ? "channels, rate and length are as they should be" : says});
 }
@@ -76,7 +76,8 @@ static void judge_exact(struct verdict *v)
     bool held = v->alike && v->d.differing == 0;
     const char *says = !v->alike ? "not measured: the numbers of channels differ"
                        : held    ? "all samples compared are the same"
-                                 : arena_format(v->ask->arena, "%zu of %zu samples differ, the first at %s", v->d.differing, n, place(v, &v->d.first));
+                                 : arena_format(v->ask->arena, "%zu of %zu samples differ, the first at %s", v->d.differing, n,
+                                                place(v, &v->d.first));
     judge(v, (struct criterion){"exact", NAN, (double)v->d.differing, held, says});
 }
 
@@ -91,8 +92,8 @@ static void judge_limit(struct verdict *v, struct criterion c, double sign, cons
     else if (c.held)
         c.says = arena_format(a, "%.6g %s; %s %g %s is asked for", c.measured, unit, sign > 0 ? "at most" : "at least", c.limit, unit);
     else
-        c.says = arena_format(a, "%.6g %s is %.6g %s %s the limit of %g %s; the worst at %s", c.measured, unit, fabs(c.measured - c.limit), unit,
-                              sign > 0 ? "above" : "below", c.limit, unit, unit_and_where[1]);
+        c.says = arena_format(a, "%.6g %s is %.6g %s %s the limit of %g %s; the worst at %s", c.measured, unit,
+                              fabs(c.measured - c.limit), unit, sign > 0 ? "above" : "below", c.limit, unit, unit_and_where[1]);
     judge(v, c);
 }
 
@@ -211,25 +212,37 @@ static json_t *name_or_null(const char *s)
 static json_t *json_sound(const struct verdict *v, int i)
 {
     const struct wav *w = &v->sound[i];
-    return json_pack("{s:o, s:o, s:i, s:I, s:o}", "file", name_or_null(v->ask->files[i]), "rate_hz", number(w->rate), "channels", w->channels,
-                     "frames", (json_int_t)w->frames, "bits", w->bits ? json_integer(w->bits) : json_null());
+    return json_pack("{s:o, s:o, s:i, s:I, s:o}",
+                     "file", name_or_null(v->ask->files[i]),
+                     "rate_hz", number(w->rate),
+                     "channels", w->channels,
+                     "frames", (json_int_t)w->frames,
+                     "bits", w->bits ? json_integer(w->bits) : json_null());
 }
 
 static json_t *json_place(const struct verdict *v, const struct distance_place *p)
 {
     if (!v->d.differing)
         return json_null();
-    return json_pack("{s:I, s:o, s:i, s:o, s:o}", "frame", (json_int_t)p->frame, "time_s", number((double)p->frame / v->sound[0].rate),
-                     "channel", p->channel + 1, "a", number(p->a), "b", number(p->b));
+    return json_pack("{s:I, s:o, s:i, s:o, s:o}",
+                     "frame", (json_int_t)p->frame,
+                     "time_s", number((double)p->frame / v->sound[0].rate),
+                     "channel", p->channel + 1,
+                     "a", number(p->a),
+                     "b", number(p->b));
 }
 
 static json_t *json_bands(const struct verdict *v)
 {
     const struct distance_bands *d = &v->bands;
     bool any = d->compared > 0;
-    return json_pack("{s:i, s:o, s:o, s:o, s:o, s:o}", "compared", d->compared, "worst_db", number(d->worst_db), "band_hz",
-                     any ? number(distance_band_nominal(d->band)) : json_null(), "channel", any ? json_integer(d->channel + 1) : json_null(),
-                     "a_db", any ? number(d->a_db) : json_null(), "b_db", any ? number(d->b_db) : json_null());
+    return json_pack("{s:i, s:o, s:o, s:o, s:o, s:o}",
+                     "compared", d->compared,
+                     "worst_db", number(d->worst_db),
+                     "band_hz", number(any ? distance_band_nominal(d->band) : NAN),
+                     "channel", any ? json_integer(d->channel + 1) : json_null(),
+                     "a_db", number(any ? d->a_db : NAN),
+                     "b_db", number(any ? d->b_db : NAN));
 }
 
 static json_t *json_criteria(const struct verdict *v)
@@ -237,8 +250,12 @@ static json_t *json_criteria(const struct verdict *v)
     json_t *list = json_array();
     for (int i = 0; i < v->n_criteria; i++) {
         const struct criterion *c = &v->criteria[i];
-        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "name", c->name, "held", c->held, "limit", number(c->limit), "measured",
-                                              number(c->measured), "says", name_or_null(c->says)));
+        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}",
+                                              "name", c->name,
+                                              "held", c->held,
+                                              "limit", number(c->limit),
+                                              "measured", number(c->measured),
+                                              "says", name_or_null(c->says)));
     }
     return list;
 }
@@ -246,12 +263,21 @@ static json_t *json_criteria(const struct verdict *v)
 static bool print_json(const struct verdict *v, struct err *e)
 {
     const struct distance_samples *d = &v->d;
-    json_t *j = json_pack("{s:b, s:b, s:o, s:o, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equal", v->equal, "held", v->held, "a",
-                          json_sound(v, 0), "b", json_sound(v, 1), "frames_compared", (json_int_t)d->frames, "differing_samples",
-                          (json_int_t)d->differing, "first_difference", json_place(v, &d->first), "largest_difference",
-                          number(v->alike ? d->largest : NAN), "largest_difference_lsb", number(v->alike ? largest_in_steps(v) : NAN),
-                          "largest_difference_dbfs", number(decibels(d->largest)), "largest_difference_at", json_place(v, &d->worst), "snr_db",
-                          number(d->snr_db), "third_octave", json_bands(v), "criteria", json_criteria(v));
+    json_t *j = json_pack("{s:b, s:b, s:o, s:o, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                          "equal", v->equal,
+                          "held", v->held,
+                          "a", json_sound(v, 0),
+                          "b", json_sound(v, 1),
+                          "frames_compared", (json_int_t)d->frames,
+                          "differing_samples", (json_int_t)d->differing,
+                          "first_difference", json_place(v, &d->first),
+                          "largest_difference", number(v->alike ? d->largest : NAN),
+                          "largest_difference_lsb", number(v->alike ? largest_in_steps(v) : NAN),
+                          "largest_difference_dbfs", number(decibels(d->largest)),
+                          "largest_difference_at", json_place(v, &d->worst),
+                          "snr_db", number(d->snr_db),
+                          "third_octave", json_bands(v),
+                          "criteria", json_criteria(v));
     bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
     putchar('\n');
     json_decref(j);

@@ -73,8 +73,8 @@ static void print_column(const struct tables *t, const struct table_distance_col
     if (!to->exact)
         printf("%s abs %g, rel %g", c->misses ? " by more than" : ", within", to->abs, to->rel);
     if (c->misses)
-        printf("; worst in row %zu (line %d, line %d): A '%s', B '%s'", c->worst_row + 1, t->a.lines[c->worst_row], t->b.lines[c->worst_row],
-               cell(&t->a, c->worst_row, c->a), cell(&t->b, c->worst_row, c->b));
+        printf("; worst in row %zu (line %d, line %d): A '%s', B '%s'", c->worst_row + 1, t->a.lines[c->worst_row],
+               t->b.lines[c->worst_row], cell(&t->a, c->worst_row, c->a), cell(&t->b, c->worst_row, c->b));
     if (c->misses && isfinite(c->excess) && !to->exact)
         printf(", %.6g beyond the tolerance", c->excess);
     putchar('\n');
@@ -113,9 +113,13 @@ static json_t *json_worst(const struct tables *t, const struct table_distance_co
 {
     if (c->misses == 0)
         return json_null();
-    return json_pack("{s:I, s:i, s:i, s:o, s:o, s:o}", "row", (json_int_t)c->worst_row + 1, "line_a", t->a.lines[c->worst_row], "line_b",
-                     t->b.lines[c->worst_row], "a", text_or_null(cell(&t->a, c->worst_row, c->a)), "b",
-                     text_or_null(cell(&t->b, c->worst_row, c->b)), "excess", number(c->excess));
+    return json_pack("{s:I, s:i, s:i, s:o, s:o, s:o}",
+                     "row", (json_int_t)c->worst_row + 1,
+                     "line_a", t->a.lines[c->worst_row],
+                     "line_b", t->b.lines[c->worst_row],
+                     "a", text_or_null(cell(&t->a, c->worst_row, c->a)),
+                     "b", text_or_null(cell(&t->b, c->worst_row, c->b)),
+                     "excess", number(c->excess));
 }
 
 static json_t *json_columns(const struct tables *t)
@@ -124,21 +128,37 @@ static json_t *json_columns(const struct tables *t)
     for (size_t i = 0; i < t->d.n_columns; i++) {
         const struct table_distance_column *c = &t->d.columns[i];
         const struct table_distance_tolerance *to = &c->tolerance;
-        json_array_append_new(list, json_pack("{s:o, s:b, s:o, s:o, s:I, s:o, s:o}", "name", text_or_null(c->name), "exact", to->exact, "abs",
-                                              number(to->exact ? 0 : to->abs), "rel", number(to->exact ? 0 : to->rel), "misses",
-                                              (json_int_t)c->misses, "largest_difference", number(c->largest), "worst", json_worst(t, c)));
+        json_array_append_new(list, json_pack("{s:o, s:b, s:o, s:o, s:I, s:o, s:o}",
+                                              "name", text_or_null(c->name),
+                                              "exact", to->exact,
+                                              "abs", number(to->exact ? 0 : to->abs),
+                                              "rel", number(to->exact ? 0 : to->rel),
+                                              "misses", (json_int_t)c->misses,
+                                              "largest_difference", number(c->largest),
+                                              "worst", json_worst(t, c)));
     }
     return list;
+}
+
+static json_t *json_table(const char *file, const struct csv *t)
+{
+    return json_pack("{s:o, s:I}", "file", text_or_null(file), "rows", (json_int_t)t->rows);
 }
 
 static bool print_json(const struct tables *t, struct err *e)
 {
     const struct table_distance *d = &t->d;
-    json_t *j = json_pack("{s:b, s:b, s:{s:o, s:I}, s:{s:o, s:I}, s:I, s:o, s:o, s:b, s:o, s:o}", "equal", t->equal, "held", t->held, "a", "file",
-                          text_or_null(t->ask->files[0]), "rows", (json_int_t)t->a.rows, "b", "file", text_or_null(t->ask->files[1]), "rows",
-                          (json_int_t)t->b.rows, "rows_compared", (json_int_t)d->rows, "missing_columns", json_names(d->missing, d->n_missing),
-                          "extra_columns", json_names(d->extra, d->n_extra), "columns_reordered", d->reordered, "differing_comment",
-                          text_or_null(d->comment), "columns", json_columns(t));
+    json_t *j = json_pack("{s:b, s:b, s:o, s:o, s:I, s:o, s:o, s:b, s:o, s:o}",
+                          "equal", t->equal,
+                          "held", t->held,
+                          "a", json_table(t->ask->files[0], &t->a),
+                          "b", json_table(t->ask->files[1], &t->b),
+                          "rows_compared", (json_int_t)d->rows,
+                          "missing_columns", json_names(d->missing, d->n_missing),
+                          "extra_columns", json_names(d->extra, d->n_extra),
+                          "columns_reordered", d->reordered,
+                          "differing_comment", text_or_null(d->comment),
+                          "columns", json_columns(t));
     bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
     putchar('\n');
     json_decref(j);

@@ -41,9 +41,12 @@ struct plot_page {
 bool plot_data(struct plot_page *p, struct err *e);
 
 /* Does some table have the column? */
-bool plot_has(const struct plot_page *p, enum plot_column column);
+bool plot_data_has(const struct plot_page *p, enum plot_column column);
 
 /* Writes the whole page to gnuplot. */
 void plot_draw(const struct plot_page *p, struct gnuplot *g);
+
+/* Names of the panels that the page has, as a line. */
+void plot_draw_list(const struct plot_page *p, FILE *f);
 
 #endif

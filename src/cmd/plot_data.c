@@ -13,7 +13,7 @@
 static const char *const plot_names[] = {
     [PLOT_PEAK] = "force_peak_n", [PLOT_RMS] = "force_rms_n", [PLOT_NORMAL] = "normal_force_n", [PLOT_ALPHA] = "alpha_m"};
 
-bool plot_has(const struct plot_page *p, enum plot_column column)
+bool plot_data_has(const struct plot_page *p, enum plot_column column)
 {
     for (int i = 0; i < p->n_tables; i++)
         if (p->tables[i].x[column])
@@ -151,7 +151,7 @@ static bool table_add(struct plot_page *p, const char *path, const char *name, s
 {
     struct csv csv;
     struct plot_table *t = &p->tables[p->n_tables];
-    double end;
+    double end = 0;
     t->name = name;
     if (!csv_read(path, p->arena, &csv, e))
         return false;
@@ -209,7 +209,7 @@ bool plot_data(struct plot_page *p, struct err *e)
         ok = sound_gather(p, e) && tables_find(p, summary, e);
     }
     json_decref(summary);
-    if (!ok || p->sound || plot_has(p, PLOT_PEAK) || plot_has(p, PLOT_RMS) || plot_has(p, PLOT_NORMAL) || plot_has(p, PLOT_ALPHA))
+    if (!ok || p->sound || plot_data_has(p, PLOT_PEAK) || plot_data_has(p, PLOT_RMS) || plot_data_has(p, PLOT_NORMAL) || plot_data_has(p, PLOT_ALPHA))
         return ok;
     return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file, plot_names[PLOT_PEAK],
                    plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);

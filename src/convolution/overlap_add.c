@@ -1,5 +1,5 @@
 /* Fast convolution with an impulse response that may move with the contact (papers/000 eq. 13, every force sample launching the
-   response of its own place; NUMERICS 1.2 b).
+   response of its own place).
 
    Moving, order p = 1, 2, 4.  Nodes stand every `hop` samples; node k's response is h_k.
 

@@ -1,5 +1,5 @@
 /* A bank of modes driven by a force whose place moves: the exact realisation of papers/000 eq. 10 and 13 when the object's poles do
-   not depend on the place and every force sample is launched with the gain of its own place (NUMERICS 1.1, `fixed`).
+   not depend on the place and every force sample is launched with the gain of its own place (`fixed` in rasp-scene(5)).
 
    Mode i rings as h_i(t) = Im(A_i e^(s_i t)), A_i = gain e^(j phase), s_i = -decay + j 2 pi f. With p_i = e^(s_i/rate),
 

@@ -7,7 +7,8 @@
 
 struct resonators;
 
-/* Bank for the modes (all of them) at that sample rate; state zero. `ramp`: samples per gain ramp. */
+/* Bank for the modes (all of them, as they are then; every one below rate/2) at that sample rate; state and gains zero. `ramp`: samples
+   per call, for which work space is kept; calls may be of any length. `m` must outlive the bank. */
 struct resonators *resonators_make(struct arena *a, const struct modes *m, double rate, int ramp);
 
 /* Adds to y[frames] the response to f[frames] newtons, while the complex gains go linearly, sample by sample, from those last given

@@ -1,5 +1,7 @@
 /* The surface's and the scraper's modes as resonators (convolution/resonators.h): exact for poles that do not move. Gains are evaluated
    every accuracy.gain_ramp samples, at multiples of it, and ramped linearly between. */
+#include <math.h>
+
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
 
@@ -19,7 +21,7 @@ static bool ring_bank_open(struct stage_run *r, enum ring_body body, struct err 
     if (!ring_is_table(s->ring.given))
         return err_set(e, ERR_SCENE, "%s: resonators need a mode table (.csv): leave %s.convolution out, or set it to overlap_add",
                        s->ring.given->file, s->ring.key);
-    if (s->ring.given->length > 0)
+    if (!isnan(s->ring.given->length))
         return err_set(e, ERR_SCENE, "contact '%s': resonators ring on for ever and cannot be cut: leave %s.response_length out, or set "
                        "%s.convolution to overlap_add", r->contact->name, s->ring.key, s->ring.key);
     if (!ring_read_modes(&s->ring, r, e))

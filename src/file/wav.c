@@ -63,7 +63,8 @@ static bool sound_open(struct wav_out *w, int container, struct err *e)
 static bool check_format(const char *path, const struct wav_format *f, struct err *e)
 {
     if (!encoding(f->bits))
-        return err_set(e, ERR_SCENE, "%s: %d bits: only 16 and 24 (integers), -32 and -64 (floating point) can be written", path, f->bits);
+        return err_set(e, ERR_SCENE, "%s: %d bits: only 16 and 24 (integers), -32 and -64 (floating point) can be written", path,
+                       f->bits);
     if (!(f->rate >= 1 && f->rate <= 1e7) || f->rate != floor(f->rate))
         return err_set(e, ERR_SCENE, "%s: a WAV's sample rate is a whole number of Hz up to 1e7, not %.9g", path, f->rate);
     if (f->channels < 1 || f->channels > 1024)
@@ -106,12 +107,23 @@ struct wav_out *wav_create(const char *path, const struct wav_format *f, struct 
         err_set(e, ERR_MEMORY, "%s: out of memory", path);
         return NULL;
     }
-    double header = 4096 + 2.0 * (double)((text_given(f->title) ? strlen(f->title) : 0) + (text_given(f->comment) ? strlen(f->comment) : 0));
+    double texts = (double)((f->title ? strlen(f->title) : 0) + (f->comment ? strlen(f->comment) : 0)), header = 4096 + texts;
     w->riff_bytes = f->riff_bytes > 0 ? f->riff_bytes : 4294967295.0 - header;
     if (outfile_open_fd(&w->out, path, e) && sound_open(w, SF_FORMAT_WAV, e))
         return w;
     wav_free(w);
     return NULL;
+}
+
+bool wav_comment(struct wav_out *w, const char *text, struct err *e)
+{
+    free((char *)w->format.comment);
+    w->format.comment = strdup(text);
+    if (!w->format.comment)
+        return err_set(e, ERR_MEMORY, "%s: out of memory", w->path);
+    if (w->frames > 0 || sf_set_string(w->sound, SF_STR_COMMENT, text))
+        return err_set(e, ERR_CREATE, "%s: libsndfile refuses the comment: %s", w->path, sf_strerror(w->sound));
+    return true;
 }
 
 static bool write_failed(const struct wav_out *w, struct err *e)

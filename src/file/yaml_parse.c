@@ -250,6 +250,8 @@ static bool anchor_add(struct parse *p, const struct event *ev, const struct yam
         diag_add(p->y->diag, ev->at, NULL, "more than %d anchors", ANCHORS_MAX);
         return false;
     }
+    if (!p->anchors)
+        p->anchors = ARENA_TAKE(p->y->arena, struct anchor, ANCHORS_MAX);
     p->anchors[p->n_anchors++] = (struct anchor){ev->anchor, node};
     return true;
 }
@@ -300,7 +302,6 @@ static struct yaml_node *text_read(struct yaml *y, const struct diag_source *sou
         return NULL;
     }
     struct parse p = {.y = y, .source = source, .parser = &parser, .shift = (int)text_utf8_count(source->text, from)};
-    p.anchors = ARENA_TAKE(y->arena, struct anchor, ANCHORS_MAX);
     yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&parser, (const unsigned char *)source->text + from, source->size - from);
     struct yaml_node *root = document_read(&p);

@@ -8,8 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
-
 /* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore are not ignored by it. */
 static int spawn(pid_t *pid, const int fd[3])
 {

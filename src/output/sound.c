@@ -46,6 +46,14 @@ static bool sound_spool_open(struct sound *o, struct err *e)
     return true;
 }
 
+/* The gain goes into the WAV before its first sample. */
+static bool sound_note(struct sound *o, struct err *e)
+{
+    char text[80];
+    snprintf(text, sizeof text, "rasp: gain %.9g per unit of the response (%.4f dB)", o->gain, 20 * real_log10(o->gain));
+    return wav_comment(o->wav, text, e);
+}
+
 struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e)
 {
     struct sound *o = ARENA_TAKE(a, struct sound, 1);
@@ -54,11 +62,10 @@ struct sound *sound_open(const struct scene *s, const char *path, long frames, s
     long ramp = (long)rint(s->output.ramp * s->output.sample_rate);
     *o = (struct sound){.scene = s, .frames = frames, .ramp = ramp < frames / 2 ? ramp : frames / 2,
                         .wide = ARENA_TAKE(a, double, SOUND_CHUNK * s->output.channels)};
-    if (!(o->wav = wav_create(path, &f, e)) || !sound_spool_open(o, e)) {
-        sound_drop(o);
-        return NULL;
-    }
-    return o;
+    if ((o->wav = wav_create(path, &f, e)) && sound_spool_open(o, e) && (o->spool || sound_note(o, e)))
+        return o;
+    sound_drop(o);
+    return NULL;
 }
 
 static void sound_ramp(const struct sound *o, double *x, long n)
@@ -148,6 +155,8 @@ bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
     report->gain = o->gain;
     if (!o->spool)
         return true;
+    if (!sound_note(o, e))
+        return false;
     rewind(o->spool);
     while ((n = fread(x, sizeof *x, SOUND_CHUNK, o->spool)) > 0)
         if (!sound_write(o, x, (long)n, e))

@@ -76,7 +76,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
     l.need = l.hard = p->targets;
     for (int i = p->n - 1; i >= 0; i--) {
         const struct stage *st = table[i];
-        p->rows[i] = (struct plan_row){st, PLAN_UNWANTED, 0};
+        p->rows[i] = (struct plan_row){.stage = st, .verdict = PLAN_UNWANTED};
         if (!st->wanted(c, s))
             continue;
         /* a stage is needed when something reads what it gives, or, making an item a second time, would clash with who gave it */
@@ -85,6 +85,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
             continue;
         p->alive |= l.need & st->gives;
         p->rows[i].work = st->work(c, s);
+        p->rows[i].reads = st->needs | st->takes | (st->asks ? st->asks(c, s) : 0);
         if (!plan_keep(st, c, s, &l, e))
             return false;
     }
@@ -109,7 +110,7 @@ static void names_text(unsigned items, char *out, size_t size)
 static void row_print(const struct plan *p, const struct plan_row *r, double whole, FILE *out)
 {
     char from[200], to[200];
-    names_text((r->stage->needs | r->stage->takes) & p->alive, from, sizeof from);
+    names_text(r->reads & p->alive, from, sizeof from);
     names_text(r->stage->gives & p->alive, to, sizeof to);
     fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * r->work / whole : 0, from, from[0] ? " " : "", to);
     fprintf(out, "  %-20s          %s%s%s%s\n", "", r->stage->does, r->stage->paper[0] ? " [" : "", r->stage->paper,
@@ -127,7 +128,7 @@ void plan_print(const struct plan *p, FILE *out)
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_RUNS)
             row_print(p, &p->rows[i], whole, out);
-    fprintf(out, "  about %.0f operations per audio sample\n", whole);
+    fprintf(out, "  about %.0f cycles per audio sample\n", whole);
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_UNWANTED)
             fprintf(out, "  not run: %-20s %s\n", p->rows[i].stage->name, p->rows[i].stage->idle);

@@ -12,7 +12,8 @@ enum plan_verdict { PLAN_RUNS, PLAN_UNWANTED, PLAN_UNNEEDED };
 struct plan_row {
     const struct stage *stage;
     enum plan_verdict verdict;
-    double work;              /* predicted operations per audio sample */
+    unsigned reads;           /* items, when it runs                                             */
+    double work;              /* predicted cycles per audio sample (one core with 256-bit vectors) */
 };
 
 struct plan {

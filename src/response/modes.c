@@ -2,7 +2,7 @@
 
    A mode is h(t) = Im(A e^(s t)), A = gain e^(j phase), s = -decay + j omega, omega = 2 pi f, t > 0 (papers/000 eq. 10).
    Shared poles: only A depends on the place, and it is interpolated linearly as a signed complex number: a mode shape passes
-   through zero at a nodal line, where log amplitudes (papers/000 section 2.4) have no value (NUMERICS 1.1, 1.3).
+   through zero at a nodal line, where log amplitudes (papers/000 section 2.4) have no value.
 
    Direct term: h_a = dh_v/dt holds for t > 0; at t = 0 velocity jumps by h_v(0+) per N s, whose derivative is a delta of that weight.
    h_v(t) = Im(A/s e^(s t)) is the one that dies away, so D = sum Im(A/s); without it low frequencies are wrong. */
@@ -94,5 +94,5 @@ double modes_ring_time(const struct modes *m, double decibel)
         return 0.0;
     for (int i = 0; i < m->n; i++)
         slowest = fmin(slowest, m->decay[i]);
-    return decibel * (real_log(10.0) / 20.0) / slowest;
+    return slowest > 0.0 ? decibel * (real_log(10.0) / 20.0) / slowest : INFINITY;
 }

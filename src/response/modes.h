@@ -27,8 +27,9 @@ struct modes {
    frequency <= 0, not finite, unequal poles. */
 bool modes_read(const char *path, int strongest, struct arena *a, struct modes *m, struct err *e);
 
-/* Complex gains [n] at a point, linear in the signed gains between neighbouring places; a contact outside the hull by more than 1e-9 m
-   gives the nearest place's gains and returns how far out it is (m), else returns 0. */
+/* Complex gains [n] at a point, linear in the signed gains between neighbouring places. A contact off the hull (the stretch between the
+   first and the last place, also when it is beside the line) by more than 1e-9 m gets the gains of the hull's nearest point, and how far
+   off it is (m) is returned; else 0. A table of one place holds everywhere: 0. */
 double modes_gains_at(const struct modes *m, double x, double y, double *gain_re, double *gain_im);
 
 /* The direct term D of an acceleration table at those gains (its delta at t = 0: what the force itself adds, per kg): sum Im(A_i/s_i),

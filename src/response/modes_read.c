@@ -85,7 +85,9 @@ static double energy(const struct mode_table *t, size_t mode)
     double sum = 0.0;
     for (size_t p = 0; p < t->places; p++) {
         const double *v = mode_table_values(t, p, mode);
-        double amplitude = v[MODE_TABLE_GAIN] != 0.0 ? v[MODE_TABLE_GAIN] / (2.0 * sqrt(v[MODE_TABLE_DECAY])) : 0.0; /* without decay: endless energy, unless silent */
+        if (v[MODE_TABLE_GAIN] != 0.0 && v[MODE_TABLE_DECAY] == 0.0)
+            return HUGE_VAL; /* without decay: endless energy, unless silent */
+        double amplitude = v[MODE_TABLE_GAIN] != 0.0 ? v[MODE_TABLE_GAIN] / (2.0 * sqrt(v[MODE_TABLE_DECAY])) : 0.0;
         sum += amplitude * amplitude;
     }
     return sum;

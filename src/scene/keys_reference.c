@@ -80,11 +80,15 @@ static const char *shown(const struct key *k)
     return value ? value : k->standard ? k->standard : "";
 }
 
+static bool is_off(const struct key *k);
+
 static bool applies(const struct key *k)
 {
     const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
-    if (!equals)
+    if (!k->applies)
         return true;
+    if (!equals)
+        return !is_off(keys_find(k->applies));
     for (const struct key *other = keys_table; other->path; other++)
         if (!strncmp(other->path, k->applies, (size_t)(equals - k->applies)) && !other->path[equals - k->applies])
             return !strcmp(shown(other), equals + 1);

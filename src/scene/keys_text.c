@@ -73,6 +73,8 @@ const char *keys_text_default(const struct key *k)
 const char *keys_text_applies(const struct key *k, struct arena *a)
 {
     const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
+    if (k->applies && !equals)
+        return arena_format(a, "beside %s", k->applies);
     return equals ? arena_format(a, "where %.*s is %s", (int)(equals - k->applies), k->applies, equals + 1) : NULL;
 }
 

@@ -23,6 +23,8 @@ static enum applies applies(const struct scene_part *p, const struct key *k)
     if (!k->applies)
         return APPLIES_YES;
     size_t n = strcspn(k->applies, "=");
+    if (!k->applies[n])
+        return yaml_find(p->map, k->applies) ? APPLIES_YES : APPLIES_NO;
     snprintf(other, sizeof other, "%.*s", (int)n, k->applies);
     const struct key *decides = keys_find(other);
     const struct yaml_node *node = yaml_find(p->map, other);
@@ -40,6 +42,11 @@ static void not_applicable(const struct scene_part *p, const struct key *k, cons
 {
     struct arena *a = p->yaml->arena;
     int n = (int)strcspn(k->applies, "=");
+    if (!k->applies[n]) {
+        diag_add(p->yaml->diag, node->key->at, arena_format(a, "remove it, or give %s%s", p->prefix, k->applies),
+                 "%s applies only beside %s%s", label(p, k->path), p->prefix, k->applies);
+        return;
+    }
     const struct yaml_node *decides = yaml_find(p->map, arena_format(a, "%.*s", n, k->applies));
     const char *now = decides ? arena_format(a, "it is %s", decides->text) : "it is not given";
     diag_add(p->yaml->diag, node->key->at,

@@ -88,6 +88,8 @@ static const char *value(const struct key *k, const void *owner, struct writer *
 static bool applies(const struct key *k, const void *owner)
 {
     const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
+    if (k->applies && !equals)
+        return *(const char *const *)((const char *)owner + keys_find(k->applies)->offset) != NULL;
     if (!equals)
         return true;
     for (const struct key *other = keys_table; other->path; other++)

@@ -146,7 +146,8 @@ static bool unit_fault(struct units_fault *f, const char *number, const char *un
         return fault_set(f, arena_format(a, "needs %s without a unit, not %s", needs, dimensions[other->dimension].name),
                          arena_format(a, "write: %s", number));
     if (other)
-        return fault_set(f, arena_format(a, "needs %s; %s is a unit of %s", needs, unit, without_article(other->dimension)), example_cure(d, a));
+        return fault_set(f, arena_format(a, "needs %s; %s is a unit of %s", needs, unit, without_article(other->dimension)),
+                         example_cure(d, a));
     if (strcmp(unit, "%") == 0)
         return fault_set(f, arena_format(a, "needs %s, not a percentage", needs), "write a share, such as 0.3 for 30 %");
     if (!has_common(d))

@@ -1,4 +1,4 @@
-/* Cubic spline profiles (C2: second derivatives, which the force is made of, do not jump; NUMERICS of the field: Catmull-Rom's do).
+/* Cubic spline profiles (C2: second derivatives, which the force is made of, do not jump, as a Catmull-Rom interpolant's would).
 
    Interpolation: (c[i-1] + 4 c[i] + c[i+1]) / 6 = z[i]. Its solution on an endless grid is c = sqrt(3) sum_k p^|k| z[i-k] with
    p = sqrt(3) - 2 (Unser, Aldroubi, Eden 1993), computed by one causal and one anticausal recursion; the sums are begun 64 samples

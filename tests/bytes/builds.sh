@@ -8,7 +8,11 @@ JOBS=${JOBS:-$(getconf _NPROCESSORS_ONLN)}
 build() {
     local name=$1
     shift
-    env -u MAKEFLAGS -u MAKELEVEL make -s -C "$ROOT" -j"$JOBS" BUILD="$BUILDS/$name" "$@" all > log 2>&1 || { fail "the build '$name' fails:" && tail -n 20 log; }
+    env -u MAKEFLAGS -u MAKELEVEL \
+        make -s -C "$ROOT" -j"$JOBS" BUILD="$BUILDS/$name" "$@" all > log 2>&1 && return
+    fail "the build '$name' fails:"
+    tail -n 20 log
+    return 1
 }
 
 # sums PROGRAM: sha256 of every file it makes of the scenes, in a folder of its own.
@@ -53,7 +57,7 @@ int main(void)
     printf("%a\n", sum);
 }
 END
-"${CC:-gcc}" -O0 -o probe probe.c -lm
+"${CC:-gcc}" -O0 -o probe probe.c -lm || fail "the probe of libm does not compile"
 if [ "$(./probe)" = "$(GLIBC_TUNABLES=$hidden ./probe)" ]; then
     echo "left out: this C library's functions are the same without FMA"
 else

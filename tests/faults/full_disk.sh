@@ -17,7 +17,7 @@ cd ..
 mkdir disk
 if [ "$(id -u)" = 0 ] && mount -t tmpfs -o size=64k none disk 2> /dev/null; then
     expect_exit 74 rasp render "$scene" -o disk/sound.wav
-    expect_text err '^rasp render: error: .*[Nn]o space'
+    expect_text err '^rasp render: error: .*([Nn]o space|full)'
     left=$(find disk -mindepth 1)
     [ -z "$left" ] || fail "left behind: $left"
     umount disk

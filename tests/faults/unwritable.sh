@@ -3,16 +3,18 @@
 scene=$(short_scene)
 
 echo plain > file
-mkdir folder sealed
+mkdir sealed
 
 expect_exit 73 rasp render "$scene" -o file/sound.wav
-expect_text err '^rasp render: error: .*file/sound\.wav'
+expect_text err '^rasp render: error: .*file/sound\.'
 expect_exit 73 rasp render "$scene" -o nowhere/sound.wav
-expect_text err '^rasp render: error: .*nowhere/sound\.wav'
-expect_exit 73 rasp render "$scene" -o folder
-expect_text err '^rasp render: error: .*folder'
+expect_text err '^rasp render: error: .*nowhere/sound\.'
+expect_exit 73 rasp render "$scene" -o file/
+expect_text err '^rasp render: error: .*file'
+expect_exit 73 rasp render "$scene" -o nowhere/deeper/
+expect_text err '^rasp render: error: .*nowhere/deeper'
 [ "$(cat file)" = plain ] || fail "the file was changed"
-expect_files file folder sealed
+expect_files file sealed
 
 # A folder without the right to write; root may always, except where the file system is read-only.
 if [ "$(id -u)" != 0 ]; then

@@ -47,6 +47,9 @@ START_TEST(counts_and_places)
     ck_assert(d.first.frame == 1 && d.first.channel == 1 && d.first.a == -0.5 && d.first.b == y[3]);
     ck_assert(d.worst.frame == 2 && d.worst.channel == 1 && d.worst.a == 0 && d.worst.b == y[5]);
     ck_assert_double_eq(d.largest / distance_step(&a, &b), 5); /* steps of the coarser, 16 bits */
+    y[0] = 5.0 / 32768; /* as far off: the first of them is told */
+    distance_samples(&a, &b, &d);
+    ck_assert(d.worst.frame == 0 && d.worst.channel == 0 && d.differing == 3);
     ck_assert_double_eq(distance_step(&b, &b), 1.0 / 8388608);
     b.bits = 0;
     ck_assert_double_eq(distance_step(&b, &a), 1.0 / 32768);
@@ -182,7 +185,7 @@ START_TEST(bands_as_a_slow_transform_has_them)
         double one[N];
         for (int i = 0; i < N; i++)
             one[i] = x[2 * i + c];
-        for (int b = 0; b < DISTANCE_BANDS; b += 3) {
+        for (int b = 1; b < DISTANCE_BANDS; b += 3) { /* among them the one that the Nyquist frequency cuts */
             double edge[2] = {distance_band_centre(b) * pow(10, -0.05), distance_band_centre(b) * pow(10, 0.05)};
             double want = slow_band(one, N, 8000, edge);
             if (edge[0] >= 4000)
@@ -211,6 +214,36 @@ START_TEST(padded_and_cut_sounds_keep_their_level)
         double lost = 2 * 48000.0 / lengths[k] / (pi * pi * 109);
         ck_assert_double_le(level[16], 20 * log10(1 / sqrt(2)) + 0.01);
         ck_assert_double_ge(level[16], 20 * log10(1 / sqrt(2)) + 10 * log10(1 - lost) - 0.01);
+    }
+    arena_close(arena);
+}
+END_TEST
+
+START_TEST(bin_at_zero_is_half_as_wide)
+{
+    double x[100], level[DISTANCE_BANDS]; /* bins are 80 Hz wide: 0 .. 40, 40 .. 120 */
+    struct arena *arena = arena_open();
+    struct wav w = {.rate = 8000, .channels = 1, .frames = 100, .x = x};
+    for (int i = 0; i < 100; i++)
+        x[i] = 1;
+    distance_band_levels(&w, arena, level);
+    ck_assert_double_eq_tol(pow(10, level[0] / 10), distance_band_centre(0) * (pow(10, 0.05) - pow(10, -0.05)) / 40, 1e-12);
+    arena_close(arena);
+}
+END_TEST
+
+START_TEST(last_frame_of_a_cut_sound_counts)
+{
+    enum { N = (1 << 20) + 1 }; /* a piece and a frame */
+    static double x[N];
+    double level[DISTANCE_BANDS];
+    struct arena *arena = arena_open();
+    struct wav w = {.rate = 48000, .channels = 1, .frames = N, .x = x};
+    x[N - 1] = 1;
+    distance_band_levels(&w, arena, level);
+    for (int b = 0; b < DISTANCE_BANDS; b++) {
+        double width = distance_band_centre(b) * (pow(10, 0.05) - pow(10, -0.05));
+        ck_assert_double_eq_tol(level[b], 10 * log10(width / 24000 / N), 1e-9);
     }
     arena_close(arena);
 }
@@ -268,4 +301,4 @@ END_TEST
 
 UNIT("distance", snr_of_a_scaled_copy, counts_and_places, equal_and_silent, centres, sine_is_its_rms_in_its_band,
      bin_on_an_edge_is_shared, white_rises_a_decibel_per_band, bands_as_a_slow_transform_has_them,
-     padded_and_cut_sounds_keep_their_level, worst_band, bands_across_rates)
+     padded_and_cut_sounds_keep_their_level, bin_at_zero_is_half_as_wide, last_frame_of_a_cut_sound_counts, worst_band, bands_across_rates)

@@ -128,6 +128,7 @@ START_TEST(npy_hostile)
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 5), }", "empty (0 x 5)");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (-1,), }", "not a whole number");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (4294967296, 4294967297), }", "and 8 bytes do");
+    npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 12297829382473034411), }", "and 8 bytes do"); /* 1 mod 2^64 */
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (2305843009213693953,), }", "and 8 bytes do");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999999,), }", "too large");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }", "2 numbers of 8 bytes should follow byte 128");

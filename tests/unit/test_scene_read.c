@@ -134,7 +134,7 @@ START_TEST(test_tables)
         char other[128];
         if (k->applies) {
             snprintf(other, sizeof other, "%.*s", (int)strcspn(k->applies, "="), k->applies);
-            ck_assert_msg(keys_find(other) && keys_find(other)->type == KEY_CHOICE, "%s", k->path);
+            ck_assert_msg(keys_find(other) && keys_find(other)->type == (strchr(k->applies, '=') ? KEY_CHOICE : KEY_FILE), "%s", k->path);
         }
     }
     arena_close(r.arena);

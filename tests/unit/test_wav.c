@@ -175,7 +175,8 @@ static void check_round_trip(struct wav_format f)
     ck_assert_int_eq(r.bits, f.bits > 0 ? f.bits : 0);
     ck_assert_mem_eq(r.x, x, FRAMES * (size_t)f.channels * sizeof *x);
     slurp("a.wav");
-    ck_assert_mem_eq(disk, f.riff_bytes > 0 ? "RF64" : "RIFF", 4);
+    bool outgrown = f.riff_bytes > 0 && FRAMES * f.channels * abs(f.bits) / 8 > f.riff_bytes;
+    ck_assert_mem_eq(disk, outgrown ? "RF64" : "RIFF", 4);
     unlink("a.wav");
     arena_close(a);
 }
@@ -183,7 +184,7 @@ static void check_round_trip(struct wav_format f)
 START_TEST(round_trips)
 {
     static const int bits[] = {16, 24, -32, -64};
-    static const double limits[] = {0, 1, 30000};
+    static const double limits[] = {0, 1, 100000};
     enter_folder();
     for (int k = 0; k < 4; k++)
         for (int channels = 1; channels <= 3; channels++)

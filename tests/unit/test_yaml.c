@@ -83,6 +83,7 @@ static const struct {
     {"a: \"x\\0y\"\n", "t.yaml:1:4: error: a text must not hold a NUL", "^~~~~~", "remove"},
     {"a: \xc3(\n", "t.yaml:1:4: error: not valid UTF-8", "^", "UTF-8"},
     {"b: \xc2\xb5\na: \xff\n", "t.yaml:2:4: error: not valid UTF-8", "^", "UTF-8"},
+    {"a: \xc2\xb5\xff\n", "t.yaml:1:5: error: not valid UTF-8", "^", "UTF-8"},
     {"a: x\x07\n", "t.yaml:1:5: error: control character U+0007", "^", "remove"},
     {"\xef\xbb\xbf" "a: 1\n", "t.yaml: error: encoded as UTF-8 with a byte order mark", "", "without a byte order mark"},
     {"\xff\xfe" "a", "t.yaml: error: encoded as UTF-16", "", "UTF-8"},
@@ -156,6 +157,8 @@ START_TEST(test_limits)
     repeated_is("a: ", "[", 5000, "nested more than 64 deep");
     repeated_is("", "- ", 5000, "nested more than 64 deep");
     repeated_is("", "? ", 5000, "nested more than 64 deep");
+    repeated_is("", "- ", 64, "nested more than 64 deep"); /* 64 lists and the empty value in them */
+    repeated_is("", "- ", 63, NULL);
     repeated_is("", "- x\n", 100001, "more than 100000 values");
     repeated_is("", "- x\n", 90000, NULL);
     repeated_is("", "- &a x\n", 2000, "more than 1000 anchors");
@@ -244,6 +247,23 @@ START_TEST(test_caret)
 }
 END_TEST
 
+/* Nothing that a terminal would obey or choke on is printed. */
+START_TEST(test_shown)
+{
+    struct arena *a = arena_open();
+    struct yaml *y = yaml_open(a);
+    parsed(y, "a\x1b[31m: \xff");
+    ck_assert(strstr(diag_text(y->diag), "    1 | a?[31m: ?\n      |  ^\n"));
+    y = yaml_open(a);
+    parsed(y, "\"\\e[31m\": *\xc2\xb5");
+    const char *told = diag_text(y->diag);
+    ck_assert_msg(!strchr(told, '\x1b'), "%s", told);
+    diag_add(y->diag, (struct diag_place){NULL, 0, 0, 0}, "\x9b\xc2\x9b", "%s", "\x1b\xc2\xb5\xff");
+    ck_assert(strstr(diag_text(y->diag), "error: ?\xc2\xb5?\n") && strstr(diag_text(y->diag), "help: ???\n"));
+    arena_close(a);
+}
+END_TEST
+
 START_TEST(test_many)
 {
     struct arena *a = arena_open();
@@ -262,4 +282,4 @@ START_TEST(test_many)
 }
 END_TEST
 
-UNIT("yaml", test_tree, test_alias, test_bad, test_nul, test_bomb, test_limits, test_keys_limit, test_files, test_value, test_caret, test_many)
+UNIT("yaml", test_tree, test_alias, test_bad, test_nul, test_bomb, test_limits, test_keys_limit, test_files, test_value, test_caret, test_shown, test_many)

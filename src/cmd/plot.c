@@ -1,0 +1,108 @@
+/* rasp plot: a picture of a render. */
+#include "cmd/plot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/outfile.h"
+#include "cmd/cmd.h"
+
+static const struct args_option plot_options[] = {
+    {"output", 'o', "FILE", false, "where to write; default: NAME.png beside NAME.wav, or NAME.svg"},
+    {"format", 'f', "png|svg", false, "format of the picture; default: by the output's ending, else png"},
+    {"title", 't', "TEXT", false, "title; default: the scene's, if its summary lies beside the sound, else the file's name"},
+    {"from", 0, "SECONDS", false, "start of the time shown; default: 0"},
+    {"to", 0, "SECONDS", false, "end of the time shown; default: the end of the sound"},
+    {0},
+};
+
+static bool ends(const char *text, const char *ending)
+{
+    size_t n = strlen(text), m = strlen(ending);
+    return n > m && strcmp(text + n - m, ending) == 0;
+}
+
+static bool plot_format(struct cmd_call *c, struct plot_page *p, struct err *e)
+{
+    const char *format = args_value(&c->args, "format"), *o = args_value(&c->args, "output");
+    if (format && strcmp(format, "png") != 0 && strcmp(format, "svg") != 0)
+        return err_set(e, ERR_USAGE, "--format: '%s' is neither png nor svg", format);
+    if (o && !ends(o, ".png") && !ends(o, ".svg"))
+        return err_set(e, ERR_USAGE, "--output %s: must end in .png or .svg", o);
+    if (format && o && strcmp(o + strlen(o) - 3, format) != 0)
+        return err_set(e, ERR_USAGE, "--output %s: does not end in .%s, the format that is asked for", o, format);
+    p->svg = format ? strcmp(format, "svg") == 0 : o && ends(o, ".svg");
+    return true;
+}
+
+static const char *plot_target(struct cmd_call *c, const struct plot_page *p)
+{
+    const char *o = args_value(&c->args, "output");
+    return o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p->file) - 4, p->file, p->svg ? "svg" : "png");
+}
+
+/* gnuplot does not notice a full disk: is the last thing of the format there? */
+static bool picture_whole(int fd, bool svg)
+{
+    char tail[13] = "";
+    struct stat s;
+    if (fstat(fd, &s) != 0 || s.st_size < 12 || pread(fd, tail, 12, s.st_size - 12) != 12)
+        return false;
+    return svg ? strstr(tail, "</svg>") != NULL : memcmp(tail + 4, "IEND", 4) == 0;
+}
+
+static bool plot_write(const struct plot_page *p, const char *target, struct err *e)
+{
+    struct outfile o;
+    struct gnuplot g;
+    if (!outfile_open_fd(&o, target, e))
+        return false;
+    if (!gnuplot_open(&g, o.fd, e)) {
+        outfile_drop(&o);
+        return false;
+    }
+    plot_draw(p, &g);
+    bool ok = gnuplot_close(&g, e);
+    if (ok && !picture_whole(o.fd, p->svg))
+        ok = err_set(e, ERR_IO, "%s: cannot be written whole (is the disk full?)", target);
+    if (ok)
+        return outfile_commit(&o, e);
+    outfile_drop(&o);
+    return false;
+}
+
+static int plot_run(struct cmd_call *c, struct err *e)
+{
+    struct plot_page p = {.file = c->args.operands[0], .title = args_value(&c->args, "title"), .from = NAN, .to = NAN, .arena = c->arena};
+    const double range[2] = {0, 1e9};
+    if (!ends(p.file, ".wav") && !ends(p.file, ".csv"))
+        return err_set(e, ERR_USAGE, "%s: neither a sound (.wav) nor a table of diagnostics (.csv)", p.file), (int)e->kind;
+    if (!plot_format(c, &p, e) || !args_number(&c->args, "from", range, &p.from, e) || !args_number(&c->args, "to", range, &p.to, e))
+        return (int)e->kind;
+    const char *target = plot_target(c, &p);
+    if (!plot_data(&p, e) || !plot_write(&p, target, e))
+        return (int)e->kind;
+    printf("%s ", target);
+    plot_draw_list(&p, stdout);
+    return 0;
+}
+
+const struct command plot_command = {
+    .name = "plot",
+    .summary = "draws a render: waveform, spectrogram, forces",
+    .does = "For NAME.wav writes NAME.png: the waveform, the spectrogram (Hann window of 20 ms, the 80 dB below the loudest place, up to 20 kHz) "
+            "and, from the diagnostics beside it (NAME.csv, or NAME.CONTACT.csv), the contact force and the normal force with alpha, on one time "
+            "axis. Panels without data are left out; what was drawn is printed. For NAME.csv, of a render without sound, only the forces. Of "
+            "several channels the first is drawn. Needs gnuplot.",
+    .operands = "NAME.wav|NAME.csv",
+    .least = 1,
+    .most = 1,
+    .options = plot_options,
+    .examples = "rasp plot out/basswood_scrape.wav\n"
+                "rasp plot out/basswood_scrape.wav -o stroke.svg --from 0.25 --to 0.5\n"
+                "rasp plot out/forces_only.csv\n",
+    .run = plot_run,
+};
