@@ -37,12 +37,10 @@ FUZZ = $(patsubst tests/fuzz/%.c,$(BUILD)/%,$(wildcard tests/fuzz/fuzz_*.c))
 BENCH = $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 SUB = @$(MAKE) --no-print-directory -j$(JOBS)
 
-# V=1 shows the commands.
-ifeq ($(V),1)
-say = @:
-else
-say = @echo '$(1) $(subst $(BUILD)/,,$@)';
+# V=1 shows the commands, -s nothing.
+ifneq ($(V),1)
 Q = @
+say = @$(if $(findstring s,$(firstword -$(MAKEFLAGS))),:,echo '$(1) $(subst $(BUILD)/,,$@)')
 endif
 
 all: $(BUILD)/rasp

@@ -142,5 +142,6 @@ int main(int argc, char **argv)
 {
     fill_standard_streams();
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a file that grows past its limit is a write error, exit 74 */
     return close_stdout(run(argc, argv));
 }

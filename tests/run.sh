@@ -2,7 +2,7 @@
 # Runs the tests and counts them.
 #     tests/run.sh [KIND | KIND/NAME ...]      default: every kind but bytes
 #     tests/run.sh --list [KIND ...]
-#     tests/run.sh --set KIND/NAME ...         renews the expected files of cli, plans and golden tests: look at the diff
+#     tests/run.sh --set KIND[/NAME] ...       renews the expected files of cli, plans and golden tests: look at the diff
 # BUILD is the build folder (default build), JOBS how many run at once. The last line is "N passed, N failed[, N skipped]";
 # the exit code is 0 only if something ran and nothing failed. What each kind is: tests/README.md.
 set -uo pipefail
@@ -75,9 +75,20 @@ if [ "${1:-}" = --one ]; then
     run_one "$2"
     exit
 fi
+
+# named WORD...: the tests that kinds and names stand for, one KIND/NAME per line.
+named() {
+    local word
+    for word; do
+        case $word in */*) echo "$word" ;; *) tests_of "$word" || return ;; esac
+    done
+}
+
 if [ "${1:-}" = --set ]; then
     shift
-    set_tests "$@"
+    tests=$(named "$@") || exit
+    # shellcheck disable=SC2086
+    set_tests $tests
     exit
 fi
 list=false
@@ -88,7 +99,7 @@ fi
 
 # shellcheck disable=SC2086
 [ $# -gt 0 ] || set -- $ALL_KINDS
-tests=$(for wanted; do case $wanted in */*) echo "$wanted" ;; *) tests_of "$wanted" || exit ;; esac; done) || exit
+tests=$(named "$@") || exit
 if $list; then
     echo "$tests"
     exit

@@ -46,7 +46,7 @@ bool plot_data_has(const struct plot_page *p, enum plot_column column);
 /* Writes the whole page to gnuplot. */
 void plot_draw(const struct plot_page *p, struct gnuplot *g);
 
-/* Names of the panels that the page has, as a line. */
+/* What the page shows, as a line. */
 void plot_draw_list(const struct plot_page *p, FILE *f);
 
 #endif

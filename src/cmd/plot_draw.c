@@ -38,14 +38,14 @@ static int page_height(const struct plot_page *p)
 
 void plot_draw_list(const struct plot_page *p, FILE *f)
 {
-    static const char *const names[PANELS] = {"waveform", "spectrogram", "contact force", "normal force and alpha"};
+    static const char *const names[PANELS] = {"waveform", "spectrogram", "contact force", "normal force"};
     const char *comma = "";
     for (int k = 0; k < PANELS; k++)
         if (panel_there(p, k)) {
             fprintf(f, "%s %s", comma, names[k]);
             comma = ",";
         }
-    fputc('\n', f);
+    fputs(plot_data_has(p, PLOT_ALPHA) ? ", alpha\n" : "\n", f);
 }
 
 /* ------------------------------------------------------------------ data */
@@ -82,7 +82,7 @@ static double decibel(double x)
 static void draw_waveform(const struct plot_page *p, struct gnuplot *g)
 {
     const struct plot_sound *o = p->sound;
-    double most = o->peak > 0 ? 1.08 * o->peak : 1;
+    double most = o->peak > 0 ? 1.25 * o->peak : 1;
     fprintf(g->in, "set ylabel 'amplitude / full scale'\nset yrange [%.6g:%.6g]\n", -most, most);
     if (o->peak > 0)
         fprintf(g->in, "set key title 'peak %.1f dBFS, rms %.1f dBFS'\n", decibel(o->peak), decibel(o->rms));
@@ -142,12 +142,12 @@ static double most_of(const struct plot_page *p, enum plot_column column)
 /* Puts the curve of a column of every table that has it; says whether it put any. */
 static bool put_curves(const struct plot_page *p, enum plot_column column, const char *style, bool *any, struct gnuplot *g)
 {
-    static const char *const what[] = {[PLOT_PEAK] = "peak", [PLOT_RMS] = "rms", [PLOT_NORMAL] = "normal force", [PLOT_ALPHA] = "α"};
+    static const char *const what[] = {[PLOT_PEAK] = "peak", [PLOT_RMS] = "rms", [PLOT_NORMAL] = "normal force", [PLOT_ALPHA] = "α, right axis"};
     for (int i = 0; i < p->n_tables; i++) {
         if (!p->tables[i].x[column] || p->tables[i].n == 0)
             continue;
         fprintf(g->in, "%s $table%d using 1:%d with ", *any ? "," : "plot", i, (int)column + 2);
-        fprintf(g->in, style, colour(i));
+        fprintf(g->in, style, colour(column == PLOT_ALPHA && p->n_tables == 1 ? 1 : i));
         put_name(p, i, what[column], g);
         *any = true;
     }
@@ -168,7 +168,7 @@ static void draw_normal(const struct plot_page *p, struct gnuplot *g)
     bool any = false;
     fprintf(g->in, "set ylabel 'normal force / N'\nset yrange [0:%.6g]\n", 1.25 * most_of(p, PLOT_NORMAL));
     if (plot_data_has(p, PLOT_ALPHA))
-        fprintf(g->in, "set ytics nomirror\nset y2tics\nset y2label 'α / cm'\nset y2range [0:%.6g]\n", 125 * most_of(p, PLOT_ALPHA));
+        fprintf(g->in, "set y2tics\nset y2label 'α / cm'\nset y2range [0:%.6g]\n", 160 * most_of(p, PLOT_ALPHA));
     put_curves(p, PLOT_NORMAL, "lines linewidth 1.6 linecolor rgb '%s'", &any, g);
     put_curves(p, PLOT_ALPHA, "lines axes x1y2 linewidth 1.6 dashtype 2 linecolor rgb '%s'", &any, g);
     fputs(any ? "\n" : "plot NaN notitle\n", g->in);
@@ -185,8 +185,8 @@ static void draw_head(const struct plot_page *p, struct gnuplot *g)
         fprintf(g->in, "set terminal pngcairo size %d,%d font 'DejaVu Sans,10' background rgb 'white'\n", WIDTH, height);
     fputs("set encoding utf8\n"
           "set palette defined (0 '#000004', 1 '#280b54', 2 '#65156e', 3 '#9f2a63', 4 '#d44842', 5 '#f57d15', 6 '#fac127', 7 '#fcffa4')\n"
-          "set border linewidth 0.8\nset tics out scale 0.6\nset style fill solid 1.0 noborder\n"
-          "set ylabel offset 1,0\nset y2label offset -1,0\nset cblabel offset -0.5,0\n"
+          "set border linewidth 0.8\nset tics out nomirror scale 0.6\nset style fill solid 1.0 noborder\n"
+          "set ylabel offset 1,0\nset y2label offset -1,0\nset cblabel offset 1.2,0\n"
           "set key noenhanced top right inside horizontal samplen 2 spacing 1.0\n", g->in);
     fprintf(g->in, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)LEFT / WIDTH, 1 - (double)RIGHT / WIDTH);
     fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);

@@ -92,7 +92,8 @@ static void ring_overlap_close(struct stage_run *r)
 static double ring_overlap_work(const struct response *given, const struct scene *s)
 {
     double hop = s->accuracy.overlap_hop * s->output.sample_rate, length = (isnan(given->length) ? 1 : given->length) * s->output.sample_rate;
-    return ring_is_table(given) ? (10.0 * given->modes + 150) * (length / hop + s->accuracy.overlap_order) : 200 + length / 128;
+    double whole = length + hop * s->accuracy.overlap_order; /* three FFTs of that and the response's modes, each hop */
+    return ring_is_table(given) ? (25 * whole + 0.7 * given->modes * length) / hop : 100 + length / 110;
 }
 
 static double surface_work(const struct contact *c, const struct scene *s)
@@ -103,7 +104,7 @@ static double surface_work(const struct contact *c, const struct scene *s)
 static double scraper_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return 200 + (isnan(c->scraper.response.length) ? 1 : c->scraper.response.length) * s->output.sample_rate / 128;
+    return 100 + (isnan(c->scraper.response.length) ? 1 : c->scraper.response.length) * s->output.sample_rate / 110;
 }
 
 static bool surface_wanted(const struct contact *c, const struct scene *s)

@@ -83,13 +83,13 @@ static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e
 static double ring_bank_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return 10.0 * c->surface.response.modes;
+    return 10 + 2.0 * c->surface.response.modes;
 }
 
 static double ring_scraper_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return 10.0 * c->scraper.response.modes;
+    return 10 + 2.0 * c->scraper.response.modes;
 }
 
 static bool surface_wanted(const struct contact *c, const struct scene *s)

@@ -13,7 +13,7 @@ static bool decimate_wanted(const struct contact *c, const struct scene *s)
 static double decimate_work(const struct contact *c, const struct scene *s)
 {
     (void)c;
-    return 2 * 84 * s->accuracy.oversampling;
+    return 40 * s->accuracy.oversampling;
 }
 
 static bool decimate_open(struct stage_run *r, struct err *e)

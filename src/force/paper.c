@@ -55,7 +55,7 @@ static bool paper_wanted(const struct contact *c, const struct scene *s)
 
 static double paper_work(const struct contact *c, const struct scene *s)
 {
-    return (40 + (c->contact.limiter.curve == LIMITER_TANH ? 90 : 0)) * s->accuracy.oversampling;
+    return (c->contact.limiter.curve == LIMITER_TANH ? 200 : 80) * steps_pieces(c, s);
 }
 
 static bool paper_curvature_open(struct stage_run *r, struct err *e)

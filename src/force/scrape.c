@@ -97,8 +97,7 @@ static bool scrape_wanted(const struct contact *c, const struct scene *s)
 
 static double scrape_work(const struct contact *c, const struct scene *s)
 {
-    double tanh_work = c->contact.limiter.curve == LIMITER_TANH ? 90 : 0;
-    return (60 + tanh_work) * s->accuracy.oversampling;
+    return (c->contact.limiter.curve == LIMITER_TANH ? 230 : 100) * steps_pieces(c, s);
 }
 
 static bool scrape_open(struct stage_run *r, struct err *e)

@@ -52,9 +52,10 @@ static bool smooth_curvature_wanted(const struct contact *c, const struct scene 
 
 static double smooth_work(const struct contact *c, const struct scene *s)
 {
-    double over = s->accuracy.oversampling, alpha = c->grip.given ? c->contact.limiter.alpha_max : 0.03;
-    double taps = 13 * c->contact.smoothing * smooth_alpha(c, alpha) / 0.03 * s->output.sample_rate * over + 1;
-    return taps * over * (c->grip.given && c->contact.limiter.curve == LIMITER_TANH ? 4 : 2);
+    bool varies = c->grip.given && c->contact.limiter.curve == LIMITER_TANH;
+    double over = s->accuracy.oversampling, alpha = varies ? c->contact.limiter.alpha_max : smooth_alpha(c, limiter_constant(c));
+    double taps = 13 * c->contact.smoothing * alpha / 0.03 * s->output.sample_rate * over + 1;
+    return taps * over * (varies ? 0.8 : 0.35);
 }
 
 static bool smooth_open_item(struct stage_run *r, enum item item)

@@ -68,3 +68,11 @@ void steps_lift(struct board *b, long first, int n)
                 b->lifted += 1 / (b->rate * b->over);
         }
 }
+
+double steps_pieces(const struct contact *c, const struct scene *s)
+{
+    double pitch = c->surface.roughness.given ? c->surface.roughness.shortest / 4 : isnan(c->surface.pitch) ? 5e-6 : c->surface.pitch;
+    struct trajectory tr = trajectory_make(&c->motion);
+    double travelled = tr.path == PATH_BACK_AND_FORTH ? 2 * tr.rate * tr.length : tr.length / tr.duration;
+    return s->accuracy.oversampling + travelled / (s->output.sample_rate * pitch);
+}

@@ -21,6 +21,10 @@ void steps_make(struct steps *s, struct stage_run *r, double longest);
    is the sub-interval's number in the chunk. */
 void steps_run(struct steps *s, const struct stage_run *r, long first, int n);
 
+/* Predicted pieces per audio sample: one per sub-interval, and one per knot passed (height maps that do not say their pitch here count as
+   5 um). */
+double steps_pieces(const struct contact *c, const struct scene *s);
+
 /* No contact, no force: clears the force of sub-intervals whose mean normal force is negative, and counts their time. */
 void steps_lift(struct board *b, long first, int n);
 

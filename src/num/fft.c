@@ -1,5 +1,9 @@
 /* FFTW's real transforms through its guru interface for split arrays. One plan has work arrays of its own, because FFTW asks that
-   re and im lie as far apart when a plan runs as when it was made, and because its inverse destroys its input. */
+   re and im lie as far apart when a plan runs as when it was made, and because its inverse destroys its input.
+
+   Without SIMD the codelets are the same on every CPU, but the twiddle factors are not: FFTW takes them from libm's sincos, whose
+   last bits depend on whether the CPU has FMA. So this file defines sincos itself; being part of the executable it is the one
+   that the dynamic linker gives to FFTW (and to GSL). tests/unit/test_fft.c pins the bits. */
 #include "num/fft.h"
 
 #include <fftw3.h>
@@ -9,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "num/real.h"
 
 /* FFTW_UNALIGNED: callers' x may lie anywhere; without SIMD it costs nothing. */
 enum { FLAGS = FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED };
@@ -19,6 +24,13 @@ struct fft {
     double *spectrum; /* re[bins], im[bins] */
     double *time;     /* [n] */
 };
+
+/* In place of libm's, see above. */
+void sincos(double x, double *s, double *c)
+{
+    *s = real_sin(x);
+    *c = real_cos(x);
+}
 
 static void *or_end(void *p, size_t n)
 {

@@ -92,7 +92,7 @@ static bool force_table_wanted(const struct contact *c, const struct scene *s)
 
 static double force_table_work(const struct contact *c, const struct scene *s)
 {
-    return 4 + 900 * s->output.diagnostics.rate / s->output.sample_rate * (column_asked(c, s, MEAN, PEAK) ? 2 : 1);
+    return 4 + (column_asked(c, s, MEAN, PEAK) ? 9000 : 5000) * s->output.diagnostics.rate / s->output.sample_rate;
 }
 
 static bool columns_choose(struct force_table *t, const struct stage_run *r, struct err *e)

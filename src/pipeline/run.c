@@ -33,7 +33,8 @@ static int item_per_frame(const struct board *b, enum item item)
     return item < ITEM_FORCE ? b->over : 1;
 }
 
-/* Frames that a signal must hold: from the first that the slowest reader looks back to, to the end of its giver's block. */
+/* Frames that a signal must hold: from the first that a reader looks back to (all of them begin at frame 0) to the end of its giver's
+   block. */
 static void run_signal(struct run *r, enum item item)
 {
     struct signal *s = &r->board.signals[item];
@@ -45,8 +46,8 @@ static void run_signal(struct run *r, enum item item)
         const struct stage_run *st = &r->stages[i];
         if (st->stage->gives & ITEM_BIT(item) && st->offset > lead)
             lead = st->offset;
-        if (reads(st) & ITEM_BIT(item) && st->back - st->offset > behind)
-            behind = st->back - st->offset;
+        if (reads(st) & ITEM_BIT(item) && st->back > behind)
+            behind = st->back;
     }
     s->per_frame = per_frame;
     s->first = -behind;

@@ -39,13 +39,15 @@ static long held(struct curvature_way *w, long cell, bool forwards)
     return cell - w->first;
 }
 
+/* A knot has its own numbers whether it is reached from the cell before it or from the one after: where the buffer was full, or which way
+   the stroke went, does not show in the last bits. */
 static void add_point(struct curvature_way *w, struct curvature_pieces *p, long knot, double share, double alpha)
 {
-    double b0 = w->bend[knot], rise = w->bend[knot + 1] - b0;
+    double b0 = w->bend[knot], b1 = w->bend[knot + 1], rise = b1 - b0;
     int k = p->points++;
     p->alpha[k] = alpha;
-    p->bend[k] = b0 + share * rise;
-    p->slope[k] = w->slope[knot] + w->profile->pitch * share * (b0 + share / 2 * rise);
+    p->bend[k] = share == 1 ? b1 : b0 + share * rise;
+    p->slope[k] = share == 1 ? w->slope[knot + 1] : w->slope[knot] + w->profile->pitch * share * (b0 + share / 2 * rise);
 }
 
 bool curvature_cut(struct curvature_way *w, struct curvature_stretch *s, struct curvature_pieces *p)

@@ -55,7 +55,7 @@ static bool limiter_wanted(const struct contact *c, const struct scene *s)
 static double limiter_work(const struct contact *c, const struct scene *s)
 {
     (void)c;
-    return 45 * s->accuracy.oversampling;
+    return 25 * s->accuracy.oversampling;
 }
 
 static bool limiter_open(struct stage_run *r, struct err *e)

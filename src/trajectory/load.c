@@ -26,7 +26,7 @@ bool load_make(const struct contact *c, const struct trajectory *tr, struct load
         return true;
     }
     double tangent = real_tan(c->grip.angle), slip = 1 - c->grip.friction * tangent;
-    if (slip <= 1e-3)
+    if (slip <= 1e-3 + 1e-12) /* tan 45 degrees is 1 - 1e-16 in binary, and 0.999 of it is to be refused */
         return err_set(e, ERR_SCENE,
                        "contact '%s': grip: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999; lower grip.angle or "
                        "grip.friction",
@@ -36,8 +36,8 @@ bool load_make(const struct contact *c, const struct trajectory *tr, struct load
     return true;
 }
 
-/* Extremes over the motion, on 4097 instants of it (of its first cycle when it repeats). Harmonic motion has its extremes at quarter
-   cycles, which are on the grid; the minimum-jerk law's lie between and are missed by less than 1e-6 of the range. */
+/* Extremes over the motion, on 4097 instants of it (of its first cycle when it repeats). A whole cycle of harmonic motion has its extremes
+   on the grid; those of a part of a cycle and of the minimum-jerk law lie between and are missed by less than 1e-6 of the range. */
 static void load_range(struct load_law *l, const struct trajectory *tr)
 {
     double span = tr->path == PATH_BACK_AND_FORTH && tr->duration * tr->rate > 1 ? 1 / tr->rate : tr->duration;

@@ -9,6 +9,7 @@
 
 enum { LARGEST = 4096, BINS = LARGEST / 2 + 1 };
 #define UNITS 6
+#define FLAGS (FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED | FFTW_PRESERVE_INPUT)
 
 static const size_t sizes[] = {2, 4, 6, 30, 64, 1000, 4096};
 enum { SIZES = sizeof sizes / sizeof sizes[0] };
@@ -180,10 +181,11 @@ START_TEST(earlier_plans_do_not_matter)
     struct fft *f = fft_open(LARGEST);
     fft_forward(f, x, first[0], first[1]);
     fft_close(f);
-    double *work = fftw_malloc(sizeof x + 2 * sizeof(double));
-    fftw_destroy_plan(fftw_plan_dft_r2c_1d(LARGEST, work, (fftw_complex *)work, FFTW_MEASURE));
-    fftw_destroy_plan(fftw_plan_r2r_1d(LARGEST / 4, work, work, FFTW_R2HC, FFTW_PATIENT | FFTW_NO_SIMD));
-    fftw_free(work);
+    double *in = fftw_malloc(sizeof x), *out = fftw_malloc(2 * BINS * sizeof(double));
+    fftw_iodim64 dim = {LARGEST, 1, 1};
+    fftw_destroy_plan(fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, in, out, out + BINS, FLAGS & ~FFTW_ESTIMATE));
+    fftw_free(in);
+    fftw_free(out);
     for (size_t n = 2; n < 3000; n = 3 * n / 2 + n / 2 % 2)
         fft_close(fft_open(n + n % 2));
     f = fft_open(LARGEST);
@@ -203,7 +205,7 @@ START_TEST(no_simd)
         double *x = fftw_malloc(LARGEST * sizeof(double)), *out = fftw_malloc(2 * BINS * sizeof(double));
         fftw_forget_wisdom();
         fftw_plan p = fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, x, out, out + n / 2 + 1,
-                                                     FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED | FFTW_PRESERVE_INPUT);
+                                                     FLAGS);
         char *text = fftw_sprint_plan(p);
         ck_assert_msg(!strstr(text, "avx") && !strstr(text, "sse") && !strstr(text, "fv_"), "%s", text);
         fill(x, n, 2);
@@ -218,6 +220,29 @@ START_TEST(no_simd)
         fftw_free(x);
         fftw_free(out);
     }
+}
+END_TEST
+
+/* The hash was made by this test with FFTW 3.3.10. It fails if FFTW has its twiddle factors from libm, whose sincos gives other
+   bits on CPUs with and without FMA (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2 shows it). */
+START_TEST(same_bits_everywhere)
+{
+    static double x[LARGEST], re[BINS], im[BINS];
+    uint64_t h = 0xcbf29ce484222325;
+    for (size_t n = 2; n <= LARGEST; n = fft_good_size(5 * n / 4 + 1)) {
+        struct fft *f = fft_open(n);
+        fill(x, n, 6);
+        fft_forward(f, x, re, im);
+        fft_inverse(f, re, im, x);
+        for (size_t i = 0; i < n; i++) {
+            uint64_t u;
+            memcpy(&u, &x[i], sizeof u);
+            h = (h ^ u) * 0x100000001b3;
+        }
+        fft_close(f);
+    }
+    printf("hash %016llx\n", (unsigned long long)h);
+    ck_assert_uint_eq(h, 0xd54394fdee488569);
 }
 END_TEST
 
@@ -240,4 +265,4 @@ START_TEST(good_size)
 END_TEST
 
 UNIT("fft", forward_is_the_sum, inverse_undoes_forward, inverse_is_the_sum, parseval, impulses, shift,
-     earlier_plans_do_not_matter, no_simd, good_size)
+     earlier_plans_do_not_matter, no_simd, same_bits_everywhere, good_size)

@@ -226,10 +226,11 @@ START_TEST(any_length_same_numbers)
 }
 END_TEST
 
-/* The first words as doubles: u of known bits. 0xe169c58d6627e8d5 >> 11 is even, so the last bit is set. */
+/* The first words of the known answers as doubles; 0xe169c58d6627e8d5 >> 11 is odd, 0x41c83b0e408f276d >> 11 is even. */
 START_TEST(uniform_of_known_bits)
 {
-    ck_assert_double_eq(noise_uniform((struct noise){0}, 0, 0), (double)(0xe169c58d6627e8d5 >> 11 | 1) / 0x1p53);
+    ck_assert_double_eq(noise_uniform((struct noise){0}, 0, 0), (double)(0xe169c58d6627e8d5 >> 11) / 0x1p53);
+    ck_assert_double_eq(noise_uniform((struct noise){UINT64_MAX}, UINT64_MAX, UINT64_MAX), (double)((0x41c83b0e408f276d >> 11) + 1) / 0x1p53);
     uint64_t bits[2];
     double y[2];
     noise_bits((struct noise){0}, 0, 0, bits);

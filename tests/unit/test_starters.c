@@ -60,7 +60,8 @@ START_TEST(test_what_is_off_is_right_too)
         for (const struct keys_line *l = starter->head; l->path; l++) {
             size_t size;
             const char *set[] = {arena_format(a, "%s=%s", l->path, l->value), "surface.roughness=null"};
-            bool map = !strncmp(l->path, "surface.height_map", 18) || !strncmp(l->path, "surface.pitch", 13) || !strcmp(l->path, "surface.height_scale");
+            const struct key *k = keys_find(l->path);
+            bool map = k && (!strcmp(k->path, "surface.height_map") || (k->applies && !strcmp(k->applies, "surface.height_map")));
             char *text = starter_text(starter, &size);
             const char *both[] = {set[0], set[1], "surface.height_map=x.npy", "surface.pitch=1 um"};
             if (l->off && map)

@@ -172,7 +172,8 @@ START_TEST(special_values)
     } special[] = {
         {"exp", vecmath_exp, 0, 1}, {"exp", vecmath_exp, -0.0, 1}, {"exp", vecmath_exp, -HUGE_VAL, 0},
         {"exp", vecmath_exp, HUGE_VAL, HUGE_VAL}, {"exp", vecmath_exp, -708.4, 0}, {"exp", vecmath_exp, -1e300, 0},
-        {"exp", vecmath_exp, 709.8, HUGE_VAL}, {"exp", vecmath_exp, 1e300, HUGE_VAL}, {"exp", vecmath_exp, NAN, NAN},
+        {"exp", vecmath_exp, 709.781, HUGE_VAL}, {"exp", vecmath_exp, 709.8, HUGE_VAL}, {"exp", vecmath_exp, 1e300, HUGE_VAL}, {"exp", vecmath_exp, NAN, NAN},
+        {"exp", vecmath_exp, __builtin_nan("0xfff"), NAN}, {"tanh", vecmath_tanh, __builtin_nan("0xfff"), NAN},
         {"log", vecmath_log, 1, 0}, {"log", vecmath_log, 0, -HUGE_VAL}, {"log", vecmath_log, -0.0, -HUGE_VAL},
         {"log", vecmath_log, -1, NAN}, {"log", vecmath_log, -HUGE_VAL, NAN}, {"log", vecmath_log, HUGE_VAL, HUGE_VAL},
         {"log", vecmath_log, NAN, NAN}, {"log", vecmath_log, -DBL_TRUE_MIN, NAN},

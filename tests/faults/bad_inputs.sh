@@ -1,0 +1,89 @@
+# What people get wrong, one fault a case, through the command line: the exit code, the message, where it points, and that nothing is
+# left or changed in the folder. The cases are tests/faults/bad_inputs.d/*.cases; what they start from is bad_inputs.d/inputs.sh.
+#     bad NAME CODE MAKE COMMAND PATTERN...
+# MAKE turns the good inputs of a fresh folder into bad ones, COMMAND must then end with CODE, print nothing on standard output (but
+# for a comparison that differs), and every PATTERN (extended regular expression) must match a line of what it says.
+#     good NAME MAKE COMMAND
+# is the same without a fault: it keeps the cases beside it honest.
+# BAD_INPUTS_SHOW=1 prints every message, to be read as by someone who sees it for the first time.
+. "$ROOT/tests/lib/test.sh"
+DATA=$ROOT/tests/faults/bad_inputs.d
+RASP=$(command -v rasp) || { echo "rasp is not on PATH"; exit 1; }
+TOP=$PWD
+PASSED=0
+FAILED=0
+. "$DATA/inputs.sh"
+
+# A program that hangs ends with 124.
+rasp() { timeout -k 5 120 "$RASP" "$@"; }
+
+# Names, kinds, rights, inodes, contents: a file that is replaced by one of the same content is a change as well.
+state_of() {
+    (
+        cd "$1" || exit
+        find . \( -type d -printf '%y %m %p\n' \) -o -printf '%y %m %i %s %T@ %p\n' | sort
+        find . -type f -exec cksum {} + | sort
+    )
+}
+
+# run NAME MAKE COMMAND: in a folder of its own; leaves out, err, code, and what changed, in $CASE.
+run() {
+    CASE=$TOP/$1
+    mkdir "$CASE" "$CASE/in" "$CASE/tmp"
+    (cd "$CASE/in" && good_inputs && eval "$2") > "$CASE/make" 2>&1 || echo "its inputs cannot be made" > "$CASE/why"
+    state_of "$CASE/in" > "$CASE/before"
+    (cd "$CASE/in" && export TMPDIR=$CASE/tmp && eval "$3") > "$CASE/out" 2> "$CASE/err" < /dev/null
+    echo $? > "$CASE/code"
+    [ -z "${BAD_INPUTS_SHOW:-}" ] || { echo "== $1: $(cat "$CASE/code")"; cat "$CASE/err"; }
+}
+
+because() { echo "$*" >> "$CASE/why"; }
+
+unchanged() {
+    state_of "$CASE/in" | diff "$CASE/before" - > "$CASE/changes" || because "the folder changed: $(grep '^[<>]' "$CASE/changes")"
+    [ -z "$(ls -A "$CASE/tmp")" ] || because "left in TMPDIR: $(ls -A "$CASE/tmp")"
+}
+
+verdict() {
+    if [ ! -f "$CASE/why" ]; then
+        PASSED=$((PASSED + 1))
+    else
+        FAILED=$((FAILED + 1))
+        echo "$1: $(cat "$CASE/why")"
+        sed 's/^/    /' "$CASE/make" "$CASE/err"
+    fi
+    rm -rf "$CASE"
+}
+
+sound_of_mind() {
+    [ "$(cat "$CASE/code")" = "$1" ] || because "exit code $(cat "$CASE/code") instead of $1"
+    ! grep -Eq 'runtime error:|Sanitizer' "$CASE/err" || because "a sanitizer speaks"
+}
+
+bad() {
+    local name=$1 code=$2 pattern
+    run "$name" "$3" "$4"
+    shift 4
+    sound_of_mind "$code"
+    for pattern; do
+        grep -Eq -- "$pattern" "$CASE/err" || because "no line says: $pattern"
+    done
+    if [ "$code" != 1 ]; then
+        grep -Eq '^rasp( [a-z]+)?: error: ' "$CASE/err" || because "no line 'rasp COMMAND: error: ...'"
+        [ ! -s "$CASE/out" ] || because "on standard output: $(head -n 3 "$CASE/out")"
+    fi
+    unchanged
+    verdict "$name"
+}
+
+good() {
+    run "$1" "$2" "$3"
+    sound_of_mind 0
+    verdict "$1"
+}
+
+for cases in "$DATA"/*.cases; do
+    . "$cases"
+done
+echo "bad_inputs: $PASSED passed, $FAILED failed"
+[ "$FAILED" = 0 ]

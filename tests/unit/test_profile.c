@@ -1,0 +1,266 @@
+/* profile: coefficients against a dense solution of the interpolation equations (GSL, LU), values at the knots against sums of B-splines
+   written out as polynomials, the closed response of a spline to a sine, orders of convergence, and the continuation beyond the ends
+   against a walk that steps one sample at a time. */
+#include "surface/profile.h"
+
+#include <gsl/gsl_linalg.h>
+
+#include "scene/scene.h"
+#include "unit.h"
+
+static double rough_sample(void)
+{
+    return 1e-6 * (drand48() + drand48() - 1);
+}
+
+/* Index after stepping i times from sample 0 on, by the rule. */
+static long walked(long n, int off_map, long i)
+{
+    long at = 0, step = i < 0 ? -1 : 1;
+    for (long k = 0; k != i; k += i < 0 ? -1 : 1) {
+        if (off_map == OFF_MAP_WRAP) {
+            at = at + step == n ? 0 : at + step < 0 ? n - 1 : at + step;
+            continue;
+        }
+        if (at + step == n || at + step < 0)
+            step = -step;
+        at += step;
+    }
+    return at;
+}
+
+/* (c[i-1] + 4 c[i] + c[i+1]) / 6 = z[i], c continued as z is. */
+static void solve_densely(const double *z, long n, int off_map, double *c)
+{
+    gsl_matrix *m = gsl_matrix_calloc((size_t)n, (size_t)n);
+    gsl_permutation *p = gsl_permutation_alloc((size_t)n);
+    gsl_vector_const_view right = gsl_vector_const_view_array(z, (size_t)n);
+    gsl_vector_view left = gsl_vector_view_array(c, (size_t)n);
+    int sign;
+    for (long i = 0; i < n; i++)
+        for (long k = -1; k <= 1; k++)
+            *gsl_matrix_ptr(m, (size_t)i, (size_t)walked(n, off_map, i + k)) += k == 0 ? 4.0 / 6 : 1.0 / 6;
+    gsl_linalg_LU_decomp(m, p, &sign);
+    gsl_linalg_LU_solve(m, p, &right.vector, &left.vector);
+    gsl_matrix_free(m);
+    gsl_permutation_free(p);
+}
+
+/* |c| reaches 3 max|z| (the norm of the inverse), and each of the two recursions has roundings of 1/(1 - 0.27): 1e-15 of the largest. */
+START_TEST(coefficients_solve_the_equations)
+{
+    static const long sizes[] = {4, 5, 6, 7, 17, 64, 65, 200};
+    srand48(1);
+    for (int k = 0; k < 8; k++)
+        for (int off_map = OFF_MAP_MIRROR; off_map <= OFF_MAP_ERROR; off_map++) {
+            struct arena *a = arena_open();
+            double z[200], want[200], got[200], largest = 0;
+            long n = sizes[k];
+            for (long i = 0; i < n; i++)
+                largest = fmax(largest, fabs(z[i] = rough_sample()));
+            struct profile *p = profile_from_samples(a, z, (size_t)n, 5e-6, off_map);
+            solve_densely(z, n, off_map, want);
+            p->read(p, 0, n, got);
+            for (long i = 0; i < n; i++)
+                ck_assert_double_eq_tol(got[i] / largest, want[i] / largest, 4e-15);
+            ck_assert(p->pitch == 5e-6 && p->from == 0 && p->to == 5e-6 * (double)(n - 1));
+            arena_close(a);
+        }
+}
+END_TEST
+
+/* Heights come back as they were given: 1e-15 of the largest, wherever the knot lies. */
+START_TEST(knots_are_the_samples)
+{
+    enum { N = 999 };
+    double z[N], work[N + 2], height[N], largest = 0;
+    struct arena *a = arena_open();
+    srand48(2);
+    for (int i = 0; i < N; i++)
+        largest = fmax(largest, fabs(z[i] = rough_sample()));
+    for (int off_map = OFF_MAP_MIRROR; off_map <= OFF_MAP_ERROR; off_map++) {
+        struct profile *p = profile_from_samples(a, z, N, 5e-6, off_map);
+        for (long first = -4 * N; first < 4 * N; first += 313) {
+            profile_knots(p, first, N, work, (struct profile_knots){.height = height});
+            for (long i = 0; i < N; i += 7)
+                ck_assert_double_eq_tol(height[i] / largest, z[walked(N, off_map, first + i)] / largest, 1e-15);
+        }
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* The cubic B-spline and its derivatives, as polynomials over |x| <= 1 and 1 <= |x| <= 2. */
+static double b_spline(double x, int derivative)
+{
+    double r = fabs(x), side = x < 0 ? -1 : 1;
+    if (r >= 2)
+        return 0;
+    if (derivative == 0)
+        return r < 1 ? 2.0 / 3 - r * r + r * r * r / 2 : (2 - r) * (2 - r) * (2 - r) / 6;
+    if (derivative == 1)
+        return side * (r < 1 ? -2 * r + 1.5 * r * r : -(2 - r) * (2 - r) / 2);
+    return r < 1 ? 3 * r - 2 : 2 - r;
+}
+
+/* z (or a derivative) at q, as the header defines it. */
+static double spline_at(struct profile *p, double q, int derivative)
+{
+    double c[4], x = q / p->pitch, sum = 0;
+    long first = (long)floor(x) - 1;
+    p->read(p, first, 4, c);
+    for (long i = 0; i < 4; i++)
+        sum += c[i] * b_spline(x - (double)(first + i), derivative);
+    return sum / pow(p->pitch, derivative);
+}
+
+START_TEST(knots_are_derivatives_of_the_spline)
+{
+    enum { N = 37 };
+    double z[N], work[N + 2], height[N], slope[N], bend[N], h = 5e-6;
+    struct arena *a = arena_open();
+    srand48(3);
+    for (int i = 0; i < N; i++)
+        z[i] = rough_sample();
+    struct profile *p = profile_from_samples(a, z, N, h, OFF_MAP_WRAP);
+    profile_knots(p, -9, N, work, (struct profile_knots){height, slope, bend});
+    for (long i = 0; i < N; i++) {
+        double q = (double)(i - 9) * h;
+        ck_assert_double_eq_tol(height[i], spline_at(p, q, 0), 1e-14 * 1e-6);
+        ck_assert_double_eq_tol(slope[i], spline_at(p, q, 1), 1e-14 * 1e-6 / h);
+        ck_assert_double_eq_tol(bend[i], spline_at(p, q, 2), 1e-14 * 1e-6 / (h * h));
+    }
+    for (long i = 0; i + 1 < N; i++) { /* what a linear z'' between knots means for the levels above */
+        double b0 = bend[i], b1 = bend[i + 1];
+        ck_assert_double_eq_tol(slope[i + 1], slope[i] + h * (b0 + b1) / 2, 1e-14 * 1e-6 / h);
+        ck_assert_double_eq_tol(height[i + 1], height[i] + h * slope[i] + h * h * (2 * b0 + b1) / 6, 1e-14 * 1e-6);
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* A whole number of periods under wrap: the spline's response to a sine of phase step w is closed, z'' = -(6/h^2)(1 - cos w)/(2 + cos w) z
+   and z' = 3 sin w / (h (2 + cos w)) times the cosine. */
+START_TEST(response_to_a_sine)
+{
+    enum { N = 240 };
+    double z[N], work[N + 2], slope[N], bend[N], h = 2e-6;
+    struct arena *a = arena_open();
+    for (int periods = 0; periods <= N / 2; periods++) {
+        double w = 2 * M_PI * periods / N;
+        for (int i = 0; i < N; i++)
+            z[i] = 3e-6 * cos(2 * M_PI * (periods * i % N) / N + 0.4);
+        struct profile *p = profile_from_samples(a, z, N, h, OFF_MAP_WRAP);
+        profile_knots(p, 0, N, work, (struct profile_knots){.slope = slope, .curvature = bend});
+        for (int i = 0; i < N; i++) {
+            ck_assert_double_eq_tol(bend[i], -6 / (h * h) * (1 - cos(w)) / (2 + cos(w)) * z[i], 3e-14 * 3e-6 / (h * h));
+            ck_assert_double_eq_tol(slope[i], -3 * sin(w) / (h * (2 + cos(w))) * 3e-6 * sin(2 * M_PI * (periods * i % N) / N + 0.4),
+                                    2e-14 * 3e-6 / h);
+        }
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* Largest error of a derivative of sin(2 pi q) sampled n times per period, over the period, as a part of the derivative's size. */
+static double error_of(int n, int derivative)
+{
+    struct arena *a = arena_open();
+    double *z = ARENA_TAKE(a, double, n), worst = 0, k = 2 * M_PI;
+    for (int i = 0; i < n; i++)
+        z[i] = sin(k * i / n);
+    struct profile *p = profile_from_samples(a, z, (size_t)n, 1.0 / n, OFF_MAP_WRAP);
+    for (int i = 0; i < 4000; i++) {
+        double q = i / 4000.0, want = derivative == 0 ? sin(k * q) : derivative == 1 ? cos(k * q) : -sin(k * q);
+        worst = fmax(worst, fabs(spline_at(p, q, derivative) / pow(k, derivative) - want));
+    }
+    arena_close(a);
+    return worst;
+}
+
+/* Orders 4, 3 and 2 for height, slope and curvature anywhere between the knots; the leading errors of spline theory are w^4/384,
+   sqrt(3) w^3/216 and w^2/12 with w = 2 pi / n, and are met within a tenth. */
+START_TEST(orders_of_convergence)
+{
+    static const double leading[] = {1.0 / 384, 0.0080188, 1.0 / 12};
+    for (int derivative = 0; derivative <= 2; derivative++)
+        for (int n = 16; n <= 256; n *= 2) {
+            double coarse = error_of(n, derivative), fine = error_of(2 * n, derivative), w = 2 * M_PI / n;
+            ck_assert_double_eq_tol(log2(coarse / fine), 4 - derivative, 0.1);
+            ck_assert_double_eq_tol(coarse / (leading[derivative] * pow(w, 4 - derivative)), 1, 0.1);
+        }
+}
+END_TEST
+
+/* Far outside, on either side, any length of reading: what stepping sample by sample says, and symmetries at any distance. */
+START_TEST(continued_for_ever)
+{
+    static const long sizes[] = {4, 5, 33};
+    double z[33], inside[33], c[64];
+    struct arena *a = arena_open();
+    srand48(4);
+    for (int k = 0; k < 3; k++)
+        for (int off_map = OFF_MAP_MIRROR; off_map <= OFF_MAP_ERROR; off_map++) {
+            long n = sizes[k], period = off_map == OFF_MAP_WRAP ? n : 2 * n - 2;
+            for (long i = 0; i < n; i++)
+                z[i] = rough_sample();
+            struct profile *p = profile_from_samples(a, z, (size_t)n, 1e-6, off_map);
+            p->read(p, 0, n, inside);
+            for (long first = -300; first < 300; first += 17) {
+                p->read(p, first, 64, c);
+                for (long i = 0; i < 64; i++)
+                    ck_assert(c[i] == inside[walked(n, off_map, first + i)]);
+            }
+            for (long far = 1; far < 1000000000000000000 / period; far *= 1000)
+                for (int side = -1; side <= 1; side += 2) {
+                    p->read(p, side * far * period, n, c);
+                    ck_assert_mem_eq(c, inside, (size_t)n * sizeof *c);
+                }
+        }
+    arena_close(a);
+}
+END_TEST
+
+/* No output asked for is written, and none changes another. */
+START_TEST(outputs_are_optional)
+{
+    enum { N = 12 };
+    double z[N], work[N + 2], all[3][N], one[N];
+    struct arena *a = arena_open();
+    srand48(5);
+    for (int i = 0; i < N; i++)
+        z[i] = rough_sample();
+    struct profile *p = profile_from_samples(a, z, N, 1e-6, OFF_MAP_MIRROR);
+    profile_knots(p, -3, N, work, (struct profile_knots){all[0], all[1], all[2]});
+    for (int k = 0; k < 3; k++) {
+        profile_knots(p, -3, N, work, (struct profile_knots){k == 0 ? one : NULL, k == 1 ? one : NULL, k == 2 ? one : NULL});
+        ck_assert_mem_eq(one, all[k], sizeof one);
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* Mirrored ends are flat: z' = 0 there, and the profile is even about them. */
+START_TEST(mirror_is_even)
+{
+    enum { N = 21 };
+    double z[N], h = 1e-6;
+    struct arena *a = arena_open();
+    srand48(6);
+    for (int i = 0; i < N; i++)
+        z[i] = rough_sample();
+    struct profile *p = profile_from_samples(a, z, N, h, OFF_MAP_MIRROR);
+    ck_assert_double_eq_tol(spline_at(p, 0, 1), 0, 1e-14);
+    ck_assert_double_eq_tol(spline_at(p, (N - 1) * h, 1), 0, 1e-14);
+    for (double d = 0; d < 50 * h; d += 0.37 * h)
+        for (int k = 0; k < 3; k++) {
+            double odd = k == 1 ? -1 : 1, size = 1e-13 * 1e-6 / pow(h, k);
+            ck_assert_double_eq_tol(spline_at(p, d, k), odd * spline_at(p, -d, k), size);
+            ck_assert_double_eq_tol(spline_at(p, (N - 1) * h + d, k), odd * spline_at(p, (N - 1) * h - d, k), size);
+        }
+    arena_close(a);
+}
+END_TEST
+
+UNIT("profile", coefficients_solve_the_equations, knots_are_the_samples, knots_are_derivatives_of_the_spline, response_to_a_sine,
+     orders_of_convergence, continued_for_ever, outputs_are_optional, mirror_is_even)
