@@ -16,7 +16,8 @@ ARCH ?= -march=x86-64-$(ISA) -DRASP_NO_CLONES
 endif
 # SAN=1: address and undefined-behaviour sanitizers; any finding ends the program.
 ifeq ($(SAN),1)
-SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -DRASP_NO_CLONES
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -DRASP_NO_CLONES \
+           -Wno-maybe-uninitialized # gcc sees ghosts in instrumented code
 else
 SANITIZE = $(SAN)
 endif

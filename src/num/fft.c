@@ -1,9 +1,8 @@
 /* FFTW's real transforms through its guru interface for split arrays. One plan has work arrays of its own, because FFTW asks that
    re and im lie as far apart when a plan runs as when it was made, and because its inverse destroys its input.
 
-   Without SIMD the codelets are the same on every CPU, but the twiddle factors are not: FFTW takes them from libm's sincos, whose
-   last bits depend on whether the CPU has FMA. So this file defines sincos itself; being part of the executable it is the one
-   that the dynamic linker gives to FFTW (and to GSL). tests/unit/test_fft.c pins the bits. */
+   Without SIMD the codelets are the same on every CPU; its twiddle factors, which it takes from sincos, are made so by
+   num/sincos.h. tests/unit/test_fft.c pins the bits. */
 #include "num/fft.h"
 
 #include <fftw3.h>
@@ -13,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
-#include "num/real.h"
+#include "num/sincos.h"
 
 /* FFTW_UNALIGNED: callers' x may lie anywhere; without SIMD it costs nothing. */
 enum { FLAGS = FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED };
@@ -24,13 +23,6 @@ struct fft {
     double *spectrum; /* re[bins], im[bins] */
     double *time;     /* [n] */
 };
-
-/* In place of libm's, see above. */
-void sincos(double x, double *s, double *c)
-{
-    *s = real_sin(x);
-    *c = real_cos(x);
-}
 
 static void *or_end(void *p, size_t n)
 {
@@ -49,6 +41,7 @@ struct fft *fft_open(size_t n)
     f->time = or_end(fftw_malloc(n * sizeof(double)), n);
     fftw_iodim64 dim = {.n = (ptrdiff_t)n, .is = 1, .os = 1};
     double *re = f->spectrum, *im = f->spectrum + f->bins;
+    sincos_keep();
     fftw_forget_wisdom();
     f->forward = or_end(fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, f->time, re, im, FLAGS | FFTW_PRESERVE_INPUT), n);
     f->inverse = or_end(fftw_plan_guru64_split_dft_c2r(1, &dim, 0, NULL, re, im, f->time, FLAGS | FFTW_DESTROY_INPUT), n);

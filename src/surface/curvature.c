@@ -84,13 +84,16 @@ bool curvature_cut(struct curvature_way *w, struct curvature_stretch *s, struct 
     return true;
 }
 
-/* G above; w <= log 2, so that the first term left out is below 5e-16. */
-static inline double moment_rest(double x, double w)
+/* rest[k] = G(|x[k]|) above; w <= log 2, so that the first term left out is below 5e-16. */
+LANES_CLONES
+static void points_rest(const double *x, const double *soft, double *rest, int n)
 {
-    double v = w * w;
-    double odd = 1 + v * (1.0 / 36 + v * (-1.0 / 3600 + v * (1.0 / 211680 + v * (-1.0 / 10886400 + v * (1.0 / 526901760 +
-                 v * (-691.0 / 16999766784000.0 + v / 1120863744000.0))))));
-    return 0.41123351671205660911810 - x * w - 0.5 * w * odd - 0.125 * v;
+    for (int k = 0; k < n; k++) {
+        double w = soft[k], v = w * w;
+        double odd = 1 + v * (1.0 / 36 + v * (-1.0 / 3600 + v * (1.0 / 211680 + v * (-1.0 / 10886400 + v * (1.0 / 526901760 +
+                     v * (-691.0 / 16999766784000.0 + v * (1.0 / 1120863744000.0)))))));
+        rest[k] = 0.41123351671205660911810 - fabs(x[k]) * w - 0.5 * w * odd - 0.125 * v;
+    }
 }
 
 LANES_CLONES
@@ -142,10 +145,9 @@ void curvature_limit(struct curvature_pieces *p, double factor, bool limiter)
         x[k] = p->alpha[k] * factor * p->bend[k];
     vecmath_tanh((size_t)p->points, x, p->limited);
     vecmath_softplus2((size_t)p->points, x, soft);
-    for (int k = 0; k < p->points; k++) {
+    points_rest(x, soft, rest, p->points);
+    for (int k = 0; k < p->points; k++)
         p->limited[k] /= p->alpha[k];
-        rest[k] = moment_rest(fabs(x[k]), soft[k]);
-    }
     pieces_mean(p, x, soft);
     pieces_moment(p, x, soft, rest);
 }

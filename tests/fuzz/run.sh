@@ -5,8 +5,7 @@ set -uo pipefail
 cd "$(dirname "$0")" || exit 1
 folder=$(realpath "$1") seconds=${2:-60}
 targets=(fuzz_*.c)
-cores=$(getconf _NPROCESSORS_ONLN)
-share=$((seconds * (cores < 2 ? 1 : 2) / ${#targets[@]}))
+share=$((seconds / ((${#targets[@]} + 1) / 2)))
 export folder share
 mkdir -p "$folder/found" "$folder/corpus"
 

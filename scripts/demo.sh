@@ -1,0 +1,33 @@
+#!/bin/sh
+# A tour: renders four scenes into out/, says what to listen for, and draws one of them.
+#     scripts/demo.sh        rasp from $BUILD (default: build/ of this tree)
+# One scene takes a measured profile from ../shared/data/surfaces/ when it is there, else the one that ships.
+set -eu
+unset CDPATH
+BUILD=${BUILD:+$(cd "$BUILD" && pwd)}
+cd "$(dirname "$0")/.."
+rasp=${BUILD:-$PWD/build}/rasp
+[ -x "$rasp" ] || { echo "demo: $rasp is not built; run make" >&2; exit 66; }
+mkdir -p out
+
+# tour SCENE WHAT [OPTION...]: renders scenes/SCENE.yaml and says what to listen for.
+tour() {
+    scene=$1 what=$2
+    shift 2
+    "$rasp" render "scenes/$scene.yaml" -o out/ --quiet "$@"
+    printf '%-25s %s\n' "out/$scene.wav" "$what"
+}
+
+tour basswood_scrape "back and forth twice a second: bright where the hand presses near the torso, dull at the far end"
+tour paper_force "the first second of that scrape by the paper's equations as printed, on a damped rod"
+tour ceramic_stroke "one stroke, from rest to rest: it swells with the speed, and the tile rings on"
+measured=../shared/data/surfaces/bass_wood.npy
+if [ -f "$measured" ]; then
+    tour ridged_profile "steady, at one speed and load, over basswood as it was measured ($measured)" --set title='rod drawn along a measured basswood profile' \
+        --set surface.height_map="$PWD/$measured" --set 'surface.pitch=1.394068 um'
+else
+    tour ridged_profile "steady, at one speed and load, over the profile that ships (surfaces/ridged_plate.gsf)"
+fi
+printf '%-25s ' "out/basswood_scrape.png"
+"$rasp" plot out/basswood_scrape.wav | sed 's/^[^ ]* */what that looks like: /'
+echo "Beside each sound: .json (level, cost), .scene.yaml (all that the scene left unsaid) and, where asked for, .csv (the forces)."

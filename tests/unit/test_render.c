@@ -1,0 +1,205 @@
+/* From a scene's text to the samples in its WAV. */
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "file/csv.h"
+#include "file/wav.h"
+#include "pipeline/render.h"
+#include "rig.h"
+
+static char folder[] = "/tmp/rasp_render_XXXXXX";
+
+static const char *in_folder(struct arena *a, const char *name)
+{
+    return arena_format(a, "%s/%s", folder, name);
+}
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *f = fopen(path, "w");
+    ck_assert_ptr_nonnull(f);
+    fputs(text, f);
+    fclose(f);
+}
+
+static struct render_report rendered(struct arena *a, const char *text, const char *base)
+{
+    struct scene s;
+    struct err e = {0};
+    const char *messages = "";
+    struct render_report report;
+    if (!scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e))
+        ck_abort_msg("%s%s", messages, e.text);
+    ck_assert_msg(render_scene(&s, in_folder(a, base), a, &report, &e), "%s", e.text);
+    return report;
+}
+
+static struct wav sound(struct arena *a, const char *name)
+{
+    struct wav w;
+    struct err e = {0};
+    ck_assert_msg(wav_read(in_folder(a, name), a, &w, &e), "%s", e.text);
+    return w;
+}
+
+static void setup(struct arena *a)
+{
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    write_text(in_folder(a, "bell.csv"), "# poles: shared\n# quantity: velocity\n# normalisation: physical\n# source: test\n"
+                                         "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n"
+                                         "left,0,0,low,1234.5,17.25,2,1.5607963267948966\nright,0.1,0,low,1234.5,17.25,-1,1.5607963267948966\n");
+}
+
+static void clean(struct arena *a)
+{
+    ck_assert_int_eq(system(arena_format(a, "rm -r %s", folder)), 0);
+    arena_close(a);
+}
+
+#define BODY "surface: {roughness: {rms: 5 um}, response: bell.csv}\nscraper: {mass: 20 g}\n"
+#define LINE "motion: {path: line, to: [2 cm, 0], speed: 20 cm/s}\n"
+#define EXACT "output: {encoding: float64, level: {full_scale: 1}, ramp: 0, tail: 0.6 s}\n"
+
+/* After the force has ended the WAV holds the free decay of the table's one mode: two-sample linear prediction by least squares gives its
+   frequency and T60 to 1e-4 (in fact to 1e-9). */
+START_TEST(free_decay_is_the_tables)
+{
+    struct arena *a = arena_open();
+    setup(a);
+    rendered(a, "rasp: 1\n" BODY LINE EXACT, "decay");
+    struct wav w = sound(a, "decay.wav");
+    double s11 = 0, s12 = 0, s22 = 0, r1 = 0, r2 = 0, rate = 48000;
+    size_t first = (size_t)(0.11 * rate);
+    ck_assert_uint_gt(w.frames, first + 20000);
+    for (size_t n = first; n < first + 20000; n++) {
+        double y = w.x[n], y1 = w.x[n - 1], y2 = w.x[n - 2];
+        s11 += y1 * y1, s12 += y1 * y2, s22 += y2 * y2, r1 += y * y1, r2 += y * y2;
+    }
+    double det = s11 * s22 - s12 * s12, c1 = (r1 * s22 - r2 * s12) / det, c2 = (s11 * r2 - s12 * r1) / det;
+    double radius = sqrt(-c2), frequency = acos(c1 / (2 * radius)) / (2 * M_PI) * rate, decay = -log(radius) * rate;
+    printf("frequency %.9g Hz, T60 %.9g s (table: %.9g s)\n", frequency, 3 * log(10) / decay, 3 * log(10) / 17.25);
+    ck_assert_double_eq_tol(frequency / 1234.5, 1, 1e-4);
+    ck_assert_double_eq_tol(decay / 17.25, 1, 1e-4);
+    clean(a);
+}
+END_TEST
+
+/* Contacts add: two at once, the second later and louder, are the sum of each alone, sample by sample. */
+START_TEST(contacts_add)
+{
+    struct arena *a = arena_open();
+    setup(a);
+    const char *one = "surface: {roughness: {rms: 5 um}, response: bell.csv}, scraper: {mass: 20 g}, motion: {path: line, to: [2 cm, 0], speed: 0.2}";
+    const char *two = "surface: {roughness: {rms: 9 um}, response: bell.csv}, scraper: {mass: 5 g}, motion: {path: line, from: [9 cm, 0], to: [3 cm, 0], speed: 0.3}";
+    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, start: 50 ms, gain: 3, %s}\n" EXACT, one, two), "both");
+    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n" EXACT, one), "first");
+    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: b, %s}\n" EXACT, two), "second");
+    struct wav both = sound(a, "both.wav"), first = sound(a, "first.wav"), second = sound(a, "second.wav");
+    for (size_t n = 0; n < first.frames; n++) {
+        double want = first.x[n] + (n >= 2400 && n - 2400 < second.frames ? 3 * second.x[n - 2400] : 0);
+        ck_assert_double_eq_tol(both.x[n], want, 1e-15);
+    }
+    ck_assert(second.x[3000] != 0);
+    clean(a);
+}
+END_TEST
+
+static void levels_of(const struct wav *w, double *peak, double *rms)
+{
+    *peak = *rms = 0;
+    for (size_t n = 0; n < w->frames; n++) {
+        *peak = fmax(*peak, fabs(w->x[n]));
+        *rms += w->x[n] * w->x[n] / (double)w->frames;
+    }
+    *rms = sqrt(*rms);
+}
+
+/* Every level rule does what it says; all are the same sound times one gain, which the report gives. */
+START_TEST(levels)
+{
+    static const char *const rules[] = {"", "level: {peak: -6 dB}", "level: {rms: -30 dB}", "level: {lufs: -25}", "level: {full_scale: 0.5}",
+                                        "level: {peak: 0 dB}"};
+    struct arena *a = arena_open();
+    setup(a);
+    rendered(a, "rasp: 1\n" BODY "motion: {path: line, to: [10 cm, 0], speed: 10 cm/s}\noutput: {encoding: float64, level: {full_scale: 1}}\n", "plain");
+    struct wav plain = sound(a, "plain.wav");
+    for (int k = 0; k < 6; k++) {
+        double peak, rms;
+        struct render_report r = rendered(a, arena_format(a, "rasp: 1\n" BODY "motion: {path: line, to: [10 cm, 0], speed: 10 cm/s}\n"
+                                                             "output: {encoding: float64, %s}\n", rules[k]), "scaled");
+        struct wav w = sound(a, "scaled.wav");
+        levels_of(&w, &peak, &rms);
+        const double want[] = {20 * log10(peak) + 3, 20 * log10(peak) + 6, 20 * log10(rms) + 30, 0, r.sound.gain - 2, 20 * log10(peak)};
+        printf("%s: peak %.4f dB, rms %.4f dB, gain %.6g\n", rules[k], 20 * log10(peak), 20 * log10(rms), r.sound.gain);
+        ck_assert_double_eq_tol(want[k], 0, 1e-9);
+        ck_assert_uint_eq(w.frames, plain.frames);
+        for (size_t n = 0; n < w.frames; n++)
+            ck_assert_double_eq_tol(w.x[n], r.sound.gain * plain.x[n], 1e-14 * peak);
+    }
+    clean(a);
+}
+END_TEST
+
+/* BS.1770: a stationary 1 kHz-like tone's loudness on both ears is its rms in dB, K-weighting being +0.7 dB there less the formula's 0.691:
+   a bell of one long 997 Hz mode rung by noise stays within the weighting's slope over its narrow band (0.1 dB). */
+START_TEST(loudness_is_the_standards)
+{
+    struct arena *a = arena_open();
+    double peak, rms;
+    setup(a);
+    write_text(in_folder(a, "bell.csv"), "# poles: shared\n# quantity: velocity\n# normalisation: physical\n# source: test\n"
+                                         "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\nonly,0,0,low,997,0,2,1.5707963267948966\n");
+    rendered(a, "rasp: 1\n" BODY "motion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\noutput: {encoding: float64, level: {lufs: -23}, tail: 5 s}\n", "tone");
+    struct wav w = sound(a, "tone.wav");
+    w.frames -= 24000, w.x += 12000;
+    levels_of(&w, &peak, &rms);
+    printf("rms %.4f dB at -23 LUFS, tone\n", 20 * log10(rms));
+    ck_assert_double_eq_tol(20 * log10(rms) + 3.0103, -23, 0.1); /* two ears: + 3.01 dB */
+    clean(a);
+}
+END_TEST
+
+/* Ramps: the same sound but for sin^2 edges; integers are the doubles rounded; the table has a row per millisecond. */
+START_TEST(edges_and_encodings)
+{
+    struct arena *a = arena_open();
+    setup(a);
+    const char *scene = "rasp: 1\n" BODY LINE "output: {encoding: %s, level: {full_scale: 0.01}, ramp: %s, tail: 0.1 s, channels: %d, diagnostics: {}}\n";
+    rendered(a, arena_format(a, scene, "float64", "0", 1), "plain");
+    rendered(a, arena_format(a, scene, "float64", "20 ms", 1), "ramped");
+    rendered(a, arena_format(a, scene, "pcm16", "0", 2), "integer");
+    struct wav plain = sound(a, "plain.wav"), ramped = sound(a, "ramped.wav"), integer = sound(a, "integer.wav");
+    ck_assert_int_eq(integer.channels, 2);
+    for (size_t n = 0; n < plain.frames; n++) {
+        size_t edge = n < plain.frames - 1 - n ? n : plain.frames - 1 - n;
+        double s = edge < 960 ? sin(M_PI / 2 * ((double)edge + 0.5) / 960) : 1;
+        ck_assert_double_eq_tol(ramped.x[n], plain.x[n] * s * s, 1e-15);
+        ck_assert_double_eq(integer.x[2 * n], rint(plain.x[n] * 32768) / 32768);
+        ck_assert_double_eq(integer.x[2 * n + 1], integer.x[2 * n]);
+    }
+    struct csv t;
+    struct err e = {0};
+    ck_assert_msg(csv_read(in_folder(a, "plain.csv"), a, &t, &e), "%s", e.text);
+    ck_assert_uint_eq(t.rows, 100);
+    clean(a);
+}
+END_TEST
+
+/* A failure leaves nothing: here clipping, known only at the end. */
+START_TEST(a_failure_leaves_nothing)
+{
+    struct arena *a = arena_open();
+    struct scene s;
+    struct err e = {0};
+    const char *messages, *text = "rasp: 1\n" BODY LINE "output: {level: {full_scale: 1e-9}, diagnostics: {}}\n";
+    struct render_report report;
+    setup(a);
+    ck_assert(scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e));
+    ck_assert(!render_scene(&s, in_folder(a, "clips"), a, &report, &e));
+    ck_assert_int_eq(e.kind, ERR_SCENE);
+    ck_assert_int_eq(system(arena_format(a, "test \"$(ls -A %s)\" = bell.csv", folder)), 0);
+    clean(a);
+}
+END_TEST
+
+UNIT("render", free_decay_is_the_tables, contacts_add, levels, loudness_is_the_standards, edges_and_encodings, a_failure_leaves_nothing)
