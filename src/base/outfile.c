@@ -70,7 +70,7 @@ static bool set_target(struct outfile *o, const char *target, struct err *e)
         return err_set(e, ERR_CREATE, "%s: is the name of a folder; a file name is needed", target);
     memcpy(o->target, target, n + 1);
     if (stat(target, &s) != 0)
-        return true;
+        return errno == ENOENT; /* else a name that rename would refuse when all is done */
     if (!S_ISREG(s.st_mode))
         return err_set(e, ERR_CREATE, "%s: %s", target,
                        S_ISDIR(s.st_mode) ? "is a folder; a file name is needed" : "is not a regular file and would be replaced");
@@ -147,17 +147,29 @@ static bool flush_it(struct outfile *o)
     return !ferror(o->stream);
 }
 
-bool outfile_commit(struct outfile *o, struct err *e)
+static bool give_up(struct outfile *o, struct err *e)
 {
-    if (o->target[0] == '\0')
-        return err_set(e, ERR_IO, "an output that is closed already cannot be committed");
-    if (flush_it(o) && (o->temporary[0] || name_it(o)) && close_it(o) && rename(o->temporary, o->target) == 0) {
-        o->target[0] = o->temporary[0] = '\0';
-        return true;
-    }
     err_set(e, ERR_IO, "%s: cannot be written: %s", o->target, strerror(errno));
     outfile_drop(o);
     return false;
+}
+
+bool outfile_settle(struct outfile *o, struct err *e)
+{
+    if (o->target[0] == '\0')
+        return err_set(e, ERR_IO, "an output that is closed already cannot be committed");
+    bool open = o->fd >= 0;
+    return !open || (flush_it(o) && (o->temporary[0] || name_it(o)) && close_it(o)) || give_up(o, e);
+}
+
+bool outfile_commit(struct outfile *o, struct err *e)
+{
+    if (!outfile_settle(o, e))
+        return false;
+    if (rename(o->temporary, o->target) != 0)
+        return give_up(o, e);
+    o->target[0] = o->temporary[0] = '\0';
+    return true;
 }
 
 void outfile_drop(struct outfile *o)

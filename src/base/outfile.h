@@ -19,7 +19,8 @@ struct outfile {
 bool outfile_open(struct outfile *o, const char *target, struct err *e);      /* ERR_CREATE */
 bool outfile_open_fd(struct outfile *o, const char *target, struct err *e);   /* same, without a stream */
 bool outfile_open_hidden(struct outfile *o, const char *target, struct err *e); /* _fd by the hidden name at once, for tests */
-bool outfile_commit(struct outfile *o, struct err *e);   /* flushes, checks, names; closes either way; ERR_IO */
+bool outfile_settle(struct outfile *o, struct err *e);   /* all of a commit but the rename: with several outputs, settle all, then commit */
+bool outfile_commit(struct outfile *o, struct err *e);   /* settles and renames; closes either way; ERR_IO */
 void outfile_drop(struct outfile *o);                    /* closes and leaves nothing; harmless when closed */
 
 #endif

@@ -3,7 +3,9 @@
 
 #include "cmd/cmd.h"
 #include "cmd/inputs.h"
+#include "output/force_table.h"
 #include "pipeline/plan.h"
+#include "pipeline/run.h"
 #include "pipeline/stages.h"
 
 /* Every contact has something to compute, and all that it needs. */
@@ -16,8 +18,25 @@ static bool check_plans(const struct scene *s, struct arena *a, struct err *e)
     return true;
 }
 
+/* Every stage can begin: the files are what they should be, and the motion stays where they are valid. */
+static bool check_opens(const struct scene *s, struct arena *a, struct err *e)
+{
+    struct table_sink sink = {fopen("/dev/null", "w")};
+    struct plan p;
+    struct run r;
+    bool ok = sink.stream || err_set(e, ERR_IO, "/dev/null cannot be opened");
+    for (int i = 0; ok && i < s->n_contacts; i++) {
+        ok = plan_make(stages_table, &s->contacts[i], s, a, &p, e) && run_open(&r, &p, s, &sink, e);
+        if (ok)
+            run_close(&r);
+    }
+    if (sink.stream)
+        fclose(sink.stream);
+    return ok;
+}
+
 /* What a scene that has been read must pass, in this order. */
-static bool (*const checks[])(const struct scene *, struct arena *, struct err *) = {inputs_check, check_plans};
+static bool (*const checks[])(const struct scene *, struct arena *, struct err *) = {inputs_check, check_plans, check_opens};
 
 static bool check_scene(struct cmd_call *c, const char *file, struct err *e)
 {
@@ -51,8 +70,9 @@ static const struct args_option options[] = {CMD_SCENE_OPTIONS, {0}};
 const struct command check_command = {
     .name = "check",
     .summary = "finds what is wrong with scenes, without rendering them",
-    .does = "Reads each scene and says all that is wrong with it: unknown keys, wrong units, values out of range, files that are missing or have changed, "
-            "nothing to compute. "
+    .does = "Reads each scene and says all that is wrong with it: unknown keys, wrong units, values out of range; then the first that is wrong with "
+            "the rest: files that are missing, damaged or have changed, a motion that leaves them, columns that are not there, nothing to compute. "
+            "Only what shows in the sound itself, such as clipping, it cannot know. "
             "A scene without fault is reported on standard output as ok. The exit code is the worst of the scenes'.",
     .operands = "SCENE...",
     .least = 1,

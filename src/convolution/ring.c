@@ -70,7 +70,9 @@ bool ring_read_modes(struct ring *g, struct stage_run *r, struct err *e)
         return false;
     int high = modes_drop_above(&g->modes, r->board->rate);
     if (g->modes.n == 0)
-        return err_set(e, ERR_SCENE, "%s: no mode lies below 0.499 times output.sample_rate", g->given->file);
+        return err_set(e, ERR_SCENE, "%s: all of its modes lie above %.6g Hz (0.499 times output.sample_rate), and nothing would ring: raise "
+                                     "output.sample_rate, or check that frequency_hz is in Hz",
+                       g->given->file, 0.499 * r->board->rate);
     if (high)
         board_warn(r->board, arena_format(r->arena, "%s: %d of its strongest modes lie above 0.499 times the sample rate and do not ring",
                                           g->given->file, high));

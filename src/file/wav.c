@@ -262,14 +262,21 @@ static bool clear_peak_time(struct wav_out *w, struct err *e)
     return true;
 }
 
-bool wav_commit(struct wav_out *w, struct err *e)
+bool wav_settle(struct wav_out *w, struct err *e)
 {
+    if (!w->sound)
+        return true;
     errno = 0;
     bool ok = sf_error(w->sound) == 0 || write_failed(w, e);
     if (sf_close(w->sound) != 0)
         ok = err_set(e, ERR_IO, "%s: cannot be written", w->path);
     w->sound = NULL;
-    ok = ok && (!w->long_file || clear_peak_time(w, e)) && outfile_commit(&w->out, e);
+    return ok && (!w->long_file || clear_peak_time(w, e)) && outfile_settle(&w->out, e);
+}
+
+bool wav_commit(struct wav_out *w, struct err *e)
+{
+    bool ok = wav_settle(w, e) && outfile_commit(&w->out, e);
     wav_free(w);
     return ok;
 }

@@ -37,6 +37,7 @@ struct wav_out *wav_create(const char *path, const struct wav_format *f, struct 
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e);
 /* Sets the comment (ICMT) before the first frame is written. */
 bool wav_comment(struct wav_out *w, const char *text, struct err *e);
+bool wav_settle(struct wav_out *w, struct err *e); /* as outfile_settle */
 bool wav_commit(struct wav_out *w, struct err *e);
 void wav_drop(struct wav_out *w);
 

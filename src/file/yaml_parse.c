@@ -109,24 +109,26 @@ static bool event_next(struct parse *p, struct event *ev)
 
 /* ------------------------------------------------------------------ nodes */
 
-static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct diag_place at, const char *text)
+static bool room_for_one(struct parse *p, struct diag_place at)
 {
-    if (++p->y->nodes > NODES_MAX) {
-        diag_add(p->y->diag, at, "a scene needs a few hundred; look for aliases (*name) of aliases",
-                 "more than %d values after expanding aliases", NODES_MAX);
-        return NULL;
-    }
-    return yaml_make(p->y, kind, at, text);
+    return ++p->y->nodes <= NODES_MAX || diag_add(p->y->diag, at, "a scene needs a few hundred; look for aliases (*name) of aliases",
+                                                  "more than %d values after expanding aliases", NODES_MAX);
 }
 
-static struct yaml_node *node_copy(struct parse *p, const struct yaml_node *from)
+static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct diag_place at, const char *text)
 {
-    struct yaml_node *copy = node_new(p, from->kind, from->at, from->text);
-    if (!copy)
+    return room_for_one(p, at) ? yaml_make(p->y, kind, at, text) : NULL;
+}
+
+/* A copy keeps the place of what it is a copy of; too many are the alias's fault. */
+static struct yaml_node *node_copy(struct parse *p, const struct yaml_node *from, struct diag_place alias)
+{
+    if (!room_for_one(p, alias))
         return NULL;
+    struct yaml_node *copy = yaml_make(p->y, from->kind, from->at, from->text);
     copy->plain = from->plain;
     for (const struct yaml_node *item = from->first; item; item = item->next) {
-        struct yaml_node *value = node_copy(p, item);
+        struct yaml_node *value = node_copy(p, item, alias);
         if (!value)
             return NULL;
         yaml_append(copy, item->key, value);
@@ -138,7 +140,7 @@ static struct yaml_node *alias_read(struct parse *p, const struct event *ev)
 {
     for (int i = p->n_anchors - 1; i >= 0; i--)
         if (strcmp(p->anchors[i].name, ev->anchor) == 0)
-            return node_copy(p, p->anchors[i].node);
+            return node_copy(p, p->anchors[i].node, ev->at);
     diag_add(p->y->diag, ev->at, "an anchor (&name) must stand before its aliases (*name); put quotes around a text that starts with *",
              "no anchor '%s' before this", diag_shown(p->y->diag, ev->anchor));
     return NULL;

@@ -8,6 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/scratch.h"
+
 /* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore are not ignored by it. */
 static int spawn(pid_t *pid, const int fd[3])
 {
@@ -32,7 +34,7 @@ static int spawn(pid_t *pid, const int fd[3])
 bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
 {
     int ends[2], code;
-    *g = (struct gnuplot){.complaints = tmpfile()};
+    *g = (struct gnuplot){.complaints = scratch_open()};
     if (!g->complaints || pipe2(ends, O_CLOEXEC) != 0) {
         if (g->complaints)
             fclose(g->complaints);

@@ -8,9 +8,12 @@
 #include "output/sound.h"
 
 #include <ebur128.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "base/scratch.h"
 #include "file/wav.h"
 #include "num/real.h"
 
@@ -36,8 +39,9 @@ static bool sound_spool_open(struct sound *o, struct err *e)
 {
     const struct level *level = &o->scene->output.level;
     o->gain = 1 / level->full_scale;
-    if (isnan(level->full_scale) && !(o->spool = tmpfile()))
-        return err_set(e, ERR_CREATE, "no temporary file can be made for the samples (set TMPDIR to a folder with space)");
+    if (isnan(level->full_scale) && !(o->spool = scratch_open()))
+        return err_set(e, ERR_CREATE, "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)",
+                       scratch_folder(), strerror(errno));
     if (isnan(level->lufs))
         return true;
     o->meter = ebur128_init(1, (unsigned long)o->scene->output.sample_rate, EBUR128_MODE_I);
@@ -79,6 +83,12 @@ static void sound_ramp(const struct sound *o, double *x, long n)
     }
 }
 
+/* The key that sets it. */
+static const char *sound_level(const struct level *level)
+{
+    return !isnan(level->full_scale) ? "full_scale" : !isnan(level->rms) ? "rms" : !isnan(level->lufs) ? "lufs" : "peak";
+}
+
 static bool sound_write(struct sound *o, const double *x, long n, struct err *e)
 {
     int channels = o->scene->output.channels;
@@ -87,7 +97,7 @@ static bool sound_write(struct sound *o, const double *x, long n, struct err *e)
         for (long k = 0; k < some * channels; k++)
             o->wide[k] = o->gain * x[i + k / channels];
         if (!wav_write(o->wav, o->wide, (size_t)some, e))
-            return false;
+            return e->kind == ERR_SCENE ? err_at(e, "output.level.%s", sound_level(&o->scene->output.level)) : false;
     }
     return true;
 }
@@ -103,7 +113,8 @@ bool sound_add(struct sound *o, double *x, long n, struct err *e)
     if (!o->spool)
         return sound_write(o, x, n, e);
     if (fwrite(x, sizeof *x, (size_t)n, o->spool) != (size_t)n)
-        return err_set(e, ERR_IO, "samples cannot be kept in a temporary file (is the disk full? set TMPDIR to a folder with space)");
+        return err_set(e, ERR_IO, "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
+                       strerror(errno));
     return true;
 }
 
@@ -171,6 +182,12 @@ static void sound_release(struct sound *o)
     if (o->meter)
         ebur128_destroy(&o->meter);
     o->spool = NULL;
+}
+
+bool sound_settle(struct sound *o, struct err *e)
+{
+    sound_release(o);
+    return wav_settle(o->wav, e);
 }
 
 bool sound_commit(struct sound *o, struct err *e)

@@ -26,6 +26,7 @@ bool sound_add(struct sound *o, double *x, long n, struct err *e);
 bool sound_finish(struct sound *o, struct sound_report *report, struct err *e);
 
 /* Gives the file its name, or leaves nothing. Either ends it. */
+bool sound_settle(struct sound *o, struct err *e); /* as outfile_settle */
 bool sound_commit(struct sound *o, struct err *e);
 void sound_drop(struct sound *o);
 

@@ -17,10 +17,19 @@ const char *plan_item(enum item item)
     return plan_names[item];
 }
 
+static bool plan_rings(const struct contact *c)
+{
+    return c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0);
+}
+
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
-    bool sounds = c->gain != 0 && (c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0));
-    return (sounds ? ITEM_BIT(ITEM_SOUND) : 0) | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
+    return (c->gain != 0 && plan_rings(c) ? ITEM_BIT(ITEM_SOUND) : 0) | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
+}
+
+static bool plan_muted(const struct contact *c)
+{
+    return c->gain == 0 && plan_rings(c);
 }
 
 static bool plan_nothing_asked(const struct contact *c, struct err *e)
@@ -68,7 +77,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
 {
     struct liveness l = {0};
     *p = (struct plan){.contact = c, .targets = plan_targets(c, s)};
-    if (!p->targets)
+    if (!p->targets && !plan_muted(c))
         return plan_nothing_asked(c, e);
     while (table[p->n])
         p->n++;
@@ -124,7 +133,7 @@ void plan_print(const struct plan *p, FILE *out)
     names_text(p->targets, targets, sizeof targets);
     for (int i = 0; i < p->n; i++)
         whole += p->rows[i].work;
-    fprintf(out, "contact '%s': %s\n", p->contact->name, targets);
+    fprintf(out, "contact '%s': %s\n", p->contact->name, p->targets ? targets : "nothing, its gain is 0");
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_RUNS)
             row_print(p, &p->rows[i], whole, out);

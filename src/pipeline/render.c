@@ -55,14 +55,16 @@ static bool render_pins(const struct scene *s, struct err *e)
 
 static bool render_plans(struct render *r, struct err *e)
 {
+    unsigned asked = 0;
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct part *p = &r->parts[i];
         if (!plan_make(stages_table, &r->scene->contacts[i], r->scene, r->arena, &p->plan, e))
             return false;
         r->sounds = r->sounds || p->plan.targets & ITEM_BIT(ITEM_SOUND);
         p->start = (long)rint(r->scene->contacts[i].start * r->scene->output.sample_rate);
+        asked |= p->plan.targets;
     }
-    return true;
+    return asked || err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render");
 }
 
 /* Opens the tables, so that the stages can write their headers, then the stages. */
@@ -75,6 +77,8 @@ static bool render_runs(struct render *r, struct err *e)
         if (p->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&p->csv, p->csv_path, e))
             return false;
         p->sink.stream = p->csv.stream;
+        if (!p->plan.targets)
+            continue;
         if (!run_open(&p->run, &p->plan, r->scene, &p->sink, e))
             return false;
         p->open = true;
@@ -89,6 +93,8 @@ static void render_length(struct render *r)
     long end = 0;
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct part *p = &r->parts[i];
+        if (!p->open)
+            continue;
         end = p->start + p->run.board.moving > end ? p->start + p->run.board.moving : end;
         ring = fmax(ring, p->run.board.ring);
     }
@@ -113,7 +119,7 @@ static bool render_open(struct render *r, struct err *e)
 static bool part_block(struct part *p, long from, long to, double *mix, struct err *e)
 {
     long begin = from - p->start > 0 ? from - p->start : 0, end = to - p->start;
-    if (end <= begin)
+    if (end <= begin || !p->open)
         return true;
     if (!run_block(&p->run, end, e))
         return false;
@@ -159,7 +165,7 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     report->cpu = stopwatch_cpu() - start[1];
     const struct run **runs = ARENA_TAKE(r->arena, const struct run *, r->scene->n_contacts);
     for (int i = 0; i < r->scene->n_contacts; i++)
-        runs[i] = &r->parts[i].run;
+        runs[i] = r->parts[i].open ? &r->parts[i].run : NULL;
     summary_warnings(r->scene, runs, report, r->arena);
     report->summary = summary_text(r->scene, runs, report, r->arena);
     fputs(scene_write(r->scene, folder_of(r->scene_path, r->arena), r->arena), r->effective.stream);
@@ -172,11 +178,20 @@ static void report_file(struct render *r, const char *kind, const char *path)
     r->report->files[r->report->n_files++] = (struct render_file){kind, path};
 }
 
+/* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results or none. */
+static bool render_settle(struct render *r, struct err *e)
+{
+    for (int i = 0; i < r->scene->n_contacts; i++)
+        if (r->parts[i].csv.stream && !outfile_settle(&r->parts[i].csv, e))
+            return false;
+    return outfile_settle(&r->effective, e) && outfile_settle(&r->summary, e) && (!r->sound || sound_settle(r->sound, e));
+}
+
 static bool render_commit(struct render *r, struct err *e)
 {
     r->report->files = ARENA_TAKE(r->arena, struct render_file, r->scene->n_contacts + 3);
     for (int i = 0; i < r->scene->n_contacts; i++)
-        if (r->parts[i].csv.stream) {
+        if (r->parts[i].csv.target[0]) {
             if (!outfile_commit(&r->parts[i].csv, e))
                 return false;
             report_file(r, "csv", r->parts[i].csv_path);
@@ -210,7 +225,7 @@ bool render_scene(const struct scene *s, const char *base, struct arena *a, stru
     for (int i = 0; i < s->n_contacts; i++)
         r.parts[i].csv.fd = -1;
     r.effective.fd = r.summary.fd = -1;
-    bool ok = render_open(&r, e) && render_blocks(&r, e) && render_finish(&r, start, e) && render_commit(&r, e);
+    bool ok = render_open(&r, e) && render_blocks(&r, e) && render_finish(&r, start, e) && render_settle(&r, e) && render_commit(&r, e);
     render_close(&r);
     return ok;
 }

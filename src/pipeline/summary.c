@@ -17,6 +17,8 @@ static void warn(struct render_report *report, const char *text)
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     for (int i = 0; i < s->n_contacts; i++) {
+        if (!runs[i])
+            continue;
         const struct board *b = &runs[i]->board;
         for (int k = 0; k < b->n_warnings; k++)
             warn(report, b->warnings[k]);
@@ -45,7 +47,7 @@ static json_t *sound_json(const struct scene *s, const struct run *const *runs, 
     const struct sound_report *o = &report->sound;
     int quantity = -1;
     for (int i = 0; i < s->n_contacts; i++)
-        quantity = runs[i]->board.quantity >= 0 ? runs[i]->board.quantity : quantity;
+        quantity = runs[i] && runs[i]->board.quantity >= 0 ? runs[i]->board.quantity : quantity;
     return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit", quantity >= 0 ? units[quantity] : "the impulse response's", "peak",
                      number(o->peak), "rms", number(o->rms), "gain", number(o->gain), "gain_db", number(decibel(o->gain)), "peak_dbfs",
                      number(decibel(o->gain * o->peak)), "rms_dbfs", number(decibel(o->gain * o->rms)), "silent", o->silent);
@@ -78,7 +80,8 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
     double duration = (double)report->frames / s->output.sample_rate;
     json_t *contacts = json_array(), *remarks = json_array();
     for (int i = 0; i < s->n_contacts; i++)
-        json_array_append_new(contacts, contact_json(runs[i], report->cpu));
+        if (runs[i])
+            json_array_append_new(contacts, contact_json(runs[i], report->cpu));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_string(report->warnings[i]));
     json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",

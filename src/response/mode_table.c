@@ -25,6 +25,8 @@ static bool bad_row(const struct mode_table *t, size_t row, struct err *e)
 
 static bool find_columns(struct mode_table *t, struct err *e)
 {
+    if (t->csv.columns == 1 && t->csv.names[0][strcspn(t->csv.names[0], ";\t")])
+        return err_set(e, ERR_SCENE, "%s: the columns are separated by semicolons or tabs; a mode table wants commas (and decimal points)", t->csv.file);
     for (int c = 0; c < COLUMNS; c++)
         if ((t->column[c] = csv_column(&t->csv, column_names[c])) < 0)
             return err_set(e, ERR_SCENE, "%s: a mode table needs the column '%s'; its columns are place, x_m, y_m, mode, "

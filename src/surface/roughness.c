@@ -5,9 +5,10 @@
 
    The heights are independent blocks of N samples at a pitch of shortest / 4, each a random spectrum of P (Gaussian real and imaginary
    parts from the counter (block, line)) brought to space by an inverse FFT; successive blocks overlap by half under the window
-   w(i) = sin(pi (i + 1/2) / N), whose squares add to 1, so that the mean square height is the same everywhere. A block spans at least 8 times
-   the longest wavelength. Any place can be read without the places before it; nothing repeats (2^64 blocks). The window convolves the
-   spectrum with its own, 1.2 lines wide, which is the only departure from P in the mean.
+   w(i) = sin(pi/2 sin^2(pi (i + 1/2) / N)), whose squares add to 1, so that the mean square height is the same everywhere. A block spans at
+   least 8 times the longest wavelength. Any place can be read without the places before it; nothing repeats (2^64 blocks). The window
+   convolves the spectrum with its own, 1.4 lines wide, which is the only departure from P in the mean. It begins and ends with a slope of 0:
+   a window with a corner (sin) puts a kink into the profile at every half block, and at exponent -8 400 times P into the last octave.
 
    What is drawn are the spline's coefficients: line j is divided by the response (2 + cos(2 pi j / N)) / 3 of reading a spline at its
    knots, so that the heights at the knots have P. */
@@ -36,33 +37,41 @@ struct rough {
     double *re, *im, *normal;
 };
 
-double roughness_density(const struct roughness *r, double k)
+/* Integral of (max(k, k0) / k0)^exponent from `from` to `to`, k0 = 1/longest. */
+static double roughness_shape(const struct roughness *r, double from, double to)
 {
-    double k0 = 1 / r->longest, k1 = 1 / r->shortest, a = r->exponent;
-    /* integral of (max(k, k0)/k0)^a from 0 to k1 */
-    double rest = fabs(a + 1) < 1e-9 ? k0 * real_log(k1 / k0) : k0 / (a + 1) * (real_pow(k1 / k0, a + 1) - 1);
-    double p0 = r->rms * r->rms / (k0 + rest);
-    return k >= k1 ? 0 : k <= k0 ? p0 : p0 * real_pow(k / k0, a);
+    double k0 = 1 / r->longest, a = r->exponent + 1, flat = fmin(to, k0) - fmin(from, k0);
+    double x0 = fmax(from / k0, 1), x1 = fmax(to / k0, 1);
+    return flat + k0 * (fabs(a) < 1e-9 ? real_log(x1 / x0) : (real_pow(x1, a) - real_pow(x0, a)) / a);
 }
 
-/* Density in lines of 1/(n pitch) cycles/m: a line's two parts have variance P dk / 4 each in the sum c_j e^(i..) + conjugate. */
+double roughness_density(const struct roughness *r, double k)
+{
+    double k0 = 1 / r->longest, k1 = 1 / r->shortest, p0 = r->rms * r->rms / roughness_shape(r, 0, k1);
+    return k >= k1 ? 0 : k <= k0 ? p0 : p0 * real_pow(k / k0, r->exponent);
+}
+
+/* Line j of 1/(n pitch) cycles/m carries what P holds within half a line of it, so that all lines together have rms^2: line 0 in one number,
+   the others in two, each of which has a quarter of the power in the sum (re + i im) e^(i..) + conjugate. */
 static void rough_spread(struct rough *g, const struct roughness *recipe, double pitch)
 {
-    double dk = 1 / ((double)g->n * pitch);
-    for (long j = 1; j < g->n / 2; j++) {
+    double dk = 1 / ((double)g->n * pitch), k1 = 1 / recipe->shortest, p0 = roughness_density(recipe, 0);
+    for (long j = 0; j < g->n / 2; j++) {
+        double from = fmax(((double)j - 0.5) * dk, 0), to = fmin(((double)j + 0.5) * dk, k1);
         double spline = (2 + real_cospi(2 * (double)j / (double)g->n)) / 3;
-        g->spread[j] = sqrt(roughness_density(recipe, (double)j * dk) * dk / 4) / spline;
+        if (from < to)
+            g->spread[j] = sqrt(p0 * roughness_shape(recipe, from, to) / (j == 0 ? 1 : 4)) / spline;
     }
 }
 
 static void block_fill(struct rough *g, struct block *b, long index)
 {
     noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
-    g->re[0] = g->im[0] = g->re[g->n / 2] = g->im[g->n / 2] = 0;
-    for (long j = 1; j < g->n / 2; j++) {
+    for (long j = 0; j < g->n / 2; j++) {
         g->re[j] = g->normal[2 * j] * g->spread[j];
         g->im[j] = g->normal[2 * j + 1] * g->spread[j];
     }
+    g->im[0] = g->re[g->n / 2] = g->im[g->n / 2] = 0;
     fft_inverse(g->fft, g->re, g->im, b->c);
     for (long i = 0; i < g->n; i++)
         b->c[i] *= g->window[i];
@@ -101,6 +110,12 @@ static void roughness_close(struct profile *p)
     fft_close(g->fft);
 }
 
+static double roughness_window(double share)
+{
+    double s = real_sinpi(share);
+    return real_sinpi(s * s / 2);
+}
+
 struct profile *roughness_make(struct arena *a, const struct roughness *recipe, struct noise stream)
 {
     struct profile *p = ARENA_TAKE(a, struct profile, 1);
@@ -113,7 +128,7 @@ struct profile *roughness_make(struct arena *a, const struct roughness *recipe, 
     for (int k = 0; k < ROUGHNESS_KEPT; k++)
         g->blocks[k].c = ARENA_TAKE(a, double, n);
     for (long i = 0; i < n; i++)
-        g->window[i] = real_sinpi(((double)i + 0.5) / (double)n);
+        g->window[i] = roughness_window(((double)i + 0.5) / (double)n);
     rough_spread(g, recipe, pitch);
     *p = (struct profile){.pitch = pitch, .from = -HUGE_VAL, .to = HUGE_VAL, .read = roughness_read, .state = g, .close = roughness_close};
     return p;

@@ -1,7 +1,7 @@
 # Which panels are drawn follows from what lies beside the sound; the picture is whole and has the size of its panels.
 command -v gnuplot > /dev/null || { echo "gnuplot is not installed"; exit 77; }
 size() { od -A n -t u1 -j 16 -N 8 "$1" | awk '{ print $3 * 256 + $4, $7 * 256 + $8 }'; }
-labels() { grep -o '<text>.*</text>' "$1" | sed 's/<[^>]*>//g' | grep '[a-zα]' | sort; }
+labels() { grep -o '<text>.*</text>' "$1" | sed 's/<[^>]*>//g; s/rms -[0-9.]* dBFS/rms ... dBFS/' | grep '[a-zα]' | sort; }
 
 cat > 'a scene.yaml' << END
 rasp: 1

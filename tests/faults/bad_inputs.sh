@@ -83,6 +83,7 @@ good() {
 }
 
 for cases in "$DATA"/*.cases; do
+    # shellcheck disable=SC1090
     . "$cases"
 done
 echo "bad_inputs: $PASSED passed, $FAILED failed"

@@ -1,0 +1,10 @@
+/* A file without a name, for what does not fit into memory: in the folder TMPDIR (/tmp where it is not set), and gone when it is closed
+   or the program ends. tmpfile() does not look at TMPDIR. */
+#ifndef BASE_SCRATCH_H
+#define BASE_SCRATCH_H
+#include <stdio.h>
+
+const char *scratch_folder(void);
+FILE *scratch_open(void); /* NULL: errno says why */
+
+#endif
