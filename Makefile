@@ -16,8 +16,7 @@ ARCH ?= -march=x86-64-$(ISA) -DRASP_NO_CLONES
 endif
 # SAN=1: address and undefined-behaviour sanitizers; any finding ends the program.
 ifeq ($(SAN),1)
-SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -DRASP_NO_CLONES \
-           -Wno-maybe-uninitialized # gcc sees ghosts in instrumented code
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -DRASP_NO_CLONES
 else
 SANITIZE = $(SAN)
 endif
@@ -91,8 +90,9 @@ warnings:
 	$(SUB) BUILD=$(BUILD)/warnings-gcc CC=gcc WERROR=-Werror all unit
 	$(SUB) BUILD=$(BUILD)/warnings-clang CC=clang WERROR=-Werror all unit
 
+# With clang, whose instrumented code is up to three times faster than gcc's.
 sanitize:
-	$(SUB) BUILD=$(BUILD)/sanitize SAN=1 OPT="-O1 -g" all unit
+	$(SUB) BUILD=$(BUILD)/sanitize CC=clang SAN=1 OPT="-O2 -g" all unit
 	@BUILD=$(BUILD)/sanitize tests/run.sh unit cli faults
 
 # The same bytes from every build, on every CPU, in every run: tests/bytes/.

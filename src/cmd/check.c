@@ -2,8 +2,8 @@
 #include <stdio.h>
 
 #include "cmd/cmd.h"
-#include "cmd/inputs.h"
 #include "output/force_table.h"
+#include "pipeline/inputs.h"
 #include "pipeline/plan.h"
 #include "pipeline/run.h"
 #include "pipeline/stages.h"

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/interrupt.h"
 #include "base/outfile.h"
 #include "base/stopwatch.h"
 #include "output/force_table.h"
+#include "pipeline/inputs.h"
 #include "pipeline/stages.h"
 #include "pipeline/summary.h"
 #include "scene/scene_write.h"
@@ -35,23 +35,6 @@ struct render {
     struct outfile effective, summary;
     struct render_report *report;
 };
-
-static bool render_pins(const struct scene *s, struct err *e)
-{
-    for (int i = 0; i < s->n_inputs; i++) {
-        char hex[HASH_TEXT];
-        if (!s->inputs[i].sha256)
-            continue;
-        if (!hash_file(s->inputs[i].file, hex, e))
-            return false;
-        if (strcmp(hex, s->inputs[i].sha256) != 0)
-            return err_set(e, ERR_SCENE,
-                           "%s: this is not the file the scene was made with (sha256 %.12s..., expected %.12s...); restore it, or take its "
-                           "entry out of `inputs`",
-                           s->inputs[i].file, hex, s->inputs[i].sha256);
-    }
-    return true;
-}
 
 static bool render_plans(struct render *r, struct err *e)
 {
@@ -106,7 +89,7 @@ static bool render_open(struct render *r, struct err *e)
     r->wav_path = arena_format(r->arena, "%s.wav", r->base);
     r->scene_path = arena_format(r->arena, "%s.scene.yaml", r->base);
     r->summary_path = arena_format(r->arena, "%s.json", r->base);
-    if (!render_pins(r->scene, e) || !render_plans(r, e) || !outfile_open(&r->effective, r->scene_path, e) ||
+    if (!inputs_check(r->scene, r->arena, e) || !render_plans(r, e) || !outfile_open(&r->effective, r->scene_path, e) ||
         !outfile_open(&r->summary, r->summary_path, e) || !render_runs(r, e))
         return false;
     render_length(r);

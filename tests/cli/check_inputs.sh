@@ -6,7 +6,7 @@ try rasp check --set surface.response=no.csv --set scraper.response=nor_this.csv
 mkdir folder
 try rasp check --set surface.response=folder a.yaml
 cp "$ROOT/irs/basswood_plank.csv" plank.csv
-rasp explain --set surface.response=plank.csv a.yaml > effective.yaml
+rasp explain --set surface.response=plank.csv --set surface.extrapolate=nearest a.yaml > effective.yaml
 try rasp check effective.yaml
 echo '# changed' >> plank.csv
 try rasp check effective.yaml 2> err

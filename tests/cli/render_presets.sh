@@ -5,6 +5,6 @@ for scene in basswood_scrape paper_force ceramic_stroke; do
             --set output.level=null --set output.level.full_scale=1 --set output.encoding=float64 -q -o $preset.wav
     done
     for preset in draft standard high; do
-        rasp compare reference.wav $preset.wav --snr 1000 | sed -n 's/^SNR *\([-0-9]*\).*/\1/p'
+        { rasp compare reference.wav $preset.wav --snr 1000 || true; } | sed -n 's/^SNR *\([-0-9]*\).*/\1/p'
     done | tr '\n' ' ' | awk -v scene=$scene '{ print scene, ($1 < $2 && $2 < $3 && $3 > 20) ? "ok" : "not ordered: " $0 }'
 done

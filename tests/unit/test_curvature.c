@@ -128,6 +128,20 @@ START_TEST(pieces_tile_the_stretch)
 }
 END_TEST
 
+/* Longer than the knots that are held (1024), either way, and back and forth over a border of theirs. */
+START_TEST(longer_than_the_window)
+{
+    make_profile();
+    struct curvature_way w = curvature_way_make(arena, profile, -0.004, 1, 1);
+    double ends[][2] = {{0, 0.02}, {0.02, 0.001}, {0.001, 0.0035}, {0.0035, 0.001}, {0.001, 0.0065}, {0.0065, 0.0063}, {0.0063, 0.0067}};
+    for (int i = 0; i < 7; i++) {
+        struct way c = cut(&w, ends[i][0], ends[i][1], 0);
+        check_tiling(&w, &c, ends[i][0], ends[i][1]);
+    }
+    arena_close(arena);
+}
+END_TEST
+
 /* Nothing is cut that need not be: a piece ends at a knot, after `longest`, or where the stretch does. */
 START_TEST(pieces_end_at_knots)
 {
@@ -407,6 +421,6 @@ START_TEST(stretch_is_the_sum_of_its_pieces)
 }
 END_TEST
 
-UNIT("curvature", pieces_tile_the_stretch, pieces_end_at_knots, resumed_as_in_one, backwards_is_forwards_reversed,
+UNIT("curvature", pieces_tile_the_stretch, longer_than_the_window, pieces_end_at_knots, resumed_as_in_one, backwards_is_forwards_reversed,
      means_and_moments_are_integrals, moments_beyond_the_border, bounded_by_one_over_alpha, small_alpha_limits_nothing, factor_and_symmetry,
      stretch_is_the_sum_of_its_pieces)

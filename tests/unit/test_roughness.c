@@ -321,19 +321,29 @@ static double correlation(const double *x, const double *y, int n)
     return xy / sqrt(xx * yy);
 }
 
-/* No block is another one over again: of 200 half blocks, on both sides of 0, no two are alike. A half block holds 24 independent numbers: their
-   correlation exceeds 0.9 once in 10^9 pairs. */
+/* No half block is another one over again, whole or in part: over all pairs i, j of 200 of them on both sides of 0 with one difference i - j
+   or one sum i + j, the mean correlation is 0 within 6 of its standard deviations, sqrt(reach / (HALF pairs)); and no pair is alike: a half block
+   holds 24 independent numbers, whose correlation exceeds 0.9 once in 10^9 pairs. */
 START_TEST(no_block_twice)
 {
     enum { HALVES = 200 };
-    static double z[HALVES][HALF];
+    static double z[HALVES][HALF], sums[2][2 * HALVES], pairs[2][2 * HALVES];
     struct arena *a = arena_open();
     struct profile *p = roughness_make(a, &usual, noise_make(9, "twice"));
     heights(p, -HALVES / 2 * HALF, HALVES * HALF, z[0]);
     for (int i = 0; i < HALVES; i++)
-        for (int j = 0; j < i; j++)
-            if (fabs(correlation(z[i], z[j], HALF)) >= 0.9)
+        for (int j = 0; j < i; j++) {
+            double alike = correlation(z[i], z[j], HALF);
+            if (fabs(alike) >= 0.9)
                 ck_abort_msg("half blocks %d and %d are alike", i, j);
+            sums[0][i - j] += alike, pairs[0][i - j]++;
+            sums[1][i + j] += alike, pairs[1][i + j]++;
+        }
+    double each = sqrt(reach_of(&usual) / HALF);
+    for (int how = 0; how < 2; how++)
+        for (int k = 0; k < 2 * HALVES; k++)
+            if (pairs[how][k] > 9)
+                ck_assert_double_lt(fabs(sums[how][k]), 6 * each * sqrt(pairs[how][k]));
     p->close(p);
     arena_close(a);
 }

@@ -275,6 +275,15 @@ START_TEST(turn_on_a_border)
     ck_assert(isnan(trajectory_turning(&tr, 0.2, 0.25)));
     ck_assert(isnan(trajectory_turning(&tr, 0.9, 1.0)));
     ck_assert(isnan(trajectory_turning(&tr, 0.9, 1.1)));    /* the end is no turn: nothing moves after it */
+    srand48(7);
+    for (int k = 1; k < 2000; k++) { /* however 2 r t is rounded */
+        m.rate = pow(10, between(-1, 2)), m.duration = 10000;
+        tr = trajectory_make(&m);
+        double turn = k / (2 * m.rate);
+        ck_assert(isnan(trajectory_turning(&tr, turn, turn + 0.1 / m.rate)));
+        ck_assert(isnan(trajectory_turning(&tr, turn - 0.1 / m.rate, turn)));
+        ck_assert_double_eq(trajectory_turning(&tr, turn - 0.1 / m.rate, turn + 0.1 / m.rate), turn);
+    }
     m.path = PATH_LINE;
     tr = trajectory_make(&m);
     ck_assert(isnan(trajectory_turning(&tr, 0, 1)));

@@ -1,6 +1,6 @@
 /* The files that a scene names, before anything is computed from them. */
-#ifndef CMD_INPUTS_H
-#define CMD_INPUTS_H
+#ifndef PIPELINE_INPUTS_H
+#define PIPELINE_INPUTS_H
 #include <stdbool.h>
 
 #include "base/arena.h"

@@ -1,5 +1,5 @@
 /* See inputs.h. */
-#include "cmd/inputs.h"
+#include "pipeline/inputs.h"
 
 #include <errno.h>
 #include <string.h>
