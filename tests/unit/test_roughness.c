@@ -122,7 +122,8 @@ static struct moments measure(const struct roughness *r, const char *name, long 
     return m;
 }
 
-/* Without the line at k = 0, or with lines that do not stand for their share of P, the mean square is up to 5 % off (at exponent -8, which 42 m tell). */
+/* Without the line at k = 0, or with lines that do not stand for their share of P, the mean square is up to 5 % off (at exponent -8, which
+   42 m tell). */
 START_TEST(mean_square_is_rms)
 {
     for (int i = 0; i < EXPONENTS; i++) {
