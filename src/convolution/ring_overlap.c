@@ -2,6 +2,7 @@
    or sampled from a mode table at nodes along the motion. A mode table without surface.response_length is kept until every mode has
    decayed by 140 dB; with it the response is cut at t0 (papers/000 equation 10). */
 #include <math.h>
+#include <string.h>
 
 #include "convolution/overlap_add.h"
 #include "convolution/ring.h"
@@ -35,8 +36,9 @@ static void ring_response_modes(void *self, long k, double *h, size_t length)
 static bool ring_open_wav(struct ring_overlap *s, struct stage_run *r, struct err *e)
 {
     const struct response *given = s->ring.given;
+    const char *dot = strrchr(given->file, '.');
     if (!ir_read(given->file, r->board->rate, given->length, r->arena, &s->ir, e))
-        return false;
+        return dot && strcmp(dot, ".wav") == 0 ? false : err_at(e, "a response is a mode table (NAME.csv) or a sound file");
     double ring = (double)s->ir.length / r->board->rate;
     r->board->ring = fmax(r->board->ring, ring);
     s->engine = overlap_add_open(s->ir.length, 0, 0, ring_response_wav, s);
