@@ -61,7 +61,7 @@ struct board {
     const struct limiter_law *limiter;
     struct profile *profile;
     struct table_sink *table;
-    int quantity;           /* enum modes_quantity of the sound; -1: none yet, -2: not stated (WAV responses) */
+    int quantity;           /* enum modes_quantity of the sound; -1: not stated (WAV responses) */
     double ring;            /* s, until the slowest response has decayed by 80 dB */
     double lifted;          /* s during which the scraper was lifted off         */
     const char *warnings[16];

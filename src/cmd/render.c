@@ -8,7 +8,7 @@
 #include "pipeline/render.h"
 
 static const struct args_option render_options[] = {
-    {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: beside nothing, in the current folder"},
+    {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
     CMD_SCENE_OPTIONS,
     {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},

@@ -18,7 +18,7 @@ struct paper {
     struct steps steps;
     double beta1, beta2;
     double bend[STEPS_CHUNK], slope[STEPS_CHUNK], length[STEPS_CHUNK]; /* integrals over sub-intervals; m travelled */
-    double last_bend;                                                  /* at the last point touched */
+    double touched[STEPS_CHUNK], last_bend;                            /* at the last point of a sub-interval; of all */
 };
 
 /* Integral of |z'|^beta2 over a piece: z' is a parabola there; Simpson's rule, with two triangles at a zero. */
@@ -43,7 +43,7 @@ static void paper_use(void *self, struct curvature_pieces *p)
         if (s->beta1 != 0)
             s->slope[k] += slope_crossed(h, p->slope[at], p->slope[at + 1], s->beta2, middle);
         s->length[k] += h;
-        s->last_bend = p->limited[at + 1];
+        s->touched[k] = p->limited[at + 1];
     }
 }
 
@@ -83,12 +83,11 @@ static bool paper_curvature_run(struct stage_run *r, long from, long to, struct 
         memset(s->bend, 0, sizeof s->bend);
         memset(s->slope, 0, sizeof s->slope);
         memset(s->length, 0, sizeof s->length);
-        double rest_bend = s->last_bend;
         steps_run(&s->steps, r, first, n);
         for (int i = 0; i < n; i++) {
-            bend[i] = s->length[i] > 0 ? s->bend[i] / s->length[i] : rest_bend;
+            bend[i] = s->length[i] > 0 ? s->bend[i] / s->length[i] : s->last_bend;
             slope[i] = s->length[i] > 0 ? s->slope[i] / s->length[i] : 0;
-            rest_bend = bend[i];
+            s->last_bend = s->length[i] > 0 ? s->touched[i] : s->last_bend;
         }
         first += n;
     }

@@ -35,6 +35,7 @@ struct scrape {
     double momentum;                 /* m |v| S' at the end of the last sub-interval */
     double ends[STEPS_CHUNK];        /* dS/du at each sub-interval's end             */
     double crossed[STEPS_CHUNK];     /* integral of |S'|^beta2 ds over it            */
+    double travelled[STEPS_CHUNK];   /* m; more than |u1 - u0| where it turns        */
     int filled;                      /* ends[] up to here are known                  */
 };
 
@@ -79,6 +80,7 @@ static void scrape_use(void *self, struct curvature_pieces *p)
         double h = p->length[i], z = h / s->leak, phi = leak_phi(z), moment = (1 - z / 2) * h * p->moment[i];
         double a = s->slope * p->heading[i], b = (1 - z * phi) * a + phi * h * p->mean[i] + z * moment;
         double plain = phi * a + leak_chi(z) * h * p->mean[i] - moment; /* mean of S' */
+        s->travelled[p->interval[i]] += h;
         if (s->beta1 != 0)
             s->crossed[p->interval[i]] += s->beta2 == 1 ? crossed_slope(h, a, b, h * plain)
                                                         : crossed_power(h, (double[]){a, 1.5 * plain - 0.25 * (a + b), b}, s->beta2);
@@ -120,10 +122,10 @@ static bool scrape_open(struct stage_run *r, struct err *e)
 /* Means over the chunk's sub-intervals, from the slopes at their ends. */
 static void scrape_forces(struct scrape *s, const struct board *b, long first, int n)
 {
-    const double *u = steps_values(b, ITEM_POSITION, first), *v = steps_values(b, ITEM_VELOCITY, first);
+    const double *v = steps_values(b, ITEM_VELOCITY, first);
     double *force = steps_values(b, ITEM_SUBFORCE, first), per_second = b->rate * b->over;
     for (int i = 0; i < n; i++) {
-        double momentum = s->mass * v[i + 1] * s->ends[i], speed = fabs(u[i + 1] - u[i]) * per_second;
+        double momentum = s->mass * v[i + 1] * s->ends[i], speed = s->travelled[i] * per_second;
         force[i] = (momentum - s->momentum) * per_second;
         if (s->crossed[i] > 0)
             force[i] += s->beta1 * per_second * s->crossed[i] * (s->beta2 == 1 ? 1 : real_pow(speed, s->beta2 - 1));
@@ -139,6 +141,7 @@ static bool scrape_run(struct stage_run *r, long from, long to, struct err *e)
     for (long first = from * b->over, last = to * b->over; first < last;) {
         int n = steps_some(first, last);
         memset(s->crossed, 0, sizeof s->crossed);
+        memset(s->travelled, 0, sizeof s->travelled);
         s->filled = 0;
         steps_run(&s->steps, r, first, n);
         scrape_fill(s, n);

@@ -19,6 +19,7 @@
 #include "surface/limiter.h"
 
 enum { SMOOTH_NODE = 64 };
+#define SMOOTH_WIDEST 0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
 struct smooth {
     enum item item;
@@ -58,7 +59,14 @@ static double smooth_work(const struct contact *c, const struct scene *s)
     return taps * over * (varies ? 0.8 : 0.35);
 }
 
-static bool smooth_open_item(struct stage_run *r, enum item item)
+static bool smooth_too_wide(const struct stage_run *r, double sigma, struct err *e)
+{
+    return err_set(e, ERR_SCENE,
+                   "contact '%s': contact.smoothing: the force is smoothed with a sigma of %.3g s (contact.smoothing x alpha / 3 cm), and at most "
+                   "%g s make sense; lower contact.smoothing or contact.limiter's alpha", r->contact->name, sigma, SMOOTH_WIDEST);
+}
+
+static bool smooth_open_item(struct stage_run *r, enum item item, struct err *e)
 {
     struct smooth *s = ARENA_TAKE(r->arena, struct smooth, 1);
     struct board *b = r->board;
@@ -67,6 +75,8 @@ static bool smooth_open_item(struct stage_run *r, enum item item)
     s->varies = b->limiter != NULL;
     s->per_alpha = c->contact.smoothing / 0.03 * b->rate * b->over;
     double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
+    if (c->contact.smoothing * widest / 0.03 > SMOOTH_WIDEST)
+        return smooth_too_wide(r, c->contact.smoothing * widest / 0.03, e);
     s->still = filter_gaussian(r->arena, s->per_alpha * widest);
     s->reach = s->still.reach;
     r->ahead = (s->reach + (s->varies ? SMOOTH_NODE : 0)) / b->over + 2;
@@ -83,14 +93,12 @@ static bool smooth_open_item(struct stage_run *r, enum item item)
 
 static bool smooth_open(struct stage_run *r, struct err *e)
 {
-    (void)e;
-    return smooth_open_item(r, ITEM_SUBFORCE);
+    return smooth_open_item(r, ITEM_SUBFORCE, e);
 }
 
 static bool smooth_curvature_open(struct stage_run *r, struct err *e)
 {
-    (void)e;
-    return smooth_open_item(r, ITEM_CURVATURE);
+    return smooth_open_item(r, ITEM_CURVATURE, e);
 }
 
 /* Keeps raw values from `keep` on and adds those up to `end`. */

@@ -10,8 +10,10 @@ void steps_make(struct steps *s, struct stage_run *r, double longest)
     const struct contact *c = r->contact;
     const struct trajectory *tr = r->board->trajectory;
     bool x = c->surface.along == ALONG_X;
-    double offset = x ? tr->from[0] - c->surface.origin[0] : 0;
-    s->way = curvature_way_make(r->arena, r->board->profile, offset, x ? tr->e[0] : 1, longest);
+    double offset = x ? tr->from[0] - c->surface.origin[0] : 0, scale = x ? tr->e[0] : 1;
+    if (x && fabs(scale) * tr->length < 1e-6 * r->board->profile->pitch)
+        scale = 0; /* straight across the profile: what the decimals of the two ends leave in x is no motion along it */
+    s->way = curvature_way_make(r->arena, r->board->profile, offset, scale, longest);
     s->directional = c->contact.force == FORCE_DIRECTIONAL;
 }
 

@@ -107,7 +107,7 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
         const char *near = k < 0 ? text_nearest(names[i], all) : NULL;
         if (k < 0)
             return err_set(e, ERR_SCENE, "output.diagnostics.columns: there is no column '%s'%s%s%s", names[i],
-                           near ? "; did you mean '" : "; see man rasp-scene, DIAGNOSTICS", near ? near : "", near ? "'?" : "");
+                           near ? "; did you mean '" : "; see man rasp-scene, TABLES OF DIAGNOSTICS", near ? near : "", near ? "'?" : "");
         if (!column_exists(r->contact, k))
             return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no %s: it needs %s", r->contact->name, names[i],
                            k == ALPHA ? "contact.limiter.curve: tanh" : "a grip");

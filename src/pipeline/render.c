@@ -50,6 +50,23 @@ static bool render_plans(struct render *r, struct err *e)
     return asked || err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render");
 }
 
+/* What is summed is of one quantity; contacts that ring by WAVs, which do not say theirs, go with any. */
+static bool render_quantities(const struct render *r, struct err *e)
+{
+    static const char *const names[] = {"displacement", "velocity", "acceleration"};
+    const struct run *first = NULL;
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        const struct run *run = &r->parts[i].run;
+        if (!r->parts[i].open || run->board.quantity < 0)
+            continue;
+        first = first ? first : run;
+        if (run->board.quantity != first->board.quantity)
+            return err_set(e, ERR_SCENE, "contact '%s' gives %s, but contact '%s' %s: they cannot be summed; use mode tables of one quantity",
+                           run->plan.contact->name, names[run->board.quantity], first->plan.contact->name, names[first->board.quantity]);
+    }
+    return true;
+}
+
 /* Opens the tables, so that the stages can write their headers, then the stages. */
 static bool render_runs(struct render *r, struct err *e)
 {
@@ -66,20 +83,21 @@ static bool render_runs(struct render *r, struct err *e)
             return false;
         p->open = true;
     }
-    return true;
+    return render_quantities(r, e);
 }
 
-/* Length of the whole: the last motion's end and the tail. */
+/* Length of the whole: the last motion's end, also of a muted contact, and the tail of what rings. */
 static void render_length(struct render *r)
 {
     double tail = r->scene->output.tail, ring = 0, rate = r->scene->output.sample_rate;
     long end = 0;
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct part *p = &r->parts[i];
-        if (!p->open)
-            continue;
-        end = p->start + p->run.board.moving > end ? p->start + p->run.board.moving : end;
-        ring = fmax(ring, p->run.board.ring);
+        struct trajectory tr = trajectory_make(&p->plan.contact->motion);
+        long stop = p->start + trajectory_frames(&tr, rate);
+        end = stop > end ? stop : end;
+        if (p->open)
+            ring = fmax(ring, p->run.board.ring);
     }
     r->frames = end + (r->sounds ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
 }

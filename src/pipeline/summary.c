@@ -21,7 +21,7 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
             continue;
         const struct board *b = &runs[i]->board;
         for (int k = 0; k < b->n_warnings; k++)
-            warn(report, b->warnings[k]);
+            warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
         if (b->lifted > 0)
             warn(report, arena_format(a, "contact '%s': the hand lifts the scraper off for %.4g s in all (negative normal force); no force then",
                                       s->contacts[i].name, b->lifted));

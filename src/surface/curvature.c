@@ -54,7 +54,7 @@ bool curvature_cut(struct curvature_way *w, struct curvature_stretch *s, struct 
 {
     double h = w->profile->pitch, q = s->cut ? s->q : (w->offset + w->scale * s->u) / h;
     double end = (w->offset + w->scale * s->end) / h;
-    double longest = w->longest * fabs(w->scale) / h;
+    double longest = fmax(w->longest * fabs(w->scale) / h, 1e-15 * (fabs(q) + fabs(end))); /* at least: q + longest is not q */
     bool forwards = end > q;
     long cell = (long)(forwards ? floor(q) : ceil(q) - 1);
     bool chained = false;

@@ -26,6 +26,11 @@ struct trajectory trajectory_make(const struct motion *m)
     return tr;
 }
 
+long trajectory_frames(const struct trajectory *tr, double rate)
+{
+    return (long)ceil(tr->duration * rate) + 1;
+}
+
 enum { TRAJECTORY_CHUNK = 256 };
 
 static double instant(const struct trajectory *tr, double t)
@@ -112,7 +117,7 @@ static bool trajectory_open(struct stage_run *r, struct err *e)
     st->tr = trajectory_make(&r->contact->motion);
     r->state = st;
     r->board->trajectory = &st->tr;
-    r->board->moving = (long)ceil(st->tr.duration * r->board->rate) + 1;
+    r->board->moving = trajectory_frames(&st->tr, r->board->rate);
     return true;
 }
 

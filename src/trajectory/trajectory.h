@@ -17,6 +17,9 @@ struct trajectory {
 
 struct trajectory trajectory_make(const struct motion *m);
 
+/* Frames at that rate (Hz) that the motion touches, the one at its end or just behind it included. */
+long trajectory_frames(const struct trajectory *tr, double rate);
+
 /* u, v = du/dt, a = dv/dt at n instants (any output may be NULL). Instants before 0 and after the duration give the ends' values (v and a
    as the limits from inside). Harmonic: absolute error of u below 1e-15 + 3.5e-16 rate t of the length (the phase is one rounded product). */
 void trajectory_at(const struct trajectory *tr, size_t n, const double *t, double *u, double *v, double *a);

@@ -51,10 +51,8 @@ cat > probe.c << 'END'
 #include <stdio.h>
 int main(void)
 {
-    double sum = 0;
-    for (int i = 1; i < 100000; i++)
-        sum += exp(i * 1e-4) * sin(i * 0.37);
-    printf("%a\n", sum);
+    for (int i = 1; i < 10000; i++) /* every last bit: a sum would round the difference away */
+        printf("%a\n", exp(i * 1e-3) * sin(i * 0.37));
 }
 END
 "${CC:-gcc}" -O0 -o probe probe.c -lm || fail "the probe of libm does not compile"

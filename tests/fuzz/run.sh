@@ -2,8 +2,8 @@
 # Runs each fuzz target for its share of the time, two at once:  tests/fuzz/run.sh FOLDER SECONDS
 # Starts from tests/fuzz/corpus/NAME and what earlier runs found new; an input that breaks a target is left in FOLDER/found/.
 set -uo pipefail
-cd "$(dirname "$0")" || exit 1
 folder=$(realpath "$1") seconds=${2:-60}
+cd "$(dirname "$0")" || exit 1
 targets=(fuzz_*.c)
 share=$((seconds / ((${#targets[@]} + 1) / 2)))
 export folder share

@@ -128,7 +128,7 @@ tree_copy() {
     local entry
     mkdir "$1"
     for entry in "$ROOT"/*; do
-        case $entry in "$ROOT"/build* | "$BUILD") ;; *) cp -r "$entry" "$1/" ;; esac
+        case $entry in "$ROOT"/build* | "$ROOT"/out | "$BUILD") ;; *) cp -r "$entry" "$1/" ;; esac
     done
     ln -s "$BUILD" "$1/build"
 }

@@ -5,7 +5,7 @@
 words() {
     (
         cd "$1" || exit
-        { git ls-files -co --exclude-standard 2> /dev/null || find . -type f ! -path './build*' -printf '%P\n'; } | grep -vx LICENSE |
+        { git ls-files -co --exclude-standard 2> /dev/null || find . -type f ! -path './build*' ! -path './out/*' -printf '%P\n'; } | grep -vx LICENSE |
             tr '\n' '\0' | xargs -0 -r grep -InE -e '(^|[^[:alnum:]._/$}-])/(ho''me|wo''rk|ro''ot|m''nt|Us''ers|op''t|var/fo''lders)/[[:alnum:]]' \
             -e '[[:alnum:]._%+-]+@[[:alnum:]-]+\.[[:alpha:]]{2,}' -e '\<(TO''DO|FIX''ME|XX''X|HA''CK|WI''P)\>' -e '\<[Ss]tu''b(bed|s)?\>' \
             -e '[Pp]lace''holder' --

@@ -180,6 +180,98 @@ START_TEST(blocks_do_not_matter)
 }
 END_TEST
 
+/* The same of the printed equations, whose curvature at rest, after the motion, is that of the last point touched. Without the limiter it
+   differs from the mean before it; the motion ends off every chunk's edge. */
+START_TEST(blocks_do_not_matter_to_the_printed_equations)
+{
+    struct arena *a = arena_open();
+    struct scene s = made(a, "surface: {roughness: {rms: 5 um}}\ngrip: {}\ncontact: {force: paper, limiter: {curve: none}}\n"
+                             "motion: {path: line, from: [1 cm, 0], to: [1.437 cm, 0], speed: 10 cm/s}\n");
+    struct rig *one = rig_record(&s, ITEM_FORCE, 3000, 1024), *other = rig_record(&s, ITEM_FORCE, 3000, 77);
+    ck_assert_int_eq(memcmp(one->x, other->x, 3000 * sizeof *one->x), 0);
+    ck_assert(one->x[2000] != 0);
+    rig_close(one);
+    rig_close(other);
+}
+END_TEST
+
+/* Half a cycle of 2 Hz is 5512.5 samples at 22050 Hz: that sample begins and ends at the same place, but moves. With beta2 < 1 its force is
+   (beta1/dt) integral |S'|^beta2 |v|^(beta2 - 1) ds with the speed moved at, not 0 to a negative power; like its neighbours' it is small. */
+START_TEST(a_turn_in_the_middle_of_a_sample)
+{
+    struct arena *a = arena_open();
+    struct scene s = made(a, "surface: {roughness: {rms: 5 um}}\ncontact: {beta2: 0.8, smoothing: 0 s}\naccuracy: {oversampling: 1}\n"
+                             "motion: {path: back_and_forth, from: [1 cm, 0], to: [7 cm, 0], rate: 2 Hz, duration: 0.4 s}\n");
+    s.output.sample_rate = 22050;
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 6000, 1024);
+    ck_assert(isfinite(g->x[5512]));
+    ck_assert_double_lt(fabs(g->x[5512]), fabs(g->x[5502]) + fabs(g->x[5522]));
+    rig_close(g);
+}
+END_TEST
+
+/* Two ends whose x differ in the last decimals only: the stroke runs straight across the profile. (It was once cut into endless pieces.) */
+START_TEST(a_stroke_straight_across_but_for_rounding)
+{
+    static const char *const ends[] = {"0.07", "0.070000000000000021", "0.070000000000021", "0.070000021"};
+    struct arena *a = arena_open();
+    for (int k = 0; k < 4; k++) {
+        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}, along: x}\nmotion: {path: line, from: [7 cm, 0], to: [%s, 1 cm], "
+                                                 "speed: 20 cm/s}\n", ends[k]));
+        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
+        for (long i = 0; i < 2400 * g->per_frame; i++)
+            ck_assert_double_lt(fabs(g->x[i]), k < 3 ? 1e-300 : 1e-6);
+        rig_close(g);
+    }
+}
+END_TEST
+
+/* A smoothing of seconds is refused before its kernels are made: 50 us x 1000 m / 3 cm, and 10 ms x 1000 m / 3 cm at the finest rate. */
+START_TEST(a_smoothing_of_seconds_is_refused)
+{
+    static const char *const models[] = {"{limiter: {alpha: 1000}}", "{smoothing: 10 ms, limiter: {alpha: 1000}}",
+                                         "{force: paper, smoothing: 10 ms, limiter: {alpha: 1000}}"};
+    struct arena *a = arena_open();
+    for (int k = 0; k < 3; k++) {
+        struct scene s = made(a, arena_format(a, "surface: {roughness: {}}\ncontact: %s\naccuracy: {oversampling: 64}\n%s", models[k], reversing));
+        struct plan p;
+        struct run r;
+        struct err e = {0};
+        s.output.sample_rate = 768000;
+        s.output.diagnostics.given = true;
+        ck_assert(plan_make(stages_table, &s.contacts[0], &s, a, &p, &e));
+        ck_assert(!run_open(&r, &p, &s, NULL, &e)); /* before the table stage opens */
+        ck_assert_int_eq(e.kind, ERR_SCENE);
+        ck_assert_msg(strstr(e.text, "contact.smoothing") != NULL, "%s", e.text);
+    }
+}
+END_TEST
+
+/* Sample n of the force belongs to n / rate, the boundary between two sub-intervals: a force of 40 Hz and less is there the mean of theirs
+   to second order; one sub-interval early or late is 1e-3 off. */
+START_TEST(the_audio_force_is_not_delayed)
+{
+    static const int overs[] = {1, 3, 4, 7};
+    struct arena *a = arena_open();
+    for (int k = 0; k < 4; k++) {
+        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um, shortest: 5 mm, longest: 10 mm}}\naccuracy: {oversampling: %d}\n"
+                                                 "contact: {beta1: 0, smoothing: 0 s, limiter: {curve: none}}\n"
+                                                 "motion: {path: line, to: [3 cm, 0], speed: 20 cm/s}\n", overs[k]));
+        struct rig *fine = rig_record(&s, ITEM_SUBFORCE, 6000, 1024), *g = rig_record(&s, ITEM_FORCE, 6000, 1024);
+        double off = 0, all = 0;
+        for (long n = 1000; n < 6000; n++) {
+            double want = 0.5 * (fine->x[n * overs[k] - 1] + fine->x[n * overs[k]]);
+            off += (g->x[n] - want) * (g->x[n] - want);
+            all += want * want;
+        }
+        printf("oversampling %d: %.3g\n", overs[k], sqrt(off / all));
+        ck_assert_double_lt(sqrt(off / all), 1e-4);
+        rig_close(fine);
+        rig_close(g);
+    }
+}
+END_TEST
+
 /* A flat surface (4 samples of nothing) gives exactly no force. */
 START_TEST(flat_surface_is_silent)
 {
@@ -267,4 +359,6 @@ START_TEST(printed_equations)
 END_TEST
 
 UNIT("scrape", vertical_force_through_reversals, unlimited_force_through_reversals, horizontal_force, oblique_stroke_over_an_extruded_profile,
-     means_are_exact, blocks_do_not_matter, flat_surface_is_silent, limits_of_the_limiter, no_force_while_lifted_off, printed_equations)
+     means_are_exact, blocks_do_not_matter, blocks_do_not_matter_to_the_printed_equations, a_turn_in_the_middle_of_a_sample,
+     a_stroke_straight_across_but_for_rounding, a_smoothing_of_seconds_is_refused, the_audio_force_is_not_delayed,
+     flat_surface_is_silent, limits_of_the_limiter, no_force_while_lifted_off, printed_equations)
