@@ -64,8 +64,9 @@ struct board {
     int quantity;           /* enum modes_quantity of the sound; -1: not stated (WAV responses) */
     double ring;            /* s, until the slowest response has decayed by 80 dB */
     double lifted;          /* s during which the scraper was lifted off         */
+    bool unstated;          /* a WAV response, whose quantity is not stated, rings */
     const char *warnings[16];
-    int n_warnings;
+    int n_warnings;         /* may exceed the room: what is beyond is counted only */
 };
 
 enum { STAGE_BLOCK = 1024 };    /* most frames of one call of run */
@@ -114,7 +115,8 @@ static inline bool board_has(const struct board *b, enum item item)
 static inline void board_warn(struct board *b, const char *text)
 {
     if (b->n_warnings < (int)(sizeof b->warnings / sizeof b->warnings[0]))
-        b->warnings[b->n_warnings++] = text;
+        b->warnings[b->n_warnings] = text;
+    b->n_warnings++;
 }
 
 #endif

@@ -66,7 +66,7 @@ static void render_print(struct cmd_call *c, const struct scene *s, const struct
     else if (!args_given(&c->args, "quiet"))
         for (int i = 0; i < r->n_files; i++)
             if (strcmp(r->files[i].kind, "scene") != 0 && strcmp(r->files[i].kind, "summary") != 0)
-                printf("%s  %.3f s, %.0f times real time\n", r->files[i].path, (double)r->frames / s->output.sample_rate,
+                printf("%s  %.3f s, %.3g times real time\n", r->files[i].path, (double)r->frames / s->output.sample_rate,
                        (double)r->frames / s->output.sample_rate / (r->cpu > 1e-9 ? r->cpu : 1e-9));
 }
 

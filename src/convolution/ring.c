@@ -82,10 +82,8 @@ bool ring_read_modes(struct ring *g, struct stage_run *r, struct err *e)
 
 void ring_gains_at(const struct ring *g, const struct board *b, double t, double *re, double *im)
 {
-    double u = 0;
     const struct trajectory *tr = b->trajectory;
-    if (g->moves)
-        trajectory_at(tr, 1, &t, &u, NULL, NULL);
+    double u = g->moves ? trajectory_continued(tr, t) : 0;
     if (g->body == RING_SURFACE) {
         modes_gains_at(&g->modes, tr->from[0] + u * tr->e[0], tr->from[1] + u * tr->e[1], re, im);
         return;

@@ -27,7 +27,8 @@ struct ring ring_make(const struct stage_run *r, enum ring_body body);
 /* Reads the mode table: strongest modes below Nyquist, quantity noted on the board, places checked against the motion. */
 bool ring_read_modes(struct ring *g, struct stage_run *r, struct err *e);
 
-/* Complex gains [modes.n], weight included, of the contact at time t (s after the contact's start). */
+/* Complex gains [modes.n], weight included, of the contact at time t (s after the contact's start); before its start and after its end of
+   where its motion would go on, so that interpolation keeps its order there. */
 void ring_gains_at(const struct ring *g, const struct board *b, double t, double *re, double *im);
 
 #endif

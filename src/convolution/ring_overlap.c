@@ -40,6 +40,7 @@ static bool ring_open_wav(struct ring_overlap *s, struct stage_run *r, struct er
     if (!ir_read(given->file, r->board->rate, given->length, r->arena, &s->ir, e))
         return dot && strcmp(dot, ".wav") == 0 ? false : err_at(e, "a response is a mode table (NAME.csv) or a sound file");
     double ring = (double)s->ir.length / r->board->rate;
+    r->board->unstated = true;
     r->board->ring = fmax(r->board->ring, ring);
     s->engine = overlap_add_open(s->ir.length, 0, 0, ring_response_wav, s);
     return true;

@@ -158,7 +158,7 @@ bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
 {
     double x[SOUND_CHUNK], rms = sqrt(o->squares / (double)(o->frames > 0 ? o->frames : 1));
     size_t n;
-    *report = (struct sound_report){.peak = o->peak, .rms = rms, .lufs = o->scene->output.level.lufs, .silent = o->peak == 0};
+    *report = (struct sound_report){.ramp = (double)o->ramp / o->scene->output.sample_rate, .peak = o->peak, .rms = rms, .lufs = o->scene->output.level.lufs, .silent = o->peak == 0};
     if (o->spool && o->peak == 0)
         o->gain = 1;
     else if (o->spool && !sound_gain(o, rms, e))

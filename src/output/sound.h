@@ -14,6 +14,7 @@ struct sound_report {
     double lufs;          /* of the file; NAN: not measured                    */
     double gain;          /* file value per unit of the quantity               */
     bool silent;
+    double ramp;          /* s: less than output.ramp when the sound is too short for it */
 };
 
 /* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. */

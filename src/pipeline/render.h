@@ -18,7 +18,7 @@ struct render_report {
     struct render_file *files;
     int n_files;
     const char *summary;           /* the JSON text */
-    const char *warnings[32];
+    const char **warnings;
     int n_warnings;
 };
 

@@ -8,26 +8,40 @@
 #include "response/modes.h"
 #include "trajectory/load.h"
 
+static const char *const summary_units[] = {"m", "m/s", "m/s^2"}; /* by enum modes_quantity */
+
+enum { MOST_OF_BOARD = (int)(sizeof ((struct board *)0)->warnings / sizeof ((struct board *)0)->warnings[0]) };
+
 static void warn(struct render_report *report, const char *text)
 {
-    if (report->n_warnings < (int)(sizeof report->warnings / sizeof report->warnings[0]))
-        report->warnings[report->n_warnings++] = text;
+    report->warnings[report->n_warnings++] = text;
+}
+
+static void warn_contact(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
+{
+    for (int k = 0; k < b->n_warnings && k < MOST_OF_BOARD; k++)
+        warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
+    if (b->n_warnings > MOST_OF_BOARD)
+        warn(report, arena_format(a, "contact '%s': %d more remarks", c->name, b->n_warnings - MOST_OF_BOARD));
+    if (b->lifted > 0)
+        warn(report, arena_format(a, "contact '%s': the hand lifts the scraper off for %.4g s in all (negative normal force); no force then",
+                                  c->name, b->lifted));
+    if (b->unstated && b->quantity >= 0)
+        warn(report, arena_format(a, "contact '%s': its WAV response does not say what it is in, and is summed as if in %s, like its mode table",
+                                  c->name, summary_units[b->quantity]));
 }
 
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
-    for (int i = 0; i < s->n_contacts; i++) {
-        if (!runs[i])
-            continue;
-        const struct board *b = &runs[i]->board;
-        for (int k = 0; k < b->n_warnings; k++)
-            warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
-        if (b->lifted > 0)
-            warn(report, arena_format(a, "contact '%s': the hand lifts the scraper off for %.4g s in all (negative normal force); no force then",
-                                      s->contacts[i].name, b->lifted));
-    }
+    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 3) + 2);
+    for (int i = 0; i < s->n_contacts; i++)
+        if (runs[i])
+            warn_contact(&s->contacts[i], &runs[i]->board, report, a);
     if (report->sounds && report->sound.silent)
         warn(report, "the sound is silent: no level was set");
+    if (report->sounds && report->sound.ramp < s->output.ramp - 0.5 / s->output.sample_rate)
+        warn(report, arena_format(a, "output.ramp: the sound is too short for ramps of %.4g s; they take half of it each, %.4g s", s->output.ramp,
+                                  report->sound.ramp));
 }
 
 /* A number, or null for one that is not finite. */
@@ -43,12 +57,11 @@ static double decibel(double x)
 
 static json_t *sound_json(const struct scene *s, const struct run *const *runs, const struct render_report *report)
 {
-    static const char *const units[] = {"m", "m/s", "m/s^2"};
     const struct sound_report *o = &report->sound;
     int quantity = -1;
     for (int i = 0; i < s->n_contacts; i++)
         quantity = runs[i] && runs[i]->board.quantity >= 0 ? runs[i]->board.quantity : quantity;
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit", quantity >= 0 ? units[quantity] : "the impulse response's", "peak",
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit", quantity >= 0 ? summary_units[quantity] : "the impulse response's", "peak",
                      number(o->peak), "rms", number(o->rms), "gain", number(o->gain), "gain_db", number(decibel(o->gain)), "peak_dbfs",
                      number(decibel(o->gain * o->peak)), "rms_dbfs", number(decibel(o->gain * o->rms)), "silent", o->silent);
 }

@@ -85,6 +85,18 @@ void trajectory_at(const struct trajectory *tr, size_t n, const double *t, doubl
     }
 }
 
+double trajectory_continued(const struct trajectory *tr, double t)
+{
+    struct trajectory endless = *tr;
+    double u, q = t / tr->duration;
+    if (tr->path != PATH_BACK_AND_FORTH)
+        return tr->length * (tr->law == SPEED_MINIMUM_JERK ? q * q * q * (10 + q * (-15 + q * 6)) : q);
+    endless.duration = HUGE_VAL;
+    t = fabs(t); /* the cosine is even */
+    trajectory_at(&endless, 1, &t, &u, NULL, NULL);
+    return u;
+}
+
 double trajectory_turning(const struct trajectory *tr, double t0, double t1)
 {
     if (tr->path != PATH_BACK_AND_FORTH)

@@ -24,6 +24,10 @@ long trajectory_frames(const struct trajectory *tr, double rate);
    as the limits from inside). Harmonic: absolute error of u below 1e-15 + 3.5e-16 rate t of the length (the phase is one rounded product). */
 void trajectory_at(const struct trajectory *tr, size_t n, const double *t, double *u, double *v, double *a);
 
+/* Where the motion's formula puts the contact before its start and after its end (inside: as trajectory_at). For what interpolates around an
+   instant: the contact itself stays at the ends. */
+double trajectory_continued(const struct trajectory *tr, double t);
+
 /* The instant in (t0, t1) at which the motion turns round, or NAN. At most one is expected between two force samples. */
 double trajectory_turning(const struct trajectory *tr, double t0, double t1);
 

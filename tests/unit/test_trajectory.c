@@ -303,5 +303,27 @@ START_TEST(top_speed_is_the_top)
 }
 END_TEST
 
-UNIT("trajectory", harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
+/* Inside it is the motion; outside the same formula goes on: a cosine, a straight line, a fifth-order polynomial (long double). */
+START_TEST(test_continued)
+{
+    struct motion m = {.path = PATH_BACK_AND_FORTH, .to = {0.06, 0}, .rate = 3, .duration = 0.4, .speed = NAN};
+    for (int k = 0; k < 3; k++) {
+        m.path = k == 0 ? PATH_BACK_AND_FORTH : PATH_LINE;
+        m.law = k == 2 ? SPEED_MINIMUM_JERK : SPEED_CONSTANT;
+        struct trajectory tr = trajectory_make(&m);
+        for (int i = -50; i <= 150; i++) {
+            double t = 0.004 * i, u;
+            long double q = (long double)t / 0.4L, want = k == 0   ? 0.03L * (1 - cosl(2 * 3.14159265358979323846264L * 3 * t))
+                                                          : k == 1 ? 0.06L * q
+                                                                   : 0.06L * q * q * q * (10 + q * (-15 + 6 * q));
+            ck_assert_double_eq_tol(trajectory_continued(&tr, t), (double)want, 1e-13);
+            trajectory_at(&tr, 1, &t, &u, NULL, NULL);
+            if (i >= 0 && i <= 100)
+                ck_assert_double_eq_tol(trajectory_continued(&tr, t), u, 1e-15);
+        }
+    }
+}
+END_TEST
+
+UNIT("trajectory", test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
      derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)
