@@ -23,6 +23,23 @@ static struct {
     struct rig *rig;
 } rig_probe;
 
+static struct arena *rig_pool;
+
+static inline void rig_drain(void)
+{
+    arena_close(rig_pool);
+}
+
+/* Memory for a test's texts and scenes, given back when its process ends. */
+static inline struct arena *rig_arena(void)
+{
+    if (!rig_pool) {
+        rig_pool = arena_open();
+        atexit(rig_drain);
+    }
+    return rig_pool;
+}
+
 static inline bool rig_wanted(const struct contact *c, const struct scene *s)
 {
     (void)c, (void)s;

@@ -44,11 +44,12 @@ static void response(const struct body *b, double n, double *h, size_t length)
     memset(h, 0, length * sizeof *h);
     for (int i = 0; i < MODES; i++) {
         double turn = 2 * M_PI * frequency[i] * (1 + b->shift * x) / RATE, fall = exp(-decay[i] / RATE);
+        double across = cos(turn), up = sin(turn);
         double a = size[i] * sin((i % 4 + 1) * M_PI * x) / RATE, re = a * cos(phase[i]), im = a * sin(phase[i]);
         for (size_t k = 0; k < length; k++) {
             h[k] += (k ? 1 : 0.5) * im;
-            double next = fall * (re * cos(turn) - im * sin(turn));
-            im = fall * (re * sin(turn) + im * cos(turn));
+            double next = fall * (re * across - im * up);
+            im = fall * (re * up + im * across);
             re = next;
         }
     }

@@ -75,7 +75,7 @@ static struct judge judge_of(const struct rig *g)
 /* Relative rms difference between the stage's sub-forces and the judge's over the first frames. */
 static double against_judge(const char *rest, long frames, int steps)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     struct scene s = made(a, rest);
     struct rig *g = rig_record(&s, ITEM_SUBFORCE, frames, 1024);
     struct judge j = judge_of(g);
@@ -88,7 +88,6 @@ static double against_judge(const char *rest, long frames, int steps)
     }
     free(want);
     rig_close(g);
-    arena_close(a);
     printf("relative rms difference %.3g (rms force %.3g N)\n", sqrt(off / all), sqrt(all / (double)n));
     return sqrt(off / all);
 }
@@ -97,7 +96,7 @@ static double against_judge(const char *rest, long frames, int steps)
    variation; the judge's own steps meet the knots' kinks at second order. */
 START_TEST(vertical_force_through_reversals)
 {
-    double off = against_judge(arena_format(arena_open(), "%s%s", "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\n",
+    double off = against_judge(arena_format(rig_arena(), "%s%s", "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\n",
                                             reversing),
                                1600, 200);
     ck_assert_double_lt(off, 1e-5);
@@ -108,7 +107,7 @@ END_TEST
 START_TEST(unlimited_force_through_reversals)
 {
     double off = against_judge(
-        arena_format(arena_open(), "%s%s",
+        arena_format(rig_arena(), "%s%s",
                      "surface: {roughness: {rms: 1 um, shortest: 100 um}}\ncontact: {beta1: 0, smoothing: 0 s, limiter: {curve: none}}\n", reversing),
         1600, 200);
     ck_assert_double_lt(off, 1e-6);
@@ -121,7 +120,7 @@ START_TEST(horizontal_force)
     const char *const models[] = {"{beta1: 5, smoothing: 0 s}", "{beta1: 5, beta2: 2, smoothing: 0 s}", "{beta1: 5, beta2: 0.8, smoothing: 0 s}"};
     const double bounds[] = {1e-4, 1e-3, 1e-3}; /* zeros of S' inside a piece are met by straight lines; the speed by its mean */
     for (int k = 0; k < 3; k++) {
-        double off = against_judge(arena_format(arena_open(), "surface: {roughness: {rms: 5 um}}\ncontact: %s\n%s", models[k], reversing), 1600, 200);
+        double off = against_judge(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um}}\ncontact: %s\n%s", models[k], reversing), 1600, 200);
         ck_assert_double_lt(off, bounds[k]);
     }
 }
@@ -141,7 +140,7 @@ END_TEST
 START_TEST(means_are_exact)
 {
     double *coarse = NULL, worst = 0, rms = 0;
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     for (int over = 1; over <= 4; over *= 4) {
         struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\naccuracy: {oversampling: %d}\n%s",
                                               over, reversing));
@@ -157,6 +156,7 @@ START_TEST(means_are_exact)
             }
         rig_close(g);
     }
+    free(coarse);
     printf("worst difference %.3g N of rms %.3g N\n", worst, sqrt(rms));
     ck_assert_double_lt(worst, 1e-5 * sqrt(rms));
     ck_assert_double_gt(rms, 0);
@@ -166,7 +166,7 @@ END_TEST
 /* The same bits however the frames are cut into blocks, with everything on. */
 START_TEST(blocks_do_not_matter)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     const char *rest = arena_format(a, "surface: {roughness: {rms: 5 um}}\ngrip: {}\n%s", reversing);
     struct scene s = made(a, rest);
     struct rig *one = rig_record(&s, ITEM_FORCE, 3000, 1024), *other = rig_record(&s, ITEM_FORCE, 3000, 77);
@@ -184,7 +184,7 @@ END_TEST
    differs from the mean before it; the motion ends off every chunk's edge. */
 START_TEST(blocks_do_not_matter_to_the_printed_equations)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     struct scene s = made(a, "surface: {roughness: {rms: 5 um}}\ngrip: {}\ncontact: {force: paper, limiter: {curve: none}}\n"
                              "motion: {path: line, from: [1 cm, 0], to: [1.437 cm, 0], speed: 10 cm/s}\n");
     struct rig *one = rig_record(&s, ITEM_FORCE, 3000, 1024), *other = rig_record(&s, ITEM_FORCE, 3000, 77);
@@ -199,7 +199,7 @@ END_TEST
    (beta1/dt) integral |S'|^beta2 |v|^(beta2 - 1) ds with the speed moved at, not 0 to a negative power; like its neighbours' it is small. */
 START_TEST(a_turn_in_the_middle_of_a_sample)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     struct scene s = made(a, "surface: {roughness: {rms: 5 um}}\ncontact: {beta2: 0.8, smoothing: 0 s}\naccuracy: {oversampling: 1}\n"
                              "motion: {path: back_and_forth, from: [1 cm, 0], to: [7 cm, 0], rate: 2 Hz, duration: 0.4 s}\n");
     s.output.sample_rate = 22050;
@@ -214,7 +214,7 @@ END_TEST
 START_TEST(a_stroke_straight_across_but_for_rounding)
 {
     static const char *const ends[] = {"0.07", "0.070000000000000021", "0.070000000000021", "0.070000021"};
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     for (int k = 0; k < 4; k++) {
         struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}, along: x}\nmotion: {path: line, from: [7 cm, 0], to: [%s, 1 cm], "
                                                  "speed: 20 cm/s}\n", ends[k]));
@@ -231,7 +231,7 @@ START_TEST(a_smoothing_of_seconds_is_refused)
 {
     static const char *const models[] = {"{limiter: {alpha: 1000}}", "{smoothing: 10 ms, limiter: {alpha: 1000}}",
                                          "{force: paper, smoothing: 10 ms, limiter: {alpha: 1000}}"};
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     for (int k = 0; k < 3; k++) {
         struct scene s = made(a, arena_format(a, "surface: {roughness: {}}\ncontact: %s\naccuracy: {oversampling: 64}\n%s", models[k], reversing));
         struct plan p;
@@ -252,7 +252,7 @@ END_TEST
 START_TEST(the_audio_force_is_not_delayed)
 {
     static const int overs[] = {1, 3, 4, 7};
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     for (int k = 0; k < 4; k++) {
         struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um, shortest: 5 mm, longest: 10 mm}}\naccuracy: {oversampling: %d}\n"
                                                  "contact: {beta1: 0, smoothing: 0 s, limiter: {curve: none}}\n"
@@ -275,7 +275,7 @@ END_TEST
 /* A flat surface (4 samples of nothing) gives exactly no force. */
 START_TEST(flat_surface_is_silent)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 1 um}}\n%s", reversing));
     s.contacts[0].surface.roughness.rms = 0;
     struct rig *g = rig_record(&s, ITEM_FORCE, 2000, 1024);
@@ -288,7 +288,7 @@ END_TEST
 /* A limiter that never bites is no limiter; one that always bites bounds |S''| by 1/alpha, so |force| <= m v^2/alpha + leak and S' a terms. */
 START_TEST(limits_of_the_limiter)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     const char *const curves[] = {"{curve: none}", "{alpha: 1e-6}", "{alpha: 1000}"};
     double *x[3], largest = 0;
     for (int k = 0; k < 3; k++) {
@@ -303,6 +303,8 @@ START_TEST(limits_of_the_limiter)
         ck_assert_double_eq_tol(x[1][i], x[0][i], 1e-6 * fabs(x[0][i]) + 1e-9);
         largest = fmax(largest, fabs(x[2][i]));
     }
+    for (int k = 0; k < 3; k++)
+        free(x[k]);
     /* top speed pi 30 Hz 4 mm = 0.377 m/s; |S'| <= leak/alpha */
     double v = 0.377, acceleration = 71.1;
     ck_assert_double_lt(largest, 0.02 * (2 * v * v / 1000 + acceleration * 2e-3 / 1000) * 1.01);
@@ -313,7 +315,7 @@ END_TEST
 /* The hand lifts the scraper: exactly no force while N < 0, counted. omega^2 L tan theta = 4.2 g here. */
 START_TEST(no_force_while_lifted_off)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}}\ngrip: {angle: 30 deg}\ncontact: {smoothing: 0 s}\n%s", reversing));
     struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
     const struct board *b = &g->run.board;
@@ -335,7 +337,7 @@ END_TEST
 /* Equations 2 and 3 as printed, at constant speed: the mean over a sub-interval against 400 point values of the formulas. */
 START_TEST(printed_equations)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     struct scene s = made(a, "surface: {roughness: {rms: 5 um}, along: x}\ncontact: {force: paper, beta1: 0.2, beta2: 1.5, smoothing: 0 s}\n"
                              "motion: {path: line, from: [1 cm, 0], to: [1.6 cm, 8 mm], speed: 20 cm/s}\n");
     struct rig *g = rig_record(&s, ITEM_SUBFORCE, 400, 1024);

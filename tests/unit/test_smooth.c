@@ -15,7 +15,7 @@ enum { FRAMES = 6000, OVER = 4 };
 
 static struct rig *recorded(const char *rest, double smoothing)
 {
-    struct arena *a = arena_open();
+    struct arena *a = rig_arena();
     struct scene s = rig_scene(a, arena_format(a, text, rest));
     s.contacts[0].contact.smoothing = smoothing;
     return rig_record(&s, ITEM_SUBFORCE, FRAMES, 1024);

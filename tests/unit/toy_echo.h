@@ -1,5 +1,0 @@
-#ifndef TOY_ECHO_H
-#define TOY_ECHO_H
-#include "stage.h"
-extern const struct stage toy_echo_stage;
-#endif
