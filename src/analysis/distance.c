@@ -12,6 +12,7 @@
 #include "analysis/distance.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "num/fft.h"
@@ -37,6 +38,31 @@ void distance_samples(const struct wav *a, const struct wav *b, struct distance_
         }
     }
     d->snr_db = d->differing ? 10 * real_log10(signal / noise) : INFINITY;
+}
+
+static void hash_numbers(struct hash *h, const double *x, size_t n)
+{
+    unsigned char bytes[8 * 512];
+    for (size_t done = 0; done < n;) {
+        size_t k = 0;
+        for (; k < 512 && done < n; k++, done++) {
+            double x0 = x[done] + 0.0; /* -0 + 0 is +0 */
+            uint64_t bits;
+            memcpy(&bits, &x0, 8);
+            for (int i = 0; i < 8; i++)
+                bytes[8 * k + (size_t)i] = (unsigned char)(bits >> 8 * i);
+        }
+        hash_add(h, bytes, 8 * k);
+    }
+}
+
+void distance_hash(const struct wav *w, char hex[HASH_TEXT])
+{
+    double form[2] = {w->rate, w->channels};
+    struct hash h = hash_start();
+    hash_numbers(&h, form, 2);
+    hash_numbers(&h, w->x, w->frames * (size_t)w->channels);
+    hash_end(&h, hex);
 }
 
 double distance_step(const struct wav *a, const struct wav *b)

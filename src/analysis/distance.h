@@ -2,6 +2,7 @@
 #ifndef ANALYSIS_DISTANCE_H
 #define ANALYSIS_DISTANCE_H
 #include "base/arena.h"
+#include "base/hash.h"
 #include "file/wav.h"
 
 struct distance_place {
@@ -20,8 +21,12 @@ struct distance_samples {
                                      -INFINITY when a is silent and b is not                         */
 };
 
-/* a is the reference; a and b have the same number of channels. */
+/* a is the reference; a and b have the same number of channels and the same rate. */
 void distance_samples(const struct wav *a, const struct wav *b, struct distance_samples *d);
+
+/* SHA-256 of what a sound is, whatever file it stands in: rate (Hz), number of channels, then the samples frame by frame, all as
+   little-endian binary64, -0 counted as +0. Two sounds have the same hash when rate, channels and all samples are the same numbers. */
+void distance_hash(const struct wav *w, char hex[HASH_TEXT]);
 
 /* One step of the coarser integer encoding of the two (2^(1-bits)); 0: neither holds integers. */
 double distance_step(const struct wav *a, const struct wav *b);

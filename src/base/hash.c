@@ -17,35 +17,41 @@ static void must(int ok)
     exit(ERR_MEMORY);
 }
 
-static EVP_MD_CTX *hash_start(void)
+struct hash hash_start(void)
 {
     EVP_MD_CTX *m = EVP_MD_CTX_new();
     must(m && EVP_DigestInit_ex(m, EVP_sha256(), NULL));
-    return m;
+    return (struct hash){m};
 }
 
-static void hash_end(EVP_MD_CTX *m, char hex[HASH_TEXT])
+void hash_add(struct hash *h, const void *data, size_t size)
+{
+    must(EVP_DigestUpdate(h->state, data, size));
+}
+
+void hash_end(struct hash *h, char hex[HASH_TEXT])
 {
     unsigned char digest[32];
-    must(EVP_DigestFinal_ex(m, digest, NULL));
-    EVP_MD_CTX_free(m);
+    must(EVP_DigestFinal_ex(h->state, digest, NULL));
+    EVP_MD_CTX_free(h->state);
+    h->state = NULL;
     for (int i = 0; i < 32; i++)
         snprintf(hex + 2 * i, 3, "%02x", digest[i]);
 }
 
 void hash_bytes(const void *data, size_t size, char hex[HASH_TEXT])
 {
-    EVP_MD_CTX *m = hash_start();
-    must(EVP_DigestUpdate(m, data, size));
-    hash_end(m, hex);
+    struct hash h = hash_start();
+    hash_add(&h, data, size);
+    hash_end(&h, hex);
 }
 
-static bool hash_stream(FILE *f, EVP_MD_CTX *m)
+static bool hash_stream(FILE *f, struct hash *h)
 {
     unsigned char piece[1 << 16];
     size_t n;
     while ((n = fread(piece, 1, sizeof piece, f)) > 0)
-        must(EVP_DigestUpdate(m, piece, n));
+        hash_add(h, piece, n);
     return !ferror(f);
 }
 
@@ -59,10 +65,10 @@ bool hash_file(const char *path, char hex[HASH_TEXT], struct err *e)
     FILE *f = fopen(path, "rb");
     if (!f)
         return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
-    EVP_MD_CTX *m = hash_start();
-    bool ok = hash_stream(f, m);
+    struct hash h = hash_start();
+    bool ok = hash_stream(f, &h);
     int why = errno;
     fclose(f);
-    hash_end(m, hex);
+    hash_end(&h, hex);
     return ok || err_set(e, ERR_INPUT, "%s: %s", path, strerror(why));
 }

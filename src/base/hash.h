@@ -8,6 +8,14 @@
 
 #define HASH_TEXT 65 /* bytes of a hash as text, with its end */
 
+/* Piece by piece: hash_start, hash_add any number of times, hash_end (which frees). */
+struct hash {
+    void *state;
+};
+struct hash hash_start(void);
+void hash_add(struct hash *h, const void *data, size_t size);
+void hash_end(struct hash *h, char hex[HASH_TEXT]);
+
 void hash_bytes(const void *data, size_t size, char hex[HASH_TEXT]);
 
 /* ERR_INPUT: missing, not a regular file, or unreadable. Reads in pieces: memory does not grow with the file. */

@@ -1,4 +1,5 @@
-/* rasp compare: two sounds or two tables, the first being the reference. The halves are compare_sound.c and compare_table.c. */
+/* rasp compare: two sounds or two tables, the first being the reference, or one of them and a hash. The parts are compare_sound.c,
+   compare_table.c and compare_hash.c. */
 #include "cmd/compare.h"
 
 #include <errno.h>
@@ -7,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/hash.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
 
@@ -86,6 +88,27 @@ static const char *given_of(const struct cmd_call *c, const char *const *names)
     return NULL;
 }
 
+/* FILE --hash HEX. */
+static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, struct err *e)
+{
+    static const char *const others[] = {"exact", "snr", "lsb", "third-octave", "tolerance", "column", "abs", "rel", NULL};
+    const char *other = given_of(c, others);
+    char *hex = arena_text(c->arena, args_value(&c->args, "hash"));
+    bool sound;
+    if (c->args.n_operands != 1)
+        err_set(e, ERR_USAGE, "--hash takes one file, not two: the hash is the reference");
+    else if (other)
+        err_set(e, ERR_USAGE, "--hash leaves no room for --%s: a hash is met or it is not", other);
+    else if (strlen(hex) != HASH_TEXT - 1 || strspn(hex, "0123456789abcdefABCDEF") != HASH_TEXT - 1)
+        err_set(e, ERR_USAGE, "--hash: '%s' is not a SHA-256: 64 hexadecimal digits, as `rasp compare FILE FILE` prints them", hex);
+    if (e->kind || !is_sound(ask->files[0], &sound, e))
+        return (int)e->kind;
+    for (char *p = hex; *p; p++)
+        *p = *p >= 'A' && *p <= 'F' ? (char)(*p + 'a' - 'A') : *p;
+    ask->hash = hex;
+    return compare_hash(ask, sound, e);
+}
+
 static int compare_run(struct cmd_call *c, struct err *e)
 {
     static const char *const for_sounds[] = {"snr", "lsb", "third-octave", NULL};
@@ -94,6 +117,12 @@ static int compare_run(struct cmd_call *c, struct err *e)
     bool a, b, exact = args_given(&c->args, "exact");
     struct compare_ask ask = {.files = {files[0], files[1]}, .json = args_given(&c->args, "json"), .quiet = args_given(&c->args, "quiet"),
                               .exact = exact || (!sounds && !tables), .snr = NAN, .lsb = NAN, .third_octave = NAN, .arena = c->arena};
+    if (args_given(&c->args, "hash"))
+        return compare_run_hash(c, &ask, e);
+    if (c->args.n_operands < 2) {
+        err_set(e, ERR_USAGE, "operands are missing; usage: rasp compare A B, or rasp compare FILE --hash SHA256");
+        return (int)e->kind;
+    }
     if (!is_sound(files[0], &a, e) || !is_sound(files[1], &b, e))
         return (int)e->kind;
     if (a != b)
@@ -117,6 +146,7 @@ static const struct args_option options[] = {
     {"column", 'c', "NAME=ABS,REL", true, "tables: the tolerance of one column; overrides the file"},
     {"abs", 0, "X", false, "tables: absolute tolerance of all columns not named; overrides the file's *"},
     {"rel", 0, "Y", false, "tables: relative tolerance of all columns not named; overrides the file's *"},
+    {"hash", 0, "SHA256", false, "checks one FILE against a stored hash of 64 hexadecimal digits; only --json and --quiet may stand beside it"},
     {"json", 'j', NULL, false, "prints the figures as one JSON object; null stands for an infinite figure or one that is not there"},
     {"quiet", 'q', NULL, false, "prints nothing when all criteria are met"},
     {0}};
@@ -126,16 +156,23 @@ const struct command compare_command = {
     .summary = "compare two sounds or two tables within tolerances",
     .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing samples, the first, the "
             "largest difference, the signal-to-noise ratio and the third-octave levels; for CSV tables the misses of each column and the "
-            "worst of them. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
+            "worst of them; for both a SHA-256. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
+            "Sounds of different sample rates are not compared sample by sample: difference, LSB and SNR are left out, and every criterion "
+            "but --third-octave fails.\n"
+            "The SHA-256 of a sound is that of its audio, not of its file: the rate in Hz, the number of channels, then all samples frame by "
+            "frame (integers of n bits as multiples of 2^(1-n)), each as a little-endian IEEE 754 double, -0 counted as +0; so A and B have "
+            "the same exactly when --exact holds. That of a table is that of the file's bytes. With --hash there is one FILE, which must "
+            "have the hash that is given.\n"
             "The exit code is 0 when the criteria are met, 1 when they are not, and never 0 when a file is missing or empty.",
-    .operands = "A B",
-    .least = 2,
+    .operands = "A B | FILE --hash SHA256",
+    .least = 1,
     .most = 2,
     .options = options,
     .examples = "rasp compare golden.wav new.wav\n"
                 "rasp compare --snr 80 --third-octave 0.1 golden.wav new.wav\n"
                 "rasp compare --lsb 1 golden.wav new.wav\n"
                 "rasp compare --tolerance tolerance.csv golden.csv new.csv\n"
-                "rasp compare --abs 1e-9 --rel 1e-6 --column events=0,0 golden.csv new.csv\n",
+                "rasp compare --abs 1e-9 --rel 1e-6 --column events=0,0 golden.csv new.csv\n"
+                "rasp compare --quiet --hash \"$(cat new.sha256)\" new.wav\n",
     .run = compare_run,
 };

@@ -4,12 +4,15 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/hash.h"
 #include "cmd/compare.h"
 
 struct tables {
     const struct compare_ask *ask;
     struct csv a, b;
     struct table_distance d;
+    char hash[2][HASH_TEXT];
+    bool hashed;      /* both are files, not pipes: their bytes can be read again */
     bool equal, held; /* not the least difference; every criterion met */
 };
 
@@ -28,6 +31,8 @@ static bool measure(struct tables *t, struct err *e)
         return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", ask->files[0]);
     if (!table_distance(both, ask->tolerances, ask->arena, &t->d, e))
         return false;
+    struct err none = {0};
+    t->hashed = hash_file(ask->files[0], t->hash[0], &none) && hash_file(ask->files[1], t->hash[1], &none);
     t->held = t->a.rows == t->b.rows && !t->d.n_missing && !t->d.n_extra && !t->d.reordered && !(ask->exact && t->d.comment);
     t->equal = t->held && !t->d.comment;
     for (size_t i = 0; i < t->d.n_columns; i++) {
@@ -83,6 +88,8 @@ static void print_column(const struct tables *t, const struct table_distance_col
 static void print_text(const struct tables *t)
 {
     printf("A %s\nB %s\n", t->ask->files[0], t->ask->files[1]);
+    if (t->hashed)
+        printf("sha256  A %s B %s\n", t->hash[0], t->hash[1]);
     print_form(t);
     for (size_t i = 0; i < t->d.n_columns; i++)
         print_column(t, &t->d.columns[i]);
@@ -140,6 +147,11 @@ static json_t *json_columns(const struct tables *t)
     return list;
 }
 
+static json_t *json_hashes(const struct tables *t)
+{
+    return t->hashed ? json_pack("[s, s]", t->hash[0], t->hash[1]) : json_null();
+}
+
 static json_t *json_table(const char *file, const struct csv *t)
 {
     return json_pack("{s:o, s:I}", "file", text_or_null(file), "rows", (json_int_t)t->rows);
@@ -148,9 +160,10 @@ static json_t *json_table(const char *file, const struct csv *t)
 static bool print_json(const struct tables *t, struct err *e)
 {
     const struct table_distance *d = &t->d;
-    json_t *j = json_pack("{s:b, s:b, s:o, s:o, s:I, s:o, s:o, s:b, s:o, s:o}",
+    json_t *j = json_pack("{s:b, s:b, s:o, s:o, s:o, s:I, s:o, s:o, s:b, s:o, s:o}",
                           "equal", t->equal,
                           "held", t->held,
+                          "file_sha256", json_hashes(t),
                           "a", json_table(t->ask->files[0], &t->a),
                           "b", json_table(t->ask->files[1], &t->b),
                           "rows_compared", (json_int_t)d->rows,

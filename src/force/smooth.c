@@ -15,11 +15,11 @@
 #include "num/filter.h"
 #include "num/lanes.h"
 #include "num/vecmath.h"
+#include "scene/rules.h"
 #include "stage.h"
 #include "surface/limiter.h"
 
 enum { SMOOTH_NODE = 64 };
-#define SMOOTH_WIDEST 0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
 struct smooth {
     enum item item;
@@ -63,7 +63,7 @@ static bool smooth_too_wide(const struct stage_run *r, double sigma, struct err 
 {
     return err_set(e, ERR_SCENE,
                    "contact '%s': contact.smoothing: the force is smoothed with a sigma of %.3g s (contact.smoothing x alpha / 3 cm), and at most "
-                   "%g s make sense; lower contact.smoothing or contact.limiter's alpha", r->contact->name, sigma, SMOOTH_WIDEST);
+                   "%g s make sense; lower contact.smoothing or contact.limiter's alpha", r->contact->name, sigma, RULES_SMOOTHING_WIDEST);
 }
 
 static bool smooth_open_item(struct stage_run *r, enum item item, struct err *e)
@@ -75,8 +75,8 @@ static bool smooth_open_item(struct stage_run *r, enum item item, struct err *e)
     s->varies = b->limiter != NULL;
     s->per_alpha = c->contact.smoothing / 0.03 * b->rate * b->over;
     double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
-    if (c->contact.smoothing * widest / 0.03 > SMOOTH_WIDEST)
-        return smooth_too_wide(r, c->contact.smoothing * widest / 0.03, e);
+    if (rules_sigma(&c->contact, widest) > RULES_SMOOTHING_WIDEST)
+        return smooth_too_wide(r, rules_sigma(&c->contact, widest), e);
     s->still = filter_gaussian(r->arena, s->per_alpha * widest);
     s->reach = s->still.reach;
     r->ahead = (s->reach + (s->varies ? SMOOTH_NODE : 0)) / b->over + 2;

@@ -6,29 +6,23 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
-enum column { TIME, X, Y, STROKE, SPEED, VELOCITY, ACCELERATION, NORMAL, ALPHA, MEAN, RMS, PEAK, LIFT_OFFS, COLUMNS };
+#define COLUMN(id, name, exists, needs, meaning) id,
+enum column {
+#include "scene/columns.def"
+    COLUMNS
+};
+#undef COLUMN
 
 const struct table_column force_table_columns[] = {
-    [TIME] = {"time_s", "time since the start of the scene"},
-    [X] = {"x_m", "position of the contact"},
-    [Y] = {"y_m", "position of the contact"},
-    [STROKE] = {"stroke_m", "signed distance along the stroke, 0 where the motion starts"},
-    [SPEED] = {"speed_m_per_s", "magnitude of the velocity"},
-    [VELOCITY] = {"velocity_m_per_s", "velocity along the stroke, negative on the way back"},
-    [ACCELERATION] = {"acceleration_m_per_s2", "acceleration along the stroke"},
-    [NORMAL] = {"normal_force_n", "normal force; 0 while the scraper is lifted off"},
-    [ALPHA] = {"alpha_m", "the limiter's alpha (only with a limiter)"},
-    [MEAN] = {"force_mean_n", "mean contact force over the row's samples"},
-    [RMS] = {"force_rms_n", "rms contact force over the row's samples"},
-    [PEAK] = {"force_peak_n", "contact force of largest magnitude among the row's samples, with its sign"},
-    [LIFT_OFFS] = {"lift_offs", "number of times the scraper lifts off in the row (only with a grip)"},
-    [COLUMNS] = {NULL, NULL},
+#define COLUMN(id, name, exists, needs, meaning) {name, meaning},
+#include "scene/columns.def"
+#undef COLUMN
+    {NULL, NULL},
 };
 
 struct force_table {
@@ -49,7 +43,12 @@ static int column_find(const char *name)
 
 static bool column_exists(const struct contact *c, int k)
 {
-    return k == ALPHA ? c->contact.limiter.curve == LIMITER_TANH : k == LIFT_OFFS ? c->grip.given : true;
+    const bool exists[] = {
+#define COLUMN(id, name, exists, needs, meaning) exists,
+#include "scene/columns.def"
+#undef COLUMN
+    };
+    return exists[k];
 }
 
 /* Does the scene ask for any column from `first` to `last`? */
@@ -95,25 +94,29 @@ static double force_table_work(const struct contact *c, const struct scene *s)
     return 4 + (column_asked(c, s, MEAN, PEAK) ? 9000 : 5000) * s->output.diagnostics.rate / s->output.sample_rate;
 }
 
+/* The reader has told unknown columns, and those that this contact cannot have, with their place: scene/scene_sense.c. */
 static bool columns_choose(struct force_table *t, const struct stage_run *r, struct err *e)
 {
-    const char **names = r->scene->output.diagnostics.columns, *all[COLUMNS + 1] = {0};
-    for (int k = 0; k < COLUMNS; k++) {
+    const char **names = r->scene->output.diagnostics.columns;
+    for (int k = 0; k < COLUMNS; k++)
         t->wanted[k] = !names && column_exists(r->contact, k);
-        all[k] = force_table_columns[k].name;
-    }
     for (int i = 0; names && names[i]; i++) {
         int k = column_find(names[i]);
-        const char *near = k < 0 ? text_nearest(names[i], all) : NULL;
-        if (k < 0)
-            return err_set(e, ERR_SCENE, "output.diagnostics.columns: there is no column '%s'%s%s%s", names[i],
-                           near ? "; did you mean '" : "; see man rasp-scene, TABLES OF DIAGNOSTICS", near ? near : "", near ? "'?" : "");
-        if (!column_exists(r->contact, k))
-            return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no %s: it needs %s", r->contact->name, names[i],
-                           k == ALPHA ? "contact.limiter.curve: tanh" : "a grip");
+        if (k < 0 || !column_exists(r->contact, k))
+            return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no column '%s'", r->contact->name, names[i]);
         t->wanted[k] = true;
     }
     return true;
+}
+
+/* Above the sample rate some rows would have no samples to take a force from. */
+static bool rate_possible(const struct stage_run *r, struct err *e)
+{
+    const struct output *o = &r->scene->output;
+    return o->diagnostics.rate <= o->sample_rate ||
+           err_set(e, ERR_SCENE,
+                   "output.diagnostics.rate: %.9g Hz is above output.sample_rate, %.9g Hz: some rows would have no samples of the force; lower it",
+                   o->diagnostics.rate, o->sample_rate);
 }
 
 static bool force_table_open(struct stage_run *r, struct err *e)
@@ -121,7 +124,7 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
     const char *comma = "";
     r->state = t;
-    if (!columns_choose(t, r, e))
+    if (!rate_possible(r, e) || !columns_choose(t, r, e))
         return false;
     t->alpha = limiter_constant(r->contact);
     t->rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
@@ -199,8 +202,8 @@ static void rows_before(struct force_table *t, const struct stage_run *r, long e
     }
 }
 
-/* A sample belongs to row floor(n rate_d / rate); a row is written when the first sample behind it comes, even if it has none itself, the
-   last ones with the motion's last sample. */
+/* A sample belongs to row floor(n rate_d / rate); a row is written when the first sample behind it comes, the last ones with
+   the motion's last sample. */
 static bool force_table_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct force_table *t = r->state;

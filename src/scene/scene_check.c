@@ -9,14 +9,9 @@
 
 enum applies { APPLIES_NO, APPLIES_YES, APPLIES_UNKNOWN };
 
-static const char *label(const struct scene_part *p, const char *path)
-{
-    return arena_format(p->yaml->arena, "%s%s", p->prefix, path);
-}
-
 /* ------------------------------------------------------------------ does a key apply? */
 
-/* Unknown: the value that decides it is itself in error. */
+/* Unknown: the value that decides it is itself in error, or may stand in a file that is not there. */
 static enum applies applies(const struct scene_part *p, const struct key *k)
 {
     char other[128];
@@ -24,13 +19,13 @@ static enum applies applies(const struct scene_part *p, const struct key *k)
         return APPLIES_YES;
     size_t n = strcspn(k->applies, "=");
     if (!k->applies[n])
-        return yaml_find(p->map, k->applies) ? APPLIES_YES : APPLIES_NO;
+        return yaml_find(p->map, k->applies) ? APPLIES_YES : p->yaml->missing ? APPLIES_UNKNOWN : APPLIES_NO;
     snprintf(other, sizeof other, "%.*s", (int)n, k->applies);
     const struct key *decides = keys_find(other);
     const struct yaml_node *node = yaml_find(p->map, other);
     if (applies(p, decides) != APPLIES_YES)
         return applies(p, decides);
-    if (!node && !decides->standard)
+    if (!node && (!decides->standard || p->yaml->missing))
         return APPLIES_UNKNOWN;
     int i = node ? scene_values_choice(decides->choices, node) : -1;
     if (node && i < 0)
@@ -44,14 +39,14 @@ static void not_applicable(const struct scene_part *p, const struct key *k, cons
     int n = (int)strcspn(k->applies, "=");
     if (!k->applies[n]) {
         diag_add(p->yaml->diag, node->key->at, arena_format(a, "remove it, or give %s%s", p->prefix, k->applies),
-                 "%s applies only beside %s%s", label(p, k->path), p->prefix, k->applies);
+                 "%s applies only beside %s%s", scene_part_label(p, k->path), p->prefix, k->applies);
         return;
     }
     const struct yaml_node *decides = yaml_find(p->map, arena_format(a, "%.*s", n, k->applies));
     const char *now = decides ? arena_format(a, "it is %s", decides->text) : "it is not given";
     diag_add(p->yaml->diag, node->key->at,
              arena_format(a, "remove it, or set %s%.*s to %s (now %s)", p->prefix, n, k->applies, k->applies + n + 1, now),
-             "%s applies only where %s%.*s is %s", label(p, k->path), p->prefix, n, k->applies, k->applies + n + 1);
+             "%s applies only where %s%.*s is %s", scene_part_label(p, k->path), p->prefix, n, k->applies, k->applies + n + 1);
 }
 
 /* ------------------------------------------------------------------ what is missing */
@@ -71,15 +66,6 @@ static const struct yaml_node *innermost(const struct scene_part *p, const char 
         *rest = dot + 1;
     }
     return at;
-}
-
-static struct diag_place place_of(const struct scene_part *p, const struct yaml_node *map)
-{
-    if (map->key)
-        return map->key->at;
-    if (*p->prefix)
-        return map->at;
-    return (struct diag_place){map->at.source, 1, 1, 0};
 }
 
 /* "rate: 2 Hz", or "motion: {rate: 2 Hz}" where there is no motion yet. */
@@ -105,8 +91,8 @@ static void missing(const struct scene_part *p, const char *path)
 {
     const char *rest;
     const struct yaml_node *map = innermost(p, path, &rest);
-    if (map)
-        diag_add(p->yaml->diag, place_of(p, map), add_cure(p, rest, path), "%s is missing", label(p, path));
+    if (map && !p->yaml->missing)
+        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, path), "%s is missing", scene_part_label(p, path));
 }
 
 static bool in_absent_section(const struct scene_part *p, const char *path)
@@ -153,30 +139,19 @@ static enum applies path_applies(const struct scene_part *p, const char *path)
     return k ? applies(p, k) : APPLIES_YES;
 }
 
-/* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */
-static bool before(const struct diag_place *a, const struct diag_place *b)
-{
-    const struct diag_source *of_a = a->source, *of_b = b->source;
-    if (of_a == of_b)
-        return a->line != b->line ? a->line < b->line : a->column < b->column;
-    if (of_a->option != of_b->option)
-        return of_b->option;
-    return of_a->option == (of_a->order < of_b->order);
-}
-
 static void both_given(const struct scene_part *p, const struct yaml_node *const nodes[2], const char *const names[2])
 {
-    bool swap = before(&nodes[1]->key->at, &nodes[0]->key->at);
+    bool swap = scene_part_before(&nodes[1]->key->at, &nodes[0]->key->at);
     const struct yaml_node *first = nodes[swap], *second = nodes[!swap];
     const struct diag_source *other = first->key->at.source;
     struct arena *a = p->yaml->arena;
-    const char *gone = label(p, names[swap]), *where = other->name;
+    const char *gone = scene_part_label(p, names[swap]), *where = other->name;
     if (!other->option)
         where = arena_format(a, "%s line %d", where, first->key->at.line);
     const char *cure = arena_format(a, "%s stands in %s; remove one of them", gone, where);
     if (other != second->key->at.source)
         cure = arena_format(a, "%s, or take that one away with %s: null", cure, gone);
-    diag_add(p->yaml->diag, second->key->at, cure, "%s and %s exclude each other", label(p, names[!swap]), gone);
+    diag_add(p->yaml->diag, second->key->at, cure, "%s and %s exclude each other", scene_part_label(p, names[!swap]), gone);
 }
 
 /* The alternatives that could be given, in words. */
@@ -189,9 +164,9 @@ static void none_given(const struct scene_part *p, const char *const *candidates
         return;
     }
     for (int i = 0; i < n; i++)
-        all = arena_format(p->yaml->arena, "%s%s%s", all, i == 0 ? "" : i == n - 1 ? " or " : ", ", label(p, candidates[i]));
-    if (map)
-        diag_add(p->yaml->diag, place_of(p, map), add_cure(p, rest, candidates[0]), "%s must be given", all);
+        all = arena_format(p->yaml->arena, "%s%s%s", all, i == 0 ? "" : i == n - 1 ? " or " : ", ", scene_part_label(p, candidates[i]));
+    if (map && !p->yaml->missing)
+        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, candidates[0]), "%s must be given", all);
 }
 
 static void alternative_check(const struct scene_part *p, const struct key_alternative *alternative)
@@ -229,30 +204,4 @@ void scene_check_fill(const struct scene_part *p)
     for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++)
         if (owner_of(x->paths[0]) == p->of)
             alternative_check(p, x);
-}
-
-/* ------------------------------------------------------------------ values against each other */
-
-static void contradiction(const struct scene_part *p, const char *const paths[2], const char *says)
-{
-    const struct yaml_node *a = yaml_find(p->map, paths[0]), *b = yaml_find(p->map, paths[1]);
-    const struct yaml_node *at = a ? a : b;
-    const char *gap = a && b ? "" : " (the other is the default; give both)";
-    diag_add(p->yaml->diag, at ? at->at : place_of(p, p->map), NULL, "%s %s %s%s", label(p, paths[0]), says, label(p, paths[1]), gap);
-}
-
-void scene_check_contact(const struct scene_part *p)
-{
-    static const char *const ends[2] = {"motion.to", "motion.from"};
-    static const char *const alphas[2] = {"contact.limiter.alpha_min", "contact.limiter.alpha_max"};
-    static const char *const waves[2] = {"surface.roughness.shortest", "surface.roughness.longest"};
-    const struct contact *c = p->to;
-    const struct limiter *l = &c->contact.limiter;
-    const struct roughness *r = &c->surface.roughness;
-    if (c->motion.to[0] == c->motion.from[0] && c->motion.to[1] == c->motion.from[1])
-        contradiction(p, ends, "must differ from");
-    if (l->alpha_min > l->alpha_max)
-        contradiction(p, alphas, "must not be greater than");
-    if (r->given && r->shortest >= r->longest)
-        contradiction(p, waves, "must be less than");
 }

@@ -1,4 +1,4 @@
-/* What a part of a scene must, may and must not have, and what its values must be to each other. */
+/* What a part of a scene must, may and must not have. */
 #ifndef SCENE_SCENE_CHECK_H
 #define SCENE_SCENE_CHECK_H
 #include "scene/scene_part.h"
@@ -6,8 +6,5 @@
 /* Fills every field of the part's struct: given values, defaults, "not given", and sections' flags; tells what is missing, does
    not apply, or excludes another. */
 void scene_check_fill(const struct scene_part *p);
-
-/* Values of a filled contact that contradict each other. */
-void scene_check_contact(const struct scene_part *p);
 
 #endif

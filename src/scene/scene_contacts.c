@@ -1,4 +1,4 @@
-/* Contacts: see scene_contacts.h. */
+/* Contacts: see scene_contacts.h. The scene's own keys have been read before. */
 #include "scene/scene_contacts.h"
 
 #include <string.h>
@@ -6,7 +6,14 @@
 #include "scene/keys.h"
 #include "scene/scene_check.h"
 #include "scene/scene_keys.h"
+#include "scene/scene_sense.h"
 #include "scene/scene_values.h"
+
+struct tree {
+    struct yaml *yaml;
+    struct yaml_node *root;
+    struct scene *scene;
+};
 
 static bool is_name(const char *s)
 {
@@ -28,12 +35,18 @@ static void name_check(struct yaml *y, const struct yaml_node *map)
                  "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'", diag_shown(y->diag, name));
 }
 
-static void contact_read(struct yaml *y, struct yaml_node *map, const char *prefix, struct contact *c)
+/* errors: how many had been told before this contact; -1: the scene's own keys are in error, so that nothing is known to be missing. */
+static void contact_read(const struct tree *t, struct yaml_node *map, const char *prefix, int errors, struct contact *c)
 {
-    struct scene_part part = {y, map, prefix, KEY_CONTACT, c};
-    name_check(y, map);
+    struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
+    name_check(t->yaml, map);
     scene_check_fill(&part);
-    scene_check_contact(&part);
+    if (t->yaml->missing) /* values may stand in a file that is not there */
+        return;
+    scene_sense_contact(&part);
+    if (t->yaml->diag->n == errors)
+        scene_sense_asked(&part, t->scene);
+    scene_sense_columns(&part, t->root, t->scene);
 }
 
 static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)
@@ -56,9 +69,10 @@ static void unique_check(struct yaml *y, const struct yaml_node *list, const str
     }
 }
 
-static void entry_read(struct yaml *y, const struct yaml_node *list, struct yaml_node *map, struct contact *c)
+static void entry_read(const struct tree *t, const struct yaml_node *list, struct yaml_node *map, bool sound, struct contact *c)
 {
-    int index = 0;
+    struct yaml *y = t->yaml;
+    int index = 0, errors = sound ? y->diag->n : -1;
     for (const struct yaml_node *other = list->first; other != map; other = other->next)
         index++;
     const char *prefix = prefix_of(y, map, index);
@@ -69,11 +83,13 @@ static void entry_read(struct yaml *y, const struct yaml_node *list, struct yaml
     }
     unique_check(y, list, map);
     scene_keys_check(y, map, SCENE_KEYS_ENTRY, prefix);
-    contact_read(y, map, prefix, c);
+    contact_read(t, map, prefix, errors, c);
 }
 
-static void list_read(struct yaml *y, struct yaml_node *list, struct scene *s)
+static void list_read(const struct tree *t, struct yaml_node *list, struct scene *s)
 {
+    struct yaml *y = t->yaml;
+    bool sound = y->diag->n == 0;
     if (list->kind != YAML_LIST || list->n == 0 || list->n > 1000) {
         diag_add(y->diag, list->at, "write each contact as an entry: - name: left_hand",
                  "contacts must be a list of 1 to 1000 contacts, not %s",
@@ -82,18 +98,19 @@ static void list_read(struct yaml *y, struct yaml_node *list, struct scene *s)
     }
     s->contacts = ARENA_TAKE(y->arena, struct contact, list->n);
     for (struct yaml_node *map = list->first; map; map = map->next)
-        entry_read(y, list, map, &s->contacts[s->n_contacts++]);
+        entry_read(t, list, map, sound, &s->contacts[s->n_contacts++]);
 }
 
 void scene_contacts_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct yaml_node *list = yaml_get(root, "contacts");
+    const struct tree tree = {y, root, s};
     scene_keys_check(y, root, list ? SCENE_KEYS_TOP : SCENE_KEYS_SINGLE, "");
     if (list) {
-        list_read(y, list, s);
+        list_read(&tree, list, s);
         return;
     }
     s->contacts = ARENA_TAKE(y->arena, struct contact, 1);
     s->n_contacts = 1;
-    contact_read(y, root, "", s->contacts);
+    contact_read(&tree, root, "", 0, s->contacts);
 }

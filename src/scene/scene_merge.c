@@ -139,7 +139,7 @@ static struct yaml_node *include_one(struct yaml *y, const struct chain *chain, 
     return inner.source ? read_all(y, &inner) : NULL;
 }
 
-/* Merges the files that `include` lists; false: one of them is in error. */
+/* Merges the files that `include` lists; false: one of them is in error. One that is not there (y->missing) hides no errors of the others. */
 static bool includes(struct yaml *y, const struct chain *chain, struct yaml_node *list, struct yaml_node *into)
 {
     bool good = true;
@@ -171,7 +171,7 @@ static struct yaml_node *read_all(struct yaml *y, const struct chain *chain)
     struct yaml_node *whole = yaml_make(y, YAML_MAP, own->at, NULL);
     bool good = includes(y, chain, list, whole);
     merge(y, whole, own);
-    return good ? whole : NULL;
+    return good || y->missing ? whole : NULL;
 }
 
 struct yaml_node *scene_merge_text(struct yaml *y, const struct diag_source *source)

@@ -13,4 +13,13 @@ struct scene_part {
     void *to;            /* struct scene or struct contact */
 };
 
+/* A key's name in messages. */
+const char *scene_part_label(const struct scene_part *p, const char *path);
+
+/* Where to say that something is missing in a map of the part: its key, its entry, or the top of the file. */
+struct diag_place scene_part_place(const struct scene_part *p, const struct yaml_node *map);
+
+/* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */
+bool scene_part_before(const struct diag_place *a, const struct diag_place *b);
+
 #endif

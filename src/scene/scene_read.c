@@ -10,14 +10,33 @@
 #include "scene/scene_contacts.h"
 #include "scene/scene_inputs.h"
 #include "scene/scene_merge.h"
+#include "scene/scene_sense.h"
+#include "scene/scene_values.h"
+#include "scene/units.h"
 
 static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct scene_part top = {y, root, "", KEY_SCENE, s};
-    scene_contacts_read(y, root, s);
     scene_check_fill(&top);
+    scene_sense_names(y, root);
+    scene_contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
     scene_inputs_read(y, yaml_get(root, "inputs"), s);
+}
+
+/* A scene of another version: what else looks wrong in it need not be, so that this is the only error told. */
+static bool another_version(struct yaml *y, const struct yaml_node *root)
+{
+    const struct yaml_node *node = yaml_get(root, "rasp");
+    struct units_fault fault;
+    double version;
+    if (!node || node->kind != YAML_SCALAR || !units_read(node->text, KEY_NONE, &version, y->arena, &fault) || version == 1)
+        return false;
+    y->diag->n = 0;
+    y->missing = false;
+    diag_add(y->diag, node->at, "this program reads scenes of version 1, written rasp: 1; a newer one may read this scene",
+             "rasp must be 1, not %s", scene_values_kind(y, node));
+    return true;
 }
 
 static void source_read(struct yaml *y, const struct diag_source *source, const struct scene_overrides *over, struct scene *s)
@@ -27,9 +46,11 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
     if (!root)
         return;
     for (int i = 0; over && i < over->n; i++)
-        scene_merge_set(y, root, over->set[i]);
+        if (!y->missing || strncmp(over->set[i], "contacts.", strlen("contacts.")) != 0) /* they may stand in a file that is not there */
+            scene_merge_set(y, root, over->set[i]);
     scene_merge_drop_nulls(root);
-    tree_read(y, root, s);
+    if (!another_version(y, root))
+        tree_read(y, root, s);
 }
 
 static bool finish(struct yaml *y, const char **messages, struct err *e)

@@ -43,7 +43,7 @@ const char *scene_values_example(struct yaml *y, const struct key *k)
     case KEY_FILE: return strstr(k->path, "height_map") ? "profile.npy" : "modes.csv";
     case KEY_POINT: return arena_format(y->arena, "[%s, 0]", one);
     case KEY_RANGE: return arena_format(y->arena, "[%s, %s]", units_text(1, k->dimension, y->arena), units_text(5, k->dimension, y->arena));
-    case KEY_LIST: return "[speed_m_per_s, normal_force_N]";
+    case KEY_LIST: return "[speed_m_per_s, normal_force_n]";
     case KEY_CHOICE: return k->choices[0].word;
     }
     return "";

@@ -15,6 +15,7 @@
 #include "trajectory/load.h"
 
 #include "num/real.h"
+#include "scene/rules.h"
 #include "stage.h"
 
 bool load_make(const struct contact *c, const struct trajectory *tr, struct load_law *l, struct err *e)
@@ -25,8 +26,8 @@ bool load_make(const struct contact *c, const struct trajectory *tr, struct load
         *l = (struct load_law){.still = n, .least = n, .most = n};
         return true;
     }
-    double tangent = real_tan(c->grip.angle), slip = 1 - c->grip.friction * tangent;
-    if (slip <= 1e-3 + 1e-12) /* tan 45 degrees is 1 - 1e-16 in binary, and 0.999 of it is to be refused */
+    double tangent = real_tan(c->grip.angle), slip = rules_slip(&c->grip);
+    if (rules_jams(&c->grip))
         return err_set(e, ERR_SCENE,
                        "contact '%s': grip: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999; lower grip.angle or "
                        "grip.friction",

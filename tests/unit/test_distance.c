@@ -74,6 +74,52 @@ START_TEST(equal_and_silent)
 }
 END_TEST
 
+/* The definition in distance.h, packed and hashed by other programs (Python's struct and hashlib). */
+START_TEST(hash_of_the_audio)
+{
+    static double x[] = {0, 0.5, -0.25, -0.0, 1.0 / 3, -1}, many[15000];
+    char hex[HASH_TEXT], other[HASH_TEXT];
+    uint32_t s = 1;
+    struct wav w = {.rate = 48000, .channels = 2, .frames = 3, .x = x, .bits = 16}, v = {.rate = 44100, .channels = 3, .frames = 5000, .x = many};
+    for (int i = 0; i < 15000; i++)
+        many[i] = noise(&s);
+    distance_hash(&w, hex);
+    ck_assert_str_eq(hex, "815c0e9b082018cb5982b696444918ebe357f2fd34293be68037bf437648954d");
+    distance_hash(&v, other);
+    ck_assert_str_eq(other, "acf7d8fa658296e8b88d2d357550b5062f8923e0a04bbc37aac7a835bc109fd9");
+    w.bits = 24; /* how samples were stored is no matter, nor the sign of 0 */
+    x[3] = 0;
+    distance_hash(&w, other);
+    ck_assert_str_eq(other, hex);
+}
+END_TEST
+
+/* Same hash and "all samples equal" are one verdict: for each change of a sample, the rate, the shape. */
+START_TEST(hash_agrees_with_exactness)
+{
+    double x[] = {0, 0.5, -0.25, 0, 0.75, -1}, y[6];
+    char hex[HASH_TEXT], other[HASH_TEXT];
+    struct wav a = {.rate = 48000, .channels = 1, .frames = 6, .x = x}, b;
+    struct distance_samples d;
+    distance_hash(&a, hex);
+    for (int k = 0; k < 12; k++) {
+        memcpy(y, x, sizeof y);
+        b = a;
+        b.x = y;
+        y[k % 6] = k < 6 ? nextafter(y[k], 2) : y[k % 6] == 0 ? -0.0 : y[k % 6];
+        distance_samples(&a, &b, &d);
+        distance_hash(&b, other);
+        ck_assert_int_eq(d.differing == 0, strcmp(hex, other) == 0);
+        ck_assert_int_eq(d.differing == 0, k >= 6);
+    }
+    struct wav changed[] = {{48001, 1, 6, x, 0}, {48000, 2, 3, x, 0}, {48000, 3, 2, x, 0}, {48000, 1, 5, x, 0}};
+    for (int k = 0; k < 4; k++) {
+        distance_hash(&changed[k], other);
+        ck_assert_str_ne(hex, other);
+    }
+}
+END_TEST
+
 START_TEST(centres)
 {
     ck_assert_double_eq_tol(distance_band_centre(0), 25.1188643150958, 1e-11);
@@ -299,6 +345,6 @@ START_TEST(bands_across_rates)
 }
 END_TEST
 
-UNIT("distance", snr_of_a_scaled_copy, counts_and_places, equal_and_silent, centres, sine_is_its_rms_in_its_band,
+UNIT("distance", snr_of_a_scaled_copy, counts_and_places, equal_and_silent, hash_of_the_audio, hash_agrees_with_exactness, centres, sine_is_its_rms_in_its_band,
      bin_on_an_edge_is_shared, white_rises_a_decibel_per_band, bands_as_a_slow_transform_has_them,
      padded_and_cut_sounds_keep_their_level, bin_at_zero_is_half_as_wide, last_frame_of_a_cut_sound_counts, worst_band, bands_across_rates)

@@ -110,13 +110,15 @@ START_TEST(extremes_of_modes)
 }
 END_TEST
 
-/* mu tan theta = 1 and beyond: refused before anything is computed. */
+/* mu tan theta = 1 and beyond: refused before anything is computed, also in a scene that did not come from a text. */
 START_TEST(a_jamming_grip_is_refused)
 {
     struct arena *a = arena_open();
-    static const char *const grips[] = {"{angle: 45 deg, friction: 1}", "{angle: 89 deg, friction: 0.5}", "{angle: 45 deg, friction: 0.9991}"};
+    static const double degrees[] = {45, 89, 45}, friction[] = {1, 0.5, 0.9991};
     for (int k = 0; k < 3; k++) {
-        struct scene s = rig_scene(a, arena_format(a, "%ssurface: {roughness: {}}\ngrip: %s\nmotion: {path: line, to: [1, 0], speed: 1}\n", head, grips[k]));
+        struct scene s = rig_scene(a, arena_format(a, "%ssurface: {roughness: {}}\ngrip: {}\nmotion: {path: line, to: [1, 0], speed: 1}\n", head));
+        s.contacts[0].grip.angle = degrees[k] * M_PI / 180;
+        s.contacts[0].grip.friction = friction[k];
         struct plan p;
         struct run r;
         struct err e = {0};

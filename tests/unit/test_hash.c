@@ -19,6 +19,23 @@ START_TEST(test_bytes)
 }
 END_TEST
 
+START_TEST(test_piece_by_piece)
+{
+    char hex[HASH_TEXT], piece[1000];
+    struct hash h = hash_start(), other = hash_start();
+    memset(piece, 'a', sizeof piece);
+    for (int i = 0; i < 1000; i++) {
+        hash_add(&h, piece, 400); /* two at once do not mix */
+        hash_add(&other, "b", i == 0);
+        hash_add(&h, piece, 600);
+    }
+    hash_end(&h, hex);
+    ck_assert_str_eq(hex, MILLION);
+    hash_end(&other, hex);
+    ck_assert_str_eq(hex, "3e23e8160039594a33894f6564e1b1348bbd7a0088d42c4acb73eeaed59c009d"); /* "b", by sha256sum */
+}
+END_TEST
+
 START_TEST(test_file_longer_than_a_piece)
 {
     char hex[HASH_TEXT], name[] = "/tmp/rasp-hash-XXXXXX";
@@ -46,4 +63,4 @@ START_TEST(test_missing_and_folder)
 }
 END_TEST
 
-UNIT("hash", test_bytes, test_file_longer_than_a_piece, test_missing_and_folder)
+UNIT("hash", test_bytes, test_piece_by_piece, test_file_longer_than_a_piece, test_missing_and_folder)

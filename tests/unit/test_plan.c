@@ -93,7 +93,8 @@ START_TEST(wrong_tables_are_refused)
     ck_assert(!plan_make(hole, &s.contacts[0], &s, a, &p, &e));
     ck_assert_msg(strstr(e.text, "nothing in this scene gives its force") != NULL, "%s", e.text);
     e = (struct err){0};
-    s = scene_of(a, "", "", "");
+    s = scene_of(a, csv, "", "");
+    s.contacts[0].surface.response.file = NULL;
     ck_assert(!plan_make(stages_table, &s.contacts[0], &s, a, &p, &e));
     ck_assert_msg(strstr(e.text, "nothing is asked of it") != NULL, "%s", e.text);
     arena_close(a);

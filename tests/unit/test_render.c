@@ -202,6 +202,33 @@ static void levels_of(const struct wav *w, double *peak, double *rms)
     *rms = sqrt(*rms);
 }
 
+/* The same of a scraper whose response is a WAV: half the weight is half the sound, also beside a surface. (WAV samples are multiples of
+   2^-k here, and so are the weights: nothing is rounded but by the sum.) */
+START_TEST(a_wav_scraper_rings_with_weight_eta)
+{
+    struct arena *a = arena_open();
+    const char *scene = "rasp: 1\nsurface: {roughness: {rms: 5 um}%s}\nscraper: {mass: 20 g%s}\n" LINE EXACT;
+    const double h[] = {0.5, -0.25, 0.125, 0, 0.75, -0.5};
+    struct err e = {0};
+    setup(a);
+    struct wav_out *out = wav_create(in_folder(a, "tap.wav"), &(struct wav_format){48000, 1, -64, NULL, NULL, 0}, &e);
+    ck_assert_msg(out && wav_write(out, h, 6, &e) && wav_commit(out, &e), "%s", e.text);
+    rendered(a, arena_format(a, scene, ", response: tap.wav", ""), "surface");
+    rendered(a, arena_format(a, scene, "", ", response: tap.wav, weight: 1"), "whole");
+    rendered(a, arena_format(a, scene, "", ", response: tap.wav, weight: 0.5"), "half");
+    rendered(a, arena_format(a, scene, ", response: tap.wav", ", response: tap.wav, weight: 0.5"), "both");
+    struct wav surface = sound(a, "surface.wav"), whole = sound(a, "whole.wav"), half = sound(a, "half.wav"), both = sound(a, "both.wav");
+    ck_assert_double_lt(apart(&surface, &whole), 1e-12); /* the same response, on either body */
+    for (size_t n = 0; n < whole.frames; n++) {
+        whole.x[n] *= 0.5;
+        surface.x[n] *= 1.5;
+    }
+    ck_assert_double_lt(apart(&half, &whole), 1e-12);
+    ck_assert_double_lt(apart(&both, &surface), 1e-12);
+    clean(a);
+}
+END_TEST
+
 /* Every level rule does what it says; all are the same sound times one gain, which the report gives. */
 START_TEST(levels)
 {
@@ -290,4 +317,4 @@ START_TEST(a_failure_leaves_nothing)
 }
 END_TEST
 
-UNIT("render", free_decay_is_the_tables, contacts_add, engines_agree_on_a_moving_contact, the_scraper_rings_with_weight_eta, quantities_are_not_mixed, a_muted_contact_lasts_as_long, levels, loudness_is_the_standards, edges_and_encodings, a_failure_leaves_nothing)
+UNIT("render", free_decay_is_the_tables, contacts_add, engines_agree_on_a_moving_contact, the_scraper_rings_with_weight_eta, a_wav_scraper_rings_with_weight_eta, quantities_are_not_mixed, a_muted_contact_lasts_as_long, levels, loudness_is_the_standards, edges_and_encodings, a_failure_leaves_nothing)

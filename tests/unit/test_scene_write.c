@@ -11,21 +11,21 @@
 #include "scene/scene_read.h"
 #include "scene/scene_write.h"
 
-static const char PLAIN[] = "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 20 g}\n"
+static const char PLAIN[] = "rasp: 1\nsurface: {roughness: {}, response: files/plank.csv}\nscraper: {mass: 20 g}\n"
                             "motion: {path: back_and_forth, to: [4.5 cm, 0], rate: 2 Hz, duration: 2 s}\n";
 static const char FULL[] =
     "rasp: 1\ntitle: \"a \\\"b\\\" \\\\ \\t \\n # {c}: [d], \\u00e9 \\u2028 \\ufeff \\x7f \\x85 \\U0001F600\"\nseed: 18446744073709551615\n"
     "name: 'yes'\nstart: 0.1\ngain: -0.3333333333333333\n"
     "surface: {height_map: files/map.npy, pitch: 5.6 um, height_scale: 1 nm, along: x, off_map: wrap, origin: [0.1, 0.2],\n"
     "  response: files/plank.csv, modes: 7, response_length: 0.3, convolution: overlap_add, extrapolate: nearest}\n"
-    "scraper: {mass: 0.1 g, weight: 0.7, response: files/plank.csv, modes: 3, response_length: 20 ms, convolution: resonators}\n"
+    "scraper: {mass: 0.1 g, weight: 0.7, response: files/plank.csv, modes: 3, convolution: resonators}\n"
     "motion: {path: line, from: [1e-3, 0.3], to: [0.7 mm, 12.3 cm], speed: 0.1, law: minimum_jerk}\n"
     "grip: {angle: 30 deg, azimuth: 77 deg, friction: 0.123}\n"
     "contact: {force: paper, beta1: 0.7, beta2: 1.1, smoothing: 0, limiter: {alpha_min: 7 mm, force_range: [0.1, 5]}}\n"
     "output: {sample_rate: 44.1 kHz, encoding: float64, channels: 2, level: {lufs: -23}, ramp: 0, tail: 0.3,\n"
     "  diagnostics: {rate: 100, columns: [time_s, speed_m_per_s]}}\n"
     "accuracy: {preset: high, oversampling: 5, overlap_hop: 7 ms}\n";
-static const char NONE[] = "rasp: 1\nsurface: {height_map: files/map.npy, pitch: 1 um}\nscraper: {mass: 1}\nload: {constant: 0.1}\n"
+static const char NONE[] = "rasp: 1\nsurface: {height_map: files/map.npy, pitch: 1 um, response: files/plank.csv}\nscraper: {mass: 1}\nload: {constant: 0.1}\n"
                            "motion: {path: line, to: [1, 1], duration: 0.3}\ncontact: {limiter: {curve: none}}\naccuracy: draft\n";
 static const char SEVERAL[] = "rasp: 1\ncontacts:\n"
                               "  - {name: rod, surface: {roughness: {rms: 4 um}, response: files/plank.csv}, scraper: {mass: 20 g},\n"
@@ -221,7 +221,7 @@ START_TEST(test_what_does_not_apply_is_left_out)
     static const char *const absent[] = {" rate:", "origin:", "leak:", "alpha:", "grip:", "roughness:", "level:", "title:", "columns:", "speed:"};
     struct scene s;
     enter();
-    put("in/scene.yaml", "rasp: 1\nsurface: {height_map: files/map.npy, pitch: 1 um}\nscraper: {mass: 1}\n"
+    put("in/scene.yaml", "rasp: 1\nsurface: {height_map: files/map.npy, pitch: 1 um, response: files/plank.csv}\nscraper: {mass: 1}\n"
                          "motion: {path: line, to: [1, 1], duration: 0.3}\ncontact: {force: paper, limiter: {curve: none}}\n");
     must_read("in/scene.yaml", &s);
     const char *text = scene_write(&s, "in", a);
