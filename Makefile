@@ -24,7 +24,7 @@ endif
 # clang reports loops it does not vectorise, as all are at -O0 and -O1: that is no fault.
 WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wvla -Wstrict-prototypes -Wmissing-prototypes \
        $(if $(findstring clang,$(CC)),-Wno-pass-failed)
-PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto
+PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng
 CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
 LIBS = $(shell pkg-config --libs $(PKGS)) -lsleef -lm
 

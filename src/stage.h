@@ -8,7 +8,7 @@
    Items of the board are endless signals, of which a window is held: `per_frame` values for each audio sample (frame). Frames before 0
    are zero. A stage says when it is opened how far around a frame it reads (back, ahead); the runner then lets everything before it run
    that much ahead in time, so that no stage delays or buffers for another. Values of sub-sampled items belong to the instant
-   (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_SLOPE and ITEM_SUBFORCE, which are exact means over the interval that starts there. */
+   (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_CURVATURE_Y, ITEM_SLOPE and ITEM_SUBFORCE, which are exact means over the interval that starts there. */
 #ifndef STAGE_H
 #define STAGE_H
 #include <assert.h>
@@ -20,20 +20,24 @@
 #include "scene/scene.h"
 
 enum item {
-    ITEM_POSITION,      /* m, signed distance along the stroke     over per frame */
-    ITEM_VELOCITY,      /* m/s along the stroke, signed            over per frame */
-    ITEM_ACCELERATION,  /* m/s^2 along the stroke                  over per frame */
-    ITEM_LOAD,          /* N, normal force; negative: lifted off   over per frame */
-    ITEM_ALPHA,         /* m, limiter                              over per frame */
-    ITEM_SURFACE,       /* board->profile, read at any place       no signal      */
-    ITEM_CURVATURE,     /* 1/m, limited curvature (paper mode)     over per frame */
-    ITEM_SLOPE,         /* mean |slope|^beta2 (paper mode)         over per frame */
-    ITEM_SUBFORCE,      /* N, contact force                        over per frame */
-    ITEM_FORCE,         /* N                                       1 per frame    */
-    ITEM_SURFACE_SOUND, /* the response's quantity                 1 per frame    */
-    ITEM_SCRAPER_SOUND, /* the response's quantity                 1 per frame    */
-    ITEM_SOUND,         /* the response's quantity                 1 per frame    */
-    ITEM_TABLE,         /* diagnostics rows                        no signal      */
+    ITEM_POSITION,      /* m, signed distance u along the path          over per frame */
+    ITEM_VELOCITY,      /* m/s, du/dt                                   over per frame */
+    ITEM_ACCELERATION,  /* m/s^2, d2u/dt2                               over per frame */
+    ITEM_X, ITEM_Y,     /* m, in the plane (of a motion that is not straight) over per frame */
+    ITEM_VX, ITEM_VY,   /* m/s                                          over per frame */
+    ITEM_AX, ITEM_AY,   /* m/s^2                                        over per frame */
+    ITEM_LOAD,          /* N, normal force; negative: lifted off        over per frame */
+    ITEM_ALPHA,         /* m, limiter                                   over per frame */
+    ITEM_SURFACE,       /* board->relief, read at any place             no signal      */
+    ITEM_CURVATURE,     /* 1/m, limited curvature S_xx (paper force)    over per frame */
+    ITEM_CURVATURE_Y,   /* 1/m, S_yy (paper force in the plane)         over per frame */
+    ITEM_SLOPE,         /* mean |slope|^beta2 (paper force)             over per frame */
+    ITEM_SUBFORCE,      /* N, contact force                             over per frame */
+    ITEM_FORCE,         /* N                                            1 per frame    */
+    ITEM_SURFACE_SOUND, /* the response's quantity                      1 per frame    */
+    ITEM_SCRAPER_SOUND, /* the response's quantity                      1 per frame    */
+    ITEM_SOUND,         /* the response's quantity                      1 per frame    */
+    ITEM_TABLE,         /* diagnostics rows                             no signal      */
     ITEM_COUNT
 };
 #define ITEM_BIT(item) (1u << (item))
@@ -41,7 +45,8 @@ enum item {
 struct trajectory;
 struct load_law;
 struct limiter_law;
-struct profile;
+struct relief;
+struct height_map;
 struct table_sink;
 
 struct signal {
@@ -59,7 +64,8 @@ struct board {
     const struct trajectory *trajectory;
     const struct load_law *load;
     const struct limiter_law *limiter;
-    struct profile *profile;
+    struct relief *relief;
+    const struct height_map *height_map; /* NULL: none */
     struct table_sink *table;
     int quantity;           /* enum modes_quantity of the sound; -1: not stated (WAV responses) */
     double ring;            /* s, until the slowest response has decayed by 80 dB */

@@ -70,8 +70,9 @@ static const struct args_option options[] = {CMD_SCENE_OPTIONS, {0}};
 const struct command check_command = {
     .name = "check",
     .summary = "finds what is wrong with scenes, without rendering them",
-    .does = "Reads each scene and says all that is wrong with it: unknown keys, wrong units, values out of range; then the first that is wrong with "
-            "the rest: files that are missing, damaged or have changed, a motion that leaves them, columns that are not there, nothing to compute. "
+    .does = "Reads each scene and says all that is wrong with its text, each fault with its line: unknown keys, wrong units, values out of range or at odds "
+            "with each other, columns that are not there, nothing to compute. If nothing is, then the first that is wrong with the rest: files that are "
+            "missing, damaged or have changed, a motion that leaves them. "
             "Only what shows in the sound itself, such as clipping, it cannot know. "
             "A scene without fault is reported on standard output as ok. The exit code is the worst of the scenes'.",
     .operands = "SCENE...",

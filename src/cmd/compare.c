@@ -76,7 +76,7 @@ static bool gather_limits(const struct cmd_call *c, struct compare_ask *ask, str
 {
     static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
     return args_number(&c->args, "snr", any, &ask->snr, e) && args_number(&c->args, "lsb", positive, &ask->lsb, e) &&
-           args_number(&c->args, "third-octave", positive, &ask->third_octave, e);
+           args_number(&c->args, "third-octave", positive, &ask->third_octave, e) && args_number(&c->args, "within", positive, &ask->within, e);
 }
 
 /* The first of the options that was given, or NULL. */
@@ -91,7 +91,7 @@ static const char *given_of(const struct cmd_call *c, const char *const *names)
 /* FILE --hash HEX. */
 static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, struct err *e)
 {
-    static const char *const others[] = {"exact", "snr", "lsb", "third-octave", "tolerance", "column", "abs", "rel", NULL};
+    static const char *const others[] = {"exact", "snr", "lsb", "third-octave", "within", "tolerance", "column", "abs", "rel", NULL};
     const char *other = given_of(c, others);
     char *hex = arena_text(c->arena, args_value(&c->args, "hash"));
     bool sound;
@@ -111,12 +111,12 @@ static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, s
 
 static int compare_run(struct cmd_call *c, struct err *e)
 {
-    static const char *const for_sounds[] = {"snr", "lsb", "third-octave", NULL};
+    static const char *const for_sounds[] = {"snr", "lsb", "third-octave", "within", NULL};
     static const char *const for_tables[] = {"tolerance", "column", "abs", "rel", NULL};
     const char **files = c->args.operands, *sounds = given_of(c, for_sounds), *tables = given_of(c, for_tables);
     bool a, b, exact = args_given(&c->args, "exact");
     struct compare_ask ask = {.files = {files[0], files[1]}, .json = args_given(&c->args, "json"), .quiet = args_given(&c->args, "quiet"),
-                              .exact = exact || (!sounds && !tables), .snr = NAN, .lsb = NAN, .third_octave = NAN, .arena = c->arena};
+                              .exact = exact || (!sounds && !tables), .snr = NAN, .lsb = NAN, .third_octave = NAN, .within = 60, .arena = c->arena};
     if (args_given(&c->args, "hash"))
         return compare_run_hash(c, &ask, e);
     if (c->args.n_operands < 2) {
@@ -130,6 +130,8 @@ static int compare_run(struct cmd_call *c, struct err *e)
                 b ? "sound" : "table");
     else if (a ? tables != NULL : sounds != NULL)
         err_set(e, ERR_USAGE, "--%s is for %s, and these are %s", a ? tables : sounds, a ? "tables" : "sounds", a ? "sounds" : "tables");
+    else if (args_given(&c->args, "within") && !args_given(&c->args, "third-octave"))
+        err_set(e, ERR_USAGE, "--within says which bands --third-octave compares: give both");
     else if (exact && tables)
         err_set(e, ERR_USAGE, "--exact leaves no room for --%s", tables);
     if (e->kind || !gather_limits(c, &ask, e) || !gather_tolerances(c, &ask, e))
@@ -141,7 +143,8 @@ static const struct args_option options[] = {
     {"exact", 'e', NULL, false, "every sample or cell must be the same (the default when no limit is given)"},
     {"snr", 0, "DB", false, "sounds: the difference is at least this far below A (signal-to-noise ratio)"},
     {"lsb", 0, "N", false, "sounds: no sample differs by more than N steps of the coarser integer encoding"},
-    {"third-octave", 0, "DB", false, "sounds: no third-octave band within 60 dB of the loudest differs by more; alone, rates may differ"},
+    {"third-octave", 0, "DB", false, "sounds: no third-octave band near the loudest differs by more (see --within); alone, rates may differ"},
+    {"within", 0, "DB", false, "sounds: third-octave bands farther than this below the loudest are left out (60)"},
     {"tolerance", 't', "FILE", false, "tables: a table column,abs,rel of tolerances; the column * stands for all others"},
     {"column", 'c', "NAME=ABS,REL", true, "tables: the tolerance of one column; overrides the file"},
     {"abs", 0, "X", false, "tables: absolute tolerance of all columns not named; overrides the file's *"},

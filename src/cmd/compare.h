@@ -11,6 +11,7 @@ struct compare_ask {
     bool json, quiet;
     bool exact;                      /* asked for, or nothing else is                       */
     double snr, lsb, third_octave;   /* sounds: limits, dB, steps, dB; NAN: not asked for   */
+    double within;                   /* dB below the loudest third-octave band that still counts */
     const struct table_distance_tolerance *tolerances; /* tables; ends with a column of NULL */
     struct arena *arena;
 };

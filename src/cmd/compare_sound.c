@@ -8,8 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double range_db = 60; /* bands farther below the loudest are not heard beside it */
-
 const char *compare_sound_place(const struct verdict *v, const struct distance_place *p)
 {
     return arena_format(v->ask->arena, "frame %zu (%.6f s), channel %d: A %.9g, B %.9g", p->frame, (double)p->frame / v->sound[0].rate,
@@ -120,7 +118,7 @@ static bool measure(struct verdict *v, struct err *e)
     if (v->equal)
         v->bands.worst_db = 0;
     else if (v->alike)
-        distance_bands(a, b, range_db, v->ask->arena, &v->bands);
+        distance_bands(a, b, v->ask->within, v->ask->arena, &v->bands);
     judge_all(v);
     return true;
 }

@@ -20,6 +20,12 @@
     ON("motion.path", "back_and_forth"), ON("motion.from", "[0 cm, 0 cm]"), ON("motion.to", "[4.5 cm, 0 cm]"), ON("motion.rate", "2 Hz"), \
         ON("motion.duration", "2 s")
 #define LINE ON("motion.path", "line"), ON("motion.from", "[0 cm, 0 cm]"), ON("motion.to", "[10 cm, 0 cm]")
+#define CIRCLE                                                                                                        \
+    ON("motion.path", "circle"), ON("motion.center", "[5 cm, 5 cm]"), ON("motion.radius", "2 cm"), ON("motion.turns", "3"), \
+        ON("motion.speed", "20 cm/s")
+#define STROKE_OF_A_PEN                                                                                               \
+    ON("motion.path", "spline"), ON("motion.points", "[[0 cm, 0 cm], [3 cm, 2 cm], [5 cm, 0 cm], [3 cm, -1 cm], [8 cm, 1 cm]]"), \
+        ON("motion.duration", "1.5 s"), ON("motion.law", "two_thirds")
 #define HAND ON("grip.angle", "30 deg"), ON("grip.azimuth", "0 deg"), ON("grip.friction", "0.3")
 #define OUTPUT ON("output.sample_rate", "48 kHz"), ON("output.encoding", "pcm24"), ON("output.diagnostics.rate", "1 kHz")
 #define TAIL OUTPUT, ON("accuracy", "standard"), END
@@ -33,6 +39,20 @@ static const struct keys_line stroke[] = {ON("rasp", "1"), ON("title", "one stro
 
 static const struct keys_line grip[] = {ON("rasp", "1"), ON("title", "a tool held in the hand"), ON("seed", "1"), ROUGHNESS,
                                         SURFACE_RESPONSE, SCRAPER, STROKES, HAND, OFF("contact.limiter.force_range", "[0.2 N, 5 N]"), TAIL};
+
+static const struct keys_line circle[] = {ON("rasp", "1"), ON("title", "round and round on a ribbed plate"), ON("seed", "1"), ROUGHNESS,
+                                          ON("surface.ridges.spacing", "1 mm"), ON("surface.ridges.height", "20 um"),
+                                          ON("surface.ridges.direction", "90 deg"), SURFACE_RESPONSE, SCRAPER, CIRCLE, HAND, TAIL};
+
+static const struct keys_line pen[] = {ON("rasp", "1"), ON("title", "a curve as a hand draws it"), ON("seed", "1"), ROUGHNESS,
+                                       ON("surface.roughness.grain", "5"), ON("surface.roughness.grain_direction", "0 deg"), SURFACE_RESPONSE, SCRAPER,
+                                       STROKE_OF_A_PEN, OFF("load.constant", "1.5 N"), TAIL};
+
+static const struct keys_line sandpaper[] = {ON("rasp", "1"), ON("title", "scribbling on sandpaper"), ON("seed", "1"),
+                                             ON("surface.roughness.rms", "2 um"), ON("surface.grit.density", "30 /mm^2"),
+                                             ON("surface.grit.diameter", "125 um"), ON("surface.grit.height", "40 um"), SURFACE_RESPONSE, SCRAPER,
+                                             ON("motion.path", "scribble"), ON("motion.size", "[6 cm, 4 cm]"), ON("motion.rate", "2 Hz"),
+                                             ON("motion.duration", "2 s"), TAIL};
 
 static const struct keys_line profile[] = {ON("rasp", "1"),
                                            ON("title", "a measured surface"),
@@ -75,9 +95,21 @@ const struct starter starters_table[] = {
      "The tool's inertia presses it down where it turns round (equations 8 and 9), and a harder pressed tool follows the surface more "
      "closely (equation 7). For sound, give the surface or the scraper a response.",
      grip, {NULL}, NULL},
+    {"circle", "round and round over ridges, with a hand's force",
+     "On a curve the contact meets the ridges at every angle, and the hand's force turns with the acceleration. For sound, give the surface or the "
+     "scraper a response.",
+     circle, {NULL}, NULL},
+    {"pen", "a curve through points, drawn as a hand draws it",
+     "Slow in the bends, fast where the curve is straight: the two-thirds power law. On a grain, as of wood, along x. For sound, give the surface or "
+     "the scraper a response.",
+     pen, {NULL}, NULL},
+    {"sandpaper", "a scribble over grit",
+     "Grains lie scattered over fine roughness; the folder surfaces/ has such recipes with measured figures, to be named by surface.recipe. For sound, "
+     "give the surface or the scraper a response.",
+     sandpaper, {NULL}, NULL},
     {"profile", "a measured height profile in place of a synthetic one",
-     "Renders with a synthetic profile. For a measured one, remove the # before height_map, pitch and height_scale, and remove the "
-     "section roughness: exactly one of the two may be given.",
+     "Renders with synthetic roughness. For a measured profile, remove the # before height_map (and pitch and height_scale, which files other than NPY, "
+     "PNG and CSV hold themselves), and remove the section roughness: else the two add up.",
      profile, {NULL}, NULL},
     {"paper", "the contact force exactly as the 2021 paper prints it", "Equations 2 and 3 as printed, instead of the default, which keeps momentum.", paper,
      {NULL}, NULL},
@@ -121,7 +153,8 @@ void starters_print(FILE *f, const struct starter *s, struct arena *a)
 {
     fprintf(f, "# ");
     wrap_print(f, s->about, 2, "# ");
-    fprintf(f, "# Every key: rasp explain. One key: rasp explain motion.rate. A bare number is in SI units.\n\n");
+    fprintf(f, "# Every key: rasp explain. One key: rasp explain motion.rate. A bare number is in SI units.\n"
+               "# Responses to begin with are in irs/ of rasp's folder (installed: share/rasp/), surfaces in surfaces/.\n\n");
     print_lines(f, s->head, &(struct keys_style){.comments = true}, a);
     if (s->items[0])
         fputs("\ncontacts:\n", f);

@@ -2,8 +2,8 @@
 #include "convolution/ring.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "scene/rules.h"
 #include "trajectory/trajectory.h"
 
 static const struct response *ring_given(const struct contact *c, enum ring_body body)
@@ -13,8 +13,7 @@ static const struct response *ring_given(const struct contact *c, enum ring_body
 
 bool ring_is_table(const struct response *given)
 {
-    size_t n = strlen(given->file);
-    return n > 4 && strcmp(given->file + n - 4, ".csv") == 0;
+    return rules_is_table(given);
 }
 
 bool ring_wanted(const struct contact *c, enum ring_body body, int engine)
@@ -46,20 +45,31 @@ static bool ring_same_quantity(const struct ring *g, struct board *b, struct err
     return true;
 }
 
-/* The hull of places on a line is convex, and so is a straight motion: its two ends tell. */
+static bool ring_beyond(const struct ring *g, const struct stage_run *r, const double place[2], double out, struct err *e)
+{
+    return err_set(e, ERR_SCENE,
+                   "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s (%g to %g m along their line); "
+                   "move it, or set surface.extrapolate: nearest",
+                   r->contact->name, place[0], place[1], out, g->given->file, g->modes.along[0], g->modes.along[g->modes.places - 1]);
+}
+
+/* The places' hull is convex. A straight motion is inside when its ends are; of a curved one as many instants are looked at as show all of
+   its shape: what is left out between two of them is far less than the distance of two places. */
 static bool ring_inside(const struct ring *g, const struct stage_run *r, struct err *e)
 {
-    const struct motion *m = &r->contact->motion;
-    const double *ends[2] = {m->from, m->to};
+    const struct trajectory *tr = r->board->trajectory;
     double *re = ARENA_TAKE(r->arena, double, g->modes.n), *im = ARENA_TAKE(r->arena, double, g->modes.n);
-    for (int k = 0; k < 2 && g->moves && g->given->extrapolate == EXTRAPOLATE_ERROR; k++) {
-        double out = modes_gains_at(&g->modes, ends[k][0], ends[k][1], re, im);
+    long steps = tr->straight ? 1 : tr->detail;
+    for (long i = 0; i <= steps; i++) {
+        double t = tr->duration * (double)i / (double)steps, p[2];
+        if (tr->straight)
+            for (int xy = 0; xy < 2; xy++)
+                p[xy] = tr->from[xy] + tr->reach[i] * tr->e[xy];
+        else
+            trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
+        double out = modes_gains_at(&g->modes, p[0], p[1], re, im);
         if (out > 1e-9)
-            return err_set(e, ERR_SCENE,
-                           "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s (%g to %g m along their line); "
-                           "move it, or set surface.extrapolate: nearest",
-                           r->contact->name, ends[k][0], ends[k][1], out, g->given->file, g->modes.along[0],
-                           g->modes.along[g->modes.places - 1]);
+            return ring_beyond(g, r, p, out, e);
     }
     return true;
 }
@@ -77,15 +87,16 @@ bool ring_read_modes(struct ring *g, struct stage_run *r, struct err *e)
         board_warn(r->board, arena_format(r->arena, "%s: %d of its strongest modes lie above 0.499 times the sample rate and do not ring",
                                           g->given->file, high));
     g->moves = g->body == RING_SURFACE && g->modes.places > 1;
-    return ring_same_quantity(g, r->board, e) && ring_inside(g, r, e);
+    return ring_same_quantity(g, r->board, e) && (!g->moves || g->given->extrapolate != EXTRAPOLATE_ERROR || ring_inside(g, r, e));
 }
 
 void ring_gains_at(const struct ring *g, const struct board *b, double t, double *re, double *im)
 {
-    const struct trajectory *tr = b->trajectory;
-    double u = g->moves ? trajectory_continued(tr, t) : 0;
+    double place[2] = {0, 0};
     if (g->body == RING_SURFACE) {
-        modes_gains_at(&g->modes, tr->from[0] + u * tr->e[0], tr->from[1] + u * tr->e[1], re, im);
+        if (g->moves)
+            trajectory_continued(b->trajectory, t, place);
+        modes_gains_at(&g->modes, place[0], place[1], re, im); /* of one place: its gains, wherever the contact is */
         return;
     }
     for (int i = 0; i < g->modes.n; i++) {

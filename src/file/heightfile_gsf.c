@@ -5,19 +5,20 @@
 
    XRes, YRes: numbers of columns and rows, must be there. XReal, YReal: width and height in XYUnits; the format's default of 1 is no
    size anyone measured, so a file without them does not say its pitch. ZUnits: of the heights. Without units: metres.
-   Other names (Title, XOffset ...) do not matter here. */
+   NaN: missing. Other names (XOffset ...) do not matter here. */
 #include "file/heightfile_gsf.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/heightfile_unit.h"
+
 static const char gsf_magic[] = "Gwyddion Simple Field 1.0";
 
-enum { GSF_XRES, GSF_YRES, GSF_XREAL, GSF_YREAL, GSF_XYUNITS, GSF_ZUNITS, GSF_NAMES };
+enum { GSF_XRES, GSF_YRES, GSF_XREAL, GSF_YREAL, GSF_XYUNITS, GSF_ZUNITS, GSF_TITLE, GSF_NAMES };
 
-static const char *const gsf_names[GSF_NAMES] = {"XRes", "YRes", "XReal", "YReal", "XYUnits", "ZUnits"};
+static const char *const gsf_names[GSF_NAMES] = {"XRes", "YRes", "XReal", "YReal", "XYUnits", "ZUnits", "Title"};
 
 struct gsf {
     const char *path;
@@ -26,11 +27,6 @@ struct gsf {
     const char *end;              /* of the header: its first NUL */
     struct err *e;
 };
-
-static const struct gsf_unit {
-    const char *name;
-    double per_metre;
-} gsf_units[] = {{"", 1}, {"m", 1}, {"mm", 1e3}, {"um", 1e6}, {"\xc2\xb5m", 1e6}, {"\xce\xbcm", 1e6}, {"\xb5m", 1e6}, {"nm", 1e9}};
 
 static char *gsf_trim(char *s)
 {
@@ -98,13 +94,7 @@ static bool gsf_resolution(const struct gsf *g, int name, size_t *n)
 /* How many of the unit make a metre. */
 static bool gsf_unit(const struct gsf *g, int name, double *per_metre)
 {
-    const char *s = g->value[name] ? g->value[name] : "";
-    for (size_t i = 0; i < sizeof gsf_units / sizeof gsf_units[0]; i++)
-        if (!strcmp(s, gsf_units[i].name)) {
-            *per_metre = gsf_units[i].per_metre;
-            return true;
-        }
-    return gsf_bad(g, name, "a length (m, mm, um, nm)");
+    return heightfile_unit(g->value[name] ? g->value[name] : "", per_metre) || gsf_bad(g, name, "a length (m, mm, um, nm)");
 }
 
 static bool gsf_pitch(const struct gsf *g, int name, size_t n, double *pitch)
@@ -138,14 +128,14 @@ static bool gsf_data(const struct gsf *g, const struct bytes *b, struct arena *a
     if (b->n < start || there != 4 * n)
         return err_set(g->e, ERR_SCENE, "%s: %zu x %zu float32 (%zu bytes) should follow byte %zu, and %zu bytes do", g->path, h->columns,
                        h->rows, 4 * n, start, there);
-    h->z = ARENA_TAKE(a, double, n);
-    for (size_t i = 0; i < n; i++) {
-        const unsigned char *u = (const unsigned char *)b->at + start + 4 * i;
-        uint32_t w = u[0] | (uint32_t)u[1] << 8 | (uint32_t)u[2] << 16 | (uint32_t)u[3] << 24;
-        float v;
-        memcpy(&v, &w, 4);
-        h->z[i] = v / per_metre;
-    }
+    if (!heightfile_room(g->path, h, a, g->e))
+        return false;
+    for (size_t i = 0; i < n; i++)
+        h->z[i] = heightfile_unit_f32(b->at + start + 4 * i) / per_metre;
+    h->title = g->value[GSF_TITLE] ? arena_text(a, g->value[GSF_TITLE]) : NULL;
+    h->format = "GSF";
+    h->metric = true;
+    h->bits = 24;
     return true;
 }
 

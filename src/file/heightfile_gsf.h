@@ -5,7 +5,7 @@
 #include "file/heightfile.h"
 
 bool heightfile_gsf_is(const struct bytes *b);
-/* Fills everything, in metres. Does not look for holes. */
+/* Fills everything, in metres.. */
 bool heightfile_gsf_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e);
 
 #endif

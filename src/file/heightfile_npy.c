@@ -156,7 +156,9 @@ static const struct npy_type {
     char name[3];
     size_t size;
     double (*value)(uint64_t);
-} npy_types[] = {{"f4", 4, npy_f4}, {"f8", 8, npy_f8}, {"i2", 2, npy_i2}, {"u2", 2, npy_u2}, {"i4", 4, npy_i4}};
+    int bits;
+    double step;
+} npy_types[] = {{"f4", 4, npy_f4, 24, 0}, {"f8", 8, npy_f8, 53, 0}, {"i2", 2, npy_i2, 16, 1}, {"u2", 2, npy_u2, 16, 1}, {"i4", 4, npy_i4, 32, 1}};
 
 static const struct npy_type *npy_type(const struct npy *p)
 {
@@ -180,7 +182,11 @@ static bool npy_data(const struct npy *p, struct arena *a, struct heightfile *h)
     if (__builtin_mul_overflow(h->rows, h->columns, &n) || __builtin_mul_overflow(n, type->size, &bytes) || bytes != there)
         return err_set(p->e, ERR_SCENE, "%s: %zu x %zu numbers of %zu bytes should follow byte %td, and %zu bytes do", p->path, h->rows,
                        h->columns, type->size, p->at - p->start, there);
-    h->z = ARENA_TAKE(a, double, n);
+    if (!heightfile_room(p->path, h, a, p->e))
+        return false;
+    h->format = "NPY";
+    h->bits = type->bits;
+    h->step = type->step;
     for (size_t i = 0; i < n; i++)
         h->z[i] = type->value(npy_word_at((const unsigned char *)p->at + i * type->size, type->size, p->descr[0] == '>'));
     return true;

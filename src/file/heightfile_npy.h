@@ -5,7 +5,7 @@
 #include "file/heightfile.h"
 
 bool heightfile_npy_is(const struct bytes *b);
-/* Fills columns, rows, z; the pitch is NAN. Does not look for holes. */
+/* Fills columns, rows, z; the pitch is NAN. */
 bool heightfile_npy_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e);
 
 #endif

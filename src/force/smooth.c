@@ -4,7 +4,7 @@
      sigma(t) = contact.smoothing alpha(t) / 0.03 m        s
 
    Directional force: each element of force spreads with its own sigma, y(t) = integral f(t') G(t - t'; sigma(t')) dt', so that momentum is
-   kept. Paper: the same on the limited curvature. The paper's "average half window size of 5 samples at a sampling rate of 44.1kHz" is read
+   kept. Paper: the same on each limited curvature, sigma in proportion to its own alpha. The paper's "average half window size of 5 samples at a sampling rate of 44.1kHz" is read
    as an 11-sample window of 5 sigma: 50 us; in seconds here, so that the sound does not depend on the sample rate.
 
    Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes every 64 sub-samples and
@@ -18,6 +18,8 @@
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/limiter.h"
+#include "surface/relief.h"
+#include "trajectory/load.h"
 
 enum { SMOOTH_NODE = 64 };
 
@@ -51,9 +53,14 @@ static bool smooth_curvature_wanted(const struct contact *c, const struct scene 
     return c->contact.smoothing > 0 && c->contact.force == FORCE_PAPER;
 }
 
+static bool smooth_curvature_y_wanted(const struct contact *c, const struct scene *s)
+{
+    return smooth_curvature_wanted(c, s) && rules_plane(c);
+}
+
 static double smooth_work(const struct contact *c, const struct scene *s)
 {
-    bool varies = c->grip.given && c->contact.limiter.curve == LIMITER_TANH;
+    bool varies = load_varies(c) && c->contact.limiter.curve == LIMITER_TANH;
     double over = s->accuracy.oversampling, alpha = varies ? c->contact.limiter.alpha_max : smooth_alpha(c, limiter_constant(c));
     double taps = 13 * c->contact.smoothing * alpha / 0.03 * s->output.sample_rate * over + 1;
     return taps * over * (varies ? 0.8 : 0.35);
@@ -66,17 +73,18 @@ static bool smooth_too_wide(const struct stage_run *r, double sigma, struct err 
                    "%g s make sense; lower contact.smoothing or contact.limiter's alpha", r->contact->name, sigma, RULES_SMOOTHING_WIDEST);
 }
 
-static bool smooth_open_item(struct stage_run *r, enum item item, struct err *e)
+/* ratio: sigma over that of the first axis. */
+static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, struct err *e)
 {
     struct smooth *s = ARENA_TAKE(r->arena, struct smooth, 1);
     struct board *b = r->board;
     const struct contact *c = r->contact;
     s->item = item;
     s->varies = b->limiter != NULL;
-    s->per_alpha = c->contact.smoothing / 0.03 * b->rate * b->over;
+    s->per_alpha = ratio * c->contact.smoothing / 0.03 * b->rate * b->over;
     double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
-    if (rules_sigma(&c->contact, widest) > RULES_SMOOTHING_WIDEST)
-        return smooth_too_wide(r, rules_sigma(&c->contact, widest), e);
+    if (ratio * rules_sigma(&c->contact, widest) > RULES_SMOOTHING_WIDEST)
+        return smooth_too_wide(r, ratio * rules_sigma(&c->contact, widest), e);
     s->still = filter_gaussian(r->arena, s->per_alpha * widest);
     s->reach = s->still.reach;
     r->ahead = (s->reach + (s->varies ? SMOOTH_NODE : 0)) / b->over + 2;
@@ -93,12 +101,17 @@ static bool smooth_open_item(struct stage_run *r, enum item item, struct err *e)
 
 static bool smooth_open(struct stage_run *r, struct err *e)
 {
-    return smooth_open_item(r, ITEM_SUBFORCE, e);
+    return smooth_open_item(r, ITEM_SUBFORCE, 1, e);
 }
 
 static bool smooth_curvature_open(struct stage_run *r, struct err *e)
 {
-    return smooth_open_item(r, ITEM_CURVATURE, e);
+    return smooth_open_item(r, ITEM_CURVATURE, 1, e);
+}
+
+static bool smooth_curvature_y_open(struct stage_run *r, struct err *e)
+{
+    return smooth_open_item(r, ITEM_CURVATURE_Y, r->contact->contact.limiter.ratio_y, e);
 }
 
 /* Keeps raw values from `keep` on and adds those up to `end`. */
@@ -198,6 +211,12 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
     return true;
 }
 
+/* A surface that turned out to have one axis has no second curvature: it stays 0. */
+static bool smooth_curvature_y_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    return r->board->relief->along != ALONG_PLANE || smooth_run(r, from, to, e);
+}
+
 const struct stage smooth_stage = {
     .name = "smooth",
     .does = "Gaussian smoothing of the force, sigma in proportion to alpha",
@@ -224,4 +243,18 @@ const struct stage smooth_curvature_stage = {
     .work = smooth_work,
     .open = smooth_curvature_open,
     .run = smooth_run,
+};
+
+const struct stage smooth_curvature_y_stage = {
+    .name = "smooth_curvature_y",
+    .does = "Gaussian smoothing of the limited curvature's second axis",
+    .paper = "000 sec. 2.2",
+    .idle = "contact.smoothing is 0, contact.force is directional, or the surface has one axis",
+    .needs = ITEM_BIT(ITEM_CURVATURE_Y),
+    .takes = ITEM_BIT(ITEM_ALPHA),
+    .gives = ITEM_BIT(ITEM_CURVATURE_Y),
+    .wanted = smooth_curvature_y_wanted,
+    .work = smooth_work,
+    .open = smooth_curvature_y_open,
+    .run = smooth_curvature_y_run,
 };

@@ -31,6 +31,7 @@ struct force_table {
     double sum, squares, peak;  /* of the row being filled */
     long samples, lift_offs, row, rows;
     double alpha;
+    const struct load_law *load;
 };
 
 static int column_find(const char *name)
@@ -68,19 +69,13 @@ static bool column_asked(const struct contact *c, const struct scene *s, int fir
 static unsigned force_table_asks(const struct contact *c, const struct scene *s)
 {
     unsigned items = 0;
-    if (column_asked(c, s, STROKE, STROKE) || column_asked(c, s, X, Y))
-        items |= ITEM_BIT(ITEM_POSITION);
-    if (column_asked(c, s, SPEED, VELOCITY))
-        items |= ITEM_BIT(ITEM_VELOCITY);
-    if (column_asked(c, s, ACCELERATION, ACCELERATION))
-        items |= ITEM_BIT(ITEM_ACCELERATION);
-    if (c->grip.given && (column_asked(c, s, NORMAL, NORMAL) || column_asked(c, s, LIFT_OFFS, LIFT_OFFS)))
+    if (load_varies(c) && (column_asked(c, s, NORMAL, NORMAL) || column_asked(c, s, LIFT_OFFS, LIFT_OFFS)))
         items |= ITEM_BIT(ITEM_LOAD);
-    if (c->grip.given && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA))
+    if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA))
         items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK))
         items |= ITEM_BIT(ITEM_FORCE);
-    return items ? items : ITEM_BIT(ITEM_POSITION);
+    return items | ITEM_BIT(ITEM_POSITION); /* the motion: a row reads it at its own instant */
 }
 
 static bool force_table_wanted(const struct contact *c, const struct scene *s)
@@ -119,12 +114,20 @@ static bool rate_possible(const struct stage_run *r, struct err *e)
                    o->diagnostics.rate, o->sample_rate);
 }
 
+/* The law of a varying load is on the board; a constant one's is needed for approach and release. */
+static bool load_find(struct force_table *t, const struct stage_run *r, struct err *e)
+{
+    struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
+    t->load = r->board->load ? r->board->load : own;
+    return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, own, e);
+}
+
 static bool force_table_open(struct stage_run *r, struct err *e)
 {
     struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
     const char *comma = "";
     r->state = t;
-    if (!rate_possible(r, e) || !columns_choose(t, r, e))
+    if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e))
         return false;
     t->alpha = limiter_constant(r->contact);
     t->rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
@@ -138,26 +141,20 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     return true;
 }
 
-/* Kinematics, normal force and alpha at the row's instant. */
+/* Kinematics, normal force and alpha at the row's instant. alpha is that of the force without approach and release. */
 static void row_instant(struct force_table *t, const struct stage_run *r, double at)
 {
     const struct board *b = r->board;
-    const struct trajectory *tr = b->trajectory;
-    double *v = t->value, u, velocity, acceleration;
-    trajectory_at(tr, 1, &at, &u, &velocity, &acceleration);
+    double *v = t->value, load;
+    trajectory_at(b->trajectory, 1, &at,
+                  (struct trajectory_out){.u = &v[STROKE], .du = &v[VELOCITY], .ddu = &v[ACCELERATION], .x = &v[X], .y = &v[Y], .vx = &v[VX], .vy = &v[VY]});
     v[TIME] = r->contact->start + at;
-    v[STROKE] = u;
-    v[X] = tr->from[0] + u * tr->e[0];
-    v[Y] = tr->from[1] + u * tr->e[1];
-    v[VELOCITY] = velocity;
-    v[SPEED] = fabs(velocity);
-    v[ACCELERATION] = acceleration;
-    v[NORMAL] = b->load ? fmax(load_at(b->load, acceleration), 0)
-                        : isnan(r->contact->load.constant) ? r->contact->scraper.mass * r->contact->contact.gravity
-                                                           : r->contact->load.constant;
+    v[SPEED] = fabs(v[VELOCITY]);
+    load = fmax(load_of(t->load, b->trajectory, at), 0);
+    v[NORMAL] = load * load_lowered(t->load, at);
     v[ALPHA] = t->alpha;
     if (b->limiter)
-        limiter_alpha(b->limiter, 1, &v[NORMAL], &v[ALPHA]);
+        limiter_alpha(b->limiter, 1, &load, &v[ALPHA]);
 }
 
 static void row_write(struct force_table *t, FILE *out)
@@ -170,7 +167,7 @@ static void row_write(struct force_table *t, FILE *out)
     t->value[LIFT_OFFS] = (double)t->lift_offs;
     for (int k = 0; k < COLUMNS; k++)
         if (t->wanted[k]) {
-            fprintf(out, "%s%.9g", comma, t->value[k]);
+            fprintf(out, "%s%.9g", comma, t->value[k] + 0.0); /* not -0 */
             comma = ",";
         }
     fputc('\n', out);

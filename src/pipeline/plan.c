@@ -5,8 +5,12 @@
 static const char *const plan_names[ITEM_COUNT] = {
     [ITEM_POSITION] = "position",           [ITEM_VELOCITY] = "velocity",
     [ITEM_ACCELERATION] = "acceleration",   [ITEM_LOAD] = "load",
+    [ITEM_X] = "x",                         [ITEM_Y] = "y",
+    [ITEM_VX] = "vx",                       [ITEM_VY] = "vy",
+    [ITEM_AX] = "ax",                       [ITEM_AY] = "ay",
     [ITEM_ALPHA] = "alpha",                 [ITEM_SURFACE] = "surface",
     [ITEM_CURVATURE] = "curvature",         [ITEM_SLOPE] = "slope",
+    [ITEM_CURVATURE_Y] = "curvature_y",
     [ITEM_SUBFORCE] = "subforce",           [ITEM_FORCE] = "force",
     [ITEM_SURFACE_SOUND] = "surface_sound", [ITEM_SCRAPER_SOUND] = "scraper_sound",
     [ITEM_SOUND] = "sound",                 [ITEM_TABLE] = "table",

@@ -86,20 +86,34 @@ static bool render_runs(struct render *r, struct err *e)
     return render_quantities(r, e);
 }
 
+/* Frames of a contact's motion; of a muted one, which has no run, too. */
+static bool part_frames(const struct render *r, const struct part *p, long *frames, struct err *e)
+{
+    struct trajectory tr;
+    *frames = p->open ? p->run.board.moving : 0;
+    if (p->open)
+        return true;
+    if (!trajectory_make(&p->plan.contact->motion, trajectory_seed(r->scene, p->plan.contact), r->arena, &tr, e))
+        return err_at(e, "contact '%s'", p->plan.contact->name);
+    *frames = trajectory_frames(&tr, r->scene->output.sample_rate);
+    return true;
+}
+
 /* Length of the whole: the last motion's end, also of a muted contact, and the tail of what rings. */
-static void render_length(struct render *r)
+static bool render_length(struct render *r, struct err *e)
 {
     double tail = r->scene->output.tail, ring = 0, rate = r->scene->output.sample_rate;
-    long end = 0;
+    long end = 0, frames;
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct part *p = &r->parts[i];
-        struct trajectory tr = trajectory_make(&p->plan.contact->motion);
-        long stop = p->start + trajectory_frames(&tr, rate);
-        end = stop > end ? stop : end;
+        if (!part_frames(r, p, &frames, e))
+            return false;
+        end = p->start + frames > end ? p->start + frames : end;
         if (p->open)
             ring = fmax(ring, p->run.board.ring);
     }
     r->frames = end + (r->sounds ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
+    return true;
 }
 
 static bool render_open(struct render *r, struct err *e)
@@ -108,9 +122,8 @@ static bool render_open(struct render *r, struct err *e)
     r->scene_path = arena_format(r->arena, "%s.scene.yaml", r->base);
     r->summary_path = arena_format(r->arena, "%s.json", r->base);
     if (!inputs_check(r->scene, r->arena, e) || !render_plans(r, e) || !outfile_open(&r->effective, r->scene_path, e) ||
-        !outfile_open(&r->summary, r->summary_path, e) || !render_runs(r, e))
+        !outfile_open(&r->summary, r->summary_path, e) || !render_runs(r, e) || !render_length(r, e))
         return false;
-    render_length(r);
     if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->frames, r->arena, e)))
         return false;
     return true;

@@ -23,12 +23,16 @@
 #define TYPE_TEXT .type = KEY_TEXT
 #define TYPE_FILE .type = KEY_FILE
 #define TYPE_POINT .type = KEY_POINT
+#define TYPE_POINTS .type = KEY_POINTS
 #define TYPE_RANGE .type = KEY_RANGE
 #define TYPE_LIST .type = KEY_LIST
 #define TYPE_CHOICE(name) .type = KEY_CHOICE, .choices = words_##name
 #define TYPE_CHOICE_MOTION_PATH TYPE_CHOICE(MOTION_PATH)
 #define TYPE_CHOICE_SPEED_LAW TYPE_CHOICE(SPEED_LAW)
 #define TYPE_CHOICE_ALONG TYPE_CHOICE(ALONG)
+#define TYPE_CHOICE_HOLES TYPE_CHOICE(HOLES)
+#define TYPE_CHOICE_LEVELLING TYPE_CHOICE(LEVELLING)
+#define TYPE_CHOICE_RIDGE_SHAPE TYPE_CHOICE(RIDGE_SHAPE)
 #define TYPE_CHOICE_OFF_MAP TYPE_CHOICE(OFF_MAP)
 #define TYPE_CHOICE_CONTACT_KIND TYPE_CHOICE(CONTACT_KIND)
 #define TYPE_CHOICE_FORCE_KIND TYPE_CHOICE(FORCE_KIND)
@@ -60,7 +64,7 @@ const struct key_section keys_sections[] = {
 #undef ALTERNATIVE
 
 #define SECTION(...)
-#define ALTERNATIVE(n, ...) {.least = n, .paths = {__VA_ARGS__}},
+#define ALTERNATIVE(lowest, highest, ...) {.least = lowest, .most = highest, .paths = {__VA_ARGS__}},
 const struct key_alternative keys_alternatives[] = {
 #include "scene/keys.def"
     {.paths = {NULL}}};
@@ -80,4 +84,42 @@ const struct key *keys_find(const char *path)
         if (strcmp(k->path, path) == 0)
             return k;
     return NULL;
+}
+
+const struct key *keys_decider(const struct key *k)
+{
+    for (const struct key *other = keys_table; k->applies && other->path; other++) {
+        size_t n = strlen(other->path);
+        const char *name = k->applies + (k->applies[0] == '!');
+        if (strncmp(name, other->path, n) == 0 && (name[n] == '=' || !name[n]))
+            return other;
+    }
+    return NULL;
+}
+
+const char *keys_words(const struct key *k)
+{
+    const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
+    return equals ? equals + 1 : NULL;
+}
+
+bool keys_applies_with(const struct key *k, const char *word)
+{
+    size_t n = strlen(word);
+    for (const char *w = keys_words(k); w; w = strchr(w, '|') ? strchr(w, '|') + 1 : NULL)
+        if (strncmp(w, word, n) == 0 && (w[n] == '|' || !w[n]))
+            return true;
+    return false;
+}
+
+bool keys_applies_beside(const struct key *k, bool given)
+{
+    return given == (k->applies[0] != '!');
+}
+
+_Static_assert(offsetof(struct motion, n_points) == offsetof(struct motion, points) + sizeof(const double *), "the number follows the points");
+
+int *keys_points_count(const void *field)
+{
+    return (int *)((char *)field + sizeof(const double *));
 }

@@ -1,6 +1,7 @@
 /* The rows of keys.def and choices.def as tables, for the reader, the effective scene, `explain`, `new` and the man page. */
 #ifndef SCENE_KEYS_H
 #define SCENE_KEYS_H
+#include <stdbool.h>
 #include <stddef.h>
 
 enum key_struct { KEY_SCENE, KEY_CONTACT };
@@ -13,13 +14,14 @@ enum key_type {
     KEY_TEXT,          /* const char *, NULL when not given               */
     KEY_FILE,          /* const char *, resolved path                     */
     KEY_POINT,         /* double[2]                                       */
+    KEY_POINTS,        /* const double *, [n][2], and int n, see below    */
     KEY_RANGE,         /* double[2], first < second, NAN when not given   */
     KEY_LIST,          /* const char **, NULL-terminated; NULL not given  */
     KEY_CHOICE         /* int, index into choices                         */
 };
 enum key_dimension {
-    KEY_NONE, KEY_LENGTH, KEY_TIME, KEY_FREQUENCY, KEY_MASS, KEY_FORCE, KEY_SPEED, KEY_ACCELERATION, KEY_ANGLE, KEY_DECIBEL,
-    KEY_LUFS, KEY_FORCE_COEFFICIENT, KEY_OUTPUT
+    KEY_NONE, KEY_LENGTH, KEY_TIME, KEY_FREQUENCY, KEY_MASS, KEY_FORCE, KEY_SPEED, KEY_ACCELERATION, KEY_ANGLE, KEY_PER_AREA,
+    KEY_DECIBEL, KEY_LUFS, KEY_FORCE_COEFFICIENT, KEY_OUTPUT
 };
 
 struct choice {
@@ -34,7 +36,7 @@ struct key {
     enum key_dimension dimension;
     double low, high;
     const char *standard;       /* the default; NULL: must be given; "": may be left out */
-    const char *applies;        /* "key=word" or NULL */
+    const char *applies;        /* "key=word|word", "key", "!key" or NULL, see keys.def */
     const char *meaning;
     const struct choice *choices;
 };
@@ -46,7 +48,7 @@ struct key_section {
 };
 
 struct key_alternative {
-    int least;
+    int least, most;            /* how many of them may be given */
     const char *paths[5];       /* ends with NULL */
 };
 
@@ -67,5 +69,18 @@ extern const struct key_knob keys_knobs[];
 extern const char *const keys_presets[5];                /* ends with NULL */
 
 const struct key *keys_find(const char *path);
+
+/* The key that decides whether this one applies; NULL: it always does. */
+const struct key *keys_decider(const struct key *k);
+/* The words of that key with which this one applies, such as "circle|scribble"; NULL: it applies where that key is given, or is not. */
+const char *keys_words(const struct key *k);
+/* Does this key apply where the one that decides has the word? */
+bool keys_applies_with(const struct key *k, const char *word);
+
+/* Does it apply where the key that decides (if there is one, and it has no words) is given, or is not? */
+bool keys_applies_beside(const struct key *k, bool given);
+
+/* KEY_POINTS: how many there are; `field` is that of the points, which the number follows. */
+int *keys_points_count(const void *field);
 
 #endif

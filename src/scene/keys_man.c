@@ -55,7 +55,7 @@ static void put_rivals(FILE *f, const char *path, struct arena *a)
     for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
         for (int i = 0; t->paths[i]; i++)
             if (!strcmp(t->paths[i], path))
-                put_opening(f, arena_format(a, "%s may be given", keys_text_rivals(t, a)), a);
+                put_opening(f, arena_format(a, "%s %s be given", keys_text_rivals(t, a), t->least ? "must" : "may"), a);
 }
 
 static void put_key(FILE *f, const struct key *k, struct arena *a)

@@ -15,17 +15,29 @@ static const struct {
 } examples[] = {
     {"rasp", "1", false},
     {"title", "\"a tool scraped back and forth on a rough plank\"", false},
+    {"surface.recipe", "plank.yaml", true},
     {"surface.height_map", "plank.npy", true},
     {"surface.pitch", "5 um", true},
+    {"surface.height_range", "100 um", true},
+    {"surface.continuation.exponent", "-2.4", true},
+    {"surface.continuation.from", "50 um", true},
+    {"surface.roughness.like", "plank.gsf", true},
+    {"surface.roughness.like_pitch", "5 um", true},
     {"surface.response", "plank.csv", true},
     {"scraper.mass", "20 g", false},
+    {"scraper.radius", "1 mm", true},
     {"scraper.response", "tool.csv", true},
     {"motion.path", "back_and_forth", false},
     {"motion.to", "[4.5 cm, 0 cm]", false},
+    {"motion.radius", "2 cm", true},
+    {"motion.points", "[[0 cm, 0 cm], [3 cm, 1 cm], [6 cm, 0 cm]]", true},
+    {"motion.file", "recording.csv", true},
     {"motion.rate", "2 Hz", false},
     {"motion.speed", "10 cm/s", true},
     {"motion.duration", "2 s", false},
+    {"motion.profile", "speed.csv", true},
     {"load.constant", "1.5 N", true},
+    {"load.recorded", "force.csv", true},
     {"contact.limiter.force_range", "[0.2 N, 5 N]", true},
     {"output.level.full_scale", "0.01", true},
     {"output.level.peak", "-3 dB", true},
@@ -35,7 +47,7 @@ static const struct {
     {NULL, NULL, false},
 };
 
-static const char *const sections_off[] = {"grip", NULL};
+static const char *const sections_off[] = {"surface.continuation", "surface.ridges", "surface.grit", "grip", NULL};
 
 static const char head[] =
     "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"
@@ -84,15 +96,10 @@ static bool is_off(const struct key *k);
 
 static bool applies(const struct key *k)
 {
-    const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
-    if (!k->applies)
+    const struct key *decides = keys_decider(k);
+    if (!decides)
         return true;
-    if (!equals)
-        return !is_off(keys_find(k->applies));
-    for (const struct key *other = keys_table; other->path; other++)
-        if (!strncmp(other->path, k->applies, (size_t)(equals - k->applies)) && !other->path[equals - k->applies])
-            return !strcmp(shown(other), equals + 1);
-    return false;
+    return keys_words(k) ? keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides));
 }
 
 static bool is_off(const struct key *k)

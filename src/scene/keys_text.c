@@ -27,6 +27,7 @@ static const struct {
     [KEY_SPEED] = {"m/s", "speed (a bare number is in m/s)"},
     [KEY_ACCELERATION] = {"m/s^2", "acceleration (a bare number is in m/s^2)"},
     [KEY_ANGLE] = {"rad", "angle (a bare number is in rad)"},
+    [KEY_PER_AREA] = {"/m^2", "number per area (a bare number is per m^2)"},
     [KEY_DECIBEL] = {"dB", "level (a bare number is in dB)"},
     [KEY_LUFS] = {"LUFS", "loudness (a bare number is in LUFS)"},
     [KEY_FORCE_COEFFICIENT] = {"N (s/m)^beta2", "force coefficient (a bare number is in N (s/m)^beta2)"},
@@ -47,8 +48,9 @@ const char *keys_text_type(const struct key *k)
     case KEY_COUNT: return "whole number";
     case KEY_SEED: return "whole number from 0 to 18446744073709551615";
     case KEY_TEXT: return "text";
-    case KEY_FILE: return "file name, as seen from the scene file's folder";
+    case KEY_FILE: return "file name, as seen from the folder of the file it stands in";
     case KEY_POINT: return "[x, y], two lengths";
+    case KEY_POINTS: return "list of 2 to 10000 points [x, y], in lengths";
     case KEY_RANGE: return "[least, most], two forces";
     case KEY_LIST: return "list of names";
     case KEY_CHOICE: return "one of the words below";
@@ -70,17 +72,27 @@ const char *keys_text_default(const struct key *k)
     return !k->standard ? "must be given" : *k->standard ? k->standard : "not given";
 }
 
+const char *keys_text_words(const struct key *k, struct arena *a)
+{
+    const char *all = "", *words = keys_words(k);
+    for (size_t n = strcspn(words, "|"); *words; words += n + !!words[n], n = strcspn(words, "|"))
+        all = arena_format(a, "%s%s%.*s", all, !*all ? "" : words[n] ? ", " : " or ", (int)n, words);
+    return all;
+}
+
 const char *keys_text_applies(const struct key *k, struct arena *a)
 {
-    const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
-    if (k->applies && !equals)
-        return arena_format(a, "beside %s", k->applies);
-    return equals ? arena_format(a, "where %.*s is %s", (int)(equals - k->applies), k->applies, equals + 1) : NULL;
+    const char *words = keys_words(k);
+    if (!k->applies)
+        return NULL;
+    if (words)
+        return arena_format(a, "where %s is %s", keys_decider(k)->path, keys_text_words(k, a));
+    return keys_applies_beside(k, true) ? arena_format(a, "beside %s", k->applies) : arena_format(a, "where %s is not given", keys_decider(k)->path);
 }
 
 const char *keys_text_rivals(const struct key_alternative *t, struct arena *a)
 {
-    const char *all = t->least ? "exactly one of" : "at most one of";
+    const char *all = t->most > 1 ? "at least one of" : t->least ? "exactly one of" : "at most one of";
     for (int i = 0; t->paths[i]; i++)
         all = arena_format(a, "%s%s %s", all, i ? "," : "", t->paths[i]);
     return all;
@@ -96,7 +108,7 @@ static bool within(const char *path, const char *map)
 bool keys_text_has(const struct key_alternative *t, const char *path)
 {
     for (int i = 0; t->paths[i]; i++)
-        if (within(path, t->paths[i]))
+        if (t->most > 1 ? strcmp(path, t->paths[i]) == 0 : within(path, t->paths[i]))
             return true;
     return false;
 }

@@ -24,6 +24,13 @@ static void print_words(FILE *f, const struct choice *choices)
     }
 }
 
+static void print_choose(FILE *f, const char *path, struct arena *a)
+{
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
+        if (keys_text_has(t, path))
+            print_fact(f, "choose", keys_text_rivals(t, a));
+}
+
 void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
 {
     int n = fprintf(f, "%s: ", k->path);
@@ -32,9 +39,7 @@ void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
     print_fact(f, "range", keys_text_range(k, a));
     print_fact(f, "default", keys_text_default(k));
     print_fact(f, "applies", keys_text_applies(k, a));
-    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
-        if (keys_text_has(t, k->path))
-            print_fact(f, "choose", keys_text_rivals(t, a));
+    print_choose(f, k->path, a);
     print_fact(f, "belongs", k->of == KEY_SCENE ? "to the scene" : "to a contact: at the top level, or in each entry of contacts");
     if (k->choices)
         print_words(f, k->choices);
@@ -61,11 +66,12 @@ void keys_text_print_map(FILE *f, const char *path, struct arena *a)
     for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
         if (!strcmp(p->path, path))
             print_fact(f, "type", p->type);
+    print_choose(f, path, a);
     for (const struct key *k = keys_table; k->path; k++) {
         if (strncmp(k->path, path, length) != 0 || k->path[length] != '.')
             continue;
-        int n = fprintf(f, "  %-32s ", k->path);
-        wrap_print(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n, "                                   ");
+        int n = fprintf(f, "  %-33s ", k->path);
+        wrap_print(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n, "                                    ");
     }
 }
 

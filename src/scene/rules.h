@@ -1,9 +1,13 @@
 /* Rules about a contact's values to each other that the reader tells with their place, and the stages keep to once more. */
 #ifndef SCENE_RULES_H
 #define SCENE_RULES_H
+#include <string.h>
+
 #include "num/real.h"
 #include "scene/scene.h"
 
+#define RULES_BAND_WIDEST 1e5      /* longest over shortest wavelength of a roughness */
+#define RULES_RIDGE_WIDEST 0.9     /* of the spacing */
 #define RULES_SMOOTHING_WIDEST 0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
 /* 1 - mu tan theta, the denominator of papers/000 equations 8 and 9. */
@@ -23,6 +27,99 @@ static inline bool rules_jams(const struct grip *g)
 static inline double rules_sigma(const struct contact_model *c, double alpha)
 {
     return c->smoothing * (c->limiter.curve == LIMITER_TANH ? alpha : 0.03) / 0.03;
+}
+
+/* Is the path one straight line, on which the place is from + u e? */
+static inline bool rules_straight(const struct motion *m)
+{
+    return m->path == PATH_BACK_AND_FORTH || m->path == PATH_LINE || m->path == PATH_FOUR_IN_LINE;
+}
+
+/* The mean speed in m/s as far as the scene alone tells it, for predictions of cost; 0.2 where only a file or a curve's length would. */
+static inline double rules_speed(const struct motion *m)
+{
+    double dx = m->to[0] - m->from[0], dy = m->to[1] - m->from[1], length = sqrt(dx * dx + dy * dy);
+    if (!isnan(m->speed))
+        return m->speed;
+    if (m->path == PATH_BACK_AND_FORTH && !isnan(m->rate))
+        return 2 * m->rate * length;
+    if (m->path == PATH_CIRCLE && !isnan(m->duration))
+        return 2 * REAL_PI * m->radius * fabs(m->turns) / m->duration;
+    return rules_straight(m) && !isnan(m->duration) ? length / m->duration : 0.2;
+}
+
+/* Which coordinates the surface follows (enum along); ALONG_AUTO where only a height map's number of rows will tell. */
+static inline int rules_along(const struct contact *c)
+{
+    const struct surface *s = &c->surface;
+    bool directed = (s->roughness.given && s->roughness.grain != 1) || s->ridges.given;
+    if (s->along != ALONG_AUTO || s->height_map)
+        return s->along;
+    return directed || !rules_straight(&c->motion) ? ALONG_PLANE : ALONG_PATH;
+}
+
+/* May the surface turn out to lie in the plane? */
+static inline bool rules_plane(const struct contact *c)
+{
+    return rules_along(c) == ALONG_PLANE || rules_along(c) == ALONG_AUTO;
+}
+
+/* The speed law that applies: SPEED_AUTO resolved; it stays SPEED_AUTO for a scribble's or a recording's own. */
+static inline int rules_law(const struct motion *m)
+{
+    static const int own[] = {[PATH_BACK_AND_FORTH] = SPEED_HARMONIC, [PATH_LINE] = SPEED_CONSTANT, [PATH_FOUR_IN_LINE] = SPEED_HARMONIC,
+                              [PATH_CIRCLE] = SPEED_CONSTANT,         [PATH_SCRIBBLE] = SPEED_AUTO, [PATH_POLYLINE] = SPEED_MINIMUM_JERK,
+                              [PATH_SPLINE] = SPEED_TWO_THIRDS,       [PATH_RECORDED] = SPEED_AUTO};
+    return m->law == SPEED_AUTO ? own[m->path] : m->law;
+}
+
+/* May the path be gone along under the law (auto: always)? back_and_forth turns round at rest, and so does what has corners; a straight line
+   has no curvature for two_thirds. */
+static inline bool rules_law_fits(const struct motion *m, int law)
+{
+    bool rests = m->path == PATH_POLYLINE && m->corner == 0;
+    if (law == SPEED_CONSTANT)
+        return m->path != PATH_BACK_AND_FORTH && !rests;
+    if (law == SPEED_TWO_THIRDS)
+        return !rules_straight(m) && !rests;
+    return law != SPEED_GIVEN || !rests;
+}
+
+/* Is a response a mode table? Else it is an impulse response. */
+static inline bool rules_is_table(const struct response *r)
+{
+    size_t n = strlen(r->file);
+    return n > 4 && strcmp(r->file + n - 4, ".csv") == 0;
+}
+
+/* Has a roughness a band of wavelengths, and not too wide a one? */
+static inline bool rules_has_band(const struct roughness *r)
+{
+    return r->longest > r->shortest;
+}
+
+static inline bool rules_band_fits(const struct roughness *r)
+{
+    return r->longest / r->shortest <= RULES_BAND_WIDEST;
+}
+
+#define RULES_APPROACH 5e-3 /* s: contact is made and given up where the motion is at speed, unless the scene says */
+
+/* Is the motion surely at rest where it starts (or ends)? What a file gives may be, and counts as not. */
+static inline bool rules_rests(const struct motion *m, bool at_end)
+{
+    int law = rules_law(m);
+    double strokes = 2 * m->rate * m->duration;
+    if (law != SPEED_HARMONIC && law != SPEED_MINIMUM_JERK)
+        return false;
+    return !at_end || m->path != PATH_BACK_AND_FORTH || fabs(strokes - rint(strokes)) < 1e-9;
+}
+
+/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. */
+static inline double rules_approach(const struct contact *c, bool release)
+{
+    double given = release ? c->load.release : c->load.approach;
+    return !isnan(given) ? given : rules_rests(&c->motion, release) ? 0 : RULES_APPROACH;
 }
 
 #endif

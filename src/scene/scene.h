@@ -13,9 +13,14 @@
 
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
 
-enum motion_path { PATH_BACK_AND_FORTH, PATH_LINE };
-enum speed_law { SPEED_CONSTANT, SPEED_MINIMUM_JERK };
-enum along { ALONG_PATH, ALONG_X };
+enum motion_path {
+    PATH_BACK_AND_FORTH, PATH_LINE, PATH_FOUR_IN_LINE, PATH_CIRCLE, PATH_SCRIBBLE, PATH_POLYLINE, PATH_SPLINE, PATH_RECORDED
+};
+enum speed_law { SPEED_AUTO, SPEED_HARMONIC, SPEED_CONSTANT, SPEED_MINIMUM_JERK, SPEED_TWO_THIRDS, SPEED_GIVEN };
+enum along { ALONG_AUTO, ALONG_PATH, ALONG_X, ALONG_PLANE };
+enum holes { HOLES_REFUSE, HOLES_FILL };
+enum levelling { LEVELLING_NONE, LEVELLING_MEAN, LEVELLING_PLANE };
+enum ridge_shape { RIDGE_SINE, RIDGE_ROUND, RIDGE_GROOVE };
 enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
 enum contact_kind { CONTACT_SCRAPE };
 enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
@@ -26,12 +31,41 @@ enum encoding { ENCODING_PCM16, ENCODING_PCM24, ENCODING_FLOAT32, ENCODING_FLOAT
 
 /* ------------------------------------------------------------------ one contact */
 
-struct roughness {          /* a procedural profile: surface/roughness.h                         */
+struct roughness {          /* procedural: surface/roughness.h                                */
     bool given;
-    double exponent;        /* power spectral density over spatial frequency ~ k^exponent        */
+    double exponent;        /* one-sided power spectral density of a profile over spatial frequency ~ k^exponent */
     double rms;             /* m, of the heights                                                 */
     double longest;         /* m, wavelength above which the spectrum is flat (roll-off)         */
     double shortest;        /* m, wavelength below which it is zero                              */
+    double skewness, kurtosis; /* of the height distribution; 0 and 3 are Gaussian               */
+    double grain;           /* ratio of correlation lengths along and across the grain; 1: isotropic */
+    double grain_direction; /* rad, of the grain's long axis, 0 = +x                             */
+    const char *like;       /* height map whose spectrum, rms, skewness and kurtosis are taken; NULL: none */
+    double like_pitch;      /* m; NAN: the file says it                                          */
+};
+
+struct ridges {             /* parallel ridges: surface/ridges.h                                 */
+    bool given;
+    double spacing, height; /* m, from ridge to ridge; from valley to top                        */
+    double width;           /* m, of a ridge or groove at half height (shapes other than sine)   */
+    double direction;       /* rad, of the ridges' crests, 0 = +x                                */
+    double jitter;          /* standard deviation of a ridge's place over the spacing            */
+    double variation;       /* standard deviation of a ridge's height over the height            */
+    int shape;              /* enum ridge_shape                                                  */
+};
+
+struct grit {               /* scattered grains: surface/grit.h                                  */
+    bool given;
+    double density;         /* grains per m^2                                                    */
+    double diameter, height;/* m, of the mean grain                                              */
+    double spread;          /* standard deviation of a grain's size over its mean (log-normal)   */
+};
+
+struct continuation {       /* finer roughness than a measured map holds: surface/continuation.h */
+    bool given;
+    double exponent;        /* of its spectrum; NAN: that of the map's own last octaves          */
+    double from;            /* m, wavelength where it takes over; NAN: the map's band limit, measured */
+    double shortest;        /* m                                                                 */
 };
 
 struct response {           /* how a body rings: a mode table (CSV) or an impulse response (WAV) */
@@ -43,29 +77,51 @@ struct response {           /* how a body rings: a mode table (CSV) or an impuls
 };
 
 struct surface {
-    const char *height_map; /* NPY or GSF, resolved path; NULL: none                             */
+    const char *recipe;     /* YAML of surface keys, already merged under the scene's own        */
+    const char *height_map; /* NPY, GSF, SDF, GWY, 16-bit PNG or CSV, resolved path; NULL: none  */
     double pitch;           /* m between samples; NAN: the file says it                          */
-    double height_scale;    /* m per stored unit                                                 */
+    double height_scale;    /* m per stored unit; NAN: the file says it, or 1                    */
+    double height_range;    /* m, what full scale of a PNG stands for                            */
     int along;              /* enum along                                                        */
     int off_map;            /* enum off_map                                                      */
+    int holes;              /* enum holes                                                        */
+    int levelling;          /* enum levelling                                                    */
     double origin[2];       /* m: where the map's first sample lies in scene coordinates         */
+    struct continuation continuation;
     struct roughness roughness;
+    struct ridges ridges;
+    struct grit grit;
     struct response response;
 };
 
 struct scraper {
     double mass;            /* kg, m_p of eq. 1                                                  */
     double weight;          /* eta: share of its response in the total                           */
+    double radius;          /* m of the tip; NAN: a point                                        */
+    double patch;           /* m, standard deviation of the Gaussian over the contact patch of a round tip */
     struct response response;
 };
 
 struct motion {
     int path;               /* enum motion_path                                                  */
     double from[2], to[2];  /* m                                                                 */
-    double rate;            /* Hz, full back-and-forth cycles                                    */
-    double speed;           /* m/s along a line; NAN: duration is given                          */
-    double duration;        /* s; NAN: speed is given                                            */
+    int strokes;            /* four_in_line                                                      */
+    double center[2];       /* m, of a circle or scribble                                        */
+    double radius;          /* m, of a circle                                                    */
+    double start_angle;     /* rad, where on the circle                                          */
+    double turns;           /* times round; negative: clockwise                                  */
+    double size[2];         /* m, width and height of the box of a scribble                      */
+    const double *points;   /* m, [n_points][2], of a polyline or spline                         */
+    int n_points;
+    double corner;          /* m, radius to which a polyline's corners are rounded               */
+    const char *file;       /* recorded: CSV of time_s, x_m, y_m                                 */
+    double cutoff;          /* Hz, of the recording's smoothing; 0: none                         */
+    double rate;            /* Hz: back_and_forth, full cycles; scribble, loops                  */
+    double speed;           /* m/s, mean; NAN: duration is given                                 */
+    double duration;        /* s; NAN: speed is given, or a file gives it                        */
     int law;                /* enum speed_law                                                    */
+    const char *profile;    /* law given: CSV of time_s, speed_m_per_s                           */
+    double straight;        /* m, radius of curvature from which on two_thirds counts a path as straight */
 };
 
 struct grip {               /* N(t) from the hand: eq. 8 and 9 generalised                       */
@@ -77,6 +133,8 @@ struct grip {               /* N(t) from the hand: eq. 8 and 9 generalised      
 
 struct load {
     double constant;        /* N; NAN: the scraper's weight m g                                  */
+    const char *recorded;   /* CSV of time_s, normal_force_n; NULL: none                         */
+    double approach, release; /* s over which contact is made and given up; NAN: auto            */
 };
 
 struct limiter {            /* eq. 4 to 7                                                        */
@@ -84,6 +142,7 @@ struct limiter {            /* eq. 4 to 7                                       
     double alpha;           /* m, for a constant load                                            */
     double alpha_min, alpha_max; /* m                                                            */
     double zeta;
+    double ratio_y;         /* alpha_y / alpha_x, paper force                                    */
     double force_range[2];  /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
 };
 

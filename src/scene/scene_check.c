@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/keys_text.h"
 #include "scene/scene.h"
+#include "scene/scene_example.h"
 #include "scene/scene_values.h"
 
 enum applies { APPLIES_NO, APPLIES_YES, APPLIES_UNKNOWN };
@@ -14,15 +16,12 @@ enum applies { APPLIES_NO, APPLIES_YES, APPLIES_UNKNOWN };
 /* Unknown: the value that decides it is itself in error, or may stand in a file that is not there. */
 static enum applies applies(const struct scene_part *p, const struct key *k)
 {
-    char other[128];
-    if (!k->applies)
+    const struct key *decides = keys_decider(k);
+    if (!decides)
         return APPLIES_YES;
-    size_t n = strcspn(k->applies, "=");
-    if (!k->applies[n])
-        return yaml_find(p->map, k->applies) ? APPLIES_YES : p->yaml->missing ? APPLIES_UNKNOWN : APPLIES_NO;
-    snprintf(other, sizeof other, "%.*s", (int)n, k->applies);
-    const struct key *decides = keys_find(other);
-    const struct yaml_node *node = yaml_find(p->map, other);
+    const struct yaml_node *node = yaml_find(p->map, decides->path);
+    if (!keys_words(k))
+        return !node && p->yaml->missing ? APPLIES_UNKNOWN : keys_applies_beside(k, node != NULL) ? APPLIES_YES : APPLIES_NO;
     if (applies(p, decides) != APPLIES_YES)
         return applies(p, decides);
     if (!node && (!decides->standard || p->yaml->missing))
@@ -30,23 +29,23 @@ static enum applies applies(const struct scene_part *p, const struct key *k)
     int i = node ? scene_values_choice(decides->choices, node) : -1;
     if (node && i < 0)
         return APPLIES_UNKNOWN;
-    return strcmp(node ? decides->choices[i].word : decides->standard, k->applies + n + 1) == 0 ? APPLIES_YES : APPLIES_NO;
+    return keys_applies_with(k, node ? decides->choices[i].word : decides->standard) ? APPLIES_YES : APPLIES_NO;
 }
 
 static void not_applicable(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
 {
     struct arena *a = p->yaml->arena;
-    int n = (int)strcspn(k->applies, "=");
-    if (!k->applies[n]) {
-        diag_add(p->yaml->diag, node->key->at, arena_format(a, "remove it, or give %s%s", p->prefix, k->applies),
-                 "%s applies only beside %s%s", scene_part_label(p, k->path), p->prefix, k->applies);
-        return;
-    }
-    const struct yaml_node *decides = yaml_find(p->map, arena_format(a, "%.*s", n, k->applies));
-    const char *now = decides ? arena_format(a, "it is %s", decides->text) : "it is not given";
-    diag_add(p->yaml->diag, node->key->at,
-             arena_format(a, "remove it, or set %s%.*s to %s (now %s)", p->prefix, n, k->applies, k->applies + n + 1, now),
-             "%s applies only where %s%.*s is %s", scene_part_label(p, k->path), p->prefix, n, k->applies, k->applies + n + 1);
+    const char *label = scene_part_label(p, k->path), *other = scene_part_label(p, keys_decider(k)->path), *cure;
+    const struct yaml_node *now = yaml_find(p->map, keys_decider(k)->path);
+    const char *when = keys_words(k) ? arena_format(a, "where %s is %s", other, keys_text_words(k, a))
+                       : now         ? arena_format(a, "where %s is not given", other)
+                                     : arena_format(a, "beside %s", other);
+    if (keys_words(k))
+        cure = arena_format(a, "remove it, or set %s to %s (now it is %s)", other, keys_text_words(k, a), now ? now->text : keys_decider(k)->standard);
+    else
+        cure = now ? arena_format(a, "remove it (a null takes away what another file says), or remove %s", other)
+                   : arena_format(a, "remove it, or give %s", other);
+    diag_add(p->yaml->diag, node->key->at, cure, "%s applies only %s", label, when);
 }
 
 /* ------------------------------------------------------------------ what is missing */
@@ -84,7 +83,7 @@ static const char *line_for(const struct scene_part *p, const char *rest, const 
 static const char *add_cure(const struct scene_part *p, const char *rest, const char *path)
 {
     const struct key *k = keys_find(path);
-    return arena_format(p->yaml->arena, "add for instance: %s", line_for(p, rest, k ? scene_values_example(p->yaml, k) : "{}"));
+    return arena_format(p->yaml->arena, "add for instance: %s", line_for(p, rest, k ? scene_example(p->yaml, k) : "{}"));
 }
 
 static void missing(const struct scene_part *p, const char *path)
@@ -186,7 +185,7 @@ static void alternative_check(const struct scene_part *p, const struct key_alter
             continue;
         nodes[n_given > 0] = node;
         given[n_given > 0] = path;
-        if (++n_given > 1)
+        if (++n_given > alternative->most)
             both_given(p, nodes, given);
     }
     if (n_given < alternative->least && n > 0)

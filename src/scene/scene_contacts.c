@@ -7,6 +7,7 @@
 #include "scene/scene_check.h"
 #include "scene/scene_keys.h"
 #include "scene/scene_sense.h"
+#include "scene/scene_table.h"
 #include "scene/scene_values.h"
 
 struct tree {
@@ -46,7 +47,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     scene_sense_contact(&part);
     if (t->yaml->diag->n == errors)
         scene_sense_asked(&part, t->scene);
-    scene_sense_columns(&part, t->root, t->scene);
+    scene_table_columns(&part, t->root, t->scene);
 }
 
 static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)

@@ -87,6 +87,14 @@ static void put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, st
     }
 }
 
+void scene_merge_under(struct yaml *y, struct yaml_node *map, struct yaml_node *base)
+{
+    merge(y, base, map);
+    map->first = base->first;
+    map->last = base->last;
+    map->n = base->n;
+}
+
 void scene_merge_drop_nulls(struct yaml_node *node)
 {
     struct yaml_node *last = NULL, **link = &node->first;

@@ -1,4 +1,4 @@
-/* From a scene's text to its struct: the tree with includes and overrides, unknown keys, values, what is missing or contradicts.
+/* From a scene's text to its struct: the tree with includes, overrides and recipes, unknown keys, values, what is missing or contradicts.
    Each step tells its errors and goes on, so that all are told at once; only a tree that cannot be read ends it early. */
 #include "scene/scene_read.h"
 
@@ -10,7 +10,8 @@
 #include "scene/scene_contacts.h"
 #include "scene/scene_inputs.h"
 #include "scene/scene_merge.h"
-#include "scene/scene_sense.h"
+#include "scene/scene_recipe.h"
+#include "scene/scene_table.h"
 #include "scene/scene_values.h"
 #include "scene/units.h"
 
@@ -18,7 +19,9 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct scene_part top = {y, root, "", KEY_SCENE, s};
     scene_check_fill(&top);
-    scene_sense_names(y, root);
+    if (!y->missing)
+        scene_table_rate(&top);
+    scene_table_names(y, root);
     scene_contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
     scene_inputs_read(y, yaml_get(root, "inputs"), s);
@@ -48,8 +51,11 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
     for (int i = 0; over && i < over->n; i++)
         if (!y->missing || strncmp(over->set[i], "contacts.", strlen("contacts.")) != 0) /* they may stand in a file that is not there */
             scene_merge_set(y, root, over->set[i]);
+    if (another_version(y, root))
+        return;
+    bool readable = scene_recipe_merge(y, root);
     scene_merge_drop_nulls(root);
-    if (!another_version(y, root))
+    if (readable)
         tree_read(y, root, s);
 }
 

@@ -7,12 +7,6 @@
 /* Of a filled contact. A value that could not be read is "not given" and takes part in no check. */
 void scene_sense_contact(const struct scene_part *p);
 
-/* Its columns of diagnostics: root is the scene's top level, from which s->output has been read. */
-void scene_sense_columns(const struct scene_part *p, struct yaml_node *root, const struct scene *s);
-
-/* Names of columns that no contact has. */
-void scene_sense_names(struct yaml *y, struct yaml_node *root);
-
 /* A contact that neither rings nor has a table. To be asked of a contact without errors: a misspelt response is told already. */
 void scene_sense_asked(const struct scene_part *p, const struct scene *s);
 

@@ -6,7 +6,9 @@
 
 #include "base/text.h"
 #include "file/yaml_parse.h"
+#include "scene/scene_example.h"
 #include "scene/scene_merge.h"
+#include "scene/scene_points.h"
 #include "scene/units.h"
 
 struct value {
@@ -28,32 +30,11 @@ const char *scene_values_kind(struct yaml *y, const struct yaml_node *node)
     return arena_format(y->arena, "'%s'", diag_shown(y->diag, node->text));
 }
 
-const char *scene_values_example(struct yaml *y, const struct key *k)
-{
-    const char *one = units_example(k->dimension);
-    if (k->standard && *k->standard)
-        return k->standard;
-    switch (k->type) {
-    case KEY_NUMBER:
-    case KEY_TIME_OR_AUTO: return one;
-    case KEY_WHOLE: return "48 kHz";
-    case KEY_COUNT:
-    case KEY_SEED: return arena_format(y->arena, "%.0f", k->low);
-    case KEY_TEXT: return "some words";
-    case KEY_FILE: return strstr(k->path, "height_map") ? "profile.npy" : "modes.csv";
-    case KEY_POINT: return arena_format(y->arena, "[%s, 0]", one);
-    case KEY_RANGE: return arena_format(y->arena, "[%s, %s]", units_text(1, k->dimension, y->arena), units_text(5, k->dimension, y->arena));
-    case KEY_LIST: return "[speed_m_per_s, normal_force_n]";
-    case KEY_CHOICE: return k->choices[0].word;
-    }
-    return "";
-}
-
 static const char *example_cure(const struct value *v)
 {
     const char *last = strrchr(v->key->path, '.');
     return arena_format(v->part->yaml->arena, "write for instance: %s: %s", last ? last + 1 : v->key->path,
-                        scene_values_example(v->part->yaml, v->key));
+                        scene_example(v->part->yaml, v->key));
 }
 
 /* What stands where a list is needed, for "not ...": "of 3" for one of the wrong length. */
@@ -78,26 +59,29 @@ bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const c
     return true;
 }
 
-static const char *range_text(const struct value *v)
+static const char *range_text(const struct key *k, struct arena *a)
 {
-    struct arena *a = v->part->yaml->arena;
-    const struct key *k = v->key;
     if (k->low >= k->high)
         return units_text(k->low, k->dimension, a);
     return arena_format(a, "from %s to %s", units_text(k->low, k->dimension, a), units_text(k->high, k->dimension, a));
 }
 
-static bool number_read(const struct value *v, const struct yaml_node *node, const char *label, double *x)
+bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node, const char *label, double *x)
 {
-    struct yaml *y = v->part->yaml;
+    struct yaml *y = p->yaml;
     double value;
-    if (!scene_values_quantity(y, node, label, v->key->dimension, &value))
+    if (!scene_values_quantity(y, node, label, k->dimension, &value))
         return false;
-    if (value < v->key->low || value > v->key->high)
-        return diag_add(y->diag, node->at, arena_format(y->arena, "%s: %s", v->key->path, v->key->meaning), "%s must be %s, not %s", label,
-                    range_text(v), scene_values_kind(y, node));
+    if (value < k->low || value > k->high)
+        return diag_add(y->diag, node->at, arena_format(y->arena, "%s: %s", k->path, k->meaning), "%s must be %s, not %s", label,
+                        range_text(k, y->arena), scene_values_kind(y, node));
     *x = value;
     return true;
+}
+
+static bool number_read(const struct value *v, const struct yaml_node *node, const char *label, double *x)
+{
+    return scene_values_number(v->part, v->key, node, label, x);
 }
 
 static bool whole_read(const struct value *v, double *x)
@@ -177,6 +161,13 @@ static bool range_set(const struct value *v)
         return true;
     pair[0] = pair[1] = NAN;
     return diag_add(v->part->yaml->diag, v->node->at, example_cure(v), "the first number of %s must be less than the second", v->label);
+}
+
+static bool points_set(const struct value *v)
+{
+    const double *points = scene_points_read(v->part, v->key, v->node, v->label, keys_points_count(v->field));
+    *(const double **)v->field = points;
+    return points != NULL;
 }
 
 /* ------------------------------------------------------------------ words */
@@ -265,7 +256,7 @@ static bool choice_set(const struct value *v)
 static bool (*const setters[])(const struct value *) = {
     [KEY_NUMBER] = number_set, [KEY_WHOLE] = whole_set, [KEY_TIME_OR_AUTO] = time_or_auto_set, [KEY_COUNT] = count_set,
     [KEY_SEED] = seed_set,     [KEY_TEXT] = text_set,   [KEY_FILE] = file_set,                 [KEY_POINT] = pair_set,
-    [KEY_RANGE] = range_set,   [KEY_LIST] = list_set,   [KEY_CHOICE] = choice_set,
+    [KEY_POINTS] = points_set, [KEY_RANGE] = range_set, [KEY_LIST] = list_set,                 [KEY_CHOICE] = choice_set,
 };
 
 bool scene_values_read(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
@@ -283,7 +274,13 @@ void scene_values_clear(const struct scene_part *p, const struct key *k)
     case KEY_WHOLE:
     case KEY_TIME_OR_AUTO: *(double *)field = NAN; break;
     case KEY_POINT:
-    case KEY_RANGE: ((double *)field)[0] = ((double *)field)[1] = NAN; break;
+    case KEY_RANGE:
+        ((double *)field)[0] = ((double *)field)[1] = NAN;
+        break;
+    case KEY_POINTS:
+        *(const double **)field = NULL;
+        *keys_points_count(field) = 0;
+        break;
     case KEY_COUNT:
     case KEY_CHOICE: *(int *)field = 0; break;
     case KEY_SEED: *(uint64_t *)field = 0; break;

@@ -1,6 +1,7 @@
 /* The effective scene, from the rows of keys.def and accuracy.def: SI bare numbers that read back to the last bit, strings quoted.
    A key is left out when it does not apply, or when it may be left out and is not given. One contact is written at the top level, several
-   as a list. `inputs` names every file of the scene once, with its sha256 as it is now. */
+   as a list. `inputs` names every file of the scene once, with its sha256 as it is now: those of its keys, and those that it has pinned besides (such as
+   the recipe that an effective scene was made with). */
 #include "scene/scene_write.h"
 
 #include <inttypes.h>
@@ -48,6 +49,23 @@ static const char *pair_value(const double *x, struct arena *a)
     return arena_format(a, "[%s, %s]", keys_yaml_number(x[0], a), keys_yaml_number(x[1], a));
 }
 
+static const char *points_value(const void *field, struct arena *a)
+{
+    const double *at = *(const double *const *)field;
+    char *memory = NULL;
+    size_t size = 0;
+    if (!at)
+        return NULL;
+    FILE *f = open_memstream(&memory, &size);
+    for (int i = 0; i < *keys_points_count(field); i++)
+        fprintf(f, "%s%s", i ? ", " : "[", pair_value(at + 2 * i, a));
+    fputc(']', f);
+    fclose(f);
+    const char *kept = arena_text(a, memory);
+    free(memory);
+    return kept;
+}
+
 static const char *list_value(const char *const *items, struct arena *a)
 {
     const char *all = "";
@@ -79,6 +97,7 @@ static const char *value(const struct key *k, const void *owner, struct writer *
     case KEY_FILE: return text_value(k, owner, w);
     case KEY_POINT:
     case KEY_RANGE: return pair_value(field(k, owner), w->a);
+    case KEY_POINTS: return points_value(field(k, owner), w->a);
     case KEY_LIST: return list_value(*(const char **const *)field(k, owner), w->a);
     case KEY_CHOICE: return word(k, owner);
     }
@@ -87,15 +106,12 @@ static const char *value(const struct key *k, const void *owner, struct writer *
 
 static bool applies(const struct key *k, const void *owner)
 {
-    const char *equals = k->applies ? strchr(k->applies, '=') : NULL;
-    if (k->applies && !equals)
-        return *(const char *const *)((const char *)owner + keys_find(k->applies)->offset) != NULL;
-    if (!equals)
+    const struct key *decides = keys_decider(k);
+    if (!decides)
         return true;
-    for (const struct key *other = keys_table; other->path; other++)
-        if (strlen(other->path) == (size_t)(equals - k->applies) && !strncmp(other->path, k->applies, strlen(other->path)))
-            return applies(other, owner) && !strcmp(word(other, owner), equals + 1);
-    return false;
+    if (keys_words(k))
+        return applies(decides, owner) && keys_applies_with(k, word(decides, owner));
+    return keys_applies_beside(k, decides->type == KEY_FILE ? text(decides, owner) != NULL : !isnan(number(decides, owner)));
 }
 
 /* Is every section that the key stands in given? */
@@ -109,9 +125,15 @@ static bool in_given_sections(const struct key *k, const void *owner)
     return true;
 }
 
+/* Its keys are written among the others; inputs lists it. */
+static bool is_recipe(const struct key *k)
+{
+    return strcmp(k->path, "surface.recipe") == 0;
+}
+
 static void take(struct writer *w, const struct key *k, const void *owner)
 {
-    const char *v = applies(k, owner) && in_given_sections(k, owner) ? value(k, owner, w) : NULL;
+    const char *v = !is_recipe(k) && applies(k, owner) && in_given_sections(k, owner) ? value(k, owner, w) : NULL;
     if (v)
         w->lines[w->n++] = (struct keys_line){.path = k->path, .value = v};
 }
@@ -183,7 +205,7 @@ static void write_input(struct writer *w, const struct scene *s, const char *fil
         fputs("    # could not be read when this was written\n", w->f);
 }
 
-/* Writes the file unless an earlier key of the same or an earlier contact names it too. */
+/* Writes the file unless it has been written for an earlier key. */
 static void write_input_once(struct writer *w, const struct scene *s, const char *file, const char **seen)
 {
     const char **p = seen;
@@ -196,13 +218,18 @@ static void write_input_once(struct writer *w, const struct scene *s, const char
     write_input(w, s, file);
 }
 
+/* Files of keys that are written, then recipes and what is pinned besides: an effective scene has them in the same order again. */
 static void write_inputs(struct writer *w, const struct scene *s, int n_keys)
 {
-    const char **seen = ARENA_TAKE(w->a, const char *, (size_t)n_keys * (size_t)(s->n_contacts + 1) + 1);
-    for (int i = 0; i < s->n_contacts; i++)
-        for (const struct key *k = keys_table; k->path; k++)
-            if (k->of == KEY_CONTACT && k->type == KEY_FILE && text(k, &s->contacts[i]))
-                write_input_once(w, s, text(k, &s->contacts[i]), seen);
+    const char **seen = ARENA_TAKE(w->a, const char *, (size_t)n_keys * (size_t)(s->n_contacts + 1) + (size_t)s->n_inputs + 1);
+    for (int recipes = 0; recipes < 2; recipes++)
+        for (int i = 0; i < s->n_contacts; i++)
+            for (const struct key *k = keys_table; k->path; k++)
+                if (k->of == KEY_CONTACT && k->type == KEY_FILE && is_recipe(k) == recipes && text(k, &s->contacts[i]))
+                    write_input_once(w, s, text(k, &s->contacts[i]), seen);
+    for (int i = 0; i < s->n_inputs; i++)
+        if (s->inputs[i].file)
+            write_input_once(w, s, s->inputs[i].file, seen);
 }
 
 const char *scene_write(const struct scene *s, const char *beside, struct arena *a)

@@ -1,79 +1,89 @@
-/* A measured profile under the contact: file, checks of its geometry, spline. */
-#include "file/heightfile.h"
+/* A measured map or profile under the contact: file, checks of its geometry, spline. */
+#include "file/heightfile_load.h"
 #include "num/real.h"
 #include "stage.h"
+#include "surface/height_map.h"
+#include "surface/map.h"
 #include "surface/profile.h"
 #include "trajectory/trajectory.h"
 
-/* Real surfaces: sampled between 10 nm and 1 mm, heights between 1 nm and 10 mm. Outside, a unit is wrong: metrology files do slip. */
-static bool height_map_plausible(const char *file, double pitch, double range, struct err *e)
+/* Stored steps make curvature noise: steps of size q, rounded evenly, have a standard deviation of q / sqrt(12), their second difference
+   sqrt(6) times as much over pitch^2, and the spline through them 1.55 times that on average. Above a tenth of the limit 1/alpha it is heard. */
+static void height_map_grain(struct stage_run *r, const struct heightfile *h)
 {
-    if (pitch < 10e-9 || pitch > 1e-3)
-        return err_set(e, ERR_SCENE, "%s: a pitch of %g m between samples is not that of a surface profile (10 nm to 1 mm); check surface.pitch",
-                       file, pitch);
-    if (range > 10e-3 || (range > 0 && range < 1e-9))
+    const struct limiter *l = &r->contact->contact.limiter;
+    double step = h->step, noise = 1.55 * sqrt(0.5) * step / (h->pitch_x * h->pitch_x), limit = 1 / fmax(l->alpha, l->alpha_max);
+    if (l->curve == LIMITER_TANH && noise > 0.1 * limit)
+        board_warn(r->board, arena_format(r->arena, "%s: heights are stored in steps of %.3g m, whose curvature noise of %.3g 1/m is heard: the limiter's is "
+                                          "%.3g 1/m; use a finer file (32-bit), or a coarser pitch", r->contact->surface.height_map, step, noise, limit));
+}
+
+static bool height_map_load(struct stage_run *r, struct height_map *m, struct err *e)
+{
+    const struct surface *s = &r->contact->surface;
+    struct heightfile h;
+    struct heightfile_options o = {.pitch = s->pitch, .height_scale = s->height_scale, .height_range = s->height_range, .holes = s->holes,
+                                   .levelling = s->levelling};
+    if (!heightfile_load(s->height_map, &o, r->arena, &h, e))
+        return false;
+    *m = (struct height_map){h.z, h.columns, h.rows, {h.pitch_x, h.rows > 1 ? h.pitch_y : h.pitch_x}};
+    if (h.filled)
+        board_warn(r->board, arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, h.filled));
+    height_map_grain(r, &h);
+    return true;
+}
+
+/* Decides which coordinates the surface follows, from the number of rows. */
+static bool height_map_along(struct relief *r, const struct contact *c, const struct height_map *m, struct err *e)
+{
+    if (r->along == ALONG_AUTO)
+        r->along = m->rows > 1 ? ALONG_PLANE : ALONG_PATH;
+    if (m->rows > 1 && r->along != ALONG_PLANE)
         return err_set(e, ERR_SCENE,
-                       "%s: heights span %g m, which is not a surface profile's (1 nm to 10 mm); check its unit and surface.height_scale", file,
-                       range);
-    return true;
+                       "%s: a map of %zu x %zu samples lies in the plane: leave surface.along out, or take one row of it with rasp surface convert --row",
+                       c->surface.height_map, m->columns, m->rows);
+    return m->rows > 1 || r->along != ALONG_PLANE ||
+           err_set(e, ERR_SCENE, "%s: a profile has no second dimension: leave surface.along out, or set it to path or x", c->surface.height_map);
 }
 
-static bool height_map_pitch(const struct surface *s, const struct heightfile *h, double *pitch, struct err *e)
+static struct relief_part *height_map_part(struct stage_run *r, const struct height_map *m)
 {
-    *pitch = isnan(s->pitch) ? h->pitch_x : s->pitch;
-    if (isnan(*pitch))
-        return err_set(e, ERR_SCENE, "%s: the file does not say how far apart its samples are: give surface.pitch", s->height_map);
-    if (!isnan(h->pitch_x) && !isnan(s->pitch) && fabs(s->pitch / h->pitch_x - 1) > 1e-6)
-        return err_set(e, ERR_SCENE, "%s: surface.pitch is %g m but the file says %g m: leave surface.pitch out, or mend the file",
-                       s->height_map, s->pitch, h->pitch_x);
-    if (h->rows != 1)
-        return err_set(e, ERR_SCENE, "%s: a map of %zu x %zu samples; this version scrapes profiles (one row)", s->height_map, h->columns,
-                       h->rows);
-    if (h->columns < 4)
-        return err_set(e, ERR_SCENE, "%s: %zu samples are too few for a profile (at least 4)", s->height_map, h->columns);
-    return true;
+    const struct surface *s = &r->contact->surface;
+    int along = r->board->relief->along;
+    if (along == ALONG_PLANE)
+        return map_part(r->arena, m->z, m->columns, m->rows, m->pitch, s->origin, s->off_map, "height_map");
+    return profile_part(r->arena, profile_from_samples(r->arena, m->z, m->columns, m->pitch[0], s->off_map), "height_map",
+                        along == ALONG_X ? s->origin[0] : 0);
 }
 
-/* Coordinate along the profile at the two ends of the stroke. */
-static void height_map_reach(const struct contact *c, double q[2])
+/* surface.off_map: error. */
+static bool height_map_inside(const struct stage_run *r, const struct relief_part *p, struct err *e)
 {
-    struct trajectory tr = trajectory_make(&c->motion);
-    bool x = c->surface.along == ALONG_X;
-    q[0] = x ? c->motion.from[0] - c->surface.origin[0] : 0;
-    q[1] = x ? c->motion.to[0] - c->surface.origin[0] : tr.length;
-}
-
-static bool height_map_inside(const struct contact *c, const struct profile *p, struct err *e)
-{
-    double q[2], slack = 1e-9 * p->pitch;
-    height_map_reach(c, q);
-    if (c->surface.off_map != OFF_MAP_ERROR)
-        return true;
-    for (int k = 0; k < 2; k++)
-        if (q[k] < p->from - slack || q[k] > p->to + slack)
+    const struct trajectory *tr = r->board->trajectory;
+    bool path = r->board->relief->along == ALONG_PATH;
+    for (int axis = 0; axis < (r->board->relief->along == ALONG_PLANE ? 2 : 1); axis++) {
+        const double *least = path ? &tr->reach[0] : &tr->box[0][axis], *most = path ? &tr->reach[1] : &tr->box[1][axis];
+        double slack = 1e-9 * p->pitch[axis], out = *least < p->from[axis] - slack ? *least : *most;
+        if (*least < p->from[axis] - slack || *most > p->to[axis] + slack)
             return err_set(e, ERR_SCENE,
-                           "contact '%s': the motion leaves the height map: it reaches %g m along a profile from 0 to %g m; shorten the "
-                           "motion, or set surface.off_map to mirror or wrap",
-                           c->name, q[k], p->to);
+                           "contact '%s': the motion leaves the height map: it reaches %g m %s, and the map goes from %g to %g m; shorten or move "
+                           "the motion, or set surface.off_map to mirror or wrap",
+                           r->contact->name, out, path ? "along the path" : axis ? "in y" : "in x", p->from[axis], p->to[axis]);
+    }
     return true;
 }
 
 static bool height_map_open(struct stage_run *r, struct err *e)
 {
     const struct surface *s = &r->contact->surface;
-    struct heightfile h;
-    double pitch, low = HUGE_VAL, high = -HUGE_VAL;
-    if (!heightfile_read(s->height_map, r->arena, &h, e) || !height_map_pitch(s, &h, &pitch, e))
+    struct height_map *m = ARENA_TAKE(r->arena, struct height_map, 1);
+    if (!height_map_load(r, m, e) || !height_map_along(r->board->relief, r->contact, m, e))
         return false;
-    for (size_t i = 0; i < h.columns; i++) {
-        h.z[i] *= s->height_scale;
-        low = fmin(low, h.z[i]);
-        high = fmax(high, h.z[i]);
-    }
-    if (!height_map_plausible(s->height_map, pitch, high - low, e))
-        return false;
-    r->board->profile = profile_from_samples(r->arena, h.z, h.columns, pitch, s->off_map);
-    return height_map_inside(r->contact, r->board->profile, e);
+    struct relief_part *part = height_map_part(r, m);
+    relief_add(r->board->relief, part);
+    r->board->height_map = m;
+    r->state = part;
+    return s->off_map != OFF_MAP_ERROR || height_map_inside(r, part, e);
 }
 
 static bool height_map_wanted(const struct contact *c, const struct scene *s)
@@ -90,9 +100,10 @@ static double height_map_work(const struct contact *c, const struct scene *s)
 
 const struct stage height_map_stage = {
     .name = "height_map",
-    .does = "measured profile as a cubic spline",
+    .does = "measured map as a cubic spline",
     .paper = "000 sec. 2.2",
     .idle = "no surface.height_map",
+    .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
     .wanted = height_map_wanted,
     .work = height_map_work,

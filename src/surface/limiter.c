@@ -49,7 +49,7 @@ double limiter_constant(const struct contact *c)
 static bool limiter_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->grip.given && c->contact.limiter.curve == LIMITER_TANH;
+    return load_varies(c) && c->contact.limiter.curve == LIMITER_TANH;
 }
 
 static double limiter_work(const struct contact *c, const struct scene *s)

@@ -19,7 +19,7 @@ struct limiter_law limiter_make(const struct limiter *given, double least, doubl
 /* alpha[n] (m) for normal forces[n] (N); forces outside the range count as its ends (negative ones as 0). */
 void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, double *alpha);
 
-/* alpha of a contact whose load is constant. */
+/* alpha of a contact whose load is constant; of one whose load varies (load_varies) it says nothing. */
 double limiter_constant(const struct contact *c);
 
 #endif

@@ -3,9 +3,11 @@
    Interpolation: (c[i-1] + 4 c[i] + c[i+1]) / 6 = z[i]. Its solution on an endless grid is c = sqrt(3) sum_k p^|k| z[i-k] with
    p = sqrt(3) - 2 (Unser, Aldroubi, Eden 1993), computed by one causal and one anticausal recursion; the sums are begun 64 samples
    beyond the ends, where p^64 < 1e-36, with the samples that the continuation rule puts there:
-     mirror  z[-i] = z[i], z[n-1+i] = z[n-1-i], period 2n - 2      wrap  z[n+i] = z[i], period n */
+     mirror  z[-i] = z[i], z[n-1+i] = z[n-1-i], period 2n - 2      wrap  z[n+i] = z[i], period n
+   Heights are taken from the first sample, so that a flat profile is flat to the bit, wherever it lies. */
 #include "surface/profile.h"
 
+#include <limits.h>
 #include <math.h>
 
 #include "scene/scene.h"
@@ -16,38 +18,39 @@ struct sampled {
     double *c;
 };
 
-static long folded(const struct sampled *s, long i)
+long profile_folded(long i, long n, int off_map)
 {
-    long period = s->off_map == OFF_MAP_WRAP ? s->n : 2 * s->n - 2;
+    long period = off_map == OFF_MAP_WRAP ? n : 2 * n - 2;
     i %= period;
     if (i < 0)
         i += period;
-    return i < s->n ? i : period - i;
+    return i < n ? i : period - i;
 }
 
 static void sampled_read(struct profile *p, long first, long n, double *c)
 {
     const struct sampled *s = p->state;
     for (long i = 0; i < n; i++)
-        c[i] = s->c[first + i >= 0 && first + i < s->n ? first + i : folded(s, first + i)];
+        c[i] = s->c[first + i >= 0 && first + i < s->n ? first + i : profile_folded(first + i, s->n, s->off_map)];
 }
 
 enum { SPLINE_REACH = 64 };
 
-static void spline_coefficients(struct sampled *s, const double *z)
+void profile_coefficients(const double *z, double *c, size_t size, int off_map)
 {
-    double pole = sqrt(3) - 2, sum = 0;
+    double pole = sqrt(3) - 2, sum = 0, first = z[0];
+    long n = (long)size;
     for (long i = -SPLINE_REACH; i < 0; i++)
-        sum = z[folded(s, i)] + pole * sum;
-    for (long i = 0; i < s->n; i++)
-        s->c[i] = sum = z[i] + pole * sum;
+        sum = (z[profile_folded(i, n, off_map)] - first) + pole * sum;
+    for (long i = 0; i < n; i++)
+        c[i] = sum = (z[i] - first) + pole * sum;
     sum = 0;
-    for (long i = s->n + SPLINE_REACH; i >= s->n; i--)
-        sum = pole * (z[folded(s, i)] + sum);
-    for (long i = s->n - 1; i >= 0; i--) {
-        double before = s->c[i];
-        s->c[i] = sqrt(3) * (before + sum);
-        sum = pole * (z[i] + sum);
+    for (long i = n + SPLINE_REACH; i >= n; i--)
+        sum = pole * ((z[profile_folded(i, n, off_map)] - first) + sum);
+    for (long i = n - 1; i >= 0; i--) {
+        double before = c[i];
+        c[i] = first + sqrt(3) * (before + sum);
+        sum = pole * ((z[i] - first) + sum);
     }
 }
 
@@ -56,22 +59,65 @@ struct profile *profile_from_samples(struct arena *a, const double *z, size_t n,
     struct profile *p = ARENA_TAKE(a, struct profile, 1);
     struct sampled *s = ARENA_TAKE(a, struct sampled, 1);
     *s = (struct sampled){.n = (long)n, .off_map = off_map, .c = ARENA_TAKE(a, double, n)};
-    spline_coefficients(s, z);
+    profile_coefficients(z, s->c, n, off_map);
     *p = (struct profile){.pitch = pitch, .from = 0, .to = pitch * (double)(n - 1), .read = sampled_read, .state = s};
     return p;
 }
 
-void profile_knots(struct profile *p, long first, long n, double *work, struct profile_knots out)
+/* ------------------------------------------------------------------ as a part of a relief */
+
+enum { WINDOW = 1024 };
+
+struct window {
+    struct profile *profile;
+    double origin;
+    long first;         /* coefficients held: first .. first + WINDOW - 1; LONG_MIN: none */
+    double c[WINDOW];
+};
+
+/* Coefficients cell - 1 .. cell + 2; more of them are fetched ahead of the motion than behind it. */
+static const double *window_at(struct window *w, long cell)
 {
-    const double *c = work + 1;
-    double h = p->pitch;
-    p->read(p, first - 1, n + 2, work);
-    for (long i = 0; i < n; i++) {
-        if (out.height)
-            out.height[i] = (c[i - 1] + 4 * c[i] + c[i + 1]) / 6;
-        if (out.slope)
-            out.slope[i] = (c[i + 1] - c[i - 1]) / (2 * h);
-        if (out.curvature)
-            out.curvature[i] = ((c[i - 1] - c[i]) + (c[i + 1] - c[i])) / (h * h);
+    if (w->first == LONG_MIN || cell - 1 < w->first || cell + 2 >= w->first + WINDOW) {
+        w->first = w->first == LONG_MIN || cell > w->first ? cell - 9 : cell + 10 - WINDOW;
+        w->profile->read(w->profile, w->first, WINDOW, w->c);
     }
+    return w->c + (cell - 1 - w->first);
+}
+
+static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
+{
+    struct window *w = part->state;
+    double h = w->profile->pitch;
+    for (size_t i = 0; i < p->n; i++) {
+        double q = (p->x[i] - w->origin) / h, cell = floor(q), f = q - cell;
+        const double *c = window_at(w, (long)cell);
+        double b0 = (c[0] - c[1]) + (c[2] - c[1]), b1 = (c[1] - c[2]) + (c[3] - c[2]), rise = b1 - b0, s0 = 0.5 * (c[2] - c[0]);
+        if (v->z)
+            v->z[i] += (c[0] + 4 * c[1] + c[2]) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
+        if (v->x)
+            v->x[i] += (s0 + f * (b0 + 0.5 * f * rise)) / h;
+        if (v->xx)
+            v->xx[i] += (b0 + f * rise) / (h * h);
+    }
+}
+
+static void window_close(struct relief_part *part)
+{
+    struct window *w = part->state;
+    if (w->profile->close)
+        w->profile->close(w->profile);
+}
+
+struct relief_part *profile_part(struct arena *a, struct profile *p, const char *name, double origin)
+{
+    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
+    struct window *w = ARENA_TAKE(a, struct window, 1);
+    w->profile = p;
+    w->origin = origin;
+    w->first = LONG_MIN;
+    *part = (struct relief_part){.name = name, .pitch = {p->pitch, 0}, .origin = {origin, 0}, .linear = true, .finest = p->pitch,
+                                 .from = {p->from + origin, -HUGE_VAL}, .to = {p->to + origin, HUGE_VAL}, .add = window_add,
+                                 .close = window_close, .state = w};
+    return part;
 }

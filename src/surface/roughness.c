@@ -1,137 +1,151 @@
-/* Procedural roughness, the "depth maps synthesized from statistics" that papers/000 section 2.2 plans.
+/* Procedural roughness, from figures
 
-     P(k) = P0 (max(k, 1/longest))^exponent   for k < 1/shortest, 0 above        one-sided density, k in cycles/m
+     P(k) = P0 (max(k, 1/longest))^exponent   for k < 1/shortest, 0 above        one-sided density of a profile, k in cycles/m
      rms^2 = integral of P dk
 
-   The heights are independent blocks of N samples at a pitch of shortest / 4, each a random spectrum of P (Gaussian real and imaginary
-   parts from the counter (block, line)) brought to space by an inverse FFT; successive blocks overlap by half under the window
-   w(i) = sin(pi/2 sin^2(pi (i + 1/2) / N)), whose squares add to 1, so that the mean square height is the same everywhere. A block spans at
-   least 8 times the longest wavelength. Any place can be read without the places before it; nothing repeats (2^64 blocks). The window
-   convolves the spectrum with its own, 1.4 lines wide, which is the only departure from P in the mean. It begins and ends with a slope of 0:
-   a window with a corner (sin) puts a kink into the profile at every half block, and at exponent -8 400 times P into the last octave.
+   or like a measured map: the table of its density by thirds of an octave, up to its band limit (surface/survey.h), its rms, skewness and
+   kurtosis. Waves longer than the table's are given what is missing from the rms, spread evenly.
 
-   What is drawn are the spline's coefficients: line j is divided by the response (2 + cos(2 pi j / N)) / 3 of reading a spline at its
-   knots, so that the heights at the knots have P. */
+   Along a line (path, x) it is made of blocks (surface/blocks.h), in the plane of tiles (surface/tiles.h); both are Gaussian. Another skewness or
+   kurtosis is given to it by a smooth increasing function of the heights (surface/heights.h, which says what that does to the spectrum). */
 #include "surface/roughness.h"
 
-#include <stdlib.h>
-
-#include "num/fft.h"
+#include "file/heightfile_load.h"
 #include "num/real.h"
+#include "scene/rules.h"
 #include "stage.h"
-
-enum { ROUGHNESS_KEPT = 4 };
-
-struct block {
-    long index;
-    bool filled;
-    double *c;
-};
-
-struct rough {
-    long n;                 /* samples of a block, even */
-    double *window, *spread;/* [n], [n/2+1]: window; standard deviation of a line's real and imaginary part */
-    struct fft *fft;
-    struct noise stream;
-    struct block blocks[ROUGHNESS_KEPT]; /* block b lies in slot b mod ROUGHNESS_KEPT */
-    double *re, *im, *normal;
-};
-
-/* Integral of (max(k, k0) / k0)^exponent from `from` to `to`, k0 = 1/longest. */
-static double roughness_shape(const struct roughness *r, double from, double to)
-{
-    double k0 = 1 / r->longest, a = r->exponent + 1, flat = fmin(to, k0) - fmin(from, k0);
-    double x0 = fmax(from / k0, 1), x1 = fmax(to / k0, 1);
-    return flat + k0 * (fabs(a) < 1e-9 ? real_log(x1 / x0) : (real_pow(x1, a) - real_pow(x0, a)) / a);
-}
+#include "surface/blocks.h"
+#include "surface/heights.h"
+#include "surface/reading.h"
+#include "surface/survey.h"
+#include "surface/tiles.h"
 
 double roughness_density(const struct roughness *r, double k)
 {
-    double k0 = 1 / r->longest, k1 = 1 / r->shortest, p0 = r->rms * r->rms / roughness_shape(r, 0, k1);
-    return k >= k1 ? 0 : k <= k0 ? p0 : p0 * real_pow(k / k0, r->exponent);
+    double nodes[2] = {1 / r->longest, 1 / r->shortest}, p[2] = {1, real_pow(r->longest / r->shortest, r->exponent)};
+    struct spectrum s = {.n = 2, .k = nodes, .p = p, .flat = true};
+    spectrum_scale(&s, r->rms);
+    return spectrum_at(&s, k);
 }
 
-/* Line j of 1/(n pitch) cycles/m carries what P holds within half a line of it, so that all lines together have rms^2: line 0 in one number,
-   the others in two, each of which has a quarter of the power in the sum (re + i im) e^(i..) + conjugate. */
-static void rough_spread(struct rough *g, const struct roughness *recipe, double pitch)
+struct profile *roughness_make(struct arena *a, const struct roughness *r, struct noise stream)
 {
-    double dk = 1 / ((double)g->n * pitch), k1 = 1 / recipe->shortest, p0 = roughness_density(recipe, 0);
-    for (long j = 0; j < g->n / 2; j++) {
-        double from = fmax(((double)j - 0.5) * dk, 0), to = fmin(((double)j + 0.5) * dk, k1);
-        double spline = (2 + real_cospi(2 * (double)j / (double)g->n)) / 3;
-        if (from < to)
-            g->spread[j] = sqrt(p0 * roughness_shape(recipe, from, to) / (j == 0 ? 1 : 4)) / spline;
+    struct spectrum s = spectrum_power_law(a, r->exponent, r->longest, r->shortest, r->rms);
+    return blocks_make(a, &s, stream);
+}
+
+/* ------------------------------------------------------------------ like a map */
+
+/* A node below the first one that takes up what the rms has beyond the table; or, if the table has more, the table scaled. */
+static void like_long_waves(struct spectrum *s, double rms)
+{
+    double known = spectrum_power(s, s->k[0], spectrum_top(s)), rest = rms * rms - known;
+    if (rest <= s->p[0] * s->k[0]) {
+        spectrum_scale(s, rms);
+        return;
     }
-}
-
-static void block_fill(struct rough *g, struct block *b, long index)
-{
-    noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
-    for (long j = 0; j < g->n / 2; j++) {
-        g->re[j] = g->normal[2 * j] * g->spread[j];
-        g->im[j] = g->normal[2 * j + 1] * g->spread[j];
+    for (int i = s->n++; i > 0; i--) {
+        s->k[i] = s->k[i - 1];
+        s->p[i] = s->p[i - 1];
     }
-    g->im[0] = g->re[g->n / 2] = g->im[g->n / 2] = 0;
-    fft_inverse(g->fft, g->re, g->im, b->c);
-    for (long i = 0; i < g->n; i++)
-        b->c[i] *= g->window[i];
-    b->index = index;
-    b->filled = true;
+    s->k[0] *= 0.99;
+    s->p[0] = rest / s->k[0];
+    spectrum_scale(s, rms);
 }
 
-static const double *block_at(struct rough *g, long index)
+static bool like_spectrum(struct arena *a, const struct heightfile *h, struct roughness_plan *p, const char *file, struct err *e)
 {
-    struct block *b = &g->blocks[((index % ROUGHNESS_KEPT) + ROUGHNESS_KEPT) % ROUGHNESS_KEPT];
-    if (!b->filled || b->index != index)
-        block_fill(g, b, index);
-    return b->c;
-}
-
-/* Coefficient i is the sum of blocks b = floor(i / half) and b - 1, block b beginning at b half. */
-static void roughness_read(struct profile *p, long first, long n, double *c)
-{
-    struct rough *g = p->state;
-    long half = g->n / 2;
-    while (n > 0) {
-        long b = first >= 0 ? first / half : -((-first + half - 1) / half), from = first - b * half;
-        long some = half - from < n ? half - from : n;
-        const double *new = block_at(g, b) + from, *old = block_at(g, b - 1) + half + from;
-        for (long i = 0; i < some; i++)
-            c[i] = new[i] + old[i];
-        c += some;
-        first += some;
-        n -= some;
+    struct survey_grid g = {h->z, h->columns, h->rows, h->pitch_x};
+    if (h->columns < 64)
+        return err_set(e, ERR_SCENE, "%s: %zu samples along a row are too few to take statistics from (at least 64)", file, h->columns);
+    struct survey_moments m = survey_heights(&g);
+    if (!(m.rms > 0))
+        return err_set(e, ERR_SCENE, "%s: is flat: there is no roughness to take statistics from", file);
+    struct spectrum all = survey_spectrum(a, &g), s = {.k = ARENA_TAKE(a, double, all.n + 1), .p = ARENA_TAKE(a, double, all.n + 1), .flat = true};
+    double limit = survey_limit(&all);
+    for (; s.n < all.n && all.k[s.n] <= limit * (1 + 1e-9); s.n++) {
+        s.k[s.n] = all.k[s.n];
+        s.p[s.n] = all.p[s.n];
     }
+    if (s.n < 3)
+        return err_set(e, ERR_SCENE, "%s: its spectrum cannot be told: fewer than three thirds of an octave hold anything", file);
+    like_long_waves(&s, m.rms);
+    p->spectrum = s;
+    p->rms = m.rms, p->skewness = m.skewness, p->kurtosis = m.kurtosis;
+    return true;
 }
 
-static void roughness_close(struct profile *p)
+/* The nearest skewness (of the key's range) and kurtosis that can be had, with a remark. */
+static void like_reachable(struct arena *a, struct roughness_plan *p, const char *file)
 {
-    struct rough *g = p->state;
-    fft_close(g->fft);
+    double range[2], skewness = p->skewness, kurtosis = p->kurtosis;
+    p->skewness = fmin(fmax(skewness, -3), 3);
+    heights_range(p->skewness, range);
+    p->kurtosis = fmin(fmax(kurtosis, range[0]), range[1]);
+    if (p->skewness != skewness || p->kurtosis != kurtosis)
+        p->remark = arena_format(a, "surface.roughness.like: heights with the skewness %.3g and kurtosis %.3g of %s cannot be made: they are %.3g and "
+                                    "%.3g here", skewness, kurtosis, file, p->skewness, p->kurtosis);
 }
 
-static double roughness_window(double share)
+static bool plan_like(struct arena *a, const struct roughness *r, struct roughness_plan *p, struct err *e)
 {
-    double s = real_sinpi(share);
-    return real_sinpi(s * s / 2);
+    struct heightfile_options o = {.pitch = r->like_pitch, .height_scale = NAN, .height_range = NAN, .holes = HEIGHTFILE_FILL};
+    static const struct heightfile_names names = {"surface.roughness.like_pitch", "a file whose heights are in metres", "another format",
+                                                  "a file without holes"};
+    struct heightfile h;
+    o.names = &names;
+    if (!heightfile_load(r->like, &o, a, &h, e) || !like_spectrum(a, &h, p, r->like, e))
+        return false;
+    like_reachable(a, p, r->like);
+    return true;
 }
 
-struct profile *roughness_make(struct arena *a, const struct roughness *recipe, struct noise stream)
+bool roughness_plan(struct arena *a, const struct roughness *r, struct roughness_plan *p, struct err *e)
 {
-    struct profile *p = ARENA_TAKE(a, struct profile, 1);
-    struct rough *g = ARENA_TAKE(a, struct rough, 1);
-    double pitch = recipe->shortest / 4, span = 8 * recipe->longest / pitch;
-    long n = (long)fft_good_size((size_t)(span < 4096 ? 4096 : span));
-    *g = (struct rough){.n = n, .stream = stream, .fft = fft_open((size_t)n), .window = ARENA_TAKE(a, double, n),
-                        .spread = ARENA_TAKE(a, double, n / 2 + 1), .re = ARENA_TAKE(a, double, n / 2 + 1),
-                        .im = ARENA_TAKE(a, double, n / 2 + 1), .normal = ARENA_TAKE(a, double, n)};
-    for (int k = 0; k < ROUGHNESS_KEPT; k++)
-        g->blocks[k].c = ARENA_TAKE(a, double, n);
-    for (long i = 0; i < n; i++)
-        g->window[i] = roughness_window(((double)i + 0.5) / (double)n);
-    rough_spread(g, recipe, pitch);
-    *p = (struct profile){.pitch = pitch, .from = -HUGE_VAL, .to = HUGE_VAL, .read = roughness_read, .state = g, .close = roughness_close};
-    return p;
+    *p = (struct roughness_plan){.rms = r->rms, .skewness = r->skewness, .kurtosis = r->kurtosis};
+    if (r->like)
+        return plan_like(a, r, p, e);
+    if (r->longest <= r->shortest)
+        return err_set(e, ERR_SCENE, "surface.roughness: longest (%g m) must be more than shortest (%g m)", r->longest, r->shortest);
+    if (r->longest / r->shortest > 1e5)
+        return err_set(e, ERR_SCENE, "surface.roughness: longest is more than 100 000 times shortest; lower longest");
+    p->spectrum = spectrum_power_law(a, r->exponent, r->longest, r->shortest, r->rms);
+    return true;
+}
+
+/* ------------------------------------------------------------------ the part */
+
+static struct relief_part *gaussian_part(struct arena *a, struct roughness_plan *p, const struct roughness *r, struct noise stream,
+                                         struct err *e)
+{
+    double lost = 0;
+    struct relief_part *part = tiles_part(a, &p->spectrum, &(struct tiles_grain){r->grain, r->grain_direction}, stream, r->like ? &lost : NULL, e);
+    if (lost > 1e-3)
+        p->remark = arena_format(a, "%s%ssurface.roughness.like: no surface in the plane has the spectrum of %s along every line; %.2g %% of its power "
+                                    "was moved", p->remark ? p->remark : "", p->remark ? "; " : "", r->like, 100 * lost);
+    return part;
+}
+
+struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, const struct roughness *r, int along, struct noise stream,
+                                   struct err *e)
+{
+    bool gaussian = p->skewness == 0 && p->kurtosis == 3;
+    struct heights h;
+    if (!gaussian && !heights_make(p->skewness, p->kurtosis, &h, e)) {
+        err_at(e, "surface.roughness");
+        return NULL;
+    }
+    if (!gaussian)
+        spectrum_scale(&p->spectrum, 1);
+    struct relief_part *part = along == ALONG_PLANE ? gaussian_part(a, p, r, stream, e)
+                                                    : profile_part(a, blocks_make(a, &p->spectrum, stream), "roughness", 0);
+    if (!part) {
+        err_at(e, "surface.roughness");
+        return NULL;
+    }
+    part = gaussian ? part : heights_part(a, part, &h, p->rms);
+    part->name = "roughness";
+    return part;
 }
 
 /* ------------------------------------------------------------------ the stage */
@@ -142,40 +156,49 @@ static bool roughness_wanted(const struct contact *c, const struct scene *s)
     return c->surface.roughness.given;
 }
 
+/* Cycles per point: a spline's 8, or 60 for each octave of a plane's; 60 more for another distribution of heights. */
 static double roughness_work(const struct contact *c, const struct scene *s)
 {
-    (void)c, (void)s;
-    return 40;
+    const struct roughness *r = &c->surface.roughness;
+    bool line = rules_along(c) != ALONG_PLANE;
+    double octaves = r->like ? 9 : 1 + real_log(r->longest / r->shortest) / real_log(2), shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
+    return (line ? 8 : 60 * octaves) * reading_points(s, r->shortest / 4) + 60 * shaped * reading_points(s, r->shortest / 4);
 }
 
 static bool roughness_open(struct stage_run *r, struct err *e)
 {
     const struct roughness *recipe = &r->contact->surface.roughness;
-    if (recipe->longest <= recipe->shortest)
-        return err_set(e, ERR_SCENE, "contact '%s': surface.roughness: longest (%g m) must be more than shortest (%g m)", r->contact->name,
-                       recipe->longest, recipe->shortest);
-    if (recipe->longest / recipe->shortest > 1e5)
-        return err_set(e, ERR_SCENE, "contact '%s': surface.roughness: longest is more than 100 000 times shortest; lower longest",
-                       r->contact->name);
-    char *stream = arena_format(r->arena, "roughness/%s", r->contact->name);
-    r->board->profile = roughness_make(r->arena, recipe, noise_make(r->scene->seed, stream));
+    struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "roughness/%s", r->contact->name));
+    struct roughness_plan p;
+    relief_settle(r->board->relief, r->contact);
+    struct relief_part *part = NULL;
+    if (roughness_plan(r->arena, recipe, &p, e))
+        part = roughness_part(r->arena, &p, recipe, r->board->relief->along, stream, e);
+    if (!part)
+        return err_at(e, "contact '%s'", r->contact->name);
+    if (p.remark)
+        board_warn(r->board, p.remark);
+    relief_add(r->board->relief, part);
+    r->state = part;
     return true;
 }
 
-static void roughness_stage_close(struct stage_run *r)
+static void roughness_close(struct stage_run *r)
 {
-    if (r->board->profile)
-        r->board->profile->close(r->board->profile);
+    struct relief_part *part = r->state;
+    if (part && part->close)
+        part->close(part);
 }
 
 const struct stage roughness_stage = {
     .name = "roughness",
-    .does = "procedural profile with a power-law spectrum",
+    .does = "procedural roughness, random with a given spectrum",
     .paper = "000 sec. 2.2",
     .idle = "no surface.roughness",
+    .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
     .wanted = roughness_wanted,
     .work = roughness_work,
     .open = roughness_open,
-    .close = roughness_stage_close,
+    .close = roughness_close,
 };

@@ -1,12 +1,30 @@
-/* Procedural roughness: an endless Gaussian profile with a power-law spectrum, computed where it is read. */
+/* Procedural roughness: endless, aperiodic, random heights of a recipe, computed where they are read. */
 #ifndef SURFACE_ROUGHNESS_H
 #define SURFACE_ROUGHNESS_H
 #include "base/arena.h"
+#include "base/err.h"
 #include "num/noise.h"
 #include "scene/scene.h"
 #include "surface/profile.h"
+#include "surface/relief.h"
+#include "surface/spectrum.h"
 
-/* Profile of that recipe and noise stream. Close it with its own close(). */
+/* What a recipe comes to. */
+struct roughness_plan {
+    struct spectrum spectrum;
+    double rms, skewness, kurtosis;
+    const char *remark;         /* what had to be departed from, or NULL */
+};
+
+/* The plan of a recipe, of its own numbers or of the map that it names (`like`, which is read). ERR_SCENE, ERR_INPUT. */
+bool roughness_plan(struct arena *a, const struct roughness *recipe, struct roughness_plan *p, struct err *e);
+
+/* A part with the heights of that plan and noise stream, in the coordinates `along` (enum along, decided). Close it with its own close(). NULL:
+   ERR_SCENE, for heights or a spectrum that there are none of. */
+struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, const struct roughness *recipe, int along, struct noise stream,
+                                   struct err *e);
+
+/* A Gaussian profile of that recipe (longest, shortest, exponent, rms) and noise stream. Close it with its own close(). */
 struct profile *roughness_make(struct arena *a, const struct roughness *recipe, struct noise stream);
 
 /* One-sided power spectral density (m^2 per cycle/m) that the profile has at k cycles/m, in the ensemble mean. */

@@ -1,101 +1,171 @@
-/* Normal force of a hand-held scraper, papers/000 equations 8 and 9 generalised to any instant and direction:
+/* Normal force.
 
-     N(t) = (m g + m a_out(t) tan theta) / (1 - mu tan theta)
+   Of a hand-held scraper: papers/000 equations 8 and 9, generalised to any instant and direction:
 
-     m      mass of the scraper, kg           theta  angle of the tool above the horizontal, rad
-     g      gravity, m/s^2                    mu     coefficient of friction
-     a_out  acceleration along the horizontal direction from the torso outwards (grip.azimuth), m/s^2
+     N(t) = (m g + m a_out(t) tan theta) / (1 - mu tan theta),   a_out = a_x cos azimuth + a_y sin azimuth
+
+     m      mass of the scraper, kg           theta    angle of the tool above the horizontal, rad
+     g      gravity, m/s^2                    mu       coefficient of friction
+     a      acceleration, m/s^2               azimuth  horizontal direction from the torso outwards, rad
 
    For harmonic motion of amplitude L (half the distance between the ends; the paper does not define its L) along that direction,
    a_out runs from -omega^2 L to omega^2 L, which gives equations 9 and 8 at the two ends. N is largest at the end near the torso, where
    the acceleration points outwards.
 
    The paper's denominator vanishes at mu tan theta = 1 (the tool jams): refused from 0.999 on. N < 0 means that the hand lifts the
-   scraper off: no contact, no force; counted by the force stage. */
+   scraper off: no contact, no force; counted by the force stage.
+
+   Recorded: the natural cubic spline (C2) through the file's rows, their end values before and after them. Its times are those of the motion's
+   file for a recorded motion, else they count from the start of the contact. Between rows a spline overshoots, also below 0.
+
+   Approach and release: the contact is made over load.approach, p = 10 q^3 - 15 q^4 + 6 q^5 of the force, so that it does not begin with a
+   click; the paper has no such thing. Where the motion starts from rest the force starts from 0 by itself. */
 #include "trajectory/load.h"
+
+#include <math.h>
 
 #include "num/real.h"
 #include "scene/rules.h"
-#include "stage.h"
+#include "trajectory/cubic.h"
+#include "trajectory/scan.h"
+#include "trajectory/series.h"
 
-bool load_make(const struct contact *c, const struct trajectory *tr, struct load_law *l, struct err *e)
+struct load_record {
+    struct cubic spline;
+    double clock;           /* s: the file's time at the start of the motion */
+};
+
+bool load_varies(const struct contact *c)
 {
-    double g = c->contact.gravity, m = c->scraper.mass;
-    if (!c->grip.given) {
-        double n = isnan(c->load.constant) ? m * g : c->load.constant;
-        *l = (struct load_law){.still = n, .least = n, .most = n};
-        return true;
-    }
-    double tangent = real_tan(c->grip.angle), slip = rules_slip(&c->grip);
+    return c->grip.given || c->load.recorded;
+}
+
+static double record_at(const struct load_record *r, size_t *piece, double t)
+{
+    const struct cubic *c = &r->spline;
+    double out[4], x = t + r->clock;
+    if (x <= c->at[0] || x >= c->at[c->n - 1])
+        return x <= c->at[0] ? c->y[0] : c->y[c->n - 1];
+    *piece = cubic_next(c, *piece, x);
+    cubic_at(c, *piece, x, out);
+    return out[0];
+}
+
+void load_at(const struct load_law *l, size_t n, const double *t, const double *ax, const double *ay, double *force)
+{
+    size_t piece = 0;
+    bool held = l->per_acceleration[0] != 0 || l->per_acceleration[1] != 0;
+    for (size_t i = 0; i < n; i++)
+        force[i] = l->record ? record_at(l->record, &piece, t[i]) : l->still;
+    for (size_t i = 0; held && i < n; i++)
+        force[i] += l->per_acceleration[0] * ax[i] + l->per_acceleration[1] * ay[i];
+}
+
+double load_of(const struct load_law *l, const struct trajectory *tr, double t)
+{
+    double ax, ay, n;
+    trajectory_at(tr, 1, &t, (struct trajectory_out){.ax = &ax, .ay = &ay});
+    load_at(l, 1, &t, &ax, &ay, &n);
+    return n;
+}
+
+static double step(double q)
+{
+    return q <= 0 ? 0 : q >= 1 ? 1 : q * q * q * (10 + q * (-15 + q * 6));
+}
+
+double load_lowered(const struct load_law *l, double t)
+{
+    double share = l->approach > 0 ? step(t / l->approach) : 1;
+    return l->release > 0 ? share * step((l->duration - t) / l->release) : share;
+}
+
+/* ------------------------------------------------------------------ making */
+
+static bool load_grip(const struct contact *c, struct load_law *l, struct err *e)
+{
+    double g = c->contact.gravity, m = c->scraper.mass, tangent = real_tan(c->grip.angle), slip = rules_slip(&c->grip);
     if (rules_jams(&c->grip))
         return err_set(e, ERR_SCENE,
                        "contact '%s': grip: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999; lower grip.angle or "
                        "grip.friction",
                        c->name, 1 - slip);
-    double outwards = tr->e[0] * real_cos(c->grip.azimuth) + tr->e[1] * real_sin(c->grip.azimuth);
-    *l = (struct load_law){.still = m * g / slip, .per_acceleration = m * tangent / slip * outwards};
+    l->still = m * g / slip;
+    l->per_acceleration[0] = m * tangent / slip * real_cos(c->grip.azimuth);
+    l->per_acceleration[1] = m * tangent / slip * real_sin(c->grip.azimuth);
     return true;
 }
 
-/* Extremes over the motion, on 4097 instants of it (of its first cycle when it repeats). A whole cycle of harmonic motion has its extremes
-   on the grid; those of a part of a cycle and of the minimum-jerk law lie between and are missed by less than 1e-6 of the range. */
-static void load_range(struct load_law *l, const struct trajectory *tr)
+static bool load_recorded(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e)
 {
-    double span = tr->path == PATH_BACK_AND_FORTH && tr->duration * tr->rate > 1 ? 1 / tr->rate : tr->duration;
-    l->least = HUGE_VAL, l->most = -HUGE_VAL;
-    for (int i = 0; i <= 4096; i++) {
-        double t = span * i / 4096, a, n;
-        trajectory_at(tr, 1, &t, NULL, NULL, &a);
-        n = fmax(load_at(l, a), 0);
-        l->least = fmin(l->least, n);
-        l->most = fmax(l->most, n);
+    static const char *const columns[2] = {"normal_force_n", NULL};
+    struct load_record *r = ARENA_TAKE(a, struct load_record, 1);
+    struct series s;
+    if (!series_read(c->load.recorded, columns, a, &s, e))
+        return false;
+    double first = s.time[0], last = s.time[s.n - 1], start = tr->clock, end = tr->clock + tr->duration;
+    if (first > start + 1e-9 || last < end - 1e-9)
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': load.recorded: %s holds the normal force from %.9g s to %.9g s, but the motion lasts from %.9g s to %.9g s; "
+                       "it must cover the motion",
+                       c->name, c->load.recorded, first, last, start, end);
+    r->clock = tr->clock;
+    cubic_natural(&r->spline, s.n, s.time, s.x[0], a);
+    l->record = r;
+    l->still = NAN;
+    return true;
+}
+
+/* Rules tell what the scene alone shows; the motion itself tells whether its ends are at rest. */
+static bool load_ends(const struct contact *c, const struct trajectory *tr, struct load_law *l, struct err *e)
+{
+    l->duration = tr->duration;
+    l->approach = isnan(c->load.approach) && tr->starts_at_rest ? 0 : rules_approach(c, false);
+    l->release = isnan(c->load.release) && tr->ends_at_rest ? 0 : rules_approach(c, true);
+    return l->approach + l->release <= tr->duration * (1 + 1e-9) ||
+           err_set(e, ERR_SCENE,
+                   "contact '%s': load.approach, %.4g s, and load.release, %.4g s%s, do not fit into the motion, which lasts %.4g s; give "
+                   "shorter ones",
+                   c->name, l->approach, l->release, isnan(c->load.approach) || isnan(c->load.release) ? " (auto)" : "", tr->duration);
+}
+
+struct load_scan {
+    const struct load_law *law;
+    const struct trajectory *tr;
+};
+
+static void load_scan_at(const void *self, size_t n, const double *t, double *y)
+{
+    enum { SOME = 256 };
+    const struct load_scan *s = self;
+    double ax[SOME], ay[SOME];
+    for (size_t first = 0; first < n; first += SOME) {
+        size_t some = n - first < SOME ? n - first : SOME;
+        trajectory_at(s->tr, some, t + first, (struct trajectory_out){.ax = ax, .ay = ay});
+        load_at(s->law, some, t + first, ax, ay, y + first);
     }
 }
 
-/* ------------------------------------------------------------------ the stage: only a grip makes the load vary */
-
-static bool load_wanted(const struct contact *c, const struct scene *s)
+/* Extremes over the motion (over its first cycle when it repeats). */
+static void load_range(struct load_law *l, const struct trajectory *tr)
 {
-    (void)s;
-    return c->grip.given;
+    struct load_scan s = {l, tr};
+    double range[2];
+    long detail = 4 * tr->detail + (l->record ? 4 * (long)l->record->spline.n : 0);
+    scan_range(&(struct scan){load_scan_at, &s}, 0, l->record ? tr->duration : tr->cycle, detail, range);
+    l->least = fmax(range[0], 0);
+    l->most = fmax(range[1], 0);
 }
 
-static double load_work(const struct contact *c, const struct scene *s)
+bool load_make(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e)
 {
-    (void)c;
-    return 2 * s->accuracy.oversampling;
-}
-
-static bool load_open(struct stage_run *r, struct err *e)
-{
-    struct load_law *l = ARENA_TAKE(r->arena, struct load_law, 1);
-    r->board->load = l;
-    if (!load_make(r->contact, r->board->trajectory, l, e))
+    double n = isnan(c->load.constant) ? c->scraper.mass * c->contact.gravity : c->load.constant;
+    *l = (struct load_law){.still = n, .least = n, .most = n};
+    if (c->grip.given ? !load_grip(c, l, e) : c->load.recorded && !load_recorded(c, tr, a, l, e))
         return false;
-    load_range(l, r->board->trajectory);
+    if (!load_ends(c, tr, l, e))
+        return false;
+    if (load_varies(c))
+        load_range(l, tr);
     return true;
 }
-
-static bool load_run(struct stage_run *r, long from, long to, struct err *e)
-{
-    (void)e;
-    const struct board *b = r->board;
-    const double *a = board_at(b, ITEM_ACCELERATION, from);
-    double *n = board_at(b, ITEM_LOAD, from);
-    for (long i = 0; i < (to - from) * b->over; i++)
-        n[i] = load_at(b->load, a[i]);
-    return true;
-}
-
-const struct stage load_stage = {
-    .name = "load",
-    .does = "normal force of the hand that holds the scraper",
-    .paper = "000 eq. 8, 9",
-    .idle = "no grip: the load is constant",
-    .needs = ITEM_BIT(ITEM_ACCELERATION),
-    .gives = ITEM_BIT(ITEM_LOAD),
-    .wanted = load_wanted,
-    .work = load_work,
-    .open = load_open,
-    .run = load_run,
-};

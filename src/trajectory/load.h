@@ -1,26 +1,40 @@
-/* The normal force N(t): constant, or from the hand that moves the tool. */
+/* The normal force N(t): constant, recorded, or from the hand that moves the tool; and how far the scraper is lowered. */
 #ifndef TRAJECTORY_LOAD_H
 #define TRAJECTORY_LOAD_H
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/arena.h"
 #include "base/err.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
+struct load_record;
+
 struct load_law {
-    double still;       /* N without acceleration                       */
-    double per_acceleration; /* N per m/s^2 along the stroke             */
-    double least, most; /* N, over the motion, negative ones counted as 0 */
+    double still;               /* N without acceleration (grip), or the constant         */
+    double per_acceleration[2]; /* N per m/s^2 along x and y                              */
+    const struct load_record *record; /* recorded N(t); NULL: none                        */
+    double approach, release;   /* s; resolved, 0: none                                   */
+    double duration;            /* s, of the motion                                       */
+    double least, most;         /* N over the motion, without approach and release; negative ones counted as 0 */
 };
 
-/* ERR_SCENE when the grip jams (mu tan theta >= 0.999). */
-bool load_make(const struct contact *c, const struct trajectory *tr, struct load_law *l, struct err *e);
+/* ERR_SCENE when the grip jams (mu tan theta >= 0.999), or the motion is shorter than approach and release; ERR_INPUT, ERR_SCENE for a recorded
+   force. least and most are exact to rounding (trajectory/scan.h); those of a load that does not vary are `still`. */
+bool load_make(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e);
 
-/* Normal force for an acceleration along the stroke; negative: the scraper is lifted off. */
-static inline double load_at(const struct load_law *l, double acceleration)
-{
-    return l->still + l->per_acceleration * acceleration;
-}
+/* Does the load of this contact vary over time by grip or record? (Approach and release alone do not count.) */
+bool load_varies(const struct contact *c);
+
+/* Normal force in N at n instants, from accelerations ax, ay (m/s^2; read only by a grip, t only by a recorded force: else may be NULL);
+   negative: lifted off. Approach and release are NOT in it. */
+void load_at(const struct load_law *l, size_t n, const double *t, const double *ax, const double *ay, double *force);
+
+/* The same from the motion itself, at one instant. */
+double load_of(const struct load_law *l, const struct trajectory *tr, double t);
+
+/* The share, 0 to 1, to which the scraper is lowered at time t: a minimum-jerk step (C2) over approach and release, else 1. */
+double load_lowered(const struct load_law *l, double t);
 
 #endif

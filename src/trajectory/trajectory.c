@@ -1,29 +1,115 @@
-/* Straight motions.
+/* Motions: a speed law on a path, or a course with its own time. See trajectory.h; paths are in path_*.c, laws in speed_*.c, courses in
+   course*.c and recorded.c.
 
-     back_and_forth   u(t) = L (1 - cos(2 pi r t)), L = half the distance between the ends: simple harmonic motion from the first end,
-                      as papers/000 section 2.3 approximates a hand's ("simple harmonic motion with an angular frequency omega")
-     line             u(t) = d p(t / T): constant speed p = q, or minimum jerk p = 10 q^3 - 15 q^4 + 6 q^5 (Flash and Hogan 1985)
+     straight       place = from + u e                              velocity = u' e          acceleration = u'' e
+     curved         place = P(u)                                    velocity = u' e(u)       acceleration = u'' e + u'^2 de/ds
+     own time       place = P(t), velocity and acceleration its derivatives; u = integral of |P'| dt, u' = |P'|, u'' = P' . P'' / |P'|
 
-   r rate in Hz, d distance between the ends in m, T duration in s. */
+   The paths and times of papers/000 section 3.2: back_and_forth and four_in_line share one speed over time, circle and line another. */
 #include "trajectory/trajectory.h"
 
-#include "num/real.h"
-#include "num/vecmath.h"
-#include "stage.h"
+#include <math.h>
 
-struct trajectory trajectory_make(const struct motion *m)
+#include "trajectory/trajectory_state.h"
+
+enum { TRAJECTORY_CHUNK = 256 };
+
+/* ------------------------------------------------------------------ at an instant */
+
+static double *from(double *x, size_t first)
 {
-    double dx = m->to[0] - m->from[0], dy = m->to[1] - m->from[1], length = sqrt(dx * dx + dy * dy);
-    struct trajectory tr = {.path = m->path, .law = m->law, .from = {m->from[0], m->from[1]}, .e = {dx / length, dy / length},
-                            .length = length, .rate = m->rate, .duration = m->duration};
-    if (m->path == PATH_BACK_AND_FORTH) {
-        tr.top_speed = REAL_PI * m->rate * length;
-        return tr;
+    return x ? x + first : NULL;
+}
+
+static void at_straight(const struct trajectory *tr, size_t n, const double *t, const struct trajectory_out *out)
+{
+    const struct speed *law = &tr->state->speed;
+    double own[3][TRAJECTORY_CHUNK], *line[3] = {out->u, out->du, out->ddu};
+    double *plane[3][2] = {{out->x, out->y}, {out->vx, out->vy}, {out->ax, out->ay}};
+    for (int k = 0; k < 3; k++)
+        if (!line[k] && (plane[k][0] || plane[k][1]))
+            line[k] = own[k];
+    law->at(law, n, t, line[0], line[1], line[2]);
+    for (int k = 0; k < 3; k++)
+        for (int xy = 0; xy < 2; xy++)
+            for (size_t i = 0; plane[k][xy] && i < n; i++)
+                plane[k][xy][i] = (k == 0 ? tr->from[xy] : 0) + line[k][i] * tr->e[xy];
+}
+
+static void at_curve(const struct trajectory *tr, size_t n, const double *t, const struct trajectory_out *out)
+{
+    const struct speed *law = &tr->state->speed;
+    const struct path *path = &tr->state->path;
+    double u[TRAJECTORY_CHUNK], du[TRAJECTORY_CHUNK], ddu[TRAJECTORY_CHUNK], e[2][TRAJECTORY_CHUNK], bend[2][TRAJECTORY_CHUNK];
+    double *v[2] = {out->vx, out->vy}, *a[2] = {out->ax, out->ay};
+    law->at(law, n, t, u, du, ddu);
+    for (size_t i = 0; i < n; i++) {
+        if (out->u)
+            out->u[i] = u[i];
+        if (out->du)
+            out->du[i] = du[i];
+        if (out->ddu)
+            out->ddu[i] = ddu[i];
     }
-    if (isnan(m->duration))
-        tr.duration = length / m->speed;
-    tr.top_speed = length / tr.duration * (m->law == SPEED_MINIMUM_JERK ? 1.875 : 1.0);
-    return tr;
+    if (out->x || out->y || v[0] || v[1] || a[0] || a[1])
+        path->at(path, n, u, &(struct path_out){.p = {out->x, out->y}, .e = {e[0], e[1]}, .bend = {bend[0], bend[1]}});
+    for (int xy = 0; xy < 2; xy++) {
+        for (size_t i = 0; v[xy] && i < n; i++)
+            v[xy][i] = du[i] * e[xy][i];
+        for (size_t i = 0; a[xy] && i < n; i++)
+            a[xy][i] = ddu[i] * e[xy][i] + du[i] * du[i] * bend[xy][i];
+    }
+}
+
+static void at_own_time(const struct trajectory *tr, size_t n, const double *t, const struct trajectory_out *out)
+{
+    const struct trajectory_state *s = tr->state;
+    double own[4][TRAJECTORY_CHUNK];
+    struct course_out c = {.p = {out->x, out->y}, .d = {out->vx, out->vy}, .dd = {out->ax, out->ay}};
+    for (int xy = 0; xy < 2; xy++) {
+        c.d[xy] = c.d[xy] ? c.d[xy] : out->du || out->ddu ? own[xy] : NULL;
+        c.dd[xy] = c.dd[xy] ? c.dd[xy] : out->ddu ? own[2 + xy] : NULL;
+    }
+    s->course.at(&s->course, n, t, &c);
+    if (out->u)
+        panels_at(&s->far, n, t, out->u, NULL, NULL);
+    for (size_t i = 0; (out->du || out->ddu) && i < n; i++) {
+        double speed = sqrt(c.d[0][i] * c.d[0][i] + c.d[1][i] * c.d[1][i]);
+        if (out->du)
+            out->du[i] = speed;
+        if (out->ddu)
+            out->ddu[i] = speed > 0 ? (c.d[0][i] * c.dd[0][i] + c.d[1][i] * c.dd[1][i]) / speed
+                                    : sqrt(c.dd[0][i] * c.dd[0][i] + c.dd[1][i] * c.dd[1][i]);
+    }
+}
+
+/* n <= TRAJECTORY_CHUNK instants that need not lie within the motion. */
+static void at_any(const struct trajectory *tr, size_t n, const double *t, const struct trajectory_out *out)
+{
+    if (tr->straight)
+        at_straight(tr, n, t, out);
+    else if (tr->state->timed)
+        at_own_time(tr, n, t, out);
+    else
+        at_curve(tr, n, t, out);
+}
+
+void trajectory_at(const struct trajectory *tr, size_t n, const double *t, struct trajectory_out out)
+{
+    double inside[TRAJECTORY_CHUNK];
+    for (size_t first = 0; first < n; first += TRAJECTORY_CHUNK) {
+        size_t some = n - first < TRAJECTORY_CHUNK ? n - first : TRAJECTORY_CHUNK;
+        for (size_t i = 0; i < some; i++)
+            inside[i] = t[first + i] < 0 ? 0 : t[first + i] > tr->duration ? tr->duration : t[first + i];
+        at_any(tr, some, inside,
+               &(struct trajectory_out){from(out.u, first), from(out.du, first), from(out.ddu, first), from(out.x, first), from(out.y, first),
+                                        from(out.vx, first), from(out.vy, first), from(out.ax, first), from(out.ay, first)});
+    }
+}
+
+void trajectory_continued(const struct trajectory *tr, double t, double place[2])
+{
+    at_any(tr, 1, &t, &(struct trajectory_out){.x = &place[0], .y = &place[1]});
 }
 
 long trajectory_frames(const struct trajectory *tr, double rate)
@@ -31,134 +117,52 @@ long trajectory_frames(const struct trajectory *tr, double rate)
     return (long)ceil(tr->duration * rate) + 1;
 }
 
-enum { TRAJECTORY_CHUNK = 256 };
+/* ------------------------------------------------------------------ turning round */
 
-static double instant(const struct trajectory *tr, double t)
+struct instant {
+    double v[2], pull; /* velocity; velocity . acceleration */
+};
+
+static struct instant instant_at(const struct trajectory *tr, double t)
 {
-    return t < 0 ? 0 : t > tr->duration ? tr->duration : t;
+    struct instant s;
+    double a[2];
+    trajectory_at(tr, 1, &t, (struct trajectory_out){.vx = &s.v[0], .vy = &s.v[1], .ax = &a[0], .ay = &a[1]});
+    s.pull = s.v[0] * a[0] + s.v[1] * a[1];
+    return s;
 }
 
-static void harmonic(const struct trajectory *tr, size_t n, const double *t, double *out[3])
+static double speed_squared(const struct instant *s)
 {
-    double amplitude = tr->length / 2, omega = 2 * REAL_PI * tr->rate, s[TRAJECTORY_CHUNK], c[TRAJECTORY_CHUNK];
-    for (size_t i = 0; i < n; i++)
-        s[i] = 2 * tr->rate * instant(tr, t[i]);
-    vecmath_sincospi(n, s, s, c);
-    for (size_t i = 0; i < n; i++) {
-        if (out[0])
-            out[0][i] = amplitude * (1 - c[i]);
-        if (out[1])
-            out[1][i] = amplitude * omega * s[i];
-        if (out[2])
-            out[2][i] = amplitude * omega * omega * c[i];
-    }
+    return s->v[0] * s->v[0] + s->v[1] * s->v[1];
 }
 
-static void line(const struct trajectory *tr, size_t n, const double *t, double *out[3])
+/* Where the speed is least between two instants of opposite directions: v . a changes its sign there. */
+static double plane_turning(const struct trajectory *tr, double t0, double t1)
 {
-    double d = tr->length, v = d / tr->duration;
-    bool jerk = tr->law == SPEED_MINIMUM_JERK;
-    for (size_t i = 0; i < n; i++) {
-        double q = instant(tr, t[i]) / tr->duration;
-        if (out[0])
-            out[0][i] = jerk ? d * q * q * q * (10 + q * (-15 + q * 6)) : d * q;
-        if (out[1])
-            out[1][i] = jerk ? 30 * v * q * q * (1 - q) * (1 - q) : v;
-        if (out[2])
-            out[2][i] = jerk ? 60 * v / tr->duration * q * (1 - q) * (1 - 2 * q) : 0;
-    }
-}
-
-void trajectory_at(const struct trajectory *tr, size_t n, const double *t, double *u, double *v, double *a)
-{
-    double *out[3] = {u, v, a};
-    while (n > 0) {
-        size_t some = n < TRAJECTORY_CHUNK ? n : TRAJECTORY_CHUNK;
-        if (tr->path == PATH_BACK_AND_FORTH)
-            harmonic(tr, some, t, out);
+    double low = fmax(t0, 0), high = fmin(t1, tr->duration);
+    struct instant a = instant_at(tr, low), b = instant_at(tr, high);
+    double slower = fmin(speed_squared(&a), speed_squared(&b));
+    if (!(a.v[0] * b.v[0] + a.v[1] * b.v[1] < 0) || !(a.pull < 0) || !(b.pull > 0))
+        return NAN;
+    for (int i = 0; i < 200; i++) {
+        double middle = low + 0.5 * (high - low);
+        if (middle <= low || middle >= high)
+            break;
+        struct instant m = instant_at(tr, middle);
+        if (m.pull < 0)
+            low = middle;
         else
-            line(tr, some, t, out);
-        n -= some;
-        t += some;
-        for (int k = 0; k < 3; k++)
-            out[k] = out[k] ? out[k] + some : NULL;
+            high = middle;
     }
-}
-
-double trajectory_continued(const struct trajectory *tr, double t)
-{
-    struct trajectory endless = *tr;
-    double u, q = t / tr->duration;
-    if (tr->path != PATH_BACK_AND_FORTH)
-        return tr->length * (tr->law == SPEED_MINIMUM_JERK ? q * q * q * (10 + q * (-15 + q * 6)) : q);
-    endless.duration = HUGE_VAL;
-    t = fabs(t); /* the cosine is even */
-    trajectory_at(&endless, 1, &t, &u, NULL, NULL);
-    return u;
+    a = instant_at(tr, high);
+    return high > t0 && high < t1 && high < tr->duration && speed_squared(&a) < 0.25 * slower ? high : NAN;
 }
 
 double trajectory_turning(const struct trajectory *tr, double t0, double t1)
 {
-    if (tr->path != PATH_BACK_AND_FORTH)
-        return NAN;
-    double turn = (floor(2 * tr->rate * t0) + 1) / (2 * tr->rate);
-    return turn > t0 && turn < t1 && turn < tr->duration ? turn : NAN;
+    const struct trajectory_state *s = tr->state;
+    if (tr->straight)
+        return s->speed.turning ? s->speed.turning(&s->speed, t0, t1) : NAN;
+    return s->timed || s->corners ? plane_turning(tr, t0, t1) : NAN;
 }
-
-/* ------------------------------------------------------------------ the stage */
-
-struct trajectory_state {
-    struct trajectory tr;
-};
-
-static bool trajectory_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return true;
-}
-
-static double trajectory_work(const struct contact *c, const struct scene *s)
-{
-    return (c->motion.path == PATH_BACK_AND_FORTH ? 12 : 6) * s->accuracy.oversampling;
-}
-
-static bool trajectory_open(struct stage_run *r, struct err *e)
-{
-    (void)e;
-    struct trajectory_state *st = ARENA_TAKE(r->arena, struct trajectory_state, 1);
-    st->tr = trajectory_make(&r->contact->motion);
-    r->state = st;
-    r->board->trajectory = &st->tr;
-    r->board->moving = trajectory_frames(&st->tr, r->board->rate);
-    return true;
-}
-
-static bool trajectory_run(struct stage_run *r, long from, long to, struct err *e)
-{
-    (void)e;
-    const struct board *b = r->board;
-    double t[TRAJECTORY_CHUNK];
-    long n = (to - from) * b->over, first = from * b->over;
-    double *out[3];
-    for (int k = 0; k < 3; k++)
-        out[k] = board_has(b, (enum item)(ITEM_POSITION + k)) ? board_at(b, (enum item)(ITEM_POSITION + k), from) : NULL;
-    for (long i = 0; i < n; i += TRAJECTORY_CHUNK) {
-        size_t some = (size_t)(n - i < TRAJECTORY_CHUNK ? n - i : TRAJECTORY_CHUNK);
-        for (size_t j = 0; j < some; j++)
-            t[j] = (double)(first + i + (long)j) / (b->rate * b->over);
-        trajectory_at(b->trajectory, some, t, out[0] ? out[0] + i : NULL, out[1] ? out[1] + i : NULL, out[2] ? out[2] + i : NULL);
-    }
-    return true;
-}
-
-const struct stage trajectory_stage = {
-    .name = "trajectory",
-    .does = "position, velocity and acceleration of the contact",
-    .paper = "000 sec. 2.3",
-    .idle = "",
-    .gives = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION),
-    .wanted = trajectory_wanted,
-    .work = trajectory_work,
-    .open = trajectory_open,
-    .run = trajectory_run,
-};

@@ -1,5 +1,5 @@
 # A key, a choice, a section, a map that is no section, a knob, the columns, a key of one contact.
-for key in motion.rate surface.along surface.roughness output.level accuracy accuracy.oversampling output.diagnostics.columns \
+for key in motion.rate motion.points motion.law surface.along surface.grit.density surface.roughness surface.roughness.rms output.level accuracy accuracy.oversampling output.diagnostics.columns \
     contacts.rod.motion.rate contacts include; do
     rasp explain $key
     echo

@@ -1,8 +1,22 @@
-/* The height map readers, NPY and GSF; every height that is read is finite. */
+/* The height map readers of all formats, and filling: no height that is read is infinite, holes are counted right, and a filled map has none. */
 #include <math.h>
 
 #include "file/heightfile.h"
+#include "file/heightfile_fill.h"
 #include "fuzz.h"
+
+static void check_heights(const struct heightfile *h)
+{
+    size_t holes = 0, first = 0;
+    for (size_t i = 0; i < h->rows * h->columns; i++) {
+        if (isinf(h->z[i]))
+            abort();
+        first = isnan(h->z[i]) && !holes ? i : first;
+        holes += isnan(h->z[i]);
+    }
+    if (holes != h->holes || (holes && first != h->first_hole) || !h->format || h->rows == 0 || h->columns == 0)
+        abort();
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -12,9 +26,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct err e = {0};
     bool ok = heightfile_read(f.path, a, &h, &e);
     fuzz_check(ok, &e);
-    for (size_t i = 0; ok && i < h.rows * h.columns; i++)
-        if (!isfinite(h.z[i]))
-            abort();
+    if (ok) {
+        check_heights(&h);
+        ok = heightfile_fill(f.path, &h, &e);
+        fuzz_check(ok, &e);
+        for (size_t i = 0; ok && i < h.rows * h.columns; i++)
+            if (!isfinite(h.z[i]))
+                abort();
+    }
     arena_close(a);
     close(f.fd);
     return 0;

@@ -1,4 +1,5 @@
-/* A piece of the pipeline under test: a scene's stages up to an item, and a probe that keeps what that item holds. */
+/* A piece of the pipeline under test: a scene's stages up to an item, and a probe that keeps what that item holds. A test may put a surface of
+   its own in the place of the scene's roughness. */
 #ifndef RIG_H
 #define RIG_H
 #include <stdbool.h>
@@ -7,6 +8,7 @@
 #include "pipeline/run.h"
 #include "pipeline/stages.h"
 #include "scene/scene_read.h"
+#include "surface/relief.h"
 #include "unit.h"
 
 struct rig {
@@ -20,6 +22,7 @@ struct rig {
 
 static struct {
     enum item item;
+    unsigned also;      /* further items that the plan is to make */
     struct rig *rig;
 } rig_probe;
 
@@ -55,7 +58,7 @@ static inline double rig_work(const struct contact *c, const struct scene *s)
 static inline unsigned rig_asks(const struct contact *c, const struct scene *s)
 {
     (void)c, (void)s;
-    return ITEM_BIT(rig_probe.item);
+    return ITEM_BIT(rig_probe.item) | rig_probe.also;
 }
 
 static inline bool rig_open(struct stage_run *r, struct err *e)
@@ -78,6 +81,25 @@ static inline bool rig_run(struct stage_run *r, long from, long to, struct err *
 static const struct stage rig_stage = {.name = "probe", .does = "", .paper = "", .idle = "", .gives = ITEM_BIT(ITEM_TABLE),
                                        .asks = rig_asks, .wanted = rig_wanted, .work = rig_work, .open = rig_open, .run = rig_run};
 
+/* The test's surface, while it has one; NULL: the scene's. */
+static struct relief_part *(*rig_relief)(struct arena *, const struct contact *);
+
+static inline bool rig_relief_open(struct stage_run *r, struct err *e)
+{
+    (void)e;
+    relief_settle(r->board->relief, r->contact);
+    relief_add(r->board->relief, rig_relief(r->arena, r->contact));
+    return true;
+}
+
+static const struct stage rig_relief_stage = {.name = "relief", .does = "", .paper = "", .idle = "", .needs = ITEM_BIT(ITEM_SURFACE),
+                                              .gives = ITEM_BIT(ITEM_SURFACE), .wanted = rig_wanted, .work = rig_work, .open = rig_relief_open};
+
+static inline const struct stage *rig_in_place_of(const struct stage *s)
+{
+    return s == &force_table_stage ? &rig_stage : s == &roughness_stage && rig_relief ? &rig_relief_stage : s;
+}
+
 static inline struct scene rig_scene(struct arena *a, const char *text)
 {
     struct scene s;
@@ -98,7 +120,7 @@ static inline struct rig *rig_record(struct scene *s, enum item item, long frame
     struct err e = {0};
     int n = 0;
     for (; stages_table[n]; n++)
-        table[n] = stages_table[n] == &force_table_stage ? &rig_stage : stages_table[n];
+        table[n] = rig_in_place_of(stages_table[n]);
     table[n] = NULL;
     rig_probe.item = item;
     rig_probe.rig = g;

@@ -105,7 +105,10 @@ START_TEST(kinematics_of_a_row)
             ck_assert_double_eq_tol(value(&t, k, "velocity_m_per_s"), v, 1e-8 * top);
             ck_assert_double_eq_tol(value(&t, k, "speed_m_per_s"), fabs(v), 1e-8 * top);
             ck_assert_double_eq_tol(value(&t, k, "acceleration_m_per_s2"), omega * top * cos(omega * at), 1e-8 * omega * top);
-            ck_assert_double_eq_tol(value(&t, k, "normal_force_n"), 0.02 * s.contacts[0].contact.gravity, 1e-9);
+            ck_assert_double_eq_tol(value(&t, k, "vx_m_per_s"), 0.6 * v, 1e-8 * top);
+            ck_assert_double_eq_tol(value(&t, k, "vy_m_per_s"), -0.8 * v, 1e-8 * top);
+            double q = fmin((0.13 - at) / 5e-3, 1), raised = q * q * q * (10 - 15 * q + 6 * q * q); /* 1.3 strokes: it ends at speed */
+            ck_assert_double_eq_tol(value(&t, k, "normal_force_n"), 0.02 * s.contacts[0].contact.gravity * raised, 1e-9);
         }
         /* the last row begins less than a row before the motion's end */
         ck_assert_double_lt(value(&t, t.rows - 1, "time_s"), 0.037 + 0.13);
@@ -125,6 +128,35 @@ START_TEST(constant_loads)
         ck_assert_str_eq(cell(&t, k, "alpha_m"), "0.04");
     }
     ck_assert_uint_eq(t.rows, 13);
+}
+END_TEST
+
+/* On a curve: places and velocities in the plane, the way travelled along it, and a force from a table of its own. */
+START_TEST(rows_of_a_circle)
+{
+    static const struct rates r = {16000, 500, 200};
+    struct arena *a = rig_arena();
+    char file[] = "/tmp/rasp_load_XXXXXX";
+    int fd = mkstemp(file);
+    ck_assert(fd >= 0 && dprintf(fd, "time_s,normal_force_n\n0,1\n0.2,1.5\n0.4,2\n") > 0 && close(fd) == 0);
+    struct scene s = scene_at(a, &r, arena_format(a, "scraper: {mass: 20 g}\nsurface: {roughness: {rms: 2 um}}\nload: {recorded: %s, approach: 20 ms, release: 40 ms}\n"
+                              "motion: {path: circle, center: [1 cm, 2 cm], radius: 5 cm, start_angle: 30 deg, turns: -1.5, duration: 0.4 s}\n", file));
+    struct csv t = table_of(a, &s);
+    ck_assert_int_eq(unlink(file), 0);
+    ck_assert_uint_eq(t.rows, 200);
+    for (size_t k = 0; k < t.rows; k++) {
+        double at = (double)k / 500, angle = pi / 6 - 3 * pi * at / 0.4, v = 3 * pi * 0.05 / 0.4;
+        double q = at < 0.02 ? at / 0.02 : at > 0.36 ? (0.4 - at) / 0.04 : 1;
+        ck_assert_double_eq_tol(value(&t, k, "x_m"), 0.01 + 0.05 * cos(angle), 1e-10);
+        ck_assert_double_eq_tol(value(&t, k, "y_m"), 0.02 + 0.05 * sin(angle), 1e-10);
+        ck_assert_double_eq_tol(value(&t, k, "vx_m_per_s"), v * sin(angle), 1e-8);
+        ck_assert_double_eq_tol(value(&t, k, "vy_m_per_s"), -v * cos(angle), 1e-8);
+        ck_assert_double_eq_tol(value(&t, k, "stroke_m"), v * at, 1e-9);
+        ck_assert_double_eq_tol(value(&t, k, "velocity_m_per_s"), v, 1e-8);
+        ck_assert_double_eq_tol(value(&t, k, "normal_force_n"), (1 + 2.5 * at) * q * q * q * (10 - 15 * q + 6 * q * q), 1e-8);
+        ck_assert_double_eq_tol(value(&t, k, "alpha_m"), 0.05 - 0.04 * pow(at / 0.4, 0.95), 1e-9); /* of the force before it is lowered */
+        ck_assert_double_eq(value(&t, k, "lift_offs"), 0);
+    }
 }
 END_TEST
 
@@ -191,7 +223,7 @@ static const char *header(struct arena *a, const struct csv *t)
     return all;
 }
 
-#define KINEMATICS "time_s,x_m,y_m,stroke_m,speed_m_per_s,velocity_m_per_s,acceleration_m_per_s2,normal_force_n"
+#define KINEMATICS "time_s,x_m,y_m,vx_m_per_s,vy_m_per_s,stroke_m,speed_m_per_s,velocity_m_per_s,acceleration_m_per_s2,normal_force_n"
 #define FORCES "force_mean_n,force_rms_n,force_peak_n"
 
 /* All columns that the scene has, or those asked for: always in one order, with the same values, whatever else is computed. */
@@ -237,5 +269,5 @@ START_TEST(a_rate_above_the_sample_rate_is_refused)
 }
 END_TEST
 
-UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, load_and_alpha_of_a_grip, lift_offs_are_counted, columns,
+UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, rows_of_a_circle, load_and_alpha_of_a_grip, lift_offs_are_counted, columns,
      a_rate_above_the_sample_rate_is_refused)

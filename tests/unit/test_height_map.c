@@ -1,7 +1,11 @@
-/* height_map: the stage on files written here: what becomes of their heights, and what of their geometry is refused. */
-#include "file/heightfile.h"
+/* height_map: the stage on files written here: what becomes of their heights, which coordinates the surface follows, and what of their geometry
+   and place under the motion is refused. */
+#include "file/heightfile_write.h"
+#include "scene/scene.h"
 #include "stage.h"
-#include "surface/profile.h"
+#include "surface/height_map.h"
+#include "surface/relief.h"
+#include "trajectory/trajectory.h"
 #include "unit.h"
 
 #include <unistd.h>
@@ -13,12 +17,13 @@ enum { N = 101 };
 
 static void write_map(size_t columns, size_t rows, double pitch, double height)
 {
-    static double z[N * 2];
+    static double z[N * N];
+    struct heightfile_written w;
     struct err e = {0};
     for (size_t i = 0; i < columns * rows; i++)
         z[i] = height * (i % 2 ? 1.0 : -1.0) * (double)(i % 7);
-    struct heightfile h = {.columns = columns, .rows = rows, .pitch_x = pitch, .pitch_y = pitch, .z = z};
-    ck_assert_msg(heightfile_write_gsf(map, &h, NULL, &e), "%s", e.text);
+    struct heightfile h = {.columns = columns, .rows = rows, .pitch_x = pitch, .pitch_y = rows > 1 ? 2 * pitch : pitch, .z = z, .metric = true};
+    ck_assert_msg(heightfile_write(map, &h, HEIGHTFILE_GSF, &w, &e), "%s", e.text);
 }
 
 /* A stroke along +x over the first half of a map of 100 intervals of 10 um. */
@@ -29,101 +34,135 @@ static struct contact stroke(void)
     close(handle);
     remove(map);
     return (struct contact){.name = "rod",
-                            .surface = {.height_map = map, .pitch = NAN, .height_scale = 1, .off_map = OFF_MAP_MIRROR},
+                            .surface = {.height_map = map, .pitch = NAN, .height_scale = NAN, .height_range = NAN, .off_map = OFF_MAP_MIRROR},
+                            .contact = {.limiter = {.alpha = 0.03, .alpha_max = 0.05}},
                             .motion = {.path = PATH_LINE, .to = {5e-4, 0}, .speed = 0.1, .duration = NAN}};
 }
 
-/* Opens the stage; the profile lives in the arena. */
-static struct profile *opened(const struct contact *c, struct arena *a, struct err *e)
+struct opened {
+    struct arena *arena;
+    struct relief relief;
+    struct trajectory motion;
+    struct board board;
+    struct err err;
+    bool good;
+};
+
+/* Opens the stage; the surface lives in the arena. */
+static void open_map(struct opened *o, const struct contact *c)
 {
-    struct board board = {0};
-    struct stage_run run = {.stage = &height_map_stage, .contact = c, .board = &board, .arena = a};
-    return height_map_stage.open(&run, e) ? board.profile : NULL;
+    *o = (struct opened){.arena = arena_open(), .relief = {.along = c->surface.along}};
+    ck_assert_msg(trajectory_make(&c->motion, 1, o->arena, &o->motion, &o->err), "%s", o->err.text);
+    o->board = (struct board){.relief = &o->relief, .trajectory = &o->motion};
+    struct stage_run run = {.stage = &height_map_stage, .contact = c, .board = &o->board, .arena = o->arena};
+    o->good = height_map_stage.open(&run, &o->err);
 }
 
 static void check_refused(const struct contact *c, enum err_kind kind, const char *word)
 {
-    struct arena *a = arena_open();
-    struct err e = {0};
-    ck_assert_msg(!opened(c, a, &e), "not refused: %s", word);
-    ck_assert_msg(e.kind == kind && strstr(e.text, word), "%d: %s", e.kind, e.text);
+    struct opened o;
+    open_map(&o, c);
+    ck_assert_msg(!o.good, "not refused: %s", word);
+    ck_assert_msg(o.err.kind == kind && strstr(o.err.text, word), "%d: %s", o.err.kind, o.err.text);
     remove(map);
-    arena_close(a);
+    arena_close(o.arena);
 }
 
-static bool accepted(const struct contact *c)
+static void check_accepted(const struct contact *c)
 {
-    struct arena *a = arena_open();
-    struct err e = {0};
-    bool ok = opened(c, a, &e) != NULL;
-    arena_close(a);
-    return ok;
+    struct opened o;
+    open_map(&o, c);
+    ck_assert_msg(o.good, "%s", o.err.text);
+    arena_close(o.arena);
 }
 
-/* Heights at the knots are the file's times height_scale, within float32, in which GSF stores them. */
+/* Heights at the samples are the file's times height_scale, within float32, in which GSF stores them. */
 START_TEST(heights_are_the_files)
 {
-    struct arena *a = arena_open();
     struct contact c = stroke();
-    struct err e = {0};
-    double work[N + 2], z[N];
+    struct opened o;
     write_map(N, 1, 10e-6, 1e-6);
     c.surface.height_scale = 2.5;
-    struct profile *p = opened(&c, a, &e);
-    ck_assert_msg(p != NULL, "%s", e.text);
-    ck_assert_double_eq_tol(p->pitch, 10e-6, 1e-12);
-    profile_knots(p, 0, N, work, (struct profile_knots){.height = z});
-    for (int i = 0; i < N; i++)
-        ck_assert_double_eq_tol(z[i], 2.5e-6 * (i % 2 ? 1 : -1) * (i % 7), 6 * 2.5e-6 * 0x1p-23);
-    arena_close(a);
+    open_map(&o, &c);
+    ck_assert_msg(o.good, "%s", o.err.text);
+    const struct relief_part *p = o.relief.first;
+    ck_assert(p && !p->next && p->linear && p->pitch[1] == 0 && p->from[0] == 0 && o.relief.along == ALONG_PATH);
+    ck_assert_double_eq_tol(p->pitch[0], 10e-6, 1e-12);
+    for (int i = 0; i < N; i++) {
+        double x = i * p->pitch[0], z;
+        relief_at(&o.relief, &(struct relief_points){1, &x, NULL}, &(struct relief_values){.z = &z});
+        ck_assert_double_eq_tol(z, 2.5e-6 * (i % 2 ? 1 : -1) * (i % 7), 6 * 2.5e-6 * 0x1p-23);
+    }
+    const struct height_map *kept = o.board.height_map;
+    ck_assert(kept->columns == N && kept->rows == 1 && kept->pitch[0] == p->pitch[0]);
+    arena_close(o.arena);
     remove(map);
+}
+END_TEST
+
+/* A map of several rows lies in the plane, its first sample at surface.origin, rows along y at the file's other pitch. */
+START_TEST(maps_lie_in_the_plane)
+{
+    struct contact c = stroke();
+    struct opened o;
+    write_map(40, 30, 10e-6, 1e-6);
+    c.surface.origin[0] = 1e-3;
+    c.surface.origin[1] = -2e-3;
+    open_map(&o, &c);
+    ck_assert_msg(o.good, "%s", o.err.text);
+    const struct relief_part *p = o.relief.first;
+    ck_assert(o.relief.along == ALONG_PLANE && !p->linear && p->origin[0] == 1e-3 && p->origin[1] == -2e-3);
+    ck_assert_double_eq_tol(p->pitch[1], 20e-6, 1e-12);
+    for (int j = 0; j < 30; j += 7)
+        for (int i = 0; i < 40; i += 7) {
+            double x = 1e-3 + i * p->pitch[0], y = -2e-3 + j * p->pitch[1], z, k = j * 40 + i;
+            relief_at(&o.relief, &(struct relief_points){1, &x, &y}, &(struct relief_values){.z = &z});
+            ck_assert_double_eq_tol(z, 1e-6 * (fmod(k, 2) > 0 ? 1 : -1) * fmod(k, 7), 6e-6 * 0x1p-23);
+        }
+    ck_assert(o.board.height_map->rows == 30);
+    arena_close(o.arena);
+    c.surface.along = ALONG_PATH;
+    check_refused(&c, ERR_SCENE, "in the plane");
+    write_map(40, 30, 10e-6, 1e-6);
+    c.surface.along = ALONG_X;
+    check_refused(&c, ERR_SCENE, "--row");
+    write_map(N, 1, 10e-6, 1e-6);
+    check_accepted(&c);
+    c.surface.along = ALONG_PLANE;
+    check_refused(&c, ERR_SCENE, "no second dimension");
 }
 END_TEST
 
 START_TEST(pitch_is_told_once)
 {
     struct contact c = stroke();
-    write_map(N, 1, NAN, 1e-6);
-    check_refused(&c, ERR_SCENE, "give surface.pitch");
-    write_map(N, 1, NAN, 1e-6);
-    c.surface.pitch = 10e-6;
-    ck_assert(accepted(&c));
     write_map(N, 1, 10e-6, 1e-6);
-    ck_assert(accepted(&c));
+    check_accepted(&c);
     c.surface.pitch = 11e-6;
-    check_refused(&c, ERR_SCENE, "the file says");
+    check_refused(&c, ERR_SCENE, "surface.pitch");
 }
 END_TEST
 
-START_TEST(geometry_is_a_profiles)
+START_TEST(geometry_is_a_surfaces)
 {
     struct contact c = stroke();
     check_refused(&c, ERR_INPUT, map);
-    write_map(50, 2, 10e-6, 1e-6);
-    check_refused(&c, ERR_SCENE, "one row");
     write_map(3, 1, 10e-6, 1e-6);
     check_refused(&c, ERR_SCENE, "at least 4");
-    write_map(4, 1, 10e-6, 1e-6);
-    ck_assert(accepted(&c));
-    write_map(N, 1, 2e-3, 1e-6);
-    check_refused(&c, ERR_SCENE, "pitch");
-    write_map(N, 1, 5e-9, 1e-6);
-    check_refused(&c, ERR_SCENE, "pitch");
-    write_map(N, 1, 10e-6, 1e-3); /* 12 mm from end to end */
-    check_refused(&c, ERR_SCENE, "height_scale");
-    write_map(N, 1, 10e-6, 5e-11);
-    check_refused(&c, ERR_SCENE, "height_scale");
+    write_map(50, 2, 10e-6, 1e-6);
+    check_refused(&c, ERR_SCENE, "at least 4");
+    write_map(4, 4, 10e-6, 1e-6);
+    check_accepted(&c);
     write_map(N, 1, 10e-6, 0); /* flat is plausible */
-    ck_assert(accepted(&c));
+    check_accepted(&c);
     remove(map);
 }
 END_TEST
 
-/* off_map: error. The map reaches from 0 to 1 mm, along the stroke or, extruded, along x from its origin. */
-START_TEST(leaving_the_map)
+/* off_map: error. The profile reaches from 0 to 1 mm, along the stroke or, extruded, along x from its origin. */
+START_TEST(leaving_the_profile)
 {
     struct contact c = stroke();
-    c.surface.off_map = OFF_MAP_ERROR;
     struct {
         int along;
         double from, to, origin;
@@ -141,15 +180,40 @@ START_TEST(leaving_the_map)
         write_map(N, 1, 10e-6, 1e-6);
         c.surface.off_map = OFF_MAP_ERROR;
         if (cases[i].inside)
-            ck_assert_msg(accepted(&c), "case %zu", i);
+            check_accepted(&c);
         else
             check_refused(&c, ERR_SCENE, "leaves the height map");
         write_map(N, 1, 10e-6, 1e-6);
         c.surface.off_map = i % 2 ? OFF_MAP_MIRROR : OFF_MAP_WRAP;
-        ck_assert_msg(accepted(&c), "case %zu", i);
+        check_accepted(&c);
     }
     remove(map);
 }
 END_TEST
 
-UNIT("height_map", heights_are_the_files, pitch_is_told_once, geometry_is_a_profiles, leaving_the_map)
+/* The same in the plane, where the whole of a curve counts: 40 x 30 samples reach 390 um by 580 um. */
+START_TEST(leaving_the_map)
+{
+    struct contact c = stroke();
+    struct {
+        double center[2], radius;
+        const char *word; /* NULL: inside */
+    } cases[] = {
+        {{195e-6, 290e-6}, 194e-6, NULL},    {{195e-6, 290e-6}, 196e-6, "in x"}, {{150e-6, 290e-6}, 151e-6, "in x"},
+        {{195e-6, 150e-6}, 151e-6, "in y"},  {{195e-6, 430e-6}, 151e-6, "in y"}, {{195e-6, 429e-6}, 150e-6, NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        c.motion = (struct motion){.path = PATH_CIRCLE, .radius = cases[i].radius, .center = {cases[i].center[0], cases[i].center[1]}, .turns = 1,
+                                   .speed = 0.1, .duration = NAN};
+        c.surface.off_map = OFF_MAP_ERROR;
+        write_map(40, 30, 10e-6, 1e-6);
+        if (!cases[i].word)
+            check_accepted(&c);
+        else
+            check_refused(&c, ERR_SCENE, cases[i].word);
+    }
+    remove(map);
+}
+END_TEST
+
+UNIT("height_map", heights_are_the_files, maps_lie_in_the_plane, pitch_is_told_once, geometry_is_a_surfaces, leaving_the_profile, leaving_the_map)

@@ -1,51 +1,5 @@
 /* heightfile: byte layouts written out by hand here, and hostile files. */
-#include <stdint.h>
-#include <unistd.h>
-
-#include "base/arena.h"
-#include "file/heightfile.h"
-#include "unit.h"
-
-static char path[] = "/tmp/test_heightfile.XXXXXX";
-static unsigned char file[1 << 16];
-static size_t size;
-static struct heightfile h;
-static struct err e;
-
-static void put(const void *p, size_t n)
-{
-    ck_assert_uint_le(size + n, sizeof file);
-    memcpy(file + size, p, n);
-    size += n;
-}
-
-static void text(const char *s)
-{
-    put(s, strlen(s));
-}
-
-static bool read_file(void)
-{
-    static struct arena *a;
-    int fd = mkstemp(path);
-    ck_assert_int_ge(fd, 0);
-    ck_assert_int_eq(write(fd, file, size), (ssize_t)size);
-    close(fd);
-    if (!a)
-        a = arena_open();
-    e = (struct err){0};
-    bool ok = heightfile_read(path, a, &h, &e);
-    unlink(path);
-    memcpy(path + strlen(path) - 6, "XXXXXX", 6);
-    return ok;
-}
-
-static void refused(const char *says)
-{
-    ck_assert_msg(!read_file(), "accepted; wanted: %s", says);
-    ck_assert_int_eq(e.kind, ERR_SCENE);
-    ck_assert_msg(strstr(e.text, says) != NULL, "%s (wanted: %s)", e.text, says);
-}
+#include "heights.h"
 
 /* An NPY header; its length as NumPy pads it. */
 static void npy(int version, const char *dictionary)
@@ -168,12 +122,35 @@ START_TEST(npy_header_beyond_the_file)
 }
 END_TEST
 
-START_TEST(holes_are_refused)
+START_TEST(holes_are_kept_and_infinities_refused)
 {
-    const double z[] = {1, 2, 3, 4, NAN, INFINITY};
+    double z[] = {1, 2, 3, NAN, NAN, 4};
     npy(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }");
     put(z, sizeof z);
-    refused("row 1, column 1 (counted from 0) is missing (NaN)");
+    accepted();
+    ck_assert(h.holes == 2 && h.first_hole == 3 && isnan(h.z[3]) && isnan(h.z[4]) && h.z[5] == 4);
+    z[5] = -INFINITY;
+    npy(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }");
+    put(z, sizeof z);
+    refused("row 1, column 2 (counted from 0) is infinite");
+}
+END_TEST
+
+/* The last place of the largest height: 2^-23 of 1 <= 1.5 < 2, 2^-52 likewise; integers: 1. */
+START_TEST(quantum)
+{
+    npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (3,), }");
+    put((const float[]){0.1F, -1.5F, 0.9F}, 12);
+    accepted();
+    ck_assert(h.quantum == 0x1p-23 && h.bits == 24 && h.step == 0 && !h.metric && !strcmp(h.format, "NPY") && h.holes == 0);
+    npy(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }");
+    put((const double[]){1, 0.5}, 16);
+    accepted();
+    ck_assert(h.quantum == 0x1p-52 && h.bits == 53);
+    npy(1, "{'descr': '<i2', 'fortran_order': False, 'shape': (2,), }");
+    put((const int16_t[]){-300, 20}, 4);
+    accepted();
+    ck_assert(h.quantum == 1 && h.bits == 16 && h.step == 1);
 }
 END_TEST
 
@@ -197,7 +174,7 @@ START_TEST(gsf_layout)
                  "xyz");
         gsf(head, 4 - strlen(head) % 4, 6);
         ck_assert_msg(read_file(), "%s", e.text);
-        ck_assert(h.columns == 3 && h.rows == 2);
+        ck_assert(h.columns == 3 && h.rows == 2 && h.metric && !strncmp(h.title, "a = b", 5) && !strcmp(h.format, "GSF"));
         ck_assert_double_eq_tol(h.pitch_x, 2e-6, 1e-21); /* one rounding */
         ck_assert_double_eq_tol(h.pitch_y, 4e-6, 1e-21);
         for (int i = 0; i < 6; i++)
@@ -284,7 +261,7 @@ START_TEST(neither)
     size = 0;
     refused("it is empty");
     text("x,y\n1,2\n");
-    refused("neither NPY nor");
+    refused("is no height map");
     struct arena *a = arena_open();
     e = (struct err){0};
     ck_assert(!heightfile_read("/nowhere/z.npy", a, &h, &e));
@@ -295,8 +272,7 @@ END_TEST
 
 static bool write_and_read(const struct heightfile *w, const char *title)
 {
-    int fd = mkstemp(path);
-    close(fd);
+    close(path_make());
     e = (struct err){0};
     size = 0;
     bool ok = heightfile_write_gsf(path, w, title, &e);
@@ -304,7 +280,6 @@ static bool write_and_read(const struct heightfile *w, const char *title)
     size = fread(file, 1, sizeof file, f);
     fclose(f);
     unlink(path);
-    memcpy(path + strlen(path) - 6, "XXXXXX", 6);
     return ok && read_file();
 }
 
@@ -333,5 +308,5 @@ START_TEST(write_gsf)
 }
 END_TEST
 
-UNIT("heightfile", npy_float64, npy_types_by_hand, npy_hostile, npy_cut_short, npy_header_beyond_the_file, holes_are_refused, gsf_layout,
+UNIT("heightfile", npy_float64, npy_types_by_hand, npy_hostile, npy_cut_short, npy_header_beyond_the_file, holes_are_kept_and_infinities_refused, quantum, gsf_layout,
      gsf_units, gsf_hostile, gsf_padding, neither, write_gsf)

@@ -45,19 +45,19 @@ START_TEST(only_what_a_scene_calls_for)
     const struct {
         const char *surface, *scraper, *rest, *plan;
     } cases[] = {
-        {"", "", "output: {diagnostics: {}}", "trajectory roughness scrape smooth decimate force_table "},
-        {csv, "", "", "trajectory roughness scrape smooth decimate surface_resonators mix "},
-        {csv, csv, "", "trajectory roughness scrape smooth decimate surface_resonators scraper_resonators mix "},
-        {csv, ", weight: 0, response: x.csv", "", "trajectory roughness scrape smooth decimate surface_resonators mix "},
-        {csv, "", "grip: {}", "trajectory load limiter roughness scrape smooth decimate surface_resonators mix "},
-        {csv, "", "grip: {}\ncontact: {limiter: {curve: none}}", "trajectory load roughness scrape smooth decimate surface_resonators mix "},
-        {csv, "", "contact: {smoothing: 0 s}", "trajectory roughness scrape decimate surface_resonators mix "},
+        {"", "", "output: {diagnostics: {}}", "trajectory surface roughness scrape approach smooth decimate force_table "},
+        {csv, "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {csv, csv, "", "trajectory surface roughness scrape approach smooth decimate surface_resonators scraper_resonators mix "},
+        {csv, ", weight: 0, response: x.csv", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {csv, "", "grip: {}", "trajectory load limiter surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {csv, "", "grip: {}\ncontact: {limiter: {curve: none}}", "trajectory load surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {csv, "", "contact: {smoothing: 0 s}", "trajectory surface roughness scrape approach decimate surface_resonators mix "},
         {csv, "", "contact: {force: paper}",
-         "trajectory roughness paper_curvature smooth_curvature paper decimate surface_resonators mix "},
-        {", response: a.wav", "", "", "trajectory roughness scrape smooth decimate surface_overlap_add mix "},
-        {", response: a.csv, response_length: 1 s", "", "", "trajectory roughness scrape smooth decimate surface_overlap_add mix "},
-        {", response: a.csv, convolution: overlap_add", "", "", "trajectory roughness scrape smooth decimate surface_overlap_add mix "},
-        {"", ", response: a.wav", "", "trajectory roughness scrape smooth decimate scraper_overlap_add mix "},
+         "trajectory surface roughness paper_curvature smooth_curvature paper approach decimate surface_resonators mix "},
+        {", response: a.wav", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {", response: a.csv, response_length: 1 s", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {", response: a.csv, convolution: overlap_add", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {"", ", response: a.wav", "", "trajectory surface roughness scrape approach smooth decimate scraper_overlap_add mix "},
         {"", "", "output: {diagnostics: {columns: [time_s, speed_m_per_s]}}", "trajectory force_table "},
         {"", "", "grip: {}\noutput: {diagnostics: {columns: [normal_force_n]}}", "trajectory load force_table "},
         {"", "", "grip: {}\noutput: {diagnostics: {columns: [alpha_m]}}", "trajectory load limiter force_table "},
@@ -149,11 +149,11 @@ START_TEST(the_rest_is_not_touched)
         table[i] = &spied[i];
     }
     ck_assert(plan_make(table, &s.contacts[0], &s, a, &p, &e));
-    ck_assert_str_eq(running(a, &p), "trajectory roughness scrape smooth decimate force_table ");
+    ck_assert_str_eq(running(a, &p), "trajectory surface roughness scrape approach smooth decimate force_table ");
     ck_assert(run_open(&r, &p, &s, &sink, &e));
     for (int k = 1; k <= 4; k++)
         ck_assert(run_block(&r, k * 1000, &e));
-    ck_assert_int_eq(r.n, 6);
+    ck_assert_int_eq(r.n, 8);
     for (int i = 0; i < ITEM_COUNT; i++) {
         bool alive = i == ITEM_POSITION || i == ITEM_VELOCITY || i == ITEM_SUBFORCE || i == ITEM_FORCE;
         ck_assert_msg((r.board.signals[i].x != NULL) == alive, "memory of %s", plan_item((enum item)i));

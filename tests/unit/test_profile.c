@@ -1,6 +1,6 @@
-/* profile: coefficients against a dense solution of the interpolation equations (GSL, LU), values at the knots against sums of B-splines
-   written out as polynomials, the closed response of a spline to a sine, orders of convergence, and the continuation beyond the ends
-   against a walk that steps one sample at a time. */
+/* profile: coefficients against a dense solution of the interpolation equations (GSL, LU), values as a part of a relief against sums of
+   B-splines written out as polynomials, the closed response of a spline to a sine, orders of convergence, and the continuation beyond the
+   ends against a walk that steps one sample at a time. */
 #include "surface/profile.h"
 
 #include <gsl/gsl_linalg.h>
@@ -69,21 +69,33 @@ START_TEST(coefficients_solve_the_equations)
 }
 END_TEST
 
-/* Heights come back as they were given: 1e-15 of the largest, wherever the knot lies. */
+/* The part at n places, all values. */
+static void read_part(struct relief_part *part, size_t n, const double *x, double *z, double *slope, double *bend)
+{
+    struct relief r = {.along = ALONG_PATH};
+    part->next = NULL;
+    relief_add(&r, part);
+    relief_at(&r, &(struct relief_points){n, x, NULL}, &(struct relief_values){.z = z, .x = slope, .xx = bend});
+}
+
+/* Heights come back as they were given: 1e-15 of the largest, wherever the knot lies. (Places of 600 + |i| pitches are two roundings
+   off; heights change by less than 4 of the largest a pitch.) */
 START_TEST(knots_are_the_samples)
 {
     enum { N = 999 };
-    double z[N], work[N + 2], height[N], largest = 0;
+    double z[N], x[N], height[N], largest = 0;
     struct arena *a = arena_open();
     srand48(2);
     for (int i = 0; i < N; i++)
         largest = fmax(largest, fabs(z[i] = rough_sample()));
     for (int off_map = OFF_MAP_MIRROR; off_map <= OFF_MAP_ERROR; off_map++) {
-        struct profile *p = profile_from_samples(a, z, N, 5e-6, off_map);
+        struct relief_part *part = profile_part(a, profile_from_samples(a, z, N, 5e-6, off_map), "profile", 3e-3);
         for (long first = -4 * N; first < 4 * N; first += 313) {
-            profile_knots(p, first, N, work, (struct profile_knots){.height = height});
+            for (long i = 0; i < N; i++)
+                x[i] = 3e-3 + 5e-6 * (double)(first + i);
+            read_part(part, N, x, height, NULL, NULL);
             for (long i = 0; i < N; i += 7)
-                ck_assert_double_eq_tol(height[i] / largest, z[walked(N, off_map, first + i)] / largest, 1e-15);
+                ck_assert_double_eq_tol(height[i] / largest, z[walked(N, off_map, first + i)] / largest, 1e-15 + 8 * 0x1p-53 * (600 + fabs((double)(first + i))));
         }
     }
     arena_close(a);
@@ -114,26 +126,52 @@ static double spline_at(struct profile *p, double q, int derivative)
     return sum / pow(p->pitch, derivative);
 }
 
-START_TEST(knots_are_derivatives_of_the_spline)
+/* Anywhere, in any order, far enough apart that the window of coefficients is left on either side: the sum of B-splines there. Places are held
+   to 2^-53 of 40 mm, 1e-12 of a pitch. */
+START_TEST(values_are_those_of_the_spline)
 {
-    enum { N = 37 };
-    double z[N], work[N + 2], height[N], slope[N], bend[N], h = 5e-6;
+    enum { N = 3000, POINTS = 4000 };
+    static double z[N], x[POINTS], got[3][POINTS];
+    double h = 5e-6;
     struct arena *a = arena_open();
     srand48(3);
     for (int i = 0; i < N; i++)
         z[i] = rough_sample();
     struct profile *p = profile_from_samples(a, z, N, h, OFF_MAP_WRAP);
-    profile_knots(p, -9, N, work, (struct profile_knots){height, slope, bend});
-    for (long i = 0; i < N; i++) {
-        double q = (double)(i - 9) * h;
-        ck_assert_double_eq_tol(height[i], spline_at(p, q, 0), 1e-14 * 1e-6);
-        ck_assert_double_eq_tol(slope[i], spline_at(p, q, 1), 1e-14 * 1e-6 / h);
-        ck_assert_double_eq_tol(bend[i], spline_at(p, q, 2), 1e-14 * 1e-6 / (h * h));
+    for (int sorted = -1; sorted <= 1; sorted++) {
+        struct relief_part *part = profile_part(a, p, "profile", -2e-3);
+        for (int i = 0; i < POINTS; i++)
+            x[i] = sorted ? sorted * i * 7.3e-6 : 0.04 * (2 * drand48() - 1);
+        read_part(part, POINTS, x, got[0], got[1], got[2]);
+        for (int i = 0; i < POINTS; i++)
+            for (int k = 0; k < 3; k++)
+                ck_assert_double_eq_tol(got[k][i], spline_at(p, x[i] + 2e-3, k), 1e-11 * 1e-6 / pow(h, k));
+        ck_assert(part->linear && part->pitch[0] == h && part->origin[0] == -2e-3 && part->pitch[1] == 0 && part->finest == h);
+        ck_assert(part->from[0] == -2e-3 && part->to[0] == h * (N - 1) - 2e-3 && part->from[1] == -HUGE_VAL && part->to[1] == HUGE_VAL);
     }
-    for (long i = 0; i + 1 < N; i++) { /* what a linear z'' between knots means for the levels above */
-        double b0 = bend[i], b1 = bend[i + 1];
-        ck_assert_double_eq_tol(slope[i + 1], slope[i] + h * (b0 + b1) / 2, 1e-14 * 1e-6 / h);
-        ck_assert_double_eq_tol(height[i + 1], height[i] + h * slope[i] + h * h * (2 * b0 + b1) / 6, 1e-14 * 1e-6);
+    arena_close(a);
+}
+END_TEST
+
+/* z'' is continuous and a straight line between knots: C2. */
+START_TEST(curvature_is_a_broken_line)
+{
+    enum { N = 40 };
+    double z[N], h = 1e-6, x[3], bend[3];
+    struct arena *a = arena_open();
+    srand48(4);
+    for (int i = 0; i < N; i++)
+        z[i] = rough_sample();
+    struct relief_part *part = profile_part(a, profile_from_samples(a, z, N, h, OFF_MAP_MIRROR), "profile", 0);
+    for (long i = -60; i < 60; i++) {
+        double knot = (double)i * h, low = knot - 1e-9 * h, high = knot + 1e-9 * h;
+        read_part(part, 3, (double[]){low, knot, high}, (double[3]){0}, (double[3]){0}, bend);
+        ck_assert_double_eq_tol(bend[0], bend[1], 1e-7 * 1e-6 / (h * h));
+        ck_assert_double_eq_tol(bend[2], bend[1], 1e-7 * 1e-6 / (h * h));
+        for (int k = 0; k < 3; k++)
+            x[k] = knot + (0.1 + 0.4 * k) * h;
+        read_part(part, 3, x, NULL, NULL, bend);
+        ck_assert_double_eq_tol(bend[1], 0.5 * (bend[0] + bend[2]), 1e-12 * 1e-6 / (h * h));
     }
     arena_close(a);
 }
@@ -144,14 +182,15 @@ END_TEST
 START_TEST(response_to_a_sine)
 {
     enum { N = 240 };
-    double z[N], work[N + 2], slope[N], bend[N], h = 2e-6;
+    double z[N], x[N], slope[N], bend[N], h = 0x1p-19;
     struct arena *a = arena_open();
     for (int periods = 0; periods <= N / 2; periods++) {
         double w = 2 * M_PI * periods / N;
-        for (int i = 0; i < N; i++)
+        for (int i = 0; i < N; i++) {
             z[i] = 3e-6 * cos(2 * M_PI * (periods * i % N) / N + 0.4);
-        struct profile *p = profile_from_samples(a, z, N, h, OFF_MAP_WRAP);
-        profile_knots(p, 0, N, work, (struct profile_knots){.slope = slope, .curvature = bend});
+            x[i] = i * h; /* exact */
+        }
+        read_part(profile_part(a, profile_from_samples(a, z, N, h, OFF_MAP_WRAP), "sine", 0), N, x, NULL, slope, bend);
         for (int i = 0; i < N; i++) {
             ck_assert_double_eq_tol(bend[i], -6 / (h * h) * (1 - cos(w)) / (2 + cos(w)) * z[i], 3e-14 * 3e-6 / (h * h));
             ck_assert_double_eq_tol(slope[i], -3 * sin(w) / (h * (2 + cos(w))) * 3e-6 * sin(2 * M_PI * (periods * i % N) / N + 0.4),
@@ -221,21 +260,26 @@ START_TEST(continued_for_ever)
 }
 END_TEST
 
-/* No output asked for is written, and none changes another. */
+/* No output asked for is written, none changes another, and a part adds to what is there. */
 START_TEST(outputs_are_optional)
 {
     enum { N = 12 };
-    double z[N], work[N + 2], all[3][N], one[N];
+    double z[N], x[N], all[3][N], one[N];
     struct arena *a = arena_open();
     srand48(5);
-    for (int i = 0; i < N; i++)
+    for (int i = 0; i < N; i++) {
         z[i] = rough_sample();
-    struct profile *p = profile_from_samples(a, z, N, 1e-6, OFF_MAP_MIRROR);
-    profile_knots(p, -3, N, work, (struct profile_knots){all[0], all[1], all[2]});
+        x[i] = 1e-6 * (1.3 * i - 3);
+    }
+    struct relief_part *part = profile_part(a, profile_from_samples(a, z, N, 1e-6, OFF_MAP_MIRROR), "profile", 0);
+    read_part(part, N, x, all[0], all[1], all[2]);
     for (int k = 0; k < 3; k++) {
-        profile_knots(p, -3, N, work, (struct profile_knots){k == 0 ? one : NULL, k == 1 ? one : NULL, k == 2 ? one : NULL});
+        read_part(part, N, x, k == 0 ? one : NULL, k == 1 ? one : NULL, k == 2 ? one : NULL);
         ck_assert_mem_eq(one, all[k], sizeof one);
     }
+    part->add(part, &(struct relief_points){N, x, NULL}, &(struct relief_values){.xx = one});
+    for (int i = 0; i < N; i++)
+        ck_assert_double_eq_tol(one[i], 2 * all[2][i], 1e-14 * fabs(all[2][i]));
     arena_close(a);
 }
 END_TEST
@@ -262,5 +306,5 @@ START_TEST(mirror_is_even)
 }
 END_TEST
 
-UNIT("profile", coefficients_solve_the_equations, knots_are_the_samples, knots_are_derivatives_of_the_spline, response_to_a_sine,
+UNIT("profile", coefficients_solve_the_equations, knots_are_the_samples, values_are_those_of_the_spline, curvature_is_a_broken_line, response_to_a_sine,
      orders_of_convergence, continued_for_ever, outputs_are_optional, mirror_is_even)

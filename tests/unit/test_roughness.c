@@ -9,7 +9,8 @@
 #include <gsl/gsl_fft_real.h>
 #include <gsl/gsl_integration.h>
 
-#include "unit.h"
+#include "parts.h"
+#include "stage.h"
 
 #define SIGMAS 5
 
@@ -60,7 +61,9 @@ static void heights(struct profile *p, long first, long n, double *z)
 {
     static double work[(1 << 20) + 2];
     ck_assert_int_le(n, 1 << 20);
-    profile_knots(p, first, n, work, (struct profile_knots){.height = z});
+    p->read(p, first - 1, n + 2, work);
+    for (long i = 0; i < n; i++)
+        z[i] = (work[i] + 4 * work[i + 1] + work[i + 2]) / 6;
 }
 
 /* ------------------------------------------------------------------ the density itself */
@@ -392,5 +395,73 @@ START_TEST(rms_is_a_factor)
 }
 END_TEST
 
+/* ------------------------------------------------------------------ the stage */
+
+extern const struct stage roughness_stage;
+
+/* On a line the stage's part is the profile above, of the stream of the contact's name; in the plane, asked for by a grain, one that
+   varies with y; with another height distribution not Gaussian. */
+START_TEST(stage_adds_its_part)
+{
+    for (int kind = 0; kind < 3; kind++) {
+        struct arena *a = arena_open();
+        struct err e = {0};
+        struct scene s = {.seed = 11};
+        struct contact c = {.name = "pen"};
+        c.surface.roughness = usual;
+        c.surface.roughness.grain = kind == 1 ? 3 : 1;
+        c.surface.roughness.skewness = kind == 2 ? -1 : 0;
+        c.surface.roughness.kurtosis = kind == 2 ? 5 : 3;
+        c.motion.path = PATH_LINE;
+        struct relief relief = {.along = ALONG_AUTO};
+        struct board board = {.relief = &relief};
+        struct stage_run run = {.stage = &roughness_stage, .scene = &s, .contact = &c, .board = &board, .arena = a};
+        ck_assert(roughness_stage.wanted(&c, &s));
+        ck_assert_msg(roughness_stage.open(&run, &e), "%s", e.text);
+        ck_assert_int_eq(relief.along, kind == 1 ? ALONG_PLANE : ALONG_PATH);
+        struct relief_part *p = relief.first;
+        ck_assert_ptr_nonnull(p);
+        ck_assert_ptr_null(p->next);
+        ck_assert_str_eq(p->name, "roughness");
+        ck_assert(p->linear == (kind == 0));
+        struct profile *want = roughness_make(a, &usual, noise_make(11, "roughness/pen"));
+        double z;
+        heights(want, 77, 1, &z);
+        struct parts_point got = parts_at(p, 77 * want->pitch, 0, kind == 1);
+        if (kind == 0)
+            ck_assert_double_eq_tol(got.v[0], z, 1e-15);
+        else
+            ck_assert_double_gt(fabs(got.v[0] - z), 1e-9);
+        if (kind == 1)
+            ck_assert_double_gt(fabs(parts_at(p, 77 * want->pitch, 1e-3, true).v[0] - got.v[0]), 1e-9);
+        parts_derivatives(p, 0.05, kind == 1);
+        want->close(want);
+        roughness_stage.close(&run);
+        arena_close(a);
+    }
+}
+END_TEST
+
+START_TEST(refused)
+{
+    struct roughness bad[] = {usual, usual, usual};
+    static const char *const says[] = {"more than shortest", "100 000 times", "kurtosis can be from"};
+    bad[0].longest = bad[0].shortest;
+    bad[1].longest = 1, bad[1].shortest = 1e-6;
+    bad[2].skewness = 2, bad[2].kurtosis = 5;
+    for (int i = 0; i < 3; i++) {
+        struct arena *a = arena_open();
+        struct err e = {0};
+        struct roughness_plan p;
+        bad[i].kurtosis = i < 2 ? 3 : bad[i].kurtosis;
+        ck_assert(!roughness_plan(a, &bad[i], &p, &e) || !roughness_part(a, &p, &bad[i], ALONG_PATH, noise_make(1, "x"), &e));
+        ck_assert_int_eq(e.kind, ERR_SCENE);
+        ck_assert_msg(strstr(e.text, says[i]) != NULL, "%s", e.text);
+        arena_close(a);
+    }
+}
+END_TEST
+
 UNIT("roughness", density_integrates_to_the_square, density_is_a_power_law, mean_square_is_rms, heights_are_gaussian, spectrum_by_octaves,
-     nothing_beyond_the_shortest, any_order_same_bits, far_places, nothing_repeats, no_block_twice, streams_and_seeds_differ, rms_is_a_factor)
+     nothing_beyond_the_shortest, any_order_same_bits, far_places, nothing_repeats, no_block_twice, streams_and_seeds_differ, rms_is_a_factor,
+     stage_adds_its_part, refused)

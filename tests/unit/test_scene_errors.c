@@ -115,9 +115,9 @@ static const struct bad bads[] = {
      "add for instance: mass: 20 g"},
     {"#rasp: 1\nsurface: {height_map: a.npy}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "1:1", "scraper.mass is missing", "scraper: {mass: 20 g}"},
     {"#rasp: 1\nsurface: {along: x}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "2:1",
-     "surface.height_map or surface.roughness must be given", "height_map: profile.npy"},
+     "surface.roughness, surface.height_map, surface.ridges or surface.grit must be given", "roughness: {}"},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: back_and_forth, to: [1, 0], rate: 2}\n", "4:1", "motion.duration is missing",
-     "duration: 10 ms"},
+     "duration: 2 s"},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: back_and_forth, to: [1, 0], duration: 2}\n", "4:1", "motion.rate is missing",
      "rate: 2 Hz"},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0]}\n", "4:1", "motion.speed or motion.duration must be given", "speed: 10 cm/s"},
@@ -130,10 +130,10 @@ static const struct bad bads[] = {
     {"#rasp: 1\nsurface: {roughness: {shortest: 3 mm}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "2:33",
      "surface.roughness.shortest must be less than surface.roughness.longest", ""},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, rate: 2 Hz, to: [1, 0], duration: 1}\n", "4:22",
-     "motion.rate applies only where motion.path is back_and_forth", "it is line"},
+     "motion.rate applies only where motion.path is back_and_forth or scribble", "it is line"},
     {"#rasp: 2\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "1:7", "rasp must be 1, not '2'", "version 1"},
-    {"#rasp: 1\nsurface: {roughness: {}, origin: [1 cm, 0]}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "2:26",
-     "surface.origin applies only where surface.along is x", "not given"},
+    {"#rasp: 1\nsurface: {roughness: {}, along: path, origin: [1 cm, 0]}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "2:39",
+     "surface.origin applies only where surface.along is auto, x or plane", "now it is path"},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 2 cm, 3 cm], duration: 1}\n", "4:26",
      "motion.to must be a list of 2 numbers, not of 3", "[3 cm, 0]"},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, {y: 1}], duration: 1}\n", "4:33",
@@ -150,7 +150,7 @@ static const struct bad bads[] = {
     {"grip: {friction: 1.7304}\n", "5:18", "grip: the tool jams: friction x tan(angle) is 0.999", "lower grip.angle"},
     {"output: {diagnostics: {columns: [x_m, speed]}}\n", "5:39", "there is no column 'speed'", "rasp explain output.diagnostics.columns"},
     {"output: {diagnostics: {columns: [tims_s]}}\n", "5:34", "there is no column 'tims_s'", "did you mean 'time_s'?"},
-    {"output: {diagnostics: {columns: [x_m, lift_offs]}}\n", "5:39", "the contact has no lift_offs: it needs a grip", "leave the column out"},
+    {"output: {diagnostics: {columns: [x_m, lift_offs]}}\n", "5:39", "the contact has no lift_offs: it needs a grip or a recorded load", "leave the column out"},
     {"contact: {limiter: {curve: none}}\noutput: {diagnostics: {columns: [alpha_m]}}\n", "6:34",
      "the contact has no alpha_m: it needs contact.limiter.curve: tanh", "leave the column out"},
     {"contact: {limiter: {alpha: 1000}}\n", "5:28", "contact.smoothing smooths the force with a sigma of 1.67 s", "smoothing: 0 turns it off"},
@@ -210,7 +210,7 @@ START_TEST(test_all_at_once)
                      "    4 |   mass: 20 cm\n"
                      "      |         ^~~~~\n"
                      "      = help: write for instance: 20 g\n"
-                     "scenes/t.yaml:6:9: error: motion.path must be one of: back_and_forth, line, not 'lin'\n"
+                     "scenes/t.yaml:6:9: error: motion.path must be one of: back_and_forth, line, four_in_line, circle, scribble, polyline, spline, recorded, not 'lin'\n"
                      "    6 |   path: lin\n"
                      "      |         ^~~\n"
                      "      = help: did you mean 'line'?\n"
@@ -287,7 +287,7 @@ static const struct {
     {full, "motion.rate.x=1", "--set motion.rate.x: error: ", "motion.rate needs a frequency, not a map of keys", "2 Hz"},
     {full, "motion=fast", "--set motion: error: ", "motion must be a map of keys, not 'fast'", "keys here"},
     {full, "output.level.peak=-1 dB", "--set output.level.peak: error: ", "exclude each other", "output.level.lufs: null"},
-    {full, "motion.speed=1 m/s", "--set motion.speed: error: ", "applies only where motion.path is line", "it is back_and_forth"},
+    {full, "motion.speed=1 m/s", "--set motion.speed: error: ", "applies only where motion.path is line, four_in_line, circle, polyline or spline", "it is back_and_forth"},
     {full, "include=[x]", "--set include: error: ", "include cannot be set", "scene file"},
     {full, "accuracy.error=-80 dB", "--set accuracy.error: error: ", "not offered", "preset"},
     {full, "title=a\x07", "--set title: error: ", "control character U+0007", "remove"},
@@ -308,7 +308,7 @@ static const struct {
     {two, "contacts.nail.surface={convolution: resonators, response_length: 1 s}", "--set contacts.nail.surface: error: ",
      "contacts.nail.surface.convolution: resonators ring on for ever", "overlap_add"},
     {two, "contacts.1.surface.response=null", "scenes/t.yaml:9:3: error: ", "nothing is asked of contact 'nail'", "give surface.response"},
-    {two, "contacts.rod.surface=null", "scenes/t.yaml:3:3: error: ", "contacts.rod.surface.height_map or contacts.rod.surface.roughness must be given", "surface: {"},
+    {two, "contacts.rod.surface=null", "scenes/t.yaml:3:3: error: ", "contacts.rod.surface.ridges or contacts.rod.surface.grit must be given", "surface: {roughness: {}}"},
 };
 
 START_TEST(test_bad_set)

@@ -53,9 +53,9 @@ START_TEST(test_defaults)
     const struct limiter *l = &c->contact.limiter;
     ck_assert_str_eq(c->name, "contact");
     ck_assert(c->start == 0 && c->gain == 1 && r.scene.seed == 0 && !r.scene.title && r.scene.n_inputs == 0);
-    ck_assert(c->surface.height_scale == 1 && c->surface.along == ALONG_PATH && c->surface.off_map == OFF_MAP_MIRROR);
-    ck_assert(isnan(c->surface.origin[0]) && c->surface.response.modes == 50 && isnan(c->surface.response.length));
-    ck_assert(c->motion.from[0] == 0 && c->motion.from[1] == 0 && isnan(c->motion.rate) && c->motion.law == SPEED_CONSTANT);
+    ck_assert(c->surface.height_scale == 1 && c->surface.along == ALONG_AUTO && c->surface.off_map == OFF_MAP_MIRROR);
+    ck_assert(c->surface.origin[0] == 0 && c->surface.response.modes == 50 && isnan(c->surface.response.length));
+    ck_assert(c->motion.from[0] == 0 && c->motion.from[1] == 0 && isnan(c->motion.rate) && c->motion.law == SPEED_AUTO);
     ck_assert(!c->grip.given && isnan(c->load.constant) && c->contact.leak == 2e-3 && c->contact.smoothing == 50e-6);
     ck_assert(c->contact.gravity == 9.80665 && c->contact.beta1 == 0.05 && c->contact.beta2 == 1);
     ck_assert(l->curve == LIMITER_TANH && l->alpha == 0.03 && l->alpha_min == 0.01 && l->alpha_max == 0.05 && isnan(l->force_range[0]));
@@ -66,6 +66,26 @@ START_TEST(test_defaults)
     arena_close(r.arena);
 }
 END_TEST
+
+/* What decides is a choice that has these words, or may be left out. */
+static void applies_check(const struct key *k)
+{
+    const struct key *decides = keys_decider(k);
+    int words = 0, bars = 0;
+    ck_assert_msg((decides != NULL) == (k->applies != NULL), "%s", k->path);
+    if (!decides)
+        return;
+    if (!keys_words(k)) {
+        ck_assert_msg((decides->type == KEY_FILE || decides->type == KEY_NUMBER) && decides->standard && !*decides->standard, "%s", k->path);
+        return;
+    }
+    ck_assert_msg(decides->type == KEY_CHOICE, "%s", k->path);
+    for (const struct choice *c = decides->choices; c->word; c++)
+        words += keys_applies_with(k, c->word);
+    for (const char *s = keys_words(k); *s; s++)
+        bars += *s == '|';
+    ck_assert_msg(words == bars + 1, "%s: %s", k->path, k->applies);
+}
 
 /* Every default of keys.def can be read and every preset lies within its knob's range. */
 START_TEST(test_tables)
@@ -79,11 +99,7 @@ START_TEST(test_tables)
     for (const struct key *k = keys_table; k->path; k++) {
         ck_assert_ptr_eq(keys_find(k->path), k);
         ck_assert_msg((k->type == KEY_CHOICE) == (k->choices != NULL), "%s", k->path);
-        char other[128];
-        if (k->applies) {
-            snprintf(other, sizeof other, "%.*s", (int)strcspn(k->applies, "="), k->applies);
-            ck_assert_msg(keys_find(other) && keys_find(other)->type == (strchr(k->applies, '=') ? KEY_CHOICE : KEY_FILE), "%s", k->path);
-        }
+        applies_check(k);
     }
     arena_close(r.arena);
 }

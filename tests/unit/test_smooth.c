@@ -24,11 +24,11 @@ static struct rig *recorded(const char *rest, double smoothing)
 static double sigma_at(const struct rig *g, long i, double smoothing)
 {
     const struct board *b = &g->run.board;
-    double t = (double)i / (48000.0 * OVER), acceleration, alpha, n;
+    double t = (double)i / (48000.0 * OVER), ax, ay, alpha, n;
     if (!b->limiter)
         return smoothing * limiter_constant(&g->scene.contacts[0]) / 0.03 * 48000 * OVER;
-    trajectory_at(b->trajectory, 1, &t, NULL, NULL, &acceleration);
-    n = load_at(b->load, acceleration);
+    trajectory_at(b->trajectory, 1, &t, (struct trajectory_out){.ax = &ax, .ay = &ay});
+    load_at(b->load, 1, &t, &ax, &ay, &n);
     limiter_alpha(b->limiter, 1, &n, &alpha);
     return smoothing * alpha / 0.03 * 48000 * OVER;
 }

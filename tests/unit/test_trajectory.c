@@ -1,19 +1,14 @@
-/* trajectory: positions, velocities and accelerations against the closed forms in long double (64-bit mantissa), derivatives against
-   finite differences of the level below, turning points against the sign of the velocity.
+/* trajectory, straight motions: positions, velocities and accelerations against the closed forms in long double (64-bit mantissa), derivatives
+   against finite differences of the level below, turning points against the sign of the velocity. Curved ones: test_path.c, test_speed.c,
+   test_recorded.c.
 
    Tolerances. What is fed to sin and cos is 2 r t half turns, one product, rounded to 2^-53 of itself: after r t cycles the phase is off by
    at most 2 pi r t 2^-53 rad. Beside that come a few roundings: 1e-15 of the largest value. For rates that are powers of two the product
    is exact and hours are as good as milliseconds. */
-#include "trajectory/trajectory.h"
-
-#include "unit.h"
+#include "motions.h"
+#include "stage.h"
 
 #define PI_L 3.141592653589793238462643383279502884L
-
-static double between(double lo, double hi)
-{
-    return lo + (hi - lo) * drand48();
-}
 
 static struct motion harmonic_motion(double rate, double duration)
 {
@@ -28,21 +23,11 @@ static struct motion line_motion(int law, double distance, double duration)
                            .speed = NAN, .rate = NAN};
 }
 
-struct state {
-    double u, v, a;
-};
-
-static struct state at(const struct trajectory *tr, double t)
-{
-    struct state s;
-    trajectory_at(tr, 1, &t, &s.u, &s.v, &s.a);
-    return s;
-}
 
 /* Largest differences from the closed form, as parts of the length, the top speed and the largest acceleration. */
-static void check_harmonic(const struct trajectory *tr, double t, double tolerance)
+static void check_harmonic(const struct trajectory *tr, double rate, double t, double tolerance)
 {
-    long double amplitude = tr->length / 2.0L, omega = 2 * PI_L * tr->rate, phase = fmodl((long double)tr->rate * t, 1) * 2 * PI_L;
+    long double amplitude = tr->length / 2.0L, omega = 2 * PI_L * rate, phase = fmodl((long double)rate * t, 1) * 2 * PI_L;
     struct state s = at(tr, t);
     ck_assert_double_le((double)fabsl(s.u - amplitude * (1 - cosl(phase))), tolerance * tr->length);
     ck_assert_double_le((double)fabsl(s.v - amplitude * omega * sinl(phase)), tolerance * (double)(amplitude * omega));
@@ -55,13 +40,13 @@ START_TEST(harmonic_is_closed_form)
     srand48(1);
     for (int i = 0; i < 20000; i++) {
         struct motion m = harmonic_motion(pow(10, between(-3, 2)), 36000);
-        struct trajectory tr = trajectory_make(&m);
-        double t = between(0, fmin(36000, 1400 / tr.rate)), bound = 1e-15 + 6.2832 * tr.rate * t * 0x1p-53;
+        struct trajectory tr = made(&m);
+        double t = between(0, fmin(36000, 1400 / m.rate)), bound = 1e-15 + 6.2832 * m.rate * t * 0x1p-53;
         ck_assert_double_le(bound, 1e-12);
-        check_harmonic(&tr, t, bound);
+        check_harmonic(&tr, m.rate, t, bound);
         double u;
-        trajectory_at(&tr, 1, &t, &u, NULL, NULL);
-        long double want = tr.length / 2.0L * (1 - cosl(2 * PI_L * fmodl((long double)tr.rate * t, 1)));
+        trajectory_at(&tr, 1, &t, (struct trajectory_out){.u = &u});
+        long double want = tr.length / 2.0L * (1 - cosl(2 * PI_L * fmodl((long double)m.rate * t, 1)));
         ck_assert_double_le((double)fabsl(u - want), 1e-12);
     }
 }
@@ -73,9 +58,9 @@ START_TEST(harmonic_after_hours)
     for (int i = 0; i < 20000; i++) {
         double rate = pow(10, between(-3, 2)), t = between(3600, 36000);
         struct motion any = harmonic_motion(rate, 36000), exact = harmonic_motion(exp2(floor(log2(rate))), 36000);
-        struct trajectory tr = trajectory_make(&any), dyadic = trajectory_make(&exact);
-        check_harmonic(&tr, t, 1e-15 + 6.2832 * rate * t * 0x1p-53);
-        check_harmonic(&dyadic, t, 1.5e-15);
+        struct trajectory tr = made(&any), dyadic = made(&exact);
+        check_harmonic(&tr, any.rate, t, 1e-15 + 6.2832 * rate * t * 0x1p-53);
+        check_harmonic(&dyadic, exact.rate, t, 1.5e-15);
     }
 }
 END_TEST
@@ -84,7 +69,7 @@ END_TEST
 START_TEST(harmonic_at_extremes)
 {
     struct motion m = {.path = PATH_BACK_AND_FORTH, .from = {0.03, 0.02}, .to = {0.075, 0.02}, .rate = 2, .duration = 10};
-    struct trajectory tr = trajectory_make(&m);
+    struct trajectory tr = made(&m);
     double omega = 4 * M_PI, a0 = tr.length / 2 * omega * omega;
     for (int k = 0; k <= 40; k++) {
         double t = 0.25 * k, side = k % 2 ? 1 : -1;
@@ -92,10 +77,10 @@ START_TEST(harmonic_at_extremes)
         ck_assert_double_eq(s.u, k % 2 ? tr.length : 0);
         ck_assert_double_eq(s.v, 0);
         ck_assert_double_eq_tol(s.a, -side * a0, 1e-15 * a0);
-        check_harmonic(&tr, nextafter(t, 0), 1e-15);
-        check_harmonic(&tr, nextafter(t, 10), 1e-15);
-        check_harmonic(&tr, fmin(t + 0x1p-1074, 10), 1e-15);
-        check_harmonic(&tr, fmin(t + 0.125, 10), 1e-15);
+        check_harmonic(&tr, 2, nextafter(t, 0), 1e-15);
+        check_harmonic(&tr, 2, nextafter(t, 10), 1e-15);
+        check_harmonic(&tr, 2, fmin(t + 0x1p-1074, 10), 1e-15);
+        check_harmonic(&tr, 2, fmin(t + 0.125, 10), 1e-15);
     }
 }
 END_TEST
@@ -108,9 +93,9 @@ START_TEST(lines_are_closed_forms)
         double distance = pow(10, between(-5, 1.5)), duration = pow(10, between(-3, 4.55));
         double share = i % 4 == 0 ? pow(10, between(-12, 0)) : i % 4 == 1 ? 1 - pow(10, between(-12, 0)) : drand48();
         struct motion m = line_motion(SPEED_MINIMUM_JERK, distance, duration);
-        struct trajectory jerk = trajectory_make(&m);
+        struct trajectory jerk = made(&m);
         m.law = SPEED_CONSTANT;
-        struct trajectory even = trajectory_make(&m);
+        struct trajectory even = made(&m);
         double t = share * duration;
         long double d = jerk.length, q = (long double)t / duration, v = d / duration, r = 1 - q;
         struct state s = at(&jerk, t);
@@ -129,7 +114,7 @@ END_TEST
 START_TEST(jerk_begins_softly)
 {
     struct motion m = line_motion(SPEED_MINIMUM_JERK, 0.2, 0.7);
-    struct trajectory tr = trajectory_make(&m);
+    struct trajectory tr = made(&m);
     for (double t = 1e-9; t < 0.6; t *= 3) {
         long double d = tr.length, q = (long double)t / 0.7, r = 1 - q;
         struct state s = at(&tr, t);
@@ -164,14 +149,14 @@ START_TEST(derivatives_agree)
 {
     srand48(4);
     struct motion m = harmonic_motion(2.3, 3);
-    struct trajectory tr = trajectory_make(&m);
+    struct trajectory tr = made(&m);
     double omega = 2 * M_PI * 2.3;
     check_derivatives(&tr, tr.length / 2 * omega * omega, 1e-2 / omega);
     m = line_motion(SPEED_MINIMUM_JERK, 0.3, 1.7);
-    tr = trajectory_make(&m);
+    tr = made(&m);
     check_derivatives(&tr, 10 / sqrt(3) * 0.3 / (1.7 * 1.7), 1e-3 * 1.7);
     m.law = SPEED_CONSTANT;
-    tr = trajectory_make(&m);
+    tr = made(&m);
     check_derivatives(&tr, tr.top_speed, 1e-2 * 1.7);
 }
 END_TEST
@@ -180,7 +165,7 @@ START_TEST(ends_hold)
 {
     struct motion motions[] = {harmonic_motion(1.3, 2.9), line_motion(SPEED_CONSTANT, 0.1, 0.6), line_motion(SPEED_MINIMUM_JERK, 0.1, 0.6)};
     for (int i = 0; i < 3; i++) {
-        struct trajectory tr = trajectory_make(&motions[i]);
+        struct trajectory tr = made(&motions[i]);
         struct state first = at(&tr, 0), last = at(&tr, tr.duration);
         double before[] = {-1e-300, -1, -1e9, -HUGE_VAL}, after[] = {nextafter(tr.duration, 9), 100, 1e9, HUGE_VAL};
         for (int k = 0; k < 4; k++) {
@@ -198,14 +183,14 @@ END_TEST
 START_TEST(made_from_motion)
 {
     struct motion m = {.path = PATH_LINE, .from = {0.03, -0.02}, .to = {0.06, -0.06}, .speed = 0.25, .duration = NAN};
-    struct trajectory tr = trajectory_make(&m);
+    struct trajectory tr = made(&m);
     ck_assert_double_eq_tol(tr.length, 0.05, 1e-17);
     ck_assert_double_eq_tol(tr.duration, 0.2, 1e-16);
     ck_assert_double_eq_tol(tr.e[0], 0.6, 2e-16);
     ck_assert_double_eq_tol(tr.e[1], -0.8, 2e-16);
     ck_assert(tr.from[0] == 0.03 && tr.from[1] == -0.02);
     m.law = SPEED_MINIMUM_JERK; /* the speed given is the mean speed */
-    tr = trajectory_make(&m);
+    tr = made(&m);
     ck_assert_double_eq_tol(at(&tr, 0.2).u, 0.05, 1e-17);
 }
 END_TEST
@@ -221,11 +206,12 @@ START_TEST(many_as_one)
         t[i] = between(-0.1, 2.1);
     for (int k = 0; k < 3; k++)
         for (int n = 0; n <= N; n += n < 3 || n > 250 ? 1 : 83) {
-            struct trajectory tr = trajectory_make(&motions[k]);
+            struct trajectory tr = made(&motions[k]);
             u[n] = v[n] = a[n] = only[n] = 77;
-            trajectory_at(&tr, (size_t)n, t, u, v, a);
+            trajectory_at(&tr, (size_t)n, t, (struct trajectory_out){.u = u, .du = v, .ddu = a});
             for (int out = 0; out < 3; out++) {
-                trajectory_at(&tr, (size_t)n, t, out == 0 ? only : NULL, out == 1 ? only : NULL, out == 2 ? only : NULL);
+                trajectory_at(&tr, (size_t)n, t,
+                              (struct trajectory_out){.u = out == 0 ? only : NULL, .du = out == 1 ? only : NULL, .ddu = out == 2 ? only : NULL});
                 ck_assert_mem_eq(only, out == 0 ? u : out == 1 ? v : a, (size_t)n * sizeof *u);
             }
             ck_assert(u[n] == 77 && v[n] == 77 && a[n] == 77 && only[n] == 77);
@@ -246,7 +232,7 @@ START_TEST(turns_where_velocity_does)
     for (int i = 0; i < 300; i++) {
         double rate = pow(10, between(-1, 2)), duration = between(0.1, 20) / rate, step = between(0.001, 0.45) / rate;
         struct motion m = harmonic_motion(rate, duration);
-        struct trajectory tr = trajectory_make(&m);
+        struct trajectory tr = made(&m);
         int found = 0;
         for (double t = 0; t < duration; t += step) {
             double end = fmin(t + step, duration), turn = trajectory_turning(&tr, t, end), before = at(&tr, t).v, after = at(&tr, end).v;
@@ -269,7 +255,7 @@ END_TEST
 START_TEST(turn_on_a_border)
 {
     struct motion m = {.path = PATH_BACK_AND_FORTH, .to = {0.1, 0}, .rate = 2, .duration = 1};
-    struct trajectory tr = trajectory_make(&m);
+    struct trajectory tr = made(&m);
     ck_assert_double_eq(trajectory_turning(&tr, 0.2, 0.3), 0.25);
     ck_assert(isnan(trajectory_turning(&tr, 0.25, 0.3)));   /* open interval: the two sides of a turn are two stretches */
     ck_assert(isnan(trajectory_turning(&tr, 0.2, 0.25)));
@@ -278,14 +264,14 @@ START_TEST(turn_on_a_border)
     srand48(7);
     for (int k = 1; k < 2000; k++) { /* however 2 r t is rounded */
         m.rate = pow(10, between(-1, 2)), m.duration = 10000;
-        tr = trajectory_make(&m);
+        tr = made(&m);
         double turn = k / (2 * m.rate);
         ck_assert(isnan(trajectory_turning(&tr, turn, turn + 0.1 / m.rate)));
         ck_assert(isnan(trajectory_turning(&tr, turn - 0.1 / m.rate, turn)));
         ck_assert_double_eq(trajectory_turning(&tr, turn - 0.1 / m.rate, turn + 0.1 / m.rate), turn);
     }
     m.path = PATH_LINE;
-    tr = trajectory_make(&m);
+    tr = made(&m);
     ck_assert(isnan(trajectory_turning(&tr, 0, 1)));
 }
 END_TEST
@@ -294,7 +280,7 @@ START_TEST(top_speed_is_the_top)
 {
     struct motion motions[] = {harmonic_motion(1.25, 2), line_motion(SPEED_CONSTANT, 0.1, 2), line_motion(SPEED_MINIMUM_JERK, 0.1, 2)};
     for (int k = 0; k < 3; k++) {
-        struct trajectory tr = trajectory_make(&motions[k]);
+        struct trajectory tr = made(&motions[k]);
         double top = 0;
         for (int i = 0; i <= 40000; i++)
             top = fmax(top, fabs(at(&tr, i / 20000.0).v));
@@ -309,21 +295,60 @@ START_TEST(test_continued)
     struct motion m = {.path = PATH_BACK_AND_FORTH, .to = {0.06, 0}, .rate = 3, .duration = 0.4, .speed = NAN};
     for (int k = 0; k < 3; k++) {
         m.path = k == 0 ? PATH_BACK_AND_FORTH : PATH_LINE;
-        m.law = k == 2 ? SPEED_MINIMUM_JERK : SPEED_CONSTANT;
-        struct trajectory tr = trajectory_make(&m);
+        m.law = k == 2 ? SPEED_MINIMUM_JERK : SPEED_AUTO;
+        struct trajectory tr = made(&m);
         for (int i = -50; i <= 150; i++) {
             double t = 0.004 * i, u;
             long double q = (long double)t / 0.4L, want = k == 0   ? 0.03L * (1 - cosl(2 * 3.14159265358979323846264L * 3 * t))
                                                           : k == 1 ? 0.06L * q
                                                                    : 0.06L * q * q * q * (10 + q * (-15 + 6 * q));
-            ck_assert_double_eq_tol(trajectory_continued(&tr, t), (double)want, 1e-13);
-            trajectory_at(&tr, 1, &t, &u, NULL, NULL);
+            double place[2];
+            trajectory_continued(&tr, t, place);
+            ck_assert_double_eq_tol(place[0], (double)want, 1e-13);
+            ck_assert_double_eq(place[1], 0);
+            trajectory_at(&tr, 1, &t, (struct trajectory_out){.u = &u});
             if (i >= 0 && i <= 100)
-                ck_assert_double_eq_tol(trajectory_continued(&tr, t), u, 1e-15);
+                ck_assert_double_eq_tol(place[0], u, 1e-15);
         }
     }
 }
 END_TEST
 
-UNIT("trajectory", test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
+extern const struct stage trajectory_stage;
+
+/* Only what the board has is laid on it, at the sub-samples' instants, however the frames are cut. */
+START_TEST(stage_lays_out_the_board)
+{
+    enum { FRAMES = 700, OVER = 3, ITEMS = 9 };
+    static const enum item items[ITEMS] = {ITEM_POSITION, ITEM_VELOCITY, ITEM_ACCELERATION, ITEM_X, ITEM_Y, ITEM_VX, ITEM_VY, ITEM_AX, ITEM_AY};
+    static double x[ITEMS][FRAMES * OVER + 1];
+    struct scene s = {.seed = 1};
+    struct contact c = {.name = "rod", .motion = {.path = PATH_CIRCLE, .radius = 0.05, .turns = 2, .duration = 0.6, .speed = NAN}};
+    for (int left_out = 0; left_out < ITEMS; left_out++) {
+        struct board b = {.over = OVER, .rate = 1000};
+        for (int k = 0; k < ITEMS; k++)
+            if (k != left_out)
+                b.signals[items[k]] = (struct signal){.per_frame = OVER, .capacity = FRAMES, .x = x[k]};
+        struct stage_run run = {.stage = &trajectory_stage, .contact = &c, .board = &b, .arena = motions_arena(), .scene = &s};
+        struct err e = {0};
+        memset(x, 0, sizeof x);
+        ck_assert(trajectory_stage.open(&run, &e));
+        ck_assert_int_eq(b.moving, 601);
+        ck_assert(trajectory_stage.run(&run, 0, 1, &e) && trajectory_stage.run(&run, 1, 400, &e) && trajectory_stage.run(&run, 400, FRAMES, &e));
+        for (int i = 0; i < FRAMES * OVER; i++) {
+            struct state w = at(b.trajectory, (double)i / (1000 * OVER));
+            const double want[ITEMS] = {w.u, w.v, w.a, w.p[0], w.p[1], w.vel[0], w.vel[1], w.acc[0], w.acc[1]};
+            for (int k = 0; k < ITEMS; k++)
+                ck_assert_double_eq(x[k][i], k == left_out ? 0 : want[k]);
+        }
+    }
+    struct board b = {.over = OVER, .rate = 1000};
+    struct stage_run run = {.stage = &trajectory_stage, .contact = &c, .board = &b, .arena = motions_arena(), .scene = &s};
+    struct err e = {0};
+    c.motion.turns = 0;
+    ck_assert(!trajectory_stage.open(&run, &e) && strstr(e.text, "contact 'rod': motion.turns"));
+}
+END_TEST
+
+UNIT("trajectory", stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
      derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)

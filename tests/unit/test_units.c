@@ -28,6 +28,7 @@ static const struct {
     {"0.05", KEY_FORCE_COEFFICIENT, 0.05}, {"0.05 N s/m", KEY_FORCE_COEFFICIENT, 0.05}, {"0.05 N (s/m)^beta2", KEY_FORCE_COEFFICIENT, 0.05},
     {"0.01", KEY_OUTPUT, 0.01},        {"10 mm/s", KEY_OUTPUT, 0.01},     {"3 um", KEY_OUTPUT, 3e-6},      {"2 m/s^2", KEY_OUTPUT, 2},
     {"7 um/s", KEY_OUTPUT, 7e-6},      {"4 nm", KEY_OUTPUT, 4e-9},        {"0.3", KEY_NONE, 0.3},          {"-2.4", KEY_NONE, -2.4},
+    {"12.7 /mm^2", KEY_PER_AREA, 12.7e6}, {"3/cm\xc2\xb2", KEY_PER_AREA, 3e4}, {"0.3 /m2", KEY_PER_AREA, 0.3}, {"0.07 /um^2", KEY_PER_AREA, 7e10},
     {"1e-300", KEY_NONE, 1e-300},      {"0e999", KEY_NONE, 0},
 };
 
@@ -170,7 +171,7 @@ START_TEST(test_text)
     static const struct { double x; enum key_dimension d; const char *text; } rows[] = {
         {0.02, KEY_MASS, "20 g"}, {1e-9, KEY_LENGTH, "1 nm"}, {50e-6, KEY_TIME, "50 us"}, {48000, KEY_FREQUENCY, "48 kHz"}, {0, KEY_TIME, "0 s"},
         {-0.03, KEY_LENGTH, "-30 mm"}, {0.5, KEY_NONE, "0.5"}, {1000, KEY_MASS, "1000 kg"}, {3600, KEY_TIME, "3600 s"}, {-200, KEY_DECIBEL, "-200 dB"},
-        {1e-30, KEY_OUTPUT, "1e-30"}, {1.5707, KEY_ANGLE, "1.5707 rad"}, {1e5, KEY_FORCE, "100 kN"}, {1e6, KEY_FORCE_COEFFICIENT, "1000000 N s/m"}};
+        {1e-30, KEY_OUTPUT, "1e-30"}, {1.5707, KEY_ANGLE, "1.5707 rad"}, {1e5, KEY_FORCE, "100 kN"}, {1.5e7, KEY_PER_AREA, "15 /mm^2"}, {1, KEY_PER_AREA, "1 /m^2"}, {1e6, KEY_FORCE_COEFFICIENT, "1000000 N s/m"}};
     struct arena *a = arena_open();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         ck_assert_str_eq(units_text(rows[i].x, rows[i].d, a), rows[i].text);

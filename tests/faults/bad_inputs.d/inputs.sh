@@ -122,6 +122,36 @@ floats() {
     for ((i = 0; i < $1; i += 2)); do bytes 00000000 bd378635; done | head -c $(($1 * 4))
 }
 
+# sdf_text POINTS PROFILES XSCALE YSCALE HEIGHTS: a text file of 16-bit micrometres.
+sdf_text() {
+    printf '%s\n' aISO-1.0 "NumPoints = $1" "NumProfiles = $2" "Xscale = $3" "Yscale = $4" "Zscale = 1e-6" "DataType = 5" '*'
+    echo $5 | tr ' ' '\n'
+    echo '*'
+}
+
+# sdf_binary POINTS PROFILES DATATYPE: the header of a binary file; pitch 2^-17 m (7.6 um) both ways, unit 2^-30 m (0.93 nm).
+sdf_binary() {
+    printf 'bISO-1.0somebody  010120260000010120260000'
+    le "$1" 2
+    le "$2" 2
+    bytes 000000000000e03e 000000000000e03e 000000000000103e 000000000000f0bf 00
+    le "$3" 1
+    le 0 1
+}
+
+# png BITS [COLOUR_TYPE]: the head and the end of a picture of 4 x 4; the pixels are not there.
+png() {
+    bytes 89504e470d0a1a0a 0000000d
+    { printf IHDR; bytes 00000004 00000004; le "$1" 1; le "${2:-0}" 1; bytes 000000; } > chunk
+    cat chunk
+    crc32 chunk
+    bytes 00000000 49444154 35af061e 00000000 49454e44 ae426082
+    rm chunk
+}
+
+# crc32 FILE: big-endian, as gzip has it in its trailer the other way round.
+crc32() { bytes "$(gzip -c "$1" | tail -c 8 | od -An -tx1 -N4 | awk '{ print $4 $3 $2 $1 }')"; }
+
 # ------------------------------------------------------------------ sounds
 
 # wav RATE CHANNELS FORMAT BITS HEX...: a WAV; FORMAT is 1 (integers) or 3 (floating point).

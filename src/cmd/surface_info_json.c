@@ -1,0 +1,121 @@
+/* The report of rasp surface info as JSON: SI units, null for what is not there. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "cmd/surface_info.h"
+
+static json_t *number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
+}
+
+static json_t *text_or_null(const char *s)
+{
+    json_t *j = s ? json_string(s) : NULL; /* NULL also for what is not UTF-8 */
+    return j ? j : json_null();
+}
+
+static json_t *json_heights(const struct surface_heights *s)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                     "mean_m", number(s->mean),
+                     "sa_m", number(s->sa),
+                     "sq_m", number(s->sq),
+                     "ssk", number(s->ssk),
+                     "sku", number(s->sku),
+                     "sz_m", number(s->sz),
+                     "slope_rms_x", number(s->slope),
+                     "slope_rms_y", number(s->slope_y),
+                     "curvature_rms_x_per_m", number(s->curvature),
+                     "curvature_rms_y_per_m", number(s->curvature_y));
+}
+
+static json_t *json_steps(const struct surface_heights_steps *s)
+{
+    json_t *limits = json_array();
+    for (int k = 0; k < SURFACE_INFO_ALPHAS; k++)
+        json_array_append_new(limits, json_pack("{s:f, s:f}", "alpha_m", surface_info_alphas[k], "noise_over_limit", s->noise * surface_info_alphas[k]));
+    return json_pack("{s:f, s:I, s:I, s:f, s:f, s:o}",
+                     "step_m", s->step,
+                     "levels", (json_int_t)s->levels,
+                     "heights_looked_at", (json_int_t)s->looked_at,
+                     "curvature_noise_per_m", s->noise,
+                     "curvature_noise_at_knots_per_m", 2.45 * s->noise,
+                     "limiter", limits);
+}
+
+static json_t *json_band(const struct surface_band *b)
+{
+    if (b->segments == 0)
+        return json_null();
+    return json_pack("{s:o, s:b, s:o, s:f, s:o, s:o, s:o, s:o}",
+                     "limit_cycles_per_m", number(b->limit),
+                     "limit_is_noise_floor", b->noise,
+                     "curvature_above_limit", number(b->beyond),
+                     "nyquist_cycles_per_m", b->nyquist,
+                     "oversampling", number(isnan(b->limit) ? 1 : b->nyquist / b->limit),
+                     "exponent", number(b->exponent),
+                     "exponent_from_cycles_per_m", number(b->from),
+                     "exponent_to_cycles_per_m", number(b->to));
+}
+
+static json_t *json_ends(const struct surface_ends *s)
+{
+    return json_pack("{s:o, s:o, s:o, s:[I, I], s:[o, o]}",
+                     "step_rms_m", number(s->step),
+                     "jump_repeated_m", number(s->jump),
+                     "slope_jump_mirrored", number(s->kink),
+                     "fall_samples", (json_int_t)s->fall[0], (json_int_t)s->fall[1],
+                     "fall_m", number(s->drop[0]), number(s->drop[1]));
+}
+
+static json_t *json_period(const struct surface_ends_period *p)
+{
+    if (isnan(p->peak))
+        return json_null();
+    return json_pack("{s:I, s:f, s:b}", "lag_samples", (json_int_t)p->lag, "autocorrelation", p->peak, "stands_out", p->stands_out);
+}
+
+static json_t *json_one(const struct surface_info *i)
+{
+    static const char *const levellings[] = {"none", "mean", "plane"};
+    const struct heightfile *h = &i->h;
+    bool map = h->rows > 1;
+    json_t *notes = json_array();
+    for (int k = 0; k < i->n_notes; k++)
+        json_array_append_new(notes, text_or_null(i->notes[k]));
+    return json_pack("{s:o, s:s, s:o, s:I, s:I, s:o, s:o, s:I, s:I, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                     "file", text_or_null(i->file),
+                     "format", h->format,
+                     "title", text_or_null(h->title),
+                     "columns", (json_int_t)h->columns,
+                     "rows", (json_int_t)h->rows,
+                     "pitch_x_m", number(h->pitch_x),
+                     "pitch_y_m", number(map ? h->pitch_y : NAN),
+                     "missing", (json_int_t)h->holes,
+                     "filled", (json_int_t)h->filled,
+                     "levelling", levellings[i->levelling],
+                     "slope_x", number(i->tilt.slope_x),
+                     "slope_y", number(map ? i->tilt.slope_y : NAN),
+                     "heights", json_heights(&i->heights),
+                     "quantisation", json_steps(&i->steps),
+                     "band_x", json_band(&i->band[0]),
+                     "band_y", map ? json_band(&i->band[1]) : json_null(),
+                     "ends_x", json_ends(&i->ends[0]),
+                     "ends_y", map ? json_ends(&i->ends[1]) : json_null(),
+                     "repetition", json_period(&i->period),
+                     "warnings", notes);
+}
+
+bool surface_info_json(const struct surface_info *const *list, int n, struct err *e)
+{
+    json_t *all = json_array(), *j;
+    for (int k = 0; k < n; k++)
+        json_array_append_new(all, json_one(list[k]));
+    j = json_pack("{s:o}", "surfaces", all);
+    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
+    putchar('\n');
+    json_decref(j);
+    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+}

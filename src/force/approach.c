@@ -1,0 +1,60 @@
+/* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of each sub-interval times
+   the share at its middle to which the scraper is lowered (trajectory/load.h: a minimum-jerk step over load.approach and load.release). Papers/000
+   has no such thing: its sounds begin and end with a ramp of the whole. */
+#include "scene/rules.h"
+#include "stage.h"
+#include "trajectory/load.h"
+
+static bool approach_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return rules_approach(c, false) > 0 || rules_approach(c, true) > 0;
+}
+
+static double approach_work(const struct contact *c, const struct scene *s)
+{
+    (void)c;
+    return s->accuracy.oversampling;
+}
+
+static unsigned approach_asks(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
+}
+
+static bool approach_open(struct stage_run *r, struct err *e)
+{
+    struct load_law *l = ARENA_TAKE(r->arena, struct load_law, 1);
+    r->state = l;
+    if (r->board->load)
+        *l = *r->board->load;
+    return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, l, e);
+}
+
+static bool approach_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    const struct load_law *l = r->state;
+    struct board *b = r->board;
+    double *force = board_at(b, ITEM_SUBFORCE, from), rate = b->rate * b->over, t = (double)from / b->rate, end = (double)to / b->rate;
+    (void)e;
+    if (t >= l->approach && end <= l->duration - l->release)
+        return true;
+    for (long i = 0; i < (to - from) * b->over; i++)
+        force[i] *= load_lowered(l, ((double)(from * b->over + i) + 0.5) / rate);
+    return true;
+}
+
+const struct stage approach_stage = {
+    .name = "approach",
+    .does = "the scraper is lowered at the start and raised at the end",
+    .paper = "",
+    .idle = "the motion starts from rest and ends at rest, or load.approach and load.release are 0",
+    .needs = ITEM_BIT(ITEM_SUBFORCE),
+    .asks = approach_asks,
+    .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .wanted = approach_wanted,
+    .work = approach_work,
+    .open = approach_open,
+    .run = approach_run,
+};

@@ -1,0 +1,209 @@
+/* Stretches. Between two force samples a curved path is the cubic Hermite curve through both places with both unit tangents, its parameter w
+   from 0 to the arc length h travelled: within h^4 kappa''.. / 384 of the path, below 1e-16 m at 10 um. Along a profile, and on a straight path,
+   places are exact straight lines in u. */
+#include "force/way.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "force/way_cut.h"
+#include "scene/rules.h"
+#include "surface/limiter.h"
+#include "trajectory/trajectory.h"
+
+unsigned way_asks(const struct contact *c)
+{
+    bool field = !rules_straight(&c->motion) && rules_along(c) != ALONG_PATH;
+    return field ? ITEM_BIT(ITEM_X) | ITEM_BIT(ITEM_Y) | ITEM_BIT(ITEM_VX) | ITEM_BIT(ITEM_VY) : 0;
+}
+
+double way_work(const struct contact *c, const struct scene *s)
+{
+    const struct surface *u = &c->surface;
+    double finest = u->roughness.given ? u->roughness.shortest / 4 : u->height_map && !isnan(u->pitch) ? u->pitch : 5e-6;
+    bool halves = rules_along(c) == ALONG_PLANE;
+    return (halves ? 2 : 1) * (s->accuracy.oversampling + rules_speed(&c->motion) / (s->output.sample_rate * finest));
+}
+
+/* ------------------------------------------------------------------ making */
+
+static bool way_grids(struct way *w, const char *contact, struct err *e)
+{
+    for (const struct relief_part *p = w->relief->first; p; p = p->next)
+        for (int axis = 0; axis < 2; axis++) {
+            struct way_grid g = {.axis = axis, .pitch = p->pitch[axis], .origin = p->origin[axis]};
+            bool known = g.pitch <= 0 || (axis == 1 && w->relief->along != ALONG_PLANE);
+            for (int k = 0; k < w->n_grids; k++)
+                known = known || (w->grids[k].axis == axis && w->grids[k].pitch == g.pitch && w->grids[k].origin == g.origin);
+            if (known)
+                continue;
+            if (w->n_grids == WAY_GRIDS)
+                return err_set(e, ERR_SCENE, "contact '%s': the surface is made of too many parts", contact);
+            w->grids[w->n_grids++] = g;
+        }
+    return true;
+}
+
+static bool way_linear(const struct relief *r)
+{
+    for (const struct relief_part *p = r->first; p; p = p->next)
+        if (!p->linear)
+            return false;
+    return true;
+}
+
+bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double longest, struct err *e)
+{
+    const struct trajectory *tr = r->board->trajectory;
+    const struct limiter *limiter = &r->contact->contact.limiter;
+    int along = r->board->relief->along;
+    w->kind = kind;
+    w->relief = r->board->relief;
+    w->field = along != ALONG_PATH;
+    w->curved = w->field && !tr->straight;
+    w->channels = (kind == WAY_ALONG && w->curved) || (kind == WAY_AXES && along == ALONG_PLANE) ? 2 : 1;
+    w->limiter = limiter->curve == LIMITER_TANH;
+    w->ratio = kind == WAY_AXES ? limiter->ratio_y : 1;
+    w->halves = w->curved || along == ALONG_PLANE || !way_linear(w->relief);
+    w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / 2) : longest;
+    w->e[0] = w->field ? tr->e[0] : 1;
+    w->e[1] = w->field ? tr->e[1] : 0;
+    w->from[0] = w->field ? tr->from[0] : 0;
+    w->from[1] = w->field ? tr->from[1] : 0;
+    if (along == ALONG_X && fabs(w->e[0]) * tr->length < 1e-6 * relief_finest(w->relief) && tr->straight)
+        w->e[0] = 0; /* straight across the profile: what the decimals of the two ends leave in x is no motion along it */
+    return way_grids(w, r->contact->name, e);
+}
+
+/* ------------------------------------------------------------------ values at the points */
+
+static void values_along(struct way *w)
+{
+    struct way_pieces *p = &w->pieces;
+    for (int k = 0; k < p->points; k++) {
+        double x = p->ex[k], y = p->ey[k];
+        p->curvature[0][k] = x * x * w->xx[k] + 2 * x * y * w->xy[k] + y * y * w->yy[k];
+    }
+    for (int k = 0; k < p->points && w->channels == 2; k++) {
+        double x = p->ex[k], y = p->ey[k];
+        p->curvature[1][k] = x * y * (w->yy[k] - w->xx[k]) + (x * x - y * y) * w->xy[k];
+    }
+}
+
+static void values_axes(struct way *w, const double *zx, const double *zy)
+{
+    struct way_pieces *p = &w->pieces;
+    for (int k = 0; k < p->points; k++) {
+        double x = p->ex[k], y = p->ey[k];
+        p->curvature[0][k] = w->xx[k];
+        p->curvature[1][k] = w->yy[k];
+        p->bend[k] = x * x * w->xx[k] + 2 * x * y * w->xy[k] + y * y * w->yy[k];
+        p->slope[k] = x * zx[k] + y * zy[k];
+    }
+}
+
+/* Pieces come in pairs (a, m), (m, b): of a parabola through the three, each half bulges by a quarter of what m lies above the chord. */
+static void values_bulge(struct way_pieces *p, int channel)
+{
+    const double *c = p->curvature[channel];
+    for (int i = 0; i < p->n; i += 2) {
+        int a = p->at[i];
+        p->bulge[channel][i] = p->bulge[channel][i + 1] = 0.25 * (c[a + 1] - 0.5 * (c[a] + c[a + 2]));
+    }
+}
+
+static void way_flush(struct way *w)
+{
+    struct way_pieces *p = &w->pieces;
+    bool plane = w->relief->along == ALONG_PLANE, axes = w->kind == WAY_AXES;
+    double zx[LIMITED_POINTS], zy[LIMITED_POINTS] = {0};
+    if (p->n == 0)
+        return;
+    relief_at(w->relief, &(struct relief_points){(size_t)p->points, p->x, plane ? p->y : NULL},
+              &(struct relief_values){.x = axes ? zx : NULL, .y = axes && plane ? zy : NULL, .xx = w->xx, .xy = plane ? w->xy : NULL,
+                                      .yy = plane ? w->yy : NULL});
+    if (axes)
+        values_axes(w, zx, zy);
+    else
+        values_along(w);
+    for (int k = 0; k < w->channels; k++) {
+        if (w->halves)
+            values_bulge(p, k);
+        limited_run(&(struct limited){p->n, p->points, p->at, p->alpha[k], p->curvature[k], w->halves ? p->bulge[k] : NULL, p->limited[k],
+                                      p->mean[k], p->moment[k]}, w->limiter);
+    }
+    w->use(w->self, p);
+    p->n = p->points = 0;
+}
+
+/* ------------------------------------------------------------------ sub-intervals */
+
+struct instant {
+    double u, x, y, ex, ey;
+};
+
+/* The instant's place; its direction is 0, 0 where the contact rests. */
+static struct instant way_instant(const struct way *w, const struct board *b, long k, double top_speed)
+{
+    struct instant i = {.u = *way_values(b, ITEM_POSITION, k)};
+    if (!w->curved)
+        return i;
+    double vx = *way_values(b, ITEM_VX, k), vy = *way_values(b, ITEM_VY, k), v = sqrt(vx * vx + vy * vy);
+    i.x = *way_values(b, ITEM_X, k);
+    i.y = *way_values(b, ITEM_Y, k);
+    if (v > 1e-6 * top_speed) {
+        i.ex = vx / v;
+        i.ey = vy / v;
+    }
+    return i;
+}
+
+static void way_stretch(struct way *w, struct instant a, struct instant b, double alpha, int interval)
+{
+    struct way_stretch s = {.u = a.u, .end = b.u, .alpha = alpha, .interval = interval};
+    double dx = b.x - a.x, dy = b.y - a.y, chord = sqrt(dx * dx + dy * dy);
+    if (a.u == b.u || (w->curved && chord == 0))
+        return;
+    if (w->curved) {
+        bool rest_a = a.ex == 0 && a.ey == 0, rest_b = b.ex == 0 && b.ey == 0;
+        s.path = (struct way_curve){.x = {a.x, b.x}, .y = {a.y, b.y}, .length = fabs(b.u - a.u),
+                                    .ex = {rest_a ? dx / chord : a.ex, rest_b ? dx / chord : b.ex},
+                                    .ey = {rest_a ? dy / chord : a.ey, rest_b ? dy / chord : b.ey}};
+    }
+    while (!way_cut(w, &s))
+        way_flush(w);
+}
+
+/* Where the motion turns round on itself the stretch is two; the direction there is that of each side's chord. */
+static void way_turn(struct way *w, const struct stage_run *r, struct instant a, struct instant b, double alpha, int interval, double t)
+{
+    struct instant m = {0};
+    trajectory_at(r->board->trajectory, 1, &t, (struct trajectory_out){.u = &m.u, .x = w->curved ? &m.x : NULL, .y = w->curved ? &m.y : NULL});
+    way_stretch(w, a, m, alpha, interval);
+    way_stretch(w, m, b, alpha, interval);
+}
+
+static bool way_turns(const struct way *w, struct instant a, struct instant b, double va, double vb)
+{
+    return w->curved ? a.ex * b.ex + a.ey * b.ey < 0 : va * vb < 0;
+}
+
+void way_run(struct way *w, const struct stage_run *r, long first, int n)
+{
+    const struct board *b = r->board;
+    const double *v = way_values(b, ITEM_VELOCITY, first);
+    const double *alpha = board_has(b, ITEM_ALPHA) ? way_values(b, ITEM_ALPHA, first) : NULL;
+    double fixed = limiter_constant(r->contact), dt = 1 / (b->rate * b->over), top = b->trajectory->top_speed;
+    struct instant now = way_instant(w, b, first, top), next;
+    for (int i = 0; i < n; i++, now = next) {
+        double a = alpha ? 0.5 * (alpha[i] + alpha[i + 1]) : fixed, turn = NAN;
+        next = way_instant(w, b, first + i + 1, top);
+        if (way_turns(w, now, next, v[i], v[i + 1]))
+            turn = trajectory_turning(b->trajectory, (double)(first + i) * dt, (double)(first + i + 1) * dt);
+        if (isnan(turn))
+            way_stretch(w, now, next, a, i);
+        else
+            way_turn(w, r, now, next, a, i, turn);
+    }
+    way_flush(w);
+}

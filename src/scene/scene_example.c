@@ -1,0 +1,39 @@
+/* Examples: see scene_example.h. */
+#include "scene/scene_example.h"
+
+#include <string.h>
+
+#include "scene/units.h"
+
+static const char *file_example(const char *path)
+{
+    static const char *const examples[][2] = {{"surface.recipe", "rough.yaml"},     {"surface.height_map", "profile.npy"},
+                                              {"surface.roughness.like", "map.gsf"}, {"motion.file", "recording.csv"},
+                                              {"motion.profile", "speed.csv"},       {"load.recorded", "force.csv"}};
+    for (size_t i = 0; i < sizeof examples / sizeof examples[0]; i++)
+        if (strcmp(examples[i][0], path) == 0)
+            return examples[i][1];
+    return "modes.csv";
+}
+
+const char *scene_example(struct yaml *y, const struct key *k)
+{
+    const char *one = units_example(k->dimension);
+    if (k->standard && *k->standard)
+        return k->standard;
+    switch (k->type) {
+    case KEY_NUMBER:
+    case KEY_TIME_OR_AUTO: return one;
+    case KEY_WHOLE: return "48 kHz";
+    case KEY_COUNT:
+    case KEY_SEED: return arena_format(y->arena, "%.0f", k->low);
+    case KEY_TEXT: return "some words";
+    case KEY_FILE: return file_example(k->path);
+    case KEY_POINT: return arena_format(y->arena, "[%s, 0]", one);
+    case KEY_POINTS: return arena_format(y->arena, "[[0, 0], [%s, 0]]", one);
+    case KEY_RANGE: return arena_format(y->arena, "[%s, %s]", units_text(1, k->dimension, y->arena), units_text(5, k->dimension, y->arena));
+    case KEY_LIST: return "[speed_m_per_s, normal_force_n]";
+    case KEY_CHOICE: return k->choices[0].word;
+    }
+    return "";
+}

@@ -1,0 +1,119 @@
+/* A motion's values against each other: how long is its way, what says how long it takes, and which speed law fits which path. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/keys.h"
+#include "scene/rules.h"
+#include "scene/scene_sense_parts.h"
+
+#define SHORTEST_WAY 1e-9 /* m */
+
+static const char *word(const char *path, int value)
+{
+    return keys_find(path)->choices[value].word;
+}
+
+/* Where something is missing in the motion. */
+static struct diag_place motion_place(const struct scene_part *p)
+{
+    const struct yaml_node *map = yaml_get(p->map, "motion");
+    return scene_part_place(p, map ? map : p->map);
+}
+
+/* ------------------------------------------------------------------ the way */
+
+static void stroke_check(const struct scene_part *p, const struct motion *m)
+{
+    static const char *const ends[2] = {"motion.to", "motion.from"};
+    double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
+    if (rules_straight(m) && sqrt(x * x + y * y) < SHORTEST_WAY)
+        scene_part_contradiction(p, ends, "must differ from", "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
+}
+
+static void turns_check(const struct scene_part *p, const struct motion *m)
+{
+    const char *path = "motion.turns";
+    if (m->path == PATH_CIRCLE && 2 * M_PI * m->radius * fabs(m->turns) < SHORTEST_WAY)
+        diag_add(p->yaml->diag, scene_part_later(p, path, path), "write for instance: turns: 1, or -1 for clockwise", "%s must not be 0",
+                 scene_part_label(p, path));
+}
+
+/* ------------------------------------------------------------------ how long it takes */
+
+static bool given(const struct scene_part *p, const char *path)
+{
+    return yaml_find(p->map, path) != NULL;
+}
+
+/* A speed profile says all of it. (A scribble's rate is its shape's.) */
+static void profile_check(const struct scene_part *p, const struct motion *m)
+{
+    static const char *const times[] = {"motion.speed", "motion.duration", "motion.rate"};
+    for (int i = 0; i < (m->path == PATH_BACK_AND_FORTH ? 3 : 2); i++)
+        if (given(p, times[i]))
+            diag_add(p->yaml->diag, yaml_find(p->map, times[i])->key->at,
+                     arena_format(p->yaml->arena, "remove it, or set %smotion.law to another law", p->prefix),
+                     "%s must not be given where %s is given: motion.profile says how fast and how long it goes", scene_part_label(p, times[i]),
+                     scene_part_label(p, "motion.law"));
+}
+
+static void missing(const struct scene_part *p, const char *path, const char *example, const char *because)
+{
+    if (!given(p, path))
+        diag_add(p->yaml->diag, motion_place(p), arena_format(p->yaml->arena, "add for instance: %s", example), "%s is missing%s",
+                 scene_part_label(p, path), because);
+}
+
+static void time_check(const struct scene_part *p, const struct motion *m)
+{
+    static const char duration[] = "motion.duration", example[] = "duration: 2 s";
+    bool periodic = m->path == PATH_BACK_AND_FORTH || m->path == PATH_SCRIBBLE;
+    if (m->path == PATH_SCRIBBLE || (periodic && m->law != SPEED_GIVEN))
+        missing(p, "motion.rate", "rate: 2 Hz", "");
+    if (m->law == SPEED_GIVEN)
+        profile_check(p, m);
+    else if (periodic)
+        missing(p, duration, example, "");
+    else if (m->path == PATH_RECORDED && m->law != SPEED_AUTO)
+        missing(p, duration, example, arena_format(p->yaml->arena, ": under the law %s a recording gives the path only", word("motion.law", m->law)));
+    else if (m->path != PATH_RECORDED && !given(p, duration) && !given(p, "motion.speed"))
+        diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given", scene_part_label(p, "motion.speed"),
+                 scene_part_label(p, duration));
+}
+
+/* ------------------------------------------------------------------ the law */
+
+static const char *why_not(const struct motion *m)
+{
+    if (m->path == PATH_POLYLINE)
+        return "it rests at its corners";
+    return m->law == SPEED_CONSTANT ? "it rests where it turns round" : "a straight line has no curvature";
+}
+
+static void law_check(const struct scene_part *p, const struct motion *m)
+{
+    struct arena *a = p->yaml->arena;
+    const char *laws = "", *cure = "";
+    if (rules_law_fits(m, m->law))
+        return;
+    for (int i = 0; keys_find("motion.law")->choices[i].word; i++)
+        if (rules_law_fits(m, i))
+            laws = arena_format(a, "%s%s%s", laws, *laws ? ", " : "", word("motion.law", i));
+    if (m->path == PATH_POLYLINE)
+        cure = arena_format(a, "; or round the corners: %smotion.corner: 5 mm", p->prefix);
+    diag_add(p->yaml->diag, scene_part_later(p, "motion.law", "motion.path"), arena_format(a, "laws here: %s%s", laws, cure),
+             "%s must not be %s where %s is %s: %s", scene_part_label(p, "motion.law"), word("motion.law", m->law),
+             scene_part_label(p, "motion.path"), word("motion.path", m->path), why_not(m));
+}
+
+void scene_sense_motion(const struct scene_part *p, const struct motion *m)
+{
+    if (!scene_part_known(p, "motion.path"))
+        return;
+    stroke_check(p, m);
+    turns_check(p, m);
+    if (!scene_part_known(p, "motion.law"))
+        return;
+    time_check(p, m);
+    law_check(p, m);
+}

@@ -1,0 +1,107 @@
+/* The fractal continuation of a measured map: instruments stop at 11 to 45 cycles/mm, surfaces do not.
+
+     P(k) = P_fit (k/k_fit)^exponent X(k)    from k_c/sqrt 2 up to 1/shortest           X: surface/spectrum.h
+
+   The map's own spectrum (surface/survey.h) has a knee, where its instrument begins to lose detail, and a band limit, where it has lost 30 dB more.
+   The takeover k_c is the geometric mean of both, unless given. A power law is fitted to the map's two octaves below the knee (below k_c/sqrt 2 where
+   k_c is given); it continues beyond, with its exponent unless that is given. X takes it in over an octave about k_c, in power; the map itself is left as it is, and
+   loses there what it loses: the sum is within 2 dB of the fit about k_c. In the plane X acts on the radial frequency, and the traces of what has only radial
+   frequencies above k_c hold some power below it (the map's traces, whose instrument cut them likewise, miss just that). */
+#include "surface/continuation.h"
+
+#include "num/real.h"
+#include "stage.h"
+#include "surface/blocks.h"
+#include "surface/reading.h"
+#include "surface/relief.h"
+#include "surface/survey.h"
+#include "surface/tiles.h"
+
+struct takeover {
+    double k, fit;          /* cycles/m: k_c, and where the fit ends */
+};
+
+static struct takeover takeover_of(const struct continuation *c, const struct spectrum *measured)
+{
+    if (!isnan(c->from))
+        return (struct takeover){1 / c->from, sqrt(0.5) / c->from};
+    double knee = survey_knee(measured);
+    return (struct takeover){sqrt(knee * survey_limit(measured)), knee};
+}
+
+bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map, struct spectrum *s, struct err *e)
+{
+    if (map->columns < 64)
+        return err_set(e, ERR_SCENE, "surface.continuation: %zu samples along a row are too few to tell a spectrum (at least 64)", map->columns);
+    struct spectrum measured = survey_spectrum(a, &(struct survey_grid){map->z, map->columns, map->rows, map->pitch[0]});
+    if (measured.n < 3)
+        return err_set(e, ERR_SCENE, "surface.continuation: the map is flat: there is no spectrum to continue");
+    struct takeover t = takeover_of(c, &measured);
+    double density, fitted = survey_fit(&measured, t.fit, &density), exponent = isnan(c->exponent) ? fitted : c->exponent, top = 1 / c->shortest;
+    if (isnan(fitted))
+        return err_set(e, ERR_SCENE, "surface.continuation: the map holds no two octaves below a wavelength of %g m to continue; give surface.continuation.from "
+                       "(its pitch is %g m)", 1 / t.fit, map->pitch[0]);
+    if (top <= t.k * sqrt(2))
+        return err_set(e, ERR_SCENE, "surface.continuation: the map reaches down to wavelengths of %g m: shortest (%g m) must be less than %g m", 1 / t.k,
+                       c->shortest, sqrt(0.5) / t.k);
+    if (exponent > 0 || exponent < -8)
+        return err_set(e, ERR_SCENE, "surface.continuation: the map's spectrum has the exponent %.3g in the two octaves before %g m, which is no "
+                       "surface's (-8 to 0): give surface.continuation.exponent and from", exponent, 1 / t.fit);
+    *s = (struct spectrum){.n = 2, .k = ARENA_TAKE(a, double, 2), .p = ARENA_TAKE(a, double, 2), .takeover = t.k};
+    s->k[0] = t.k * sqrt(0.5);
+    s->k[1] = top;
+    for (int i = 0; i < 2; i++)
+        s->p[i] = density * real_pow(s->k[i] / t.fit, exponent);
+    return true;
+}
+
+/* ------------------------------------------------------------------ the stage */
+
+static bool continuation_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return c->surface.continuation.given && c->surface.height_map;
+}
+
+static double continuation_work(const struct contact *c, const struct scene *s)
+{
+    bool plane = c->surface.along == ALONG_PLANE;
+    return (plane ? 60 * 4 : 8) * reading_points(s, c->surface.continuation.shortest / 4);
+}
+
+static bool continuation_open(struct stage_run *r, struct err *e)
+{
+    struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "continuation/%s", r->contact->name));
+    struct relief *relief = r->board->relief;
+    struct spectrum s;
+    double lost;
+    relief_settle(relief, r->contact);
+    if (!continuation_spectrum(r->arena, &r->contact->surface.continuation, r->board->height_map, &s, e))
+        return err_at(e, "contact '%s'", r->contact->name);
+    struct relief_part *part = relief->along == ALONG_PLANE ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0}, stream, &lost, e)
+                                                            : profile_part(r->arena, blocks_make(r->arena, &s, stream), "continuation", 0);
+    part->name = "continuation";
+    relief_add(relief, part);
+    r->state = part;
+    return true;
+}
+
+static void continuation_close(struct stage_run *r)
+{
+    struct relief_part *part = r->state;
+    if (part && part->close)
+        part->close(part);
+}
+
+const struct stage continuation_stage = {
+    .name = "continuation",
+    .does = "finer roughness than the map holds, its spectrum continued",
+    .paper = "000 sec. 2.2",
+    .idle = "no surface.continuation of a height map",
+    .needs = ITEM_BIT(ITEM_SURFACE),
+    .gives = ITEM_BIT(ITEM_SURFACE),
+    .wanted = continuation_wanted,
+    .work = continuation_work,
+    .open = continuation_open,
+    .close = continuation_close,
+};

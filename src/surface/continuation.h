@@ -1,0 +1,13 @@
+/* Roughness finer than a measured map holds. */
+#ifndef SURFACE_CONTINUATION_H
+#define SURFACE_CONTINUATION_H
+#include "base/arena.h"
+#include "base/err.h"
+#include "scene/scene.h"
+#include "surface/height_map.h"
+#include "surface/spectrum.h"
+
+/* The continuation's spectrum under a map. ERR_SCENE: nothing to continue, or nothing to tell it from. */
+bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map, struct spectrum *s, struct err *e);
+
+#endif

@@ -1,0 +1,24 @@
+/* The limiter (papers/000 equations 4, 5) on pieces over which a curvature runs along a parabola: means and first moments in closed form. */
+#ifndef SURFACE_LIMITED_H
+#define SURFACE_LIMITED_H
+#include <stdbool.h>
+
+enum { LIMITED_PIECES = 512, LIMITED_POINTS = 2 * LIMITED_PIECES };
+
+struct limited {                        /* pieces from point at[i] to point at[i] + 1 */
+    int n, points;
+    const int *at;                      /* [n] */
+    const double *alpha;                /* m, [points] */
+    const double *curvature;            /* c, 1/m, [points] */
+    const double *bulge;                /* 1/m, [n]: c in the middle above the straight line between the ends; NULL: none */
+    double *limited;                    /* T(c) at the points, 1/m, [points] */
+    double *mean;                       /* mean of T over the piece, 1/m, [n] */
+    double *moment;                     /* integral of (s - middle) T ds / length^2, 1/m, [n] */
+};
+
+/* T(c) = tanh(alpha c) / alpha, or T(c) = c when limiter is false. Absolute error of alpha mean below 2e-12, of alpha moment below 4e-7; with a
+   bulge b that of alpha mean grows by 0.21 (alpha b)^2 up to 5.2e-5 at alpha |b| = 1/64, from where on it grows no more, that of alpha moment by
+   0.05 alpha |b| up to 8e-4. |mean| <= 1/alpha, but for 2e-8 of it and 4 alpha |b| roundings. */
+void limited_run(const struct limited *l, bool limiter);
+
+#endif

@@ -1,0 +1,56 @@
+/* A surface as a contact meets it: heights z and derivatives, read at batches of points, as the sum of parts (a measured map,
+   roughness, ridges ...) that stages add. Every part has continuous second derivatives (C2).
+
+   Coordinates, by relief->along:
+     ALONG_PATH   x is the signed distance u along the motion (0 where it starts); nothing depends on y
+     ALONG_X      x is the scene's x; nothing depends on y (extruded)
+     ALONG_PLANE  x and y are the scene's                                                                      all in m */
+#ifndef SURFACE_RELIEF_H
+#define SURFACE_RELIEF_H
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "scene/scene.h"
+
+struct relief_points {
+    size_t n;
+    const double *x, *y; /* y: NULL unless along is ALONG_PLANE */
+};
+
+struct relief_values {   /* [n] each; NULL: not asked for. y, xy, yy: NULL unless along is ALONG_PLANE */
+    double *z;           /* m   */
+    double *x, *y;       /* dz/dx, dz/dy */
+    double *xx, *xy, *yy;/* 1/m */
+};
+
+struct relief_part {
+    const char *name;
+    double pitch[2], origin[2]; /* m: third derivatives may jump at origin + i pitch (knots); pitch 0: nowhere */
+    bool linear;         /* z'' is a straight line between knots (a cubic spline of one coordinate)           */
+    double finest;       /* m: second derivatives do not vary on scales much shorter than this                */
+    double from[2], to[2]; /* m: where the part is given; -HUGE_VAL, HUGE_VAL: everywhere                     */
+    void (*add)(struct relief_part *, const struct relief_points *, const struct relief_values *); /* adds its values to those there */
+    void (*close)(struct relief_part *); /* may be NULL */
+    void *state;
+    struct relief_part *next;
+};
+
+struct relief {
+    int along;           /* enum along; ALONG_AUTO until a part or relief_settle decides */
+    struct relief_part *first;
+};
+
+/* Adds a part, behind those there. */
+void relief_add(struct relief *, struct relief_part *);
+
+/* All asked-for values, set to the sum of the parts. */
+void relief_at(const struct relief *, const struct relief_points *, const struct relief_values *);
+
+/* Decides along where the scene left it auto and no map did: rules_along of scene/rules.h. */
+void relief_settle(struct relief *, const struct contact *);
+
+/* The finest scale (m) and the smallest pitch of all parts; HUGE_VAL: none. */
+double relief_finest(const struct relief *);
+
+#endif

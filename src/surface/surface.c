@@ -1,0 +1,34 @@
+/* The surface under the contact: an empty relief to which the stages behind this one add their parts. */
+#include "stage.h"
+#include "surface/relief.h"
+
+static bool surface_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return true;
+}
+
+static double surface_work(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return 0;
+}
+
+static bool surface_open(struct stage_run *r, struct err *e)
+{
+    (void)e;
+    r->board->relief = ARENA_TAKE(r->arena, struct relief, 1);
+    r->board->relief->along = r->contact->surface.along;
+    return true;
+}
+
+const struct stage surface_stage = {
+    .name = "surface",
+    .does = "the surface, as the sum of what follows",
+    .paper = "000 sec. 2.2",
+    .idle = "",
+    .gives = ITEM_BIT(ITEM_SURFACE),
+    .wanted = surface_wanted,
+    .work = surface_work,
+    .open = surface_open,
+};

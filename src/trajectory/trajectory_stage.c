@@ -1,0 +1,66 @@
+/* The stage that lays the motion on the board. */
+#include "stage.h"
+#include "trajectory/trajectory.h"
+
+enum { STAGE_CHUNK = 256 };
+
+static bool stage_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return true;
+}
+
+static double stage_work(const struct contact *c, const struct scene *s)
+{
+    static const double cycles[] = {[PATH_BACK_AND_FORTH] = 25, [PATH_LINE] = 20,     [PATH_FOUR_IN_LINE] = 25, [PATH_CIRCLE] = 35,
+                                    [PATH_SCRIBBLE] = 100,      [PATH_POLYLINE] = 40, [PATH_SPLINE] = 75,       [PATH_RECORDED] = 65};
+    return cycles[c->motion.path] * s->accuracy.oversampling;
+}
+
+static bool stage_open(struct stage_run *r, struct err *e)
+{
+    struct trajectory *tr = ARENA_TAKE(r->arena, struct trajectory, 1);
+    if (!trajectory_make(&r->contact->motion, trajectory_seed(r->scene, r->contact), r->arena, tr, e))
+        return err_at(e, "contact '%s'", r->contact->name);
+    r->board->trajectory = tr;
+    r->board->moving = trajectory_frames(tr, r->board->rate);
+    return true;
+}
+
+/* Only what something reads. */
+static struct trajectory_out stage_out(const struct board *b, long from, long skip)
+{
+    static const enum item items[9] = {ITEM_POSITION, ITEM_VELOCITY, ITEM_ACCELERATION, ITEM_X, ITEM_Y, ITEM_VX, ITEM_VY, ITEM_AX, ITEM_AY};
+    double *at[9];
+    for (int k = 0; k < 9; k++)
+        at[k] = board_has(b, items[k]) ? board_at(b, items[k], from) + skip : NULL;
+    return (struct trajectory_out){at[0], at[1], at[2], at[3], at[4], at[5], at[6], at[7], at[8]};
+}
+
+static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
+{
+    (void)e;
+    const struct board *b = r->board;
+    double t[STAGE_CHUNK];
+    long n = (to - from) * b->over, first = from * b->over;
+    for (long i = 0; i < n; i += STAGE_CHUNK) {
+        size_t some = (size_t)(n - i < STAGE_CHUNK ? n - i : STAGE_CHUNK);
+        for (size_t j = 0; j < some; j++)
+            t[j] = (double)(first + i + (long)j) / (b->rate * b->over);
+        trajectory_at(b->trajectory, some, t, stage_out(b, from, i));
+    }
+    return true;
+}
+
+const struct stage trajectory_stage = {
+    .name = "trajectory",
+    .does = "position, velocity and acceleration of the contact",
+    .paper = "000 sec. 2.3, 3.2",
+    .idle = "",
+    .gives = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION) | ITEM_BIT(ITEM_X) | ITEM_BIT(ITEM_Y) |
+             ITEM_BIT(ITEM_VX) | ITEM_BIT(ITEM_VY) | ITEM_BIT(ITEM_AX) | ITEM_BIT(ITEM_AY),
+    .wanted = stage_wanted,
+    .work = stage_work,
+    .open = stage_open,
+    .run = stage_fill,
+};
