@@ -9,12 +9,8 @@
 static struct scene_overrides overrides(struct cmd_call *c)
 {
     int n;
-    const char **set = args_values(&c->args, "set", &n), *seed = args_value(&c->args, "seed");
-    const char **all = ARENA_TAKE(c->arena, const char *, n + 1);
-    memcpy(all, set, (size_t)n * sizeof *set);
-    if (seed)
-        all[n++] = arena_format(c->arena, "seed=%s", seed);
-    return (struct scene_overrides){all, n};
+    const char **set = args_values(&c->args, "set", &n);
+    return (struct scene_overrides){set, n, args_value(&c->args, "seed")};
 }
 
 bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e)

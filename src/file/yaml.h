@@ -23,11 +23,17 @@ struct yaml_node {
     int n;                   /* items of a map or list                */
 };
 
+struct yaml_file {         /* a file that was read                        */
+    const char *name;
+    struct yaml_file *next;
+};
+
 struct yaml {
     struct arena *arena;
     struct diag *diag;
     int nodes;     /* read so far                                     */
     int sources;   /* made so far                                     */
+    struct yaml_file *files, *last_file; /* in the order of reading   */
     bool missing;  /* a file could not be read (ERR_INPUT)            */
 };
 

@@ -42,6 +42,14 @@ static char *all_of(FILE *in, struct arena *a, size_t *size)
     }
 }
 
+static void note_file(struct yaml *y, const char *name)
+{
+    struct yaml_file *f = ARENA_TAKE(y->arena, struct yaml_file, 1);
+    f->name = name;
+    *(y->last_file ? &y->last_file->next : &y->files) = f;
+    y->last_file = f;
+}
+
 struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct diag_place named)
 {
     size_t size;
@@ -53,7 +61,11 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
     const char *text = all_of(in, y->arena, &size);
     bool good = !ferror(in) || unreadable(y, file, named);
     fclose(in);
-    return good ? yaml_source(y, arena_text(y->arena, file), text, size) : NULL;
+    if (!good)
+        return NULL;
+    const char *name = arena_text(y->arena, file);
+    note_file(y, name);
+    return yaml_source(y, name, text, size);
 }
 
 static const char *byte_order_mark(const struct diag_source *s)

@@ -73,7 +73,7 @@ static void knob_read(struct yaml *y, const struct key_knob *k, const struct yam
     else if (k->whole && x != floor(x))
         diag_add(y->diag, node->at, k->meaning, "%s must be a whole number, not %s", label, given);
     else if (strcmp(k->name, "overlap_order") == 0 && x == 3)
-        diag_add(y->diag, node->at, "write 2 or 4", "accuracy.overlap_order 3 is not offered: 1, 2 and 4 are");
+        diag_add(y->diag, node->at, "write 1, 2 or 4", "accuracy.overlap_order 3 is not offered: 1, 2 and 4 are");
     else
         *(double *)((char *)accuracy + k->offset) = x;
 }

@@ -204,6 +204,7 @@ struct input {              /* a file the scene names; sha256 NULL: not pinned  
 
 struct scene {
     const char *file;       /* where it was read from                                            */
+    const char **sources;   /* every text file that was read for it, itself first; ends with NULL */
     int version;
     const char *title;
     uint64_t seed;

@@ -189,7 +189,7 @@ struct yaml_node *scene_merge_text(struct yaml *y, const struct diag_source *sou
     return read_all(y, &chain);
 }
 
-/* ------------------------------------------------------------------ --set */
+/* ------------------------------------------------------------------ --set, --seed */
 
 struct assignment {
     struct yaml *y;
@@ -292,4 +292,13 @@ void scene_merge_set(struct yaml *y, struct yaml_node *root, const char *text)
         diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write include: into a scene file", "include cannot be set here");
     else
         assign(&s, root, equals);
+}
+
+void scene_merge_seed(struct yaml *y, struct yaml_node *root, const char *number)
+{
+    struct diag_source *source = yaml_source(y, "--seed", number, strlen(number));
+    source->option = true;
+    struct yaml_node *value = yaml_parse_value(y, source, 0);
+    if (value)
+        put(y, root, yaml_make(y, YAML_SCALAR, (struct diag_place){source, 1, 1, 0}, "seed"), value);
 }

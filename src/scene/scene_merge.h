@@ -10,6 +10,9 @@ struct yaml_node *scene_merge_text(struct yaml *y, const struct diag_source *sou
 /* Applies one --set "PATH=VALUE", as a file that includes this one would. */
 void scene_merge_set(struct yaml *y, struct yaml_node *root, const char *assignment);
 
+/* The same for --seed NUMBER. */
+void scene_merge_seed(struct yaml *y, struct yaml_node *root, const char *number);
+
 /* Merges `base` into a map as if the map's file included it: the map's own keys win. `base` is used up. */
 void scene_merge_under(struct yaml *y, struct yaml_node *map, struct yaml_node *base);
 

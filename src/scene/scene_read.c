@@ -51,6 +51,8 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
     for (int i = 0; over && i < over->n; i++)
         if (!y->missing || strncmp(over->set[i], "contacts.", strlen("contacts.")) != 0) /* they may stand in a file that is not there */
             scene_merge_set(y, root, over->set[i]);
+    if (over && over->seed)
+        scene_merge_seed(y, root, over->seed);
     if (another_version(y, root))
         return;
     bool readable = scene_recipe_merge(y, root);
@@ -59,9 +61,23 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
         tree_read(y, root, s);
 }
 
-static bool finish(struct yaml *y, const char **messages, struct err *e)
+/* The files that were read, as an array. */
+static const char **sources_of(struct yaml *y)
+{
+    int n = 0;
+    for (const struct yaml_file *f = y->files; f; f = f->next)
+        n++;
+    const char **all = ARENA_TAKE(y->arena, const char *, n + 1);
+    n = 0;
+    for (const struct yaml_file *f = y->files; f; f = f->next)
+        all[n++] = f->name;
+    return all;
+}
+
+static bool finish(struct yaml *y, struct scene *s, const char **messages, struct err *e)
 {
     *messages = "";
+    s->sources = sources_of(y);
     if (y->diag->n == 0)
         return true;
     *messages = diag_text(y->diag);
@@ -76,7 +92,7 @@ bool scene_read_text(const char *text, size_t n, const char *name, const struct 
     if (n > 0)
         memcpy(copy, text, n);
     source_read(y, yaml_source(y, arena_text(a, name), copy, n), over, s);
-    return finish(y, messages, e);
+    return finish(y, s, messages, e);
 }
 
 bool scene_read(const char *file, const struct scene_overrides *over, struct arena *a, struct scene *s, const char **messages,
@@ -87,5 +103,5 @@ bool scene_read(const char *file, const struct scene_overrides *over, struct are
     *s = (struct scene){.file = file};
     if (source)
         source_read(y, source, over, s);
-    return finish(y, messages, e);
+    return finish(y, s, messages, e);
 }

@@ -7,10 +7,11 @@
 #include "base/err.h"
 #include "scene/scene.h"
 
-/* What the command line adds to a scene: `--set PATH=VALUE`, in the order given (a later one wins). */
+/* What the command line adds to a scene: `--set PATH=VALUE`, in the order given (a later one wins), then `--seed NUMBER`. */
 struct scene_overrides {
     const char **set; /* "motion.rate=3 Hz" */
     int n;
+    const char *seed; /* NULL: not given */
 };
 
 /* Reads and checks a scene, resolves includes and file names, applies overrides, defaults and accuracy presets.

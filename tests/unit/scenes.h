@@ -64,7 +64,7 @@ struct result {
 static inline struct result read_with(const char *text, const char *const *set)
 {
     struct result r = {.arena = arena_open()};
-    struct scene_overrides over = {(const char **)set, 0};
+    struct scene_overrides over = {.set = (const char **)set};
     while (set && set[over.n])
         over.n++;
     r.good = scene_read_text(text, strlen(text), "scenes/t.yaml", &over, r.arena, &r.scene, &r.messages, &r.err);

@@ -224,6 +224,10 @@ START_TEST(test_include)
     ck_assert(r.scene.output.ramp == 2 && isnan(r.scene.output.level.lufs) && r.scene.output.level.rms == -30);
     ck_assert_str_eq(r.scene.accuracy.preset, "high");
     ck_assert(r.scene.accuracy.oversampling == 5 && r.scene.accuracy.gain_ramp == 16);
+    static const char *const sources[] = {"main.yaml", "base.yaml", "sub/late.yaml"};
+    for (int i = 0; i < 3; i++)
+        ck_assert_str_eq(r.scene.sources[i], path(sources[i]));
+    ck_assert_ptr_null(r.scene.sources[3]);
     arena_close(r.arena);
     r = read_file("error.yaml");
     ck_assert(!r.good && r.err.kind == ERR_SCENE);

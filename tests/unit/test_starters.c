@@ -66,9 +66,9 @@ START_TEST(test_what_is_off_is_right_too)
             char *text = starter_text(starter, &size);
             const char *both[] = {set[0], set[1], "surface.height_map=x.npy", "surface.pitch=1 um"};
             if (l->off && map)
-                must_read(text, starter->name, &(struct scene_overrides){both, 4});
+                must_read(text, starter->name, &(struct scene_overrides){.set = both, .n = 4});
             else if (l->off)
-                must_read(text, starter->name, &(struct scene_overrides){set, 1});
+                must_read(text, starter->name, &(struct scene_overrides){.set = set, .n = 1});
             free(text);
         }
     arena_close(a);
@@ -138,7 +138,7 @@ START_TEST(test_examples_are_taken)
     a = arena_open();
     for (const struct key *k = keys_table; k->path; k++) {
         const char *value = keys_reference_example(k->path), *set[4];
-        struct scene_overrides over = {set, 0};
+        struct scene_overrides over = {.set = set};
         if (!value || !strncmp(k->path, "motion.rate", 11) || !strcmp(k->path, "motion.path") || !strcmp(k->path, "surface.recipe")) /* it would be read */
             continue;
         set[over.n++] = arena_format(a, "%s=%s", k->path, value);
