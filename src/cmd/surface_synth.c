@@ -102,7 +102,7 @@ static bool read_recipe(struct synth *s, const char *file, struct err *e)
                                     "output: {diagnostics: {rate: 1 kHz}}\n",
                                     quoted(a, file));
     struct err cause = {0};
-    if (scene_read_text(text, strlen(text), "synth.yaml", &(struct scene_overrides){all, n}, a, &s->scene, &messages, &cause))
+    if (scene_read_text(text, strlen(text), "synth.yaml", &(struct scene_overrides){.set = all, .n = n}, a, &s->scene, &messages, &cause))
         return true;
     fputs(messages, stderr);
     return err_set(e, cause.kind, "%s is not a valid recipe", file);

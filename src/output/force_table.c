@@ -1,4 +1,4 @@
-/* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's start, T = 1/rate: kinematics,
+/* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T = 1/rate: kinematics,
    normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its sign) of the audio-rate force over the
    samples in the interval; events are counted in it. Rows end with the motion. Numbers are printed with %.9g, lines end in LF. */
 #include "output/force_table.h"
@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/rules.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
@@ -148,7 +149,7 @@ static void row_instant(struct force_table *t, const struct stage_run *r, double
     double *v = t->value, load;
     trajectory_at(b->trajectory, 1, &at,
                   (struct trajectory_out){.u = &v[STROKE], .du = &v[VELOCITY], .ddu = &v[ACCELERATION], .x = &v[X], .y = &v[Y], .vx = &v[VX], .vy = &v[VY]});
-    v[TIME] = r->contact->start + at;
+    v[TIME] = (double)rules_first_frame(r->contact, r->board->rate) / r->board->rate + at;
     v[SPEED] = fabs(v[VELOCITY]);
     load = fmax(load_of(t->load, b->trajectory, at), 0);
     v[NORMAL] = load * load_lowered(t->load, at);

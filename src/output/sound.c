@@ -16,6 +16,7 @@
 #include "base/scratch.h"
 #include "file/wav.h"
 #include "num/real.h"
+#include "scene/rules.h"
 
 enum { SOUND_CHUNK = 4096 };
 
@@ -146,7 +147,7 @@ static bool sound_gain(struct sound *o, double rms, struct err *e)
     if (!isnan(level->rms))
         o->gain = real_exp10(level->rms / 20) / rms;
     else if (isnan(level->lufs))
-        o->gain = fmin(real_exp10((isnan(level->peak) ? -3 : level->peak) / 20), largest) / o->peak;
+        o->gain = fmin(real_exp10((isnan(level->peak) ? RULES_PEAK : level->peak) / 20), largest) / o->peak;
     else if (sound_loudness(o, &lufs, e))
         o->gain = real_exp10((level->lufs - lufs) / 20) / o->peak;
     else

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "scene/rules.h"
+
 static const char *const plan_names[ITEM_COUNT] = {
     [ITEM_POSITION] = "position",           [ITEM_VELOCITY] = "velocity",
     [ITEM_ACCELERATION] = "acceleration",   [ITEM_LOAD] = "load",
@@ -21,19 +23,14 @@ const char *plan_item(enum item item)
     return plan_names[item];
 }
 
-static bool plan_rings(const struct contact *c)
-{
-    return c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0);
-}
-
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
-    return (c->gain != 0 && plan_rings(c) ? ITEM_BIT(ITEM_SOUND) : 0) | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
+    return (c->gain != 0 && rules_rings(c) ? ITEM_BIT(ITEM_SOUND) : 0) | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
 }
 
 static bool plan_muted(const struct contact *c)
 {
-    return c->gain == 0 && plan_rings(c);
+    return c->gain == 0 && rules_rings(c);
 }
 
 static bool plan_nothing_asked(const struct contact *c, struct err *e)

@@ -1,6 +1,7 @@
 /* Rules about a contact's values to each other that the reader tells with their place, and the stages keep to once more. */
 #ifndef SCENE_RULES_H
 #define SCENE_RULES_H
+#include <math.h>
 #include <string.h>
 
 #include "num/real.h"
@@ -8,6 +9,7 @@
 
 #define RULES_BAND_WIDEST 1e5      /* longest over shortest wavelength of a roughness */
 #define RULES_RIDGE_WIDEST 0.9     /* of the spacing */
+#define RULES_PEAK (-3.0)          /* dB re full scale: the level of a sound for which none is given */
 #define RULES_SMOOTHING_WIDEST 0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
 /* 1 - mu tan theta, the denominator of papers/000 equations 8 and 9. */
@@ -120,6 +122,18 @@ static inline double rules_approach(const struct contact *c, bool release)
 {
     double given = release ? c->load.release : c->load.approach;
     return !isnan(given) ? given : rules_rests(&c->motion, release) ? 0 : RULES_APPROACH;
+}
+
+/* Does it make a sound? Its gain may still be 0. */
+static inline bool rules_rings(const struct contact *c)
+{
+    return c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0);
+}
+
+/* The frame of the scene at which the contact begins: `start` to the nearest one, at a rate in Hz. */
+static inline long rules_first_frame(const struct contact *c, double rate)
+{
+    return (long)rint(c->start * rate);
 }
 
 #endif

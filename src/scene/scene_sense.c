@@ -139,7 +139,7 @@ void scene_sense_asked(const struct scene_part *p, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct yaml_node *surface = yaml_get(p->map, "surface");
-    if (s->output.diagnostics.given || c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0))
+    if (s->output.diagnostics.given || rules_rings(c))
         return;
     diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
              "give surface.response (or scraper.response) for a sound, or output.diagnostics for a table of its physics",

@@ -1,5 +1,5 @@
 /* The effective scene, from the rows of keys.def and accuracy.def: SI bare numbers that read back to the last bit, strings quoted.
-   A key is left out when it does not apply, or when it may be left out and is not given. One contact is written at the top level, several
+   A key is left out when it does not apply, or when it may be left out, is not given, and nothing is done instead. One contact is written at the top level, several
    as a list. `inputs` names every file of the scene once, with its sha256 as it is now: those of its keys, and those that it has pinned besides (such as
    the recipe that an effective scene was made with). */
 #include "scene/scene_write.h"
@@ -13,6 +13,7 @@
 #include "base/relpath.h"
 #include "scene/keys.h"
 #include "scene/keys_yaml.h"
+#include "scene/rules.h"
 
 struct writer {
     FILE *f;
@@ -20,11 +21,17 @@ struct writer {
     struct arena *a;
     struct keys_line *lines; /* room for one owner's keys */
     int n;
+    bool sounds;             /* some contact is heard */
 };
+
+static const void *field_at(size_t offset, const void *owner)
+{
+    return (const char *)owner + offset;
+}
 
 static const void *field(const struct key *k, const void *owner)
 {
-    return (const char *)owner + k->offset;
+    return field_at(k->offset, owner);
 }
 
 static double number(const struct key *k, const void *owner)
@@ -84,12 +91,58 @@ static const char *text_value(const struct key *k, const void *owner, struct wri
     return keys_yaml_quoted(k->type == KEY_FILE ? relpath_make(s, w->beside, w->a) : s, w->a);
 }
 
+/* Is the key or section of that path given? */
+static bool given(const char *path, const void *owner)
+{
+    const struct key *k = keys_find(path);
+    for (const struct key_section *s = keys_sections; !k && s->path; s++)
+        if (!strcmp(s->path, path))
+            return *(const bool *)field_at(s->offset, owner);
+    return k && (k->type == KEY_FILE ? text(k, owner) != NULL : !isnan(number(k, owner)));
+}
+
+static bool is_among(const struct key *k, const struct key_alternative *all)
+{
+    for (int i = 0; all->paths[i]; i++)
+        if (!strcmp(all->paths[i], k->path))
+            return true;
+    return false;
+}
+
+/* Is one of those given of which the key is an alternative? They have the same owner. */
+static bool alternative_given(const struct key *k, const void *owner)
+{
+    for (const struct key_alternative *all = keys_alternatives; all->paths[0]; all++)
+        for (int i = 0; is_among(k, all) && all->paths[i]; i++)
+            if (given(all->paths[i], owner))
+                return true;
+    return false;
+}
+
+/* Two defaults are no values of their key but what is done when no alternative is given: the scraper's weight as the load (a weight beyond
+   the key's range cannot be written, and stays unsaid), and the level of what sounds. NAN: neither. */
+static double unsaid(const struct key *k, const void *owner, const struct writer *w)
+{
+    const struct contact *c = owner;
+    bool load = !strcmp(k->path, "load.constant"), peak = !strcmp(k->path, "output.level.peak") && w->sounds;
+    if ((!load && !peak) || alternative_given(k, owner))
+        return NAN;
+    double x = load ? c->scraper.mass * c->contact.gravity : RULES_PEAK;
+    return x >= k->low && x <= k->high ? x : NAN;
+}
+
+static const char *number_value(const struct key *k, const void *owner, struct writer *w)
+{
+    double x = isnan(number(k, owner)) ? unsaid(k, owner, w) : number(k, owner);
+    return isnan(x) ? NULL : keys_yaml_number(x, w->a);
+}
+
 /* YAML text of the key's value; NULL: not given. */
 static const char *value(const struct key *k, const void *owner, struct writer *w)
 {
     switch (k->type) {
     case KEY_NUMBER:
-    case KEY_WHOLE: return isnan(number(k, owner)) ? NULL : keys_yaml_number(number(k, owner), w->a);
+    case KEY_WHOLE: return number_value(k, owner, w);
     case KEY_TIME_OR_AUTO: return isnan(number(k, owner)) ? "auto" : keys_yaml_number(number(k, owner), w->a);
     case KEY_COUNT: return arena_format(w->a, "%d", *(const int *)field(k, owner));
     case KEY_SEED: return arena_format(w->a, "%" PRIu64, *(const uint64_t *)field(k, owner));
@@ -239,7 +292,9 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
     int n_keys = 0;
     while (keys_table[n_keys].path)
         n_keys++;
-    struct writer w = {open_memstream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0};
+    struct writer w = {open_memstream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0, false};
+    for (int i = 0; i < s->n_contacts; i++)
+        w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_rings(&s->contacts[i]));
     write_keys(&w, s);
     write_accuracy(&w, s);
     write_inputs(&w, s, n_keys);

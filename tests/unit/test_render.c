@@ -104,6 +104,58 @@ START_TEST(contacts_add)
 }
 END_TEST
 
+/* A contact begins at the nearest sample: 0.29 s x 48 kHz is 13919.999999999998 in binary, and is 13920; the table says so too. */
+START_TEST(a_start_is_rounded_to_the_nearest_sample)
+{
+    struct arena *a = arena_open();
+    struct csv t;
+    struct err e = {0};
+    double first;
+    const char *scene = "rasp: 1\nstart: %s\n" BODY LINE "output: {encoding: float64, level: {full_scale: 1}, ramp: 0, tail: 0.1 s, diagnostics: {}}\n";
+    setup(a);
+    rendered(a, arena_format(a, scene, "0 s"), "now");
+    rendered(a, arena_format(a, scene, "0.29 s"), "later");
+    rendered(a, arena_format(a, scene, "0.290009 s"), "between"); /* 13920.43 samples */
+    struct wav now = sound(a, "now.wav"), later = sound(a, "later.wav");
+    ck_assert_uint_eq(later.frames, now.frames + 13920);
+    for (size_t n = 0; n < later.frames; n++)
+        ck_assert_double_eq_tol(later.x[n], n < 13920 ? 0 : now.x[n - 13920], 1e-15); /* of 5e-5: blocks begin elsewhere */
+    ck_assert_msg(csv_read(in_folder(a, "between.csv"), a, &t, &e) && csv_number(&t, 0, csv_column(&t, "time_s"), &first, &e), "%s", e.text);
+    ck_assert_double_eq_tol(first, 0.29, 1e-9);
+    clean(a);
+}
+END_TEST
+
+/* Contacts alike in everything but their names scrape over different roughness of the same recipe: their forces (rows of 1 kHz) are as loud,
+   and correlate no more than 100 rows of independent noise do (0.1; the bound is 4 standard deviations). */
+START_TEST(names_make_the_noise)
+{
+    struct arena *a = arena_open();
+    const char *one = "surface: {roughness: {rms: 5 um, longest: 0.2 mm}}, scraper: {mass: 20 g}, motion: {path: line, to: [2 cm, 0], speed: 0.2}";
+    const char *const tables[] = {"pair.a.csv", "pair.b.csv"};
+    double f[2][100], products[2][2] = {{0}};
+    struct err e = {0};
+    setup(a);
+    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, %s}\noutput: {diagnostics: {}}\n", one, one), "pair");
+    for (int k = 0; k < 2; k++) {
+        struct csv t;
+        ck_assert_msg(csv_read(in_folder(a, tables[k]), a, &t, &e), "%s", e.text);
+        ck_assert_uint_eq(t.rows, 100);
+        for (size_t row = 0; row < t.rows; row++)
+            ck_assert_msg(csv_number(&t, row, csv_column(&t, "force_peak_n"), &f[k][row], &e), "%s", e.text);
+    }
+    for (int n = 0; n < 100; n++)
+        for (int i = 0; i < 2; i++)
+            for (int k = 0; k < 2; k++)
+                products[i][k] += f[i][n] * f[k][n];
+    double alike = products[0][1] / sqrt(products[0][0] * products[1][1]);
+    printf("energies %.3g and %.3g N^2, correlation %.3g\n", products[0][0], products[1][1], alike);
+    ck_assert_double_lt(fabs(alike), 0.4);
+    ck_assert_double_lt(fabs(log(products[0][0] / products[1][1])), log(2));
+    clean(a);
+}
+END_TEST
+
 /* Metres per second and metres per second squared are not added. */
 START_TEST(quantities_are_not_mixed)
 {
@@ -317,4 +369,4 @@ START_TEST(a_failure_leaves_nothing)
 }
 END_TEST
 
-UNIT("render", free_decay_is_the_tables, contacts_add, engines_agree_on_a_moving_contact, the_scraper_rings_with_weight_eta, a_wav_scraper_rings_with_weight_eta, quantities_are_not_mixed, a_muted_contact_lasts_as_long, levels, loudness_is_the_standards, edges_and_encodings, a_failure_leaves_nothing)
+UNIT("render", free_decay_is_the_tables, contacts_add, a_start_is_rounded_to_the_nearest_sample, names_make_the_noise, engines_agree_on_a_moving_contact, the_scraper_rings_with_weight_eta, a_wav_scraper_rings_with_weight_eta, quantities_are_not_mixed, a_muted_contact_lasts_as_long, levels, loudness_is_the_standards, edges_and_encodings, a_failure_leaves_nothing)
