@@ -162,6 +162,19 @@ bool outfile_settle(struct outfile *o, struct err *e)
     return !open || (flush_it(o) && (o->temporary[0] || name_it(o)) && close_it(o)) || give_up(o, e);
 }
 
+bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e)
+{
+    char piece[1 << 14];
+    ssize_t n = 0;
+    if (!flush_it(o))
+        return give_up(o, e);
+    struct hash h = hash_start();
+    for (off_t at = 0; (n = pread(o->fd, piece, sizeof piece, at)) > 0; at += n)
+        hash_add(&h, piece, (size_t)n);
+    hash_end(&h, hex);
+    return n == 0 || give_up(o, e);
+}
+
 bool outfile_commit(struct outfile *o, struct err *e)
 {
     if (!outfile_settle(o, e))

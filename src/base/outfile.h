@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 
 struct outfile {
     FILE *stream;      /* NULL when only fd is used (libsndfile)          */
@@ -21,6 +22,7 @@ bool outfile_open_fd(struct outfile *o, const char *target, struct err *e);   /*
 bool outfile_open_hidden(struct outfile *o, const char *target, struct err *e); /* _fd by the hidden name at once, for tests */
 bool outfile_settle(struct outfile *o, struct err *e);   /* all of a commit but the rename: with several outputs, settle all, then commit */
 bool outfile_commit(struct outfile *o, struct err *e);   /* settles and renames; closes either way; ERR_IO */
+bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e); /* of what is written so far; ERR_IO, then it is dropped */
 void outfile_drop(struct outfile *o);                    /* closes and leaves nothing; harmless when closed */
 
 #endif

@@ -5,12 +5,13 @@
 
 #include "base/interrupt.h"
 #include "cmd/cmd.h"
+#include "pipeline/outputs.h"
 #include "pipeline/render.h"
 
 static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
     CMD_SCENE_OPTIONS,
-    {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON"},
+    {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},
     {0},
 };
@@ -57,6 +58,7 @@ static bool render_folder(struct cmd_call *c, struct err *e)
     return mkdir(o, 0777) == 0 || err_set(e, ERR_CREATE, "the folder %s cannot be created: is its parent there, and writable?", o);
 }
 
+/* Several scenes' summaries are one array. */
 static void render_print(struct cmd_call *c, const struct scene *s, const struct render_report *r)
 {
     for (int i = 0; i < r->n_warnings; i++)
@@ -70,34 +72,53 @@ static void render_print(struct cmd_call *c, const struct scene *s, const struct
                        (double)r->frames / s->output.sample_rate / (r->cpu > 1e-9 ? r->cpu : 1e-9));
 }
 
-static bool render_one(struct cmd_call *c, const char *file, struct err *e)
+/* All scenes, and what each would write; nothing is written yet. */
+static struct outputs *render_read(struct cmd_call *c, struct err *e)
 {
-    struct scene s;
+    int n = c->args.n_operands;
+    struct scene *scenes = ARENA_TAKE(c->arena, struct scene, n);
+    struct outputs *all = ARENA_TAKE(c->arena, struct outputs, n);
+    for (int i = 0; i < n; i++) {
+        const char *file = c->args.operands[i], *base = render_base(c, file, e);
+        if (!base || !cmd_read_scene(c, file, &scenes[i], e))
+            return NULL;
+        all[i] = outputs_make(&scenes[i], base, c->arena);
+    }
+    return outputs_distinct(all, n, c->arena, e) && outputs_spare(all, n, c->arena, e) && render_folder(c, e) ? all : NULL;
+}
+
+static bool render_one(struct cmd_call *c, const struct outputs *o, const char *between, struct err *e)
+{
     struct render_report report;
-    const char *base = render_base(c, file, e);
-    if (!base || !cmd_read_scene(c, file, &s, e) || !render_folder(c, e))
-        return false;
-    if (!render_scene(&s, base, c->arena, &report, e))
-        return err_at(e, "%s", file);
-    render_print(c, &s, &report);
+    if (!render_scene(o->scene, o->base, c->arena, &report, e))
+        return err_at(e, "%s", o->scene->file);
+    fputs(between, stdout);
+    render_print(c, o->scene, &report);
     return true;
 }
 
 static int render_run(struct cmd_call *c, struct err *e)
 {
     interrupt_catch();
-    for (int i = 0; i < c->args.n_operands; i++)
-        if (!render_one(c, c->args.operands[i], e))
-            return (int)e->kind;
-    return 0;
+    int n = c->args.n_operands, done = 0;
+    bool array = n > 1 && args_given(&c->args, "json");
+    const struct outputs *all = render_read(c, e);
+    while (all && done < n && render_one(c, &all[done], !array ? "" : done ? "," : "[", e))
+        done++;
+    if (array && done)
+        puts("]");
+    return (int)e->kind;
 }
 
 const struct command render_command = {
     .name = "render",
     .summary = "renders scenes into sound files",
     .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv (if the scene asks for diagnostics), NAME.scene.yaml (the effective "
-            "scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor). Nothing half-written is ever "
-            "left behind. With several scenes, the first that fails ends the run.",
+            "scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which files were written). "
+            "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes reads is refused, whatever "
+            "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two scenes that would write "
+            "the same file. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a warning. Several scenes "
+            "are all read before the first is rendered; the first that fails ends the run.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,

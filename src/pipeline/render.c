@@ -8,9 +8,10 @@
 #include "base/stopwatch.h"
 #include "output/force_table.h"
 #include "pipeline/inputs.h"
+#include "pipeline/outputs.h"
 #include "pipeline/stages.h"
 #include "pipeline/summary.h"
-#include "scene/scene_write.h"
+#include "scene/rules.h"
 #include "trajectory/trajectory.h"
 
 struct part {                /* one contact at work */
@@ -44,7 +45,7 @@ static bool render_plans(struct render *r, struct err *e)
         if (!plan_make(stages_table, &r->scene->contacts[i], r->scene, r->arena, &p->plan, e))
             return false;
         r->sounds = r->sounds || p->plan.targets & ITEM_BIT(ITEM_SOUND);
-        p->start = (long)rint(r->scene->contacts[i].start * r->scene->output.sample_rate);
+        p->start = rules_first_frame(&r->scene->contacts[i], r->scene->output.sample_rate);
         asked |= p->plan.targets;
     }
     return asked || err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render");
@@ -72,8 +73,7 @@ static bool render_runs(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct part *p = &r->parts[i];
-        bool several = r->scene->n_contacts > 1;
-        p->csv_path = arena_format(r->arena, several ? "%s.%s.csv" : "%s.csv", r->base, p->plan.contact->name);
+        p->csv_path = outputs_path(r->scene, r->base, OUTPUT_TABLE, p->plan.contact, r->arena);
         if (p->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&p->csv, p->csv_path, e))
             return false;
         p->sink.stream = p->csv.stream;
@@ -118,9 +118,9 @@ static bool render_length(struct render *r, struct err *e)
 
 static bool render_open(struct render *r, struct err *e)
 {
-    r->wav_path = arena_format(r->arena, "%s.wav", r->base);
-    r->scene_path = arena_format(r->arena, "%s.scene.yaml", r->base);
-    r->summary_path = arena_format(r->arena, "%s.json", r->base);
+    r->wav_path = outputs_path(r->scene, r->base, OUTPUT_SOUND, NULL, r->arena);
+    r->scene_path = outputs_path(r->scene, r->base, OUTPUT_EFFECTIVE, NULL, r->arena);
+    r->summary_path = outputs_path(r->scene, r->base, OUTPUT_SUMMARY, NULL, r->arena);
     if (!inputs_check(r->scene, r->arena, e) || !render_plans(r, e) || !outfile_open(&r->effective, r->scene_path, e) ||
         !outfile_open(&r->summary, r->summary_path, e) || !render_runs(r, e) || !render_length(r, e))
         return false;
@@ -162,10 +162,31 @@ static bool render_blocks(struct render *r, struct err *e)
     return true;
 }
 
-static const char *folder_of(const char *path, struct arena *a)
+static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact, const char *sha256)
 {
-    const char *slash = strrchr(path, '/');
-    return slash ? arena_format(a, "%.*s", slash == path ? 1 : (int)(slash - path), path) : ".";
+    const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL;
+    r->report->files[r->report->n_files++] = (struct render_file){outputs_kinds[kind], path, contact, kept};
+}
+
+/* What will have been written. The WAV is whole only after the summary that holds the hashes: it is listed without. */
+static bool render_list(struct render *r, const char *effective, struct err *e)
+{
+    char hex[HASH_TEXT];
+    r->report->files = ARENA_TAKE(r->arena, struct render_file, r->scene->n_contacts + 3);
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        struct part *p = &r->parts[i];
+        if (!p->csv.stream)
+            continue;
+        if (!outfile_hash(&p->csv, hex, e))
+            return false;
+        report_file(r, OUTPUT_TABLE, p->csv_path, p->plan.contact->name, hex);
+    }
+    hash_bytes(effective, strlen(effective), hex);
+    report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
+    report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
+    if (r->sounds)
+        report_file(r, OUTPUT_SOUND, r->wav_path, NULL, NULL);
+    return true;
 }
 
 static bool render_finish(struct render *r, double start[2], struct err *e)
@@ -180,16 +201,15 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     const struct run **runs = ARENA_TAKE(r->arena, const struct run *, r->scene->n_contacts);
     for (int i = 0; i < r->scene->n_contacts; i++)
         runs[i] = r->parts[i].open ? &r->parts[i].run : NULL;
+    report->older = outputs_older(r->scene, r->base, r->arena);
+    const char *effective = outputs_effective(r->scene, r->scene_path, r->arena);
+    if (!render_list(r, effective, e))
+        return false;
     summary_warnings(r->scene, runs, report, r->arena);
     report->summary = summary_text(r->scene, runs, report, r->arena);
-    fputs(scene_write(r->scene, folder_of(r->scene_path, r->arena), r->arena), r->effective.stream);
+    fputs(effective, r->effective.stream);
     fputs(report->summary, r->summary.stream);
     return true;
-}
-
-static void report_file(struct render *r, const char *kind, const char *path)
-{
-    r->report->files[r->report->n_files++] = (struct render_file){kind, path};
 }
 
 /* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results or none. */
@@ -203,20 +223,10 @@ static bool render_settle(struct render *r, struct err *e)
 
 static bool render_commit(struct render *r, struct err *e)
 {
-    r->report->files = ARENA_TAKE(r->arena, struct render_file, r->scene->n_contacts + 3);
     for (int i = 0; i < r->scene->n_contacts; i++)
-        if (r->parts[i].csv.target[0]) {
-            if (!outfile_commit(&r->parts[i].csv, e))
-                return false;
-            report_file(r, "csv", r->parts[i].csv_path);
-        }
-    if (!outfile_commit(&r->effective, e) || !outfile_commit(&r->summary, e) || (r->sound && !sound_commit(r->sound, e)))
-        return false;
-    report_file(r, "scene", r->scene_path);
-    report_file(r, "summary", r->summary_path);
-    if (r->sounds)
-        report_file(r, "wav", r->wav_path);
-    return true;
+        if (r->parts[i].csv.target[0] && !outfile_commit(&r->parts[i].csv, e))
+            return false;
+    return outfile_commit(&r->effective, e) && outfile_commit(&r->summary, e) && (!r->sound || sound_commit(r->sound, e));
 }
 
 static void render_close(struct render *r)

@@ -8,6 +8,8 @@
 
 struct render_file {
     const char *kind, *path; /* "wav", "csv", "scene", "summary" */
+    const char *contact;     /* of a table; NULL: of the whole   */
+    const char *sha256;      /* NULL: not known                  */
 };
 
 struct render_report {
@@ -17,6 +19,7 @@ struct render_report {
     bool sounds;                   /* there is a WAV */
     struct render_file *files;
     int n_files;
+    const char **older;            /* files of an earlier render that stay; ends with NULL */
     const char *summary;           /* the JSON text */
     const char **warnings;
     int n_warnings;

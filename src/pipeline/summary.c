@@ -3,6 +3,7 @@
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "num/real.h"
 #include "response/modes.h"
@@ -33,7 +34,10 @@ static void warn_contact(const struct contact *c, const struct board *b, struct 
 
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
-    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 3) + 2);
+    int older = 0;
+    while (report->older[older])
+        older++;
+    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 3) + 2 + older);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i])
             warn_contact(&s->contacts[i], &runs[i]->board, report, a);
@@ -42,6 +46,8 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
     if (report->sounds && report->sound.ramp < s->output.ramp - 0.5 / s->output.sample_rate)
         warn(report, arena_format(a, "output.ramp: the sound is too short for ramps of %.4g s; they take half of it each, %.4g s", s->output.ramp,
                                   report->sound.ramp));
+    for (int i = 0; i < older; i++)
+        warn(report, arena_format(a, "%s is not of this render, which writes no such file; it is older, and stays as it is", report->older[i]));
 }
 
 /* A number, or null for one that is not finite. */
@@ -88,6 +94,21 @@ static json_t *contact_json(const struct run *run, double cpu)
     return c;
 }
 
+/* The other files of the render, by their names beside the summary. */
+static json_t *files_json(const struct render_report *report)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < report->n_files; i++) {
+        const struct render_file *f = &report->files[i];
+        const char *slash = strrchr(f->path, '/');
+        if (!strcmp(f->kind, "summary"))
+            continue;
+        json_array_append_new(all, json_pack("{s:s, s:s, s:s*, s:s*}", "kind", f->kind, "name", slash ? slash + 1 : f->path, "contact",
+                                             f->contact, "sha256", f->sha256));
+    }
+    return all;
+}
+
 const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, struct arena *a)
 {
     double duration = (double)report->frames / s->output.sample_rate;
@@ -97,10 +118,11 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
             json_array_append_new(contacts, contact_json(runs[i], report->cpu));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_string(report->warnings[i]));
-    json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
+    json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
                               (json_int_t)report->frames, "sample_rate_hz", number(s->output.sample_rate), "duration_s", number(duration),
                               "wall_s", number(report->seconds), "cpu_s", number(report->cpu), "real_time_factor",
-                              number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks);
+                              number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks,
+                              "files", files_json(report));
     if (report->sounds)
         json_object_set_new(whole, "sound", sound_json(s, runs, report));
     char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);

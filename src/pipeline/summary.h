@@ -6,7 +6,7 @@
 /* Gathers the runs' remarks, and those on the whole. One run per contact, NULL for a muted one. */
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a);
 
-/* JSON: sound, level, cost per stage, remarks. Times make it differ from run to run; nothing in it reaches a sample. */
+/* JSON: sound, level, cost per stage, remarks, and which files were written, with the hashes of all but the WAV. Times make it differ from run to run; nothing in it reaches a sample. */
 const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, struct arena *a);
 
 #endif

@@ -116,6 +116,26 @@ START_TEST(names_taken_by_others_are_passed_by)
 }
 END_TEST
 
+/* The hash is that of the bytes so far, also of those still in the stream's buffer, and writing goes on behind it. */
+START_TEST(hash_of_what_is_written)
+{
+    char got[HASH_TEXT], want[HASH_TEXT];
+    struct outfile o;
+    struct err e = {0};
+    enter_folder();
+    ck_assert_msg(outfile_open(&o, "a", &e), "%s", e.text);
+    fputs("half", o.stream);
+    ck_assert_msg(outfile_hash(&o, got, &e), "%s", e.text);
+    hash_bytes("half", 4, want);
+    ck_assert_str_eq(got, want);
+    fputs(" whole", o.stream);
+    ck_assert_msg(outfile_commit(&o, &e), "%s", e.text);
+    check_text("a", "half whole");
+    unlink("a");
+    leave_folder();
+}
+END_TEST
+
 START_TEST(drop_leaves_nothing)
 {
     struct outfile o, closed = {0};
@@ -273,6 +293,6 @@ START_TEST(mode_follows_umask)
 }
 END_TEST
 
-UNIT("outfile", appears_only_when_complete, hidden_name_does_the_same, names_taken_by_others_are_passed_by, drop_leaves_nothing,
+UNIT("outfile", appears_only_when_complete, hidden_name_does_the_same, names_taken_by_others_are_passed_by, hash_of_what_is_written, drop_leaves_nothing,
      killed_writer_leaves_nothing, refusals, write_protected_is_refused, link_target_is_replaced_not_the_link, full_disk,
      mode_follows_umask)

@@ -1,0 +1,219 @@
+/* See outputs.h. Two files are one if they have the same device and inode, so that links count; an output that is not there yet is none
+   of the inputs. Two outputs are one if they have the same path, with symbolic links followed: a commit replaces what they point to, while
+   a hard link to another output is merely given up. */
+#include "pipeline/outputs.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/hash.h"
+#include "pipeline/plan.h"
+#include "scene/keys.h"
+#include "scene/scene_write.h"
+
+const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "scene", "summary", "wav"};
+
+char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a)
+{
+    static const char *const endings[OUTPUT_KINDS] = {".csv", ".scene.yaml", ".json", ".wav"};
+    bool several = kind == OUTPUT_TABLE && s->n_contacts > 1;
+    return arena_format(a, "%s%s%s%s", base, several ? "." : "", several ? c->name : "", endings[kind]);
+}
+
+static void add(struct outputs *o, enum output_kind kind, const struct contact *c, struct arena *a)
+{
+    o->kinds[o->n] = kind;
+    o->paths[o->n++] = outputs_path(o->scene, o->base, kind, c, a);
+}
+
+struct outputs outputs_make(const struct scene *s, const char *base, struct arena *a)
+{
+    struct outputs o = {s, base, ARENA_TAKE(a, const char *, s->n_contacts + 3), ARENA_TAKE(a, enum output_kind, s->n_contacts + 3), 0};
+    unsigned asked = 0;
+    for (int i = 0; i < s->n_contacts; i++) {
+        unsigned targets = plan_targets(&s->contacts[i], s);
+        asked |= targets;
+        if (targets & ITEM_BIT(ITEM_TABLE))
+            add(&o, OUTPUT_TABLE, &s->contacts[i], a);
+    }
+    add(&o, OUTPUT_EFFECTIVE, NULL, a);
+    add(&o, OUTPUT_SUMMARY, NULL, a);
+    if (asked & ITEM_BIT(ITEM_SOUND))
+        add(&o, OUTPUT_SOUND, NULL, a);
+    return o;
+}
+
+const char *outputs_effective(const struct scene *s, const char *path, struct arena *a)
+{
+    const char *slash = strrchr(path, '/');
+    return scene_write(s, slash ? arena_format(a, "%.*s", slash == path ? 1 : (int)(slash - path), path) : ".", a);
+}
+
+/* ------------------------------------------------------------------ outputs and outputs */
+
+struct place {
+    const char *path, *real;
+    const struct scene *scene;
+    int at;
+};
+
+static int place_order(const void *a, const void *b)
+{
+    const struct place *p = a, *q = b;
+    int names = strcmp(p->real, q->real);
+    return names ? names : p->at - q->at;
+}
+
+static const char *real_path(const char *path, struct arena *a)
+{
+    char *real = realpath(path, NULL);
+    const char *kept = real ? arena_text(a, real) : path;
+    free(real);
+    return kept;
+}
+
+bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct err *e)
+{
+    int all = 0, k = 0;
+    for (int i = 0; i < n; i++)
+        all += o[i].n;
+    struct place *places = ARENA_TAKE(a, struct place, all);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < o[i].n; j++, k++)
+            places[k] = (struct place){o[i].paths[j], real_path(o[i].paths[j], a), o[i].scene, k};
+    qsort(places, (size_t)all, sizeof *places, place_order);
+    for (k = 1; k < all; k++)
+        if (strcmp(places[k].real, places[k - 1].real) == 0)
+            return err_set(e, ERR_USAGE, "%s and %s would both write %s%s%s; rename one, or render them into different folders with -o",
+                           places[k - 1].scene->file, places[k].scene->file, places[k].path,
+                           strcmp(places[k].path, places[k - 1].path) != 0 ? ", which is " : "",
+                           strcmp(places[k].path, places[k - 1].path) != 0 ? places[k - 1].path : "");
+    return true;
+}
+
+/* ------------------------------------------------------------------ outputs and inputs */
+
+struct source {
+    const char *file, *what;
+    const struct scene *scene;
+    dev_t device;
+    ino_t inode;
+};
+
+struct sources {
+    struct source *list;
+    int n;
+};
+
+static void note(struct sources *all, const struct scene *s, const char *file, const char *what)
+{
+    struct stat status;
+    if (file && stat(file, &status) == 0)
+        all->list[all->n++] = (struct source){file, what, s, status.st_dev, status.st_ino};
+}
+
+static void note_scene(struct sources *all, const struct scene *s)
+{
+    for (int i = 0; s->sources && s->sources[i]; i++)
+        note(all, s, s->sources[i], i ? "a file that it includes" : "the scene itself");
+    for (int i = 0; i < s->n_contacts; i++)
+        for (const struct key *k = keys_table; k->path; k++)
+            if (k->of == KEY_CONTACT && k->type == KEY_FILE)
+                note(all, s, *(const char *const *)((const char *)&s->contacts[i] + k->offset), k->path);
+    for (int i = 0; i < s->n_inputs; i++)
+        note(all, s, s->inputs[i].file, "inputs");
+}
+
+/* How many files a scene may name. */
+static size_t most_sources(const struct scene *s)
+{
+    size_t n = (size_t)s->n_inputs, keys = 0;
+    for (int i = 0; s->sources && s->sources[i]; i++)
+        n++;
+    for (const struct key *k = keys_table; k->path; k++)
+        keys += k->of == KEY_CONTACT && k->type == KEY_FILE;
+    return n + keys * (size_t)s->n_contacts;
+}
+
+static struct sources sources_of(const struct outputs *o, int n, struct arena *a)
+{
+    size_t most = 0;
+    for (int i = 0; i < n; i++)
+        most += most_sources(o[i].scene);
+    struct sources all = {ARENA_TAKE(a, struct source, most), 0};
+    for (int i = 0; i < n; i++)
+        note_scene(&all, o[i].scene);
+    return all;
+}
+
+static const struct source *source_find(const struct sources *all, const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) == 0)
+        for (int i = 0; i < all->n; i++)
+            if (all->list[i].device == status.st_dev && all->list[i].inode == status.st_ino)
+                return &all->list[i];
+    return NULL;
+}
+
+/* Would the file that is there be replaced by one of the same bytes? */
+static bool unchanged(const struct outputs *o, int k, struct arena *a)
+{
+    char is[HASH_TEXT], becomes[HASH_TEXT];
+    struct err unreadable = {0};
+    if (o->kinds[k] != OUTPUT_EFFECTIVE || !hash_file(o->paths[k], is, &unreadable))
+        return false;
+    const char *text = outputs_effective(o->scene, o->paths[k], a);
+    hash_bytes(text, strlen(text), becomes);
+    return strcmp(is, becomes) == 0;
+}
+
+static bool spared(const struct outputs *o, int k, const struct sources *all, struct arena *a, struct err *e)
+{
+    const struct source *hit = source_find(all, o->paths[k]);
+    if (!hit || unchanged(o, k, a))
+        return true;
+    bool other = hit->scene != o->scene, differs = o->kinds[k] == OUTPUT_EFFECTIVE && hit->file == o->scene->sources[0];
+    return err_set(e, ERR_CREATE, "%s: the output %s would overwrite the input %s (%s%s%s%s); write elsewhere: -o FOLDER/ or -o OTHER.wav", o->scene->file,
+                   o->paths[k], hit->file, hit->what, differs ? ", which is not its own effective scene" : "", other ? ", scene " : "", other ? hit->scene->file : "");
+}
+
+bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *e)
+{
+    struct sources all = sources_of(o, n, a);
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < o[i].n; k++)
+            if (!spared(&o[i], k, &all, a, e))
+                return false;
+    return true;
+}
+
+/* ------------------------------------------------------------------ what an earlier render left */
+
+static bool writes(const struct outputs *o, const char *path)
+{
+    for (int i = 0; i < o->n; i++)
+        if (strcmp(o->paths[i], path) == 0)
+            return true;
+    return false;
+}
+
+const char **outputs_older(const struct scene *s, const char *base, struct arena *a)
+{
+    struct outputs o = outputs_make(s, base, a), most = {s, base, ARENA_TAKE(a, const char *, s->n_contacts + 2),
+                                                         ARENA_TAKE(a, enum output_kind, s->n_contacts + 2), 0};
+    struct sources all = sources_of(&o, 1, a);
+    const char **older = ARENA_TAKE(a, const char *, s->n_contacts + 3);
+    struct stat status;
+    int n = 0;
+    for (int i = 0; i < s->n_contacts; i++)
+        add(&most, OUTPUT_TABLE, &s->contacts[i], a);
+    add(&most, OUTPUT_SOUND, NULL, a);
+    if (s->n_contacts > 1)
+        most.paths[most.n++] = arena_format(a, "%s.csv", base);
+    for (int i = 0; i < most.n; i++)
+        if (!writes(&o, most.paths[i]) && stat(most.paths[i], &status) == 0 && !source_find(&all, most.paths[i]))
+            older[n++] = most.paths[i];
+    return older;
+}
