@@ -95,7 +95,8 @@ const struct command plot_command = {
     .summary = "draws a render: waveform, spectrogram, forces",
     .does = "For NAME.wav writes NAME.png: the waveform, the spectrogram (Hann window of 20 ms, the 80 dB below the loudest place, up to 20 kHz) "
             "and, from the diagnostics beside it (NAME.csv, or NAME.CONTACT.csv), the contact force and the normal force with alpha, on one time "
-            "axis. Panels without data are left out; what was drawn is printed. For NAME.csv, of a render without sound, only the forces. Of "
+            "axis. A table that is not of the same render, as the hashes in NAME.json tell, is left out with a warning; without NAME.json it is "
+            "taken to be. Panels without data are left out; what was drawn is printed. For NAME.csv, of a render without sound, only the forces. Of "
             "several channels the first is drawn. Needs gnuplot.",
     .operands = "NAME.wav|NAME.csv",
     .least = 1,

@@ -1,12 +1,12 @@
-/* The data of `rasp plot`: a sound or a table of diagnostics, and what a render writes beside it (NAME.json: title and contacts; NAME.csv or
-   NAME.CONTACT.csv), brought down to one value per column of pixels. A column shows the smallest and largest sample, the largest magnitude of
+/* The data of `rasp plot`: a sound or a table of diagnostics, and what a render writes beside it (NAME.json: title, contacts, and the tables' hashes;
+   NAME.csv or NAME.CONTACT.csv), brought down to one value per column of pixels. A column shows the smallest and largest sample, the largest magnitude of
    the peak force, the root of the mean square force, the mean of the rest: nothing falls between two columns. */
-#include <jansson.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "cmd/plot.h"
+#include "cmd/plot_summary.h"
 #include "file/csv.h"
 #include "file/wav.h"
 
@@ -171,44 +171,67 @@ static const char *beside(const struct plot_page *p, const char *ending)
     return arena_format(p->arena, "%.*s%s", (int)n, p->file, ending);
 }
 
-/* The title that the summary keeps, if there is one. */
-static void title_find(struct plot_page *p, const json_t *summary)
+/* Is the table of the render that the summary is of? Where that cannot be known it is taken to be, and this is said. */
+static bool table_belongs(const struct plot_summary *s, const char *path, const char *contact, struct err *e)
 {
-    const char *text = json_string_value(json_object_get(summary, "scene"));
-    if (!p->title)
-        p->title = arena_text(p->arena, text && *text ? text : p->file);
+    const char *why;
+    if (!s->lists)
+        fprintf(stderr, "%s: warning: %s %s: that the table is of the same render is assumed\n", path, s->file,
+                s->there ? "does not say which files are of its render" : "is not there");
+    if (!s->lists || plot_summary_has(s, path, contact, &why, e))
+        return true;
+    if (e->kind == ERR_NONE)
+        fprintf(stderr, "%s: warning: left out, as it is of another render: %s %s\n", path, s->file, why);
+    return false;
 }
 
-static bool tables_find(struct plot_page *p, const json_t *summary, struct err *e)
+/* The table of a contact ("": of the only one), if it is there and of the same render. */
+static bool table_find(struct plot_page *p, const struct plot_summary *s, const char *contact, struct err *e)
 {
-    const json_t *contacts = json_object_get(summary, "contacts");
-    size_t n = json_array_size(contacts);
-    const char *path = beside(p, ".csv");
+    const char *path = beside(p, *contact ? arena_format(p->arena, ".%s.csv", contact) : ".csv");
+    if (access(path, F_OK) == 0 && table_belongs(s, path, contact, e))
+        return table_add(p, path, contact, e);
+    return e->kind == ERR_NONE;
+}
+
+static bool tables_find(struct plot_page *p, const struct plot_summary *s, struct err *e)
+{
+    int n = s->n_contacts;
     p->tables = ARENA_TAKE(p->arena, struct plot_table, n + 1);
-    if (n <= 1)
-        return access(path, F_OK) != 0 || table_add(p, path, "", e);
-    for (size_t i = 0; i < n; i++) {
-        const char *name = json_string_value(json_object_get(json_array_get(contacts, i), "name"));
-        path = name ? beside(p, arena_format(p->arena, ".%s.csv", name)) : "";
-        if (access(path, F_OK) == 0 && !table_add(p, path, arena_text(p->arena, name), e))
+    if ((n <= 1 || s->lists) && !table_find(p, s, "", e))
+        return false;
+    for (int i = 0; n > 1 && i < n; i++)
+        if (*s->contacts[i] && !table_find(p, s, s->contacts[i], e))
             return false;
-    }
     return true;
+}
+
+/* A summary of another render: what it says is not of the file that is shown, and is not used. */
+static bool summary_foreign(const struct plot_page *p, const struct plot_summary *s, bool table, struct err *e)
+{
+    const char *why = "lists no sound";
+    bool ours = !s->lists || (table ? plot_summary_has(s, p->file, "", &why, e) : s->sounds);
+    if (!ours && e->kind == ERR_NONE)
+        fprintf(stderr, "%s: warning: %s is of another render (it %s), and is not used\n", p->file, s->file, why);
+    return !ours;
 }
 
 bool plot_data(struct plot_page *p, struct err *e)
 {
     size_t n = strlen(p->file);
     bool table = n > 4 && strcmp(p->file + n - 4, ".csv") == 0, ok;
-    json_t *summary = json_load_file(beside(p, ".json"), 0, NULL);
-    title_find(p, summary);
+    struct plot_summary summary = plot_summary_read(beside(p, ".json"), p->arena);
+    bool foreign = summary_foreign(p, &summary, table, e);
+    if (!p->title)
+        p->title = *summary.title && !foreign ? summary.title : p->file;
+    if (e->kind != ERR_NONE)
+        return false;
     if (table) {
         p->tables = ARENA_TAKE(p->arena, struct plot_table, 1);
         ok = table_add(p, p->file, "", e);
     } else {
-        ok = sound_gather(p, e) && tables_find(p, summary, e);
+        ok = sound_gather(p, e) && (foreign || tables_find(p, &summary, e));
     }
-    json_decref(summary);
     if (!ok || p->sound || plot_data_has(p, PLOT_PEAK) || plot_data_has(p, PLOT_RMS) || plot_data_has(p, PLOT_NORMAL) || plot_data_has(p, PLOT_ALPHA))
         return ok;
     return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file, plot_names[PLOT_PEAK],
