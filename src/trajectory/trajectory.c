@@ -10,6 +10,7 @@
 
 #include <math.h>
 
+#include "num/noise.h"
 #include "trajectory/trajectory_state.h"
 
 enum { TRAJECTORY_CHUNK = 256 };
@@ -110,6 +111,11 @@ void trajectory_at(const struct trajectory *tr, size_t n, const double *t, struc
 void trajectory_continued(const struct trajectory *tr, double t, double place[2])
 {
     at_any(tr, 1, &t, &(struct trajectory_out){.x = &place[0], .y = &place[1]});
+}
+
+uint64_t trajectory_seed(const struct scene *s, const struct contact *c)
+{
+    return noise_make(s->seed, c->name).key;
 }
 
 long trajectory_frames(const struct trajectory *tr, double rate)

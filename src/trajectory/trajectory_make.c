@@ -1,7 +1,6 @@
 /* From the scene's motion to a trajectory: the path, how long the motion lasts, the law, and figures of the whole. */
 #include <math.h>
 
-#include "num/noise.h"
 #include "scene/rules.h"
 #include "trajectory/recorded.h"
 #include "trajectory/scan.h"
@@ -261,11 +260,6 @@ static void whole(struct making *w)
     trajectory_at(tr, 2, ends, (struct trajectory_out){.du = du});
     tr->starts_at_rest = fabs(du[0]) <= 1e-8 * tr->top_speed;
     tr->ends_at_rest = fabs(du[1]) <= 1e-8 * tr->top_speed;
-}
-
-uint64_t trajectory_seed(const struct scene *s, const struct contact *c)
-{
-    return noise_make(s->seed, c->name).key;
 }
 
 bool trajectory_make(const struct motion *m, uint64_t seed, struct arena *a, struct trajectory *tr, struct err *e)

@@ -1,6 +1,8 @@
 /* relief: sums of parts, and what decides how a surface lies under the motion. */
 #include "surface/relief.h"
 
+#include "scene/rules.h"
+
 #include "surface/map.h"
 #include "surface/profile.h"
 #include "unit.h"
@@ -125,7 +127,7 @@ START_TEST(settled_along)
                             .surface = {.roughness = {.given = cases[i].roughness, .grain = cases[i].grain}, .ridges = {.given = cases[i].ridges}}};
         relief_settle(&r, &c);
         ck_assert_msg(r.along == cases[i].want, "case %zu: %d", i, r.along);
-        ck_assert(relief_straight(&c) == (cases[i].path <= PATH_FOUR_IN_LINE));
+        ck_assert(rules_straight(&c.motion) == (cases[i].path <= PATH_FOUR_IN_LINE));
     }
 }
 END_TEST

@@ -103,7 +103,7 @@ static void put(const char *name, const char *text)
 static struct result read_file(const char *name, const char *const *set)
 {
     struct result r = {.arena = arena_open()};
-    struct scene_overrides over = {(const char **)set, 0};
+    struct scene_overrides over = {.set = (const char **)set};
     while (set && set[over.n])
         over.n++;
     r.good = scene_read(path(name), &over, r.arena, &r.scene, &r.messages, &r.err);
