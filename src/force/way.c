@@ -31,7 +31,7 @@ static bool way_grids(struct way *w, const char *contact, struct err *e)
 {
     for (const struct relief_part *p = w->relief->first; p; p = p->next)
         for (int axis = 0; axis < 2; axis++) {
-            struct way_grid g = {.axis = axis, .pitch = p->pitch[axis], .origin = p->origin[axis]};
+            struct way_grid g = {.axis = axis, .pitch = p->pitch[axis], .origin = p->origin[axis] + relief_shift(w->relief, axis)};
             bool known = g.pitch <= 0 || (axis == 1 && w->relief->along != ALONG_PLANE);
             for (int k = 0; k < w->n_grids; k++)
                 known = known || (w->grids[k].axis == axis && w->grids[k].pitch == g.pitch && w->grids[k].origin == g.origin);

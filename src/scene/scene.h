@@ -86,7 +86,7 @@ struct surface {
     int off_map;            /* enum off_map                                                      */
     int holes;              /* enum holes                                                        */
     int levelling;          /* enum levelling                                                    */
-    double origin[2];       /* m: where the map's first sample lies in scene coordinates         */
+    double origin[2];       /* m: where the surface's own x = y = 0 lies in the scene              */
     struct continuation continuation;
     struct roughness roughness;
     struct ridges ridges;

@@ -51,9 +51,8 @@ static struct relief_part *height_map_part(struct stage_run *r, const struct hei
     const struct surface *s = &r->contact->surface;
     int along = r->board->relief->along;
     if (along == ALONG_PLANE)
-        return map_part(r->arena, m->z, m->columns, m->rows, m->pitch, s->origin, s->off_map, "height_map");
-    return profile_part(r->arena, profile_from_samples(r->arena, m->z, m->columns, m->pitch[0], s->off_map), "height_map",
-                        along == ALONG_X ? s->origin[0] : 0);
+        return map_part(r->arena, m->z, m->columns, m->rows, m->pitch, (double[]){0, 0}, s->off_map, "height_map");
+    return profile_part(r->arena, profile_from_samples(r->arena, m->z, m->columns, m->pitch[0], s->off_map), "height_map", 0);
 }
 
 /* surface.off_map: error. */
@@ -63,12 +62,13 @@ static bool height_map_inside(const struct stage_run *r, const struct relief_par
     bool path = r->board->relief->along == ALONG_PATH;
     for (int axis = 0; axis < (r->board->relief->along == ALONG_PLANE ? 2 : 1); axis++) {
         const double *least = path ? &tr->reach[0] : &tr->box[0][axis], *most = path ? &tr->reach[1] : &tr->box[1][axis];
-        double slack = 1e-9 * p->pitch[axis], out = *least < p->from[axis] - slack ? *least : *most;
-        if (*least < p->from[axis] - slack || *most > p->to[axis] + slack)
+        double from = p->from[axis] + relief_shift(r->board->relief, axis), to = p->to[axis] + relief_shift(r->board->relief, axis);
+        double slack = 1e-9 * p->pitch[axis], out = *least < from - slack ? *least : *most;
+        if (*least < from - slack || *most > to + slack)
             return err_set(e, ERR_SCENE,
                            "contact '%s': the motion leaves the height map: it reaches %g m %s, and the map goes from %g to %g m; shorten or move "
                            "the motion, or set surface.off_map to mirror or wrap",
-                           r->contact->name, out, path ? "along the path" : axis ? "in y" : "in x", p->from[axis], p->to[axis]);
+                           r->contact->name, out, path ? "along the path" : axis ? "in y" : "in x", from, to);
     }
     return true;
 }

@@ -14,12 +14,46 @@ void relief_add(struct relief *r, struct relief_part *part)
     *end = part;
 }
 
+double relief_shift(const struct relief *r, int axis)
+{
+    return r->along == ALONG_PLANE || (r->along == ALONG_X && axis == 0) ? r->origin[axis] : 0;
+}
+
+enum { SHIFTED = 256 };
+
+static double *advanced(double *x, size_t by)
+{
+    return x ? x + by : NULL;
+}
+
+/* In the surface's own coordinates, some points at a time. */
+static void relief_shifted(const struct relief *r, const struct relief_points *p, const struct relief_values *v)
+{
+    double x[SHIFTED], y[SHIFTED], dx = relief_shift(r, 0), dy = relief_shift(r, 1);
+    for (size_t first = 0, n; first < p->n; first += n) {
+        n = p->n - first < SHIFTED ? p->n - first : SHIFTED;
+        for (size_t i = 0; i < n; i++) {
+            x[i] = p->x[first + i] - dx;
+            y[i] = p->y ? p->y[first + i] - dy : 0;
+        }
+        struct relief_points points = {n, x, p->y ? y : NULL};
+        struct relief_values values = {advanced(v->z, first), advanced(v->x, first), advanced(v->y, first), advanced(v->xx, first),
+                                       advanced(v->xy, first), advanced(v->yy, first)};
+        for (struct relief_part *part = r->first; part; part = part->next)
+            part->add(part, &points, &values);
+    }
+}
+
 void relief_at(const struct relief *r, const struct relief_points *p, const struct relief_values *v)
 {
     double *all[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
     for (int k = 0; k < 6; k++)
         if (all[k])
             memset(all[k], 0, p->n * sizeof(double));
+    if (relief_shift(r, 0) != 0 || relief_shift(r, 1) != 0) {
+        relief_shifted(r, p, v);
+        return;
+    }
     for (struct relief_part *part = r->first; part; part = part->next)
         part->add(part, p, v);
 }

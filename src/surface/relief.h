@@ -4,7 +4,8 @@
    Coordinates, by relief->along:
      ALONG_PATH   x is the signed distance u along the motion (0 where it starts); nothing depends on y
      ALONG_X      x is the scene's x; nothing depends on y (extruded)
-     ALONG_PLANE  x and y are the scene's                                                                      all in m */
+     ALONG_PLANE  x and y are the scene's                                                                      all in m
+   Parts lie in the surface's own coordinates, which begin at relief->origin of the scene (except along the path). */
 #ifndef SURFACE_RELIEF_H
 #define SURFACE_RELIEF_H
 #include <stdbool.h>
@@ -38,13 +39,17 @@ struct relief_part {
 
 struct relief {
     int along;           /* enum along; ALONG_AUTO until a part or relief_settle decides */
+    double origin[2];    /* m, surface.origin: where the surface's own x = y = 0 lies in the scene; not along a path */
     struct relief_part *first;
 };
 
 /* Adds a part, behind those there. */
 void relief_add(struct relief *, struct relief_part *);
 
-/* All asked-for values, set to the sum of the parts. */
+/* What is subtracted from the scene's coordinate to get the surface's: origin[axis], or 0 where the surface does not follow it. */
+double relief_shift(const struct relief *, int axis);
+
+/* All asked-for values, set to the sum of the parts. The points are in the scene's coordinates (along a path: u). */
 void relief_at(const struct relief *, const struct relief_points *, const struct relief_values *);
 
 /* Decides along where the scene left it auto and no map did: rules_along of scene/rules.h. */

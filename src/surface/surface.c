@@ -19,6 +19,8 @@ static bool surface_open(struct stage_run *r, struct err *e)
     (void)e;
     r->board->relief = ARENA_TAKE(r->arena, struct relief, 1);
     r->board->relief->along = r->contact->surface.along;
+    for (int k = 0; k < 2 && r->contact->surface.along != ALONG_PATH; k++)
+        r->board->relief->origin[k] = r->contact->surface.origin[k];
     return true;
 }
 

@@ -108,6 +108,7 @@ static bool tip_open(struct stage_run *r, struct err *e)
     relief_settle(relief, r->contact);
     *under = *relief;
     struct rolling_plan p = tip_plan(r, under);
+    under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
     if (!tip_affordable(r, &p, under, e))
         return false;
     relief->first = NULL;

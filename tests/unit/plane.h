@@ -50,6 +50,7 @@ static inline struct relief_part *plane_wave_map(struct arena *a, const struct c
 static inline struct relief_part *plane_rough_map(struct arena *a, const struct contact *c)
 {
     enum { COLUMNS = 200, ROWS = 160 };
+    (void)c;
     double *z = ARENA_TAKE(a, double, COLUMNS * ROWS);
     srand48(11);
     for (int w = 0; w < 60; w++) {
@@ -59,7 +60,7 @@ static inline struct relief_part *plane_rough_map(struct arena *a, const struct 
             for (int i = 0; i < COLUMNS; i++)
                 z[j * COLUMNS + i] += 0.2e-6 * cos(2 * M_PI * ((double)(kx * i) / COLUMNS + (double)(ky * j) / ROWS) + phase);
     }
-    return map_part(a, z, COLUMNS, ROWS, (double[]){5e-6, 7e-6}, c->surface.origin, OFF_MAP_WRAP, "rough");
+    return map_part(a, z, COLUMNS, ROWS, (double[]){5e-6, 7e-6}, (double[]){0, 0}, OFF_MAP_WRAP, "rough");
 }
 
 /* ------------------------------------------------------------------ scenes */
