@@ -105,7 +105,7 @@ static void scrape_face(struct scrape *s, double ex, double ey)
     s->ey = ey;
 }
 
-/* The unit vector half way between the axes at a piece's two ends. */
+/* The unit vector half way between the axes at a piece's two ends, which are never opposed (force/way.c). */
 static void scrape_halfway(const struct way_pieces *p, int i, double *ex, double *ey)
 {
     double x = p->ex[p->at[i]] + p->ex[p->at[i] + 1], y = p->ey[p->at[i]] + p->ey[p->at[i] + 1], length = sqrt(x * x + y * y);

@@ -9,6 +9,7 @@
 #include "force/way_cut.h"
 #include "scene/rules.h"
 #include "surface/limiter.h"
+#include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
 unsigned way_asks(const struct contact *c)
@@ -72,6 +73,10 @@ bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double lon
     w->from[1] = w->field ? tr->from[1] : 0;
     if (along == ALONG_X && fabs(w->e[0]) * tr->length < 1e-6 * relief_finest(w->relief) && tr->straight)
         w->e[0] = 0; /* straight across the profile: what the decimals of the two ends leave in x is no motion along it */
+    if (!load_varies(r->contact)) {
+        double n = isnan(r->contact->load.constant) ? r->contact->scraper.mass * r->contact->contact.gravity : r->contact->load.constant;
+        limiter_told(r, n, n);
+    }
     return way_grids(w, r->contact->name, e);
 }
 
@@ -158,6 +163,13 @@ static struct instant way_instant(const struct way *w, const struct board *b, lo
     return i;
 }
 
+static bool at_rest(struct instant i)
+{
+    return i.ex == 0 && i.ey == 0;
+}
+
+/* From a to b on a smooth curve. Where the contact rests at one end the direction is that of the other: a chord of a few last places of the
+   coordinates points anywhere. */
 static void way_stretch(struct way *w, struct instant a, struct instant b, double alpha, int interval)
 {
     struct way_stretch s = {.u = a.u, .end = b.u, .alpha = alpha, .interval = interval};
@@ -165,16 +177,22 @@ static void way_stretch(struct way *w, struct instant a, struct instant b, doubl
     if (a.u == b.u || (w->curved && chord == 0))
         return;
     if (w->curved) {
-        bool rest_a = a.ex == 0 && a.ey == 0, rest_b = b.ex == 0 && b.ey == 0;
-        s.path = (struct way_curve){.x = {a.x, b.x}, .y = {a.y, b.y}, .length = fabs(b.u - a.u),
-                                    .ex = {rest_a ? dx / chord : a.ex, rest_b ? dx / chord : b.ex},
-                                    .ey = {rest_a ? dy / chord : a.ey, rest_b ? dy / chord : b.ey}};
+        struct instant from = at_rest(a) ? b : a, to = at_rest(b) ? a : b;
+        if (at_rest(from))
+            from.ex = to.ex = dx / chord, from.ey = to.ey = dy / chord;
+        double h = fabs(b.u - a.u);
+        if (chord < 0.9 * h) { /* the last places of x, y are coarser than those of u: straight on */
+            b.x = a.x + h * from.ex, b.y = a.y + h * from.ey;
+            to = from;
+        }
+        s.path = (struct way_curve){.x = {a.x, b.x}, .y = {a.y, b.y}, .length = h, .ex = {from.ex, to.ex}, .ey = {from.ey, to.ey}};
     }
     while (!way_cut(w, &s))
         way_flush(w);
 }
 
-/* Where the motion turns round on itself the stretch is two; the direction there is that of each side's chord. */
+/* Where the motion turns round on itself the stretch is two, each in its own side's direction. So it is where the turn is too slow or too small
+   for its instant to be found: then t is half way. */
 static void way_turn(struct way *w, const struct stage_run *r, struct instant a, struct instant b, double alpha, int interval, double t)
 {
     struct instant m = {0};
@@ -196,14 +214,14 @@ void way_run(struct way *w, const struct stage_run *r, long first, int n)
     double fixed = limiter_constant(r->contact), dt = 1 / (b->rate * b->over), top = b->trajectory->top_speed;
     struct instant now = way_instant(w, b, first, top), next;
     for (int i = 0; i < n; i++, now = next) {
-        double a = alpha ? 0.5 * (alpha[i] + alpha[i + 1]) : fixed, turn = NAN;
+        double a = alpha ? 0.5 * (alpha[i] + alpha[i + 1]) : fixed, t0 = (double)(first + i) * dt, t1 = (double)(first + i + 1) * dt;
         next = way_instant(w, b, first + i + 1, top);
-        if (way_turns(w, now, next, v[i], v[i + 1]))
-            turn = trajectory_turning(b->trajectory, (double)(first + i) * dt, (double)(first + i + 1) * dt);
-        if (isnan(turn))
-            way_stretch(w, now, next, a, i);
+        bool turns = way_turns(w, now, next, v[i], v[i + 1]);
+        double turn = turns ? trajectory_turning(b->trajectory, t0, t1) : NAN;
+        if (turns && (w->curved || !isnan(turn)))
+            way_turn(w, r, now, next, a, i, isnan(turn) ? 0.5 * (t0 + t1) : turn);
         else
-            way_turn(w, r, now, next, a, i, turn);
+            way_stretch(w, now, next, a, i);
     }
     way_flush(w);
 }

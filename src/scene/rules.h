@@ -79,7 +79,7 @@ static inline int rules_law(const struct motion *m)
    has no curvature for two_thirds. */
 static inline bool rules_law_fits(const struct motion *m, int law)
 {
-    bool rests = m->path == PATH_POLYLINE && m->corner == 0;
+    bool rests = m->path == PATH_POLYLINE && m->corner == 0 && m->n_points > 2;
     if (law == SPEED_CONSTANT)
         return m->path != PATH_BACK_AND_FORTH && !rests;
     if (law == SPEED_TWO_THIRDS)

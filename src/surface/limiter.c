@@ -44,6 +44,14 @@ double limiter_constant(const struct contact *c)
     return alpha;
 }
 
+void limiter_told(struct stage_run *r, double least, double most)
+{
+    const double *range = r->contact->contact.limiter.force_range;
+    if (r->contact->contact.limiter.curve == LIMITER_TANH && !isnan(range[0]) && (least < range[0] || most > range[1]))
+        board_warn(r->board, arena_format(r->arena, "%s: the normal force, %.4g to %.4g N, leaves contact.limiter.force_range, %.4g to %.4g N: alpha stays at that of "
+                                          "the range's end there", r->contact->name, least, most, range[0], range[1]));
+}
+
 /* ------------------------------------------------------------------ the stage */
 
 static bool limiter_wanted(const struct contact *c, const struct scene *s)
@@ -65,6 +73,7 @@ static bool limiter_open(struct stage_run *r, struct err *e)
     (void)e;
     *l = limiter_make(given, r->board->load->least, r->board->load->most);
     r->board->limiter = l;
+    limiter_told(r, r->board->load->least, r->board->load->most);
     return true;
 }
 

@@ -22,4 +22,8 @@ void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, d
 /* alpha of a contact whose load is constant; of one whose load varies (load_varies) it says nothing. */
 double limiter_constant(const struct contact *c);
 
+struct stage_run;
+/* Warns where a normal force from `least` to `most` N leaves limiter.force_range. */
+void limiter_told(struct stage_run *r, double least, double most);
+
 #endif
