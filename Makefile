@@ -25,7 +25,8 @@ endif
 WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wvla -Wstrict-prototypes -Wmissing-prototypes \
        $(if $(findstring clang,$(CC)),-Wno-pass-failed)
 PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng
-CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
+# -fno-tree-slp-vectorize: gcc 12 turns pairs such as a c + b s, b c - a s into vfmsubadd there, in spite of -ffp-contract=off.
+CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-tree-slp-vectorize -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
 LIBS = $(shell pkg-config --libs $(PKGS)) -lsleef -lm
 
 REVISION := $(shell git describe --always --dirty --abbrev=12 2> /dev/null || echo unknown)

@@ -162,7 +162,7 @@ static const struct {
      "laws here: auto, harmonic, constant, minimum_jerk, given"},
     {"{path: back_and_forth, to: [1, 0], rate: 1, duration: 1, law: constant}", "4:71", "it rests where it turns round",
      "laws here: auto, harmonic, minimum_jerk, given"},
-    {"{path: polyline, points: [[0, 0], [1, 0]], speed: 1, law: constant}", "4:67", "it rests at its corners", "motion.corner: 5 mm"},
+    {"{path: polyline, points: [[0, 0], [1, 0], [2, 1]], speed: 1, law: constant}", "4:75", "it rests at its corners", "motion.corner: 5 mm"},
     {"{path: line, to: [1, 0], speed: 1, law: constnat}", "4:49", "motion.law must be one of: auto, harmonic", "did you mean 'constant'?"},
     /* points */
     {"{path: polyline, duration: 1}", "4:1", "motion.points is missing", "points: [[0, 0], [3 cm, 0]]"},

@@ -49,7 +49,8 @@ static bool tip_try(struct tip *t, height *f, int along, const double radius_pat
     t->contact = (struct contact){.name = "ball", .scraper = {.radius = radius_patch_finest[0], .patch = radius_patch_finest[1]}};
     t->trajectory = (struct trajectory){.straight = true, .box = {{-5e-4, 0}, {5e-4, 0}}};
     t->board = (struct board){.relief = &t->relief, .trajectory = &t->trajectory};
-    t->run = (struct stage_run){.stage = &tip_stage, .contact = &t->contact, .board = &t->board, .arena = t->arena};
+    static const struct scene scene = {.accuracy = {.tip_heights = 1}};
+    t->run = (struct stage_run){.stage = &tip_stage, .scene = &scene, .contact = &t->contact, .board = &t->board, .arena = t->arena};
     relief_add(&t->relief, &t->part);
     return tip_stage.open(&t->run, e);
 }
