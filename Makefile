@@ -24,7 +24,7 @@ endif
 # clang reports loops it does not vectorise, as all are at -O0 and -O1: that is no fault.
 WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wvla -Wstrict-prototypes -Wmissing-prototypes \
        $(if $(findstring clang,$(CC)),-Wno-pass-failed)
-PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng
+PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr
 # -fno-tree-slp-vectorize: gcc 12 turns pairs such as a c + b s, b c - a s into vfmsubadd there, in spite of -ffp-contract=off.
 CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-tree-slp-vectorize -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
 LIBS = $(shell pkg-config --libs $(PKGS)) -lsleef -lm
@@ -120,6 +120,10 @@ $(BUILD)/bench/%: tests/bench/%.c $(BUILD)/librasp.a
 	$(call say,$(CC))
 	$Q$(CC) $(CFLAGS) -MMD -MP -o $@ $< $(BUILD)/librasp.a $(LIBS)
 
+# The mode tables that ship, from the recipes beside them.
+irs: all
+	@BUILD=$(BUILD) scripts/irs.sh
+
 install: all
 	install -D -m 755 $(BUILD)/rasp $(DESTDIR)$(PREFIX)/bin/rasp
 	for page in man/*.1; do install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man1 $$page || exit 1; done
@@ -141,9 +145,10 @@ help:
 	@echo 'warnings       -Werror, gcc, clang    sanitize   unit, cli and faults under ASan and UBSan'
 	@echo 'bytes          same bytes, all builds fuzz       SECONDS=60 of fuzzing'
 	@echo 'evidence       the long reports       bench      timings'
-	@echo 'install        PREFIX, DESTDIR        clean      removes $(BUILD)'
+	@echo 'irs            irs/ from its recipes  install    PREFIX, DESTDIR'
+	@echo 'clean          removes $(BUILD)'
 	@echo 'variables: BUILD CC OPT ISA=v2|v3|v4 SAN=1 WERROR=-Werror JOBS V=1 PREFIX DESTDIR'
 
 -include $(OBJ:.o=.d) $(BUILD)/main.d $(UNIT:=.d) $(BENCH:=.d)
 FORCE:
-.PHONY: all unit demo check warnings sanitize bytes fuzz fuzzers evidence bench install uninstall clean help FORCE
+.PHONY: all unit demo check warnings sanitize bytes fuzz fuzzers evidence bench irs install uninstall clean help FORCE

@@ -34,9 +34,9 @@ enum item {
     ITEM_SLOPE,         /* mean |slope|^beta2 (paper force)             over per frame */
     ITEM_SUBFORCE,      /* N, contact force                             over per frame */
     ITEM_FORCE,         /* N                                            1 per frame    */
-    ITEM_SURFACE_SOUND, /* the response's quantity                      1 per frame    */
-    ITEM_SCRAPER_SOUND, /* the response's quantity                      1 per frame    */
-    ITEM_SOUND,         /* the response's quantity                      1 per frame    */
+    ITEM_SURFACE_SOUND, /* board->quantity                              channels per frame, interleaved */
+    ITEM_SCRAPER_SOUND, /* board->quantity                              channels per frame */
+    ITEM_SOUND,         /* board->quantity                              channels per frame */
     ITEM_TABLE,         /* diagnostics rows                             no signal      */
     ITEM_COUNT
 };
@@ -58,6 +58,7 @@ struct signal {
 struct board {
     double rate;            /* Hz, frames per second                       */
     int over;               /* sub-intervals per frame                     */
+    int channels;           /* listening places                            */
     long moving;            /* frames that the motion touches              */
     unsigned alive;         /* items that some stage of the plan reads     */
     struct signal signals[ITEM_COUNT];
@@ -67,10 +68,10 @@ struct board {
     struct relief *relief;
     const struct height_map *height_map; /* NULL: none */
     struct table_sink *table;
-    int quantity;           /* enum modes_quantity of the sound; -1: not stated (WAV responses) */
+    int quantity;           /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
     double ring;            /* s, until the slowest response has decayed by 80 dB */
     double lifted;          /* s during which the scraper was lifted off         */
-    bool unstated;          /* a WAV response, whose quantity is not stated, rings */
+    bool unstated;          /* a recorded response, whose quantity is not stated, rings */
     const char *warnings[16];
     int n_warnings;         /* may exceed the room: what is beyond is counted only */
 };

@@ -15,7 +15,7 @@ static const struct group groups[] = {
     {"Sound from scenes", {&render_command, &plan_command}},
     {"Writing scenes", {&new_command, &explain_command, &check_command}},
     {"Looking at results", {&compare_command, &plot_command}},
-    {"Surfaces", {&surface_command}},
+    {"Surfaces and objects", {&surface_command, &modes_command}},
     {NULL, {NULL}},
 };
 

@@ -15,6 +15,7 @@ static const struct args_option plot_options[] = {
     {"format", 'f', "png|svg", false, "format of the picture; default: by the output's ending, else png"},
     {"title", 't', "TEXT", false, "title; default: the scene's, if its summary lies beside the sound, else the file's name"},
     {"from", 0, "SECONDS", false, "start of the time shown; default: 0"},
+    {"channel", 'c', "N", false, "which channel of the sound, from 1 (of several listening places each is one); default: 1"},
     {"to", 0, "SECONDS", false, "end of the time shown; default: the end of the sound"},
     {0},
 };
@@ -78,10 +79,13 @@ static int plot_run(struct cmd_call *c, struct err *e)
 {
     struct plot_page p = {.file = c->args.operands[0], .title = args_value(&c->args, "title"), .from = NAN, .to = NAN, .arena = c->arena};
     const double range[2] = {0, 1e9};
+    long channel = 1;
     if (!ends(p.file, ".wav") && !ends(p.file, ".csv"))
         return err_set(e, ERR_USAGE, "%s: neither a sound (.wav) nor a table of diagnostics (.csv)", p.file), (int)e->kind;
-    if (!plot_format(c, &p, e) || !args_number(&c->args, "from", range, &p.from, e) || !args_number(&c->args, "to", range, &p.to, e))
+    if (!plot_format(c, &p, e) || !args_number(&c->args, "from", range, &p.from, e) || !args_number(&c->args, "to", range, &p.to, e) ||
+        !args_whole(&c->args, "channel", (const long[2]){1, 1024}, &channel, e))
         return (int)e->kind;
+    p.channel = (int)channel;
     const char *target = plot_target(c, &p);
     if (!plot_data(&p, e) || !plot_write(&p, target, e))
         return (int)e->kind;
@@ -97,7 +101,7 @@ const struct command plot_command = {
             "and, from the diagnostics beside it (NAME.csv, or NAME.CONTACT.csv), the contact force and the normal force with alpha, on one time "
             "axis. A table that is not of the same render, as the hashes in NAME.json tell, is left out with a warning; without NAME.json it is "
             "taken to be. Panels without data are left out; what was drawn is printed. For NAME.csv, of a render without sound, only the forces. Of "
-            "several channels the first is drawn. Needs gnuplot.",
+            "several channels one is drawn. Needs gnuplot.",
     .operands = "NAME.wav|NAME.csv",
     .least = 1,
     .most = 1,

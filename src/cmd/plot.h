@@ -30,6 +30,8 @@ struct plot_page {
     const char *file, *title;
     double from, to;                  /* s; NAN: as long as the data                          */
     bool svg;
+    int channel;                      /* of the sound, from 1                                 */
+    int channels;                     /* that it has; 0: no sound                             */
     struct plot_sound *sound;         /* NULL: a render without sound                         */
     struct plot_table *tables;
     int n_tables;

@@ -51,15 +51,18 @@ static void sound_columns(struct plot_sound *o, const double *x, long first, lon
     o->rms = sqrt(squares / (double)(last - first));
 }
 
-/* The first channel: rasp writes the same on all. */
+/* One channel of the sound. */
 static bool sound_gather(struct plot_page *p, struct err *e)
 {
     struct plot_sound *o = ARENA_TAKE(p->arena, struct plot_sound, 1);
     struct wav w;
     if (!wav_read(p->file, p->arena, &w, e) || !span_set(p, (double)w.frames / w.rate, e))
         return false;
+    p->channels = w.channels;
+    if (p->channel > w.channels)
+        return err_set(e, ERR_USAGE, "--channel: %s has %d channel%s", p->file, w.channels, w.channels == 1 ? "" : "s");
     for (size_t i = 0; i < w.frames; i++)
-        w.x[i] = w.x[i * (size_t)w.channels];
+        w.x[i] = w.x[i * (size_t)w.channels + (size_t)p->channel - 1];
     long first = (long)floor(p->from * w.rate), last = (long)fmin(ceil(p->to * w.rate), (double)w.frames);
     o->rate = w.rate;
     o->n = last - first < PLOT_COLUMNS ? (int)(last - first) : PLOT_COLUMNS;

@@ -83,11 +83,12 @@ static void draw_waveform(const struct plot_page *p, struct gnuplot *g)
 {
     const struct plot_sound *o = p->sound;
     double most = o->peak > 0 ? 1.25 * o->peak : 1;
+    const char *which = p->channels > 1 ? arena_format(p->arena, "channel %d of %d, ", p->channel, p->channels) : "";
     fprintf(g->in, "set ylabel 'amplitude / full scale'\nset yrange [%.6g:%.6g]\n", -most, most);
     if (o->peak > 0)
-        fprintf(g->in, "set key title 'peak %.1f dBFS, rms %.1f dBFS'\n", decibel(o->peak), decibel(o->rms));
+        fprintf(g->in, "set key title '%speak %.1f dBFS, rms %.1f dBFS'\n", which, decibel(o->peak), decibel(o->rms));
     else
-        fputs("set key title 'silent'\n", g->in);
+        fprintf(g->in, "set key title '%ssilent'\n", which);
     fputs("plot $sound using 1:2:3 with filledcurves fillcolor rgb '#0072b2' notitle, "
           "'' using 1:2 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle, "
           "'' using 1:3 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle\n"

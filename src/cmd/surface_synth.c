@@ -7,11 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cmd/recipe.h"
 #include "cmd/surface.h"
-#include "file/bytes.h"
 #include "file/heightfile_write.h"
 #include "pipeline/stages.h"
-#include "scene/scene_read.h"
 #include "scene/units.h"
 #include "surface/relief.h"
 
@@ -64,55 +63,11 @@ static bool read_along(struct synth *s, struct err *e)
            err_set(e, ERR_SCENE, "a surface along %s is a profile: give --size one length, or --along plane", words[s->along]);
 }
 
-/* Does the text have the key of scenes, rasp, or include one? */
-static bool is_scene(const char *text)
-{
-    for (const char *line = text; line; line = strchr(line, '\n')) {
-        line += *line == '\n';
-        if (!strncmp(line, "rasp:", 5) || !strncmp(line, "include:", 8))
-            return true;
-    }
-    return false;
-}
-
-/* A double-quoted YAML string. */
-static const char *quoted(struct arena *a, const char *text)
-{
-    char *out = arena_take(a, 2 * strlen(text) + 3, 1), *p = out;
-    *p++ = '"';
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            *p++ = '\\';
-        *p++ = *text;
-    }
-    *p = '"';
-    return out;
-}
-
-static bool read_recipe(struct synth *s, const char *file, struct err *e)
-{
-    struct arena *a = s->c->arena;
-    int n;
-    const char **set = args_values(&s->c->args, "set", &n), *seed = args_value(&s->c->args, "seed"), *messages = "";
-    const char **all = ARENA_TAKE(a, const char *, n + 1);
-    memcpy(all, set, (size_t)n * sizeof *set);
-    if (seed)
-        all[n++] = arena_format(a, "seed=%s", seed);
-    const char *text = arena_format(a, "rasp: 1\nsurface: {recipe: %s}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], speed: 1 cm/s}\n"
-                                    "output: {diagnostics: {rate: 1 kHz}}\n",
-                                    quoted(a, file));
-    struct err cause = {0};
-    if (scene_read_text(text, strlen(text), "synth.yaml", &(struct scene_overrides){.set = all, .n = n}, a, &s->scene, &messages, &cause))
-        return true;
-    fputs(messages, stderr);
-    return err_set(e, cause.kind, "%s is not a valid recipe", file);
-}
-
 static bool read_surface(struct synth *s, struct err *e)
 {
     const char *file = s->c->args.operands[0];
-    struct bytes b;
-    if (!bytes_read(file, s->c->arena, &b, e) || !(is_scene(b.at) ? cmd_read_scene(s->c, file, &s->scene, e) : read_recipe(s, file, e)))
+    const char *rest = "scraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], speed: 1 cm/s}\noutput: {diagnostics: {rate: 1 kHz}}\n";
+    if (!recipe_read(s->c, file, rest, &s->scene, e))
         return false;
     const struct surface *u = &s->scene.contacts[0].surface;
     if (s->scene.n_contacts > 1)

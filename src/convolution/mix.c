@@ -1,18 +1,20 @@
-/* Total response: the surface's sound and the scraper's (papers/000 section 2.4), times the contact's gain. */
+/* Total response: the surface's sound and the scraper's (papers/000 section 2.4), times the contact's gain, at each listening place. */
 #include <string.h>
 
+#include "response/listener.h"
+#include "scene/rules.h"
 #include "stage.h"
 
 static bool mix_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0);
+    return rules_rings(c);
 }
 
 static double mix_work(const struct contact *c, const struct scene *s)
 {
-    (void)c, (void)s;
-    return 3;
+    (void)c;
+    return 3 * listener_channels(&s->output);
 }
 
 static bool mix_open(struct stage_run *r, struct err *e)
@@ -27,10 +29,11 @@ static bool mix_run(struct stage_run *r, long from, long to, struct err *e)
     double *y = board_at(b, ITEM_SOUND, from), gain = r->contact->gain;
     const enum item parts[] = {ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND};
     (void)e;
-    memset(y, 0, (size_t)(to - from) * sizeof *y);
+    long count = (to - from) * b->channels;
+    memset(y, 0, (size_t)count * sizeof *y);
     for (int k = 0; k < 2; k++) {
         const double *x = board_has(b, parts[k]) ? board_at(b, parts[k], from) : NULL;
-        for (long n = 0; x && n < to - from; n++)
+        for (long n = 0; x && n < count; n++)
             y[n] += gain * x[n];
     }
     return true;

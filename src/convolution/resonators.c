@@ -1,13 +1,13 @@
-/* A bank of modes driven by a force whose place moves: the exact realisation of papers/000 eq. 10 and 13 when the object's poles do
-   not depend on the place and every force sample is launched with the gain of its own place (`fixed` in rasp-scene(5)).
+/* A bank of modes driven by a force whose place moves: one exact recursion per mode (papers/000 eq. 10 and 13).
 
    Mode i rings as h_i(t) = Im(A_i e^(s_i t)), A_i = gain e^(j phase), s_i = -decay + j 2 pi f. With p_i = e^(s_i/rate),
 
-       z_i <- p_i z_i + A_i(n) f(n) / rate
-       y(n) = sum_i Im z_i - f(n) sum_i Im A_i(n) / (2 rate) + f(n) D(n)
+       z_i(n) = p_i(n) z_i(n-1) + A_i(n) f(n) / rate
+       y(n) = sum_i Im z_i(n) - f(n) sum_i Im A_i(n) / (2 rate) + f(n) D(n)
 
-   which is y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m) with half of h(0+) at m = n (trapezium rule at the jump), to
-   rounding. D = sum_i Im(A_i/s_i) is the direct term of a table in acceleration and 0 otherwise (modes_direct).
+   Poles that do not move (`fixed` of rasp-scene(5)): y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m) with half of h(0+) at m = n
+   (trapezium rule at the jump), to rounding. Poles that do (`glide`): the recursion is the definition, with p and A of the place x(n).
+   D = sum_i Im(A_i/s_i) is the direct term of a table in acceleration and 0 otherwise (modes_direct).
 
    symbol  meaning                               unit
    A       complex gain at the contact           table's quantity per N s
@@ -15,16 +15,19 @@
    z       state of a mode                       table's quantity
    y       sound                                 table's quantity
 
-   Gains. In a call of n frames, sample i (0 .. n-1) uses last + (i+1) (new - last)/n, summed up step by step; after the call the
-   gain is `new` exactly. Against gains evaluated at every sample the error is of order n^2. A call whose gains do not change runs
-   through the same arithmetic, so that then the output does not depend on how the frames are cut into calls.
-   Stability: |z| never grows by more than |A f|/rate, whatever the gains do (|p| < 1; |p| = 1 for a mode without decay).
+   Between evaluations. In a call of n frames, sample i (0 .. n-1) uses last + (i+1) (new - last)/n, for gains and for discrete poles,
+   summed up step by step; after the call both are `new` exactly. Against gains and poles of every sample the error is of order n^2. A chord
+   of the unit circle lies inside it: a pole whose angle changes by dtheta within a call is damped by dtheta^2 (1 - 1/n^2)/12 nepers per sample
+   more, and by nothing when poles are given for every sample (n = 1). A call in which nothing changes runs through the same arithmetic,
+   so that then the output does not depend on how the frames are cut into calls.
+   Stability: |z| never grows by more than |A f|/rate, whatever gains and poles do, for a chord of the unit disk stays in it (|p| < 1;
+   |p| = 1 for a mode without decay). A direct-form biquad under the same modulation blows up (test_glide.c).
    Silence: after each call, states of less than 1e-200 in both parts become zero, and a group of eight modes that are zero and get
    no force costs nothing; nothing becomes subnormal on the way unless a mode falls by 1e-107 within one call.
 
-   Speed: eight modes are the lanes of a group (6 multiplications and 7 additions per mode-sample, which is what bounds it), four
-   samples are done before a group's state goes back to memory; tests/bench/resonators.c measures it. Sums run over the groups in
-   order and then over the lanes in one fixed tree, so the bits are the same on every instruction set. */
+   Speed: eight modes are the lanes of a group (6 multiplications and 7 additions per mode-sample, which is what bounds it; poles that
+   move take 2 additions more), four samples are done before a group's state goes back to memory; tests/bench/resonators.c measures it.
+   Sums run over the groups in order and then over the lanes in one fixed tree, so the bits are the same on every instruction set. */
 #include "convolution/resonators.h"
 
 #include <math.h>
@@ -33,40 +36,59 @@
 
 #include "num/lanes.h"
 #include "num/real.h"
+#include "num/vecmath.h"
+
+#define INLINE static inline __attribute__((always_inline))
 
 enum { SPAN = 4, PIECE_MIN = 64, PIECE_MAX = 256 }; /* samples per visit to a group; frames whose lane sums are kept at a time */
 
 struct group {
     _Alignas(64) double zr[LANES];
     double zi[LANES], pr[LANES], pi[LANES];
-    double gr[LANES], gi[LANES]; /* gains / rate                          */
-    double tr[LANES], ti[LANES]; /* their targets                         */
-    double sr[LANES], si[LANES]; /* their steps per sample                */
-    int awake;                   /* a state is not zero                   */
+    double gr[LANES], gi[LANES];         /* gains / rate                          */
+    double sr[LANES], si[LANES];         /* their steps per sample                */
+    double tr[LANES], ti[LANES];         /* their targets                         */
+    double psr[LANES], psi[LANES];       /* steps and targets of poles that move  */
+    double ptr[LANES], pti[LANES];
+    int awake;                           /* a state is not zero                   */
 };
 
 struct resonators {
-    const struct modes *modes;
-    int groups, n_active, piece;
-    double per_rate;
+    int n, quantity, groups, n_active, piece;
+    bool glides;
+    double rate, per_rate;
     double through, through_target, through_step; /* y(n) gets through * f(n) */
+    const double *frequency, *decay;              /* [n] of the start         */
+    double *size, *turn, *rise;                   /* [n] room for the evaluation of poles */
     struct group *group, **active;
     double (*sums)[LANES];
 };
 
-struct resonators *resonators_make(struct arena *a, const struct modes *m, double rate, int ramp)
+static const double *copy(struct arena *a, const double *x, int n)
+{
+    double *own = ARENA_TAKE(a, double, n + 1);
+    for (int i = 0; i < n; i++)
+        own[i] = x[i];
+    return own;
+}
+
+struct resonators *resonators_make(struct arena *a, const struct resonators_ask *ask)
 {
     struct resonators *r = ARENA_TAKE(a, struct resonators, 1);
-    r->modes = m;
-    r->groups = (m->n + LANES - 1) / LANES;
-    r->per_rate = 1.0 / rate;
+    *r = (struct resonators){.n = ask->n, .quantity = ask->quantity, .glides = ask->glides, .rate = ask->rate, .per_rate = 1.0 / ask->rate};
+    r->groups = (r->n + LANES - 1) / LANES;
     r->group = ARENA_TAKE(a, struct group, r->groups + 1);
     r->active = ARENA_TAKE(a, struct group *, r->groups + 1);
-    r->piece = ramp < PIECE_MIN ? PIECE_MIN : ramp < PIECE_MAX ? ramp : PIECE_MAX;
+    r->piece = ask->ramp < PIECE_MIN ? PIECE_MIN : ask->ramp < PIECE_MAX ? ask->ramp : PIECE_MAX;
     r->sums = arena_take(a, (size_t)r->piece, sizeof *r->sums);
-    for (int i = 0; i < m->n; i++) {
+    r->frequency = copy(a, ask->frequency, r->n);
+    r->decay = copy(a, ask->decay, r->n);
+    r->size = ARENA_TAKE(a, double, r->n + 1);
+    r->turn = ARENA_TAKE(a, double, r->n + 1);
+    r->rise = ARENA_TAKE(a, double, r->n + 1);
+    for (int i = 0; i < r->n; i++) {
         struct group *g = &r->group[i / LANES];
-        double size = real_exp(-m->decay[i] / rate), turn = 2.0 * m->frequency[i] / rate;
+        double size = real_exp(-ask->decay[i] / ask->rate), turn = 2.0 * ask->frequency[i] / ask->rate;
         g->pr[i % LANES] = size * real_cospi(turn);
         g->pi[i % LANES] = size * real_sinpi(turn);
     }
@@ -79,20 +101,40 @@ static double lanes_sum(const double *s)
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
 
-static void set_targets(struct resonators *r, const double *gain_re, const double *gain_im)
+/* Targets of poles that move: e^(-decay/rate) e^(j 2 pi f/rate). */
+static void set_poles(struct resonators *r, const struct modes_point *to)
+{
+    size_t n = (size_t)r->n;
+    for (size_t i = 0; i < n; i++) {
+        r->size[i] = -to->decay[i] / r->rate;
+        r->turn[i] = 2.0 * to->frequency[i] / r->rate;
+    }
+    vecmath_exp(n, r->size, r->size);
+    vecmath_sincospi(n, r->turn, r->rise, r->turn);
+    for (size_t i = 0; i < n; i++) {
+        struct group *g = &r->group[i / LANES];
+        g->ptr[i % LANES] = r->size[i] * r->turn[i];
+        g->pti[i % LANES] = r->size[i] * r->rise[i];
+    }
+}
+
+static void set_targets(struct resonators *r, const struct modes_point *to)
 {
     double half[LANES] = {0};
-    int n = r->modes->n;
     for (int k = 0; k < r->groups; k++) {
         struct group *g = &r->group[k];
-        int used = n - k * LANES < LANES ? n - k * LANES : LANES;
+        int used = r->n - k * LANES < LANES ? r->n - k * LANES : LANES;
         for (int l = 0; l < used; l++) {
-            g->tr[l] = gain_re[k * LANES + l] * r->per_rate;
-            g->ti[l] = gain_im[k * LANES + l] * r->per_rate;
+            g->tr[l] = to->re[k * LANES + l] * r->per_rate;
+            g->ti[l] = to->im[k * LANES + l] * r->per_rate;
             half[l] += 0.5 * g->ti[l];
         }
     }
-    r->through_target = modes_direct(r->modes, gain_re, gain_im) - lanes_sum(half);
+    if (r->glides)
+        set_poles(r, to);
+    r->through_target = -lanes_sum(half);
+    if (r->n)
+        r->through_target += modes_direct(r->quantity, r->n, r->glides ? to->frequency : r->frequency, r->glides ? to->decay : r->decay, to);
 }
 
 static void set_steps(struct resonators *r, int frames)
@@ -104,6 +146,10 @@ static void set_steps(struct resonators *r, int frames)
             g->sr[l] = (g->tr[l] - g->gr[l]) * share;
             g->si[l] = (g->ti[l] - g->gi[l]) * share;
         }
+        for (int l = 0; l < LANES && r->glides; l++) {
+            g->psr[l] = (g->ptr[l] - g->pr[l]) * share;
+            g->psi[l] = (g->pti[l] - g->pi[l]) * share;
+        }
     }
     r->through_step = (r->through_target - r->through) * share;
 }
@@ -114,47 +160,63 @@ static void arrive(struct resonators *r)
         struct group *g = &r->group[k];
         memcpy(g->gr, g->tr, sizeof g->gr);
         memcpy(g->gi, g->ti, sizeof g->gi);
+        if (r->glides) {
+            memcpy(g->pr, g->ptr, sizeof g->pr);
+            memcpy(g->pi, g->pti, sizeof g->pi);
+        }
     }
     r->through = r->through_target;
 }
 
-void resonators_set_gains(struct resonators *r, const double *gain_re, const double *gain_im)
+void resonators_set(struct resonators *r, const struct modes_point *at)
 {
-    set_targets(r, gain_re, gain_im);
+    set_targets(r, at);
     arrive(r);
 }
 
-/* One sample of one mode, state in v: zr zi gr gi. */
+/* What changes of one mode in a sample, and how. */
 struct lane {
-    double zr, zi, gr, gi, pr, pi, sr, si;
+    double zr, zi, gr, gi, pr, pi, sr, si, psr, psi;
 };
 
-static inline __attribute__((always_inline)) double lane_step(struct lane *v, double f)
+INLINE double lane_step(struct lane *v, double f, bool glides)
 {
     v->gr += v->sr;
     v->gi += v->si;
+    if (glides) {
+        v->pr += v->psr;
+        v->pi += v->psi;
+    }
     double zr = v->pr * v->zr - (v->pi * v->zi - v->gr * f);
     v->zi = v->pr * v->zi + (v->pi * v->zr + v->gi * f);
     v->zr = zr;
     return v->zi;
 }
 
-static inline __attribute__((always_inline)) struct lane lane_take(const struct group *g, int l)
+INLINE struct lane lane_take(const struct group *g, int l, bool glides)
 {
-    return (struct lane){g->zr[l], g->zi[l], g->gr[l], g->gi[l], g->pr[l], g->pi[l], g->sr[l], g->si[l]};
+    struct lane v = {g->zr[l], g->zi[l], g->gr[l], g->gi[l], g->pr[l], g->pi[l], g->sr[l], g->si[l], 0, 0};
+    if (glides) {
+        v.psr = g->psr[l];
+        v.psi = g->psi[l];
+    }
+    return v;
 }
 
-static inline __attribute__((always_inline)) void lane_keep(struct group *g, int l, const struct lane *v)
+INLINE void lane_keep(struct group *g, int l, const struct lane *v, bool glides)
 {
     g->zr[l] = v->zr;
     g->zi[l] = v->zi;
     g->gr[l] = v->gr;
     g->gi[l] = v->gi;
+    if (glides) {
+        g->pr[l] = v->pr;
+        g->pi[l] = v->pi;
+    }
 }
 
 /* Adds the lanes' Im z of `n` samples to sums[n][LANES]. */
-LANES_CLONES
-static void ring(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
+INLINE void ring_all(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n, bool glides)
 {
     int i = 0;
     for (; i + SPAN <= n; i += SPAN)
@@ -162,12 +224,12 @@ static void ring(struct group *const *active, int n_active, const double *restri
             struct group *restrict g = active[k];
 #pragma omp simd
             for (int l = 0; l < LANES; l++) {
-                struct lane v = lane_take(g, l);
-                sums[i][l] += lane_step(&v, f[i]);
-                sums[i + 1][l] += lane_step(&v, f[i + 1]);
-                sums[i + 2][l] += lane_step(&v, f[i + 2]);
-                sums[i + 3][l] += lane_step(&v, f[i + 3]);
-                lane_keep(g, l, &v);
+                struct lane v = lane_take(g, l, glides);
+                sums[i][l] += lane_step(&v, f[i], glides);
+                sums[i + 1][l] += lane_step(&v, f[i + 1], glides);
+                sums[i + 2][l] += lane_step(&v, f[i + 2], glides);
+                sums[i + 3][l] += lane_step(&v, f[i + 3], glides);
+                lane_keep(g, l, &v, glides);
             }
         }
     for (; i < n; i++)
@@ -175,11 +237,23 @@ static void ring(struct group *const *active, int n_active, const double *restri
             struct group *restrict g = active[k];
 #pragma omp simd
             for (int l = 0; l < LANES; l++) {
-                struct lane v = lane_take(g, l);
-                sums[i][l] += lane_step(&v, f[i]);
-                lane_keep(g, l, &v);
+                struct lane v = lane_take(g, l, glides);
+                sums[i][l] += lane_step(&v, f[i], glides);
+                lane_keep(g, l, &v, glides);
             }
         }
+}
+
+LANES_CLONES
+static void ring(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
+{
+    ring_all(active, n_active, f, sums, n, false);
+}
+
+LANES_CLONES
+static void ring_gliding(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
+{
+    ring_all(active, n_active, f, sums, n, true);
 }
 
 static bool all_zero(const double *x, int n)
@@ -216,17 +290,17 @@ static void flush(struct resonators *r)
     }
 }
 
-void resonators_run(struct resonators *r, const double *f, double *y, int frames, const double *gain_re, const double *gain_im)
+void resonators_run(struct resonators *r, const double *f, double *y, int frames, const struct modes_point *to)
 {
     if (frames < 1)
         return;
-    set_targets(r, gain_re, gain_im);
+    set_targets(r, to);
     set_steps(r, frames);
     find_active(r, !all_zero(f, frames));
     for (int done = 0; done < frames && r->n_active;) {
         int n = frames - done < r->piece ? frames - done : r->piece;
         memset(r->sums, 0, (size_t)n * sizeof *r->sums);
-        ring(r->active, r->n_active, f + done, r->sums, n);
+        (r->glides ? ring_gliding : ring)(r->active, r->n_active, f + done, r->sums, n);
         for (int i = 0; i < n; i++) {
             r->through += r->through_step;
             y[done + i] += lanes_sum(r->sums[i]) + r->through * f[done + i];

@@ -1,4 +1,5 @@
-/* One exact recursion per mode: z <- p z + a f, y = Im z (papers/000 eq. 10, 13 with the force sample launched at its own place).
+/* One exact recursion per mode: z <- p z + a f, y = Im z (papers/000 eq. 10, 13). Poles that do not move are `fixed` of rasp-scene(5) (every force
+   sample is launched with the gain of its own place), poles that do are `glide` (all that rings is retuned).
    See resonators.c for the formula, its discrete convention and its cost. */
 #ifndef CONVOLUTION_RESONATORS_H
 #define CONVOLUTION_RESONATORS_H
@@ -7,17 +8,25 @@
 
 struct resonators;
 
-/* Bank for the modes (all of them, as they are then; every one below rate/2) at that sample rate; state and gains zero. `ramp`: samples
-   per call, for which work space is kept; calls may be of any length. `m` must outlive the bank. */
-struct resonators *resonators_make(struct arena *a, const struct modes *m, double rate, int ramp);
+struct resonators_ask {
+    int n, quantity;                 /* components; enum modes_quantity                               */
+    double rate;                     /* Hz                                                            */
+    const double *frequency, *decay; /* [n] poles at the start, every one below rate/2; 0 Hz is allowed */
+    bool glides;                     /* resonators_run and _set get poles too                         */
+    int ramp;                        /* samples per call, for which work space is kept; calls may be of any length */
+};
 
-/* Adds to y[frames] the response to f[frames] newtons, while the complex gains go linearly, sample by sample, from those last given
-   (zero before any, see resonators_set_gains) to gain[n] at the end of the frames. A sample uses the gain at its own instant.
-   y is in the table's quantity: y[n] = (1/rate) sum_m h(n-m) f[m], half of h(0+) at n = m. */
-void resonators_run(struct resonators *r, const double *f, double *y, int frames, const double *gain_re, const double *gain_im);
+/* State and gains zero. */
+struct resonators *resonators_make(struct arena *a, const struct resonators_ask *ask);
 
-/* Sets the gains at once (a start, or a contact that does not move). */
-void resonators_set_gains(struct resonators *r, const double *gain_re, const double *gain_im);
+/* Adds to y[frames] the response to f[frames] newtons, while the complex gains (of a bank that glides, the discrete poles e^(s/rate) too) go linearly,
+   sample by sample, from those last given (zero before any, see resonators_set) to `to` at the end of the frames. A sample uses the gain
+   and pole at its own instant. y is in the gains' quantity: y[n] = (1/rate) sum_m h(n-m) f[m],
+   half of h(0+) at n = m. */
+void resonators_run(struct resonators *r, const double *f, double *y, int frames, const struct modes_point *to);
+
+/* Sets gains (and poles) at once: a start, or a contact that does not move. */
+void resonators_set(struct resonators *r, const struct modes_point *at);
 
 /* True when every state is exactly zero (they are flushed below 1e-200). */
 int resonators_silent(const struct resonators *r);

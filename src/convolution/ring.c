@@ -1,56 +1,91 @@
-/* Total response: surface + eta x scraper (papers/000 section 2.4: the scraper's response is "weighted by eta"; its equation 11 omits it). */
+/* Total response: surface + eta x scraper (papers/000 section 2.4: the scraper's response is "weighted by eta"; its equation 11 omits it), heard at
+   each listening place. */
 #include "convolution/ring.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "response/object.h"
 #include "scene/rules.h"
 #include "trajectory/trajectory.h"
+
+/* ------------------------------------------------------------------ voices */
 
 static const struct response *ring_given(const struct contact *c, enum ring_body body)
 {
     return body == RING_SURFACE ? &c->surface.response : &c->scraper.response;
 }
 
-bool ring_is_table(const struct response *given)
+/* A surface's object heard at other places of it than the one that is touched has modes of its own for each (ask->listen is then set). */
+static const struct modes *voice_modes(const struct ring *g, struct stage_run *r, struct listener_ask *ask)
 {
-    return rules_is_table(given);
+    const struct modes *m = &g->choice->modes;
+    double *place = ARENA_TAKE(r->arena, double, 2);
+    if (g->body != RING_SURFACE || !m->object || !listener_place(ask, m->object, r->arena, place))
+        return m;
+    struct modes *own = ARENA_TAKE(r->arena, struct modes, 1);
+    object_modes(m->object, ask->origin, place, m->object->n, r->arena, own);
+    modes_drop_above(own, r->board->rate);
+    ask->listen = place;
+    return own;
 }
 
-bool ring_wanted(const struct contact *c, enum ring_body body, int engine)
+static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct err *e)
 {
-    const struct response *given = ring_given(c, body);
-    if (!given->file || (body == RING_SCRAPER && c->scraper.weight == 0))
-        return false;
-    int chosen = given->convolution;
-    if (chosen == ENGINE_AUTO)
-        chosen = ring_is_table(given) && isnan(given->length) ? ENGINE_RESONATORS : ENGINE_OVERLAP_ADD;
-    return chosen == engine;
-}
-
-struct ring ring_make(const struct stage_run *r, enum ring_body body)
-{
-    bool surface = body == RING_SURFACE;
-    return (struct ring){.body = body, .given = ring_given(r->contact, body), .key = surface ? "surface" : "scraper",
-                         .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight};
-}
-
-static bool ring_same_quantity(const struct ring *g, struct board *b, struct err *e)
-{
-    static const char *const names[] = {"displacement", "velocity", "acceleration"};
-    if (b->quantity >= 0 && b->quantity != g->modes.quantity)
-        return err_set(e, ERR_SCENE,
-                       "%s: this mode table gives %s, but the surface's gives %s: they cannot be summed; use tables of one quantity",
-                       g->given->file, names[g->modes.quantity], names[b->quantity]);
-    b->quantity = g->modes.quantity;
+    struct ring_voice *v = &g->voices[channel];
+    const double *origin = ring_given(r->contact, g->body)->object.origin;
+    struct listener_ask ask = {.output = &r->scene->output, .channel = channel, .origin = origin, .rate = r->board->rate};
+    v->modes = voice_modes(g, r, &ask);
+    if (!(v->listener = listener_make(r->arena, &ask, v->modes, e)))
+        return err_at(e, "contact '%s': %s", r->contact->name, g->key);
+    v->n = v->modes->n + listener_extra(v->listener);
+    v->delay = listener_delay(v->listener);
+    v->frequency = ARENA_TAKE(r->arena, double, v->n);
+    v->decay = ARENA_TAKE(r->arena, double, v->n);
+    v->end = modes_point_make(r->arena, v->n);
+    memcpy(v->frequency, v->modes->frequency, (size_t)v->modes->n * sizeof *v->frequency);
+    memcpy(v->decay, v->modes->decay, (size_t)v->modes->n * sizeof *v->decay);
+    listener_poles(v->listener, v->frequency + v->modes->n, v->decay + v->modes->n);
+    g->delay = v->delay > g->delay ? v->delay : g->delay;
     return true;
 }
 
+/* ------------------------------------------------------------------ what the board is told */
+
+/* All that is summed is of one quantity; what is recorded does not say its own, and goes with any. */
+static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
+{
+    static const char *const names[] = {"displacement", "velocity", "acceleration", "sound pressure"};
+    int quantity = listener_quantity(g->voices[0].listener);
+    if (b->quantity >= 0 && b->quantity != quantity)
+        return err_set(e, ERR_SCENE,
+                       "%s: this response gives %s, but the surface's gives %s: they cannot be summed; use tables of one quantity, or choose one "
+                       "by output.quantity", g->choice->modes.name, names[quantity], names[b->quantity]);
+    b->quantity = quantity;
+    return true;
+}
+
+static void note_ring(const struct ring *g, const struct response *given, struct board *b)
+{
+    double ring = modes_ring_time(&g->choice->modes, 80) + (double)g->delay / b->rate;
+    b->ring = fmax(b->ring, isnan(given->length) ? ring : fmin(ring, given->length));
+}
+
+static void note_warnings(const struct ring *g, struct stage_run *r)
+{
+    if (g->choice->note)
+        board_warn(r->board, g->choice->note);
+    if (g->choice->high)
+        board_warn(r->board, arena_format(r->arena, "%s: %d of its strongest modes lie above 0.499 times the sample rate and do not ring",
+                                          g->choice->modes.name, g->choice->high));
+}
+
+/* ------------------------------------------------------------------ inside the places' hull? */
+
 static bool ring_beyond(const struct ring *g, const struct stage_run *r, const double place[2], double out, struct err *e)
 {
-    return err_set(e, ERR_SCENE,
-                   "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s (%g to %g m along their line); "
-                   "move it, or set surface.extrapolate: nearest",
-                   r->contact->name, place[0], place[1], out, g->given->file, g->modes.along[0], g->modes.along[g->modes.places - 1]);
+    return err_set(e, ERR_SCENE, "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: "
+                                 "nearest", r->contact->name, place[0], place[1], out, g->choice->modes.name);
 }
 
 /* The places' hull is convex. A straight motion is inside when its ends are; of a curved one as many instants are looked at as show all of
@@ -58,7 +93,8 @@ static bool ring_beyond(const struct ring *g, const struct stage_run *r, const d
 static bool ring_inside(const struct ring *g, const struct stage_run *r, struct err *e)
 {
     const struct trajectory *tr = r->board->trajectory;
-    double *re = ARENA_TAKE(r->arena, double, g->modes.n), *im = ARENA_TAKE(r->arena, double, g->modes.n);
+    const struct modes *m = &g->choice->modes;
+    struct modes_point point = modes_point_make(r->arena, m->n);
     long steps = tr->straight ? 1 : tr->detail;
     for (long i = 0; i <= steps; i++) {
         double t = tr->duration * (double)i / (double)steps, p[2];
@@ -67,40 +103,102 @@ static bool ring_inside(const struct ring *g, const struct stage_run *r, struct 
                 p[xy] = tr->from[xy] + tr->reach[i] * tr->e[xy];
         else
             trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
-        double out = modes_gains_at(&g->modes, p[0], p[1], re, im);
+        double out = modes_at(m, &(struct modes_where){p[0], p[1], 0}, &point);
         if (out > 1e-9)
             return ring_beyond(g, r, p, out, e);
     }
     return true;
 }
 
-bool ring_read_modes(struct ring *g, struct stage_run *r, struct err *e)
+bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e)
 {
-    if (!modes_read(g->given->file, g->given->modes, r->arena, &g->modes, e))
-        return false;
-    int high = modes_drop_above(&g->modes, r->board->rate);
-    if (g->modes.n == 0)
-        return err_set(e, ERR_SCENE, "%s: all of its modes lie above %.6g Hz (0.499 times output.sample_rate), and nothing would ring: raise "
-                                     "output.sample_rate, or check that frequency_hz is in Hz",
-                       g->given->file, 0.499 * r->board->rate);
-    if (high)
-        board_warn(r->board, arena_format(r->arena, "%s: %d of its strongest modes lie above 0.499 times the sample rate and do not ring",
-                                          g->given->file, high));
-    g->moves = g->body == RING_SURFACE && g->modes.places > 1;
-    return ring_same_quantity(g, r->board, e) && (!g->moves || g->given->extrapolate != EXTRAPOLATE_ERROR || ring_inside(g, r, e));
+    bool surface = body == RING_SURFACE;
+    const struct response *given = ring_given(r->contact, body);
+    *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .key = surface ? "surface" : "scraper",
+                       .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight,
+                       .moves = given->choice->moves,
+                       .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT, .channels = r->board->channels};
+    g->voices = ARENA_TAKE(r->arena, struct ring_voice, g->channels);
+    g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
+    if (g->choice->recorded)
+        return true;
+    for (int k = 0; k < g->channels; k++)
+        if (!voice_open(g, r, k, e))
+            return false;
+    note_ring(g, given, r->board);
+    note_warnings(g, r);
+    r->back = (int)g->delay;
+    return note_quantity(g, r->board, e) && (!surface || given->extrapolate != EXTRAPOLATE_ERROR || ring_inside(g, r, e));
 }
 
-void ring_gains_at(const struct ring *g, const struct board *b, double t, double *re, double *im)
+/* ------------------------------------------------------------------ a voice at work */
+
+/* Where the contact is at t (s), by its motion's own formula before its start and after its end. */
+static struct modes_where where_at(const struct ring *g, double t)
 {
-    double place[2] = {0, 0};
-    if (g->body == RING_SURFACE) {
-        if (g->moves)
-            trajectory_continued(b->trajectory, t, place);
-        modes_gains_at(&g->modes, place[0], place[1], re, im); /* of one place: its gains, wherever the contact is */
+    const struct trajectory *tr = g->board->trajectory;
+    double share = tr->duration > 0 ? t / tr->duration : 0, place[2];
+    trajectory_continued(tr, t, place);
+    return (struct modes_where){place[0], place[1], share};
+}
+
+void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where, const struct modes_point *p)
+{
+    modes_at(v->modes, where, &(struct modes_point){v->frequency, v->decay, p->re, p->im});
+    listener_apply(v->listener, v->frequency, v->decay, &(struct modes_point){NULL, NULL, p->re, p->im});
+    for (int i = 0; g->weight != 1 && i < v->n; i++) {
+        p->re[i] *= g->weight;
+        p->im[i] *= g->weight;
+    }
+    if (p->frequency) {
+        memcpy(p->frequency, v->frequency, (size_t)v->n * sizeof *p->frequency);
+        memcpy(p->decay, v->decay, (size_t)v->n * sizeof *p->decay);
+    }
+}
+
+/* p <- end^2 / p: what goes on straight in the logarithm beyond the motion's end, where p is as far inside. */
+static void reflect(const struct ring_voice *v, const struct modes_point *end, const struct modes_point *p)
+{
+    for (int i = 0; i < v->n; i++) {
+        double re = end->re[i], im = end->im[i], square = p->re[i] * p->re[i] + p->im[i] * p->im[i], to = re * re + im * im;
+        double lean = re * p->re[i] + im * p->im[i], turn = im * p->re[i] - re * p->im[i]; /* end / p = (lean + j turn) / square */
+        bool steady = square > 1e-6 * to && lean > 0;
+        p->re[i] = steady ? (re * lean - im * turn) / square : 2 * re - p->re[i];
+        p->im[i] = steady ? (re * turn + im * lean) / square : 2 * im - p->im[i];
+        if (p->frequency) {
+            p->frequency[i] = p->frequency[i] > 0 ? end->frequency[i] * end->frequency[i] / p->frequency[i] : 0;
+            p->decay[i] = p->decay[i] > 0 ? end->decay[i] * end->decay[i] / p->decay[i] : 0;
+        }
+    }
+}
+
+void ring_point_at(const struct ring *g, const struct ring_voice *v, double frame, const struct modes_point *p)
+{
+    struct modes_where where = {v->modes->home[0], v->modes->home[1], 0};
+    double last = g->board->trajectory->duration, t = (frame - (double)v->delay) / g->board->rate, end = t < 0 ? 0 : last;
+    if (g->stays)
+        t = fmin(fmax(t, 0), last);
+    if (g->body == RING_SURFACE && g->moves && (t < 0 || t > last)) {
+        struct modes_where inside = where_at(g, fmin(fmax(2 * end - t, 0), last));
+        where = where_at(g, end);
+        ring_point_in(g, v, &where, &v->end);
+        ring_point_in(g, v, &inside, p);
+        reflect(v, &v->end, p);
         return;
     }
-    for (int i = 0; i < g->modes.n; i++) {
-        re[i] = g->weight * g->modes.gain_re[i];
-        im[i] = g->weight * g->modes.gain_im[i];
-    }
+    if (g->body == RING_SURFACE)
+        where = where_at(g, g->moves ? t : 0);
+    ring_point_in(g, v, &where, p);
+}
+
+void ring_put(const struct ring *g, int channel, long from, long to)
+{
+    double *out = board_at(g->board, g->out, from) + channel;
+    for (long n = 0; n < to - from; n++)
+        out[n * g->channels] = g->y[n];
+}
+
+const double *ring_force(const struct ring *g, const struct ring_voice *v, long from)
+{
+    return board_at(g->board, ITEM_FORCE, from - v->delay);
 }

@@ -1,34 +1,51 @@
-/* What the stages that make a body ring share: which body, its response file, and the gains where the contact is. */
+/* What the stages that make a body ring share: which body, what rings (response/modes.h), what is heard of it at each listening place
+   (response/listener.h), and the gains and poles where the contact is. */
 #ifndef CONVOLUTION_RING_H
 #define CONVOLUTION_RING_H
+#include "convolution/ring_choice.h"
+#include "response/listener.h"
 #include "response/modes.h"
 #include "stage.h"
 
-enum ring_body { RING_SURFACE, RING_SCRAPER };
+struct ring_voice {             /* one listening place */
+    const struct modes *modes;
+    struct listener *listener;
+    int n;                      /* components: the modes' and the listener's own */
+    long delay;                 /* frames by which it is heard later */
+    double *frequency, *decay;  /* [n] poles; those at the last place asked for, when they move */
+    struct modes_point end;     /* work space */
+};
 
 struct ring {
     enum ring_body body;
-    const struct response *given;
-    const char *key;         /* "surface" or "scraper", for messages */
+    const struct ring_choice *choice;
+    const struct board *board;
+    const char *key;            /* "surface" or "scraper", for messages */
     enum item out;
-    double weight;           /* eta for the scraper, 1 for the surface */
-    bool moves;              /* the gains follow the contact */
-    struct modes modes;
+    double weight;              /* eta for the scraper, 1 for the surface */
+    bool moves;                 /* gains or poles change on the way */
+    bool stays;                 /* after the motion's end what rings is still retuned or read at a place: the end */
+    int channels;
+    struct ring_voice *voices;  /* [channels] */
+    long delay;                 /* frames, the largest of the voices' */
+    double *y;                  /* [STAGE_BLOCK] one voice's sound */
 };
 
-/* Does that body ring in this scene, and by which engine (enum engine, never auto)? */
-bool ring_wanted(const struct contact *c, enum ring_body body, int engine);
+/* Makes the voices, checks the places against the motion, notes quantity, ring time and warnings on the board, and sets r->back. */
+bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e);
 
-/* True for a mode table (.csv), false for an impulse response. */
-bool ring_is_table(const struct response *given);
+/* Gains (weight included) of the contact at frame `frame`, and poles into p->frequency and p->decay, unless they are NULL. p is [voice->n].
+   Before the motion's start and after its end, where there is no force, they go on straight in the logarithm (unless g->stays), so that
+   interpolation between frames keeps its order up to there. */
+void ring_point_at(const struct ring *g, const struct ring_voice *v, double frame, const struct modes_point *p);
 
-struct ring ring_make(const struct stage_run *r, enum ring_body body);
+/* The same at a place. */
+void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where, const struct modes_point *p);
 
-/* Reads the mode table: strongest modes below Nyquist, quantity noted on the board, places checked against the motion. */
-bool ring_read_modes(struct ring *g, struct stage_run *r, struct err *e);
+/* Writes the voice's sound from v's y into the item's channel, for frames [from, to). */
+void ring_put(const struct ring *g, int channel, long from, long to);
 
-/* Complex gains [modes.n], weight included, of the contact at time t (s after the contact's start); before its start and after its end of
-   where its motion would go on, so that interpolation keeps its order there. */
-void ring_gains_at(const struct ring *g, const struct board *b, double t, double *re, double *im);
+/* Force under the voice at a frame: its own delay back. */
+const double *ring_force(const struct ring *g, const struct ring_voice *v, long from);
 
 #endif

@@ -1,24 +1,31 @@
-/* The surface's and the scraper's responses by overlap-add (convolution/overlap_add.h): impulse responses from a WAV, which do not move,
-   or sampled from a mode table at nodes along the motion. A mode table without surface.response_length is kept until every mode has
-   decayed by 140 dB; with it the response is cut at t0 (papers/000 equation 10). */
+/* The surface's and the scraper's responses by fast convolution: an impulse response from a WAV, which does not move, or modes sampled at nodes along
+   the motion: overlap_add.h (every place launches its own response) or readout.h (all is heard through the present place's). Modes without
+   response_length are kept until every one has decayed by 140 dB; with it the response is cut at t0 (papers/000 equation 10). */
 #include <math.h>
 #include <string.h>
 
 #include "convolution/overlap_add.h"
+#include "convolution/readout.h"
 #include "convolution/ring.h"
 #include "response/ir.h"
 
-struct ring_overlap {
-    struct ring ring;
-    struct overlap_add *engine;
-    const struct board *board;
-    struct ir ir;               /* a WAV's */
-    struct ir_sampler *sampler; /* a mode table's */
-    double *re, *im;
-    int hop;
+struct overlap_voice {
+    const struct ring *ring;
+    const struct ring_voice *voice;
+    struct ir_sampler *sampler;
+    struct modes_point point;
+    struct overlap_add *launch; /* one of the two */
+    struct readout *readout;
 };
 
-static void ring_response_wav(void *self, long k, double *h, size_t length)
+struct ring_overlap {
+    struct ring ring;
+    struct ir ir;                 /* a WAV's */
+    struct overlap_voice *voices; /* [channels]; of a WAV one */
+    int n;
+};
+
+static void response_wav(void *self, long k, double *h, size_t length)
 {
     const struct ring_overlap *s = self;
     (void)k;
@@ -26,100 +33,119 @@ static void ring_response_wav(void *self, long k, double *h, size_t length)
         h[i] = s->ring.weight * s->ir.h[i];
 }
 
-static void ring_response_modes(void *self, long k, double *h, size_t length)
+static void response_modes(void *self, long k, double *h, size_t length)
 {
-    struct ring_overlap *s = self;
-    ring_gains_at(&s->ring, s->board, (double)(k * s->hop) / s->board->rate, s->re, s->im);
-    ir_sample(s->sampler, s->re, s->im, h, length);
+    struct overlap_voice *v = self;
+    ring_point_at(v->ring, v->voice, (double)k * v->ring->choice->hop, &v->point);
+    ir_sample(v->sampler, listener_quantity(v->voice->listener), &v->point, h, length);
 }
 
-static bool ring_open_wav(struct ring_overlap *s, struct stage_run *r, struct err *e)
+static bool open_wav(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)
 {
-    const struct response *given = s->ring.given;
     const char *dot = strrchr(given->file, '.');
     if (!ir_read(given->file, r->board->rate, given->length, r->arena, &s->ir, e))
-        return dot && strcmp(dot, ".wav") == 0 ? false : err_at(e, "a response is a mode table (NAME.csv) or a sound file");
-    double ring = (double)s->ir.length / r->board->rate;
+        return dot && strcmp(dot, ".wav") == 0 ? false : err_at(e, "a response is a mode table (NAME.csv), a sound file, or a folder of them");
+    if (s->ir.note)
+        board_warn(r->board, s->ir.note);
     r->board->unstated = true;
-    r->board->ring = fmax(r->board->ring, ring);
-    s->engine = overlap_add_open(s->ir.length, 0, 0, ring_response_wav, s);
+    r->board->ring = fmax(r->board->ring, (double)s->ir.length / r->board->rate);
+    s->voices = ARENA_TAKE(r->arena, struct overlap_voice, 1);
+    s->voices[0].launch = overlap_add_open(s->ir.length, 0, 0, response_wav, s);
+    s->n = 1;
     return true;
 }
 
-static bool ring_open_table(struct ring_overlap *s, struct stage_run *r, struct err *e)
+static void voice_open(struct ring_overlap *s, struct stage_run *r, int channel, size_t length)
 {
-    const struct accuracy *accuracy = &r->scene->accuracy;
-    double rate = r->board->rate, length = s->ring.given->length;
-    if (!ring_read_modes(&s->ring, r, e))
-        return false;
-    double t0 = isnan(length) ? fmin(modes_ring_time(&s->ring.modes, 140), 60) : length;
-    r->board->ring = fmax(r->board->ring, fmin(t0, modes_ring_time(&s->ring.modes, 80)));
-    s->sampler = ir_sampler_make(r->arena, &s->ring.modes, rate);
-    s->re = ARENA_TAKE(r->arena, double, s->ring.modes.n);
-    s->im = ARENA_TAKE(r->arena, double, s->ring.modes.n);
-    s->hop = (int)fmax(rint(accuracy->overlap_hop * rate), 1);
-    s->engine = overlap_add_open(ir_length(rate, t0), s->ring.moves ? (int)accuracy->overlap_order : 0, s->hop, ring_response_modes, s);
+    const struct ring_choice *c = s->ring.choice;
+    struct overlap_voice *v = &s->voices[channel];
+    v->ring = &s->ring;
+    v->voice = &s->ring.voices[channel];
+    v->sampler = ir_sampler_make(r->arena, v->voice->n, r->board->rate);
+    v->point = modes_point_make(r->arena, v->voice->n);
+    if (c->engine == RING_READOUT)
+        v->readout = readout_open(length, c->order, c->hop, response_modes, v);
+    else
+        v->launch = overlap_add_open(length, s->ring.moves ? c->order : 0, s->ring.moves ? c->hop : 0, response_modes, v);
+}
+
+static bool open_modes(struct ring_overlap *s, struct stage_run *r, const struct response *given)
+{
+    double t0 = isnan(given->length) ? fmin(modes_ring_time(&s->ring.choice->modes, 140), 60) : given->length;
+    s->voices = ARENA_TAKE(r->arena, struct overlap_voice, s->ring.channels);
+    for (; s->n < s->ring.channels; s->n++)
+        voice_open(s, r, s->n, ir_length(r->board->rate, t0));
     return true;
 }
 
 static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct err *e)
 {
     struct ring_overlap *s = ARENA_TAKE(r->arena, struct ring_overlap, 1);
-    s->ring = ring_make(r, body);
-    s->board = r->board;
+    const struct response *given = body == RING_SURFACE ? &r->contact->surface.response : &r->contact->scraper.response;
     r->state = s;
-    if (!(ring_is_table(s->ring.given) ? ring_open_table(s, r, e) : ring_open_wav(s, r, e)))
+    if (!ring_open(&s->ring, r, body, e) || !(s->ring.choice->recorded ? open_wav(s, r, given, e) : open_modes(s, r, given)))
         return false;
-    r->ahead = overlap_add_ahead(s->engine);
+    r->ahead = s->voices[0].readout ? readout_ahead(s->voices[0].readout) : overlap_add_ahead(s->voices[0].launch);
     return true;
 }
 
 static bool ring_overlap_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct ring_overlap *s = r->state;
-    double *y = board_at(r->board, s->ring.out, from);
     (void)e;
-    for (long n = from; n < to; n++)
-        y[n - from] = 0;
-    overlap_add_run(s->engine, board_at(r->board, ITEM_FORCE, from), y, to - from);
+    for (int k = 0; k < s->n; k++) {
+        const struct overlap_voice *v = &s->voices[k];
+        const double *f = v->voice ? ring_force(&s->ring, v->voice, from) : board_at(r->board, ITEM_FORCE, from);
+        memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
+        if (v->readout)
+            readout_run(v->readout, f, s->ring.y, to - from);
+        else
+            overlap_add_run(v->launch, f, s->ring.y, to - from);
+        for (int channel = k; channel < s->ring.channels; channel += s->n)
+            ring_put(&s->ring, channel, from, to);
+    }
     return true;
 }
 
 static void ring_overlap_close(struct stage_run *r)
 {
-    struct ring_overlap *s = r->state;
-    if (s && s->engine)
-        overlap_add_close(s->engine);
-}
-
-static double ring_overlap_work(const struct response *given, const struct scene *s)
-{
-    double hop = s->accuracy.overlap_hop * s->output.sample_rate, length = (isnan(given->length) ? 1 : given->length) * s->output.sample_rate;
-    double whole = length + hop * s->accuracy.overlap_order; /* three FFTs of that and the response's modes, each hop */
-    return ring_is_table(given) ? (25 * whole + 0.7 * given->modes * length) / hop : 100 + length / 110;
+    const struct ring_overlap *s = r->state;
+    for (int k = 0; s && k < s->n; k++) {
+        if (s->voices[k].launch)
+            overlap_add_close(s->voices[k].launch);
+        if (s->voices[k].readout)
+            readout_close(s->voices[k].readout);
+    }
 }
 
 static double surface_work(const struct contact *c, const struct scene *s)
 {
-    return ring_overlap_work(&c->surface.response, s);
+    (void)s;
+    return ring_choice_work(c, RING_SURFACE);
 }
 
 static double scraper_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return 100 + (isnan(c->scraper.response.length) ? 1 : c->scraper.response.length) * s->output.sample_rate / 110;
+    return ring_choice_work(c, RING_SCRAPER);
 }
 
 static bool surface_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return ring_wanted(c, RING_SURFACE, ENGINE_OVERLAP_ADD);
+    return ring_choice_engine(c, RING_SURFACE) == RING_OVERLAP;
+}
+
+static bool readout_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return ring_choice_engine(c, RING_SURFACE) == RING_READOUT;
 }
 
 static bool scraper_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return ring_wanted(c, RING_SCRAPER, ENGINE_OVERLAP_ADD);
+    return ring_choice_engine(c, RING_SCRAPER) == RING_OVERLAP;
 }
 
 static bool surface_open(struct stage_run *r, struct err *e)
@@ -136,10 +162,24 @@ const struct stage ring_overlap_surface_stage = {
     .name = "surface_overlap_add",
     .does = "the surface rings by fast convolution with its impulse response",
     .paper = "000 eq. 10, 13",
-    .idle = "no impulse response for the surface, or its modes go by resonators",
+    .idle = "no impulse response for the surface, or its modes go by another engine",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
     .wanted = surface_wanted,
+    .work = surface_work,
+    .open = surface_open,
+    .run = ring_overlap_run,
+    .close = ring_overlap_close,
+};
+
+const struct stage ring_overlap_readout_stage = {
+    .name = "surface_readout",
+    .does = "all past force is heard through the surface's response at the present place",
+    .paper = "000 eq. 10, 13",
+    .idle = "surface.moving is not readout",
+    .needs = ITEM_BIT(ITEM_FORCE),
+    .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
+    .wanted = readout_wanted,
     .work = surface_work,
     .open = surface_open,
     .run = ring_overlap_run,

@@ -1,62 +1,84 @@
-/* The surface's and the scraper's modes as resonators (convolution/resonators.h): exact for poles that do not move. Gains are evaluated
-   every accuracy.gain_ramp samples, at multiples of it, and ramped linearly between. */
-#include <math.h>
+/* The surface's and the scraper's modes as resonators (convolution/resonators.h): exact for poles that do not move (`fixed`), and the definition of
+   `glide` for those that do. Gains and poles are evaluated every accuracy.gain_ramp samples, at multiples of it, and ramped linearly between;
+   a ramp is always run as a whole, so that nothing depends on where blocks end. */
+#include <string.h>
 
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
 
+struct bank {
+    struct resonators *bank;
+    struct modes_point to;    /* at the ramp's end                          */
+    double *y;                /* [ramp] sound of the present ramp           */
+};
+
 struct ring_bank {
     struct ring ring;
-    struct resonators *bank;
+    struct bank *banks;       /* [channels]                                 */
     int ramp;
-    double *re[3], *im[3]; /* gains at the ramp's start, at its end, and where the block ends between */
-    long ramp_end;         /* frame; the ramp began at ramp_end - ramp */
+    long ramp_end;            /* frame; the ramp began at ramp_end - ramp   */
 };
+
+static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
+{
+    const struct ring_voice *v = &s->ring.voices[channel];
+    struct bank *b = &s->banks[channel];
+    b->to = modes_point_make(r->arena, v->n);
+    b->y = ARENA_TAKE(r->arena, double, s->ramp);
+    ring_point_at(&s->ring, v, 0, &b->to);
+    struct resonators_ask ask = {.n = v->n, .quantity = listener_quantity(v->listener), .rate = r->board->rate, .frequency = b->to.frequency,
+                                 .decay = b->to.decay, .glides = s->ring.choice->reading == MOVING_GLIDE, .ramp = s->ramp};
+    b->bank = resonators_make(r->arena, &ask);
+    resonators_set(b->bank, &b->to);
+}
 
 static bool ring_bank_open(struct stage_run *r, enum ring_body body, struct err *e)
 {
     struct ring_bank *s = ARENA_TAKE(r->arena, struct ring_bank, 1);
-    s->ring = ring_make(r, body);
     r->state = s;
-    if (!ring_is_table(s->ring.given))
-        return err_set(e, ERR_SCENE, "%s: resonators need a mode table (.csv): leave %s.convolution out, or set it to overlap_add",
-                       s->ring.given->file, s->ring.key);
-    if (!isnan(s->ring.given->length))
-        return err_set(e, ERR_SCENE, "contact '%s': resonators ring on for ever and cannot be cut: leave %s.response_length out, or set "
-                       "%s.convolution to overlap_add", r->contact->name, s->ring.key, s->ring.key);
-    if (!ring_read_modes(&s->ring, r, e))
+    if (!ring_open(&s->ring, r, body, e))
         return false;
-    double ring = modes_ring_time(&s->ring.modes, 80);
-    r->board->ring = ring > r->board->ring ? ring : r->board->ring;
-    s->ramp = s->ring.moves ? (int)r->scene->accuracy.gain_ramp : STAGE_BLOCK;
-    s->bank = resonators_make(r->arena, &s->ring.modes, r->board->rate, s->ramp);
-    for (int k = 0; k < 3; k++) {
-        s->re[k] = ARENA_TAKE(r->arena, double, s->ring.modes.n);
-        s->im[k] = ARENA_TAKE(r->arena, double, s->ring.modes.n);
-    }
-    ring_gains_at(&s->ring, r->board, 0, s->re[1], s->im[1]);
-    resonators_set_gains(s->bank, s->re[1], s->im[1]);
+    s->ramp = s->ring.moves ? (int)r->scene->accuracy.gain_ramp : 1;
+    s->banks = ARENA_TAKE(r->arena, struct bank, s->ring.channels);
+    for (int k = 0; k < s->ring.channels; k++)
+        bank_open(s, r, k);
+    r->ahead = s->ramp - 1;
     return true;
 }
 
-static void ring_next_ramp(struct ring_bank *s, const struct board *b)
+/* The next ramp's sound of every voice. */
+static void ring_next_ramp(struct ring_bank *s)
 {
-    double *re = s->re[0], *im = s->im[0];
+    long from = s->ramp_end;
     s->ramp_end += s->ramp;
-    if (!s->ring.moves)
-        return;
-    s->re[0] = s->re[1], s->re[1] = re;
-    s->im[0] = s->im[1], s->im[1] = im;
-    ring_gains_at(&s->ring, b, (double)(s->ramp_end - 1) / b->rate, re, im);
+    for (int k = 0; k < s->ring.channels; k++) {
+        const struct ring_voice *v = &s->ring.voices[k];
+        struct bank *b = &s->banks[k];
+        ring_point_at(&s->ring, v, (double)(s->ramp_end - 1), &b->to);
+        memset(b->y, 0, (size_t)s->ramp * sizeof *b->y);
+        resonators_run(b->bank, ring_force(&s->ring, v, from), b->y, s->ramp, &b->to);
+    }
 }
 
-/* Gains of the last sample before a frame inside the ramp. */
-static void ring_between(struct ring_bank *s, long frame)
+static void ring_moving(struct ring_bank *s, long from, long to)
 {
-    double share = 1 - (double)(s->ramp_end - frame) / s->ramp;
-    for (int i = 0; i < s->ring.modes.n; i++) {
-        s->re[2][i] = s->re[0][i] + share * (s->re[1][i] - s->re[0][i]);
-        s->im[2][i] = s->im[0][i] + share * (s->im[1][i] - s->im[0][i]);
+    for (long n = from, end; n < to; n = end) {
+        if (n == s->ramp_end)
+            ring_next_ramp(s);
+        end = s->ramp_end < to ? s->ramp_end : to;
+        for (int k = 0; k < s->ring.channels; k++) {
+            memcpy(s->ring.y, s->banks[k].y + s->ramp - (s->ramp_end - n), (size_t)(end - n) * sizeof *s->ring.y);
+            ring_put(&s->ring, k, n, end);
+        }
+    }
+}
+
+static void ring_still(struct ring_bank *s, long from, long to)
+{
+    for (int k = 0; k < s->ring.channels; k++) {
+        memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
+        resonators_run(s->banks[k].bank, ring_force(&s->ring, &s->ring.voices[k], from), s->ring.y, (int)(to - from), &s->banks[k].to);
+        ring_put(&s->ring, k, from, to);
     }
 }
 
@@ -64,44 +86,35 @@ static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e
 {
     struct ring_bank *s = r->state;
     (void)e;
-    double *y = board_at(r->board, s->ring.out, from);
-    const double *f = board_at(r->board, ITEM_FORCE, from);
-    for (long n = from; n < to; n++)
-        y[n - from] = 0;
-    for (long n = from, end; n < to; n = end) {
-        if (n == s->ramp_end)
-            ring_next_ramp(s, r->board);
-        end = s->ramp_end < to ? s->ramp_end : to;
-        int which = end == s->ramp_end || !s->ring.moves ? 1 : 2;
-        if (which == 2)
-            ring_between(s, end);
-        resonators_run(s->bank, f + (n - from), y + (n - from), (int)(end - n), s->re[which], s->im[which]);
-    }
+    if (s->ring.moves)
+        ring_moving(s, from, to);
+    else
+        ring_still(s, from, to);
     return true;
 }
 
-static double ring_bank_work(const struct contact *c, const struct scene *s)
+static double surface_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return 10 + 2.0 * c->surface.response.modes;
+    return ring_choice_work(c, RING_SURFACE);
 }
 
-static double ring_scraper_work(const struct contact *c, const struct scene *s)
+static double scraper_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return 10 + 2.0 * c->scraper.response.modes;
+    return ring_choice_work(c, RING_SCRAPER);
 }
 
 static bool surface_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return ring_wanted(c, RING_SURFACE, ENGINE_RESONATORS);
+    return ring_choice_engine(c, RING_SURFACE) == RING_RESONATORS;
 }
 
 static bool scraper_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return ring_wanted(c, RING_SCRAPER, ENGINE_RESONATORS);
+    return ring_choice_engine(c, RING_SCRAPER) == RING_RESONATORS;
 }
 
 static bool surface_open(struct stage_run *r, struct err *e)
@@ -116,13 +129,13 @@ static bool scraper_open(struct stage_run *r, struct err *e)
 
 const struct stage ring_resonators_surface_stage = {
     .name = "surface_resonators",
-    .does = "the surface's modes ring, one exact recursion each, gains following the contact",
+    .does = "the surface's modes ring, one exact recursion each, gains (and poles that glide) following the contact",
     .paper = "000 eq. 10, 13",
-    .idle = "no mode table for the surface, or it goes by overlap-add",
+    .idle = "the surface has no modes, or they go by another engine",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
     .wanted = surface_wanted,
-    .work = ring_bank_work,
+    .work = surface_work,
     .open = surface_open,
     .run = ring_bank_run,
 };
@@ -131,11 +144,11 @@ const struct stage ring_resonators_scraper_stage = {
     .name = "scraper_resonators",
     .does = "the scraper's modes ring, one exact recursion each",
     .paper = "000 eq. 11",
-    .idle = "the scraper is damped (weight 0), has no mode table, or it goes by overlap-add",
+    .idle = "the scraper is damped (weight 0), has no modes, or they go by overlap-add",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SCRAPER_SOUND),
     .wanted = scraper_wanted,
-    .work = ring_scraper_work,
+    .work = scraper_work,
     .open = scraper_open,
     .run = ring_bank_run,
 };

@@ -1,13 +1,14 @@
 /* From exact means over sub-intervals to samples of the force at the audio rate: a linear-phase low-pass that also undoes the means'
    droop (num/filter.h, filter_decimator). Delay is compensated: sample n is the force at n / rate. */
+#include "force/given.h"
 #include "num/filter.h"
 #include "num/lanes.h"
 #include "stage.h"
 
 static bool decimate_wanted(const struct contact *c, const struct scene *s)
 {
-    (void)c, (void)s;
-    return true;
+    (void)s;
+    return c->contact.model != CONTACT_GIVEN || given_is_table(c);
 }
 
 static double decimate_work(const struct contact *c, const struct scene *s)
@@ -55,7 +56,7 @@ const struct stage decimate_stage = {
     .name = "decimate",
     .does = "force at the audio rate",
     .paper = "",
-    .idle = "",
+    .idle = "contact.given.file holds samples",
     .needs = ITEM_BIT(ITEM_SUBFORCE),
     .gives = ITEM_BIT(ITEM_FORCE),
     .wanted = decimate_wanted,

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/strike.h"
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/limiter.h"
@@ -32,7 +33,10 @@ struct force_table {
     double sum, squares, peak;  /* of the row being filled */
     long samples, lift_offs, row, rows;
     double alpha;
-    const struct load_law *load;
+    const struct load_law *load; /* NULL: not a scrape                                */
+    struct strike_train train;   /* of what strikes: the impacts from `impact` on     */
+    struct strike_impact impact;
+    bool struck;                 /* there is such a one                               */
 };
 
 static int column_find(const char *name)
@@ -118,9 +122,21 @@ static bool rate_possible(const struct stage_run *r, struct err *e)
 /* The law of a varying load is on the board; a constant one's is needed for approach and release. */
 static bool load_find(struct force_table *t, const struct stage_run *r, struct err *e)
 {
+    if (r->contact->contact.model != CONTACT_SCRAPE)
+        return true;
     struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
     t->load = r->board->load ? r->board->load : own;
     return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, own, e);
+}
+
+static bool impacts_find(struct force_table *t, const struct stage_run *r, struct err *e)
+{
+    if (!t->wanted[IMPACTS])
+        return true;
+    if (!strike_make(r->contact, r->board->trajectory->duration, &t->train, e))
+        return false;
+    t->struck = strike_next(&t->train, &t->impact);
+    return true;
 }
 
 static bool force_table_open(struct stage_run *r, struct err *e)
@@ -128,7 +144,7 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
     const char *comma = "";
     r->state = t;
-    if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e))
+    if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e))
         return false;
     t->alpha = limiter_constant(r->contact);
     t->rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
@@ -151,11 +167,23 @@ static void row_instant(struct force_table *t, const struct stage_run *r, double
                   (struct trajectory_out){.u = &v[STROKE], .du = &v[VELOCITY], .ddu = &v[ACCELERATION], .x = &v[X], .y = &v[Y], .vx = &v[VX], .vy = &v[VY]});
     v[TIME] = (double)rules_first_frame(r->contact, r->board->rate) / r->board->rate + at;
     v[SPEED] = fabs(v[VELOCITY]);
+    if (!t->load)
+        return;
     load = fmax(load_of(t->load, b->trajectory, at), 0);
     v[NORMAL] = load * load_lowered(t->load, at);
     v[ALPHA] = t->alpha;
     if (b->limiter)
         limiter_alpha(b->limiter, 1, &load, &v[ALPHA]);
+}
+
+/* Those that begin before the row ends, and have not been counted. */
+static void row_impacts(struct force_table *t, double end)
+{
+    t->value[IMPACTS] = 0;
+    while (t->struck && t->impact.start < end) {
+        t->value[IMPACTS]++;
+        t->struck = strike_next(&t->train, &t->impact);
+    }
 }
 
 static void row_write(struct force_table *t, FILE *out)
@@ -196,6 +224,7 @@ static void rows_before(struct force_table *t, const struct stage_run *r, long e
 {
     for (; t->row < end; t->row++) {
         row_instant(t, r, (double)t->row / r->scene->output.diagnostics.rate);
+        row_impacts(t, (double)(t->row + 1) / r->scene->output.diagnostics.rate);
         row_write(t, r->board->table->stream);
     }
 }

@@ -1,210 +1,198 @@
-/* Ramps are raised cosines over output.ramp at both ends of the total, sin^2(pi/2 (n + 1/2) / N), shortened to half the sound if need be.
-
-   Level. `full_scale` is physical: file = sound / full_scale, written as it comes. `peak`, `rms` and `lufs` scale the file once the whole is
-   known: samples spool to an unnamed file of doubles in the meantime, so that memory does not grow. Nothing given: peak -3 dBFS. A peak of
-   0 dB is the largest value the encoding has. Loudness is BS.1770 integrated, mono counted on two ears (libebur128); it is rounded to 1e-6
-   LU before it becomes a gain, because its filter's coefficients come from libm (src/README.md, "same bytes"). A silent sound stays silent
-   (reported), whatever level is asked. */
+/* Level. `full_scale` and `dbfs_at_1_pa` are physical: file = sound / full_scale, or sound in pascals times 10^(dB/20), written as it comes.
+   `peak`, `rms` and `lufs` scale the file once the whole is known: samples spool to an unnamed file of doubles in the meantime, so that memory
+   does not grow. Nothing given: peak -3 dBFS. A peak of 0 dB is the largest value the encoding has. Of several channels (listening places)
+   the peak is the largest of all, the mean square is that of all together, and one gain serves them all, so that they keep their balance.
+   Loudness is BS.1770 integrated (libebur128): mono counted on two ears, two channels as left and right; of more channels, which are no loudspeakers
+   of a layout, each counts with weight 1, as a front loudspeaker does. It is rounded to 1e-6 LU before it becomes a gain, because its filter's coefficients
+   come from libm (src/README.md, "same bytes"). A silent sound stays silent (reported), whatever level is asked. */
 #include "output/sound.h"
 
 #include <ebur128.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/scratch.h"
-#include "file/wav.h"
 #include "num/real.h"
+#include "response/listener.h"
 #include "scene/rules.h"
-
-enum { SOUND_CHUNK = 4096 };
 
 struct sound {
     const struct scene *scene;
-    struct wav_out *wav;
-    FILE *spool;              /* NULL: the gain is known beforehand */
-    ebur128_state *meter;     /* NULL: loudness is not needed       */
-    long frames, done, ramp;
-    double peak, squares, gain;
-    double *wide;             /* a chunk on all channels            */
+    struct track track;
+    struct arena *arena;
+    ebur128_state *meter;     /* NULL: loudness is not needed */
 };
 
-static double sound_bits(int encoding)
+static int bits_of(int encoding)
 {
-    const int bits[] = {[ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
+    static const int bits[] = {[ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
     return bits[encoding];
 }
 
-static bool sound_spool_open(struct sound *o, struct err *e)
+/* The key that sets the level. */
+static const char *level_key(const struct level *l)
 {
-    const struct level *level = &o->scene->output.level;
-    o->gain = 1 / level->full_scale;
-    if (isnan(level->full_scale) && !(o->spool = scratch_open()))
-        return err_set(e, ERR_CREATE, "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)",
-                       scratch_folder(), strerror(errno));
-    if (isnan(level->lufs))
-        return true;
-    o->meter = ebur128_init(1, (unsigned long)o->scene->output.sample_rate, EBUR128_MODE_I);
-    if (!o->meter || ebur128_set_channel(o->meter, 0, EBUR128_DUAL_MONO) != EBUR128_SUCCESS)
-        return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
-    return true;
+    return !isnan(l->full_scale) ? "output.level.full_scale" : !isnan(l->dbfs_at_1_pa) ? "output.level.dbfs_at_1_pa"
+         : !isnan(l->rms)        ? "output.level.rms"
+         : !isnan(l->lufs)       ? "output.level.lufs"
+                                 : "output.level.peak";
+}
+
+struct track_format sound_format(const struct scene *s, long frames)
+{
+    const struct output *o = &s->output;
+    long ramp = (long)rint(o->ramp * o->sample_rate);
+    int places = listener_channels(o);
+    return (struct track_format){.rate = o->sample_rate, .bits = bits_of(o->encoding), .places = places, .channels = places > 1 ? places : o->channels,
+                                 .frames = frames, .ramp = ramp < frames / 2 ? ramp : frames / 2, .waits = isnan(sound_known_gain(s)),
+                                 .title = s->title, .key = level_key(&o->level)};
+}
+
+double sound_known_gain(const struct scene *s)
+{
+    const struct level *l = &s->output.level;
+    return !isnan(l->dbfs_at_1_pa) ? real_exp10(l->dbfs_at_1_pa / 20) : 1 / l->full_scale;
+}
+
+void sound_comment(const struct scene *s, double gain, char text[80])
+{
+    const char *unit = listener_in_pascals(&s->output) ? "Pa" : "unit of the response";
+    snprintf(text, 80, "rasp: gain %.9g per %s (%.4f dB)", gain, unit, 20 * real_log10(gain));
 }
 
 /* The gain goes into the WAV before its first sample. */
-static bool sound_note(struct sound *o, struct err *e)
+static bool note(struct sound *o, double gain, struct err *e)
 {
     char text[80];
-    snprintf(text, sizeof text, "rasp: gain %.9g per unit of the response (%.4f dB)", o->gain, 20 * real_log10(o->gain));
-    return wav_comment(o->wav, text, e);
+    sound_comment(o->scene, gain, text);
+    return track_note(&o->track, text, e);
+}
+
+static bool meter_open(struct sound *o, struct err *e)
+{
+    int channels = o->track.format.places, layout = channels == 1 ? EBUR128_DUAL_MONO : EBUR128_LEFT;
+    bool ok = true;
+    if (isnan(o->scene->output.level.lufs))
+        return true;
+    o->meter = ebur128_init((unsigned)channels, (unsigned long)o->scene->output.sample_rate, EBUR128_MODE_I);
+    for (int k = 0; o->meter && k < channels; k++)
+        ok = ok && ebur128_set_channel(o->meter, (unsigned)k, layout) == EBUR128_SUCCESS;
+    return (o->meter && ok) || err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
 }
 
 struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e)
 {
     struct sound *o = ARENA_TAKE(a, struct sound, 1);
-    struct wav_format f = {.rate = s->output.sample_rate, .channels = s->output.channels, .bits = (int)sound_bits(s->output.encoding),
-                           .title = s->title};
-    long ramp = (long)rint(s->output.ramp * s->output.sample_rate);
-    *o = (struct sound){.scene = s, .frames = frames, .ramp = ramp < frames / 2 ? ramp : frames / 2,
-                        .wide = ARENA_TAKE(a, double, SOUND_CHUNK * s->output.channels)};
-    if ((o->wav = wav_create(path, &f, e)) && sound_spool_open(o, e) && (o->spool || sound_note(o, e)))
+    struct track_format f = sound_format(s, frames);
+    double gain = sound_known_gain(s);
+    *o = (struct sound){.scene = s, .arena = a};
+    if (f.places > 1 && s->output.channels > 1) {
+        err_set(e, ERR_SCENE, "output.channels: each of the %d listening places is a channel of its own: leave output.channels out", f.places);
+        return NULL;
+    }
+    if (!track_open(&o->track, path, &f, gain, a, e))
+        return NULL;
+    if (meter_open(o, e) && (f.waits || note(o, gain, e)))
         return o;
     sound_drop(o);
     return NULL;
 }
 
-static void sound_ramp(const struct sound *o, double *x, long n)
-{
-    for (long i = 0; i < n; i++) {
-        long at = o->done + i, rest = o->frames - 1 - at, edge = at < rest ? at : rest;
-        if (edge >= o->ramp)
-            continue;
-        double s = real_sinpi(0.5 * ((double)edge + 0.5) / (double)o->ramp);
-        x[i] *= s * s;
-    }
-}
-
-/* The key that sets it. */
-static const char *sound_level(const struct level *level)
-{
-    return !isnan(level->full_scale) ? "full_scale" : !isnan(level->rms) ? "rms" : !isnan(level->lufs) ? "lufs" : "peak";
-}
-
-static bool sound_write(struct sound *o, const double *x, long n, struct err *e)
-{
-    int channels = o->scene->output.channels;
-    for (long i = 0; i < n; i += SOUND_CHUNK) {
-        long some = n - i < SOUND_CHUNK ? n - i : SOUND_CHUNK;
-        for (long k = 0; k < some * channels; k++)
-            o->wide[k] = o->gain * x[i + k / channels];
-        if (!wav_write(o->wav, o->wide, (size_t)some, e))
-            return e->kind == ERR_SCENE ? err_at(e, "output.level.%s", sound_level(&o->scene->output.level)) : false;
-    }
-    return true;
-}
-
 bool sound_add(struct sound *o, double *x, long n, struct err *e)
 {
-    sound_ramp(o, x, n);
-    o->done += n;
-    for (long i = 0; i < n; i++) {
-        o->peak = fmax(o->peak, fabs(x[i]));
-        o->squares += x[i] * x[i];
-    }
-    if (!o->spool)
-        return sound_write(o, x, n, e);
-    if (fwrite(x, sizeof *x, (size_t)n, o->spool) != (size_t)n)
-        return err_set(e, ERR_IO, "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
-                       strerror(errno));
-    return true;
+    return track_add(&o->track, x, n, e);
 }
 
-/* Loudness of the whole spool in LUFS, brought to peak 1 first: BS.1770's gate at -70 LUFS is absolute. */
-static bool sound_loudness(struct sound *o, double *lufs, struct err *e)
+/* Loudness of the whole in LUFS, brought to peak 1 first: BS.1770's gate at -70 LUFS is absolute. */
+static bool loudness(struct sound *o, double peak, double *lufs, struct err *e)
 {
-    double x[SOUND_CHUNK];
-    size_t n;
-    rewind(o->spool);
-    while ((n = fread(x, sizeof *x, SOUND_CHUNK, o->spool)) > 0) {
-        for (size_t i = 0; i < n; i++)
-            x[i] /= o->peak;
-        ebur128_add_frames_double(o->meter, x, n);
+    double x[TRACK_CHUNK];
+    long n;
+    track_rewind(&o->track);
+    while ((n = track_read(&o->track, x)) > 0) {
+        for (long i = 0; i < n * o->track.format.places; i++)
+            x[i] /= peak;
+        ebur128_add_frames_double(o->meter, x, (size_t)n);
     }
     if (ebur128_loudness_global(o->meter, lufs) != EBUR128_SUCCESS || !isfinite(*lufs))
         return err_set(e, ERR_SCENE,
                        "output.level.lufs: BS.1770 loudness cannot be measured on this sound (%.3g s; it needs 0.4 s that are not nearly "
                        "silent): use output.level.rms or output.level.peak",
-                       (double)o->frames / o->scene->output.sample_rate);
+                       (double)o->track.format.frames / o->scene->output.sample_rate);
     *lufs = rint(*lufs * 1e6) / 1e6;
     return true;
 }
 
-static bool sound_gain(struct sound *o, double rms, struct err *e)
+/* The gain that the level asks for, of a sound that is not silent. */
+static bool gain_find(struct sound *o, const struct sound_report *r, double *gain, struct err *e)
 {
     const struct level *level = &o->scene->output.level;
-    double bits = sound_bits(o->scene->output.encoding), lufs;
-    double largest = bits > 0 ? 1 - ldexp(1, 1 - (int)bits) : 1;
+    int bits = o->track.format.bits;
+    double lufs, largest = bits > 0 ? 1 - ldexp(1, 1 - bits) : 1;
     if (!isnan(level->rms))
-        o->gain = real_exp10(level->rms / 20) / rms;
+        *gain = real_exp10(level->rms / 20) / r->rms;
     else if (isnan(level->lufs))
-        o->gain = fmin(real_exp10((isnan(level->peak) ? RULES_PEAK : level->peak) / 20), largest) / o->peak;
-    else if (sound_loudness(o, &lufs, e))
-        o->gain = real_exp10((level->lufs - lufs) / 20) / o->peak;
+        *gain = fmin(real_exp10((isnan(level->peak) ? RULES_PEAK : level->peak) / 20), largest) / r->peak;
+    else if (loudness(o, r->peak, &lufs, e))
+        *gain = real_exp10((level->lufs - lufs) / 20) / r->peak;
     else
         return false;
     return true;
 }
 
-bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
+static struct sound_report report_make(const struct sound *o)
 {
-    double x[SOUND_CHUNK], rms = sqrt(o->squares / (double)(o->frames > 0 ? o->frames : 1));
-    size_t n;
-    *report = (struct sound_report){.ramp = (double)o->ramp / o->scene->output.sample_rate, .peak = o->peak, .rms = rms, .lufs = o->scene->output.level.lufs, .silent = o->peak == 0};
-    if (o->spool && o->peak == 0)
-        o->gain = 1;
-    else if (o->spool && !sound_gain(o, rms, e))
-        return false;
-    report->gain = o->gain;
-    if (!o->spool)
-        return true;
-    if (!sound_note(o, e))
-        return false;
-    rewind(o->spool);
-    while ((n = fread(x, sizeof *x, SOUND_CHUNK, o->spool)) > 0)
-        if (!sound_write(o, x, (long)n, e))
-            return false;
-    return ferror(o->spool) ? err_set(e, ERR_IO, "samples cannot be read back from the temporary file") : true;
+    const struct track *t = &o->track;
+    int channels = t->format.places;
+    double squares = 0, frames = (double)(t->format.frames > 0 ? t->format.frames : 1);
+    struct sound_report r = {.channels = channels, .channel_peak = ARENA_TAKE(o->arena, double, channels), .channel_rms = ARENA_TAKE(o->arena, double, channels),
+                             .lufs = o->scene->output.level.lufs, .ramp = (double)t->format.ramp / o->scene->output.sample_rate};
+    for (int k = 0; k < channels; k++) {
+        squares += t->squares[k];
+        r.peak = fmax(r.peak, t->peak[k]);
+        r.channel_peak[k] = t->peak[k];
+        r.channel_rms[k] = sqrt(t->squares[k] / frames);
+    }
+    r.rms = sqrt(squares / (frames * channels));
+    r.silent = r.peak == 0;
+    return r;
 }
 
-static void sound_release(struct sound *o)
+bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
 {
-    if (o->spool)
-        fclose(o->spool);
+    struct track *t = &o->track;
+    *report = report_make(o);
+    report->gain = t->gain;
+    if (!t->spool)
+        return true;
+    report->gain = 1;
+    if (!report->silent && !gain_find(o, report, &report->gain, e))
+        return false;
+    return note(o, report->gain, e) && track_finish(t, report->gain, e);
+}
+
+static void meter_close(struct sound *o)
+{
     if (o->meter)
         ebur128_destroy(&o->meter);
-    o->spool = NULL;
 }
 
 bool sound_settle(struct sound *o, struct err *e)
 {
-    sound_release(o);
-    return wav_settle(o->wav, e);
+    meter_close(o);
+    return track_settle(&o->track, e);
 }
 
 bool sound_commit(struct sound *o, struct err *e)
 {
-    struct wav_out *w = o->wav;
-    sound_release(o);
-    o->wav = NULL;
-    return wav_commit(w, e);
+    meter_close(o);
+    return track_commit(&o->track, e);
 }
 
 void sound_drop(struct sound *o)
 {
     if (!o)
         return;
-    sound_release(o);
-    if (o->wav)
-        wav_drop(o->wav);
-    o->wav = NULL;
+    meter_close(o);
+    track_drop(&o->track);
 }

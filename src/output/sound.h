@@ -5,22 +5,34 @@
 
 #include "base/arena.h"
 #include "base/err.h"
+#include "output/track.h"
 #include "scene/scene.h"
 
 struct sound;
 
 struct sound_report {
-    double peak, rms;     /* of the unscaled sound, in the response's quantity */
+    double peak, rms;     /* of the unscaled sound, in the response's quantity: the largest of all channels; of all together */
+    int channels;         /* listening places */
+    double *channel_peak, *channel_rms; /* [channels] */
     double lufs;          /* of the file; NAN: not measured                    */
     double gain;          /* file value per unit of the quantity               */
     bool silent;
     double ramp;          /* s: less than output.ramp when the sound is too short for it */
 };
 
-/* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. */
+/* The WAV's format of a scene's sound of so many frames; a stem may have the same. */
+struct track_format sound_format(const struct scene *s, long frames);
+
+/* The gain if the scene alone tells it (output.level: full_scale, dbfs_at_1_pa), else NAN. */
+double sound_known_gain(const struct scene *s);
+
+/* The WAV's comment at that gain, ended by a 0. */
+void sound_comment(const struct scene *s, double gain, char text[80]);
+
+/* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. ERR_SCENE: channels that do not go together. */
 struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e);
 
-/* The next n samples (quantity units); they are ramped in place. */
+/* The next n frames (quantity units), interleaved; they are ramped in place. */
 bool sound_add(struct sound *o, double *x, long n, struct err *e);
 
 /* Scales and writes what is not written yet. ERR_SCENE: clipping, or a loudness that cannot be measured. */

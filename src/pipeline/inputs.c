@@ -17,9 +17,16 @@ static const char *why_unreadable(const char *file)
     return S_ISREG(s.st_mode) ? NULL : "is not a file";
 }
 
+/* A response may be a folder, which its reader looks into (response/ir_set.h). */
+static bool may_be_folder(const char *where, const char *file)
+{
+    struct stat s;
+    return file && strcmp(where, "surface.response") == 0 && stat(file, &s) == 0 && S_ISDIR(s.st_mode);
+}
+
 static void add(const char **missing, const char *where, const char *file, struct arena *a)
 {
-    const char *why = file ? why_unreadable(file) : NULL;
+    const char *why = file && !may_be_folder(where, file) ? why_unreadable(file) : NULL;
     if (why)
         *missing = arena_format(a, "%s%s%s: %s: %s", *missing, **missing ? "; " : "", where, file, why);
 }

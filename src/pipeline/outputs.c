@@ -12,12 +12,14 @@
 #include "scene/keys.h"
 #include "scene/scene_write.h"
 
-const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "scene", "summary", "wav"};
+const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "scene", "summary", "wav", "stem", "stem", "stem"};
 
 char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a)
 {
-    static const char *const endings[OUTPUT_KINDS] = {".csv", ".scene.yaml", ".json", ".wav"};
+    static const char *const endings[] = {".csv", ".scene.yaml", ".json", ".wav"};
     bool several = kind == OUTPUT_TABLE && s->n_contacts > 1;
+    if (kind >= OUTPUT_STEM)
+        return arena_format(a, "%s.%s.wav", base, stems_names[kind - OUTPUT_STEM]);
     return arena_format(a, "%s%s%s%s", base, several ? "." : "", several ? c->name : "", endings[kind]);
 }
 
@@ -27,9 +29,16 @@ static void add(struct outputs *o, enum output_kind kind, const struct contact *
     o->paths[o->n++] = outputs_path(o->scene, o->base, kind, c, a);
 }
 
+/* Room for all that there may be. */
+static struct outputs outputs_none(const struct scene *s, const char *base, struct arena *a)
+{
+    int most = s->n_contacts + OUTPUT_KINDS;
+    return (struct outputs){s, base, ARENA_TAKE(a, const char *, most), ARENA_TAKE(a, enum output_kind, most), 0};
+}
+
 struct outputs outputs_make(const struct scene *s, const char *base, struct arena *a)
 {
-    struct outputs o = {s, base, ARENA_TAKE(a, const char *, s->n_contacts + 3), ARENA_TAKE(a, enum output_kind, s->n_contacts + 3), 0};
+    struct outputs o = outputs_none(s, base, a);
     unsigned asked = 0;
     for (int i = 0; i < s->n_contacts; i++) {
         unsigned targets = plan_targets(&s->contacts[i], s);
@@ -41,6 +50,9 @@ struct outputs outputs_make(const struct scene *s, const char *base, struct aren
     add(&o, OUTPUT_SUMMARY, NULL, a);
     if (asked & ITEM_BIT(ITEM_SOUND))
         add(&o, OUTPUT_SOUND, NULL, a);
+    for (int k = 0; k < STEMS; k++)
+        if (stems_asked(&s->output, (enum stem)k))
+            add(&o, OUTPUT_STEM + k, NULL, a);
     return o;
 }
 
@@ -201,15 +213,15 @@ static bool writes(const struct outputs *o, const char *path)
 
 const char **outputs_older(const struct scene *s, const char *base, struct arena *a)
 {
-    struct outputs o = outputs_make(s, base, a), most = {s, base, ARENA_TAKE(a, const char *, s->n_contacts + 2),
-                                                         ARENA_TAKE(a, enum output_kind, s->n_contacts + 2), 0};
+    struct outputs o = outputs_make(s, base, a), most = outputs_none(s, base, a);
     struct sources all = sources_of(&o, 1, a);
-    const char **older = ARENA_TAKE(a, const char *, s->n_contacts + 3);
+    const char **older = ARENA_TAKE(a, const char *, s->n_contacts + OUTPUT_KINDS + 1);
     struct stat status;
     int n = 0;
     for (int i = 0; i < s->n_contacts; i++)
         add(&most, OUTPUT_TABLE, &s->contacts[i], a);
-    add(&most, OUTPUT_SOUND, NULL, a);
+    for (int kind = OUTPUT_SOUND; kind < OUTPUT_KINDS; kind++)
+        add(&most, (enum output_kind)kind, NULL, a);
     if (s->n_contacts > 1)
         most.paths[most.n++] = arena_format(a, "%s.csv", base);
     for (int i = 0; i < most.n; i++)

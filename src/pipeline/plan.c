@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "convolution/ring_choice.h"
+#include "output/stems.h"
 #include "scene/rules.h"
 
 static const char *const plan_names[ITEM_COUNT] = {
@@ -23,9 +25,19 @@ const char *plan_item(enum item item)
     return plan_names[item];
 }
 
+/* Stems of a contact that is heard. */
+static unsigned plan_stems(const struct contact *c, const struct output *o)
+{
+    bool scraper = rules_responds(&c->scraper.response) && c->scraper.weight != 0;
+    return (stems_asked(o, STEM_FORCE) ? ITEM_BIT(ITEM_FORCE) : 0) |
+           (stems_asked(o, STEM_SURFACE) && rules_responds(&c->surface.response) ? ITEM_BIT(ITEM_SURFACE_SOUND) : 0) |
+           (stems_asked(o, STEM_SCRAPER) && scraper ? ITEM_BIT(ITEM_SCRAPER_SOUND) : 0);
+}
+
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
-    return (c->gain != 0 && rules_rings(c) ? ITEM_BIT(ITEM_SOUND) : 0) | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
+    unsigned heard = c->gain != 0 ? (rules_rings(c) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
+    return heard | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
 }
 
 static bool plan_muted(const struct contact *c)
@@ -73,6 +85,17 @@ static bool plan_keep(const struct stage *st, const struct contact *c, const str
     return true;
 }
 
+/* The contact with its engines chosen. */
+static const struct contact *plan_choose(const struct contact *asked, const struct scene *s, struct arena *a, struct err *e)
+{
+    struct contact *c = ARENA_TAKE(a, struct contact, 1);
+    *c = *asked;
+    if (!ring_choice_make(asked, s, RING_SURFACE, a, &c->surface.response.choice, e) ||
+        !ring_choice_make(asked, s, RING_SCRAPER, a, &c->scraper.response.choice, e))
+        return NULL;
+    return c;
+}
+
 bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a, struct plan *p,
                struct err *e)
 {
@@ -80,6 +103,8 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
     *p = (struct plan){.contact = c, .targets = plan_targets(c, s)};
     if (!p->targets && !plan_muted(c))
         return plan_nothing_asked(c, e);
+    if (p->targets & ITEM_BIT(ITEM_SOUND) && !(p->contact = c = plan_choose(c, s, a, e)))
+        return false;
     while (table[p->n])
         p->n++;
     p->rows = ARENA_TAKE(a, struct plan_row, p->n);

@@ -23,8 +23,9 @@ struct plan {
     struct plan_row *rows;    /* one per stage of the table, in its order    */
 };
 
-/* What a scene asks of a contact: its sound when it has a response and a gain, rows of diagnostics when they are asked for. A contact muted by
-   gain 0 may have no targets, and then runs nothing. */
+/* What a scene asks of a contact: its sound when it has a response and a gain, with the stems that are asked for; its force, when that stem is
+   asked for, also without a response; rows of diagnostics when they are asked for. A contact muted by gain 0 may have no targets, and then runs
+   nothing. */
 unsigned plan_targets(const struct contact *c, const struct scene *s);
 
 /* Walks the table (ends with NULL) backwards from the targets, a compiler's liveness analysis. ERR_SCENE: nothing gives an item that is

@@ -1,119 +1,39 @@
 #include "pipeline/render.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "base/outfile.h"
 #include "base/stopwatch.h"
-#include "output/force_table.h"
+#include "output/stems.h"
 #include "pipeline/inputs.h"
 #include "pipeline/outputs.h"
-#include "pipeline/stages.h"
+#include "pipeline/render_parts.h"
 #include "pipeline/summary.h"
-#include "scene/rules.h"
-#include "trajectory/trajectory.h"
-
-struct part {                /* one contact at work */
-    struct plan plan;
-    struct run run;
-    long start;              /* frame of the scene at which it begins */
-    bool open;
-    struct outfile csv;
-    struct table_sink sink;
-    char *csv_path;
-};
+#include "response/listener.h"
 
 struct render {
     const struct scene *scene;
     const char *base;
     struct arena *arena;
-    struct part *parts;
+    struct render_parts parts;
     bool sounds;
     long frames;
-    struct sound *sound;
+    double *block;           /* STAGE_BLOCK frames of all channels */
+    struct sound *sound;     /* NULL: nothing rings */
+    struct stems *stems;     /* NULL: none are asked for */
     char *wav_path, *scene_path, *summary_path;
+    const char *stem_paths[STEMS];
     struct outfile effective, summary;
     struct render_report *report;
 };
 
-static bool render_plans(struct render *r, struct err *e)
+static bool render_open_sounds(struct render *r, struct err *e)
 {
-    unsigned asked = 0;
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        struct part *p = &r->parts[i];
-        if (!plan_make(stages_table, &r->scene->contacts[i], r->scene, r->arena, &p->plan, e))
-            return false;
-        r->sounds = r->sounds || p->plan.targets & ITEM_BIT(ITEM_SOUND);
-        p->start = rules_first_frame(&r->scene->contacts[i], r->scene->output.sample_rate);
-        asked |= p->plan.targets;
-    }
-    return asked || err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render");
-}
-
-/* What is summed is of one quantity; contacts that ring by WAVs, which do not say theirs, go with any. */
-static bool render_quantities(const struct render *r, struct err *e)
-{
-    static const char *const names[] = {"displacement", "velocity", "acceleration"};
-    const struct run *first = NULL;
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        const struct run *run = &r->parts[i].run;
-        if (!r->parts[i].open || run->board.quantity < 0)
-            continue;
-        first = first ? first : run;
-        if (run->board.quantity != first->board.quantity)
-            return err_set(e, ERR_SCENE, "contact '%s' gives %s, but contact '%s' %s: they cannot be summed; use mode tables of one quantity",
-                           run->plan.contact->name, names[run->board.quantity], first->plan.contact->name, names[first->board.quantity]);
-    }
-    return true;
-}
-
-/* Opens the tables, so that the stages can write their headers, then the stages. */
-static bool render_runs(struct render *r, struct err *e)
-{
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        struct part *p = &r->parts[i];
-        p->csv_path = outputs_path(r->scene, r->base, OUTPUT_TABLE, p->plan.contact, r->arena);
-        if (p->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&p->csv, p->csv_path, e))
-            return false;
-        p->sink.stream = p->csv.stream;
-        if (!p->plan.targets)
-            continue;
-        if (!run_open(&p->run, &p->plan, r->scene, &p->sink, e))
-            return false;
-        p->open = true;
-    }
-    return render_quantities(r, e);
-}
-
-/* Frames of a contact's motion; of a muted one, which has no run, too. */
-static bool part_frames(const struct render *r, const struct part *p, long *frames, struct err *e)
-{
-    struct trajectory tr;
-    *frames = p->open ? p->run.board.moving : 0;
-    if (p->open)
-        return true;
-    if (!trajectory_make(&p->plan.contact->motion, trajectory_seed(r->scene, p->plan.contact), r->arena, &tr, e))
-        return err_at(e, "contact '%s'", p->plan.contact->name);
-    *frames = trajectory_frames(&tr, r->scene->output.sample_rate);
-    return true;
-}
-
-/* Length of the whole: the last motion's end, also of a muted contact, and the tail of what rings. */
-static bool render_length(struct render *r, struct err *e)
-{
-    double tail = r->scene->output.tail, ring = 0, rate = r->scene->output.sample_rate;
-    long end = 0, frames;
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        struct part *p = &r->parts[i];
-        if (!part_frames(r, p, &frames, e))
-            return false;
-        end = p->start + frames > end ? p->start + frames : end;
-        if (p->open)
-            ring = fmax(ring, p->run.board.ring);
-    }
-    r->frames = end + (r->sounds ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
-    return true;
+    r->block = ARENA_TAKE(r->arena, double, STAGE_BLOCK * listener_channels(&r->scene->output));
+    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->frames, r->arena, e)))
+        return false;
+    return !r->scene->output.stems || (r->stems = stems_open(r->scene, r->stem_paths, r->frames, r->arena, e)) != NULL;
 }
 
 static bool render_open(struct render *r, struct err *e)
@@ -121,42 +41,39 @@ static bool render_open(struct render *r, struct err *e)
     r->wav_path = outputs_path(r->scene, r->base, OUTPUT_SOUND, NULL, r->arena);
     r->scene_path = outputs_path(r->scene, r->base, OUTPUT_EFFECTIVE, NULL, r->arena);
     r->summary_path = outputs_path(r->scene, r->base, OUTPUT_SUMMARY, NULL, r->arena);
-    if (!inputs_check(r->scene, r->arena, e) || !render_plans(r, e) || !outfile_open(&r->effective, r->scene_path, e) ||
-        !outfile_open(&r->summary, r->summary_path, e) || !render_runs(r, e) || !render_length(r, e))
+    for (int k = 0; k < STEMS; k++)
+        r->stem_paths[k] = outputs_path(r->scene, r->base, OUTPUT_STEM + k, NULL, r->arena);
+    if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) || !outfile_open(&r->effective, r->scene_path, e) ||
+        !outfile_open(&r->summary, r->summary_path, e) || !render_parts_open(&r->parts, e) || !render_parts_length(&r->parts, &r->frames, e))
         return false;
-    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->frames, r->arena, e)))
-        return false;
-    return true;
+    r->sounds = r->parts.asked & ITEM_BIT(ITEM_SOUND);
+    return render_open_sounds(r, e);
 }
 
-/* One contact's share of the frames [from, to). */
-static bool part_block(struct part *p, long from, long to, double *mix, struct err *e)
+/* What has just been run, to the files. */
+static bool render_put(struct render *r, long from, long to, struct err *e)
 {
-    long begin = from - p->start > 0 ? from - p->start : 0, end = to - p->start;
-    if (end <= begin || !p->open)
+    static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND};
+    for (int k = 0; k < STEMS; k++) {
+        if (!stems_asked(&r->scene->output, (enum stem)k))
+            continue;
+        render_parts_sum(&r->parts, items[k], from, to, r->block);
+        if (!stems_add(r->stems, (enum stem)k, r->block, to - from, e))
+            return false;
+    }
+    if (!r->sound)
         return true;
-    if (!run_block(&p->run, end, e))
-        return false;
-    if (!board_has(&p->run.board, ITEM_SOUND))
-        return true;
-    const double *x = board_at(&p->run.board, ITEM_SOUND, begin);
-    for (long n = begin; n < end; n++)
-        mix[n + p->start - from] += x[n - begin];
-    return true;
+    render_parts_sum(&r->parts, ITEM_SOUND, from, to, r->block);
+    return sound_add(r->sound, r->block, to - from, e);
 }
 
 static bool render_blocks(struct render *r, struct err *e)
 {
-    double mix[STAGE_BLOCK];
     for (long from = 0; from < r->frames; from += STAGE_BLOCK) {
         long to = from + STAGE_BLOCK < r->frames ? from + STAGE_BLOCK : r->frames;
-        memset(mix, 0, sizeof mix);
         if (interrupt_seen())
             return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
-        for (int i = 0; i < r->scene->n_contacts; i++)
-            if (!part_block(&r->parts[i], from, to, mix, e))
-                return false;
-        if (r->sound && !sound_add(r->sound, mix, to - from, e))
+        if (!render_parts_run(&r->parts, to, e) || !render_put(r, from, to, e))
             return false;
     }
     return true;
@@ -164,17 +81,17 @@ static bool render_blocks(struct render *r, struct err *e)
 
 static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact, const char *sha256)
 {
-    const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL;
-    r->report->files[r->report->n_files++] = (struct render_file){outputs_kinds[kind], path, contact, kept};
+    const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL, *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
+    r->report->files[r->report->n_files++] = (struct render_file){outputs_kinds[kind], path, contact, stem, kept};
 }
 
-/* What will have been written. The WAV is whole only after the summary that holds the hashes: it is listed without. */
+/* What will have been written. A WAV is whole only after the summary that holds the hashes: it is listed without. */
 static bool render_list(struct render *r, const char *effective, struct err *e)
 {
     char hex[HASH_TEXT];
-    r->report->files = ARENA_TAKE(r->arena, struct render_file, r->scene->n_contacts + 3);
+    r->report->files = ARENA_TAKE(r->arena, struct render_file, r->scene->n_contacts + OUTPUT_KINDS);
     for (int i = 0; i < r->scene->n_contacts; i++) {
-        struct part *p = &r->parts[i];
+        struct render_part *p = &r->parts.parts[i];
         if (!p->csv.stream)
             continue;
         if (!outfile_hash(&p->csv, hex, e))
@@ -186,22 +103,25 @@ static bool render_list(struct render *r, const char *effective, struct err *e)
     report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
     if (r->sounds)
         report_file(r, OUTPUT_SOUND, r->wav_path, NULL, NULL);
+    for (int k = 0; k < STEMS; k++)
+        if (stems_asked(&r->scene->output, (enum stem)k))
+            report_file(r, OUTPUT_STEM + k, r->stem_paths[k], NULL, NULL);
     return true;
 }
 
 static bool render_finish(struct render *r, double start[2], struct err *e)
 {
     struct render_report *report = r->report;
-    if (r->sound && !sound_finish(r->sound, &report->sound, e))
+    report->sound.gain = 1;
+    if ((r->sound && !sound_finish(r->sound, &report->sound, e)) || (r->stems && !stems_finish(r->stems, report->sound.gain, e)))
         return false;
     report->frames = r->frames;
     report->sounds = r->sounds;
+    report->quantity = render_parts_quantity(&r->parts);
     report->seconds = stopwatch_wall() - start[0];
     report->cpu = stopwatch_cpu() - start[1];
-    const struct run **runs = ARENA_TAKE(r->arena, const struct run *, r->scene->n_contacts);
-    for (int i = 0; i < r->scene->n_contacts; i++)
-        runs[i] = r->parts[i].open ? &r->parts[i].run : NULL;
     report->older = outputs_older(r->scene, r->base, r->arena);
+    const struct run *const *runs = render_parts_runs(&r->parts);
     const char *effective = outputs_effective(r->scene, r->scene_path, r->arena);
     if (!render_list(r, effective, e))
         return false;
@@ -216,38 +136,35 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
 static bool render_settle(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++)
-        if (r->parts[i].csv.stream && !outfile_settle(&r->parts[i].csv, e))
+        if (r->parts.parts[i].csv.stream && !outfile_settle(&r->parts.parts[i].csv, e))
             return false;
-    return outfile_settle(&r->effective, e) && outfile_settle(&r->summary, e) && (!r->sound || sound_settle(r->sound, e));
+    return outfile_settle(&r->effective, e) && outfile_settle(&r->summary, e) && (!r->sound || sound_settle(r->sound, e)) &&
+           (!r->stems || stems_settle(r->stems, e));
 }
 
 static bool render_commit(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++)
-        if (r->parts[i].csv.target[0] && !outfile_commit(&r->parts[i].csv, e))
+        if (r->parts.parts[i].csv.target[0] && !outfile_commit(&r->parts.parts[i].csv, e))
             return false;
-    return outfile_commit(&r->effective, e) && outfile_commit(&r->summary, e) && (!r->sound || sound_commit(r->sound, e));
+    return outfile_commit(&r->effective, e) && outfile_commit(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&
+           (!r->stems || stems_commit(r->stems, e));
 }
 
 static void render_close(struct render *r)
 {
     sound_drop(r->sound);
+    stems_drop(r->stems);
     outfile_drop(&r->effective);
     outfile_drop(&r->summary);
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        outfile_drop(&r->parts[i].csv);
-        if (r->parts[i].open)
-            run_close(&r->parts[i].run);
-    }
+    render_parts_close(&r->parts);
 }
 
 bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e)
 {
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
-    struct render r = {.scene = s, .base = base, .arena = a, .report = report, .parts = ARENA_TAKE(a, struct part, s->n_contacts)};
-    *report = (struct render_report){0};
-    for (int i = 0; i < s->n_contacts; i++)
-        r.parts[i].csv.fd = -1;
+    struct render r = {.scene = s, .base = base, .arena = a, .report = report, .parts = render_parts_make(s, base, a)};
+    *report = (struct render_report){.quantity = -1};
     r.effective.fd = r.summary.fd = -1;
     bool ok = render_open(&r, e) && render_blocks(&r, e) && render_finish(&r, start, e) && render_settle(&r, e) && render_commit(&r, e);
     render_close(&r);

@@ -7,8 +7,9 @@
 #include "pipeline/run.h"
 
 struct render_file {
-    const char *kind, *path; /* "wav", "csv", "scene", "summary" */
+    const char *kind, *path; /* "wav", "csv", "scene", "summary", "stem" */
     const char *contact;     /* of a table; NULL: of the whole   */
+    const char *stem;        /* of a stem, which; else NULL      */
     const char *sha256;      /* NULL: not known                  */
 };
 
@@ -17,6 +18,7 @@ struct render_report {
     double seconds, cpu;           /* wall clock and CPU time of the whole render */
     struct sound_report sound;
     bool sounds;                   /* there is a WAV */
+    int quantity;                  /* enum modes_quantity of the sound; -1: not stated */
     struct render_file *files;
     int n_files;
     const char **older;            /* files of an earlier render that stay; ends with NULL */
@@ -25,7 +27,7 @@ struct render_report {
     int n_warnings;
 };
 
-/* Renders to BASE.wav (if anything sounds), BASE.csv or BASE.CONTACT.csv (diagnostics), BASE.scene.yaml (the effective scene) and BASE.json
+/* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv (diagnostics), BASE.scene.yaml (the effective scene) and BASE.json
    (the summary). Nothing has a name before everything is complete. */
 bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e);
 

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/stopwatch.h"
+#include "response/listener.h"
 
 static unsigned reads(const struct stage_run *r)
 {
@@ -30,7 +31,7 @@ static int item_per_frame(const struct board *b, enum item item)
 {
     if (item == ITEM_SURFACE || item == ITEM_TABLE)
         return 0;
-    return item < ITEM_FORCE ? b->over : 1;
+    return item < ITEM_FORCE ? b->over : item == ITEM_FORCE ? 1 : b->channels;
 }
 
 /* Frames that a signal must hold: from the first that a reader looks back to (all of them begin at frame 0) to the end of its giver's
@@ -77,8 +78,8 @@ static bool run_open_stages(struct run *r, struct err *e)
 bool run_open(struct run *r, const struct plan *p, const struct scene *s, struct table_sink *table, struct err *e)
 {
     *r = (struct run){.scene = s, .plan = *p, .arena = arena_open()};
-    r->board = (struct board){.rate = s->output.sample_rate, .over = (int)s->accuracy.oversampling, .alive = p->alive, .quantity = -1,
-                              .table = table};
+    r->board = (struct board){.rate = s->output.sample_rate, .over = (int)s->accuracy.oversampling,
+                              .channels = listener_channels(&s->output), .alive = p->alive, .quantity = -1, .table = table};
     r->stages = ARENA_TAKE(r->arena, struct stage_run, p->n);
     if (!run_open_stages(r, e)) {
         run_close(r);

@@ -5,11 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convolution/ring_choice.h"
 #include "num/real.h"
 #include "response/modes.h"
 #include "trajectory/load.h"
 
-static const char *const summary_units[] = {"m", "m/s", "m/s^2"}; /* by enum modes_quantity */
+static const char *const summary_units[] = {"m", "m/s", "m/s^2", "Pa"}; /* by enum modes_quantity */
 
 enum { MOST_OF_BOARD = (int)(sizeof ((struct board *)0)->warnings / sizeof ((struct board *)0)->warnings[0]) };
 
@@ -61,15 +62,28 @@ static double decibel(double x)
     return x > 0 ? 20 * real_log10(x) : -HUGE_VAL;
 }
 
-static json_t *sound_json(const struct scene *s, const struct run *const *runs, const struct render_report *report)
+/* Each listening place of several: what is heard there, unscaled. */
+static json_t *channels_json(const struct scene *s, const struct sound_report *o)
+{
+    json_t *all = json_array();
+    for (int k = 0; k < o->channels; k++) {
+        const double *place = s->output.listen.places + 3 * k;
+        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o}", "place_m", number(place[0]), number(place[1]), number(place[2]), "peak",
+                                             number(o->channel_peak[k]), "rms", number(o->channel_rms[k])));
+    }
+    return all;
+}
+
+static json_t *sound_json(const struct scene *s, const struct render_report *report)
 {
     const struct sound_report *o = &report->sound;
-    int quantity = -1;
-    for (int i = 0; i < s->n_contacts; i++)
-        quantity = runs[i] && runs[i]->board.quantity >= 0 ? runs[i]->board.quantity : quantity;
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit", quantity >= 0 ? summary_units[quantity] : "the impulse response's", "peak",
-                     number(o->peak), "rms", number(o->rms), "gain", number(o->gain), "gain_db", number(decibel(o->gain)), "peak_dbfs",
-                     number(decibel(o->gain * o->peak)), "rms_dbfs", number(decibel(o->gain * o->rms)), "silent", o->silent);
+    json_t *sound = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit",
+                              report->quantity >= 0 ? summary_units[report->quantity] : "the impulse response's", "peak", number(o->peak), "rms",
+                              number(o->rms), "gain", number(o->gain), "gain_db", number(decibel(o->gain)), "peak_dbfs",
+                              number(decibel(o->gain * o->peak)), "rms_dbfs", number(decibel(o->gain * o->rms)), "silent", o->silent);
+    if (o->channels > 1)
+        json_object_set_new(sound, "channels", channels_json(s, o));
+    return sound;
 }
 
 static json_t *stages_json(const struct run *run, double cpu)
@@ -84,11 +98,28 @@ static json_t *stages_json(const struct run *run, double cpu)
     return all;
 }
 
+/* How a surface that rings by modes is convolved; of a moving response also with what predicted error. */
+static json_t *response_json(const struct ring_choice *c, double rate)
+{
+    static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
+    json_t *r = json_pack("{s:s, s:i}", "moving", readings[c->reading], "modes", c->modes.n);
+    if (c->moves && (c->engine == RING_OVERLAP || c->engine == RING_READOUT))
+        json_object_set_new(r, "hop_s", number(c->hop / rate));
+    if (c->engine == RING_PANNED)
+        json_object_set_new(r, "nodes", json_integer(c->nodes.n));
+    if (c->error > 0)
+        json_object_set_new(r, "predicted_error_db", number(decibel(c->error)));
+    return r;
+}
+
 static json_t *contact_json(const struct run *run, double cpu)
 {
     const struct board *b = &run->board;
+    const struct ring_choice *choice = run->plan.contact->surface.response.choice;
     json_t *c = json_pack("{s:s, s:o, s:o}", "name", run->plan.contact->name, "lifted_off_s", number(b->lifted), "stages",
                           stages_json(run, cpu));
+    if (choice && !choice->recorded)
+        json_object_set_new(c, "response", response_json(choice, b->rate));
     if (b->load)
         json_object_set_new(c, "normal_force_n", json_pack("[o, o]", number(b->load->least), number(b->load->most)));
     return c;
@@ -103,8 +134,8 @@ static json_t *files_json(const struct render_report *report)
         const char *slash = strrchr(f->path, '/');
         if (!strcmp(f->kind, "summary"))
             continue;
-        json_array_append_new(all, json_pack("{s:s, s:s, s:s*, s:s*}", "kind", f->kind, "name", slash ? slash + 1 : f->path, "contact",
-                                             f->contact, "sha256", f->sha256));
+        json_array_append_new(all, json_pack("{s:s, s:s, s:s*, s:s*, s:s*}", "kind", f->kind, "name", slash ? slash + 1 : f->path, "contact",
+                                             f->contact, "stem", f->stem, "sha256", f->sha256));
     }
     return all;
 }
@@ -124,7 +155,7 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
                               number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks,
                               "files", files_json(report));
     if (report->sounds)
-        json_object_set_new(whole, "sound", sound_json(s, runs, report));
+        json_object_set_new(whole, "sound", sound_json(s, report));
     char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);
     const char *kept = arena_format(a, "%s\n", text ? text : "{}");
     free(text);

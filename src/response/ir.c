@@ -4,17 +4,16 @@
    the half are inside h[].
 
    Sampling modes, h(t) = Im sum_i A_i e^(s_i t): a phasor per mode turns by p = e^(s/rate) from sample to sample; every SEGMENT samples
-   it starts afresh from a second phasor that turns by P = e^(s SEGMENT/rate), whose angle is reduced exactly (fmod of SEGMENT f by
-   rate; SEGMENT is a power of 2) before it is rounded. So rounding grows with SEGMENT + length/SEGMENT, not with length. Eight modes
+   it starts afresh from a second phasor that turns by P = e^(s SEGMENT/rate), whose angle is reduced exactly (SEGMENT f modulo the rate;
+   SEGMENT is a power of 2) before it is rounded. So rounding grows with SEGMENT + length/SEGMENT, not with length. Eight modes
    are the lanes of a group; sums run over groups in order and then over lanes in a fixed tree: same bits on every CPU. */
 #include "response/ir.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "file/wav.h"
 #include "num/lanes.h"
-#include "num/real.h"
+#include "num/vecmath.h"
 
 enum { SEGMENT = 256, SPAN = 4 }; /* samples between fresh starts; samples per visit to a group */
 
@@ -25,40 +24,6 @@ size_t ir_length(double rate, double t0)
     return n < 1.0 ? 1 : (size_t)n;
 }
 
-/* ------------------------------------------------------------------ from a WAV */
-
-static bool refuse(const char *path, const struct wav *w, double rate, struct err *e)
-{
-    if (w->channels != 1)
-        return err_set(e, ERR_SCENE, "%s: has %d channels; an impulse response is mono: extract one channel", path, w->channels);
-    if (w->rate != rate)
-        return err_set(e, ERR_SCENE, "%s: its sample rate is %g Hz, the scene's %g Hz: resample it, or set output.sample_rate: %g Hz", path,
-                       w->rate, rate, w->rate);
-    return true;
-}
-
-bool ir_read(const char *path, double rate, double t0, struct arena *a, struct ir *ir, struct err *e)
-{
-    struct wav w;
-    bool silent = true;
-    if (!wav_read(path, a, &w, e) || !refuse(path, &w, rate, e))
-        return false;
-    size_t cut = isnan(t0) ? w.frames : ir_length(rate, t0);
-    ir->length = cut < w.frames ? cut : w.frames;
-    ir->h = ARENA_TAKE(a, double, ir->length);
-    for (size_t n = 0; n < ir->length; n++) {
-        ir->h[n] = w.x[n] / rate;
-        silent = silent && w.x[n] == 0.0;
-    }
-    ir->h[0] *= 0.5;
-    if (silent)
-        return err_set(e, ERR_SCENE, "%s: the impulse response is silent%s; give one that rings, or leave the response out", path,
-                       ir->length < w.frames ? " before response_length" : "");
-    return true;
-}
-
-/* ------------------------------------------------------------------ from modes */
-
 struct group {
     _Alignas(64) double pr[LANES];
     double pi[LANES];            /* p: one sample              */
@@ -68,34 +33,57 @@ struct group {
 };
 
 struct ir_sampler {
-    const struct modes *modes;
+    int n, groups;
     double rate;
-    int groups;
+    double *frequency, *decay; /* [groups][LANES] those of the phasors */
     struct group *group;
     double sums[SEGMENT][LANES];
 };
 
-/* e^(s n/rate), n a power of 2. */
-static void phasor(const struct modes *m, int i, double rate, double n, double *re, double *im)
+/* e^(s n/rate) of a group, n a power of 2. The angle is reduced first, exactly: n f and whole multiples of the rate (a whole number) are. */
+static void phasors(const struct ir_sampler *s, int k, double n, double *re, double *im)
 {
-    double turn = fmod(n * m->frequency[i], rate) / rate, size = real_exp(-m->decay[i] * n / rate);
-    *re = size * real_cospi(2.0 * turn);
-    *im = size * real_sinpi(2.0 * turn);
+    double size[LANES], turn[LANES];
+    for (int l = 0; l < LANES; l++) {
+        double x = n * s->frequency[LANES * k + l];
+        turn[l] = 2.0 * ((x - s->rate * floor(x / s->rate)) / s->rate);
+        size[l] = -s->decay[LANES * k + l] * n / s->rate;
+    }
+    vecmath_exp(LANES, size, size);
+    vecmath_sincospi(LANES, turn, im, re);
+    for (int l = 0; l < LANES; l++) {
+        re[l] *= size[l];
+        im[l] *= size[l];
+    }
 }
 
-struct ir_sampler *ir_sampler_make(struct arena *a, const struct modes *m, double rate)
+struct ir_sampler *ir_sampler_make(struct arena *a, int n, double rate)
 {
     struct ir_sampler *s = ARENA_TAKE(a, struct ir_sampler, 1);
-    s->modes = m;
+    s->n = n;
     s->rate = rate;
-    s->groups = (m->n + LANES - 1) / LANES;
+    s->groups = (n + LANES - 1) / LANES;
     s->group = ARENA_TAKE(a, struct group, s->groups + 1);
-    for (int i = 0; i < m->n; i++) {
-        struct group *g = &s->group[i / LANES];
-        phasor(m, i, rate, 1.0, &g->pr[i % LANES], &g->pi[i % LANES]);
-        phasor(m, i, rate, SEGMENT, &g->Pr[i % LANES], &g->Pi[i % LANES]);
-    }
+    s->frequency = ARENA_TAKE(a, double, LANES * (size_t)s->groups);
+    s->decay = ARENA_TAKE(a, double, LANES * (size_t)s->groups);
+    for (int i = 0; i < n; i++)
+        s->frequency[i] = NAN; /* no pole yet */
     return s;
+}
+
+static void set_poles(struct ir_sampler *s, const struct modes_point *p)
+{
+    for (int k = 0; k < s->groups; k++) {
+        int from = LANES * k, n = s->n - from < LANES ? s->n - from : LANES;
+        size_t bytes = (size_t)n * sizeof(double);
+        bool same = memcmp(s->frequency + from, p->frequency + from, bytes) == 0 && memcmp(s->decay + from, p->decay + from, bytes) == 0;
+        if (same)
+            continue;
+        memcpy(s->frequency + from, p->frequency + from, bytes);
+        memcpy(s->decay + from, p->decay + from, bytes);
+        phasors(s, k, 1.0, s->group[k].pr, s->group[k].pi);
+        phasors(s, k, SEGMENT, s->group[k].Pr, s->group[k].Pi);
+    }
 }
 
 /* Im z now; then z turns on by p. */
@@ -140,19 +128,20 @@ static void restart(struct ir_sampler *s)
     memset(s->sums, 0, sizeof s->sums);
 }
 
-static void start(struct ir_sampler *s, const double *gain_re, const double *gain_im)
+static void start(struct ir_sampler *s, const struct modes_point *p)
 {
-    for (int i = 0; i < s->modes->n; i++) {
+    for (int i = 0; i < s->n; i++) {
         struct group *g = &s->group[i / LANES];
-        g->zr[i % LANES] = g->Zr[i % LANES] = gain_re[i] / s->rate;
-        g->zi[i % LANES] = g->Zi[i % LANES] = gain_im[i] / s->rate;
+        g->zr[i % LANES] = g->Zr[i % LANES] = p->re[i] / s->rate;
+        g->zi[i % LANES] = g->Zi[i % LANES] = p->im[i] / s->rate;
     }
     memset(s->sums, 0, sizeof s->sums);
 }
 
-void ir_sample(struct ir_sampler *s, const double *gain_re, const double *gain_im, double *h, size_t length)
+void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length)
 {
-    start(s, gain_re, gain_im);
+    set_poles(s, p);
+    start(s, p);
     for (size_t at = 0; at < length; at += SEGMENT) {
         size_t n = length - at < SEGMENT ? length - at : SEGMENT;
         ring(s->group, s->groups, s->sums, (n + SPAN - 1) / SPAN * SPAN);
@@ -162,5 +151,5 @@ void ir_sample(struct ir_sampler *s, const double *gain_re, const double *gain_i
         }
         restart(s);
     }
-    h[0] = 0.5 * h[0] + modes_direct(s->modes, gain_re, gain_im);
+    h[0] = 0.5 * h[0] + modes_direct(quantity, s->n, s->frequency, s->decay, p);
 }

@@ -13,21 +13,23 @@
 struct ir {
     size_t length;
     double *h; /* [length], quantity per newton and sample */
+    const char *note; /* that it was resampled, for a warning; NULL: it was not */
 };
 
 /* Number of samples n with n/rate < t0 (t0 > 0, s), at least 1. */
 size_t ir_length(double rate, double t0);
 
 /* A mono WAV: sample value x[n] is the response at t = n/rate in its quantity per N s, as it stands (nothing is rescaled), the first one
-   h(0+). Cut to t < t0 (s); NAN: whole. Errors: as wav_read; ERR_SCENE when its rate is not `rate` (Hz), when it is not mono, or
-   silent before t0. */
+   h(0+). At another rate than `rate` (Hz) it is resampled, see ir_read.c. Cut to t < t0 (s); NAN: whole. Errors: as wav_read; ERR_SCENE when
+   it is not mono, or silent before t0. */
 bool ir_read(const char *path, double rate, double t0, struct arena *a, struct ir *ir, struct err *e);
 
-/* Samples modes into impulse responses at that rate (Hz); every mode must lie below rate/2 (modes_drop_above). */
+/* Samples modes into impulse responses at that rate (Hz): n components, each below rate/2 while its gain is not 0 (modes_drop_above, morph.c). */
 struct ir_sampler;
-struct ir_sampler *ir_sampler_make(struct arena *a, const struct modes *m, double rate);
+struct ir_sampler *ir_sampler_make(struct arena *a, int n, double rate);
 
-/* The response h[length] of complex gains [n] (as from modes_gains_at). Absolute error <= 1e-12 sum |gain| / rate up to 1e5 samples. */
-void ir_sample(struct ir_sampler *s, const double *gain_re, const double *gain_im, double *h, size_t length);
+/* The response h[length] of a point with its poles, in that quantity (enum modes_quantity; of acceleration and pressure with the direct term). Poles that
+   are those of the call before cost nothing. Absolute error <= 1e-12 sum |gain| / rate up to 1e5 samples. */
+void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length);
 
 #endif

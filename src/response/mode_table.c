@@ -1,185 +1,167 @@
-/* Reading a mode table (its columns and comments are described in modes.h) and saying, with file and line, what is wrong with it.
-   Rows may come in any order; every (place, mode) must be there exactly once. Ids of places and modes are texts. */
+/* A mode table: its comments, its rows (mode_table_rows.c) gathered into one entry per place and mode, and what shared or separate
+   poles ask of the entries. */
 #include "response/mode_table.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLACE, X, Y, MODE, FREQUENCY, DECAY, GAIN, PHASE, COLUMNS }; /* MODE_TABLE_..., for short */
+#include "base/text.h"
+#include "response/mode_table_envelopes.h"
+#include "response/mode_table_rows.h"
 
-static const char *const column_names[COLUMNS] = {"place", "x_m", "y_m", "mode", "frequency_hz", "decay_per_s", "gain", "phase_rad"};
 static const char *const quantity_names[] = {"displacement", "velocity", "acceleration", NULL};
 
-static const char *cell(const struct mode_table *t, size_t row, int c)
-{
-    return t->csv.cells[row * t->csv.columns + (size_t)t->column[c]];
-}
+/* ------------------------------------------------------------------ comments */
 
-static bool bad_row(const struct mode_table *t, size_t row, struct err *e)
+/* The comment's value; NULL where it is not given, and an error when it is given twice. */
+static bool comment(const struct csv *t, const char *key, const char **value, struct err *e)
 {
-    return err_at(e, "%s:%d", t->csv.file, t->csv.lines[row]);
-}
-
-/* ------------------------------------------------------------------ header */
-
-static bool find_columns(struct mode_table *t, struct err *e)
-{
-    if (t->csv.columns == 1 && t->csv.names[0][strcspn(t->csv.names[0], ";\t")])
-        return err_set(e, ERR_SCENE, "%s: the columns are separated by semicolons or tabs; a mode table wants commas (and decimal points)", t->csv.file);
-    for (int c = 0; c < COLUMNS; c++)
-        if ((t->column[c] = csv_column(&t->csv, column_names[c])) < 0)
-            return err_set(e, ERR_SCENE, "%s: a mode table needs the column '%s'; its columns are place, x_m, y_m, mode, "
-                           "frequency_hz, decay_per_s, gain, phase_rad", t->csv.file, column_names[c]);
-    if (t->csv.columns != COLUMNS)
-        return err_set(e, ERR_SCENE, "%s: %zu columns where a mode table has %d (place, x_m, y_m, mode, frequency_hz, decay_per_s, "
-                       "gain, phase_rad); remove the others", t->csv.file, t->csv.columns, (int)COLUMNS);
-    if (t->csv.rows == 0)
-        return err_set(e, ERR_SCENE, "%s: a mode table without modes; give at least one row", t->csv.file);
-    return true;
-}
-
-/* The comment's value; NULL and an error when it is missing or given twice. */
-static const char *comment(const struct csv *t, const char *key, const char *words, struct err *e)
-{
-    const char *value = csv_comment(t, key);
     int given = 0;
     for (size_t i = 0; i < t->n_comments; i++)
         given += strcmp(t->comments[i].key, key) == 0;
-    if (given == 1)
-        return value;
-    err_set(e, ERR_SCENE, "%s: the comment '# %s: ...' %s; write it once, before the header (%s)", t->file, key,
-            given ? "is given more than once" : "is missing", words);
-    return NULL;
+    *value = csv_comment(t, key);
+    return given < 2 || err_set(e, ERR_SCENE, "%s: the comment '# %s: ...' is given more than once; write it once, before the header", t->file, key);
 }
 
-static bool read_comments(const struct csv *t, int *quantity, struct err *e)
+static bool needed(const struct csv *t, const char *key, const char *words, const char **value, struct err *e)
 {
-    const char *poles = comment(t, "poles", "shared", e);
-    const char *word = poles ? comment(t, "quantity", "displacement, velocity or acceleration", e) : NULL;
-    if (!word)
+    if (!comment(t, key, value, e))
         return false;
-    if (strcmp(poles, "separate") == 0)
-        return err_set(e, ERR_SCENE, "%s: separate poles need morphing, which this version does not offer; fit the places with shared "
-                       "poles, or give each place its own table", t->file);
-    if (strcmp(poles, "shared") != 0)
-        return err_set(e, ERR_SCENE, "%s: poles: '%.60s' is neither shared nor separate", t->file, poles);
-    for (*quantity = 0; quantity_names[*quantity]; (*quantity)++)
-        if (strcmp(word, quantity_names[*quantity]) == 0)
+    return *value || err_set(e, ERR_SCENE, "%s: the comment '# %s: ...' is missing; write it once, before the header (%s)", t->file, key, words);
+}
+
+/* Index of the word among up to three. */
+static bool choose(const struct csv *t, const char *value, const char *const *words, int *index, struct err *e)
+{
+    for (*index = 0; words[*index]; (*index)++)
+        if (strcmp(value, words[*index]) == 0)
             return true;
-    return err_set(e, ERR_SCENE, "%s: quantity: '%.60s' is not displacement, velocity or acceleration (per N s)", t->file, word);
+    return words == quantity_names
+               ? err_set(e, ERR_SCENE, "%s: quantity: '%.60s' is not displacement, velocity or acceleration (per N s)", t->file, value)
+               : err_set(e, ERR_SCENE, "%s: %s: '%.60s' is neither %s nor %s", t->file, strcmp(words[0], "shared") == 0 ? "poles" : "pairing", value, words[0],
+                         words[1]);
 }
 
-/* ------------------------------------------------------------------ ids */
-
-struct label {
-    const char *text;
-    size_t row;
-};
-
-static int label_order(const void *a, const void *b)
+static bool read_radius(const struct csv *t, double *radius, struct err *e)
 {
-    const struct label *p = a, *q = b;
-    int texts = strcmp(p->text, q->text);
-    return texts ? texts : (p->row > q->row) - (p->row < q->row);
+    const char *value;
+    *radius = NAN;
+    if (!comment(t, "radius_m", &value, e))
+        return false;
+    if (value && !(text_double(value, radius) && *radius > 0.0 && *radius <= 1000.0))
+        return err_set(e, ERR_SCENE, "%s: radius_m: '%.60s' is not a number above 0, at most 1000 (metres)", t->file, value);
+    return true;
 }
 
-/* Numbers the different texts of a column in order of first appearance; returns how many there are. */
-static size_t number_labels(const struct mode_table *t, int c, struct arena *a, size_t *id)
+/* by_frequency: -1 where the table does not say. */
+static bool read_comments(struct mode_table *t, int *by_frequency, struct err *e)
 {
-    size_t rows = t->csv.rows, n = 0;
-    struct label *l = ARENA_TAKE(a, struct label, rows);
-    for (size_t i = 0; i < rows; i++)
-        l[i] = (struct label){cell(t, i, c), i};
-    qsort(l, rows, sizeof *l, label_order);
-    for (size_t i = 0, first = 0; i < rows; i++) {
-        if (strcmp(l[i].text, l[first].text) != 0)
-            first = i;
-        id[l[i].row] = l[first].row;
+    static const char *const poles_words[] = {"shared", "separate", NULL}, *const pairing_words[] = {"ids", "frequency", NULL};
+    const char *poles, *quantity, *pairing;
+    int separate;
+    *by_frequency = -1;
+    if (!needed(&t->csv, "poles", "shared or separate", &poles, e) ||
+        !needed(&t->csv, "quantity", "displacement, velocity or acceleration", &quantity, e) || !comment(&t->csv, "pairing", &pairing, e) ||
+        !choose(&t->csv, poles, poles_words, &separate, e) || !choose(&t->csv, quantity, quantity_names, &t->quantity, e) ||
+        (pairing && !choose(&t->csv, pairing, pairing_words, by_frequency, e)))
+        return false;
+    t->shared = !separate;
+    if (t->shared && *by_frequency == 1)
+        return err_set(e, ERR_SCENE, "%s: pairing: frequency is for separate poles; with shared ones a mode has the same id at every place", t->csv.file);
+    return read_radius(&t->csv, &t->radius, e);
+}
+
+/* ------------------------------------------------------------------ entries */
+
+static int slope_order(const void *a, const void *b)
+{
+    const struct mode_slope *p = a, *q = b;
+    return (p->decay > q->decay) - (p->decay < q->decay);
+}
+
+/* Rows of one place and mode: one frequency, and of an envelope one phase. */
+static bool one_mode(const struct mode_table_rows *r, const size_t *rows, size_t n, struct err *e)
+{
+    const double *v = mode_table_rows_values(r, rows[0]);
+    for (size_t i = 1; i < n; i++) {
+        const double *w = mode_table_rows_values(r, rows[i]);
+        if (w[MODE_TABLE_FREQUENCY] == v[MODE_TABLE_FREQUENCY] && (!r->envelope || w[MODE_TABLE_PHASE] == v[MODE_TABLE_PHASE]))
+            continue;
+        err_set(e, ERR_SCENE, "mode '%.60s' of place '%.60s' has frequency %.12g Hz and phase %.12g here, %.12g Hz and %.12g in line %d; %s",
+                mode_table_rows_cell(r, rows[i], MODE_TABLE_MODE), mode_table_rows_cell(r, rows[i], MODE_TABLE_PLACE), w[MODE_TABLE_FREQUENCY],
+                w[MODE_TABLE_PHASE], v[MODE_TABLE_FREQUENCY], v[MODE_TABLE_PHASE], r->csv->lines[rows[0]],
+                r->envelope ? "an envelope belongs to one frequency and phase" : "the slopes of a mode have one frequency");
+        return mode_table_rows_bad(r, rows[i], e);
     }
-    for (size_t i = 0; i < rows; i++)
-        id[i] = id[i] == i ? n++ : id[id[i]];
-    return n;
+    return true;
 }
 
-struct entry {
-    size_t place, mode, row;
-};
-
-static int entry_order(const void *a, const void *b)
+static void take_slopes(const struct mode_table_rows *r, const size_t *rows, struct mode_entry *m)
 {
-    const struct entry *p = a, *q = b;
-    if (p->place != q->place)
-        return p->place < q->place ? -1 : 1;
-    if (p->mode != q->mode)
-        return p->mode < q->mode ? -1 : 1;
-    return (p->row > q->row) - (p->row < q->row);
-}
-
-static bool duplicate(const struct mode_table *t, const struct entry *p, const struct entry *q, struct err *e)
-{
-    return err_set(e, ERR_SCENE, "%s:%d: place '%.60s' has mode '%.60s' again, after line %d", t->csv.file, t->csv.lines[q->row],
-                   cell(t, q->row, PLACE), cell(t, q->row, MODE), t->csv.lines[p->row]);
-}
-
-static const char *label_of(const struct mode_table *t, const size_t *id, size_t number, int c)
-{
-    size_t i = 0;
-    while (id[i] != number)
-        i++;
-    return cell(t, i, c);
-}
-
-static bool missing(const struct mode_table *t, size_t index, struct err *e)
-{
-    size_t place = index / t->modes, i = 0;
-    while (t->place[i] != place)
-        i++;
-    return err_set(e, ERR_SCENE, "%s:%d: place '%.60s', which starts here, has no mode '%.60s'; every place needs every mode (a mode that is "
-                   "silent there has gain 0)", t->csv.file, t->csv.lines[i], cell(t, i, PLACE),
-                   label_of(t, t->mode, index % t->modes, MODE));
-}
-
-/* Fills row[place][mode]; every pair must be there once. */
-static bool arrange(struct mode_table *t, struct arena *a, struct err *e)
-{
-    size_t rows = t->csv.rows;
-    struct entry *s = ARENA_TAKE(a, struct entry, rows);
-    t->place = ARENA_TAKE(a, size_t, rows);
-    t->mode = ARENA_TAKE(a, size_t, rows);
-    t->row = ARENA_TAKE(a, size_t, rows);
-    t->places = number_labels(t, PLACE, a, t->place);
-    t->modes = number_labels(t, MODE, a, t->mode);
-    for (size_t i = 0; i < rows; i++)
-        s[i] = (struct entry){t->place[i], t->mode[i], i};
-    qsort(s, rows, sizeof *s, entry_order);
-    for (size_t i = 0; i < rows; i++) {
-        if (i && s[i].place == s[i - 1].place && s[i].mode == s[i - 1].mode)
-            return duplicate(t, &s[i - 1], &s[i], e);
-        if (s[i].place != i / t->modes || s[i].mode != i % t->modes)
-            return missing(t, i, e);
-        t->row[i] = s[i].row;
+    for (int i = 0; i < m->n; i++) {
+        const double *v = mode_table_rows_values(r, rows[i]);
+        m->slope[i] = (struct mode_slope){v[MODE_TABLE_DECAY], v[MODE_TABLE_GAIN], v[MODE_TABLE_PHASE]};
     }
-    return rows == t->places * t->modes || missing(t, rows, e);
+    qsort(m->slope, (size_t)m->n, sizeof *m->slope, slope_order);
 }
 
-/* ------------------------------------------------------------------ numbers */
-
-static bool read_row(struct mode_table *t, size_t row, struct err *e)
+/* One entry per place and mode; slopes of an envelope table are fitted later. *from: [entries] where its rows begin in r->order. */
+static bool gather(const struct mode_table_rows *r, struct arena *a, struct mode_table *t, size_t **from, struct err *e)
 {
-    double *v = t->value + row * COLUMNS;
-    for (int c = 0; c < COLUMNS; c++)
-        if (c != PLACE && c != MODE && !csv_number(&t->csv, row, t->column[c], &v[c], e))
+    size_t rows = r->csv->rows, n = 0;
+    t->entry = ARENA_TAKE(a, struct mode_entry, rows);
+    t->first = ARENA_TAKE(a, size_t, r->places + 1);
+    *from = ARENA_TAKE(a, size_t, rows + 1);
+    for (size_t i = 0, end; i < rows; i = end) {
+        const size_t *row = r->order + i;
+        for (end = i + 1; end < rows && r->place[r->order[end]] == r->place[*row] && r->mode[r->order[end]] == r->mode[*row];)
+            end++;
+        struct mode_entry *m = &t->entry[n];
+        *m = (struct mode_entry){r->place[*row], r->mode[*row], *row, mode_table_rows_values(r, *row)[MODE_TABLE_FREQUENCY], (int)(end - i), NULL};
+        (*from)[n++] = i;
+        (*from)[n] = end;
+        t->first[m->place + 1] = n;
+        if (!one_mode(r, row, end - i, e))
             return false;
-    if (!(v[FREQUENCY] > 0.0))
-        err_set(e, ERR_SCENE, "frequency_hz %g must be above 0", v[FREQUENCY]);
-    else if (!(v[DECAY] >= 0.0))
-        err_set(e, ERR_SCENE, "decay_per_s %g must not be negative: the mode would grow for ever", v[DECAY]);
-    else if (!(fabs(v[X]) <= 1000.0 && fabs(v[Y]) <= 1000.0))
-        err_set(e, ERR_SCENE, "the place (%g, %g) m lies farther than 1000 m from the origin; x_m and y_m are in metres", v[X], v[Y]);
-    else
-        return true;
-    return bad_row(t, row, e);
+        if (r->envelope)
+            continue;
+        m->slope = ARENA_TAKE(a, struct mode_slope, end - i);
+        take_slopes(r, row, m);
+    }
+    return true;
+}
+
+static void take_places(const struct mode_table_rows *r, struct arena *a, struct mode_table *t)
+{
+    t->places = r->places;
+    t->modes = r->modes;
+    t->xy = ARENA_TAKE(a, double, 2 * r->places);
+    t->row = ARENA_TAKE(a, size_t, r->places);
+    for (size_t i = r->csv->rows; i-- > 0;) {
+        const double *v = mode_table_rows_values(r, i);
+        t->row[r->place[i]] = i;
+        t->xy[2 * r->place[i]] = v[MODE_TABLE_X];
+        t->xy[2 * r->place[i] + 1] = v[MODE_TABLE_Y];
+    }
+}
+
+/* ------------------------------------------------------------------ poles */
+
+static bool missing(const struct mode_table_rows *r, const struct mode_table *t, size_t place, size_t mode, struct err *e)
+{
+    return err_set(e, ERR_SCENE, "%s:%d: place '%.60s', which starts here, has no mode '%.60s'; every place needs every mode (a mode that is "
+                   "silent there has gain 0)", t->csv.file, t->csv.lines[t->row[place]], mode_table_rows_cell(r, t->row[place], MODE_TABLE_PLACE),
+                   mode_table_rows_cell(r, mode_table_rows_first(r, MODE_TABLE_MODE, mode), MODE_TABLE_MODE));
+}
+
+/* Returns the first mode the place lacks, or their number. */
+static size_t lacks(const struct mode_table *t, size_t place)
+{
+    size_t n = t->first[place + 1] - t->first[place], k = 0;
+    while (k < n && t->entry[t->first[place] + k].mode == k)
+        k++;
+    return k;
 }
 
 static bool unequal(double a, double b)
@@ -187,50 +169,68 @@ static bool unequal(double a, double b)
     return fabs(a - b) > 1e-9 * fmax(fabs(a), fabs(b));
 }
 
-static bool check_row(const struct mode_table *t, size_t place, size_t mode, struct err *e)
+static bool same_poles(const struct mode_table_rows *r, const struct mode_entry *m, const struct mode_entry *w, struct err *e)
 {
-    size_t row = t->row[place * t->modes + mode], first = t->row[mode], origin = t->row[place * t->modes];
-    const double *v = t->value + row * COLUMNS, *w = t->value + first * COLUMNS, *o = t->value + origin * COLUMNS;
-    if (v[X] != o[X] || v[Y] != o[Y])
-        err_set(e, ERR_SCENE, "place '%.60s' is at (%g, %g) m here and at (%g, %g) m in line %d", cell(t, row, PLACE), v[X], v[Y], o[X],
-                o[Y], t->csv.lines[origin]);
-    else if (unequal(v[FREQUENCY], w[FREQUENCY]) || unequal(v[DECAY], w[DECAY]))
-        err_set(e, ERR_SCENE, "mode '%.60s' has frequency %.12g Hz and decay %.12g/s here, %.12g Hz and %.12g/s in line %d; with shared "
-                "poles they are the same at every place", cell(t, row, MODE), v[FREQUENCY], v[DECAY], w[FREQUENCY], w[DECAY],
-                t->csv.lines[first]);
-    else
-        return true;
-    return bad_row(t, row, e);
+    if (m->n != w->n) {
+        err_set(e, ERR_SCENE, "mode '%.60s' has %d slopes at this place, %d at that of line %d; with shared poles they are as many at every place",
+                mode_table_rows_cell(r, m->row, MODE_TABLE_MODE), m->n, w->n, r->csv->lines[w->row]);
+        return mode_table_rows_bad(r, m->row, e);
+    }
+    for (int k = 0; k < m->n; k++)
+        if (unequal(m->frequency, w->frequency) || unequal(m->slope[k].decay, w->slope[k].decay)) {
+            err_set(e, ERR_SCENE, "mode '%.60s' has frequency %.12g Hz and decay %.12g/s here, %.12g Hz and %.12g/s in line %d; with shared "
+                    "poles they are the same at every place", mode_table_rows_cell(r, m->row, MODE_TABLE_MODE), m->frequency, m->slope[k].decay,
+                    w->frequency, w->slope[k].decay, r->csv->lines[w->row]);
+            return mode_table_rows_bad(r, m->row, e);
+        }
+    return true;
 }
 
-static bool read_numbers(struct mode_table *t, struct arena *a, struct err *e)
+static bool check_shared(const struct mode_table_rows *r, const struct mode_table *t, struct err *e)
 {
-    t->value = ARENA_TAKE(a, double, t->csv.rows * COLUMNS);
-    for (size_t i = 0; i < t->csv.rows; i++)
-        if (!read_row(t, i, e))
+    for (size_t i = 0; i < t->first[t->places]; i++)
+        if (!same_poles(r, &t->entry[i], &t->entry[t->entry[i].mode], e))
             return false;
-    for (size_t p = 0; p < t->places; p++)
-        for (size_t m = 0; m < t->modes; m++)
-            if (!check_row(t, p, m, e))
-                return false;
     return true;
+}
+
+/* Separate decays are interpolated in the log. */
+static bool check_separate(const struct mode_table_rows *r, const struct mode_table *t, struct err *e)
+{
+    for (size_t i = 0; t->places > 1 && i < t->first[t->places]; i++)
+        if (!(t->entry[i].slope[0].decay > 0.0)) {
+            err_set(e, ERR_SCENE, "decay_per_s is 0: separate poles are interpolated between places in the log, where 0 has no value; give a small decay");
+            return mode_table_rows_bad(r, t->entry[i].row, e);
+        }
+    return true;
+}
+
+static bool read_entries(struct mode_table *t, int by_frequency, struct arena *a, struct err *e)
+{
+    struct mode_table_rows r;
+    size_t *from, whole = 0;
+    if (!mode_table_rows_read(&t->csv, a, &r, e) || !gather(&r, a, t, &from, e))
+        return false;
+    take_places(&r, a, t);
+    for (size_t p = 0, k; p < t->places; p++, whole += k == t->modes)
+        if ((k = lacks(t, p)) < t->modes && t->shared)
+            return missing(&r, t, p, k, e);
+    t->by_frequency = by_frequency < 0 ? whole < t->places : by_frequency;
+    if (r.envelope && !mode_table_envelopes_fit(&r, from, a, t, e))
+        return false;
+    return t->shared ? check_shared(&r, t, e) : check_separate(&r, t, e);
 }
 
 bool mode_table_read(const char *path, struct arena *a, struct mode_table *t, struct err *e)
 {
+    int by_frequency;
     *t = (struct mode_table){0};
-    return csv_read(path, a, &t->csv, e) && read_comments(&t->csv, &t->quantity, e) && find_columns(t, e) && arrange(t, a, e) &&
-           read_numbers(t, a, e);
-}
-
-const double *mode_table_values(const struct mode_table *t, size_t place, size_t mode)
-{
-    return t->value + t->row[place * t->modes + mode] * COLUMNS;
+    return csv_read(path, a, &t->csv, e) && read_comments(t, &by_frequency, e) && read_entries(t, by_frequency, a, e);
 }
 
 bool mode_table_bad_place(const struct mode_table *t, size_t place, const char *text, struct err *e)
 {
-    size_t row = t->row[place * t->modes];
-    err_set(e, ERR_SCENE, "place '%.60s' %s", cell(t, row, PLACE), text);
-    return bad_row(t, row, e);
+    size_t row = t->row[place];
+    int column = csv_column(&t->csv, "place");
+    return err_set(e, ERR_SCENE, "%s:%d: place '%.60s' %s", t->csv.file, t->csv.lines[row], t->csv.cells[row * t->csv.columns + (size_t)column], text);
 }

@@ -1,4 +1,19 @@
-/* A mode table as it stands in its file, checked: the step between file/csv.h and struct modes. */
+/* A mode table as it stands in its file, checked: the step between file/csv.h and struct modes.
+
+   Tidy CSV, one row per place and mode:
+       place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad
+   h(t) = gain e^(-decay_per_s t) sin(2 pi frequency_hz t + phase_rad), in the quantity per N s; ids of places and modes are texts, rows in any order.
+   Two other forms, for envelopes that are no single exponential (papers/000 equation 10):
+   - one more column `slope` (1, 2, ...): several rows of one place and mode, with their own decay, gain and phase, that sound together;
+   - the columns `time_s,amplitude` instead of `decay_per_s,gain`, one row per place, mode and time: the envelope A(tau), sampled, which is fitted by up to
+     six slopes (slopes.h).
+   Comments before the header, "# key: value":
+       poles          shared: frequency and decay of a mode are the same at every place (checked, 1e-9), and every place has every mode.
+                      separate: a place's own; a place may lack a mode; decays above 0.
+       quantity       displacement, velocity or acceleration, per N s
+       pairing        ids: modes of one id are one mode (default where poles are shared or every place has the same ids); frequency: see pairing.h
+       radius_m       of a sphere of the object's size, for a monopole's sound (optional)
+       normalisation, source, ...   free text */
 #ifndef RESPONSE_MODE_TABLE_H
 #define RESPONSE_MODE_TABLE_H
 #include <stdbool.h>
@@ -8,29 +23,34 @@
 #include "base/err.h"
 #include "file/csv.h"
 
-enum mode_table_column {
-    MODE_TABLE_PLACE, MODE_TABLE_X, MODE_TABLE_Y, MODE_TABLE_MODE, MODE_TABLE_FREQUENCY, MODE_TABLE_DECAY, MODE_TABLE_GAIN,
-    MODE_TABLE_PHASE, MODE_TABLE_COLUMNS
+struct mode_slope {
+    double decay, gain, phase;
+};
+
+struct mode_entry {            /* a mode at a place */
+    size_t place, mode, row;   /* indices in order of first appearance; first row of the CSV */
+    double frequency;
+    int n;
+    struct mode_slope *slope;  /* [n] by rising decay */
 };
 
 struct mode_table {
     struct csv csv;
-    int column[MODE_TABLE_COLUMNS];
-    int quantity;         /* enum modes_quantity                                      */
-    size_t places, modes;
-    size_t *place, *mode; /* [rows] index of each, in order of first appearance       */
-    size_t *row;          /* [places][modes] row of the CSV                           */
-    double *value;        /* [rows][MODE_TABLE_COLUMNS], the numeric ones, SI         */
+    int quantity;              /* enum modes_quantity */
+    bool shared, by_frequency; /* poles; pairing */
+    double radius;             /* m; NAN: not given */
+    size_t places, modes;      /* places; ids of modes */
+    double *xy;                /* [places][2] m */
+    size_t *row;               /* [places] first row of each */
+    size_t *first;             /* [places + 1] where its entries begin */
+    struct mode_entry *entry;  /* [first[places]] by place, then by mode */
+    const char *note;          /* a warning; NULL: none */
 };
 
-/* Reads and checks everything but the geometry: comments, columns, every (place, mode) exactly once, numbers and their ranges, the
-   same frequency and decay of a mode at every place, one point per place. Errors: as csv_read, else ERR_SCENE with file and line. */
+/* Reads and checks everything but the geometry. Errors: as csv_read, else ERR_SCENE with file and line. */
 bool mode_table_read(const char *path, struct arena *a, struct mode_table *t, struct err *e);
 
-/* The numbers (indexed by enum mode_table_column) of a mode at a place. */
-const double *mode_table_values(const struct mode_table *t, size_t place, size_t mode);
-
-/* For an error in the row of that place's first mode: sets ERR_SCENE "file:line: place 'name': text"; returns false. */
+/* For an error in a place: sets ERR_SCENE "file:line: place 'name' text", line its first; returns false. */
 bool mode_table_bad_place(const struct mode_table *t, size_t place, const char *text, struct err *e);
 
 #endif

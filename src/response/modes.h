@@ -1,9 +1,9 @@
-/* Modes: how an object rings. A mode is gain e^(-decay t) sin(2 pi f t + phase), t >= 0 (equation 10 with A_i(t) an exponential).
-   Mode table: tidy CSV `place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad` after `# key: value` lines:
-     poles          shared | separate      (separate: issue a clear error until morphing is built)
-     quantity       displacement | velocity | acceleration   per N s
-     normalisation, source                  free text
-   With shared poles frequency and decay of a mode are the same at every place (checked, 1e-9 relative); gain and phase move. */
+/* Modes: how an object rings, wherever it is touched. A mode is gain e^(-decay t) sin(2 pi f t + phase), t >= 0 (papers/000 equation 10
+   with A_i(t) an exponential; a mode of several slopes is several components of one frequency). Complex gain: A = gain e^(j phase), so that
+   h(t) = Im sum A_i e^(s_i t), s_i = -decay + j 2 pi f.
+
+   A `struct modes` comes from a mode table (modes_table.c), a closed-form object (object_modes.c), or a place in the space of materials
+   (space.c); all are read through `at`. */
 #ifndef RESPONSE_MODES_H
 #define RESPONSE_MODES_H
 #include <stdbool.h>
@@ -11,32 +11,62 @@
 #include "base/arena.h"
 #include "base/err.h"
 
-enum modes_quantity { MODES_DISPLACEMENT, MODES_VELOCITY, MODES_ACCELERATION };
+/* MODES_PRESSURE comes from a listener only, no table holds it. Same order as enum quantity of scene.h, which has `auto` before. */
+enum modes_quantity { MODES_DISPLACEMENT, MODES_VELOCITY, MODES_ACCELERATION, MODES_PRESSURE };
 
-struct modes {
-    int n, places;
-    int quantity;                 /* enum modes_quantity                                    */
-    double *frequency, *decay;    /* [n] Hz, 1/s (amplitude rate), strongest mode first     */
-    double *gain_re, *gain_im;    /* [places][n]: gain e^(j phase)                          */
-    double *along;                /* [places] m, increasing: coordinate along the line of places */
-    double base[2], axis[2];      /* the line: base + along * axis, axis a unit vector      */
+struct modes_where {
+    double x, y;   /* m, the contact, in the scene's coordinates */
+    double share;  /* of the motion's duration that has passed, 0 to 1 (the space of materials moves with it) */
 };
 
-/* Reads a table and keeps the `strongest` modes: by energy summed over places, sum gain^2 / (4 decay); a tie keeps table order.
-   Places must lie on one straight line (1e-9 m). Errors name file and line: duplicate or missing (place, mode), decay < 0,
-   frequency <= 0, not finite, unequal poles. */
-bool modes_read(const char *path, int strongest, struct arena *a, struct modes *m, struct err *e);
+struct modes_point {             /* what rings when it is touched there; arrays [n] of the caller (modes_point_make) */
+    double *frequency, *decay;   /* Hz, 1/s */
+    double *re, *im;             /* complex gain, quantity per N s */
+};
 
-/* Complex gains [n] at a point, linear in the signed gains between neighbouring places. A contact off the hull (the stretch between the
-   first and the last place, also when it is beside the line) by more than 1e-9 m gets the gains of the hull's nearest point, and how far
-   off it is (m) is returned; else 0. A table of one place holds everywhere: 0. */
-double modes_gains_at(const struct modes *m, double x, double y, double *gain_re, double *gain_im);
+struct object;
 
-/* The direct term D of an acceleration table at those gains (its delta at t = 0: what the force itself adds, per kg): sum Im(A_i/s_i),
-   A_i the complex gain, s_i = -decay + j 2 pi f. 0 for the other quantities. */
-double modes_direct(const struct modes *m, const double *gain_re, const double *gain_im);
+struct modes {
+    int n;                       /* components, strongest mode first                                        */
+    int quantity;                /* enum modes_quantity                                                     */
+    bool shared;                 /* poles are the same everywhere: those of frequency, decay                */
+    bool moves;                  /* gains or poles depend on the contact's place                            */
+    bool travels;                /* ... or on the time: also where the contact stays                        */
+    double *frequency, *decay;   /* [n] shared poles; of separate ones the place's where the mode is strongest */
+    double *slowest;             /* [n] 1/s, least decay anywhere                                           */
+    double radius;               /* m, of a sphere of the object's size (monopole); NAN: not stated         */
+    const struct object *object; /* NULL: not one of closed form                                            */
+    const char *name;            /* file or "surface.object", for messages                                  */
+    const char *note;            /* what to warn of; NULL: nothing                                          */
+    double home[2];              /* m: the place that counts where nothing says which (of a line its first)  */
+    /* Kinks of the way from one point to another, as places_kinks; NULL: there are none. */
+    int (*kinks)(const struct modes *, const double from[2], const double to[2], double *u, int most);
+    int (*drop)(struct modes *, double top); /* as modes_drop_above does, modes from `top` Hz on; NULL: there are none */
+    double (*at)(const struct modes *, const struct modes_where *, const struct modes_point *);
+    const void *self;
+};
 
-/* Drops modes at or above 0.499 rate from use (sets n); returns how many were dropped. */
+/* Fills the point; poles too when they are not shared (when they are, frequency and decay of the point may be NULL and are left alone).
+   Returns how far (m) the place lies off the hull of those that are known; beyond 1e-9 m the nearest place of the hull counts. */
+double modes_at(const struct modes *m, const struct modes_where *where, const struct modes_point *p);
+
+struct modes_point modes_point_make(struct arena *a, int n);
+
+/* From a mode table (mode_table.h says what it holds): the `strongest` modes, by energy summed over places, sum gain^2 / (4 decay) of a mode of one
+   slope; a tie keeps table order. A mode of several slopes counts as one and becomes several components. One place holds everywhere; on a line and
+   in the plane see places.h; between places see morph.c. pairing: see scene.h. rate in Hz: modes whose frequency reaches rate/2 fade out between
+   0.45 and 0.5 times it when poles are separate. Errors name file and line. */
+struct modes_ask {
+    int strongest;
+    double pairing, rate;
+};
+bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e);
+
+/* The direct term D of an acceleration (or pressure) at those gains (its delta at t = 0: what the force itself adds): sum Im(A_i/s_i);
+   0 for the other quantities. frequency, decay: the point's, or the modes' own when poles are shared. */
+double modes_direct(int quantity, int n, const double *frequency, const double *decay, const struct modes_point *p);
+
+/* Drops components that nowhere lie below 0.499 rate (sets n); returns how many were dropped. */
 int modes_drop_above(struct modes *m, double rate);
 
 /* Time after which a unit impulse's response has decayed by `decibel` (> 0) below its initial amplitude bound; slowest mode. */

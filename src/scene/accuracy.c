@@ -55,10 +55,10 @@ static void knob_unknown(struct yaml *y, const struct yaml_node *key)
              "unknown key '%s' in accuracy", diag_shown(y->diag, key->text));
 }
 
-/* Knobs whose meaning starts with "seconds" take units of time. */
+/* The unit a knob takes is the one that its meaning names. */
 static enum key_dimension knob_dimension(const struct key_knob *k)
 {
-    return strncmp(k->meaning, "seconds ", strlen("seconds ")) == 0 ? KEY_TIME : KEY_NONE;
+    return strstr(k->meaning, "seconds ") ? KEY_TIME : strstr(k->meaning, " in dB ") ? KEY_DECIBEL : KEY_NONE;
 }
 
 static void knob_read(struct yaml *y, const struct key_knob *k, const struct yaml_node *node, struct accuracy *accuracy)

@@ -24,6 +24,7 @@
 #define TYPE_FILE .type = KEY_FILE
 #define TYPE_POINT .type = KEY_POINT
 #define TYPE_POINTS .type = KEY_POINTS
+#define TYPE_PLACES .type = KEY_PLACES
 #define TYPE_RANGE .type = KEY_RANGE
 #define TYPE_LIST .type = KEY_LIST
 #define TYPE_CHOICE(name) .type = KEY_CHOICE, .choices = words_##name
@@ -40,6 +41,14 @@
 #define TYPE_CHOICE_ENGINE TYPE_CHOICE(ENGINE)
 #define TYPE_CHOICE_EXTRAPOLATE TYPE_CHOICE(EXTRAPOLATE)
 #define TYPE_CHOICE_ENCODING TYPE_CHOICE(ENCODING)
+#define TYPE_CHOICE_PULSE TYPE_CHOICE(PULSE)
+#define TYPE_CHOICE_MOVING TYPE_CHOICE(MOVING)
+#define TYPE_CHOICE_OBJECT_SHAPE TYPE_CHOICE(OBJECT_SHAPE)
+#define TYPE_CHOICE_OBJECT_EDGES TYPE_CHOICE(OBJECT_EDGES)
+#define TYPE_CHOICE_OBJECT_WAVES TYPE_CHOICE(OBJECT_WAVES)
+#define TYPE_CHOICE_MATERIAL_NAME TYPE_CHOICE(MATERIAL_NAME)
+#define TYPE_CHOICE_QUANTITY TYPE_CHOICE(QUANTITY)
+#define TYPE_CHOICE_RADIATOR TYPE_CHOICE(RADIATOR)
 
 #define KEY(owner, field, where, kind, unit, lowest, highest, preset, when, text) \
     {.of = KEY_##owner, .offset = OFFSET_##owner(field), .path = where, TYPE_##kind, .dimension = KEY_##unit, \
@@ -64,7 +73,7 @@ const struct key_section keys_sections[] = {
 #undef ALTERNATIVE
 
 #define SECTION(...)
-#define ALTERNATIVE(lowest, highest, ...) {.least = lowest, .most = highest, .paths = {__VA_ARGS__}},
+#define ALTERNATIVE(when, lowest, highest, ...) {.applies = when, .least = lowest, .most = highest, .paths = {__VA_ARGS__}},
 const struct key_alternative keys_alternatives[] = {
 #include "scene/keys.def"
     {.paths = {NULL}}};
@@ -117,9 +126,30 @@ bool keys_applies_beside(const struct key *k, bool given)
     return given == (k->applies[0] != '!');
 }
 
-_Static_assert(offsetof(struct motion, n_points) == offsetof(struct motion, points) + sizeof(const double *), "the number follows the points");
+#define FOLLOWS(owner, number, list) \
+    _Static_assert(offsetof(struct owner, number) == offsetof(struct owner, list) + sizeof(const double *), "the number follows the list")
+FOLLOWS(motion, n_points, points);
+FOLLOWS(listen, n_places, places);
 
 int *keys_points_count(const void *field)
 {
     return (int *)((char *)field + sizeof(const double *));
+}
+
+int keys_points_width(const struct key *k)
+{
+    return k->type == KEY_PLACES ? 3 : 2;
+}
+
+const struct key *keys_same_words(const struct key *k)
+{
+    for (const struct key *other = keys_table; k->choices && other < k; other++)
+        if (other->choices == k->choices)
+            return other;
+    return NULL;
+}
+
+struct key keys_condition(const struct key_alternative *t)
+{
+    return (struct key){.path = "", .applies = t->applies};
 }

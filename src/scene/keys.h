@@ -15,13 +15,14 @@ enum key_type {
     KEY_FILE,          /* const char *, resolved path                     */
     KEY_POINT,         /* double[2]                                       */
     KEY_POINTS,        /* const double *, [n][2], and int n, see below    */
+    KEY_PLACES,        /* const double *, [n][3], and int n               */
     KEY_RANGE,         /* double[2], first < second, NAN when not given   */
     KEY_LIST,          /* const char **, NULL-terminated; NULL not given  */
     KEY_CHOICE         /* int, index into choices                         */
 };
 enum key_dimension {
     KEY_NONE, KEY_LENGTH, KEY_TIME, KEY_FREQUENCY, KEY_MASS, KEY_FORCE, KEY_SPEED, KEY_ACCELERATION, KEY_ANGLE, KEY_PER_AREA,
-    KEY_DECIBEL, KEY_LUFS, KEY_FORCE_COEFFICIENT, KEY_OUTPUT
+    KEY_DECIBEL, KEY_LUFS, KEY_FORCE_COEFFICIENT, KEY_OUTPUT, KEY_PRESSURE, KEY_DENSITY, KEY_FORCE_PER_LENGTH, KEY_PER_TIME, KEY_STIFFNESS
 };
 
 struct choice {
@@ -48,8 +49,9 @@ struct key_section {
 };
 
 struct key_alternative {
+    const char *applies;        /* as of a key; NULL: always */
     int least, most;            /* how many of them may be given */
-    const char *paths[5];       /* ends with NULL */
+    const char *paths[6];       /* ends with NULL */
 };
 
 struct key_knob {
@@ -80,7 +82,14 @@ bool keys_applies_with(const struct key *k, const char *word);
 /* Does it apply where the key that decides (if there is one, and it has no words) is given, or is not? */
 bool keys_applies_beside(const struct key *k, bool given);
 
-/* KEY_POINTS: how many there are; `field` is that of the points, which the number follows. */
+/* The alternative's condition as that of a key, for what is asked of keys. */
+struct key keys_condition(const struct key_alternative *t);
+
+/* KEY_POINTS, KEY_PLACES: how many there are; `field` is that of the list, which the number follows. Numbers in each: 2 or 3. */
 int *keys_points_count(const void *field);
+int keys_points_width(const struct key *k);
+
+/* The first key of the table with the same table of words; NULL: this is the first, or has none. */
+const struct key *keys_same_words(const struct key *k);
 
 #endif

@@ -55,7 +55,7 @@ static void put_rivals(FILE *f, const char *path, struct arena *a)
     for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
         for (int i = 0; t->paths[i]; i++)
             if (!strcmp(t->paths[i], path))
-                put_opening(f, arena_format(a, "%s %s be given", keys_text_rivals(t, a), t->least ? "must" : "may"), a);
+                put_opening(f, arena_format(a, "%s %s be given%s", keys_text_rivals(t, a), t->least ? "must" : "may", keys_text_rivals_apply(t, a)), a);
 }
 
 static void put_key(FILE *f, const struct key *k, struct arena *a)
@@ -63,14 +63,17 @@ static void put_key(FILE *f, const struct key *k, struct arena *a)
     const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a);
     fprintf(f, ".It Ic %s\n", k->path);
     put_opening(f, k->meaning, a);
-    put_sentence(f, arena_format(a, "Type: %s", keys_text_type(k)));
+    if (keys_same_words(k))
+        put_sentence(f, arena_format(a, "Type: one of the words of %s", keys_same_words(k)->path));
+    else
+        put_sentence(f, arena_format(a, "Type: %s", keys_text_type(k)));
     if (range)
         put_sentence(f, arena_format(a, "Range: %s", range));
     put_sentence(f, arena_format(a, "Default: %s", k->standard ? keys_text_default(k) : "none, it must be given"));
     if (when)
         put_opening(f, arena_format(a, "only %s", when), a);
     put_rivals(f, k->path, a);
-    if (k->choices)
+    if (k->choices && !keys_same_words(k))
         put_words(f, k->choices);
 }
 

@@ -9,6 +9,7 @@
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
 
+/* A path that begins with a dot stands for those of the surface and of the scraper. */
 static const struct {
     const char *path, *value;
     bool off;
@@ -24,6 +25,23 @@ static const struct {
     {"surface.roughness.like", "plank.gsf", true},
     {"surface.roughness.like_pitch", "5 um", true},
     {"surface.response", "plank.csv", true},
+    {".object.shape", "plate", true},
+    {".object.length", "30 cm", true},
+    {".object.width", "20 cm", true},
+    {".object.diameter", "10 cm", true},
+    {".object.thickness", "5 mm", true},
+    {".object.tension", "80 N", true},
+    {".object.surface_tension", "2 kN/m", true},
+    {".object.youngs_modulus", "12 GPa", true},
+    {".object.youngs_modulus_across", "0.8 GPa", true},
+    {".object.shear_modulus", "0.9 GPa", true},
+    {".object.poisson", "0.35", true},
+    {".object.density", "650 kg/m^3", true},
+    {".object.alpha", "10 1/s", true},
+    {".object.beta", "0.1 us", true},
+    {".object.loss", "0.01", true},
+    {"surface.space.to", "[-0.5, 0.86]", true},
+    {"surface.space.dimension_to", "3", true},
     {"scraper.mass", "20 g", false},
     {"scraper.radius", "1 mm", true},
     {"scraper.response", "tool.csv", true},
@@ -38,16 +56,27 @@ static const struct {
     {"motion.profile", "speed.csv", true},
     {"load.constant", "1.5 N", true},
     {"load.recorded", "force.csv", true},
+    {"contact.strike.speed", "1 m/s", true},
+    {"contact.strike.stiffness", "1e8 N/m^1.5", true},
+    {"contact.strike.interval", "0.5 s", true},
+    {"contact.strike.restitution", "0.7", true},
+    {"contact.given.file", "force.wav", true},
+    {"contact.given.scale", "10 N", true},
+    {"contact.given.rate", "48 kHz", true},
     {"contact.limiter.force_range", "[0.2 N, 5 N]", true},
+    {"output.listen.places", "[[0 m, 0 m, 1 m], [20 cm, 0 m, 1 m]]", true},
+    {"output.stems", "[force, surface, scraper]", true},
     {"output.level.full_scale", "0.01", true},
     {"output.level.peak", "-3 dB", true},
     {"output.level.rms", "-20 dB", true},
     {"output.level.lufs", "-23 LUFS", true},
+    {"output.level.dbfs_at_1_pa", "-20 dB", true},
     {"output.diagnostics.columns", "[time_s, speed_m_per_s, normal_force_n]", true},
     {NULL, NULL, false},
 };
 
-static const char *const sections_off[] = {"surface.continuation", "surface.ridges", "surface.grit", "grip", NULL};
+static const char *const sections_off[] = {"surface.continuation", "surface.ridges", "surface.grit", "surface.object", "surface.space",
+                                           "scraper.object", "grip", "output.listen", NULL};
 
 static const char head[] =
     "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"
@@ -74,8 +103,9 @@ static const char tail[] =
 
 static int example(const char *path)
 {
+    const char *rest = path + strcspn(path, ".");
     for (int i = 0; examples[i].path; i++)
-        if (!strcmp(examples[i].path, path))
+        if (!strcmp(examples[i].path, examples[i].path[0] == '.' ? rest : path))
             return i;
     return -1;
 }
@@ -99,7 +129,7 @@ static bool applies(const struct key *k)
     const struct key *decides = keys_decider(k);
     if (!decides)
         return true;
-    return keys_words(k) ? keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides));
+    return keys_words(k) ? applies(decides) && keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides));
 }
 
 static bool is_off(const struct key *k)
@@ -116,7 +146,7 @@ static const char *rivals(const char *path, struct arena *a)
     for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
         for (int i = 0; t->paths[i]; i++)
             if (!strcmp(t->paths[i], path))
-                return arena_format(a, "; %s", keys_text_rivals(t, a));
+                return arena_format(a, "; %s%s", keys_text_rivals(t, a), keys_text_rivals_apply(t, a));
     return "";
 }
 
@@ -125,6 +155,8 @@ static const char *comment(const struct key *k, struct arena *a)
     const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a);
     const char *all = arena_format(a, "%s%s%s%s%s%s", k->meaning, range ? "; " : "", range ? range : "", when ? "; only " : "",
                                    when ? when : "", rivals(k->path, a));
+    if (keys_same_words(k))
+        return arena_format(a, "%s; words: see %s", all, keys_same_words(k)->path);
     for (const struct choice *c = k->choices; c && c->word; c++)
         all = arena_format(a, "%s\n- %s: %s", all, c->word, c->meaning);
     return all;

@@ -31,7 +31,12 @@ static const struct {
     [KEY_DECIBEL] = {"dB", "level (a bare number is in dB)"},
     [KEY_LUFS] = {"LUFS", "loudness (a bare number is in LUFS)"},
     [KEY_FORCE_COEFFICIENT] = {"N (s/m)^beta2", "force coefficient (a bare number is in N (s/m)^beta2)"},
-    [KEY_OUTPUT] = {"", "length, speed or acceleration, as the responses give it (a bare number is SI)"},
+    [KEY_OUTPUT] = {"", "length, speed, acceleration or pressure, as it is heard (a bare number is SI)"},
+    [KEY_PRESSURE] = {"Pa", "pressure or modulus (a bare number is in Pa)"},
+    [KEY_DENSITY] = {"kg/m^3", "density (a bare number is in kg/m^3)"},
+    [KEY_FORCE_PER_LENGTH] = {"N/m", "force per length (a bare number is in N/m)"},
+    [KEY_PER_TIME] = {"1/s", "rate (a bare number is per second)"},
+    [KEY_STIFFNESS] = {"", "stiffness (a bare number is SI: N/m, or N/m^1.5)"},
 };
 
 const char *keys_text_unit(enum key_dimension d)
@@ -49,8 +54,9 @@ const char *keys_text_type(const struct key *k)
     case KEY_SEED: return "whole number from 0 to 18446744073709551615";
     case KEY_TEXT: return "text";
     case KEY_FILE: return "file name, as seen from the folder of the file it stands in";
-    case KEY_POINT: return "[x, y], two lengths";
+    case KEY_POINT: return k->dimension == KEY_LENGTH ? "[x, y], two lengths" : "[x, y], two numbers";
     case KEY_POINTS: return "list of 2 to 10000 points [x, y], in lengths";
+    case KEY_PLACES: return "list of 1 to 64 places [x, y, z], in lengths";
     case KEY_RANGE: return "[least, most], two forces";
     case KEY_LIST: return "list of names";
     case KEY_CHOICE: return "one of the words below";
@@ -88,6 +94,12 @@ const char *keys_text_applies(const struct key *k, struct arena *a)
     if (words)
         return arena_format(a, "where %s is %s", keys_decider(k)->path, keys_text_words(k, a));
     return keys_applies_beside(k, true) ? arena_format(a, "beside %s", k->applies) : arena_format(a, "where %s is not given", keys_decider(k)->path);
+}
+
+const char *keys_text_rivals_apply(const struct key_alternative *t, struct arena *a)
+{
+    const struct key condition = keys_condition(t);
+    return t->applies ? arena_format(a, " %s", keys_text_applies(&condition, a)) : "";
 }
 
 const char *keys_text_rivals(const struct key_alternative *t, struct arena *a)

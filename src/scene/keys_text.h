@@ -20,6 +20,7 @@ const char *keys_text_default(const struct key *k);                       /* "4 
 const char *keys_text_applies(const struct key *k, struct arena *a);      /* "where motion.path is line"; NULL: always */
 const char *keys_text_words(const struct key *k, struct arena *a);        /* "circle or scribble"; only with keys_words() */
 const char *keys_text_rivals(const struct key_alternative *t, struct arena *a); /* "exactly one of a, b"             */
+const char *keys_text_rivals_apply(const struct key_alternative *t, struct arena *a); /* " where contact.model is scrape"; "": always */
 bool keys_text_has(const struct key_alternative *t, const char *path);    /* is it one of them, or excluded as a part of one? */
 
 /* Every path a scene may use: keys, sections and the maps between them, knobs, frames. NULL-terminated, each once. */

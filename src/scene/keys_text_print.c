@@ -28,7 +28,7 @@ static void print_choose(FILE *f, const char *path, struct arena *a)
 {
     for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
         if (keys_text_has(t, path))
-            print_fact(f, "choose", keys_text_rivals(t, a));
+            print_fact(f, "choose", arena_format(a, "%s%s", keys_text_rivals(t, a), keys_text_rivals_apply(t, a)));
 }
 
 void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)

@@ -3,6 +3,8 @@
 #define SCENE_RULES_H
 #include <math.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 
 #include "num/real.h"
 #include "scene/scene.h"
@@ -31,16 +33,18 @@ static inline double rules_sigma(const struct contact_model *c, double alpha)
     return c->smoothing * (c->limiter.curve == LIMITER_TANH ? alpha : 0.03) / 0.03;
 }
 
-/* Is the path one straight line, on which the place is from + u e? */
+/* Is the path one straight line, on which the place is from + u e? (Of a contact that stays: at.) */
 static inline bool rules_straight(const struct motion *m)
 {
-    return m->path == PATH_BACK_AND_FORTH || m->path == PATH_LINE || m->path == PATH_FOUR_IN_LINE;
+    return m->path == PATH_STILL || m->path == PATH_BACK_AND_FORTH || m->path == PATH_LINE || m->path == PATH_FOUR_IN_LINE;
 }
 
 /* The mean speed in m/s as far as the scene alone tells it, for predictions of cost; 0.2 where only a file or a curve's length would. */
 static inline double rules_speed(const struct motion *m)
 {
     double dx = m->to[0] - m->from[0], dy = m->to[1] - m->from[1], length = sqrt(dx * dx + dy * dy);
+    if (m->path == PATH_STILL)
+        return 0;
     if (!isnan(m->speed))
         return m->speed;
     if (m->path == PATH_BACK_AND_FORTH && !isnan(m->rate))
@@ -66,20 +70,23 @@ static inline bool rules_plane(const struct contact *c)
     return rules_along(c) == ALONG_PLANE || rules_along(c) == ALONG_AUTO;
 }
 
-/* The speed law that applies: SPEED_AUTO resolved; it stays SPEED_AUTO for a scribble's or a recording's own. */
+/* The speed law that applies: SPEED_AUTO resolved; it stays SPEED_AUTO for a scribble's or a recording's own, and for what is still. */
 static inline int rules_law(const struct motion *m)
 {
     static const int own[] = {[PATH_BACK_AND_FORTH] = SPEED_HARMONIC, [PATH_LINE] = SPEED_CONSTANT, [PATH_FOUR_IN_LINE] = SPEED_HARMONIC,
                               [PATH_CIRCLE] = SPEED_CONSTANT,         [PATH_SCRIBBLE] = SPEED_AUTO, [PATH_POLYLINE] = SPEED_MINIMUM_JERK,
-                              [PATH_SPLINE] = SPEED_TWO_THIRDS,       [PATH_RECORDED] = SPEED_AUTO};
+                              [PATH_SPLINE] = SPEED_TWO_THIRDS,       [PATH_RECORDED] = SPEED_AUTO,
+                              [PATH_STILL] = SPEED_AUTO};
     return m->law == SPEED_AUTO ? own[m->path] : m->law;
 }
 
 /* May the path be gone along under the law (auto: always)? back_and_forth turns round at rest, and so does what has corners; a straight line
-   has no curvature for two_thirds. */
+   has no curvature for two_thirds; what is still has no law. */
 static inline bool rules_law_fits(const struct motion *m, int law)
 {
     bool rests = m->path == PATH_POLYLINE && m->corner == 0 && m->n_points > 2;
+    if (m->path == PATH_STILL)
+        return law == SPEED_AUTO;
     if (law == SPEED_CONSTANT)
         return m->path != PATH_BACK_AND_FORTH && !rests;
     if (law == SPEED_TWO_THIRDS)
@@ -87,11 +94,51 @@ static inline bool rules_law_fits(const struct motion *m, int law)
     return law != SPEED_GIVEN || !rests;
 }
 
-/* Is a response a mode table? Else it is an impulse response. */
+static inline bool rules_ends_in(const char *file, const char *ending)
+{
+    size_t n = strlen(file), m = strlen(ending);
+    return n > m && strcasecmp(file + n - m, ending) == 0;
+}
+
+/* Is a response given at all? */
+static inline bool rules_responds(const struct response *r)
+{
+    return r->file || r->object.given || r->space.given;
+}
+
+/* Is it a mode table? */
 static inline bool rules_is_table(const struct response *r)
 {
-    size_t n = strlen(r->file);
+    size_t n = r->file ? strlen(r->file) : 0;
     return n > 4 && strcmp(r->file + n - 4, ".csv") == 0;
+}
+
+/* Is it recorded: an impulse response, or a folder of them? It has no modes. */
+static inline bool rules_is_recorded(const struct response *r)
+{
+    return r->file && !rules_is_table(r);
+}
+
+/* Is it a folder of recorded responses, as it is there now? */
+static inline bool rules_is_folder(const struct response *r)
+{
+    struct stat status;
+    return rules_is_recorded(r) && stat(r->file, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+/* Does a place in the space of materials change while the motion lasts? */
+static inline bool rules_travels(const struct space *s)
+{
+    return s->given && (!isnan(s->to[0]) || !isnan(s->dimension_to));
+}
+
+/* The reading of a moving response (enum moving) that applies: MOVING_AUTO as far as the scene tells; it stays auto for a mode table, whose
+   poles are known when it has been read. */
+static inline int rules_moving(const struct response *r)
+{
+    if (r->moving != MOVING_AUTO || rules_is_table(r))
+        return r->moving;
+    return r->file ? MOVING_LAUNCH : rules_travels(&r->space) ? MOVING_GLIDE : rules_responds(r) ? MOVING_FIXED : MOVING_AUTO;
 }
 
 /* Has a roughness a band of wavelengths, and not too wide a one? */
@@ -113,21 +160,23 @@ static inline bool rules_rests(const struct motion *m, bool at_end)
     int law = rules_law(m);
     double strokes = 2 * m->rate * m->duration;
     if (law != SPEED_HARMONIC && law != SPEED_MINIMUM_JERK)
-        return false;
+        return m->path == PATH_STILL;
     return !at_end || m->path != PATH_BACK_AND_FORTH || fabs(strokes - rint(strokes)) < 1e-9;
 }
 
-/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. */
+/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. Only what scrapes is lowered and raised. */
 static inline double rules_approach(const struct contact *c, bool release)
 {
     double given = release ? c->load.release : c->load.approach;
+    if (c->contact.model != CONTACT_SCRAPE)
+        return 0;
     return !isnan(given) ? given : rules_rests(&c->motion, release) ? 0 : RULES_APPROACH;
 }
 
 /* Does it make a sound? Its gain may still be 0. */
 static inline bool rules_rings(const struct contact *c)
 {
-    return c->surface.response.file || (c->scraper.response.file && c->scraper.weight != 0);
+    return rules_responds(&c->surface.response) || (rules_responds(&c->scraper.response) && c->scraper.weight != 0);
 }
 
 /* The frame of the scene at which the contact begins: `start` to the nearest one, at a rate in Hz. */

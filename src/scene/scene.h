@@ -14,7 +14,7 @@
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
 
 enum motion_path {
-    PATH_BACK_AND_FORTH, PATH_LINE, PATH_FOUR_IN_LINE, PATH_CIRCLE, PATH_SCRIBBLE, PATH_POLYLINE, PATH_SPLINE, PATH_RECORDED
+    PATH_BACK_AND_FORTH, PATH_LINE, PATH_FOUR_IN_LINE, PATH_CIRCLE, PATH_SCRIBBLE, PATH_POLYLINE, PATH_SPLINE, PATH_RECORDED, PATH_STILL
 };
 enum speed_law { SPEED_AUTO, SPEED_HARMONIC, SPEED_CONSTANT, SPEED_MINIMUM_JERK, SPEED_TWO_THIRDS, SPEED_GIVEN };
 enum along { ALONG_AUTO, ALONG_PATH, ALONG_X, ALONG_PLANE };
@@ -22,12 +22,25 @@ enum holes { HOLES_REFUSE, HOLES_FILL };
 enum levelling { LEVELLING_NONE, LEVELLING_MEAN, LEVELLING_PLANE };
 enum ridge_shape { RIDGE_SINE, RIDGE_ROUND, RIDGE_GROOVE };
 enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
-enum contact_kind { CONTACT_SCRAPE };
+enum contact_kind { CONTACT_SCRAPE, CONTACT_STRIKE, CONTACT_GIVEN };
+enum pulse { PULSE_HALF_SINE, PULSE_HERTZ };
 enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
 enum limiter_curve { LIMITER_TANH, LIMITER_NONE };
-enum engine { ENGINE_AUTO, ENGINE_RESONATORS, ENGINE_OVERLAP_ADD };
+enum engine { ENGINE_AUTO, ENGINE_RESONATORS, ENGINE_OVERLAP_ADD, ENGINE_NODES };
+enum moving { MOVING_AUTO, MOVING_FIXED, MOVING_LAUNCH, MOVING_GLIDE, MOVING_READOUT };
+enum object_shape { OBJECT_BAR, OBJECT_ROD, OBJECT_STRING, OBJECT_PLATE, OBJECT_DISK, OBJECT_MEMBRANE, OBJECT_DRUM, OBJECT_SHELL };
+enum object_edges { EDGES_FREE, EDGES_SUPPORTED, EDGES_CLAMPED, EDGES_CANTILEVER };
+enum object_waves { WAVES_BENDING, WAVES_LONGITUDINAL };
+enum material_name {
+    MATERIAL_CUSTOM, MATERIAL_BASSWOOD, MATERIAL_POPLAR, MATERIAL_OAK, MATERIAL_PVC, MATERIAL_POLYCARBONATE, MATERIAL_ACRYLIC, MATERIAL_GLASS,
+    MATERIAL_CERAMIC, MATERIAL_STEEL, MATERIAL_ALUMINIUM
+};
+enum quantity { QUANTITY_AUTO, QUANTITY_DISPLACEMENT, QUANTITY_VELOCITY, QUANTITY_ACCELERATION };
+enum radiator { RADIATOR_CONTACT, RADIATOR_POINT, RADIATOR_MONOPOLE, RADIATOR_PLATE };
 enum extrapolate { EXTRAPOLATE_ERROR, EXTRAPOLATE_NEAREST };
 enum encoding { ENCODING_PCM16, ENCODING_PCM24, ENCODING_FLOAT32, ENCODING_FLOAT64 };
+
+struct ring_choice;
 
 /* ------------------------------------------------------------------ one contact */
 
@@ -68,12 +81,46 @@ struct continuation {       /* finer roughness than a measured map holds: surfac
     double shortest;        /* m                                                                 */
 };
 
-struct response {           /* how a body rings: a mode table (CSV) or an impulse response (WAV) */
-    const char *file;       /* path, already resolved against the scene file; NULL: it is silent */
+struct object_given {       /* an object of simple shape, whose modes are closed forms: response/object.h */
+    bool given;
+    int shape, edges, waves;/* enum object_shape, object_edges, object_waves                     */
+    int material;           /* enum material_name: what the figures below are where they are NAN */
+    double length, width;   /* m, along x and y                                                  */
+    double thickness;       /* m; of a rod its wall's, NAN: solid                                */
+    double diameter;        /* m                                                                 */
+    double tension;         /* N, of a string                                                    */
+    double surface_tension; /* N/m, of a membrane or drum                                        */
+    double youngs_modulus;  /* Pa, along x                                                       */
+    double youngs_modulus_across; /* Pa, along y                                                 */
+    double shear_modulus;   /* Pa, in the plane                                                  */
+    double poisson;
+    double density;         /* kg/m^3                                                            */
+    double alpha;           /* 1/s, Rayleigh's: C = alpha M + beta K                             */
+    double beta;            /* s                                                                 */
+    double loss;            /* loss factor eta                                                   */
+    double origin[2];       /* m: where the object's x = y = 0 lies in the scene (surface)       */
+    double at[2];           /* m, in the object's coordinates: where it is touched (scraper)     */
+};
+
+struct space {              /* an object between materials and shapes: response/space.h          */
+    bool given;
+    double from[2], to[2];  /* places in the disk of materials; to NAN: as from                  */
+    double dimension, dimension_to; /* 1 string or bar, 2 membrane or plate, 3 shell             */
+    double fundamental;     /* Hz                                                                */
+    double gain;            /* m/s per N s, of the lowest mode                                   */
+};
+
+struct response {           /* how a body rings: a table of modes, recorded responses, an object, or a place in the space of materials */
+    const char *file;       /* path, already resolved against the scene file; NULL: none         */
+    struct object_given object;
+    struct space space;     /* surface only                                                      */
     int modes;              /* how many of the strongest modes are used                          */
     double length;          /* s, t0 of eq. 10: the response is cut there; NAN: not cut          */
     int convolution;        /* enum engine                                                       */
+    int moving;             /* enum moving                                                       */
+    double pairing;         /* largest relative difference of frequencies of one mode at two places */
     int extrapolate;        /* enum extrapolate: contact outside the places' hull                */
+    const struct ring_choice *choice; /* the planner's: convolution/ring_choice.h; NULL before   */
 };
 
 struct surface {
@@ -104,6 +151,7 @@ struct scraper {
 
 struct motion {
     int path;               /* enum motion_path                                                  */
+    double at[2];           /* m, of still                                                       */
     double from[2], to[2];  /* m                                                                 */
     int strokes;            /* four_in_line                                                      */
     double center[2];       /* m, of a circle or scribble                                        */
@@ -146,8 +194,28 @@ struct limiter {            /* eq. 4 to 7                                       
     double force_range[2];  /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
 };
 
+struct strike {             /* impacts: force/strike.h                                           */
+    int pulse;              /* enum pulse                                                        */
+    double speed;           /* m/s, of the first impact                                          */
+    double stiffness;       /* N/m of half_sine, N/m^1.5 of hertz; NAN: hertz from radius and materials */
+    double first;           /* s after the contact's start                                       */
+    int count;
+    double interval;        /* s; NAN: a bounce train by restitution                             */
+    double restitution;     /* of a bounce train; NAN: repeated impacts                          */
+};
+
+struct given_force {        /* force/given.h                                                     */
+    const char *file;       /* WAV, NPY or CSV                                                   */
+    int channel;            /* of a WAV, from 1                                                  */
+    double scale;           /* N per stored unit; NAN: 1, and a WAV must say                     */
+    double rate;            /* Hz, of an NPY                                                     */
+    const char *column;     /* of a CSV, beside time_s                                           */
+};
+
 struct contact_model {
     int model;              /* enum contact_kind                                                 */
+    struct strike strike;
+    struct given_force given;
     int force;              /* enum force_kind                                                   */
     double beta1, beta2;    /* eq. 3                                                             */
     double leak;            /* m: l of dS'/ds + S'/l = T(c)                                      */
@@ -173,6 +241,7 @@ struct contact {
 struct level {              /* at most one is given; none: peak -3 dBFS                          */
     double full_scale;      /* the output quantity's unit that becomes 1.0                       */
     double peak, rms, lufs; /* dB relative to full scale                                         */
+    double dbfs_at_1_pa;    /* dB: level in the file of 1 Pa, of a sound in pascals              */
 };
 
 struct diagnostics {
@@ -181,10 +250,22 @@ struct diagnostics {
     const char **columns;   /* NULL-terminated; NULL: all that the scene has                     */
 };
 
+struct listen {             /* where the sound is heard: response/listener.h                     */
+    bool given;
+    int radiator;           /* enum radiator                                                     */
+    const double *places;   /* m, [n_places][3], in the scene's coordinates, z above the surface */
+    int n_places;           /* channels                                                          */
+    double density;         /* kg/m^3, of air                                                    */
+    double sound_speed;     /* m/s                                                               */
+};
+
 struct output {
     double sample_rate;     /* Hz, a whole number                                                */
     int encoding;           /* enum encoding                                                     */
     int channels;           /* the same sound on each                                            */
+    int quantity;           /* enum quantity                                                     */
+    struct listen listen;
+    const char **stems;     /* NULL-terminated words: force, surface, scraper; NULL: none        */
     struct level level;
     double ramp;            /* s, raised-cosine on and off                                       */
     double tail;            /* s; NAN: auto, until the sound has decayed by 80 dB                */

@@ -32,16 +32,25 @@ static enum applies applies(const struct scene_part *p, const struct key *k)
     return keys_applies_with(k, node ? decides->choices[i].word : decides->standard) ? APPLIES_YES : APPLIES_NO;
 }
 
+/* Of a key that does not apply and those that decide it, in a chain: the one whose own decider has the wrong value. */
+static const struct key *barred(const struct scene_part *p, const struct key *k)
+{
+    while (keys_words(k) && applies(p, keys_decider(k)) == APPLIES_NO)
+        k = keys_decider(k);
+    return k;
+}
+
 static void not_applicable(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
 {
     struct arena *a = p->yaml->arena;
-    const char *label = scene_part_label(p, k->path), *other = scene_part_label(p, keys_decider(k)->path), *cure;
-    const struct yaml_node *now = yaml_find(p->map, keys_decider(k)->path);
-    const char *when = keys_words(k) ? arena_format(a, "where %s is %s", other, keys_text_words(k, a))
-                       : now         ? arena_format(a, "where %s is not given", other)
-                                     : arena_format(a, "beside %s", other);
-    if (keys_words(k))
-        cure = arena_format(a, "remove it, or set %s to %s (now it is %s)", other, keys_text_words(k, a), now ? now->text : keys_decider(k)->standard);
+    const struct key *bar = barred(p, k);
+    const char *label = scene_part_label(p, k->path), *other = scene_part_label(p, keys_decider(bar)->path), *cure;
+    const struct yaml_node *now = yaml_find(p->map, keys_decider(bar)->path);
+    const char *when = keys_words(bar) ? arena_format(a, "where %s is %s", other, keys_text_words(bar, a))
+                       : now           ? arena_format(a, "where %s is not given", other)
+                                       : arena_format(a, "beside %s", other);
+    if (keys_words(bar))
+        cure = arena_format(a, "remove it, or set %s to %s (now it is %s)", other, keys_text_words(bar, a), now ? now->text : keys_decider(bar)->standard);
     else
         cure = now ? arena_format(a, "remove it (a null takes away what another file says), or remove %s", other)
                    : arena_format(a, "remove it, or give %s", other);
@@ -80,18 +89,28 @@ static const char *line_for(const struct scene_part *p, const char *rest, const 
     return arena_format(p->yaml->arena, "%s: %s", path, line);
 }
 
-static const char *add_cure(const struct scene_part *p, const char *rest, const char *path)
+static const char *add_cure(const struct scene_part *p, const char *rest, const char *value)
+{
+    return arena_format(p->yaml->arena, "add for instance: %s", line_for(p, rest, value));
+}
+
+static const char *example_of(const struct scene_part *p, const char *path)
 {
     const struct key *k = keys_find(path);
-    return arena_format(p->yaml->arena, "add for instance: %s", line_for(p, rest, k ? scene_example(p->yaml, k) : "{}"));
+    return k ? scene_example(p->yaml, k) : "{}";
+}
+
+void scene_check_missing(const struct scene_part *p, const char *path, const char *value, const char *because)
+{
+    const char *rest;
+    const struct yaml_node *map = innermost(p, path, &rest);
+    if (map && !p->yaml->missing && !yaml_find(p->map, path))
+        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, value), "%s is missing%s", scene_part_label(p, path), because);
 }
 
 static void missing(const struct scene_part *p, const char *path)
 {
-    const char *rest;
-    const struct yaml_node *map = innermost(p, path, &rest);
-    if (map && !p->yaml->missing)
-        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, path), "%s is missing", scene_part_label(p, path));
+    scene_check_missing(p, path, example_of(p, path), "");
 }
 
 static bool in_absent_section(const struct scene_part *p, const char *path)
@@ -165,14 +184,17 @@ static void none_given(const struct scene_part *p, const char *const *candidates
     for (int i = 0; i < n; i++)
         all = arena_format(p->yaml->arena, "%s%s%s", all, i == 0 ? "" : i == n - 1 ? " or " : ", ", scene_part_label(p, candidates[i]));
     if (map && !p->yaml->missing)
-        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, candidates[0]), "%s must be given", all);
+        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, example_of(p, candidates[0])), "%s must be given", all);
 }
 
 static void alternative_check(const struct scene_part *p, const struct key_alternative *alternative)
 {
     const char *candidates[5], *given[2] = {NULL, NULL};
     const struct yaml_node *nodes[2] = {NULL, NULL};
+    const struct key condition = keys_condition(alternative);
     int n = 0, n_given = 0;
+    if (applies(p, &condition) != APPLIES_YES)
+        return;
     for (int i = 0; alternative->paths[i]; i++) {
         const char *path = alternative->paths[i];
         enum applies a = path_applies(p, path);

@@ -7,4 +7,8 @@
    not apply, or excludes another. */
 void scene_check_fill(const struct scene_part *p);
 
+/* Where the path is not there (not even in error): "PATH is missing" and BECAUSE, told at the innermost map on its way, with the line that adds the
+   value. */
+void scene_check_missing(const struct scene_part *p, const char *path, const char *value, const char *because);
+
 #endif

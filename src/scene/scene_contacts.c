@@ -48,6 +48,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     if (t->yaml->diag->n == errors)
         scene_sense_asked(&part, t->scene);
     scene_table_columns(&part, t->root, t->scene);
+    scene_sense_output_heard(&part, t->root, t->scene);
 }
 
 static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)

@@ -11,6 +11,7 @@
 #include "scene/scene_inputs.h"
 #include "scene/scene_merge.h"
 #include "scene/scene_recipe.h"
+#include "scene/scene_sense.h"
 #include "scene/scene_table.h"
 #include "scene/scene_values.h"
 #include "scene/units.h"
@@ -19,12 +20,16 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct scene_part top = {y, root, "", KEY_SCENE, s};
     scene_check_fill(&top);
-    if (!y->missing)
+    if (!y->missing) {
         scene_table_rate(&top);
+        scene_sense_output(&top);
+    }
     scene_table_names(y, root);
     scene_contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
     scene_inputs_read(y, yaml_get(root, "inputs"), s);
+    if (y->diag->n == 0 && !y->missing)
+        scene_sense_output_stems(&top);
 }
 
 /* A scene of another version: what else looks wrong in it need not be, so that this is the only error told. */

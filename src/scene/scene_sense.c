@@ -3,6 +3,7 @@
 #include "scene/scene_sense.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "scene/rules.h"
 #include "scene/scene_sense_parts.h"
@@ -19,8 +20,7 @@ static void grip_check(const struct scene_part *p, const struct grip *g)
                  1 - rules_slip(g));
 }
 
-/* In s, as far as the scene alone tells; NAN: a file or the length of a curve does. */
-static double motion_lasts(const struct motion *m)
+double scene_sense_lasts(const struct motion *m)
 {
     double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
     if (!isnan(m->duration))
@@ -35,7 +35,7 @@ static void lowering_check(const struct scene_part *p, const struct contact *c)
 {
     const char *approach = "load.approach", *release = "load.release";
     double taken = (isnan(c->load.approach) ? 0 : c->load.approach) + (isnan(c->load.release) ? 0 : c->load.release);
-    double lasts = motion_lasts(&c->motion);
+    double lasts = scene_sense_lasts(&c->motion);
     if (taken > lasts * (1 + 1e-9))
         diag_add(p->yaml->diag, scene_part_later(p, approach, release), "lower them, or let the motion last longer",
                  "%s and %s take %.4g s together, and the motion lasts %.4g s", scene_part_label(p, approach), scene_part_label(p, release), taken,
@@ -100,48 +100,44 @@ static void smoothing_check(const struct scene_part *p, const struct contact *c)
                  scene_part_label(p, path), sigma, RULES_SMOOTHING_WIDEST);
 }
 
-/* ------------------------------------------------------------------ responses */
-
-static void response_check(const struct scene_part *p, const struct response *r, const char *body)
-{
-    struct arena *a = p->yaml->arena;
-    const char *engine = arena_format(a, "%s.convolution", body), *file = arena_format(a, "%s.response", body);
-    const char *length = arena_format(a, "%s.response_length", body);
-    if (!r->file || r->convolution != ENGINE_RESONATORS)
-        return;
-    if (!rules_is_table(r))
-        diag_add(p->yaml->diag, scene_part_later(p, engine, file), arena_format(a, "leave %s out, or set it to overlap_add", engine),
-                 "%s: resonators need a mode table (.csv) as %s, not '%s'", scene_part_label(p, engine), scene_part_label(p, file),
-                 diag_shown(p->yaml->diag, r->file));
-    if (!isnan(r->length))
-        diag_add(p->yaml->diag, scene_part_later(p, engine, length), arena_format(a, "leave %s out, or set %s to overlap_add", length, engine),
-                 "%s: resonators ring on for ever, and %s cannot cut them", scene_part_label(p, engine), scene_part_label(p, length));
-}
-
 /* ------------------------------------------------------------------ a contact */
 
-void scene_sense_contact(const struct scene_part *p)
+static void scrape_check(const struct scene_part *p, const struct contact *c)
 {
-    const struct contact *c = p->to;
-    scene_sense_motion(p, &c->motion);
-    scene_sense_surface(p, &c->surface);
     grip_check(p, &c->grip);
     lowering_check(p, c);
     tip_check(p, &c->scraper);
     alpha_check(p, &c->contact.limiter);
     ratio_check(p, &c->contact.limiter);
     smoothing_check(p, c);
-    response_check(p, &c->surface.response, "surface");
-    response_check(p, &c->scraper.response, "scraper");
+}
+
+void scene_sense_contact(const struct scene_part *p)
+{
+    const struct contact *c = p->to;
+    scene_sense_motion(p, &c->motion);
+    scene_sense_surface(p, &c->surface);
+    if (c->contact.model == CONTACT_SCRAPE)
+        scrape_check(p, c);
+    scene_sense_model(p, c);
+    scene_sense_response(p, c);
+}
+
+static bool force_stem(const struct output *o)
+{
+    for (int i = 0; o->stems && o->stems[i]; i++)
+        if (strcmp(o->stems[i], "force") == 0)
+            return true;
+    return false;
 }
 
 void scene_sense_asked(const struct scene_part *p, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct yaml_node *surface = yaml_get(p->map, "surface");
-    if (s->output.diagnostics.given || rules_rings(c))
+    if (s->output.diagnostics.given || rules_rings(c) || force_stem(&s->output))
         return;
     diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
-             "give surface.response (or scraper.response) for a sound, or output.diagnostics for a table of its physics",
+             "give surface.response, surface.object or surface.space (or one of scraper) for a sound, output.diagnostics for a table of its physics, or the stem force",
              "nothing is asked of %s", scene_part_contact(p, c->name));
 }

@@ -4,6 +4,7 @@
 
 #include "scene/keys.h"
 #include "scene/rules.h"
+#include "scene/scene_check.h"
 #include "scene/scene_sense_parts.h"
 
 #define SHORTEST_WAY 1e-9 /* m */
@@ -26,7 +27,7 @@ static void stroke_check(const struct scene_part *p, const struct motion *m)
 {
     static const char *const ends[2] = {"motion.to", "motion.from"};
     double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
-    if (rules_straight(m) && sqrt(x * x + y * y) < SHORTEST_WAY)
+    if (m->path != PATH_STILL && rules_straight(m) && sqrt(x * x + y * y) < SHORTEST_WAY)
         scene_part_contradiction(p, ends, "must differ from", "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
 }
 
@@ -57,25 +58,18 @@ static void profile_check(const struct scene_part *p, const struct motion *m)
                      scene_part_label(p, "motion.law"));
 }
 
-static void missing(const struct scene_part *p, const char *path, const char *example, const char *because)
-{
-    if (!given(p, path))
-        diag_add(p->yaml->diag, motion_place(p), arena_format(p->yaml->arena, "add for instance: %s", example), "%s is missing%s",
-                 scene_part_label(p, path), because);
-}
-
 static void time_check(const struct scene_part *p, const struct motion *m)
 {
-    static const char duration[] = "motion.duration", example[] = "duration: 2 s";
+    static const char duration[] = "motion.duration", example[] = "2 s";
     bool periodic = m->path == PATH_BACK_AND_FORTH || m->path == PATH_SCRIBBLE;
     if (m->path == PATH_SCRIBBLE || (periodic && m->law != SPEED_GIVEN))
-        missing(p, "motion.rate", "rate: 2 Hz", "");
-    if (m->law == SPEED_GIVEN)
+        scene_check_missing(p, "motion.rate", "2 Hz", "");
+    if (m->law == SPEED_GIVEN && m->path != PATH_STILL)
         profile_check(p, m);
-    else if (periodic)
-        missing(p, duration, example, "");
+    else if (periodic || m->path == PATH_STILL)
+        scene_check_missing(p, duration, example, "");
     else if (m->path == PATH_RECORDED && m->law != SPEED_AUTO)
-        missing(p, duration, example, arena_format(p->yaml->arena, ": under the law %s a recording gives the path only", word("motion.law", m->law)));
+        scene_check_missing(p, duration, example, arena_format(p->yaml->arena, ": under the law %s a recording gives the path only", word("motion.law", m->law)));
     else if (m->path != PATH_RECORDED && !given(p, duration) && !given(p, "motion.speed"))
         diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given", scene_part_label(p, "motion.speed"),
                  scene_part_label(p, duration));
@@ -87,6 +81,8 @@ static const char *why_not(const struct motion *m)
 {
     if (m->path == PATH_POLYLINE)
         return "it rests at its corners";
+    if (m->path == PATH_STILL)
+        return "nothing moves";
     return m->law == SPEED_CONSTANT ? "it rests where it turns round" : "a straight line has no curvature";
 }
 

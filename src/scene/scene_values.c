@@ -256,7 +256,8 @@ static bool choice_set(const struct value *v)
 static bool (*const setters[])(const struct value *) = {
     [KEY_NUMBER] = number_set, [KEY_WHOLE] = whole_set, [KEY_TIME_OR_AUTO] = time_or_auto_set, [KEY_COUNT] = count_set,
     [KEY_SEED] = seed_set,     [KEY_TEXT] = text_set,   [KEY_FILE] = file_set,                 [KEY_POINT] = pair_set,
-    [KEY_POINTS] = points_set, [KEY_RANGE] = range_set, [KEY_LIST] = list_set,                 [KEY_CHOICE] = choice_set,
+    [KEY_POINTS] = points_set, [KEY_PLACES] = points_set, [KEY_RANGE] = range_set,              [KEY_LIST] = list_set,
+    [KEY_CHOICE] = choice_set,
 };
 
 bool scene_values_read(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
@@ -278,6 +279,7 @@ void scene_values_clear(const struct scene_part *p, const struct key *k)
         ((double *)field)[0] = ((double *)field)[1] = NAN;
         break;
     case KEY_POINTS:
+    case KEY_PLACES:
         *(const double **)field = NULL;
         *keys_points_count(field) = 0;
         break;

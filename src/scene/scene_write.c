@@ -1,7 +1,6 @@
 /* The effective scene, from the rows of keys.def and accuracy.def: SI bare numbers that read back to the last bit, strings quoted.
    A key is left out when it does not apply, or when it may be left out, is not given, and nothing is done instead. One contact is written at the top level, several
-   as a list. `inputs` names every file of the scene once, with its sha256 as it is now: those of its keys, and those that it has pinned besides (such as
-   the recipe that an effective scene was made with). */
+   as a list. */
 #include "scene/scene_write.h"
 
 #include <inttypes.h>
@@ -9,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/relpath.h"
 #include "scene/keys.h"
 #include "scene/keys_yaml.h"
 #include "scene/rules.h"
+#include "scene/scene_write_inputs.h"
 
 struct writer {
     FILE *f;
@@ -49,14 +48,20 @@ static const char *word(const struct key *k, const void *owner)
     return k->choices[*(const int *)field(k, owner)].word;
 }
 
-static const char *pair_value(const double *x, struct arena *a)
+static const char *numbers_value(const double *x, int n, struct arena *a)
 {
-    if (isnan(x[0]))
-        return NULL;
-    return arena_format(a, "[%s, %s]", keys_yaml_number(x[0], a), keys_yaml_number(x[1], a));
+    const char *all = "";
+    for (int i = 0; i < n; i++)
+        all = arena_format(a, "%s%s%s", all, i ? ", " : "", keys_yaml_number(x[i], a));
+    return arena_format(a, "[%s]", all);
 }
 
-static const char *points_value(const void *field, struct arena *a)
+static const char *pair_value(const double *x, struct arena *a)
+{
+    return isnan(x[0]) ? NULL : numbers_value(x, 2, a);
+}
+
+static const char *points_value(const void *field, int width, struct arena *a)
 {
     const double *at = *(const double *const *)field;
     char *memory = NULL;
@@ -65,7 +70,7 @@ static const char *points_value(const void *field, struct arena *a)
         return NULL;
     FILE *f = open_memstream(&memory, &size);
     for (int i = 0; i < *keys_points_count(field); i++)
-        fprintf(f, "%s%s", i ? ", " : "[", pair_value(at + 2 * i, a));
+        fprintf(f, "%s%s", i ? ", " : "[", numbers_value(at + width * i, width, a));
     fputc(']', f);
     fclose(f);
     const char *kept = arena_text(a, memory);
@@ -150,7 +155,8 @@ static const char *value(const struct key *k, const void *owner, struct writer *
     case KEY_FILE: return text_value(k, owner, w);
     case KEY_POINT:
     case KEY_RANGE: return pair_value(field(k, owner), w->a);
-    case KEY_POINTS: return points_value(field(k, owner), w->a);
+    case KEY_POINTS:
+    case KEY_PLACES: return points_value(field(k, owner), keys_points_width(k), w->a);
     case KEY_LIST: return list_value(*(const char **const *)field(k, owner), w->a);
     case KEY_CHOICE: return word(k, owner);
     }
@@ -178,15 +184,9 @@ static bool in_given_sections(const struct key *k, const void *owner)
     return true;
 }
 
-/* Its keys are written among the others; inputs lists it. */
-static bool is_recipe(const struct key *k)
-{
-    return strcmp(k->path, "surface.recipe") == 0;
-}
-
 static void take(struct writer *w, const struct key *k, const void *owner)
 {
-    const char *v = !is_recipe(k) && applies(k, owner) && in_given_sections(k, owner) ? value(k, owner, w) : NULL;
+    const char *v = !scene_write_inputs_only(k) && applies(k, owner) && in_given_sections(k, owner) ? value(k, owner, w) : NULL;
     if (v)
         w->lines[w->n++] = (struct keys_line){.path = k->path, .value = v};
 }
@@ -235,56 +235,6 @@ static void write_accuracy(struct writer *w, const struct scene *s)
         fprintf(w->f, "  %s: %s\n", k->name, keys_yaml_number(*(const double *)((const char *)&s->accuracy + k->offset), w->a));
 }
 
-/* ------------------------------------------------------------------ inputs */
-
-static const char *pinned(const struct scene *s, const char *file)
-{
-    for (int i = 0; i < s->n_inputs; i++)
-        if (s->inputs[i].sha256 && !strcmp(s->inputs[i].file, file))
-            return s->inputs[i].sha256;
-    return NULL;
-}
-
-/* A file that cannot be read keeps the hash it was pinned to; without one it is listed unpinned, with a remark. */
-static void write_input(struct writer *w, const struct scene *s, const char *file)
-{
-    char hex[HASH_TEXT];
-    struct err unreadable = {0};
-    const char *sha256 = hash_file(file, hex, &unreadable) ? hex : pinned(s, file);
-    fprintf(w->f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, w->beside, w->a), w->a));
-    if (sha256)
-        fprintf(w->f, "    sha256: \"%s\"\n", sha256);
-    else
-        fputs("    # could not be read when this was written\n", w->f);
-}
-
-/* Writes the file unless it has been written for an earlier key. */
-static void write_input_once(struct writer *w, const struct scene *s, const char *file, const char **seen)
-{
-    const char **p = seen;
-    for (; *p; p++)
-        if (!strcmp(*p, file))
-            return;
-    if (p == seen)
-        fputs("inputs:\n", w->f);
-    *p = file;
-    write_input(w, s, file);
-}
-
-/* Files of keys that are written, then recipes and what is pinned besides: an effective scene has them in the same order again. */
-static void write_inputs(struct writer *w, const struct scene *s, int n_keys)
-{
-    const char **seen = ARENA_TAKE(w->a, const char *, (size_t)n_keys * (size_t)(s->n_contacts + 1) + (size_t)s->n_inputs + 1);
-    for (int recipes = 0; recipes < 2; recipes++)
-        for (int i = 0; i < s->n_contacts; i++)
-            for (const struct key *k = keys_table; k->path; k++)
-                if (k->of == KEY_CONTACT && k->type == KEY_FILE && is_recipe(k) == recipes && text(k, &s->contacts[i]))
-                    write_input_once(w, s, text(k, &s->contacts[i]), seen);
-    for (int i = 0; i < s->n_inputs; i++)
-        if (s->inputs[i].file)
-            write_input_once(w, s, s->inputs[i].file, seen);
-}
-
 const char *scene_write(const struct scene *s, const char *beside, struct arena *a)
 {
     char *memory = NULL;
@@ -297,7 +247,7 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
         w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_rings(&s->contacts[i]));
     write_keys(&w, s);
     write_accuracy(&w, s);
-    write_inputs(&w, s, n_keys);
+    scene_write_inputs(w.f, s, beside, a);
     fclose(w.f);
     const char *kept = arena_text(a, memory);
     free(memory);

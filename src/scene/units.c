@@ -1,118 +1,24 @@
-/* Quantities with units: see units.h. */
+/* Quantities with units: see units.h; the units themselves stand in units_table.c. */
 #include "scene/units.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/text.h"
+#include "scene/units_table.h"
 
-enum { DEGREES = 1000 /* in place of a power of ten */, LONGEST = 200 /* characters */ };
-
-static const struct {
-    const char *name, *example;
-    const char *common[9]; /* units to name in messages; the first is SI's */
-} dimensions[] = {
-    [KEY_NONE] = {"a plain number", "0.5", {""}},
-    [KEY_LENGTH] = {"a length", "3 cm", {"m", "cm", "mm", "um", "nm"}},
-    [KEY_TIME] = {"a time", "10 ms", {"s", "ms", "us", "ns"}},
-    [KEY_FREQUENCY] = {"a frequency", "2 Hz", {"Hz", "kHz", "MHz", "mHz"}},
-    [KEY_MASS] = {"a mass", "20 g", {"kg", "g", "mg"}},
-    [KEY_FORCE] = {"a force", "1.5 N", {"N", "mN", "kN"}},
-    [KEY_SPEED] = {"a speed", "10 cm/s", {"m/s", "cm/s", "mm/s"}},
-    [KEY_ACCELERATION] = {"an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2"}},
-    [KEY_ANGLE] = {"an angle", "30 deg", {"rad", "deg", "mrad"}},
-    [KEY_PER_AREA] = {"a number per area", "10 /mm^2", {"/m^2", "/cm^2", "/mm^2"}},
-    [KEY_DECIBEL] = {"a level in decibels", "-3 dB", {"dB"}},
-    [KEY_LUFS] = {"a loudness", "-23 LUFS", {"LUFS"}},
-    [KEY_FORCE_COEFFICIENT] = {"a force coefficient", "0.05 N s/m", {"N s/m", "N (s/m)^beta2"}},
-    [KEY_OUTPUT] = {"a length, speed or acceleration", "1 mm/s", {"", "m", "mm", "um", "nm", "m/s", "mm/s", "m/s^2"}},
-};
-
-static const struct unit {
-    const char *name;
-    enum key_dimension dimension;
-    int power;            /* of ten, to SI */
-    const char *prefixes;
-} units[] = {
-    {"m", KEY_LENGTH, 0, "numckMG"},
-    {"s", KEY_TIME, 0, "numkMG"},
-    {"Hz", KEY_FREQUENCY, 0, "numkMG"},
-    {"g", KEY_MASS, -3, "numkMG"},
-    {"N", KEY_FORCE, 0, "numkMG"},
-    {"m/s", KEY_SPEED, 0, "numckMG"},
-    {"m/s^2", KEY_ACCELERATION, 0, "numckMG"},
-    {"m/s2", KEY_ACCELERATION, 0, "numckMG"},
-    {"m/s\xc2\xb2", KEY_ACCELERATION, 0, "numckMG"},
-    {"rad", KEY_ANGLE, 0, "num"},
-    {"deg", KEY_ANGLE, DEGREES, ""},
-    {"\xc2\xb0", KEY_ANGLE, DEGREES, ""},
-    {"/m^2", KEY_PER_AREA, 0, ""},
-    {"/m2", KEY_PER_AREA, 0, ""},
-    {"/m\xc2\xb2", KEY_PER_AREA, 0, ""},
-    {"/cm^2", KEY_PER_AREA, 4, ""},
-    {"/cm2", KEY_PER_AREA, 4, ""},
-    {"/cm\xc2\xb2", KEY_PER_AREA, 4, ""},
-    {"/mm^2", KEY_PER_AREA, 6, ""},
-    {"/mm2", KEY_PER_AREA, 6, ""},
-    {"/mm\xc2\xb2", KEY_PER_AREA, 6, ""},
-    {"/um^2", KEY_PER_AREA, 12, ""},
-    {"dB", KEY_DECIBEL, 0, ""},
-    {"dBFS", KEY_DECIBEL, 0, ""},
-    {"LUFS", KEY_LUFS, 0, ""},
-    {"N s/m", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
-    {"N*s/m", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
-    {"N (s/m)^beta2", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
-};
-
-static const struct prefix {
-    const char *name;
-    char letter;
-    int power;
-} prefixes[] = {{"n", 'n', -9}, {"u", 'u', -6}, {"\xc2\xb5", 'u', -6}, {"\xce\xbc", 'u', -6}, {"m", 'm', -3},
-                {"c", 'c', -2}, {"k", 'k', 3},  {"M", 'M', 6},         {"G", 'G', 9}};
+enum { LONGEST = 200 /* characters */ };
 
 const char *units_name(enum key_dimension d)
 {
-    return dimensions[d].name;
+    return units_table_dimension(d)->name;
 }
 
 const char *units_example(enum key_dimension d)
 {
-    return dimensions[d].example;
-}
-
-/* ------------------------------------------------------------------ reading */
-
-static bool matches(const struct unit *u, const char *text, int *power)
-{
-    *power = u->power;
-    if (strcmp(u->name, text) == 0)
-        return true;
-    for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
-        size_t n = strlen(prefixes[i].name);
-        *power = u->power + prefixes[i].power;
-        if (strncmp(text, prefixes[i].name, n) == 0 && strcmp(text + n, u->name) == 0 && strchr(u->prefixes, prefixes[i].letter))
-            return true;
-    }
-    return false;
-}
-
-static const struct unit *find(const char *text, int *power)
-{
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
-        if (matches(&units[i], text, power))
-            return &units[i];
-    return NULL;
-}
-
-static bool fits(const struct unit *u, enum key_dimension d)
-{
-    if (d == KEY_OUTPUT)
-        return u->dimension == KEY_LENGTH || u->dimension == KEY_SPEED || u->dimension == KEY_ACCELERATION;
-    return u->dimension == d;
+    return units_table_dimension(d)->example;
 }
 
 static bool fault_set(struct units_fault *f, const char *text, const char *cure)
@@ -123,38 +29,38 @@ static bool fault_set(struct units_fault *f, const char *text, const char *cure)
 
 static const char *example_cure(enum key_dimension d, struct arena *a)
 {
-    return arena_format(a, "write for instance: %s", dimensions[d].example);
+    return arena_format(a, "write for instance: %s", units_example(d));
 }
 
 static bool has_common(enum key_dimension d)
 {
-    return dimensions[d].common[0][0] || dimensions[d].common[1];
+    return units_table_dimension(d)->common[0][0] || units_table_dimension(d)->common[1];
 }
 
 static const char *unit_cure(const char *number, const char *unit, enum key_dimension d, struct arena *a)
 {
-    const char *const *common = dimensions[d].common;
+    const char *const *common = units_table_dimension(d)->common;
     const char *all = "";
     for (int i = 0; common[i]; i++) {
         if (common[i][0] && strcasecmp(common[i], unit) == 0)
             return arena_format(a, "did you mean %s %s?", number, common[i]);
         all = arena_format(a, "%s%s%s", all, *all ? ", " : "", common[i]);
     }
-    return arena_format(a, "units: %s; write for instance: %s", all, dimensions[d].example);
+    return arena_format(a, "units: %s; write for instance: %s", all, units_example(d));
 }
 
 static const char *without_article(enum key_dimension d)
 {
-    return strchr(dimensions[d].name, ' ') + 1;
+    return strchr(units_name(d), ' ') + 1;
 }
 
 static bool unit_fault(struct units_fault *f, const char *number, const char *unit, enum key_dimension d, struct arena *a)
 {
     int power;
-    const struct unit *other = find(unit, &power);
-    const char *needs = dimensions[d].name;
+    const struct units_table_unit *other = units_table_find(unit, &power);
+    const char *needs = units_name(d);
     if (other && !has_common(d))
-        return fault_set(f, arena_format(a, "needs %s without a unit, not %s", needs, dimensions[other->dimension].name),
+        return fault_set(f, arena_format(a, "needs %s without a unit, not %s", needs, units_name(other->dimension)),
                          arena_format(a, "write: %s", number));
     if (other)
         return fault_set(f, arena_format(a, "needs %s; %s is a unit of %s", needs, unit, without_article(other->dimension)),
@@ -192,7 +98,7 @@ static bool word_fault(struct units_fault *f, const char *text, enum key_dimensi
 {
     static const char *const truths[] = {"yes", "no", "true", "false", "on", "off", "y", "n", NULL};
     static const char *const infinite[] = {".inf", "-.inf", "+.inf", "inf", "-inf", "+inf", ".nan", "nan", "infinity", "-infinity", NULL};
-    const char *needs = dimensions[d].name;
+    const char *needs = units_name(d);
     if (!*text)
         return fault_set(f, arena_format(a, "has no value; it needs %s", needs), example_cure(d, a));
     if (is_word(text, truths))
@@ -217,6 +123,7 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
     size_t sign = *text == '+' || *text == '-', n = text_number_length(text);
     const char *digits = text + sign, *rest = text + n + strspn(text + n, " \t");
     size_t zeros = strspn(digits, "0");
+    int power;
     if (digits[0] == '0' && strchr("xXoObB", digits[1]) && digits[1])
         return !fault_set(f, "needs a decimal number, not a hexadecimal, octal or binary one", example_cure(d, a));
     if (zeros > 0 && digits[zeros] >= '0' && digits[zeros] <= '9')
@@ -230,6 +137,8 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
         return !fault_set(f, "needs a number with a decimal point, not a comma", arena_format(a, "write: %s", replaced(text, ',', '.', a)));
     if (text[n] == ':')
         return !fault_set(f, "needs one number, not a clock time or ratio", clock_cure(text, d, a));
+    if (strncmp(rest, "1/", 2) == 0 && units_table_find(rest, &power))
+        return false;
     if ((*rest >= '0' && *rest <= '9') || *rest == '.' || *rest == '+' || *rest == '-')
         return !fault_set(f, arena_format(a, "needs one number; '%s' follows it", rest), example_cure(d, a));
     return false;
@@ -238,7 +147,7 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
 static bool number_read(const char *text, size_t n, int power, double *x)
 {
     char copy[LONGEST + 1];
-    if (power != DEGREES)
+    if (power != UNITS_TABLE_DEGREES)
         return text_scaled(text, n, power, x);
     if (!text_scaled(text, n, 0, x))
         return false;
@@ -261,59 +170,11 @@ bool units_read(const char *text, enum key_dimension d, double *x, struct arena 
     if (notation_fault(f, text, d, a))
         return false;
     if (*unit) {
-        const struct unit *u = find(unit, &power);
-        if (!u || !fits(u, d))
+        const struct units_table_unit *u = units_table_find(unit, &power);
+        if (!u || !units_table_fits(u, d))
             return unit_fault(f, number, unit, d, a);
     }
     if (number_read(text, n, power, x))
         return true;
     return fault_set(f, "is a number too large, too small or too long to be read", example_cure(d, a));
-}
-
-/* ------------------------------------------------------------------ writing */
-
-/* 0.DIGITS * 10^e in plain notation where that is short. */
-static const char *decimal(const char *digits, int e, struct arena *a)
-{
-    int n = (int)strlen(digits);
-    if (e < -3 || e > 15)
-        return arena_format(a, "%c%s%se%d", digits[0], n > 1 ? "." : "", digits + 1, e - 1);
-    if (e <= 0)
-        return arena_format(a, "0.%.*s%s", -e, "000", digits);
-    if (e >= n)
-        return arena_format(a, "%s%.*s", digits, e - n, "000000000000000");
-    return arena_format(a, "%.*s.%s", e, digits, digits + e);
-}
-
-/* The largest common unit that leaves at least 1, else the smallest; SI's for a zero. */
-static const struct unit *fitting_unit(enum key_dimension d, int exponent, int *power, const char **name)
-{
-    const struct unit *best = NULL;
-    for (int i = 0; dimensions[d].common[i]; i++) {
-        int p;
-        const struct unit *u = find(dimensions[d].common[i], &p);
-        if (!u || p == DEGREES || p == -2)
-            continue;
-        bool leaves_one = exponent - p >= 1, best_leaves_one = best && exponent - *power >= 1;
-        if (!best || (leaves_one && (!best_leaves_one || p > *power)) || (!leaves_one && !best_leaves_one && p < *power)) {
-            best = u;
-            *power = p;
-            *name = dimensions[d].common[i];
-        }
-    }
-    return best;
-}
-
-const char *units_text(double x, enum key_dimension d, struct arena *a)
-{
-    char digits[20];
-    int exponent, power = 0;
-    const char *name = "";
-    text_digits(fabs(x), digits, &exponent);
-    bool known = d != KEY_OUTPUT && d != KEY_NONE && fitting_unit(d, x == 0 ? 1 : exponent, &power, &name);
-    if (x == 0 && known) {
-        power = 0;
-        name = dimensions[d].common[0];
-    }
-    return arena_format(a, "%s%s%s%s", x < 0 ? "-" : "", decimal(digits, exponent - power, a), known ? " " : "", name);
 }

@@ -48,8 +48,10 @@ void limiter_told(struct stage_run *r, double least, double most)
 {
     const double *range = r->contact->contact.limiter.force_range;
     if (r->contact->contact.limiter.curve == LIMITER_TANH && !isnan(range[0]) && (least < range[0] || most > range[1]))
-        board_warn(r->board, arena_format(r->arena, "%s: the normal force, %.4g to %.4g N, leaves contact.limiter.force_range, %.4g to %.4g N: alpha stays at that of "
-                                          "the range's end there", r->contact->name, least, most, range[0], range[1]));
+        board_warn(r->board, arena_format(r->arena, "%s: the normal force, %s N, leaves contact.limiter.force_range, %.4g to %.4g N: alpha stays at that of "
+                                          "the range's end there", r->contact->name,
+                                          least == most ? arena_format(r->arena, "%.4g", least) : arena_format(r->arena, "%.4g to %.4g", least, most),
+                                          range[0], range[1]));
 }
 
 /* ------------------------------------------------------------------ the stage */

@@ -28,6 +28,9 @@ void speed_strokes(struct speed *, int law, const struct path *, double duration
 /* The same there and back between u = 0 and length, 2 rate strokes a second. */
 void speed_strokes_folded(struct speed *, int law, double length, double rate, double duration, struct arena *);
 
+/* At rest at u = 0 all the time. */
+void speed_still(struct speed *, double duration);
+
 /* v in proportion to (kappa^2 + 1 / straight^2)^(-1/6) over the whole path. */
 void speed_two_thirds(struct speed *, const struct path *, double straight, double duration, struct arena *);
 

@@ -34,7 +34,7 @@ static bool motion_can(const struct motion *m, struct err *e)
         return err_set(e, ERR_SCENE, "motion.points must be at least 2 points");
     return rules_law_fits(m, law) ||
            err_set(e, ERR_SCENE, "motion.law does not fit motion.path: a motion rests at its corners and where it turns round, and a straight line has "
-                                 "no curvature; give another law, or motion.corner");
+                                 "no curvature; give another law, or motion.corner; what is still has no law");
 }
 
 static bool duration_of(const struct making *w, double length, double *duration)
@@ -159,6 +159,22 @@ static bool law_make(struct making *w)
     return true;
 }
 
+/* One place, as a straight path along x without length. */
+static bool still_make(struct making *w)
+{
+    static const double nowhere[2] = {0, 0};
+    double duration;
+    if (!duration_of(w, NAN, &duration))
+        return false;
+    w->s->path = (struct path){.n_strokes = 1, .strokes = nowhere};
+    speed_still(&w->s->speed, duration);
+    w->tr->straight = true;
+    for (int xy = 0; xy < 2; xy++)
+        w->tr->from[xy] = w->m->at[xy];
+    w->tr->e[0] = 1;
+    return true;
+}
+
 /* A course with its own time. */
 static bool timed_make(struct making *w)
 {
@@ -268,7 +284,7 @@ bool trajectory_make(const struct motion *m, uint64_t seed, struct arena *a, str
     *tr = (struct trajectory){.straight = false};
     if (!motion_can(m, e))
         return false;
-    if (!(rules_law(m) == SPEED_AUTO ? timed_make(&w) : law_make(&w)))
+    if (!(m->path == PATH_STILL ? still_make(&w) : rules_law(m) == SPEED_AUTO ? timed_make(&w) : law_make(&w)))
         return false;
     whole(&w);
     return true;

@@ -1,90 +1,108 @@
-/* What a mode costs: cycles (of the time stamp counter) per mode and sample of the bank with gains ramped in calls of 64 samples, and
-   the ratio to a plain scalar loop over the same modes timed in the same run. Prints one CSV row per number of modes. */
+/* What a mode costs: cycles (of the time stamp counter, in the thread's time) per sample of banks of resonators in calls of 64 samples, gains
+   ramped, poles fixed or ramped too (glide: e^(s/rate) of all poles once a call is in it); beside it a
+   plain scalar loop over the same modes, and what prototypes took (Zen 5 at 3.6 GHz, AVX-512; fixed: rotation
+   form, strict at 50 modes; glide: plus 5 % and the evaluation of poles). One CSV row per number of modes. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <time.h>
 #include <x86intrin.h>
 
 #include "convolution/resonators.h"
-#include "response/ir.h"
 
-enum { MODES = 1000, FRAMES = 64, CALLS = 200, REPEATS = 15, LENGTH = 48000 };
+enum { MODES = 1000, FRAMES = 64, CALLS = 200, REPEATS = 15 };
+#define RATE 48000.0
 
-static double frequency[MODES], decay[MODES], gain_re[2][MODES], gain_im[2][MODES], f[FRAMES], y[FRAMES], h[LENGTH];
+static double frequency[2][MODES], decay[2][MODES], re[2][MODES], im[2][MODES], f[FRAMES], y[FRAMES];
+static const struct modes_point points[2] = {{frequency[0], decay[0], re[0], im[0]}, {frequency[1], decay[1], re[1], im[1]}};
 
-static uint64_t least(uint64_t a, uint64_t b)
+static double thread_seconds(void)
 {
-    return a < b ? a : b;
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static double bank(struct arena *a, const struct modes *m)
+/* Cycles of the time stamp counter in a second. */
+static double cycles_per_second(void)
 {
-    struct resonators *r = resonators_make(a, m, 48000.0, FRAMES);
-    uint64_t best = UINT64_MAX;
+    struct timespec a, b;
+    double seconds;
+    clock_gettime(CLOCK_MONOTONIC, &a);
+    uint64_t start = __rdtsc();
+    do {
+        clock_gettime(CLOCK_MONOTONIC, &b);
+        seconds = (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
+    } while (seconds < 0.1);
+    return (double)(__rdtsc() - start) / seconds;
+}
+
+/* Seconds per sample. */
+static double bank(struct arena *a, int n, bool glides)
+{
+    struct resonators_ask ask = {.n = n, .quantity = MODES_VELOCITY, .rate = RATE, .frequency = frequency[0], .decay = decay[0], .glides = glides,
+                                 .ramp = FRAMES};
+    struct resonators *r = resonators_make(a, &ask);
+    double best = HUGE_VAL;
     for (int k = 0; k < REPEATS; k++) {
-        uint64_t start = __rdtsc();
+        double start = thread_seconds();
         for (int c = 0; c < CALLS; c++)
-            resonators_run(r, f, y, FRAMES, gain_re[c & 1], gain_im[c & 1]);
-        best = least(best, __rdtsc() - start);
+            resonators_run(r, f, y, FRAMES, &points[c & 1]);
+        best = fmin(best, thread_seconds() - start);
     }
-    return (double)best / ((double)CALLS * FRAMES * m->n);
+    return best / ((double)CALLS * FRAMES);
 }
 
 /* A mode at a time, as one would write it down. */
-static double scalar(const struct modes *m)
+static double scalar(int n)
 {
     static double zr[MODES], zi[MODES];
-    uint64_t best = UINT64_MAX;
+    double best = HUGE_VAL;
     for (int k = 0; k < REPEATS; k++) {
-        uint64_t start = __rdtsc();
+        double start = thread_seconds();
         for (int c = 0; c < CALLS / 10; c++)
-            for (int i = 0; i < m->n; i++) {
-                double size = exp(-m->decay[i] / 48000.0), turn = 2 * M_PI * m->frequency[i] / 48000.0;
+            for (int i = 0; i < n; i++) {
+                double size = exp(-decay[0][i] / RATE), turn = 2 * M_PI * frequency[0][i] / RATE;
                 double pr = size * cos(turn), pi = size * sin(turn);
-                double gr = gain_re[c & 1][i], gi = gain_im[c & 1][i];
-                double sr = (gain_re[~c & 1][i] - gr) / FRAMES, si = (gain_im[~c & 1][i] - gi) / FRAMES;
-                for (int n = 0; n < FRAMES; n++) {
+                double gr = re[c & 1][i], gi = im[c & 1][i];
+                double sr = (re[~c & 1][i] - gr) / FRAMES, si = (im[~c & 1][i] - gi) / FRAMES;
+                for (int j = 0; j < FRAMES; j++) {
                     gr += sr, gi += si;
-                    double re = pr * zr[i] - pi * zi[i] + gr * f[n];
-                    zi[i] = pr * zi[i] + pi * zr[i] + gi * f[n];
-                    zr[i] = re;
-                    y[n] += zi[i] - 0.5 * gi * f[n];
+                    double next = pr * zr[i] - pi * zi[i] + gr * f[j];
+                    zi[i] = pr * zi[i] + pi * zr[i] + gi * f[j];
+                    zr[i] = next;
+                    y[j] += zi[i] - 0.5 * gi * f[j];
                 }
             }
-        best = least(best, __rdtsc() - start);
+        best = fmin(best, thread_seconds() - start);
     }
-    return (double)best / ((double)(CALLS / 10) * FRAMES * m->n);
-}
-
-static double sampled(struct arena *a, const struct modes *m)
-{
-    struct ir_sampler *s = ir_sampler_make(a, m, 48000.0);
-    uint64_t best = UINT64_MAX;
-    for (int k = 0; k < REPEATS; k++) {
-        uint64_t start = __rdtsc();
-        ir_sample(s, gain_re[0], gain_im[0], h, LENGTH);
-        best = least(best, __rdtsc() - start);
-    }
-    return (double)best / ((double)LENGTH * m->n);
+    return best / ((double)(CALLS / 10) * FRAMES);
 }
 
 int main(void)
 {
-    static const int counts[] = {1, 8, 50, 200, MODES};
+    static const struct {
+        int modes;
+        const char *fixed, *glide;
+    } rows[] = {{1, "", ""}, {8, "", ""}, {50, "25", "32"}, {200, "76", "104"}, {MODES, "374", "512"}};
     struct arena *a = arena_open();
+    double cycles = cycles_per_second();
     for (int i = 0; i < MODES; i++) {
-        frequency[i] = 60.0 + 23.0 * i;
-        decay[i] = 3.0 + 0.1 * i;
-        gain_re[0][i] = gain_im[1][i] = 1.0 + i % 7;
-        gain_re[1][i] = gain_im[0][i] = 0.5 - i % 5;
+        frequency[0][i] = 60.0 + 23.0 * i;
+        frequency[1][i] = 61.0 + 23.0 * i;
+        decay[0][i] = 3.0 + 0.1 * i;
+        decay[1][i] = 3.1 + 0.1 * i;
+        re[0][i] = im[1][i] = 1.0 + i % 7;
+        re[1][i] = im[0][i] = 0.5 - i % 5;
     }
     for (int n = 0; n < FRAMES; n++)
         f[n] = n % 7 - 3;
-    printf("modes,bank_cycles_per_mode_sample,scalar_cycles_per_mode_sample,times_faster,response_cycles_per_mode_sample\n");
-    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
-        struct modes m = {.n = counts[i], .places = 1, .quantity = MODES_VELOCITY, .frequency = frequency, .decay = decay};
-        double ours = bank(a, &m), plain = scalar(&m);
-        printf("%d,%.3f,%.3f,%.1f,%.3f\n", counts[i], ours, plain, plain / ours, sampled(a, &m));
+    printf("modes,fixed_cycles,glide_cycles,scalar_cycles,times_faster,fixed_times_real_time,glide_times_real_time,prototype_fixed,prototype_glide\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        double fixed = bank(a, rows[i].modes, false), glide = bank(a, rows[i].modes, true), plain = scalar(rows[i].modes);
+        printf("%d,%.0f,%.0f,%.0f,%.1f,%.0f,%.0f,%s,%s\n", rows[i].modes, fixed * cycles, glide * cycles, plain * cycles, plain / fixed,
+               1 / (RATE * fixed), 1 / (RATE * glide), rows[i].fixed, rows[i].glide);
     }
     arena_close(a);
     return 0;

@@ -252,6 +252,26 @@ START_TEST(columns)
 }
 END_TEST
 
+/* Columns of what does not scrape: no normal force, no alpha; impacts are counted in the row in which they begin: every 30 ms from 21 ms on, at 100 rows a second. */
+START_TEST(impacts_are_counted)
+{
+    struct arena *a = rig_arena();
+    struct scene s = scene_at(a, &(struct rates){16000, 100, 100},
+                              "scraper: {mass: 20 g}\nmotion: {path: still, at: [4 cm, 1 cm], duration: 1 s}\nstart: 50 ms\n"
+                              "contact: {model: strike, strike: {speed: 1 m/s, stiffness: 1e8 N/m^1.5, first: 21 ms, interval: 30 ms, count: 30}}\n");
+    struct csv t = table_of(a, &s);
+    ck_assert_uint_eq(t.rows, 100);
+    ck_assert(csv_column(&t, "normal_force_n") < 0 && csv_column(&t, "alpha_m") < 0 && csv_column(&t, "lift_offs") < 0);
+    for (size_t k = 0; k < t.rows; k++) {
+        bool struck = k >= 2 && (k - 2) % 3 == 0 && (k - 2) / 3 < 30;
+        ck_assert_str_eq(cell(&t, k, "impacts"), struck ? "1" : "0");
+        ck_assert(!struck || value(&t, k, "force_peak_n") > 100);
+        ck_assert_str_eq(cell(&t, k, "x_m"), "0.04");
+        ck_assert_str_eq(cell(&t, k, "speed_m_per_s"), "0");
+    }
+}
+END_TEST
+
 /* Rows without samples would have no force: refused; at the sample rate itself every row has its one sample. */
 START_TEST(a_rate_above_the_sample_rate_is_refused)
 {
@@ -269,5 +289,5 @@ START_TEST(a_rate_above_the_sample_rate_is_refused)
 }
 END_TEST
 
-UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, rows_of_a_circle, load_and_alpha_of_a_grip, lift_offs_are_counted, columns,
+UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, rows_of_a_circle, load_and_alpha_of_a_grip, lift_offs_are_counted, impacts_are_counted, columns,
      a_rate_above_the_sample_rate_is_refused)

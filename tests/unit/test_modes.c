@@ -1,38 +1,21 @@
-#include "unit.h"
-
-#include <unistd.h>
-
-#include "response/modes.h"
-
-#define HEAD "# poles: shared\n# quantity: velocity\n# source: a test\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n"
+/* modes_table: reading in any order, gains at and between places, strength against energies summed sample by sample, slopes, envelopes, all that is
+   refused. What separate poles do between places is in test_morph.c. */
+#include "tables.h"
 
 static struct arena *arena;
 
-/* Reads a table from text; false with the message in e. */
-static bool read_text(const char *text, int strongest, struct modes *m, struct err *e)
-{
-    char path[] = "modes.XXXXXX";
-    int fd = mkstemp(path);
-    ck_assert_int_ge(fd, 0);
-    ck_assert_int_eq(write(fd, text, strlen(text)), (int)strlen(text));
-    close(fd);
-    *e = (struct err){0};
-    arena = arena_open();
-    bool ok = modes_read(path, strongest, arena, m, e);
-    unlink(path);
-    return ok;
-}
+static void setup(void) { arena = arena_open(); }
+static void teardown(void) { arena_close(arena); }
 
 /* Refused with that exit code, and the message holds that text. */
 static void refused(const char *text, const char *says)
 {
     struct modes m;
     struct err e;
-    bool ok = read_text(text, 50, &m, &e);
+    bool ok = table_read(text, &(struct modes_ask){50, 0.03, 48000}, arena, &m, &e);
     ck_assert_msg(!ok, "accepted, but should say: %s", says);
     ck_assert_msg(strstr(e.text, says) != NULL, "\"%s\" does not say \"%s\"", e.text, says);
     ck_assert_int_eq(e.kind, ERR_SCENE);
-    arena_close(arena);
 }
 
 /* Three places in any order on a slanted line, modes in any order; gains by place a: 1, 10; b: 2, 20; c: -3, 30. */
@@ -45,66 +28,99 @@ static const char table[] = HEAD "b,1.3,1.4,hi,2000,20,20,1.5\n"
 
 START_TEST(reads_any_order)
 {
-    struct modes m;
-    struct err e;
-    ck_assert_msg(read_text(table, 50, &m, &e), "%s", e.text);
-    ck_assert(m.n == 2 && m.places == 3 && m.quantity == MODES_VELOCITY);
-    ck_assert(m.frequency[0] == 2000 && m.frequency[1] == 100 && m.decay[0] == 20 && m.decay[1] == 10);
-    for (int p = 0; p < 3; p++) {
-        ck_assert_double_eq_tol(m.along[p], 0.5 * p, 1e-12);
-        ck_assert_double_eq_tol(m.gain_re[2 * p], 10 * (p + 1) * cos(1.5), 1e-12);
-        ck_assert_double_eq_tol(m.gain_im[2 * p], 10 * (p + 1) * sin(1.5), 1e-12);
+    setup();
+    struct modes m = table_of(table, 50, arena);
+    struct modes_point p = modes_point_make(arena, m.n);
+    ck_assert(m.n == 2 && m.quantity == MODES_VELOCITY && m.shared && m.moves && !m.travels && !m.object && !m.note && isnan(m.radius));
+    ck_assert(m.frequency[0] == 2000 && m.frequency[1] == 100 && m.decay[0] == 20 && m.decay[1] == 10 && m.slowest[0] == 20 && m.slowest[1] == 10);
+    ck_assert(m.home[0] == 1 && m.home[1] == 1);
+    for (int k = 0; k < 3; k++) {
+        ck_assert(table_at(&m, 1 + 0.3 * k, 1 + 0.4 * k, &p) == 0);
+        ck_assert_double_eq_tol(p.re[0], 10 * (k + 1) * cos(1.5), 1e-12);
+        ck_assert_double_eq_tol(p.im[0], 10 * (k + 1) * sin(1.5), 1e-12);
+        ck_assert_double_eq_tol(p.re[1], k < 2 ? k + 1 : -3, 1e-12);
+        ck_assert(p.im[1] == 0 && p.frequency[0] == 0); /* shared poles are left alone */
     }
-    ck_assert(m.gain_re[1] == 1 && m.gain_re[3] == 2 && m.gain_re[5] == -3 && m.gain_im[5] == 0);
-    arena_close(arena);
+    table_at(&m, 1, 1, &(struct modes_point){NULL, NULL, p.re, p.im});
+    ck_assert(p.re[1] == 1);
+    teardown();
 }
 END_TEST
 
 START_TEST(gains_between_and_beyond)
 {
-    struct modes m;
-    struct err e;
-    double re[2], im[2];
-    ck_assert(read_text(table, 50, &m, &e));
-    ck_assert(modes_gains_at(&m, 1.15, 1.2, re, im) == 0);
-    ck_assert_double_eq_tol(re[1], 1.5, 1e-12);
-    ck_assert(modes_gains_at(&m, 1.3 + 0.24, 1.4 + 0.32, re, im) == 0); /* 0.4 of 0.5 m on the way: 2 + 0.8 (-3 - 2) */
-    ck_assert_double_eq_tol(re[1], -2.0, 1e-12);
-    ck_assert_double_eq_tol(im[0], 28 * sin(1.5), 1e-12);
-    ck_assert_double_eq_tol(modes_gains_at(&m, 1 - 0.06, 1 - 0.08, re, im), 0.1, 1e-12); /* before the first place */
-    ck_assert_double_eq_tol(re[1], 1, 1e-12);
-    ck_assert_double_eq_tol(modes_gains_at(&m, 1.6 + 3, 1.8 + 4, re, im), 5, 1e-12); /* beyond the last */
-    ck_assert_double_eq_tol(re[1], -3, 1e-12);
-    ck_assert_double_eq_tol(modes_gains_at(&m, 1.3 - 0.8, 1.4 + 0.6, re, im), 1, 1e-12); /* beside the line: its foot */
-    ck_assert_double_eq_tol(re[1], 2, 1e-12);
-    ck_assert(modes_gains_at(&m, 1 - 5e-10, 1, re, im) == 0); /* rounding of a path is not outside */
-    arena_close(arena);
+    setup();
+    struct modes m = table_of(table, 50, arena);
+    struct modes_point p = modes_point_make(arena, m.n);
+    ck_assert(table_at(&m, 1.15, 1.2, &p) == 0);
+    ck_assert_double_eq_tol(p.re[1], 1.5, 1e-12);
+    ck_assert(table_at(&m, 1.3 + 0.24, 1.4 + 0.32, &p) == 0); /* 0.4 of 0.5 m on the way: 2 + 0.8 (-3 - 2) */
+    ck_assert_double_eq_tol(p.re[1], -2.0, 1e-12);
+    ck_assert_double_eq_tol(p.im[0], 28 * sin(1.5), 1e-12);
+    ck_assert_double_eq_tol(table_at(&m, 1 - 0.06, 1 - 0.08, &p), 0.1, 1e-12); /* before the first place */
+    ck_assert_double_eq_tol(p.re[1], 1, 1e-12);
+    ck_assert_double_eq_tol(table_at(&m, 1.6 + 3, 1.8 + 4, &p), 5, 1e-12); /* beyond the last */
+    ck_assert_double_eq_tol(p.re[1], -3, 1e-12);
+    ck_assert_double_eq_tol(table_at(&m, 1.3 - 0.8, 1.4 + 0.6, &p), 1, 1e-12); /* beside the line: its foot */
+    ck_assert_double_eq_tol(p.re[1], 2, 1e-12);
+    ck_assert(table_at(&m, 1 - 5e-10, 1, &p) == 0); /* rounding of a path is not outside */
+    double u[4];
+    ck_assert_int_eq(m.kinks(&m, (double[]){1.15, 1.2}, (double[]){1.6, 1.8}, u, 4), 1);
+    ck_assert_double_eq_tol(u[0], 1 / 3.0, 1e-12);
+    teardown();
+}
+END_TEST
+
+/* Signed gains in the plane are the plane through a triangle's corners; nodal lines are crossed with their sign. */
+START_TEST(gains_in_the_plane)
+{
+    setup();
+    char text[4096] = HEAD;
+    for (int i = 0; i < 9; i++) /* places on a grid of 0.1 m; the gain is 1 + 20 x - 30 y: linear everywhere, whatever the triangles */
+        sprintf(text + strlen(text), "%d,%g,%g,m,500,3,%.17g,0.25\n", i, 0.1 * (i % 3), 0.1 * (i / 3), 1 + 20 * 0.1 * (i % 3) - 30 * 0.1 * (i / 3));
+    struct modes m = table_of(text, 50, arena);
+    struct modes_point p = modes_point_make(arena, m.n);
+    for (int i = 0; i < 100; i++) {
+        double x = 0.2 * drand48(), y = 0.2 * drand48(), gain = 1 + 20 * x - 30 * y;
+        ck_assert(table_at(&m, x, y, &p) == 0);
+        ck_assert_double_eq_tol(p.re[0], gain * cos(0.25), 1e-13);
+        ck_assert_double_eq_tol(p.im[0], gain * sin(0.25), 1e-13);
+    }
+    ck_assert_double_eq_tol(table_at(&m, 0.1, 0.5, &p), 0.3, 1e-15);
+    ck_assert_double_eq_tol(p.re[0], (1 + 2 - 6) * cos(0.25), 1e-14);
+    teardown();
 }
 END_TEST
 
 START_TEST(one_place_is_everywhere)
 {
-    struct modes m;
-    struct err e;
-    double re, im;
-    ck_assert(read_text(HEAD "1,0.2,0.3,1,440,5,2,0\n", 50, &m, &e));
-    ck_assert(modes_gains_at(&m, 7, -3, &re, &im) == 0 && re == 2 && im == 0);
-    ck_assert(m.places == 1 && m.along[0] == 0);
-    arena_close(arena);
+    setup();
+    static const char *const heads[2] = {HEAD, SEPARATE COLUMNS};
+    for (int k = 0; k < 2; k++) {
+        char text[500];
+        snprintf(text, sizeof text, "%s1,0.2,0.3,1,440,%d,2,0\n", heads[k], 5 - 5 * k);
+        struct modes m = table_of(text, 50, arena);
+        struct modes_point p = modes_point_make(arena, m.n);
+        ck_assert(table_at(&m, 7, -3, &p) == 0 && p.re[0] == 2 && p.im[0] == 0);
+        ck_assert(m.shared && !m.moves && m.decay[0] == 5 - 5 * k && m.home[0] == 0.2 && m.home[1] == 0.3);
+        ck_assert(m.kinks(&m, (double[]){0, 0}, (double[]){1, 1}, NULL, 0) == 0);
+    }
+    teardown();
 }
 END_TEST
 
 /* Energy gain^2/(4 decay): a mode that is weak but long may be the stronger; one without decay beats all, unless it is silent. */
 START_TEST(the_strongest_are_kept)
 {
-    struct modes m;
-    struct err e;
-    ck_assert(read_text(HEAD "1,0,0,a,100,400,2,0\n1,0,0,b,200,4,1,0\n1,0,0,c,300,0,1e-9,0\n1,0,0,d,400,0,0,0\n1,0,0,e,500,4,-1,0\n", 4, &m, &e));
+    setup();
+    struct modes m = table_of(HEAD "1,0,0,a,100,400,2,0\n1,0,0,b,200,4,1,0\n1,0,0,c,300,0,1e-9,0\n1,0,0,d,400,0,0,0\n1,0,0,e,500,4,-1,0\n", 4, arena);
+    struct modes_point p = modes_point_make(arena, m.n);
     ck_assert_int_eq(m.n, 4);
     ck_assert(m.frequency[0] == 300 && m.frequency[1] == 200 && m.frequency[2] == 500 && m.frequency[3] == 100);
-    ck_assert(m.gain_re[2] == -1);
+    table_at(&m, 0, 0, &p);
+    ck_assert(p.re[2] == -1);
     ck_assert(isinf(modes_ring_time(&m, 60)));
-    arena_close(arena);
+    teardown();
 }
 END_TEST
 
@@ -130,8 +146,7 @@ START_TEST(strength_is_energy_over_all_places)
     char text[4096] = HEAD;
     double energy[MODES];
     int order[MODES];
-    struct modes m;
-    struct err e;
+    setup();
     for (int i = 0; i < MODES; i++) {
         energy[i] = 0;
         order[i] = i;
@@ -148,34 +163,130 @@ START_TEST(strength_is_energy_over_all_places)
             }
     for (int i = 1; i < MODES; i++)
         ck_assert_double_lt(energy[order[i]], 0.97 * energy[order[i - 1]]);
-    ck_assert_msg(read_text(text, KEPT, &m, &e), "%s", e.text);
+    struct modes m = table_of(text, KEPT, arena);
     ck_assert_int_eq(m.n, KEPT);
     for (int i = 0; i < KEPT; i++)
         ck_assert_msg(m.frequency[i] == 1000 + order[i], "rank %d: %g Hz, expected %d", i, m.frequency[i], 1000 + order[i]);
-    arena_close(arena);
+    teardown();
+}
+END_TEST
+
+#define SLOPES "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad,slope\n"
+
+/* A mode of two slopes is one mode in the strongest, two components; its energy is that of the sum of its slopes, in which they interfere. */
+START_TEST(slopes_are_one_mode)
+{
+    setup();
+    static const char text[] = SHARED SLOPES "1,0,0,a,700,4,0.3,0,1\n1,0,0,a,700,40,2,0,2\n1,0,0,b,800,20,1.2,0,1\n"
+                               "1,0,0,c,900,5,3,3.14159265358979,2\n1,0,0,c,900,4,3,0,1\n";
+    double two = 0, one = summed_energy(800, 20, 1.2, 0), c = 0, step = 1e-5;
+    for (double t = step / 2; t < 4; t += step) {
+        double x = (0.3 * exp(-4 * t) + 2 * exp(-40 * t)) * sin(2 * acos(-1.0) * 700 * t), y = 3 * (exp(-4 * t) - exp(-5 * t)) * sin(2 * acos(-1.0) * 900 * t);
+        two += x * x * step;
+        c += y * y * step;
+    }
+    ck_assert(two > one && one > 1.3 * c && 9 / 16.0 > 10 * one); /* c's slopes nearly cancel: weakest, though each alone would be the strongest */
+    struct modes m = table_of(text, 2, arena);
+    struct modes_point p = modes_point_make(arena, m.n);
+    ck_assert_int_eq(m.n, 3);
+    ck_assert(m.frequency[0] == 700 && m.frequency[1] == 700 && m.frequency[2] == 800);
+    ck_assert(m.decay[0] == 4 && m.decay[1] == 40 && m.decay[2] == 20);
+    table_at(&m, 0, 0, &p);
+    ck_assert(p.re[0] == 0.3 && p.re[1] == 2 && p.re[2] == 1.2);
+    m = table_of(text, 50, arena);
+    ck_assert(m.n == 5 && m.frequency[4] == 900 && m.decay[3] == 4);
+    ck_assert_double_eq_tol(modes_ring_time(&m, 60), log(1000) / 4, 1e-12);
+    teardown();
+}
+END_TEST
+
+#define ENVELOPE "place,x_m,y_m,mode,frequency_hz,time_s,amplitude,phase_rad\n"
+
+/* Envelopes of two shared decays at two places, one with an attack: the components' sum is the envelope, also between the places. */
+START_TEST(envelopes_become_slopes)
+{
+    setup();
+    static char text[40000];
+    for (int separate = 0; separate < 2; separate++) {
+        snprintf(text, sizeof text, "%s%s", separate ? SEPARATE : SHARED, ENVELOPE);
+        for (int i = 0; i < 100; i++)
+            for (int p = 0; p < 2; p++) {
+                double t = 0.005 * (i * 37 % 100), a = p ? 0.5 * exp(-5 * t) + 3 * exp(-50 * t) : 2 * (exp(-5 * t) - exp(-50 * t));
+                sprintf(text + strlen(text), "%c,%d,0,x,300,%.17g,%.17g,0.5\n", 'a' + p, p, t, a);
+            }
+        struct modes m = table_of(text, 1, arena);
+        struct modes_point p = modes_point_make(arena, m.n);
+        ck_assert(m.n == 2 && m.note == NULL);
+        ck_assert_double_eq_tol(m.decay[0], 5, 1e-4);
+        ck_assert_double_eq_tol(m.decay[1], 50, 1e-3);
+        table_at(&m, 0, 0, &p);
+        ck_assert_double_eq_tol(p.re[0] / cos(0.5), 2, 1e-4);
+        ck_assert_double_eq_tol(p.im[1] / sin(0.5), -2, 1e-4);
+        table_at(&m, 1, 0, &p);
+        ck_assert_double_eq_tol(p.re[0] / cos(0.5), 0.5, 1e-4);
+        ck_assert_double_eq_tol(p.re[1] / cos(0.5), 3, 1e-4);
+    }
+    teardown();
+}
+END_TEST
+
+/* What decaying exponentials do not meet: a warning above -40 dB, an error above -20 dB, both with the line of the mode. */
+START_TEST(envelopes_out_of_reach)
+{
+    setup();
+    static char text[20000];
+    for (int kind = 0; kind < 2; kind++) {
+        snprintf(text, sizeof text, "%s%s1,0,0,q,100,0,1,0\n1,0,0,q,100,1,0.5,0\n", SHARED, ENVELOPE);
+        for (int i = 0; i < 100; i++) {
+            double t = 0.01 * i, a = kind ? t < 0.5 : exp(-3 * t) * (1 + 0.05 * sin(40 * t));
+            sprintf(text + strlen(text), "1,0,0,x,300,%.17g,%.17g,0\n", t, a);
+        }
+        if (kind) {
+            refused(text, ":7: the envelope of mode 'x' is met by decaying exponentials to -1");
+            continue;
+        }
+        struct modes m = table_of(text, 50, arena);
+        ck_assert_msg(m.note && strstr(m.note, ":7: the envelope of mode 'x' is met by decaying exponentials to -3") && strstr(m.note, "1 of 2 "), "%s", m.note);
+    }
+    teardown();
 }
 END_TEST
 
 START_TEST(drops_above_nyquist)
 {
-    struct modes m;
-    struct err e;
-    double re[3], im[3];
-    ck_assert(read_text(HEAD "1,0,0,a,100,1,1,0\n1,0,0,b,23953,1,3,0\n1,0,0,c,23951,2,2,0\n"
-                             "2,1,0,a,100,1,4,0\n2,1,0,b,23953,1,6,0\n2,1,0,c,23951,2,5,0\n", 50, &m, &e));
+    setup();
+    struct modes m = table_of(HEAD "1,0,0,a,100,1,1,0\n1,0,0,b,23953,1,3,0\n1,0,0,c,23951,2,2,0\n"
+                                   "2,1,0,a,100,1,4,0\n2,1,0,b,23953,1,6,0\n2,1,0,c,23951,2,5,0\n", 50, arena);
+    struct modes_point p = modes_point_make(arena, m.n);
     ck_assert_int_eq(modes_drop_above(&m, 48000), 1);
-    ck_assert(m.n == 2 && m.frequency[0] == 100 && m.frequency[1] == 23951 && m.decay[1] == 2);
-    ck_assert(modes_gains_at(&m, 0.5, 0, re, im) == 0 && re[0] == 2.5 && re[1] == 3.5);
+    ck_assert(m.n == 2 && m.frequency[0] == 100 && m.frequency[1] == 23951 && m.decay[1] == 2 && m.slowest[1] == 2);
+    ck_assert(table_at(&m, 0.5, 0, &p) == 0 && p.re[0] == 2.5 && p.re[1] == 3.5);
     ck_assert_int_eq(modes_drop_above(&m, 48000), 0);
     ck_assert_double_eq_tol(modes_ring_time(&m, 60), log(1000.0), 1e-12); /* T60 = ln(1000)/decay */
     ck_assert_int_eq(modes_drop_above(&m, 10), 2);
     ck_assert(m.n == 0 && modes_ring_time(&m, 60) == 0);
-    arena_close(arena);
+    ck_assert_int_eq(modes_drop_above(&(struct modes){.n = 3}, 10), 0); /* a source that has nothing to drop */
+    teardown();
+}
+END_TEST
+
+/* The direct term is minus the integral of the response from 0 on: force and motion balance at low frequencies. Integral of Im(A e^(st)) = -Im(A/s). */
+START_TEST(direct_term_balances)
+{
+    double f[2] = {30, 55}, d[2] = {20, 35}, re[2] = {1, -0.5}, im[2] = {0.3, 0.7}, sum = 0, step = 1e-6;
+    struct modes_point p = {f, d, re, im};
+    for (double t = step / 2; t < 2; t += step)
+        for (int i = 0; i < 2; i++)
+            sum += step * exp(-d[i] * t) * (re[i] * sin(2 * acos(-1.0) * f[i] * t) + im[i] * cos(2 * acos(-1.0) * f[i] * t));
+    ck_assert_double_eq_tol(modes_direct(MODES_ACCELERATION, 2, f, d, &p), -sum, 1e-9);
+    ck_assert(modes_direct(MODES_PRESSURE, 2, f, d, &p) == modes_direct(MODES_ACCELERATION, 2, f, d, &p));
+    ck_assert(modes_direct(MODES_VELOCITY, 2, f, d, &p) == 0 && modes_direct(MODES_DISPLACEMENT, 2, f, d, &p) == 0);
 }
 END_TEST
 
 START_TEST(bad_tables_are_refused)
 {
+    setup();
     static const char columns[] = "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n";
     static const struct {
         const char *text, *says;
@@ -194,8 +305,7 @@ START_TEST(bad_tables_are_refused)
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440.1,5,1,0\n", "with shared poles they are the same at every place"},
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440,5.001,1,0\n", ":6: mode '1' has frequency 440 Hz and decay 5.001/s here"},
         {"1,0,0,1,440,5,1,0\n1,0.1,0,2,450,5,1,0\n", ":6: place '1' is at (0.1, 0) m here and at (0, 0) m in line 5"},
-        {"1,0,0,1,440,5,1,0\n2,0,0,1,440,5,1,0\n", "place '2' is at the same point"},
-        {"1,0,0,1,440,5,1,0\n2,1,0,1,440,5,1,0\n3,0.5,1e-6,1,440,5,1,0\n", ":7: place '3' lies beside the line"},
+        {"1,0,0,1,440,5,1,0\n2,0,0,1,440,5,1,0\n", ":6: place '2' is at the same point as another place"},
         {"1,1e300,0,1,440,5,1,0\n", "farther than 1000 m"},
         {"", "without modes"},
     };
@@ -211,15 +321,40 @@ START_TEST(bad_tables_are_refused)
     refused(text, "'# quantity: ...' is missing");
     snprintf(text, sizeof text, "# poles: shared\n# poles: shared\n# quantity: velocity\n%s1,0,0,1,440,5,1,0\n", columns);
     refused(text, "more than once");
-    snprintf(text, sizeof text, "# poles: separate\n# quantity: velocity\n%s1,0,0,1,440,5,1,0\n", columns);
-    refused(text, "separate poles need morphing, which this version does not offer");
     snprintf(text, sizeof text, "# poles: some\n# quantity: velocity\n%s1,0,0,1,440,5,1,0\n", columns);
-    refused(text, "neither shared nor separate");
+    refused(text, "'some' is neither shared nor separate");
     snprintf(text, sizeof text, "# poles: shared\n# quantity: loudness\n%s1,0,0,1,440,5,1,0\n", columns);
     refused(text, "'loudness' is not displacement, velocity or acceleration");
     refused("# poles: shared\n# quantity: velocity\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain\n1,0,0,1,440,5,1\n", "column 'phase_rad'");
     refused("# poles: shared\n# quantity: velocity\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad,q\n1,0,0,1,440,5,1,0,9\n",
             "remove the others");
+    teardown();
+}
+END_TEST
+
+START_TEST(bad_forms_are_refused)
+{
+    setup();
+    refused(SEPARATE COLUMNS "1,0,0,1,440,5,1,0\n2,1,0,1,450,0,1,0\n", ":6: decay_per_s is 0: separate poles are interpolated");
+    refused("# pairing: frequency\n" HEAD "1,0,0,1,440,5,1,0\n", "pairing: frequency is for separate poles");
+    refused("# pairing: names\n" SEPARATE COLUMNS "1,0,0,1,440,5,1,0\n", "'names' is neither ids nor frequency");
+    refused("# pairing: ids\n# pairing: ids\n" SEPARATE COLUMNS "1,0,0,1,440,5,1,0\n", "more than once");
+    refused("# radius_m: big\n" HEAD "1,0,0,1,440,5,1,0\n", "radius_m: 'big' is not a number above 0");
+    refused("# radius_m: 0\n" HEAD "1,0,0,1,440,5,1,0\n", "radius_m: '0' is not a number above 0");
+    refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1.5\n", ":5: slope 1.5 is not a whole number from 1 to 100");
+    refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,440,9,1,0,1\n", ":6: place '1' has slope 1 of mode '1' again, after line 5");
+    refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,441,9,1,0,2\n", ":6: mode '1' of place '1' has frequency 441 Hz and phase 0 here");
+    refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,440,9,1,0,2\n2,1,0,1,440,5,1,0,1\n", ":7: mode '1' has 1 slopes at this place, 2 at that of line 5");
+    refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,440,9,1,0,2\n2,1,0,1,440,5,1,0,1\n2,1,0,1,440,8,1,0,2\n", "decay 8/s here, 440 Hz and 9/s in line 5");
+    refused(SHARED ENVELOPE "1,0,0,1,440,0,1,0\n", ":5: the envelope of mode '1' at place '1' has one sample");
+    refused(SHARED ENVELOPE "1,0,0,1,440,-1,1,0\n1,0,0,1,440,0,1,0\n", ":5: time_s -1 must lie between 0");
+    refused(SHARED ENVELOPE "1,0,0,1,440,1,1,0\n1,0,0,1,440,1,2,0\n", ":6: place '1' has the time 1 s of mode '1' again, after line 5");
+    refused(SHARED ENVELOPE "1,0,0,1,440,1,1,0\n1,0,0,1,440,2,1,0.5\n", "an envelope belongs to one frequency and phase");
+    refused(SHARED "place,x_m,y_m,mode,frequency_hz,time_s,gain,phase_rad\n1,0,0,1,440,1,1,0\n", "a table of envelopes needs the column 'amplitude'");
+    refused(SHARED "place,x_m,y_m,mode,frequency_hz,time_s,amplitude,phase_rad,slope\n1,0,0,1,440,1,1,0,1\n", "9 columns where a mode table has 8");
+    struct modes m = table_of("# radius_m: 0.125\n" HEAD "1,0,0,1,440,5,1,0\n", 50, arena);
+    ck_assert(m.radius == 0.125);
+    teardown();
 }
 END_TEST
 
@@ -227,42 +362,44 @@ START_TEST(missing_file)
 {
     struct modes m;
     struct err e = {0};
-    struct arena *a = arena_open();
-    ck_assert(!modes_read("no-such-file.csv", 50, a, &m, &e));
+    setup();
+    ck_assert(!modes_table("no-such-file.csv", &(struct modes_ask){50, 0.03, 48000}, arena, &m, &e));
     ck_assert_int_eq(e.kind, ERR_INPUT);
-    arena_close(a);
+    teardown();
 }
 END_TEST
 
-/* The tables that ship: how many modes there are below 20 kHz, and the lowest frequency worked out apart from the script. */
+/* The tables that ship: how many modes there are below 20 kHz, and the lowest frequency worked out apart from the program. */
 START_TEST(shipped_tables)
 {
     static const struct {
         const char *name;
-        int modes, places;
+        int modes;
+        bool moves;
         double lowest; /* Hz */
-    } tables[] = {{"basswood_plank", 61, 33, 492.06}, {"poplar_plank", 54, 33, 591.25}, {"ceramic_tile", 58, 33, 584.62}, {"pvc_rod", 14, 1, 208.5},
-                  {"poplar_rod", 6, 1, 863.64}};
+    } tables[] = {{"basswood_plank", 61, true, 492.06}, {"poplar_plank", 54, true, 591.25}, {"ceramic_tile", 58, true, 584.62}, {"pvc_rod", 14, false, 208.5},
+                  {"poplar_rod", 6, false, 863.64}};
     const char *root = getenv("ROOT");
     for (size_t i = 0; i < 5; i++) {
         char path[4096];
         struct modes m;
         struct err e = {0};
-        struct arena *a = arena_open();
+        setup();
         snprintf(path, sizeof path, "%s/irs/%s.csv", root ? root : ".", tables[i].name);
-        ck_assert_msg(modes_read(path, 1000, a, &m, &e), "%s", e.text);
+        ck_assert_msg(modes_table(path, &(struct modes_ask){1000, 0.03, 48000}, arena, &m, &e), "%s", e.text);
         ck_assert_int_eq(m.n, tables[i].modes);
-        ck_assert_int_eq(m.places, tables[i].places);
+        ck_assert(m.shared && m.moves == tables[i].moves);
         double lowest = 1e9;
         for (int k = 0; k < m.n; k++) {
             lowest = fmin(lowest, m.frequency[k]);
             ck_assert(m.frequency[k] < 20000 && m.decay[k] > 0);
         }
         ck_assert_double_eq_tol(lowest, tables[i].lowest, 0.1);
-        arena_close(a);
+        teardown();
     }
 }
 END_TEST
 
-UNIT("modes", reads_any_order, gains_between_and_beyond, one_place_is_everywhere, the_strongest_are_kept, strength_is_energy_over_all_places, drops_above_nyquist,
-     bad_tables_are_refused, missing_file, shipped_tables)
+UNIT("modes", reads_any_order, gains_between_and_beyond, gains_in_the_plane, one_place_is_everywhere, the_strongest_are_kept, strength_is_energy_over_all_places,
+     slopes_are_one_mode, envelopes_become_slopes, envelopes_out_of_reach, drops_above_nyquist, direct_term_balances, bad_tables_are_refused,
+     bad_forms_are_refused, missing_file, shipped_tables)

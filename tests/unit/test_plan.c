@@ -37,7 +37,8 @@ static const char *plan_of(struct arena *a, struct scene s)
     return running(a, &p);
 }
 
-static const char *const csv = ", response: ../irs/basswood_plank.csv";
+#define BAR ", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}"
+static const char *const bar = BAR;
 
 START_TEST(only_what_a_scene_calls_for)
 {
@@ -46,17 +47,23 @@ START_TEST(only_what_a_scene_calls_for)
         const char *surface, *scraper, *rest, *plan;
     } cases[] = {
         {"", "", "output: {diagnostics: {}}", "trajectory surface roughness scrape approach smooth decimate force_table "},
-        {csv, "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {csv, csv, "", "trajectory surface roughness scrape approach smooth decimate surface_resonators scraper_resonators mix "},
-        {csv, ", weight: 0, response: x.csv", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {csv, "", "grip: {}", "trajectory load limiter surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {csv, "", "grip: {}\ncontact: {limiter: {curve: none}}", "trajectory load surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {csv, "", "contact: {smoothing: 0 s}", "trajectory surface roughness scrape approach decimate surface_resonators mix "},
-        {csv, "", "contact: {force: paper}",
+        {bar, "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {bar, bar, "", "trajectory surface roughness scrape approach smooth decimate surface_resonators scraper_resonators mix "},
+        {bar, ", weight: 0, response: x.csv", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {bar, "", "grip: {}", "trajectory load limiter surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {bar, "", "grip: {}\ncontact: {limiter: {curve: none}}", "trajectory load surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {bar, "", "contact: {smoothing: 0 s}", "trajectory surface roughness scrape approach decimate surface_resonators mix "},
+        {bar, "", "contact: {force: paper}",
          "trajectory surface roughness paper_curvature smooth_curvature paper approach decimate surface_resonators mix "},
         {", response: a.wav", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
-        {", response: a.csv, response_length: 1 s", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
-        {", response: a.csv, convolution: overlap_add", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {BAR ", response_length: 1 s", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {BAR ", convolution: overlap_add", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {BAR ", moving: launch, convolution: resonators", "", "", "trajectory surface roughness scrape approach smooth decimate surface_launch mix "},
+        {BAR ", convolution: nodes", "", "", "trajectory surface roughness scrape approach smooth decimate surface_panned mix "},
+        {BAR ", moving: glide", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {BAR ", moving: readout", "", "", "trajectory surface roughness scrape approach smooth decimate surface_readout mix "},
+        {", space: {to: [1, 0]}", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {BAR, "", "output: {stems: [force]}", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
         {"", ", response: a.wav", "", "trajectory surface roughness scrape approach smooth decimate scraper_overlap_add mix "},
         {"", "", "output: {diagnostics: {columns: [time_s, speed_m_per_s]}}", "trajectory force_table "},
         {"", "", "grip: {}\noutput: {diagnostics: {columns: [normal_force_n]}}", "trajectory load force_table "},
@@ -77,7 +84,7 @@ static bool always(const struct contact *c, const struct scene *s)
 START_TEST(wrong_tables_are_refused)
 {
     struct arena *a = arena_open();
-    struct scene s = scene_of(a, csv, "", "");
+    struct scene s = scene_of(a, bar, "", "");
     struct stage second = scrape_stage, orphan = mix_stage;
     struct plan p;
     struct err e = {0};
@@ -93,8 +100,8 @@ START_TEST(wrong_tables_are_refused)
     ck_assert(!plan_make(hole, &s.contacts[0], &s, a, &p, &e));
     ck_assert_msg(strstr(e.text, "nothing in this scene gives its force") != NULL, "%s", e.text);
     e = (struct err){0};
-    s = scene_of(a, csv, "", "");
-    s.contacts[0].surface.response.file = NULL;
+    s = scene_of(a, bar, "", "");
+    s.contacts[0].surface.response.object.given = false;
     ck_assert(!plan_make(stages_table, &s.contacts[0], &s, a, &p, &e));
     ck_assert_msg(strstr(e.text, "nothing is asked of it") != NULL, "%s", e.text);
     arena_close(a);

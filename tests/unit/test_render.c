@@ -369,4 +369,183 @@ START_TEST(a_failure_leaves_nothing)
 }
 END_TEST
 
-UNIT("render", free_decay_is_the_tables, contacts_add, a_start_is_rounded_to_the_nearest_sample, names_make_the_noise, engines_agree_on_a_moving_contact, the_scraper_rings_with_weight_eta, a_wav_scraper_rings_with_weight_eta, quantities_are_not_mixed, a_muted_contact_lasts_as_long, levels, loudness_is_the_standards, edges_and_encodings, a_failure_leaves_nothing)
+/* Its middle is 5 cm right of the scene's origin. */
+#define PANE "surface: {roughness: {rms: 5 um}, material: glass, object: {shape: plate, edges: supported, length: 30 cm, width: 20 cm, thickness: 3 mm, origin: [-10 cm, -10 cm]}}\n" \
+             "scraper: {mass: 20 g}\n"
+
+static const struct render_file *stem_file(const struct render_report *r, const char *stem)
+{
+    for (int i = 0; i < r->n_files; i++)
+        if (strcmp(r->files[i].kind, "stem") == 0 && strcmp(r->files[i].stem, stem) == 0)
+            return &r->files[i];
+    return NULL;
+}
+
+/* Stems of two contacts, one later and with a gain: surface and scraper sum to the sound; the force, without the gain, has the peaks of the tables of
+   diagnostics, which are found on another way (rows of 48 samples, %.9g; the WAV holds 24 bits). */
+START_TEST(stems_are_the_parts)
+{
+    struct arena *a = arena_open();
+    struct err e = {0};
+    const char *one = "surface: {roughness: {rms: 5 um}, response: bell.csv}, scraper: {mass: 20 g, response: bell.csv, weight: 0.25}, motion: {path: line, to: [2 cm, 0], speed: 0.2}";
+    const char *text = arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, start: 0.2 s, gain: 3, %s}\noutput: {encoding: float64, level: {full_scale: 1}, tail: 0.1 s, "
+                                       "diagnostics: {}%s}\n", one, one, ", stems: [scraper, force, surface]");
+    setup(a);
+    struct render_report r = rendered(a, text, "all");
+    struct wav sum = sound(a, "all.wav"), surface = sound(a, "all.surface.wav"), scraper = sound(a, "all.scraper.wav"), force = sound(a, "all.force.wav");
+    double most = 0;
+    ck_assert_uint_eq(force.frames, sum.frames);
+    for (size_t n = 0; n < sum.frames; n++)
+        most = fmax(most, fabs(sum.x[n]));
+    for (size_t n = 0; n < sum.frames; n++)
+        ck_assert_double_eq_tol(surface.x[n] + scraper.x[n], sum.x[n], 1e-15 * most);
+    ck_assert_double_eq_tol(scraper.x[3000], 0.25 * surface.x[3000], 1e-2 * most); /* still the same place, nearly */
+    for (int k = 0; k < 2; k++) {
+        struct csv t;
+        double want, is;
+        ck_assert_msg(csv_read(in_folder(a, k ? "all.b.csv" : "all.a.csv"), a, &t, &e), "%s", e.text);
+        for (size_t row = 5; row < 95; row++) {
+            ck_assert_msg(csv_number(&t, row, csv_column(&t, "force_peak_n"), &want, &e), "%s", e.text);
+            is = 0;
+            for (size_t n = 0; n < 48; n++)
+                is = fmax(is, fabs(force.x[9600 * (size_t)k + 48 * row + n]));
+            ck_assert_double_eq_tol(is, fabs(want), 1e-7 * fabs(want));
+        }
+    }
+    ck_assert(stem_file(&r, "force") && stem_file(&r, "surface") && stem_file(&r, "scraper"));
+    ck_assert(strstr(r.summary, "\"stem\": \"force\"") && strstr(r.summary, "\"name\": \"all.force.wav\""));
+    clean(a);
+}
+END_TEST
+
+/* A force alone: no response, no table, no sound; the same samples as beside a sound. */
+START_TEST(a_force_may_be_all)
+{
+    struct arena *a = arena_open();
+    setup(a);
+    struct render_report r = rendered(a, "rasp: 1\nsurface: {roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\n" LINE "output: {stems: [force]}\n", "alone");
+    rendered(a, "rasp: 1\n" BODY LINE "output: {stems: [force], tail: 0 s}\n", "beside");
+    struct wav alone = sound(a, "alone.force.wav"), beside = sound(a, "beside.force.wav");
+    ck_assert(!r.sounds && stem_file(&r, "force"));
+    ck_assert_int_ne(access(in_folder(a, "alone.wav"), F_OK), 0);
+    ck_assert_uint_eq(alone.frames, beside.frames);
+    ck_assert_mem_eq(alone.x, beside.x, alone.frames * sizeof *alone.x);
+    ck_assert_double_gt(fabs(alone.x[2000]), 0);
+    clean(a);
+}
+END_TEST
+
+/* What is not asked for is not in the plan, and asking for a part of the sound runs no further stage: of a scene that sounds the same stages run with
+   stems and without; of one with a table alone, nothing rings. */
+START_TEST(stems_not_asked_cost_nothing)
+{
+    static const char *const outputs[] = {"{}", "{stems: [force, surface]}", "{stems: [force]}"};
+    struct arena *a = arena_open();
+    struct plan p[3];
+    setup(a);
+    for (int k = 0; k < 3; k++) {
+        struct scene *s = ARENA_TAKE(a, struct scene, 1);
+        struct err e = {0};
+        const char *messages = "", *text = arena_format(a, "rasp: 1\n%s" LINE "output: %s\n", k < 2 ? BODY : "surface: {roughness: {}}\nscraper: {mass: 20 g}\n", outputs[k]);
+        if (!scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, s, &messages, &e))
+            ck_abort_msg("%s%s", messages, e.text);
+        ck_assert_msg(plan_make(stages_table, &s->contacts[0], s, a, &p[k], &e), "%s", e.text);
+    }
+    ck_assert_uint_eq(p[0].targets, ITEM_BIT(ITEM_SOUND));
+    ck_assert_uint_eq(p[1].targets, ITEM_BIT(ITEM_SOUND) | ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_SURFACE_SOUND));
+    ck_assert_uint_eq(p[2].targets, ITEM_BIT(ITEM_FORCE));
+    ck_assert_uint_eq(p[0].alive, p[1].alive);
+    ck_assert_uint_eq(p[2].alive & (ITEM_BIT(ITEM_SOUND) | ITEM_BIT(ITEM_SURFACE_SOUND)), 0);
+    for (int i = 0; i < p[0].n; i++)
+        ck_assert_int_eq(p[0].rows[i].verdict, p[1].rows[i].verdict);
+    clean(a);
+}
+END_TEST
+
+static struct err fails(struct arena *a, const char *text)
+{
+    struct scene s;
+    struct err e = {0};
+    struct render_report report;
+    const char *messages = "";
+    if (!scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e))
+        ck_abort_msg("%s%s", messages, e.text);
+    ck_assert(!render_scene(&s, in_folder(a, "no"), a, &report, &e));
+    ck_assert_int_eq(e.kind, ERR_SCENE);
+    ck_assert_int_eq(system(arena_format(a, "test \"$(ls -A %s)\" = bell.csv", folder)), 0);
+    return e;
+}
+
+/* What cannot be had is said, and leaves nothing: a table without a size as a sphere; stems that clip. */
+START_TEST(stems_and_radiators_that_cannot_be)
+{
+    struct arena *a = arena_open();
+    setup(a);
+    struct err e = fails(a, "rasp: 1\n" BODY LINE "output: {listen: {places: [[0, 0, 1]]}, stems: [force]}\n");
+    ck_assert_msg(strstr(e.text, "does not say how large") != NULL, "%s", e.text);
+    e = fails(a, "rasp: 1\n" BODY LINE "output: {encoding: pcm16, level: {full_scale: 1e-9}, stems: [force, surface]}\n");
+    ck_assert_msg(strstr(e.text, "full scale") != NULL, "%s", e.text);
+    clean(a);
+}
+END_TEST
+
+/* Two places as far from the middle of a struck pane, one on each side, and a third 100 samples of air farther: three channels, the first two alike, the third
+   100 samples later and softer by the ratio of the distances (0.7 and 1.415 m). Gains at every sample (ramps of 64 would begin elsewhere under a force that is heard later). In pascals. */
+START_TEST(places_are_channels)
+{
+    struct arena *a = arena_open();
+    const char *scene = "rasp: 1\n" PANE LINE "accuracy: {gain_ramp: 1}\noutput: {encoding: float64, level: {dbfs_at_1_pa: -40}, ramp: 0, tail: 0.2 s, listen: {radiator: monopole, places: [%s]}}\n";
+    double most = 0;
+    setup(a);
+    struct render_report r = rendered(a, arena_format(a, scene, "[45 cm, 0, 0.574456264653803], [-35 cm, 0, 0.574456264653803], [5 cm, 0, 1.415]"), "three");
+    rendered(a, arena_format(a, scene, "[5 cm, 0, 1.415]"), "one");
+    struct wav w = sound(a, "three.wav"), one = sound(a, "one.wav");
+    ck_assert_int_eq(w.channels, 3);
+    ck_assert_int_eq(one.channels, 1);
+    ck_assert_double_eq_tol(r.sound.gain, 0.01, 1e-17);
+    ck_assert_int_eq(r.quantity, 3);
+    for (size_t n = 0; n < w.frames; n++)
+        most = fmax(most, fabs(w.x[3 * n]));
+    ck_assert_double_gt(most, 0);
+    for (size_t n = 0; n < one.frames; n++) {
+        ck_assert_double_eq_tol(w.x[3 * n], w.x[3 * n + 1], 1e-12 * most);
+        ck_assert_double_eq_tol(w.x[3 * n + 2], n < 100 ? 0 : one.x[n - 100], 1e-9 * most);
+        ck_assert_double_eq_tol(w.x[3 * n + 2] * 1.415, n < 100 ? 0 : w.x[3 * (n - 100)] * 0.7, 1e-9 * most);
+    }
+    ck_assert(strstr(r.summary, "\"unit\": \"Pa\"") && strstr(r.summary, "\"place_m\""));
+    clean(a);
+}
+END_TEST
+
+/* The lowest mode of a pane in a baffle, struck in the middle and at a quarter of its length: sin(pi/4) of the pressure (its shape counts once), in a ratio of
+   far places on the axis that is that of the distances; against the point in the middle, the mean velocity of sin sin, (2/pi)^2, by
+   p = rho f S v / r, as a small source in a baffle. The struck mode's rms over the last 0.1 s; of 88 Hz, where (k L)^2/12 = 2 %. */
+START_TEST(a_pane_in_a_baffle_is_heard)
+{
+    struct arena *a = arena_open();
+    const char *scene = "rasp: 1\nsurface: {object: {shape: plate, edges: supported, length: 30 cm, width: 20 cm, thickness: 1 mm}, material: glass, modes: 1}\n"
+                        "scraper: {mass: 1 g}\nmotion: {path: still, at: [%s, 10 cm], duration: 0.3 s}\ncontact: {model: strike, strike: {pulse: half_sine, stiffness: 1e4, speed: 0.1}}\n"
+                        "output: {encoding: float64, level: {%s: %s}, ramp: 0, tail: 0 s, listen: {radiator: %s, places: [[15 cm, 10 cm, %s]]}}\n";
+    const char *const at[] = {"15 cm", "7.5 cm", "15 cm", "15 cm"};
+    double rms[4] = {0};
+    setup(a);
+    for (int k = 0; k < 4; k++) {
+        rendered(a, arena_format(a, scene, at[k], k < 3 ? "dbfs_at_1_pa" : "full_scale", k < 3 ? "0 dB" : "1", k < 3 ? "plate" : "point", k == 2 ? "6 m" : k == 3 ? "0" : "3 m"), "pane");
+        struct wav w = sound(a, "pane.wav");
+        for (size_t n = w.frames - 4800; n < w.frames; n++)
+            rms[k] += w.x[n] * w.x[n] / 4800;
+        rms[k] = sqrt(rms[k]);
+    }
+    printf("pane: a quarter along %.6f, twice as far %.6f of it\n", rms[1] / rms[0], rms[2] / rms[0]);
+    ck_assert_double_eq_tol(rms[1] / rms[0], sqrt(0.5), 1e-9);
+    ck_assert_double_eq_tol(rms[2] / rms[0], 0.5, 1e-3);
+    double frequency = M_PI / 2 * (1 / 0.09 + 1 / 0.04) * sqrt(70e9 * 1e-6 / (12 * 0.96 * 2500)), area = 0.06 * 4 / (M_PI * M_PI);
+    printf("%.6g Pa, a small source makes %.6g Pa\n", rms[0], 1.204 * frequency * area * rms[3] / 3);
+    ck_assert_double_eq_tol(rms[0] / (1.204 * frequency * area * rms[3] / 3), 1, 0.02);
+    clean(a);
+}
+END_TEST
+
+UNIT("render", free_decay_is_the_tables, contacts_add, a_start_is_rounded_to_the_nearest_sample, names_make_the_noise, engines_agree_on_a_moving_contact, the_scraper_rings_with_weight_eta, a_wav_scraper_rings_with_weight_eta, quantities_are_not_mixed, a_muted_contact_lasts_as_long, levels, loudness_is_the_standards, edges_and_encodings, a_failure_leaves_nothing,
+     stems_are_the_parts, a_force_may_be_all, stems_not_asked_cost_nothing, stems_and_radiators_that_cannot_be, places_are_channels,
+     a_pane_in_a_baffle_is_heard)

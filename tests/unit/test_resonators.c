@@ -10,7 +10,7 @@ enum { MAX = 64, N = 3000 };
 #define RATE 48000.0
 
 struct scene {
-    struct modes m;
+    int n, quantity;
     double frequency[MAX], decay[MAX], size[MAX], phase[MAX];
     double re[MAX], im[MAX];
 };
@@ -25,7 +25,7 @@ static double draw(void)
 
 static struct scene scene_of(int n, double lowest, double highest)
 {
-    struct scene s = {.m = {.n = n, .places = 1, .quantity = MODES_VELOCITY}};
+    struct scene s = {.n = n, .quantity = MODES_VELOCITY};
     seed = 7;
     for (int i = 0; i < n; i++) {
         s.frequency[i] = lowest * pow(highest / lowest, n > 1 ? i / (n - 1.0) : 0.0);
@@ -36,20 +36,22 @@ static struct scene scene_of(int n, double lowest, double highest)
     return s;
 }
 
-static struct scene *wire(struct scene *s)
+static struct resonators *bank_of(struct arena *a, const struct scene *s, int ramp)
 {
-    s->m.frequency = s->frequency;
-    s->m.decay = s->decay;
-    s->m.gain_re = s->re;
-    s->m.gain_im = s->im;
-    return s;
+    struct resonators_ask ask = {.n = s->n, .quantity = s->quantity, .rate = RATE, .frequency = s->frequency, .decay = s->decay, .ramp = ramp};
+    return resonators_make(a, &ask);
+}
+
+static struct modes_point point(struct scene *s)
+{
+    return (struct modes_point){.frequency = s->frequency, .decay = s->decay, .re = s->re, .im = s->im};
 }
 
 /* The mode shapes: sin((i + 1) pi x) changes its sign along the way x(n). */
 static void gains(const struct scene *s, double n, double *re, double *im)
 {
     double x = 0.5 + 0.45 * sin(2 * M_PI * n / 2500.0);
-    for (int i = 0; i < s->m.n; i++) {
+    for (int i = 0; i < s->n; i++) {
         double a = s->size[i] * sin((i % 4 + 1) * M_PI * x);
         re[i] = a * cos(s->phase[i]);
         im[i] = a * sin(s->phase[i]);
@@ -72,7 +74,7 @@ static void brute(const struct scene *s, const double *f, double *y, int n)
         gains(s, k, re[k], im[k]);
         y[k] = 0;
     }
-    for (int i = 0; i < s->m.n; i++) {
+    for (int i = 0; i < s->n; i++) {
         long double complex pole = -s->decay[i] + 2 * acosl(-1.0L) * s->frequency[i] * (long double complex)I;
         for (int k = 0; k < n; k++) {
             long double complex v = cexpl(pole * k / (long double)RATE) / RATE;
@@ -92,15 +94,15 @@ static void brute(const struct scene *s, const double *f, double *y, int n)
 static void bank(struct scene *s, const double *f, double *y, int n, int ramp)
 {
     struct arena *a = arena_open();
-    struct resonators *r = resonators_make(a, &wire(s)->m, RATE, ramp);
-    double re[MAX], im[MAX];
-    gains(s, -1, re, im);
-    resonators_set_gains(r, re, im);
+    struct resonators *r = bank_of(a, s, ramp);
+    struct modes_point to = point(s);
+    gains(s, -1, s->re, s->im);
+    resonators_set(r, &to);
     memset(y, 0, (size_t)n * sizeof *y);
     for (int at = 0; at < n; at += ramp) {
         int frames = n - at < ramp ? n - at : ramp;
-        gains(s, at + frames - 1, re, im);
-        resonators_run(r, f + at, y + at, frames, re, im);
+        gains(s, at + frames - 1, s->re, s->im);
+        resonators_run(r, f + at, y + at, frames, &to);
     }
     arena_close(a);
 }
@@ -169,16 +171,16 @@ START_TEST(cuts_do_not_matter)
     for (int i = 0; i < N; i++)
         y[i] = z[i] = 0;
     struct arena *a = arena_open();
-    struct resonators *p = resonators_make(a, &wire(&s)->m, RATE, 64), *q = resonators_make(a, &s.m, RATE, 4096);
-    double re[MAX], im[MAX];
-    gains(&s, 100, re, im);
-    resonators_set_gains(p, re, im);
-    resonators_set_gains(q, re, im);
-    resonators_run(p, f, y, N, re, im);
+    struct resonators *p = bank_of(a, &s, 64), *q = bank_of(a, &s, 4096);
+    struct modes_point to = point(&s);
+    gains(&s, 100, s.re, s.im);
+    resonators_set(p, &to);
+    resonators_set(q, &to);
+    resonators_run(p, f, y, N, &to);
     for (int at = 0, n = 1; at < N; at += n, n = n % 97 + 13)
-        resonators_run(q, f + at, z + at, at + n < N ? n : N - at, re, im);
+        resonators_run(q, f + at, z + at, at + n < N ? n : N - at, &to);
     ck_assert(memcmp(y, z, sizeof y) == 0);
-    resonators_run(p, f, y, 0, re, im);
+    resonators_run(p, f, y, 0, &to);
     arena_close(a);
 }
 END_TEST
@@ -189,14 +191,15 @@ START_TEST(frequency_and_decay_are_the_tables)
     static double y[N];
     static const double frequency[] = {20, 440, 5000, 0.49 * RATE}, decay[] = {0.5, 6.9, 300, 12};
     for (int k = 0; k < 4; k++) {
-        struct scene s = {.m = {.n = 1, .places = 1, .quantity = MODES_VELOCITY}, .frequency = {frequency[k]}, .decay = {decay[k]}};
+        struct scene s = {.n = 1, .quantity = MODES_VELOCITY, .frequency = {frequency[k]}, .decay = {decay[k]}, .re = {0.3}, .im = {0.4}};
         struct arena *a = arena_open();
-        struct resonators *r = resonators_make(a, &wire(&s)->m, RATE, 64);
-        double f[N] = {1}, re = 0.3, im = 0.4;
+        struct resonators *r = bank_of(a, &s, 64);
+        struct modes_point to = point(&s);
+        double f[N] = {1};
         long double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
-        resonators_set_gains(r, &re, &im);
+        resonators_set(r, &to);
         memset(y, 0, sizeof y);
-        resonators_run(r, f, y, N, &re, &im);
+        resonators_run(r, f, y, N, &to);
         for (int n = 2; n < N - 1; n++) {
             long double u = y[n], v = y[n - 1], w = y[n + 1];
             aa += u * u, ab += u * v, bb += v * v, ac += u * w, bc += v * w;
@@ -218,24 +221,24 @@ START_TEST(silence)
     struct arena *a = arena_open();
     for (int i = 0; i < 51; i++)
         s.decay[i] = 8 + i; /* 1e-200 after 58 s at the latest */
-    struct resonators *r = resonators_make(a, &wire(&s)->m, RATE, 64);
-    double re[MAX], im[MAX], none[MAX] = {0};
+    struct resonators *r = bank_of(a, &s, 64);
+    struct modes_point to = point(&s);
     ck_assert(resonators_silent(r));
     force(f, N);
-    resonators_set_gains(r, none, none);
-    resonators_run(r, f, y, N, none, none); /* gains of zero make no sound */
+    resonators_set(r, &to);
+    resonators_run(r, f, y, N, &to); /* gains of zero make no sound */
     for (int i = 0; i < N; i++)
         ck_assert(y[i] == 0.0);
     ck_assert(resonators_silent(r));
-    gains(&s, 100, re, im);
-    resonators_set_gains(r, re, im);
-    resonators_run(r, f, y, N, re, im);
+    gains(&s, 100, s.re, s.im);
+    resonators_set(r, &to);
+    resonators_run(r, f, y, N, &to);
     ck_assert(!resonators_silent(r));
     memset(f, 0, sizeof f);
     for (int block = 0; block < 60 * (int)RATE / N; block++) {
         memset(y, 0, sizeof y);
         for (int at = 0; at < N; at += 60)
-            resonators_run(r, f + at, y + at, 60, re, im);
+            resonators_run(r, f + at, y + at, 60, &to);
     }
     for (int i = 0; i < N; i++)
         ck_assert(y[i] == 0.0);
@@ -247,11 +250,12 @@ END_TEST
 /* No modes at all: no sound. */
 START_TEST(no_modes)
 {
-    struct modes m = {.quantity = MODES_VELOCITY};
+    struct scene s = {.quantity = MODES_VELOCITY};
     struct arena *a = arena_open();
-    struct resonators *r = resonators_make(a, &m, RATE, 64);
+    struct resonators *r = bank_of(a, &s, 64);
+    struct modes_point to = point(&s);
     double f[3] = {1, 2, 3}, y[3] = {4, 5, 6};
-    resonators_run(r, f, y, 3, NULL, NULL);
+    resonators_run(r, f, y, 3, &to);
     ck_assert(y[0] == 4 && y[2] == 6 && resonators_silent(r));
     arena_close(a);
 }
@@ -263,22 +267,47 @@ START_TEST(acceleration_has_its_direct_term)
 {
     enum { LONG = 48000 };
     static double f[LONG], y[LONG];
-    struct scene s = {.m = {.n = 1, .places = 1, .quantity = MODES_ACCELERATION}, .frequency = {250}, .decay = {30}};
+    struct scene s = {.n = 1, .quantity = MODES_ACCELERATION, .frequency = {250}, .decay = {30}};
     struct arena *a = arena_open();
-    double omega = 2 * M_PI * 250, velocity = 3.0, re, im;
+    double omega = 2 * M_PI * 250, velocity = 3.0;
     double complex gain = velocity * I * (-30 + I * omega); /* h_v = velocity cos(omega t) e^(-30 t) = Im(velocity j e^(s t)) */
-    re = creal(gain), im = cimag(gain);
-    struct resonators *r = resonators_make(a, &wire(&s)->m, RATE, 64);
-    ck_assert_double_eq_tol(modes_direct(&s.m, &re, &im), velocity, 1e-12);
+    s.re[0] = creal(gain), s.im[0] = cimag(gain);
+    struct modes_point to = point(&s);
+    struct resonators *r = bank_of(a, &s, 64);
+    ck_assert_double_eq_tol(modes_direct(MODES_ACCELERATION, 1, s.frequency, s.decay, &to), velocity, 1e-12);
     for (int i = 0; i < LONG; i++)
         f[i] = 1;
-    resonators_set_gains(r, &re, &im);
-    resonators_run(r, f, y, LONG, &re, &im);
+    resonators_set(r, &to);
+    resonators_run(r, f, y, LONG, &to);
     ck_assert_double_lt(fabs(y[LONG - 1]), 2e-4 * velocity);
     ck_assert_double_gt(fabs(y[0]), 0.9 * velocity);
     arena_close(a);
 }
 END_TEST
 
+/* 0 Hz with phase pi/2: h = e^(-decay t), and without decay the force's integral. */
+START_TEST(zero_hertz)
+{
+    static double f[N], y[N];
+    struct scene s = {.n = 2, .quantity = MODES_VELOCITY, .decay = {0, 40}, .im = {1, 0}};
+    for (int k = 0; k < 2; k++) {
+        struct arena *a = arena_open();
+        struct modes_point to = point(&s);
+        struct resonators *r = bank_of(a, &s, 64);
+        long double sum = 0, fall = expl(-s.decay[k] / (long double)RATE);
+        s.im[k] = 1, s.im[1 - k] = 0;
+        force(f, N);
+        memset(y, 0, sizeof y);
+        resonators_set(r, &to);
+        resonators_run(r, f, y, N, &to);
+        for (int n = 0; n < N; n++) {
+            sum = sum * fall + f[n] / RATE;
+            ck_assert_double_lt(fabs(y[n] - (double)(sum - f[n] / (2 * RATE))), 1e-15);
+        }
+        arena_close(a);
+    }
+}
+END_TEST
+
 UNIT("resonators", equals_the_defining_sum, ramped_gains_converge_at_order_2, cuts_do_not_matter, frequency_and_decay_are_the_tables,
-     silence, no_modes, acceleration_has_its_direct_term)
+     silence, no_modes, acceleration_has_its_direct_term, zero_hertz)

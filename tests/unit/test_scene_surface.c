@@ -119,6 +119,8 @@ static void make_files(void)
                           "grit: {density: 30 /mm^2, height: 50 um}\nresponse: table.csv\n");
     put("sub/map.yaml", "height_map: map.gsf\nroughness: {like: like.gsf}\n");
     put("sub/wood.yaml", "ridges: {spacing: 2 mm}\n");
+    put("sub/plank.yaml", "material: poplar\nobject: {shape: plate, length: 30 cm, width: 10 cm, thickness: 5 mm}\nroughness: {rms: 2 um}\n");
+    put("sub/plank_wrong.yaml", "roughness: {}\nmaterial: poplar\nobject: {shape: plate, length: 30 cm, width: 10 cm}\n");
     put("sub/wrong.yaml", "title: x\n\nroughness: {rms: 3 g}\n");
     put("sub/unknown.yaml", "roughnes: {}\ngrit: {}\n");
     put("sub/nested.yaml", "grit: {}\nrecipe: paper.yaml\n");
@@ -157,6 +159,17 @@ START_TEST(test_recipe)
     r = read_file("sub/including.yaml", NULL); /* the recipe is seen from the file that names it */
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert(r.scene.contacts->surface.roughness.rms == 2e-6 && !r.scene.contacts->surface.grit.given);
+    arena_close(r.arena);
+    char set[256];
+    snprintf(set, sizeof set, "surface.recipe=%s", path("sub/plank.yaml")); /* an object is as much of a surface as a response file */
+    r = read_file("base.yaml", SET(set, "surface.object.length=20 cm"));
+    ck_assert_msg(r.good, "%s", r.messages);
+    const struct object_given *o = &r.scene.contacts->surface.response.object;
+    ck_assert(o->given && o->length == 0.2 && o->width == 0.1 && o->material == MATERIAL_POPLAR);
+    arena_close(r.arena);
+    r = read_file("base.yaml", SET(set, "surface.response=a.csv", "surface.object=null"));
+    ck_assert_msg(r.good, "%s", r.messages);
+    ck_assert(!r.scene.contacts->surface.response.object.given);
     arena_close(r.arena);
     r = read_file("several.yaml", NULL);
     ck_assert_msg(r.good, "%s", r.messages);
@@ -198,6 +211,8 @@ START_TEST(test_bad_recipe)
         {"sub/syntax.yaml", "sub/syntax.yaml", ":2:1: error: ", "not valid YAML", "brackets", ERR_SCENE},
         {"sub/title.yaml", "sub/title.yaml", ":1:8: error: ", "title must be a text, not a list", "title:", ERR_SCENE},
         {"sub/bare.yaml", "sub/bare.yaml", ": error: ", "there is nothing in it", "", ERR_SCENE},
+        {"sub/plank_wrong.yaml", "sub/plank_wrong.yaml", ":3:1: error: ", "surface.object.thickness is missing: a plate has one", "thickness: 5 mm", ERR_SCENE},
+        {"sub/plank.yaml, response: a.csv", "t.yaml", ":2:35: error: ", "surface.response and surface.object exclude each other", "surface.object: null", ERR_SCENE},
         {"sub/none.yaml", "t.yaml", ":2:19: error: ", "none.yaml': No such file", "relative to that file's folder", ERR_INPUT},
         {"sub", "t.yaml", ":2:19: error: ", "': Is a directory", "", ERR_INPUT},
         {"sub/empty.yaml", "t.yaml", ":2:1: error: ", "surface.roughness, surface.height_map, surface.ridges or surface.grit must be given", "", ERR_SCENE},

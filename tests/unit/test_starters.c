@@ -117,17 +117,55 @@ START_TEST(test_reference_has_every_key)
 }
 END_TEST
 
+#define STRIKE "contact.model=strike", "surface.roughness=null"
+#define GIVEN "contact.model=given", "surface.roughness=null", "scraper.mass=null"
+
+/* What an object's key needs beside it: the shape that has it, and that shape's other sizes. */
+static const char *const objects[][2] = {
+    {"shape", "{length: 1, width: 1, thickness: 1 mm}"},
+    {"length", "{shape: string, diameter: 1 mm, tension: 1}"},
+    {"width", "{shape: bar, length: 1, thickness: 1 mm}"},
+    {"diameter", "{shape: disk, thickness: 1 mm}"},
+    {"thickness", "{shape: rod, length: 1, diameter: 3 cm}"},
+    {"tension", "{shape: string, length: 1, diameter: 1 mm}"},
+    {"surface_tension", "{shape: drum, diameter: 1, thickness: 0.1 mm}"},
+    {"", "{shape: plate, length: 1, width: 1, thickness: 1 mm}"},
+};
+
+static int with_object(const char *path, const char **set)
+{
+    const char *key = strstr(path, ".object.");
+    size_t i = 0;
+    if (!key)
+        return 0;
+    while (*objects[i][0] && strcmp(objects[i][0], key + 8))
+        i++;
+    set[0] = arena_format(a, "%.*s=%s", (int)(key + 7 - path), path, objects[i][1]);
+    set[1] = arena_format(a, "%.*s.material=steel", (int)(key - path), path);
+    return 2;
+}
+
 /* Examples that the reference shows commented out are values that their keys take. */
 START_TEST(test_examples_are_taken)
 {
-    static const char *const with[][4] = {
+    static const char *const with[][8] = {
         {"surface.pitch", "surface.height_map=x.npy", "surface.roughness=null"},
         {"surface.height_map", "surface.pitch=1 um", "surface.roughness=null"},
         {"surface.height_range", "surface.height_map=x.png"},
         {"surface.continuation.exponent", "surface.height_map=x.gsf"},
         {"surface.continuation.from", "surface.height_map=x.gsf"},
         {"surface.roughness.like_pitch", "surface.roughness.like=x.npy"},
+        {"surface.space.dimension_to", "surface.space.from=[0, 1]"},
         {"motion.speed", "motion.duration=null"},
+        {"contact.strike.speed", STRIKE, "contact.strike.stiffness=1e8"},
+        {"contact.strike.stiffness", STRIKE, "contact.strike.speed=1"},
+        {"contact.strike.interval", STRIKE, "contact.strike.speed=1", "contact.strike.stiffness=1e8"},
+        {"contact.strike.restitution", STRIKE, "contact.strike.speed=1", "contact.strike.stiffness=1e8"},
+        {"contact.given.file", GIVEN, "contact.given.scale=1"},
+        {"contact.given.scale", GIVEN, "contact.given.file=force.csv"},
+        {"contact.given.rate", GIVEN, "contact.given.file=force.npy"},
+        {"output.level.dbfs_at_1_pa", "output.listen.places=[[0, 0, 1]]"},
+        {"output.stems", "surface.response=a.csv", "scraper.response=b.csv"},
         {"motion.radius", "motion.path=circle", "motion.to=null"},
         {"motion.points", "motion.path=spline", "motion.to=null"},
         {"motion.file", "motion.path=recorded", "motion.to=null"},
@@ -137,10 +175,11 @@ START_TEST(test_examples_are_taken)
                                "output: {diagnostics: {}}\n";
     a = arena_open();
     for (const struct key *k = keys_table; k->path; k++) {
-        const char *value = keys_reference_example(k->path), *set[4];
+        const char *value = keys_reference_example(k->path), *set[12];
         struct scene_overrides over = {.set = set};
         if (!value || !strncmp(k->path, "motion.rate", 11) || !strcmp(k->path, "motion.path") || !strcmp(k->path, "surface.recipe")) /* it would be read */
             continue;
+        over.n = with_object(k->path, set);
         set[over.n++] = arena_format(a, "%s=%s", k->path, value);
         for (size_t i = 0; i < sizeof with / sizeof with[0]; i++)
             for (int j = 1; !strcmp(k->path, with[i][0]) && with[i][j]; j++)

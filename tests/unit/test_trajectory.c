@@ -6,6 +6,7 @@
    at most 2 pi r t 2^-53 rad. Beside that come a few roundings: 1e-15 of the largest value. For rates that are powers of two the product
    is exact and hours are as good as milliseconds. */
 #include "motions.h"
+#include "scene/rules.h"
 #include "stage.h"
 
 #define PI_L 3.141592653589793238462643383279502884L
@@ -314,6 +315,34 @@ START_TEST(test_continued)
 }
 END_TEST
 
+/* One place, at rest, for as long as is asked; any instant, also before and after; the rules and the figures of the whole say so. */
+START_TEST(still_stays)
+{
+    struct motion m = {.path = PATH_STILL, .at = {0.12, -0.037}, .to = {NAN, NAN}, .rate = NAN, .speed = NAN, .duration = 2.5};
+    struct trajectory tr = made(&m);
+    for (double t = -1; t < 4; t += 0.01) {
+        struct state s = at(&tr, t);
+        double place[2];
+        trajectory_continued(&tr, t, place);
+        for (int xy = 0; xy < 2; xy++) {
+            ck_assert(s.p[xy] == m.at[xy] && place[xy] == m.at[xy] && s.vel[xy] == 0 && s.acc[xy] == 0);
+            ck_assert(tr.box[0][xy] == m.at[xy] && tr.box[1][xy] == m.at[xy] && tr.reach[xy] == 0);
+        }
+        ck_assert(s.u == 0 && s.v == 0 && s.a == 0);
+        ck_assert(isnan(trajectory_turning(&tr, t, t + 0.02)));
+    }
+    ck_assert(tr.straight && tr.starts_at_rest && tr.ends_at_rest && tr.e[0] == 1 && tr.e[1] == 0);
+    ck_assert(tr.length == 0 && tr.duration == 2.5 && tr.cycle == 2.5 && tr.top_speed == 0 && tr.mean_speed == 0 && tr.detail > 0);
+    ck_assert_int_eq(trajectory_frames(&tr, 48000), 120001);
+    ck_assert(rules_straight(&m) && rules_rests(&m, false) && rules_rests(&m, true) && rules_speed(&m) == 0);
+    m.duration = NAN;
+    refused(&m, ERR_SCENE, "motion.duration must be given");
+    m.duration = 1;
+    for (m.law = SPEED_HARMONIC; m.law <= SPEED_TWO_THIRDS; m.law++)
+        refused(&m, ERR_SCENE, "motion.law does not fit");
+}
+END_TEST
+
 extern const struct stage trajectory_stage;
 
 /* Only what the board has is laid on it, at the sub-samples' instants, however the frames are cut. */
@@ -350,5 +379,5 @@ START_TEST(stage_lays_out_the_board)
 }
 END_TEST
 
-UNIT("trajectory", stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
+UNIT("trajectory", still_stays, stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
      derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)

@@ -29,6 +29,11 @@ static const struct {
     {"0.01", KEY_OUTPUT, 0.01},        {"10 mm/s", KEY_OUTPUT, 0.01},     {"3 um", KEY_OUTPUT, 3e-6},      {"2 m/s^2", KEY_OUTPUT, 2},
     {"7 um/s", KEY_OUTPUT, 7e-6},      {"4 nm", KEY_OUTPUT, 4e-9},        {"0.3", KEY_NONE, 0.3},          {"-2.4", KEY_NONE, -2.4},
     {"12.7 /mm^2", KEY_PER_AREA, 12.7e6}, {"3/cm\xc2\xb2", KEY_PER_AREA, 3e4}, {"0.3 /m2", KEY_PER_AREA, 0.3}, {"0.07 /um^2", KEY_PER_AREA, 7e10},
+    {"12 GPa", KEY_PRESSURE, 12e9},    {"0.8 MPa", KEY_PRESSURE, 0.8e6},  {"3 kPa", KEY_PRESSURE, 3000},   {"20 uPa", KEY_OUTPUT, 20e-6},
+    {"650 kg/m^3", KEY_DENSITY, 650},  {"0.65 g/cm^3", KEY_DENSITY, 650}, {"0.65 g/cm\xc2\xb3", KEY_DENSITY, 650}, {"7.1 g/m3", KEY_DENSITY, 7.1e-3},
+    {"2.2 kN/m", KEY_FORCE_PER_LENGTH, 2200}, {"3.3 N/mm", KEY_FORCE_PER_LENGTH, 3300}, {"7 N/cm", KEY_FORCE_PER_LENGTH, 700}, {"5 N/m", KEY_FORCE_PER_LENGTH, 5},
+    {"12.7 1/s", KEY_PER_TIME, 12.7},  {"12.7/s", KEY_PER_TIME, 12.7},    {"12.7 /s", KEY_PER_TIME, 12.7}, {"12.7", KEY_PER_TIME, 12.7},
+    {"2.1 MN/m", KEY_STIFFNESS, 2.1e6}, {"1.1 GN/m^1.5", KEY_STIFFNESS, 1.1e9}, {"7 N/m^(3/2)", KEY_STIFFNESS, 7}, {"3 N/mm", KEY_STIFFNESS, 3000},
     {"1e-300", KEY_NONE, 1e-300},      {"0e999", KEY_NONE, 0},
 };
 
@@ -101,7 +106,7 @@ static const struct {
     {"2 hz", KEY_FREQUENCY, "'hz' is not a unit", "did you mean 2 Hz?"},
     {"48 KHz", KEY_FREQUENCY, "'KHz' is not a unit", "did you mean 48 kHz?"},
     {"2 Kg", KEY_MASS, "'Kg' is not", "did you mean 2 kg?"},
-    {"3 N", KEY_OUTPUT, "needs a length, speed or acceleration; N is a unit of force", "mm/s"},
+    {"3 N", KEY_OUTPUT, "needs a length, speed, acceleration or pressure; N is a unit of force", "mm/s"},
     {"2 cg", KEY_MASS, "'cg' is not", "kg, g, mg"},
     {"30 %", KEY_NONE, "not a percentage", "0.3"},
     {"fast", KEY_SPEED, "needs a speed, not 'fast'", "10 cm/s"},
@@ -137,6 +142,17 @@ static const struct {
     {"--3", KEY_NONE, "not '--3'", "0.5"},
     {"1e5e3", KEY_NONE, "'e3' follows it", "write: 1e5"},
     {"3 m m", KEY_LENGTH, "'m m' is not", "3 cm"},
+    {"12 gpa", KEY_PRESSURE, "'gpa' is not a unit", "did you mean 12 GPa?"},
+    {"12 N/m", KEY_PRESSURE, "needs a pressure or modulus; N/m is a unit of force per length", "12 GPa"},
+    {"12 bar", KEY_PRESSURE, "'bar' is not a unit", "Pa, kPa, MPa, GPa"},
+    {"650 g", KEY_DENSITY, "needs a density; g is a unit of mass", "650 kg/m^3"},
+    {"5 N", KEY_FORCE_PER_LENGTH, "needs a force per length; N is a unit of force", "2 kN/m"},
+    {"5 N/m^1.5", KEY_FORCE_PER_LENGTH, "N/m^1.5 is a unit of stiffness", "2 kN/m"},
+    {"5 Hz", KEY_PER_TIME, "needs a rate per second; Hz is a unit of frequency", "10 1/s"},
+    {"5 1/ms", KEY_PER_TIME, "one number; '1/ms' follows it", "10 1/s"},
+    {"5 1/s", KEY_TIME, "needs a time; 1/s is a unit of rate per second", "10 ms"},
+    {"5 N/m^2", KEY_STIFFNESS, "'N/m^2' is not a unit", "N/m, kN/m, MN/m, N/m^1.5"},
+    {"5 Pa", KEY_STIFFNESS, "needs a stiffness; Pa is a unit of pressure", "2 MN/m"},
 };
 
 START_TEST(test_bad)

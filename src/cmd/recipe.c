@@ -1,0 +1,71 @@
+/* Reading a recipe of surface keys, or a scene: see recipe.h. */
+#include "cmd/recipe.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "file/bytes.h"
+#include "file/yaml_bytes.h"
+#include "file/yaml_parse.h"
+#include "scene/scene_read.h"
+
+bool recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err *e)
+{
+    struct bytes b;
+    *is = false;
+    if (!bytes_read(file, c->arena, &b, e))
+        return false;
+    for (const char *line = b.at; line && !*is; line = strchr(line, '\n')) {
+        line += *line == '\n';
+        *is = !strncmp(line, "rasp:", 5) || !strncmp(line, "include:", 8);
+    }
+    return true;
+}
+
+/* A double-quoted YAML string. */
+static const char *quoted(struct arena *a, const char *text)
+{
+    char *out = arena_take(a, 2 * strlen(text) + 3, 1), *p = out;
+    *p++ = '"';
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\')
+            *p++ = '\\';
+        *p++ = *text;
+    }
+    *p = '"';
+    return out;
+}
+
+static bool read_recipe(struct cmd_call *c, const char *file, const char *rest, struct scene *s, struct err *e)
+{
+    int n;
+    const char **set = args_values(&c->args, "set", &n), *messages = "";
+    const char *text = arena_format(c->arena, "rasp: 1\nsurface: {recipe: %s}\n%s", quoted(c->arena, file), rest);
+    struct scene_overrides over = {.set = set, .n = n, .seed = args_value(&c->args, "seed")};
+    struct err cause = {0};
+    if (scene_read_text(text, strlen(text), "recipe.yaml", &over, c->arena, s, &messages, &cause))
+        return true;
+    fputs(messages, stderr);
+    return err_set(e, cause.kind, "%s is not a valid recipe", file);
+}
+
+bool recipe_read(struct cmd_call *c, const char *file, const char *rest, struct scene *s, struct err *e)
+{
+    bool scene;
+    if (!recipe_is_scene(c, file, &scene, e))
+        return false;
+    return scene ? cmd_read_scene(c, file, s, e) : read_recipe(c, file, rest, s, e);
+}
+
+const char *recipe_remark(struct cmd_call *c, const char *file, const char *key)
+{
+    struct yaml *y = yaml_open(c->arena);
+    const struct diag_source *source = yaml_bytes_read(y, file, (struct diag_place){0});
+    const struct yaml_node *map = source ? yaml_parse(y, source) : NULL, *value = map && map->kind == YAML_MAP ? yaml_get(map, key) : NULL;
+    if (!value || value->kind != YAML_SCALAR)
+        return NULL;
+    char *line = arena_text(c->arena, value->text);
+    for (char *p = line; *p; p++)
+        *p = *p == '\n' ? ' ' : *p;
+    return line;
+}

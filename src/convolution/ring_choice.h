@@ -1,0 +1,37 @@
+/* Which engine makes a body ring, chosen before the plan is made: it depends on what the response holds (shared or separate poles), on the motion,
+   and on the accuracy asked for. */
+#ifndef CONVOLUTION_RING_CHOICE_H
+#define CONVOLUTION_RING_CHOICE_H
+#include "convolution/ring_nodes.h"
+#include "convolution/ring_survey.h"
+#include "response/modes.h"
+#include "scene/scene.h"
+
+enum ring_body { RING_SURFACE, RING_SCRAPER };
+enum ring_engine { RING_NONE, RING_RESONATORS, RING_LAUNCH, RING_OVERLAP, RING_READOUT, RING_PANNED };
+
+struct ring_choice {
+    enum ring_engine engine;
+    int reading;                 /* enum moving, never auto                                  */
+    bool recorded;               /* a WAV or a folder of them: no modes                      */
+    struct modes modes;          /* as read, the strongest below Nyquist                     */
+    int high;                    /* how many were dropped above it                           */
+    const char *note;            /* a warning from reading; NULL: none                       */
+    bool moves;                  /* the response changes on the way                          */
+    struct ring_survey survey;   /* of a response that moves                                 */
+    int order, hop;              /* of overlap-add and readout; hop in frames                */
+    double *hops;                /* [modes.n] frames, of launch                              */
+    struct ring_nodes nodes;     /* of panned modes                                          */
+    double error;                /* predicted, relative rms; 0: none                         */
+    double work;                 /* predicted cycles per audio sample                        */
+};
+
+/* NULL: the body does not ring. Errors: as modes_table, object_make, space_modes; ERR_SCENE where what is asked cannot be had. */
+bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice,
+                 struct err *e);
+
+/* The engine of a contact that has been through ring_choice_make (scene.h: response.choice). */
+enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body);
+double ring_choice_work(const struct contact *c, enum ring_body body);
+
+#endif

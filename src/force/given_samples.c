@@ -1,0 +1,119 @@
+/* A force given as samples, from one channel of a WAV (whatever libsndfile reads) or from a one-dimensional NPY:
+
+     f[n] = scale x[n]     N, at n / rate after the contact's start; 0 before the first and after the last sample
+
+   At the audio rate samples stay what they are; at another they are resampled as a band-limited signal (num/resample.h). */
+#include "file/bytes.h"
+#include "file/heightfile_npy.h"
+#include "file/wav.h"
+#include "force/given.h"
+#include "force/onset.h"
+#include "num/resample.h"
+#include "stage.h"
+#include "trajectory/trajectory.h"
+
+struct given_samples {
+    double rate;            /* Hz, of the file; then of the scene */
+    size_t n;
+    double *force;          /* N                                  */
+};
+
+static bool samples_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return c->contact.model == CONTACT_GIVEN && !given_is_table(c);
+}
+
+static unsigned samples_asks(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
+}
+
+static double samples_work(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return 2;
+}
+
+static bool wav_take(const struct stage_run *r, struct arena *scratch, struct given_samples *g, struct err *e)
+{
+    const struct given_force *given = &r->contact->contact.given;
+    struct wav w;
+    if (!given_fits(r->contact, "WAV", e) || !wav_read(given->file, scratch, &w, e))
+        return false;
+    if (given->channel > w.channels)
+        return err_set(e, ERR_SCENE, "contact '%s': contact.given.channel is %d, but %s has %d channel%s", r->contact->name, given->channel, given->file,
+                       w.channels, w.channels == 1 ? "" : "s");
+    if (isnan(given->scale))
+        return err_set(e, ERR_SCENE, "contact '%s': contact.given.scale must be given: %s does not say how many newtons its %s stands for",
+                       r->contact->name, given->file, w.bits ? "full scale" : "unit");
+    *g = (struct given_samples){w.rate, w.frames, ARENA_TAKE(r->arena, double, w.frames)};
+    for (size_t i = 0; i < w.frames; i++)
+        g->force[i] = given->scale * w.x[i * (size_t)w.channels + (size_t)given->channel - 1];
+    return true;
+}
+
+static bool npy_take(const struct stage_run *r, const struct bytes *b, struct arena *scratch, struct given_samples *g, struct err *e)
+{
+    const struct given_force *given = &r->contact->contact.given;
+    struct heightfile h;
+    if (!given_fits(r->contact, "NPY", e) || !heightfile_npy_read(given->file, b, scratch, &h, e))
+        return false;
+    if (h.rows > 1)
+        return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension", given->file, h.rows, h.columns);
+    if (isnan(given->rate))
+        return err_set(e, ERR_SCENE, "contact '%s': contact.given.rate must be given: %s does not say how many samples a second has", r->contact->name,
+                       given->file);
+    *g = (struct given_samples){given->rate, h.columns, ARENA_TAKE(r->arena, double, h.columns)};
+    for (size_t i = 0; i < g->n; i++) {
+        g->force[i] = given_scale(r->contact) * h.z[i];
+        if (!isfinite(h.z[i]))
+            return err_set(e, ERR_SCENE, "%s: element %zu is not a finite number", given->file, i);
+    }
+    return true;
+}
+
+/* By content. The file's own bytes are not kept. */
+static bool samples_take(const struct stage_run *r, struct given_samples *g, struct err *e)
+{
+    struct arena *scratch = arena_open();
+    struct bytes b;
+    bool ok = bytes_read(r->contact->contact.given.file, scratch, &b, e);
+    ok = ok && (heightfile_npy_is(&b) ? npy_take(r, &b, scratch, g, e) : wav_take(r, scratch, g, e));
+    arena_close(scratch);
+    return ok;
+}
+
+static bool samples_open(struct stage_run *r, struct err *e)
+{
+    struct given_samples *g = ARENA_TAKE(r->arena, struct given_samples, 1);
+    r->state = g;
+    if (!samples_take(r, g, e) || !given_ends(r->contact, (double)(g->n - 1) / g->rate, r->board->trajectory->duration, e))
+        return false;
+    onset_told(r, "the largest force", (double)onset_largest(g->n, g->force) / g->rate);
+    return g->rate == r->board->rate || resample(r->arena, g->force, g->n, g->rate, r->board->rate, &g->force, &g->n, e);
+}
+
+static bool samples_fill(struct stage_run *r, long from, long to, struct err *e)
+{
+    const struct given_samples *g = r->state;
+    double *force = board_at(r->board, ITEM_FORCE, from);
+    (void)e;
+    for (long n = from; n < to; n++)
+        force[n - from] = n < (long)g->n ? g->force[n] : 0;
+    return true;
+}
+
+const struct stage given_samples_stage = {
+    .name = "given_samples",
+    .does = "contact force from the samples of a file",
+    .paper = "",
+    .idle = "contact.model is not given, or contact.given.file is a table",
+    .gives = ITEM_BIT(ITEM_FORCE),
+    .asks = samples_asks,
+    .wanted = samples_wanted,
+    .work = samples_work,
+    .open = samples_open,
+    .run = samples_fill,
+};

@@ -1,0 +1,117 @@
+/* force     the contact force, summed over the contacts that are heard, in newtons: 1.0 is 1 N. Always one channel of 32-bit floating point,
+             whatever output.encoding is, so that any force fits; no ramps, no level.
+   surface   what the surfaces and
+   scraper   what the scrapers (weight eta included) put into the sound, all contacts times their gains, with the sound's own gain, ramps, channels and
+             encoding: surface + scraper is the sound, but for the rounding of each. A part may be louder than the whole: where the encoding has
+             no room for it, that is an error. */
+#include "output/stems.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "output/sound.h"
+#include "output/track.h"
+#include "response/listener.h"
+
+const char *const stems_names[STEMS] = {"force", "surface", "scraper"};
+
+struct stems {
+    const struct scene *scene;
+    struct track tracks[STEMS];
+    bool open[STEMS];
+};
+
+bool stems_asked(const struct output *o, enum stem stem)
+{
+    for (int i = 0; o->stems && o->stems[i]; i++)
+        if (strcmp(o->stems[i], stems_names[stem]) == 0)
+            return true;
+    return false;
+}
+
+int stems_channels(const struct output *o, enum stem stem)
+{
+    return stem == STEM_FORCE ? 1 : listener_channels(o);
+}
+
+static bool comment_force(struct track *t, struct err *e)
+{
+    return track_note(t, "rasp: contact force, 1.0 is 1 N", e);
+}
+
+static bool comment(const struct stems *o, struct track *t, double gain, struct err *e)
+{
+    char text[80];
+    sound_comment(o->scene, gain, text);
+    return track_note(t, text, e);
+}
+
+static bool open_one(struct stems *o, enum stem stem, const char *path, struct track_format f, struct arena *a, struct err *e)
+{
+    struct track *t = &o->tracks[stem];
+    double gain = sound_known_gain(o->scene);
+    f.key = "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a lower level";
+    if (stem == STEM_FORCE) {
+        gain = 1;
+        f.places = f.channels = 1, f.bits = -32, f.ramp = 0, f.waits = false;
+        f.key = "output.stems: force";
+    }
+    if (!track_open(t, path, &f, gain, a, e))
+        return false;
+    o->open[stem] = true;
+    return stem == STEM_FORCE ? comment_force(t, e) : f.waits || comment(o, t, gain, e);
+}
+
+struct stems *stems_open(const struct scene *s, const char *const paths[STEMS], long frames, struct arena *a, struct err *e)
+{
+    struct stems *o = ARENA_TAKE(a, struct stems, 1);
+    struct track_format f = sound_format(s, frames);
+    o->scene = s;
+    for (int k = 0; k < STEMS; k++)
+        if (stems_asked(&s->output, (enum stem)k) && !open_one(o, (enum stem)k, paths[k], f, a, e)) {
+            stems_drop(o);
+            return NULL;
+        }
+    return o;
+}
+
+bool stems_add(struct stems *o, enum stem stem, double *x, long n, struct err *e)
+{
+    return track_add(&o->tracks[stem], x, n, e);
+}
+
+bool stems_finish(struct stems *o, double gain, struct err *e)
+{
+    for (int k = 0; k < STEMS; k++) {
+        struct track *t = &o->tracks[k];
+        if (o->open[k] && t->spool && !(comment(o, t, gain, e) && track_finish(t, gain, e)))
+            return false;
+    }
+    return true;
+}
+
+bool stems_settle(struct stems *o, struct err *e)
+{
+    for (int k = 0; k < STEMS; k++)
+        if (o->open[k] && !track_settle(&o->tracks[k], e))
+            return false;
+    return true;
+}
+
+bool stems_commit(struct stems *o, struct err *e)
+{
+    for (int k = 0; k < STEMS; k++) {
+        bool open = o->open[k];
+        o->open[k] = false;
+        if (open && !track_commit(&o->tracks[k], e))
+            return false;
+    }
+    return true;
+}
+
+void stems_drop(struct stems *o)
+{
+    for (int k = 0; o && k < STEMS; k++)
+        if (o->open[k])
+            track_drop(&o->tracks[k]);
+}

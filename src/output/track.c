@@ -1,0 +1,129 @@
+/* Ramps are raised cosines over both ends of the whole, sin^2(pi/2 (n + 1/2) / N), all channels alike. */
+#include "output/track.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/scratch.h"
+#include "num/real.h"
+
+bool track_open(struct track *t, const char *path, const struct track_format *f, double gain, struct arena *a, struct err *e)
+{
+    struct wav_format w = {.rate = f->rate, .channels = f->channels, .bits = f->bits, .title = f->title};
+    *t = (struct track){.format = *f, .gain = gain, .peak = ARENA_TAKE(a, double, f->places), .squares = ARENA_TAKE(a, double, f->places)};
+    if (!(t->wav = wav_create(path, &w, e)))
+        return false;
+    t->wide = ARENA_TAKE(a, double, TRACK_CHUNK * f->channels);
+    if (!f->waits || (t->spool = scratch_open()))
+        return true;
+    err_set(e, ERR_CREATE, "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
+            strerror(errno));
+    track_drop(t);
+    return false;
+}
+
+bool track_note(struct track *t, const char *text, struct err *e)
+{
+    return wav_comment(t->wav, text, e);
+}
+
+static void ramp(const struct track *t, double *x, long n)
+{
+    for (long i = 0; i < n; i++) {
+        long at = t->done + i, rest = t->format.frames - 1 - at, edge = at < rest ? at : rest;
+        if (edge >= t->format.ramp)
+            continue;
+        double s = real_sinpi(0.5 * ((double)edge + 0.5) / (double)t->format.ramp);
+        for (int k = 0; k < t->format.places; k++)
+            x[i * t->format.places + k] *= s * s;
+    }
+}
+
+static void measure(struct track *t, const double *x, long n)
+{
+    for (int k = 0; k < t->format.places; k++)
+        for (long i = 0; i < n; i++) {
+            double v = x[i * t->format.places + k];
+            t->peak[k] = fmax(t->peak[k], fabs(v));
+            t->squares[k] += v * v;
+        }
+}
+
+static bool put(struct track *t, const double *x, long n, struct err *e)
+{
+    int places = t->format.places, channels = t->format.channels, copies = channels / places;
+    for (long i = 0; i < n; i += TRACK_CHUNK) {
+        long some = n - i < TRACK_CHUNK ? n - i : TRACK_CHUNK;
+        for (long k = 0; k < some * channels; k++)
+            t->wide[k] = t->gain * x[i * places + k / copies];
+        if (!wav_write(t->wav, t->wide, (size_t)some, e))
+            return e->kind == ERR_SCENE ? err_at(e, "%s", t->format.key) : false;
+    }
+    return true;
+}
+
+bool track_add(struct track *t, double *x, long n, struct err *e)
+{
+    size_t samples = (size_t)(n * t->format.places);
+    ramp(t, x, n);
+    t->done += n;
+    measure(t, x, n);
+    if (!t->spool)
+        return put(t, x, n, e);
+    if (fwrite(x, sizeof *x, samples, t->spool) != samples)
+        return err_set(e, ERR_IO, "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
+                       strerror(errno));
+    return true;
+}
+
+void track_rewind(struct track *t)
+{
+    rewind(t->spool);
+}
+
+long track_read(struct track *t, double *x)
+{
+    size_t places = (size_t)t->format.places;
+    return (long)(fread(x, sizeof *x, TRACK_CHUNK / places * places, t->spool) / places);
+}
+
+bool track_finish(struct track *t, double gain, struct err *e)
+{
+    double x[TRACK_CHUNK];
+    long n;
+    t->gain = gain;
+    track_rewind(t);
+    while ((n = track_read(t, x)) > 0)
+        if (!put(t, x, n, e))
+            return false;
+    return ferror(t->spool) ? err_set(e, ERR_IO, "samples cannot be read back from the temporary file") : true;
+}
+
+static void forget(struct track *t)
+{
+    if (t->spool)
+        fclose(t->spool);
+    t->spool = NULL;
+}
+
+bool track_settle(struct track *t, struct err *e)
+{
+    forget(t);
+    return wav_settle(t->wav, e);
+}
+
+bool track_commit(struct track *t, struct err *e)
+{
+    struct wav_out *w = t->wav;
+    forget(t);
+    t->wav = NULL;
+    return wav_commit(w, e);
+}
+
+void track_drop(struct track *t)
+{
+    forget(t);
+    wav_drop(t->wav);
+    t->wav = NULL;
+}

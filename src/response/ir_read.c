@@ -1,0 +1,62 @@
+/* An impulse response from a WAV.
+
+   At the file's own rate r the convolution is y[n] = sum_m k[n - m] f[m], k = {x[0]/2, x[1], x[2], ...}/r: half of the first sample is the
+   trapezium rule at the jump from 0 to h(0+) (ir.h). At another rate R the same operator is wanted for every force below both Nyquist
+   frequencies, and that is the band-limited signal through {x[0]/2, x[1], ...}, read at n/R and divided by R: the half is taken once, before
+   resampling, and the first sample that comes out counts whole. A recorded response is band-limited already and begins with silence, so that
+   little depends on it. What a jump at the very first sample makes ring before t = 0 is dropped, since a response is causal: its integral is
+   less than 0.1 x[0] over the lower of the rates. Values per second stay: nothing is scaled by the ratio of rates. */
+#include "response/ir.h"
+
+#include <math.h>
+
+#include "file/wav.h"
+#include "num/resample.h"
+
+static bool silent(const double *x, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (x[i] != 0.0)
+            return false;
+    return true;
+}
+
+static size_t cut(double rate, double t0, size_t n)
+{
+    size_t most = isnan(t0) ? n : ir_length(rate, t0);
+    return most < n ? most : n;
+}
+
+/* h with the rate of the file, and with `rate`. */
+static bool convert(const char *path, const struct wav *w, double rate, struct arena *a, struct ir *ir, struct err *e)
+{
+    ir->note = NULL;
+    ir->h = w->x;
+    ir->length = w->frames;
+    if (w->rate == rate)
+        return true;
+    if (!resample(a, w->x, w->frames, w->rate, rate, &ir->h, &ir->length, e))
+        return err_at(e, "%s", path);
+    ir->note = arena_format(a, "%s: resampled from %g Hz to %g Hz", path, w->rate, rate);
+    return true;
+}
+
+bool ir_read(const char *path, double rate, double t0, struct arena *a, struct ir *ir, struct err *e)
+{
+    struct wav w;
+    if (!wav_read(path, a, &w, e))
+        return false;
+    if (w.channels != 1)
+        return err_set(e, ERR_SCENE, "%s: has %d channels; an impulse response is mono: extract one channel", path, w.channels);
+    size_t before = cut(w.rate, t0, w.frames);
+    if (silent(w.x, before))
+        return err_set(e, ERR_SCENE, "%s: the impulse response is silent%s; give one that rings, or leave the response out", path,
+                       before < w.frames ? " before response_length" : "");
+    w.x[0] *= 0.5;
+    if (!convert(path, &w, rate, a, ir, e))
+        return false;
+    ir->length = cut(rate, t0, ir->length);
+    for (size_t n = 0; n < ir->length; n++)
+        ir->h[n] /= rate;
+    return true;
+}

@@ -1,0 +1,284 @@
+/* struct modes from a mode table: its places, which modes of different places are one (by id, or pairing.h), the strongest of them, their gains (morph.h).
+
+   Strength of a mode: its energy per (N s)^2, summed over the places; of one slope the integral of (gain e^(-decay t) sin(...))^2 dt ~ gain^2/(4 decay), of
+   several slopes sum_jk g_j g_k cos(phase_j - phase_k)/(2 (decay_j + decay_k)). Its slopes become components one after the other, those of
+   equal rank by decay being one and the same at all places. Complex gain: A = gain e^(j phase), so that h(t) = Im(A e^(s t)). */
+#include <math.h>
+#include <stdlib.h>
+
+#include "num/real.h"
+#include "response/mode_table.h"
+#include "response/modes.h"
+#include "response/morph.h"
+#include "response/pairing.h"
+
+struct rank {
+    double energy;
+    size_t row, track; /* first row in the table */
+};
+
+struct component {
+    int chosen, slope; /* index among the modes chosen; which of its slopes */
+};
+
+struct making {
+    const struct mode_table *t;
+    struct arena *arena;
+    struct places *places;
+    size_t tracks, *track;             /* [entries] of each entry */
+    struct rank *rank;                 /* [tracks], strongest first */
+    int chosen, n;                     /* modes, components */
+    const struct mode_entry **entry;   /* [chosen][places] or NULL */
+    struct component *component;       /* [n] */
+};
+
+/* ------------------------------------------------------------------ places, tracks */
+
+static bool make_places(struct making *k, struct err *e)
+{
+    struct err own = {0};
+    int bad;
+    if (places_make(k->arena, (int)k->t->places, k->t->xy, &k->places, &bad, &own))
+        return true;
+    return bad < 0 ? err_set(e, own.kind, "%s: %s", k->t->csv.file, own.text) : mode_table_bad_place(k->t, (size_t)bad, own.text, e);
+}
+
+static void track_by_frequency(struct making *k, double gate)
+{
+    const struct mode_table *t = k->t;
+    size_t entries = t->first[t->places];
+    double *frequency = ARENA_TAKE(k->arena, double, entries), *decay = ARENA_TAKE(k->arena, double, entries);
+    int *number = ARENA_TAKE(k->arena, int, entries), **rows = ARENA_TAKE(k->arena, int *, t->places);
+    struct pairing_list *list = ARENA_TAKE(k->arena, struct pairing_list, t->places);
+    for (size_t i = 0; i < entries; i++) {
+        frequency[i] = t->entry[i].frequency;
+        decay[i] = t->entry[i].slope[0].decay;
+    }
+    for (size_t p = 0; p < t->places; p++) {
+        size_t from = t->first[p];
+        rows[p] = number + from;
+        list[p] = (struct pairing_list){(int)(t->first[p + 1] - from), frequency + from, decay + from};
+    }
+    k->tracks = (size_t)pairing_tracks(k->places, (int)t->places, t->xy, list, gate, rows);
+    for (size_t i = 0; i < entries; i++)
+        k->track[i] = (size_t)number[i];
+}
+
+static void make_tracks(struct making *k, double gate)
+{
+    size_t entries = k->t->first[k->t->places];
+    k->track = ARENA_TAKE(k->arena, size_t, entries);
+    k->tracks = k->t->modes;
+    for (size_t i = 0; i < entries; i++)
+        k->track[i] = k->t->entry[i].mode;
+    if (k->t->by_frequency && k->t->places > 1)
+        track_by_frequency(k, gate);
+}
+
+/* ------------------------------------------------------------------ the strongest */
+
+static double slope_energy(const struct mode_slope *p)
+{
+    if (p->gain != 0.0 && p->decay == 0.0)
+        return HUGE_VAL; /* without decay: endless energy, unless silent */
+    double amplitude = p->gain != 0.0 ? p->gain / (2.0 * sqrt(p->decay)) : 0.0;
+    return amplitude * amplitude;
+}
+
+static double energy(const struct mode_entry *m)
+{
+    double sum = 0.0;
+    for (int i = 0; i < m->n; i++) {
+        const struct mode_slope *p = &m->slope[i];
+        sum += slope_energy(p);
+        for (int j = 0; j < i && sum < HUGE_VAL; j++) {
+            const struct mode_slope *q = &m->slope[j];
+            if (p->gain != 0.0 && q->gain != 0.0)
+                sum += p->gain * q->gain * real_cos(p->phase - q->phase) / (p->decay + q->decay);
+        }
+    }
+    return fmax(sum, 0.0);
+}
+
+static int strongest_first(const void *a, const void *b)
+{
+    const struct rank *p = a, *q = b;
+    if (p->energy != q->energy)
+        return p->energy > q->energy ? -1 : 1;
+    return (p->row > q->row) - (p->row < q->row);
+}
+
+static void rank_modes(struct making *k)
+{
+    const struct mode_table *t = k->t;
+    k->rank = ARENA_TAKE(k->arena, struct rank, k->tracks);
+    for (size_t i = 0; i < k->tracks; i++)
+        k->rank[i] = (struct rank){0.0, t->csv.rows, i};
+    for (size_t i = 0; i < t->first[t->places]; i++) {
+        struct rank *r = &k->rank[k->track[i]];
+        r->energy += energy(&t->entry[i]);
+        r->row = t->entry[i].row < r->row ? t->entry[i].row : r->row;
+    }
+    qsort(k->rank, k->tracks, sizeof *k->rank, strongest_first);
+}
+
+static void choose(struct making *k, int strongest)
+{
+    const struct mode_table *t = k->t;
+    size_t none = k->tracks, *place = ARENA_TAKE(k->arena, size_t, k->tracks);
+    k->chosen = (size_t)strongest < k->tracks ? strongest : (int)k->tracks;
+    k->entry = ARENA_TAKE(k->arena, const struct mode_entry *, (size_t)k->chosen * t->places);
+    for (size_t i = 0; i < k->tracks; i++)
+        place[k->rank[i].track] = i < (size_t)k->chosen ? i : none;
+    for (size_t i = 0; i < t->first[t->places]; i++)
+        if (place[k->track[i]] != none)
+            k->entry[place[k->track[i]] * t->places + t->entry[i].place] = &t->entry[i];
+}
+
+/* Slopes of a chosen mode, at the place where they are most. */
+static int most_slopes(const struct making *k, int chosen)
+{
+    int most = 0;
+    for (size_t p = 0; p < k->t->places; p++) {
+        const struct mode_entry *m = k->entry[(size_t)chosen * k->t->places + p];
+        most = m && m->n > most ? m->n : most;
+    }
+    return most;
+}
+
+static void make_components(struct making *k)
+{
+    for (int c = 0; c < k->chosen; c++)
+        k->n += most_slopes(k, c);
+    k->component = ARENA_TAKE(k->arena, struct component, k->n);
+    for (int c = 0, i = 0; c < k->chosen; c++)
+        for (int s = 0, most = most_slopes(k, c); s < most; s++)
+            k->component[i++] = (struct component){c, s};
+}
+
+/* The entry and slope of component i at a place; NULL: the place lacks it. */
+static const struct mode_entry *entry_of(const struct making *k, int i, size_t place, const struct mode_slope **slope)
+{
+    const struct mode_entry *m = k->entry[(size_t)k->component[i].chosen * k->t->places + place];
+    if (!m || k->component[i].slope >= m->n)
+        return NULL;
+    *slope = &m->slope[k->component[i].slope];
+    return m;
+}
+
+/* ------------------------------------------------------------------ gains and poles */
+
+/* The poles of component i where it is strongest, its range of frequencies, largest gain and least decay. */
+static void survey(const struct making *k, struct modes *m, struct morph *p, int i)
+{
+    double most = -1.0;
+    const struct mode_slope *s;
+    p->lowest[i] = m->slowest[i] = HUGE_VAL;
+    for (size_t row = 0; row < k->t->places; row++) {
+        const struct mode_entry *at = entry_of(k, i, row, &s);
+        if (!at)
+            continue;
+        p->lowest[i] = fmin(p->lowest[i], at->frequency);
+        p->highest[i] = fmax(p->highest[i], at->frequency);
+        p->largest[i] = fmax(p->largest[i], fabs(s->gain));
+        m->slowest[i] = fmin(m->slowest[i], s->decay);
+        if (slope_energy(s) > most) {
+            most = slope_energy(s);
+            m->frequency[i] = at->frequency;
+            m->decay[i] = s->decay;
+        }
+    }
+}
+
+static void fill_shared(const struct making *k, const struct modes *m, struct morph *p)
+{
+    const struct mode_slope *s;
+    p->re = ARENA_TAKE(k->arena, double, (size_t)p->rows * p->n);
+    p->im = ARENA_TAKE(k->arena, double, (size_t)p->rows * p->n);
+    for (int i = 0; i < p->n; i++) {
+        m->frequency[i] = entry_of(k, i, 0, &s)->frequency;
+        m->decay[i] = m->slowest[i] = s->decay;
+        for (int row = 0; row < p->rows; row++) {
+            entry_of(k, i, (size_t)row, &s);
+            p->re[(size_t)row * p->n + i] = s->gain * real_cos(s->phase);
+            p->im[(size_t)row * p->n + i] = s->gain * real_sin(s->phase);
+        }
+    }
+}
+
+static void fill_separate(const struct making *k, const struct modes *m, struct morph *p)
+{
+    double **rows[] = {&p->frequency, &p->decay, &p->gain, &p->phase, &p->there};
+    double **work[] = {&p->share, &p->amplitude, &p->torn, &p->size, &p->sine, &p->cosine};
+    const struct mode_slope *s;
+    for (int c = 0; c < 5; c++)
+        *rows[c] = ARENA_TAKE(k->arena, double, (size_t)p->rows * p->n);
+    for (int c = 0; c < 6; c++)
+        *work[c] = ARENA_TAKE(k->arena, double, (c < 3 ? 1 : 3) * (size_t)p->n);
+    p->high = ARENA_TAKE(k->arena, int, p->n);
+    for (int i = 0; i < p->n; i++)
+        for (int row = 0; row < p->rows; row++) {
+            const struct mode_entry *at = entry_of(k, i, (size_t)row, &s);
+            if (at)
+                morph_put(p, m, row, i, (double[4]){at->frequency, s->decay, s->gain, s->phase});
+        }
+    morph_settle(p);
+}
+
+static int drop(struct modes *m, double top)
+{
+    struct morph *p = (struct morph *)m->self;
+    struct arena *a = arena_open();
+    bool *keep = ARENA_TAKE(a, bool, m->n);
+    for (int i = 0; i < m->n; i++)
+        keep[i] = p->lowest[i] < top;
+    int dropped = morph_keep(p, m, keep);
+    arena_close(a);
+    return dropped;
+}
+
+static int kinks(const struct modes *m, const double from[2], const double to[2], double *u, int most)
+{
+    return places_kinks(((const struct morph *)m->self)->places, from, to, u, most);
+}
+
+static void set_home(const struct making *k, struct modes *m)
+{
+    const int(*edge)[2];
+    int edges = places_edges(k->places, &edge), first = places_kind(k->places) == PLACES_LINE && edges > 0 ? edge[0][0] : 0;
+    m->home[0] = k->t->xy[2 * first];
+    m->home[1] = k->t->xy[2 * first + 1];
+}
+
+static void make_modes(const struct making *k, double rate, struct modes *m)
+{
+    struct morph *p = ARENA_TAKE(k->arena, struct morph, 1);
+    double **own[] = {&m->frequency, &m->decay, &m->slowest, &p->largest, &p->lowest, &p->highest};
+    *p = (struct morph){.n = k->n, .rows = (int)k->t->places, .places = k->places, .rate = rate};
+    *m = (struct modes){.n = k->n, .quantity = k->t->quantity, .shared = k->t->shared || p->rows == 1, .moves = p->rows > 1, .radius = k->t->radius,
+                        .name = k->t->csv.file, .note = k->t->note, .kinks = kinks, .drop = drop, .self = p};
+    for (int c = 0; c < 6; c++)
+        *own[c] = ARENA_TAKE(k->arena, double, k->n);
+    for (int i = 0; i < k->n; i++)
+        survey(k, m, p, i);
+    if (m->shared)
+        fill_shared(k, m, p);
+    else
+        fill_separate(k, m, p);
+    m->at = m->shared ? morph_shared : morph_separate;
+    set_home(k, m);
+}
+
+bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e)
+{
+    struct mode_table t;
+    struct making k = {.t = &t, .arena = a};
+    if (!mode_table_read(path, a, &t, e) || !make_places(&k, e))
+        return false;
+    make_tracks(&k, ask->pairing);
+    rank_modes(&k);
+    choose(&k, ask->strongest);
+    make_components(&k);
+    make_modes(&k, ask->rate, m);
+    return true;
+}

@@ -1,0 +1,237 @@
+/* Modes of an object in the space of materials and shapes: between wood, metal and glass (a place in a unit disk) and between bar, plate and
+   shell (dimension 1 to 3). The anchors, and their shares w_k at a place, are space_anchors.c's; what is interpolated, mode by mode in the
+   order of frequency:
+
+     ln f_i = ln f_1 + sum_k w_k ((1 - u) R_dk,i + u R_(d+1)k,i),   d <= dimension = d + u < d + 1,  R = ln(f_i/f_1) of the anchor in that shape
+     ln decay_i = sum_k w_k ln decay_k(2 pi f_i)                     the materials' laws of damping at the mode's own frequency
+     ln g_i = ln g_1 + (1 - u) G_d,i + u G_(d+1),i                   gains depend on the shape only
+
+   (logarithms, since ratios are what is heard; shares of bar, plate and shell as 004 gives none). Modes keep their order, none crosses
+   another; every decay lies between those of the anchors, so that all are stable. h_i(t) = g_i e^(-s t) (cos w t - (s/w) sin w t), w^2 = (2 pi f_i)^2 - s^2: the
+   velocity of a damped mode.
+
+   A place that moves goes straight from `from` to `to` in proportion to the share of the motion's duration that has passed, the dimension
+   likewise. Modes that reach half the sample rate then fade (raised cosine from 0.45 to 0.5 of it). The modes are the lowest `modes` ones,
+   as far as they somewhere lie below 0.499 of the sample rate. */
+#include "response/space.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "num/real.h"
+#include "num/vecmath.h"
+#include "response/space_anchors.h"
+
+enum { STEPS = 256, BLOCK = 64 }; /* places at which a moving one is looked at; modes at a time */
+
+struct self {
+    double from[2], to[2], dimension[2];
+    double fundamental, gain, rate; /* rate 0: nothing fades */
+    double *spectrum[SPACE_SHAPES][SPACE_ANCHORS], *log_gain[SPACE_SHAPES]; /* [n] */
+};
+
+/* ------------------------------------------------------------------ reading */
+
+struct mix { /* at one share */
+    double anchor[SPACE_ANCHORS], upper; /* shares of the anchors, of shape + 1 */
+    int shape;
+};
+
+static void mix_at(const struct self *s, double share, struct mix *x)
+{
+    double dimension = s->dimension[0] + share * (s->dimension[1] - s->dimension[0]);
+    space_anchors_shares(s->from[0] + share * (s->to[0] - s->from[0]), s->from[1] + share * (s->to[1] - s->from[1]), x->anchor);
+    x->shape = dimension < 2.0 ? SPACE_BAR : SPACE_PLATE;
+    x->upper = dimension - 1.0 - x->shape;
+}
+
+/* f[i] = ln(f_i/f_1), g[i] = ln(g_i/g_1) of n modes from `first`. */
+static void logarithms(const struct self *s, const struct mix *x, const int range[2], double *f, double *g)
+{
+    const double *lower = s->log_gain[x->shape], *upper = s->log_gain[x->shape + 1];
+    for (int i = range[0], j = 0; i < range[1]; i++, j++) {
+        double sum[2] = {0.0, 0.0};
+        for (int k = 0; k < SPACE_ANCHORS; k++) {
+            sum[0] += x->anchor[k] * s->spectrum[x->shape][k][i];
+            sum[1] += x->anchor[k] * s->spectrum[x->shape + 1][k][i];
+        }
+        f[j] = (1.0 - x->upper) * sum[0] + x->upper * sum[1];
+        g[j] = (1.0 - x->upper) * lower[i] + x->upper * upper[i];
+    }
+}
+
+/* decay[i] at frequencies f (Hz) */
+static void decays(const struct mix *x, int n, const double *f, double *decay)
+{
+    double law[BLOCK];
+    memset(decay, 0, (size_t)n * sizeof *decay);
+    for (int k = 0; k < SPACE_ANCHORS; k++) {
+        for (int i = 0; i < n; i++)
+            law[i] = space_anchors_decay(k, 2.0 * REAL_PI * f[i]);
+        vecmath_log((size_t)n, law, law);
+        for (int i = 0; i < n; i++)
+            decay[i] += x->anchor[k] * law[i];
+    }
+    vecmath_exp((size_t)n, decay, decay);
+}
+
+static double fade(const struct self *s, double f)
+{
+    double x = s->rate > 0.0 ? (f / s->rate - 0.45) / 0.05 : 0.0;
+    return x <= 0.0 ? 1.0 : x < 1.0 ? 0.5 + 0.5 * real_cospi(x) : 0.0;
+}
+
+static void block(const struct self *s, const struct mix *x, const int range[2], const struct modes_point *p)
+{
+    double f[BLOCK], g[BLOCK], decay[BLOCK];
+    int n = range[1] - range[0];
+    logarithms(s, x, range, f, g);
+    vecmath_exp((size_t)n, f, f);
+    vecmath_exp((size_t)n, g, g);
+    for (int j = 0; j < n; j++)
+        f[j] *= s->fundamental;
+    decays(x, n, f, decay);
+    for (int j = 0, i = range[0]; j < n; j++, i++) {
+        double w0 = 2.0 * REAL_PI * f[j], w = sqrt(w0 * w0 - decay[j] * decay[j]), gain = s->gain * g[j] * fade(s, w / (2.0 * REAL_PI));
+        p->re[i] = -gain * decay[j] / w;
+        p->im[i] = gain;
+        if (p->frequency) {
+            p->frequency[i] = w / (2.0 * REAL_PI);
+            p->decay[i] = decay[j];
+        }
+    }
+}
+
+static double at(const struct modes *m, const struct modes_where *where, const struct modes_point *p)
+{
+    const struct self *s = m->self;
+    struct mix x;
+    mix_at(s, where->share, &x);
+    for (int first = 0; first < m->n; first += BLOCK)
+        block(s, &x, (int[2]){first, first + BLOCK < m->n ? first + BLOCK : m->n}, p);
+    return 0.0;
+}
+
+/* ------------------------------------------------------------------ making */
+
+static bool inside(const char *key, const double place[2], struct err *e)
+{
+    double r = sqrt(place[0] * place[0] + place[1] * place[1]);
+    return r <= 1.0 + 1e-6 || err_set(e, ERR_SCENE, "surface.space.%s: [%.9g, %.9g] lies %.3g from the centre, outside the disk of radius 1 whose rim is "
+                                      "that of wood, metal and glass; divide both by that", key, place[0], place[1], r);
+}
+
+static bool ends(const struct space *g, struct self *s, struct err *e)
+{
+    for (int c = 0; c < 2; c++) {
+        s->from[c] = g->from[c];
+        s->to[c] = isnan(g->to[c]) ? g->from[c] : g->to[c];
+    }
+    s->dimension[0] = g->dimension;
+    s->dimension[1] = isnan(g->dimension_to) ? g->dimension : g->dimension_to;
+    s->fundamental = g->fundamental;
+    s->gain = g->gain;
+    return inside("from", s->from, e) && inside("to", s->to, e);
+}
+
+/* Spectra of at most `most` modes; returns how many of them can lie below half the rate. */
+static int spectra(struct self *s, int most, double rate, struct arena *a)
+{
+    int n = 0;
+    for (int d = 0; d < SPACE_SHAPES; d++) {
+        s->log_gain[d] = ARENA_TAKE(a, double, most);
+        for (int i = 0; i < most; i++)
+            s->log_gain[d][i] = real_log(space_anchors_gain(d, i));
+        for (int k = 0; k < SPACE_ANCHORS; k++) {
+            s->spectrum[d][k] = ARENA_TAKE(a, double, most);
+            space_anchors_spectrum(d, k, most, s->spectrum[d][k], a);
+            int below = 0;
+            while (below < most && s->spectrum[d][k][below] < real_log(0.5 * rate / s->fundamental))
+                below++;
+            n = below > n ? below : n;
+        }
+    }
+    return n;
+}
+
+struct rank {
+    double energy, low; /* the most along the way; Hz, the lowest frequency there */
+    int index;
+};
+
+static int strongest_first(const void *a, const void *b)
+{
+    const struct rank *p = a, *q = b;
+    if (p->energy != q->energy)
+        return p->energy > q->energy ? -1 : 1;
+    return (p->index > q->index) - (p->index < q->index);
+}
+
+/* What the modes are along the way: where each is strongest, the least decay. Leaves m->frequency, decay, slowest as they are there. */
+static void walk(struct modes *m, struct rank *rank, struct arena *a)
+{
+    struct modes_point p = {ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n)};
+    for (int i = 0; i < m->n; i++) {
+        m->slowest[i] = INFINITY;
+        rank[i] = (struct rank){-1.0, INFINITY, i};
+    }
+    for (int k = 0; k <= (m->travels ? STEPS : 0); k++) {
+        at(m, &(struct modes_where){.share = (double)k / STEPS}, &p);
+        for (int i = 0; i < m->n; i++) {
+            double energy = p.im[i] * p.im[i] / p.decay[i];
+            m->slowest[i] = fmin(m->slowest[i], p.decay[i]);
+            rank[i].low = fmin(rank[i].low, p.frequency[i]);
+            if (energy <= rank[i].energy)
+                continue;
+            rank[i].energy = energy;
+            m->frequency[i] = p.frequency[i];
+            m->decay[i] = p.decay[i];
+        }
+    }
+}
+
+static void permute(double *v, const struct rank *rank, int n, double *room)
+{
+    for (int i = 0; i < n; i++)
+        room[i] = v[rank[i].index];
+    memcpy(v, room, (size_t)n * sizeof *v);
+}
+
+/* Orders the modes, drops what nowhere lies below 0.499 rate. */
+static void arrange(struct modes *m, struct self *s, double rate, struct arena *a)
+{
+    struct rank *rank = ARENA_TAKE(a, struct rank, m->n);
+    double *room = ARENA_TAKE(a, double, m->n), *own[] = {m->frequency, m->decay, m->slowest};
+    int n = 0;
+    walk(m, rank, a);
+    for (int i = 0; i < m->n; i++)
+        if (rank[i].low < 0.499 * rate)
+            rank[n++] = rank[i];
+    qsort(rank, (size_t)n, sizeof *rank, strongest_first);
+    for (int c = 0; c < 3; c++)
+        permute(own[c], rank, n, room);
+    for (int d = 0; d < SPACE_SHAPES; d++) {
+        permute(s->log_gain[d], rank, n, room);
+        for (int k = 0; k < SPACE_ANCHORS; k++)
+            permute(s->spectrum[d][k], rank, n, room);
+    }
+    m->n = n;
+}
+
+bool space_modes(const struct space *g, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e)
+{
+    struct self *s = ARENA_TAKE(a, struct self, 1);
+    if (!ends(g, s, e))
+        return false;
+    bool travels = s->from[0] != s->to[0] || s->from[1] != s->to[1] || s->dimension[0] != s->dimension[1];
+    *m = (struct modes){.quantity = MODES_VELOCITY, .shared = !travels, .travels = travels, .radius = NAN, .name = "surface.space", .at = at, .self = s};
+    s->rate = travels ? ask->rate : 0.0;
+    m->n = spectra(s, ask->strongest, ask->rate, a);
+    m->frequency = ARENA_TAKE(a, double, m->n);
+    m->decay = ARENA_TAKE(a, double, m->n);
+    m->slowest = ARENA_TAKE(a, double, m->n);
+    arrange(m, s, ask->rate, a);
+    return m->n > 0 || err_set(e, ERR_SCENE, "surface.space.fundamental: no mode of %g Hz or above lies below half the sample rate, %g Hz; lower it, or raise "
+                               "output.sample_rate", g->fundamental, 0.5 * ask->rate);
+}

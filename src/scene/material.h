@@ -1,0 +1,23 @@
+/* What objects are made of: material.def, each figure with its source. */
+#ifndef SCENE_MATERIAL_H
+#define SCENE_MATERIAL_H
+#include "scene/scene.h"
+
+struct material {
+    const char *name;                       /* the word of scene.h's enum material_name */
+    double youngs_modulus, across, shear;   /* Pa: along x (the grain), across, shear modulus in the plane */
+    double poisson, density;                /* -, kg/m^3 */
+    double alpha, beta, loss;               /* 1/s, s, loss factor: decay = (alpha + beta w^2 + loss w)/2 at w = 2 pi f */
+    const char *source, *damping_source;
+};
+
+/* NULL for MATERIAL_CUSTOM. */
+const struct material *material_find(int name);
+
+/* All of them; ends with a NULL name. */
+extern const struct material material_table[];
+
+/* decay in 1/s of a mode of angular frequency w (rad/s, undamped). */
+double material_decay(double alpha, double beta, double loss, double w);
+
+#endif

@@ -1,0 +1,141 @@
+/* What is to be heard and written, and whether the contacts have it. */
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "scene/rules.h"
+#include "scene/scene_sense.h"
+
+static const char *const stems[] = {"force", "surface", "scraper", NULL};
+
+static bool in_pascals(const struct listen *l)
+{
+    return l->given && (l->radiator == RADIATOR_MONOPOLE || l->radiator == RADIATOR_PLATE);
+}
+
+static const char *radiator_word(const struct listen *l)
+{
+    return keys_find("output.listen.radiator")->choices[l->radiator].word;
+}
+
+/* ------------------------------------------------------------------ the scene's own keys */
+
+static void stem_words_check(const struct scene_part *top)
+{
+    struct yaml *y = top->yaml;
+    const struct yaml_node *list = yaml_find(top->map, "output.stems");
+    for (const struct yaml_node *item = list && list->kind == YAML_LIST ? list->first : NULL; item; item = item->next) {
+        int i = 0;
+        while (item->kind == YAML_SCALAR && stems[i] && strcmp(stems[i], item->text) != 0)
+            i++;
+        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || stems[i])
+            continue;
+        const char *near = text_nearest(item->text, stems);
+        diag_add(y->diag, item->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : "stems: force, surface, scraper",
+                 "output.stems: there is no stem '%s'", diag_shown(y->diag, item->text));
+    }
+}
+
+static void channels_check(const struct scene_part *top, const struct output *o)
+{
+    const char *channels = "output.channels", *places = "output.listen.places";
+    if (o->channels > 1 && o->listen.n_places > 1)
+        diag_add(top->yaml->diag, scene_part_later(top, channels, places), "leave output.channels out: each place becomes a channel",
+                 "%s is %d and %s has %d places: a scene has either the same sound on all channels or a place for each", channels, o->channels, places,
+                 o->listen.n_places);
+}
+
+static void quantity_check(const struct scene_part *top, const struct output *o)
+{
+    const char *quantity = "output.quantity", *radiator = "output.listen.radiator", *level = "output.level.dbfs_at_1_pa";
+    if (o->quantity != QUANTITY_AUTO && in_pascals(&o->listen) && scene_part_known(top, quantity))
+        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator), "leave output.quantity out, or set output.listen.radiator to contact or point",
+                 "%s must be auto where %s is %s: what is heard is a pressure", quantity, radiator, radiator_word(&o->listen));
+    if (!isnan(o->level.dbfs_at_1_pa) && !in_pascals(&o->listen))
+        diag_add(top->yaml->diag, yaml_find(top->map, level)->key->at, "add for instance: listen: {places: [[0, 0, 1 m]]}; or scale by level: {full_scale: ...}",
+                 "%s needs a sound in pascals: output.listen with a monopole or a plate", level);
+}
+
+/* A plate radiates to its front; an object's own places lie on it. */
+static void heights_check(const struct scene_part *top, const struct listen *l)
+{
+    const struct yaml_node *list = yaml_find(top->map, "output.listen.places"), *place = list ? list->first : NULL;
+    for (int i = 0; l->places && place && i < l->n_places; i++, place = place->next) {
+        double z = l->places[3 * i + 2];
+        if (l->radiator == RADIATOR_PLATE && z <= 0)
+            diag_add(top->yaml->diag, place->last->at, "raise z, or set output.listen.radiator to monopole",
+                     "z of place %d of output.listen.places must be above 0 m: a plate in a baffle is heard from in front of it", i + 1);
+        if (l->radiator == RADIATOR_POINT && z != 0)
+            diag_add(top->yaml->diag, place->last->at, "write 0, or set output.listen.radiator to monopole or plate",
+                     "z of place %d of output.listen.places must be 0 m: a point lies on the object", i + 1);
+    }
+}
+
+void scene_sense_output(const struct scene_part *top)
+{
+    const struct scene *s = top->to;
+    stem_words_check(top);
+    if (s->output.listen.given && !scene_part_known(top, "output.listen.radiator"))
+        return;
+    channels_check(top, &s->output);
+    quantity_check(top, &s->output);
+    if (s->output.listen.given)
+        heights_check(top, &s->output.listen);
+}
+
+/* ------------------------------------------------------------------ what the contacts have */
+
+static bool is_flat(const struct object_given *o)
+{
+    return o->shape == OBJECT_PLATE || o->shape == OBJECT_DISK || o->shape == OBJECT_MEMBRANE || o->shape == OBJECT_DRUM;
+}
+
+/* What the radiator needs of the surface's response; NULL: nothing that it lacks. */
+static const char *lacks(const struct listen *l, const struct response *r)
+{
+    if (l->radiator == RADIATOR_CONTACT || !rules_responds(r))
+        return NULL;
+    if (l->radiator == RADIATOR_MONOPOLE)
+        return rules_is_recorded(r) ? "a response with modes" : NULL;
+    if (!r->object.given)
+        return "surface.object";
+    return l->radiator == RADIATOR_PLATE && !is_flat(&r->object) ? "a surface.object that is flat: a plate, disk, membrane or drum" : NULL;
+}
+
+void scene_sense_output_heard(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
+{
+    const struct contact *c = p->to;
+    const struct output *o = &s->output;
+    const struct scene_part top = {p->yaml, root, "", KEY_SCENE, (void *)s};
+    const char *needs = o->listen.given ? lacks(&o->listen, &c->surface.response) : NULL, *name = scene_part_contact(p, c->name);
+    const char *radiator = "output.listen.radiator", *quantity = "output.quantity", *file = c->surface.response.file;
+    if (needs)
+        diag_add(p->yaml->diag, yaml_find(root, radiator) ? yaml_find(root, radiator)->at : yaml_find(root, "output.listen")->key->at,
+                 "give what it needs, or set output.listen.radiator to contact", "%s: a %s needs %s, which %s has not", radiator, radiator_word(&o->listen),
+                 needs, name);
+    if (o->quantity != QUANTITY_AUTO && rules_is_recorded(&c->surface.response))
+        diag_add(p->yaml->diag, scene_part_later(&top, quantity, quantity), "leave output.quantity out",
+                 "%s: '%s' of %s is recorded, and of which quantity is not stated", quantity, diag_shown(p->yaml->diag, file), name);
+}
+
+/* Has some contact what the stem is of? */
+static bool is_there(const struct scene *s, const char *stem)
+{
+    for (int i = 0; i < s->n_contacts; i++) {
+        const struct contact *c = &s->contacts[i];
+        bool rings = strcmp(stem, "surface") == 0 ? rules_responds(&c->surface.response) : rules_responds(&c->scraper.response) && c->scraper.weight != 0;
+        if (c->gain != 0 && (strcmp(stem, "force") == 0 || rings))
+            return true;
+    }
+    return false;
+}
+
+void scene_sense_output_stems(const struct scene_part *top)
+{
+    const struct scene *s = top->to;
+    const struct yaml_node *list = yaml_find(top->map, "output.stems");
+    for (const struct yaml_node *item = s->output.stems ? list->first : NULL; item; item = item->next)
+        if (!is_there(s, item->text))
+            diag_add(top->yaml->diag, item->at, "leave the stem out, or give what it is of", "output.stems: nothing rings of which '%s' would be the stem",
+                     item->text);
+}

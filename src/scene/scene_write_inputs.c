@@ -1,0 +1,116 @@
+/* `inputs` names every file of the scene once, with its sha256 as it is now: those of its keys (of a folder of responses its index.csv and its
+   WAVs, by name), and those that it has pinned besides (such as the recipe that an effective scene was made with). An effective scene has
+   them in the same order again. */
+#include "scene/scene_write_inputs.h"
+
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/hash.h"
+#include "base/relpath.h"
+#include "scene/keys_yaml.h"
+
+struct list {
+    const struct scene *scene;
+    struct arena *arena;
+    const char **files;
+    int n, room;
+};
+
+bool scene_write_inputs_only(const struct key *k)
+{
+    return strcmp(k->path, "surface.recipe") == 0;
+}
+
+/* ------------------------------------------------------------------ which files */
+
+static void add(struct list *l, const char *file)
+{
+    for (int i = 0; i < l->n; i++)
+        if (!strcmp(l->files[i], file))
+            return;
+    if (l->n == l->room) {
+        l->room = 2 * l->room + 16;
+        const char **more = ARENA_TAKE(l->arena, const char *, l->room);
+        if (l->n)
+            memcpy(more, l->files, (size_t)l->n * sizeof *more);
+        l->files = more;
+    }
+    l->files[l->n++] = file;
+}
+
+static int is_response(const struct dirent *entry)
+{
+    size_t n = strlen(entry->d_name);
+    return !strcmp(entry->d_name, "index.csv") || (n > 4 && entry->d_name[0] != '.' && !strcasecmp(entry->d_name + n - 4, ".wav"));
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b)
+{
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+/* A file; or what is read of a folder. */
+static void add_all(struct list *l, const char *name)
+{
+    struct dirent **entries;
+    int n = scandir(name, &entries, is_response, by_name);
+    if (n <= 0)
+        add(l, name);
+    for (int i = 0; i < n; i++) {
+        add(l, arena_format(l->arena, "%s/%s", name, entries[i]->d_name));
+        free(entries[i]);
+    }
+    if (n >= 0)
+        free(entries);
+}
+
+static void add_keys(struct list *l, bool only)
+{
+    for (int i = 0; i < l->scene->n_contacts; i++)
+        for (const struct key *k = keys_table; k->path; k++) {
+            bool mine = k->of == KEY_CONTACT && k->type == KEY_FILE && scene_write_inputs_only(k) == only;
+            const char *file = mine ? *(const char *const *)((const char *)&l->scene->contacts[i] + k->offset) : NULL;
+            if (file)
+                add_all(l, file);
+        }
+}
+
+/* ------------------------------------------------------------------ as YAML */
+
+static const char *pinned(const struct scene *s, const char *file)
+{
+    for (int i = 0; i < s->n_inputs; i++)
+        if (s->inputs[i].sha256 && !strcmp(s->inputs[i].file, file))
+            return s->inputs[i].sha256;
+    return NULL;
+}
+
+/* A file that cannot be read keeps the hash it was pinned to; without one it is listed unpinned, with a remark. */
+static void write_input(FILE *f, const struct list *l, const char *file, const char *beside)
+{
+    char hex[HASH_TEXT];
+    struct err unreadable = {0};
+    const char *sha256 = hash_file(file, hex, &unreadable) ? hex : pinned(l->scene, file);
+    fprintf(f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, beside, l->arena), l->arena));
+    if (sha256)
+        fprintf(f, "    sha256: \"%s\"\n", sha256);
+    else
+        fputs("    # could not be read when this was written\n", f);
+}
+
+void scene_write_inputs(FILE *f, const struct scene *s, const char *beside, struct arena *a)
+{
+    struct list l = {s, a, NULL, 0, 0};
+    add_keys(&l, false);
+    add_keys(&l, true);
+    for (int i = 0; i < s->n_inputs; i++)
+        if (s->inputs[i].file)
+            add(&l, s->inputs[i].file);
+    if (l.n)
+        fputs("inputs:\n", f);
+    for (int i = 0; i < l.n; i++)
+        write_input(f, &l, l.files[i], beside);
+}

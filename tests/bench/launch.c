@@ -1,0 +1,166 @@
+/* What a moving response costs: a scene of 50 modes (100 Hz to 15 kHz, T60 = 0.9 (f/100 Hz)^-0.3 s) whose frequencies move by 2 % or
+   10 %, decays by 30 %, gains by 10 dB in 2 s, under noise, by resonators at nodes (launch.h). One CSV row per movement, order and accuracy: the
+   error that hop.h predicts, cycles (of the time stamp counter, in the thread's time) per sample, times real time at 44.1 kHz, resonators that
+   ring on average, and a hash of the sound, the same on every instruction set. cap_ms: no hop is longer. The last column is a prototype
+   (another CPU, overlap-add by FFT, the whole response at one hop): times real time where it has the case. */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <x86intrin.h>
+
+#include "convolution/hop.h"
+#include "convolution/launch.h"
+
+enum { MODES = 50, SECONDS = 4, REPEATS = 3, PIECE = 4096 };
+#define RATE 44100.0
+
+struct mode {
+    double frequency, decay, re, im;
+    double tune, damp, swell; /* what is reached after 2 s, as factors' logarithms */
+};
+
+static struct mode modes[MODES];
+static double force[PIECE], sound[PIECE];
+static unsigned long long seed = 3;
+
+static double draw(void)
+{
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(seed >> 11) / 4503599627370496.0 - 1;
+}
+
+static void make(double movement)
+{
+    seed = 3;
+    for (int i = 0; i < MODES; i++) {
+        struct mode *m = &modes[i];
+        m->frequency = 100 * pow(150, i / (MODES - 1.0));
+        m->decay = log(1000) / (0.9 * pow(m->frequency / 100, -0.3));
+        double gain = 1 + draw() / 2, phase = 3 * draw();
+        m->re = gain * cos(phase);
+        m->im = gain * sin(phase);
+        m->tune = log(1 + movement * draw());
+        m->damp = log(1.3) * draw();
+        m->swell = log(pow(10, 0.5)) * draw();
+    }
+    for (int n = 0; n < PIECE; n++)
+        force[n] = draw();
+}
+
+/* There and back again, 2 s each. */
+static double along(double frame)
+{
+    return fabs(fmod(frame / RATE + 4, 4.0) / 2 - 1);
+}
+
+static void point(void *self, double frame, const struct modes_point *p)
+{
+    double x = along(frame);
+    (void)self;
+    for (int i = 0; i < MODES; i++) {
+        const struct mode *m = &modes[i];
+        double swell = exp(m->swell * x);
+        p->frequency[i] = m->frequency * exp(m->tune * x);
+        p->decay[i] = m->decay * exp(m->damp * x);
+        p->re[i] = m->re * swell;
+        p->im[i] = m->im * swell;
+    }
+}
+
+/* The hop that keeps the error at the place where it is worst, from the speed of the pole. */
+static double hops(int order, double decibel, double cap, double *hop)
+{
+    double rho = hop_rho(order, pow(10, decibel / 20)), sum = 0;
+    for (int i = 0; i < MODES; i++) {
+        const struct mode *m = &modes[i];
+        double most = fmax(1, exp(m->tune)) * m->frequency, least = fmin(1, exp(m->damp)) * m->decay, top = fmax(1, exp(m->damp)) * m->decay;
+        double speed = hypot(2 * M_PI * most * m->tune, top * m->damp) / 2; /* rad/s^2 */
+        hop[i] = fmin(fmax(floor(rho * least / speed * RATE), 1), cap * 1e-3 * RATE);
+        double taken = exp2(floor(log2(hop[i]))) / RATE;
+        sum += pow(hop_error(order, taken * speed / least), 2) / MODES;
+    }
+    return 10 * log10(sum);
+}
+
+struct figures {
+    double cycles, times, active;
+    uint64_t hash;
+};
+
+static double thread_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Cycles of the time stamp counter in a second. */
+static double cycles_per_second(void)
+{
+    struct timespec a, b;
+    clock_gettime(CLOCK_MONOTONIC, &a);
+    uint64_t start = __rdtsc();
+    do
+        clock_gettime(CLOCK_MONOTONIC, &b);
+    while ((double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec) < 0.1);
+    return (double)(__rdtsc() - start) / ((double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec));
+}
+
+static uint64_t hash_on(uint64_t hash)
+{
+    for (int n = 0; n < PIECE; n++) {
+        uint64_t bits;
+        memcpy(&bits, &sound[n], sizeof bits);
+        hash = (hash ^ bits) * 1099511628211u;
+    }
+    return hash;
+}
+
+static struct figures run(int order, double decibel, const double *hop)
+{
+    struct figures best = {.times = 0};
+    for (int k = 0; k < REPEATS; k++) {
+        struct launch_ask ask = {.n = MODES, .order = order, .rate = RATE, .hop = hop, .floor = pow(10, (decibel - 10) / 20), .quantity = MODES_VELOCITY};
+        struct launch *l = launch_open(&ask, point, NULL);
+        struct figures own = {.hash = 14695981039346656037u};
+        long pieces = SECONDS * (long)RATE / PIECE;
+        double seconds = 0;
+        for (long i = 0; i < pieces; i++) {
+            memset(sound, 0, sizeof sound);
+            double start = thread_seconds();
+            launch_run(l, force, sound, PIECE);
+            seconds += thread_seconds() - start;
+            own.active += (double)launch_active(l) / (double)pieces;
+            own.hash = hash_on(own.hash);
+        }
+        own.times = (double)(pieces * PIECE) / RATE / seconds;
+        if (own.times > best.times)
+            best = own;
+        launch_close(l);
+    }
+    best.cycles = cycles_per_second() / RATE / best.times;
+    return best;
+}
+
+int main(void)
+{
+    static const struct {
+        double movement, decibel, cap;
+        int order;
+        const char *prototype;
+    } cases[] = {{0.02, -40, 1e4, 4, "65 (39 dB)"}, {0.02, -70, 1e4, 4, "20 (81 dB)"}, {0.02, -70, 6, 4, ""}, {0.02, -100, 1e4, 4, "10 (105 dB)"},
+                 {0.02, -140, 1e4, 4, ""}, {0.02, -40, 1e4, 2, "40 (46 dB)"}, {0.02, -70, 1e4, 2, "10 (70 dB)"}, {0.1, -70, 1e4, 4, ""},
+                 {0.1, -100, 1e4, 4, ""}, {0, -70, 6, 4, ""}};
+    printf("movement,order,asked_dB,cap_ms,predicted_dB,cycles_per_sample,times_real_time,resonators,hash,prototype\n");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double hop[MODES];
+        make(cases[i].movement);
+        double predicted = hops(cases[i].order, cases[i].decibel, cases[i].cap, hop);
+        struct figures f = run(cases[i].order, cases[i].decibel, hop);
+        printf("%g,%d,%g,%g,%.1f,%.0f,%.0f,%.0f,%016llx,%s\n", cases[i].movement, cases[i].order, cases[i].decibel, cases[i].cap, predicted, f.cycles,
+               f.times, f.active, (unsigned long long)f.hash, cases[i].prototype);
+    }
+    return 0;
+}

@@ -1,0 +1,99 @@
+/* Convolution with responses of 1 s at 44.1 kHz, whole seconds of noise: time and how many times faster than real time, for responses passed
+   one after the other (two at once have a share), for shares that all responses have all the time (Chebyshev's nodes), and for one at rest. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "convolution/overlap_add.h"
+#include "convolution/panned.h"
+
+enum { RATE = 44100, FRAMES = 10 * RATE, ROOM = FRAMES + 65536, REPEATS = 5, CALL = 1024 };
+
+static double force[ROOM], sound[ROOM];
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void response(void *self, int k, double *h, size_t length)
+{
+    (void)self;
+    for (size_t i = 0; i < length; i++)
+        h[i] = (double)((i * 2654435761u + (size_t)k * 977) % 1001) / 1001 - 0.5;
+}
+
+static void at_rest(void *self, long k, double *h, size_t length)
+{
+    response(self, (int)k, h, length);
+}
+
+/* Linear between neighbours, from the first to the last in the whole time. */
+static int passing(void *self, long first, int n, int k, double *w)
+{
+    int keys = *(int *)self, any = 0;
+    for (int i = 0; i < n; i++) {
+        double away = fabs((double)(first + i) / FRAMES * (keys - 1) - k);
+        w[i] = away < 1 ? 1 - away : 0;
+        any |= away < 1;
+    }
+    return any;
+}
+
+static int everywhere(void *self, long first, int n, int k, double *w)
+{
+    for (int i = 0; i < n; i++)
+        w[i] = 1.0 / (*(int *)self + k + (int)(first & 1));
+    return 1;
+}
+
+static double panned(int keys, panned_share *share)
+{
+    double best = HUGE_VAL;
+    for (int r = 0; r < REPEATS; r++) {
+        struct panned *p = panned_open(&(struct panned_source){keys, RATE, share, response, &keys});
+        double start = now();
+        for (long at = 0; at + CALL <= FRAMES; at += CALL)
+            panned_run(p, force + at, sound + at, CALL);
+        best = fmin(best, now() - start);
+        panned_close(p);
+    }
+    return best;
+}
+
+static double one(void)
+{
+    double best = HUGE_VAL;
+    for (int r = 0; r < REPEATS; r++) {
+        struct overlap_add *o = overlap_add_open(RATE, 0, 0, at_rest, NULL);
+        double start = now();
+        for (long at = 0; at + CALL <= FRAMES; at += CALL)
+            overlap_add_run(o, force + at, sound + at, CALL);
+        best = fmin(best, now() - start);
+        overlap_add_close(o);
+    }
+    return best;
+}
+
+static void row(const char *name, int keys, double seconds)
+{
+    printf("%s,%d,%.1f,%.0f\n", name, keys, 1e3 * seconds, 10 / seconds);
+}
+
+int main(void)
+{
+    static const int counts[] = {2, 8, 32, 128};
+    for (int i = 0; i < FRAMES; i++)
+        force[i] = rand() / (double)RAND_MAX - 0.5;
+    printf("what,responses,ms_per_10_s,times_real_time\n");
+    row("one at rest (overlap_add order 0)", 1, one());
+    row("one at rest (panned)", 1, panned(1, everywhere));
+    for (int i = 0; i < 4; i++)
+        row("passed one after the other", counts[i], panned(counts[i], passing));
+    for (int i = 0; i < 4; i++)
+        row("all at once", counts[i], panned(counts[i], everywhere));
+    return 0;
+}

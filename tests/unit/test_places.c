@@ -1,0 +1,335 @@
+/* places: weights against the linear functions they must reproduce, triangulations against the definition (no place inside a triangle's
+   circle) checked by brute force, the hull's distance against a dense search, kinks against bisection of the mix itself. */
+#include "response/places.h"
+
+#include "unit.h"
+
+static struct arena *arena;
+
+static struct places *made(int n, const double *xy, enum places_kind kind)
+{
+    struct err e = {0};
+    struct places *p;
+    int bad;
+    ck_assert_msg(places_make(arena, n, xy, &p, &bad, &e), "%s", e.text);
+    ck_assert_int_eq(places_kind(p), kind);
+    return p;
+}
+
+static void setup(void) { arena = arena_open(); srand48(7); }
+static void teardown(void) { arena_close(arena); }
+
+/* Weights are a mix, and reproduce x and y where the point is on the hull. */
+static double check_mix(const struct places *p, const double *xy, double x, double y)
+{
+    struct places_mix m;
+    double off = places_at(p, x, y, &m), sx = 0, sy = 0, sum = 0;
+    ck_assert(m.n >= 1 && m.n <= 3);
+    for (int k = 0; k < m.n; k++) {
+        ck_assert(m.weight[k] >= 0 && m.weight[k] <= 1);
+        sum += m.weight[k];
+        sx += m.weight[k] * xy[2 * m.index[k]];
+        sy += m.weight[k] * xy[2 * m.index[k] + 1];
+    }
+    ck_assert_double_eq_tol(sum, 1, 4e-16);
+    if (off == 0) {
+        ck_assert_double_eq_tol(sx, x, 2e-9); /* within 1e-9 m is on it */
+        ck_assert_double_eq_tol(sy, y, 2e-9);
+    } else
+        ck_assert_double_eq_tol(sqrt((sx - x) * (sx - x) + (sy - y) * (sy - y)), off, 1e-12);
+    return off;
+}
+
+START_TEST(one_place)
+{
+    setup();
+    double xy[] = {0.3, 0.4};
+    struct places_mix m;
+    const int (*edge)[2];
+    struct places *p = made(1, xy, PLACES_ONE);
+    ck_assert(places_at(p, 9, 9, &m) == 0 && m.n == 1 && m.index[0] == 0 && m.weight[0] == 1);
+    ck_assert(places_edges(p, &edge) == 0 && places_kinks(p, (double[]){0, 0}, (double[]){1, 1}, NULL, 0) == 0);
+    teardown();
+}
+END_TEST
+
+/* Places in any order on a slanted line; also beside it and beyond its ends; the coordinates as given, to the last bit. */
+START_TEST(a_line)
+{
+    setup();
+    double xy[] = {1.3, 1.4, 1, 1, 1.6, 1.8, 1.06, 1.08}, u[9];
+    struct places *p = made(4, xy, PLACES_LINE);
+    struct places_mix m;
+    for (int i = 0; i < 1000; i++) {
+        double s = 2 * drand48() - 0.5, off = check_mix(p, xy, 1 + 0.6 * s, 1 + 0.8 * s);
+        ck_assert_double_eq_tol(off, s < 0 ? -s : s > 1 ? s - 1 : 0, 1e-9);
+    }
+    ck_assert_double_eq_tol(places_at(p, 1.3 - 0.8, 1.4 + 0.6, &m), 1, 1e-15); /* beside: its foot is the place 0 */
+    ck_assert_double_eq_tol(m.weight[0] * (m.index[0] == 0) + m.weight[1] * (m.index[1] == 0), 1, 1e-12);
+    ck_assert(places_at(p, 1 - 5e-10, 1, &m) == 0); /* rounding of a path is not outside */
+    const int (*edge)[2];
+    ck_assert(places_edges(p, &edge) == 3 && edge[0][0] == 1 && edge[0][1] == 3 && edge[1][1] == 0 && edge[2][1] == 2);
+    ck_assert_int_eq(places_kinks(p, (double[]){1.12, 1.16}, (double[]){2.2, 2.6}, u, 9), 2); /* s from 0.2 to 2: kinks at 0.5 and 1 */
+    ck_assert_double_eq_tol(u[0], 1.0 / 6, 1e-12);
+    ck_assert_double_eq_tol(u[1], 0.8 / 1.8, 1e-12);
+    ck_assert_int_eq(places_kinks(p, (double[]){2.2, 2.6}, (double[]){1.12, 1.16}, u, 1), 2); /* backwards, and no room */
+    ck_assert_double_eq_tol(u[0], 1 / 1.8, 1e-12);
+    ck_assert_int_eq(places_kinks(p, (double[]){1.3, 1.4}, (double[]){1.3 - 0.8, 1.4 + 0.6}, u, 9), 0); /* across: the foot stays */
+    double bent[] = {0, 0, 1, 0, 0.5, 2e-9}, straight[] = {0, 0, 1, 0, 0.5, 9e-10};
+    made(3, bent, PLACES_PLANE);
+    made(3, straight, PLACES_LINE);
+    teardown();
+}
+END_TEST
+
+/* The triangles from the edges: every three that are joined and hold no other place. */
+static int triangles(const struct places *p, int n, int (*t)[3])
+{
+    static bool joined[400][400];
+    const int (*edge)[2];
+    int count = 0, edges = places_edges(p, &edge);
+    memset(joined, 0, sizeof joined);
+    for (int k = 0; k < edges; k++) {
+        ck_assert(edge[k][0] != edge[k][1] && !joined[edge[k][0]][edge[k][1]]);
+        joined[edge[k][0]][edge[k][1]] = joined[edge[k][1]][edge[k][0]] = true;
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = i + 1; j < n; j++)
+            for (int k = j + 1; joined[i][j] && k < n; k++)
+                if (joined[i][k] && joined[j][k]) {
+                    t[count][0] = i, t[count][1] = j, t[count++][2] = k;
+                    ck_assert_int_lt(count, 4000);
+                }
+    return count;
+}
+
+/* How far (relative to its radius) d lies inside the circle through a, b, c. */
+static double in_circle(const double *a, const double *b, const double *c, const double *d)
+{
+    long double bx = b[0] - (long double)a[0], by = b[1] - (long double)a[1], cx = c[0] - (long double)a[0], cy = c[1] - (long double)a[1];
+    long double area = 2 * (bx * cy - by * cx), bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+    long double ux = (cy * bb - by * cc) / area, uy = (bx * cc - cx * bb) / area, dx = d[0] - a[0] - ux, dy = d[1] - a[1] - uy;
+    return (double)(1 - sqrtl((dx * dx + dy * dy) / (ux * ux + uy * uy)));
+}
+
+/* What places_at mixes at random points is a triangle whose circle holds no place (the definition of Delaunay's triangulation); every triangle
+   is found, since the points are dense; slack for cocircular places. */
+static void check_delaunay(const struct places *p, int n, const double *xy, double low, double high)
+{
+    double worst = -1;
+    for (int i = 0; i < 4000; i++) {
+        double x = low + (high - low) * drand48(), y = low + (high - low) * drand48();
+        struct places_mix m;
+        double off = check_mix(p, xy, x, y);
+        places_at(p, x, y, &m);
+        if (off > 0)
+            continue;
+        ck_assert_int_eq(m.n, 3);
+        for (int k = 0; k < n; k++)
+            if (k != m.index[0] && k != m.index[1] && k != m.index[2])
+                worst = fmax(worst, in_circle(xy + 2 * m.index[0], xy + 2 * m.index[1], xy + 2 * m.index[2], xy + 2 * k));
+    }
+    ck_assert_double_lt(worst, 1e-9);
+}
+
+START_TEST(random_places_are_delaunays)
+{
+    setup();
+    static double xy[2 * 200];
+    static int t[4000][3];
+    for (int n = 3; n <= 200; n = n * 3 / 2 + 1) {
+        for (int i = 0; i < 2 * n; i++)
+            xy[i] = 5 + 0.1 * drand48(); /* away from the origin */
+        struct places *p = made(n, xy, PLACES_PLANE);
+        check_delaunay(p, n, xy, 4.98, 5.12);
+        const int (*edge)[2];
+        int count = triangles(p, n, t), edges = places_edges(p, &edge), hull = 2 * edges - 3 * (edges - n + 1); /* Euler */
+        ck_assert_int_ge(count, 2 * n - 2 - hull);                                                              /* joined threes may also surround others */
+        long double area = 0;
+        for (int i = 0; i < 20000; i++)
+            area += places_at(p, 5 + 0.1 * drand48(), 5 + 0.1 * drand48(), &(struct places_mix){0}) == 0 ? 0.01L / 20000 : 0;
+        ck_assert(area > 0 && area <= 0.0101L);
+        ck_assert(n < 100 || area > 0.008L);
+    }
+    teardown();
+}
+END_TEST
+
+/* Grids (every cell's corners lie on one circle), also turned and of rounded coordinates; the diagonals all start at the cell's corner of lowest index. */
+START_TEST(grids)
+{
+    setup();
+    static double xy[2 * 400];
+    for (int kind = 0; kind < 3; kind++) {
+        int columns = kind == 1 ? 2 : 20, rows = kind == 1 ? 2 : 17, n = columns * rows;
+        double c = kind == 2 ? cos(0.3) : 1, s = kind == 2 ? sin(0.3) : 0;
+        for (int i = 0; i < n; i++) {
+            double x = 0.1 + 0.03 * (i % columns), y = 0.02 * (i / columns);
+            xy[2 * i] = c * x - s * y;
+            xy[2 * i + 1] = s * x + c * y;
+        }
+        struct places *p = made(n, xy, PLACES_PLANE);
+        const int (*edge)[2];
+        int edges = places_edges(p, &edge), slanted = 0;
+        ck_assert_int_eq(edges, (columns - 1) * rows + columns * (rows - 1) + (columns - 1) * (rows - 1));
+        for (int k = 0; k < edges; k++)
+            slanted += edge[k][1] - edge[k][0] == columns + 1; /* and none the other way */
+        ck_assert_int_eq(slanted, (columns - 1) * (rows - 1));
+        check_delaunay(p, n, xy, -0.2, 0.8);
+    }
+    teardown();
+}
+END_TEST
+
+/* All places on one circle, of which every triangulation is Delaunay's, and a circle with its centre. */
+START_TEST(circles)
+{
+    setup();
+    double xy[2 * 41];
+    for (int i = 0; i < 40; i++) {
+        xy[2 * i] = 0.1 * cos(0.05 * 3.14159265358979 * i);
+        xy[2 * i + 1] = 0.1 * sin(0.05 * 3.14159265358979 * i);
+    }
+    xy[80] = xy[81] = 0;
+    const int (*edge)[2];
+    for (int n = 40; n <= 41; n++) {
+        struct places *p = made(n, xy, PLACES_PLANE);
+        ck_assert_int_eq(places_edges(p, &edge), 3 * n - 3 - 40);
+        check_delaunay(p, n, xy, -0.12, 0.12);
+    }
+    teardown();
+}
+END_TEST
+
+/* Off the hull: against the nearest of many points of it. */
+START_TEST(distance_to_the_hull)
+{
+    setup();
+    double xy[2 * 30];
+    struct places_mix m;
+    for (int i = 0; i < 60; i++)
+        xy[i] = drand48();
+    struct places *p = made(30, xy, PLACES_PLANE);
+    for (int i = 0; i < 50; i++) {
+        double x = 4 * drand48() - 1.5, y = 4 * drand48() - 1.5, off = places_at(p, x, y, &m), least = 1e9;
+        for (int a = 0; a < 30; a++) /* segments between any two places fill the hull's boundary and more, none of it outside */
+            for (int b = 0; b < a; b++)
+                for (int k = 0; k <= 1000; k++) {
+                    double dx = xy[2 * a] + (xy[2 * b] - xy[2 * a]) * k / 1000 - x, dy = xy[2 * a + 1] + (xy[2 * b + 1] - xy[2 * a + 1]) * k / 1000 - y;
+                    least = fmin(least, dx * dx + dy * dy);
+                }
+        if (off > 0)
+            ck_assert_double_eq_tol(off, sqrt(least), 1e-3 / fmax(off, 1e-3) * 1e-3 + 1e-4);
+        else
+            ck_assert_double_lt(sqrt(least), 0.3);
+    }
+    teardown();
+}
+END_TEST
+
+/* The mix of a function on the way: linear between kinks, so that three points of it are in line when no kink is between them. */
+static double value(const struct places *p, const double *f, const double *from, const double *to, double u)
+{
+    struct places_mix m;
+    double sum = 0;
+    places_at(p, from[0] + u * (to[0] - from[0]), from[1] + u * (to[1] - from[1]), &m);
+    for (int k = 0; k < m.n; k++)
+        sum += m.weight[k] * f[m.index[k]];
+    return sum;
+}
+
+/* Where the slope changes, by bisection of stretches that are not straight. */
+static int bend(const struct places *p, const double *f, const double *from, const double *to, double low, double high, double *u, int n)
+{
+    double l = value(p, f, from, to, low), h = value(p, f, from, to, high), worst = 0;
+    for (int i = 1; i < 8; i++)
+        worst = fmax(worst, fabs(value(p, f, from, to, low + (high - low) * i / 8) - l - (h - l) * i / 8));
+    if (worst < 1e-12 || n >= 200)
+        return n;
+    if (high - low < 1e-7) {
+        if (n == 0 || low - u[n - 1] > 1e-6)
+            u[n++] = (low + high) / 2;
+        return n;
+    }
+    n = bend(p, f, from, to, low, (low + high) / 2, u, n);
+    return bend(p, f, from, to, (low + high) / 2, high, u, n);
+}
+
+START_TEST(kinks_against_bisection)
+{
+    setup();
+    double xy[2 * 25], f[25], u[300], slow[300];
+    int met = 0;
+    for (int trial = 0; trial < 40; trial++) {
+        for (int i = 0; i < 25; i++) {
+            xy[2 * i] = trial % 2 ? drand48() : 0.2 * (i % 5); /* random, and a grid */
+            xy[2 * i + 1] = trial % 2 ? drand48() : 0.2 * (i / 5);
+            f[i] = drand48() - 0.5;
+        }
+        struct places *p = made(25, xy, PLACES_PLANE);
+        double from[2] = {2 * drand48() - 0.5, 2 * drand48() - 0.5}, to[2] = {2 * drand48() - 0.5, 2 * drand48() - 0.5};
+        int n = places_kinks(p, from, to, u, 300), plain = bend(p, f, from, to, 0, 1, slow, 0);
+        for (int k = 1; k < n; k++)
+            ck_assert(u[k] > u[k - 1]);
+        ck_assert(n == 0 || (u[0] > 0 && u[n - 1] < 1));
+        for (int k = 0; k < plain; k++) { /* every bend is one of the kinks */
+            double nearest = 1;
+            for (int i = 0; i < n; i++)
+                nearest = fmin(nearest, fabs(u[i] - slow[k]));
+            ck_assert_msg(nearest < 1e-6, "trial %d: a bend at %.9f, the nearest kink %g away", trial, slow[k], nearest);
+            met++;
+        }
+        ck_assert_int_le(n, 3 * plain + 12); /* and not many more */
+    }
+    ck_assert_int_gt(met, 200);
+    double straight[2] = {0.1, 0.5}, there[2] = {0.1, 0.5};
+    ck_assert_int_eq(places_kinks(made(25, xy, PLACES_PLANE), straight, there, u, 300), 0); /* no way */
+    teardown();
+}
+END_TEST
+
+START_TEST(refused)
+{
+    setup();
+    struct places *p;
+    int bad;
+    double twice[] = {0, 0, 1, 1, 0.5, 0.2, 1, 1 + 5e-10}, line[] = {0, 0, 1, 0, 0.5, 0, 0.5, 0};
+    struct err e = {0};
+    ck_assert(!places_make(arena, 4, twice, &p, &bad, &e) && bad == 3);
+    ck_assert_str_eq(e.text, "is at the same point as another place");
+    ck_assert(!places_make(arena, 4, line, &p, &bad, &e) && bad == 3);
+    ck_assert(!places_make(arena, 2, line + 4, &p, &bad, &e) && bad == 1);
+    teardown();
+}
+END_TEST
+
+/* A straight side of rounded coordinates, a sliver's width off or on. */
+START_TEST(nearly_straight_sides)
+{
+    setup();
+    double xy[2 * 60];
+    for (int trial = 0; trial < 200; trial++) {
+        int n = 4 + trial % 50;
+        double size = trial % 3 == 0 ? 1e-17 : trial % 3 == 1 ? 1e-10 : 1e-8;
+        for (int i = 0; i < n; i++) {
+            xy[2 * i] = 0.1 + 0.3 * i / n;
+            xy[2 * i + 1] = 0.7 + 0.25 * xy[2 * i] + size * (drand48() - 0.5);
+        }
+        xy[2 * n] = 0.2, xy[2 * n + 1] = 0.9;
+        struct places *p = made(n + 1, xy, PLACES_PLANE);
+        for (int i = 0; i < 200; i++)
+            check_mix(p, xy, 0.5 * drand48(), 0.6 + 0.5 * drand48());
+        for (int i = 0; i <= n; i++) {
+            struct places_mix m;
+            double there = 0;
+            ck_assert(places_at(p, xy[2 * i], xy[2 * i + 1], &m) == 0);
+            for (int k = 0; k < m.n; k++)
+                there += m.index[k] == i ? m.weight[k] : 0;
+            ck_assert_double_eq_tol(there, 1, 1e-6);
+        }
+    }
+    teardown();
+}
+END_TEST
+
+UNIT("places", one_place, a_line, random_places_are_delaunays, grids, circles, distance_to_the_hull, kinks_against_bisection, refused, nearly_straight_sides)

@@ -1,0 +1,1 @@
+echo right; echo "in $PWD" >&2; exit 3

@@ -1,0 +1,1 @@
+echo "no such device"; exit 77
