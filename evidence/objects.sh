@@ -154,7 +154,7 @@ def struck(x, y, m, n):
             "output: {listen: {radiator: point, places: [[0.07, 0.05, 0]]}, encoding: float64, level: {full_scale: 1}, ramp: 0, tail: 2.1}\n"
     return amplitude(sound(scene)[0], *mode(m, n), 0.05, 2)
 
-mm = 1e-3
+mm, worst = 1e-3, -math.inf
 print("| mode (m, n) | Hz | line | on the line (dB) | 1 mm before, 1 mm after (dB) | sin there (dB) | phase across (degrees) |")
 print("|---|---|---|---|---|---|---|")
 for (m, n), line in [((2, 1), ("x", 0.3)), ((3, 1), ("x", 0.2)), ((3, 2), ("x", 0.4)), ((3, 2), ("y", 0.21)), ((1, 2), ("y", 0.21)), ((5, 3), ("y", 0.14)), ((8, 1), ("x", 0.3))]:
@@ -162,8 +162,10 @@ for (m, n), line in [((2, 1), ("x", 0.3)), ((3, 1), ("x", 0.2)), ((3, 2), ("x", 
     top = (L / 2 / m, W / 2 / n)
     place = lambda d: (line[1] + d, top[1]) if along_x else (top[0], line[1] + d)
     best, on, before, after = (struck(*p, m, n) for p in (top, place(0), place(-mm), place(mm)))
+    worst = max(worst, db(on / best))
     expected = db(math.sin((m * math.pi / L if along_x else n * math.pi / W) * mm))
     print(f"| ({m}, {n}) | {mode(m, n)[0]:.1f} | {line[0]} = {100 * line[1]:g} cm | {db(on / best):.0f} | {db(before / best):.3f}, {db(after / best):.3f} | {expected:.3f} | {math.degrees(cmath.phase(-after / before)) + 180:.4f} |")
+print(f"\nOn the lines at most {worst:.0f} dB; limit -100 dB, {'kept' if worst < -100 else 'NOT KEPT'}.")
 PY
 }
 
@@ -192,14 +194,14 @@ PY
 baffled() {
     python3 << 'PY'
 from judge import *
-rho, c, L, W, r, X, Y = 1.204, 343.2, 0.5, 0.4, 500.0, 0.07, 0.06
+rho, c, L, W, r, X, Y = 1.204, 343.2, 0.5, 0.38, 500.0, 0.07, 0.06
 body = f"object: {{shape: plate, edges: supported, length: {L}, width: {W}, thickness: 3 mm, youngs_modulus: 70e9, poisson: 0.22, density: 2500, alpha: 0, beta: 0, loss: 1e-6, origin: [{-L / 2}, {-W / 2}]}}"
 listed = modes(body, "--at", f"{X},{Y}")
 D, mass = 70e9 * 0.003 ** 3 / 12 / (1 - 0.22 ** 2), 7.5
 angles = [(theta, phi) for phi in (0, 50) for theta in (0, 10, 20, 30, 45, 60, 75, 85)]
 places = [[r * math.sin(math.radians(t)) * math.cos(math.radians(q)), r * math.sin(math.radians(t)) * math.sin(math.radians(q)), r * math.cos(math.radians(t))] for t, q in angles]
 channels = sound(f"rasp: 1\nsurface:\n  modes: 80\n  {body}\nmotion: {{path: still, at: [{X - L / 2}, {Y - W / 2}], duration: 0.1}}\n{STRIKE}\n"
-                 f"output: {{listen: {{radiator: plate, places: {json.dumps(places)}, density: {rho}, sound_speed: {c}}}, encoding: float64, level: {{dbfs_at_1_pa: 0}}, ramp: 0, tail: 1.5}}\n")
+                 f"output: {{listen: {{radiator: plate, places: {json.dumps(places)}, density: {rho}, sound_speed: {c}}}, encoding: float64, level: {{dbfs_at_1_pa: 0}}, ramp: 0, tail: 2.1}}\n")
 
 def factor(order, phase):  # ((-1)^m e^(j x) - 1)/((x/(m pi))^2 - 1)
     return ((-1) ** order * cmath.exp(1j * phase) - 1) / ((phase / order / math.pi) ** 2 - 1)
@@ -210,13 +212,15 @@ worst = 0
 for m, n in ((1, 1), (3, 2), (7, 5)):
     f0 = math.pi / 2 * math.sqrt(D / mass) * ((m / L) ** 2 + (n / W) ** 2)
     f, d, _ = min(listed, key=lambda x: abs(x[0] - f0))
+    if min(abs(g - f) for g, _, _ in listed if g != f) < 8:
+        raise SystemExit(f"mode ({m}, {n}) stands too near another one")
     k, bend = 2 * math.pi * f / c, math.pi * math.hypot(m / L, n / W)
     u = 4 / (mass * L * W) * math.sin(m * math.pi * X / L) * math.sin(n * math.pi * Y / W) * strike_at(f, d)
     ours, want = [], []
     for (theta, phi), y in zip(angles, channels):
         s = k * math.sin(math.radians(theta))
         want.append(abs(rho * c * k * u / (2 * math.pi * r) * L * W / (m * n * math.pi ** 2) * factor(m, s * L * math.cos(math.radians(phi))) * factor(n, s * W * math.sin(math.radians(phi)))))
-        ours.append(abs(amplitude(y, f, d, 0.05, 1.4)))
+        ours.append(abs(amplitude(y, f, d, 0.05, 2)))
     top = max(want)
     for part in range(2):
         half = range(8 * part, 8 * part + 8)
@@ -224,7 +228,7 @@ for m, n in ((1, 1), (3, 2), (7, 5)):
         most = max(far, key=abs, default=None)
         worst = max(worst, abs(most or 0))
         cells = " | ".join(f"{db(want[i]):.2f}, {db(ours[i]):.2f}" if want[i] > 1e-9 * top else f"0, {db(ours[i]):.0f}" for i in half)
-        print(f"| ({m}, {n}) | {f:.1f} | {k / bend:.3f} | {angles[8 * part][1]} | {cells} | {'' if most is None else f"{most:+.4f}"} |")
+        print(f"| ({m}, {n}) | {f:.1f} | {k / bend:.3f} | {angles[8 * part][1]} | {cells} | {'' if most is None else format(most, '+.4f')} |")
 print(f"\nWorst: {worst:.4f} dB; tolerance 0.05 dB, {'kept' if worst <= 0.05 else 'NOT KEPT'}.")
 PY
 }
@@ -343,6 +347,8 @@ Made by \`evidence/objects.sh\` with $(rasp --version), from the command line: r
 
 Recipes whose \`E h^2/(12 rho)\` is 1 and whose damping is 0, so that the constants come out; of the two modes of a pair one is shown. Closed forms
 (pi, square roots) are computed; all else is as printed. *Difference* is ours over the printed value, less 1.
+Two sources are themselves coarser than they look: Leissa's table 2.5 of free disks, 0.2 % off (the later tables for nu = 0.3 agree in all digits), and the
+targets of NAFEMS, rounded by half a digit too far (the same plate is the free square one above: 19.5961 makes 2.3595 Hz).
 
 $(< closed_forms.md)
 
@@ -350,7 +356,7 @@ $(< closed_forms.md)
 
 A supported plate, 60 x 42 cm, is struck (half a sine of 0.1 ms) on a nodal line of a mode, 1 mm to either side of it, and where that mode moves most, and is
 heard at [7 cm, 5 cm]. Levels of the mode's line (Gaussian window of 2 s) are relative to the strike where it moves most; beside it what the sine of the
-mode shape says; then how far the phase turns across the line: 180 degrees is the change of sign. The limit: below -100 dB on the line.
+mode shape says; then how far the phase turns across the line: 180 degrees is the change of sign.
 
 $(< nodal_strikes.md)
 
@@ -361,7 +367,7 @@ p = rho c v (a/r) ka/sqrt(1 + (ka)^2). Tolerance 0.05 dB and 0.1 degrees.
 
 $(< pulsating.md)
 
-A supported plate in a baffle, 50 x 40 cm, struck off its centre, heard at 500 m under theta from its axis, phi from x: Wallace's far field (J. Acoust. Soc.
+A supported plate in a baffle, 50 x 38 cm, struck off its centre, heard at 500 m under theta from its axis, phi from x: Wallace's far field (J. Acoust. Soc.
 Am. 51, 1972, 946) of each mode, with the mode's velocity in closed form, and ours; dB re 1 Pa. \`k/k_mode\` is the sound's wave number over
 the mode's: below 1 a mode short-circuits itself, above it it has a lobe. Where the formula says 0, ours is what rounding leaves.
 
@@ -370,7 +376,7 @@ $(< baffled.md)
 ## Cost
 
 Least of $RUNS runs of the programs in tests/bench (each itself the least of 3 to 15), on a machine that is shared and under load; cycles of the time stamp
-counter. The prototypes' figures (bit-exact forms; AVX-512) were measured on another machine; only ratios within one column mean much.
+counter. The prototypes' figures (bit-exact forms; AVX-512) were measured on another kind of processor (Zen 5); only ratios within one column mean much.
 
 $(< speed.md)
 
@@ -378,7 +384,10 @@ $(< speed.md)
 
 \`scenes/nodal_lines.yaml\` as it is: ![nodal lines](nodal_lines.png)
 
-PICTURE
+To be seen: the bar's partials as level lines, n^2 apart, which fade out and come back n - 1 times on the way, where the contact crosses their nodal
+lines; of the low ones, which ring for longer than a crossing takes, the gaps are filled. The dark slanted curves that join the gaps are the
+sum's zeros between its partials: each moves with the contact and passes a partial exactly at one of its nodal lines. Above 13 kHz the floor drops:
+the roughness has no waves shorter than 15 um, and at 0.195 m/s that is 13 kHz.
 
 Level of three modes (Gaussian window, standard deviation 15 ms, at the mode's frequency) against |sin(n pi x/L)| at that place; in the large table rms of
 $SEEDS seeds, relative to its largest. What a mode still rings of where the contact was a moment ago keeps the zeros from being reached:
