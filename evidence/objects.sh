@@ -248,7 +248,7 @@ import csv, os
 runs = range(int(os.environ["RUNS"]))
 def least(bench, column, where):
     return min(float(row[column]) for i in runs for row in csv.DictReader(open(f"{bench}.{i}")) if where(row))
-print("| what | cycles per sample | times real time | prototype (PERFORMANCE) |")
+print("| what | cycles per sample | times real time | prototype |")
 print("|---|---|---|---|")
 for n, fixed, glide in ((50, "25 cycles", "31 to 34 (fixed and 6 to 9)"), (200, "76 cycles", ""), (1000, "374 cycles", "")):
     for kind, rate, was in (("fixed", 48000, fixed), ("glide", 48000, glide)):

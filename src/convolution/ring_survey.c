@@ -1,4 +1,4 @@
-/* How fast a response moves along a motion, and the error that hops make: NUMERICS of hop.h, mode by mode.
+/* How fast a response moves along a motion, and the error that hops make: the formula of hop.h, mode by mode.
 
    A mode A e^(s tau) of an impulse response that is interpolated over hops of H seconds with a polynomial of p points errs by rms_u[l] H^p
    |d^p/dt^p A e^(s tau)|, l the polynomial's node product over p! (hop.c). To leading order the derivative is (A'/A + s' tau)^p A e^(s tau). s' is all

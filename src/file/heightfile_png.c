@@ -1,6 +1,6 @@
 /* 16-bit grey PNG through libpng: heights 0 .. 65535, white being the top. Gamma and physical-size chunks are not looked at: a height is no
    brightness, and programs write 72 dpi into everything. 8 bits are refused: 256 levels over 20 um are steps of 78 nm, whose noise in
-   the curvature is far above what the limiter lets pass (NUMERICS 3.3: step sqrt(6/12)/pitch^2).
+   the curvature is far above what the limiter lets pass (step sqrt(6/12)/pitch^2).
 
    Written are Gwyddion's text chunks Gwy::XReal, YReal, ZMin, ZMax, XYUnit, ZUnit, Title, so that Gwyddion opens the file in metres. */
 #include "file/heightfile_png.h"

@@ -27,7 +27,7 @@ START_TEST(test_published)
 }
 END_TEST
 
-/* NAFEMS FV12: 10 m x 10 m x 0.05 m, E 200 GPa, nu 0.3, 8000 kg/m^3, free: its targets for the first three, NUMERICS' converged ones above. */
+/* NAFEMS FV12: 10 m x 10 m x 0.05 m, E 200 GPa, nu 0.3, 8000 kg/m^3, free: its targets for the first three, the converged ones above. */
 START_TEST(test_nafems)
 {
     struct arena *a = arena_open();

@@ -92,7 +92,7 @@ START_TEST(steps)
 }
 END_TEST
 
-/* The figures of NUMERICS 3.3 at its pitch, and the 2.45 at a spline's knots: over all wavelengths t the spline's second derivative is
+/* Closed forms at that pitch, and the 2.45 at a spline's knots: over all wavelengths t the spline's second derivative is
    6 (2 - 2 cos t)/(4 + 2 cos t), the plain second difference 2 - 2 cos t. */
 START_TEST(noise_figures)
 {
