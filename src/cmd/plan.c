@@ -31,7 +31,8 @@ const struct command plan_command = {
     .name = "plan",
     .summary = "shows which stages a scene runs, why, and at what predicted cost",
     .does = "Lists for each contact the stages that will run, in order, with what they read and make, their share of the predicted cost and the "
-            "equations they follow; then those that will not run, and why not. Nothing is rendered, and no input but the scene is read.",
+            "equations they follow; then those that will not run, and why not. Nothing is rendered; of the inputs only mode "
+            "tables and recorded motions are read, where the plan depends on them.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,
