@@ -103,7 +103,7 @@ const struct command modes_command = {
             "scraper its scraper.object.at. The table has them where they lie in the scene, moved by surface.object.origin. Rendering needs no such file: "
             "a scene's surface.object gives the same modes at any place. A table is for other programs, and to be changed by hand.\n"
             "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over "
-            "its places, of an object where it is touched, --at or its middle).",
+            "its places, of an object over a grid of places, or at one place with --at).",
     .operands = "ACTION FILE",
     .least = 1,
     .most = -1,

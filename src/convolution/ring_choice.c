@@ -19,7 +19,7 @@
 #define LAUNCHED 0.1           /* a node that rings and sample                     */
 #define EVALUATED 40.0         /* a mode where the contact is                      */
 #define LONGEST_HOP 1.0        /* s                                                */
-#define TRANSFORM 25.0         /* three FFTs, per sample of them                   */
+#define TRANSFORM 150.0        /* three FFTs, per sample of them                   */
 #define SAMPLED 0.7            /* a mode and sample of an impulse response         */
 #define PARTITION (1 / 110.0)  /* a sample of a response that is convolved as it is */
 
@@ -166,6 +166,9 @@ static void choose_launch(struct choosing *c)
 static bool choose_nodes(struct choosing *c, struct err *e)
 {
     double error = target(c) > 0 ? target(c) : 1e-7;
+    if (c->to->modes.shared || c->to->modes.travels)
+        return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: nodes is for poles that differ from place to place, and those of %s %s; leave it out",
+                       c->contact->name, c->to->modes.name, c->to->modes.shared ? "are the same everywhere" : "change over time");
     if (!c->trajectory.straight)
         return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: nodes needs a straight motion; leave it out, or choose overlap_add", c->contact->name);
     if (!ring_nodes(&c->to->modes, &c->trajectory, error, c->arena, &c->to->nodes))
@@ -210,7 +213,7 @@ static bool choose_modal(struct choosing *c, enum ring_body body, struct err *e)
     if (c->to->moves && !(bank && isnan(c->given->length))) {
         if (!trajectory_make(&c->contact->motion, trajectory_seed(c->scene, c->contact), c->arena, &c->trajectory, e))
             return err_at(e, "contact '%s'", c->contact->name);
-        ring_survey(&(struct ring_survey_ask){&c->to->modes, c->to->reading == MOVING_READOUT}, &c->trajectory, c->arena, &c->to->survey);
+        ring_survey(&(struct ring_survey_ask){&c->to->modes, c->contact->contact.model == CONTACT_SCRAPE, c->to->reading == MOVING_READOUT}, &c->trajectory, c->arena, &c->to->survey);
     }
     return choose_engine(c, e);
 }

@@ -35,7 +35,14 @@ static void widen(struct range *r, double x)
     r->high = fmax(r->high, x);
 }
 
-/* Nodes that mode i needs, seen at LOOKS places of the piece. */
+/* rad by which the gain of mode i turns from one look to the next. */
+static double turn(const struct modes_point *p, const struct modes_point *q, int i)
+{
+    double lean = p->re[i] * q->re[i] + p->im[i] * q->im[i], across = p->re[i] * q->im[i] - p->im[i] * q->re[i];
+    return lean == 0 && across == 0 ? 0 : fabs(real_atan2(across, lean));
+}
+
+/* Nodes that mode i needs, seen at LOOKS places of the piece, between which gains are interpolated in the logarithm and turn evenly. */
 static int mode_needs(const struct modes_point *at, int i, double error)
 {
     struct range pole = {HUGE_VAL, -HUGE_VAL}, gain = {HUGE_VAL, -HUGE_VAL}, decay = {HUGE_VAL, -HUGE_VAL};
@@ -46,8 +53,11 @@ static int mode_needs(const struct modes_point *at, int i, double error)
         if (square > 0)
             widen(&gain, 0.5 * real_log(square));
     }
+    double turned = 0, change = gain.high > gain.low ? gain.high - gain.low : 0;
+    for (int k = 1; k < LOOKS; k++)
+        turned += turn(&at[k - 1], &at[k], i);
     double df = pole.high - pole.low, dd = decay.high - decay.low;
-    return nodes_needed(0.5 * sqrt(df * df + dd * dd) / fmax(decay.low, 1e-2), gain.high > gain.low ? gain.high - gain.low : 0, error);
+    return nodes_needed(0.5 * sqrt(df * df + dd * dd) / fmax(decay.low, 1e-2), sqrt(change * change + turned * turned), error);
 }
 
 static int piece_needs(const struct modes *m, const struct trajectory *tr, const double u[2], double error, struct modes_point *at)

@@ -45,8 +45,6 @@ static bool open_wav(struct ring_overlap *s, struct stage_run *r, const struct r
     const char *dot = strrchr(given->file, '.');
     if (!ir_read(given->file, r->board->rate, given->length, r->arena, &s->ir, e))
         return dot && strcmp(dot, ".wav") == 0 ? false : err_at(e, "a response is a mode table (NAME.csv), a sound file, or a folder of them");
-    if (s->ir.note)
-        board_warn(r->board, s->ir.note);
     r->board->unstated = true;
     r->board->ring = fmax(r->board->ring, (double)s->ir.length / r->board->rate);
     s->voices = ARENA_TAKE(r->arena, struct overlap_voice, 1);

@@ -124,8 +124,6 @@ static bool open_recorded(struct ring_panned *s, struct stage_run *r, struct err
         return false;
     for (int k = 0; k < s->set.n; k++)
         length = s->set.ir[k].length > length ? s->set.ir[k].length : length;
-    if (s->set.note)
-        board_warn(r->board, s->set.note);
     r->board->unstated = true;
     r->board->ring = fmax(r->board->ring, (double)length / r->board->rate);
     s->voices = ARENA_TAKE(r->arena, struct panning, 1);

@@ -10,7 +10,7 @@
    has a kink: A' and s' jump by D and J. A polynomial of 2 or 4 points over a kink in slope errs by c H^3 in the integral of the square per unit jump,
    on the average over where in the hop it falls, c = 1/90 and 0.00615 (tests/unit/test_ring_survey.c); the jump's square is D^2 + J^2 2/(2 sigma)^2
    after the same mean over tau. Near a gain's zero A'/A means nothing: there A counts as a tenth of the mode's largest on the way.
-   Modes are summed by their energy |A|^2 / sigma, instants evenly. */
+   Modes are summed by their energy |A|^2 / sigma, instants evenly, or by the square of the speed: a scrape is loud where it is fast. */
 #include "convolution/ring_survey.h"
 
 #include <math.h>
@@ -19,12 +19,11 @@
 #include "convolution/hop.h"
 #include "num/real.h"
 
-enum { INSTANTS = 257, MOST_INSTANTS = 1025 };
-#define KINK 0.1 /* of the fastest movement: what slopes change by less between two instants is no kink */
+enum { INSTANTS = 257, MOST_INSTANTS = 1025 }; /* of what has kinks always the most */
+#define KINK 0.03 /* of the fastest movement: what slopes change by less between two instants is no kink */
 
-static void row_at(const struct modes *m, const struct trajectory *tr, double t, const struct modes_point *p)
+static void row_at(const struct modes *m, const struct trajectory *tr, double t, const struct modes_point *p, double place[2])
 {
-    double place[2];
     trajectory_continued(tr, t, place);
     if (m->shared) {
         memcpy(p->frequency, m->frequency, (size_t)m->n * sizeof *p->frequency);
@@ -57,6 +56,39 @@ static double movement(double gain, double pole, double scale, double sigma)
     return gain * gain / (scale * scale) + pole * pole / (2 * sigma * sigma);
 }
 
+struct walk {
+    int instants;
+    double step, least, limit; /* s; of |A|; of the square of a jump below which it is none */
+    const double *loud;
+};
+
+/* Kinks of mode i. One that falls between two instants shows as two jumps one after the other, which are one. */
+static double kinks_of(const struct modes_point *rows, int i, const struct walk *w)
+{
+    double sum = 0, ds[2] = {0, 0}, da[2] = {0, 0};
+    int run = 0;
+    for (int k = 1; k < w->instants; k++) {
+        struct slope now = slope_of(rows, k, i, w->step), before = slope_of(rows, k - 1, i, w->step);
+        double scale = fmax(now.size, w->least), js[2], ja[2];
+        for (int c = 0; c < 2; c++) {
+            js[c] = now.s[c] - before.s[c];
+            ja[c] = now.a[c] - before.a[c];
+        }
+        bool kink = movement(size2(ja[0], ja[1]), size2(js[0], js[1]), scale, now.sigma) > w->limit;
+        for (int c = 0; c < 2; c++) {
+            ds[c] = kink ? ds[c] + js[c] : ds[c];
+            da[c] = kink ? da[c] + ja[c] : da[c];
+        }
+        run = kink ? run + 1 : 2;
+        if (run < 2)
+            continue;
+        run = 0;
+        sum += w->loud[k] * scale * scale / now.sigma * movement(size2(da[0], da[1]), size2(ds[0], ds[1]), scale, now.sigma) / w->step;
+        ds[0] = ds[1] = da[0] = da[1] = 0;
+    }
+    return sum;
+}
+
 /* Mode i: what its movement and its kinks come to. */
 static void fill(struct ring_survey *s, const struct modes_point *rows, int i, const struct ring_survey_ask *ask)
 {
@@ -70,30 +102,26 @@ static void fill(struct ring_survey *s, const struct modes_point *rows, int i, c
         s->pole[at] = pole;
         s->gain[at] = scale > 0 ? gain / scale : 0;
         s->sigma[at] = now.sigma;
-        s->weight[at] = scale * scale / now.sigma;
-        s->energy[i] += now.size * now.size / now.sigma;
+        s->weight[at] = s->loud[k] * scale * scale / now.sigma;
+        s->energy[i] += s->loud[k] * now.size * now.size / now.sigma;
         fastest = fmax(fastest, scale > 0 ? movement(gain, pole, scale, now.sigma) : 0);
     }
     struct slope last = slope_of(rows, s->instants - 1, i, step);
     double end = fmax(last.size, 0.1 * largest);
     if (ask->stops && largest > 0)
-        s->kinks[i] = end * end / last.sigma * movement(size2(last.a[0], last.a[1]), size2(last.s[0], last.s[1]), end, last.sigma) / step;
-    for (int k = 1; ask->modes->kinks && k < s->instants && largest > 0; k++) {
-        struct slope now = slope_of(rows, k, i, step), before = slope_of(rows, k - 1, i, step);
-        double scale = fmax(now.size, 0.1 * largest);
-        double jump = movement(size2(now.a[0] - before.a[0], now.a[1] - before.a[1]), size2(now.s[0] - before.s[0], now.s[1] - before.s[1]), scale, now.sigma);
-        if (jump > KINK * KINK * fastest)
-            s->kinks[i] += scale * scale / now.sigma * jump / step;
-    }
+        s->kinks[i] = s->loud[s->instants - 1] * end * end / last.sigma * movement(size2(last.a[0], last.a[1]), size2(last.s[0], last.s[1]), end, last.sigma) / step;
+    if (ask->modes->kinks && largest > 0)
+        s->kinks[i] += kinks_of(rows, i, &(struct walk){s->instants, step, 0.1 * largest, KINK * KINK * fastest, s->loud});
 }
 
 void ring_survey(const struct ring_survey_ask *ask, const struct trajectory *tr, struct arena *a, struct ring_survey *s)
 {
     const struct modes *m = ask->modes;
     double span = m->travels ? tr->duration : tr->cycle;
-    long asked = tr->straight ? INSTANTS - 1 : tr->detail;
+    long asked = m->kinks ? MOST_INSTANTS - 1 : tr->straight ? INSTANTS - 1 : tr->detail;
     int steps = (int)(asked < INSTANTS - 1 ? INSTANTS - 1 : asked > MOST_INSTANTS - 1 ? MOST_INSTANTS - 1 : asked);
     struct modes_point *rows = ARENA_TAKE(a, struct modes_point, steps + 1);
+    double even[2], odd[2];
     *s = (struct ring_survey){.n = m->n, .instants = steps, .duration = span};
     s->pole = ARENA_TAKE(a, double, (size_t)steps * m->n);
     s->gain = ARENA_TAKE(a, double, (size_t)steps * m->n);
@@ -101,9 +129,14 @@ void ring_survey(const struct ring_survey_ask *ask, const struct trajectory *tr,
     s->weight = ARENA_TAKE(a, double, (size_t)steps * m->n);
     s->energy = ARENA_TAKE(a, double, m->n);
     s->kinks = ARENA_TAKE(a, double, m->n);
+    s->loud = ARENA_TAKE(a, double, steps);
     for (int k = 0; k <= steps; k++) {
+        double place[2], *before = k % 2 ? even : odd, *now = k % 2 ? odd : even;
         rows[k] = modes_point_make(a, m->n);
-        row_at(m, tr, span * k / steps, &rows[k]);
+        row_at(m, tr, span * k / steps, &rows[k], place);
+        memcpy(now, place, sizeof place);
+        if (k > 0)
+            s->loud[k - 1] = ask->by_speed ? (now[0] - before[0]) * (now[0] - before[0]) + (now[1] - before[1]) * (now[1] - before[1]) : 1;
     }
     for (int i = 0; i < m->n; i++)
         fill(s, rows, i, ask);

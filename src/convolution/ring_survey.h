@@ -10,12 +10,14 @@ struct ring_survey {
     double duration;            /* s that the instants stand for                              */
     double *pole, *gain;        /* [instants][n]: |ds/dt| in rad/s^2; |dA/dt| over |A|, 1/s   */
     double *sigma, *weight;     /* [instants][n]: decay in 1/s; |A|^2 / sigma (A as in gain)  */
+    double *loud;               /* [instants] power of the force, relative                    */
     double *energy;             /* [n] sum of |A|^2 / sigma over the instants                 */
     double *kinks;              /* [n] likewise of what kinks come to, 1/s^3                   */
 };
 
 struct ring_survey_ask {
     const struct modes *modes;
+    bool by_speed;              /* the force is taken to grow with the speed of the contact   */
     bool stops;                 /* the response stays at the motion's end, and is still needed: a kink (of readout) */
 };
 

@@ -6,6 +6,8 @@
 #include "output/stems.h"
 #include "scene/rules.h"
 
+#define REAL_TIME 62500.0 /* cycles per audio sample of a core of 3 GHz at 48 kHz */
+
 static const char *const plan_names[ITEM_COUNT] = {
     [ITEM_POSITION] = "position",           [ITEM_VELOCITY] = "velocity",
     [ITEM_ACCELERATION] = "acceleration",   [ITEM_LOAD] = "load",
@@ -163,7 +165,7 @@ void plan_print(const struct plan *p, FILE *out)
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_RUNS)
             row_print(p, &p->rows[i], whole, out);
-    fprintf(out, "  about %.0f cycles per audio sample\n", whole);
+    fprintf(out, "  about %.0f cycles per audio sample%s\n", whole, whole > REAL_TIME ? ": slower than real time" : "");
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_UNWANTED)
             fprintf(out, "  not run: %-20s %s\n", p->rows[i].stage->name, p->rows[i].stage->idle);

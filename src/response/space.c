@@ -118,7 +118,7 @@ static double at(const struct modes *m, const struct modes_where *where, const s
 static bool inside(const char *key, const double place[2], struct err *e)
 {
     double r = sqrt(place[0] * place[0] + place[1] * place[1]);
-    return r <= 1.0 + 1e-6 || err_set(e, ERR_SCENE, "surface.space.%s: [%.9g, %.9g] lies %.3g from the centre, outside the disk of radius 1 whose rim is "
+    return r <= 1.0 + 1e-6 || err_set(e, ERR_SCENE, "surface.space.%s: [%.9g, %.9g] lies %.6g from the centre, outside the disk of radius 1 whose rim is "
                                       "that of wood, metal and glass; divide both by that", key, place[0], place[1], r);
 }
 

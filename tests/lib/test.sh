@@ -5,6 +5,9 @@
 set -uo pipefail
 
 FAILURES=0
+# A script that is run by hand in the source tree would leave its files there.
+[ ! -e Makefile ] || { echo "this runs in an empty folder: tests/run.sh makes one"; exit 1; }
+[ -n "${ROOT:-}" ] || { echo "ROOT is not set: run it by tests/run.sh"; exit 1; }
 
 # fail TEXT...: notes a failure and goes on; `finish` makes it count.
 fail() {

@@ -59,7 +59,6 @@ START_TEST(only_what_a_scene_calls_for)
         {BAR ", response_length: 1 s", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
         {BAR ", convolution: overlap_add", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
         {BAR ", moving: launch, convolution: resonators", "", "", "trajectory surface roughness scrape approach smooth decimate surface_launch mix "},
-        {BAR ", convolution: nodes", "", "", "trajectory surface roughness scrape approach smooth decimate surface_panned mix "},
         {BAR ", moving: glide", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
         {BAR ", moving: readout", "", "", "trajectory surface roughness scrape approach smooth decimate surface_readout mix "},
         {", space: {to: [1, 0]}", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},

@@ -1,1 +1,0 @@
-echo right; echo "in $PWD" >&2; exit 3

@@ -1,1 +1,0 @@
-echo "no such device"; exit 77
