@@ -120,7 +120,10 @@ static bool point_possible(const struct listener_ask *ask, const struct modes *m
         return err_set(e, ERR_SCENE, "output.listen.radiator: point: %s is not an object whose mode shapes are known everywhere: listen to the contact",
                        m->name);
     double off = o->shapes(o, p[0] - ask->origin[0], p[1] - ask->origin[1], ARENA_TAKE(a, double, o->n));
-    return off <= 1e-9 || err_set(e, ERR_SCENE, "output.listen.places: place %d, [%.6g, %.6g] m, is %.3g m beside %s", ask->channel + 1, p[0], p[1], off, m->name);
+    return off <= 1e-9 || err_set(e, ERR_SCENE, "output.listen.places: place %d, [%.6g, %.6g] m, is %.3g m beside %s, which lies from "
+                                             "[%.6g, %.6g] to [%.6g, %.6g] m: move the place, or the object by its origin",
+                                  ask->channel + 1, p[0], p[1], off, m->name, o->low[0] + ask->origin[0], o->low[1] + ask->origin[1],
+                                  o->high[0] + ask->origin[0], o->high[1] + ask->origin[1]);
 }
 
 static bool set_radiator(struct listener *l, const struct listener_ask *ask, const struct modes *m, struct arena *a, struct err *e)
