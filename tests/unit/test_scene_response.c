@@ -52,7 +52,7 @@ static const struct row responses[] = {
     {SCRAPER("response: a.csv, convolution: nodes"), "nodes", "scraper.convolution: nodes are for a response that moves, and a scraper's does not", "resonators"},
     {RINGS("space: {from: [0.8, 0.8]}"), "[0.8", "surface.space.from lies 1.13137 from the centre, outside the disk of materials, whose radius is 1", "x^2 + y^2"},
     {RINGS("space: {to: [0, -1.01]}"), "-1.01", "the second number of surface.space.to must be from -1 to 1", "place at the motion's end"},
-    {RINGS("space: {to: [-0.8, 0.7]}"), "[-0.8", "surface.space.to lies 1.06 from the centre", "x^2 + y^2"},
+    {RINGS("space: {to: [-0.8, 0.7]}"), "[-0.8", "surface.space.to lies 1.06301 from the centre", "x^2 + y^2"},
     {RINGS("space: {dimension: 4}"), "4", "surface.space.dimension must be from 1 to 3, not '4'", "shape"},
     {RINGS("moving: glides, response: a.csv"), "glides", "surface.moving must be one of: auto, fixed, launch, glide, readout", "did you mean 'glide'?"},
     {RINGS("pairing: 0.6, response: a.csv"), "0.6", "surface.pairing must be from 0 to 0.5", "modes of two places"},
