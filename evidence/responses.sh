@@ -9,7 +9,7 @@ WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
 cd "$WORK"
 read -ra LIBS < <(pkg-config --libs gsl sndfile)
-gcc -std=c11 -D_GNU_SOURCE -O3 -march=x86-64-v3 -ffast-math -o judge "$ROOT/evidence/responses_judge.c" "${LIBS[@]}" -lm
+gcc -std=c11 -D_GNU_SOURCE -O3 -march=x86-64-v3 -o judge "$ROOT/evidence/responses_judge.c" "${LIBS[@]}" -lm
 RATE=44100
 
 # scene NAME SECONDS: the force NAME.npy through the table NAME.csv, from one place to the other.
