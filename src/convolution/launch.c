@@ -26,6 +26,7 @@
 #include "convolution/launch_driven.h"
 #include "convolution/launch_rest.h"
 #include "convolution/launch_ringing.h"
+#include "convolution/product.h"
 #include "num/vecmath.h"
 
 enum { BLOCK = LAUNCH_RINGING_BLOCK, LONGEST = 1 << 30, MOST = 4 };
@@ -207,14 +208,6 @@ static void begin_block(struct launch *l)
     memset(l->through, 0, sizeof l->through);
 }
 
-static bool all_zero(const double *x, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (x[i] != 0.0)
-            return false;
-    return true;
-}
-
 /* The order of every sum over lanes. */
 static double lanes_sum(const double *s)
 {
@@ -229,7 +222,7 @@ static void run_some(struct launch *l, const double *f, double *y, int n)
     const double *p = l->through;
     if (from == 0)
         begin_block(l);
-    if (!all_zero(f, n))
+    if (!product_nothing(f, n))
         ready(l);
     launch_driven_run(l->driven, f, sums, from, n);
     for (int j = 0; j < n; j++) {

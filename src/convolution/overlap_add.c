@@ -20,12 +20,11 @@
    run in the order of nodes (partitions): the result does not depend on how the sound is cut into calls. */
 #include "convolution/overlap_add.h"
 
-#include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
+#include "convolution/cardinal.h"
+#include "convolution/product.h"
 #include "num/fft.h"
-#include "num/lanes.h"
 
 enum { BLOCK = 1024 };
 
@@ -43,61 +42,7 @@ struct overlap_add {
     double *Hr, *Hi, *Xr, *Xi;         /* at rest: [parts][bins]                                        */
 };
 
-/* ------------------------------------------------------------------ spectra */
-
-LANES_CLONES
-static void multiply(size_t n, const double *restrict ar, const double *restrict ai, double *restrict br, double *restrict bi)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double re = ar[i] * br[i] - ai[i] * bi[i];
-        bi[i] = ar[i] * bi[i] + ai[i] * br[i];
-        br[i] = re;
-    }
-}
-
-struct spectrum {
-    double *re, *im;
-};
-
-/* c += a b */
-LANES_CLONES
-static void multiply_add(size_t n, struct spectrum a, struct spectrum b, struct spectrum c)
-{
-    const double *restrict ar = a.re, *restrict ai = a.im, *restrict br = b.re, *restrict bi = b.im;
-    double *restrict cr = c.re, *restrict ci = c.im;
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        cr[i] += ar[i] * br[i] - ai[i] * bi[i];
-        ci[i] += ar[i] * bi[i] + ai[i] * br[i];
-    }
-}
-
-static bool all_zero(const double *x, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (x[i] != 0.0)
-            return false;
-    return true;
-}
-
 /* ------------------------------------------------------------------ moving */
-
-static double window_at(int order, double u)
-{
-    if (order == 1)
-        return 1.0;
-    if (order == 2)
-        return 1.0 - u;
-    return u <= 1.0 ? (1.0 - u * u) * (2.0 - u) / 2.0 : (1.0 - u) * (2.0 - u) * (3.0 - u) / 6.0;
-}
-
-/* First sample of node k's window: k hop - p hop/2, rounded up. */
-static long node_start(const struct overlap_add *o, long k)
-{
-    long twice = (2 * k - o->order) * o->hop;
-    return twice > 0 ? (twice + 1) / 2 : -(-twice / 2);
-}
 
 static void open_moving(struct overlap_add *o)
 {
@@ -105,9 +50,8 @@ static void open_moving(struct overlap_add *o)
     o->ki = ARENA_TAKE(o->arena, double, o->bins);
     o->window = ARENA_TAKE(o->arena, double, o->count);
     o->ring = ARENA_TAKE(o->arena, double, o->size);
-    for (int j = 0; j < o->count; j++)
-        o->window[j] = window_at(o->order, fabs((double)(j - o->count / 2) / o->hop));
-    while (node_start(o, o->next) + o->count > 0) /* back to the first node whose window reaches sample 0 */
+    cardinal_window(o->order, o->hop, o->window);
+    while (cardinal_start(o->order, o->hop, o->next) + o->count > 0) /* back to the first node whose window reaches sample 0 */
         o->next--;
     o->next++;
 }
@@ -116,8 +60,8 @@ static void open_moving(struct overlap_add *o)
 static void run_node(struct overlap_add *o, const double *f)
 {
     long k = o->next++;
-    int skip = (int)(o->now - node_start(o, k)), n = o->count - skip;
-    if (all_zero(f, n))
+    int skip = (int)(o->now - cardinal_start(o->order, o->hop, k)), n = o->count - skip;
+    if (product_nothing(f, n))
         return;
     memset(o->x, 0, o->size * sizeof *o->x);
     memset(o->h, 0, o->size * sizeof *o->h);
@@ -126,7 +70,7 @@ static void run_node(struct overlap_add *o, const double *f)
     o->response(o->self, k, o->h, o->length);
     fft_forward(o->fft, o->x, o->re, o->im);
     fft_forward(o->fft, o->h, o->kr, o->ki);
-    multiply(o->bins, o->kr, o->ki, o->re, o->im);
+    product_multiply(o->bins, (struct product_spectrum){o->kr, o->ki}, (struct product_spectrum){o->re, o->im});
     fft_inverse(o->fft, o->re, o->im, o->x);
     size_t at = (size_t)o->now % o->size, used = o->length + (size_t)n - 1;
     for (size_t j = 0; j < used; j++, at = at + 1 == o->size ? 0 : at + 1)
@@ -136,9 +80,9 @@ static void run_node(struct overlap_add *o, const double *f)
 /* Gives out the ring up to the next node, at most `most` frames; returns how many. */
 static long give_moving(struct overlap_add *o, const double *f, double *y, long most)
 {
-    while (node_start(o, o->next) <= o->now)
+    while (cardinal_start(o->order, o->hop, o->next) <= o->now)
         run_node(o, f);
-    long until = node_start(o, o->next) - o->now, n = until < most ? until : most;
+    long until = cardinal_start(o->order, o->hop, o->next) - o->now, n = until < most ? until : most;
     size_t at = (size_t)o->now % o->size;
     for (long i = 0; i < n; i++, at = at + 1 == o->size ? 0 : at + 1) {
         y[i] += o->ring[at];
@@ -179,8 +123,8 @@ static void run_block(struct overlap_add *o, const double *f)
     memset(o->im, 0, o->bins * sizeof *o->im);
     for (size_t q = 0; q < o->parts; q++) {
         size_t X = (o->newest + q) % o->parts * o->bins, H = q * o->bins;
-        multiply_add(o->bins, (struct spectrum){o->Xr + X, o->Xi + X}, (struct spectrum){o->Hr + H, o->Hi + H},
-                     (struct spectrum){o->re, o->im});
+        product_add(o->bins, (struct product_spectrum){o->Xr + X, o->Xi + X}, (struct product_spectrum){o->Hr + H, o->Hi + H},
+                     (struct product_spectrum){o->re, o->im});
     }
     fft_inverse(o->fft, o->re, o->im, o->h);
 }

@@ -17,16 +17,12 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "convolution/product.h"
 #include "num/fft.h"
-#include "num/lanes.h"
 
 /* Blocks of 2048 to 16384 cost the same within the noise of a measurement for responses of 1 s at 44.1 kHz (tests/bench/panned.c), 1024 and 32768
    more: transforms grow with log B, products fall with 1/B, and a response that is passed quickly is at work for at least one block. */
 enum { BLOCK = PANNED_BLOCK, SIZE = 2 * BLOCK, BINS = BLOCK + 1 };
-
-struct spectrum {
-    double *re, *im;
-};
 
 struct panned {
     struct arena *arena;
@@ -34,18 +30,18 @@ struct panned {
     struct panned_source source;
     size_t parts;
     long now, next;         /* sample about to be given out; next block             */
-    struct spectrum *h;     /* [n], each [parts][BINS]; re NULL: not needed yet      */
-    struct spectrum sum;    /* [parts][BINS]: spectra of this and later blocks       */
+    struct product_spectrum *h;     /* [n], each [parts][BINS]; re NULL: not needed yet      */
+    struct product_spectrum sum;    /* [parts][BINS]: spectra of this and later blocks       */
     bool *used;             /* [parts]: is there anything in it                      */
-    struct spectrum x;      /* [BINS]                                                */
+    struct product_spectrum x;      /* [BINS]                                                */
     double *time, *share;   /* [SIZE], [BLOCK]                                       */
     double *sound, *rest;   /* [BLOCK]: of the block given out, and what it leaves to the next */
 };
 
-static struct spectrum take(struct arena *a, size_t n)
+static struct product_spectrum take(struct arena *a, size_t n)
 {
     double *both = ARENA_TAKE(a, double, 2 * n);
-    return (struct spectrum){both, both + n};
+    return (struct product_spectrum){both, both + n};
 }
 
 struct panned *panned_open(const struct panned_source *source)
@@ -53,7 +49,7 @@ struct panned *panned_open(const struct panned_source *source)
     struct arena *a = arena_open();
     struct panned *p = ARENA_TAKE(a, struct panned, 1);
     *p = (struct panned){.arena = a, .source = *source, .fft = fft_open(SIZE), .parts = (source->length + BLOCK - 1) / BLOCK};
-    p->h = ARENA_TAKE(a, struct spectrum, source->n + 1);
+    p->h = ARENA_TAKE(a, struct product_spectrum, source->n + 1);
     p->sum = take(a, p->parts * BINS);
     p->used = ARENA_TAKE(a, bool, p->parts);
     p->x = take(a, BINS);
@@ -94,19 +90,6 @@ static void prepare(struct panned *p, int k)
     arena_close(a);
 }
 
-/* c += a b */
-LANES_CLONES
-static void multiply_add(size_t n, struct spectrum a, struct spectrum b, struct spectrum c)
-{
-    const double *restrict ar = a.re, *restrict ai = a.im, *restrict br = b.re, *restrict bi = b.im;
-    double *restrict cr = c.re, *restrict ci = c.im;
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        cr[i] += ar[i] * br[i] - ai[i] * bi[i];
-        ci[i] += ar[i] * bi[i] + ai[i] * br[i];
-    }
-}
-
 static bool silent(const double *x)
 {
     for (int i = 0; i < BLOCK; i++)
@@ -131,7 +114,7 @@ static void launch(struct panned *p, int k, const double *f)
     fft_forward(p->fft, p->time, p->x.re, p->x.im);
     for (size_t q = 0; q < p->parts; q++) {
         size_t slot = ((size_t)p->next + q) % p->parts, H = q * BINS, Y = slot * BINS;
-        multiply_add(BINS, (struct spectrum){p->h[k].re + H, p->h[k].im + H}, p->x, (struct spectrum){p->sum.re + Y, p->sum.im + Y});
+        product_add(BINS, (struct product_spectrum){p->h[k].re + H, p->h[k].im + H}, p->x, (struct product_spectrum){p->sum.re + Y, p->sum.im + Y});
         p->used[slot] = true;
     }
 }

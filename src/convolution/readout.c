@@ -19,8 +19,8 @@
 #include <string.h>
 
 #include "convolution/cardinal.h"
+#include "convolution/product.h"
 #include "num/fft.h"
-#include "num/lanes.h"
 
 struct readout {
     struct arena *arena;
@@ -37,17 +37,6 @@ struct readout {
     size_t oldest;
     long quiet;                    /* samples of zero force before `now`                               */
 };
-
-LANES_CLONES
-static void multiply(size_t n, const double *restrict ar, const double *restrict ai, double *restrict br, double *restrict bi)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double re = ar[i] * br[i] - ai[i] * bi[i];
-        bi[i] = ar[i] * bi[i] + ai[i] * br[i];
-        br[i] = re;
-    }
-}
 
 struct readout *readout_open(size_t length, int order, int hop, overlap_add_response *response, void *self)
 {
@@ -116,7 +105,7 @@ static void run_node(struct readout *r, const double *f)
     r->response(r->self, k, r->h, r->length);
     fft_forward(r->fft, r->x, r->re, r->im);
     fft_forward(r->fft, r->h, r->kr, r->ki);
-    multiply(r->bins, r->kr, r->ki, r->re, r->im);
+    product_multiply(r->bins, (struct product_spectrum){r->kr, r->ki}, (struct product_spectrum){r->re, r->im});
     fft_inverse(r->fft, r->re, r->im, r->x);
     const double *sound = r->x + r->length - 1, *window = r->window + skip;
     long at = r->now % r->count;

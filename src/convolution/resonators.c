@@ -34,6 +34,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "convolution/product.h"
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
@@ -256,21 +257,13 @@ static void ring_gliding(struct group *const *active, int n_active, const double
     ring_all(active, n_active, f, sums, n, true);
 }
 
-static bool all_zero(const double *x, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (x[i] != 0.0)
-            return false;
-    return true;
-}
-
 /* A group takes part when it rings, or when there is force and a gain to launch it. */
 static void find_active(struct resonators *r, bool force)
 {
     r->n_active = 0;
     for (int k = 0; k < r->groups; k++) {
         struct group *g = &r->group[k];
-        bool deaf = all_zero(g->gr, LANES) && all_zero(g->gi, LANES) && all_zero(g->tr, LANES) && all_zero(g->ti, LANES);
+        bool deaf = product_nothing(g->gr, LANES) && product_nothing(g->gi, LANES) && product_nothing(g->tr, LANES) && product_nothing(g->ti, LANES);
         if (g->awake || (force && !deaf))
             r->active[r->n_active++] = g;
     }
@@ -296,7 +289,7 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
         return;
     set_targets(r, to);
     set_steps(r, frames);
-    find_active(r, !all_zero(f, frames));
+    find_active(r, !product_nothing(f, frames));
     for (int done = 0; done < frames && r->n_active;) {
         int n = frames - done < r->piece ? frames - done : r->piece;
         memset(r->sums, 0, (size_t)n * sizeof *r->sums);
