@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes evidence/responses.md: how well and at what cost a response that moves with the contact is rendered, from the command line, against
-# evidence/responses_judge.c, which sums the definitions sample by sample (about 15 minutes on two cores).
+# evidence/responses_judge.c, which sums the definitions sample by sample (about 25 minutes on two cores). Needs build/tests/test_glide (make unit).
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -12,12 +12,18 @@ read -ra LIBS < <(pkg-config --libs gsl sndfile)
 gcc -std=c11 -D_GNU_SOURCE -O3 -march=x86-64-v3 -o judge "$ROOT/evidence/responses_judge.c" "${LIBS[@]}" -lm
 RATE=44100
 
-# scene NAME SECONDS: the force NAME.npy through the table NAME.csv, from one place to the other.
+# scene NAME SECONDS [MOTION]: the force NAME.npy through the table NAME.csv, from one place to the other.
 scene() {
+    local motion="path: line, from: [0, 0], to: [1, 0]"
+    case ${3:-line} in
+        jerk) motion="$motion, law: minimum_jerk" ;;
+        strokes:*) motion="path: back_and_forth, from: [0, 0], to: [1, 0], rate: ${3#*:} Hz" ;;
+        circle:*) motion="path: circle, center: [0.5, 0], radius: 0.5, turns: ${3#*:}" ;;
+    esac
     cat << YAML > "$1.yaml"
 rasp: 1
-surface: {response: $1.csv, modes: 50}
-motion: {path: line, from: [0, 0], to: [1, 0], duration: $2}
+surface: {response: $1.csv, modes: 50, extrapolate: nearest}
+motion: {$motion, duration: $2}
 contact: {model: given, given: {file: $1.npy, rate: $RATE}}
 output: {sample_rate: $RATE, encoding: float64, level: {full_scale: 1}, ramp: 0, tail: 0}
 YAML
@@ -73,6 +79,78 @@ asked() {
     done
 }
 
+# row LABEL NAME READING ENGINE ERROR: one render, what was asked, predicted, measured.
+row() {
+    render "$2" --set "surface.moving=$3" --set "surface.convolution=$4" --set "accuracy={morph_error: $5, overlap_order: 4, overlap_hop: 1 s, gain_ramp: 256}"
+    printf '| %s | %s | %s | %s | %.1f | %s | %.3f |\n' "$1" "$3" "$4" "$5" "$ERROR" "$(awk "BEGIN { print -($(snr "$2" "$3")) }")" "$COST"
+}
+
+# The same object, along motions that are not at constant speed, 1 s.
+motions() {
+    local motion reading error
+    echo '| motion | reading | engine | asked (dB) | predicted | measured | CPU s |'
+    echo '|---|---|---|---|---|---|---|'
+    for motion in line jerk strokes:2 strokes:8 circle:3; do
+        ./judge make m.csv m.npy $RATE 1 0.02
+        scene m 1 $motion
+        for reading in launch glide readout; do
+            ./judge sum $reading m.csv m.npy $RATE 1 m-$reading.npy $motion &
+        done
+        wait
+        for error in -40 -70 -100; do
+            row $motion m launch resonators $error
+            row $motion m glide resonators $error
+            row $motion m readout resonators $error
+        done
+        row $motion m launch overlap_add -40
+    done
+}
+
+# One mode, of which one thing moves a little, 1 s.
+weak() {
+    local motion error what
+    local -A body=([gain]='7000 50 0.8 0.2 7000 50 0.88 0.2' [gain_x3]='7000 50 0.8 0.2 7000 50 2.4 0.2' [frequency]='7000 50 0.8 0.2 7000.7 50 0.8 0.2'
+                   [decay]='7000 50 0.8 0.2 7000 50.5 0.8 0.2' [phase]='7000 50 0.8 0.2 7000 50 0.8 0.9')
+    echo '| what moves, motion | reading | engine | asked (dB) | predicted | measured | CPU s |'
+    echo '|---|---|---|---|---|---|---|'
+    for what in gain gain_x3 frequency decay phase; do
+        # shellcheck disable=SC2086 # eight words
+        ./judge one m.csv ${body[$what]}
+        for motion in strokes:2 strokes:20; do
+            scene m 1 $motion
+            ./judge sum launch m.csv m.npy $RATE 1 m-launch.npy $motion
+            for error in -40 -70 -100; do
+                row "$what, $motion" m launch resonators $error
+            done
+            row "$what, $motion" m launch overlap_add -70
+            row "$what, $motion" m launch nodes -70
+        done
+    done
+}
+
+# Chebyshev's nodes: how many, and what they keep.
+chebyshev() {
+    local error
+    echo '| asked (dB) | nodes | measured (dB) |'
+    echo '|---|---|---|'
+    for error in -10 -20 -40 -60 -80 -100 -120 -140; do
+        render main --set surface.convolution=nodes --set accuracy.morph_error=$error
+        printf '| %s | %s | %s |\n' $error "$(jq '.contacts[0].response.nodes' main.json)" "$(awk "BEGIN { print -($(snr main launch)) }")"
+    done
+}
+
+# Where poles and gains are the same at both places: each reading against the sum.
+same() {
+    local reading
+    make s 1 same launch
+    echo '| reading, engine | error (dB) |'
+    echo '|---|---|'
+    for reading in launch,resonators launch,overlap_add launch,nodes glide,resonators readout,resonators readout,overlap_add; do
+        render s --set "surface.moving=${reading%,*}" --set "surface.convolution=${reading#*,}" --set accuracy.morph_error=-240 --set accuracy.overlap_hop=20ms
+        printf '| %s | %s |\n' "$reading" "$(awk "BEGIN { print -($(snr s launch)) }")"
+    done
+}
+
 readings() {
     local dmax
     echo '| largest change of frequency | glide against launch (dB) | readout against launch | readout against glide |'
@@ -80,7 +158,7 @@ readings() {
     for dmax in 0 0.001 0.005 0.02 0.1; do
         make r 2 $dmax launch
         for reading in glide readout launch; do
-            render r --set surface.moving=$reading --set "accuracy={preset: high, overlap_hop: 0.2 s, morph_error: -90, gain_ramp: 16}"
+            render r --set surface.moving=$reading --set "accuracy={preset: high, overlap_hop: 0.2 s, morph_error: -90}"
             cp r.wav r-$reading.wav
         done
         printf '| %s %% | %s | %s | %s |\n' "$(awk "BEGIN { print 100 * $dmax }")" "$(wav_snr launch glide)" "$(wav_snr launch readout)" "$(wav_snr glide readout)"
@@ -90,12 +168,19 @@ wav_snr() { rasp compare r-"$1".wav r-"$2".wav --snr 300 --json 2>&1 | jq -r '[.
 
 glide() {
     local ramp
-    echo '| gain_ramp | SNR (dB) | cost in real time |'
-    echo '|---|---|---|'
+    echo '| gain_ramp | SNR (dB) | predicted | times real time |'
+    echo '|---|---|---|---|'
     for ramp in 256 128 64 32 16 1; do
-        render main --set surface.moving=glide --set accuracy.gain_ramp=$ramp
-        printf '| %d | %s | %s |\n' $ramp "$(snr main glide)" "$(awk "BEGIN { printf \"%.0f\", 2 / $COST }")"
+        render main --set surface.moving=glide --set "accuracy={gain_ramp: $ramp, morph_error: 0}"
+        printf '| %d | %s | %s | %s |\n' $ramp "$(snr main glide)" "$(awk "BEGIN { if ($ERROR) printf \"%.1f\", -($ERROR); else print \"exact\" }")" "$(awk "BEGIN { printf \"%.0f\", 2 / $COST }")"
     done
+}
+
+# What tests/unit/test_glide.c measures: amplitude of a mode without decay while it is retuned, resonators against the direct form.
+modulations() {
+    echo '| modulation | least and largest amplitude, normal form | direct form |'
+    echo '|---|---|---|'
+    "$BUILD/tests/test_glide" | sed -nE 's/^(.*[^ ]) +([0-9.]+ to [0-9.]+); direct form (.*)$/| \1 | \2 | \3 |/p'
 }
 
 make main 2 0.02 launch glide
@@ -110,7 +195,8 @@ frequency differs by up to 2 %, each decay by up to 30 %, each gain by up to 10 
 
 ## \`launch\` by overlap-add: hop and order
 
-SNR against the sum, and the a-priori formula's (\`convolution/ring_survey.c\`), which the summary of a render reports.
+SNR against the sum, and the error predicted (\`convolution/ring_error.c\`), which the summary of a render reports. Halving the hop gains 6, 12, 24 dB by
+order.
 
 $(convergence)
 
@@ -119,6 +205,33 @@ $(convergence)
 \`accuracy.morph_error\` asked for; each engine chooses hops or nodes by itself.
 
 $(asked)
+
+## Motions that are not at constant speed
+
+The same object, 1 s: along a line, at constant speed and at minimum jerk; to and fro, 2 and 8 times a second; three turns of a circle. Predictions are
+expectations for a white force; one kink (the stop at the end, of \`readout\`) or one stroke makes few draws of it, so that single sounds lie some dB off.
+Hops of resonators are powers of two, and \`gain_ramp\` is 256 at most: errors come out below what is asked. What is dropped at the end of each
+response, 20 dB below the error asked, is counted in full; and so is the stop at the end of a line in \`glide\`, which these sounds, cut there, do not hold.
+
+$(motions)
+
+## One mode that moves but little
+
+$(weak)
+
+## Chebyshev's nodes
+
+$(chebyshev)
+
+## Poles that do not move
+
+Fifty modes, both places alike: every reading is the same sound (what is left is the response's end at -240 - 20 dB and rounding).
+
+$(same)
+
+## \`glide\`: normal form
+
+$(modulations)
 
 ## \`glide\`: poles ramped linearly
 

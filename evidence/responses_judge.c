@@ -3,9 +3,12 @@
      judge make TABLE.csv FORCE.npy RATE SECONDS DMAX [SEED]
          50 modes, 100 Hz to 15 kHz, T60 = 0.9 s (f / 100 Hz)^-0.3, gains random; at the second place each frequency differs by up to +-DMAX,
          each decay by up to +-30 %, each gain by up to +-10 dB (DMAX = same: not at all); white Gaussian force
-     judge sum READING TABLE.csv FORCE.npy RATE SECONDS OUT.npy
+     judge one TABLE.csv F0 D0 G0 PHASE0 F1 D1 G1 PHASE1
+         a single mode: frequency, decay, gain, phase at either place
+     judge sum READING TABLE.csv FORCE.npy RATE SECONDS OUT.npy [MOTION]
          READING launch: y(n) = sum_m h_{x(m)}(n - m) f(m) / rate;  readout: h_{x(n)};  glide: z(n) = p(x(n)) z(n - 1) + a(x(n)) f(n)
-         x goes from 0 to 1 m in SECONDS at constant speed; frequency, decay, gain go from place to place in the log
+         MOTION line (default): x goes from 0 to 1 m in SECONDS at constant speed;  jerk: at minimum jerk;  strokes:HZ: to and fro, HZ times a second;
+         circle:N: on N turns of a circle from 0 to 1 m and back, of which x counts;  frequency, decay, gain go from place to place in the log, phase evenly
      judge snr A.npy B.wav [FROM TO]
          10 log10 of A's energy over that of B - A; samples FROM to TO
 
@@ -73,9 +76,11 @@ static double *wav_read(const char *path, long *n)
     return x;
 }
 
-static void table_read(const char *path, struct mode *m)
+/* Returns the number of modes. */
+static int table_read(const char *path, struct mode *m)
 {
     char line[400];
+    int n = 0;
     FILE *in = fopen(path, "r");
     if (!in)
         die(path);
@@ -87,9 +92,11 @@ static void table_read(const char *path, struct mode *m)
             m[mode].d[place] = d;
             m[mode].g[place] = g;
             m[mode].phase[place] = phase;
+            n = mode + 1 > n ? mode + 1 : n;
         }
     }
     fclose(in);
+    return n;
 }
 
 /* ------------------------------------------------------------------ make */
@@ -121,48 +128,68 @@ static void make(char **arg, int n)
 /* ------------------------------------------------------------------ sums */
 
 static struct mode modes[GROUPS * LANES];
+static int used; /* modes */
+
+struct course {
+    const char *motion;
+    double rate, seconds;
+};
+
+static double where(const struct course *c, long frame)
+{
+    double t = (double)frame / c->rate, u = t / c->seconds;
+    if (strncmp(c->motion, "strokes:", 8) == 0)
+        return 0.5 - 0.5 * cos(2 * M_PI * atof(c->motion + 8) * t);
+    if (strncmp(c->motion, "circle:", 7) == 0)
+        return 0.5 + 0.5 * cos(2 * M_PI * atof(c->motion + 7) * u);
+    return strcmp(c->motion, "jerk") == 0 ? u * u * u * (10 + u * (6 * u - 15)) : u;
+}
 
 /* p = e^(s / rate) and gain / rate of mode i where the contact is at share u. */
-static void at(int i, double u, double rate, double p[2], double *gain)
+static void at(int i, double u, double rate, double p[2], double gain[2])
 {
     const struct mode *m = &modes[i];
     double f = m->f[0] * pow(m->f[1] / m->f[0], u), d = m->d[0] * pow(m->d[1] / m->d[0], u);
     p[0] = exp(-d / rate) * cos(2 * M_PI * f / rate);
     p[1] = exp(-d / rate) * sin(2 * M_PI * f / rate);
-    *gain = m->g[0] * pow(m->g[1] / m->g[0], u) / rate;
+    double size = m->g[0] * pow(m->g[1] / m->g[0], u) / rate, turn = m->phase[0] + u * (m->phase[1] - m->phase[0]);
+    gain[0] = size * cos(turn);
+    gain[1] = size * sin(turn);
 }
 
-static void sum_glide(const double *f, long n, double rate, double seconds, double *y)
+static void sum_glide(const double *f, long n, const struct course *c, double *y)
 {
-    for (int i = 0; i < MODES; i++) {
+    for (int i = 0; i < used; i++) {
         double re = 0, im = 0;
         for (long k = 0; k < n; k++) {
-            double p[2], g;
-            at(i, (double)k / rate / seconds, rate, p, &g);
-            double next = p[0] * re - p[1] * im + g * f[k];
-            im = p[0] * im + p[1] * re;
+            double p[2], g[2];
+            at(i, where(c, k), c->rate, p, g);
+            double next = p[0] * re - p[1] * im + g[0] * f[k];
+            im = p[0] * im + p[1] * re + g[1] * f[k];
             re = next;
-            y[k] += im;
+            y[k] += im - 0.5 * g[1] * f[k];
         }
     }
 }
 
 /* launch: from every sample on, its own response, phasor by phasor; readout: the same backwards in time. */
-static void sum_all(const double *f, long n, double rate, double seconds, double *y, int launch)
+static void sum_all(const double *f, long n, const struct course *c, double *y, int launch)
 {
+    int groups = (used + LANES - 1) / LANES;
     for (long k = 0; k < n; k++) {
         double pr[GROUPS][LANES] = {{0}}, pi[GROUPS][LANES] = {{0}}, re[GROUPS][LANES] = {{0}}, im[GROUPS][LANES] = {{0}};
-        for (int i = 0; i < MODES; i++) {
-            double p[2], g;
-            at(i, (double)k / rate / seconds, rate, p, &g);
+        for (int i = 0; i < used; i++) {
+            double p[2], g[2];
+            at(i, where(c, k), c->rate, p, g);
             pr[i / LANES][i % LANES] = p[0];
             pi[i / LANES][i % LANES] = p[1];
-            re[i / LANES][i % LANES] = launch ? g * f[k] : g;
+            re[i / LANES][i % LANES] = launch ? g[0] * f[k] : g[0];
+            im[i / LANES][i % LANES] = launch ? g[1] * f[k] : g[1];
         }
         double all = 0;
         for (long j = 0; j <= (launch ? n - 1 - k : k); j++) {
             double sums[LANES] = {0}, now = 0;
-            for (int q = 0; q < GROUPS; q++)
+            for (int q = 0; q < groups; q++)
                 for (int l = 0; l < LANES; l++) {
                     double r = re[q][l];
                     sums[l] += im[q][l];
@@ -171,6 +198,7 @@ static void sum_all(const double *f, long n, double rate, double seconds, double
                 }
             for (int l = 0; l < LANES; l++)
                 now += sums[l];
+            now *= j ? 1 : 0.5;
             if (launch)
                 y[k + j] += now;
             else
@@ -181,16 +209,28 @@ static void sum_all(const double *f, long n, double rate, double seconds, double
     }
 }
 
-static void sum(char **arg)
+static void sum(char **arg, int given)
 {
     long n;
-    double rate = atof(arg[3]), seconds = atof(arg[4]), *f = npy_read(arg[2], &n), *y = calloc((size_t)n, sizeof *y);
-    table_read(arg[1], modes);
+    struct course c = {given > 6 ? arg[6] : "line", atof(arg[3]), atof(arg[4])};
+    double *f = npy_read(arg[2], &n), *y = calloc((size_t)n, sizeof *y);
+    used = table_read(arg[1], modes);
     if (strcmp(arg[0], "glide") == 0)
-        sum_glide(f, n, rate, seconds, y);
+        sum_glide(f, n, &c, y);
     else
-        sum_all(f, n, rate, seconds, y, strcmp(arg[0], "launch") == 0);
+        sum_all(f, n, &c, y, strcmp(arg[0], "launch") == 0);
     npy_write(arg[5], y, n);
+}
+
+static void one(char **arg)
+{
+    FILE *out = fopen(arg[0], "w");
+    if (!out)
+        die(arg[0]);
+    fprintf(out, "# poles: separate\n# quantity: displacement\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n");
+    for (int k = 0; k < 2; k++)
+        fprintf(out, "%d,%d,0,0,%s,%s,%s,%s\n", k, k, arg[1 + 4 * k], arg[2 + 4 * k], arg[3 + 4 * k], arg[4 + 4 * k]);
+    fclose(out);
 }
 
 static void snr(char **arg, int n)
@@ -210,8 +250,10 @@ int main(int argc, char **argv)
     const char *what = argc > 1 ? argv[1] : "";
     if (strcmp(what, "make") == 0 && argc >= 7)
         make(argv + 2, argc - 2);
-    else if (strcmp(what, "sum") == 0 && argc == 8)
-        sum(argv + 2);
+    else if (strcmp(what, "sum") == 0 && (argc == 8 || argc == 9))
+        sum(argv + 2, argc - 2);
+    else if (strcmp(what, "one") == 0 && argc == 11)
+        one(argv + 2);
     else if (strcmp(what, "snr") == 0 && argc >= 4)
         snr(argv + 2, argc - 2);
     else

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Runs what a folder holds, in order of name, and says which failed:  scripts/run_all.sh evidence|tests/bench
-# Scripts are run as they are; a C file stands for the program that make built from it.
+# Scripts are run as they are; a C file of tests/bench stands for the program that make
+# built from it (those of evidence/ are judges, which their scripts build).
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit
 folder=$1
@@ -10,7 +11,8 @@ PATH=$BUILD:$PATH
 export BUILD ROOT PATH LC_ALL=C
 
 shopt -s nullglob
-entries=("$folder"/*.sh "$folder"/*.c)
+entries=("$folder"/*.sh)
+[ "$folder" = tests/bench ] && entries+=("$folder"/*.c)
 if [ ${#entries[@]} = 0 ]; then
     echo "$folder/ holds nothing to run" >&2
     exit 1

@@ -33,6 +33,7 @@ enum item {
     ITEM_CURVATURE_Y,   /* 1/m, S_yy (paper force in the plane)         over per frame */
     ITEM_SLOPE,         /* mean |slope|^beta2 (paper force)             over per frame */
     ITEM_SUBFORCE,      /* N, contact force                             over per frame */
+    ITEM_ROLL,          /* what a ball does: enum roll_value            ROLL_VALUES per frame */
     ITEM_FORCE,         /* N                                            1 per frame    */
     ITEM_SURFACE_SOUND, /* board->quantity                              channels per frame, interleaved */
     ITEM_SCRAPER_SOUND, /* board->quantity                              channels per frame */
@@ -41,6 +42,37 @@ enum item {
     ITEM_COUNT
 };
 #define ITEM_BIT(item) (1u << (item))
+
+/* Of a ball, for each frame: over the frame's time (share, counts), or at its beginning. A kinematic model has the first four. */
+enum roll_value {
+    ROLL_PENETRATION,       /* m, rho or xi at the frame; below 0: clear of the surface            */
+    ROLL_HEIGHT,            /* m, of the ball's centre of mass, over where it is at rest (roll_coupled); over where it is with the geometric centre at
+                               its mean height and the centre of mass lowest (roll) */
+    ROLL_CONTACT,           /* share of the frame's time in contact                                */
+    ROLL_LIFT_OFFS,         /* how often it leaves the surface in the frame                        */
+    ROLL_ENERGY,            /* J, of ball, contact and modes                                       */
+    ROLL_SURFACE_WORK,      /* J since the start: done by the surface's shape and the moving contact place */
+    ROLL_CONTACT_LOSS,      /* J since the start: lost in the contact                              */
+    ROLL_MODE_LOSS,         /* J since the start: lost in the modes' damping                       */
+    ROLL_RESIDUAL,          /* J: what the balance of these leaves over                            */
+    ROLL_VALUES
+};
+
+struct roll_report {        /* of a whole render; steps 0: no coupled model                        */
+    double contact;         /* s in contact                                                        */
+    double time;            /* s in all                                                            */
+    long lift_offs;         /* times it left the surface                                           */
+    long bounces;           /* times of those it stayed away for longer than a sample               */
+    double stiffness;       /* N/m^1.5, k                                                          */
+    double rest;            /* m, penetration at rest                                              */
+    double deviation;       /* m, rms of the geometric centre's height (roll)                      */
+    long steps;             /* of the coupled model                                                */
+    double step;            /* s                                                                   */
+    double contact_samples[2]; /* audio samples of a contact: mean, least                          */
+    double fastest;         /* m/s, greatest speed of an impact                                    */
+    double residual;        /* greatest |residual| over greatest energy                            */
+    double iterations[2];   /* of a step in contact: mean, greatest                                */
+};
 
 struct trajectory;
 struct load_law;
@@ -71,6 +103,8 @@ struct board {
     int quantity;           /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
     double ring;            /* s, until the slowest response has decayed by 80 dB */
     double lifted;          /* s during which the scraper was lifted off         */
+    struct roll_report roll;
+    bool rolls;             /* the report holds something                        */
     bool unstated;          /* a recorded response, whose quantity is not stated, rings */
     const char *warnings[16];
     int n_warnings;         /* may exceed the room: what is beyond is counted only */

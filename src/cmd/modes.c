@@ -88,7 +88,7 @@ static const struct args_option options[] = {
     {"modes", 0, "N", false, "how many of the strongest modes; default: object all below --top, list 20"},
     {"top", 0, "FREQUENCY", false, "modes of an object above are left out (default 20 kHz)"},
     {"quantity", 0, "WORD", false, "object: displacement, velocity or acceleration per N s (default velocity)"},
-    {"body", 0, "WORD", false, "of a scene: surface or scraper (default surface)"},
+    {"body", 0, "WORD", false, "of a scene: surface, scraper or ball (default surface)"},
     CMD_SCENE_OPTIONS,
     {"quiet", 'q', NULL, false, "object: prints nothing; what would be warned of stands in the table's comments all the same"},
     {0}};
@@ -100,7 +100,7 @@ const struct command modes_command = {
             "RECIPE is a YAML file of surface keys (object, material), as in irs/, or a scene. Places are lengths in the object's own coordinates: "
             "of bars, rods, strings, plates and membranes x from 0 to the length and y from 0 to the width, of what is round from the centre, of a shell "
             "along great circles from a pole. Without --line, --grid or --at they are 33 along what is slender, 17 x 9 on what is flat, a shell's pole, and of a "
-            "scraper its scraper.object.at. The table has them where they lie in the scene, moved by surface.object.origin. Rendering needs no such file: "
+            "scraper or ball its object.at. The table has them where they lie in the scene, moved by surface.object.origin. Rendering needs no such file: "
             "a scene's surface.object gives the same modes at any place. A table is for other programs, and to be changed by hand.\n"
             "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over "
             "its places, of an object over a grid of places, or at one place with --at).",

@@ -13,7 +13,7 @@ struct modes_lengths {
 };
 bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double *x, struct err *e);
 
-/* What a body of the operand rings with: the operand is a scene, or a recipe of surface keys. *key: "surface" or "scraper". */
+/* What a body of the operand rings with: the operand is a scene, or a recipe of surface keys. *key: "surface", "scraper" or "ball". */
 struct modes_body {
     struct scene scene;
     const struct response *response;

@@ -5,6 +5,7 @@
 
 #include "cmd/modes.h"
 #include "cmd/recipe.h"
+#include "scene/ball.h"
 #include "scene/units.h"
 
 /* Of a scene that names a recipe of an object nothing else matters. */
@@ -14,21 +15,23 @@ static const char rest[] = "scraper: {mass: 1 g}\nmotion: {path: still, duration
 bool modes_body_read(struct cmd_call *c, const char *file, struct modes_body *b, struct err *e)
 {
     const char *word = args_value(&c->args, "body");
-    bool scene, scraper = word && !strcmp(word, "scraper");
-    b->key = scraper ? "scraper" : "surface";
-    if (word && !scraper && strcmp(word, "surface") != 0)
-        return err_set(e, ERR_USAGE, "--body: '%s' is not surface or scraper", word);
+    bool scene, tool = word && (!strcmp(word, "scraper") || !strcmp(word, "ball"));
+    b->key = tool ? word : "surface";
+    if (word && !tool && strcmp(word, "surface") != 0)
+        return err_set(e, ERR_USAGE, "--body: '%s' is not surface, scraper or ball", word);
     if (!recipe_is_scene(c, file, &scene, e))
         return false;
-    if (scraper && !scene)
-        return err_set(e, ERR_USAGE, "--body scraper: %s is a recipe, which describes a surface; it needs a scene (with the key rasp: 1)", file);
+    if (tool && !scene)
+        return err_set(e, ERR_USAGE, "--body %s: %s is a recipe, which describes a surface; it needs a scene (with the key rasp: 1)", word, file);
     if (!recipe_read(c, file, rest, &b->scene, e))
         return false;
     if (b->scene.n_contacts > 1)
         return err_set(e, ERR_SCENE, "%s: has %d contacts; rasp modes takes a recipe, or a scene of one contact", file, b->scene.n_contacts);
+    if (tool && strcmp(word, ball_tool(b->scene.contacts)) != 0)
+        return err_set(e, ERR_USAGE, "--body %s: what touches the surface of %s is a %s", word, file, ball_tool(b->scene.contacts));
     b->title = scene ? b->scene.title : recipe_remark(c, file, "title");
     b->remark = scene ? NULL : recipe_remark(c, file, "source");
-    b->response = scraper ? &b->scene.contacts[0].scraper.response : &b->scene.contacts[0].surface.response;
+    b->response = tool ? &b->scene.contacts[0].scraper.response : &b->scene.contacts[0].surface.response;
     return true;
 }
 
@@ -110,7 +113,7 @@ static bool all_on(struct cmd_call *c, const struct object *o, const struct mode
 static void standard(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_places *p)
 {
     const double *at = b->response->object.at;
-    if (!strcmp(b->key, "scraper"))
+    if (strcmp(b->key, "surface") != 0)
         line(p, (double[4]){at[0], at[1], at[0], at[1]}, 1, c->arena);
     else if (o->shape == OBJECT_SHELL)
         line(p, (double[4]){0}, 1, c->arena);

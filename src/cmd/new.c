@@ -10,7 +10,7 @@
 static int list(void)
 {
     for (const struct starter *s = starters_table; s->name; s++)
-        printf("%-9s %s\n", s->name, s->summary);
+        printf("%-12s %s\n", s->name, s->summary);
     return 0;
 }
 

@@ -65,11 +65,14 @@ static void render_print(struct cmd_call *c, const struct scene *s, const struct
         fprintf(stderr, "%s: warning: %s\n", s->file, r->warnings[i]);
     if (args_given(&c->args, "json"))
         fputs(r->summary, stdout);
-    else if (!args_given(&c->args, "quiet"))
+    else if (!args_given(&c->args, "quiet")) {
         for (int i = 0; i < r->n_files; i++)
             if (strcmp(r->files[i].kind, "scene") != 0 && strcmp(r->files[i].kind, "summary") != 0)
                 printf("%s  %.3f s, %.3g times real time\n", r->files[i].path, (double)r->frames / s->output.sample_rate,
                        (double)r->frames / s->output.sample_rate / (r->cpu > 1e-9 ? r->cpu : 1e-9));
+        for (int i = 0; i < r->n_notes; i++)
+            printf("%s\n", r->notes[i]);
+    }
 }
 
 /* All scenes, and what each would write; nothing is written yet. */

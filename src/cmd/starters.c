@@ -27,6 +27,9 @@
     ON("motion.path", "spline"), ON("motion.points", "[[0 cm, 0 cm], [3 cm, 2 cm], [5 cm, 0 cm], [3 cm, -1 cm], [8 cm, 1 cm]]"), \
         ON("motion.duration", "1.5 s"), ON("motion.law", "two_thirds")
 #define HAND ON("grip.angle", "30 deg"), ON("grip.azimuth", "0 deg"), ON("grip.friction", "0.3")
+#define PLATE                                                                                                         \
+    ON("surface.object.shape", "plate"), ON("surface.object.length", "30 cm"), ON("surface.object.width", "20 cm"), \
+        ON("surface.object.thickness", "3 mm"), ON("surface.object.origin", "[-10 cm, -8 cm]")
 #define OUTPUT ON("output.sample_rate", "48 kHz"), ON("output.encoding", "pcm24"), ON("output.diagnostics.rate", "1 kHz")
 #define TAIL OUTPUT, ON("accuracy", "standard"), END
 
@@ -73,6 +76,26 @@ static const struct keys_line paper[] = {ON("rasp", "1"), ON("title", "the equat
                                          ON("contact.beta2", "1"), ON("contact.limiter.alpha_min", "1 cm"),
                                          ON("contact.limiter.alpha_max", "5 cm"), ON("contact.limiter.zeta", "0.95"), TAIL};
 
+static const struct keys_line object[] = {ON("rasp", "1"), ON("title", "a stick scraped across a glass plate"), ON("seed", "1"), ROUGHNESS, ON("surface.material", "glass"),
+                                          PLATE, ON("scraper.mass", "20 g"), LINE, ON("motion.duration", "0.8 s"), ON("motion.law", "minimum_jerk"), TAIL};
+
+static const struct keys_line strike[] = {ON("rasp", "1"), ON("title", "a steel ball strikes a glass plate"), ON("surface.material", "glass"), PLATE,
+                                          ON("scraper.mass", "4.1 g"), ON("scraper.radius", "5 mm"), ON("scraper.material", "steel"),
+                                          ON("motion.path", "still"), ON("motion.at", "[4 cm, 3 cm]"), ON("motion.duration", "0.5 s"),
+                                          ON("contact.model", "strike"), ON("contact.strike.speed", "1 m/s"),
+                                          OFF("contact.strike.restitution", "0.7"), TAIL};
+
+static const struct keys_line roll[] = {ON("rasp", "1"), ON("title", "a marble rolls over a plank"), ON("seed", "1"), ROUGHNESS, SURFACE_RESPONSE,
+                                        ON("ball.radius", "8 mm"), ON("ball.material", "glass"), OFF("ball.offset", "0.5 mm"), OFF("ball.response", "marble.csv"),
+                                        LINE, ON("motion.speed", "20 cm/s"), ON("contact.model", "roll"), ON("contact.roll.mu", "1 s/m"),
+                                        ON("contact.roll.static_depth", "3"), ON("contact.roll.scraping", "1"), TAIL};
+
+static const struct keys_line roll_coupled[] = {ON("rasp", "1"), ON("title", "a marble dropped on a glass plate, which it rolls along"), ON("seed", "1"),
+                                                ON("surface.roughness.rms", "0.2 um"), ON("surface.material", "glass"), PLATE,
+                                                ON("ball.radius", "8 mm"), ON("ball.material", "glass"), LINE, ON("motion.speed", "20 cm/s"),
+                                                ON("contact.model", "roll_coupled"), ON("contact.roll.mu", "1 s/m"),
+                                                OFF("contact.roll.integrator", "rk4"), OFF("contact.roll.ground", "rigid"), ON("contact.roll.drop", "5 mm"), TAIL};
+
 static const struct keys_line contacts_head[] = {ON("rasp", "1"), ON("title", "two tools on one plank"), ON("seed", "1"), END};
 static const struct keys_line contacts_rod[] = {ON("name", "rod"), ROUGHNESS, SURFACE_RESPONSE, SCRAPER, LINE, ON("motion.speed", "5 cm/s"), END};
 static const struct keys_line contacts_comb[] = {ON("name", "comb"),
@@ -113,6 +136,20 @@ const struct starter starters_table[] = {
      profile, {NULL}, NULL},
     {"paper", "the contact force exactly as the 2021 paper prints it", "Equations 2 and 3 as printed, instead of the default, which keeps momentum.", paper,
      {NULL}, NULL},
+    {"object", "a scrape of an object that rings: its modes follow from size and material",
+     "The plate's modes are computed from its size and material, which need no file; it is heard where it is touched, since output.listen says nothing else.",
+     object, {NULL}, NULL},
+    {"strike", "an impact on an object that rings",
+     "A ball strikes a plate once, and both its stiffness and the plate's modes follow from the materials. With restitution (remove the #) it bounces.", strike,
+     {NULL}, NULL},
+    {"roll", "a ball that rolls: the force follows from its centre's way over the surface",
+     "The kinematic model of the 2021 paper: quick, and it never bounces. An offset of the centre of mass (remove the #) makes the normal force, and with it the ball's, swing with each turn. "
+     "For sound, give the surface or the ball a response.",
+     roll, {NULL}, NULL},
+    {"roll_coupled", "a ball that is dropped, bounces and rolls: flight, contact and the plate's modes solved together",
+     "The coupled model: the ball lifts off and lands as its mass, the contact and the surface's modes have it, and the CSV keeps its energy's ledger. A drop of 0 lays "
+     "the ball down.",
+     roll_coupled, {NULL}, NULL},
     {"contacts", "two contacts whose sounds add up",
      "Every contact has its own surface, scraper and motion; rasp render --set contacts.comb.gain=0.2 changes one.", contacts_head,
      {contacts_rod, contacts_comb}, contacts_tail},

@@ -3,7 +3,7 @@
        y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m),   half of h(0+) at m = n,   h_x(t) = sum_i Im A_i(x) e^(s_i(x) t)
 
    Component i has nodes at multiples of its own hop H_i; node k has the pole and gain of frame k H_i, gets w_k f with the cardinal windows w_k of
-   order 1, 2 or 4 (cardinal.h), and rings freely afterwards. That interpolates h between nodes: its error is hop.h's, of order H^order,
+   order 1, 2 or 4 (cardinal.h), and rings freely afterwards. That interpolates h between nodes: its error is of order H^order (ring_error.h),
    component by component. What the force adds by itself, -Im A/(2 rate) and the direct term of an acceleration (modes_direct), is
    interpolated by the same windows.
 

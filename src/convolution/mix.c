@@ -1,4 +1,4 @@
-/* Total response: the surface's sound and the scraper's (papers/000 section 2.4), times the contact's gain, at each listening place. */
+/* Total response: the surface's sound and the scraper's or ball's (papers/000 section 2.4), times the contact's gain, at each listening place. */
 #include <string.h>
 
 #include "response/listener.h"
@@ -7,8 +7,7 @@
 
 static bool mix_wanted(const struct contact *c, const struct scene *s)
 {
-    (void)s;
-    return rules_rings(c);
+    return rules_rings(c) && s->output.quantity != QUANTITY_FORCE;
 }
 
 static double mix_work(const struct contact *c, const struct scene *s)
@@ -41,9 +40,9 @@ static bool mix_run(struct stage_run *r, long from, long to, struct err *e)
 
 const struct stage mix_stage = {
     .name = "mix",
-    .does = "sum of the surface's and the scraper's sound",
+    .does = "sum of the surface's and the scraper's or ball's sound",
     .paper = "000 eq. 11",
-    .idle = "nothing rings",
+    .idle = "nothing rings, or the force is the sound",
     .takes = ITEM_BIT(ITEM_SURFACE_SOUND) | ITEM_BIT(ITEM_SCRAPER_SOUND),
     .gives = ITEM_BIT(ITEM_SOUND),
     .wanted = mix_wanted,

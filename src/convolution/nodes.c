@@ -11,7 +11,7 @@
 
        l_j = sin(phi) sin(pi d) / (c_j n 2 sin(pi (j + d/2)/n) sin(pi d/(2 n))),
 
-   in which nothing cancels. At a node, exactly, it is 1 and the others 0. */
+   in which nothing cancels. At a node, exactly or as far as n phi tells, it is 1 and the others 0. */
 #include "convolution/nodes.h"
 
 #include <stdbool.h>
@@ -110,6 +110,11 @@ static void locate(struct nodes *n, int i, const struct piece *p, double e, doub
     int k = p->first + (n->right[i] ? p->n - (int)j : (int)j);
     n->e[i] = e;
     n->nearest[i] = k;
+    if (fabs(d) < 1e-30) { /* a node as far as can be told: 0/0 below */
+        n->v[i] = 0.0;
+        n->near[i] = 1.0;
+        return;
+    }
     n->v[i] = (fmod(j, 2.0) == 0.0 ? sine : -sine) * turn / p->n;
     n->near[i] = sine * turn / (c * p->n * 2.0 * real_sinpi((j + half) / p->n) * real_sinpi(half / p->n));
 }

@@ -5,7 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "convolution/ring_along.h"
 #include "response/object.h"
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "trajectory/trajectory.h"
 
@@ -55,12 +57,11 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
 /* All that is summed is of one quantity; what is recorded does not say its own, and goes with any. */
 static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
 {
-    static const char *const names[] = {"displacement", "velocity", "acceleration", "sound pressure"};
     int quantity = listener_quantity(g->voices[0].listener);
     if (b->quantity >= 0 && b->quantity != quantity)
         return err_set(e, ERR_SCENE,
                        "%s: this response gives %s, but the surface's gives %s: they cannot be summed; use tables of one quantity, or choose one "
-                       "by output.quantity", g->choice->modes.name, names[quantity], names[b->quantity]);
+                       "by output.quantity", g->choice->modes.name, modes_quantity_name(quantity), modes_quantity_name(b->quantity));
     b->quantity = quantity;
     return true;
 }
@@ -69,6 +70,15 @@ static void note_ring(const struct ring *g, const struct response *given, struct
 {
     double ring = modes_ring_time(&g->choice->modes, 80) + (double)g->delay / b->rate;
     b->ring = fmax(b->ring, isnan(given->length) ? ring : fmin(ring, given->length));
+}
+
+/* The sound ends 60 s after the last force where output.tail is auto (pipeline/render_parts.c). */
+static void note_endless(const struct ring *g, const struct response *given, struct stage_run *r)
+{
+    double ring = modes_ring_time(&g->choice->modes, 80);
+    if (isnan(r->scene->output.tail) && isnan(given->length) && ring > 60)
+        board_warn(r->board, arena_format(r->arena, "%s: its slowest mode has fallen by %.3g dB only when the sound ends, 60 s after the motion: set output.tail, or "
+                                          "give the mode more decay", g->choice->modes.name, 80 * 60 / ring));
 }
 
 static void note_warnings(const struct ring *g, struct stage_run *r)
@@ -84,7 +94,7 @@ static void note_warnings(const struct ring *g, struct stage_run *r)
 
 static bool ring_beyond(const struct ring *g, const struct stage_run *r, const double place[2], double out, struct err *e)
 {
-    return err_set(e, ERR_SCENE, "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: "
+    return err_set(e, ERR_SCENE, "contact '%s': surface.response: the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: "
                                  "nearest", r->contact->name, place[0], place[1], out, g->choice->modes.name);
 }
 
@@ -114,7 +124,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
 {
     bool surface = body == RING_SURFACE;
     const struct response *given = ring_given(r->contact, body);
-    *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .key = surface ? "surface" : "scraper",
+    *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .key = surface ? "surface" : ball_tool(r->contact),
                        .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight,
                        .moves = given->choice->moves,
                        .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT, .channels = r->board->channels};
@@ -127,20 +137,12 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
             return false;
     note_ring(g, given, r->board);
     note_warnings(g, r);
+    note_endless(g, given, r);
     r->back = (int)g->delay;
     return note_quantity(g, r->board, e) && (!surface || given->extrapolate != EXTRAPOLATE_ERROR || ring_inside(g, r, e));
 }
 
 /* ------------------------------------------------------------------ a voice at work */
-
-/* Where the contact is at t (s), by its motion's own formula before its start and after its end. */
-static struct modes_where where_at(const struct ring *g, double t)
-{
-    const struct trajectory *tr = g->board->trajectory;
-    double share = tr->duration > 0 ? t / tr->duration : 0, place[2];
-    trajectory_continued(tr, t, place);
-    return (struct modes_where){place[0], place[1], share};
-}
 
 void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where, const struct modes_point *p)
 {
@@ -156,39 +158,37 @@ void ring_point_in(const struct ring *g, const struct ring_voice *v, const struc
     }
 }
 
-/* p <- end^2 / p: what goes on straight in the logarithm beyond the motion's end, where p is as far inside. */
-static void reflect(const struct ring_voice *v, const struct modes_point *end, const struct modes_point *p)
-{
-    for (int i = 0; i < v->n; i++) {
-        double re = end->re[i], im = end->im[i], square = p->re[i] * p->re[i] + p->im[i] * p->im[i], to = re * re + im * im;
-        double lean = re * p->re[i] + im * p->im[i], turn = im * p->re[i] - re * p->im[i]; /* end / p = (lean + j turn) / square */
-        bool steady = square > 1e-6 * to && lean > 0;
-        p->re[i] = steady ? (re * lean - im * turn) / square : 2 * re - p->re[i];
-        p->im[i] = steady ? (re * turn + im * lean) / square : 2 * im - p->im[i];
-        if (p->frequency) {
-            p->frequency[i] = p->frequency[i] > 0 ? end->frequency[i] * end->frequency[i] / p->frequency[i] : 0;
-            p->decay[i] = p->decay[i] > 0 ? end->decay[i] * end->decay[i] / p->decay[i] : 0;
-        }
-    }
-}
-
 void ring_point_at(const struct ring *g, const struct ring_voice *v, double frame, const struct modes_point *p)
 {
     struct modes_where where = {v->modes->home[0], v->modes->home[1], 0};
-    double last = g->board->trajectory->duration, t = (frame - (double)v->delay) / g->board->rate, end = t < 0 ? 0 : last;
+    const struct trajectory *tr = g->board->trajectory;
+    double last = tr->duration, t = (frame - (double)v->delay) / g->board->rate, end = t < 0 ? 0 : last;
     if (g->stays)
         t = fmin(fmax(t, 0), last);
     if (g->body == RING_SURFACE && g->moves && (t < 0 || t > last)) {
-        struct modes_where inside = where_at(g, fmin(fmax(2 * end - t, 0), last));
-        where = where_at(g, end);
-        ring_point_in(g, v, &where, &v->end);
+        struct modes_where inside = ring_along_where(tr, fmin(fmax(2 * end - t, 0), last));
         ring_point_in(g, v, &inside, p);
-        reflect(v, &v->end, p);
+        if (ring_along_returns(v->modes, tr, t))
+            return;
+        where = ring_along_where(tr, end);
+        ring_point_in(g, v, &where, &v->end);
+        ring_along_mirror(v->n, &v->end, p);
         return;
     }
     if (g->body == RING_SURFACE)
-        where = where_at(g, g->moves ? t : 0);
+        where = ring_along_where(tr, g->moves ? t : 0);
     ring_point_in(g, v, &where, p);
+}
+
+double *ring_component_hops(const struct ring *g, const struct ring_voice *v, struct arena *a)
+{
+    const struct ring_choice *c = g->choice;
+    double *all = ARENA_TAKE(a, double, v->n), least = c->hops[0];
+    for (int i = 1; i < c->modes.n; i++)
+        least = fmin(least, c->hops[i]);
+    for (int i = 0; i < v->n; i++)
+        all[i] = v->modes == &c->modes && i < c->modes.n ? c->hops[i] : least;
+    return all;
 }
 
 void ring_put(const struct ring *g, int channel, long from, long to)

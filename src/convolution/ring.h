@@ -35,12 +35,14 @@ struct ring {
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e);
 
 /* Gains (weight included) of the contact at frame `frame`, and poles into p->frequency and p->decay, unless they are NULL. p is [voice->n].
-   Before the motion's start and after its end, where there is no force, they go on straight in the logarithm (unless g->stays), so that
-   interpolation between frames keeps its order up to there. */
+   Before the motion's start and after its end, where there is no force, they go on as ring_along.h says. */
 void ring_point_at(const struct ring *g, const struct ring_voice *v, double frame, const struct modes_point *p);
 
 /* The same at a place. */
 void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where, const struct modes_point *p);
+
+/* [v->n] hops of a voice's components (choice->hops); those of modes that are not the chosen ones, or that a listener adds, are the shortest of all. */
+double *ring_component_hops(const struct ring *g, const struct ring_voice *v, struct arena *a);
 
 /* Writes the voice's sound from v's y into the item's channel, for frames [from, to). */
 void ring_put(const struct ring *g, int channel, long from, long to);

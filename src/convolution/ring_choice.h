@@ -3,7 +3,6 @@
 #ifndef CONVOLUTION_RING_CHOICE_H
 #define CONVOLUTION_RING_CHOICE_H
 #include "convolution/ring_nodes.h"
-#include "convolution/ring_survey.h"
 #include "response/modes.h"
 #include "scene/scene.h"
 
@@ -18,10 +17,12 @@ struct ring_choice {
     int high;                    /* how many were dropped above it                           */
     const char *note;            /* a warning from reading; NULL: none                       */
     bool moves;                  /* the response changes on the way                          */
-    struct ring_survey survey;   /* of a response that moves                                 */
     int order, hop;              /* of overlap-add and readout; hop in frames                */
-    double *hops;                /* [modes.n] frames, of launch                              */
+    double *hops;                /* [modes.n] frames, of launch and of readout by resonators; else NULL */
+    int ramp;                    /* frames, of resonators                                    */
     struct ring_nodes nodes;     /* of panned modes                                          */
+    double seconds;              /* of an impulse response that is computed                  */
+    double forgotten;            /* dB by which what rings has decayed when it is dropped      */
     double error;                /* predicted, relative rms; 0: none                         */
     double work;                 /* predicted cycles per audio sample                        */
 };

@@ -23,22 +23,9 @@ static void launching_point(void *self, double frame, const struct modes_point *
     ring_point_at(s->ring, s->voice, frame, p);
 }
 
-/* Hops of the voice's components; those of modes that are not the chosen ones, or that a listener adds, are the shortest of all. */
-static double *launching_hops(const struct ring_launch *s, const struct ring_voice *v, struct arena *a)
-{
-    const struct ring_choice *c = s->ring.choice;
-    double *all = ARENA_TAKE(a, double, v->n), least = c->hops[0];
-    for (int i = 1; i < c->modes.n; i++)
-        least = c->hops[i] < least ? c->hops[i] : least;
-    for (int i = 0; i < v->n; i++)
-        all[i] = v->modes == &c->modes && i < c->modes.n ? c->hops[i] : least;
-    return all;
-}
-
 static bool ring_launch_open(struct stage_run *r, struct err *e)
 {
     struct ring_launch *s = ARENA_TAKE(r->arena, struct ring_launch, 1);
-    double db = r->scene->accuracy.morph_error;
     r->state = s;
     if (!ring_open(&s->ring, r, RING_SURFACE, e))
         return false;
@@ -47,7 +34,7 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
         const struct ring_voice *v = &s->ring.voices[k];
         s->voices[k] = (struct launching){.ring = &s->ring, .voice = v};
         struct launch_ask ask = {.n = v->n, .order = (int)r->scene->accuracy.overlap_order, .rate = r->board->rate,
-                                 .hop = launching_hops(s, v, r->arena), .floor = db < 0 ? real_exp10((db - 20) / 20) : 1e-7,
+                                 .hop = ring_component_hops(&s->ring, v, r->arena), .floor = real_exp10(-s->ring.choice->forgotten / 20),
                                  .quantity = listener_quantity(v->listener)};
         s->voices[k].engine = launch_open(&ask, launching_point, &s->voices[k]);
     }

@@ -1,11 +1,13 @@
 /* The surface's and the scraper's responses by fast convolution: an impulse response from a WAV, which does not move, or modes sampled at nodes along
-   the motion: overlap_add.h (every place launches its own response) or readout.h (all is heard through the present place's). Modes without
-   response_length are kept until every one has decayed by 140 dB; with it the response is cut at t0 (papers/000 equation 10). */
+   the motion: overlap_add.h (every place launches its own response) or readout.h (all is heard through the present place's; also without impulse
+   responses, by resonators: readout_modes.h). Modes without
+   response_length are kept until every one has decayed by 140 dB (more where a smaller error is asked for); with it the response is cut at t0 (papers/000 equation 10). */
 #include <math.h>
 #include <string.h>
 
 #include "convolution/overlap_add.h"
 #include "convolution/readout.h"
+#include "convolution/readout_modes.h"
 #include "convolution/ring.h"
 #include "response/ir.h"
 
@@ -14,8 +16,9 @@ struct overlap_voice {
     const struct ring_voice *voice;
     struct ir_sampler *sampler;
     struct modes_point point;
-    struct overlap_add *launch; /* one of the two */
+    struct overlap_add *launch; /* one of the three */
     struct readout *readout;
+    struct readout_modes *modes;
 };
 
 struct ring_overlap {
@@ -53,12 +56,31 @@ static bool open_wav(struct ring_overlap *s, struct stage_run *r, const struct r
     return true;
 }
 
+static void point_modes(void *self, double frame, const struct modes_point *p)
+{
+    const struct overlap_voice *v = self;
+    ring_point_at(v->ring, v->voice, frame, p);
+}
+
+/* Readout by resonators: c->hops. */
+static void voice_recall(struct overlap_voice *v, struct stage_run *r)
+{
+    const struct ring_choice *c = v->ring->choice;
+    struct readout_modes_ask ask = {.n = v->voice->n, .order = c->order, .rate = r->board->rate, .hop = ring_component_hops(v->ring, v->voice, r->arena),
+                                    .decibel = c->forgotten, .seconds = c->seconds, .quantity = listener_quantity(v->voice->listener)};
+    v->modes = readout_modes_open(&ask, point_modes, v);
+}
+
 static void voice_open(struct ring_overlap *s, struct stage_run *r, int channel, size_t length)
 {
     const struct ring_choice *c = s->ring.choice;
     struct overlap_voice *v = &s->voices[channel];
     v->ring = &s->ring;
     v->voice = &s->ring.voices[channel];
+    if (c->engine == RING_READOUT && c->hops) {
+        voice_recall(v, r);
+        return;
+    }
     v->sampler = ir_sampler_make(r->arena, v->voice->n, r->board->rate);
     v->point = modes_point_make(r->arena, v->voice->n);
     if (c->engine == RING_READOUT)
@@ -67,12 +89,11 @@ static void voice_open(struct ring_overlap *s, struct stage_run *r, int channel,
         v->launch = overlap_add_open(length, s->ring.moves ? c->order : 0, s->ring.moves ? c->hop : 0, response_modes, v);
 }
 
-static bool open_modes(struct ring_overlap *s, struct stage_run *r, const struct response *given)
+static bool open_modes(struct ring_overlap *s, struct stage_run *r)
 {
-    double t0 = isnan(given->length) ? fmin(modes_ring_time(&s->ring.choice->modes, 140), 60) : given->length;
     s->voices = ARENA_TAKE(r->arena, struct overlap_voice, s->ring.channels);
     for (; s->n < s->ring.channels; s->n++)
-        voice_open(s, r, s->n, ir_length(r->board->rate, t0));
+        voice_open(s, r, s->n, ir_length(r->board->rate, s->ring.choice->seconds));
     return true;
 }
 
@@ -81,9 +102,10 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
     struct ring_overlap *s = ARENA_TAKE(r->arena, struct ring_overlap, 1);
     const struct response *given = body == RING_SURFACE ? &r->contact->surface.response : &r->contact->scraper.response;
     r->state = s;
-    if (!ring_open(&s->ring, r, body, e) || !(s->ring.choice->recorded ? open_wav(s, r, given, e) : open_modes(s, r, given)))
+    if (!ring_open(&s->ring, r, body, e) || !(s->ring.choice->recorded ? open_wav(s, r, given, e) : open_modes(s, r)))
         return false;
-    r->ahead = s->voices[0].readout ? readout_ahead(s->voices[0].readout) : overlap_add_ahead(s->voices[0].launch);
+    if (!s->voices[0].modes)
+        r->ahead = s->voices[0].readout ? readout_ahead(s->voices[0].readout) : overlap_add_ahead(s->voices[0].launch);
     return true;
 }
 
@@ -95,7 +117,9 @@ static bool ring_overlap_run(struct stage_run *r, long from, long to, struct err
         const struct overlap_voice *v = &s->voices[k];
         const double *f = v->voice ? ring_force(&s->ring, v->voice, from) : board_at(r->board, ITEM_FORCE, from);
         memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
-        if (v->readout)
+        if (v->modes)
+            readout_modes_run(v->modes, f, s->ring.y, to - from);
+        else if (v->readout)
             readout_run(v->readout, f, s->ring.y, to - from);
         else
             overlap_add_run(v->launch, f, s->ring.y, to - from);
@@ -111,6 +135,8 @@ static void ring_overlap_close(struct stage_run *r)
     for (int k = 0; s && k < s->n; k++) {
         if (s->voices[k].launch)
             overlap_add_close(s->voices[k].launch);
+        if (s->voices[k].modes)
+            readout_modes_close(s->voices[k].modes);
         if (s->voices[k].readout)
             readout_close(s->voices[k].readout);
     }
@@ -186,9 +212,9 @@ const struct stage ring_overlap_readout_stage = {
 
 const struct stage ring_overlap_scraper_stage = {
     .name = "scraper_overlap_add",
-    .does = "the scraper rings by fast convolution with its impulse response",
+    .does = "the scraper or ball rings by fast convolution with its impulse response",
     .paper = "000 eq. 11",
-    .idle = "the scraper is damped (weight 0), has no impulse response, or its modes go by resonators",
+    .idle = "scraper or ball is damped (weight 0), has no impulse response, or its modes go by resonators",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SCRAPER_SOUND),
     .wanted = scraper_wanted,

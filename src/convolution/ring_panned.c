@@ -138,10 +138,9 @@ static bool open_recorded(struct ring_panned *s, struct stage_run *r, struct err
 
 static bool open_nodes(struct ring_panned *s, struct stage_run *r)
 {
-    double cut = r->contact->surface.response.length;
     const struct ring_nodes *n = &s->ring.choice->nodes;
     s->nodes = nodes_make(r->arena, n->pieces, n->breaks, n->count);
-    size_t length = ir_length(r->board->rate, isnan(cut) ? fmin(modes_ring_time(&s->ring.choice->modes, 140), 60) : cut);
+    size_t length = ir_length(r->board->rate, s->ring.choice->seconds);
     s->voices = ARENA_TAKE(r->arena, struct panning, s->ring.channels);
     for (; s->n < s->ring.channels; s->n++) {
         struct panning *p = &s->voices[s->n];

@@ -1,5 +1,5 @@
 /* The surface's and the scraper's modes as resonators (convolution/resonators.h): exact for poles that do not move (`fixed`), and the definition of
-   `glide` for those that do. Gains and poles are evaluated every accuracy.gain_ramp samples, at multiples of it, and ramped linearly between;
+   `glide` for those that do. Gains and poles are evaluated every ring_choice.ramp samples, at multiples of it, and ramped linearly between;
    a ramp is always run as a whole, so that nothing depends on where blocks end. */
 #include <string.h>
 
@@ -25,7 +25,7 @@ static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
     struct bank *b = &s->banks[channel];
     b->to = modes_point_make(r->arena, v->n);
     b->y = ARENA_TAKE(r->arena, double, s->ramp);
-    ring_point_at(&s->ring, v, 0, &b->to);
+    ring_point_at(&s->ring, v, s->ring.moves ? -1 : 0, &b->to); /* the frame before the first ramp */
     struct resonators_ask ask = {.n = v->n, .quantity = listener_quantity(v->listener), .rate = r->board->rate, .frequency = b->to.frequency,
                                  .decay = b->to.decay, .glides = s->ring.choice->reading == MOVING_GLIDE, .ramp = s->ramp};
     b->bank = resonators_make(r->arena, &ask);
@@ -38,7 +38,7 @@ static bool ring_bank_open(struct stage_run *r, enum ring_body body, struct err 
     r->state = s;
     if (!ring_open(&s->ring, r, body, e))
         return false;
-    s->ramp = s->ring.moves ? (int)r->scene->accuracy.gain_ramp : 1;
+    s->ramp = s->ring.choice->ramp;
     s->banks = ARENA_TAKE(r->arena, struct bank, s->ring.channels);
     for (int k = 0; k < s->ring.channels; k++)
         bank_open(s, r, k);
@@ -142,9 +142,9 @@ const struct stage ring_resonators_surface_stage = {
 
 const struct stage ring_resonators_scraper_stage = {
     .name = "scraper_resonators",
-    .does = "the scraper's modes ring, one exact recursion each",
+    .does = "the scraper's or ball's modes ring, one exact recursion each",
     .paper = "000 eq. 11",
-    .idle = "the scraper is damped (weight 0), has no modes, or they go by overlap-add",
+    .idle = "scraper or ball is damped (weight 0), has no modes, or they go by overlap-add",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SCRAPER_SOUND),
     .wanted = scraper_wanted,

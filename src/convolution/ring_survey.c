@@ -1,240 +1,264 @@
-/* How fast a response moves along a motion, and the error that hops make: the formula of hop.h, mode by mode.
+/* Where a motion is looked at to find the error that interpolation makes along it.
 
-   A mode A e^(s tau) of an impulse response that is interpolated over hops of H seconds with a polynomial of p points errs by rms_u[l] H^p
-   |d^p/dt^p A e^(s tau)|, l the polynomial's node product over p! (hop.c). To leading order the derivative is (A'/A + s' tau)^p A e^(s tau). s' is all
-   but imaginary and A'/A real, so their squares add, and the mean of its square over tau, against that of e^(-sigma tau), is
+   One cycle of the motion is cut into cells. A cell's movement is, mode by mode, that of its gain and of its pole over its decay,
 
-       2 sigma int (g^2 + |s'|^2 tau^2)^p e^(-2 sigma tau) dtau = sum_j C(p, j) g^(2p-2j) |s'|^2j (2j)! / (2 sigma)^2j ,   g = |A'/A| ,
+       (|dA|^2/|A|^2 + |ds|^2 / (2 sigma^2)) |A|^2/sigma,   |A| not below a tenth of the mode's largest (near a zero A'/A means nothing),
 
-   of which hop_error (g = 0) is the last term. Where the way passes from one pair (or triangle) of places to the next, interpolation between places
-   has a kink: A' and s' jump by D and J. A polynomial of 2 or 4 points over a kink in slope errs by c H^3 in the integral of the square per unit jump,
-   on the average over where in the hop it falls, c = 1/90 and 0.00615 (tests/unit/test_ring_survey.c); the jump's square is D^2 + J^2 2/(2 sigma)^2
-   after the same mean over tau. Near a gain's zero A'/A means nothing: there A counts as a tenth of the mode's largest on the way.
-   Modes are summed by their energy |A|^2 / sigma, instants evenly, or by the square of the speed: a scrape is loud where it is fast. */
+   times the force's power, each mode's sum over the cycle set to 1. A cell is bent where the way passes from one pair (or triangle) of places to the
+   next, or where velocity jumps by a tenth of its largest.
+
+   Instants are drawn from a mixture of densities: even over the motion, by movement, even over the surroundings of bent cells, of the two ends. Each
+   stands for 1/(number x density of the mixture there), so sums over them are integrals over time, whatever the mixture is; it only makes them
+   converge. Draws are Kronecker's sequences (golden ratio; plastic number in two dimensions), the same in every run. */
 #include "convolution/ring_survey.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "convolution/hop.h"
 #include "num/real.h"
 
-enum { INSTANTS = 257, MOST_INSTANTS = 1025 }; /* of what has kinks always the most */
-#define KINK 0.03 /* of the fastest movement: what slopes change by less between two instants is no kink */
+enum { STRAIGHT = 1024, MOST = 8192, WORK = 500000, KINKS = 4 };
 
-static void row_at(const struct modes *m, const struct trajectory *tr, double t, const struct modes_point *p, double place[2])
-{
-    trajectory_continued(tr, t, place);
-    if (m->shared) {
-        memcpy(p->frequency, m->frequency, (size_t)m->n * sizeof *p->frequency);
-        memcpy(p->decay, m->decay, (size_t)m->n * sizeof *p->decay);
-    }
-    modes_at(m, &(struct modes_where){place[0], place[1], tr->duration > 0 ? t / tr->duration : 0}, p);
-}
+/* ------------------------------------------------------------------ looking */
 
-static double size2(double x, double y)
-{
-    return sqrt(x * x + y * y);
-}
-
-/* Derivatives from one row to the next, of mode i. */
-struct slope {
-    double s[2], a[2], size, sigma; /* of pole and gain; |A|, decay between the rows */
+struct looking {
+    const struct ring_survey_ask *ask;
+    struct ring_survey *s;
+    int n;
+    double *largest, *sum; /* [n] of |A|^2; of the movement */
+    double *moved;         /* [cells][n] */
+    double (*place)[2];    /* [cells + 1] */
 };
 
-static struct slope slope_of(const struct modes_point *rows, int k, int i, double step)
+static long cells_of(const struct ring_survey_ask *ask)
 {
-    const struct modes_point *p = &rows[k], *q = &rows[k + 1];
-    return (struct slope){{(q->decay[i] - p->decay[i]) / step, 2 * REAL_PI * (q->frequency[i] - p->frequency[i]) / step},
-                          {(q->re[i] - p->re[i]) / step, (q->im[i] - p->im[i]) / step},
-                          size2(0.5 * (p->re[i] + q->re[i]), 0.5 * (p->im[i] + q->im[i])), fmax(0.5 * (p->decay[i] + q->decay[i]), 1e-3)};
+    long detail = ask->trajectory->straight ? STRAIGHT : ask->trajectory->detail, most = WORK / (ask->modes->n + 1);
+    detail = detail < STRAIGHT ? STRAIGHT : detail > MOST ? MOST : detail;
+    return detail > most ? (most < 64 ? 64 : most) : detail;
 }
 
-/* |A' + s' A tau|^2, mean over tau as above, over A^2. */
-static double movement(double gain, double pole, double scale, double sigma)
+static double floor_of(const struct ring_survey *s)
 {
-    return gain * gain / (scale * scale) + pole * pole / (2 * sigma * sigma);
+    return 0.5 / fmax(s->duration, 1e-3);
 }
 
-struct walk {
-    int instants;
-    double step, least, limit; /* s; of |A|; of the square of a jump below which it is none */
-    const double *loud;
+/* Mode i from one row to the next. */
+static void look_at(struct looking *k, long cell, const struct modes_point *p, const struct modes_point *q)
+{
+    double step = k->s->step;
+    for (int i = 0; i < k->n; i++) {
+        double sigma = fmax(0.5 * (p->decay[i] + q->decay[i]), floor_of(k->s)), dd = p->decay[i] - q->decay[i];
+        double dw = 2 * REAL_PI * (q->frequency[i] - p->frequency[i]), dre = q->re[i] - p->re[i], dim = q->im[i] - p->im[i];
+        double size = fmax(p->re[i] * p->re[i] + p->im[i] * p->im[i], 0.01 * k->largest[i]), *slope = k->s->slope;
+        k->moved[cell * k->n + i] = k->s->loud[cell] * (dre * dre + dim * dim + size * (dd * dd + dw * dw) / (2 * sigma * sigma)) / sigma;
+        k->sum[i] += k->moved[cell * k->n + i];
+        if (slope) {
+            double re = dd / step, im = dw / step, *turned = k->s->turned + 2 * (cell * k->n + i);
+            slope[2 * (cell * k->n + i)] = re;
+            slope[2 * (cell * k->n + i) + 1] = im;
+            turned[2 * k->n] = turned[0] + (re * re - im * im) * step;
+            turned[2 * k->n + 1] = turned[1] + 2 * re * im * step;
+        }
+    }
+}
+
+static void look_places(struct looking *k)
+{
+    struct ring_survey *s = k->s;
+    double sum = 0;
+    for (long c = 0; c <= s->cells; c++)
+        trajectory_continued(k->ask->trajectory, (double)c * s->step, k->place[c]);
+    for (long c = 0; c < s->cells; c++) {
+        double dx = k->place[c + 1][0] - k->place[c][0], dy = k->place[c + 1][1] - k->place[c][1];
+        s->loud[c] = k->ask->by_speed ? dx * dx + dy * dy : 1;
+        sum += s->loud[c];
+    }
+    for (long c = 0; c < s->cells; c++)
+        s->loud[c] = sum > 0 ? s->loud[c] * (double)s->cells / sum : 1;
+}
+
+/* The cell's way, a little longer, so that a kink at its very end is seen. */
+static bool bends(const struct looking *k, long c, double fastest)
+{
+    const struct modes *m = k->ask->modes;
+    const double *p = k->place[c], *q = k->place[c + 1], way[2] = {q[0] - p[0], q[1] - p[1]};
+    double u[KINKS];
+    if (c > 0) {
+        const double *o = k->place[c - 1], jump[2] = {way[0] - (p[0] - o[0]), way[1] - (p[1] - o[1])};
+        if (jump[0] * jump[0] + jump[1] * jump[1] > 0.01 * fastest)
+            return true;
+    }
+    return m->kinks && m->kinks(m, p, (double[2]){q[0] + 0.01 * way[0], q[1] + 0.01 * way[1]}, u, KINKS) > 0;
+}
+
+static void look_bends(struct looking *k)
+{
+    double fastest = 0;
+    for (long c = 0; c < k->s->cells; c++) {
+        double dx = k->place[c + 1][0] - k->place[c][0], dy = k->place[c + 1][1] - k->place[c][1];
+        fastest = fmax(fastest, dx * dx + dy * dy);
+    }
+    for (long c = 0; c < k->s->cells; c++)
+        k->s->bent[c + 1] = k->s->bent[c] + bends(k, c, fastest);
+}
+
+static void look_along(struct looking *k, struct arena *a)
+{
+    struct modes_point row[2] = {modes_point_make(a, k->n), modes_point_make(a, k->n)};
+    struct ring_survey *s = k->s;
+    for (long c = 0; c <= s->cells; c += 1 + s->cells / 64) {
+        ring_along_at(&s->along, (double)c * s->step, &row[0]);
+        for (int i = 0; i < k->n; i++)
+            k->largest[i] = fmax(k->largest[i], row[0].re[i] * row[0].re[i] + row[0].im[i] * row[0].im[i]);
+    }
+    for (long c = 0; c <= s->cells; c++) {
+        ring_along_at(&s->along, (double)c * s->step, &row[c % 2]);
+        if (c > 0)
+            look_at(k, c - 1, &row[(c - 1) % 2], &row[c % 2]);
+    }
+}
+
+static void cumulate(struct looking *k)
+{
+    double *moved = k->s->moved, sum = 0;
+    for (long c = 0; c < k->s->cells; c++) {
+        moved[c] = sum;
+        for (int i = 0; i < k->n; i++)
+            sum += k->sum[i] > 0 ? k->moved[c * k->n + i] / k->sum[i] : 0;
+    }
+    moved[k->s->cells] = sum;
+    for (long c = 0; c <= k->s->cells; c++)
+        moved[c] = sum > 0 ? moved[c] / sum : (double)c / (double)k->s->cells;
+}
+
+void ring_survey(const struct ring_survey_ask *ask, struct arena *a, struct ring_survey *s)
+{
+    const struct trajectory *tr = ask->trajectory;
+    struct arena *work = arena_open();
+    int n = ask->modes->n;
+    *s = (struct ring_survey){.along = ring_along_make(ask->modes, tr, ask->stays, a), .duration = tr->duration, .cells = cells_of(ask)};
+    s->cycle = ask->modes->travels || !(tr->cycle > 0) || tr->cycle > tr->duration ? tr->duration : tr->cycle;
+    s->step = s->cycle / (double)s->cells;
+    s->loud = ARENA_TAKE(a, double, s->cells);
+    s->moved = ARENA_TAKE(a, double, s->cells + 1);
+    s->bent = ARENA_TAKE(a, int, s->cells + 1);
+    s->slope = ask->slopes ? ARENA_TAKE(a, double, 2 * s->cells * n) : NULL;
+    s->turned = ask->slopes ? ARENA_TAKE(a, double, 2 * (s->cells + 1) * n) : NULL;
+    struct looking k = {ask, s, n, ARENA_TAKE(work, double, n), ARENA_TAKE(work, double, n), ARENA_TAKE(work, double, s->cells * n),
+                        arena_take(work, (size_t)s->cells + 1, sizeof *k.place)};
+    look_places(&k);
+    look_bends(&k);
+    look_along(&k, work);
+    cumulate(&k);
+    arena_close(work);
+}
+
+/* ------------------------------------------------------------------ drawing */
+
+static long cell_at(const struct ring_survey *s, double t)
+{
+    double in = t - floor(t / s->cycle) * s->cycle;
+    long c = (long)(in / s->step);
+    return c < 0 ? 0 : c >= s->cells ? s->cells - 1 : c;
+}
+
+double ring_survey_loud(const struct ring_survey *s, double t)
+{
+    return t < 0 || t > s->duration ? 0 : s->loud[cell_at(s, t)];
+}
+
+/* How often the motion passes an instant of its cycle. */
+static double repeats(const struct ring_survey *s, double t)
+{
+    return fmax(floor((s->duration - t) / s->cycle) + 1, 1);
+}
+
+/* Bent cells before cell c, counted on from cycle to cycle. */
+static double bent_before(const struct ring_survey *s, double c)
+{
+    double all = ceil(s->duration / s->step - 1e-6), cells = (double)s->cells;
+    c = c < 0 ? 0 : c > all ? all : c;
+    double rounds = floor(c / cells);
+    return rounds * s->bent[s->cells] + s->bent[(long)(c - rounds * cells)];
+}
+
+struct drawing {
+    const struct ring_survey *s;
+    double reach, bends; /* s; bent cells in all */
 };
 
-/* Kinks of mode i. One that falls between two instants shows as two jumps one after the other, which are one. */
-static double kinks_of(const struct modes_point *rows, int i, const struct walk *w)
+enum { EVEN, MOVED, BENT, ENDS };
+static const int mixture[8] = {EVEN, MOVED, BENT, MOVED, EVEN, MOVED, BENT, ENDS};
+
+static double density(const struct drawing *d, double t)
 {
-    double sum = 0, ds[2] = {0, 0}, da[2] = {0, 0};
-    int run = 0;
-    for (int k = 1; k < w->instants; k++) {
-        struct slope now = slope_of(rows, k, i, w->step), before = slope_of(rows, k - 1, i, w->step);
-        double scale = fmax(now.size, w->least), js[2], ja[2];
-        for (int c = 0; c < 2; c++) {
-            js[c] = now.s[c] - before.s[c];
-            ja[c] = now.a[c] - before.a[c];
-        }
-        bool kink = movement(size2(ja[0], ja[1]), size2(js[0], js[1]), scale, now.sigma) > w->limit;
-        for (int c = 0; c < 2; c++) {
-            ds[c] = kink ? ds[c] + js[c] : ds[c];
-            da[c] = kink ? da[c] + ja[c] : da[c];
-        }
-        run = kink ? run + 1 : 2;
-        if (run < 2)
-            continue;
-        run = 0;
-        sum += w->loud[k] * scale * scale / now.sigma * movement(size2(da[0], da[1]), size2(ds[0], ds[1]), scale, now.sigma) / w->step;
-        ds[0] = ds[1] = da[0] = da[1] = 0;
+    const struct ring_survey *s = d->s;
+    double p[4] = {0}, sum = 0, end = 0.25 / d->reach;
+    if (t <= s->duration) {
+        long c = cell_at(s, t);
+        double in = t - floor(t / s->cycle) * s->cycle;
+        p[EVEN] = 1 / s->duration;
+        p[MOVED] = (s->moved[c + 1] - s->moved[c]) / s->step / repeats(s, in);
     }
+    double near = bent_before(s, floor((t + d->reach) / s->step) + 1) - bent_before(s, floor((t - d->reach) / s->step));
+    p[BENT] = d->bends > 0 ? near / d->bends / (s->step + 2 * d->reach) : p[EVEN];
+    p[ENDS] = (t <= d->reach ? end : 0) + (t >= s->duration - d->reach ? end : 0);
+    for (int k = 0; k < 8; k++)
+        sum += p[mixture[k]] / 8;
     return sum;
 }
 
-/* Mode i: what its movement and its kinks come to. */
-static void fill(struct ring_survey *s, const struct modes_point *rows, int i, const struct ring_survey_ask *ask)
+static double share_of(int i, double ratio)
 {
-    double step = s->duration / s->instants, largest = 0, fastest = 0;
-    for (int k = 0; k <= s->instants; k++)
-        largest = fmax(largest, size2(rows[k].re[i], rows[k].im[i]));
-    for (int k = 0; k < s->instants; k++) {
-        struct slope now = slope_of(rows, k, i, step);
-        double scale = fmax(now.size, 0.1 * largest), gain = size2(now.a[0], now.a[1]), pole = size2(now.s[0], now.s[1]);
-        int at = k * s->n + i;
-        s->pole[at] = pole;
-        s->gain[at] = scale > 0 ? gain / scale : 0;
-        s->sigma[at] = now.sigma;
-        s->weight[at] = s->loud[k] * scale * scale / now.sigma;
-        s->energy[i] += s->loud[k] * now.size * now.size / now.sigma;
-        fastest = fmax(fastest, scale > 0 ? movement(gain, pole, scale, now.sigma) : 0);
+    double x = 0.5 + (i + 1) * ratio;
+    return x - floor(x);
+}
+
+static double draw_moved(const struct ring_survey *s, double v, double w)
+{
+    long low = 0, high = s->cells;
+    while (high - low > 1) {
+        long middle = (low + high) / 2;
+        *(s->moved[middle] <= v ? &low : &high) = middle;
     }
-    struct slope last = slope_of(rows, s->instants - 1, i, step);
-    double end = fmax(last.size, 0.1 * largest);
-    if (ask->stops && largest > 0)
-        s->kinks[i] = s->loud[s->instants - 1] * end * end / last.sigma * movement(size2(last.a[0], last.a[1]), size2(last.s[0], last.s[1]), end, last.sigma) / step;
-    if (ask->modes->kinks && largest > 0)
-        s->kinks[i] += kinks_of(rows, i, &(struct walk){s->instants, step, 0.1 * largest, KINK * KINK * fastest, s->loud});
+    double part = s->moved[high] - s->moved[low], t = s->step * ((double)low + (part > 0 ? (v - s->moved[low]) / part : 0.5));
+    return t + s->cycle * floor(w * repeats(s, t));
 }
 
-void ring_survey(const struct ring_survey_ask *ask, const struct trajectory *tr, struct arena *a, struct ring_survey *s)
+static double draw_bent(const struct drawing *d, double v, double w)
 {
-    const struct modes *m = ask->modes;
-    double span = m->travels ? tr->duration : tr->cycle;
-    long asked = m->kinks ? MOST_INSTANTS - 1 : tr->straight ? INSTANTS - 1 : tr->detail;
-    int steps = (int)(asked < INSTANTS - 1 ? INSTANTS - 1 : asked > MOST_INSTANTS - 1 ? MOST_INSTANTS - 1 : asked);
-    struct modes_point *rows = ARENA_TAKE(a, struct modes_point, steps + 1);
-    double even[2], odd[2];
-    *s = (struct ring_survey){.n = m->n, .instants = steps, .duration = span};
-    s->pole = ARENA_TAKE(a, double, (size_t)steps * m->n);
-    s->gain = ARENA_TAKE(a, double, (size_t)steps * m->n);
-    s->sigma = ARENA_TAKE(a, double, (size_t)steps * m->n);
-    s->weight = ARENA_TAKE(a, double, (size_t)steps * m->n);
-    s->energy = ARENA_TAKE(a, double, m->n);
-    s->kinks = ARENA_TAKE(a, double, m->n);
-    s->loud = ARENA_TAKE(a, double, steps);
-    for (int k = 0; k <= steps; k++) {
-        double place[2], *before = k % 2 ? even : odd, *now = k % 2 ? odd : even;
-        rows[k] = modes_point_make(a, m->n);
-        row_at(m, tr, span * k / steps, &rows[k], place);
-        memcpy(now, place, sizeof place);
-        if (k > 0)
-            s->loud[k - 1] = ask->by_speed ? (now[0] - before[0]) * (now[0] - before[0]) + (now[1] - before[1]) * (now[1] - before[1]) : 1;
+    const struct ring_survey *s = d->s;
+    double number = floor(v * d->bends), rounds = floor(number / s->bent[s->cells]), left = number - rounds * s->bent[s->cells];
+    long low = 0, high = s->cells; /* bent[low] <= left < bent[high] */
+    while (high - low > 1) {
+        long middle = (low + high) / 2;
+        *(s->bent[middle] <= left ? &low : &high) = middle;
     }
-    for (int i = 0; i < m->n; i++)
-        fill(s, rows, i, ask);
+    return rounds * s->cycle + s->step * (double)low - d->reach + w * (s->step + 2 * d->reach);
 }
 
-/* The sum over j above: the mean square of the derivative, 1/s^(2p). */
-static double moment(int order, double gain, double pole, double sigma)
+static double draw(const struct drawing *d, int which, int i)
 {
-    double sum = 0, term = 1, g2 = gain * gain, step = pole / (2 * sigma); /* j = 0: C(p, 0) 0! */
-    for (int j = 0; j <= order; j++) {
-        double g = term;
-        for (int k = 0; k < order - j; k++)
-            g *= g2;
-        sum += g;
-        term *= (double)(order - j) * 2 * (2 * j + 1) * step * step; /* C(p, j+1) (2j+2)! / (C(p, j) (2j)!) = (p - j) 2 (2j + 1) */
+    const struct ring_survey *s = d->s;
+    double golden = share_of(i, 0.6180339887498949), v = share_of(i, 0.7548776662466927), w = share_of(i, 0.5698402909980532);
+    if (which == MOVED)
+        return draw_moved(s, v, w);
+    if (which == BENT && d->bends > 0)
+        return draw_bent(d, v, w);
+    if (which == ENDS)
+        return (i % 2 ? s->duration : 0) + d->reach * (2 * golden - 1);
+    return golden * s->duration;
+}
+
+int ring_survey_draw(const struct ring_survey *s, double reach, struct ring_survey_instant *at)
+{
+    struct drawing d = {s, fmax(reach, 1e-6), bent_before(s, HUGE_VAL)};
+    double last = s->along.stays ? s->duration + d.reach : s->duration;
+    int drawn[4] = {0}, n = 0;
+    for (int k = 0; k < RING_SURVEY_INSTANTS; k++) {
+        int which = mixture[k % 8] == BENT && d.bends == 0 ? EVEN : mixture[k % 8];
+        double t = draw(&d, which, drawn[which]++);
+        if (t >= 0 && t <= last)
+            at[n++] = (struct ring_survey_instant){t, 1 / (RING_SURVEY_INSTANTS * density(&d, t))};
     }
-    return sum;
-}
-
-/* rms_u[l]: hop_error(p, rho) is rms_u[l] ((2p)!)^(1/2) (rho/2)^p. */
-static double node_rms(int order)
-{
-    double all = 1;
-    for (int j = 2; j <= 2 * order; j++)
-        all *= j;
-    return hop_error(order, 2) / sqrt(all);
-}
-
-/* The square of the relative error is even hop^(2 order) + kinks hop^3. */
-struct law {
-    int order;
-    double even, kinks;
-};
-
-static double law_square(const struct law *l, double hop)
-{
-    double even = l->even;
-    for (int k = 0; k < 2 * l->order; k++)
-        even *= hop;
-    return even + l->kinks * hop * hop * hop;
-}
-
-static double law_hop(const struct law *l, double error, double most)
-{
-    double low = 0, high = most;
-    if (law_square(l, most) <= error * error)
-        return most;
-    for (int i = 0; i < 60; i++) {
-        double middle = 0.5 * (low + high);
-        if (law_square(l, middle) <= error * error)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static double kink_share(int order)
-{
-    return order == 1 ? 0 : order == 2 ? 1.0 / 90 : 0.00615; /* of order 1 the movement itself is the error */
-}
-
-static struct law law_of_all(const struct ring_survey *s, int order)
-{
-    double sum = 0, kinks = 0, energy = 0, rms = node_rms(order);
-    for (int k = 0; k < s->instants * s->n; k++)
-        sum += s->weight[k] * moment(order, s->gain[k], s->pole[k], s->sigma[k]);
-    for (int i = 0; i < s->n; i++) {
-        kinks += s->kinks[i];
-        energy += s->energy[i];
-    }
-    return energy > 0 ? (struct law){order, rms * rms * sum / energy, kink_share(order) * kinks / energy} : (struct law){order, 0, 0};
-}
-
-static struct law law_of_mode(const struct ring_survey *s, int order, int i)
-{
-    double worst = 0, rms = node_rms(order);
-    for (int k = 0; k < s->instants; k++)
-        worst = fmax(worst, moment(order, s->gain[k * s->n + i], s->pole[k * s->n + i], s->sigma[k * s->n + i]));
-    return (struct law){order, rms * rms * worst, s->energy[i] > 0 ? kink_share(order) * s->kinks[i] / s->energy[i] : 0};
-}
-
-double ring_survey_error(const struct ring_survey *s, int order, double hop)
-{
-    struct law l = law_of_all(s, order);
-    return sqrt(law_square(&l, hop));
-}
-
-double ring_survey_hop(const struct ring_survey *s, int order, double error, double most)
-{
-    struct law l = law_of_all(s, order);
-    return law_hop(&l, error, most);
-}
-
-void ring_survey_hops(const struct ring_survey *s, int order, double error, double most, double *hop)
-{
-    for (int i = 0; i < s->n; i++) {
-        struct law l = law_of_mode(s, order, i);
-        hop[i] = law_hop(&l, error, most);
-    }
+    return n;
 }

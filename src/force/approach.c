@@ -47,9 +47,9 @@ static bool approach_run(struct stage_run *r, long from, long to, struct err *e)
 
 const struct stage approach_stage = {
     .name = "approach",
-    .does = "the scraper is lowered at the start and raised at the end",
+    .does = "the scraper (or ball) is lowered at the start and raised at the end",
     .paper = "",
-    .idle = "contact.model is not scrape, the motion starts from rest and ends at rest, or load.approach and load.release are 0",
+    .idle = "nothing scrapes or rolls, what scrapes starts from rest and ends at rest, or load.approach and load.release are 0",
     .needs = ITEM_BIT(ITEM_SUBFORCE),
     .asks = approach_asks,
     .gives = ITEM_BIT(ITEM_SUBFORCE),

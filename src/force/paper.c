@@ -7,7 +7,7 @@
    Along a path a profile has one axis, the path itself: v_x is the velocity along it and the y terms are zero; with surface.along: x they are
    zero too. alpha_y = limiter.ratio_y alpha_x. The paper's smoothing acts on the limited curvatures, "the window size in each dimension ...
    proportional to alpha_x and alpha_y" (section 2.2, last paragraph); the force is formed from them afterwards. At rest the curvature is that of
-   the point touched. */
+   the point touched. Under a ball that rolls these are the scraping terms of equation 19, times contact.roll.scraping. */
 #include <string.h>
 
 #include "force/lift.h"
@@ -55,7 +55,7 @@ static void paper_use(void *self, const struct way_pieces *p)
 static bool paper_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->contact.model == CONTACT_SCRAPE && c->contact.force == FORCE_PAPER;
+    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL) && c->contact.force == FORCE_PAPER;
 }
 
 static double paper_work(const struct contact *c, const struct scene *s)
@@ -116,7 +116,7 @@ const struct stage paper_curvature_stage = {
     .name = "paper_curvature",
     .does = "limited curvature and slope of the surface, per axis",
     .paper = "000 eq. 4, 5",
-    .idle = "contact.model is not scrape, or contact.force is directional",
+    .idle = "contact.model is neither scrape nor roll, or contact.force is directional",
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_CURVATURE) | ITEM_BIT(ITEM_CURVATURE_Y) | ITEM_BIT(ITEM_SLOPE),
@@ -159,7 +159,8 @@ static double paper_force(const struct stage_run *r, long k, const double *yy)
     double vx = paper_velocity(b, k, 0), vy = b->relief->along == ALONG_PLANE ? paper_velocity(b, k, 1) : 0;
     double slope = *way_values(b, ITEM_SLOPE, k), speed = fabs(*way_values(b, ITEM_POSITION, k + 1) - *way_values(b, ITEM_POSITION, k)) * b->rate * b->over;
     double force = r->contact->scraper.mass * (*way_values(b, ITEM_CURVATURE, k) * vx * vx + (yy ? *yy * vy * vy : 0));
-    return slope > 0 ? force + m->beta1 * slope * (m->beta2 == 1 ? speed : real_pow(speed, m->beta2)) : force;
+    force = slope > 0 ? force + m->beta1 * slope * (m->beta2 == 1 ? speed : real_pow(speed, m->beta2)) : force;
+    return m->model == CONTACT_ROLL ? m->roll.scraping * force : force;
 }
 
 static bool paper_run(struct stage_run *r, long from, long to, struct err *e)
@@ -187,7 +188,7 @@ const struct stage paper_stage = {
     .name = "paper",
     .does = "contact force as printed, from curvature and slope",
     .paper = "000 eq. 2, 3",
-    .idle = "contact.model is not scrape, or contact.force is directional",
+    .idle = "contact.model is neither scrape nor roll, or contact.force is directional",
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_CURVATURE) | ITEM_BIT(ITEM_SLOPE),
     .takes = ITEM_BIT(ITEM_LOAD),
     .gives = ITEM_BIT(ITEM_SUBFORCE),

@@ -41,16 +41,21 @@ static double smooth_alpha(const struct contact *c, double alpha)
     return c->contact.limiter.curve == LIMITER_TANH ? alpha : 0.03;
 }
 
+static bool smooth_model(const struct contact *c)
+{
+    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
+}
+
 static bool smooth_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->contact.model == CONTACT_SCRAPE && c->contact.smoothing > 0 && c->contact.force == FORCE_DIRECTIONAL;
+    return smooth_model(c) && c->contact.smoothing > 0 && c->contact.force == FORCE_DIRECTIONAL;
 }
 
 static bool smooth_curvature_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->contact.model == CONTACT_SCRAPE && c->contact.smoothing > 0 && c->contact.force == FORCE_PAPER;
+    return smooth_model(c) && c->contact.smoothing > 0 && c->contact.force == FORCE_PAPER;
 }
 
 static bool smooth_curvature_y_wanted(const struct contact *c, const struct scene *s)
@@ -221,7 +226,7 @@ const struct stage smooth_stage = {
     .name = "smooth",
     .does = "Gaussian smoothing of the force, sigma in proportion to alpha",
     .paper = "000 sec. 2.2",
-    .idle = "contact.model is not scrape, contact.smoothing is 0, or contact.force is paper",
+    .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, or contact.force is paper",
     .needs = ITEM_BIT(ITEM_SUBFORCE),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_SUBFORCE),
@@ -235,7 +240,7 @@ const struct stage smooth_curvature_stage = {
     .name = "smooth_curvature",
     .does = "Gaussian smoothing of the limited curvature",
     .paper = "000 sec. 2.2",
-    .idle = "contact.model is not scrape, contact.smoothing is 0, or contact.force is directional",
+    .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, or contact.force is directional",
     .needs = ITEM_BIT(ITEM_CURVATURE),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_CURVATURE),
@@ -249,7 +254,7 @@ const struct stage smooth_curvature_y_stage = {
     .name = "smooth_curvature_y",
     .does = "Gaussian smoothing of the limited curvature's second axis",
     .paper = "000 sec. 2.2",
-    .idle = "contact.model is not scrape, contact.smoothing is 0, contact.force is directional, or the surface has one axis",
+    .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, contact.force is directional, or the surface has one axis",
     .needs = ITEM_BIT(ITEM_CURVATURE_Y),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_CURVATURE_Y),

@@ -14,6 +14,18 @@
 
 #include <math.h>
 
+#include "force/hertz.h"
+
+bool strike_stiffness(const struct contact *c, double *stiffness, struct err *e)
+{
+    *stiffness = c->contact.strike.stiffness;
+    if (!isnan(*stiffness))
+        return true;
+    if (c->contact.strike.pulse != PULSE_HERTZ)
+        return err_set(e, ERR_SCENE, "contact '%s': contact.strike.stiffness must be given where contact.strike.pulse is half_sine", c->name);
+    return hertz_stiffness(c, stiffness, e);
+}
+
 static bool strike_can(const struct contact *c, const struct strike_train *s, struct err *e)
 {
     double lasts = pulse_lasts(&s->shape, s->mass, s->stiffness, s->speed);

@@ -37,7 +37,7 @@ bool strike_make(const struct contact *c, double duration, struct strike_train *
 /* The next impact; false (see s->over) after the last one. */
 bool strike_next(struct strike_train *s, struct strike_impact *i);
 
-/* Stiffness of the contact (see strike_stiffness.c). ERR_SCENE: the scene does not tell it. */
+/* Stiffness of the contact: the given one, or Hertz's (force/hertz.h). ERR_SCENE: the scene does not tell it. */
 bool strike_stiffness(const struct contact *c, double *stiffness, struct err *e);
 
 #endif

@@ -74,7 +74,7 @@ bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double lon
     if (along == ALONG_X && fabs(w->e[0]) * tr->length < 1e-6 * relief_finest(w->relief) && tr->straight)
         w->e[0] = 0; /* straight across the profile: what the decimals of the two ends leave in x is no motion along it */
     if (!load_varies(r->contact)) {
-        double n = isnan(r->contact->load.constant) ? r->contact->scraper.mass * r->contact->contact.gravity : r->contact->load.constant;
+        double n = rules_load(r->contact);
         limiter_told(r, n, n);
     }
     return way_grids(w, r->contact->name, e);

@@ -1,24 +1,19 @@
 /* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T = 1/rate: kinematics,
    normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its sign) of the audio-rate force over the
-   samples in the interval; events are counted in it. Rows end with the motion. Numbers are printed with %.9g, lines end in LF. */
+   samples in the interval; events are counted in it; of a ball see roll_rows.c. Rows end with the motion. Numbers are printed with %.9g, lines end in LF. */
 #include "output/force_table.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "force/strike.h"
+#include "output/roll_rows.h"
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
-
-#define COLUMN(id, name, exists, needs, meaning) id,
-enum column {
-#include "scene/columns.def"
-    COLUMNS
-};
-#undef COLUMN
 
 const struct table_column force_table_columns[] = {
 #define COLUMN(id, name, exists, needs, meaning) {name, meaning},
@@ -33,10 +28,11 @@ struct force_table {
     double sum, squares, peak;  /* of the row being filled */
     long samples, lift_offs, row, rows;
     double alpha;
-    const struct load_law *load; /* NULL: not a scrape                                */
+    const struct load_law *load; /* NULL: nothing is pressed on                       */
     struct strike_train train;   /* of what strikes: the impacts from `impact` on     */
     struct strike_impact impact;
     bool struck;                 /* there is such a one                               */
+    struct roll_rows ball;
 };
 
 static int column_find(const char *name)
@@ -74,8 +70,11 @@ static bool column_asked(const struct contact *c, const struct scene *s, int fir
 static unsigned force_table_asks(const struct contact *c, const struct scene *s)
 {
     unsigned items = 0;
-    if (load_varies(c) && (column_asked(c, s, NORMAL, NORMAL) || column_asked(c, s, LIFT_OFFS, LIFT_OFFS)))
+    if (load_varies(c) && (column_asked(c, s, NORMAL, NORMAL) || (column_asked(c, s, LIFT_OFFS, LIFT_OFFS) && !ball_rolls(c))))
         items |= ITEM_BIT(ITEM_LOAD);
+    for (int k = 0; k < COLUMNS; k++)
+        if (roll_rows_reads(c, (enum column)k) && column_asked(c, s, k, k))
+            items |= ITEM_BIT(ITEM_ROLL);
     if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA))
         items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK))
@@ -122,7 +121,7 @@ static bool rate_possible(const struct stage_run *r, struct err *e)
 /* The law of a varying load is on the board; a constant one's is needed for approach and release. */
 static bool load_find(struct force_table *t, const struct stage_run *r, struct err *e)
 {
-    if (r->contact->contact.model != CONTACT_SCRAPE)
+    if (r->contact->contact.model != CONTACT_SCRAPE && r->contact->contact.model != CONTACT_ROLL)
         return true;
     struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
     t->load = r->board->load ? r->board->load : own;
@@ -146,6 +145,7 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     r->state = t;
     if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e))
         return false;
+    roll_rows_make(&t->ball, r->contact);
     t->alpha = limiter_constant(r->contact);
     t->rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
     for (int k = 0; k < COLUMNS; k++)
@@ -167,6 +167,8 @@ static void row_instant(struct force_table *t, const struct stage_run *r, double
                   (struct trajectory_out){.u = &v[STROKE], .du = &v[VELOCITY], .ddu = &v[ACCELERATION], .x = &v[X], .y = &v[Y], .vx = &v[VX], .vy = &v[VY]});
     v[TIME] = (double)rules_first_frame(r->contact, r->board->rate) / r->board->rate + at;
     v[SPEED] = fabs(v[VELOCITY]);
+    if (t->wanted[ROLL_ANGLE])
+        v[ROLL_ANGLE] = roll_rows_angle(&t->ball, v[STROKE], v[VELOCITY]);
     if (!t->load)
         return;
     load = fmax(load_of(t->load, b->trajectory, at), 0);
@@ -186,14 +188,17 @@ static void row_impacts(struct force_table *t, double end)
     }
 }
 
-static void row_write(struct force_table *t, FILE *out)
+static void row_write(struct force_table *t, const struct board *b)
 {
+    FILE *out = b->table->stream;
     const char *comma = "";
     double n = t->samples > 0 ? (double)t->samples : 1;
     t->value[MEAN] = t->sum / n;
     t->value[RMS] = sqrt(t->squares / n);
     t->value[PEAK] = t->peak;
     t->value[LIFT_OFFS] = (double)t->lift_offs;
+    if (board_has(b, ITEM_ROLL))
+        roll_rows_take(&t->ball, t->samples, t->value);
     for (int k = 0; k < COLUMNS; k++)
         if (t->wanted[k]) {
             fprintf(out, "%s%.9g", comma, t->value[k] + 0.0); /* not -0 */
@@ -212,6 +217,8 @@ static void row_frame(struct force_table *t, const struct board *b, long n)
         t->squares += f * f;
         t->peak = fabs(f) > fabs(t->peak) ? f : t->peak;
     }
+    if (board_has(b, ITEM_ROLL))
+        roll_rows_frame(&t->ball, board_at(b, ITEM_ROLL, n), t->samples == 0);
     t->samples++;
     if (board_has(b, ITEM_LOAD) && t->wanted[LIFT_OFFS]) {
         const double *load = board_at(b, ITEM_LOAD, n);
@@ -225,7 +232,7 @@ static void rows_before(struct force_table *t, const struct stage_run *r, long e
     for (; t->row < end; t->row++) {
         row_instant(t, r, (double)t->row / r->scene->output.diagnostics.rate);
         row_impacts(t, (double)(t->row + 1) / r->scene->output.diagnostics.rate);
-        row_write(t, r->board->table->stream);
+        row_write(t, r->board);
     }
 }
 

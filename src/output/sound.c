@@ -42,9 +42,10 @@ struct track_format sound_format(const struct scene *s, long frames)
 {
     const struct output *o = &s->output;
     long ramp = (long)rint(o->ramp * o->sample_rate);
+    double recede = o->envelope == ENVELOPE_APPROACH_RECEDE ? sqrt(real_exp10(o->envelope_depth / 10) - 1) : 0;
     int places = listener_channels(o);
     return (struct track_format){.rate = o->sample_rate, .bits = bits_of(o->encoding), .places = places, .channels = places > 1 ? places : o->channels,
-                                 .frames = frames, .ramp = ramp < frames / 2 ? ramp : frames / 2, .waits = isnan(sound_known_gain(s)),
+                                 .frames = frames, .ramp = ramp < frames / 2 ? ramp : frames / 2, .recede = recede, .waits = isnan(sound_known_gain(s)),
                                  .title = s->title, .key = level_key(&o->level)};
 }
 
@@ -56,7 +57,7 @@ double sound_known_gain(const struct scene *s)
 
 void sound_comment(const struct scene *s, double gain, char text[80])
 {
-    const char *unit = listener_in_pascals(&s->output) ? "Pa" : "unit of the response";
+    const char *unit = listener_in_pascals(&s->output) ? "Pa" : s->output.quantity == QUANTITY_FORCE ? "N" : "unit of the response";
     snprintf(text, 80, "rasp: gain %.9g per %s (%.4f dB)", gain, unit, 20 * real_log10(gain));
 }
 

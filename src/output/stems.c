@@ -1,9 +1,10 @@
 /* force     the contact force, summed over the contacts that are heard, in newtons: 1.0 is 1 N. Always one channel of 32-bit floating point,
-             whatever output.encoding is, so that any force fits; no ramps, no level.
-   surface   what the surfaces and
-   scraper   what the scrapers (weight eta included) put into the sound, all contacts times their gains, with the sound's own gain, ramps, channels and
-             encoding: surface + scraper is the sound, but for the rounding of each. A part may be louder than the whole: where the encoding has
-             no room for it, that is an error. */
+             whatever output.encoding is, so that any force fits; no ramps, no envelope, no level.
+   surface   what the surfaces,
+   scraper   what the scrapers and
+   ball      what the balls (weights included) put into the sound, all contacts times their gains, with the sound's own gain, ramps, envelope, channels and
+             encoding: surface + scraper + ball is the sound, but for the rounding of each. A part may be louder than the whole: where the encoding
+             has no room for it, that is an error. */
 #include "output/stems.h"
 
 #include <stdio.h>
@@ -13,7 +14,7 @@
 #include "output/track.h"
 #include "response/listener.h"
 
-const char *const stems_names[STEMS] = {"force", "surface", "scraper"};
+const char *const stems_names[STEMS] = {"force", "surface", "scraper", "ball"};
 
 struct stems {
     const struct scene *scene;
@@ -53,7 +54,7 @@ static bool open_one(struct stems *o, enum stem stem, const char *path, struct t
     f.key = "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a lower level";
     if (stem == STEM_FORCE) {
         gain = 1;
-        f.places = f.channels = 1, f.bits = -32, f.ramp = 0, f.waits = false;
+        f.places = f.channels = 1, f.bits = -32, f.ramp = 0, f.recede = 0, f.waits = false;
         f.key = "output.stems: force";
     }
     if (!track_open(t, path, &f, gain, a, e))

@@ -7,9 +7,9 @@
 #include "base/err.h"
 #include "scene/scene.h"
 
-enum stem { STEM_FORCE, STEM_SURFACE, STEM_SCRAPER, STEMS };
+enum stem { STEM_FORCE, STEM_SURFACE, STEM_SCRAPER, STEM_BALL, STEMS };
 
-/* "force", "surface", "scraper" */
+/* "force", "surface", "scraper", "ball" */
 extern const char *const stems_names[STEMS];
 
 /* Does the scene ask for it? */

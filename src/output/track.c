@@ -1,4 +1,11 @@
-/* Ramps are raised cosines over both ends of the whole, sin^2(pi/2 (n + 1/2) / N), all channels alike. */
+/* Ramps are raised cosines over both ends of the whole, sin^2(pi/2 (n + 1/2) / N), all channels alike.
+
+   The envelope is that of a source that passes at constant speed: its pressure goes with 1 over its distance, which is least in the middle of the whole,
+
+     gain = 1 / sqrt(1 + c^2 u^2),   u = (2 n + 1) / N - 1 from -1 to 1, N frames
+
+   so that a c of sqrt(10^(depth/10) - 1) puts both ends `depth` dB below the middle. papers/002 III-B says that an amplitude envelope made its sounds
+   approach and recede, and prints no law; this one is ours. No Doppler shift and no direction go with it. */
 #include "output/track.h"
 
 #include <errno.h>
@@ -40,6 +47,15 @@ static void ramp(const struct track *t, double *x, long n)
     }
 }
 
+static void recede(const struct track *t, double *x, long n)
+{
+    for (long i = 0; i < n && t->format.recede > 0; i++) {
+        double u = t->format.recede * ((double)(2 * (t->done + i) + 1) / (double)t->format.frames - 1), gain = 1 / sqrt(1 + u * u);
+        for (int k = 0; k < t->format.places; k++)
+            x[i * t->format.places + k] *= gain;
+    }
+}
+
 static void measure(struct track *t, const double *x, long n)
 {
     for (int k = 0; k < t->format.places; k++)
@@ -67,6 +83,7 @@ bool track_add(struct track *t, double *x, long n, struct err *e)
 {
     size_t samples = (size_t)(n * t->format.places);
     ramp(t, x, n);
+    recede(t, x, n);
     t->done += n;
     measure(t, x, n);
     if (!t->spool)

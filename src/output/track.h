@@ -1,4 +1,4 @@
-/* One WAV on its way: ramps at both ends, measures of each channel, and samples that wait in an unnamed file while the gain is not known. What the
+/* One WAV on its way: ramps at both ends, an envelope, measures of each channel, and samples that wait in an unnamed file while the gain is not known. What the
    sound (sound.h) and its stems (stems.h) share. */
 #ifndef OUTPUT_TRACK_H
 #define OUTPUT_TRACK_H
@@ -17,6 +17,7 @@ struct track_format {
     int places;              /* channels of what comes in                                       */
     int channels;            /* of the file: as many, or copies of the only one                 */
     long frames, ramp;       /* in all; of each ramp, at most half of all                       */
+    double recede;           /* of the envelope, see track.c; 0: none                           */
     bool waits;              /* the gain comes with track_finish: until then samples are kept   */
     const char *title;       /* NULL: none */
     const char *key;         /* what to change when it clips: "output.level.peak"               */
@@ -38,7 +39,7 @@ bool track_open(struct track *t, const char *path, const struct track_format *f,
 /* Sets the WAV's comment; before the first frame is written. */
 bool track_note(struct track *t, const char *text, struct err *e);
 
-/* The next frames [n][places], ramped in place. ERR_SCENE: clipping. */
+/* The next frames [n][places], ramped and enveloped in place. ERR_SCENE: clipping. */
 bool track_add(struct track *t, double *x, long n, struct err *e);
 
 /* From the beginning of what is kept, the next frames [n][places]; at most TRACK_CHUNK samples, 0 at the end. */

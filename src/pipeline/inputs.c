@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "scene/ball.h"
 #include "scene/keys.h"
 
 static const char *why_unreadable(const char *file)
@@ -36,7 +37,7 @@ static bool are_there(const struct scene *s, struct arena *a, struct err *e)
     const char *missing = "";
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++)
-            if (k->of == KEY_CONTACT && k->type == KEY_FILE)
+            if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
                 add(&missing, k->path, *(const char **)((char *)&s->contacts[i] + k->offset), a);
     for (int i = 0; i < s->n_inputs && !*missing; i++)
         add(&missing, "inputs", s->inputs[i].file, a);

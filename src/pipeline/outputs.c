@@ -9,10 +9,11 @@
 
 #include "base/hash.h"
 #include "pipeline/plan.h"
+#include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_write.h"
 
-const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "scene", "summary", "wav", "stem", "stem", "stem"};
+const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "scene", "summary", "wav", "stem", "stem", "stem", "stem"};
 
 char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a)
 {
@@ -131,7 +132,7 @@ static void note_scene(struct sources *all, const struct scene *s)
         note(all, s, s->sources[i], i ? "a file that it includes" : "the scene itself");
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++)
-            if (k->of == KEY_CONTACT && k->type == KEY_FILE)
+            if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
                 note(all, s, *(const char *const *)((const char *)&s->contacts[i] + k->offset), k->path);
     for (int i = 0; i < s->n_inputs; i++)
         note(all, s, s->inputs[i].file, "inputs");

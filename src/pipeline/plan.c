@@ -4,6 +4,7 @@
 
 #include "convolution/ring_choice.h"
 #include "output/stems.h"
+#include "scene/ball.h"
 #include "scene/rules.h"
 
 #define REAL_TIME 62500.0 /* cycles per audio sample of a core of 3 GHz at 48 kHz */
@@ -17,6 +18,7 @@ static const char *const plan_names[ITEM_COUNT] = {
     [ITEM_ALPHA] = "alpha",                 [ITEM_SURFACE] = "surface",
     [ITEM_CURVATURE] = "curvature",         [ITEM_SLOPE] = "slope",
     [ITEM_CURVATURE_Y] = "curvature_y",
+    [ITEM_ROLL] = "roll",
     [ITEM_SUBFORCE] = "subforce",           [ITEM_FORCE] = "force",
     [ITEM_SURFACE_SOUND] = "surface_sound", [ITEM_SCRAPER_SOUND] = "scraper_sound",
     [ITEM_SOUND] = "sound",                 [ITEM_TABLE] = "table",
@@ -30,29 +32,29 @@ const char *plan_item(enum item item)
 /* Stems of a contact that is heard. */
 static unsigned plan_stems(const struct contact *c, const struct output *o)
 {
-    bool scraper = rules_responds(&c->scraper.response) && c->scraper.weight != 0;
+    bool tool = rules_responds(&c->scraper.response) && c->scraper.weight != 0;
     return (stems_asked(o, STEM_FORCE) ? ITEM_BIT(ITEM_FORCE) : 0) |
            (stems_asked(o, STEM_SURFACE) && rules_responds(&c->surface.response) ? ITEM_BIT(ITEM_SURFACE_SOUND) : 0) |
-           (stems_asked(o, STEM_SCRAPER) && scraper ? ITEM_BIT(ITEM_SCRAPER_SOUND) : 0);
+           (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && tool ? ITEM_BIT(ITEM_SCRAPER_SOUND) : 0);
 }
 
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
-    unsigned heard = c->gain != 0 ? (rules_rings(c) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
+    unsigned heard = c->gain != 0 ? (rules_heard(c, &s->output) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
     return heard | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
 }
 
-static bool plan_muted(const struct contact *c)
+static bool plan_muted(const struct contact *c, const struct scene *s)
 {
-    return c->gain == 0 && rules_rings(c);
+    return c->gain == 0 && rules_heard(c, &s->output);
 }
 
 static bool plan_nothing_asked(const struct contact *c, struct err *e)
 {
     return err_set(e, ERR_SCENE,
-                   "contact '%s': nothing is asked of it: give surface.response (or scraper.response) for a sound, or output.diagnostics for "
+                   "contact '%s': nothing is asked of it: give surface.response (or %s.response) for a sound, or output.diagnostics for "
                    "a table of its physics",
-                   c->name);
+                   c->name, ball_tool(c));
 }
 
 /* One bit of a set, for a message. */
@@ -103,9 +105,9 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
 {
     struct liveness l = {0};
     *p = (struct plan){.contact = c, .targets = plan_targets(c, s)};
-    if (!p->targets && !plan_muted(c))
+    if (!p->targets && !plan_muted(c, s))
         return plan_nothing_asked(c, e);
-    if (p->targets & ITEM_BIT(ITEM_SOUND) && !(p->contact = c = plan_choose(c, s, a, e)))
+    if (p->targets & ITEM_BIT(ITEM_SOUND) && s->output.quantity != QUANTITY_FORCE && !(p->contact = c = plan_choose(c, s, a, e)))
         return false;
     while (table[p->n])
         p->n++;

@@ -53,17 +53,16 @@ static bool render_open(struct render *r, struct err *e)
 /* What has just been run, to the files. */
 static bool render_put(struct render *r, long from, long to, struct err *e)
 {
-    static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND};
     for (int k = 0; k < STEMS; k++) {
         if (!stems_asked(&r->scene->output, (enum stem)k))
             continue;
-        render_parts_sum(&r->parts, items[k], from, to, r->block);
+        render_parts_stem(&r->parts, (enum stem)k, from, to, r->block);
         if (!stems_add(r->stems, (enum stem)k, r->block, to - from, e))
             return false;
     }
     if (!r->sound)
         return true;
-    render_parts_sum(&r->parts, ITEM_SOUND, from, to, r->block);
+    render_parts_sum(&r->parts, from, to, r->block);
     return sound_add(r->sound, r->block, to - from, e);
 }
 
@@ -125,6 +124,7 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     const char *effective = outputs_effective(r->scene, r->scene_path, r->arena);
     if (!render_list(r, effective, e))
         return false;
+    summary_notes(r->scene, runs, report, r->arena);
     summary_warnings(r->scene, runs, report, r->arena);
     report->summary = summary_text(r->scene, runs, report, r->arena);
     fputs(effective, r->effective.stream);

@@ -25,6 +25,8 @@ struct render_report {
     const char *summary;           /* the JSON text */
     const char **warnings;
     int n_warnings;
+    const char **notes;            /* what contacts did, one line each */
+    int n_notes;
 };
 
 /* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv (diagnostics), BASE.scene.yaml (the effective scene) and BASE.json

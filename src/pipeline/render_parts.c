@@ -7,6 +7,7 @@
 #include "pipeline/stages.h"
 #include "response/listener.h"
 #include "response/modes.h"
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "trajectory/trajectory.h"
 
@@ -52,19 +53,19 @@ int render_parts_quantity(const struct render_parts *p)
 /* What is summed is of one quantity; contacts that ring by WAVs, which do not say theirs, go with any. */
 static bool quantities(const struct render_parts *p, struct err *e)
 {
-    static const char *const names[] = {"displacement", "velocity", "acceleration", "sound pressure"};
     const struct run *first = stated(p);
     for (int i = 0; i < p->scene->n_contacts; i++) {
         const struct run *run = &p->parts[i].run;
         if (p->parts[i].open && run->board.quantity >= 0 && run->board.quantity != first->board.quantity)
             return err_set(e, ERR_SCENE,
                            "contact '%s' gives %s, but contact '%s' %s: they cannot be summed; use mode tables of one quantity, or choose one by "
-                           "output.quantity", run->plan.contact->name, names[run->board.quantity], first->plan.contact->name, names[first->board.quantity]);
+                           "output.quantity", run->plan.contact->name, modes_quantity_name(run->board.quantity), first->plan.contact->name,
+                           modes_quantity_name(first->board.quantity));
     }
     if (!isnan(p->scene->output.level.dbfs_at_1_pa) && render_parts_quantity(p) != MODES_PRESSURE)
         return err_set(e, ERR_SCENE,
                        "output.level.dbfs_at_1_pa: the sound is not in pascals but %s: choose output.listen.radiator: monopole or plate, or give "
-                       "output.level.full_scale", first ? names[first->board.quantity] : "in what its recorded responses are, which they do not say");
+                       "output.level.full_scale", first ? modes_quantity_name(first->board.quantity) : "in what its recorded responses are, which they do not say");
     return true;
 }
 
@@ -138,12 +139,26 @@ static void part_sum(const struct render_part *p, enum item item, const long ran
         sum[n] += gain * x[n];
 }
 
-void render_parts_sum(const struct render_parts *p, enum item item, long from, long to, double *sum)
+void render_parts_sum(const struct render_parts *p, long from, long to, double *sum)
 {
-    int width = item == ITEM_FORCE ? 1 : listener_channels(&p->scene->output);
-    memset(sum, 0, (size_t)((to - from) * width) * sizeof *sum);
+    memset(sum, 0, (size_t)((to - from) * listener_channels(&p->scene->output)) * sizeof *sum);
     for (int i = 0; i < p->scene->n_contacts; i++)
-        part_sum(&p->parts[i], item, (const long[2]){from, to}, sum);
+        part_sum(&p->parts[i], ITEM_SOUND, (const long[2]){from, to}, sum);
+}
+
+/* What touches the surface is of one stem or of the other. */
+static bool part_of(const struct contact *c, enum stem stem)
+{
+    return (stem != STEM_BALL || ball_rolls(c)) && (stem != STEM_SCRAPER || !ball_rolls(c));
+}
+
+void render_parts_stem(const struct render_parts *p, enum stem stem, long from, long to, double *sum)
+{
+    static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND, ITEM_SCRAPER_SOUND};
+    memset(sum, 0, (size_t)((to - from) * stems_channels(&p->scene->output, stem)) * sizeof *sum);
+    for (int i = 0; i < p->scene->n_contacts; i++)
+        if (part_of(&p->scene->contacts[i], stem))
+            part_sum(&p->parts[i], items[stem], (const long[2]){from, to}, sum);
 }
 
 const struct run *const *render_parts_runs(const struct render_parts *p)

@@ -3,6 +3,7 @@
 #define PIPELINE_RENDER_PARTS_H
 #include "base/outfile.h"
 #include "output/force_table.h"
+#include "output/stems.h"
 #include "pipeline/run.h"
 
 struct render_part {         /* one contact at work */
@@ -41,9 +42,11 @@ bool render_parts_length(const struct render_parts *p, long *frames, struct err 
 /* Runs every contact up to frame `to` of the scene. */
 bool render_parts_run(struct render_parts *p, long to, struct err *e);
 
-/* The contacts' sum of an item for frames [from, to), just run, interleaved; a body's sound (ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND) times the contact's
-   gain, like ITEM_SOUND. */
-void render_parts_sum(const struct render_parts *p, enum item item, long from, long to, double *sum);
+/* The contacts' sound for frames [from, to), just run, interleaved. */
+void render_parts_sum(const struct render_parts *p, long from, long to, double *sum);
+
+/* The contacts' sum of a stem likewise; a body's sound times the contact's gain, like the sound itself. */
+void render_parts_stem(const struct render_parts *p, enum stem stem, long from, long to, double *sum);
 
 /* The runs, [n_contacts]; NULL where nothing runs. */
 const struct run *const *render_parts_runs(const struct render_parts *p);

@@ -31,6 +31,8 @@ static int item_per_frame(const struct board *b, enum item item)
 {
     if (item == ITEM_SURFACE || item == ITEM_TABLE)
         return 0;
+    if (item == ITEM_ROLL)
+        return ROLL_VALUES;
     return item < ITEM_FORCE ? b->over : item == ITEM_FORCE ? 1 : b->channels;
 }
 

@@ -8,9 +8,8 @@
 #include "convolution/ring_choice.h"
 #include "num/real.h"
 #include "response/modes.h"
+#include "scene/ball.h"
 #include "trajectory/load.h"
-
-static const char *const summary_units[] = {"m", "m/s", "m/s^2", "Pa"}; /* by enum modes_quantity */
 
 enum { MOST_OF_BOARD = (int)(sizeof ((struct board *)0)->warnings / sizeof ((struct board *)0)->warnings[0]) };
 
@@ -24,14 +23,55 @@ static void warn_contact(const struct contact *c, const struct board *b, struct 
     for (int k = 0; k < b->n_warnings && k < MOST_OF_BOARD; k++)
         warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
     if (b->n_warnings > MOST_OF_BOARD)
-        warn(report, arena_format(a, "contact '%s': %d more remarks", c->name, b->n_warnings - MOST_OF_BOARD));
+        warn(report, arena_format(a, "contact '%s': %d more remark%s", c->name, b->n_warnings - MOST_OF_BOARD, b->n_warnings > MOST_OF_BOARD + 1 ? "s" : ""));
     if (b->lifted > 0)
-        warn(report, arena_format(a, "contact '%s': the hand lifts the scraper off for %.4g s in all (negative normal force); no force then",
-                                  c->name, b->lifted));
+        warn(report, arena_format(a, "contact '%s': the %s lifts %s off for %.4g s in all (negative normal force); no force then",
+                                  c->name, ball_rolls(c) ? "offset of its centre of mass" : "hand", ball_rolls(c) ? "the ball" : "the scraper", b->lifted));
     if (b->unstated && b->quantity >= 0)
         warn(report, arena_format(a, "contact '%s': its WAV response does not say what it is in, and is summed as if in %s, like its mode table",
-                                  c->name, summary_units[b->quantity]));
+                                  c->name, modes_quantity_unit(b->quantity)));
 }
+
+/* ------------------------------------------------------------------ what rolls */
+
+static const char *times(long n, struct arena *a)
+{
+    return n == 1 ? "once" : arena_format(a, "%ld times", n);
+}
+
+static const char *rolled_contacts(const struct roll_report *o, struct arena *a)
+{
+    double share = o->time > 0 ? 100 * o->contact / o->time : 0;
+    const char *flights = o->steps ? arena_format(a, " (for longer than an audio sample %s)", o->bounces > 0 ? times(o->bounces, a) : "never") : "";
+    if (o->lift_offs == 0)
+        return o->contact > 0 ? arena_format(a, "in contact %.4g %% of the time, never lifts off", share) : "never in contact";
+    return arena_format(a, "in contact %.4g %% of the time, lifts off %s%s", share, times(o->lift_offs, a), flights);
+}
+
+/* Of the coupled model: how long contacts are, and how well energy is kept. */
+static const char *rolled_steps(const struct roll_report *o, struct arena *a)
+{
+    if (!o->steps)
+        return isnan(o->deviation) ? "" : arena_format(a, "; its centre deviates by %.3g m rms", o->deviation);
+    const char *lasts = isnan(o->contact_samples[0]) ? "" : arena_format(a, "; a contact lasts %.3g audio samples, the shortest %.3g", o->contact_samples[0],
+                                                                         o->contact_samples[1]);
+    const char *fastest = o->fastest > 0 ? arena_format(a, ", the fastest impact %.3g m/s", o->fastest) : "";
+    return arena_format(a, "%s%s; energy balances to %.1e of its greatest", lasts, fastest, o->residual);
+}
+
+void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
+{
+    report->notes = ARENA_TAKE(a, const char *, s->n_contacts);
+    for (int i = 0; i < s->n_contacts; i++) {
+        const struct roll_report *o = runs[i] ? &runs[i]->board.roll : NULL;
+        if (runs[i] && runs[i]->board.rolls)
+            report->notes[report->n_notes++] =
+                arena_format(a, "contact '%s': %s; stiffness %.4g N/m^1.5, %.3g m deep at rest%s", s->contacts[i].name, rolled_contacts(o, a), o->stiffness,
+                             o->rest, rolled_steps(o, a));
+    }
+}
+
+/* ------------------------------------------------------------------ remarks */
 
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
@@ -78,7 +118,7 @@ static json_t *sound_json(const struct scene *s, const struct render_report *rep
 {
     const struct sound_report *o = &report->sound;
     json_t *sound = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit",
-                              report->quantity >= 0 ? summary_units[report->quantity] : "the impulse response's", "peak", number(o->peak), "rms",
+                              report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's", "peak", number(o->peak), "rms",
                               number(o->rms), "gain", number(o->gain), "gain_db", number(decibel(o->gain)), "peak_dbfs",
                               number(decibel(o->gain * o->peak)), "rms_dbfs", number(decibel(o->gain * o->rms)), "silent", o->silent);
     if (o->channels > 1)
@@ -103,12 +143,30 @@ static json_t *response_json(const struct ring_choice *c, double rate)
 {
     static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
     json_t *r = json_pack("{s:s, s:i}", "moving", readings[c->reading], "modes", c->modes.n);
-    if (c->moves && (c->engine == RING_OVERLAP || c->engine == RING_READOUT))
+    if (c->moves && (c->engine == RING_OVERLAP || (c->engine == RING_READOUT && !c->hops)))
         json_object_set_new(r, "hop_s", number(c->hop / rate));
     if (c->engine == RING_PANNED)
         json_object_set_new(r, "nodes", json_integer(c->nodes.n));
     if (c->error > 0)
         json_object_set_new(r, "predicted_error_db", number(decibel(c->error)));
+    else if (c->moves && c->engine != RING_PANNED)
+        json_object_set_new(r, "exact", json_true());
+    return r;
+}
+
+static json_t *roll_json(const struct roll_report *o)
+{
+    json_t *r = json_pack("{s:o, s:o, s:I, s:o, s:o}", "contact_share", number(o->time > 0 ? o->contact / o->time : NAN), "contact_s", number(o->contact), "lift_offs",
+                          (json_int_t)o->lift_offs, "stiffness", number(o->stiffness), "rest_penetration_m", number(o->rest));
+    if (!isnan(o->deviation))
+        json_object_set_new(r, "deviation_rms_m", number(o->deviation));
+    if (!o->steps)
+        return r;
+    json_t *more = json_pack("{s:I, s:o, s:I, s:[o, o], s:o, s:o, s:[o, o]}", "bounces", (json_int_t)o->bounces, "step_s", number(o->step), "steps",
+                             (json_int_t)o->steps, "contact_samples_mean_least", number(o->contact_samples[0]), number(o->contact_samples[1]), "fastest_impact_m_per_s",
+                             number(o->fastest), "energy_residual", number(o->residual), "iterations_mean_most", number(o->iterations[0]), number(o->iterations[1]));
+    json_object_update(r, more);
+    json_decref(more);
     return r;
 }
 
@@ -120,6 +178,8 @@ static json_t *contact_json(const struct run *run, double cpu)
                           stages_json(run, cpu));
     if (choice && !choice->recorded)
         json_object_set_new(c, "response", response_json(choice, b->rate));
+    if (b->rolls)
+        json_object_set_new(c, "roll", roll_json(&b->roll));
     if (b->load)
         json_object_set_new(c, "normal_force_n", json_pack("[o, o]", number(b->load->least), number(b->load->most)));
     return c;

@@ -3,7 +3,10 @@
 #define PIPELINE_SUMMARY_H
 #include "pipeline/render.h"
 
-/* Gathers the runs' remarks, and those on the whole. One run per contact, NULL for a muted one. */
+/* What each rolling contact did, in words. One run per contact, NULL for a muted one. */
+void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a);
+
+/* Gathers the runs' remarks, and those on the whole. */
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a);
 
 /* JSON: sound, level, cost per stage, remarks, and which files were written, with the hashes of all but the WAV. Times make it differ from run to run; nothing in it reaches a sample. */

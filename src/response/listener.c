@@ -132,6 +132,8 @@ static bool set_radiator(struct listener *l, const struct listener_ask *ask, con
     int wanted = ask->output->quantity;
     if (l->radiator == RADIATOR_POINT && !point_possible(ask, m, a, e))
         return false;
+    if (wanted == QUANTITY_FORCE)
+        return err_set(e, ERR_SCENE, "output.quantity: a force is no vibration, and what rings cannot give it");
     if (pascals && wanted != QUANTITY_AUTO)
         return err_set(e, ERR_SCENE, "output.quantity: a radiator's sound is pressure: leave output.quantity out, or listen to the contact");
     l->quantity = pascals ? MODES_PRESSURE : wanted == QUANTITY_AUTO ? m->quantity : wanted - QUANTITY_DISPLACEMENT;

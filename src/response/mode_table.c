@@ -205,6 +205,32 @@ static bool check_separate(const struct mode_table_rows *r, const struct mode_ta
     return true;
 }
 
+/* Names that several places have: do most of them stand for nearly the same frequency wherever they do? Numbers that each place gives anew do not,
+   from the first mode on that one place lacks. */
+static bool names_hold(const struct mode_table *t)
+{
+    size_t again = 0, near = 0;
+    for (size_t i = 0; i < t->first[t->places]; i++)
+        for (size_t j = 0; j < i; j++)
+            if (t->entry[j].mode == t->entry[i].mode) {
+                again++;
+                near += fabs(t->entry[i].frequency - t->entry[j].frequency) < 0.12 * t->entry[j].frequency;
+                break;
+            }
+    return 2 * near > again;
+}
+
+/* Names differ from place to place, and the table does not say what that means. */
+static void guess_pairing(struct mode_table *t, struct arena *a)
+{
+    bool hold = names_hold(t), again = t->modes < t->first[t->places];
+    t->by_frequency = !hold;
+    if (again)
+        t->note = arena_format(a, "%s: not every place has the same modes; they are paired by %s; say \"# pairing: %s\" above the table's header to keep to that, "
+                                  "or \"# pairing: %s\"", t->csv.file, hold ? "name" : "frequency, for their names do not hold", hold ? "ids" : "frequency",
+                               hold ? "frequency" : "ids");
+}
+
 static bool read_entries(struct mode_table *t, int by_frequency, struct arena *a, struct err *e)
 {
     struct mode_table_rows r;
@@ -215,7 +241,9 @@ static bool read_entries(struct mode_table *t, int by_frequency, struct arena *a
     for (size_t p = 0, k; p < t->places; p++, whole += k == t->modes)
         if ((k = lacks(t, p)) < t->modes && t->shared)
             return missing(&r, t, p, k, e);
-    t->by_frequency = by_frequency < 0 ? whole < t->places : by_frequency;
+    t->by_frequency = by_frequency > 0;
+    if (by_frequency < 0 && whole < t->places)
+        guess_pairing(t, a);
     if (r.envelope && !mode_table_envelopes_fit(&r, from, a, t, e))
         return false;
     return t->shared ? check_shared(&r, t, e) : check_separate(&r, t, e);

@@ -11,7 +11,8 @@
        poles          shared: frequency and decay of a mode are the same at every place (checked, 1e-9), and every place has every mode.
                       separate: a place's own; a place may lack a mode; decays above 0.
        quantity       displacement, velocity or acceleration, per N s
-       pairing        ids: modes of one id are one mode (default where poles are shared or every place has the same ids); frequency: see pairing.h
+       pairing        ids: modes of one id are one mode; frequency: see pairing.h. Default: ids, unless places differ in the ids they have, and ids that
+                      several have are not within 12 % of one frequency for the most part
        radius_m       of a sphere of the object's size, for a monopole's sound (optional)
        normalisation, source, ...   free text */
 #ifndef RESPONSE_MODE_TABLE_H

@@ -19,6 +19,18 @@ struct modes_point modes_point_make(struct arena *a, int n)
     return (struct modes_point){ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n)};
 }
 
+const char *modes_quantity_name(int quantity)
+{
+    static const char *const names[MODES_QUANTITIES] = {"displacement", "velocity", "acceleration", "sound pressure", "force"};
+    return names[quantity];
+}
+
+const char *modes_quantity_unit(int quantity)
+{
+    static const char *const units[MODES_QUANTITIES] = {"m", "m/s", "m/s^2", "Pa", "N"};
+    return units[quantity];
+}
+
 double modes_direct(int quantity, int n, const double *frequency, const double *decay, const struct modes_point *p)
 {
     double sum = 0.0;

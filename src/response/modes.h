@@ -11,8 +11,13 @@
 #include "base/arena.h"
 #include "base/err.h"
 
-/* MODES_PRESSURE comes from a listener only, no table holds it. Same order as enum quantity of scene.h, which has `auto` before. */
-enum modes_quantity { MODES_DISPLACEMENT, MODES_VELOCITY, MODES_ACCELERATION, MODES_PRESSURE };
+/* The first three in the order of enum quantity of scene.h, which has `auto` before; MODES_PRESSURE comes from a listener only, and MODES_FORCE is no motion
+   at all, but the contact force as the sound (convolution/force_sound.c): no table holds them. */
+enum modes_quantity { MODES_DISPLACEMENT, MODES_VELOCITY, MODES_ACCELERATION, MODES_PRESSURE, MODES_FORCE, MODES_QUANTITIES };
+
+/* "velocity" and "m/s" of such a quantity, for messages. */
+const char *modes_quantity_name(int quantity);
+const char *modes_quantity_unit(int quantity);
 
 struct modes_where {
     double x, y;   /* m, the contact, in the scene's coordinates */

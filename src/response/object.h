@@ -47,4 +47,7 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
    order: m->object->shapes gives phi of component i in phi[i]. */
 void object_modes(const struct object *o, const double origin[2], const double *listen, int strongest, struct arena *a, struct modes *m);
 
+/* Of such modes: where the object's x = y = 0 lies in the scene, m. */
+const double *object_modes_origin(const struct modes *m);
+
 #endif

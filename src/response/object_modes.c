@@ -134,3 +134,8 @@ void object_modes(const struct object *o, const double origin[2], const double *
     *m = (struct modes){.n = picked->n, .quantity = MODES_VELOCITY, .shared = true, .moves = listen || !is_family(o), .frequency = picked->frequency,
                         .decay = picked->decay, .slowest = picked->decay, .radius = picked->radius, .object = picked, .name = picked->key, .at = at, .self = r};
 }
+
+const double *object_modes_origin(const struct modes *m)
+{
+    return ((const struct ear *)m->self)->origin;
+}

@@ -9,7 +9,7 @@
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
 
-/* A path that begins with a dot stands for those of the surface and of the scraper. */
+/* A path that begins with a dot stands for those of the surface, the scraper and the ball. */
 static const struct {
     const char *path, *value;
     bool off;
@@ -45,6 +45,10 @@ static const struct {
     {"scraper.mass", "20 g", false},
     {"scraper.radius", "1 mm", true},
     {"scraper.response", "tool.csv", true},
+    {"ball.radius", "1 cm", true},
+    {"ball.mass", "11 g", true},
+    {"ball.wall", "2 mm", true},
+    {"ball.response", "ball.csv", true},
     {"motion.path", "back_and_forth", false},
     {"motion.to", "[4.5 cm, 0 cm]", false},
     {"motion.radius", "2 cm", true},
@@ -63,6 +67,8 @@ static const struct {
     {"contact.given.file", "force.wav", true},
     {"contact.given.scale", "10 N", true},
     {"contact.given.rate", "48 kHz", true},
+    {"contact.roll.stiffness", "2e9 N/m^1.5", true},
+    {"contact.roll.kappa", "5e9 N/(m^1.5 kg)", true},
     {"contact.limiter.force_range", "[0.2 N, 5 N]", true},
     {"output.listen.places", "[[0 m, 0 m, 1 m], [20 cm, 0 m, 1 m]]", true},
     {"output.stems", "[force, surface, scraper]", true},
@@ -75,8 +81,8 @@ static const struct {
     {NULL, NULL, false},
 };
 
-static const char *const sections_off[] = {"surface.continuation", "surface.ridges", "surface.grit", "surface.object", "surface.space",
-                                           "scraper.object", "grip", "output.listen", NULL};
+static const char *const sections_off[] = {"surface.continuation", "surface.ridges", "surface.grit", "surface.fractal", "surface.object", "surface.space",
+                                           "scraper.object", "ball.object", "grip", "output.listen", NULL};
 
 static const char head[] =
     "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"

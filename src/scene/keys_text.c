@@ -31,12 +31,15 @@ static const struct {
     [KEY_DECIBEL] = {"dB", "level (a bare number is in dB)"},
     [KEY_LUFS] = {"LUFS", "loudness (a bare number is in LUFS)"},
     [KEY_FORCE_COEFFICIENT] = {"N (s/m)^beta2", "force coefficient (a bare number is in N (s/m)^beta2)"},
-    [KEY_OUTPUT] = {"", "length, speed, acceleration or pressure, as it is heard (a bare number is SI)"},
+    [KEY_OUTPUT] = {"", "length, speed, acceleration, pressure or force, as it is heard (a bare number is SI)"},
     [KEY_PRESSURE] = {"Pa", "pressure or modulus (a bare number is in Pa)"},
     [KEY_DENSITY] = {"kg/m^3", "density (a bare number is in kg/m^3)"},
     [KEY_FORCE_PER_LENGTH] = {"N/m", "force per length (a bare number is in N/m)"},
     [KEY_PER_TIME] = {"1/s", "rate (a bare number is per second)"},
     [KEY_STIFFNESS] = {"", "stiffness (a bare number is SI: N/m, or N/m^1.5)"},
+    [KEY_STIFFNESS_PER_MASS] = {"N/(m^1.5 kg)", "stiffness per mass (a bare number is in N/(m^1.5 kg))"},
+    [KEY_PER_SPEED] = {"s/m", "number per speed (a bare number is in s/m)"},
+    [KEY_DISSIPATION] = {"N s/m^2.5", "dissipation (a bare number is in N s/m^2.5)"},
 };
 
 const char *keys_text_unit(enum key_dimension d)

@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 
 #include "num/real.h"
+#include "scene/ball.h"
+#include "scene/incline.h"
 #include "scene/scene.h"
 
 #define RULES_BAND_WIDEST 1e5      /* longest over shortest wavelength of a roughness */
@@ -33,10 +35,30 @@ static inline double rules_sigma(const struct contact_model *c, double alpha)
     return c->smoothing * (c->limiter.curve == LIMITER_TANH ? alpha : 0.03) / 0.03;
 }
 
+/* What touches the surface presses on it by its weight: m g cos(incline), N. */
+static inline double rules_weight(const struct contact *c)
+{
+    return c->scraper.mass * ball_gravity(c);
+}
+
+/* The normal force in N where nothing makes it vary (load_varies): what load.constant says, else the weight. */
+static inline double rules_load(const struct contact *c)
+{
+    return isnan(c->load.constant) ? rules_weight(c) : c->load.constant;
+}
+
 /* Is the path one straight line, on which the place is from + u e? (Of a contact that stays: at.) */
 static inline bool rules_straight(const struct motion *m)
 {
-    return m->path == PATH_STILL || m->path == PATH_BACK_AND_FORTH || m->path == PATH_LINE || m->path == PATH_FOUR_IN_LINE;
+    return m->path == PATH_STILL || m->path == PATH_BACK_AND_FORTH || m->path == PATH_LINE || m->path == PATH_FOUR_IN_LINE ||
+           m->path == PATH_INCLINE;
+}
+
+static inline double rules_incline_speed(const struct motion *m)
+{
+    struct incline i = incline_make(m);
+    double lasts = incline_lasts(&i, m), speed = incline_way(&i, lasts) / lasts;
+    return isfinite(speed) ? speed : 0.2;
 }
 
 /* The mean speed in m/s as far as the scene alone tells it, for predictions of cost; 0.2 where only a file or a curve's length would. */
@@ -45,6 +67,8 @@ static inline double rules_speed(const struct motion *m)
     double dx = m->to[0] - m->from[0], dy = m->to[1] - m->from[1], length = sqrt(dx * dx + dy * dy);
     if (m->path == PATH_STILL)
         return 0;
+    if (m->path == PATH_INCLINE)
+        return rules_incline_speed(m);
     if (!isnan(m->speed))
         return m->speed;
     if (m->path == PATH_BACK_AND_FORTH && !isnan(m->rate))
@@ -70,22 +94,23 @@ static inline bool rules_plane(const struct contact *c)
     return rules_along(c) == ALONG_PLANE || rules_along(c) == ALONG_AUTO;
 }
 
-/* The speed law that applies: SPEED_AUTO resolved; it stays SPEED_AUTO for a scribble's or a recording's own, and for what is still. */
+/* The speed law that applies: SPEED_AUTO resolved; it stays SPEED_AUTO for a scribble's or a recording's own, for what is still,
+   and for what moves freely. */
 static inline int rules_law(const struct motion *m)
 {
     static const int own[] = {[PATH_BACK_AND_FORTH] = SPEED_HARMONIC, [PATH_LINE] = SPEED_CONSTANT, [PATH_FOUR_IN_LINE] = SPEED_HARMONIC,
                               [PATH_CIRCLE] = SPEED_CONSTANT,         [PATH_SCRIBBLE] = SPEED_AUTO, [PATH_POLYLINE] = SPEED_MINIMUM_JERK,
                               [PATH_SPLINE] = SPEED_TWO_THIRDS,       [PATH_RECORDED] = SPEED_AUTO,
-                              [PATH_STILL] = SPEED_AUTO};
+                              [PATH_STILL] = SPEED_AUTO,              [PATH_INCLINE] = SPEED_AUTO};
     return m->law == SPEED_AUTO ? own[m->path] : m->law;
 }
 
 /* May the path be gone along under the law (auto: always)? back_and_forth turns round at rest, and so does what has corners; a straight line
-   has no curvature for two_thirds; what is still has no law. */
+   has no curvature for two_thirds; what is still has no law, and what moves freely has gravity's. */
 static inline bool rules_law_fits(const struct motion *m, int law)
 {
     bool rests = m->path == PATH_POLYLINE && m->corner == 0 && m->n_points > 2;
-    if (m->path == PATH_STILL)
+    if (m->path == PATH_STILL || m->path == PATH_INCLINE)
         return law == SPEED_AUTO;
     if (law == SPEED_CONSTANT)
         return m->path != PATH_BACK_AND_FORTH && !rests;
@@ -152,31 +177,63 @@ static inline bool rules_band_fits(const struct roughness *r)
     return r->longest / r->shortest <= RULES_BAND_WIDEST;
 }
 
+#define RULES_FRACTAL_LEAST 16      /* heights of a fractal profile */
+#define RULES_FRACTAL_MOST 16777216
+
+/* How many heights a period of a fractal profile has: length over pitch, to the nearest even number. */
+static inline double rules_fractal_size(const struct fractal *f)
+{
+    return 2 * rint(f->length / f->pitch / 2);
+}
+
+static inline bool rules_fractal_fits(const struct fractal *f)
+{
+    return rules_fractal_size(f) >= RULES_FRACTAL_LEAST && rules_fractal_size(f) <= RULES_FRACTAL_MOST;
+}
+
 #define RULES_APPROACH 5e-3 /* s: contact is made and given up where the motion is at speed, unless the scene says */
+
+static inline bool rules_incline_rests(const struct motion *m, bool at_end)
+{
+    struct incline i = incline_make(m);
+    return at_end ? i.over == INCLINE_RESTS && !(incline_lasts(&i, m) < i.end) : m->start_speed == 0;
+}
 
 /* Is the motion surely at rest where it starts (or ends)? What a file gives may be, and counts as not. */
 static inline bool rules_rests(const struct motion *m, bool at_end)
 {
     int law = rules_law(m);
     double strokes = 2 * m->rate * m->duration;
+    if (m->path == PATH_INCLINE)
+        return rules_incline_rests(m, at_end);
     if (law != SPEED_HARMONIC && law != SPEED_MINIMUM_JERK)
         return m->path == PATH_STILL;
     return !at_end || m->path != PATH_BACK_AND_FORTH || fabs(strokes - rint(strokes)) < 1e-9;
 }
 
-/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. Only what scrapes is lowered and raised. */
+/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. Only what scrapes or rolls is lowered and
+   raised; a ball also where it is at rest, as it presses all the same, but not one that is dropped, which comes down by itself. */
 static inline double rules_approach(const struct contact *c, bool release)
 {
     double given = release ? c->load.release : c->load.approach;
-    if (c->contact.model != CONTACT_SCRAPE)
+    if (c->contact.model != CONTACT_SCRAPE && !ball_rolls(c))
         return 0;
-    return !isnan(given) ? given : rules_rests(&c->motion, release) ? 0 : RULES_APPROACH;
+    if (!isnan(given))
+        return given;
+    bool falls = c->contact.model == CONTACT_ROLL_COUPLED && c->contact.roll.drop > 0 && !release;
+    return falls || (c->contact.model == CONTACT_SCRAPE && rules_rests(&c->motion, release)) ? 0 : RULES_APPROACH;
 }
 
 /* Does it make a sound? Its gain may still be 0. */
 static inline bool rules_rings(const struct contact *c)
 {
     return rules_responds(&c->surface.response) || (rules_responds(&c->scraper.response) && c->scraper.weight != 0);
+}
+
+/* Is it heard: does it ring, or is its force the sound? Its gain may still be 0. */
+static inline bool rules_heard(const struct contact *c, const struct output *o)
+{
+    return rules_rings(c) || o->quantity == QUANTITY_FORCE;
 }
 
 /* The frame of the scene at which the contact begins: `start` to the nearest one, at a rate in Hz. */

@@ -14,7 +14,7 @@
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
 
 enum motion_path {
-    PATH_BACK_AND_FORTH, PATH_LINE, PATH_FOUR_IN_LINE, PATH_CIRCLE, PATH_SCRIBBLE, PATH_POLYLINE, PATH_SPLINE, PATH_RECORDED, PATH_STILL
+    PATH_BACK_AND_FORTH, PATH_LINE, PATH_FOUR_IN_LINE, PATH_CIRCLE, PATH_SCRIBBLE, PATH_POLYLINE, PATH_SPLINE, PATH_RECORDED, PATH_STILL, PATH_INCLINE
 };
 enum speed_law { SPEED_AUTO, SPEED_HARMONIC, SPEED_CONSTANT, SPEED_MINIMUM_JERK, SPEED_TWO_THIRDS, SPEED_GIVEN };
 enum along { ALONG_AUTO, ALONG_PATH, ALONG_X, ALONG_PLANE };
@@ -22,7 +22,13 @@ enum holes { HOLES_REFUSE, HOLES_FILL };
 enum levelling { LEVELLING_NONE, LEVELLING_MEAN, LEVELLING_PLANE };
 enum ridge_shape { RIDGE_SINE, RIDGE_ROUND, RIDGE_GROOVE };
 enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
-enum contact_kind { CONTACT_SCRAPE, CONTACT_STRIKE, CONTACT_GIVEN };
+enum contact_kind { CONTACT_SCRAPE, CONTACT_STRIKE, CONTACT_GIVEN, CONTACT_ROLL, CONTACT_ROLL_COUPLED };
+enum ball_body { BODY_SOLID, BODY_HOLLOW, BODY_HOOP, BODY_WHEEL };
+enum fractal_spectrum { SPECTRUM_POWER, SPECTRUM_AMPLITUDE };
+enum interpolation { INTERPOLATION_NEAREST, INTERPOLATION_LINEAR, INTERPOLATION_SPLINE };
+enum penetration { PENETRATION_DEVIATION, PENETRATION_PAPER };
+enum integrator { INTEGRATOR_DISCRETE_GRADIENT, INTEGRATOR_RK4, INTEGRATOR_EXACT_IMPACT };
+enum ground { GROUND_AUTO, GROUND_ELASTIC, GROUND_RIGID };
 enum pulse { PULSE_HALF_SINE, PULSE_HERTZ };
 enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
 enum limiter_curve { LIMITER_TANH, LIMITER_NONE };
@@ -35,7 +41,8 @@ enum material_name {
     MATERIAL_CUSTOM, MATERIAL_BASSWOOD, MATERIAL_POPLAR, MATERIAL_OAK, MATERIAL_PVC, MATERIAL_POLYCARBONATE, MATERIAL_ACRYLIC, MATERIAL_GLASS,
     MATERIAL_CERAMIC, MATERIAL_STEEL, MATERIAL_ALUMINIUM
 };
-enum quantity { QUANTITY_AUTO, QUANTITY_DISPLACEMENT, QUANTITY_VELOCITY, QUANTITY_ACCELERATION };
+enum quantity { QUANTITY_AUTO, QUANTITY_DISPLACEMENT, QUANTITY_VELOCITY, QUANTITY_ACCELERATION, QUANTITY_FORCE };
+enum sound_envelope { ENVELOPE_NONE, ENVELOPE_APPROACH_RECEDE };
 enum radiator { RADIATOR_CONTACT, RADIATOR_POINT, RADIATOR_MONOPOLE, RADIATOR_PLATE };
 enum extrapolate { EXTRAPOLATE_ERROR, EXTRAPOLATE_NEAREST };
 enum encoding { ENCODING_PCM16, ENCODING_PCM24, ENCODING_FLOAT32, ENCODING_FLOAT64 };
@@ -72,6 +79,16 @@ struct grit {               /* scattered grains: surface/grit.h                 
     double density;         /* grains per m^2                                                    */
     double diameter, height;/* m, of the mean grain                                              */
     double spread;          /* standard deviation of a grain's size over its mean (log-normal)   */
+};
+
+struct fractal {            /* a fractal profile as papers/002 and 004 have it: surface/fractal.h   */
+    bool given;
+    double exponent;        /* beta: the spectrum over spatial frequency ~ k^exponent            */
+    int spectrum;           /* enum fractal_spectrum: of power or amplitude                      */
+    double maximum;         /* m, largest height above or below the mean                         */
+    double pitch;           /* m between its heights                                             */
+    double length;          /* m, after which it repeats itself                                  */
+    int interpolation;      /* enum interpolation, between its heights                           */
 };
 
 struct continuation {       /* finer roughness than a measured map holds: surface/continuation.h */
@@ -138,14 +155,29 @@ struct surface {
     struct roughness roughness;
     struct ridges ridges;
     struct grit grit;
+    struct fractal fractal;
     struct response response;
 };
 
-struct scraper {
+struct scraper {            /* what touches the surface; of rolling models the ball, as scene/ball.h has settled it */
     double mass;            /* kg, m_p of eq. 1                                                  */
     double weight;          /* eta: share of its response in the total                           */
     double radius;          /* m of the tip; NAN: a point                                        */
     double patch;           /* m, standard deviation of the Gaussian over the contact patch of a round tip */
+    struct response response;
+};
+
+struct ball {               /* what rolls: scene/ball.h                                          */
+    double radius;          /* m, R                                                              */
+    double mass;            /* kg; NAN: from body, radius and material                           */
+    int body;               /* enum ball_body                                                    */
+    double wall;            /* m, of what is hollow; NAN: thin                                   */
+    double offset;          /* m, r: of the centre of mass from the geometric centre             */
+    double start_angle;     /* rad, theta at the start; 0: the centre of mass is lowest          */
+    double lobe_height;     /* m, amplitude of the out-of-roundness                              */
+    int lobes;              /* how often round the ball                                          */
+    double patch;           /* m, standard deviation of the Gaussian over the contact patch; 0: none */
+    double weight;          /* share of its response in the total                                */
     struct response response;
 };
 
@@ -169,6 +201,10 @@ struct motion {
     double duration;        /* s; NAN: speed is given, or a file gives it                        */
     int law;                /* enum speed_law                                                    */
     const char *profile;    /* law given: CSV of time_s, speed_m_per_s                           */
+    double incline;         /* rad, slope of the path incline: above 0, to lies higher than from  */
+    double start_speed;     /* m/s, of the path incline                                          */
+    double rolling_friction; /* retarding force over normal force, of the path incline           */
+    double gravity, inertia; /* of the path incline, from the contact: m/s^2, g; I / (m R^2) of what moves (ball_settle) */
     double straight;        /* m, radius of curvature from which on two_thirds counts a path as straight */
 };
 
@@ -212,10 +248,24 @@ struct given_force {        /* force/given.h                                    
     const char *column;     /* of a CSV, beside time_s                                           */
 };
 
+struct roll {               /* force/roll.h, convolution/coupled.h                               */
+    double stiffness;       /* N/m^1.5, k; NAN: kappa, or static_depth, or Hertz's               */
+    double kappa;           /* N/(m^1.5 kg), k over the ball's mass                              */
+    double mu;              /* s/m, lambda / k                                                   */
+    double lambda;          /* N s/m^2.5, of penetration: paper                                  */
+    int penetration;        /* enum penetration (roll)                                           */
+    double static_depth;    /* static penetration over the rms of the centre's deviation (roll)  */
+    double scraping;        /* factor on equation 19's scraping terms (roll)                     */
+    int integrator;         /* enum integrator (roll_coupled)                                    */
+    int ground;             /* enum ground (roll_coupled)                                        */
+    double drop;            /* m, of the ball above its rest at the start (roll_coupled)         */
+};
+
 struct contact_model {
     int model;              /* enum contact_kind                                                 */
     struct strike strike;
     struct given_force given;
+    struct roll roll;
     int force;              /* enum force_kind                                                   */
     double beta1, beta2;    /* eq. 3                                                             */
     double leak;            /* m: l of dS'/ds + S'/l = T(c)                                      */
@@ -230,6 +280,7 @@ struct contact {
     double gain;            /* factor on this contact's sound                                    */
     struct surface surface;
     struct scraper scraper;
+    struct ball ball;
     struct motion motion;
     struct grip grip;
     struct load load;
@@ -265,9 +316,11 @@ struct output {
     int channels;           /* the same sound on each                                            */
     int quantity;           /* enum quantity                                                     */
     struct listen listen;
-    const char **stems;     /* NULL-terminated words: force, surface, scraper; NULL: none        */
+    const char **stems;     /* NULL-terminated words: force, surface, scraper, ball; NULL: none  */
     struct level level;
     double ramp;            /* s, raised-cosine on and off                                       */
+    int envelope;           /* enum sound_envelope                                                */
+    double envelope_depth;  /* dB, how far the ends lie below the middle                         */
     double tail;            /* s; NAN: auto, until the sound has decayed by 80 dB                */
     struct diagnostics diagnostics;
 };

@@ -40,6 +40,19 @@ static const struct key *barred(const struct scene_part *p, const struct key *k)
     return k;
 }
 
+/* A ball's keys are called as a scraper's: of a key of one that is meant for the other, the line that says so; "" of all else. */
+static const char *twin(const struct scene_part *p, const struct key *k)
+{
+    static const char *const bodies[2] = {"scraper", "ball"};
+    for (int i = 0; i < 2; i++) {
+        size_t n = strlen(bodies[i]);
+        const char *other = strncmp(k->path, bodies[i], n) || k->path[n] != '.' ? NULL : arena_format(p->yaml->arena, "%s%s", bodies[!i], k->path + n);
+        if (other && keys_find(other) && applies(p, keys_find(other)) == APPLIES_YES)
+            return arena_format(p->yaml->arena, "%s is called %s here; or ", scene_part_label(p, k->path), other);
+    }
+    return "";
+}
+
 static void not_applicable(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
 {
     struct arena *a = p->yaml->arena;
@@ -50,7 +63,8 @@ static void not_applicable(const struct scene_part *p, const struct key *k, cons
                        : now           ? arena_format(a, "where %s is not given", other)
                                        : arena_format(a, "beside %s", other);
     if (keys_words(bar))
-        cure = arena_format(a, "remove it, or set %s to %s (now it is %s)", other, keys_text_words(bar, a), now ? now->text : keys_decider(bar)->standard);
+        cure = arena_format(a, "%sremove it, or set %s to %s (now it is %s)", twin(p, k), other, keys_text_words(bar, a),
+                            now ? now->text : keys_decider(bar)->standard);
     else
         cure = now ? arena_format(a, "remove it (a null takes away what another file says), or remove %s", other)
                    : arena_format(a, "remove it, or give %s", other);

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_check.h"
 #include "scene/scene_keys.h"
@@ -42,6 +43,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
     name_check(t->yaml, map);
     scene_check_fill(&part);
+    ball_settle(c);
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;
     scene_sense_contact(&part);

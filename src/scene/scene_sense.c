@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "scene/scene_sense_parts.h"
 
@@ -27,6 +28,8 @@ double scene_sense_lasts(const struct motion *m)
         return m->duration;
     if (m->path == PATH_CIRCLE)
         return 2 * M_PI * m->radius * fabs(m->turns) / m->speed;
+    if (m->path == PATH_INCLINE)
+        return incline_make(m).end;
     return rules_straight(m) ? sqrt(x * x + y * y) / m->speed : NAN;
 }
 
@@ -70,8 +73,8 @@ static void ratio_check(const struct scene_part *p, const struct limiter *l)
 static double alpha_along_x(const struct contact *c)
 {
     const struct limiter *l = &c->contact.limiter;
-    double n = isnan(c->load.constant) ? c->scraper.mass * c->contact.gravity : c->load.constant;
-    if (c->grip.given || c->load.recorded)
+    double n = rules_load(c);
+    if (c->grip.given || c->load.recorded || (ball_rolls(c) && c->ball.offset > 0))
         return fmax(l->alpha_max, l->alpha);
     if (isnan(l->force_range[0]))
         return l->alpha;
@@ -102,11 +105,10 @@ static void smoothing_check(const struct scene_part *p, const struct contact *c)
 
 /* ------------------------------------------------------------------ a contact */
 
-static void scrape_check(const struct scene_part *p, const struct contact *c)
+/* What follows the surface as far as its limited curvature allows: a scraper, and a ball in the model `roll`. */
+static void follower_check(const struct scene_part *p, const struct contact *c)
 {
-    grip_check(p, &c->grip);
     lowering_check(p, c);
-    tip_check(p, &c->scraper);
     alpha_check(p, &c->contact.limiter);
     ratio_check(p, &c->contact.limiter);
     smoothing_check(p, c);
@@ -116,9 +118,13 @@ void scene_sense_contact(const struct scene_part *p)
 {
     const struct contact *c = p->to;
     scene_sense_motion(p, &c->motion);
-    scene_sense_surface(p, &c->surface);
-    if (c->contact.model == CONTACT_SCRAPE)
-        scrape_check(p, c);
+    scene_sense_surface(p, c);
+    if (c->contact.model == CONTACT_SCRAPE) {
+        grip_check(p, &c->grip);
+        tip_check(p, &c->scraper);
+    }
+    if (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL)
+        follower_check(p, c);
     scene_sense_model(p, c);
     scene_sense_response(p, c);
 }
@@ -135,9 +141,10 @@ void scene_sense_asked(const struct scene_part *p, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct yaml_node *surface = yaml_get(p->map, "surface");
-    if (s->output.diagnostics.given || rules_rings(c) || force_stem(&s->output))
+    if (s->output.diagnostics.given || rules_heard(c, &s->output) || force_stem(&s->output))
         return;
     diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
-             "give surface.response, surface.object or surface.space (or one of scraper) for a sound, output.diagnostics for a table of its physics, or the stem force",
+             arena_format(p->yaml->arena, "give surface.response, surface.object or surface.space (or one of %s) for a sound, set output.quantity to force for the sound of "
+                                          "the force alone, or ask for output.diagnostics, a table of its physics, or the stem force", ball_tool(c)),
              "nothing is asked of %s", scene_part_contact(p, c->name));
 }

@@ -1,7 +1,8 @@
-/* What an impact and a given force need, and what has no effect where nothing scrapes. */
+/* What an impact and a given force need, and what has no effect where nothing scrapes or rolls. */
 #include <math.h>
 #include <string.h>
 
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "scene/scene_check.h"
 #include "scene/scene_sense_parts.h"
@@ -18,20 +19,24 @@ static bool is_given(const struct scene_part *p, const char *path)
 
 /* ------------------------------------------------------------------ scrape, and what only a scrape has */
 
+/* A ball that is dropped may bounce at one place; all else that follows a surface has to move. */
 static void still_check(const struct scene_part *p, const struct contact *c)
 {
     const char *path = "motion.path", *kind = "contact.model";
-    if (c->motion.path == PATH_STILL && scene_part_known(p, path) && c->contact.model == CONTACT_SCRAPE && scene_part_known(p, kind))
-        diag_add(p->yaml->diag, scene_part_later(p, path, kind), "let it move, such as path: line; or set contact.model to strike or given",
-                 "%s is still: nothing would scrape where %s is scrape", scene_part_label(p, path), scene_part_label(p, kind));
+    bool rolls = c->contact.model == CONTACT_ROLL;
+    if (c->motion.path == PATH_STILL && scene_part_known(p, path) && (rolls || c->contact.model == CONTACT_SCRAPE))
+        diag_add(p->yaml->diag, scene_part_later(p, path, kind),
+                 rolls ? "let it move, such as path: line; or set contact.model to roll_coupled, under which a ball may bounce on the spot"
+                       : "let it move, such as path: line; or set contact.model to strike or given",
+                 "%s is still: nothing would %s where %s is %s", scene_part_label(p, path), model(c), scene_part_label(p, kind), model(c));
 }
 
 static void idle_check(const struct scene_part *p, const struct contact *c)
 {
-    static const char *const idle[] = {"surface.height_map", "surface.roughness", "surface.ridges", "surface.grit", "surface.continuation", "grip"};
-    for (size_t i = 0; i < sizeof idle / sizeof idle[0]; i++) {
+    static const char *const idle[] = {"grip", "surface.height_map", "surface.roughness", "surface.ridges", "surface.grit", "surface.fractal", "surface.continuation"};
+    for (size_t i = 0; i < (ball_rolls(c) ? 1 : sizeof idle / sizeof idle[0]); i++) {
         const struct yaml_node *node = yaml_find(p->map, idle[i]);
-        if (node && (node->n == 0 || strcmp(idle[i], "grip") != 0)) /* a grip's keys say it themselves */
+        if (node && (node->n == 0 || i > 0)) /* a grip's keys say it themselves */
             diag_add(p->yaml->diag, node->key->at, "remove it (a null takes away what another file says), or set contact.model to scrape",
                      "%s has no effect where %s is %s", scene_part_label(p, idle[i]), scene_part_label(p, "contact.model"), model(c));
     }
@@ -39,14 +44,19 @@ static void idle_check(const struct scene_part *p, const struct contact *c)
 
 /* ------------------------------------------------------------------ strike */
 
+bool scene_sense_model_unit(const struct yaml_node *node, bool linear)
+{
+    const char *slash = node && node->kind == YAML_SCALAR ? strchr(node->text, '/') : NULL;
+    return slash && (strchr(slash, '.') || strchr(slash, '(')) != !linear;
+}
+
 /* The unit, where one is written, says which pulse the figure is meant for. */
 static void stiffness_unit_check(const struct scene_part *p, const struct strike *s)
 {
     static const char *const per_metre[2] = {"N/m", "N/m^1.5"};
     const char *path = "contact.strike.stiffness";
     const struct yaml_node *node = yaml_find(p->map, path);
-    const char *slash = node && !isnan(s->stiffness) && node->kind == YAML_SCALAR ? strchr(node->text, '/') : NULL;
-    if (slash && (strchr(slash, '.') || strchr(slash, '(')) != (s->pulse == PULSE_HERTZ))
+    if (!isnan(s->stiffness) && scene_sense_model_unit(node, s->pulse != PULSE_HERTZ))
         diag_add(p->yaml->diag, node->at, arena_format(p->yaml->arena, "give it in %s, or set contact.strike.pulse to %s", per_metre[s->pulse == PULSE_HERTZ],
                                                        s->pulse == PULSE_HERTZ ? "half_sine" : "hertz"),
                  "%s of a %s pulse is in %s, not '%s'", scene_part_label(p, path), s->pulse == PULSE_HERTZ ? "hertz" : "half_sine",
@@ -61,11 +71,30 @@ static bool is_elastic(const struct scene_part *p, const char *body, const struc
            (is_given(p, arena_format(a, "%s.object.youngs_modulus", body)) && is_given(p, arena_format(a, "%s.object.poisson", body)));
 }
 
-static void stiffness_check(const struct scene_part *p, const struct contact *c)
+static void moduli_missing(const struct scene_part *p, const char *body, const char *because)
+{
+    struct arena *a = p->yaml->arena;
+    const char *material = arena_format(a, "%s.material", body), *object = arena_format(a, "youngs_modulus and poisson of %s.object", body);
+    const struct yaml_node *custom = yaml_find(p->map, material);
+    if (custom)
+        diag_add(p->yaml->diag, custom->at, arena_format(a, "name a material, such as steel, or give %s", object), "%s is custom, and %s are not given: %s",
+                 scene_part_label(p, material), object, because);
+    else
+        scene_check_missing(p, material, "steel", arena_format(a, " (or %s): %s", object, because));
+}
+
+/* Hertz's stiffness follows from the moduli of both. */
+void scene_sense_model_moduli(const struct scene_part *p, const struct contact *c, const char *because)
 {
     const struct object_given *const objects[2] = {&c->surface.response.object, &c->scraper.response.object};
-    static const char *const bodies[2] = {"surface", "scraper"};
-    struct arena *a = p->yaml->arena;
+    const char *const bodies[2] = {"surface", ball_tool(c)};
+    for (int i = 0; i < 2; i++)
+        if (!is_elastic(p, bodies[i], objects[i]))
+            moduli_missing(p, bodies[i], because);
+}
+
+static void stiffness_check(const struct scene_part *p, const struct contact *c)
+{
     if (is_given(p, "contact.strike.stiffness"))
         return;
     if (c->contact.strike.pulse == PULSE_HALF_SINE) {
@@ -73,11 +102,7 @@ static void stiffness_check(const struct scene_part *p, const struct contact *c)
         return;
     }
     scene_check_missing(p, "scraper.radius", "5 mm", ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
-    for (int i = 0; i < 2; i++)
-        if (!is_elastic(p, bodies[i], objects[i]))
-            scene_check_missing(p, arena_format(a, "%s.material", bodies[i]), "steel",
-                                arena_format(a, " (or youngs_modulus and poisson of %s.object): the stiffness of the impact follows from it, unless "
-                                                "contact.strike.stiffness is given", bodies[i]));
+    scene_sense_model_moduli(p, c, "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
 }
 
 static void train_check(const struct scene_part *p, const struct contact *c)
@@ -113,6 +138,9 @@ static void given_check(const struct scene_part *p, const struct given_force *g)
     static const char *const kinds[] = {"a WAV", "an NPY", "a CSV"}, *const endings[] = {".wav", ".npy", ".csv"};
     static const char *const keys[] = {"contact.given.channel", "contact.given.rate", "contact.given.column"}; /* each is of one kind */
     int kind = 0;
+    if (g->scale == 0)
+        diag_add(p->yaml->diag, scene_part_later(p, "contact.given.scale", "contact.given.scale"), "write for instance: 10 N", "%s is 0: there would be no force",
+                 scene_part_label(p, "contact.given.scale"));
     while (g->file && kind < 3 && !rules_ends_in(g->file, endings[kind]))
         kind++;
     if (!g->file || kind == 3)
@@ -139,4 +167,6 @@ void scene_sense_model(const struct scene_part *p, const struct contact *c)
         strike_check(p, c);
     if (c->contact.model == CONTACT_GIVEN)
         given_check(p, &c->contact.given);
+    if (ball_rolls(c))
+        scene_sense_ball(p, c);
 }

@@ -1,4 +1,4 @@
-/* A motion's values against each other: how long is its way, what says how long it takes, and which speed law fits which path. */
+/* A motion's values against each other: how long is its way, what says how long it takes, which speed law fits which path, and what moves freely. */
 #include <math.h>
 #include <string.h>
 
@@ -70,7 +70,7 @@ static void time_check(const struct scene_part *p, const struct motion *m)
         scene_check_missing(p, duration, example, "");
     else if (m->path == PATH_RECORDED && m->law != SPEED_AUTO)
         scene_check_missing(p, duration, example, arena_format(p->yaml->arena, ": under the law %s a recording gives the path only", word("motion.law", m->law)));
-    else if (m->path != PATH_RECORDED && !given(p, duration) && !given(p, "motion.speed"))
+    else if (m->path != PATH_RECORDED && m->path != PATH_INCLINE && !given(p, duration) && !given(p, "motion.speed"))
         diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given", scene_part_label(p, "motion.speed"),
                  scene_part_label(p, duration));
 }
@@ -83,6 +83,8 @@ static const char *why_not(const struct motion *m)
         return "it rests at its corners";
     if (m->path == PATH_STILL)
         return "nothing moves";
+    if (m->path == PATH_INCLINE)
+        return "gravity and friction say how fast it goes";
     return m->law == SPEED_CONSTANT ? "it rests where it turns round" : "a straight line has no curvature";
 }
 
@@ -102,6 +104,50 @@ static void law_check(const struct scene_part *p, const struct motion *m)
              scene_part_label(p, "motion.path"), word("motion.path", m->path), why_not(m));
 }
 
+/* ------------------------------------------------------------------ free motion */
+
+static bool free_held(const struct scene_part *p)
+{
+    const struct contact *c = p->to;
+    const struct yaml_node *grip = yaml_find(p->map, "grip");
+    const char *model = "contact.model", *path = "motion.path";
+    if (c->contact.model == CONTACT_GIVEN && scene_part_known(p, model))
+        diag_add(p->yaml->diag, scene_part_later(p, path, model), "let it move otherwise, such as path: line",
+                 "%s must not be incline where %s is given: there is no contact.gravity", scene_part_label(p, path), scene_part_label(p, model));
+    else if (grip && c->contact.model == CONTACT_SCRAPE) /* other models have none at all */
+        diag_add(p->yaml->diag, grip->key->at, "remove it, or let the hand say how it moves: path: line",
+                 "%s must not be given where %s is incline: nothing holds what moves freely", scene_part_label(p, "grip"), scene_part_label(p, path));
+    else
+        return false;
+    return true;
+}
+
+static void free_stuck(const struct scene_part *p, const struct motion *m)
+{
+    const char *cure, *why = incline_stuck(m, &cure), *speed = "motion.start_speed", *slope = "motion.incline";
+    diag_add(p->yaml->diag, given(p, speed) || given(p, slope) ? scene_part_later(p, speed, slope) : motion_place(p), cure, "%s: %s",
+             scene_part_label(p, "motion"), why);
+}
+
+static void free_check(const struct scene_part *p, const struct motion *m)
+{
+    struct incline i = incline_make(m);
+    const char *duration = "motion.duration";
+    double lasts = incline_lasts(&i, m);
+    double known = m->start_speed + m->incline + m->rolling_friction + m->gravity;
+    if (m->path != PATH_INCLINE || free_held(p) || isnan(known) || !(i.length >= SHORTEST_WAY))
+        return;
+    if (i.over == INCLINE_STUCK)
+        free_stuck(p, m);
+    else if (incline_leaves(&i, lasts))
+        diag_add(p->yaml->diag, scene_part_later(p, duration, duration),
+                 "lower it, or leave it out: the motion ends there by itself; or make the way longer", "%s is %.6g s, and the motion %s after %.6g s",
+                 scene_part_label(p, duration), lasts, incline_event(&i), i.end);
+    else if (lasts > INCLINE_LONGEST)
+        diag_add(p->yaml->diag, motion_place(p), "add for instance: duration: 1 min", "%s: it is %.4g s before it %s, and a motion lasts at most %g s",
+                 scene_part_label(p, "motion"), lasts, incline_event(&i), INCLINE_LONGEST);
+}
+
 void scene_sense_motion(const struct scene_part *p, const struct motion *m)
 {
     if (!scene_part_known(p, "motion.path"))
@@ -112,4 +158,5 @@ void scene_sense_motion(const struct scene_part *p, const struct motion *m)
         return;
     time_check(p, m);
     law_check(p, m);
+    free_check(p, m);
 }

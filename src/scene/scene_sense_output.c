@@ -3,10 +3,11 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "scene/scene_sense.h"
 
-static const char *const stems[] = {"force", "surface", "scraper", NULL};
+static const char *const stems[] = {"force", "surface", "scraper", "ball", NULL};
 
 static bool in_pascals(const struct listen *l)
 {
@@ -31,7 +32,7 @@ static void stem_words_check(const struct scene_part *top)
         if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || stems[i])
             continue;
         const char *near = text_nearest(item->text, stems);
-        diag_add(y->diag, item->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : "stems: force, surface, scraper",
+        diag_add(y->diag, item->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : "stems: force, surface, scraper, ball",
                  "output.stems: there is no stem '%s'", diag_shown(y->diag, item->text));
     }
 }
@@ -48,12 +49,42 @@ static void channels_check(const struct scene_part *top, const struct output *o)
 static void quantity_check(const struct scene_part *top, const struct output *o)
 {
     const char *quantity = "output.quantity", *radiator = "output.listen.radiator", *level = "output.level.dbfs_at_1_pa";
-    if (o->quantity != QUANTITY_AUTO && in_pascals(&o->listen) && scene_part_known(top, quantity))
+    if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && in_pascals(&o->listen) && scene_part_known(top, quantity))
         diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator), "leave output.quantity out, or set output.listen.radiator to contact or point",
                  "%s must be auto where %s is %s: what is heard is a pressure", quantity, radiator, radiator_word(&o->listen));
     if (!isnan(o->level.dbfs_at_1_pa) && !in_pascals(&o->listen))
         diag_add(top->yaml->diag, yaml_find(top->map, level)->key->at, "add for instance: listen: {places: [[0, 0, 1 m]]}; or scale by level: {full_scale: ...}",
                  "%s needs a sound in pascals: output.listen with a monopole or a plate", level);
+}
+
+/* A force is heard nowhere, and of what rings under it nothing is computed. */
+static void force_check(const struct scene_part *top, const struct output *o)
+{
+    const char *quantity = "output.quantity", *radiator = "output.listen.radiator";
+    const struct yaml_node *list = yaml_find(top->map, "output.stems");
+    if (o->quantity != QUANTITY_FORCE || !scene_part_known(top, quantity))
+        return;
+    if (o->listen.given && o->listen.radiator != RADIATOR_CONTACT)
+        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator), "leave output.listen out, or output.quantity",
+                 "%s is force and %s is %s: a force is not radiated, and is the same at all places", quantity, radiator, radiator_word(&o->listen));
+    for (const struct yaml_node *item = o->stems ? list->first : NULL; item; item = item->next)
+        if (strcmp(item->text, "force") != 0)
+            diag_add(top->yaml->diag, item->at, "leave the stem out, or set output.quantity to auto",
+                     "output.stems: '%s' is a part of what rings, and nothing rings where %s is force", diag_shown(top->yaml->diag, item->text), quantity);
+}
+
+/* The unit, where one is written, says of what the figure is meant to be. */
+static void full_scale_check(const struct scene_part *top, const struct output *o)
+{
+    const char *path = "output.level.full_scale", *quantity = "output.quantity";
+    const struct yaml_node *node = yaml_find(top->map, path);
+    if (isnan(o->level.full_scale) || !node || !scene_part_known(top, quantity))
+        return;
+    bool newtons = strchr(node->text, 'N') != NULL, unit = newtons || strpbrk(node->text, "mPs") != NULL, force = o->quantity == QUANTITY_FORCE;
+    if (unit && newtons != force)
+        diag_add(top->yaml->diag, scene_part_later(top, path, quantity),
+                 force ? "write for instance: full_scale: 2 N" : "write for instance: full_scale: 1 mm/s; or set output.quantity to force",
+                 "%s is '%s', and the sound is %s", path, diag_shown(top->yaml->diag, node->text), force ? "a force, in N" : "no force");
 }
 
 /* A plate radiates to its front; an object's own places lie on it. */
@@ -79,6 +110,8 @@ void scene_sense_output(const struct scene_part *top)
         return;
     channels_check(top, &s->output);
     quantity_check(top, &s->output);
+    force_check(top, &s->output);
+    full_scale_check(top, &s->output);
     if (s->output.listen.given)
         heights_check(top, &s->output.listen);
 }
@@ -113,7 +146,7 @@ void scene_sense_output_heard(const struct scene_part *p, struct yaml_node *root
         diag_add(p->yaml->diag, yaml_find(root, radiator) ? yaml_find(root, radiator)->at : yaml_find(root, "output.listen")->key->at,
                  "give what it needs, or set output.listen.radiator to contact", "%s: a %s needs %s, which %s has not", radiator, radiator_word(&o->listen),
                  needs, name);
-    if (o->quantity != QUANTITY_AUTO && rules_is_recorded(&c->surface.response))
+    if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && rules_is_recorded(&c->surface.response))
         diag_add(p->yaml->diag, scene_part_later(&top, quantity, quantity), "leave output.quantity out",
                  "%s: '%s' of %s is recorded, and of which quantity is not stated", quantity, diag_shown(p->yaml->diag, file), name);
 }
@@ -123,8 +156,9 @@ static bool is_there(const struct scene *s, const char *stem)
 {
     for (int i = 0; i < s->n_contacts; i++) {
         const struct contact *c = &s->contacts[i];
-        bool rings = strcmp(stem, "surface") == 0 ? rules_responds(&c->surface.response) : rules_responds(&c->scraper.response) && c->scraper.weight != 0;
-        if (c->gain != 0 && (strcmp(stem, "force") == 0 || rings))
+        bool tool = strcmp(stem, ball_tool(c)) == 0 && rules_responds(&c->scraper.response) && c->scraper.weight != 0;
+        bool surface = strcmp(stem, "surface") == 0 && rules_responds(&c->surface.response);
+        if (c->gain != 0 && (strcmp(stem, "force") == 0 || surface || tool))
             return true;
     }
     return false;

@@ -1,6 +1,8 @@
 /* How bodies ring: readings of a response that moves, and the engines that can do them. */
 #include <math.h>
+#include <string.h>
 
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "scene/scene_sense_parts.h"
 
@@ -69,12 +71,12 @@ static void reading_check(const struct body *b)
     const struct response *r = b->response;
     int asked = r->convolution;
     bool clash = (glides(r) && (asked == ENGINE_OVERLAP_ADD || asked == ENGINE_NODES)) ||
-                 (r->moving == MOVING_READOUT && (asked == ENGINE_RESONATORS || asked == ENGINE_NODES));
+                 (r->moving == MOVING_READOUT && asked == ENGINE_NODES);
     if (r->moving == MOVING_FIXED && rules_travels(&r->space) && known(b, "moving"))
         diag_add(b->part->yaml->diag, later(b, "moving", "space"), "leave surface.moving out, or set it to launch, glide or readout",
                  "%s: fixed needs an object that stays what it is, and %s travels", label_of(b, "moving"), label_of(b, "space"));
     if (clash)
-        diag_add(b->part->yaml->diag, later(b, "convolution", "moving"), leave_out(b, "convolution", glides(r) ? "resonators" : "overlap_add"),
+        diag_add(b->part->yaml->diag, later(b, "convolution", "moving"), leave_out(b, "convolution", "resonators"),
                  "%s: %s cannot do %s: %s%s", label_of(b, "convolution"), word(b, "convolution", asked), label_of(b, "moving"),
                  glides(r) ? "glide" : "readout", r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
 }
@@ -100,9 +102,9 @@ static void nodes_check(const struct body *b, const struct motion *m)
     struct diag *d = b->part->yaml->diag;
     if (b->response->convolution != ENGINE_NODES || rules_is_recorded(b->response))
         return;
-    if (b->name[1] == 'c') /* scraper */
-        diag_add(d, later(b, "convolution", "convolution"), leave_out(b, "convolution", "resonators"), "%s: nodes are for a response that moves, and a scraper's does not",
-                 label_of(b, "convolution"));
+    if (strcmp(b->name, "surface") != 0)
+        diag_add(d, later(b, "convolution", "convolution"), leave_out(b, "convolution", "resonators"), "%s: nodes are for a response that moves, and a %s's does not",
+                 label_of(b, "convolution"), b->name);
     else if (!rules_straight(m) && scene_part_known(b->part, "motion.path"))
         diag_add(d, scene_part_later(b->part, path_of(b, "convolution"), "motion.path"), leave_out(b, "convolution", "overlap_add"),
                  "%s: nodes lie along a straight motion, and %s is %s", label_of(b, "convolution"), scene_part_label(b->part, "motion.path"),
@@ -134,7 +136,7 @@ static void space_check(const struct scene_part *p, const char *path, const doub
 void scene_sense_response(const struct scene_part *p, const struct contact *c)
 {
     body_check(p, "surface", &c->surface.response, &c->motion);
-    body_check(p, "scraper", &c->scraper.response, &c->motion);
+    body_check(p, ball_tool(c), &c->scraper.response, &c->motion);
     space_check(p, "surface.space.from", c->surface.response.space.from);
     space_check(p, "surface.space.to", c->surface.response.space.to);
 }

@@ -132,7 +132,7 @@ static double unsaid(const struct key *k, const void *owner, const struct writer
     bool load = !strcmp(k->path, "load.constant"), peak = !strcmp(k->path, "output.level.peak") && w->sounds;
     if ((!load && !peak) || alternative_given(k, owner))
         return NAN;
-    double x = load ? c->scraper.mass * c->contact.gravity : RULES_PEAK;
+    double x = load ? rules_weight(c) : RULES_PEAK;
     return x >= k->low && x <= k->high ? x : NAN;
 }
 
@@ -170,7 +170,8 @@ static bool applies(const struct key *k, const void *owner)
         return true;
     if (keys_words(k))
         return applies(decides, owner) && keys_applies_with(k, word(decides, owner));
-    return keys_applies_beside(k, decides->type == KEY_FILE ? text(decides, owner) != NULL : !isnan(number(decides, owner)));
+    bool there = decides->type == KEY_FILE ? text(decides, owner) != NULL : !isnan(number(decides, owner));
+    return keys_applies_beside(k, there && applies(decides, owner)); /* a ball's radius stands where a scraper's would */
 }
 
 /* Is every section that the key stands in given? */
@@ -244,7 +245,7 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
         n_keys++;
     struct writer w = {open_memstream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0, false};
     for (int i = 0; i < s->n_contacts; i++)
-        w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_rings(&s->contacts[i]));
+        w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_heard(&s->contacts[i], &s->output));
     write_keys(&w, s);
     write_accuracy(&w, s);
     scene_write_inputs(w.f, s, beside, a);

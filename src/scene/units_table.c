@@ -17,12 +17,15 @@ static const struct units_table_dimension dimensions[] = {
     [KEY_DECIBEL] = {"a level in decibels", "-3 dB", {"dB"}},
     [KEY_LUFS] = {"a loudness", "-23 LUFS", {"LUFS"}},
     [KEY_FORCE_COEFFICIENT] = {"a force coefficient", "0.05 N s/m", {"N s/m", "N (s/m)^beta2"}},
-    [KEY_OUTPUT] = {"a length, speed, acceleration or pressure", "1 mm/s", {"", "m", "mm", "um", "m/s", "mm/s", "m/s^2", "Pa"}},
+    [KEY_OUTPUT] = {"a length, speed, acceleration, pressure or force", "1 mm/s", {"", "m", "mm", "um", "m/s", "mm/s", "m/s^2", "Pa", "N"}},
     [KEY_PRESSURE] = {"a pressure or modulus", "12 GPa", {"Pa", "kPa", "MPa", "GPa"}},
     [KEY_DENSITY] = {"a density", "650 kg/m^3", {"kg/m^3", "g/cm^3"}},
     [KEY_FORCE_PER_LENGTH] = {"a force per length", "2 kN/m", {"N/m", "kN/m", "N/mm"}},
     [KEY_PER_TIME] = {"a rate per second", "10 1/s", {"1/s", "/s"}},
     [KEY_STIFFNESS] = {"a stiffness", "2 MN/m", {"N/m", "kN/m", "MN/m", "N/m^1.5", "MN/m^1.5", "GN/m^1.5"}},
+    [KEY_STIFFNESS_PER_MASS] = {"a stiffness per mass", "5e9 N/(m^1.5 kg)", {"N/(m^1.5 kg)"}},
+    [KEY_PER_SPEED] = {"a number per speed", "1 s/m", {"s/m"}},
+    [KEY_DISSIPATION] = {"a dissipation of a Hunt-Crossley contact", "0.1 N s/m^2.5", {"N s/m^2.5"}},
 };
 
 static const struct units_table_unit units[] = {
@@ -68,6 +71,11 @@ static const struct units_table_unit units[] = {
     {"/s", KEY_PER_TIME, 0, ""},
     {"N/m^1.5", KEY_STIFFNESS, 0, "mkMG"},
     {"N/m^(3/2)", KEY_STIFFNESS, 0, "mkMG"},
+    {"N/(m^1.5 kg)", KEY_STIFFNESS_PER_MASS, 0, "kMG"},
+    {"N/m^1.5/kg", KEY_STIFFNESS_PER_MASS, 0, "kMG"},
+    {"s/m", KEY_PER_SPEED, 0, "m"},
+    {"N s/m^2.5", KEY_DISSIPATION, 0, "mkMG"},
+    {"N*s/m^2.5", KEY_DISSIPATION, 0, "mkMG"},
 };
 
 static const struct prefix {
@@ -107,7 +115,8 @@ const struct units_table_unit *units_table_find(const char *text, int *power)
 bool units_table_fits(const struct units_table_unit *u, enum key_dimension d)
 {
     if (d == KEY_OUTPUT)
-        return u->dimension == KEY_LENGTH || u->dimension == KEY_SPEED || u->dimension == KEY_ACCELERATION || u->dimension == KEY_PRESSURE;
+        return u->dimension == KEY_LENGTH || u->dimension == KEY_SPEED || u->dimension == KEY_ACCELERATION || u->dimension == KEY_PRESSURE ||
+               u->dimension == KEY_FORCE;
     if (d == KEY_STIFFNESS && u->dimension == KEY_FORCE_PER_LENGTH)
         return true;
     return u->dimension == d;

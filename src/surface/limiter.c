@@ -11,6 +11,7 @@
 
 #include "num/real.h"
 #include "num/vecmath.h"
+#include "scene/rules.h"
 #include "stage.h"
 #include "trajectory/load.h"
 
@@ -37,7 +38,7 @@ void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, d
 double limiter_constant(const struct contact *c)
 {
     const struct limiter *given = &c->contact.limiter;
-    double n = isnan(c->load.constant) ? c->scraper.mass * c->contact.gravity : c->load.constant, alpha = given->alpha;
+    double n = rules_load(c), alpha = given->alpha;
     struct limiter_law l = limiter_make(given, n, n);
     if (!isnan(given->force_range[0]))
         limiter_alpha(&l, 1, &n, &alpha);

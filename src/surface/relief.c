@@ -74,3 +74,12 @@ double relief_finest(const struct relief *r)
     }
     return finest;
 }
+
+double relief_kinks(const struct relief *r)
+{
+    double kinks = 0;
+    for (const struct relief_part *p = r->first; p; p = p->next)
+        if (p->kinks > 0)
+            kinks = kinks > 0 ? fmin(kinks, p->kinks) : p->kinks;
+    return kinks;
+}

@@ -1,5 +1,5 @@
 /* A surface as a contact meets it: heights z and derivatives, read at batches of points, as the sum of parts (a measured map,
-   roughness, ridges ...) that stages add. Every part has continuous second derivatives (C2).
+   roughness, ridges ...) that stages add. Every part has continuous second derivatives (C2), but for those with kinks.
 
    Coordinates, by relief->along:
      ALONG_PATH   x is the signed distance u along the motion (0 where it starts); nothing depends on y
@@ -30,6 +30,7 @@ struct relief_part {
     double pitch[2], origin[2]; /* m: third derivatives may jump at origin + i pitch (knots); pitch 0: nowhere */
     bool linear;         /* z'' is a straight line between knots (a cubic spline of one coordinate)           */
     double finest;       /* m: second derivatives do not vary on scales much shorter than this                */
+    double kinks;        /* m: z itself may have kinks or steps at its multiples; 0: C2. Read by its heights, under a tip, alone */
     double from[2], to[2]; /* m: where the part is given; -HUGE_VAL, HUGE_VAL: everywhere                     */
     void (*add)(struct relief_part *, const struct relief_points *, const struct relief_values *); /* adds its values to those there */
     void (*close)(struct relief_part *); /* may be NULL */
@@ -57,5 +58,8 @@ void relief_settle(struct relief *, const struct contact *);
 
 /* The finest scale (m) and the smallest pitch of all parts; HUGE_VAL: none. */
 double relief_finest(const struct relief *);
+
+/* The smallest `kinks` there is; 0: none. */
+double relief_kinks(const struct relief *);
 
 #endif

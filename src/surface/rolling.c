@@ -1,6 +1,7 @@
 /* See rolling.h. Three memories of blocks on lattices through 0, each made from the one before when it is asked for:
 
-     heights   z of the surface at multiples of d = h / finer (in the plane: read every 2 d, and between by Taylor's formula)
+     heights   z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula. In one coordinate crest.c keeps them,
+               at a pitch of their own
      crests    E at multiples of h = patch / 4
      splines   coefficients c = G * B^-1 * E of a cubic spline, z = sum c_i B(x/h - i): the Gaussian G of standard deviation 4 h, sampled, and
                the inverse of reading a spline at its knots (surface/profile.h), in one symmetric kernel in each direction. It is cut at 28
@@ -34,11 +35,12 @@ struct rolling {
     const struct relief *under;
     struct rolling_plan plan;
     bool plane, warned;
-    double h, d, least, most;
+    double h, d, least, most; /* d: of the plane */
     long reach;             /* in d */
     double kernel[KERNEL + 1];
     struct grid heights, crests, splines; /* a block of splines has EDGE more coefficients: those of its cells */
-    struct envelope *envelope;
+    struct envelope *envelope; /* of the plane */
+    struct relief line;     /* the envelope in one coordinate */
     double *crest, *half;   /* work: crests under a block of splines; the same, done along rows */
     long column, row;       /* of the block of splines at hand */
     const double *at_hand;  /* NULL: none */
@@ -77,10 +79,10 @@ static void heights_watch(struct rolling *w, const double *z, long n)
     }
 }
 
-/* In the plane, reading is most of the work, and parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in
+/* Reading is most of the work, and parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in
    its middle, and they are its Taylor polynomial of second degree. 64 points are read at a time, in a square, as parts that keep a patch of
    coefficients like it. */
-static void heights_plane(void *self, long column, long row, double *out)
+static void heights_fill(void *self, long column, long row, double *out)
 {
     struct rolling *w = self;
     double x[READ], y[READ], z[READ], zx[READ], zy[READ], xx[READ], xy[READ], yy[READ], s = w->d / 2;
@@ -104,41 +106,38 @@ static void heights_plane(void *self, long column, long row, double *out)
     heights_watch(w, out, side * side);
 }
 
-static void heights_line(void *self, long column, long row, double *out)
-{
-    struct rolling *w = self;
-    double x[READ];
-    (void)row;
-    for (long i = 0; i < w->heights.side[0]; i += READ) {
-        for (long k = 0; k < READ; k++)
-            x[k] = (double)(column * w->heights.side[0] + i + k) * w->d;
-        relief_at(w->under, &(struct relief_points){READ, x, NULL}, &(struct relief_values){.z = out + i});
-    }
-    heights_watch(w, out, w->heights.side[0]);
-}
-
 /* ------------------------------------------------------------------ crests */
 
-void rolling_size(const struct rolling_plan *p, int along, long size[2])
+long rolling_side(const struct rolling_plan *p)
 {
-    double d = p->patch / ROLLING_PER_PATCH / p->finer;
-    long side = along == ALONG_PLANE ? CREST : LINE, reach = (long)ceil(p->reach / d);
-    size[0] = (side - 1) * p->finer + 1 + 2 * reach;
-    size[1] = along == ALONG_PLANE ? size[0] : 1;
+    return (CREST - 1) * p->finer + 1 + 2 * (long)ceil(p->reach / (p->patch / ROLLING_PER_PATCH / p->finer));
 }
 
-static void crests_fill(void *self, long column, long row, double *out)
+static void crests_plane(void *self, long column, long row, double *out)
 {
     struct rolling *w = self;
-    long finer = w->plan.finer, below = w->plane ? w->reach : 0, size[2], stride;
-    long from[2] = {column * w->crests.side[0] * finer - w->reach, row * w->crests.side[1] * finer - below};
-    rolling_size(&w->plan, w->plane ? ALONG_PLANE : ALONG_PATH, size);
+    long finer = w->plan.finer, side = rolling_side(&w->plan), stride;
     double *heights = envelope_heights(w->envelope, &stride);
-    grid_gather(&w->heights, from, size, heights, stride);
+    grid_gather(&w->heights, (long[]){column * CREST * finer - w->reach, row * CREST * finer - w->reach}, (long[]){side, side}, heights, stride);
     envelope_prepare(w->envelope);
-    for (long j = 0; j < w->crests.side[1]; j++)
-        for (long i = 0; i < w->crests.side[0]; i++)
-            out[j * w->crests.side[0] + i] = envelope_at(w->envelope, w->reach + i * finer, below + j * finer);
+    for (long j = 0; j < CREST; j++)
+        for (long i = 0; i < CREST; i++)
+            out[j * CREST + i] = envelope_at(w->envelope, w->reach + i * finer, w->reach + j * finer);
+}
+
+struct crest_plan rolling_crest(const struct rolling_plan *p)
+{
+    return (struct crest_plan){p->radius, p->pitch, p->reach, p->span, p->exceeded, p->self};
+}
+
+static void crests_line(void *self, long column, long row, double *out)
+{
+    struct rolling *w = self;
+    double x[LINE];
+    (void)row;
+    for (long i = 0; i < LINE; i++)
+        x[i] = (double)(column * LINE + i) * w->h;
+    relief_at(&w->line, &(struct relief_points){LINE, x, NULL}, &(struct relief_values){.z = out});
 }
 
 /* ------------------------------------------------------------------ splines */
@@ -275,19 +274,24 @@ static void rolling_add(struct relief_part *part, const struct relief_points *p,
 
 /* Blocks held: what a path of some decimetres needs of splines, so that going back over it costs nothing; of the others, what one block of the
    next needs, and as much again. */
-static void rolling_memories(struct rolling *w, struct arena *a, const long size[2])
+static void rolling_plane(struct rolling *w, struct arena *a)
 {
-    size_t across = (size_t)(size[0] / (w->plane ? READ : LINE) + 2), needed = 2 * (w->plane ? across * across : across);
-    size_t held = needed > 512 ? needed : 512;
-    if (w->plane) {
-        w->heights = (struct grid){kept_make(a, READ * READ, held, heights_plane, w), {READ, READ}};
-        w->crests = (struct grid){kept_make(a, CREST * CREST, 1024, crests_fill, w), {CREST, CREST}};
-        w->splines = (struct grid){kept_make(a, (SQUARE + EDGE) * (SQUARE + EDGE), 8192, splines_fill, w), {SQUARE, SQUARE}};
-    } else {
-        w->heights = (struct grid){kept_make(a, LINE, held, heights_line, w), {LINE, 1}};
-        w->crests = (struct grid){kept_make(a, LINE, 64, crests_fill, w), {LINE, 1}};
-        w->splines = (struct grid){kept_make(a, LINE + EDGE, 512, splines_fill, w), {LINE, 1}};
-    }
+    long side = rolling_side(&w->plan);
+    size_t across = (size_t)(side / READ + 2), needed = 2 * across * across;
+    w->reach = (long)ceil(w->plan.reach / w->d);
+    w->envelope = envelope_make(a, w->plan.radius, w->d, side, side);
+    w->heights = (struct grid){kept_make(a, READ * READ, needed > 512 ? needed : 512, heights_fill, w), {READ, READ}};
+    w->crests = (struct grid){kept_make(a, CREST * CREST, 1024, crests_plane, w), {CREST, CREST}};
+    w->splines = (struct grid){kept_make(a, (SQUARE + EDGE) * (SQUARE + EDGE), 8192, splines_fill, w), {SQUARE, SQUARE}};
+}
+
+static void rolling_line(struct rolling *w, struct arena *a)
+{
+    struct crest_plan crest = rolling_crest(&w->plan);
+    w->line.along = ALONG_PATH;
+    relief_add(&w->line, crest_part(a, w->under, &crest));
+    w->crests = (struct grid){kept_make(a, LINE, 64, crests_line, w), {LINE, 1}};
+    w->splines = (struct grid){kept_make(a, LINE + EDGE, 512, splines_fill, w), {LINE, 1}};
 }
 
 struct relief_part *rolling_part(struct arena *a, const struct relief *under, const struct rolling_plan *p)
@@ -295,16 +299,16 @@ struct relief_part *rolling_part(struct arena *a, const struct relief *under, co
     struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct rolling *w = ARENA_TAKE(a, struct rolling, 1);
     double h = p->patch / ROLLING_PER_PATCH;
-    long size[2], wide = SQUARE + EDGE + 2 * KERNEL;
+    long wide = SQUARE + EDGE + 2 * KERNEL;
     *w = (struct rolling){.under = under, .plan = *p, .plane = under->along == ALONG_PLANE, .h = h, .d = h / p->finer, .least = HUGE_VAL,
                           .most = -HUGE_VAL};
-    w->reach = (long)ceil(p->reach / w->d);
     w->crest = ARENA_TAKE(a, double, w->plane ? wide * wide : WIDEST);
     w->half = ARENA_TAKE(a, double, w->plane ? wide * (SQUARE + EDGE) : 1);
-    rolling_size(p, under->along, size);
-    w->envelope = envelope_make(a, p->radius, w->d, size[0], size[1]);
     kernel_make(w->kernel);
-    rolling_memories(w, a, size);
+    if (w->plane)
+        rolling_plane(w, a);
+    else
+        rolling_line(w, a);
     *part = (struct relief_part){.name = "tip", .pitch = {h, w->plane ? h : 0}, .linear = !w->plane, .finest = h,
                                  .from = {-HUGE_VAL, -HUGE_VAL}, .to = {HUGE_VAL, HUGE_VAL}, .add = rolling_add, .state = w};
     return part;

@@ -1,14 +1,16 @@
-/* The way of a round tip over a surface: the upper envelope of a ball (surface/envelope.h), smoothed over the contact patch, as a part of
+/* The way of a round tip over a surface: the upper envelope of a ball (surface/envelope.h; in one coordinate crest.h), smoothed over the contact patch, as a part of
    a relief that reads the surface when and where it is read itself. */
 #ifndef SURFACE_ROLLING_H
 #define SURFACE_ROLLING_H
 #include "base/arena.h"
+#include "surface/crest.h"
 #include "surface/relief.h"
 
 struct rolling_plan {
     double radius, patch;   /* m; patch: standard deviation of the Gaussian                                    */
     double reach;           /* m: heights further from the ball's centre than this are not looked at; <= radius */
-    int finer;              /* heights are read at patch / 4 / finer                                           */
+    int finer;              /* in the plane heights are read at patch / 4 / finer                              */
+    double pitch;           /* m: in one coordinate, at its multiples                                          */
     double span;            /* m between the greatest and least height that reach was made for; HUGE_VAL: any  */
     void (*exceeded)(void *); /* called once when the heights read span more; may be NULL                      */
     void *self;
@@ -16,8 +18,11 @@ struct rolling_plan {
 
 enum { ROLLING_PER_PATCH = 4 }; /* lattice points in a standard deviation */
 
-/* How many heights (columns, rows) are held at a time for a piece of the envelope. */
-void rolling_size(const struct rolling_plan *p, int along, long size[2]);
+/* The side of the square of heights that are held at a time for a piece of the envelope in the plane. */
+long rolling_side(const struct rolling_plan *p);
+
+/* The envelope that is smoothed in one coordinate. */
+struct crest_plan rolling_crest(const struct rolling_plan *p);
 
 /* The part. `under` is read as it is then, and must live as long. */
 struct relief_part *rolling_part(struct arena *a, const struct relief *under, const struct rolling_plan *p);

@@ -4,17 +4,23 @@
 
    the upper envelope (grey-scale dilation) that drives a rolling ball in papers/002, fig. 1 (there with the ball's centre, E + R). It has kinks
    where the ball comes to rest on the next asperity, on which a curvature limiter does not converge: no contact is a point, and E is smoothed by
-   a Gaussian of standard deviation scraper.patch in m, in the coordinates that the surface follows. The rest, and its errors: surface/rolling.c.
+   a Gaussian of standard deviation scraper.patch (ball.patch) in m, in the coordinates that the surface follows. The rest, and its errors: surface/rolling.c.
+   A ball whose flight and contact are computed (roll_coupled) needs no derivative, and takes E itself where ball.patch is 0 (surface/crest.c).
 
    Departures. Along a path (or x) the surface is extruded and the ball a disc. The ball looks beyond the edge of a map, up to R, by
    surface.off_map; for `error` as `mirror` does.
 
    Heights are taken every patch / 4 or half the surface's finest scale, whichever is less, twice as densely in one coordinate, where it
    costs little, and accuracy.tip_heights times as densely in all; each doubling brings the force some 10 dB nearer (from 37 to 47 and 60 dB
-   for a patch of 20 um on ridges, tests/unit/test_tip_accuracy.c). In one coordinate they are read as far as R; in the plane, where that
-   would be most of the work, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For H, 16 384 places in the
-   box of the motion are read, R (at most 1 mm) beyond it included; H is half as much again, or that span and the map's own together if that
-   is more. Should heights turn up that span more, the render says so. */
+   for a patch of 20 um on ridges, tests/unit/test_tip_accuracy.c). Where E is read between the heights (a patch of 0, a surface with kinks),
+   it dips by d^2 / (8 R) between two of them, d apart, even on level ground: d is then so small that this is a thousandth of the span H of
+   heights, and, of a surface with kinks, a whole share of their pitch, so that they are met.
+
+   Heights are read as far as R; in the plane, where that would be most of the work, and in one coordinate where it is more than 65 536 of
+   them, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For H, 16 384 places in the box of the motion
+   are read, R (at most 1 mm) beyond it included; H is half as much again, or that span and the map's own together if that is more. Should
+   heights turn up that span more, the render says so. */
+#include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/height_map.h"
@@ -24,8 +30,9 @@
 
 #include <math.h>
 
-enum { SCOUTS = 16384, SCOUT_BATCH = 1024, SIDE_MOST = 2048 };
-#define LINE_MOST (1L << 22) /* heights held at a time: 32 MB, as SIDE_MOST^2 are */
+enum { SCOUTS = 16384, SCOUT_BATCH = 1024, SIDE_MOST = 2048, LINE_MOST = 1 << 21, REACH_ALL = 65536 }; /* heights */
+
+#define DIP 1e-3 /* of the span of heights: what E may dip between two of them */
 
 /* ------------------------------------------------------------------ how far heights span */
 
@@ -36,15 +43,30 @@ static double share(long i, double step)
     return s - floor(s);
 }
 
+/* The box of the surface that the motion goes over, in the scene's coordinates (along a path: u). */
+static void tip_box(const struct relief *r, const struct trajectory *tr, double beyond, double box[2][2])
+{
+    for (int k = 0; k < 2; k++) {
+        box[k][0] = r->along == ALONG_PATH ? tr->reach[k] : tr->box[k][0];
+        box[k][1] = tr->box[k][1];
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        box[0][axis] -= beyond;
+        box[1][axis] += beyond;
+    }
+}
+
 static double tip_scouted(const struct relief *r, const struct trajectory *tr, double beyond)
 {
-    double x[SCOUT_BATCH], y[SCOUT_BATCH], z[SCOUT_BATCH], least = HUGE_VAL, most = -HUGE_VAL;
+    double x[SCOUT_BATCH], y[SCOUT_BATCH], z[SCOUT_BATCH], box[2][2], least = HUGE_VAL, most = -HUGE_VAL;
+    tip_box(r, tr, beyond, box);
     for (long first = 0; first < SCOUTS; first += SCOUT_BATCH) {
         for (long i = 0; i < SCOUT_BATCH; i++) {
-            x[i] = tr->box[0][0] - beyond + share(first + i, 0.75487766624669276) * (tr->box[1][0] - tr->box[0][0] + 2 * beyond);
-            y[i] = tr->box[0][1] - beyond + share(first + i, 0.56984029099805327) * (tr->box[1][1] - tr->box[0][1] + 2 * beyond);
+            double along = share(first + i, 0.75487766624669276); /* of one coordinate in rising order: parts are read cheaply so */
+            x[i] = box[0][0] + (r->along == ALONG_PLANE ? along : ((double)(first + i) + along) / SCOUTS) * (box[1][0] - box[0][0]);
+            y[i] = box[0][1] + share(first + i, 0.56984029099805327) * (box[1][1] - box[0][1]);
         }
-        relief_at(r, &(struct relief_points){SCOUT_BATCH, x, y}, &(struct relief_values){.z = z});
+        relief_at(r, &(struct relief_points){SCOUT_BATCH, x, r->along == ALONG_PLANE ? y : NULL}, &(struct relief_values){.z = z});
         for (long i = 0; i < SCOUT_BATCH; i++) {
             least = fmin(least, z[i]);
             most = fmax(most, z[i]);
@@ -72,17 +94,35 @@ static void tip_exceeded(void *self)
                                       "peak at the edge of its reach", r->contact->name));
 }
 
+/* Heights no further than this from each other, m. */
+static double tip_wanted_pitch(const struct stage_run *r, const struct relief *under)
+{
+    double patch = r->contact->scraper.patch, finest = relief_finest(under) / 2, coarse = patch > 0 ? patch / ROLLING_PER_PATCH : finest;
+    return fmin(coarse, finest) / (under->along == ALONG_PLANE ? 1 : 2) / r->scene->accuracy.tip_heights;
+}
+
+/* In one coordinate: on the lattice of E (multiples of coarse / finer) where E is read there alone, else as the dip and the kinks ask for. */
+static double tip_pitch(const struct stage_run *r, const struct relief *under, const struct rolling_plan *p, double scouted)
+{
+    double kinks = relief_kinks(under), dip = scouted > 0 ? sqrt(8 * p->radius * DIP * scouted) / r->scene->accuracy.tip_heights : HUGE_VAL;
+    double most = fmin(fmin(tip_wanted_pitch(r, under), dip), p->radius);
+    if (p->patch > 0 && kinks == 0)
+        return p->patch / ROLLING_PER_PATCH / p->finer;
+    return kinks > 0 ? kinks / ceil(kinks / most * (1 - 1e-12)) : most;
+}
+
 static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *under)
 {
     const struct scraper *s = &r->contact->scraper;
     bool plane = under->along == ALONG_PLANE;
-    double coarse = s->patch / ROLLING_PER_PATCH, wanted = fmin(coarse, relief_finest(under) / 2) / (plane ? 1 : 2) / r->scene->accuracy.tip_heights;
-    double finer = ceil(coarse / wanted * (1 - 1e-12));
+    double wanted = tip_wanted_pitch(r, under), finer = s->patch > 0 ? ceil(s->patch / ROLLING_PER_PATCH / wanted * (1 - 1e-12)) : 1;
+    bool look = plane || s->patch == 0 || relief_kinks(under) > 0 || s->radius > REACH_ALL * wanted / 2;
+    double scouted = look ? tip_scouted(under, r->board->trajectory, fmin(s->radius, 1e-3)) : 0, map = tip_map_span(r->board->height_map);
     struct rolling_plan p = {.radius = s->radius, .patch = s->patch, .reach = s->radius, .span = HUGE_VAL, .exceeded = tip_exceeded, .self = r,
                              .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
-    if (!plane)
+    p.pitch = plane ? p.patch / ROLLING_PER_PATCH / p.finer : tip_pitch(r, under, &p, scouted);
+    if (!plane && p.reach / p.pitch <= REACH_ALL)
         return p;
-    double scouted = tip_scouted(under, r->board->trajectory, fmin(s->radius, 1e-3)), map = tip_map_span(r->board->height_map);
     p.span = fmax(1.5 * scouted, scouted + map);
     p.reach = fmin(s->radius, sqrt(2 * s->radius * p.span));
     return p;
@@ -90,17 +130,31 @@ static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *un
 
 static bool tip_affordable(const struct stage_run *r, const struct rolling_plan *p, const struct relief *under, struct err *e)
 {
-    long size[2];
-    rolling_size(p, under->along, size);
-    bool plane = under->along == ALONG_PLANE, fine = relief_finest(under) / 2 < p->patch / ROLLING_PER_PATCH;
-    if (size[0] <= (plane ? SIDE_MOST : LINE_MOST))
+    bool plane = under->along == ALONG_PLANE, fine = !(relief_finest(under) / 2 >= p->patch / ROLLING_PER_PATCH && p->patch > 0);
+    struct crest_plan crest = rolling_crest(p);
+    const char *tool = ball_tool(r->contact);
+    long side = plane ? rolling_side(p) : crest_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
+    if (side <= most)
         return true;
     return err_set(e, ERR_SCENE,
-                   "contact '%s': a tip of %g m radius reaches %g m over this surface, which is read every %g m: %ld x %ld heights at a time, and "
-                   "at most %ld x %d are held; lower scraper.radius, or %s",
-                   r->contact->name, p->radius, p->reach, p->patch / ROLLING_PER_PATCH / p->finer, size[0], size[1],
-                   plane ? (long)SIDE_MOST : LINE_MOST, plane ? SIDE_MOST : 1,
-                   fine ? "take a coarser surface (its finest scale decides)" : "raise scraper.patch (a quarter of it decides)");
+                   "contact '%s': a %s of %g m radius reaches %g m over this surface, which is read every %g m: %ld x %ld heights at a time, and "
+                   "at most %ld x %ld are held; lower %s.radius, or %s%s", r->contact->name, ball_rolls(r->contact) ? "ball" : "tip", p->radius, p->reach, p->pitch,
+                   side, plane ? side : 1, most, plane ? most : 1, tool, fine ? "take a coarser surface (its finest scale decides)" : "raise ",
+                   fine ? "" : arena_format(r->arena, "%s.patch (a quarter of it decides)", tool));
+}
+
+/* What has a patch of 0, a disc's own way, is read by its heights alone. */
+static bool tip_smoothed(const struct stage_run *r, const struct relief *under, struct err *e)
+{
+    const struct contact *c = r->contact;
+    if (c->scraper.patch > 0)
+        return true;
+    if (c->contact.model != CONTACT_ROLL_COUPLED)
+        return err_set(e, ERR_SCENE, "contact '%s': %s.patch is 0, and only contact.model roll_coupled takes the rolling curve with its kinks; "
+                                     "set it to the radius of the contact patch, for instance 20 um", c->name, ball_tool(c));
+    return under->along != ALONG_PLANE ||
+           err_set(e, ERR_SCENE, "contact '%s': ball.patch is 0, and a surface in the plane is rolled over with a contact patch only; set ball.patch, for instance to "
+                                 "20 um, or surface.along to path or x", c->name);
 }
 
 static bool tip_open(struct stage_run *r, struct err *e)
@@ -108,12 +162,15 @@ static bool tip_open(struct stage_run *r, struct err *e)
     struct relief *relief = r->board->relief, *under = ARENA_TAKE(r->arena, struct relief, 1);
     relief_settle(relief, r->contact);
     *under = *relief;
+    if (!tip_smoothed(r, under, e))
+        return false;
     struct rolling_plan p = tip_plan(r, under);
+    struct crest_plan crest = rolling_crest(&p);
     under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
     if (!tip_affordable(r, &p, under, e))
         return false;
     relief->first = NULL;
-    relief_add(relief, rolling_part(r->arena, under, &p));
+    relief_add(relief, p.patch > 0 ? rolling_part(r->arena, under, &p) : crest_part(r->arena, under, &crest));
     return true;
 }
 
@@ -123,20 +180,37 @@ static bool tip_wanted(const struct contact *c, const struct scene *s)
     return !isnan(c->scraper.radius);
 }
 
+/* m: heights of a patch of 0, as far as the scene tells; of a map, whose pitch its file may hold, as for 5 um. */
+static double tip_likely_pitch(const struct contact *c)
+{
+    const struct surface *s = &c->surface;
+    double finest = s->height_map ? isnan(s->pitch) ? 5e-6 : s->pitch : HUGE_VAL;
+    finest = fmin(finest, s->roughness.given ? s->roughness.shortest / 4 : HUGE_VAL);
+    finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
+    finest = fmin(finest, s->ridges.given ? s->ridges.spacing / 8 : HUGE_VAL);
+    finest = fmin(finest, s->grit.given ? s->grit.diameter / 8 : HUGE_VAL);
+    if (!s->fractal.given)
+        return finest / 4;
+    return fmin(fmin(finest, s->fractal.pitch) / 4, sqrt(8 * c->scraper.radius * DIP * 2 * s->fractal.maximum));
+}
+
 /* Measured: cycles per lattice point of path, along a line and for the strip that a path in the plane needs. Going over it again costs nothing. */
 static double tip_work(const struct contact *c, const struct scene *s)
 {
     const struct motion *m = &c->motion;
-    double speed = rules_speed(m), dense = s->accuracy.tip_heights;
+    double speed = rules_speed(m), dense = s->accuracy.tip_heights, patch = c->scraper.patch;
     double times = m->path == PATH_CIRCLE ? fabs(m->turns) : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration : 1;
-    return speed / fmax(times, 1) / s->output.sample_rate / (c->scraper.patch / ROLLING_PER_PATCH) * (rules_along(c) == ALONG_PLANE ? 3e5 * dense * dense : 8e2 * dense);
+    double way = speed / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
+    if (patch == 0)
+        return way / tip_likely_pitch(c) * 2e2 * dense;
+    return way / (patch / ROLLING_PER_PATCH) * (rules_along(c) == ALONG_PLANE ? 3e5 * dense * dense : 8e2 * dense);
 }
 
 const struct stage tip_stage = {
     .name = "tip",
     .does = "round tip: upper envelope of a ball, smoothed over the contact patch",
     .paper = "002 fig. 1",
-    .idle = "no scraper.radius",
+    .idle = "no scraper.radius or ball.radius",
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
     .wanted = tip_wanted,

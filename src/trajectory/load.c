@@ -18,8 +18,16 @@
    Recorded: the natural cubic spline (C2) through the file's rows, their end values before and after them. Its times are those of the motion's
    file for a recorded motion, else they count from the start of the contact. Between rows a spline overshoots, also below 0.
 
+   Of a ball whose centre of mass is r off its centre (model roll), Newton's second law along the normal of the surface:
+
+     N(t) = m (g cos(incline) + d2/dt2 (-r cos theta))                     theta: trajectory/spin.h
+
+   As it turns evenly N is largest where the centre of mass is lowest, and least where it is highest: there its acceleration points up, and down.
+   Papers/000 section 4.1 has it "maximal when the centre of mass moves downwards, and minimal when it moves up", a quarter of a turn earlier, and gives no
+   formula; of a rigid body that does not hold. N < 0: the ball leaves the surface; no force, and counted. It is not followed through the air.
+
    Approach and release: the contact is made over load.approach, p = 10 q^3 - 15 q^4 + 6 q^5 of the force, so that it does not begin with a
-   click; the paper has no such thing. Where the motion starts from rest the force starts from 0 by itself. */
+   click; the paper has no such thing. Where the motion starts from rest a scraper's force starts from 0 by itself. */
 #include "trajectory/load.h"
 
 #include <math.h>
@@ -30,6 +38,8 @@
 #include "trajectory/scan.h"
 #include "trajectory/series.h"
 
+enum { LOAD_SOME = 256 };
+
 struct load_record {
     struct cubic spline;
     double clock;           /* s: the file's time at the start of the motion */
@@ -37,7 +47,7 @@ struct load_record {
 
 bool load_varies(const struct contact *c)
 {
-    return c->grip.given || c->load.recorded;
+    return c->grip.given || c->load.recorded || (c->contact.model == CONTACT_ROLL && c->ball.offset > 0);
 }
 
 static double record_at(const struct load_record *r, size_t *piece, double t)
@@ -61,11 +71,30 @@ void load_at(const struct load_law *l, size_t n, const double *t, const double *
         force[i] += l->per_acceleration[0] * ax[i] + l->per_acceleration[1] * ay[i];
 }
 
+void load_turned(const struct load_law *l, size_t n, const double *u, const double *du, const double *ddu, double *force)
+{
+    spin_at(&l->spin, n, u, du, ddu, &(struct spin_out){.lift = force});
+    for (size_t i = 0; i < n; i++)
+        force[i] = l->still + l->turned * force[i];
+}
+
+/* At n <= LOAD_SOME instants. */
+static void load_moved(const struct load_law *l, const struct trajectory *tr, size_t n, const double *t, double *force)
+{
+    double a[LOAD_SOME], b[LOAD_SOME], c[LOAD_SOME];
+    if (l->turned > 0) {
+        trajectory_at(tr, n, t, (struct trajectory_out){.u = a, .du = b, .ddu = c});
+        load_turned(l, n, a, b, c, force);
+        return;
+    }
+    trajectory_at(tr, n, t, (struct trajectory_out){.ax = a, .ay = b});
+    load_at(l, n, t, a, b, force);
+}
+
 double load_of(const struct load_law *l, const struct trajectory *tr, double t)
 {
-    double ax, ay, n;
-    trajectory_at(tr, 1, &t, (struct trajectory_out){.ax = &ax, .ay = &ay});
-    load_at(l, 1, &t, &ax, &ay, &n);
+    double n;
+    load_moved(l, tr, 1, &t, &n);
     return n;
 }
 
@@ -84,7 +113,7 @@ double load_lowered(const struct load_law *l, double t)
 
 static bool load_grip(const struct contact *c, struct load_law *l, struct err *e)
 {
-    double g = c->contact.gravity, m = c->scraper.mass, tangent = real_tan(c->grip.angle), slip = rules_slip(&c->grip);
+    double g = ball_gravity(c), m = c->scraper.mass, tangent = real_tan(c->grip.angle), slip = rules_slip(&c->grip);
     if (rules_jams(&c->grip))
         return err_set(e, ERR_SCENE,
                        "contact '%s': grip: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999; lower grip.angle or "
@@ -120,8 +149,9 @@ static bool load_recorded(const struct contact *c, const struct trajectory *tr, 
 static bool load_ends(const struct contact *c, const struct trajectory *tr, struct load_law *l, struct err *e)
 {
     l->duration = tr->duration;
-    l->approach = isnan(c->load.approach) && tr->starts_at_rest ? 0 : rules_approach(c, false);
-    l->release = isnan(c->load.release) && tr->ends_at_rest ? 0 : rules_approach(c, true);
+    bool scrapes = c->contact.model == CONTACT_SCRAPE;
+    l->approach = isnan(c->load.approach) && scrapes && tr->starts_at_rest ? 0 : rules_approach(c, false);
+    l->release = isnan(c->load.release) && scrapes && tr->ends_at_rest ? 0 : rules_approach(c, true);
     return l->approach + l->release <= tr->duration * (1 + 1e-9) ||
            err_set(e, ERR_SCENE,
                    "contact '%s': load.approach, %.4g s, and load.release, %.4g s%s, do not fit into the motion, which lasts %.4g s; give "
@@ -136,14 +166,18 @@ struct load_scan {
 
 static void load_scan_at(const void *self, size_t n, const double *t, double *y)
 {
-    enum { SOME = 256 };
     const struct load_scan *s = self;
-    double ax[SOME], ay[SOME];
-    for (size_t first = 0; first < n; first += SOME) {
-        size_t some = n - first < SOME ? n - first : SOME;
-        trajectory_at(s->tr, some, t + first, (struct trajectory_out){.ax = ax, .ay = ay});
-        load_at(s->law, some, t + first, ax, ay, y + first);
-    }
+    for (size_t first = 0; first < n; first += LOAD_SOME)
+        load_moved(s->law, s->tr, n - first < LOAD_SOME ? n - first : LOAD_SOME, t + first, y + first);
+}
+
+/* Instants that show each turn of a ball on its own. x = R theta - r sin theta goes through the lowest place of its centre of mass within about
+   (R - r)^1.5 / R^0.5: as r comes near R the force there is a sharp pulse. */
+static double load_turns(const struct load_law *l, const struct trajectory *tr)
+{
+    const struct spin *s = &l->spin;
+    double turns = tr->cycle * tr->top_speed / (2 * REAL_PI * s->radius), sharp = 1 - s->offset / s->radius;
+    return 64 * ceil(turns) / (sharp * sqrt(sharp));
 }
 
 /* Extremes over the motion (over its first cycle when it repeats). */
@@ -151,7 +185,7 @@ static void load_range(struct load_law *l, const struct trajectory *tr)
 {
     struct load_scan s = {l, tr};
     double range[2];
-    long detail = 4 * tr->detail + (l->record ? 4 * (long)l->record->spline.n : 0);
+    long detail = 4 * tr->detail + (l->record ? 4 * (long)l->record->spline.n : l->turned > 0 ? (long)load_turns(l, tr) : 0);
     scan_range(&(struct scan){load_scan_at, &s}, 0, l->record ? tr->duration : tr->cycle, detail, range);
     l->least = fmax(range[0], 0);
     l->most = fmax(range[1], 0);
@@ -159,8 +193,12 @@ static void load_range(struct load_law *l, const struct trajectory *tr)
 
 bool load_make(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e)
 {
-    double n = isnan(c->load.constant) ? c->scraper.mass * c->contact.gravity : c->load.constant;
+    double n = rules_load(c);
     *l = (struct load_law){.still = n, .least = n, .most = n};
+    if (load_varies(c) && !c->grip.given && !c->load.recorded) {
+        l->spin = spin_make(c);
+        l->turned = c->scraper.mass;
+    }
     if (c->grip.given ? !load_grip(c, l, e) : c->load.recorded && !load_recorded(c, tr, a, l, e))
         return false;
     if (!load_ends(c, tr, l, e))

@@ -34,7 +34,7 @@ static bool motion_can(const struct motion *m, struct err *e)
         return err_set(e, ERR_SCENE, "motion.points must be at least 2 points");
     return rules_law_fits(m, law) ||
            err_set(e, ERR_SCENE, "motion.law does not fit motion.path: a motion rests at its corners and where it turns round, and a straight line has "
-                                 "no curvature; give another law, or motion.corner; what is still has no law");
+                                 "no curvature; give another law, or motion.corner; what is still, and what moves freely on an incline, has no law");
 }
 
 static bool duration_of(const struct making *w, double length, double *duration)
@@ -148,6 +148,8 @@ static bool law_make(struct making *w)
     double duration;
     if (law == SPEED_GIVEN)
         return given_make(w);
+    if (m->path == PATH_INCLINE)
+        return path_straight(w) && speed_incline(&s->speed, m, w->arena, w->e);
     if ((m->path == PATH_SCRIBBLE && !duration_of(w, NAN, &duration)) || !path_of(w) || !duration_of(w, s->path.length, &duration))
         return false;
     if (m->path == PATH_BACK_AND_FORTH)
@@ -284,7 +286,7 @@ bool trajectory_make(const struct motion *m, uint64_t seed, struct arena *a, str
     *tr = (struct trajectory){.straight = false};
     if (!motion_can(m, e))
         return false;
-    if (!(m->path == PATH_STILL ? still_make(&w) : rules_law(m) == SPEED_AUTO ? timed_make(&w) : law_make(&w)))
+    if (!(m->path == PATH_STILL ? still_make(&w) : rules_law(m) == SPEED_AUTO && !rules_straight(m) ? timed_make(&w) : law_make(&w)))
         return false;
     whole(&w);
     return true;

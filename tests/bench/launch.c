@@ -1,6 +1,6 @@
 /* What a moving response costs: a scene of 50 modes (100 Hz to 15 kHz, T60 = 0.9 (f/100 Hz)^-0.3 s) whose frequencies move by 2 % or
    10 %, decays by 30 %, gains by 10 dB in 2 s, under noise, by resonators at nodes (launch.h). One CSV row per movement, order and accuracy: the
-   error that hop.h predicts, cycles (of the time stamp counter, in the thread's time) per sample, times real time at 44.1 kHz, resonators that
+   error that tests/unit/hop.h predicts, cycles (of the time stamp counter, in the thread's time) per sample, times real time at 44.1 kHz, resonators that
    ring on average, and a hash of the sound, the same on every instruction set. cap_ms: no hop is longer. The last column is a prototype
    (another CPU, overlap-add by FFT, the whole response at one hop): times real time where it has the case. */
 #include <math.h>
@@ -10,7 +10,7 @@
 #include <time.h>
 #include <x86intrin.h>
 
-#include "convolution/hop.h"
+#include "../unit/hop.h"
 #include "convolution/launch.h"
 
 enum { MODES = 50, SECONDS = 4, REPEATS = 3, PIECE = 4096 };

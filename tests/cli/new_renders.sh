@@ -1,4 +1,4 @@
-# Every starter scene renders as it is: forces in a CSV, no sound, since nothing rings.
+# Every starter scene renders as it is: forces in a CSV, and a sound where an object rings; none warns of anything.
 for kind in $(rasp new --list | cut -d ' ' -f 1); do
     rasp new $kind -o $kind.yaml
     rasp render --quiet --set output.tail=0 $kind.yaml

@@ -4,7 +4,7 @@
 
 #include <complex.h>
 
-#include "convolution/hop.h"
+#include "hop.h"
 
 static const int orders[] = {1, 2, 4};
 

@@ -6,7 +6,7 @@
 #include <complex.h>
 
 #include "convolution/cardinal.h"
-#include "convolution/hop.h"
+#include "hop.h"
 #include "convolution/launch.h"
 #include "convolution/resonators.h"
 

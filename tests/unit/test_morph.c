@@ -333,6 +333,9 @@ START_TEST(pairing_of_a_table)
     ck_assert_int_eq(m.n, 3);
     table_at(&m, 0.5, 0, &p);
     ck_assert_double_eq_tol(p.frequency[0] * p.frequency[1] * p.frequency[2] / 300, sqrt(100 * 201) * sqrt(200 * 303), 1e-6);
+    snprintf(text, sizeof text, "%s%s1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n1,0,0,c,300,5,1,0\n2,1,0,a,105,5,1,0\n2,1,0,c,320,5,1,0\n", SEPARATE, COLUMNS);
+    m = table_of(text, 9, arena); /* one is lacking, the others' names hold, farther apart than the gate */
+    ck_assert(m.n == 3 && m.note && strstr(m.note, "paired by name"));
     snprintf(text, sizeof text, "# pairing: frequency\n%s%s1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n2,1,0,a,200,5,1,0\n2,1,0,b,100,5,1,0\n", SEPARATE, COLUMNS);
     m = table_of(text, 9, arena);
     table_at(&m, 0.3, 0, &p);

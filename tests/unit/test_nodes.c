@@ -26,13 +26,15 @@ START_TEST(shares)
     for (int c = 0; c < 8; c++) {
         struct arena *a = arena_open();
         int count = counts[c], m = 0;
-        double breaks[2] = {-0.3, 1.7}, u[4 * MOST], w[4 * MOST], sum[4 * MOST] = {0}, worst = 0;
+        double breaks[2] = {-0.3, 1.7}, u[8 * MOST], w[8 * MOST], sum[8 * MOST] = {0}, worst = 0;
         struct nodes *n = nodes_make(a, 1, breaks, &count);
         ck_assert_int_eq(nodes_n(n), count);
         for (int k = 0; k < count; k++) {
             u[m++] = nodes_place(n, k) + (k + 1 < count ? 1e-9 : -1e-9);
             u[m++] = -0.3 + 2 * (k + 0.37) / count;
             u[m++] = k < count / 2 ? -0.3 + 1e-12 * k : 1.7 - 1e-12 * k;
+            for (int ulp = 1; ulp <= 4; ulp *= 2) /* as near as it can be without being there */
+                u[m++] = nodes_place(n, k) + (k + 1 < count ? ulp : -ulp) * 0x1p-53 * fmax(fabs(nodes_place(n, k)), 0x1p-53);
         }
         nodes_locate(n, m, u);
         for (int k = 0; k < count; k++) {
@@ -46,6 +48,28 @@ START_TEST(shares)
             ck_assert_double_eq_tol(sum[i], 1, 2e-15 * count);
         printf("%d nodes: shares to %.1e\n", count, worst);
         ck_assert_double_le(worst, 1e-15 * count * count);
+        arena_close(a);
+    }
+}
+END_TEST
+
+/* To and fro over the nodes by cos, as strokes go, and landing on them: shares are finite and add up to 1. */
+START_TEST(to_and_fro)
+{
+    for (int count = 2; count <= 65; count++) {
+        struct arena *a = arena_open();
+        double breaks[2] = {0, 0.1}, u[8 * MOST], w[8 * MOST], sum[8 * MOST] = {0};
+        struct nodes *n = nodes_make(a, 1, breaks, &count);
+        for (int i = 0; i < 8 * MOST; i++)
+            u[i] = 0.05 * (1 - cos(2 * M_PI * i / (8 * (count - 1))));
+        nodes_locate(n, 8 * MOST, u);
+        for (int k = 0; k < count; k++) {
+            nodes_share(n, k, w);
+            for (int i = 0; i < 8 * MOST; i++)
+                sum[i] += w[i];
+        }
+        for (int i = 0; i < 8 * MOST; i++)
+            ck_assert_double_eq_tol(sum[i], 1, 2e-15 * count);
         arena_close(a);
     }
 }
@@ -229,4 +253,4 @@ START_TEST(convergence)
 }
 END_TEST
 
-UNIT("nodes", shares, at_nodes_and_pieces, needed, convergence)
+UNIT("nodes", shares, to_and_fro, at_nodes_and_pieces, needed, convergence)

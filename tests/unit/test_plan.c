@@ -109,7 +109,7 @@ END_TEST
 
 /* ------------------------------------------------------------------ a spy in place of every stage */
 
-enum { MOST = 32 };
+enum { MOST = 64 };
 static struct stage spied[MOST];
 static int opened[MOST], ran[MOST], closed[MOST];
 

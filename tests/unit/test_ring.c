@@ -14,6 +14,13 @@ struct place {
 static const struct place here = {{180, 420, 955, 1700, 3100}, {60, 70, 90, 120, 200}, {1, -0.7, 0.5, 0.4, 0.3}, {0, 0.4, 1.5, -0.8, 0}};
 static const struct place there = {{183, 413, 975, 1690, 3160}, {66, 60, 100, 115, 230}, {0.5, -1, 0.7, 0.3, 0.2}, {0.2, 0.1, 1.5, -1.2, 0.5}};
 
+/* As `here`, but for a little: of gains, of poles. */
+static const struct place nearly = {{180.01, 420, 955.3, 1700, 3100}, {60, 70, 90, 121, 200}, {1.1, -0.7, 0.5, 0.4, 0.33}, {0, 0.4, 1.5, -0.8, 0.7}};
+
+static const struct place *other = &there;
+static const char *course = "path: line, from: [0, 0], to: [1, 0]";
+static double strokes; /* Hz; 0: a line at constant speed */
+
 static char folder[] = "/tmp/test_ring.XXXXXX";
 static double force[FRAMES];
 
@@ -61,6 +68,7 @@ static void setup(void)
     if (!mkdtemp(folder))
         abort();
     table_write("move.csv", "separate", &here, &there);
+    table_write("nearly.csv", "separate", &here, &nearly);
     table_write("same.csv", "separate", &here, &here);
     table_write("shared.csv", "shared", &here, &here);
     force_write();
@@ -68,9 +76,9 @@ static void setup(void)
 
 static void teardown(void)
 {
-    const char *names[] = {"move.csv", "same.csv", "shared.csv", "force.npy"};
+    const char *names[] = {"move.csv", "nearly.csv", "same.csv", "shared.csv", "force.npy"};
     char path[200];
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
         unlink(path);
     }
@@ -82,9 +90,9 @@ static struct rig *render(const char *surface, const char *accuracy, int block)
 {
     char text[1000];
     snprintf(text, sizeof text,
-             "rasp: 1\nsurface: {%s}\nmotion: {path: line, from: [0, 0], to: [1, 0], duration: %.17g}\n"
+             "rasp: 1\nsurface: {%s}\nmotion: {%s, duration: %.17g}\n"
              "contact: {model: given, given: {file: %s/force.npy, rate: %d}}\naccuracy: {%s}\noutput: {sample_rate: %d}\n",
-             surface, SECONDS, folder, RATE, accuracy, RATE);
+             surface, course, SECONDS, folder, RATE, accuracy, RATE);
     struct scene s = rig_scene(rig_arena(), text);
     return rig_record(&s, ITEM_SOUND, FRAMES, block);
 }
@@ -104,9 +112,9 @@ struct at {
 
 static struct at mode_at(int i, long double u)
 {
-    long double size = fabsl((long double)here.g[i]) * powl(fabsl((long double)there.g[i] / here.g[i]), u);
-    long double phase = here.phase[i] + u * ((long double)there.phase[i] - here.phase[i]) + (here.g[i] < 0 ? M_PIl : 0);
-    return (struct at){here.f[i] * powl((long double)there.f[i] / here.f[i], u), here.d[i] * powl((long double)there.d[i] / here.d[i], u),
+    long double size = fabsl((long double)here.g[i]) * powl(fabsl((long double)other->g[i] / here.g[i]), u);
+    long double phase = here.phase[i] + u * ((long double)other->phase[i] - here.phase[i]) + (here.g[i] < 0 ? M_PIl : 0);
+    return (struct at){here.f[i] * powl((long double)other->f[i] / here.f[i], u), here.d[i] * powl((long double)other->d[i] / here.d[i], u),
                        size * cosl(phase), size * sinl(phase)};
 }
 
@@ -143,7 +151,8 @@ static long double response(struct phasors *p, long frames)
 
 static long double share_of(long frame)
 {
-    return frame < FORCED ? (long double)frame / FORCED : 1;
+    frame = frame < FORCED ? frame : FORCED;
+    return strokes > 0 ? (1 - cosl(2 * M_PIl * strokes * (long double)frame / RATE)) / 2 : (long double)frame / FORCED;
 }
 
 static void sum_launch(double *y)
@@ -197,9 +206,9 @@ START_TEST(test_same)
 {
     static const char *const ways[] = {"moving: launch, convolution: resonators", "moving: launch, convolution: overlap_add, response_length: 0.55 s",
                                        "moving: launch, convolution: nodes, response_length: 0.55 s", "moving: glide",
-                                       "moving: readout, response_length: 0.55 s"};
+                                       "moving: readout, response_length: 0.55 s", "moving: readout, convolution: resonators"};
     struct rig *fixed = render_file("shared.csv", "moving: fixed", "preset: standard");
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 6; i++)
         for (int order = 1; order <= 4; order *= 2) {
             char accuracy[100];
             snprintf(accuracy, sizeof accuracy, "morph_error: -240, overlap_order: %d", order);
@@ -251,11 +260,37 @@ START_TEST(test_readout_glide)
 }
 END_TEST
 
+/* What is asked is kept where the motion is not at constant speed and modes move but little. Strokes of 8 and 40 Hz; the forces' draws leave 1 dB. */
+START_TEST(test_strokes)
+{
+    static const char *const ways[] = {"convolution: resonators", "convolution: overlap_add", "moving: glide", "moving: readout, convolution: resonators"};
+    static void (*const sums[])(double *) = {sum_launch, sum_launch, sum_glide, sum_readout};
+    static char path[100];
+    course = path;
+    other = &nearly;
+    for (strokes = 8; strokes <= 40; strokes *= 5) {
+        snprintf(path, sizeof path, "path: back_and_forth, from: [0, 0], to: [1, 0], rate: %g Hz", strokes);
+        for (int i = 0; i < 4; i++) {
+            double y[FRAMES] = {0};
+            sums[i](y);
+            for (int db = -40; db >= -120; db -= 40) {
+                char accuracy[100];
+                snprintf(accuracy, sizeof accuracy, "morph_error: %d, overlap_hop: 1 s, gain_ramp: 256", db);
+                struct rig *way = render_file("nearly.csv", ways[i], accuracy);
+                ck_assert_msg(decibels(way->x, y) < db + 1, "%s, %g Hz: %g dB of %d", ways[i], strokes, decibels(way->x, y), db);
+                rig_close(way);
+            }
+        }
+    }
+}
+END_TEST
+
 /* How the sound is cut into blocks changes not a bit of it. */
 START_TEST(test_blocks)
 {
-    static const char *const ways[] = {"convolution: resonators", "convolution: overlap_add", "convolution: nodes", "moving: glide", "moving: readout"};
-    for (int i = 0; i < 5; i++) {
+    static const char *const ways[] = {"convolution: resonators", "convolution: overlap_add", "convolution: nodes", "moving: glide", "moving: readout, convolution: resonators",
+                                       "moving: readout, convolution: overlap_add"};
+    for (int i = 0; i < 6; i++) {
         char surface[400];
         snprintf(surface, sizeof surface, "response: %s/move.csv, %s", folder, ways[i]);
         struct rig *one = render(surface, "preset: standard", 1000), *many = render(surface, "preset: standard", 37);
@@ -288,7 +323,7 @@ END_TEST
 
 int main(void)
 {
-    const TTest *const tests[] = {test_same, test_launch, test_readout_glide, test_blocks, test_scraper};
+    const TTest *const tests[] = {test_same, test_launch, test_readout_glide, test_strokes, test_blocks, test_scraper};
     setup();
     int failed = unit_run("ring", tests, sizeof tests / sizeof tests[0]);
     teardown();

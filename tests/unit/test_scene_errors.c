@@ -56,12 +56,13 @@ static const struct bad bads[] = {
     {"output: {channels: 1.5}\n", "5:20", "output.channels must be a whole number", "2"},
     {"output: {channels: 0}\n", "5:20", "output.channels must be from 1 to 64", "channels"},
     {"output: {tail: automatic}\n", "5:16", "output.tail needs a time, not 'automatic'", "10 ms"},
-    {"output: {level: {full_scale: 3 N}}\n", "5:30", "unit of force", "1 mm/s"},
+    {"output: {level: {full_scale: 3 s}}\n", "5:30", "unit of time", "1 mm/s"},
+    {"output: {level: {full_scale: 3 N}}\n", "5:30", "the sound is no force", "set output.quantity to force"},
     {"output: {level: {peak: 3 dB}}\n", "5:24", "output.level.peak must be from -200 dB to 0 dB", "peak"},
     /* words */
     {"output: {encoding: pcm_24}\n", "5:20", "output.encoding must be one of: pcm16, pcm24, float32, float64, not 'pcm_24'", "did you mean 'pcm24'?"},
     {"output: {encoding: mp3}\n", "5:20", "one of: pcm16", "encoding: pcm24"},
-    {"contact: {model: roll}\n", "5:18", "contact.model must be one of: scrape, strike, given, not 'roll'", "model: scrape"},
+    {"contact: {model: slip}\n", "5:18", "contact.model must be one of: scrape, strike, given, roll, roll_coupled, not 'slip'", "model: scrape"},
     {"name: 2nd\n", "5:7", "must not start with a digit, not '2nd'", "left_hand"},
     {"name: my contact\n", "5:7", "letters, digits and _", "left_hand"},
     /* alternatives, keys that do not apply */
@@ -115,7 +116,7 @@ static const struct bad bads[] = {
      "add for instance: mass: 20 g"},
     {"#rasp: 1\nsurface: {height_map: a.npy}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "1:1", "scraper.mass is missing", "scraper: {mass: 20 g}"},
     {"#rasp: 1\nsurface: {along: x}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], duration: 1}\n", "2:1",
-     "surface.roughness, surface.height_map, surface.ridges or surface.grit must be given", "roughness: {}"},
+     "surface.roughness, surface.height_map, surface.ridges, surface.grit or surface.fractal must be given", "roughness: {}"},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: back_and_forth, to: [1, 0], rate: 2}\n", "4:1", "motion.duration is missing",
      "duration: 2 s"},
     {"#rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: back_and_forth, to: [1, 0], duration: 2}\n", "4:1", "motion.rate is missing",
@@ -210,7 +211,7 @@ START_TEST(test_all_at_once)
                      "    4 |   mass: 20 cm\n"
                      "      |         ^~~~~\n"
                      "      = help: write for instance: 20 g\n"
-                     "scenes/t.yaml:6:9: error: motion.path must be one of: back_and_forth, line, four_in_line, circle, scribble, polyline, spline, recorded, still, not 'lin'\n"
+                     "scenes/t.yaml:6:9: error: motion.path must be one of: back_and_forth, line, four_in_line, circle, scribble, polyline, spline, recorded, still, incline, not 'lin'\n"
                      "    6 |   path: lin\n"
                      "      |         ^~~\n"
                      "      = help: did you mean 'line'?\n"
@@ -308,7 +309,7 @@ static const struct {
     {two, "contacts.nail.surface={convolution: resonators, response_length: 1 s}", "--set contacts.nail.surface: error: ",
      "contacts.nail.surface.convolution: resonators ring on for ever", "overlap_add"},
     {two, "contacts.1.surface.response=null", "scenes/t.yaml:9:3: error: ", "nothing is asked of contact 'nail'", "give surface.response"},
-    {two, "contacts.rod.surface=null", "scenes/t.yaml:3:3: error: ", "contacts.rod.surface.ridges or contacts.rod.surface.grit must be given", "surface: {roughness: {}}"},
+    {two, "contacts.rod.surface=null", "scenes/t.yaml:3:3: error: ", "contacts.rod.surface.ridges, contacts.rod.surface.grit or contacts.rod.surface.fractal must be given", "surface: {roughness: {}}"},
 };
 
 START_TEST(test_bad_set)

@@ -139,7 +139,7 @@ static const struct {
     {"{path: circle, radius: 1 cm, speed: 1, duration: 1}", "4:48", "motion.duration and motion.speed exclude each other", "remove one"},
     {"{path: circle, speed: 1}", "4:1", "motion.radius is missing", "radius: 3 cm"},
     {"{path: circle, radius: 1 cm, speed: 1, turns: 0}", "4:55", "motion.turns must not be 0", "-1 for clockwise"},
-    {"{path: circle, radius: 1 cm, speed: 1, to: [1, 0]}", "4:48", "motion.to applies only where motion.path is back_and_forth, line or four_in_line",
+    {"{path: circle, radius: 1 cm, speed: 1, to: [1, 0]}", "4:48", "motion.to applies only where motion.path is back_and_forth, line, four_in_line or incline",
      "now it is circle"},
     {"{path: four_in_line, to: [0, 0], speed: 1}", "4:34", "motion.to must differ from motion.from", "1 nm apart"},
     {"{path: scribble, rate: 2}", "4:1", "motion.duration is missing", "duration: 2 s"},
@@ -200,6 +200,57 @@ START_TEST(test_every_point_is_told)
 }
 END_TEST
 
+/* ------------------------------------------------------------------ free motion */
+
+START_TEST(test_incline)
+{
+    struct result r = motion_read("{path: incline, to: [1 m, 0], incline: -5 deg, rolling_friction: 0.02}", NULL);
+    const struct motion *m = &r.scene.contacts->motion;
+    ck_assert_msg(r.good, "%s", r.messages);
+    ck_assert(m->start_speed == 0 && m->rolling_friction == 0.02 && m->gravity == 9.80665 && m->inertia == 0);
+    arena_close(r.arena);
+    r = motion_read("{path: incline, to: [1 m, 0], start_speed: 0.3, rolling_friction: 0.1, duration: 30 s}", NULL); /* rests long before */
+    ck_assert_msg(r.good, "%s", r.messages);
+    arena_close(r.arena);
+}
+END_TEST
+
+static const struct {
+    const char *motion, *set, *place, *says, *cure;
+} bad_free[] = {
+    {"{path: incline, to: [1, 0]}", "gain=1", "scenes/t.yaml:4:1", "motion: the way is level, and motion.start_speed is 0", "give a motion.start_speed"},
+    {"{path: incline, to: [1, 0], incline: 0.1}", "gain=1", "scenes/t.yaml:4:46", "the way leads upwards", "swap motion.from and motion.to"},
+    {"{path: incline, to: [1, 0], incline: -0.1, rolling_friction: 0.11}", "gain=1", "scenes/t.yaml:4:46", "holds it on this slope", "further below 0"},
+    {"{path: incline, to: [1, 0], incline: -0.1, start_speed: 0}", "contact.gravity=0", "scenes/t.yaml:4:65", "contact.gravity and motion.start_speed are 0", ""},
+    {"{path: incline, to: [1, 0], incline: -0.1, duration: 5}", "gain=1", "scenes/t.yaml:4:62",
+     "motion.duration is 5 s, and the motion reaches motion.to after 1.42", "leave it out: the motion ends there by itself"},
+    {"{path: incline, to: [3, 0], incline: 0.1, start_speed: 1, duration: 5}", "gain=1", "scenes/t.yaml:4:77", "is back at motion.from after 2.0428", "lower it"},
+    {"{path: incline, to: [3, 0], start_speed: 1e-6}", "gain=1", "scenes/t.yaml:4:1", "motion: it is 3e+06 s before it reaches motion.to", "duration: 1 min"},
+    {"{path: incline, to: [0, 0], start_speed: 1}", "gain=1", "scenes/t.yaml:4:29", "motion.to must differ from motion.from", ""},
+    {"{path: incline, to: [1, 0], start_speed: 1, law: harmonic}", "gain=1", "scenes/t.yaml:4:58",
+     "motion.law must not be harmonic where motion.path is incline: gravity and friction say how fast it goes", "laws here: auto"},
+    {"{path: incline, to: [1, 0], start_speed: 1, speed: 1}", "gain=1", "scenes/t.yaml:4:53", "motion.speed applies only where motion.path is line", ""},
+    {"{path: line, to: [1, 0], speed: 1, incline: 0.1}", "gain=1", "scenes/t.yaml:4:44", "motion.incline applies only where motion.path is incline", ""},
+    {"{path: incline, to: [1, 0], start_speed: 1}", "grip={}", "--set grip", "grip must not be given where motion.path is incline", "path: line"},
+    {"{path: incline, to: [1, 0], start_speed: 1}", "load={approach: 0.6 s, release: 0.5 s}", "--set load", "take 1.1 s together, and the motion lasts 1 s", ""},
+};
+
+START_TEST(test_bad_incline)
+{
+    struct result given = motion_read("{path: incline, to: [1, 0], start_speed: 1}",
+                                      SET("contact={model: given, given: {file: f.csv}}", "scraper=null", "surface.roughness=null"));
+    one_error(&given, "--set contact: error: ", "motion.path must not be incline where contact.model is given", "path: line");
+    arena_close(given.arena);
+    for (size_t i = 0; i < sizeof bad_free / sizeof bad_free[0]; i++) {
+        char start[64];
+        struct result r = motion_read(bad_free[i].motion, SET(bad_free[i].set));
+        snprintf(start, sizeof start, "%s: error: ", bad_free[i].place);
+        one_error(&r, start, bad_free[i].says, bad_free[i].cure);
+        arena_close(r.arena);
+    }
+}
+END_TEST
+
 /* ------------------------------------------------------------------ load, tip, table */
 
 static const struct {
@@ -235,4 +286,5 @@ START_TEST(test_bad_set)
 }
 END_TEST
 
-UNIT("scene_motion", test_laws, test_rounded_corners, test_defaults, test_points, test_many_points, test_bad, test_every_point_is_told, test_bad_set)
+UNIT("scene_motion", test_laws, test_rounded_corners, test_defaults, test_points, test_many_points, test_bad, test_every_point_is_told,
+     test_incline, test_bad_incline, test_bad_set)

@@ -21,7 +21,7 @@ static struct result surface_read(const char *surface)
 static const struct {
     const char *surface, *at, *says, *cure;
 } bads[] = {
-    {"{}", "surface:", "surface.roughness, surface.height_map, surface.ridges or surface.grit must be given", "roughness: {}"},
+    {"{}", "surface:", "surface.roughness, surface.height_map, surface.ridges, surface.grit or surface.fractal must be given", "roughness: {}"},
     {"{roughness: {kurtosis: 2, skewness: 1}}", "1}}", "no heights have a skewness of 1 and a kurtosis of 2: it is above skewness^2 + 1, 2", "raise"},
     {"{roughness: {skewness: 2.9}}", "2.9", "no heights have a skewness of 2.9 and a kurtosis of 3: it is above skewness^2 + 1, 9.41", "nearer to 0"},
     {"{roughness: {skewness: -1.5, kurtosis: 3.2}}", "3.2", "a kurtosis of 3.2: it is above skewness^2 + 1, 3.25", "raise"},
@@ -40,6 +40,12 @@ static const struct {
     {"{grit: {density: 1e7 m}}", "1e7", "surface.grit.density needs a number per area; m is a unit of length", "10 /mm^2"},
     {"{grit: {density: 5 /m}}", "5 /m", "'/m' is not a unit that is known", "/m^2, /cm^2, /mm^2"},
     {"{grit: {density: 0}}", "0}", "surface.grit.density must be from 1 /m^2 to", "grains per area"},
+    {"{fractal: {length: 1 mm}}", "1 mm", "surface.fractal.length over surface.fractal.pitch is 10, and from 16 to 16777216 heights are offered", "lower pitch"},
+    {"{fractal: {length: 100 m, pitch: 1 um}}", "1 um", "is 1e+08, and from 16", "lower length"},
+    {"{fractal: {}, along: plane}", "plane}", "surface.fractal is a profile, and this surface lies in the plane", "to path or x"},
+    {"{fractal: {}, ridges: {}}", "fractal:", "surface.fractal is a profile, and this surface lies in the plane", "to path or x"},
+    {"{fractal: {interpolation: linear}}", "linear", "surface.fractal.interpolation must be spline where the scraper is a point", "give scraper.radius"},
+    {"{fractal: {spectrum: energy}}", "energy", "surface.fractal.spectrum must be one of: power, amplitude", "spectrum: power"},
     {"{height_range: 1 um, roughness: {}}", "height_range:", "surface.height_range applies only beside surface.height_map", "give surface.height_map"},
     {"{height_map: a.gsf, holes: ignore}", "ignore", "surface.holes must be one of: refuse, fill", "holes: refuse"},
     {"{height_map: a.gsf, levelling: tilt}", "tilt", "surface.levelling must be one of: none, mean, plane", "levelling: none"},
@@ -215,7 +221,7 @@ START_TEST(test_bad_recipe)
         {"sub/plank.yaml, response: a.csv", "t.yaml", ":2:35: error: ", "surface.response and surface.object exclude each other", "surface.object: null", ERR_SCENE},
         {"sub/none.yaml", "t.yaml", ":2:19: error: ", "none.yaml': No such file", "relative to that file's folder", ERR_INPUT},
         {"sub", "t.yaml", ":2:19: error: ", "': Is a directory", "", ERR_INPUT},
-        {"sub/empty.yaml", "t.yaml", ":2:1: error: ", "surface.roughness, surface.height_map, surface.ridges or surface.grit must be given", "", ERR_SCENE},
+        {"sub/empty.yaml", "t.yaml", ":2:1: error: ", "surface.roughness, surface.height_map, surface.ridges, surface.grit or surface.fractal must be given", "", ERR_SCENE},
     };
     make_files();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

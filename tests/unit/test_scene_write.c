@@ -75,7 +75,21 @@ static const char ARRAY[] =
 static const char TABLE[] =
     "rasp: 1\nsurface: {response: files/set, extrapolate: nearest, moving: launch}\nmotion: {path: still, duration: 3}\n"
     "contact: {model: given, given: {file: files/force.csv, column: f, scale: 3}}\noutput: {listen: {radiator: contact}, level: {rms: -23.3}}\n";
-static const char *const scenes[] = {OBJECT, SPACE, SAMPLES, ARRAY, TABLE, PLAIN, FULL, NONE, SEVERAL, EVERYTHING, CIRCLE, SCRIBBLE, GIVEN, RECORDED};
+static const char ROLL[] =
+    "rasp: 1\nsurface: {fractal: {exponent: -1.1, spectrum: amplitude, maximum: 0.3 um, pitch: 70 um, length: 0.7, interpolation: linear}, response: files/plank.csv}\n"
+    "ball: {radius: 1.1 cm, body: hollow, wall: 0.7 mm, material: glass, offset: 0.3 mm, start_angle: 11 deg, lobe_height: 0.7 um, lobes: 3, patch: 33 um, weight: 0.3,\n"
+    "  object: {shape: shell, diameter: 2.2 cm, thickness: 0.7 mm, at: [1 mm, 0]}}\n"
+    "motion: {path: incline, from: [0.1, 0], to: [0.4, 0], incline: 3.3 deg, start_speed: 0.7, rolling_friction: 0.003}\n"
+    "contact: {model: roll, roll: {penetration: paper, kappa: 7e4, lambda: 0.3, scraping: 0.7}}\n"
+    "output: {stems: [ball], envelope: approach_recede, envelope_depth: 7 dB}\n";
+static const char COUPLED[] =
+    "rasp: 1\nsurface: {roughness: {}}\nball: {radius: 1.1 cm, mass: 7 g, patch: 0}\nmotion: {path: still, duration: 0.3}\n"
+    "contact: {model: roll_coupled, roll: {stiffness: 1.1 GN/m^1.5, mu: 0.7, integrator: exact_impact, ground: rigid, drop: 3 mm}}\n"
+    "output: {quantity: force, level: {full_scale: 3 N}}\naccuracy: {contact_steps: 33}\n";
+static const char DEVIATION[] =
+    "rasp: 1\nsurface: {ridges: {}, response: files/plank.csv}\nball: {radius: 1 cm, material: oak, response: files/plank.csv}\n"
+    "motion: {path: circle, radius: 0.1, duration: 3}\ncontact: {model: roll, roll: {static_depth: 7}}\n";
+static const char *const scenes[] = {ROLL, COUPLED, DEVIATION, OBJECT, SPACE, SAMPLES, ARRAY, TABLE, PLAIN, FULL, NONE, SEVERAL, EVERYTHING, CIRCLE, SCRIBBLE, GIVEN, RECORDED};
 enum { SCENES = sizeof scenes / sizeof scenes[0] };
 
 static struct arena *a;

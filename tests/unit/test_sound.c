@@ -241,5 +241,42 @@ START_TEST(a_stem_that_clips_is_refused)
 }
 END_TEST
 
+static double one(long n, int channel)
+{
+    (void)n, (void)channel;
+    return 1;
+}
+
+/* Where a source is that passes at constant speed: its least distance is 1, its way from -x to x, with 1 over the farthest distance `depth` dB down.
+   The sound of it, and a stem of a body likewise, goes with 1 over that distance; the force keeps what it is. */
+START_TEST(an_envelope_comes_and_goes)
+{
+    struct arena *a = setup();
+    struct err e = {0};
+    static const double depths[] = {20, 6, 0};
+    for (int i = 0; i < 3; i++) {
+        struct scene s = scene_of(2, ENCODING_FLOAT64);
+        double far = pow(10, depths[i] / 20), x = sqrt(far * far - 1);
+        s.output.level.full_scale = 1;
+        s.output.envelope = ENVELOPE_APPROACH_RECEDE;
+        s.output.envelope_depth = depths[i];
+        struct sound_report r = sounded(a, &s, "passes.wav", 4001, one);
+        struct wav w = written(a, "passes.wav");
+        for (long n = 0; n < 4001; n++)
+            for (int k = 0; k < 2; k++)
+                ck_assert_double_eq_tol(w.x[2 * n + k], 1 / hypot(1, x * (((double)n + 0.5) / 4001 * 2 - 1)), 1e-14);
+        ck_assert_double_eq(w.x[4000], 1); /* the middle one */
+        ck_assert_double_eq_tol(20 * log10(w.x[0]), -depths[i], 0.01); /* half a frame inside */
+        ck_assert_double_eq(r.peak, 1);
+        s.output.stems = (const char **)all_stems;
+        ck_assert_msg(stemmed(a, &s, 3000, &e), "%s", e.text);
+        struct wav force = written(a, "x.force.wav"), surface = written(a, "x.surface.wav");
+        ck_assert_double_eq_tol(surface.x[0] / noise_at(0, 0), w.x[0], 1e-3);
+        ck_assert(force.x[0] == (float)(100 + noise_at(0, 0)));
+    }
+    clean(a);
+}
+END_TEST
+
 UNIT("sound", each_place_is_a_channel, loudness_counts_channels, pascals_have_a_level, copies_are_of_one_place, stems_sum_to_the_sound,
-     a_stem_that_clips_is_refused)
+     a_stem_that_clips_is_refused, an_envelope_comes_and_goes)

@@ -118,6 +118,7 @@ START_TEST(test_reference_has_every_key)
 END_TEST
 
 #define STRIKE "contact.model=strike", "surface.roughness=null"
+#define ROLLS "contact.model=roll_coupled", "scraper=null", "contact.roll.kappa=5e9"
 #define GIVEN "contact.model=given", "surface.roughness=null", "scraper.mass=null"
 
 /* What an object's key needs beside it: the shape that has it, and that shape's other sizes. */
@@ -148,7 +149,7 @@ static int with_object(const char *path, const char **set)
 /* Examples that the reference shows commented out are values that their keys take. */
 START_TEST(test_examples_are_taken)
 {
-    static const char *const with[][8] = {
+    static const char *const with[][8] = { /* a ball's object needs what its mass does */
         {"surface.pitch", "surface.height_map=x.npy", "surface.roughness=null"},
         {"surface.height_map", "surface.pitch=1 um", "surface.roughness=null"},
         {"surface.height_range", "surface.height_map=x.png"},
@@ -157,6 +158,12 @@ START_TEST(test_examples_are_taken)
         {"surface.roughness.like_pitch", "surface.roughness.like=x.npy"},
         {"surface.space.dimension_to", "surface.space.from=[0, 1]"},
         {"motion.speed", "motion.duration=null"},
+        {"ball.radius", ROLLS, "ball.mass=1 kg"},
+        {"ball.mass", ROLLS, "ball.radius=1 cm"},
+        {"ball.wall", ROLLS, "ball.radius=1 cm", "ball.body=hollow", "ball.material=glass"},
+        {"ball.response", ROLLS, "ball.radius=1 cm", "ball.mass=1 kg"},
+        {"contact.roll.stiffness", "contact.model=roll", "scraper=null", "ball.radius=1 cm", "ball.mass=1 kg"},
+        {"contact.roll.kappa", "contact.model=roll", "scraper=null", "ball.radius=1 cm", "ball.mass=1 kg"},
         {"contact.strike.speed", STRIKE, "contact.strike.stiffness=1e8"},
         {"contact.strike.stiffness", STRIKE, "contact.strike.speed=1"},
         {"contact.strike.interval", STRIKE, "contact.strike.speed=1", "contact.strike.stiffness=1e8"},
@@ -182,7 +189,7 @@ START_TEST(test_examples_are_taken)
         over.n = with_object(k->path, set);
         set[over.n++] = arena_format(a, "%s=%s", k->path, value);
         for (size_t i = 0; i < sizeof with / sizeof with[0]; i++)
-            for (int j = 1; !strcmp(k->path, with[i][0]) && with[i][j]; j++)
+            for (int j = 1; (!strcmp(k->path, with[i][0]) || (!strncmp(k->path, "ball.object.", 12) && !strcmp(with[i][0], "ball.mass"))) && with[i][j]; j++)
                 set[over.n++] = with[i][j];
         must_read(base, "base", &over);
     }

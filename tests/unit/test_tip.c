@@ -530,8 +530,8 @@ static void check_refused(int along, double radius, double patch, double finest,
 
 START_TEST(too_large_a_ball)
 {
-    check_refused(ALONG_PATH, 1, 1e-6, HUGE_VAL, "raise scraper.patch");
-    check_refused(ALONG_PATH, 1, 1e-6, 1e-9, "coarser surface");
+    check_refused(ALONG_PATH, 10, 1e-7, HUGE_VAL, "raise scraper.patch");
+    check_refused(ALONG_PATH, 10, 1e-6, 1e-9, "coarser surface");
     check_refused(ALONG_PLANE, 1, 1e-6, HUGE_VAL, "raise scraper.patch");
 }
 END_TEST

@@ -34,6 +34,9 @@ static const struct {
     {"2.2 kN/m", KEY_FORCE_PER_LENGTH, 2200}, {"3.3 N/mm", KEY_FORCE_PER_LENGTH, 3300}, {"7 N/cm", KEY_FORCE_PER_LENGTH, 700}, {"5 N/m", KEY_FORCE_PER_LENGTH, 5},
     {"12.7 1/s", KEY_PER_TIME, 12.7},  {"12.7/s", KEY_PER_TIME, 12.7},    {"12.7 /s", KEY_PER_TIME, 12.7}, {"12.7", KEY_PER_TIME, 12.7},
     {"2.1 MN/m", KEY_STIFFNESS, 2.1e6}, {"1.1 GN/m^1.5", KEY_STIFFNESS, 1.1e9}, {"7 N/m^(3/2)", KEY_STIFFNESS, 7}, {"3 N/mm", KEY_STIFFNESS, 3000},
+    {"5e9 N/(m^1.5 kg)", KEY_STIFFNESS_PER_MASS, 5e9}, {"2.3 MN/m^1.5/kg", KEY_STIFFNESS_PER_MASS, 2.3e6}, {"5e7", KEY_STIFFNESS_PER_MASS, 5e7},
+    {"0.3 s/m", KEY_PER_SPEED, 0.3},   {"7 ms/m", KEY_PER_SPEED, 7e-3},   {"0.1 N s/m^2.5", KEY_DISSIPATION, 0.1}, {"3 kN*s/m^2.5", KEY_DISSIPATION, 3000},
+    {"1.5 N", KEY_OUTPUT, 1.5},        {"2 kN", KEY_OUTPUT, 2000},
     {"1e-300", KEY_NONE, 1e-300},      {"0e999", KEY_NONE, 0},
 };
 
@@ -106,7 +109,7 @@ static const struct {
     {"2 hz", KEY_FREQUENCY, "'hz' is not a unit", "did you mean 2 Hz?"},
     {"48 KHz", KEY_FREQUENCY, "'KHz' is not a unit", "did you mean 48 kHz?"},
     {"2 Kg", KEY_MASS, "'Kg' is not", "did you mean 2 kg?"},
-    {"3 N", KEY_OUTPUT, "needs a length, speed, acceleration or pressure; N is a unit of force", "mm/s"},
+    {"3 s", KEY_OUTPUT, "needs a length, speed, acceleration, pressure or force; s is a unit of time", "mm/s"},
     {"2 cg", KEY_MASS, "'cg' is not", "kg, g, mg"},
     {"30 %", KEY_NONE, "not a percentage", "0.3"},
     {"fast", KEY_SPEED, "needs a speed, not 'fast'", "10 cm/s"},

@@ -1,0 +1,296 @@
+/* `contact.model: roll_coupled`: a ball that rolls, may bounce, and pushes back and forth with the surface's modes (convolution/coupled.h has the equations,
+   papers/002 equations 1 to 3). This stage gives them what is under the ball, and keeps account.
+
+   The motion is the way of the centre of mass (papers/000 equation 18); it goes on under a ball that flies, at the same speed.
+
+   Steps. Each sub-interval of the force is K of them, K = ceil(contact_steps / (t_c rate oversampling)), t_c = coupled_contact_time of the stiffness
+   and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the
+   curve is scouted (roll_curve.h). s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
+
+   The start. Dropped, the ball is at rest in the air, `drop` above where it would lie, which is less above the level ground. Otherwise it lies there, bent into the ground, with no vertical speed. That
+   the ground bore it before is known to the equations, but not to what sounds (ring_*), for which a weight that is there at once is a blow; so
+   the force rises over load.approach where the ball lies at the start, and falls over load.release at the motion's end (force/approach.c, scene/rules.h).
+   The equations and the account (ITEM_ROLL) are of the ball without them. */
+#include <math.h>
+
+#include "convolution/coupled.h"
+#include "convolution/roll_curve.h"
+#include "convolution/roll_ground.h"
+#include "force/hertz.h"
+#include "force/onset.h"
+#include "num/real.h"
+#include "scene/ball.h"
+#include "scene/rules.h"
+#include "stage.h"
+#include "surface/relief.h"
+#include "trajectory/trajectory.h"
+
+#define PAPER_SPEED 0.05     /* m/s */
+#define DEEP 0.1             /* of the radius: a rest deeper than that is told */
+#define STILL_BOUNCES 0.01   /* of the drop: a last flight higher than that is told */
+enum { BATCH = 4096, SUBSTEPS_MOST = 1000, FEW_STEPS = 4 };
+
+struct rolling {
+    struct coupled *ball;
+    struct roll_curve curve;
+    struct roll_ground ground;
+    int substeps, per_frame;  /* steps of a sub-interval, of a frame                          */
+    long batch;               /* frames whose curve is read at a time                         */
+    double *force;            /* [batch * per_frame] N                                        */
+    double mass, stiffness, gravity, drop;
+    double rest;              /* m, height of the ball that lies where the motion starts      */
+    double apex[2];           /* m, highest over the surface: of this flight, of the one before */
+    double residual;          /* J, greatest                                                  */
+    bool over;                /* the end has been told                                        */
+};
+
+/* ------------------------------------------------------------------ opening */
+
+static bool rolling_body(struct rolling *w, const struct contact *c, struct err *e)
+{
+    w->mass = c->scraper.mass;
+    w->gravity = ball_gravity(c);
+    w->drop = c->contact.roll.drop;
+    w->stiffness = ball_stiffness(c);
+    return !isnan(w->stiffness) || hertz_stiffness(c, &w->stiffness, e);
+}
+
+static double substeps_for(double contact_steps, double contact_time, double sub_rate)
+{
+    return fmax(ceil(contact_steps / (contact_time * sub_rate) - 1e-9), 1);
+}
+
+static bool rolling_steps(struct rolling *w, const struct stage_run *r, struct err *e)
+{
+    const struct board *b = r->board;
+    struct roll_curve scout;
+    roll_curve_make(&scout, r, ROLL_CURVE_LEAST);
+    double speed = fmax(fmax(PAPER_SPEED, sqrt(2 * w->gravity * w->drop)), roll_curve_fastest(&scout));
+    double time = coupled_contact_time(w->mass, w->stiffness, speed), substeps = substeps_for(r->scene->accuracy.contact_steps, time, b->rate * b->over);
+    if (!(substeps <= SUBSTEPS_MOST))
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': an impact at %.3g m/s lasts %.3g s, and accuracy.contact_steps: %g in it would be %.6g steps per audio sample; lower accuracy.contact_steps, "
+                       "or contact.roll.stiffness (or kappa)", r->contact->name, speed, time, r->scene->accuracy.contact_steps, substeps * b->over);
+    w->substeps = (int)substeps;
+    w->per_frame = w->substeps * b->over;
+    w->batch = BATCH / w->per_frame > 1 ? BATCH / w->per_frame : 1;
+    long room = w->batch * w->per_frame;
+    w->force = ARENA_TAKE(r->arena, double, room);
+    roll_curve_make(&w->curve, r, room > ROLL_CURVE_LEAST ? room : ROLL_CURVE_LEAST);
+    return true;
+}
+
+/* The penetration is Hertz's as long as it is small beside the radius. */
+static void rolling_depth(struct stage_run *r, double rest)
+{
+    const struct contact *c = r->contact;
+    if (rest > DEEP * c->scraper.radius)
+        board_warn(r->board, arena_format(r->arena, "contact '%s': at rest the ball is pressed in by %.3g m, %.3g times its radius, and the contact's law is one of shallow "
+                                                    "dents: raise contact.roll.stiffness (or kappa)", c->name, rest, rest / c->scraper.radius));
+}
+
+static bool rolling_start(struct rolling *w, struct stage_run *r, struct err *e)
+{
+    const double *s = w->curve.s, *phi = roll_ground_start(&w->ground);
+    w->curve.t[0] = 0;
+    roll_curve_read(&w->curve, 1);
+    w->rest = coupled_rest(w->ball, *s, phi);
+    coupled_flights(w->ball, 1 / r->board->rate);
+    coupled_start(w->ball, w->rest + w->drop, 0, *s, phi, !(w->drop > 0));
+    const struct coupled_state *now = coupled_state(w->ball);
+    if (w->drop > 0 && now->penetration > 0)
+        return err_set(e, ERR_SCENE, "contact '%s': contact.roll.drop: %.3g m is less than the %.3g m by which contact and surface give way under the ball: it would begin "
+                                     "inside the surface; drop it from higher, or leave drop out", r->contact->name, w->drop, w->drop + now->penetration);
+    if (w->drop > 0)
+        onset_told(r, "the ball's first impact", sqrt(2 * w->drop / w->gravity));
+    return true;
+}
+
+static bool rolling_open(struct stage_run *r, struct err *e)
+{
+    const struct contact *c = r->contact;
+    struct rolling *w = ARENA_TAKE(r->arena, struct rolling, 1);
+    struct board *b = r->board;
+    r->state = w;
+    relief_settle(b->relief, c);
+    if (!rolling_body(w, c, e) || !roll_ground_make(&w->ground, r, e) || !rolling_steps(w, r, e))
+        return false;
+    struct coupled_ask ask = {.integrator = c->contact.roll.integrator, .step = 1 / (b->rate * b->over * w->substeps), .mass = w->mass,
+                              .weight = w->mass * w->gravity, .stiffness = w->stiffness, .mu = c->contact.roll.mu, .n = w->ground.shapes.n,
+                              .frequency = w->ground.shapes.frequency, .decay = w->ground.shapes.decay};
+    if (!coupled_make(r->arena, &ask, &w->ball, e))
+        return err_at(e, "contact '%s'", c->name);
+    if (!rolling_start(w, r, e))
+        return false;
+    b->rolls = true;
+    b->roll = (struct roll_report){.stiffness = w->stiffness, .rest = real_pow(ask.weight / w->stiffness, 2.0 / 3), .deviation = NAN, .step = ask.step};
+    rolling_depth(r, b->roll.rest);
+    return true;
+}
+
+/* ------------------------------------------------------------------ running */
+
+/* Before the frame: what holds at its beginning. */
+static void rolling_note(struct rolling *w, const struct board *b, long frame)
+{
+    const struct coupled_state *s = coupled_state(w->ball);
+    w->residual = fmax(w->residual, fabs(s->residual));
+    if (s->penetration > 0 && w->apex[0] > 0) {
+        w->apex[1] = s->lift_offs > 0 ? w->apex[0] : 0;
+        w->apex[0] = 0;
+    }
+    w->apex[0] = fmax(w->apex[0], -s->penetration);
+    if (!board_has(b, ITEM_ROLL))
+        return;
+    double *v = board_at(b, ITEM_ROLL, frame);
+    v[ROLL_PENETRATION] = s->penetration;
+    v[ROLL_HEIGHT] = s->height - w->rest;
+    v[ROLL_ENERGY] = s->energy;
+    v[ROLL_SURFACE_WORK] = s->surface_work;
+    v[ROLL_CONTACT_LOSS] = s->contact_loss;
+    v[ROLL_MODE_LOSS] = s->mode_loss;
+    v[ROLL_RESIDUAL] = s->residual;
+}
+
+static bool rolling_frame(struct rolling *w, struct stage_run *r, long frame, long first, struct err *e)
+{
+    struct board *b = r->board;
+    const struct coupled_state *s = coupled_state(w->ball);
+    double contact = s->contact_time, *force = w->force + (frame - first) * w->per_frame;
+    long lifts = s->lift_offs;
+    rolling_note(w, b, frame);
+    if (!coupled_run(w->ball, w->per_frame, w->curve.s + (frame - first) * w->per_frame, roll_ground_next(&w->ground, frame), force, e))
+        return err_at(e, "contact '%s', %.6g s after its start", r->contact->name, (double)frame / b->rate);
+    if (board_has(b, ITEM_ROLL)) {
+        double *v = board_at(b, ITEM_ROLL, frame);
+        v[ROLL_CONTACT] = (s->contact_time - contact) * b->rate;
+        v[ROLL_LIFT_OFFS] = (double)(s->lift_offs - lifts);
+    }
+    return true;
+}
+
+/* Means over sub-intervals, from those over steps of the frames [first, last). */
+static void rolling_means(const struct rolling *w, const struct board *b, long first, long last)
+{
+    double *to = board_at(b, ITEM_SUBFORCE, first);
+    for (long i = 0; i < (last - first) * b->over; i++) {
+        const double *force = w->force + i * w->substeps;
+        double sum = 0;
+        for (int k = 0; k < w->substeps; k++)
+            sum += force[k];
+        to[i] = sum / w->substeps;
+    }
+}
+
+static bool rolling_batch(struct rolling *w, struct stage_run *r, long first, long last, struct err *e)
+{
+    const struct board *b = r->board;
+    double before = (double)first * w->per_frame, per_second = b->rate * w->per_frame;
+    for (long i = 0; i < (last - first) * w->per_frame; i++)
+        w->curve.t[i] = (before + (double)i + 1) / per_second;
+    roll_curve_read(&w->curve, (size_t)((last - first) * w->per_frame));
+    for (long frame = first; frame < last; frame++)
+        if (!rolling_frame(w, r, frame, first, e))
+            return false;
+    if (board_has(b, ITEM_SUBFORCE))
+        rolling_means(w, b, first, last);
+    return true;
+}
+
+static void rolling_report(const struct rolling *w, struct board *b, long frames)
+{
+    const struct coupled_state *s = coupled_state(w->ball);
+    struct roll_report *o = &b->roll;
+    o->contact = s->contact_time;
+    o->time = (double)frames / b->rate;
+    o->lift_offs = s->lift_offs;
+    o->bounces = s->flights + (s->lift_offs > 0 && s->flight > 1 / b->rate); /* the last one may still go on */
+    o->steps = s->steps;
+    o->contact_samples[0] = s->lift_offs > 0 ? s->contact_sum / (double)s->lift_offs * b->rate : NAN;
+    o->contact_samples[1] = s->lift_offs > 0 ? s->contact_least * b->rate : NAN;
+    o->fastest = s->impact_most;
+    o->residual = s->highest > 0 ? fmax(w->residual, fabs(s->residual)) / s->highest : 0;
+    o->iterations[0] = s->contact_steps > 0 ? (double)s->iterations / (double)s->contact_steps : 0;
+    o->iterations[1] = (double)s->iterations_most;
+}
+
+/* Remarks at the motion's end. */
+static void rolling_told(const struct rolling *w, struct stage_run *r)
+{
+    const struct coupled_state *s = coupled_state(w->ball);
+    struct board *b = r->board;
+    const char *name = r->contact->name;
+    double still = s->lift_offs > 0 ? fmax(w->apex[0], w->apex[1]) : 0, fastest = s->impact_most;
+    double steps = fastest > 0 ? coupled_contact_time(w->mass, w->stiffness, fastest) / b->roll.step : HUGE_VAL;
+    if (s->contact_time == 0 && w->drop == 0)
+        board_warn(b, arena_format(r->arena, "contact '%s': nothing presses the ball down: contact.gravity is 0, and it never touches the surface", name));
+    else if (s->contact_time == 0)
+        board_warn(b, arena_format(r->arena, "contact '%s': the ball never touches the surface: let the motion last longer than the fall, or lower contact.roll.drop", name));
+    else if (w->drop > 0 && still > STILL_BOUNCES * w->drop)
+        board_warn(b, arena_format(r->arena, "contact '%s': the ball still bounces %.3g m high when its motion ends, and is cut off there: let the motion last longer", name,
+                                   still));
+    if (steps < FEW_STEPS)
+        board_warn(b, arena_format(r->arena, "contact '%s': the fastest impact, at %.3g m/s, takes %.2g steps only: raise accuracy.contact_steps", name, fastest, steps));
+}
+
+static bool rolling_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    struct rolling *w = r->state;
+    struct board *b = r->board;
+    long end = to < b->moving ? to : b->moving;
+    for (long first = from; first < end; first += w->batch)
+        if (!rolling_batch(w, r, first, first + w->batch < end ? first + w->batch : end, e))
+            return false;
+    for (int item = 0; item < ITEM_COUNT; item++) {
+        const struct signal *x = &b->signals[item];
+        if ((item == ITEM_SUBFORCE || item == ITEM_ROLL) && x->per_frame > 0)
+            for (double *v = board_at(b, item, from > end ? from : end), *last = board_at(b, item, to); v < last; v++)
+                *v = 0;
+    }
+    if (from < b->moving)
+        rolling_report(w, b, end);
+    if (to >= b->moving && !w->over) {
+        w->over = true;
+        rolling_told(w, r);
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ the plan */
+
+static bool rolling_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return c->contact.model == CONTACT_ROLL_COUPLED;
+}
+
+static unsigned rolling_asks(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return ITEM_BIT(ITEM_POSITION); /* the motion must be there: it is read at the steps' own instants */
+}
+
+/* Cycles of a step: 60 on rigid ground, 100 of its place on the curve, 5 a mode. */
+static double rolling_work(const struct contact *c, const struct scene *s)
+{
+    double k = ball_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
+    struct err unknown = {0};
+    if (isnan(k) && !hertz_stiffness(c, &k, &unknown))
+        return 0;
+    double time = coupled_contact_time(c->scraper.mass, k, fmax(PAPER_SPEED, sqrt(2 * ball_gravity(c) * c->contact.roll.drop)));
+    return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) * (160 + 5 * roll_ground_modes(c));
+}
+
+const struct stage roll_coupled_stage = {
+    .name = "roll_coupled",
+    .does = "ball, contact and the surface's modes solved together: flights, impacts, rolling",
+    .paper = "002 eq. 1 to 4",
+    .idle = "contact.model is not roll_coupled",
+    .needs = ITEM_BIT(ITEM_SURFACE),
+    .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
+    .asks = rolling_asks,
+    .wanted = rolling_wanted,
+    .work = rolling_work,
+    .open = rolling_open,
+    .run = rolling_run,
+};

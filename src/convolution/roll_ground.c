@@ -1,0 +1,98 @@
+/* See roll_ground.h. The modes are those that sound (ring_choice.h): the strongest, below 0.499 of the sample rate; the give of all others is left out. */
+#include "convolution/roll_ground.h"
+
+#include "convolution/ring_choice.h"
+#include "scene/rules.h"
+#include "trajectory/trajectory.h"
+
+static bool gives_way(const struct contact *c)
+{
+    const struct response *given = &c->surface.response;
+    return c->contact.roll.ground != GROUND_RIGID && rules_responds(given) && !rules_is_recorded(given);
+}
+
+/* The motion must stay on what gives way. */
+static bool ground_inside(const struct roll_ground *g, const struct stage_run *r, struct err *e)
+{
+    const struct trajectory *tr = r->board->trajectory;
+    struct modes_point point = modes_point_make(r->arena, g->shapes.n);
+    long steps = tr->straight ? 1 : tr->detail;
+    for (long i = 0; i <= steps; i++) {
+        double t = tr->duration * (double)i / (double)steps, p[2];
+        if (tr->straight)
+            for (int xy = 0; xy < 2; xy++)
+                p[xy] = tr->from[xy] + tr->reach[i] * tr->e[xy];
+        else
+            trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
+        double out = modes_at(g->shapes.modes, &(struct modes_where){p[0], p[1], 0}, &point);
+        if (out > 1e-9)
+            return err_set(e, ERR_SCENE, "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: "
+                                         "nearest", r->contact->name, p[0], p[1], out, g->shapes.modes->name);
+    }
+    return true;
+}
+
+static void ground_phi(const struct roll_ground *g, long frame, double *phi)
+{
+    double t = (double)frame / g->board->rate, x, y;
+    trajectory_at(g->board->trajectory, 1, &t, (struct trajectory_out){.x = &x, .y = &y});
+    shapes_at(&g->shapes, &(struct modes_where){x, y, 0}, phi);
+}
+
+static void ground_ramps(struct roll_ground *g, const struct stage_run *r)
+{
+    g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL;
+    g->ramp = (long)r->scene->accuracy.gain_ramp;
+    g->phi = ARENA_TAKE(r->arena, double, g->shapes.n);
+    g->from = ARENA_TAKE(r->arena, double, g->shapes.n);
+    g->to = ARENA_TAKE(r->arena, double, g->shapes.n);
+    ground_phi(g, 0, g->to);
+}
+
+bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct err *e)
+{
+    const struct contact *c = r->contact;
+    const struct response *given = &c->surface.response;
+    const struct ring_choice *choice = given->choice;
+    *g = (struct roll_ground){.board = r->board};
+    if (!gives_way(c))
+        return c->contact.roll.ground != GROUND_ELASTIC ||
+               err_set(e, ERR_SCENE, "contact '%s': contact.roll.ground: elastic needs modes of the surface, and %s; give surface.object, or take ground: rigid",
+                       c->name, rules_responds(given) ? "a recorded response has none" : "it has no response");
+    if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e))
+        return false;
+    if (!shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e))
+        return err_at(e, "contact '%s'", c->name);
+    ground_ramps(g, r);
+    return given->extrapolate != EXTRAPOLATE_ERROR || ground_inside(g, r, e);
+}
+
+const double *roll_ground_start(const struct roll_ground *g)
+{
+    return g->shapes.n > 0 ? g->to : NULL;
+}
+
+const double *roll_ground_next(struct roll_ground *g, long frame)
+{
+    if (!g->moves)
+        return NULL;
+    if (frame == g->ramp_end) {
+        double *from = g->to;
+        g->to = g->from;
+        g->from = from;
+        g->ramp_end += g->ramp;
+        ground_phi(g, g->ramp_end, g->to);
+    }
+    if (frame + 1 == g->ramp_end)
+        return g->to;
+    double share = 1 - (double)(g->ramp_end - frame - 1) / (double)g->ramp;
+    for (int i = 0; i < g->shapes.n; i++)
+        g->phi[i] = g->from[i] + share * (g->to[i] - g->from[i]);
+    return g->phi;
+}
+
+double roll_ground_modes(const struct contact *c)
+{
+    const struct response *given = &c->surface.response;
+    return !gives_way(c) ? 0 : given->choice ? given->choice->modes.n : given->modes;
+}

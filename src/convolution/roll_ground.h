@@ -1,0 +1,28 @@
+/* What gives way under a rolling ball: the surface's modes, and their shapes at the contact's place as it moves. */
+#ifndef CONVOLUTION_ROLL_GROUND_H
+#define CONVOLUTION_ROLL_GROUND_H
+#include "response/shapes.h"
+#include "stage.h"
+
+struct roll_ground {
+    struct shapes shapes;     /* n 0: rigid                                        */
+    bool moves;               /* phi changes on the way                            */
+    double *phi, *from, *to;  /* [n] at a frame; at the ends of the present ramp   */
+    long ramp, ramp_end;      /* frames                                            */
+    const struct board *board;
+};
+
+/* By contact.roll.ground; at rest at the motion's start. ERR_SCENE: no modes though `elastic`, gains that are not the driving point's, a motion that leaves the
+   places that are known. */
+bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct err *e);
+
+/* phi[n] at the motion's start; NULL: rigid. */
+const double *roll_ground_start(const struct roll_ground *g);
+
+/* phi[n] at the end of a frame, frames in order: read every accuracy.gain_ramp frames, at multiples of it, straight between. NULL: as it was. */
+const double *roll_ground_next(struct roll_ground *g, long frame);
+
+/* How many modes, for predictions of cost. */
+double roll_ground_modes(const struct contact *c);
+
+#endif

@@ -1,0 +1,29 @@
+/* A first pass over the whole motion, from which a rolling ball's stiffness and penetration follow. */
+#ifndef FORCE_ROLL_REHEARSAL_H
+#define FORCE_ROLL_REHEARSAL_H
+#include "force/roll_law.h"
+#include "stage.h"
+
+enum { ROLL_REHEARSAL_RATE = 48000, ROLL_REHEARSAL_MOST = 1 << 20 }; /* Hz, least grains per second; grains kept, 71 MB at most while it lasts */
+
+struct roll_rehearsal {
+    double normal;      /* N, mean of max(0, N(t))                                     */
+    double rest;        /* m, (N/k)^(2/3)                                              */
+    double base;        /* m, rho_0                                                    */
+    double deviation;   /* m, rms of the geometric centre's height about its mean      */
+    double mean;        /* m, that mean                                                */
+    double level[2];    /* 1/m, of the limited curvature, taken out of the height (force/slope.h) */
+};
+
+/* Grains per second of a motion of that duration (s) and greatest speed (m/s): a whole number in the duration. */
+double roll_rehearsal_rate(const struct contact *c, double duration, double speed);
+
+/* Settles l->stiffness, where it is NAN, as k = N / (static_depth rms)^1.5, and base such that over the motion the mean of the force is N to 1e-9;
+   l->mu is given. r: of the rolling stage, whose board has trajectory, load and limiter. Where nothing presses the ball, found->normal is 0 and the
+   rest is not found. ERR_SCENE where nothing deviates and no stiffness is given. */
+bool roll_rehearsal_run(struct stage_run *r, struct roll_law *l, struct roll_rehearsal *found, struct err *e);
+
+/* [n], m, from the normal forces (N) of n instants: by how much they press the ball deeper than its mean one does, rest ((N/mean)^(2/3) - 1). */
+void roll_rehearsal_press(const struct roll_rehearsal *f, long n, const double *load, double *deeper);
+
+#endif

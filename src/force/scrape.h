@@ -1,0 +1,19 @@
+/* The force of equations 1 and 3 along one limited trajectory: what the stages `scrape` and `roll` share. */
+#ifndef FORCE_SCRAPE_H
+#define FORCE_SCRAPE_H
+#include "force/slope.h"
+
+struct scrape {
+    struct slope slope;
+    double beta1, beta2, mass;
+    double share;                    /* factor on both forces                         */
+    double momentum;                 /* m v dS/du at the end of the last sub-interval */
+};
+
+/* s must be zeroed, and stay where it is. */
+bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err *e);
+
+/* Writes the means of ITEM_SUBFORCE over the n <= WAY_CHUNK sub-intervals from number `first` on, which must come in order. */
+void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n);
+
+#endif

@@ -1,0 +1,360 @@
+/* crest: against the plain maximum over all heights, closed forms, and itself in another order and in other windows. */
+#include "surface/crest.h"
+
+#include "unit.h"
+
+static double between(double low, double high)
+{
+    return low + (high - low) * drand48();
+}
+
+/* ------------------------------------------------------------------ against the plain maximum */
+
+#define PITCH 2.5e-6
+
+enum { N = 600, PLACES = 2000 };
+
+struct plain {
+    double e, slope, second; /* the largest; its slope; the second largest */
+};
+
+static struct plain plain_at(const double *z, long n, long first, double radius, double x)
+{
+    struct plain p = {-HUGE_VAL, 0, -HUGE_VAL};
+    for (long i = 0; i < n; i++) {
+        double d = x - (double)(first + i) * PITCH, s = sqrt(radius * radius - d * d), e = z[i] - d * d / (radius + s);
+        if (fabs(d) > radius)
+            continue;
+        if (e > p.e)
+            p = (struct plain){e, -d / s, p.e};
+        else
+            p.second = fmax(p.second, e);
+    }
+    return p;
+}
+
+/* Noise, noise with rare spikes, steps, a wave, a walk with cliffs. */
+static void ground_make(int kind, double *z)
+{
+    double walk = 0;
+    for (long i = 0; i < N; i++) {
+        double noise = 1e-6 * (drand48() - 0.5);
+        walk += 1e-5 * (drand48() - 0.5) + (drand48() < 0.02 ? between(-1e-3, 1e-3) : 0);
+        z[i] = kind == 0 ? noise : kind == 1 ? noise + (drand48() < 0.01 ? between(0, 5e-5) : 0) : kind == 2 ? 3e-5 * floor(3 * drand48())
+             : kind == 3 ? 2e-5 * cos(2 * M_PI * (double)i / 70) : walk;
+    }
+}
+
+/* Rounding: of places, 2e-16 of them, by the slope; of heights and caps, by themselves; of crossings, by the length of the window and the slopes' difference. At a cliff, where a
+   slope may be anything, the place may be taken 1e-15 m away. */
+static void check_place(const struct crest *c, const double *z, long first, double radius, double x)
+{
+    double e, slope, close = 1e-15, tolerance = 2e-17;
+    crest_at(c, 1, &x, &e, &slope);
+    struct plain here = plain_at(z, N, first, radius, x), left = plain_at(z, N, first, radius, x - close), right = plain_at(z, N, first, radius, x + close);
+    double least = fmin(here.e, fmin(left.e, right.e)), most = fmax(here.e, fmax(left.e, right.e));
+    ck_assert_msg(e <= most + tolerance && e >= least - tolerance, "R %g, x %g: %.17g, and the largest is %.17g", radius, x, e, here.e);
+    if (here.e - here.second > 1e-14 && most - least < 1e-13)
+        ck_assert_double_eq_tol(slope, here.slope, 1e-9 * (1 + fabs(here.slope)));
+}
+
+START_TEST(the_plain_maximum)
+{
+    static const double radii[] = {0.51 * PITCH, 3.01e-6, 2.01e-5, 3.01e-4, 1e-2, 10};
+    static double z[N];
+    struct arena *a = arena_open();
+    srand48(1);
+    for (int kind = 0; kind < 5; kind++)
+        for (int k = 0; k < 6; k++) {
+            struct crest *c = crest_make(a, radii[k], PITCH, N);
+            long first = (long)between(-3000, 3000);
+            ground_make(kind, z);
+            crest_set(c, z, N, first);
+            for (int i = 0; i < PLACES; i++) {
+                double at = i < N ? i : between(0, N - 1);
+                check_place(c, z, first, radii[k], ((double)first + at) * PITCH);
+            }
+        }
+    arena_close(a);
+}
+END_TEST
+
+/* Many places at once, rising, falling and at random, are those one by one. */
+START_TEST(many_at_once)
+{
+    static double z[N], x[PLACES], e[PLACES], slope[PLACES];
+    struct arena *a = arena_open();
+    struct crest *c = crest_make(a, 1e-3, PITCH, N);
+    srand48(2);
+    ground_make(1, z);
+    crest_set(c, z, N, 0);
+    for (int kind = 0; kind < 3; kind++) {
+        for (int i = 0; i < PLACES; i++)
+            x[i] = PITCH * (kind == 0 ? (double)i / 4 : kind == 1 ? (PLACES - i) / 4.0 : between(0, N - 1));
+        crest_at(c, PLACES, x, e, slope);
+        for (int i = 0; i < PLACES; i++) {
+            double one[2];
+            crest_at(c, 1, &x[i], &one[0], &one[1]);
+            ck_assert(one[0] == e[i] && one[1] == slope[i]);
+        }
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* ------------------------------------------------------------------ closed forms */
+
+/* One spike of 20 um on level ground: one arc from -sqrt(2 R H - H^2) to the same on the other side; beside it dips of d^2 / (8 R) between the heights. */
+START_TEST(a_spike_is_one_arc)
+{
+    static double z[N];
+    double radius = 1e-3, high = 2e-5, far = sqrt(2 * radius * high - high * high), dip = PITCH * PITCH / 8 / radius;
+    struct arena *a = arena_open();
+    struct crest *c = crest_make(a, radius, PITCH, N);
+    z[300] = high;
+    crest_set(c, z, N, -300);
+    for (int k = 0; k < 1000; k++) {
+        double x = between(-290, 290) * PITCH, e, slope, arc = high - x * x / (radius + sqrt(radius * radius - x * x));
+        crest_at(c, 1, &x, &e, &slope);
+        if (fabs(x) < far - PITCH) {
+            ck_assert_double_eq_tol(e, arc, 1e-19);
+            ck_assert_double_eq_tol(slope, -x / sqrt(radius * radius - x * x), 1e-13);
+        } else if (fabs(x) > far + PITCH) {
+            ck_assert(e <= 0 && e >= -dip * (1 + 1e-6));
+        }
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* The curve at a distance of R from a wave of 1 mm and 4 um, whose hollows are far wider than the disc: x = t - R s/sqrt(1 + s^2), E = z(t) + R/sqrt(1 + s^2) - R. */
+static double parallel(double x, double radius)
+{
+    double k = 2 * M_PI / 1e-3, t = x, s = 0;
+    for (int i = 0; i < 40; i++) {
+        s = -4e-6 * k * sin(k * t);
+        t = x + radius * s / sqrt(1 + s * s);
+    }
+    return 4e-6 * cos(k * t) + radius / sqrt(1 + s * s) - radius;
+}
+
+/* Too low by at most d^2/8 (1/R + |z''|), never too high; and at its worst nearly so much. */
+START_TEST(a_wave_is_a_parallel_curve)
+{
+    static double z[N];
+    double radius = 1e-3, bend = 4e-6 * pow(2 * M_PI / 1e-3, 2), bound = PITCH * PITCH / 8 * (1 / radius + bend), worst = 0;
+    struct arena *a = arena_open();
+    struct crest *c = crest_make(a, radius, PITCH, N);
+    for (long i = 0; i < N; i++)
+        z[i] = 4e-6 * cos(2 * M_PI / 1e-3 * PITCH * (double)(i - 300));
+    crest_set(c, z, N, -300);
+    for (int k = 0; k < 2000; k++) {
+        double x = between(-200, 200) * PITCH, e;
+        crest_at(c, 1, &x, &e, NULL);
+        ck_assert_double_le(e, parallel(x, radius) + 1e-17);
+        worst = fmax(worst, parallel(x, radius) - e);
+    }
+    ck_assert_msg(worst <= bound * 1.001 && worst > 0.9 * bound, "%g of %g", worst, bound);
+    arena_close(a);
+}
+END_TEST
+
+/* Over two spikes, of any heights, the disc rests on both where it passes from one to the other: its centre is then R from either. And over the
+   middle between two alike. */
+START_TEST(two_spikes)
+{
+    double radius = 1e-3, middle[2], z[101];
+    struct arena *a = arena_open();
+    struct crest *c = crest_make(a, radius, PITCH, 101);
+    for (int k = 0; k < 50; k++) {
+        double rise = k == 0 ? 0 : between(-2e-5, 2e-5), low = -HUGE_VAL, high, x;
+        for (int i = 0; i < 101; i++)
+            z[i] = -1e-3;
+        z[0] = 0;
+        z[100] = rise;
+        crest_set(c, z, 101, 0);
+        for (low = 0, high = 100 * PITCH; high - low > 1e-18;) { /* bisection: is the slope still that of the first arc? */
+            x = 0.5 * (low + high);
+            if (x == low || x == high)
+                break;
+            crest_at(c, 1, &x, &middle[0], &middle[1]);
+            if (middle[1] <= 0 && fabs(middle[1] + x / sqrt(radius * radius - x * x)) < 1e-12)
+                low = x;
+            else
+                high = x;
+        }
+        crest_at(c, 1, &high, &middle[0], NULL);
+        double up = middle[0] + radius, d = high - 100 * PITCH;
+        ck_assert_double_eq_tol(hypot(high, up), radius, 1e-17);
+        ck_assert_double_eq_tol(hypot(d, up - rise), radius, 1e-17);
+        if (k == 0)
+            ck_assert_double_eq_tol(high, 50 * PITCH, 1e-18);
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* ------------------------------------------------------------------ as a part */
+
+static double towers, apart; /* m: where one stands, and how far from each other they do, 3.9 mm high; 0: none */
+
+static double rough(double x)
+{
+    double z = apart > 0 && fabs(remainder(x - towers, apart)) < 0.8e-6 ? 3.9e-3 : 0;
+    for (int k = 1; k < 12; k++)
+        z += 4e-6 / k * sin(k * k * 3.1e3 * x + k * k);
+    return z;
+}
+
+static void rough_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
+{
+    (void)part;
+    for (size_t i = 0; v->z && i < p->n; i++)
+        v->z[i] += rough(p->x[i]);
+}
+
+struct bed {
+    struct arena *arena;
+    struct relief relief;
+    struct relief_part part, *crest;
+    int told;
+};
+
+static void told(void *self)
+{
+    ((struct bed *)self)->told++;
+}
+
+static void bed_make(struct bed *b, double radius, double pitch, double reach, double span)
+{
+    struct crest_plan p = {.radius = radius, .pitch = pitch, .reach = reach, .span = span, .exceeded = told, .self = b};
+    *b = (struct bed){.arena = arena_open(), .relief = {.along = ALONG_PATH}, .part = {.add = rough_add}};
+    relief_add(&b->relief, &b->part);
+    b->crest = crest_part(b->arena, &b->relief, &p);
+}
+
+struct jet {
+    double z, x, xx;
+};
+
+static struct jet bed_read(const struct bed *b, double x)
+{
+    struct jet j = {0};
+    b->crest->add(b->crest, &(struct relief_points){1, &x, NULL}, &(struct relief_values){.z = &j.z, .x = &j.x, .xx = &j.xx});
+    return j;
+}
+
+/* Blocks shorter and longer than the memory's, read forwards, backwards, at random and alone: the same bits. */
+START_TEST(order_does_not_matter)
+{
+    enum { READS = 3000 };
+    static const double radii[] = {1e-4, 5e-3, 0.1};
+    static double x[READS], all[READS];
+    srand48(3);
+    for (int k = 0; k < 3; k++) {
+        struct bed b, other;
+        double far = k == 2 ? 30 : 1;
+        bed_make(&b, radii[k], PITCH, fmin(radii[k], 8e-3), HUGE_VAL);
+        bed_make(&other, radii[k], PITCH, fmin(radii[k], 8e-3), HUGE_VAL);
+        for (int i = 0; i < READS; i++)
+            x[i] = i < 2000 ? 1e-5 * (i - 1000) : i % 50 ? x[i - 1] - 1e-4 : between(-far, far);
+        memset(all, 0, sizeof all);
+        b.crest->add(b.crest, &(struct relief_points){READS, x, NULL}, &(struct relief_values){.z = all});
+        for (int i = READS - 1; i >= 0; i--)
+            ck_assert(bed_read(&other, x[i]).z == all[i]);
+        for (int i = 0; i < READS; i += 601) {
+            struct bed alone;
+            bed_make(&alone, radii[k], PITCH, fmin(radii[k], 8e-3), HUGE_VAL);
+            ck_assert(bed_read(&alone, x[i]).z == all[i]);
+            arena_close(alone.arena);
+        }
+        arena_close(b.arena);
+        arena_close(other.arena);
+    }
+}
+END_TEST
+
+/* In blocks of 1024 heights and of 5334, about their ends and anywhere: the plain maximum over all heights within R. With towers at 0.98 R before or behind the ends,
+   which the disc touches there nearly as far away as it can. As near as rounding, 2e-16 of the place by the slope. */
+START_TEST(blocks_see_all_heights)
+{
+    static const double radii[] = {1e-4, 4e-3, 4e-3, 4e-3};
+    double pitch = 1.5e-6;
+    srand48(4);
+    for (int k = 0; k < 4; k++) {
+        struct bed b;
+        bed_make(&b, radii[k], pitch, radii[k], HUGE_VAL);
+        long reach = (long)ceil(radii[k] / pitch), side = 2 * reach > 1024 ? 2 * reach : 1024;
+        apart = k > 1 ? (double)side * pitch : 0;
+        towers = k == 2 ? 0.98 * radii[k] : -0.98 * radii[k];
+        for (int i = 0; i < 400; i++) {
+            double x = i < 100 ? (double)(side * (i % 7 - 3)) * pitch + (i - 50) * 0.3 * pitch : between(-5e-2, 5e-2), most = -HUGE_VAL;
+            for (long j = (long)floor(x / pitch) - reach - 1; j <= (long)ceil(x / pitch) + reach + 1; j++) {
+                double d = x - (double)j * pitch;
+                if (fabs(d) <= radii[k])
+                    most = fmax(most, rough((double)j * pitch) - d * d / (radii[k] + sqrt(radii[k] * radii[k] - d * d)));
+            }
+            ck_assert_double_eq_tol(bed_read(&b, x).z, most, k > 1 ? 1e-15 : 2e-17);
+        }
+        arena_close(b.arena);
+    }
+}
+END_TEST
+
+/* A reach of sqrt(2 R H) is as good as R. */
+START_TEST(a_shorter_reach)
+{
+    double radius = 1e-2, most = -HUGE_VAL, least = HUGE_VAL;
+    for (int i = 0; i < 100000; i++) {
+        most = fmax(most, rough(1e-6 * i));
+        least = fmin(least, rough(1e-6 * i));
+    }
+    struct bed all, near;
+    bed_make(&all, radius, PITCH, radius, HUGE_VAL);
+    bed_make(&near, radius, PITCH, sqrt(2 * radius * 1.2 * (most - least)), 1.2 * (most - least));
+    for (int i = 0; i < 5000; i++) {
+        double x = between(0, 0.2);
+        ck_assert_double_eq_tol(bed_read(&near, x).z, bed_read(&all, x).z, 1e-18);
+    }
+    ck_assert_int_eq(near.told, 0);
+    arena_close(all.arena);
+    arena_close(near.arena);
+}
+END_TEST
+
+START_TEST(a_greater_span_is_told_once)
+{
+    struct bed b;
+    bed_make(&b, 1e-3, PITCH, 1e-4, 5e-6);
+    for (int i = 0; i < 10; i++)
+        bed_read(&b, 0.1 * i);
+    ck_assert_int_eq(b.told, 1);
+    arena_close(b.arena);
+}
+END_TEST
+
+/* Slopes and second derivatives are those of the height within an arc: central differences over 1 nm. */
+START_TEST(derivatives_of_arcs)
+{
+    struct bed b;
+    double step = 1e-9;
+    int seen = 0;
+    bed_make(&b, 1e-3, PITCH, 1e-3, HUGE_VAL);
+    srand48(5);
+    for (int i = 0; i < 2000; i++) {
+        double x = between(-1e-2, 1e-2);
+        struct jet l = bed_read(&b, x - step), m = bed_read(&b, x), r = bed_read(&b, x + step);
+        if (fabs(r.x - l.x) > 3 * step / 1e-3) /* a kink lies between */
+            continue;
+        seen++;
+        ck_assert_double_eq_tol(m.x, (r.z - l.z) / (2 * step), 1e-7);
+        ck_assert_double_eq_tol(m.xx, (r.x - l.x) / (2 * step), 1e-2);
+        ck_assert_double_lt(m.xx, -1 / 1e-3 * (1 - 1e-12));
+    }
+    ck_assert_int_gt(seen, 1900);
+    arena_close(b.arena);
+}
+END_TEST
+
+UNIT("crest", the_plain_maximum, many_at_once, a_spike_is_one_arc, a_wave_is_a_parallel_curve, two_spikes, order_does_not_matter, blocks_see_all_heights,
+     a_shorter_reach, a_greater_span_is_told_once, derivatives_of_arcs)

@@ -1,0 +1,655 @@
+/* The force of a ball that rolls, piece by piece against closed forms: its law, the height of its centre, its penetration at rest; and what it shares
+   with the scraping force. */
+#include <gsl/gsl_integration.h>
+
+#include "force/roll_law.h"
+#include "rig.h"
+#include "scene/ball.h"
+#include "surface/profile.h"
+#include "trajectory/trajectory.h"
+
+static const char *const head = "rasp: 1\nseed: 5\noutput: {diagnostics: {}, sample_rate: 48000}\nload: {approach: 0, release: 0}\n";
+
+static struct scene made(const char *rest)
+{
+    return rig_scene(rig_arena(), arena_format(rig_arena(), "%s%s", head, rest));
+}
+
+static struct relief_part *flat_part(struct arena *a, const struct contact *c)
+{
+    double z[4] = {0};
+    (void)c;
+    return profile_part(a, profile_from_samples(a, z, 4, 1e-5, OFF_MAP_WRAP), "flat", 0);
+}
+
+static double mean_of(const double *x, long n)
+{
+    double sum = 0;
+    for (long i = 0; i < n; i++)
+        sum += x[i];
+    return sum / (double)n;
+}
+
+/* ------------------------------------------------------------------ the law */
+
+struct line {
+    const struct roll_law *l;
+    double a, b, dt;
+};
+
+static double line_force(double q, void *self)
+{
+    const struct line *s = self;
+    double rho = s->a + (s->b - s->a) * q;
+    return rho > 0 ? fmax(0, s->l->stiffness * pow(rho, 1.5) * (1 + s->l->mu * (s->b - s->a) / s->dt)) : 0;
+}
+
+/* Against adaptive quadrature: pressed all the time, leaving, arriving, clear of the surface; and so fast away that it would pull. */
+START_TEST(means_are_the_integral)
+{
+    static const double ends[][2] = {{1e-6, 3e-6}, {-1e-6, 3e-6}, {3e-6, -2e-6}, {-3e-6, -2e-6}, {2e-6, 2e-6}, {0, 4e-6}, {5e-4, -5e-4}};
+    struct roll_law l = {.stiffness = 2e6, .mu = 0.7};
+    gsl_integration_workspace *w = gsl_integration_workspace_alloc(2000);
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        struct line s = {&l, ends[i][0], ends[i][1], 5e-6};
+        double want, error, cross = -s.a / (s.b - s.a), points[3] = {0, cross > 0 && cross < 1 ? cross : 0.5, 1};
+        gsl_integration_qagp(&(gsl_function){line_force, &s}, points, 3, 0, 1e-12, 2000, w, &want, &error);
+        double got = roll_law_force(&l, s.a, s.b, s.dt);
+        ck_assert_double_eq_tol(got, want, 1e-11 * fabs(want) + 1e-30);
+        double share = s.b == s.a || cross <= 0 || cross >= 1 ? s.a > 0 || s.b > 0 : s.b > s.a ? 1 - cross : cross;
+        ck_assert_double_eq_tol(roll_law_contact(s.a, s.b), share, 1e-12);
+    }
+    gsl_integration_workspace_free(w);
+}
+END_TEST
+
+/* Ends that are all but equal, where (b^2.5 - a^2.5) / (b - a) would keep no digit. */
+START_TEST(means_keep_their_digits)
+{
+    for (double part = 1e-1; part > 1e-17; part /= 10) {
+        double a = 1e-5, b = a * (1 + part), middle = 0.5 * (a + b), half = 0.5 * (b - a);
+        double want = middle * sqrt(middle) * (1 + 1.0 / 8 * half * half / (middle * middle)); /* next: 3/640 (half/middle)^4 */
+        double got = roll_law_power(a, b).mean;
+        ck_assert_double_eq_tol(got / want, 1, 1e-15 + 3.0 / 640 * pow(part / 2, 4) * 1.2);
+    }
+}
+END_TEST
+
+/* The derivative by which rho_0 is found, against differences of order h^4. */
+START_TEST(means_have_that_derivative)
+{
+    static const double ends[][2] = {{2e-6, 5e-6}, {5e-6, 2e-6}, {-1e-6, 3e-6}, {3e-6, -2e-6}, {-3e-6, -2e-6}, {2e-6, 2e-6}};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        double a = ends[i][0], b = ends[i][1], h = 1e-9, d[2];
+        for (int k = 0; k < 2; k++)
+            d[k] = (roll_law_power(a + (k + 1) * h, b + (k + 1) * h).mean - roll_law_power(a - (k + 1) * h, b - (k + 1) * h).mean) / (2 * (k + 1) * h);
+        ck_assert_double_eq_tol(roll_law_power(a, b).slope, (4 * d[0] - d[1]) / 3, 1e-8 * sqrt(5e-6));
+    }
+}
+END_TEST
+
+/* Hertz's stiffness makes the force absurd (4/3 E* sqrt(R), E* = E / 2 (1 - nu^2)): 5 um under a glass ball of 1 cm press with some 50 N where its
+   weight is 0.1 N, and the penetration as printed, R and more, with thousands of tons. */
+START_TEST(the_printed_penetration_is_absurd)
+{
+    double radius = 0.01, k = 4.0 / 3 * 70e9 / (2 * (1 - 0.22 * 0.22)) * sqrt(radius), weight = 4.0 / 3 * M_PI * pow(radius, 3) * 2500 * 9.80665;
+    struct roll_law l = {.stiffness = k};
+    double force = roll_law_force(&l, 5e-6, 5e-6, 1e-5);
+    ck_assert_double_gt(force, 30);
+    ck_assert_double_lt(force, 80);
+    ck_assert_double_gt(force, 300 * weight);
+    rig_relief = flat_part;
+    struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {}}\nball: {radius: 1 cm, mass: 10 g}\n"
+                                                    "contact: {model: roll, roll: {penetration: paper, stiffness: %.17g}}\n"
+                                                    "motion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\n", k));
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 100, 1024);
+    ck_assert_double_eq_tol(g->x[200] / (k * pow(radius, 1.5)), 1, 1e-12);
+    ck_assert_double_gt(g->x[200], 4e6);
+    rig_close(g);
+}
+END_TEST
+
+/* ------------------------------------------------------------------ level ground */
+
+static double theta_of(double x, double radius, double r)
+{
+    double theta = x / radius;
+    for (double step = 1, i = 0; i < 100 && fabs(step) > 1e-15 * (1 + fabs(theta)); i++) {
+        step = (radius * theta - r * sin(theta) - x) / (radius - r * cos(theta));
+        theta -= step;
+    }
+    return theta;
+}
+
+enum { LEVEL_FRAMES = 12000 };
+
+/* 0.25 s of a ball of 1 cm at 30 cm/s on level ground, its centre of mass r off, its rim an oval of so many m. */
+static struct rig *level_ball(double r, double oval, const char *roll, int over)
+{
+    rig_relief = flat_part;
+    struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {}}\nball: {radius: 1 cm, mass: 10 g, offset: %.17g, lobe_height: %.17g}\n"
+                                                    "accuracy: {oversampling: %d}\ncontact: {model: roll, smoothing: 0, roll: %s}\n"
+                                                    "motion: {path: line, to: [7.5 cm, 0], speed: 30 cm/s}\n", r, oval, over, roll));
+    return rig_record(&s, ITEM_SUBFORCE, LEVEL_FRAMES, 1024);
+}
+
+struct turn {
+    double k, mu, r, oval;
+    double base, rest, normal, mean;    /* rho = base + rest ((N(t) / normal)^(2/3) - 1) + oval cos(2 theta) - mean */
+    bool printed;                       /* rho = R - r cos(theta)                                                   */
+};
+
+/* N at t, from theta by its closed-form derivatives. */
+static double turn_normal(double t, double r)
+{
+    double theta = theta_of(0.3 * t, 0.01, r), lever = 0.01 - r * cos(theta), w = 0.3 / lever, ww = -r * sin(theta) * w * w / lever;
+    return 0.01 * (9.80665 + r * (cos(theta) * w * w + sin(theta) * ww));
+}
+
+static double turn_rho(double t, const struct turn *s)
+{
+    double theta = theta_of(0.3 * t, 0.01, s->r), pressed = fmax(turn_normal(t, s->r), 0) / s->normal;
+    return s->printed ? 0.01 - s->r * cos(theta) : s->base + s->rest * (pow(pressed, 2.0 / 3) - 1) + s->oval * cos(2 * theta) - s->mean;
+}
+
+static double turn_force(double t, void *self)
+{
+    const struct turn *s = self;
+    double h = 1e-6, rho = turn_rho(t, s), rate = (turn_rho(t + h, s) - turn_rho(t - h, s)) / (2 * h);
+    return rho > 0 && turn_normal(t, s->r) >= 0 ? fmax(0, s->k * pow(rho, 1.5) * (1 + s->mu * rate)) : 0;
+}
+
+/* Over the motion, by the midpoint rule. */
+static double turn_mean(struct turn *s)
+{
+    double sum = 0;
+    for (long i = 0; i < 20000; i++)
+        sum += turn_force(0.25 * ((double)i + 0.5) / 20000, s);
+    return sum / 20000;
+}
+
+/* An oval whose centre of mass is off, from theta on by closed forms: N, the rms, and the penetration by bisection over the continuous force, then the
+   force. Deep, so that it never leaves, and so shallow that it does. */
+START_TEST(an_offset_oval_on_level_ground)
+{
+    static const double depth[2] = {3, 0.3};
+    double r = 2e-3, oval = 2e-6;
+    for (int k = 0; k < 2; k++) {
+        struct rig *g = level_ball(r, oval, arena_format(rig_arena(), "{static_depth: %g, mu: 4}", depth[k]), 4);
+        const struct roll_report *report = &g->run.board.roll;
+        double mean = 0, squares = 0, normal = 0;
+        for (long i = 0; i < 20000; i++) {
+            double t = 0.25 * ((double)i + 0.5) / 20000, d = oval * cos(2 * theta_of(0.3 * t, 0.01, r));
+            mean += d / 20000, squares += d * d / 20000, normal += turn_normal(t, r) / 20000;
+        }
+        double rms = sqrt(squares - mean * mean), low = -20 * oval, high = 20 * oval;
+        struct turn turn = {.k = normal / pow(depth[k] * rms, 1.5), .mu = 4, .r = r, .oval = oval, .rest = depth[k] * rms, .normal = normal, .mean = mean};
+        for (int i = 0; i < 40; i++) {
+            turn.base = 0.5 * (low + high);
+            *(turn_mean(&turn) > normal ? &high : &low) = turn.base;
+        }
+        ck_assert_double_eq_tol(report->deviation / rms, 1, 2e-4); /* of 12000 grains the rehearsal takes the starts: half of one end is over */
+        ck_assert_double_eq_tol(report->stiffness / turn.k, 1, 3e-4);
+        ck_assert_double_eq_tol(report->rest / turn.rest, 1, 2e-4);
+        ck_assert_double_eq_tol(mean_of(g->x, 4 * LEVEL_FRAMES) / normal, 1, 1e-4);
+        double worst = 0;
+        for (long i = 5; i < 4 * LEVEL_FRAMES; i += 97)
+            worst = fmax(worst, fabs(g->x[i] - turn_force(((double)i + 0.5) / 192000, &turn)));
+        printf("worst %.3g of the weight, %ld lift-offs, contact %.4g of %.4g s\n", worst / normal, report->lift_offs, report->contact, report->time);
+        ck_assert_double_lt(worst, 1e-3 * normal);
+        ck_assert_double_eq_tol(report->time, 0.25, 1e-5);
+        ck_assert((report->lift_offs > 0) == (k == 1));
+        ck_assert(k == 0 ? report->contact > 0.2499 : report->contact < 0.2);
+        rig_close(g);
+    }
+}
+END_TEST
+
+/* By Newton's second law: an offset ball whose rim is round presses level ground by N(t), at each instant. */
+START_TEST(level_ground_bears_the_normal_force)
+{
+    struct rig *g = level_ball(4e-3, 0, "{stiffness: 1e6, mu: 0}", 4);
+    for (long i = 5; i < 4 * LEVEL_FRAMES; i += 97)
+        ck_assert_double_eq_tol(g->x[i] / turn_normal(((double)i + 0.5) / 192000, 4e-3), 1, 1e-6); /* rho is straight over 5 us */
+    ck_assert_double_eq_tol(g->run.board.roll.rest, pow(mean_of(g->x, 4 * LEVEL_FRAMES) / 1e6, 2.0 / 3), 1e-9);
+    rig_close(g);
+}
+END_TEST
+
+/* Errors of frame means fall by four for each doubling of the sub-intervals, also where the ball leaves the surface; rho_0 and k are the same. */
+START_TEST(second_order_in_the_sub_intervals)
+{
+    double off[4];
+    const char *const soft = "{static_depth: 0.5, mu: 10}";
+    struct rig *fine = level_ball(2e-3, 2e-4, soft, 32);
+    ck_assert_int_gt(fine->run.board.roll.lift_offs, 0);
+    for (int k = 0, over = 1; k < 4; k++, over *= 2) {
+        struct rig *g = level_ball(2e-3, 2e-4, soft, over);
+        off[k] = 0;
+        for (long n = 0; n < LEVEL_FRAMES - 10; n++)
+            off[k] += pow(mean_of(g->x + n * over, over) - mean_of(fine->x + n * 32, 32), 2) / LEVEL_FRAMES;
+        off[k] = sqrt(off[k]);
+        printf("oversampling %d: rms error %.3g N\n", over, off[k]);
+        ck_assert(g->run.board.roll.stiffness == fine->run.board.roll.stiffness && g->run.board.roll.rest == fine->run.board.roll.rest);
+        rig_close(g);
+    }
+    rig_close(fine);
+    for (int k = 0; k < 3; k++)
+        ck_assert_double_gt(off[k] / off[k + 1], 3.8);
+}
+END_TEST
+
+/* The force as printed: rho = R - r cos(theta), lambda = mu k. */
+START_TEST(penetration_as_printed)
+{
+    struct rig *g = level_ball(2e-3, 0, "{penetration: paper, stiffness: 500, lambda: 100}", 4);
+    struct turn turn = {.k = 500, .mu = 100.0 / 500, .r = 2e-3, .normal = 1, .printed = true};
+    for (long i = 5; i < 4 * LEVEL_FRAMES; i += 97)
+        ck_assert_double_eq_tol(g->x[i] / turn_force(((double)i + 0.5) / 192000, &turn), 1, 1e-7);
+    rig_close(g);
+}
+END_TEST
+
+/* The centre of mass, over where it is lowest: R theta - r sin(theta) = x, r (1 - cos theta). */
+START_TEST(height_of_an_offset_ball)
+{
+    rig_relief = flat_part;
+    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 cm, mass: 10 g, offset: 2 mm}\ncontact: {model: roll, roll: {stiffness: 1e6}}\n"
+                          "motion: {path: line, to: [7.5 cm, 0], speed: 30 cm/s}\n");
+    struct rig *g = rig_record(&s, ITEM_ROLL, 11900, 1024);
+    for (long n = 0; n < 11900; n += 7)
+        ck_assert_double_eq_tol(g->x[n * ROLL_VALUES + ROLL_HEIGHT], 2e-3 * (1 - cos(theta_of(0.3 * (double)n / 48000, 0.01, 2e-3))), 1e-12);
+    rig_close(g);
+}
+END_TEST
+
+/* An oval on level ground: its centre goes up and down by cos(2 x / R), theta being x / R where nothing is off centre. */
+START_TEST(an_oval_on_level_ground)
+{
+    rig_relief = flat_part;
+    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 cm, mass: 10 g, lobe_height: 3 um}\ncontact: {model: roll}\n"
+                          "motion: {path: line, to: [6.283185307179586 cm, 0], speed: 30 cm/s}\n"); /* one turn */
+    struct rig *g = rig_record(&s, ITEM_ROLL, 10000, 1024);
+    for (long n = 0; n < 10000; n++)
+        ck_assert_double_eq_tol(g->x[n * ROLL_VALUES + ROLL_HEIGHT], 3e-6 * cos(2 * 30.0 * (double)n / 48000), 1e-9); /* a mean over whole frames */
+    rig_close(g);
+}
+END_TEST
+
+/* Round, on level ground: nothing to make a stiffness of; with one, rho_0 = (N / k)^(2/3) and the force is the weight. */
+START_TEST(round_and_level)
+{
+    rig_relief = flat_part;
+    struct rig *g = level_ball(0, 0, "{stiffness: 1e6}", 4);
+    ck_assert_double_eq_tol(g->run.board.roll.rest / pow(0.0980665 / 1e6, 2.0 / 3), 1, 1e-9);
+    for (long i = 0; i < 4 * LEVEL_FRAMES; i++)
+        ck_assert_double_eq_tol(g->x[i], 0.0980665, 1e-9);
+    rig_close(g);
+    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 cm, mass: 10 g, offset: 1 mm}\ncontact: {model: roll}\n"
+                          "motion: {path: line, to: [7.5 cm, 0], speed: 30 cm/s}\n"); /* the offset alone makes nothing deviate */
+    struct plan p;
+    struct run run;
+    struct err e = {0};
+    const struct stage *table[64] = {NULL};
+    for (int n = 0; stages_table[n]; n++)
+        table[n] = rig_in_place_of(stages_table[n]);
+    rig_probe.item = ITEM_SUBFORCE;
+    ck_assert(plan_make(table, &s.contacts[0], &s, rig_arena(), &p, &e));
+    ck_assert(!run_open(&run, &p, &s, NULL, &e));
+    ck_assert_int_eq(e.kind, ERR_SCENE);
+    ck_assert_msg(strstr(e.text, "contact.roll.stiffness") != NULL, "%s", e.text);
+}
+END_TEST
+
+/* r v^2 / R^2 = 5 g: clear of the surface for part of each turn, no force there; the mean is that of what of N(t) presses. */
+START_TEST(no_force_where_it_flies)
+{
+    rig_relief = flat_part;
+    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 cm, mass: 10 g, offset: 5 mm}\ncontact: {model: roll, smoothing: 0, roll: {stiffness: 1e6}}\n"
+                          "motion: {path: line, to: [25 cm, 0], speed: 100 cm/s}\n");
+    rig_probe.also = ITEM_BIT(ITEM_LOAD);
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, LEVEL_FRAMES, 1024);
+    double flown = 0, pressed = 0;
+    for (long i = 0; i < 4 * LEVEL_FRAMES; i++) {
+        double t[2] = {(double)i / 192000, (double)(i + 1) / 192000}, load[2];
+        for (int k = 0; k < 2; k++) {
+            double h = 1e-5, theta[3], rise[3]; /* rise'' by differences, 1e-3 of g here */
+            for (int j = 0; j < 3; j++)
+                theta[j] = theta_of(t[k] + (j - 1) * h, 0.01, 5e-3), rise[j] = -5e-3 * cos(theta[j]);
+            load[k] = 9.80665 + (rise[0] - 2 * rise[1] + rise[2]) / (h * h);
+        }
+        if (load[0] + load[1] < -0.05)
+            ck_assert(g->x[i] == 0);
+        flown += load[0] + load[1] < 0 ? 1.0 / 192000 : 0;
+        pressed += fmax(load[0] + load[1], 0) * 0.005 / (4 * LEVEL_FRAMES);
+    }
+    ck_assert_double_gt(flown, 0.05);
+    ck_assert_double_eq_tol(g->run.board.lifted, flown, 1e-4);
+    ck_assert_int_gt(g->run.board.roll.lift_offs, 2);
+    ck_assert_double_gt(pressed, 0.15);
+    ck_assert_double_eq_tol(mean_of(g->x, 4 * LEVEL_FRAMES) / pressed, 1, 2e-3); /* rise'' by differences */
+    rig_probe.also = 0;
+    rig_close(g);
+}
+END_TEST
+
+/* ------------------------------------------------------------------ over a ground */
+
+/* z = A sin(q x), gently: the centre's way is the ground's but for R q^2 A / 2 = 8e-4 of it, less what the Gaussian over the patch takes. Driven by
+   z'' the two leaks pass (l / (1 + i q l))^2, after some ten times l. */
+static double wave_height = 1e-6, wave_length = 5e-3;
+static int wave_points = 1000;
+
+static struct relief_part *wave_part(struct arena *a, const struct contact *c)
+{
+    double z[1000];
+    (void)c;
+    for (int i = 0; i < wave_points; i++)
+        z[i] = wave_height * sin(2 * M_PI * i / wave_points);
+    return profile_part(a, profile_from_samples(a, z, (size_t)wave_points, wave_length / wave_points, OFF_MAP_WRAP), "wave", 0);
+}
+
+START_TEST(height_over_a_wave)
+{
+    rig_relief = wave_part;
+    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 mm, mass: 10 g}\ncontact: {model: roll, limiter: {curve: none}}\n"
+                          "motion: {path: line, to: [5 cm, 0], speed: 20 cm/s}\n");
+    struct rig *g = rig_record(&s, ITEM_ROLL, 12000, 1024);
+    double q = 2 * M_PI / wave_length, l = 2e-3, size = 1 / (1 + q * q * l * l), turn = -2 * atan(q * l);
+    double high = wave_height * exp(-0.5 * pow(q * 20e-6, 2)) * pow(q * l, 2) * size, worst = 0, level = 0;
+    for (long n = 7200; n < 12000; n++) /* four waves */
+        level += g->x[n * ROLL_VALUES + ROLL_HEIGHT] / 4800;
+    double base = g->x[7200 * ROLL_VALUES + ROLL_PENETRATION] - g->x[7200 * ROLL_VALUES + ROLL_HEIGHT];
+    for (long n = 7200; n < 12000; n++) {
+        double want = level - high * sin(q * 0.2 * (double)n / 48000 + turn);
+        worst = fmax(worst, fabs(g->x[n * ROLL_VALUES + ROLL_HEIGHT] - want));
+        ck_assert_double_eq_tol(g->x[n * ROLL_VALUES + ROLL_PENETRATION] - g->x[n * ROLL_VALUES + ROLL_HEIGHT], base, 1e-15);
+        ck_assert(g->x[n * ROLL_VALUES + ROLL_CONTACT] == 1 && g->x[n * ROLL_VALUES + ROLL_LIFT_OFFS] == 0);
+    }
+    printf("height: worst %.3g of %.3g m\n", worst, high);
+    ck_assert_double_lt(worst, 2e-3 * high); /* R q^2 A / 2 = 8e-4, and e^-15 */
+    ck_assert_double_lt(fabs(level), 0.2 * high); /* of the first 2 mm's settling */
+    rig_close(g);
+}
+END_TEST
+
+static const char *const rough = "surface: {roughness: {rms: 5 um}}\n", *const line = "motion: {path: line, from: [1 cm, 0], to: [9 cm, 0], speed: 30 cm/s}\n",
+                  *const reversing = "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.4 cm, 0], rate: 30 Hz, duration: 0.05 s}\n";
+
+/* The height is integrated exactly over each piece but for what T varies by: pieces of 5 um and of 0.2 um give the same, with the usual leak l and with
+   one of 16 pieces, where every term in h / l counts. */
+START_TEST(height_does_not_depend_on_the_pieces)
+{
+    static const int over[2] = {1, 32};
+    static const char *const leak[2] = {"2 mm", "80 um"};
+    static const double within[2] = {1e-7, 2e-5};
+    rig_relief = NULL;
+    for (int j = 0; j < 2; j++) {
+        struct rig *g[2];
+        double shift = 0, worst = 0;
+        for (int k = 0; k < 2; k++) {
+            struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g}\naccuracy: {oversampling: %d}\ncontact: {model: roll, leak: %s}\n", rough, line,
+                                               over[k], leak[j]));
+            g[k] = rig_record(&s, ITEM_ROLL, 4000, 1024);
+        }
+        for (long n = 0; n < 4000; n++)
+            shift += (g[0]->x[n * ROLL_VALUES] - g[1]->x[n * ROLL_VALUES]) / 4000;
+        for (long n = 0; n < 4000; n++)
+            worst = fmax(worst, fabs(g[0]->x[n * ROLL_VALUES] - g[1]->x[n * ROLL_VALUES] - shift));
+        printf("leak %s: worst %.3g of rms %.3g m\n", leak[j], worst, g[0]->run.board.roll.deviation);
+        ck_assert_double_lt(worst, within[j] * g[0]->run.board.roll.deviation);
+        rig_close(g[0]);
+        rig_close(g[1]);
+    }
+}
+END_TEST
+
+/* By default the mean force is the weight, with what slips and without; the ball hardly ever leaves. */
+START_TEST(the_mean_force_is_the_weight)
+{
+    rig_relief = NULL;
+    struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g, lobe_height: 3 um, lobes: 3}\n"
+                                                    "contact: {model: roll, smoothing: 0, roll: {scraping: 0}}\n", rough, line));
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 12800, 1024);
+    ck_assert_double_eq_tol(mean_of(g->x, 4 * 12800), 0.0980665, 1e-7); /* rho is straight over grains, and over sub-intervals */
+    ck_assert_double_gt(g->run.board.roll.contact, 0.99 * g->run.board.roll.time);
+    ck_assert_double_eq_tol(g->run.board.roll.stiffness * pow(3 * g->run.board.roll.deviation, 1.5), 0.0980665, 1e-12);
+    rig_close(g);
+}
+END_TEST
+
+/* An offset ball on ground that is smooth for it (its way varies by 1/30 of its depth) presses it most where N(t) is greatest, also where alpha follows N(t) and the limited trajectory with it: means over
+   2 ms correlate. And its stiffness is about that of a ball without offset: the offset is no roughness. */
+START_TEST(the_force_follows_the_normal_force)
+{
+    enum { BIN = 4 * 96, BINS = 130 };
+    double k[2];
+    rig_relief = NULL;
+    for (int j = 0; j < 2; j++) {
+        struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um}}\n%sball: {radius: 1 cm, mass: 10 g, offset: %s}\n"
+                                                        "contact: {model: roll, smoothing: 0, roll: {scraping: 0, static_depth: 30}}\n", line, j ? "4 mm" : "0 mm"));
+        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 12800, 1024);
+        double sums[5] = {0};
+        for (long i = 0; i < BINS; i++) {
+            double f = mean_of(g->x + i * BIN, BIN), n = turn_normal(((double)i + 0.5) * BIN / 192000, 4e-3);
+            sums[0] += f / BINS, sums[1] += n / BINS, sums[2] += f * f / BINS, sums[3] += n * n / BINS, sums[4] += f * n / BINS;
+        }
+        double together = (sums[4] - sums[0] * sums[1]) / sqrt((sums[2] - sums[0] * sums[0]) * (sums[3] - sums[1] * sums[1]));
+        k[j] = g->run.board.roll.stiffness;
+        printf("correlation %.4f, stiffness %.4g\n", together, k[j]), fflush(stdout);
+        ck_assert(j == 0 || together > 0.9);
+        rig_close(g);
+    }
+    ck_assert_double_eq_tol(log(k[1] / k[0]), 0, log(1.6)); /* alpha varies: 7000 N/m^1.5 if the level did not follow it */
+}
+END_TEST
+
+/* Without weight there is no rolling term, and what is left is, to the bit, the force of a scraper with such a tip: directional and as printed,
+   there and back. */
+START_TEST(what_slips_is_what_scrapes)
+{
+    static const char *const forces[] = {"force: directional", "force: paper, smoothing: 0", "beta2: 1.5"};
+    rig_relief = NULL;
+    for (int k = 0; k < 3; k++) {
+        struct arena *a = rig_arena();
+        struct scene one = made(arena_format(a, "%s%sscraper: {radius: 3 mm, mass: 10 g}\ncontact: {model: scrape, gravity: 0, %s}\n", rough, reversing, forces[k]));
+        struct scene other = made(arena_format(a, "%s%sball: {radius: 3 mm, mass: 10 g}\ncontact: {model: roll, gravity: 0, %s}\n", rough, reversing, forces[k]));
+        struct rig *scrape = rig_record(&one, ITEM_SUBFORCE, 2400, 1024), *roll = rig_record(&other, ITEM_SUBFORCE, 2400, 1024);
+        ck_assert_int_eq(memcmp(scrape->x, roll->x, 2400 * 4 * sizeof *roll->x), 0);
+        ck_assert_double_gt(fabs(mean_of(roll->x + 100, 50)), 0);
+        rig_close(scrape);
+        rig_close(roll);
+    }
+}
+END_TEST
+
+/* The two terms add up, and the printed scraping terms with the same rolling term. */
+START_TEST(terms_add_up)
+{
+    static const char *const settings[] = {"force: directional, roll: {scraping: 0}", "force: directional", "force: paper", "force: paper, roll: {scraping: 0}",
+                                           "force: paper, gravity: 0", "force: directional, gravity: 0"};
+    struct rig *g[6];
+    rig_relief = NULL;
+    for (int k = 0; k < 6; k++) {
+        struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g, lobe_height: 5 um}\n"
+                                                        "contact: {model: roll, smoothing: 0, %s}\n", rough, line, settings[k]));
+        g[k] = rig_record(&s, ITEM_SUBFORCE, 6000, 1024);
+    }
+    for (long i = 0; i < 24000; i++) {
+        ck_assert(g[3]->x[i] == g[0]->x[i]);
+        ck_assert_double_eq_tol(g[1]->x[i], g[0]->x[i] + g[5]->x[i], 1e-14);
+        ck_assert_double_eq_tol(g[2]->x[i], g[0]->x[i] + g[4]->x[i], 1e-14);
+    }
+    for (int k = 0; k < 6; k++)
+        rig_close(g[k]);
+}
+END_TEST
+
+/* S does not run away from 0 over the first millimetres, where T has a mean: under a ball, whose way is bent by -1/R nearly everywhere. */
+START_TEST(no_thump_at_the_start_nor_at_turns)
+{
+    static const char *const motions[] = {"{path: line, from: [1 cm, 0], to: [9 cm, 0], speed: 30 cm/s}",
+                                          "{path: back_and_forth, from: [1 cm, 0], to: [5 cm, 0], rate: 5 Hz, duration: 0.4 s}"};
+    rig_relief = NULL;
+    for (int k = 0; k < 2; k++) {
+        struct scene s = made(arena_format(rig_arena(), "%sball: {radius: 1 cm, mass: 10 g}\ncontact: {model: roll}\nmotion: %s\n", rough, motions[k]));
+        struct rig *g = rig_record(&s, ITEM_ROLL, 12800, 1024);
+        double most = 0;
+        for (long n = 0; n < 12800; n++)
+            most = fmax(most, fabs(g->x[n * ROLL_VALUES + ROLL_HEIGHT]));
+        printf("rms %.3g m, most %.3g m\n", g->run.board.roll.deviation, most);
+        ck_assert_double_lt(most, 5 * g->run.board.roll.deviation);
+        ck_assert_double_lt(g->run.board.roll.deviation, 5e-6);
+        rig_close(g);
+    }
+}
+END_TEST
+
+/* Up a slope and down again, turning on the way: finite, and the mean force is m g cos(incline) and what the centre of mass gained of vertical momentum,
+   m r sin(theta) theta', over the time. A solid ball is slowed by 5/7 g sin(incline). */
+START_TEST(up_and_down_a_slope)
+{
+    rig_relief = NULL;
+    struct scene s = made(arena_format(rig_arena(), "%sball: {radius: 1 cm, mass: 10 g, offset: 20 um}\ncontact: {model: roll, smoothing: 0, roll: {scraping: 0}}\n"
+                                                    "motion: {path: incline, from: [1 cm, 0], to: [9 cm, 0], incline: 10 deg, start_speed: 20 cm/s, duration: 0.25 s}\n",
+                                       rough));
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 12000, 1024);
+    ck_assert(!isnan(trajectory_turning(g->run.board.trajectory, 0.16, 0.18)));
+    double slow = 5.0 / 7 * 9.80665 * sin(10 * M_PI / 180), theta = theta_of(0.2 * 0.25 - 0.5 * slow * 0.0625, 0.01, 2e-5);
+    double climb = 2e-5 * sin(theta) * (0.2 - slow * 0.25) / (0.01 - 2e-5 * cos(theta));
+    ck_assert_double_eq_tol(mean_of(g->x, 48000), 0.0980665 * cos(10 * M_PI / 180) + 0.01 * climb / 0.25, 1e-6); /* it does leave the surface for a moment, within a grain */
+    rig_close(g);
+}
+END_TEST
+
+/* alpha at each instant is equation 7's for the normal force there: least where the ball presses most. */
+START_TEST(alpha_follows_the_turning)
+{
+    rig_relief = NULL;
+    struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g, offset: 2 mm}\ncontact: {model: roll}\n", rough, line));
+    rig_probe.also = ITEM_BIT(ITEM_SUBFORCE);
+    struct rig *g = rig_record(&s, ITEM_ALPHA, 12800, 1024);
+    double least = 1, most = 0, at = 0;
+    for (long i = 0; i < 4 * 12800; i++) {
+        at = g->x[i] < least ? (double)i / 192000 : at;
+        least = fmin(least, g->x[i]), most = fmax(most, g->x[i]);
+    }
+    double theta = theta_of(0.3 * at, 0.01, 2e-3) / (2 * M_PI);
+    ck_assert_double_eq_tol(least, 0.01, 1e-6);
+    ck_assert_double_eq_tol(most, 0.05, 1e-4); /* zeta 0.95: steep there */
+    ck_assert_double_eq_tol(theta, rint(theta), 0.01);
+    rig_probe.also = 0;
+    rig_close(g);
+}
+END_TEST
+
+/* The same bytes however frames are cut into blocks, also beyond the motion's end at 2400; of the ball's own table as well. */
+START_TEST(blocks_do_not_matter)
+{
+    static const enum item items[] = {ITEM_SUBFORCE, ITEM_ROLL};
+    rig_relief = NULL;
+    for (int k = 0; k < 2; k++) {
+        struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g, offset: 20 um}\naccuracy: {oversampling: 3}\ncontact: {model: roll}\n",
+                                           rough, reversing));
+        struct rig *one = rig_record(&s, items[k], 3000, 1024), *other = rig_record(&s, items[k], 3000, 77);
+        ck_assert_int_eq(memcmp(one->x, other->x, (size_t)(3000 * one->per_frame) * sizeof *one->x), 0);
+        rig_close(one);
+        rig_close(other);
+    }
+}
+END_TEST
+
+/* Neither accuracy nor the sample rate changes what the rehearsal finds, and the mean force is the weight with all of them: grains are its own. */
+START_TEST(grains_are_the_rehearsals_own)
+{
+    static const struct {
+        int over, rate;
+    } of[] = {{1, 48000}, {4, 48000}, {32, 48000}, {4, 44100}, {2, 192000}};
+    double k = 0, rest = 0;
+    rig_relief = NULL;
+    for (int i = 0; i < 5; i++) {
+        struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g}\naccuracy: {oversampling: %d}\n"
+                                                        "contact: {model: roll, smoothing: 0, roll: {scraping: 0}}\n", rough, line, of[i].over));
+        s.output.sample_rate = of[i].rate;
+        long frames = lrint(of[i].rate * (0.08 / 0.3));
+        struct rig *g = rig_record(&s, ITEM_SUBFORCE, frames, 1024);
+        const struct roll_report *found = &g->run.board.roll;
+        k = i == 0 ? found->stiffness : k;
+        rest = i == 0 ? found->rest : rest;
+        ck_assert(found->stiffness == k && found->rest == rest);
+        double mean = mean_of(g->x, frames * of[i].over) / 0.0980665;
+        printf("over %d at %d Hz: mean force %.6f of the weight\n", of[i].over, of[i].rate, mean);
+        ck_assert_double_eq_tol(mean, 1, 1e-3); /* a frame more or less at the end, and rho straight over a sub-interval */
+        rig_close(g);
+    }
+}
+END_TEST
+
+/* 60 s, of which one grain in three is kept: so soft a ball that its force is the weight to 1e-4 all the time tells the same rms as a third of it, of the
+   same ground, wholly kept. */
+START_TEST(long_motions_are_thinned)
+{
+    double found[2];
+    rig_relief = NULL;
+    for (int k = 0; k < 2; k++) {
+        struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um, shortest: 200 um}}\nball: {radius: 1 cm, mass: 10 g, patch: 100 um}\n"
+                                                        "contact: {model: roll}\nmotion: {path: back_and_forth, from: [0, 0], to: [20 cm, 0], rate: 0.5 Hz, duration: %d s}\n",
+                                           k ? 60 : 20));
+        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 100, 1024);
+        found[k] = g->run.board.roll.deviation;
+        rig_close(g);
+    }
+    printf("rms deviation %.6g m of all, %.6g m of one in three\n", found[0], found[1]);
+    ck_assert_double_eq_tol(found[1] / found[0], 1, 1e-3);
+    ck_assert(found[0] != found[1]);
+}
+END_TEST
+
+/* A ground in step with the grains: at 96 cm/s waves of 0.1 mm are 5 grains long, and of 100 s one grain in 5 is kept. Its rms is A / sqrt 2 times what
+   patch and leaks pass. */
+START_TEST(thinning_keeps_no_step)
+{
+    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 mm, mass: 10 g}\ncontact: {model: roll, leak: 200 um, limiter: {curve: none}}\n"
+                          "motion: {path: line, to: [9600 cm, 0], speed: 96 cm/s}\n");
+    double q = 2 * M_PI / 1e-4, l = 2e-4, height = wave_height, length = wave_length;
+    wave_height = 1e-10, wave_length = 1e-4, wave_points = 20;
+    rig_relief = wave_part;
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 10, 10);
+    double want = wave_height / sqrt(2) * exp(-0.5 * pow(q * 20e-6, 2)) * pow(q * l, 2) / (1 + q * q * l * l);
+    printf("rms %.6g m of %.6g m\n", g->run.board.roll.deviation, want);
+    ck_assert_double_eq_tol(g->run.board.roll.deviation / want, 1, 3e-2);
+    rig_close(g);
+    wave_height = height, wave_length = length, wave_points = 1000;
+}
+END_TEST
+
+/* Nothing presses: no rolling force, and nothing is said of stiffness and contact. */
+START_TEST(without_weight_nothing_rolls)
+{
+    rig_relief = NULL;
+    struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g}\ncontact: {model: roll, gravity: 0}\n", rough, line));
+    struct rig *g = rig_record(&s, ITEM_ROLL, 2000, 1024);
+    ck_assert(!g->run.board.rolls && g->run.board.roll.lift_offs == 0 && g->run.board.n_warnings == 1);
+    for (long n = 0; n < 2000; n++)
+        ck_assert(g->x[n * ROLL_VALUES + ROLL_PENETRATION] == 0 && g->x[n * ROLL_VALUES + ROLL_CONTACT] == 0);
+    rig_close(g);
+}
+END_TEST
+
+/* (N/k)^(2/3) of a tenth of the radius and more is told. */
+START_TEST(too_soft_a_ball_is_told)
+{
+    for (int k = 0; k < 2; k++) {
+        struct rig *g = level_ball(0, 0, k ? "{stiffness: 3e3}" : "{stiffness: 3.2e3}", 4); /* 0.098 N: 1.022 and 0.979 mm of 10 mm */
+        ck_assert_int_eq(g->run.board.n_warnings, k);
+        rig_close(g);
+    }
+}
+END_TEST
+
+UNIT("roll", means_are_the_integral, means_keep_their_digits, means_have_that_derivative, the_printed_penetration_is_absurd, an_offset_oval_on_level_ground,
+     level_ground_bears_the_normal_force, second_order_in_the_sub_intervals, penetration_as_printed, height_of_an_offset_ball, an_oval_on_level_ground,
+     round_and_level, no_force_where_it_flies, height_over_a_wave,
+     height_does_not_depend_on_the_pieces, the_mean_force_is_the_weight, the_force_follows_the_normal_force,
+     what_slips_is_what_scrapes, terms_add_up, no_thump_at_the_start_nor_at_turns, up_and_down_a_slope, alpha_follows_the_turning, blocks_do_not_matter,
+     grains_are_the_rehearsals_own, long_motions_are_thinned, thinning_keeps_no_step, without_weight_nothing_rolls, too_soft_a_ball_is_told)
