@@ -13,7 +13,7 @@
    What the stages before lay on the board are functions of time, and the relief may be read anywhere: here they lay the whole motion on a board of the
    rehearsal's own, a chunk at a time, in grains of its own: 1/48000 s, or finer so that the ball goes no further in one than its patch, nor than a tenth of
    the way in which an offset ball's centre of mass passes through its lowest place (but no finer than 1 um of way), and a whole number in the motion.
-   So neither accuracy nor output.sample_rate changes what follows. S is integrated exactly over each grain, however long (force/slope.c).
+   So neither accuracy.oversampling nor output.sample_rate changes what follows. S is integrated exactly over each grain, however long (force/slope.c).
 
    Of a motion of more than ROLL_REHEARSAL_MOST grains one in every `stride` is kept, at a place among them that goes by the golden ratio, so that nothing
    that repeats itself falls in step with it. The mean is that over grains in which rho is a straight line (force/roll_law.h); grains in which N(t) < 0
