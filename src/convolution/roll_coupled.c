@@ -222,8 +222,8 @@ static void rolling_told(const struct rolling *w, struct stage_run *r)
     const char *name = r->contact->name;
     double still = s->lift_offs > 0 ? fmax(w->apex[0], w->apex[1]) : 0, fastest = s->impact_most;
     double steps = fastest > 0 ? coupled_contact_time(w->mass, w->stiffness, fastest) / b->roll.step : HUGE_VAL;
-    if (s->contact_time == 0 && w->drop == 0)
-        board_warn(b, arena_format(r->arena, "contact '%s': nothing presses the ball down: contact.gravity is 0, and it never touches the surface", name));
+    if (ball_gravity(r->contact) == 0)
+        board_warn(b, arena_format(r->arena, "contact '%s': nothing presses the ball down: contact.gravity is 0, and once it is off the surface it stays off", name));
     else if (s->contact_time == 0)
         board_warn(b, arena_format(r->arena, "contact '%s': the ball never touches the surface: let the motion last longer than the fall, or lower contact.roll.drop", name));
     else if (w->drop > 0 && still > STILL_BOUNCES * w->drop)
