@@ -18,6 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numbers.h"
+
 enum { FINE = 64 };
 static const double mass = 0.02, leak = 2e-3, from = 5e-3, span = 50e-3;
 
@@ -183,7 +185,7 @@ static size_t force_read(const char *path, double *x, size_t room)
     if (!f || !fgets(line, sizeof line, f) || strcmp(line, "force_mean_n\n"))
         fail("the table is not one column force_mean_n");
     while (n < room && fgets(line, sizeof line, f))
-        x[n++] = strtod(line, NULL);
+        x[n++] = number(line);
     fclose(f);
     return n;
 }
@@ -201,16 +203,38 @@ static double snr(const double *judged, const double *got, size_t n, double rate
     return 10 * log10(signal / noise);
 }
 
+/* NAME=NUMBER, back=RATE,LENGTH, alpha=none. */
+static void law_option(struct law *l, const char *option)
+{
+    const struct {
+        const char *name;
+        double *value;
+    } of[] = {{"v=", &l->v}, {"alpha=", &l->alpha}, {"beta1=", &l->beta1}};
+    double back[2];
+    if (!strcmp(option, "alpha=none"))
+        return;
+    if (!strncmp(option, "back=", 5)) {
+        number_row(option + 5, 2, back);
+        l->rate = back[0];
+        l->length = back[1];
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        if (!strncmp(option, of[i].name, strlen(of[i].name))) {
+            *of[i].value = number(option + strlen(of[i].name));
+            return;
+        }
+    fail("what is this option?");
+}
+
 static void compare(int argc, char **argv)
 {
     struct law l = {0};
-    double rate = strtod(argv[4], NULL);
+    double rate = number(argv[4]);
     size_t n = (size_t)rint(span * rate), skip = (size_t)rint(from * rate), all = n + skip;
-    struct spline s = spline_read(argv[2], strtod(argv[3], NULL));
+    struct spline s = spline_read(argv[2], number(argv[3]));
     for (int i = 6; i < argc; i++)
-        if (sscanf(argv[i], "v=%lf", &l.v) + sscanf(argv[i], "alpha=%lf", &l.alpha) + sscanf(argv[i], "beta1=%lf", &l.beta1) < 1 &&
-            sscanf(argv[i], "back=%lf,%lf", &l.rate, &l.length) != 2 && strcmp(argv[i], "alpha=none"))
-            fail("what is this option?");
+        law_option(&l, argv[i]);
     double *fine = malloc(all * FINE * sizeof *fine), *got = malloc((all + 1000) * sizeof *got);
     space = gsl_integration_cquad_workspace_alloc(100);
     judge(&s, &l, all * FINE, 1 / (rate * FINE), fine);
@@ -237,9 +261,9 @@ static void bands(double rate, const char *path)
 int main(int argc, char **argv)
 {
     if (argc == 6 && !strcmp(argv[1], "profile"))
-        profile_write(argv[2], strtoul(argv[3], NULL, 10), strtod(argv[4], NULL), strtoul(argv[5], NULL, 10));
+        profile_write(argv[2], (size_t)number_whole(argv[3]), number(argv[4]), (unsigned long)number_whole(argv[5]));
     else if (argc == 4 && !strcmp(argv[1], "bands"))
-        bands(strtod(argv[2], NULL), argv[3]);
+        bands(number(argv[2]), argv[3]);
     else if (argc >= 8 && !strcmp(argv[1], "snr"))
         compare(argc, argv);
     else

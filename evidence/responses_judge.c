@@ -23,6 +23,8 @@
 #include <gsl/gsl_rng.h>
 #include <sndfile.h>
 
+#include "numbers.h"
+
 enum { MODES = 50, LANES = 8, GROUPS = (MODES + LANES - 1) / LANES };
 
 struct mode {
@@ -56,7 +58,8 @@ static double *npy_read(const char *path, long *n)
     const char *shape;
     if (!in || fread(head, 1, 128, in) != 128 || !(shape = strstr(head + 10, "'shape': (")))
         die(path);
-    *n = atol(shape + 10);
+    char *end;
+    *n = (long)number_first(shape + 10, &end);
     double *x = malloc((size_t)*n * sizeof *x);
     if (fread(x, sizeof *x, (size_t)*n, in) != (size_t)*n)
         die(path);
@@ -103,11 +106,11 @@ static int table_read(const char *path, struct mode *m)
 
 static void make(char **arg, int n)
 {
-    double rate = atof(arg[2]), seconds = atof(arg[3]), dmax = atof(arg[4]);
     int same = strcmp(arg[4], "same") == 0;
+    double rate = number(arg[2]), seconds = number(arg[3]), dmax = same ? 0 : number(arg[4]);
     gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     FILE *out = fopen(arg[0], "w");
-    gsl_rng_set(r, n > 5 ? (unsigned long)atol(arg[5]) : 1);
+    gsl_rng_set(r, n > 5 ? (unsigned long)number_whole(arg[5]) : 1);
     fprintf(out, "# poles: separate\n# quantity: displacement\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n");
     for (int i = 0; i < MODES; i++) {
         double f = 100 * pow(150, (i + gsl_rng_uniform(r)) / MODES), d = log(1000) / (0.9 * pow(f / 100, -0.3));
@@ -139,9 +142,9 @@ static double where(const struct course *c, long frame)
 {
     double t = (double)frame / c->rate, u = t / c->seconds;
     if (strncmp(c->motion, "strokes:", 8) == 0)
-        return 0.5 - 0.5 * cos(2 * M_PI * atof(c->motion + 8) * t);
+        return 0.5 - 0.5 * cos(2 * M_PI * number(c->motion + 8) * t);
     if (strncmp(c->motion, "circle:", 7) == 0)
-        return 0.5 + 0.5 * cos(2 * M_PI * atof(c->motion + 7) * u);
+        return 0.5 + 0.5 * cos(2 * M_PI * number(c->motion + 7) * u);
     return strcmp(c->motion, "jerk") == 0 ? u * u * u * (10 + u * (6 * u - 15)) : u;
 }
 
@@ -212,7 +215,7 @@ static void sum_all(const double *f, long n, const struct course *c, double *y, 
 static void sum(char **arg, int given)
 {
     long n;
-    struct course c = {given > 6 ? arg[6] : "line", atof(arg[3]), atof(arg[4])};
+    struct course c = {given > 6 ? arg[6] : "line", number(arg[3]), number(arg[4])};
     double *f = npy_read(arg[2], &n), *y = calloc((size_t)n, sizeof *y);
     used = table_read(arg[1], modes);
     if (strcmp(arg[0], "glide") == 0)
@@ -237,7 +240,7 @@ static void snr(char **arg, int n)
 {
     long na, nb;
     double *a = npy_read(arg[0], &na), *b = strstr(arg[1], ".npy") ? npy_read(arg[1], &nb) : wav_read(arg[1], &nb), e = 0, d = 0;
-    long from = n > 2 ? atol(arg[2]) : 0, to = n > 3 ? atol(arg[3]) : na < nb ? na : nb;
+    long from = n > 2 ? number_whole(arg[2]) : 0, to = n > 3 ? number_whole(arg[3]) : na < nb ? na : nb;
     for (long k = from; k < to; k++) {
         e += a[k] * a[k];
         d += (b[k] - a[k]) * (b[k] - a[k]);

@@ -19,6 +19,7 @@
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
+#include "numbers.h"
 #include "rolling_closed.h"
 
 #define GRAVITY 9.81
@@ -194,19 +195,21 @@ static struct table table_read(const char *path, const char *head)
 {
     char line[256];
     long room = 0;
+    int columns = strchr(head, ',') ? 2 : 1;
     struct table t = {0};
     FILE *f = fopen(path, "r");
     if (!f || !fgets(line, sizeof line, f) || strncmp(line, head, strlen(head)) != 0)
         die(path);
     while (fgets(line, sizeof line, f)) {
-        char *end;
+        double row[2] = {0};
         if (t.n == room) {
             room = 2 * room + 65536;
             t.a = realloc(t.a, (size_t)room * sizeof *t.a);
             t.b = realloc(t.b, (size_t)room * sizeof *t.b);
         }
-        t.a[t.n] = strtod(line, &end);
-        t.b[t.n++] = *end == ',' ? strtod(end + 1, NULL) : 0;
+        number_row(line, columns, row);
+        t.a[t.n] = row[0];
+        t.b[t.n++] = row[1];
     }
     fclose(f);
     return t;
@@ -313,6 +316,8 @@ static void spread(void)
             v = realloc(v, (room = 2 * room + 65536) * sizeof *v);
         v[n++] = x;
     }
+    if (!feof(stdin))
+        die("standard input holds what is no number");
     if (n < 2) {
         printf("%zu - - - - - -\n", n);
         return;
@@ -327,15 +332,15 @@ int main(int argc, char **argv)
     if (argc == 2 && !strcmp(argv[1], "laws"))
         laws();
     else if (argc == 4 && !strcmp(argv[1], "curve"))
-        curve(strtod(argv[2], NULL), strtod(argv[3], NULL));
+        curve(number(argv[2]), number(argv[3]));
     else if (argc == 2 && !strcmp(argv[1], "shapes"))
         shapes();
     else if (argc == 5 && !strcmp(argv[1], "peaks"))
-        peaks(argv[2], strtod(argv[3], NULL), strtod(argv[4], NULL));
+        peaks(argv[2], number(argv[3]), number(argv[4]));
     else if (argc == 4 && !strcmp(argv[1], "landings"))
-        landings(argv[2], strtod(argv[3], NULL));
+        landings(argv[2], number(argv[3]));
     else if (argc == 4 && !strcmp(argv[1], "contacts"))
-        contacts(argv[2], strtod(argv[3], NULL));
+        contacts(argv[2], number(argv[3]));
     else if (argc == 2 && !strcmp(argv[1], "spread"))
         spread();
     else

@@ -19,6 +19,7 @@
 #include <x86intrin.h>
 
 #include "convolution/coupled.h"
+#include "numbers.h"
 #include "scene/scene.h"
 
 enum { MODES = 50 };
@@ -248,11 +249,11 @@ static double *ground_read(const char *path, long *n)
     if (!f || !fgets(line, sizeof line, f) || strcmp(line, "penetration_m,height_m\n") != 0)
         die(path);
     for (*n = 0; fgets(line, sizeof line, f); ++*n) {
-        char *end;
+        double row[2];
         if (*n == room)
             s = realloc(s, (size_t)(room = 2 * room + 65536) * sizeof *s);
-        s[*n] = strtod(line, &end);
-        s[*n] += strtod(end + 1, NULL);
+        number_row(line, 2, row);
+        s[*n] = row[0] + row[1];
     }
     fclose(f);
     for (long i = *n - 1; i >= 0; i--)
@@ -378,7 +379,7 @@ int main(int argc, char **argv)
     else if (argc == 2 && !strcmp(argv[1], "ladder"))
         ladder();
     else if (argc == 6 && (!strcmp(argv[1], "chaos") || !strcmp(argv[1], "trace")))
-        chaos(argv[2], strtod(argv[3], NULL), strtod(argv[4], NULL), strtod(argv[5], NULL), argv[1][0] == 't');
+        chaos(argv[2], number(argv[3]), number(argv[4]), number(argv[5]), argv[1][0] == 't');
     else if (argc == 2 && !strcmp(argv[1], "hash"))
         hash();
     else

@@ -16,6 +16,15 @@ bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
     return false;
 }
 
+bool err_about(struct err *e, const char *contact, const char *key)
+{
+    if (e->key)
+        return false;
+    e->contact = contact;
+    e->key = key;
+    return false;
+}
+
 bool err_at(struct err *e, const char *format, ...)
 {
     char where[sizeof e->text], whole[2 * sizeof e->text + 2];

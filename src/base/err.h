@@ -20,12 +20,17 @@ enum err_kind {
 struct err {
     enum err_kind kind;
     char text[1024];
+    const char *contact, *key; /* of the scene: what the error is about (scene/scene_places.h); NULL: not said */
 };
 
 /* Sets the error, unless one is set already (the first cause wins), and returns false, so that
    `return err_set(e, ERR_INPUT, "...")` is the whole of a failure. */
 bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* Says which key of a contact (NULL: of the scene itself) the error is about, unless that is said already, and returns false. Both texts must live as
+   long as the scene. */
+bool err_about(struct err *e, const char *contact, const char *key);
 
 /* Puts "where: " before the text of an error that is set; returns false. */
 bool err_at(struct err *e, const char *format, ...) __attribute__((format(printf, 2, 3)));

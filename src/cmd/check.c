@@ -7,6 +7,7 @@
 #include "pipeline/plan.h"
 #include "pipeline/run.h"
 #include "pipeline/stages.h"
+#include "scene/scene_places.h"
 
 /* Every contact has something to compute, and all that it needs. */
 static bool check_plans(const struct scene *s, struct arena *a, struct err *e)
@@ -45,7 +46,7 @@ static bool check_scene(struct cmd_call *c, const char *file, struct err *e)
         return false;
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++)
         if (!checks[i](&s, c->arena, e))
-            return err_at(e, "%s", file);
+            return scene_places_tell(&s, e);
     return true;
 }
 

@@ -3,15 +3,10 @@
 
 #include <string.h>
 
-#include "base/text.h"
+#include "cmd/actions.h"
 #include "scene/units.h"
 
-static const struct action {
-    const char *name, *operands;
-    int least, most;         /* operands behind the action's name                  */
-    const char *options[16]; /* those of the command's that it takes               */
-    int (*run)(struct cmd_call *c, struct err *e);
-} actions[] = {
+static const struct action actions[] = {
     {"object", "one RECIPE or SCENE", 1, 1,
      {"output", "force", "line", "places", "grid", "at", "listen", "load", "modes", "top", "quantity", "body", "set", "seed", "quiet"}, modes_object_run},
     {"list", "one FILE: a mode table (.csv), RECIPE or SCENE", 1, 1, {"at", "modes", "top", "body", "set", "seed"}, modes_list_run},
@@ -34,46 +29,9 @@ bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double 
     return !text || n == want->count || err_set(e, ERR_USAGE, "--%s: '%s' is not of the form %s, each a length", want->name, text, want->form);
 }
 
-static const struct action *find_action(const char *word, struct err *e)
-{
-    const char *names[4] = {NULL};
-    for (int i = 0; actions[i].name; i++) {
-        names[i] = actions[i].name;
-        if (!strcmp(word, actions[i].name))
-            return &actions[i];
-    }
-    const char *meant = text_nearest(word, names);
-    err_set(e, ERR_USAGE, "no action '%s'%s%s%s", word, meant ? "; did you mean '" : ": write rasp modes object or list", meant ? meant : "", meant ? "'?" : "");
-    return NULL;
-}
-
-/* The table of options is shared: one that belongs to another action is refused. */
-static bool check_options(const struct cmd_call *c, const struct action *a, struct err *e)
-{
-    for (const struct args_option *o = c->args.options; o->name; o++) {
-        bool known = false;
-        for (int i = 0; i < 16 && a->options[i]; i++)
-            known = known || !strcmp(o->name, a->options[i]);
-        if (!known && args_given(&c->args, o->name))
-            return err_set(e, ERR_USAGE, "--%s is no option of rasp modes %s", o->name, a->name);
-    }
-    return true;
-}
-
 static int modes_run(struct cmd_call *c, struct err *e)
 {
-    struct cmd_call inner = *c;
-    const struct action *a = find_action(c->args.operands[0], e);
-    inner.args.operands++;
-    inner.args.n_operands--;
-    int n = inner.args.n_operands;
-    if (!a || !check_options(c, a, e))
-        return (int)e->kind;
-    if (n < a->least || n > a->most) {
-        err_set(e, ERR_USAGE, "rasp modes %s takes %s", a->name, a->operands);
-        return (int)e->kind;
-    }
-    return a->run(&inner, e);
+    return actions_run("modes", actions, c, e);
 }
 
 static const struct args_option options[] = {

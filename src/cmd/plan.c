@@ -3,6 +3,7 @@
 
 #include "cmd/cmd.h"
 #include "pipeline/stages.h"
+#include "scene/scene_places.h"
 
 static const struct args_option plan_options[] = {
     CMD_SCENE_OPTIONS,
@@ -18,7 +19,7 @@ static int plan_run(struct cmd_call *c, struct err *e)
         for (int k = 0; k < s.n_contacts; k++) {
             struct plan p;
             if (!plan_make(stages_table, &s.contacts[k], &s, c->arena, &p, e)) {
-                err_at(e, "%s", c->args.operands[i]);
+                scene_places_tell(&s, e);
                 return (int)e->kind;
             }
             plan_print(&p, stdout);

@@ -7,6 +7,7 @@
 #include "cmd/cmd.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
+#include "scene/scene_places.h"
 
 static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
@@ -94,7 +95,7 @@ static bool render_one(struct cmd_call *c, const struct outputs *o, const char *
 {
     struct render_report report;
     if (!render_scene(o->scene, o->base, c->arena, &report, e))
-        return err_at(e, "%s", o->scene->file);
+        return scene_places_tell(o->scene, e);
     fputs(between, stdout);
     render_print(c, o->scene, &report);
     return true;

@@ -4,16 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "cmd/actions.h"
 #include "file/heightfile_level.h"
 #include "scene/units.h"
 
-static const struct action {
-    const char *name, *operands;
-    int least, most;        /* operands behind the action's name; most < 0: any number */
-    const char *options[12];/* those of the command's that it takes                    */
-    int (*run)(struct cmd_call *c, struct err *e);
-} actions[] = {
+static const struct action actions[] = {
     {"info", "FILE...", 1, -1, {"pitch", "height-scale", "height-range", "holes", "levelling", "json"}, surface_info_run},
     {"convert", "IN OUT", 2, 2, {"pitch", "height-scale", "height-range", "holes", "levelling", "crop", "row", "text", "quiet"}, surface_convert_run},
     {"synth", "RECIPE OUT", 2, 2, {"size", "pitch", "along", "set", "seed", "quiet"}, surface_synth_run},
@@ -61,47 +56,9 @@ bool surface_options(struct cmd_call *c, enum heightfile_holes holes, struct hei
            option_word(c, "levelling", levelling_words, &o->levelling, e);
 }
 
-static const struct action *find_action(const char *word, struct err *e)
-{
-    const char *names[8] = {NULL};
-    for (int i = 0; actions[i].name; i++) {
-        names[i] = actions[i].name;
-        if (!strcmp(word, actions[i].name))
-            return &actions[i];
-    }
-    const char *meant = text_nearest(word, names);
-    err_set(e, ERR_USAGE, "no action '%s'%s%s%s", word, meant ? "; did you mean '" : ": write rasp surface info, convert or synth", meant ? meant : "",
-            meant ? "'?" : "");
-    return NULL;
-}
-
-/* The table of options is shared: one that belongs to another action is refused. */
-static bool check_options(const struct cmd_call *c, const struct action *a, struct err *e)
-{
-    for (const struct args_option *o = c->args.options; o->name; o++) {
-        bool known = false;
-        for (int i = 0; i < 12 && a->options[i]; i++)
-            known = known || !strcmp(o->name, a->options[i]);
-        if (!known && args_given(&c->args, o->name))
-            return err_set(e, ERR_USAGE, "--%s is no option of rasp surface %s", o->name, a->name);
-    }
-    return true;
-}
-
 static int surface_run(struct cmd_call *c, struct err *e)
 {
-    struct cmd_call inner = *c;
-    const struct action *a = find_action(c->args.operands[0], e);
-    inner.args.operands++;
-    inner.args.n_operands--;
-    int n = inner.args.n_operands;
-    if (!a || !check_options(c, a, e))
-        return (int)e->kind;
-    if (n < a->least || (a->most >= 0 && n > a->most)) {
-        err_set(e, ERR_USAGE, "rasp surface %s takes %s", a->name, a->operands);
-        return (int)e->kind;
-    }
-    return a->run(&inner, e);
+    return actions_run("surface", actions, c, e);
 }
 
 static const struct args_option options[] = {

@@ -128,18 +128,20 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
                        .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight,
                        .moves = given->choice->moves,
                        .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT, .channels = r->board->channels};
+    r->seconds += g->choice->cpu;
     g->voices = ARENA_TAKE(r->arena, struct ring_voice, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
     if (g->choice->recorded)
         return true;
     for (int k = 0; k < g->channels; k++)
         if (!voice_open(g, r, k, e))
-            return false;
+            return err_about(e, r->contact->name, ring_choice_about(r->contact, body));
     note_ring(g, given, r->board);
     note_warnings(g, r);
     note_endless(g, given, r);
     r->back = (int)g->delay;
-    return note_quantity(g, r->board, e) && (!surface || given->extrapolate != EXTRAPOLATE_ERROR || ring_inside(g, r, e));
+    bool ok = note_quantity(g, r->board, e) && (!surface || given->extrapolate != EXTRAPOLATE_ERROR || ring_inside(g, r, e));
+    return ok || err_about(e, r->contact->name, ring_choice_about(r->contact, body));
 }
 
 /* ------------------------------------------------------------------ a voice at work */

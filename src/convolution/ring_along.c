@@ -16,14 +16,24 @@ struct modes_where ring_along_where(const struct trajectory *tr, double t)
     return (struct modes_where){place[0], place[1], tr->duration > 0 ? t / tr->duration : 0};
 }
 
+/* The power of two at the larger of two gains: in such units they can be squared and multiplied, whatever their size, with the same bits as in any other. */
+static double unit_of(const struct modes_point *p, const struct modes_point *q, int i)
+{
+    double most = fmax(fmax(fabs(p->re[i]), fabs(p->im[i])), fmax(fabs(q->re[i]), fabs(q->im[i])));
+    int exponent = 0;
+    frexp(most, &exponent);
+    return exponent > -1000 && exponent < 1000 ? ldexp(1, exponent) : 1;
+}
+
 void ring_along_mirror(int n, const struct modes_point *end, const struct modes_point *p)
 {
     for (int i = 0; i < n; i++) {
-        double re = end->re[i], im = end->im[i], square = p->re[i] * p->re[i] + p->im[i] * p->im[i], to = re * re + im * im;
-        double lean = re * p->re[i] + im * p->im[i], turn = im * p->re[i] - re * p->im[i]; /* end / p = (lean + j turn) / square */
+        double unit = unit_of(end, p, i), per = 1 / unit;
+        double re = end->re[i] * per, im = end->im[i] * per, x = p->re[i] * per, y = p->im[i] * per, square = x * x + y * y, to = re * re + im * im;
+        double lean = re * x + im * y, turn = im * x - re * y; /* end / p = (lean + j turn) / square */
         bool steady = square > 1e-6 * to && lean > 0;
-        p->re[i] = steady ? (re * lean - im * turn) / square : 2 * re - p->re[i];
-        p->im[i] = steady ? (re * turn + im * lean) / square : 2 * im - p->im[i];
+        p->re[i] = unit * (steady ? (re * lean - im * turn) / square : 2 * re - x);
+        p->im[i] = unit * (steady ? (re * turn + im * lean) / square : 2 * im - y);
         if (p->frequency) {
             p->frequency[i] = p->frequency[i] > 0 ? end->frequency[i] * end->frequency[i] / p->frequency[i] : 0;
             p->decay[i] = p->decay[i] > 0 ? end->decay[i] * end->decay[i] / p->decay[i] : 0;

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "base/stopwatch.h"
+#include "convolution/ring_cost.h"
 #include "convolution/ring_means.h"
 #include "response/object.h"
 #include "response/space.h"
@@ -53,9 +55,11 @@ static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct 
     int asked = body == RING_SURFACE ? c->given->moving : MOVING_AUTO;
     c->to->moves = moves(c, body);
     c->to->reading = asked != MOVING_AUTO ? asked : m->shared ? MOVING_FIXED : m->travels ? MOVING_GLIDE : MOVING_LAUNCH;
-    if (asked == MOVING_FIXED && !m->shared && c->to->moves)
+    if (asked == MOVING_FIXED && !m->shared && c->to->moves) {
+        err_about(e, c->contact->name, "surface.moving");
         return err_set(e, ERR_SCENE, "contact '%s': surface.moving: fixed needs poles that are the same everywhere, and those of %s differ from place to "
                                      "place; leave surface.moving out, or choose launch, glide or readout", c->contact->name, m->name);
+    }
     if (!c->to->moves)
         c->to->reading = MOVING_FIXED;
     return true;
@@ -65,18 +69,23 @@ static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct 
 
 static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct err *e)
 {
-    if (!read_modes(c, e) || !choose_reading(c, body, e))
+    if (!read_modes(c, e))
+        return err_about(e, c->contact->name, ring_choice_about(c->contact, body));
+    if (!choose_reading(c, body, e))
         return false;
-    if (!c->to->moves)
-        return ring_means_choose(c, e);
     if (!trajectory_make(&c->contact->motion, trajectory_seed(c->scene, c->contact), c->arena, &c->trajectory, e))
         return err_at(e, "contact '%s'", c->contact->name);
+    double start = stopwatch_cpu();
+    c->heard = ring_heard(c->scene, c->contact, c->trajectory.duration, modes_ring_time(&c->to->modes, 80));
+    if (!c->to->moves)
+        return ring_means_choose(c, e);
     struct ring_survey_ask ask = {.modes = &c->to->modes, .trajectory = &c->trajectory, .by_speed = c->contact->contact.model == CONTACT_SCRAPE,
                                   .stays = c->to->reading == MOVING_GLIDE || c->to->reading == MOVING_READOUT,
                                   .slopes = c->to->reading == MOVING_GLIDE};
     c->work = arena_open();
     ring_survey(&ask, c->work, &c->survey);
     bool chosen = ring_means_choose(c, e);
+    c->to->cpu = stopwatch_cpu() - start;
     arena_close(c->work);
     return chosen;
 }
@@ -89,7 +98,7 @@ static void choose_recorded(struct ring_choosing *c, enum ring_body body)
     c->to->reading = MOVING_FIXED;
     c->to->moves = folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL;
     c->to->engine = folder ? RING_PANNED : RING_OVERLAP;
-    c->to->work = ring_means_recorded((folder ? 8 : 1) * seconds * rate);
+    c->to->work = ring_cost_recorded((folder ? 8 : 1) * seconds * rate);
 }
 
 static const struct response *given_of(const struct contact *c, enum ring_body body)
@@ -112,6 +121,15 @@ bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_
         return true;
     }
     return choose_modal(&me, body, e);
+}
+
+const char *ring_choice_about(const struct contact *c, enum ring_body body)
+{
+    static const char *const keys[3][3] = {{"surface.response", "surface.object", "surface.space"},
+                                           {"scraper.response", "scraper.object", "scraper.response"},
+                                           {"ball.response", "ball.object", "ball.response"}};
+    const struct response *given = given_of(c, body);
+    return keys[body == RING_SURFACE ? 0 : ball_rolls(c) ? 2 : 1][given->object.given ? 1 : given->space.given ? 2 : 0];
 }
 
 enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body)

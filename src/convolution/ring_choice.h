@@ -25,11 +25,15 @@ struct ring_choice {
     double forgotten;            /* dB by which what rings has decayed when it is dropped      */
     double error;                /* predicted, relative rms; 0: none                         */
     double work;                 /* predicted cycles per audio sample                        */
+    double cpu;                  /* s of CPU time that choosing took, the response being read*/
 };
 
 /* NULL: the body does not ring. Errors: as modes_table, object_make, space_modes; ERR_SCENE where what is asked cannot be had. */
 bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice,
                  struct err *e);
+
+/* "surface.response", "ball.object": the key that says what rings, for err_about. */
+const char *ring_choice_about(const struct contact *c, enum ring_body body);
 
 /* The engine of a contact that has been through ring_choice_make (scene.h: response.choice). */
 enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body);

@@ -28,6 +28,10 @@
 
 enum { MOST = 4 };
 
+/* Cycles of a mode at an instant, by kind; of one that is weighted. */
+static const double cycles[] = {[RING_ERROR_LAUNCH] = 450, [RING_ERROR_READOUT] = 1000, [RING_ERROR_RAMP] = 200, [RING_ERROR_GLIDE] = 1500};
+#define WEIGHTED 1000.0
+
 struct erring {
     const struct ring_survey *s;
     const struct ring_error_ask *ask;
@@ -176,14 +180,16 @@ void ring_error(const struct ring_survey *s, const struct ring_error_ask *ask, d
     struct arena *a = arena_open();
     struct ring_survey_instant *at = ARENA_TAKE(a, struct ring_survey_instant, RING_SURVEY_INSTANTS);
     struct erring r = {.s = s, .ask = ask, .least = 0.5 / fmax(s->duration, 1e-3)};
-    int n = s->along.modes->n, instants = ring_survey_draw(s, fmax(0.5 * ask->order, 1) * ask->hop / ask->rate, at);
+    int n = s->along.modes->n, wanted = 0, instants = ring_survey_draw(s, fmax(0.5 * ask->order, 1) * ask->hop / ask->rate, at);
     bool cut = ask->until < HUGE_VAL;
     decaying_points_make(DECAYING_RANGE, &r.all);
     for (int k = 0; k <= ask->order; k++)
         r.row[k] = modes_point_make(a, n);
     for (int i = 0; i < n; i++)
-        if (!ask->skip || !ask->skip[i])
+        if (!ask->skip || !ask->skip[i]) {
             wrong[i] = whole[i] = 0;
+            wanted++;
+        }
     for (int k = 0; k < instants; k++) {
         stand_at(&r, at[k].t);
         for (int i = 0; i < n; i++)
@@ -193,6 +199,7 @@ void ring_error(const struct ring_survey *s, const struct ring_error_ask *ask, d
                 whole[i] += at[k].weight * e.whole;
             }
     }
+    *s->looked += instants * ((ask->order + 1) * ring_survey_point(s) + wanted * (cut ? WEIGHTED : cycles[ask->kind]));
     arena_close(a);
 }
 

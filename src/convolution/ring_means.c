@@ -5,26 +5,18 @@
 
 #include <math.h>
 
+#include "convolution/ring_cost.h"
 #include "convolution/ring_hops.h"
 #include "num/real.h"
+#include "response/listener.h"
 
-/* Cycles, measured by tests/bench on one core (Zen 5, gcc, any number of modes): */
-#define RESONATOR 0.8          /* a mode and sample, poles fixed                   */
-#define GLIDING 1.2            /* ... poles ramped                                 */
-#define DRIVEN 0.8             /* a mode, sample and node under force              */
-#define LAUNCHED 0.1           /* a node that rings and sample                     */
-#define EVALUATED 40.0         /* a mode where the contact is                      */
-#define RECALLED 0.7           /* a node of readout and sample of its past         */
-#define READING 9.0            /* ... and sample under its window                  */
-#define LONGEST_HOP 1.0        /* s                                                */
-#define TRANSFORM 150.0        /* three FFTs, per sample of them                   */
-#define SAMPLED 0.7            /* a mode and sample of an impulse response         */
-#define PARTITION (1 / 110.0)  /* a sample of a response that is convolved as it is */
+#define LONGEST_HOP 1.0 /* s */
 
 static bool engine_clash(const struct ring_choosing *c, const char *engine, struct err *e)
 {
     static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
     static const char *const can[] = {"", "resonators, overlap_add or nodes", "resonators, overlap_add or nodes", "resonators", "resonators or overlap_add"};
+    err_about(e, c->contact->name, "surface.convolution");
     return err_set(e, ERR_SCENE, "contact '%s': %s.convolution: %s cannot do surface.moving: %s, which goes by %s; leave %s.convolution out",
                    c->contact->name, c->key, engine, readings[c->to->reading], can[c->to->reading], c->key);
 }
@@ -82,12 +74,6 @@ static void choose_ramp(struct ring_choosing *c)
         c->to->error = ring_error_all(&c->survey, &ask);
 }
 
-static double overlap_work(const struct ring_choosing *c, double hop)
-{
-    double length = c->to->seconds * c->scene->output.sample_rate, whole = length + hop * c->scene->accuracy.overlap_order;
-    return (TRANSFORM * whole + SAMPLED * c->to->modes.n * length) / hop;
-}
-
 /* Hops are the error's alone (it counts the gains' movement too), unless none is asked for. */
 static void choose_hops(struct ring_choosing *c, enum ring_error_kind kind)
 {
@@ -99,44 +85,11 @@ static void choose_hops(struct ring_choosing *c, enum ring_error_kind kind)
         c->to->error = both(c->to->error, real_exp10(-c->to->forgotten / 20));
 }
 
-/* Frames of a mode's response until it is forgotten. */
-static double ringing(const struct ring_choosing *c, int i)
-{
-    return c->to->forgotten / 8.686 / fmax(c->to->modes.slowest[i], 1e-3) * c->scene->output.sample_rate;
-}
-
-static double shortest(const struct ring_choosing *c)
-{
-    double least = HUGE_VAL;
-    for (int i = 0; i < c->to->modes.n; i++)
-        least = fmin(least, c->to->hops[i]);
-    return least;
-}
-
-/* Nodes that ring at a time: under force, and until they are forgotten. */
-static double launch_work(struct ring_choosing *c)
-{
-    double alive = 0;
-    choose_hops(c, RING_ERROR_LAUNCH);
-    for (int i = 0; i < c->to->modes.n; i++)
-        alive += ringing(c, i) / c->to->hops[i];
-    return c->to->modes.n * (DRIVEN * c->scene->accuracy.overlap_order + 3 + 2 * EVALUATED / shortest(c)) + LAUNCHED * alive;
-}
-
-/* A node's sum over the past, and the node under its window. */
-static double recall_work(struct ring_choosing *c)
-{
-    double past = 0, most = c->trajectory.duration * c->scene->output.sample_rate;
-    choose_hops(c, RING_ERROR_READOUT);
-    for (int i = 0; i < c->to->modes.n; i++)
-        past += fmin(ringing(c, i), most) / c->to->hops[i];
-    return c->to->modes.n * (READING * c->scene->accuracy.overlap_order + 2 * EVALUATED / shortest(c)) + RECALLED * past;
-}
-
+/* work: of one listening place. */
 static void engine_set(struct ring_choosing *c, enum ring_engine engine, double work)
 {
     c->to->engine = engine;
-    c->to->work = work;
+    c->to->work = work * listener_channels(&c->scene->output) + ring_cost_search(c);
 }
 
 /* Overlap-add's hop is looked for only where it might be chosen. */
@@ -144,13 +97,15 @@ static void choose_launch(struct ring_choosing *c)
 {
     int asked = c->given->convolution;
     bool cut = !isnan(c->given->length), overlap = asked == ENGINE_OVERLAP_ADD || cut;
-    double by_nodes = overlap ? HUGE_VAL : launch_work(c), error = c->to->error;
-    if (!overlap && (asked == ENGINE_RESONATORS || by_nodes < overlap_work(c, frames(c, c->scene->accuracy.overlap_hop)))) {
+    if (!overlap)
+        choose_hops(c, RING_ERROR_LAUNCH);
+    double by_nodes = overlap ? HUGE_VAL : ring_cost_launch(c), error = c->to->error;
+    if (!overlap && (asked == ENGINE_RESONATORS || by_nodes < ring_cost_overlap(c, frames(c, c->scene->accuracy.overlap_hop)))) {
         engine_set(c, RING_LAUNCH, by_nodes);
         return;
     }
     choose_hop(c);
-    double by_overlap = overlap_work(c, c->to->hop);
+    double by_overlap = ring_cost_overlap(c, c->to->hop);
     overlap = overlap || by_overlap < by_nodes;
     engine_set(c, overlap ? RING_OVERLAP : RING_LAUNCH, overlap ? by_overlap : by_nodes);
     if (!overlap)
@@ -162,24 +117,21 @@ static void choose_readout(struct ring_choosing *c)
 {
     int asked = c->given->convolution;
     bool cut = !isnan(c->given->length), overlap = asked == ENGINE_OVERLAP_ADD || cut;
-    double by_modes = overlap ? HUGE_VAL : recall_work(c), error = c->to->error;
-    if (!overlap && (asked == ENGINE_RESONATORS || by_modes < overlap_work(c, frames(c, c->scene->accuracy.overlap_hop)))) {
+    if (!overlap)
+        choose_hops(c, RING_ERROR_READOUT);
+    double by_modes = overlap ? HUGE_VAL : ring_cost_recall(c), error = c->to->error;
+    if (!overlap && (asked == ENGINE_RESONATORS || by_modes < ring_cost_overlap(c, frames(c, c->scene->accuracy.overlap_hop)))) {
         engine_set(c, RING_READOUT, by_modes);
         return;
     }
     choose_hop(c);
-    double by_overlap = overlap_work(c, c->to->hop);
+    double by_overlap = ring_cost_overlap(c, c->to->hop);
     overlap = overlap || by_overlap < by_modes;
     engine_set(c, RING_READOUT, overlap ? by_overlap : by_modes);
     if (overlap)
         c->to->hops = NULL;
     else
         c->to->error = error;
-}
-
-double ring_means_recorded(double samples)
-{
-    return 100 + samples * PARTITION;
 }
 
 /* A response at each node, each convolved whole. */
@@ -194,7 +146,7 @@ static bool choose_nodes(struct ring_choosing *c, struct err *e)
     if (!ring_nodes(&c->to->modes, &c->trajectory, error, c->arena, &c->to->nodes))
         return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: nodes would need %d nodes or more for an accuracy.morph_error of %g dB; choose "
                                      "resonators or overlap_add", c->contact->name, c->to->nodes.n, 20 * real_log10(error));
-    engine_set(c, RING_PANNED, ring_means_recorded(c->to->nodes.n * c->to->seconds * c->scene->output.sample_rate));
+    engine_set(c, RING_PANNED, ring_cost_nodes(c));
     c->to->error = error;
     return true;
 }
@@ -203,10 +155,10 @@ bool ring_means_choose(struct ring_choosing *c, struct err *e)
 {
     c->to->forgotten = c->scene->accuracy.morph_error < 0 ? 20 - c->scene->accuracy.morph_error : 140;
     c->to->seconds = isnan(c->given->length) ? fmin(modes_ring_time(&c->to->modes, left_out(c)), 60) : c->given->length;
+    c->to->seconds = fmin(c->to->seconds, c->heard.most + 2 / c->scene->output.sample_rate);
     int asked = c->given->convolution, reading = c->to->reading;
-    double n = c->to->modes.n;
     if (asked == ENGINE_NODES && c->to->moves && (reading == MOVING_FIXED || reading == MOVING_LAUNCH))
-        return choose_nodes(c, e);
+        return choose_nodes(c, e) || err_about(e, c->contact->name, "surface.convolution");
     if (reading == MOVING_GLIDE && asked != ENGINE_AUTO && asked != ENGINE_RESONATORS)
         return engine_clash(c, asked == ENGINE_NODES ? "nodes" : "overlap_add", e);
     if (reading == MOVING_READOUT && asked == ENGINE_NODES)
@@ -214,7 +166,7 @@ bool ring_means_choose(struct ring_choosing *c, struct err *e)
     bool cut = !isnan(c->given->length);
     if (reading == MOVING_GLIDE || (reading == MOVING_FIXED && asked != ENGINE_OVERLAP_ADD && !cut)) {
         choose_ramp(c);
-        engine_set(c, RING_RESONATORS, 10 + n * ((reading == MOVING_GLIDE ? GLIDING : RESONATOR) + (c->to->moves ? EVALUATED / c->to->ramp : 0)));
+        engine_set(c, RING_RESONATORS, ring_cost_resonators(c));
     } else if (reading == MOVING_LAUNCH) {
         choose_launch(c);
     } else if (reading == MOVING_READOUT) {
@@ -222,7 +174,7 @@ bool ring_means_choose(struct ring_choosing *c, struct err *e)
     } else {
         if (c->to->moves)
             choose_hop(c);
-        engine_set(c, RING_OVERLAP, c->to->moves ? overlap_work(c, c->to->hop) : ring_means_recorded(c->to->seconds * c->scene->output.sample_rate));
+        engine_set(c, RING_OVERLAP, c->to->moves ? ring_cost_overlap(c, c->to->hop) : ring_cost_still(c));
     }
     return true;
 }

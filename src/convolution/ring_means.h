@@ -2,6 +2,7 @@
 #ifndef CONVOLUTION_RING_MEANS_H
 #define CONVOLUTION_RING_MEANS_H
 #include "convolution/ring_choice.h"
+#include "convolution/ring_heard.h"
 #include "convolution/ring_survey.h"
 
 struct ring_choosing {
@@ -12,15 +13,13 @@ struct ring_choosing {
     struct arena *arena;
     struct ring_choice *to;
     struct trajectory trajectory;
+    struct ring_heard heard;
     struct arena *work;         /* until the choice is made */
     struct ring_survey survey;  /* of a response that moves */
 };
 
-/* Sets engine, hops, error and work of c->to, whose modes and reading are known; of what moves, c->trajectory and c->survey too. ERR_SCENE: what is asked
+/* Sets engine, hops, error and work of c->to, whose modes and reading are known, and c->heard; of what moves, c->trajectory and c->survey too. ERR_SCENE: what is asked
    for cannot be had. */
 bool ring_means_choose(struct ring_choosing *c, struct err *e);
-
-/* Cycles per sample of convolution with that many samples as they are. */
-double ring_means_recorded(double samples);
 
 #endif

@@ -121,7 +121,7 @@ static bool open_recorded(struct ring_panned *s, struct stage_run *r, struct err
     if (!ir_set_read(given->file, r->board->rate, given->length, r->arena, &s->set, e))
         return false;
     if (given->extrapolate == EXTRAPOLATE_ERROR && !recorded_inside(s, r, e))
-        return false;
+        return err_about(e, r->contact->name, "surface.response");
     for (int k = 0; k < s->set.n; k++)
         length = s->set.ir[k].length > length ? s->set.ir[k].length : length;
     r->board->unstated = true;

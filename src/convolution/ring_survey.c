@@ -16,6 +16,13 @@
 
 #include "num/real.h"
 
+/* Cycles: */
+#define PLACED 400.0  /* a place of the contact           */
+#define SHARED 8.0    /* a mode there, poles shared       */
+#define SEPARATE 60.0 /* ... poles separate               */
+#define CELL 500.0    /* a cell                           */
+#define COUNTED 30.0  /* a mode in it                     */
+
 enum { STRAIGHT = 1024, MOST = 8192, WORK = 500000, KINKS = 4 };
 
 /* ------------------------------------------------------------------ looking */
@@ -149,7 +156,14 @@ void ring_survey(const struct ring_survey_ask *ask, struct arena *a, struct ring
     look_bends(&k);
     look_along(&k, work);
     cumulate(&k);
+    s->looked = ARENA_TAKE(a, double, 1);
+    *s->looked = (double)s->cells * (CELL + ring_survey_point(s) + n * COUNTED);
     arena_close(work);
+}
+
+double ring_survey_point(const struct ring_survey *s)
+{
+    return PLACED + s->along.modes->n * (s->along.modes->shared ? SHARED : SEPARATE);
 }
 
 /* ------------------------------------------------------------------ drawing */

@@ -23,9 +23,13 @@ struct ring_survey {
     int *bent;                  /* [cells + 1] how many cells before have a kink                */
     double *slope;              /* [cells][n][2] of the poles, ds/dt in 1/s^2; NULL: not asked  */
     double *turned;             /* [cells + 1][n][2] int (ds/dt)^2 dt from the cycle's start    */
+    double *looked;             /* cycles that this and all errors measured since took, about   */
 };
 
 void ring_survey(const struct ring_survey_ask *ask, struct arena *a, struct ring_survey *s);
+
+/* Cycles that it takes, about, to find what rings at an instant. */
+double ring_survey_point(const struct ring_survey *s);
 
 /* Power of the force at t, relative; 0 before the start and after the end. */
 double ring_survey_loud(const struct ring_survey *s, double t);

@@ -3,7 +3,7 @@
      f     = scraping (f_h + f_v) + f_roll                      equation 19     scraping  contact.roll.scraping, how much the ball slips
      f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0       equation 15     lambda = mu k; force/roll_law.c
      rho   = rho_0 + rest ((N(t)/N)^(2/3) - 1) + D              for equation 16 m, penetration; rest = (N/k)^(2/3), that at rest
-     D     = S + bulge less its mean                            m, way of the ball's geometric centre; force/roll_centre.c
+     D     = S less its mean                                    m, way of the ball's geometric centre over the ground; force/roll_centre.c
 
    f_h, f_v are those of what scrapes (force/scrape.c), of the same trajectory S; with contact.force: paper those of equations 2 and 3 as printed
    (force/paper.c), and the rolling term is added to them, not smoothed, as there what is smoothed are curvatures. S follows the ball's rolling curve
@@ -11,19 +11,24 @@
 
    Departure. Equation 16 has rho = R - r cos(theta) + S: it puts the rise of the centre of mass, -r cos(theta), into the penetration, so that its force
    is largest where the centre of mass is highest. By Newton's second law the normal force, N(t) = m (g + d2(-r cos theta)/dt2), is largest where it is
-   lowest; and millimetres of rise stand against micrometres of S. So here rho is about the geometric centre, which is what meets the surface, and
-   the offset presses it deeper and less deep as N(t) does, quasi-statically: on level ground f_roll is N(t) (mu aside: a ball turns slowly). With
-   penetration: paper, rho = R - r cos(theta) + S + bulge as printed, k and lambda by hand.
+   lowest; and millimetres of rise stand against micrometres of S. So here rho is of the way over the ground, and what goes up and down with the ball's
+   turning, the offset and the lobes of its rim (bulge, which is not in the paper), presses it deeper and less deep as N(t) does, quasi-statically: on level
+   ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll_told.c says where it does not). With penetration: paper, rho = R - r cos(theta) + S + bulge
+   as printed, k and lambda by hand, and N(t) without the lobes.
 
    rho_0 and, where it is not given, k come from a rehearsal of the motion (force/roll_rehearsal.c). Where N(t) < 0, as when an offset ball spins fast,
    it is clear of the surface: no force at all. */
 #include "force/lift.h"
 #include "force/roll_centre.h"
 #include "force/roll_law.h"
+#include "force/roll_pass.h"
 #include "force/roll_rehearsal.h"
+#include "force/roll_told.h"
 #include "force/scrape.h"
+#include "num/real.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
+#include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
 struct roll_state {
@@ -50,14 +55,34 @@ static bool roll_added_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_ROLL && c->contact.force == FORCE_PAPER;
 }
 
+/* m, once over, as far as the scene tells; else as far as no stiffness asks for more. */
+static double roll_way(const struct motion *m)
+{
+    double dx = m->to[0] - m->from[0], dy = m->to[1] - m->from[1];
+    if (m->path == PATH_CIRCLE)
+        return 2 * REAL_PI * m->radius * fmin(fabs(m->turns), 1);
+    return rules_straight(m) ? sqrt(dx * dx + dy * dy) : isnan(m->duration) ? 1 : rules_speed(m) * m->duration;
+}
+
+/* Where the stiffness is made: what is gone over beyond a short motion, and, where the tip reads more densely, the whole way as it reads plainly. Cycles per
+   metre, those of the tip (surface/tip.c) among them. */
+static double roll_ground_work(const struct contact *c, const struct scene *s)
+{
+    double way = roll_way(&c->motion), again = s->accuracy.tip_heights != 1 ? way : 0, lattice = c->scraper.patch / 4;
+    double lasts = isnan(c->motion.duration) ? way / rules_speed(&c->motion) : c->motion.duration;
+    double metre = rules_along(c) == ALONG_PLANE ? 3e5 / lattice : 8e2 / lattice + 340 / roll_pass_grain(c);
+    bool made = ball_beyond(c, 1e-9) > 0; /* of next to no ground, if of any */
+    return made && way > 0 && lasts > 0 ? (ball_beyond(c, way) + again) * metre / (lasts * s->output.sample_rate) : 0;
+}
+
 /* The rehearsal goes the whole way once more, in grains of its own. */
 static double roll_work(const struct contact *c, const struct scene *s)
 {
     bool round = c->ball.offset == 0 && c->ball.lobe_height == 0, printed = c->contact.roll.penetration == PENETRATION_PAPER;
     double way = (c->contact.limiter.curve == LIMITER_TANH ? 230 : 100) * way_work(c, s), over = s->accuracy.oversampling;
-    double grains = printed ? 0 : roll_rehearsal_rate(c, c->motion.duration, rules_speed(&c->motion)) / s->output.sample_rate;
+    double grains = printed ? 0 : roll_pass_rate(c, 1, rules_speed(&c->motion)) / s->output.sample_rate;
     double again = printed ? 0 : way * fmax(grains / over, rules_speed(&c->motion) > 0 ? 0.5 : 0);
-    return way + again + (round ? 30 : 180) * over + (round ? 110 : 440) * grains;
+    return way + again + (round ? 30 : 180) * over + (load_varies(c) ? 300 : 110) * grains + roll_ground_work(c, s);
 }
 
 /* ------------------------------------------------------------------ opening */
@@ -78,10 +103,7 @@ static bool roll_rehearse(struct stage_run *r, struct roll_state *s, struct err 
     if (!roll_rehearsal_run(r, &s->law, &s->found, e))
         return false;
     s->idle = !(s->found.normal > 0);
-    if (s->idle)
-        board_warn(r->board, arena_format(r->arena, "contact '%s': nothing presses the ball down: it scrapes, but its rolling force is 0", c->name));
-    else
-        roll_law_told(r, s->found.rest);
+    roll_told(r, &s->found);
     return true;
 }
 
@@ -129,7 +151,7 @@ static double roll_contact(struct roll_state *s, const double *load, int i, bool
     return lifted || s->idle ? 0 : roll_law_contact(s->rho[i], s->rho[i + 1]);
 }
 
-/* m, of the centre of mass; 0 where the geometric centre has its mean height and the centre of mass lies lowest. */
+/* m, of the centre of mass; 0 where S and the rim have their mean height and the centre of mass lies lowest. */
 static double roll_height(const struct roll_state *s, int i)
 {
     return s->centre.at[i] - s->found.mean + (s->centre.round ? 0 : s->centre.rise[i] + s->centre.spin.offset);

@@ -1,12 +1,11 @@
-/* The way of a rolling ball's geometric centre, and how high its centre of mass lies over that: the parts of papers/000 equation 16,
-   rho = R - r cos(x/R) + S.
+/* The way of a rolling ball's centre: the parts of papers/000 equation 16, rho = R - r cos(x/R) + S.
 
      S      height of the limited trajectory over the ball's rolling curve, m (force/slope.c, surface/tip.c), here less the level that the limiter gives it
-     bulge  of a ball that is not quite round, m: how much further from the centre the rim is where it touches; not in the paper
      rise   -r cos(theta), m: height of the centre of mass over the geometric centre (trajectory/spin.h)
+     bulge  of a ball that is not quite round, m: how much further from the centre the rim is where it touches; not in the paper
 
-   S + bulge is the height of the geometric centre. The centre of mass is no part of what the surface meets: it acts through the normal force
-   (force/roll.c).
+   S is what the ground does, in micrometres and many times in each millimetre. rise and bulge are slow, once or a few times in each turn: the ball follows them
+   and stays on the ground, so that they are no part of what the surface meets, and act through the normal force (force/roll.c).
 
    Departures. The paper writes x/R for theta in equations 16 and 17, and equation 18 for theta itself: theta is solved from that. Its place x is that
    of the centre of mass; the point that touches is r sin(theta) away, and S is read at x all the same, as equation 16 has it. */
@@ -19,9 +18,8 @@ struct roll_centre roll_centre_make(const struct contact *c)
     return (struct roll_centre){.spin = spin_make(c), .round = c->ball.offset == 0 && c->ball.lobe_height == 0};
 }
 
-void roll_centre_run(struct roll_centre *m, const struct slope *s, const struct board *b, long first, int n)
+void roll_centre_follow(struct roll_centre *m, const struct slope *s, int n)
 {
-    double bulge[WAY_CHUNK + 1];
     m->at[0] = m->height;
     memcpy(m->at + 1, s->heights, (size_t)n * sizeof *m->at);
     m->height = m->at[n];
@@ -30,12 +28,18 @@ void roll_centre_run(struct roll_centre *m, const struct slope *s, const struct 
         memcpy(m->lifts[k] + 1, s->lifts[k], (size_t)n * sizeof *m->lifts[k]);
         m->lift[k] = m->lifts[k][n];
     }
+}
+
+void roll_centre_run(struct roll_centre *m, const struct slope *s, const struct board *b, long first, int n)
+{
+    double bulge[WAY_CHUNK + 1];
+    roll_centre_follow(m, s, n);
     if (m->round)
         return;
     spin_at(&m->spin, (size_t)n + 1, way_values(b, ITEM_POSITION, first), way_values(b, ITEM_VELOCITY, first), NULL,
             &(struct spin_out){.rise = m->rise, .bulge = bulge});
     for (int i = 0; i <= n; i++)
-        m->at[i] += bulge[i];
+        m->rise[i] += bulge[i];
 }
 
 void roll_centre_level(double *at, long n, const double *const lifts[2], const double level[2])

@@ -7,16 +7,19 @@
 struct roll_centre {
     struct spin spin;
     bool round;                     /* neither offset nor lobes                         */
-    double height, lift[2];            /* m, S at the start of the next sub-interval; m^2, lift (force/slope.h) */
-    double at[WAY_CHUNK + 1];       /* m: height of the geometric centre at the start of the first sub-interval and at each one's end, */
+    double height, lift[2];         /* m, S at the start of the next sub-interval; m^2, lift (force/slope.h) */
+    double at[WAY_CHUNK + 1];       /* m: S at the start of the first sub-interval and at each one's end, */
     double lifts[2][WAY_CHUNK + 1]; /* m^2: less the two levels (force/slope.h) times these */
-    double rise[WAY_CHUNK + 1];     /* m, of the same instants: height of the centre of mass over it; 0 of what is round */
+    double rise[WAY_CHUNK + 1];     /* m, of the same instants: rise + bulge; 0 of what is round */
 };
 
 struct roll_centre roll_centre_make(const struct contact *c);
 
 /* Of the n sub-intervals from number `first` on over which s was just run; at[] is still without its last term. */
 void roll_centre_run(struct roll_centre *m, const struct slope *s, const struct board *b, long first, int n);
+
+/* at[] and lifts[] alone. */
+void roll_centre_follow(struct roll_centre *m, const struct slope *s, int n);
 
 /* The last term: takes level[] (1/m, slope_level) times two lifts off n heights. */
 void roll_centre_level(double *at, long n, const double *const lifts[2], const double level[2]);

@@ -24,11 +24,3 @@ double roll_law_rest(double normal, double stiffness)
 {
     return normal > 0 ? real_pow(normal / stiffness, 2.0 / 3) : 0;
 }
-
-void roll_law_told(struct stage_run *r, double rest)
-{
-    double radius = r->contact->ball.radius;
-    if (rest > radius / 10)
-        board_warn(r->board, arena_format(r->arena, "contact '%s': at rest the ball lies %.3g m deep, more than a tenth of its radius, %.3g m: so soft a contact "
-                                          "is no ball's; a greater contact.roll.stiffness (or kappa) makes it harder", r->contact->name, rest, radius));
-}

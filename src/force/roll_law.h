@@ -5,8 +5,6 @@
 
 #include "force/hertz_mean.h"
 
-#include "stage.h"
-
 struct roll_law {
     double stiffness;   /* N/m^1.5, k       */
     double mu;          /* s/m, lambda / k  */
@@ -37,8 +35,5 @@ double roll_law_contact(double a, double b);
 
 /* m: how deep the ball of stiffness k (N/m^1.5) lies at rest under a normal force (N), (N/k)^(2/3); 0 where nothing presses it. */
 double roll_law_rest(double normal, double stiffness);
-
-/* Warns where that is more than a tenth of the ball's radius. */
-void roll_law_told(struct stage_run *r, double rest);
 
 #endif

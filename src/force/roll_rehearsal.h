@@ -4,19 +4,14 @@
 #include "force/roll_law.h"
 #include "stage.h"
 
-enum { ROLL_REHEARSAL_RATE = 48000, ROLL_REHEARSAL_MOST = 1 << 20 }; /* Hz, least grains per second; grains kept, 71 MB at most while it lasts */
-
 struct roll_rehearsal {
     double normal;      /* N, mean of max(0, N(t))                                     */
     double rest;        /* m, (N/k)^(2/3)                                              */
     double base;        /* m, rho_0                                                    */
-    double deviation;   /* m, rms of the geometric centre's height about its mean      */
-    double mean;        /* m, that mean                                                */
+    double deviation;   /* m, rms of S about its mean, of the ground that k is made from */
+    double mean;        /* m, mean of S over the motion                                */
     double level[2];    /* 1/m, of the limited curvature, taken out of the height (force/slope.h) */
 };
-
-/* Grains per second of a motion of that duration (s) and greatest speed (m/s): a whole number in the duration. */
-double roll_rehearsal_rate(const struct contact *c, double duration, double speed);
 
 /* Settles l->stiffness, where it is NAN, as k = N / (static_depth rms)^1.5, and base such that over the motion the mean of the force is N to 1e-9;
    l->mu is given. r: of the rolling stage, whose board has trajectory, load and limiter. Where nothing presses the ball, found->normal is 0 and the

@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
+#include "scene/scene_places.h"
 
 static const char *why_unreadable(const char *file)
 {
@@ -25,23 +26,35 @@ static bool may_be_folder(const char *where, const char *file)
     return file && strcmp(where, "surface.response") == 0 && stat(file, &s) == 0 && S_ISDIR(s.st_mode);
 }
 
-static void add(const char **missing, const char *where, const char *file, struct arena *a)
+struct missing {
+    const struct scene *scene;
+    struct arena *arena;
+    const char *text;
+    const char *contact, *key; /* of the first */
+};
+
+/* The place of the first is told with the whole (scene_places_tell), those of the others here. */
+static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
-    const char *why = file && !may_be_folder(where, file) ? why_unreadable(file) : NULL;
-    if (why)
-        *missing = arena_format(a, "%s%s%s: %s: %s", *missing, **missing ? "; " : "", where, file, why);
+    const char *why = file && !may_be_folder(key, file) ? why_unreadable(file) : NULL;
+    if (!why)
+        return;
+    const char *between = m->key ? arena_format(m->arena, "; %s: ", scene_places_text(m->scene, contact, key, m->arena)) : "";
+    m->text = arena_format(m->arena, "%s%s%s: %s: %s", m->text, between, key, file, why);
+    m->contact = m->key ? m->contact : contact;
+    m->key = m->key ? m->key : key;
 }
 
 static bool are_there(const struct scene *s, struct arena *a, struct err *e)
 {
-    const char *missing = "";
+    struct missing m = {.scene = s, .arena = a, .text = ""};
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++)
             if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
-                add(&missing, k->path, *(const char **)((char *)&s->contacts[i] + k->offset), a);
-    for (int i = 0; i < s->n_inputs && !*missing; i++)
-        add(&missing, "inputs", s->inputs[i].file, a);
-    return !*missing || err_set(e, ERR_INPUT, "%s", missing);
+                add(&m, s->contacts[i].name, k->path, *(const char **)((char *)&s->contacts[i] + k->offset));
+    for (int i = 0; i < s->n_inputs && !m.key; i++)
+        add(&m, NULL, "inputs", s->inputs[i].file);
+    return !m.key || err_set(e, ERR_INPUT, "%s", m.text) || err_about(e, m.contact, m.key);
 }
 
 static bool is_pinned(const struct input *p, struct err *e)
@@ -53,6 +66,7 @@ static bool is_pinned(const struct input *p, struct err *e)
         return false;
     if (!strcmp(hex, p->sha256))
         return true;
+    err_about(e, NULL, "inputs");
     return err_set(e, ERR_SCENE, "inputs: %s has changed: its sha256 is %s, not %s; restore the file, or remove its entry to use it as it is", p->file,
                    hex, p->sha256);
 }

@@ -71,7 +71,7 @@ static bool run_open_stages(struct run *r, struct err *e)
         r->n++;
         if (!st->open(one, e))
             return false;
-        one->seconds = stopwatch_cpu() - start;
+        one->seconds += stopwatch_cpu() - start; /* open may have put to it what was done for the stage before */
         one->bytes = arena_bytes(r->arena) - before;
     }
     return true;

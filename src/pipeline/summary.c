@@ -26,7 +26,7 @@ static void warn_contact(const struct contact *c, const struct board *b, struct 
         warn(report, arena_format(a, "contact '%s': %d more remark%s", c->name, b->n_warnings - MOST_OF_BOARD, b->n_warnings > MOST_OF_BOARD + 1 ? "s" : ""));
     if (b->lifted > 0)
         warn(report, arena_format(a, "contact '%s': the %s lifts %s off for %.4g s in all (negative normal force); no force then",
-                                  c->name, ball_rolls(c) ? "offset of its centre of mass" : "hand", ball_rolls(c) ? "the ball" : "the scraper", b->lifted));
+                                  c->name, ball_rolls(c) ? "turning of the uneven ball" : "hand", ball_rolls(c) ? "it" : "the scraper", b->lifted));
     if (b->unstated && b->quantity >= 0)
         warn(report, arena_format(a, "contact '%s': its WAV response does not say what it is in, and is summed as if in %s, like its mode table",
                                   c->name, modes_quantity_unit(b->quantity)));
@@ -151,6 +151,8 @@ static json_t *response_json(const struct ring_choice *c, double rate)
         json_object_set_new(r, "predicted_error_db", number(decibel(c->error)));
     else if (c->moves && c->engine != RING_PANNED)
         json_object_set_new(r, "exact", json_true());
+    if (c->error > 0 && c->engine == RING_PANNED)
+        json_object_set_new(r, "error_is_bound", json_true());
     return r;
 }
 

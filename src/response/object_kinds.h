@@ -67,6 +67,9 @@ double object_nearest(const struct object *o, double *x, double *y);
 void object_list_add(struct object_list *l, struct arena *a, struct object_mode m);
 void object_list_cut(struct object_list *l, const struct object_limit *limit);
 
+/* ---- object_body.c: NULL: a needed size or figure is missing, or sizes do not fit, ERR_SCENE */
+const struct object_body *object_body_make(const struct object_given *given, const char *key, struct arena *a, struct err *e);
+
 /* ---- object_beam.c: bending of a slender bar, edges not supported */
 double object_beam_root(int edges, int i);                /* beta L of mode i = 1, 2, ... */
 void object_beam_bind(struct arena *a, struct object *o); /* a = i */

@@ -336,6 +336,16 @@ struct input {              /* a file the scene names; sha256 NULL: not pinned  
     const char *file, *sha256;
 };
 
+struct scene_place {        /* where a key that is given stands: scene/scene_places.h            */
+    const char *contact;    /* its name; NULL: the key is the scene's own                        */
+    const char *key;        /* "surface.response"                                                */
+    const char *label;      /* as messages call it: "contacts.rod.surface.response"              */
+    const char *value;      /* of a key that names a file: its path; else NULL                   */
+    const char *file;       /* "scene.yaml", or "--set surface.response" with line 0             */
+    int line, column;       /* of the value; of a section, of its name                           */
+    struct scene_place *next;
+};
+
 struct scene {
     const char *file;       /* where it was read from                                            */
     const char **sources;   /* every text file that was read for it, itself first; ends with NULL */
@@ -348,6 +358,7 @@ struct scene {
     struct accuracy accuracy;
     struct input *inputs;   /* pinned hashes of an effective scene                               */
     int n_inputs;
+    struct scene_place *places;
 };
 
 #endif

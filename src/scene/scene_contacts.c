@@ -7,6 +7,7 @@
 #include "scene/keys.h"
 #include "scene/scene_check.h"
 #include "scene/scene_keys.h"
+#include "scene/scene_places.h"
 #include "scene/scene_sense.h"
 #include "scene/scene_table.h"
 #include "scene/scene_values.h"
@@ -43,6 +44,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
     name_check(t->yaml, map);
     scene_check_fill(&part);
+    scene_places_note(&part, c->name, t->scene);
     ball_settle(c);
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;

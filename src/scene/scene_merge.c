@@ -1,11 +1,10 @@
-/* Includes and overrides: see scene_merge.h. `accuracy: high` counts as {preset: high} when knobs are laid over it; a preset laid
+/* Includes: see scene_merge.h. `accuracy: high` counts as {preset: high} when knobs are laid over it; a preset laid
    over knobs replaces them all. */
 #include "scene/scene_merge.h"
 
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/text.h"
 #include "file/yaml_bytes.h"
 #include "file/yaml_parse.h"
 
@@ -27,15 +26,15 @@ const char *scene_merge_path(struct yaml *y, const struct diag_source *source, c
 
 /* ------------------------------------------------------------------ merging */
 
-static void value_replace(struct yaml_node *map, struct yaml_node *old, struct yaml_node *value)
+void scene_merge_replace(struct yaml_node *in, struct yaml_node *old, struct yaml_node *value)
 {
-    struct yaml_node **link = &map->first;
+    struct yaml_node **link = &in->first;
     while (*link != old)
         link = &(*link)->next;
     value->next = old->next;
     *link = value;
-    if (map->last == old)
-        map->last = value;
+    if (in->last == old)
+        in->last = value;
 }
 
 /* `accuracy: high` as {preset: high}. */
@@ -49,27 +48,24 @@ static struct yaml_node *preset_map(struct yaml *y, struct yaml_node *word)
     return map;
 }
 
-static struct yaml_node *opened(struct yaml *y, struct yaml_node *parent, struct yaml_node *item)
+struct yaml_node *scene_merge_opened(struct yaml *y, struct yaml_node *map, struct yaml_node *item)
 {
     if (item->kind != YAML_SCALAR || yaml_null(item) || !item->key || strcmp(item->key->text, "accuracy") != 0)
         return item;
-    struct yaml_node *map = preset_map(y, item);
-    value_replace(parent, item, map);
-    return map;
+    struct yaml_node *made = preset_map(y, item);
+    scene_merge_replace(map, item, made);
+    return made;
 }
-
-static void put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, struct yaml_node *value);
 
 static void merge(struct yaml *y, struct yaml_node *under, struct yaml_node *over)
 {
     for (struct yaml_node *item = over->first, *next; item; item = next) {
         next = item->next;
-        put(y, under, item->key, item);
+        scene_merge_put(y, under, item->key, item);
     }
 }
 
-/* Lays key: value over a map. */
-static void put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, struct yaml_node *value)
+void scene_merge_put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, struct yaml_node *value)
 {
     struct yaml_node *old = yaml_get(map, key->text);
     if (!old) {
@@ -77,12 +73,12 @@ static void put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, st
         return;
     }
     if (value->kind == YAML_MAP)
-        old = opened(y, map, old);
+        old = scene_merge_opened(y, map, old);
     if (value->kind == YAML_MAP && old->kind == YAML_MAP) {
         old->key = key;
         merge(y, old, value);
     } else {
-        value_replace(map, old, value);
+        scene_merge_replace(map, old, value);
         value->key = key;
     }
 }
@@ -187,118 +183,4 @@ struct yaml_node *scene_merge_text(struct yaml *y, const struct diag_source *sou
     struct chain chain = {.source = source};
     chain.on_disk = stat(source->name, &chain.status) == 0;
     return read_all(y, &chain);
-}
-
-/* ------------------------------------------------------------------ --set, --seed */
-
-struct assignment {
-    struct yaml *y;
-    struct diag_source *source;
-    size_t from, to; /* of the part of the path that is looked at */
-};
-
-static struct diag_place part_place(const struct assignment *s)
-{
-    const char *text = s->source->text;
-    int column = (int)text_utf8_count(text, s->from) + 1, width = (int)text_utf8_count(text + s->from, s->to - s->from);
-    return (struct diag_place){s->source, 1, column, width > 0 ? width : 1};
-}
-
-static struct yaml_node *part_key(const struct assignment *s)
-{
-    const char *word = arena_format(s->y->arena, "%.*s", (int)(s->to - s->from), s->source->text + s->from);
-    return yaml_make(s->y, YAML_SCALAR, part_place(s), word);
-}
-
-/* The entry of a list: by number from 0, or by its name. */
-static struct yaml_node *list_entry(const struct assignment *s, struct yaml_node *list, const char *word)
-{
-    const char **names = ARENA_TAKE(s->y->arena, const char *, list->n + 1);
-    int index = -1, i = 0, n = 0;
-    text_int(word, 0, list->n - 1, &index);
-    for (struct yaml_node *item = list->first; item; item = item->next, i++) {
-        const struct yaml_node *name = yaml_get(item, "name");
-        if (i == index || (name && name->kind == YAML_SCALAR && strcmp(name->text, word) == 0))
-            return item;
-        if (name && name->kind == YAML_SCALAR)
-            names[n++] = name->text;
-    }
-    const char *near = text_nearest(word, names);
-    const char *cure = near ? arena_format(s->y->arena, "did you mean '%s'?", near)
-                            : arena_format(s->y->arena, "entries are named by their name or by a number from 0 to %d", list->n - 1);
-    diag_add(s->y->diag, part_place(s), cure, "no entry '%s' in this list", diag_shown(s->y->diag, word));
-    return NULL;
-}
-
-/* One step down the path; what is not there, or is not a map, becomes one. */
-static struct yaml_node *step(const struct assignment *s, struct yaml_node *at, struct yaml_node *key)
-{
-    if (at->kind == YAML_LIST)
-        return list_entry(s, at, key->text);
-    struct yaml_node *child = yaml_get(at, key->text);
-    if (child)
-        child = opened(s->y, at, child);
-    if (child && child->kind != YAML_SCALAR)
-        return child;
-    child = yaml_make(s->y, YAML_MAP, key->at, NULL);
-    put(s->y, at, key, child);
-    return child;
-}
-
-static void list_put(const struct assignment *s, struct yaml_node *list, const char *word, struct yaml_node *value)
-{
-    struct yaml_node *old = list_entry(s, list, word);
-    if (old)
-        value_replace(list, old, value);
-}
-
-static bool part_next(struct assignment *s, size_t end)
-{
-    s->to = s->from + strcspn(s->source->text + s->from, ".");
-    if (s->to > end)
-        s->to = end;
-    if (s->to > s->from)
-        return true;
-    diag_add(s->y->diag, part_place(s), "write for instance: --set \"motion.rate=3 Hz\"", "a part of the path is empty");
-    return false;
-}
-
-static void assign(struct assignment *s, struct yaml_node *root, size_t equals)
-{
-    struct yaml_node *at = root, *value = yaml_parse_value(s->y, s->source, equals + 1);
-    while (value && at && part_next(s, equals)) {
-        struct yaml_node *key = part_key(s);
-        if (s->to == equals) {
-            if (at->kind == YAML_LIST)
-                list_put(s, at, key->text, value);
-            else if (at->kind == YAML_MAP)
-                put(s->y, at, key, value);
-            return;
-        }
-        at = step(s, at, key);
-        s->from = s->to + 1;
-    }
-}
-
-void scene_merge_set(struct yaml *y, struct yaml_node *root, const char *text)
-{
-    size_t equals = strcspn(text, "=");
-    const char *name = arena_format(y->arena, "--set %.*s", (int)equals, text);
-    struct assignment s = {.y = y, .source = yaml_source(y, name, text, strlen(text))};
-    s.source->option = true;
-    if (!text[equals])
-        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write for instance: --set \"motion.rate=3 Hz\"", "has no '=VALUE'");
-    else if (strncmp(text, "include", equals) == 0 && equals == strlen("include"))
-        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write include: into a scene file", "include cannot be set here");
-    else
-        assign(&s, root, equals);
-}
-
-void scene_merge_seed(struct yaml *y, struct yaml_node *root, const char *number)
-{
-    struct diag_source *source = yaml_source(y, "--seed", number, strlen(number));
-    source->option = true;
-    struct yaml_node *value = yaml_parse_value(y, source, 0);
-    if (value)
-        put(y, root, yaml_make(y, YAML_SCALAR, (struct diag_place){source, 1, 1, 0}, "seed"), value);
 }

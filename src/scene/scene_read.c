@@ -10,8 +10,10 @@
 #include "scene/scene_contacts.h"
 #include "scene/scene_inputs.h"
 #include "scene/scene_merge.h"
+#include "scene/scene_places.h"
 #include "scene/scene_recipe.h"
 #include "scene/scene_sense.h"
+#include "scene/scene_set.h"
 #include "scene/scene_table.h"
 #include "scene/scene_values.h"
 #include "scene/units.h"
@@ -20,6 +22,7 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct scene_part top = {y, root, "", KEY_SCENE, s};
     scene_check_fill(&top);
+    scene_places_note(&top, NULL, s);
     if (!y->missing) {
         scene_table_rate(&top);
         scene_sense_output(&top);
@@ -55,9 +58,9 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
         return;
     for (int i = 0; over && i < over->n; i++)
         if (!y->missing || strncmp(over->set[i], "contacts.", strlen("contacts.")) != 0) /* they may stand in a file that is not there */
-            scene_merge_set(y, root, over->set[i]);
+            scene_set(y, root, over->set[i]);
     if (over && over->seed)
-        scene_merge_seed(y, root, over->seed);
+        scene_set_seed(y, root, over->seed);
     if (another_version(y, root))
         return;
     bool readable = scene_recipe_merge(y, root);

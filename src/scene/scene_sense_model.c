@@ -132,7 +132,7 @@ static void strike_check(const struct scene_part *p, const struct contact *c)
 
 /* ------------------------------------------------------------------ given */
 
-/* The file's name tells what it is; of other names the file itself does, when it is read. */
+/* The file's name tells what it is; of other names the file itself does, when it is read. One that is not there is what is wrong first (pipeline/inputs.h). */
 static void given_check(const struct scene_part *p, const struct given_force *g)
 {
     static const char *const kinds[] = {"a WAV", "an NPY", "a CSV"}, *const endings[] = {".wav", ".npy", ".csv"};
@@ -145,9 +145,9 @@ static void given_check(const struct scene_part *p, const struct given_force *g)
         kind++;
     if (!g->file || kind == 3)
         return;
-    if (kind == 0)
+    if (kind == 0 && rules_is_there(g->file))
         scene_check_missing(p, "contact.given.scale", "10 N", ": a WAV does not say how many newtons its full scale stands for");
-    if (kind == 1)
+    if (kind == 1 && rules_is_there(g->file))
         scene_check_missing(p, "contact.given.rate", "48 kHz", ": an NPY does not say how many samples a second has");
     const bool said[] = {g->channel > 1, !isnan(g->rate), g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
     for (int i = 0; i < 3; i++)

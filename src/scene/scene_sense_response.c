@@ -100,7 +100,8 @@ static void length_check(const struct body *b)
 static void nodes_check(const struct body *b, const struct motion *m)
 {
     struct diag *d = b->part->yaml->diag;
-    if (b->response->convolution != ENGINE_NODES || rules_is_recorded(b->response))
+    const struct response *r = b->response;
+    if (r->convolution != ENGINE_NODES || rules_is_recorded(r))
         return;
     if (strcmp(b->name, "surface") != 0)
         diag_add(d, later(b, "convolution", "convolution"), leave_out(b, "convolution", "resonators"), "%s: nodes are for a response that moves, and a %s's does not",
@@ -109,6 +110,10 @@ static void nodes_check(const struct body *b, const struct motion *m)
         diag_add(d, scene_part_later(b->part, path_of(b, "convolution"), "motion.path"), leave_out(b, "convolution", "overlap_add"),
                  "%s: nodes lie along a straight motion, and %s is %s", label_of(b, "convolution"), scene_part_label(b->part, "motion.path"),
                  keys_find("motion.path")->choices[m->path].word);
+    else if (r->object.given && m->path != PATH_STILL)
+        diag_add(d, later(b, "convolution", "convolution"), leave_out(b, "convolution", "resonators"),
+                 "%s: nodes are for frequencies that differ from place to place, and those of %s are the same everywhere", label_of(b, "convolution"),
+                 label_of(b, "object"));
 }
 
 static void body_check(const struct scene_part *p, const char *name, const struct response *r, const struct motion *m)

@@ -42,6 +42,7 @@ struct relief {
     int along;           /* enum along; ALONG_AUTO until a part or relief_settle decides */
     double origin[2];    /* m, surface.origin: where the surface's own x = y = 0 lies in the scene; not along a path */
     struct relief_part *first;
+    const struct relief *under; /* what a round tip goes over, if first is its way; NULL: no tip */
 };
 
 /* Adds a part, behind those there. */

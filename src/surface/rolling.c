@@ -1,144 +1,34 @@
-/* See rolling.h. Three memories of blocks on lattices through 0, each made from the one before when it is asked for:
+/* See rolling.h. The envelope E at multiples of h = patch / 4 (surface/crests.h), and from it, block by block, when they are asked for:
 
-     heights   z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula. In one coordinate crest.c keeps them,
-               at a pitch of their own
-     crests    E at multiples of h = patch / 4
      splines   coefficients c = G * B^-1 * E of a cubic spline, z = sum c_i B(x/h - i): the Gaussian G of standard deviation 4 h, sampled, and
                the inverse of reading a spline at its knots (surface/profile.h), in one symmetric kernel in each direction. It is cut at 28
                points, 7 standard deviations: the Gaussian leaves nothing of the inverse's own slow decay there. Its sum is made 1.
 
    All sums are finite and in one order wherever a block begins, so that the result is a function of the place alone, to the last bit.
 
-   Errors. The ball touches between samples too: E is too low by at most d^2/8 (1/R + |z''|) at the places of contact (in each direction; in
-   the plane, Taylor's formula adds d^3/17 |z'''|). A kink of the envelope by J in slope is J g(x) in curvature after the Gaussian g; on the
+   Errors, beside those of E. A kink of the envelope by J in slope is J g(x) in curvature after the Gaussian g; on the
    lattice it is off by h^2/12 J g'', at most 1/192 of its peak, and the spline's curvature by (h k)^2/12 for a spatial frequency k (rad/m):
-   1/192 where k patch = 1. These two together stay within 1 % of the largest curvature. Measured for d on roughness of k^-2.4, 5 um rms, down
-   to 20 um, R = 1 mm, patch 20 um: curvature off by 3.0, 0.6, 0.06 % (rms) at d = 1, 1/2, 1/4 of the surface's finest scale. */
+   1/192 where k patch = 1. These two together stay within 1 % of the largest curvature. Measured for the pitch d of heights on roughness of k^-2.4, 5 um rms,
+   down to 20 um, R = 1 mm, patch 20 um: curvature off by 3.0, 0.6, 0.06 % (rms) at d = 1, 1/2, 1/4 of the surface's finest scale. */
 #include "surface/rolling.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "num/lanes.h"
 #include "num/real.h"
-#include "surface/envelope.h"
-#include "surface/kept.h"
+#include "surface/crests.h"
 
-enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 16, CREST = 32, READ = 64, EIGHT = 8, EDGE = 3, WIDEST = LINE + EDGE + 2 * KERNEL };
-
-struct grid {               /* blocks of side[0] x side[1] points */
-    struct kept *blocks;
-    long side[2];
-};
+enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 16, EDGE = 3, WIDEST = LINE + EDGE + 2 * KERNEL };
 
 struct rolling {
-    const struct relief *under;
-    struct rolling_plan plan;
-    bool plane, warned;
-    double h, d, least, most; /* d: of the plane */
-    long reach;             /* in d */
+    bool plane;
+    double h;
     double kernel[KERNEL + 1];
-    struct grid heights, crests, splines; /* a block of splines has EDGE more coefficients: those of its cells */
-    struct envelope *envelope; /* of the plane */
-    struct relief line;     /* the envelope in one coordinate */
+    struct grid crests, splines; /* a block of splines has EDGE more coefficients: those of its cells */
     double *crest, *half;   /* work: crests under a block of splines; the same, done along rows */
     long column, row;       /* of the block of splines at hand */
     const double *at_hand;  /* NULL: none */
 };
-
-static long floor_over(long i, long n)
-{
-    return i >= 0 ? i / n : -((-i + n - 1) / n);
-}
-
-/* Points [from, from + size) of a lattice, in rows that begin `stride` numbers apart. */
-static void grid_gather(const struct grid *g, const long from[2], const long size[2], double *out, long stride)
-{
-    for (long by = floor_over(from[1], g->side[1]); by * g->side[1] < from[1] + size[1]; by++)
-        for (long bx = floor_over(from[0], g->side[0]); bx * g->side[0] < from[0] + size[0]; bx++) {
-            const double *b = kept_at(g->blocks, bx, by);
-            long x = bx * g->side[0] - from[0], y = by * g->side[1] - from[1];
-            long x0 = x > 0 ? x : 0, x1 = x + g->side[0] < size[0] ? x + g->side[0] : size[0];
-            for (long j = y > 0 ? y : 0; j < y + g->side[1] && j < size[1]; j++)
-                memcpy(out + j * stride + x0, b + (j - y) * g->side[0] + (x0 - x), (size_t)(x1 - x0) * sizeof *out);
-        }
-}
-
-/* ------------------------------------------------------------------ heights */
-
-static void heights_watch(struct rolling *w, const double *z, long n)
-{
-    for (long i = 0; i < n; i++) {
-        w->least = fmin(w->least, z[i]);
-        w->most = fmax(w->most, z[i]);
-    }
-    if (!w->warned && w->most - w->least > w->plan.span) {
-        w->warned = true;
-        if (w->plan.exceeded)
-            w->plan.exceeded(w->plan.self);
-    }
-}
-
-/* Reading is most of the work, and parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in
-   its middle, and they are its Taylor polynomial of second degree. 64 points are read at a time, in a square, as parts that keep a patch of
-   coefficients like it. */
-static void heights_fill(void *self, long column, long row, double *out)
-{
-    struct rolling *w = self;
-    double x[READ], y[READ], z[READ], zx[READ], zy[READ], xx[READ], xy[READ], yy[READ], s = w->d / 2;
-    long side = w->heights.side[0], first_x = column * side, first_y = row * side;
-    for (long at = 0; at < side * side / (2 * EIGHT * 2 * EIGHT); at++) {
-        long left = at % (side / (2 * EIGHT)) * 2 * EIGHT, below = at / (side / (2 * EIGHT)) * 2 * EIGHT;
-        for (long k = 0; k < READ; k++) {
-            x[k] = ((double)(first_x + left + 2 * (k % EIGHT)) + 0.5) * w->d;
-            y[k] = ((double)(first_y + below + 2 * (k / EIGHT)) + 0.5) * w->d;
-        }
-        relief_at(w->under, &(struct relief_points){READ, x, y}, &(struct relief_values){z, zx, zy, xx, xy, yy});
-        for (long k = 0; k < READ; k++) {
-            double *to = out + (below + 2 * (k / EIGHT)) * side + left + 2 * (k % EIGHT);
-            double even = z[k] + 0.5 * s * s * (xx[k] + yy[k]), cross = s * s * xy[k], a = s * zx[k], b = s * zy[k];
-            to[0] = even + cross - (a + b);
-            to[1] = even - cross + (a - b);
-            to[side] = even - cross - (a - b);
-            to[side + 1] = even + cross + (a + b);
-        }
-    }
-    heights_watch(w, out, side * side);
-}
-
-/* ------------------------------------------------------------------ crests */
-
-long rolling_side(const struct rolling_plan *p)
-{
-    return (CREST - 1) * p->finer + 1 + 2 * (long)ceil(p->reach / (p->patch / ROLLING_PER_PATCH / p->finer));
-}
-
-static void crests_plane(void *self, long column, long row, double *out)
-{
-    struct rolling *w = self;
-    long finer = w->plan.finer, side = rolling_side(&w->plan), stride;
-    double *heights = envelope_heights(w->envelope, &stride);
-    grid_gather(&w->heights, (long[]){column * CREST * finer - w->reach, row * CREST * finer - w->reach}, (long[]){side, side}, heights, stride);
-    envelope_prepare(w->envelope);
-    for (long j = 0; j < CREST; j++)
-        for (long i = 0; i < CREST; i++)
-            out[j * CREST + i] = envelope_at(w->envelope, w->reach + i * finer, w->reach + j * finer);
-}
-
-struct crest_plan rolling_crest(const struct rolling_plan *p)
-{
-    return (struct crest_plan){p->radius, p->pitch, p->reach, p->span, p->exceeded, p->self};
-}
-
-static void crests_line(void *self, long column, long row, double *out)
-{
-    struct rolling *w = self;
-    double x[LINE];
-    (void)row;
-    for (long i = 0; i < LINE; i++)
-        x[i] = (double)(column * LINE + i) * w->h;
-    relief_at(&w->line, &(struct relief_points){LINE, x, NULL}, &(struct relief_values){.z = out});
-}
 
 /* ------------------------------------------------------------------ splines */
 
@@ -196,7 +86,7 @@ static void splines_fill(void *self, long column, long row, double *out)
 static const double *rolling_cell(struct rolling *w, long i, long j)
 {
     const long *side = w->splines.side;
-    long column = floor_over(i, side[0]), row = w->plane ? floor_over(j, side[1]) : 0;
+    long column = grid_block(i, side[0]), row = w->plane ? grid_block(j, side[1]) : 0;
     if (!w->at_hand || column != w->column || row != w->row) {
         w->at_hand = kept_at(w->splines.blocks, column, row);
         w->column = column;
@@ -272,43 +162,19 @@ static void rolling_add(struct relief_part *part, const struct relief_points *p,
 
 /* ------------------------------------------------------------------ making */
 
-/* Blocks held: what a path of some decimetres needs of splines, so that going back over it costs nothing; of the others, what one block of the
-   next needs, and as much again. */
-static void rolling_plane(struct rolling *w, struct arena *a)
-{
-    long side = rolling_side(&w->plan);
-    size_t across = (size_t)(side / READ + 2), needed = 2 * across * across;
-    w->reach = (long)ceil(w->plan.reach / w->d);
-    w->envelope = envelope_make(a, w->plan.radius, w->d, side, side);
-    w->heights = (struct grid){kept_make(a, READ * READ, needed > 512 ? needed : 512, heights_fill, w), {READ, READ}};
-    w->crests = (struct grid){kept_make(a, CREST * CREST, 1024, crests_plane, w), {CREST, CREST}};
-    w->splines = (struct grid){kept_make(a, (SQUARE + EDGE) * (SQUARE + EDGE), 8192, splines_fill, w), {SQUARE, SQUARE}};
-}
-
-static void rolling_line(struct rolling *w, struct arena *a)
-{
-    struct crest_plan crest = rolling_crest(&w->plan);
-    w->line.along = ALONG_PATH;
-    relief_add(&w->line, crest_part(a, w->under, &crest));
-    w->crests = (struct grid){kept_make(a, LINE, 64, crests_line, w), {LINE, 1}};
-    w->splines = (struct grid){kept_make(a, LINE + EDGE, 512, splines_fill, w), {LINE, 1}};
-}
-
+/* Blocks held: what a path of some decimetres needs, so that going back over it costs nothing. */
 struct relief_part *rolling_part(struct arena *a, const struct relief *under, const struct rolling_plan *p)
 {
     struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct rolling *w = ARENA_TAKE(a, struct rolling, 1);
     double h = p->patch / ROLLING_PER_PATCH;
     long wide = SQUARE + EDGE + 2 * KERNEL;
-    *w = (struct rolling){.under = under, .plan = *p, .plane = under->along == ALONG_PLANE, .h = h, .d = h / p->finer, .least = HUGE_VAL,
-                          .most = -HUGE_VAL};
+    *w = (struct rolling){.plane = under->along == ALONG_PLANE, .h = h, .crests = crests_make(a, under, p)};
     w->crest = ARENA_TAKE(a, double, w->plane ? wide * wide : WIDEST);
     w->half = ARENA_TAKE(a, double, w->plane ? wide * (SQUARE + EDGE) : 1);
     kernel_make(w->kernel);
-    if (w->plane)
-        rolling_plane(w, a);
-    else
-        rolling_line(w, a);
+    w->splines = w->plane ? (struct grid){kept_make(a, (SQUARE + EDGE) * (SQUARE + EDGE), 8192, splines_fill, w), {SQUARE, SQUARE}}
+                          : (struct grid){kept_make(a, LINE + EDGE, 512, splines_fill, w), {LINE, 1}};
     *part = (struct relief_part){.name = "tip", .pitch = {h, w->plane ? h : 0}, .linear = !w->plane, .finest = h,
                                  .from = {-HUGE_VAL, -HUGE_VAL}, .to = {HUGE_VAL, HUGE_VAL}, .add = rolling_add, .state = w};
     return part;

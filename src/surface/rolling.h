@@ -18,12 +18,6 @@ struct rolling_plan {
 
 enum { ROLLING_PER_PATCH = 4 }; /* lattice points in a standard deviation */
 
-/* The side of the square of heights that are held at a time for a piece of the envelope in the plane. */
-long rolling_side(const struct rolling_plan *p);
-
-/* The envelope that is smoothed in one coordinate. */
-struct crest_plan rolling_crest(const struct rolling_plan *p);
-
 /* The part. `under` is read as it is then, and must live as long. */
 struct relief_part *rolling_part(struct arena *a, const struct relief *under, const struct rolling_plan *p);
 

@@ -18,11 +18,12 @@
 
    Heights are read as far as R; in the plane, where that would be most of the work, and in one coordinate where it is more than 65 536 of
    them, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For H, 16 384 places in the box of the motion
-   are read, R (at most 1 mm) beyond it included; H is half as much again, or that span and the map's own together if that is more. Should
-   heights turn up that span more, the render says so. */
+   are read, R (at most 1 mm) and what a ball goes over in thought (scene/ball.h) beyond it included; H is half as much again, or that span and the map's own
+   together if that is more. Should heights turn up that span more, the render says so. */
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
+#include "surface/crests.h"
 #include "surface/height_map.h"
 #include "surface/relief.h"
 #include "surface/rolling.h"
@@ -114,10 +115,12 @@ static double tip_pitch(const struct stage_run *r, const struct relief *under, c
 static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *under)
 {
     const struct scraper *s = &r->contact->scraper;
+    const struct trajectory *tr = r->board->trajectory;
     bool plane = under->along == ALONG_PLANE;
+    double beyond = fmin(s->radius, 1e-3) + ball_beyond(r->contact, trajectory_ground(tr));
     double wanted = tip_wanted_pitch(r, under), finer = s->patch > 0 ? ceil(s->patch / ROLLING_PER_PATCH / wanted * (1 - 1e-12)) : 1;
     bool look = plane || s->patch == 0 || relief_kinks(under) > 0 || s->radius > REACH_ALL * wanted / 2;
-    double scouted = look ? tip_scouted(under, r->board->trajectory, fmin(s->radius, 1e-3)) : 0, map = tip_map_span(r->board->height_map);
+    double scouted = look ? tip_scouted(under, tr, beyond) : 0, map = tip_map_span(r->board->height_map);
     struct rolling_plan p = {.radius = s->radius, .patch = s->patch, .reach = s->radius, .span = HUGE_VAL, .exceeded = tip_exceeded, .self = r,
                              .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
     p.pitch = plane ? p.patch / ROLLING_PER_PATCH / p.finer : tip_pitch(r, under, &p, scouted);
@@ -131,9 +134,9 @@ static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *un
 static bool tip_affordable(const struct stage_run *r, const struct rolling_plan *p, const struct relief *under, struct err *e)
 {
     bool plane = under->along == ALONG_PLANE, fine = !(relief_finest(under) / 2 >= p->patch / ROLLING_PER_PATCH && p->patch > 0);
-    struct crest_plan crest = rolling_crest(p);
+    struct crest_plan crest = crests_line(p);
     const char *tool = ball_tool(r->contact);
-    long side = plane ? rolling_side(p) : crest_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
+    long side = plane ? crests_side(p) : crest_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
     if (side <= most)
         return true;
     return err_set(e, ERR_SCENE,
@@ -165,11 +168,12 @@ static bool tip_open(struct stage_run *r, struct err *e)
     if (!tip_smoothed(r, under, e))
         return false;
     struct rolling_plan p = tip_plan(r, under);
-    struct crest_plan crest = rolling_crest(&p);
+    struct crest_plan crest = crests_line(&p);
     under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
     if (!tip_affordable(r, &p, under, e))
         return false;
     relief->first = NULL;
+    relief->under = under;
     relief_add(relief, p.patch > 0 ? rolling_part(r->arena, under, &p) : crest_part(r->arena, under, &crest));
     return true;
 }

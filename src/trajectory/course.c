@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "trajectory/cubic.h"
+#include "trajectory/knots.h"
 
 void course_speed(const void *self, size_t n, const double *w, double *g, double *dg)
 {
@@ -25,7 +26,7 @@ static void course_cubic_at(const struct course *c, size_t n, const double *w, c
     const struct cubic *axis = c->state;
     size_t i = 0;
     for (size_t k = 0; k < n; k++) {
-        i = cubic_next(&axis[0], i, w[k]);
+        i = knots_next(axis->n, axis->at, i, w[k]);
         for (int xy = 0; xy < 2; xy++) {
             double v[4];
             cubic_at(&axis[xy], i, w[k], v);

@@ -87,19 +87,6 @@ void cubic_smooth(size_t n, const double *x, const double *y, double cutoff, dou
     }
 }
 
-size_t cubic_find(const struct cubic *c, double x)
-{
-    size_t low = 0, high = c->n - 2;
-    while (low < high) {
-        size_t middle = (low + high + 1) / 2;
-        if (c->at[middle] <= x)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
-}
-
 void cubic_at(const struct cubic *c, size_t i, double x, double out[4])
 {
     double h = c->at[i + 1] - c->at[i], b0 = c->bend[i], b1 = c->bend[i + 1], third = (b1 - b0) / h, s = x - c->at[i];

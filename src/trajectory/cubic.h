@@ -18,18 +18,7 @@ void cubic_natural(struct cubic *, size_t n, const double *at, const double *y, 
    mean rate of knots) is 1/sqrt 2, half power; n >= 3. */
 void cubic_smooth(size_t n, const double *at, const double *y, double cutoff, double *y_smooth, struct arena *);
 
-/* The piece [at[i], at[i + 1]] in which x lies (the first or last one for x beyond the ends). */
-size_t cubic_find(const struct cubic *, double x);
-
-/* The piece of x when that of the place before it is known: x rises as a rule. */
-static inline size_t cubic_next(const struct cubic *c, size_t before, double x)
-{
-    if (x < c->at[before] || before + 2 >= c->n || x >= c->at[before + 2])
-        return cubic_find(c, x);
-    return x >= c->at[before + 1] ? before + 1 : before;
-}
-
-/* Value and first three derivatives at x, which lies in piece i; beyond the ends the straight line that goes on. */
+/* Value and first three derivatives at x, which lies in piece i (knots.h); beyond the ends the straight line that goes on. */
 void cubic_at(const struct cubic *, size_t i, double x, double out[4]);
 
 #endif

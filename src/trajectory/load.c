@@ -18,11 +18,13 @@
    Recorded: the natural cubic spline (C2) through the file's rows, their end values before and after them. Its times are those of the motion's
    file for a recorded motion, else they count from the start of the contact. Between rows a spline overshoots, also below 0.
 
-   Of a ball whose centre of mass is r off its centre (model roll), Newton's second law along the normal of the surface:
+   Of a ball whose centre of mass is r off its centre, or whose rim has lobes (model roll), Newton's second law along the normal of the surface:
 
-     N(t) = m (g cos(incline) + d2/dt2 (-r cos theta))                     theta: trajectory/spin.h
+     N(t) = m (g cos(incline) + d2/dt2 (-r cos theta + lobe_height cos(lobes theta)))      theta: trajectory/spin.h
 
-   As it turns evenly N is largest where the centre of mass is lowest, and least where it is highest: there its acceleration points up, and down.
+   the two terms by which its centre of mass rises and falls over level ground, slowly enough that it stays on it. (With contact.roll.penetration: paper the
+   lobes are in the penetration, and not here.) As it turns evenly N is largest where the centre of mass is lowest, and least where it is highest: there its
+   acceleration points up, and down.
    Papers/000 section 4.1 has it "maximal when the centre of mass moves downwards, and minimal when it moves up", a quarter of a turn earlier, and gives no
    formula; of a rigid body that does not hold. N < 0: the ball leaves the surface; no force, and counted. It is not followed through the air.
 
@@ -35,6 +37,7 @@
 #include "num/real.h"
 #include "scene/rules.h"
 #include "trajectory/cubic.h"
+#include "trajectory/knots.h"
 #include "trajectory/scan.h"
 #include "trajectory/series.h"
 
@@ -45,9 +48,14 @@ struct load_record {
     double clock;           /* s: the file's time at the start of the motion */
 };
 
+static bool lobes_press(const struct contact *c)
+{
+    return c->ball.lobe_height > 0 && c->contact.roll.penetration == PENETRATION_DEVIATION;
+}
+
 bool load_varies(const struct contact *c)
 {
-    return c->grip.given || c->load.recorded || (c->contact.model == CONTACT_ROLL && c->ball.offset > 0);
+    return c->grip.given || c->load.recorded || (c->contact.model == CONTACT_ROLL && (c->ball.offset > 0 || lobes_press(c)));
 }
 
 static double record_at(const struct load_record *r, size_t *piece, double t)
@@ -56,7 +64,7 @@ static double record_at(const struct load_record *r, size_t *piece, double t)
     double out[4], x = t + r->clock;
     if (x <= c->at[0] || x >= c->at[c->n - 1])
         return x <= c->at[0] ? c->y[0] : c->y[c->n - 1];
-    *piece = cubic_next(c, *piece, x);
+    *piece = knots_next(c->n, c->at, *piece, x);
     cubic_at(c, *piece, x, out);
     return out[0];
 }
@@ -73,9 +81,17 @@ void load_at(const struct load_law *l, size_t n, const double *t, const double *
 
 void load_turned(const struct load_law *l, size_t n, const double *u, const double *du, const double *ddu, double *force)
 {
-    spin_at(&l->spin, n, u, du, ddu, &(struct spin_out){.lift = force});
-    for (size_t i = 0; i < n; i++)
-        force[i] = l->still + l->turned * force[i];
+    double heave[LOAD_SOME];
+    for (size_t first = 0, some; first < n; first += some) {
+        double *at = force + first;
+        bool lobes = l->spin.lobe_height > 0;
+        some = n - first < LOAD_SOME ? n - first : LOAD_SOME;
+        spin_at(&l->spin, some, u + first, du + first, ddu + first, &(struct spin_out){.lift = at, .heave = lobes ? heave : NULL});
+        for (size_t i = 0; i < some && lobes; i++)
+            at[i] += heave[i];
+        for (size_t i = 0; i < some; i++)
+            at[i] = l->still + l->turned * at[i];
+    }
 }
 
 /* At n <= LOAD_SOME instants. */
@@ -171,13 +187,13 @@ static void load_scan_at(const void *self, size_t n, const double *t, double *y)
         load_moved(s->law, s->tr, n - first < LOAD_SOME ? n - first : LOAD_SOME, t + first, y + first);
 }
 
-/* Instants that show each turn of a ball on its own. x = R theta - r sin theta goes through the lowest place of its centre of mass within about
+/* Instants that show each turn of a ball on its own, and each lobe of its rim. x = R theta - r sin theta goes through the lowest place of its centre of mass within about
    (R - r)^1.5 / R^0.5: as r comes near R the force there is a sharp pulse. */
 static double load_turns(const struct load_law *l, const struct trajectory *tr)
 {
     const struct spin *s = &l->spin;
     double turns = tr->cycle * tr->top_speed / (2 * REAL_PI * s->radius), sharp = 1 - s->offset / s->radius;
-    return 64 * ceil(turns) / (sharp * sqrt(sharp));
+    return (s->lobe_height > 0 ? fmax(64, 16.0 * s->lobes) : 64) * ceil(turns) / (sharp * sqrt(sharp));
 }
 
 /* Extremes over the motion (over its first cycle when it repeats). */
@@ -197,6 +213,7 @@ bool load_make(const struct contact *c, const struct trajectory *tr, struct aren
     *l = (struct load_law){.still = n, .least = n, .most = n};
     if (load_varies(c) && !c->grip.given && !c->load.recorded) {
         l->spin = spin_make(c);
+        l->spin.lobe_height = lobes_press(c) ? l->spin.lobe_height : 0;
         l->turned = c->scraper.mass;
     }
     if (c->grip.given ? !load_grip(c, l, e) : c->load.recorded && !load_recorded(c, tr, a, l, e))

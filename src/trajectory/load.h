@@ -27,8 +27,8 @@ struct load_law {
    force. least and most are exact to rounding (trajectory/scan.h); those of a load that does not vary are `still`. */
 bool load_make(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e);
 
-/* Does the load of this contact vary over time by grip or record, or as a ball turns whose centre of mass is off its centre (model roll; roll_coupled
-   has its own dynamics)? (Approach and release alone do not count.) */
+/* Does the load of this contact vary over time by grip or record, or as a ball turns whose centre of mass is off its centre or whose rim has lobes
+   (model roll; roll_coupled has its own dynamics)? (Approach and release alone do not count.) */
 bool load_varies(const struct contact *c);
 
 /* Normal force in N at n instants, from accelerations ax, ay (m/s^2; read only by a grip, t only by a recorded force: else may be NULL);

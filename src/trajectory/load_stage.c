@@ -1,4 +1,4 @@
-/* The stage that lays the normal force on the board: only a grip, a recording, or a ball that is heavier on one side makes it vary. */
+/* The stage that lays the normal force on the board: only a grip, a recording, or a ball that is heavier on one side or not round makes it vary. */
 #include "scene/rules.h"
 #include "stage.h"
 #include "trajectory/load.h"
@@ -70,7 +70,7 @@ const struct stage load_stage = {
     .name = "load",
     .does = "normal force on the scraper over time",
     .paper = "000 eq. 8, 9; sec. 4.1",
-    .idle = "no grip, no load.recorded, no ball that is off its centre: the load is constant",
+    .idle = "no grip, no load.recorded, no ball that is off its centre or has lobes: the load is constant",
     .gives = ITEM_BIT(ITEM_LOAD),
     .asks = stage_asks,
     .wanted = stage_wanted,

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "trajectory/knots.h"
 #include "trajectory/series.h"
 #include "trajectory/speed.h"
 
@@ -66,27 +67,11 @@ static void given_fit(struct given *g, const double *v, struct arena *a)
     }
 }
 
-static size_t given_find(const struct given *g, double t)
-{
-    size_t low = 0, high = g->n - 2;
-    while (low < high) {
-        size_t middle = (low + high + 1) / 2;
-        if (g->t[middle] <= t)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
-}
-
 /* Distance, speed, and its derivative; at the speeds of its ends before and after the table. */
 static void given_way(const struct given *g, size_t *i, double t, double out[3])
 {
     double last = g->t[g->n - 1], at = t < 0 ? 0 : t > last ? last : t;
-    if (at < g->t[*i] || *i + 2 >= g->n || at >= g->t[*i + 2])
-        *i = given_find(g, at);
-    else
-        *i += at >= g->t[*i + 1];
+    *i = knots_next(g->n, g->t, *i, at);
     const double *c = g->c[*i];
     double x = at - g->t[*i];
     out[1] = fmax(c[0] + x * (c[1] + x * (c[2] + x * c[3])), 0); /* rounding leaves -1e-17 beside a row of 0 */

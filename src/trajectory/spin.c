@@ -78,13 +78,17 @@ static void spin_solve(const struct spin *s, size_t n, const double *u, struct c
     spin_sincos(n, o->phi, 1, o->s, o->c);
 }
 
+struct spin_way {
+    const double *du, *ddu; /* NULL: not needed */
+};
+
 /* Turning, and what follows from it, at n <= SPIN_CHUNK instants. */
-static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, const double *du, const double *ddu, const struct spin_out *out)
+static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way, const struct spin_out *out)
 {
     double r = p->offset;
     for (size_t i = 0; i < n; i++) {
         double s = o->s[i], c = o->c[i], lever = p->radius - r * c;
-        double w = du ? du[i] / lever : 0;
+        double w = way->du ? way->du[i] / lever : 0;
         if (out->theta)
             out->theta[i] = o->turns[i] * TURN[0] + (o->turns[i] * TURN[1] + (o->turns[i] * TURN[2] + o->phi[i]));
         if (out->turning)
@@ -94,21 +98,24 @@ static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, c
         if (out->climb)
             out->climb[i] = r * s * w;
         if (out->lift)
-            out->lift[i] = r * (c * w * w + s * ((ddu[i] - r * s * w * w) / lever));
+            out->lift[i] = r * (c * w * w + s * ((way->ddu[i] - r * s * w * w) / lever));
     }
 }
 
-static void spin_rim(const struct spin *p, size_t n, const struct chunk *o, const double *du, const struct spin_out *out)
+static void spin_rim(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way, const struct spin_out *out)
 {
-    double s[SPIN_CHUNK], c[SPIN_CHUNK];
-    if (!out->bulge && !out->swell)
+    double s[SPIN_CHUNK], c[SPIN_CHUNK], h = p->lobe_height, k = p->lobes;
+    if (!out->bulge && !out->swell && !out->heave)
         return;
     spin_sincos(n, o->phi, p->lobes, s, c);
     for (size_t i = 0; i < n; i++) {
+        double lever = p->radius - p->offset * o->c[i], w = way->du ? way->du[i] / lever : 0;
         if (out->bulge)
-            out->bulge[i] = p->lobe_height * c[i];
+            out->bulge[i] = h * c[i];
         if (out->swell)
-            out->swell[i] = -p->lobe_height * p->lobes * s[i] * (du[i] / (p->radius - p->offset * o->c[i]));
+            out->swell[i] = -h * k * s[i] * w;
+        if (out->heave)
+            out->heave[i] = -h * k * (k * c[i] * w * w + s[i] * ((way->ddu[i] - p->offset * o->s[i] * w * w) / lever));
     }
 }
 
@@ -120,14 +127,15 @@ static double *later(double *x, size_t first)
 void spin_at(const struct spin *s, size_t n, const double *u, const double *du, const double *ddu, const struct spin_out *out)
 {
     struct chunk o;
-    assert(s->offset >= 0 && s->offset < s->radius && (ddu || !out->lift) && (du || (!out->turning && !out->climb && !out->lift && !out->swell)));
+    assert(s->offset >= 0 && s->offset < s->radius && (ddu || (!out->lift && !out->heave)) &&
+           (du || (!out->turning && !out->climb && !out->lift && !out->swell && !out->heave)));
     for (size_t first = 0; first < n; first += SPIN_CHUNK) {
         size_t some = n - first < SPIN_CHUNK ? n - first : SPIN_CHUNK;
         struct spin_out at = {later(out->theta, first), later(out->turning, first), later(out->rise, first), later(out->climb, first),
-                              later(out->lift, first), later(out->bulge, first), later(out->swell, first)};
-        const double *v = du ? du + first : NULL;
+                              later(out->lift, first), later(out->bulge, first), later(out->swell, first), later(out->heave, first)};
+        struct spin_way way = {du ? du + first : NULL, ddu ? ddu + first : NULL};
         spin_solve(s, some, u + first, &o);
-        spin_motion(s, some, &o, v, ddu ? ddu + first : NULL, &at);
-        spin_rim(s, some, &o, v, &at);
+        spin_motion(s, some, &o, &way, &at);
+        spin_rim(s, some, &o, &way, &at);
     }
 }

@@ -16,12 +16,13 @@ struct spin_out {                  /* [n] each; NULL: not asked for */
     double *theta;                 /* rad; 0: the centre of mass is lowest; not reduced by full turns */
     double *turning;               /* rad/s, d theta / dt                        */
     double *rise, *climb, *lift;   /* m, m/s, m/s^2: height of the centre of mass over the geometric centre, -r cos(theta), and its two derivatives */
-    double *bulge, *swell;         /* m, m/s: how much further out than R the rim is below the centre, lobe_height cos(lobes theta), and its derivative */
+    double *bulge, *swell, *heave; /* m, m/s, m/s^2: how much further out than R the rim is below the centre, lobe_height cos(lobes theta), and its two
+                                      derivatives */
 };
 
 struct spin spin_make(const struct contact *c);
 
-/* At n instants, from u (m), du (m/s), ddu (m/s^2) of the motion; ddu may be NULL unless lift is asked for. x = R theta - r sin theta is solved to
+/* At n instants, from u (m), du (m/s), ddu (m/s^2) of the motion; ddu may be NULL unless lift or heave is asked for. x = R theta - r sin theta is solved to
    rounding (r < R). Every function of real.h, so the same bits everywhere. */
 void spin_at(const struct spin *s, size_t n, const double *u, const double *du, const double *ddu, const struct spin_out *out);
 

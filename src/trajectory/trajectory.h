@@ -59,4 +59,11 @@ void trajectory_continued(const struct trajectory *tr, double t, double place[2]
    t1 the direction turns by more than 90 degrees) and is then of opposite direction. At most one is expected between two force samples. */
 double trajectory_turning(const struct trajectory *tr, double t0, double t1);
 
+/* m of ground that the motion goes over: what it goes over again, there and back or round and round, is counted once. */
+static inline double trajectory_ground(const struct trajectory *tr)
+{
+    double once = tr->mean_speed * tr->cycle, reached = tr->reach[1] - tr->reach[0];
+    return once < reached ? once : reached;
+}
+
 #endif

@@ -4,12 +4,9 @@
    over weight, residual over the highest energy, and a hash of the force, the same on every instruction set. The last column is a prototype's cycles (another
    CPU, always in contact, 50 modes that stand), which kept no ledger. */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <string.h>
-#include <time.h>
-#include <x86intrin.h>
 
+#include "bench.h"
 #include "convolution/coupled.h"
 #include "scene/scene.h"
 
@@ -18,25 +15,6 @@ enum { MODES = 200, STEPS = 1 << 18, REPEATS = 3, PIECE = 1024 };
 #define MASS 0.02
 
 static double frequency[MODES], decay[MODES], phi[MODES], surface[PIECE], force[PIECE];
-
-static double thread_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Cycles of the time stamp counter in a second. */
-static double cycles_per_second(void)
-{
-    struct timespec a, b;
-    clock_gettime(CLOCK_MONOTONIC, &a);
-    uint64_t start = __rdtsc();
-    do
-        clock_gettime(CLOCK_MONOTONIC, &b);
-    while ((double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec) < 0.1);
-    return (double)(__rdtsc() - start) / ((double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec));
-}
 
 struct figures {
     double seconds, weight;
@@ -50,22 +28,13 @@ static void place(int n, double turn)
         phi[i] = 1.4 * sin((i + 1) * (0.7 + turn));
 }
 
-static void hash_on(uint64_t *hash)
-{
-    for (int i = 0; i < PIECE; i++) {
-        uint64_t bits;
-        memcpy(&bits, &force[i], sizeof bits);
-        *hash = (*hash ^ bits) * 1099511628211u;
-    }
-}
-
 static bool run(int n, bool moving, double bump, struct figures *f)
 {
     struct err e = {.kind = ERR_NONE};
     struct arena *a = arena_open();
     struct coupled *c;
     struct coupled_ask ask = {INTEGRATOR_DISCRETE_GRADIENT, 1 / RATE, MASS, MASS * 9.81, 5e9 * MASS, 1, n, frequency, decay};
-    *f = (struct figures){.hash = 14695981039346656037u};
+    *f = (struct figures){.hash = BENCH_HASH};
     place(n, 0);
     if (!coupled_make(a, &ask, &c, &e))
         return fprintf(stderr, "%s\n", e.text), false;
@@ -75,13 +44,13 @@ static bool run(int n, bool moving, double bump, struct figures *f)
             surface[i] = bump * sin(2 * M_PI * 300 * (double)(done + i + 1) / RATE) * sin(2 * M_PI * 7 * (double)(done + i + 1) / RATE);
         if (moving)
             place(n, 0.2 * (double)(done + PIECE) / RATE);
-        double start = thread_seconds();
+        double start = bench_seconds();
         if (!coupled_run(c, PIECE, surface, moving ? phi : NULL, force, &e))
             return fprintf(stderr, "%s\n", e.text), false;
-        f->seconds += thread_seconds() - start;
+        f->seconds += bench_seconds() - start;
         for (int i = 0; i < PIECE; i++)
             f->weight += force[i] / (MASS * 9.81 * STEPS);
-        hash_on(&f->hash);
+        f->hash = bench_hash(f->hash, force, PIECE);
     }
     f->end = *coupled_state(c);
     arena_close(a);
@@ -92,7 +61,7 @@ int main(void)
 {
     const int modes[] = {0, 50, 200};
     const double bumps[] = {0, 1e-7, 1e-5};
-    double clock = cycles_per_second();
+    double clock = bench_cycles_per_second();
     for (int i = 0; i < MODES; i++) {
         frequency[i] = 100 * pow(150, i % 50 / 49.0) * (1 + 0.003 * (i / 50));
         decay[i] = log(1000) / (0.9 * pow(frequency[i] / 100, -0.3));

@@ -3,11 +3,9 @@
    for the same envelope at the heights by the search of surface/envelope.h, which the plane needs, nanoseconds per height. Linear time: the columns do not grow with n or
    with the radius. */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 
+#include "bench.h"
 #include "surface/crest.h"
 #include "surface/envelope.h"
 
@@ -17,13 +15,6 @@ enum { LONGEST = 1 << 18, REPEATS = 3 };
 
 static double z[LONGEST], x[LONGEST], e[LONGEST];
 
-static double thread_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void ground_make(void)
 {
     uint64_t seed = 3;
@@ -31,9 +22,8 @@ static void ground_make(void)
         double from = 0, to = 0;
         for (long i = 0; i < LONGEST; i++) {
             if (i % (1 << octave) == 0) {
-                seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
                 from = to;
-                to = 5e-6 * pow(2, 0.7 * (octave - 12)) * ((double)(seed >> 11) / 4503599627370496.0 - 1);
+                to = 5e-6 * pow(2, 0.7 * (octave - 12)) * bench_draw(&seed);
             }
             z[i] += from + (to - from) * (double)(i % (1 << octave)) / (1 << octave);
         }
@@ -46,12 +36,12 @@ static void crest_time(double radius, long n, double best[2])
     struct arena *a = arena_open();
     struct crest *c = crest_make(a, radius, PITCH, n);
     for (int k = 0; k < REPEATS; k++) {
-        double start = thread_seconds();
+        double start = bench_seconds();
         crest_set(c, z, n, 0);
-        double middle = thread_seconds();
+        double middle = bench_seconds();
         crest_at(c, (size_t)n, x, e, NULL);
         best[0] = fmin(best[0], (middle - start) / (double)n * 1e9);
-        best[1] = fmin(best[1], (thread_seconds() - middle) / (double)n * 1e9);
+        best[1] = fmin(best[1], (bench_seconds() - middle) / (double)n * 1e9);
     }
     arena_close(a);
 }
@@ -61,13 +51,13 @@ static double search_time(double radius, long n)
     struct arena *a = arena_open();
     struct envelope *s = envelope_make(a, radius, PITCH, n, 1);
     long stride;
-    double *held = envelope_heights(s, &stride), start = thread_seconds(), worst = 0;
+    double *held = envelope_heights(s, &stride), start = bench_seconds(), worst = 0;
     for (long i = 0; i < n; i++)
         held[i] = z[i];
     envelope_prepare(s);
     for (long i = 0; i < n; i++)
         worst = fmax(worst, fabs(envelope_at(s, i, 0) - e[i]));
-    start = thread_seconds() - start;
+    start = bench_seconds() - start;
     arena_close(a);
     if (worst > 1e-16)
         printf("# the two differ by %g m\n", worst);

@@ -4,13 +4,10 @@
    ring on average, and a hash of the sound, the same on every instruction set. cap_ms: no hop is longer. The last column is a prototype
    (another CPU, overlap-add by FFT, the whole response at one hop): times real time where it has the case. */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <string.h>
-#include <time.h>
-#include <x86intrin.h>
 
 #include "../unit/hop.h"
+#include "bench.h"
 #include "convolution/launch.h"
 
 enum { MODES = 50, SECONDS = 4, REPEATS = 3, PIECE = 4096 };
@@ -23,30 +20,23 @@ struct mode {
 
 static struct mode modes[MODES];
 static double force[PIECE], sound[PIECE];
-static unsigned long long seed = 3;
-
-static double draw(void)
-{
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1;
-}
 
 static void make(double movement)
 {
-    seed = 3;
+    uint64_t seed = 3;
     for (int i = 0; i < MODES; i++) {
         struct mode *m = &modes[i];
         m->frequency = 100 * pow(150, i / (MODES - 1.0));
         m->decay = log(1000) / (0.9 * pow(m->frequency / 100, -0.3));
-        double gain = 1 + draw() / 2, phase = 3 * draw();
+        double gain = 1 + bench_draw(&seed) / 2, phase = 3 * bench_draw(&seed);
         m->re = gain * cos(phase);
         m->im = gain * sin(phase);
-        m->tune = log(1 + movement * draw());
-        m->damp = log(1.3) * draw();
-        m->swell = log(pow(10, 0.5)) * draw();
+        m->tune = log(1 + movement * bench_draw(&seed));
+        m->damp = log(1.3) * bench_draw(&seed);
+        m->swell = log(pow(10, 0.5)) * bench_draw(&seed);
     }
     for (int n = 0; n < PIECE; n++)
-        force[n] = draw();
+        force[n] = bench_draw(&seed);
 }
 
 /* There and back again, 2 s each. */
@@ -89,58 +79,29 @@ struct figures {
     uint64_t hash;
 };
 
-static double thread_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Cycles of the time stamp counter in a second. */
-static double cycles_per_second(void)
-{
-    struct timespec a, b;
-    clock_gettime(CLOCK_MONOTONIC, &a);
-    uint64_t start = __rdtsc();
-    do
-        clock_gettime(CLOCK_MONOTONIC, &b);
-    while ((double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec) < 0.1);
-    return (double)(__rdtsc() - start) / ((double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec));
-}
-
-static uint64_t hash_on(uint64_t hash)
-{
-    for (int n = 0; n < PIECE; n++) {
-        uint64_t bits;
-        memcpy(&bits, &sound[n], sizeof bits);
-        hash = (hash ^ bits) * 1099511628211u;
-    }
-    return hash;
-}
-
 static struct figures run(int order, double decibel, const double *hop)
 {
     struct figures best = {.times = 0};
     for (int k = 0; k < REPEATS; k++) {
         struct launch_ask ask = {.n = MODES, .order = order, .rate = RATE, .hop = hop, .floor = pow(10, (decibel - 10) / 20), .quantity = MODES_VELOCITY};
         struct launch *l = launch_open(&ask, point, NULL);
-        struct figures own = {.hash = 14695981039346656037u};
+        struct figures own = {.hash = BENCH_HASH};
         long pieces = SECONDS * (long)RATE / PIECE;
         double seconds = 0;
         for (long i = 0; i < pieces; i++) {
             memset(sound, 0, sizeof sound);
-            double start = thread_seconds();
+            double start = bench_seconds();
             launch_run(l, force, sound, PIECE);
-            seconds += thread_seconds() - start;
+            seconds += bench_seconds() - start;
             own.active += (double)launch_active(l) / (double)pieces;
-            own.hash = hash_on(own.hash);
+            own.hash = bench_hash(own.hash, sound, PIECE);
         }
         own.times = (double)(pieces * PIECE) / RATE / seconds;
         if (own.times > best.times)
             best = own;
         launch_close(l);
     }
-    best.cycles = cycles_per_second() / RATE / best.times;
+    best.cycles = bench_cycles_per_second() / RATE / best.times;
     return best;
 }
 

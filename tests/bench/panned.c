@@ -3,21 +3,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "bench.h"
 #include "convolution/overlap_add.h"
 #include "convolution/panned.h"
 
 enum { RATE = 44100, FRAMES = 10 * RATE, ROOM = FRAMES + 65536, REPEATS = 5, CALL = 1024 };
 
 static double force[ROOM], sound[ROOM];
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void response(void *self, int k, double *h, size_t length)
 {
@@ -55,10 +48,10 @@ static double panned(int keys, panned_share *share)
     double best = HUGE_VAL;
     for (int r = 0; r < REPEATS; r++) {
         struct panned *p = panned_open(&(struct panned_source){keys, RATE, share, response, &keys});
-        double start = now();
+        double start = bench_seconds();
         for (long at = 0; at + CALL <= FRAMES; at += CALL)
             panned_run(p, force + at, sound + at, CALL);
-        best = fmin(best, now() - start);
+        best = fmin(best, bench_seconds() - start);
         panned_close(p);
     }
     return best;
@@ -69,10 +62,10 @@ static double one(void)
     double best = HUGE_VAL;
     for (int r = 0; r < REPEATS; r++) {
         struct overlap_add *o = overlap_add_open(RATE, 0, 0, at_rest, NULL);
-        double start = now();
+        double start = bench_seconds();
         for (long at = 0; at + CALL <= FRAMES; at += CALL)
             overlap_add_run(o, force + at, sound + at, CALL);
-        best = fmin(best, now() - start);
+        best = fmin(best, bench_seconds() - start);
         overlap_add_close(o);
     }
     return best;

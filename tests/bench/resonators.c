@@ -4,11 +4,9 @@
    form, strict at 50 modes; glide: plus 5 % and the evaluation of poles). One CSV row per number of modes. */
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <time.h>
-#include <x86intrin.h>
 
+#include "bench.h"
 #include "convolution/resonators.h"
 
 enum { MODES = 1000, FRAMES = 64, CALLS = 200, REPEATS = 15 };
@@ -16,27 +14,6 @@ enum { MODES = 1000, FRAMES = 64, CALLS = 200, REPEATS = 15 };
 
 static double frequency[2][MODES], decay[2][MODES], re[2][MODES], im[2][MODES], f[FRAMES], y[FRAMES];
 static const struct modes_point points[2] = {{frequency[0], decay[0], re[0], im[0]}, {frequency[1], decay[1], re[1], im[1]}};
-
-static double thread_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Cycles of the time stamp counter in a second. */
-static double cycles_per_second(void)
-{
-    struct timespec a, b;
-    double seconds;
-    clock_gettime(CLOCK_MONOTONIC, &a);
-    uint64_t start = __rdtsc();
-    do {
-        clock_gettime(CLOCK_MONOTONIC, &b);
-        seconds = (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
-    } while (seconds < 0.1);
-    return (double)(__rdtsc() - start) / seconds;
-}
 
 /* Seconds per sample. */
 static double bank(struct arena *a, int n, bool glides)
@@ -46,10 +23,10 @@ static double bank(struct arena *a, int n, bool glides)
     struct resonators *r = resonators_make(a, &ask);
     double best = HUGE_VAL;
     for (int k = 0; k < REPEATS; k++) {
-        double start = thread_seconds();
+        double start = bench_seconds();
         for (int c = 0; c < CALLS; c++)
             resonators_run(r, f, y, FRAMES, &points[c & 1]);
-        best = fmin(best, thread_seconds() - start);
+        best = fmin(best, bench_seconds() - start);
     }
     return best / ((double)CALLS * FRAMES);
 }
@@ -60,7 +37,7 @@ static double scalar(int n)
     static double zr[MODES], zi[MODES];
     double best = HUGE_VAL;
     for (int k = 0; k < REPEATS; k++) {
-        double start = thread_seconds();
+        double start = bench_seconds();
         for (int c = 0; c < CALLS / 10; c++)
             for (int i = 0; i < n; i++) {
                 double size = exp(-decay[0][i] / RATE), turn = 2 * M_PI * frequency[0][i] / RATE;
@@ -75,7 +52,7 @@ static double scalar(int n)
                     y[j] += zi[i] - 0.5 * gi * f[j];
                 }
             }
-        best = fmin(best, thread_seconds() - start);
+        best = fmin(best, bench_seconds() - start);
     }
     return best / ((double)(CALLS / 10) * FRAMES);
 }
@@ -87,7 +64,7 @@ int main(void)
         const char *fixed, *glide;
     } rows[] = {{1, "", ""}, {8, "", ""}, {50, "25", "32"}, {200, "76", "104"}, {MODES, "374", "512"}};
     struct arena *a = arena_open();
-    double cycles = cycles_per_second();
+    double cycles = bench_cycles_per_second();
     for (int i = 0; i < MODES; i++) {
         frequency[0][i] = 60.0 + 23.0 * i;
         frequency[1][i] = 61.0 + 23.0 * i;

@@ -5,6 +5,8 @@
 #include "response/object.h"
 #include "unit.h"
 
+#define PI 3.14159265358979323846
+
 /* E = 12 (1 - nu^2) GPa, h = 1 mm, 1000 kg/m^3: a plate has D = 1 N m and rho h = 1 kg/m^2, so that w is the textbooks' lambda^2. */
 static inline struct object_given objects_given(int shape, int edges, double nu)
 {
@@ -25,10 +27,29 @@ static inline struct object objects_make(const struct object_given *g, int most,
     return o;
 }
 
+/* Of a shape with nothing out of the ordinary: its `most` lowest modes. */
+static inline struct object objects_of(int shape, int edges, double nu, int most, struct arena *a)
+{
+    struct object_given g = objects_given(shape, edges, nu);
+    return objects_make(&g, most, 1e9, a);
+}
+
+/* Any shape, free, with all that it needs: for tests that go through them all. */
+static inline struct object_given objects_any(int shape)
+{
+    struct object_given g = objects_given(shape, EDGES_FREE, 0.3);
+    g.tension = g.surface_tension = 100.0;
+    if (shape == OBJECT_ROD)
+        g.thickness = NAN;
+    if (shape == OBJECT_ROD || shape == OBJECT_STRING)
+        g.diameter = 1e-3;
+    return g;
+}
+
 /* rad/s, undamped */
 static inline double objects_w(const struct object *o, int i)
 {
-    double w = 2.0 * 3.14159265358979323846 * o->frequency[i];
+    double w = 2.0 * PI * o->frequency[i];
     return sqrt(w * w + o->decay[i] * o->decay[i]);
 }
 
@@ -55,11 +76,11 @@ static inline double objects_mass_error(const struct object *o, double density, 
     for (int i = 0; i < points; i++)
         for (int k = 0; k < points; k++) {
             double u = 0.5 * (1.0 + node[i]), x = o->low[0] + dx * u, y = o->low[1] + dy * 0.5 * (1.0 + node[k]);
-            double w = density * 0.25 * weight[i] * weight[k] * dx * dy, turn = 2.0 * 3.14159265358979323846 * k / points, r = u * o->high[0];
+            double w = density * 0.25 * weight[i] * weight[k] * dx * dy, turn = 2.0 * PI * k / points, r = u * o->high[0];
             if (round) {
                 x = r * cos(turn);
                 y = r * sin(turn);
-                w = density * 0.5 * weight[i] * o->high[0] * r * 2.0 * 3.14159265358979323846 / points;
+                w = density * 0.5 * weight[i] * o->high[0] * r * 2.0 * PI / points;
             }
             ck_assert(o->shapes(o, x, y, phi) < 1e-12);
             for (int p = 0; p < n; p++)

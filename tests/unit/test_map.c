@@ -2,8 +2,7 @@
    differences, continuity across cells and seams, orientation, orders of convergence. */
 #include "surface/map.h"
 
-#include "scene/scene.h"
-#include "unit.h"
+#include "samples.h"
 
 enum { COLUMNS = 23, ROWS = 17 };
 
@@ -21,7 +20,7 @@ static void random_heights(long seed)
     srand48(seed);
     for (int j = 0; j < ROWS; j++)
         for (int i = 0; i < COLUMNS; i++)
-            z[j][i] = 1e-6 * (drand48() + drand48() - 1);
+            z[j][i] = samples_random();
 }
 
 static struct relief_part *made(struct arena *a, int off_map)
@@ -43,22 +42,6 @@ static double size_of(int k)
     return 1e-6 / (pow(pitch[0], orders[k][0]) * pow(pitch[1], orders[k][1]));
 }
 
-/* Index after stepping i times from sample 0 on, by the rule. */
-static long walked(long n, int off_map, long i)
-{
-    long at = 0, step = i < 0 ? -1 : 1;
-    for (long k = 0; k != i; k += i < 0 ? -1 : 1) {
-        if (off_map == OFF_MAP_WRAP) {
-            at = at + step == n ? 0 : at + step < 0 ? n - 1 : at + step;
-            continue;
-        }
-        if (at + step == n || at + step < 0)
-            step = -step;
-        at += step;
-    }
-    return at;
-}
-
 /* ------------------------------------------------------------------ the judge: coefficients by relaxation, sums of polynomials */
 
 /* Solves (c[i-1] + 4 c[i] + c[i+1]) / 6 = right[i] along one row or column by Gauss-Seidel: each sweep at least halves the error. */
@@ -66,7 +49,7 @@ static void relax(const double *right, double *c, long n, long stride, int off_m
 {
     for (int sweep = 0; sweep < 200; sweep++)
         for (long i = 0; i < n; i++)
-            c[i * stride] = (6 * right[i * stride] - c[walked(n, off_map, i - 1) * stride] - c[walked(n, off_map, i + 1) * stride]) / 4;
+            c[i * stride] = (6 * right[i * stride] - c[samples_walked(n, off_map, i - 1) * stride] - c[samples_walked(n, off_map, i + 1) * stride]) / 4;
 }
 
 static void solve(int off_map, double c[ROWS][COLUMNS])
@@ -80,26 +63,13 @@ static void solve(int off_map, double c[ROWS][COLUMNS])
         relax(half[j], c[j], COLUMNS, 1, off_map);
 }
 
-/* The cubic B-spline and its derivatives, as polynomials over |x| <= 1 and 1 <= |x| <= 2. */
-static double b_spline(double x, int derivative)
-{
-    double r = fabs(x), side = x < 0 ? -1 : 1;
-    if (r >= 2)
-        return 0;
-    if (derivative == 0)
-        return r < 1 ? 2.0 / 3 - r * r + r * r * r / 2 : (2 - r) * (2 - r) * (2 - r) / 6;
-    if (derivative == 1)
-        return side * (r < 1 ? -2 * r + 1.5 * r * r : -(2 - r) * (2 - r) / 2);
-    return r < 1 ? 3 * r - 2 : 2 - r;
-}
-
 static double sum_at(double c[ROWS][COLUMNS], int off_map, double x, double y, int k)
 {
     double qx = (x - origin[0]) / pitch[0], qy = (y - origin[1]) / pitch[1], sum = 0;
     for (long j = (long)floor(qy) - 3; j <= (long)floor(qy) + 4; j++)
         for (long i = (long)floor(qx) - 3; i <= (long)floor(qx) + 4; i++)
-            sum += c[walked(ROWS, off_map, j)][walked(COLUMNS, off_map, i)] * b_spline(qx - (double)i, orders[k][0]) *
-                   b_spline(qy - (double)j, orders[k][1]);
+            sum += c[samples_walked(ROWS, off_map, j)][samples_walked(COLUMNS, off_map, i)] * samples_b_spline(qx - (double)i, orders[k][0]) *
+                   samples_b_spline(qy - (double)j, orders[k][1]);
     return sum / (pow(pitch[0], orders[k][0]) * pow(pitch[1], orders[k][1]));
 }
 
@@ -140,7 +110,7 @@ START_TEST(samples_are_met)
         for (long j = -2 * ROWS; j < 3 * ROWS; j++)
             for (long i = -2 * COLUMNS; i < 3 * COLUMNS; i++) {
                 double got = read_at(part, origin[0] + (double)i * pitch[0], origin[1] + (double)j * pitch[1]).v[0];
-                ck_assert_double_eq_tol(got, z[walked(ROWS, off_map, j)][walked(COLUMNS, off_map, i)], 1e-13 * 1e-6);
+                ck_assert_double_eq_tol(got, z[samples_walked(ROWS, off_map, j)][samples_walked(COLUMNS, off_map, i)], 1e-13 * 1e-6);
             }
         arena_close(a);
     }

@@ -2,8 +2,6 @@
 #include "objects.h"
 #include "scene/material.h"
 
-#define PI 3.14159265358979323846
-
 static const char *text_of(const struct object_given *g, double top, int most, bool note, struct arena *a)
 {
     struct object_ask ask = {"surface.object", top, most};
@@ -152,10 +150,7 @@ START_TEST(test_limits)
 {
     struct arena *a = arena_open();
     for (int shape = OBJECT_BAR; shape <= OBJECT_SHELL; shape++) {
-        struct object_given g = objects_given(shape, EDGES_FREE, 0.3);
-        g.tension = 100.0, g.surface_tension = 100.0;
-        g.thickness = shape == OBJECT_ROD ? NAN : 1e-3;
-        g.diameter = shape == OBJECT_STRING || shape == OBJECT_ROD ? 1e-3 : 2.0;
+        struct object_given g = objects_any(shape);
         struct object many = objects_make(&g, 60, 1e9, a), few = objects_make(&g, 25, 1e9, a), low = objects_make(&g, 60, many.frequency[30], a);
         ck_assert(many.n == 60 && few.n == 25 && low.n > 20 && low.n <= 31);
         for (int i = 0; i < 25; i++)

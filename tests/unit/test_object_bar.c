@@ -2,8 +2,6 @@
 #include "objects.h"
 #include "response/object_kinds.h"
 
-#define PI 3.14159265358979323846
-
 /* Blevins, table 8-1: free and clamped, cantilever. */
 START_TEST(test_roots)
 {
@@ -80,8 +78,7 @@ START_TEST(test_shapes)
     for (int edges = EDGES_FREE; edges <= EDGES_CANTILEVER; edges++) {
         if (edges == EDGES_SUPPORTED)
             continue;
-        struct object_given g = objects_given(OBJECT_BAR, edges, 0.3);
-        struct object o = objects_make(&g, 2000, 1e9, a);
+        struct object o = objects_of(OBJECT_BAR, edges, 0.3, 2000, a);
         double *phi = ARENA_TAKE(a, double, o.n), sign = edges == EDGES_FREE ? 1.0 : -1.0;
         for (double x = 0.0; x <= 1.0; x += 0.125) {
             o.shapes(&o, x, 0.5, phi);

@@ -1,8 +1,6 @@
 /* Objects as modes of velocity: gains, places, the choice of the strongest. */
 #include "objects.h"
 
-#define PI 3.14159265358979323846
-
 static const double nowhere[2] = {0.0, 0.0};
 
 static double ask(const struct modes *m, double x, double y, double *re, double *im)
@@ -49,9 +47,7 @@ START_TEST(test_reciprocity)
 {
     struct arena *a = arena_open();
     for (int shape = OBJECT_BAR; shape <= OBJECT_SHELL; shape++) {
-        struct object_given g = objects_given(shape, EDGES_FREE, 0.3);
-        g.tension = 100.0, g.surface_tension = 100.0;
-        g.thickness = shape == OBJECT_ROD ? NAN : 1e-3;
+        struct object_given g = objects_any(shape);
         struct object o = objects_make(&g, 30, 1e9, a);
         const double x[2] = {0.23, 0.11}, l[2] = {0.62, 0.37};
         double re[2][30], im[2][30], size = 0.0;
@@ -79,8 +75,7 @@ END_TEST
 START_TEST(test_nodes)
 {
     struct arena *a = arena_open();
-    struct object_given g = objects_given(OBJECT_BAR, EDGES_SUPPORTED, 0.3);
-    struct object o = objects_make(&g, 2, 1e9, a);
+    struct object o = objects_of(OBJECT_BAR, EDGES_SUPPORTED, 0.3, 2, a);
     const double quarter[2] = {0.25, 0.0};
     double re[2], im[2], across[2];
     struct modes m;
@@ -132,8 +127,7 @@ END_TEST
 START_TEST(test_shell)
 {
     struct arena *a = arena_open();
-    struct object_given g = objects_given(OBJECT_SHELL, EDGES_FREE, 0.3);
-    struct object o = objects_make(&g, 20, 1e9, a);
+    struct object o = objects_of(OBJECT_SHELL, EDGES_FREE, 0.3, 20, a);
     double here[20], there[20], re[20];
     struct modes m;
     object_modes(&o, nowhere, NULL, 20, a, &m);

@@ -2,12 +2,9 @@
 #include "objects.h"
 #include "response/object_kinds.h"
 
-#define PI 3.14159265358979323846
-
 static void expect(struct arena *a, int edges, double nu, const double *want, double tolerance)
 {
-    struct object_given g = objects_given(OBJECT_PLATE, edges, nu);
-    struct object o = objects_make(&g, 20, 1e9, a);
+    struct object o = objects_of(OBJECT_PLATE, edges, nu, 20, a);
     for (int i = 0; want[i] > 0.0; i++)
         OBJECTS_NEAR(objects_w(&o, i), want[i], tolerance);
 }

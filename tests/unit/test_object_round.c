@@ -1,8 +1,6 @@
 /* Disks, drums and spherical shells: published frequencies, orthonormal shapes, static deflections, both members of a pair. */
 #include "objects.h"
 
-#define PI 3.14159265358979323846
-
 /* Distinct frequencies against a rising list; every other one than n = 0 comes twice. */
 static void expect(struct arena *a, int shape, int edges, double nu, const double *want, double tolerance)
 {
@@ -43,8 +41,7 @@ START_TEST(test_orthonormal)
 {
     struct arena *a = arena_open();
     for (int edges = EDGES_FREE; edges <= EDGES_CLAMPED; edges++) {
-        struct object_given g = objects_given(OBJECT_DISK, edges, 0.3);
-        struct object o = objects_make(&g, 80, 1e9, a);
+        struct object o = objects_of(OBJECT_DISK, edges, 0.3, 80, a);
         ck_assert_double_lt(objects_mass_error(&o, 1.0, 64, true), 1e-10);
     }
     struct object_given g = objects_given(OBJECT_DRUM, EDGES_FREE, 0.3);
@@ -80,8 +77,7 @@ END_TEST
 START_TEST(test_pair)
 {
     struct arena *a = arena_open();
-    struct object_given g = objects_given(OBJECT_DISK, EDGES_FREE, 0.33);
-    struct object o = objects_make(&g, 30, 1e9, a);
+    struct object o = objects_of(OBJECT_DISK, EDGES_FREE, 0.33, 30, a);
     double p[30], q[30], r = 0.8;
     ck_assert(o.frequency[0] == o.frequency[1]);
     o.shapes(&o, r * cos(PI / 4 - 0.1), r * sin(PI / 4 - 0.1), p);
@@ -170,8 +166,7 @@ END_TEST
 START_TEST(test_shell_shapes)
 {
     struct arena *a = arena_open();
-    struct object_given g = objects_given(OBJECT_SHELL, EDGES_FREE, 0.3);
-    struct object o = objects_make(&g, 30, 1e9, a);
+    struct object o = objects_of(OBJECT_SHELL, EDGES_FREE, 0.3, 30, a);
     double phi[30], along = PI / 3.0;
     ck_assert(o.shapes(&o, along * 0.6, -along * 0.8, phi) == 0.0);
     OBJECTS_NEAR(phi[0], -0.125, 1e-13);

@@ -8,23 +8,7 @@
 #include <unistd.h>
 
 #include "base/outfile.h"
-#include "unit.h"
-
-/* A new folder, made the current one. */
-static void enter_folder(void)
-{
-    char name[] = "/tmp/test_outfile.XXXXXX";
-    ck_assert_ptr_nonnull(mkdtemp(name));
-    ck_assert_int_eq(chdir(name), 0);
-}
-
-static void leave_folder(void)
-{
-    char name[4096];
-    ck_assert_ptr_nonnull(getcwd(name, sizeof name));
-    ck_assert_int_eq(chdir("/"), 0);
-    ck_assert_int_eq(rmdir(name), 0);
-}
+#include "folder.h"
 
 static int entries(const char *folder)
 {
@@ -60,7 +44,7 @@ START_TEST(appears_only_when_complete)
 {
     struct outfile o;
     struct err e = {0};
-    enter_folder();
+    folder_enter();
     put_text("a", "old");
     ck_assert(outfile_open(&o, "a", &e));
     fputs("new", o.stream);
@@ -72,7 +56,7 @@ START_TEST(appears_only_when_complete)
     ck_assert_int_eq(entries("."), 1);
     check_text("a", "new");
     unlink("a");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -80,7 +64,7 @@ START_TEST(hidden_name_does_the_same)
 {
     struct outfile o, p;
     struct err e = {0};
-    enter_folder();
+    folder_enter();
     put_text("a", "old");
     ck_assert(outfile_open_hidden(&o, "a", &e));
     ck_assert(outfile_open_hidden(&p, "a", &e)); /* two at a time do not meet */
@@ -93,7 +77,7 @@ START_TEST(hidden_name_does_the_same)
     ck_assert_int_eq(entries("."), 1);
     check_text("a", "new");
     unlink("a");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -102,7 +86,7 @@ START_TEST(names_taken_by_others_are_passed_by)
     struct outfile o;
     struct err e = {0};
     char taken[64];
-    enter_folder();
+    folder_enter();
     snprintf(taken, sizeof taken, ".rasp-%ld-0.part", (long)getpid());
     put_text(taken, "left behind");
     ck_assert(outfile_open(&o, "a", &e));
@@ -112,7 +96,7 @@ START_TEST(names_taken_by_others_are_passed_by)
     check_text("a", "new");
     unlink("a");
     unlink(taken);
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -122,7 +106,7 @@ START_TEST(hash_of_what_is_written)
     char got[HASH_TEXT], want[HASH_TEXT];
     struct outfile o;
     struct err e = {0};
-    enter_folder();
+    folder_enter();
     ck_assert_msg(outfile_open(&o, "a", &e), "%s", e.text);
     fputs("half", o.stream);
     ck_assert_msg(outfile_hash(&o, got, &e), "%s", e.text);
@@ -132,7 +116,7 @@ START_TEST(hash_of_what_is_written)
     ck_assert_msg(outfile_commit(&o, &e), "%s", e.text);
     check_text("a", "half whole");
     unlink("a");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -140,7 +124,7 @@ START_TEST(drop_leaves_nothing)
 {
     struct outfile o, closed = {0};
     struct err e = {0};
-    enter_folder();
+    folder_enter();
     ck_assert(outfile_open(&o, "a", &e));
     fputs("x", o.stream);
     outfile_drop(&o);
@@ -151,13 +135,13 @@ START_TEST(drop_leaves_nothing)
     ck_assert_int_ge(fcntl(0, F_GETFD), 0);
     ck_assert_int_eq(entries("."), 0);
     ck_assert(!outfile_commit(&o, &e));
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
 START_TEST(killed_writer_leaves_nothing)
 {
-    enter_folder();
+    folder_enter();
     pid_t child = fork();
     if (child == 0) {
         struct outfile o;
@@ -170,7 +154,7 @@ START_TEST(killed_writer_leaves_nothing)
     waitpid(child, &status, 0);
     ck_assert(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
     ck_assert_int_eq(entries("."), 0);
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -190,7 +174,7 @@ static void check_refused(const char *target, const char *says)
 START_TEST(refusals)
 {
     char long_name[301];
-    enter_folder();
+    folder_enter();
     ck_assert_int_eq(mkdir("folder", 0777), 0);
     memset(long_name, 'a', 300);
     long_name[300] = '\0';
@@ -205,13 +189,13 @@ START_TEST(refusals)
     unlink("a");
     rmdir("folder");
     ck_assert_int_eq(entries("."), 0);
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
 START_TEST(write_protected_is_refused)
 {
-    enter_folder();
+    folder_enter();
     put_text("a", "mine");
     chmod("a", 0444);
     pid_t child = fork(); /* permissions do not bind root: as nobody */
@@ -229,14 +213,14 @@ START_TEST(write_protected_is_refused)
     ck_assert_int_eq(WEXITSTATUS(status), 0);
     check_text("a", "mine");
     unlink("a");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
 START_TEST(link_target_is_replaced_not_the_link)
 {
     struct stat s;
-    enter_folder();
+    folder_enter();
     ck_assert_int_eq(mkdir("far", 0777), 0);
     put_text("far/a", "old");
     ck_assert_int_eq(symlink("far/a", "near"), 0);
@@ -247,7 +231,7 @@ START_TEST(link_target_is_replaced_not_the_link)
     unlink("near");
     unlink("far/a");
     rmdir("far");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -273,23 +257,23 @@ static void check_full(bool hidden)
 
 START_TEST(full_disk)
 {
-    enter_folder();
+    folder_enter();
     check_full(false);
     check_full(true);
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
 START_TEST(mode_follows_umask)
 {
     struct stat s;
-    enter_folder();
+    folder_enter();
     umask(027);
     put_text("a", "x");
     ck_assert_int_eq(stat("a", &s), 0);
     ck_assert_int_eq(s.st_mode & 0777, 0640);
     unlink("a");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 

@@ -5,29 +5,7 @@
 
 #include <gsl/gsl_linalg.h>
 
-#include "scene/scene.h"
-#include "unit.h"
-
-static double rough_sample(void)
-{
-    return 1e-6 * (drand48() + drand48() - 1);
-}
-
-/* Index after stepping i times from sample 0 on, by the rule. */
-static long walked(long n, int off_map, long i)
-{
-    long at = 0, step = i < 0 ? -1 : 1;
-    for (long k = 0; k != i; k += i < 0 ? -1 : 1) {
-        if (off_map == OFF_MAP_WRAP) {
-            at = at + step == n ? 0 : at + step < 0 ? n - 1 : at + step;
-            continue;
-        }
-        if (at + step == n || at + step < 0)
-            step = -step;
-        at += step;
-    }
-    return at;
-}
+#include "samples.h"
 
 /* (c[i-1] + 4 c[i] + c[i+1]) / 6 = z[i], c continued as z is. */
 static void solve_densely(const double *z, long n, int off_map, double *c)
@@ -39,7 +17,7 @@ static void solve_densely(const double *z, long n, int off_map, double *c)
     int sign;
     for (long i = 0; i < n; i++)
         for (long k = -1; k <= 1; k++)
-            *gsl_matrix_ptr(m, (size_t)i, (size_t)walked(n, off_map, i + k)) += k == 0 ? 4.0 / 6 : 1.0 / 6;
+            *gsl_matrix_ptr(m, (size_t)i, (size_t)samples_walked(n, off_map, i + k)) += k == 0 ? 4.0 / 6 : 1.0 / 6;
     gsl_linalg_LU_decomp(m, p, &sign);
     gsl_linalg_LU_solve(m, p, &right.vector, &left.vector);
     gsl_matrix_free(m);
@@ -57,7 +35,7 @@ START_TEST(coefficients_solve_the_equations)
             double z[200], want[200], got[200], largest = 0;
             long n = sizes[k];
             for (long i = 0; i < n; i++)
-                largest = fmax(largest, fabs(z[i] = rough_sample()));
+                largest = fmax(largest, fabs(z[i] = samples_random()));
             struct profile *p = profile_from_samples(a, z, (size_t)n, 5e-6, off_map);
             solve_densely(z, n, off_map, want);
             p->read(p, 0, n, got);
@@ -87,7 +65,7 @@ START_TEST(knots_are_the_samples)
     struct arena *a = arena_open();
     srand48(2);
     for (int i = 0; i < N; i++)
-        largest = fmax(largest, fabs(z[i] = rough_sample()));
+        largest = fmax(largest, fabs(z[i] = samples_random()));
     for (int off_map = OFF_MAP_MIRROR; off_map <= OFF_MAP_ERROR; off_map++) {
         struct relief_part *part = profile_part(a, profile_from_samples(a, z, N, 5e-6, off_map), "profile", 3e-3);
         for (long first = -4 * N; first < 4 * N; first += 313) {
@@ -95,25 +73,12 @@ START_TEST(knots_are_the_samples)
                 x[i] = 3e-3 + 5e-6 * (double)(first + i);
             read_part(part, N, x, height, NULL, NULL);
             for (long i = 0; i < N; i += 7)
-                ck_assert_double_eq_tol(height[i] / largest, z[walked(N, off_map, first + i)] / largest, 1e-15 + 8 * 0x1p-53 * (600 + fabs((double)(first + i))));
+                ck_assert_double_eq_tol(height[i] / largest, z[samples_walked(N, off_map, first + i)] / largest, 1e-15 + 8 * 0x1p-53 * (600 + fabs((double)(first + i))));
         }
     }
     arena_close(a);
 }
 END_TEST
-
-/* The cubic B-spline and its derivatives, as polynomials over |x| <= 1 and 1 <= |x| <= 2. */
-static double b_spline(double x, int derivative)
-{
-    double r = fabs(x), side = x < 0 ? -1 : 1;
-    if (r >= 2)
-        return 0;
-    if (derivative == 0)
-        return r < 1 ? 2.0 / 3 - r * r + r * r * r / 2 : (2 - r) * (2 - r) * (2 - r) / 6;
-    if (derivative == 1)
-        return side * (r < 1 ? -2 * r + 1.5 * r * r : -(2 - r) * (2 - r) / 2);
-    return r < 1 ? 3 * r - 2 : 2 - r;
-}
 
 /* z (or a derivative) at q, as the header defines it. */
 static double spline_at(struct profile *p, double q, int derivative)
@@ -122,7 +87,7 @@ static double spline_at(struct profile *p, double q, int derivative)
     long first = (long)floor(x) - 1;
     p->read(p, first, 4, c);
     for (long i = 0; i < 4; i++)
-        sum += c[i] * b_spline(x - (double)(first + i), derivative);
+        sum += c[i] * samples_b_spline(x - (double)(first + i), derivative);
     return sum / pow(p->pitch, derivative);
 }
 
@@ -136,7 +101,7 @@ START_TEST(values_are_those_of_the_spline)
     struct arena *a = arena_open();
     srand48(3);
     for (int i = 0; i < N; i++)
-        z[i] = rough_sample();
+        z[i] = samples_random();
     struct profile *p = profile_from_samples(a, z, N, h, OFF_MAP_WRAP);
     for (int sorted = -1; sorted <= 1; sorted++) {
         struct relief_part *part = profile_part(a, p, "profile", -2e-3);
@@ -161,7 +126,7 @@ START_TEST(curvature_is_a_broken_line)
     struct arena *a = arena_open();
     srand48(4);
     for (int i = 0; i < N; i++)
-        z[i] = rough_sample();
+        z[i] = samples_random();
     struct relief_part *part = profile_part(a, profile_from_samples(a, z, N, h, OFF_MAP_MIRROR), "profile", 0);
     for (long i = -60; i < 60; i++) {
         double knot = (double)i * h, low = knot - 1e-9 * h, high = knot + 1e-9 * h;
@@ -242,13 +207,13 @@ START_TEST(continued_for_ever)
         for (int off_map = OFF_MAP_MIRROR; off_map <= OFF_MAP_ERROR; off_map++) {
             long n = sizes[k], period = off_map == OFF_MAP_WRAP ? n : 2 * n - 2;
             for (long i = 0; i < n; i++)
-                z[i] = rough_sample();
+                z[i] = samples_random();
             struct profile *p = profile_from_samples(a, z, (size_t)n, 1e-6, off_map);
             p->read(p, 0, n, inside);
             for (long first = -300; first < 300; first += 17) {
                 p->read(p, first, 64, c);
                 for (long i = 0; i < 64; i++)
-                    ck_assert(c[i] == inside[walked(n, off_map, first + i)]);
+                    ck_assert(c[i] == inside[samples_walked(n, off_map, first + i)]);
             }
             for (long far = 1; far < 1000000000000000000 / period; far *= 1000)
                 for (int side = -1; side <= 1; side += 2) {
@@ -268,7 +233,7 @@ START_TEST(outputs_are_optional)
     struct arena *a = arena_open();
     srand48(5);
     for (int i = 0; i < N; i++) {
-        z[i] = rough_sample();
+        z[i] = samples_random();
         x[i] = 1e-6 * (1.3 * i - 3);
     }
     struct relief_part *part = profile_part(a, profile_from_samples(a, z, N, 1e-6, OFF_MAP_MIRROR), "profile", 0);
@@ -292,7 +257,7 @@ START_TEST(mirror_is_even)
     struct arena *a = arena_open();
     srand48(6);
     for (int i = 0; i < N; i++)
-        z[i] = rough_sample();
+        z[i] = samples_random();
     struct profile *p = profile_from_samples(a, z, N, h, OFF_MAP_MIRROR);
     ck_assert_double_eq_tol(spline_at(p, 0, 1), 0, 1e-14);
     ck_assert_double_eq_tol(spline_at(p, (N - 1) * h, 1), 0, 1e-14);

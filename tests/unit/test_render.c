@@ -1,59 +1,16 @@
 /* From a scene's text to the samples in its WAV. */
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include "file/csv.h"
-#include "file/wav.h"
-#include "pipeline/render.h"
-#include "rig.h"
+#include "pipeline/stages.h"
+#include "renders.h"
 
-static char folder[] = "/tmp/rasp_render_XXXXXX";
-
-static const char *in_folder(struct arena *a, const char *name)
+/* The folder, with a bell in it. */
+static struct arena *setup(void)
 {
-    return arena_format(a, "%s/%s", folder, name);
-}
-
-static void write_text(const char *path, const char *text)
-{
-    FILE *f = fopen(path, "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    fclose(f);
-}
-
-static struct render_report rendered(struct arena *a, const char *text, const char *base)
-{
-    struct scene s;
-    struct err e = {0};
-    const char *messages = "";
-    struct render_report report;
-    if (!scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e))
-        ck_abort_msg("%s%s", messages, e.text);
-    ck_assert_msg(render_scene(&s, in_folder(a, base), a, &report, &e), "%s", e.text);
-    return report;
-}
-
-static struct wav sound(struct arena *a, const char *name)
-{
-    struct wav w;
-    struct err e = {0};
-    ck_assert_msg(wav_read(in_folder(a, name), a, &w, &e), "%s", e.text);
-    return w;
-}
-
-static void setup(struct arena *a)
-{
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    write_text(in_folder(a, "bell.csv"), "# poles: shared\n# quantity: velocity\n# normalisation: physical\n# source: test\n"
-                                         "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n"
-                                         "left,0,0,low,1234.5,17.25,2,1.5607963267948966\nright,0.1,0,low,1234.5,17.25,-1,1.5607963267948966\n");
-}
-
-static void clean(struct arena *a)
-{
-    ck_assert_int_eq(system(arena_format(a, "rm -r %s", folder)), 0);
-    arena_close(a);
+    struct arena *a = folder_make();
+    folder_write("bell.csv", "# poles: shared\n# quantity: velocity\n# normalisation: physical\n# source: test\n"
+                             "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n"
+                             "left,0,0,low,1234.5,17.25,2,1.5607963267948966\nright,0.1,0,low,1234.5,17.25,-1,1.5607963267948966\n");
+    return a;
 }
 
 #define BODY "surface: {roughness: {rms: 5 um}, response: bell.csv}\nscraper: {mass: 20 g}\n"
@@ -64,10 +21,9 @@ static void clean(struct arena *a)
    frequency and T60 to 1e-4 (in fact to 1e-9). */
 START_TEST(free_decay_is_the_tables)
 {
-    struct arena *a = arena_open();
-    setup(a);
-    rendered(a, "rasp: 1\n" BODY LINE EXACT, "decay");
-    struct wav w = sound(a, "decay.wav");
+    setup();
+    renders_made("rasp: 1\n" BODY LINE EXACT, "decay");
+    struct wav w = renders_sound("decay.wav");
     double s11 = 0, s12 = 0, s22 = 0, r1 = 0, r2 = 0, rate = 48000;
     size_t first = (size_t)(0.11 * rate);
     ck_assert_uint_gt(w.frames, first + 20000);
@@ -80,49 +36,47 @@ START_TEST(free_decay_is_the_tables)
     printf("frequency %.9g Hz, T60 %.9g s (table: %.9g s)\n", frequency, 3 * log(10) / decay, 3 * log(10) / 17.25);
     ck_assert_double_eq_tol(frequency / 1234.5, 1, 1e-4);
     ck_assert_double_eq_tol(decay / 17.25, 1, 1e-4);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* Contacts add: two at once, the second later and louder, are the sum of each alone, sample by sample. */
 START_TEST(contacts_add)
 {
-    struct arena *a = arena_open();
-    setup(a);
+    struct arena *a = setup();
     const char *one = "surface: {roughness: {rms: 5 um}, response: bell.csv}, scraper: {mass: 20 g}, motion: {path: line, to: [2 cm, 0], speed: 0.2}";
     const char *two = "surface: {roughness: {rms: 9 um}, response: bell.csv}, scraper: {mass: 5 g}, motion: {path: line, from: [9 cm, 0], to: [3 cm, 0], speed: 0.3}";
-    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, start: 50 ms, gain: 3, %s}\n" EXACT, one, two), "both");
-    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n" EXACT, one), "first");
-    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: b, %s}\n" EXACT, two), "second");
-    struct wav both = sound(a, "both.wav"), first = sound(a, "first.wav"), second = sound(a, "second.wav");
+    renders_made(arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, start: 50 ms, gain: 3, %s}\n" EXACT, one, two), "both");
+    renders_made(arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n" EXACT, one), "first");
+    renders_made(arena_format(a, "rasp: 1\ncontacts:\n  - {name: b, %s}\n" EXACT, two), "second");
+    struct wav both = renders_sound("both.wav"), first = renders_sound("first.wav"), second = renders_sound("second.wav");
     for (size_t n = 0; n < first.frames; n++) {
         double want = first.x[n] + (n >= 2400 && n - 2400 < second.frames ? 3 * second.x[n - 2400] : 0);
         ck_assert_double_eq_tol(both.x[n], want, 1e-15);
     }
     ck_assert(second.x[3000] != 0);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* A contact begins at the nearest sample: 0.29 s x 48 kHz is 13919.999999999998 in binary, and is 13920; the table says so too. */
 START_TEST(a_start_is_rounded_to_the_nearest_sample)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     struct csv t;
     struct err e = {0};
     double first;
     const char *scene = "rasp: 1\nstart: %s\n" BODY LINE "output: {encoding: float64, level: {full_scale: 1}, ramp: 0, tail: 0.1 s, diagnostics: {}}\n";
-    setup(a);
-    rendered(a, arena_format(a, scene, "0 s"), "now");
-    rendered(a, arena_format(a, scene, "0.29 s"), "later");
-    rendered(a, arena_format(a, scene, "0.290009 s"), "between"); /* 13920.43 samples */
-    struct wav now = sound(a, "now.wav"), later = sound(a, "later.wav");
+    renders_made(arena_format(a, scene, "0 s"), "now");
+    renders_made(arena_format(a, scene, "0.29 s"), "later");
+    renders_made(arena_format(a, scene, "0.290009 s"), "between"); /* 13920.43 samples */
+    struct wav now = renders_sound("now.wav"), later = renders_sound("later.wav");
     ck_assert_uint_eq(later.frames, now.frames + 13920);
     for (size_t n = 0; n < later.frames; n++)
         ck_assert_double_eq_tol(later.x[n], n < 13920 ? 0 : now.x[n - 13920], 1e-15); /* of 5e-5: blocks begin elsewhere */
-    ck_assert_msg(csv_read(in_folder(a, "between.csv"), a, &t, &e) && csv_number(&t, 0, csv_column(&t, "time_s"), &first, &e), "%s", e.text);
+    ck_assert_msg(csv_read(folder_path("between.csv"), a, &t, &e) && csv_number(&t, 0, csv_column(&t, "time_s"), &first, &e), "%s", e.text);
     ck_assert_double_eq_tol(first, 0.29, 1e-9);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -130,16 +84,15 @@ END_TEST
    and correlate no more than 100 rows of independent noise do (0.1; the bound is 4 standard deviations). */
 START_TEST(names_make_the_noise)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     const char *one = "surface: {roughness: {rms: 5 um, longest: 0.2 mm}}, scraper: {mass: 20 g}, motion: {path: line, to: [2 cm, 0], speed: 0.2}";
     const char *const tables[] = {"pair.a.csv", "pair.b.csv"};
     double f[2][100], products[2][2] = {{0}};
     struct err e = {0};
-    setup(a);
-    rendered(a, arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, %s}\noutput: {diagnostics: {}}\n", one, one), "pair");
+    renders_made(arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, %s}\noutput: {diagnostics: {}}\n", one, one), "pair");
     for (int k = 0; k < 2; k++) {
         struct csv t;
-        ck_assert_msg(csv_read(in_folder(a, tables[k]), a, &t, &e), "%s", e.text);
+        ck_assert_msg(csv_read(folder_path(tables[k]), a, &t, &e), "%s", e.text);
         ck_assert_uint_eq(t.rows, 100);
         for (size_t row = 0; row < t.rows; row++)
             ck_assert_msg(csv_number(&t, row, csv_column(&t, "force_peak_n"), &f[k][row], &e), "%s", e.text);
@@ -152,42 +105,40 @@ START_TEST(names_make_the_noise)
     printf("energies %.3g and %.3g N^2, correlation %.3g\n", products[0][0], products[1][1], alike);
     ck_assert_double_lt(fabs(alike), 0.4);
     ck_assert_double_lt(fabs(log(products[0][0] / products[1][1])), log(2));
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* Metres per second and metres per second squared are not added. */
 START_TEST(quantities_are_not_mixed)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     struct scene s;
     struct err e = {0};
     struct render_report report;
     const char *messages, *body = "surface: {roughness: {}, response: %s.csv}, scraper: {mass: 20 g}, motion: {path: line, to: [2 cm, 0], speed: 0.2}";
-    setup(a);
-    write_text(in_folder(a, "gong.csv"), "# poles: shared\n# quantity: acceleration\n# normalisation: physical\n# source: test\n"
-                                         "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\nonly,0,0,low,997,9,2,0\n");
+    folder_write("gong.csv", "# poles: shared\n# quantity: acceleration\n# normalisation: physical\n# source: test\n"
+                             "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\nonly,0,0,low,997,9,2,0\n");
     const char *text = arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, %s}\n", arena_format(a, body, "bell"),
                                     arena_format(a, body, "gong"));
-    ck_assert(scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e));
-    ck_assert(!render_scene(&s, in_folder(a, "mixed"), a, &report, &e));
+    ck_assert(scene_read_text(text, strlen(text), folder_path("scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e));
+    ck_assert(!render_scene(&s, folder_path("mixed"), a, &report, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
     ck_assert_msg(strstr(e.text, "contact 'b' gives acceleration, but contact 'a' velocity") != NULL, "%s", e.text);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* The WAV is as long with diagnostics as without, when the contact that lasts longest is muted. */
 START_TEST(a_muted_contact_lasts_as_long)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     const char *scene = "rasp: 1\ncontacts:\n  - {name: a, surface: {roughness: {}, response: bell.csv}, scraper: {mass: 20 g}, motion: {path: line, to: [2 cm, 0], "
                         "speed: 0.2}}\n  - {name: b, gain: 0, start: 0.1 s, surface: {roughness: {}, response: bell.csv}, scraper: {mass: 20 g}, motion: {path: line, "
                         "to: [4 cm, 0], speed: 0.2}}\noutput: {tail: 0 s, encoding: float64%s}\n";
-    setup(a);
-    ck_assert_int_eq(rendered(a, arena_format(a, scene, ""), "muted").frames, 14401);
-    ck_assert_int_eq(rendered(a, arena_format(a, scene, ", diagnostics: {}"), "watched").frames, 14401);
-    clean(a);
+    ck_assert_int_eq(renders_made(arena_format(a, scene, ""), "muted").frames, 14401);
+    ck_assert_int_eq(renders_made(arena_format(a, scene, ", diagnostics: {}"), "watched").frames, 14401);
+    folder_remove();
 }
 END_TEST
 
@@ -207,40 +158,38 @@ static double apart(const struct wav *x, const struct wav *y)
    2e-4 of gains at every sample (measured: 9e-5, 2e-8); a hop or most of a ramp early or late is more. */
 START_TEST(engines_agree_on_a_moving_contact)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     const char *scene = "rasp: 1\nsurface: {roughness: {rms: 5 um}, response: bell.csv, convolution: %s}\nscraper: {mass: 20 g}\n"
                         "motion: {path: back_and_forth, from: [1 cm, 0], to: [9 cm, 0], rate: 4 Hz, duration: 0.25 s}\n"
                         "accuracy: {gain_ramp: %d, overlap_hop: 1 ms}\n" EXACT;
-    setup(a);
-    rendered(a, arena_format(a, scene, "resonators", 1), "exact");
-    rendered(a, arena_format(a, scene, "resonators", 64), "ramps");
-    rendered(a, arena_format(a, scene, "overlap_add", 64), "nodes");
-    struct wav exact = sound(a, "exact.wav"), ramps = sound(a, "ramps.wav"), nodes = sound(a, "nodes.wav");
+    renders_made(arena_format(a, scene, "resonators", 1), "exact");
+    renders_made(arena_format(a, scene, "resonators", 64), "ramps");
+    renders_made(arena_format(a, scene, "overlap_add", 64), "nodes");
+    struct wav exact = renders_sound("exact.wav"), ramps = renders_sound("ramps.wav"), nodes = renders_sound("nodes.wav");
     printf("ramps %.3g, nodes %.3g apart\n", apart(&exact, &ramps), apart(&exact, &nodes));
     ck_assert_double_lt(apart(&exact, &ramps), 2e-4);
     ck_assert_double_lt(apart(&exact, &nodes), 2e-4);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* The total is the surface's sound plus eta times the scraper's, by either engine. */
 START_TEST(the_scraper_rings_with_weight_eta)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     const char *scene = "rasp: 1\nsurface: {roughness: {rms: 5 um}%s}\nscraper: {mass: 20 g%s}\n" LINE EXACT;
     const char *const engines[] = {"resonators", "overlap_add"};
-    setup(a);
-    rendered(a, arena_format(a, scene, ", response: bell.csv", ""), "surface");
-    struct wav surface = sound(a, "surface.wav");
+    renders_made(arena_format(a, scene, ", response: bell.csv", ""), "surface");
+    struct wav surface = renders_sound("surface.wav");
     for (int k = 0; k < 2; k++) {
-        rendered(a, arena_format(a, scene, "", arena_format(a, ", response: bell.csv, weight: 1, convolution: %s", engines[k])), "scraper");
-        rendered(a, arena_format(a, scene, ", response: bell.csv", arena_format(a, ", response: bell.csv, weight: 0.25, convolution: %s", engines[k])), "both");
-        struct wav scraper = sound(a, "scraper.wav"), both = sound(a, "both.wav");
+        renders_made(arena_format(a, scene, "", arena_format(a, ", response: bell.csv, weight: 1, convolution: %s", engines[k])), "scraper");
+        renders_made(arena_format(a, scene, ", response: bell.csv", arena_format(a, ", response: bell.csv, weight: 0.25, convolution: %s", engines[k])), "both");
+        struct wav scraper = renders_sound("scraper.wav"), both = renders_sound("both.wav");
         for (size_t n = 0; n < both.frames; n++)
             scraper.x[n] = surface.x[n] + 0.25 * scraper.x[n];
         ck_assert_double_lt(apart(&both, &scraper), 1e-9);
     }
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -258,18 +207,17 @@ static void levels_of(const struct wav *w, double *peak, double *rms)
    2^-k here, and so are the weights: nothing is rounded but by the sum.) */
 START_TEST(a_wav_scraper_rings_with_weight_eta)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     const char *scene = "rasp: 1\nsurface: {roughness: {rms: 5 um}%s}\nscraper: {mass: 20 g%s}\n" LINE EXACT;
     const double h[] = {0.5, -0.25, 0.125, 0, 0.75, -0.5};
     struct err e = {0};
-    setup(a);
-    struct wav_out *out = wav_create(in_folder(a, "tap.wav"), &(struct wav_format){48000, 1, -64, NULL, NULL, 0}, &e);
+    struct wav_out *out = wav_create(folder_path("tap.wav"), &(struct wav_format){48000, 1, -64, NULL, NULL, 0}, &e);
     ck_assert_msg(out && wav_write(out, h, 6, &e) && wav_commit(out, &e), "%s", e.text);
-    rendered(a, arena_format(a, scene, ", response: tap.wav", ""), "surface");
-    rendered(a, arena_format(a, scene, "", ", response: tap.wav, weight: 1"), "whole");
-    rendered(a, arena_format(a, scene, "", ", response: tap.wav, weight: 0.5"), "half");
-    rendered(a, arena_format(a, scene, ", response: tap.wav", ", response: tap.wav, weight: 0.5"), "both");
-    struct wav surface = sound(a, "surface.wav"), whole = sound(a, "whole.wav"), half = sound(a, "half.wav"), both = sound(a, "both.wav");
+    renders_made(arena_format(a, scene, ", response: tap.wav", ""), "surface");
+    renders_made(arena_format(a, scene, "", ", response: tap.wav, weight: 1"), "whole");
+    renders_made(arena_format(a, scene, "", ", response: tap.wav, weight: 0.5"), "half");
+    renders_made(arena_format(a, scene, ", response: tap.wav", ", response: tap.wav, weight: 0.5"), "both");
+    struct wav surface = renders_sound("surface.wav"), whole = renders_sound("whole.wav"), half = renders_sound("half.wav"), both = renders_sound("both.wav");
     ck_assert_double_lt(apart(&surface, &whole), 1e-12); /* the same response, on either body */
     for (size_t n = 0; n < whole.frames; n++) {
         whole.x[n] *= 0.5;
@@ -277,7 +225,7 @@ START_TEST(a_wav_scraper_rings_with_weight_eta)
     }
     ck_assert_double_lt(apart(&half, &whole), 1e-12);
     ck_assert_double_lt(apart(&both, &surface), 1e-12);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -286,15 +234,14 @@ START_TEST(levels)
 {
     static const char *const rules[] = {"", "level: {peak: -6 dB}", "level: {rms: -30 dB}", "level: {lufs: -25}", "level: {full_scale: 0.5}",
                                         "level: {peak: 0 dB}"};
-    struct arena *a = arena_open();
-    setup(a);
-    rendered(a, "rasp: 1\n" BODY "motion: {path: line, to: [10 cm, 0], speed: 10 cm/s}\noutput: {encoding: float64, level: {full_scale: 1}}\n", "plain");
-    struct wav plain = sound(a, "plain.wav");
+    struct arena *a = setup();
+    renders_made("rasp: 1\n" BODY "motion: {path: line, to: [10 cm, 0], speed: 10 cm/s}\noutput: {encoding: float64, level: {full_scale: 1}}\n", "plain");
+    struct wav plain = renders_sound("plain.wav");
     for (int k = 0; k < 6; k++) {
         double peak, rms;
-        struct render_report r = rendered(a, arena_format(a, "rasp: 1\n" BODY "motion: {path: line, to: [10 cm, 0], speed: 10 cm/s}\n"
+        struct render_report r = renders_made(arena_format(a, "rasp: 1\n" BODY "motion: {path: line, to: [10 cm, 0], speed: 10 cm/s}\n"
                                                              "output: {encoding: float64, %s}\n", rules[k]), "scaled");
-        struct wav w = sound(a, "scaled.wav");
+        struct wav w = renders_sound("scaled.wav");
         levels_of(&w, &peak, &rms);
         const double want[] = {20 * log10(peak) + 3, 20 * log10(peak) + 6, 20 * log10(rms) + 30, 0, r.sound.gain - 2, 20 * log10(peak)};
         printf("%s: peak %.4f dB, rms %.4f dB, gain %.6g\n", rules[k], 20 * log10(peak), 20 * log10(rms), r.sound.gain);
@@ -303,7 +250,7 @@ START_TEST(levels)
         for (size_t n = 0; n < w.frames; n++)
             ck_assert_double_eq_tol(w.x[n], r.sound.gain * plain.x[n], 1e-14 * peak);
     }
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -311,31 +258,29 @@ END_TEST
    a bell of one endless 997 Hz mode, rung by noise for 50 ms, is that but for the noise itself: 0.02 dB of the 20 s. */
 START_TEST(loudness_is_the_standards)
 {
-    struct arena *a = arena_open();
+    setup();
     double peak, rms;
-    setup(a);
-    write_text(in_folder(a, "bell.csv"), "# poles: shared\n# quantity: velocity\n# normalisation: physical\n# source: test\n"
-                                         "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\nonly,0,0,low,997,0,2,1.5707963267948966\n");
-    rendered(a, "rasp: 1\n" BODY "motion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\noutput: {encoding: float64, level: {lufs: -23}, tail: 20 s}\n", "tone");
-    struct wav w = sound(a, "tone.wav");
+    folder_write("bell.csv", "# poles: shared\n# quantity: velocity\n# normalisation: physical\n# source: test\n"
+                             "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\nonly,0,0,low,997,0,2,1.5707963267948966\n");
+    renders_made("rasp: 1\n" BODY "motion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\noutput: {encoding: float64, level: {lufs: -23}, tail: 20 s}\n", "tone");
+    struct wav w = renders_sound("tone.wav");
     w.frames -= 24000, w.x += 12000;
     levels_of(&w, &peak, &rms);
     printf("rms %.4f dB at -23 LUFS, tone\n", 20 * log10(rms));
     ck_assert_double_eq_tol(20 * log10(rms) + 3.0103, -23, 0.05); /* two ears: + 3.01 dB */
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* Ramps: the same sound but for sin^2 edges; integers are the doubles rounded; the table has a row per millisecond. */
 START_TEST(edges_and_encodings)
 {
-    struct arena *a = arena_open();
-    setup(a);
+    struct arena *a = setup();
     const char *scene = "rasp: 1\n" BODY LINE "output: {encoding: %s, level: {full_scale: 0.01}, ramp: %s, tail: 0.1 s, channels: %d, diagnostics: {}}\n";
-    rendered(a, arena_format(a, scene, "float64", "0", 1), "plain");
-    rendered(a, arena_format(a, scene, "float64", "20 ms", 1), "ramped");
-    rendered(a, arena_format(a, scene, "pcm16", "0", 2), "integer");
-    struct wav plain = sound(a, "plain.wav"), ramped = sound(a, "ramped.wav"), integer = sound(a, "integer.wav");
+    renders_made(arena_format(a, scene, "float64", "0", 1), "plain");
+    renders_made(arena_format(a, scene, "float64", "20 ms", 1), "ramped");
+    renders_made(arena_format(a, scene, "pcm16", "0", 2), "integer");
+    struct wav plain = renders_sound("plain.wav"), ramped = renders_sound("ramped.wav"), integer = renders_sound("integer.wav");
     ck_assert_int_eq(integer.channels, 2);
     for (size_t n = 0; n < plain.frames; n++) {
         size_t edge = n < plain.frames - 1 - n ? n : plain.frames - 1 - n;
@@ -346,26 +291,25 @@ START_TEST(edges_and_encodings)
     }
     struct csv t;
     struct err e = {0};
-    ck_assert_msg(csv_read(in_folder(a, "plain.csv"), a, &t, &e), "%s", e.text);
+    ck_assert_msg(csv_read(folder_path("plain.csv"), a, &t, &e), "%s", e.text);
     ck_assert_uint_eq(t.rows, 100);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* A failure leaves nothing: here clipping, known only at the end. */
 START_TEST(a_failure_leaves_nothing)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     struct scene s;
     struct err e = {0};
     const char *messages, *text = "rasp: 1\n" BODY LINE "output: {level: {full_scale: 1e-9}, diagnostics: {}}\n";
     struct render_report report;
-    setup(a);
-    ck_assert(scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e));
-    ck_assert(!render_scene(&s, in_folder(a, "clips"), a, &report, &e));
+    ck_assert(scene_read_text(text, strlen(text), folder_path("scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e));
+    ck_assert(!render_scene(&s, folder_path("clips"), a, &report, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
-    ck_assert_int_eq(system(arena_format(a, "test \"$(ls -A %s)\" = bell.csv", folder)), 0);
-    clean(a);
+    ck_assert_int_eq(system(arena_format(a, "test \"$(ls -A %s)\" = bell.csv", folder_name)), 0);
+    folder_remove();
 }
 END_TEST
 
@@ -385,14 +329,13 @@ static const struct render_file *stem_file(const struct render_report *r, const 
    diagnostics, which are found on another way (rows of 48 samples, %.9g; the WAV holds 24 bits). */
 START_TEST(stems_are_the_parts)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     struct err e = {0};
     const char *one = "surface: {roughness: {rms: 5 um}, response: bell.csv}, scraper: {mass: 20 g, response: bell.csv, weight: 0.25}, motion: {path: line, to: [2 cm, 0], speed: 0.2}";
     const char *text = arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, start: 0.2 s, gain: 3, %s}\noutput: {encoding: float64, level: {full_scale: 1}, tail: 0.1 s, "
                                        "diagnostics: {}%s}\n", one, one, ", stems: [scraper, force, surface]");
-    setup(a);
-    struct render_report r = rendered(a, text, "all");
-    struct wav sum = sound(a, "all.wav"), surface = sound(a, "all.surface.wav"), scraper = sound(a, "all.scraper.wav"), force = sound(a, "all.force.wav");
+    struct render_report r = renders_made(text, "all");
+    struct wav sum = renders_sound("all.wav"), surface = renders_sound("all.surface.wav"), scraper = renders_sound("all.scraper.wav"), force = renders_sound("all.force.wav");
     double most = 0;
     ck_assert_uint_eq(force.frames, sum.frames);
     for (size_t n = 0; n < sum.frames; n++)
@@ -403,7 +346,7 @@ START_TEST(stems_are_the_parts)
     for (int k = 0; k < 2; k++) {
         struct csv t;
         double want, is;
-        ck_assert_msg(csv_read(in_folder(a, k ? "all.b.csv" : "all.a.csv"), a, &t, &e), "%s", e.text);
+        ck_assert_msg(csv_read(folder_path(k ? "all.b.csv" : "all.a.csv"), a, &t, &e), "%s", e.text);
         for (size_t row = 5; row < 95; row++) {
             ck_assert_msg(csv_number(&t, row, csv_column(&t, "force_peak_n"), &want, &e), "%s", e.text);
             is = 0;
@@ -414,24 +357,23 @@ START_TEST(stems_are_the_parts)
     }
     ck_assert(stem_file(&r, "force") && stem_file(&r, "surface") && stem_file(&r, "scraper"));
     ck_assert(strstr(r.summary, "\"stem\": \"force\"") && strstr(r.summary, "\"name\": \"all.force.wav\""));
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* A force alone: no response, no table, no sound; the same samples as beside a sound. */
 START_TEST(a_force_may_be_all)
 {
-    struct arena *a = arena_open();
-    setup(a);
-    struct render_report r = rendered(a, "rasp: 1\nsurface: {roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\n" LINE "output: {stems: [force]}\n", "alone");
-    rendered(a, "rasp: 1\n" BODY LINE "output: {stems: [force], tail: 0 s}\n", "beside");
-    struct wav alone = sound(a, "alone.force.wav"), beside = sound(a, "beside.force.wav");
+    setup();
+    struct render_report r = renders_made("rasp: 1\nsurface: {roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\n" LINE "output: {stems: [force]}\n", "alone");
+    renders_made("rasp: 1\n" BODY LINE "output: {stems: [force], tail: 0 s}\n", "beside");
+    struct wav alone = renders_sound("alone.force.wav"), beside = renders_sound("beside.force.wav");
     ck_assert(!r.sounds && stem_file(&r, "force"));
-    ck_assert_int_ne(access(in_folder(a, "alone.wav"), F_OK), 0);
+    ck_assert_int_ne(access(folder_path("alone.wav"), F_OK), 0);
     ck_assert_uint_eq(alone.frames, beside.frames);
     ck_assert_mem_eq(alone.x, beside.x, alone.frames * sizeof *alone.x);
     ck_assert_double_gt(fabs(alone.x[2000]), 0);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -440,14 +382,13 @@ END_TEST
 START_TEST(stems_not_asked_cost_nothing)
 {
     static const char *const outputs[] = {"{}", "{stems: [force, surface]}", "{stems: [force]}"};
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     struct plan p[3];
-    setup(a);
     for (int k = 0; k < 3; k++) {
         struct scene *s = ARENA_TAKE(a, struct scene, 1);
         struct err e = {0};
         const char *messages = "", *text = arena_format(a, "rasp: 1\n%s" LINE "output: %s\n", k < 2 ? BODY : "surface: {roughness: {}}\nscraper: {mass: 20 g}\n", outputs[k]);
-        if (!scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, s, &messages, &e))
+        if (!scene_read_text(text, strlen(text), folder_path("scene.yaml"), &(struct scene_overrides){0}, a, s, &messages, &e))
             ck_abort_msg("%s%s", messages, e.text);
         ck_assert_msg(plan_make(stages_table, &s->contacts[0], s, a, &p[k], &e), "%s", e.text);
     }
@@ -458,7 +399,7 @@ START_TEST(stems_not_asked_cost_nothing)
     ck_assert_uint_eq(p[2].alive & (ITEM_BIT(ITEM_SOUND) | ITEM_BIT(ITEM_SURFACE_SOUND)), 0);
     for (int i = 0; i < p[0].n; i++)
         ck_assert_int_eq(p[0].rows[i].verdict, p[1].rows[i].verdict);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -468,24 +409,23 @@ static struct err fails(struct arena *a, const char *text)
     struct err e = {0};
     struct render_report report;
     const char *messages = "";
-    if (!scene_read_text(text, strlen(text), in_folder(a, "scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e))
+    if (!scene_read_text(text, strlen(text), folder_path("scene.yaml"), &(struct scene_overrides){0}, a, &s, &messages, &e))
         ck_abort_msg("%s%s", messages, e.text);
-    ck_assert(!render_scene(&s, in_folder(a, "no"), a, &report, &e));
+    ck_assert(!render_scene(&s, folder_path("no"), a, &report, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
-    ck_assert_int_eq(system(arena_format(a, "test \"$(ls -A %s)\" = bell.csv", folder)), 0);
+    ck_assert_int_eq(system(arena_format(a, "test \"$(ls -A %s)\" = bell.csv", folder_name)), 0);
     return e;
 }
 
 /* What cannot be had is said, and leaves nothing: a table without a size as a sphere; stems that clip. */
 START_TEST(stems_and_radiators_that_cannot_be)
 {
-    struct arena *a = arena_open();
-    setup(a);
+    struct arena *a = setup();
     struct err e = fails(a, "rasp: 1\n" BODY LINE "output: {listen: {places: [[0, 0, 1]]}, stems: [force]}\n");
     ck_assert_msg(strstr(e.text, "does not say how large") != NULL, "%s", e.text);
     e = fails(a, "rasp: 1\n" BODY LINE "output: {encoding: pcm16, level: {full_scale: 1e-9}, stems: [force, surface]}\n");
     ck_assert_msg(strstr(e.text, "full scale") != NULL, "%s", e.text);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -493,13 +433,12 @@ END_TEST
    100 samples later and softer by the ratio of the distances (0.7 and 1.415 m). Gains at every sample (ramps of 64 would begin elsewhere under a force that is heard later). In pascals. */
 START_TEST(places_are_channels)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     const char *scene = "rasp: 1\n" PANE LINE "accuracy: {gain_ramp: 1}\noutput: {encoding: float64, level: {dbfs_at_1_pa: -40}, ramp: 0, tail: 0.2 s, listen: {radiator: monopole, places: [%s]}}\n";
     double most = 0;
-    setup(a);
-    struct render_report r = rendered(a, arena_format(a, scene, "[45 cm, 0, 0.574456264653803], [-35 cm, 0, 0.574456264653803], [5 cm, 0, 1.415]"), "three");
-    rendered(a, arena_format(a, scene, "[5 cm, 0, 1.415]"), "one");
-    struct wav w = sound(a, "three.wav"), one = sound(a, "one.wav");
+    struct render_report r = renders_made(arena_format(a, scene, "[45 cm, 0, 0.574456264653803], [-35 cm, 0, 0.574456264653803], [5 cm, 0, 1.415]"), "three");
+    renders_made(arena_format(a, scene, "[5 cm, 0, 1.415]"), "one");
+    struct wav w = renders_sound("three.wav"), one = renders_sound("one.wav");
     ck_assert_int_eq(w.channels, 3);
     ck_assert_int_eq(one.channels, 1);
     ck_assert_double_eq_tol(r.sound.gain, 0.01, 1e-17);
@@ -513,7 +452,7 @@ START_TEST(places_are_channels)
         ck_assert_double_eq_tol(w.x[3 * n + 2] * 1.415, n < 100 ? 0 : w.x[3 * (n - 100)] * 0.7, 1e-9 * most);
     }
     ck_assert(strstr(r.summary, "\"unit\": \"Pa\"") && strstr(r.summary, "\"place_m\""));
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -522,16 +461,15 @@ END_TEST
    p = rho f S v / r, as a small source in a baffle. The struck mode's rms over the last 0.1 s; of 88 Hz, where (k L)^2/12 = 2 %. */
 START_TEST(a_pane_in_a_baffle_is_heard)
 {
-    struct arena *a = arena_open();
+    struct arena *a = setup();
     const char *scene = "rasp: 1\nsurface: {object: {shape: plate, edges: supported, length: 30 cm, width: 20 cm, thickness: 1 mm}, material: glass, modes: 1}\n"
                         "scraper: {mass: 1 g}\nmotion: {path: still, at: [%s, 10 cm], duration: 0.3 s}\ncontact: {model: strike, strike: {pulse: half_sine, stiffness: 1e4, speed: 0.1}}\n"
                         "output: {encoding: float64, level: {%s: %s}, ramp: 0, tail: 0 s, listen: {radiator: %s, places: [[15 cm, 10 cm, %s]]}}\n";
     const char *const at[] = {"15 cm", "7.5 cm", "15 cm", "15 cm"};
     double rms[4] = {0};
-    setup(a);
     for (int k = 0; k < 4; k++) {
-        rendered(a, arena_format(a, scene, at[k], k < 3 ? "dbfs_at_1_pa" : "full_scale", k < 3 ? "0 dB" : "1", k < 3 ? "plate" : "point", k == 2 ? "6 m" : k == 3 ? "0" : "3 m"), "pane");
-        struct wav w = sound(a, "pane.wav");
+        renders_made(arena_format(a, scene, at[k], k < 3 ? "dbfs_at_1_pa" : "full_scale", k < 3 ? "0 dB" : "1", k < 3 ? "plate" : "point", k == 2 ? "6 m" : k == 3 ? "0" : "3 m"), "pane");
+        struct wav w = renders_sound("pane.wav");
         for (size_t n = w.frames - 4800; n < w.frames; n++)
             rms[k] += w.x[n] * w.x[n] / 4800;
         rms[k] = sqrt(rms[k]);
@@ -542,7 +480,7 @@ START_TEST(a_pane_in_a_baffle_is_heard)
     double frequency = M_PI / 2 * (1 / 0.09 + 1 / 0.04) * sqrt(70e9 * 1e-6 / (12 * 0.96 * 2500)), area = 0.06 * 4 / (M_PI * M_PI);
     printf("%.6g Pa, a small source makes %.6g Pa\n", rms[0], 1.204 * frequency * area * rms[3] / 3);
     ck_assert_double_eq_tol(rms[0] / (1.204 * frequency * area * rms[3] / 3), 1, 0.02);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 

@@ -2,8 +2,8 @@
 #include "scene/scene_read.h"
 
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "folder.h"
 #include "scene/keys.h"
 #include "scenes.h"
 
@@ -132,12 +132,12 @@ END_TEST
 
 START_TEST(test_contacts)
 {
-    struct result r = read_good(two, SET("contacts.rod.motion.rate=3 Hz", "contacts.1.gain=0.5", "contacts.nail.motion.to.1=1 cm"));
+    struct result r = read_good(two, SET("contacts.rod.motion.rate=3 Hz", "contacts.0.gain=0.7", "contacts.1.gain=0.5", "contacts.nail.motion.to.1=1 cm"));
     const struct contact *c = r.scene.contacts;
     ck_assert_int_eq(r.scene.n_contacts, 2);
     ck_assert_str_eq(c[0].name, "rod");
     ck_assert_str_eq(c[1].name, "nail");
-    ck_assert(c[0].motion.rate == 3 && c[1].gain == 0.5 && c[1].start == 0.5 && c[1].motion.speed == 0.1 && c[1].motion.to[1] == 0.01);
+    ck_assert(c[0].motion.rate == 3 && c[0].gain == 0.7 && c[1].gain == 0.5 && c[1].start == 0.5 && c[1].motion.speed == 0.1 && c[1].motion.to[1] == 0.01);
     arena_close(r.arena);
     r = read_with("rasp: 1\ncontacts:\n- surface: {roughness: {}}\n  scraper: {mass: 2 m}\n  motion: {path: line, to: [1, 0], duration: 1}\n", NULL);
     one_error(&r, "scenes/t.yaml:4:19: error: ", "contacts.0.scraper.mass needs a mass", "20 g");
@@ -150,65 +150,38 @@ END_TEST
 
 /* ------------------------------------------------------------------ files */
 
-static char folder[64];
-
-static const char *path(const char *name)
-{
-    static char paths[4][128];
-    static int next;
-    next = (next + 1) % 4;
-    snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);
-    return paths[next];
-}
-
-static void write_file(const char *name, const char *text)
-{
-    FILE *f = fopen(path(name), "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    fclose(f);
-}
-
 static struct result read_file(const char *name)
 {
     struct result r = {.arena = arena_open()};
-    r.good = scene_read(path(name), NULL, r.arena, &r.scene, &r.messages, &r.err);
+    r.good = scene_read(folder_path(name), NULL, r.arena, &r.scene, &r.messages, &r.err);
     return r;
 }
 
 static void make_files(void)
 {
-    strcpy(folder, "/tmp/test_scene_XXXXXX");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    ck_assert_int_eq(mkdir(path("sub"), 0700), 0);
-    write_file("base.yaml", MIN "title: base\naccuracy: high\noutput: {ramp: 1 s, level: {lufs: -23}}\n");
-    write_file("sub/late.yaml", "scraper: {response: rod.csv}\nmotion: {to: [5 cm, 6 cm]}\noutput: {ramp: 2 s}\ntitle: late\n");
-    write_file("main.yaml", "include: [base.yaml, sub/late.yaml]\nscraper: {mass: 7 g}\ntitle: main\naccuracy: {oversampling: 5}\n"
-                            "output: {level: {lufs: ~, rms: -30 dB}}\n");
-    write_file("error.yaml", "include: [wrong.yaml]\ntitle: x\nseed: x\n");
-    write_file("wrong.yaml", MIN "gain: 3 s\n");
-    write_file("missing.yaml", MIN "include: [none.yaml, base.yaml]\n");
-    write_file("cycle.yaml", MIN "include: [sub/cycle2.yaml]\n");
-    write_file("sub/cycle2.yaml", "include: [../cycle.yaml]\n");
-    write_file("syntax.yaml", MIN "include: [syntax2.yaml]\n");
-    write_file("syntax2.yaml", "a: [\n");
-    write_file("dup.yaml", MIN "include: [dup2.yaml]\n");
-    write_file("dup2.yaml", "title: a\ntitle: b\n");
-    write_file("both.yaml", "include: [base.yaml]\noutput: {level: {peak: -1 dB}}\n");
+    folder_make();
+    ck_assert_int_eq(mkdir(folder_path("sub"), 0700), 0);
+    folder_write("base.yaml", MIN "title: base\naccuracy: high\noutput: {ramp: 1 s, level: {lufs: -23}}\n");
+    folder_write("sub/late.yaml", "scraper: {response: rod.csv}\nmotion: {to: [5 cm, 6 cm]}\noutput: {ramp: 2 s}\ntitle: late\n");
+    folder_write("main.yaml", "include: [base.yaml, sub/late.yaml]\nscraper: {mass: 7 g}\ntitle: main\naccuracy: {oversampling: 5}\n"
+                              "output: {level: {lufs: ~, rms: -30 dB}}\n");
+    folder_write("error.yaml", "include: [wrong.yaml]\ntitle: x\nseed: x\n");
+    folder_write("wrong.yaml", MIN "gain: 3 s\n");
+    folder_write("missing.yaml", MIN "include: [none.yaml, base.yaml]\n");
+    folder_write("cycle.yaml", MIN "include: [sub/cycle2.yaml]\n");
+    folder_write("sub/cycle2.yaml", "include: [../cycle.yaml]\n");
+    folder_write("syntax.yaml", MIN "include: [syntax2.yaml]\n");
+    folder_write("syntax2.yaml", "a: [\n");
+    folder_write("dup.yaml", MIN "include: [dup2.yaml]\n");
+    folder_write("dup2.yaml", "title: a\ntitle: b\n");
+    folder_write("both.yaml", "include: [base.yaml]\noutput: {level: {peak: -1 dB}}\n");
     for (int i = 0; i < 20; i++) {
         char name[32], text[64];
         snprintf(name, sizeof name, "deep%d.yaml", i);
         snprintf(text, sizeof text, "include: [deep%d.yaml]\n", i + 1);
-        write_file(name, text);
+        folder_write(name, text);
     }
-    write_file("deep20.yaml", MIN);
-}
-
-static void remove_files(void)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    ck_assert_int_eq(system(command), 0);
+    folder_write("deep20.yaml", MIN);
 }
 
 START_TEST(test_include)
@@ -219,14 +192,14 @@ START_TEST(test_include)
     const struct contact *c = r.scene.contacts;
     ck_assert_str_eq(r.scene.title, "main");
     ck_assert(c->scraper.mass == 0.007 && c->motion.to[0] == 0.05 && c->motion.to[1] == 0.06 && c->motion.duration == 1);
-    ck_assert_str_eq(c->scraper.response.file, path("sub/rod.csv"));
-    ck_assert_str_eq(c->surface.height_map, path("a.npy"));
+    ck_assert_str_eq(c->scraper.response.file, folder_path("sub/rod.csv"));
+    ck_assert_str_eq(c->surface.height_map, folder_path("a.npy"));
     ck_assert(r.scene.output.ramp == 2 && isnan(r.scene.output.level.lufs) && r.scene.output.level.rms == -30);
     ck_assert_str_eq(r.scene.accuracy.preset, "high");
     ck_assert(r.scene.accuracy.oversampling == 5 && r.scene.accuracy.gain_ramp == 16);
     static const char *const sources[] = {"main.yaml", "base.yaml", "sub/late.yaml"};
     for (int i = 0; i < 3; i++)
-        ck_assert_str_eq(r.scene.sources[i], path(sources[i]));
+        ck_assert_str_eq(r.scene.sources[i], folder_path(sources[i]));
     ck_assert_ptr_null(r.scene.sources[3]);
     arena_close(r.arena);
     r = read_file("error.yaml");
@@ -234,7 +207,7 @@ START_TEST(test_include)
     const char *second = strstr(r.messages, "wrong.yaml:5:7: error: gain needs"), *first = strstr(r.messages, "error.yaml:3:7: error: seed must");
     ck_assert_msg(first && second && first < second, "%s", r.messages);
     arena_close(r.arena);
-    remove_files();
+    folder_remove();
 }
 END_TEST
 
@@ -254,12 +227,12 @@ START_TEST(test_bad_files)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char start[256];
         struct result r = read_file(rows[i].name);
-        snprintf(start, sizeof start, "%s%s", path(rows[i].at), rows[i].place);
+        snprintf(start, sizeof start, "%s%s", folder_path(rows[i].at), rows[i].place);
         one_error(&r, start, rows[i].says, rows[i].cure);
         ck_assert_int_eq(r.err.kind, rows[i].kind);
         arena_close(r.arena);
     }
-    remove_files();
+    folder_remove();
 }
 END_TEST
 

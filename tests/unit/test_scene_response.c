@@ -2,6 +2,9 @@
    the cure, against messages written down by hand; what fits; what rules.h makes of it. */
 #include "scene/scene_read.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include "scene/rules.h"
 #include "scenes.h"
 
@@ -47,6 +50,8 @@ static const struct row responses[] = {
      "set surface.convolution to overlap_add"},
     {"rasp: 1\nsurface: {roughness: {}, response: a.csv, convolution: nodes}\n" CIRCLE, "circle",
      "surface.convolution: nodes lie along a straight motion, and motion.path is circle", "overlap_add"},
+    {OBJECT(BAR ", convolution: nodes"), "nodes",
+     "surface.convolution: nodes are for frequencies that differ from place to place, and those of surface.object are the same everywhere", "resonators"},
     {SCRAPER("response: a.csv, convolution: nodes"), "nodes", "scraper.convolution: nodes are for a response that moves, and a scraper's does not", "resonators"},
     {RINGS("space: {from: [0.8, 0.8]}"), "[0.8", "surface.space.from lies 1.13137 from the centre, outside the disk of materials, whose radius is 1", "x^2 + y^2"},
     {RINGS("space: {to: [0, -1.01]}"), "-1.01", "the second number of surface.space.to must be from -1 to 1", "place at the motion's end"},
@@ -214,9 +219,19 @@ START_TEST(test_bad_objects)
 }
 END_TEST
 
+/* What a force from a file still needs is said of a file that is there; of one that is not, that is what is wrong (tests/cli/check_places.sh). */
 START_TEST(test_bad_contacts)
 {
+    static const char *const there[] = {"scenes/a.WAV", "scenes/a.npy"};
+    char folder[] = "/tmp/rasp_scene_XXXXXX";
+    ck_assert(mkdtemp(folder) && chdir(folder) == 0 && mkdir("scenes", 0700) == 0);
+    struct result absent = read_with(GIVEN("{file: a.WAV}"), NULL);
+    ck_assert_msg(absent.good, "%s", absent.messages);
+    arena_close(absent.arena);
+    for (int i = 0; i < 2; i++)
+        fclose(fopen(there[i], "w"));
     all_bad(contacts, sizeof contacts / sizeof contacts[0]);
+    ck_assert(unlink(there[0]) == 0 && unlink(there[1]) == 0 && rmdir("scenes") == 0 && chdir("/") == 0 && rmdir(folder) == 0);
 }
 END_TEST
 

@@ -2,8 +2,8 @@
 #include "scene/scene_read.h"
 
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "folder.h"
 #include "scenes.h"
 
 #define REST "scraper: {mass: 1 g, response: a.csv}\nmotion: {path: line, to: [1 cm, 0], speed: 10 cm/s}\n"
@@ -87,68 +87,41 @@ END_TEST
 
 /* ------------------------------------------------------------------ recipes */
 
-static char folder[64];
-
-static const char *path(const char *name)
-{
-    static char paths[4][128];
-    static int next;
-    next = (next + 1) % 4;
-    snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);
-    return paths[next];
-}
-
-static void put(const char *name, const char *text)
-{
-    FILE *f = fopen(path(name), "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    fclose(f);
-}
-
 static struct result read_file(const char *name, const char *const *set)
 {
     struct result r = {.arena = arena_open()};
     struct scene_overrides over = {.set = (const char **)set};
     while (set && set[over.n])
         over.n++;
-    r.good = scene_read(path(name), &over, r.arena, &r.scene, &r.messages, &r.err);
+    r.good = scene_read(folder_path(name), &over, r.arena, &r.scene, &r.messages, &r.err);
     return r;
 }
 
 static void make_files(void)
 {
-    strcpy(folder, "/tmp/test_recipe_XXXXXX");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    ck_assert_int_eq(mkdir(path("sub"), 0700), 0);
-    put("sub/paper.yaml", "title: sandpaper\nsource: made up\nroughness: {rms: 2 um, exponent: -3, like: null}\n"
-                          "grit: {density: 30 /mm^2, height: 50 um}\nresponse: table.csv\n");
-    put("sub/map.yaml", "height_map: map.gsf\nroughness: {like: like.gsf}\n");
-    put("sub/wood.yaml", "ridges: {spacing: 2 mm}\n");
-    put("sub/plank.yaml", "material: poplar\nobject: {shape: plate, length: 30 cm, width: 10 cm, thickness: 5 mm}\nroughness: {rms: 2 um}\n");
-    put("sub/plank_wrong.yaml", "roughness: {}\nmaterial: poplar\nobject: {shape: plate, length: 30 cm, width: 10 cm}\n");
-    put("sub/wrong.yaml", "title: x\n\nroughness: {rms: 3 g}\n");
-    put("sub/unknown.yaml", "roughnes: {}\ngrit: {}\n");
-    put("sub/nested.yaml", "grit: {}\nrecipe: paper.yaml\n");
-    put("sub/scene.yaml", "surface: {grit: {}}\n");
-    put("sub/list.yaml", "- grit\n");
-    put("sub/syntax.yaml", "grit: {\n");
-    put("sub/title.yaml", "title: [a]\ngrit: {}\n");
-    put("sub/empty.yaml", "title: nothing\n");
-    put("sub/bare.yaml", "# nothing\n");
-    put("one.yaml", "rasp: 1\nsurface: {recipe: sub/paper.yaml, roughness: {rms: 5 um}, grit: {height: 20 um}}\n" REST);
-    put("base.yaml", "rasp: 1\nsurface: {recipe: sub/paper.yaml}\n" REST);
-    put("sub/including.yaml", "include: [../base.yaml]\nsurface: {grit: ~}\n");
-    put("several.yaml", "rasp: 1\ncontacts:\n"
-                        "- {name: a, surface: {recipe: sub/paper.yaml}, scraper: {mass: 1}, motion: {path: line, to: [1, 0], speed: 1}}\n"
-                        "- {name: b, surface: {recipe: sub/wood.yaml}, scraper: {mass: 1, response: a.csv}, motion: {path: line, to: [1, 0], speed: 1}}\n");
-}
-
-static void remove_files(void)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    ck_assert_int_eq(system(command), 0);
+    folder_make();
+    ck_assert_int_eq(mkdir(folder_path("sub"), 0700), 0);
+    folder_write("sub/paper.yaml", "title: sandpaper\nsource: made up\nroughness: {rms: 2 um, exponent: -3, like: null}\n"
+                                   "grit: {density: 30 /mm^2, height: 50 um}\nresponse: table.csv\n");
+    folder_write("sub/map.yaml", "height_map: map.gsf\nroughness: {like: like.gsf}\n");
+    folder_write("sub/wood.yaml", "ridges: {spacing: 2 mm}\n");
+    folder_write("sub/plank.yaml", "material: poplar\nobject: {shape: plate, length: 30 cm, width: 10 cm, thickness: 5 mm}\nroughness: {rms: 2 um}\n");
+    folder_write("sub/plank_wrong.yaml", "roughness: {}\nmaterial: poplar\nobject: {shape: plate, length: 30 cm, width: 10 cm}\n");
+    folder_write("sub/wrong.yaml", "title: x\n\nroughness: {rms: 3 g}\n");
+    folder_write("sub/unknown.yaml", "roughnes: {}\ngrit: {}\n");
+    folder_write("sub/nested.yaml", "grit: {}\nrecipe: paper.yaml\n");
+    folder_write("sub/scene.yaml", "surface: {grit: {}}\n");
+    folder_write("sub/list.yaml", "- grit\n");
+    folder_write("sub/syntax.yaml", "grit: {\n");
+    folder_write("sub/title.yaml", "title: [a]\ngrit: {}\n");
+    folder_write("sub/empty.yaml", "title: nothing\n");
+    folder_write("sub/bare.yaml", "# nothing\n");
+    folder_write("one.yaml", "rasp: 1\nsurface: {recipe: sub/paper.yaml, roughness: {rms: 5 um}, grit: {height: 20 um}}\n" REST);
+    folder_write("base.yaml", "rasp: 1\nsurface: {recipe: sub/paper.yaml}\n" REST);
+    folder_write("sub/including.yaml", "include: [../base.yaml]\nsurface: {grit: ~}\n");
+    folder_write("several.yaml", "rasp: 1\ncontacts:\n"
+                                 "- {name: a, surface: {recipe: sub/paper.yaml}, scraper: {mass: 1}, motion: {path: line, to: [1, 0], speed: 1}}\n"
+                                 "- {name: b, surface: {recipe: sub/wood.yaml}, scraper: {mass: 1, response: a.csv}, motion: {path: line, to: [1, 0], speed: 1}}\n");
 }
 
 START_TEST(test_recipe)
@@ -159,15 +132,15 @@ START_TEST(test_recipe)
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert(s->roughness.rms == 5e-6 && s->roughness.exponent == -3 && s->grit.given && s->grit.density == 30e6 && s->grit.height == 20e-6);
     ck_assert(s->grit.diameter == 125e-6 && !s->ridges.given);
-    ck_assert_str_eq(s->recipe, path("sub/paper.yaml"));
-    ck_assert_str_eq(s->response.file, path("sub/table.csv"));
+    ck_assert_str_eq(s->recipe, folder_path("sub/paper.yaml"));
+    ck_assert_str_eq(s->response.file, folder_path("sub/table.csv"));
     arena_close(r.arena);
     r = read_file("sub/including.yaml", NULL); /* the recipe is seen from the file that names it */
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert(r.scene.contacts->surface.roughness.rms == 2e-6 && !r.scene.contacts->surface.grit.given);
     arena_close(r.arena);
     char set[256];
-    snprintf(set, sizeof set, "surface.recipe=%s", path("sub/plank.yaml")); /* an object is as much of a surface as a response file */
+    snprintf(set, sizeof set, "surface.recipe=%s", folder_path("sub/plank.yaml")); /* an object is as much of a surface as a response file */
     r = read_file("base.yaml", SET(set, "surface.object.length=20 cm"));
     ck_assert_msg(r.good, "%s", r.messages);
     const struct object_given *o = &r.scene.contacts->surface.response.object;
@@ -182,7 +155,7 @@ START_TEST(test_recipe)
     ck_assert(r.scene.contacts[0].surface.grit.given && !r.scene.contacts[0].surface.ridges.given);
     ck_assert(r.scene.contacts[1].surface.ridges.spacing == 2e-3 && !r.scene.contacts[1].surface.roughness.given);
     arena_close(r.arena);
-    remove_files();
+    folder_remove();
 }
 END_TEST
 
@@ -190,19 +163,19 @@ START_TEST(test_recipe_set)
 {
     char set[256], set_b[256];
     make_files();
-    snprintf(set, sizeof set, "surface.recipe=%s", path("sub/map.yaml"));
+    snprintf(set, sizeof set, "surface.recipe=%s", folder_path("sub/map.yaml"));
     struct result r = read_file("base.yaml", SET(set, "surface.height_map=mine.gsf")); /* a name on the command line is seen from the current folder */
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert_str_eq(r.scene.contacts->surface.height_map, "mine.gsf");
-    ck_assert_str_eq(r.scene.contacts->surface.roughness.like, path("sub/like.gsf"));
+    ck_assert_str_eq(r.scene.contacts->surface.roughness.like, folder_path("sub/like.gsf"));
     arena_close(r.arena);
-    snprintf(set_b, sizeof set_b, "contacts.b.surface.recipe=%s", path("sub/paper.yaml"));
+    snprintf(set_b, sizeof set_b, "contacts.b.surface.recipe=%s", folder_path("sub/paper.yaml"));
     r = read_file("several.yaml", SET(set_b, "contacts.a.surface={recipe: null, ridges: {}, response: x.csv}"));
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert(r.scene.contacts[1].surface.grit.given && !r.scene.contacts[1].surface.ridges.given && r.scene.contacts[0].surface.ridges.given);
     ck_assert(!r.scene.contacts[0].surface.grit.given && !r.scene.contacts[0].surface.recipe);
     arena_close(r.arena);
-    remove_files();
+    folder_remove();
 }
 END_TEST
 
@@ -227,14 +200,14 @@ START_TEST(test_bad_recipe)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char start[256], text[512];
         snprintf(text, sizeof text, "rasp: 1\nsurface: {recipe: %s}\n" REST, rows[i].recipe);
-        put("t.yaml", text);
+        folder_write("t.yaml", text);
         struct result r = read_file("t.yaml", NULL);
-        snprintf(start, sizeof start, "%s%s", path(rows[i].at), rows[i].place);
+        snprintf(start, sizeof start, "%s%s", folder_path(rows[i].at), rows[i].place);
         one_error(&r, start, rows[i].says, rows[i].cure);
         ck_assert_int_eq(r.err.kind, rows[i].kind);
         arena_close(r.arena);
     }
-    remove_files();
+    folder_remove();
 }
 END_TEST
 
@@ -242,18 +215,18 @@ END_TEST
 START_TEST(test_recipe_and_scene_at_once)
 {
     make_files();
-    put("t.yaml", "rasp: 1\nsurface: {recipe: sub/wrong.yaml, grit: {spread: 3}}\n" REST);
+    folder_write("t.yaml", "rasp: 1\nsurface: {recipe: sub/wrong.yaml, grit: {spread: 3}}\n" REST);
     struct result r = read_file("t.yaml", NULL);
     ck_assert_msg(strstr(r.messages, "t.yaml:2:50: error: surface.grit.spread must be from 0 to 1") && strstr(r.messages, "wrong.yaml:3:18: error: ") &&
                       strstr(r.messages, "\n2 errors\n"),
                   "%s", r.messages);
     arena_close(r.arena);
-    put("t.yaml", "rasp: 1\nsurface: {recipe: sub/none.yaml, pitch: 1 um, continuation: {}}\ntitel: x\n" REST);
+    folder_write("t.yaml", "rasp: 1\nsurface: {recipe: sub/none.yaml, pitch: 1 um, continuation: {}}\ntitel: x\n" REST);
     r = read_file("t.yaml", NULL);
     ck_assert_msg(strstr(r.messages, "none.yaml': No such file") && strstr(r.messages, "unknown key 'titel'") && strstr(r.messages, "\n2 errors\n"), "%s", r.messages);
     ck_assert_int_eq(r.err.kind, ERR_INPUT);
     arena_close(r.arena);
-    remove_files();
+    folder_remove();
 }
 END_TEST
 

@@ -53,7 +53,7 @@ static const char RECORDED[] = "rasp: 1\nsurface: {ridges: {}, response: files/p
 static const char OBJECT[] =
     "rasp: 1\nsurface: {material: poplar, object: {shape: plate, edges: supported, length: 0.3, width: 20 cm, thickness: 7 mm, youngs_modulus: 12 GPa,\n"
     "  youngs_modulus_across: 0.7 GPa, shear_modulus: 0.9 GPa, poisson: 0.31, density: 433 kg/m^3, alpha: 11 1/s, beta: 0.1 us, loss: 0.013,\n"
-    "  origin: [1 cm, -3 mm]}, moving: launch, convolution: nodes, modes: 77, pairing: 0.07}\n"
+    "  origin: [1 cm, -3 mm]}, moving: launch, convolution: overlap_add, modes: 77, pairing: 0.07}\n"
     "scraper: {mass: 1, radius: 3 mm, material: steel, weight: 0.3, object: {shape: rod, waves: longitudinal, edges: cantilever, length: 0.3, diameter: 1 cm,\n"
     "  thickness: 1 mm, at: [7 cm, 0]}}\n"
     "motion: {path: line, from: [0.1, 0.1], to: [0.2, 0.1], speed: 0.1}\n"

@@ -1,14 +1,8 @@
 /* Sounds of several channels and their stems, from samples to WAVs; the level rules of one channel are in test_render.c. */
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include "file/wav.h"
 #include "num/noise.h"
 #include "output/sound.h"
 #include "output/stems.h"
-#include "unit.h"
-
-static char folder[] = "/tmp/rasp_sound_XXXXXX";
+#include "renders.h"
 
 static const double places[15] = {0, 0, 1, 1, 0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1};
 
@@ -19,31 +13,6 @@ static struct scene scene_of(int n, int encoding)
     if (n > 1)
         s.output.listen = (struct listen){true, RADIATOR_POINT, places, n, 1.2, 343};
     return s;
-}
-
-static const char *in_folder(struct arena *a, const char *name)
-{
-    return arena_format(a, "%s/%s", folder, name);
-}
-
-static struct wav written(struct arena *a, const char *name)
-{
-    struct wav w;
-    struct err e = {0};
-    ck_assert_msg(wav_read(in_folder(a, name), a, &w, &e), "%s", e.text);
-    return w;
-}
-
-static struct arena *setup(void)
-{
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    return arena_open();
-}
-
-static void clean(struct arena *a)
-{
-    ck_assert_int_eq(system(arena_format(a, "rm -r %s", folder)), 0);
-    arena_close(a);
 }
 
 /* What sounds at a frame of a channel: other noise on each, louder from channel to channel. */
@@ -58,7 +27,7 @@ static struct sound_report sounded(struct arena *a, const struct scene *s, const
     struct err e = {0};
     struct sound_report r;
     int places_n = s->output.listen.given ? s->output.listen.n_places : 1;
-    struct sound *o = sound_open(s, in_folder(a, name), frames, a, &e);
+    struct sound *o = sound_open(s, folder_path(name), frames, a, &e);
     double *x = ARENA_TAKE(a, double, 1024 * places_n);
     ck_assert_msg(o != NULL, "%s", e.text);
     for (long n = 0, some; n < frames; n += some) {
@@ -77,7 +46,7 @@ static struct sound_report sounded(struct arena *a, const struct scene *s, const
    as counted here. */
 START_TEST(each_place_is_a_channel)
 {
-    struct arena *a = setup();
+    struct arena *a = folder_make();
     long frames = 9000;
     for (int known = 0; known < 2; known++) {
         struct scene s = scene_of(3, ENCODING_FLOAT64);
@@ -85,7 +54,7 @@ START_TEST(each_place_is_a_channel)
         s.output.ramp = 0.01;
         s.output.level.full_scale = known ? 4 : NAN;
         struct sound_report r = sounded(a, &s, "three.wav", frames, noise_at);
-        struct wav w = written(a, "three.wav");
+        struct wav w = renders_sound("three.wav");
         ck_assert_int_eq(w.channels, 3);
         ck_assert_uint_eq(w.frames, (size_t)frames);
         for (long n = 0; n < frames; n++)
@@ -106,7 +75,7 @@ START_TEST(each_place_is_a_channel)
         ck_assert_double_eq_tol(r.rms, sqrt((squares[0] + squares[1] + squares[2]) / (3.0 * (double)frames)), 1e-13);
         ck_assert_double_eq_tol(r.gain, known ? 0.25 : pow(10, -3 / 20.0) / most, 1e-15);
     }
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -121,7 +90,7 @@ static double tone_at(long n, int channel)
 START_TEST(loudness_counts_channels)
 {
     static const int counts[] = {1, 2, 5};
-    struct arena *a = setup();
+    struct arena *a = folder_make();
     for (int k = 0; k < 3; k++) {
         struct scene s = scene_of(counts[k], ENCODING_FLOAT64);
         s.output.level.lufs = -23;
@@ -130,43 +99,43 @@ START_TEST(loudness_counts_channels)
         printf("%d channels: %.4f dB each, %.4f dB together\n", counts[k], each, whole);
         ck_assert_double_eq_tol(whole, -23, 0.02);
     }
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* 1 Pa is -20 dB of full scale: a tenth, and the WAV says so. */
 START_TEST(pascals_have_a_level)
 {
-    struct arena *a = setup();
+    struct arena *a = folder_make();
     struct scene s = scene_of(2, ENCODING_FLOAT64);
     s.output.listen.radiator = RADIATOR_MONOPOLE;
     s.output.level.dbfs_at_1_pa = -20;
     struct sound_report r = sounded(a, &s, "pascals.wav", 500, noise_at);
-    struct wav w = written(a, "pascals.wav");
+    struct wav w = renders_sound("pascals.wav");
     char text[80];
     ck_assert_double_eq_tol(r.gain, 0.1, 1e-16);
     ck_assert_double_eq_tol(w.x[2 * 77 + 1], 0.1 * noise_at(77, 1), 1e-16);
     sound_comment(&s, r.gain, text);
     ck_assert_str_eq(text, "rasp: gain 0.1 per Pa (-20.0000 dB)");
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* One place may be copied to several channels; several places may not be. */
 START_TEST(copies_are_of_one_place)
 {
-    struct arena *a = setup();
+    struct arena *a = folder_make();
     struct err e = {0};
     struct scene one = scene_of(1, ENCODING_FLOAT64), two = scene_of(2, ENCODING_FLOAT64);
     one.output.channels = two.output.channels = 3;
     sounded(a, &one, "copies.wav", 5000, noise_at);
-    struct wav w = written(a, "copies.wav");
+    struct wav w = renders_sound("copies.wav");
     ck_assert_int_eq(w.channels, 3);
     for (size_t n = 0; n < 5000; n++)
         ck_assert(w.x[3 * n] == w.x[3 * n + 1] && w.x[3 * n] == w.x[3 * n + 2] && w.x[3 * n] != 0);
-    ck_assert_ptr_null(sound_open(&two, in_folder(a, "no.wav"), 10, a, &e));
+    ck_assert_ptr_null(sound_open(&two, folder_path("no.wav"), 10, a, &e));
     ck_assert_msg(strstr(e.text, "leave output.channels out") != NULL, "%s", e.text);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -175,8 +144,8 @@ static const char *const all_stems[] = {"force", "surface", "scraper", NULL};
 /* Renders a sound of two parts, the second -0.75 of the first, and a force of 100 N, with the stems. */
 static bool stemmed(struct arena *a, const struct scene *s, long frames, struct err *e)
 {
-    const char *const paths[STEMS] = {in_folder(a, "x.force.wav"), in_folder(a, "x.surface.wav"), in_folder(a, "x.scraper.wav")};
-    struct sound *o = sound_open(s, in_folder(a, "x.wav"), frames, a, e);
+    const char *const paths[STEMS] = {folder_path("x.force.wav"), folder_path("x.surface.wav"), folder_path("x.scraper.wav")};
+    struct sound *o = sound_open(s, folder_path("x.wav"), frames, a, e);
     struct stems *p = stems_open(s, paths, frames, a, e);
     struct sound_report r;
     int width = stems_channels(&s->output, STEM_SURFACE);
@@ -201,7 +170,7 @@ static bool stemmed(struct arena *a, const struct scene *s, long frames, struct 
    the sound is, without ramps. Of a level that is known at once, and of one that is found. */
 START_TEST(stems_sum_to_the_sound)
 {
-    struct arena *a = setup();
+    struct arena *a = folder_make();
     struct err e = {0};
     for (int known = 0; known < 2; known++) {
         struct scene s = scene_of(2, ENCODING_PCM24);
@@ -210,7 +179,7 @@ START_TEST(stems_sum_to_the_sound)
         s.output.level.full_scale = known ? 2 : NAN;
         s.output.level.peak = known ? NAN : -20;
         ck_assert_msg(stemmed(a, &s, 3000, &e), "%s", e.text);
-        struct wav sum = written(a, "x.wav"), force = written(a, "x.force.wav"), x = written(a, "x.surface.wav"), y = written(a, "x.scraper.wav");
+        struct wav sum = renders_sound("x.wav"), force = renders_sound("x.force.wav"), x = renders_sound("x.surface.wav"), y = renders_sound("x.scraper.wav");
         ck_assert(sum.channels == 2 && x.channels == 2 && y.channels == 2 && force.channels == 1);
         ck_assert(sum.bits == 24 && x.bits == 24 && y.bits == 24 && force.bits == 0);
         for (size_t n = 0; n < 6000; n++)
@@ -219,25 +188,25 @@ START_TEST(stems_sum_to_the_sound)
             ck_assert(force.x[n] == (float)(100 + noise_at((long)n, 0)));
         ck_assert_double_gt(fabs(x.x[3001]), 3 * fabs(sum.x[3001]));
     }
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
 /* A part that is louder than the whole is not clipped: the sound peaks at -3 dBFS, its surface four times higher. */
 START_TEST(a_stem_that_clips_is_refused)
 {
-    struct arena *a = setup();
+    struct arena *a = folder_make();
     struct err e = {0};
     struct scene s = scene_of(1, ENCODING_PCM16);
     s.output.stems = (const char **)all_stems;
     ck_assert(!stemmed(a, &s, 3000, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
     ck_assert_msg(strstr(e.text, "output.stems") && strstr(e.text, "x.surface.wav") && strstr(e.text, "float32"), "%s", e.text);
-    ck_assert_int_eq(system(arena_format(a, "test -z \"$(ls -A %s)\"", folder)), 0);
+    ck_assert_int_eq(system(arena_format(a, "test -z \"$(ls -A %s)\"", folder_name)), 0);
     s.output.encoding = ENCODING_FLOAT32;
     e = (struct err){0};
     ck_assert_msg(stemmed(a, &s, 3000, &e), "%s", e.text);
-    clean(a);
+    folder_remove();
 }
 END_TEST
 
@@ -251,7 +220,7 @@ static double one(long n, int channel)
    The sound of it, and a stem of a body likewise, goes with 1 over that distance; the force keeps what it is. */
 START_TEST(an_envelope_comes_and_goes)
 {
-    struct arena *a = setup();
+    struct arena *a = folder_make();
     struct err e = {0};
     static const double depths[] = {20, 6, 0};
     for (int i = 0; i < 3; i++) {
@@ -261,7 +230,7 @@ START_TEST(an_envelope_comes_and_goes)
         s.output.envelope = ENVELOPE_APPROACH_RECEDE;
         s.output.envelope_depth = depths[i];
         struct sound_report r = sounded(a, &s, "passes.wav", 4001, one);
-        struct wav w = written(a, "passes.wav");
+        struct wav w = renders_sound("passes.wav");
         for (long n = 0; n < 4001; n++)
             for (int k = 0; k < 2; k++)
                 ck_assert_double_eq_tol(w.x[2 * n + k], 1 / hypot(1, x * (((double)n + 0.5) / 4001 * 2 - 1)), 1e-14);
@@ -270,11 +239,11 @@ START_TEST(an_envelope_comes_and_goes)
         ck_assert_double_eq(r.peak, 1);
         s.output.stems = (const char **)all_stems;
         ck_assert_msg(stemmed(a, &s, 3000, &e), "%s", e.text);
-        struct wav force = written(a, "x.force.wav"), surface = written(a, "x.surface.wav");
+        struct wav force = renders_sound("x.force.wav"), surface = renders_sound("x.surface.wav");
         ck_assert_double_eq_tol(surface.x[0] / noise_at(0, 0), w.x[0], 1e-3);
         ck_assert(force.x[0] == (float)(100 + noise_at(0, 0)));
     }
-    clean(a);
+    folder_remove();
 }
 END_TEST
 

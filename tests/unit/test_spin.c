@@ -97,7 +97,7 @@ static void motion(double a, double t, double out[3])
 }
 
 struct moved {
-    double theta, turning, rise, climb, lift, bulge, swell;
+    double theta, turning, rise, climb, lift, bulge, swell, heave;
 };
 
 static struct moved moved(const struct spin *s, double a, double t)
@@ -105,7 +105,7 @@ static struct moved moved(const struct spin *s, double a, double t)
     struct moved m;
     double x[3];
     motion(a, t, x);
-    spin_at(s, 1, &x[0], &x[1], &x[2], &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell});
+    spin_at(s, 1, &x[0], &x[1], &x[2], &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave});
     return m;
 }
 
@@ -126,14 +126,15 @@ START_TEST(derivatives)
     static const struct {
         size_t of, is;
     } pairs[] = {{offsetof(struct moved, theta), offsetof(struct moved, turning)}, {offsetof(struct moved, rise), offsetof(struct moved, climb)},
-                 {offsetof(struct moved, climb), offsetof(struct moved, lift)},    {offsetof(struct moved, bulge), offsetof(struct moved, swell)}};
+                 {offsetof(struct moved, climb), offsetof(struct moved, lift)},    {offsetof(struct moved, bulge), offsetof(struct moved, swell)},
+                 {offsetof(struct moved, swell), offsetof(struct moved, heave)}};
     srand48(4);
     for (int i = 0; i < 2000; i++) {
         struct spin s = ball(between(0, 0.012));
-        double a = i % 2 ? 0.1 : 0.03, t = between(0, 5), scale[4] = {30, 0.4, 15, 0.01};
+        double a = i % 2 ? 0.1 : 0.03, t = between(0, 5), scale[5] = {30, 0.4, 15, 0.01, 1};
         s.start = between(-3, 3);
         struct moved m = moved(&s, a, t);
-        for (int k = 0; k < 4; k++) /* 1e-10: what order 8 leaves at 1 ms of a motion that turns 30 rad/s, and rounding over h */
+        for (int k = 0; k < 5; k++) /* 1e-10: what order 8 leaves at 1 ms of a motion that turns 30 rad/s, and rounding over h */
             ck_assert_double_eq_tol(difference(&s, a, t, 5e-4, pairs[k].of) / scale[k], *(double *)((char *)&m + pairs[k].is) / scale[k], 2e-10);
     }
 }
@@ -170,12 +171,14 @@ START_TEST(round_ball)
     s.start = 0.7;
     double u = 0.1, v = 2, a = -3;
     struct moved m;
-    spin_at(&s, 1, &u, &v, &a, &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell});
+    spin_at(&s, 1, &u, &v, &a, &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave});
     ck_assert_double_eq_tol(m.theta, 0.7 + 0.1 / 0.03, 1e-15 * 4);
     ck_assert_double_eq_tol(m.turning, 2 / 0.03, 1e-13);
     ck_assert(m.rise == 0 && m.climb == 0 && m.lift == 0);
     ck_assert_double_eq_tol(m.bulge, 2e-5 * cos(3 * (0.7 + 0.1 / 0.03)), 1e-19);
-    ck_assert_double_eq_tol(m.swell, -2e-5 * 3 * sin(3 * (0.7 + 0.1 / 0.03)) * 2 / 0.03, 1e-16);
+    double x = 3 * (0.7 + 0.1 / 0.03), w = 2 / 0.03, ww = -3 / 0.03;
+    ck_assert_double_eq_tol(m.swell, -2e-5 * 3 * sin(x) * w, 1e-16);
+    ck_assert_double_eq_tol(m.heave, -2e-5 * 3 * (3 * cos(x) * w * w + sin(x) * ww), 1e-13);
     struct contact c = {.ball = {.radius = 1, .offset = 0.5, .start_angle = 3, .lobe_height = 1e-3, .lobes = 4}};
     s = spin_make(&c);
     ck_assert(s.radius == 1 && s.offset == 0.5 && s.start == 3 && s.lobe_height == 1e-3 && s.lobes == 4);

@@ -8,24 +8,9 @@
 
 #include "base/arena.h"
 #include "file/wav.h"
-#include "unit.h"
+#include "folder.h"
 
 static unsigned char disk[1 << 20];
-
-static void enter_folder(void)
-{
-    char name[] = "/tmp/test_wav.XXXXXX";
-    ck_assert_ptr_nonnull(mkdtemp(name));
-    ck_assert_int_eq(chdir(name), 0);
-}
-
-static void leave_folder(void)
-{
-    char name[4096];
-    ck_assert_ptr_nonnull(getcwd(name, sizeof name));
-    ck_assert_int_eq(chdir("/"), 0);
-    ck_assert_int_eq(rmdir(name), 0); /* so that a file left behind is a failure */
-}
 
 static size_t slurp(const char *path)
 {
@@ -71,7 +56,7 @@ START_TEST(layout_of_plain_pcm)
 {
     const double x[] = {0, 0.5, -1, 32767.0 / 32768};
     const int want[] = {0, 16384, -32768, 32767};
-    enter_folder();
+    folder_enter();
     put("a.wav", (struct wav_format){.rate = 44100, .channels = 2, .bits = 16}, x, 2);
     size_t n = slurp("a.wav");
     ck_assert_uint_eq(n, 44 + 8);
@@ -84,7 +69,7 @@ START_TEST(layout_of_plain_pcm)
     for (size_t i = 0; i < 4; i++)
         ck_assert_int_eq((int16_t)(disk[44 + 2 * i] | disk[45 + 2 * i] << 8), want[i]);
     unlink("a.wav");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -92,7 +77,7 @@ START_TEST(rounds_to_nearest_even)
 {
     const double q = 1.0 / 8388608, x[] = {0.5 * q, 1.5 * q, -0.5 * q, -1.5 * q, 0.499 * q, 2.501 * q, 1 - 0.51 * q - q};
     const int want[] = {0, 2, 0, -2, 0, 3, 8388606};
-    enter_folder();
+    folder_enter();
     put("a.wav", (struct wav_format){.rate = 48000, .channels = 1, .bits = 24}, x, 7);
     size_t n = slurp("a.wav"), data = chunk("data", n);
     for (size_t i = 0; i < 7; i++) {
@@ -100,14 +85,14 @@ START_TEST(rounds_to_nearest_even)
         ck_assert_int_eq(v >= 8388608 ? v - 16777216 : v, want[i]);
     }
     unlink("a.wav");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
 START_TEST(title_comment_and_no_peak)
 {
     const double x[] = {0.25, -0.25};
-    enter_folder();
+    folder_enter();
     for (int bits = -64; bits <= 24; bits += bits < -32 ? 32 : bits < 0 ? 48 : 8) {
         put("a.wav", (struct wav_format){48000, 1, bits, "a title", "gain \xc2\xb1 3 dB", 0}, x, 2);
         size_t n = slurp("a.wav"), list = chunk("LIST", n);
@@ -118,7 +103,7 @@ START_TEST(title_comment_and_no_peak)
         ck_assert_ptr_null(memmem(disk, n, "libsndfile", 10));
     }
     unlink("a.wav");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -139,14 +124,14 @@ static void check_same_bytes(struct wav_format f)
 
 START_TEST(same_bytes_a_second_later)
 {
-    enter_folder();
+    folder_enter();
     check_same_bytes((struct wav_format){48000, 1, -32, "t", "c", 0});
     check_same_bytes((struct wav_format){48000, 1, -64, "t", "c", 0});
     check_same_bytes((struct wav_format){48000, 1, 24, "t", "c", 0});
     check_same_bytes((struct wav_format){48000, 1, -32, "t", "c", 1}); /* RF64 */
     check_same_bytes((struct wav_format){48000, 2, -64, "t", NULL, 100});
     unlink("a.wav");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -185,12 +170,12 @@ START_TEST(round_trips)
 {
     static const int bits[] = {16, 24, -32, -64};
     static const double limits[] = {0, 1, 100000};
-    enter_folder();
+    folder_enter();
     for (int k = 0; k < 4; k++)
         for (int channels = 1; channels <= 3; channels++)
             for (int l = 0; l < 3; l++)
                 check_round_trip((struct wav_format){44100, channels, bits[k], "t", NULL, limits[l]});
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -211,7 +196,7 @@ static void check_write_error(int bits, double x, enum err_kind kind, const char
 
 START_TEST(nothing_is_clipped)
 {
-    enter_folder();
+    folder_enter();
     check_write_error(16, 2, ERR_SCENE, "+6.02 dB re full scale");
     check_write_error(24, 1, ERR_SCENE, "+0.00 dB");
     check_write_error(24, -1.0000001, ERR_SCENE, "beyond the range of 24-bit integers");
@@ -220,7 +205,7 @@ START_TEST(nothing_is_clipped)
         check_write_error(bits, NAN, ERR_NUMBERS, "nan");
         check_write_error(bits, -INFINITY, ERR_NUMBERS, "-inf");
     }
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -234,7 +219,7 @@ static void check_create(const char *path, struct wav_format f, enum err_kind ki
 
 START_TEST(create_refuses)
 {
-    enter_folder();
+    folder_enter();
     check_create("no/a.wav", (struct wav_format){.rate = 48000, .channels = 1, .bits = 16}, ERR_CREATE, "folder does not exist");
     check_create("/tmp", (struct wav_format){.rate = 48000, .channels = 1, .bits = 16}, ERR_CREATE, "is a folder");
     check_create("a.wav", (struct wav_format){.rate = 48000, .channels = 1, .bits = 20}, ERR_SCENE, "20 bits");
@@ -242,7 +227,7 @@ START_TEST(create_refuses)
     check_create("a.wav", (struct wav_format){.rate = NAN, .channels = 1, .bits = 16}, ERR_SCENE, "whole number of Hz");
     check_create("a.wav", (struct wav_format){.rate = 48000, .channels = 0, .bits = 16}, ERR_SCENE, "channels");
     wav_drop(NULL);
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -266,10 +251,10 @@ static void check_full(double riff_bytes)
 
 START_TEST(full_disk)
 {
-    enter_folder();
+    folder_enter();
     check_full(0);
     check_full(8000); /* in the middle of going over to RF64 */
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -287,7 +272,7 @@ START_TEST(read_refuses)
 {
     static const double x[1000] = {0.5};
     const float bad[2] = {NAN, INFINITY};
-    enter_folder();
+    folder_enter();
     check_read("none.wav", ERR_INPUT, "No such file");
     check_read("/tmp", ERR_INPUT, "is not a file");
     spill("a.wav", 0);
@@ -313,7 +298,7 @@ START_TEST(read_refuses)
     spill("a.wav", n);
     check_read("a.wav", ERR_SCENE, "frame 20, channel 2: nan is not finite");
     unlink("a.wav");
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 
@@ -322,11 +307,11 @@ START_TEST(drop_leaves_nothing)
     struct wav_format f = {.rate = 48000, .channels = 1, .bits = -32};
     struct err e = {0};
     double x[100] = {0};
-    enter_folder();
+    folder_enter();
     struct wav_out *w = wav_create("a.wav", &f, &e);
     ck_assert(w && wav_write(w, x, 100, &e));
     wav_drop(w);
-    leave_folder();
+    folder_leave();
 }
 END_TEST
 

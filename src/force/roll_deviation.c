@@ -1,0 +1,103 @@
+/* rms of S, the height of a rolling ball's geometric centre as it follows the ground (force/roll_centre.c), less its level (force/slope.h). A stiffness is no
+   matter of how far the ball rolls, nor of how exactly that is worked out, so
+
+     - where the motion is short (ball_beyond) it goes straight on from its end in thought, and each part counts by the ground that it goes over. Where that
+       cannot be enough, as under a long contact.leak, the render says how uncertain the stiffness is;
+     - the ground is read as accuracy.tip_heights: 1 has it, in a pass of its own where that is another: the same to the bit in every preset. */
+#include "force/roll_deviation.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scene/ball.h"
+#include "surface/relief.h"
+#include "trajectory/trajectory.h"
+
+#define UNSURE 0.2 /* of the rms: a standard error above that is told */
+
+struct roll_spread roll_deviation_spread(const double *at, long n)
+{
+    double sum = 0, first = at[0];
+    struct roll_spread s = {0};
+    for (long i = 0; i < n; i++)
+        sum += at[i] - first;
+    s.mean = first + sum / (double)n;
+    for (long i = 0; i < n; i++)
+        s.square += (at[i] - s.mean) * (at[i] - s.mean);
+    s.square /= (double)n;
+    return s;
+}
+
+/* rms of both together, of which each is so many metres of ground. */
+static double spread_both(const struct roll_spread s[2], const double ground[2])
+{
+    double all = ground[0] + ground[1], mean = (ground[0] * s[0].mean + ground[1] * s[1].mean) / all, sum = 0;
+    for (int k = 0; k < 2; k++)
+        sum += ground[k] * (s[k].square + (s[k].mean - mean) * (s[k].mean - mean));
+    return sqrt(sum / all);
+}
+
+/* At the starts of grains: heights, and two lifts. */
+struct stretch {
+    double *of[3];
+    long n;
+};
+
+static struct stretch stretch_make(struct arena *a, long n)
+{
+    return (struct stretch){{ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n)}, n};
+}
+
+static struct roll_spread stretch_spread(const struct stretch *s, const double level[2])
+{
+    roll_centre_level(s->of[0], s->n, (const double *const[]){s->of[1], s->of[2]}, level);
+    return roll_deviation_spread(s->of[0], s->n);
+}
+
+static double deviation_after(struct roll_pass *p, double beyond, double normal, struct arena *a)
+{
+    double level[2], ground[2] = {trajectory_ground(p->board.trajectory), beyond};
+    long n = (long)ceil(beyond / roll_pass_grain(p->run.contact));
+    struct stretch motion = stretch_make(a, p->n), on = stretch_make(a, n);
+    const double *const from[3] = {p->at[0], p->lift[0][0], p->lift[0][1]};
+    for (int k = 0; k < 3; k++)
+        memcpy(motion.of[k], from[k], (size_t)p->n * sizeof *from[k]);
+    if (n > 0 && !roll_pass_beyond(p, n, beyond / (double)n, normal, on.of))
+        n = 0;
+    slope_level(&p->slope, level);
+    struct roll_spread s[2] = {stretch_spread(&motion, level)};
+    if (n == 0)
+        return sqrt(s[0].square);
+    s[1] = stretch_spread(&on, level);
+    return spread_both(s, ground);
+}
+
+static bool deviation_plain(const struct stage_run *r, double beyond, double normal, double *rms, struct err *e)
+{
+    struct arena *a = arena_open();
+    struct roll_pass *p = ARENA_TAKE(a, struct roll_pass, 1);
+    bool good = roll_pass_make(p, r, a, e) && roll_pass_plain(p, e) && roll_pass_motion(p, e);
+    *rms = good ? deviation_after(p, beyond, normal, a) : NAN;
+    arena_close(a);
+    return good;
+}
+
+static void deviation_told(const struct stage_run *r, double ground)
+{
+    double error = ball_deviation_error(r->contact, ground);
+    if (error > UNSURE)
+        board_warn(r->board, arena_format(r->arena, "contact '%s': the stiffness comes from %.3g m of ground, in which contact.leak, %.3g m, forgets %.3g times only: it may well be "
+                                          "off by %.0f %%; give contact.roll.stiffness (or kappa), a longer motion, or a shorter leak", r->contact->name, ground,
+                                          r->contact->contact.leak, ground / r->contact->contact.leak, 150 * error));
+}
+
+bool roll_deviation_of(struct roll_pass *p, const struct stage_run *r, double normal, double *rms, struct err *e)
+{
+    double ground = trajectory_ground(r->board->trajectory), beyond = ball_beyond(r->contact, ground);
+    if (ground > 0)
+        deviation_told(r, ground + beyond);
+    if (r->scene->accuracy.tip_heights != 1 && r->board->relief->under)
+        return deviation_plain(r, beyond, normal, rms, e);
+    *rms = deviation_after(p, beyond, normal, p->run.arena);
+    return true;
+}

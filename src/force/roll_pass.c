@@ -1,0 +1,225 @@
+/* See roll_pass.h. What the stages before the rolling force lay on the board are functions of time, and the relief may be read anywhere: here they lay the
+   whole motion on a board of the pass's own, a chunk at a time, in grains of its own: 1/48000 s, or finer so that the ball goes no further in one than its
+   patch, nor than a tenth of the way in which an offset ball's centre of mass passes through its lowest place, nor of that between two lobes (but no finer
+   than 1 um of way), and a whole number in the motion. So neither accuracy.oversampling nor output.sample_rate changes what follows. S is integrated exactly
+   over each grain, however long (force/slope.c).
+
+   Of a motion of more than ROLL_PASS_MOST grains one in every `stride` is kept, at a place among them that goes by the golden ratio, so that nothing that
+   repeats itself falls in step with it.
+
+   Beyond its end the motion goes straight on as it last went, over the ground that is there: what is procedural has no end, and a map goes on by
+   surface.off_map, for `error` as for `mirror`. */
+#include "force/roll_pass.h"
+
+#include <math.h>
+
+#include "num/real.h"
+#include "surface/limiter.h"
+#include "surface/relief.h"
+#include "trajectory/trajectory.h"
+
+extern const struct stage trajectory_stage, load_stage, limiter_stage, tip_stage;
+
+enum { HALVINGS = 20 };
+
+/* ------------------------------------------------------------------ grains */
+
+double roll_pass_grain(const struct contact *c)
+{
+    const struct ball *b = &c->ball;
+    double gap = b->radius - b->offset, turn = 0.1 * gap * sqrt(gap / b->radius), lobe = b->lobe_height > 0 ? 0.2 * REAL_PI * gap / b->lobes : HUGE_VAL;
+    return fmax(fmin(fmin(b->patch, turn), lobe), 1e-6);
+}
+
+/* x = R theta - r sin theta goes through the lowest place of the centre of mass within some (R - r)^1.5 / R^0.5. */
+double roll_pass_rate(const struct contact *c, double duration, double speed)
+{
+    return ceil(duration * fmax(ROLL_PASS_RATE, speed / roll_pass_grain(c)) * (1 - 1e-12)) / duration;
+}
+
+static long pass_pick(const struct roll_pass *p, long group)
+{
+    double place = (double)group * 0.6180339887498949;
+    return group * p->stride + (long)((double)p->stride * (place - floor(place)));
+}
+
+/* ------------------------------------------------------------------ making */
+
+static void pass_board(struct roll_pass *p, const struct stage_run *r, struct arena *a)
+{
+    const struct contact *c = r->contact;
+    const struct trajectory *tr = r->board->trajectory;
+    unsigned items = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | way_asks(c);
+    p->run = *r;
+    p->board = *r->board;
+    p->run.board = &p->board;
+    p->run.arena = a;
+    p->board.rate = roll_pass_rate(c, tr->duration, tr->top_speed);
+    p->board.over = 1;
+    if (p->board.load)
+        items |= ITEM_BIT(ITEM_LOAD) | (load_stage.asks ? load_stage.asks(c, p->run.scene) : 0);
+    if (p->board.limiter)
+        items |= ITEM_BIT(ITEM_ALPHA);
+    for (int i = 0; i < ITEM_COUNT; i++)
+        p->board.signals[i] = items & ITEM_BIT(i) ? (struct signal){.per_frame = 1, .capacity = WAY_CHUNK + 1, .x = ARENA_TAKE(a, double, WAY_CHUNK + 1)}
+                                                  : (struct signal){0};
+}
+
+static void pass_room(struct roll_pass *p, struct arena *a)
+{
+    p->grains = lrint(p->board.trajectory->duration * p->board.rate);
+    p->stride = (p->grains + ROLL_PASS_MOST - 1) / ROLL_PASS_MOST;
+    p->next = pass_pick(p, 0);
+    long room = p->grains / p->stride + 1;
+    for (int k = 0; k < 2; k++) {
+        p->at[k] = ARENA_TAKE(a, double, room);
+        p->lift[k][0] = ARENA_TAKE(a, double, room);
+        p->lift[k][1] = ARENA_TAKE(a, double, room);
+        p->load[k] = p->board.load ? ARENA_TAKE(a, double, room) : NULL;
+    }
+}
+
+bool roll_pass_make(struct roll_pass *p, const struct stage_run *r, struct arena *a, struct err *e)
+{
+    pass_board(p, r, a);
+    pass_room(p, a);
+    p->slope.rising = true;
+    p->centre = roll_centre_make(r->contact);
+    return slope_make(&p->slope, &p->run, e);
+}
+
+/* The tip is laid over the bare ground once more. */
+bool roll_pass_plain(struct roll_pass *p, struct err *e)
+{
+    struct arena *a = p->run.arena;
+    const struct relief *fine = p->board.relief;
+    struct scene *scene = ARENA_TAKE(a, struct scene, 1);
+    struct relief *plain = ARENA_TAKE(a, struct relief, 1);
+    *scene = *p->run.scene;
+    scene->accuracy.tip_heights = 1;
+    *plain = *fine;
+    plain->first = fine->under->first;
+    p->run.scene = scene;
+    p->board.relief = plain;
+    if (!tip_stage.open(&p->run, e))
+        return false;
+    p->slope = (struct slope){.rising = true};
+    return slope_make(&p->slope, &p->run, e);
+}
+
+/* ------------------------------------------------------------------ the motion */
+
+/* Motion, normal force and alpha at the ends of grains [from, to). */
+static bool pass_fill(struct roll_pass *p, long from, long to, struct err *e)
+{
+    const struct stage *const before[] = {&trajectory_stage, &load_stage, &limiter_stage};
+    const bool there[] = {true, p->board.load != NULL, p->board.limiter != NULL};
+    for (int i = 0; i < ITEM_COUNT; i++)
+        p->board.signals[i].first = from;
+    for (int i = 0; i < 3; i++)
+        if (there[i] && !before[i]->run(&p->run, from, to + 1, e))
+            return false;
+    return true;
+}
+
+static void pass_keep(struct roll_pass *p, long first, int n)
+{
+    const double *load = p->board.load ? way_values(&p->board, ITEM_LOAD, first) : NULL;
+    for (; p->next < first + n; p->next = pass_pick(p, ++p->n))
+        for (long k = 0, i = p->next - first; k < 2; k++) {
+            p->at[k][p->n] = p->centre.at[i + k];
+            p->lift[k][0][p->n] = p->centre.lifts[0][i + k];
+            p->lift[k][1][p->n] = p->centre.lifts[1][i + k];
+            if (load)
+                p->load[k][p->n] = load[i + k];
+        }
+}
+
+bool roll_pass_motion(struct roll_pass *p, struct err *e)
+{
+    for (long from = 0; from < p->grains;) {
+        int n = way_some(from, p->grains);
+        if (!pass_fill(p, from, from + n, e))
+            return false;
+        slope_run(&p->slope, &p->run, from, n);
+        roll_centre_follow(&p->centre, &p->slope, n);
+        pass_keep(p, from, n);
+        from += n;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ beyond */
+
+struct pass_end {
+    double u, x, y, heading, ex, ey;    /* heading: +1, -1 */
+};
+
+/* Where the motion ends, and which way it went there: by the last instant, of those that halve what is left, from which it went on by 1 um. */
+static bool pass_end(const struct trajectory *tr, struct pass_end *end)
+{
+    double t = tr->duration, u, x, y;
+    trajectory_at(tr, 1, &t, (struct trajectory_out){.u = &end->u, .x = &end->x, .y = &end->y});
+    double left = tr->duration / (1 << HALVINGS);
+    for (int k = HALVINGS; k >= 0; k--, left *= 2) {
+        t = tr->duration - left;
+        trajectory_at(tr, 1, &t, (struct trajectory_out){.u = &u, .x = &x, .y = &y});
+        double chord = sqrt((end->x - x) * (end->x - x) + (end->y - y) * (end->y - y));
+        if (fabs(end->u - u) < 1e-6 || chord < 1e-6)
+            continue;
+        end->heading = end->u > u ? 1 : -1;
+        end->ex = (end->x - x) / chord;
+        end->ey = (end->y - y) / chord;
+        return true;
+    }
+    return false;
+}
+
+static void pass_put(struct board *b, enum item item, long i, double value)
+{
+    if (board_has(b, item))
+        *board_at(b, item, i) = value;
+}
+
+/* The ends of grains [from, to), `step` m each: the motion goes on at its top speed, so that nothing that goes by speed takes it to be at rest. */
+static void pass_lay(struct roll_pass *p, const struct pass_end *end, long from, long to, double step)
+{
+    struct board *b = &p->board;
+    double top = b->trajectory->top_speed;
+    for (int i = 0; i < ITEM_COUNT; i++)
+        b->signals[i].first = from;
+    for (long i = from; i <= to; i++) {
+        double way = (double)i * step;
+        pass_put(b, ITEM_POSITION, i, end->u + end->heading * way);
+        pass_put(b, ITEM_VELOCITY, i, end->heading * top);
+        pass_put(b, ITEM_X, i, end->x + end->ex * way);
+        pass_put(b, ITEM_Y, i, end->y + end->ey * way);
+        pass_put(b, ITEM_VX, i, end->ex * top);
+        pass_put(b, ITEM_VY, i, end->ey * top);
+    }
+}
+
+bool roll_pass_beyond(struct roll_pass *p, long n, double step, double normal, double *const to[3])
+{
+    struct pass_end end;
+    double alpha;
+    if (!pass_end(p->board.trajectory, &end))
+        return false;
+    if (p->board.limiter)
+        limiter_alpha(p->board.limiter, 1, &normal, &alpha);
+    for (int i = 0; i <= WAY_CHUNK && p->board.limiter; i++)
+        p->board.signals[ITEM_ALPHA].x[i] = alpha;
+    for (long from = 0; from < n;) {
+        int some = way_some(from, n);
+        pass_lay(p, &end, from, from + some, step);
+        slope_run(&p->slope, &p->run, from, some);
+        roll_centre_follow(&p->centre, &p->slope, some);
+        for (int i = 0; i < some; i++) {
+            to[0][from + i] = p->centre.at[i];
+            to[1][from + i] = p->centre.lifts[0][i];
+            to[2][from + i] = p->centre.lifts[1][i];
+        }
+        from += some;
+    }
+    return true;
+}
