@@ -1,11 +1,11 @@
 #!/bin/sh
-# Writes the stimuli of the papers' rolling experiments, scenes/experiments/ (or the folder given): one short scene each, by `include` of the parts beside
+# Writes the stimuli of the papers' listening experiments, scenes/experiments/ (or the folder given): one short scene each, by `include` of the parts beside
 # it. Same bytes every time.
 #     scripts/experiments.sh [FOLDER]
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 to=${1:-$here/scenes/experiments}
-mkdir -p "$to/002_rolling/parts" "$to/000_rolling/parts"
+mkdir -p "$to/002_rolling/parts" "$to/000_rolling/parts" "$to/002_controls/parts" "$to/004_continuum/parts" "$to/004_durations/parts"
 to=$(cd "$to" && pwd)
 
 # ------------------------------------------------------------------ papers/002, section III-B
@@ -85,3 +85,73 @@ END
         done
     done
 done
+
+# ------------------------------------------------------------------ papers/002, section VI-B
+
+cd "$to/002_controls"
+cat > parts/rolling.yaml << 'END'
+# Conan et al. 2014, section VI-B: the controls size, velocity and roughness of the impact series; 3 s each, normalised to its greatest amplitude. The
+# paper does not say what object rings: ours is metal in the space of materials.
+rasp: 1
+seed: 1
+surface: {space: {from: [-0.5, 0.866], dimension: 2, fundamental: 400 Hz}}
+motion: {path: still, duration: 3 s}
+contact: {model: impacts, impacts: {prototype: roll}}
+output: {sample_rate: 44.1 kHz, tail: 0, level: {peak: 0 dB}}
+END
+control() { # NAME SIZE VELOCITY ROUGHNESS
+    cat > "$1_size_$2_velocity_$3_roughness_$4.yaml" << END
+include: [parts/rolling.yaml]
+title: "size $2, velocity $3, roughness $4"
+contact: {impacts: {size: $2, velocity: $3, roughness: $4}}
+END
+}
+for velocity in 0.1 0.5 1; do
+    for size in 0.1 0.3 0.5 0.7 0.9; do control size $size $velocity 0.5; done
+done
+for size in 0.1 0.3 0.5; do
+    for velocity in 0.1 0.3 0.5 0.8 1; do control velocity $size $velocity 0.75; done
+done
+for size in 0.1 0.5 0.9; do
+    for roughness in 0 0.25 0.5 0.8 1; do control roughness $size 0.5 $roughness; done
+done
+
+# ------------------------------------------------------------------ papers/004, figure 3
+
+cd "$to/004_continuum"
+cat > parts/friction.yaml << 'END'
+# Conan et al. 2014 (CMJ), figure 3: thirty sounds between rubbing and scratching, from few impacts to many. The paper prints neither densities nor
+# the gesture: ours are 10 to 44100 impacts a second in even ratios, and strokes of 10 cm to and fro, whose speed the low-pass follows.
+rasp: 1
+seed: 1
+surface: {space: {from: [1, 0], dimension: 2, fundamental: 250 Hz}}
+motion: {path: back_and_forth, to: [10 cm, 0], rate: 1 Hz, duration: 2 s}
+contact:
+  model: impacts
+  impacts: {prototype: scratch, floor: {interval: 1 us}}
+  gesture: {cutoff: 10 kHz, speed: 0.3 m/s}
+output: {sample_rate: 44.1 kHz}
+END
+awk 'BEGIN {
+    for (i = 0; i < 30; i++) {
+        rate = sprintf("%.4g", 10 * 4410 ^ (i / 29))
+        file = sprintf("step_%02d.yaml", i + 1)
+        printf "include: [parts/friction.yaml]\ntitle: \"%s impacts a second\"\ncontact: {impacts: {scratch: {interval: %.6g us}}}\n", rate, 1e6 / rate > file
+        close(file)
+    }
+}'
+
+# ------------------------------------------------------------------ papers/004, "Rolling Interaction"
+
+cd "$to/004_durations"
+cat > parts/rolling.yaml << 'END'
+# Conan et al. 2014 (CMJ), an informal test: the same impacts with durations that depend on their amplitudes, and all of one duration, that of the mean
+# amplitude. The force itself.
+rasp: 1
+seed: 1
+motion: {path: still, duration: 3 s}
+contact: {model: impacts, impacts: {prototype: roll, size: 0.5, velocity: 0.5, roughness: 0.5}}
+output: {sample_rate: 44.1 kHz, tail: 0, quantity: force}
+END
+printf 'include: [parts/rolling.yaml]\ntitle: durations by amplitude\n' > by_amplitude.yaml
+printf 'include: [parts/rolling.yaml]\ntitle: all of one duration\ncontact: {impacts: {duration: {theta: 0, zeta: 0.5342 ms}}}\n' > fixed.yaml

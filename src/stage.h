@@ -39,6 +39,7 @@ enum item {
     ITEM_SCRAPER_SOUND, /* board->quantity                              channels per frame */
     ITEM_SOUND,         /* board->quantity                              channels per frame */
     ITEM_TABLE,         /* diagnostics rows                             no signal      */
+    ITEM_LISTING,       /* the series of impacts, written down          no signal      */
     ITEM_COUNT
 };
 #define ITEM_BIT(item) (1u << (item))
@@ -74,12 +75,22 @@ struct roll_report {        /* of a whole render; steps 0: no coupled model     
     double iterations[2];   /* of a step in contact: mean, greatest                                */
 };
 
+struct impact_report {      /* of a whole render; count 0: no series of impacts                    */
+    long count;             /* impacts laid on the board                                            */
+    long limited_amplitude, limited_interval; /* draws raised to their floors                       */
+    long overlaps;          /* impacts that begin before the one before is over                     */
+    double time;            /* s in which they come                                                 */
+    double mean_amplitude, mean_interval; /* N, s                                                   */
+    double longest;         /* s, duration of the longest one                                       */
+};
+
 struct trajectory;
 struct load_law;
 struct limiter_law;
 struct relief;
 struct height_map;
 struct table_sink;
+struct impact_sink;
 
 struct signal {
     int per_frame;          /* 0: not a signal, or not in this plan */
@@ -100,11 +111,13 @@ struct board {
     struct relief *relief;
     const struct height_map *height_map; /* NULL: none */
     struct table_sink *table;
+    struct impact_sink *listing; /* where the series of impacts is written; NULL: it is not */
     int quantity;           /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
     double ring;            /* s, until the slowest response has decayed by 80 dB */
     double lifted;          /* s during which the scraper was lifted off         */
     struct roll_report roll;
     bool rolls;             /* the report holds something                        */
+    struct impact_report impacts;
     bool unstated;          /* a recorded response, whose quantity is not stated, rings */
     const char *warnings[16];
     int n_warnings;         /* may exceed the room: what is beyond is counted only */

@@ -3,6 +3,7 @@
 
 #include "cmd/cmd.h"
 #include "output/force_table.h"
+#include "output/impact_rows.h"
 #include "pipeline/inputs.h"
 #include "pipeline/plan.h"
 #include "pipeline/run.h"
@@ -22,17 +23,18 @@ static bool check_plans(const struct scene *s, struct arena *a, struct err *e)
 /* Every stage can begin: the files are what they should be, and the motion stays where they are valid. */
 static bool check_opens(const struct scene *s, struct arena *a, struct err *e)
 {
-    struct table_sink sink = {fopen("/dev/null", "w")};
+    struct table_sink rows = {fopen("/dev/null", "w")};
+    struct impact_sink impacts = {rows.stream};
     struct plan p;
     struct run r;
-    bool ok = sink.stream || err_set(e, ERR_IO, "/dev/null cannot be opened");
+    bool ok = rows.stream || err_set(e, ERR_IO, "/dev/null cannot be opened");
     for (int i = 0; ok && i < s->n_contacts; i++) {
-        ok = plan_make(stages_table, &s->contacts[i], s, a, &p, e) && run_open(&r, &p, s, &sink, e);
+        ok = plan_make(stages_table, &s->contacts[i], s, a, &p, e) && run_open(&r, &p, s, &(struct run_sinks){&rows, &impacts}, e);
         if (ok)
             run_close(&r);
     }
-    if (sink.stream)
-        fclose(sink.stream);
+    if (rows.stream)
+        fclose(rows.stream);
     return ok;
 }
 

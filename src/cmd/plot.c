@@ -4,11 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/outfile.h"
 #include "cmd/cmd.h"
+#include "output/picture.h"
 
 static const struct args_option plot_options[] = {
     {"output", 'o', "FILE", false, "where to write; default: NAME.png beside NAME.wav, or NAME.svg"},
@@ -45,34 +43,9 @@ static const char *plot_target(struct cmd_call *c, const struct plot_page *p)
     return o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p->file) - 4, p->file, p->svg ? "svg" : "png");
 }
 
-/* gnuplot does not notice a full disk: is the last thing of the format there? */
-static bool picture_whole(int fd, bool svg)
+static void plot_page(void *self, struct gnuplot *g)
 {
-    char tail[13] = "";
-    struct stat s;
-    if (fstat(fd, &s) != 0 || s.st_size < 12 || pread(fd, tail, 12, s.st_size - 12) != 12)
-        return false;
-    return svg ? strstr(tail, "</svg>") != NULL : memcmp(tail + 4, "IEND", 4) == 0;
-}
-
-static bool plot_write(const struct plot_page *p, const char *target, struct err *e)
-{
-    struct outfile o;
-    struct gnuplot g;
-    if (!outfile_open_fd(&o, target, e))
-        return false;
-    if (!gnuplot_open(&g, o.fd, e)) {
-        outfile_drop(&o);
-        return false;
-    }
-    plot_draw(p, &g);
-    bool ok = gnuplot_close(&g, e);
-    if (ok && !picture_whole(o.fd, p->svg))
-        ok = err_set(e, ERR_IO, "%s: cannot be written whole (is the disk full?)", target);
-    if (ok)
-        return outfile_commit(&o, e);
-    outfile_drop(&o);
-    return false;
+    plot_draw(self, g);
 }
 
 static int plot_run(struct cmd_call *c, struct err *e)
@@ -87,7 +60,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
         return (int)e->kind;
     p.channel = (int)channel;
     const char *target = plot_target(c, &p);
-    if (!plot_data(&p, e) || !plot_write(&p, target, e))
+    if (!plot_data(&p, e) || !picture_write(target, p.svg, plot_page, &p, e))
         return (int)e->kind;
     printf("%s ", target);
     plot_draw_list(&p, stdout);

@@ -117,8 +117,8 @@ static int render_run(struct cmd_call *c, struct err *e)
 const struct command render_command = {
     .name = "render",
     .summary = "renders scenes into sound files",
-    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv (if the scene asks for diagnostics), NAME.scene.yaml (the effective "
-            "scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which files were written). "
+    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv (if the scene asks for diagnostics), NAME.impacts.csv (if it asks for the series of "
+            "impacts), NAME.scene.yaml (the effective scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which files were written). "
             "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes reads is refused, whatever "
             "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two scenes that would write "
             "the same file. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a warning. Several scenes "

@@ -96,6 +96,11 @@ static const struct keys_line roll_coupled[] = {ON("rasp", "1"), ON("title", "a 
                                                 ON("contact.model", "roll_coupled"), ON("contact.roll.mu", "1 s/m"),
                                                 OFF("contact.roll.integrator", "rk4"), OFF("contact.roll.ground", "rigid"), ON("contact.roll.drop", "5 mm"), TAIL};
 
+static const struct keys_line impacts[] = {ON("rasp", "1"), ON("title", "rolling, drawn from the statistics of its impacts"), ON("seed", "1"),
+                                           ON("surface.material", "glass"), PLATE, LINE, ON("motion.speed", "20 cm/s"), ON("contact.model", "impacts"),
+                                           ON("contact.impacts.prototype", "roll"), ON("contact.impacts.size", "0.3"), ON("contact.impacts.velocity", "0.5"),
+                                           ON("contact.impacts.roughness", "0.5"), OFF("contact.gesture.cutoff", "4 kHz"), TAIL};
+
 static const struct keys_line contacts_head[] = {ON("rasp", "1"), ON("title", "two tools on one plank"), ON("seed", "1"), END};
 static const struct keys_line contacts_rod[] = {ON("name", "rod"), ROUGHNESS, SURFACE_RESPONSE, SCRAPER, LINE, ON("motion.speed", "5 cm/s"), END};
 static const struct keys_line contacts_comb[] = {ON("name", "comb"),
@@ -150,6 +155,9 @@ const struct starter starters_table[] = {
      "The coupled model: the ball lifts off and lands as its mass, the contact and the surface's modes have it, and the CSV keeps its energy's ledger. A drop of 0 lays "
      "the ball down.",
      roll_coupled, {NULL}, NULL},
+    {"impacts", "a series of impacts drawn from its statistics: rolling, rubbing, scratching",
+     "Conan's rolling of 2014: no ball and no surface's shape, but size, velocity and roughness as one hears them. Other prototypes: rub, scratch, and the space between.",
+     impacts, {NULL}, NULL},
     {"contacts", "two contacts whose sounds add up",
      "Every contact has its own surface, scraper and motion; rasp render --set contacts.comb.gain=0.2 changes one.", contacts_head,
      {contacts_rod, contacts_comb}, contacts_tail},

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "convolution/gammatone.h"
 #include "convolution/ring_along.h"
 #include "response/object.h"
 #include "scene/ball.h"
@@ -68,17 +69,17 @@ static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
 
 static void note_ring(const struct ring *g, const struct response *given, struct board *b)
 {
-    double ring = modes_ring_time(&g->choice->modes, 80) + (double)g->delay / b->rate;
+    double ring = modes_ring_time(&g->choice->modes, gammatone_decibel(g->choice->gamma, 80)) + (double)g->delay / b->rate;
     b->ring = fmax(b->ring, isnan(given->length) ? ring : fmin(ring, given->length));
 }
 
 /* The sound ends 60 s after the last force where output.tail is auto (pipeline/render_parts.c). */
 static void note_endless(const struct ring *g, const struct response *given, struct stage_run *r)
 {
-    double ring = modes_ring_time(&g->choice->modes, 80);
+    double falls = gammatone_decibel(g->choice->gamma, 80), ring = modes_ring_time(&g->choice->modes, falls);
     if (isnan(r->scene->output.tail) && isnan(given->length) && ring > 60)
         board_warn(r->board, arena_format(r->arena, "%s: its slowest mode has fallen by %.3g dB only when the sound ends, 60 s after the motion: set output.tail, or "
-                                          "give the mode more decay", g->choice->modes.name, 80 * 60 / ring));
+                                          "give the mode more decay", g->choice->modes.name, gammatone_fallen(g->choice->gamma, falls * 60 / ring)));
 }
 
 static void note_warnings(const struct ring *g, struct stage_run *r)
@@ -153,6 +154,11 @@ void ring_point_in(const struct ring *g, const struct ring_voice *v, const struc
     for (int i = 0; g->weight != 1 && i < v->n; i++) {
         p->re[i] *= g->weight;
         p->im[i] *= g->weight;
+    }
+    if (g->choice->gamma > 1) {
+        gammatone_gains(g->choice->gamma, v->modes->n, v->decay, p);
+        for (int i = v->modes->n; i < v->n; i++)
+            p->re[i] = p->im[i] = 0;
     }
     if (p->frequency) {
         memcpy(p->frequency, v->frequency, (size_t)v->n * sizeof *p->frequency);

@@ -116,6 +116,7 @@ bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_
     struct ring_choice *to = ARENA_TAKE(a, struct ring_choice, 1);
     struct ring_choosing me = {.contact = c, .scene = s, .given = given, .key = body == RING_SURFACE ? "surface" : ball_tool(c), .arena = a, .to = to};
     *choice = to;
+    to->gamma = given->gammatone > 1 ? given->gammatone : 1;
     if (given->file && !rules_is_table(given)) {
         choose_recorded(&me, body);
         return true;

@@ -17,6 +17,7 @@ struct ring_choice {
     int high;                    /* how many were dropped above it                           */
     const char *note;            /* a warning from reading; NULL: none                       */
     bool moves;                  /* the response changes on the way                          */
+    int gamma;                   /* of the modes' onset (gammatone.h); 1: at once            */
     int order, hop;              /* of overlap-add and readout; hop in frames                */
     double *hops;                /* [modes.n] frames, of launch and of readout by resonators; else NULL */
     int ramp;                    /* frames, of resonators                                    */

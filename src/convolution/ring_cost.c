@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "convolution/gammatone.h"
 #include "num/lanes.h"
 
 #define RESONATOR 0.8          /* a mode and sample, poles fixed                   */
@@ -61,7 +62,7 @@ double ring_cost_search(const struct ring_choosing *c)
 double ring_cost_resonators(const struct ring_choosing *c)
 {
     bool glides = c->to->reading == MOVING_GLIDE;
-    return 10 + lanes(c) * (glides ? GLIDING : RESONATOR) + (c->to->moves ? (point_cost(c) + lanes(c) * RAMPED) / c->to->ramp : 0);
+    return 10 + lanes(c) * (glides ? GLIDING : RESONATOR * gammatone_cost(c->to->gamma)) + (c->to->moves ? (point_cost(c) + lanes(c) * RAMPED) / c->to->ramp : 0);
 }
 
 /* ------------------------------------------------------------------ nodes that ring */

@@ -5,7 +5,9 @@
 
 #include <math.h>
 
+#include "convolution/gammatone.h"
 #include "convolution/ring_cost.h"
+#include "convolution/ring_gammatone.h"
 #include "convolution/ring_hops.h"
 #include "num/real.h"
 #include "response/listener.h"
@@ -54,7 +56,9 @@ static void choose_hop(struct ring_choosing *c)
 {
     struct ring_error_ask ask = measuring(c, c->to->reading == MOVING_READOUT ? RING_ERROR_READOUT : RING_ERROR_LAUNCH, c->scene->accuracy.overlap_hop);
     c->to->order = ask.order;
-    c->to->hop = ring_hops_one(&c->survey, &ask, target(c) > 0 ? target(c) : HUGE_VAL, &c->to->error);
+    double harder = gammatone_harder(c->to->gamma, ask.order);
+    c->to->hop = ring_hops_one(&c->survey, &ask, target(c) > 0 ? target(c) / harder : HUGE_VAL, &c->to->error);
+    c->to->error *= harder;
     if (isnan(c->given->length) && c->to->error > 0)
         c->to->error = both(c->to->error, real_exp10(-left_out(c) / 20));
 }
@@ -96,7 +100,7 @@ static void engine_set(struct ring_choosing *c, enum ring_engine engine, double 
 static void choose_launch(struct ring_choosing *c)
 {
     int asked = c->given->convolution;
-    bool cut = !isnan(c->given->length), overlap = asked == ENGINE_OVERLAP_ADD || cut;
+    bool cut = !isnan(c->given->length) || c->to->gamma > 1, overlap = asked == ENGINE_OVERLAP_ADD || cut;
     if (!overlap)
         choose_hops(c, RING_ERROR_LAUNCH);
     double by_nodes = overlap ? HUGE_VAL : ring_cost_launch(c), error = c->to->error;
@@ -116,7 +120,7 @@ static void choose_launch(struct ring_choosing *c)
 static void choose_readout(struct ring_choosing *c)
 {
     int asked = c->given->convolution;
-    bool cut = !isnan(c->given->length), overlap = asked == ENGINE_OVERLAP_ADD || cut;
+    bool cut = !isnan(c->given->length) || c->to->gamma > 1, overlap = asked == ENGINE_OVERLAP_ADD || cut;
     if (!overlap)
         choose_hops(c, RING_ERROR_READOUT);
     double by_modes = overlap ? HUGE_VAL : ring_cost_recall(c), error = c->to->error;
@@ -154,9 +158,11 @@ static bool choose_nodes(struct ring_choosing *c, struct err *e)
 bool ring_means_choose(struct ring_choosing *c, struct err *e)
 {
     c->to->forgotten = c->scene->accuracy.morph_error < 0 ? 20 - c->scene->accuracy.morph_error : 140;
-    c->to->seconds = isnan(c->given->length) ? fmin(modes_ring_time(&c->to->modes, left_out(c)), 60) : c->given->length;
+    c->to->seconds = isnan(c->given->length) ? fmin(modes_ring_time(&c->to->modes, gammatone_decibel(c->to->gamma, left_out(c))), 60) : c->given->length;
     c->to->seconds = fmin(c->to->seconds, c->heard.most + 2 / c->scene->output.sample_rate);
     int asked = c->given->convolution, reading = c->to->reading;
+    if (!ring_gammatone_fits(c, e))
+        return false;
     if (asked == ENGINE_NODES && c->to->moves && (reading == MOVING_FIXED || reading == MOVING_LAUNCH))
         return choose_nodes(c, e) || err_about(e, c->contact->name, "surface.convolution");
     if (reading == MOVING_GLIDE && asked != ENGINE_AUTO && asked != ENGINE_RESONATORS)

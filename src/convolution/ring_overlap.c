@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "convolution/gammatone.h"
 #include "convolution/overlap_add.h"
 #include "convolution/readout.h"
 #include "convolution/readout_modes.h"
@@ -40,7 +41,7 @@ static void response_modes(void *self, long k, double *h, size_t length)
 {
     struct overlap_voice *v = self;
     ring_point_at(v->ring, v->voice, (double)k * v->ring->choice->hop, &v->point);
-    ir_sample(v->sampler, listener_quantity(v->voice->listener), &v->point, h, length);
+    gammatone_sample(v->ring->choice->gamma, v->ring->board->rate, v->sampler, listener_quantity(v->voice->listener), &v->point, h, length);
 }
 
 static bool open_wav(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)

@@ -3,11 +3,13 @@
    a ramp is always run as a whole, so that nothing depends on where blocks end. */
 #include <string.h>
 
+#include "convolution/gammatones.h"
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
 
 struct bank {
-    struct resonators *bank;
+    struct resonators *bank;  /* or, of a soft onset,                       */
+    struct gammatones *tones;
     struct modes_point to;    /* at the ramp's end                          */
     double *y;                /* [ramp] sound of the present ramp           */
 };
@@ -19,6 +21,21 @@ struct ring_bank {
     long ramp_end;            /* frame; the ramp began at ramp_end - ramp   */
 };
 
+static void bank_tones(struct bank *b, struct stage_run *r, const struct ring_bank *s, int n)
+{
+    struct gammatones_ask ask = {.n = n, .gamma = s->ring.choice->gamma, .rate = r->board->rate, .frequency = b->to.frequency, .decay = b->to.decay};
+    b->tones = gammatones_make(r->arena, &ask);
+    gammatones_set(b->tones, &b->to);
+}
+
+static void bank_run(const struct bank *b, const double *f, double *y, int frames)
+{
+    if (b->tones)
+        gammatones_run(b->tones, f, y, frames, &b->to);
+    else
+        resonators_run(b->bank, f, y, frames, &b->to);
+}
+
 static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
 {
     const struct ring_voice *v = &s->ring.voices[channel];
@@ -26,6 +43,10 @@ static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
     b->to = modes_point_make(r->arena, v->n);
     b->y = ARENA_TAKE(r->arena, double, s->ramp);
     ring_point_at(&s->ring, v, s->ring.moves ? -1 : 0, &b->to); /* the frame before the first ramp */
+    if (s->ring.choice->gamma > 1) {
+        bank_tones(b, r, s, v->n);
+        return;
+    }
     struct resonators_ask ask = {.n = v->n, .quantity = listener_quantity(v->listener), .rate = r->board->rate, .frequency = b->to.frequency,
                                  .decay = b->to.decay, .glides = s->ring.choice->reading == MOVING_GLIDE, .ramp = s->ramp};
     b->bank = resonators_make(r->arena, &ask);
@@ -56,7 +77,7 @@ static void ring_next_ramp(struct ring_bank *s)
         struct bank *b = &s->banks[k];
         ring_point_at(&s->ring, v, (double)(s->ramp_end - 1), &b->to);
         memset(b->y, 0, (size_t)s->ramp * sizeof *b->y);
-        resonators_run(b->bank, ring_force(&s->ring, v, from), b->y, s->ramp, &b->to);
+        bank_run(b, ring_force(&s->ring, v, from), b->y, s->ramp);
     }
 }
 
@@ -77,7 +98,7 @@ static void ring_still(struct ring_bank *s, long from, long to)
 {
     for (int k = 0; k < s->ring.channels; k++) {
         memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
-        resonators_run(s->banks[k].bank, ring_force(&s->ring, &s->ring.voices[k], from), s->ring.y, (int)(to - from), &s->banks[k].to);
+        bank_run(&s->banks[k], ring_force(&s->ring, &s->ring.voices[k], from), s->ring.y, (int)(to - from));
         ring_put(&s->ring, k, from, to);
     }
 }

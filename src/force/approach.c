@@ -1,6 +1,6 @@
 /* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of each sub-interval times
    the share at its middle to which the scraper is lowered (trajectory/load.h: a minimum-jerk step over load.approach and load.release). Papers/000
-   has no such thing: its sounds begin and end with a ramp of the whole. */
+   has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture it comes after the low-pass, in gesture.c. */
 #include "scene/rules.h"
 #include "stage.h"
 #include "trajectory/load.h"
@@ -8,7 +8,7 @@
 static bool approach_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return rules_approach(c, false) > 0 || rules_approach(c, true) > 0;
+    return !rules_gesture(c) && (rules_approach(c, false) > 0 || rules_approach(c, true) > 0);
 }
 
 static double approach_work(const struct contact *c, const struct scene *s)
@@ -49,7 +49,7 @@ const struct stage approach_stage = {
     .name = "approach",
     .does = "the scraper (or ball) is lowered at the start and raised at the end",
     .paper = "",
-    .idle = "nothing scrapes or rolls, what scrapes starts from rest and ends at rest, or load.approach and load.release are 0",
+    .idle = "the force begins and ends by itself, load.approach and load.release are 0, or contact.gesture does it",
     .needs = ITEM_BIT(ITEM_SUBFORCE),
     .asks = approach_asks,
     .gives = ITEM_BIT(ITEM_SUBFORCE),

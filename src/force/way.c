@@ -53,31 +53,39 @@ static bool way_linear(const struct relief *r)
     return true;
 }
 
-bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double longest, struct err *e)
+bool way_place(struct way *w, const struct stage_run *r, struct err *e)
 {
     const struct trajectory *tr = r->board->trajectory;
-    const struct limiter *limiter = &r->contact->contact.limiter;
     int along = r->board->relief->along;
-    w->kind = kind;
     w->relief = r->board->relief;
     w->field = along != ALONG_PATH;
     w->curved = w->field && !tr->straight;
-    w->channels = (kind == WAY_ALONG && w->curved) || (kind == WAY_AXES && along == ALONG_PLANE) ? 2 : 1;
-    w->limiter = limiter->curve == LIMITER_TANH;
-    w->ratio = kind == WAY_AXES ? limiter->ratio_y : 1;
-    w->halves = w->curved || along == ALONG_PLANE || !way_linear(w->relief);
-    w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / 2) : longest;
     w->e[0] = w->field ? tr->e[0] : 1;
     w->e[1] = w->field ? tr->e[1] : 0;
     w->from[0] = w->field ? tr->from[0] : 0;
     w->from[1] = w->field ? tr->from[1] : 0;
     if (along == ALONG_X && fabs(w->e[0]) * tr->length < 1e-6 * relief_finest(w->relief) && tr->straight)
         w->e[0] = 0; /* straight across the profile: what the decimals of the two ends leave in x is no motion along it */
+    return way_grids(w, r->contact->name, e);
+}
+
+bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double longest, struct err *e)
+{
+    const struct limiter *limiter = &r->contact->contact.limiter;
+    int along = r->board->relief->along;
+    if (!way_place(w, r, e))
+        return false;
+    w->kind = kind;
+    w->channels = (kind == WAY_ALONG && w->curved) || (kind == WAY_AXES && along == ALONG_PLANE) ? 2 : 1;
+    w->limiter = limiter->curve == LIMITER_TANH;
+    w->ratio = kind == WAY_AXES ? limiter->ratio_y : 1;
+    w->halves = w->curved || along == ALONG_PLANE || !way_linear(w->relief);
+    w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / 2) : longest;
     if (!load_varies(r->contact)) {
         double n = rules_load(r->contact);
         limiter_told(r, n, n);
     }
-    return way_grids(w, r->contact->name, e);
+    return true;
 }
 
 /* ------------------------------------------------------------------ values at the points */

@@ -59,6 +59,9 @@ struct way {
 /* longest: m, no piece is longer; use and self are the caller's to set. ERR_SCENE when the surface has too many families of knots. */
 bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double longest, struct err *e);
 
+/* The part of it that is about places alone: relief, field, curved, from, e and grids. */
+bool way_place(struct way *w, const struct stage_run *r, struct err *e);
+
 /* Cuts the n <= WAY_CHUNK sub-intervals from number `first` on (since the start) and hands all their pieces to use(). */
 void way_run(struct way *w, const struct stage_run *r, long first, int n);
 

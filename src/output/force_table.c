@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/impact_train.h"
 #include "force/strike.h"
 #include "output/roll_rows.h"
 #include "scene/ball.h"
@@ -32,6 +33,7 @@ struct force_table {
     struct strike_train train;   /* of what strikes: the impacts from `impact` on     */
     struct strike_impact impact;
     bool struck;                 /* there is such a one                               */
+    struct impact_train series;  /* of model impacts                                  */
     struct roll_rows ball;
 };
 
@@ -132,6 +134,8 @@ static bool impacts_find(struct force_table *t, const struct stage_run *r, struc
 {
     if (!t->wanted[IMPACTS])
         return true;
+    if (r->contact->contact.model == CONTACT_IMPACTS)
+        return impact_train_open(r, &t->series, e);
     if (!strike_make(r->contact, r->board->trajectory->duration, &t->train, e))
         return false;
     t->struck = strike_next(&t->train, &t->impact);
@@ -178,10 +182,12 @@ static void row_instant(struct force_table *t, const struct stage_run *r, double
         limiter_alpha(b->limiter, 1, &load, &v[ALPHA]);
 }
 
-/* Those that begin before the row ends, and have not been counted. */
+/* Those that begin (of a series: whose middle comes) before the row ends, and have not been counted; of those before the start, none. */
 static void row_impacts(struct force_table *t, double end)
 {
     t->value[IMPACTS] = 0;
+    while (t->series.any && t->series.next.time < end)
+        t->value[IMPACTS] += impact_train_take(&t->series).time >= 0;
     while (t->struck && t->impact.start < end) {
         t->value[IMPACTS]++;
         t->struck = strike_next(&t->train, &t->impact);

@@ -13,12 +13,12 @@
 #include "scene/keys.h"
 #include "scene/scene_write.h"
 
-const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "scene", "summary", "wav", "stem", "stem", "stem", "stem"};
+const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "impacts", "scene", "summary", "wav", "stem", "stem", "stem", "stem"};
 
 char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a)
 {
-    static const char *const endings[] = {".csv", ".scene.yaml", ".json", ".wav"};
-    bool several = kind == OUTPUT_TABLE && s->n_contacts > 1;
+    static const char *const endings[] = {".csv", ".impacts.csv", ".scene.yaml", ".json", ".wav"};
+    bool several = kind <= OUTPUT_LISTING && s->n_contacts > 1;
     if (kind >= OUTPUT_STEM)
         return arena_format(a, "%s.%s.wav", base, stems_names[kind - OUTPUT_STEM]);
     return arena_format(a, "%s%s%s%s", base, several ? "." : "", several ? c->name : "", endings[kind]);
@@ -33,7 +33,7 @@ static void add(struct outputs *o, enum output_kind kind, const struct contact *
 /* Room for all that there may be. */
 static struct outputs outputs_none(const struct scene *s, const char *base, struct arena *a)
 {
-    int most = s->n_contacts + OUTPUT_KINDS;
+    int most = 2 * s->n_contacts + OUTPUT_KINDS;
     return (struct outputs){s, base, ARENA_TAKE(a, const char *, most), ARENA_TAKE(a, enum output_kind, most), 0};
 }
 
@@ -46,6 +46,8 @@ struct outputs outputs_make(const struct scene *s, const char *base, struct aren
         asked |= targets;
         if (targets & ITEM_BIT(ITEM_TABLE))
             add(&o, OUTPUT_TABLE, &s->contacts[i], a);
+        if (targets & ITEM_BIT(ITEM_LISTING))
+            add(&o, OUTPUT_LISTING, &s->contacts[i], a);
     }
     add(&o, OUTPUT_EFFECTIVE, NULL, a);
     add(&o, OUTPUT_SUMMARY, NULL, a);
@@ -216,15 +218,16 @@ const char **outputs_older(const struct scene *s, const char *base, struct arena
 {
     struct outputs o = outputs_make(s, base, a), most = outputs_none(s, base, a);
     struct sources all = sources_of(&o, 1, a);
-    const char **older = ARENA_TAKE(a, const char *, s->n_contacts + OUTPUT_KINDS + 1);
+    const char **older = ARENA_TAKE(a, const char *, 2 * s->n_contacts + OUTPUT_KINDS + 1);
     struct stat status;
     int n = 0;
     for (int i = 0; i < s->n_contacts; i++)
-        add(&most, OUTPUT_TABLE, &s->contacts[i], a);
+        for (int kind = OUTPUT_TABLE; kind <= OUTPUT_LISTING; kind++)
+            add(&most, (enum output_kind)kind, &s->contacts[i], a);
     for (int kind = OUTPUT_SOUND; kind < OUTPUT_KINDS; kind++)
         add(&most, (enum output_kind)kind, NULL, a);
-    if (s->n_contacts > 1)
-        most.paths[most.n++] = arena_format(a, "%s.csv", base);
+    for (int k = 0; k < 2 && s->n_contacts > 1; k++)
+        most.paths[most.n++] = arena_format(a, "%s%s.csv", base, k ? ".impacts" : "");
     for (int i = 0; i < most.n; i++)
         if (!writes(&o, most.paths[i]) && stat(most.paths[i], &status) == 0 && !source_find(&all, most.paths[i]))
             older[n++] = most.paths[i];

@@ -9,7 +9,8 @@
 #include "scene/scene.h"
 
 enum output_kind {
-    OUTPUT_TABLE, OUTPUT_EFFECTIVE, OUTPUT_SUMMARY, OUTPUT_SOUND,
+    OUTPUT_TABLE, OUTPUT_LISTING, /* these two one for each contact */
+    OUTPUT_EFFECTIVE, OUTPUT_SUMMARY, OUTPUT_SOUND,
     OUTPUT_STEM, OUTPUT_STEM_LAST = OUTPUT_STEM + STEMS - 1, /* one kind per enum stem, in its order */
     OUTPUT_KINDS
 };
@@ -22,13 +23,14 @@ struct outputs {             /* of one scene */
     int n;
 };
 
-/* "csv", "scene", "summary", "wav"; "stem" of all stems */
+/* "csv", "impacts", "scene", "summary", "wav"; "stem" of all stems */
 extern const char *const outputs_kinds[OUTPUT_KINDS];
 
-/* BASE.csv or (of several contacts) BASE.CONTACT.csv, BASE.scene.yaml, BASE.json, BASE.wav; the contact matters for a table only. */
+/* BASE.csv and BASE.impacts.csv or (of several contacts) BASE.CONTACT.csv and so on, BASE.scene.yaml, BASE.json, BASE.wav; the contact matters for the
+   first two only. */
 char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a);
 
-/* What the scene writes: tables if it asks for diagnostics, a sound if something rings, the stems that it asks for, always the other two. */
+/* What the scene writes: tables if it asks for diagnostics, series of impacts if it asks for them, a sound if something rings, the stems that it asks for, always the other two. */
 struct outputs outputs_make(const struct scene *s, const char *base, struct arena *a);
 
 /* No file is written twice by these n scenes. ERR_USAGE: names the file and both scenes. */

@@ -22,6 +22,7 @@ static const char *const plan_names[ITEM_COUNT] = {
     [ITEM_SUBFORCE] = "subforce",           [ITEM_FORCE] = "force",
     [ITEM_SURFACE_SOUND] = "surface_sound", [ITEM_SCRAPER_SOUND] = "scraper_sound",
     [ITEM_SOUND] = "sound",                 [ITEM_TABLE] = "table",
+    [ITEM_LISTING] = "listing",
 };
 
 const char *plan_item(enum item item)
@@ -41,7 +42,7 @@ static unsigned plan_stems(const struct contact *c, const struct output *o)
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
     unsigned heard = c->gain != 0 ? (rules_heard(c, &s->output) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
-    return heard | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0);
+    return heard | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) | (rules_listed(c, &s->output) ? ITEM_BIT(ITEM_LISTING) : 0);
 }
 
 static bool plan_muted(const struct contact *c, const struct scene *s)

@@ -84,19 +84,28 @@ static void report_file(struct render *r, enum output_kind kind, const char *pat
     r->report->files[r->report->n_files++] = (struct render_file){outputs_kinds[kind], path, contact, stem, kept};
 }
 
+/* A file of a contact's own. */
+static bool report_part(struct render *r, struct render_part *p, enum output_kind kind, struct err *e)
+{
+    struct outfile *file = kind == OUTPUT_TABLE ? &p->csv : &p->listing;
+    char hex[HASH_TEXT];
+    if (!file->stream)
+        return true;
+    if (!outfile_hash(file, hex, e))
+        return false;
+    report_file(r, kind, kind == OUTPUT_TABLE ? p->csv_path : p->listing_path, p->plan.contact->name, hex);
+    return true;
+}
+
 /* What will have been written. A WAV is whole only after the summary that holds the hashes: it is listed without. */
 static bool render_list(struct render *r, const char *effective, struct err *e)
 {
     char hex[HASH_TEXT];
-    r->report->files = ARENA_TAKE(r->arena, struct render_file, r->scene->n_contacts + OUTPUT_KINDS);
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        struct render_part *p = &r->parts.parts[i];
-        if (!p->csv.stream)
-            continue;
-        if (!outfile_hash(&p->csv, hex, e))
-            return false;
-        report_file(r, OUTPUT_TABLE, p->csv_path, p->plan.contact->name, hex);
-    }
+    r->report->files = ARENA_TAKE(r->arena, struct render_file, 2 * r->scene->n_contacts + OUTPUT_KINDS);
+    for (int i = 0; i < r->scene->n_contacts; i++)
+        for (int kind = OUTPUT_TABLE; kind <= OUTPUT_LISTING; kind++)
+            if (!report_part(r, &r->parts.parts[i], (enum output_kind)kind, e))
+                return false;
     hash_bytes(effective, strlen(effective), hex);
     report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
     report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
@@ -135,18 +144,22 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
 /* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results or none. */
 static bool render_settle(struct render *r, struct err *e)
 {
-    for (int i = 0; i < r->scene->n_contacts; i++)
-        if (r->parts.parts[i].csv.stream && !outfile_settle(&r->parts.parts[i].csv, e))
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        struct render_part *p = &r->parts.parts[i];
+        if ((p->csv.stream && !outfile_settle(&p->csv, e)) || (p->listing.stream && !outfile_settle(&p->listing, e)))
             return false;
+    }
     return outfile_settle(&r->effective, e) && outfile_settle(&r->summary, e) && (!r->sound || sound_settle(r->sound, e)) &&
            (!r->stems || stems_settle(r->stems, e));
 }
 
 static bool render_commit(struct render *r, struct err *e)
 {
-    for (int i = 0; i < r->scene->n_contacts; i++)
-        if (r->parts.parts[i].csv.target[0] && !outfile_commit(&r->parts.parts[i].csv, e))
+    for (int i = 0; i < r->scene->n_contacts; i++) {
+        struct render_part *p = &r->parts.parts[i];
+        if ((p->csv.target[0] && !outfile_commit(&p->csv, e)) || (p->listing.target[0] && !outfile_commit(&p->listing, e)))
             return false;
+    }
     return outfile_commit(&r->effective, e) && outfile_commit(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&
            (!r->stems || stems_commit(r->stems, e));
 }

@@ -7,8 +7,8 @@
 #include "pipeline/run.h"
 
 struct render_file {
-    const char *kind, *path; /* "wav", "csv", "scene", "summary", "stem" */
-    const char *contact;     /* of a table; NULL: of the whole   */
+    const char *kind, *path; /* "wav", "csv", "impacts", "scene", "summary", "stem" */
+    const char *contact;     /* of a table or a series of impacts; NULL: of the whole */
     const char *stem;        /* of a stem, which; else NULL      */
     const char *sha256;      /* NULL: not known                  */
 };
@@ -29,7 +29,8 @@ struct render_report {
     int n_notes;
 };
 
-/* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv (diagnostics), BASE.scene.yaml (the effective scene) and BASE.json
+/* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv (diagnostics), BASE.impacts.csv
+   or BASE.CONTACT.impacts.csv (series of impacts), BASE.scene.yaml (the effective scene) and BASE.json
    (the summary). Nothing has a name before everything is complete. */
 bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e);
 

@@ -15,7 +15,7 @@ struct render_parts render_parts_make(const struct scene *s, const char *base, s
 {
     struct render_parts p = {.scene = s, .base = base, .arena = a, .parts = ARENA_TAKE(a, struct render_part, s->n_contacts)};
     for (int i = 0; i < s->n_contacts; i++)
-        p.parts[i].csv.fd = -1;
+        p.parts[i].csv.fd = p.parts[i].listing.fd = -1;
     return p;
 }
 
@@ -69,17 +69,27 @@ static bool quantities(const struct render_parts *p, struct err *e)
     return true;
 }
 
+static bool part_files(const struct render_parts *p, struct render_part *one, struct err *e)
+{
+    one->csv_path = outputs_path(p->scene, p->base, OUTPUT_TABLE, one->plan.contact, p->arena);
+    one->listing_path = outputs_path(p->scene, p->base, OUTPUT_LISTING, one->plan.contact, p->arena);
+    if ((one->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->csv, one->csv_path, e)) ||
+        (one->plan.targets & ITEM_BIT(ITEM_LISTING) && !outfile_open(&one->listing, one->listing_path, e)))
+        return false;
+    one->rows.stream = one->csv.stream;
+    one->impacts.stream = one->listing.stream;
+    return true;
+}
+
 bool render_parts_open(struct render_parts *p, struct err *e)
 {
     for (int i = 0; i < p->scene->n_contacts; i++) {
         struct render_part *one = &p->parts[i];
-        one->csv_path = outputs_path(p->scene, p->base, OUTPUT_TABLE, one->plan.contact, p->arena);
-        if (one->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->csv, one->csv_path, e))
+        if (!part_files(p, one, e))
             return false;
-        one->sink.stream = one->csv.stream;
         if (!one->plan.targets)
             continue;
-        if (!run_open(&one->run, &one->plan, p->scene, &one->sink, e))
+        if (!run_open(&one->run, &one->plan, p->scene, &(struct run_sinks){&one->rows, &one->impacts}, e))
             return false;
         one->open = true;
     }
@@ -173,6 +183,7 @@ void render_parts_close(struct render_parts *p)
 {
     for (int i = 0; i < p->scene->n_contacts; i++) {
         outfile_drop(&p->parts[i].csv);
+        outfile_drop(&p->parts[i].listing);
         if (p->parts[i].open)
             run_close(&p->parts[i].run);
     }

@@ -3,6 +3,7 @@
 #define PIPELINE_RENDER_PARTS_H
 #include "base/outfile.h"
 #include "output/force_table.h"
+#include "output/impact_rows.h"
 #include "output/stems.h"
 #include "pipeline/run.h"
 
@@ -11,9 +12,10 @@ struct render_part {         /* one contact at work */
     struct run run;
     long start;              /* frame of the scene at which it begins */
     bool open;
-    struct outfile csv;
-    struct table_sink sink;
-    char *csv_path;
+    struct outfile csv, listing;
+    struct table_sink rows;
+    struct impact_sink impacts;
+    char *csv_path, *listing_path;
 };
 
 struct render_parts {

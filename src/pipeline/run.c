@@ -29,7 +29,7 @@ static void run_offsets(struct run *r)
 
 static int item_per_frame(const struct board *b, enum item item)
 {
-    if (item == ITEM_SURFACE || item == ITEM_TABLE)
+    if (item == ITEM_SURFACE || item == ITEM_TABLE || item == ITEM_LISTING)
         return 0;
     if (item == ITEM_ROLL)
         return ROLL_VALUES;
@@ -77,11 +77,13 @@ static bool run_open_stages(struct run *r, struct err *e)
     return true;
 }
 
-bool run_open(struct run *r, const struct plan *p, const struct scene *s, struct table_sink *table, struct err *e)
+bool run_open(struct run *r, const struct plan *p, const struct scene *s, const struct run_sinks *sinks, struct err *e)
 {
+    static const struct run_sinks none = {NULL, NULL};
+    const struct run_sinks *to = sinks ? sinks : &none;
     *r = (struct run){.scene = s, .plan = *p, .arena = arena_open()};
     r->board = (struct board){.rate = s->output.sample_rate, .over = (int)s->accuracy.oversampling,
-                              .channels = listener_channels(&s->output), .alive = p->alive, .quantity = -1, .table = table};
+                              .channels = listener_channels(&s->output), .alive = p->alive, .quantity = -1, .table = to->table, .listing = to->listing};
     r->stages = ARENA_TAKE(r->arena, struct stage_run, p->n);
     if (!run_open_stages(r, e)) {
         run_close(r);

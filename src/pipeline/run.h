@@ -12,8 +12,13 @@ struct run {
     int n;
 };
 
-/* Opens the plan's stages and lays out the board; the first error closes what was opened. */
-bool run_open(struct run *r, const struct plan *p, const struct scene *s, struct table_sink *table, struct err *e);
+struct run_sinks {            /* where the stages write; NULL: nowhere */
+    struct table_sink *table;
+    struct impact_sink *listing;
+};
+
+/* Opens the plan's stages and lays out the board; the first error closes what was opened. `sinks` NULL: no stage writes. */
+bool run_open(struct run *r, const struct plan *p, const struct scene *s, const struct run_sinks *sinks, struct err *e);
 
 /* Frames [run so far, to): the sound is then on the board as ITEM_SOUND (if the plan has it). At most STAGE_BLOCK frames a call. */
 bool run_block(struct run *r, long to, struct err *e);

@@ -13,23 +13,12 @@
 
 enum { MOST_OF_BOARD = (int)(sizeof ((struct board *)0)->warnings / sizeof ((struct board *)0)->warnings[0]) };
 
+#define LIMITED_OFTEN 5.0 /* per cent of the draws */
+#define IMPACT_LONG 0.1   /* s */
+
 static void warn(struct render_report *report, const char *text)
 {
     report->warnings[report->n_warnings++] = text;
-}
-
-static void warn_contact(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
-{
-    for (int k = 0; k < b->n_warnings && k < MOST_OF_BOARD; k++)
-        warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
-    if (b->n_warnings > MOST_OF_BOARD)
-        warn(report, arena_format(a, "contact '%s': %d more remark%s", c->name, b->n_warnings - MOST_OF_BOARD, b->n_warnings > MOST_OF_BOARD + 1 ? "s" : ""));
-    if (b->lifted > 0)
-        warn(report, arena_format(a, "contact '%s': the %s lifts %s off for %.4g s in all (negative normal force); no force then",
-                                  c->name, ball_rolls(c) ? "turning of the uneven ball" : "hand", ball_rolls(c) ? "it" : "the scraper", b->lifted));
-    if (b->unstated && b->quantity >= 0)
-        warn(report, arena_format(a, "contact '%s': its WAV response does not say what it is in, and is summed as if in %s, like its mode table",
-                                  c->name, modes_quantity_unit(b->quantity)));
 }
 
 /* ------------------------------------------------------------------ what rolls */
@@ -59,26 +48,85 @@ static const char *rolled_steps(const struct roll_report *o, struct arena *a)
     return arena_format(a, "%s%s; energy balances to %.1e of its greatest", lasts, fastest, o->residual);
 }
 
+static const char *rolled(const struct roll_report *o, struct arena *a)
+{
+    return arena_format(a, "%s; stiffness %.4g N/m^1.5, %.3g m deep at rest%s", rolled_contacts(o, a), o->stiffness, o->rest, rolled_steps(o, a));
+}
+
+/* ------------------------------------------------------------------ series of impacts */
+
+static double percent(long some, long all)
+{
+    return all > 0 ? 100 * (double)some / (double)all : 0;
+}
+
+static const char *impacted(const struct impact_report *o, struct arena *a)
+{
+    return arena_format(a, "%ld impact%s, %.*g a second, of %.4g N on average; %ld amplitude%s (%.3g %%) and %ld interval%s (%.3g %%) raised to their floors; %ld overlap%s (%.3g %%)",
+                        o->count, o->count == 1 ? "" : "s", (double)o->count < 1e4 * o->time ? 4 : 6, (double)o->count / o->time, o->mean_amplitude, o->limited_amplitude, o->limited_amplitude == 1 ? "" : "s",
+                        percent(o->limited_amplitude, o->count), o->limited_interval, o->limited_interval == 1 ? "" : "s", percent(o->limited_interval, o->count),
+                        o->overlaps, o->overlaps == 1 ? "" : "s", percent(o->overlaps, o->count));
+}
+
+/* Has it been drawn? */
+static bool impacts(const struct board *b)
+{
+    return b->impacts.time > 0;
+}
+
+static void warn_limited(const struct contact *c, const char *what, long limited, long all, struct render_report *report, struct arena *a)
+{
+    if (percent(limited, all) > LIMITED_OFTEN)
+        warn(report, arena_format(a, "contact '%s': %.3g %% of the %ss were drawn below contact.impacts.floor.%s and raised to it: the series has other statistics than were asked "
+                                     "for; lower the deviation, or set contact.impacts.marginal to lognormal", c->name, percent(limited, all), what, what));
+}
+
+static void warn_impacts(const struct contact *c, const struct impact_report *o, struct render_report *report, struct arena *a)
+{
+    warn_limited(c, "amplitude", o->limited_amplitude, o->count, report, a);
+    warn_limited(c, "interval", o->limited_interval, o->count, report, a);
+    if (o->longest > IMPACT_LONG)
+        warn(report, arena_format(a, "contact '%s': an impact lasts %.4g s: lower contact.impacts.duration.zeta, or raise the least amplitude", c->name, o->longest));
+    if (o->count == 0)
+        warn(report, arena_format(a, "contact '%s': no impact comes within the motion's %.4g s", c->name, o->time));
+}
+
+/* ------------------------------------------------------------------ notes */
+
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     report->notes = ARENA_TAKE(a, const char *, s->n_contacts);
     for (int i = 0; i < s->n_contacts; i++) {
-        const struct roll_report *o = runs[i] ? &runs[i]->board.roll : NULL;
-        if (runs[i] && runs[i]->board.rolls)
-            report->notes[report->n_notes++] =
-                arena_format(a, "contact '%s': %s; stiffness %.4g N/m^1.5, %.3g m deep at rest%s", s->contacts[i].name, rolled_contacts(o, a), o->stiffness,
-                             o->rest, rolled_steps(o, a));
+        const struct board *b = runs[i] ? &runs[i]->board : NULL;
+        if (b && (b->rolls || impacts(b)))
+            report->notes[report->n_notes++] = arena_format(a, "contact '%s': %s", s->contacts[i].name, b->rolls ? rolled(&b->roll, a) : impacted(&b->impacts, a));
     }
 }
 
 /* ------------------------------------------------------------------ remarks */
+
+static void warn_contact(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
+{
+    for (int k = 0; k < b->n_warnings && k < MOST_OF_BOARD; k++)
+        warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
+    if (b->n_warnings > MOST_OF_BOARD)
+        warn(report, arena_format(a, "contact '%s': %d more remark%s", c->name, b->n_warnings - MOST_OF_BOARD, b->n_warnings > MOST_OF_BOARD + 1 ? "s" : ""));
+    if (b->lifted > 0)
+        warn(report, arena_format(a, "contact '%s': the %s lifts %s off for %.4g s in all (negative normal force); no force then",
+                                  c->name, ball_rolls(c) ? "turning of the uneven ball" : "hand", ball_rolls(c) ? "it" : "the scraper", b->lifted));
+    if (b->unstated && b->quantity >= 0)
+        warn(report, arena_format(a, "contact '%s': its WAV response does not say what it is in, and is summed as if in %s, like its mode table",
+                                  c->name, modes_quantity_unit(b->quantity)));
+    if (impacts(b))
+        warn_impacts(c, &b->impacts, report, a);
+}
 
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     int older = 0;
     while (report->older[older])
         older++;
-    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 3) + 2 + older);
+    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 7) + 2 + older);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i])
             warn_contact(&s->contacts[i], &runs[i]->board, report, a);
@@ -172,6 +220,13 @@ static json_t *roll_json(const struct roll_report *o)
     return r;
 }
 
+static json_t *impacts_json(const struct impact_report *o)
+{
+    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second", number((double)o->count / o->time), "limited_amplitudes",
+                     (json_int_t)o->limited_amplitude, "limited_intervals", (json_int_t)o->limited_interval, "overlaps", (json_int_t)o->overlaps, "mean_amplitude_n",
+                     number(o->mean_amplitude), "mean_interval_s", number(o->mean_interval), "longest_s", number(o->longest));
+}
+
 static json_t *contact_json(const struct run *run, double cpu)
 {
     const struct board *b = &run->board;
@@ -182,6 +237,8 @@ static json_t *contact_json(const struct run *run, double cpu)
         json_object_set_new(c, "response", response_json(choice, b->rate));
     if (b->rolls)
         json_object_set_new(c, "roll", roll_json(&b->roll));
+    if (impacts(b))
+        json_object_set_new(c, "impacts", impacts_json(&b->impacts));
     if (b->load)
         json_object_set_new(c, "normal_force_n", json_pack("[o, o]", number(b->load->least), number(b->load->most)));
     return c;

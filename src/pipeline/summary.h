@@ -3,7 +3,7 @@
 #define PIPELINE_SUMMARY_H
 #include "pipeline/render.h"
 
-/* What each rolling contact did, in words. One run per contact, NULL for a muted one. */
+/* What each contact that rolls, and each series of impacts, did, in words. One run per contact, NULL for a muted one. */
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a);
 
 /* Gathers the runs' remarks, and those on the whole. */

@@ -69,6 +69,25 @@ static const struct {
     {"contact.given.rate", "48 kHz", true},
     {"contact.roll.stiffness", "2e9 N/m^1.5", true},
     {"contact.roll.kappa", "5e9 N/(m^1.5 kg)", true},
+    {"contact.impacts.prototype", "roll", true},
+    {"contact.impacts.amplitude.mean", "0.35", true},
+    {"contact.impacts.amplitude.deviation", "0.04", true},
+    {"contact.impacts.amplitude.a1", "-0.95", true},
+    {"contact.impacts.amplitude.b1", "0.2", true},
+    {"contact.impacts.amplitude.table", "amplitudes.csv", true},
+    {"contact.impacts.interval.mean", "5 ms", true},
+    {"contact.impacts.interval.deviation", "0.5 ms", true},
+    {"contact.impacts.interval.a1", "-0.95", true},
+    {"contact.impacts.interval.b1", "0", true},
+    {"contact.impacts.interval.table", "intervals.csv", true},
+    {"contact.impacts.duration.zeta", "0.4 ms", true},
+    {"contact.impacts.duration.theta", "0.29", true},
+    {"contact.impacts.modulation.depth", "0.3", true},
+    {"contact.impacts.modulation.rate", "3 Hz", true},
+    {"contact.impacts.floor.amplitude", "0.01", true},
+    {"contact.impacts.space.angle_to", "-120 deg", true},
+    {"contact.impacts.space.radius_to", "0.5", true},
+    {"contact.impacts.space.walk", "walk.csv", true},
     {"contact.limiter.force_range", "[0.2 N, 5 N]", true},
     {"output.listen.places", "[[0 m, 0 m, 1 m], [20 cm, 0 m, 1 m]]", true},
     {"output.stems", "[force, surface, scraper]", true},
@@ -82,7 +101,7 @@ static const struct {
 };
 
 static const char *const sections_off[] = {"surface.continuation", "surface.ridges", "surface.grit", "surface.fractal", "surface.object", "surface.space",
-                                           "scraper.object", "ball.object", "grip", "output.listen", NULL};
+                                           "scraper.object", "ball.object", "grip", "contact.gesture", "contact.enhance", "output.listen", NULL};
 
 static const char head[] =
     "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"
@@ -135,7 +154,7 @@ static bool applies(const struct key *k)
     const struct key *decides = keys_decider(k);
     if (!decides)
         return true;
-    return keys_words(k) ? applies(decides) && keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides));
+    return applies(decides) && (keys_words(k) ? keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides)));
 }
 
 static bool is_off(const struct key *k)

@@ -218,17 +218,35 @@ static inline bool rules_rests(const struct motion *m, bool at_end)
     return !at_end || m->path != PATH_BACK_AND_FORTH || fabs(strokes - rint(strokes)) < 1e-9;
 }
 
-/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. Only what scrapes or rolls is lowered and
-   raised; a ball also where it is at rest, as it presses all the same, but not one that is dropped, which comes down by itself. */
+/* Does it press on the surface with what it draws or reads, whether it moves or not: a series of impacts, heights that are played? */
+static inline bool rules_driven(const struct contact *c)
+{
+    return c->contact.model == CONTACT_IMPACTS || c->contact.model == CONTACT_PLAYBACK;
+}
+
+/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. What strikes and what is given is neither lowered
+   nor raised. A scraper at rest makes no force; all others press at rest too, but a ball that is dropped comes down by itself. */
 static inline double rules_approach(const struct contact *c, bool release)
 {
     double given = release ? c->load.release : c->load.approach;
-    if (c->contact.model != CONTACT_SCRAPE && !ball_rolls(c))
+    if (c->contact.model != CONTACT_SCRAPE && !ball_rolls(c) && !rules_driven(c))
         return 0;
     if (!isnan(given))
         return given;
     bool falls = c->contact.model == CONTACT_ROLL_COUPLED && c->contact.roll.drop > 0 && !release;
     return falls || (c->contact.model == CONTACT_SCRAPE && rules_rests(&c->motion, release)) ? 0 : RULES_APPROACH;
+}
+
+/* Does a low-pass on its force follow its speed? */
+static inline bool rules_gesture(const struct contact *c)
+{
+    return c->contact.gesture.given && (rules_driven(c) || c->contact.model == CONTACT_GIVEN);
+}
+
+/* Is its series of impacts written? */
+static inline bool rules_listed(const struct contact *c, const struct output *o)
+{
+    return o->impacts == LISTING_TABLE && c->contact.model == CONTACT_IMPACTS;
 }
 
 /* Does it make a sound? Its gain may still be 0. */

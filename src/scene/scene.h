@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scene/impacts.h"
+
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
 
 enum motion_path {
@@ -22,7 +24,10 @@ enum holes { HOLES_REFUSE, HOLES_FILL };
 enum levelling { LEVELLING_NONE, LEVELLING_MEAN, LEVELLING_PLANE };
 enum ridge_shape { RIDGE_SINE, RIDGE_ROUND, RIDGE_GROOVE };
 enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
-enum contact_kind { CONTACT_SCRAPE, CONTACT_STRIKE, CONTACT_GIVEN, CONTACT_ROLL, CONTACT_ROLL_COUPLED };
+enum contact_kind {
+    CONTACT_SCRAPE, CONTACT_STRIKE, CONTACT_GIVEN, CONTACT_ROLL, CONTACT_ROLL_COUPLED, CONTACT_IMPACTS, CONTACT_PLAYBACK
+};
+enum impact_listing { LISTING_NONE, LISTING_TABLE };
 enum ball_body { BODY_SOLID, BODY_HOLLOW, BODY_HOOP, BODY_WHEEL };
 enum fractal_spectrum { SPECTRUM_POWER, SPECTRUM_AMPLITUDE };
 enum interpolation { INTERPOLATION_NEAREST, INTERPOLATION_LINEAR, INTERPOLATION_SPLINE };
@@ -132,6 +137,7 @@ struct response {           /* how a body rings: a table of modes, recorded resp
     struct object_given object;
     struct space space;     /* surface only                                                      */
     int modes;              /* how many of the strongest modes are used                          */
+    int gammatone;          /* gamma: onset of each mode t^(gamma - 1); 1: at once                */
     double length;          /* s, t0 of eq. 10: the response is cut there; NAN: not cut          */
     int convolution;        /* enum engine                                                       */
     int moving;             /* enum moving                                                       */
@@ -266,6 +272,10 @@ struct contact_model {
     struct strike strike;
     struct given_force given;
     struct roll roll;
+    struct impacts impacts;
+    double playback;        /* N/m: force for a metre of the surface's height (playback)         */
+    struct gesture gesture;
+    struct enhance enhance;
     int force;              /* enum force_kind                                                   */
     double beta1, beta2;    /* eq. 3                                                             */
     double leak;            /* m: l of dS'/ds + S'/l = T(c)                                      */
@@ -323,6 +333,7 @@ struct output {
     double envelope_depth;  /* dB, how far the ends lie below the middle                         */
     double tail;            /* s; NAN: auto, until the sound has decayed by 80 dB                */
     struct diagnostics diagnostics;
+    int impacts;            /* enum impact_listing: is the series of impacts written             */
 };
 
 struct accuracy {           /* one double per row of accuracy.def                                */

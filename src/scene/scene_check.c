@@ -20,6 +20,8 @@ static enum applies applies(const struct scene_part *p, const struct key *k)
     if (!decides)
         return APPLIES_YES;
     const struct yaml_node *node = yaml_find(p->map, decides->path);
+    if (k->applies[0] == '!' && applies(p, decides) == APPLIES_NO)
+        return APPLIES_NO;
     if (!keys_words(k))
         return !node && p->yaml->missing ? APPLIES_UNKNOWN : keys_applies_beside(k, node != NULL) ? APPLIES_YES : APPLIES_NO;
     if (applies(p, decides) != APPLIES_YES)
@@ -35,7 +37,7 @@ static enum applies applies(const struct scene_part *p, const struct key *k)
 /* Of a key that does not apply and those that decide it, in a chain: the one whose own decider has the wrong value. */
 static const struct key *barred(const struct scene_part *p, const struct key *k)
 {
-    while (keys_words(k) && applies(p, keys_decider(k)) == APPLIES_NO)
+    while ((keys_words(k) || k->applies[0] == '!') && applies(p, keys_decider(k)) == APPLIES_NO)
         k = keys_decider(k);
     return k;
 }

@@ -31,8 +31,10 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
     scene_contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
     scene_inputs_read(y, yaml_get(root, "inputs"), s);
-    if (y->diag->n == 0 && !y->missing)
+    if (y->diag->n == 0 && !y->missing) {
         scene_sense_output_stems(&top);
+        scene_sense_output_impacts(&top);
+    }
 }
 
 /* A scene of another version: what else looks wrong in it need not be, so that this is the only error told. */

@@ -125,6 +125,8 @@ void scene_sense_contact(const struct scene_part *p)
     }
     if (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL)
         follower_check(p, c);
+    if (rules_driven(c))
+        lowering_check(p, c);
     scene_sense_model(p, c);
     scene_sense_response(p, c);
 }
@@ -141,7 +143,7 @@ void scene_sense_asked(const struct scene_part *p, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct yaml_node *surface = yaml_get(p->map, "surface");
-    if (s->output.diagnostics.given || rules_heard(c, &s->output) || force_stem(&s->output))
+    if (s->output.diagnostics.given || rules_listed(c, &s->output) || rules_heard(c, &s->output) || force_stem(&s->output))
         return;
     diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
              arena_format(p->yaml->arena, "give surface.response, surface.object or surface.space (or one of %s) for a sound, set output.quantity to force for the sound of "

@@ -16,5 +16,6 @@ void scene_sense_output(const struct scene_part *top);
 void scene_sense_output_heard(const struct scene_part *p, struct yaml_node *root, const struct scene *s);
 /* of all contacts, when nothing else is wrong. */
 void scene_sense_output_stems(const struct scene_part *top);
+void scene_sense_output_impacts(const struct scene_part *top);
 
 #endif

@@ -23,18 +23,20 @@ static bool is_given(const struct scene_part *p, const char *path)
 static void still_check(const struct scene_part *p, const struct contact *c)
 {
     const char *path = "motion.path", *kind = "contact.model";
-    bool rolls = c->contact.model == CONTACT_ROLL;
-    if (c->motion.path == PATH_STILL && scene_part_known(p, path) && (rolls || c->contact.model == CONTACT_SCRAPE))
+    bool rolls = c->contact.model == CONTACT_ROLL, follows = rolls || c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_PLAYBACK;
+    if (c->motion.path == PATH_STILL && scene_part_known(p, path) && follows)
         diag_add(p->yaml->diag, scene_part_later(p, path, kind),
                  rolls ? "let it move, such as path: line; or set contact.model to roll_coupled, under which a ball may bounce on the spot"
                        : "let it move, such as path: line; or set contact.model to strike or given",
-                 "%s is still: nothing would %s where %s is %s", scene_part_label(p, path), model(c), scene_part_label(p, kind), model(c));
+                 "%s is still: nothing would %s where %s is %s", scene_part_label(p, path), c->contact.model == CONTACT_PLAYBACK ? "sound" : model(c),
+                 scene_part_label(p, kind), model(c));
 }
 
 static void idle_check(const struct scene_part *p, const struct contact *c)
 {
     static const char *const idle[] = {"grip", "surface.height_map", "surface.roughness", "surface.ridges", "surface.grit", "surface.fractal", "surface.continuation"};
-    for (size_t i = 0; i < (ball_rolls(c) ? 1 : sizeof idle / sizeof idle[0]); i++) {
+    bool reads = ball_rolls(c) || c->contact.model == CONTACT_PLAYBACK;
+    for (size_t i = 0; i < (reads ? 1 : sizeof idle / sizeof idle[0]); i++) {
         const struct yaml_node *node = yaml_find(p->map, idle[i]);
         if (node && (node->n == 0 || i > 0)) /* a grip's keys say it themselves */
             diag_add(p->yaml->diag, node->key->at, "remove it (a null takes away what another file says), or set contact.model to scrape",
@@ -167,6 +169,7 @@ void scene_sense_model(const struct scene_part *p, const struct contact *c)
         strike_check(p, c);
     if (c->contact.model == CONTACT_GIVEN)
         given_check(p, &c->contact.given);
+    scene_sense_impacts(p, c);
     if (ball_rolls(c))
         scene_sense_ball(p, c);
 }

@@ -173,3 +173,14 @@ void scene_sense_output_stems(const struct scene_part *top)
             diag_add(top->yaml->diag, item->at, "leave the stem out, or give what it is of", "output.stems: nothing rings of which '%s' would be the stem",
                      item->text);
 }
+
+void scene_sense_output_impacts(const struct scene_part *top)
+{
+    const struct scene *s = top->to;
+    const char *path = "output.impacts";
+    for (int i = 0; i < s->n_contacts; i++)
+        if (s->output.impacts != LISTING_TABLE || rules_listed(&s->contacts[i], &s->output))
+            return;
+    diag_add(top->yaml->diag, scene_part_later(top, path, path), "leave it out, or set contact.model to impacts",
+             "%s is table, and no contact is of model impacts", path);
+}

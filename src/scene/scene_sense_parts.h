@@ -8,6 +8,7 @@ void scene_sense_motion(const struct scene_part *p, const struct motion *m);   /
 void scene_sense_surface(const struct scene_part *p, const struct contact *c); /* scene_sense_surface.c */
 void scene_sense_model(const struct scene_part *p, const struct contact *c);   /* scene_sense_model.c   */
 void scene_sense_ball(const struct scene_part *p, const struct contact *c);    /* scene_sense_ball.c    */
+void scene_sense_impacts(const struct scene_part *p, const struct contact *c); /* scene_sense_impacts.c */
 void scene_sense_response(const struct scene_part *p, const struct contact *c); /* scene_sense_response.c */
 void scene_sense_object(const struct scene_part *p, const struct object_given *o, const char *body); /* scene_sense_object.c */
 

@@ -116,16 +116,57 @@ static void nodes_check(const struct body *b, const struct motion *m)
                  label_of(b, "object"));
 }
 
+/* ------------------------------------------------------------------ gammatones, and a force louder near the modes */
+
+static void gammatone_check(const struct body *b)
+{
+    const struct response *r = b->response;
+    struct diag *d = b->part->yaml->diag;
+    struct arena *a = b->part->yaml->arena;
+    if (r->gammatone == 1)
+        return;
+    if (rules_is_recorded(r))
+        diag_add(d, later(b, "gammatone", "response"), arena_format(a, "leave %s out", path_of(b, "gammatone")), "%s needs a mode table (.csv) as %s, not '%s'",
+                 label_of(b, "gammatone"), label_of(b, "response"), diag_shown(d, r->file));
+    else if (!rules_responds(r))
+        diag_add(d, later(b, "gammatone", "gammatone"), arena_format(a, "give %s (a mode table) or %s, or leave %s out", path_of(b, "response"), path_of(b, "object"), path_of(b, "gammatone")),
+                 "%s is %d, and nothing rings", label_of(b, "gammatone"), r->gammatone);
+    else if (glides(r))
+        diag_add(d, later(b, "gammatone", "moving"), arena_format(a, "set %s to launch or readout, or leave %s out", path_of(b, "moving"), path_of(b, "gammatone")),
+                 "%s is %d, and what glides begins at once: %s is glide%s", label_of(b, "gammatone"), r->gammatone, label_of(b, "moving"),
+                 r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
+    else if (r->convolution == ENGINE_NODES)
+        diag_add(d, later(b, "gammatone", "convolution"), leave_out(b, "convolution", "overlap_add"), "%s: nodes cannot do %s %d", label_of(b, "convolution"),
+                 label_of(b, "gammatone"), r->gammatone);
+}
+
+static void enhance_check(const struct scene_part *p, const struct contact *c)
+{
+    const struct response *r = &c->surface.response;
+    const char *path = "contact.enhance";
+    if (!c->contact.enhance.given || !yaml_find(p->map, path) || (rules_responds(r) && !rules_is_recorded(r)))
+        return;
+    if (rules_is_recorded(r))
+        diag_add(p->yaml->diag, scene_part_later(p, path, "surface.response"), "give a mode table (.csv), surface.object or surface.space, or remove contact.enhance",
+                 "%s needs the surface's modes, and '%s' is recorded", scene_part_label(p, path), diag_shown(p->yaml->diag, r->file));
+    else
+        diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at, "give surface.response (a mode table), surface.object or surface.space, or remove contact.enhance",
+                 "%s needs the surface's modes, and the surface has none", scene_part_label(p, path));
+}
+
 static void body_check(const struct scene_part *p, const char *name, const struct response *r, const struct motion *m)
 {
     struct body b = {p, r, name};
     scene_sense_object(p, &r->object, name);
+    if (!rules_responds(r))
+        gammatone_check(&b);
     if (!rules_responds(r) || !known(&b, "convolution"))
         return;
     recorded_check(&b);
     reading_check(&b);
     length_check(&b);
     nodes_check(&b, m);
+    gammatone_check(&b);
 }
 
 /* ------------------------------------------------------------------ the space of materials */
@@ -142,6 +183,7 @@ void scene_sense_response(const struct scene_part *p, const struct contact *c)
 {
     body_check(p, "surface", &c->surface.response, &c->motion);
     body_check(p, ball_tool(c), &c->scraper.response, &c->motion);
+    enhance_check(p, c);
     space_check(p, "surface.space.from", c->surface.response.space.from);
     space_check(p, "surface.space.to", c->surface.response.space.to);
 }

@@ -171,7 +171,7 @@ static bool applies(const struct key *k, const void *owner)
     if (keys_words(k))
         return applies(decides, owner) && keys_applies_with(k, word(decides, owner));
     bool there = decides->type == KEY_FILE ? text(decides, owner) != NULL : !isnan(number(decides, owner));
-    return keys_applies_beside(k, there && applies(decides, owner)); /* a ball's radius stands where a scraper's would */
+    return applies(decides, owner) && keys_applies_beside(k, there); /* a ball's radius stands where a scraper's would */
 }
 
 /* Is every section that the key stands in given? */

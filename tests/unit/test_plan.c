@@ -156,7 +156,7 @@ START_TEST(the_rest_is_not_touched)
     }
     ck_assert(plan_make(table, &s.contacts[0], &s, a, &p, &e));
     ck_assert_str_eq(running(a, &p), "trajectory surface roughness scrape approach smooth decimate force_table ");
-    ck_assert(run_open(&r, &p, &s, &sink, &e));
+    ck_assert(run_open(&r, &p, &s, &(struct run_sinks){&sink, NULL}, &e));
     for (int k = 1; k <= 4; k++)
         ck_assert(run_block(&r, k * 1000, &e));
     ck_assert_int_eq(r.n, 8);

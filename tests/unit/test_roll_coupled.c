@@ -405,7 +405,7 @@ static void opened(struct scene *s, const char *refused)
     struct err e = {0};
     struct table_sink sink = {fopen("/dev/null", "w")};
     ck_assert_msg(plan_make(stages_table, &s->contacts[0], s, rig_arena(), &p, &e), "%s", e.text);
-    bool good = run_open(&run, &p, s, &sink, &e);
+    bool good = run_open(&run, &p, s, &(struct run_sinks){&sink, NULL}, &e);
     ck_assert(!good);
     ck_assert_int_eq(e.kind, ERR_SCENE);
     ck_assert_msg(strstr(e.text, refused) != NULL, "%s", e.text);

@@ -12,7 +12,7 @@ static const struct bad bads[] = {
     /* unknown, misplaced, duplicate keys */
     {"titel: x\n", "5:1", "unknown key 'titel'", "did you mean 'title'?"},
     {"trajectory: x\n", "5:1", "unknown key 'trajectory'", "keys here: rasp, title"},
-    {"rate: 3 Hz\n", "5:1", "unknown key 'rate'", "'rate' belongs elsewhere: motion.rate or contact.given.rate or output.diagnostics.rate"},
+    {"rate: 3 Hz\n", "5:1", "unknown key 'rate'", "'rate' belongs elsewhere: motion.rate or contact.given.rate or contact.impacts.modulation.rate or output.diagnostics.rate"},
     {"lufs: -23\n", "5:1", "unknown key 'lufs'", "output.level.lufs"},
     {"oversampling: 3\n", "5:1", "unknown key 'oversampling'", "accuracy.oversampling"},
     {"output: {ramps: 1 s}\n", "5:10", "unknown key 'ramps' in output", "did you mean 'ramp'?"},
@@ -62,7 +62,7 @@ static const struct bad bads[] = {
     /* words */
     {"output: {encoding: pcm_24}\n", "5:20", "output.encoding must be one of: pcm16, pcm24, float32, float64, not 'pcm_24'", "did you mean 'pcm24'?"},
     {"output: {encoding: mp3}\n", "5:20", "one of: pcm16", "encoding: pcm24"},
-    {"contact: {model: slip}\n", "5:18", "contact.model must be one of: scrape, strike, given, roll, roll_coupled, not 'slip'", "model: scrape"},
+    {"contact: {model: slip}\n", "5:18", "contact.model must be one of: scrape, strike, given, roll, roll_coupled, impacts, playback, not 'slip'", "model: scrape"},
     {"name: 2nd\n", "5:7", "must not start with a digit, not '2nd'", "left_hand"},
     {"name: my contact\n", "5:7", "letters, digits and _", "left_hand"},
     /* alternatives, keys that do not apply */

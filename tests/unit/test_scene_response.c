@@ -143,7 +143,7 @@ static const struct row contacts[] = {
     {GIVEN("{file: a.csv, channel: 2}"), "channel", "contact.given.channel is of a WAV, and scenes/a.csv is a CSV", "remove it"},
     {GIVEN("{file: a.npy, rate: 1 kHz, column: x}"), "column", "contact.given.column is of a CSV, and scenes/a.npy is an NPY", "remove it"},
     {GIVEN("{file: a.csv}") "scraper: {mass: 1}\n", "mass", "scraper.mass applies only where contact.model is scrape or strike", "now it is given"},
-    {GIVEN("{file: a.csv}, gravity: 1"), "gravity", "contact.gravity applies only where contact.model is scrape, strike, roll or roll_coupled", "now it is given"},
+    {GIVEN("{file: a.csv}, gravity: 1"), "gravity", "contact.gravity applies only where contact.model is scrape, strike, roll, roll_coupled, impacts or playback", "now it is given"},
     {GIVEN("{file: a.csv, scale: 3 m}"), "3 m", "contact.given.scale needs a force; m is a unit of length", "1.5 N"},
 };
 

@@ -89,7 +89,26 @@ static const char COUPLED[] =
 static const char DEVIATION[] =
     "rasp: 1\nsurface: {ridges: {}, response: files/plank.csv}\nball: {radius: 1 cm, material: oak, response: files/plank.csv}\n"
     "motion: {path: circle, radius: 0.1, duration: 3}\ncontact: {model: roll, roll: {static_depth: 7}}\n";
-static const char *const scenes[] = {ROLL, COUPLED, DEVIATION, OBJECT, SPACE, SAMPLES, ARRAY, TABLE, PLAIN, FULL, NONE, SEVERAL, EVERYTHING, CIRCLE, SCRIBBLE, GIVEN, RECORDED};
+static const char SERIES[] =
+    "rasp: 1\ncontacts:\n"
+    "- name: disk\n  motion: {path: line, to: [1 cm, 0], duration: 1 s}\n  surface: {response: files/plank.csv, gammatone: 2}\n"
+    "  contact: {model: impacts, impacts: {prototype: space, space: {walk: files/walk.csv}, amplitude: {distribution: table, table: files/density.csv}}}\n"
+    "- name: moving\n  motion: {path: line, to: [1 cm, 0], duration: 1 s}\n"
+    "  contact: {model: impacts, impacts: {prototype: space, space: {angle: 2 rad, radius: 0.5, angle_to: 3 rad, radius_to: -0.5},\n"
+    "    interval: {distribution: table, table: files/density.csv}, rub: {interval: 30 us}, scratch: {duration: 40 us}}}\n"
+    "- name: own\n  motion: {path: circle, radius: 1 cm, duration: 1 s}\n  load: {approach: 1 ms, release: 2 ms}\n"
+    "  contact:\n    model: impacts\n    gesture: {cutoff: 1 kHz, speed: 1 m/s, order: 1}\n"
+    "    impacts:\n      prototype: custom\n      unit_force: 3 N\n      amplitude: {mean: 1, deviation: 0.1, a1: -0.9, b1: 0.1}\n"
+    "      interval: {mean: 5 ms, deviation: 0.1 ms, a1: -0.8, b1: -0.1}\n      duration: {zeta: 1 ms, theta: 0.2}\n      modulation: {depth: 0.1, rate: 2 Hz}\n"
+    "      floor: {amplitude: 0.02, interval: 1 ms}\n      marginal: lognormal\n      processes: two\n"
+    "output: {impacts: table, diagnostics: {}}\n";
+static const char PLAYED[] =
+    "rasp: 1\nsurface: {roughness: {}, material: steel, object: {shape: bar, length: 1, width: 1 cm, thickness: 1 cm}}\nmotion: {path: line, to: [1 cm, 0], duration: 1 s}\n"
+    "contact: {model: playback, playback: {stiffness: 1 kN/m}, gesture: {}, enhance: {gain: 30 dB, modes: 7}}\n";
+static const char ROLLING[] =
+    "rasp: 1\nmotion: {path: line, to: [1 cm, 0], duration: 1 s}\ncontact: {model: impacts, impacts: {prototype: roll, size: 0.2, velocity: 0.3, roughness: 0.4}}\noutput: {diagnostics: {}}\n";
+static const char *const scenes[] = {SERIES, PLAYED, ROLLING, ROLL, COUPLED, DEVIATION, OBJECT, SPACE, SAMPLES, ARRAY, TABLE, PLAIN, FULL, NONE, SEVERAL, EVERYTHING, CIRCLE, SCRIBBLE, GIVEN,
+                                     RECORDED};
 enum { SCENES = sizeof scenes / sizeof scenes[0] };
 
 static struct arena *a;
@@ -120,6 +139,8 @@ static void enter(void)
     put("in/files/set/remarks.txt", "not read\n");
     put("in/files/speed.csv", "a speed\n");
     put("in/files/path.csv", "a path\n");
+    put("in/files/walk.csv", "a walk\n");
+    put("in/files/density.csv", "a density\n");
     put("in/files/recipe.yaml", "title: worn wood\nsource: made up\nroughness: {rms: 7 um, exponent: -3}\nridges: {spacing: 0.7 mm}\nresponse: plank.csv\n");
 }
 
@@ -128,7 +149,7 @@ static void leave(void)
     static const char *const files[] = {"in/files/plank.csv",     "in/files/map.npy",     "in/files/force.csv",   "in/files/force.wav",
                                         "in/files/set/index.csv", "in/files/set/a.wav",   "in/files/set/b.WAV",   "in/files/set/remarks.txt",
                                         "in/files/speed.csv",     "in/files/path.csv",    "in/files/recipe.yaml", "in/scene.yaml",
-                                        "out/scene.yaml"},
+                                        "in/files/walk.csv",      "in/files/density.csv", "out/scene.yaml"},
                              *const folders[] = {"in/files/set", "in/files", "in", "out", root};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         unlink(files[i]);

@@ -119,6 +119,7 @@ END_TEST
 
 #define STRIKE "contact.model=strike", "surface.roughness=null"
 #define ROLLS "contact.model=roll_coupled", "scraper=null", "contact.roll.kappa=5e9"
+#define IMPACTS "contact.model=impacts", "surface.roughness=null", "scraper.mass=null"
 #define GIVEN "contact.model=given", "surface.roughness=null", "scraper.mass=null"
 
 /* What an object's key needs beside it: the shape that has it, and that shape's other sizes. */
@@ -171,6 +172,25 @@ START_TEST(test_examples_are_taken)
         {"contact.given.file", GIVEN, "contact.given.scale=1"},
         {"contact.given.scale", GIVEN, "contact.given.file=force.csv"},
         {"contact.given.rate", GIVEN, "contact.given.file=force.npy"},
+        {"contact.impacts.prototype", IMPACTS},
+        {"contact.impacts.amplitude.mean", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.amplitude.deviation", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.amplitude.a1", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.amplitude.b1", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.amplitude.table", IMPACTS, "contact.impacts.prototype=roll", "contact.impacts.amplitude.distribution=table"},
+        {"contact.impacts.interval.mean", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.interval.deviation", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.interval.a1", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.interval.b1", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.interval.table", IMPACTS, "contact.impacts.prototype=roll", "contact.impacts.interval.distribution=table"},
+        {"contact.impacts.duration.zeta", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.duration.theta", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.modulation.depth", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.modulation.rate", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.floor.amplitude", IMPACTS, "contact.impacts.prototype=roll"},
+        {"contact.impacts.space.angle_to", IMPACTS, "contact.impacts.prototype=space"},
+        {"contact.impacts.space.radius_to", IMPACTS, "contact.impacts.prototype=space"},
+        {"contact.impacts.space.walk", IMPACTS, "contact.impacts.prototype=space"},
         {"output.level.dbfs_at_1_pa", "output.listen.places=[[0, 0, 1]]"},
         {"output.stems", "surface.response=a.csv", "scraper.response=b.csv"},
         {"motion.radius", "motion.path=circle", "motion.to=null"},

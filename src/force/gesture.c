@@ -1,0 +1,123 @@
+/* A low-pass on the force whose cutoff is in proportion to the contact's speed (papers/004, after van den Doel, Kry and Pai 2001):
+
+     f_c = contact.gesture.cutoff |v| / contact.gesture.speed      -3 dB, at most 0.49 of the sample rate, from where on it counts as open
+
+   Order 1: y' = w (x - y). Order 2, Butterworth's two poles: s' = w (x - sqrt(2) s - y), y' = w s, with w = 2 pi f_c. Each is stepped by the trapezoidal rule
+   with w T / 2 replaced by g = tan(pi f_c T), which puts the -3 dB at f_c at any sample rate (a topology-preserving transform; V. Zavalishin, The Art of VA
+   Filter Design, 2012, chapters 3 and 4). The state is kept as what the integrators hold, so that a step is an implicit midpoint step: |state|^2 never
+   grows without input, whatever f_c does.
+
+   Its gain at 0 Hz is 1 at every cutoff. As the speed falls to 0 all that changes is filtered away, and what is left is the force that there is as the contact
+   comes to rest, which stands still with it: a constant force, which drives no mode. So a hand that rests makes no sound, and there is no step when it
+   comes to rest or moves on. (A gain that fell to 0 would be the other reading; neither paper asks for one.) A motion that starts from rest starts
+   from a force of 0.
+
+   load.approach and load.release come after it, in place of the stage approach: what the low-pass holds is let go too. Of a given force, which has
+   neither, it is let go over 5 ms, so that the sound does not end with what it holds. */
+#include <math.h>
+
+#include "num/real.h"
+#include "scene/rules.h"
+#include "stage.h"
+#include "trajectory/load.h"
+#include "trajectory/trajectory.h"
+
+#define GESTURE_OPEN 0.49 /* of the sample rate */
+
+struct gesture_filter {
+    struct load_law fade;
+    double per_speed;   /* f_c T over |v|, s/m             */
+    double speed, g;    /* of the frame before             */
+    double held[2];     /* what the integrators hold: s, y */
+    int order;
+};
+
+static bool gesture_wanted(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return rules_gesture(c);
+}
+
+static double gesture_work(const struct contact *c, const struct scene *s)
+{
+    (void)c, (void)s;
+    return 160;
+}
+
+/* The fade of what is lowered and raised; of a given force of the release alone, as far as there is time. */
+static bool fade_make(const struct stage_run *r, struct load_law *fade, struct err *e)
+{
+    if (!load_make(r->contact, r->board->trajectory, r->arena, fade, e))
+        return false;
+    if (r->contact->contact.model == CONTACT_GIVEN)
+        fade->release = fmin(RULES_APPROACH, fade->duration);
+    return true;
+}
+
+static void open_told(const struct stage_run *r, double greatest)
+{
+    const struct gesture *g = &r->contact->contact.gesture;
+    if (greatest > GESTURE_OPEN * r->board->rate)
+        board_warn(r->board, arena_format(r->arena, "contact '%s': contact.gesture: the cutoff reaches %.6g Hz at %.4g m/s; above %.6g Hz, 0.49 of the sample rate, the "
+                                                    "low-pass counts as open", r->contact->name, greatest, greatest / g->cutoff * g->speed, GESTURE_OPEN * r->board->rate));
+}
+
+static bool gesture_open(struct stage_run *r, struct err *e)
+{
+    const struct gesture *g = &r->contact->contact.gesture;
+    struct gesture_filter *f = ARENA_TAKE(r->arena, struct gesture_filter, 1);
+    r->state = f;
+    f->order = g->order;
+    f->per_speed = g->cutoff / g->speed / r->board->rate;
+    open_told(r, f->per_speed * r->board->rate * r->board->trajectory->top_speed);
+    return fade_make(r, &f->fade, e);
+}
+
+static double filter_step(struct gesture_filter *f, double x)
+{
+    double g = f->g, *held = f->held;
+    if (f->order == 1) {
+        double y = (held[1] + g * x) / (1 + g);
+        held[1] = 2 * y - held[1];
+        return y;
+    }
+    double s = (held[0] + g * (x - held[1])) / (1 + g * (sqrt(2) + g)), y = held[1] + g * s;
+    held[0] = 2 * s - held[0];
+    held[1] = 2 * y - held[1];
+    return y;
+}
+
+static void filter_tune(struct gesture_filter *f, double speed)
+{
+    if (speed == f->speed)
+        return;
+    f->speed = speed;
+    f->g = real_tan(REAL_PI * fmin(f->per_speed * speed, GESTURE_OPEN));
+}
+
+static bool gesture_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    struct gesture_filter *f = r->state;
+    const struct board *b = r->board;
+    const double *velocity = board_at(b, ITEM_VELOCITY, from);
+    double *force = board_at(b, ITEM_FORCE, from);
+    (void)e;
+    for (long n = from; n < to; n++) {
+        filter_tune(f, fabs(velocity[(n - from) * b->over]));
+        force[n - from] = filter_step(f, force[n - from]) * load_lowered(&f->fade, (double)n / b->rate);
+    }
+    return true;
+}
+
+const struct stage gesture_stage = {
+    .name = "gesture",
+    .does = "a low-pass on the force whose cutoff follows the contact's speed",
+    .paper = "004, navigation strategy",
+    .idle = "no contact.gesture",
+    .needs = ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_VELOCITY),
+    .gives = ITEM_BIT(ITEM_FORCE),
+    .wanted = gesture_wanted,
+    .work = gesture_work,
+    .open = gesture_open,
+    .run = gesture_run,
+};

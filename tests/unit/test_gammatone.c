@@ -1,0 +1,179 @@
+/* gammatone: bodies that begin softly through the whole pipeline: every engine and reading that can against sums of the definition, sample by sample in
+   long double, for a force from a file and tables of two places, whose gains change their sign (shared) or whose poles move (separate). */
+#include <unistd.h>
+
+#include "convolution/ring_choice.h"
+#include "rig.h"
+
+enum { RATE = 8000, FRAMES = 2600, FORCED = 1600, MODES = 4, BLOCK = 700 };
+
+static const struct place {
+    double f[MODES], d[MODES], g[MODES];
+} here = {{180, 420, 955, 1700}, {60, 70, 90, 120}, {1, -0.7, 0.5, 0.4}}, there = {{183, 413, 975, 1690}, {66, 60, 100, 115}, {0.5, -1, 0.7, 0.3}},
+  turned = {{180, 420, 955, 1700}, {60, 70, 90, 120}, {-0.6, 0.9, 0.5, -0.2}};
+
+static char folder[] = "/tmp/test_gammatone.XXXXXX";
+static double force[FRAMES];
+
+static void table_write(const char *name, const char *poles, const struct place *p, const struct place *q)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *f = fopen(path, "w");
+    ck_assert_ptr_nonnull(f);
+    fprintf(f, "# poles: %s\n# quantity: acceleration\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n", poles);
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < MODES; i++)
+            fprintf(f, "%d,%d,0,%d,%.17g,%.17g,%.17g,0\n", k, k, i, (k ? q : p)->f[i], (k ? q : p)->d[i], (k ? q : p)->g[i]);
+    fclose(f);
+}
+
+static void force_write(void)
+{
+    char path[200], head[129] = {0};
+    snprintf(path, sizeof path, "%s/force.npy", folder);
+    FILE *f = fopen(path, "w");
+    ck_assert_ptr_nonnull(f);
+    int used = snprintf(head + 10, 110, "{'descr': '<f8', 'fortran_order': False, 'shape': (%d,), }", FORCED);
+    memcpy(head, "\x93NUMPY\x01\x00\x76\x00", 10);
+    memset(head + 10 + used, ' ', (size_t)(118 - used));
+    head[127] = '\n';
+    srand48(5);
+    for (int n = 0; n < FORCED; n++)
+        force[n] = drand48() + drand48() + drand48() - 1.5;
+    fwrite(head, 1, 128, f);
+    fwrite(force, sizeof *force, FORCED, f);
+    fclose(f);
+}
+
+static void folder_make(void)
+{
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    table_write("separate.csv", "separate", &here, &there);
+    table_write("shared.csv", "shared", &here, &turned);
+    force_write();
+}
+
+static void folder_remove(void)
+{
+    static const char *const names[] = {"separate.csv", "shared.csv", "force.npy"};
+    char path[200];
+    for (int i = 0; i < 3; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        unlink(path);
+    }
+    rmdir(folder);
+}
+
+static struct rig *render(const char *table, int gamma, const char *how, const char *accuracy, int block)
+{
+    char text[1000];
+    snprintf(text, sizeof text,
+             "rasp: 1\nsurface: {response: %s/%s, gammatone: %d, %s}\nmotion: {path: line, from: [0, 0], to: [1, 0], duration: %.17g}\n"
+             "contact: {model: given, given: {file: %s/force.npy, rate: %d}}\naccuracy: {%s}\noutput: {sample_rate: %d}\n",
+             folder, table, gamma, how, FORCED / (double)RATE, folder, RATE, accuracy, RATE);
+    struct scene s = rig_scene(rig_arena(), text);
+    return rig_record(&s, ITEM_SOUND, FRAMES, block);
+}
+
+/* ------------------------------------------------------------------ the definition */
+
+static long double between(double a, double b, long double u)
+{
+    return fabsl((long double)a) * powl(fabsl((long double)b / a), u) * (a < 0 ? -1 : 1);
+}
+
+/* h at frame n of the place u, 0 to 1. */
+static long double tone(bool shared, int gamma, long double u, long n)
+{
+    long double t = n / (long double)RATE, sum = 0;
+    for (int i = 0; i < MODES; i++) {
+        long double f = shared ? here.f[i] : between(here.f[i], there.f[i], u), d = shared ? here.d[i] : between(here.d[i], there.d[i], u);
+        long double g = shared ? here.g[i] + u * (turned.g[i] - here.g[i]) : between(here.g[i], there.g[i], u);
+        sum += g * powl(t * d / (gamma - 1), gamma - 1) * expl((gamma - 1) - t * d) * sinl(2 * M_PIl * f * t);
+    }
+    return sum;
+}
+
+/* Against the sum at every 13th frame: relative rms, dB. */
+static double judged(const struct rig *g, bool shared, int gamma, bool readout)
+{
+    double wrong = 0, whole = 0;
+    for (long n = 5; n < FRAMES; n += 13) {
+        long double want = 0;
+        for (long m = 0; m <= n && m < FORCED; m++)
+            want += force[m] / RATE * tone(shared, gamma, fminl((readout ? n : m) / (long double)FORCED, 1), n - m);
+        wrong += (double)((g->x[n] - want) * (g->x[n] - want));
+        whole += (double)(want * want);
+    }
+    return 10 * log10(wrong / whole);
+}
+
+static void check(const char *table, int gamma, const char *how, const char *accuracy, double most)
+{
+    struct rig *g = render(table, gamma, how, accuracy, BLOCK);
+    double db = judged(g, strcmp(table, "shared.csv") == 0, gamma, strstr(how, "readout") != NULL);
+    printf("gamma %d, %s, %s, %s: %.1f dB\n", gamma, table, how, accuracy, db);
+    ck_assert_double_le(db, most);
+    rig_close(g);
+}
+
+/* Gains are straight lines between the two places, so a ramp has no error but at the motion's end, where they stop, within it. */
+START_TEST(fixed)
+{
+    folder_make();
+    for (int gamma = 2; gamma <= 4; gamma++) {
+        check("shared.csv", gamma, "moving: fixed", "gain_ramp: 1, morph_error: 0", -200);
+        check("shared.csv", gamma, "moving: fixed", "morph_error: -80", -80);
+        check("shared.csv", gamma, "moving: fixed, convolution: overlap_add", "morph_error: -80", -80);
+    }
+    folder_remove();
+}
+END_TEST
+
+/* Poles that move, through computed responses: the error asked is kept. */
+START_TEST(poles_that_move)
+{
+    folder_make();
+    for (int gamma = 2; gamma <= 4; gamma++)
+        for (int db = -80; db <= -40; db += 40) {
+            const char *accuracy = db == -80 ? "morph_error: -80, overlap_hop: 1 s" : "morph_error: -40, overlap_hop: 1 s";
+            check("separate.csv", gamma, "moving: launch", accuracy, db);
+            check("separate.csv", gamma, "moving: readout", accuracy, db);
+        }
+    folder_remove();
+}
+END_TEST
+
+/* gamma 1 is what it is without the key, to the bit; so is the sound however it is cut into blocks. */
+START_TEST(the_same_bits)
+{
+    folder_make();
+    struct rig *a = render("shared.csv", 1, "moving: fixed", "morph_error: -80", BLOCK), *b = render("shared.csv", 2, "moving: fixed", "morph_error: -80", BLOCK),
+               *c = render("shared.csv", 2, "moving: fixed", "morph_error: -80", 37);
+    struct scene s = a->scene;
+    s.contacts[0].surface.response.gammatone = 0; /* not set by any key */
+    struct rig *d = rig_record(&s, ITEM_SOUND, FRAMES, BLOCK);
+    ck_assert(memcmp(a->x, d->x, FRAMES * sizeof *a->x) == 0);
+    ck_assert(memcmp(b->x, c->x, FRAMES * sizeof *a->x) == 0);
+    ck_assert(memcmp(a->x, b->x, FRAMES * sizeof *a->x) != 0);
+    rig_close(a), rig_close(b), rig_close(c), rig_close(d);
+    folder_remove();
+}
+END_TEST
+
+/* The tail lasts until -80 dB of the slowest mode's gammatone. */
+START_TEST(tail)
+{
+    folder_make();
+    for (int gamma = 1; gamma <= 4; gamma++) {
+        struct rig *g = render("shared.csv", gamma, "moving: fixed", "morph_error: -80", BLOCK);
+        double x = g->run.board.ring * 60, m = gamma - 1, db = 8.685889638 * (gamma > 1 ? m * log(x / m) + m - x : -x);
+        ck_assert_double_eq_tol(db, -80, 1e-6);
+        rig_close(g);
+    }
+    folder_remove();
+}
+END_TEST
+
+UNIT("gammatone", fixed, poles_that_move, the_same_bits, tail)
