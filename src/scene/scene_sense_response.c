@@ -123,7 +123,7 @@ static void gammatone_check(const struct body *b)
     const struct response *r = b->response;
     struct diag *d = b->part->yaml->diag;
     struct arena *a = b->part->yaml->arena;
-    if (r->gammatone == 1)
+    if (r->gammatone < 2) /* 0: the model is not known, so it is not either */
         return;
     if (rules_is_recorded(r))
         diag_add(d, later(b, "gammatone", "response"), arena_format(a, "leave %s out", path_of(b, "gammatone")), "%s needs a mode table (.csv) as %s, not '%s'",
