@@ -14,9 +14,11 @@
 
    T has a mean although c has none: under a ball long stretches are bent downwards by up to 1/R and short ones upwards by more, and the limiter makes these
    alike. S runs from 0 to l^2 times that mean over the first millimetres, by many times what it varies by later; and where alpha follows a normal force
-   that swings, the mean swings with it, and S, opposite to the force. So the same is solved beside it (even for S', lift for S) for what T would be of
-   the curve -1/R alone that the ball follows over a high point, flat = tanh(alpha/R) / (alpha/R), and for T = 1:
-   S less what of T goes with 1 and with flat, by least squares over the motion (slope_level), times its two lifts has neither.
+   that swings, the mean swings with it, and S, opposite to the force. So the same is solved beside it ((even, sideways) for (S', S_n), lift for S, turned by
+   kappa and at corners as they are) for what T would be of the curve H = -1/R alone that the ball follows over a high point, flat = tanh(alpha/R) / (alpha/R)
+   along the path and none across it, and for T not limited, 1 along the path: S less what of T goes with 1 and with flat, by least squares over the motion
+   (slope_level), times its two lifts has neither. Over the ridges of a profile, met at changing angles, that curve is bent along x only: c = e_x^2 / R,
+   d = -e_x e_y / R, and 1 and flat are these over 1/R without and with the limiter, along and across.
 
    Over a piece of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
 
@@ -82,12 +84,19 @@ static void slope_fill(struct slope *s, int upto)
     }
 }
 
-/* The slope vector as seen from axes turned by the angle of that sine and cosine. */
+static void vector_rotate(double *along, double *across, double sine, double cosine)
+{
+    double before = *along;
+    *along = before * cosine + *across * sine;
+    *across = *across * cosine - before * sine;
+}
+
+/* The slope vector, and its level, as seen from axes turned by the angle of that sine and cosine. */
 static void slope_rotate(struct slope *s, double sine, double cosine)
 {
-    double slope = s->slope;
-    s->slope = slope * cosine + s->across * sine;
-    s->across = s->across * cosine - slope * sine;
+    vector_rotate(&s->slope, &s->across, sine, cosine);
+    for (int k = 0; k < 2 && s->rising; k++)
+        vector_rotate(&s->even[k], &s->sideways[k], sine, cosine);
 }
 
 /* From the axes the slope is in to those at a point; at once where the path has a corner. */
@@ -115,16 +124,27 @@ static double slope_step(const struct slope *s, const struct way_pieces *p, int 
     return (1 - z * phi) * a + phi * h * p->mean[channel][i] + z * moment;
 }
 
-/* T of a ball's curve over a high point, -1/R, over T of that where alpha is 0; 1 where nothing is limited. */
+/* T of a curve c/R over T of 1/R where alpha is 0. */
+static double slope_limited(double bend, double c)
+{
+    return bend > 0 ? real_tanh(bend * c) / bend : c;
+}
+
+/* T of a ball's curve over a high point, -1/R, over T of that where alpha is 0; 1 where nothing is limited. Over ridges that run along y it is bent along x only. */
 static void slope_flat(struct slope *s, double alpha)
 {
     double bend = alpha / s->radius;
-    if (alpha != s->alpha)
-        s->flat[1] = bend > 0 ? real_tanh(bend) / bend : 1;
+    if (s->ridges) {
+        s->flat[0] = s->ex * s->ex;
+        s->aside[0] = -s->ex * s->ey;
+        s->aside[1] = slope_limited(bend, s->aside[0]);
+    }
+    if (s->ridges || alpha != s->alpha)
+        s->flat[1] = slope_limited(bend, s->flat[0]);
     s->alpha = alpha;
 }
 
-/* The same as of the height, for T = flat[]. */
+/* The same as of slope and height, for T(c) = flat[], T(d) = aside[]. */
 static void slope_lift(struct slope *s, double h, int heading, double phi, double chi)
 {
     double kept = 1 - h / s->leak * phi;
@@ -132,7 +152,17 @@ static void slope_lift(struct slope *s, double h, int heading, double phi, doubl
         double even = s->even[k] * heading;
         s->lift[k] = kept * (s->lift[k] + h * even) + h * h * (phi - chi) * s->flat[k];
         s->even[k] = heading * (kept * even + phi * h * s->flat[k]);
+        s->sideways[k] = kept * s->sideways[k] + heading * phi * h * s->aside[k];
     }
+}
+
+/* For slope_level(). */
+static void slope_weigh(struct slope *s, double h, double along, double across)
+{
+    for (int k = 0; k < 2; k++)
+        s->bent[k] += h * along * s->flat[k] + h * across * s->aside[k];
+    for (int k = 0; k < 3; k++)
+        s->gone[k] += h * s->flat[k > 1] * s->flat[k > 0] + h * s->aside[k > 1] * s->aside[k > 0];
 }
 
 /* Height at the piece's end, from the slope at its start in the direction of travel. */
@@ -142,10 +172,7 @@ static void slope_rise(struct slope *s, const struct way_pieces *p, int i, doubl
     slope_flat(s, p->alpha[0][p->at[i]]);
     slope_lift(s, h, p->heading[i], phi, chi);
     s->height = (1 - z * phi) * (s->height + h * a) + h * h * ((phi - chi) * mean - (1 - z) * p->moment[0][i]);
-    for (int k = 0; k < 2; k++)
-        s->bent[k] += h * mean * s->flat[k];
-    for (int k = 0; k < 3; k++)
-        s->gone[k] += h * s->flat[k > 1] * s->flat[k > 0];
+    slope_weigh(s, h, mean, s->way.curved ? p->mean[1][i] : 0);
 }
 
 /* What T varies by within a piece that turns goes partly to the side: T is taken along e half way, and e turns about it. */
@@ -198,7 +225,10 @@ bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
     s->flat[0] = s->flat[1] = 1;
     s->way.use = slope_use;
     s->way.self = s;
-    return way_make(&s->way, r, WAY_ALONG, s->leak / 16, e);
+    if (!way_make(&s->way, r, WAY_ALONG, s->leak / 16, e))
+        return false;
+    s->ridges = s->way.curved && r->board->relief->along == ALONG_X;
+    return true;
 }
 
 void slope_run(struct slope *s, const struct stage_run *r, long first, int n)

@@ -10,9 +10,12 @@ struct slope {
     double leak, power;              /* m, l; |S'|^power is what crossed[] holds     */
     bool crossing, rising;           /* is crossed[] asked for? heights[] and lifts[]? The maker's to set */
     double slope, across, height;    /* dS/du, dS/dn, S now                          */
-    double even[2], lift[2];         /* dS/du, S per 1/m that T would make if it were 1/m, and flat[1] / m, all the time */
-    double radius, alpha, flat[2];   /* m, R; m, alpha last met; 1, tanh(alpha/R) / (alpha/R) */
-    double bent[2], gone[3];         /* integrals so far of T flat[0], T flat[1] ds; of flat[0]^2, flat[0] flat[1], flat[1]^2 ds */
+    double even[2], sideways[2];     /* dS/du, dS/dn per 1/m that T would make if it were flat[k], aside[k] / m all the time */
+    double lift[2];                  /* m^2, S of the same                           */
+    double radius, alpha;            /* m, R; m, alpha last met                      */
+    double flat[2], aside[2];        /* 1, T(c), T(d) over 1/R of H = -1/R: [0] not limited, [1] limited */
+    bool ridges;                     /* H is -1/R across the ridges of a profile, which the path meets at changing angles */
+    double bent[2], gone[3];         /* integrals so far of T(c) flat[k] + T(d) aside[k] ds; of [0] [0], [0] [1], [1] [1] of those two */
     double ex, ey;                   /* e where they are; 0, 0: nowhere yet          */
     double ends[WAY_CHUNK];          /* dS/du at each sub-interval's end             */
     double heights[WAY_CHUNK];       /* m, S there                                   */
@@ -28,7 +31,7 @@ bool slope_make(struct slope *s, struct stage_run *r, struct err *e);
 /* Follows the n <= WAY_CHUNK sub-intervals from number `first` on (since the start), which must come in order. */
 void slope_run(struct slope *s, const struct stage_run *r, long first, int n);
 
-/* 1/m: what of T goes with flat[], by least squares over all that was gone so far: S less the two lifts times these has no level. */
+/* 1/m: what of T goes with flat[], aside[], by least squares over all that was gone so far: S less the two lifts times these has no level. */
 void slope_level(const struct slope *s, double level[2]);
 
 #endif
