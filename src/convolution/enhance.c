@@ -159,20 +159,13 @@ static double enhance_work(const struct contact *c, const struct scene *s)
     return 5 + 0.8 * fmin(c->contact.enhance.modes, c->surface.response.modes);
 }
 
-static unsigned enhance_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its way */
-}
-
 const struct stage enhance_stage = {
     .name = "enhance",
     .does = "the force louder near the frequencies of the surface's modes",
     .paper = "002 sec. II-B",
     .idle = "no contact.enhance",
-    .needs = ITEM_BIT(ITEM_FORCE),
+    .needs = ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its way */
     .gives = ITEM_BIT(ITEM_FORCE),
-    .asks = enhance_asks,
     .wanted = enhance_wanted,
     .work = enhance_work,
     .open = enhance_open,

@@ -264,12 +264,6 @@ static bool rolling_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_ROLL_COUPLED;
 }
 
-static unsigned rolling_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there: it is read at the steps' own instants */
-}
-
 /* Cycles of a step: 60 on rigid ground, 100 of its place on the curve, 5 a mode. */
 static double rolling_work(const struct contact *c, const struct scene *s)
 {
@@ -286,9 +280,8 @@ const struct stage roll_coupled_stage = {
     .does = "ball, contact and the surface's modes solved together: flights, impacts, rolling",
     .paper = "002 eq. 1 to 4",
     .idle = "contact.model is not roll_coupled",
-    .needs = ITEM_BIT(ITEM_SURFACE),
+    .needs = ITEM_BIT(ITEM_SURFACE) | ITEM_BIT(ITEM_POSITION), /* the motion must be there: it is read at the steps' own instants */
     .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
-    .asks = rolling_asks,
     .wanted = rolling_wanted,
     .work = rolling_work,
     .open = rolling_open,

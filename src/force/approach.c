@@ -17,12 +17,6 @@ static double approach_work(const struct contact *c, const struct scene *s)
     return s->accuracy.oversampling;
 }
 
-static unsigned approach_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
-}
-
 static bool approach_open(struct stage_run *r, struct err *e)
 {
     struct load_law *l = ARENA_TAKE(r->arena, struct load_law, 1);
@@ -50,8 +44,7 @@ const struct stage approach_stage = {
     .does = "the scraper (or ball) is lowered at the start and raised at the end",
     .paper = "",
     .idle = "the force begins and ends by itself, load.approach and load.release are 0, or contact.gesture does it",
-    .needs = ITEM_BIT(ITEM_SUBFORCE),
-    .asks = approach_asks,
+    .needs = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .wanted = approach_wanted,
     .work = approach_work,

@@ -24,12 +24,6 @@ static bool samples_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_GIVEN && !given_is_table(c);
 }
 
-static unsigned samples_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
-}
-
 static double samples_work(const struct contact *c, const struct scene *s)
 {
     (void)c, (void)s;
@@ -110,8 +104,8 @@ const struct stage given_samples_stage = {
     .does = "contact force from the samples of a file",
     .paper = "",
     .idle = "contact.model is not given, or contact.given.file is a table",
+    .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_FORCE),
-    .asks = samples_asks,
     .wanted = samples_wanted,
     .work = samples_work,
     .open = samples_open,

@@ -21,12 +21,6 @@ static bool table_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_GIVEN && given_is_table(c);
 }
 
-static unsigned table_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
-}
-
 static double table_work(const struct contact *c, const struct scene *s)
 {
     (void)c;
@@ -88,8 +82,8 @@ const struct stage given_table_stage = {
     .does = "contact force from a table over time",
     .paper = "",
     .idle = "contact.model is not given, or contact.given.file holds samples",
+    .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
-    .asks = table_asks,
     .wanted = table_wanted,
     .work = table_work,
     .open = table_open,

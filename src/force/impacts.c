@@ -39,12 +39,6 @@ static bool stage_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_IMPACTS;
 }
 
-static unsigned stage_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
-}
-
 /* About how many impacts a second, from the keys alone: of papers/002 table I, and of the middle of the disk, some 200. */
 static double stage_density(const struct impacts *m)
 {
@@ -151,8 +145,8 @@ const struct stage impacts_stage = {
     .does = "contact force of a series of impacts drawn from its statistics",
     .paper = "002 eq. 5, 6, 9, 12, 13, 16, 17; 004 eq. 2 to 11",
     .idle = "contact.model is not impacts",
+    .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
-    .asks = stage_asks,
     .wanted = stage_wanted,
     .work = stage_work,
     .open = stage_open,

@@ -35,12 +35,6 @@ static bool stage_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_STRIKE;
 }
 
-static unsigned stage_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
-}
-
 static double stage_work(const struct contact *c, const struct scene *s)
 {
     (void)c;
@@ -103,8 +97,8 @@ const struct stage strike_stage = {
     .does = "contact force of impacts",
     .paper = "",
     .idle = "contact.model is not strike",
+    .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
-    .asks = stage_asks,
     .wanted = stage_wanted,
     .work = stage_work,
     .open = stage_open,

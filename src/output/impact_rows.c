@@ -22,12 +22,6 @@ static bool rows_wanted(const struct contact *c, const struct scene *s)
     return rules_listed(c, &s->output);
 }
 
-static unsigned rows_asks(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
-}
-
 static double rows_work(const struct contact *c, const struct scene *s)
 {
     (void)c;
@@ -60,7 +54,7 @@ const struct stage impact_rows_stage = {
     .does = "the series of impacts, one row each",
     .paper = "",
     .idle = "no output.impacts, or contact.model is not impacts",
-    .asks = rows_asks,
+    .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_LISTING),
     .wanted = rows_wanted,
     .work = rows_work,
