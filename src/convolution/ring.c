@@ -7,6 +7,7 @@
 
 #include "convolution/gammatone.h"
 #include "convolution/ring_along.h"
+#include "convolution/ring_reach.h"
 #include "response/object.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
@@ -91,36 +92,6 @@ static void note_warnings(const struct ring *g, struct stage_run *r)
                                           g->choice->modes.name, g->choice->high));
 }
 
-/* ------------------------------------------------------------------ inside the places' hull? */
-
-static bool ring_beyond(const struct ring *g, const struct stage_run *r, const double place[2], double out, struct err *e)
-{
-    return err_set(e, ERR_SCENE, "contact '%s': surface.response: the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: "
-                                 "nearest", r->contact->name, place[0], place[1], out, g->choice->modes.name);
-}
-
-/* The places' hull is convex. A straight motion is inside when its ends are; of a curved one as many instants are looked at as show all of
-   its shape: what is left out between two of them is far less than the distance of two places. */
-static bool ring_inside(const struct ring *g, const struct stage_run *r, struct err *e)
-{
-    const struct trajectory *tr = r->board->trajectory;
-    const struct modes *m = &g->choice->modes;
-    struct modes_point point = modes_point_make(r->arena, m->n);
-    long steps = tr->straight ? 1 : tr->detail;
-    for (long i = 0; i <= steps; i++) {
-        double t = tr->duration * (double)i / (double)steps, p[2];
-        if (tr->straight)
-            for (int xy = 0; xy < 2; xy++)
-                p[xy] = tr->from[xy] + tr->reach[i] * tr->e[xy];
-        else
-            trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
-        double out = modes_at(m, &(struct modes_where){p[0], p[1], 0}, &point);
-        if (out > 1e-9)
-            return ring_beyond(g, r, p, out, e);
-    }
-    return true;
-}
-
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e)
 {
     bool surface = body == RING_SURFACE;
@@ -141,7 +112,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     note_warnings(g, r);
     note_endless(g, given, r);
     r->back = (int)g->delay;
-    bool ok = note_quantity(g, r->board, e) && (!surface || given->extrapolate != EXTRAPOLATE_ERROR || ring_inside(g, r, e));
+    bool ok = note_quantity(g, r->board, e) && (!surface || ring_reach(&g->choice->modes, r, e));
     return ok || err_about(e, r->contact->name, ring_choice_about(r->contact, body));
 }
 

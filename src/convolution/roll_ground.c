@@ -2,6 +2,7 @@
 #include "convolution/roll_ground.h"
 
 #include "convolution/ring_choice.h"
+#include "convolution/ring_reach.h"
 #include "scene/rules.h"
 #include "trajectory/trajectory.h"
 
@@ -9,27 +10,6 @@ static bool gives_way(const struct contact *c)
 {
     const struct response *given = &c->surface.response;
     return c->contact.roll.ground != GROUND_RIGID && rules_responds(given) && !rules_is_recorded(given);
-}
-
-/* The motion must stay on what gives way. */
-static bool ground_inside(const struct roll_ground *g, const struct stage_run *r, struct err *e)
-{
-    const struct trajectory *tr = r->board->trajectory;
-    struct modes_point point = modes_point_make(r->arena, g->shapes.n);
-    long steps = tr->straight ? 1 : tr->detail;
-    for (long i = 0; i <= steps; i++) {
-        double t = tr->duration * (double)i / (double)steps, p[2];
-        if (tr->straight)
-            for (int xy = 0; xy < 2; xy++)
-                p[xy] = tr->from[xy] + tr->reach[i] * tr->e[xy];
-        else
-            trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
-        double out = modes_at(g->shapes.modes, &(struct modes_where){p[0], p[1], 0}, &point);
-        if (out > 1e-9)
-            return err_set(e, ERR_SCENE, "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: "
-                                         "nearest", r->contact->name, p[0], p[1], out, g->shapes.modes->name);
-    }
-    return true;
 }
 
 static void ground_phi(const struct roll_ground *g, long frame, double *phi)
@@ -64,7 +44,7 @@ bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct e
     if (!shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e))
         return err_at(e, "contact '%s'", c->name);
     ground_ramps(g, r);
-    return given->extrapolate != EXTRAPOLATE_ERROR || ground_inside(g, r, e);
+    return ring_reach(&choice->modes, r, e) || err_about(e, c->name, ring_choice_about(c, RING_SURFACE));
 }
 
 const double *roll_ground_start(const struct roll_ground *g)

@@ -1,0 +1,29 @@
+/* The places' hull is convex. A straight motion is inside when its ends are; of a curved one as many instants are looked at as show all of
+   its shape: what is left out between two of them is far less than the distance of two places. */
+#include "convolution/ring_reach.h"
+
+#include "convolution/ring_choice.h"
+#include "trajectory/trajectory.h"
+
+#define REACH_SLACK 1e-9 /* m */
+
+bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
+{
+    const struct response *given = &r->contact->surface.response;
+    const struct trajectory *tr = r->board->trajectory;
+    struct modes_point point = modes_point_make(r->arena, m->n);
+    long steps = tr->straight ? 1 : tr->detail;
+    for (long i = 0; i <= steps && given->extrapolate == EXTRAPOLATE_ERROR; i++) {
+        double t = tr->duration * (double)i / (double)steps, p[2];
+        if (tr->straight)
+            for (int xy = 0; xy < 2; xy++)
+                p[xy] = tr->from[xy] + tr->reach[i] * tr->e[xy];
+        else
+            trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
+        double out = modes_at(m, &(struct modes_where){p[0], p[1], 0}, &point);
+        if (out > REACH_SLACK)
+            return err_set(e, ERR_SCENE, "contact '%s': %s: the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: nearest",
+                           r->contact->name, ring_choice_about(r->contact, RING_SURFACE), p[0], p[1], out, m->name);
+    }
+    return true;
+}
