@@ -1,5 +1,5 @@
 #!/bin/sh
-# A tour: renders seven scenes into out/, says what to listen for, and draws one of them.
+# A tour: renders nine scenes into out/, says what to listen for, and draws one of them.
 #     scripts/demo.sh        rasp from $BUILD (default: build/ of this tree)
 # One scene takes a measured profile from ../shared/data/surfaces/ when it is there, else the one that ships.
 set -eu
@@ -31,6 +31,8 @@ fi
 tour strike "a steel ball struck on a glass plate, heard from two places: the stereo is the plate's modes and the way to each ear"
 tour roll "a glass marble rolls along a plank: darker and steadier than a scrape, and the plank's modes come and go with the place"
 tour marble_drop "the marble let fall: clear bounces, sooner and sooner, a rattle, then quiet rolling"
+tour rolling_impacts "rolling drawn from the statistics of its impacts; a slow beat, four or five a second, as of a ball out of round"
+tour action_space "a rub that becomes a roll: smooth hiss at first, then knocks that grow out of it, deeper and louder, until it rolls"
 printf '%-25s ' "out/basswood_scrape.png"
 "$rasp" plot out/basswood_scrape.wav | sed 's/^[^ ]* */what that looks like: /'
 echo "Beside each sound: .json (level, cost), .scene.yaml (all that the scene left unsaid) and, where asked for, .csv (the forces)."

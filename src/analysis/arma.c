@@ -12,8 +12,9 @@
      of the plain energy, whose a1 lies nearer to 0 by (1 + 3 |a1|)/n or so; half of that is left. The factor tends to 1 with n.
 
    GSL's damped Gauss-Newton steps (Levenberg and Marquardt) in u, v with a1 = EDGE tanh u, b1 = EDGE tanh v: the region cannot be left. From the
-   STARTS best points of a grid; the best end is taken. Where a1 and b1 are alike they cancel: any such pair is white noise. a1 = b1 = 0 is taken
-   if the energy is hardly less elsewhere (ARMA_GAIN). The covariance of a1 and b1 is the Jacobian's. */
+   STARTS best points of a grid; the best end is taken. Of more than MANY values the first MANY tell the best end, and steps with all go on from there.
+   Where a1 and b1 are alike they cancel: any such pair is white noise. a1 = b1 = 0 is taken if the energy is hardly less elsewhere (ARMA_GAIN). The
+   covariance of a1 and b1 is the Jacobian's. */
 #include "analysis/arma.h"
 
 #include <gsl/gsl_multifit_nlinear.h>
@@ -22,8 +23,9 @@
 #include "num/real.h"
 
 #define EDGE 0.99999
+#define EDGE_OF_B 0.9999
 
-enum { GRID = 9, STARTS = 3, STEPS = 200 };
+enum { GRID = 9, STARTS = 3, STEPS = 200, MANY = 20000 };
 
 struct search {
     const double *x;            /* [n] */
@@ -138,7 +140,8 @@ static void starts_find(const struct search *s, struct point best[STARTS])
     }
 }
 
-/* The inverse of J'J times the mean square that is left, for a1 and b1. Where it has none nothing is known: both may be anywhere in the region. */
+/* The inverse of J'J times the mean square that is left, for a1 and b1. Where it has none nothing is known: both may be anywhere in the region. A zero
+   at the circle (b1 of 1 or -1: times that keep to a beat) has no curvature by which to tell; it is known to some 2/n, and a1 as if it were given. */
 static void covariance_make(const gsl_matrix *jacobian, double mean_square, const struct point *p, double covariance[3])
 {
     double aa = 0, ab = 0, bb = 0, da = EDGE - p->a * p->a / EDGE, db = EDGE - p->b * p->b / EDGE;
@@ -149,6 +152,12 @@ static void covariance_make(const gsl_matrix *jacobian, double mean_square, cons
         bb += b * b;
     }
     double determinant = aa * bb - ab * ab;
+    if (fabs(p->b) > EDGE_OF_B && fabs(p->a) < EDGE_OF_B && aa > 0) {
+        covariance[0] = mean_square / aa;
+        covariance[1] = 0;
+        covariance[2] = 4.0 / ((double)jacobian->size1 * (double)jacobian->size1);
+        return;
+    }
     bool known = determinant > 1e-14 * aa * bb;
     covariance[0] = known ? bb * mean_square / determinant : 1;
     covariance[1] = known ? -ab * mean_square / determinant : 0;
@@ -190,7 +199,7 @@ static void slope_make(const struct search *s, struct arma *f)
 
 void arma_fit(const double *x, int n, struct arma *f)
 {
-    struct search s = {x, n, 0, 0};
+    struct search s = {x, n, 0, 0}, first;
     double square = 0;
     struct point start[STARTS], best = {0};
     struct arma tried = {0};
@@ -200,14 +209,18 @@ void arma_fit(const double *x, int n, struct arma *f)
         square += (x[i] - s.centre) * (x[i] - s.centre) / n;
     s.unit = (square > 0) ? sqrt(square) : 1;
     best.cost = HUGE_VAL;
-    starts_find(&s, start);
+    first = s;
+    first.n = n < MANY ? n : MANY;
+    starts_find(&first, start);
     for (int i = 0; i < STARTS; i++) {
-        descend(&s, &start[i], &tried);
+        descend(&first, &start[i], &tried);
         if (start[i].cost < best.cost) {
             best = start[i];
             *f = tried;
         }
     }
+    if (first.n < n)
+        descend(&s, &best, f);
     f->gain = n * real_log(cost(&s, 0, 0) / best.cost);
     f->white = !(f->gain >= ARMA_GAIN);
     f->a1 = f->white ? 0 : best.a;

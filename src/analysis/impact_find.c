@@ -301,8 +301,8 @@ bool impact_find(const struct impact_signal *s, const struct impact_options *o, 
     maxima_list(&q);
     maxima_choose(&q, a);
     if (q.n == 0)
-        return err_set(e, ERR_SCENE, "no impact: the force, from %.6g to %.6g N, has no local maximum above %.6g N that is prominent enough", f->least,
-                       f->greatest, o->threshold * fmax(f->greatest, 0));
+        return err_set(e, ERR_SCENE, "no impact: the force, from %.6g to %.6g N, has no local maximum above %.6g N that is prominent enough%s", f->least,
+                       f->greatest, o->threshold * fmax(f->greatest, 0), !o->both && f->least < -fmax(f->greatest, 0) ? "; --signed looks for those below 0 too" : "");
     take_room(f, q.n, a);
     double *width = ARENA_TAKE(a, double, q.n);
     take_all(&q, width);

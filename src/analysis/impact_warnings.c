@@ -50,7 +50,7 @@ static void filters(struct list *l, int which)
         WARN(l, "%s: white as they are. Any a1 = b1 would do, as a pole and a zero at one place cancel; both are set to 0", names[which]);
     else if (s->ridge)
         WARN(l, "%s: a1 = %.3f lies within 2 errors of b1 = %.3f. A pole and a zero at one place cancel, so neither is known well by itself", names[which], s->a1.value, s->b1.value);
-    if (fabs(s->a1.value) + s->a1.error >= 1 && !white)
+    if (fabs(s->a1.value) + s->a1.error >= 1 && fabs(s->a1.value) > 0.5 && !white)
         WARN(l, "%s: a1 = %.4f is not told from %d: they drift, or there are too few of them; the mean and its error mean little", names[which], s->a1.value, s->a1.value < 0 ? -1 : 1);
     if (s->whiteness_p < 0.001)
         WARN(l, "%s: not white after one pole and one zero (Q = %.0f over 20 lags, probability %.1g): the model does not hold, and neither do its errors", names[which], s->whiteness, s->whiteness_p);

@@ -1,21 +1,13 @@
 /* The strongest sinusoid in amplitudes at irregular times, against their own spectrum.
 
    Amplitudes of rolling are far from white (a1 about -0.97), so that a plain periodogram is greatest at the lowest frequencies whatever there is. So
-   everything is done on values whitened by their ARMA(1,1) filter (arma.c; generalised least squares): with W the whitening, energy left without and
-   with a sinusoid Q0 = min |W (A - m)|^2, Q1 = min |W (A - m - c cos - s sin)|^2, its strength is z = (n - 5)/2 ln(Q0/Q1); of Gaussian noise exp(-z) reach
-   z at one frequency, and somewhere below f (Baluev, Mon. Not. R. Astron. Soc. 385, 2008, 1279, equation 6, after Davies)
+   values are whitened first, and where a sinusoid is strongest, and how likely noise makes one as strong, is found in modulation_scan.c.
 
-     1 - (1 - exp(-z)) exp(-f sqrt(4 pi var T) sqrt(z) exp(-z)).
-
-   Where to look: |sum g_n exp(-2 pi i nu T_n)|^2/D(nu), g = W'W (A - m), by one FFT of the g_n spread over a regular grid (four-point Lagrange weights, 8 points a
-   period of the highest frequency, 1 % off at most; a quarter of a cycle over the whole from one frequency to the next), D = |W cos|^2 + |W sin|^2 computed at SCALES
-   frequencies and interpolated. The winner is then taken exactly, at NEAR frequencies around it.
-
-   What is found is refined as what it is, a factor: m, nu, phi make n ln |W (A/(1 + m sin) - mean)|^2 + 2 sum ln(1 + m sin) least (the second term is the
-   likelihood's: else a larger factor would always win), by GSL's damped Gauss-Newton steps on the residuals times the factor's geometric mean, in turns
-   with the ARMA filter of what is left, TURNS times. Errors: from the second differences of half of it. The probability is that of the first search, whose filter
-   still has the sinusoid in it: it errs to the careful side. It asks whether the amplitudes' mean moves, not whether their deviation does, which would be seen
-   sooner: a deviation that comes and goes is no sinusoid, and rough ground has one. */
+   What is found is refined as what it is, a factor: m, nu, phi make n ln |W (A/(1 + m sin) - mean)|^2 + 2 sum ln(1 + m sin) least (W: the whitening by the ARMA
+   filter of arma.c; the second term is the likelihood's: else a larger factor would always win), by GSL's damped Gauss-Newton steps on the residuals times the
+   factor's geometric mean, in turns with the ARMA filter of what is left, TURNS times. Errors: from the second differences of half of it. The probability
+   is that of the first search, whose filter still has the sinusoid in it: it errs to the careful side. It asks whether the amplitudes' mean moves, not whether
+   their deviation does, which would be seen sooner: a deviation that comes and goes is no sinusoid, and rough ground has one. */
 #include "analysis/modulation.h"
 
 #include <float.h>
@@ -23,191 +15,61 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/arma.h"
-#include "num/fft.h"
+#include "analysis/modulation_scan.h"
 #include "num/real.h"
+#include "num/vecmath.h"
 
-enum { SCALES = 48, NEAR = 9, TURNS = 3, STEPS = 100, FINE = 8, PAD = 4 };
-
-struct problem {
-    const double *amplitude;
-    double *time;               /* [n] from the middle, over `span`: -1/2 to 1/2 or so                         */
-    double span, top;           /* s; highest frequency in cycles per span                                     */
-    int n;
-    struct arma filter;         /* of the amplitudes, or of what the modulation leaves                         */
-    double *ones;               /* [n] whitened                                                                */
-    double *value, *cosine, *sine; /* [n] work                                                                 */
-};
-
-static double dot(const double *x, const double *y, int n)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[i] * y[i];
-    return sum;
-}
-
-/* Takes from x its share of y. */
-static void project(double *x, const double *y, int n)
-{
-    double yy = dot(y, y, n), share = (yy > 0) ? dot(x, y, n) / yy : 0;
-    for (int i = 0; i < n; i++)
-        x[i] -= share * y[i];
-}
-
-static void filter_set(struct problem *p, const double *amplitude)
-{
-    arma_fit(amplitude, p->n, &p->filter);
-    for (int i = 0; i < p->n; i++)
-        p->ones[i] = 1;
-    arma_whiten(p->ones, p->n, p->filter.a1, p->filter.b1, p->ones);
-}
-
-/* Whitened amplitudes less their mean, to out. */
-static void centred(const struct problem *p, const double *amplitude, double *out)
-{
-    for (int i = 0; i < p->n; i++)
-        out[i] = amplitude[i] - p->filter.mean;
-    arma_whiten(out, p->n, p->filter.a1, p->filter.b1, out);
-    project(out, p->ones, p->n);
-}
-
-/* Whitened cosine and sine of f cycles per span. */
-static void waves_make(const struct problem *p, double f)
-{
-    for (int i = 0; i < p->n; i++) {
-        p->cosine[i] = real_cospi(2 * f * p->time[i]);
-        p->sine[i] = real_sinpi(2 * f * p->time[i]);
-    }
-    arma_whiten(p->cosine, p->n, p->filter.a1, p->filter.b1, p->cosine);
-    arma_whiten(p->sine, p->n, p->filter.a1, p->filter.b1, p->sine);
-}
-
-/* What cosine and sine take from the energy of p->value, whitened and centred; amplitude of the sinusoid to *size. */
-static double taken(const struct problem *p, double f, double *size)
-{
-    int n = p->n;
-    waves_make(p, f);
-    double cs[2], cc = dot(p->cosine, p->cosine, n), slope;
-    project(p->cosine, p->ones, n);
-    project(p->sine, p->ones, n);
-    slope = dot(p->sine, p->cosine, n) / fmax(dot(p->cosine, p->cosine, n), DBL_MIN);
-    project(p->sine, p->cosine, n);
-    double own[2] = {dot(p->cosine, p->cosine, n), dot(p->sine, p->sine, n)}, with[2] = {dot(p->value, p->cosine, n), dot(p->value, p->sine, n)};
-    for (int i = 0; i < 2; i++)
-        cs[i] = (own[i] > 1e-9 * cc) ? with[i] / own[i] : 0;
-    *size = sqrt((cs[0] - slope * cs[1]) * (cs[0] - slope * cs[1]) + cs[1] * cs[1]);
-    return cs[0] * with[0] + cs[1] * with[1];
-}
-
-/* ------------------------------------------------------------------ scan */
-
-/* Spreads g over the four points of the grid around x (in steps), by Lagrange's weights. */
-static void spread(double *grid, double x, double g)
-{
-    double at = floor(x), u = x - at, *four = grid + (int)at - 1;
-    four[0] -= g * u * (u - 1) * (u - 2) / 6;
-    four[1] += g * (u + 1) * (u - 1) * (u - 2) / 2;
-    four[2] -= g * (u + 1) * u * (u - 2) / 2;
-    four[3] += g * (u + 1) * u * (u - 1) / 6;
-}
-
-/* power[k] = |sum g exp|^2 at k/PAD cycles per span, k <= PAD top. p->value is whitened and centred. */
-static void spectrum_make(const struct problem *p, struct arena *a, double *power)
-{
-    int step = (int)ceil(FINE * p->top), n = (int)fft_good_size((size_t)PAD * step), last = (int)(PAD * p->top);
-    double *grid = ARENA_TAKE(a, double, n + 8), *re = ARENA_TAKE(a, double, n), *im = ARENA_TAKE(a, double, n), g = 0, scale = (double)n / PAD;
-    for (int i = p->n - 1; i >= 0; i--) {
-        double ahead = (i + 1 < p->n) ? p->value[i + 1] : 0;
-        g = p->value[i] + p->filter.a1 * ahead - p->filter.b1 * g;
-        spread(grid + 2, (p->time[i] - p->time[0]) * scale, g);
-    }
-    struct fft *f = fft_open(n);
-    fft_forward(f, grid + 2, re, im);
-    fft_close(f);
-    for (int k = 0; k <= last; k++)
-        power[k] = re[k] * re[k] + im[k] * im[k];
-}
-/* The scan's best frequency, in cycles per span, of 2 and more. */
-static double scan(const struct problem *p, struct arena *a)
-{
-    int last = (int)(PAD * p->top), best = 2 * PAD;
-    double *power = ARENA_TAKE(a, double, last + 1), scale[SCALES], most = 0, ratio = real_log(p->top / 2) / (SCALES - 1);
-    spectrum_make(p, a, power);
-    for (int i = 0; i < SCALES; i++) {
-        waves_make(p, 2 * real_exp(i * ratio));
-        scale[i] = real_log(dot(p->cosine, p->cosine, p->n) + dot(p->sine, p->sine, p->n));
-    }
-    for (int k = 2 * PAD; k <= last; k++) {
-        double at = real_log(k / (2.0 * PAD)) / ratio;
-        int i = (int)fmin(at, SCALES - 2);
-        double strength = power[k] / real_exp(scale[i] + (at - i) * (scale[i + 1] - scale[i]));
-        if (strength > most) {
-            most = strength;
-            best = k;
-        }
-    }
-    return (double)best / PAD;
-}
-
-/* Probability that white noise reaches z somewhere below p->top. */
-static double false_alarm(const struct problem *p, double z)
-{
-    double square = dot(p->time, p->time, p->n) / p->n, sum = 0;
-    for (int i = 0; i < p->n; i++)
-        sum += p->time[i] / p->n;
-    double crossings = p->top * sqrt(4 * REAL_PI * (square - sum * sum)) * sqrt(z) * real_exp(-z);
-    return 1 - (1 - real_exp(-z)) * real_exp(-crossings);
-}
-
-/* Puts depth, rate (cycles per span) and probability; the phase is left. */
-static void strongest(struct problem *p, struct arena *a, struct modulation *m)
-{
-    double best = -1, size;
-    centred(p, p->amplitude, p->value);
-    double energy = dot(p->value, p->value, p->n), middle = scan(p, a);
-    for (int i = 0; i < NEAR; i++) {
-        double f = fmax(2, fmin(middle + 0.5 * (i - NEAR / 2) / (PAD * (NEAR / 2.0)) * 2, p->top)), gain = taken(p, f, &size);
-        if (gain > best) {
-            best = gain;
-            m->rate = f;
-            m->depth = size / p->filter.mean;
-        }
-    }
-    double z = 0.5 * (p->n - 5) * real_log(energy / fmax(energy - best, 1e-30 * energy));
-    m->probability = false_alarm(p, z);
-}
+enum { TURNS = 3, STEPS = 100, GROUP = 32 };
 
 /* ------------------------------------------------------------------ refinement: c = m cos phi, s = m sin phi (from the middle), f in cycles per span */
 
-/* 1 + m sin at i. */
-static double factor(const double at[3], double time)
+/* 1 + m sin of each, to out. */
+static void factors(const struct modulation_problem *p, const double at[3], double *out)
 {
-    return 1 + at[0] * real_sinpi(2 * at[2] * time) + at[1] * real_cospi(2 * at[2] * time);
+    for (int i = 0; i < p->n; i++)
+        p->cosine[i] = 2 * at[2] * p->time[i];
+    vecmath_sincospi((size_t)p->n, p->cosine, p->sine, p->cosine);
+    for (int i = 0; i < p->n; i++)
+        out[i] = 1 + at[0] * p->sine[i] + at[1] * p->cosine[i];
 }
 
-/* Whitened residuals of what is left over their deviation, times the factor's geometric mean. False: the factor is not above 0 everywhere. */
-static bool left(const struct problem *p, const double at[3], double *out)
+/* The mean logarithm of factors, by products of GROUP of them, which stay within a double's range. False: one is not between 1e-6 and 1e6. */
+static bool mean_logarithm(const double *by, int n, double *mean)
 {
-    double logarithm = 0;
-    for (int i = 0; i < p->n; i++) {
-        double by = factor(at, p->time[i]);
-        if (!(by > 1e-6))
-            return false;
-        logarithm += real_log(by);
-        out[i] = p->amplitude[i] / by - p->filter.mean;
+    double sum = 0;
+    for (int i = 0; i < n;) {
+        double product = 1;
+        for (int end = i + GROUP < n ? i + GROUP : n; i < end; i++) {
+            if (!(by[i] > 1e-6 && by[i] < 1e6))
+                return false;
+            product *= by[i];
+        }
+        sum += real_log(product);
     }
-    arma_whiten(out, p->n, p->filter.a1, p->filter.b1, out);
-    project(out, p->ones, p->n);
-    double mean = real_exp(logarithm / p->n);
+    *mean = sum / n;
+    return true;
+}
+
+/* Whitened residuals of what is left over their deviation, times the factor's geometric mean. False: the factor is not above 0 everywhere, or out of all bounds. */
+static bool left(const struct modulation_problem *p, const double at[3], double *out)
+{
+    double mean;
+    factors(p, at, out);
+    if (!mean_logarithm(out, p->n, &mean))
+        return false;
     for (int i = 0; i < p->n; i++)
-        out[i] *= mean / fmax(p->filter.deviation, 1e-12 * p->filter.mean);
+        out[i] = p->amplitude[i] / out[i] - p->filter.mean;
+    arma_whiten(out, p->n, p->filter.a1, p->filter.b1, out);
+    modulation_scan_project(out, p->ones, p->n);
+    double by = real_exp(mean) / fmax(p->filter.deviation, 1e-12 * p->filter.mean);
+    for (int i = 0; i < p->n; i++)
+        out[i] *= by;
     return true;
 }
 
 static int residuals(const gsl_vector *x, void *context, gsl_vector *out)
 {
-    const struct problem *p = context;
+    const struct modulation_problem *p = context;
     double at[3] = {gsl_vector_get(x, 0), gsl_vector_get(x, 1), gsl_vector_get(x, 2)};
     bool good = left(p, at, p->value);
     for (int i = 0; i < p->n; i++)
@@ -216,7 +78,7 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *out)
 }
 
 /* Moves `at` to the least energy near it; conditional errors to `step`. */
-static void descend(struct problem *p, double at[3], double step[3])
+static void descend(struct modulation_problem *p, double at[3], double step[3])
 {
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     how.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
@@ -243,14 +105,14 @@ static void descend(struct problem *p, double at[3], double step[3])
 }
 
 /* Phases differ so much within a quarter of a cycle that steps need a start: c and s of least energy at the scan's frequency, from sixteen phases. */
-static void begin(struct problem *p, const struct modulation *m, double at[3])
+static void begin(struct modulation_problem *p, const struct modulation *m, double at[3])
 {
     double least = HUGE_VAL, depth = fmin(m->depth, 0.9);
     for (int i = 0; i < 16; i++) {
         double try[3] = {depth * real_cospi(i / 8.0), depth * real_sinpi(i / 8.0), m->rate}, energy;
         if (!left(p, try, p->value))
             continue;
-        energy = dot(p->value, p->value, p->n);
+        energy = modulation_scan_dot(p->value, p->value, p->n);
         if (energy < least) {
             least = energy;
             memcpy(at, try, sizeof try);
@@ -259,13 +121,13 @@ static void begin(struct problem *p, const struct modulation *m, double at[3])
 }
 
 /* n/2 ln of the energy left. */
-static double misfit(struct problem *p, const double at[3])
+static double misfit(struct modulation_problem *p, const double at[3])
 {
-    return left(p, at, p->value) ? 0.5 * p->n * real_log(fmax(dot(p->value, p->value, p->n), DBL_MIN)) : HUGE_VAL;
+    return left(p, at, p->value) ? 0.5 * p->n * real_log(fmax(modulation_scan_dot(p->value, p->value, p->n), DBL_MIN)) : HUGE_VAL;
 }
 
 /* Second differences of the misfit at `at`, by a third of an error to each side. */
-static void curvature(struct problem *p, const double at[3], const double step[3], double h[3][3])
+static void curvature(struct modulation_problem *p, const double at[3], const double step[3], double h[3][3])
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j <= i; j++) {
@@ -281,7 +143,7 @@ static void curvature(struct problem *p, const double at[3], const double step[3
 }
 
 /* The variance of c cos + s sin along `along`, and of f: from the inverse of h. NAN unless h is positive definite. */
-static void errors_make(const struct problem *p, double h[3][3], const double along[2], struct modulation *m)
+static void errors_make(const struct modulation_problem *p, double h[3][3], const double along[2], struct modulation *m)
 {
     double cofactor[3][3], determinant = 0, variance = 0;
     for (int i = 0; i < 3; i++)
@@ -299,15 +161,16 @@ static void errors_make(const struct problem *p, double h[3][3], const double al
     m->rate_error = good ? sqrt(cofactor[2][2] / determinant) / p->span : NAN;
 }
 
-static void refine(struct problem *p, struct arena *a, struct modulation *m)
+static void refine(struct modulation_problem *p, struct arena *a, struct modulation *m)
 {
     double at[3], step[3], h[3][3], *rest = ARENA_TAKE(a, double, p->n);
     begin(p, m, at);
     for (int turn = 0; turn < TURNS; turn++) {
         descend(p, at, step);
+        factors(p, at, rest);
         for (int i = 0; i < p->n; i++)
-            rest[i] = p->amplitude[i] / factor(at, p->time[i]);
-        filter_set(p, rest);
+            rest[i] = p->amplitude[i] / rest[i];
+        modulation_scan_filter(p, rest);
     }
     curvature(p, at, step, h);
     m->depth = sqrt(at[0] * at[0] + at[1] * at[1]);
@@ -321,7 +184,7 @@ static void refine(struct problem *p, struct arena *a, struct modulation *m)
 void modulation_find(const double *time, const double *amplitude, int n, struct arena *a, struct modulation *m)
 {
     double middle = 0.5 * (time[0] + time[n - 1]), least = amplitude[0], most = amplitude[0];
-    struct problem p = {.amplitude = amplitude, .n = n, .span = time[n - 1] - time[0], .top = 0.5 * (n - 1)};
+    struct modulation_problem p = {.amplitude = amplitude, .n = n, .span = time[n - 1] - time[0], .top = 0.5 * (n - 1)};
     double **rows[] = {&p.time, &p.ones, &p.value, &p.cosine, &p.sine};
     *m = (struct modulation){.probability = 1, .depth_error = NAN, .rate_error = NAN};
     for (int i = 0; i < 5; i++)
@@ -333,10 +196,10 @@ void modulation_find(const double *time, const double *amplitude, int n, struct 
     }
     if (!(most - least > 1e-9 * fmax(fabs(most), fabs(least))))
         return;
-    filter_set(&p, amplitude);
+    modulation_scan_filter(&p, amplitude);
     if (!(p.filter.mean > 3 * sqrt(p.filter.mean_variance)))
         return;
-    strongest(&p, a, m);
+    modulation_scan_strongest(&p, m);
     m->found = m->probability < MODULATION_PROBABILITY;
     if (m->found)
         refine(&p, a, m);

@@ -22,26 +22,6 @@ struct diag *diag_open(struct arena *a)
     return d;
 }
 
-/* Bytes of the character at s if it can be shown as it is; 0: it is a control character or not valid UTF-8. */
-static int showable(const char *s, size_t size)
-{
-    uint32_t code = 0;
-    int n = text_utf8(s, size, &code);
-    return code >= 0x20 && (code < 0x7f || code >= 0xa0) ? n : 0;
-}
-
-static const char *cleaned(struct arena *a, const char *s)
-{
-    char *copy = arena_text(a, s);
-    for (size_t i = 0, size = strlen(copy); i < size;) {
-        int n = showable(copy + i, size - i);
-        if (n == 0)
-            copy[i] = '?';
-        i += n ? (size_t)n : 1;
-    }
-    return copy;
-}
-
 bool diag_add(struct diag *d, struct diag_place at, const char *help, const char *format, ...)
 {
     char text[1024];
@@ -52,7 +32,7 @@ bool diag_add(struct diag *d, struct diag_place at, const char *help, const char
         va_start(ap, format);
         vsnprintf(text, sizeof text, format, ap);
         va_end(ap);
-        d->errors[d->n] = (struct diag_error){at, cleaned(d->arena, text), help ? cleaned(d->arena, help) : NULL, d->n};
+        d->errors[d->n] = (struct diag_error){at, text_shown(d->arena, text), help ? text_shown(d->arena, help) : NULL, d->n};
     }
     d->n++;
     return false;
@@ -140,7 +120,7 @@ static void show_text(FILE *out, struct span line)
 {
     for (size_t i = 0, step; i < line.size; i += step) {
         step = bytes_of(line.start + i, line.size - i, 1);
-        if (line.start[i] == '\t' || showable(line.start + i, line.size - i))
+        if (line.start[i] == '\t' || text_showable(line.start + i, line.size - i))
             fwrite(line.start + i, 1, step, out);
         else
             fputc('?', out);
@@ -160,21 +140,37 @@ static void show_line(FILE *out, const struct diag_place *at)
     show_caret(out, line, column, at->width);
 }
 
+static bool has_lines(const struct diag_place *at)
+{
+    return at->line > 0 && !at->source->option && !at->source->made;
+}
+
+/* "scene.yaml:4:12", or the name alone. */
+static const char *place_text(struct arena *a, const struct diag_place *at)
+{
+    const char *name = text_shown(a, at->source->name);
+    return has_lines(at) ? arena_format(a, "%s:%d:%d", name, at->line, at->column) : name;
+}
+
+const char *diag_named(struct arena *a, const struct diag_source *source)
+{
+    const char *all = "";
+    for (const struct diag_place *at = &source->named; at->source && !at->source->made; at = &at->source->named)
+        all = arena_format(a, "%s%snamed at %s", all, *all ? ", " : " (", place_text(a, at));
+    return *all ? arena_format(a, "%s)", all) : "";
+}
+
 static const char *header(struct diag *d, const struct diag_error *x)
 {
-    const struct diag_source *source = x->at.source;
-    if (!source)
+    if (!x->at.source)
         return arena_format(d->arena, "error: %s", x->text);
-    const char *name = cleaned(d->arena, source->name);
-    if (x->at.line == 0 || source->option)
-        return arena_format(d->arena, "%s: error: %s", name, x->text);
-    return arena_format(d->arena, "%s:%d:%d: error: %s", name, x->at.line, x->at.column, x->text);
+    return arena_format(d->arena, "%s: error: %s%s", place_text(d->arena, &x->at), x->text, diag_named(d->arena, x->at.source));
 }
 
 static void show(FILE *out, struct diag *d, const struct diag_error *x)
 {
     fprintf(out, "%s\n", header(d, x));
-    if (x->at.source && x->at.line > 0)
+    if (x->at.source && x->at.line > 0 && !x->at.source->made)
         show_line(out, &x->at);
     if (x->help)
         fprintf(out, "      = help: %s\n", x->help);

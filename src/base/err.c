@@ -2,17 +2,20 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
+
+#include "base/text.h"
 
 bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
 {
+    char text[sizeof e->text];
     va_list ap;
     if (e->kind != ERR_NONE)
         return false;
     e->kind = kind;
     va_start(ap, format);
-    vsnprintf(e->text, sizeof e->text, format, ap);
+    vsnprintf(text, sizeof text, format, ap);
     va_end(ap);
+    text_show(text, e->text, sizeof e->text);
     return false;
 }
 
@@ -33,7 +36,6 @@ bool err_at(struct err *e, const char *format, ...)
     vsnprintf(where, sizeof where, format, ap);
     va_end(ap);
     snprintf(whole, sizeof whole, "%s: %s", where, e->text);
-    memcpy(e->text, whole, sizeof e->text - 1);
-    e->text[sizeof e->text - 1] = '\0';
+    text_show(whole, e->text, sizeof e->text);
     return false;
 }

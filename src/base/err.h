@@ -24,7 +24,7 @@ struct err {
 };
 
 /* Sets the error, unless one is set already (the first cause wins), and returns false, so that
-   `return err_set(e, ERR_INPUT, "...")` is the whole of a failure. */
+   `return err_set(e, ERR_INPUT, "...")` is the whole of a failure. Its text is one line: a line feed in a file's name, say, is shown as \n (text_show). */
 bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

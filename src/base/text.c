@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_MAX = 400, WORD_MAX = 63, FAR = 99 };
+enum { NUMBER_MAX = 400, WORD_MAX = 63, FAR = 99, ESCAPE_MAX = 4 };
 
 static size_t digits_length(const char *s)
 {
@@ -179,4 +179,42 @@ size_t text_utf8_count(const char *s, size_t n)
         i += length ? (size_t)length : 1;
     }
     return count;
+}
+
+int text_showable(const char *s, size_t n)
+{
+    uint32_t code = 0;
+    int length = text_utf8(s, n, &code);
+    return code >= 0x20 && (code < 0x7f || code >= 0xa0) ? length : 0;
+}
+
+/* The byte as an escape sequence, ESCAPE_MAX characters at most; returns how many. */
+static size_t escape(char byte, char out[ESCAPE_MAX + 1])
+{
+    static const char bytes[] = "\n\r\t", letters[] = "nrt";
+    const char *at = strchr(bytes, byte);
+    return (size_t)(at ? snprintf(out, ESCAPE_MAX + 1, "\\%c", letters[at - bytes]) : snprintf(out, ESCAPE_MAX + 1, "\\x%02x", (unsigned char)byte));
+}
+
+void text_show(const char *s, char *out, size_t room)
+{
+    size_t size = strlen(s), n = 0;
+    for (size_t i = 0, step; i < size; i += step) {
+        char escaped[ESCAPE_MAX + 1];
+        size_t length = (size_t)text_showable(s + i, size - i), put = length ? length : escape(s[i], escaped);
+        step = length ? length : 1;
+        if (n + put >= room)
+            break;
+        memcpy(out + n, length ? s + i : escaped, put);
+        n += put;
+    }
+    out[n] = '\0';
+}
+
+const char *text_shown(struct arena *a, const char *s)
+{
+    size_t room = ESCAPE_MAX * strlen(s) + 1;
+    char *out = arena_take(a, room, 1);
+    text_show(s, out, room);
+    return out;
 }

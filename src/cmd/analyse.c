@@ -8,7 +8,6 @@
 
 #include "analysis/frequency_polygon.h"
 #include "cmd/cmd.h"
-#include "num/real.h"
 
 const char *const analyse_series_names[STATISTICS_SERIES] = {"amplitude", "interval"};
 
@@ -88,68 +87,13 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
     d->theta = fmax(d->theta, 0);
     a->lasts = impact_duration_series(&a->source.found.events, d);
     if (!a->lasts)
-        analyse_note(a, "no duration is known: %s", a->source.has_force ? "beside no maximum does the force fall to half of it" : "there is no column duration_s");
+        analyse_note(a, "no duration is known: %s", analyse_notes_unknown(a));
     else
         constant_instead(a);
     if (a->lasts && !a->constant && d->r2 < -0.05)
         analyse_note(a, "theta %.3g does not hold here (R2 %.4g: a constant duration would do better). Where outliers made it, as impacts that run into each other "
                         "do, single impacts (--single) help, or --theta", d->theta, d->r2);
     return true;
-}
-
-/* ------------------------------------------------------------------ notes */
-
-/* Are contact times what they seem? */
-static void stretch_notes(struct analysis *a, const struct analyse_source *s)
-{
-    const struct impact_found *f = &s->found;
-    if (f->feet == 0)
-        analyse_note(a, "%s: no impact of 12 samples and more stands alone: contact times are taken as twice the widths at half height, as raised cosines have them", s->file);
-    else if (f->feet < IMPACT_FEET_MANY)
-        analyse_note(a, "%s: contact times rest on the ends of %ld impact%s: at least %d are wanted, and single merged ones may have spoilt them", s->file, f->feet,
-                     f->feet == 1 ? "" : "s", IMPACT_FEET_MANY);
-    if (f->stretch < 1.7 || f->stretch > 2.1)
-        analyse_note(a, "%s: contact times come out as %.3g times the widths at half height, where raised cosines have 2 and Hertz's impacts 1.82: many of those that stand "
-                        "alone are merged, or of another shape; zeta is as wrong as that", s->file, f->stretch);
-}
-
-/* Of raised cosines 1; of Hertz's impacts, to which a raised cosine is fitted, 1.1. */
-static void shape_notes(struct analysis *a)
-{
-    const struct impact_shape *h = &a->shape;
-    if (h->fitted > 0 && (h->stretch < 0.95 || h->stretch > 1.15))
-        analyse_note(a, "fitted raised cosines last %.3g times the contact times, where it is 1 if the impacts are raised cosines and 1.1 if they are Hertz's", h->stretch);
-}
-
-static void force_notes(struct analysis *a, const struct analyse_source *s)
-{
-    const struct impact_found *f = &s->found;
-    const struct impact_events *v = &f->events;
-    double n = v->n, samples = 0, known = 0;
-    if (!a->given.options.both && f->least < -0.3 * f->greatest)
-        analyse_note(a, "%s: the force falls to %.4g N: only impacts above 0 are looked for unless --signed is given", s->file, f->least);
-    for (int i = 0; i < v->n; i++)
-        if (!isnan(v->duration[i])) {
-            samples += real_log(v->duration[i] * s->signal.rate);
-            known++;
-        }
-    if (known > 0 && real_exp(samples / known) < 6)
-        analyse_note(a, "%s: impacts last %.2g samples: the low-pass of the sample rate widens them, and its ripples may count as impacts: use a higher rate, or "
-                        "raise --prominence to 0.25", s->file, real_exp(samples / known));
-    if ((double)f->ripples > 10 * n)
-        analyse_note(a, "%s: %ld maxima are left out as not prominent, against %.0f impact%s: a force that ripples without falling between, as of a contact that never "
-                        "parts, is no series of impacts; a lower --prominence takes the ripples", s->file, f->ripples, n, v->n == 1 ? "" : "s");
-    if ((double)f->touching > 0.05 * n)
-        analyse_note(a, "%s: %.0f %% of the impacts run into a neighbour: amplitudes and widths are those of sums", s->file, 100 * (double)f->touching / n);
-    if ((double)f->merged > 0.01 * n)
-        analyse_note(a, "%s: %.1f %% of the impacts have a shoulder: two that made one maximum, and were taken as one", s->file, 100 * (double)f->merged / n);
-    stretch_notes(a, s);
-}
-
-static void statistics_notes(struct analysis *a)
-{
-    for (int i = 0; i < STATISTICS_WARNINGS && a->statistics.warnings[i]; i++)
-        analyse_note(a, "%s", a->statistics.warnings[i]);
 }
 
 /* ------------------------------------------------------------------ the command */
@@ -210,20 +154,20 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
         !options_used(c, a, e))
         return false;
     if (a->source.has_force)
-        force_notes(a, &a->source);
+        analyse_notes_force(a, &a->source);
     if (a->single.file && a->single.has_force)
-        force_notes(a, &a->single);
+        analyse_notes_force(a, &a->single);
     if (!duration_find(c, a, e))
         return false;
     if (a->source.has_force)
         impact_shape_make(&a->source.signal, &a->source.found, a->arena, &a->shape);
-    shape_notes(a);
+    analyse_notes_shape(a);
     a->counted = a->source.found.events.n >= STATISTICS_LEAST;
     if (!a->counted)
         analyse_note(a, "%d impact%s: statistics of the series take at least %d, and are left out", a->source.found.events.n, a->source.found.events.n == 1 ? "" : "s",
                      STATISTICS_LEAST);
     else if (impact_statistics_make(&a->source.found.events, !args_given(&c->args, "keep-modulation"), a->arena, &a->statistics, e))
-        statistics_notes(a);
+        analyse_notes_statistics(a);
     else
         return err_at(e, "%s", a->source.file);
     return true;
@@ -310,7 +254,8 @@ const struct command analyse_command = {
             "process drives both, a modulation; how durations depend on amplitudes, in 002's two steps; which shape impacts have (raised cosine, Meixner window); "
             "and what makes the estimates doubtful. "
             "The parameter file is a scene part with contact.model impacts: a scene that includes it draws other impacts of the amplitudes, intervals and durations found. "
-            "How near it comes depends on how well the force is a series of impacts: bounces are, a contact that never parts is not, and the notes say so.",
+            "How near it comes depends on how well the force is a series of impacts: bounces are, a contact that never parts is not, and the notes say so. "
+            "The force should be whole: what output.ramp, load.approach or load.release fade is weaker but no longer, and theta comes out too small.",
     .operands = "FILE",
     .least = 1,
     .most = 1,

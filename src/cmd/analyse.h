@@ -19,6 +19,7 @@ struct analyse_given {      /* what a file does not say itself, and what counts 
 struct analyse_source {     /* a force, or a table of impacts                                */
     const char *file, *kind; /* "WAV", "NPY", "CSV"                                          */
     bool has_force;         /* false: a table of impacts, signal is empty                    */
+    int channels;           /* of a WAV                                                      */
     struct impact_signal signal;
     struct impact_found found; /* of a table only found.events                               */
 };
@@ -50,6 +51,14 @@ struct analysis {
 extern const char *const analyse_series_names[STATISTICS_SERIES]; /* "amplitude", "interval" */
 
 void analyse_note(struct analysis *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Of a force, of the fitted shapes, of the series. */
+void analyse_notes_force(struct analysis *a, const struct analyse_source *s);
+void analyse_notes_shape(struct analysis *a);
+void analyse_notes_statistics(struct analysis *a);
+
+/* Why no duration is known. */
+const char *analyse_notes_unknown(const struct analysis *a);
 
 /* Does the distribution of that whitened series go into a table? */
 bool analyse_tabled(const struct analysis *a, int series);

@@ -46,7 +46,8 @@ struct part {
 /* No value that the keys refuse (scene/keys.def): said here, with what to do. */
 static bool value_fits(const char *what, double x, double low, double high, struct err *e)
 {
-    return (x >= low && x <= high) || err_set(e, ERR_SCENE, "%s is %.6g, and a scene takes %.6g to %.6g: no file is written", what, x, low, high);
+    return (x >= low && x <= high) || err_set(e, ERR_SCENE, "%s is %.6g, and a scene takes %.6g to %.6g: no file is written. Is the unit right, and the series "
+                                                              "steady? A part of it may be", what, x, low, high);
 }
 
 static bool values_fit(const struct analysis *a, struct err *e)
@@ -60,8 +61,7 @@ static bool values_fit(const struct analysis *a, struct err *e)
             return false;
     }
     if (!a->lasts)
-        return err_set(e, ERR_SCENE, "no duration is known, and a scene needs one: %s %s", a->source.file,
-                       a->source.has_force ? "is a force that falls to half of no maximum" : "has no column duration_s");
+        return err_set(e, ERR_SCENE, "%s: no duration is known, and a scene needs one: %s", a->source.file, analyse_notes_unknown(a));
     return value_fits("theta", a->duration.theta, 0, 2, e) && value_fits("zeta in s", a->duration.zeta, 1e-7, 10, e);
 }
 

@@ -23,10 +23,13 @@ static void line(const char *name)
 
 /* ------------------------------------------------------------------ what was found */
 
-static void print_force(const struct analyse_source *s)
+static void print_force(const struct analyse_source *s, long which)
 {
     const struct impact_found *f = &s->found;
-    printf("%s: a force, %s, %.6g s at %.6g Hz, from %.4g to %.4g N\n", s->file, s->kind, (double)s->signal.n / s->signal.rate, s->signal.rate, f->least,
+    char channel[40] = "";
+    if (s->channels > 1)
+        snprintf(channel, sizeof channel, ", channel %ld of %d", which, s->channels);
+    printf("%s: a force, %s%s, %.6g s at %.6g Hz, from %.4g to %.4g N\n", s->file, s->kind, channel, (double)s->signal.n / s->signal.rate, s->signal.rate, f->least,
            f->greatest);
     line("impacts");
     printf("%d: %ld stand%s alone, %ld run%s into a neighbour, %ld with a shoulder\n", f->events.n, f->alone, f->alone == 1 ? "s" : "", f->touching,
@@ -40,11 +43,11 @@ static void print_force(const struct analyse_source *s)
         printf("taken as twice the width at half height, as of raised cosines (none stands alone, or all are short)\n");
 }
 
-static void print_source(const struct analyse_source *s)
+static void print_source(const struct analyse_source *s, long which)
 {
     const struct impact_events *v = &s->found.events;
     if (s->has_force)
-        print_force(s);
+        print_force(s, which);
     else {
         printf("%s: %d impact%s in %.6g s", s->file, v->n, plural(v->n), v->time[v->n - 1] - v->time[0]);
         if (s->found.touching)
@@ -85,7 +88,7 @@ static void print_distributions(const struct analysis *a)
     PRINT_PAIR("  skewness, kurtosis", "%.3g, %.3g", s->white.skewness, s->white.kurtosis);
     PRINT_PAIR("  normal", "R2 %.3f, distance %.3f%s", s->white.gaussian_r2, s->white.gaussian_distance, analyse_tabled(a, k) ? ": table" : "");
     PRINT_PAIR("series, normal", "R2 %.3f, distance %.3f", s->itself.gaussian_r2, s->itself.gaussian_distance);
-    PRINT_PAIR("  exponential", "mean %.4g, distance %.3f", shown(k, s->itself.exponential_mean), s->itself.exponential_distance);
+    PRINT_PAIR("  exponential", isnan(s->itself.exponential_mean) ? "no values above 0" : "mean %.4g, distance %.3f", shown(k, s->itself.exponential_mean), s->itself.exponential_distance);
     PRINT_PAIR("  gamma", isnan(s->itself.gamma_shape) ? "values below 0" : "%.3g x %.3g, distance %.3f", s->itself.gamma_shape,
                shown(k, s->itself.gamma_scale), s->itself.gamma_distance);
 }
@@ -164,9 +167,9 @@ static void print_shape(const struct analysis *a)
 
 void analyse_print(const struct analysis *a)
 {
-    print_source(&a->source);
+    print_source(&a->source, a->given.channel);
     if (a->single.file)
-        print_source(&a->single);
+        print_source(&a->single, a->given.channel);
     if (a->counted)
         print_statistics(a);
     print_duration(a);

@@ -12,6 +12,8 @@
 #include "file/wav.h"
 #include "scene/rules.h"
 
+#define MOST 1e50
+
 static double scale_of(const struct analyse_given *g)
 {
     return isnan(g->scale) ? 1 : g->scale;
@@ -28,6 +30,7 @@ static bool wav_take(struct analyse_source *s, const struct analyse_given *g, st
         return err_set(e, ERR_USAGE, "--channel: %s has %d channel%s", s->file, w.channels, w.channels == 1 ? "" : "s");
     if (isnan(g->scale))
         return err_set(e, ERR_USAGE, "--scale must be given: %s does not say how many newtons its %s stands for", s->file, w.bits ? "full scale" : "unit");
+    s->channels = w.channels;
     double *force = ARENA_TAKE(a, double, w.frames);
     for (size_t i = 0; i < w.frames; i++)
         force[i] = g->scale * w.x[i * (size_t)w.channels + (size_t)g->channel - 1];
@@ -148,11 +151,15 @@ static bool force_take(struct analyse_source *s, const struct csv *t, const stru
 
 static bool csv_take(struct analyse_source *s, const struct analyse_given *g, struct arena *a, struct err *e)
 {
+    struct arena *scratch = arena_open();
     struct csv t;
-    if (!csv_read(s->file, a, &t, e))
-        return false;
-    s->has_force = csv_column(&t, "amplitude_n") < 0 || (g->column && csv_column(&t, g->column) >= 0);
-    return s->has_force ? force_take(s, &t, g, a, e) : impacts_take(s, &t, a, e);
+    bool ok = csv_read(s->file, scratch, &t, e);
+    if (ok) {
+        s->has_force = csv_column(&t, "amplitude_n") < 0 || (g->column && csv_column(&t, g->column) >= 0);
+        ok = s->has_force ? force_take(s, &t, g, a, e) : impacts_take(s, &t, a, e);
+    }
+    arena_close(scratch);
+    return ok;
 }
 
 /* ------------------------------------------------------------------ all */
@@ -171,10 +178,33 @@ static bool samples_take(struct analyse_source *s, const struct analyse_given *g
     return ok;
 }
 
+/* Powers of what is read are taken: none may leave a double's range. 0 is no fault. */
+static bool in_range(const struct analyse_source *s, const char *what, double x, const char *unit, struct err *e)
+{
+    return x == 0 || (x >= 1 / MOST && x <= MOST) ||
+           err_set(e, ERR_SCENE, "%s: %s of %.6g %s lies outside %g to %g; is the unit right?", s->file, what, x, unit, 1 / MOST, MOST);
+}
+
+static bool all_in_range(const struct analyse_source *s, struct err *e)
+{
+    const struct impact_events *v = &s->found.events;
+    double amplitude = 0, least = HUGE_VAL, longest = 0;
+    for (int i = 0; i < v->n; i++) {
+        amplitude = fmax(amplitude, fabs(v->amplitude[i]));
+        longest = fmax(longest, v->duration[i]); /* not of NAN */
+        least = fmin(least, v->duration[i]);
+    }
+    return in_range(s, "an amplitude", amplitude, "N", e) && in_range(s, "a duration", longest, "s", e) &&
+           (longest == 0 || in_range(s, "a duration", least, "s", e)) && in_range(s, "a time", fmax(fabs(v->time[0]), fabs(v->time[v->n - 1])), "s", e) &&
+           in_range(s, "a time from first to last", v->time[v->n - 1] - v->time[0], "s", e);
+}
+
 bool analyse_read(const char *file, const struct analyse_given *g, struct arena *a, struct analyse_source *s, struct err *e)
 {
     *s = (struct analyse_source){.file = file, .kind = "CSV", .has_force = true};
     if (!(rules_ends_in(file, ".csv") ? csv_take(s, g, a, e) : samples_take(s, g, a, e)))
         return false;
-    return !s->has_force || impact_find(&s->signal, &g->options, a, &s->found, e) || err_at(e, "%s", file);
+    if (s->has_force && !impact_find(&s->signal, &g->options, a, &s->found, e))
+        return err_at(e, "%s", file);
+    return all_in_range(s, e);
 }

@@ -1,55 +1,15 @@
 /* rasp check: what can be known to be wrong with a scene before anything is computed. */
 #include <stdio.h>
 
+#include "base/text.h"
 #include "cmd/cmd.h"
-#include "output/force_table.h"
-#include "output/impact_rows.h"
-#include "pipeline/inputs.h"
-#include "pipeline/plan.h"
-#include "pipeline/run.h"
-#include "pipeline/stages.h"
+#include "pipeline/plan_scene.h"
 #include "scene/scene_places.h"
-
-/* Every contact has something to compute, and all that it needs. */
-static bool check_plans(const struct scene *s, struct arena *a, struct err *e)
-{
-    struct plan p;
-    for (int i = 0; i < s->n_contacts; i++)
-        if (!plan_make(stages_table, &s->contacts[i], s, a, &p, e))
-            return false;
-    return true;
-}
-
-/* Every stage can begin: the files are what they should be, and the motion stays where they are valid. */
-static bool check_opens(const struct scene *s, struct arena *a, struct err *e)
-{
-    struct table_sink rows = {fopen("/dev/null", "w")};
-    struct impact_sink impacts = {rows.stream};
-    struct plan p;
-    struct run r;
-    bool ok = rows.stream || err_set(e, ERR_IO, "/dev/null cannot be opened");
-    for (int i = 0; ok && i < s->n_contacts; i++) {
-        ok = plan_make(stages_table, &s->contacts[i], s, a, &p, e) && run_open(&r, &p, s, &(struct run_sinks){&rows, &impacts}, e);
-        if (ok)
-            run_close(&r);
-    }
-    if (rows.stream)
-        fclose(rows.stream);
-    return ok;
-}
-
-/* What a scene that has been read must pass, in this order. */
-static bool (*const checks[])(const struct scene *, struct arena *, struct err *) = {inputs_check, check_plans, check_opens};
 
 static bool check_scene(struct cmd_call *c, const char *file, struct err *e)
 {
     struct scene s;
-    if (!cmd_read_scene(c, file, &s, e))
-        return false;
-    for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++)
-        if (!checks[i](&s, c->arena, e))
-            return scene_places_tell(&s, e);
-    return true;
+    return cmd_read_scene(c, file, &s, e) && (plan_scene(&s, c->arena, e) || scene_places_tell(&s, e));
 }
 
 static int check_run(struct cmd_call *c, struct err *e)
@@ -60,7 +20,7 @@ static int check_run(struct cmd_call *c, struct err *e)
         struct err mine = {0};
         const char *file = c->args.operands[i];
         if (check_scene(c, file, &mine))
-            printf("%s: ok\n", file);
+            printf("%s: ok\n", text_shown(c->arena, file));
         else
             fprintf(stderr, "rasp check: error: %s\n", mine.text);
         worst = (int)mine.kind > worst ? (int)mine.kind : worst;

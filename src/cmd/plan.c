@@ -1,8 +1,6 @@
 /* rasp plan: what a scene would run, and why. */
-#include "pipeline/plan.h"
-
 #include "cmd/cmd.h"
-#include "pipeline/stages.h"
+#include "pipeline/plan_scene.h"
 #include "scene/scene_places.h"
 
 static const struct args_option plan_options[] = {
@@ -10,21 +8,22 @@ static const struct args_option plan_options[] = {
     {0},
 };
 
+static bool plan_one(struct cmd_call *c, const char *file, struct err *e)
+{
+    struct scene s;
+    if (!cmd_read_scene(c, file, &s, e))
+        return false;
+    const struct plan *plans = plan_scene(&s, c->arena, e);
+    for (int i = 0; plans && i < s.n_contacts; i++)
+        plan_print(&plans[i], stdout);
+    return plans || scene_places_tell(&s, e);
+}
+
 static int plan_run(struct cmd_call *c, struct err *e)
 {
-    for (int i = 0; i < c->args.n_operands; i++) {
-        struct scene s;
-        if (!cmd_read_scene(c, c->args.operands[i], &s, e))
+    for (int i = 0; i < c->args.n_operands; i++)
+        if (!plan_one(c, c->args.operands[i], e))
             return (int)e->kind;
-        for (int k = 0; k < s.n_contacts; k++) {
-            struct plan p;
-            if (!plan_make(stages_table, &s.contacts[k], &s, c->arena, &p, e)) {
-                scene_places_tell(&s, e);
-                return (int)e->kind;
-            }
-            plan_print(&p, stdout);
-        }
-    }
     return 0;
 }
 
@@ -32,8 +31,8 @@ const struct command plan_command = {
     .name = "plan",
     .summary = "shows which stages a scene runs, why, and at what predicted cost",
     .does = "Lists for each contact the stages that will run, in order, with what they read and make, their share of the predicted cost and the "
-            "equations they follow; then those that will not run, and why not. Nothing is rendered; of the inputs only mode "
-            "tables and recorded motions are read, where the plan depends on them.",
+            "equations they follow; then those that will not run, and why not. Nothing is rendered, but all that "
+            "the scene names is read, and what rasp check refuses is refused here, too.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,

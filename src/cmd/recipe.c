@@ -25,14 +25,14 @@ bool recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err 
 /* A double-quoted YAML string. */
 static const char *quoted(struct arena *a, const char *text)
 {
-    char *out = arena_take(a, 2 * strlen(text) + 3, 1), *p = out;
+    char *out = arena_take(a, 4 * strlen(text) + 4, 1), *p = out;
     *p++ = '"';
     for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            *p++ = '\\';
-        *p++ = *text;
+        bool plain = (unsigned char)*text >= ' ' && *text != 0x7f && *text != '"' && *text != '\\';
+        p += snprintf(p, 5, plain ? "%c" : "\\x%02x", (unsigned char)*text);
     }
-    *p = '"';
+    *p++ = '"';
+    *p = '\0';
     return out;
 }
 
@@ -43,7 +43,7 @@ static bool read_recipe(struct cmd_call *c, const char *file, const char *rest, 
     const char *text = arena_format(c->arena, "rasp: 1\nsurface: {recipe: %s}\n%s", quoted(c->arena, file), rest);
     struct scene_overrides over = {.set = set, .n = n, .seed = args_value(&c->args, "seed")};
     struct err cause = {0};
-    if (scene_read_text(text, strlen(text), "recipe.yaml", &over, c->arena, s, &messages, &cause))
+    if (scene_read_made(text, file, &over, c->arena, s, &messages, &cause))
         return true;
     fputs(messages, stderr);
     return err_set(e, cause.kind, "%s is not a valid recipe", file);

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "cmd/cmd.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
@@ -63,16 +64,16 @@ static bool render_folder(struct cmd_call *c, struct err *e)
 static void render_print(struct cmd_call *c, const struct scene *s, const struct render_report *r)
 {
     for (int i = 0; i < r->n_warnings; i++)
-        fprintf(stderr, "%s: warning: %s\n", s->file, r->warnings[i]);
+        fprintf(stderr, "%s: warning: %s\n", text_shown(c->arena, s->file), text_shown(c->arena, r->warnings[i]));
     if (args_given(&c->args, "json"))
         fputs(r->summary, stdout);
     else if (!args_given(&c->args, "quiet")) {
         for (int i = 0; i < r->n_files; i++)
             if (strcmp(r->files[i].kind, "scene") != 0 && strcmp(r->files[i].kind, "summary") != 0)
-                printf("%s  %.3f s, %.3g times real time\n", r->files[i].path, (double)r->frames / s->output.sample_rate,
+                printf("%s  %.3f s, %.3g times real time\n", text_shown(c->arena, r->files[i].path), (double)r->frames / s->output.sample_rate,
                        (double)r->frames / s->output.sample_rate / (r->cpu > 1e-9 ? r->cpu : 1e-9));
         for (int i = 0; i < r->n_notes; i++)
-            printf("%s\n", r->notes[i]);
+            printf("%s\n", text_shown(c->arena, r->notes[i]));
     }
 }
 

@@ -12,6 +12,11 @@ enum { DECAYING_MOST = 8, DECAYING_POINTS = 24, DECAYING_TERMS = 40 };
    terms; to 1e-15 of that where the poles lie further apart than half a bandwidth. */
 double decaying_energy(const struct decaying *x, int n);
 
+/* The same until t = end (s), of poles that need not decay (decay >= 0); *alone: that of the last term. To 1e-3 of itself or 1e-26 of the energy of the terms; to
+   1e-15 of that where a pole turns away from the last one's by more than DECAYING_APART rad until the end. */
+double decaying_energy_until(const struct decaying *x, int n, double end, double *alone);
+#define DECAYING_APART 16.0
+
 /* Points of an integral over time, in units of the last term's energy decaying by e: made once for many sums. */
 struct decaying_points {
     double x[DECAYING_POINTS];                          /* 2 decay t */

@@ -19,8 +19,14 @@ int nodes_share(const struct nodes *n, int k, double *w);
 
 enum { NODES_MOST = 4096 };
 
-/* Nodes of one piece that keep the relative rms error (amplitude) of a mode A(u) e^(s(u) t): `phase` = half the range of s (rad/s) divided by its
-   least decay (1/s), `change` = range of log A (nepers). NODES_MOST: so many, and they may not be enough. See nodes.c. */
-int nodes_needed(double phase, double change, double error);
+struct nodes_ask {      /* a mode A(u) e^(s(u) t) along one piece */
+    double turn;        /* rad/s, half the range of Im s          */
+    double decay[2];    /* 1/s, the least and the largest, >= 0   */
+    double seconds;     /* of it are heard, > 0                   */
+    double change;      /* nepers, range of log A                 */
+};
+
+/* Nodes of one piece that keep the relative rms error (amplitude). NODES_MOST: so many, and they may not be enough. See nodes_needed.c. */
+int nodes_needed(const struct nodes_ask *ask, double error);
 
 #endif

@@ -9,6 +9,7 @@
 
 #include "convolution/gammatone.h"
 #include "num/lanes.h"
+#include "response/listener.h"
 
 #define RESONATOR 0.8          /* a mode and sample, poles fixed                   */
 #define GLIDING 1.2            /* ... poles ramped                                 */
@@ -57,6 +58,11 @@ static double point_cost(const struct ring_choosing *c)
 double ring_cost_search(const struct ring_choosing *c)
 {
     return c->survey.looked ? *c->survey.looked / sounding(c) : 0;
+}
+
+double ring_cost_listening(const struct ring_choosing *c)
+{
+    return listener_cost(&c->scene->output, &c->to->modes, c->given->object.origin) / sounding(c);
 }
 
 double ring_cost_resonators(const struct ring_choosing *c)

@@ -20,6 +20,9 @@ double ring_cost_nodes(const struct ring_choosing *c);
 /* Convolution with that many samples as they are, read from a file. */
 double ring_cost_recorded(double samples);
 
+/* Of what listens, made once. */
+double ring_cost_listening(const struct ring_choosing *c);
+
 /* Of looking along the motion for hops, as far as that has been done. */
 double ring_cost_search(const struct ring_choosing *c);
 

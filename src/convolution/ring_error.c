@@ -17,7 +17,8 @@
    (Euler and Maclaurin: the trapezium rule against the integral; kinks of s are jumps of s' and count; the second part is the chord that lies inside the
    unit circle): what was launched at m errs by A(m) e^(...) (a + E(t) - E(m)), a what interpolation misses of A. This one is to leading order in H.
 
-   Decays below half a one over the motion's duration count as that: what hardly decays is heard no longer than that. */
+   What `launch` makes at t is heard until the sound's end, or until the response that is computed ends: there tau ends. Where the end is not known, and in the
+   other kinds, decays below half a one over the motion's duration count as that: what hardly decays is heard no longer than that. */
 #include "convolution/ring_error.h"
 
 #include <math.h>
@@ -28,9 +29,11 @@
 
 enum { MOST = 4 };
 
-/* Cycles of a mode at an instant, by kind; of one that is weighted. */
+/* Cycles of a mode at an instant, by kind; more where it is heard until an end. */
 static const double cycles[] = {[RING_ERROR_LAUNCH] = 450, [RING_ERROR_READOUT] = 1000, [RING_ERROR_RAMP] = 200, [RING_ERROR_GLIDE] = 1500};
-#define WEIGHTED 1000.0
+#define ENDED 1200.0
+
+#define HEARD 16.0 /* 2 decay t; of x^8 e^(-x), as interpolation of order 4 errs, 2 % lie beyond */
 
 struct erring {
     const struct ring_survey *s;
@@ -41,6 +44,7 @@ struct erring {
     double least;                     /* 1/s, decays count as no less */
     double t;                         /* s */
     bool exact;                       /* the instant is a node */
+    long ended;                       /* modes and instants that an end was found for */
 };
 
 /* ------------------------------------------------------------------ an instant's nodes */
@@ -119,15 +123,22 @@ static struct energies weighted(struct erring *r, int i)
 static struct energies launched(struct erring *r, int i)
 {
     struct decaying x[MOST + 1];
-    int n = r->ask->order + 1;
-    double loud = ring_survey_loud(r->s, r->t);
-    x[n - 1] = term(r, n - 1, i);
-    struct energies e = {0, loud * decaying_energy(&x[n - 1], 1)};
-    for (int k = 0; k < n - 1 && !r->exact; k++)
+    int order = r->ask->order, first = r->exact ? order : 0, n = order + 1 - first;
+    double loud = ring_survey_loud(r->s, r->t), end = fmax(fmin(r->ask->until, r->ask->end - r->t), 0);
+    bool ended = 2 * r->row[order].decay[i] * end < HEARD;
+    struct energies e;
+    for (int k = first; k <= order; k++) {
         x[k] = term(r, k, i);
-    if (!r->exact)
-        e.wrong = loud * decaying_energy(x, n);
-    return e;
+        x[k].decay = ended ? r->row[k].decay[i] : x[k].decay;
+    }
+    if (ended) {
+        e.wrong = decaying_energy_until(x + first, n, end, &e.whole);
+        r->ended++;
+    } else {
+        e.whole = decaying_energy(&x[order], 1);
+        e.wrong = n > 1 ? decaying_energy(x, n) : 0;
+    }
+    return (struct energies){n > 1 ? loud * e.wrong : 0, loud * e.whole};
 }
 
 /* ds/dt and its square's integral since the motion's start, at t; at rest after the end. */
@@ -181,7 +192,6 @@ void ring_error(const struct ring_survey *s, const struct ring_error_ask *ask, d
     struct ring_survey_instant *at = ARENA_TAKE(a, struct ring_survey_instant, RING_SURVEY_INSTANTS);
     struct erring r = {.s = s, .ask = ask, .least = 0.5 / fmax(s->duration, 1e-3)};
     int n = s->along.modes->n, wanted = 0, instants = ring_survey_draw(s, fmax(0.5 * ask->order, 1) * ask->hop / ask->rate, at);
-    bool cut = ask->until < HUGE_VAL;
     decaying_points_make(DECAYING_RANGE, &r.all);
     for (int k = 0; k <= ask->order; k++)
         r.row[k] = modes_point_make(a, n);
@@ -194,12 +204,12 @@ void ring_error(const struct ring_survey *s, const struct ring_error_ask *ask, d
         stand_at(&r, at[k].t);
         for (int i = 0; i < n; i++)
             if (!ask->skip || !ask->skip[i]) {
-                struct energies e = cut ? weighted(&r, i) : of[ask->kind](&r, i);
+                struct energies e = of[ask->kind](&r, i);
                 wrong[i] += at[k].weight * e.wrong;
                 whole[i] += at[k].weight * e.whole;
             }
     }
-    *s->looked += instants * ((ask->order + 1) * ring_survey_point(s) + wanted * (cut ? WEIGHTED : cycles[ask->kind]));
+    *s->looked += instants * ((ask->order + 1) * ring_survey_point(s) + wanted * cycles[ask->kind]) + (double)r.ended * ENDED;
     arena_close(a);
 }
 

@@ -15,6 +15,7 @@ struct ring_error_ask {
     int order, hop;      /* 1, 2 or 4; frames                                                    */
     double rate;         /* Hz                                                                   */
     double until;        /* s, of the response that is computed; HUGE_VAL: all                   */
+    double end;          /* s after the motion's start nothing is heard any more; HUGE_VAL: that is not known */
     const bool *skip;    /* [n] modes that are not wanted; NULL: all are                         */
 };
 

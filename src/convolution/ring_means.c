@@ -48,7 +48,7 @@ static double both(double error, double other)
 static struct ring_error_ask measuring(const struct ring_choosing *c, enum ring_error_kind kind, double longest)
 {
     return (struct ring_error_ask){.kind = kind, .order = (int)c->scene->accuracy.overlap_order, .hop = (int)frames(c, longest),
-                                   .rate = c->scene->output.sample_rate, .until = isnan(c->given->length) ? HUGE_VAL : c->given->length};
+                                   .rate = c->scene->output.sample_rate, .until = isnan(c->given->length) ? HUGE_VAL : c->given->length, .end = c->heard.most};
 }
 
 /* One hop for all modes: the accuracy asked, but at most overlap_hop; morph_error 0: overlap_hop alone. */
@@ -70,7 +70,7 @@ static void choose_ramp(struct ring_choosing *c)
     struct ring_error_ask ask = measuring(c, glides ? RING_ERROR_GLIDE : RING_ERROR_RAMP, 1);
     ask.order = 2;
     ask.hop = (int)c->scene->accuracy.gain_ramp;
-    ask.until = HUGE_VAL;
+    ask.until = ask.end = HUGE_VAL;
     c->to->ramp = 1;
     if (c->to->moves)
         c->to->ramp = target(c) > 0 ? ring_hops_power(&c->survey, &ask, target(c), &c->to->error) : ask.hop;
@@ -93,7 +93,7 @@ static void choose_hops(struct ring_choosing *c, enum ring_error_kind kind)
 static void engine_set(struct ring_choosing *c, enum ring_engine engine, double work)
 {
     c->to->engine = engine;
-    c->to->work = work * listener_channels(&c->scene->output) + ring_cost_search(c);
+    c->to->work = work * listener_channels(&c->scene->output) + ring_cost_search(c) + ring_cost_listening(c);
 }
 
 /* Overlap-add's hop is looked for only where it might be chosen. */
@@ -147,7 +147,7 @@ static bool choose_nodes(struct ring_choosing *c, struct err *e)
                        c->contact->name, c->to->modes.name, c->to->modes.shared ? "are the same everywhere" : "change over time");
     if (!c->trajectory.straight)
         return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: nodes needs a straight motion; leave it out, or choose overlap_add", c->contact->name);
-    if (!ring_nodes(&c->to->modes, &c->trajectory, error, c->arena, &c->to->nodes))
+    if (!ring_nodes(&(struct ring_nodes_ask){&c->to->modes, &c->trajectory, c->to->seconds, error}, c->arena, &c->to->nodes))
         return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: nodes would need %d nodes or more for an accuracy.morph_error of %g dB; choose "
                                      "resonators or overlap_add", c->contact->name, c->to->nodes.n, 20 * real_log10(error));
     engine_set(c, RING_PANNED, ring_cost_nodes(c));

@@ -43,7 +43,7 @@ static double turn(const struct modes_point *p, const struct modes_point *q, int
 }
 
 /* Nodes that mode i needs, seen at LOOKS places of the piece, between which gains are interpolated in the logarithm and turn evenly. */
-static int mode_needs(const struct modes_point *at, int i, double error)
+static int mode_needs(const struct ring_nodes_ask *ask, const struct modes_point *at, int i)
 {
     struct range pole = {HUGE_VAL, -HUGE_VAL}, gain = {HUGE_VAL, -HUGE_VAL}, decay = {HUGE_VAL, -HUGE_VAL};
     for (int k = 0; k < LOOKS; k++) {
@@ -56,24 +56,25 @@ static int mode_needs(const struct modes_point *at, int i, double error)
     double turned = 0, change = gain.high > gain.low ? gain.high - gain.low : 0;
     for (int k = 1; k < LOOKS; k++)
         turned += turn(&at[k - 1], &at[k], i);
-    double df = pole.high - pole.low, dd = decay.high - decay.low;
-    return nodes_needed(0.5 * sqrt(df * df + dd * dd) / fmax(decay.low, 1e-2), sqrt(change * change + turned * turned), error);
+    return nodes_needed(&(struct nodes_ask){0.5 * (pole.high - pole.low), {decay.low, decay.high}, ask->seconds, sqrt(change * change + turned * turned)}, ask->error);
 }
 
-static int piece_needs(const struct modes *m, const struct trajectory *tr, const double u[2], double error, struct modes_point *at)
+static int piece_needs(const struct ring_nodes_ask *ask, const double u[2], struct modes_point *at)
 {
     int most = 2;
     for (int k = 0; k < LOOKS; k++)
-        look(m, tr, u[0] + (u[1] - u[0]) * k / (LOOKS - 1), &at[k]);
-    for (int i = 0; i < m->n; i++) {
-        int needs = mode_needs(at, i, error);
+        look(ask->modes, ask->trajectory, u[0] + (u[1] - u[0]) * k / (LOOKS - 1), &at[k]);
+    for (int i = 0; i < ask->modes->n; i++) {
+        int needs = mode_needs(ask, at, i);
         most = needs > most ? needs : most;
     }
     return most;
 }
 
-bool ring_nodes(const struct modes *m, const struct trajectory *tr, double error, struct arena *a, struct ring_nodes *n)
+bool ring_nodes(const struct ring_nodes_ask *ask, struct arena *a, struct ring_nodes *n)
 {
+    const struct modes *m = ask->modes;
+    const struct trajectory *tr = ask->trajectory;
     double from[2], to[2], reach = tr->reach[1] - tr->reach[0];
     struct modes_point at[LOOKS];
     bool enough = true;
@@ -89,7 +90,7 @@ bool ring_nodes(const struct modes *m, const struct trajectory *tr, double error
     for (int k = 0; k < LOOKS; k++)
         at[k] = modes_point_make(a, m->n);
     for (int k = 0; k < n->pieces; k++) {
-        n->count[k] = piece_needs(m, tr, n->breaks + k, error, at);
+        n->count[k] = piece_needs(ask, n->breaks + k, at);
         enough = enough && n->count[k] < NODES_MOST;
         n->n += n->count[k] - 1;
     }

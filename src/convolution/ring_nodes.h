@@ -14,7 +14,14 @@ struct ring_nodes {
     int n;              /* nodes in all                                      */
 };
 
-/* For a straight motion; error: relative rms (amplitude). False: so many would be needed that they may not keep it. */
-bool ring_nodes(const struct modes *m, const struct trajectory *tr, double error, struct arena *a, struct ring_nodes *n);
+struct ring_nodes_ask {
+    const struct modes *modes;
+    const struct trajectory *trajectory; /* straight                    */
+    double seconds;                      /* heard of a response at most */
+    double error;                        /* relative rms (amplitude)    */
+};
+
+/* False: so many would be needed that they may not keep the error. */
+bool ring_nodes(const struct ring_nodes_ask *ask, struct arena *a, struct ring_nodes *n);
 
 #endif

@@ -65,7 +65,9 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
         return NULL;
     const char *name = arena_text(y->arena, file);
     note_file(y, name);
-    return yaml_source(y, name, text, size);
+    struct diag_source *source = yaml_source(y, name, text, size);
+    source->named = named;
+    return source;
 }
 
 static const char *byte_order_mark(const struct diag_source *s)

@@ -191,6 +191,14 @@ static void roll_add(struct roll_state *s, struct board *b, long first, int n)
     lift_off(b, first, n);
 }
 
+static void roll_level(struct roll_centre *m, const double *level, int n)
+{
+    double *lifts[SLOPE_LEVELS];
+    for (int k = 0; k < m->levels; k++)
+        lifts[k] = m->lifts[k];
+    roll_centre_level(m->at, n, m->levels, lifts, level);
+}
+
 static bool roll_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct roll_state *s = r->state;
@@ -205,7 +213,7 @@ static bool roll_run(struct stage_run *r, long from, long to, struct err *e)
         else
             slope_run(&s->scrape.slope, r, first, n);
         roll_centre_run(&s->centre, &s->scrape.slope, b, first, n);
-        roll_centre_level(s->centre.at, n + 1, (const double *const[]){s->centre.lifts[0], s->centre.lifts[1]}, s->found.level);
+        roll_level(&s->centre, s->found.level, n + 1);
         roll_press(s, load, n);
         if (forces)
             roll_add(s, b, first, n);

@@ -1,7 +1,7 @@
 /* rms of S, the height of a rolling ball's geometric centre as it follows the ground (force/roll_centre.c), less its level (force/slope.h). A stiffness is no
    matter of how far the ball rolls, nor of how exactly that is worked out, so
 
-     - where the motion is short (ball_beyond) it goes straight on from its end in thought, and each part counts by the ground that it goes over. Where that
+     - where the motion is short (ball_beyond) it goes on from its end in thought (force/roll_pass.c), and each part counts by the ground that it goes over. Where that
        cannot be enough, as under a long contact.leak, the render says how uncertain the stiffness is;
      - the ground is read as accuracy.tip_heights: 1 has it, in a pass of its own where that is another: the same to the bit in every preset. */
 #include "force/roll_deviation.h"
@@ -37,31 +37,34 @@ static double spread_both(const struct roll_spread s[2], const double ground[2])
     return sqrt(sum / all);
 }
 
-/* At the starts of grains: heights, and two lifts. */
+/* At the starts of grains: heights, and lifts. */
 struct stretch {
-    double *of[3];
+    double *of[1 + SLOPE_LEVELS];
     long n;
+    int levels;
 };
 
-static struct stretch stretch_make(struct arena *a, long n)
+static struct stretch stretch_make(struct arena *a, long n, int levels)
 {
-    return (struct stretch){{ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n)}, n};
+    struct stretch s = {.n = n, .levels = levels};
+    for (int k = 0; k <= levels; k++)
+        s.of[k] = ARENA_TAKE(a, double, n);
+    return s;
 }
 
-static struct roll_spread stretch_spread(const struct stretch *s, const double level[2])
+static struct roll_spread stretch_spread(const struct stretch *s, const double *level)
 {
-    roll_centre_level(s->of[0], s->n, (const double *const[]){s->of[1], s->of[2]}, level);
+    roll_centre_level(s->of[0], s->n, s->levels, s->of + 1, level);
     return roll_deviation_spread(s->of[0], s->n);
 }
 
 static double deviation_after(struct roll_pass *p, double beyond, double normal, struct arena *a)
 {
-    double level[2], ground[2] = {trajectory_ground(p->board.trajectory), beyond};
+    double level[SLOPE_LEVELS], ground[2] = {trajectory_ground(p->board.trajectory), beyond};
     long n = (long)ceil(beyond / roll_pass_grain(p->run.contact));
-    struct stretch motion = stretch_make(a, p->n), on = stretch_make(a, n);
-    const double *const from[3] = {p->at[0], p->lift[0][0], p->lift[0][1]};
-    for (int k = 0; k < 3; k++)
-        memcpy(motion.of[k], from[k], (size_t)p->n * sizeof *from[k]);
+    struct stretch motion = stretch_make(a, p->n, p->slope.levels), on = stretch_make(a, n, p->slope.levels);
+    for (int k = 0; k <= p->slope.levels; k++)
+        memcpy(motion.of[k], k == 0 ? p->at[0] : p->lift[0][k - 1], (size_t)p->n * sizeof(double));
     if (n > 0 && !roll_pass_beyond(p, n, beyond / (double)n, normal, on.of))
         n = 0;
     slope_level(&p->slope, level);

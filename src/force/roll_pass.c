@@ -7,8 +7,10 @@
    Of a motion of more than ROLL_PASS_MOST grains one in every `stride` is kept, at a place among them that goes by the golden ratio, so that nothing that
    repeats itself falls in step with it.
 
-   Beyond its end the motion goes straight on as it last went, over the ground that is there: what is procedural has no end, and a map goes on by
-   surface.off_map, for `error` as for `mirror`. */
+   Beyond its end a straight motion goes straight on as it last went. One on a curved or cornered way goes on in HEADINGS straight stretches, in the directions
+   that it had at as many instants and each in proportion to its speed there: over ridges or along a grain the ground depends on the direction, and that in
+   which the motion happens to end is none of the stiffness's business. The ground is the one that is there: what is procedural has no end, and a map goes on
+   by surface.off_map, for `error` as for `mirror`. */
 #include "force/roll_pass.h"
 
 #include <math.h>
@@ -20,7 +22,9 @@
 
 extern const struct stage trajectory_stage, load_stage, limiter_stage, tip_stage;
 
-enum { HALVINGS = 20 };
+enum { HALVINGS = 20, HEADINGS = 8 };
+
+#define GOLDEN 0.6180339887498949
 
 /* ------------------------------------------------------------------ grains */
 
@@ -39,7 +43,7 @@ double roll_pass_rate(const struct contact *c, double duration, double speed)
 
 static long pass_pick(const struct roll_pass *p, long group)
 {
-    double place = (double)group * 0.6180339887498949;
+    double place = (double)group * GOLDEN;
     return group * p->stride + (long)((double)p->stride * (place - floor(place)));
 }
 
@@ -73,8 +77,8 @@ static void pass_room(struct roll_pass *p, struct arena *a)
     long room = p->grains / p->stride + 1;
     for (int k = 0; k < 2; k++) {
         p->at[k] = ARENA_TAKE(a, double, room);
-        p->lift[k][0] = ARENA_TAKE(a, double, room);
-        p->lift[k][1] = ARENA_TAKE(a, double, room);
+        for (int j = 0; j < p->slope.levels; j++)
+            p->lift[k][j] = ARENA_TAKE(a, double, room);
         p->load[k] = p->board.load ? ARENA_TAKE(a, double, room) : NULL;
     }
 }
@@ -82,10 +86,12 @@ static void pass_room(struct roll_pass *p, struct arena *a)
 bool roll_pass_make(struct roll_pass *p, const struct stage_run *r, struct arena *a, struct err *e)
 {
     pass_board(p, r, a);
-    pass_room(p, a);
     p->slope.rising = true;
     p->centre = roll_centre_make(r->contact);
-    return slope_make(&p->slope, &p->run, e);
+    if (!slope_make(&p->slope, &p->run, e))
+        return false;
+    pass_room(p, a);
+    return true;
 }
 
 /* The tip is laid over the bare ground once more. */
@@ -128,8 +134,8 @@ static void pass_keep(struct roll_pass *p, long first, int n)
     for (; p->next < first + n; p->next = pass_pick(p, ++p->n))
         for (long k = 0, i = p->next - first; k < 2; k++) {
             p->at[k][p->n] = p->centre.at[i + k];
-            p->lift[k][0][p->n] = p->centre.lifts[0][i + k];
-            p->lift[k][1][p->n] = p->centre.lifts[1][i + k];
+            for (int j = 0; j < p->slope.levels; j++)
+                p->lift[k][j][p->n] = p->centre.lifts[j][i + k];
             if (load)
                 p->load[k][p->n] = load[i + k];
         }
@@ -151,28 +157,73 @@ bool roll_pass_motion(struct roll_pass *p, struct err *e)
 
 /* ------------------------------------------------------------------ beyond */
 
-struct pass_end {
-    double u, x, y, heading, ex, ey;    /* heading: +1, -1 */
+struct pass_on {
+    double u, heading;              /* heading: +1, -1 */
+    int n;                          /* stretches       */
+    double ex[HEADINGS], ey[HEADINGS], share[HEADINGS];
+    double x[HEADINGS], y[HEADINGS]; /* m, where each begins, */
+    long first[HEADINGS + 1];        /* and its first grain   */
 };
 
 /* Where the motion ends, and which way it went there: by the last instant, of those that halve what is left, from which it went on by 1 um. */
-static bool pass_end(const struct trajectory *tr, struct pass_end *end)
+static bool pass_end(const struct trajectory *tr, struct pass_on *on)
 {
     double t = tr->duration, u, x, y;
-    trajectory_at(tr, 1, &t, (struct trajectory_out){.u = &end->u, .x = &end->x, .y = &end->y});
+    trajectory_at(tr, 1, &t, (struct trajectory_out){.u = &on->u, .x = &on->x[0], .y = &on->y[0]});
     double left = tr->duration / (1 << HALVINGS);
     for (int k = HALVINGS; k >= 0; k--, left *= 2) {
         t = tr->duration - left;
         trajectory_at(tr, 1, &t, (struct trajectory_out){.u = &u, .x = &x, .y = &y});
-        double chord = sqrt((end->x - x) * (end->x - x) + (end->y - y) * (end->y - y));
-        if (fabs(end->u - u) < 1e-6 || chord < 1e-6)
+        double chord = sqrt((on->x[0] - x) * (on->x[0] - x) + (on->y[0] - y) * (on->y[0] - y));
+        if (fabs(on->u - u) < 1e-6 || chord < 1e-6)
             continue;
-        end->heading = end->u > u ? 1 : -1;
-        end->ex = (end->x - x) / chord;
-        end->ey = (end->y - y) / chord;
+        on->heading = on->u > u ? 1 : -1;
+        on->n = 1;
+        on->ex[0] = (on->x[0] - x) / chord;
+        on->ey[0] = (on->y[0] - y) / chord;
+        on->share[0] = 1;
         return true;
     }
     return false;
+}
+
+/* The directions of a motion on a curved way. One that rests at all these instants keeps the one that it ended in. */
+static void pass_headings(const struct trajectory *tr, struct pass_on *on)
+{
+    double ex[HEADINGS], ey[HEADINGS], speed[HEADINGS], all = 0;
+    int n = 0;
+    for (int k = 0; k < HEADINGS; k++) {
+        double place = (k + 0.5) * GOLDEN, t = (place - floor(place)) * tr->duration, vx, vy;
+        trajectory_at(tr, 1, &t, (struct trajectory_out){.vx = &vx, .vy = &vy});
+        speed[n] = sqrt(vx * vx + vy * vy);
+        if (!(speed[n] > 1e-6 * tr->top_speed))
+            continue;
+        ex[n] = vx / speed[n];
+        ey[n] = vy / speed[n];
+        all += speed[n++];
+    }
+    for (int k = 0; k < n; k++) {
+        on->ex[k] = ex[k];
+        on->ey[k] = ey[k];
+        on->share[k] = speed[k] / all;
+    }
+    on->n = n > 0 ? n : on->n;
+}
+
+/* n grains of `step` m in whole stretches. */
+static void pass_stretches(struct pass_on *on, long n, double step)
+{
+    double share = 0;
+    on->first[0] = 0;
+    for (int k = 0; k < on->n; k++) {
+        share += on->share[k];
+        on->first[k + 1] = k + 1 < on->n ? lrint(share * (double)n) : n;
+        double way = (double)(on->first[k + 1] - on->first[k]) * step;
+        if (k + 1 == on->n)
+            break;
+        on->x[k + 1] = on->x[k] + on->ex[k] * way;
+        on->y[k + 1] = on->y[k] + on->ey[k] * way;
+    }
 }
 
 static void pass_put(struct board *b, enum item item, long i, double value)
@@ -181,43 +232,50 @@ static void pass_put(struct board *b, enum item item, long i, double value)
         *board_at(b, item, i) = value;
 }
 
-/* The ends of grains [from, to), `step` m each: the motion goes on at its top speed, so that nothing that goes by speed takes it to be at rest. */
-static void pass_lay(struct roll_pass *p, const struct pass_end *end, long from, long to, double step)
+/* The ends of grains [from, to), `step` m each: the motion goes on at its top speed, so that nothing that goes by speed takes it to be at rest. At a corner
+   it rests, and so has the direction of either side (force/way.c). */
+static void pass_lay(struct roll_pass *p, const struct pass_on *on, long from, long to, double step)
 {
     struct board *b = &p->board;
     double top = b->trajectory->top_speed;
+    int k = 0;
     for (int i = 0; i < ITEM_COUNT; i++)
         b->signals[i].first = from;
     for (long i = from; i <= to; i++) {
-        double way = (double)i * step;
-        pass_put(b, ITEM_POSITION, i, end->u + end->heading * way);
-        pass_put(b, ITEM_VELOCITY, i, end->heading * top);
-        pass_put(b, ITEM_X, i, end->x + end->ex * way);
-        pass_put(b, ITEM_Y, i, end->y + end->ey * way);
-        pass_put(b, ITEM_VX, i, end->ex * top);
-        pass_put(b, ITEM_VY, i, end->ey * top);
+        while (k + 1 < on->n && i >= on->first[k + 1])
+            k++;
+        double way = (double)(i - on->first[k]) * step, speed = k > 0 && i == on->first[k] ? 0 : top;
+        pass_put(b, ITEM_POSITION, i, on->u + on->heading * (double)i * step);
+        pass_put(b, ITEM_VELOCITY, i, on->heading * top);
+        pass_put(b, ITEM_X, i, on->x[k] + on->ex[k] * way);
+        pass_put(b, ITEM_Y, i, on->y[k] + on->ey[k] * way);
+        pass_put(b, ITEM_VX, i, on->ex[k] * speed);
+        pass_put(b, ITEM_VY, i, on->ey[k] * speed);
     }
 }
 
-bool roll_pass_beyond(struct roll_pass *p, long n, double step, double normal, double *const to[3])
+bool roll_pass_beyond(struct roll_pass *p, long n, double step, double normal, double *const to[1 + SLOPE_LEVELS])
 {
-    struct pass_end end;
+    struct pass_on on;
     double alpha;
-    if (!pass_end(p->board.trajectory, &end))
+    if (!pass_end(p->board.trajectory, &on))
         return false;
+    if (p->slope.way.curved)
+        pass_headings(p->board.trajectory, &on);
+    pass_stretches(&on, n, step);
     if (p->board.limiter)
         limiter_alpha(p->board.limiter, 1, &normal, &alpha);
     for (int i = 0; i <= WAY_CHUNK && p->board.limiter; i++)
         p->board.signals[ITEM_ALPHA].x[i] = alpha;
     for (long from = 0; from < n;) {
         int some = way_some(from, n);
-        pass_lay(p, &end, from, from + some, step);
+        pass_lay(p, &on, from, from + some, step);
         slope_run(&p->slope, &p->run, from, some);
         roll_centre_follow(&p->centre, &p->slope, some);
         for (int i = 0; i < some; i++) {
             to[0][from + i] = p->centre.at[i];
-            to[1][from + i] = p->centre.lifts[0][i];
-            to[2][from + i] = p->centre.lifts[1][i];
+            for (int k = 0; k < p->slope.levels; k++)
+                to[1 + k][from + i] = p->centre.lifts[k][i];
         }
         from += some;
     }

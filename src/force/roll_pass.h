@@ -4,14 +4,14 @@
 #include "force/roll_centre.h"
 #include "stage.h"
 
-enum { ROLL_PASS_RATE = 48000, ROLL_PASS_MOST = 1 << 20 }; /* Hz, least grains per second; grains kept, 96 MB at most while it lasts */
+enum { ROLL_PASS_RATE = 48000, ROLL_PASS_MOST = 1 << 20 }; /* Hz, least grains per second; grains kept, 144 MB at most while it lasts */
 
 struct roll_pass {
     struct stage_run run;           /* the rolling stage's, on the board below */
     struct board board;
     struct slope slope;
     struct roll_centre centre;
-    double *at[2], *lift[2][2];     /* m, m^2, at the start and the end of each kept grain (force/roll_centre.h) */
+    double *at[2], *lift[2][SLOPE_LEVELS];     /* m, m^2, at the start and the end of each kept grain (force/roll_centre.h) */
     double *load[2];                /* N; NULL: constant                                                         */
     long grains, stride, next, n;   /* in all; one of so many is kept; which is the next; kept                   */
 };
@@ -31,8 +31,8 @@ bool roll_pass_plain(struct roll_pass *p, struct err *e);
 /* Goes the whole motion. */
 bool roll_pass_motion(struct roll_pass *p, struct err *e);
 
-/* Then, straight on from where the motion ended, n grains of `step` m under the normal force `normal` (N): to at[n], lift[0..1][n] at their starts. False:
+/* Then, on from where the motion ended, n grains of `step` m under the normal force `normal` (N): to at[n], lifts[n] at their starts. False:
    the motion goes nowhere. */
-bool roll_pass_beyond(struct roll_pass *p, long n, double step, double normal, double *const to[3]);
+bool roll_pass_beyond(struct roll_pass *p, long n, double step, double normal, double *const to[1 + SLOPE_LEVELS]);
 
 #endif

@@ -127,7 +127,7 @@ static bool rehearsal_settle(struct roll_pass *p, const struct stage_run *r, str
     if (!rehearsal_stiffness(p, r, l, found, e))
         return false;
     for (int k = 0; k < 2; k++)
-        roll_centre_level(p->at[k], p->n, (const double *const[]){p->lift[k][0], p->lift[k][1]}, found->level);
+        roll_centre_level(p->at[k], p->n, p->slope.levels, p->lift[k], found->level);
     struct roll_spread spread = roll_deviation_spread(p->at[0], p->n);
     found->mean = spread.mean;
     found->deviation = isnan(found->deviation) ? sqrt(spread.square) : found->deviation;

@@ -2,6 +2,7 @@
 #ifndef FORCE_ROLL_REHEARSAL_H
 #define FORCE_ROLL_REHEARSAL_H
 #include "force/roll_law.h"
+#include "force/slope.h"
 #include "stage.h"
 
 struct roll_rehearsal {
@@ -10,7 +11,7 @@ struct roll_rehearsal {
     double base;        /* m, rho_0                                                    */
     double deviation;   /* m, rms of S about its mean, of the ground that k is made from */
     double mean;        /* m, mean of S over the motion                                */
-    double level[2];    /* 1/m, of the limited curvature, taken out of the height (force/slope.h) */
+    double level[SLOPE_LEVELS]; /* 1/m, of the limited curvature, taken out of the height (force/slope.h) */
 };
 
 /* Settles l->stiffness, where it is NAN, as k = N / (static_depth rms)^1.5, and base such that over the motion the mean of the force is N to 1e-9;

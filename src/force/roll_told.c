@@ -34,14 +34,16 @@ static void told_lobes(struct stage_run *r, const struct roll_rehearsal *found)
                                           "that they make is too large: take contact.model: roll_coupled, fewer ball.lobes, or a slower motion", c->name, lobes, own));
 }
 
-/* Equation 7 goes by the extremes of N(t), however near to each other. */
+/* Equation 7 goes by the extremes of N(t), however near to each other: as N(t) swings less and less alpha, and a stiffness that is made from the ground under
+   that alpha, do not come near to those of a constant force. The paper has the extremes, and so it stays; force_range makes both continuous. */
 static void told_alpha(struct stage_run *r)
 {
     const struct load_law *l = r->board->load;
     const struct contact *c = r->contact;
     if (r->board->limiter && r->board->limiter->varies && isnan(c->contact.limiter.force_range[0]) && l->most - l->least < SLIGHT * l->most)
         board_warn(r->board, arena_format(r->arena, "contact '%s': the normal force swings by %.2g %% only, from %.6g to %.6g N, and contact.limiter goes from alpha_max to alpha_min "
-                                          "by it; give contact.limiter.force_range, for alpha to go by newtons", c->name, 100 * (1 - l->least / l->most), l->least, l->most));
+                                          "by it%s; give contact.limiter.force_range, for alpha to go by newtons", c->name, 100 * (1 - l->least / l->most), l->least, l->most,
+                                          isnan(ball_stiffness(c)) ? ", and the stiffness with it, away from what both are under a constant force" : ""));
 }
 
 static void told_weightless(struct stage_run *r)

@@ -33,14 +33,15 @@ struct missing {
     const char *contact, *key; /* of the first */
 };
 
-/* The place of the first is told with the whole (scene_places_tell), those of the others here. */
+/* The place of the first is told with the whole (scene_places_tell), those of the others here. What names a file is given: it has a place. */
 static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
     const char *why = file && !may_be_folder(key, file) ? why_unreadable(file) : NULL;
     if (!why)
         return;
-    const char *between = m->key ? arena_format(m->arena, "; %s: ", scene_places_text(m->scene, contact, key, m->arena)) : "";
-    m->text = arena_format(m->arena, "%s%s%s: %s: %s", m->text, between, key, file, why);
+    const struct scene_place *p = scene_places_find(m->scene, contact, key, file);
+    const char *between = m->key ? arena_format(m->arena, "; %s: ", scene_places_text(m->scene, p, m->arena)) : "";
+    m->text = arena_format(m->arena, "%s%s%s: %s: %s%s", m->text, between, p ? p->label : key, file, why, p ? p->named : "");
     m->contact = m->key ? m->contact : contact;
     m->key = m->key ? m->key : key;
 }

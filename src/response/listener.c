@@ -153,6 +153,20 @@ struct listener *listener_make(struct arena *a, const struct listener_ask *ask, 
     return set_radiator(l, ask, m, a, e) ? l : NULL;
 }
 
+double listener_cost(const struct output *o, const struct modes *m, const double *origin)
+{
+    const struct listen *air = &o->listen;
+    struct arena *a = arena_open();
+    double cycles = 0;
+    for (int k = 0; k < air->n_places && air->given && air->radiator == RADIATOR_PLATE && m->object && m->object->flat; k++) {
+        const double *at = air->places + 3 * k;
+        cycles += radiator_plate_cost(&(struct radiator_plate){.modes = m, .object = m->object, .origin = {origin[0], origin[1]}, .place = {at[0], at[1], at[2]},
+                                                               .density = air->density, .sound_speed = air->sound_speed}, a);
+    }
+    arena_close(a);
+    return cycles;
+}
+
 int listener_extra(const struct listener *l)
 {
     return l->extra;

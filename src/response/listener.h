@@ -38,6 +38,9 @@ bool listener_place(const struct listener_ask *ask, const struct object *o, stru
    stay as they are while the listener is used. */
 struct listener *listener_make(struct arena *a, const struct listener_ask *ask, const struct modes *m, struct err *e);
 
+/* CPU cycles that listener_make takes for all channels, about, but for those too few to count: a plate's. origin: as in the ask. */
+double listener_cost(const struct output *o, const struct modes *m, const double *origin);
+
 /* How many components it adds behind the modes' own (0 or 1: a radiator's own pole). */
 int listener_extra(const struct listener *l);
 /* What it gives: enum modes_quantity. */

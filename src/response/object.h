@@ -20,6 +20,7 @@ struct object {
     bool flat;                  /* has an area of shapes in the plane: plate, disk, membrane, drum        */
     /* Mode shapes [n] at a place (m, the object's coordinates); returns how far (m) off the object it lies: there the nearest place counts. */
     double (*shapes)(const struct object *, double x, double y, double *phi);
+    double terms;               /* products that `shapes` sums up at a place (Rayleigh-Ritz); else 0      */
     const void *self;
 };
 

@@ -314,8 +314,11 @@ void object_plate_ritz_bind(struct arena *a, struct object *o)
     t->y = r->y.functions;
     t->nx = r->x.n;
     t->ny = r->y.n;
-    for (int i = 0; i < CLASSES; i++)
+    o->terms = 0;
+    for (int i = 0; i < CLASSES; i++) {
         block_make(&t->block[i], &r->class[i], i, o, a);
+        o->terms += (double)t->block[i].n * t->block[i].modes;
+    }
     o->shapes = shapes;
     object_keep_table(o, a, t);
 }

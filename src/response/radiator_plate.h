@@ -27,4 +27,7 @@ double radiator_plate_distance(const struct object *o, const double origin[2], c
    ERR_NUMBERS: a mode vanishes at the reference, or the integral does not settle. */
 bool radiator_plate(const struct radiator_plate *p, struct arena *a, double *re, double *im, struct err *e);
 
+/* CPU cycles that this takes, about, with what comes before it (radiator_plate_reference); of the modes only n and frequency count; reference does not. */
+double radiator_plate_cost(const struct radiator_plate *p, struct arena *a);
+
 #endif

@@ -351,8 +351,9 @@ struct scene_place {        /* where a key that is given stands: scene/scene_pla
     const char *contact;    /* its name; NULL: the key is the scene's own                        */
     const char *key;        /* "surface.response"                                                */
     const char *label;      /* as messages call it: "contacts.rod.surface.response"              */
-    const char *value;      /* of a key that names a file: its path; else NULL                   */
+    const char *value;      /* of a key that names a file: its path, as messages show it; else NULL */
     const char *file;       /* "scene.yaml", or "--set surface.response" with line 0             */
+    const char *named;      /* " (named at scene.yaml:4:12)" of a file that the scene names; ""  */
     int line, column;       /* of the value; of a section, of its name                           */
     struct scene_place *next;
 };

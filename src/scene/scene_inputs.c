@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "scene/scene_merge.h"
+#include "scene/scene_places.h"
 #include "scene/scene_values.h"
 
 static const char CURE[] = "write: - {file: modes.csv, sha256: 64 hexadecimal digits}";
@@ -13,11 +14,17 @@ static bool is_sha256(const char *s)
     return strlen(s) == 64 && s[strspn(s, "0123456789abcdef")] == '\0';
 }
 
-static void item_read(struct yaml *y, const struct yaml_node *item, struct input *input)
+static void file_read(struct yaml *y, const struct yaml_node *item, struct scene *s, struct input *input)
+{
+    input->file = scene_merge_path(y, item->at.source, item->text);
+    scene_places_input(y, input->file, &item->at, s);
+}
+
+static void item_read(struct yaml *y, const struct yaml_node *item, struct scene *s, struct input *input)
 {
     bool text = item->kind == YAML_SCALAR && *item->text;
     if (strcmp(item->key->text, "file") == 0 && text)
-        input->file = scene_merge_path(y, item->at.source, item->text);
+        file_read(y, item, s, input);
     else if (strcmp(item->key->text, "file") == 0)
         diag_add(y->diag, item->at, CURE, "file must be a file name, not %s", scene_values_kind(y, item));
     else if (strcmp(item->key->text, "sha256") != 0)
@@ -28,14 +35,14 @@ static void item_read(struct yaml *y, const struct yaml_node *item, struct input
         diag_add(y->diag, item->at, CURE, "sha256 must be 64 hexadecimal digits in lower case, not %s", scene_values_kind(y, item));
 }
 
-static void entry_read(struct yaml *y, const struct yaml_node *entry, struct input *input)
+static void entry_read(struct yaml *y, const struct yaml_node *entry, struct scene *s, struct input *input)
 {
     if (entry->kind != YAML_MAP) {
         diag_add(y->diag, entry->at, CURE, "an entry of inputs must be a map of keys, not %s", scene_values_kind(y, entry));
         return;
     }
     for (const struct yaml_node *item = entry->first; item; item = item->next)
-        item_read(y, item, input);
+        item_read(y, item, s, input);
     if (!yaml_get(entry, "file"))
         diag_add(y->diag, entry->at, CURE, "an entry of inputs has no file");
 }
@@ -50,5 +57,5 @@ void scene_inputs_read(struct yaml *y, const struct yaml_node *list, struct scen
     }
     s->inputs = ARENA_TAKE(y->arena, struct input, list->n);
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next)
-        entry_read(y, entry, &s->inputs[s->n_inputs++]);
+        entry_read(y, entry, s, &s->inputs[s->n_inputs++]);
 }

@@ -20,7 +20,7 @@ struct chain { /* the files that are being included, innermost first */
 
 const char *scene_merge_path(struct yaml *y, const struct diag_source *source, const char *name)
 {
-    const char *slash = source->option || name[0] == '/' ? NULL : strrchr(source->name, '/');
+    const char *slash = source->option || source->made || name[0] == '/' ? NULL : strrchr(source->name, '/');
     return slash ? arena_format(y->arena, "%.*s/%s", (int)(slash - source->name), source->name, name) : name;
 }
 

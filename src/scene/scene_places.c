@@ -1,53 +1,92 @@
 /* See scene_places.h. What reads a file knows its path and not who named it, and begins its messages with the path (after "contact 'rod': ", say): so the
-   longest path of a key that stands at the beginning of a part of the text, between colons, is what the error is about; also that of a folder, of a file in it. */
+   longest path of a key that stands at the beginning of a part of the text, between colons, is what the error is about; also that of a folder, of a file in it.
+   Stages begin theirs with a contact's name and a key: "contact 'rod': surface.moving: ...". */
 #include "scene/scene_places.h"
 
+#include <stdio.h>
 #include <string.h>
 
-static const char *value_of(const struct scene_part *p, const struct key *k)
+#include "base/text.h"
+
+enum { KEY_MAX = 128 };
+
+/* ------------------------------------------------------------------ noting */
+
+struct list {
+    struct yaml *yaml;
+    const char *contact, *prefix;
+    struct scene_place **end;
+};
+
+static struct list list_of(struct yaml *y, struct scene *s)
+{
+    struct list l = {.yaml = y, .prefix = "", .end = &s->places};
+    while (*l.end)
+        l.end = &(*l.end)->next;
+    return l;
+}
+
+static void add(struct list *l, const char *key, const char *file, const struct diag_place *at)
+{
+    struct arena *a = l->yaml->arena;
+    struct scene_place *p = ARENA_TAKE(a, struct scene_place, 1);
+    *p = (struct scene_place){.contact = l->contact, .key = key, .label = arena_format(a, "%s%s", l->prefix, key), .file = at->source->name,
+                              .value = file ? text_shown(a, file) : NULL, .named = diag_named(a, at->source), .column = at->column,
+                              .line = at->source->option || at->source->made ? 0 : at->line};
+    *l->end = p;
+    l->end = &p->next;
+}
+
+static const char *file_of(const struct scene_part *p, const struct key *k)
 {
     return k->type == KEY_FILE ? *(const char **)((char *)p->to + k->offset) : NULL;
 }
 
-static struct scene_place **add(const struct scene_part *p, const struct scene_place *what, const struct diag_place *at, struct scene_place **last)
+static bool in_same_map(const struct key *k, const char *path, size_t n)
 {
-    *last = ARENA_TAKE(p->yaml->arena, struct scene_place, 1);
-    **last = *what;
-    (*last)->label = scene_part_label(p, what->key);
-    (*last)->file = at->source->name;
-    (*last)->line = at->source->option ? 0 : at->line;
-    (*last)->column = at->column;
-    return &(*last)->next;
+    return k && strncmp(k->path, path, n) == 0 && k->path[n] == '.';
+}
+
+/* The maps in which the key stands and the one before it does not. */
+static void note_maps(const struct scene_part *p, struct list *l, const struct key *before, const struct key *k)
+{
+    for (const char *dot = strchr(k->path, '.'); dot; dot = strchr(dot + 1, '.')) {
+        size_t n = (size_t)(dot - k->path);
+        const char *path = in_same_map(before, k->path, n) ? NULL : arena_format(p->yaml->arena, "%.*s", (int)n, k->path);
+        const struct yaml_node *node = path ? yaml_find(p->map, path) : NULL;
+        if (node && node->key && node->key->at.source)
+            add(l, path, NULL, &node->key->at);
+    }
 }
 
 void scene_places_note(const struct scene_part *p, const char *contact, struct scene *s)
 {
-    struct scene_place **last = &s->places;
-    while (*last)
-        last = &(*last)->next;
+    struct list l = list_of(p->yaml, s);
+    const struct key *before = NULL;
+    l.contact = contact;
+    l.prefix = p->prefix;
     for (const struct key *k = keys_table; k->path; k++) {
-        const struct yaml_node *node = k->of == p->of ? yaml_find(p->map, k->path) : NULL;
+        if (k->of != p->of)
+            continue;
+        const struct yaml_node *node = yaml_find(p->map, k->path);
+        note_maps(p, &l, before, k);
         if (node && node->at.source)
-            last = add(p, &(struct scene_place){.contact = contact, .key = k->path, .value = value_of(p, k)}, &node->at, last);
-    }
-    for (const struct key_section *k = keys_sections; k->path; k++) {
-        const struct yaml_node *node = k->of == p->of ? yaml_find(p->map, k->path) : NULL;
-        if (node && node->key && node->key->at.source)
-            last = add(p, &(struct scene_place){.contact = contact, .key = k->path}, &node->key->at, last);
+            add(&l, k->path, file_of(p, k), &node->at);
+        before = k;
     }
 }
+
+void scene_places_input(struct yaml *y, const char *file, const struct diag_place *at, struct scene *s)
+{
+    struct list l = list_of(y, s);
+    add(&l, "inputs", file, at);
+}
+
+/* ------------------------------------------------------------------ finding */
 
 static bool same(const char *a, const char *b)
 {
     return a == b || (a && b && strcmp(a, b) == 0);
-}
-
-static const struct scene_place *find(const struct scene *s, const char *contact, const char *key)
-{
-    for (const struct scene_place *p = s->places; p; p = p->next)
-        if (same(p->contact, contact) && same(p->key, key))
-            return p;
-    return NULL;
 }
 
 /* Does the text, or a part of it after ": ", begin with the path? */
@@ -60,7 +99,41 @@ static bool begins(const char *text, const char *path)
     return false;
 }
 
-static const struct scene_place *named(const struct scene *s, const char *text)
+/* A key's place; of several (inputs), that of the file with which the text begins. */
+static const struct scene_place *find(const struct scene *s, const char *contact, const char *key, const char *text)
+{
+    const struct scene_place *first = NULL;
+    for (const struct scene_place *p = s->places; p; p = p->next) {
+        if (!same(p->contact, contact) || strcmp(p->key, key) != 0)
+            continue;
+        if (text && p->value && begins(text, p->value))
+            return p;
+        first = first ? first : p;
+    }
+    return first;
+}
+
+const struct scene_place *scene_places_find(const struct scene *s, const char *contact, const char *key, const char *file)
+{
+    char shown[sizeof((struct err *)0)->text];
+    text_show(file, shown, sizeof shown);
+    return find(s, contact, key, shown);
+}
+
+/* Of a key that is not given, the place of the section in which it would stand. */
+static const struct scene_place *nearest(const struct scene *s, const char *contact, const char *key, const char *text)
+{
+    const struct scene_place *p = find(s, contact, key, text);
+    char path[KEY_MAX];
+    snprintf(path, sizeof path, "%s", key);
+    for (char *dot = strrchr(path, '.'); dot && !p; dot = strrchr(path, '.')) {
+        *dot = '\0';
+        p = find(s, contact, path, NULL);
+    }
+    return p;
+}
+
+static const struct scene_place *by_file(const struct scene *s, const char *text)
 {
     const struct scene_place *best = NULL;
     for (const struct scene_place *p = s->places; p; p = p->next)
@@ -69,27 +142,109 @@ static const struct scene_place *named(const struct scene *s, const char *text)
     return best;
 }
 
-static const char *place_text(const struct scene *s, const struct scene_place *p, struct arena *a)
+/* Of "contact 'NAME': rest" the contact, and the rest; NULL: it does not begin so. */
+static const struct contact *contact_of(const struct scene *s, const char *text, const char **rest)
+{
+    static const char head[] = "contact '";
+    size_t m = strlen(head);
+    *rest = text;
+    if (strncmp(text, head, m) != 0)
+        return NULL;
+    for (int i = 0; i < s->n_contacts; i++) {
+        const char *name = s->contacts[i].name;
+        size_t n = name ? strlen(name) : 0;
+        if (name && strncmp(text + m, name, n) == 0 && strncmp(text + m + n, "': ", 3) == 0) {
+            *rest = text + m + n + 3;
+            return &s->contacts[i];
+        }
+    }
+    return NULL;
+}
+
+static bool has_key(const struct key *k, const char *path)
+{
+    return strcmp(k->path, path) == 0 || in_same_map(k, path, strlen(path));
+}
+
+/* The key, or section, with whose name the text begins, into path; "": there is none. Of whom it is, is what is returned. A word without a dot may be any
+   word ("contact 'rod', ..."), unless a colon follows. */
+static enum key_struct leading_key(const char *text, char path[KEY_MAX])
+{
+    size_t n = strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_.");
+    bool may_be = n < KEY_MAX && (text[n] == ':' || memchr(text, '.', n));
+    snprintf(path, KEY_MAX, "%.*s", may_be ? (int)n : 0, text);
+    for (const struct key *k = keys_table; k->path && *path; k++)
+        if (has_key(k, path))
+            return k->of;
+    *path = '\0';
+    return KEY_SCENE;
+}
+
+/* What the text itself says that it is about: its file, or its key. */
+static const struct scene_place *by_text(const struct scene *s, const char *text)
+{
+    const char *rest;
+    char path[KEY_MAX];
+    const struct contact *c = contact_of(s, text, &rest);
+    const struct scene_place *file = by_file(s, text);
+    bool contacts = leading_key(rest, path) == KEY_CONTACT;
+    if (file || !*path)
+        return file;
+    c = c || s->n_contacts != 1 ? c : s->contacts;
+    return contacts && !c ? NULL : nearest(s, contacts ? c->name : NULL, path, text);
+}
+
+/* ------------------------------------------------------------------ telling */
+
+const char *scene_places_text(const struct scene *s, const struct scene_place *p, struct arena *a)
 {
     if (!p)
         return s->file;
     const char *where = p->line > 0 ? arena_format(a, "%s:%d:%d", p->file, p->line, p->column) : p->file;
-    return strcmp(p->file, s->file) == 0 ? where : arena_format(a, "%s: %s", s->file, where);
+    return p->line > 0 || strcmp(p->file, s->file) == 0 ? where : arena_format(a, "%s: %s", s->file, where);
 }
 
-const char *scene_places_text(const struct scene *s, const char *contact, const char *key, struct arena *a)
+/* What stands before a contact's keys in messages: "contacts.rod.", or "". */
+static const char *prefix_of(const struct scene *s, const char *contact, struct arena *a)
 {
-    return place_text(s, find(s, contact, key), a);
+    for (const struct scene_place *p = s->places; p && contact; p = p->next)
+        if (same(p->contact, contact))
+            return arena_format(a, "%.*s", (int)(strlen(p->label) - strlen(p->key)), p->label);
+    return "";
+}
+
+/* Of a scene with contacts: "contacts.rod.surface.moving: ..." for "contact 'rod': surface.moving: ...". */
+static const char *whole_keys(const struct scene *s, const char *contact, const char *text, struct arena *a)
+{
+    char path[KEY_MAX];
+    const char *rest;
+    const struct contact *c = contact_of(s, text, &rest);
+    const char *prefix = prefix_of(s, c ? c->name : contact, a);
+    bool key = leading_key(rest, path) == KEY_CONTACT && *path;
+    return *prefix && key ? arena_format(a, "%s%s", prefix, rest) : text;
+}
+
+/* The text, with the key that it is about before it where it does not name it. */
+static const char *labelled(const struct scene *s, const struct scene_place *p, const char *text, struct arena *a)
+{
+    const char *rest = text;
+    if (strstr(text, p->label))
+        return text;
+    if (strcmp(p->label, p->key) != 0)
+        contact_of(s, text, &rest);
+    return arena_format(a, "%s: %s", p->label, rest);
 }
 
 bool scene_places_tell(const struct scene *s, struct err *e)
 {
     struct arena *a = arena_open();
-    const struct scene_place *p = e->key ? find(s, e->contact, e->key) : named(s, e->text);
-    const char *place = place_text(s, p, a);
-    if (p && !strstr(e->text, p->key) && !strstr(place, p->key))
-        err_at(e, "%s", p->label);
-    err_at(e, "%s", place);
+    struct err told = {.contact = e->contact, .key = e->key};
+    const struct scene_place *p = e->key ? nearest(s, e->contact, e->key, e->text) : by_text(s, e->text);
+    const char *place = scene_places_text(s, p, a), *text = whole_keys(s, p ? p->contact : e->contact, e->text, a);
+    if (p && (!e->key || strcmp(p->key, e->key) == 0))
+        text = labelled(s, p, text, a);
+    err_set(&told, e->kind, "%s: %s%s", place, text, p && !strstr(text, p->named) ? p->named : "");
+    *e = told;
     arena_close(a);
     return false;
 }

@@ -105,6 +105,16 @@ bool scene_read_text(const char *text, size_t n, const char *name, const struct 
     return finish(y, s, messages, e);
 }
 
+bool scene_read_made(const char *text, const char *name, const struct scene_overrides *over, struct arena *a, struct scene *s, const char **messages,
+                     struct err *e)
+{
+    struct yaml *y = yaml_open(a);
+    struct diag_source *source = yaml_source(y, arena_text(a, name), arena_text(a, text), strlen(text));
+    source->made = true;
+    source_read(y, source, over, s);
+    return finish(y, s, messages, e);
+}
+
 bool scene_read(const char *file, const struct scene_overrides *over, struct arena *a, struct scene *s, const char **messages,
                 struct err *e)
 {

@@ -25,4 +25,8 @@ bool scene_read(const char *file, const struct scene_overrides *over, struct are
 bool scene_read_text(const char *text, size_t n, const char *name, const struct scene_overrides *over, struct arena *a,
                      struct scene *s, const char **messages, struct err *e);
 
+/* The same of a text that the program made: messages show no line of it, and file names in it are seen from the current folder. */
+bool scene_read_made(const char *text, const char *name, const struct scene_overrides *over, struct arena *a, struct scene *s, const char **messages,
+                     struct err *e);
+
 #endif

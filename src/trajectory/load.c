@@ -171,7 +171,7 @@ static bool load_ends(const struct contact *c, const struct trajectory *tr, stru
     return l->approach + l->release <= tr->duration * (1 + 1e-9) ||
            err_set(e, ERR_SCENE,
                    "contact '%s': load.approach, %.4g s, and load.release, %.4g s%s, do not fit into the motion, which lasts %.4g s; give "
-                   "shorter ones",
+                   "shorter ones, or 0 s",
                    c->name, l->approach, l->release, isnan(c->load.approach) || isnan(c->load.release) ? " (auto)" : "", tr->duration);
 }
 

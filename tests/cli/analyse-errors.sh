@@ -38,4 +38,11 @@ printf '\223NUMPY\1\0v\0%-117s\n' '{"descr": "<f8", "fortran_order": False, "sha
 head -c 16 /dev/zero >> two.npy
 try rasp analyse two.npy
 try rasp analyse two.npy --rate 48000
+try rasp analyse force.csv --scale 1e-300
+try rasp analyse force.csv --scale 1e300
+awk -F, 'NR > 1 { $2 = -$2 } { print $1 "," $2 }' force.csv > below.csv
+awk -F, 'NR == 40 { $2 = "1e200" } { print $1 "," $2 "," $3 }' impacts.csv > beyond.csv
+awk -F, 'NR == 40 { $3 = "1e200" } { print $1 "," $2 "," $3 }' impacts.csv > endless.csv
+for file in below beyond endless; do try rasp analyse $file.csv; done
+rm below.csv beyond.csv endless.csv
 ls

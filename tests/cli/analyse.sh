@@ -35,3 +35,14 @@ rasp analyse signed.csv | grep modulation
 echo "-- outliers that leave the bulk normal"
 awk -F, 'NR > 1 && NR % 150 == 0 { $2 *= 1.25 } { print $1 "," $2 "," $3 }' impacts.csv > outliers.csv
 rasp analyse outliers.csv | grep -A 2 'has outliers'
+echo "-- amplitudes of 0, amplitudes below 0"
+awk -F, 'NR > 1 { $2 = 0 } { print $1 "," $2 "," $3 }' impacts.csv > nought.csv
+rasp analyse nought.csv | grep 'duration is known'
+awk -F, 'NR > 1 { $2 = -$2 } { print $1 "," $2 "," $3 }' impacts.csv > below.csv
+rasp analyse below.csv | grep exponential
+echo "-- a recording that clips"
+awk -F, 'NR > 1 && $2 > 0.8 { $2 = 0.8 } { print $1 "," $2 }' force.csv > clipped.csv
+rasp analyse clipped.csv | grep -A 1 'stands still'
+echo "-- impacts that keep to a beat: a zero on the circle"
+awk -F, 'NR > 1 { $1 = 0.01 * NR + 0.001 * sin(NR * NR) } { print $1 "," $2 "," $3 }' impacts.csv > beat.csv
+rasp analyse beat.csv | grep -E '^  (a1|b1)|intervals: a1'

@@ -185,6 +185,50 @@ static void sane(const double *x, int n)
     ck_assert(!isnan(f.covariance[0]) && f.covariance[0] >= 0 && !isnan(f.covariance[2]) && isfinite(f.mean_variance));
 }
 
+/* Times that keep to a beat, each off by itself: x_n = mean + j_(n+1) - j_n, a zero at -1. */
+START_TEST(test_beat)
+{
+    enum { N = 600, SEEDS = 60 };
+    double x[N], square = 0;
+    for (int seed = 1; seed <= SEEDS; seed++) {
+        gsl_rng *g = series_rng(700 + seed);
+        struct arma f;
+        double before = gsl_ran_gaussian(g, 0.1);
+        for (int i = 0; i < N; i++) {
+            double now = gsl_ran_gaussian(g, 0.1);
+            x[i] = 5 + now - before;
+            before = now;
+        }
+        arma_fit(x, N, &f);
+        double z = f.a1 / sqrt(f.covariance[0]);
+        ck_assert_msg(fabs(z) < 4 && f.covariance[0] < 0.01, "seed %d: a1 %g, %g errors off", seed, f.a1, z);
+        ck_assert_msg(f.b1 + 1 < 5 * sqrt(f.covariance[2]) && f.covariance[2] < 0.01, "seed %d: b1 %g +- %g", seed, f.b1, sqrt(f.covariance[2]));
+        square += z * z / SEEDS;
+        gsl_rng_free(g);
+    }
+    ck_assert_msg(square > 0.5 && square < 1.7, "mean square %g errors", square); /* chi-squared of 60 over 60: 0.53 to 1.66 but for 2 in 1000 */
+}
+END_TEST
+
+/* More values than those that tell where to start; and nothing happens in those. */
+START_TEST(test_many)
+{
+    enum { N = 60000, STILL = 25000 };
+    double *x = calloc(N, sizeof *x);
+    gsl_rng *g = series_rng(9);
+    struct arma f;
+    series_draw(g, 3, 0.04, -0.97, -0.34, x, N);
+    arma_fit(x, N, &f);
+    double z[2] = {(f.a1 + 0.97) / sqrt(f.covariance[0]), (f.b1 + 0.34) / sqrt(f.covariance[2])};
+    ck_assert_msg(fabs(z[0]) < 4 && fabs(z[1]) < 4 && sqrt(f.covariance[2]) < 0.006, "%g %g: %g %g errors off", f.a1, f.b1, z[0], z[1]);
+    for (int i = 0; i < STILL; i++)
+        x[i] = 3;
+    sane(x, N);
+    gsl_rng_free(g);
+    free(x);
+}
+END_TEST
+
 START_TEST(test_odd_series)
 {
     enum { N = 200 };
@@ -226,4 +270,4 @@ START_TEST(test_odd_series)
 }
 END_TEST
 
-UNIT("arma", test_whitens, test_likelihood, test_recovers, test_white, test_odd_series)
+UNIT("arma", test_whitens, test_likelihood, test_recovers, test_white, test_beat, test_many, test_odd_series)

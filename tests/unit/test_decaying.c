@@ -50,6 +50,26 @@ START_TEST(test_apart)
 }
 END_TEST
 
+/* Until an end, from far before to far after the sound has died away, also of poles that do not decay at all; what all but cancels, and phases that turn by a
+   hundred turns, a whole number of them from one step to the next (where steps would see nothing). */
+START_TEST(test_until)
+{
+    static const double w[5] = {-1.0 / 16, 9.0 / 16, 9.0 / 16, -1.0 / 16, -1}, at[5] = {-1.5, -0.5, 0.5, 1.5, 0}, decays[] = {0, 0.01, 1, 40};
+    for (int i = 0; i < 4; i++)
+        for (double end = 0.01; end < 0.5; end *= 3)
+            for (double drift = 200 * M_PI; drift > 1e-2; drift /= 10) { /* rad between nodes until the end */
+                struct decaying x[5];
+                double alone, judge;
+                for (int k = 0; k < 5; k++)
+                    x[k] = (struct decaying){0.6 * w[k], 0.8 * w[k], decays[i] * (1 + 0.01 * at[k]), 6000 + drift * at[k] / end};
+                double energy = decaying_energy_until(x, 5, end, &alone);
+                judge = quadrature(x, 5, end, 0);
+                ck_assert_msg(fabs(energy - judge) < 1e-3 * judge + 1e-26 * end, "decay %g, end %g, drift %g: %g of %g", decays[i], end, drift, energy, judge);
+                ck_assert_double_eq_tol(alone / quadrature(x + 4, 1, end, 0), 1, 1e-9);
+            }
+}
+END_TEST
+
 /* Cut, and with a weight that falls: 24 points leave 1e-3 where the integrand is as smooth as that. */
 START_TEST(test_weights)
 {
@@ -69,4 +89,4 @@ START_TEST(test_weights)
 }
 END_TEST
 
-UNIT("decaying", test_cancelling, test_apart, test_weights)
+UNIT("decaying", test_cancelling, test_apart, test_until, test_weights)

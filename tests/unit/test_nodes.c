@@ -151,7 +151,13 @@ static double error_of(const struct mode *m, int count)
     return sqrt(wrong / all);
 }
 
-/* The error that was asked for is kept (decays that move by 30 % included), and where only the frequency moves not by more than 8 dB plus what one
+/* Heard to its end; swing in units of the decay. */
+static int count_for(double phase, double change, double error)
+{
+    return nodes_needed(&(struct nodes_ask){phase, {1, 1}, 1e3, change}, error);
+}
+
+/* The error that was asked for is kept (decays that move by 30 % included), and where only the frequency moves not by more than 13 dB plus what one
    node makes. */
 START_TEST(needed)
 {
@@ -160,20 +166,146 @@ START_TEST(needed)
         for (int j = 0; j < 4; j++)
             for (int k = 0; k < 3; k++) {
                 struct mode plain = {phases[i], changes[j] / 2, 0}, decays = {phases[i], changes[j] / 2, 0.3};
-                int count = nodes_needed(plain.a, changes[j], errors[k]);
+                int count = count_for(plain.a, changes[j], errors[k]);
                 double made = error_of(&plain, count);
                 printf("phase %g change %g error %g: %d nodes, %.1e\n", plain.a, changes[j], errors[k], count, made);
                 ck_assert_double_le(made, errors[k]);
                 if (j == 0 && i >= 3)
-                    ck_assert_double_ge(error_of(&plain, count - 1), errors[k] / 2.5);
-                count = nodes_needed(hypot(plain.a, sinh(0.3)) / exp(-0.3), changes[j], errors[k]);
+                    ck_assert_double_ge(error_of(&plain, count - 1), errors[k] / 4.5);
+                count = nodes_needed(&(struct nodes_ask){plain.a, {exp(-0.3), exp(0.3)}, 1e3, changes[j]}, errors[k]);
                 ck_assert_double_le(error_of(&decays, count), errors[k]);
             }
-    ck_assert_int_eq(nodes_needed(0, 0, 1e-9), 2);
-    ck_assert_int_eq(nodes_needed(1e6, 0, 1e-9), NODES_MOST);
-    ck_assert_int_eq(nodes_needed(HUGE_VAL, 0, 1e-9), NODES_MOST);
-    ck_assert_int_eq(nodes_needed(1, 1e3, 1e-9), NODES_MOST);
-    ck_assert_int_ge(nodes_needed(3, 60, 1e-3), 20);
+    ck_assert_int_eq(count_for(0, 0, 1e-9), 2);
+    ck_assert_int_eq(count_for(1e6, 0, 1e-9), NODES_MOST);
+    ck_assert_int_eq(count_for(HUGE_VAL, 0, 1e-9), NODES_MOST);
+    ck_assert_int_eq(count_for(1, 1e3, 1e-9), NODES_MOST);
+    ck_assert_int_ge(count_for(3, 60, 1e-3), 20);
+}
+END_TEST
+
+/* ------------------------------------------------------------------ sounds that end */
+
+enum { SLOW = 2000, FRAMES = 2 * SLOW, MANY = 1200 };
+
+/* One mode of 400 Hz on a line of `moves` frames at even speed, of `all` frames of sound: every force sample launches its own. */
+struct launched {
+    double decay, spread, skew; /* 1/s, ends of the line: share of the frequency; ends of the decay: e^(+- skew) */
+    int moves, all;
+    const double *force;
+};
+
+static double complex pole_at(const struct launched *l, double x)
+{
+    return cexp((-l->decay * exp(l->skew * x) + 2 * M_PI * 400 * (1 + 0.5 * l->spread * x) * I) / SLOW);
+}
+
+static double even_place(const struct launched *l, int m)
+{
+    return -1 + 2.0 * m / (l->moves - 1);
+}
+
+static void every_sample(const struct launched *l, double *y)
+{
+    memset(y, 0, (size_t)l->all * sizeof *y);
+    for (int m = 0; m < l->moves; m++) {
+        double complex p = pole_at(l, even_place(l, m)), z = l->force[m];
+        for (int n = m; n < l->all; n++, z *= p)
+            y[n] += cimag(z);
+    }
+}
+
+/* Each node rings by itself, the force shared among them. */
+static double nodes_error(const struct launched *l, const double *judge, int count)
+{
+    static double y[FRAMES], w[FRAMES], u[FRAMES];
+    struct arena *a = arena_open();
+    double breaks[2] = {-1, 1}, wrong = 0, whole = 0;
+    struct nodes *n = nodes_make(a, 1, breaks, &count);
+    for (int m = 0; m < l->moves; m++)
+        u[m] = even_place(l, m);
+    nodes_locate(n, l->moves, u);
+    memset(y, 0, sizeof y);
+    for (int k = 0; k < count; k++) {
+        double complex p = pole_at(l, nodes_place(n, k)), z = 0;
+        nodes_share(n, k, w);
+        for (int m = 0; m < l->all; m++) {
+            z = z * p + (m < l->moves ? w[m] * l->force[m] : 0);
+            y[m] += cimag(z);
+        }
+    }
+    for (int m = 0; m < l->all; m++) {
+        wrong += (y[m] - judge[m]) * (y[m] - judge[m]);
+        whole += judge[m] * judge[m];
+    }
+    arena_close(a);
+    return sqrt(wrong / whole);
+}
+
+static int launched_needs(const struct launched *l, double error)
+{
+    return nodes_needed(&(struct nodes_ask){2 * M_PI * 400 * 0.5 * l->spread, {l->decay * exp(-l->skew), l->decay * exp(l->skew)}, (double)l->all / SLOW, 0}, error);
+}
+
+/* The least number that keeps the error: it falls with the number of nodes. */
+static int least_number(const struct launched *l, const double *judge, double error, int most)
+{
+    int low = 1, high = most;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        *(nodes_error(l, judge, middle) <= error ? &high : &low) = middle;
+    }
+    return high;
+}
+
+static void draw_force(double *f)
+{
+    unsigned long long seed = 5;
+    for (int n = 0; n < FRAMES; n++) {
+        seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+        f[n] = (double)(seed >> 11) * 0x1p-52 - 1;
+    }
+}
+
+/* Modes that ring long after the sound has ended, some, and none, against every force sample's own launch, which takes its place's pole exactly: the
+   error asked for is kept. Not more nodes than 1.5 times the least number that does, and five more. */
+START_TEST(sounds_end)
+{
+    static const double decays[] = {0, 0.01, 0.05, 0.2, 2, 20}, spreads[] = {0.01, 0.03}, lengths[][2] = {{0.5, 0.5}, {0.5, 2}, {2, 2}};
+    static double f[FRAMES], y[FRAMES];
+    draw_force(f);
+    for (int c = 0; c < 6 * 3 * 2 * 2; c++) {
+        const double *t = lengths[c / 2 % 3];
+        struct launched l = {decays[c / 12], spreads[c / 6 % 2], c % 2 ? 0.3 : 0, (int)(t[0] * SLOW), (int)(t[1] * SLOW), f};
+        every_sample(&l, y);
+        for (int db = 40; db <= 100; db += 30) {
+            double asked = pow(10, -db / 20.0);
+            int count = launched_needs(&l, asked);
+            ck_assert_int_lt(count, MANY);
+            double made = nodes_error(&l, y, count);
+            int least = least_number(&l, y, asked, count);
+            printf("decay %g (%g), %g%%, %g of %g s, -%d dB: %d nodes, %.1f dB; %d would do\n", l.decay, l.skew, 100 * l.spread, t[0], t[1], db, count, 20 * log10(made), least);
+            ck_assert_double_le(made, asked);
+            ck_assert_double_le(count, 1.5 * least + 5);
+        }
+    }
+}
+END_TEST
+
+/* Frequencies stay, decays change by a factor of 7 or 20 along the line, in the logarithm. */
+START_TEST(decays_alone)
+{
+    static const double decays[] = {0.01, 0.05, 0.2, 2}, skews[] = {1, 1.5}, lengths[][2] = {{0.5, 0.5}, {0.5, 2}};
+    static double f[FRAMES], y[FRAMES];
+    draw_force(f);
+    for (int c = 0; c < 4 * 2 * 2; c++) {
+        struct launched l = {decays[c / 4], 0, skews[c / 2 % 2], (int)(lengths[c % 2][0] * SLOW), (int)(lengths[c % 2][1] * SLOW), f};
+        every_sample(&l, y);
+        for (int db = 40; db <= 100; db += 30) {
+            int count = launched_needs(&l, pow(10, -db / 20.0));
+            double made = 20 * log10(nodes_error(&l, y, count));
+            ck_assert_msg(made <= -db && count <= 25, "decay %g (%g), %d frames, -%d dB: %d nodes, %.1f dB", l.decay, l.skew, l.all, db, count, made);
+        }
+    }
 }
 END_TEST
 
@@ -253,4 +385,4 @@ START_TEST(convergence)
 }
 END_TEST
 
-UNIT("nodes", shares, to_and_fro, at_nodes_and_pieces, needed, convergence)
+UNIT("nodes", shares, to_and_fro, at_nodes_and_pieces, needed, sounds_end, decays_alone, convergence)

@@ -1,0 +1,39 @@
+/* See plan_scene.h. The parts of a render are opened and closed again; what they write into their tables goes nowhere. */
+#include "pipeline/plan_scene.h"
+
+#include "pipeline/inputs.h"
+#include "pipeline/render_parts.h"
+
+static bool open_part(const struct scene *s, struct render_part *one, FILE *nowhere, struct err *e)
+{
+    one->rows.stream = one->impacts.stream = nowhere;
+    if (!one->plan.targets)
+        return true;
+    one->open = run_open(&one->run, &one->plan, s, &(struct run_sinks){&one->rows, &one->impacts}, e);
+    return one->open;
+}
+
+static bool open_parts(struct render_parts *p, struct err *e)
+{
+    FILE *nowhere = fopen("/dev/null", "w");
+    bool ok = nowhere || err_set(e, ERR_IO, "/dev/null cannot be opened");
+    long frames;
+    for (int i = 0; ok && i < p->scene->n_contacts; i++)
+        ok = open_part(p->scene, &p->parts[i], nowhere, e);
+    ok = ok && render_parts_length(p, &frames, e);
+    render_parts_close(p);
+    if (nowhere)
+        fclose(nowhere);
+    return ok;
+}
+
+const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err *e)
+{
+    struct render_parts p = render_parts_make(s, "", a);
+    struct plan *plans = ARENA_TAKE(a, struct plan, s->n_contacts);
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, e))
+        return NULL;
+    for (int i = 0; i < s->n_contacts; i++)
+        plans[i] = p.parts[i].plan;
+    return plans;
+}
