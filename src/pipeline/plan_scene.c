@@ -20,7 +20,7 @@ static bool open_parts(struct render_parts *p, struct err *e)
     long frames;
     for (int i = 0; ok && i < p->scene->n_contacts; i++)
         ok = open_part(p->scene, &p->parts[i], nowhere, e);
-    ok = ok && render_parts_length(p, &frames, e);
+    ok = ok && render_parts_agree(p, e) && render_parts_length(p, &frames, e);
     render_parts_close(p);
     if (nowhere)
         fclose(nowhere);

@@ -51,7 +51,7 @@ int render_parts_quantity(const struct render_parts *p)
 }
 
 /* What is summed is of one quantity; contacts that ring by WAVs, which do not say theirs, go with any. */
-static bool quantities(const struct render_parts *p, struct err *e)
+bool render_parts_agree(const struct render_parts *p, struct err *e)
 {
     const struct run *first = stated(p);
     for (int i = 0; i < p->scene->n_contacts; i++) {
@@ -93,7 +93,7 @@ bool render_parts_open(struct render_parts *p, struct err *e)
             return false;
         one->open = true;
     }
-    return quantities(p, e);
+    return render_parts_agree(p, e);
 }
 
 /* Frames of a contact's motion; of a muted one, which has no run, too. */

@@ -35,6 +35,9 @@ bool render_parts_plan(struct render_parts *p, struct err *e);
 /* Opens the tables, so that the stages can write their headers, then the stages; all that is summed is of one quantity. */
 bool render_parts_open(struct render_parts *p, struct err *e);
 
+/* Once all are open (render_parts_open asks too): can the contacts' sounds be summed, and does the level fit what they are? ERR_SCENE */
+bool render_parts_agree(const struct render_parts *p, struct err *e);
+
 /* Quantity of the sound (enum modes_quantity); -1: not stated. */
 int render_parts_quantity(const struct render_parts *p);
 

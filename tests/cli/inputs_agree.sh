@@ -77,6 +77,12 @@ agree --set gain=0 one.yaml
 second 'path: recorded, file: broken.csv' "$ROUGH" "$SCRAPE
   gain: 0"
 agree two.yaml
+echo "== what does not go together"
+sed 's/velocity/displacement/' part.csv > other.csv
+second "$LINE" 'roughness: {rms: 1 um}, response: other.csv' "$SCRAPE"
+agree two.yaml
+second "$LINE" "$ROUGH" "$SCRAPE"
+agree two.yaml --set output.level.dbfs_at_1_pa=-20
 echo "== good"
 single "$LINE" "$ROUGH" "$SCRAPE"
 agree one.yaml
