@@ -4,14 +4,16 @@
      log t0 = log zeta - theta log |A|,     log zeta = mean of (log t0 + theta log |A|) where theta is given.
 
    R^2 = 1 - sum of squared errors / sum of squares about the mean; of t0 with the law so found, and of log t0. The paper does not say which it
-   prints. An R^2 below 0 says that a constant would do better. The standard error of theta is that of the scatter: durations measured in a force are
-   right within 0.5 % only (impact_find.c), which over a decade of amplitudes moves theta by up to 0.003. */
+   prints. An R^2 below 0 says that a constant would do better; of durations that are all alike there is none. The standard error of theta is that of the
+   scatter: durations measured in a force are right within 0.5 % only (impact_find.c), which over a decade of amplitudes moves theta by up to 0.003. */
 #include "analysis/impact_duration.h"
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
 #include "num/real.h"
+
+#define ALIKE 1e-9 /* of their mean: durations that differ by less are all alike, and theta is 0 exactly */
 
 static bool known(const struct impact_events *v, int i, bool only_alone)
 {
@@ -36,8 +38,9 @@ static void r2_both(const struct impact_events *v, bool only_alone, const double
                 errors[k] += e[k] * e[k];
             }
         }
+    double alike = n * (ALIKE * sum[0] / n) * (ALIKE * sum[0] / n);
     for (int k = 0; k < 2; k++)
-        r2[k] = squares[k] > 0 ? 1 - errors[k] / squares[k] : NAN;
+        r2[k] = squares[0] > alike ? 1 - errors[k] / squares[k] : errors[0] > alike ? -HUGE_VAL : NAN;
 }
 
 /* y = c0 + c1 x; error: of c1. False: x are all alike. */
@@ -57,7 +60,7 @@ static bool line_fit(const struct impact_events *v, bool only_alone, double c[2]
         }
     if (n < IMPACT_DURATION_LEAST || sxx < 4e-4 * n)
         return false;
-    c[1] = sxy / sxx;
+    c[1] = syy > ALIKE * ALIKE * n ? sxy / sxx : 0;
     c[0] = my - c[1] * mx;
     *error = sqrt(fmax(syy - c[1] * sxy, 0) / (n - 2) / sxx);
     return true;

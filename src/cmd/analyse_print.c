@@ -125,6 +125,16 @@ static void print_statistics(const struct analysis *a)
 
 /* ------------------------------------------------------------------ durations and shapes */
 
+static void print_law(const struct impact_duration *d, const char *whose)
+{
+    printf("%.4g ms", 1e3 * d->zeta_single);
+    if (isnan(d->r2_single))
+        printf(", all alike");
+    else
+        printf(" A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f", -d->theta_single, d->theta_error, d->r2_single, d->r2_single_log);
+    printf(", over %ld impact%s: %s\n", d->singles, plural(d->singles), whose);
+}
+
 static void print_duration(const struct analysis *a)
 {
     static const char *const from[] = {[ANALYSE_THETA_GIVEN] = "", [ANALYSE_THETA_FILE] = "single impacts",
@@ -136,8 +146,7 @@ static void print_duration(const struct analysis *a)
     putchar('\n');
     line("duration, step 1");
     if (d->singles && a->theta != ANALYSE_THETA_NONE)
-        printf("%.4g ms A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f, over %ld impact%s: %s\n", 1e3 * d->zeta_single, -d->theta_single, d->theta_error,
-               d->r2_single, d->r2_single_log, d->singles, plural(d->singles), whose);
+        print_law(d, whose);
     else
         printf("theta %.4g, %s\n", d->theta, a->theta == ANALYSE_THETA_GIVEN ? "given" : "since it cannot be told");
     line("duration, step 2");

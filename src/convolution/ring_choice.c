@@ -76,7 +76,9 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
     if (!trajectory_make(&c->contact->motion, trajectory_seed(c->scene, c->contact), c->arena, &c->trajectory, e))
         return err_at(e, "contact '%s'", c->contact->name);
     double start = stopwatch_cpu();
-    c->heard = ring_heard(c->scene, c->contact, c->trajectory.duration, modes_ring_time(&c->to->modes, 80));
+    c->heard.force = c->trajectory.duration;
+    if (!ring_heard(c->scene, c->contact, modes_ring_time(&c->to->modes, 80), &c->heard, e))
+        return false;
     if (!c->to->moves)
         return ring_means_choose(c, e);
     struct ring_survey_ask ask = {.modes = &c->to->modes, .trajectory = &c->trajectory, .by_speed = c->contact->contact.model == CONTACT_SCRAPE,

@@ -3,26 +3,40 @@
 
        max over contacts (start + duration) + tail - t0,
 
-   and nothing that its response does later. Others' motions are not made for this: where one says its length by a speed or a file, the end is not known. */
+   and nothing that its response does later. */
 #include "convolution/ring_heard.h"
 
 #include <math.h>
 
+#include "trajectory/trajectory.h"
+
 #define LONGEST_TAIL 60.0 /* s, of tail auto (pipeline/render_parts.c) */
 
-struct ring_heard ring_heard(const struct scene *s, const struct contact *c, double duration, double ring)
+/* Some motions say how long they last only when they are made: by a speed, a file. */
+static bool lasts(const struct scene *s, const struct contact *c, double *duration, struct err *e)
 {
-    double end = c->start + duration, tail = s->output.tail;
-    bool known = true;
+    struct trajectory tr;
+    struct arena *a = arena_open();
+    bool ok = trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e) || err_at(e, "contact '%s'", c->name);
+    if (ok)
+        *duration = tr.duration;
+    arena_close(a);
+    return ok;
+}
+
+bool ring_heard(const struct scene *s, const struct contact *c, double ring, struct ring_heard *h, struct err *e)
+{
+    double end = c->start + h->force, tail = s->output.tail;
     for (int i = 0; i < s->n_contacts; i++) {
         const struct contact *o = &s->contacts[i];
+        double duration = o->motion.duration;
         if (o == c)
             continue;
-        known = known && !isnan(o->motion.duration);
-        if (!isnan(o->motion.duration))
-            end = fmax(end, o->start + o->motion.duration);
+        if (isnan(duration) && !lasts(s, o, &duration, e))
+            return false;
+        end = fmax(end, o->start + duration);
     }
-    double left = end - c->start;
-    return (struct ring_heard){duration, left + (isnan(tail) ? fmin(ring, LONGEST_TAIL) : tail),
-                               known ? left + (isnan(tail) ? LONGEST_TAIL : tail) : HUGE_VAL};
+    h->sound = end - c->start + (isnan(tail) ? fmin(ring, LONGEST_TAIL) : tail);
+    h->most = end - c->start + (isnan(tail) ? LONGEST_TAIL : tail);
+    return true;
 }

@@ -158,7 +158,7 @@ static bool choose_nodes(struct ring_choosing *c, struct err *e)
 bool ring_means_choose(struct ring_choosing *c, struct err *e)
 {
     c->to->forgotten = c->scene->accuracy.morph_error < 0 ? 20 - c->scene->accuracy.morph_error : 140;
-    c->to->seconds = isnan(c->given->length) ? fmin(modes_ring_time(&c->to->modes, gammatone_decibel(c->to->gamma, left_out(c))), 60) : c->given->length;
+    c->to->seconds = isnan(c->given->length) ? modes_ring_time(&c->to->modes, gammatone_decibel(c->to->gamma, left_out(c))) : c->given->length;
     c->to->seconds = fmin(c->to->seconds, c->heard.most + 2 / c->scene->output.sample_rate);
     int asked = c->given->convolution, reading = c->to->reading;
     if (!ring_gammatone_fits(c, e))

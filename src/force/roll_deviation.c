@@ -58,9 +58,14 @@ static struct roll_spread stretch_spread(const struct stretch *s, const double *
     return roll_deviation_spread(s->of[0], s->n);
 }
 
+static double deviation_ground(const struct board *b)
+{
+    return trajectory_ground(b->trajectory, b->relief->along == ALONG_PATH);
+}
+
 static double deviation_after(struct roll_pass *p, double beyond, double normal, struct arena *a)
 {
-    double level[SLOPE_LEVELS], ground[2] = {trajectory_ground(p->board.trajectory), beyond};
+    double level[SLOPE_LEVELS], ground[2] = {deviation_ground(&p->board), beyond};
     long n = (long)ceil(beyond / roll_pass_grain(p->run.contact));
     struct stretch motion = stretch_make(a, p->n, p->slope.levels), on = stretch_make(a, n, p->slope.levels);
     for (int k = 0; k <= p->slope.levels; k++)
@@ -96,7 +101,7 @@ static void deviation_told(const struct stage_run *r, double ground)
 
 bool roll_deviation_of(struct roll_pass *p, const struct stage_run *r, double normal, double *rms, struct err *e)
 {
-    double ground = trajectory_ground(r->board->trajectory), beyond = ball_beyond(r->contact, ground);
+    double ground = deviation_ground(r->board), beyond = ball_beyond(r->contact, ground);
     if (ground > 0)
         deviation_told(r, ground + beyond);
     if (r->scene->accuracy.tip_heights != 1 && r->board->relief->under)

@@ -25,6 +25,7 @@ struct trajectory {
     double mean_speed;      /* m/s, distance travelled over duration              */
     double box[2][2];       /* m: least and greatest x, y that the motion reaches */
     double reach[2];        /* m: least and greatest u                            */
+    double lap;             /* m, once round a circle; of what is none, beyond bounds */
     bool starts_at_rest, ends_at_rest;
     double clock;           /* s: what a recording's own time says at the start; else 0 */
     double cycle;           /* s, after which the motion repeats itself; else the duration */
@@ -59,11 +60,12 @@ void trajectory_continued(const struct trajectory *tr, double t, double place[2]
    t1 the direction turns by more than 90 degrees) and is then of opposite direction. At most one is expected between two force samples. */
 double trajectory_turning(const struct trajectory *tr, double t0, double t1);
 
-/* m of ground that the motion goes over: what it goes over again, there and back or round and round, is counted once. */
-static inline double trajectory_ground(const struct trajectory *tr)
+/* m of ground that the motion goes over: what it goes over again, there and back or round a circle, is counted once. unrolled: the ground is a profile along
+   the way, to which a circle's second turn is new. */
+static inline double trajectory_ground(const struct trajectory *tr, bool unrolled)
 {
-    double once = tr->mean_speed * tr->cycle, reached = tr->reach[1] - tr->reach[0];
-    return once < reached ? once : reached;
+    double once = tr->mean_speed * tr->cycle, reached = tr->reach[1] - tr->reach[0], way = once < reached ? once : reached;
+    return unrolled || way < tr->lap ? way : tr->lap;
 }
 
 #endif

@@ -266,6 +266,7 @@ static void whole(struct making *w)
     tr->mean_speed = law->distance / law->duration;
     tr->reach[0] = law->reach[0];
     tr->reach[1] = law->reach[1];
+    tr->lap = w->m->path == PATH_CIRCLE ? 2 * REAL_PI * w->m->radius : HUGE_VAL;
     tr->detail = detail_of(w);
     if (!tr->straight)
         whole_start(tr);

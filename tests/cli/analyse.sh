@@ -28,6 +28,10 @@ rasp analyse ripple.csv
 echo "-- theta that the durations belie"
 awk 'BEGIN { print "time_s,amplitude_n,duration_s"; for (i = 0; i < 60; i++) printf "%.3f,%.3f,%.9f\n", i * 0.01, 1 + i % 7 / 7, 0.001 * (1 + i % 7 / 7) ^ 0.1 }' > longer.csv
 rasp analyse longer.csv --theta 1 | grep -A 2 'does not hold here'
+echo "-- durations all alike under amplitudes that differ: theta is 0, and nothing against it; a theta that is given does not hold"
+awk -F, 'NR > 1 { $3 = 0.001 } { print $1 "," $2 "," $3 }' impacts.csv > fixed.csv
+rasp analyse fixed.csv | grep -E 'duration|hold'
+rasp analyse fixed.csv --theta 1 | grep -A 2 'does not hold here'
 echo "-- where no modulation is looked for: not asked for; amplitudes of both signs"
 rasp analyse force.csv --keep-modulation | grep modulation
 awk -F, 'NR > 1 && NR % 2 { $2 = -$2 } { print $1 "," $2 "," $3 }' impacts.csv > signed.csv

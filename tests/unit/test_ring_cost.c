@@ -42,7 +42,8 @@ static void make(struct made *d, int n, double decay, double force, double sound
     d->c = (struct ring_choosing){.contact = &d->contact, .scene = &d->scene, .given = &d->contact.surface.response, .key = "surface", .arena = d->arena, .to = &d->to,
                                   .work = d->arena};
     ck_assert_msg(trajectory_make(&d->contact.motion, 1, d->arena, &d->c.trajectory, &e), "%s", e.text);
-    d->c.heard = ring_heard(&d->scene, &d->contact, force, modes_ring_time(&d->to.modes, 80));
+    d->c.heard.force = force;
+    ck_assert_msg(ring_heard(&d->scene, &d->contact, modes_ring_time(&d->to.modes, 80), &d->c.heard, &e), "%s", e.text);
     ring_survey(&(struct ring_survey_ask){&d->to.modes, &d->c.trajectory, false, false, false}, d->arena, &d->c.survey);
     ck_assert(ring_means_choose(&d->c, &e));
 }
@@ -92,28 +93,50 @@ START_TEST(clipped)
     ck_assert_double_ge(d.to.seconds, 1);
     ck_assert_double_le(d.to.seconds, 1.001);
     d.scene.output.tail = NAN; /* as long as it rings, at most 60 s */
-    d.c.heard = ring_heard(&d.scene, &d.contact, 0.5, modes_ring_time(&d.to.modes, 80));
+    ck_assert(ring_heard(&d.scene, &d.contact, modes_ring_time(&d.to.modes, 80), &d.c.heard, &e));
     ck_assert(ring_means_choose(&d.c, &e));
     ck_assert_double_ge(d.to.seconds, 46);
     arena_close(d.arena);
 }
 END_TEST
 
+/* However long that is. */
+START_TEST(long_sound)
+{
+    struct made d;
+    struct err e = {0};
+    make(&d, 1, 0.01, 0.5, 80);
+    d.contact.surface.response.convolution = ENGINE_OVERLAP_ADD;
+    ck_assert(ring_means_choose(&d.c, &e));
+    ck_assert_double_ge(d.to.seconds, 80);
+    ck_assert_double_le(d.to.seconds, 80.001);
+    arena_close(d.arena);
+}
+END_TEST
+
 START_TEST(heard)
 {
-    struct contact two[2] = {{.start = 1, .motion = {.duration = 2}}, {.start = 4, .motion = {.duration = 3}}};
+    struct contact two[2] = {{.name = "a", .start = 1, .motion = {.duration = 2}},
+                             {.name = "b", .start = 4, .motion = {.path = PATH_LINE, .to = {0.6, 0}, .rate = NAN, .speed = NAN, .duration = 3, .law = SPEED_CONSTANT}}};
     struct scene s = {.contacts = two, .n_contacts = 2, .output = {.tail = 0.5}};
-    struct ring_heard h = ring_heard(&s, &two[0], 2, 10);
+    struct ring_heard h = {.force = 2};
+    struct err e = {0};
+    ck_assert(ring_heard(&s, &two[0], 10, &h, &e));
     ck_assert_double_eq(h.force, 2);
     ck_assert_double_eq(h.sound, 6.5); /* to 4 + 3 + 0.5 s, from 1 s on */
     ck_assert_double_eq(h.most, 6.5);
     two[1].motion.duration = NAN;
-    h = ring_heard(&s, &two[0], 2, 10);
-    ck_assert_double_eq(h.sound, 2.5);
-    ck_assert(isinf(h.most));
+    two[1].motion.speed = 0.1; /* 6 s */
+    ck_assert_msg(ring_heard(&s, &two[0], 10, &h, &e), "%s", e.text);
+    ck_assert_double_eq_tol(h.sound, 9.5, 1e-12);
+    ck_assert_double_eq_tol(h.most, 9.5, 1e-12);
+    two[1].motion.path = PATH_RECORDED;
+    two[1].motion.file = "none.csv";
+    ck_assert(!ring_heard(&s, &two[0], 10, &h, &e));
+    ck_assert_msg(strstr(e.text, "contact 'b'") && strstr(e.text, "none.csv"), "%s", e.text);
     s.n_contacts = 1;
     s.output.tail = NAN;
-    h = ring_heard(&s, &two[0], 2, 10);
+    ck_assert(ring_heard(&s, &two[0], 10, &h, &e));
     ck_assert_double_eq(h.sound, 12);
     ck_assert_double_eq(h.most, 62);
 }
@@ -133,4 +156,4 @@ START_TEST(mirror)
 }
 END_TEST
 
-UNIT("ring_cost", long_ringing, opening, clipped, heard, mirror)
+UNIT("ring_cost", long_ringing, opening, clipped, long_sound, heard, mirror)

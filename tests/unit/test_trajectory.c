@@ -290,6 +290,21 @@ START_TEST(top_speed_is_the_top)
 }
 END_TEST
 
+/* There and back, and round and round, is counted once; a profile along the way has no end. */
+START_TEST(ground_is_counted_once)
+{
+    struct motion fro = harmonic_motion(3.7, 2), circle = {.path = PATH_CIRCLE, .radius = 2e-3, .turns = -7, .speed = 0.1, .duration = NAN};
+    struct trajectory tr = made(&fro);
+    ck_assert_double_eq_tol(trajectory_ground(&tr, false), tr.length, 1e-15);
+    tr = made(&circle);
+    ck_assert_double_eq_tol(trajectory_ground(&tr, false), 2 * M_PI * 2e-3, 1e-15);
+    ck_assert_double_eq_tol(trajectory_ground(&tr, true), 7 * 2 * M_PI * 2e-3, 1e-14);
+    circle.turns = 0.25;
+    tr = made(&circle);
+    ck_assert_double_eq_tol(trajectory_ground(&tr, false), 0.25 * 2 * M_PI * 2e-3, 1e-15);
+}
+END_TEST
+
 /* Inside it is the motion; outside the same formula goes on: a cosine, a straight line, a fifth-order polynomial (long double). */
 START_TEST(test_continued)
 {
@@ -380,4 +395,4 @@ START_TEST(stage_lays_out_the_board)
 END_TEST
 
 UNIT("trajectory", still_stays, stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
-     derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)
+     derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top, ground_is_counted_once)
