@@ -1,4 +1,4 @@
-# make            build/rasp                 make check     set-up, build, every test (5 minutes or less)
+# make            build/rasp, rasp-modes     make check     set-up, build, every test (5 minutes or less)
 # make demo       set-up, build, a tour      make help      the other targets and the variables
 
 BUILD ?= build
@@ -28,10 +28,12 @@ PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr
 # -fno-tree-slp-vectorize: gcc 12 turns pairs such as a c + b s, b c - a s into vfmsubadd there, in spite of -ffp-contract=off.
 CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-tree-slp-vectorize -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
 LIBS = $(shell pkg-config --libs $(PKGS)) -lsleef -lm
+# What rasp-modes needs besides. Loading these takes longer than rasp does for a short scene.
+HEAVY = -lcholmod -larpack -llapacke -lopenblas
 
 REVISION := $(shell git describe --always --dirty --abbrev=12 2> /dev/null || echo unknown)
 
-SRC = $(filter-out src/main.c,$(wildcard src/*.c src/*/*.c))
+SRC = $(filter-out src/main%.c,$(wildcard src/*.c src/*/*.c))
 OBJ = $(SRC:src/%.c=$(BUILD)/%.o)
 UNIT = $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
 FUZZ = $(patsubst tests/fuzz/%.c,$(BUILD)/%,$(wildcard tests/fuzz/fuzz_*.c))
@@ -44,11 +46,14 @@ Q = @
 say = @$(if $(findstring s,$(firstword -$(MAKEFLAGS))),:,echo '$(1) $(subst $(BUILD)/,,$@)')
 endif
 
-all: $(BUILD)/rasp
+all: $(BUILD)/rasp $(BUILD)/rasp-modes
 
 $(BUILD)/rasp: $(BUILD)/main.o $(BUILD)/librasp.a
 	$(call say,link)
 	$Q$(CC) $(CFLAGS) -o $@ $^ $(LIBS)
+$(BUILD)/rasp-modes: $(BUILD)/main_modes.o $(BUILD)/librasp.a
+	$(call say,link)
+	$Q$(CC) $(CFLAGS) -o $@ $^ $(HEAVY) $(LIBS)
 
 $(BUILD)/librasp.a: $(OBJ) $(BUILD)/files
 	$Qrm -f $@ && ar rcs $@ $(OBJ)
@@ -66,7 +71,7 @@ unit: $(UNIT)
 $(BUILD)/tests/%: tests/unit/%.c $(BUILD)/librasp.a
 	@mkdir -p $(@D)
 	$(call say,$(CC))
-	$Q$(CC) $(CFLAGS) -MMD -MP -Itests/unit -o $@ $< $(BUILD)/librasp.a $(shell pkg-config --libs check) $(LIBS)
+	$Q$(CC) $(CFLAGS) -MMD -MP -Itests/unit -o $@ $< $(BUILD)/librasp.a $(shell pkg-config --libs check) -Wl,--as-needed $(HEAVY) $(LIBS)
 
 # Other flags, another compiler, another list of files in the same folder: what depends on them is made again.
 $(BUILD)/flags: FORCE
@@ -108,7 +113,7 @@ fuzzers: $(FUZZ)
 $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(BUILD)/librasp.a
 	@mkdir -p $(@D)
 	$(call say,$(CC))
-	$Q$(CC) $(CFLAGS) -fsanitize=fuzzer -Itests/fuzz -o $@ $< $(BUILD)/librasp.a $(LIBS)
+	$Q$(CC) $(CFLAGS) -fsanitize=fuzzer -Itests/fuzz -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(HEAVY) $(LIBS)
 
 # What takes long: reports that are committed (evidence/), and timings (tests/bench/, programs and scripts).
 evidence: all
@@ -118,7 +123,7 @@ bench: all $(BENCH)
 $(BUILD)/bench/%: tests/bench/%.c $(BUILD)/librasp.a
 	@mkdir -p $(@D)
 	$(call say,$(CC))
-	$Q$(CC) $(CFLAGS) -MMD -MP -o $@ $< $(BUILD)/librasp.a $(LIBS)
+	$Q$(CC) $(CFLAGS) -MMD -MP -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(HEAVY) $(LIBS)
 
 # The mode tables that ship, from the recipes beside them.
 irs: all
@@ -126,6 +131,7 @@ irs: all
 
 install: all
 	install -D -m 755 $(BUILD)/rasp $(DESTDIR)$(PREFIX)/bin/rasp
+	install -D -m 755 $(BUILD)/rasp-modes $(DESTDIR)$(PREFIX)/libexec/rasp/rasp-modes
 	for page in man/*.1; do install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man1 $$page || exit 1; done
 	for page in man/*.5; do install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man5 $$page || exit 1; done
 	for folder in scenes surfaces irs; do install -d $(DESTDIR)$(PREFIX)/share/rasp/$$folder && \
@@ -134,13 +140,13 @@ install: all
 
 uninstall:
 	rm -f $(DESTDIR)$(PREFIX)/bin/rasp $(DESTDIR)$(PREFIX)/share/man/man1/rasp*.1 $(DESTDIR)$(PREFIX)/share/man/man5/rasp*.5
-	rm -rf $(DESTDIR)$(PREFIX)/share/rasp $(DESTDIR)$(PREFIX)/share/doc/rasp
+	rm -rf $(DESTDIR)$(PREFIX)/share/rasp $(DESTDIR)$(PREFIX)/share/doc/rasp $(DESTDIR)$(PREFIX)/libexec/rasp
 
 clean:
 	rm -rf $(BUILD)
 
 help:
-	@echo 'all (default)  $(BUILD)/rasp             unit       the unit test programs'
+	@echo 'all (default)  $(BUILD)/rasp, -modes     unit       the unit test programs'
 	@echo 'demo           set-up, build, tour    check      set-up, build, every test'
 	@echo 'warnings       -Werror, gcc, clang    sanitize   unit, cli and faults under ASan and UBSan'
 	@echo 'bytes          same bytes, all builds fuzz       SECONDS=60 of fuzzing'
@@ -149,6 +155,6 @@ help:
 	@echo 'clean          removes $(BUILD)'
 	@echo 'variables: BUILD CC OPT ISA=v2|v3|v4 SAN=1 WERROR=-Werror JOBS V=1 PREFIX DESTDIR'
 
--include $(OBJ:.o=.d) $(BUILD)/main.d $(UNIT:=.d) $(BENCH:=.d)
+-include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:=.d) $(BENCH:=.d)
 FORCE:
 .PHONY: all unit demo check warnings sanitize bytes fuzz fuzzers evidence bench irs install uninstall clean help FORCE

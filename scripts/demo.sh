@@ -1,5 +1,5 @@
 #!/bin/sh
-# A tour: renders nine scenes into out/, says what to listen for, and draws one of them.
+# A tour: renders nine scenes, and one scrape on ten solids, into out/, says what to listen for, and draws one of them.
 #     scripts/demo.sh        rasp from $BUILD (default: build/ of this tree)
 # One scene takes a measured profile from ../shared/data/surfaces/ when it is there, else the one that ships.
 set -eu
@@ -33,6 +33,23 @@ tour roll "a glass marble rolls along a plank: darker and steadier than a scrape
 tour marble_drop "the marble let fall: clear bounces, sooner and sooner, a rattle, then quiet rolling"
 tour rolling_impacts "rolling drawn from the statistics of its impacts; a slow beat, four or five a second, as of a ball out of round"
 tour action_space "a rub that becomes a roll: smooth hiss at first, then knocks that grow out of it, deeper and louder, until it rolls"
+# object NAME WHAT: the scrape of scenes/bowl_scrape.yaml on a solid of irs/.
+object() {
+    "$rasp" render scenes/bowl_scrape.yaml --set surface.response="$PWD/irs/$1.csv" --set title="$1, scraped back and forth" --quiet -o "out/scraped_$1.wav"
+    printf '%-25s %s\n' "out/scraped_$1.wav" "$2"
+}
+
+echo "One scrape, ten solids, each meshed and solved by rasp (rasp modes compute), on the same roughness:"
+object oak_plank "dull, dry"
+object stoneware_tile "hard and dry, higher than the plank"
+object glass_plate "clear, rings on for two seconds"
+object steel_bowl "deep and long: one tone near 300 Hz, and a shimmer above 5 kHz"
+object ceramic_mug "a mug: two low tones close together, that of the handle and that beside it"
+object aluminium_rod "a chime: few tones, far apart, of one beginning"
+object steel_sphere "a hollow ball: bright, nothing low"
+object glass_sphere "the same of glass: bright and short"
+object oak_sphere "a solid ball: a knock without a pitch"
+object steel_ring "a triangle without its gap: long"
 printf '%-25s ' "out/basswood_scrape.png"
 "$rasp" plot out/basswood_scrape.wav | sed 's/^[^ ]* */what that looks like: /'
 echo "Beside each sound: .json (level, cost), .scene.yaml (all that the scene left unsaid) and, where asked for, .csv (the forces)."

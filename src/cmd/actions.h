@@ -3,7 +3,7 @@
 #define CMD_ACTIONS_H
 #include "cmd/cmd.h"
 
-enum { ACTIONS_OPTIONS = 16 };
+enum { ACTIONS_OPTIONS = 40 };
 
 struct action {
     const char *name;

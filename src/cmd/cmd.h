@@ -13,6 +13,8 @@
 struct cmd_call {
     struct args args;    /* options and operands, their number already checked */
     struct arena *arena; /* lives until the command ends                       */
+    int argc;            /* the words behind the command's name, as they came  */
+    char **argv;
 };
 
 struct command {

@@ -13,6 +13,10 @@ struct modes_lengths {
 };
 bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double *x, struct err *e);
 
+/* --quantity, else velocity. ERR_USAGE */
+bool modes_quantity(struct cmd_call *c, int *quantity, struct err *e);
+const char *modes_per_impulse(int quantity); /* its unit: "(m/s)/(N s)" */
+
 /* What a body of the operand rings with: the operand is a scene, or a recipe of surface keys. *key: "surface", "scraper" or "ball". */
 struct modes_body {
     struct scene scene;
@@ -25,17 +29,34 @@ bool modes_body_read(struct cmd_call *c, const char *file, struct modes_body *b,
 /* The object of closed form that it is, with all modes below --top. *note: how far its theory reaches, NULL: nothing to say. ERR_SCENE: it is none. */
 bool modes_body_object(struct cmd_call *c, const struct modes_body *b, struct object *o, const char **note, struct err *e);
 
-/* --line and --places, --grid, --at, else what suits the shape: places in the object's coordinates. ERR_USAGE, ERR_SCENE: off the object. */
+/* --line or --circle with --places, --grid, --at, else what suits the shape: places in the object's coordinates. ERR_USAGE, ERR_SCENE: off the object. */
 struct modes_places {
     int n, left_out;       /* left_out: of a grid, those off the object */
     double (*xy)[2];       /* m */
 };
+struct modes_ground {
+    const void *self;
+    double (*off)(const void *self, double x, double y); /* m, how far off the object; INFINITY: there is none */
+    double low[2], high[2]; /* m, box of the places */
+    int standard[2];       /* by default: NX, NY a grid; N, 1 a line in the middle; 1, 1 the place `at` */
+    double at[2];
+};
+bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p, struct err *e);
 bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_places *p, struct err *e);
 
 /* "# key: value" lines that say what the object is: object, material, damping, holds. */
 void modes_describe(FILE *f, const struct object *o);
 
-/* The actions; exit codes as a command's run. */
+/* The actions; exit codes as a command's run. compute and extract need CHOLMOD, ARPACK and LAPACK: rasp starts rasp-modes for them (modes_elsewhere.c),
+   which calls modes_heavy_run. */
+struct modes_heavy {
+    int (*compute)(struct cmd_call *c, struct err *e), (*extract)(struct cmd_call *c, struct err *e);
+};
+int modes_dispatch(struct cmd_call *c, const struct modes_heavy *heavy, struct err *e);
+int modes_elsewhere_run(struct cmd_call *c, struct err *e);
+int modes_heavy_run(struct cmd_call *c, struct err *e);
+int modes_compute_run(struct cmd_call *c, struct err *e);
+int modes_extract_run(struct cmd_call *c, struct err *e);
 int modes_object_run(struct cmd_call *c, struct err *e);
 int modes_list_run(struct cmd_call *c, struct err *e);
 

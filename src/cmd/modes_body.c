@@ -1,6 +1,4 @@
 /* What `rasp modes` looks at: a body of a scene or recipe, its object, and places on that. */
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cmd/modes.h"
@@ -53,98 +51,29 @@ bool modes_body_object(struct cmd_call *c, const struct modes_body *b, struct ob
 
 /* ------------------------------------------------------------------ places */
 
-static void add(struct modes_places *p, double x, double y)
-{
-    p->xy[p->n][0] = x;
-    p->xy[p->n++][1] = y;
-}
+struct footing {
+    const struct object *object;
+    double *phi;
+};
 
-static void line(struct modes_places *p, const double ends[4], int n, struct arena *a)
+static double off(const void *self, double x, double y)
 {
-    p->xy = arena_take(a, (size_t)n, sizeof *p->xy);
-    for (int i = 0; i < n; i++) { /* exact at both ends and in the middle */
-        double u = n > 1 ? (double)i / (n - 1) : 0.0;
-        add(p, ends[0] + u * (ends[2] - ends[0]), ends[1] + u * (ends[3] - ends[1]));
-    }
-}
-
-static void grid(struct modes_places *p, const struct object *o, const int n[2], struct arena *a)
-{
-    double *phi = ARENA_TAKE(a, double, o->n);
-    p->xy = arena_take(a, (size_t)n[0] * (size_t)n[1], sizeof *p->xy);
-    for (int j = 0; j < n[1]; j++)
-        for (int i = 0; i < n[0]; i++) {
-            double x = o->low[0] + (o->high[0] - o->low[0]) * i / (n[0] - 1), y = o->low[1] + (o->high[1] - o->low[1]) * j / (n[1] - 1);
-            if (o->shapes(o, x, y, phi) <= 1e-9)
-                add(p, x, y);
-            else
-                p->left_out++;
-        }
-}
-
-static bool read_grid(struct cmd_call *c, int n[2], bool *given, struct err *e)
-{
-    const char *text = args_value(&c->args, "grid");
-    *given = text != NULL;
-    if (!text)
-        return true;
-    char *comma, *end;
-    long x = strtol(text, &comma, 10), y = *comma == ',' ? strtol(comma + 1, &end, 10) : 0;
-    if (y < 2 || x < 2 || x > 1000 || y > 1000 || *end)
-        return err_set(e, ERR_USAGE, "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, as in 17,9", text);
-    n[0] = (int)x;
-    n[1] = (int)y;
-    return true;
-}
-
-static bool all_on(struct cmd_call *c, const struct object *o, const struct modes_places *p, struct err *e)
-{
-    double *phi = ARENA_TAKE(c->arena, double, o->n);
-    for (int i = 0; i < p->n; i++) {
-        double off = o->shapes(o, p->xy[i][0], p->xy[i][1], phi);
-        if (off > 1e-9)
-            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies %.3g m off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m",
-                           p->xy[i][0], p->xy[i][1], off, o->low[0], o->high[0], o->low[1], o->high[1]);
-    }
-    return true;
+    const struct footing *g = (const struct footing *)self;
+    return g->object->shapes(g->object, x, y, g->phi);
 }
 
 /* What is slender has its places on a line; of a shell any place is like the other. */
-static void standard(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_places *p)
-{
-    const double *at = b->response->object.at;
-    if (strcmp(b->key, "surface") != 0)
-        line(p, (double[4]){at[0], at[1], at[0], at[1]}, 1, c->arena);
-    else if (o->shape == OBJECT_SHELL)
-        line(p, (double[4]){0}, 1, c->arena);
-    else if (o->flat)
-        grid(p, o, (int[2]){17, 9}, c->arena);
-    else
-        line(p, (double[4]){o->low[0], 0.5 * (o->low[1] + o->high[1]), o->high[0], 0.5 * (o->low[1] + o->high[1])}, 33, c->arena);
-}
-
 bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_places *p, struct err *e)
 {
-    static const long counts[2] = {2, 100000};
-    double ends[4] = {0};
-    int n[2];
-    long places = 33;
-    bool has_grid, has_line = args_given(&c->args, "line"), has_at = args_given(&c->args, "at");
-    *p = (struct modes_places){0};
-    if (!modes_lengths(c, &(struct modes_lengths){"line", "X0,Y0,X1,Y1", 4}, ends, e) || !modes_lengths(c, &(struct modes_lengths){"at", "X,Y", 2}, ends, e) ||
-        !read_grid(c, n, &has_grid, e) || !args_whole(&c->args, "places", counts, &places, e))
-        return false;
-    if (has_line + has_at + has_grid > 1)
-        return err_set(e, ERR_USAGE, "--line, --grid and --at exclude each other");
-    if (args_given(&c->args, "places") && !has_line)
-        return err_set(e, ERR_USAGE, "--places needs --line");
-    if (has_at)
-        line(p, ends, 1, c->arena);
-    else if (has_grid)
-        grid(p, o, n, c->arena);
-    else if (has_line)
-        line(p, ends, (int)places, c->arena);
-    else
-        standard(c, b, o, p);
-    return all_on(c, o, p, e);
+    struct footing g = {o, ARENA_TAKE(c->arena, double, o->n)};
+    struct modes_ground ground = {.self = &g, .off = off, .low = {o->low[0], o->low[1]}, .high = {o->high[0], o->high[1]}, .standard = {33, 1}};
+    const double *at = b->response->object.at;
+    bool tool = strcmp(b->key, "surface") != 0;
+    if (tool || o->shape == OBJECT_SHELL)
+        memcpy(ground.standard, (int[2]){1, 1}, sizeof ground.standard);
+    else if (o->flat)
+        memcpy(ground.standard, (int[2]){17, 9}, sizeof ground.standard);
+    if (tool)
+        memcpy(ground.at, at, sizeof ground.at);
+    return modes_places(c, &ground, p, e);
 }

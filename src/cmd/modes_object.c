@@ -16,9 +16,6 @@
 #include "response/mode_table_write.h"
 #include "scene/units.h"
 
-static const char *const quantities[] = {[MODES_DISPLACEMENT] = "displacement", [MODES_VELOCITY] = "velocity", [MODES_ACCELERATION] = "acceleration"};
-static const char *const units[] = {[MODES_DISPLACEMENT] = "m/(N s)", [MODES_VELOCITY] = "(m/s)/(N s)", [MODES_ACCELERATION] = "(m/s^2)/(N s)"};
-
 struct job {
     struct cmd_call *c;
     struct modes_body body;
@@ -32,18 +29,6 @@ struct job {
     const char *note;
     int quantity, *order; /* order: of the modes, by frequency */
 };
-
-static bool read_quantity(struct job *j, struct err *e)
-{
-    const char *text = args_value(&j->c->args, "quantity");
-    j->quantity = MODES_VELOCITY;
-    if (!text)
-        return true;
-    for (j->quantity = MODES_DISPLACEMENT; j->quantity <= MODES_ACCELERATION; j->quantity++)
-        if (!strcmp(text, quantities[j->quantity]))
-            return true;
-    return err_set(e, ERR_USAGE, "--quantity: '%s' is not displacement, velocity or acceleration", text);
-}
 
 static bool read_output(struct job *j, struct err *e)
 {
@@ -91,17 +76,6 @@ static void sort(struct job *j)
     }
 }
 
-/* From velocity to the quantity. */
-static void convert(int quantity, int n, const struct modes_point *p)
-{
-    for (int i = 0; i < n && quantity != MODES_VELOCITY; i++) {
-        double re = p->re[i], im = p->im[i], a = -p->decay[i], w = 2.0 * REAL_PI * p->frequency[i], square = a * a + w * w;
-        bool up = quantity == MODES_ACCELERATION;
-        p->re[i] = up ? re * a - im * w : (re * a + im * w) / square;
-        p->im[i] = up ? re * w + im * a : (im * a - re * w) / square;
-    }
-}
-
 /* What the mass at the place does to poles and gains of velocity. */
 static void load(const struct job *j, double x, double y, const struct modes_point *p)
 {
@@ -122,7 +96,7 @@ static void comments(FILE *f, const struct job *j)
 {
     const double *origin = j->body.response->object.origin;
     fprintf(f, "# poles: %s\n# quantity: %s\n# normalisation: %s, physical; heard at ", j->load > 0.0 ? "separate" : "shared",
-            quantities[j->quantity], units[j->quantity]);
+            modes_quantity_name(j->quantity), modes_per_impulse(j->quantity));
     if (j->heard_elsewhere)
         fprintf(f, "x = %.12g m, y = %.12g m\n", j->listen[0] + origin[0], j->listen[1] + origin[1]);
     else
@@ -147,12 +121,12 @@ static void write_table(FILE *f, const struct job *j)
     comments(f, j);
     mode_table_write_header(f);
     for (int i = 0; i < j->places.n; i++) {
-        struct mode_table_place place = {i + 1, j->places.xy[i][0] + origin[0], j->places.xy[i][1] + origin[1]};
+        struct mode_table_place place = {12, i + 1, j->places.xy[i][0] + origin[0], j->places.xy[i][1] + origin[1]};
         modes_at(m, &(struct modes_where){.x = place.x, .y = place.y}, &p);
         memcpy(p.frequency, m->frequency, (size_t)m->n * sizeof *p.frequency);
         memcpy(p.decay, m->decay, (size_t)m->n * sizeof *p.decay);
         load(j, j->places.xy[i][0], j->places.xy[i][1], &p);
-        convert(j->quantity, m->n, &p);
+        modes_to_quantity(j->quantity, m->n, &p);
         mode_table_write_place(f, &place, m->n, j->order, &p, j->quantity);
     }
 }
@@ -172,7 +146,7 @@ int modes_object_run(struct cmd_call *c, struct err *e)
     struct job j = {.c = c};
     struct outfile o;
     const char *file = args_value(&c->args, "output");
-    if (!read_output(&j, e) || !read_quantity(&j, e) || !read_load(&j, e) || !modes_body_read(c, c->args.operands[0], &j.body, e) || !make(&j, e))
+    if (!read_output(&j, e) || !modes_quantity(c, &j.quantity, e) || !read_load(&j, e) || !modes_body_read(c, c->args.operands[0], &j.body, e) || !make(&j, e))
         return (int)e->kind;
     sort(&j);
     j.phi = ARENA_TAKE(c->arena, double, j.modes.n);

@@ -1,5 +1,5 @@
-/* Writing a mode table: A = gain e^(j phase), see mode_table_write.h. Twelve digits: what a reader needs (relative error 5e-13), and less than what
-   the last bits of sums would show. */
+/* Writing a mode table: A = gain e^(j phase), see mode_table_write.h. Twelve digits of closed forms: what a reader needs (relative error 5e-13), and less
+   than what the last bits of sums would show. */
 #include "response/mode_table_write.h"
 
 #include <math.h>
@@ -23,7 +23,8 @@ void mode_table_write_place(FILE *f, const struct mode_table_place *place, int n
         double along = quantity == MODES_VELOCITY ? p->im[i] : quantity == MODES_ACCELERATION ? -p->re[i] : p->re[i];
         double sign = along < 0.0 ? -1.0 : 1.0, gain = sign * sqrt(p->re[i] * p->re[i] + p->im[i] * p->im[i]);
         double phase = gain != 0.0 ? real_atan2(sign * p->im[i], sign * p->re[i]) : 0.0;
-        fprintf(f, "%d,%.12g,%.12g,%d,%.12g,%.12g,%.12g,%.12g\n", place->id, unsigned_zero(place->x), unsigned_zero(place->y), k + 1, p->frequency[i],
-                p->decay[i], unsigned_zero(gain), unsigned_zero(phase));
+        int d = place->digits;
+        fprintf(f, "%d,%.*g,%.*g,%d,%.*g,%.*g,%.*g,%.*g\n", place->id, d, unsigned_zero(place->x), d, unsigned_zero(place->y), k + 1, d, p->frequency[i], d,
+                p->decay[i], d, unsigned_zero(gain), d, unsigned_zero(phase));
     }
 }

@@ -57,3 +57,13 @@ double modes_ring_time(const struct modes *m, double decibel)
         slowest = fmin(slowest, m->slowest[i]);
     return slowest > 0.0 ? decibel * (real_log(10.0) / 20.0) / slowest : INFINITY;
 }
+
+void modes_to_quantity(int quantity, int n, const struct modes_point *p)
+{
+    for (int i = 0; i < n && quantity != MODES_VELOCITY; i++) {
+        double re = p->re[i], im = p->im[i], a = -p->decay[i], w = 2.0 * REAL_PI * p->frequency[i], square = a * a + w * w;
+        bool up = quantity == MODES_ACCELERATION;
+        p->re[i] = up ? re * a - im * w : (re * a + im * w) / square;
+        p->im[i] = up ? re * w + im * a : (im * a - re * w) / square;
+    }
+}

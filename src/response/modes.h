@@ -55,6 +55,9 @@ struct modes {
    Returns how far (m) the place lies off the hull of those that are known; beyond 1e-9 m the nearest place of the hull counts. */
 double modes_at(const struct modes *m, const struct modes_where *where, const struct modes_point *p);
 
+/* Gains of velocity to those of displacement (A/s) or acceleration (A s, for t > 0). */
+void modes_to_quantity(int quantity, int n, const struct modes_point *p);
+
 struct modes_point modes_point_make(struct arena *a, int n);
 
 /* From a mode table (mode_table.h says what it holds): the `strongest` modes, by energy summed over places, sum gain^2 / (4 decay) of a mode of one

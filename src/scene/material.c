@@ -12,7 +12,7 @@ const struct material material_table[] = {
 #define MATERIAL(...) {__VA_ARGS__},
 #include "scene/material.def"
 #undef MATERIAL
-    {NULL, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL},
+    {NULL, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, {0, 0, 0, 0, 0}},
 };
 
 const struct material *material_find(int name)

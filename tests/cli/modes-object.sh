@@ -73,7 +73,7 @@ try object bar.yaml --set surface.object=null -o x.csv
 try object bar.yaml -o nowhere/x.csv
 try rasp modes
 try rasp modes objetc bar.yaml
-try rasp modes extract bar.yaml
+try rasp modes distil bar.yaml
 try rasp modes list --grid 3,3 bar.yaml
 try rasp modes list bar.csv bar.csv
 try rasp modes list --set surface.object=null bar.yaml

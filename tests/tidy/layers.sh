@@ -6,7 +6,7 @@ ORDER="base num file scene stage.h trajectory surface force response convolution
 layers() {
     (cd "$1" && find . -name '*.[ch]' -o -name '*.def' | sort | xargs awk -v order="$ORDER" '
         BEGIN { n = split(order, name, " "); for (i = 1; i <= n; i++) rank[name[i]] = i }
-        function layer(path,  part) { split(path, part, "/"); sub(/^main\.c$/, "main", part[1]); return part[1] }
+        function layer(path,  part) { split(path, part, "/"); sub(/^main(_modes)?\.c$/, "main", part[1]); return part[1] }
         FNR == 1 { here = layer(substr(FILENAME, 3)); if (!(here in rank)) print FILENAME ": \"" here "\" has no place in the order" }
         /^[ \t]*#[ \t]*include[ \t]*"/ {
             split($0, quoted, "\""); there = layer(quoted[2])

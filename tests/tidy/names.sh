@@ -8,6 +8,7 @@ names() {
     home=${home%.o}
     nm --defined-only --extern-only --format=posix "$1" | awk -v home="$home" '
         { sub(/\..*/, "", $1) }
+        home ~ /^main(_|$)/ && $1 == "main" { next }
         home == "libm" && $1 ~ /^(exp|log|log10|pow|sin|cos|asin)$/ { next }
         $1 != home && index($1, home "_") != 1 && !seen[$1]++ { print home ".o exports " $1 }'
 }

@@ -28,7 +28,7 @@ START_TEST(what_is_written_is_read)
         fprintf(out, "# poles: shared\n# quantity: %s\n", words[quantity]);
         mode_table_write_header(out);
         for (int place = 1; place <= 2; place++)
-            mode_table_write_place(out, &(struct mode_table_place){place, 0.1 * place, -0.0}, N, order, &(struct modes_point){f, decay, re, im}, quantity);
+            mode_table_write_place(out, &(struct mode_table_place){12, place, 0.1 * place, -0.0}, N, order, &(struct modes_point){f, decay, re, im}, quantity);
         fclose(out);
         ck_assert_msg(mode_table_read("written.csv", a, &t, &e), "%s", e.text);
         ck_assert_int_eq(t.quantity, quantity);
@@ -59,7 +59,7 @@ START_TEST(zeros_have_no_sign)
     int order = 0;
     char text[200] = "";
     FILE *out = fmemopen(text, sizeof text, "w");
-    mode_table_write_place(out, &(struct mode_table_place){7, -0.0, 0.25}, 1, &order, &(struct modes_point){&f, &decay, &zero, &im}, MODES_VELOCITY);
+    mode_table_write_place(out, &(struct mode_table_place){12, 7, -0.0, 0.25}, 1, &order, &(struct modes_point){&f, &decay, &zero, &im}, MODES_VELOCITY);
     fclose(out);
     ck_assert_str_eq(text, "7,0,0.25,1,1,0.5,0,0\n");
 }

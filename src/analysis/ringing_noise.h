@@ -1,0 +1,25 @@
+/* The noise around each component. */
+#ifndef ANALYSIS_RINGING_NOISE_H
+#define ANALYSIS_RINGING_NOISE_H
+#include "analysis/ringing_fit.h"
+
+struct ringing_noise {
+    int places;
+    long bins;             /* of the residual's periodogram, width rate/size each */
+    double width;          /* Hz */
+    double *least;         /* [places] of any level: rounding */
+    double *given;         /* [places][given_bins + 1] level where nothing rings, NULL: not known */
+    long given_bins;
+    double given_width;
+};
+
+/* Takes r->noise, if there is any. */
+void ringing_noise_open(const struct ringing *r, struct arena *a, struct ringing_noise *s);
+
+/* Of the fit's residual: variance[places][m], as of one sample of white noise that is as strong there; freedom[m] degrees of freedom behind one of them. */
+void ringing_noise_levels(const struct ringing_noise *s, const struct ringing_fit *f, double *variance, double *freedom);
+
+/* Energy of x[n] between two frequencies. */
+double ringing_noise_energy(const double *x, long n, double rate, const double band[2]);
+
+#endif

@@ -1,0 +1,64 @@
+/* rasp modes compute MESH | --shape ... -o FILE.csv: how a solid rings, by finite elements (papers/003 section A), as a mode table. */
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cmd/modes_compute.h"
+#include "fem/shapes.h"
+
+static bool read_output(const struct compute *k, const char **file, struct err *e)
+{
+    *file = args_value(&k->c->args, "output");
+    return *file || err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
+}
+
+static void report(const struct compute *k, const char *file)
+{
+    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", file, k->n, k->n == 1 ? "" : "s", k->frequency[0], k->frequency[k->n - 1], k->places,
+           k->places == 1 ? "" : "s");
+    if (k->left_out)
+        printf(" (%d of the grid lie beside the solid)", k->left_out);
+    printf("; %d tetrahedra of order %ld, %ld freedoms, %.4g kg, %d rigid motion%s\n", k->mesh.elements, k->order, k->modes.freedoms, k->modes.mass, k->modes.rigid,
+           k->modes.rigid == 1 ? "" : "s");
+}
+
+static void warn(const char *note)
+{
+    while (note && *note) {
+        int n = (int)strcspn(note, "\n");
+        fprintf(stderr, "rasp modes: warning: %.*s\n", n, note);
+        note += n + (note[n] == '\n');
+    }
+}
+
+int modes_compute_run(struct cmd_call *c, struct err *e)
+{
+    struct compute k = {.c = c};
+    const char *file;
+    char inputs[HASH_TEXT];
+    bool quiet = args_given(&c->args, "quiet");
+    if (args_given(&c->args, "shape") && !strcmp(args_value(&c->args, "shape"), "help")) {
+        puts(shapes_help());
+        return 0;
+    }
+    if (!read_output(&k, &file, e) || !modes_compute_solid_read(&k, e) || !modes_compute_places(&k, e))
+        return (int)e->kind;
+    modes_compute_write_inputs(&k, inputs);
+    bool there = access(file, F_OK) == 0;
+    if (there && modes_compute_write_is_current(file, inputs, c->arena)) {
+        if (!quiet)
+            printf("%s: up to date\n", file);
+        return 0;
+    }
+    if (there && !args_given(&c->args, "force")) {
+        err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
+        return (int)e->kind;
+    }
+    if (!modes_compute_solid_solve(&k, e) || !modes_compute_write(&k, file, inputs, e))
+        return (int)e->kind;
+    if (!quiet) {
+        report(&k, file);
+        warn(k.note);
+    }
+    return 0;
+}

@@ -1,0 +1,61 @@
+/* What `rasp modes compute` works on, and its parts: the solid, the places, the table. */
+#ifndef CMD_MODES_COMPUTE_H
+#define CMD_MODES_COMPUTE_H
+#include "base/hash.h"
+#include "cmd/modes.h"
+#include "fem/chart.h"
+#include "fem/solid.h"
+#include "scene/material.h"
+
+struct compute_material {
+    const struct material *named;    /* NULL: all figures are given */
+    bool own, own_damping;           /* figures of --youngs-modulus ..., of --alpha ... */
+    struct elastic elastic;
+    double youngs_modulus, poisson;  /* for the table; of wood along the grain */
+    double alpha, beta, loss;        /* 1/s, s, - */
+};
+
+struct compute {
+    struct cmd_call *c;
+    struct mesh mesh;
+    struct boundary boundary;
+    struct compute_material material;
+    struct solid_held *held;
+    const char **held_names;         /* [n_held] */
+    int n_held;
+    double top;                      /* Hz */
+    long most, order;
+    struct chart chart;
+    double origin[2];                /* m */
+    int quantity;                    /* enum modes_quantity */
+    int places, left_out;
+    double (*xy)[2];                 /* [places] m, on the chart */
+    struct boundary_point *point;    /* [places] */
+    bool elsewhere;                  /* heard at ... */
+    struct boundary_point ear;
+    struct solid_modes modes;
+    int n, overdamped;               /* modes that ring; that do not */
+    double *frequency, *decay;       /* [n] Hz (damped), 1/s */
+    int *mode;                       /* [n] of modes.lambda */
+    const char *note;                /* lines */
+};
+
+/* Operand or --shape, --unit, --material ..., --clamp, --support: all that the modes are computed of. */
+bool modes_compute_solid_read(struct compute *k, struct err *e);
+
+/* The modes. A pair w^2 = lambda decays with d = (alpha + beta w^2 + loss w)/2 and sounds at sqrt(lambda - d^2)/(2 pi): papers/003 equations 4, 5, with a loss factor besides;
+   lambda <= d^2 is overdamped and left out, with a note. */
+bool modes_compute_solid_solve(struct compute *k, struct err *e);
+
+/* --face, --line ..., --points, --listen, --origin. */
+bool modes_compute_places(struct compute *k, struct err *e);
+
+/* SHA-256 of all that the table follows from. */
+void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT]);
+
+/* Is the file a table made of these inputs and not changed since? */
+bool modes_compute_write_is_current(const char *file, const char *inputs, struct arena *a);
+
+bool modes_compute_write(const struct compute *k, const char *file, const char *inputs, struct err *e);
+
+#endif

@@ -1,0 +1,240 @@
+/* The solid of `rasp modes compute`: its mesh, material, what holds it, and its modes. */
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "cmd/modes_compute.h"
+#include "fem/mesh_check.h"
+#include "fem/mesh_raise.h"
+#include "fem/shapes.h"
+#include "num/real.h"
+#include "scene/units.h"
+
+/* ------------------------------------------------------------------ mesh */
+
+static bool quantity(struct compute *k, const char *name, enum key_dimension d, double *x, struct err *e)
+{
+    const char *text = args_value(&k->c->args, name);
+    struct units_fault fault = {NULL, NULL};
+    return !text || units_read(text, d, x, k->c->arena, &fault) || err_set(e, ERR_USAGE, "--%s: '%s' %s", name, text, fault.text);
+}
+
+/* "mm" or "25.4 mm". */
+static bool read_unit(struct compute *k, double *unit, struct err *e)
+{
+    const char *text = args_value(&k->c->args, "unit");
+    struct units_fault fault = {NULL, NULL};
+    *unit = 1;
+    if (!text)
+        return true;
+    const char *whole = text_number_length(text) > 0 ? text : arena_format(k->c->arena, "1 %s", text);
+    if (!units_read(whole, KEY_LENGTH, unit, k->c->arena, &fault))
+        return err_set(e, ERR_USAGE, "--unit: '%s' %s; write m, cm, mm or a length such as 25.4 mm", text, fault.text);
+    return (*unit >= 1e-9 && *unit <= 1e3) || err_set(e, ERR_USAGE, "--unit: %s is not from 1 nm to 1 km", text);
+}
+
+static bool read_mesh(struct compute *k, struct err *e)
+{
+    const struct args *g = &k->c->args;
+    const char *shape = args_value(g, "shape");
+    struct arena *a = k->c->arena;
+    double unit;
+    if (!shape == !g->n_operands)
+        return err_set(e, ERR_USAGE, shape ? "a mesh and --shape exclude each other" : "rasp modes compute takes one MESH, or --shape");
+    if (shape && args_given(g, "unit"))
+        return err_set(e, ERR_USAGE, "--unit is that of a mesh file; the lengths of --shape have their own units");
+    if (!read_unit(k, &unit, e) || !(shape ? shapes_mesh(shape, a, &k->mesh, e) : mesh_read(g->operands[0], unit, a, &k->mesh, e) && mesh_check(&k->mesh, a, e)))
+        return false;
+    mesh_raise(&k->mesh, a);
+    boundary_make(&k->mesh, a, &k->boundary);
+    return true;
+}
+
+/* ------------------------------------------------------------------ material */
+
+static bool name_material(struct compute *k, struct err *e)
+{
+    const char *word = args_value(&k->c->args, "material"), *names[64] = {NULL};
+    int n = 0;
+    k->material.named = NULL;
+    if (!word)
+        return true;
+    for (const struct material *m = material_table; m->name && n < 63; m++) {
+        names[n++] = m->name;
+        if (!strcmp(word, m->name))
+            k->material.named = m;
+    }
+    if (k->material.named)
+        return true;
+    const char *meant = text_nearest(word, names), *list = names[0];
+    for (int i = 1; i < n; i++)
+        list = arena_format(k->c->arena, "%s, %s", list, names[i]);
+    return meant ? err_set(e, ERR_USAGE, "--material: no material '%s'; did you mean %s?", word, meant)
+                 : err_set(e, ERR_USAGE, "--material: no material '%s'; there are %s", word, list);
+}
+
+/* All moduli of a wood keep their ratios to that along the grain. */
+static bool wooden(struct compute_material *m, double youngs_modulus, double density, struct err *e)
+{
+    const struct material *t = m->named;
+    const struct material_radial *r = &t->radial;
+    double more = youngs_modulus / t->youngs_modulus;
+    struct elastic_wood w = {.e = {youngs_modulus, more * t->across, more * r->youngs_modulus}, .density = density,
+                             .g = {more * r->shear_rt, more * r->shear_lr, more * t->shear}};
+    w.nu[0] = r->poisson_rt * t->across / r->youngs_modulus; /* of a pull along y: nu_TR = nu_RT E_T/E_R */
+    w.nu[1] = r->poisson_lr;
+    w.nu[2] = t->poisson;
+    return elastic_orthotropic(&w, &m->elastic, e);
+}
+
+static bool read_material(struct compute *k, struct err *e)
+{
+    struct compute_material *m = &k->material;
+    const struct args *g = &k->c->args;
+    if (!name_material(k, e))
+        return false;
+    const struct material none = {.youngs_modulus = NAN, .poisson = NAN, .density = NAN, .alpha = 0, .beta = 0, .loss = 0}, *t = m->named ? m->named : &none;
+    bool wood = t->radial.youngs_modulus > 0;
+    double density = t->density;
+    m->youngs_modulus = t->youngs_modulus;
+    m->poisson = t->poisson;
+    m->alpha = t->alpha;
+    m->beta = t->beta;
+    m->loss = t->loss;
+    m->own = args_given(g, "youngs-modulus") || args_given(g, "poisson") || args_given(g, "density");
+    m->own_damping = args_given(g, "alpha") || args_given(g, "beta") || args_given(g, "loss");
+    if (!quantity(k, "youngs-modulus", KEY_PRESSURE, &m->youngs_modulus, e) || !quantity(k, "density", KEY_DENSITY, &density, e) ||
+        !args_number(g, "poisson", (const double[2]){-1, 0.5}, &m->poisson, e) || !quantity(k, "alpha", KEY_PER_TIME, &m->alpha, e) ||
+        !quantity(k, "beta", KEY_TIME, &m->beta, e) || !args_number(g, "loss", (const double[2]){0, 2}, &m->loss, e))
+        return false;
+    if (isnan(m->youngs_modulus) || isnan(m->poisson) || isnan(density))
+        return err_set(e, ERR_USAGE, "--material is needed, or all of --youngs-modulus, --poisson and --density");
+    if (wood && args_given(g, "poisson"))
+        return err_set(e, ERR_USAGE, "--poisson: %s has six of them; leave it out, or give an isotropic material by --youngs-modulus, --poisson and --density", t->name);
+    if (!(m->alpha >= 0 && m->beta >= 0) || m->alpha + m->beta + m->loss == 0)
+        return err_set(e, ERR_USAGE, m->alpha + m->beta + m->loss == 0 ? "--alpha, --beta or --loss is needed: without damping a mode rings for ever"
+                                                                     : "--alpha and --beta must not be below 0");
+    return wood ? wooden(m, m->youngs_modulus, density, e) : elastic_isotropic(m->youngs_modulus, m->poisson, density, &m->elastic, e);
+}
+
+/* ------------------------------------------------------------------ what holds it */
+
+/* The faces of the box's plane "x0" ... "z1". */
+static bool plane(const struct compute *k, const char *word, struct solid_held *h)
+{
+    const struct boundary *b = &k->boundary;
+    int axis = word[0] - 'x';
+    if (axis < 0 || axis > 2 || (word[1] != '0' && word[1] != '1') || word[2])
+        return false;
+    double at = word[1] == '0' ? b->low[axis] : b->high[axis], slack = 1e-6 * (b->high[0] - b->low[0] + b->high[1] - b->low[1] + b->high[2] - b->low[2]);
+    h->n = 0;
+    h->corner = arena_take(k->c->arena, (size_t)b->n, sizeof *h->corner);
+    for (int i = 0; i < b->n; i++) {
+        bool on = true;
+        for (int j = 0; j < 6; j++)
+            on = on && fabs(k->mesh.at[b->face[i][j]][axis] - at) <= slack;
+        if (on)
+            memcpy(h->corner[h->n++], b->face[i], 3 * sizeof(int));
+    }
+    return true;
+}
+
+static bool group(const struct mesh *m, const char *word, struct solid_held *h)
+{
+    for (int i = 0; i < m->groups; i++)
+        if (!strcmp(m->group[i].name, word)) {
+            h->n = m->group[i].n;
+            h->corner = m->group[i].corner;
+            return true;
+        }
+    return false;
+}
+
+static bool hold(struct compute *k, const char *option, int how, struct err *e)
+{
+    int n;
+    const char **words = args_values(&k->c->args, option, &n);
+    for (int i = 0; i < n; i++) {
+        struct solid_held *h = &k->held[k->n_held];
+        h->hold = how;
+        if (!group(&k->mesh, words[i], h) && !plane(k, words[i], h)) {
+            const char *list = "";
+            for (int j = 0; j < k->mesh.groups; j++)
+                list = arena_format(k->c->arena, "%s%s%s", list, j ? ", " : "", k->mesh.group[j].name);
+            return err_set(e, ERR_USAGE, "--%s: there is no face '%s'; write x0, x1, y0, y1, z0 or z1 (where the solid ends)%s%s", option, words[i],
+                           *list ? ", or one that the mesh names: " : "", list);
+        }
+        if (h->n == 0)
+            return err_set(e, ERR_SCENE, "--%s %s: the solid has no face that lies in that plane; name faces in the mesh (a physical surface), or take another", option, words[i]);
+        k->held_names[k->n_held++] = words[i];
+    }
+    return true;
+}
+
+static bool read_held(struct compute *k, struct err *e)
+{
+    int clamped, supported;
+    args_values(&k->c->args, "clamp", &clamped);
+    args_values(&k->c->args, "support", &supported);
+    k->held = ARENA_TAKE(k->c->arena, struct solid_held, clamped + supported + 1);
+    k->held_names = ARENA_TAKE(k->c->arena, const char *, clamped + supported + 1);
+    return hold(k, "clamp", SOLID_CLAMPED, e) && hold(k, "support", SOLID_SUPPORTED, e);
+}
+
+bool modes_compute_solid_read(struct compute *k, struct err *e)
+{
+    static const long counts[2] = {1, 2000}, orders[2] = {SOLID_LATTICE_LEAST, SOLID_LATTICE_MOST};
+    k->top = 20000;
+    k->most = 100;
+    k->order = args_given(&k->c->args, "shape") ? 3 : 2;
+    if (!quantity(k, "top", KEY_FREQUENCY, &k->top, e) || !args_whole(&k->c->args, "modes", counts, &k->most, e) ||
+        !args_whole(&k->c->args, "order", orders, &k->order, e))
+        return false;
+    if (!(k->top > 0 && k->top <= 1e7))
+        return err_set(e, ERR_USAGE, "--top: %g Hz is not above 0 and at most 10 MHz", k->top);
+    if (!read_material(k, e) || !read_mesh(k, e) || !read_held(k, e))
+        return false;
+    k->note = k->mesh.note;
+    return true;
+}
+
+/* ------------------------------------------------------------------ modes */
+
+static void note(struct compute *k, const char *text)
+{
+    k->note = k->note ? arena_format(k->c->arena, "%s\n%s", k->note, text) : text;
+}
+
+static void damp(struct compute *k)
+{
+    const struct compute_material *m = &k->material;
+    k->frequency = ARENA_TAKE(k->c->arena, double, k->modes.n);
+    k->decay = ARENA_TAKE(k->c->arena, double, k->modes.n);
+    k->mode = ARENA_TAKE(k->c->arena, int, k->modes.n);
+    for (int i = 0; i < k->modes.n; i++) {
+        double lambda = k->modes.lambda[i], d = material_decay(m->alpha, m->beta, m->loss, sqrt(lambda));
+        if (lambda <= d * d) {
+            k->overdamped++;
+            continue;
+        }
+        k->mode[k->n] = i;
+        k->decay[k->n] = d;
+        k->frequency[k->n++] = sqrt(lambda - d * d) / (2.0 * REAL_PI);
+    }
+}
+
+bool modes_compute_solid_solve(struct compute *k, struct err *e)
+{
+    struct solid_ask ask = {.material = &k->material.elastic, .held = k->held, .n_held = k->n_held, .order = (int)k->order, .most = (int)k->most, .top = k->top};
+    struct arena *a = k->c->arena;
+    if (!solid_modes(&k->mesh, &k->boundary, &ask, a, &k->modes, e))
+        return false;
+    damp(k);
+    if (k->n == 0)
+        return err_set(e, ERR_SCENE, "%s: all %d modes are overdamped: they creep back without ringing; lower --alpha, --beta or --loss", k->mesh.name, k->overdamped);
+    if (k->overdamped)
+        note(k, arena_format(a, "%d overdamped mode%s left out", k->overdamped, k->overdamped == 1 ? " is" : "s are"));
+    if (!k->modes.all)
+        note(k, arena_format(a, "the %d lowest modes reach up to %.5g Hz; --modes takes more of those below %g Hz", k->modes.n, k->frequency[k->n - 1], k->top));
+    return true;
+}

@@ -1,0 +1,234 @@
+/* The mode table of `rasp modes compute`.
+
+   A unit impulse (1 N s) that presses at x makes a mass-normalised mode move, where it is heard, by phi(x) phi(l)/w_d e^(-d t) sin(w_d t), displacement along the
+   inward normal; velocity is Im(A e^(s t)) with A = phi(x) phi(l) (j - d/w_d), as of objects of closed form (response/object_modes.c).
+
+   Nine digits: what another CPU's linear algebra leaves alone. The first line is the hash of
+   all that follows, which holds the hash of what the table was made from: a table that is current needs no second computation. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/outfile.h"
+#include "cmd/modes_compute.h"
+#include "cmd/version.h"
+#include "fem/touch.h"
+#include "num/real.h"
+#include "response/mode_table_write.h"
+
+static const char first[] = "# content: ", second[] = "# inputs: ";
+enum { DIGITS = 9 };
+
+/* ------------------------------------------------------------------ hashes */
+
+static void add_point(struct hash *h, const struct boundary_point *p)
+{
+    hash_add(h, p->at, sizeof p->at);
+    hash_add(h, p->normal, sizeof p->normal);
+}
+
+static void add_text(struct hash *h, const char *text)
+{
+    hash_add(h, text ? text : "", text ? strlen(text) + 1 : 1);
+}
+
+void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
+{
+    const struct compute_material *m = &k->material;
+    const double numbers[] = {m->alpha, m->beta, m->loss, m->elastic.density, k->top, k->origin[0], k->origin[1]};
+    const long wholes[] = {k->most, k->order, k->quantity, k->chart.face, k->places, k->elsewhere, m->own, m->own_damping};
+    struct hash h = hash_start();
+    add_text(&h, "rasp modes compute, table 1");
+    add_text(&h, k->mesh.name);
+    add_text(&h, args_value(&k->c->args, "title"));
+    add_text(&h, m->named ? m->named->name : NULL);
+    hash_add(&h, k->mesh.at, (size_t)k->mesh.nodes * sizeof *k->mesh.at);
+    hash_add(&h, k->mesh.element, (size_t)k->mesh.elements * sizeof *k->mesh.element);
+    hash_add(&h, m->elastic.c, sizeof m->elastic.c);
+    hash_add(&h, numbers, sizeof numbers);
+    hash_add(&h, wholes, sizeof wholes);
+    for (int i = 0; i < k->n_held; i++) {
+        hash_add(&h, &k->held[i].hold, sizeof k->held[i].hold);
+        add_text(&h, k->held_names[i]);
+        hash_add(&h, k->held[i].corner, (size_t)k->held[i].n * sizeof *k->held[i].corner);
+    }
+    hash_add(&h, k->xy, (size_t)k->places * sizeof *k->xy);
+    for (int i = 0; i < k->places; i++)
+        add_point(&h, &k->point[i]);
+    if (k->elsewhere)
+        add_point(&h, &k->ear);
+    hash_end(&h, hex);
+}
+
+static char *contents(const char *file, size_t *size)
+{
+    char *text = NULL;
+    FILE *in = fopen(file, "rb"), *out = open_memstream(&text, size);
+    char piece[1 << 16];
+    for (size_t n; in && out && (n = fread(piece, 1, sizeof piece, in)) > 0;)
+        fwrite(piece, 1, n, out);
+    if (in)
+        fclose(in);
+    if (out)
+        fclose(out);
+    return text;
+}
+
+bool modes_compute_write_is_current(const char *file, const char *inputs, struct arena *a)
+{
+    size_t size = 0, head = sizeof first - 1 + HASH_TEXT; /* with its line's end in place of the hash's */
+    char *text = contents(file, &size), hex[HASH_TEXT];
+    bool current = false;
+    if (text && size > head && !memcmp(text, first, sizeof first - 1)) {
+        hash_bytes(text + head, size - head, hex);
+        current = !memcmp(text + sizeof first - 1, hex, HASH_TEXT - 1) && strstr(text + head, arena_format(a, "\n%s%s\n", second, inputs)) != NULL;
+    }
+    free(text);
+    return current;
+}
+
+/* ------------------------------------------------------------------ comments */
+
+static void object(FILE *f, const struct compute *k)
+{
+    const struct boundary *b = &k->boundary;
+    const char *title = args_value(&k->c->args, "title");
+    if (title)
+        fprintf(f, "# title: %s\n", title);
+    fprintf(f, "# object: %s, x %.9g to %.9g m, y %.9g to %.9g m, z %.9g to %.9g m, %.6g kg\n", k->mesh.name, b->low[0], b->high[0], b->low[1], b->high[1], b->low[2],
+            b->high[2], k->modes.mass);
+    for (int i = 0; i < k->n_held; i++)
+        fprintf(f, "# %s: %s\n", k->held[i].hold == SOLID_CLAMPED ? "clamped" : "supported", k->held_names[i]);
+}
+
+static void material(FILE *f, const struct compute_material *m)
+{
+    bool wood = m->named && m->named->radial.youngs_modulus > 0;
+    fprintf(f, "# material: %s, density %.9g kg/m^3, Young's modulus %.9g Pa", m->named ? m->named->name : "custom", m->elastic.density, m->youngs_modulus);
+    if (wood)
+        fprintf(f, " along x (the grain), %.9g along y (tangential), %.9g along z (radial)", m->youngs_modulus * m->named->across / m->named->youngs_modulus,
+                m->youngs_modulus * m->named->radial.youngs_modulus / m->named->youngs_modulus);
+    else
+        fprintf(f, ", Poisson's ratio %.9g", m->poisson);
+    fprintf(f, "\n# damping: decay = (alpha + beta w^2 + loss w)/2, alpha %.9g 1/s, beta %.9g s, loss factor %.9g\n", m->alpha, m->beta, m->loss);
+    if (!m->named)
+        fputs("# source: the object's own figures\n", f);
+    else
+        fprintf(f, "# source: %s%s\n# source_of_damping: %s%s\n", m->own ? "the object's own figures, else " : "", m->named->source,
+                m->own_damping ? "the object's own figures, else " : "", m->named->damping_source);
+}
+
+static void notes(FILE *f, const char *text)
+{
+    while (text && *text) {
+        int n = (int)strcspn(text, "\n");
+        fprintf(f, "# note: %.*s\n", n, text);
+        text += n + (text[n] == '\n');
+    }
+}
+
+static void comments(FILE *f, const struct compute *k, const char *inputs)
+{
+    static const char *const axes[] = {"x, y", "x, y", "y, z", "y, z", "x, z", "x, z", "arc, z", "arc, z"};
+    fprintf(f, "# poles: shared\n# quantity: %s\n# normalisation: %s, physical; along the inward normal; heard at ", modes_quantity_name(k->quantity),
+            modes_per_impulse(k->quantity));
+    if (k->elsewhere)
+        fprintf(f, "the point x = %.9g m, y = %.9g m, z = %.9g m of the solid\n", k->ear.at[0], k->ear.at[1], k->ear.at[2]);
+    else
+        fputs("the place that is touched\n", f);
+    if (args_given(&k->c->args, "points"))
+        fputs("# places: points of a list, the nearest of the surface\n", f);
+    else
+        fprintf(f, "# places: on the solid as seen from its side '%s': its %s, moved by (%.9g, %.9g) m\n", chart_faces[k->chart.face], axes[k->chart.face], k->origin[0],
+                k->origin[1]);
+    fprintf(f, "# radius_m: %.9g\n", sqrt(k->boundary.area / (4.0 * REAL_PI)));
+    object(f, k);
+    material(f, &k->material);
+    fprintf(f, "# holds: linear elasticity by finite elements, %d tetrahedra of order %ld, %ld freedoms; no radiation\n", k->mesh.elements, k->order, k->modes.freedoms);
+    notes(f, k->note);
+    fprintf(f, "%s%s\n", second, inputs);
+}
+
+/* ------------------------------------------------------------------ rows */
+
+/* Shapes in steps of 2^-29 of a mode's greatest: what is left of a nodal line but rounding becomes 0. */
+static void settle(const struct compute *k, const double *step, double *phi)
+{
+    for (int i = 0; i < k->modes.n; i++)
+        phi[i] = rint(phi[i] / step[i]) * step[i];
+}
+
+static double *steps(const struct compute *k)
+{
+    double *step = ARENA_TAKE(k->c->arena, double, k->modes.n);
+    long wide = 3 * k->modes.nodes;
+    for (int i = 0; i < k->modes.n; i++) {
+        for (long j = 0; j < wide; j++)
+            step[i] = fmax(step[i], fabs(k->modes.shape[i * wide + j]));
+        step[i] = ldexp(1.0, ilogb(step[i]) - 29);
+    }
+    return step;
+}
+
+/* gain[places][n] phi(x) phi(l). */
+static double *gains(const struct compute *k)
+{
+    const int all = k->modes.n;
+    const double *step = steps(k);
+    double *gain = ARENA_TAKE(k->c->arena, double, (long)k->places * k->n), *phi = ARENA_TAKE(k->c->arena, double, all), *ear = ARENA_TAKE(k->c->arena, double, all);
+    if (k->elsewhere) {
+        touch_shapes(&k->modes, &k->ear, ear);
+        settle(k, step, ear);
+    }
+    for (int p = 0; p < k->places; p++) {
+        touch_shapes(&k->modes, &k->point[p], phi);
+        settle(k, step, phi);
+        for (int i = 0; i < k->n; i++)
+            gain[(long)p * k->n + i] = phi[k->mode[i]] * (k->elsewhere ? ear : phi)[k->mode[i]];
+    }
+    return gain;
+}
+
+static void rows(FILE *f, const struct compute *k)
+{
+    struct modes_point p = modes_point_make(k->c->arena, k->n);
+    const double *gain = gains(k);
+    int *order = ARENA_TAKE(k->c->arena, int, k->n);
+    for (int i = 0; i < k->n; i++)
+        order[i] = i;
+    mode_table_write_header(f);
+    for (int at = 0; at < k->places; at++, gain += k->n) {
+        struct mode_table_place place = {DIGITS, at + 1, k->xy[at][0] + k->origin[0], k->xy[at][1] + k->origin[1]};
+        for (int i = 0; i < k->n; i++) {
+            p.frequency[i] = k->frequency[i];
+            p.decay[i] = k->decay[i];
+            p.im[i] = gain[i];
+            p.re[i] = -gain[i] * k->decay[i] / (2.0 * REAL_PI * k->frequency[i]);
+        }
+        modes_to_quantity(k->quantity, k->n, &p);
+        mode_table_write_place(f, &place, k->n, order, &p, k->quantity);
+    }
+}
+
+bool modes_compute_write(const struct compute *k, const char *file, const char *inputs, struct err *e)
+{
+    struct outfile o;
+    char *text = NULL, hex[HASH_TEXT];
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    if (!f)
+        return err_set(e, ERR_MEMORY, "out of memory");
+    comments(f, k, inputs);
+    rows(f, k);
+    bool whole = fclose(f) == 0;
+    if (!whole || !outfile_open(&o, file, e)) {
+        free(text);
+        return whole ? false : err_set(e, ERR_MEMORY, "out of memory");
+    }
+    hash_bytes(text, size, hex);
+    fprintf(o.stream, "%s%s\n", first, hex);
+    fwrite(text, 1, size, o.stream);
+    free(text);
+    return outfile_commit(&o, e);
+}

@@ -1,0 +1,29 @@
+/* Runs rasp-modes in place of rasp, with the same words: it stands beside rasp, or, installed, in ../libexec/rasp. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cmd/modes.h"
+
+enum { PATH_LENGTH = 4096 };
+
+int modes_elsewhere_run(struct cmd_call *c, struct err *e)
+{
+    static const char *const places[] = {"rasp-modes", "../libexec/rasp/rasp-modes"};
+    char self[PATH_LENGTH];
+    ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
+    self[n > 0 ? n : 0] = '\0';
+    char *slash = strrchr(self, '/');
+    if (slash)
+        slash[1] = '\0';
+    char **argv = arena_take(c->arena, (size_t)c->argc + 2, sizeof *argv);
+    argv[0] = arena_text(c->arena, "rasp-modes");
+    memcpy(argv + 1, c->argv, (size_t)c->argc * sizeof *argv);
+    argv[c->argc + 1] = NULL;
+    setenv("OPENBLAS_NUM_THREADS", "1", 1);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        execv(arena_format(c->arena, "%s%s", self, places[i]), argv);
+    err_set(e, ERR_UNBUILT, "cannot run rasp-modes, which stands beside rasp or in ../libexec/rasp: %s; `make` builds it", strerror(errno));
+    return (int)e->kind;
+}

@@ -1,0 +1,114 @@
+/* Places on an object: --line, --circle, --grid, --at, else what suits its shape. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "cmd/modes.h"
+#include "num/real.h"
+
+static void add(struct modes_places *p, double x, double y)
+{
+    p->xy[p->n][0] = x;
+    p->xy[p->n++][1] = y;
+}
+
+/* ends: x0, y0, x1, y1. Exact at both ends and in the middle. */
+static void line(struct modes_places *p, const double ends[4], int n, struct arena *a)
+{
+    p->xy = arena_take(a, (size_t)n, sizeof *p->xy);
+    for (int i = 0; i < n; i++) {
+        double u = n > 1 ? (double)i / (n - 1) : 0.0;
+        add(p, ends[0] + u * (ends[2] - ends[0]), ends[1] + u * (ends[3] - ends[1]));
+    }
+}
+
+static void circle(struct modes_places *p, double radius, int n, struct arena *a)
+{
+    p->xy = arena_take(a, (size_t)n, sizeof *p->xy);
+    for (int i = 0; i < n; i++)
+        add(p, radius * real_cospi(2.0 * i / n), radius * real_sinpi(2.0 * i / n));
+}
+
+static void grid(struct modes_places *p, const struct modes_ground *g, const int n[2], struct arena *a)
+{
+    p->xy = arena_take(a, (size_t)n[0] * (size_t)n[1], sizeof *p->xy);
+    for (int j = 0; j < n[1]; j++)
+        for (int i = 0; i < n[0]; i++) {
+            double x = g->low[0] + (g->high[0] - g->low[0]) * i / (n[0] - 1), y = g->low[1] + (g->high[1] - g->low[1]) * j / (n[1] - 1);
+            if (g->off(g->self, x, y) <= 1e-9)
+                add(p, x, y);
+            else
+                p->left_out++;
+        }
+}
+
+static bool read_grid(struct cmd_call *c, int n[2], struct err *e)
+{
+    const char *text = args_value(&c->args, "grid");
+    if (!text)
+        return true;
+    char *comma, *end;
+    long x = strtol(text, &comma, 10), y = *comma == ',' ? strtol(comma + 1, &end, 10) : 0;
+    if (y < 2 || x < 2 || x > 1000 || y > 1000 || *end)
+        return err_set(e, ERR_USAGE, "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, as in 17,9", text);
+    n[0] = (int)x;
+    n[1] = (int)y;
+    return true;
+}
+
+static bool all_on(const struct modes_ground *g, const struct modes_places *p, struct err *e)
+{
+    for (int i = 0; i < p->n; i++) {
+        double off = g->off(g->self, p->xy[i][0], p->xy[i][1]);
+        if (off > 1e-9 && isfinite(off))
+            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies %.3g m off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m",
+                           p->xy[i][0], p->xy[i][1], off, g->low[0], g->high[0], g->low[1], g->high[1]);
+        if (off > 1e-9)
+            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m",
+                           p->xy[i][0], p->xy[i][1], g->low[0], g->high[0], g->low[1], g->high[1]);
+    }
+    return p->n > 0 || err_set(e, ERR_SCENE, "none of the %d places of the grid lies on the object; take a finer one, or --line or --at", p->left_out);
+}
+
+static void standard(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p)
+{
+    double middle = 0.5 * (g->low[1] + g->high[1]);
+    if (g->standard[0] == 1)
+        line(p, (double[4]){g->at[0], g->at[1], g->at[0], g->at[1]}, 1, c->arena);
+    else if (g->standard[1] > 1)
+        grid(p, g, g->standard, c->arena);
+    else
+        line(p, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], c->arena);
+}
+
+static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], struct err *e)
+{
+    static const long counts[2] = {2, 100000};
+    const struct args *g = &c->args;
+    if (!modes_lengths(c, &(struct modes_lengths){"line", "X0,Y0,X1,Y1", 4}, ends, e) || !modes_lengths(c, &(struct modes_lengths){"circle", "RADIUS", 1}, ends, e) ||
+        !modes_lengths(c, &(struct modes_lengths){"at", "X,Y", 2}, ends, e) || !read_grid(c, n, e) || !args_whole(g, "places", counts, places, e))
+        return false;
+    if (args_given(g, "line") + args_given(g, "circle") + args_given(g, "at") + args_given(g, "grid") > 1)
+        return err_set(e, ERR_USAGE, "--line, --circle, --grid and --at exclude each other");
+    return !args_given(g, "places") || args_given(g, "line") || args_given(g, "circle") || err_set(e, ERR_USAGE, "--places needs --line or --circle");
+}
+
+bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p, struct err *e)
+{
+    double ends[4] = {0};
+    int n[2];
+    long places = 33;
+    *p = (struct modes_places){0};
+    if (!read(c, ends, &places, n, e))
+        return false;
+    if (args_given(&c->args, "at"))
+        line(p, ends, 1, c->arena);
+    else if (args_given(&c->args, "grid"))
+        grid(p, g, n, c->arena);
+    else if (args_given(&c->args, "circle"))
+        circle(p, ends[0], (int)places, c->arena);
+    else if (args_given(&c->args, "line"))
+        line(p, ends, (int)places, c->arena);
+    else
+        standard(c, g, p);
+    return all_on(g, p, e);
+}
