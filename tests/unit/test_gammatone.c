@@ -4,6 +4,7 @@
 
 #include "convolution/ring_choice.h"
 #include "rig.h"
+#include "force_file.h"
 
 enum { RATE = 8000, FRAMES = 2600, FORCED = 1600, MODES = 4, BLOCK = 700 };
 
@@ -30,20 +31,9 @@ static void table_write(const char *name, const char *poles, const struct place 
 
 static void force_write(void)
 {
-    char path[200], head[129] = {0};
+    char path[200];
     snprintf(path, sizeof path, "%s/force.npy", folder);
-    FILE *f = fopen(path, "w");
-    ck_assert_ptr_nonnull(f);
-    int used = snprintf(head + 10, 110, "{'descr': '<f8', 'fortran_order': False, 'shape': (%d,), }", FORCED);
-    memcpy(head, "\x93NUMPY\x01\x00\x76\x00", 10);
-    memset(head + 10 + used, ' ', (size_t)(118 - used));
-    head[127] = '\n';
-    srand48(5);
-    for (int n = 0; n < FORCED; n++)
-        force[n] = drand48() + drand48() + drand48() - 1.5;
-    fwrite(head, 1, 128, f);
-    fwrite(force, sizeof *force, FORCED, f);
-    fclose(f);
+    force_file_write(fopen(path, "w"), force, FORCED);
 }
 
 static void folder_make(void)

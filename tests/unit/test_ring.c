@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "rig.h"
+#include "force_file.h"
 
 enum { RATE = 8000, FRAMES = 2400, FORCED = 2000, MODES = 5, BLOCK = 700 };
 #define SECONDS ((double)FORCED / RATE)
@@ -49,18 +50,7 @@ static void table_write(const char *name, const char *poles, const struct place 
 /* White force for the motion's 0.25 s, at the audio rate. */
 static void force_write(void)
 {
-    FILE *f = file_open("force.npy");
-    char head[129] = {0};
-    int used = snprintf(head + 10, 110, "{'descr': '<f8', 'fortran_order': False, 'shape': (%d,), }", FORCED);
-    memcpy(head, "\x93NUMPY\x01\x00\x76\x00", 10);
-    memset(head + 10 + used, ' ', (size_t)(118 - used));
-    head[127] = '\n';
-    srand48(5);
-    for (int n = 0; n < FORCED; n++)
-        force[n] = drand48() + drand48() + drand48() - 1.5;
-    fwrite(head, 1, 128, f);
-    fwrite(force, sizeof *force, FORCED, f);
-    fclose(f);
+    force_file_write(file_open("force.npy"), force, FORCED);
 }
 
 static void setup(void)
