@@ -359,7 +359,8 @@ $(cat coverage.txt)
 
 $(awk -F'|' '$3 + 0 <= 5000 { for (i = 5; i <= 12; i++) { n++; sum += $i; if ($i + 0 < 91 || $i + 0 > 99) out = out sprintf(" %.1f (n = %d, rho = %g);", $i, $3, $4) } } END { printf "n of 2000 and 5000: %d cells, %.1f %% on average; outside 91 to 99:%s\n", n, sum / n, out == "" ? " none." : out }' coverage.txt)
 The deviation of A comes out too small, as 0.8 to 1.1 % of its draws are floored: what is raised takes away from the scatter. That bias stays as n grows while errors shrink: a quarter of an error at n = 2000,
-half of one at 5000, one and more at 20000, where its interval holds the truth too seldom. \`analyse\` warns of impacts at a floor; \`marginal: lognormal\` has none.
+half of one at 5000, one and more at 20000, where its interval holds the truth too seldom. \`analyse\` warns of impacts at a floor where it reads a listing, modulated or not; in a force
+impacts at the floor come close together and merge, and it says that it cannot tell. \`marginal: lognormal\` has no floor.
 
 **What floors and modulation bring**, n = 5000, 60 seeds; the same columns, last m and its bias. "own" is a plain recursion by GSL's generator, of which only intervals are floored.
 

@@ -26,6 +26,9 @@
 #include "num/between.h"
 #include "num/real.h"
 
+#define BLUR_AMPLITUDE 0.005 /* of them: those of impacts that stand alone are nearer, but tails of neighbours add */
+#define BLUR_INTERVAL 0.05   /* samples */
+
 enum { REACH = 24, FEET = 3, FEET_LEAST = 12, FEET_SURE = 32, ARM = BETWEEN_PHASES / 4 };
 
 const struct impact_options impact_find_options = {0.001, 0.02, 0.01, false};
@@ -278,9 +281,11 @@ static void stretch_widths(const struct search *q, const double *width, struct a
     }
 }
 
-static void take_room(struct impact_found *f, long n, struct arena *a)
+static void take_room(struct impact_found *f, long n, double rate, struct arena *a)
 {
     f->events.n = (int)n;
+    f->events.blur[0] = BLUR_AMPLITUDE;
+    f->events.blur[1] = BLUR_INTERVAL / rate;
     f->events.time = ARENA_TAKE(a, double, n);
     f->events.amplitude = ARENA_TAKE(a, double, n);
     f->events.duration = ARENA_TAKE(a, double, n);
@@ -303,7 +308,7 @@ bool impact_find(const struct impact_signal *s, const struct impact_options *o, 
     if (q.n == 0)
         return err_set(e, ERR_SCENE, "no impact: the force, from %.6g to %.6g N, has no local maximum above %.6g N that is prominent enough%s", f->least,
                        f->greatest, o->threshold * fmax(f->greatest, 0), !o->both && f->least < -fmax(f->greatest, 0) ? "; --signed looks for those below 0 too" : "");
-    take_room(f, q.n, a);
+    take_room(f, q.n, s->rate, a);
     double *width = ARENA_TAKE(a, double, q.n);
     take_all(&q, width);
     stretch_widths(&q, width, a);

@@ -9,7 +9,6 @@
      the errors of a1, b1 and s. */
 #include "analysis/impact_statistics.h"
 
-#include <float.h>
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <string.h>
@@ -137,7 +136,7 @@ bool impact_statistics_make(const struct impact_events *v, bool demodulate_them,
     if (!check(v, e))
         return false;
     int n = v->n;
-    double *interval = ARENA_TAKE(a, double, n), grain = 4 * DBL_EPSILON * fmax(fabs(v->time[0]), fabs(v->time[n - 1]));
+    double *interval = ARENA_TAKE(a, double, n), grain = impact_events_grain(v);
     s->n = n;
     s->demodulated = ARENA_TAKE(a, double, n);
     for (int i = 0; i < STATISTICS_SERIES; i++)

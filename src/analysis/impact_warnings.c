@@ -1,11 +1,19 @@
 /* Warnings of `rasp analyse`: each says what was seen, what it does to the estimates, and where there is a remedy, which. */
 #include "analysis/impact_warnings.h"
 
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sort.h>
 #include <math.h>
+#include <string.h>
 
 #include "analysis/frequency_polygon.h"
+#include "force/impact_series.h"
+#include "num/real.h"
 
-enum { FEW = 500, KURTOSIS_MOST = 5 };
+#define CHANCE 1e-6
+#define GRAIN 1e-6 /* of the distance between the quartiles: values so near are alike */
+
+enum { FEW = 500, KURTOSIS_MOST = 5, NEAR = 20 };
 
 static const char *const names[STATISTICS_SERIES] = {"amplitudes", "intervals"};
 static const char *const keys[STATISTICS_SERIES] = {"amplitude", "interval"};
@@ -18,26 +26,44 @@ struct list {
 
 #define WARN(l, ...) ((l)->s->warnings[(l)->count++] = arena_format((l)->a, __VA_ARGS__))
 
-/* Draws raised to a floor are all equal: more values are the least one than could be by chance, and more than the next. */
-static void floors(struct list *l, int which, const double *x, int n)
+/* How far amplitudes at a floor come apart to each side, as a share of it, where a modulation was divided out that was not quite theirs: one error of
+   m sin(2 pi nu t + phi), of which the phase's is about m's over m, and the rate's counts most at both ends. */
+static double divided(const struct impact_modulation *m, double span)
 {
-    double least = HUGE_VAL, next = HUGE_VAL, most = -HUGE_VAL;
-    int at_least = 0, at_next = 0;
-    for (int i = 0; i < n; i++) {
-        least = fmin(least, x[i]);
-        most = fmax(most, x[i]);
-    }
-    double grain = 1e-6 * (most - least);
-    for (int i = 0; i < n; i++)
-        if (x[i] > least + grain)
-            next = fmin(next, x[i]);
-    for (int i = 0; i < n; i++) {
-        at_least += x[i] <= least + grain;
-        at_next += fabs(x[i] - next) <= grain;
-    }
-    if (at_least >= 3 && at_least >= 3 * at_next)
-        WARN(l, "%.3g %% of the %s are the smallest one, %.4g: draws were raised to a floor. What lay below is lost: the mean comes out too high, the deviation and a1's memory wrong",
-             100.0 * at_least / n, names[which], least);
+    double depth = m->depth, sway = REAL_PI * m->rate_error * span * depth, error = sqrt(2 * m->depth_error * m->depth_error + sway * sway);
+    if (!m->found)
+        return 0;
+    return isfinite(error) && depth < 1 ? fmin(error / (1 - depth), 0.1) : 0.1;
+}
+
+/* How many of x[n], which rise, are the least one, alike within `reach`; 0: no more than by chance, judged by how close the next ones lie, or than are the next. */
+static int piled(const double *x, int n, double reach)
+{
+    int least = 0, next = 0;
+    while (least < n && x[least] <= x[0] + reach)
+        least++;
+    while (least + next < n && x[least + next] <= x[least] + reach)
+        next++;
+    int beyond = (int)fmin(fmax(least, NEAR), n - 1 - least);
+    if (least < 3 || least < 3 * next || beyond < 1)
+        return 0;
+    return gsl_cdf_poisson_Q(least - 2, reach * beyond / (x[least + beyond] - x[least])) < CHANCE ? least : 0;
+}
+
+/* Draws raised to a floor are all equal. apart: how far equal ones may be apart otherwise, to each side: as a share of them, and in themselves; where a modulation was
+   divided out, twice and three times as much is tried too. */
+static void floors(struct list *l, int which, const double *series, int n, const double apart[2])
+{
+    double *x = ARENA_TAKE(l->a, double, n);
+    memcpy(x, series, n * sizeof *x);
+    gsl_sort(x, 1, n);
+    int least = 0, tries = which == STATISTICS_AMPLITUDE && l->s->modulation.found ? 3 : 1;
+    for (int k = 1; k <= tries; k++)
+        least = (int)fmax(least, piled(x, n, 2 * k * (apart[0] * fabs(x[0]) + apart[1]) + GRAIN * (x[3 * n / 4] - x[n / 4])));
+    if (least)
+        WARN(l, "%.3g %% of the %s are the smallest one, %s%.4g: raised to a floor, as draws below one are%s. What lay below a floor is lost: the mean comes out too high, the deviation and a1's memory wrong",
+             100.0 * least / n, names[which], apart[0] > 0 ? "about " : "", x[least / 2],
+             which == STATISTICS_INTERVAL ? " (or drawn alike, as a rub's are)" : "");
 }
 
 static void filters(struct list *l, int which)
@@ -66,23 +92,23 @@ static void filters(struct list *l, int which)
 static void merged(struct list *l, const struct impact_events *v)
 {
     int known = 0, over = 0;
+    double grain = impact_events_grain(v);
     for (int i = 0; i + 1 < v->n; i++)
         if (isfinite(v->duration[i]) && isfinite(v->duration[i + 1])) {
-            double apart = v->time[i + 1] - v->time[i], both = 0.5 * (v->duration[i] + v->duration[i + 1]);
             known++;
-            over += apart < both * (1 - 1e-6);
+            over += impact_series_overlap(v->time[i + 1] - v->time[i], v->duration[i], v->duration[i + 1], grain);
         }
     if (known && over > 0.005 * known)
-        WARN(l, "%.3g %% of the impacts begin before the one before is over: in a force such impacts merge, so that short intervals are missed (their mean comes out too long) and amplitudes add",
-             100.0 * over / known);
+        WARN(l, "%.3g %% of the impacts begin before the one before is over: in a force such impacts merge, so that short intervals are missed (their mean comes out too long) and amplitudes add%s",
+             100.0 * over / known, v->blur[0] > 0 ? ". Weak impacts close together merge first: whether draws were raised to a floor cannot be told here" : "");
 }
 
 static void modulated(struct list *l)
 {
     const struct impact_modulation *m = &l->s->modulation;
     if (m->found)
-        WARN(l, "amplitudes are modulated, m = %.3f at %.4g Hz, and were divided by it: durations follow from the modulated ones. What is left is biased by the errors of m and the rate, and impacts near a "
-             "floor stay there", m->depth, m->rate);
+        WARN(l, "amplitudes are modulated, m = %.3f at %.4g Hz, and were divided by it: durations follow from the modulated ones. What is left is biased by the errors of m and the rate, and where draws were "
+             "raised to a floor by that: the mean is too high, the deviation too small", m->depth, m->rate);
 }
 
 /* From STATISTICS_ONE_PROCESS on a scene takes one process, which ties amplitudes and intervals wholly. */
@@ -102,9 +128,9 @@ void impact_warnings(const struct impact_events *v, const double *interval, stru
         WARN(&l, "only %d impacts: intervals of confidence hold from about %d on", s->n, FEW);
     modulated(&l);
     if (!s->series[STATISTICS_AMPLITUDE].flat)
-        floors(&l, STATISTICS_AMPLITUDE, v->amplitude, s->n);
+        floors(&l, STATISTICS_AMPLITUDE, s->demodulated, s->n, (const double[2]){v->blur[0] + divided(&s->modulation, v->time[s->n - 1] - v->time[0]), 0});
     if (!s->series[STATISTICS_INTERVAL].flat)
-        floors(&l, STATISTICS_INTERVAL, interval, s->n - 1);
+        floors(&l, STATISTICS_INTERVAL, interval, s->n - 1, (const double[2]){0, v->blur[1] + impact_events_grain(v)});
     merged(&l, v);
     for (int i = 0; i < STATISTICS_SERIES; i++)
         filters(&l, i);

@@ -58,13 +58,14 @@ static bool theta_find(struct cmd_call *c, struct analysis *a, struct err *e)
     return true;
 }
 
-/* A law that does not hold gives way to a constant, the durations' median; a theta that was asked for stays. */
+/* A law that does not hold gives way to a constant, the durations' median; so does a theta of 0, which is one, unless all durations are alike. A theta that was
+   asked for stays. */
 static void constant_instead(struct analysis *a)
 {
     struct impact_duration *d = &a->duration;
     double r2 = d->r2_log, theta = d->theta;
     bool given = a->theta == ANALYSE_THETA_GIVEN, few = d->n < IMPACT_DURATION_MANY;
-    a->constant = !given && (a->theta == ANALYSE_THETA_NONE || few || (theta > 0 && r2 < 0));
+    a->constant = !given && (a->theta == ANALYSE_THETA_NONE || few || (theta > 0 ? r2 < 0 : !isnan(r2)));
     if (a->constant)
         impact_duration_constant(&a->source.found.events, a->arena, d);
     const char *taken = given ? "and zeta means little" : "so the median is taken for all, and theta as 0";
@@ -73,7 +74,7 @@ static void constant_instead(struct analysis *a)
                         "Single impacts (--single) help, or --theta");
     else if (few)
         analyse_note(a, "the duration of only %ld of %d impacts is known, where %d tell a law, %s", d->n, a->source.found.events.n, IMPACT_DURATION_MANY, taken);
-    else if (a->constant)
+    else if (a->constant && theta > 0)
         analyse_note(a, "theta %.3g does not hold here (R2 of the logarithm %.4g: a constant does better), %s", theta, r2, taken);
 }
 
@@ -90,7 +91,7 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
         analyse_note(a, "no duration is known: %s", analyse_notes_unknown(a));
     else
         constant_instead(a);
-    if (a->lasts && !a->constant && d->r2 < -0.05)
+    if (a->lasts && !a->constant && d->theta > 0 && d->r2 < -0.05)
         analyse_note(a, "theta %.3g does not hold here (R2 %.4g: a constant duration would do better). Where outliers made it, as impacts that run into each other "
                         "do, single impacts (--single) help, or --theta", d->theta, d->r2);
     return true;
@@ -157,6 +158,7 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
         analyse_notes_force(a, &a->source);
     if (a->single.file && a->single.has_force)
         analyse_notes_force(a, &a->single);
+    analyse_notes_outlier(a);
     if (!duration_find(c, a, e))
         return false;
     if (a->source.has_force)
@@ -252,7 +254,8 @@ const struct command analyse_command = {
             "takes them from a table (CSV with time_s, amplitude_n and maybe duration_s, as output.impacts writes it). Prints what papers/002 estimates of their "
             "amplitudes and of the times between them, with 95 % intervals: means, ARMA(1,1) filters, the whitened series and their distributions, whether one "
             "process drives both, a modulation; how durations depend on amplitudes, in 002's two steps; which shape impacts have (raised cosine, Meixner window); "
-            "and what makes the estimates doubtful. "
+            "and what makes the estimates doubtful. Draws that were raised to a floor bias means (too high) and deviations (too small): they are told in a table of impacts, "
+            "but in a force, where weak impacts close together merge, mostly not. "
             "The parameter file is a scene part with contact.model impacts: a scene that includes it draws other impacts of the amplitudes, intervals and durations found. "
             "How near it comes depends on how well the force is a series of impacts: bounces are, a contact that never parts is not, and the notes say so. "
             "The force should be whole: what output.ramp, load.approach or load.release fade is weaker but no longer, and theta comes out too small.",

@@ -52,8 +52,9 @@ extern const char *const analyse_series_names[STATISTICS_SERIES]; /* "amplitude"
 
 void analyse_note(struct analysis *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Of a force, of the fitted shapes, of the series. */
+/* Of a force, of an impact that outweighs all others (in squares), of the fitted shapes, of the series. */
 void analyse_notes_force(struct analysis *a, const struct analyse_source *s);
+void analyse_notes_outlier(struct analysis *a);
 void analyse_notes_shape(struct analysis *a);
 void analyse_notes_statistics(struct analysis *a);
 

@@ -81,6 +81,30 @@ void analyse_notes_force(struct analysis *a, const struct analyse_source *s)
     stretch_notes(a, s);
 }
 
+/* A force in which one maximum, of which the threshold is a share, hides the others. */
+static void hidden_note(struct analysis *a)
+{
+    const struct impact_found *f = &a->source.found;
+    if (f->events.n < STATISTICS_LEAST && f->low >= STATISTICS_LEAST)
+        analyse_note(a, "%s: %ld maxima lie below the threshold, %.3g of the greatest force, %.4g N. If they are the impacts, it outweighs them all: is it one? Leave it out of the file, or lower "
+                        "--threshold", a->source.file, f->low, a->given.options.threshold, fmax(f->greatest, a->given.options.both ? -f->least : 0));
+}
+
+void analyse_notes_outlier(struct analysis *a)
+{
+    const struct impact_events *v = &a->source.found.events;
+    double squares = 0;
+    int most = 0;
+    hidden_note(a);
+    for (int i = 1; i < v->n; i++)
+        most = fabs(v->amplitude[i]) > fabs(v->amplitude[most]) ? i : most;
+    for (int i = 0; i < v->n; i++)
+        squares += i == most ? 0 : v->amplitude[i] / v->amplitude[most] * (v->amplitude[i] / v->amplitude[most]);
+    if (v->n >= STATISTICS_LEAST && squares < 1)
+        analyse_note(a, "%s: one impact, of %.4g N at %.6g s, outweighs all others together: the amplitudes' mean, deviation and filter are its own. Is it one? Leave it out of the file",
+                     a->source.file, v->amplitude[most], v->time[most]);
+}
+
 void analyse_notes_statistics(struct analysis *a)
 {
     for (int i = 0; i < STATISTICS_WARNINGS && a->statistics.warnings[i]; i++)

@@ -10,6 +10,7 @@
 #include "base/wrap.h"
 #include "cmd/analyse.h"
 #include "file/csv.h"
+#include "num/real.h"
 
 static bool name_free(const struct analysis *a, const char *file, struct err *e)
 {
@@ -56,27 +57,44 @@ static bool values_fit(const struct analysis *a, struct err *e)
         const struct series_statistics *s = &a->statistics.series[k];
         if (!value_fits(k ? "a1 of the intervals" : "a1 of the amplitudes", s->a1.value, -0.9999, 0.9999, e) ||
             !value_fits(k ? "b1 of the intervals" : "b1 of the amplitudes", s->b1.value, -10, 10, e) ||
-            !value_fits(k ? "mean interval in s" : "mean amplitude in N", s->mean.value, -1e6, 1e6, e) ||
+            !value_fits(k ? "mean interval in s" : "mean amplitude in N", s->mean.value, k ? 1e-6 : -1e6, 1e6, e) ||
             !value_fits(k ? "deviation of the intervals in s" : "deviation of the amplitudes in N", s->deviation.value, 0, 1e6, e))
             return false;
     }
+    const struct impact_modulation *m = &a->statistics.modulation;
+    if (m->found && !value_fits("rate of the modulation in Hz", m->rate, 0, 1000, e))
+        return false;
     if (!a->lasts)
         return err_set(e, ERR_SCENE, "%s: no duration is known, and a scene needs one: %s", a->source.file, analyse_notes_unknown(a));
     return value_fits("theta", a->duration.theta, 0, 2, e) && value_fits("zeta in s", a->duration.zeta, 1e-7, 10, e);
 }
 
-/* Floors: the least that was seen, if amplitudes have one sign. */
+/* Floors: the least that was seen, of amplitudes if they have one sign, and no more than the mean, which may lie below it: it is estimated with the filter. As both
+   are written with the same digits, the floor is not above the mean there either. */
 static void floors_find(struct part *p)
 {
     const struct impact_events *v = &p->a->source.found.events;
     const double *amplitude = p->a->statistics.demodulated;
-    double least = HUGE_VAL, interval = HUGE_VAL;
+    double least = HUGE_VAL, interval = p->a->statistics.series[STATISTICS_INTERVAL].mean.value, mean = p->a->statistics.series[STATISTICS_AMPLITUDE].mean.value;
     for (int i = 0; i < v->n; i++)
         least = fmin(least, amplitude[i]);
     for (int i = 0; i + 1 < v->n; i++)
         interval = fmin(interval, v->time[i + 1] - v->time[i]);
-    p->least_amplitude = least > 0 ? fmin(least / p->a->statistics.series[STATISTICS_AMPLITUDE].mean.value, 1) : NAN;
+    p->least_amplitude = least > 0 && mean > 0 ? fmin(least / mean, 1) : NAN;
     p->least_interval = fmin(fmax(interval, 1e-6), 1);
+}
+
+/* Seconds that the longest impact would last, at the least |A| that a scene takes (force/impact_law.h), which may be far below what was seen: 10 is the most. */
+static bool longest_fits(const struct part *p, struct err *e)
+{
+    const struct analysis *a = p->a;
+    const struct series_statistics *s = &a->statistics.series[STATISTICS_AMPLITUDE];
+    double a1 = s->a1.value, b1 = s->b1.value, mean = s->mean.value, depth = a->statistics.modulation.found ? fmin(a->statistics.modulation.depth, 1) : 0;
+    double rms = sqrt(mean * mean + s->deviation.value * s->deviation.value * (1 + b1 * b1 - 2 * a1 * b1) / (1 - a1 * a1));
+    double least = isnan(p->least_amplitude) ? HUGE_VAL : p->least_amplitude * mean * (1 - depth);
+    double lasts = a->duration.zeta * real_pow(fmax(fmin(least, 0.01 * rms), 0.001 * rms), -a->duration.theta);
+    return a->duration.theta == 0 || lasts <= 10 || err_set(e, ERR_SCENE, "with theta %.4g an impact of the least amplitude that a scene takes would last %.4g s, and at most 10 s make sense: no file is "
+                                                                          "written. Give a lower --theta", a->duration.theta, lasts);
 }
 
 /* ------------------------------------------------------------------ text */
@@ -162,8 +180,8 @@ static void put_rest(const struct part *p, FILE *f)
         fprintf(f, "    modulation: {depth: 0}  # %s\n", m->looked ? "none found" : "not looked for");
     fprintf(f, "    floor: {");
     if (!isnan(p->least_amplitude))
-        fprintf(f, "amplitude: %.4g, ", p->least_amplitude);
-    fprintf(f, "interval: %.4g s}  # the least that was seen%s\n", p->least_interval, isnan(p->least_amplitude) ? "; amplitudes keep their sign" : "");
+        fprintf(f, "amplitude: %.9g, ", p->least_amplitude);
+    fprintf(f, "interval: %.9g s}  # the least that was seen%s\n", p->least_interval, isnan(p->least_amplitude) ? "; amplitudes keep their sign" : "");
     fprintf(f, "    processes: %s  # ", analyse_one_process(a) ? "one" : "two");
     if (isnan(a->statistics.one_process))
         fputs("a series is constant\n", f);
@@ -213,6 +231,8 @@ bool analyse_part(struct analysis *a, const char *file, struct analyse_files *al
     if (!values_fit(a, e))
         return false;
     floors_find(&p);
+    if (!longest_fits(&p, e))
+        return false;
     for (int k = 0; k < STATISTICS_SERIES && e->kind == ERR_NONE; k++) {
         if (!analyse_tabled(a, k))
             continue;

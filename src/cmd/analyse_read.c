@@ -10,6 +10,7 @@
 #include "file/csv.h"
 #include "file/heightfile_npy.h"
 #include "file/wav.h"
+#include "force/impact_series.h"
 #include "scene/rules.h"
 
 #define MOST 1e50
@@ -102,7 +103,7 @@ static bool impacts_take(struct analyse_source *s, const struct csv *t, struct a
             v->duration[i] = NAN;
         else if (!(v->duration[i] > 0))
             return err_set(e, ERR_SCENE, "%s:%d: column 'duration_s': %.9g s; an impact lasts longer than 0", s->file, t->lines[i], v->duration[i]);
-        s->found.touching += lasts && i > 0 && v->time[i] - v->time[i - 1] < 0.5 * (v->duration[i] + v->duration[i - 1]);
+        s->found.touching += lasts && i > 0 && impact_series_overlap(v->time[i] - v->time[i - 1], v->duration[i - 1], v->duration[i], impact_events_grain(v));
     }
     return true;
 }

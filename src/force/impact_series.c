@@ -19,6 +19,8 @@
 
 #include "num/real.h"
 
+#define TOUCH 1e-9              /* of the mean duration */
+
 enum { OVER = 64 };             /* mean intervals over which the beginning is spread */
 
 /* ------------------------------------------------------------------ one impact */
@@ -74,6 +76,11 @@ void impact_series_next(struct impact_series *s, struct impact *i)
     s->phase -= floor(s->phase);
     s->time += i->interval;
     s->number++;
+}
+
+bool impact_series_overlap(double apart, double before, double now, double grain)
+{
+    return apart + grain < 0.5 * (before + now) * (1 - TOUCH);
 }
 
 /* ------------------------------------------------------------------ the start */

@@ -6,7 +6,6 @@
 #include "trajectory/trajectory.h"
 
 #define IMPACT_LONGEST 10.0 /* s: half of it is how far the force must look ahead */
-#define IMPACT_TOUCH 1e-9   /* of the mean duration: impacts that follow each other without a gap may meet by rounding */
 
 static void train_look(struct impact_train *t)
 {
@@ -37,7 +36,7 @@ static void train_report(struct impact_train *t, const struct impact *i)
     o->count++;
     o->limited_amplitude += (i->limited & IMPACT_LIMITED_AMPLITUDE) != 0;
     o->limited_interval += (i->limited & IMPACT_LIMITED_INTERVAL) != 0;
-    o->overlaps += t->before[0] < 0.5 * (t->before[1] + i->duration) * (1 - IMPACT_TOUCH);
+    o->overlaps += impact_series_overlap(t->before[0], t->before[1], i->duration, 0);
     o->longest = fmax(o->longest, i->duration);
     t->sums[0] += i->amplitude;
     t->sums[1] += i->interval;

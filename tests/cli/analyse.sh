@@ -39,6 +39,37 @@ rasp analyse signed.csv | grep modulation
 echo "-- outliers that leave the bulk normal"
 awk -F, 'NR > 1 && NR % 150 == 0 { $2 *= 1.25 } { print $1 "," $2 "," $3 }' impacts.csv > outliers.csv
 rasp analyse outliers.csv | grep -A 2 'has outliers'
+echo "-- durations that scatter, whatever the amplitude: a constant, and nothing against it"
+awk -F, 'NR > 1 { for (k = x = 0; k < 12; k++) { s = (s * 16807 + 5) % 2147483647; x += s / 2147483647 } $3 = 0.0005 * exp(0.6 * (x - 6)) } { print $1 "," $2 "," $3 }' impacts.csv > scattered.csv
+rasp analyse scattered.csv | grep -E 'duration|hold'
+rasp analyse scattered.csv --theta 0 | grep -E 'duration|hold'
+echo "-- one impact that outweighs all others, in a table and in a force"
+awk -F, 'NR == 300 { $2 *= 1e30 } { print $1 "," $2 "," $3 }' impacts.csv > one.csv
+rasp analyse one.csv | grep -E -A 1 'outweighs|smallest'
+force 44100 < one.csv > hidden.csv
+rasp analyse hidden.csv | grep -B 1 -A 1 outweighs
+echo "-- a floor, in a force where impacts stand apart"
+awk -F, 'NR > 1 && $2 < 0.75 { $2 = 0.75 } { print $1 "," $2 "," $3 }' impacts.csv | force 44100 > floor.csv
+rasp analyse floor.csv | grep -A 1 smallest
+echo "-- rolling on a rough surface: its floors in the listing, modulated or not; the force says that it cannot tell"
+cat > rough.yaml <<'END'
+rasp: 1
+motion: {path: still, at: [0 m, 0 m], duration: 30 s}
+contact: {model: impacts, impacts: {prototype: roll, roughness: 1}}
+load: {approach: 0 s, release: 0 s}
+output: {quantity: force, encoding: float64, level: {full_scale: 1 N}, sample_rate: 48 kHz, impacts: table}
+END
+for depth in 0 0.3; do
+    rasp render rough.yaml -q -o rough.wav --set contact.impacts.modulation.depth=$depth
+    echo "depth $depth"
+    rasp analyse rough.impacts.csv > report; tr -s '\n ' '  ' < report | grep -oE '[0-9.]+ % of the amplitudes are the smallest one, (about )?[0-9.]+: raised to a floor'
+    rasp analyse rough.wav --scale 1 > report; tr -s '\n ' '  ' < report | grep -oE '(of the amplitudes are|whether draws|and where draws)[^,.]*'
+done
+echo "-- rubbing: impacts that touch do not run into each other, as its render says"
+sed 's/roll, roughness: 1/rub/; s/30 s/2 s/' rough.yaml > rub.yaml
+rasp render rub.yaml 2>&1 | grep -o '[0-9]* overlaps'
+rasp analyse rub.impacts.csv | head -1
+rasp analyse rub.impacts.csv --json | grep run_into
 echo "-- amplitudes of 0, amplitudes below 0"
 awk -F, 'NR > 1 { $2 = 0 } { print $1 "," $2 "," $3 }' impacts.csv > nought.csv
 rasp analyse nought.csv | grep 'duration is known'

@@ -20,7 +20,7 @@ static struct impact_events events(double zeta, double theta, double scatter, gs
         alone[i] = true;
         times[i] = i;
     }
-    return (struct impact_events){N, times, amplitude, duration, alone, 0};
+    return (struct impact_events){N, times, amplitude, duration, alone, 0, {0}};
 }
 
 START_TEST(exact)

@@ -17,6 +17,9 @@ struct plan {
 /* Like papers/002's table I at rho = 0. */
 static const struct plan smooth = {.n = MOST, .a1 = {-0.97, -0.97}, .b1 = {0.07, -0.34}, .mean = {0.43, 3.1e-3}, .deviation = {0.03, 0.19e-3}, .floor = -HUGE_VAL};
 
+/* Like its other column, rho = 1, with the floor of prototype roll: about 3 % of the amplitudes are at it. */
+static const struct plan rough = {.n = MOST, .a1 = {-0.93, -0.93}, .b1 = {0.32, 0.35}, .mean = {0.27, 6.4e-3}, .deviation = {0.04, 0.85e-3}, .floor = 2.7e-3};
+
 static struct impact_events draw(struct plan p, unsigned long seed)
 {
     static double interval[MOST];
@@ -33,7 +36,7 @@ static struct impact_events draw(struct plan p, unsigned long seed)
         if (i + 1 < p.n)
             at[i + 1] = at[i] + fmax(interval[i], 1e-5);
     }
-    return (struct impact_events){p.n, at, amplitude, duration, alone, 0};
+    return (struct impact_events){p.n, at, amplitude, duration, alone, 0, {0}};
 }
 
 static struct impact_statistics s;
@@ -175,6 +178,67 @@ START_TEST(test_warns)
 }
 END_TEST
 
+/* What is at a floor: under a modulation that is divided out, in a force as far as alike impacts are told apart there; and what is not. */
+START_TEST(test_floors)
+{
+    struct arena *a = arena_open();
+    struct plan p = rough;
+    for (int seed = 20; seed < 30; seed++) {
+        struct impact_events v = draw(p, seed);
+        for (int i = 0; i < MOST; i++)
+            amplitude[i] *= 1 + 0.3 * sin(2 * M_PI * 5 * at[i] + seed);
+        make(&v, true, a);
+        ck_assert_msg(s.modulation.found && warned("amplitudes are the smallest one, about 0.") && warned("by that: the mean is too high"), "seed %d", seed);
+        p.floor = -HUGE_VAL;
+        v = draw(p, seed);
+        p.floor = rough.floor;
+        for (int i = 0; i < MOST; i++)
+            amplitude[i] = (0.6 * p.floor + fabs(amplitude[i])) * (1 + 0.3 * sin(2 * M_PI * 5 * at[i] + seed));
+        make(&v, true, a);
+        ck_assert_msg(s.modulation.found && !warned("amplitudes are the smallest one"), "seed %d", seed);
+    }
+    p = smooth, p.floor = 0.2;
+    struct impact_events v = draw(p, 3);
+    for (int i = 0; i < MOST; i++)
+        amplitude[i] *= 1 + 0.004 * sin(i * i);
+    make(&v, true, a);
+    ck_assert(!warned("the smallest one"));
+    v.blur[0] = 0.005;
+    make(&v, true, a);
+    ck_assert(warned("amplitudes are the smallest one, about 0.2"));
+    v = draw(smooth, 3);
+    amplitude[7] = 1e30, amplitude[70] = 2e30, amplitude[700] = 4e30;
+    make(&v, true, a);
+    ck_assert(!warned("the smallest one"));
+    v = draw(smooth, 3); /* rubbing for a third of it */
+    for (int i = 1; i < MOST; i++)
+        at[i] = at[i - 1] + (i < MOST / 3 ? 1 / 44100.0 : fmax(3e-3 + 1e-3 * sin(i * i), 1e-3));
+    make(&v, true, a);
+    ck_assert(warned("intervals are the smallest one, 2.268e-05: raised to a floor, as draws below one are (or drawn alike, as a rub's are)"));
+    arena_close(a);
+}
+END_TEST
+
+/* Impacts that follow each other without a gap, at times that rounding moves, do not run into each other; by 1e-6 of their duration they do. */
+START_TEST(test_touch)
+{
+    struct arena *a = arena_open();
+    struct impact_events v = draw(smooth, 3);
+    for (int i = 0; i < MOST; i++)
+        at[i] = 100 + i / 44100.0, duration[i] = 1 / 44100.0;
+    make(&v, true, a);
+    ck_assert(!warned("begin before"));
+    for (int i = 0; i < MOST; i++)
+        duration[i] *= 1 + 1e-6;
+    make(&v, true, a);
+    ck_assert(warned("begin before") && !warned("cannot be told here"));
+    v.blur[0] = 0.005;
+    make(&v, true, a);
+    ck_assert(warned("whether draws were raised to a floor cannot be told here"));
+    arena_close(a);
+}
+END_TEST
+
 /* Errors of the deviation know the kurtosis: of exponential values it is known less well. */
 START_TEST(test_kurtosis)
 {
@@ -260,4 +324,4 @@ START_TEST(test_refuses)
 }
 END_TEST
 
-UNIT("impact_statistics", test_coverage, test_plain, test_warns, test_kurtosis, test_demodulates, test_flat, test_refuses)
+UNIT("impact_statistics", test_coverage, test_plain, test_warns, test_floors, test_touch, test_kurtosis, test_demodulates, test_flat, test_refuses)
