@@ -44,11 +44,22 @@ static struct product_spectrum take(struct arena *a, size_t n)
     return (struct product_spectrum){both, both + n};
 }
 
+static size_t parts_of(size_t length)
+{
+    return (length + BLOCK - 1) / BLOCK;
+}
+
+/* The sum's spectra are one response more. */
+double panned_bytes(int n, size_t length)
+{
+    return (n + 1.0) * (double)parts_of(length) * BINS * 2 * sizeof(double);
+}
+
 struct panned *panned_open(const struct panned_source *source)
 {
     struct arena *a = arena_open();
     struct panned *p = ARENA_TAKE(a, struct panned, 1);
-    *p = (struct panned){.arena = a, .source = *source, .fft = fft_open(SIZE), .parts = (source->length + BLOCK - 1) / BLOCK};
+    *p = (struct panned){.arena = a, .source = *source, .fft = fft_open(SIZE), .parts = parts_of(source->length)};
     p->h = ARENA_TAKE(a, struct product_spectrum, source->n + 1);
     p->sum = take(a, p->parts * BINS);
     p->used = ARENA_TAKE(a, bool, p->parts);

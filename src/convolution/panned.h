@@ -22,6 +22,9 @@ struct panned_source {
     void *self;
 };
 
+/* Memory (bytes) that n responses of so many samples take once all are in use. */
+double panned_bytes(int n, size_t length);
+
 struct panned *panned_open(const struct panned_source *source);
 void panned_close(struct panned *p);
 int panned_ahead(const struct panned *p);   /* as overlap_add_ahead */

@@ -22,6 +22,7 @@ struct ring_choice {
     double *hops;                /* [modes.n] frames, of launch and of readout by resonators; else NULL */
     int ramp;                    /* frames, of resonators                                    */
     struct ring_nodes nodes;     /* of panned modes                                          */
+    double bytes;                /* memory that their spectra take, at all listening places  */
     double seconds;              /* of an impulse response that is computed                  */
     double forgotten;            /* dB by which what rings has decayed when it is dropped      */
     double error;                /* predicted, relative rms; 0: none                         */

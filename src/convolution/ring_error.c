@@ -17,8 +17,9 @@
    (Euler and Maclaurin: the trapezium rule against the integral; kinks of s are jumps of s' and count; the second part is the chord that lies inside the
    unit circle): what was launched at m errs by A(m) e^(...) (a + E(t) - E(m)), a what interpolation misses of A. This one is to leading order in H.
 
-   What `launch` makes at t is heard until the sound's end, or until the response that is computed ends: there tau ends. Where the end is not known, and in the
-   other kinds, decays below half a one over the motion's duration count as that: what hardly decays is heard no longer than that. */
+   What `launch` makes at t is heard until the sound's end, or until the response that is computed ends: there tau ends, and decays are the modes' own, however
+   long after the motion that is. Where neither end is known, and in the other kinds, decays below half a one over the motion's duration count as that: what
+   hardly decays is heard no longer than that. */
 #include "convolution/ring_error.h"
 
 #include <math.h>
@@ -120,18 +121,26 @@ static struct energies weighted(struct erring *r, int i)
     return e;
 }
 
+static double least_decay(const struct decaying *x, int n)
+{
+    double least = x[0].decay;
+    for (int k = 1; k < n; k++)
+        least = fmin(least, x[k].decay);
+    return least;
+}
+
 static struct energies launched(struct erring *r, int i)
 {
     struct decaying x[MOST + 1];
     int order = r->ask->order, first = r->exact ? order : 0, n = order + 1 - first;
     double loud = ring_survey_loud(r->s, r->t), end = fmax(fmin(r->ask->until, r->ask->end - r->t), 0);
-    bool ended = 2 * r->row[order].decay[i] * end < HEARD;
+    bool known = end < HUGE_VAL;
     struct energies e;
     for (int k = first; k <= order; k++) {
         x[k] = term(r, k, i);
-        x[k].decay = ended ? r->row[k].decay[i] : x[k].decay;
+        x[k].decay = known ? r->row[k].decay[i] : x[k].decay;
     }
-    if (ended) {
+    if (known && 2 * least_decay(x + first, n) * end < HEARD) {
         e.wrong = decaying_energy_until(x + first, n, end, &e.whole);
         r->ended++;
     } else {

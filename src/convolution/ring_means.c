@@ -6,13 +6,16 @@
 #include <math.h>
 
 #include "convolution/gammatone.h"
+#include "convolution/panned.h"
 #include "convolution/ring_cost.h"
 #include "convolution/ring_gammatone.h"
 #include "convolution/ring_hops.h"
 #include "num/real.h"
+#include "response/ir.h"
 #include "response/listener.h"
 
 #define LONGEST_HOP 1.0 /* s */
+#define NODES_BYTES 2e9 /* memory that nodes may take */
 
 static bool engine_clash(const struct ring_choosing *c, const char *engine, struct err *e)
 {
@@ -78,6 +81,15 @@ static void choose_ramp(struct ring_choosing *c)
         c->to->error = ring_error_all(&c->survey, &ask);
 }
 
+/* Is any mode dropped before the sound ends? */
+static bool forgets(const struct ring_choosing *c)
+{
+    double fastest = 0;
+    for (int i = 0; i < c->to->modes.n; i++)
+        fastest = fmax(fastest, c->to->modes.slowest[i]);
+    return 8.686 * fastest * c->heard.most > c->to->forgotten;
+}
+
 /* Hops are the error's alone (it counts the gains' movement too), unless none is asked for. */
 static void choose_hops(struct ring_choosing *c, enum ring_error_kind kind)
 {
@@ -85,7 +97,7 @@ static void choose_hops(struct ring_choosing *c, enum ring_error_kind kind)
     c->to->order = ask.order;
     c->to->hops = ARENA_TAKE(c->arena, double, c->to->modes.n);
     c->to->error = ring_hops_each(&c->survey, &ask, target(c) > 0 ? target(c) : HUGE_VAL, c->to->hops);
-    if (c->to->error > 0)
+    if (c->to->error > 0 || forgets(c))
         c->to->error = both(c->to->error, real_exp10(-c->to->forgotten / 20));
 }
 
@@ -138,6 +150,18 @@ static void choose_readout(struct ring_choosing *c)
         c->to->error = error;
 }
 
+/* All nodes are kept: a motion may come back to each, and between two kinks all are at work at once. */
+static bool nodes_fit(struct ring_choosing *c, struct err *e)
+{
+    double rate = c->scene->output.sample_rate, seconds = c->to->seconds;
+    c->to->bytes = listener_channels(&c->scene->output) * panned_bytes(c->to->nodes.n, ir_length(rate, seconds));
+    if (c->to->bytes <= NODES_BYTES)
+        return true;
+    return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: nodes would take %.3g GB of memory, and may take %.3g GB: %d responses of %.4g s, 16 bytes a sample; "
+                                 "leave it out, or choose resonators or overlap_add, or shorten output.tail or surface.response_length",
+                   c->contact->name, c->to->bytes / 1e9, NODES_BYTES / 1e9, c->to->nodes.n * listener_channels(&c->scene->output), seconds);
+}
+
 /* A response at each node, each convolved whole. */
 static bool choose_nodes(struct ring_choosing *c, struct err *e)
 {
@@ -150,6 +174,8 @@ static bool choose_nodes(struct ring_choosing *c, struct err *e)
     if (!ring_nodes(&(struct ring_nodes_ask){&c->to->modes, &c->trajectory, c->to->seconds, error}, c->arena, &c->to->nodes))
         return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: nodes would need %d nodes or more for an accuracy.morph_error of %g dB; choose "
                                      "resonators or overlap_add", c->contact->name, c->to->nodes.n, 20 * real_log10(error));
+    if (!nodes_fit(c, e))
+        return false;
     engine_set(c, RING_PANNED, ring_cost_nodes(c));
     c->to->error = error;
     return true;

@@ -157,6 +157,14 @@ static void row_print(const struct plan *p, const struct plan_row *r, double who
             r->stage->paper[0] ? "]" : "");
 }
 
+/* Engines take little memory, but for responses at nodes. */
+static void memory_print(const struct plan *p, FILE *out)
+{
+    const struct ring_choice *c = p->contact->surface.response.choice;
+    if (c && c->engine == RING_PANNED && !c->recorded)
+        fprintf(out, "  up to %.0f MB of memory for responses at %d nodes\n", c->bytes / 1e6, c->nodes.n);
+}
+
 void plan_print(const struct plan *p, FILE *out)
 {
     char targets[200];
@@ -169,6 +177,7 @@ void plan_print(const struct plan *p, FILE *out)
         if (p->rows[i].verdict == PLAN_RUNS)
             row_print(p, &p->rows[i], whole, out);
     fprintf(out, "  about %.0f cycles per audio sample%s\n", whole, whole > REAL_TIME ? ": slower than real time" : "");
+    memory_print(p, out);
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_UNWANTED)
             fprintf(out, "  not run: %-20s %s\n", p->rows[i].stage->name, p->rows[i].stage->idle);

@@ -127,7 +127,7 @@ struct object_given {       /* an object of simple shape, whose modes are closed
 struct space {              /* an object between materials and shapes: response/space.h          */
     bool given;
     double from[2], to[2];  /* places in the disk of materials; to NAN: as from                  */
-    double dimension, dimension_to; /* 1 string or bar, 2 membrane or plate, 3 shell             */
+    double dimension, dimension_to; /* 1 bar, 2 plate, 3 shell                                   */
     double fundamental;     /* Hz                                                                */
     double gain;            /* m/s per N s, of the lowest mode                                   */
 };

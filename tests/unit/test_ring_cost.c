@@ -114,6 +114,32 @@ START_TEST(long_sound)
 }
 END_TEST
 
+/* Nodes take 16 bytes a sample of each response, the longer the sound the more of both: what would be more than 2 GB is refused, and not chosen where the
+   choice is open. */
+START_TEST(memory)
+{
+    struct made d;
+    struct err e = {0};
+    make(&d, 1, 0.3, 0.5, 5);
+    d.to.gamma = 1;
+    d.contact.surface.response.convolution = ENGINE_NODES;
+    ck_assert_msg(ring_means_choose(&d.c, &e), "%s", e.text);
+    ck_assert_int_eq(d.to.engine, RING_PANNED);
+    double law = d.to.nodes.n * d.to.seconds * 44100 * 16;
+    ck_assert_msg(d.to.bytes > law && d.to.bytes < 1.1 * law && d.to.bytes < 2e9, "%d nodes of %g s: %g bytes", d.to.nodes.n, d.to.seconds, d.to.bytes);
+    arena_close(d.arena);
+    make(&d, 1, 0.3, 0.5, 120);
+    d.to.gamma = 1;
+    d.contact.surface.response.convolution = ENGINE_NODES;
+    ck_assert(!ring_means_choose(&d.c, &e));
+    ck_assert_msg(e.kind == ERR_SCENE && strstr(e.text, "GB of memory") && strstr(e.text, "output.tail"), "%s", e.text);
+    d.contact.surface.response.convolution = ENGINE_AUTO;
+    ck_assert(ring_means_choose(&d.c, &e));
+    ck_assert_int_ne(d.to.engine, RING_PANNED);
+    arena_close(d.arena);
+}
+END_TEST
+
 START_TEST(heard)
 {
     struct contact two[2] = {{.name = "a", .start = 1, .motion = {.duration = 2}},
@@ -156,4 +182,4 @@ START_TEST(mirror)
 }
 END_TEST
 
-UNIT("ring_cost", long_ringing, opening, clipped, long_sound, heard, mirror)
+UNIT("ring_cost", long_ringing, opening, clipped, long_sound, memory, heard, mirror)
