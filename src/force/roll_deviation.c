@@ -1,8 +1,10 @@
 /* rms of S, the height of a rolling ball's geometric centre as it follows the ground (force/roll_centre.c), less its level (force/slope.h). A stiffness is no
    matter of how far the ball rolls, nor of how exactly that is worked out, so
 
-     - where the motion is short (ball_beyond) it goes on from its end in thought (force/roll_pass.c), and each part counts by the ground that it goes over. Where that
-       cannot be enough, as under a long contact.leak, the render says how uncertain the stiffness is;
+     - where the motion is short (ball_beyond) it goes on from its end in thought (force/roll_pass.c), and each part counts by the ground that it goes over, in the rms and
+       in the fit of the level that both have taken off: the motion's ground once, however often it goes over it. Were it each time, the level would be
+       the motion's alone, which what is beyond, at other places, has not: S there would run off by l^2 times the difference. Where that cannot be enough,
+       as under a long contact.leak, the render says how uncertain the stiffness is;
      - the ground is read as accuracy.tip_heights: 1 has it, in a pass of its own where that is another: the same to the bit in every preset. */
 #include "force/roll_deviation.h"
 
@@ -58,18 +60,32 @@ static struct roll_spread stretch_spread(const struct stretch *s, const double *
     return roll_deviation_spread(s->of[0], s->n);
 }
 
-static double deviation_ground(const struct board *b)
+static double deviation_ground(const struct stage_run *r)
 {
-    return trajectory_ground(b->trajectory, b->relief->along == ALONG_PATH);
+    return trajectory_ground(r->board->trajectory, r->board->relief->along, ball_leak(r->contact));
+}
+
+/* What the motion brings to the fit of the level, as though it had gone over each piece of its ground once. */
+static void deviation_once(struct roll_pass *p, double ground)
+{
+    struct slope *s = &p->slope;
+    double part = fmin(ground / (p->board.trajectory->mean_speed * p->board.trajectory->duration), 1);
+    for (int k = 0; k < s->levels; k++) {
+        s->bent[k] *= part;
+        for (int j = 0; j <= k; j++)
+            s->gone[k][j] *= part;
+    }
 }
 
 static double deviation_after(struct roll_pass *p, double beyond, double normal, struct arena *a)
 {
-    double level[SLOPE_LEVELS], ground[2] = {deviation_ground(&p->board), beyond};
+    double level[SLOPE_LEVELS], ground[2] = {deviation_ground(&p->run), beyond};
     long n = (long)ceil(beyond / roll_pass_grain(p->run.contact));
     struct stretch motion = stretch_make(a, p->n, p->slope.levels), on = stretch_make(a, n, p->slope.levels);
     for (int k = 0; k <= p->slope.levels; k++)
         memcpy(motion.of[k], k == 0 ? p->at[0] : p->lift[0][k - 1], (size_t)p->n * sizeof(double));
+    if (n > 0)
+        deviation_once(p, ground[0]);
     if (n > 0 && !roll_pass_beyond(p, n, beyond / (double)n, normal, on.of))
         n = 0;
     slope_level(&p->slope, level);
@@ -101,7 +117,7 @@ static void deviation_told(const struct stage_run *r, double ground)
 
 bool roll_deviation_of(struct roll_pass *p, const struct stage_run *r, double normal, double *rms, struct err *e)
 {
-    double ground = deviation_ground(r->board), beyond = ball_beyond(r->contact, ground);
+    double ground = deviation_ground(r), beyond = ball_beyond(r->contact, ground);
     if (ground > 0)
         deviation_told(r, ground + beyond);
     if (r->scene->accuracy.tip_heights != 1 && r->board->relief->under)

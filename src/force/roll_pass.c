@@ -7,13 +7,15 @@
    Of a motion of more than ROLL_PASS_MOST grains one in every `stride` is kept, at a place among them that goes by the golden ratio, so that nothing that
    repeats itself falls in step with it.
 
-   Beyond its end a straight motion goes straight on as it last went. One on a curved or cornered way goes on in HEADINGS straight stretches, in the directions
-   that it had at as many instants and each in proportion to its speed there: over ridges or along a grain the ground depends on the direction, and that in
-   which the motion happens to end is none of the stiffness's business. The ground is the one that is there: what is procedural has no end, and a map goes on
-   by surface.off_map, for `error` as for `mirror`. */
+   Beyond its end a straight motion goes straight on as it last went. One on a curved or cornered way goes on in HEADINGS straight stretches of the same length,
+   whose directions are those of the motion, shared out by the way that it goes in each: over ridges or along a grain the ground depends on the direction, and
+   that in which the motion happens to end is none of the stiffness's business. There and back are one direction, for S varies alike in both: all turned to
+   +x or -x, as the motion last went, and taken from -y to +y, the stretches never come back to ground that they were on, along x either. The ground is the one
+   that is there: what is procedural has no end, and a map goes on by surface.off_map, for `error` as for `mirror`. */
 #include "force/roll_pass.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "num/real.h"
 #include "surface/limiter.h"
@@ -22,7 +24,7 @@
 
 extern const struct stage trajectory_stage, load_stage, limiter_stage, tip_stage;
 
-enum { HALVINGS = 20, HEADINGS = 8 };
+enum { HALVINGS = 20, HEADINGS = 8, LOOKS = 1024 };
 
 #define GOLDEN 0.6180339887498949
 
@@ -187,27 +189,51 @@ static bool pass_end(const struct trajectory *tr, struct pass_on *on)
     return false;
 }
 
-/* The directions of a motion on a curved way. One that rests at all these instants keeps the one that it ended in. */
+struct heading {
+    double ex, ey, speed;           /* ex of one sign */
+};
+
+static int heading_order(const void *a, const void *b)
+{
+    const struct heading *p = a, *q = b;
+    if (p->ey != q->ey)
+        return p->ey < q->ey ? -1 : 1;
+    return p->ex != q->ex ? (p->ex < q->ex ? -1 : 1) : (p->speed > q->speed) - (p->speed < q->speed);
+}
+
+/* At LOOKS instants; how many of them were none of rest. */
+static int pass_look(const struct trajectory *tr, const struct pass_on *last, struct heading *h)
+{
+    double t[LOOKS], vx[LOOKS], vy[LOOKS];
+    int n = 0;
+    for (int k = 0; k < LOOKS; k++)
+        t[k] = tr->duration * (k + (k * GOLDEN - floor(k * GOLDEN))) / LOOKS;
+    trajectory_at(tr, LOOKS, t, (struct trajectory_out){.vx = vx, .vy = vy});
+    for (int k = 0; k < LOOKS; k++) {
+        double speed = sqrt(vx[k] * vx[k] + vy[k] * vy[k]), turn = vx[k] * last->ex[0] < 0 || (vx[k] == 0 && vy[k] * last->ey[0] < 0) ? -1 : 1;
+        if (speed > 1e-6 * tr->top_speed)
+            h[n++] = (struct heading){.ex = turn * vx[k] / speed, .ey = turn * vy[k] / speed, .speed = speed};
+    }
+    return n;
+}
+
+/* The directions of a motion on a curved way. One that rests at all instants keeps the one that it ended in. */
 static void pass_headings(const struct trajectory *tr, struct pass_on *on)
 {
-    double ex[HEADINGS], ey[HEADINGS], speed[HEADINGS], all = 0;
-    int n = 0;
-    for (int k = 0; k < HEADINGS; k++) {
-        double place = (k + 0.5) * GOLDEN, t = (place - floor(place)) * tr->duration, vx, vy;
-        trajectory_at(tr, 1, &t, (struct trajectory_out){.vx = &vx, .vy = &vy});
-        speed[n] = sqrt(vx * vx + vy * vy);
-        if (!(speed[n] > 1e-6 * tr->top_speed))
-            continue;
-        ex[n] = vx / speed[n];
-        ey[n] = vy / speed[n];
-        all += speed[n++];
+    struct heading h[LOOKS];
+    double all = 0, sum = 0;
+    int n = pass_look(tr, on, h);
+    qsort(h, (size_t)n, sizeof *h, heading_order);
+    for (int i = 0; i < n; i++)
+        all += h[i].speed;
+    for (int k = 0, i = 0; k < HEADINGS && n > 0; k++) {
+        while (i + 1 < n && sum + h[i].speed <= (k + 0.5) / HEADINGS * all)
+            sum += h[i++].speed;
+        on->ex[k] = h[i].ex;
+        on->ey[k] = h[i].ey;
+        on->share[k] = 1.0 / HEADINGS;
     }
-    for (int k = 0; k < n; k++) {
-        on->ex[k] = ex[k];
-        on->ey[k] = ey[k];
-        on->share[k] = speed[k] / all;
-    }
-    on->n = n > 0 ? n : on->n;
+    on->n = n > 0 ? HEADINGS : on->n;
 }
 
 /* n grains of `step` m in whole stretches. */

@@ -64,7 +64,7 @@ enum { LEAKS_LINE = 60, LEAKS_PLANE = 33 };
 #define GROUND_MOST 0.2 /* m */
 #define LEAK 2e-3       /* m, where the scene has no contact.leak (force/slope.h) */
 
-static double leak_of(const struct contact *c)
+double ball_leak(const struct contact *c)
 {
     return c->contact.leak > 0 ? c->contact.leak : LEAK;
 }
@@ -73,13 +73,13 @@ double ball_beyond(const struct contact *c, double ground)
 {
     const struct roll *r = &c->contact.roll;
     bool has = c->contact.model != CONTACT_ROLL || r->penetration != PENETRATION_DEVIATION || !isnan(ball_stiffness(c));
-    double wanted = fmin((rules_along(c) == ALONG_PLANE ? LEAKS_PLANE : LEAKS_LINE) * leak_of(c), GROUND_MOST);
+    double wanted = fmin((rules_along(c) == ALONG_PLANE ? LEAKS_PLANE : LEAKS_LINE) * ball_leak(c), GROUND_MOST);
     return has || !(ground > 0) ? 0 : fmax(wanted - ground, 0);
 }
 
 double ball_deviation_error(const struct contact *c, double ground)
 {
-    return sqrt(1.3 * leak_of(c) / ground);
+    return sqrt(1.3 * ball_leak(c) / ground);
 }
 
 double ball_stiffness(const struct contact *c)

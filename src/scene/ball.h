@@ -36,6 +36,9 @@ double ball_inertia(const struct contact *c);
 /* Acceleration of gravity along the normal of the surface, m/s^2: g cos(incline). */
 double ball_gravity(const struct contact *c);
 
+/* m, l: contact.leak, or what stands for it where the scene has none. */
+double ball_leak(const struct contact *c);
+
 /* m of ground that a ball of model roll goes over in thought, beyond the `ground` m of its motion, so that the stiffness it is to have (static_depth) does not come
    from too little; 0: it has one, or goes nowhere, or far enough. */
 double ball_beyond(const struct contact *c, double ground);

@@ -60,12 +60,8 @@ void trajectory_continued(const struct trajectory *tr, double t, double place[2]
    t1 the direction turns by more than 90 degrees) and is then of opposite direction. At most one is expected between two force samples. */
 double trajectory_turning(const struct trajectory *tr, double t0, double t1);
 
-/* m of ground that the motion goes over: what it goes over again, there and back or round a circle, is counted once. unrolled: the ground is a profile along
-   the way, to which a circle's second turn is new. */
-static inline double trajectory_ground(const struct trajectory *tr, bool unrolled)
-{
-    double once = tr->mean_speed * tr->cycle, reached = tr->reach[1] - tr->reach[0], way = once < reached ? once : reached;
-    return unrolled || way < tr->lap ? way : tr->lap;
-}
+/* m of way that the motion goes over ground that is new to it, for a surface that follows `along` (enum along, not auto) and is alike over some `breadth`, m,
+   across the way (trajectory_ground.c). */
+double trajectory_ground(const struct trajectory *tr, int along, double breadth);
 
 #endif
