@@ -16,6 +16,9 @@ done
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
 cd "$WORK"
+for object in $OBJECTS; do
+    ln -s "$RECORDED/$object.wav" "$object.wav"
+done
 export OBJECTS METHODS LIMIT
 
 # ------------------------------------------------------------------ a recording whose modes are known
@@ -85,7 +88,7 @@ fits() {
         for method in $METHODS; do
             words="--force-channel 2 --method $method --json --response $object.$method.h.wav --resynthesis $object.$method.s.wav --residual $object.$method.r.wav"
             # shellcheck disable=SC2086
-            { time timeout "$LIMIT" rasp modes extract "$RECORDED/$object.wav" $words --plot "$object.$method.png" -o "$object.$method.csv" > "$object.$method.json" 2> "$object.$method.err" ||
+            { time timeout "$LIMIT" rasp modes extract "$object.wav" $words --plot "$object.$method.png" -o "$object.$method.csv" > "$object.$method.json" 2> "$object.$method.err" ||
                 echo "exit code $?" >> "$object.$method.err"; } 2> "$object.$method.cpu"
         done
     done
@@ -143,17 +146,38 @@ def modes():
                   f"{d['third_octave_worst_db']:.1f}, {d['third_octave_worst_hz']:.0f} | {d['log_spectral_db']:.1f} | {r['median_decay_per_s']:.1f} | "
                   f"{median([k['decay_per_s'] for k in strongest(r, 10)]):.1f} | {cpu} |")
 
+def energy(m):
+    """Of a mode's response: gain^2/(4 decay)."""
+    return m["places"][0]["gain"] ** 2 / (4 * m["decay_per_s"])
+
+def middle(modes):
+    """The decay that half of the energy decays slower than."""
+    modes, left = sorted(modes, key=lambda m: m["decay_per_s"]), sum(energy(m) for m in modes) / 2
+    for m in modes:
+        left -= energy(m)
+        if left <= 0:
+            return m["decay_per_s"]
+
 def order():
     """metal < ceramic < plastic and wood, of the median decay of the strongest."""
     print("| method | strongest modes | steel | ceramic | polycarbonate | wood | metal < ceramic < plastic and wood |")
     print("|---|---|---|---|---|---|---|")
     for m in methods:
-        for n in (5, 10, 50):
-            of = {o: median([k["decay_per_s"] for k in strongest(r, n)]) for o in objects for r in [load(o, m)] if r}
+        for n in ("all, by energy", 5, 10, 50):
+            of = {o: middle(strongest(r, None)) if n == "all, by energy" else median([k["decay_per_s"] for k in strongest(r, n)]) for o in objects for r in [load(o, m)] if r}
             cell = lambda o: f"{of[o]:.1f}" if o in of else ""
             whole = all(o in of for o in ("steel", "ceramic", "polycarb", "wood"))
             verdict = ("kept" if of["steel"] < of["ceramic"] < min(of["polycarb"], of["wood"]) else "NOT KEPT") if whole else ""
             print(f"| {m} | {n} | {cell('steel')} | {cell('ceramic')} | {cell('polycarb')} | {cell('wood')} | {verdict} |")
+
+def brief():
+    """How many modes decay fast, and what they hold."""
+    for o in objects:
+        r = load(o, "esprit")
+        if r:
+            of = strongest(r, None)
+            fast = [m for m in of if m["decay_per_s"] > 300]
+            print(f"- {o}: {len(fast)} of {len(of)} modes decay by more than 300/s, with {100 * sum(map(energy, fast)) / sum(map(energy, of)):.1f} % of the energy")
 
 def lines():
     print("| object | the five strongest by " + " | by ".join(methods) + " |")
@@ -188,7 +212,7 @@ sheet() {
 python3 known.py > known.md
 fits
 sheet | gnuplot
-for part in strikes modes order lines said; do
+for part in strikes modes order brief lines said; do
     python3 report.py $part > $part.md
 done
 mv sheet.png "$ROOT/evidence/extract.png"
@@ -229,7 +253,11 @@ $(< modes.md)
 
 ## Damping
 
-Median decay of the strongest modes.
+Median decay: of all modes weighted by their energy, gain^2/(4 decay), the decay that half of the energy decays slower than; and plain of the strongest. ESPRIT finds
+more than the spectrogram, and part of it are pieces that are gone within some ten milliseconds; probably the beginning of a strike rather than a ringing of the object (not tested). They hold
+a tenth of the energy but count as any other in a plain median of many modes, which does not keep the order for the ten strongest and for all:
+
+$(< brief.md)
 
 $(< order.md)
 

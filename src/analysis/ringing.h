@@ -13,6 +13,7 @@ struct ringing {              /* h_p(t), sample 0 at t = 0 (the strike), of one 
     const double *const *h;   /* [places][n] */
     const double *const *noise; /* [places][noise_n] the same channel where nothing rings (before the strike), NULL or noise_n 0: not known */
     long noise_n;
+    const double *const *unsure; /* [places][n/2 + 1] |FFT|^2/n of the error that h has besides noise, as strikes that differ make it; NULL: not known */
     double low, high;         /* Hz: the band in which h means anything (a hammer's reach); 0, rate/2: all */
 };
 
@@ -45,7 +46,7 @@ struct ringing_options {
 };
 extern const struct ringing_options ringing_options;
 
-/* Sub-band ESPRIT (shared poles over places), merged, then joint least squares of all gains and a last Gauss-Newton step of all poles: modes_esprit.c. */
+/* Sub-band ESPRIT (shared poles over places), merged, then joint least squares of all gains and Gauss-Newton steps of all poles: ringing_esprit.c. */
 bool ringing_esprit(const struct ringing *r, const struct ringing_options *o, struct arena *a, struct ringing_modes *m, struct err *e);
 
 /* papers/003 section B: peaks of the power spectrogram (equation 6), fit of the local shape, threshold on its error; gains and errors by the same joint least squares. */

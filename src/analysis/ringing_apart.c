@@ -10,6 +10,8 @@
 #include "analysis/ringing_select.h"
 #include "num/real.h"
 
+enum { ROW = 5 };  /* trials in a row that change nothing: the others are surer still */
+
 struct kept {
     int m;
     double *decay, *omega;
@@ -63,7 +65,7 @@ bool ringing_apart_try(struct ringing_fit *f, const struct ringing_noise *noise,
     ringing_noise_levels(noise, f, variance, freedom);
     drop[i] = true;
     ringing_fit_drop(f, drop);
-    ringing_fit_polish(f, 12);
+    ringing_fit_polish(f, 8);
     for (int p = 0; p < places; p++)
         rise += (f->energy[p] - k.energy[p]) / variance[p * k.m + i];
     bool gone = gsl_cdf_fdist_Q(fmax(rise, 0) / (2 * places + 2), 2 * places + 2, fmax(freedom[i], 2)) >= level;
@@ -125,10 +127,12 @@ int ringing_apart(struct ringing_fit *f, const struct ringing_noise *noise, doub
     struct arena *a = arena_open();
     double *tried = ARENA_TAKE(a, double, f->m + 2); /* rad/s of what was tried and stays */
     int gone = 0, stays = 0;
-    for (int i, room = f->m; room > 0 && (i = least_sure(f, noise, level, tried)) > 0; room--) {
+    for (int i, room = f->m, row = 0; room > 0 && row < ROW && (i = least_sure(f, noise, level, tried)) > 0; room--) {
         int other = nearest(f, i), weaker = other > 0 && strength(f, other) < strength(f, i) ? other : i;
         double omega = f->omega[i];
-        if (ringing_apart_try(f, noise, weaker, level))
+        bool went = ringing_apart_try(f, noise, weaker, level);
+        row = went ? 0 : row + 1;
+        if (went)
             gone++;
         else
             tried[stays++] = omega;

@@ -15,6 +15,7 @@
 #include "num/real.h"
 
 #define FAR 64.0
+enum { EXACT = 16 };
 
 static double complex turn(double decay, double omega, double t)
 {
@@ -29,9 +30,17 @@ void ringing_basis_open(struct ringing_basis *b, int most, long n, double rate, 
     b->table = ARENA_TAKE(a, double, 2 * most * RINGING_BLOCK);
     b->moment = ARENA_TAKE(a, double, 2 * most * RINGING_BLOCK);
     b->step = ARENA_TAKE(a, double complex, blocks * most);
+    b->turned = ARENA_TAKE(a, double complex, blocks);
     b->work = ARENA_TAKE(a, double, blocks * 2 * most);
     b->work1 = ARENA_TAKE(a, double, blocks * 2 * most);
     b->signal = ARENA_TAKE(a, double, blocks * RINGING_BLOCK);
+}
+
+/* e^(s k unit), k = 0..n - 1: of every EXACT-th and of the first EXACT one by one, of the rest one's product with the other. */
+static void turns(double decay, double omega, double unit, long n, double complex *z)
+{
+    for (long k = 0; k < n; k++)
+        z[k] = k < EXACT || k % EXACT == 0 ? turn(decay, omega, (double)k * unit) : ringing_complex_product(z[k - k % EXACT], z[k % EXACT]);
 }
 
 void ringing_basis_set(struct ringing_basis *b, int m, const double *decay, const double *omega)
@@ -39,16 +48,19 @@ void ringing_basis_set(struct ringing_basis *b, int m, const double *decay, cons
     b->m = m;
     for (int i = 0; i < m; i++) {
         double *row = b->table + (long)2 * i * RINGING_BLOCK, *first = b->moment + (long)2 * i * RINGING_BLOCK;
+        double complex table[RINGING_BLOCK];
+        turns(decay[i], omega[i], 1 / b->rate, RINGING_BLOCK, table);
         for (int k = 0; k < RINGING_BLOCK; k++) {
             double t = k / b->rate;
-            double complex z = turn(decay[i], omega[i], t);
+            double complex z = table[k];
             row[k] = creal(z);
             row[k + RINGING_BLOCK] = -cimag(z);
             first[k] = t * creal(z);
             first[k + RINGING_BLOCK] = -t * cimag(z);
         }
+        turns(decay[i], omega[i], RINGING_BLOCK / b->rate, b->blocks, b->turned);
         for (long j = 0; j < b->blocks; j++)
-            b->step[j * m + i] = turn(decay[i], omega[i], (double)(j * RINGING_BLOCK) / b->rate);
+            b->step[j * m + i] = b->turned[j];
     }
 }
 

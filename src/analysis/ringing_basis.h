@@ -14,6 +14,7 @@ struct ringing_basis {        /* of m poles s_i: row 2i of a table is Re e^(s_i 
     long blocks;
     double *table, *moment;   /* [2m][RINGING_BLOCK]; the same times t */
     double complex *step;     /* [blocks][m] e^(s_i t) at the beginning of each block */
+    double complex *turned;   /* [blocks] */
     double *work, *work1;     /* [blocks][2m] */
     double *signal;           /* [blocks][RINGING_BLOCK] */
 };

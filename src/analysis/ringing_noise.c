@@ -1,7 +1,7 @@
 /* The level of noise around a frequency, from what is left of the response: the mean of the periodogram |R_k|^2/n over at least BINS bins (of a short response fewer, a 25th of all, not below FEWEST) and as far as the component's own
    width, times bins/(bins - what the components there have taken of it: two each). What is not noise but rings still counts as noise, so that a fit that lacks something is not
    trusted more than it deserves. Where the channel was recorded with nothing ringing, its level there (Welch, 50 % overlap, Hann) counts if it is greater: a hum is no
-   mode. No level is taken for less than rounding's. */
+   mode. So does the response's own error, where strikes say how large that is: what they do not agree on is no property of the object. No level is taken for less than rounding's. */
 #include "analysis/ringing_noise.h"
 
 #include <math.h>
@@ -31,11 +31,21 @@ static void welch(const double *x, long n, long size, struct arena *a, double *l
     fft_close(fft);
 }
 
+/* Samples of the periodogram: as many as transform well. */
+static long good_size(long n)
+{
+    n -= n % 2;
+    while (n > 2 && (long)fft_good_size((size_t)n) != n)
+        n -= 2;
+    return n;
+}
+
 void ringing_noise_open(const struct ringing *r, struct arena *a, struct ringing_noise *s)
 {
     long size = WELCH;
-    *s = (struct ringing_noise){.places = r->places, .bins = r->n / 2};
+    *s = (struct ringing_noise){.places = r->places, .bins = good_size(r->n) / 2, .unsure = r->unsure, .doubt = 1, .unsure_bins = r->n / 2};
     s->width = r->rate / (double)(2 * s->bins);
+    s->fft = fft_open((size_t)(2 * s->bins));
     while (size > r->noise_n / 4 && size > 16)
         size /= 2;
     s->least = ARENA_TAKE(a, double, r->places);
@@ -51,6 +61,11 @@ void ringing_noise_open(const struct ringing *r, struct arena *a, struct ringing
     s->given = ARENA_TAKE(a, double, r->places * (size / 2 + 1));
     for (int p = 0; p < r->places; p++)
         welch(r->noise[p], r->noise_n, size, a, s->given + p * (size / 2 + 1));
+}
+
+void ringing_noise_close(struct ringing_noise *s)
+{
+    fft_close(s->fft);
 }
 
 struct span {
@@ -88,13 +103,20 @@ static double given_level(const struct ringing_noise *s, int place, double hertz
     return sum / (double)(to - from + 1);
 }
 
+static double unsure_level(const struct ringing_noise *s, int place, const struct span *at)
+{
+    double sum = 0;
+    for (long k = at->first; k <= at->last; k++)
+        sum += s->unsure[place][k * s->unsure_bins / s->bins];
+    return sum / (double)(at->last - at->first + 1);
+}
+
 void ringing_noise_levels(const struct ringing_noise *s, const struct ringing_fit *f, double *variance, double *freedom)
 {
     struct arena *a = arena_open();
-    struct fft *fft = fft_open((size_t)(2 * s->bins));
     double *re = ARENA_TAKE(a, double, s->bins + 1), *im = ARENA_TAKE(a, double, s->bins + 1);
     for (int p = 0; p < s->places; p++) {
-        fft_forward(fft, f->residual + p * f->r->n, re, im);
+        fft_forward(s->fft, f->residual + p * f->r->n, re, im);
         for (int i = 0; i < f->m; i++) {
             struct span at = {0};
             double sum = 0;
@@ -102,13 +124,14 @@ void ringing_noise_levels(const struct ringing_noise *s, const struct ringing_fi
             for (long k = at.first; k <= at.last; k++)
                 sum += re[k] * re[k] + im[k] * im[k];
             double left = fmax((double)(at.last - at.first + 1) - at.taken, 1), level = sum / (left * 2 * (double)s->bins);
+            if (s->unsure)
+                level = fmax(level, s->doubt * unsure_level(s, p, &at));
             if (s->given)
                 level = fmax(level, given_level(s, p, f->omega[i] / (2 * REAL_PI)));
             variance[p * f->m + i] = fmax(level, s->least[p]);
             freedom[i] = 2 * left;
         }
     }
-    fft_close(fft);
     arena_close(a);
 }
 

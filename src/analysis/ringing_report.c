@@ -139,20 +139,23 @@ static void shares_make(const struct ringing_fit *f, const double band[2], struc
 void ringing_report(struct ringing_fit *f, const struct ringing_noise *noise, const struct ringing_options *o, struct arena *a, struct ringing_modes *m)
 {
     struct arena *inner = arena_open();
-    struct ringing_fit_errors e;
+    struct ringing_fit_errors e, told; /* told: with all of the response's own error */
+    struct ringing_noise all = *noise;
     struct group *g = ARENA_TAKE(inner, struct group, f->m);
     double low = fmax(o->low, f->r->low), high = f->r->high > 0 ? f->r->high : f->r->rate / 2;
     if (o->high > 0)
         high = fmin(high, o->high);
     *m = (struct ringing_modes){.explained = ARENA_TAKE(a, double, f->r->places), .noise = ARENA_TAKE(a, double, f->r->places)};
+    all.doubt = 1;
     ringing_select_errors(f, noise, inner, &e);
+    ringing_select_errors(f, &all, inner, &told);
     int n = groups_make(f, low, high, &e, g);
     m->modes = n < o->most ? n : o->most;
     m->mode = ARENA_TAKE(a, struct ringing_mode, 2 * m->modes);
     for (int i = 0; i < m->modes; i++)
         for (int s = 0; s < (g[i].second >= 0 ? 2 : 1); s++) {
             struct ringing_mode *to = &m->mode[m->n++];
-            mode_fill(f, &e, s ? g[i].second : g[i].first, a, to);
+            mode_fill(f, &told, s ? g[i].second : g[i].first, a, to);
             to->mode = i + 1;
             to->slope = s + 1;
         }

@@ -229,6 +229,7 @@ bool ringing_spectrogram(const struct ringing *r, const struct ringing_options *
     ringing_fit_gains(&f);
     ringing_select_drop(&f, &noise, &(struct ringing_select){o->confidence / (double)r->n, 1});
     ringing_report(&f, &noise, o, a, m);
+    ringing_noise_close(&noise);
     arena_close(inner);
     return true;
 }

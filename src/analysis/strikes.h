@@ -49,6 +49,7 @@ struct strikes_response {
     double *h;              /* [length] impulse response, sound's unit per N s; without force: of a strike whose sound's peak is 1 */
     double *noise;          /* [noise_n] what the same processing makes of the recording where nothing rings */
     double low, high;       /* Hz, where the force holds enough and the strikes agree; without force: 0, rate/2 */
+    double *unsure;         /* [n/2 + 1] |FFT|^2/n of h's own error, as far as strikes disagree; NULL with one strike */
     double *coherence;      /* [n/2 + 1] share of the sound that the response explains, strikes together; NULL with one strike */
     double *explained;      /* [strikes] the same share of each strike's sound, all frequencies; NAN where the strike is left out */
     int used;

@@ -1,7 +1,8 @@
 /* Where a response divided by a force means something: the force's power, and how far the strikes agree.
 
    Coherence here is the share of the sound's power that the common response explains, 1 - sum |R|^2 / sum |X|^2 over the strikes' windows, R what is left of the sound X: it
-   falls where there is noise, where strikes fell on other places, and where the object is not linear. */
+   falls where there is noise, where strikes fell on other places, and where the object is not linear. From the same R comes the error of the response itself,
+   sum |R|^2 / ((k - 1) sum |F|^2) for k strikes (Bendat and Piersol, Random Data, 2010, 9.2). */
 #include <math.h>
 #include <string.h>
 
@@ -169,6 +170,19 @@ static double energy(const double *x, long from, long to)
     return total;
 }
 
+/* The variance of H1: what k strikes leave, of k - 1 degrees of freedom, over the force's power. */
+static void unsure_make(struct strikes_job *j, const struct spectra *s)
+{
+    struct strikes_response *h = j->h;
+    bool fades = h->high < 0.45 * j->r->rate;
+    h->unsure = ARENA_TAKE(j->a, double, h->n / 2 + 1);
+    for (long i = 0; i <= h->n / 2; i++) {
+        double f = (double)i / (double)h->n, power = j->system.power[(long)(f * (double)j->size)];
+        double shape = (fades ? fade(f * j->r->rate, h->high) : 1.0) * j->r->rate / (power + j->system.ridge);
+        h->unsure[i] = power * shape * shape * s->r[i] / ((double)(h->used - 1) * (double)h->n);
+    }
+}
+
 void strikes_band_coherence(struct strikes_job *j)
 {
     struct arena *a = arena_open();
@@ -183,6 +197,7 @@ void strikes_band_coherence(struct strikes_job *j)
         h->coherence = ARENA_TAKE(j->a, double, h->n / 2 + 1);
         for (long i = 0; i <= h->n / 2; i++)
             h->coherence[i] = s.x[i] > 0.0 ? fmax(0.0, 1.0 - s.r[i] / s.x[i]) : 0.0;
+        unsure_make(j, &s);
     }
     arena_close(a);
 }

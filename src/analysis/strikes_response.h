@@ -35,7 +35,7 @@ void strikes_band(struct strikes_job *j);
    strikes_solve_size] (real). */
 void strikes_band_fade(const struct strikes_job *j, double *x, long n, bool shaped);
 
-/* Coherence and each strike's explained share. */
+/* Coherence, the response's error and each strike's explained share. */
 void strikes_band_coherence(struct strikes_job *j);
 
 #endif

@@ -103,10 +103,23 @@ static bool common(struct modes_extract *x, struct err *e)
 
 /* ------------------------------------------------------------------ modes */
 
+/* The error's spectrum of a response of p->n samples, of as much energy over the bins of n. */
+static const double *unsure(const struct strikes_response *p, long n, struct arena *a)
+{
+    double *to = ARENA_TAKE(a, double, n / 2 + 1), share = (double)p->n / (double)n;
+    for (long i = 0; i <= n / 2; i++) {
+        long k = (long)rint((double)i * share);
+        to[i] = p->unsure[k < p->n / 2 ? k : p->n / 2] * share;
+    }
+    return to;
+}
+
 static bool fit(struct modes_extract *x, struct err *e)
 {
     struct ringing_options o = ringing_options;
     const double **h = arena_take(x->arena, (size_t)x->n, sizeof *h), **noise = arena_take(x->arena, (size_t)x->n, sizeof *noise);
+    const double **error = arena_take(x->arena, (size_t)x->n, sizeof *error);
+    bool several = true;
     struct ringing r = {.places = x->n, .n = x->length - x->skip, .rate = x->rate, .h = h, .low = x->low, .high = x->high};
     long most = 50;
     if (!args_whole(&x->c->args, "modes", (const long[2]){1, 100000}, &most, e))
@@ -116,9 +129,12 @@ static bool fit(struct modes_extract *x, struct err *e)
         const struct strikes_response *p = &x->place[k].response;
         h[k] = p->h + x->skip;
         noise[k] = p->noise;
+        several = several && p->unsure;
+        error[k] = p->unsure ? unsure(p, r.n, x->arena) : NULL;
         r.noise_n = p->noise_n < r.noise_n ? p->noise_n : r.noise_n;
     }
     r.noise = r.noise_n ? noise : NULL;
+    r.unsure = several ? error : NULL;
     o.most = (int)most;
     o.low = x->low;
     o.high = x->high;
@@ -208,8 +224,8 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
     if (!common(x, e) || !fit(x, e))
         return false;
     for (int k = 0; k < x->n; k++)
-        if (x->heard.n > 0 && !(x->heard.explained[k] > -1.0))
-            return err_set(e, ERR_NUMBERS, "%s: the fit of the modes did not settle: a narrower band (--low, --high) or fewer --modes help", x->place[k].shown);
+        if (x->heard.n > 0 && !(x->heard.explained[k] > 0.0))
+            place_note(x, &x->place[k], "the modes do not hold the response: a narrower band (--low, --high) or fewer --modes help");
     leave_out_guessed(x);
     if (x->heard.n == 0)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown, x->low, x->high);
