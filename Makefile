@@ -29,7 +29,7 @@ PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr
 CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-tree-slp-vectorize -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
 LIBS = $(shell pkg-config --libs $(PKGS)) -lsleef -lm
 # What rasp-modes needs besides. Loading these takes longer than rasp does for a short scene.
-HEAVY = -lcholmod -larpack -llapacke -lopenblas
+HEAVY = -lcholmod -llapacke -lopenblas
 
 REVISION := $(shell git describe --always --dirty --abbrev=12 2> /dev/null || echo unknown)
 

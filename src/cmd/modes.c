@@ -127,7 +127,7 @@ const struct command modes_command = {
             "a scene's surface.object gives the same modes at any place. A table is for other programs, and to be changed by hand.\n"
             "rasp modes compute MESH -o FILE.csv: the modes of any solid by finite elements. MESH is a mesh of tetrahedra, of Gmsh (.msh, versions 2.2 and 4.1) or "
             "TetGen (.node, .ele); or --shape makes one: plate, bar, rod, ring, bowl, sphere, mug (--shape help lists their sizes). At default fineness and order the 60 lowest modes of steel solids are within about 0.1 % (rods, rings, solid balls), 0.3 % (a plate of 40 x 20 x 0.5 cm, a hollow ball of 2 mm) and 0.6 % (a "
-            "mug of 4 mm, a bowl 20 cm wide and 1.5 mm thick), in 5 to 10 s of a free processor; thinner walls and higher modes want more: frequencies come out too high and fall with fineness and --order. --estimate says by how much: "
+            "mug of 4 mm, a bowl 20 cm wide and 1.5 mm thick), in 4 to 16 s of processor time on a busy machine; thinner walls and higher modes want more: frequencies come out too high and fall with fineness and --order. --estimate says by how much: "
             "it solves a coarser mesh too (cells 1.5 times as long; of a mesh file, the order below) and extrapolates each mode (Richardson); it cannot see the error of what both meshes have alike, such as "
             "one element through a wall, and says of which modes it found no pair. "
             "The solid is touched and heard "

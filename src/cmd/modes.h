@@ -40,14 +40,17 @@ struct modes_ground {
     double low[2], high[2]; /* m, box of the places */
     int standard[2];       /* by default: NX, NY a grid; N, 1 a line in the middle; 1, 1 the place `at` */
     double at[2];
+    const char *remark;    /* ends a message that a place is beside the object; NULL: nothing */
 };
 bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p, struct err *e);
+/* No two are at one point, to a nanometre: a scene takes no table of such. *bad: the second of two. ERR_SCENE */
+bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad, struct err *e);
 bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_places *p, struct err *e);
 
 /* "# key: value" lines that say what the object is: object, material, damping, holds. */
 void modes_describe(FILE *f, const struct object *o);
 
-/* The actions; exit codes as a command's run. compute and extract need CHOLMOD, ARPACK and LAPACK: rasp starts rasp-modes for them (modes_elsewhere.c),
+/* The actions; exit codes as a command's run. compute and extract need CHOLMOD and LAPACK: rasp starts rasp-modes for them (modes_elsewhere.c),
    which calls modes_heavy_run. */
 struct modes_heavy {
     int (*compute)(struct cmd_call *c, struct err *e), (*extract)(struct cmd_call *c, struct err *e);

@@ -3,30 +3,43 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/text.h"
 #include "cmd/modes_compute.h"
+#include "cmd/modes_output.h"
 #include "fem/shapes.h"
 
+/* A mesh of TetGen is several files. */
 static bool read_output(const struct compute *k, const char **file, struct err *e)
 {
-    *file = args_value(&k->c->args, "output");
-    return *file || err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
+    static const char *const endings[] = {"node", "ele", "face"};
+    const struct args *g = &k->c->args;
+    const char *mesh = g->n_operands ? g->operands[0] : NULL, *dot = mesh ? strrchr(mesh, '.') : NULL;
+    *file = args_value(g, "output");
+    if (!*file)
+        return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
+    for (int i = 0; dot && (!strcmp(dot, ".node") || !strcmp(dot, ".ele")) && i < 3; i++)
+        if (!modes_output_spares(*file, arena_format(k->c->arena, "%.*s.%s", (int)(dot - mesh), mesh, endings[i]), e))
+            return false;
+    return modes_output_spares(*file, mesh, e) && modes_output_spares(*file, args_value(g, "points"), e);
 }
 
 static void report(const struct compute *k, const char *file)
 {
-    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", file, k->n, k->n == 1 ? "" : "s", k->frequency[0], k->frequency[k->n - 1], k->places,
+    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(k->c->arena, file), k->n, k->n == 1 ? "" : "s", k->least, k->greatest, k->places,
            k->places == 1 ? "" : "s");
     if (k->left_out)
         printf(" (%d of the grid lie beside the solid)", k->left_out);
     printf("; %d tetrahedra of order %ld, %ld freedoms, %.4g kg, %d rigid motion%s\n", k->mesh.elements, k->order, k->modes.freedoms, k->modes.mass, k->modes.rigid,
            k->modes.rigid == 1 ? "" : "s");
+    if (k->estimated)
+        printf("%s: %s\n", args_given(&k->c->args, "shape") ? "estimated error of frequencies" : "frequencies of the order below are off by more than these, by", modes_compute_estimate_says(k));
 }
 
-static void warn(const char *note)
+static void warn(struct arena *a, const char *note)
 {
     while (note && *note) {
         int n = (int)strcspn(note, "\n");
-        fprintf(stderr, "rasp modes: warning: %.*s\n", n, note);
+        fprintf(stderr, "rasp modes: warning: %s\n", text_shown(a, arena_format(a, "%.*s", n, note)));
         note += n + (note[n] == '\n');
     }
 }
@@ -47,18 +60,18 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
     bool there = access(file, F_OK) == 0;
     if (there && modes_compute_write_is_current(file, inputs, c->arena)) {
         if (!quiet)
-            printf("%s: up to date\n", file);
+            printf("%s: up to date\n", text_shown(c->arena, file));
         return 0;
     }
     if (there && !args_given(&c->args, "force")) {
         err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
         return (int)e->kind;
     }
-    if (!modes_compute_solid_solve(&k, e) || !modes_compute_write(&k, file, inputs, e))
+    if (!modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) || !modes_compute_estimate(&k, e) || !modes_compute_write(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {
         report(&k, file);
-        warn(k.note);
+        warn(c->arena, k.note);
     }
     return 0;
 }

@@ -4,7 +4,7 @@
 #include "base/hash.h"
 #include "cmd/modes.h"
 #include "fem/chart.h"
-#include "fem/solid.h"
+#include "fem/solid_estimate.h"
 #include "scene/material.h"
 
 struct compute_material {
@@ -35,8 +35,13 @@ struct compute {
     struct boundary_point ear;
     struct solid_modes modes;
     int n, overdamped;               /* modes that ring; that do not */
-    double *frequency, *decay;       /* [n] Hz (damped), 1/s */
+    double *frequency, *decay;       /* [n] Hz (damped; where damping is heavy, in another order than the modes), 1/s */
+    double least, greatest;          /* Hz, of frequency */
     int *mode;                       /* [n] of modes.lambda */
+    bool estimated;
+    struct solid_estimate estimate;
+    int coarse_elements;
+    long coarse_freedoms, coarse_order;
     const char *note;                /* lines */
 };
 
@@ -46,6 +51,18 @@ bool modes_compute_solid_read(struct compute *k, struct err *e);
 /* The modes. A pair w^2 = lambda decays with d = (alpha + beta w^2 + loss w)/2 and sounds at sqrt(lambda - d^2)/(2 pi): papers/003 equations 4, 5, with a loss factor besides;
    lambda <= d^2 is overdamped and left out, with a note. */
 bool modes_compute_solid_solve(struct compute *k, struct err *e);
+
+/* --clamp, --support: the faces of k->mesh into k->held. */
+bool modes_compute_solid_held(struct compute *k, struct err *e);
+
+/* What is in the wrong unit, most likely: the material's figures, by the limits of the scene's keys, ERR_USAGE; size (of a shape), ERR_SCENE; warnings of size, mass and stiffness. */
+bool modes_compute_limits_material(const struct compute *k, double density, struct err *e);
+bool modes_compute_limits_solid(struct compute *k, struct err *e);
+
+/* --estimate: the modes once more, of a coarser mesh of the shape or, of a mesh file, of the order below. */
+bool modes_compute_estimate(struct compute *k, struct err *e);
+const char *modes_compute_estimate_says(const struct compute *k); /* in a few words */
+void modes_compute_estimate_write(FILE *f, const struct compute *k); /* "# ..." lines */
 
 /* --face, --line ..., --points, --listen, --origin. */
 bool modes_compute_places(struct compute *k, struct err *e);

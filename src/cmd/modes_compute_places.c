@@ -31,6 +31,10 @@ static bool read_face(struct compute *k, struct err *e)
     if (!chart_faces[face])
         return err_set(e, ERR_USAGE, "--face: '%s' is not top, bottom, right, left, back, front, around or inside", word);
     chart_make(&k->mesh, &k->boundary, face, &k->chart);
+    const double *low = k->boundary.low, *high = k->boundary.high;
+    if (face >= CHART_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
+        return err_set(e, ERR_SCENE, "--face %s goes round the axis x = y = 0, and the solid lies beside it (x %.6g to %.6g m, y %.6g to %.6g m); move the mesh so that the axis runs through "
+                                     "its middle", word, low[0], high[0], low[1], high[1]);
     return true;
 }
 
@@ -62,9 +66,11 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
         return false;
     for (int i = 0; i < 5; i++) {
         column[i] = csv_column(&t, names[i]);
-        if (column[i] < 0 && (i < 3 || (i == 4) != (column[3] < 0)))
-            return err_set(e, ERR_SCENE, "%s: there is no column %s; a list of points has x_m,y_m,z_m and may have u_m,v_m, their places in the scene", file, names[i]);
     }
+    bool placed = column[3] >= 0 || column[4] >= 0;
+    for (int i = 0; i < (placed ? 5 : 3); i++)
+        if (column[i] < 0)
+            return err_set(e, ERR_SCENE, "%s: there is no column %s; a list of points has x_m,y_m,z_m and may have u_m,v_m, their places in the scene", file, names[i]);
     if (t.rows == 0 || t.rows > 100000)
         return err_set(e, ERR_SCENE, "%s: %zu points; take 1 to 100000", file, t.rows);
     k->places = (int)t.rows;
@@ -73,7 +79,12 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
     for (int i = 0; i < k->places; i++)
         if (!point_row(k, &t, column, i, e))
             return false;
-    return true;
+    struct err why = {0};
+    int bad;
+    if (modes_places_apart(&(struct modes_places){.n = k->places, .xy = k->xy}, k->c->arena, &bad, &why))
+        return true;
+    return err_set(e, ERR_SCENE, "%s:%d: another point has the same place (%.9g, %.9g) m; a scene tells points by their places: give each its own u_m,v_m", file, t.lines[bad], k->xy[bad][0],
+                   k->xy[bad][1]);
 }
 
 /* ------------------------------------------------------------------ --line ..., --listen */
@@ -85,6 +96,8 @@ static bool read_places(struct compute *k, struct err *e)
     double wide = c->high[0] - c->low[0], high = c->high[1] - c->low[1];
     struct modes_ground ground = {.self = c, .off = off, .low = {c->low[0], c->low[1]}, .high = {c->high[0], c->high[1]}, .standard = {17, 9}};
     struct modes_places p;
+    if (c->face >= CHART_AROUND)
+        ground.remark = "; x is the arc round the axis x = y = 0 of the mesh's file, y is z, and the solid must be where they lead";
     if (wide > 6 * high)
         memcpy(ground.standard, (int[2]){33, 1}, sizeof ground.standard);
     if (!modes_places(k->c, &ground, &p, e))

@@ -8,6 +8,7 @@
 #include "fem/mesh_raise.h"
 #include "fem/shapes.h"
 #include "num/real.h"
+#include "scene/keys.h"
 #include "scene/units.h"
 
 /* ------------------------------------------------------------------ mesh */
@@ -94,6 +95,7 @@ static bool read_material(struct compute *k, struct err *e)
     if (!name_material(k, e))
         return false;
     const struct material none = {.youngs_modulus = NAN, .poisson = NAN, .density = NAN, .alpha = 0, .beta = 0, .loss = 0}, *t = m->named ? m->named : &none;
+    const struct key *nu = keys_find("surface.object.poisson");
     bool wood = t->radial.youngs_modulus > 0;
     double density = t->density;
     m->youngs_modulus = t->youngs_modulus;
@@ -104,7 +106,7 @@ static bool read_material(struct compute *k, struct err *e)
     m->own = args_given(g, "youngs-modulus") || args_given(g, "poisson") || args_given(g, "density");
     m->own_damping = args_given(g, "alpha") || args_given(g, "beta") || args_given(g, "loss");
     if (!quantity(k, "youngs-modulus", KEY_PRESSURE, &m->youngs_modulus, e) || !quantity(k, "density", KEY_DENSITY, &density, e) ||
-        !args_number(g, "poisson", (const double[2]){-1, 0.5}, &m->poisson, e) || !quantity(k, "alpha", KEY_PER_TIME, &m->alpha, e) ||
+        !args_number(g, "poisson", (const double[2]){nu->low, nu->high}, &m->poisson, e) || !quantity(k, "alpha", KEY_PER_TIME, &m->alpha, e) ||
         !quantity(k, "beta", KEY_TIME, &m->beta, e) || !args_number(g, "loss", (const double[2]){0, 2}, &m->loss, e))
         return false;
     if (isnan(m->youngs_modulus) || isnan(m->poisson) || isnan(density))
@@ -114,6 +116,8 @@ static bool read_material(struct compute *k, struct err *e)
     if (!(m->alpha >= 0 && m->beta >= 0) || m->alpha + m->beta + m->loss == 0)
         return err_set(e, ERR_USAGE, m->alpha + m->beta + m->loss == 0 ? "--alpha, --beta or --loss is needed: without damping a mode rings for ever"
                                                                      : "--alpha and --beta must not be below 0");
+    if (!modes_compute_limits_material(k, density, e))
+        return false;
     return wood ? wooden(m, m->youngs_modulus, density, e) : elastic_isotropic(m->youngs_modulus, m->poisson, density, &m->elastic, e);
 }
 
@@ -171,7 +175,7 @@ static bool hold(struct compute *k, const char *option, int how, struct err *e)
     return true;
 }
 
-static bool read_held(struct compute *k, struct err *e)
+bool modes_compute_solid_held(struct compute *k, struct err *e)
 {
     int clamped, supported;
     args_values(&k->c->args, "clamp", &clamped);
@@ -186,16 +190,16 @@ bool modes_compute_solid_read(struct compute *k, struct err *e)
     static const long counts[2] = {1, 2000}, orders[2] = {SOLID_LATTICE_LEAST, SOLID_LATTICE_MOST};
     k->top = 20000;
     k->most = 100;
-    k->order = args_given(&k->c->args, "shape") ? 3 : 2;
+    k->order = args_given(&k->c->args, "shape") ? shapes_order(args_value(&k->c->args, "shape")) : 2;
     if (!quantity(k, "top", KEY_FREQUENCY, &k->top, e) || !args_whole(&k->c->args, "modes", counts, &k->most, e) ||
         !args_whole(&k->c->args, "order", orders, &k->order, e))
         return false;
     if (!(k->top > 0 && k->top <= 1e7))
         return err_set(e, ERR_USAGE, "--top: %g Hz is not above 0 and at most 10 MHz", k->top);
-    if (!read_material(k, e) || !read_mesh(k, e) || !read_held(k, e))
+    if (!read_material(k, e) || !read_mesh(k, e) || !modes_compute_solid_held(k, e))
         return false;
     k->note = k->mesh.note;
-    return true;
+    return modes_compute_limits_solid(k, e);
 }
 
 /* ------------------------------------------------------------------ modes */
@@ -219,7 +223,9 @@ static void damp(struct compute *k)
         }
         k->mode[k->n] = i;
         k->decay[k->n] = d;
-        k->frequency[k->n++] = sqrt(lambda - d * d) / (2.0 * REAL_PI);
+        double f = k->frequency[k->n++] = sqrt(lambda - d * d) / (2.0 * REAL_PI);
+        k->least = k->n == 1 ? f : fmin(k->least, f);
+        k->greatest = fmax(k->greatest, f);
     }
 }
 
@@ -235,6 +241,6 @@ bool modes_compute_solid_solve(struct compute *k, struct err *e)
     if (k->overdamped)
         note(k, arena_format(a, "%d overdamped mode%s left out", k->overdamped, k->overdamped == 1 ? " is" : "s are"));
     if (!k->modes.all)
-        note(k, arena_format(a, "the %d lowest modes reach up to %.5g Hz; --modes takes more of those below %g Hz", k->modes.n, k->frequency[k->n - 1], k->top));
+        note(k, arena_format(a, "the %d lowest modes reach up to %.5g Hz; --modes takes more of those below %g Hz", k->modes.n, k->greatest, k->top));
     return true;
 }

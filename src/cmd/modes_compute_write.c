@@ -9,8 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/outfile.h"
+#include "base/text.h"
 #include "cmd/modes_compute.h"
 #include "cmd/version.h"
 #include "fem/touch.h"
@@ -48,6 +50,8 @@ void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
     hash_add(&h, m->elastic.c, sizeof m->elastic.c);
     hash_add(&h, numbers, sizeof numbers);
     hash_add(&h, wholes, sizeof wholes);
+    if (k->boundary.outer < k->boundary.area)
+        add_text(&h, "radius_m of the outer skin"); /* an older table counted walls of cavities */
     for (int i = 0; i < k->n_held; i++) {
         hash_add(&h, &k->held[i].hold, sizeof k->held[i].hold);
         add_text(&h, k->held_names[i]);
@@ -58,11 +62,17 @@ void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
         add_point(&h, &k->point[i]);
     if (k->elsewhere)
         add_point(&h, &k->ear);
+    if (args_given(&k->c->args, "estimate"))
+        add_text(&h, "estimate");
     hash_end(&h, hex);
 }
 
+/* NULL: not a regular file; a pipe would be waited for, a device read for ever. */
 static char *contents(const char *file, size_t *size)
 {
+    struct stat s;
+    if (stat(file, &s) != 0 || !S_ISREG(s.st_mode))
+        return NULL;
     char *text = NULL;
     FILE *in = fopen(file, "rb"), *out = open_memstream(&text, size);
     char piece[1 << 16];
@@ -95,11 +105,11 @@ static void object(FILE *f, const struct compute *k)
     const struct boundary *b = &k->boundary;
     const char *title = args_value(&k->c->args, "title");
     if (title)
-        fprintf(f, "# title: %s\n", title);
-    fprintf(f, "# object: %s, x %.9g to %.9g m, y %.9g to %.9g m, z %.9g to %.9g m, %.6g kg\n", k->mesh.name, b->low[0], b->high[0], b->low[1], b->high[1], b->low[2],
+        fprintf(f, "# title: %s\n", text_shown(k->c->arena, title));
+    fprintf(f, "# object: %s, x %.9g to %.9g m, y %.9g to %.9g m, z %.9g to %.9g m, %.6g kg\n", text_shown(k->c->arena, k->mesh.name), b->low[0], b->high[0], b->low[1], b->high[1], b->low[2],
             b->high[2], k->modes.mass);
     for (int i = 0; i < k->n_held; i++)
-        fprintf(f, "# %s: %s\n", k->held[i].hold == SOLID_CLAMPED ? "clamped" : "supported", k->held_names[i]);
+        fprintf(f, "# %s: %s\n", k->held[i].hold == SOLID_CLAMPED ? "clamped" : "supported", text_shown(k->c->arena, k->held_names[i]));
 }
 
 static void material(FILE *f, const struct compute_material *m)
@@ -119,11 +129,11 @@ static void material(FILE *f, const struct compute_material *m)
                 m->own_damping ? "the object's own figures, else " : "", m->named->damping_source);
 }
 
-static void notes(FILE *f, const char *text)
+static void notes(FILE *f, const char *text, struct arena *a)
 {
     while (text && *text) {
         int n = (int)strcspn(text, "\n");
-        fprintf(f, "# note: %.*s\n", n, text);
+        fprintf(f, "# note: %s\n", text_shown(a, arena_format(a, "%.*s", n, text)));
         text += n + (text[n] == '\n');
     }
 }
@@ -142,11 +152,12 @@ static void comments(FILE *f, const struct compute *k, const char *inputs)
     else
         fprintf(f, "# places: on the solid as seen from its side '%s': its %s, moved by (%.9g, %.9g) m\n", chart_faces[k->chart.face], axes[k->chart.face], k->origin[0],
                 k->origin[1]);
-    fprintf(f, "# radius_m: %.9g\n", sqrt(k->boundary.area / (4.0 * REAL_PI)));
+    fprintf(f, "# radius_m: %.9g\n", sqrt(k->boundary.outer / (4.0 * REAL_PI)));
     object(f, k);
     material(f, &k->material);
     fprintf(f, "# holds: linear elasticity by finite elements, %d tetrahedra of order %ld, %ld freedoms; no radiation\n", k->mesh.elements, k->order, k->modes.freedoms);
-    notes(f, k->note);
+    modes_compute_estimate_write(f, k);
+    notes(f, k->note, k->c->arena);
     fprintf(f, "%s%s\n", second, inputs);
 }
 

@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include "base/outfile.h"
+#include "base/text.h"
 #include "cmd/modes.h"
+#include "cmd/modes_output.h"
 #include "num/real.h"
 #include "response/mode_table_write.h"
 #include "scene/units.h"
@@ -35,6 +37,8 @@ static bool read_output(struct job *j, struct err *e)
     const char *file = args_value(&j->c->args, "output");
     if (!file)
         return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
+    if (!modes_output_spares(file, j->c->args.operands[0], e))
+        return false;
     return args_given(&j->c->args, "force") || access(file, F_OK) != 0 || err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
 }
 
@@ -52,6 +56,9 @@ static bool make(struct job *j, struct err *e)
     static const long counts[2] = {1, 100000};
     long most = 100000;
     const struct object *o = &j->object;
+    for (const char *const *s = (const char *const *)j->body.scene.sources; s && *s; s++) /* what a scene includes */
+        if (!modes_output_spares(args_value(&j->c->args, "output"), *s, e))
+            return false;
     j->heard_elsewhere = args_given(&j->c->args, "listen");
     if (!args_whole(&j->c->args, "modes", counts, &most, e) || !modes_lengths(j->c, &(struct modes_lengths){"listen", "X,Y", 2}, j->listen, e) ||
         !modes_body_object(j->c, &j->body, &j->object, &j->note, e) || !modes_body_places(j->c, &j->body, o, &j->places, e))
@@ -103,9 +110,9 @@ static void comments(FILE *f, const struct job *j)
         fputs("the place that is touched\n", f);
     fprintf(f, "# radius_m: %.12g\n", j->object.radius);
     if (j->body.title)
-        fprintf(f, "# title: %s\n", j->body.title);
+        fprintf(f, "# title: %s\n", text_shown(j->c->arena, j->body.title));
     if (j->body.remark)
-        fprintf(f, "# remark: %s\n", j->body.remark);
+        fprintf(f, "# remark: %s\n", text_shown(j->c->arena, j->body.remark));
     modes_describe(f, &j->object);
     if (j->load > 0.0)
         fprintf(f, "# load: %.12g kg rest where the object is touched; each mode keeps its shape (Rayleigh's quotient), its mass grows by load x shape^2\n", j->load);
@@ -134,7 +141,7 @@ static void write_table(FILE *f, const struct job *j)
 static void report(const struct job *j, const char *file)
 {
     const struct modes *m = &j->modes;
-    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", file, m->n, m->n == 1 ? "" : "s", m->frequency[j->order[0]], m->frequency[j->order[m->n - 1]],
+    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(j->c->arena, file), m->n, m->n == 1 ? "" : "s", m->frequency[j->order[0]], m->frequency[j->order[m->n - 1]],
            j->places.n, j->places.n == 1 ? "" : "s");
     if (j->places.left_out)
         printf(" (%d of the grid lie beside the object)", j->places.left_out);
@@ -158,6 +165,6 @@ int modes_object_run(struct cmd_call *c, struct err *e)
     if (!args_given(&c->args, "quiet"))
         report(&j, file);
     if (j.note && !args_given(&c->args, "quiet"))
-        fprintf(stderr, "rasp modes: warning: %s\n", j.note);
+        fprintf(stderr, "rasp modes: warning: %s\n", text_shown(c->arena, j.note));
     return 0;
 }

@@ -5,6 +5,8 @@
 #include "cmd/modes.h"
 #include "num/real.h"
 
+enum { PLACES = 100000 };
+
 static void add(struct modes_places *p, double x, double y)
 {
     p->xy[p->n][0] = x;
@@ -48,8 +50,8 @@ static bool read_grid(struct cmd_call *c, int n[2], struct err *e)
         return true;
     char *comma, *end;
     long x = strtol(text, &comma, 10), y = *comma == ',' ? strtol(comma + 1, &end, 10) : 0;
-    if (y < 2 || x < 2 || x > 1000 || y > 1000 || *end)
-        return err_set(e, ERR_USAGE, "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, as in 17,9", text);
+    if (y < 2 || x < 2 || x > 1000 || y > 1000 || x * y > PLACES || *end)
+        return err_set(e, ERR_USAGE, "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, at most %d places in all, as in 17,9", text, PLACES);
     n[0] = (int)x;
     n[1] = (int)y;
     return true;
@@ -63,8 +65,8 @@ static bool all_on(const struct modes_ground *g, const struct modes_places *p, s
             return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies %.3g m off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m",
                            p->xy[i][0], p->xy[i][1], off, g->low[0], g->high[0], g->low[1], g->high[1]);
         if (off > 1e-9)
-            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m",
-                           p->xy[i][0], p->xy[i][1], g->low[0], g->high[0], g->low[1], g->high[1]);
+            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m%s",
+                           p->xy[i][0], p->xy[i][1], g->low[0], g->high[0], g->low[1], g->high[1], g->remark ? g->remark : "");
     }
     return p->n > 0 || err_set(e, ERR_SCENE, "none of the %d places of the grid lies on the object; take a finer one, or --line or --at", p->left_out);
 }
@@ -82,7 +84,7 @@ static void standard(struct cmd_call *c, const struct modes_ground *g, struct mo
 
 static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], struct err *e)
 {
-    static const long counts[2] = {2, 100000};
+    static const long counts[2] = {2, PLACES};
     const struct args *g = &c->args;
     if (!modes_lengths(c, &(struct modes_lengths){"line", "X0,Y0,X1,Y1", 4}, ends, e) || !modes_lengths(c, &(struct modes_lengths){"circle", "RADIUS", 1}, ends, e) ||
         !modes_lengths(c, &(struct modes_lengths){"at", "X,Y", 2}, ends, e) || !read_grid(c, n, e) || !args_whole(g, "places", counts, places, e))
@@ -90,6 +92,34 @@ static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], str
     if (args_given(g, "line") + args_given(g, "circle") + args_given(g, "at") + args_given(g, "grid") > 1)
         return err_set(e, ERR_USAGE, "--line, --circle, --grid and --at exclude each other");
     return !args_given(g, "places") || args_given(g, "line") || args_given(g, "circle") || err_set(e, ERR_USAGE, "--places needs --line or --circle");
+}
+
+struct spot {
+    double nm[2];
+    int index;
+};
+
+static int by_place(const void *p, const void *q)
+{
+    const struct spot *a = p, *b = q;
+    for (int c = 0; c < 2; c++)
+        if (a->nm[c] != b->nm[c])
+            return a->nm[c] < b->nm[c] ? -1 : 1;
+    return (a->index > b->index) - (a->index < b->index);
+}
+
+bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad, struct err *e)
+{
+    struct spot *s = ARENA_TAKE(a, struct spot, p->n);
+    for (int i = 0; i < p->n; i++)
+        s[i] = (struct spot){{rint(p->xy[i][0] * 1e9), rint(p->xy[i][1] * 1e9)}, i};
+    qsort(s, (size_t)p->n, sizeof *s, by_place);
+    for (int i = 1; i < p->n; i++)
+        if (s[i].nm[0] == s[i - 1].nm[0] && s[i].nm[1] == s[i - 1].nm[1]) {
+            *bad = s[i].index;
+            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m is there twice, and a scene takes no table of such; --at X,Y is one place", p->xy[*bad][0], p->xy[*bad][1]);
+        }
+    return true;
 }
 
 bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p, struct err *e)
@@ -110,5 +140,6 @@ bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes
         line(p, ends, (int)places, c->arena);
     else
         standard(c, g, p);
-    return all_on(g, p, e);
+    int bad;
+    return all_on(g, p, e) && modes_places_apart(p, c->arena, &bad, e);
 }

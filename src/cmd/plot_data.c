@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/text.h"
 #include "cmd/plot.h"
 #include "cmd/plot_summary.h"
 #include "file/csv.h"
@@ -175,16 +176,16 @@ static const char *beside(const struct plot_page *p, const char *ending)
 }
 
 /* Is the table of the render that the summary is of? Where that cannot be known it is taken to be, and this is said. */
-static bool table_belongs(const struct plot_summary *s, const char *path, const char *contact, struct err *e)
+static bool table_belongs(const struct plot_page *p, const struct plot_summary *s, const char *path, const char *contact, struct err *e)
 {
     const char *why;
     if (!s->lists)
-        fprintf(stderr, "%s: warning: %s %s: that the table is of the same render is assumed\n", path, s->file,
+        fprintf(stderr, "%s: warning: %s %s: that the table is of the same render is assumed\n", text_shown(p->arena, path), text_shown(p->arena, s->file),
                 s->there ? "does not say which files are of its render" : "is not there");
     if (!s->lists || plot_summary_has(s, path, contact, &why, e))
         return true;
     if (e->kind == ERR_NONE)
-        fprintf(stderr, "%s: warning: left out, as it is of another render: %s %s\n", path, s->file, why);
+        fprintf(stderr, "%s: warning: left out, as it is of another render: %s %s\n", text_shown(p->arena, path), text_shown(p->arena, s->file), text_shown(p->arena, why));
     return false;
 }
 
@@ -192,7 +193,7 @@ static bool table_belongs(const struct plot_summary *s, const char *path, const 
 static bool table_find(struct plot_page *p, const struct plot_summary *s, const char *contact, struct err *e)
 {
     const char *path = beside(p, *contact ? arena_format(p->arena, ".%s.csv", contact) : ".csv");
-    if (access(path, F_OK) == 0 && table_belongs(s, path, contact, e))
+    if (access(path, F_OK) == 0 && table_belongs(p, s, path, contact, e))
         return table_add(p, path, contact, e);
     return e->kind == ERR_NONE;
 }
@@ -215,7 +216,7 @@ static bool summary_foreign(const struct plot_page *p, const struct plot_summary
     const char *why = "lists no sound";
     bool ours = !s->lists || (table ? plot_summary_has(s, p->file, "", &why, e) : s->sounds);
     if (!ours && e->kind == ERR_NONE)
-        fprintf(stderr, "%s: warning: %s is of another render (it %s), and is not used\n", p->file, s->file, why);
+        fprintf(stderr, "%s: warning: %s is of another render (it %s), and is not used\n", text_shown(p->arena, p->file), text_shown(p->arena, s->file), text_shown(p->arena, why));
     return !ours;
 }
 

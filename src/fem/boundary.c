@@ -6,6 +6,7 @@
 
 #include "fem/boundary_face.h"
 #include "fem/faces.h"
+#include "fem/roots.h"
 
 void boundary_weights(double u, double v, double w[6])
 {
@@ -37,17 +38,33 @@ static void outer_faces(const struct mesh *m, struct arena *a, struct boundary *
         }
 }
 
-static void measure(const struct mesh *m, struct boundary *b)
+static void measure_face(const struct mesh *m, const int face[6], double *area, double *volume)
 {
     const double root = sqrt(15), p = (6 - root) / 21, q = (6 + root) / 21, wp = (155 - root) / 2400, wq = (155 + root) / 2400;
     const double rule[7][3] = {{1. / 3, 1. / 3, 9. / 80}, {p, p, wp}, {p, 1 - 2 * p, wp}, {1 - 2 * p, p, wp}, {q, q, wq}, {q, 1 - 2 * q, wq}, {1 - 2 * q, q, wq}};
+    for (int k = 0; k < 7; k++) {
+        struct boundary_face_at x;
+        boundary_face_at(m, face, rule[k], &x);
+        *area += rule[k][2] * sqrt(boundary_face_dot(x.across, x.across));
+        *volume += rule[k][2] * boundary_face_dot(x.at, x.across) / 3;
+    }
+}
+
+/* Faces that share nodes are of one skin; that of a cavity, seen from the solid, has a negative volume. */
+static void measure(const struct mesh *m, struct arena *a, struct boundary *b)
+{
+    int *skin = roots_open(m->nodes, a);
+    double *area = ARENA_TAKE(a, double, m->nodes), *volume = ARENA_TAKE(a, double, m->nodes);
     for (int i = 0; i < b->n; i++)
-        for (int k = 0; k < 7; k++) {
-            struct boundary_face_at x;
-            boundary_face_at(m, b->face[i], rule[k], &x);
-            b->area += rule[k][2] * sqrt(boundary_face_dot(x.across, x.across));
-            b->volume += rule[k][2] * boundary_face_dot(x.at, x.across) / 3;
-        }
+        for (int c = 1; c < 6; c++)
+            roots_join(skin, b->face[i][0], b->face[i][c]);
+    for (int i = 0; i < b->n; i++) {
+        int of = roots_of(skin, b->face[i][0]);
+        measure_face(m, b->face[i], &b->area, &b->volume);
+        measure_face(m, b->face[i], &area[of], &volume[of]);
+    }
+    for (int i = 0; i < m->nodes; i++)
+        b->outer += volume[i] > 0 ? area[i] : 0;
 }
 
 void boundary_make(const struct mesh *m, struct arena *a, struct boundary *b)
@@ -59,5 +76,5 @@ void boundary_make(const struct mesh *m, struct arena *a, struct boundary *b)
             b->high[c] = fmax(b->high[c], m->at[i][c]);
         }
     outer_faces(m, a, b);
-    measure(m, b);
+    measure(m, a, b);
 }

@@ -7,6 +7,7 @@ struct boundary {
     int n;
     int (*face)[6];            /* [n] indices of nodes                                  */
     double area, volume;       /* m^2, m^3, of the curved faces (volume by Gauss' theorem) */
+    double outer;              /* m^2, area without the walls of closed cavities         */
     double low[3], high[3];    /* m, box of all nodes                                   */
 };
 

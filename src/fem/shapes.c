@@ -1,4 +1,4 @@
-/* See shapes.h. The cells' size is found so that at fineness 2 the lattice cubic elements have about the shape's number of nodes (three freedoms each); fineness N makes cells 2/N as long. */
+/* See shapes.h. The cells' size is found so that at fineness 2 the lattice of the shape's own order has about its number of nodes (three freedoms each); fineness N makes cells 2/N as long. */
 #include "fem/shapes.h"
 
 #include <math.h>
@@ -117,7 +117,7 @@ static bool check_proportions(const struct shapes_kind *k, const struct shapes_a
 }
 
 /* The largest cells that give the points wanted at fineness 2, by bisection of their logarithm. */
-static void find_cell(const struct shapes_kind *k, struct shapes_ask *q, struct arena *a, struct shapes_blocks *s)
+static void find_cell(const struct shapes_kind *k, struct shapes_ask *q, double longer, struct arena *a, struct shapes_blocks *s)
 {
     struct shapes_ask t = *q;
     double low = INFINITY, high = 0;
@@ -130,16 +130,16 @@ static void find_cell(const struct shapes_kind *k, struct shapes_ask *q, struct 
     for (int i = 0; i < 40; i++) {
         t.cell = sqrt(low * high);
         k->blocks(&t, a, s);
-        if (shapes_blocks_nodes(s, 3) > k->nodes)
+        if (shapes_blocks_nodes(s, k->order) > q->nodes)
             low = t.cell;
         else
             high = t.cell;
     }
-    q->cell = high * 2 / q->fineness;
+    q->cell = high * 2 / q->fineness * longer;
     k->blocks(q, a, s);
 }
 
-bool shapes_mesh(const char *text, struct arena *a, struct mesh *m, struct err *e)
+static bool make(const char *text, double longer, struct arena *a, struct mesh *m, struct err *e)
 {
     struct shapes_ask q = {.fineness = 2};
     char *copy = arena_text(a, text), *colon = strchr(copy, ':');
@@ -153,12 +153,32 @@ bool shapes_mesh(const char *text, struct arena *a, struct mesh *m, struct err *
         return false;
     if (!colon)
         return err_set(e, ERR_USAGE, "%s needs its lengths, such as %s:%s=10cm,...: it has %s", copy, copy, k->key[0], key_list(k, a));
+    q.nodes = k->nodes;
     if (!read_pairs(k, colon + 1, &q, a, e) || !check_proportions(k, &q, e) || !k->check(&q, e) || !check_proportions(k, &q, e))
         return false;
     *m = (struct mesh){.name = arena_text(a, text)};
-    find_cell(k, &q, a, &s);
+    find_cell(k, &q, longer, a, &s);
     shapes_blocks_mesh(&s, a, m);
     return true;
+}
+
+bool shapes_mesh(const char *text, struct arena *a, struct mesh *m, struct err *e)
+{
+    return make(text, 1, a, m, e);
+}
+
+bool shapes_mesh_coarser(const char *text, double longer, struct arena *a, struct mesh *m, struct err *e)
+{
+    return make(text, longer, a, m, e);
+}
+
+int shapes_order(const char *text)
+{
+    size_t n = strcspn(text, ":");
+    for (int i = 0; i < KINDS; i++)
+        if (n == strlen(kinds[i]->name) && !memcmp(text, kinds[i]->name, n))
+            return kinds[i]->order;
+    return 3;
 }
 
 const char *shapes_help(void)

@@ -16,6 +16,12 @@
    ERR_USAGE with the list of shapes or keys, "did you mean", or which length does not fit which. */
 bool shapes_mesh(const char *text, struct arena *a, struct mesh *m, struct err *e);
 
+/* The same of cells `longer` (above 1) times as long, as far as the shape's least numbers of cells allow. */
+bool shapes_mesh_coarser(const char *text, double longer, struct arena *a, struct mesh *m, struct err *e);
+
+/* The order of displacements that costs least for this shape: 3, of what is thin and curved 4. */
+int shapes_order(const char *text);
+
 /* Help: one line per shape. */
 const char *shapes_help(void);
 

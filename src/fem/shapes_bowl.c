@@ -3,7 +3,8 @@
      z_c = ((diameter/2)^2 + height^2 - (foot/2)^2) / (2 height),   R^2 = (foot/2)^2 + z_c^2
 
    inside, the same z = thickness and radius R - thickness, so that the wall is as thick everywhere; the rim is cut flat at z = height. A layer at w of the thickness (0 outside) is the sphere of
-   radius R - w from z = w, where it meets the foot's disc, up to z = height, in equal steps of its angle. */
+   radius R - w from z = w, where it meets the foot's disc, up to z = height, in steps of its angle that shrink
+   towards the rim, where the waves are: the last is 0.6 of their mean, the first 1.4. */
 #include <math.h>
 
 #include "fem/shapes_disc.h"
@@ -12,6 +13,8 @@
 
 enum { DIAMETER, HEIGHT, THICKNESS, FOOT };
 enum { SQUARE = 4, WALL };
+
+#define GRADING 0.4
 
 struct bowl {
     double height, thickness, centre, radius; /* of the sphere */
@@ -41,7 +44,7 @@ static void place(const void *shape, int which, const double c[3], double at[3])
     else if (which < 4)
         shapes_disc_ring(which, 2 * c[0] / b->m - 1, c[1] / b->ring, 90 * (which + c[0] / b->m - 0.5), at);
     else {
-        double from = angle_at(radius, down), to = angle_at(radius, b->centre - b->height), t = c[1] / b->up, angle = from + t * (to - from);
+        double from = angle_at(radius, down), to = angle_at(radius, b->centre - b->height), t = c[1] / b->up, angle = from + t * (1 + GRADING * (1 - t)) * (to - from);
         foot = c[1] > 0 ? radius * real_sin(angle) : foot;
         at[2] = c[1] <= 0 ? w : c[1] >= b->up ? b->height : b->centre - radius * real_cos(angle);
         shapes_disc_turn(90 * (c[0] / b->m - 0.5), at);
@@ -60,7 +63,7 @@ static void blocks(const struct shapes_ask *q, struct arena *a, struct shapes_bl
     b->m = shapes_kinds_cells(q, REAL_PI / 4 * q->length[DIAMETER], q->fineness + 1); /* at the rim, where the waves are shortest */
     b->ring = shapes_kinds_cells(q, foot / 2, (q->fineness + 1) / 2);
     b->layers = shapes_kinds_across(q, b->thickness);
-    b->up = shapes_kinds_cells(q, way, 2 * q->fineness);
+    b->up = shapes_kinds_cells(q, 0.85 * way, 2 * q->fineness);
     *s = (struct shapes_blocks){.place = place, .shape = b, .size = fmax(2 * b->radius, b->height)};
     shapes_blocks_add(s, SQUARE, b->m, b->m, b->layers)->side[2][0] = "foot";
     for (int i = 0; i < 4; i++)
@@ -83,4 +86,4 @@ static bool check(struct shapes_ask *q, struct err *e)
 }
 
 const struct shapes_kind shapes_bowl = {
-    "bowl", {"diameter", "height", "thickness", "foot"}, 3, 22000, check, blocks};
+    "bowl", {"diameter", "height", "thickness", "foot"}, 3, 4, 29000, check, blocks};

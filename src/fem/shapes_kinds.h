@@ -8,13 +8,15 @@ enum { SHAPES_KINDS_LENGTHS = 5 };
 struct shapes_ask {
     double length[SHAPES_KINDS_LENGTHS]; /* m, in the order of the shape's keys; NAN: not given */
     int fineness;                        /* 1 to 6 */
+    double nodes;                        /* of the kind, unless check() knows better */
     double cell;                         /* m, the length a cell should have */
 };
 
 struct shapes_kind {
     const char *name, *key[SHAPES_KINDS_LENGTHS + 1]; /* NULL-terminated */
     int needed;                                       /* the first so many keys must be given */
-    double nodes;                                     /* of cubic elements at fineness 2, about */
+    int order;                                        /* the least costly one, 3 or 4 */
+    double nodes;                                     /* of elements of that order at fineness 2, about */
     bool (*check)(struct shapes_ask *q, struct err *e);
     void (*blocks)(const struct shapes_ask *q, struct arena *a, struct shapes_blocks *s);
 };

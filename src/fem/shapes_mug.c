@@ -148,4 +148,4 @@ static bool check(struct shapes_ask *q, struct err *e)
 }
 
 const struct shapes_kind shapes_mug = {
-    "mug", {"diameter", "height", "wall", "bottom", "handle"}, 3, 20000, check, blocks};
+    "mug", {"diameter", "height", "wall", "bottom", "handle"}, 3, 4, 20000, check, blocks};

@@ -52,6 +52,6 @@ static bool check(struct shapes_ask *q, struct err *e)
 }
 
 const struct shapes_kind shapes_plate = {
-    "plate", {"length", "width", "thickness"}, 3, 18000, check, plate_blocks};
+    "plate", {"length", "width", "thickness"}, 3, 3, 18000, check, plate_blocks};
 const struct shapes_kind shapes_plate_bar = {
-    "bar", {"length", "width", "thickness"}, 3, 11000, check, bar_blocks};
+    "bar", {"length", "width", "thickness"}, 3, 3, 11000, check, bar_blocks};

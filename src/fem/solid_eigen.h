@@ -1,7 +1,7 @@
 /* The lowest eigenpairs of K u = lambda M u. */
 #ifndef FEM_SOLID_EIGEN_H
 #define FEM_SOLID_EIGEN_H
-#include "fem/solid_matrices.h"
+#include "fem/solid_lanczos.h"
 
 struct solid_pairs {
     int n;                /* by rising lambda */
@@ -10,18 +10,12 @@ struct solid_pairs {
     double *vector;       /* [n][freedoms], u^T M u = 1 */
 };
 
-struct solid_search {
-    int want;             /* pairs; as many as there are freedoms at most */
-    double shift;         /* rad^2/s^2, below 0: near minus the lowest lambda that is not 0 */
-    unsigned start;       /* which start vector */
-};
-
 /* `factor` becomes the supernodal factor of K - shift M, NULL where a few freedoms are solved densely. ERR_NUMBERS: no convergence; ERR_SCENE: too large for
    the memory. Close the pairs and free the factor in any case. */
 bool solid_eigen(struct solid_matrices *x, const struct solid_search *ask, cholmod_factor **factor, struct solid_pairs *p, struct err *e);
 void solid_eigen_close(struct solid_pairs *p);
 
 /* Greatest |K u - lambda M u| / |lambda M u| of n of the pairs, from the first-th on. */
-double solid_eigen_residual(struct solid_matrices *x, const struct solid_pairs *p, int first, int n);
+double solid_eigen_residual(const struct solid_matrices *x, const struct solid_pairs *p, int first, int n);
 
 #endif

@@ -244,6 +244,31 @@ void solid_matrices_times(struct solid_matrices *x, cholmod_sparse *a, const dou
     cholmod_sdmult(a, 0, one, zero, &in, &out, &x->common);
 }
 
+void solid_matrices_times_block(const cholmod_sparse *a, const double *v, double *y, double *room)
+{
+    enum { WIDE = SOLID_MATRICES_WIDE };
+    const int *p = (const int *)a->p, *row = (const int *)a->i;
+    size_t n = a->ncol;
+    double *in = room, *out = room + n * WIDE; /* [n][WIDE] */
+    for (size_t i = 0; i < n * WIDE; i++)
+        in[i] = v[i % WIDE * n + i / WIDE];
+    memset(out, 0, n * WIDE * sizeof *out);
+    for (size_t c = 0; c < n; c++) {
+        double sum[WIDE] = {0}, *at = in + c * WIDE;
+        for (int i = p[c]; i < p[c + 1]; i++) {
+            double *from = in + (size_t)row[i] * WIDE, *to = out + (size_t)row[i] * WIDE, x = ((const double *)a->x)[i], mirrored = (size_t)row[i] == c ? 0.0 : x;
+            for (int j = 0; j < WIDE; j++) {
+                sum[j] += x * from[j];
+                to[j] += mirrored * at[j];
+            }
+        }
+        for (int j = 0; j < WIDE; j++)
+            out[c * WIDE + j] += sum[j];
+    }
+    for (size_t i = 0; i < n * WIDE; i++)
+        y[i % WIDE * n + i / WIDE] = out[i];
+}
+
 bool solid_matrices_no_memory(size_t freedoms, struct err *e)
 {
     return err_set(e, ERR_SCENE, "a solid of %zu freedoms is too large for the memory: use a coarser mesh, or ask for fewer modes", freedoms);

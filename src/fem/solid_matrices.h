@@ -22,6 +22,10 @@ cholmod_sparse *solid_matrices_shifted(struct solid_matrices *x, double shift);
 /* y = A v. */
 void solid_matrices_times(struct solid_matrices *x, cholmod_sparse *a, const double *v, double *y);
 
+/* The same of SOLID_MATRICES_WIDE vectors, v and y [WIDE][n], by one reading of A; room: 2 WIDE n numbers. */
+enum { SOLID_MATRICES_WIDE = 8 };
+void solid_matrices_times_block(const cholmod_sparse *a, const double *v, double *y, double *room);
+
 /* An array as CHOLMOD wants it. */
 cholmod_dense solid_matrices_column(double *v, size_t n);
 

@@ -143,7 +143,8 @@ static void make_groups(struct mesh_raw *r, const int *number, const struct mesh
 bool mesh_raw_finish(struct mesh_raw *r, const char *path, double unit, const struct mesh_raw_names *names, struct mesh *m, struct err *e)
 {
     if (r->elements == 0 && r->triangles > 0)
-        return err_set(e, ERR_SCENE, "%s: no tetrahedra, only %zu triangles: this is a surface; fill the solid inside it with elements (gmsh -3, tetgen -pq)", path, r->triangles);
+        return err_set(e, ERR_SCENE, "%s: no tetrahedra, only %zu triangles: this is a surface; fill the solid inside it with elements (gmsh -3, tetgen -pq); where there is a Physical "
+                                     "Surface, gmsh saves no elements but those of physical groups: give a Physical Volume too", path, r->triangles);
     if (r->elements == 0)
         return err_set(e, ERR_SCENE, "%s: no tetrahedra; fill the solid with elements (gmsh -3, tetgen -pq)", path);
     *m = (struct mesh){.name = arena_text(r->arena, path), .elements = (int)r->elements, .linear = r->corners == 4};

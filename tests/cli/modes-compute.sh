@@ -22,6 +22,13 @@ for order in 2 3 4; do
     grep '^# holds' order.csv
 done
 
+echo '== estimate: free ball of order 2, closed form w R/c_s = 2.50113 (5 times), 2.646217 (5 times)'
+compute --shape sphere:diameter=10cm --order 2 --youngs-modulus 200GPa --poisson 0.3 --density 7850 --loss 1e-6 --modes 10 --top 1MHz --at 1cm,2cm --estimate -o ball.csv
+grep '^# estimate' ball.csv
+echo "true errors, %:$(awk -F, '/^1,/ { f = $5 / (sqrt(200e9 / 2.6 / 7850) / 0.05 / 8 / atan2(1, 1)); printf " %+.2g", 100 * (f / ($4 < 6 ? 2.50113 : 2.646217) - 1) }' ball.csv)"
+compute --shape sphere:diameter=10cm --order 2 --youngs-modulus 200GPa --poisson 0.3 --density 7850 --loss 1e-6 --modes 10 --top 1MHz --at 1cm,2cm --estimate -o ball.csv
+try compute --shape sphere:diameter=10cm,fineness=1 --material steel --modes 10 --top 1MHz --at 1cm,2cm --estimate -o x.csv
+
 echo '== held'
 compute --shape $bar --material steel --clamp x0 --modes 3 --at 30cm,1cm -q -o clamped.csv
 echo "clamped at one end: $(awk 'BEGIN { pi = atan2(0, -1); for (h = 0.01; h < 0.03; h += 0.01) printf "%.4g ", 1.875104069 ^ 2 / 0.09 * sqrt(210e9 / 7850) * h / sqrt(12) / (2 * pi) }') Hz"
@@ -92,6 +99,11 @@ try compute bar.msh --material steel --modes 3 --at 0,1cm -o mesh.csv
 compute bar.msh --unit cm --material steel --modes 3 --at 0,1cm -o mesh-cm.csv
 column mesh-cm.csv 5 5
 grep '^# note' mesh-cm.csv
+cp bar.msh "$(printf 'a\033b.msh')"
+compute "$(printf 'a\033b.msh')" --unit cm --material steel --modes 3 --at 0,1cm -o "$(printf 'a\033b.csv')"
+try compute bar.msh --unit cm --material steel --modes 3 --at 0,1cm --estimate -o x.csv
+compute bar.msh --unit cm --material steel --modes 3 --at 0,1cm --order 3 --estimate -o mesh-cm.csv --force
+grep '^# estimate' mesh-cm.csv
 sed 's/ 4 2 0 1 \([0-9]*\) \([0-9]*\)/ 4 2 0 1 \2 \1/' bar.msh > turned.msh
 compute turned.msh --unit cm --material steel --modes 3 --at 0,1cm -o turned.csv
 sed '/^7 4 2/s/ 4 2 0 1 \([0-9]*\) \([0-9]*\)/ 4 2 0 1 \2 \1/' bar.msh > one.msh

@@ -20,6 +20,7 @@ START_TEST(test_box)
     struct boundary b = of(&m);
     ck_assert_double_eq_tol(b.volume, 0.3 * 0.2 * 0.02, 1e-14); /* rounding */
     ck_assert_double_eq_tol(b.area, 2 * (0.3 * 0.2 + 0.3 * 0.02 + 0.2 * 0.02), 1e-12);
+    ck_assert_double_eq_tol(b.outer, b.area, 1e-12);
     ck_assert_double_eq_tol(b.low[0] + b.low[1] + b.low[2], 0, 1e-15);
     ck_assert_double_eq_tol(b.high[0], 0.3, 1e-15);
     ck_assert_double_eq_tol(b.high[2], 0.02, 1e-15);
@@ -194,4 +195,14 @@ START_TEST(test_sphere)
 }
 END_TEST
 
-UNIT("boundary", test_box, test_curved_element, test_weights, test_ray_plate, test_ray_edges, test_nearest_search, test_nearest_plate, test_sphere)
+/* A hollow sphere: pi d^2 outside, pi (d - 2 wall)^2 inside. */
+START_TEST(test_outer)
+{
+    struct mesh m = meshes_fine("sphere:diameter=12cm,wall=2cm", 2);
+    struct boundary b = of(&m);
+    ck_assert_double_eq_tol(b.outer, M_PI * 0.0144, 1e-3 * M_PI * 0.0144); /* the mesh's own error */
+    ck_assert_double_eq_tol(b.area - b.outer, M_PI * 0.0064, 1e-3 * M_PI * 0.0064);
+}
+END_TEST
+
+UNIT("boundary", test_outer, test_box, test_curved_element, test_weights, test_ray_plate, test_ray_edges, test_nearest_search, test_nearest_plate, test_sphere)

@@ -269,11 +269,11 @@ START_TEST(test_units)
     struct mesh m = linear(CUBE);
     for (int i = 0; i < m.nodes; i++)
         for (int c = 0; c < 3; c++)
-            m.at[i][c] *= 1e4;
-    refused(&m, "200 m large, too large for an object; the file may be in mm: give --unit mm (then it is 0.2 m)");
+            m.at[i][c] *= 4000;
+    refused(&m, "80 m large, too large for an object; the file may be in mm or cm: give --unit mm (then it is 0.08 m) or --unit cm (0.8 m)");
     for (int i = 0; i < m.nodes; i++)
         for (int c = 0; c < 3; c++)
-            m.at[i][c] *= 1e-7;
+            m.at[i][c] *= 1e-5;
     refused(&m, "too small");
 }
 END_TEST

@@ -161,4 +161,37 @@ START_TEST(test_start)
 }
 END_TEST
 
-UNIT("solid_eigen", test_patch, test_dense, test_start)
+/* Only three different eigenvalues, 20, 40 and 540 times: blocks of eight span all that one start leads to within three steps, and fresh ones have to find the rest. */
+START_TEST(test_exhausted)
+{
+    enum { N = 600 };
+    struct solid_matrices x = {0};
+    struct solid_pairs p;
+    struct err e = {0};
+    cholmod_factor *factor = NULL;
+    cholmod_start(&x.common);
+    x.common.supernodal = CHOLMOD_SUPERNODAL;
+    cholmod_sparse *unit = cholmod_speye(N, N, CHOLMOD_REAL, &x.common);
+    x.k = cholmod_copy(unit, -1, 1, &x.common);
+    x.m = cholmod_copy(unit, -1, 1, &x.common);
+    x.m_thin = cholmod_copy(unit, -1, 1, &x.common);
+    cholmod_free_sparse(&unit, &x.common);
+    for (int i = 0; i < N; i++)
+        ((double *)x.k->x)[i] = i % 30 == 0 ? 1.0 : i % 15 == 0 || i % 30 == 1 ? 2.0 : 5.0;
+    ck_assert_msg(solid_eigen(&x, &(struct solid_search){70, -0.5, 0}, &factor, &p, &e), "%s", e.text);
+    for (int i = 0; i < 70; i++)
+        ck_assert_msg(fabs(p.lambda[i] - (i < 20 ? 1.0 : i < 60 ? 2.0 : 5.0)) < 1e-10, "%d: %.12g", i, p.lambda[i]);
+    for (int i = 0; i < 70; i++)
+        for (int k = 0; k <= i; k++) {
+            double dot = 0.0;
+            for (int j = 0; j < N; j++)
+                dot += p.vector[i * N + j] * p.vector[k * N + j];
+            ck_assert_msg(fabs(dot - (i == k)) < 1e-10, "%d %d: %g", i, k, dot);
+        }
+    cholmod_free_factor(&factor, &x.common);
+    solid_eigen_close(&p);
+    solid_matrices_close(&x);
+}
+END_TEST
+
+UNIT("solid_eigen", test_patch, test_dense, test_start, test_exhausted)
