@@ -1,8 +1,8 @@
 /* A judge of the scraping force that shares no code with rasp: adaptive quadrature (GSL) of the definition on a profile.
 
      profile OUT.npy N PITCH SEED        writes a self-affine profile: Hurst exponent 0.8, rms 2 um, nothing above a quarter of a cycle per sample
-     snr PROFILE.npy PITCH RATE FORCE.csv v=SPEED alpha=A|none [beta1=B] [back=RATE_HZ,LENGTH]
-                                         prints the signal-to-noise ratio in dB, 20 Hz to 20 kHz, of the force in FORCE.csv against the judge's over
+     snr PROFILE.npy PITCH RATE FORCE.csv[:FORCE.csv...] v=SPEED alpha=A|none [beta1=B] [back=RATE_HZ,LENGTH]
+                                         prints the signal-to-noise ratio in dB, 20 Hz to 20 kHz, of the force in each FORCE.csv against the judge's over
                                          50 ms (Hann window) from 5 ms on; mass 20 g, leak 2 mm, no smoothing
      bands RATE FORCE.csv                prints third-octave levels (centre in Hz, dB) of the force, 31.5 Hz to 8 kHz, Hann window over all of it
 
@@ -238,9 +238,11 @@ static void compare(int argc, char **argv)
     double *fine = malloc(all * FINE * sizeof *fine), *got = malloc((all + 1000) * sizeof *got);
     space = gsl_integration_cquad_workspace_alloc(100);
     judge(&s, &l, all * FINE, 1 / (rate * FINE), fine);
-    if (force_read(argv[5], got, all + 1000) < all)
-        fail("the table is too short");
-    printf("%.1f\n", snr(fine + skip * FINE, got + skip, n, rate));
+    for (char *path = strtok(argv[5], ":"); path; path = strtok(NULL, ":")) {
+        if (force_read(path, got, all + 1000) < all)
+            fail("the table is too short");
+        printf("%.1f\n", snr(fine + skip * FINE, got + skip, n, rate));
+    }
 }
 
 /* Centres 10^(k/10) Hz. */

@@ -8,7 +8,8 @@
    Items of the board are endless signals, of which a window is held: `per_frame` values for each audio sample (frame). Frames before 0
    are zero. A stage says when it is opened how far around a frame it reads (back, ahead); the runner then lets everything before it run
    that much ahead in time, so that no stage delays or buffers for another. Values of sub-sampled items belong to the instant
-   (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_CURVATURE_Y, ITEM_SLOPE and ITEM_SUBFORCE, which are exact means over the interval that starts there. */
+   (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_CURVATURE_Y and ITEM_SLOPE, which are means weighted by a hat about it
+   (force/hats.h), and ITEM_SUBFORCE, which is such a mean where board->hats says so, else the exact mean over the interval that starts there. */
 #ifndef STAGE_H
 #define STAGE_H
 #include <assert.h>
@@ -43,6 +44,9 @@ enum item {
     ITEM_COUNT
 };
 #define ITEM_BIT(item) (1u << (item))
+
+#define KNOB_BIT(name) (1u << KNOB_##name) /* a set of knobs of accuracy.def */
+static_assert(KNOBS <= 32, "a set of knobs is an unsigned");
 
 /* Of a ball, for each frame: over the frame's time (share, counts), or at its beginning. A kinematic model has the first four. */
 enum roll_value {
@@ -102,6 +106,7 @@ struct board {
     double rate;            /* Hz, frames per second                       */
     int over;               /* sub-intervals per frame                     */
     int channels;           /* listening places                            */
+    bool hats;              /* ITEM_SUBFORCE: means weighted by hats; set by the opening stage that gives it */
     long moving;            /* frames that the motion touches              */
     unsigned alive;         /* items that some stage of the plan reads     */
     struct signal signals[ITEM_COUNT];
@@ -145,10 +150,13 @@ struct stage {
     const char *idle;           /* why a scene may not want it, for `rasp plan`           */
     unsigned needs, takes, gives; /* sets of items; takes: read if something gives it; needs and gives: refined in place */
     unsigned (*asks)(const struct contact *, const struct scene *); /* further needs; may be NULL */
+    unsigned knobs;             /* set of knobs (scene/accuracy.def) that what it gives depends on, be it by its own doing only: those of what it reads are theirs */
+    unsigned (*turns)(const struct contact *, const struct scene *); /* further knobs, of some scenes; may be NULL */
     bool (*wanted)(const struct contact *, const struct scene *);
     double (*work)(const struct contact *, const struct scene *);   /* predicted cycles per audio sample */
     bool (*open)(struct stage_run *, struct err *);
     bool (*run)(struct stage_run *, long from, long to, struct err *); /* frames [from, to); may be NULL */
+    void (*skip)(struct stage_run *, long frame); /* to go on at that frame, from an empty board: of what knows which frame came last (run_skip); may be NULL */
     void (*close)(struct stage_run *);                                 /* may be NULL */
 };
 

@@ -4,12 +4,13 @@
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "pipeline/plan_scene.h"
+#include "pipeline/promise.h"
 #include "scene/scene_places.h"
 
 static bool check_scene(struct cmd_call *c, const char *file, struct err *e)
 {
-    struct scene s;
-    return cmd_read_scene(c, file, &s, e) && (plan_scene(&s, c->arena, e) || scene_places_tell(&s, e));
+    struct scene s, kept;
+    return cmd_read_scene(c, file, &s, e) && ((promise_keep(&s, c->arena, &kept, NULL, e) && plan_scene(&kept, c->arena, e)) || scene_places_tell(&s, e));
 }
 
 static int check_run(struct cmd_call *c, struct err *e)

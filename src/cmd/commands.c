@@ -14,7 +14,7 @@ struct group {
 static const struct group groups[] = {
     {"Sound from scenes", {&render_command, &plan_command}},
     {"Writing scenes", {&new_command, &explain_command, &check_command}},
-    {"Looking at results", {&compare_command, &plot_command, &analyse_command}},
+    {"Looking at results", {&compare_command, &plot_command, &accuracy_command, &analyse_command}},
     {"Surfaces and objects", {&surface_command, &modes_command}},
     {NULL, {NULL}},
 };

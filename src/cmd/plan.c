@@ -1,6 +1,8 @@
 /* rasp plan: what a scene would run, and why. */
+#include "base/text.h"
 #include "cmd/cmd.h"
 #include "pipeline/plan_scene.h"
+#include "pipeline/promise.h"
 #include "scene/scene_places.h"
 
 static const struct args_option plan_options[] = {
@@ -10,12 +12,15 @@ static const struct args_option plan_options[] = {
 
 static bool plan_one(struct cmd_call *c, const char *file, struct err *e)
 {
-    struct scene s;
+    struct scene s, kept;
+    struct promise promise;
     if (!cmd_read_scene(c, file, &s, e))
         return false;
-    const struct plan *plans = plan_scene(&s, c->arena, e);
+    const struct plan *plans = promise_keep(&s, c->arena, &kept, &promise, e) ? plan_scene(&kept, c->arena, e) : NULL;
     for (int i = 0; plans && i < s.n_contacts; i++)
         plan_print(&plans[i], stdout);
+    if (plans && promise.text)
+        printf("%s\n", text_shown(c->arena, promise.text));
     return plans || scene_places_tell(&s, e);
 }
 
@@ -31,7 +36,7 @@ const struct command plan_command = {
     .name = "plan",
     .summary = "shows which stages a scene runs, why, and at what predicted cost",
     .does = "Lists for each contact the stages that will run, in order, with what they read and make, their share of the predicted cost and the "
-            "equations they follow; then those that will not run, and why not. Nothing is rendered, but all that "
+            "equations they follow; then those that will not run, and why not; where the scene asks for an error (accuracy.error), what knobs are chosen and what they are predicted to leave. Nothing is rendered, but all that "
             "the scene names is read, and what rasp check refuses is refused here, too.",
     .operands = "SCENE...",
     .least = 1,

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "cmd/render_verify.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
 #include "scene/scene_places.h"
@@ -14,6 +15,7 @@ static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
     CMD_SCENE_OPTIONS,
     {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
+    {"verify", 0, NULL, false, "render the reference, too, and measure what accuracy was kept; exit code 1 if that is less than accuracy.error asks for"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},
     {0},
 };
@@ -92,14 +94,16 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
     return outputs_distinct(all, n, c->arena, e) && outputs_spare(all, n, c->arena, e) && render_folder(c, e) ? all : NULL;
 }
 
-static bool render_one(struct cmd_call *c, const struct outputs *o, const char *between, struct err *e)
+/* printed: how many scenes' summaries are. */
+static bool render_one(struct cmd_call *c, int i, const struct outputs *o, bool array, int *printed, struct err *e)
 {
     struct render_report report;
     if (!render_scene(o->scene, o->base, c->arena, &report, e))
         return scene_places_tell(o->scene, e);
-    fputs(between, stdout);
+    bool kept = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
+    fputs(!array ? "" : (*printed)++ ? "," : "[", stdout);
     render_print(c, o->scene, &report);
-    return true;
+    return kept;
 }
 
 static int render_run(struct cmd_call *c, struct err *e)
@@ -108,8 +112,9 @@ static int render_run(struct cmd_call *c, struct err *e)
     int n = c->args.n_operands, done = 0;
     bool array = n > 1 && args_given(&c->args, "json");
     const struct outputs *all = render_read(c, e);
-    while (all && done < n && render_one(c, &all[done], !array ? "" : done ? "," : "[", e))
-        done++;
+    bool ok = all != NULL;
+    for (int i = 0; ok && i < n; i++)
+        ok = render_one(c, i, &all[i], array, &done, e);
     if (array && done)
         puts("]");
     return (int)e->kind;
@@ -122,7 +127,8 @@ const struct command render_command = {
             "impacts), NAME.scene.yaml (the effective scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which files were written). "
             "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes reads is refused, whatever "
             "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two scenes that would write "
-            "the same file. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a warning. Several scenes "
+            "the same file. Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are chosen as the cheapest that keep it, and told; what cannot be kept "
+            "is refused. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a warning. Several scenes "
             "are all read before the first is rendered; the first that fails ends the run.",
     .operands = "SCENE...",
     .least = 1,
@@ -130,6 +136,7 @@ const struct command render_command = {
     .options = render_options,
     .examples = "rasp render scenes/basswood_scrape.yaml\n"
                 "rasp render scenes/basswood_scrape.yaml -o fast.wav --set 'motion.rate=4 Hz'\n"
+                "rasp render scenes/strike.yaml --set 'accuracy.error=-60 dB' --verify\n"
                 "rasp render scenes/*.yaml -o out/ --set accuracy=draft\n",
     .run = render_run,
 };

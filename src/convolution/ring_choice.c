@@ -146,3 +146,9 @@ double ring_choice_work(const struct contact *c, enum ring_body body)
     const struct ring_choice *choice = given_of(c, body)->choice;
     return choice ? choice->work : 0;
 }
+
+unsigned ring_choice_knobs(const struct contact *c, enum ring_body body)
+{
+    const struct ring_choice *choice = given_of(c, body)->choice;
+    return choice ? choice->knobs : 0;
+}

@@ -27,6 +27,7 @@ struct ring_choice {
     double forgotten;            /* dB by which what rings has decayed when it is dropped      */
     double error;                /* predicted, relative rms; 0: none                         */
     double work;                 /* predicted cycles per audio sample                        */
+    unsigned knobs;              /* set of those of scene/accuracy.def that all this was chosen by */
     double cpu;                  /* s of CPU time that choosing took, the response being read*/
 };
 
@@ -40,5 +41,6 @@ const char *ring_choice_about(const struct contact *c, enum ring_body body);
 /* The engine of a contact that has been through ring_choice_make (scene.h: response.choice). */
 enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body);
 double ring_choice_work(const struct contact *c, enum ring_body body);
+unsigned ring_choice_knobs(const struct contact *c, enum ring_body body);
 
 #endif

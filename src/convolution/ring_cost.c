@@ -101,7 +101,7 @@ static double within(const struct ring_choosing *c, double life)
 /* Nodes under force, and until they are forgotten. */
 double ring_cost_launch(const struct ring_choosing *c)
 {
-    double order = c->scene->accuracy.overlap_order, nodes = 0, alive = 0;
+    double order = ring_means_knob(c, KNOB_overlap_order), nodes = 0, alive = 0;
     for (int i = 0; i < c->to->modes.n; i++) {
         double count = forced(c) / c->to->hops[i] + order, life = within(c, ringing(c, i));
         nodes += count;
@@ -114,7 +114,7 @@ double ring_cost_launch(const struct ring_choosing *c)
 /* A node's sum over the past, and the node under its window. */
 double ring_cost_recall(const struct ring_choosing *c)
 {
-    double n = c->to->modes.n, order = c->scene->accuracy.overlap_order, past = 0, all = sounding(c);
+    double n = c->to->modes.n, order = ring_means_knob(c, KNOB_overlap_order), past = 0, all = sounding(c);
     for (int i = 0; i < c->to->modes.n; i++)
         past += fmin(ringing(c, i), 0.5 * all) * (all / c->to->hops[i] + order);
     double points = (all / shortest(c) + order) * (point_cost(c));
@@ -131,7 +131,7 @@ static double responding(const struct ring_choosing *c)
 /* Nodes of launch go as long as there is force; those of readout as long as there is sound. */
 double ring_cost_overlap(const struct ring_choosing *c, double hop)
 {
-    double length = responding(c), order = c->scene->accuracy.overlap_order, whole = length + hop * order;
+    double length = responding(c), order = ring_means_knob(c, KNOB_overlap_order), whole = length + hop * order;
     double count = (c->to->reading == MOVING_READOUT ? sounding(c) : forced(c)) / hop + order;
     return count * (TRANSFORM * whole + SAMPLED * c->to->modes.n * length + point_cost(c)) / sounding(c);
 }

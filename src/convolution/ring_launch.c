@@ -61,6 +61,12 @@ static void ring_launch_close(struct stage_run *r)
             launch_close(s->voices[k].engine);
 }
 
+static unsigned ring_launch_turns(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return ring_choice_knobs(c, RING_SURFACE);
+}
+
 static bool ring_launch_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -80,6 +86,8 @@ const struct stage ring_launch_stage = {
     .idle = "the surface's poles are the same everywhere, or they go by another engine",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
+    .knobs = KNOB_BIT(overlap_order),
+    .turns = ring_launch_turns,
     .wanted = ring_launch_wanted,
     .work = ring_launch_work,
     .open = ring_launch_open,

@@ -13,6 +13,7 @@
 #include "num/real.h"
 #include "response/ir.h"
 #include "response/listener.h"
+#include "scene/accuracy.h"
 
 #define LONGEST_HOP 1.0 /* s */
 #define NODES_BYTES 2e9 /* memory that nodes may take */
@@ -26,6 +27,12 @@ static bool engine_clash(const struct ring_choosing *c, const char *engine, stru
                    c->contact->name, c->key, engine, readings[c->to->reading], can[c->to->reading], c->key);
 }
 
+double ring_means_knob(const struct ring_choosing *c, enum knob k)
+{
+    c->to->knobs |= 1u << k;
+    return accuracy_knob(&c->scene->accuracy, k);
+}
+
 static double frames(const struct ring_choosing *c, double seconds)
 {
     return fmax(floor(seconds * c->scene->output.sample_rate), 1);
@@ -34,12 +41,12 @@ static double frames(const struct ring_choosing *c, double seconds)
 /* What is left out, of a response that is not heard to its end: dB below its beginning. */
 static double left_out(const struct ring_choosing *c)
 {
-    return fmax(140, 20 - c->scene->accuracy.morph_error);
+    return fmax(140, 20 - ring_means_knob(c, KNOB_morph_error));
 }
 
 static double target(const struct ring_choosing *c)
 {
-    double db = c->scene->accuracy.morph_error;
+    double db = ring_means_knob(c, KNOB_morph_error);
     return db < 0 ? real_exp10(db / 20) : 0;
 }
 
@@ -50,14 +57,14 @@ static double both(double error, double other)
 
 static struct ring_error_ask measuring(const struct ring_choosing *c, enum ring_error_kind kind, double longest)
 {
-    return (struct ring_error_ask){.kind = kind, .order = (int)c->scene->accuracy.overlap_order, .hop = (int)frames(c, longest),
+    return (struct ring_error_ask){.kind = kind, .order = (int)ring_means_knob(c, KNOB_overlap_order), .hop = (int)frames(c, longest),
                                    .rate = c->scene->output.sample_rate, .until = isnan(c->given->length) ? HUGE_VAL : c->given->length, .end = c->heard.most};
 }
 
 /* One hop for all modes: the accuracy asked, but at most overlap_hop; morph_error 0: overlap_hop alone. */
 static void choose_hop(struct ring_choosing *c)
 {
-    struct ring_error_ask ask = measuring(c, c->to->reading == MOVING_READOUT ? RING_ERROR_READOUT : RING_ERROR_LAUNCH, c->scene->accuracy.overlap_hop);
+    struct ring_error_ask ask = measuring(c, c->to->reading == MOVING_READOUT ? RING_ERROR_READOUT : RING_ERROR_LAUNCH, ring_means_knob(c, KNOB_overlap_hop));
     c->to->order = ask.order;
     double harder = gammatone_harder(c->to->gamma, ask.order);
     c->to->hop = ring_hops_one(&c->survey, &ask, target(c) > 0 ? target(c) / harder : HUGE_VAL, &c->to->error);
@@ -70,14 +77,13 @@ static void choose_hop(struct ring_choosing *c)
 static void choose_ramp(struct ring_choosing *c)
 {
     bool glides = c->to->reading == MOVING_GLIDE;
-    struct ring_error_ask ask = measuring(c, glides ? RING_ERROR_GLIDE : RING_ERROR_RAMP, 1);
-    ask.order = 2;
-    ask.hop = (int)c->scene->accuracy.gain_ramp;
-    ask.until = ask.end = HUGE_VAL;
     c->to->ramp = 1;
-    if (c->to->moves)
-        c->to->ramp = target(c) > 0 ? ring_hops_power(&c->survey, &ask, target(c), &c->to->error) : ask.hop;
-    if (c->to->moves && !(target(c) > 0))
+    if (!c->to->moves)
+        return;
+    struct ring_error_ask ask = {.kind = glides ? RING_ERROR_GLIDE : RING_ERROR_RAMP, .order = 2, .hop = (int)ring_means_knob(c, KNOB_gain_ramp),
+                                 .rate = c->scene->output.sample_rate, .until = HUGE_VAL, .end = HUGE_VAL};
+    c->to->ramp = target(c) > 0 ? ring_hops_power(&c->survey, &ask, target(c), &c->to->error) : ask.hop;
+    if (!(target(c) > 0))
         c->to->error = ring_error_all(&c->survey, &ask);
 }
 
@@ -93,7 +99,7 @@ static bool forgets(const struct ring_choosing *c)
 /* Hops are the error's alone (it counts the gains' movement too), unless none is asked for. */
 static void choose_hops(struct ring_choosing *c, enum ring_error_kind kind)
 {
-    struct ring_error_ask ask = measuring(c, kind, target(c) > 0 ? LONGEST_HOP : c->scene->accuracy.overlap_hop);
+    struct ring_error_ask ask = measuring(c, kind, target(c) > 0 ? LONGEST_HOP : ring_means_knob(c, KNOB_overlap_hop));
     c->to->order = ask.order;
     c->to->hops = ARENA_TAKE(c->arena, double, c->to->modes.n);
     c->to->error = ring_hops_each(&c->survey, &ask, target(c) > 0 ? target(c) : HUGE_VAL, c->to->hops);
@@ -116,7 +122,7 @@ static void choose_launch(struct ring_choosing *c)
     if (!overlap)
         choose_hops(c, RING_ERROR_LAUNCH);
     double by_nodes = overlap ? HUGE_VAL : ring_cost_launch(c), error = c->to->error;
-    if (!overlap && (asked == ENGINE_RESONATORS || by_nodes < ring_cost_overlap(c, frames(c, c->scene->accuracy.overlap_hop)))) {
+    if (!overlap && (asked == ENGINE_RESONATORS || by_nodes < ring_cost_overlap(c, frames(c, ring_means_knob(c, KNOB_overlap_hop))))) {
         engine_set(c, RING_LAUNCH, by_nodes);
         return;
     }
@@ -136,7 +142,7 @@ static void choose_readout(struct ring_choosing *c)
     if (!overlap)
         choose_hops(c, RING_ERROR_READOUT);
     double by_modes = overlap ? HUGE_VAL : ring_cost_recall(c), error = c->to->error;
-    if (!overlap && (asked == ENGINE_RESONATORS || by_modes < ring_cost_overlap(c, frames(c, c->scene->accuracy.overlap_hop)))) {
+    if (!overlap && (asked == ENGINE_RESONATORS || by_modes < ring_cost_overlap(c, frames(c, ring_means_knob(c, KNOB_overlap_hop))))) {
         engine_set(c, RING_READOUT, by_modes);
         return;
     }
@@ -181,22 +187,31 @@ static bool choose_nodes(struct ring_choosing *c, struct err *e)
     return true;
 }
 
-bool ring_means_choose(struct ring_choosing *c, struct err *e)
+/* How long responses are heard. Resonators for poles that do not move ring on by themselves. */
+static void settle_end(struct ring_choosing *c)
 {
-    c->to->forgotten = c->scene->accuracy.morph_error < 0 ? 20 - c->scene->accuracy.morph_error : 140;
+    double db = ring_means_knob(c, KNOB_morph_error);
+    c->to->forgotten = db < 0 ? 20 - db : 140;
     c->to->seconds = isnan(c->given->length) ? modes_ring_time(&c->to->modes, gammatone_decibel(c->to->gamma, left_out(c))) : c->given->length;
     c->to->seconds = fmin(c->to->seconds, c->heard.most + 2 / c->scene->output.sample_rate);
+}
+
+bool ring_means_choose(struct ring_choosing *c, struct err *e)
+{
     int asked = c->given->convolution, reading = c->to->reading;
+    bool cut = !isnan(c->given->length), nodes = asked == ENGINE_NODES && c->to->moves;
+    bool rings = reading == MOVING_GLIDE || (reading == MOVING_FIXED && asked != ENGINE_OVERLAP_ADD && !cut && !nodes);
     if (!ring_gammatone_fits(c, e))
         return false;
-    if (asked == ENGINE_NODES && c->to->moves && (reading == MOVING_FIXED || reading == MOVING_LAUNCH))
+    if (!rings)
+        settle_end(c);
+    if (nodes && (reading == MOVING_FIXED || reading == MOVING_LAUNCH))
         return choose_nodes(c, e) || err_about(e, c->contact->name, "surface.convolution");
     if (reading == MOVING_GLIDE && asked != ENGINE_AUTO && asked != ENGINE_RESONATORS)
         return engine_clash(c, asked == ENGINE_NODES ? "nodes" : "overlap_add", e);
     if (reading == MOVING_READOUT && asked == ENGINE_NODES)
         return engine_clash(c, "nodes", e);
-    bool cut = !isnan(c->given->length);
-    if (reading == MOVING_GLIDE || (reading == MOVING_FIXED && asked != ENGINE_OVERLAP_ADD && !cut)) {
+    if (rings) {
         choose_ramp(c);
         engine_set(c, RING_RESONATORS, ring_cost_resonators(c));
     } else if (reading == MOVING_LAUNCH) {

@@ -22,4 +22,7 @@ struct ring_choosing {
    for cannot be had. */
 bool ring_means_choose(struct ring_choosing *c, struct err *e);
 
+/* A knob of scene/accuracy.def; that it was asked for is noted in c->to->knobs: so what the choice depends on is known by itself. */
+double ring_means_knob(const struct ring_choosing *c, enum knob k);
+
 #endif

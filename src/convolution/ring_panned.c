@@ -197,6 +197,12 @@ static void ring_panned_close(struct stage_run *r)
             panned_close(s->voices[k].engine);
 }
 
+static unsigned ring_panned_turns(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return ring_choice_knobs(c, RING_SURFACE);
+}
+
 static bool ring_panned_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -216,6 +222,7 @@ const struct stage ring_panned_stage = {
     .idle = "the surface has no folder of responses, and surface.convolution is not nodes",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
+    .turns = ring_panned_turns,
     .wanted = ring_panned_wanted,
     .work = ring_panned_work,
     .open = ring_panned_open,

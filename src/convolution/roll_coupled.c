@@ -264,6 +264,13 @@ static bool rolling_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_ROLL_COUPLED;
 }
 
+/* The modes' shapes under the ball are ramped. */
+static unsigned rolling_turns(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return roll_ground_modes(c) > 0 && c->motion.path != PATH_STILL ? KNOB_BIT(gain_ramp) : 0;
+}
+
 /* Cycles of a step: 60 on rigid ground, 100 of its place on the curve, 5 a mode. */
 static double rolling_work(const struct contact *c, const struct scene *s)
 {
@@ -282,6 +289,8 @@ const struct stage roll_coupled_stage = {
     .idle = "contact.model is not roll_coupled",
     .needs = ITEM_BIT(ITEM_SURFACE) | ITEM_BIT(ITEM_POSITION), /* the motion must be there: it is read at the steps' own instants */
     .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
+    .knobs = KNOB_BIT(oversampling) | KNOB_BIT(contact_steps),
+    .turns = rolling_turns,
     .wanted = rolling_wanted,
     .work = rolling_work,
     .open = rolling_open,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "file/bytes.h"
+#include "num/decimal.h"
 
 struct csv_reader {
     const char *file;
@@ -241,8 +242,6 @@ void csv_put_text(FILE *f, const char *text)
 
 void csv_put_number(FILE *f, double value)
 {
-    if (isnan(value))
-        fputs("nan", f); /* printf would write the sign of a NaN */
-    else
-        fprintf(f, "%.9g", value);
+    char text[DECIMAL_ROOM];
+    fwrite(text, 1, decimal_9g(value, text), f);
 }

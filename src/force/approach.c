@@ -1,5 +1,5 @@
-/* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of each sub-interval times
-   the share at its middle to which the scraper is lowered (trajectory/load.h: a minimum-jerk step over load.approach and load.release). Papers/000
+/* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of each sub-interval (of
+   each hat, where the force is means by hats) times the share at its middle to which the scraper is lowered (trajectory/load.h: a minimum-jerk step over load.approach and load.release). Papers/000
    has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture it comes after the low-pass, in gesture.c. */
 #include "scene/rules.h"
 #include "stage.h"
@@ -31,11 +31,12 @@ static bool approach_run(struct stage_run *r, long from, long to, struct err *e)
     const struct load_law *l = r->state;
     struct board *b = r->board;
     double *force = board_at(b, ITEM_SUBFORCE, from), rate = b->rate * b->over, t = (double)from / b->rate, end = (double)to / b->rate;
+    double middle = b->hats ? 0 : 0.5;
     (void)e;
     if (t >= l->approach && end <= l->duration - l->release)
         return true;
     for (long i = 0; i < (to - from) * b->over; i++)
-        force[i] *= load_lowered(l, ((double)(from * b->over + i) + 0.5) / rate);
+        force[i] *= load_lowered(l, ((double)(from * b->over + i) + middle) / rate);
     return true;
 }
 
@@ -46,6 +47,7 @@ const struct stage approach_stage = {
     .idle = "the force begins and ends by itself, load.approach and load.release are 0, or contact.gesture does it",
     .needs = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .knobs = KNOB_BIT(oversampling),
     .wanted = approach_wanted,
     .work = approach_work,
     .open = approach_open,

@@ -109,6 +109,13 @@ static bool gesture_run(struct stage_run *r, long from, long to, struct err *e)
     return true;
 }
 
+static void gesture_skip(struct stage_run *r, long frame)
+{
+    struct gesture_filter *f = r->state;
+    (void)frame;
+    f->held[0] = f->held[1] = 0;
+}
+
 const struct stage gesture_stage = {
     .name = "gesture",
     .does = "a low-pass on the force whose cutoff follows the contact's speed",
@@ -120,4 +127,5 @@ const struct stage gesture_stage = {
     .work = gesture_work,
     .open = gesture_open,
     .run = gesture_run,
+    .skip = gesture_skip,
 };

@@ -84,6 +84,7 @@ const struct stage given_table_stage = {
     .idle = "contact.model is not given, or contact.given.file holds samples",
     .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .knobs = KNOB_BIT(oversampling),
     .wanted = table_wanted,
     .work = table_work,
     .open = table_open,

@@ -147,6 +147,7 @@ const struct stage impacts_stage = {
     .idle = "contact.model is not impacts",
     .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .knobs = KNOB_BIT(oversampling),
     .wanted = stage_wanted,
     .work = stage_work,
     .open = stage_open,

@@ -2,16 +2,20 @@
 
 #include "force/way.h"
 
-void lift_off(struct board *b, long first, int n)
+const double *lift_load(const struct board *b, long first)
 {
-    if (!board_has(b, ITEM_LOAD))
-        return;
-    const double *load = way_values(b, ITEM_LOAD, first);
-    double *force = way_values(b, ITEM_SUBFORCE, first);
-    for (int i = 0; i < n; i++)
-        if (load[i] + load[i + 1] < 0) {
-            force[i] = 0;
-            if ((first + i) / b->over < b->moving - 1)
-                b->lifted += 1 / (b->rate * b->over);
-        }
+    return board_has(b, ITEM_LOAD) ? way_values(b, ITEM_LOAD, first) : NULL;
+}
+
+bool lift_off(const struct board *b, long k)
+{
+    return board_has(b, ITEM_LOAD) && *way_values(b, ITEM_LOAD, k) + *way_values(b, ITEM_LOAD, k + 1) < 0;
+}
+
+void lift_count(struct board *b, long first, int n)
+{
+    const double *load = lift_load(b, first);
+    for (int i = 0; load && i < n; i++)
+        if (load[i] + load[i + 1] < 0 && (first + i) / b->over < b->moving - 1)
+            b->lifted += 1 / (b->rate * b->over);
 }

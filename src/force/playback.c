@@ -248,6 +248,7 @@ const struct stage playback_stage = {
     .idle = "contact.model is not playback",
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .knobs = KNOB_BIT(oversampling),
     .asks = playback_asks,
     .wanted = playback_wanted,
     .work = playback_work,

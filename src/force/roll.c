@@ -18,7 +18,8 @@
 
    rho_0 and, where it is not given, k come from a rehearsal of the motion (force/roll_rehearsal.c). Where N(t) < 0, as when an offset ball spins fast,
    it is clear of the surface: no force at all. */
-#include "force/lift.h"
+#include <string.h>
+
 #include "force/roll_centre.h"
 #include "force/roll_law.h"
 #include "force/roll_pass.h"
@@ -41,6 +42,10 @@ struct roll_state {
     bool idle;                  /* nothing presses the ball                                    */
     bool touches;               /* the ball lay on the surface at the end of the last sub-interval */
     double rho[WAY_CHUNK + 1];  /* m, at the start of the chunk's first sub-interval and at each one's end */
+    double rate[WAY_CHUNK + 1]; /* m/s, of S there */
+    double rate_last;           /* m/s, at the end of the last sub-interval */
+    double slow[2];             /* m, rho less S where the last sub-interval began and ended */
+    bool begun;
 };
 
 static bool roll_wanted(const struct contact *c, const struct scene *s)
@@ -79,7 +84,7 @@ static double roll_ground_work(const struct contact *c, const struct scene *s)
 static double roll_work(const struct contact *c, const struct scene *s)
 {
     bool round = c->ball.offset == 0 && c->ball.lobe_height == 0, printed = c->contact.roll.penetration == PENETRATION_PAPER;
-    double way = (c->contact.limiter.curve == LIMITER_TANH ? 230 : 100) * way_work(c, s), over = s->accuracy.oversampling;
+    double way = (c->contact.limiter.curve == LIMITER_TANH ? 180 : 80) * way_work(c, s), over = s->accuracy.oversampling;
     double grains = printed ? 0 : roll_pass_rate(c, 1, rules_speed(&c->motion)) / s->output.sample_rate;
     double again = printed ? 0 : way * fmax(grains / over, rules_speed(&c->motion) > 0 ? 0.5 : 0);
     return way + again + (round ? 30 : 180) * over + (load_varies(c) ? 300 : 110) * grains + roll_ground_work(c, s);
@@ -122,6 +127,7 @@ static bool roll_open(struct stage_run *r, struct err *e)
     r->ahead = 1;
     if (!scrape_make(&s->scrape, r, c->contact.roll.scraping, e) || !(s->printed ? roll_printed(c, s, e) : roll_rehearse(r, s, e)))
         return false;
+    r->board->hats = true;
     report->stiffness = s->law.stiffness;
     report->rest = s->found.rest;
     report->deviation = s->found.deviation;
@@ -182,13 +188,46 @@ static void roll_tell(struct roll_state *s, struct board *b, const double *load,
     }
 }
 
-/* To the forces that are there. */
+/* dS/dt = v dS/du - |v| S/l at the chunk's instants; rate[0] is the last one's of the chunk before. */
+static void roll_rates(struct roll_state *s, const double *v, int n)
+{
+    const struct slope *l = &s->scrape.slope;
+    s->rate[0] = s->rate_last;
+    for (int i = 0; i < n; i++)
+        s->rate[i + 1] = v[i + 1] * l->ends[i] - fabs(v[i + 1]) * l->heights[i] / l->leak;
+    s->rate_last = s->rate[n];
+}
+
+/* rho less S changes slowly: its rates at a sub-interval's ends are made of its last two steps. */
+static void roll_ends(struct roll_state *s, int i, double dt, struct roll_end ends[2])
+{
+    double slow = s->rho[i + 1] - s->scrape.slope.heights[i], step = slow - s->slow[1], bend = s->begun ? step - (s->slow[1] - s->slow[0]) : 0;
+    ends[0] = (struct roll_end){s->rho[i], s->rate[i] + (step - 0.5 * bend) / dt};
+    ends[1] = (struct roll_end){s->rho[i + 1], s->rate[i + 1] + (step + 0.5 * bend) / dt};
+    s->slow[0] = s->slow[1];
+    s->slow[1] = slow;
+    s->begun = true;
+}
+
+/* To the scraping terms' hats, or (added) to what is on the board already. */
 static void roll_add(struct roll_state *s, struct board *b, long first, int n)
 {
-    double *force = way_values(b, ITEM_SUBFORCE, first), dt = 1 / (b->rate * b->over);
-    for (int i = 0; i < n && !s->idle; i++)
-        force[i] += roll_law_force(&s->law, s->rho[i], s->rho[i + 1], dt);
-    lift_off(b, first, n);
+    struct hats *h = &s->scrape.hats;
+    double dt = 1 / (b->rate * b->over);
+    roll_rates(s, way_values(b, ITEM_VELOCITY, first), n);
+    if (!s->begun)
+        s->slow[1] = s->rho[0];
+    for (int i = 0; i < n; i++) {
+        struct roll_end ends[2];
+        roll_ends(s, i, dt, ends);
+        struct roll_parts f = s->idle ? (struct roll_parts){0} : roll_law_force(&s->law, &ends[0], &ends[1], dt);
+        h->early[i] = f.early + (s->added ? 0 : h->early[i]);
+        h->late[i] = f.late + (s->added ? 0 : h->late[i]);
+    }
+    if (s->added)
+        hats_add(h, b, first, n);
+    else
+        hats_lay(h, b, first, n);
 }
 
 static void roll_level(struct roll_centre *m, const double *level, int n)
@@ -223,6 +262,17 @@ static bool roll_run(struct stage_run *r, long from, long to, struct err *e)
     return true;
 }
 
+static void roll_skip(struct stage_run *r, long frame)
+{
+    struct roll_state *s = r->state;
+    (void)frame;
+    scrape_forget(&s->scrape);
+    s->centre.height = s->rate_last = 0;
+    memset(s->centre.lift, 0, sizeof s->centre.lift);
+    s->touches = true;
+    s->begun = false;
+}
+
 static unsigned roll_asks(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -237,11 +287,13 @@ const struct stage roll_stage = {
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE),
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
     .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
+    .knobs = KNOB_BIT(oversampling),
     .asks = roll_asks,
     .wanted = roll_wanted,
     .work = roll_work,
     .open = roll_open,
     .run = roll_run,
+    .skip = roll_skip,
 };
 
 const struct stage roll_added_stage = {
@@ -252,9 +304,11 @@ const struct stage roll_added_stage = {
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE) | ITEM_BIT(ITEM_SUBFORCE),
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
     .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
+    .knobs = KNOB_BIT(oversampling),
     .asks = roll_asks,
     .wanted = roll_added_wanted,
     .work = roll_work,
     .open = roll_open,
     .run = roll_run,
+    .skip = roll_skip,
 };

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/slope_level.h"
 #include "scene/ball.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"

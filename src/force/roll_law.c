@@ -1,17 +1,32 @@
 /* f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0, and never below 0: papers/000 equation 15 with lambda = mu k.
 
-   rho is taken as a straight line over each sub-interval dt, so rho' is constant there, the mean of k rho^1.5 is closed form and that of the
-   dissipative term is exactly (2/5) lambda (b^2.5 - a^2.5) / dt. The error is k (rho^1.5)'' dt^2 / 12 where rho > 0 and of the same order where it
+   Over a sub-interval dt from a to b, with rho' known at both ends (Euler and Maclaurin's correction to the trapezium):
+
+     mean rho^1.5       of the straight line from a to b, raised by dt (rho'_a - rho'_b) / 12, by which the mean of rho lies above it
+     its late part      half of it and (b^1.5 - a^1.5) / 12
+     lambda rho^1.5 rho' is dQ/dt, Q = (2/5) lambda rho^2.5, mean Q = (Q_a + Q_b) / 2 + dt (Q'_a - Q'_b) / 12; early and late parts as in force/scrape.c
+
+   The error is of order dt^4 where rho is smooth, of order dt^3 where rho'' jumps, as it does where the limiter saturates, and dt^2.5 where rho
    passes through 0, as rho^1.5 has a continuous first derivative there. The paper says nothing of rho < 0 (its power is then no number) and of rho'
    < -1/mu, where the force would pull: no force. */
 #include "force/roll_law.h"
 
 #include "num/real.h"
 
-double roll_law_force(const struct roll_law *l, double a, double b, double dt)
+/* max(0, rho)^1.5 */
+static double roll_power_at(double rho)
 {
-    double damped = 1 + l->mu * (b - a) / dt;
-    return damped > 0 ? l->stiffness * damped * roll_law_power(a, b).mean : 0;
+    return rho > 0 ? rho * sqrt(rho) : 0;
+}
+
+struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end *a, const struct roll_end *b, double dt)
+{
+    double k = l->stiffness, lambda = k * l->mu, pa = roll_power_at(a->rho), pb = roll_power_at(b->rho), bow = dt * (a->rate - b->rate) / 12;
+    double spring = 0.5 * k * roll_law_power(a->rho + bow, b->rho + bow).mean, tilt = k * (pb - pa) / 12;
+    double qa = 0.4 * lambda * pa * a->rho, qb = 0.4 * lambda * pb * b->rho, half = 0.5 * (qb - qa) / dt, bulge = lambda * (pa * a->rate - pb * b->rate) / 12;
+    if (dt + l->mu * (b->rho - a->rho) <= 0)
+        return (struct roll_parts){0};
+    return (struct roll_parts){spring - tilt + half + bulge, spring + tilt + half - bulge};
 }
 
 double roll_law_contact(double a, double b)

@@ -1,4 +1,4 @@
-/* The force of a ball that presses a spring-like surface, and its exact mean while the penetration changes in a straight line. */
+/* The force of a ball that presses a spring-like surface, and its means over a time in which the penetration is known at both ends. */
 #ifndef FORCE_ROLL_LAW_H
 #define FORCE_ROLL_LAW_H
 #include <math.h>
@@ -27,8 +27,16 @@ static inline struct roll_power roll_law_power(double a, double b)
     return (struct roll_power){0.4 * fifth / width, third / width};
 }
 
-/* N: mean over dt (s) of max(0, k rho^1.5 (1 + mu rho')) while rho goes from a to b (m). */
-double roll_law_force(const struct roll_law *l, double a, double b, double dt);
+struct roll_end {
+    double rho, rate;   /* m, m/s: rho and rho' */
+};
+
+struct roll_parts {
+    double early, late; /* N, as in force/hats.h */
+};
+
+/* Of max(0, k rho^1.5 (1 + mu rho')) over dt (s), from a to b. */
+struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end *a, const struct roll_end *b, double dt);
 
 /* Share of that time in which rho is above 0. */
 double roll_law_contact(double a, double b);

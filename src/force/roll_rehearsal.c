@@ -15,6 +15,7 @@
 #include "force/roll_rehearsal.h"
 
 #include "force/roll_deviation.h"
+#include "force/slope_level.h"
 #include "num/lanes.h"
 #include "num/vecmath.h"
 #include "scene/rules.h"

@@ -10,11 +10,18 @@
    gradient times the acceleration: momentum is lost at every reversal, and the force changes when the axes are turned; here f_v is the whole
    derivative along the path. One S serves both forces.
 
-   Each sub-interval's mean is exact: that of f_v is the difference of m |v| S' across it, whatever the surface does inside; that of f_h for
-   beta2 = 1 is beta1 / dt times the integral of |S'| ds. */
+   What goes on the board are means weighted by hats (force/hats.h). With P = m |v| S', and since v dt = du, a sub-interval's parts of f_v are
+
+     early  (mean P - P(start)) / dt        late  (P(end) - mean P) / dt        mean P = m/dt times the integral of S' ds over it
+
+   exactly, whatever the surface does inside. Those of f_h are beta1 / dt |v|^(beta2 - 1) times the integrals of (1 - q) |S'|^beta2 ds and of
+   q |S'|^beta2 ds at the mean speed, with q the share of the way. Where the speed changes from v0 to v1 the force does as its power, and time runs
+   otherwise than the way: beta2/6 (v1 - v0)/(v1 + v0) of f_h goes from early to late (to first order, and as though S' were constant). */
 #include "force/scrape.h"
 
-#include "force/lift.h"
+#include <math.h>
+
+#include "num/lanes.h"
 #include "num/real.h"
 
 bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err *e)
@@ -28,19 +35,53 @@ bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err
     return slope_make(&s->slope, r, e);
 }
 
+void scrape_forget(struct scrape *s)
+{
+    slope_forget(&s->slope);
+    s->momentum = s->hats.carried = 0;
+}
+
+/* rubbed[i] N: beta1 |v|^(beta2 - 1) at the mean speed. */
+static void scrape_rubbed(const struct scrape *s, double per_second, int n, double *rubbed)
+{
+    for (int i = 0; i < n; i++)
+        rubbed[i] = s->beta1;
+    for (int i = 0; i < n && s->beta2 != 1; i++)
+        if (s->slope.crossed[i] > 0)
+            rubbed[i] = s->beta1 * real_pow(s->slope.travelled[i] * per_second, s->beta2 - 1);
+}
+
+/* Both parts of f_h, N, from rubbed[]. `changes` is (v1 - v0)/(v1 + v0), and 0 where these are not the ends of the sub-interval's straight line: at a
+   turn, a sudden start or stop. */
+LANES_CLONES
+static void scrape_horizontal(struct scrape *s, const double *v, double per_second, int n, const double *rubbed)
+{
+    const struct slope *l = &s->slope;
+    double power = s->beta2 / 6, *early = s->hats.early, *late = s->hats.late;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        double mean = l->travelled[i] * per_second, a = fabs(v[i]), b = fabs(v[i + 1]);
+        int straight = (v[i] * v[i + 1] >= 0) & (fabs(a + b - 2 * mean) < 0.1 * mean), some = l->crossed[i] > 0;
+        double changes = lanes_select(straight, (b - a) / lanes_select(straight, a + b, 1), 0);
+        double delayed = rubbed[i] * (l->crossed_late[i] / lanes_select(some, l->travelled[i], 1) + power * changes * l->crossed[i]);
+        late[i] = lanes_select(some, delayed, 0);
+        early[i] = lanes_select(some, rubbed[i] * l->crossed[i] - delayed, 0);
+    }
+}
+
 void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n)
 {
     const struct board *b = r->board;
     const struct slope *l = &s->slope;
+    double rubbed[WAY_CHUNK], per_second = b->rate * b->over, share = s->share * per_second;
     slope_run(&s->slope, r, first, n);
     const double *v = way_values(b, ITEM_VELOCITY, first);
-    double *force = way_values(b, ITEM_SUBFORCE, first), per_second = b->rate * b->over;
+    scrape_rubbed(s, per_second, n, rubbed);
+    scrape_horizontal(s, v, per_second, n, rubbed);
     for (int i = 0; i < n; i++) {
-        double momentum = s->mass * v[i + 1] * l->ends[i], speed = l->travelled[i] * per_second;
-        force[i] = (momentum - s->momentum) * per_second;
-        if (l->crossed[i] > 0)
-            force[i] += s->beta1 * per_second * l->crossed[i] * (s->beta2 == 1 ? 1 : real_pow(speed, s->beta2 - 1));
-        force[i] *= s->share;
+        double momentum = s->mass * v[i + 1] * l->ends[i], mean = s->mass * l->climbed[i] * per_second;
+        s->hats.early[i] = share * (mean - s->momentum + s->hats.early[i]);
+        s->hats.late[i] = share * (momentum - mean + s->hats.late[i]);
         s->momentum = momentum;
     }
 }
@@ -55,7 +96,7 @@ static bool scrape_wanted(const struct contact *c, const struct scene *s)
 
 static double scrape_work(const struct contact *c, const struct scene *s)
 {
-    return (c->contact.limiter.curve == LIMITER_TANH ? 230 : 100) * way_work(c, s);
+    return (c->contact.limiter.curve == LIMITER_TANH ? 150 : 60) * way_work(c, s);
 }
 
 static bool scrape_open(struct stage_run *r, struct err *e)
@@ -63,20 +104,28 @@ static bool scrape_open(struct stage_run *r, struct err *e)
     struct scrape *s = ARENA_TAKE(r->arena, struct scrape, 1);
     r->state = s;
     r->ahead = 1;
+    r->board->hats = true;
     return scrape_make(s, r, 1, e);
 }
 
 static bool scrape_run(struct stage_run *r, long from, long to, struct err *e)
 {
+    struct scrape *s = r->state;
     struct board *b = r->board;
     (void)e;
     for (long first = from * b->over, last = to * b->over; first < last;) {
         int n = way_some(first, last);
-        scrape_force(r->state, r, first, n);
-        lift_off(b, first, n);
+        scrape_force(s, r, first, n);
+        hats_lay(&s->hats, b, first, n);
         first += n;
     }
     return true;
+}
+
+static void scrape_skip(struct stage_run *r, long frame)
+{
+    (void)frame;
+    scrape_forget(r->state);
 }
 
 static unsigned scrape_asks(const struct contact *c, const struct scene *s)
@@ -93,9 +142,11 @@ const struct stage scrape_stage = {
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE),
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
     .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .knobs = KNOB_BIT(oversampling),
     .asks = scrape_asks,
     .wanted = scrape_wanted,
     .work = scrape_work,
     .open = scrape_open,
     .run = scrape_run,
+    .skip = scrape_skip,
 };

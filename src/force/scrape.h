@@ -1,6 +1,7 @@
 /* The force of equations 1 and 3 along one limited trajectory: what the stages `scrape` and `roll` share. */
 #ifndef FORCE_SCRAPE_H
 #define FORCE_SCRAPE_H
+#include "force/hats.h"
 #include "force/slope.h"
 
 struct scrape {
@@ -8,12 +9,16 @@ struct scrape {
     double beta1, beta2, mass;
     double share;                    /* factor on both forces                         */
     double momentum;                 /* m v dS/du at the end of the last sub-interval */
+    struct hats hats;
 };
 
 /* s must be zeroed, and stay where it is. */
 bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err *e);
 
-/* Writes the means of ITEM_SUBFORCE over the n <= WAY_CHUNK sub-intervals from number `first` on, which must come in order. */
+/* As at the start. */
+void scrape_forget(struct scrape *s);
+
+/* To hats: both forces' parts over the n <= WAY_CHUNK sub-intervals from number `first` on, which must come in order. */
 void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n);
 
 #endif

@@ -30,10 +30,10 @@
    Over a piece of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
 
      S'(end)           = (1 - z phi) S' + phi h mean(T) + z (1 - z/2) h moment(T)
-     integral of S' ds = h (phi S' + chi h mean(T) - (1 - z/2) h moment(T))
+     integral of S' ds = h (phi S' + chi h mean(T) - (1 - z/2) h moment(T) + z h (mean(T) - (T_start + T_end)/2) / 60)
      S(end)            = (1 - z phi) (S + h S') + h^2 ((phi - chi) mean(T) - (1 - z) moment(T))
 
-   mean and first moment of T in closed form (surface/limited.c). Left out is the leak's weight beyond its straight line: z^2/24 of what
+   mean and first moment of T in closed form (surface/limited.c), the last term of the second line as of a parabola. Left out is the leak's weight beyond its straight line: z^2/24 of what
    T varies by within the piece, of S z h^2/12 times it and 9/20 z^2 of the moment's part. The turn of a piece is taken half before, half after it
    (error (kappa h)^2/24 of the piece's part), with kappa h moment(T) of T across it. Where S' changes sign inside a piece it is taken as a parabola
    (power 1) or two straight lines. */
@@ -42,45 +42,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/crossing.h"
 #include "num/real.h"
-#include "num/vecmath.h"
 #include "surface/limiter.h"
-
-/* (1 - e^-z) / z for 0 <= z <= 1/16: the series' first term left out is z^8 / 9! < 1e-15. */
-static double leak_phi(double z)
-{
-    return 1 - z / 2 * (1 - z / 3 * (1 - z / 4 * (1 - z / 5 * (1 - z / 6 * (1 - z / 7 * (1 - z / 8))))));
-}
-
-/* (1 - leak_phi(z)) / z */
-static double leak_chi(double z)
-{
-    return 0.5 * (1 - z / 3 * (1 - z / 4 * (1 - z / 5 * (1 - z / 6 * (1 - z / 7 * (1 - z / 8))))));
-}
-
-/* Integral of |S'| over a piece on which S' goes from a to b, with that mean: of the parabola a (1 - q) + b q + bow q (1 - q), which has one zero
-   between ends of opposite signs. */
-static double crossed_slope(double h, double a, double b, double mean)
-{
-    double bow = 6 * (mean - 0.5 * (a + b)), p = b - a + bow, root = sqrt(fmax(p * p + 4 * bow * a, 0));
-    double s = p < 0 ? p - root : p + root, q = s != 0 ? -2 * a / s : 0;
-    if (a * b >= 0)
-        return h * fabs(mean);
-    if (!(q >= 0 && q <= 1))
-        q = s / (2 * bow);
-    double before = q * (a + q * (0.5 * p - q * bow / 3));
-    return h * (fabs(before) + fabs(mean - before));
-}
-
-/* The same of |S'|^power: Simpson's rule on each side of a zero. */
-static double crossed_power(double h, const double s[3], double power)
-{
-    double p[3] = {fabs(s[0]), fabs(s[1]), fabs(s[2])};
-    vecmath_pow(3, p, power, p);
-    if (s[0] * s[2] < 0)
-        return h * (p[0] * fabs(s[0]) + p[2] * fabs(s[2])) / ((fabs(s[0]) + fabs(s[2])) * (1 + power));
-    return h * (p[0] + 4 * p[1] + p[2]) / 6;
-}
 
 static void slope_fill(struct slope *s, int upto)
 {
@@ -122,14 +86,6 @@ static void slope_halfway(const struct way_pieces *p, int i, double *ex, double 
     double x = p->ex[p->at[i]] + p->ex[p->at[i] + 1], y = p->ey[p->at[i]] + p->ey[p->at[i] + 1], length = sqrt(x * x + y * y);
     *ex = x / length;
     *ey = y / length;
-}
-
-/* Slope at the piece's end from that at its start, both in the direction of travel; the mean of the slope. */
-static double slope_step(const struct slope *s, const struct way_pieces *p, int i, int channel, double a, double *mean)
-{
-    double h = p->length[i], z = h / s->leak, phi = leak_phi(z), moment = (1 - z / 2) * h * p->moment[channel][i];
-    *mean = phi * a + leak_chi(z) * h * p->mean[channel][i] - moment;
-    return (1 - z * phi) * a + phi * h * p->mean[channel][i] + z * moment;
 }
 
 /* T of a curve c/R over T of 1/R where alpha is 0. */
@@ -191,40 +147,42 @@ static void slope_weigh(struct slope *s, double h, double along, double across)
 /* Height at the piece's end, from the slope at its start in the direction of travel. */
 static void slope_rise(struct slope *s, const struct way_pieces *p, int i, double a)
 {
-    double h = p->length[i], z = h / s->leak, phi = leak_phi(z), chi = leak_chi(z), mean = p->mean[0][i];
+    double h = p->length[i], z = s->terms.z[i], phi = s->terms.phi[i], chi = s->terms.chi[i], mean = p->mean[0][i];
     slope_flat(s, s->way.limiter ? p->alpha[0][p->at[i]] : 0);
     slope_lift(s, h, p->heading[i], phi, chi);
-    s->height = (1 - z * phi) * (s->height + h * a) + h * h * ((phi - chi) * mean - (1 - z) * p->moment[0][i]);
+    s->height = s->terms.kept[i] * (s->height + h * a) + h * h * ((phi - chi) * mean - (1 - z) * p->moment[0][i]);
     slope_weigh(s, h, mean, s->way.curved ? p->mean[1][i] : 0);
+}
+
+/* Length times the sine of the angle by which a piece turns on the way. */
+static double slope_turn(const struct way_pieces *p, int i)
+{
+    int a = p->at[i], b = a + 1;
+    return p->length[i] * (p->ex[a] * p->ey[b] - p->ey[a] * p->ex[b]);
 }
 
 /* What T varies by within a piece that turns goes partly to the side: T is taken along e half way, and e turns about it. */
 static void slope_lean(struct slope *s, const struct way_pieces *p, int i)
 {
-    int a = p->at[i], b = a + 1;
-    double turn = p->length[i] * (p->ex[a] * p->ey[b] - p->ey[a] * p->ex[b]);
+    double turn = p->heading[i] * slope_turn(p, i);
     s->slope -= turn * p->moment[1][i];
     s->across += turn * p->moment[0][i];
 }
 
+/* Slope at the end of a piece of a way that turns, or whose height is asked for. */
 static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
 {
-    double h = p->length[i], ex, ey, a, mean, sideways;
+    double ex, ey;
     slope_fill(s, p->interval[i]);
     if (s->way.curved) {
         slope_halfway(p, i, &ex, &ey);
         slope_face(s, p->ex[p->at[i]], p->ey[p->at[i]]);
         slope_face(s, ex, ey);
-        s->across = p->heading[i] * slope_step(s, p, i, 1, s->across * p->heading[i], &sideways);
+        s->across = p->heading[i] * slope_terms_end(&s->terms, 1, i, s->across * p->heading[i]);
     }
-    a = s->slope * p->heading[i];
-    double b = slope_step(s, p, i, 0, a, &mean);
+    double a = s->terms.start[i] = s->slope * p->heading[i], b = s->terms.end[i] = slope_terms_end(&s->terms, 0, i, a);
     if (s->rising)
         slope_rise(s, p, i, a);
-    s->travelled[p->interval[i]] += h;
-    if (s->crossing)
-        s->crossed[p->interval[i]] += s->power == 1 ? crossed_slope(h, a, b, mean)
-                                                    : crossed_power(h, (double[]){a, 1.5 * mean - 0.25 * (a + b), b}, s->power);
     s->slope = b * p->heading[i];
     if (s->way.curved) {
         slope_lean(s, p, i);
@@ -232,10 +190,61 @@ static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
     }
 }
 
+/* The same of a straight way whose slope alone is asked for. */
+static void slope_straight(struct slope *s, const struct way_pieces *p)
+{
+    for (int i = 0; i < p->n; i++) {
+        slope_fill(s, p->interval[i]);
+        s->terms.start[i] = s->slope * p->heading[i];
+        s->terms.end[i] = slope_terms_end(&s->terms, 0, i, s->terms.start[i]);
+        s->slope = s->terms.end[i] * p->heading[i];
+    }
+}
+
+/* whole[], late[] of |S'|^power. */
+static void slope_crossing(struct slope *s, int n)
+{
+    struct slope_terms *t = &s->terms;
+    if (s->power == 1) {
+        slope_terms_crossing(t, n);
+        return;
+    }
+    for (int i = 0; i < n; i++) {
+        struct crossing c = crossing_power((double[]){t->start[i], 1.5 * t->mean[i] - 0.25 * (t->start[i] + t->end[i]), t->end[i]}, s->power);
+        t->whole[i] = c.whole;
+        t->late[i] = c.late;
+    }
+}
+
+/* To the pieces' sub-intervals: how far they are, how S' goes over them. */
+static void slope_gather(struct slope *s, const struct way_pieces *p)
+{
+    const struct slope_terms *t = &s->terms;
+    for (int i = 0; i < p->n; i++) {
+        double h = p->length[i];
+        int k = p->interval[i];
+        if (s->crossing) {
+            s->crossed[k] += h * t->whole[i];
+            s->crossed_late[k] += h * (s->travelled[k] * t->whole[i] + h * t->late[i]);
+        }
+        s->climbed[k] += h * t->mean[i] + (s->way.curved ? h * slope_turn(p, i) * p->mean[1][i] / 6 : 0);
+        s->travelled[k] += h;
+    }
+}
+
 static void slope_use(void *self, const struct way_pieces *p)
 {
-    for (int i = 0; i < p->n; i++)
-        slope_piece(self, p, i);
+    struct slope *s = self;
+    slope_terms(&s->terms, p, s->way.curved ? 2 : 1, s->leak);
+    if (s->way.curved || s->rising)
+        for (int i = 0; i < p->n; i++)
+            slope_piece(s, p, i);
+    else
+        slope_straight(s, p);
+    slope_terms_mean(&s->terms, p->n);
+    if (s->crossing)
+        slope_crossing(s, p->n);
+    slope_gather(s, p);
 }
 
 bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
@@ -258,44 +267,22 @@ bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
     return true;
 }
 
+void slope_forget(struct slope *s)
+{
+    s->slope = s->across = s->height = s->ex = s->ey = 0;
+    memset(s->even, 0, sizeof s->even);
+    memset(s->sideways, 0, sizeof s->sideways);
+    memset(s->lift, 0, sizeof s->lift);
+    s->alpha = -1;
+}
+
 void slope_run(struct slope *s, const struct stage_run *r, long first, int n)
 {
     memset(s->crossed, 0, sizeof s->crossed);
+    memset(s->crossed_late, 0, sizeof s->crossed_late);
+    memset(s->climbed, 0, sizeof s->climbed);
     memset(s->travelled, 0, sizeof s->travelled);
     s->filled = 0;
     way_run(&s->way, r, first, n);
     slope_fill(s, n);
-}
-
-/* Of the normal equations' row k what rows before it have is taken out; without a division, and where no more than rounding is left of it, wholly. */
-static bool level_row(double g[][SLOPE_LEVELS + 1], const bool *kept, int n, int k)
-{
-    double whole = g[k][k];
-    for (int j = 0; j < k; j++) {
-        double pivot = g[j][j], by = g[k][j];
-        for (int i = j; i <= n && kept[j]; i++)
-            g[k][i] = pivot * g[k][i] - by * g[j][i];
-        whole *= kept[j] ? pivot : 1;
-    }
-    return g[k][k] > 1e-9 * whole;
-}
-
-void slope_level(const struct slope *s, double level[SLOPE_LEVELS])
-{
-    double g[SLOPE_LEVELS][SLOPE_LEVELS + 1];
-    bool kept[SLOPE_LEVELS];
-    int n = s->levels;
-    for (int k = 0; k < n; k++) {
-        for (int j = 0; j < n; j++)
-            g[k][j] = s->gone[k > j ? k : j][k > j ? j : k];
-        g[k][n] = s->bent[k];
-    }
-    for (int k = 0; k < n; k++)
-        kept[k] = level_row(g, kept, n, k);
-    for (int k = n - 1; k >= 0; k--) {
-        level[k] = kept[k] ? g[k][n] : 0;
-        for (int j = k + 1; j < n && kept[k]; j++)
-            level[k] -= level[j] * g[k][j];
-        level[k] = kept[k] ? level[k] / g[k][k] : 0;
-    }
 }

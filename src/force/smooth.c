@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/spread.h"
 #include "num/filter.h"
 #include "num/lanes.h"
 #include "num/vecmath.h"
@@ -21,7 +22,7 @@
 #include "surface/relief.h"
 #include "trajectory/load.h"
 
-enum { SMOOTH_NODE = 64 };
+enum { SMOOTH_NODE = SPREAD_SEGMENT, WIDE = SPREAD_WIDE };
 
 struct smooth {
     enum item item;
@@ -29,11 +30,12 @@ struct smooth {
     int reach;              /* sub-samples to each side                          */
     double per_alpha;       /* sigma in sub-samples per metre of alpha           */
     struct filter still;    /* the kernel when alpha does not vary               */
-    double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps */
+    double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps, between WIDE zeros */
     double *raw;            /* unsmoothed values from sub-sample raw_first on    */
     double *sum;            /* smoothed so far, from sub-sample sum_first on     */
     long raw_first, raw_end, sum_first, node; /* node: sub-sample where the next segment begins */
     size_t room;
+    long start;             /* first sub-sample that there is */
 };
 
 static double smooth_alpha(const struct contact *c, double alpha)
@@ -68,7 +70,7 @@ static double smooth_work(const struct contact *c, const struct scene *s)
     bool varies = load_varies(c) && c->contact.limiter.curve == LIMITER_TANH;
     double over = s->accuracy.oversampling, alpha = varies ? c->contact.limiter.alpha_max : smooth_alpha(c, limiter_constant(c));
     double taps = 13 * c->contact.smoothing * alpha / 0.03 * s->output.sample_rate * over + 1;
-    return taps * over * (varies ? 0.8 : 0.35);
+    return taps * over * (varies ? 0.65 : 0.35);
 }
 
 static bool smooth_too_wide(const struct stage_run *r, double sigma, struct err *e)
@@ -94,11 +96,11 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
     s->reach = s->still.reach;
     r->ahead = (s->reach + (s->varies ? SMOOTH_NODE : 0)) / b->over + 2;
     s->room = (size_t)((STAGE_BLOCK + 2 * r->ahead + 4) * b->over + 2 * s->reach);
-    s->raw = ARENA_TAKE(r->arena, double, s->room);
-    s->sum = ARENA_TAKE(r->arena, double, s->room + SMOOTH_NODE);
+    s->raw = ARENA_TAKE(r->arena, double, s->room + WIDE);
+    s->sum = ARENA_TAKE(r->arena, double, s->room + SMOOTH_NODE + WIDE);
     s->raw_first = s->sum_first = -s->reach;
     for (int k = 0; k < 2; k++)
-        s->kernel[k] = ARENA_TAKE(r->arena, double, 2 * s->reach + 1);
+        s->kernel[k] = ARENA_TAKE(r->arena, double, 2 * s->reach + 1 + 2 * WIDE) + WIDE;
     s->node = -SMOOTH_NODE;
     r->state = s;
     return true;
@@ -131,44 +133,33 @@ static void smooth_take(struct smooth *s, const struct board *b, long keep, long
     s->raw_end = end;
 }
 
-/* y[i] = sum_j tap[j] x[i + j], eight outputs at a time. */
 LANES_CLONES
-static void smooth_still(const struct filter *f, const double *x, double *y, long n)
+static void kernel_exponents(int reach, double variance, double *k)
 {
-    for (long i = 0; i < n; i += LANES) {
-        double sum[LANES] = {0};
-        int some = n - i < LANES ? (int)(n - i) : LANES;
-        for (int j = 0; j < 2 * f->reach + 1; j++)
 #pragma omp simd
-            for (int l = 0; l < LANES; l++)
-                sum[l] += f->tap[j] * x[i + l + j];
-        for (int l = 0; l < some; l++)
-            y[i + l] = sum[l];
-    }
+    for (int t = 0; t <= reach; t++)
+        k[t] = -0.5 * (t - reach) * (t - reach) / variance;
 }
 
-/* sum[i + t] += a k0[t] + b k1[t] for every element i of a segment, a and b its shares for the two kernels. */
 LANES_CLONES
-static void smooth_spread(const double *x, const double *k0, const double *k1, double *sum, int taps)
+static void kernel_divided(int taps, double sum, double *k)
 {
-    for (int i = 0; i < SMOOTH_NODE; i++) {
-        double later = (double)i / SMOOTH_NODE, a = (1 - later) * x[i], b = later * x[i];
 #pragma omp simd
-        for (int t = 0; t < taps; t++)
-            sum[i + t] += a * k0[t] + b * k1[t];
-    }
+    for (int t = 0; t < taps; t++)
+        k[t] /= sum;
 }
 
+/* The second half mirrors the first. */
 static void smooth_kernel(const struct smooth *s, double alpha, double *k)
 {
     double sigma = s->per_alpha * alpha, sum = 0;
-    for (int t = 0; t <= 2 * s->reach; t++)
-        k[t] = -0.5 * (t - s->reach) * (t - s->reach) / (sigma * sigma);
-    vecmath_exp((size_t)(2 * s->reach + 1), k, k);
+    kernel_exponents(s->reach, sigma * sigma, k);
+    vecmath_exp((size_t)(s->reach + 1), k, k);
+    for (int t = 0; t < s->reach; t++)
+        k[2 * s->reach - t] = k[t];
     for (int t = 0; t <= 2 * s->reach; t++)
         sum += k[t];
-    for (int t = 0; t <= 2 * s->reach; t++)
-        k[t] /= sum;
+    kernel_divided(2 * s->reach + 1, sum, k);
 }
 
 /* Spreads segments until all that reaches below sub-sample `end` is there. */
@@ -180,9 +171,8 @@ static void smooth_segments(struct smooth *s, const struct board *b, long end)
         s->kernel[0] = s->kernel[1];
         s->kernel[1] = swap;
         smooth_kernel(s, *(board_at(b, ITEM_ALPHA, next / b->over) + next % b->over), s->kernel[1]);
-        if (s->node >= 0)
-            smooth_spread(s->raw + (s->node - s->raw_first), s->kernel[0], s->kernel[1], s->sum + (s->node - s->reach - s->sum_first),
-                          2 * s->reach + 1);
+        if (s->node >= s->start)
+            spread_segment(s->raw + (s->node - s->raw_first), s->kernel, s->sum + (s->node - s->reach - s->sum_first), 2 * s->reach + 1);
         s->node = next;
     }
 }
@@ -206,14 +196,27 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
     (void)e;
     if (!s->varies) {
         smooth_take(s, b, first - s->reach, (to + r->ahead - 1) * b->over);
-        smooth_still(&s->still, s->raw + (first - s->reach - s->raw_first), y, end - first);
+        spread_still(&s->still, s->raw + (first - s->reach - s->raw_first), y, end - first);
         return true;
     }
-    long keep = s->node < 0 ? s->raw_first : s->node;
+    long keep = s->node < s->start ? s->raw_first : s->node;
     smooth_take(s, b, keep, (to + r->ahead - 1) * b->over);
     smooth_segments(s, b, end);
     smooth_hand_over(s, y, first, end);
     return true;
+}
+
+/* As at the start, from that frame on. */
+static void smooth_skip(struct stage_run *r, long frame)
+{
+    struct smooth *s = r->state;
+    long first = frame * r->board->over;
+    memset(s->raw, 0, s->room * sizeof *s->raw);
+    memset(s->sum, 0, (s->room + SMOOTH_NODE) * sizeof *s->sum);
+    s->raw_first = s->sum_first = first - s->reach;
+    s->raw_end = first;
+    s->node = first - SMOOTH_NODE;
+    s->start = first;
 }
 
 /* A surface that turned out to have one axis has no second curvature: it stays 0. */
@@ -230,10 +233,12 @@ const struct stage smooth_stage = {
     .needs = ITEM_BIT(ITEM_SUBFORCE),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .knobs = KNOB_BIT(oversampling),
     .wanted = smooth_wanted,
     .work = smooth_work,
     .open = smooth_open,
     .run = smooth_run,
+    .skip = smooth_skip,
 };
 
 const struct stage smooth_curvature_stage = {
@@ -244,10 +249,12 @@ const struct stage smooth_curvature_stage = {
     .needs = ITEM_BIT(ITEM_CURVATURE),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_CURVATURE),
+    .knobs = KNOB_BIT(oversampling),
     .wanted = smooth_curvature_wanted,
     .work = smooth_work,
     .open = smooth_curvature_open,
     .run = smooth_run,
+    .skip = smooth_skip,
 };
 
 const struct stage smooth_curvature_y_stage = {
@@ -258,8 +265,10 @@ const struct stage smooth_curvature_y_stage = {
     .needs = ITEM_BIT(ITEM_CURVATURE_Y),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_CURVATURE_Y),
+    .knobs = KNOB_BIT(oversampling),
     .wanted = smooth_curvature_y_wanted,
     .work = smooth_work,
     .open = smooth_curvature_y_open,
     .run = smooth_curvature_y_run,
+    .skip = smooth_skip,
 };

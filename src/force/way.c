@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "force/way_cut.h"
+#include "force/way_straight.h"
+#include "num/lanes.h"
 #include "scene/rules.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
@@ -85,19 +87,25 @@ bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double lon
         double n = rules_load(r->contact);
         limiter_told(r, n, n);
     }
+    w->straight = way_straight(w);
     return true;
 }
 
 /* ------------------------------------------------------------------ values at the points */
 
+LANES_CLONES
 static void values_along(struct way *w)
 {
     struct way_pieces *p = &w->pieces;
-    for (int k = 0; k < p->points; k++) {
+    int n = p->points;
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
         double x = p->ex[k], y = p->ey[k];
         p->curvature[0][k] = x * x * w->xx[k] + 2 * x * y * w->xy[k] + y * y * w->yy[k];
     }
-    for (int k = 0; k < p->points && w->channels == 2; k++) {
+    n = w->channels == 2 ? n : 0;
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
         double x = p->ex[k], y = p->ey[k];
         p->curvature[1][k] = x * y * (w->yy[k] - w->xx[k]) + (x * x - y * y) * w->xy[k];
     }
@@ -214,22 +222,56 @@ static bool way_turns(const struct way *w, struct instant a, struct instant b, d
     return w->curved ? a.ex * b.ex + a.ey * b.ey < 0 : va * vb < 0;
 }
 
+struct interval {
+    int i;         /* of the chunk          */
+    long number;   /* since the start       */
+    double alpha;  /* m                     */
+};
+
+static void way_interval(struct way *w, const struct stage_run *r, const struct interval *s, const struct instant ends[2])
+{
+    const struct board *b = r->board;
+    const double *v = way_values(b, ITEM_VELOCITY, s->number);
+    double dt = 1 / (b->rate * b->over), t0 = (double)s->number * dt, t1 = (double)(s->number + 1) * dt;
+    bool turns = way_turns(w, ends[0], ends[1], v[0], v[1]);
+    double turn = turns ? trajectory_turning(b->trajectory, t0, t1) : NAN;
+    if (turns && (w->curved || !isnan(turn)))
+        way_turn(w, r, ends[0], ends[1], s->alpha, s->i, isnan(turn) ? 0.5 * (t0 + t1) : turn);
+    else
+        way_stretch(w, ends[0], ends[1], s->alpha, s->i);
+}
+
+/* Of each of the n sub-intervals. */
+static void way_alphas(const struct stage_run *r, long first, int n, double *alpha)
+{
+    const struct board *b = r->board;
+    bool varies = board_has(b, ITEM_ALPHA);
+    const double *given = varies ? way_values(b, ITEM_ALPHA, first) : NULL;
+    double fixed = varies ? NAN : limiter_constant(r->contact);
+    for (int i = 0; i < n; i++)
+        alpha[i] = varies ? 0.5 * (given[i] + given[i + 1]) : fixed;
+}
+
 void way_run(struct way *w, const struct stage_run *r, long first, int n)
 {
     const struct board *b = r->board;
     const double *v = way_values(b, ITEM_VELOCITY, first);
-    const double *alpha = board_has(b, ITEM_ALPHA) ? way_values(b, ITEM_ALPHA, first) : NULL;
-    double fixed = limiter_constant(r->contact), dt = 1 / (b->rate * b->over), top = b->trajectory->top_speed;
-    struct instant now = way_instant(w, b, first, top), next;
-    for (int i = 0; i < n; i++, now = next) {
-        double a = alpha ? 0.5 * (alpha[i] + alpha[i + 1]) : fixed, t0 = (double)(first + i) * dt, t1 = (double)(first + i + 1) * dt;
-        next = way_instant(w, b, first + i + 1, top);
-        bool turns = way_turns(w, now, next, v[i], v[i + 1]);
-        double turn = turns ? trajectory_turning(b->trajectory, t0, t1) : NAN;
-        if (turns && (w->curved || !isnan(turn)))
-            way_turn(w, r, now, next, a, i, isnan(turn) ? 0.5 * (t0 + t1) : turn);
-        else
-            way_stretch(w, now, next, a, i);
+    double top = b->trajectory->top_speed;
+    struct way_straight s;
+    struct instant ends[2] = {{0}, way_instant(w, b, first, top)};
+    s.u = way_values(b, ITEM_POSITION, first);
+    s.flush = way_flush;
+    way_alphas(r, first, n, s.alpha);
+    if (w->straight)
+        way_straight_look(w, &s, n);
+    for (int i = 0; i < n; i++) {
+        if (w->straight && v[i] * v[i + 1] >= 0) {
+            way_straight_cut(w, &s, i);
+            continue;
+        }
+        ends[0] = w->straight ? way_instant(w, b, first + i, top) : ends[1];
+        ends[1] = way_instant(w, b, first + i + 1, top);
+        way_interval(w, r, &(struct interval){i, first + i, s.alpha[i]}, ends);
     }
     way_flush(w);
 }

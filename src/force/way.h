@@ -43,6 +43,7 @@ struct way {
     bool field;                      /* the relief is read in the scene's plane, not along the path     */
     bool curved;                     /* field, and the path is no straight line: places come from X, Y  */
     bool halves;                     /* curvature is not a straight line between knots: pieces come in pairs, bulges known */
+    bool straight;                   /* force/way_straight.h cuts it                                    */
     bool limiter;
     double ratio;                    /* alpha of channel 1 over that of channel 0                       */
     double longest;                  /* m: no piece is longer                                           */

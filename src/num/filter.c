@@ -1,9 +1,10 @@
-/* Kernels. The decimator is a Kaiser-windowed ideal low-pass g, made to undo the droop of the interval means by a short symmetric
+/* Kernels. A decimator is a Kaiser-windowed ideal low-pass g, made to undo the droop of the interval means by a short symmetric
    polynomial filter. With T = 1/(over fs), times in T, f in 1/T:
 
-       g(t) = sin(2 pi fc t)/(pi t) I0(beta sqrt(1 - (t/R)^2))/I0(beta),   t = j + 1/2,  fc = 0.5/over
+       g(t) = sin(2 pi fc t)/(pi t) I0(beta sqrt(1 - (t/R)^2))/I0(beta),   t = j + 1/2 (hats: j),  fc = 0.5/over
        droop of a mean: sinc f = sin(phi)/phi, phi = pi f;  y = sin^2 phi is the response of the taps (-1, 2, -1)/4
        1/sinc f = asin(sqrt y)/sqrt y = sum over k of c[k] T_k(2 y/y_top - 1),  0 <= y <= y_top = sin^2(pi 0.4535/over)
+       of a hat: sinc^2 f, and the square of the last line
 
    Every step of T_k lengthens the kernel by one tap at either end. beta and R are Kaiser's (J. F. Kaiser, "Nonrecursive digital
    filter design using the I0-sinh window function", ISCAS 1974) for ATTENUATION dB:
@@ -13,6 +14,8 @@
    is curved; for over = 1 that would be wrong by 3e-4. Here the window acts on a flat pass band, which smoothing leaves flat. */
 #include "num/filter.h"
 
+#include <stdbool.h>
+
 #include "num/real.h"
 
 #define PASS 0.4535        /* in units of fs */
@@ -20,7 +23,7 @@
 #define ATTENUATION 122.0  /* dB; 120 are promised */
 #define DROOP_LEFT 5e-7    /* largest relative error of the polynomial in the pass band */
 
-enum { NODES = 64 }; /* of the Chebyshev interpolation; over = 1, where c[k] falls slowest (as 1.34^-k), uses 31 */
+enum { NODES = 64 }; /* of the Chebyshev interpolation; over = 1, where c[k] falls slowest (as 1.34^-k), uses 31, of hats 35 */
 
 struct droop {
     double y_top, c[NODES];
@@ -44,25 +47,25 @@ static int low_pass_reach(int over)
     return (int)ceil((ATTENUATION - 7.95) / (2.285 * width) / 2);
 }
 
-/* g[i], i = 0..2 reach-1 at t = i - reach + 1/2. */
-static void low_pass(double *g, int reach, int over)
+/* g[i], i = 0..2 reach-1 at t = i - reach + 1/2; odd: i = 0..2 reach at t = i - reach. */
+static void low_pass(double *g, int reach, int over, bool odd)
 {
-    double beta = 0.1102 * (ATTENUATION - 8.7);
-    for (int j = 0; j < reach; j++) {
-        double t = j + 0.5, u = t / reach;
-        double ideal = real_sinpi(t / over) / (REAL_PI * t);
-        g[reach + j] = g[reach - 1 - j] = ideal * bessel_i0(beta * sqrt((1 - u) * (1 + u)));
+    double beta = 0.1102 * (ATTENUATION - 8.7), shift = odd ? 0 : 0.5;
+    for (int j = 0; j < reach + odd; j++) {
+        double t = j + shift, u = t > 0 ? t / reach : 0;
+        double ideal = t > 0 ? real_sinpi(t / over) / (REAL_PI * t) : 1.0 / over;
+        g[reach + j] = g[reach - !odd - j] = ideal * bessel_i0(beta * sqrt((1 - u) * (1 + u)));
     }
 }
 
-/* Interpolation of 1/sinc at the zeros of T_NODES, cut where the sum of what is left out is DROOP_LEFT. */
-static struct droop droop_make(int over)
+/* Interpolation of 1/sinc, or its square, at the zeros of T_NODES, cut where the sum of what is left out is DROOP_LEFT. */
+static struct droop droop_make(int over, bool squared)
 {
     double edge = real_sinpi(PASS / over), left = 0;
     struct droop d = {.y_top = edge * edge, .order = NODES - 1};
     for (int i = 0; i < NODES; i++) {
         double y = 0.5 * d.y_top * (1 + real_cospi((i + 0.5) / NODES));
-        double wanted = real_atan2(sqrt(y), sqrt(1 - y)) / sqrt(y);
+        double once = real_atan2(sqrt(y), sqrt(1 - y)) / sqrt(y), wanted = squared ? once * once : once;
         for (int k = 0; k < NODES; k++)
             d.c[k] += (k ? 2.0 : 1.0) / NODES * wanted * real_cospi(k * (i + 0.5) / NODES);
     }
@@ -102,15 +105,26 @@ static void normalise(double *tap, int n)
         tap[i] /= sum;
 }
 
+/* At over = 1 the ideal low-pass of hats is a single tap. */
+static struct filter decimator(struct arena *a, int over, bool hats)
+{
+    struct droop d = droop_make(over, hats);
+    int inner = hats && over == 1 ? 0 : low_pass_reach(over), reach = inner + d.order, taps = 2 * reach + hats;
+    double *g = ARENA_TAKE(a, double, taps);
+    low_pass(g + d.order, inner, over, hats);
+    double *tap = droop_undone(a, &d, g, taps);
+    normalise(tap, taps);
+    return (struct filter){reach, taps, tap};
+}
+
 struct filter filter_decimator(struct arena *a, int over)
 {
-    struct droop d = droop_make(over);
-    int inner = low_pass_reach(over), reach = inner + d.order;
-    double *g = ARENA_TAKE(a, double, 2 * reach);
-    low_pass(g + d.order, inner, over);
-    double *tap = droop_undone(a, &d, g, 2 * reach);
-    normalise(tap, 2 * reach);
-    return (struct filter){reach, tap};
+    return decimator(a, over, false);
+}
+
+struct filter filter_decimator_hats(struct arena *a, int over)
+{
+    return decimator(a, over, true);
 }
 
 struct filter filter_gaussian(struct arena *a, double sigma)
@@ -121,5 +135,5 @@ struct filter filter_gaussian(struct arena *a, double sigma)
     for (int j = 1; j <= reach; j++)
         tap[reach + j] = tap[reach - j] = real_exp(-0.5 * (j / sigma) * (j / sigma));
     normalise(tap, 2 * reach + 1);
-    return (struct filter){reach, tap};
+    return (struct filter){reach, 2 * reach + 1, tap};
 }

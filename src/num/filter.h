@@ -1,12 +1,12 @@
-/* Linear-phase kernels: the decimator of sub-interval means, and Gaussians. */
+/* Linear-phase kernels: decimators of sub-interval means, and Gaussians. */
 #ifndef NUM_FILTER_H
 #define NUM_FILTER_H
 #include "base/arena.h"
 
-/* A symmetric kernel. filter_gaussian: 2 reach + 1 taps, tap[j + reach], j = -reach..reach. filter_decimator: 2 reach taps,
-   tap[j + reach], j = -reach..reach-1, tap[reach + j] = tap[reach - 1 - j]. */
+/* A symmetric kernel of `taps`, tap[j + reach], j from -reach on. 2 reach + 1 of them, tap[reach + j] = tap[reach - j]; filter_decimator: 2 reach,
+   tap[reach + j] = tap[reach - 1 - j]. */
 struct filter {
-    int reach;
+    int reach, taps;
     double *tap;
 };
 
@@ -20,6 +20,13 @@ struct filter {
    over fs/2 has been aliased by taking means and cannot be stopped here. For over = 1 the stop band lies beyond fs/2 and the kernel
    interpolates half a sample; its gain falls to 0 at fs/2. */
 struct filter filter_decimator(struct arena *a, int over);
+
+/* The same of means weighted by a hat about each i T, 1 - |t/T - i|, whose droop is the square of that:
+
+       output[n] = sum over j = -reach..reach of tap[j + reach] hat[over n + j],
+
+   with the same gains, content beyond over fs/2 apart. For over = 1 only the droop is undone: there is no low-pass, and up to fs/2 the gain is 1 within 0.05. */
+struct filter filter_decimator_hats(struct arena *a, int over);
 
 /* Sampled, normalised Gaussian (sum 1 to rounding) of standard deviation sigma >= 0 samples, cut at 6.5 sigma; sigma = 0 gives
    the unit impulse. The sampled Gaussian's own deviation is sigma within 1e-6 for sigma >= 1; for smaller ones it is less. */

@@ -17,6 +17,8 @@
    run time is not ready yet when the loader picks a clone. A cloned function must not be static inline. */
 #ifndef NUM_LANES_H
 #define NUM_LANES_H
+#include <stdint.h>
+#include <string.h>
 
 enum { LANES = 8 }; /* doubles per group: one register of AVX-512, two of AVX2, four of SSE2 */
 
@@ -25,5 +27,30 @@ enum { LANES = 8 }; /* doubles per group: one register of AVX-512, two of AVX2, 
 #else
 #define LANES_CLONES
 #endif
+
+/* test ? a : b by bit masks: of the conditional operator gcc makes branches where the CPU has no masked moves, or where one side costs more, and
+   does not vectorise the loop. */
+static inline __attribute__((always_inline)) double lanes_select(int test, double a, double b)
+{
+    uint64_t mask = -(uint64_t)test, u, v;
+    memcpy(&u, &a, sizeof u);
+    memcpy(&v, &b, sizeof v);
+    u = (u & mask) | (v & ~mask);
+    memcpy(&a, &u, sizeof a);
+    return a;
+}
+
+/* floor(x) and ceil(x) for |x| < 2^51, by rounding to the nearest first; in clones gcc 12 leaves floor() itself a call. */
+static inline __attribute__((always_inline)) double lanes_floor(double x)
+{
+    double near = x + 0x1.8p52 - 0x1.8p52;
+    return near - lanes_select(near > x, 1, 0);
+}
+
+static inline __attribute__((always_inline)) double lanes_ceil(double x)
+{
+    double near = x + 0x1.8p52 - 0x1.8p52;
+    return near + lanes_select(near < x, 1, 0);
+}
 
 #endif

@@ -271,12 +271,19 @@ void vecmath_tanh(size_t n, const double *x, double *y)
         y[i] = tanh_one(x[i]);
 }
 
+/* log(1 + e), 0 <= e <= 1. A tiny e is its own logarithm; its square would be subnormal, which takes some CPUs three times as long. */
+INLINE double softplus_of(double e)
+{
+    int tiny = e < 0x1p-60;
+    double k = select(e > 0.4142, 1, 0), f = select(tiny, 0, select(e > 0.4142, (e - 1) * 0.5, e));
+    struct twosum s = log_sum(k, f);
+    return select(tiny, e, s.hi + s.lo);
+}
+
 INLINE double softplus2_one(double x)
 {
-    double a = fabs(x), e = exp_one(-2 * select(a > 400, 400, a), 0);
-    double k = select(e > 0.4142, 1, 0), f = select(e > 0.4142, (e - 1) * 0.5, e);
-    struct twosum s = log_sum(k, f);
-    return s.hi + s.lo;
+    double a = fabs(x);
+    return softplus_of(exp_one(-2 * select(a > 400, 400, a), 0));
 }
 
 LANES_CLONES
@@ -285,4 +292,20 @@ void vecmath_softplus2(size_t n, const double *x, double *y)
 #pragma omp simd
     for (size_t i = 0; i < n; i++)
         y[i] = softplus2_one(x[i]);
+}
+
+/* Of |x| > TANH_MAX 2^k is below 2^-63, and 2^k - 1 is -1. */
+LANES_CLONES
+void vecmath_tanh_softplus2(size_t n, const double *x, double *t, double *soft)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double v = x[i], y = -2 * fabs(v);
+        struct reduced d = reduce(select(y < EXP_MIN, EXP_MIN, y), 0);
+        double q = d.r + (exp_tail(d.r) + d.r_lo), two_k = of_bits((d.k + 1023) << 52);
+        double less = two_k * select(y < -2 * TANH_MAX, 0, q) + (two_k - 1), e = select(y < EXP_MIN, 0, of_bits(bits_of(1 + q) + (d.k << 52)));
+        const uint64_t sign = 0x8000000000000000;
+        t[i] = select(v == v, of_bits((bits_of(-less / (2 + less)) & ~sign) | (bits_of(v) & sign)), v);
+        soft[i] = select(v == v, softplus_of(e), v);
+    }
 }

@@ -27,4 +27,7 @@ void vecmath_tanh(size_t n, const double *x, double *y);
    |x| = 354.195 on. */
 void vecmath_softplus2(size_t n, const double *x, double *y);
 
+/* Both of these, the same bits, from one exp(-2|x|). */
+void vecmath_tanh_softplus2(size_t n, const double *x, double *t, double *soft);
+
 #endif

@@ -8,6 +8,7 @@
 
 #include "force/impact_train.h"
 #include "force/strike.h"
+#include "num/decimal.h"
 #include "output/roll_rows.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
@@ -194,10 +195,21 @@ static void row_impacts(struct force_table *t, double end)
     }
 }
 
+/* -0 is written as 0. */
+static void row_put(const struct force_table *t, FILE *out)
+{
+    char text[COLUMNS * (DECIMAL_ROOM + 1) + 1], *end = text;
+    for (int k = 0; k < COLUMNS; k++)
+        if (t->wanted[k]) {
+            end += decimal_9g(t->value[k] + 0.0, end);
+            *end++ = ',';
+        }
+    *(end > text ? end - 1 : end++) = '\n';
+    fwrite(text, 1, (size_t)(end - text), out);
+}
+
 static void row_write(struct force_table *t, const struct board *b)
 {
-    FILE *out = b->table->stream;
-    const char *comma = "";
     double n = t->samples > 0 ? (double)t->samples : 1;
     t->value[MEAN] = t->sum / n;
     t->value[RMS] = sqrt(t->squares / n);
@@ -205,12 +217,7 @@ static void row_write(struct force_table *t, const struct board *b)
     t->value[LIFT_OFFS] = (double)t->lift_offs;
     if (board_has(b, ITEM_ROLL))
         roll_rows_take(&t->ball, t->samples, t->value);
-    for (int k = 0; k < COLUMNS; k++)
-        if (t->wanted[k]) {
-            fprintf(out, "%s%.9g", comma, t->value[k] + 0.0); /* not -0 */
-            comma = ",";
-        }
-    fputc('\n', out);
+    row_put(t, b->table->stream);
     t->sum = t->squares = t->peak = 0;
     t->samples = t->lift_offs = 0;
 }
@@ -265,6 +272,7 @@ const struct stage force_table_stage = {
     .idle = "no output.diagnostics",
     .asks = force_table_asks,
     .gives = ITEM_BIT(ITEM_TABLE),
+    .knobs = KNOB_BIT(oversampling),
     .wanted = force_table_wanted,
     .work = force_table_work,
     .open = force_table_open,

@@ -5,6 +5,7 @@
 #include "convolution/ring_choice.h"
 #include "output/stems.h"
 #include "scene/ball.h"
+#include "scene/keys.h"
 #include "scene/rules.h"
 
 #define REAL_TIME 62500.0 /* cycles per audio sample of a core of 3 GHz at 48 kHz */
@@ -90,13 +91,18 @@ static bool plan_keep(const struct stage *st, const struct contact *c, const str
     return true;
 }
 
-/* The contact with its engines chosen. */
+static bool choose_body(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice, struct err *e)
+{
+    return *choice || ring_choice_make(c, s, body, a, choice, e);
+}
+
+/* The contact with its engines chosen, unless they are already (pipeline/promise.h). */
 static const struct contact *plan_choose(const struct contact *asked, const struct scene *s, struct arena *a, struct err *e)
 {
     struct contact *c = ARENA_TAKE(a, struct contact, 1);
     *c = *asked;
-    if (!ring_choice_make(asked, s, RING_SURFACE, a, &c->surface.response.choice, e) ||
-        !ring_choice_make(asked, s, RING_SCRAPER, a, &c->scraper.response.choice, e))
+    if (!choose_body(asked, s, RING_SURFACE, a, &c->surface.response.choice, e) ||
+        !choose_body(asked, s, RING_SCRAPER, a, &c->scraper.response.choice, e))
         return NULL;
     return c;
 }
@@ -125,6 +131,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
             continue;
         p->alive |= l.need & st->gives;
         p->rows[i].work = st->work(c, s);
+        p->rows[i].knobs = st->knobs | (st->turns ? st->turns(c, s) : 0);
         p->rows[i].reads = st->needs | st->takes | (st->asks ? st->asks(c, s) : 0);
         if (!plan_keep(st, c, s, &l, e))
             return false;
@@ -137,7 +144,24 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
     return true;
 }
 
+unsigned plan_knobs(const struct plan *p)
+{
+    unsigned knobs = 0;
+    for (int i = 0; i < p->n; i++)
+        knobs |= p->rows[i].knobs;
+    return knobs;
+}
+
 /* ------------------------------------------------------------------ text */
+
+const char *plan_knobs_text(unsigned knobs, struct arena *a)
+{
+    const char *text = "";
+    for (int k = 0; k < KNOBS; k++)
+        if (knobs & 1u << k)
+            text = arena_format(a, "%s%s%s", text, *text ? ", " : "", keys_knobs[k].name);
+    return *text ? text : "none";
+}
 
 static void names_text(unsigned items, char *out, size_t size)
 {
@@ -177,6 +201,9 @@ void plan_print(const struct plan *p, FILE *out)
         if (p->rows[i].verdict == PLAN_RUNS)
             row_print(p, &p->rows[i], whole, out);
     fprintf(out, "  about %.0f cycles per audio sample%s\n", whole, whole > REAL_TIME ? ": slower than real time" : "");
+    struct arena *a = arena_open();
+    fprintf(out, "  turned by accuracy: %s\n", plan_knobs_text(plan_knobs(p), a));
+    arena_close(a);
     memory_print(p, out);
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_UNWANTED)

@@ -13,6 +13,7 @@ struct plan_row {
     const struct stage *stage;
     enum plan_verdict verdict;
     unsigned reads;           /* items, when it runs                                             */
+    unsigned knobs;           /* of scene/accuracy.def that it depends on, when it runs          */
     double work;              /* predicted cycles per audio sample (one core with 256-bit vectors) */
 };
 
@@ -32,6 +33,12 @@ unsigned plan_targets(const struct contact *c, const struct scene *s);
    needed; two stages give it; nothing is asked for. */
 bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a, struct plan *p,
                struct err *e);
+
+/* The knobs of scene/accuracy.def that something which runs depends on, as a set: all others change no bit. */
+unsigned plan_knobs(const struct plan *p);
+
+/* "oversampling, gain_ramp", in the table's order; "none". */
+const char *plan_knobs_text(unsigned knobs, struct arena *a);
 
 /* The plan as text: what runs, from what to what, at what share of the predicted cost; what does not run, and why not. */
 void plan_print(const struct plan *p, FILE *out);

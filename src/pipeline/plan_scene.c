@@ -3,6 +3,8 @@
 
 #include "pipeline/inputs.h"
 #include "pipeline/render_parts.h"
+#include "scene/accuracy.h"
+#include "scene/keys.h"
 
 static bool open_part(const struct scene *s, struct render_part *one, FILE *nowhere, struct err *e)
 {
@@ -36,4 +38,27 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err
     for (int i = 0; i < s->n_contacts; i++)
         plans[i] = p.parts[i].plan;
     return plans;
+}
+
+static bool add_knobs(const struct scene *s, struct arena *a, unsigned *knobs, struct err *e)
+{
+    struct render_parts p = render_parts_make(s, "", a);
+    bool ok = render_parts_plan(&p, e);
+    for (int i = 0; ok && i < s->n_contacts; i++)
+        *knobs |= plan_knobs(&p.parts[i].plan);
+    return ok;
+}
+
+bool plan_scene_knobs(const struct scene *s, struct arena *a, unsigned *knobs, struct err *e)
+{
+    *knobs = 0;
+    if (!inputs_check(s, a, e) || !add_knobs(s, a, knobs, e))
+        return false;
+    for (int i = 0; keys_presets[i]; i++) {
+        struct scene other = *s;
+        struct err refused = {0};
+        accuracy_preset(&other.accuracy, keys_presets[i]);
+        add_knobs(&other, a, knobs, &refused);
+    }
+    return true;
 }

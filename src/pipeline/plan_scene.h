@@ -7,4 +7,8 @@
    begin. ERR_INPUT, ERR_SCENE and what stages give; NULL then. Nothing is written. */
 const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err *e);
 
+/* The knobs of scene/accuracy.def that some contact's plan depends on: as the scene stands, or in one of the presets (which may choose other engines; one that
+   cannot be planned counts for nothing). Responses are read, stages are not opened. ERR_SCENE and what reading gives: of the scene as it stands. */
+bool plan_scene_knobs(const struct scene *s, struct arena *a, unsigned *knobs, struct err *e);
+
 #endif

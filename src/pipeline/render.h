@@ -4,6 +4,7 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "output/sound.h"
+#include "pipeline/promise.h"
 #include "pipeline/run.h"
 
 struct render_file {
@@ -23,6 +24,8 @@ struct render_report {
     int n_files;
     const char **older;            /* files of an earlier render that stay; ends with NULL */
     const char *summary;           /* the JSON text */
+    struct promise promise;        /* of the accuracy that was asked for */
+    struct accuracy accuracy;      /* the knobs that it was rendered with */
     const char **warnings;
     int n_warnings;
     const char **notes;            /* what contacts did, one line each */

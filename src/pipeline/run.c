@@ -36,22 +36,28 @@ static int item_per_frame(const struct board *b, enum item item)
     return item < ITEM_FORCE ? b->over : item == ITEM_FORCE ? 1 : b->channels;
 }
 
+/* Frames before its own that the slowest reader looks back to. */
+static long run_behind(const struct run *r, enum item item)
+{
+    long behind = 0;
+    for (int i = 0; i < r->n; i++)
+        if (reads(&r->stages[i]) & ITEM_BIT(item) && r->stages[i].back > behind)
+            behind = r->stages[i].back;
+    return behind;
+}
+
 /* Frames that a signal must hold: from the first that a reader looks back to (all of them begin at frame 0) to the end of its giver's
    block. */
 static void run_signal(struct run *r, enum item item)
 {
     struct signal *s = &r->board.signals[item];
-    long lead = 0, behind = 0;
+    long lead = 0, behind = run_behind(r, item);
     int per_frame = item_per_frame(&r->board, item);
     if (!(r->plan.alive & ITEM_BIT(item)) || !per_frame)
         return;
-    for (int i = 0; i < r->n; i++) {
-        const struct stage_run *st = &r->stages[i];
-        if (st->stage->gives & ITEM_BIT(item) && st->offset > lead)
-            lead = st->offset;
-        if (reads(st) & ITEM_BIT(item) && st->back > behind)
-            behind = st->back;
-    }
+    for (int i = 0; i < r->n; i++)
+        if (r->stages[i].stage->gives & ITEM_BIT(item) && r->stages[i].offset > lead)
+            lead = r->stages[i].offset;
     s->per_frame = per_frame;
     s->first = -behind;
     s->capacity = behind + 2 * STAGE_BLOCK + lead + 1;
@@ -152,6 +158,23 @@ bool run_block(struct run *r, long to, struct err *e)
             return false;
     }
     return true;
+}
+
+void run_skip(struct run *r, long frame)
+{
+    for (int i = 0; i < r->n; i++) {
+        struct stage_run *st = &r->stages[i];
+        st->done = frame;
+        if (st->stage->skip)
+            st->stage->skip(st, frame);
+    }
+    for (int i = 0; i < ITEM_COUNT; i++) {
+        struct signal *s = &r->board.signals[i];
+        if (!s->per_frame)
+            continue;
+        s->first = frame - run_behind(r, (enum item)i);
+        memset(s->x, 0, (size_t)(s->capacity * s->per_frame) * sizeof *s->x);
+    }
 }
 
 void run_close(struct run *r)

@@ -23,6 +23,10 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
 /* Frames [run so far, to): the sound is then on the board as ITEM_SOUND (if the plan has it). At most STAGE_BLOCK frames a call. */
 bool run_block(struct run *r, long to, struct err *e);
 
+/* Goes on at a later frame, as though nothing had been before it: the board is empty; what stages remember is left as it is. Of stages up to the force only.
+   As many frames as they look back in all, at least, are not yet as they would be. */
+void run_skip(struct run *r, long frame);
+
 void run_close(struct run *r);
 
 #endif

@@ -9,6 +9,7 @@
 #include "num/real.h"
 #include "response/modes.h"
 #include "scene/ball.h"
+#include "scene/keys.h"
 #include "trajectory/load.h"
 
 enum { MOST_OF_BOARD = (int)(sizeof ((struct board *)0)->warnings / sizeof ((struct board *)0)->warnings[0]) };
@@ -95,7 +96,9 @@ static void warn_impacts(const struct contact *c, const struct impact_report *o,
 
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
-    report->notes = ARENA_TAKE(a, const char *, s->n_contacts);
+    report->notes = ARENA_TAKE(a, const char *, s->n_contacts + 1);
+    if (report->promise.text)
+        report->notes[report->n_notes++] = report->promise.text;
     for (int i = 0; i < s->n_contacts; i++) {
         const struct board *b = runs[i] ? &runs[i]->board : NULL;
         if (b && (b->rolls || impacts(b)))
@@ -126,10 +129,14 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
     int older = 0;
     while (report->older[older])
         older++;
-    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 7) + 2 + older);
+    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 8) + 2 + older);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i])
             warn_contact(&s->contacts[i], &runs[i]->board, report, a);
+    for (int i = 0; i < s->n_contacts; i++)
+        if (runs[i] && runs[i]->board.lifted > 0 && report->promise.n > 0)
+            warn(report, arena_format(a, "contact '%s': where it is lifted off its force is cut, and errors fall more slowly, and less evenly, than accuracy.error counts on: measure them "
+                                         "(--verify)", s->contacts[i].name));
     if (report->sounds && report->sound.silent)
         warn(report, "the sound is silent: no level was set");
     if (report->sounds && report->sound.ramp < s->output.ramp - 0.5 / s->output.sample_rate)
@@ -259,6 +266,16 @@ static json_t *files_json(const struct render_report *report)
     return all;
 }
 
+/* What accuracy.error asked for, and what the knobs that leave an error are predicted to leave. */
+static json_t *promise_json(const struct promise *p)
+{
+    json_t *by = json_array();
+    for (int i = 0; i < p->n; i++)
+        json_array_append_new(by, json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value", number(p->parts[i].value), "error_db",
+                                            number(decibel(p->parts[i].error)), "said", p->parts[i].said));
+    return json_pack("{s:o, s:o, s:b, s:o, s:o}", "asked_db", number(p->error), "predicted_db", number(p->predicted), "chosen", p->chosen, "by", by, "cpu_s", number(p->cpu));
+}
+
 const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, struct arena *a)
 {
     double duration = (double)report->frames / s->output.sample_rate;
@@ -273,6 +290,8 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
                               "wall_s", number(report->seconds), "cpu_s", number(report->cpu), "real_time_factor",
                               number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks,
                               "files", files_json(report));
+    if (report->promise.asked)
+        json_object_set_new(whole, "accuracy", promise_json(&report->promise));
     if (report->sounds)
         json_object_set_new(whole, "sound", sound_json(s, report));
     char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);

@@ -10,6 +10,8 @@
 
 static const char STANDARD[] = "standard", PRESETS[] = "presets: draft, standard, high, reference";
 
+#define LEAST_ERROR (-240.0) /* dB; doubles hold -313 */
+
 bool accuracy_preset(struct accuracy *accuracy, const char *preset)
 {
     for (int i = 0; keys_presets[i]; i++) {
@@ -44,8 +46,8 @@ static const struct key_knob *knob_find(const char *name)
 
 static void knob_unknown(struct yaml *y, const struct yaml_node *key)
 {
-    const char *names[32] = {"preset"}, *all = "preset";
-    int n = 1;
+    const char *names[32] = {"preset", "error"}, *all = "preset, error";
+    int n = 2;
     for (const struct key_knob *k = keys_knobs; k->name && n < 31; k++) {
         names[n++] = k->name;
         all = arena_format(y->arena, "%s, %s", all, k->name);
@@ -55,10 +57,30 @@ static void knob_unknown(struct yaml *y, const struct yaml_node *key)
              "unknown key '%s' in accuracy", diag_shown(y->diag, key->text));
 }
 
-/* The unit a knob takes is the one that its meaning names. */
 static enum key_dimension knob_dimension(const struct key_knob *k)
 {
-    return strstr(k->meaning, "seconds ") ? KEY_TIME : strstr(k->meaning, " in dB ") ? KEY_DECIBEL : KEY_NONE;
+    return k->scale == KEY_SECONDS ? KEY_TIME : k->scale == KEY_ERROR ? KEY_DECIBEL : KEY_NONE;
+}
+
+double accuracy_knob(const struct accuracy *accuracy, enum knob k)
+{
+    return *(const double *)((const char *)accuracy + keys_knobs[k].offset);
+}
+
+void accuracy_turn(struct accuracy *accuracy, enum knob k, double value)
+{
+    *(double *)((char *)accuracy + keys_knobs[k].offset) = value;
+}
+
+const char *accuracy_unit(enum knob k)
+{
+    return keys_knobs[k].scale == KEY_SECONDS ? " s" : keys_knobs[k].scale == KEY_ERROR ? " dB" : "";
+}
+
+bool accuracy_takes(enum knob k, double value)
+{
+    const struct key_knob *o = &keys_knobs[k];
+    return value >= o->low && value <= o->high && (!o->whole || value == floor(value)) && !(k == KNOB_overlap_order && value == 3);
 }
 
 static void knob_read(struct yaml *y, const struct key_knob *k, const struct yaml_node *node, struct accuracy *accuracy)
@@ -72,10 +94,24 @@ static void knob_read(struct yaml *y, const struct key_knob *k, const struct yam
         diag_add(y->diag, node->at, k->meaning, "%s must be from %g to %g, not %s", label, k->low, k->high, given);
     else if (k->whole && x != floor(x))
         diag_add(y->diag, node->at, k->meaning, "%s must be a whole number, not %s", label, given);
-    else if (strcmp(k->name, "overlap_order") == 0 && x == 3)
+    else if (k == &keys_knobs[KNOB_overlap_order] && x == 3)
         diag_add(y->diag, node->at, "write 1, 2 or 4", "accuracy.overlap_order 3 is not offered: 1, 2 and 4 are");
+    else {
+        accuracy_turn(accuracy, (enum knob)(k - keys_knobs), x);
+        accuracy->said |= 1u << (k - keys_knobs);
+    }
+}
+
+static void error_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
+{
+    static const char meaning[] = "dB relative to the sound, rms; the knobs that are not given are chosen by it";
+    double x;
+    if (!scene_values_quantity(y, node, "accuracy.error", KEY_DECIBEL, &x))
+        return;
+    if (x < LEAST_ERROR || x >= 0)
+        diag_add(y->diag, node->at, meaning, "accuracy.error must be from %g dB to below 0 dB, not %s", LEAST_ERROR, scene_values_kind(y, node));
     else
-        *(double *)((char *)accuracy + k->offset) = x;
+        accuracy->error = x;
 }
 
 static void entry_read(struct yaml *y, const struct yaml_node *item, struct accuracy *accuracy)
@@ -84,8 +120,7 @@ static void entry_read(struct yaml *y, const struct yaml_node *item, struct accu
     if (strcmp(item->key->text, "preset") == 0)
         return;
     if (strcmp(item->key->text, "error") == 0)
-        diag_add(y->diag, item->key->at, arena_format(y->arena, "name a preset instead; %s", PRESETS),
-                 "choosing the accuracy by an error is not offered");
+        error_read(y, item, accuracy);
     else if (k)
         knob_read(y, k, item, accuracy);
     else
@@ -95,6 +130,8 @@ static void entry_read(struct yaml *y, const struct yaml_node *item, struct accu
 void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
 {
     accuracy_preset(accuracy, STANDARD);
+    accuracy->error = NAN;
+    accuracy->said = 0;
     if (!node)
         return;
     if (node->kind != YAML_MAP) {

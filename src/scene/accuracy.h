@@ -7,7 +7,17 @@
 /* All knobs as the preset (draft, standard, high, reference) has them; false: there is no such preset. */
 bool accuracy_preset(struct accuracy *accuracy, const char *preset);
 
-/* `high`, or {preset: high, oversampling: 16}; NULL: standard. Errors go to the diagnostics. */
+/* `high`, {preset: high, oversampling: 16}, {error: -80 dB}; NULL: standard. Errors go to the diagnostics. */
 void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy);
+
+/* A knob of the whole set, by its row. */
+double accuracy_knob(const struct accuracy *accuracy, enum knob k);
+void accuracy_turn(struct accuracy *accuracy, enum knob k, double value);
+
+/* " dB", " s" or "": what stands behind its value. */
+const char *accuracy_unit(enum knob k);
+
+/* Is it a value that the knob can have? */
+bool accuracy_takes(enum knob k, double value);
 
 #endif

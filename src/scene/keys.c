@@ -90,8 +90,8 @@ const struct key_alternative keys_alternatives[] = {
 #include "scene/keys.def"
     {.paths = {NULL}}};
 
-#define KNOB(knob, lowest, highest, integer, draft, standard, best, reference, text) \
-    {.name = #knob, .low = lowest, .high = highest, .whole = integer, .preset = {draft, standard, best, reference}, \
+#define KNOB(knob, lowest, highest, integer, counts, falls, draft, standard, best, reference, text) \
+    {.name = #knob, .low = lowest, .high = highest, .whole = integer, .scale = KEY_##counts, .order = falls, .preset = {draft, standard, best, reference}, \
      .offset = offsetof(struct accuracy, knob), .meaning = text},
 const struct key_knob keys_knobs[] = {
 #include "scene/accuracy.def"

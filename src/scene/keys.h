@@ -55,10 +55,21 @@ struct key_alternative {
     const char *paths[6];       /* ends with NULL */
 };
 
+/* What a knob counts, and so how its error is expected to follow it. */
+enum key_scale {
+    KEY_STEPS,         /* steps, or points, in something: the more, the finer     */
+    KEY_SAMPLES,       /* audio samples from one to the next: the fewer, the finer */
+    KEY_SECONDS,       /* the same in seconds                                     */
+    KEY_ERROR,         /* dB, the error that is asked for                         */
+    KEY_METHOD         /* which method: values between have no meaning            */
+};
+
 struct key_knob {
     const char *name;
     double low, high;
     int whole;
+    enum key_scale scale;
+    double order;               /* power with which its error falls; 0: not by a power */
     double preset[4];           /* draft, standard, high, reference */
     size_t offset;              /* of its double in struct accuracy */
     const char *meaning;

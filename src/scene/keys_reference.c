@@ -197,14 +197,16 @@ static const char *knob_comment(const struct key_knob *k, struct arena *a)
 
 static void print_accuracy(FILE *f, struct arena *a)
 {
-    int n = 1, room = 1;
+    int n = 2, room = 2;
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         room++;
     struct keys_line *lines = ARENA_TAKE(a, struct keys_line, room);
     lines[0] = (struct keys_line){.path = "accuracy.preset", .value = "standard"};
+    lines[1] = (struct keys_line){.path = "accuracy.error", .value = "-80 dB", .off = true};
     for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
-        if (!strcmp(p->path, "accuracy.preset"))
-            lines[0].comment = p->meaning;
+        for (int i = 0; i < 2; i++)
+            if (!strcmp(p->path, lines[i].path))
+                lines[i].comment = p->meaning;
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         lines[n++] = (struct keys_line){.path = arena_format(a, "accuracy.%s", k->name),
                                         .value = keys_yaml_number(k->preset[1], a),

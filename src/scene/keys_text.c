@@ -9,7 +9,9 @@ const struct keys_text_frame keys_text_frames[] = {
     {"include", "list of file names", "scene files that this one builds on: maps merge, lists are replaced, the including file wins"},
     {"contacts", "list of contacts", "several contacts, whose sounds add up: each entry holds a name and what else stands at the top level of a "
                                      "scene with one (surface, scraper, motion, ...)"},
-    {"accuracy", "draft, standard, high, reference, or a map", "how much time is spent on accuracy: a preset, or a map of preset and single knobs"},
+    {"accuracy", "draft, standard, high, reference, or a map", "how much time is spent on accuracy: a preset, or a map of preset, error and single knobs"},
+    {"accuracy.error", "number, dB, -240 to below 0",
+     "error relative to the sound, rms, that the knobs not given are chosen by, as cheaply as keeps it; what cannot be kept is refused"},
     {"accuracy.preset", "draft, standard, high or reference", "in a map: the preset that the knobs not given are taken from"},
     {"inputs", "list of file and sha256", "the files of an effective scene as they were: one that has changed is an error"},
     {NULL, NULL, NULL},

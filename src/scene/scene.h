@@ -338,9 +338,18 @@ struct output {
 
 struct accuracy {           /* one double per row of accuracy.def                                */
     const char *preset;     /* draft, standard, high, reference: where the knobs start           */
-#define KNOB(name, lo, hi, whole, draft, standard, high, reference, meaning) double name;
+    double error;           /* dB relative to the sound, rms: what the knobs that are not said are chosen by (pipeline/promise.h); NAN: not asked for */
+    unsigned said;          /* set of knobs that the scene gives one by one                      */
+#define KNOB(name, lo, hi, whole, scale, order, draft, standard, high, reference, meaning) double name;
 #include "scene/accuracy.def"
 #undef KNOB
+};
+
+enum knob {                 /* the rows of accuracy.def, as of keys_knobs; a set of them: stage.h */
+#define KNOB(name, lo, hi, whole, scale, order, draft, standard, high, reference, meaning) KNOB_##name,
+#include "scene/accuracy.def"
+#undef KNOB
+    KNOBS
 };
 
 struct input {              /* a file the scene names; sha256 NULL: not pinned                   */

@@ -76,6 +76,12 @@ void scene_places_note(const struct scene_part *p, const char *contact, struct s
     }
 }
 
+void scene_places_key(struct yaml *y, const char *key, const struct diag_place *at, struct scene *s)
+{
+    struct list l = list_of(y, s);
+    add(&l, key, NULL, at);
+}
+
 void scene_places_input(struct yaml *y, const char *file, const struct diag_place *at, struct scene *s)
 {
     struct list l = list_of(y, s);

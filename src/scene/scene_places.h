@@ -9,6 +9,9 @@
 /* Adds to s->places all keys and sections of the part that are given; contact: its name, NULL for the scene's own keys. The part's fields have been read. */
 void scene_places_note(const struct scene_part *p, const char *contact, struct scene *s);
 
+/* Adds a key of the scene that is no row of keys.def. */
+void scene_places_key(struct yaml *y, const char *key, const struct diag_place *at, struct scene *s);
+
 /* Adds a file that `inputs` names. */
 void scene_places_input(struct yaml *y, const char *file, const struct diag_place *at, struct scene *s);
 

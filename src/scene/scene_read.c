@@ -30,6 +30,9 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
     scene_table_names(y, root);
     scene_contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
+    const struct yaml_node *error = yaml_find(root, "accuracy.error");
+    if (error && error->at.source)
+        scene_places_key(y, "accuracy.error", &error->at, s);
     scene_inputs_read(y, yaml_get(root, "inputs"), s);
     if (y->diag->n == 0 && !y->missing) {
         scene_sense_output_stems(&top);

@@ -232,6 +232,8 @@ static void write_accuracy(struct writer *w, const struct scene *s)
     fputs("accuracy:\n", w->f);
     if (s->accuracy.preset)
         fprintf(w->f, "  preset: %s\n", s->accuracy.preset);
+    if (!isnan(s->accuracy.error))
+        fprintf(w->f, "  error: %s\n", keys_yaml_number(s->accuracy.error, w->a));
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         fprintf(w->f, "  %s: %s\n", k->name, keys_yaml_number(*(const double *)((const char *)&s->accuracy + k->offset), w->a));
 }

@@ -16,7 +16,7 @@ struct limited {                        /* pieces from point at[i] to point at[i
     double *moment;                     /* integral of (s - middle) T ds / length^2, 1/m, [n] */
 };
 
-/* T(c) = tanh(alpha c) / alpha, or T(c) = c when limiter is false. Absolute error of alpha mean below 2e-12, of alpha moment below 4e-7; with a
+/* T(c) = tanh(alpha c) / alpha, or T(c) = c when limiter is false. Absolute error of alpha mean below 2e-12, of alpha moment below 1e-9; with a
    bulge b that of alpha mean grows by 0.21 (alpha b)^2 up to 5.2e-5 at alpha |b| = 1/64, from where on it grows no more, that of alpha moment by
    0.05 alpha |b| up to 8e-4. |mean| <= 1/alpha, but for 2e-8 of it and 4 alpha |b| roundings. */
 void limited_run(const struct limited *l, bool limiter);

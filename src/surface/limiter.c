@@ -9,6 +9,7 @@
    alpha for constant loads. */
 #include "surface/limiter.h"
 
+#include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
 #include "scene/rules.h"
@@ -24,15 +25,36 @@ struct limiter_law limiter_make(const struct limiter *given, double least, doubl
     return l;
 }
 
+LANES_CLONES
+static void limiter_base(const struct limiter_law *l, size_t n, const double *force, double *nu)
+{
+    double least = l->least, range = l->most - l->least;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double x = (force[i] - least) / range;
+        nu[i] = lanes_select(x < 0, 0, lanes_select(x > 1, 1, x));
+    }
+}
+
+LANES_CLONES
+static void limiter_blend(const struct limiter_law *l, size_t n, double *alpha)
+{
+    double alpha_min = l->alpha_min, alpha_max = l->alpha_max;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        alpha[i] = (1 - alpha[i]) * alpha_max + alpha[i] * alpha_min;
+}
+
 void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, double *alpha)
 {
-    for (size_t i = 0; i < n; i++) {
-        double nu = l->varies ? (force[i] - l->least) / (l->most - l->least) : 0;
-        alpha[i] = nu < 0 ? 0 : nu > 1 ? 1 : nu;
+    if (!l->varies) {
+        for (size_t i = 0; i < n; i++)
+            alpha[i] = l->fixed;
+        return;
     }
+    limiter_base(l, n, force, alpha);
     vecmath_pow(n, alpha, l->zeta, alpha);
-    for (size_t i = 0; i < n; i++)
-        alpha[i] = l->varies ? (1 - alpha[i]) * l->alpha_max + alpha[i] * l->alpha_min : l->fixed;
+    limiter_blend(l, n, alpha);
 }
 
 double limiter_constant(const struct contact *c)
@@ -66,7 +88,7 @@ static bool limiter_wanted(const struct contact *c, const struct scene *s)
 static double limiter_work(const struct contact *c, const struct scene *s)
 {
     (void)c;
-    return 25 * s->accuracy.oversampling;
+    return 16 * s->accuracy.oversampling;
 }
 
 static bool limiter_open(struct stage_run *r, struct err *e)

@@ -10,6 +10,7 @@
 #include <limits.h>
 #include <math.h>
 
+#include "num/lanes.h"
 #include "scene/scene.h"
 
 struct sampled {
@@ -85,9 +86,9 @@ static const double *window_at(struct window *w, long cell)
     return w->c + (cell - 1 - w->first);
 }
 
-static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
+/* Point by point. */
+static void window_plain(struct window *w, const struct relief_points *p, const struct relief_values *v)
 {
-    struct window *w = part->state;
     double h = w->profile->pitch;
     for (size_t i = 0; i < p->n; i++) {
         double q = (p->x[i] - w->origin) / h, cell = floor(q), f = q - cell;
@@ -99,6 +100,98 @@ static void window_add(struct relief_part *part, const struct relief_points *p, 
             v->x[i] += (s0 + f * (b0 + 0.5 * f * rise)) / h;
         if (v->xx)
             v->xx[i] += (b0 + f * rise) / (h * h);
+    }
+}
+
+/* ------------------------------------------------------------------ second derivatives alone, which the force asks for */
+
+enum { BATCH = 256 };
+
+struct batch {
+    size_t n;
+    double origin, h, lowest, highest;
+    double cell[BATCH], share[BATCH];
+};
+
+LANES_CLONES
+static void batch_cells(struct batch *b, const double *x)
+{
+    double origin = b->origin, h = b->h;
+    size_t n = b->n;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double q = (x[i] - origin) / h, below = lanes_floor(q);
+        b->cell[i] = below;
+        b->share[i] = q - below;
+    }
+}
+
+LANES_CLONES
+static void batch_range(struct batch *b)
+{
+    double low[LANES], high[LANES];
+    for (int l = 0; l < LANES; l++)
+        low[l] = high[l] = b->cell[0];
+    for (size_t i = 0; i + LANES <= b->n; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            double c = b->cell[i + l];
+            low[l] = lanes_select(c < low[l], c, low[l]);
+            high[l] = lanes_select(c > high[l], c, high[l]);
+        }
+    for (size_t i = b->n / LANES * LANES; i < b->n; i++) {
+        low[0] = fmin(low[0], b->cell[i]);
+        high[0] = fmax(high[0], b->cell[i]);
+    }
+    b->lowest = low[0];
+    b->highest = high[0];
+    for (int l = 1; l < LANES; l++) {
+        b->lowest = fmin(b->lowest, low[l]);
+        b->highest = fmax(b->highest, high[l]);
+    }
+}
+
+/* Half the time of the plain form, gathers and all; c: the coefficient before the lowest cell. */
+LANES_CLONES
+static void batch_bend(const struct batch *b, const double *c, double *xx)
+{
+    double lowest = b->lowest, h = b->h;
+#pragma omp simd
+    for (size_t i = 0; i < b->n; i++) {
+        int k = (int)(b->cell[i] - lowest);
+        double b0 = (c[k] - c[k + 1]) + (c[k + 2] - c[k + 1]), b1 = (c[k + 1] - c[k + 2]) + (c[k + 3] - c[k + 2]), rise = b1 - b0;
+        xx[i] += (b0 + b->share[i] * rise) / (h * h);
+    }
+}
+
+/* Does the window now hold all cells of the batch? */
+static bool window_holds(struct window *w, const struct batch *b)
+{
+    if (!(b->highest - b->lowest < WINDOW / 2))
+        return false;
+    window_at(w, (long)b->lowest);
+    window_at(w, (long)b->highest);
+    return (long)b->lowest - 1 >= w->first;
+}
+
+static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
+{
+    struct window *w = part->state;
+    struct batch b;
+    if (v->z || v->x || !v->xx) {
+        window_plain(w, p, v);
+        return;
+    }
+    b.origin = w->origin;
+    b.h = w->profile->pitch;
+    for (size_t first = 0; first < p->n; first += b.n) {
+        b.n = p->n - first < BATCH ? p->n - first : BATCH;
+        batch_cells(&b, p->x + first);
+        batch_range(&b);
+        if (window_holds(w, &b))
+            batch_bend(&b, window_at(w, (long)b.lowest), v->xx + first);
+        else
+            window_plain(w, &(struct relief_points){b.n, p->x + first, NULL}, &(struct relief_values){.xx = v->xx + first});
     }
 }
 

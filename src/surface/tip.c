@@ -217,6 +217,7 @@ const struct stage tip_stage = {
     .idle = "no scraper.radius or ball.radius",
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
+    .knobs = KNOB_BIT(tip_heights),
     .wanted = tip_wanted,
     .work = tip_work,
     .open = tip_open,

@@ -11,6 +11,7 @@
    Phase: there and back t 2 rate is rounded once, so after n strokes it is off by at most n 2^-53 strokes. */
 #include <math.h>
 
+#include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
 #include "trajectory/speed.h"
@@ -41,29 +42,52 @@ static size_t stroke_find(const struct strokes *s, double t)
     return low;
 }
 
-/* q, where the stroke starts, and its signed length over l (+1, -1) or l itself. */
-static void stroke_places(const struct strokes *s, size_t n, const double *t, double *q, double *from, double *length, double *time)
+struct strokes_at {
+    size_t n;
+    double q[STROKES_CHUNK], p[STROKES_CHUNK], dp[STROKES_CHUNK], ddp[STROKES_CHUNK];
+    double from[STROKES_CHUNK], length[STROKES_CHUNK], time[STROKES_CHUNK]; /* where the stroke starts, its signed length, m; s */
+};
+
+LANES_CLONES
+static void stroke_folded(const struct strokes *s, struct strokes_at *a, const double *t)
 {
+    double per_second = s->per_second, length = s->length, time = s->time;
+    size_t n = a->n;
+#pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double x = s->folded ? t[i] * s->per_second : t[i] / s->time, k = floor(x), most = (double)(s->n - 1);
-        time[i] = s->time;
-        if (s->folded) {
-            bool back = k / 2 != floor(k / 2);
-            from[i] = back ? s->length : 0;
-            length[i] = back ? -s->length : s->length;
-        } else if (!isnan(s->length)) {
-            k = k < 0 ? 0 : k > most ? most : k;
-            from[i] = s->length * k;
-            length[i] = s->length;
-        } else {
-            size_t j = stroke_find(s, t[i]);
-            from[i] = s->from[j];
-            length[i] = s->from[j + 1] - s->from[j];
-            time[i] = length[i] * s->pace;
-            q[i] = (t[i] - from[i] * s->pace) / time[i];
-            continue;
-        }
-        q[i] = x - k;
+        double x = t[i] * per_second, k = lanes_floor(x);
+        int back = k / 2 != lanes_floor(k / 2);
+        a->from[i] = lanes_select(back, length, 0);
+        a->length[i] = lanes_select(back, -length, length);
+        a->time[i] = time;
+        a->q[i] = x - k;
+    }
+}
+
+LANES_CLONES
+static void stroke_even(const struct strokes *s, struct strokes_at *a, const double *t)
+{
+    double most = (double)(s->n - 1), length = s->length, time = s->time;
+    size_t n = a->n;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double x = t[i] / time, k = lanes_floor(x);
+        k = lanes_select(k < 0, 0, lanes_select(k > most, most, k));
+        a->from[i] = length * k;
+        a->length[i] = length;
+        a->time[i] = time;
+        a->q[i] = x - k;
+    }
+}
+
+static void stroke_uneven(const struct strokes *s, struct strokes_at *a, const double *t)
+{
+    for (size_t i = 0; i < a->n; i++) {
+        size_t j = stroke_find(s, t[i]);
+        a->from[i] = s->from[j];
+        a->length[i] = s->from[j + 1] - s->from[j];
+        a->time[i] = a->length[i] * s->pace;
+        a->q[i] = (t[i] - a->from[i] * s->pace) / a->time[i];
     }
 }
 
@@ -89,20 +113,39 @@ static void stroke_shape(int law, size_t n, const double *q, double *p, double *
     }
 }
 
+/* Place, or its first or second derivative over time. */
+LANES_CLONES
+static void stroke_out(const struct strokes_at *a, int derivative, double *out)
+{
+    size_t n = a->n;
+#pragma omp simd
+    for (size_t i = 0; i < (derivative == 0 ? n : 0); i++)
+        out[i] = a->from[i] + a->length[i] * a->p[i];
+#pragma omp simd
+    for (size_t i = 0; i < (derivative == 1 ? n : 0); i++)
+        out[i] = a->length[i] / a->time[i] * a->dp[i];
+#pragma omp simd
+    for (size_t i = 0; i < (derivative == 2 ? n : 0); i++)
+        out[i] = a->length[i] / (a->time[i] * a->time[i]) * a->ddp[i];
+}
+
 static void strokes_at(const struct speed *speed, size_t n, const double *t, double *u, double *du, double *ddu)
 {
     const struct strokes *s = speed->state;
-    double q[STROKES_CHUNK], from[STROKES_CHUNK], length[STROKES_CHUNK], time[STROKES_CHUNK], p[STROKES_CHUNK], dp[STROKES_CHUNK], ddp[STROKES_CHUNK];
+    double *out[3] = {u, du, ddu};
+    struct strokes_at a;
     for (size_t first = 0; first < n; first += STROKES_CHUNK) {
-        size_t some = n - first < STROKES_CHUNK ? n - first : STROKES_CHUNK;
-        stroke_places(s, some, t + first, q, from, length, time);
-        stroke_shape(s->law, some, q, p, dp, ddp);
-        for (size_t i = 0; u && i < some; i++)
-            u[first + i] = from[i] + length[i] * p[i];
-        for (size_t i = 0; du && i < some; i++)
-            du[first + i] = length[i] / time[i] * dp[i];
-        for (size_t i = 0; ddu && i < some; i++)
-            ddu[first + i] = length[i] / (time[i] * time[i]) * ddp[i];
+        a.n = n - first < STROKES_CHUNK ? n - first : STROKES_CHUNK;
+        if (s->folded)
+            stroke_folded(s, &a, t + first);
+        else if (!isnan(s->length))
+            stroke_even(s, &a, t + first);
+        else
+            stroke_uneven(s, &a, t + first);
+        stroke_shape(s->law, a.n, a.q, a.p, a.dp, a.ddp);
+        for (int k = 0; k < 3; k++)
+            if (out[k])
+                stroke_out(&a, k, out[k] + first);
     }
 }
 

@@ -12,7 +12,7 @@ static bool stage_wanted(const struct contact *c, const struct scene *s)
 
 static double stage_work(const struct contact *c, const struct scene *s)
 {
-    static const double cycles[] = {[PATH_BACK_AND_FORTH] = 25, [PATH_LINE] = 20,     [PATH_FOUR_IN_LINE] = 25, [PATH_CIRCLE] = 35,
+    static const double cycles[] = {[PATH_BACK_AND_FORTH] = 18, [PATH_LINE] = 14,     [PATH_FOUR_IN_LINE] = 18, [PATH_CIRCLE] = 35,
                                     [PATH_SCRIBBLE] = 100,      [PATH_POLYLINE] = 40, [PATH_SPLINE] = 75,       [PATH_RECORDED] = 65, [PATH_STILL] = 5,
                                     [PATH_INCLINE] = 20};
     return cycles[c->motion.path] * s->accuracy.oversampling;

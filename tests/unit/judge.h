@@ -17,7 +17,7 @@
 struct judge {
     const struct contact *c;
     const struct board *b;
-    double alpha;
+    double alpha, since;
     bool path, curved;  /* the surface follows the path; the path bends over the surface */
 };
 
@@ -71,7 +71,7 @@ static inline void judge_bend(const struct judge *j, const struct judge_place *p
               &(struct relief_values){.xx = &h[0], .xy = plane ? &h[1] : NULL, .yy = plane ? &h[2] : NULL});
 }
 
-/* y: g, and the integral of |v S'|^beta2. */
+/* y: g; the integrals of |v S'|^beta2, of that times the time since judge->since, of v S'. */
 static inline int judge_rate(double t, const double y[], double dydt[], void *self)
 {
     const struct judge *j = self;
@@ -83,29 +83,34 @@ static inline int judge_rate(double t, const double y[], double dydt[], void *se
     double d = j->curved ? judge_limited(j, alpha, e[0] * (n[0] * h[0] + n[1] * h[1]) + e[1] * (n[0] * h[1] + n[1] * h[2])) : 0;
     for (int k = 0; k < 2; k++)
         dydt[k] = speed * (side * c * e[k] + d * n[k] - y[k] / j->c->contact.leak);
-    dydt[2] = pow(fabs(p.v * (y[0] * e[0] + y[1] * e[1])), j->c->contact.beta2);
+    dydt[4] = p.v * (y[0] * e[0] + y[1] * e[1]);
+    dydt[2] = pow(fabs(dydt[4]), j->c->contact.beta2);
+    dydt[3] = dydt[2] * (t - j->since);
     return GSL_SUCCESS;
 }
 
-/* Means of the force over n sub-intervals of dt from 0 on; where it is asked for, m v S' at their ends. Steps are kept short: where T is all but
+/* Means of the force by hats (force/hats.h) about n sub-intervals' starts, dt apart from 0 on; where it is asked for, the means of m v S' over them. Steps are kept short: where T is all but
    constant long ones would miss what lies between their points. */
 static inline void judge_run(struct judge *j, long n, double dt, double *force, double *momenta)
 {
-    gsl_odeiv2_system equations = {judge_rate, NULL, 3, j};
-    double y[3] = {0}, momentum = 0, scale[3] = {1, 1, 1e-3};
+    gsl_odeiv2_system equations = {judge_rate, NULL, 5, j};
+    double y[5] = {0}, carried = 0, mass = j->c->scraper.mass, beta1 = j->c->contact.beta1, momentum = 0, scale[5] = {1, 1, 1e-3, 1e-3 * dt, 1e-3};
     gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_scaled_new(&equations, gsl_odeiv2_step_rk8pd, dt / 1000, 1e-13, 1e-11, 1, 0, scale);
     gsl_odeiv2_driver_set_hmax(driver, relief_finest(j->b->relief) / (8 * j->b->trajectory->top_speed));
     for (long i = 0; i < n; i++) {
         double t = (double)i * dt, end = (double)(i + 1) * dt;
-        y[2] = 0;
+        y[2] = y[3] = y[4] = 0;
+        j->since = t;
         gsl_odeiv2_driver_reset(driver);
         ck_assert_int_eq(gsl_odeiv2_driver_apply(driver, &t, end, y), GSL_SUCCESS);
         struct judge_place p = judge_at(j, end);
-        double now = j->c->scraper.mass * p.v * (y[0] * p.e[0] + y[1] * p.e[1]);
-        force[i] = (now - momentum) / dt + j->c->contact.beta1 * y[2] / dt;
+        double now = mass * p.v * (y[0] * p.e[0] + y[1] * p.e[1]);
+        double mean = mass * y[4] / dt, late = y[3] / dt;
+        force[i] = carried + (mean - momentum) / dt + beta1 * (y[2] - late) / dt;
+        carried = (now - mean) / dt + beta1 * late / dt;
         momentum = now;
         if (momenta)
-            momenta[i] = now;
+            momenta[i] = mean;
     }
     gsl_odeiv2_driver_free(driver);
 }

@@ -2,6 +2,7 @@
    means are known in closed form; Gaussians against their definition and transform. */
 #include "num/filter.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "unit.h"
@@ -11,13 +12,15 @@ enum { OVERS = sizeof overs / sizeof overs[0], GRID = 1500 };
 #define PASS_ERROR 2e-6 /* num/filter.h */
 #define STOP_GAIN 1e-6
 
-/* Gain from the continuous signal at f (in fs) to the output: mean over T = 1/over, then taps at (j + 1/2) T. */
+/* Gain from the continuous signal at f (in fs) to the output: mean over T = 1/over, then taps at (j + 1/2) T; hats: mean by a hat, taps at j T. */
 static long double gain(const struct filter *k, int over, long double f)
 {
     long double w = M_PIl * f / over, sum = 0;
-    for (int j = -k->reach; j < k->reach; j++)
-        sum += k->tap[j + k->reach] * cosl(2 * w * (j + 0.5L));
-    return f > 0 ? sum * sinl(w) / w : sum;
+    bool hats = k->taps % 2;
+    for (int j = 0; j < k->taps; j++)
+        sum += k->tap[j] * cosl(2 * w * (j - k->reach + (hats ? 0 : 0.5L)));
+    long double droop = f > 0 ? sinl(w) / w : 1;
+    return sum * droop * (hats ? droop : 1);
 }
 
 static double largest(const struct filter *k, int over, double from, double to, double wanted)
@@ -46,17 +49,39 @@ START_TEST(decimator_response)
 }
 END_TEST
 
+START_TEST(decimator_response_of_hats)
+{
+    for (int i = 0; i < OVERS; i++) {
+        int over = overs[i];
+        struct arena *a = arena_open();
+        struct filter k = filter_decimator_hats(a, over);
+        double pass = largest(&k, over, 0, 0.4535, 1), stop = 0;
+        if (over > 1)
+            stop = fmax(largest(&k, over, 0.5465, 0.8, 0), largest(&k, over, 0.8, over * 0.5, 0));
+        else
+            ck_assert_double_lt(largest(&k, over, 0.4535, 0.5, 1), 0.05);
+        printf("hats, over = %2d: %4d taps, pass %.3g, stop %.3g\n", over, k.taps, pass, stop);
+        ck_assert_double_le(pass, PASS_ERROR);
+        ck_assert_double_le(stop, STOP_GAIN);
+        arena_close(a);
+    }
+}
+END_TEST
+
 START_TEST(decimator_sum_and_symmetry)
 {
     for (int over = 1; over <= 33; over++) {
         struct arena *a = arena_open();
-        struct filter k = filter_decimator(a, over);
-        long double sum = 0;
-        for (int j = 0; j < 2 * k.reach; j++)
-            sum += k.tap[j];
-        ck_assert_double_le((double)fabsl(sum - 1), 1e-15); /* each of the taps' roundings is below 2^-54 tap */
-        for (int j = 0; j < k.reach; j++)
-            ck_assert_double_eq(k.tap[k.reach + j], k.tap[k.reach - 1 - j]);
+        for (int hats = 0; hats < 2; hats++) {
+            struct filter k = hats ? filter_decimator_hats(a, over) : filter_decimator(a, over);
+            long double sum = 0;
+            ck_assert_int_eq(k.taps, 2 * k.reach + hats);
+            for (int j = 0; j < k.taps; j++)
+                sum += k.tap[j];
+            ck_assert_double_le((double)fabsl(sum - 1), 1e-15); /* each of the taps' roundings is below 2^-54 tap */
+            for (int j = 0; j < k.taps; j++)
+                ck_assert_double_eq(k.tap[j], k.tap[k.taps - 1 - j]);
+        }
         arena_close(a);
     }
 }
@@ -172,5 +197,5 @@ START_TEST(gaussian_deviation)
 }
 END_TEST
 
-UNIT("filter", decimator_response, decimator_sum_and_symmetry, decimated_sines, gaussian_taps, gaussian_response,
+UNIT("filter", decimator_response, decimator_response_of_hats, decimator_sum_and_symmetry, decimated_sines, gaussian_taps, gaussian_response,
      gaussian_of_no_width, gaussian_deviation)

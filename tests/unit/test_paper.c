@@ -1,4 +1,4 @@
-/* The printed equations (contact.force: paper) on profiles and in the plane: means over sub-intervals against many point values of the formulas,
+/* The printed equations (contact.force: paper) on profiles and in the plane: means by hats against many point values of the formulas,
    the limit of each axis, and each axis's smoothing. */
 #include "plane.h"
 
@@ -41,17 +41,22 @@ static struct point printed_at(const struct judge *j, double t)
     return r;
 }
 
-/* Relative rms difference of the sub-forces from the mean over each sub-interval of 200 point values. */
+/* Relative rms difference of the sub-forces from the mean by each hat of 200 point values a sub-interval; but for the first, half of which is before the start,
+   where curvature is that of the first place and nothing moves. */
 static double against_formulas(struct scene *s, long frames)
 {
     struct rig *g = rig_record(s, ITEM_SUBFORCE, frames, 1024);
     struct judge j = judge_of(g);
-    double off = 0, all = 0, dt = 1 / (48000.0 * g->per_frame);
+    double off = 0, all = 0, late = 0, dt = 1 / (48000.0 * g->per_frame);
     for (long i = 0; i < frames * g->per_frame; i++) {
-        double mean = 0;
-        for (int k = 0; k < 200; k++)
-            mean += printed_at(&j, ((double)i + (k + 0.5) / 200) * dt).force / 200;
-        off += (g->x[i] - mean) * (g->x[i] - mean);
+        double mean = late;
+        late = 0;
+        for (int k = 0; k < 200; k++) {
+            double q = (k + 0.5) / 200, force = printed_at(&j, ((double)i + q) * dt).force / 200;
+            mean += (1 - q) * force;
+            late += q * force;
+        }
+        off += i > 0 ? (g->x[i] - mean) * (g->x[i] - mean) : 0;
         all += mean * mean;
     }
     printf("relative rms difference %.3g (rms force %.3g N)\n", sqrt(off / all), sqrt(all / (double)(frames * g->per_frame)));
@@ -156,8 +161,8 @@ START_TEST(force_of_the_smoothed_curvatures)
     struct rig *xx = recorded(&s, ITEM_CURVATURE, 1000), *yy = recorded(&s, ITEM_CURVATURE_Y, 1000),
                *force = rig_record(&s, ITEM_SUBFORCE, 1000, 1024);
     double off = 0, all = 0;
-    for (long i = 0; i < 4000; i++) {
-        double angle = 0.2 / 3e-3 * ((double)i + 0.5) / 192000, vx = -0.2 * sin(angle), vy = 0.2 * cos(angle);
+    for (long i = 1; i < 4000; i++) {
+        double angle = 0.2 / 3e-3 * (double)i / 192000, vx = -0.2 * sin(angle), vy = 0.2 * cos(angle);
         double want = 0.02 * (xx->x[i] * vx * vx + yy->x[i] * vy * vy);
         off += pow(force->x[i] - want, 2);
         all += want * want;

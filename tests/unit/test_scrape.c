@@ -1,4 +1,5 @@
 /* The scraping force on profiles and straight paths against a slow judge (tests/unit/judge.h): tolerances say what the closed forms leave out. */
+#include "force/hats.h"
 #include "judge.h"
 #include "surface/profile.h"
 
@@ -21,14 +22,14 @@ static double against_judge(const char *rest, long frames)
     return judge_difference(&s, frames);
 }
 
-/* Vertical force only, through three reversals and at varying speed. The closed form leaves out (5 um / 2 mm)^2/24 = 3e-7 of what T varies by
-   within a piece. */
+/* Vertical force only, through three reversals and at varying speed. The mean of S' over a piece h leaves out h/l / 60 of how T differs from a parabola
+   there: some 1e-5 of the pieces in which it saturates. */
 START_TEST(vertical_force_through_reversals)
 {
     double off = against_judge(arena_format(rig_arena(), "%s%s", "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\n",
                                             reversing),
                                1600);
-    ck_assert_double_lt(off, 2e-8);
+    ck_assert_double_lt(off, 5e-6);
 }
 END_TEST
 
@@ -56,7 +57,7 @@ END_TEST
 START_TEST(horizontal_force)
 {
     const char *const models[] = {"{beta1: 1000, smoothing: 0 s}", "{beta1: 1000000, beta2: 2, smoothing: 0 s}", "{beta1: 1000, beta2: 0.8, smoothing: 0 s}"};
-    const double bounds[] = {5e-4, 5e-4, 3e-3};
+    const double bounds[] = {1e-3, 1e-3, 5e-3};
     for (int k = 0; k < 3; k++) {
         double off = against_judge(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um}}\ncontact: %s\n%s", models[k], reversing), 1600);
         ck_assert_double_lt(off, bounds[k]);
@@ -65,15 +66,25 @@ START_TEST(horizontal_force)
 END_TEST
 
 /* 20.6 sub-intervals a cycle, one a sample, nearly all force horizontal and its memory (the leak) short: in the one that holds a turn the way
-   there and back counts, not what is left of it at its end. Measured: 2.7e-4 (the zeros of S', as above); 1.1e-2 when sub-intervals are not cut at
-   turns. */
+   there and back counts, not what is left of it at its end. Hats take the share of the way for that of the time, coarse here: compared is what they
+   add up to. */
 START_TEST(sub_intervals_are_cut_at_turns)
 {
     struct scene s = made(rig_arena(), "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 500, smoothing: 0 s, leak: 50 um}\n"
                                        "accuracy: {oversampling: 1}\n"
                                        "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.1 cm, 0], rate: 97 Hz, duration: 0.15 s}\n");
     s.output.sample_rate = 2000;
-    ck_assert_double_lt(judge_difference(&s, 290), 6e-4);
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 290, 1024);
+    struct judge j = judge_of(g);
+    double want[290], off = 0, all = 0;
+    judge_run(&j, 290, 1 / 2000.0, want, NULL);
+    for (int i = 0; i < 290; i++) {
+        off += g->x[i] - want[i];
+        all += fabs(want[i]);
+    }
+    rig_close(g);
+    printf("momentum off by %.3g\n", off / all);
+    ck_assert_double_lt(fabs(off), 3e-4 * all);
 }
 END_TEST
 
@@ -83,11 +94,11 @@ START_TEST(oblique_stroke_over_an_extruded_profile)
     double off = against_judge("surface: {roughness: {rms: 5 um}, along: x}\ncontact: {beta1: 0.05, smoothing: 0 s}\n"
                                "motion: {path: line, from: [1 cm, 0], to: [0.5 cm, 5 mm], speed: 20 cm/s}\n",
                                1200);
-    ck_assert_double_lt(off, 1e-7);
+    ck_assert_double_lt(off, 2e-6);
 }
 END_TEST
 
-/* Exact means: four sub-intervals' mean is the mean over the sample, whatever lies in between (3e-7, as above). */
+/* Exact means: a wide hat is the sum of narrow ones, whatever lies in between (some 1e-5, as above). */
 START_TEST(means_are_exact)
 {
     double *coarse = NULL, worst = 0, rms = 0;
@@ -101,7 +112,9 @@ START_TEST(means_are_exact)
             g->x = NULL;
         } else
             for (long n = 0; n < 2400; n++) {
-                double mean = (g->x[4 * n] + g->x[4 * n + 1] + g->x[4 * n + 2] + g->x[4 * n + 3]) / 4;
+                double mean = 0;
+                for (int k = -3; k <= 3; k++)
+                    mean += 4 * n + k < 0 ? 0 : (4 - abs(k)) / 16.0 * g->x[4 * n + k];
                 worst = fmax(worst, fabs(mean - coarse[n]));
                 rms += coarse[n] * coarse[n] / 2400;
             }
@@ -109,7 +122,7 @@ START_TEST(means_are_exact)
     }
     free(coarse);
     printf("worst difference %.3g N of rms %.3g N\n", worst, sqrt(rms));
-    ck_assert_double_lt(worst, 1e-5 * sqrt(rms));
+    ck_assert_double_lt(worst, 1e-4 * sqrt(rms));
     ck_assert_double_gt(rms, 0);
 }
 END_TEST
@@ -185,8 +198,8 @@ START_TEST(a_smoothing_of_seconds_is_refused)
 }
 END_TEST
 
-/* Sample n of the force belongs to n / rate, the boundary between two sub-intervals: a force of 40 Hz and less is there the mean of theirs
-   to second order; one sub-interval early or late is 1e-3 off. */
+/* Sample n of the force belongs to n / rate, where a hat has its middle: a force of 40 Hz and less is there the hat's mean to second order; half a
+   sub-interval early or late is 1e-3 off. */
 START_TEST(the_audio_force_is_not_delayed)
 {
     static const int overs[] = {1, 3, 4, 7};
@@ -198,7 +211,7 @@ START_TEST(the_audio_force_is_not_delayed)
         struct rig *fine = rig_record(&s, ITEM_SUBFORCE, 6000, 1024), *g = rig_record(&s, ITEM_FORCE, 6000, 1024);
         double off = 0, all = 0;
         for (long n = 1000; n < 6000; n++) {
-            double want = 0.5 * (fine->x[n * overs[k] - 1] + fine->x[n * overs[k]]);
+            double want = fine->x[n * overs[k]];
             off += (g->x[n] - want) * (g->x[n] - want);
             all += want * want;
         }
@@ -207,6 +220,49 @@ START_TEST(the_audio_force_is_not_delayed)
         rig_close(fine);
         rig_close(g);
     }
+}
+END_TEST
+
+/* The audio force where tanh saturates, against 64 sub-intervals a sample: of third order (plain means are of second: 4.4 a doubling), as images of f_v, whose
+   spectrum falls as 1/f, fold in with sinc^2. */
+START_TEST(third_order_in_the_sub_intervals)
+{
+    static const int overs[] = {2, 4, 8, 64};
+    struct rig *g[4];
+    double off[3] = {0};
+    for (int k = 0; k < 4; k++) {
+        struct scene s = made(rig_arena(), arena_format(rig_arena(), "surface: {roughness: {rms: 5 um, shortest: 20 um}}\naccuracy: {oversampling: %d}\n"
+                                                        "contact: {beta1: 0, smoothing: 0 s, limiter: {alpha: 1 cm}}\n"
+                                                        "motion: {path: line, to: [3 cm, 0], speed: 25 cm/s}\n", overs[k]));
+        g[k] = rig_record(&s, ITEM_FORCE, 4000, 1024);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (long n = 500; n < 4000; n++)
+            off[k] += pow(g[k]->x[n] - g[3]->x[n], 2) / 3500;
+        off[k] = sqrt(off[k]);
+        printf("oversampling %d: rms error %.3g N\n", overs[k], off[k]);
+    }
+    for (int k = 0; k < 2; k++)
+        ck_assert_double_gt(off[k] / off[k + 1], pow(2, 2.8));
+    for (int k = 0; k < 4; k++)
+        rig_close(g[k]);
+}
+END_TEST
+
+/* A force that stands at 1 N, then jumps: hats by their definition, 1 - |t - t_j| / dt; they add up to the mean. */
+START_TEST(hats_add_up)
+{
+    struct hats h = {.early = {0.5, 0.5, 0.5, 0}, .late = {0.5, 0.5, 0.25, 0}};
+    struct board b = {.rate = 48000, .over = 1};
+    double x[4] = {9, 9, 9, 9};
+    static const double want[] = {0.5, 1, 1, 0.25};
+    b.signals[ITEM_SUBFORCE] = (struct signal){.per_frame = 1, .capacity = 4, .x = x};
+    hats_lay(&h, &b, 0, 2);
+    h.early[0] = h.early[2], h.late[0] = h.late[2], h.early[1] = h.late[1] = 0;
+    hats_lay(&h, &b, 2, 2);
+    for (int i = 0; i < 4; i++)
+        ck_assert_double_eq(x[i], want[i]);
+    ck_assert_double_eq(x[0] + x[1] + x[2] + x[3], 1 + 1 + 0.75);
 }
 END_TEST
 
@@ -258,7 +314,7 @@ START_TEST(limits_of_the_limiter)
 }
 END_TEST
 
-/* The hand lifts the scraper: exactly no force while N < 0, counted. omega^2 L tan theta = 4.2 g here. */
+/* The hand lifts the scraper: exactly no force by a hat both of whose sub-intervals have N < 0; counted. omega^2 L tan theta = 4.2 g here. */
 START_TEST(no_force_while_lifted_off)
 {
     struct arena *a = rig_arena();
@@ -266,13 +322,15 @@ START_TEST(no_force_while_lifted_off)
     struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
     const struct board *b = &g->run.board;
     double lifted = 0;
+    bool before = false;
     for (long i = 0; i < 2400 * 4; i++) {
         double t[2] = {(double)i / 192000, (double)(i + 1) / 192000}, ax[2], ay[2], load[2];
         trajectory_at(b->trajectory, 2, t, (struct trajectory_out){.ax = ax, .ay = ay});
         load_at(b->load, 2, t, ax, ay, load);
         bool up = load[0] + load[1] < 0;
-        if (up)
+        if (up && before)
             ck_assert(g->x[i] == 0);
+        before = up;
         lifted += up ? 1.0 / 192000 : 0;
     }
     ck_assert_double_gt(lifted, 0.015);
@@ -284,5 +342,5 @@ END_TEST
 UNIT("scrape", vertical_force_through_reversals, unlimited_force_through_reversals, alpha_that_varies, horizontal_force,
      sub_intervals_are_cut_at_turns, oblique_stroke_over_an_extruded_profile,
      means_are_exact, blocks_do_not_matter, a_turn_in_the_middle_of_a_sample,
-     a_stroke_straight_across_but_for_rounding, a_smoothing_of_seconds_is_refused, the_audio_force_is_not_delayed,
+     a_stroke_straight_across_but_for_rounding, a_smoothing_of_seconds_is_refused, the_audio_force_is_not_delayed, third_order_in_the_sub_intervals, hats_add_up,
      flat_surface_is_silent, limits_of_the_limiter, no_force_while_lifted_off)

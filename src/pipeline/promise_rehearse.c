@@ -1,0 +1,134 @@
+/* Rehearsals: what a knob's error is along the scene's own motion. That of each knob has all others at `draft`, those that the scene says as it says them. */
+#include <math.h>
+
+#include "convolution/ring_choice.h"
+#include "pipeline/promise_parts.h"
+#include "scene/accuracy.h"
+#include "scene/keys.h"
+
+#define FIRST 0.5 /* s of what comes in its order, to begin with */
+
+bool promise_rehearse_is(const struct promise_making *m, int knob)
+{
+    bool coupled = false;
+    for (int i = 0; i < m->asked->n_contacts; i++)
+        coupled = coupled || m->asked->contacts[i].contact.model == CONTACT_ROLL_COUPLED;
+    return m->used & 1u << knob && (keys_knobs[knob].scale == KEY_STEPS || (keys_knobs[knob].scale == KEY_SAMPLES && coupled));
+}
+
+static bool heard(const struct promise_making *m, int contact)
+{
+    unsigned targets = m->parts.parts[contact].plan.targets;
+    return m->sounds ? targets & ITEM_BIT(ITEM_SOUND) : targets != 0;
+}
+
+static bool make_excerpts(struct promise_making *m, double first, struct err *e)
+{
+    for (int i = 0; i < m->kept->n_contacts; i++) {
+        const struct contact *c = m->parts.parts[i].plan.contact;
+        bool moves = c && c->surface.response.choice && c->surface.response.choice->moves;
+        if (!heard(m, i))
+            continue;
+        if (!excerpts_make(m->kept, c, first, moves, m->arena, &m->excerpts[i], e))
+            return false;
+        for (int k = 0; k < 2; k++)
+            m->force[k][i] = ARENA_TAKE(m->arena, double, m->excerpts[i].frames);
+    }
+    return true;
+}
+
+static bool rehearse_at(struct promise_making *m, int knob, double value, struct err *e)
+{
+    struct accuracy set = m->kept->accuracy;
+    accuracy_turn(&set, (enum knob)knob, value);
+    for (int i = 0; i < m->kept->n_contacts; i++) {
+        double *older = m->force[1][i];
+        m->force[1][i] = m->force[0][i];
+        m->force[0][i] = older;
+        if (heard(m, i) && !excerpts_run(&m->excerpts[i], &set, m->force[0][i], e))
+            return false;
+    }
+    return true;
+}
+
+/* Of the last rehearsal, or of its difference from the one before, which is forgotten. */
+static double energy(struct promise_making *m, bool difference)
+{
+    double sum = 0;
+    for (int i = 0; i < m->kept->n_contacts; i++) {
+        for (long n = 0; difference && heard(m, i) && n < m->excerpts[i].frames; n++)
+            m->force[1][i][n] -= m->force[0][i][n];
+        sum += heard(m, i) ? excerpts_energy(&m->excerpts[i], m->force[difference][i]) : 0;
+    }
+    return sum;
+}
+
+/* What comes in its order may begin with silence: longer beginnings, until something is heard. */
+static bool begin_rehearsal(struct promise_making *m, int knob, double value, struct err *e)
+{
+    long before = -1, frames = 0;
+    for (double first = FIRST; frames != before; first *= 4) {
+        before = frames;
+        frames = 0;
+        if ((first > FIRST && !make_excerpts(m, first, e)) || !rehearse_at(m, knob, value, e))
+            return false;
+        if (energy(m, false) > 0)
+            break;
+        for (int i = 0; i < m->kept->n_contacts; i++)
+            frames += heard(m, i) ? m->excerpts[i].frames : 0;
+    }
+    return true;
+}
+
+static bool rehearse_knob(struct promise_making *m, int knob, struct err *e)
+{
+    const struct key_knob *k = &keys_knobs[knob];
+    struct promise_curve *c = &m->curves[knob];
+    bool down = k->scale == KEY_SAMPLES, fixed = promise_said(m, knob);
+    double end = down ? k->low : k->high, low = fixed ? accuracy_knob(&m->asked->accuracy, (enum knob)knob) : k->preset[0];
+    if (fixed && (down ? low < 2 * end : low > end / 2))
+        low = floor(down ? 2 * end : end / 2);
+    *c = (struct promise_curve){.order = k->order, .low = low, .down = down, .end = end};
+    if (!begin_rehearsal(m, knob, low, e))
+        return false;
+    while (!promise_curve_enough(c, m->whole) && !(fixed && c->n == 2)) {
+        struct err refused = {0};
+        if (!rehearse_at(m, knob, promise_curve_value(c, c->n + 1), &refused)) {
+            if (refused.kind != ERR_SCENE || c->n == 0) /* else it cannot be had any finer */
+                return err_set(e, refused.kind, "%s", refused.text);
+            c->end = promise_curve_value(c, c->n);
+            break;
+        }
+        double all = energy(m, false), apart = energy(m, true);
+        c->apart[c->n++] = all > 0 ? sqrt(apart / all) : 0;
+    }
+    return true;
+}
+
+bool promise_rehearse_chaos(const struct promise_making *m, bool failed, struct err *e)
+{
+    for (int i = 0; i < m->kept->n_contacts; i++) {
+        const struct excerpts *x = &m->excerpts[i];
+        if (!heard(m, i) || x->contact.contact.model != CONTACT_ROLL_COUPLED || (failed ? x->lift_offs : x->bounces) == 0)
+            continue;
+        err_about(e, NULL, "accuracy.error");
+        err_set(e, ERR_SCENE, "accuracy.error: contact '%s': no error of a ball that bounces can be promised: it leaves the surface %ld times in its first %.3g s, and each time "
+                              "whatever two renders differ by grows, until they follow each other no more; take accuracy.error out, choose a preset, and compare statistics (rasp accuracy)",
+                m->kept->contacts[i].name, x->lift_offs, (double)x->frames / m->kept->output.sample_rate);
+        return true;
+    }
+    return false;
+}
+
+bool promise_rehearse(struct promise_making *m, struct err *e)
+{
+    m->excerpts = ARENA_TAKE(m->arena, struct excerpts, m->kept->n_contacts);
+    for (int k = 0; k < 2; k++)
+        m->force[k] = ARENA_TAKE(m->arena, double *, m->kept->n_contacts);
+    if (!make_excerpts(m, FIRST, e))
+        return false;
+    for (int k = 0; k < KNOBS; k++)
+        if (promise_rehearse_is(m, k) && (!rehearse_knob(m, k, e) || promise_rehearse_chaos(m, false, e)))
+            return false;
+    return true;
+}

@@ -1,0 +1,112 @@
+/* The budget is shared in tenths of its square between the knobs that are free; the shares whose values cost the least, by the plans' predicted work, are taken, and
+   morph_error gets what whole numbers leave over. */
+#include <math.h>
+#include <string.h>
+
+#include "num/real.h"
+#include "pipeline/promise_parts.h"
+#include "scene/accuracy.h"
+#include "scene/keys.h"
+
+enum { SOURCES = 4 };
+
+struct sources {                 /* what is free to be chosen */
+    int n, knob[SOURCES + 1];    /* the last one may be morph_error */
+    int tenths[SOURCES + 1], best[SOURCES + 1];
+    double cost, left;           /* left: of the budget's square, share that what is said does not use */
+};
+
+/* The plans' predicted work; that of rings between the two that were planned, as a power of the error. */
+static double cost_of(const struct promise_making *m, const struct accuracy *set, double morph_tenths)
+{
+    struct scene s = *m->kept;
+    double all = 0;
+    s.accuracy = *set;
+    for (int i = 0; i < s.n_contacts; i++) {
+        const struct plan *p = &m->parts.parts[i].plan;
+        for (int k = 0; k < p->n; k++)
+            all += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].stage->work(p->contact, &s) : 0;
+    }
+    double ratio = m->work[0] > 0 && m->work[1] > 0 ? real_log(m->work[1] / m->work[0]) / real_log(9.0) : 0;
+    return all + (morph_tenths > 0 ? m->work[1] * (real_pow(1 / fmax(morph_tenths, 0.1), ratio) - 1) : 0);
+}
+
+/* Sets the knobs for shares of what is left; false: one has no such value. */
+static bool take(const struct promise_making *m, const struct sources *s, const int *tenths, struct accuracy *set, double *spent)
+{
+    *spent = 0;
+    for (int i = 0; i < s->n; i++) {
+        double square = s->left * tenths[i] / PROMISE_TENTHS;
+        if (s->knob[i] == KNOB_morph_error)
+            continue;
+        double value = promise_curve_least(&m->curves[s->knob[i]], m->whole * sqrt(square));
+        if (isnan(value))
+            return false;
+        double error = promise_curve_error(&m->curves[s->knob[i]], value) / m->whole;
+        *spent += error * error;
+        accuracy_turn(set, (enum knob)s->knob[i], value);
+    }
+    return true;
+}
+
+static void try_shares(const struct promise_making *m, struct sources *s)
+{
+    struct accuracy set = m->kept->accuracy;
+    double spent;
+    if (!take(m, s, s->tenths, &set, &spent))
+        return;
+    double cost = cost_of(m, &set, m->morphs && !promise_said(m, KNOB_morph_error) ? PROMISE_TENTHS * (s->left - spent) : 0);
+    if (cost < s->cost) {
+        s->cost = cost;
+        memcpy(s->best, s->tenths, sizeof s->best);
+    }
+}
+
+/* All ways to share out what is left among the sources from i on, a tenth at least to each. */
+static void share(const struct promise_making *m, struct sources *s, int i, int left)
+{
+    if (i == s->n - 1) {
+        s->tenths[i] = left;
+        try_shares(m, s);
+        return;
+    }
+    for (s->tenths[i] = 1; s->tenths[i] <= left - (s->n - 1 - i); s->tenths[i]++) {
+        int kept = s->tenths[i];
+        share(m, s, i + 1, left - kept);
+        s->tenths[i] = kept;
+    }
+}
+
+/* Of the budget's square, the share that knobs which are said leave. */
+static double left_over(const struct promise_making *m)
+{
+    double left = 1;
+    for (int k = 0; k < KNOBS; k++)
+        if (promise_rehearse_is(m, k) && promise_said(m, k)) {
+            double error = promise_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
+            left -= error * error;
+        }
+    if (m->morphs && promise_said(m, KNOB_morph_error))
+        left -= m->morph * m->morph / m->whole / m->whole;
+    return left;
+}
+
+bool promise_share(struct promise_making *m, double *morph_tenths)
+{
+    struct sources s = {.cost = HUGE_VAL, .left = left_over(m)};
+    double spent = 0;
+    for (int k = 0; k < KNOBS; k++)
+        if (!promise_said(m, k) && promise_rehearse_is(m, k) && s.n < SOURCES)
+            s.knob[s.n++] = k;
+    if (m->morphs && !promise_said(m, KNOB_morph_error))
+        s.knob[s.n++] = KNOB_morph_error;
+    if (s.n == 0) /* nothing is free: the margin is no matter */
+        return s.left >= 1 - real_exp10(PROMISE_MARGIN / 10);
+    if (s.left > 0)
+        share(m, &s, 0, PROMISE_TENTHS);
+    if (!isfinite(s.cost))
+        return false;
+    take(m, &s, s.best, &m->kept->accuracy, &spent);
+    *morph_tenths = s.knob[s.n - 1] == KNOB_morph_error ? PROMISE_TENTHS * (s.left - spent) : 0;
+    return true;
+}

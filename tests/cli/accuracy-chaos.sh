@@ -1,0 +1,24 @@
+# A ball that bounces: rasp accuracy says until when samples mean anything, and compares statistics after.
+mkdir tmp
+export TMPDIR=$PWD/tmp
+cat > drop.yaml <<'YAML'
+rasp: 1
+surface: {roughness: {rms: 0.3 um, shortest: 50 um}, material: ceramic, object: {shape: plate, length: 40 cm, width: 20 cm, thickness: 2.5 mm}}
+ball: {radius: 8 mm, material: glass}
+motion: {path: line, from: [8 cm, 8.3 cm], to: [12 cm, 8.3 cm], duration: 0.25 s}
+contact: {model: roll_coupled, roll: {mu: 0.5 s/m, drop: 2 mm}}
+output: {tail: 0 s, sample_rate: 16 kHz}
+YAML
+rasp accuracy drop.yaml --runs 1 --csv drop.csv > table
+awk -F, '
+    NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+    { until = $at["diverges_s"]; rows++ }
+    until <= 0.02 || until >= 0.25 { print "diverges when it falls, or never: " $0 }
+    $at["contact_share"] <= 0 || $at["contact_share"] >= 1 { print "no share of contact: " $0 }
+    $at["below_reference"] != 0 || $at["reference_snr_db"] != "inf" { print "an error of the reference is told, which nobody knows: " $0 }
+    $1 == "preset" && $2 == "high" { print "high follows until it diverges:", ($at["follows_s"] == until ? "yes" : "no"), ($at["third_octave_db"] > 0 && $at["spectral_db"] > 0 && $at["level_db"] != 0 ? "and has statistics" : "") }
+    $1 == "preset" && $2 == "reference" { print "reference follows itself to the end:", ($at["follows_s"] > until ? "yes" : "no") }
+    END { print (rows > 8 ? "knobs too" : "no knobs") }' drop.csv
+grep -o 'It is chaotic: from' table
+grep -Eo 'level +follows +contact' table | tr -s ' '
+ls tmp

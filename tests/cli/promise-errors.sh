@@ -1,0 +1,28 @@
+# What accuracy.error refuses, with what words, where and with which exit code.
+try() { "$@" || echo "exit code $?" >&2; }
+cat > scene.yaml <<'YAML'
+rasp: 1
+surface: {roughness: {rms: 5 um}}
+scraper: {mass: 20 g}
+motion: {path: line, to: [5 cm, 0], duration: 0.1 s}
+output: {quantity: force}
+accuracy:
+  error: -200 dB
+YAML
+cat > drop.yaml <<'YAML'
+rasp: 1
+surface: {roughness: {rms: 0.3 um, shortest: 50 um}, material: ceramic, object: {shape: plate, length: 40 cm, width: 20 cm, thickness: 2.5 mm}}
+ball: {radius: 8 mm, material: glass}
+motion: {path: line, from: [8 cm, 8.3 cm], to: [12 cm, 8.3 cm], duration: 0.25 s}
+contact: {model: roll_coupled, roll: {mu: 0.5 s/m, drop: 2 mm}}
+output: {tail: 0 s, sample_rate: 16 kHz}
+accuracy: {error: -60 dB}
+YAML
+try rasp render scene.yaml 2> words
+sed 's/leaves -[0-9.]* dB; the best that can be promised here is -[0-9]* dB/leaves X dB; the best Y dB/' words >&2
+try rasp check scene.yaml --set accuracy.error=-80 --set accuracy.oversampling=1 2> words
+sed 's/leaves -[0-9.]* dB/leaves X dB/; s/for -[0-9]* dB/for Y dB/' words >&2
+try rasp check drop.yaml 2> words
+sed 's/ [0-9]* times in/ N times in/' words >&2
+try rasp check scene.yaml --set accuracy.error=3
+ls

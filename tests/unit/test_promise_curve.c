@@ -1,0 +1,73 @@
+/* Orders and budgets of accuracy.error, against errors that are powers. */
+#include "pipeline/promise_curve.h"
+
+#include <math.h>
+
+#include "unit.h"
+
+/* Differences of neighbours of e = c v^-p, as rehearsals of signals whose errors are alike in shape have them. */
+static struct promise_curve of_power(double c, double p, int n)
+{
+    struct promise_curve o = {.order = 3, .low = 1, .end = 64, .n = n};
+    for (int i = 0; i < n; i++)
+        o.apart[i] = c * (pow(2, -p * i) - pow(2, -p * (i + 1)));
+    return o;
+}
+
+/* The power itself comes back, between the rehearsals and beyond them: to rounding. */
+START_TEST(power)
+{
+    struct promise_curve o = of_power(1e-2, 2, 3);
+    for (double v = 1; v <= 32; v++)
+        ck_assert_double_eq_tol(promise_curve_error(&o, v) / (1e-2 * pow(v, -2)), 1, 1e-9);
+}
+END_TEST
+
+/* What seems to fall faster than its order is not believed to, beyond what was seen: and what falls more slowly is. */
+START_TEST(order)
+{
+    struct promise_curve fast = of_power(1e-2, 5, 3), slow = of_power(1e-2, 1, 3);
+    double seen = promise_curve_error(&fast, 4);
+    ck_assert_double_eq_tol(promise_curve_error(&fast, 16) / seen, pow(4, -3), 1e-9);
+    ck_assert_double_eq_tol(promise_curve_error(&slow, 16) / 1e-2, 1.0 / 16, 1e-9);
+}
+END_TEST
+
+/* The least value that keeps an error, and none that does not. */
+START_TEST(least)
+{
+    struct promise_curve o = of_power(1e-2, 2, 3), down = of_power(1e-2, 2, 3);
+    ck_assert_double_eq(promise_curve_least(&o, 1.001e-2 / 49), 7);
+    ck_assert_double_eq(promise_curve_least(&o, 0.999e-2 / 49), 8);
+    ck_assert_double_eq(promise_curve_least(&o, 1), 1);
+    ck_assert(isnan(promise_curve_least(&o, 1e-2 / 65 / 65)));
+    down.down = true;
+    down.low = 64;
+    down.end = 1;
+    ck_assert_double_eq(promise_curve_least(&down, 1.001e-2 / 16), 16);
+}
+END_TEST
+
+/* Nothing is promised below the floor but what is the same to the bit. */
+START_TEST(lowest)
+{
+    struct promise_curve o = of_power(1e-7, 3, 3), none = {.order = 3, .low = 1, .end = 64, .n = 1};
+    ck_assert_double_eq(promise_curve_error(&o, 64), PROMISE_FLOOR);
+    ck_assert_double_eq(promise_curve_error(&none, 1), 0);
+    ck_assert_double_eq(promise_curve_least(&none, 1e-12), 1);
+}
+END_TEST
+
+/* Rehearsals end as soon as the answer is known, and where there is none. */
+START_TEST(enough)
+{
+    for (int n = 0; n < 5; n++) {
+        struct promise_curve o = of_power(1e-2, 2, n);
+        ck_assert_int_eq(promise_curve_enough(&o, 1e-3), n >= 2);       /* 4 does: e(4) = 6e-4, from what 1, 2 and 4 show */
+        ck_assert_int_eq(promise_curve_enough(&o, 1e-8), n >= 2);       /* 64 has 2.4e-6                                  */
+        ck_assert_int_eq(promise_curve_enough(&o, 2e-2), n >= 1);
+    }
+}
+END_TEST
+
+UNIT("promise_curve", power, order, least, lowest, enough)
