@@ -62,8 +62,9 @@ static bool values_fit(const struct analysis *a, struct err *e)
             return false;
     }
     const struct impact_modulation *m = &a->statistics.modulation;
-    if (m->found && !value_fits("rate of the modulation in Hz", m->rate, 0, 1000, e))
-        return false;
+    if (m->found && m->rate > 1000)
+        return err_set(e, ERR_SCENE, "the rate of the modulation is %.6g Hz, and a scene takes 0 to 1000: no file is written. If it is a beat of the series with its own grid, "
+                                     "--keep-modulation leaves it in the amplitudes; of a force of either sign, --signed may find none", m->rate);
     if (!a->lasts)
         return err_set(e, ERR_SCENE, "%s: no duration is known, and a scene needs one: %s", a->source.file, analyse_notes_unknown(a));
     return value_fits("theta", a->duration.theta, 0, 2, e) && value_fits("zeta in s", a->duration.zeta, 1e-7, 10, e);

@@ -18,14 +18,13 @@
    kappa and at corners as they are) for some shapes that the mean of T may have over direction and alpha, (flat, aside) in (c, d): S less what of T goes with
    these, by least squares over the motion (slope_level), times their lifts has none of them. They are, over 1/R,
 
-     [0], [1]  T of the curve -1/R that the ball follows over a high point, not limited and limited, along the path: 1 and tanh(alpha/R) / (alpha/R). Over the
-               ridges of a profile that curve is bent along x only: c = e_x^2 / R, limited as such
+     [0], [1]  T of the curve -1/R that the ball follows over a high point, not limited and limited, along the path: 1 and tanh(alpha/R) / (alpha/R). Over
+               ridges, of a profile along x or nothing but ridges in the plane, it is bent along their normal x only: c = e_x^2 / R, limited as such
      [2], [3]  over ridges that the path meets at changing angles, the same of d = -e_x e_y / R. Apart from [0], [1], as a straight way has no use of it
-     [2]..[5]  in the plane, where the path turns: what ridges in four directions 45 degrees apart would have, for what has a grain, c and d limited by the
+     [2]..[5]  else in the plane, where the path turns: what ridges in four directions 45 degrees apart would have, for what has a grain, c and d limited by the
                alpha of a constant force, times [1]. Without these the force of a ball that went round a circle over a grain of 20 swung by several weights
 
-   On a straight way, cut in pieces or not, [0] and [1] alone are left. Turned with the way, ground that is alike in all directions gives the same; pure
-   ridges in the plane to 0.4 of the weight, in means over 25 ms.
+   On a straight way, cut in pieces or not, [0] and [1] alone are left. Turned with the way, ground that is alike in all directions gives the same.
 
    Over a piece of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
 
@@ -107,13 +106,14 @@ static void slope_grain(struct slope *s)
     }
 }
 
-/* T of a ball's curve over a high point, -1/R, over T of that where alpha is 0; 1 where nothing is limited. Over ridges that run along y it is bent along x only. */
+/* T of a ball's curve over a high point, -1/R, over T of that where alpha is 0; 1 where nothing is limited. Over ridges it is bent across them only. */
 static void slope_flat(struct slope *s, double alpha)
 {
     double bend = alpha / s->radius;
     if (s->ridges) {
-        s->flat[0] = s->ex * s->ex;
-        s->aside[2] = -s->ex * s->ey;
+        double x = s->ex * s->normal[0] + s->ey * s->normal[1], y = s->ey * s->normal[0] - s->ex * s->normal[1];
+        s->flat[0] = x * x;
+        s->aside[2] = -x * y;
         s->aside[3] = slope_limited(bend, s->aside[2]);
     }
     if (s->ridges || alpha != s->alpha)
@@ -247,6 +247,18 @@ static void slope_use(void *self, const struct way_pieces *p)
     slope_gather(s, p);
 }
 
+/* Is the surface the same all along a direction? Then normal[] is across that. */
+static bool slope_ridges(struct slope *s, const struct stage_run *r)
+{
+    const struct surface *c = &r->contact->surface;
+    bool alone = c->ridges.given && !c->height_map && !c->roughness.given && !c->grit.given && !c->fractal.given;
+    if (!alone && r->board->relief->along != ALONG_X)
+        return false;
+    s->normal[0] = r->board->relief->along == ALONG_X ? 1 : real_sin(c->ridges.direction);
+    s->normal[1] = r->board->relief->along == ALONG_X ? 0 : -real_cos(c->ridges.direction);
+    return s->way.field;
+}
+
 bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
 {
     double given = r->contact->contact.leak;
@@ -259,11 +271,13 @@ bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
     s->way.self = s;
     if (!way_make(&s->way, r, WAY_ALONG, s->leak / 16, e))
         return false;
-    s->ridges = s->way.curved && r->board->relief->along == ALONG_X;
+    bool ridges = slope_ridges(s, r);
+    s->ridges = s->way.curved && ridges;
     s->levels = !s->way.curved ? 2 : s->ridges ? 4 : 6;
     s->bend = s->way.limiter ? limiter_constant(r->contact) / s->radius : 0;
-    if (!s->way.curved && r->board->relief->along == ALONG_X)
-        s->flat[0] = s->flat[1] = s->way.e[0] * s->way.e[0];
+    double across = s->way.e[0] * s->normal[0] + s->way.e[1] * s->normal[1];
+    if (!s->way.curved && ridges)
+        s->flat[0] = s->flat[1] = across * across;
     return true;
 }
 

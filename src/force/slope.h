@@ -19,7 +19,8 @@ struct slope {
     double lift[SLOPE_LEVELS];       /* m^2, S of the same                           */
     double radius, alpha, bend;      /* m, R; m, alpha last met; alpha/R where the load is constant, 0 without a limiter */
     double flat[SLOPE_LEVELS], aside[SLOPE_LEVELS]; /* 1, over 1/R: shapes of the mean of T (force/slope.c) */
-    bool ridges;                     /* H is -1/R across the ridges of a profile, which the path meets at changing angles */
+    bool ridges;                     /* the surface is the same along a direction, which the path meets at changing angles */
+    double normal[2];                /* then the unit vector across that direction  */
     double bent[SLOPE_LEVELS];       /* integral so far of T(c) flat[k] + T(d) aside[k] ds */
     double gone[SLOPE_LEVELS][SLOPE_LEVELS]; /* m, of flat[k] flat[j] + aside[k] aside[j] ds, j <= k */
     double ex, ey;                   /* e where they are; 0, 0: nowhere yet          */
