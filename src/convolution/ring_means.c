@@ -87,12 +87,17 @@ static void choose_ramp(struct ring_choosing *c)
         c->to->error = ring_error_all(&c->survey, &ask);
 }
 
-/* Is any mode dropped before the sound ends? */
+/* Is any mode dropped before the sound ends? A node is dropped by its own decay: the greatest of the way counts, at 65 instants. */
 static bool forgets(const struct ring_choosing *c)
 {
+    const struct modes *m = &c->to->modes;
+    struct modes_point at = modes_point_make(c->arena, m->n);
     double fastest = 0;
-    for (int i = 0; i < c->to->modes.n; i++)
-        fastest = fmax(fastest, c->to->modes.slowest[i]);
+    for (int k = 0; k <= 64; k++) {
+        ring_along_at(&c->survey.along, c->survey.duration * k / 64, &at);
+        for (int i = 0; i < m->n; i++)
+            fastest = fmax(fastest, m->shared ? m->decay[i] : at.decay[i]);
+    }
     return 8.686 * fastest * c->heard.most > c->to->forgotten;
 }
 
