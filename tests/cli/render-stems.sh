@@ -27,7 +27,9 @@ END
 rasp render -q pane.yaml
 format pane.wav pane.force.wav pane.surface.wav
 summary pane.json
-rasp plan pane.yaml | head -1
+rasp plan pane.yaml > plan
+head -1 plan
+rm plan
 echo "-- the effective scene gives the same bytes"
 mkdir again
 rasp render -q pane.scene.yaml -o again/
