@@ -14,6 +14,7 @@ struct ringing {              /* h_p(t), sample 0 at t = 0 (the strike), of one 
     const double *const *noise; /* [places][noise_n] the same channel where nothing rings (before the strike), NULL or noise_n 0: not known */
     long noise_n;
     const double *const *unsure; /* [places][n/2 + 1] |FFT|^2/n of the error that h has besides noise, as strikes that differ make it; NULL: not known */
+    const double *rounding;   /* [places] rms of what the file's steps did to h: no noise is less; NULL: not known */
     double low, high;         /* Hz: the band in which h means anything (a hammer's reach); 0, rate/2: all */
 };
 

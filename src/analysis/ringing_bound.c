@@ -1,8 +1,7 @@
 /* A bound on the components. In the response of a real strike what is left of a fit is no noise that more components would leave alone: strikes fall a little beside each other,
    the object is not quite linear, the microphone hears a room. A search until nothing stands out would not end before it has as many components as the response has freedom.
-   So the fit never has more than some one and a half times the modes that are asked for; and of those that are more than were asked for, the ones go without which the energy that
-   is left rises least (backward elimination; the others' gains follow, a quarter of the surplus at once). What then is told of is a fit by itself, not a choice from
-   a greater one, whose components cancel where they are near each other. */
+   So the fit never has more than some one and a half times the modes that are looked for; and of those that are more, the ones go without which the energy that
+   is left rises least (backward elimination; the others' gains follow, a quarter of the surplus at once). The same makes, where modes overlap, a fit of no more than are asked for. */
 #include "analysis/ringing_bound.h"
 
 #include <math.h>

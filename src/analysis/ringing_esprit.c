@@ -5,8 +5,9 @@
 
    The response of a real strike is not all modes. What strikes do not agree on is an error of the response that stands under the modes and is no noise (ringing_noise.c): components
    are held against it too, by DOUBT of it, as tests that ask for some 60 times the level, so that nothing comes of noise among n samples, ask for 6 times an error that stands
-   where the modes are; in the standard errors it counts whole. And the fit has a bound (ringing_bound.c): one and a half times the modes that are asked for while it
-   searches, those that are asked for in the end, when they are fitted once more by themselves. What then still moves is told of (ringing_settle.c). */
+   where the modes are; in the standard errors it counts whole. And the fit has a bound (ringing_bound.c): one and a half times the modes that are asked for, or
+   that are asked for by default, if these are more: what is there and not in the fit makes the rest of it wrong. The strongest of it are told of; only where they by themselves leave far
+   more than a fit of no more does (modes that overlap), that fit is. What still moves in the end is told of (ringing_settle.c). */
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@
 #include "analysis/ringing_bound.h"
 #include "analysis/ringing_candidates.h"
 #include "analysis/ringing_fit.h"
+#include "analysis/ringing_hums.h"
 #include "analysis/ringing_report.h"
 #include "analysis/ringing_select.h"
 #include "analysis/ringing_settle.h"
@@ -52,11 +54,12 @@ struct search {
 static void search_open(struct search *s, const struct ringing *r, const struct ringing_options *o, struct arena *a)
 {
     *s = (struct search){.r = r, .o = o};
-    long room = r->n / 8, wanted = 8L * o->most + 200;
+    long room = r->n / 8, wanted = 8L * (o->most > ringing_options.most ? o->most : ringing_options.most) + 200;
     ringing_fit_open(&s->fit, r, (int)(room < wanted ? room : wanted), a);
     ringing_noise_open(r, a, &s->noise);
     s->noise.doubt = DOUBT;
-    s->bound = o->most + o->most / 2 + SPARE < s->fit.most / 2 ? o->most + o->most / 2 + SPARE : s->fit.most / 2;
+    int most = o->most > ringing_options.most ? o->most : ringing_options.most, bound = most + most / 2 + SPARE;
+    s->bound = bound < s->fit.most / 2 ? bound : s->fit.most / 2;
     double low = fmax(o->low, r->low), high = r->high > 0 ? r->high : r->rate / 2;
     if (o->high > 0)
         high = fmin(high, o->high);
@@ -170,6 +173,45 @@ static void finish(struct search *s)
     }
 }
 
+/* The fit as it is, and what of it still moves. */
+static void told_make(struct search *s, struct arena *a, struct ringing_modes *m)
+{
+    const char *moving = ringing_settle(&s->fit, &s->noise, (const double[]){s->low, s->high}, a);
+    ringing_report(&s->fit, &s->noise, s->o, a, m);
+    if (moving)
+        m->note = m->note ? arena_format(a, "%s\n%s", m->note, moving) : moving;
+}
+
+static bool holds(const struct ringing_modes *m, int places)
+{
+    bool all = true;
+    for (int p = 0; p < places; p++)
+        all = all && m->explained[p] >= 0;
+    return all;
+}
+
+/* Where more were found than are asked for: a fit of no more, if it leaves far less than the strongest of all, as where modes lie so near each other that one does not stand by itself. */
+static void reduced_make(struct search *s, struct arena *a, struct ringing_modes *m)
+{
+    struct ringing_modes fewer;
+    double left = 0, before = 0;
+    if (!ringing_bound_modes(&s->fit, &s->noise, s->o))
+        return;
+    ringing_blocks_renew(&s->fit);
+    ringing_blocks_settle(&s->fit, STEPS, part_polish, s);
+    ringing_hums_drop(&s->fit, &s->noise, false);
+    told_make(s, a, &fewer);
+    for (int p = 0; p < s->r->places; p++) {
+        left += 1 - fewer.explained[p];
+        before += 1 - m->explained[p];
+    }
+    if (before < 2 * left + 0.01 * s->r->places)
+        return;
+    *m = fewer;
+    const char *note = arena_format(a, "more modes were found than the %d that are told of, so near each other that these are a fit of %d to all: a greater --modes tells them apart", m->modes, m->modes);
+    m->note = m->note ? arena_format(a, "%s\n%s", note, m->note) : note;
+}
+
 bool ringing_esprit(const struct ringing *r, const struct ringing_options *o, struct arena *a, struct ringing_modes *m, struct err *e)
 {
     struct search s;
@@ -189,14 +231,11 @@ bool ringing_esprit(const struct ringing *r, const struct ringing_options *o, st
     ringing_slopes_tie(&s.fit, &s.noise, o->slope_test);
     if (ringing_blocks_many(&s.fit))
         ringing_blocks_run(&s.fit, SETTLE, part_polish, &s);
-    if (ringing_bound_modes(&s.fit, &s.noise, o)) {
-        ringing_blocks_renew(&s.fit);
-        ringing_blocks_settle(&s.fit, STEPS, part_polish, &s);
-    }
-    const char *moving = ringing_settle(&s.fit, &s.noise, (const double[]){s.low, s.high}, a);
-    ringing_report(&s.fit, &s.noise, o, a, m);
-    if (moving)
-        m->note = m->note ? arena_format(a, "%s\n%s", m->note, moving) : moving;
+    ringing_hums_drop(&s.fit, &s.noise, false);
+    told_make(&s, a, m);
+    if (s.fit.m > 1 && !holds(m, r->places) && ringing_hums_drop(&s.fit, &s.noise, true) > 0)
+        told_make(&s, a, m);
+    reduced_make(&s, a, m);
     ringing_noise_close(&s.noise);
     arena_close(inner);
     return true;

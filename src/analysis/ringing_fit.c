@@ -48,6 +48,8 @@ void ringing_fit_open(struct ringing_fit *f, const struct ringing *r, int most, 
     for (int p = 0; p < r->places; p++) {
         memcpy(f->residual + p * r->n, r->h[p], (size_t)r->n * sizeof(double));
         f->least[p] = energy_of(r->h[p], r->n) * RINGING_FIT_ROUNDING * RINGING_FIT_ROUNDING;
+        if (r->rounding)
+            f->least[p] = fmax(f->least[p], (double)r->n * r->rounding[p] * r->rounding[p]);
     }
 }
 

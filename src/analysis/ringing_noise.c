@@ -1,7 +1,7 @@
 /* The level of noise around a frequency, from what is left of the response: the mean of the periodogram |R_k|^2/n over at least BINS bins (of a short response fewer, a 25th of all, not below FEWEST) and as far as the component's own
    width, times bins/(bins - what the components there have taken of it: two each). What is not noise but rings still counts as noise, so that a fit that lacks something is not
    trusted more than it deserves. Where the channel was recorded with nothing ringing, its level there (Welch, 50 % overlap, Hann) counts if it is greater: a hum is no
-   mode. So does the response's own error, where strikes say how large that is: what they do not agree on is no property of the object. No level is taken for less than rounding's. */
+   mode. So does the response's own error, where strikes say how large that is: what they do not agree on is no property of the object. No level is taken for less than rounding's, be it of the numbers here or of the file. */
 #include "analysis/ringing_noise.h"
 
 #include <math.h>
@@ -53,6 +53,8 @@ void ringing_noise_open(const struct ringing *r, struct arena *a, struct ringing
         for (long i = 0; i < r->n; i++)
             s->least[p] += r->h[p][i] * r->h[p][i] / (double)r->n;
         s->least[p] = fmax(s->least[p] * RINGING_FIT_ROUNDING * RINGING_FIT_ROUNDING, 1e-290);
+        if (r->rounding)
+            s->least[p] = fmax(s->least[p], r->rounding[p] * r->rounding[p]);
     }
     if (!r->noise || r->noise_n < 64)
         return;
@@ -93,7 +95,7 @@ static void span_make(const struct ringing_noise *s, const struct ringing_fit *f
     }
 }
 
-static double given_level(const struct ringing_noise *s, int place, double hertz)
+double ringing_noise_given(const struct ringing_noise *s, int place, double hertz)
 {
     const double *level = s->given + place * (s->given_bins + 1);
     long k = (long)fmin((double)s->given_bins, rint(hertz / s->given_width)), from = k > 0 ? k - 1 : k, to = k < s->given_bins ? k + 1 : k;
@@ -127,7 +129,7 @@ void ringing_noise_levels(const struct ringing_noise *s, const struct ringing_fi
             if (s->unsure)
                 level = fmax(level, s->doubt * unsure_level(s, p, &at));
             if (s->given)
-                level = fmax(level, given_level(s, p, f->omega[i] / (2 * REAL_PI)));
+                level = fmax(level, ringing_noise_given(s, p, f->omega[i] / (2 * REAL_PI)));
             variance[p * f->m + i] = fmax(level, s->least[p]);
             freedom[i] = 2 * left;
         }

@@ -25,6 +25,9 @@ void ringing_noise_close(struct ringing_noise *s);
 /* Of the fit's residual: variance[places][m], as of one sample of white noise that is as strong there; freedom[m] degrees of freedom behind one of them. */
 void ringing_noise_levels(const struct ringing_noise *s, const struct ringing_fit *f, double *variance, double *freedom);
 
+/* Level of the noise that is given at a frequency, mean of three bins. */
+double ringing_noise_given(const struct ringing_noise *s, int place, double hertz);
+
 /* Energy of x[n] between two frequencies. */
 double ringing_noise_energy(const double *x, long n, double rate, const double band[2]);
 

@@ -1,10 +1,12 @@
-/* From a fit to the modes that are told of. Left out: the constant; what lies outside the band that was asked for; and what does not decay by more than twice
-   its standard error (a hum, not an object that rings): that is told in a note. */
+/* From a fit to the modes that are told of. Left out: the constant; what lies outside the band that was asked for; and hums (ringing_hums.c), which stay in the
+   fit: they are told of in a note. */
 #include "analysis/ringing_report.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "analysis/ringing_blocks.h"
+#include "analysis/ringing_hums.h"
 #include "analysis/ringing_select.h"
 #include "num/real.h"
 
@@ -53,16 +55,14 @@ static int by_energy(const void *x, const void *y)
     return a->energy > b->energy ? -1 : a->energy < b->energy ? 1 : a->first - b->first;
 }
 
-static bool decays(const struct ringing_fit *f, const struct ringing_fit_errors *e, int i) { return f->decay[i] > 2 * e->decay[i]; }
-
 /* A line for each that does not decay: rms where it is strongest, and against the whole response there. */
-static const char *hums_note(const struct ringing_fit *f, const double band[2], const struct ringing_fit_errors *e, struct arena *a)
+static const char *hums_note(const struct ringing_fit *f, const double band[2], const enum ringing_hums_kind *kind, struct arena *a)
 {
     const char *note = NULL;
     int n = 0;
     for (int i = 1; i < f->m; i++) {
         double hertz = f->omega[i] / (2 * REAL_PI), rms = 0, share = 0;
-        if (f->held[i] || hertz < band[0] || hertz > band[1] || decays(f, e, i) || ++n > TOLD)
+        if (f->held[i] || hertz < band[0] || hertz > band[1] || kind[i] != RINGING_HUMS_HUM || ++n > TOLD)
             continue;
         for (int p = 0; p < f->r->places; p++) {
             double complex b = f->gain[(long)p * f->most + i];
@@ -78,17 +78,46 @@ static const char *hums_note(const struct ringing_fit *f, const double band[2], 
     return n > TOLD ? arena_format(a, "%s\n%d more that do not decay are left out", note, n - TOLD) : note;
 }
 
+/* Modes whose decay is not known. */
+static const char *vague_note(const struct ringing_fit *f, const double band[2], const struct ringing_fit_errors *e, const enum ringing_hums_kind *kind, struct arena *a)
+{
+    const char *note = NULL;
+    for (int i = 1; i < f->m; i++) {
+        double hertz = f->omega[i] / (2 * REAL_PI);
+        if (kind[i] == RINGING_HUMS_MODE && hertz >= band[0] && hertz <= band[1])
+            note = arena_format(a, "%s%s%.5g Hz decays by no more than chance (%.2g 1/s, standard error %.2g), but is no hum, as the noise before the strikes does not hold it; the table has at least that error as its decay", note ? note : "",
+                                note ? "\n" : "", hertz, f->decay[i], e->decay[i]);
+    }
+    return note;
+}
+
+/* Their decay is at least its standard error, or they would ring for ever; the gains follow. */
+static bool vague_bound(struct ringing_fit *f, const struct ringing_fit_errors *e, const enum ringing_hums_kind *kind)
+{
+    bool any = false;
+    for (int i = 1; i < f->m; i++)
+        if (kind[i] == RINGING_HUMS_MODE && f->decay[i] < e->decay[i]) {
+            f->decay[i] = e->decay[i];
+            any = true;
+        }
+    if (any) {
+        ringing_blocks_renew(f);
+        ringing_blocks_gains(f);
+    }
+    return any;
+}
+
 /* The sum of its slopes' sounds, together, is what a mode's energy is: here the sum of each alone, which is what the mode table is sorted by. */
-static int groups_make(const struct ringing_fit *f, double low, double high, const struct ringing_fit_errors *e, struct group *g)
+static int groups_make(const struct ringing_fit *f, double low, double high, const enum ringing_hums_kind *kind, struct group *g)
 {
     int n = 0;
     for (int i = 1; i < f->m; i++) {
         double hertz = f->omega[i] / (2 * REAL_PI);
-        if (f->tie[i] >= 0 || f->held[i] || hertz < low || hertz > high || !decays(f, e, i))
+        if (f->tie[i] >= 0 || f->held[i] || hertz < low || hertz > high || kind[i] > RINGING_HUMS_MODE)
             continue;
         g[n] = (struct group){i, -1, energy_of(f, i)};
         for (int k = 1; k < f->m; k++)
-            if (f->tie[k] == i && decays(f, e, k)) {
+            if (f->tie[k] == i && kind[k] <= RINGING_HUMS_MODE) {
                 g[n].second = k;
                 g[n].energy += energy_of(f, k);
             }
@@ -149,7 +178,11 @@ void ringing_report(struct ringing_fit *f, const struct ringing_noise *noise, co
     all.doubt = 1;
     ringing_select_errors(f, noise, inner, &e);
     ringing_select_errors(f, &all, inner, &told);
-    int n = groups_make(f, low, high, &e, g);
+    enum ringing_hums_kind *kind = ARENA_TAKE(inner, enum ringing_hums_kind, f->m);
+    ringing_hums_kinds(f, noise, &e, kind);
+    if (vague_bound(f, &e, kind))
+        ringing_select_errors(f, &all, inner, &told);
+    int n = groups_make(f, low, high, kind, g);
     m->modes = n < o->most ? n : o->most;
     m->mode = ARENA_TAKE(a, struct ringing_mode, 2 * m->modes);
     for (int i = 0; i < m->modes; i++)
@@ -160,7 +193,9 @@ void ringing_report(struct ringing_fit *f, const struct ringing_noise *noise, co
             to->slope = s + 1;
         }
     shares_make(f, (const double[]){low, high}, inner, m);
-    const char *hums = hums_note(f, (const double[]){low, high}, &e, a), *line = hums ? "\n" : "";
+    const char *hums = hums_note(f, (const double[]){low, high}, kind, a), *vague = vague_note(f, (const double[]){low, high}, &e, kind, a);
+    hums = hums && vague ? arena_format(a, "%s\n%s", hums, vague) : hums ? hums : vague;
+    const char *line = hums ? "\n" : "";
     hums = hums ? hums : "";
     m->note = *hums ? hums : NULL;
     if (n > m->modes)

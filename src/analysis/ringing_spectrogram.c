@@ -15,6 +15,7 @@
 
 #include "analysis/ringing_complex.h"
 #include "analysis/ringing_fit.h"
+#include "analysis/ringing_hums.h"
 #include "analysis/ringing_report.h"
 #include "analysis/ringing_select.h"
 #include "num/fft.h"
@@ -228,6 +229,7 @@ bool ringing_spectrogram(const struct ringing *r, const struct ringing_options *
     search(r, o, inner, &f);
     ringing_fit_gains(&f);
     ringing_select_drop(&f, &noise, &(struct ringing_select){o->confidence / (double)r->n, 1});
+    ringing_hums_drop(&f, &noise, false);
     ringing_report(&f, &noise, o, a, m);
     ringing_noise_close(&noise);
     arena_close(inner);

@@ -58,6 +58,19 @@ static double greatest(const double *x, long from, long to)
     return most;
 }
 
+struct limits {
+    double full, offset;
+    const double *clip;
+};
+
+static bool clips(const double *x, long from, long to, const struct limits *l)
+{
+    bool any = false;
+    for (long i = from; i < to; i++)
+        any = any || fabs(x[i] + l->offset) >= clip_share * l->full || (l->clip[0] < 0.0 && x[i] <= l->clip[0]) || (l->clip[1] > 0.0 && x[i] >= l->clip[1]);
+    return any;
+}
+
 /* ------------------------------------------------------------------ by the force */
 
 /* The pulse whose maximum is at `top`. */
@@ -111,7 +124,7 @@ static void measure(const struct finder *f, struct strikes_one *v)
     v->momentum = 0.0;
     for (long i = v->onset; i < v->over; i++)
         v->momentum += (f->force[i] - v->base) / r->rate;
-    v->clipped = greatest(r->force, v->onset, v->over) >= clip_share * r->force_full;
+    v->clipped = clips(r->force, v->onset, v->over, &(struct limits){r->force_full, r->force_offset, r->force_clip});
 }
 
 static void by_force(struct finder *f)
@@ -206,7 +219,7 @@ static void ends(struct finder *f)
     for (int k = 0; k < s->n; k++) {
         struct strikes_one *v = &s->strike[k];
         v->end = k + 1 < s->n ? s->strike[k + 1].onset - margin : r->n;
-        v->clipped = v->clipped || greatest(r->sound, v->onset, v->end) >= clip_share * r->full;
+        v->clipped = v->clipped || clips(r->sound, v->onset, v->end, &(struct limits){r->full, r->offset, r->clip});
     }
 }
 

@@ -15,6 +15,9 @@ struct strikes_recording {
     double delay;           /* s, by which the sound comes after the force (the way to the microphone); NAN: to be found */
     double full;            /* the greatest value that the file can hold, in the sound's and the force's own unit: what reaches it is clipped; INFINITY: floating point */
     double force_full;
+    double offset, force_offset;   /* that strikes_channel.h took off */
+    double clip[2], force_clip[2]; /* levels below and above at which a channel clips (strikes_channel.h); 0: it does not */
+    double rounding;        /* rms of what the file's steps do to the sound; 0: not known */
 };
 
 struct strikes_one {
@@ -51,11 +54,12 @@ struct strikes_response {
     double low, high;       /* Hz, where the force holds enough and the strikes agree; without force: 0, rate/2 */
     double *unsure;         /* [n/2 + 1] |FFT|^2/n of h's own error, as far as strikes disagree; NULL with one strike */
     double *coherence;      /* [n/2 + 1] share of the sound that the response explains, strikes together; NULL with one strike */
-    double *explained;      /* [strikes] the same share of each strike's sound, all frequencies; NAN where the strike is left out */
+    double *explained;      /* [strikes] the same share of each strike's sound over h's length, all frequencies, noise off; NAN where the strike is left out */
     int used;
     double delay;           /* s, by which the sound comes after the force, taken off so that h begins at 0 */
     double smear;           /* s, within which h is not sharp, for want of high frequencies: modes are to be fitted to what comes later */
     double regularisation;  /* that was used */
+    double rounding;        /* rms of what the recording's rounding does to h, at least */
     const char *note;       /* lines; NULL */
 };
 

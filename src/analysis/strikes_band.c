@@ -162,14 +162,6 @@ void strikes_band_fade(const struct strikes_job *j, double *x, long n, bool shap
 
 /* ------------------------------------------------------------------ coherence */
 
-static double energy(const double *x, long from, long to)
-{
-    double total = 0.0;
-    for (long i = from; i < to; i++)
-        total += x[i] * x[i];
-    return total;
-}
-
 /* The variance of H1: what k strikes leave, of k - 1 degrees of freedom, over the force's power. */
 static void unsure_make(struct strikes_job *j, const struct spectra *s)
 {
@@ -188,10 +180,8 @@ void strikes_band_coherence(struct strikes_job *j)
     struct arena *a = arena_open();
     struct strikes_response *h = j->h;
     h->explained = ARENA_TAKE(j->a, double, j->s->n);
-    for (int k = 0; k < j->s->n; k++) {
-        const struct strikes_one *v = &j->s->strike[k];
-        h->explained[k] = j->used[k] ? 1.0 - energy(j->left, v->onset, v->end) / energy(j->r->sound, v->onset, v->end) : NAN;
-    }
+    for (int k = 0; k < j->s->n; k++)
+        h->explained[k] = j->used[k] ? strikes_response_explained(j, &j->s->strike[k]) : NAN;
     if (h->used > 1) {
         struct spectra s = spectra(j, h->n, a);
         h->coherence = ARENA_TAKE(j->a, double, h->n / 2 + 1);

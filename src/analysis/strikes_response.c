@@ -100,13 +100,22 @@ static void note(struct strikes_job *j, const char *text)
     j->h->note = j->h->note ? arena_format(j->a, "%s\n%s", j->h->note, text) : text;
 }
 
+/* Does a strike begin in the ringing of another? */
+static bool overlap(const struct strikes_job *j)
+{
+    bool any = false;
+    for (int k = 0; k + 1 < j->s->n; k++)
+        any = any || j->s->strike[k + 1].onset - j->s->strike[k].onset < j->system.length;
+    return any;
+}
+
 static void solve(struct strikes_job *j)
 {
     double left;
     j->h->h = ARENA_TAKE(j->a, double, j->h->length);
     j->left = ARENA_TAKE(j->a, double, j->r->n);
     strikes_solve(&j->system, j->h->h, &left);
-    if (left > 1e-3)
+    if (left > 1e-3 && overlap(j))
         note(j, arena_format(j->a, "strikes run into each other so that they are not wholly told apart: the search ended at %.2g of what it began with; longer pauses help", left));
     strikes_solve_sound(&j->system, j->h->h, j->left);
     for (long i = 0; i < j->r->n; i++)
@@ -133,14 +142,23 @@ static void notes(struct strikes_job *j)
         note(j, "nothing in the recording is quiet, so its noise is not known: a second of silence before the first strike tells it");
 }
 
-static double explained(const struct strikes_job *j, const struct strikes_one *v)
+/* Mean square where nothing rings: noise, and what hums. */
+static double quiet(const struct strikes_job *j)
 {
-    double sound = 0.0, left = 0.0;
-    for (long i = v->onset; i < v->end; i++) {
-        sound += j->r->sound[i] * j->r->sound[i];
-        left += j->left[i] * j->left[i];
+    double sum = 0.0, n = (double)(j->quiet_to - j->quiet_from);
+    for (long i = j->quiet_from; i < j->quiet_to; i++)
+        sum += j->r->sound[i] * j->r->sound[i] / n;
+    return sum;
+}
+
+double strikes_response_explained(const struct strikes_job *j, const struct strikes_one *v)
+{
+    double sound = 0.0, left = 0.0, noise = quiet(j);
+    for (long i = v->onset; i < v->end && i < v->onset + j->system.length; i++) {
+        sound += j->r->sound[i] * j->r->sound[i] - noise;
+        left += j->left[i] * j->left[i] - noise;
     }
-    return 1.0 - left / sound;
+    return sound > 0.0 ? 1.0 - fmax(left, 0.0) / sound : 0.0;
 }
 
 /* Leaves out the strikes that ring unlike the others, while most agree; true: some were. */
@@ -148,14 +166,14 @@ static bool disagree(struct strikes_job *j)
 {
     int good = 0, bad = 0;
     for (int k = 0; k < j->s->n; k++) {
-        bool poor = j->used[k] && !(explained(j, &j->s->strike[k]) >= alike);
+        bool poor = j->used[k] && !(strikes_response_explained(j, &j->s->strike[k]) >= alike);
         bad += poor;
         good += j->used[k] && !poor;
     }
     if (bad == 0 || good < 2 || bad > good)
         return false;
     for (int k = 0; k < j->s->n; k++)
-        j->used[k] = j->used[k] && explained(j, &j->s->strike[k]) >= alike;
+        j->used[k] = j->used[k] && strikes_response_explained(j, &j->s->strike[k]) >= alike;
     j->h->used = good;
     return true;
 }
@@ -191,6 +209,7 @@ bool strikes_response(const struct strikes_recording *r, const struct strikes *s
     take_noise(&j);
     take_delay(&j);
     strikes_end(&j);
+    h->rounding = r->rounding * r->rate / sqrt(j.most);
     strikes_band_coherence(&j);
     h->smear = h->high < 0.45 * r->rate ? 3.0 / h->high : 1.0 / r->rate;
     notes(&j);

@@ -35,6 +35,9 @@ void strikes_band(struct strikes_job *j);
    strikes_solve_size] (real). */
 void strikes_band_fade(const struct strikes_job *j, double *x, long n, bool shaped);
 
+/* The share of a strike's sound, over the response's length and without what is noise, that the response explains. */
+double strikes_response_explained(const struct strikes_job *j, const struct strikes_one *v);
+
 /* Coherence, the response's error and each strike's explained share. */
 void strikes_band_coherence(struct strikes_job *j);
 

@@ -255,7 +255,8 @@ const struct command analyse_command = {
             "amplitudes and of the times between them, with 95 % intervals: means, ARMA(1,1) filters, the whitened series and their distributions, whether one "
             "process drives both, a modulation; how durations depend on amplitudes, in 002's two steps; which shape impacts have (raised cosine, Meixner window); "
             "and what makes the estimates doubtful. Draws that were raised to a floor bias means (too high) and deviations (too small): they are told in a table of impacts, "
-            "but in a force, where weak impacts close together merge, mostly not. "
+            "but in a force, where weak impacts close together merge, mostly not. In a series of a long tail (marginal lognormal, rough) a slight modulation may be found where "
+            "there is none: --keep-modulation leaves it. "
             "The parameter file is a scene part with contact.model impacts: a scene that includes it draws other impacts of the amplitudes, intervals and durations found. "
             "How near it comes depends on how well the force is a series of impacts: bounces are, a contact that never parts is not, and the notes say so. "
             "The force should be whole: what output.ramp, load.approach or load.release fade is weaker but no longer, and theta comes out too small.",

@@ -95,7 +95,7 @@ static const struct args_option options[] = {
     {"force-scale", 0, "NEWTONS", false, "extract: what full scale (floating point: 1) of the force's channel stands for"},
     {"radius", 0, "LENGTH", false, "extract: of a sphere of the object's size; with --distance a microphone's pressure is turned into the surface's velocity"},
     {"distance", 0, "LENGTH", false, "extract: from that sphere's middle to the microphone"},
-    {"delay", 0, "TIME", false, "extract: by which the sound's channel comes after the force's; default: of pressure found in the response, else 0"},
+    {"delay", 0, "TIME", false, "extract: by which the sound's channel comes after the force's; default: of pressure, and with --impulse behind silence, found in the response, else 0"},
     {"impulse", 0, NULL, false, "extract: the recordings are impulse responses already, sample 0 at the strike"},
     {"low", 0, "FREQUENCY", false, "extract: modes are looked for from here on; default: where the sound stands out of the noise"},
     {"high", 0, "FREQUENCY", false, "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest"},

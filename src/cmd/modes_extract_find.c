@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/strikes_channel.h"
 #include "cmd/modes_extract.h"
 #include "num/real.h"
 
@@ -29,21 +30,41 @@ static void place_note(struct modes_extract *x, const struct modes_extract_place
 
 /* ------------------------------------------------------------------ responses */
 
-/* A recording that is a response already: its delay is taken off. */
+/* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins there, if all before is fainter. One more stays, as sample 0. */
+static long begins(const double *h, long n, double most)
+{
+    long at = 0, start, before = 0;
+    while (at < n && fabs(h[at]) < 0.2 * most)
+        at++;
+    for (start = at; start > 0 && fabs(h[start - 1]) >= 0.01 * most;)
+        start--;
+    while (before < start && fabs(h[before]) < 0.01 * most)
+        before++;
+    return before == start && start > 2 && at - start <= 16 ? start - 1 : 0;
+}
+
+/* A recording that is a response already: its delay is taken off; if none is given, what is silent before it. */
 static bool impulse(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
 {
     const struct strikes_recording *r = &p->recording;
-    long shift = (long)rint(x->given.delay * r->rate);
-    double most = 0.0;
+    double most = 0.0, clip[2];
+    for (long i = 0; i < r->n; i++)
+        most = fmax(most, fabs(r->sound[i]));
+    long shift = isnan(x->given.delay) ? begins(r->sound, r->n, most) : (long)rint(x->given.delay * r->rate);
+    most = 0.0;
+    if (isnan(x->given.delay) && shift)
+        place_note(x, p, arena_format(x->arena, "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)", 1e3 * (double)shift / r->rate));
     if ((double)(r->n - shift) < 0.01 * r->rate)
         return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name, 1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
     for (long i = shift; i < r->n; i++)
         most = fmax(most, fabs(r->sound[i]));
     if (most == 0.0)
         return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
-    if (most >= 0.9999 * r->full)
-        place_note(x, p, "its greatest sample is as large as the file can hold: it may be clipped");
-    p->response = (struct strikes_response){.n = r->n - shift, .length = r->n - shift, .high = 0.5 * r->rate, .delay = (double)shift / r->rate, .smear = 1.0 / r->rate};
+    strikes_channel_clip(r->sound, r->n, clip);
+    if (most >= 0.9999 * r->full || clip[0] < 0.0 || clip[1] > 0.0)
+        place_note(x, p, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
+    p->response = (struct strikes_response){.n = r->n - shift, .length = r->n - shift, .high = 0.5 * r->rate, .delay = (double)shift / r->rate, .smear = 1.0 / r->rate,
+                                            .rounding = r->rounding};
     p->response.h = ARENA_TAKE(x->arena, double, p->response.n);
     memcpy(p->response.h, r->sound + shift, (size_t)p->response.n * sizeof *r->sound);
     return true;
@@ -67,6 +88,7 @@ static bool response(struct modes_extract *x, struct modes_extract_place *p, str
 {
     if (x->given.impulse)
         return impulse(x, p, e);
+    place_note(x, p, strikes_channel_prepare(&p->recording, x->arena));
     if (!strikes_find(&p->recording, &x->given.strikes, x->arena, &p->strikes, e) ||
         !strikes_response(&p->recording, &p->strikes, x->given.regularisation, x->arena, &p->response, e))
         return false;
@@ -119,8 +141,9 @@ static bool fit(struct modes_extract *x, struct err *e)
     struct ringing_options o = ringing_options;
     const double **h = arena_take(x->arena, (size_t)x->n, sizeof *h), **noise = arena_take(x->arena, (size_t)x->n, sizeof *noise);
     const double **error = arena_take(x->arena, (size_t)x->n, sizeof *error);
+    double *rounding = ARENA_TAKE(x->arena, double, x->n);
     bool several = true;
-    struct ringing r = {.places = x->n, .n = x->length - x->skip, .rate = x->rate, .h = h, .low = x->low, .high = x->high};
+    struct ringing r = {.places = x->n, .n = x->length - x->skip, .rate = x->rate, .h = h, .low = x->low, .high = x->high, .rounding = rounding};
     long most = 50;
     if (!args_whole(&x->c->args, "modes", (const long[2]){1, 100000}, &most, e))
         return false;
@@ -128,6 +151,7 @@ static bool fit(struct modes_extract *x, struct err *e)
     for (int k = 0; k < x->n; k++) {
         const struct strikes_response *p = &x->place[k].response;
         h[k] = p->h + x->skip;
+        rounding[k] = p->rounding;
         noise[k] = p->noise;
         several = several && p->unsure;
         error[k] = p->unsure ? unsure(p, r.n, x->arena) : NULL;
@@ -216,6 +240,30 @@ static void compare(struct modes_extract *x)
     }
 }
 
+static const double cancels = 1e4; /* energy of a mode over the response's: 40 dB more than there is */
+
+/* Modes that together are no part of the responses are no table. A single place may be so weak that chance decides. */
+static bool hold(struct modes_extract *x, struct err *e)
+{
+    double all = 0.0;
+    bool cancel = false;
+    for (int k = 0; k < x->n; k++) {
+        const double *h = x->place[k].response.h;
+        double energy = 0.0;
+        for (long i = x->skip; i < x->length; i++)
+            energy += h[i] * h[i];
+        all += energy * x->heard.explained[k];
+        for (int i = 0; i < x->heard.n; i++) {
+            const struct ringing_mode *m = &x->heard.mode[i];
+            cancel = cancel || (m->re[k] * m->re[k] + m->im[k] * m->im[k]) * x->rate > 4.0 * m->decay * cancels * energy;
+        }
+        if (x->heard.n > 0 && !(x->heard.explained[k] > 0.0))
+            place_note(x, &x->place[k], "the modes do not hold the response: a narrower band (--low, --high) or fewer --modes help");
+    }
+    return x->heard.n == 0 || (all >= 0.0 && !cancel) || err_set(e, ERR_SCENE, "%s: the modes that were found do not hold the response (they leave more than there is, or are far greater and cancel), so there is no table: does it begin "
+                                                    "at the strike (--delay)? Else a narrower band (--low, --high) or fewer --modes help", x->place[0].shown);
+}
+
 bool modes_extract_find(struct modes_extract *x, struct err *e)
 {
     for (int k = 0; k < x->n; k++)
@@ -223,9 +271,8 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
             return false;
     if (!common(x, e) || !fit(x, e))
         return false;
-    for (int k = 0; k < x->n; k++)
-        if (x->heard.n > 0 && !(x->heard.explained[k] > 0.0))
-            place_note(x, &x->place[k], "the modes do not hold the response: a narrower band (--low, --high) or fewer --modes help");
+    if (!hold(x, e))
+        return false;
     leave_out_guessed(x);
     if (x->heard.n == 0)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown, x->low, x->high);

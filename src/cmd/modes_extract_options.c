@@ -110,7 +110,7 @@ bool modes_extract_options(struct modes_extract *x, struct err *e)
     if (!word(x, "quantity", quantities, &g->quantity, e) || !word(x, "method", methods, &method, e) || !numbers(x, e))
         return false;
     g->spectrogram = method == 1;
-    if (isnan(g->delay) && (g->quantity != MODES_PRESSURE || g->impulse))
+    if (isnan(g->delay) && g->quantity != MODES_PRESSURE && !g->impulse)
         g->delay = 0.0; /* what touches the object has no way to go */
     return sizes(g, e) && together(x, e) && outputs(x, e);
 }

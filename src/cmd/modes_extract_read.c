@@ -138,6 +138,23 @@ static bool has_channels(const struct modes_extract *x, const struct modes_extra
     return asked <= p->channels || err_set(e, ERR_SCENE, "%s has %d channel%s; there is no --%s %ld", p->shown, p->channels, p->channels == 1 ? "" : "s", option, asked);
 }
 
+/* rms of rounding to the file's steps, one step wide, per full scale: of an integer its last bit, of single precision the last of its greatest sample; 0: of neither. */
+static double rounding(const struct wav *w, int channel)
+{
+    double most = 0.0;
+    int exponent;
+    if (w->bits)
+        return ldexp(sqrt(1.0 / 12.0), 1 - w->bits);
+    for (size_t i = 0; i < w->frames; i++) {
+        double x = w->x[i * (size_t)w->channels + (size_t)channel];
+        if ((double)(float)x != x)
+            return 0.0;
+        most = fmax(most, fabs(x));
+    }
+    frexp(most, &exponent);
+    return ldexp(sqrt(1.0 / 12.0), exponent - 24);
+}
+
 static bool samples(struct modes_extract *x, struct modes_extract_place *p, struct arena *scratch, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
@@ -151,6 +168,7 @@ static bool samples(struct modes_extract *x, struct modes_extract_place *p, stru
     double scale = p->gain * (isnan(g->scale) ? 1.0 : g->scale), force_scale = isnan(g->force_scale) ? 1.0 : g->force_scale;
     p->recording = (struct strikes_recording){.name = p->shown, .n = (long)w.frames, .rate = w.rate, .delay = g->delay, .full = w.bits ? fabs(scale) : INFINITY,
                                               .force_full = w.bits ? force_scale : INFINITY};
+    p->recording.rounding = fabs(scale) * rounding(&w, (int)g->channel - 1);
     p->recording.sound = channel(&w, g->channel, scale, x->arena);
     p->recording.force = g->force_channel ? channel(&w, g->force_channel, force_scale, x->arena) : NULL;
     if (x->rate == 0.0)

@@ -36,6 +36,10 @@ extract impulse.wav --impulse --scale 1 --quantity velocity --modes 1 -q -o impu
 tail -1 impulse.csv | awk -F, '{ printf "%.3f Hz, %.2f/s, %.3f\n", $5, $6, sqrt($7 * $7) }'
 extract impulse.wav --impulse --quantity pressure --radius 5cm --distance 50cm --modes 1 -q -o radiated.csv
 grep -E '^# (quantity|radius_m|radiation)' radiated.csv
+echo "silence before a response is taken off"
+python3 wav.py make late.wav 8000 late 8000
+extract late.wav --impulse --scale 1 --quantity velocity --modes 1 -o late.csv | grep begins
+tail -1 late.csv | awk -F, '{ printf "%.2f Hz, %.1f/s, %.2f\n", $5, $6, sqrt($7 * $7) }'
 
 echo refused >&2
 python3 wav.py make silent.wav 8000 silent 8000

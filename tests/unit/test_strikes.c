@@ -2,6 +2,7 @@
 #include "unit.h"
 
 #include "analysis/strikes.h"
+#include "analysis/strikes_channel.h"
 #include "num/real.h"
 
 enum { RATE = 16000, LENGTH = 6400, N = 32000, PULSE = 12 };
@@ -216,6 +217,80 @@ START_TEST(without_force)
 }
 END_TEST
 
+/* Offsets of a tenth and more of the greatest sample and force, and a hum in the pauses, leave the three strikes what they are. */
+START_TEST(offset_and_hum)
+{
+    struct made m = make(3, (const long[]){3000, 13000, 23000}, peaks, 0, 1e-5);
+    struct strikes s;
+    struct strikes_response h;
+    double most = 0.0;
+    for (long i = 0; i < N; i++)
+        most = fmax(most, fabs(m.sound[i]));
+    for (long i = 0; i < N; i++) {
+        m.sound[i] += 0.2 * most;
+        m.force[i] += 2.5;
+    }
+    const char *said = strikes_channel_prepare(&m.r, m.a);
+    ck_assert(said && strstr(said, "the sound stands beside 0") && strstr(said, "the force stands beside 0, by 2.5"));
+    solve(&m, &s, &h);
+    ck_assert_int_eq(s.n, 3);
+    ck_assert_int_eq(h.used, 3);
+    ck_assert_double_le(off(&m, &h), 0.05);
+    for (long i = 0; i < N; i++)
+        m.sound[i] += 0.06 * most * real_sin(2.0 * REAL_PI * 50.0 * (double)i / RATE) - 0.2 * most;
+    m.r.sound = m.sound;
+    solve(&m, &s, &h);
+    ck_assert_int_eq(h.used, 3);
+    for (int k = 0; k < 3; k++)
+        ck_assert_double_ge(h.explained[k], 0.8);
+    arena_close(m.a);
+}
+END_TEST
+
+/* Scaled after it clipped, so that nothing reaches what the file holds: a row of equal extremes, above or below. A slow sine in 20 steps has such rows, and does not clip. */
+START_TEST(clipped_and_scaled)
+{
+    struct made m = make(3, (const long[]){3000, 13000, 23000}, peaks, 0, 0.0);
+    struct strikes s;
+    struct strikes_response h;
+    unsigned state = 5;
+    double clip[2], *slow = ARENA_TAKE(m.a, double, N);
+    for (long i = 0; i < N; i++)
+        m.force[i] = 0.7 * fmin(m.force[i] + 1e-3 * noise(&state), 20.0);
+    ck_assert_ptr_null(strikes_channel_prepare(&m.r, m.a));
+    ck_assert_double_eq_tol(m.r.force_clip[1], 14.0, 1e-9);
+    ck_assert_double_eq(m.r.clip[0], 0.0);
+    ck_assert_double_eq(m.r.clip[1], 0.0);
+    solve(&m, &s, &h);
+    ck_assert(s.strike[1].clipped && !s.strike[0].clipped && !s.strike[2].clipped);
+    for (long i = 0; i < N; i++)
+        slow[i] = rint(20.0 * real_sin(2.0 * REAL_PI * 50.0 * (double)i / RATE));
+    strikes_channel_clip(slow, N, clip);
+    ck_assert(clip[0] == 0.0 && clip[1] == 0.0);
+    for (long i = 0; i < N; i++)
+        slow[i] = fmax(-0.5, real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE));
+    strikes_channel_clip(slow, N, clip);
+    ck_assert(clip[0] == -0.5 && clip[1] == 0.0);
+    arena_close(m.a);
+}
+END_TEST
+
+/* A single strike has none that it could run into. */
+START_TEST(single)
+{
+    struct made m = make(1, (const long[]){3000}, peaks, 0, 1e-5);
+    struct strikes s;
+    struct strikes_response h;
+    for (int force = 1; force >= 0; force--) {
+        m.r.force = force ? m.force : NULL;
+        solve(&m, &s, &h);
+        ck_assert_int_eq(s.n, 1);
+        ck_assert(!h.note || !strstr(h.note, "run into each other"));
+    }
+    arena_close(m.a);
+}
+END_TEST
+
 /* What is refused says why. */
 START_TEST(refused)
 {
@@ -242,4 +317,4 @@ START_TEST(refused)
 }
 END_TEST
 
-UNIT("test_strikes", apart, overlapping, turned, late, clipped, noise_of_response, unsure_of_response, low_mode_in_white_noise, without_force, refused)
+UNIT("test_strikes", apart, overlapping, turned, late, clipped, noise_of_response, unsure_of_response, low_mode_in_white_noise, without_force, offset_and_hum, clipped_and_scaled, single, refused)
