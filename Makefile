@@ -27,11 +27,17 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wvla
 PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr
 # -fno-tree-slp-vectorize: gcc 12 turns pairs such as a c + b s, b c - a s into vfmsubadd there, in spite of -ffp-contract=off.
 CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-tree-slp-vectorize -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
-LIBS = $(shell pkg-config --libs $(PKGS)) -lsleef -lm
+# A short scene takes less time than loading libraries does: those that the system has as archives too are linked in. ARCHIVES= loads all.
+ARCHIVES = fftw3 gsl gslcblas crypto png16 z yaml jansson
+LIBS := $(foreach l,$(shell pkg-config --libs $(PKGS)) -lz -lsleef -lm,$(if $(and $(filter $(ARCHIVES:%=-l%),$l),$(filter /%,$(shell \
+    $(CC) -print-file-name=$(l:-l%=lib%.a)))),-l:$(l:-l%=lib%.a),$l))
 # What rasp-modes needs besides. Loading these takes longer than rasp does for a short scene.
 HEAVY = -lcholmod -llapacke -lopenblas
+PACKAGES = $(shell for package in $(PKGS) sleef openblas lapacke; do printf '%s %s;' $$package $$(pkg-config --modversion $$package 2> /dev/null || echo '?'); done)
 
-REVISION := $(shell git describe --always --dirty --abbrev=12 2> /dev/null || echo unknown)
+# Of a source archive (make dist) the file REVISION says it.
+REVISION := $(shell head -n 1 REVISION 2> /dev/null || git describe --always --dirty --abbrev=12 2> /dev/null || echo unknown)
+VERSION := $(shell sed -n 's/^.define VERSION "\(.*\)"/\1/p' src/cmd/version.c)
 
 SRC = $(filter-out src/main%.c,$(wildcard src/*.c src/*/*.c))
 OBJ = $(SRC:src/%.c=$(BUILD)/%.o)
@@ -68,7 +74,7 @@ $(BUILD)/force/slope_terms.o: private DEFINES = -fno-math-errno
 # -O3 alone keeps the sums of eight lanes in registers where these are narrower than eight.
 $(BUILD)/force/spread.o $(BUILD)/force/decimate.o: private DEFINES = $(if $(filter -O2,$(OPT)),-O3)
 # `rasp --version --verbose` says what it was made from.
-$(BUILD)/cmd/version.o: private DEFINES = -DRASP_REVISION='"$(REVISION)"' -DRASP_FLAGS='"$(strip $(CFLAGS))"'
+$(BUILD)/cmd/version.o: private DEFINES = -DRASP_REVISION='"$(REVISION)"' -DRASP_FLAGS='"$(strip $(CFLAGS))"' -DRASP_PACKAGES='"$(PACKAGES)"'
 $(BUILD)/cmd/version.o: $(BUILD)/revision
 
 unit: $(UNIT)
@@ -133,18 +139,42 @@ $(BUILD)/bench/%: tests/bench/%.c $(BUILD)/librasp.a
 irs: all
 	@BUILD=$(BUILD) scripts/irs.sh
 
-install: all
-	install -D -m 755 $(BUILD)/rasp $(DESTDIR)$(PREFIX)/bin/rasp
-	install -D -m 755 $(BUILD)/rasp-modes $(DESTDIR)$(PREFIX)/libexec/rasp/rasp-modes
-	for page in man/*.1; do install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man1 $$page || exit 1; done
-	for page in man/*.5; do install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man5 $$page || exit 1; done
-	for folder in scenes surfaces irs; do install -d $(DESTDIR)$(PREFIX)/share/rasp/$$folder && \
-	    cp -R $$folder/. $(DESTDIR)$(PREFIX)/share/rasp/$$folder || exit 1; done
-	install -D -m 644 LICENSE $(DESTDIR)$(PREFIX)/share/doc/rasp/LICENSE
+# Where shells look for completions, below $(PREFIX).
+BASHDIR ?= share/bash-completion/completions
+ZSHDIR ?= share/zsh/site-functions
+FISHDIR ?= share/fish/vendor_completions.d
+TO = $(DESTDIR)$(PREFIX)
 
+install: all
+	install -D -m 755 $(BUILD)/rasp $(TO)/bin/rasp
+	install -D -m 755 $(BUILD)/rasp-modes $(TO)/libexec/rasp/rasp-modes
+	for page in man/*.1; do install -D -m 644 -t $(TO)/share/man/man1 $$page || exit 1; done
+	for page in man/*.5; do install -D -m 644 -t $(TO)/share/man/man5 $$page || exit 1; done
+	for folder in scenes surfaces irs; do install -d $(TO)/share/rasp/$$folder && cp -R $$folder/. $(TO)/share/rasp/$$folder || exit 1; done
+	chmod -R u+rwX,go+rX,go-w $(TO)/share/rasp
+	for kind in scene design; do $(BUILD)/rasp explain --schema=$$kind > $(BUILD)/$$kind.schema.json && \
+	    install -m 644 -t $(TO)/share/rasp $(BUILD)/$$kind.schema.json || exit 1; done
+	for shell in bash zsh fish; do $(BUILD)/rasp completion $$shell > $(BUILD)/completion.$$shell || exit 1; done
+	install -D -m 644 $(BUILD)/completion.bash $(TO)/$(BASHDIR)/rasp
+	install -D -m 644 $(BUILD)/completion.zsh $(TO)/$(ZSHDIR)/_rasp
+	install -D -m 644 $(BUILD)/completion.fish $(TO)/$(FISHDIR)/rasp.fish
+	install -D -m 644 -t $(TO)/share/doc/rasp README.md LICENSE
+
+# Folders that others may use too go only if nothing else is in them; of a real system those that it has from the start stay.
 uninstall:
-	rm -f $(DESTDIR)$(PREFIX)/bin/rasp $(DESTDIR)$(PREFIX)/share/man/man1/rasp*.1 $(DESTDIR)$(PREFIX)/share/man/man5/rasp*.5
-	rm -rf $(DESTDIR)$(PREFIX)/share/rasp $(DESTDIR)$(PREFIX)/share/doc/rasp $(DESTDIR)$(PREFIX)/libexec/rasp
+	rm -f $(TO)/bin/rasp $(TO)/share/man/man1/rasp.1 $(TO)/share/man/man1/rasp-*.1 $(TO)/share/man/man5/rasp-*.5
+	rm -f $(TO)/$(BASHDIR)/rasp $(TO)/$(ZSHDIR)/_rasp $(TO)/$(FISHDIR)/rasp.fish
+	rm -rf $(TO)/share/rasp $(TO)/share/doc/rasp $(TO)/libexec/rasp
+	for folder in libexec $(BASHDIR) $(ZSHDIR) $(FISHDIR) $(if $(DESTDIR),bin share/man/man1 share/man/man5 share/doc); do \
+	    [ ! -d $(TO)/$$folder ] || (cd $(TO) && rmdir -p --ignore-fail-on-non-empty $$folder) || exit 1; done
+
+# The source archive: the same bytes from the same revision.
+dist:
+	@scripts/dist.sh $(BUILD)/rasp-$(VERSION).tar.gz
+# A Debian package of it, checked and tried; INSTALL=1, as root: also installed, tried and purged.
+deb:
+	@scripts/setup.sh build package
+	@scripts/deb.sh $(BUILD)/deb $(if $(INSTALL),--install)
 
 clean:
 	rm -rf $(BUILD)
@@ -156,9 +186,10 @@ help:
 	@echo 'bytes          same bytes, all builds fuzz       SECONDS=60 of fuzzing'
 	@echo 'evidence       the long reports       bench      timings'
 	@echo 'irs            irs/ from its recipes  install    PREFIX, DESTDIR'
-	@echo 'clean          removes $(BUILD)'
+	@echo 'dist           the source archive     deb        a Debian package'
+	@echo 'clean          removes $(BUILD)       uninstall  what install put there'
 	@echo 'variables: BUILD CC OPT ISA=v2|v3|v4 SAN=1 WERROR=-Werror JOBS V=1 PREFIX DESTDIR'
 
 -include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:=.d) $(BENCH:=.d)
 FORCE:
-.PHONY: all unit demo check warnings sanitize bytes fuzz fuzzers evidence bench irs install uninstall clean help FORCE
+.PHONY: all unit demo check warnings sanitize bytes fuzz fuzzers evidence bench irs install uninstall dist deb clean help FORCE

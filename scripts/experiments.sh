@@ -1,11 +1,11 @@
 #!/bin/sh
 # Writes the stimuli of the papers' listening experiments, scenes/experiments/ (or the folder given): one short scene each, by `include` of the parts beside
-# it. Same bytes every time.
+# it, or a design for rasp batch that crosses the parts. Same bytes every time.
 #     scripts/experiments.sh [FOLDER]
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 to=${1:-$here/scenes/experiments}
-mkdir -p "$to/002_rolling/parts" "$to/000_rolling/parts" "$to/002_controls/parts" "$to/004_continuum/parts" "$to/004_durations/parts"
+mkdir -p "$to/000_scraping/parts" "$to/002_rolling/parts" "$to/000_rolling/parts" "$to/002_controls/parts" "$to/004_continuum/parts" "$to/004_durations/parts"
 to=$(cd "$to" && pwd)
 
 # ------------------------------------------------------------------ papers/002, section III-B
@@ -85,6 +85,150 @@ END
         done
     done
 done
+
+# ------------------------------------------------------------------ papers/000, experiments 1 to 3, as designs
+
+cat > "$to/000_scraping/parts/scrape.yaml" << 'END'
+# Agarwal et al. 2021, experiments 1 and 2: a rod of PVC or poplar wood scrapes over basswood, poplar wood or ceramic. The full model: the normal force is that of
+# a hand (equations 8 and 9), curvature is limited by it, the surface rings by place, and the rod rings with it. The sample rate and the values of alpha, zeta, beta_1 and
+# beta_2 are the paper's.
+# The paper does not state: sizes, masses, angle and friction of the grip, eta, speeds, durations. Ours: planks and tile of irs/ (40 cm long), whose modes lie
+# along the line y = 3.7 cm and count as at the nearest place of it beside; roughness of surfaces/; a rod of 25 cm held at 30 degrees, which weighs what such a
+# rod does; friction 0.3, of plastic or wood on wood or a tile; eta 0.1, since the hand damps the rod.
+rasp: 1
+surface: {extrapolate: nearest}
+scraper: {weight: 0.1}
+grip: {angle: 30 deg, azimuth: 0 deg, friction: 0.3}
+output: {sample_rate: 44.1 kHz}
+END
+# What all three have: materials of experiments 1 and 3, and the levels of the factor condition.
+on() { # LABEL TEXT RECIPE RESPONSE
+    printf '    - {label: %s, text: %s, set: {surface.recipe: ../../surfaces/%s.yaml, surface.response: ../../irs/%s.csv}}\n' "$1" "$2" "$3" "$4"
+}
+surfaces() {
+    on basswood "$1" basswood basswood_plank
+    on poplar 'poplar wood' poplar poplar_plank
+    on ceramic ceramic ceramic ceramic_tile
+}
+scraping_conditions() {
+    cat << 'END'
+  condition:
+    - {label: full, text: full model, set: {}}
+    - {label: only_surface, text: only the surface's impulse response (eta = 0), set: {ablation.sound: surface}}
+    - {label: constant_force, text: no variation of the normal force (without section 2.3), set: {ablation.normal_force: constant}}
+    - {label: no_nonlinearity, text: no non-linearity (without section 2.2), set: {ablation.nonlinearity: omitted}}
+END
+}
+
+{
+    cat << 'END'
+# Agarwal et al. 2021, experiment 1: the realism of scraping. 30 descriptions (2 scrapers x 3 surfaces x 5 motions), each by the four methods that are this
+# program's: the full model and its three ablations; 120 stimuli. The paper's three baselines are other programs'. A trial has one description, and the
+# sounds that share it, in random order; `text` is what the listener reads.
+#
+# The motions, where the paper has names only; all of them are those of a hand on a plank of 40 cm:
+#   slow    10 cm to and fro at 0.75 Hz: 15 cm/s on average, 24 at most
+#   fast    the same at 2.5 Hz: 50 cm/s, 79 at most; just slow enough for the hand not to lift off (omega^2 L tan theta is 0.73 g)
+#   circle  6 cm wide, 1.5 rounds a second: 28 cm/s all the time
+#   short   8 cm in 0.4 s, from rest to rest: 20 cm/s, 38 at most
+#   long    30 cm in 2 s, from rest to rest: 15 cm/s, 28 at most
+# The rods weigh what 25 cm of 10 mm PVC and of a 12 mm dowel do. Each sound has the same loudness: without the non-linearity forces are larger by far, and it is
+# not loudness that is judged. Levels are ours; so is the taking of a dowel for "poplar wood".
+rasp-design: 1
+title: Agarwal et al. 2021, experiment 1, realism of synthetic scraping sounds
+base: 000_scraping/parts/scrape.yaml
+seed: 1
+text: "{motion} of a {scraper} on a {surface} surface."
+factors:
+  scraper:
+    - {label: pvc, text: PVC rod, set: {scraper.mass: 27 g, scraper.response: ../../irs/pvc_rod.csv}}
+    - {label: poplar, text: poplar wood rod, set: {scraper.mass: 13 g, scraper.response: ../../irs/poplar_rod.csv}}
+  surface:
+END
+    surfaces basswood
+    cat << 'END'
+  motion:
+    - {label: slow, text: Slow back and forth motion, set: {motion: {path: back_and_forth, from: [10 cm, 3.7 cm], to: [20 cm, 3.7 cm], rate: 0.75 Hz, duration: 4 s}}}
+    - {label: fast, text: Fast back and forth motion, set: {motion: {path: back_and_forth, from: [10 cm, 3.7 cm], to: [20 cm, 3.7 cm], rate: 2.5 Hz, duration: 4 s}}}
+    - {label: circle, text: Circular motion, set: {motion: {path: circle, center: [15 cm, 5 cm], radius: 3 cm, turns: 6, duration: 4 s}}}
+    - {label: short, text: Short single scrape, set: {motion: {path: line, from: [10 cm, 3.7 cm], to: [18 cm, 3.7 cm], duration: 0.4 s, law: minimum_jerk}}}
+    - {label: long, text: Long single scrape, set: {motion: {path: line, from: [5 cm, 3.7 cm], to: [35 cm, 3.7 cm], duration: 2 s, law: minimum_jerk}}}
+END
+    scraping_conditions
+    cat << 'END'
+name: "{scraper}_on_{surface}_{motion}/{condition}"
+level: {each: {lufs: -26}}
+length: own
+END
+} > "$to/000_experiment_1.yaml"
+
+{
+    cat << 'END'
+# Agarwal et al. 2021, experiment 2: which motion is heard? Five paths, each by the four methods that are this program's; 20 stimuli. The listener hears one
+# sound and chooses one of the five texts. Back and forth and four in a line share their speed over time, and so do the line and the circle, as in
+# the paper; sizes and durations are ours, 2 s each, and materials too (it does not say): PVC on basswood. The paper's scribble was tracked: give yours by
+# motion: {path: recorded, file: ...}; this one is drawn from the seed. A hand at constant speed on a straight line presses evenly: of the line, full and
+# constant_force are the same but for rounding. The paper's recordings are a condition more:
+#   recordings: [{file: recordings/circle.wav, motion: circle, condition: recorded}]
+rasp-design: 1
+title: Agarwal et al. 2021, experiment 2, perception of motion from scraping sounds
+base: 000_scraping/parts/scrape.yaml
+seed: 2
+text: "{motion}"
+set: {scraper.mass: 27 g, scraper.response: ../../irs/pvc_rod.csv, surface.recipe: ../../surfaces/basswood.yaml, surface.response: ../../irs/basswood_plank.csv}
+factors:
+  motion:
+    - {label: scribble, text: a scribble, set: {motion: {path: scribble, center: [20 cm, 5 cm], size: [8 cm, 6 cm], rate: 2 Hz, duration: 2 s}}}
+    - {label: four_in_line, text: four scrapes in a straight line, set: {motion: {path: four_in_line, from: [8 cm, 3.7 cm], to: [32 cm, 3.7 cm], duration: 2 s}}}
+    - {label: back_and_forth, text: four back-and-forth scrapes, set: {motion: {path: back_and_forth, from: [17 cm, 3.7 cm], to: [23 cm, 3.7 cm], rate: 1 Hz, duration: 2 s}}}
+    - {label: line, text: a single long line, set: {motion: {path: line, from: [5.8629 cm, 3.7 cm], to: [34.1371 cm, 3.7 cm], duration: 2 s}}}
+    - {label: circle, text: a circle, set: {motion: {path: circle, center: [20 cm, 5 cm], radius: 4.5 cm, turns: 1, duration: 2 s}}}
+END
+    scraping_conditions
+    cat << 'END'
+name: "{motion}/{condition}"
+level: {each: {lufs: -26}}
+length: own
+END
+} > "$to/000_experiment_2.yaml"
+
+{
+    cat << 'END'
+# Agarwal et al. 2021, experiment 3: the realism of rolling. 18 descriptions (3 balls x 3 surfaces x up and down), each by the five methods that are this
+# program's; 90 stimuli. Planks, balls and slopes are those of 000_rolling/, which has the full model as scenes. The paper's balls have their centres of mass off
+# their centres, by how much it does not print: balls of this size turn once or twice at most on such planks, and 1 mm would vary the normal force by 0.3 %, so it
+# is left out (set: {ball.offset: 1 mm} adds it). The constant response is that of a place between the nodal lines of the lower modes: where the ball starts, near
+# the edge, the plank hardly rings. Balls as large as these follow the ground in such wide curves that the limiter has little to do: without it the sound differs
+# by -15 dB, mostly above 5 kHz, far less than a scraped one (papers/000 limits the ground itself, which no ball has smoothed).
+rasp-design: 1
+title: Agarwal et al. 2021, experiment 3, realism of synthetic rolling sounds
+base: 000_rolling/parts/plank.yaml
+seed: 3
+text: "A {ball} ball rolled {way} a gradual incline of {surface}."
+set: {output.sample_rate: 44.1 kHz}
+factors:
+  ball:
+    - {label: ceramic, text: ceramic, set: {ball.radius: 10 cm, ball.body: hollow, ball.wall: 5 mm, ball.material: ceramic, ball.response: ../../irs/ceramic_ball.csv}}
+    - {label: glass, text: glass, set: {ball.radius: 10 cm, ball.body: hollow, ball.wall: 4 mm, ball.material: glass, ball.response: ../../irs/glass_ball.csv}}
+    - {label: wood, text: wood, set: {ball.radius: 6 cm, ball.body: hollow, ball.wall: 5 mm, ball.material: poplar, ball.response: ../../irs/wood_ball.csv}}
+  surface:
+END
+    surfaces 'bass wood'
+    cat << 'END'
+  way:
+    - {label: up, text: up, set: {motion.from: [2 cm, 3.7 cm], motion.to: [38 cm, 3.7 cm], motion.incline: 3 deg, motion.start_speed: 50 cm/s}}
+    - {label: down, text: down, set: {motion.from: [2 cm, 3.7 cm], motion.to: [38 cm, 3.7 cm], motion.incline: -3 deg, motion.start_speed: 10 cm/s}}
+  condition:
+    - {label: full, text: full model, set: {}}
+    - {label: only_surface, text: only the surface's impulse response, set: {ablation.sound: surface}}
+    - {label: constant_response, text: a constant surface impulse response (no morphing), set: {ablation.response: constant, ablation.place: [13.7 cm, 3.7 cm]}}
+    - {label: only_ball, text: only the ball's impulse response, set: {ablation.sound: ball}}
+    - {label: no_nonlinearity, text: no non-linearity in the contact force, set: {ablation.nonlinearity: omitted}}
+name: "{ball}_on_{surface}_{way}/{condition}"
+level: {each: {lufs: -26}}
+length: own
+END
+} > "$to/000_experiment_3.yaml"
 
 # ------------------------------------------------------------------ papers/002, section VI-B
 

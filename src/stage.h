@@ -18,9 +18,11 @@
 
 #include "base/arena.h"
 #include "base/err.h"
+#include "num/filter.h"
 #include "scene/scene.h"
 
 enum item {
+    ITEM_MOTION,        /* board->trajectory, read at any instant           no signal      */
     ITEM_POSITION,      /* m, signed distance u along the path          over per frame */
     ITEM_VELOCITY,      /* m/s, du/dt                                   over per frame */
     ITEM_ACCELERATION,  /* m/s^2, d2u/dt2                               over per frame */
@@ -96,6 +98,11 @@ struct height_map;
 struct table_sink;
 struct impact_sink;
 
+struct smoothing {          /* of constant width, by a kernel of sub-samples */
+    struct filter kernel;
+    bool taken;             /* set by an opening stage that does it with its own kernel: ITEM_SUBFORCE is then as it was before */
+};
+
 struct signal {
     int per_frame;          /* 0: not a signal, or not in this plan */
     long first, capacity;   /* frames held: [first, first + capacity) */
@@ -106,6 +113,7 @@ struct board {
     double rate;            /* Hz, frames per second                       */
     int over;               /* sub-intervals per frame                     */
     int channels;           /* listening places                            */
+    struct smoothing *smoothing; /* of ITEM_SUBFORCE, last before the stages that follow; NULL: none that could be taken over */
     bool hats;              /* ITEM_SUBFORCE: means weighted by hats; set by the opening stage that gives it */
     long moving;            /* frames that the motion touches              */
     unsigned alive;         /* items that some stage of the plan reads     */

@@ -40,19 +40,15 @@ void distance_samples(const struct wav *a, const struct wav *b, struct distance_
     d->snr_db = d->differing ? 10 * real_log10(signal / noise) : INFINITY;
 }
 
-static void hash_numbers(struct hash *h, const double *x, size_t n)
+/* The machine is little-endian: x86-64 is the only one that rasp is for. */
+void distance_hash_add(struct hash *h, const double *x, size_t n)
 {
-    unsigned char bytes[8 * 512];
-    for (size_t done = 0; done < n;) {
-        size_t k = 0;
-        for (; k < 512 && done < n; k++, done++) {
-            double x0 = x[done] + 0.0; /* -0 + 0 is +0 */
-            uint64_t bits;
-            memcpy(&bits, &x0, 8);
-            for (int i = 0; i < 8; i++)
-                bytes[8 * k + (size_t)i] = (unsigned char)(bits >> 8 * i);
-        }
-        hash_add(h, bytes, 8 * k);
+    double y[512];
+    for (size_t done = 0, some; done < n; done += some) {
+        some = n - done < 512 ? n - done : 512;
+        for (size_t k = 0; k < some; k++)
+            y[k] = x[done + k] + 0.0; /* -0 + 0 is +0 */
+        hash_add(h, y, some * sizeof *y);
     }
 }
 
@@ -60,8 +56,8 @@ void distance_hash(const struct wav *w, char hex[HASH_TEXT])
 {
     double form[2] = {w->rate, w->channels};
     struct hash h = hash_start();
-    hash_numbers(&h, form, 2);
-    hash_numbers(&h, w->x, w->frames * (size_t)w->channels);
+    distance_hash_add(&h, form, 2);
+    distance_hash_add(&h, w->x, w->frames * (size_t)w->channels);
     hash_end(&h, hex);
 }
 

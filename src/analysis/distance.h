@@ -28,6 +28,9 @@ void distance_samples(const struct wav *a, const struct wav *b, struct distance_
    little-endian binary64, -0 counted as +0. Two sounds have the same hash when rate, channels and all samples are the same numbers. */
 void distance_hash(const struct wav *w, char hex[HASH_TEXT]);
 
+/* Piece by piece: {rate, channels}, then the samples. */
+void distance_hash_add(struct hash *h, const double *x, size_t n);
+
 /* One step of the coarser integer encoding of the two (2^(1-bits)); 0: neither holds integers. */
 double distance_step(const struct wav *a, const struct wav *b);
 

@@ -5,7 +5,8 @@
    ringing, is not force. Another pulse of at least a fifth of the peak within the gap is the same strike doubled.
 
    In the sound alone: a strike is where the level of the first difference (which favours a strike's high frequencies over what still rings) within 1 ms rises by 6 dB
-   above its greatest of the 25 ms before, and above the noise by the threshold; it begins where the sound leaves what it was just before. */
+   above its greatest of the 25 ms before, and above the noise by the threshold; it begins where the sound leaves what it was just before. The file's rounding is noise, too: where
+   all else is silent, the last bit of what rings out would be the next strike. */
 #include "analysis/strikes.h"
 
 #include <math.h>
@@ -197,7 +198,7 @@ static void by_sound(struct finder *f)
     for (long i = 1; i < r->n; i++)
         steps[i] = r->sound[i] - r->sound[i - 1];
     struct strikes_level fine = strikes_level(steps, r->n, r->rate, 0.001, f->a), coarse = strikes_level(steps, r->n, r->rate, 0.01, f->a);
-    double least = fmax(coarse.floor * factor, 1e-3 * greatest(fine.rms, 0, fine.n));
+    double noise = fmax(coarse.floor, sqrt(2.0) * r->rounding), least = fmax(noise * factor, 1e-3 * greatest(fine.rms, 0, fine.n));
     for (long k = 0; k < fine.n; k++) {
         double before = greatest(fine.rms, k > 25 ? k - 25 : 0, k);
         if (fine.rms[k] > least && fine.rms[k] > 2.0 * before)

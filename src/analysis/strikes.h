@@ -54,7 +54,8 @@ struct strikes_response {
     double low, high;       /* Hz, where the force holds enough and the strikes agree; without force: 0, rate/2 */
     double *unsure;         /* [n/2 + 1] |FFT|^2/n of h's own error, as far as strikes disagree; NULL with one strike */
     double *coherence;      /* [n/2 + 1] share of the sound that the response explains, strikes together; NULL with one strike */
-    double *explained;      /* [strikes] the same share of each strike's sound over h's length, all frequencies, noise off; NAN where the strike is left out */
+    double *explained;      /* [strikes] the same share of each strike's sound over h's length, all frequencies, noise off; 0 where what is left is more than the sound; NAN where the
+                               strike is left out */
     int used;
     double delay;           /* s, by which the sound comes after the force, taken off so that h begins at 0 */
     double smear;           /* s, within which h is not sharp, for want of high frequencies: modes are to be fitted to what comes later */

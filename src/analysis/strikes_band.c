@@ -181,7 +181,7 @@ void strikes_band_coherence(struct strikes_job *j)
     struct strikes_response *h = j->h;
     h->explained = ARENA_TAKE(j->a, double, j->s->n);
     for (int k = 0; k < j->s->n; k++)
-        h->explained[k] = j->used[k] ? strikes_response_explained(j, &j->s->strike[k]) : NAN;
+        h->explained[k] = j->used[k] ? fmax(0.0, strikes_response_explained(j, &j->s->strike[k])) : NAN;
     if (h->used > 1) {
         struct spectra s = spectra(j, h->n, a);
         h->coherence = ARENA_TAKE(j->a, double, h->n / 2 + 1);

@@ -13,11 +13,33 @@ static bool cell_number(const char *s, double *v)
     return end > s && end[strspn(end, " \t")] == '\0';
 }
 
-/* How far b is beyond the tolerance around a: > 0 is a miss. */
-static double cell_excess(const char *a, const char *b, const struct table_distance_tolerance *t, double *off)
+struct cell {
+    const char *text; /* NULL: of a table of numbers */
+    double number;
+    bool is_number;
+};
+
+static struct cell cell_at(const struct csv *t, size_t row, int column)
 {
-    double p, q;
-    bool numbers = cell_number(a, &p) && cell_number(b, &q), same = !strcmp(a, b);
+    size_t at = row * t->columns + (size_t)column;
+    struct cell c = {.text = t->numbers ? NULL : t->cells[at], .number = t->numbers ? t->numbers[at] : 0, .is_number = true};
+    if (c.text)
+        c.is_number = cell_number(c.text, &c.number);
+    return c;
+}
+
+static bool cell_same(const struct cell *a, const struct cell *b)
+{
+    if (a->text && b->text)
+        return !strcmp(a->text, b->text);
+    return a->is_number && b->is_number && (a->number == b->number || (isnan(a->number) && isnan(b->number)));
+}
+
+/* How far b is beyond the tolerance around a: > 0 is a miss. */
+static double cell_excess(struct cell a, struct cell b, const struct table_distance_tolerance *t, double *off)
+{
+    double p = a.number, q = b.number;
+    bool numbers = a.is_number && b.is_number, same = cell_same(&a, &b);
     bool finite = numbers && isfinite(p) && isfinite(q);
     *off = finite ? fabs(q - p) : 0;
     if (same || (numbers && !t->exact && ((isnan(p) && isnan(q)) || p == q)))
@@ -32,8 +54,7 @@ static void compare_column(const struct csv *tables[2], size_t rows, struct tabl
     c->excess = -INFINITY;
     for (size_t i = 0; i < rows; i++) {
         double off;
-        double excess = cell_excess(tables[0]->cells[i * tables[0]->columns + (size_t)c->a],
-                                    tables[1]->cells[i * tables[1]->columns + (size_t)c->b], &c->tolerance, &off);
+        double excess = cell_excess(cell_at(tables[0], i, c->a), cell_at(tables[1], i, c->b), &c->tolerance, &off);
         c->largest = fmax(c->largest, off);
         if (!(excess > 0))
             continue;

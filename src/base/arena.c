@@ -5,14 +5,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/err.h"
+#include "base/memory.h"
 
 enum { ARENA_ALIGN = 64, ARENA_CHUNK = 1 << 16 };
 
 struct chunk {
     struct chunk *next;
+    void *whole;       /* as it came from calloc */
     size_t used, size; /* bytes after the header, which takes one alignment unit */
 };
 
@@ -23,14 +23,7 @@ struct arena {
 
 static _Noreturn void arena_full(size_t count, size_t size)
 {
-    fprintf(stderr, "rasp: error: out of memory (%zu x %zu bytes asked for)\n", count, size);
-    _exit(ERR_MEMORY);
-}
-
-static void *aligned_bytes(size_t size)
-{
-    void *p = NULL;
-    return posix_memalign(&p, ARENA_ALIGN, size) == 0 ? p : NULL;
+    memory_out("%zu x %zu bytes asked for", count, size);
 }
 
 struct arena *arena_open(void)
@@ -47,7 +40,7 @@ void arena_close(struct arena *a)
         return;
     for (struct chunk *c = a->chunks, *next; c; c = next) {
         next = c->next;
-        free(c);
+        free(c->whole);
     }
     free(a);
 }
@@ -55,10 +48,11 @@ void arena_close(struct arena *a)
 static struct chunk *chunk_add(struct arena *a, size_t need)
 {
     size_t size = need > ARENA_CHUNK ? need : ARENA_CHUNK;
-    struct chunk *c = size <= SIZE_MAX - ARENA_ALIGN ? aligned_bytes(size + ARENA_ALIGN) : NULL;
-    if (!c)
+    void *whole = size <= SIZE_MAX - 2 * ARENA_ALIGN ? calloc(1, size + 2 * ARENA_ALIGN) : NULL;
+    if (!whole)
         arena_full(1, need);
-    *c = (struct chunk){.next = a->chunks, .size = size};
+    struct chunk *c = (struct chunk *)(((uintptr_t)whole + ARENA_ALIGN - 1) / ARENA_ALIGN * ARENA_ALIGN);
+    *c = (struct chunk){.next = a->chunks, .whole = whole, .size = size};
     a->chunks = c;
     return c;
 }
@@ -77,7 +71,7 @@ void *arena_take(struct arena *a, size_t count, size_t size)
     void *p = (char *)c + ARENA_ALIGN + c->used;
     c->used += need;
     a->bytes += need;
-    return memset(p, 0, need);
+    return p; /* zeros: from calloc, which knows fresh pages and does not touch them, and never given twice */
 }
 
 char *arena_text(struct arena *a, const char *s)

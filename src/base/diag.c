@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 
 enum { LINE_SHOWN = 160, LINE_BEFORE = 60, WORD_SHOWN = 40 };
@@ -200,17 +201,15 @@ const char *diag_text(struct diag *d)
 {
     char *buffer = NULL;
     size_t size = 0;
-    FILE *out = open_memstream(&buffer, &size);
-    if (!out)
-        return "out of memory\n";
+    FILE *out = memory_stream(&buffer, &size);
     int kept = sorted(d);
     for (int i = 0; i < kept && i < DIAG_SHOWN; i++)
         show(out, d, &d->errors[i]);
     if (d->n > DIAG_SHOWN)
         fprintf(out, "... and %d more\n", d->n - DIAG_SHOWN);
     fprintf(out, "%d error%s\n", d->n, d->n == 1 ? "" : "s");
-    bool complete = fclose(out) == 0 && buffer;
-    const char *text = complete ? arena_text(d->arena, buffer) : "out of memory\n";
+    memory_stream_end(out, &buffer);
+    const char *text = arena_text(d->arena, buffer);
     free(buffer);
     return text;
 }

@@ -37,5 +37,6 @@ bool err_at(struct err *e, const char *format, ...)
     va_end(ap);
     snprintf(whole, sizeof whole, "%s: %s", where, e->text);
     text_show(whole, e->text, sizeof e->text);
+    e->place = (struct err_place){0};
     return false;
 }

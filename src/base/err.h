@@ -17,9 +17,15 @@ enum err_kind {
     ERR_INTERRUPTED = 75  /* stopped by a signal: run again to resume             */
 };
 
+struct err_place {     /* where in a text file that stands; file 0: not said, and line 0: in no line of it */
+    int file, message; /* the text begins with this many bytes of the file's name, and from that byte on with what is wrong */
+    int line, column, width; /* width 0: not known */
+};
+
 struct err {
     enum err_kind kind;
     char text[1024];
+    struct err_place place;
     const char *contact, *key; /* of the scene: what the error is about (scene/scene_places.h); NULL: not said */
 };
 

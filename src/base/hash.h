@@ -8,9 +8,9 @@
 
 #define HASH_TEXT 65 /* bytes of a hash as text, with its end */
 
-/* Piece by piece: hash_start, hash_add any number of times, hash_end (which frees). */
+/* Piece by piece: hash_start, hash_add any number of times, hash_end. Nothing is to be freed. */
 struct hash {
-    void *state;
+    long state[16]; /* SHA256_CTX */
 };
 struct hash hash_start(void);
 void hash_add(struct hash *h, const void *data, size_t size);

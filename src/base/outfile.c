@@ -108,7 +108,7 @@ bool outfile_open(struct outfile *o, const char *target, struct err *e)
     o->stream = fdopen(o->fd, "w+");
     if (o->stream)
         return true;
-    err_set(e, ERR_CREATE, "%s: cannot be created: %s", target, strerror(errno));
+    err_set(e, errno == ENOMEM ? ERR_MEMORY : ERR_CREATE, "%s: cannot be created: %s", target, strerror(errno));
     outfile_drop(o);
     return false;
 }

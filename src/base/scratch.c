@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/memory.h"
+
 const char *scratch_folder(void)
 {
     const char *folder = getenv("TMPDIR");
@@ -31,6 +33,8 @@ FILE *scratch_open(void)
     if (fd < 0)
         fd = named_and_forgotten(scratch_folder());
     FILE *f = fd >= 0 ? fdopen(fd, "w+") : NULL;
+    if (!f && errno == ENOMEM)
+        memory_out("to open a temporary file");
     if (!f && fd >= 0)
         close(fd);
     return f;

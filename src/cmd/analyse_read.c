@@ -1,5 +1,5 @@
-/* The operand of `rasp analyse`: a force as WAV, NPY or CSV (time_s and a column), or a table of impacts (time_s, amplitude_n and maybe duration_s: what
-   output.impacts writes). NPY is known by its content, CSV by its name. */
+/* The operand of `rasp analyse`: a force as WAV, NPY or a table (time_s and a column), or a table of impacts (time_s, amplitude_n and maybe duration_s: what
+   output.impacts writes). A table is CSV, or NPY with named fields. NPY is known by its content, CSV by its name. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -7,8 +7,9 @@
 
 #include "cmd/analyse.h"
 #include "file/bytes.h"
-#include "file/csv.h"
 #include "file/heightfile_npy.h"
+#include "file/npy.h"
+#include "file/table.h"
 #include "file/wav.h"
 #include "force/impact_series.h"
 #include "scene/rules.h"
@@ -150,11 +151,11 @@ static bool force_take(struct analyse_source *s, const struct csv *t, const stru
     return true;
 }
 
-static bool csv_take(struct analyse_source *s, const struct analyse_given *g, struct arena *a, struct err *e)
+static bool table_take(struct analyse_source *s, const struct analyse_given *g, struct arena *a, struct err *e)
 {
     struct arena *scratch = arena_open();
     struct csv t;
-    bool ok = csv_read(s->file, scratch, &t, e);
+    bool ok = table_read(s->file, scratch, &t, e);
     if (ok) {
         s->has_force = csv_column(&t, "amplitude_n") < 0 || (g->column && csv_column(&t, g->column) >= 0);
         ok = s->has_force ? force_take(s, &t, g, a, e) : impacts_take(s, &t, a, e);
@@ -171,9 +172,11 @@ static bool samples_take(struct analyse_source *s, const struct analyse_given *g
     struct bytes b;
     bool ok = bytes_read(s->file, scratch, &b, e);
     if (ok) {
-        bool npy = heightfile_npy_is(&b);
+        bool npy = npy_is(&b);
+        struct npy head;
         s->kind = npy ? "NPY" : "WAV";
-        ok = npy ? npy_take(s, &b, g, a, e) : wav_take(s, g, a, e);
+        ok = !npy || npy_read(s->file, &b, scratch, &head, e);
+        ok = ok && (!npy ? wav_take(s, g, a, e) : head.n_fields ? table_take(s, g, a, e) : npy_take(s, &b, g, a, e));
     }
     arena_close(scratch);
     return ok;
@@ -203,7 +206,7 @@ static bool all_in_range(const struct analyse_source *s, struct err *e)
 bool analyse_read(const char *file, const struct analyse_given *g, struct arena *a, struct analyse_source *s, struct err *e)
 {
     *s = (struct analyse_source){.file = file, .kind = "CSV", .has_force = true};
-    if (!(rules_ends_in(file, ".csv") ? csv_take(s, g, a, e) : samples_take(s, g, a, e)))
+    if (!(rules_ends_in(file, ".csv") ? table_take(s, g, a, e) : samples_take(s, g, a, e)))
         return false;
     if (s->has_force && !impact_find(&s->signal, &g->options, a, &s->found, e))
         return err_at(e, "%s", file);

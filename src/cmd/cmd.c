@@ -4,13 +4,14 @@
 #include <string.h>
 
 #include "base/wrap.h"
+#include "cmd/tell.h"
 #include "scene/scene_read.h"
 
 static struct scene_overrides overrides(struct cmd_call *c)
 {
     int n;
     const char **set = args_values(&c->args, "set", &n);
-    return (struct scene_overrides){set, n, args_value(&c->args, "seed")};
+    return (struct scene_overrides){.set = set, .n = n, .seed = args_value(&c->args, "seed")};
 }
 
 bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e)
@@ -22,15 +23,13 @@ bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struc
         return true;
     if (!messages || !*messages)
         return err_set(e, cause.kind, "%s", cause.text);
-    fputs(messages, stderr);
-    if (messages[strlen(messages) - 1] != '\n')
-        fputc('\n', stderr);
+    tell_scene(c, s->diag, messages, cause.kind);
     return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_INPUT ? "or a file it includes cannot be read" : "is not a valid scene");
 }
 
 static void print_option(const struct args_option *o)
 {
-    char head[64], letter[8] = "    ";
+    char head[96], letter[8] = "    ";
     if (o->letter)
         snprintf(letter, sizeof letter, "-%c, ", o->letter);
     int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, o->name, o->value ? "=" : "", o->value ? o->value : "");

@@ -10,12 +10,17 @@
 #include "base/err.h"
 #include "scene/scene.h"
 
+struct cmd_tell; /* cmd/tell.c */
+
 struct cmd_call {
     struct args args;    /* options and operands, their number already checked */
     struct arena *arena; /* lives until the command ends                       */
     int argc;            /* the words behind the command's name, as they came  */
     char **argv;
+    struct cmd_tell *tell; /* how errors and warnings are told; NULL: as text, at once */
 };
+
+struct action; /* cmd/actions.h */
 
 struct command {
     const char *name;
@@ -24,17 +29,21 @@ struct command {
     const char *operands;               /* as in the usage line: "SCENE...", "A B"; "": none           */
     int least, most;                    /* number of operands; most < 0: any number                    */
     const struct args_option *options;  /* ends with {0}; never NULL                                   */
+    const struct action *actions;       /* what the first operand may be, ends with name NULL; NULL: no such command */
     const char *examples;               /* shell lines, each ending in \n; a line may end in # comment */
     int (*run)(struct cmd_call *c, struct err *e);
 };
 
 extern const struct command check_command, explain_command, new_command, render_command, plan_command, compare_command,
-    plot_command, accuracy_command, analyse_command, surface_command, modes_command;
+    plot_command, accuracy_command, analyse_command, surface_command, modes_command, completion_command, batch_command, merge_command, golden_command;
 
 /* Rows for the option table of every command that reads scenes; cmd_read_scene heeds them. */
 #define CMD_SCENE_OPTIONS                                                                                                     \
     {"set", 's', "PATH=VALUE", true, "sets a key of the scene, as in --set motion.rate='3 Hz'; may be repeated, the last wins"}, \
     {"seed", 0, "NUMBER", false, "sets the scene's seed; same as --set seed=NUMBER"}
+
+/* Of those that tell errors and warnings by cmd/tell.h. */
+#define CMD_DIAGNOSTICS_OPTION {"diagnostics", 0, "text|json", false, "errors and warnings as text (the default), or as JSON on standard error, one object a line"}
 
 /* scene_read with the command line's --set and --seed. Prints the scene's messages on stderr; then *e holds their kind and a summary. */
 bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e);

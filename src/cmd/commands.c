@@ -8,14 +8,16 @@
 
 struct group {
     const char *title;
-    const struct command *members[5];
+    const struct command *members[6];
 };
 
 static const struct group groups[] = {
     {"Sound from scenes", {&render_command, &plan_command}},
+    {"Sets of stimuli", {&batch_command, &merge_command}},
     {"Writing scenes", {&new_command, &explain_command, &check_command}},
-    {"Looking at results", {&compare_command, &plot_command, &accuracy_command, &analyse_command}},
+    {"Looking at results", {&compare_command, &golden_command, &plot_command, &accuracy_command, &analyse_command}},
     {"Surfaces and objects", {&surface_command, &modes_command}},
+    {"The shell", {&completion_command}},
     {NULL, {NULL}},
 };
 
@@ -25,6 +27,15 @@ const struct command *commands_find(const char *name)
         for (int i = 0; g->members[i]; i++)
             if (!strcmp(g->members[i]->name, name))
                 return g->members[i];
+    return NULL;
+}
+
+const struct command *commands_at(int i)
+{
+    for (const struct group *g = groups; g->title; g++)
+        for (int k = 0; g->members[k]; k++)
+            if (i-- == 0)
+                return g->members[k];
     return NULL;
 }
 
@@ -50,7 +61,7 @@ void commands_print(FILE *f)
     for (const struct group *g = groups; g->title; g++) {
         fprintf(f, "\n%s:\n", g->title);
         for (int i = 0; g->members[i]; i++)
-            fprintf(f, "  %-9s %s\n", g->members[i]->name, g->members[i]->summary);
+            fprintf(f, "  %-10s %s\n", g->members[i]->name, g->members[i]->summary);
     }
     fputs("\n`rasp help COMMAND` explains a command; `rasp --version --verbose` belongs in bug reports.\n"
           "Manual: man rasp, man rasp-scene\n",

@@ -9,11 +9,12 @@
 #include <sys/stat.h>
 
 #include "base/hash.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
 
 /* By its first bytes, else by its name; a pipe is a table, for its bytes could not be read twice. ERR_INPUT: not there. */
-static bool is_sound(const char *path, bool *sound, struct err *e)
+bool compare_is_sound(const char *path, bool *sound, struct err *e)
 {
     static const char *const magics[] = {"RIFF", "RF64", "riff", "FORM", "fLaC", "OggS", "caff", ".snd", NULL};
     static const char *const names[] = {".wav", ".w64", ".aif", ".aiff", ".flac", ".ogg", ".caf", ".au", NULL};
@@ -22,7 +23,7 @@ static bool is_sound(const char *path, bool *sound, struct err *e)
     *sound = false;
     if (stat(path, &s) != 0)
         return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
-    FILE *f = S_ISREG(s.st_mode) ? fopen(path, "rb") : NULL;
+    FILE *f = S_ISREG(s.st_mode) ? memory_fopen(path, "rb") : NULL;
     if (f) {
         head[fread(head, 1, 4, f)] = '\0';
         fclose(f);
@@ -47,52 +48,75 @@ static bool column_tolerance(const char *text, struct table_distance_tolerance *
 }
 
 /* Of the tolerances for all others the first counts, of those for one column the last: so the command line overrides the file. */
-static bool gather_tolerances(const struct cmd_call *c, struct compare_ask *ask, struct err *e)
+static bool gather_tolerances(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
 {
     static const double range[2] = {0, HUGE_VAL};
     const struct table_distance_tolerance *file = NULL;
-    const char *path = args_value(&c->args, "tolerance");
+    const char *path = args_value(g, "tolerance");
     int columns, n = 0, rows = 0;
-    const char **texts = args_values(&c->args, "column", &columns);
-    if (path && !(file = table_distance_read(path, c->arena, e)))
+    const char **texts = args_values(g, "column", &columns);
+    if (path && folder && *path != '/')
+        path = arena_format(ask->arena, "%s/%s", folder, path);
+    if (path && !(file = table_distance_read(path, ask->arena, e)))
         return false;
     while (file && file[rows].column)
         rows++;
-    struct table_distance_tolerance *list = ARENA_TAKE(c->arena, struct table_distance_tolerance, rows + columns + 2);
+    struct table_distance_tolerance *list = ARENA_TAKE(ask->arena, struct table_distance_tolerance, rows + columns + 2);
     ask->tolerances = list;
-    if (args_given(&c->args, "abs") || args_given(&c->args, "rel"))
+    if (args_given(g, "abs") || args_given(g, "rel"))
         list[n++].column = "*";
-    if (!args_number(&c->args, "abs", range, &list[0].abs, e) || !args_number(&c->args, "rel", range, &list[0].rel, e))
+    if (!args_number(g, "abs", range, &list[0].abs, e) || !args_number(g, "rel", range, &list[0].rel, e))
         return false;
     for (int i = 0; i < rows; i++)
         list[n++] = file[i];
     for (int i = 0; i < columns; i++)
-        if (!column_tolerance(texts[i], &list[n++], c->arena, e))
+        if (!column_tolerance(texts[i], &list[n++], ask->arena, e))
             return false;
     return true;
 }
 
-static bool gather_limits(const struct cmd_call *c, struct compare_ask *ask, struct err *e)
+static bool gather_limits(const struct args *g, struct compare_ask *ask, struct err *e)
 {
     static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
-    return args_number(&c->args, "snr", any, &ask->snr, e) && args_number(&c->args, "lsb", positive, &ask->lsb, e) &&
-           args_number(&c->args, "third-octave", positive, &ask->third_octave, e) && args_number(&c->args, "within", positive, &ask->within, e);
+    return args_number(g, "snr", any, &ask->snr, e) && args_number(g, "lsb", positive, &ask->lsb, e) &&
+           args_number(g, "third-octave", positive, &ask->third_octave, e) && args_number(g, "within", positive, &ask->within, e);
+}
+
+bool compare_limits(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
+{
+    ask->snr = ask->lsb = ask->third_octave = NAN;
+    ask->within = 60;
+    if (args_given(g, "within") && !args_given(g, "third-octave"))
+        return err_set(e, ERR_USAGE, "--within says which bands --third-octave compares: give both");
+    return gather_limits(g, ask, e) && gather_tolerances(g, folder, ask, e);
 }
 
 /* The first of the options that was given, or NULL. */
-static const char *given_of(const struct cmd_call *c, const char *const *names)
+static const char *given_of(const struct args *g, const char *const *names)
 {
     for (; *names; names++)
-        if (args_given(&c->args, *names))
+        if (args_given(g, *names))
             return *names;
     return NULL;
+}
+
+const char *compare_limit_of_sounds(const struct args *g)
+{
+    static const char *const names[] = {"snr", "lsb", "third-octave", "within", NULL};
+    return given_of(g, names);
+}
+
+const char *compare_limit_of_tables(const struct args *g)
+{
+    static const char *const names[] = {"tolerance", "column", "abs", "rel", NULL};
+    return given_of(g, names);
 }
 
 /* FILE --hash HEX. */
 static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, struct err *e)
 {
-    static const char *const others[] = {"exact", "snr", "lsb", "third-octave", "within", "tolerance", "column", "abs", "rel", NULL};
-    const char *other = given_of(c, others);
+    const char *sounds = compare_limit_of_sounds(&c->args), *tables = compare_limit_of_tables(&c->args);
+    const char *other = args_given(&c->args, "exact") ? "exact" : sounds ? sounds : tables;
     char *hex = arena_text(c->arena, args_value(&c->args, "hash"));
     bool sound;
     if (c->args.n_operands != 1)
@@ -101,7 +125,7 @@ static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, s
         err_set(e, ERR_USAGE, "--hash leaves no room for --%s: a hash is met or it is not", other);
     else if (strlen(hex) != HASH_TEXT - 1 || strspn(hex, "0123456789abcdefABCDEF") != HASH_TEXT - 1)
         err_set(e, ERR_USAGE, "--hash: '%s' is not a SHA-256: 64 hexadecimal digits, as `rasp compare FILE FILE` prints them", hex);
-    if (e->kind || !is_sound(ask->files[0], &sound, e))
+    if (e->kind || !compare_is_sound(ask->files[0], &sound, e))
         return (int)e->kind;
     for (char *p = hex; *p; p++)
         *p = *p >= 'A' && *p <= 'F' ? (char)(*p + 'a' - 'A') : *p;
@@ -111,44 +135,34 @@ static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, s
 
 static int compare_run(struct cmd_call *c, struct err *e)
 {
-    static const char *const for_sounds[] = {"snr", "lsb", "third-octave", "within", NULL};
-    static const char *const for_tables[] = {"tolerance", "column", "abs", "rel", NULL};
-    const char **files = c->args.operands, *sounds = given_of(c, for_sounds), *tables = given_of(c, for_tables);
+    const char **files = c->args.operands, *sounds = compare_limit_of_sounds(&c->args), *tables = compare_limit_of_tables(&c->args);
     bool a, b, exact = args_given(&c->args, "exact");
     struct compare_ask ask = {.files = {files[0], files[1]}, .json = args_given(&c->args, "json"), .quiet = args_given(&c->args, "quiet"),
-                              .exact = exact || (!sounds && !tables), .snr = NAN, .lsb = NAN, .third_octave = NAN, .within = 60, .arena = c->arena};
+                              .exact = exact || (!sounds && !tables), .out = stdout, .arena = c->arena};
     if (args_given(&c->args, "hash"))
         return compare_run_hash(c, &ask, e);
     if (c->args.n_operands < 2) {
         err_set(e, ERR_USAGE, "operands are missing; usage: rasp compare A B, or rasp compare FILE --hash SHA256");
         return (int)e->kind;
     }
-    if (!is_sound(files[0], &a, e) || !is_sound(files[1], &b, e))
+    if (!compare_is_sound(files[0], &a, e) || !compare_is_sound(files[1], &b, e))
         return (int)e->kind;
     if (a != b)
         err_set(e, ERR_USAGE, "%s is a %s and %s is a %s: they cannot be compared", files[0], a ? "sound" : "table", files[1],
                 b ? "sound" : "table");
     else if (a ? tables != NULL : sounds != NULL)
         err_set(e, ERR_USAGE, "--%s is for %s, and these are %s", a ? tables : sounds, a ? "tables" : "sounds", a ? "sounds" : "tables");
-    else if (args_given(&c->args, "within") && !args_given(&c->args, "third-octave"))
-        err_set(e, ERR_USAGE, "--within says which bands --third-octave compares: give both");
     else if (exact && tables)
         err_set(e, ERR_USAGE, "--exact leaves no room for --%s", tables);
-    if (e->kind || !gather_limits(c, &ask, e) || !gather_tolerances(c, &ask, e))
+    if (e->kind || !compare_limits(&c->args, NULL, &ask, e))
         return (int)e->kind;
     return a ? compare_sound(&ask, e) : compare_table(&ask, e);
 }
 
 static const struct args_option options[] = {
     {"exact", 'e', NULL, false, "every sample or cell must be the same (the default when no limit is given)"},
-    {"snr", 0, "DB", false, "sounds: the difference is at least this far below A (signal-to-noise ratio)"},
-    {"lsb", 0, "N", false, "sounds: no sample differs by more than N steps of the coarser integer encoding"},
-    {"third-octave", 0, "DB", false, "sounds: no third-octave band near the loudest differs by more (see --within); alone, rates may differ"},
-    {"within", 0, "DB", false, "sounds: third-octave bands farther than this below the loudest are left out (60)"},
-    {"tolerance", 't', "FILE", false, "tables: a table column,abs,rel of tolerances; the column * stands for all others"},
-    {"column", 'c', "NAME=ABS,REL", true, "tables: the tolerance of one column; overrides the file"},
-    {"abs", 0, "X", false, "tables: absolute tolerance of all columns not named; overrides the file's *"},
-    {"rel", 0, "Y", false, "tables: relative tolerance of all columns not named; overrides the file's *"},
+    COMPARE_SOUND_LIMITS,
+    COMPARE_TABLE_LIMITS,
     {"hash", 0, "SHA256", false, "checks one FILE against a stored hash of 64 hexadecimal digits; only --json and --quiet may stand beside it"},
     {"json", 'j', NULL, false, "prints the figures as one JSON object; null stands for an infinite figure or one that is not there"},
     {"quiet", 'q', NULL, false, "prints nothing when all criteria are met"},
@@ -158,7 +172,7 @@ const struct command compare_command = {
     .name = "compare",
     .summary = "compare two sounds or two tables within tolerances",
     .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing samples, the first, the "
-            "largest difference, the signal-to-noise ratio and the third-octave levels; for CSV tables the misses of each column and the "
+            "largest difference, the signal-to-noise ratio and the third-octave levels; for tables (CSV, or NPY with named fields) the misses of each column and the "
             "worst of them; for both a SHA-256. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
             "Sounds of different sample rates are not compared sample by sample: difference, LSB and SNR are left out, and every criterion "
             "but --third-octave fails.\n"

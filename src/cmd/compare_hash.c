@@ -6,6 +6,7 @@
 #include "analysis/distance.h"
 #include "base/hash.h"
 #include "cmd/compare.h"
+#include "file/table.h"
 
 /* What cannot be compared with a file has no hash to compare either: a table without rows, a sound without samples. */
 static bool file_hash(const struct compare_ask *ask, bool sound, char hex[HASH_TEXT], struct err *e)
@@ -19,7 +20,7 @@ static bool file_hash(const struct compare_ask *ask, bool sound, char hex[HASH_T
         distance_hash(&w, hex);
         return true;
     }
-    if (!csv_read(file, ask->arena, &t, e))
+    if (!table_read(file, ask->arena, &t, e))
         return false;
     if (t.rows == 0)
         return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", file);
@@ -34,8 +35,8 @@ static bool print_json(const struct compare_ask *ask, const char *key, const cha
                           "file", name ? name : json_null(),
                           key, hex,
                           "expected", ask->hash);
-    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2)) == 0;
-    putchar('\n');
+    bool ok = j && json_dumpf(j, ask->out, JSON_INDENT(2)) == 0;
+    fputc('\n', ask->out);
     json_decref(j);
     return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
 }
@@ -51,6 +52,6 @@ int compare_hash(const struct compare_ask *ask, bool sound, struct err *e)
     if (ask->json && !print_json(ask, sound ? "audio_sha256" : "file_sha256", hex, e))
         return (int)e->kind;
     if (!ask->json)
-        printf("%s\n%s sha256: %s%s%s\n", ask->files[0], held ? "ok  " : "FAIL", hex, held ? "" : ", where the hash given is ", held ? "" : ask->hash);
+        fprintf(ask->out, "%s\n%s sha256: %s%s%s\n", ask->files[0], held ? "ok  " : "FAIL", hex, held ? "" : ", where the hash given is ", held ? "" : ask->hash);
     return held ? 0 : ERR_DIFFERS;
 }

@@ -1,9 +1,9 @@
 /* The report of `rasp compare` on two sounds, as text or as JSON. */
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "cmd/compare_sound.h"
+#include "file/json_value.h"
 #include "num/real.h"
 
 static double decibels(double x)
@@ -21,16 +21,16 @@ static void print_form(const struct verdict *v)
     const struct wav *a = &v->sound[0], *b = &v->sound[1];
     double short_by = (double)a->frames - (double)b->frames, seconds[2] = {(double)a->frames / a->rate, (double)b->frames / b->rate};
     if (a->rate != b->rate)
-        printf("rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
+        fprintf(v->ask->out, "rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
     if (a->channels != b->channels)
-        printf("channels            A %d, B %d\n", a->channels, b->channels);
+        fprintf(v->ask->out, "channels            A %d, B %d\n", a->channels, b->channels);
     if (a->rate != b->rate)
-        printf("length              A %.6f s, B %.6f s\n", seconds[0], seconds[1]);
+        fprintf(v->ask->out, "length              A %.6f s, B %.6f s\n", seconds[0], seconds[1]);
     else if (a->frames != b->frames)
-        printf("frames              A %zu, B %zu: B is %.0f (%.6f s) %s%s\n", a->frames, b->frames, fabs(short_by),
+        fprintf(v->ask->out, "frames              A %zu, B %zu: B is %.0f (%.6f s) %s%s\n", a->frames, b->frames, fabs(short_by),
                fabs(seconds[0] - seconds[1]), short_by > 0 ? "shorter" : "longer", v->alike ? "; what both have is compared" : "");
     if (a->bits != b->bits)
-        printf("encoding            A %s, B %s\n", encoding(a, v->ask->arena), encoding(b, v->ask->arena));
+        fprintf(v->ask->out, "encoding            A %s, B %s\n", encoding(a, v->ask->arena), encoding(b, v->ask->arena));
 }
 
 static void print_samples(const struct verdict *v)
@@ -38,15 +38,15 @@ static void print_samples(const struct verdict *v)
     const struct distance_samples *d = &v->d;
     double step = distance_step(&v->sound[0], &v->sound[1]);
     size_t n = d->frames * (size_t)v->sound[0].channels;
-    printf("differing samples   %zu of %zu (%.3g %%)\n", d->differing, n, 100 * (double)d->differing / (double)n);
+    fprintf(v->ask->out, "differing samples   %zu of %zu (%.3g %%)\n", d->differing, n, 100 * (double)d->differing / (double)n);
     if (d->differing) {
-        printf("first difference    %s\n", compare_sound_place(v, &d->first));
-        printf("largest difference  ");
+        fprintf(v->ask->out, "first difference    %s\n", compare_sound_place(v, &d->first));
+        fprintf(v->ask->out, "largest difference  ");
         if (step > 0)
-            printf("%.6g LSB of %d bits, ", d->largest / step, 1 - ilogb(step));
-        printf("%.2f dBFS, at %s\n", decibels(d->largest), compare_sound_place(v, &d->worst));
+            fprintf(v->ask->out, "%.6g LSB of %d bits, ", d->largest / step, 1 - ilogb(step));
+        fprintf(v->ask->out, "%.2f dBFS, at %s\n", decibels(d->largest), compare_sound_place(v, &d->worst));
     }
-    printf("SNR                 %.2f dB\n", d->snr_db);
+    fprintf(v->ask->out, "SNR                 %.2f dB\n", d->snr_db);
 }
 
 static void print_figures(const struct verdict *v)
@@ -54,34 +54,29 @@ static void print_figures(const struct verdict *v)
     if (v->paired)
         print_samples(v);
     else
-        printf("samples             difference, LSB and SNR are left out, because the sample rates differ\n");
+        fprintf(v->ask->out, "samples             difference, LSB and SNR are left out, because the sample rates differ\n");
     if (v->bands.compared)
-        printf("third-octave bands  at most %.4g dB apart, at %s\n", v->bands.worst_db, compare_sound_band(v));
+        fprintf(v->ask->out, "third-octave bands  at most %.4g dB apart, at %s\n", v->bands.worst_db, compare_sound_band(v));
     else
-        printf("third-octave bands  none to compare\n");
+        fprintf(v->ask->out, "third-octave bands  none to compare\n");
 }
 
 void compare_sound_report_text(const struct verdict *v)
 {
     const struct wav *a = &v->sound[0];
-    printf("A %s\nB %s\n", v->ask->files[0], v->ask->files[1]);
-    printf("sha256  A %s B %s\n", v->hash[0], v->hash[1]);
+    fprintf(v->ask->out, "A %s\nB %s\n", v->ask->files[0], v->ask->files[1]);
+    fprintf(v->ask->out, "sha256  A %s B %s\n", v->hash[0], v->hash[1]);
     print_form(v);
     if (v->equal)
-        printf("equal: %zu frames (%.6f s), %d channel%s, %.9g Hz\n", a->frames, (double)a->frames / a->rate, a->channels,
+        fprintf(v->ask->out, "equal: %zu frames (%.6f s), %d channel%s, %.9g Hz\n", a->frames, (double)a->frames / a->rate, a->channels,
                a->channels == 1 ? "" : "s", a->rate);
     else if (v->alike)
         print_figures(v);
     for (int i = 0; i < v->n_criteria && !v->equal; i++)
-        printf("%s %s: %s\n", v->criteria[i].held ? "ok  " : "FAIL", v->criteria[i].name, v->criteria[i].says);
+        fprintf(v->ask->out, "%s %s: %s\n", v->criteria[i].held ? "ok  " : "FAIL", v->criteria[i].name, v->criteria[i].says);
 }
 
 /* JSON has no infinities: null. */
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
-
 /* Of frames or samples that have a partner: null where none has. */
 static json_t *count(const struct verdict *v, size_t n)
 {
@@ -99,10 +94,10 @@ static json_t *json_sound(const struct verdict *v, int i)
     const struct wav *w = &v->sound[i];
     return json_pack("{s:o, s:o, s:i, s:I, s:o, s:o}",
                      "file", name_or_null(v->ask->files[i]),
-                     "rate_hz", number(w->rate),
+                     "rate_hz", json_value_number(w->rate),
                      "channels", w->channels,
                      "frames", (json_int_t)w->frames,
-                     "duration_s", number((double)w->frames / w->rate),
+                     "duration_s", json_value_number((double)w->frames / w->rate),
                      "bits", w->bits ? json_integer(w->bits) : json_null());
 }
 
@@ -112,10 +107,10 @@ static json_t *json_place(const struct verdict *v, const struct distance_place *
         return json_null();
     return json_pack("{s:I, s:o, s:i, s:o, s:o}",
                      "frame", (json_int_t)p->frame,
-                     "time_s", number((double)p->frame / v->sound[0].rate),
+                     "time_s", json_value_number((double)p->frame / v->sound[0].rate),
                      "channel", p->channel + 1,
-                     "a", number(p->a),
-                     "b", number(p->b));
+                     "a", json_value_number(p->a),
+                     "b", json_value_number(p->b));
 }
 
 static json_t *json_bands(const struct verdict *v)
@@ -124,11 +119,11 @@ static json_t *json_bands(const struct verdict *v)
     bool any = d->compared > 0;
     return json_pack("{s:i, s:o, s:o, s:o, s:o, s:o}",
                      "compared", d->compared,
-                     "worst_db", number(d->worst_db),
-                     "band_hz", number(any ? distance_band_nominal(d->band) : NAN),
+                     "worst_db", json_value_number(d->worst_db),
+                     "band_hz", json_value_number(any ? distance_band_nominal(d->band) : NAN),
                      "channel", any ? json_integer(d->channel + 1) : json_null(),
-                     "a_db", number(any ? d->a_db : NAN),
-                     "b_db", number(any ? d->b_db : NAN));
+                     "a_db", json_value_number(any ? d->a_db : NAN),
+                     "b_db", json_value_number(any ? d->b_db : NAN));
 }
 
 static json_t *json_criteria(const struct verdict *v)
@@ -139,8 +134,8 @@ static json_t *json_criteria(const struct verdict *v)
         json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}",
                                               "name", c->name,
                                               "held", c->held,
-                                              "limit", number(c->limit),
-                                              "measured", number(c->measured),
+                                              "limit", json_value_number(c->limit),
+                                              "measured", json_value_number(c->measured),
                                               "says", name_or_null(c->says)));
     }
     return list;
@@ -158,15 +153,15 @@ bool compare_sound_report_json(const struct verdict *v, struct err *e)
                           "frames_compared", count(v, d->frames),
                           "differing_samples", count(v, d->differing),
                           "first_difference", json_place(v, &d->first),
-                          "largest_difference", number(v->paired ? d->largest : NAN),
-                          "largest_difference_lsb", number(compare_sound_steps(v)),
-                          "largest_difference_dbfs", number(v->paired ? decibels(d->largest) : NAN),
+                          "largest_difference", json_value_number(v->paired ? d->largest : NAN),
+                          "largest_difference_lsb", json_value_number(compare_sound_steps(v)),
+                          "largest_difference_dbfs", json_value_number(v->paired ? decibels(d->largest) : NAN),
                           "largest_difference_at", json_place(v, &d->worst),
-                          "snr_db", number(d->snr_db),
+                          "snr_db", json_value_number(d->snr_db),
                           "third_octave", json_bands(v),
                           "criteria", json_criteria(v));
-    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
-    putchar('\n');
+    bool ok = j && json_dumpf(j, v->ask->out, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
+    fputc('\n', v->ask->out);
     json_decref(j);
     return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
 }

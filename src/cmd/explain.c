@@ -7,6 +7,8 @@
 #include "base/text.h"
 #include "base/wrap.h"
 #include "cmd/cmd.h"
+#include "cmd/explain_json.h"
+#include "cmd/schema.h"
 #include "output/force_table.h"
 #include "scene/keys_man.h"
 #include "scene/keys_reference.h"
@@ -106,12 +108,48 @@ static void print_man(const char *part, struct arena *a, struct err *e)
         err_set(e, ERR_USAGE, "--man: '%s' is neither keys nor columns", part);
 }
 
+static void print_json(json_t *o)
+{
+    json_dumpf(o, stdout, JSON_INDENT(2));
+    putchar('\n');
+    json_decref(o);
+}
+
+static void print_schema(const char *of, struct arena *a, struct err *e)
+{
+    if (!strcmp(of, "scene"))
+        print_json(schema_scene(a));
+    else if (!strcmp(of, "design"))
+        print_json(schema_design(a));
+    else
+        err_set(e, ERR_USAGE, "--schema: '%s' is neither scene nor design", of);
+}
+
+static void explain_rows(const char *word, const char **names, struct arena *a, struct err *e)
+{
+    const char *path = word ? keys_text_plain(word) : "";
+    json_t *rows = explain_json(path);
+    if (json_array_size(rows) > 0) {
+        print_json(rows);
+        return;
+    }
+    json_decref(rows);
+    if (is_scene_file(word))
+        err_set(e, ERR_USAGE, "--json is for keys and sections; an effective scene is YAML");
+    else
+        unknown(word, names, a, e);
+}
+
 static int explain_run(struct cmd_call *c, struct err *e)
 {
     const char *word = c->args.n_operands ? c->args.operands[0] : NULL;
     const char **names = keys_text_names(c->arena);
     if (args_given(&c->args, "man"))
         print_man(args_value(&c->args, "man"), c->arena, e);
+    else if (args_given(&c->args, "schema"))
+        print_schema(args_value(&c->args, "schema"), c->arena, e);
+    else if (args_given(&c->args, "json"))
+        explain_rows(word, names, c->arena, e);
     else if (!word)
         keys_reference_print(stdout, c->arena);
     else if (explain_path(keys_text_plain(word), names, c->arena))
@@ -125,6 +163,9 @@ static int explain_run(struct cmd_call *c, struct err *e)
 
 static const struct args_option options[] = {
     CMD_SCENE_OPTIONS,
+    CMD_DIAGNOSTICS_OPTION,
+    {"json", 'j', NULL, false, "print keys as a JSON array, an object each: all, one, or those of a section"},
+    {"schema", 0, "scene|design", false, "print the JSON Schema of scenes, or of designs, for editors (installed as share/rasp/*.schema.json)"},
     {"man", 0, "keys|columns", false, "prints a part of man rasp-scene(5), in mdoc"},
     {0},
 };
@@ -142,6 +183,8 @@ const struct command explain_command = {
     .examples = "rasp explain > every-key.yaml\n"
                 "rasp explain motion.rate\n"
                 "rasp explain accuracy\n"
+                "rasp explain --json motion\n"
+                "rasp explain --schema=scene > scene.schema.json\n"
                 "rasp explain scrape.yaml > effective.yaml\n",
     .run = explain_run,
 };

@@ -40,26 +40,36 @@ const char *modes_per_impulse(int quantity)
     return units[quantity];
 }
 
+/* compute and extract are the other program's: it has them in place of modes_elsewhere_run. */
+static const struct action actions[] = {
+    {"object", "one RECIPE or SCENE", 1, 1,
+     {"output", "force", "line", "circle", "places", "grid", "at", "listen", "load", "modes", "top", "quantity", "body", "set", "seed", "quiet"}, modes_object_run},
+    {"compute", "one MESH, or --shape", 0, 1,
+     {"output", "force", "shape", "order", "estimate", "unit", "material", "youngs-modulus", "poisson", "density", "alpha", "beta", "loss", "clamp", "support", "modes", "top", "face",
+      "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, modes_elsewhere_run},
+    {"extract", "RECORDING...", 1, -1,
+     {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "radius", "distance", "delay", "impulse", "modes", "low", "high", "method",
+      "slopes", "regularisation", "strike-threshold", "response", "resynthesis", "residual", "plot", "json", "quiet"}, modes_elsewhere_run},
+    {"list", "one FILE: a mode table (.csv), RECIPE or SCENE", 1, 1, {"at", "modes", "top", "body", "set", "seed"}, modes_list_run},
+    {NULL, NULL, 0, 0, {NULL}, NULL},
+};
+
 int modes_dispatch(struct cmd_call *c, const struct modes_heavy *heavy, struct err *e)
 {
-    const struct action actions[] = {
-        {"object", "one RECIPE or SCENE", 1, 1,
-         {"output", "force", "line", "circle", "places", "grid", "at", "listen", "load", "modes", "top", "quantity", "body", "set", "seed", "quiet"}, modes_object_run},
-        {"compute", "one MESH, or --shape", 0, 1,
-         {"output", "force", "shape", "order", "estimate", "unit", "material", "youngs-modulus", "poisson", "density", "alpha", "beta", "loss", "clamp", "support", "modes", "top", "face",
-          "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, heavy->compute},
-        {"extract", "RECORDING...", 1, -1,
-         {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "radius", "distance", "delay", "impulse", "modes", "low", "high", "method",
-          "slopes", "regularisation", "strike-threshold", "response", "resynthesis", "residual", "plot", "json", "quiet"}, heavy->extract},
-        {"list", "one FILE: a mode table (.csv), RECIPE or SCENE", 1, 1, {"at", "modes", "top", "body", "set", "seed"}, modes_list_run},
-        {NULL, NULL, 0, 0, {NULL}, NULL},
-    };
-    return actions_run("modes", actions, c, e);
+    struct action mine[sizeof actions / sizeof *actions];
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
+        mine[i] = actions[i];
+        if (mine[i].name && !strcmp(mine[i].name, "compute"))
+            mine[i].run = heavy->compute;
+        if (mine[i].name && !strcmp(mine[i].name, "extract"))
+            mine[i].run = heavy->extract;
+    }
+    return actions_run("modes", mine, c, e);
 }
 
 static int modes_run(struct cmd_call *c, struct err *e)
 {
-    return modes_dispatch(c, &(struct modes_heavy){modes_elsewhere_run, modes_elsewhere_run}, e);
+    return actions_run("modes", actions, c, e);
 }
 
 static const struct args_option options[] = {
@@ -78,7 +88,7 @@ static const struct args_option options[] = {
     {"loss", 0, "NUMBER", false, "compute: loss factor; a mode of angular frequency w decays with (alpha + beta w^2 + loss w)/2"},
     {"clamp", 0, "FACE", true, "compute: a face that does not move: x0, x1, y0 ... (where the solid ends), or its name in the mesh"},
     {"support", 0, "FACE", true, "compute: a face that moves along its normal only: a hinge, for what is thin"},
-    {"face", 0, "WORD", false, "compute: the side on which the places are: top (default), bottom, right, left, back, front, around (x is the arc round the z axis, y the height) or inside"},
+    {"face", 0, "top|bottom|right|left|back|front|around|inside", false, "compute: the side on which the places are (around: x is the arc round the z axis, y the height); default: top"},
     {"line", 0, "X0,Y0,X1,Y1", false, "object, compute: places on a line, its two ends"},
     {"circle", 0, "RADIUS", false, "object, compute: places on a circle round (0, 0)"},
     {"places", 0, "N", false, "object, compute: how many places on the line or circle (default 33)"},
@@ -99,7 +109,7 @@ static const struct args_option options[] = {
     {"impulse", 0, NULL, false, "extract: the recordings are impulse responses already, sample 0 at the strike"},
     {"low", 0, "FREQUENCY", false, "extract: modes are looked for from here on; default: where the sound stands out of the noise"},
     {"high", 0, "FREQUENCY", false, "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest"},
-    {"method", 0, "WORD", false, "extract: esprit (default) or spectrogram, peaks of the power spectrogram"},
+    {"method", 0, "esprit|spectrogram", false, "extract: spectrogram takes the peaks of the power spectrogram; default: esprit"},
     {"slopes", 0, NULL, false, "extract: a mode may decay with two slopes"},
     {"regularisation", 0, "SHARE", false, "extract: added to the force's power where it is divided out, as a share of its greatest; default: that of its noise, at least 1e-6"},
     {"strike-threshold", 0, "DECIBEL", false, "extract: by how much a strike must rise above the noise (default 20)"},
@@ -109,9 +119,9 @@ static const struct args_option options[] = {
     {"plot", 0, "FILE", false, "extract: draws spectrum, modes, levels and decays of the first place, as .png or .svg"},
     {"json", 0, NULL, false, "extract: the report as JSON"},
     {"top", 0, "FREQUENCY", false, "modes of an object above are left out (default 20 kHz)"},
-    {"quantity", 0, "WORD", false, "object, compute: displacement, velocity or acceleration per N s (default velocity); extract: what the sound's channel holds, also pressure (default)"},
+    {"quantity", 0, "displacement|velocity|acceleration|pressure", false, "object, compute: the first three, per N s (default velocity); extract: what the sound's channel holds (default pressure)"},
     {"title", 0, "TEXT", false, "compute: a line for the table"},
-    {"body", 0, "WORD", false, "of a scene: surface, scraper or ball (default surface)"},
+    {"body", 0, "surface|scraper|ball", false, "of a scene: whose modes; default: surface"},
     CMD_SCENE_OPTIONS,
     {"quiet", 'q', NULL, false, "object, compute, extract: prints nothing; what would be warned of stands in the table's comments all the same"},
     {0}};
@@ -148,6 +158,7 @@ const struct command modes_command = {
     .least = 1,
     .most = -1,
     .options = options,
+    .actions = actions,
     .examples = "rasp modes object irs/glass_ball.yaml -o ball.csv\n"
                 "rasp modes object irs/basswood_plank.yaml --line 0,3.7cm,40cm,3.7cm --places 33 --listen 11.7cm,2.9cm -o plank.csv\n"
                 "rasp modes object irs/poplar_rod.yaml --set surface.object.length=30cm --at 0,0 -o rod.csv\n"

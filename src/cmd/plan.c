@@ -1,35 +1,55 @@
 /* rasp plan: what a scene would run, and why. */
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "cmd/plan_json.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
 #include "scene/scene_places.h"
 
 static const struct args_option plan_options[] = {
     CMD_SCENE_OPTIONS,
+    CMD_DIAGNOSTICS_OPTION,
+    {"json", 'j', NULL, false, "print the plans as JSON, an array with an object for each scene: contacts, their stages, costs in cycles per audio sample"},
     {0},
 };
 
-static bool plan_one(struct cmd_call *c, const char *file, struct err *e)
+static void plan_text(struct cmd_call *c, const struct scene *s, const struct plan *plans, const struct promise *promise)
+{
+    for (int i = 0; i < s->n_contacts; i++)
+        plan_print(&plans[i], stdout);
+    if (promise->text)
+        printf("%s\n", text_shown(c->arena, promise->text));
+}
+
+/* rows: NULL: text. */
+static bool plan_one(struct cmd_call *c, const char *file, json_t *rows, struct err *e)
 {
     struct scene s, kept;
     struct promise promise;
     if (!cmd_read_scene(c, file, &s, e))
         return false;
     const struct plan *plans = promise_keep(&s, c->arena, &kept, &promise, e) ? plan_scene(&kept, c->arena, e) : NULL;
-    for (int i = 0; plans && i < s.n_contacts; i++)
-        plan_print(&plans[i], stdout);
-    if (plans && promise.text)
-        printf("%s\n", text_shown(c->arena, promise.text));
-    return plans || scene_places_tell(&s, e);
+    if (!plans)
+        return scene_places_tell(&s, e);
+    if (rows)
+        json_array_append_new(rows, plan_json(&s, plans, promise.text));
+    else
+        plan_text(c, &s, plans, &promise);
+    return true;
 }
 
 static int plan_run(struct cmd_call *c, struct err *e)
 {
-    for (int i = 0; i < c->args.n_operands; i++)
-        if (!plan_one(c, c->args.operands[i], e))
-            return (int)e->kind;
-    return 0;
+    json_t *rows = args_given(&c->args, "json") ? json_array() : NULL;
+    bool ok = true;
+    for (int i = 0; ok && i < c->args.n_operands; i++)
+        ok = plan_one(c, c->args.operands[i], rows, e);
+    if (rows && ok) {
+        json_dumpf(rows, stdout, JSON_INDENT(2));
+        putchar('\n');
+    }
+    json_decref(rows);
+    return (int)e->kind;
 }
 
 const struct command plan_command = {
@@ -43,6 +63,7 @@ const struct command plan_command = {
     .most = -1,
     .options = plan_options,
     .examples = "rasp plan scenes/basswood_scrape.yaml\n"
-                "rasp plan scenes/basswood_scrape.yaml --set scraper.weight=0\n",
+                "rasp plan scenes/basswood_scrape.yaml --set scraper.weight=0\n"
+                "rasp plan --json scenes/basswood_scrape.yaml\n",
     .run = plan_run,
 };

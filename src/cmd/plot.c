@@ -1,4 +1,4 @@
-/* rasp plot: a picture of a render. */
+/* rasp plot: a picture of a render or mode table, or a page of pictures of many. */
 #include "cmd/plot.h"
 
 #include <math.h>
@@ -9,7 +9,9 @@
 #include "output/picture.h"
 
 static const struct args_option plot_options[] = {
-    {"output", 'o', "FILE", false, "where to write; default: NAME.png beside NAME.wav, or NAME.svg"},
+    {"output", 'o', "FILE", false, "where to write; default: NAME.png beside NAME.wav, or NAME.svg; of a gallery gallery.html in the folder"},
+    {"panels", 'p', "PANEL,...", false, "which of waveform, spectrogram, force, normal, motion, modes and decays; default: all that there are data for, of a gallery waveform and spectrogram"},
+    {"gallery", 'g', NULL, false, "a page of HTML for a folder of renders, or for the manifest.csv of a set: a picture, the sound and the factors of each"},
     {"format", 'f', "png|svg", false, "format of the picture; default: by the output's ending, else png"},
     {"title", 't', "TEXT", false, "title; default: the scene's, if its summary lies beside the sound, else the file's name"},
     {"from", 0, "SECONDS", false, "start of the time shown; default: 0"},
@@ -48,14 +50,34 @@ static void plot_page(void *self, struct gnuplot *g)
     plot_draw(self, g);
 }
 
+static int gallery_run(struct cmd_call *c, struct err *e)
+{
+    const char *format = args_value(&c->args, "format"), *panels = args_value(&c->args, "panels");
+    struct plot_gallery g = {.source = c->args.operands[0], .output = args_value(&c->args, "output"), .title = args_value(&c->args, "title"), .arena = c->arena,
+                             .svg = format && !strcmp(format, "svg")};
+    static const char *const others[] = {"from", "to", "channel"};
+    for (int k = 0; k < 3; k++)
+        if (args_given(&c->args, others[k]))
+            return err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows whole sounds", others[k]), (int)e->kind;
+    if (format && strcmp(format, "png") != 0 && !g.svg)
+        err_set(e, ERR_USAGE, "--format: '%s' is neither png nor svg", format);
+    else if (g.output && !ends(g.output, ".html"))
+        err_set(e, ERR_USAGE, "--output %s: a gallery is a page of HTML, its name must end in .html", g.output);
+    else if (plot_panels_read(panels ? panels : "waveform,spectrogram", &g.asked, c->arena, e))
+        plot_gallery(&g, e);
+    return (int)e->kind;
+}
+
 static int plot_run(struct cmd_call *c, struct err *e)
 {
     struct plot_page p = {.file = c->args.operands[0], .title = args_value(&c->args, "title"), .from = NAN, .to = NAN, .arena = c->arena};
     const double range[2] = {0, 1e9};
     long channel = 1;
-    if (!ends(p.file, ".wav") && !ends(p.file, ".csv"))
-        return err_set(e, ERR_USAGE, "%s: neither a sound (.wav) nor a table of diagnostics (.csv)", p.file), (int)e->kind;
-    if (!plot_format(c, &p, e) || !args_number(&c->args, "from", range, &p.from, e) || !args_number(&c->args, "to", range, &p.to, e) ||
+    if (args_given(&c->args, "gallery"))
+        return gallery_run(c, e);
+    if (!ends(p.file, ".wav") && !ends(p.file, ".csv") && !ends(p.file, ".npy"))
+        return err_set(e, ERR_USAGE, "%s: neither a sound (.wav) nor a table of diagnostics (.csv, .npy) or modes (.csv); of a folder --gallery makes a page", p.file), (int)e->kind;
+    if (!plot_format(c, &p, e) || !plot_panels_read(args_value(&c->args, "panels"), &p.asked, c->arena, e) || !args_number(&c->args, "from", range, &p.from, e) || !args_number(&c->args, "to", range, &p.to, e) ||
         !args_whole(&c->args, "channel", (const long[2]){1, 1024}, &channel, e))
         return (int)e->kind;
     p.channel = (int)channel;
@@ -63,24 +85,30 @@ static int plot_run(struct cmd_call *c, struct err *e)
     if (!plot_data(&p, e) || !picture_write(target, p.svg, plot_page, &p, e))
         return (int)e->kind;
     printf("%s ", target);
-    plot_draw_list(&p, stdout);
+    plot_panels_list(&p, stdout);
     return 0;
 }
 
 const struct command plot_command = {
     .name = "plot",
-    .summary = "draws a render: waveform, spectrogram, forces",
+    .summary = "draws a render: waveform, spectrogram, forces, motion, modes",
     .does = "For NAME.wav writes NAME.png: the waveform, the spectrogram (Hann window of 20 ms, the 80 dB below the loudest place, up to 20 kHz) "
-            "and, from the diagnostics beside it (NAME.csv, or NAME.CONTACT.csv), the contact force and the normal force with alpha, on one time "
-            "axis. A table that is not of the same render, as the hashes in NAME.json tell, is left out with a warning; without NAME.json it is "
-            "taken to be. Panels without data are left out; what was drawn is printed. For NAME.csv, of a render without sound, only the forces. Of "
-            "several channels one is drawn. Needs gnuplot.",
-    .operands = "NAME.wav|NAME.csv",
+            "and, from the diagnostics beside it (NAME.csv, NAME.npy, or NAME.CONTACT.csv), the contact force and the normal force with alpha, on one time "
+            "axis; below them the way of the contact from above, coloured by speed, and the modes of what rings (NAME.scene.yaml): stems of their largest gain on that way, coloured by "
+            "their time of decay. A table that is not of the same render, as the hashes in NAME.json tell, is left out with a warning; without NAME.json it is "
+            "taken to be. Panels without data are left out; what was drawn is printed. For NAME.csv or NAME.npy, of a render without sound, what the table has; a mode table gives the modes, and "
+            "their decays over frequency. Of several channels one is drawn. Needs gnuplot.\n"
+            "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of sounds. The page shows every stimulus, with its factors, and plays it; it needs no "
+            "script, and nothing from elsewhere. Its pictures are drawn anew, into a folder beside it: gallery_files/ of gallery.html. Sounds are linked where they are.",
+    .operands = "NAME.wav|NAME.csv|NAME.npy|FOLDER/|manifest.csv",
     .least = 1,
     .most = 1,
     .options = plot_options,
     .examples = "rasp plot out/basswood_scrape.wav\n"
                 "rasp plot out/basswood_scrape.wav -o stroke.svg --from 0.25 --to 0.5\n"
-                "rasp plot out/forces_only.csv\n",
+                "rasp plot out/basswood_scrape.wav --panels motion,modes -o plan.svg\n"
+                "rasp plot out/forces_only.csv\n"
+                "rasp plot irs/basswood_plank.csv -o plank.png\n"
+                "rasp plot --gallery out/ -o out/gallery.html\n",
     .run = plot_run,
 };

@@ -1,12 +1,17 @@
-/* What `rasp plot` shows, and its two halves: gathering the data, drawing the page. */
+/* What `rasp plot` shows, and its parts: which panels there are, gathering the data, drawing the page. */
 #ifndef CMD_PLOT_H
 #define CMD_PLOT_H
 #include "base/arena.h"
 #include "base/err.h"
+#include "cmd/plot_summary.h"
+#include "file/csv.h"
 #include "output/gnuplot.h"
 #include "output/spectrogram.h"
+#include "scene/scene.h"
 
 enum { PLOT_COLUMNS = 1000 }; /* columns of pixels that a panel has, about */
+
+enum plot_panel { PLOT_WAVEFORM, PLOT_SPECTROGRAM, PLOT_FORCE, PLOT_HAND, PLOT_MOTION, PLOT_MODES, PLOT_DECAYS, PLOT_PANELS };
 
 enum plot_column { PLOT_PEAK, PLOT_RMS, PLOT_NORMAL, PLOT_ALPHA, PLOT_TABLE_COLUMNS };
 
@@ -26,29 +31,92 @@ struct plot_table {                   /* diagnostics of one contact             
     double most[PLOT_TABLE_COLUMNS];
 };
 
+struct plot_way {                     /* of a contact, seen from above                        */
+    const char *name;                 /* of the contact; "": the only one                     */
+    int n;
+    double (*at)[3];                  /* [n] x, y (m), speed (m/s)                            */
+};
+
+struct plot_mode {
+    double frequency, decay, gain;    /* Hz, 1/s, largest where it is touched                 */
+};
+
+struct plot_body {                    /* what rings                                           */
+    const char *name;                 /* "surface", "ball of contact 2"                       */
+    int n;
+    struct plot_mode *modes;
+};
+
+struct plot_ground {                  /* of a contact's surface, seen from above              */
+    bool box, round;                  /* an object has edges: of low, high; a circle within   */
+    double low[2], high[2];           /* m                                                    */
+    int n;
+    double (*places)[2];              /* [n] m, of the mode table                             */
+};
+
 struct plot_page {
     const char *file, *title;
     double from, to;                  /* s; NAN: as long as the data                          */
     bool svg;
+    unsigned asked;                   /* bits of panels; 0: all that there are data for       */
     int channel;                      /* of the sound, from 1                                 */
     int channels;                     /* that it has; 0: no sound                             */
     struct plot_sound *sound;         /* NULL: a render without sound                         */
     struct plot_table *tables;
     int n_tables;
+    struct plot_way *ways;            /* of contacts that move                                */
+    int n_ways;
+    struct plot_body *bodies;
+    int n_bodies;
+    bool table_of_modes;              /* the file is one                                      */
+    struct plot_ground *grounds;
+    int n_grounds;
     struct arena *arena;
 };
 
-/* Reads the sound or the table p->file and what lies beside it; sets from, to, and the title where they are not given. ERR_INPUT,
-   ERR_SCENE, ERR_USAGE (a time outside). */
+/* plot_data.c. Reads the sound or the table p->file and what lies beside it; sets from, to, and the title where they are not given. ERR_INPUT,
+   ERR_SCENE, ERR_USAGE (a time outside; a panel that is asked for and has no data). */
 bool plot_data(struct plot_page *p, struct err *e);
 
 /* Does some table have the column? */
 bool plot_data_has(const struct plot_page *p, enum plot_column column);
 
-/* Writes the whole page to gnuplot. */
-void plot_draw(const struct plot_page *p, struct gnuplot *g);
+/* plot_way.c: where a contact was in the time shown, by its table or by the scene; one that stays has no way. */
+bool plot_way_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times, struct err *e);
+bool plot_way_scene(struct plot_page *p, const struct scene *s, const struct contact *c, struct err *e);
+const struct plot_way *plot_way_of(const struct plot_page *p, const struct scene *s, const struct contact *c); /* NULL: none */
 
-/* What the page shows, as a line. */
-void plot_draw_list(const struct plot_page *p, FILE *f);
+/* plot_bodies.c: what rings, by the effective scene beside the sound (of the same render, else nothing), where the motion goes; or a mode table. */
+bool plot_bodies(struct plot_page *p, const struct plot_summary *s, const char *effective, struct err *e);
+bool plot_bodies_table(struct plot_page *p, struct err *e);
+bool plot_bodies_is_table(const struct csv *csv);
+
+/* plot_panels.c */
+extern const char *const plot_panels_words[PLOT_PANELS];
+bool plot_panels_read(const char *words, unsigned *asked, struct arena *a, struct err *e);
+bool plot_panels_there(const struct plot_page *p, int panel);   /* asked for, if anything is, and with data */
+bool plot_panels_check(const struct plot_page *p, struct err *e);
+void plot_panels_list(const struct plot_page *p, FILE *f);      /* what the page shows, as a line */
+const char *plot_panels_colour(int i);
+
+/* plot_draw.c: writes the whole page to gnuplot. plot_motion.c, plot_modes.c: one panel whose box is [left, right] x [bottom, top] in shares of a page
+   of `size` pixels. */
+struct plot_place {
+    double left, right, bottom, top;
+    double size[2];
+};
+void plot_draw(const struct plot_page *p, struct gnuplot *g);
+void plot_motion(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g);
+void plot_modes(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g);
+void plot_modes_decays(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g);
+
+/* plot_gallery.c: a page of HTML for a folder or manifest. */
+struct plot_gallery {
+    const char *source, *output, *title; /* NULL: default */
+    unsigned asked;
+    bool svg, quiet;
+    struct arena *arena;
+};
+bool plot_gallery(const struct plot_gallery *g, struct err *e);
 
 #endif

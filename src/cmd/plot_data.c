@@ -1,5 +1,5 @@
-/* The data of `rasp plot`: a sound or a table of diagnostics, and what a render writes beside it (NAME.json: title, contacts, and the tables' hashes;
-   NAME.csv or NAME.CONTACT.csv), brought down to one value per column of pixels. A column shows the smallest and largest sample, the largest magnitude of
+/* The data of `rasp plot`: a sound, a table of diagnostics, or a mode table, and what a render writes beside it (NAME.json: title, contacts, and the tables' hashes;
+   NAME.csv or NAME.CONTACT.csv, or .npy; NAME.scene.yaml), brought down to one value per column of pixels. A column shows the smallest and largest sample, the largest magnitude of
    the peak force, the root of the mean square force, the mean of the rest: nothing falls between two columns. */
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "cmd/plot.h"
 #include "cmd/plot_summary.h"
-#include "file/csv.h"
+#include "file/table.h"
 #include "file/wav.h"
 
 static const char *const plot_names[] = {
@@ -116,7 +116,7 @@ static void table_pack(struct plot_table *t, const int *rows, int columns)
     }
 }
 
-static bool table_rows(const struct plot_page *p, const struct csv *csv, const double *times, struct plot_table *t, struct err *e)
+static bool table_rows(struct plot_page *p, const struct csv *csv, const double *times, struct plot_table *t, struct err *e)
 {
     int *rows = ARENA_TAKE(p->arena, int, PLOT_COLUMNS);
     t->time = ARENA_TAKE(p->arena, double, PLOT_COLUMNS);
@@ -133,7 +133,7 @@ static bool table_rows(const struct plot_page *p, const struct csv *csv, const d
             return false;
     }
     table_pack(t, rows, PLOT_COLUMNS);
-    return true;
+    return plot_way_table(p, t->name, csv, times, e);
 }
 
 /* Times of the rows, and where the last one ends. */
@@ -157,7 +157,7 @@ static bool table_add(struct plot_page *p, const char *path, const char *name, s
     struct plot_table *t = &p->tables[p->n_tables];
     double end = 0;
     t->name = name;
-    if (!csv_read(path, p->arena, &csv, e))
+    if (!table_read(path, p->arena, &csv, e))
         return false;
     double *times = ARENA_TAKE(p->arena, double, csv.rows + 1);
     if (!table_times(&csv, times, &end, e) || (!p->sound && !span_set(p, end, e)) || !table_rows(p, &csv, times, t, e))
@@ -189,13 +189,17 @@ static bool table_belongs(const struct plot_page *p, const struct plot_summary *
     return false;
 }
 
-/* The table of a contact ("": of the only one), if it is there and of the same render. */
+/* The table of a contact ("": of the only one), as CSV or NPY, if it is there and of the same render. */
 static bool table_find(struct plot_page *p, const struct plot_summary *s, const char *contact, struct err *e)
 {
-    const char *path = beside(p, *contact ? arena_format(p->arena, ".%s.csv", contact) : ".csv");
-    if (access(path, F_OK) == 0 && table_belongs(p, s, path, contact, e))
-        return table_add(p, path, contact, e);
-    return e->kind == ERR_NONE;
+    for (int npy = 0; npy < 2; npy++) {
+        const char *ending = npy ? "npy" : "csv", *path = beside(p, *contact ? arena_format(p->arena, ".%s.%s", contact, ending) : npy ? ".npy" : ".csv");
+        if (access(path, F_OK) == 0 && table_belongs(p, s, path, contact, e))
+            return table_add(p, path, contact, e);
+        if (e->kind != ERR_NONE)
+            return false;
+    }
+    return true;
 }
 
 static bool tables_find(struct plot_page *p, const struct plot_summary *s, struct err *e)
@@ -220,24 +224,43 @@ static bool summary_foreign(const struct plot_page *p, const struct plot_summary
     return !ours;
 }
 
+/* The table that is to be drawn: diagnostics, or modes. */
+static bool table_alone(struct plot_page *p, struct err *e)
+{
+    struct csv csv;
+    if (!table_read(p->file, p->arena, &csv, e))
+        return false;
+    if (plot_bodies_is_table(&csv))
+        return (isnan(p->from) && isnan(p->to)) ? plot_bodies_table(p, e) : err_set(e, ERR_USAGE, "--%s: %s is a mode table, which has no time", isnan(p->from) ? "to" : "from", p->file);
+    if (csv_column(&csv, "stimulus_id") >= 0)
+        return err_set(e, ERR_USAGE, "%s: is the manifest of a set: rasp plot --gallery %s makes a page of all its sounds", p->file, p->file);
+    p->tables = ARENA_TAKE(p->arena, struct plot_table, 1);
+    return table_add(p, p->file, "", e);
+}
+
+static bool anything(const struct plot_page *p, struct err *e)
+{
+    for (int k = 0; k < PLOT_PANELS; k++)
+        if (plot_panels_there(p, k))
+            return true;
+    return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file, plot_names[PLOT_PEAK], plot_names[PLOT_RMS],
+                   plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
+}
+
 bool plot_data(struct plot_page *p, struct err *e)
 {
     size_t n = strlen(p->file);
-    bool table = n > 4 && strcmp(p->file + n - 4, ".csv") == 0, ok;
+    bool table = n > 4 && (strcmp(p->file + n - 4, ".csv") == 0 || strcmp(p->file + n - 4, ".npy") == 0);
     struct plot_summary summary = plot_summary_read(beside(p, ".json"), p->arena);
     bool foreign = summary_foreign(p, &summary, table, e);
-    if (!p->title)
-        p->title = *summary.title && !foreign ? summary.title : p->file;
+    const char *title = *summary.title && !foreign ? summary.title : p->file;
     if (e->kind != ERR_NONE)
         return false;
-    if (table) {
-        p->tables = ARENA_TAKE(p->arena, struct plot_table, 1);
-        ok = table_add(p, p->file, "", e);
-    } else {
-        ok = sound_gather(p, e) && (foreign || tables_find(p, &summary, e));
-    }
-    if (!ok || p->sound || plot_data_has(p, PLOT_PEAK) || plot_data_has(p, PLOT_RMS) || plot_data_has(p, PLOT_NORMAL) || plot_data_has(p, PLOT_ALPHA))
-        return ok;
-    return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file, plot_names[PLOT_PEAK],
-                   plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
+    if (table ? !table_alone(p, e) : !sound_gather(p, e) || !(foreign || tables_find(p, &summary, e)))
+        return false;
+    if (!p->title)
+        p->title = title;
+    if (!foreign && !p->table_of_modes && !plot_bodies(p, &summary, beside(p, ".scene.yaml"), e))
+        return false;
+    return plot_panels_check(p, e) && anything(p, e);
 }

@@ -1,51 +1,35 @@
-/* The page of `rasp plot`: panels one above the other on one time axis, as gnuplot commands with the data inline. */
+/* The page of `rasp plot`, as gnuplot commands with the data inline: panels one above the other on one time axis; below them the plan of the motion and the modes, side by
+   side. */
 #include <math.h>
 #include <stdint.h>
 
 #include "cmd/plot.h"
 #include "num/real.h"
 
-enum { WIDTH = 1200, LEFT = 95, RIGHT = 105, TOP = 48, BOTTOM = 58, GAP = 22 }; /* pixels */
+enum { WIDTH = 1200, LEFT = 95, RIGHT = 105, TOP = 48, BOTTOM = 58, GAP = 22, KEY = 26, BETWEEN = 195 }; /* pixels; BETWEEN: of two panels side by side */
 
-enum panel { WAVEFORM, SPECTROGRAM, FORCE, NORMAL, PANELS };
+static const int heights[PLOT_PANELS] = {[PLOT_WAVEFORM] = 180, [PLOT_SPECTROGRAM] = 340, [PLOT_FORCE] = 180, [PLOT_HAND] = 150,
+                                         [PLOT_MOTION] = 300,   [PLOT_MODES] = 300,       [PLOT_DECAYS] = 220};
 
-static const int heights[PANELS] = {[WAVEFORM] = 180, [SPECTROGRAM] = 340, [FORCE] = 180, [NORMAL] = 150};
-
-/* One colour per contact, told apart by colour-blind people too (Okabe and Ito's set). */
-static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
-
-static const char *colour(int contact)
+static bool is_timed(int panel)
 {
-    return colours[contact % (int)(sizeof colours / sizeof colours[0])];
+    return panel < PLOT_MOTION;
 }
 
-static bool panel_there(const struct plot_page *p, int panel)
+/* Motion and modes share a row. */
+static bool has_row(const struct plot_page *p)
 {
-    if (panel == FORCE)
-        return plot_data_has(p, PLOT_PEAK) || plot_data_has(p, PLOT_RMS);
-    if (panel == NORMAL)
-        return plot_data_has(p, PLOT_NORMAL) || plot_data_has(p, PLOT_ALPHA);
-    return p->sound != NULL;
+    return plot_panels_there(p, PLOT_MOTION) || plot_panels_there(p, PLOT_MODES);
 }
 
 static int page_height(const struct plot_page *p)
 {
-    int height = TOP + BOTTOM - GAP;
-    for (int k = 0; k < PANELS; k++)
-        height += panel_there(p, k) ? heights[k] + GAP : 0;
-    return height;
-}
-
-void plot_draw_list(const struct plot_page *p, FILE *f)
-{
-    static const char *const names[PANELS] = {"waveform", "spectrogram", "contact force", "normal force"};
-    const char *comma = "";
-    for (int k = 0; k < PANELS; k++)
-        if (panel_there(p, k)) {
-            fprintf(f, "%s %s", comma, names[k]);
-            comma = ",";
-        }
-    fputs(plot_data_has(p, PLOT_ALPHA) ? ", alpha\n" : "\n", f);
+    int height = TOP, timed = 0;
+    for (int k = 0; is_timed(k); k++)
+        timed += plot_panels_there(p, k) ? heights[k] + GAP : 0;
+    height += timed ? timed - GAP + BOTTOM : 0;
+    height += has_row(p) ? KEY + heights[PLOT_MOTION] + BOTTOM : 0;
+    return height + (plot_panels_there(p, PLOT_DECAYS) ? KEY + heights[PLOT_DECAYS] + BOTTOM : 0);
 }
 
 /* ------------------------------------------------------------------ data */
@@ -148,7 +132,7 @@ static bool put_curves(const struct plot_page *p, enum plot_column column, const
         if (!p->tables[i].x[column] || p->tables[i].n == 0)
             continue;
         fprintf(g->in, "%s $table%d using 1:%d with ", *any ? "," : "plot", i, (int)column + 2);
-        fprintf(g->in, style, colour(column == PLOT_ALPHA && p->n_tables == 1 ? 1 : i));
+        fprintf(g->in, style, plot_panels_colour(column == PLOT_ALPHA && p->n_tables == 1 ? 1 : i));
         put_name(p, i, what[column], g);
         *any = true;
     }
@@ -190,43 +174,81 @@ static void draw_head(const struct plot_page *p, struct gnuplot *g)
           "set ylabel offset 1,0\nset y2label offset -1,0\nset cblabel offset 1.2,0\n"
           "set key noenhanced top right inside horizontal samplen 2 spacing 1.0\n", g->in);
     fprintf(g->in, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)LEFT / WIDTH, 1 - (double)RIGHT / WIDTH);
-    fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);
     fputs("set multiplot\nset label 1 ", g->in);
     gnuplot_put_text(g, p->title);
     fprintf(g->in, " at screen %.5f, screen %.5f noenhanced font ',13'\n", (double)LEFT / WIDTH, 1 - 0.5 * TOP / height);
 }
 
-static void draw_panel(const struct plot_page *p, int panel, const double place[2], struct gnuplot *g)
+/* A panel over time; the last has the axis' numbers. */
+static void draw_timed(const struct plot_page *p, int panel, const double place[2], struct gnuplot *g)
 {
     fprintf(g->in, "set bmargin at screen %.5f\nset tmargin at screen %.5f\n", place[0], place[0] + place[1]);
-    if (panel == WAVEFORM)
+    if (panel == PLOT_WAVEFORM)
         draw_waveform(p, g);
-    else if (panel == SPECTROGRAM)
+    else if (panel == PLOT_SPECTROGRAM)
         draw_spectrogram(p, place[0], place[1], g);
-    else if (panel == FORCE)
+    else if (panel == PLOT_FORCE)
         draw_force(p, g);
     else
         draw_normal(p, g);
     fputs("unset label 1\n", g->in);
 }
 
+/* Returns how far down the page it came, in pixels from the top. */
+static double draw_all_timed(const struct plot_page *p, double whole, struct gnuplot *g)
+{
+    double top = whole - TOP;
+    int last = -1;
+    for (int k = 0; is_timed(k); k++)
+        last = plot_panels_there(p, k) ? k : last;
+    if (last >= 0)
+        fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);
+    for (int k = 0; k <= last; k++) {
+        if (!plot_panels_there(p, k))
+            continue;
+        fputs(k == last ? "set format x '%g'\nset xlabel 'time / s'\n" : "set format x ''\nunset xlabel\n", g->in);
+        draw_timed(p, k, (const double[2]){(top - heights[k]) / whole, heights[k] / whole}, g);
+        top -= heights[k] + (k == last ? BOTTOM : GAP);
+    }
+    fputs("unset y2tics\nunset y2label\nset autoscale y2\nset key tmargin\n", g->in);
+    return top;
+}
+
+/* A panel with axes of its own, from pixel to pixel; top: of the page's pixels, from below. */
+static void draw_apart(const struct plot_page *p, void (*draw)(const struct plot_page *, const struct plot_place *, struct gnuplot *), const double box[4], struct gnuplot *g)
+{
+    double whole = page_height(p);
+    struct plot_place at = {box[0] / WIDTH, box[1] / WIDTH, box[2] / whole, box[3] / whole, {WIDTH, whole}};
+    fprintf(g->in, "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset bmargin at screen %.5f\nset tmargin at screen %.5f\n", at.left, at.right, at.bottom, at.top);
+    draw(p, &at, g);
+    fputs("unset label 1\n", g->in);
+}
+
+/* Alone each takes the whole width. */
+static void draw_row(const struct plot_page *p, double top, struct gnuplot *g)
+{
+    bool motion = plot_panels_there(p, PLOT_MOTION), modes = plot_panels_there(p, PLOT_MODES);
+    double bottom = top - heights[PLOT_MOTION], right = WIDTH - RIGHT, middle = (LEFT + right) / 2;
+    if (motion)
+        draw_apart(p, plot_motion, (const double[4]){LEFT, modes ? middle - BETWEEN / 2.0 : right, bottom, top}, g);
+    if (modes)
+        draw_apart(p, plot_modes, (const double[4]){motion ? middle + BETWEEN / 2.0 : LEFT, right, bottom, top}, g);
+}
+
 void plot_draw(const struct plot_page *p, struct gnuplot *g)
 {
-    double whole = page_height(p), top = whole - TOP;
-    int last = 0;
+    double whole = page_height(p), top;
     if (p->sound)
         data_sound(p, g->in);
     for (int i = 0; i < p->n_tables; i++)
         data_table(&p->tables[i], i, g->in);
     draw_head(p, g);
-    for (int k = 0; k < PANELS; k++)
-        last = panel_there(p, k) ? k : last;
-    for (int k = 0; k <= last; k++) {
-        if (!panel_there(p, k))
-            continue;
-        fputs(k == last ? "set format x '%g'\nset xlabel 'time / s'\n" : "set format x ''\nunset xlabel\n", g->in);
-        draw_panel(p, k, (const double[2]){(top - heights[k]) / whole, heights[k] / whole}, g);
-        top -= heights[k] + GAP;
+    top = draw_all_timed(p, whole, g);
+    if (has_row(p)) {
+        draw_row(p, top - KEY, g);
+        top -= KEY + heights[PLOT_MOTION] + BOTTOM;
     }
+    if (plot_panels_there(p, PLOT_DECAYS))
+        draw_apart(p, plot_modes_decays, (const double[4]){LEFT, WIDTH - RIGHT, top - KEY - heights[PLOT_DECAYS], top - KEY}, g);
     fputs("unset multiplot\n", g->in);
 }

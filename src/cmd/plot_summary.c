@@ -30,7 +30,9 @@ static void files_read(struct plot_summary *s, const json_t *list, struct arena 
         const json_t *file = json_array_get(list, i);
         const char *kind = text_of(file, "kind", a);
         s->sounds = s->sounds || strcmp(kind, "wav") == 0;
-        if (strcmp(kind, "csv") != 0)
+        if (strcmp(kind, "scene") == 0)
+            s->effective = text_of(file, "sha256", a);
+        if (strcmp(kind, "csv") != 0 && strcmp(kind, "npy") != 0)
             continue;
         s->tables[0][s->n_tables] = text_of(file, "contact", a);
         s->tables[1][s->n_tables++] = text_of(file, "sha256", a);
@@ -40,7 +42,7 @@ static void files_read(struct plot_summary *s, const json_t *list, struct arena 
 struct plot_summary plot_summary_read(const char *file, struct arena *a)
 {
     json_t *whole = json_load_file(file, 0, NULL);
-    struct plot_summary s = {.file = file, .title = text_of(whole, "scene", a), .there = whole};
+    struct plot_summary s = {.file = file, .title = text_of(whole, "scene", a), .there = whole, .effective = ""};
     contacts_read(&s, json_object_get(whole, "contacts"), a);
     files_read(&s, json_object_get(whole, "files"), a);
     json_decref(whole);

@@ -14,6 +14,7 @@ struct plot_summary {
     bool there;             /* false: there is no summary                             */
     bool lists;             /* false: it does not say what was written                */
     bool sounds;            /* it lists a WAV                                         */
+    const char *effective;  /* sha256 of the effective scene; "": not listed          */
     const char **tables[2]; /* [n_tables] contact and sha256 of every table it lists  */
     int n_tables;
 };

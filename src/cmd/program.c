@@ -3,11 +3,18 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <gsl/gsl_errno.h>
+#include <jansson.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdio_ext.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "base/memory.h"
+#include "cmd/paint.h"
+#include "cmd/tell.h"
 
 /* Where stdin, stdout or stderr is closed, an output file would take its number and messages would land in it. Reading this end of
    /dev/null gives nothing and writing it fails. */
@@ -24,7 +31,10 @@ static void fill_standard_streams(void)
 /* What was printed has to have arrived: a full disk or a closed pipe is an error, unless there is a worse one already. */
 static int close_stdout(int code)
 {
-    int failed = ferror(stdout), pending = __fpending(stdout) != 0;
+    int failed = ferror(stdout);
+    if (failed && __fpending(stdout) == 0)
+        putchar('\n'); /* else nothing is left that would say why it cannot be written */
+    int pending = __fpending(stdout) != 0;
     errno = 0;
     if (fclose(stdout) != 0)
         failed |= pending || errno != EBADF;
@@ -36,7 +46,9 @@ static int close_stdout(int code)
 
 int program_complain(const char *command, const struct err *e)
 {
-    fprintf(stderr, "rasp%s%s: error: %s\n", *command ? " " : "", command, e->text);
+    char line[sizeof e->text + 64];
+    snprintf(line, sizeof line, "rasp%s%s: error: %s\n", *command ? " " : "", command, e->text);
+    paint_lines(stderr, line);
     if (e->kind == ERR_USAGE)
         fprintf(stderr, "Try: rasp %s%s--help\n", command, *command ? " " : "");
     return (int)e->kind;
@@ -61,17 +73,31 @@ int program_run(const struct command *m, int argc, char **argv)
         code = (int)e.kind;
     else if (c.args.help)
         cmd_print_help(m);
-    else if (count_operands(m, &c.args, &e))
+    else if (tell_begin(&c, &e) && count_operands(m, &c.args, &e))
         code = m->run(&c, &e);
-    if (e.kind)
-        code = program_complain(m->name, &e);
+    tell_end(&c);
+    if (e.kind) {
+        tell_error(&c, m->name, &e);
+        code = (int)e.kind;
+    }
     arena_close(c.arena);
     return code;
+}
+
+/* GSL's own way with errors, but for one: no memory left is no fault of the program. */
+static void gsl_complains(const char *reason, const char *file, int line, int code)
+{
+    if (code == GSL_ENOMEM)
+        memory_out("GSL: %s", reason);
+    fprintf(stderr, "gsl: %s:%d: %s\n", file, line, reason);
+    abort();
 }
 
 int program_main(int (*run)(int argc, char **argv), int argc, char **argv)
 {
     fill_standard_streams();
+    gsl_set_error_handler(gsl_complains);
+    json_set_alloc_funcs(memory_take, free); /* what jansson gets no memory for is else left out */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a file that grows past its limit is a write error, exit 74 */
     return close_stdout(run(argc, argv));

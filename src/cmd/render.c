@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/render_verify.h"
+#include "cmd/tell.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
 #include "scene/scene_places.h"
@@ -14,6 +15,7 @@
 static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
     CMD_SCENE_OPTIONS,
+    CMD_DIAGNOSTICS_OPTION,
     {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
     {"verify", 0, NULL, false, "render the reference, too, and measure what accuracy was kept; exit code 1 if that is less than accuracy.error asks for"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},
@@ -66,7 +68,7 @@ static bool render_folder(struct cmd_call *c, struct err *e)
 static void render_print(struct cmd_call *c, const struct scene *s, const struct render_report *r)
 {
     for (int i = 0; i < r->n_warnings; i++)
-        fprintf(stderr, "%s: warning: %s\n", text_shown(c->arena, s->file), text_shown(c->arena, r->warnings[i]));
+        tell_warning(c, s->file, r->warnings[i]);
     if (args_given(&c->args, "json"))
         fputs(r->summary, stdout);
     else if (!args_given(&c->args, "quiet")) {
@@ -110,6 +112,8 @@ static int render_run(struct cmd_call *c, struct err *e)
 {
     interrupt_catch();
     int n = c->args.n_operands, done = 0;
+    if (n > 1)
+        tell_group(c);
     bool array = n > 1 && args_given(&c->args, "json");
     const struct outputs *all = render_read(c, e);
     bool ok = all != NULL;
@@ -123,7 +127,7 @@ static int render_run(struct cmd_call *c, struct err *e)
 const struct command render_command = {
     .name = "render",
     .summary = "renders scenes into sound files",
-    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv (if the scene asks for diagnostics), NAME.impacts.csv (if it asks for the series of "
+    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv or NAME.npy (if the scene asks for diagnostics), NAME.impacts.csv (if it asks for the series of "
             "impacts), NAME.scene.yaml (the effective scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which files were written). "
             "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes reads is refused, whatever "
             "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two scenes that would write "

@@ -65,14 +65,14 @@ static const struct args_option options[] = {
     {"pitch", 0, "LENGTH", false, "distance between two samples; of read files, only for those that do not hold it (NPY, PNG, CSV)"},
     {"height-scale", 0, "LENGTH", false, "factor on the heights: what one stored unit of NPY or CSV stands for (default 1 m)"},
     {"height-range", 0, "LENGTH", false, "height that white, 65535, of a PNG stands for"},
-    {"holes", 0, "WORD", false, "missing points: refuse, fill (Laplace's equation) or keep; default: info keep, convert refuse"},
-    {"levelling", 0, "WORD", false, "what is subtracted: none, mean or plane (of a profile: line); default: none"},
+    {"holes", 0, "refuse|fill|keep", false, "missing points: fill is by Laplace's equation; default: info keep, convert refuse"},
+    {"levelling", 0, "none|mean|plane", false, "what is subtracted (plane, of a profile: line); default: none"},
     {"json", 'j', NULL, false, "info: prints the figures as one JSON object; null stands for one that is not there"},
     {"crop", 0, "X,Y,W,H", false, "convert: only this part: left, top, width, height, each a length; of a profile X,W"},
     {"row", 0, "K", false, "convert: only row K, counted from 0, as a profile"},
     {"text", 't', NULL, false, "convert: writes SDF as text (default: binary)"},
     {"size", 0, "SIZE", false, "synth: a length (a profile) or WIDTHxHEIGHT (a map), as in 20mm or 2mmx1mm"},
-    {"along", 0, "WORD", false, "synth: path, x (the profile that a straight motion meets) or plane; default: that of the scene, or of the size"},
+    {"along", 0, "path|x|plane", false, "synth: what it follows (x: the profile that a straight motion meets); default: that of the scene, or of the size"},
     CMD_SCENE_OPTIONS,
     {"quiet", 'q', NULL, false, "convert, synth: prints nothing"},
     {0}};
@@ -94,6 +94,7 @@ const struct command surface_command = {
     .least = 1,
     .most = -1,
     .options = options,
+    .actions = actions,
     .examples = "rasp surface info surfaces/ridged_plate.gsf\n"
                 "rasp surface info --pitch 1.4um --levelling plane profile.npy\n"
                 "rasp surface convert --holes fill map.sdf map.gsf\n"

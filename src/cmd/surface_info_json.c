@@ -1,34 +1,23 @@
 /* The report of rasp surface info as JSON: SI units, null for what is not there. */
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "cmd/surface_info.h"
-
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
-
-static json_t *text_or_null(const char *s)
-{
-    json_t *j = s ? json_string(s) : NULL; /* NULL also for what is not UTF-8 */
-    return j ? j : json_null();
-}
+#include "file/json_value.h"
 
 static json_t *json_heights(const struct surface_heights *s)
 {
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
-                     "mean_m", number(s->mean),
-                     "sa_m", number(s->sa),
-                     "sq_m", number(s->sq),
-                     "ssk", number(s->ssk),
-                     "sku", number(s->sku),
-                     "sz_m", number(s->sz),
-                     "slope_rms_x", number(s->slope),
-                     "slope_rms_y", number(s->slope_y),
-                     "curvature_rms_x_per_m", number(s->curvature),
-                     "curvature_rms_y_per_m", number(s->curvature_y));
+                     "mean_m", json_value_number(s->mean),
+                     "sa_m", json_value_number(s->sa),
+                     "sq_m", json_value_number(s->sq),
+                     "ssk", json_value_number(s->ssk),
+                     "sku", json_value_number(s->sku),
+                     "sz_m", json_value_number(s->sz),
+                     "slope_rms_x", json_value_number(s->slope),
+                     "slope_rms_y", json_value_number(s->slope_y),
+                     "curvature_rms_x_per_m", json_value_number(s->curvature),
+                     "curvature_rms_y_per_m", json_value_number(s->curvature_y));
 }
 
 static json_t *json_steps(const struct surface_heights_steps *s)
@@ -50,24 +39,24 @@ static json_t *json_band(const struct surface_band *b)
     if (b->segments == 0)
         return json_null();
     return json_pack("{s:o, s:b, s:o, s:f, s:o, s:o, s:o, s:o}",
-                     "limit_cycles_per_m", number(b->limit),
+                     "limit_cycles_per_m", json_value_number(b->limit),
                      "limit_is_noise_floor", b->noise,
-                     "curvature_above_limit", number(b->beyond),
+                     "curvature_above_limit", json_value_number(b->beyond),
                      "nyquist_cycles_per_m", b->nyquist,
-                     "oversampling", number(isnan(b->limit) ? 1 : b->nyquist / b->limit),
-                     "exponent", number(b->exponent),
-                     "exponent_from_cycles_per_m", number(b->from),
-                     "exponent_to_cycles_per_m", number(b->to));
+                     "oversampling", json_value_number(isnan(b->limit) ? 1 : b->nyquist / b->limit),
+                     "exponent", json_value_number(b->exponent),
+                     "exponent_from_cycles_per_m", json_value_number(b->from),
+                     "exponent_to_cycles_per_m", json_value_number(b->to));
 }
 
 static json_t *json_ends(const struct surface_ends *s)
 {
     return json_pack("{s:o, s:o, s:o, s:[I, I], s:[o, o]}",
-                     "step_rms_m", number(s->step),
-                     "jump_repeated_m", number(s->jump),
-                     "slope_jump_mirrored", number(s->kink),
+                     "step_rms_m", json_value_number(s->step),
+                     "jump_repeated_m", json_value_number(s->jump),
+                     "slope_jump_mirrored", json_value_number(s->kink),
                      "fall_samples", (json_int_t)s->fall[0], (json_int_t)s->fall[1],
-                     "fall_m", number(s->drop[0]), number(s->drop[1]));
+                     "fall_m", json_value_number(s->drop[0]), json_value_number(s->drop[1]));
 }
 
 static json_t *json_period(const struct surface_ends_period *p)
@@ -84,20 +73,20 @@ static json_t *json_one(const struct surface_info *i)
     bool map = h->rows > 1;
     json_t *notes = json_array();
     for (int k = 0; k < i->n_notes; k++)
-        json_array_append_new(notes, text_or_null(i->notes[k]));
+        json_array_append_new(notes, json_value_text(i->notes[k]));
     return json_pack("{s:o, s:s, s:o, s:I, s:I, s:o, s:o, s:I, s:I, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
-                     "file", text_or_null(i->file),
+                     "file", json_value_text(i->file),
                      "format", h->format,
-                     "title", text_or_null(h->title),
+                     "title", json_value_text(h->title),
                      "columns", (json_int_t)h->columns,
                      "rows", (json_int_t)h->rows,
-                     "pitch_x_m", number(h->pitch_x),
-                     "pitch_y_m", number(map ? h->pitch_y : NAN),
+                     "pitch_x_m", json_value_number(h->pitch_x),
+                     "pitch_y_m", json_value_number(map ? h->pitch_y : NAN),
                      "missing", (json_int_t)h->holes,
                      "filled", (json_int_t)h->filled,
                      "levelling", levellings[i->levelling],
-                     "slope_x", number(i->tilt.slope_x),
-                     "slope_y", number(map ? i->tilt.slope_y : NAN),
+                     "slope_x", json_value_number(i->tilt.slope_x),
+                     "slope_y", json_value_number(map ? i->tilt.slope_y : NAN),
                      "heights", json_heights(&i->heights),
                      "quantisation", json_steps(&i->steps),
                      "band_x", json_band(&i->band[0]),

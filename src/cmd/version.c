@@ -1,20 +1,28 @@
 /* The version of rasp, of the compiler and its flags, of the instruction set and of every library.
-   The build may define RASP_REVISION and RASP_FLAGS (quoted texts). */
+   The build may define RASP_REVISION, RASP_FLAGS and RASP_PACKAGES ("NAME VERSION;" of each, by pkg-config), quoted texts. OpenBLAS and LAPACKE are rasp-modes'. */
 #include "cmd/version.h"
 
 #include <ebur128.h>
 #include <fftw3.h>
+#include <gnu/libc-version.h>
 #include <gsl/gsl_version.h>
 #include <jansson.h>
 #include <openssl/crypto.h>
-#include <sleef.h>
+#include <png.h>
 #include <sndfile.h>
+#include <soxr.h>
 #include <stdio.h>
+#include <string.h>
 #include <yaml.h>
+
+#include "num/lanes.h"
 
 #define VERSION "0.1.0"
 #ifndef RASP_REVISION
 #define RASP_REVISION "unknown"
+#endif
+#ifndef RASP_PACKAGES
+#define RASP_PACKAGES ""
 #endif
 #ifndef RASP_FLAGS
 #define RASP_FLAGS "unknown"
@@ -45,19 +53,64 @@ static const char *cpu_level(void)
     return __builtin_cpu_supports("sse4.2") ? "x86-64-v2" : "x86-64";
 }
 
+/* Which of the levels that hot functions are compiled for this CPU gets (num/lanes.h), or the one that all is compiled for. */
+static void print_level(void)
+{
+#define TEXT(...) #__VA_ARGS__
+#define TEXT_OF(...) TEXT(__VA_ARGS__)
+    const char *level = cpu_level();
+    printf("built for    %s\n", BUILT_FOR);
+    printf("this CPU     %s\n", level);
+    if (sizeof TEXT_OF(LANES_CLONES) > 1)
+        printf("hot loops    %s, picked at run time\n", strcmp(level, "x86-64-v2") ? level : "x86-64");
+    else
+        printf("hot loops    %s, as built\n", BUILT_FOR);
+}
+
+/* Of "sndfile 1.2.0;yaml-0.1 0.2.5;" the version of one, as a length and a text. */
+static const char *built_with(const char *package, int *length)
+{
+    size_t n = strlen(package);
+    for (const char *p = RASP_PACKAGES; *p; p += strcspn(p, ";") + !!p[strcspn(p, ";")])
+        if (!strncmp(p, package, n) && p[n] == ' ') {
+            *length = (int)strcspn(p + n + 1, ";");
+            return p + n + 1;
+        }
+    *length = 1;
+    return "?";
+}
+
+/* loaded NULL: it is headers, or does not say. */
+static void print_library(const char *name, const char *loaded, const char *package)
+{
+    int length;
+    const char *built = built_with(package, &length);
+    printf("%-12s %s%s(built with %.*s)\n", name, loaded ? loaded : "", loaded ? " " : "", length, built);
+}
+
 static void print_libraries(void)
 {
+    char ebur128[32], png[32];
     int major, minor, patch;
+    unsigned v = (unsigned)png_access_version_number();
     ebur128_get_version(&major, &minor, &patch);
-    printf("libsndfile   %s\n", sf_version_string());
-    printf("libyaml      %s\n", yaml_get_version_string());
-    printf("FFTW         %s\n", fftw_version);
-    printf("GSL          %s\n", gsl_version);
-    printf("SLEEF        %d.%d.%d (headers)\n", SLEEF_VERSION_MAJOR, SLEEF_VERSION_MINOR, SLEEF_VERSION_PATCHLEVEL);
-    printf("jansson      %s\n", jansson_version_str());
-    printf("libebur128   %d.%d.%d\n", major, minor, patch);
-    printf("libcrypto    %s\n", OpenSSL_version(OPENSSL_VERSION));
+    snprintf(ebur128, sizeof ebur128, "%d.%d.%d", major, minor, patch);
+    snprintf(png, sizeof png, "%u.%u.%u", v / 10000, v / 100 % 100, v % 100);
+    print_library("libsndfile", sf_version_string(), "sndfile");
+    print_library("libyaml", yaml_get_version_string(), "yaml-0.1");
+    print_library("FFTW", fftw_version, "fftw3");
+    print_library("GSL", gsl_version, "gsl");
+    print_library("SLEEF", NULL, "sleef");
+    print_library("jansson", jansson_version_str(), "jansson");
+    print_library("libebur128", ebur128, "libebur128");
+    print_library("libcrypto", OpenSSL_version(OPENSSL_VERSION), "libcrypto");
+    print_library("libpng", png, "libpng");
+    print_library("libsoxr", soxr_version(), "soxr");
+    print_library("OpenBLAS", NULL, "openblas");
+    print_library("LAPACKE", NULL, "lapacke");
 }
+
+const char version_number[] = VERSION, version_revision[] = RASP_REVISION;
 
 void version_print(bool verbose)
 {
@@ -67,7 +120,7 @@ void version_print(bool verbose)
     printf("revision     %s\n", RASP_REVISION);
     printf("compiler     %s\n", COMPILER);
     printf("flags        %s\n", RASP_FLAGS);
-    printf("built for    %s\n", BUILT_FOR);
-    printf("this CPU     %s\n", cpu_level());
+    printf("glibc        %s (built with %d.%d)\n", gnu_get_libc_version(), __GLIBC__, __GLIBC_MINOR__);
+    print_level();
     print_libraries();
 }

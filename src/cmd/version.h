@@ -5,4 +5,7 @@
 
 void version_print(bool verbose);
 
+/* "0.1.0", and of what state of the source the program was built: "f650ae05d2ab"; "unknown". */
+extern const char version_number[], version_revision[];
+
 #endif

@@ -26,7 +26,7 @@
    no force costs nothing; nothing becomes subnormal on the way unless a mode falls by 1e-107 within one call.
 
    Speed: eight modes are the lanes of a group (6 multiplications and 7 additions per mode-sample, which is what bounds it; poles that
-   move take 2 additions more), four samples are done before a group's state goes back to memory; tests/bench/resonators.c measures it.
+   move take 2 additions more, gains that stand still 2 less), four samples are done before a group's state goes back to memory; tests/bench/resonators.c measures it.
    Sums run over the groups in order and then over the lanes in one fixed tree, so the bits are the same on every instruction set. */
 #include "convolution/resonators.h"
 
@@ -56,13 +56,13 @@ struct group {
 
 struct resonators {
     int n, quantity, groups, n_active, piece;
-    bool glides;
+    bool glides, steady;                          /* steady: no gain changes in this call */
     double rate, per_rate;
     double through, through_target, through_step; /* y(n) gets through * f(n) */
     const double *frequency, *decay;              /* [n] of the start         */
     double *size, *turn, *rise;                   /* [n] room for the evaluation of poles */
     struct group *group, **active;
-    double (*sums)[LANES];
+    double (*sums)[LANES];                        /* [piece] */
 };
 
 static const double *copy(struct arena *a, const double *x, int n)
@@ -141,8 +141,10 @@ static void set_targets(struct resonators *r, const struct modes_point *to)
 static void set_steps(struct resonators *r, int frames)
 {
     double share = 1.0 / frames;
+    r->steady = true;
     for (int k = 0; k < r->groups; k++) {
         struct group *g = &r->group[k];
+        r->steady = r->steady && !memcmp(g->gr, g->tr, sizeof g->gr) && !memcmp(g->gi, g->ti, sizeof g->gi);
         for (int l = 0; l < LANES; l++) {
             g->sr[l] = (g->tr[l] - g->gr[l]) * share;
             g->si[l] = (g->ti[l] - g->gi[l]) * share;
@@ -175,16 +177,20 @@ void resonators_set(struct resonators *r, const struct modes_point *at)
     arrive(r);
 }
 
+enum change { STEADY, RAMPS, GLIDES }; /* nothing within a call; gains; gains and poles */
+
 /* What changes of one mode in a sample, and how. */
 struct lane {
     double zr, zi, gr, gi, pr, pi, sr, si, psr, psi;
 };
 
-INLINE double lane_step(struct lane *v, double f, bool glides)
+INLINE double lane_step(struct lane *v, double f, enum change change)
 {
-    v->gr += v->sr;
-    v->gi += v->si;
-    if (glides) {
+    if (change != STEADY) {
+        v->gr += v->sr;
+        v->gi += v->si;
+    }
+    if (change == GLIDES) {
         v->pr += v->psr;
         v->pi += v->psi;
     }
@@ -194,67 +200,96 @@ INLINE double lane_step(struct lane *v, double f, bool glides)
     return v->zi;
 }
 
-INLINE struct lane lane_take(const struct group *g, int l, bool glides)
+INLINE struct lane lane_take(const struct group *g, int l, enum change change)
 {
     struct lane v = {g->zr[l], g->zi[l], g->gr[l], g->gi[l], g->pr[l], g->pi[l], g->sr[l], g->si[l], 0, 0};
-    if (glides) {
+    if (change == GLIDES) {
         v.psr = g->psr[l];
         v.psi = g->psi[l];
     }
     return v;
 }
 
-INLINE void lane_keep(struct group *g, int l, const struct lane *v, bool glides)
+INLINE void lane_keep(struct group *g, int l, const struct lane *v, enum change change)
 {
     g->zr[l] = v->zr;
     g->zi[l] = v->zi;
-    g->gr[l] = v->gr;
-    g->gi[l] = v->gi;
-    if (glides) {
+    if (change != STEADY) {
+        g->gr[l] = v->gr;
+        g->gi[l] = v->gi;
+    }
+    if (change == GLIDES) {
         g->pr[l] = v->pr;
         g->pi[l] = v->pi;
     }
 }
 
 /* Adds the lanes' Im z of `n` samples to sums[n][LANES]. */
-INLINE void ring_all(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n, bool glides)
+INLINE void ring_all(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n, enum change change)
 {
     int i = 0;
-    for (; i + SPAN <= n; i += SPAN)
+    for (; i + SPAN <= n; i += SPAN) {
         for (int k = 0; k < n_active; k++) {
             struct group *restrict g = active[k];
 #pragma omp simd
             for (int l = 0; l < LANES; l++) {
-                struct lane v = lane_take(g, l, glides);
-                sums[i][l] += lane_step(&v, f[i], glides);
-                sums[i + 1][l] += lane_step(&v, f[i + 1], glides);
-                sums[i + 2][l] += lane_step(&v, f[i + 2], glides);
-                sums[i + 3][l] += lane_step(&v, f[i + 3], glides);
-                lane_keep(g, l, &v, glides);
+                struct lane v = lane_take(g, l, change);
+                sums[i][l] += lane_step(&v, f[i], change);
+                sums[i + 1][l] += lane_step(&v, f[i + 1], change);
+                sums[i + 2][l] += lane_step(&v, f[i + 2], change);
+                sums[i + 3][l] += lane_step(&v, f[i + 3], change);
+                lane_keep(g, l, &v, change);
             }
         }
-    for (; i < n; i++)
+    }
+    for (; i < n; i++) {
         for (int k = 0; k < n_active; k++) {
             struct group *restrict g = active[k];
 #pragma omp simd
             for (int l = 0; l < LANES; l++) {
-                struct lane v = lane_take(g, l, glides);
-                sums[i][l] += lane_step(&v, f[i], glides);
-                lane_keep(g, l, &v, glides);
+                struct lane v = lane_take(g, l, change);
+                sums[i][l] += lane_step(&v, f[i], change);
+                lane_keep(g, l, &v, change);
             }
         }
+    }
+}
+
+LANES_CLONES
+static void ring_steady(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
+{
+    ring_all(active, n_active, f, sums, n, STEADY);
 }
 
 LANES_CLONES
 static void ring(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
 {
-    ring_all(active, n_active, f, sums, n, false);
+    ring_all(active, n_active, f, sums, n, RAMPS);
 }
 
 LANES_CLONES
 static void ring_gliding(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
 {
-    ring_all(active, n_active, f, sums, n, true);
+    ring_all(active, n_active, f, sums, n, GLIDES);
+}
+
+/* The lanes of each sample as by lanes_sum, and what goes through directly; halves and quarters of all samples in turn, which keeps registers full. */
+LANES_CLONES
+static void fold(const struct resonators *r, const double *restrict f, double *restrict y, int n)
+{
+    double halves[PIECE_MAX][4], quarters[PIECE_MAX][2];
+    double through = r->through, step = r->through_step;
+    for (int i = 0; i < n; i++)
+#pragma omp simd
+        for (int l = 0; l < 4; l++)
+            halves[i][l] = r->sums[i][l] + r->sums[i][l + 4];
+    for (int i = 0; i < n; i++)
+#pragma omp simd
+        for (int l = 0; l < 2; l++)
+            quarters[i][l] = halves[i][l] + halves[i][l + 2];
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        y[i] += (quarters[i][0] + quarters[i][1]) + (through + (i + 1) * step) * f[i];
 }
 
 /* A group takes part when it rings, or when there is force and a gain to launch it. */
@@ -293,11 +328,9 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
     for (int done = 0; done < frames && r->n_active;) {
         int n = frames - done < r->piece ? frames - done : r->piece;
         memset(r->sums, 0, (size_t)n * sizeof *r->sums);
-        (r->glides ? ring_gliding : ring)(r->active, r->n_active, f + done, r->sums, n);
-        for (int i = 0; i < n; i++) {
-            r->through += r->through_step;
-            y[done + i] += lanes_sum(r->sums[i]) + r->through * f[done + i];
-        }
+        (r->glides ? ring_gliding : r->steady ? ring_steady : ring)(r->active, r->n_active, f + done, r->sums, n);
+        fold(r, f + done, y + done, n);
+        r->through += n * r->through_step;
         done += n;
     }
     arrive(r);

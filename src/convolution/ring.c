@@ -78,7 +78,7 @@ static void note_ring(const struct ring *g, const struct response *given, struct
 static void note_endless(const struct ring *g, const struct response *given, struct stage_run *r)
 {
     double falls = gammatone_decibel(g->choice->gamma, 80), ring = modes_ring_time(&g->choice->modes, falls);
-    if (isnan(r->scene->output.tail) && isnan(given->length) && ring > 60)
+    if (isnan(r->scene->output.tail) && isnan(r->scene->output.duration) && isnan(given->length) && ring > 60)
         board_warn(r->board, arena_format(r->arena, "%s: its slowest mode has fallen by %.3g dB only when the sound ends, 60 s after the motion: set output.tail, or "
                                           "give the mode more decay", g->choice->modes.name, gammatone_fallen(g->choice->gamma, falls * 60 / ring)));
 }
@@ -96,7 +96,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
 {
     bool surface = body == RING_SURFACE;
     const struct response *given = ring_given(r->contact, body);
-    *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .key = surface ? "surface" : ball_tool(r->contact),
+    *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .contact = r->contact, .key = surface ? "surface" : ball_tool(r->contact),
                        .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight,
                        .moves = given->choice->moves,
                        .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT, .channels = r->board->channels};
@@ -155,7 +155,7 @@ void ring_point_at(const struct ring *g, const struct ring_voice *v, double fram
         return;
     }
     if (g->body == RING_SURFACE)
-        where = ring_along_where(tr, g->moves ? t : 0);
+        where = g->moves ? ring_along_where(tr, t) : ring_along_first(g->contact, tr);
     ring_point_in(g, v, &where, p);
 }
 

@@ -20,6 +20,7 @@ struct ring {
     enum ring_body body;
     const struct ring_choice *choice;
     const struct board *board;
+    const struct contact *contact;
     const char *key;            /* "surface" or "scraper", for messages */
     enum item out;
     double weight;              /* eta for the scraper, 1 for the surface */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/ablation.h"
+
 struct ring_along ring_along_make(const struct modes *m, const struct trajectory *tr, bool stays, struct arena *a)
 {
     return (struct ring_along){m, tr, stays, modes_point_make(a, m->n)};
@@ -14,6 +16,12 @@ struct modes_where ring_along_where(const struct trajectory *tr, double t)
     double place[2];
     trajectory_continued(tr, t, place);
     return (struct modes_where){place[0], place[1], tr->duration > 0 ? t / tr->duration : 0};
+}
+
+struct modes_where ring_along_first(const struct contact *c, const struct trajectory *tr)
+{
+    const double *place = c->ablation.place;
+    return ablation_one_place(c) && !isnan(place[0]) ? (struct modes_where){place[0], place[1], 0} : ring_along_where(tr, 0);
 }
 
 /* The power of two at the larger of two gains: in such units they can be squared and multiplied, whatever their size, with the same bits as in any other. */

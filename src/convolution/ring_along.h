@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "response/modes.h"
+#include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
 struct ring_along {
@@ -28,5 +29,8 @@ void ring_along_mirror(int n, const struct modes_point *end, const struct modes_
 
 /* The motion's place, and the share of its duration that has passed. */
 struct modes_where ring_along_where(const struct trajectory *tr, double t);
+
+/* The place whose response it is all the time, of one that does not change: where the motion starts, or what ablation.place says. */
+struct modes_where ring_along_first(const struct contact *c, const struct trajectory *tr);
 
 #endif

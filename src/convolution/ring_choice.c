@@ -29,7 +29,7 @@ static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, st
 static bool read_modes(struct ring_choosing *c, struct err *e)
 {
     double rate = c->scene->output.sample_rate;
-    struct modes_ask ask = {.strongest = c->given->modes, .pairing = c->given->pairing, .rate = rate};
+    struct modes_ask ask = {.strongest = c->given->modes, .pairing = c->given->pairing, .rate = rate, .shelf = c->scene->shelf};
     struct modes *m = &c->to->modes;
     if (c->given->object.given ? !read_object(c, &ask, e)
         : c->given->space.given ? !space_modes(&c->given->space, &ask, c->arena, m, e)
@@ -46,7 +46,7 @@ static bool read_modes(struct ring_choosing *c, struct err *e)
 static bool moves(const struct ring_choosing *c, enum ring_body body)
 {
     const struct modes *m = &c->to->modes;
-    return body == RING_SURFACE && ((m->moves && c->contact->motion.path != PATH_STILL) || m->travels);
+    return body == RING_SURFACE && !ablation_one_place(c->contact) && ((m->moves && c->contact->motion.path != PATH_STILL) || m->travels);
 }
 
 static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct err *e)
@@ -98,7 +98,7 @@ static void choose_recorded(struct ring_choosing *c, enum ring_body body)
     bool folder = rules_is_folder(c->given);
     c->to->recorded = true;
     c->to->reading = MOVING_FIXED;
-    c->to->moves = folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL;
+    c->to->moves = folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL && !ablation_one_place(c->contact);
     c->to->engine = folder ? RING_PANNED : RING_OVERLAP;
     c->to->work = ring_cost_recorded((folder ? 8 : 1) * seconds * rate);
 }
@@ -141,14 +141,38 @@ enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body
     return choice ? choice->engine : RING_NONE;
 }
 
-double ring_choice_work(const struct contact *c, enum ring_body body)
+static double work_of(const struct contact *c, enum ring_body body)
 {
     const struct ring_choice *choice = given_of(c, body)->choice;
     return choice ? choice->work : 0;
 }
 
-unsigned ring_choice_knobs(const struct contact *c, enum ring_body body)
+static unsigned knobs_of(const struct contact *c, enum ring_body body)
 {
     const struct ring_choice *choice = given_of(c, body)->choice;
     return choice ? choice->knobs : 0;
+}
+
+double ring_choice_surface_work(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return work_of(c, RING_SURFACE);
+}
+
+double ring_choice_scraper_work(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return work_of(c, RING_SCRAPER);
+}
+
+unsigned ring_choice_surface_turns(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return knobs_of(c, RING_SURFACE);
+}
+
+unsigned ring_choice_scraper_turns(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return knobs_of(c, RING_SCRAPER);
 }

@@ -40,7 +40,11 @@ const char *ring_choice_about(const struct contact *c, enum ring_body body);
 
 /* The engine of a contact that has been through ring_choice_make (scene.h: response.choice). */
 enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body);
-double ring_choice_work(const struct contact *c, enum ring_body body);
-unsigned ring_choice_knobs(const struct contact *c, enum ring_body body);
+
+/* A ringing stage's .work and .turns (stage.h). */
+double ring_choice_surface_work(const struct contact *c, const struct scene *s);
+double ring_choice_scraper_work(const struct contact *c, const struct scene *s);
+unsigned ring_choice_surface_turns(const struct contact *c, const struct scene *s);
+unsigned ring_choice_scraper_turns(const struct contact *c, const struct scene *s);
 
 #endif

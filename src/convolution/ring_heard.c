@@ -3,7 +3,7 @@
 
        max over contacts (start + duration) + tail - t0,
 
-   and nothing that its response does later. */
+   and nothing that its response does later. Where output.duration says how long the file is, that is the end, be it sooner or later. */
 #include "convolution/ring_heard.h"
 
 #include <math.h>
@@ -35,6 +35,10 @@ bool ring_heard(const struct scene *s, const struct contact *c, double ring, str
         if (isnan(duration) && !lasts(s, o, &duration, e))
             return false;
         end = fmax(end, o->start + duration);
+    }
+    if (!isnan(s->output.duration)) {
+        h->sound = h->most = fmax(s->output.duration - c->start, 1 / s->output.sample_rate);
+        return true;
     }
     h->sound = end - c->start + (isnan(tail) ? fmin(ring, LONGEST_TAIL) : tail);
     h->most = end - c->start + (isnan(tail) ? LONGEST_TAIL : tail);

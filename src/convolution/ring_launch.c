@@ -61,22 +61,10 @@ static void ring_launch_close(struct stage_run *r)
             launch_close(s->voices[k].engine);
 }
 
-static unsigned ring_launch_turns(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_knobs(c, RING_SURFACE);
-}
-
 static bool ring_launch_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
     return ring_choice_engine(c, RING_SURFACE) == RING_LAUNCH;
-}
-
-static double ring_launch_work(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_work(c, RING_SURFACE);
 }
 
 const struct stage ring_launch_stage = {
@@ -87,9 +75,9 @@ const struct stage ring_launch_stage = {
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
     .knobs = KNOB_BIT(overlap_order),
-    .turns = ring_launch_turns,
+    .turns = ring_choice_surface_turns,
     .wanted = ring_launch_wanted,
-    .work = ring_launch_work,
+    .work = ring_choice_surface_work,
     .open = ring_launch_open,
     .run = ring_launch_run,
     .close = ring_launch_close,

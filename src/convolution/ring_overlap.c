@@ -143,30 +143,6 @@ static void ring_overlap_close(struct stage_run *r)
     }
 }
 
-static double surface_work(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_work(c, RING_SURFACE);
-}
-
-static double scraper_work(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_work(c, RING_SCRAPER);
-}
-
-static unsigned surface_turns(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_knobs(c, RING_SURFACE);
-}
-
-static unsigned scraper_turns(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_knobs(c, RING_SCRAPER);
-}
-
 static bool surface_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -203,8 +179,8 @@ const struct stage ring_overlap_surface_stage = {
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
     .wanted = surface_wanted,
-    .turns = surface_turns,
-    .work = surface_work,
+    .turns = ring_choice_surface_turns,
+    .work = ring_choice_surface_work,
     .open = surface_open,
     .run = ring_overlap_run,
     .close = ring_overlap_close,
@@ -218,8 +194,8 @@ const struct stage ring_overlap_readout_stage = {
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
     .wanted = readout_wanted,
-    .turns = surface_turns,
-    .work = surface_work,
+    .turns = ring_choice_surface_turns,
+    .work = ring_choice_surface_work,
     .open = surface_open,
     .run = ring_overlap_run,
     .close = ring_overlap_close,
@@ -233,8 +209,8 @@ const struct stage ring_overlap_scraper_stage = {
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SCRAPER_SOUND),
     .wanted = scraper_wanted,
-    .turns = scraper_turns,
-    .work = scraper_work,
+    .turns = ring_choice_scraper_turns,
+    .work = ring_choice_scraper_work,
     .open = scraper_open,
     .run = ring_overlap_run,
     .close = ring_overlap_close,

@@ -7,8 +7,10 @@
 #include "convolution/nodes.h"
 #include "convolution/panned.h"
 #include "convolution/ring.h"
+#include "convolution/ring_along.h"
 #include "response/ir.h"
 #include "response/ir_set.h"
+#include "scene/ablation.h"
 #include "trajectory/trajectory.h"
 
 enum { CHUNK = PANNED_BLOCK };
@@ -30,6 +32,7 @@ struct ring_panned {
     long first, count;          /* frames of which the following hold           */
     double *t, *u, *x, *y;      /* [CHUNK]                                      */
     struct places_mix *mix;     /* [CHUNK]                                      */
+    struct places_mix *one;     /* of the one place that counts; NULL: all do   */
 };
 
 /* ------------------------------------------------------------------ where the contact is */
@@ -50,6 +53,10 @@ static void locate(struct ring_panned *s, long first, int n)
     }
     trajectory_at(tr, (size_t)n, s->t, (struct trajectory_out){.u = s->u, .x = s->x, .y = s->y});
     for (int i = 0; i < n; i++) {
+        if (s->one) {
+            s->mix[i] = *s->one;
+            continue;
+        }
         double x = tr->straight ? tr->from[0] + s->u[i] * tr->e[0] : s->x[i], y = tr->straight ? tr->from[1] + s->u[i] * tr->e[1] : s->y[i];
         places_at(s->set.places, x, y, &s->mix[i]);
     }
@@ -103,13 +110,15 @@ static bool recorded_inside(const struct ring_panned *s, const struct stage_run 
 {
     const struct trajectory *tr = r->board->trajectory;
     struct places_mix mix;
-    for (long i = 0; i <= tr->detail; i++) {
-        double t = tr->duration * (double)i / (double)(tr->detail > 0 ? tr->detail : 1), p[2];
-        trajectory_continued(tr, t, p);
+    struct modes_where first = ring_along_first(r->contact, tr);
+    for (long i = 0; i <= (s->one ? 0 : tr->detail); i++) {
+        double t = tr->duration * (double)i / (double)(tr->detail > 0 ? tr->detail : 1), p[2] = {first.x, first.y};
+        if (!s->one)
+            trajectory_continued(tr, t, p);
         double out = places_at(s->set.places, p[0], p[1], &mix);
         if (out > 1e-9 && s->set.n > 1)
-            return err_set(e, ERR_SCENE, "contact '%s': the motion reaches [%g m, %g m], %.3g m beyond the places of %s; move it, or set "
-                                         "surface.extrapolate: nearest", r->contact->name, p[0], p[1], out, r->contact->surface.response.file);
+            return err_set(e, ERR_SCENE, "contact '%s': %s [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: nearest",
+                           r->contact->name, s->one && !isnan(r->contact->ablation.place[0]) ? "ablation.place is" : "the motion reaches", p[0], p[1], out, r->contact->surface.response.file);
     }
     return true;
 }
@@ -120,6 +129,11 @@ static bool open_recorded(struct ring_panned *s, struct stage_run *r, struct err
     size_t length = 0;
     if (!ir_set_read(given->file, r->board->rate, given->length, r->arena, &s->set, e))
         return false;
+    if (ablation_one_place(r->contact)) {
+        struct modes_where first = ring_along_first(r->contact, r->board->trajectory);
+        s->one = ARENA_TAKE(r->arena, struct places_mix, 1);
+        places_at(s->set.places, first.x, first.y, s->one);
+    }
     if (given->extrapolate == EXTRAPOLATE_ERROR && !recorded_inside(s, r, e))
         return err_about(e, r->contact->name, "surface.response");
     for (int k = 0; k < s->set.n; k++)
@@ -197,22 +211,10 @@ static void ring_panned_close(struct stage_run *r)
             panned_close(s->voices[k].engine);
 }
 
-static unsigned ring_panned_turns(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_knobs(c, RING_SURFACE);
-}
-
 static bool ring_panned_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
     return ring_choice_engine(c, RING_SURFACE) == RING_PANNED;
-}
-
-static double ring_panned_work(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_work(c, RING_SURFACE);
 }
 
 const struct stage ring_panned_stage = {
@@ -222,9 +224,9 @@ const struct stage ring_panned_stage = {
     .idle = "the surface has no folder of responses, and surface.convolution is not nodes",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
-    .turns = ring_panned_turns,
+    .turns = ring_choice_surface_turns,
     .wanted = ring_panned_wanted,
-    .work = ring_panned_work,
+    .work = ring_choice_surface_work,
     .open = ring_panned_open,
     .run = ring_panned_run,
     .close = ring_panned_close,

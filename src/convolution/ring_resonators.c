@@ -114,30 +114,6 @@ static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e
     return true;
 }
 
-static double surface_work(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_work(c, RING_SURFACE);
-}
-
-static double scraper_work(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_work(c, RING_SCRAPER);
-}
-
-static unsigned surface_turns(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_knobs(c, RING_SURFACE);
-}
-
-static unsigned scraper_turns(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ring_choice_knobs(c, RING_SCRAPER);
-}
-
 static bool surface_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -168,8 +144,8 @@ const struct stage ring_resonators_surface_stage = {
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
     .wanted = surface_wanted,
-    .turns = surface_turns,
-    .work = surface_work,
+    .turns = ring_choice_surface_turns,
+    .work = ring_choice_surface_work,
     .open = surface_open,
     .run = ring_bank_run,
 };
@@ -182,8 +158,8 @@ const struct stage ring_resonators_scraper_stage = {
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SCRAPER_SOUND),
     .wanted = scraper_wanted,
-    .turns = scraper_turns,
-    .work = scraper_work,
+    .turns = ring_choice_scraper_turns,
+    .work = ring_choice_scraper_work,
     .open = scraper_open,
     .run = ring_bank_run,
 };

@@ -1,8 +1,10 @@
 /* See roll_ground.h. The modes are those that sound (ring_choice.h): the strongest, below 0.499 of the sample rate; the give of all others is left out. */
 #include "convolution/roll_ground.h"
 
+#include "convolution/ring_along.h"
 #include "convolution/ring_choice.h"
 #include "convolution/ring_reach.h"
+#include "scene/ablation.h"
 #include "scene/rules.h"
 #include "trajectory/trajectory.h"
 
@@ -14,14 +16,17 @@ static bool gives_way(const struct contact *c)
 
 static void ground_phi(const struct roll_ground *g, long frame, double *phi)
 {
-    double t = (double)frame / g->board->rate, x, y;
-    trajectory_at(g->board->trajectory, 1, &t, (struct trajectory_out){.x = &x, .y = &y});
-    shapes_at(&g->shapes, &(struct modes_where){x, y, 0}, phi);
+    double t = (double)frame / g->board->rate;
+    struct modes_where at = g->first;
+    if (g->moves)
+        trajectory_at(g->board->trajectory, 1, &t, (struct trajectory_out){.x = &at.x, .y = &at.y});
+    shapes_at(&g->shapes, &at, phi);
 }
 
 static void ground_ramps(struct roll_ground *g, const struct stage_run *r)
 {
-    g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL;
+    g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL && !ablation_one_place(r->contact);
+    g->first = ring_along_first(r->contact, g->board->trajectory);
     g->ramp = (long)r->scene->accuracy.gain_ramp;
     g->phi = ARENA_TAKE(r->arena, double, g->shapes.n);
     g->from = ARENA_TAKE(r->arena, double, g->shapes.n);

@@ -7,6 +7,7 @@
 struct roll_ground {
     struct shapes shapes;     /* n 0: rigid                                        */
     bool moves;               /* phi changes on the way                            */
+    struct modes_where first; /* the place that counts where it does not           */
     double *phi, *from, *to;  /* [n] at a frame; at the ends of the present ramp   */
     long ramp, ramp_end;      /* frames                                            */
     const struct board *board;

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/memory.h"
+
 static bool bytes_stream(FILE *f, size_t room, struct arena *a, struct bytes *b)
 {
     *b = (struct bytes){.at = arena_take(a, room + 1, 1)};
@@ -23,7 +25,7 @@ static bool bytes_stream(FILE *f, size_t room, struct arena *a, struct bytes *b)
 bool bytes_read(const char *path, struct arena *a, struct bytes *b, struct err *e)
 {
     struct stat s;
-    FILE *f = fopen(path, "rb");
+    FILE *f = memory_fopen(path, "rb");
     if (!f || fstat(fileno(f), &s) != 0) {
         int why = errno;
         if (f)

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "file/bytes.h"
 #include "num/decimal.h"
 
 struct csv_reader {
@@ -178,9 +177,12 @@ static void csv_room(const struct csv_reader *r, struct csv *t)
 bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e)
 {
     struct bytes b;
+    return bytes_read(path, a, &b, e) && csv_read_bytes(path, b, a, t, e);
+}
+
+bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e)
+{
     *t = (struct csv){.file = arena_text(a, path)};
-    if (!bytes_read(path, a, &b, e))
-        return false;
     const char *nul = memchr(b.at, '\0', b.n);
     if (nul)
         return err_set(e, ERR_SCENE, "%s:%zu: a NUL byte: this is not text", path, csv_count(b.at, nul, '\n') + 1);
@@ -204,10 +206,21 @@ int csv_column(const struct csv *t, const char *name)
     return -1;
 }
 
+const char *csv_text(const struct csv *t, size_t row, int column, char room[CSV_ROOM])
+{
+    size_t at = row * t->columns + (size_t)column;
+    if (!t->numbers)
+        return t->cells[at];
+    snprintf(room, CSV_ROOM, "%.17g", t->numbers[at]);
+    return room;
+}
+
 bool csv_number(const struct csv *t, size_t row, int column, double *value, struct err *e)
 {
-    const char *s = t->cells[row * t->columns + (size_t)column];
-    char *end;
+    char *end, room[CSV_ROOM];
+    if (t->numbers && isfinite(*value = t->numbers[row * t->columns + (size_t)column]))
+        return true;
+    const char *s = csv_text(t, row, column, room);
     double v = strtod(s, &end);
     bool whole = end > s && end[strspn(end, " \t")] == '\0' && strspn(s, " \t0123456789+-.eE") == strlen(s);
     if (!whole || !isfinite(v))

@@ -9,6 +9,7 @@
 
 #include "base/arena.h"
 #include "base/err.h"
+#include "file/bytes.h"
 
 struct csv_pair {
     const char *key, *value;
@@ -21,16 +22,23 @@ struct csv {
     size_t n_comments;
     const char **names;        /* the header                                    */
     size_t columns, rows;
-    const char **cells;        /* [rows][columns], unquoted text, never NULL    */
-    int *lines;                /* [rows] line each row starts on                */
+    const char **cells;        /* [rows][columns], unquoted text, never NULL; NULL as a whole: numbers */
+    const double *numbers;     /* [rows][columns] of a table that is no text (table.h), else NULL      */
+    int *lines;                /* [rows] line each row starts on; of numbers the row's own number, from 1 */
 };
 
-/* ERR_INPUT missing or unreadable; ERR_SCENE: no header, a row with another number of cells, an open quote, NUL bytes,
+enum { CSV_ROOM = 32 };
+
+/* Also of bytes that were read from the path, and are taken apart in place. ERR_INPUT missing or unreadable; ERR_SCENE: no header, a row with another number of cells, an open quote, NUL bytes,
    duplicate or empty column names; the text says file:line: what. */
 bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e);
+bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e);
 
 /* Column by name, or -1. */
 int csv_column(const struct csv *t, const char *name);
+
+/* A cell's text; a number is written into `room`, so that it can be read back to the bit. */
+const char *csv_text(const struct csv *t, size_t row, int column, char room[CSV_ROOM]);
 
 /* A cell as a finite number; ERR_SCENE "file:line: column 'name': ... is not a number". */
 bool csv_number(const struct csv *t, size_t row, int column, double *value, struct err *e);

@@ -10,13 +10,14 @@
 #include "file/heightfile_npy.h"
 #include "file/heightfile_png.h"
 #include "file/heightfile_sdf.h"
+#include "file/npy.h"
 
 /* CSV last: it takes any text that begins with a number. */
 static const struct {
     bool (*is)(const struct bytes *b);
     bool (*read)(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e);
 } formats[] = {
-    {heightfile_npy_is, heightfile_npy_read}, {heightfile_gsf_is, heightfile_gsf_read}, {heightfile_gwy_is, heightfile_gwy_read},
+    {npy_is, heightfile_npy_read}, {heightfile_gsf_is, heightfile_gsf_read}, {heightfile_gwy_is, heightfile_gwy_read},
     {heightfile_png_is, heightfile_png_read}, {heightfile_sdf_is, heightfile_sdf_read}, {heightfile_csv_is, heightfile_csv_read},
 };
 

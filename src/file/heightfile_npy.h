@@ -4,7 +4,6 @@
 #include "file/bytes.h"
 #include "file/heightfile.h"
 
-bool heightfile_npy_is(const struct bytes *b);
 /* Fills columns, rows, z; the pitch is NAN. */
 bool heightfile_npy_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e);
 

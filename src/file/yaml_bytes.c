@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 
 enum { SIZE_MAX_BYTES = 4 << 20 };
@@ -53,7 +54,7 @@ static void note_file(struct yaml *y, const char *name)
 struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct diag_place named)
 {
     size_t size;
-    FILE *in = fopen(file, "rb");
+    FILE *in = memory_fopen(file, "rb");
     if (!in) {
         unreadable(y, file, named);
         return NULL;

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <yaml.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "file/yaml_bytes.h"
 
@@ -60,6 +61,8 @@ static const char *syntax_cure(const char *problem)
 
 static void syntax_error(struct parse *p)
 {
+    if (p->parser->error == YAML_MEMORY_ERROR)
+        memory_out("for %.200s", p->source->name);
     const char *problem = p->parser->problem ? p->parser->problem : "cannot be read";
     struct diag_place at = {p->source, (int)p->parser->problem_mark.line + 1, column_of(p, &p->parser->problem_mark), 1};
     diag_add(p->y->diag, at, syntax_cure(problem), "not valid YAML: %s", problem);
@@ -299,10 +302,8 @@ static struct yaml_node *document_read(struct parse *p)
 static struct yaml_node *text_read(struct yaml *y, const struct diag_source *source, size_t from)
 {
     yaml_parser_t parser;
-    if (!yaml_parser_initialize(&parser)) {
-        diag_add(y->diag, (struct diag_place){source, 0, 0, 0}, NULL, "out of memory");
-        return NULL;
-    }
+    if (!yaml_parser_initialize(&parser))
+        memory_out("for %.200s", source->name);
     struct parse p = {.y = y, .source = source, .parser = &parser, .shift = (int)text_utf8_count(source->text, from)};
     yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&parser, (const unsigned char *)source->text + from, source->size - from);

@@ -9,12 +9,12 @@
 struct crossing crossing_slope(double a, double b, double mean)
 {
     double bow = 6 * (mean - 0.5 * (a + b)), p = b - a + bow, root = sqrt(fmax(p * p + 4 * bow * a, 0));
-    double s = p < 0 ? p - root : p + root, q = s != 0 ? -2 * a / s : 0, late = 0.5 * mean + (b - a) / 12;
+    double s = p < 0 ? p - root : p + root, q = s != 0 ? -2 * a / s : 0, late = 0.5 * mean + (b - a) * (1.0 / 12);
     if (a * b >= 0)
         return (struct crossing){fabs(mean), mean < 0 ? -late : late};
     if (!(q >= 0 && q <= 1))
         q = s / (2 * bow);
-    double before = q * (a + q * (0.5 * p - q * bow / 3)), lately = q * q * (0.5 * a + q * (p / 3 - 0.25 * q * bow));
+    double before = q * (a + q * (0.5 * p - q * bow * (1.0 / 3))), lately = q * q * (0.5 * a + q * (p * (1.0 / 3) - 0.25 * q * bow));
     return (struct crossing){fabs(before) + fabs(mean - before), fabs(lately) + fabs(late - lately)};
 }
 

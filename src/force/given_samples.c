@@ -3,8 +3,11 @@
      f[n] = scale x[n]     N, at n / rate after the contact's start; 0 before the first and after the last sample
 
    At the audio rate samples stay what they are; at another they are resampled as a band-limited signal (num/resample.h). */
+#include <string.h>
+
 #include "file/bytes.h"
 #include "file/heightfile_npy.h"
+#include "file/npy.h"
 #include "file/wav.h"
 #include "force/given.h"
 #include "force/onset.h"
@@ -48,22 +51,23 @@ static bool wav_take(const struct stage_run *r, struct arena *scratch, struct gi
     return true;
 }
 
-static bool npy_take(const struct stage_run *r, const struct bytes *b, struct arena *scratch, struct given_samples *g, struct err *e)
+static bool npy_take(const struct stage_run *r, const struct bytes *b, struct given_samples *g, struct err *e)
 {
     const struct given_force *given = &r->contact->contact.given;
     struct heightfile h;
-    if (!given_fits(r->contact, "NPY", e) || !heightfile_npy_read(given->file, b, scratch, &h, e))
+    if (!given_fits(r->contact, "NPY", e) || !heightfile_npy_read(given->file, b, r->arena, &h, e))
         return false;
     if (h.rows > 1)
         return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension", given->file, h.rows, h.columns);
     if (isnan(given->rate))
         return err_set(e, ERR_SCENE, "contact '%s': contact.given.rate must be given: %s does not say how many samples a second has", r->contact->name,
                        given->file);
-    *g = (struct given_samples){given->rate, h.columns, ARENA_TAKE(r->arena, double, h.columns)};
+    *g = (struct given_samples){given->rate, h.columns, h.z};
+    double scale = given_scale(r->contact);
     for (size_t i = 0; i < g->n; i++) {
-        g->force[i] = given_scale(r->contact) * h.z[i];
         if (!isfinite(h.z[i]))
             return err_set(e, ERR_SCENE, "%s: element %zu is not a finite number", given->file, i);
+        g->force[i] *= scale;
     }
     return true;
 }
@@ -74,7 +78,7 @@ static bool samples_take(const struct stage_run *r, struct given_samples *g, str
     struct arena *scratch = arena_open();
     struct bytes b;
     bool ok = bytes_read(r->contact->contact.given.file, scratch, &b, e);
-    ok = ok && (heightfile_npy_is(&b) ? npy_take(r, &b, scratch, g, e) : wav_take(r, scratch, g, e));
+    ok = ok && (npy_is(&b) ? npy_take(r, &b, g, e) : wav_take(r, scratch, g, e));
     arena_close(scratch);
     return ok;
 }
@@ -85,7 +89,8 @@ static bool samples_open(struct stage_run *r, struct err *e)
     r->state = g;
     if (!samples_take(r, g, e) || !given_ends(r->contact, (double)(g->n - 1) / g->rate, r->board->trajectory->duration, e))
         return false;
-    onset_told(r, "the largest force", (double)onset_largest(g->n, g->force) / g->rate);
+    if (r->contact->start < r->scene->output.ramp)
+        onset_told(r, "the largest force", (double)onset_largest(g->n, g->force) / g->rate);
     return g->rate == r->board->rate || resample(r->arena, g->force, g->n, g->rate, r->board->rate, &g->force, &g->n, e);
 }
 
@@ -94,8 +99,9 @@ static bool samples_fill(struct stage_run *r, long from, long to, struct err *e)
     const struct given_samples *g = r->state;
     double *force = board_at(r->board, ITEM_FORCE, from);
     (void)e;
-    for (long n = from; n < to; n++)
-        force[n - from] = n < (long)g->n ? g->force[n] : 0;
+    long some = (long)g->n < from ? 0 : (long)g->n < to ? (long)g->n - from : to - from;
+    memcpy(force, g->force + (some ? from : 0), (size_t)some * sizeof *force);
+    memset(force + some, 0, (size_t)(to - from - some) * sizeof *force);
     return true;
 }
 
@@ -104,7 +110,7 @@ const struct stage given_samples_stage = {
     .does = "contact force from the samples of a file",
     .paper = "",
     .idle = "contact.model is not given, or contact.given.file is a table",
-    .needs = ITEM_BIT(ITEM_POSITION), /* the motion must be there, for its duration */
+    .needs = ITEM_BIT(ITEM_MOTION), /* its duration */
     .gives = ITEM_BIT(ITEM_FORCE),
     .wanted = samples_wanted,
     .work = samples_work,

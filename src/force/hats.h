@@ -14,7 +14,7 @@ struct hats {
     double carried;     /* late part of the last sub-interval before the chunk */
 };
 
-/* Writes ITEM_SUBFORCE from number `first` on, of n sub-intervals, which must come in order. Where the contact is lifted off (force/lift.h) there is no
+/* Writes ITEM_SUBFORCE from number `first` on, of n sub-intervals, which must come in order. Where the contact is lifted off (force/lift.h: to the instant) there is no
    force; the time is counted on the board. */
 void hats_lay(struct hats *h, struct board *b, long first, int n);
 

@@ -161,6 +161,7 @@ const struct stage paper_curvature_stage = {
 
 struct paper_speeds {
     double x, y, power; /* means over a sub-interval: v_x^2, v_y^2, m^2/s^2; |v|^beta2 */
+    double early, late; /* its parts of the hats about its ends, each a half but where it is lifted off (force/lift.h) */
 };
 
 static bool paper_open(struct stage_run *r, struct err *e)
@@ -188,15 +189,16 @@ static double paper_velocity(const struct board *b, long k, int axis)
     return (place[1] - place[0]) * b->rate * b->over * scale;
 }
 
-/* Over sub-interval number k; 0 where the contact is lifted off. */
+/* Over sub-interval number k. */
 static struct paper_speeds paper_speeds(const struct stage_run *r, long k)
 {
     const struct board *b = r->board;
     double beta2 = r->contact->contact.beta2, vx = paper_velocity(b, k, 0), vy = b->relief->along == ALONG_PLANE ? paper_velocity(b, k, 1) : 0;
     double speed = fabs(*way_values(b, ITEM_POSITION, k + 1) - *way_values(b, ITEM_POSITION, k)) * b->rate * b->over;
-    if (lift_off(b, k))
-        return (struct paper_speeds){0};
-    return (struct paper_speeds){vx * vx, vy * vy, beta2 == 1 ? speed : speed > 0 ? real_pow(speed, beta2) : 0};
+    struct paper_speeds s = {vx * vx, vy * vy, beta2 == 1 ? speed : speed > 0 ? real_pow(speed, beta2) : 0, 0.5, 0.5};
+    if (board_has(b, ITEM_LOAD))
+        lift_cut(*way_values(b, ITEM_LOAD, k), *way_values(b, ITEM_LOAD, k + 1), &s.early, &s.late);
+    return s;
 }
 
 /* By the hat between two sub-intervals. */
@@ -205,8 +207,9 @@ static double paper_force(const struct stage_run *r, long k, const struct paper_
     const struct board *b = r->board;
     const struct contact_model *m = &r->contact->contact;
     double yy = board_has(b, ITEM_CURVATURE_Y) ? *way_values(b, ITEM_CURVATURE_Y, k) : 0;
-    double force = r->contact->scraper.mass * 0.5 * (*way_values(b, ITEM_CURVATURE, k) * (before->x + after->x) + yy * (before->y + after->y));
-    force += m->beta1 * *way_values(b, ITEM_SLOPE, k) * 0.5 * (before->power + after->power);
+    double force = r->contact->scraper.mass * (*way_values(b, ITEM_CURVATURE, k) * (before->late * before->x + after->early * after->x) +
+                                             yy * (before->late * before->y + after->early * after->y));
+    force += m->beta1 * *way_values(b, ITEM_SLOPE, k) * (before->late * before->power + after->early * after->power);
     return m->model == CONTACT_ROLL ? m->roll.scraping * force : force;
 }
 

@@ -20,6 +20,7 @@
    it is clear of the surface: no force at all. */
 #include <string.h>
 
+#include "force/lift.h"
 #include "force/roll_centre.h"
 #include "force/roll_law.h"
 #include "force/roll_pass.h"
@@ -151,10 +152,11 @@ static void roll_press(struct roll_state *s, const double *load, int n)
 /* The share of sub-interval i of the chunk in contact, and whether in it the ball leaves the surface. */
 static double roll_contact(struct roll_state *s, const double *load, int i, bool *leaves)
 {
-    bool lifted = load && load[i] + load[i + 1] < 0, before = s->touches;
-    s->touches = s->idle || (!lifted && s->rho[i + 1] > 0);
+    double pressed = load ? lift_pressed(load[i], load[i + 1]) : 1;
+    bool before = s->touches;
+    s->touches = s->idle || (!(load && load[i + 1] < 0) && s->rho[i + 1] > 0);
     *leaves = before && !s->touches;
-    return lifted || s->idle ? 0 : roll_law_contact(s->rho[i], s->rho[i + 1]);
+    return s->idle ? 0 : pressed * roll_law_contact(s->rho[i], s->rho[i + 1]);
 }
 
 /* m, of the centre of mass; 0 where S and the rim have their mean height and the centre of mass lies lowest. */

@@ -23,6 +23,7 @@
 
 #include "num/lanes.h"
 #include "num/real.h"
+#include "scene/rules.h"
 
 bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err *e)
 {
@@ -69,21 +70,34 @@ static void scrape_horizontal(struct scrape *s, const double *v, double per_seco
     }
 }
 
+/* f_v is added to f_h, and both take their share. */
+LANES_CLONES
+static void scrape_vertical(struct scrape *s, const double *v, int n, double per_second, double share)
+{
+    const double *ends = s->slope.ends, *climbed = s->slope.climbed;
+    double momentum[WAY_CHUNK + 1], mass = s->mass, *restrict early = s->hats.early, *restrict late = s->hats.late;
+    momentum[0] = s->momentum;
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        momentum[i + 1] = mass * v[i + 1] * ends[i];
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        double mean = mass * climbed[i] * per_second;
+        early[i] = share * (mean - momentum[i] + early[i]);
+        late[i] = share * (momentum[i + 1] - mean + late[i]);
+    }
+    s->momentum = momentum[n];
+}
+
 void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n)
 {
     const struct board *b = r->board;
-    const struct slope *l = &s->slope;
     double rubbed[WAY_CHUNK], per_second = b->rate * b->over, share = s->share * per_second;
     slope_run(&s->slope, r, first, n);
     const double *v = way_values(b, ITEM_VELOCITY, first);
     scrape_rubbed(s, per_second, n, rubbed);
     scrape_horizontal(s, v, per_second, n, rubbed);
-    for (int i = 0; i < n; i++) {
-        double momentum = s->mass * v[i + 1] * l->ends[i], mean = s->mass * l->climbed[i] * per_second;
-        s->hats.early[i] = share * (mean - s->momentum + s->hats.early[i]);
-        s->hats.late[i] = share * (momentum - mean + s->hats.late[i]);
-        s->momentum = momentum;
-    }
+    scrape_vertical(s, v, n, per_second, share);
 }
 
 /* ------------------------------------------------------------------ the stage */
@@ -96,7 +110,8 @@ static bool scrape_wanted(const struct contact *c, const struct scene *s)
 
 static double scrape_work(const struct contact *c, const struct scene *s)
 {
-    return (c->contact.limiter.curve == LIMITER_TANH ? 150 : 60) * way_work(c, s);
+    double each = rules_straight(&c->motion) && rules_along(c) != ALONG_PLANE ? 70 : 150; /* cut by way_straight.c, or not */
+    return (c->contact.limiter.curve == LIMITER_TANH ? 1 : 0.4) * each * way_work(c, s);
 }
 
 static bool scrape_open(struct stage_run *r, struct err *e)

@@ -7,8 +7,13 @@
    kept. Paper: the same on each limited curvature, sigma in proportion to its own alpha. The paper's "average half window size of 5 samples at a sampling rate of 44.1kHz" is read
    as an 11-sample window of 5 sigma: 50 us; in seconds here, so that the sound does not depend on the sample rate.
 
+   Where alpha is constant smoothing is one kernel, and the stage that brings the force to the audio rate joins it to its own (force/decimate.c): 4 smoothed
+   sub-samples of which one sample is made cost 4 times as much, and behind a low-pass so smooth another one hardly needs its own length.
+
    Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes every 64 sub-samples and
    an element between two nodes spreads with both kernels, linearly weighted (error of second order in sigma's change over 64 sub-samples). */
+#include "force/smooth.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -29,7 +34,7 @@ struct smooth {
     bool varies;
     int reach;              /* sub-samples to each side                          */
     double per_alpha;       /* sigma in sub-samples per metre of alpha           */
-    struct filter still;    /* the kernel when alpha does not vary               */
+    struct smoothing still; /* the kernel when alpha does not vary               */
     double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps, between WIDE zeros */
     double *raw;            /* unsmoothed values from sub-sample raw_first on    */
     double *sum;            /* smoothed so far, from sub-sample sum_first on     */
@@ -54,6 +59,17 @@ static bool smooth_wanted(const struct contact *c, const struct scene *s)
     return smooth_model(c) && c->contact.smoothing > 0 && c->contact.force == FORCE_DIRECTIONAL;
 }
 
+static bool smooth_varies(const struct contact *c)
+{
+    return load_varies(c) && c->contact.limiter.curve == LIMITER_TANH;
+}
+
+double smooth_still(const struct contact *c)
+{
+    bool still = smooth_wanted(c, NULL) && !smooth_varies(c);
+    return still ? rules_sigma(&c->contact, smooth_alpha(c, limiter_constant(c))) : 0;
+}
+
 static bool smooth_curvature_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -67,10 +83,16 @@ static bool smooth_curvature_y_wanted(const struct contact *c, const struct scen
 
 static double smooth_work(const struct contact *c, const struct scene *s)
 {
-    bool varies = load_varies(c) && c->contact.limiter.curve == LIMITER_TANH;
+    bool varies = smooth_varies(c);
     double over = s->accuracy.oversampling, alpha = varies ? c->contact.limiter.alpha_max : smooth_alpha(c, limiter_constant(c));
     double taps = 13 * c->contact.smoothing * alpha / 0.03 * s->output.sample_rate * over + 1;
     return taps * over * (varies ? 0.65 : 0.35);
+}
+
+/* Where its width is constant, decimate does it. */
+static double smooth_force_work(const struct contact *c, const struct scene *s)
+{
+    return smooth_varies(c) ? smooth_work(c, s) : 1;
 }
 
 static bool smooth_too_wide(const struct stage_run *r, double sigma, struct err *e)
@@ -92,8 +114,8 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
     double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
     if (ratio * rules_sigma(&c->contact, widest) > RULES_SMOOTHING_WIDEST)
         return smooth_too_wide(r, ratio * rules_sigma(&c->contact, widest), e);
-    s->still = filter_gaussian(r->arena, s->per_alpha * widest);
-    s->reach = s->still.reach;
+    s->still.kernel = filter_gaussian(r->arena, s->per_alpha * widest);
+    s->reach = s->still.kernel.reach;
     r->ahead = (s->reach + (s->varies ? SMOOTH_NODE : 0)) / b->over + 2;
     s->room = (size_t)((STAGE_BLOCK + 2 * r->ahead + 4) * b->over + 2 * s->reach);
     s->raw = ARENA_TAKE(r->arena, double, s->room + WIDE);
@@ -108,7 +130,12 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
 
 static bool smooth_open(struct stage_run *r, struct err *e)
 {
-    return smooth_open_item(r, ITEM_SUBFORCE, 1, e);
+    if (!smooth_open_item(r, ITEM_SUBFORCE, 1, e))
+        return false;
+    struct smooth *s = r->state;
+    if (!s->varies)
+        r->board->smoothing = &s->still;
+    return true;
 }
 
 static bool smooth_curvature_open(struct stage_run *r, struct err *e)
@@ -194,9 +221,11 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
     long first = from * b->over, end = to * b->over;
     double *y = board_at(b, s->item, from);
     (void)e;
+    if (s->still.taken)
+        return true;
     if (!s->varies) {
         smooth_take(s, b, first - s->reach, (to + r->ahead - 1) * b->over);
-        spread_still(&s->still, s->raw + (first - s->reach - s->raw_first), y, end - first);
+        spread_still(&s->still.kernel, s->raw + (first - s->reach - s->raw_first), y, end - first);
         return true;
     }
     long keep = s->node < s->start ? s->raw_first : s->node;
@@ -235,7 +264,7 @@ const struct stage smooth_stage = {
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .knobs = KNOB_BIT(oversampling),
     .wanted = smooth_wanted,
-    .work = smooth_work,
+    .work = smooth_force_work,
     .open = smooth_open,
     .run = smooth_run,
     .skip = smooth_skip,

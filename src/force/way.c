@@ -88,6 +88,7 @@ bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double lon
         limiter_told(r, n, n);
     }
     w->straight = way_straight(w);
+    w->along = w->straight && kind == WAY_ALONG && w->e[0] == 1 && w->e[1] == 0;
     return true;
 }
 
@@ -141,11 +142,11 @@ static void way_flush(struct way *w)
     if (p->n == 0)
         return;
     relief_at(w->relief, &(struct relief_points){(size_t)p->points, p->x, plane ? p->y : NULL},
-              &(struct relief_values){.x = axes ? zx : NULL, .y = axes && plane ? zy : NULL, .xx = w->xx, .xy = plane ? w->xy : NULL,
+              &(struct relief_values){.x = axes ? zx : NULL, .y = axes && plane ? zy : NULL, .xx = w->along ? p->curvature[0] : w->xx, .xy = plane ? w->xy : NULL,
                                       .yy = plane ? w->yy : NULL});
     if (axes)
         values_axes(w, zx, zy);
-    else
+    else if (!w->along)
         values_along(w);
     for (int k = 0; k < w->channels; k++) {
         if (w->halves)
@@ -163,15 +164,33 @@ struct instant {
     double u, x, y, ex, ey;
 };
 
-/* The instant's place; its direction is 0, 0 where the contact rests. */
-static struct instant way_instant(const struct way *w, const struct board *b, long k, double top_speed)
+/* A chunk's motion, looked up once. */
+struct motions {
+    const double *u, *du, *x, *y, *vx, *vy; /* x to vy: of a curved way */
+    double top;
+};
+
+static struct motions way_motions(const struct way *w, const struct board *b, long first)
 {
-    struct instant i = {.u = *way_values(b, ITEM_POSITION, k)};
+    struct motions m = {.u = way_values(b, ITEM_POSITION, first), .du = way_values(b, ITEM_VELOCITY, first), .top = b->trajectory->top_speed};
+    if (w->curved) {
+        m.x = way_values(b, ITEM_X, first);
+        m.y = way_values(b, ITEM_Y, first);
+        m.vx = way_values(b, ITEM_VX, first);
+        m.vy = way_values(b, ITEM_VY, first);
+    }
+    return m;
+}
+
+/* The instant's place; its direction is 0, 0 where the contact rests. */
+static struct instant way_instant(const struct way *w, const struct motions *m, int k)
+{
+    struct instant i = {.u = m->u[k]};
     if (!w->curved)
         return i;
-    double vx = *way_values(b, ITEM_VX, k), vy = *way_values(b, ITEM_VY, k), v = sqrt(vx * vx + vy * vy);
-    i.x = *way_values(b, ITEM_X, k);
-    i.y = *way_values(b, ITEM_Y, k);
+    double vx = m->vx[k], vy = m->vy[k], v = sqrt(vx * vx + vy * vy), top_speed = m->top;
+    i.x = m->x[k];
+    i.y = m->y[k];
     if (v > 1e-6 * top_speed) {
         i.ex = vx / v;
         i.ey = vy / v;
@@ -189,7 +208,7 @@ static bool at_rest(struct instant i)
 static void way_stretch(struct way *w, struct instant a, struct instant b, double alpha, int interval)
 {
     struct way_stretch s = {.u = a.u, .end = b.u, .alpha = alpha, .interval = interval};
-    double dx = b.x - a.x, dy = b.y - a.y, chord = sqrt(dx * dx + dy * dy);
+    double dx = b.x - a.x, dy = b.y - a.y, chord = w->curved ? sqrt(dx * dx + dy * dy) : 0;
     if (a.u == b.u || (w->curved && chord == 0))
         return;
     if (w->curved) {
@@ -226,16 +245,19 @@ struct interval {
     int i;         /* of the chunk          */
     long number;   /* since the start       */
     double alpha;  /* m                     */
+    const double *v; /* m/s, at both ends   */
 };
 
 static void way_interval(struct way *w, const struct stage_run *r, const struct interval *s, const struct instant ends[2])
 {
     const struct board *b = r->board;
-    const double *v = way_values(b, ITEM_VELOCITY, s->number);
+    if (!way_turns(w, ends[0], ends[1], s->v[0], s->v[1])) {
+        way_stretch(w, ends[0], ends[1], s->alpha, s->i);
+        return;
+    }
     double dt = 1 / (b->rate * b->over), t0 = (double)s->number * dt, t1 = (double)(s->number + 1) * dt;
-    bool turns = way_turns(w, ends[0], ends[1], v[0], v[1]);
-    double turn = turns ? trajectory_turning(b->trajectory, t0, t1) : NAN;
-    if (turns && (w->curved || !isnan(turn)))
+    double turn = trajectory_turning(b->trajectory, t0, t1);
+    if (w->curved || !isnan(turn))
         way_turn(w, r, ends[0], ends[1], s->alpha, s->i, isnan(turn) ? 0.5 * (t0 + t1) : turn);
     else
         way_stretch(w, ends[0], ends[1], s->alpha, s->i);
@@ -254,24 +276,26 @@ static void way_alphas(const struct stage_run *r, long first, int n, double *alp
 
 void way_run(struct way *w, const struct stage_run *r, long first, int n)
 {
-    const struct board *b = r->board;
-    const double *v = way_values(b, ITEM_VELOCITY, first);
-    double top = b->trajectory->top_speed;
+    struct motions m = way_motions(w, r->board, first);
     struct way_straight s;
-    struct instant ends[2] = {{0}, way_instant(w, b, first, top)};
-    s.u = way_values(b, ITEM_POSITION, first);
+    struct instant ends[2] = {{0}, way_instant(w, &m, 0)};
+    s.u = m.u;
     s.flush = way_flush;
     way_alphas(r, first, n, s.alpha);
     if (w->straight)
         way_straight_look(w, &s, n);
     for (int i = 0; i < n; i++) {
-        if (w->straight && v[i] * v[i + 1] >= 0) {
-            way_straight_cut(w, &s, i);
+        int end = i;
+        while (w->straight && end < n && m.du[end] * m.du[end + 1] >= 0)
+            end++;
+        if (end > i) {
+            way_straight_cut(w, &s, i, end);
+            i = end - 1;
             continue;
         }
-        ends[0] = w->straight ? way_instant(w, b, first + i, top) : ends[1];
-        ends[1] = way_instant(w, b, first + i + 1, top);
-        way_interval(w, r, &(struct interval){i, first + i, s.alpha[i]}, ends);
+        ends[0] = w->straight ? way_instant(w, &m, i) : ends[1];
+        ends[1] = way_instant(w, &m, i + 1);
+        way_interval(w, r, &(struct interval){i, first + i, s.alpha[i], m.du + i}, ends);
     }
     way_flush(w);
 }

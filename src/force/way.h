@@ -6,7 +6,7 @@
 #include "surface/limited.h"
 #include "surface/relief.h"
 
-enum { WAY_CHUNK = 256, WAY_CHANNELS = 2, WAY_GRIDS = 16 };
+enum { WAY_CHUNK = 128, WAY_CHANNELS = 2, WAY_GRIDS = 16 };
 
 /* What is limited, one or two curvatures:
      WAY_ALONG  [0] along the path, e' H e; [1], where the path is curved, e' H n   (H the surface's second derivatives)
@@ -44,6 +44,7 @@ struct way {
     bool curved;                     /* field, and the path is no straight line: places come from X, Y  */
     bool halves;                     /* curvature is not a straight line between knots: pieces come in pairs, bulges known */
     bool straight;                   /* force/way_straight.h cuts it                                    */
+    bool along;                      /* and it goes along x: z_xx is what is limited                    */
     bool limiter;
     double ratio;                    /* alpha of channel 1 over that of channel 0                       */
     double longest;                  /* m: no piece is longer                                           */

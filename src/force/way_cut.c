@@ -1,6 +1,9 @@
 /* The next knot is looked for along each family's coordinate, which runs nearly straight over a stretch: one Newton step from the tangent's
    crossing. A knot missed by rounding, or a knot line that a curve just touches between two places, leaves a kink inside a piece: the piece's
-   mean is off by half the kink of its slope times what was missed (a part in 1e7 of a pitch by rounding, kappa h^2 / 8 of a line touched). */
+   mean is off by half the kink of its slope times what was missed (a part in 1e7 of a pitch by rounding, kappa h^2 / 8 of a line touched).
+
+   Measured on a circle over roughness, where this was a quarter of all: the step is made for knots alone that may be the next ones, on one coordinate; and a
+   stretch that begins where the one before ended shares its point, so that a third fewer are read and limited. */
 #include "force/way_cut.h"
 
 #include <math.h>
@@ -40,20 +43,27 @@ static struct spot spot_at(const struct way *w, const struct way_stretch *s, dou
     return r;
 }
 
-/* Where the stretch reaches the family's next knot, along the tangent; corrected once. */
-static double grid_next(const struct way *w, const struct way_grid *g, const struct way_stretch *s, double done, const struct spot *at)
+/* One coordinate of the curve; *rate: its derivative. */
+static double curve_along(const struct way_curve *c, int axis, double w, double *rate)
+{
+    const double *x = axis ? c->y : c->x, *e = axis ? c->ey : c->ex;
+    double h = c->length, q = w / h, p = 1 - q, b = q * q * (1 + 2 * p);
+    *rate = 6 * q * p / h * (x[1] - x[0]) + p * (p - 2 * q) * e[0] + q * (q - 2 * p) * e[1];
+    return x[0] + b * (x[1] - x[0]) + q * p * h * (p * e[0] - q * e[1]);
+}
+
+/* Where the stretch reaches the family's next knot, along the tangent; corrected once if that may be before `nearest`. */
+static double grid_next(const struct way *w, const struct way_grid *g, const struct way_stretch *s, double done, const struct spot *at, double nearest)
 {
     double rate = heading(s) * (g->axis ? at->ey : at->ex) / g->pitch, q = ((g->axis ? at->y : at->x) - g->origin) / g->pitch;
     double slack = 1e-7 * (1 + fabs(q) * 1e-6); /* a knot just reached is not the next one */
     if (fabs(rate) * (fabs(s->end - s->u) - done) < 1e-9)
         return HUGE_VAL;
     double edge = rate > 0 ? floor(q + slack) + 1 : ceil(q - slack) - 1, next = done + (edge - q) / rate;
-    if (!w->curved || !(next < s->path.length))
+    if (!w->curved || !(next < s->path.length) || next - done > 2 * (nearest - done))
         return next;
-    struct spot there = spot_at(w, s, next);
-    double left = edge - ((g->axis ? there.y : there.x) - g->origin) / g->pitch;
-    double speed = heading(s) * (g->axis ? there.ey : there.ex) / g->pitch, better = next + left / speed;
-    return fabs(speed) > 0.1 * fabs(rate) && better > done ? better : next;
+    double speed, left = edge - (curve_along(&s->path, g->axis, next, &speed) - g->origin) / g->pitch, better = next + left * g->pitch / speed;
+    return fabs(speed) > 0.1 * fabs(rate * g->pitch) && better > done ? better : next;
 }
 
 static void add_point(struct way *w, const struct way_stretch *s, const struct spot *at)
@@ -66,6 +76,13 @@ static void add_point(struct way *w, const struct way_stretch *s, const struct s
     p->ey[k] = at->ey;
     p->alpha[0][k] = s->alpha;
     p->alpha[1][k] = s->alpha * w->ratio;
+}
+
+/* Is the last point this very one, and of the same alpha? */
+static bool last_point(const struct way_pieces *p, const struct way_stretch *s, const struct spot *at)
+{
+    int k = p->points - 1;
+    return k >= 0 && p->x[k] == at->x && p->y[k] == at->y && p->ex[k] == at->ex && p->ey[k] == at->ey && p->alpha[0][k] == s->alpha;
 }
 
 static void add_piece(struct way *w, const struct way_stretch *s, double length, const struct spot *end)
@@ -93,11 +110,11 @@ bool way_cut(struct way *w, struct way_stretch *s)
             return false;
         }
         for (int k = 0; k < w->n_grids; k++)
-            next = fmin(next, grid_next(w, &w->grids[k], s, done, &at));
+            next = fmin(next, grid_next(w, &w->grids[k], s, done, &at, next));
         if (!(next > done))
             next = done + fmax(1e-12 * whole, 4e-16 * fabs(done)); /* no progress in floating point */
         struct spot end = spot_at(w, s, next);
-        if (!chained)
+        if (!chained && !last_point(p, s, &at))
             add_point(w, s, &at);
         chained = true;
         if (w->halves) {

@@ -8,16 +8,17 @@ struct way_straight {
     const double *u;             /* m: sub-interval i goes from u[i] to u[i + 1]  */
     double alpha[WAY_CHUNK];     /* m */
     double first[WAY_CHUNK];     /* m: length of its first piece                  */
+    int pieces[WAY_CHUNK];       /* 1 or 2, where that is known beforehand; else 0 */
     void (*flush)(struct way *); /* uses the pieces and empties them              */
 };
 
 /* Can such a way be cut so? To be asked, once, when all else in it is made. */
 bool way_straight(struct way *w);
 
-/* first[] of n sub-intervals. */
+/* first[] and pieces[] of n sub-intervals. */
 void way_straight_look(const struct way *w, struct way_straight *s, int n);
 
-/* Adds the pieces of sub-interval i, the same as way_cut does. */
-void way_straight_cut(struct way *w, const struct way_straight *s, int i);
+/* Adds the pieces of sub-intervals i to end - 1, the same as way_cut does. */
+void way_straight_cut(struct way *w, const struct way_straight *s, int i, int end);
 
 #endif

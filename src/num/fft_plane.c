@@ -2,10 +2,9 @@
 #include "num/fft_plane.h"
 
 #include <fftw3.h>
-#include <stdio.h>
-#include <unistd.h>
 
-#include "base/err.h"
+#include "base/memory.h"
+#include "num/planner.h"
 #include "num/sincos.h"
 
 struct fft_plane {
@@ -16,10 +15,9 @@ struct fft_plane {
 
 static void *or_end(void *p, size_t n)
 {
-    if (p)
-        return p;
-    fprintf(stderr, "rasp: error: out of memory (FFT of %zu x %zu points)\n", n, n);
-    _exit(ERR_MEMORY);
+    if (!p)
+        memory_out("FFT of %zu x %zu points", n, n);
+    return p;
 }
 
 struct fft_plane *fft_plane_open(size_t n)
@@ -32,8 +30,10 @@ struct fft_plane *fft_plane_open(size_t n)
     f->x = or_end(fftw_malloc(n * n * sizeof(double)), n);
     fftw_iodim64 dims[2] = {{.n = (ptrdiff_t)n, .is = (ptrdiff_t)half, .os = (ptrdiff_t)n}, {.n = (ptrdiff_t)n, .is = 1, .os = 1}};
     sincos_keep();
+    planner_lock();
     fftw_forget_wisdom();
     f->inverse = or_end(fftw_plan_guru64_split_dft_c2r(2, dims, 0, NULL, f->re, f->im, f->x, FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_DESTROY_INPUT), n);
+    planner_unlock();
     return f;
 }
 
@@ -41,7 +41,9 @@ void fft_plane_close(struct fft_plane *f)
 {
     if (!f)
         return;
+    planner_lock();
     fftw_destroy_plan(f->inverse);
+    planner_unlock();
     fftw_free(f->re);
     fftw_free(f->x);
     fftw_free(f);

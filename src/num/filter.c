@@ -14,6 +14,7 @@
    is curved; for over = 1 that would be wrong by 3e-4. Here the window acts on a flat pass band, which smoothing leaves flat. */
 #include "num/filter.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "num/real.h"
@@ -136,4 +137,17 @@ struct filter filter_gaussian(struct arena *a, double sigma)
         tap[reach + j] = tap[reach - j] = real_exp(-0.5 * (j / sigma) * (j / sigma));
     normalise(tap, 2 * reach + 1);
     return (struct filter){reach, 2 * reach + 1, tap};
+}
+
+struct filter filter_joined(struct arena *a, const struct filter *b, const struct filter *c, double left)
+{
+    int n = b->taps + c->taps - 1, cut = 0;
+    double *tap = ARENA_TAKE(a, double, n), ends = 0;
+    for (int i = 0; i < b->taps; i++)
+        for (int k = 0; k < c->taps; k++)
+            tap[i + k] += b->tap[i] * c->tap[k];
+    while (cut < n / 2 && (ends += fabs(tap[cut]) + fabs(tap[n - 1 - cut])) <= left)
+        cut++;
+    normalise(tap + cut, n - 2 * cut);
+    return (struct filter){b->reach + c->reach - cut, n - 2 * cut, tap + cut};
 }

@@ -32,4 +32,8 @@ struct filter filter_decimator_hats(struct arena *a, int over);
    the unit impulse. The sampled Gaussian's own deviation is sigma within 1e-6 for sigma >= 1; for smaller ones it is less. */
 struct filter filter_gaussian(struct arena *a, double sigma);
 
+/* One kernel for x first through b, then through c, both of sum 1: ends that add up to at most `left` (absolute values) are cut off, as many taps on both sides, and the
+   rest has sum 1 again. */
+struct filter filter_joined(struct arena *a, const struct filter *b, const struct filter *c, double left);
+
 #endif

@@ -8,27 +8,44 @@
    - Its filters come from libm. Without FMA 16 samples of 674550 differ, by 1.1e-16: rounding the result to a grid would make such a flip
      rare, never impossible. So libm's functions are replaced (num/libm.h): then all samples are the same with and without FMA.
    - A clock of 32 bits for ratios that are not small fractions: SOXR_HI_PREC_CLOCK makes it exact enough for the figure above.
-   What remains: another version of libsoxr may differ, as another FFTW may. */
+   What remains: another version of libsoxr may differ, as another FFTW may.
+
+   One thread at a time: the environment is the whole program's, and so are libsoxr's tables for its FFTs. */
 #include "num/resample.h"
 
+#include <errno.h>
 #include <math.h>
+#include <pthread.h>
 #include <soxr.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "num/libm.h"
 
 enum { MARGIN = 64 }; /* samples of silence behind x, in and out, so that the last ones come out whole */
 
-/* Read by soxr_create only, and by nothing else in the program. */
+static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+
+/* Read by soxr_create only, and by nothing else in the program. What is there already stays untouched: another thread may be reading the environment. */
 static void portable(void)
 {
     static const char *const tunings[] = {"SOXR_MIN_DFT_SIZE", "SOXR_LARGE_DFT_SIZE", "SOXR_COEFS_SIZE", "SOXR_NUM_THREADS",
                                           "SOXR_COEF_INTERP",  "SOXR_STRICT_BUF",     "SOXR_NOSMALLINTOPT"};
     libm_keep();
-    setenv("SOXR_USE_SIMD", "0", 1);
+    const char *simd = getenv("SOXR_USE_SIMD");
+    if ((!simd || strcmp(simd, "0") != 0) && setenv("SOXR_USE_SIMD", "0", 1) != 0)
+        memory_out("for the environment");
     for (size_t i = 0; i < sizeof tunings / sizeof tunings[0]; i++)
-        unsetenv(tunings[i]);
+        if (getenv(tunings[i]))
+            unsetenv(tunings[i]);
+}
+
+void resample_prepare(void)
+{
+    pthread_mutex_lock(&one_at_a_time);
+    portable();
+    pthread_mutex_unlock(&one_at_a_time);
 }
 
 static soxr_t open_soxr(double rate_in, double rate_out, struct err *e)
@@ -38,7 +55,11 @@ static soxr_t open_soxr(double rate_in, double rate_out, struct err *e)
     soxr_quality_spec_t quality = soxr_quality_spec(SOXR_VHQ, SOXR_HI_PREC_CLOCK | SOXR_ROLLOFF_NONE);
     soxr_runtime_spec_t one_thread = soxr_runtime_spec(1);
     portable();
+    memory_spare(1 << 24); /* libsoxr 0.1.3 designs its filters in memory that it does not know to be there */
+    errno = 0;
     soxr_t s = soxr_create(rate_in, rate_out, 1, &failure, &io, &quality, &one_thread);
+    if ((failure || !s) && errno == ENOMEM)
+        memory_out("resampling from %g to %g Hz", rate_in, rate_out);
     if (failure || !s) {
         err_set(e, ERR_UNBUILT, "resampling from %g to %g Hz: libsoxr: %s", rate_in, rate_out, failure ? failure : "no memory");
         return NULL;
@@ -66,6 +87,29 @@ static size_t convert(soxr_t s, const double *x, size_t n, double *y, size_t m)
     return done;
 }
 
+struct out {
+    double *y;
+    size_t m;
+};
+
+static bool convert_locked(const double *x, size_t n, const double rates[2], struct out out, struct err *e)
+{
+    soxr_t s = open_soxr(rates[0], rates[1], e);
+    if (!s)
+        return false;
+    size_t done = convert(s, x, n, out.y, out.m);
+    soxr_delete(s);
+    return done == out.m || err_set(e, ERR_NUMBERS, "resampling from %g to %g Hz: libsoxr gave %zu samples of %zu", rates[0], rates[1], done, out.m);
+}
+
+static bool convert_alone(const double *x, size_t n, const double rates[2], struct out out, struct err *e)
+{
+    pthread_mutex_lock(&one_at_a_time);
+    bool ok = convert_locked(x, n, rates, out, e);
+    pthread_mutex_unlock(&one_at_a_time);
+    return ok;
+}
+
 bool resample(struct arena *a, const double *x, size_t n, double rate_in, double rate_out, double **y, size_t *m, struct err *e)
 {
     double ratio = rate_out / rate_in;
@@ -77,10 +121,5 @@ bool resample(struct arena *a, const double *x, size_t n, double rate_in, double
         memcpy(*y, x, n * sizeof *x);
         return true;
     }
-    soxr_t s = open_soxr(rate_in, rate_out, e);
-    if (!s)
-        return false;
-    size_t done = convert(s, x, n, *y, *m);
-    soxr_delete(s);
-    return done == *m || err_set(e, ERR_NUMBERS, "resampling from %g to %g Hz: libsoxr gave %zu samples of %zu", rate_in, rate_out, done, *m);
+    return convert_alone(x, n, (const double[2]){rate_in, rate_out}, (struct out){*y, *m}, e);
 }

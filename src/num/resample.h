@@ -10,7 +10,10 @@
 /* x[n] at rate_in to *y[*m] at rate_out (Hz), *m = ceil(n rate_out / rate_in); sample 0 of both is the same instant, and values are those of
    the band-limited signal (an impulse response is not rescaled by the ratio of rates: its values per second stay), zero before and after x;
    what rings before sample 0 is not kept. Errors: ERR_UNBUILT (a libsoxr without its portable double-precision code), ERR_SCENE (rates more than
-   a factor of 1000 apart). Not to be called by two threads at once. */
+   a factor of 1000 apart). Threads wait for each other. */
 bool resample(struct arena *a, const double *x, size_t n, double rate_in, double rate_out, double **y, size_t *m, struct err *e);
+
+/* Sets the environment that libsoxr reads: once, before a program starts threads, which may be reading it. */
+void resample_prepare(void);
 
 #endif

@@ -1,15 +1,17 @@
 /* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T = 1/rate: kinematics,
    normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its sign) of the audio-rate force over the
-   samples in the interval; events are counted in it; of a ball see roll_rows.c. Rows end with the motion. Numbers are printed with %.9g, lines end in LF. */
+   samples in the interval; events are counted in it; of a ball see roll_rows.c. Rows end with the motion. Numbers are printed with %.9g, lines
+   end in LF; as NPY (file/npy.h) they are doubles, and how many rows there will be is known when the header is written. */
 #include "output/force_table.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "file/npy.h"
 #include "force/impact_train.h"
 #include "force/strike.h"
 #include "num/decimal.h"
-#include "output/roll_rows.h"
+#include "output/row_motion.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -25,12 +27,11 @@ const struct table_column force_table_columns[] = {
 };
 
 struct force_table {
-    bool wanted[COLUMNS];
+    bool wanted[COLUMNS], npy;
     double value[COLUMNS];
     double sum, squares, peak;  /* of the row being filled */
     long samples, lift_offs, row, rows;
-    double alpha;
-    const struct load_law *load; /* NULL: nothing is pressed on                       */
+    struct row_motion motion;
     struct strike_train train;   /* of what strikes: the impacts from `impact` on     */
     struct strike_impact impact;
     bool struck;                 /* there is such a one                               */
@@ -82,7 +83,7 @@ static unsigned force_table_asks(const struct contact *c, const struct scene *s)
         items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK))
         items |= ITEM_BIT(ITEM_FORCE);
-    return items | ITEM_BIT(ITEM_POSITION); /* the motion: a row reads it at its own instant */
+    return items | ITEM_BIT(ITEM_MOTION); /* read at a row's own instant */
 }
 
 static bool force_table_wanted(const struct contact *c, const struct scene *s)
@@ -127,7 +128,7 @@ static bool load_find(struct force_table *t, const struct stage_run *r, struct e
     if (r->contact->contact.model != CONTACT_SCRAPE && r->contact->contact.model != CONTACT_ROLL)
         return true;
     struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
-    t->load = r->board->load ? r->board->load : own;
+    t->motion.load = r->board->load ? r->board->load : own;
     return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, own, e);
 }
 
@@ -143,44 +144,41 @@ static bool impacts_find(struct force_table *t, const struct stage_run *r, struc
     return true;
 }
 
+static void head_put(const struct force_table *t, FILE *out)
+{
+    const char *names[COLUMNS];
+    size_t n = 0;
+    for (int k = 0; k < COLUMNS; k++)
+        if (t->wanted[k])
+            names[n++] = force_table_columns[k].name;
+    if (t->npy)
+        npy_write(out, names, n, (size_t)t->rows);
+    for (size_t k = 0; k < n && !t->npy; k++)
+        fprintf(out, "%s%c", names[k], k + 1 < n ? ',' : '\n');
+}
+
 static bool force_table_open(struct stage_run *r, struct err *e)
 {
     struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
-    const char *comma = "";
     r->state = t;
+    t->npy = r->scene->output.diagnostics.format == TABLE_NPY;
     if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e))
         return false;
     roll_rows_make(&t->ball, r->contact);
-    t->alpha = limiter_constant(r->contact);
-    t->rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
-    for (int k = 0; k < COLUMNS; k++)
-        if (t->wanted[k]) {
-            fprintf(r->board->table->stream, "%s%s", comma, force_table_columns[k].name);
-            comma = ",";
-        }
-    fputc('\n', r->board->table->stream);
+    t->motion.alpha = limiter_constant(r->contact);
+    t->motion.wanted = t->wanted;
+    t->rows = t->motion.rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
+    head_put(t, r->board->table->stream);
     r->ahead = 1;
     return true;
 }
 
-/* Kinematics, normal force and alpha at the row's instant. alpha is that of the force without approach and release. */
-static void row_instant(struct force_table *t, const struct stage_run *r, double at)
+static void row_instant(struct force_table *t, const struct stage_run *r, long row)
 {
-    const struct board *b = r->board;
-    double *v = t->value, load;
-    trajectory_at(b->trajectory, 1, &at,
-                  (struct trajectory_out){.u = &v[STROKE], .du = &v[VELOCITY], .ddu = &v[ACCELERATION], .x = &v[X], .y = &v[Y], .vx = &v[VX], .vy = &v[VY]});
-    v[TIME] = (double)rules_first_frame(r->contact, r->board->rate) / r->board->rate + at;
-    v[SPEED] = fabs(v[VELOCITY]);
+    double *v = t->value;
+    row_motion_take(&t->motion, r, row, v);
     if (t->wanted[ROLL_ANGLE])
         v[ROLL_ANGLE] = roll_rows_angle(&t->ball, v[STROKE], v[VELOCITY]);
-    if (!t->load)
-        return;
-    load = fmax(load_of(t->load, b->trajectory, at), 0);
-    v[NORMAL] = load * load_lowered(t->load, at);
-    v[ALPHA] = t->alpha;
-    if (b->limiter)
-        limiter_alpha(b->limiter, 1, &load, &v[ALPHA]);
 }
 
 /* Those that begin (of a series: whose middle comes) before the row ends, and have not been counted; of those before the start, none. */
@@ -193,6 +191,16 @@ static void row_impacts(struct force_table *t, double end)
         t->value[IMPACTS]++;
         t->struck = strike_next(&t->train, &t->impact);
     }
+}
+
+static void row_put_npy(const struct force_table *t, FILE *out)
+{
+    double row[COLUMNS];
+    size_t n = 0;
+    for (int k = 0; k < COLUMNS; k++)
+        if (t->wanted[k])
+            row[n++] = t->value[k] + 0.0;
+    fwrite(row, sizeof *row, n, out);
 }
 
 /* -0 is written as 0. */
@@ -217,7 +225,10 @@ static void row_write(struct force_table *t, const struct board *b)
     t->value[LIFT_OFFS] = (double)t->lift_offs;
     if (board_has(b, ITEM_ROLL))
         roll_rows_take(&t->ball, t->samples, t->value);
-    row_put(t, b->table->stream);
+    if (t->npy)
+        row_put_npy(t, b->table->stream);
+    else
+        row_put(t, b->table->stream);
     t->sum = t->squares = t->peak = 0;
     t->samples = t->lift_offs = 0;
 }
@@ -243,7 +254,7 @@ static void row_frame(struct force_table *t, const struct board *b, long n)
 static void rows_before(struct force_table *t, const struct stage_run *r, long end)
 {
     for (; t->row < end; t->row++) {
-        row_instant(t, r, (double)t->row / r->scene->output.diagnostics.rate);
+        row_instant(t, r, t->row);
         row_impacts(t, (double)(t->row + 1) / r->scene->output.diagnostics.rate);
         row_write(t, r->board);
     }

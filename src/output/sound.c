@@ -2,17 +2,15 @@
    `peak`, `rms` and `lufs` scale the file once the whole is known: samples spool to an unnamed file of doubles in the meantime, so that memory
    does not grow. Nothing given: peak -3 dBFS. A peak of 0 dB is the largest value the encoding has. Of several channels (listening places)
    the peak is the largest of all, the mean square is that of all together, and one gain serves them all, so that they keep their balance.
-   Loudness is BS.1770 integrated (libebur128): mono counted on two ears, two channels as left and right; of more channels, which are no loudspeakers
-   of a layout, each counts with weight 1, as a front loudspeaker does. It is rounded to 1e-6 LU before it becomes a gain, because its filter's coefficients
-   come from libm (src/README.md, "same bytes"). A silent sound stays silent (reported), whatever level is asked. */
+   Loudness is that of output/loudness.h, rounded to 1e-6 LU before it becomes a gain (src/README.md, "same bytes"). A silent sound stays silent (reported), whatever level is asked. */
 #include "output/sound.h"
 
-#include <ebur128.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "num/real.h"
+#include "output/loudness.h"
 #include "response/listener.h"
 #include "scene/rules.h"
 
@@ -20,7 +18,7 @@ struct sound {
     const struct scene *scene;
     struct track track;
     struct arena *arena;
-    ebur128_state *meter;     /* NULL: loudness is not needed */
+    struct loudness *meter;   /* NULL: loudness is not needed */
 };
 
 static int bits_of(int encoding)
@@ -71,14 +69,10 @@ static bool note(struct sound *o, double gain, struct err *e)
 
 static bool meter_open(struct sound *o, struct err *e)
 {
-    int channels = o->track.format.places, layout = channels == 1 ? EBUR128_DUAL_MONO : EBUR128_LEFT;
-    bool ok = true;
     if (isnan(o->scene->output.level.lufs))
         return true;
-    o->meter = ebur128_init((unsigned)channels, (unsigned long)o->scene->output.sample_rate, EBUR128_MODE_I);
-    for (int k = 0; o->meter && k < channels; k++)
-        ok = ok && ebur128_set_channel(o->meter, (unsigned)k, layout) == EBUR128_SUCCESS;
-    return (o->meter && ok) || err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
+    o->meter = loudness_open(o->track.format.places, o->scene->output.sample_rate);
+    return o->meter || err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
 }
 
 struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e)
@@ -105,7 +99,7 @@ bool sound_add(struct sound *o, double *x, long n, struct err *e)
 }
 
 /* Loudness of the whole in LUFS, brought to peak 1 first: BS.1770's gate at -70 LUFS is absolute. */
-static bool loudness(struct sound *o, double peak, double *lufs, struct err *e)
+static bool find_loudness(struct sound *o, double peak, double *lufs, struct err *e)
 {
     double x[TRACK_CHUNK];
     long n;
@@ -113,14 +107,13 @@ static bool loudness(struct sound *o, double peak, double *lufs, struct err *e)
     while ((n = track_read(&o->track, x)) > 0) {
         for (long i = 0; i < n * o->track.format.places; i++)
             x[i] /= peak;
-        ebur128_add_frames_double(o->meter, x, (size_t)n);
+        loudness_add(o->meter, x, (size_t)n);
     }
-    if (ebur128_loudness_global(o->meter, lufs) != EBUR128_SUCCESS || !isfinite(*lufs))
+    if (!loudness_read(o->meter, lufs))
         return err_set(e, ERR_SCENE,
                        "output.level.lufs: BS.1770 loudness cannot be measured on this sound (%.3g s; it needs 0.4 s that are not nearly "
                        "silent): use output.level.rms or output.level.peak",
                        (double)o->track.format.frames / o->scene->output.sample_rate);
-    *lufs = rint(*lufs * 1e6) / 1e6;
     return true;
 }
 
@@ -134,7 +127,7 @@ static bool gain_find(struct sound *o, const struct sound_report *r, double *gai
         *gain = real_exp10(level->rms / 20) / r->rms;
     else if (isnan(level->lufs))
         *gain = fmin(real_exp10((isnan(level->peak) ? RULES_PEAK : level->peak) / 20), largest) / r->peak;
-    else if (loudness(o, r->peak, &lufs, e))
+    else if (find_loudness(o, r->peak, &lufs, e))
         *gain = real_exp10((level->lufs - lufs) / 20) / r->peak;
     else
         return false;
@@ -149,13 +142,15 @@ static struct sound_report report_make(const struct sound *o)
     struct sound_report r = {.channels = channels, .channel_peak = ARENA_TAKE(o->arena, double, channels), .channel_rms = ARENA_TAKE(o->arena, double, channels),
                              .lufs = o->scene->output.level.lufs, .ramp = (double)t->format.ramp / o->scene->output.sample_rate};
     for (int k = 0; k < channels; k++) {
-        squares += t->squares[k];
+        squares += track_squares(t, k);
         r.peak = fmax(r.peak, t->peak[k]);
         r.channel_peak[k] = t->peak[k];
-        r.channel_rms[k] = sqrt(t->squares[k] / frames);
+        r.channel_rms[k] = sqrt(track_squares(t, k) / frames);
     }
     r.rms = sqrt(squares / (frames * channels));
     r.silent = r.peak == 0;
+    r.end = t->end;
+    r.before_ramps = fmax(r.peak, fmax(t->begin, t->end));
     return r;
 }
 
@@ -174,8 +169,8 @@ bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
 
 static void meter_close(struct sound *o)
 {
-    if (o->meter)
-        ebur128_destroy(&o->meter);
+    loudness_close(o->meter);
+    o->meter = NULL;
 }
 
 bool sound_settle(struct sound *o, struct err *e)

@@ -14,6 +14,8 @@ struct sound_report {
     double peak, rms;     /* of the unscaled sound, in the response's quantity: the largest of all channels; of all together */
     int channels;         /* listening places */
     double *channel_peak, *channel_rms; /* [channels] */
+    double end;           /* greatest magnitude under the ramp that ends it, before that ramp */
+    double before_ramps;  /* peak before both ramps */
     double lufs;          /* of the file; NAN: not measured                    */
     double gain;          /* file value per unit of the quantity               */
     bool silent;

@@ -29,7 +29,8 @@ struct track {
     FILE *spool;             /* NULL: it does not wait */
     long done;               /* frames */
     double gain;
-    double *peak, *squares;  /* [places] of what came in, ramped; sums of squares */
+    double *peak, *squares;  /* [places] of what came in, ramped; track_squares */
+    double begin, end;       /* greatest magnitude under the first and the last ramp (of the first and last frame, where there is none), before these ramps */
     double *wide;            /* a chunk, scaled */
 };
 
@@ -41,6 +42,9 @@ bool track_note(struct track *t, const char *text, struct err *e);
 
 /* The next frames [n][places], ramped and enveloped in place. ERR_SCENE: clipping. */
 bool track_add(struct track *t, double *x, long n, struct err *e);
+
+/* Sum of the squares of what came in, ramped. */
+double track_squares(const struct track *t, int place);
 
 /* From the beginning of what is kept, the next frames [n][places]; at most TRACK_CHUNK samples, 0 at the end. */
 void track_rewind(struct track *t);

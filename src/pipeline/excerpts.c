@@ -4,7 +4,7 @@
 
    A stretch of one window is one window; a longer one is cut into windows that overlap by half. The squares of w have a mean of 3/8: that is what weights undo.
 
-   Instants are drawn as the square of the speed is spread over time (the sound is about as loud as that), one in each of EXCERPTS_MOST - 1 equal parts of it, not at
+   Instants are drawn as the square of the speed is spread over time (the sound is about as loud as that), one in each of n - 1 equal parts of it, not at
    equal distances (a motion repeats itself); each stands for as much time as the spread says. So a rest at the beginning is not mistaken for the motion, and the ratio of two energies is that of the motion as a whole. */
 #include "pipeline/excerpts.h"
 
@@ -59,31 +59,39 @@ static int squares(const struct trajectory *tr, double *sum)
     return fastest;
 }
 
-static void stretch_at(struct excerpts *x, const double *sum, double step, int cell)
+static void stretch_at(struct excerpts *x, const double *sum, double step, int cell, int parts)
 {
-    double rate = x->scene.output.sample_rate, share = (sum[cell + 1] - sum[cell]) / sum[GRID], stands = step / (share * EXCERPTS_MOST);
+    double rate = x->scene.output.sample_rate, share = (sum[cell + 1] - sum[cell]) / sum[GRID], stands = step / (share * parts);
     long from = (long)rint((cell + 0.5) * step * rate) - EXCERPTS_WINDOW / 2, last = x->moving - EXCERPTS_WINDOW;
     stretch_add(x, from < 0 ? 0 : from > last ? last : from, EXCERPTS_WINDOW, stands * rate / (EXCERPTS_WINDOW * TAPERED));
 }
 
+/* As many as the motion has windows, twelve times over, so that they cost little of it. */
+static int parts_of(const struct excerpts *x)
+{
+    long n = x->moving / (12 * EXCERPTS_WINDOW);
+    return n < EXCERPTS_LEAST ? EXCERPTS_LEAST : n > EXCERPTS_MOST ? EXCERPTS_MOST : (int)n;
+}
+
 static void choose_spread(struct excerpts *x, const struct trajectory *tr)
 {
+    int parts = parts_of(x);
     double sum[GRID + 1];
     int cell = 0, fastest = squares(tr, sum);
-    for (int k = 0; k < EXCERPTS_MOST - 1; k++) {
-        double golden = 0.6180339887498949 * (k + 1), at = (k + golden - floor(golden)) / (EXCERPTS_MOST - 1);
+    for (int k = 0; k < parts - 1; k++) {
+        double golden = 0.6180339887498949 * (k + 1), at = (k + golden - floor(golden)) / (parts - 1);
         while (cell < GRID - 1 && sum[cell + 1] <= at * sum[GRID])
             cell++;
-        stretch_at(x, sum, tr->duration / GRID, cell);
+        stretch_at(x, sum, tr->duration / GRID, cell, parts);
     }
-    stretch_at(x, sum, tr->duration / GRID, fastest);
+    stretch_at(x, sum, tr->duration / GRID, fastest, parts);
 }
 
 static void choose(struct excerpts *x, const struct trajectory *tr, double first)
 {
     double rate = x->scene.output.sample_rate;
     long some = (long)ceil(first * rate);
-    if (anywhere(&x->contact) && tr->top_speed > 0 && x->moving > 2 * EXCERPTS_MOST * EXCERPTS_WINDOW) {
+    if (anywhere(&x->contact) && tr->top_speed > 0 && x->moving > 2 * EXCERPTS_LEAST * EXCERPTS_WINDOW) {
         choose_spread(x, tr);
         return;
     }
@@ -133,6 +141,7 @@ bool excerpts_make(const struct scene *s, const struct contact *c, double first,
     x->moving = trajectory_frames(&tr, s->output.sample_rate);
     choose(x, &tr, first);
     places(x, &tr);
+    x->drift = c->contact.model == CONTACT_ROLL_COUPLED ? fmax(1, (double)x->moving / (double)x->frames) : 1;
     if (!plan_make(stages_table, &x->contact, &x->scene, a, &x->plan, e) || !hear(s, c, moves, x, e))
         return false;
     x->knobs = plan_knobs(&x->plan);
@@ -140,6 +149,7 @@ bool excerpts_make(const struct scene *s, const struct contact *c, double first,
 }
 
 /* ------------------------------------------------------------------ running */
+
 
 /* Frames [at, end) to `to`, which takes those from `from` on. */
 static bool run_through(struct run *r, long at, const long range[2], double *to, struct err *e)
@@ -163,14 +173,13 @@ static bool run_stretches(struct excerpts *x, struct run *r, double *force, stru
     for (int i = 0; !x->settled && i < r->n; i++)
         x->lead += r->stages[i].back + r->stages[i].ahead;
     x->settled = true;
-    for (int i = 0; i < x->n; i++) {
+    for (int i = 0; i < x->n; force += x->stretch[i++].frames) {
         const struct excerpts_stretch *s = &x->stretch[i];
         if (s->from - x->lead > at)
             run_skip(r, at = s->from - x->lead);
         if (!run_through(r, at, (const long[2]){s->from, s->from + s->frames}, force, e))
             return false;
         at = s->from + s->frames;
-        force += s->frames;
     }
     return true;
 }
@@ -219,14 +228,13 @@ double excerpts_energy(const struct excerpts *x, const double *force)
         double s = real_sin(REAL_PI * (i + 0.5) / EXCERPTS_WINDOW);
         h.taper[i] = s * s;
     }
-    for (int i = 0; i < x->n; i++) {
+    for (int i = 0; i < x->n; force += x->stretch[i++].frames) {
         const struct excerpts_stretch *s = &x->stretch[i];
         bool one = s->frames == EXCERPTS_WINDOW && x->n > 1;
         double sum = 0;
         for (long from = one ? 0 : -EXCERPTS_WINDOW / 2; from < (one ? 1 : s->frames); from += EXCERPTS_WINDOW / 2)
             sum += window_energy(&h, force, s->frames, from, x->power + s->heard * AUDIBLE_BINS);
         all += s->weight * sum;
-        force += s->frames;
     }
     fft_close(h.fft);
     return x->gain * x->gain * all;

@@ -4,7 +4,7 @@
 #include "pipeline/audible.h"
 #include "pipeline/plan.h"
 
-enum { EXCERPTS_WINDOW = 2 * (AUDIBLE_BINS - 1), EXCERPTS_MOST = 9, EXCERPTS_PLACES = 3 };
+enum { EXCERPTS_WINDOW = 2 * (AUDIBLE_BINS - 1), EXCERPTS_LEAST = 5, EXCERPTS_MOST = 9, EXCERPTS_PLACES = 3 };
 
 struct excerpts_stretch {
     long from, frames;      /* of the contact; EXCERPTS_WINDOW or more */
@@ -24,12 +24,13 @@ struct excerpts {
     long moving;            /* of the whole motion                     */
     long lead;              /* before each stretch                     */
     bool settled;           /* lead is known                           */
+    double drift;           /* by which errors may grow beyond what is run: 1, but of a coupled ball */
     double gain;            /* of the contact                          */
     double *power;          /* [EXCERPTS_PLACES][AUDIBLE_BINS]         */
     long bounces, lift_offs;/* of a coupled ball, as far as it was run */
 };
 
-/* Which parts: where a force is read from the ground, EXCERPTS_MOST short ones, spread over the motion as the square of its speed is, the fastest among
+/* Which parts: where a force is read from the ground, EXCERPTS_MOST short ones (of a short motion fewer), spread over the motion as the square of its speed is, the fastest among
    them; of impacts, forces from files and coupled balls, which come in order, the motion's first `first` seconds. moves: the response changes on the way. */
 bool excerpts_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a, struct excerpts *x, struct err *e);
 

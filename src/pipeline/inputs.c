@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/hash.h"
+#include "base/shelf.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
@@ -58,13 +58,11 @@ static bool are_there(const struct scene *s, struct arena *a, struct err *e)
     return !m.key || err_set(e, ERR_INPUT, "%s", m.text) || err_about(e, m.contact, m.key);
 }
 
-static bool is_pinned(const struct input *p, struct err *e)
+static bool is_pinned(const struct scene *s, const struct input *p, struct arena *a, struct err *e)
 {
-    char hex[HASH_TEXT];
-    if (!p->sha256)
-        return true;
-    if (!hash_file(p->file, hex, e))
-        return false;
+    const char *hex = p->sha256 ? shelf_sha256(s->shelf, p->file, a, e) : NULL;
+    if (!hex)
+        return !p->sha256;
     if (!strcmp(hex, p->sha256))
         return true;
     err_about(e, NULL, "inputs");
@@ -77,7 +75,7 @@ bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
     if (!are_there(s, a, e))
         return false;
     for (int i = 0; i < s->n_inputs; i++)
-        if (!is_pinned(&s->inputs[i], e))
+        if (!is_pinned(s, &s->inputs[i], a, e))
             return false;
     return true;
 }

@@ -13,15 +13,19 @@
 #include "scene/keys.h"
 #include "scene/scene_write.h"
 
-const char *const outputs_kinds[OUTPUT_KINDS] = {"csv", "impacts", "scene", "summary", "wav", "stem", "stem", "stem", "stem"};
+const char *outputs_kind(const struct scene *s, enum output_kind kind)
+{
+    static const char *const kinds[OUTPUT_KINDS] = {"csv", "impacts", "scene", "summary", "wav", "stem", "stem", "stem", "stem"};
+    return kind == OUTPUT_TABLE && s->output.diagnostics.format == TABLE_NPY ? "npy" : kinds[kind];
+}
 
 char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a)
 {
     static const char *const endings[] = {".csv", ".impacts.csv", ".scene.yaml", ".json", ".wav"};
-    bool several = kind <= OUTPUT_LISTING && s->n_contacts > 1;
+    bool several = kind <= OUTPUT_LISTING && s->n_contacts > 1, npy = kind == OUTPUT_TABLE && s->output.diagnostics.format == TABLE_NPY;
     if (kind >= OUTPUT_STEM)
         return arena_format(a, "%s.%s.wav", base, stems_names[kind - OUTPUT_STEM]);
-    return arena_format(a, "%s%s%s%s", base, several ? "." : "", several ? c->name : "", endings[kind]);
+    return arena_format(a, "%s%s%s%s", base, several ? "." : "", several ? c->name : "", npy ? ".npy" : endings[kind]);
 }
 
 static void add(struct outputs *o, enum output_kind kind, const struct contact *c, struct arena *a)
@@ -33,7 +37,7 @@ static void add(struct outputs *o, enum output_kind kind, const struct contact *
 /* Room for all that there may be. */
 static struct outputs outputs_none(const struct scene *s, const char *base, struct arena *a)
 {
-    int most = 2 * s->n_contacts + OUTPUT_KINDS;
+    int most = 3 * s->n_contacts + OUTPUT_KINDS;
     return (struct outputs){s, base, ARENA_TAKE(a, const char *, most), ARENA_TAKE(a, enum output_kind, most), 0};
 }
 
@@ -109,15 +113,8 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
 
 /* ------------------------------------------------------------------ outputs and inputs */
 
-struct source {
-    const char *file, *what;
-    const struct scene *scene;
-    dev_t device;
-    ino_t inode;
-};
-
 struct sources {
-    struct source *list;
+    struct outputs_source *list;
     int n;
 };
 
@@ -125,7 +122,7 @@ static void note(struct sources *all, const struct scene *s, const char *file, c
 {
     struct stat status;
     if (file && stat(file, &status) == 0)
-        all->list[all->n++] = (struct source){file, what, s, status.st_dev, status.st_ino};
+        all->list[all->n++] = (struct outputs_source){file, what, s, status.st_dev, status.st_ino};
 }
 
 static void note_scene(struct sources *all, const struct scene *s)
@@ -156,13 +153,21 @@ static struct sources sources_of(const struct outputs *o, int n, struct arena *a
     size_t most = 0;
     for (int i = 0; i < n; i++)
         most += most_sources(o[i].scene);
-    struct sources all = {ARENA_TAKE(a, struct source, most), 0};
+    struct sources all = {ARENA_TAKE(a, struct outputs_source, most), 0};
     for (int i = 0; i < n; i++)
         note_scene(&all, o[i].scene);
     return all;
 }
 
-static const struct source *source_find(const struct sources *all, const char *path)
+const struct outputs_source *outputs_sources(const struct scene *s, int *n, struct arena *a)
+{
+    struct sources all = {ARENA_TAKE(a, struct outputs_source, most_sources(s)), 0};
+    note_scene(&all, s);
+    *n = all.n;
+    return all.list;
+}
+
+static const struct outputs_source *source_find(const struct sources *all, const char *path)
 {
     struct stat status;
     if (stat(path, &status) == 0)
@@ -186,7 +191,7 @@ static bool unchanged(const struct outputs *o, int k, struct arena *a)
 
 static bool spared(const struct outputs *o, int k, const struct sources *all, struct arena *a, struct err *e)
 {
-    const struct source *hit = source_find(all, o->paths[k]);
+    const struct outputs_source *hit = source_find(all, o->paths[k]);
     if (!hit || unchanged(o, k, a))
         return true;
     bool other = hit->scene != o->scene, differs = o->kinds[k] == OUTPUT_EFFECTIVE && hit->file == o->scene->sources[0];
@@ -217,17 +222,21 @@ static bool writes(const struct outputs *o, const char *path)
 const char **outputs_older(const struct scene *s, const char *base, struct arena *a)
 {
     struct outputs o = outputs_make(s, base, a), most = outputs_none(s, base, a);
+    struct scene other = *s;
     struct sources all = sources_of(&o, 1, a);
-    const char **older = ARENA_TAKE(a, const char *, 2 * s->n_contacts + OUTPUT_KINDS + 1);
+    const char **older = ARENA_TAKE(a, const char *, 3 * s->n_contacts + OUTPUT_KINDS + 1);
     struct stat status;
     int n = 0;
     for (int i = 0; i < s->n_contacts; i++)
         for (int kind = OUTPUT_TABLE; kind <= OUTPUT_LISTING; kind++)
             add(&most, (enum output_kind)kind, &s->contacts[i], a);
+    other.output.diagnostics.format = s->output.diagnostics.format == TABLE_CSV ? TABLE_NPY : TABLE_CSV;
+    for (int i = 0; i < s->n_contacts; i++)
+        most.paths[most.n++] = outputs_path(&other, base, OUTPUT_TABLE, &s->contacts[i], a);
     for (int kind = OUTPUT_SOUND; kind < OUTPUT_KINDS; kind++)
         add(&most, (enum output_kind)kind, NULL, a);
-    for (int k = 0; k < 2 && s->n_contacts > 1; k++)
-        most.paths[most.n++] = arena_format(a, "%s%s.csv", base, k ? ".impacts" : "");
+    for (int k = 0; k < 3 && s->n_contacts > 1; k++)
+        most.paths[most.n++] = arena_format(a, "%s%s", base, ((const char *[]){".csv", ".impacts.csv", ".npy"})[k]);
     for (int i = 0; i < most.n; i++)
         if (!writes(&o, most.paths[i]) && stat(most.paths[i], &status) == 0 && !source_find(&all, most.paths[i]))
             older[n++] = most.paths[i];

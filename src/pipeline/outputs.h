@@ -2,6 +2,7 @@
 #ifndef PIPELINE_OUTPUTS_H
 #define PIPELINE_OUTPUTS_H
 #include <stdbool.h>
+#include <sys/types.h>
 
 #include "base/arena.h"
 #include "base/err.h"
@@ -23,10 +24,10 @@ struct outputs {             /* of one scene */
     int n;
 };
 
-/* "csv", "impacts", "scene", "summary", "wav"; "stem" of all stems */
-extern const char *const outputs_kinds[OUTPUT_KINDS];
+/* "csv" or "npy", "impacts", "scene", "summary", "wav"; "stem" of all stems */
+const char *outputs_kind(const struct scene *s, enum output_kind kind);
 
-/* BASE.csv and BASE.impacts.csv or (of several contacts) BASE.CONTACT.csv and so on, BASE.scene.yaml, BASE.json, BASE.wav; the contact matters for the
+/* BASE.csv (or BASE.npy) and BASE.impacts.csv or (of several contacts) BASE.CONTACT.csv and so on, BASE.scene.yaml, BASE.json, BASE.wav; the contact matters for the
    first two only. */
 char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a);
 
@@ -39,6 +40,16 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
 /* No file that these n scenes write is one that any of them reads (the scene, what it includes, every file that it names), under whatever
    name; an effective scene that has the bytes of the file it replaces does no harm. ERR_CREATE: names both. */
 bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *e);
+
+struct outputs_source {      /* a file that a scene reads */
+    const char *file, *what; /* what: "surface.response", "the scene itself" */
+    const struct scene *scene;
+    dev_t device;
+    ino_t inode;
+};
+
+/* Those of one scene that are there: [n]. */
+const struct outputs_source *outputs_sources(const struct scene *s, int *n, struct arena *a);
 
 /* Files that a render under this name may write, that this scene's does not, and that are there: of an earlier render, most likely. Ends
    with NULL. Files that the scene reads are none of them. */

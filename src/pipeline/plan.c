@@ -4,6 +4,7 @@
 
 #include "convolution/ring_choice.h"
 #include "output/stems.h"
+#include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/rules.h"
@@ -11,6 +12,7 @@
 #define REAL_TIME 62500.0 /* cycles per audio sample of a core of 3 GHz at 48 kHz */
 
 static const char *const plan_names[ITEM_COUNT] = {
+    [ITEM_MOTION] = "motion",
     [ITEM_POSITION] = "position",           [ITEM_VELOCITY] = "velocity",
     [ITEM_ACCELERATION] = "acceleration",   [ITEM_LOAD] = "load",
     [ITEM_X] = "x",                         [ITEM_Y] = "y",
@@ -34,10 +36,9 @@ const char *plan_item(enum item item)
 /* Stems of a contact that is heard. */
 static unsigned plan_stems(const struct contact *c, const struct output *o)
 {
-    bool tool = rules_responds(&c->scraper.response) && c->scraper.weight != 0;
     return (stems_asked(o, STEM_FORCE) ? ITEM_BIT(ITEM_FORCE) : 0) |
-           (stems_asked(o, STEM_SURFACE) && rules_responds(&c->surface.response) ? ITEM_BIT(ITEM_SURFACE_SOUND) : 0) |
-           (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && tool ? ITEM_BIT(ITEM_SCRAPER_SOUND) : 0);
+           (stems_asked(o, STEM_SURFACE) && rules_surface_rings(c) ? ITEM_BIT(ITEM_SURFACE_SOUND) : 0) |
+           (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && rules_tool_rings(c) ? ITEM_BIT(ITEM_SCRAPER_SOUND) : 0);
 }
 
 unsigned plan_targets(const struct contact *c, const struct scene *s)
@@ -93,7 +94,8 @@ static bool plan_keep(const struct stage *st, const struct contact *c, const str
 
 static bool choose_body(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice, struct err *e)
 {
-    return *choice || ring_choice_make(c, s, body, a, choice, e);
+    bool rings = body == RING_SURFACE ? rules_surface_rings(c) : rules_tool_rings(c);
+    return !rings || *choice || ring_choice_make(c, s, body, a, choice, e);
 }
 
 /* The contact with its engines chosen, unless they are already (pipeline/promise.h). */
@@ -130,7 +132,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
         if (p->rows[i].verdict != PLAN_RUNS)
             continue;
         p->alive |= l.need & st->gives;
-        p->rows[i].work = st->work(c, s);
+        p->rows[i].work = (l.need & st->gives) == ITEM_BIT(ITEM_MOTION) ? 0 : st->work(c, s); /* a motion that no stage has laid out costs nothing */
         p->rows[i].knobs = st->knobs | (st->turns ? st->turns(c, s) : 0);
         p->rows[i].reads = st->needs | st->takes | (st->asks ? st->asks(c, s) : 0);
         if (!plan_keep(st, c, s, &l, e))
@@ -189,6 +191,15 @@ static void memory_print(const struct plan *p, FILE *out)
         fprintf(out, "  up to %.0f MB of memory for responses at %d nodes\n", c->bytes / 1e6, c->nodes.n);
 }
 
+static void ablation_print(const struct plan *p, FILE *out)
+{
+    struct arena *a = arena_open();
+    const char *text = ablation_text(p->contact, a);
+    if (text)
+        fprintf(out, "  ablation: %s\n", text);
+    arena_close(a);
+}
+
 void plan_print(const struct plan *p, FILE *out)
 {
     char targets[200];
@@ -205,6 +216,7 @@ void plan_print(const struct plan *p, FILE *out)
     fprintf(out, "  turned by accuracy: %s\n", plan_knobs_text(plan_knobs(p), a));
     arena_close(a);
     memory_print(p, out);
+    ablation_print(p, out);
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_UNWANTED)
             fprintf(out, "  not run: %-20s %s\n", p->rows[i].stage->name, p->rows[i].stage->idle);

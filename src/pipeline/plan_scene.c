@@ -1,6 +1,7 @@
 /* See plan_scene.h. The parts of a render are opened and closed again; what they write into their tables goes nowhere. */
 #include "pipeline/plan_scene.h"
 
+#include "base/memory.h"
 #include "pipeline/inputs.h"
 #include "pipeline/render_parts.h"
 #include "scene/accuracy.h"
@@ -15,14 +16,13 @@ static bool open_part(const struct scene *s, struct render_part *one, FILE *nowh
     return one->open;
 }
 
-static bool open_parts(struct render_parts *p, struct err *e)
+static bool open_parts(struct render_parts *p, struct render_length *length, struct err *e)
 {
-    FILE *nowhere = fopen("/dev/null", "w");
+    FILE *nowhere = memory_fopen("/dev/null", "w");
     bool ok = nowhere || err_set(e, ERR_IO, "/dev/null cannot be opened");
-    long frames;
     for (int i = 0; ok && i < p->scene->n_contacts; i++)
         ok = open_part(p->scene, &p->parts[i], nowhere, e);
-    ok = ok && render_parts_agree(p, e) && render_parts_length(p, &frames, e);
+    ok = ok && render_parts_agree(p, e) && render_parts_length(p, length, e);
     render_parts_close(p);
     if (nowhere)
         fclose(nowhere);
@@ -33,11 +33,25 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err
 {
     struct render_parts p = render_parts_make(s, "", a);
     struct plan *plans = ARENA_TAKE(a, struct plan, s->n_contacts);
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, e))
+    struct render_length length;
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &length, e))
         return NULL;
     for (int i = 0; i < s->n_contacts; i++)
         plans[i] = p.parts[i].plan;
     return plans;
+}
+
+bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e)
+{
+    struct render_parts p = render_parts_make(s, "", a);
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &x->length, e))
+        return false;
+    x->cycles = 0;
+    x->sounds = p.asked & ITEM_BIT(ITEM_SOUND);
+    for (int i = 0; i < s->n_contacts; i++)
+        for (int k = 0; k < p.parts[i].plan.n; k++)
+            x->cycles += p.parts[i].plan.rows[k].verdict == PLAN_RUNS ? p.parts[i].plan.rows[k].work * (double)x->length.frames : 0;
+    return true;
 }
 
 static bool add_knobs(const struct scene *s, struct arena *a, unsigned *knobs, struct err *e)

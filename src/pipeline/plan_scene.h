@@ -2,10 +2,20 @@
 #ifndef PIPELINE_PLAN_SCENE_H
 #define PIPELINE_PLAN_SCENE_H
 #include "pipeline/plan.h"
+#include "pipeline/render_parts.h"
 
 /* The plans of all contacts, [s->n_contacts], after all that a render does before its first sample: every file is there (pipeline/inputs.h), every stage can
    begin. ERR_INPUT, ERR_SCENE and what stages give; NULL then. Nothing is written. */
 const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err *e);
+
+struct plan_scene_estimate {
+    struct render_length length;
+    double cycles;           /* predicted, of the whole render: of one core with 256-bit vectors */
+    bool sounds;             /* there is a WAV */
+};
+
+/* How long the render will be and what it will cost; as plan_scene otherwise. */
+bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e);
 
 /* The knobs of scene/accuracy.def that some contact's plan depends on: as the scene stands, or in one of the presets (which may choose other engines; one that
    cannot be planned counts for nothing). Responses are read, stages are not opened. ERR_SCENE and what reading gives: of the scene as it stands. */

@@ -57,7 +57,7 @@ bool promise_curve_enough(const struct promise_curve *c, double error)
     int i = c->n - 1;
     if (c->n == PROMISE_CURVE_MOST || promise_curve_value(c, c->n) == promise_curve_value(c, c->n + 1) || c->apart[i] == 0 || real_exp(log_error(c, i)) <= error)
         return true;
-    return c->n > 1 && (promise_curve_error(c, promise_curve_value(c, c->n)) <= error || promise_curve_error(c, c->end) > error * 8);
+    return c->n > 1 && (promise_curve_error(c, promise_curve_value(c, c->n)) <= error || promise_curve_error(c, promise_curve_value(c, c->n + 1)) <= error / 2 || promise_curve_error(c, c->end) > error * 8);
 }
 
 double promise_curve_least(const struct promise_curve *c, double error)

@@ -18,6 +18,8 @@ struct promise_making {
     double morph;                /* its error at what is planned         */
     struct excerpts *excerpts;   /* [n_contacts] */
     double **force[2];           /* [n_contacts] of the last rehearsal and, [1], the one before */
+    double **first;              /* [n_contacts] of the rehearsal with every knob at `draft`, once it has been */
+    bool began;                  /* it has                               */
     bool sounds;                 /* some contact sounds; else forces are promised about */
     struct promise_curve curves[KNOBS];
     double work[2];              /* of plans at morph_error for 9 and 1 tenths of the budget's square */

@@ -1,5 +1,10 @@
-/* Rehearsals: what a knob's error is along the scene's own motion. That of each knob has all others at `draft`, those that the scene says as it says them. */
+/* Rehearsals: what a knob's error is along the scene's own motion. That of each knob has all others at `draft`, those that the scene says as it says them: so the
+   first one, where a knob is at `draft` itself, is the same for all, and is run once.
+
+   What comes in its order is rehearsed in its beginning only. A coupled ball's error grows with time, as its place drifts, up to linearly: measured over 10 times what is
+   rehearsed, by 16 dB. So much is added, in proportion to the time (excerpts.h: drift). */
 #include <math.h>
+#include <string.h>
 
 #include "convolution/ring_choice.h"
 #include "pipeline/promise_parts.h"
@@ -33,6 +38,8 @@ static bool make_excerpts(struct promise_making *m, double first, struct err *e)
             return false;
         for (int k = 0; k < 2; k++)
             m->force[k][i] = ARENA_TAKE(m->arena, double, m->excerpts[i].frames);
+        m->first[i] = ARENA_TAKE(m->arena, double, m->excerpts[i].frames);
+        m->began = false;
     }
     return true;
 }
@@ -40,27 +47,41 @@ static bool make_excerpts(struct promise_making *m, double first, struct err *e)
 static bool rehearse_at(struct promise_making *m, int knob, double value, struct err *e)
 {
     struct accuracy set = m->kept->accuracy;
+    bool first = accuracy_knob(&set, (enum knob)knob) == value;
     accuracy_turn(&set, (enum knob)knob, value);
     for (int i = 0; i < m->kept->n_contacts; i++) {
         double *older = m->force[1][i];
         m->force[1][i] = m->force[0][i];
         m->force[0][i] = older;
-        if (heard(m, i) && !excerpts_run(&m->excerpts[i], &set, m->force[0][i], e))
+        if (!heard(m, i))
+            continue;
+        if (first && m->began)
+            memcpy(m->force[0][i], m->first[i], (size_t)m->excerpts[i].frames * sizeof(double));
+        else if (!excerpts_run(&m->excerpts[i], &set, m->force[0][i], e))
             return false;
+        if (first)
+            memcpy(m->first[i], m->force[0][i], (size_t)m->excerpts[i].frames * sizeof(double));
     }
+    m->began = m->began || first;
     return true;
 }
 
-/* Of the last rehearsal, or of its difference from the one before, which is forgotten. */
-static double energy(struct promise_making *m, bool difference)
+/* Of the last rehearsal, or ([1]) of what is in the place of the one before: their difference. */
+static double energy(const struct promise_making *m, bool difference)
 {
     double sum = 0;
     for (int i = 0; i < m->kept->n_contacts; i++) {
-        for (long n = 0; difference && heard(m, i) && n < m->excerpts[i].frames; n++)
-            m->force[1][i][n] -= m->force[0][i][n];
-        sum += heard(m, i) ? excerpts_energy(&m->excerpts[i], m->force[difference][i]) : 0;
+        double drift = difference ? m->excerpts[i].drift : 1;
+        sum += heard(m, i) ? drift * drift * excerpts_energy(&m->excerpts[i], m->force[difference][i]) : 0;
     }
     return sum;
+}
+
+static void subtract(struct promise_making *m)
+{
+    for (int i = 0; i < m->kept->n_contacts; i++)
+        for (long n = 0; heard(m, i) && n < m->excerpts[i].frames; n++)
+            m->force[1][i][n] -= m->force[0][i][n];
 }
 
 /* What comes in its order may begin with silence: longer beginnings, until something is heard. */
@@ -99,8 +120,9 @@ static bool rehearse_knob(struct promise_making *m, int knob, struct err *e)
             c->end = promise_curve_value(c, c->n);
             break;
         }
-        double all = energy(m, false), apart = energy(m, true);
-        c->apart[c->n++] = all > 0 ? sqrt(apart / all) : 0;
+        double all = energy(m, false);
+        subtract(m);
+        c->apart[c->n++] = all > 0 ? sqrt(energy(m, true) / all) : 0;
     }
     return true;
 }
@@ -125,6 +147,7 @@ bool promise_rehearse(struct promise_making *m, struct err *e)
     m->excerpts = ARENA_TAKE(m->arena, struct excerpts, m->kept->n_contacts);
     for (int k = 0; k < 2; k++)
         m->force[k] = ARENA_TAKE(m->arena, double *, m->kept->n_contacts);
+    m->first = ARENA_TAKE(m->arena, double *, m->kept->n_contacts);
     if (!make_excerpts(m, FIRST, e))
         return false;
     for (int k = 0; k < KNOBS; k++)

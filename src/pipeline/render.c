@@ -18,7 +18,7 @@ struct render {
     struct arena *arena;
     struct render_parts parts;
     bool sounds;
-    long frames;
+    struct render_length length;
     double *block;           /* STAGE_BLOCK frames of all channels */
     struct sound *sound;     /* NULL: nothing rings */
     struct stems *stems;     /* NULL: none are asked for */
@@ -31,9 +31,9 @@ struct render {
 static bool render_open_sounds(struct render *r, struct err *e)
 {
     r->block = ARENA_TAKE(r->arena, double, STAGE_BLOCK * listener_channels(&r->scene->output));
-    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->frames, r->arena, e)))
+    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->length.frames, r->arena, e)))
         return false;
-    return !r->scene->output.stems || (r->stems = stems_open(r->scene, r->stem_paths, r->frames, r->arena, e)) != NULL;
+    return !r->scene->output.stems || (r->stems = stems_open(r->scene, r->stem_paths, r->length.frames, r->arena, e)) != NULL;
 }
 
 static bool render_open(struct render *r, struct err *e)
@@ -44,7 +44,7 @@ static bool render_open(struct render *r, struct err *e)
     for (int k = 0; k < STEMS; k++)
         r->stem_paths[k] = outputs_path(r->scene, r->base, OUTPUT_STEM + k, NULL, r->arena);
     if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) || !outfile_open(&r->effective, r->scene_path, e) ||
-        !outfile_open(&r->summary, r->summary_path, e) || !render_parts_open(&r->parts, e) || !render_parts_length(&r->parts, &r->frames, e))
+        !outfile_open(&r->summary, r->summary_path, e) || !render_parts_open(&r->parts, e) || !render_parts_length(&r->parts, &r->length, e))
         return false;
     r->sounds = r->parts.asked & ITEM_BIT(ITEM_SOUND);
     return render_open_sounds(r, e);
@@ -68,8 +68,8 @@ static bool render_put(struct render *r, long from, long to, struct err *e)
 
 static bool render_blocks(struct render *r, struct err *e)
 {
-    for (long from = 0; from < r->frames; from += STAGE_BLOCK) {
-        long to = from + STAGE_BLOCK < r->frames ? from + STAGE_BLOCK : r->frames;
+    for (long from = 0; from < r->length.frames; from += STAGE_BLOCK) {
+        long to = from + STAGE_BLOCK < r->length.frames ? from + STAGE_BLOCK : r->length.frames;
         if (interrupt_seen())
             return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
         if (!render_parts_run(&r->parts, to, e) || !render_put(r, from, to, e))
@@ -81,19 +81,19 @@ static bool render_blocks(struct render *r, struct err *e)
 static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact, const char *sha256)
 {
     const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL, *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
-    r->report->files[r->report->n_files++] = (struct render_file){outputs_kinds[kind], path, contact, stem, kept};
+    r->report->files[r->report->n_files++] = (struct render_file){outputs_kind(r->scene, kind), path, contact, stem, kept};
 }
 
 /* A file of a contact's own. */
 static bool report_part(struct render *r, struct render_part *p, enum output_kind kind, struct err *e)
 {
-    struct outfile *file = kind == OUTPUT_TABLE ? &p->csv : &p->listing;
+    struct outfile *file = kind == OUTPUT_TABLE ? &p->table : &p->listing;
     char hex[HASH_TEXT];
     if (!file->stream)
         return true;
     if (!outfile_hash(file, hex, e))
         return false;
-    report_file(r, kind, kind == OUTPUT_TABLE ? p->csv_path : p->listing_path, p->plan.contact->name, hex);
+    report_file(r, kind, kind == OUTPUT_TABLE ? p->table_path : p->listing_path, p->plan.contact->name, hex);
     return true;
 }
 
@@ -123,7 +123,8 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     report->sound.gain = 1;
     if ((r->sound && !sound_finish(r->sound, &report->sound, e)) || (r->stems && !stems_finish(r->stems, report->sound.gain, e)))
         return false;
-    report->frames = r->frames;
+    report->frames = r->length.frames;
+    report->length = r->length;
     report->sounds = r->sounds;
     report->quantity = render_parts_quantity(&r->parts);
     report->seconds = stopwatch_wall() - start[0];
@@ -146,7 +147,7 @@ static bool render_settle(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct render_part *p = &r->parts.parts[i];
-        if ((p->csv.stream && !outfile_settle(&p->csv, e)) || (p->listing.stream && !outfile_settle(&p->listing, e)))
+        if ((p->table.stream && !outfile_settle(&p->table, e)) || (p->listing.stream && !outfile_settle(&p->listing, e)))
             return false;
     }
     return outfile_settle(&r->effective, e) && outfile_settle(&r->summary, e) && (!r->sound || sound_settle(r->sound, e)) &&
@@ -157,7 +158,7 @@ static bool render_commit(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct render_part *p = &r->parts.parts[i];
-        if ((p->csv.target[0] && !outfile_commit(&p->csv, e)) || (p->listing.target[0] && !outfile_commit(&p->listing, e)))
+        if ((p->table.target[0] && !outfile_commit(&p->table, e)) || (p->listing.target[0] && !outfile_commit(&p->listing, e)))
             return false;
     }
     return outfile_commit(&r->effective, e) && outfile_commit(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&

@@ -5,10 +5,11 @@
 #include "base/err.h"
 #include "output/sound.h"
 #include "pipeline/promise.h"
+#include "pipeline/render_parts.h"
 #include "pipeline/run.h"
 
 struct render_file {
-    const char *kind, *path; /* "wav", "csv", "impacts", "scene", "summary", "stem" */
+    const char *kind, *path; /* "wav", "csv", "npy", "impacts", "scene", "summary", "stem" */
     const char *contact;     /* of a table or a series of impacts; NULL: of the whole */
     const char *stem;        /* of a stem, which; else NULL      */
     const char *sha256;      /* NULL: not known                  */
@@ -16,6 +17,7 @@ struct render_file {
 
 struct render_report {
     long frames;
+    struct render_length length;
     double seconds, cpu;           /* wall clock and CPU time of the whole render */
     struct sound_report sound;
     bool sounds;                   /* there is a WAV */
@@ -32,7 +34,7 @@ struct render_report {
     int n_notes;
 };
 
-/* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv (diagnostics), BASE.impacts.csv
+/* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv (diagnostics; .npy), BASE.impacts.csv
    or BASE.CONTACT.impacts.csv (series of impacts), BASE.scene.yaml (the effective scene) and BASE.json
    (the summary). Nothing has a name before everything is complete. */
 bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e);

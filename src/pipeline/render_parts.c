@@ -15,7 +15,7 @@ struct render_parts render_parts_make(const struct scene *s, const char *base, s
 {
     struct render_parts p = {.scene = s, .base = base, .arena = a, .parts = ARENA_TAKE(a, struct render_part, s->n_contacts)};
     for (int i = 0; i < s->n_contacts; i++)
-        p.parts[i].csv.fd = p.parts[i].listing.fd = -1;
+        p.parts[i].table.fd = p.parts[i].listing.fd = -1;
     return p;
 }
 
@@ -71,12 +71,12 @@ bool render_parts_agree(const struct render_parts *p, struct err *e)
 
 static bool part_files(const struct render_parts *p, struct render_part *one, struct err *e)
 {
-    one->csv_path = outputs_path(p->scene, p->base, OUTPUT_TABLE, one->plan.contact, p->arena);
+    one->table_path = outputs_path(p->scene, p->base, OUTPUT_TABLE, one->plan.contact, p->arena);
     one->listing_path = outputs_path(p->scene, p->base, OUTPUT_LISTING, one->plan.contact, p->arena);
-    if ((one->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->csv, one->csv_path, e)) ||
+    if ((one->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->table, one->table_path, e)) ||
         (one->plan.targets & ITEM_BIT(ITEM_LISTING) && !outfile_open(&one->listing, one->listing_path, e)))
         return false;
-    one->rows.stream = one->csv.stream;
+    one->rows.stream = one->table.stream;
     one->impacts.stream = one->listing.stream;
     return true;
 }
@@ -109,7 +109,7 @@ static bool part_frames(const struct render_parts *p, const struct render_part *
     return true;
 }
 
-bool render_parts_length(const struct render_parts *p, long *frames, struct err *e)
+bool render_parts_length(const struct render_parts *p, struct render_length *length, struct err *e)
 {
     double tail = p->scene->output.tail, ring = 0, rate = p->scene->output.sample_rate;
     long end = 0, moving;
@@ -121,7 +121,9 @@ bool render_parts_length(const struct render_parts *p, long *frames, struct err 
         if (one->open)
             ring = fmax(ring, one->run.board.ring);
     }
-    *frames = end + (p->asked & ITEM_BIT(ITEM_SOUND) ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
+    length->motion = end;
+    length->natural = end + (p->asked & ITEM_BIT(ITEM_SOUND) ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
+    length->frames = !isnan(p->scene->output.duration) ? (long)rint(p->scene->output.duration * rate) : length->natural;
     return true;
 }
 
@@ -182,7 +184,7 @@ const struct run *const *render_parts_runs(const struct render_parts *p)
 void render_parts_close(struct render_parts *p)
 {
     for (int i = 0; i < p->scene->n_contacts; i++) {
-        outfile_drop(&p->parts[i].csv);
+        outfile_drop(&p->parts[i].table);
         outfile_drop(&p->parts[i].listing);
         if (p->parts[i].open)
             run_close(&p->parts[i].run);

@@ -12,10 +12,10 @@ struct render_part {         /* one contact at work */
     struct run run;
     long start;              /* frame of the scene at which it begins */
     bool open;
-    struct outfile csv, listing;
+    struct outfile table, listing;
     struct table_sink rows;
     struct impact_sink impacts;
-    char *csv_path, *listing_path;
+    char *table_path, *listing_path;
 };
 
 struct render_parts {
@@ -41,8 +41,14 @@ bool render_parts_agree(const struct render_parts *p, struct err *e);
 /* Quantity of the sound (enum modes_quantity); -1: not stated. */
 int render_parts_quantity(const struct render_parts *p);
 
-/* Frames of the whole: the last motion's end, also of a muted contact, and the tail of what rings. */
-bool render_parts_length(const struct render_parts *p, long *frames, struct err *e);
+struct render_length {       /* frames of the whole                                            */
+    long motion;             /* until the last motion's end, also of a muted contact             */
+    long natural;            /* with the tail of what rings                                      */
+    long frames;             /* as output.duration wants it; without it the natural length       */
+};
+
+/* Once all are open. ERR_SCENE and what making a motion gives. */
+bool render_parts_length(const struct render_parts *p, struct render_length *length, struct err *e);
 
 /* Runs every contact up to frame `to` of the scene. */
 bool render_parts_run(struct render_parts *p, long to, struct err *e);

@@ -1,11 +1,11 @@
 #include "pipeline/summary.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "convolution/ring_choice.h"
+#include "file/json_value.h"
 #include "num/real.h"
 #include "response/modes.h"
 #include "scene/ball.h"
@@ -124,12 +124,29 @@ static void warn_contact(const struct contact *c, const struct board *b, struct 
         warn_impacts(c, &b->impacts, report, a);
 }
 
+static double decibel(double x)
+{
+    return x > 0 ? 20 * real_log10(x) : -HUGE_VAL;
+}
+
+/* A tail of its own ends 80 dB down; a cut that leaves more off is told. */
+static void warn_cut(const struct scene *s, struct render_report *report, struct arena *a)
+{
+    const struct sound_report *o = &report->sound;
+    const struct render_length *l = &report->length;
+    double rate = s->output.sample_rate;
+    if (!report->sounds || (double)l->natural - (double)l->frames < 1e-3 * rate || !(o->end > 1e-4 * o->before_ramps))
+        return;
+    warn(report, arena_format(a, "output.duration: the file is cut at %.4g s of %.4g s, %s %.1f dB below its peak before the ramps", (double)l->frames / rate, (double)l->natural / rate,
+                              (double)l->frames + 1e-3 * rate < (double)l->motion ? "where the motion still goes on, and the sound is" : "where the sound is", fmax(0, -decibel(o->end / o->before_ramps))));
+}
+
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     int older = 0;
     while (report->older[older])
         older++;
-    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 8) + 2 + older);
+    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 8) + 3 + older);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i])
             warn_contact(&s->contacts[i], &runs[i]->board, report, a);
@@ -142,29 +159,20 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
     if (report->sounds && report->sound.ramp < s->output.ramp - 0.5 / s->output.sample_rate)
         warn(report, arena_format(a, "output.ramp: the sound is too short for ramps of %.4g s; they take half of it each, %.4g s", s->output.ramp,
                                   report->sound.ramp));
+    warn_cut(s, report, a);
     for (int i = 0; i < older; i++)
         warn(report, arena_format(a, "%s is not of this render, which writes no such file; it is older, and stays as it is", report->older[i]));
 }
 
 /* A number, or null for one that is not finite. */
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
-
-static double decibel(double x)
-{
-    return x > 0 ? 20 * real_log10(x) : -HUGE_VAL;
-}
-
 /* Each listening place of several: what is heard there, unscaled. */
 static json_t *channels_json(const struct scene *s, const struct sound_report *o)
 {
     json_t *all = json_array();
     for (int k = 0; k < o->channels; k++) {
         const double *place = s->output.listen.places + 3 * k;
-        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o}", "place_m", number(place[0]), number(place[1]), number(place[2]), "peak",
-                                             number(o->channel_peak[k]), "rms", number(o->channel_rms[k])));
+        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o}", "place_m", json_value_number(place[0]), json_value_number(place[1]), json_value_number(place[2]), "peak",
+                                             json_value_number(o->channel_peak[k]), "rms", json_value_number(o->channel_rms[k])));
     }
     return all;
 }
@@ -173,9 +181,9 @@ static json_t *sound_json(const struct scene *s, const struct render_report *rep
 {
     const struct sound_report *o = &report->sound;
     json_t *sound = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit",
-                              report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's", "peak", number(o->peak), "rms",
-                              number(o->rms), "gain", number(o->gain), "gain_db", number(decibel(o->gain)), "peak_dbfs",
-                              number(decibel(o->gain * o->peak)), "rms_dbfs", number(decibel(o->gain * o->rms)), "silent", o->silent);
+                              report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's", "peak", json_value_number(o->peak), "rms",
+                              json_value_number(o->rms), "gain", json_value_number(o->gain), "gain_db", json_value_number(decibel(o->gain)), "peak_dbfs",
+                              json_value_number(decibel(o->gain * o->peak)), "rms_dbfs", json_value_number(decibel(o->gain * o->rms)), "silent", o->silent);
     if (o->channels > 1)
         json_object_set_new(sound, "channels", channels_json(s, o));
     return sound;
@@ -186,8 +194,8 @@ static json_t *stages_json(const struct run *run, double cpu)
     json_t *all = json_array();
     for (int i = 0; i < run->n; i++) {
         const struct stage_run *st = &run->stages[i];
-        json_array_append_new(all, json_pack("{s:s, s:o, s:o, s:I, s:I}", "stage", st->stage->name, "cpu_s", number(st->seconds), "share",
-                                             number(cpu > 0 ? st->seconds / cpu : 0), "blocks", (json_int_t)st->blocks, "bytes",
+        json_array_append_new(all, json_pack("{s:s, s:o, s:o, s:I, s:I}", "stage", st->stage->name, "cpu_s", json_value_number(st->seconds), "share",
+                                             json_value_number(cpu > 0 ? st->seconds / cpu : 0), "blocks", (json_int_t)st->blocks, "bytes",
                                              (json_int_t)st->bytes));
     }
     return all;
@@ -199,11 +207,11 @@ static json_t *response_json(const struct ring_choice *c, double rate)
     static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
     json_t *r = json_pack("{s:s, s:i}", "moving", readings[c->reading], "modes", c->modes.n);
     if (c->moves && (c->engine == RING_OVERLAP || (c->engine == RING_READOUT && !c->hops)))
-        json_object_set_new(r, "hop_s", number(c->hop / rate));
+        json_object_set_new(r, "hop_s", json_value_number(c->hop / rate));
     if (c->engine == RING_PANNED)
         json_object_set_new(r, "nodes", json_integer(c->nodes.n));
     if (c->error > 0)
-        json_object_set_new(r, "predicted_error_db", number(decibel(c->error)));
+        json_object_set_new(r, "predicted_error_db", json_value_number(decibel(c->error)));
     else if (c->moves && c->engine != RING_PANNED)
         json_object_set_new(r, "exact", json_true());
     if (c->error > 0 && c->engine == RING_PANNED)
@@ -213,15 +221,15 @@ static json_t *response_json(const struct ring_choice *c, double rate)
 
 static json_t *roll_json(const struct roll_report *o)
 {
-    json_t *r = json_pack("{s:o, s:o, s:I, s:o, s:o}", "contact_share", number(o->time > 0 ? o->contact / o->time : NAN), "contact_s", number(o->contact), "lift_offs",
-                          (json_int_t)o->lift_offs, "stiffness", number(o->stiffness), "rest_penetration_m", number(o->rest));
+    json_t *r = json_pack("{s:o, s:o, s:I, s:o, s:o}", "contact_share", json_value_number(o->time > 0 ? o->contact / o->time : NAN), "contact_s", json_value_number(o->contact), "lift_offs",
+                          (json_int_t)o->lift_offs, "stiffness", json_value_number(o->stiffness), "rest_penetration_m", json_value_number(o->rest));
     if (!isnan(o->deviation))
-        json_object_set_new(r, "deviation_rms_m", number(o->deviation));
+        json_object_set_new(r, "deviation_rms_m", json_value_number(o->deviation));
     if (!o->steps)
         return r;
-    json_t *more = json_pack("{s:I, s:o, s:I, s:[o, o], s:o, s:o, s:[o, o]}", "bounces", (json_int_t)o->bounces, "step_s", number(o->step), "steps",
-                             (json_int_t)o->steps, "contact_samples_mean_least", number(o->contact_samples[0]), number(o->contact_samples[1]), "fastest_impact_m_per_s",
-                             number(o->fastest), "energy_residual", number(o->residual), "iterations_mean_most", number(o->iterations[0]), number(o->iterations[1]));
+    json_t *more = json_pack("{s:I, s:o, s:I, s:[o, o], s:o, s:o, s:[o, o]}", "bounces", (json_int_t)o->bounces, "step_s", json_value_number(o->step), "steps",
+                             (json_int_t)o->steps, "contact_samples_mean_least", json_value_number(o->contact_samples[0]), json_value_number(o->contact_samples[1]), "fastest_impact_m_per_s",
+                             json_value_number(o->fastest), "energy_residual", json_value_number(o->residual), "iterations_mean_most", json_value_number(o->iterations[0]), json_value_number(o->iterations[1]));
     json_object_update(r, more);
     json_decref(more);
     return r;
@@ -229,16 +237,16 @@ static json_t *roll_json(const struct roll_report *o)
 
 static json_t *impacts_json(const struct impact_report *o)
 {
-    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second", number((double)o->count / o->time), "limited_amplitudes",
+    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second", json_value_number((double)o->count / o->time), "limited_amplitudes",
                      (json_int_t)o->limited_amplitude, "limited_intervals", (json_int_t)o->limited_interval, "overlaps", (json_int_t)o->overlaps, "mean_amplitude_n",
-                     number(o->mean_amplitude), "mean_interval_s", number(o->mean_interval), "longest_s", number(o->longest));
+                     json_value_number(o->mean_amplitude), "mean_interval_s", json_value_number(o->mean_interval), "longest_s", json_value_number(o->longest));
 }
 
 static json_t *contact_json(const struct run *run, double cpu)
 {
     const struct board *b = &run->board;
     const struct ring_choice *choice = run->plan.contact->surface.response.choice;
-    json_t *c = json_pack("{s:s, s:o, s:o}", "name", run->plan.contact->name, "lifted_off_s", number(b->lifted), "stages",
+    json_t *c = json_pack("{s:s, s:o, s:o}", "name", run->plan.contact->name, "lifted_off_s", json_value_number(b->lifted), "stages",
                           stages_json(run, cpu));
     if (choice && !choice->recorded)
         json_object_set_new(c, "response", response_json(choice, b->rate));
@@ -247,7 +255,7 @@ static json_t *contact_json(const struct run *run, double cpu)
     if (impacts(b))
         json_object_set_new(c, "impacts", impacts_json(&b->impacts));
     if (b->load)
-        json_object_set_new(c, "normal_force_n", json_pack("[o, o]", number(b->load->least), number(b->load->most)));
+        json_object_set_new(c, "normal_force_n", json_pack("[o, o]", json_value_number(b->load->least), json_value_number(b->load->most)));
     return c;
 }
 
@@ -271,9 +279,9 @@ static json_t *promise_json(const struct promise *p)
 {
     json_t *by = json_array();
     for (int i = 0; i < p->n; i++)
-        json_array_append_new(by, json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value", number(p->parts[i].value), "error_db",
-                                            number(decibel(p->parts[i].error)), "said", p->parts[i].said));
-    return json_pack("{s:o, s:o, s:b, s:o, s:o}", "asked_db", number(p->error), "predicted_db", number(p->predicted), "chosen", p->chosen, "by", by, "cpu_s", number(p->cpu));
+        json_array_append_new(by, json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value", json_value_number(p->parts[i].value), "error_db",
+                                            json_value_number(decibel(p->parts[i].error)), "said", p->parts[i].said));
+    return json_pack("{s:o, s:o, s:b, s:o, s:o}", "asked_db", json_value_number(p->error), "predicted_db", json_value_number(p->predicted), "chosen", p->chosen, "by", by, "cpu_s", json_value_number(p->cpu));
 }
 
 const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, struct arena *a)
@@ -286,9 +294,9 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_string(report->warnings[i]));
     json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
-                              (json_int_t)report->frames, "sample_rate_hz", number(s->output.sample_rate), "duration_s", number(duration),
-                              "wall_s", number(report->seconds), "cpu_s", number(report->cpu), "real_time_factor",
-                              number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks,
+                              (json_int_t)report->frames, "sample_rate_hz", json_value_number(s->output.sample_rate), "duration_s", json_value_number(duration),
+                              "wall_s", json_value_number(report->seconds), "cpu_s", json_value_number(report->cpu), "real_time_factor",
+                              json_value_number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks,
                               "files", files_json(report));
     if (report->promise.asked)
         json_object_set_new(whole, "accuracy", promise_json(&report->promise));

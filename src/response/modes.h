@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/err.h"
+#include "base/shelf.h"
 
 /* The first three in the order of enum quantity of scene.h, which has `auto` before; MODES_PRESSURE comes from a listener only, and MODES_FORCE is no motion
    at all, but the contact force as the sound (convolution/force_sound.c): no table holds them. */
@@ -67,6 +68,7 @@ struct modes_point modes_point_make(struct arena *a, int n);
 struct modes_ask {
     int strongest;
     double pairing, rate;
+    struct shelf *shelf;         /* of the scene (base/shelf.h); NULL: none */
 };
 bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e);
 

@@ -53,6 +53,10 @@
 #define TYPE_CHOICE_OBJECT_EDGES TYPE_CHOICE(OBJECT_EDGES)
 #define TYPE_CHOICE_OBJECT_WAVES TYPE_CHOICE(OBJECT_WAVES)
 #define TYPE_CHOICE_MATERIAL_NAME TYPE_CHOICE(MATERIAL_NAME)
+#define TYPE_CHOICE_NORMAL_FORCE TYPE_CHOICE(NORMAL_FORCE)
+#define TYPE_CHOICE_NONLINEARITY TYPE_CHOICE(NONLINEARITY)
+#define TYPE_CHOICE_RESPONSE_VARIES TYPE_CHOICE(RESPONSE_VARIES)
+#define TYPE_CHOICE_BODIES TYPE_CHOICE(BODIES)
 #define TYPE_CHOICE_QUANTITY TYPE_CHOICE(QUANTITY)
 #define TYPE_CHOICE_SOUND_ENVELOPE TYPE_CHOICE(SOUND_ENVELOPE)
 #define TYPE_CHOICE_RADIATOR TYPE_CHOICE(RADIATOR)
@@ -61,6 +65,7 @@
 #define TYPE_CHOICE_IMPACT_MARGINAL TYPE_CHOICE(IMPACT_MARGINAL)
 #define TYPE_CHOICE_IMPACT_PROCESSES TYPE_CHOICE(IMPACT_PROCESSES)
 #define TYPE_CHOICE_IMPACT_LISTING TYPE_CHOICE(IMPACT_LISTING)
+#define TYPE_CHOICE_TABLE_FORMAT TYPE_CHOICE(TABLE_FORMAT)
 
 #define KEY(owner, field, where, kind, unit, lowest, highest, preset, when, text) \
     {.of = KEY_##owner, .offset = OFFSET_##owner(field), .path = where, TYPE_##kind, .dimension = KEY_##unit, \
@@ -109,12 +114,11 @@ const struct key *keys_find(const char *path)
 
 const struct key *keys_decider(const struct key *k)
 {
-    for (const struct key *other = keys_table; k->applies && other->path; other++) {
-        size_t n = strlen(other->path);
-        const char *name = k->applies + (k->applies[0] == '!');
-        if (strncmp(name, other->path, n) == 0 && (name[n] == '=' || !name[n]))
+    const char *name = k->applies ? k->applies + (k->applies[0] == '!') : "";
+    size_t n = strcspn(name, "=");
+    for (const struct key *other = keys_table; n > 0 && other->path; other++)
+        if (other->path[0] == name[0] && strncmp(other->path, name, n) == 0 && !other->path[n])
             return other;
-    }
     return NULL;
 }
 

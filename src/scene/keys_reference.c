@@ -25,6 +25,8 @@ static const struct {
     {"surface.roughness.like", "plank.gsf", true},
     {"surface.roughness.like_pitch", "5 um", true},
     {"surface.response", "plank.csv", true},
+    {"ablation.place", "[5 cm, 2 cm]", true},
+    {"output.duration", "3 s", true},
     {".object.shape", "plate", true},
     {".object.length", "30 cm", true},
     {".object.width", "20 cm", true},

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "base/wrap.h"
 #include "scene/keys.h"
@@ -81,13 +82,13 @@ static void print_item(FILE *f, const struct keys_line *lines, int n, const stru
     struct keys_style inner = *style;
     char *text = NULL;
     size_t size = 0;
-    FILE *memory = open_memstream(&text, &size);
+    FILE *memory = memory_stream(&text, &size);
     inner.item = false;
     keys_yaml_print(memory, lines, n, &inner);
-    fclose(memory);
-    if (text && style->indent >= 2 && size > (size_t)style->indent)
+    memory_stream_end(memory, &text);
+    if (style->indent >= 2 && size > (size_t)style->indent)
         text[style->indent - 2] = '-';
-    fputs(text ? text : "", f);
+    fputs(text, f);
     free(text);
 }
 
@@ -124,7 +125,7 @@ const char *keys_yaml_quoted(const char *text, struct arena *a)
 {
     char *memory = NULL;
     size_t size = 0;
-    FILE *f = open_memstream(&memory, &size);
+    FILE *f = memory_stream(&memory, &size);
     fputc('"', f);
     for (const char *s = text; *s;) {
         uint32_t code = 0;
@@ -139,7 +140,7 @@ const char *keys_yaml_quoted(const char *text, struct arena *a)
         s += n ? n : 1;
     }
     fputc('"', f);
-    fclose(f);
+    memory_stream_end(f, &memory);
     const char *quoted = arena_text(a, memory);
     free(memory);
     return quoted;

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "num/real.h"
+#include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/incline.h"
 #include "scene/scene.h"
@@ -41,9 +42,12 @@ static inline double rules_weight(const struct contact *c)
     return c->scraper.mass * ball_gravity(c);
 }
 
-/* The normal force in N where nothing makes it vary (load_varies): what load.constant says, else the weight. */
+/* The normal force in N where nothing makes it vary (load_varies): what load.constant says, else the weight; of a grip whose variation is left out what it
+   has without acceleration (papers/000 equations 8 and 9 with omega = 0). */
 static inline double rules_load(const struct contact *c)
 {
+    if (ablation_steady(c) && c->grip.given)
+        return rules_weight(c) / rules_slip(&c->grip);
     return isnan(c->load.constant) ? rules_weight(c) : c->load.constant;
 }
 
@@ -249,10 +253,22 @@ static inline bool rules_listed(const struct contact *c, const struct output *o)
     return o->impacts == LISTING_TABLE && c->contact.model == CONTACT_IMPACTS;
 }
 
+/* Is the surface heard? */
+static inline bool rules_surface_rings(const struct contact *c)
+{
+    return rules_responds(&c->surface.response) && !ablation_mutes_surface(c);
+}
+
+/* ... the scraper, or ball? */
+static inline bool rules_tool_rings(const struct contact *c)
+{
+    return rules_responds(&c->scraper.response) && c->scraper.weight != 0 && !ablation_mutes_tool(c);
+}
+
 /* Does it make a sound? Its gain may still be 0. */
 static inline bool rules_rings(const struct contact *c)
 {
-    return rules_responds(&c->surface.response) || (rules_responds(&c->scraper.response) && c->scraper.weight != 0);
+    return rules_surface_rings(c) || rules_tool_rings(c);
 }
 
 /* Is it heard: does it ring, or is its force the sound? Its gain may still be 0. */

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scene/ablated.h"
 #include "scene/impacts.h"
 
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
@@ -28,6 +29,7 @@ enum contact_kind {
     CONTACT_SCRAPE, CONTACT_STRIKE, CONTACT_GIVEN, CONTACT_ROLL, CONTACT_ROLL_COUPLED, CONTACT_IMPACTS, CONTACT_PLAYBACK
 };
 enum impact_listing { LISTING_NONE, LISTING_TABLE };
+enum table_format { TABLE_CSV, TABLE_NPY };
 enum ball_body { BODY_SOLID, BODY_HOLLOW, BODY_HOOP, BODY_WHEEL };
 enum fractal_spectrum { SPECTRUM_POWER, SPECTRUM_AMPLITUDE };
 enum interpolation { INTERPOLATION_NEAREST, INTERPOLATION_LINEAR, INTERPOLATION_SPLINE };
@@ -53,6 +55,7 @@ enum extrapolate { EXTRAPOLATE_ERROR, EXTRAPOLATE_NEAREST };
 enum encoding { ENCODING_PCM16, ENCODING_PCM24, ENCODING_FLOAT32, ENCODING_FLOAT64 };
 
 struct ring_choice;
+struct shelf;
 
 /* ------------------------------------------------------------------ one contact */
 
@@ -295,6 +298,7 @@ struct contact {
     struct grip grip;
     struct load load;
     struct contact_model contact;
+    struct ablation ablation;
 };
 
 /* ------------------------------------------------------------------ the scene */
@@ -308,6 +312,7 @@ struct level {              /* at most one is given; none: peak -3 dBFS         
 struct diagnostics {
     bool given;
     double rate;            /* Hz                                                                */
+    int format;             /* enum table_format                                                 */
     const char **columns;   /* NULL-terminated; NULL: all that the scene has                     */
 };
 
@@ -332,6 +337,7 @@ struct output {
     int envelope;           /* enum sound_envelope                                                */
     double envelope_depth;  /* dB, how far the ends lie below the middle                         */
     double tail;            /* s; NAN: auto, until the sound has decayed by 80 dB                */
+    double duration;        /* s, exact length of the file, whatever motion and tail would take; NAN: as long as they take */
     struct diagnostics diagnostics;
     int impacts;            /* enum impact_listing: is the series of impacts written             */
 };
@@ -363,7 +369,7 @@ struct scene_place {        /* where a key that is given stands: scene/scene_pla
     const char *value;      /* of a key that names a file: its path, as messages show it; else NULL */
     const char *file;       /* "scene.yaml", or "--set surface.response" with line 0             */
     const char *named;      /* " (named at scene.yaml:4:12)" of a file that the scene names; ""  */
-    int line, column;       /* of the value; of a section, of its name                           */
+    int line, column, width; /* of the value; of a section, of its name                          */
     struct scene_place *next;
 };
 
@@ -380,6 +386,8 @@ struct scene {
     struct input *inputs;   /* pinned hashes of an effective scene                               */
     int n_inputs;
     struct scene_place *places;
+    const struct diag *diag; /* what is wrong with its text; NULL: nothing is                    */
+    struct shelf *shelf;     /* what it shares with other scenes of the files that they read (base/shelf.h); NULL: nothing */
 };
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_check.h"
@@ -46,6 +47,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     scene_check_fill(&part);
     scene_places_note(&part, c->name, t->scene);
     ball_settle(c);
+    ablation_settle(c);
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;
     scene_sense_contact(&part);

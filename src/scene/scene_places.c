@@ -26,13 +26,22 @@ static struct list list_of(struct yaml *y, struct scene *s)
     return l;
 }
 
+static struct scene_place *place_make(const struct diag_place *at, struct arena *a)
+{
+    struct scene_place *p = ARENA_TAKE(a, struct scene_place, 1);
+    *p = (struct scene_place){.file = at->source->name, .named = diag_named(a, at->source), .column = at->column, .width = at->width,
+                              .line = at->source->option || at->source->made ? 0 : at->line};
+    return p;
+}
+
 static void add(struct list *l, const char *key, const char *file, const struct diag_place *at)
 {
     struct arena *a = l->yaml->arena;
-    struct scene_place *p = ARENA_TAKE(a, struct scene_place, 1);
-    *p = (struct scene_place){.contact = l->contact, .key = key, .label = arena_format(a, "%s%s", l->prefix, key), .file = at->source->name,
-                              .value = file ? text_shown(a, file) : NULL, .named = diag_named(a, at->source), .column = at->column,
-                              .line = at->source->option || at->source->made ? 0 : at->line};
+    struct scene_place *p = place_make(at, a);
+    p->contact = l->contact;
+    p->key = key;
+    p->label = arena_format(a, "%s%s", l->prefix, key);
+    p->value = file ? text_shown(a, file) : NULL;
     *l->end = p;
     l->end = &p->next;
 }
@@ -80,6 +89,20 @@ void scene_places_key(struct yaml *y, const char *key, const struct diag_place *
 {
     struct list l = list_of(y, s);
     add(&l, key, NULL, at);
+}
+
+void scene_places_move(struct scene *s, const char *key, const char *label, const struct diag_place *at, struct arena *a)
+{
+    size_t n = strlen(key);
+    struct scene_place **end = &s->places;
+    while (*end)
+        if (!(*end)->contact && strncmp((*end)->key, key, n) == 0 && (!(*end)->key[n] || (*end)->key[n] == '.'))
+            *end = (*end)->next;
+        else
+            end = &(*end)->next;
+    *end = place_make(at, a);
+    (*end)->key = key;
+    (*end)->label = label;
 }
 
 void scene_places_input(struct yaml *y, const char *file, const struct diag_place *at, struct scene *s)
@@ -241,6 +264,21 @@ static const char *labelled(const struct scene *s, const struct scene_place *p, 
     return arena_format(a, "%s: %s", p->label, rest);
 }
 
+/* Where in the text that was told its parts are. */
+static struct err_place parts_of(const struct scene *s, const struct scene_place *p, const char *place)
+{
+    char shown[sizeof((struct err *)0)->text];
+    struct err_place parts = {0};
+    text_show(p && p->line > 0 ? p->file : s->file, shown, sizeof shown);
+    parts.file = (int)strlen(shown);
+    text_show(place, shown, sizeof shown);
+    bool lines = p && p->line > 0;
+    parts.message = lines ? (int)strlen(shown) + 2 : parts.file + 2;
+    if (lines)
+        parts.line = p->line, parts.column = p->column, parts.width = p->width;
+    return parts;
+}
+
 bool scene_places_tell(const struct scene *s, struct err *e)
 {
     struct arena *a = arena_open();
@@ -249,6 +287,7 @@ bool scene_places_tell(const struct scene *s, struct err *e)
     const char *place = scene_places_text(s, p, a), *text = whole_keys(s, p ? p->contact : e->contact, e->text, a);
     if (p && (!e->key || strcmp(p->key, e->key) == 0))
         text = labelled(s, p, text, a);
+    told.place = parts_of(s, p, place);
     err_set(&told, e->kind, "%s: %s%s", place, text, p && !strstr(text, p->named) ? p->named : "");
     *e = told;
     arena_close(a);

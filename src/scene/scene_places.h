@@ -12,6 +12,9 @@ void scene_places_note(const struct scene_part *p, const char *contact, struct s
 /* Adds a key of the scene that is no row of keys.def. */
 void scene_places_key(struct yaml *y, const char *key, const struct diag_place *at, struct scene *s);
 
+/* What is laid over the scene stands there: the key, and all that is under it, are as messages call it by label. */
+void scene_places_move(struct scene *s, const char *key, const char *label, const struct diag_place *at, struct arena *a);
+
 /* Adds a file that `inputs` names. */
 void scene_places_input(struct yaml *y, const char *file, const struct diag_place *at, struct scene *s);
 

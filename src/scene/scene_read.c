@@ -40,6 +40,26 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
     }
 }
 
+/* The source of a layer is the first: it builds on the scene, which is as if it included it. */
+static struct yaml *open_over(const struct scene_overrides *over, struct arena *a)
+{
+    struct yaml *y = yaml_open(a);
+    y->sources = over && over->layer;
+    return y;
+}
+
+/* A design, which a scene was asked for. */
+static bool a_design(struct yaml *y, const struct yaml_node *root)
+{
+    const struct yaml_node *node = yaml_get(root, "rasp-design");
+    if (!node)
+        return false;
+    y->diag->n = 0;
+    y->missing = false;
+    diag_add(y->diag, node->key->at, "rasp batch renders it, rasp check checks it", "this is a design of many scenes, not a scene");
+    return true;
+}
+
 /* A scene of another version: what else looks wrong in it need not be, so that this is the only error told. */
 static bool another_version(struct yaml *y, const struct yaml_node *root)
 {
@@ -61,12 +81,14 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
     *s = (struct scene){.file = arena_text(y->arena, source->name)};
     if (!root)
         return;
+    if (over && over->layer)
+        scene_layer_put(y, root, over->layer);
     for (int i = 0; over && i < over->n; i++)
         if (!y->missing || strncmp(over->set[i], "contacts.", strlen("contacts.")) != 0) /* they may stand in a file that is not there */
             scene_set(y, root, over->set[i]);
     if (over && over->seed)
         scene_set_seed(y, root, over->seed);
-    if (another_version(y, root))
+    if (a_design(y, root) || another_version(y, root))
         return;
     bool readable = scene_recipe_merge(y, root);
     scene_merge_drop_nulls(root);
@@ -93,6 +115,7 @@ static bool finish(struct yaml *y, struct scene *s, const char **messages, struc
     s->sources = sources_of(y);
     if (y->diag->n == 0)
         return true;
+    s->diag = y->diag;
     *messages = diag_text(y->diag);
     return err_set(e, y->missing ? ERR_INPUT : ERR_SCENE, "%s", diag_first(y->diag));
 }
@@ -100,7 +123,7 @@ static bool finish(struct yaml *y, struct scene *s, const char **messages, struc
 bool scene_read_text(const char *text, size_t n, const char *name, const struct scene_overrides *over, struct arena *a,
                      struct scene *s, const char **messages, struct err *e)
 {
-    struct yaml *y = yaml_open(a);
+    struct yaml *y = open_over(over, a);
     char *copy = arena_take(a, n + 1, 1);
     if (n > 0)
         memcpy(copy, text, n);
@@ -111,7 +134,7 @@ bool scene_read_text(const char *text, size_t n, const char *name, const struct 
 bool scene_read_made(const char *text, const char *name, const struct scene_overrides *over, struct arena *a, struct scene *s, const char **messages,
                      struct err *e)
 {
-    struct yaml *y = yaml_open(a);
+    struct yaml *y = open_over(over, a);
     struct diag_source *source = yaml_source(y, arena_text(a, name), arena_text(a, text), strlen(text));
     source->made = true;
     source_read(y, source, over, s);
@@ -121,8 +144,9 @@ bool scene_read_made(const char *text, const char *name, const struct scene_over
 bool scene_read(const char *file, const struct scene_overrides *over, struct arena *a, struct scene *s, const char **messages,
                 struct err *e)
 {
-    struct yaml *y = yaml_open(a);
-    struct diag_source *source = yaml_bytes_read(y, file, (struct diag_place){NULL, 0, 0, 0});
+    struct yaml *y = open_over(over, a);
+    struct diag_place named = over && over->layer ? over->layer->named : (struct diag_place){NULL, 0, 0, 0};
+    struct diag_source *source = yaml_bytes_read(y, file, named);
     *s = (struct scene){.file = file};
     if (source)
         source_read(y, source, over, s);

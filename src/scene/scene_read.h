@@ -6,12 +6,15 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "scene/scene.h"
+#include "scene/scene_layer.h"
 
-/* What the command line adds to a scene: `--set PATH=VALUE`, in the order given (a later one wins), then `--seed NUMBER`. */
+/* What is added to a scene: keys of another file that builds on it, then what the command line says: `--set PATH=VALUE`, in the order given (a later one
+   wins), then `--seed NUMBER`. */
 struct scene_overrides {
     const char **set; /* "motion.rate=3 Hz" */
     int n;
     const char *seed; /* NULL: not given */
+    const struct scene_layer *layer; /* NULL: none */
 };
 
 /* Reads and checks a scene, resolves includes and file names, applies overrides, defaults and accuracy presets.

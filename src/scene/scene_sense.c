@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "scene/scene_sense_parts.h"
@@ -64,7 +65,7 @@ static void alpha_check(const struct scene_part *p, const struct limiter *l)
 static void ratio_check(const struct scene_part *p, const struct limiter *l)
 {
     const char *path = "contact.limiter.ratio_y", *curve = "contact.limiter.curve";
-    if (yaml_find(p->map, path) && scene_part_known(p, curve) && l->curve == LIMITER_NONE)
+    if (yaml_find(p->map, path) && scene_part_known(p, curve) && l->curve == LIMITER_NONE && !yaml_find(p->map, "ablation.nonlinearity"))
         diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at, "remove it, or set contact.limiter.curve to tanh",
                  "%s has no effect where %s is none", scene_part_label(p, path), scene_part_label(p, curve));
 }
@@ -74,7 +75,7 @@ static double alpha_along_x(const struct contact *c)
 {
     const struct limiter *l = &c->contact.limiter;
     double n = rules_load(c);
-    if (c->grip.given || c->load.recorded || (ball_rolls(c) && c->ball.offset > 0))
+    if (!ablation_steady(c) && (c->grip.given || c->load.recorded || (ball_rolls(c) && c->ball.offset > 0)))
         return fmax(l->alpha_max, l->alpha);
     if (isnan(l->force_range[0]))
         return l->alpha;
@@ -129,6 +130,7 @@ void scene_sense_contact(const struct scene_part *p)
         lowering_check(p, c);
     scene_sense_model(p, c);
     scene_sense_response(p, c);
+    scene_sense_ablation(p, c);
 }
 
 static bool force_stem(const struct output *o)

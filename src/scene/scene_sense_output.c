@@ -156,8 +156,8 @@ static bool is_there(const struct scene *s, const char *stem)
 {
     for (int i = 0; i < s->n_contacts; i++) {
         const struct contact *c = &s->contacts[i];
-        bool tool = strcmp(stem, ball_tool(c)) == 0 && rules_responds(&c->scraper.response) && c->scraper.weight != 0;
-        bool surface = strcmp(stem, "surface") == 0 && rules_responds(&c->surface.response);
+        bool tool = strcmp(stem, ball_tool(c)) == 0 && rules_tool_rings(c);
+        bool surface = strcmp(stem, "surface") == 0 && rules_surface_rings(c);
         if (c->gain != 0 && (strcmp(stem, "force") == 0 || surface || tool))
             return true;
     }

@@ -10,6 +10,7 @@ void scene_sense_model(const struct scene_part *p, const struct contact *c);   /
 void scene_sense_ball(const struct scene_part *p, const struct contact *c);    /* scene_sense_ball.c    */
 void scene_sense_impacts(const struct scene_part *p, const struct contact *c); /* scene_sense_impacts.c */
 void scene_sense_response(const struct scene_part *p, const struct contact *c); /* scene_sense_response.c */
+void scene_sense_ablation(const struct scene_part *p, const struct contact *c); /* scene_sense_ablation.c */
 void scene_sense_object(const struct scene_part *p, const struct object_given *o, const char *body); /* scene_sense_object.c */
 
 /* Hertz's stiffness needs the moduli of the surface and of what touches it: tells what is missing, and BECAUSE. */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/relpath.h"
 #include "scene/keys.h"
 #include "scene/keys_yaml.h"
@@ -68,11 +69,11 @@ static const char *points_value(const void *field, int width, struct arena *a)
     size_t size = 0;
     if (!at)
         return NULL;
-    FILE *f = open_memstream(&memory, &size);
+    FILE *f = memory_stream(&memory, &size);
     for (int i = 0; i < *keys_points_count(field); i++)
         fprintf(f, "%s%s", i ? ", " : "[", numbers_value(at + width * i, width, a));
     fputc(']', f);
-    fclose(f);
+    memory_stream_end(f, &memory);
     const char *kept = arena_text(a, memory);
     free(memory);
     return kept;
@@ -245,13 +246,13 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
     int n_keys = 0;
     while (keys_table[n_keys].path)
         n_keys++;
-    struct writer w = {open_memstream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0, false};
+    struct writer w = {memory_stream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0, false};
     for (int i = 0; i < s->n_contacts; i++)
         w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_heard(&s->contacts[i], &s->output));
     write_keys(&w, s);
     write_accuracy(&w, s);
     scene_write_inputs(w.f, s, beside, a);
-    fclose(w.f);
+    memory_stream_end(w.f, &memory);
     const char *kept = arena_text(a, memory);
     free(memory);
     return kept;

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/hash.h"
 #include "base/relpath.h"
+#include "base/shelf.h"
 #include "scene/keys_yaml.h"
 
 struct list {
@@ -91,9 +91,8 @@ static const char *pinned(const struct scene *s, const char *file)
 /* A file that cannot be read keeps the hash it was pinned to; without one it is listed unpinned, with a remark. */
 static void write_input(FILE *f, const struct list *l, const char *file, const char *beside)
 {
-    char hex[HASH_TEXT];
     struct err unreadable = {0};
-    const char *sha256 = hash_file(file, hex, &unreadable) ? hex : pinned(l->scene, file);
+    const char *now = shelf_sha256(l->scene->shelf, file, l->arena, &unreadable), *sha256 = now ? now : pinned(l->scene, file);
     fprintf(f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, beside, l->arena), l->arena));
     if (sha256)
         fprintf(f, "    sha256: \"%s\"\n", sha256);

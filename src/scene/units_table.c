@@ -121,3 +121,28 @@ bool units_table_fits(const struct units_table_unit *u, enum key_dimension d)
         return true;
     return u->dimension == d;
 }
+
+/* A unit's prefixes as a class; micro has two more letters. */
+static const char *prefix_pattern(const struct units_table_unit *u, struct arena *a)
+{
+    if (!*u->prefixes)
+        return "";
+    return arena_format(a, "[%s%s]?", u->prefixes, strchr(u->prefixes, 'u') ? "\xc2\xb5\xce\xbc" : "");
+}
+
+static const char *escaped(const char *name, struct arena *a)
+{
+    const char *all = "";
+    for (const char *p = name; *p; p++)
+        all = arena_format(a, "%s%s%c", all, strchr("^$.*+?()[]{}|\\", *p) ? "\\" : "", *p);
+    return all;
+}
+
+const char *units_table_pattern(enum key_dimension d, struct arena *a)
+{
+    const char *all = "";
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
+        if (units_table_fits(&units[i], d))
+            all = arena_format(a, "%s%s%s%s", all, *all ? "|" : "", prefix_pattern(&units[i], a), escaped(units[i].name, a));
+    return all;
+}

@@ -3,6 +3,7 @@
 #define SCENE_UNITS_TABLE_H
 #include <stdbool.h>
 
+#include "base/arena.h"
 #include "scene/keys.h"
 
 enum { UNITS_TABLE_DEGREES = 1000 /* in place of a power of ten */ };
@@ -23,6 +24,9 @@ const struct units_table_dimension *units_table_dimension(enum key_dimension d);
 
 /* The unit of that name, with a prefix or without, and the power of ten to SI; NULL: there is none. */
 const struct units_table_unit *units_table_find(const char *text, int *power);
+
+/* What may follow a number of the dimension, as a regular expression: "[numckMG]?m"; "": nothing. */
+const char *units_table_pattern(enum key_dimension d, struct arena *a);
 
 /* May a quantity of the dimension have the unit? KEY_OUTPUT takes those of four dimensions, KEY_STIFFNESS those of a force per length too. */
 bool units_table_fits(const struct units_table_unit *u, enum key_dimension d);

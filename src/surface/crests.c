@@ -1,11 +1,11 @@
 /* See crests.h. Two memories of blocks on lattices through 0, each made from the one before when it is asked for:
 
-     heights   z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula. In one coordinate crest.c keeps them,
-               at a pitch of their own
+     heights   z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula. In one coordinate crest_part.c
+               keeps them, at a pitch of their own
      crests    E at multiples of h = patch / 4
 
-   Errors. The ball touches between samples too: E is too low by at most d^2/8 (1/R + |z''|) at the places of contact (in each direction; in
-   the plane, Taylor's formula adds d^3/17 |z'''|). */
+   Errors. In one coordinate those of crest.c. In the plane the ball touches between samples too: E is too low by at most d^2/8 (1/R + |z''|) at the places of contact (in each direction;
+   Taylor's formula adds d^3/17 |z'''|). */
 #include "surface/crests.h"
 
 #include <math.h>
@@ -89,7 +89,7 @@ static void crests_square(void *self, long column, long row, double *out)
 
 struct crest_plan crests_line(const struct rolling_plan *p)
 {
-    return (struct crest_plan){p->radius, p->pitch, p->reach, p->span, p->exceeded, p->self};
+    return (struct crest_plan){p->radius, p->pitch, p->reach, p->span, p->points, p->exceeded, p->self};
 }
 
 static void crests_row(void *self, long column, long row, double *out)

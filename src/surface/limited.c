@@ -27,6 +27,8 @@
 #include "num/lanes.h"
 #include "num/vecmath.h"
 
+#define INLINE static inline __attribute__((always_inline))
+
 /* rest[k] = G(|x[k]|) above; w <= log 2, so that the first term left out is below 5e-16. */
 LANES_CLONES
 static void points_rest(const double *x, const double *soft, double *rest, int n)
@@ -40,40 +42,56 @@ static void points_rest(const double *x, const double *soft, double *rest, int n
     }
 }
 
-LANES_CLONES
-static void pieces_mean(const struct limited *p, const double *x, const double *soft)
+/* At the points: x = alpha c, log(1 + e^(-2|x|)), G(|x|) and 1/alpha. */
+struct points {
+    double x[LIMITED_POINTS], soft[LIMITED_POINTS], rest[LIMITED_POINTS], per[LIMITED_POINTS];
+};
+
+/* at: NULL where the pieces are chained, whose points are then loaded one after another. */
+INLINE void each_mean(const struct limited *p, const int *at, const struct points *q)
 {
-    const double *t = p->limited, *alphas = p->alpha;
-    const int *at = p->at;
-    double *mean = p->mean;
+    const double *t = p->limited, *alphas = p->alpha, *x = q->x, *soft = q->soft, *per = q->per;
+    double *restrict mean = p->mean;
     int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
-        int a = at[i], b = a + 1;
+        int a = at ? at[i] : i, b = a + 1;
         double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, tm = 0.5 * alpha * (t[a] + t[b]);
-        double near = tm + dx * dx / 6 * tm * (1 - tm * tm), by = lanes_select(fabs(dx) < 1e-3, 1, dx);
+        double near = tm + dx * dx * (1.0 / 6) * tm * (1 - tm * tm), by = lanes_select(fabs(dx) < 1e-3, 1, dx);
         double far = ((fabs(xb) - fabs(xa)) + (soft[b] - soft[a])) / by;
-        mean[i] = lanes_select(fabs(dx) < 1e-3, near, far) / alpha;
+        mean[i] = lanes_select(fabs(dx) < 1e-3, near, far) * per[a];
+    }
+}
+
+INLINE void each_moment(const struct limited *p, const int *at, const struct points *q)
+{
+    const double *t = p->limited, *alphas = p->alpha, *x = q->x, *soft = q->soft, *rest = q->rest, *per = q->per;
+    double *restrict moment = p->moment;
+    int n = p->n;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        int a = at ? at[i] : i, b = a + 1;
+        double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, across = xa * xb, sign_a = lanes_select(xa < 0, -1, 1), sign_b = lanes_select(xb < 0, -1, 1);
+        double squares = lanes_select(across < 0, lanes_select(dx < 0, across, -across), 0);
+        double whole = squares - (sign_b * rest[b] - sign_a * rest[a]) - 0.5 * (xa + xb) * (soft[b] - soft[a]);
+        double tm = 0.5 * alpha * (t[a] + t[b]), curved = dx * dx * dx * (1.0 / 360) * (1 - tm * tm) * (1 - 3 * tm * tm) * per[a];
+        double by = lanes_select(fabs(dx) < 0.05, 1, dx * dx), straight = (t[b] - t[a]) * (1.0 / 12) + curved, far = whole * per[a] / by;
+        moment[i] = lanes_select(fabs(dx) < 0.05, straight, far);
     }
 }
 
 LANES_CLONES
-static void pieces_moment(const struct limited *p, const double *x, const double *soft, const double *rest)
+static void pieces_apart(const struct limited *p, const struct points *q)
 {
-    const double *t = p->limited, *alphas = p->alpha;
-    const int *at = p->at;
-    double *moment = p->moment;
-    int n = p->n;
-#pragma omp simd
-    for (int i = 0; i < n; i++) {
-        int a = at[i], b = a + 1;
-        double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, across = xa * xb, sign_a = lanes_select(xa < 0, -1, 1), sign_b = lanes_select(xb < 0, -1, 1);
-        double squares = lanes_select(across < 0, lanes_select(dx < 0, across, -across), 0);
-        double whole = squares - (sign_b * rest[b] - sign_a * rest[a]) - 0.5 * (xa + xb) * (soft[b] - soft[a]);
-        double tm = 0.5 * alpha * (t[a] + t[b]), curved = dx * dx * dx / 360 * (1 - tm * tm) * (1 - 3 * tm * tm) / alpha;
-        double by = lanes_select(fabs(dx) < 0.05, 1, dx * dx), straight = (t[b] - t[a]) / 12 + curved, far = whole / (alpha * by);
-        moment[i] = lanes_select(fabs(dx) < 0.05, straight, far);
-    }
+    each_mean(p, p->at, q);
+    each_moment(p, p->at, q);
+}
+
+LANES_CLONES
+static void pieces_in_chain(const struct limited *p, const struct points *q)
+{
+    each_mean(p, NULL, q);
+    each_moment(p, NULL, q);
 }
 
 static void pieces_bulge(const struct limited *p)
@@ -107,22 +125,26 @@ static void points_times(int n, const double *alpha, const double *curvature, do
 }
 
 LANES_CLONES
-static void points_over(int n, const double *alpha, double *limited)
+static void points_over(int n, const double *alpha, double *per, double *limited)
 {
 #pragma omp simd
-    for (int k = 0; k < n; k++)
-        limited[k] /= alpha[k];
+    for (int k = 0; k < n; k++) {
+        per[k] = 1 / alpha[k];
+        limited[k] *= per[k];
+    }
 }
 
 static void pieces_limited(const struct limited *p)
 {
-    double x[LIMITED_POINTS], soft[LIMITED_POINTS], rest[LIMITED_POINTS];
-    points_times(p->points, p->alpha, p->curvature, x);
-    vecmath_tanh_softplus2((size_t)p->points, x, p->limited, soft);
-    points_rest(x, soft, rest, p->points);
-    points_over(p->points, p->alpha, p->limited);
-    pieces_mean(p, x, soft);
-    pieces_moment(p, x, soft, rest);
+    struct points q;
+    points_times(p->points, p->alpha, p->curvature, q.x);
+    vecmath_tanh_softplus2((size_t)p->points, q.x, p->limited, q.soft);
+    points_rest(q.x, q.soft, q.rest, p->points);
+    points_over(p->points, p->alpha, q.per, p->limited);
+    if (limited_chained(p->n, p->points, p->at))
+        pieces_in_chain(p, &q);
+    else
+        pieces_apart(p, &q);
     if (p->bulge)
         pieces_bulge(p);
 }

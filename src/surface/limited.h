@@ -3,11 +3,11 @@
 #define SURFACE_LIMITED_H
 #include <stdbool.h>
 
-enum { LIMITED_PIECES = 512, LIMITED_POINTS = 2 * LIMITED_PIECES };
+enum { LIMITED_PIECES = 256, LIMITED_POINTS = 2 * LIMITED_PIECES };
 
 struct limited {                        /* pieces from point at[i] to point at[i] + 1 */
     int n, points;
-    const int *at;                      /* [n] */
+    const int *at;                      /* [n], rising */
     const double *alpha;                /* m, [points] */
     const double *curvature;            /* c, 1/m, [points] */
     const double *bulge;                /* 1/m, [n]: c in the middle above the straight line between the ends; NULL: none */
@@ -15,6 +15,12 @@ struct limited {                        /* pieces from point at[i] to point at[i
     double *mean;                       /* mean of T over the piece, 1/m, [n] */
     double *moment;                     /* integral of (s - middle) T ds / length^2, 1/m, [n] */
 };
+
+/* Do all n pieces share their points, so that piece i goes from point i to i + 1? at[] rises. */
+static inline bool limited_chained(int n, int points, const int *at)
+{
+    return n > 0 && points == n + 1 && at[0] == 0 && at[n - 1] == n - 1;
+}
 
 /* T(c) = tanh(alpha c) / alpha, or T(c) = c when limiter is false. Absolute error of alpha mean below 2e-12, of alpha moment below 1e-9; with a
    bulge b that of alpha mean grows by 0.21 (alpha b)^2 up to 5.2e-5 at alpha |b| = 1/64, from where on it grows no more, that of alpha moment by

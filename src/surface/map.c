@@ -1,13 +1,9 @@
 /* Height maps as tensor-product cubic splines: C2, so that curvature in any direction is continuous. The coefficients are those of
-   surface/profile.c, along rows, then along columns. Weights of the four coefficients around a point at share f of its cell:
-
-     B    (1-f)^3/6,  2/3 - f^2 + f^3/2,  1/6 + f/2 + f^2/2 - f^3/2,  f^3/6
-     B'   -(1-f)^2/2, f (3f/2 - 2),  1/2 + f - 3f^2/2,  f^2/2             per pitch
-     B''  1-f,  3f-2,  1-3f,  f                                           per pitch^2 */
+   surface/profile.c, along rows, then along columns; they are read by surface/bicubic.c. */
 #include "surface/map.h"
 
-#include <math.h>
-
+#include "num/lanes.h"
+#include "surface/bicubic.h"
 #include "surface/profile.h"
 
 struct map {
@@ -17,63 +13,64 @@ struct map {
     double base, *c;   /* m; coefficients above base, so that a flat map is flat to the bit */
 };
 
-struct weights {
-    double b[4], d[4], dd[4]; /* value, first and second derivative, in units of the pitch */
-};
-
-static struct weights weights_at(double f)
+/* The 4 x 4 coefficients around a cell, in rows `stride` numbers apart: in the map, or at its edges gathered. */
+static const double *map_around(const struct map *m, long column, long row, double edge[16], long *stride)
 {
-    double g = 1 - f;
-    return (struct weights){.b = {g * g * g / 6, 2.0 / 3 - f * f * (1 - f / 2), 2.0 / 3 - g * g * (1 - g / 2), f * f * f / 6},
-                            .d = {-g * g / 2, f * (1.5 * f - 2), -g * (1.5 * g - 2), f * f / 2},
-                            .dd = {g, 3 * f - 2, 1 - 3 * f, f}};
+    if (column >= 1 && column + 2 < m->columns && row >= 1 && row + 2 < m->rows) {
+        *stride = m->columns;
+        return m->c + (row - 1) * m->columns + column - 1;
+    }
+    *stride = 4;
+    for (long j = 0; j < 4; j++)
+        for (long i = 0; i < 4; i++)
+            edge[4 * j + i] = m->c[profile_folded(row - 1 + j, m->rows, m->off_map) * m->columns + profile_folded(column - 1 + i, m->columns, m->off_map)];
+    return edge;
 }
 
-/* The 16 coefficients around a cell, [row][column]. */
-static void map_gather(const struct map *m, long column, long row, double c[4][4])
+LANES_CLONES
+static void places(const struct map *m, int n, const double *x, const double *y, double *p[2])
 {
-    bool inside = column >= 1 && column + 2 < m->columns && row >= 1 && row + 2 < m->rows;
-    for (int j = 0; j < 4; j++) {
-        long r = row - 1 + j;
-        const double *from = m->c + (inside ? r : profile_folded(r, m->rows, m->off_map)) * m->columns;
-        for (int i = 0; i < 4; i++) {
-            long k = column - 1 + i;
-            c[j][i] = from[inside ? k : profile_folded(k, m->columns, m->off_map)];
-        }
+    double *px = p[0], *py = p[1];
+    for (int i = 0; i < n; i++) {
+        px[i] = (x[i] - m->origin[0]) / m->pitch[0];
+        py[i] = (y[i] - m->origin[1]) / m->pitch[1];
     }
 }
 
-static double dot(const double a[4], const double b[4])
+LANES_CLONES
+static void values_put(int n, const double *from, double base, double *to)
 {
-    return ((a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]));
+    for (int i = 0; to && i < n; i++)
+        to[i] += base + from[i];
+}
+
+static void map_put(const struct map *m, const struct bicubic *b, const struct relief_values *v, size_t at)
+{
+    const double *from[6] = {b->z, b->x, b->y, b->xx, b->xy, b->yy};
+    double *to[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
+    for (int k = 0; k < 6; k++)
+        if (to[k])
+            values_put(b->n, from[k], k == 0 ? m->base : 0, to[k] + at);
 }
 
 static void map_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
 {
     const struct map *m = part->state;
-    double hx = m->pitch[0], hy = m->pitch[1];
-    for (size_t n = 0; n < p->n; n++) {
-        double qx = (p->x[n] - m->origin[0]) / hx, qy = (p->y[n] - m->origin[1]) / hy, i = floor(qx), j = floor(qy);
-        double c[4][4], b[4], d[4], dd[4];
-        struct weights x = weights_at(qx - i), y = weights_at(qy - j);
-        map_gather(m, (long)i, (long)j, c);
-        for (int k = 0; k < 4; k++) {
-            b[k] = dot(x.b, c[k]);
-            d[k] = dot(x.d, c[k]);
-            dd[k] = dot(x.dd, c[k]);
+    struct bicubic b;
+    double px[BICUBIC_POINTS], py[BICUBIC_POINTS];
+    for (size_t at = 0; at < p->n; at += BICUBIC_POINTS) {
+        int n = p->n - at < BICUBIC_POINTS ? (int)(p->n - at) : BICUBIC_POINTS;
+        places(m, n, p->x + at, p->y + at, (double *[2]){px, py});
+        bicubic_cells(&b, n, px, py);
+        for (int i = 0, end; i < n; i = end) {
+            double edge[16];
+            long stride;
+            const double *from = map_around(m, (long)b.column[i], (long)b.row[i], edge, &stride);
+            end = bicubic_run(&b, i);
+            bicubic_put(&b, i, end, from, stride);
         }
-        if (v->z)
-            v->z[n] += m->base + dot(y.b, b);
-        if (v->x)
-            v->x[n] += dot(y.b, d) / hx;
-        if (v->y)
-            v->y[n] += dot(y.d, b) / hy;
-        if (v->xx)
-            v->xx[n] += dot(y.b, dd) / (hx * hx);
-        if (v->xy)
-            v->xy[n] += dot(y.d, d) / (hx * hy);
-        if (v->yy)
-            v->yy[n] += dot(y.dd, b) / (hy * hy);
+        bicubic_sum(&b, 1 / m->pitch[0], 1 / m->pitch[1], v);
+        map_put(m, &b, v, at);
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <string.h>
 
 #include "num/lanes.h"
 #include "scene/scene.h"
@@ -31,8 +32,16 @@ long profile_folded(long i, long n, int off_map)
 static void sampled_read(struct profile *p, long first, long n, double *c)
 {
     const struct sampled *s = p->state;
-    for (long i = 0; i < n; i++)
-        c[i] = s->c[first + i >= 0 && first + i < s->n ? first + i : profile_folded(first + i, s->n, s->off_map)];
+    if (first >= 0 && first + n <= s->n) {
+        memcpy(c, s->c + first, (size_t)n * sizeof *c);
+        return;
+    }
+    long period = s->off_map == OFF_MAP_WRAP ? s->n : 2 * s->n - 2, at = first % period - 1;
+    at = at < -1 ? at + period : at;
+    for (long i = 0; i < n; i++) { /* as profile_folded(first + i), without a division each */
+        at = at + 1 < period ? at + 1 : 0;
+        c[i] = s->c[at < s->n ? at : period - at];
+    }
 }
 
 enum { SPLINE_REACH = 64 };
@@ -76,13 +85,17 @@ struct window {
     double c[WINDOW];
 };
 
+static void window_fetch(struct window *w, long first)
+{
+    w->first = first;
+    w->profile->read(w->profile, first, WINDOW, w->c);
+}
+
 /* Coefficients cell - 1 .. cell + 2; more of them are fetched ahead of the motion than behind it. */
 static const double *window_at(struct window *w, long cell)
 {
-    if (w->first == LONG_MIN || cell - 1 < w->first || cell + 2 >= w->first + WINDOW) {
-        w->first = w->first == LONG_MIN || cell > w->first ? cell - 9 : cell + 10 - WINDOW;
-        w->profile->read(w->profile, w->first, WINDOW, w->c);
-    }
+    if (w->first == LONG_MIN || cell - 1 < w->first || cell + 2 >= w->first + WINDOW)
+        window_fetch(w, w->first == LONG_MIN || cell > w->first ? cell - 9 : cell + 10 - WINDOW);
     return w->c + (cell - 1 - w->first);
 }
 
@@ -164,14 +177,17 @@ static void batch_bend(const struct batch *b, const double *c, double *xx)
     }
 }
 
-/* Does the window now hold all cells of the batch? */
+/* Does the window now hold all cells of the batch, and more on the way on than behind it? */
 static bool window_holds(struct window *w, const struct batch *b)
 {
     if (!(b->highest - b->lowest < WINDOW / 2))
         return false;
-    window_at(w, (long)b->lowest);
-    window_at(w, (long)b->highest);
-    return (long)b->lowest - 1 >= w->first;
+    long low = (long)b->lowest, high = (long)b->highest;
+    if (w->first == LONG_MIN || high + 2 >= w->first + WINDOW)
+        window_fetch(w, low - 9);
+    else if (low - 1 < w->first)
+        window_fetch(w, high + 10 - WINDOW);
+    return true;
 }
 
 static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)

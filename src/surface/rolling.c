@@ -8,7 +8,7 @@
 
    Errors, beside those of E. A kink of the envelope by J in slope is J g(x) in curvature after the Gaussian g; on the
    lattice it is off by h^2/12 J g'', at most 1/192 of its peak, and the spline's curvature by (h k)^2/12 for a spatial frequency k (rad/m):
-   1/192 where k patch = 1. These two together stay within 1 % of the largest curvature. Measured for the pitch d of heights on roughness of k^-2.4, 5 um rms,
+   1/192 where k patch = 1. These two together stay within 1 % of the largest curvature. Measured in the plane for the pitch d of heights on roughness of k^-2.4, 5 um rms,
    down to 20 um, R = 1 mm, patch 20 um: curvature off by 3.0, 0.6, 0.06 % (rms) at d = 1, 1/2, 1/4 of the surface's finest scale. */
 #include "surface/rolling.h"
 

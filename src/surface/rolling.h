@@ -3,7 +3,7 @@
 #ifndef SURFACE_ROLLING_H
 #define SURFACE_ROLLING_H
 #include "base/arena.h"
-#include "surface/crest.h"
+#include "surface/crest_part.h"
 #include "surface/relief.h"
 
 struct rolling_plan {
@@ -11,6 +11,7 @@ struct rolling_plan {
     double reach;           /* m: heights further from the ball's centre than this are not looked at; <= radius */
     int finer;              /* in the plane heights are read at patch / 4 / finer                              */
     double pitch;           /* m: in one coordinate, at its multiples                                          */
+    bool points;            /* in one coordinate: the surface has kinks, and only its heights there count      */
     double span;            /* m between the greatest and least height that reach was made for; HUGE_VAL: any  */
     void (*exceeded)(void *); /* called once when the heights read span more; may be NULL                      */
     void *self;

@@ -22,8 +22,16 @@
    6e-5 of that at the edge at exponent 0, 1.2e-4 at -2.4, 1e-3 at -5 (a profile, surface/blocks.h, has nothing there). The window's own leak is less, but for
    4e-5 just above the edge; it would be four times that with a corner at its ends.
 
-   Each band keeps a patch of PATCH x PATCH coefficients about where it was read last, placed ahead in the direction of travel. A
-   coefficient is the same sum in the same order whatever patch it is part of, so that places can be read in any order. */
+   Bands are read as one: a spline of pitch 2 h is one of pitch h too, with the coefficients
+
+     c'(2 m) = (c(m - 1) + 6 c(m) + c(m + 1)) / 8,   c'(2 m + 1) = (c(m) + c(m + 1)) / 2   (in either direction; de Boor 1978, ch. XI)
+
+   so that to the coefficients of each band those of all coarser ones are added, from the coarsest on, and only the finest lattice is read. Each band keeps a
+   patch of PATCH x PATCH such sums about where it was read last, placed ahead in the direction of travel. A coefficient is the same sum in the same order
+   whatever patch it is part of, so that places can be read in any order.
+
+   Measured of 8 bands: a scrape along a line takes 2.3 times less than with every band read by itself, point by point. What is left is half the blocks'
+   coefficients, which come from the tiles' memory. Patches of 12 or 16 are no quicker. */
 #include "surface/tiles.h"
 
 #include <limits.h>
@@ -32,11 +40,10 @@
 #include "num/fft_plane.h"
 #include "num/lanes.h"
 #include "num/real.h"
+#include "surface/bicubic.h"
 #include "surface/tile.h"
 
-enum { N = TILE_SIDE, HALF = N / 2, PATCH = TILE_EXTRA, KEPT = 8, CHUNK = 64 };
-
-#define INLINE static inline __attribute__((always_inline))
+enum { N = TILE_SIDE, HALF = N / 2, PATCH = TILE_EXTRA, UNDER = PATCH / 2 + 2, KEPT = 8, OVER = 9, CHUNK = BICUBIC_POINTS };
 
 struct block {              /* how a block reads the tile */
     long bx, by;
@@ -50,8 +57,8 @@ struct band {
     double *tile;           /* [N][TILE_ROW]: surface/tile.h */
     struct noise stream;
     struct block blocks[KEPT * KEPT];
-    long x0, y0;            /* of the patch; x0 = LONG_MIN: none */
-    double c[PATCH][PATCH];
+    long x0, y0;            /* of the patch, both even; x0 = LONG_MIN: none */
+    double c[PATCH][PATCH]; /* of this band and all coarser ones */
 };
 
 struct tiles {
@@ -61,7 +68,7 @@ struct tiles {
     struct band bands[TILE_BANDS];
 };
 
-/* ------------------------------------------------------------------ coefficients */
+/* ------------------------------------------------------------------ a band's own coefficients */
 
 static const struct block *block_at(struct band *b, long bx, long by)
 {
@@ -75,187 +82,152 @@ static const struct block *block_at(struct band *b, long bx, long by)
     return k;
 }
 
-/* Adds a block's rows [y, y1) and columns [x, x1), counted in the patch. */
-LANES_CLONES
-static void block_add(struct band *b, const double *window, const struct block *k, const long box[4])
-{
-    long left = b->x0 - k->bx * HALF, below = b->y0 - k->by * HALF; /* the patch's corner, in the block */
-    for (long y = box[2]; y < box[3]; y++) {
-        long row = (k->at_y + below + y) & (N - 1), column = (k->at_x + left + box[0]) & (N - 1);
-        const double *t = b->tile + row * TILE_ROW + column, *w = window + left + box[0];
-        double factor = k->sign * window[below + y], *c = b->c[y] + box[0];
-#pragma omp simd
-        for (long x = 0; x < box[1] - box[0]; x++)
-            c[x] += factor * (w[x] * t[x]);
-    }
-}
-
 static long block_of(long i)
 {
     return i >= 0 ? i / HALF : -((-i + HALF - 1) / HALF);
 }
 
-static long least(long a, long b)
+static inline long least(long a, long b)
 {
     return a < b ? a : b;
 }
 
-static long most(long a, long b)
+static inline long most(long a, long b)
 {
     return a > b ? a : b;
 }
 
-static void patch_fill(struct band *b, const double *window, long x0, long y0)
+/* The sum of the blocks over the patch. */
+LANES_CLONES
+static void blocks_sum(struct band *b, const double *window, int n, const struct block *const *blocks)
 {
-    b->x0 = x0;
-    b->y0 = y0;
     memset(b->c, 0, sizeof b->c);
-    for (long by = block_of(y0) - 1; by <= block_of(y0 + PATCH - 1); by++)
-        for (long bx = block_of(x0) - 1; bx <= block_of(x0 + PATCH - 1); bx++) {
-            long x = bx * HALF - x0, y = by * HALF - y0;
-            long box[4] = {most(x, 0), least(x + N, PATCH), most(y, 0), least(y + N, PATCH)};
-            block_add(b, window, block_at(b, bx, by), box);
+    for (int i = 0; i < n; i++) {
+        const struct block *k = blocks[i];
+        long left = b->x0 - k->bx * HALF, below = b->y0 - k->by * HALF; /* the patch's corner, in the block */
+        long x0 = most(-left, 0), y0 = most(-below, 0), x1 = least(N - left, PATCH), y1 = least(N - below, PATCH);
+        long column = (k->at_x + left + x0) & (N - 1);
+        const double *w = window + left + x0;
+        for (long y = y0; y < y1; y++) {
+            const double *t = b->tile + ((k->at_y + below + y) & (N - 1)) * TILE_ROW + column;
+            double factor = k->sign * window[below + y], *c = b->c[y] + x0;
+#pragma omp simd
+            for (long x = 0; x < x1 - x0; x++)
+                c[x] += factor * (w[x] * t[x]);
         }
+    }
 }
 
-/* Where a patch begins so that cells i - 1 .. i + 2 lie in it, with room ahead when it left the old one at `from`. */
-static long patch_start(long i, long from)
+static void patch_fill(struct band *b, const double *window)
 {
-    if (i - 1 >= from && i + 2 < from + PATCH)
-        return i - 1 - (PATCH - 4) / 2;
-    return i - 1 < from ? i + 3 - PATCH : i - 1;
+    const struct block *blocks[OVER];
+    int n = 0;
+    for (long by = block_of(b->y0) - 1; by <= block_of(b->y0 + PATCH - 1); by++)
+        for (long bx = block_of(b->x0) - 1; bx <= block_of(b->x0 + PATCH - 1); bx++)
+            blocks[n++] = block_at(b, bx, by);
+    blocks_sum(b, window, n, blocks);
 }
 
-static void patch_hold(struct band *b, const double *window, long i, long j)
+/* ------------------------------------------------------------------ and those of all coarser bands */
+
+/* Adds the coarser band's patch to that of b, which it holds. */
+LANES_CLONES
+static void patch_refine(const struct band *coarse, struct band *b)
 {
-    if (b->x0 != LONG_MIN && i - 1 >= b->x0 && i + 2 < b->x0 + PATCH && j - 1 >= b->y0 && j + 2 < b->y0 + PATCH)
-        return;
+    double fine[PATCH][PATCH];
+    long left = b->x0 / 2 - 1 - coarse->x0, below = b->y0 / 2 - 1 - coarse->y0;
+    for (int m = 0; m < PATCH / 2; m++) {
+        const double *p = coarse->c[below + m], *q = p + PATCH, *r = q + PATCH;
+#pragma omp simd
+        for (int x = 0; x < PATCH; x++) {
+            fine[2 * m][x] = 0.125 * (p[x] + r[x]) + 0.75 * q[x];
+            fine[2 * m + 1][x] = 0.5 * (q[x] + r[x]);
+        }
+    }
+    for (int y = 0; y < PATCH; y++) {
+        const double *p = fine[y] + left;
+#pragma omp simd
+        for (int m = 0; m < PATCH / 2; m++) {
+            b->c[y][2 * m] += 0.125 * (p[m] + p[m + 2]) + 0.75 * p[m + 1];
+            b->c[y][2 * m + 1] += 0.5 * (p[m + 1] + p[m + 2]);
+        }
+    }
+}
+
+/* Where a patch begins, an even number, so that coefficients i .. i + wide - 1 lie in it, with room ahead when they left the old one at `from`. */
+static long patch_start(long i, long wide, long from, bool none)
+{
+    if (none || (i >= from && i + wide <= from + PATCH))
+        return (i - (PATCH - wide) / 2 + 1) & ~1L;
+    return i < from ? (i + wide - PATCH + 1) & ~1L : i & ~1L;
+}
+
+/* Makes band k hold coefficients from (i, j) on, `wide` in both directions. */
+static void patch_hold(struct tiles *t, int k, long i, long j, long wide)
+{
+    struct band *b = &t->bands[k];
     bool none = b->x0 == LONG_MIN;
-    patch_fill(b, window, patch_start(i, none ? i - 3 : b->x0), patch_start(j, none ? j - 3 : b->y0));
+    if (!none && i >= b->x0 && i + wide <= b->x0 + PATCH && j >= b->y0 && j + wide <= b->y0 + PATCH)
+        return;
+    b->x0 = patch_start(i, wide, b->x0, none);
+    b->y0 = patch_start(j, wide, b->y0, none);
+    patch_fill(b, t->window);
+    if (k + 1 == t->n_bands)
+        return;
+    patch_hold(t, k + 1, b->x0 / 2 - 1, b->y0 / 2 - 1, UNDER);
+    patch_refine(&t->bands[k + 1], b);
 }
 
 /* ------------------------------------------------------------------ values */
 
-struct sums {              /* z and derivatives in xi and eta, of a chunk */
-    double z[CHUNK], x[CHUNK], y[CHUNK], xx[CHUNK], xy[CHUNK], yy[CHUNK];
-};
-
-struct gathered {           /* a chunk's places in their cells, and the 4 x 4 coefficients about each */
-    double f[CHUNK], g[CHUNK], c[16][CHUNK];
-};
-
-INLINE long cell_of(double p)
-{
-    long cell = (long)p;
-    return cell - (p < (double)cell);
-}
-
-static void band_gather(struct band *b, const double *window, size_t n, const double *place[2], struct gathered *c)
-{
-    double u = 1 / b->pitch;
-    for (size_t i = 0; i < n; i++) {
-        double p = place[0][i] * u, q = place[1][i] * u;
-        long column = cell_of(p), row = cell_of(q);
-        patch_hold(b, window, column, row);
-        const double *at = &b->c[row - 1 - b->y0][column - 1 - b->x0];
-        c->f[i] = p - (double)column;
-        c->g[i] = q - (double)row;
-        for (int j = 0; j < 4; j++)
-            for (int k = 0; k < 4; k++)
-                c->c[4 * j + k][i] = at[j * PATCH + k];
-    }
-}
-
-/* Four numbers by name: in arrays, gcc would not vectorise the loop below. */
-struct four {
-    double a, b, c, d;
-};
-
-INLINE double dot(struct four u, struct four v)
-{
-    return (u.a * v.a + u.b * v.b) + (u.c * v.c + u.d * v.d);
-}
-
-/* The four B-splines over a cell, their first and second derivatives, at f in [0, 1), g = 1 - f. */
-INLINE struct four basis(double f, double g)
-{
-    return (struct four){g * g * g / 6, 2.0 / 3 - f * f + 0.5 * f * f * f, 2.0 / 3 - g * g + 0.5 * g * g * g, f * f * f / 6};
-}
-
-INLINE struct four basis_slope(double f, double g)
-{
-    return (struct four){-0.5 * g * g, -2 * f + 1.5 * f * f, 2 * g - 1.5 * g * g, 0.5 * f * f};
-}
-
-INLINE struct four basis_bend(double f, double g)
-{
-    return (struct four){g, -2 + 3 * f, -2 + 3 * g, f};
-}
-
-INLINE struct four columns(struct four by, const double c[16][CHUNK], size_t i)
-{
-    return (struct four){dot(by, (struct four){c[0][i], c[4][i], c[8][i], c[12][i]}), dot(by, (struct four){c[1][i], c[5][i], c[9][i], c[13][i]}),
-                         dot(by, (struct four){c[2][i], c[6][i], c[10][i], c[14][i]}),
-                         dot(by, (struct four){c[3][i], c[7][i], c[11][i], c[15][i]})};
-}
-
-/* Adds sum of c[j][k] B(f - k) B(g - j) and its derivatives; u = 1/pitch. n points, a multiple of LANES. */
-LANES_CLONES
-static void band_sum(size_t n, const struct gathered *c, double u, struct sums *s)
-{
-    double uu = u * u;
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double f = c->f[i], g = c->g[i];
-        struct four b = basis(f, 1 - f), slope = basis_slope(f, 1 - f), bend = basis_bend(f, 1 - f);
-        struct four flat = columns(basis(g, 1 - g), c->c, i), rise = columns(basis_slope(g, 1 - g), c->c, i);
-        s->z[i] += dot(flat, b);
-        s->x[i] += u * dot(flat, slope);
-        s->xx[i] += uu * dot(flat, bend);
-        s->y[i] += u * dot(rise, b);
-        s->xy[i] += uu * dot(rise, slope);
-        s->yy[i] += uu * dot(columns(basis_bend(g, 1 - g), c->c, i), b);
-    }
-}
-
 /* Derivatives in xi and eta turned into those in x and y, and added: xi = a x + b y, eta = c x + d y. */
-static void chain_add(const struct tiles *t, size_t n, const struct sums *s, const struct relief_values *v, size_t at)
+LANES_CLONES
+static void chain_add(const struct tiles *t, int n, const struct bicubic *s, const struct relief_values *v, size_t at)
 {
     double a = t->shrink * t->cos_d, b = t->shrink * t->sin_d, c = -t->sin_d, d = t->cos_d;
-    for (size_t i = 0; i < n; i++) {
-        if (v->z)
-            v->z[at + i] += s->z[i];
-        if (v->x)
-            v->x[at + i] += a * s->x[i] + c * s->y[i];
-        if (v->y)
-            v->y[at + i] += b * s->x[i] + d * s->y[i];
-        if (v->xx)
-            v->xx[at + i] += a * a * s->xx[i] + 2 * a * c * s->xy[i] + c * c * s->yy[i];
-        if (v->xy)
-            v->xy[at + i] += a * b * s->xx[i] + (a * d + b * c) * s->xy[i] + c * d * s->yy[i];
-        if (v->yy)
-            v->yy[at + i] += b * b * s->xx[i] + 2 * b * d * s->xy[i] + d * d * s->yy[i];
+    for (int i = 0; v->z && i < n; i++)
+        v->z[at + i] += s->z[i];
+    for (int i = 0; v->x && i < n; i++)
+        v->x[at + i] += a * s->x[i] + c * s->y[i];
+    for (int i = 0; v->y && i < n; i++)
+        v->y[at + i] += b * s->x[i] + d * s->y[i];
+    for (int i = 0; v->xx && i < n; i++)
+        v->xx[at + i] += a * a * s->xx[i] + 2 * a * c * s->xy[i] + c * c * s->yy[i];
+    for (int i = 0; v->xy && i < n; i++)
+        v->xy[at + i] += a * b * s->xx[i] + (a * d + b * c) * s->xy[i] + c * d * s->yy[i];
+    for (int i = 0; v->yy && i < n; i++)
+        v->yy[at + i] += b * b * s->xx[i] + 2 * b * d * s->xy[i] + d * d * s->yy[i];
+}
+
+/* Places along and across the grain, in pitches of the finest band. */
+LANES_CLONES
+static void places(const struct tiles *t, int n, const double *x, const double *y, double *p[2])
+{
+    double u = 1 / t->bands[0].pitch, a = t->cos_d, b = t->sin_d, shrink = t->shrink, *xi = p[0], *eta = p[1];
+    for (int i = 0; i < n; i++) {
+        xi[i] = shrink * (a * x[i] + b * y[i]) * u;
+        eta[i] = (a * y[i] - b * x[i]) * u;
     }
 }
 
 static void tiles_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
 {
+    static const double zeros[CHUNK] = {0};
     struct tiles *t = part->state;
-    double xi[CHUNK], eta[CHUNK];
-    struct gathered c = {{0}, {0}, {{0}}};
+    struct bicubic c;
+    double xi[CHUNK], eta[CHUNK], u = 1 / t->bands[0].pitch;
     for (size_t at = 0; at < p->n; at += CHUNK) {
-        size_t n = p->n - at < CHUNK ? p->n - at : CHUNK;
-        struct sums s = {{0}, {0}, {0}, {0}, {0}, {0}};
-        for (size_t i = 0; i < n; i++) {
-            double x = p->x[at + i], y = p->y ? p->y[at + i] : 0;
-            xi[i] = t->shrink * (t->cos_d * x + t->sin_d * y);
-            eta[i] = t->cos_d * y - t->sin_d * x;
+        int n = p->n - at < CHUNK ? (int)(p->n - at) : CHUNK;
+        places(t, n, p->x + at, p->y ? p->y + at : zeros, (double *[2]){xi, eta});
+        bicubic_cells(&c, n, xi, eta);
+        for (int i = 0, end; i < n; i = end) {
+            long column = (long)c.column[i] - 1, row = (long)c.row[i] - 1;
+            end = bicubic_run(&c, i);
+            patch_hold(t, 0, column, row, 4);
+            bicubic_put(&c, i, end, &t->bands[0].c[row - t->bands[0].y0][column - t->bands[0].x0], PATCH);
         }
-        for (int b = 0; b < t->n_bands; b++) {
-            band_gather(&t->bands[b], t->window, n, (const double *[2]){xi, eta}, &c);
-            band_sum((n + LANES - 1) / LANES * LANES, &c, 1 / t->bands[b].pitch, &s);
-        }
-        chain_add(t, n, &s, v, at);
+        bicubic_sum(&c, u, u, v);
+        chain_add(t, n, &c, v, at);
     }
 }
 

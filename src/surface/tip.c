@@ -10,11 +10,13 @@
    Departures. Along a path (or x) the surface is extruded and the ball a disc. The ball looks beyond the edge of a map, up to R, by
    surface.off_map; for `error` as `mirror` does.
 
-   Heights are taken every patch / 4 or half the surface's finest scale, whichever is less, twice as densely in one coordinate, where it
-   costs little, and accuracy.tip_heights times as densely in all; each doubling brings the force some 10 dB nearer (from 37 to 47 and 60 dB
-   for a patch of 20 um on ridges, tests/unit/test_tip_accuracy.c). Where E is read between the heights (a patch of 0, a surface with kinks),
-   it dips by d^2 / (8 R) between two of them, d apart, even on level ground: d is then so small that this is a thousandth of the span H of
-   heights, and, of a surface with kinks, a whole share of their pitch, so that they are met.
+   In one coordinate smooth ground is read as polynomials of fifth degree between places (surface/crest_piece.c), and E is the ball's exact way over these. Of
+   cubic splines (measured profiles, fractal ground) the places are the knots, and nothing is lost; else they lie as far apart as the surface's finest
+   scale, accuracy.tip_heights times as densely: the force under a marble on wood is then off by -99 dB, and by -137 dB where it is 2. A surface with
+   kinks is read by its heights alone: E then dips by d^2 / (8 R) between two of them, d apart, even on level ground; d is so small that this is a
+   thousandth of the span H of heights, and a whole share of the kinks' pitch, so that they are met.
+   In the plane heights are taken every patch / 4 or half the surface's finest scale, whichever is less, and accuracy.tip_heights times as densely; each
+   doubling brings the force some 10 dB nearer (from 37 to 47 and 60 dB for a patch of 20 um on ridges, tests/unit/test_tip_accuracy.c).
 
    Heights are read as far as R; in the plane, where that would be most of the work, and in one coordinate where it is more than 65 536 of
    them, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For H, 16 384 places in the box of the motion
@@ -95,21 +97,33 @@ static void tip_exceeded(void *self)
                                       "peak at the edge of its reach", r->contact->name));
 }
 
-/* Heights no further than this from each other, m. */
+/* The ground is read no further apart than this, m. */
 static double tip_wanted_pitch(const struct stage_run *r, const struct relief *under)
 {
     double patch = r->contact->scraper.patch, finest = relief_finest(under) / 2, coarse = patch > 0 ? patch / ROLLING_PER_PATCH : finest;
-    return fmin(coarse, finest) / (under->along == ALONG_PLANE ? 1 : 2) / r->scene->accuracy.tip_heights;
+    bool smooth = under->along != ALONG_PLANE && relief_kinks(under) == 0 && isfinite(finest);
+    return (smooth ? 2 * finest : fmin(coarse, finest)) / r->scene->accuracy.tip_heights;
 }
 
-/* In one coordinate: on the lattice of E (multiples of coarse / finer) where E is read there alone, else as the dip and the kinks ask for. */
+/* m: the pitch of a lattice through 0 on which all knots of a surface of cubic splines lie; 0: it is none, or they lie on no such lattice. */
+static double tip_knots(const struct relief *under)
+{
+    double knots = HUGE_VAL;
+    for (const struct relief_part *p = under->first; p; p = p->next)
+        knots = p->linear && p->pitch[0] > 0 ? fmin(knots, p->pitch[0]) : 0;
+    for (const struct relief_part *p = under->first; p && knots > 0; p = p->next)
+        if (fabs(remainder(p->pitch[0], knots)) > 1e-12 * p->pitch[0] || fabs(remainder(p->origin[0], knots)) > 1e-9 * knots)
+            return 0;
+    return isfinite(knots) ? knots : 0;
+}
+
+/* In one coordinate. Of splines at their knots, which is exact; of what has kinks as the dip and these ask for. */
 static double tip_pitch(const struct stage_run *r, const struct relief *under, const struct rolling_plan *p, double scouted)
 {
     double kinks = relief_kinks(under), dip = scouted > 0 ? sqrt(8 * p->radius * DIP * scouted) / r->scene->accuracy.tip_heights : HUGE_VAL;
-    double most = fmin(fmin(tip_wanted_pitch(r, under), dip), p->radius);
-    if (p->patch > 0 && kinks == 0)
-        return p->patch / ROLLING_PER_PATCH / p->finer;
-    return kinks > 0 ? kinks / ceil(kinks / most * (1 - 1e-12)) : most;
+    double knots = kinks > 0 ? kinks : tip_knots(under), most = knots > 0 && kinks == 0 ? p->radius : fmin(tip_wanted_pitch(r, under), p->radius);
+    most = kinks > 0 ? fmin(most / 2, dip) : most;
+    return knots > 0 ? knots / ceil(knots / most * (1 - 1e-12)) : most;
 }
 
 static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *under)
@@ -122,7 +136,7 @@ static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *un
     bool look = plane || s->patch == 0 || relief_kinks(under) > 0 || s->radius > REACH_ALL * wanted / 2;
     double scouted = look ? tip_scouted(under, tr, beyond) : 0, map = tip_map_span(r->board->height_map);
     struct rolling_plan p = {.radius = s->radius, .patch = s->patch, .reach = s->radius, .span = HUGE_VAL, .exceeded = tip_exceeded, .self = r,
-                             .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
+                             .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1, .points = relief_kinks(under) > 0};
     p.pitch = plane ? p.patch / ROLLING_PER_PATCH / p.finer : tip_pitch(r, under, &p, scouted);
     if (!plane && p.reach / p.pitch <= REACH_ALL)
         return p;
@@ -136,7 +150,7 @@ static bool tip_affordable(const struct stage_run *r, const struct rolling_plan 
     bool plane = under->along == ALONG_PLANE, fine = !(relief_finest(under) / 2 >= p->patch / ROLLING_PER_PATCH && p->patch > 0);
     struct crest_plan crest = crests_line(p);
     const char *tool = ball_tool(r->contact);
-    long side = plane ? crests_side(p) : crest_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
+    long side = plane ? crests_side(p) : crest_part_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
     if (side <= most)
         return true;
     return err_set(e, ERR_SCENE,

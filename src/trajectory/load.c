@@ -55,7 +55,7 @@ static bool lobes_press(const struct contact *c)
 
 bool load_varies(const struct contact *c)
 {
-    return c->grip.given || c->load.recorded || (c->contact.model == CONTACT_ROLL && (c->ball.offset > 0 || lobes_press(c)));
+    return !ablation_steady(c) && (c->grip.given || c->load.recorded || (c->contact.model == CONTACT_ROLL && (c->ball.offset > 0 || lobes_press(c))));
 }
 
 static double record_at(const struct load_record *r, size_t *piece, double t)
@@ -69,10 +69,15 @@ static double record_at(const struct load_record *r, size_t *piece, double t)
     return out[0];
 }
 
+static bool load_held(const struct load_law *l)
+{
+    return l->per_acceleration[0] != 0 || l->per_acceleration[1] != 0;
+}
+
 void load_at(const struct load_law *l, size_t n, const double *t, const double *ax, const double *ay, double *force)
 {
     size_t piece = 0;
-    bool held = l->per_acceleration[0] != 0 || l->per_acceleration[1] != 0;
+    bool held = load_held(l);
     for (size_t i = 0; i < n; i++)
         force[i] = l->record ? record_at(l->record, &piece, t[i]) : l->still;
     for (size_t i = 0; held && i < n; i++)
@@ -103,14 +108,21 @@ static void load_moved(const struct load_law *l, const struct trajectory *tr, si
         load_turned(l, n, a, b, c, force);
         return;
     }
-    trajectory_at(tr, n, t, (struct trajectory_out){.ax = a, .ay = b});
+    if (load_held(l))
+        trajectory_at(tr, n, t, (struct trajectory_out){.ax = a, .ay = b});
     load_at(l, n, t, a, b, force);
+}
+
+void load_along(const struct load_law *l, const struct trajectory *tr, size_t n, const double *t, double *force)
+{
+    for (size_t first = 0; first < n; first += LOAD_SOME)
+        load_moved(l, tr, n - first < LOAD_SOME ? n - first : LOAD_SOME, t + first, force + first);
 }
 
 double load_of(const struct load_law *l, const struct trajectory *tr, double t)
 {
     double n;
-    load_moved(l, tr, 1, &t, &n);
+    load_along(l, tr, 1, &t, &n);
     return n;
 }
 
@@ -183,8 +195,7 @@ struct load_scan {
 static void load_scan_at(const void *self, size_t n, const double *t, double *y)
 {
     const struct load_scan *s = self;
-    for (size_t first = 0; first < n; first += LOAD_SOME)
-        load_moved(s->law, s->tr, n - first < LOAD_SOME ? n - first : LOAD_SOME, t + first, y + first);
+    load_along(s->law, s->tr, n, t, y);
 }
 
 /* Instants that show each turn of a ball on its own, and each lobe of its rim. x = R theta - r sin theta goes through the lowest place of its centre of mass within about
@@ -211,16 +222,17 @@ bool load_make(const struct contact *c, const struct trajectory *tr, struct aren
 {
     double n = rules_load(c);
     *l = (struct load_law){.still = n, .least = n, .most = n};
-    if (load_varies(c) && !c->grip.given && !c->load.recorded) {
+    bool varies = load_varies(c);
+    if (varies && !c->grip.given && !c->load.recorded) {
         l->spin = spin_make(c);
         l->spin.lobe_height = lobes_press(c) ? l->spin.lobe_height : 0;
         l->turned = c->scraper.mass;
     }
-    if (c->grip.given ? !load_grip(c, l, e) : c->load.recorded && !load_recorded(c, tr, a, l, e))
+    if (varies && c->grip.given ? !load_grip(c, l, e) : varies && c->load.recorded && !load_recorded(c, tr, a, l, e))
         return false;
     if (!load_ends(c, tr, l, e))
         return false;
-    if (load_varies(c))
+    if (varies)
         load_range(l, tr);
     return true;
 }

@@ -28,7 +28,7 @@ struct load_law {
 bool load_make(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e);
 
 /* Does the load of this contact vary over time by grip or record, or as a ball turns whose centre of mass is off its centre or whose rim has lobes
-   (model roll; roll_coupled has its own dynamics)? (Approach and release alone do not count.) */
+   (model roll; roll_coupled has its own dynamics)? (Approach and release alone do not count; with ablation.normal_force: constant nothing does.) */
 bool load_varies(const struct contact *c);
 
 /* Normal force in N at n instants, from accelerations ax, ay (m/s^2; read only by a grip, t only by a recorded force: else may be NULL);
@@ -38,7 +38,8 @@ void load_at(const struct load_law *l, size_t n, const double *t, const double *
 /* The normal force in N of a ball that turns (l->turned > 0) at n instants, from u, du, ddu of its motion (m, m/s, m/s^2); negative: lifted off. */
 void load_turned(const struct load_law *l, size_t n, const double *u, const double *du, const double *ddu, double *force);
 
-/* The normal force from the motion itself, at one instant. */
+/* The normal force from the motion itself, at n instants, and at one. */
+void load_along(const struct load_law *l, const struct trajectory *tr, size_t n, const double *t, double *force);
 double load_of(const struct load_law *l, const struct trajectory *tr, double t);
 
 /* The share, 0 to 1, to which the scraper is lowered at time t: a minimum-jerk step (C2) over approach and release, else 1. */

@@ -17,7 +17,7 @@ static unsigned stage_asks(const struct contact *c, const struct scene *s)
     if (!c->grip.given && !c->load.recorded)
         return ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION);
     if (!c->grip.given)
-        return ITEM_BIT(ITEM_POSITION); /* the motion must be there, for its duration */
+        return ITEM_BIT(ITEM_MOTION); /* its duration */
     return rules_straight(&c->motion) ? ITEM_BIT(ITEM_ACCELERATION) : ITEM_BIT(ITEM_AX) | ITEM_BIT(ITEM_AY);
 }
 

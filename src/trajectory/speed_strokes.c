@@ -91,15 +91,22 @@ static void stroke_uneven(const struct strokes *s, struct strokes_at *a, const d
     }
 }
 
+LANES_CLONES
+static void shape_harmonic(size_t n, double *restrict p, double *restrict dp, double *restrict ddp)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        p[i] = (1 - ddp[i]) / 2;
+        dp[i] *= REAL_PI / 2;
+        ddp[i] *= REAL_PI * REAL_PI / 2;
+    }
+}
+
 static void stroke_shape(int law, size_t n, const double *q, double *p, double *dp, double *ddp)
 {
     if (law == SPEED_HARMONIC) {
         vecmath_sincospi(n, q, dp, ddp);
-        for (size_t i = 0; i < n; i++) {
-            p[i] = (1 - ddp[i]) / 2;
-            dp[i] *= REAL_PI / 2;
-            ddp[i] *= REAL_PI * REAL_PI / 2;
-        }
+        shape_harmonic(n, p, dp, ddp);
     } else if (law == SPEED_MINIMUM_JERK) {
         for (size_t i = 0; i < n; i++) {
             double x = q[i];

@@ -10,6 +10,7 @@
 
 #include <math.h>
 
+#include "num/lanes.h"
 #include "num/noise.h"
 #include "trajectory/trajectory_state.h"
 
@@ -95,13 +96,20 @@ static void at_any(const struct trajectory *tr, size_t n, const double *t, const
         at_curve(tr, n, t, out);
 }
 
+LANES_CLONES
+static void at_inside(double duration, size_t n, const double *t, double *inside)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        inside[i] = lanes_select(t[i] < 0, 0, lanes_select(t[i] > duration, duration, t[i]));
+}
+
 void trajectory_at(const struct trajectory *tr, size_t n, const double *t, struct trajectory_out out)
 {
     double inside[TRAJECTORY_CHUNK];
     for (size_t first = 0; first < n; first += TRAJECTORY_CHUNK) {
         size_t some = n - first < TRAJECTORY_CHUNK ? n - first : TRAJECTORY_CHUNK;
-        for (size_t i = 0; i < some; i++)
-            inside[i] = t[first + i] < 0 ? 0 : t[first + i] > tr->duration ? tr->duration : t[first + i];
+        at_inside(tr->duration, some, t + first, inside);
         at_any(tr, some, inside,
                &(struct trajectory_out){from(out.u, first), from(out.du, first), from(out.ddu, first), from(out.x, first), from(out.y, first),
                                         from(out.vx, first), from(out.vy, first), from(out.ax, first), from(out.ay, first)});

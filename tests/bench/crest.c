@@ -37,7 +37,7 @@ static void crest_time(double radius, long n, double best[2])
     struct crest *c = crest_make(a, radius, PITCH, n);
     for (int k = 0; k < REPEATS; k++) {
         double start = bench_seconds();
-        crest_set(c, z, n, 0);
+        crest_set(c, &(struct crest_ground){z, NULL, NULL}, n, 0);
         double middle = bench_seconds();
         crest_at(c, (size_t)n, x, e, NULL);
         best[0] = fmin(best[0], (middle - start) / (double)n * 1e9);

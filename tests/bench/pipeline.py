@@ -34,8 +34,8 @@ def coupled(integrator, sub, steps):
                  accuracy=f"{{oversampling: {sub}, contact_steps: {steps}}}")
 
 
-PROFILE, MAP = f"height_map: {ROOT}/surfaces/ridged_plate.gsf", f"height_map: {ROOT}/surfaces/basswood.gsf"
-ROUGH = "roughness: {rms: 5 um}, along: path"
+PROFILE, MAP = f"height_map: {ROOT}/surfaces/ridged_plate.gsf", "height_map: map.npy, pitch: 50 um, off_map: mirror"
+ROUGH, ROUGH_PLANE = "roughness: {rms: 5 um}, along: path", "roughness: {rms: 5 um}, along: plane"
 # name: (scene, accuracy, goal in times real time or None)
 JOBS = {
     "object at rest, 50 modes, given force": (scene(PLATE, f"motion: {{path: still, at: [10 cm, 3.7 cm], duration: D s}}\n{GIVEN}"), "standard", 1800),
@@ -49,6 +49,7 @@ for accuracy in ("draft", "standard"):
         f"scrape, profile, CSV 1 kHz, {accuracy}": (moving(PROFILE, accuracy=accuracy, output=TABLE), accuracy, 700),
         f"scrape, roughness on a line, {accuracy}": (moving(ROUGH, accuracy=accuracy), accuracy, 900),
         f"scrape, 2-D map, CSV 1 kHz, {accuracy}": (moving(MAP, accuracy=accuracy, output=TABLE), accuracy, 480),
+        f"scrape, 2-D roughness, CSV 1 kHz, {accuracy}": (moving(ROUGH_PLANE, accuracy=accuracy, output=TABLE), accuracy, 480),
     }
 JOBS |= {
     "coupled ball, 50 modes, implicit, 1 step a sample": (coupled("discrete_gradient", 1, 1), "1 step", 300),
@@ -63,6 +64,7 @@ JOBS = {name: job for name, job in JOBS.items() if ONLY in name}
 def prepare():
     for seconds in {SHORT, STEADY}:
         write_npy(f"force_{seconds:g}.npy", noise(int(seconds * RATE)))
+    write_npy("map.npy", array.array("d", (1e-6 * z for z in noise(200 * 1000, 99))), 200)
     os.mkdir("set")
     with open("set/index.csv", "w") as index:
         index.write("file_name,x_m,y_m\n")

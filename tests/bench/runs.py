@@ -29,8 +29,9 @@ def noise(n, seed=1):
     return array.array("d", (2 * draw() - 1 for _ in range(n)))
 
 
-def write_npy(path, x):
-    head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({len(x)},), }}"
+def write_npy(path, x, rows=None):
+    shape = f"{rows}, {len(x) // rows}" if rows else f"{len(x)},"
+    head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({shape}), }}"
     head += " " * (-(len(head) + 11) % 64) + "\n"
     with open(path, "wb") as out:
         out.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head.encode())

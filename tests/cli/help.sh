@@ -9,7 +9,15 @@ rasp --help > e
 rasp help > f
 cmp e f
 sed -n 1,3p e
-for command in render plan new explain check compare plot; do
-    rasp help $command | grep -q '^Examples:' || echo "no examples: $command"
-    grep -q "^  $command " e || echo "not in the usage: $command"
+for command in $(sed -n '/^[A-Z].*:$/,/^$/s/^  \([a-z]*\) .*/\1/p' e | sort -u); do
+    [ "$command" != rasp ] || continue
+    rasp help "$command" > g
+    [ "$(sed -n 3p g)" = Examples: ] || echo "$command does not begin with examples"
+    sed -n "1,/^Usage/p" g | grep -q "rasp $command " || echo "$command has no examples"
+    grep -q '^ *-h, --help' g || echo "$command does not tell of --help"
+    echo "$command"
+done > h
+sed -n '/ /p' h
+for command in render golden plan new explain check compare plot accuracy analyse surface modes completion; do
+    grep -qx "$command" h || echo "not in the usage: $command"
 done

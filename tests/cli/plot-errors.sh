@@ -14,6 +14,8 @@ try rasp plot scene.yaml
 try rasp plot speeds.csv
 try rasp plot wrong.csv
 try rasp plot other.csv
+printf 'stimulus_id,file_name\na,a.wav\n' > manifest.csv
+try rasp plot manifest.csv
 try rasp plot good.csv -o picture.pdf
 try rasp plot good.csv -o picture.png --format svg
 try rasp plot good.csv --format gif

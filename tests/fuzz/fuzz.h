@@ -1,10 +1,12 @@
-/* What fuzz targets share: the input as a file that has a path but no place on disk. */
+/* What fuzz targets share: the input as a file that has a path but no place on disk; or, for readers that look at names or at neighbours,
+   as a file in a folder that lasts as long as the process. */
 #ifndef FUZZ_H
 #define FUZZ_H
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -23,6 +25,38 @@ static inline struct fuzz_file fuzz_open(const uint8_t *data, size_t size)
         abort();
     snprintf(f.path, sizeof f.path, "/proc/self/fd/%d", f.fd);
     return f;
+}
+
+static char fuzz_folder[64];
+static char fuzz_names[8][32]; /* in it */
+
+static inline void fuzz_folder_gone(void)
+{
+    char path[128];
+    for (int i = 0; i < 8 && fuzz_names[i][0]; i++) {
+        snprintf(path, sizeof path, "%s/%s", fuzz_folder, fuzz_names[i]);
+        unlink(path);
+    }
+    rmdir(fuzz_folder);
+}
+
+/* Writes folder/name, of at most 8 different names, and puts its path into path. */
+static inline const char *fuzz_put(char path[128], const char *name, const void *data, size_t size)
+{
+    int i = 0;
+    if (!fuzz_folder[0]) {
+        strcpy(fuzz_folder, "/tmp/rasp-fuzz-XXXXXX");
+        if (!mkdtemp(fuzz_folder) || atexit(fuzz_folder_gone) != 0)
+            abort();
+    }
+    while (i < 7 && fuzz_names[i][0] && strcmp(fuzz_names[i], name) != 0)
+        i++;
+    snprintf(fuzz_names[i], sizeof fuzz_names[i], "%s", name);
+    snprintf(path, 128, "%s/%s", fuzz_folder, name);
+    FILE *f = fopen(path, "wb");
+    if (!f || (size > 0 && fwrite(data, 1, size, f) != size) || fclose(f) != 0)
+        abort();
+    return path;
 }
 
 /* A reader fails with a kind and a text, or succeeds without: anything else is a bug. */

@@ -22,7 +22,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct arena *a = arena_open();
     struct modes m = {0};
     struct err e = {0};
-    bool ok = modes_table(f.path, &(struct modes_ask){20, 0.03, 48000}, a, &m, &e);
+    bool ok = modes_table(f.path, &(struct modes_ask){.strongest = 20, .pairing = 0.03, .rate = 48000}, a, &m, &e);
     fuzz_check(ok, &e);
     if (ok && m.n < 1)
         abort();

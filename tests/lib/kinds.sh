@@ -71,39 +71,10 @@ plans_set() {
 
 # ------------------------------------------------------------------ golden: the sound and the physics of each scene
 
-# Kept: NAME.wav and NAME.csv files of a scene whose output is called "sound".
-golden_files() { (cd "$1" && find . -maxdepth 1 \( -name '*.wav' -o -name '*.csv' \) -printf '%P\n' | sort); }
+# Kept: tests/golden/NAME/sound.wav, sound.csv and so on; the effective scene has to make the same.
+kind_golden() { rasp golden check -q --effective -j 1 --kept "$ROOT/tests/golden" "$ROOT/scenes/$1.yaml"; }
 
-kind_golden() {
-    local kept=$ROOT/tests/golden/$1
-    [ -d "$kept" ] || { echo "no tests/golden/$1; tests/run.sh --set golden/$1 makes it"; return 1; }
-    mkdir first again
-    rasp render "$ROOT/scenes/$1.yaml" -o first/sound.wav || return
-    golden_same "$kept" first || return
-    rasp render first/sound.scene.yaml -o again/sound.wav || return
-    golden_same "$kept" again || { echo "(rendered from the effective scene)"; return 1; }
-}
-
-# Same files, same bytes; else `rasp compare` says how far off.
-golden_same() {
-    local file missed=0
-    diff -u --label "expected files" --label files <(golden_files "$1") <(golden_files "$2") || return
-    for file in $(golden_files "$1"); do
-        cmp -s "$1/$file" "$2/$file" && continue
-        echo "$file is not what $1 holds:"
-        rasp compare "$1/$file" "$2/$file"
-        missed=1
-    done
-    return $missed
-}
-
-golden_set() {
-    local kept=$ROOT/tests/golden/$1
-    rasp render "$ROOT/scenes/$1.yaml" -o sound.wav || return
-    rm -rf "$kept"
-    mkdir -p "$kept"
-    for file in $(golden_files .); do cp "$file" "$kept/"; done
-}
+golden_set() { rasp golden update -q -j 1 --kept "$ROOT/tests/golden" "$ROOT/scenes/$1.yaml"; }
 
 # ------------------------------------------------------------------ docs: the examples of README and man pages are run
 

@@ -19,7 +19,15 @@ echo planted >> planted/rasp.1
 wrong=$(stale "$ROOT/man")
 [ -z "$wrong" ] || fail "$wrong"
 
-command -v mandoc > /dev/null || { [ "$FAILURES" != 0 ] || skip "mandoc is not installed"; finish; }
+# Every page has examples, in a form that the tests of kind docs find and run.
+exemplified() { awk '/^\.Sh / { on = /EXAMPLES/ } on && /^\.(Bd -literal|Dl |EX|nf)/ { n++ } END { exit !n }' "$1"; }
+sed 's/^\.Sh EXAMPLES/.Sh SAMPLES/' "$ROOT/man/rasp.1" > planted/no_examples.1
+! exemplified planted/no_examples.1 || fail "man: a page without examples was not caught"
 shopt -s nullglob
+for page in "$ROOT"/man/*.[157]; do
+    exemplified "$page" || fail "${page##*/} has no examples"
+done
+
+command -v mandoc > /dev/null || { [ "$FAILURES" != 0 ] || skip "mandoc is not installed"; finish; }
 mandoc -T lint -W warning "$ROOT"/man/*.[157] || fail "mandoc: see above"
 finish

@@ -31,7 +31,7 @@ static inline struct modes table_of(const char *text, int n, struct arena *a)
 {
     struct modes m;
     struct err e;
-    ck_assert_msg(table_read(text, &(struct modes_ask){n, 0.03, 48000}, a, &m, &e), "%s", e.text);
+    ck_assert_msg(table_read(text, &(struct modes_ask){.strongest = n, .pairing = 0.03, .rate = 48000}, a, &m, &e), "%s", e.text);
     return m;
 }
 

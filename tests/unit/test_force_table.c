@@ -2,7 +2,7 @@
    by whole-number division; kinematics, normal force and alpha against closed forms. Numbers are printed with 9 digits: 5e-9 relative. */
 #include <unistd.h>
 
-#include "file/csv.h"
+#include "file/table.h"
 #include "pipeline/render.h"
 #include "rig.h"
 
@@ -17,7 +17,7 @@ static struct csv table_of(struct arena *a, const struct scene *s)
     struct render_report report;
     ck_assert_ptr_nonnull(mkdtemp(folder));
     ck_assert_msg(render_scene(s, arena_format(a, "%s/t", folder), a, &report, &e), "%s", e.text);
-    ck_assert_msg(csv_read(arena_format(a, "%s/t.csv", folder), a, &t, &e), "%s", e.text);
+    ck_assert_msg(table_read(arena_format(a, "%s/t.%s", folder, s->output.diagnostics.format == TABLE_NPY ? "npy" : "csv"), a, &t, &e), "%s", e.text);
     ck_assert_int_eq(system(arena_format(a, "rm -r %s", folder)), 0);
     return t;
 }
@@ -272,6 +272,26 @@ START_TEST(impacts_are_counted)
 }
 END_TEST
 
+/* The same numbers, in full: printed with 9 digits they are the CSV's cells. */
+START_TEST(npy_is_csv)
+{
+    struct arena *a = rig_arena();
+    for (int c = 0; c < RATES; c++) {
+        struct scene s = scene_at(a, &rates[c], stroke);
+        struct csv text = table_of(a, &s);
+        s.output.diagnostics.format = TABLE_NPY;
+        struct csv t = table_of(a, &s);
+        ck_assert_ptr_nonnull(t.numbers);
+        ck_assert_uint_eq(t.rows, text.rows);
+        ck_assert_uint_eq(t.columns, text.columns);
+        for (size_t k = 0; k < t.columns; k++)
+            ck_assert_str_eq(t.names[k], text.names[k]);
+        for (size_t i = 0; i < t.rows * t.columns; i++)
+            ck_assert_str_eq(arena_format(a, "%.9g", t.numbers[i]), text.cells[i]);
+    }
+}
+END_TEST
+
 /* Rows without samples would have no force: refused; at the sample rate itself every row has its one sample. */
 START_TEST(a_rate_above_the_sample_rate_is_refused)
 {
@@ -289,5 +309,5 @@ START_TEST(a_rate_above_the_sample_rate_is_refused)
 }
 END_TEST
 
-UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, rows_of_a_circle, load_and_alpha_of_a_grip, lift_offs_are_counted, impacts_are_counted, columns,
+UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, rows_of_a_circle, load_and_alpha_of_a_grip, lift_offs_are_counted, impacts_are_counted, columns, npy_is_csv,
      a_rate_above_the_sample_rate_is_refused)

@@ -76,7 +76,7 @@ START_TEST(npy_hostile)
     npy_refused("{'descr': '<i8', 'fortran_order': False, 'shape': (1,), }", "type '<i8'");
     npy_refused("{'descr': '=f8', 'fortran_order': False, 'shape': (1,), }", "type '=f8'");
     npy_refused("{'descr': '', 'fortran_order': False, 'shape': (1,), }", "type ''");
-    npy_refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (1,), }", "not a plain number type");
+    npy_refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (1,), }", "a table of 1 fields");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (), }", "single number");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1), }", "more than two dimensions");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 5), }", "empty (0 x 5)");

@@ -113,7 +113,7 @@ START_TEST(wav_is_the_table)
     struct ir ir, cut;
     ck_assert_msg(ir_read(shipped("ceramic_tile_tap.wav"), 48000, NAN, a, &ir, &e), "%s", e.text);
     ck_assert_msg(ir_read(shipped("ceramic_tile_tap.wav"), 48000, 0.1, a, &cut, &e), "%s", e.text);
-    ck_assert_msg(modes_table(shipped("ceramic_tile.csv"), &(struct modes_ask){1000, 0.03, 48000}, a, &m, &e), "%s", e.text);
+    ck_assert_msg(modes_table(shipped("ceramic_tile.csv"), &(struct modes_ask){.strongest = 1000, .pairing = 0.03, .rate = 48000}, a, &m, &e), "%s", e.text);
     ck_assert_uint_eq(ir.length, 12000);
     ck_assert_uint_eq(cut.length, 4800);
     struct modes_point p = {m.frequency, m.decay, ARENA_TAKE(a, double, m.n), ARENA_TAKE(a, double, m.n)};

@@ -12,7 +12,7 @@ static void refused(const char *text, const char *says)
 {
     struct modes m;
     struct err e;
-    bool ok = table_read(text, &(struct modes_ask){50, 0.03, 48000}, arena, &m, &e);
+    bool ok = table_read(text, &(struct modes_ask){.strongest = 50, .pairing = 0.03, .rate = 48000}, arena, &m, &e);
     ck_assert_msg(!ok, "accepted, but should say: %s", says);
     ck_assert_msg(strstr(e.text, says) != NULL, "\"%s\" does not say \"%s\"", e.text, says);
     ck_assert_int_eq(e.kind, ERR_SCENE);
@@ -363,7 +363,7 @@ START_TEST(missing_file)
     struct modes m;
     struct err e = {0};
     setup();
-    ck_assert(!modes_table("no-such-file.csv", &(struct modes_ask){50, 0.03, 48000}, arena, &m, &e));
+    ck_assert(!modes_table("no-such-file.csv", &(struct modes_ask){.strongest = 50, .pairing = 0.03, .rate = 48000}, arena, &m, &e));
     ck_assert_int_eq(e.kind, ERR_INPUT);
     teardown();
 }
@@ -386,7 +386,7 @@ START_TEST(shipped_tables)
         struct err e = {0};
         setup();
         snprintf(path, sizeof path, "%s/irs/%s.csv", root ? root : ".", tables[i].name);
-        ck_assert_msg(modes_table(path, &(struct modes_ask){1000, 0.03, 48000}, arena, &m, &e), "%s", e.text);
+        ck_assert_msg(modes_table(path, &(struct modes_ask){.strongest = 1000, .pairing = 0.03, .rate = 48000}, arena, &m, &e), "%s", e.text);
         ck_assert_int_eq(m.n, tables[i].modes);
         ck_assert(m.shared && m.moves == tables[i].moves);
         double lowest = 1e9;

@@ -30,7 +30,7 @@ static void make(struct made *d, int n, double decay, double force, double sound
 {
     struct err e = {0};
     d->arena = arena_open();
-    d->scene = (struct scene){.output = {.sample_rate = 44100, .tail = sound - force}, .accuracy = {.overlap_order = 4, .overlap_hop = 0.01, .morph_error = -70, .gain_ramp = 64},
+    d->scene = (struct scene){.output = {.sample_rate = 44100, .tail = sound - force, .duration = NAN}, .accuracy = {.overlap_order = 4, .overlap_hop = 0.01, .morph_error = -70, .gain_ramp = 64},
                               .contacts = &d->contact, .n_contacts = 1};
     d->contact = (struct contact){.name = "rod", .motion = {.path = PATH_LINE, .to = {0.1, 0}, .rate = NAN, .speed = NAN, .duration = force, .law = SPEED_MINIMUM_JERK}};
     d->contact.surface.response.length = NAN;
@@ -144,7 +144,7 @@ START_TEST(heard)
 {
     struct contact two[2] = {{.name = "a", .start = 1, .motion = {.duration = 2}},
                              {.name = "b", .start = 4, .motion = {.path = PATH_LINE, .to = {0.6, 0}, .rate = NAN, .speed = NAN, .duration = 3, .law = SPEED_CONSTANT}}};
-    struct scene s = {.contacts = two, .n_contacts = 2, .output = {.tail = 0.5}};
+    struct scene s = {.contacts = two, .n_contacts = 2, .output = {.tail = 0.5, .duration = NAN}};
     struct ring_heard h = {.force = 2};
     struct err e = {0};
     ck_assert(ring_heard(&s, &two[0], 10, &h, &e));

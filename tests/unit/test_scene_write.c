@@ -43,7 +43,8 @@ static const char EVERYTHING[] =
     "motion: {path: polyline, points: [[0, 0.1], [0.3, 1e-3], [0.7, 7 mm]], corner: 1 mm, duration: 0.7, law: two_thirds, straight: 0.3}\n"
     "load: {recorded: files/force.csv, approach: 3 ms, release: auto}\ncontact: {force: paper, limiter: {ratio_y: 0.7}}\n";
 static const char CIRCLE[] = "rasp: 1\nsurface: {grit: {}, response: files/plank.csv}\nscraper: {mass: 1}\n"
-                             "motion: {path: circle, center: [0.1, 0.2], radius: 3 cm, start_angle: 7 deg, turns: -1.3, speed: 0.3}\n";
+                             "motion: {path: circle, center: [0.1, 0.2], radius: 3 cm, start_angle: 7 deg, turns: -1.3, speed: 0.3}\n"
+                             "ablation: {normal_force: constant, nonlinearity: smoothed, response: constant, place: [3 cm, 0.1], sound: surface}\n";
 static const char SCRIBBLE[] = "rasp: 1\nsurface: {roughness: {like: files/map.npy, like_pitch: 3 um}, response: files/plank.csv}\nscraper: {mass: 1}\n"
                                "motion: {path: scribble, size: [3 cm, 1 cm], rate: 1.1, duration: 3, law: minimum_jerk}\n";
 static const char GIVEN[] = "rasp: 1\nsurface: {ridges: {shape: round}, response: files/plank.csv}\nscraper: {mass: 1}\n"

@@ -1,4 +1,5 @@
 /* Smoothing against its definition by brute force, and momentum. */
+#include "num/filter.h"
 #include "rig.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
@@ -94,4 +95,33 @@ START_TEST(smoothing_removes_high_frequencies)
 }
 END_TEST
 
-UNIT("smooth", constant_width, width_that_follows_alpha, smoothing_removes_high_frequencies)
+/* Where the force at the audio rate is asked for, smoothing and decimation are one kernel: against one after the other, output by output. 1e-7 of the kernel is cut off. */
+START_TEST(joined_to_decimation)
+{
+    struct arena *a = rig_arena();
+    struct scene s = rig_scene(a, arena_format(a, text, "load: {constant: 1 N}"));
+    struct filter f = filter_decimator_hats(a, OVER);
+    struct rig *smooth = recorded("load: {constant: 1 N}", 50e-6), *both[2];
+    double off = 0, most = 0;
+    s.contacts[0].contact.smoothing = 50e-6;
+    both[0] = rig_record(&s, ITEM_FORCE, FRAMES, 1024);
+    both[1] = rig_record(&s, ITEM_FORCE, FRAMES, 77);
+    ck_assert(both[0]->run.board.smoothing->taken && !smooth->run.board.smoothing->taken);
+    ck_assert(memcmp(both[0]->x, both[1]->x, FRAMES * sizeof *both[0]->x) == 0);
+    for (long n = f.reach / OVER + 1; n < FRAMES - f.reach / OVER - 1; n++) {
+        double sum = 0;
+        for (int j = 0; j < f.taps; j++)
+            sum += f.tap[j] * smooth->x[n * OVER + j - f.reach];
+        off = fmax(off, fabs(sum - both[0]->x[n]));
+    }
+    for (long i = 0; i < FRAMES * OVER; i++)
+        most = fmax(most, fabs(smooth->x[i]));
+    printf("joined: off by %.3g of the largest force\n", off / most);
+    ck_assert_double_lt(off, 2e-7 * most);
+    for (int k = 0; k < 2; k++)
+        rig_close(both[k]);
+    rig_close(smooth);
+}
+END_TEST
+
+UNIT("smooth", constant_width, width_that_follows_alpha, smoothing_removes_high_frequencies, joined_to_decimation)

@@ -158,6 +158,8 @@ START_TEST(test_examples_are_taken)
         {"surface.continuation.from", "surface.height_map=x.gsf"},
         {"surface.roughness.like_pitch", "surface.roughness.like=x.npy"},
         {"surface.space.dimension_to", "surface.space.from=[0, 1]"},
+        {"ablation.place", "ablation.response=constant", "surface.response=a.csv"},
+        {"output.duration", "surface.response=a.csv"},
         {"motion.speed", "motion.duration=null"},
         {"ball.radius", ROLLS, "ball.mass=1 kg"},
         {"ball.mass", ROLLS, "ball.radius=1 cm"},

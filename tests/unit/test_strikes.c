@@ -247,6 +247,59 @@ START_TEST(offset_and_hum)
 }
 END_TEST
 
+/* A hum with even harmonics is longer above 0 than below, its mean none: no offset, with a quiet part or, rung over throughout, without. The median is beside 0 by 0.016 of the peak.
+   A true offset under it comes off as what it is. */
+START_TEST(hum_is_no_offset)
+{
+    struct made m = make(3, (const long[]){3000, 13000, 23000}, peaks, 0, 1e-5);
+    double most = 0.0, *hum = ARENA_TAKE(m.a, double, N);
+    for (long i = 0; i < N; i++)
+        most = fmax(most, fabs(m.sound[i]));
+    for (long i = 0; i < N; i++)
+        for (int k = 0; k < 3; k++)
+            hum[i] += most * (const double[]){0.1, 0.05, 0.02}[k] * real_cos(2.0 * REAL_PI * 50.0 * (k + 1) * (double)i / RATE);
+    for (int k = 0; k < 3; k++) {
+        double offset = k == 2 ? 0.03 * most : 0.0, *sound = ARENA_TAKE(m.a, double, N);
+        struct strikes_recording r = m.r;
+        for (long i = 0; i < N; i++)
+            sound[i] = m.sound[i] + hum[i] + offset + (k == 1 ? 3.0 * most * real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE) : 0.0);
+        r.sound = sound;
+        r.force = NULL;
+        const char *said = strikes_channel_prepare(&r, m.a);
+        ck_assert_msg(k == 2 || !said, "%s", said);
+        ck_assert_double_eq_tol(r.offset, offset, 1e-3 * most);
+    }
+    arena_close(m.a);
+}
+END_TEST
+
+/* 16 bits, and nothing at all but the strike: the last bit that comes and goes as it rings out is no strike. What a response explains of a sound that it makes worse is told as none of it. */
+START_TEST(last_bit_is_no_strike)
+{
+    struct made m = make(1, (const long[]){3000}, peaks, 0, 0.0);
+    struct strikes s;
+    struct strikes_response h;
+    double most = 0.0, step;
+    for (long i = 0; i < N; i++)
+        most = fmax(most, fabs(m.sound[i]));
+    step = most / 300;
+    for (long i = 0; i < N; i++)
+        m.sound[i] = step * rint(m.sound[i] / step);
+    for (long i = 0; i < 40; i++)
+        m.sound[3000 + LENGTH + 2000 + 90 * (i / 8) + i % 8] = i % 2 ? step : 0.0;
+    m.r.force = NULL;
+    m.r.rounding = step / sqrt(12.0);
+    solve(&m, &s, &h);
+    ck_assert_int_eq(s.n, 1);
+    m.r.rounding = 0.0;
+    solve(&m, &s, &h);
+    ck_assert_int_eq(s.n, 2);
+    for (int k = 0; k < s.n; k++)
+        ck_assert(!(h.explained[k] < 0.0));
+    arena_close(m.a);
+}
+END_TEST
+
 /* Scaled after it clipped, so that nothing reaches what the file holds: a row of equal extremes, above or below. A slow sine in 20 steps has such rows, and does not clip. */
 START_TEST(clipped_and_scaled)
 {
@@ -317,4 +370,4 @@ START_TEST(refused)
 }
 END_TEST
 
-UNIT("test_strikes", apart, overlapping, turned, late, clipped, noise_of_response, unsure_of_response, low_mode_in_white_noise, without_force, offset_and_hum, clipped_and_scaled, single, refused)
+UNIT("test_strikes", apart, overlapping, turned, late, clipped, noise_of_response, unsure_of_response, low_mode_in_white_noise, without_force, offset_and_hum, hum_is_no_offset, last_bit_is_no_strike, clipped_and_scaled, single, refused)

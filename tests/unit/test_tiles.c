@@ -7,6 +7,7 @@
 
 #include "num/real.h"
 #include "parts.h"
+#include "surface/tile.h"
 
 enum { SEGMENT = 16384, SEGMENTS = 200 };
 
@@ -272,5 +273,87 @@ START_TEST(little_beyond_the_shortest)
 }
 END_TEST
 
-UNIT("tiles", traces_have_the_spectrum_in_every_direction, grain_lengthens_one_way, continuation_has_its_rings, derivatives_and_continuity, any_order,
+/* ------------------------------------------------------------------ the plain form: each band for itself, block by block */
+
+static double spline(double x)
+{
+    double d = fabs(x), left = 2 - d;
+    return d >= 2 ? 0 : d >= 1 ? left * left * left / 6 : 2.0 / 3 - d * d * (1 - d / 2);
+}
+
+static double spline_bend(double x)
+{
+    double d = fabs(x);
+    return d >= 2 ? 0 : d >= 1 ? 2 - d : 3 * d - 2;
+}
+
+static double block_window(long i)
+{
+    double across = sin(M_PI * ((double)i + 0.5) / TILE_SIDE);
+    return i < 0 || i >= TILE_SIDE ? 0 : sin(M_PI / 2 * across * across);
+}
+
+static double coefficient(const double *tile, struct noise own, long i, long j)
+{
+    long half = TILE_SIDE / 2, mask = TILE_SIDE - 1, bi = (i - (i & (half - 1))) / half, bj = (j - (j & (half - 1))) / half;
+    double sum = 0;
+    for (long by = bj - 1; by <= bj; by++)
+        for (long bx = bi - 1; bx <= bi; bx++) {
+            uint64_t bits[2];
+            noise_bits(own, (uint64_t)by, (uint64_t)bx, bits);
+            long x = i - bx * half, y = j - by * half, row = (y + (long)(bits[0] / TILE_SIDE % TILE_SIDE)) & mask, column = (x + (long)(bits[0] % TILE_SIDE)) & mask;
+            sum += (bits[1] & 1 ? 1 : -1) * block_window(x) * block_window(y) * tile[row * TILE_ROW + column];
+        }
+    return sum;
+}
+
+/* Adds height and second derivatives of one band. */
+static void band_plainly(const double *tile, struct noise own, double pitch, double x, double y, double v[4])
+{
+    double p = x / pitch, q = y / pitch;
+    for (long j = (long)floor(q) - 1; j <= (long)floor(q) + 2; j++)
+        for (long i = (long)floor(p) - 1; i <= (long)floor(p) + 2; i++) {
+            double c = coefficient(tile, own, i, j), f = p - (double)i, g = q - (double)j, step = 1e-4;
+            v[0] += c * spline(f) * spline(g);
+            v[1] += c * spline_bend(f) * spline(g) / (pitch * pitch);
+            v[2] += c * (spline(f + step) - spline(f - step)) * (spline(g + step) - spline(g - step)) / (4 * step * step * pitch * pitch);
+            v[3] += c * spline(f) * spline_bend(g) / (pitch * pitch);
+        }
+}
+
+/* Bands that are refined into one another and read as one, against their sum; along a path, and in places far apart, that patches jump between. xy by
+   differences: to 1e-8. */
+START_TEST(the_sum_of_its_bands)
+{
+    struct arena *a = arena_open();
+    struct spectrum s = spectrum_power_law(a, -2.4, 2e-3, 20e-6, 4e-6);
+    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0}, "bands");
+    struct fft_plane *fft = fft_plane_open(TILE_SIDE);
+    double (*power)[TILE_LINES] = (double (*)[TILE_LINES])ARENA_TAKE(a, double, TILE_BANDS * TILE_LINES), *tiles[TILE_BANDS];
+    struct noise own[TILE_BANDS];
+    int bands = tile_rings(&s, power);
+    tile_mend(bands, power);
+    for (int b = 0; b < bands; b++) {
+        uint64_t key[2];
+        noise_bits(noise_make(7, "bands"), (uint64_t)b, UINT64_MAX, key);
+        own[b] = (struct noise){key[0]};
+        tiles[b] = ARENA_TAKE(a, double, TILE_SIDE * TILE_ROW);
+        tile_make(power[b], own[b], fft, tiles[b]);
+    }
+    ck_assert_int_ge(bands, 6);
+    srand48(3);
+    for (int n = 0; n < 6000; n++) {
+        double x = n < 3000 ? 0.1 - 2.3e-6 * n : 2 * drand48() - 1, y = n < 3000 ? -0.02 + 1.1e-6 * n : 2 * drand48() - 1, got[4] = {0}, want[4] = {0}, size = 4e-6;
+        p->add(p, &(struct relief_points){1, &x, &y}, &(struct relief_values){.z = &got[0], .xx = &got[1], .xy = &got[2], .yy = &got[3]});
+        for (int b = 0; b < bands; b++)
+            band_plainly(tiles[b], own[b], 5e-6 * (1 << b), x, y, want);
+        for (int k = 0; k < 4; k++, size = 1e5)
+            ck_assert_double_eq_tol(got[k] / size, want[k] / size, k == 0 ? 1e-11 : 2e-7);
+    }
+    fft_plane_close(fft);
+    arena_close(a);
+}
+END_TEST
+
+UNIT("tiles", the_sum_of_its_bands, traces_have_the_spectrum_in_every_direction, grain_lengthens_one_way, continuation_has_its_rings, derivatives_and_continuity, any_order,
      nothing_repeats_in_a_minute, little_beyond_the_shortest, streams_and_far_places_differ, refused_where_negative)

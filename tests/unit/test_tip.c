@@ -23,8 +23,10 @@ static void formula_add(struct relief_part *part, const struct relief_points *p,
             continue;
         double l = f(x - e, y), r = f(x + e, y), b = f(x, y - e), a = f(x, y + e), smooth = fmax(fabs(l - r), fabs(a - b)) < 1e-6;
         v->x[i] += smooth * (r - l) / (2 * e);
-        v->y[i] += smooth * (a - b) / (2 * e);
         v->xx[i] += smooth * (l + r - 2 * z) / (e * e);
+        if (!v->yy)
+            continue;
+        v->y[i] += smooth * (a - b) / (2 * e);
         v->yy[i] += smooth * (a + b - 2 * z) / (e * e);
         v->xy[i] += smooth * (f(x + e, y + e) - f(x - e, y + e) - f(x + e, y - e) + f(x - e, y - e)) / (4 * e * e);
     }
@@ -42,10 +44,12 @@ struct tip {
 };
 
 /* A tip on a surface; finest: its finest scale. The motion is a line of 1 mm along +x through 0. */
+static double kinked; /* m: where the formula may jump, in one coordinate; 0: nowhere */
+
 static bool tip_try(struct tip *t, height *f, int along, const double radius_patch_finest[3], struct err *e)
 {
     *t = (struct tip){.arena = arena_open(), .relief = {.along = along}, .f = f};
-    t->part = (struct relief_part){.name = "formula", .finest = radius_patch_finest[2], .add = formula_add, .state = &t->f};
+    t->part = (struct relief_part){.name = "formula", .finest = radius_patch_finest[2], .kinks = kinked, .add = formula_add, .state = &t->f};
     t->contact = (struct contact){.name = "ball", .scraper = {.radius = radius_patch_finest[0], .patch = radius_patch_finest[1]}};
     t->trajectory = (struct trajectory){.straight = true, .box = {{-5e-4, 0}, {5e-4, 0}}};
     t->board = (struct board){.relief = &t->relief, .trajectory = &t->trajectory};
@@ -140,6 +144,7 @@ static double spike_envelope(double x, double y)
 START_TEST(spike_is_a_cap)
 {
     double patch = 2e-5, h = patch / 4, peak = 4000;
+    kinked = h / 2;
     for (int along = ALONG_PATH; along <= ALONG_X; along++) {
         struct tip t;
         tip_make(&t, spike, along, SPIKE_RADIUS, patch, HUGE_VAL);
@@ -152,6 +157,7 @@ START_TEST(spike_is_a_cap)
         }
         arena_close(t.arena);
     }
+    kinked = 0;
 }
 END_TEST
 
@@ -435,13 +441,14 @@ END_TEST
 START_TEST(small_ball_is_a_point)
 {
     double patch = 2e-5, damped = exp(-0.5 * pow(2 * M_PI / 2e-4 * patch, 2)), k = 2 * M_PI / 2e-4;
+    double lies = 2e-7 * (sqrt(1 + 1e-10 * k * k) - 1); /* on slopes R (sqrt(1 + p^2) - 1) higher */
     for (int along = ALONG_PATH; along <= ALONG_PLANE; along++) {
         struct tip t;
         tip_make(&t, waves, along, 2e-7, patch, HUGE_VAL);
         for (int n = 0; n < 100; n++) {
             double x = between(-1e-3, 1e-3);
             struct read r = tip_read(&t, x, between(-1e-3, 1e-3));
-            ck_assert_double_eq_tol(r.z, damped * waves(x, 0), 1e-5 * damped * 1e-4);
+            ck_assert_double_eq_tol(r.z, damped * waves(x, 0), 1e-5 * damped * 1e-4 + lies);
             ck_assert_double_eq_tol(r.xx, -damped * k * k * waves(x, 0), 0.003 * damped * k * k * 1e-5); /* (h k)^2/12 = 0.0021 */
             ck_assert_double_eq_tol(r.yy, 0, 1e-4);
         }

@@ -196,7 +196,7 @@ START_TEST(straight_ways)
         else
             surface_plane(1 + k % 2);
         prepare(&m, 48000, 1 + k % 4);
-        travel(WAY_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, 256);
+        travel(WAY_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, WAY_CHUNK);
         ck_assert(way.halves == (k >= 12) && way.n_grids == (k < 12 ? 1 : 2 + 2 * (k % 2)) && way.channels == 1 && !way.curved);
         check_tiling(480 * board.over, 1e-16 + 1e-15 * far);
         if (k >= 12) {
@@ -222,7 +222,7 @@ START_TEST(turning_ways)
         else
             surface_profile(ALONG_PATH);
         prepare(&m, 8000, 1);
-        travel(WAY_ALONG, 1e-3, 399, 256);
+        travel(WAY_ALONG, 1e-3, 399, WAY_CHUNK);
         check_tiling(399, 1e-16);
         check_knots(2e-7);
         int turns = 0;
@@ -250,7 +250,7 @@ START_TEST(circles)
         surface_plane(1);
         prepare(&m, 48000, 2);
         int n = (int)fmin(1000, floor(motion.duration * 96000));
-        travel(WAY_ALONG, 1e-3, n, 256);
+        travel(WAY_ALONG, 1e-3, n, WAY_CHUNK);
         ck_assert(way.halves && way.curved && way.channels == 2);
         check_tiling(n, 1e-15);
         check_knots(2e-7 + step * step / (8 * radius) / pitch[0]);
@@ -280,7 +280,7 @@ START_TEST(tangent_to_knots)
         surface_plane(1);
         prepare(&m, 48000, 2);
         int n = (int)floor(motion.duration * 96000);
-        travel(WAY_ALONG, 1e-3, n, 256);
+        travel(WAY_ALONG, 1e-3, n, WAY_CHUNK);
         check_tiling(n, 1e-15);
         check_knots(2e-7 + step * step / (8 * radius) / pitch[0]);
         arena_close(arena);
@@ -297,7 +297,7 @@ START_TEST(curved_there_and_back)
     srand48(4);
     surface_plane(1);
     prepare(&m, 48000, 1);
-    travel(WAY_ALONG, 1e-3, 512, 256);
+    travel(WAY_ALONG, 1e-3, 512, WAY_CHUNK);
     check_tiling(512, 1e-15);
     double furthest = 0;
     for (int i = 0; i < all.n; i++) {
@@ -334,7 +334,7 @@ START_TEST(chunks_do_not_matter)
             surface_plane(k == 2 ? 2 : 1);
         prepare(k == 3 ? &circle : &line, k == 3 ? 20000 : 1000, 1);
         int n = k == 3 ? 500 : 10;
-        travel(WAY_ALONG, 1e-4, n, 256);
+        travel(WAY_ALONG, 1e-4, n, WAY_CHUNK);
         int pieces = all.n, flushes = all.flushes;
         ck_assert_int_gt(pieces, 3 * LIMITED_PIECES);
         check_tiling(n, 1e-15);
@@ -357,7 +357,7 @@ START_TEST(values_per_axis)
     srand48(5);
     surface_plane(2);
     prepare(&m, 48000, 1);
-    travel(WAY_AXES, HUGE_VAL, 500, 256);
+    travel(WAY_AXES, HUGE_VAL, 500, WAY_CHUNK);
     ck_assert(way.channels == 2 && way.ratio == 0.5);
     for (int i = 0; i < all.n; i++) {
         const double *at = all.ends[i][1], *e = all.e[i][1];
@@ -384,7 +384,7 @@ START_TEST(straight_ways_as_plain)
         srand48(k);
         surface_profile(k < 8 ? ALONG_PATH : ALONG_X);
         prepare(&m, 48000, 1 + k % 4);
-        travel(WAY_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, 256);
+        travel(WAY_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, WAY_CHUNK);
         ck_assert(way.straight);
         int n = all.n;
         for (int i = 0; i < n; i++) {
@@ -393,8 +393,8 @@ START_TEST(straight_ways_as_plain)
         }
         way.straight = false;
         all.n = 0;
-        for (first_interval = 0; first_interval < 480 * board.over; first_interval += 256)
-            way_run(&way, &run, first_interval, 480 * board.over - first_interval < 256 ? 480 * board.over - first_interval : 256);
+        for (first_interval = 0; first_interval < 480 * board.over; first_interval += WAY_CHUNK)
+            way_run(&way, &run, first_interval, 480 * board.over - first_interval < WAY_CHUNK ? 480 * board.over - first_interval : WAY_CHUNK);
         ck_assert_int_eq(all.n, n);
         for (int i = 0; i < n; i++)
             ck_assert(length[i] == all.length[i] && mean[i] == all.mean[i] && interval[i] == all.interval[i] && ends[i][0] == all.ends[i][0][0] &&

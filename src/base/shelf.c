@@ -1,0 +1,126 @@
+/* See shelf.h. One lock guards the list; things are made outside of it, each in an arena of its own. */
+#include "base/shelf.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/hash.h"
+#include "base/memory.h"
+
+enum state { MAKING, THERE, GONE /* its making failed */ };
+
+struct entry {
+    const struct shelf_kind *kind;
+    const char *file;
+    struct stat status;
+    struct arena *arena; /* that it and its thing lie in */
+    void *thing;
+    enum state state;
+    struct entry *next;
+};
+
+struct shelf {
+    pthread_mutex_t lock;
+    pthread_cond_t made;
+    struct entry *entries;
+    size_t bytes, most;
+};
+
+struct shelf *shelf_open(size_t most)
+{
+    struct shelf *s = memory_take(sizeof *s);
+    *s = (struct shelf){.most = most};
+    pthread_mutex_init(&s->lock, NULL);
+    pthread_cond_init(&s->made, NULL);
+    return s;
+}
+
+void shelf_close(struct shelf *s)
+{
+    if (!s)
+        return;
+    for (struct entry *x = s->entries, *next; x; x = next) {
+        next = x->next;
+        arena_close(x->arena);
+    }
+    pthread_cond_destroy(&s->made);
+    pthread_mutex_destroy(&s->lock);
+    free(s);
+}
+
+static bool unchanged(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec &&
+           a->st_ctim.tv_sec == b->st_ctim.tv_sec && a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
+}
+
+/* Waits where another makes it. NULL: nobody has. */
+static const struct entry *find(struct shelf *s, const struct shelf_kind *kind, const char *file, const struct stat *status)
+{
+    for (struct entry *x = s->entries; x; x = x->next) {
+        if (x->kind != kind || x->state == GONE || !unchanged(&x->status, status) || strcmp(x->file, file) != 0)
+            continue;
+        while (x->state == MAKING)
+            pthread_cond_wait(&s->made, &s->lock);
+        if (x->state == THERE)
+            return x;
+    }
+    return NULL;
+}
+
+static struct entry *enter(struct shelf *s, const struct shelf_kind *kind, const char *file, const struct stat *status)
+{
+    struct arena *a = arena_open();
+    struct entry *x = ARENA_TAKE(a, struct entry, 1);
+    *x = (struct entry){kind, arena_text(a, file), *status, a, arena_take(a, 1, kind->size), MAKING, s->entries};
+    s->entries = x;
+    return x;
+}
+
+static const void *make(struct shelf *s, struct entry *x, struct err *e)
+{
+    struct err own = {0};
+    bool ok = x->kind->make(x->file, x->arena, x->thing, &own);
+    pthread_mutex_lock(&s->lock);
+    x->state = ok ? THERE : GONE;
+    s->bytes += arena_bytes(x->arena);
+    pthread_cond_broadcast(&s->made);
+    pthread_mutex_unlock(&s->lock);
+    if (!ok && !e->kind)
+        *e = own;
+    return ok ? x->thing : NULL;
+}
+
+const void *shelf_take(struct shelf *s, const struct shelf_kind *kind, const char *file, struct arena *a, struct err *e)
+{
+    struct stat status;
+    struct entry *mine = NULL;
+    if (s && stat(file, &status) == 0) {
+        pthread_mutex_lock(&s->lock);
+        const struct entry *found = find(s, kind, file, &status);
+        if (!found && s->bytes < s->most)
+            mine = enter(s, kind, file, &status);
+        pthread_mutex_unlock(&s->lock);
+        if (found)
+            return found->thing;
+    }
+    if (mine)
+        return make(s, mine, e);
+    void *thing = arena_take(a, 1, kind->size);
+    return kind->make(file, a, thing, e) ? thing : NULL;
+}
+
+static bool make_sha256(const char *file, struct arena *a, void *thing, struct err *e)
+{
+    (void)a;
+    return hash_file(file, thing, e);
+}
+
+const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, struct err *e)
+{
+    static const struct shelf_kind sha256 = {"sha256", HASH_TEXT, make_sha256};
+    return shelf_take(s, &sha256, file, a, e);
+}

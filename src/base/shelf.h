@@ -1,0 +1,29 @@
+/* What several renders read of the same files: each file is read by the first that asks, and what came of it stays for the others, who only look at it. Any number of threads
+   may ask; who asks for what is being read waits. A file that has changed since (its size, its time, its place on the disk) is read anew. */
+#ifndef BASE_SHELF_H
+#define BASE_SHELF_H
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+
+struct shelf;
+
+struct shelf_kind {
+    const char *name;   /* "mode table": of one file there may be several things */
+    size_t size;        /* of the thing, a struct that `make` fills              */
+    bool (*make)(const char *file, struct arena *a, void *thing, struct err *e);
+};
+
+/* Holds that many bytes, about: what is asked for beyond is read by everyone who asks. */
+struct shelf *shelf_open(size_t most);
+void shelf_close(struct shelf *s);
+
+/* Not to be changed. s NULL: it is made in the arena, of which its life is then; else it lives as long as the shorter-lived of shelf and arena. NULL: the error of make, which is not kept. */
+const void *shelf_take(struct shelf *s, const struct shelf_kind *kind, const char *file, struct arena *a, struct err *e);
+
+/* The file's sha256 as text. ERR_INPUT */
+const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, struct err *e);
+
+#endif

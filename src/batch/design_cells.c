@@ -1,0 +1,234 @@
+/* See design_cells.h. */
+#include "batch/design_cells.h"
+
+#include <string.h>
+
+#include "scene/scene_merge.h"
+
+enum { EXCLUSIONS = 1000 };
+
+struct exclusion {
+    unsigned char **named;  /* [n_factors][n_levels], is the level named? NULL: every level is meant */
+    const struct yaml_node *entry;
+    bool matched;
+};
+
+/* ------------------------------------------------------------------ crossing */
+
+static double crossed(const struct design *d)
+{
+    double n = 1;
+    for (int f = 0; f < d->n_factors; f++)
+        n *= d->factors[f].n_levels;
+    return n;
+}
+
+/* The first factor is the slowest. */
+static void levels_of(const struct design *d, long cell, int *level)
+{
+    for (int f = d->n_factors - 1; f >= 0; f--) {
+        level[f] = (int)(cell % d->factors[f].n_levels);
+        cell /= d->factors[f].n_levels;
+    }
+}
+
+static struct design_cell *cell_add(struct design_reading *r, long *room)
+{
+    if (r->n_cells == *room) {
+        struct design_cell *more = ARENA_TAKE(r->arena, struct design_cell, 2 * *room + 64);
+        if (r->n_cells > 0)
+            memcpy(more, r->cells, (size_t)r->n_cells * sizeof *more);
+        r->cells = more;
+        *room = 2 * *room + 64;
+    }
+    return &r->cells[r->n_cells++];
+}
+
+static bool excluded(const struct design *d, const int *level, struct exclusion *all, int n)
+{
+    bool any = false;
+    for (int i = 0; i < n; i++) {
+        bool match = true;
+        for (int f = 0; match && f < d->n_factors; f++)
+            match = !all[i].named[f] || all[i].named[f][level[f]];
+        all[i].matched = all[i].matched || match;
+        any = any || match;
+    }
+    return any;
+}
+
+static void cells_cross(struct design_reading *r, struct exclusion *all, int n)
+{
+    const struct design *d = r->design;
+    long room = (long)crossed(d);
+    int *levels = ARENA_TAKE(r->arena, int, room * d->n_factors + 1);
+    r->cells = ARENA_TAKE(r->arena, struct design_cell, room + 1);
+    for (long i = 0, most = room; i < most; i++) {
+        levels_of(d, i, levels);
+        if (excluded(d, levels, all, n))
+            continue;
+        *cell_add(r, &room) = (struct design_cell){.level = levels};
+        levels += d->n_factors;
+    }
+}
+
+/* ------------------------------------------------------------------ listing */
+
+/* The levels that a map of factor: label says, -1 where it says none; keys of `own` (NULL-terminated) are not factors. */
+static int *entry_levels(const struct design_reading *r, const struct yaml_node *map, const char *const *own)
+{
+    int *level = ARENA_TAKE(r->arena, int, r->design->n_factors + 1);
+    for (int f = 0; f < r->design->n_factors; f++)
+        level[f] = -1;
+    for (const struct yaml_node *item = map->first; item; item = item->next) {
+        int i = 0;
+        while (own[i] && strcmp(own[i], item->key->text) != 0)
+            i++;
+        int f = own[i] ? -1 : design_reading_factor(r, item->key);
+        if (f >= 0)
+            level[f] = design_reading_level(r, f, item);
+    }
+    return level;
+}
+
+/* Entries that are no maps are told here. */
+static bool is_list(const struct design_reading *r, const struct yaml_node *list, const char *label, const char *cure)
+{
+    if (list->kind != YAML_LIST)
+        return design_reading_must(r, list, label, "a list", cure);
+    for (const struct yaml_node *item = list->first; item; item = item->next)
+        if (item->kind != YAML_MAP)
+            design_reading_must(r, item, arena_format(r->arena, "an entry of %s", label), "a map", cure);
+    return true;
+}
+
+static void cell_complete(const struct design_reading *r, const struct yaml_node *entry)
+{
+    for (int f = 0; f < r->design->n_factors; f++)
+        if (!yaml_get(entry, r->design->factors[f].name))
+            diag_add(r->yaml->diag, entry->at, "name a level of every factor", "this cell says nothing of %s", r->design->factors[f].name);
+}
+
+static void cells_list(struct design_reading *r, const struct yaml_node *list, struct exclusion *all, int n)
+{
+    static const char *const own[] = {NULL};
+    int errors = r->yaml->diag->n;
+    long room = 0;
+    if (!is_list(r, list, "cells", "write for instance: cells: [{material: wood, motion.rate: 1 Hz}]"))
+        return;
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
+        if (entry->kind != YAML_MAP)
+            continue;
+        int *level = entry_levels(r, entry, own);
+        cell_complete(r, entry);
+        if (r->yaml->diag->n == errors && !excluded(r->design, level, all, n))
+            *cell_add(r, &room) = (struct design_cell){.level = level, .entry = entry};
+    }
+}
+
+/* ------------------------------------------------------------------ excluding */
+
+static void level_name(const struct design_reading *r, int f, const struct yaml_node *label, unsigned char *named)
+{
+    int i = design_reading_level(r, f, label);
+    if (i >= 0)
+        named[i] = 1;
+}
+
+static void exclusion_read(const struct design_reading *r, struct exclusion *x)
+{
+    x->named = ARENA_TAKE(r->arena, unsigned char *, r->design->n_factors + 1);
+    if (x->entry->n == 0)
+        diag_add(r->yaml->diag, x->entry->at, "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]", "this excludes every cell");
+    for (const struct yaml_node *item = x->entry->first; item; item = item->next) {
+        int f = design_reading_factor(r, item->key);
+        if (f < 0)
+            continue;
+        x->named[f] = arena_take(r->arena, (size_t)r->design->factors[f].n_levels, 1);
+        if (item->kind != YAML_LIST)
+            level_name(r, f, item, x->named[f]);
+        for (const struct yaml_node *label = item->kind == YAML_LIST ? item->first : NULL; label; label = label->next)
+            level_name(r, f, label, x->named[f]);
+    }
+}
+
+static struct exclusion *exclusions_read(const struct design_reading *r, int *n)
+{
+    const struct yaml_node *list = design_reading_value(r, "exclude");
+    struct exclusion *all = ARENA_TAKE(r->arena, struct exclusion, list ? list->n + 1 : 1);
+    *n = 0;
+    if (list && list->n > EXCLUSIONS) {
+        diag_add(r->yaml->diag, list->at, "list the cells that there are: cells:", "exclude has more than %d entries", EXCLUSIONS);
+        return all;
+    }
+    if (!list || !is_list(r, list, "exclude", "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]"))
+        return all;
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
+        if (entry->kind != YAML_MAP)
+            continue;
+        all[*n] = (struct exclusion){.entry = entry};
+        exclusion_read(r, &all[(*n)++]);
+    }
+    return all;
+}
+
+/* ------------------------------------------------------------------ recordings */
+
+static void recordings_add(struct design_reading *r, const struct yaml_node *list)
+{
+    static const char *const own[] = {"file", "name", "text", NULL};
+    static const char cure[] = "write for instance: recordings: [{file: recorded/wood.wav, material: wood}]";
+    long room = r->n_cells;
+    if (!is_list(r, list, "recordings", cure))
+        return;
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
+        if (entry->kind != YAML_MAP)
+            continue;
+        const struct yaml_node *file = yaml_get(entry, "file");
+        const struct yaml_node *text = yaml_get(entry, "text");
+        int *level = entry_levels(r, entry, own);
+        if (text && text->kind != YAML_SCALAR)
+            design_reading_must(r, text, "text", "what the text of a trial is", cure);
+        if (!file)
+            diag_add(r->yaml->diag, entry->at, cure, "this recording has no file");
+        else if (file->kind != YAML_SCALAR || !*file->text)
+            design_reading_must(r, file, "file", "the name of a WAV", cure);
+        else
+            *cell_add(r, &room) = (struct design_cell){level, entry, scene_merge_path(r->yaml, file->at.source, file->text)};
+    }
+}
+
+/* ------------------------------------------------------------------ all */
+
+static void matched_check(const struct design_reading *r, const struct exclusion *all, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (!all[i].matched)
+            diag_add(r->yaml->diag, all[i].entry->at, "remove it, or mend it", "this excludes nothing: there is no such cell");
+}
+
+static bool few_enough(const struct design_reading *r, double cells, const struct yaml_node *at)
+{
+    cells *= r->design->replicates;
+    return cells <= DESIGN_READING_CELLS || diag_add(r->yaml->diag, at ? at->at : r->root->at, "make several designs of it",
+                                                     "this makes %.0f stimuli; a design has at most %d", cells, DESIGN_READING_CELLS);
+}
+
+void design_cells_make(struct design_reading *r)
+{
+    const struct yaml_node *cells = design_reading_value(r, "cells"), *recordings = design_reading_value(r, "recordings");
+    int n, errors = r->yaml->diag->n;
+    struct exclusion *all = exclusions_read(r, &n);
+    if (!few_enough(r, cells ? cells->n : crossed(r->design), cells ? cells : design_reading_value(r, "factors")))
+        return;
+    if (cells)
+        cells_list(r, cells, all, n);
+    else if (r->yaml->diag->n == errors)
+        cells_cross(r, all, n);
+    if (r->yaml->diag->n == errors)
+        matched_check(r, all, n);
+    if (r->yaml->diag->n == errors && r->n_cells == 0)
+        diag_add(r->yaml->diag, (cells ? cells : yaml_get(r->root, "exclude"))->at, "leave some in", "no cell is left");
+    if (recordings)
+        recordings_add(r, recordings);
+}

@@ -1,0 +1,169 @@
+/* See design_columns.h. Names of columns are lower_snake with the unit at the end (motion_rate_hz, speed_cm_per_s), as tables are read by programs that
+   take no other: PsychoPy, R, BIDS. */
+#include "batch/design_columns.h"
+
+#include <ctype.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "batch/design_changes.h"
+#include "scene/keys_text.h"
+#include "scene/keys_yaml.h"
+#include "scene/units.h"
+#include "scene/units_table.h"
+
+struct measure {
+    const char *number, *unit; /* as written; the unit "": none */
+    size_t size;               /* characters of the number      */
+    enum key_dimension dimension;
+};
+
+/* ------------------------------------------------------------------ quantities */
+
+/* `bare` is the dimension of a number without a unit. False: the label is none. */
+static bool quantity_of(const char *label, enum key_dimension bare, struct measure *q)
+{
+    int power;
+    double x;
+    size_t n = text_number_length(label);
+    const char *unit = label + n + strspn(label + n, " \t");
+    const struct units_table_unit *u = *unit ? units_table_find(unit, &power) : NULL;
+    if (n == 0 || (*unit && !u) || !text_scaled(label, n, 0, &x))
+        return false;
+    *q = (struct measure){label, *unit ? unit : keys_text_unit(bare), n, u ? u->dimension : bare};
+    return true;
+}
+
+static const char *number_as_written(const struct measure *q, struct arena *a)
+{
+    double x = 0;
+    text_scaled(q->number, q->size, 0, &x);
+    return keys_yaml_number(x, a);
+}
+
+static const char *number_si(const char *label, enum key_dimension d, struct arena *a)
+{
+    struct units_fault fault;
+    double x = 0;
+    units_read(label, d, &x, a, &fault);
+    return keys_yaml_number(x, a);
+}
+
+static bool of_numbers(const struct key *k)
+{
+    return k->type == KEY_NUMBER || k->type == KEY_WHOLE || k->type == KEY_COUNT || k->type == KEY_TIME_OR_AUTO;
+}
+
+/* Are all labels quantities of one dimension? Then that of each, and whether all have the same unit. */
+static bool quantities(const struct design_factor *f, struct measure *q, bool *same)
+{
+    const struct key *k = design_changes_key(f->name);
+    *same = true;
+    if (k && !of_numbers(k))
+        return false;
+    for (int i = 0; i < f->n_levels; i++) {
+        if (!quantity_of(f->levels[i].label, k ? k->dimension : KEY_NONE, &q[i]) || q[i].dimension != q[0].dimension)
+            return false;
+        *same = *same && strcmp(q[i].unit, q[0].unit) == 0;
+    }
+    return f->n_levels > 0;
+}
+
+static void values_make(struct design_factor *f, struct arena *a)
+{
+    struct measure *q = ARENA_TAKE(a, struct measure, f->n_levels + 1);
+    bool same, numbers = quantities(f, q, &same);
+    for (int i = 0; i < f->n_levels; i++)
+        f->levels[i].value = !numbers ? f->levels[i].label : same ? number_as_written(&q[i], a) : number_si(f->levels[i].label, q[i].dimension, a);
+    const char *unit = !numbers ? "" : same ? q[0].unit : keys_text_unit(q[0].dimension);
+    f->unit = *unit ? unit : NULL;
+}
+
+/* ------------------------------------------------------------------ names */
+
+struct name {
+    char *to;
+    size_t n;
+};
+
+static void put(struct name *name, const char *s)
+{
+    for (; *s; s++)
+        if (*s != '_' || (name->n > 0 && name->to[name->n - 1] != '_'))
+            name->to[name->n++] = (char)tolower((unsigned char)*s);
+}
+
+/* What stands for a character of a unit that no name has; *n: its bytes. */
+static const char *spelt(const char *s, int *n)
+{
+    static const struct {
+        const char *of, *by;
+    } signs[] = {{"/", "_per_"}, {"^", ""}, {"(", ""}, {")", ""}, {"\xc2\xb5", "u"}, {"\xce\xbc", "u"}, {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "deg"}};
+    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
+        if (strncmp(s, signs[i].of, strlen(signs[i].of)) == 0) {
+            *n = (int)strlen(signs[i].of);
+            return signs[i].by;
+        }
+    *n = 1;
+    return "_";
+}
+
+/* "_cm_per_s"; mega is written out, as milli and mega differ by case alone. */
+static void put_unit(struct name *name, const char *unit)
+{
+    put(name, "_");
+    if (strncmp(unit, "1/", 2) == 0)
+        unit++;
+    if (unit[0] == 'M' && unit[1]) {
+        put(name, "mega");
+        unit++;
+    }
+    for (int n; *unit; unit += n) {
+        const char letter[2] = {*unit, '\0'};
+        n = 1;
+        put(name, isalnum((unsigned char)*unit) ? letter : spelt(unit, &n));
+    }
+}
+
+static const char *column_of(const struct design_factor *f, struct arena *a)
+{
+    struct name name = {arena_take(a, 8 * (strlen(f->name) + (f->unit ? strlen(f->unit) : 0)) + 16, 1), 0};
+    for (const char *s = f->name; *s; s++) {
+        const char letter[2] = {*s, '\0'};
+        put(&name, isalnum((unsigned char)*s) ? letter : "_");
+    }
+    if (f->unit)
+        put_unit(&name, f->unit);
+    while (name.n > 0 && name.to[name.n - 1] == '_')
+        name.n--;
+    name.to[name.n] = '\0';
+    return name.to;
+}
+
+static void column_check(const struct design_reading *r, int f)
+{
+    static const char *const taken[] = {"file_name", "stimulus_id", "stim_file", "name", "scene_file", "scene_sha256", "plan_row", "row", "seed", "sample_rate_hz", "channels",
+                                        "frames", "duration_s", "encoding", "level_mode", "gain_db", "rms_dbfs", "peak_dbfs", "true_peak_dbtp",
+                                        "loudness_lufs", "onset_ramp_s", "offset_ramp_s", "audio_sha256", "file_sha256", "job_hash", "tool_version",
+                                        "status", "recording", "full_scale", "replicate", "text", "error", "error_code", NULL};
+    const char *column = r->design->factors[f].column, *of = NULL;
+    for (int i = 0; taken[i]; i++)
+        of = strcmp(column, taken[i]) == 0 ? "the manifest's own" : of;
+    for (int i = 0; i < f; i++)
+        of = strcmp(column, r->design->factors[i].column) == 0 ? arena_format(r->arena, "that of %s", r->design->factors[i].name) : of;
+    if (of)
+        diag_add(r->yaml->diag, r->factors[f]->key->at, "call the factor otherwise", "the manifest's column of %s would be called %s, as is %s",
+                 r->design->factors[f].name, column, of);
+}
+
+void design_columns_make(struct design_reading *r)
+{
+    for (int f = 0; f < r->design->n_factors; f++) {
+        struct design_factor *factor = &r->design->factors[f];
+        const struct key *k = design_changes_key(factor->name);
+        values_make(factor, r->arena);
+        factor->column = column_of(factor, r->arena);
+        factor->meaning = k ? k->meaning : NULL;
+        column_check(r, f);
+    }
+}

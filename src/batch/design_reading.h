@@ -1,0 +1,64 @@
+/* A design on its way from its text into struct design: what the parts of design_read share. Each part tells its errors and goes on. */
+#ifndef BATCH_DESIGN_READING_H
+#define BATCH_DESIGN_READING_H
+#include "batch/design.h"
+#include "file/yaml.h"
+#include "scene/scene_layer.h"
+
+enum { DESIGN_READING_CELLS = 1000000 /* stimuli at most */ };
+
+struct design_change {              /* what a level, or `set`, changes of the scene       */
+    struct scene_layer_key *keys;
+    int n, room;
+    const struct yaml_node *base;   /* the scene's file name; NULL: not changed           */
+};
+
+struct design_cell {
+    int *level;                     /* [n_factors]                                        */
+    const struct yaml_node *entry;  /* of `cells` or `recordings`; NULL: it was crossed   */
+    const char *recording;          /* as seen from here                                  */
+};
+
+struct design_texts {               /* what design_scene and design_text need             */
+    const struct yaml_node *base;   /* NULL: there is none                                */
+    struct design_change set;
+    struct design_change **levels;  /* [n_factors][n_levels]                              */
+    const struct design_cell *cells;
+    struct diag_place seed;         /* where the seed is said, or the design is named     */
+    struct diag_place level, length; /* the same                                          */
+};
+
+struct design_reading {
+    struct yaml *yaml;
+    struct arena *arena;
+    struct yaml_node *root;
+    struct design *design;
+    struct design_texts *texts;
+    const struct yaml_node **factors; /* [n_factors], the value of each                   */
+    const char **keys;              /* every path of scenes (keys_text_names)             */
+    struct design_cell *cells;      /* in the order of the design, recordings at the end  */
+    long n_cells;
+    const struct design_template *template; /* of names                                   */
+};
+
+/* A value of the top level; NULL: it is not given (or null). */
+struct yaml_node *design_reading_value(const struct design_reading *r, const char *key);
+
+/* Tells what the node must be, and what it is; false. */
+bool design_reading_must(const struct design_reading *r, const struct yaml_node *node, const char *label, const char *be, const char *cure);
+
+/* Keys of a map that are none of these (NULL-terminated) are told; `in` follows: "unknown key 'x' in cells". */
+void design_reading_known(const struct design_reading *r, const struct yaml_node *map, const char *const *names, const char *in);
+
+/* "a, b, c" */
+const char *design_reading_joined(const struct design_reading *r, const char *const *names);
+
+/* The factor of that name, of its key; -1: there is none, which has been told. */
+int design_reading_factor(const struct design_reading *r, const struct yaml_node *key);
+/* The factor's level of that label, or with that text; -1: there is none, which has been told. */
+int design_reading_level(const struct design_reading *r, int factor, const struct yaml_node *label);
+
+/* "wood, 2 Hz" */
+const char *design_reading_labels(const struct design *d, const int *level, struct arena *a);
+
+#endif

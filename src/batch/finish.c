@@ -1,0 +1,189 @@
+/* See finish.h. */
+#include "batch/finish.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "batch/folder.h"
+#include "batch/level.h"
+#include "batch/pool.h"
+#include "batch/sums.h"
+
+struct levelled {                /* what became of a stimulus that gets its gain, until it is taken */
+    struct journal_ref record;
+    bool done;
+    struct err *e;               /* by malloc; NULL: none */
+};
+
+struct work {
+    struct finish *finish;
+    struct levelled *now;        /* [n] */
+    struct err stop;
+};
+
+/* ------------------------------------------------------------------ levels */
+
+static bool whole(const struct finish *f)
+{
+    for (int i = 0; i < f->kit->set->n; i++)
+        if (!f->results.of[i].record.size)
+            return false;
+    return true;
+}
+
+static bool has_level(const struct finish *f, int i, const struct record *r)
+{
+    return f->kit->set->rows[i].recording || (r->job && r->full_scale == f->full_scale);
+}
+
+/* Renders the raw sound again: another gain was given to it, and it is gone. */
+static bool again(const struct finish *f, int i, struct arena *a, const struct record **raw, struct err *e)
+{
+    struct job_kit k = *f->kit;
+    struct job_result result;
+    k.again = true;
+    if (!k.design)
+        return err_set(e, ERR_INPUT, "%s: its raw sound is not there any more: run its shard again", f->kit->set->rows[i].name);
+    if (!job_do(&k, i, a, &result, e))
+        return false;
+    *raw = result.record;
+    return true;
+}
+
+enum { TRIES = 6 };
+
+/* Another batch in the same folder takes raw sounds away when it has given them their gain, and once more when it has finished. */
+static bool level_raw(const struct finish *f, int i, const struct record *raw, struct journal_ref *done, struct arena *a, struct err *e)
+{
+    for (int tries = 0; tries < TRIES; tries++) {
+        *e = (struct err){0};
+        if (tries || !raw)
+            if (!again(f, i, a, &raw, e))
+                return false;
+        if (level_apply(f->kit, raw, f->full_scale, a, done, e))
+            return true;
+        if (e->kind != ERR_INPUT)
+            return false;
+    }
+    return false;
+}
+
+static bool level_one(const struct finish *f, int i, struct journal_ref *done, struct arena *a, struct err *e)
+{
+    struct journal_ref old;
+    *done = f->results.of[i].record;
+    const struct record *r = journal_read(f->kit->journal, *done, a, e);
+    if (!r)
+        return false;
+    if (has_level(f, i, r))
+        return true;
+    return level_raw(f, i, r->job ? journal_find(f->kit->journal, r->key, true, a, &old) : r, done, a, e);
+}
+
+static bool stops(const struct err *e)
+{
+    return e->kind == ERR_CREATE || e->kind == ERR_IO || e->kind == ERR_INTERRUPTED;
+}
+
+static bool job(void *context, int i)
+{
+    struct work *w = context;
+    struct levelled *l = &w->now[i];
+    struct err e = {0};
+    struct arena *a = arena_open();
+    bool ok = interrupt_seen() ? err_set(&e, ERR_INTERRUPTED, "interrupted; run the same command again, and it goes on from here")
+                               : level_one(w->finish, i, &l->record, a, &e);
+    arena_close(a);
+    l->done = true;
+    if (!ok)
+        *(l->e = memory_take(sizeof e)) = e;
+    return ok || !stops(&e);
+}
+
+static void took(void *context, int i)
+{
+    struct work *w = context;
+    struct levelled *l = &w->now[i];
+    struct outcome *o = &w->finish->results.of[i];
+    if (!l->e) {
+        w->finish->anew = w->finish->anew || l->record.at != o->record.at;
+        o->record = l->record;
+        o->waits = false;
+    } else {
+        o->kind = l->e->kind;
+        o->text = arena_text(w->finish->arena, l->e->text);
+        if (stops(l->e))
+            err_set(&w->stop, l->e->kind, "%s", l->e->text);
+        o->record = (struct journal_ref){0};
+    }
+    free(l->e);
+    *l = (struct levelled){0};
+}
+
+static bool look_at(struct finish *f, int i, struct level_greatest *g, struct err *e)
+{
+    struct arena *a = arena_open();
+    const struct record *r = journal_read(f->kit->journal, f->results.of[i].record, a, e);
+    if (r)
+        level_look(g, r);
+    arena_close(a);
+    return r != NULL;
+}
+
+static bool lay_level(struct finish *f, struct err *e)
+{
+    const struct set *s = f->kit->set;
+    struct level_greatest g = level_start();
+    for (int i = 0; i < s->n; i++)
+        if (!s->rows[i].recording && !look_at(f, i, &g, e))
+            return false;
+    if (!level_find(s, &g, &f->full_scale, e))
+        return false;
+    struct work w = {f, ARENA_TAKE(f->arena, struct levelled, s->n), {0}};
+    pool_run(&(struct pool_work){.n = s->n, .threads = f->threads, .context = &w, .job = job, .took = took});
+    for (int i = 0; i < s->n; i++)
+        if (w.now[i].done)
+            took(&w, i);
+    return !w.stop.kind || err_set(e, w.stop.kind, "%s", w.stop.text);
+}
+
+/* ------------------------------------------------------------------ tables */
+
+static bool write_tables(struct finish *f, struct err *e)
+{
+    const struct set *s = f->kit->set;
+    const char *folder = f->kit->folder, *timings = arena_format(f->arena, "%s/timings.csv", folder);
+    struct stat status;
+    if (!manifest_write(folder, &f->results, &(struct shard){1, 1}, NULL, e) || !manifest_describe(folder, s, e) || !sums_write(folder, &f->results, e))
+        return false;
+    return (!f->anew && stat(timings, &status) == 0) || sums_timings(folder, &f->results, e);
+}
+
+static bool settle(struct finish *f, bool complete, struct err *e)
+{
+    const struct set *s = f->kit->set;
+    struct journal_ref *records = ARENA_TAKE(f->arena, struct journal_ref, s->n);
+    const char **names = ARENA_TAKE(f->arena, const char *, s->n);
+    for (int i = 0; i < s->n; i++) {
+        records[i] = f->results.of[i].record;
+        names[i] = s->rows[i].name;
+    }
+    if (!journal_settle(f->kit->journal, records, s->n, e))
+        return false;
+    if (folder_is_mine(f->entered))
+        folder_sweep(f->kit->folder, names, s->n, complete);
+    return true;
+}
+
+bool finish_set(struct finish *f, struct err *e)
+{
+    bool waits = set_waits(f->kit->set), complete = whole(f);
+    f->full_scale = waits ? NAN : f->kit->set->level.full_scale;
+    if (waits && complete && !lay_level(f, e))
+        return false;
+    return write_tables(f, e) && settle(f, !waits || whole(f), e);
+}

@@ -1,0 +1,21 @@
+/* The end of a set: the common level, the tables, and nothing left over. What a whole batch and a merge of shards have in common. */
+#ifndef BATCH_FINISH_H
+#define BATCH_FINISH_H
+#include "batch/job.h"
+#include "batch/manifest.h"
+
+struct finish {
+    const struct job_kit *kit;   /* design NULL (a merge): what is not there cannot be rendered again */
+    struct results results;
+    int threads;
+    int entered;                 /* folder_enter's */
+    struct arena *arena;
+    double full_scale;           /* of the set, once it is known; NAN */
+    bool anew;                   /* something was rendered: timings are written */
+};
+
+/* Where the level waits and all stimuli are there, gives them their gain. Then writes manifest.csv, manifest.json, SHA256SUMS and timings.csv, settles the journal, and sweeps.
+   Failures of single stimuli go to their outcomes. ERR_CREATE, ERR_IO, ERR_INTERRUPTED */
+bool finish_set(struct finish *f, struct err *e);
+
+#endif

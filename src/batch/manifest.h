@@ -1,0 +1,36 @@
+/* The table of a set: manifest.csv, one row a stimulus, in the order of the design; manifest.json, its side-car (a BIDS data dictionary); SHA256SUMS. Nothing in them differs
+   from run to run, from machine to machine, or with the number of threads or shards. What does is in timings.csv. */
+#ifndef BATCH_MANIFEST_H
+#define BATCH_MANIFEST_H
+#include <stdio.h>
+
+#include "base/err.h"
+#include "batch/journal.h"
+#include "batch/set.h"
+#include "batch/shard.h"
+
+struct outcome {                 /* of one stimulus                                          */
+    struct journal_ref record;   /* size 0: it failed, or is not of this shard               */
+    bool waits;                  /* the record is of a raw sound, which waits for its gain   */
+    bool kept;                   /* it was there                                             */
+    enum err_kind kind;          /* why it failed; ERR_NONE without a record: not tried      */
+    const char *text;            /* of the error                                             */
+};
+
+struct results {                 /* of a set                                                 */
+    const struct set *set;
+    struct outcome *of;          /* [set->n]                                                 */
+    struct journal *journal;     /* that has their records                                   */
+};
+
+/* manifest.csv of a whole set, or (shard->n > 1) manifest.i-of-n.csv with the rows in `mine` and, in comments before the header, design, build and shard.
+   ERR_CREATE, ERR_IO */
+bool manifest_write(const char *folder, const struct results *r, const struct shard *shard, const bool *mine, struct err *e);
+
+/* The header and the rows. ERR_IO: a record cannot be read again */
+bool manifest_print(FILE *f, const struct results *r, const bool *mine, struct err *e);
+
+/* manifest.json. ERR_CREATE, ERR_IO */
+bool manifest_describe(const char *folder, const struct set *s, struct err *e);
+
+#endif

@@ -1,0 +1,24 @@
+/* What is in a WAV that is done. */
+#ifndef BATCH_MEASURE_H
+#define BATCH_MEASURE_H
+#include <stdbool.h>
+
+#include "base/err.h"
+#include "base/hash.h"
+
+struct measure {
+    double rate;         /* Hz                                                        */
+    int channels;
+    long frames;
+    double peak, rms;    /* re full scale, of all channels                            */
+    double lufs;         /* integrated; NAN: shorter than 0.4 s, or silent            */
+    char audio[HASH_TEXT]; /* of the decoded samples, as rasp compare --hash has it   */
+};
+
+/* loud: the loudness is measured, too, at the cost of as much again. Two passes over the file, the second for the loudness. ERR_INPUT, ERR_SCENE */
+bool measure_file(const char *path, bool loud, struct measure *m, struct err *e);
+
+/* The same of its first frames, if it has more. */
+bool measure_part(const char *path, long frames, bool loud, struct measure *m, struct err *e);
+
+#endif

@@ -1,0 +1,254 @@
+/* See merge.h. Which record of the journals counts is said by the shards' manifests, by its job hash: the journals may hold more, of earlier designs. */
+#include "batch/merge.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/shelf.h"
+#include "base/text.h"
+#include "batch/finish.h"
+#include "batch/folder.h"
+#include "batch/pool.h"
+#include "batch/set_file.h"
+#include "file/csv.h"
+
+enum { SHELF_MOST = 1 << 20 /* bytes; hashes of inputs only */ };
+
+struct merge {
+    const char *folder;
+    struct arena *arena;
+    struct merge_report *report;
+    struct job_kit kit;
+    int entered;             /* folder_enter's */
+    const char **files;      /* manifests of shards */
+    int n;
+    bool *seen;              /* [shards] */
+    bool *there;             /* [set.n] */
+};
+
+/* ------------------------------------------------------------------ which shards */
+
+/* "manifest.3-of-7.csv" */
+static bool part_of_name(const char *name, struct shard *s)
+{
+    char text[32];
+    const char *of = strstr(name, "-of-"), *dot = of ? strstr(of, ".csv") : NULL;
+    if (strncmp(name, "manifest.", 9) != 0 || !of || !dot || dot[4] || dot - name > 30)
+        return false;
+    snprintf(text, sizeof text, "%.*s/%.*s", (int)(of - name - 9), name + 9, (int)(dot - of - 4), of + 4);
+    struct err e = {0};
+    return shard_read(text, s, &e);
+}
+
+static int is_part(const struct dirent *d)
+{
+    struct shard s;
+    return part_of_name(d->d_name, &s);
+}
+
+static void find_parts(struct merge *m)
+{
+    struct dirent **found;
+    int n = scandir(m->folder, &found, is_part, alphasort);
+    m->files = ARENA_TAKE(m->arena, const char *, n > 0 ? n : 0);
+    for (int i = 0; i < n; i++) {
+        m->files[m->n++] = arena_text(m->arena, found[i]->d_name);
+        free(found[i]);
+    }
+    if (n >= 0)
+        free(found);
+}
+
+static bool same_division(struct merge *m, struct err *e)
+{
+    struct shard s;
+    for (int i = 0; i < m->n; i++) {
+        part_of_name(m->files[i], &s);
+        if (m->report->shards && s.n != m->report->shards)
+            return err_set(e, ERR_SCENE, "%s: %s and %s are of different divisions of the set: remove those of the one that is out of date", m->folder, m->files[0], m->files[i]);
+        m->report->shards = s.n;
+    }
+    m->seen = ARENA_TAKE(m->arena, bool, m->report->shards + 1);
+    for (int i = 0; i < m->n; i++) {
+        part_of_name(m->files[i], &s);
+        m->seen[s.i] = true;
+    }
+    return true;
+}
+
+static bool note_missing(struct merge *m, struct err *e)
+{
+    const char *text = "";
+    int missing = 0;
+    for (int i = 1; i <= m->report->shards; i++)
+        if (!m->seen[i]) {
+            text = arena_format(m->arena, "%s%s%d", text, missing ? "," : "", i);
+            missing++;
+        }
+    m->report->missing = text;
+    return !missing || err_set(e, ERR_INPUT, "%s: %d of %d shards %s missing: --array=%s", m->folder, missing, m->report->shards, missing == 1 ? "is" : "are", text);
+}
+
+/* ------------------------------------------------------------------ what they say */
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp((*(const struct set_row *const *)a)->name, (*(const struct set_row *const *)b)->name);
+}
+
+static bool same_set(const struct merge *m, const struct csv *t, const char *file, struct err *e)
+{
+    const char *design = csv_comment(t, "design"), *build = csv_comment(t, "build");
+    if (!design || strcmp(design, m->report->set.sha256) != 0)
+        return err_set(e, ERR_SCENE, "%s/%s is of another design than the rest: run all shards of one design again, or remove it", m->folder, file);
+    if (!build || strcmp(build, m->report->set.build) != 0)
+        return err_set(e, ERR_SCENE, "%s/%s was made by %s, the rest by %s: run its shard again with the same program", m->folder, file, build ? build : "an unknown program",
+                       m->report->set.build);
+    return true;
+}
+
+struct columns {
+    int name, status, job, code, error;
+};
+
+static struct outcome outcome_of(const struct merge *m, const struct csv *t, size_t row, const struct columns *c)
+{
+    const char *const *cell = t->cells + row * t->columns;
+    const char *status = cell[c->status];
+    struct outcome o = {.kept = true};
+    int code = ERR_NUMBERS;
+    if (!strcmp(status, "ok") || !strcmp(status, "waits")) {
+        struct arena *a = arena_open();
+        o.waits = !strcmp(status, "waits");
+        journal_find(m->kit.journal, cell[c->job], o.waits, a, &o.record);
+        arena_close(a);
+        return o;
+    }
+    if (!strcmp(status, "failed")) {
+        text_int(cell[c->code], 1, 125, &code);
+        o.kind = (enum err_kind)code;
+        o.text = cell[c->error];
+    }
+    return o;
+}
+
+static bool read_part(struct merge *m, const char *file, struct set_row **sorted, struct err *e)
+{
+    struct csv t;
+    if (!csv_read(arena_format(m->arena, "%s/%s", m->folder, file), m->arena, &t, e) || !same_set(m, &t, file, e))
+        return false;
+    struct columns c = {csv_column(&t, "stimulus_id"), csv_column(&t, "status"), csv_column(&t, "job_hash"), csv_column(&t, "error_code"), csv_column(&t, "error")};
+    if (c.name < 0 || c.status < 0 || c.job < 0 || c.code < 0 || c.error < 0)
+        return err_set(e, ERR_SCENE, "%s/%s is no manifest of a shard: run its shard again", m->folder, file);
+    for (size_t i = 0; i < t.rows; i++) {
+        struct set_row key = {.name = t.cells[i * t.columns + (size_t)c.name]}, *wanted = &key;
+        struct set_row **found = bsearch(&wanted, sorted, (size_t)m->report->set.n, sizeof(struct set_row *), by_name);
+        if (found)
+            m->report->outcomes[*found - m->report->set.rows] = outcome_of(m, &t, i, &c);
+    }
+    return true;
+}
+
+static bool read_parts(struct merge *m, struct err *e)
+{
+    struct set *s = &m->report->set;
+    struct set_row **sorted = ARENA_TAKE(m->arena, struct set_row *, s->n);
+    for (int i = 0; i < s->n; i++)
+        sorted[i] = &s->rows[i];
+    qsort(sorted, (size_t)s->n, sizeof(struct set_row *), by_name);
+    for (int i = 0; i < m->n; i++)
+        if (!read_part(m, m->files[i], sorted, e))
+            return false;
+    return true;
+}
+
+/* ------------------------------------------------------------------ what is there */
+
+static bool look(void *context, int i)
+{
+    struct merge *m = context;
+    struct arena *a = arena_open();
+    struct err unreadable = {0};
+    struct journal_ref ref = m->report->outcomes[i].record;
+    const struct record *r = ref.size ? journal_read(m->kit.journal, ref, a, &unreadable) : NULL;
+    m->there[i] = r && job_is_there(m->folder, r, a);
+    arena_close(a);
+    return true;
+}
+
+static bool all_there(struct merge *m, int threads, struct err *e)
+{
+    struct merge_report *r = m->report;
+    int missing = 0;
+    r->names = ARENA_TAKE(m->arena, const char *, r->set.n + 1);
+    m->there = ARENA_TAKE(m->arena, bool, r->set.n);
+    pool_run(&(struct pool_work){.n = r->set.n, .threads = threads, .context = m, .job = look});
+    for (int i = 0; i < r->set.n; i++)
+        if (!m->there[i] && !r->outcomes[i].kind)
+            r->names[missing++] = r->set.rows[i].name;
+    return !missing || err_set(e, ERR_INPUT, "%s: %d of %d stimuli are not there as their shards left them: run the shards again", m->folder, missing, r->set.n);
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static void take_away(struct merge *m)
+{
+    for (int i = 0; i < m->n; i++)
+        unlink(arena_format(m->arena, "%s/%s", m->folder, m->files[i]));
+    unlink(arena_format(m->arena, "%s/.rasp/set.json", m->folder));
+}
+
+static bool judge(struct merge *m, struct err *e)
+{
+    struct merge_report *r = m->report;
+    enum err_kind worst = ERR_NONE;
+    for (int i = 0; i < r->set.n; i++) {
+        r->failed += r->outcomes[i].kind != ERR_NONE;
+        r->waiting += r->outcomes[i].record.size && r->outcomes[i].waits;
+        worst = r->outcomes[i].kind > worst ? r->outcomes[i].kind : worst;
+    }
+    return !worst || err_set(e, worst, "%d of %d stimuli failed; the column error of the manifest says why%s", r->failed, r->set.n,
+                             r->waiting ? ", and the common level waits for them" : "");
+}
+
+static bool join(struct merge *m, int threads, struct err *e)
+{
+    struct finish f = {.kit = &m->kit, .results = {&m->report->set, m->report->outcomes, m->kit.journal}, .threads = threads, .entered = m->entered, .arena = m->arena, .anew = true};
+    if (!read_parts(m, e) || !all_there(m, threads, e) || !finish_set(&f, e))
+        return false;
+    m->report->full_scale = f.full_scale;
+    if (!judge(m, e))
+        return false;
+    take_away(m);
+    return true;
+}
+
+void merge_close(struct merge_report *r)
+{
+    journal_close(r->journal);
+    r->journal = NULL;
+}
+
+bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
+{
+    struct merge m = {.folder = folder, .arena = a, .report = r, .kit = {.set = &r->set, .folder = folder}};
+    *r = (struct merge_report){.missing = "", .full_scale = NAN};
+    find_parts(&m);
+    if (!m.n)
+        return err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv, as rasp batch --shard leaves them: there is nothing to merge", folder);
+    if (!same_division(&m, e) || !set_file_load(arena_format(a, "%s/.rasp/set.json", folder), a, &r->set, e))
+        return false;
+    r->outcomes = ARENA_TAKE(a, struct outcome, r->set.n);
+    if (!note_missing(&m, e))
+        return false;
+    m.entered = folder_enter(folder);
+    m.kit.journal = r->journal = journal_open(folder, arena_format(a, "%s/.rasp/journal", folder), a, e);
+    m.kit.shelf = shelf_open(SHELF_MOST);
+    bool ok = m.kit.journal && join(&m, threads, e);
+    shelf_close(m.kit.shelf);
+    folder_leave(m.entered);
+    return ok;
+}

@@ -1,0 +1,40 @@
+/* All scenes of a design are read, and their inputs opened, before anything is rendered. */
+#ifndef BATCH_PREPARE_H
+#define BATCH_PREPARE_H
+#include "batch/design.h"
+#include "batch/set.h"
+#include "batch/shard.h"
+
+struct prepare_fault {
+    struct arena *arena;     /* what it is told with                      */
+    const struct diag *diag; /* of the scene's text                       */
+    const char *messages;    /* the same as text; "": it is the error     */
+    const struct err *err;
+    const char *name;        /* of the first stimulus that has it         */
+    int n;                   /* how many have it                          */
+};
+
+struct prepare_ask {
+    const struct design *design;
+    int threads;
+    struct shelf *shelf;     /* for what the scenes read                  */
+    const char *folder;      /* where the set goes; NULL: it is not said  */
+    const struct shard *shard;
+};
+
+struct prepare {
+    double seconds;          /* of sound, all stimuli                     */
+    double *lengths;         /* s, [n]: of each                           */
+    double bytes, raw_bytes; /* of the WAVs; of what waits for a level    */
+    double cycles;           /* predicted, of all                         */
+    struct prepare_fault *faults;
+    int n_faults, room;      /* 0: nothing is wrong; there is room for    */
+};
+
+/* Completes the set: costs, the common length, the form of the WAVs. Replicates of a cell differ in their noise alone: the first one is read for all. Takes as many
+   threads. False: there are faults (*e: the gravest kind and a summary), or ERR_INTERRUPTED, or
+   an output would take the place of an input (ERR_CREATE). */
+void prepare_close(struct prepare *p);
+bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *p, struct err *e);
+
+#endif

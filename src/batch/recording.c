@@ -1,0 +1,178 @@
+/* A recording is copied sample by sample, in the encoding of the set, times a gain:
+
+     level common or each, by peak, rms or lufs    brought to that level by itself: a recording has no quantity that a common gain could scale, and its own gain says nothing
+     level full_scale or dbfs_at_1_pa, level scene its samples as they are, gain 1
+
+   (a silent one has no level: under each this is an error, under common a warning)
+
+   and cut to the set's length under the set's ramp, or continued by silence. It must have the set's sample rate and channels: converting is left to programs made for it. */
+#include "batch/recording.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/stopwatch.h"
+#include "batch/folder.h"
+#include "batch/measure.h"
+#include "file/wav.h"
+#include "file/wav_stream.h"
+#include "num/real.h"
+#include "scene/keys_yaml.h"
+
+enum { PIECE = 4096 };
+
+bool recording_check(const char *file, double *rate, int *channels, double *seconds, struct err *e)
+{
+    struct wav_stream w;
+    if (!wav_stream_open(&w, file, e))
+        return false;
+    wav_stream_close(&w);
+    if (*rate == 0) {
+        *rate = w.rate;
+        *channels = w.channels;
+    }
+    *seconds = (double)w.frames / w.rate;
+    if (w.frames < 1 || w.channels > PIECE)
+        return err_set(e, ERR_SCENE, "%s: has no samples, or too many channels", file);
+    if (w.rate == *rate && w.channels == *channels)
+        return true;
+    return err_set(e, ERR_SCENE, "%s: has %d channel%s at %g Hz, the set has %d at %g Hz: convert it first, as in: sox %s -r %g -c %d converted.wav", file, w.channels,
+                   w.channels == 1 ? "" : "s", w.rate, *channels, *rate, file, *rate, *channels);
+}
+
+/* What the level asks of a recording that holds this. */
+static bool find_gain(const struct set *set, const char *file, const struct measure *m, double *gain, struct err *e)
+{
+    const struct level *l = &set->level;
+    *gain = 1;
+    if (set->level_rule == DESIGN_LEVEL_SCENE || !isnan(l->full_scale) || !isnan(l->dbfs_at_1_pa))
+        return true;
+    if (m->peak == 0)
+        return set->level_rule == DESIGN_LEVEL_COMMON || err_set(e, ERR_SCENE, "%s: is silent: no gain brings it to the level; take it out of the design, or give the level as common", file);
+    if (!isnan(l->rms))
+        *gain = real_exp10(l->rms / 20) / m->rms;
+    else if (isnan(l->lufs))
+        *gain = fmin(real_exp10(l->peak / 20), set->encoding <= ENCODING_PCM24 ? 1 - ldexp(1, set->encoding == ENCODING_PCM16 ? -15 : -23) : 1) / m->peak;
+    else if (isnan(m->lufs))
+        return err_set(e, ERR_SCENE, "%s: its loudness cannot be measured: BS.1770 needs 0.4 s that are not nearly silent", file);
+    else
+        *gain = real_exp10((l->lufs - m->lufs) / 20);
+    return true;
+}
+
+struct copy {
+    struct wav_stream in;
+    struct wav_out *out;
+    long frames, ramp, done;
+    double gain;
+};
+
+static void shape(struct copy *c, double *x, long n)
+{
+    bool cut = c->ramp > 0;
+    for (long i = 0; i < n; i++) {
+        long rest = c->frames - 1 - (c->done + i);
+        double s = cut && rest < c->ramp ? real_sinpi(0.5 * ((double)rest + 0.5) / (double)c->ramp) : 1;
+        for (int k = 0; k < c->in.channels; k++)
+            x[i * c->in.channels + k] *= c->gain * s * s;
+    }
+}
+
+static bool copy_all(struct copy *c, struct err *e)
+{
+    double x[PIECE];
+    long most = PIECE / c->in.channels;
+    while (c->done < c->frames) {
+        long some = c->frames - c->done < most ? c->frames - c->done : most, n;
+        memset(x, 0, sizeof x);
+        if (!wav_stream_read(&c->in, x, some, &n, e))
+            return false;
+        shape(c, x, some);
+        if (!wav_write(c->out, x, (size_t)some, e))
+            return false;
+        c->done += some;
+    }
+    return true;
+}
+
+static bool write_it(const struct set *set, const char *file, const char *path, double gain, struct record *r, struct err *e)
+{
+    static const int bits[] = {[ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
+    char comment[80];
+    struct copy c = {.gain = gain};
+    if (!wav_stream_open(&c.in, file, e))
+        return false;
+    long own = c.in.frames;
+    c.frames = isnan(set->length) ? own : (long)rint(set->length * c.in.rate);
+    c.ramp = c.frames < own ? (long)rint(set->ramp * c.in.rate) : 0;
+    c.ramp = c.ramp < c.frames / 2 ? c.ramp : c.frames / 2;
+    snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", gain, 20 * real_log10(gain));
+    struct wav_format f = {.rate = c.in.rate, .channels = c.in.channels, .bits = bits[set->encoding], .comment = comment};
+    c.out = wav_create(path, &f, e);
+    bool ok = c.out && copy_all(&c, e);
+    wav_stream_close(&c.in);
+    r->frames = c.frames;
+    r->rate = c.in.rate;
+    r->ramp = c.ramp > 0 ? (double)c.ramp / c.in.rate : 0;
+    if (ok)
+        return wav_commit(c.out, e);
+    if (c.out)
+        wav_drop(c.out);
+    return false;
+}
+
+/* As many frames of it are heard; its level is theirs. */
+static long length(const struct set *s)
+{
+    return isnan(s->length) ? LONG_MAX : (long)rint(s->length * s->rate);
+}
+
+/* What its bytes depend on. */
+static const char *key_of(const struct job_kit *k, const char *name, const char *sha256, struct arena *a)
+{
+    const struct set *s = k->set;
+    return job_hash((const char *const[]){"recording", name, s->build, sha256, set_level_text(s, a), isnan(s->length) ? "" : keys_yaml_number(s->length, a),
+                                          arena_format(a, "%d", s->encoding), keys_yaml_number(s->ramp, a)}, 8, a);
+}
+
+static bool make(const struct job_kit *k, const char *file, struct record *r, struct arena *a, struct err *e)
+{
+    struct measure m;
+    char hex[HASH_TEXT];
+    double gain, start[2] = {stopwatch_wall(), stopwatch_cpu()};
+    const char *path = arena_format(a, "%s.wav", job_base(k->folder, r->name, false, a));
+    if (!folder_make_for(k->folder, r->name, e) || !measure_part(file, length(k->set), !isnan(k->set->level.lufs), &m, e) || !find_gain(k->set, file, &m, &gain, e) ||
+        !write_it(k->set, file, path, gain, r, e) || !hash_file(path, hex, e))
+        return false;
+    r->files = ARENA_TAKE(a, struct record_file, 1);
+    r->files[r->n_files++] = (struct record_file){"wav", arena_format(a, "%s.wav", r->name), arena_text(a, hex)};
+    r->audio = arena_take(a, HASH_TEXT, 1);
+    r->sounds = true;
+    r->remarks = ARENA_TAKE(a, const char *, 2);
+    if (m.peak == 0)
+        r->remarks[0] = "the recording is silent: no level was set";
+    r->gain = gain, r->peak = m.peak, r->rms = m.rms, r->lufs = m.lufs;
+    r->encoding = k->set->encoding;
+    r->full_scale = NAN;
+    r->wall = stopwatch_wall() - start[0], r->cpu = stopwatch_cpu() - start[1];
+    return job_measure(k->folder, true, r, e);
+}
+
+bool recording_do(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
+{
+    char hex[HASH_TEXT];
+    const char *file = k->design->stimuli[i].recording;
+    if (!hash_file(file, hex, e))
+        return false;
+    const char *name = k->set->rows[i].name, *key = key_of(k, name, hex, a);
+    const struct record *found = k->force ? NULL : journal_find(k->journal, key, false, a, &result->ref);
+    result->kept = found && job_is_there(k->folder, found, a);
+    result->record = found;
+    if (result->kept)
+        return true;
+    struct record *r = ARENA_TAKE(a, struct record, 1);
+    *r = (struct record){.name = name, .key = key, .job = key, .build = k->set->build};
+    result->record = r;
+    return make(k, file, r, a, e) && journal_add(k->journal, r, &result->ref, e);
+}

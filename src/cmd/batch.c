@@ -1,0 +1,237 @@
+/* rasp batch: a design into a set of stimuli. */
+#include "cmd/batch.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+#include "batch/progress.h"
+#include "cmd/batch_build.h"
+#include "cmd/tell.h"
+#include "scene/keys_yaml.h"
+
+enum { TOLD = 20 /* failures that are told one by one */ };
+
+static const struct args_option batch_options[] = {
+    {"output", 'o', "FOLDER", false, "where the set goes; it is made if its parent is there"},
+    {"jobs", 'j', "N", false, "how many stimuli are rendered at once, 1 to 256; default: one for each core"},
+    {"shard", 0, "I/N", false, "render part I of N only (from 1/N to N/N), of about equal cost; rasp merge joins them"},
+    {"dry-run", 'n', NULL, false, "read and check everything, list the stimuli, write nothing"},
+    {"force", 'f', NULL, false, "render what is there already, too"},
+    {"json", 0, NULL, false, "print what was done on stdout as JSON"},
+    {"quiet", 'q', NULL, false, "no progress and no summary, only warnings and errors"},
+    CMD_DIAGNOSTICS_OPTION,
+    {0},
+};
+
+const char *batch_folder(struct arena *a, const char *given)
+{
+    size_t n = strlen(given);
+    while (n > 1 && given[n - 1] == '/')
+        n--;
+    return arena_format(a, "%.*s", (int)n, given);
+}
+
+bool batch_threads(const struct cmd_call *c, int *threads, struct err *e)
+{
+    long n = sysconf(_SC_NPROCESSORS_ONLN);
+    n = n < 1 ? 1 : n > 256 ? 256 : n;
+    if (!args_whole(&c->args, "jobs", (const long[2]){1, 256}, &n, e))
+        return false;
+    *threads = (int)n;
+    return true;
+}
+
+/* ------------------------------------------------------------------ what went wrong */
+
+void batch_tell_more(struct cmd_call *c, const char *command, enum err_kind kind, const char *text)
+{
+    struct err told = {0};
+    err_set(&told, kind, "%s", text);
+    tell_error(c, command, &told);
+}
+
+static void tell_faults(struct cmd_call *c, const struct prepare *p)
+{
+    for (int k = 0; k < p->n_faults && k < TOLD; k++) {
+        const struct prepare_fault *f = &p->faults[k];
+        const char *whose = f->n > 1 ? arena_format(c->arena, "%s and %d more", f->name, f->n - 1) : f->name;
+        struct err told = {0};
+        if (*f->messages) {
+            tell_scene(c, f->diag, f->messages, f->err->kind);
+            err_set(&told, f->err->kind, "the scene of %s is not valid", whose);
+        } else
+            err_set(&told, f->err->kind, "%s (%s)", f->err->text, whose);
+        tell_error(c, "batch", &told);
+    }
+    if (p->n_faults > TOLD)
+        batch_tell_more(c, "batch", p->faults[TOLD].err->kind, arena_format(c->arena, "and %d more errors", p->n_faults - TOLD));
+}
+
+static void tell_remarks(struct cmd_call *c, const struct results *all, int i)
+{
+    struct arena *a = arena_open();
+    struct err unreadable = {0};
+    const struct record *r = journal_read(all->journal, all->of[i].record, a, &unreadable);
+    for (int k = 0; r && r->remarks[k]; k++)
+        tell_warning(c, all->set->rows[i].name, r->remarks[k]);
+    arena_close(a);
+}
+
+void batch_tell(struct cmd_call *c, const char *command, const struct results *all)
+{
+    int failed = 0;
+    enum err_kind worst = ERR_NONE;
+    for (int i = 0; i < all->set->n; i++) {
+        const struct outcome *o = &all->of[i];
+        if (o->record.size && !o->kept)
+            tell_remarks(c, all, i);
+        if (!o->kind)
+            continue;
+        if (++failed <= TOLD)
+            batch_tell_more(c, command, o->kind, arena_format(c->arena, "%s: %s", all->set->rows[i].name, o->text));
+        else
+            worst = o->kind > worst ? o->kind : worst;
+    }
+    if (worst)
+        batch_tell_more(c, command, worst, arena_format(c->arena, "and %d more that failed", failed - TOLD));
+}
+
+/* ------------------------------------------------------------------ what was done */
+
+bool batch_print_json(json_t *j, struct err *e)
+{
+    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII) == 0;
+    putchar('\n');
+    json_decref(j);
+    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+}
+
+json_t *batch_json(const struct set *s, const struct outcome *outcomes, double full_scale)
+{
+    json_t *failed = json_array();
+    int ok = 0, waiting = 0;
+    for (int i = 0; i < s->n; i++) {
+        const struct outcome *o = &outcomes[i];
+        ok += o->record.size && !o->waits;
+        waiting += o->record.size && o->waits;
+        if (o->kind)
+            json_array_append_new(failed, json_pack("{s:s, s:i, s:s}", "stimulus", s->rows[i].name, "code", (int)o->kind, "error", o->text ? o->text : ""));
+    }
+    return json_pack("{s:s?, s:s, s:i, s:i, s:i, s:o, s:o}", "title", s->title, "design_sha256", s->sha256, "stimuli", s->n, "ok", ok, "waiting", waiting, "full_scale",
+                     isnan(full_scale) ? json_null() : json_real(full_scale), "failed", failed);
+}
+
+static json_t *report_json(const struct batch_ask *ask, const struct batch_report *r)
+{
+    json_t *j = batch_json(&r->set, r->outcomes, r->full_scale);
+    json_object_set_new(j, "folder", ask->folder ? json_string(ask->folder) : json_null());
+    json_object_set_new(j, "shard", json_pack("[i, i]", ask->shard.i, ask->shard.n));
+    json_object_set_new(j, "mine", json_integer(r->n_mine));
+    json_object_set_new(j, "rendered", json_integer(r->rendered));
+    json_object_set_new(j, "kept", json_integer(r->kept));
+    json_object_set_new(j, "sound_s", json_real(r->prepare.seconds));
+    json_object_set_new(j, "wav_bytes", json_real(r->prepare.bytes));
+    json_object_set_new(j, "predicted_cpu_s", json_real(r->prepare.cycles / 3e9));
+    json_object_set_new(j, "wall_s", json_real(r->seconds));
+    return j;
+}
+
+static void print_plan(const struct batch_ask *ask, const struct batch_report *r)
+{
+    char cpu[24];
+    design_print(&r->design, stdout);
+    progress_time(r->prepare.cycles / 3e9, cpu);
+    printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r->set.n, r->prepare.seconds, r->prepare.bytes / 1e6, cpu);
+    if (r->prepare.raw_bytes > 0)
+        printf("%.3g MB more while the common level is not known\n", r->prepare.raw_bytes / 1e6);
+    if (ask->shard.n > 1)
+        printf("shard %d/%d: %d of them\n", ask->shard.i, ask->shard.n, r->n_mine);
+}
+
+static void print_report(const struct batch_ask *ask, const struct batch_report *r, struct arena *a)
+{
+    char took[24];
+    progress_time(r->seconds, took);
+    if (ask->shard.n > 1) {
+        printf("%s: shard %d/%d: %d stimuli rendered, %d there already, %d failed, in %s; when all are there: rasp merge %s\n", ask->folder, ask->shard.i, ask->shard.n, r->rendered,
+               r->kept, r->failed, took, ask->folder);
+        return;
+    }
+    printf("%s: %d stimuli rendered, %d there already, %d failed, in %s", ask->folder, r->rendered, r->kept, r->failed, took);
+    if (!isnan(r->full_scale))
+        printf("; full_scale %s", keys_yaml_number(r->full_scale, a));
+    printf("\n");
+}
+
+/* ------------------------------------------------------------------ command */
+
+static bool read_ask(struct cmd_call *c, struct batch_ask *ask, struct err *e)
+{
+    const char *folder = args_value(&c->args, "output"), *shard = args_value(&c->args, "shard");
+    *ask = (struct batch_ask){.design = c->args.operands[0], .shard = {1, 1}, .force = args_given(&c->args, "force"), .dry = args_given(&c->args, "dry-run"),
+                              .quiet = args_given(&c->args, "quiet")};
+    if (!ask->dry && (!folder || !*folder))
+        return err_set(e, ERR_USAGE, "--output: a folder for the set is needed, as in -o out");
+    ask->folder = folder ? batch_folder(c->arena, folder) : NULL;
+    if ((shard && !shard_read(shard, &ask->shard, e)) || !batch_threads(c, &ask->threads, e))
+        return false;
+    ask->build = batch_build(c->arena, e);
+    return ask->build != NULL;
+}
+
+static int batch_command_run(struct cmd_call *c, struct err *e)
+{
+    struct batch_ask ask;
+    struct batch_report r;
+    bool json = args_given(&c->args, "json");
+    if (!read_ask(c, &ask, e))
+        return (int)e->kind;
+    interrupt_catch();
+    tell_group(c);
+    bool ok = batch_run(&ask, c->arena, &r, e);
+    if (*r.messages) {
+        tell_scene(c, r.design.diag, r.messages, e->kind);
+        enum err_kind kind = e->kind;
+        *e = (struct err){0};
+        err_set(e, kind, "%s %s", ask.design, kind == ERR_INPUT ? "cannot be read" : "is not a valid design");
+    }
+    tell_faults(c, &r.prepare);
+    if (r.journal)
+        batch_tell(c, "batch", &(struct results){&r.set, r.outcomes, r.journal});
+    batch_close(&r);
+    if (!r.outcomes)
+        return (int)e->kind;
+    if (json)
+        batch_print_json(report_json(&ask, &r), e);
+    else if (ok && ask.dry)
+        print_plan(&ask, &r);
+    else if ((ok || r.failed) && !ask.quiet)
+        print_report(&ask, &r, c->arena);
+    return (int)e->kind;
+}
+
+const struct command batch_command = {
+    .name = "batch",
+    .summary = "renders the set of stimuli that a design describes",
+    .does = "A design (rasp-design(5)) has a base scene, factors and levels, replicates, an order, one rule for the level and one for the length. Everything is read and checked before "
+            "anything is rendered. FOLDER then has NAME.wav, NAME.scene.yaml (rendering it gives the same bytes) and NAME.json of every stimulus, with whatever else its scene "
+            "writes; manifest.csv, a row for each with factors, seed, levels and hashes; manifest.json, which says what its columns mean; SHA256SUMS, for sha256sum -c; timings.csv. "
+            "None of them may take the place of a file that the set is made from. All but the last, and the NAME.json, are the same bytes whatever the number of threads and shards.\n"
+            "Run again, it renders only what is not there as it should be: after a change of the design, of an input or of the program, after an interruption (exit code 75), a crash or a "
+            "full disk. A stimulus that fails does not stop the others: the manifest has its error, and the exit code is the worst of all. Where the level is common, the set's gain is "
+            "known only when all stimuli are: until then their raw sounds wait in FOLDER/.rasp, 8 bytes a sample. With --shard the set is rendered by several runs, on several machines "
+            "perhaps, each with a manifest.I-of-N.csv; rasp merge makes one set of them. FOLDER/.rasp also keeps the list of what is done.",
+    .operands = "DESIGN",
+    .least = 1,
+    .most = 1,
+    .options = batch_options,
+    .examples = "rasp batch scenes/designs/materials_by_rate.yaml -o out\n"
+                "rasp batch scenes/designs/materials_by_rate.yaml --dry-run\n"
+                "rasp batch scenes/designs/materials_by_rate.yaml -o out -j 2 --quiet\n"
+                "for i in 1 2 3; do rasp batch scenes/designs/materials_by_rate.yaml -o parts --shard $i/3; done && rasp merge parts\n",
+    .run = batch_command_run,
+};

@@ -1,0 +1,93 @@
+/* What `rasp golden` knows of its scenes, and its parts: the list, the renders, what is kept, the verdicts, the report.
+
+   Kept of a scene are the sounds and tables that its render writes: KEPT/NAME/sound.wav, KEPT/NAME/sound.csv and so on, or, where only hashes are kept, lines
+   "SHA256  NAME/sound.wav" of one file, as sha256sum has them. */
+#ifndef CMD_GOLDEN_H
+#define CMD_GOLDEN_H
+#include "base/hash.h"
+#include "cmd/compare.h"
+
+struct golden_file {
+    const char *name;            /* "sound.wav"                                            */
+    char sha256[HASH_TEXT];
+};
+
+struct golden_files {            /* of one scene, by name                                  */
+    struct golden_file *list;
+    int n;
+};
+
+struct golden_problem {
+    const char *file;            /* "sound.wav"; "": the scene as a whole                  */
+    const char *says, *report;   /* one line; several, from `rasp compare`, NULL: none     */
+};
+
+struct golden_scene {
+    const char *file, *name;
+    const char *at;              /* "scenes.txt:3: "; "": it is an operand                 */
+    struct args args;            /* options of its line                                    */
+    struct compare_ask sounds, tables; /* how far either may be off; exact: not at all     */
+    struct scene scene;
+    struct err failed;           /* kind ERR_NONE: read, and rendered so far               */
+    struct golden_files made[2]; /* by the first and the second render                     */
+    struct golden_problem *problems;
+    int n_problems, room;
+    const char *note;            /* of what is within its tolerances; NULL: nothing        */
+    struct arena *arena;         /* of what one thread at a time finds                     */
+};
+
+struct golden_sum {
+    const char *name;            /* NAME/sound.wav */
+    char sha256[HASH_TEXT];
+};
+
+struct golden {
+    struct cmd_call *call;
+    struct golden_scene *scenes;
+    int n;
+    bool whole;                  /* all operands are lists: nothing else should be kept    */
+    const char *kept;            /* folder of files; NULL: hashes only                     */
+    const char *hashes;          /* file of hashes; NULL: none                             */
+    struct golden_sum *sums;     /* its lines, by name                                     */
+    int n_sums;
+    const char *work;            /* folder of the renders                                  */
+    bool stays;                  /* ... of scenes that fail stays                          */
+    bool effective, tap, quiet;
+    int threads;
+};
+
+/* golden_list.c: the scenes that the operands stand for, read. What is wrong with a scene is its own failure. ERR_USAGE, ERR_INPUT, ERR_SCENE */
+extern const struct args_option golden_list_options[];
+bool golden_list(struct golden *g, struct err *e);
+
+/* golden_kept.c: what is kept. */
+bool golden_kept_read(struct golden *g, struct err *e); /* the file of hashes. ERR_INPUT, ERR_SCENE */
+struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a, struct err *e); /* ERR_INPUT */
+const struct golden_sum *golden_kept_sum(const struct golden *g, const char *scene, const char *file, struct arena *a);
+const char **golden_kept_strays(const struct golden *g, struct arena *a); /* NAME/FILE of no scene; ends with NULL */
+const struct golden_file *golden_kept_find(const struct golden_files *files, const char *name);
+void golden_kept_sort(struct golden_files *files);
+
+/* golden_render.c: the folder of the renders, and one render of a scene into it, by any thread. pass 0 or 1; from: the scene's file, or NULL for it as read. */
+bool golden_render_folder(struct golden *g, struct err *e);
+bool golden_render(const struct golden *g, struct golden_scene *s, int pass, const char *from, struct err *e);
+const char *golden_render_path(const struct golden *g, const struct golden_scene *s, int pass, const char *file, struct arena *a);
+void golden_render_clear(const struct golden *g, const struct golden_scene *s);
+void golden_render_end(const struct golden *g);
+
+/* golden_judge.c: problems. */
+void golden_judge_add(struct golden_scene *s, const char *file, const char *report, const char *format, ...) __attribute__((format(printf, 4, 5)));
+void golden_judge(const struct golden *g, struct golden_scene *s, int pass); /* what was made against what is kept       */
+void golden_judge_twice(const struct golden *g, struct golden_scene *s);     /* ... by the first render and the second  */
+
+/* golden_check.c, golden_update.c: the actions. */
+int golden_check(struct golden *g, struct err *e);
+int golden_update(struct golden *g, struct err *e);
+
+/* golden_report.c: what is printed. */
+void golden_report_begin(const struct golden *g, int points);
+void golden_report_scene(const struct golden *g, const struct golden_scene *s, int number);
+void golden_report_strays(const struct golden *g, const char *const *strays, int number);
+void golden_report_end(const struct golden *g, int good, int points);
+
+#endif

@@ -1,0 +1,252 @@
+/* See tell.h. */
+#include "cmd/tell.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "cmd/paint.h"
+#include "cmd/program.h"
+
+enum { FILES_NAMED = 4 /* of a warning that several scenes have */ };
+
+struct warning {
+    const char *text, **files;
+    int n, room;
+    struct warning *next;
+};
+
+struct cmd_tell {
+    bool json, group;
+    bool told;              /* tell_scene has said what tell_error would */
+    json_t *kept;           /* NULL: nothing is kept */
+    struct warning *warnings;
+};
+
+static struct cmd_tell *of(struct cmd_call *c)
+{
+    if (!c->tell)
+        c->tell = ARENA_TAKE(c->arena, struct cmd_tell, 1);
+    return c->tell;
+}
+
+bool tell_begin(struct cmd_call *c, struct err *e)
+{
+    const struct args_option *o = c->args.options;
+    while (o->name && strcmp(o->name, "diagnostics") != 0)
+        o++;
+    const char *format = o->name ? args_value(&c->args, "diagnostics") : NULL;
+    if (format && strcmp(format, "text") != 0 && strcmp(format, "json") != 0)
+        return err_set(e, ERR_USAGE, "--diagnostics: '%s' is neither text nor json", format);
+    of(c)->json = format && !strcmp(format, "json");
+    return true;
+}
+
+/* ------------------------------------------------------------------ JSON */
+
+static json_t *text_or_null(const char *s, size_t n)
+{
+    json_t *j = s ? json_stringn(s, n) : NULL; /* NULL also for what is not UTF-8 */
+    return j ? j : json_null();
+}
+
+static json_t *whole_or_null(int n)
+{
+    return n > 0 ? json_integer(n) : json_null();
+}
+
+static json_t *object(const char *severity, enum err_kind kind)
+{
+    json_t *o = json_object();
+    json_object_set_new(o, "severity", json_string(severity));
+    for (const char *const *key = (const char *const[]){"file", "line", "column", "width", "message", "help", NULL}; *key; key++)
+        json_object_set_new(o, *key, json_null());
+    json_object_set_new(o, "code", whole_or_null((int)kind));
+    return o;
+}
+
+static void set_place(json_t *o, int line, int column, int width)
+{
+    json_object_set_new(o, "line", whole_or_null(line));
+    json_object_set_new(o, "column", whole_or_null(line > 0 ? column : 0));
+    json_object_set_new(o, "width", whole_or_null(line > 0 ? width : 0));
+}
+
+/* An option, such as --set motion.rate, has neither file nor line. */
+static void set_source(json_t *o, const struct diag_place *at, struct arena *a)
+{
+    const char *name = at->source ? text_shown(a, at->source->name) : NULL;
+    bool lines = at->source && !at->source->option && !at->source->made;
+    json_object_set_new(o, at->source && at->source->option ? "option" : "file", text_or_null(name, name ? strlen(name) : 0));
+    set_place(o, lines ? at->line : 0, at->column, at->width);
+}
+
+static json_t *named_at(const struct diag_source *source, struct arena *a)
+{
+    json_t *all = json_array();
+    for (const struct diag_place *at = &source->named; at->source && !at->source->made; at = &at->source->named) {
+        json_t *o = json_object();
+        set_source(o, at, a);
+        json_array_append_new(all, o);
+    }
+    return all;
+}
+
+static json_t *of_diag(const struct diag_error *x, enum err_kind kind, struct arena *a)
+{
+    json_t *o = object("error", kind);
+    set_source(o, &x->at, a);
+    json_object_set_new(o, "message", text_or_null(x->text, strlen(x->text)));
+    if (x->help)
+        json_object_set_new(o, "help", text_or_null(x->help, strlen(x->help)));
+    if (x->at.source && x->at.source->named.source)
+        json_object_set_new(o, "named_at", named_at(x->at.source, a));
+    return o;
+}
+
+static json_t *of_err(const struct err *e)
+{
+    json_t *o = object("error", e->kind);
+    const struct err_place *p = &e->place;
+    if (p->file > 0)
+        json_object_set_new(o, "file", text_or_null(e->text, (size_t)p->file));
+    set_place(o, p->line, p->column, p->width);
+    const char *message = p->message < (int)strlen(e->text) ? e->text + p->message : e->text;
+    json_object_set_new(o, "message", text_or_null(message, strlen(message)));
+    return o;
+}
+
+static void print(json_t *o)
+{
+    char *text = json_dumps(o, JSON_ENSURE_ASCII);
+    fprintf(stderr, "%s\n", text ? text : "{}");
+    free(text);
+}
+
+static void put(struct cmd_call *c, json_t *o)
+{
+    struct cmd_tell *t = of(c);
+    if (t->kept)
+        json_array_append(t->kept, o);
+    if (t->json)
+        print(o);
+    json_decref(o);
+}
+
+/* ------------------------------------------------------------------ errors */
+
+void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind)
+{
+    struct cmd_tell *t = of(c);
+    for (int i = 0; (t->json || t->kept) && d && i < d->n && i < DIAG_KEPT; i++)
+        put(c, of_diag(&d->errors[i], kind, c->arena));
+    t->told = (t->json || t->kept) && d && d->n > 0;
+    if (t->json)
+        return;
+    paint_lines(stderr, messages);
+    if (*messages && messages[strlen(messages) - 1] != '\n')
+        fputc('\n', stderr);
+}
+
+void tell_error(struct cmd_call *c, const char *command, const struct err *e)
+{
+    struct cmd_tell *t = of(c);
+    if ((t->json || t->kept) && !t->told && e->kind != ERR_USAGE)
+        put(c, of_err(e));
+    t->told = false;
+    if (!t->json || e->kind == ERR_USAGE)
+        program_complain(command, e);
+}
+
+void tell_keep(struct cmd_call *c)
+{
+    of(c)->kept = json_array();
+}
+
+json_t *tell_kept(struct cmd_call *c)
+{
+    json_t *kept = of(c)->kept;
+    of(c)->kept = NULL;
+    return kept;
+}
+
+/* ------------------------------------------------------------------ warnings */
+
+static void warn_json(const struct warning *w)
+{
+    json_t *o = object("warning", ERR_NONE), *files = json_array();
+    for (int i = 0; i < w->n; i++)
+        json_array_append_new(files, text_or_null(w->files[i], strlen(w->files[i])));
+    json_object_set(o, "file", json_array_get(files, 0));
+    json_object_set_new(o, "message", text_or_null(w->text, strlen(w->text)));
+    if (w->n > 1)
+        json_object_set(o, "files", files);
+    json_decref(files);
+    print(o);
+    json_decref(o);
+}
+
+/* " (and of 2 other scenes: b.yaml, c.yaml)" */
+static const char *others(struct cmd_call *c, const struct warning *w)
+{
+    const char *all = arena_format(c->arena, " (and of %d other scene%s:", w->n - 1, w->n > 2 ? "s" : "");
+    for (int i = 1; i < w->n && i <= FILES_NAMED; i++)
+        all = arena_format(c->arena, "%s%s %s", all, i > 1 ? "," : "", w->files[i]);
+    return arena_format(c->arena, "%s%s)", all, w->n - 1 > FILES_NAMED ? ", ..." : "");
+}
+
+static void warn(struct cmd_call *c, const struct warning *w)
+{
+    if (of(c)->json)
+        warn_json(w);
+    else
+        paint_lines(stderr, arena_format(c->arena, "%s: warning: %s%s\n", w->files[0], w->text, w->n > 1 ? others(c, w) : ""));
+}
+
+static struct warning *same(struct cmd_tell *t, const char *text, struct arena *a)
+{
+    struct warning **w = &t->warnings;
+    while (*w && strcmp((*w)->text, text) != 0)
+        w = &(*w)->next;
+    if (!*w) {
+        *w = ARENA_TAKE(a, struct warning, 1);
+        (*w)->text = text;
+    }
+    return *w;
+}
+
+static void name(struct warning *w, const char *file, struct arena *a)
+{
+    if (w->n > 0 && !strcmp(w->files[w->n - 1], file))
+        return;
+    if (w->n == w->room) {
+        const char **more = ARENA_TAKE(a, const char *, w->room = 2 * w->room + 4);
+        if (w->n > 0)
+            memcpy(more, w->files, (size_t)w->n * sizeof *more);
+        w->files = more;
+    }
+    w->files[w->n++] = file;
+}
+
+void tell_warning(struct cmd_call *c, const char *file, const char *text)
+{
+    const char *shown = text_shown(c->arena, file);
+    text = text_shown(c->arena, text);
+    if (of(c)->group)
+        name(same(c->tell, text, c->arena), shown, c->arena);
+    else
+        warn(c, &(struct warning){.text = text, .files = &shown, .n = 1});
+}
+
+void tell_group(struct cmd_call *c)
+{
+    of(c)->group = true;
+}
+
+void tell_end(struct cmd_call *c)
+{
+    for (const struct warning *w = c->tell ? c->tell->warnings : NULL; w; w = w->next)
+        warn(c, w);
+    if (c->tell)
+        c->tell->warnings = NULL;
+}

@@ -1,0 +1,9 @@
+/* The reader of NumPy's arrays. */
+#include "file/heightfile_npy.h"
+#include "heights.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    heights_fuzz(heightfile_npy_is, heightfile_npy_read, data, size);
+    return 0;
+}

@@ -1,0 +1,97 @@
+/* promise_keep: what is chosen is the least that keeps the error by its own prediction; what is said stays; what is chosen once is not chosen again; what cannot be kept is
+   refused with the best that can be, which can be. That predictions hold is measured by cli/promise. */
+#include "pipeline/promise.h"
+
+#include "rig.h"
+
+#define SCENE "rasp: 1\nseed: 2\nsurface: {roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\nmotion: {path: line, to: [5 cm, 0], duration: 0.1 s}\n" \
+              "output: {quantity: force, sample_rate: 44100}\naccuracy: {error: %g dB%s}\n"
+
+static struct scene scene_of(double error, const char *more)
+{
+    return rig_scene(rig_arena(), arena_format(rig_arena(), SCENE, error, more));
+}
+
+static struct promise kept_of(double error, const char *more, struct scene *kept)
+{
+    struct scene s = scene_of(error, more);
+    struct promise p;
+    struct err e = {0};
+    ck_assert_msg(promise_keep(&s, rig_arena(), kept, &p, &e), "%g dB%s: %s", error, more, e.text);
+    return p;
+}
+
+/* Of one knob half the value, said, is predicted to miss it: from other rehearsals, so not the next coarser one. */
+START_TEST(the_cheapest)
+{
+    double before = 0;
+    for (double error = -30; error >= -100; error -= 10) {
+        struct scene kept, coarser;
+        struct promise p = kept_of(error, "", &kept);
+        double over = kept.accuracy.oversampling;
+        ck_assert_double_le(p.predicted, error - PROMISE_MARGIN);
+        ck_assert_int_eq(p.n, 1);
+        ck_assert_int_eq(p.parts[0].knob, KNOB_oversampling);
+        ck_assert_double_ge(over, before);
+        before = over;
+        if (over == 1)
+            continue;
+        struct err e = {0};
+        coarser = scene_of(error - PROMISE_MARGIN, arena_format(rig_arena(), ", oversampling: %g", floor(over / 2))); /* nothing is free: no margin is kept */
+        ck_assert_msg(!promise_keep(&coarser, rig_arena(), &kept, NULL, &e), "at %g dB %g would do as well as %g", error, floor(over / 2), over);
+    }
+    ck_assert_double_gt(before, 4);
+}
+END_TEST
+
+START_TEST(what_is_said_stays)
+{
+    struct scene kept;
+    struct promise p = kept_of(-40, ", oversampling: 7, gain_ramp: 3", &kept);
+    ck_assert_double_eq(kept.accuracy.oversampling, 7);
+    ck_assert_double_eq(kept.accuracy.gain_ramp, 3);
+    ck_assert(p.parts[0].said && p.parts[0].value == 7);
+    struct scene plain = rig_scene(rig_arena(), "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], duration: 0.1 s}\noutput: {quantity: force}\naccuracy: high\n");
+    struct err e = {0};
+    ck_assert(promise_keep(&plain, rig_arena(), &kept, &p, &e));
+    ck_assert(!p.asked && !p.chosen && p.text == NULL);
+    ck_assert_double_eq(kept.accuracy.oversampling, plain.accuracy.oversampling);
+}
+END_TEST
+
+/* Its knobs all said, as the effective scene has them, it comes back as it is, and nothing is rehearsed. */
+START_TEST(chosen_once)
+{
+    struct scene kept, again;
+    struct promise p;
+    struct err e = {0};
+    kept_of(-70, "", &kept);
+    kept.accuracy.said = (1u << KNOBS) - 1;
+    ck_assert(promise_keep(&kept, rig_arena(), &again, &p, &e));
+    ck_assert(p.asked && !p.chosen && isnan(p.predicted));
+    ck_assert_mem_eq(&again.accuracy, &kept.accuracy, sizeof kept.accuracy);
+}
+END_TEST
+
+START_TEST(the_best_is_told)
+{
+    struct scene s = scene_of(-200, ""), kept;
+    struct err e = {0};
+    double best;
+    ck_assert(!promise_keep(&s, rig_arena(), &kept, NULL, &e));
+    ck_assert_int_eq(e.kind, ERR_SCENE);
+    const char *says = strstr(e.text, "the best that can be promised here is ");
+    ck_assert_msg(says && sscanf(says + 38, "%lf dB", &best) == 1, "%s", e.text);
+    ck_assert_double_lt(best, -90);
+    kept_of(best, "", &kept);
+    struct err worse = {0};
+    s = scene_of(best - 1.01, "");
+    ck_assert_msg(!promise_keep(&s, rig_arena(), &kept, NULL, &worse), "%g dB can be had, too", best - 1.01);
+    struct err said = {0};
+    s = scene_of(-80, ", oversampling: 1");
+    ck_assert(!promise_keep(&s, rig_arena(), &kept, NULL, &said));
+    ck_assert_msg(strstr(said.text, "accuracy.oversampling is 1") != NULL, "%s", said.text);
+}
+END_TEST
+
+UNIT("promise", the_cheapest, what_is_said_stays, chosen_once, the_best_is_told)
