@@ -507,8 +507,8 @@ START_TEST(blocks_see_all_heights)
         long reach = (long)ceil(radii[k] / pitch), side = 2 * reach > 1024 ? 2 * reach : 1024;
         apart = k > 1 ? (double)side * pitch : 0;
         towers = k == 2 ? 0.98 * radii[k] : -0.98 * radii[k];
-        for (int i = 0; i < 400; i++) {
-            double x = i < 100 ? (double)(side * (i % 7 - 3)) * pitch + (i - 50) * 0.3 * pitch : between(-5e-2, 5e-2), most = -HUGE_VAL;
+        for (int i = 0; i < 120; i++) {
+            double x = i < 60 ? (double)(side * (i % 7 - 3)) * pitch + (i - 30) * 0.3 * pitch : between(-5e-2, 5e-2), most = -HUGE_VAL;
             for (long j = (long)floor(x / pitch) - reach - 1; j <= (long)ceil(x / pitch) + reach + 1; j++) {
                 double d = x - (double)j * pitch;
                 if (fabs(d) <= radii[k])
@@ -551,8 +551,8 @@ START_TEST(blocks_of_smooth_ground)
         double radius = (double[]){1e-4, 4e-3}[k];
         bed_make(&b, radius, pitch, radius, HUGE_VAL);
         long reach = (long)ceil(radius / pitch), side = 2 * reach > 1024 ? 2 * reach : 1024;
-        for (int i = 0; i < 40; i++) {
-            double x = i < 20 ? (double)(side * (i % 7 - 3)) * pitch + (i - 10) * 0.3 * pitch : between(-5e-2, 5e-2), most = -HUGE_VAL;
+        for (int i = 0; i < 16; i++) {
+            double x = i < 8 ? (double)(side * (i % 7 - 3)) * pitch + (i - 4) * 0.3 * pitch : between(-5e-2, 5e-2), most = -HUGE_VAL;
             for (double t = x - radius; t <= x + radius; t += fine)
                 if (rough_arc(radius, x, t) > most - 1e-9)
                     most = fmax(most, rough_top(radius, x, t, fine));

@@ -85,11 +85,11 @@ static long double tone(bool shared, int gamma, long double u, long n)
     return sum;
 }
 
-/* Against the sum at every 13th frame: relative rms, dB. */
+/* Against the sum at every 41st frame: relative rms, dB. */
 static double judged(const struct rig *g, bool shared, int gamma, bool readout)
 {
     double wrong = 0, whole = 0;
-    for (long n = 5; n < FRAMES; n += 13) {
+    for (long n = 5; n < FRAMES; n += 41) {
         long double want = 0;
         for (long m = 0; m <= n && m < FORCED; m++)
             want += force[m] / RATE * tone(shared, gamma, fminl((readout ? n : m) / (long double)FORCED, 1), n - m);

@@ -70,13 +70,13 @@ static void lagrange(int order, int hop, int n, double *w, int *first)
     }
 }
 
-/* Every frame of the motion; over tau by the sum over pairs in long double. */
+/* Every third frame of the motion; over tau by the sum over pairs in long double. */
 static double brute(const struct ring_survey *s, int order, int hop)
 {
     struct arena *a = arena_open();
     struct modes_point p = modes_point_make(a, 1);
     long double wrong = 0, whole = 0;
-    for (int n = 0; n < (int)(s->duration * RATE); n++) {
+    for (int n = 0; n < (int)(s->duration * RATE); n += 3) {
         double w[4];
         long double complex c[5], e[5];
         int first;
@@ -125,7 +125,7 @@ static double brute_until(const struct ring_survey *s, int order, int hop, int l
     struct arena *a = arena_open();
     struct modes_point p = modes_point_make(a, 1);
     double wrong = 0, whole = 0;
-    for (int n = 0; n < (int)(s->duration * RATE); n += 23) {
+    for (int n = 0; n < (int)(s->duration * RATE); n += 53) {
         double w[4];
         double complex c[5], q[5];
         int first;
