@@ -236,7 +236,8 @@ $(< known.md)
 ## Strikes
 
 Channel 1 a microphone, channel 2 the hammer's force, 16 bits, 44.1 kHz; no scales are known, so that levels are relative. *Explained*: share of a strike's sound that the one response
-which all strikes have in common makes of its force.
+which all strikes have in common makes of its force. Steel's recording is two sets of strikes (1 to 5 and 6 to 11) that ring differently, as if the place or the microphone had been moved between them:
+hence its low shares.
 
 $(< strikes.md)
 
@@ -255,7 +256,7 @@ $(< modes.md)
 
 Median decay: of all modes weighted by their energy, gain^2/(4 decay), the decay that half of the energy decays slower than; and plain of the strongest. ESPRIT finds
 more than the spectrogram, and part of it are pieces that are gone within some ten milliseconds; probably the beginning of a strike rather than a ringing of the object (not tested). They hold
-a tenth of the energy but count as any other in a plain median of many modes, which does not keep the order for the ten strongest and for all:
+the share of the energy that follows, but count as any other in a plain median of many modes, which does not keep the order for the ten strongest and for all:
 
 $(< brief.md)
 
