@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "convolution/ring_cost.h"
 #include "convolution/ring_means.h"
+#include "convolution/ring_noted.h"
 #include "response/object.h"
 #include "response/space.h"
 #include "scene/ball.h"
@@ -67,6 +68,22 @@ static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct 
 
 /* ------------------------------------------------------------------ all */
 
+/* Along the motion, unless it is known. */
+static bool choose_along(struct ring_choosing *c, struct err *e)
+{
+    struct ring_survey_ask ask = {.modes = &c->to->modes, .trajectory = &c->trajectory, .by_speed = c->contact->contact.model == CONTACT_SCRAPE,
+                                  .stays = c->to->reading == MOVING_GLIDE || c->to->reading == MOVING_READOUT,
+                                  .slopes = c->to->reading == MOVING_GLIDE};
+    const char *key = ring_noted_key(c->scene, c->contact, c->work);
+    if (ring_noted_find(c->scene->shelf, key, c->arena, c->to))
+        return true;
+    ring_survey(&ask, c->work, &c->survey);
+    if (!ring_means_choose(c, e))
+        return false;
+    ring_noted_add(c->scene->shelf, key, c->to);
+    return true;
+}
+
 static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct err *e)
 {
     if (!read_modes(c, e))
@@ -81,12 +98,8 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
         return false;
     if (!c->to->moves)
         return ring_means_choose(c, e);
-    struct ring_survey_ask ask = {.modes = &c->to->modes, .trajectory = &c->trajectory, .by_speed = c->contact->contact.model == CONTACT_SCRAPE,
-                                  .stays = c->to->reading == MOVING_GLIDE || c->to->reading == MOVING_READOUT,
-                                  .slopes = c->to->reading == MOVING_GLIDE};
     c->work = arena_open();
-    ring_survey(&ask, c->work, &c->survey);
-    bool chosen = ring_means_choose(c, e);
+    bool chosen = choose_along(c, e);
     c->to->cpu = stopwatch_cpu() - start;
     arena_close(c->work);
     return chosen;

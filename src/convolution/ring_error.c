@@ -33,6 +33,7 @@ enum { MOST = 4 };
 /* Cycles of a mode at an instant, by kind; more where it is heard until an end. */
 static const double cycles[] = {[RING_ERROR_LAUNCH] = 450, [RING_ERROR_READOUT] = 1000, [RING_ERROR_RAMP] = 200, [RING_ERROR_GLIDE] = 1500};
 #define ENDED 1200.0
+#define ALIKE 15.0 /* where poles are the same everywhere */
 
 #define HEARD 16.0 /* 2 decay t; of x^8 e^(-x), as interpolation of order 4 errs, 2 % lie beyond */
 
@@ -150,6 +151,28 @@ static struct energies launched(struct erring *r, int i)
     return (struct energies){n > 1 ? loud * e.wrong : 0, loud * e.whole};
 }
 
+/* The same where poles are the same everywhere: what interpolation misses is one exponential, and its energy that of its amplitude. What decaying_energy
+   gives for poles that are equal. */
+static void launched_shared(struct erring *r, double by, double *wrong, double *whole)
+{
+    int order = r->ask->order, n = r->s->along.modes->n;
+    const struct modes_point *last = &r->row[order];
+    double loud = ring_survey_loud(r->s, r->t);
+    for (int i = 0; i < n; i++) {
+        if (r->ask->skip && r->ask->skip[i])
+            continue;
+        double re = 0, im = 0, per = 2 * fmax(last->decay[i], r->least);
+        for (int k = 0; k < order && !r->exact; k++) {
+            re += r->weight[k] * r->row[k].re[i];
+            im += r->weight[k] * r->row[k].im[i];
+        }
+        re -= last->re[i];
+        im -= last->im[i];
+        wrong[i] += r->exact ? 0 : by * (loud * ((re * re + im * im) / per));
+        whole[i] += by * (loud * ((last->re[i] * last->re[i] + last->im[i] * last->im[i]) / per));
+    }
+}
+
 /* ds/dt and its square's integral since the motion's start, at t; at rest after the end. */
 struct drift {
     double re, im, square_re, square_im;
@@ -209,8 +232,13 @@ void ring_error(const struct ring_survey *s, const struct ring_error_ask *ask, d
             wrong[i] = whole[i] = 0;
             wanted++;
         }
+    bool shared = s->along.modes->shared && !(ask->until < HUGE_VAL) && !(ask->end < HUGE_VAL) && (ask->kind == RING_ERROR_LAUNCH || ask->kind == RING_ERROR_RAMP);
     for (int k = 0; k < instants; k++) {
         stand_at(&r, at[k].t);
+        if (shared) {
+            launched_shared(&r, at[k].weight, wrong, whole);
+            continue;
+        }
         for (int i = 0; i < n; i++)
             if (!ask->skip || !ask->skip[i]) {
                 struct energies e = of[ask->kind](&r, i);
@@ -218,7 +246,7 @@ void ring_error(const struct ring_survey *s, const struct ring_error_ask *ask, d
                 whole[i] += at[k].weight * e.whole;
             }
     }
-    *s->looked += instants * ((ask->order + 1) * ring_survey_point(s) + wanted * cycles[ask->kind]) + (double)r.ended * ENDED;
+    *s->looked += instants * ((ask->order + 1) * ring_survey_point(s) + wanted * (shared ? ALIKE : cycles[ask->kind])) + (double)r.ended * ENDED;
     arena_close(a);
 }
 

@@ -68,6 +68,18 @@ static void look_at(struct looking *k, long cell, const struct modes_point *p, c
     }
 }
 
+/* The same of poles that are the same everywhere. */
+static void look_at_shared(struct looking *k, long cell, const struct modes_point *p, const struct modes_point *q)
+{
+    const double *decay = k->ask->modes->decay, floor = floor_of(k->s), loud = k->s->loud[cell];
+    double *moved = k->moved + cell * k->n;
+    for (int i = 0; i < k->n; i++) {
+        double sigma = decay[i] > floor ? decay[i] : floor, dre = q->re[i] - p->re[i], dim = q->im[i] - p->im[i];
+        moved[i] = loud * (dre * dre + dim * dim) / sigma;
+        k->sum[i] += moved[i];
+    }
+}
+
 static void look_places(struct looking *k)
 {
     struct ring_survey *s = k->s;
@@ -120,7 +132,7 @@ static void look_along(struct looking *k, struct arena *a)
     for (long c = 0; c <= s->cells; c++) {
         ring_along_at(&s->along, (double)c * s->step, &row[c % 2]);
         if (c > 0)
-            look_at(k, c - 1, &row[(c - 1) % 2], &row[c % 2]);
+            (s->along.modes->shared && !s->slope ? look_at_shared : look_at)(k, c - 1, &row[(c - 1) % 2], &row[c % 2]);
     }
 }
 

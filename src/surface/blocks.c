@@ -16,12 +16,13 @@
 #include "num/fft.h"
 #include "num/real.h"
 
-enum { BLOCKS_KEPT = 4 };
+/* Blocks are kept as long as they fit into KEPT_BYTES: strokes back and forth read the same ones again, and making one costs what 20 000 frames of reading do. */
+enum { KEPT_LEAST = 4, KEPT_MOST = 64, KEPT_BYTES = 1 << 19 };
 
 struct block {
     long index;
     bool filled;
-    double *c;
+    double *c;              /* [n]; NULL: not asked for yet */
 };
 
 struct blocks {
@@ -29,7 +30,9 @@ struct blocks {
     double *window, *spread;/* [n], [n/2+1]: window; standard deviation of a line's real and imaginary part */
     struct fft *fft;
     struct noise stream;
-    struct block blocks[BLOCKS_KEPT]; /* block b lies in slot b mod BLOCKS_KEPT */
+    struct block *blocks;   /* [kept]: block b lies in slot b mod kept */
+    long kept;
+    struct arena *arena;    /* for blocks */
     double *re, *im, *normal;
 };
 
@@ -46,6 +49,8 @@ static void blocks_spread(struct blocks *g, const struct spectrum *s, double pit
 
 static void block_fill(struct blocks *g, struct block *b, long index)
 {
+    if (!b->c)
+        b->c = ARENA_TAKE(g->arena, double, g->n);
     noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
     for (long j = 0; j < g->n / 2; j++) {
         g->re[j] = g->normal[2 * j] * g->spread[j];
@@ -61,7 +66,7 @@ static void block_fill(struct blocks *g, struct block *b, long index)
 
 static const double *block_at(struct blocks *g, long index)
 {
-    struct block *b = &g->blocks[((index % BLOCKS_KEPT) + BLOCKS_KEPT) % BLOCKS_KEPT];
+    struct block *b = &g->blocks[((index % g->kept) + g->kept) % g->kept];
     if (!b->filled || b->index != index)
         block_fill(g, b, index);
     return b->c;
@@ -102,11 +107,11 @@ struct profile *blocks_make(struct arena *a, const struct spectrum *s, struct no
     struct blocks *g = ARENA_TAKE(a, struct blocks, 1);
     double pitch = 0.25 / spectrum_top(s), span = 8 / fmax(spectrum_bottom(s), s->k[0]) / pitch;
     long n = (long)fft_good_size((size_t)(span < 4096 ? 4096 : span));
-    *g = (struct blocks){.n = n, .stream = stream, .fft = fft_open((size_t)n), .window = ARENA_TAKE(a, double, n),
+    long kept = KEPT_BYTES / (n * (long)sizeof(double));
+    *g = (struct blocks){.n = n, .arena = a, .kept = kept < KEPT_LEAST ? KEPT_LEAST : kept > KEPT_MOST ? KEPT_MOST : kept, .stream = stream, .fft = fft_open((size_t)n), .window = ARENA_TAKE(a, double, n),
                          .spread = ARENA_TAKE(a, double, n / 2 + 1), .re = ARENA_TAKE(a, double, n / 2 + 1),
                          .im = ARENA_TAKE(a, double, n / 2 + 1), .normal = ARENA_TAKE(a, double, n)};
-    for (int k = 0; k < BLOCKS_KEPT; k++)
-        g->blocks[k].c = ARENA_TAKE(a, double, n);
+    g->blocks = ARENA_TAKE(a, struct block, g->kept);
     for (long i = 0; i < n; i++)
         g->window[i] = blocks_window(((double)i + 0.5) / (double)n);
     blocks_spread(g, s, pitch);
