@@ -146,27 +146,27 @@ FISHDIR ?= share/fish/vendor_completions.d
 TO = $(DESTDIR)$(PREFIX)
 
 install: all
-	install -D -m 755 $(BUILD)/rasp $(TO)/bin/rasp
-	install -D -m 755 $(BUILD)/rasp-modes $(TO)/libexec/rasp/rasp-modes
-	for page in man/*.1; do install -D -m 644 -t $(TO)/share/man/man1 $$page || exit 1; done
-	for page in man/*.5; do install -D -m 644 -t $(TO)/share/man/man5 $$page || exit 1; done
-	for folder in scenes surfaces irs; do install -d $(TO)/share/rasp/$$folder && cp -R $$folder/. $(TO)/share/rasp/$$folder || exit 1; done
-	chmod -R u+rwX,go+rX,go-w $(TO)/share/rasp
+	install -D -m 755 $(BUILD)/rasp "$(TO)"/bin/rasp
+	install -D -m 755 $(BUILD)/rasp-modes "$(TO)"/libexec/rasp/rasp-modes
+	for page in man/*.1; do install -D -m 644 -t "$(TO)"/share/man/man1 $$page || exit 1; done
+	for page in man/*.5; do install -D -m 644 -t "$(TO)"/share/man/man5 $$page || exit 1; done
+	for folder in scenes surfaces irs; do install -d "$(TO)"/share/rasp/$$folder && cp -R $$folder/. "$(TO)"/share/rasp/$$folder || exit 1; done
+	chmod -R u+rwX,go+rX,go-w "$(TO)"/share/rasp
 	for kind in scene design; do $(BUILD)/rasp explain --schema=$$kind > $(BUILD)/$$kind.schema.json && \
-	    install -m 644 -t $(TO)/share/rasp $(BUILD)/$$kind.schema.json || exit 1; done
+	    install -m 644 -t "$(TO)"/share/rasp $(BUILD)/$$kind.schema.json || exit 1; done
 	for shell in bash zsh fish; do $(BUILD)/rasp completion $$shell > $(BUILD)/completion.$$shell || exit 1; done
-	install -D -m 644 $(BUILD)/completion.bash $(TO)/$(BASHDIR)/rasp
-	install -D -m 644 $(BUILD)/completion.zsh $(TO)/$(ZSHDIR)/_rasp
-	install -D -m 644 $(BUILD)/completion.fish $(TO)/$(FISHDIR)/rasp.fish
-	install -D -m 644 -t $(TO)/share/doc/rasp README.md LICENSE
+	install -D -m 644 $(BUILD)/completion.bash "$(TO)"/$(BASHDIR)/rasp
+	install -D -m 644 $(BUILD)/completion.zsh "$(TO)"/$(ZSHDIR)/_rasp
+	install -D -m 644 $(BUILD)/completion.fish "$(TO)"/$(FISHDIR)/rasp.fish
+	install -D -m 644 -t "$(TO)"/share/doc/rasp README.md LICENSE
 
 # Folders that others may use too go only if nothing else is in them; of a real system those that it has from the start stay.
 uninstall:
-	rm -f $(TO)/bin/rasp $(TO)/share/man/man1/rasp.1 $(TO)/share/man/man1/rasp-*.1 $(TO)/share/man/man5/rasp-*.5
-	rm -f $(TO)/$(BASHDIR)/rasp $(TO)/$(ZSHDIR)/_rasp $(TO)/$(FISHDIR)/rasp.fish
-	rm -rf $(TO)/share/rasp $(TO)/share/doc/rasp $(TO)/libexec/rasp
+	rm -f "$(TO)"/bin/rasp "$(TO)"/share/man/man1/rasp.1 "$(TO)"/share/man/man1/rasp-*.1 "$(TO)"/share/man/man5/rasp-*.5
+	rm -f "$(TO)"/$(BASHDIR)/rasp "$(TO)"/$(ZSHDIR)/_rasp "$(TO)"/$(FISHDIR)/rasp.fish
+	rm -rf "$(TO)"/share/rasp "$(TO)"/share/doc/rasp "$(TO)"/libexec/rasp
 	for folder in libexec $(BASHDIR) $(ZSHDIR) $(FISHDIR) $(if $(DESTDIR),bin share/man/man1 share/man/man5 share/doc); do \
-	    [ ! -d $(TO)/$$folder ] || (cd $(TO) && rmdir -p --ignore-fail-on-non-empty $$folder) || exit 1; done
+	    [ ! -d "$(TO)"/$$folder ] || (cd "$(TO)" && rmdir -p --ignore-fail-on-non-empty $$folder) || exit 1; done
 
 # The source archive: the same bytes from the same revision.
 dist:

@@ -1,5 +1,6 @@
 #include "base/err.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -17,6 +18,11 @@ bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
     va_end(ap);
     text_show(text, e->text, sizeof e->text);
     return false;
+}
+
+enum err_kind err_system(enum err_kind otherwise)
+{
+    return errno == ENOMEM ? ERR_MEMORY : otherwise;
 }
 
 bool err_about(struct err *e, const char *contact, const char *key)

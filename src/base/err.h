@@ -34,6 +34,9 @@ struct err {
 bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* What a call of the system failed of, by errno: ERR_MEMORY if there was no memory, else what is said here. */
+enum err_kind err_system(enum err_kind otherwise);
+
 /* Says which key of a contact (NULL: of the scene itself) the error is about, unless that is said already, and returns false. Both texts must live as
    long as the scene. */
 bool err_about(struct err *e, const char *contact, const char *key);

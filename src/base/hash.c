@@ -54,16 +54,17 @@ bool hash_file(const char *path, char hex[HASH_TEXT], struct err *e)
 {
     struct stat s;
     if (stat(path, &s) != 0)
-        return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
+        return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
     if (!S_ISREG(s.st_mode))
         return err_set(e, ERR_INPUT, "%s: is not a file", path);
     FILE *f = memory_fopen(path, "rb");
     if (!f)
-        return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
+        return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
     struct hash h = hash_start();
     bool ok = hash_stream(f, &h);
     int why = errno;
     fclose(f);
     hash_end(&h, hex);
-    return ok || err_set(e, ERR_INPUT, "%s: %s", path, strerror(why));
+    errno = why;
+    return ok || err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(why));
 }

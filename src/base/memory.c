@@ -27,6 +27,14 @@ void *memory_take(size_t bytes)
     return p;
 }
 
+char *memory_realpath(const char *path)
+{
+    char *real = realpath(path, NULL);
+    if (!real && errno == ENOMEM)
+        memory_out("to look up %.200s", path);
+    return real;
+}
+
 FILE *memory_fopen(const char *path, const char *mode)
 {
     FILE *f = fopen(path, mode);

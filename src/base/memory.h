@@ -11,6 +11,9 @@ _Noreturn void memory_out(const char *format, ...) __attribute__((format(printf,
 /* malloc. */
 void *memory_take(size_t bytes);
 
+/* realpath, for free; NULL: errno says why. */
+char *memory_realpath(const char *path);
+
 /* fopen, to whose other errors the caller sees. */
 FILE *memory_fopen(const char *path, const char *mode);
 

@@ -75,7 +75,7 @@ static bool set_target(struct outfile *o, const char *target, struct err *e)
         return err_set(e, ERR_CREATE, "%s: %s", target,
                        S_ISDIR(s.st_mode) ? "is a folder; a file name is needed" : "is not a regular file and would be replaced");
     if (access(target, W_OK) != 0)
-        return err_set(e, ERR_CREATE, "%s: exists and cannot be written: %s", target, strerror(errno));
+        return err_set(e, err_system(ERR_CREATE), "%s: exists and cannot be written: %s", target, strerror(errno));
     if (realpath(target, whole))
         memcpy(o->target, whole, strlen(whole) + 1);
     return true;
@@ -86,7 +86,7 @@ static bool open_one(struct outfile *o, const char *target, bool unnamed, struct
     *o = (struct outfile){.fd = -1};
     if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || open_hidden(o)))
         return true;
-    err_set(e, ERR_CREATE, "%s: cannot be created: %s", target, errno == ENOENT ? "its folder does not exist" : strerror(errno));
+    err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target, errno == ENOENT ? "its folder does not exist" : strerror(errno));
     o->target[0] = '\0';
     return false;
 }
@@ -108,7 +108,7 @@ bool outfile_open(struct outfile *o, const char *target, struct err *e)
     o->stream = fdopen(o->fd, "w+");
     if (o->stream)
         return true;
-    err_set(e, errno == ENOMEM ? ERR_MEMORY : ERR_CREATE, "%s: cannot be created: %s", target, strerror(errno));
+    err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target, strerror(errno));
     outfile_drop(o);
     return false;
 }
@@ -149,7 +149,7 @@ static bool flush_it(struct outfile *o)
 
 static bool give_up(struct outfile *o, struct err *e)
 {
-    err_set(e, ERR_IO, "%s: cannot be written: %s", o->target, strerror(errno));
+    err_set(e, err_system(ERR_IO), "%s: cannot be written: %s", o->target, strerror(errno));
     outfile_drop(o);
     return false;
 }

@@ -6,9 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/memory.h"
+
 static const char *real_folder(const char *folder, struct arena *a)
 {
-    char *real = realpath(*folder ? folder : ".", NULL);
+    char *real = memory_realpath(*folder ? folder : ".");
     const char *kept = real ? arena_text(a, real) : NULL;
     free(real);
     return kept;

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/shelf.h"
 #include "base/stopwatch.h"
+#include "batch/claim.h"
 #include "batch/finish.h"
 #include "batch/folder.h"
 #include "batch/pool.h"
@@ -33,7 +34,8 @@ struct batch {
     int *rows;                   /* [n_mine] which stimuli */
     struct progress progress;
     struct err stop;
-    int entered;                 /* folder_enter's */
+    struct claim claim;
+    int entered;                 /* claim_enter's */
 };
 
 /* ------------------------------------------------------------------ jobs */
@@ -156,7 +158,8 @@ static bool open_folder(struct batch *b, struct err *e)
                             : arena_format(b->arena, "%s/.rasp/journal", ask->folder);
     if (!folder_make(ask->folder, e))
         return false;
-    b->entered = folder_enter(ask->folder);
+    if (!claim_enter(&b->claim, b->arena, &b->entered, e))
+        return false;
     if (!(b->kit.journal = b->report->journal = journal_open(ask->folder, name, b->arena, e)) || !has_room(b, e))
         return false;
     return !part || set_file_save(&b->report->set, arena_format(b->arena, "%s/.rasp/set.json", ask->folder), e);
@@ -191,11 +194,13 @@ static bool end(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
     struct results results = {&r->set, r->outcomes, r->journal};
-    struct finish f = {.kit = &b->kit, .results = results, .threads = b->ask->threads, .entered = b->entered, .arena = b->arena, .anew = r->rendered > 0};
+    struct finish f = {.kit = &b->kit, .results = results, .threads = b->ask->threads, .entered = b->entered, .arena = b->arena, .anew = r->rendered > 0,
+                       .inputs = r->prepare.inputs, .prune = b->ask->prune};
     if (b->ask->shard.n > 1)
         return manifest_write(b->ask->folder, &results, &b->ask->shard, r->mine, e);
     bool ok = finish_set(&f, e);
     r->full_scale = f.full_scale;
+    r->left = f.left;
     return ok;
 }
 
@@ -231,10 +236,11 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
     set_make(&r->design, ask->build, a, &r->set);
     if (!prepare_set(&(struct prepare_ask){&r->design, ask->threads, shelf, ask->folder, &ask->shard}, a, &r->set, &r->prepare, e))
         return false;
-    struct batch b = {.ask = ask, .report = r, .arena = a, .kit = {.design = &r->design, .set = &r->set, .folder = ask->folder, .shelf = shelf, .force = ask->force}};
+    struct batch b = {.ask = ask, .report = r, .arena = a, .kit = {.design = &r->design, .set = &r->set, .folder = ask->folder, .shelf = shelf, .force = ask->force},
+                      .claim = {ask->folder, ask->design, r->design.sha256, ask->replace}};
     r->outcomes = ARENA_TAKE(a, struct outcome, r->set.n);
     divide(&b);
-    return ask->dry || render(&b, e);
+    return ask->dry ? !ask->folder || claim_look(&b.claim, a, e) : render(&b, e);
 }
 
 bool batch_run(const struct batch_ask *ask, struct arena *a, struct batch_report *r, struct err *e)

@@ -1,6 +1,7 @@
 /* A design into a folder of stimuli. */
 #ifndef BATCH_BATCH_H
 #define BATCH_BATCH_H
+#include "batch/leftover.h"
 #include "batch/manifest.h"
 #include "batch/prepare.h"
 
@@ -10,6 +11,7 @@ struct batch_ask {
     int threads;
     struct shard shard;
     bool force, dry, quiet;
+    bool replace, prune;        /* as of struct claim; what is left over is removed (not by a shard) */
 };
 
 struct batch_report {
@@ -22,6 +24,7 @@ struct batch_report {
     bool *mine;                 /* [set.n] of this shard */
     int n_mine, rendered, kept, failed, waiting;
     double full_scale;          /* the set's; NAN: it has none, or it is not known yet */
+    struct leftover left;       /* what is in the folder besides; of a shard nothing is known */
     double seconds;             /* wall clock */
 };
 

@@ -74,6 +74,9 @@ bool design_read(const char *file, struct arena *a, struct design *d, const char
    the place in the design where what is wrong comes from. ERR_USAGE: a recording has none. */
 bool design_scene(const struct design *d, int i, struct arena *a, struct scene *s, const char **messages, struct err *e);
 
+/* Puts the place at which the design names recording i before an error that is about it; returns false. */
+bool design_scene_recording(const struct design *d, int i, struct err *e);
+
 /* Where the design's level and length stand, where it gives them, for a scene that they are laid over: errors are told with those places. */
 void design_scene_places(const struct design *d, struct scene *s, struct arena *a);
 

@@ -54,6 +54,15 @@ static bool starts(const char *path, const char *map)
     return strncmp(path, map, n) == 0 && (!path[n] || path[n] == '.');
 }
 
+/* A factor's key is looked at for each of its levels. */
+static bool is_told(const struct diag *d, const struct diag_place *at)
+{
+    for (int i = 0; i < d->n && i < DIAG_KEPT; i++)
+        if (d->errors[i].at.source == at->source && d->errors[i].at.line == at->line && d->errors[i].at.column == at->column)
+            return true;
+    return false;
+}
+
 /* Keys that are the design's to say. */
 static bool reserved(const struct design_reading *r, const struct yaml_node *key)
 {
@@ -69,7 +78,7 @@ static bool reserved(const struct design_reading *r, const struct yaml_node *key
         cure = "the design has one level rule for the set (level:, by default {common: {peak: -3 dB}}); write level: scene to set levels here";
     else if (starts(key->text, "output.duration") && d->length_rule != DESIGN_LENGTH_OWN)
         cure = "the design has one length rule for the set (length:, by default longest); write length: own to set durations here";
-    return cure && !diag_add(r->yaml->diag, key->at, cure, "%s cannot be set here", key->text);
+    return cure && (is_told(r->yaml->diag, &key->at) || !diag_add(r->yaml->diag, key->at, cure, "%s cannot be set here", key->text));
 }
 
 /* ------------------------------------------------------------------ values */

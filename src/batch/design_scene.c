@@ -1,6 +1,8 @@
-/* design_scene, design_scene_places: see design.h. Design, base and all that is laid over it are only read here: any number of threads may ask for scenes at once. */
+/* design_scene, design_scene_places, design_scene_recording: see design.h. Design, base and all that is laid over it are only read here: any number of threads may ask for scenes at once. */
+#include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "batch/design_reading.h"
 #include "scene/scene_places.h"
 #include "scene/scene_read.h"
@@ -54,6 +56,17 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
     l.keys[l.n++] = seed_key(yaml_open(a), d, i);
     const struct scene_layer layer = {named->at, l.keys, l.n};
     return scene_read(base, &(struct scene_overrides){.layer = &layer}, a, s, messages, e);
+}
+
+bool design_scene_recording(const struct design *d, int i, struct err *e)
+{
+    const struct diag_place *at = &yaml_get(d->texts->cells[d->stimuli[i].cell].entry, "file")->at;
+    char name[sizeof e->text], number[32];
+    text_show(at->source->name, name, sizeof name);
+    int file = (int)strlen(name), rest = snprintf(number, sizeof number, ":%d:%d: ", at->line, at->column);
+    err_at(e, "%s:%d:%d", at->source->name, at->line, at->column);
+    e->place = (struct err_place){file, file + rest, at->line, at->column, at->width};
+    return false;
 }
 
 void design_scene_places(const struct design *d, struct scene *s, struct arena *a)

@@ -86,7 +86,7 @@ static bool level_one(const struct finish *f, int i, struct journal_ref *done, s
 
 static bool stops(const struct err *e)
 {
-    return e->kind == ERR_CREATE || e->kind == ERR_IO || e->kind == ERR_INTERRUPTED;
+    return e->kind == ERR_CREATE || e->kind == ERR_IO || e->kind == ERR_INTERRUPTED || e->kind == ERR_MEMORY;
 }
 
 static bool job(void *context, int i)
@@ -166,13 +166,18 @@ static bool write_tables(struct finish *f, struct err *e)
 static bool settle(struct finish *f, bool complete, struct err *e)
 {
     const struct set *s = f->kit->set;
-    struct journal_ref *records = ARENA_TAKE(f->arena, struct journal_ref, s->n);
+    if (!leftover_find(&(struct leftover_ask){f->kit->folder, &f->results, f->inputs, f->prune}, f->arena, &f->left, e))
+        return false;
+    int n = s->n + f->left.n;
+    struct journal_ref *records = ARENA_TAKE(f->arena, struct journal_ref, n);
     const char **names = ARENA_TAKE(f->arena, const char *, s->n);
     for (int i = 0; i < s->n; i++) {
         records[i] = f->results.of[i].record;
         names[i] = s->rows[i].name;
     }
-    if (!journal_settle(f->kit->journal, records, s->n, e))
+    for (int i = s->n; i < n; i++)
+        records[i] = f->left.refs[i - s->n];
+    if (!journal_settle(f->kit->journal, records, n, e))
         return false;
     if (folder_is_mine(f->entered))
         folder_sweep(f->kit->folder, names, s->n, complete);

@@ -2,6 +2,7 @@
 #ifndef BATCH_FINISH_H
 #define BATCH_FINISH_H
 #include "batch/job.h"
+#include "batch/leftover.h"
 #include "batch/manifest.h"
 
 struct finish {
@@ -12,9 +13,13 @@ struct finish {
     struct arena *arena;
     double full_scale;           /* of the set, once it is known; NAN */
     bool anew;                   /* something was rendered: timings are written */
+    const struct spare *inputs;  /* of the set, which are not left over; NULL: not known */
+    bool prune;                  /* what is left over is removed */
+    struct leftover left;        /* what is there besides the set */
 };
 
-/* Where the level waits and all stimuli are there, gives them their gain. Then writes manifest.csv, manifest.json, SHA256SUMS and timings.csv, settles the journal, and sweeps.
+/* Where the level waits and all stimuli are there, gives them their gain. Then writes manifest.csv, manifest.json, SHA256SUMS and timings.csv, settles the journal, sweeps,
+   and looks for what is left over.
    Failures of single stimuli go to their outcomes. ERR_CREATE, ERR_IO, ERR_INTERRUPTED */
 bool finish_set(struct finish *f, struct err *e);
 

@@ -21,7 +21,7 @@ static bool make_one(const char *path, struct err *e)
     struct stat s;
     if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode)))
         return true;
-    return err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", path,
+    return err_set(e, err_system(ERR_CREATE), "the folder %s cannot be created: %s", path,
                    errno == ENOENT ? "its parent is not there" : errno == EEXIST ? "a file has that name" : strerror(errno));
 }
 

@@ -58,23 +58,35 @@ bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s,
 
 /* ------------------------------------------------------------------ is it there? */
 
-static bool file_is_there(const char *folder, const struct record_file *f, struct arena *a)
+static const char *file_differs(const char *folder, const struct record_file *f, struct arena *a)
 {
     char hex[HASH_TEXT];
     struct stat s;
     struct err unreadable = {0};
     const char *path = arena_format(a, "%s/%s", folder, f->path);
+    if (stat(path, &s) != 0)
+        return "is missing";
+    if (!S_ISREG(s.st_mode))
+        return "is no file";
     if (!f->sha256)
-        return stat(path, &s) == 0 && S_ISREG(s.st_mode);
-    return hash_file(path, hex, &unreadable) && !strcmp(hex, f->sha256);
+        return NULL;
+    return !hash_file(path, hex, &unreadable) ? "cannot be read" : strcmp(hex, f->sha256) ? "was changed" : NULL;
+}
+
+const char *job_differs(const char *folder, const struct record *r, struct arena *a, const char **file)
+{
+    const char *how = NULL;
+    for (int i = 0; i < r->n_files && !how; i++) {
+        how = file_differs(folder, &r->files[i], a);
+        *file = r->files[i].path;
+    }
+    return how;
 }
 
 bool job_is_there(const char *folder, const struct record *r, struct arena *a)
 {
-    for (int i = 0; i < r->n_files; i++)
-        if (!file_is_there(folder, &r->files[i], a))
-            return false;
-    return true;
+    const char *file;
+    return !job_differs(folder, r, a, &file);
 }
 
 /* Complete, or waiting for its gain; its effective scene names the inputs as they are seen from the folder. */

@@ -32,6 +32,9 @@ bool job_do(const struct job_kit *k, int i, struct arena *a, struct job_result *
 /* The scene of stimulus i with the set's length and level; messages as of scene_read. */
 bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s, struct err *e);
 
+/* What is the matter with the first file of the record (*file) that is not there with the bytes that it had: "is missing", "was changed"; NULL: nothing is. */
+const char *job_differs(const char *folder, const struct record *r, struct arena *a, const char **file);
+
 /* Are all files of the record there, with the bytes that they had? */
 bool job_is_there(const char *folder, const struct record *r, struct arena *a);
 

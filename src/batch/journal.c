@@ -36,21 +36,25 @@ struct journal {
 static bool put_line(struct journal *j, const char *line, size_t n, struct journal_ref *ref, struct err *e)
 {
     pthread_mutex_lock(&j->lock);
+    errno = ENOSPC; /* where less is written than was asked for */
     ssize_t put = pwrite(j->lines.fd, line, n, j->end);
     *ref = (struct journal_ref){j->end, (int)n};
     j->end += put == (ssize_t)n ? put : 0;
+    int why = errno;
     pthread_mutex_unlock(&j->lock);
-    return put == (ssize_t)n || err_set(e, ERR_IO, "%s/.rasp: cannot be written: %s", j->folder, put < 0 ? strerror(errno) : "the disk is full");
+    errno = why;
+    return put == (ssize_t)n || err_set(e, err_system(ERR_IO), "%s/.rasp: cannot be written: %s", j->folder, put < 0 ? strerror(errno) : "the disk is full");
 }
 
 const struct record *journal_read(struct journal *j, struct journal_ref ref, struct arena *a, struct err *e)
 {
     char *line = memory_take((size_t)ref.size + 1);
     struct record *r = ARENA_TAKE(a, struct record, 1);
+    errno = 0;
     bool ok = pread(j->lines.fd, line, (size_t)ref.size, ref.at) == ref.size && record_read(line, (size_t)ref.size, a, r);
-    free(line);
     if (!ok)
-        err_set(e, ERR_IO, "%s/.rasp: what was noted of a stimulus cannot be read again: %s", j->folder, strerror(errno));
+        err_set(e, err_system(ERR_IO), "%s/.rasp: what was noted of a stimulus cannot be read again: %s", j->folder, errno ? strerror(errno) : "it is not whole");
+    free(line);
     return ok ? r : NULL;
 }
 
@@ -118,7 +122,7 @@ static bool read_all(struct journal *j, struct arena *a, struct err *e)
     struct dirent **found;
     const char *hidden = arena_format(a, "%s/.rasp", j->folder);
     int n = scandir(hidden, &found, is_journal, alphasort);
-    bool ok = true;
+    bool ok = n >= 0 || errno != ENOMEM || err_set(e, ERR_MEMORY, "%s: out of memory", hidden);
     for (int i = 0; i < n; i++) {
         ok = ok && read_lines(j, arena_format(a, "%s/%s", hidden, found[i]->d_name), e);
         free(found[i]);
@@ -145,7 +149,7 @@ struct journal *journal_open(const char *folder, const char *path, struct arena 
     if (j->n)
         qsort(j->entries, (size_t)j->n, sizeof *j->entries, by_hash);
     if (ok && path && (j->fd = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) < 0)
-        ok = err_set(e, ERR_CREATE, "%s: cannot be written: %s", path, strerror(errno));
+        ok = err_set(e, err_system(ERR_CREATE), "%s: cannot be written: %s", path, strerror(errno));
     if (ok)
         return j;
     journal_close(j);
@@ -187,6 +191,22 @@ const struct record *journal_find(struct journal *j, const char *hash, bool wait
     return NULL;
 }
 
+bool journal_each(struct journal *j, void (*take)(void *context, const struct record *r, struct journal_ref ref), void *context, struct err *e)
+{
+    for (int i = 0; i < j->n; i++) {
+        if (i && j->entries[i].ref.at == j->entries[i - 1].ref.at)
+            continue; /* by its other hash, which is the same one */
+        struct arena *a = arena_open();
+        const struct record *r = journal_read(j, j->entries[i].ref, a, e);
+        if (r)
+            take(context, r, j->entries[i].ref);
+        arena_close(a);
+        if (!r)
+            return false;
+    }
+    return true;
+}
+
 /* ------------------------------------------------------------------ writing */
 
 bool journal_add(struct journal *j, const struct record *r, struct journal_ref *ref, struct err *e)
@@ -200,9 +220,10 @@ bool journal_add(struct journal *j, const struct record *r, struct journal_ref *
     line[0] = '\n';
     memcpy(line + 1, text, n);
     line[n + 1] = '\n';
+    errno = ENOSPC;
     put = write(j->fd, line, n + 2);
     if (put != (ssize_t)(n + 2))
-        err_set(e, ERR_IO, "%s: cannot be written: %s", j->path, put < 0 ? strerror(errno) : "the disk is full");
+        err_set(e, err_system(ERR_IO), "%s: cannot be written: %s", j->path, put < 0 ? strerror(errno) : "the disk is full");
     bool ok = !e->kind && put_line(j, text, n, ref, e);
     free(line);
     free(text);

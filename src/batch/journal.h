@@ -31,6 +31,9 @@ const struct record *journal_read(struct journal *j, struct journal_ref ref, str
 
 void journal_close(struct journal *j);
 
+/* Calls for every record that was read, in no order, a record twice perhaps; it is gone when the call returns. ERR_IO */
+bool journal_each(struct journal *j, void (*take)(void *context, const struct record *r, struct journal_ref ref), void *context, struct err *e);
+
 /* Replaces the folder's journals by one of these records, in their order, without times (size 0: left out). The journal itself goes on. ERR_CREATE, ERR_IO */
 bool journal_settle(struct journal *j, const struct journal_ref *refs, int n, struct err *e);
 

@@ -190,7 +190,7 @@ static bool commit_one(struct level_files *f, int i, struct err *e)
     f->sounds[i] = NULL;
     if (!w)
         return f->texts[i].target[0] ? outfile_commit(&f->texts[i], e)
-                                     : rename(f->raw[i], f->paths[i]) == 0 || err_set(e, ERR_INPUT, "%s: %s", f->raw[i], strerror(errno));
+                                     : rename(f->raw[i], f->paths[i]) == 0 || err_set(e, err_system(ERR_INPUT), "%s: %s", f->raw[i], strerror(errno));
     if (!wav_commit(w, e) || !hash_file(f->paths[i], hex, e))
         return false;
     f->made[i].sha256 = arena_text(f->arena, hex);

@@ -82,8 +82,11 @@ static const struct record_file *file_of(const struct manifest_cell *c, const ch
 
 static const struct record_file *main_file(const struct manifest_cell *c)
 {
-    const struct record_file *f = file_of(c, "wav");
-    return f ? f : file_of(c, "csv") ? file_of(c, "csv") : file_of(c, "impacts");
+    static const char *const kinds[] = {"wav", "csv", "npy", "impacts"};
+    const struct record_file *f = NULL;
+    for (int k = 0; !f && k < 4; k++)
+        f = file_of(c, kinds[k]);
+    return f;
 }
 
 static const struct set_row *row_of(const struct manifest_cell *c)

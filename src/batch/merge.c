@@ -179,16 +179,32 @@ static bool look(void *context, int i)
     return true;
 }
 
+/* "low is missing", "low.wav was changed" */
+static const char *why_not(const struct merge *m, int i)
+{
+    struct arena *a = arena_open();
+    struct err unreadable = {0};
+    struct journal_ref ref = m->report->outcomes[i].record;
+    const struct record *r = ref.size ? journal_read(m->kit.journal, ref, a, &unreadable) : NULL;
+    const char *file = NULL, *state = r ? job_differs(m->folder, r, a, &file) : "is missing";
+    const char *why = arena_format(m->arena, "%s %s", file ? file : m->report->set.rows[i].name, state ? state : "has come back");
+    arena_close(a);
+    return why;
+}
+
 static bool all_there(struct merge *m, int threads, struct err *e)
 {
     struct merge_report *r = m->report;
     int missing = 0;
     r->names = ARENA_TAKE(m->arena, const char *, r->set.n + 1);
+    r->whys = ARENA_TAKE(m->arena, const char *, r->set.n + 1);
     m->there = ARENA_TAKE(m->arena, bool, r->set.n);
     pool_run(&(struct pool_work){.n = r->set.n, .threads = threads, .context = m, .job = look});
     for (int i = 0; i < r->set.n; i++)
-        if (!m->there[i] && !r->outcomes[i].kind)
+        if (!m->there[i] && !r->outcomes[i].kind) {
+            r->whys[missing] = why_not(m, i);
             r->names[missing++] = r->set.rows[i].name;
+        }
     return !missing || err_set(e, ERR_INPUT, "%s: %d of %d stimuli are not there as their shards left them: run the shards again", m->folder, missing, r->set.n);
 }
 
@@ -220,6 +236,7 @@ static bool join(struct merge *m, int threads, struct err *e)
     if (!read_parts(m, e) || !all_there(m, threads, e) || !finish_set(&f, e))
         return false;
     m->report->full_scale = f.full_scale;
+    m->report->left = f.left;
     if (!judge(m, e))
         return false;
     take_away(m);

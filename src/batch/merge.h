@@ -1,6 +1,7 @@
 /* The shards of a set into one. */
 #ifndef BATCH_MERGE_H
 #define BATCH_MERGE_H
+#include "batch/leftover.h"
 #include "batch/manifest.h"
 
 struct merge_report {
@@ -10,8 +11,10 @@ struct merge_report {
     int shards;                  /* of how many it consists */
     int failed, waiting;
     double full_scale;           /* as of struct finish */
+    struct leftover left;        /* as of struct batch_report */
     const char *missing;         /* of shards, "3,17"; "": none */
     const char **names;          /* of stimuli that are not there as the shards left them; ends with NULL */
+    const char **whys;           /* the same: what is the matter with each, "low.wav is missing" */
 };
 
 /* Joins what `rasp batch --shard` left in the folder: the result is that of a batch in one piece, byte for byte. ERR_INPUT: shards or stimuli are missing (the report says

@@ -198,7 +198,8 @@ static void look_at_recordings(struct preparation *p, struct set *s)
         if (!file)
             continue;
         l->trial = trial_open();
-        recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e);
+        if (!recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e))
+            design_scene_recording(p->design, i, &l->trial->e);
         settle(p, i, l);
         l->cost = fmax(1, 1000 * l->seconds * s->rate);
         l->rate = s->rate;
@@ -225,7 +226,8 @@ static void add_up(const struct preparation *p, struct set *s)
         double seconds = isnan(s->length) ? l->seconds : s->length, samples = l->sounds ? seconds * l->rate * l->channels : 0;
         s->rows[i].cost = fmax(1, l->seconds > 0 ? l->cost * seconds / l->seconds : l->cost);
         o->lengths[i] = seconds;
-        o->seconds += seconds;
+        o->seconds += l->sounds ? seconds : 0;
+        o->n_sounds += l->sounds;
         o->cycles += s->rows[i].cost;
         o->bytes += samples * l->bits / 8;
         o->raw_bytes += set_waits(s) && !s->rows[i].recording ? samples * 8 : 0;
@@ -246,7 +248,7 @@ static bool tell(const struct prepare *p, const struct set *s, struct err *e)
 bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *out, struct err *e)
 {
     struct preparation p = {ask->design, ask->shelf, s, ARENA_TAKE(a, struct look, s->n), ARENA_TAKE(a, int, s->n), out, a, spare_open(ask->design, a)};
-    *out = (struct prepare){.lengths = ARENA_TAKE(a, double, s->n)};
+    *out = (struct prepare){.lengths = ARENA_TAKE(a, double, s->n), .inputs = p.spare};
     find_first(&p);
     int done = pool_run(&(struct pool_work){.n = s->n, .threads = ask->threads, .context = &p, .job = look, .took = took});
     for (int i = 0; i < s->n; i++)

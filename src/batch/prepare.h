@@ -4,6 +4,7 @@
 #include "batch/design.h"
 #include "batch/set.h"
 #include "batch/shard.h"
+#include "batch/spare.h"
 
 struct prepare_fault {
     struct arena *arena;     /* what it is told with                      */
@@ -24,11 +25,13 @@ struct prepare_ask {
 
 struct prepare {
     double seconds;          /* of sound, all stimuli                     */
+    int n_sounds;            /* how many make any                         */
     double *lengths;         /* s, [n]: of each                           */
     double bytes, raw_bytes; /* of the WAVs; of what waits for a level    */
     double cycles;           /* predicted, of all                         */
     struct prepare_fault *faults;
     int n_faults, room;      /* 0: nothing is wrong; there is room for    */
+    const struct spare *inputs; /* what the set is made from              */
 };
 
 /* Completes the set: costs, the common length, the form of the WAVs. Replicates of a cell differ in their noise alone: the first one is read for all. Takes as many

@@ -3,7 +3,7 @@
      level common or each, by peak, rms or lufs    brought to that level by itself: a recording has no quantity that a common gain could scale, and its own gain says nothing
      level full_scale or dbfs_at_1_pa, level scene its samples as they are, gain 1
 
-   (a silent one has no level: under each this is an error, under common a warning)
+   (a silent one has no level, which is a warning, as it is of a render)
 
    and cut to the set's length under the set's ramp, or continued by silence. It must have the set's sample rate and channels: converting is left to programs made for it. */
 #include "batch/recording.h"
@@ -49,7 +49,7 @@ static bool find_gain(const struct set *set, const char *file, const struct meas
     if (set->level_rule == DESIGN_LEVEL_SCENE || !isnan(l->full_scale) || !isnan(l->dbfs_at_1_pa))
         return true;
     if (m->peak == 0)
-        return set->level_rule == DESIGN_LEVEL_COMMON || err_set(e, ERR_SCENE, "%s: is silent: no gain brings it to the level; take it out of the design, or give the level as common", file);
+        return true; /* told as a remark, as it is of a render */
     if (!isnan(l->rms))
         *gain = real_exp10(l->rms / 20) / m->rms;
     else if (isnan(l->lufs))
@@ -159,7 +159,7 @@ static bool make(const struct job_kit *k, const char *file, struct record *r, st
     return job_measure(k->folder, true, r, e);
 }
 
-bool recording_do(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
+static bool do_it(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
 {
     char hex[HASH_TEXT];
     const char *file = k->design->stimuli[i].recording;
@@ -175,4 +175,11 @@ bool recording_do(const struct job_kit *k, int i, struct arena *a, struct job_re
     *r = (struct record){.name = name, .key = key, .job = key, .build = k->set->build};
     result->record = r;
     return make(k, file, r, a, e) && journal_add(k->journal, r, &result->ref, e);
+}
+
+bool recording_do(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
+{
+    if (do_it(k, i, a, result, e))
+        return true;
+    return (e->kind == ERR_INPUT || e->kind == ERR_SCENE) && design_scene_recording(k->design, i, e);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/memory.h"
 #include "pipeline/outputs.h"
 
 struct file_read {
@@ -108,11 +109,22 @@ void spare_scene(struct spare *s, int i, const struct scene *scene)
 
 /* ------------------------------------------------------------------ checking */
 
-static bool spared(const struct spare *s, const char *whose, const char *path, struct err *e)
+static const struct file_read *reads(const struct spare *s, const char *path)
 {
     struct stat status;
     const struct file_read *in = stat(path, &status) == 0 ? find(s, status.st_dev, status.st_ino) : NULL;
-    return !in || !in->file ||
+    return in && in->file ? in : NULL;
+}
+
+bool spare_reads(const struct spare *s, const char *path)
+{
+    return reads(s, path) != NULL;
+}
+
+static bool spared(const struct spare *s, const char *whose, const char *path, struct err *e)
+{
+    const struct file_read *in = reads(s, path);
+    return !in ||
            err_set(e, ERR_CREATE, "%s: the output %s would overwrite the input %s (%s): write into another folder with -o, or change the name; nothing was written", whose, path, in->file,
                    in->what);
 }
@@ -129,10 +141,10 @@ static bool tables_spared(const struct spare *s, const struct spare_place *p, st
 /* What lies in FOLDER/.rasp is the program's own, and is taken away. */
 static bool hidden_spared(const struct spare *s, const char *folder, struct arena *a, struct err *e)
 {
-    char *hidden = realpath(arena_format(a, "%s/.rasp", folder), NULL);
+    char *hidden = memory_realpath(arena_format(a, "%s/.rasp", folder));
     bool ok = true;
     for (size_t k = 0; hidden && ok && k < s->room; k++) {
-        char *real = s->table[k].file ? realpath(s->table[k].file, NULL) : NULL;
+        char *real = s->table[k].file ? memory_realpath(s->table[k].file) : NULL;
         if (real && strncmp(real, hidden, strlen(hidden)) == 0 && real[strlen(hidden)] == '/')
             ok = err_set(e, ERR_CREATE, "%s: the input %s (%s) is in the folder %s/.rasp, whose files come and go with the set: copy it elsewhere; nothing was written", s->design->file, s->table[k].file,
                          s->table[k].what, folder);

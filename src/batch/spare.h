@@ -16,6 +16,9 @@ struct spare *spare_open(const struct design *d, struct arena *a);
 /* Notes the files that the scene of stimulus i reads, and the endings of those that it writes. By one thread at a time. */
 void spare_scene(struct spare *s, int i, const struct scene *scene);
 
+/* Is the file one that the set reads, as far as they were noted? */
+bool spare_reads(const struct spare *s, const char *path);
+
 /* first: [n] the stimulus whose scene was noted for stimulus i. False: ERR_CREATE, with both names. */
 bool spare_check(struct spare *s, const struct set *set, const int *first, const struct spare_place *place, struct err *e);
 

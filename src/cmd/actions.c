@@ -42,7 +42,7 @@ static const struct action *find(const char *command, const struct action *table
 static bool check_options(const char *command, const struct action *action, const struct args *g, struct err *e)
 {
     for (const struct args_option *o = g->options; o->name; o++) {
-        bool known = false;
+        bool known = cmd_shared(o);
         for (int i = 0; i < ACTIONS_OPTIONS && action->options[i]; i++)
             known = known || !strcmp(o->name, action->options[i]);
         if (!known && args_given(g, o->name))

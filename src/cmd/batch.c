@@ -13,7 +13,7 @@
 #include "cmd/tell.h"
 #include "scene/keys_yaml.h"
 
-enum { TOLD = 20 /* failures that are told one by one */ };
+enum { TOLD = 20 /* failures that are told one by one */, LEFT_TOLD = 6 /* files that are left over */ };
 
 static const struct args_option batch_options[] = {
     {"output", 'o', "FOLDER", false, "where the set goes; it is made if its parent is there"},
@@ -21,9 +21,10 @@ static const struct args_option batch_options[] = {
     {"shard", 0, "I/N", false, "render part I of N only (from 1/N to N/N), of about equal cost; rasp merge joins them"},
     {"dry-run", 'n', NULL, false, "read and check everything, list the stimuli, write nothing"},
     {"force", 'f', NULL, false, "render what is there already, too"},
+    {"replace", 0, NULL, false, "take over a folder that holds the set of another design"},
+    {"prune", 0, NULL, false, "remove what was a stimulus of the set once, and is none of the design any more"},
     {"json", 0, NULL, false, "print what was done on stdout as JSON"},
     {"quiet", 'q', NULL, false, "no progress and no summary, only warnings and errors"},
-    CMD_DIAGNOSTICS_OPTION,
     {0},
 };
 
@@ -65,6 +66,7 @@ static void tell_faults(struct cmd_call *c, const struct prepare *p)
             err_set(&told, f->err->kind, "the scene of %s is not valid", whose);
         } else
             err_set(&told, f->err->kind, "%s (%s)", f->err->text, whose);
+        told.place = *f->messages ? told.place : f->err->place;
         tell_error(c, "batch", &told);
     }
     if (p->n_faults > TOLD)
@@ -81,7 +83,19 @@ static void tell_remarks(struct cmd_call *c, const struct results *all, int i)
     arena_close(a);
 }
 
-void batch_tell(struct cmd_call *c, const char *command, const struct results *all)
+struct failure {
+    const char *name;
+    const struct outcome *is;
+};
+
+static void tell_failure(struct cmd_call *c, const char *command, const char *file, const struct failure *f)
+{
+    struct err told = {0};
+    err_set(&told, f->is->kind, "%s", f->is->text);
+    tell_stimulus(c, command, f->name, file, &told);
+}
+
+void batch_tell(struct cmd_call *c, const char *command, const char *file, const struct results *all)
 {
     int failed = 0;
     enum err_kind worst = ERR_NONE;
@@ -92,12 +106,26 @@ void batch_tell(struct cmd_call *c, const char *command, const struct results *a
         if (!o->kind)
             continue;
         if (++failed <= TOLD)
-            batch_tell_more(c, command, o->kind, arena_format(c->arena, "%s: %s", all->set->rows[i].name, o->text));
+            tell_failure(c, command, file, &(struct failure){all->set->rows[i].name, o});
         else
             worst = o->kind > worst ? o->kind : worst;
     }
     if (worst)
         batch_tell_more(c, command, worst, arena_format(c->arena, "and %d more that failed", failed - TOLD));
+}
+
+void batch_tell_left(struct cmd_call *c, const char *folder, const struct leftover *l)
+{
+    const char *list = "";
+    if (!l->n_files)
+        return;
+    for (int i = 0; i < l->n_files && i < LEFT_TOLD; i++)
+        list = arena_format(c->arena, "%s%s%s", list, i ? ", " : "", l->files[i]);
+    if (l->n_files > LEFT_TOLD)
+        list = arena_format(c->arena, "%s and %d more", list, l->n_files - LEFT_TOLD);
+    bool one = l->n_files == 1;
+    tell_warning(c, folder, arena_format(c->arena, "%d file%s of stimuli that the design does not have any more %s still there, outside the manifest: %s; rasp batch --prune removes %s", l->n_files, one ? "" : "s",
+                                         one ? "is" : "are", list, one ? "it unless it was changed since" : "those that nobody changed since"));
 }
 
 /* ------------------------------------------------------------------ what was done */
@@ -125,6 +153,14 @@ json_t *batch_json(const struct set *s, const struct outcome *outcomes, double f
                      isnan(full_scale) ? json_null() : json_real(full_scale), "failed", failed);
 }
 
+json_t *batch_left_json(const struct leftover *l)
+{
+    json_t *files = json_array();
+    for (int i = 0; i < l->n_files; i++)
+        json_array_append_new(files, json_string(l->files[i]));
+    return files;
+}
+
 static json_t *report_json(const struct batch_ask *ask, const struct batch_report *r)
 {
     json_t *j = batch_json(&r->set, r->outcomes, r->full_scale);
@@ -133,11 +169,19 @@ static json_t *report_json(const struct batch_ask *ask, const struct batch_repor
     json_object_set_new(j, "mine", json_integer(r->n_mine));
     json_object_set_new(j, "rendered", json_integer(r->rendered));
     json_object_set_new(j, "kept", json_integer(r->kept));
+    json_object_set_new(j, "left_over", batch_left_json(&r->left));
+    json_object_set_new(j, "pruned", json_integer(r->left.removed));
     json_object_set_new(j, "sound_s", json_real(r->prepare.seconds));
     json_object_set_new(j, "wav_bytes", json_real(r->prepare.bytes));
     json_object_set_new(j, "predicted_cpu_s", json_real(r->prepare.cycles / 3e9));
     json_object_set_new(j, "wall_s", json_real(r->seconds));
     return j;
+}
+
+static void print_silence(const struct batch_report *r)
+{
+    if (!r->prepare.n_sounds)
+        printf("no stimulus makes a sound, only tables: what is touched or what scrapes needs a response, as in set: {surface.response: table.csv}\n");
 }
 
 static void print_plan(const struct batch_ask *ask, const struct batch_report *r)
@@ -148,6 +192,7 @@ static void print_plan(const struct batch_ask *ask, const struct batch_report *r
     printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r->set.n, r->prepare.seconds, r->prepare.bytes / 1e6, cpu);
     if (r->prepare.raw_bytes > 0)
         printf("%.3g MB more while the common level is not known\n", r->prepare.raw_bytes / 1e6);
+    print_silence(r);
     if (ask->shard.n > 1)
         printf("shard %d/%d: %d of them\n", ask->shard.i, ask->shard.n, r->n_mine);
 }
@@ -162,9 +207,12 @@ static void print_report(const struct batch_ask *ask, const struct batch_report 
         return;
     }
     printf("%s: %d stimuli rendered, %d there already, %d failed, in %s", ask->folder, r->rendered, r->kept, r->failed, took);
+    if (r->left.removed)
+        printf("; %d file%s left over removed", r->left.removed, r->left.removed == 1 ? "" : "s");
     if (!isnan(r->full_scale))
         printf("; full_scale %s", keys_yaml_number(r->full_scale, a));
     printf("\n");
+    print_silence(r);
 }
 
 /* ------------------------------------------------------------------ command */
@@ -173,10 +221,12 @@ static bool read_ask(struct cmd_call *c, struct batch_ask *ask, struct err *e)
 {
     const char *folder = args_value(&c->args, "output"), *shard = args_value(&c->args, "shard");
     *ask = (struct batch_ask){.design = c->args.operands[0], .shard = {1, 1}, .force = args_given(&c->args, "force"), .dry = args_given(&c->args, "dry-run"),
-                              .quiet = args_given(&c->args, "quiet")};
+                              .quiet = args_given(&c->args, "quiet"), .replace = args_given(&c->args, "replace"), .prune = args_given(&c->args, "prune")};
     if (!ask->dry && (!folder || !*folder))
         return err_set(e, ERR_USAGE, "--output: a folder for the set is needed, as in -o out");
     ask->folder = folder ? batch_folder(c->arena, folder) : NULL;
+    if (shard && ask->prune)
+        return err_set(e, ERR_USAGE, "--prune: a shard does not know what is left over: merge first, then run rasp batch --prune without --shard");
     if ((shard && !shard_read(shard, &ask->shard, e)) || !batch_threads(c, &ask->threads, e))
         return false;
     ask->build = batch_build(c->arena, e);
@@ -201,7 +251,8 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     }
     tell_faults(c, &r.prepare);
     if (r.journal)
-        batch_tell(c, "batch", &(struct results){&r.set, r.outcomes, r.journal});
+        batch_tell(c, "batch", ask.design, &(struct results){&r.set, r.outcomes, r.journal});
+    batch_tell_left(c, ask.folder, &r.left);
     batch_close(&r);
     if (!r.outcomes)
         return (int)e->kind;
@@ -224,7 +275,11 @@ const struct command batch_command = {
             "Run again, it renders only what is not there as it should be: after a change of the design, of an input or of the program, after an interruption (exit code 75), a crash or a "
             "full disk. A stimulus that fails does not stop the others: the manifest has its error, and the exit code is the worst of all. Where the level is common, the set's gain is "
             "known only when all stimuli are: until then their raw sounds wait in FOLDER/.rasp, 8 bytes a sample. With --shard the set is rendered by several runs, on several machines "
-            "perhaps, each with a manifest.I-of-N.csv; rasp merge makes one set of them. FOLDER/.rasp also keeps the list of what is done.",
+            "perhaps, each with a manifest.I-of-N.csv; rasp merge makes one set of them. FOLDER/.rasp also keeps the list of what is done.\n"
+            "A folder holds the set of one design, which is known by its file and by what it says: the file may be edited, or be moved or renamed as it is. Another design is refused (exit code 73) "
+            "unless --replace gives it the folder; so is a second batch while one is at work for another state of the design, where batches of the same state share the work. "
+            "Files of stimuli that are no more in the design (a level was taken out, a label changed) stay, are named in a warning at the end, "
+            "and are in no table; --prune removes those stimuli of which no file was changed.",
     .operands = "DESIGN",
     .least = 1,
     .most = 1,

@@ -6,14 +6,20 @@
 #include "batch/batch.h"
 #include "cmd/cmd.h"
 
-/* Failures of single stimuli, each error once, and remarks of those that were rendered now, as errors and warnings. */
-void batch_tell(struct cmd_call *c, const char *command, const struct results *all);
+/* Failures of single stimuli, each error once, and remarks of those that were rendered now, as errors and warnings. file: the design's, NULL: not known. */
+void batch_tell(struct cmd_call *c, const char *command, const char *file, const struct results *all);
 
 /* What is too much to be told one by one, as an error. */
 void batch_tell_more(struct cmd_call *c, const char *command, enum err_kind kind, const char *text);
 
+/* What is left over in the folder, as a warning. */
+void batch_tell_left(struct cmd_call *c, const char *folder, const struct leftover *l);
+
 /* {"stimuli": 6, "ok": 6, "failed": [{"stimulus": ..., "code": 70, "error": ...}], ...} */
 json_t *batch_json(const struct set *s, const struct outcome *outcomes, double full_scale);
+
+/* Their names. */
+json_t *batch_left_json(const struct leftover *l);
 
 /* --jobs: 0 or none: as many as there are cores. ERR_USAGE */
 bool batch_threads(const struct cmd_call *c, int *threads, struct err *e);

@@ -62,7 +62,6 @@ static int check_run(struct cmd_call *c, struct err *e)
 
 static const struct args_option options[] = {
     CMD_SCENE_OPTIONS,
-    CMD_DIAGNOSTICS_OPTION,
     {"json", 'j', NULL, false, "print an array with a row for each scene on standard output: file, ok, exit code, errors as of --diagnostics=json"},
     {0},
 };

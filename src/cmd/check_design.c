@@ -28,6 +28,11 @@ struct faults {
     int n, stimuli, worst;
 };
 
+static bool recording_good(const char *file, struct err *e)
+{
+    return access(file, R_OK) == 0 ? wav_check(file, e) : err_set(e, ERR_INPUT, "%s: %s", file, strerror(errno));
+}
+
 /* What is wrong with stimulus i; false: something is. */
 static bool stimulus_good(const struct design *d, int i, struct fault *f)
 {
@@ -35,7 +40,7 @@ static bool stimulus_good(const struct design *d, int i, struct fault *f)
     const char *recording = d->stimuli[i].recording;
     f->messages = "";
     if (recording)
-        return access(recording, R_OK) == 0 ? wav_check(recording, &f->err) : err_set(&f->err, ERR_INPUT, "%s: %s: %s", d->file, recording, strerror(errno));
+        return recording_good(recording, &f->err) || design_scene_recording(d, i, &f->err);
     bool read = design_scene(d, i, f->arena, &s, &f->messages, &f->err);
     f->diag = s.diag;
     return read && ((promise_keep(&s, f->arena, &kept, NULL, &f->err) && plan_scene(&kept, f->arena, &f->err)) || scene_places_tell(&s, &f->err));
@@ -71,6 +76,7 @@ static void fault_tell(struct cmd_call *c, const struct faults *x, const struct 
         err_set(&told, f->err.kind, "%s: the scene of %s is not valid", x->design->file, whose(x, f));
     } else
         err_set(&told, f->err.kind, "%s (%s)", f->err.text, whose(x, f));
+    told.place = *f->messages ? told.place : f->err.place;
     tell_error(c, "check", &told);
 }
 

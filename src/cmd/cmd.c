@@ -27,6 +27,36 @@ bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struc
     return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_INPUT ? "or a file it includes cannot be read" : "is not a valid scene");
 }
 
+/* ------------------------------------------------------------------ options */
+
+static const struct args_option shared[] = {
+    {"diagnostics", 0, "text|json", false, "errors and warnings as text (the default), or as JSON on standard error, one object a line"},
+};
+
+enum { SHARED = sizeof shared / sizeof *shared };
+
+bool cmd_shared(const struct args_option *o)
+{
+    for (int i = 0; i < SHARED; i++)
+        if (!strcmp(o->name, shared[i].name))
+            return true;
+    return false;
+}
+
+const struct args_option *cmd_options(const struct command *m, struct arena *a)
+{
+    int n = 0;
+    while (m->options[n].name)
+        n++;
+    struct args_option *all = ARENA_TAKE(a, struct args_option, n + SHARED + 1);
+    if (n)
+        memcpy(all, m->options, (size_t)n * sizeof *all);
+    memcpy(all + n, shared, sizeof shared);
+    return all;
+}
+
+/* ------------------------------------------------------------------ help */
+
 static void print_option(const struct args_option *o)
 {
     char head[96], letter[8] = "    ";
@@ -54,7 +84,9 @@ void cmd_print_help(const struct command *m)
     printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
     wrap_print(stdout, m->does, 0, "");
     printf("\nOptions:\n");
-    for (const struct args_option *o = m->options; o->name; o++)
+    struct arena *a = arena_open();
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
         print_option(o);
+    arena_close(a);
     print_option(&help);
 }

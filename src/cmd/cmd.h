@@ -28,7 +28,7 @@ struct command {
     const char *does;                   /* a paragraph or two for --help                               */
     const char *operands;               /* as in the usage line: "SCENE...", "A B"; "": none           */
     int least, most;                    /* number of operands; most < 0: any number                    */
-    const struct args_option *options;  /* ends with {0}; never NULL                                   */
+    const struct args_option *options;  /* its own (cmd_options has the rest); ends with {0}; never NULL */
     const struct action *actions;       /* what the first operand may be, ends with name NULL; NULL: no such command */
     const char *examples;               /* shell lines, each ending in \n; a line may end in # comment */
     int (*run)(struct cmd_call *c, struct err *e);
@@ -42,8 +42,11 @@ extern const struct command check_command, explain_command, new_command, render_
     {"set", 's', "PATH=VALUE", true, "sets a key of the scene, as in --set motion.rate='3 Hz'; may be repeated, the last wins"}, \
     {"seed", 0, "NUMBER", false, "sets the scene's seed; same as --set seed=NUMBER"}
 
-/* Of those that tell errors and warnings by cmd/tell.h. */
-#define CMD_DIAGNOSTICS_OPTION {"diagnostics", 0, "text|json", false, "errors and warnings as text (the default), or as JSON on standard error, one object a line"}
+/* Is it an option that every command and action has besides its own? */
+bool cmd_shared(const struct args_option *o);
+
+/* The command's options and those that every command has (cmd/tell.h heeds them); ends with {0}. */
+const struct args_option *cmd_options(const struct command *m, struct arena *a);
 
 /* scene_read with the command line's --set and --seed. Prints the scene's messages on stderr; then *e holds their kind and a summary. */
 bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e);

@@ -98,12 +98,12 @@ static void man_command(FILE *f, const struct command *m)
 {
     fprintf(f, ".It Nm Cm %s Oo Ar OPTION Oc ...%s%s\n%c%s.\n", m->name, *m->operands ? " " : "", m->operands, toupper((unsigned char)m->summary[0]), m->summary + 1);
     man_paragraph(f, m->does);
-    if (!m->options->name)
-        return;
+    struct arena *a = arena_open();
     fputs(".Bl -tag -width Ds\n", f);
-    for (const struct args_option *o = m->options; o->name; o++)
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
         man_option(f, o);
     fputs(".El\n", f);
+    arena_close(a);
 }
 
 void commands_print_man(FILE *f)

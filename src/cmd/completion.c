@@ -1,13 +1,14 @@
 /* rasp completion: scripts that complete rasp's words in a shell.
 
    What may follow an option, or stand as an operand, is read from what the help calls it: words with | between are the words, PATH=VALUE a key of a scene,
-   SCENE, RECIPE and DESIGN YAML files, FILE.csv files that end so, FOLDER a folder, KEY a key; other capitals that mean files are listed below. */
+   PANEL the panels of rasp plot, X,... several, SCENE, RECIPE and DESIGN YAML files, FILE.csv files that end so, FOLDER a folder, KEY a key; other capitals that mean files are listed below. */
 #include "cmd/completion.h"
 
 #include <ctype.h>
 #include <string.h>
 
 #include "cmd/commands.h"
+#include "cmd/plot.h"
 #include "cmd/starters.h"
 #include "scene/keys_text.h"
 
@@ -38,6 +39,8 @@ static void add_token(struct completion_place *p, const char *token)
     const char *dot = strchr(token, '.');
     p->settings = p->settings || !strcmp(token, "PATH=VALUE");
     p->names = p->names || is_one(token, key_name);
+    for (int k = 0; k < PLOT_PANELS && !strcmp(token, "PANEL"); k++)
+        add(p->words, COMPLETION_WORDS, plot_panels_words[k]);
     p->files = p->files || is_one(token, any_file);
     p->folders = p->folders || is_one(token, folder);
     if (dot && isupper((unsigned char)token[0]) && islower((unsigned char)dot[1]))
@@ -58,7 +61,7 @@ static bool is_word_list(const char *text)
 
 static struct completion_place place_of(const char *text, struct arena *a)
 {
-    struct completion_place p = {0};
+    struct completion_place p = {.list = strstr(text, ",...") != NULL};
     bool words = is_word_list(text);
     for (const char *s = text; *s;) {
         size_t n = strcspn(s, " |[],;:()"), end = n;
@@ -92,7 +95,7 @@ bool completion_takes(const struct action *action, const struct args_option *o)
     for (int i = 0; action && i < ACTIONS_OPTIONS && action->options[i]; i++)
         if (!strcmp(action->options[i], o->name))
             return true;
-    return !action;
+    return !action || cmd_shared(o);
 }
 
 static const char *const *words_of(const struct key *k, struct arena *a)

@@ -16,6 +16,7 @@ struct completion_place {
     bool settings, names;                          /* KEY=VALUE as of --set; what `rasp explain` takes            */
     const char *suffixes[COMPLETION_SUFFIXES + 1]; /* files that end so ("yaml"); NULL-terminated                 */
     const char *words[COMPLETION_WORDS + 1];       /* NULL-terminated                                             */
+    bool list;                                     /* several of the words, with commas between                   */
 };
 
 /* The value of an option; the operands of a command, or of an action of it (NULL: of the command). */

@@ -37,6 +37,7 @@ static const char body[] =
     "            @files) files=1 && _rasp_add \"$prefix\" compgen -f -- \"$text\" ;;\n"
     "            @folders) files=1 && _rasp_add \"$prefix\" compgen -d -- \"$text\" ;;\n"
     "            @settings) _rasp_setting \"$prefix\" \"$text\" ;;\n"
+    "            @list) [[ $text != *,* ]] || { prefix+=${text%,*}, text=${text##*,}; } ;;\n"
     "            @names) _rasp_add \"$prefix\" compgen -W \"$_rasp_names\" -- \"$text\" ;;\n"
     "            @.*) files=1 && _rasp_add \"$prefix\" compgen -f -X \"!*${rule#@}\" -- \"$text\" ;;\n"
     "            *) [[ $rule != \"$text\"* ]] || COMPREPLY+=(\"$prefix$rule\") ;;\n"
@@ -110,14 +111,18 @@ static void put_place(FILE *f, const struct completion_place *p)
         fprintf(f, "%s@.%s", gap, p->suffixes[i]);
     if (!p->files && !p->folders && p->suffixes[0])
         fputs(" @folders", f);
+    if (p->list && p->words[0]) {
+        fprintf(f, "%s@list", gap);
+        gap = " ";
+    }
     fputs(p->words[0] ? gap : "", f);
     put_words(f, p->words);
 }
 
-static void put_options(FILE *f, const struct command *m, const struct action *action)
+static void put_options(FILE *f, const struct command *m, const struct action *action, struct arena *a)
 {
     fprintf(f, "        '%s%s%s') echo '", m->name, action ? " " : "", action ? action->name : "");
-    for (const struct args_option *o = m->options; o->name; o++)
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
         if (completion_takes(action, o)) {
             if (o->letter)
                 fprintf(f, "-%c ", o->letter);
@@ -136,7 +141,7 @@ static void put_operands(FILE *f, const struct command *m, const struct action *
 
 static void put_values(FILE *f, const struct command *m, struct arena *a)
 {
-    for (const struct args_option *o = m->options; o->name; o++) {
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++) {
         if (!o->value)
             continue;
         struct completion_place p = completion_value(o, a);
@@ -200,14 +205,14 @@ static void put_all_operands(FILE *f, struct arena *a)
     close_case(f, ":");
 }
 
-static void put_all_options(FILE *f)
+static void put_all_options(FILE *f, struct arena *a)
 {
     open_case(f, "_rasp_options", "$1");
     for (int i = 0; commands_at(i); i++) {
         const struct command *m = commands_at(i);
-        put_options(f, m, NULL);
+        put_options(f, m, NULL, a);
         for (const struct action *x = m->actions; x && x->name; x++)
-            put_options(f, m, x);
+            put_options(f, m, x, a);
     }
     fputs("        '') echo '-h --help -V --version -v --verbose' ;;\n", f);
     close_case(f, ":");
@@ -227,7 +232,7 @@ void completion_bash(FILE *f, struct arena *a)
             fputs("' ;;\n", f);
         }
     close_case(f, ":");
-    put_all_options(f);
+    put_all_options(f, a);
     put_all_operands(f, a);
     fputs("# _rasp_value COMMAND OPTION: what the option takes; exit code 1: nothing.\n", f);
     open_case(f, "_rasp_value", "\"$1 $2\"");

@@ -41,6 +41,8 @@ static void put_place(FILE *f, const struct completion_place *p, struct arena *a
         all = "(__rasp_settings)";
     for (int i = 0; p->words[i]; i++)
         all = arena_format(a, "%s%s%s", all, *all ? " " : "", p->words[i]);
+    if (p->list && *all)
+        all = arena_format(a, "(__fish_append , %s)", all);
     if (p->names)
         all = arena_format(a, "%s $__rasp_names", all);
     for (int i = 0; !p->files && p->suffixes[i]; i++)
@@ -74,7 +76,7 @@ static void put_group(FILE *f, const struct command *m, const struct action *act
     static const struct args_option help = {"help", 'h', NULL, false, "this command"};
     struct completion_place p = completion_operands(m, action, a);
     const char *where = arena_format(a, "__rasp_in %s%s%s", m->name, action ? " " : "", action ? action->name : "");
-    for (const struct args_option *o = m->options; o->name; o++)
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
         if (completion_takes(action, o))
             put_option(f, where, o, a);
     put_option(f, where, &help, a);

@@ -57,10 +57,10 @@ static void put_action(FILE *f, const char *message, const struct completion_pla
     if (p->settings)
         fputs("_rasp_setting", f);
     else if (p->words[0]) {
-        fputc('(', f);
+        fputs(p->list ? "_values -s , word " : "(", f);
         for (int i = 0; p->words[i]; i++)
             fprintf(f, "%s%s", i ? " " : "", p->words[i]);
-        fputc(')', f);
+        fputs(p->list ? "" : ")", f);
     } else if (p->names)
         fputs("_rasp_name", f);
     else if (p->files)
@@ -96,7 +96,7 @@ static void put_arguments(FILE *f, const struct command *m, const struct action 
     struct completion_place p = completion_operands(m, action, a);
     const char *operands = action ? action->operands : m->operands;
     fprintf(f, "    _arguments -s -S : '(-h --help)'{-h,--help}'[this command]'");
-    for (const struct args_option *o = m->options; o->name; o++)
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
         if (completion_takes(action, o))
             put_option(f, o, a);
     if (*operands) {

@@ -163,7 +163,6 @@ static int explain_run(struct cmd_call *c, struct err *e)
 
 static const struct args_option options[] = {
     CMD_SCENE_OPTIONS,
-    CMD_DIAGNOSTICS_OPTION,
     {"json", 'j', NULL, false, "print keys as a JSON array, an object each: all, one, or those of a section"},
     {"schema", 0, "scene|design", false, "print the JSON Schema of scenes, or of designs, for editors (installed as share/rasp/*.schema.json)"},
     {"man", 0, "keys|columns", false, "prints a part of man rasp-scene(5), in mdoc"},

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "batch/pool.h"
 #include "cmd/golden.h"
+#include "cmd/tell.h"
 #include "file/bytes.h"
 
 /* ------------------------------------------------------------------ twice */
@@ -232,6 +233,6 @@ int golden_update(struct golden *g, struct err *e)
         printf("%d scene%s rendered twice; %d file%s changed\n", g->n, g->n == 1 ? "" : "s", w.changed, w.changed == 1 ? "" : "s");
     const char **strays = g->whole ? golden_kept_strays(g, g->call->arena) : NULL;
     for (; g->kept && strays && *strays; strays++)
-        fprintf(stderr, "rasp golden: warning: %s: no scene makes it; rasp golden check will fail until it is removed\n", text_shown(g->call->arena, *strays));
+        tell_warning(g->call, *strays, "no scene makes it; rasp golden check will fail until it is removed");
     return 0;
 }

@@ -14,7 +14,6 @@ static const struct args_option merge_options[] = {
     {"jobs", 'j', "N", false, "how many files are looked at, and levels set, at once, 1 to 256; default: one for each core"},
     {"json", 0, NULL, false, "print what was done on stdout as JSON"},
     {"quiet", 'q', NULL, false, "no summary, only errors"},
-    CMD_DIAGNOSTICS_OPTION,
     {0},
 };
 
@@ -23,9 +22,9 @@ static void tell_missing(struct cmd_call *c, const struct merge_report *r)
     int n = 0;
     for (; r->names && r->names[n]; n++)
         if (n < NAMED)
-            batch_tell_more(c, "merge", ERR_INPUT, arena_format(c->arena, "%s is missing", r->names[n]));
+            batch_tell_more(c, "merge", ERR_INPUT, r->whys[n]);
     if (n > NAMED)
-        batch_tell_more(c, "merge", ERR_INPUT, arena_format(c->arena, "and %d more are missing", n - NAMED));
+        batch_tell_more(c, "merge", ERR_INPUT, arena_format(c->arena, "and %d more", n - NAMED));
 }
 
 static json_t *report_json(const struct merge_report *r, const char *folder)
@@ -37,6 +36,7 @@ static json_t *report_json(const struct merge_report *r, const char *folder)
     json_object_set_new(j, "shards", json_integer(r->shards));
     json_object_set_new(j, "missing_shards", json_string(r->missing));
     json_object_set_new(j, "missing_stimuli", missing);
+    json_object_set_new(j, "left_over", batch_left_json(&r->left));
     return j;
 }
 
@@ -51,7 +51,8 @@ static int merge_command_run(struct cmd_call *c, struct err *e)
     bool ok = merge_run(folder, threads, c->arena, &r, e);
     tell_missing(c, &r);
     if (ok || r.failed)
-        batch_tell(c, "merge", &(struct results){&r.set, r.outcomes, r.journal});
+        batch_tell(c, "merge", NULL, &(struct results){&r.set, r.outcomes, r.journal});
+    batch_tell_left(c, folder, &r.left);
     merge_close(&r);
     if (!r.outcomes)
         return (int)e->kind;

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "cmd/modes_compute.h"
 #include "cmd/modes_output.h"
+#include "cmd/tell.h"
 #include "fem/shapes.h"
 
 /* A mesh of TetGen is several files. */
@@ -35,11 +36,11 @@ static void report(const struct compute *k, const char *file)
         printf("%s: %s\n", args_given(&k->c->args, "shape") ? "estimated error of frequencies" : "frequencies of the order below are off by more than these, by", modes_compute_estimate_says(k));
 }
 
-static void warn(struct arena *a, const char *note)
+static void warn(struct cmd_call *c, const char *note)
 {
     while (note && *note) {
         int n = (int)strcspn(note, "\n");
-        fprintf(stderr, "rasp modes: warning: %s\n", text_shown(a, arena_format(a, "%.*s", n, note)));
+        tell_remark(c, "modes", arena_format(c->arena, "%.*s", n, note));
         note += n + (note[n] == '\n');
     }
 }
@@ -71,7 +72,7 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
         return (int)e->kind;
     if (!quiet) {
         report(&k, file);
-        warn(c->arena, k.note);
+        warn(c, k.note);
     }
     return 0;
 }

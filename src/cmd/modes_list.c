@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "cmd/modes.h"
+#include "cmd/tell.h"
 #include "num/real.h"
 #include "response/mode_table.h"
 #include "response/space.h"
@@ -61,7 +61,7 @@ static bool from_table(struct list *l, const char *file, struct err *e)
     for (size_t k = 0; k < t.first[t.places]; k++)
         count_entry(l, &t, &t.entry[k]);
     if (t.note)
-        fprintf(stderr, "rasp modes: warning: %s\n", text_shown(l->c->arena, t.note));
+        tell_remark(l->c, "modes", t.note);
     return true;
 }
 
@@ -85,7 +85,7 @@ static bool from_object(struct list *l, const struct modes_body *b, struct err *
     if (!modes_body_object(l->c, b, &o, &note, e) || !modes_body_places(l->c, b, &o, &places, e))
         return false;
     if (note)
-        fprintf(stderr, "rasp modes: warning: %s\n", text_shown(l->c->arena, note));
+        tell_remark(l->c, "modes", note);
     object_modes(&o, origin, NULL, o.n, l->c->arena, &m);
     start(l, m.n, m.quantity);
     l->places = places.n;

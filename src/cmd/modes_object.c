@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "cmd/modes.h"
 #include "cmd/modes_output.h"
+#include "cmd/tell.h"
 #include "num/real.h"
 #include "response/mode_table_write.h"
 #include "scene/units.h"
@@ -165,6 +166,6 @@ int modes_object_run(struct cmd_call *c, struct err *e)
     if (!args_given(&c->args, "quiet"))
         report(&j, file);
     if (j.note && !args_given(&c->args, "quiet"))
-        fprintf(stderr, "rasp modes: warning: %s\n", text_shown(c->arena, j.note));
+        tell_remark(c, "modes", j.note);
     return 0;
 }

@@ -8,7 +8,6 @@
 
 static const struct args_option plan_options[] = {
     CMD_SCENE_OPTIONS,
-    CMD_DIAGNOSTICS_OPTION,
     {"json", 'j', NULL, false, "print the plans as JSON, an array with an object for each scene: contacts, their stages, costs in cycles per audio sample"},
     {0},
 };

@@ -10,7 +10,7 @@
 
 static const struct args_option plot_options[] = {
     {"output", 'o', "FILE", false, "where to write; default: NAME.png beside NAME.wav, or NAME.svg; of a gallery gallery.html in the folder"},
-    {"panels", 'p', "PANEL,...", false, "which of waveform, spectrogram, force, normal, motion, modes and decays; default: all that there are data for, of a gallery waveform and spectrogram"},
+    {"panels", 'p', "PANEL,...", false, "which of waveform, spectrogram, force, normal, motion, modes and decays; default: all that there are data for, of a gallery waveform and spectrogram of what has a sound"},
     {"gallery", 'g', NULL, false, "a page of HTML for a folder of renders, or for the manifest.csv of a set: a picture, the sound and the factors of each"},
     {"format", 'f', "png|svg", false, "format of the picture; default: by the output's ending, else png"},
     {"title", 't', "TEXT", false, "title; default: the scene's, if its summary lies beside the sound, else the file's name"},
@@ -53,7 +53,7 @@ static void plot_page(void *self, struct gnuplot *g)
 static int gallery_run(struct cmd_call *c, struct err *e)
 {
     const char *format = args_value(&c->args, "format"), *panels = args_value(&c->args, "panels");
-    struct plot_gallery g = {.source = c->args.operands[0], .output = args_value(&c->args, "output"), .title = args_value(&c->args, "title"), .arena = c->arena,
+    struct plot_gallery g = {.source = c->args.operands[0], .output = args_value(&c->args, "output"), .title = args_value(&c->args, "title"), .arena = c->arena, .call = c,
                              .svg = format && !strcmp(format, "svg")};
     static const char *const others[] = {"from", "to", "channel"};
     for (int k = 0; k < 3; k++)
@@ -70,7 +70,7 @@ static int gallery_run(struct cmd_call *c, struct err *e)
 
 static int plot_run(struct cmd_call *c, struct err *e)
 {
-    struct plot_page p = {.file = c->args.operands[0], .title = args_value(&c->args, "title"), .from = NAN, .to = NAN, .arena = c->arena};
+    struct plot_page p = {.file = c->args.operands[0], .title = args_value(&c->args, "title"), .from = NAN, .to = NAN, .arena = c->arena, .call = c};
     const double range[2] = {0, 1e9};
     long channel = 1;
     if (args_given(&c->args, "gallery"))
@@ -98,7 +98,7 @@ const struct command plot_command = {
             "their time of decay. A table that is not of the same render, as the hashes in NAME.json tell, is left out with a warning; without NAME.json it is "
             "taken to be. Panels without data are left out; what was drawn is printed. For NAME.csv or NAME.npy, of a render without sound, what the table has; a mode table gives the modes, and "
             "their decays over frequency. Of several channels one is drawn. Needs gnuplot.\n"
-            "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of sounds. The page shows every stimulus, with its factors, and plays it; it needs no "
+            "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of sounds. The page shows every stimulus, with its factors, and plays it (of what has no sound: contact and normal force and motion), or says why it failed; it needs no "
             "script, and nothing from elsewhere. Its pictures are drawn anew, into a folder beside it: gallery_files/ of gallery.html. Sounds are linked where they are.",
     .operands = "NAME.wav|NAME.csv|NAME.npy|FOLDER/|manifest.csv",
     .least = 1,

@@ -3,6 +3,7 @@
 #define CMD_PLOT_H
 #include "base/arena.h"
 #include "base/err.h"
+#include "cmd/cmd.h"
 #include "cmd/plot_summary.h"
 #include "file/csv.h"
 #include "output/gnuplot.h"
@@ -57,6 +58,8 @@ struct plot_ground {                  /* of a contact's surface, seen from above
 struct plot_page {
     const char *file, *title;
     double from, to;                  /* s; NAN: as long as the data                          */
+    bool silent;                      /* the file, a WAV, is not there: its render made no sound */
+    double length;                    /* s, of what is silent and has no table                */
     bool svg;
     unsigned asked;                   /* bits of panels; 0: all that there are data for       */
     int channel;                      /* of the sound, from 1                                 */
@@ -72,6 +75,7 @@ struct plot_page {
     struct plot_ground *grounds;
     int n_grounds;
     struct arena *arena;
+    struct cmd_call *call;            /* for warnings                                         */
 };
 
 /* plot_data.c. Reads the sound or the table p->file and what lies beside it; sets from, to, and the title where they are not given. ERR_INPUT,
@@ -115,6 +119,7 @@ struct plot_gallery {
     const char *source, *output, *title; /* NULL: default */
     unsigned asked;
     bool svg, quiet;
+    struct cmd_call *call;
     struct arena *arena;
 };
 bool plot_gallery(const struct plot_gallery *g, struct err *e);

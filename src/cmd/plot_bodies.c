@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include "base/hash.h"
-#include "base/text.h"
 #include "cmd/plot.h"
+#include "cmd/tell.h"
 #include "response/mode_table.h"
 #include "response/object.h"
 #include "response/space.h"
@@ -157,7 +157,7 @@ bool plot_bodies(struct plot_page *p, const struct plot_summary *s, const char *
             add_contact(p, scene, &scene->contacts[i], &why);
     }
     if (why.kind) {
-        fprintf(stderr, "%s: warning: what rings is not drawn: %s\n", text_shown(p->arena, effective), text_shown(p->arena, why.text));
+        tell_warning(p->call, effective, arena_format(p->call->arena, "what rings is not drawn: %s", why.text));
         p->n_bodies = p->n_grounds = 0;
     }
     return true;

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/text.h"
 #include "cmd/plot.h"
 #include "cmd/plot_summary.h"
+#include "cmd/tell.h"
 #include "file/table.h"
 #include "file/wav.h"
 
@@ -150,7 +150,7 @@ static bool table_times(const struct csv *csv, double *times, double *end, struc
     return true;
 }
 
-/* One table; it sets the time shown when there is no sound. */
+/* One table; the first sets the time shown when there is no sound. */
 static bool table_add(struct plot_page *p, const char *path, const char *name, struct err *e)
 {
     struct csv csv;
@@ -160,7 +160,7 @@ static bool table_add(struct plot_page *p, const char *path, const char *name, s
     if (!table_read(path, p->arena, &csv, e))
         return false;
     double *times = ARENA_TAKE(p->arena, double, csv.rows + 1);
-    if (!table_times(&csv, times, &end, e) || (!p->sound && !span_set(p, end, e)) || !table_rows(p, &csv, times, t, e))
+    if (!table_times(&csv, times, &end, e) || (!p->sound && !p->n_tables && !span_set(p, end, e)) || !table_rows(p, &csv, times, t, e))
         return false;
     p->n_tables++;
     return true;
@@ -180,12 +180,12 @@ static bool table_belongs(const struct plot_page *p, const struct plot_summary *
 {
     const char *why;
     if (!s->lists)
-        fprintf(stderr, "%s: warning: %s %s: that the table is of the same render is assumed\n", text_shown(p->arena, path), text_shown(p->arena, s->file),
-                s->there ? "does not say which files are of its render" : "is not there");
+        tell_warning(p->call, path, arena_format(p->call->arena, "%s %s: that the table is of the same render is assumed", s->file,
+                                                  s->there ? "does not say which files are of its render" : "is not there"));
     if (!s->lists || plot_summary_has(s, path, contact, &why, e))
         return true;
     if (e->kind == ERR_NONE)
-        fprintf(stderr, "%s: warning: left out, as it is of another render: %s %s\n", text_shown(p->arena, path), text_shown(p->arena, s->file), text_shown(p->arena, why));
+        tell_warning(p->call, path, arena_format(p->call->arena, "left out, as it is of another render: %s %s", s->file, why));
     return false;
 }
 
@@ -217,10 +217,10 @@ static bool tables_find(struct plot_page *p, const struct plot_summary *s, struc
 /* A summary of another render: what it says is not of the file that is shown, and is not used. */
 static bool summary_foreign(const struct plot_page *p, const struct plot_summary *s, bool table, struct err *e)
 {
-    const char *why = "lists no sound";
-    bool ours = !s->lists || (table ? plot_summary_has(s, p->file, "", &why, e) : s->sounds);
+    const char *why = p->silent ? "lists a sound" : "lists no sound";
+    bool ours = !s->lists || (table ? plot_summary_has(s, p->file, "", &why, e) : s->sounds != p->silent);
     if (!ours && e->kind == ERR_NONE)
-        fprintf(stderr, "%s: warning: %s is of another render (it %s), and is not used\n", text_shown(p->arena, p->file), text_shown(p->arena, s->file), text_shown(p->arena, why));
+        tell_warning(p->call, p->file, arena_format(p->call->arena, "%s is of another render (it %s), and is not used", s->file, why));
     return !ours;
 }
 
@@ -238,11 +238,19 @@ static bool table_alone(struct plot_page *p, struct err *e)
     return table_add(p, p->file, "", e);
 }
 
+/* What a render without sound left: tables, or nothing but where it went. */
+static bool silent_gather(struct plot_page *p, const struct plot_summary *s, struct err *e)
+{
+    return tables_find(p, s, e) && (p->n_tables || span_set(p, p->length, e));
+}
+
 static bool anything(const struct plot_page *p, struct err *e)
 {
     for (int k = 0; k < PLOT_PANELS; k++)
         if (plot_panels_there(p, k))
             return true;
+    if (p->silent)
+        return err_set(e, ERR_SCENE, "no sound, and nothing else that can be drawn");
     return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file, plot_names[PLOT_PEAK], plot_names[PLOT_RMS],
                    plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
 }
@@ -256,7 +264,7 @@ bool plot_data(struct plot_page *p, struct err *e)
     const char *title = *summary.title && !foreign ? summary.title : p->file;
     if (e->kind != ERR_NONE)
         return false;
-    if (table ? !table_alone(p, e) : !sound_gather(p, e) || !(foreign || tables_find(p, &summary, e)))
+    if (table ? !table_alone(p, e) : p->silent ? !silent_gather(p, &summary, e) : !sound_gather(p, e) || !(foreign || tables_find(p, &summary, e)))
         return false;
     if (!p->title)
         p->title = title;

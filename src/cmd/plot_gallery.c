@@ -15,10 +15,13 @@
 #include "cmd/plot.h"
 #include "output/picture.h"
 
+enum kind { SOUND, SILENT, FAILED }; /* silent: a render that made tables only */
+
 struct item {
-    const char *file, *name;   /* the sound, seen from here; what it is called */
+    const char *file, *name;   /* the sound, seen from here (of what is silent: as it would be called); what it is called */
+    enum kind kind;
     const char *picture;       /* NULL: there is none                          */
-    const char *why;           /* ... and why; NULL: it is no sound            */
+    const char *why;           /* ... and why; NULL: it failed                 */
     size_t row;                /* of the manifest                              */
 };
 
@@ -60,14 +63,16 @@ static bool from_manifest(struct page *g, const char *file, struct err *e)
 {
     if (!csv_read(file, g->arena, &g->manifest, e))
         return false;
-    int name = column(g, "file_name"), id = column(g, "stimulus_id");
+    int name = column(g, "file_name"), id = column(g, "stimulus_id"), status = column(g, "status");
     if (name < 0 || g->manifest.rows == 0)
         return err_set(e, ERR_SCENE, "%s: %s: it is no manifest of a set, as rasp batch writes it", file, name < 0 ? "has no column file_name" : "has no rows");
     g->set = true;
     g->items = ARENA_TAKE(g->arena, struct item, g->manifest.rows);
     for (size_t row = 0; row < g->manifest.rows; row++) {
         const char *sound = cell(g, row, name), *called = id >= 0 ? cell(g, row, id) : sound;
-        g->items[g->n++] = (struct item){is_there(sound) ? arena_format(g->arena, "%s%s", g->folder, sound) : NULL, called, NULL, NULL, row};
+        bool sounds = ends(sound, ".wav"), failed = status >= 0 ? strcmp(cell(g, row, status), "ok") != 0 : !is_there(sound);
+        const char *wav = sounds ? sound : arena_format(g->arena, "%s.wav", called);
+        g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, wav), called, failed ? FAILED : sounds ? SOUND : SILENT, NULL, NULL, row};
     }
     return true;
 }
@@ -86,7 +91,7 @@ static bool from_folder(struct page *g, struct err *e)
     g->items = ARENA_TAKE(g->arena, struct item, n);
     for (int i = 0; i < n; i++) {
         const char *name = entries[i]->d_name;
-        g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, name), arena_format(g->arena, "%.*s", (int)strlen(name) - 4, name), NULL, NULL, 0};
+        g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, name), arena_format(g->arena, "%.*s", (int)strlen(name) - 4, name), SOUND, NULL, NULL, 0};
         free(entries[i]);
     }
     free(entries);
@@ -118,6 +123,20 @@ static void draw(void *self, struct gnuplot *g)
     plot_draw(self, g);
 }
 
+/* Of what has no sound the panels that need none; where that leaves none of them, whatever there is. */
+static unsigned asked(const struct page *g, const struct item *item)
+{
+    return item->kind == SILENT ? g->of->asked & ~(1u << PLOT_WAVEFORM | 1u << PLOT_SPECTROGRAM) : g->of->asked;
+}
+
+/* s; 0: the manifest does not say. */
+static double length(const struct page *g, const struct item *item)
+{
+    int k = column(g, "duration_s");
+    double x;
+    return k >= 0 && text_double(cell(g, item->row, k), &x) ? x : 0;
+}
+
 /* A sound that cannot be drawn leaves a note on the page; what no picture could be drawn without ends all. */
 static bool draw_item(struct page *g, struct item *item, struct err *e)
 {
@@ -126,7 +145,8 @@ static bool draw_item(struct page *g, struct item *item, struct err *e)
     for (char *p = flat; *p; p++)
         *p = *p == '/' ? '=' : *p; /* which no name of a stimulus holds */
     const char *target = arena_format(g->arena, "%s/%s.%s", g->files, flat, g->of->svg ? "svg" : "png");
-    struct plot_page p = {.file = item->file, .title = item->name, .from = NAN, .to = NAN, .asked = g->of->asked, .svg = g->of->svg, .channel = 1, .arena = a};
+    struct plot_page p = {.file = item->file, .title = item->name, .from = NAN, .to = NAN, .asked = asked(g, item), .svg = g->of->svg, .channel = 1, .arena = a, .call = g->of->call,
+                          .silent = item->kind == SILENT, .length = item->kind == SILENT ? length(g, item) : NAN};
     struct err why = {0};
     bool ok = plot_data(&p, &why);
     if (!ok)
@@ -147,7 +167,7 @@ static bool draw_all(struct page *g, struct err *e)
             return err_set(e, ERR_INTERRUPTED, "interrupted; the page was not written, run the same command again");
         if (tells)
             fprintf(stderr, "\r%d of %d", i, g->n);
-        if (g->items[i].file && ends(g->items[i].file, ".wav") && !draw_item(g, &g->items[i], e))
+        if (g->items[i].kind != FAILED && !draw_item(g, &g->items[i], e))
             break;
     }
     if (tells)
@@ -231,8 +251,6 @@ static void put_facts(const struct page *g, const struct item *item, FILE *f)
 static void put_failure(const struct page *g, const struct item *item, FILE *f)
 {
     int status = g->set ? column(g, "status") : -1, error = g->set ? column(g, "error") : -1;
-    if (!item->picture && item->file && !item->why && !ends(item->file, ".wav"))
-        return;
     fputs("<p class=\"bad\">", f);
     put(f, item->why ? item->why : status >= 0 ? cell(g, item->row, status) : "no sound", g->arena);
     if (!item->why && error >= 0 && is_there(cell(g, item->row, error))) {
@@ -250,7 +268,7 @@ static void put_item(const struct page *g, const struct item *item, FILE *f)
     if (g->set)
         put_facts(g, item, f);
     fputs("</figcaption>\n", f);
-    if (item->file && ends(item->file, ".wav")) {
+    if (item->kind == SOUND) {
         fputs("<audio controls preload=\"none\" src=\"", f);
         put_link(g, item->file, f);
         fputs("\"></audio>\n", f);
@@ -264,6 +282,24 @@ static void put_item(const struct page *g, const struct item *item, FILE *f)
     } else
         put_failure(g, item, f);
     fputs("</figure>\n", f);
+}
+
+static int count(const struct page *g, enum kind kind)
+{
+    int n = 0;
+    for (int i = 0; i < g->n; i++)
+        n += g->items[i].kind == kind;
+    return n;
+}
+
+/* "4 sounds, 2 without sound, 1 failed" */
+static const char *counted(const struct page *g)
+{
+    int sounds = count(g, SOUND), silent = count(g, SILENT), failed = count(g, FAILED);
+    const char *text = sounds || !(silent || failed) ? arena_format(g->arena, "%d sound%s", sounds, sounds == 1 ? "" : "s") : "";
+    if (silent)
+        text = arena_format(g->arena, "%s%s%d without sound", text, *text ? ", " : "", silent);
+    return failed ? arena_format(g->arena, "%s%s%d failed", text, *text ? ", " : "", failed) : text;
 }
 
 static void put_page(const struct page *g, FILE *f)
@@ -280,7 +316,7 @@ static void put_page(const struct page *g, FILE *f)
           "img, audio { width: 100% } .bad { color: #b00020 }\n"
           "</style>\n</head>\n<body>\n<h1>", f);
     put(f, title, g->arena);
-    fprintf(f, "</h1>\n<p>%d sound%s</p>\n<main>\n", g->n, g->n == 1 ? "" : "s");
+    fprintf(f, "</h1>\n<p>%s</p>\n<main>\n", counted(g));
     for (int i = 0; i < g->n; i++)
         put_item(g, &g->items[i], f);
     fputs("</main>\n</body>\n</html>\n", f);
@@ -306,6 +342,6 @@ bool plot_gallery(const struct plot_gallery *of, struct err *e)
     for (int i = 0; i < g.n; i++)
         drawn += g.items[i].picture != NULL;
     if (e->kind == ERR_NONE)
-        printf("%s  %d sound%s, %d picture%s in %s/\n", g.output, g.n, g.n == 1 ? "" : "s", drawn, drawn == 1 ? "" : "s", g.files);
+        printf("%s  %s, %d picture%s in %s/\n", g.output, counted(&g), drawn, drawn == 1 ? "" : "s", g.files);
     return e->kind == ERR_NONE;
 }

@@ -69,7 +69,7 @@ int program_run(const struct command *m, int argc, char **argv)
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
     int code = 0;
-    if (!args_parse(&c.args, m->options, argc, argv, c.arena, &e))
+    if (!args_parse(&c.args, cmd_options(m, c.arena), argc, argv, c.arena, &e))
         code = (int)e.kind;
     else if (c.args.help)
         cmd_print_help(m);

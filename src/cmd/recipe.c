@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cmd/tell.h"
 #include "file/bytes.h"
 #include "file/yaml_bytes.h"
 #include "file/yaml_parse.h"
@@ -45,7 +46,7 @@ static bool read_recipe(struct cmd_call *c, const char *file, const char *rest, 
     struct err cause = {0};
     if (scene_read_made(text, file, &over, c->arena, s, &messages, &cause))
         return true;
-    fputs(messages, stderr);
+    tell_scene(c, s->diag, messages, cause.kind);
     return err_set(e, cause.kind, "%s is not a valid recipe", file);
 }
 

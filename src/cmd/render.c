@@ -15,7 +15,6 @@
 static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
     CMD_SCENE_OPTIONS,
-    CMD_DIAGNOSTICS_OPTION,
     {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
     {"verify", 0, NULL, false, "render the reference, too, and measure what accuracy was kept; exit code 1 if that is less than accuracy.error asks for"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},

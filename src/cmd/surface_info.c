@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "cmd/surface.h"
+#include "cmd/tell.h"
 #include "file/heightfile_level.h"
 
 const double surface_info_alphas[SURFACE_INFO_ALPHAS] = {0.01, 0.05};
@@ -58,7 +59,7 @@ int surface_info_run(struct cmd_call *c, struct err *e)
         *i = (struct surface_info){.file = c->args.operands[k], .arena = own};
         bool ok = gather(i, o, &mine);
         if (!ok)
-            fprintf(stderr, "rasp surface: error: %s\n", mine.text);
+            tell_error(c, "surface", &mine);
         else if (json)
             list[n++] = i;
         else

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "cmd/recipe.h"
 #include "cmd/surface.h"
+#include "cmd/tell.h"
 #include "file/heightfile_write.h"
 #include "pipeline/stages.h"
 #include "scene/units.h"
@@ -108,7 +108,7 @@ static bool make(struct synth *s, struct err *e)
         ok = ok && (!stages[k]->wanted(run[k].contact, &s->scene) || stages[k]->open(&run[k], e));
     }
     for (int k = 0; k < board.n_warnings; k++)
-        fprintf(stderr, "rasp surface: warning: %s\n", text_shown(s->c->arena, board.warnings[k]));
+        tell_remark(s->c, "surface", board.warnings[k]);
     if (ok)
         read_heights(s, &relief);
     for (int k = 0; k < 3; k++)

@@ -32,10 +32,7 @@ static struct cmd_tell *of(struct cmd_call *c)
 
 bool tell_begin(struct cmd_call *c, struct err *e)
 {
-    const struct args_option *o = c->args.options;
-    while (o->name && strcmp(o->name, "diagnostics") != 0)
-        o++;
-    const char *format = o->name ? args_value(&c->args, "diagnostics") : NULL;
+    const char *format = args_value(&c->args, "diagnostics");
     if (format && strcmp(format, "text") != 0 && strcmp(format, "json") != 0)
         return err_set(e, ERR_USAGE, "--diagnostics: '%s' is neither text nor json", format);
     of(c)->json = format && !strcmp(format, "json");
@@ -158,6 +155,48 @@ void tell_error(struct cmd_call *c, const char *command, const struct err *e)
         program_complain(command, e);
 }
 
+/* ":12" at the beginning of a text; the rest is behind it, NULL: there is none. */
+static const char *number_at(const char *text, int *n)
+{
+    size_t digits = *text == ':' ? strspn(text + 1, "0123456789") : 0;
+    *n = 0;
+    for (size_t i = 1; i <= digits && digits < 10; i++)
+        *n = 10 * *n + (text[i] - '0');
+    return *n > 0 ? text + 1 + digits : NULL;
+}
+
+/* "FILE:LINE:COLUMN: " or "FILE:LINE: " at the beginning of a text. */
+static struct err_place place_in(const char *text)
+{
+    for (const char *at = strchr(text, ':'); at; at = strchr(at + 1, ':')) {
+        struct err_place p = {.file = (int)(at - text)};
+        const char *line = at > text ? number_at(at, &p.line) : NULL, *column = line ? number_at(line, &p.column) : NULL, *end = column ? column : line;
+        if (end && !strncmp(end, ": ", 2)) {
+            p.message = (int)(end - text) + 2;
+            return p;
+        }
+    }
+    return (struct err_place){0};
+}
+
+void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e)
+{
+    struct cmd_tell *t = of(c);
+    if (t->json) {
+        struct err placed = *e;
+        placed.place = place_in(e->text);
+        json_t *o = of_err(&placed);
+        if (!placed.place.file && file)
+            json_object_set_new(o, "file", text_or_null(file, strlen(file)));
+        json_object_set_new(o, "stimulus", text_or_null(stimulus, strlen(stimulus)));
+        put(c, o);
+    } else {
+        struct err told = {0};
+        err_set(&told, e->kind, "%s: %s", stimulus, e->text);
+        program_complain(command, &told);
+    }
+}
+
 void tell_keep(struct cmd_call *c)
 {
     of(c)->kept = json_array();
@@ -236,6 +275,15 @@ void tell_warning(struct cmd_call *c, const char *file, const char *text)
         name(same(c->tell, text, c->arena), shown, c->arena);
     else
         warn(c, &(struct warning){.text = text, .files = &shown, .n = 1});
+}
+
+void tell_remark(struct cmd_call *c, const char *command, const char *text)
+{
+    text = text_shown(c->arena, text);
+    if (of(c)->json)
+        warn_json(&(struct warning){.text = text, .files = &(const char *){NULL}, .n = 1});
+    else
+        paint_lines(stderr, arena_format(c->arena, "rasp %s: warning: %s\n", command, text));
 }
 
 void tell_group(struct cmd_call *c)

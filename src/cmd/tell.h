@@ -3,7 +3,7 @@
      {"severity": "error", "file": "scene.yaml", "line": 12, "column": 9, "width": 3, "message": "...", "help": "...", "code": 65}
 
    null stands for what is not known or there is none of; lines and columns count from 1, columns and width in characters; code is the exit code that the error
-   alone would make, null of a warning. What an option of the command line says wrongly has "option", --set motion.rate say, and no file. A file that another names has "named_at", the places of its name, the nearest first. A warning of several scenes has
+   alone would make, null of a warning. What an option of the command line says wrongly has "option", --set motion.rate say, and no file. The error of one stimulus of a set has "stimulus", its name. A file that another names has "named_at", the places of its name, the nearest first. A warning of several scenes has
    "files". What is wrong with the command line itself is told as text. */
 #ifndef CMD_TELL_H
 #define CMD_TELL_H
@@ -12,7 +12,7 @@
 #include "base/diag.h"
 #include "cmd/cmd.h"
 
-/* Heeds --diagnostics if the command has that option. ERR_USAGE */
+/* Heeds --diagnostics. ERR_USAGE */
 bool tell_begin(struct cmd_call *c, struct err *e);
 
 /* The errors in a scene's text; messages: the same as text. */
@@ -21,8 +21,14 @@ void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, 
 /* An error by itself, in text "rasp COMMAND: error: ...". After tell_scene, JSON has nothing to add to what that told. */
 void tell_error(struct cmd_call *c, const char *command, const struct err *e);
 
+/* The error of one stimulus of a set, in text "rasp COMMAND: error: STIMULUS: text", in JSON with the key "stimulus". Its place is the text's beginning, "design.yaml:3:7: ..."; where there
+   is none, JSON says `file` (NULL: not known). */
+void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e);
+
 /* A warning about a file. Where several scenes are processed (tell_group) it waits, so that one that many scenes have is told once, at the end. */
 void tell_warning(struct cmd_call *c, const char *file, const char *text);
+/* The same about what a command does, at once: "rasp COMMAND: warning: text". */
+void tell_remark(struct cmd_call *c, const char *command, const char *text);
 void tell_group(struct cmd_call *c);
 void tell_end(struct cmd_call *c);
 

@@ -48,7 +48,7 @@ bool wav_check(const char *path, struct err *e)
     struct stat s;
     FILE *f = memory_fopen(path, "rb");
     if (!f)
-        return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
+        return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
     bool is_file = fstat(fileno(f), &s) == 0 && S_ISREG(s.st_mode);
     double missing = is_file ? missing_bytes(f) : 0;
     fclose(f);

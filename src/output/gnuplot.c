@@ -38,7 +38,7 @@ bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
     if (!g->complaints || pipe2(ends, O_CLOEXEC) != 0) {
         if (g->complaints)
             fclose(g->complaints);
-        return err_set(e, ERR_CREATE, "gnuplot cannot be started: %s", strerror(errno));
+        return err_set(e, err_system(ERR_CREATE), "gnuplot cannot be started: %s", strerror(errno));
     }
     code = spawn(&g->pid, (const int[3]){ends[0], output, fileno(g->complaints)});
     close(ends[0]);
@@ -52,7 +52,7 @@ bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
     if (code == ENOENT || code == EACCES)
         return err_set(e, ERR_UNBUILT, "the program gnuplot draws the plot and is not on the PATH: install it (Debian: gnuplot-nox and, for the "
                                        "labels, fonts-dejavu-core)");
-    return err_set(e, ERR_CREATE, "gnuplot cannot be started: %s", strerror(code ? code : errno));
+    return err_set(e, err_system(ERR_CREATE), "gnuplot cannot be started: %s", strerror(code ? code : errno));
 }
 
 /* The first line of what it complained about that holds more than blanks and the mark of a column. */

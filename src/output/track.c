@@ -25,7 +25,7 @@ bool track_open(struct track *t, const char *path, const struct track_format *f,
     t->wide = ARENA_TAKE(a, double, TRACK_CHUNK * f->channels);
     if (!f->waits || (t->spool = scratch_open()))
         return true;
-    err_set(e, ERR_CREATE, "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
+    err_set(e, err_system(ERR_CREATE), "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
             strerror(errno));
     track_drop(t);
     return false;
@@ -153,7 +153,7 @@ bool track_add(struct track *t, double *x, long n, struct err *e)
     if (!t->spool)
         return put(t, x, n, e);
     if (fwrite(x, sizeof *x, samples, t->spool) != samples)
-        return err_set(e, ERR_IO, "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
+        return err_set(e, err_system(ERR_IO), "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
                        strerror(errno));
     return true;
 }

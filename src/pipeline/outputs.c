@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/hash.h"
+#include "base/memory.h"
 #include "pipeline/plan.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
@@ -86,7 +87,7 @@ static int place_order(const void *a, const void *b)
 
 static const char *real_path(const char *path, struct arena *a)
 {
-    char *real = realpath(path, NULL);
+    char *real = memory_realpath(path);
     const char *kept = real ? arena_text(a, real) : path;
     free(real);
     return kept;

@@ -1,14 +1,7 @@
 # A ball that bounces: rasp accuracy says until when samples mean anything, and compares statistics after.
 mkdir tmp
 export TMPDIR=$PWD/tmp
-cat > drop.yaml <<'YAML'
-rasp: 1
-surface: {roughness: {rms: 0.3 um, shortest: 50 um}, material: ceramic, object: {shape: plate, length: 40 cm, width: 20 cm, thickness: 2.5 mm}}
-ball: {radius: 8 mm, material: glass}
-motion: {path: line, from: [8 cm, 8.3 cm], to: [12 cm, 8.3 cm], duration: 0.25 s}
-contact: {model: roll_coupled, roll: {mu: 0.5 s/m, drop: 2 mm}}
-output: {tail: 0 s, sample_rate: 16 kHz}
-YAML
+. "$ROOT/tests/cli/accuracy-make.inc"
 rasp accuracy drop.yaml --runs 1 --csv drop.csv > table
 awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }

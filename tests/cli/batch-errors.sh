@@ -72,6 +72,12 @@ code rasp batch still.yaml -o still | sed 's/; full_scale.*//'
 echo 'level: {each: {rms: -30}}' >> still.yaml
 code rasp batch still.yaml -o silent
 columns silent/manifest.csv stimulus_id status
+sed 's/level:.*/level: {each: {lufs: -30}}/; s/base: tiny.yaml/&\nset: {surface.response: zero.csv}/' still.yaml > none.yaml
+sed 's/,60,1,0/,60,0,0/' modes.csv > zero.csv
+code rasp batch none.yaml -o none
+sed 's/still.wav/gone.wav/' still.yaml > gone.yaml
+code rasp batch gone.yaml -o gone --diagnostics=json
+code rasp check gone.yaml
 echo "-- a common level waits for what fails"
 printf '%s\n' 'rasp-design: 1' 'base: tiny.yaml' 'level: {common: {lufs: -23}}' > short.yaml
 code rasp batch short.yaml -o short
@@ -84,14 +90,17 @@ for i in 1 4; do rasp batch six.yaml -o parts --shard $i/5 -q; done
 code rasp merge parts
 for i in 2 3 5; do rasp batch six.yaml -o parts --shard $i/5 -q; done
 cp -r parts mixed
-sed 's/seed: 3/seed: 4/' six.yaml > other.yaml
-rasp batch other.yaml -o mixed --shard 2/5 -q
+cp six.yaml six.txt
+sed -i 's/seed: 3/seed: 4/' six.yaml
+rasp batch six.yaml -o mixed --shard 2/5 -q
+cp six.txt six.yaml
 code rasp merge mixed | sed 's/manifest.[0-9]/manifest.N/'
 cp -r parts built
 sed -i '2s/build: .*/build: rasp 0/' built/manifest.3-of-5.csv
 code rasp merge built | sed 's/the rest by .*/.../'
 cp -r parts lost
 rm lost/.rasp/raw/low_250ms.wav
+echo x >> lost/.rasp/raw/low_200ms.wav
 code rasp merge lost
 rasp batch six.yaml -o parts --shard 1/2 -q
 code rasp merge parts

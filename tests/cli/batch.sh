@@ -42,3 +42,8 @@ mkdir -p far/away
 rasp batch six.yaml -o far/away/two -q && cmp <(columns two/manifest.csv job_hash audio_sha256) <(columns far/away/two/manifest.csv job_hash audio_sha256) && echo "the same jobs"
 mv far/away/two moved
 rasp batch six.yaml -o moved | count && same one moved
+echo "-- a set without a sound says so"
+rasp new -o starter.yaml
+printf '%s\n' 'rasp-design: 1' 'base: starter.yaml' 'factors: {motion.duration: [0.1 s, 0.2 s]}' > starters.yaml
+rasp batch starters.yaml --dry-run | tail -n 2 | sed 's/CPU.*//'
+rasp batch starters.yaml -o starters | sed 's/, in .*//'

@@ -41,6 +41,9 @@ ask rasp plot --format=s
 ask rasp plot --format=
 ask rasp plot --format=svg c
 ask rasp plot -f p
+ask rasp plot --panels w
+ask rasp plot -p force,mo
+ask rasp plot --panels=force,n
 ask rasp plan --set motion.p
 ask rasp plan --set=motion.p
 ask rasp plan --set motion.path=s

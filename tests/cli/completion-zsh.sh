@@ -42,6 +42,9 @@ rasp plot c
 rasp plot --for
 rasp plot --format=s
 rasp plot -f p
+rasp plot --panels wa
+rasp plot -p force,mod
+rasp plot --panels=force,n
 rasp plan --set motion.pat
 rasp plan --set=motion.pat
 rasp plan --set motion.path=scr

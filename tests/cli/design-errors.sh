@@ -69,3 +69,5 @@ tell check --seed 3 scenes.yaml
 tell render scenes.yaml
 sed 's/^rasp-design: 1/rasp-design: 2/; s/^base.*/bass: x/' scenes.yaml > later.yaml
 tell check later.yaml
+printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors:' '  output.level.peak: [-3 dB, -6 dB, -9 dB]' '  motion.rate: [1 Hz, 2 Hz, 3 Hz]' > peaks.yaml
+tell check peaks.yaml

@@ -48,6 +48,24 @@ echo "-- the manifest, elsewhere, with a title"
 rasp plot --gallery set/manifest.csv -o page.html --title 'a <b> & "c"' --format svg --panels modes
 python3 links.py page.html | sed '/^img\|^a /!d; s/ is/\n&/' | sort | uniq -c | sort -rn | head -n 1
 grep -o '<h1>.*</h1>' page.html
+echo "-- stimuli without sound, and some that failed"
+sed 's/, response: modes.csv//' stroke.yaml > bare.yaml
+cat > forces.yaml << 'END'
+rasp-design: 1
+base: bare.yaml
+level: scene
+set: {output.diagnostics.rate: 1 kHz}
+factors:
+  motion.speed: [10 cm/s, 20 cm/s]
+  kind:
+    - {label: force, set: {output.diagnostics.format: csv}}
+    - {label: npy, set: {output.diagnostics.format: npy}}
+    - {label: clips, set: {surface.response: modes.csv, output.level.full_scale: 1e-9}}
+END
+rasp batch -q forces.yaml -o forces 2> batch.txt || echo "exit $?"
+rasp plot --gallery forces
+python3 links.py forces/gallery.html | sed 's/ | /\n/g' | sed 's/frame .*channel 1: .* is .* dB re/... dB re/'
+rasp plot --gallery forces -o panels.html --panels waveform,normal
 echo "-- a folder of sounds"
 mkdir 'some sounds'
 rasp render -q stroke.yaml -o 'some sounds/one 100%.wav'

@@ -9,15 +9,8 @@ output: {quantity: force}
 accuracy:
   error: -200 dB
 YAML
-cat > drop.yaml <<'YAML'
-rasp: 1
-surface: {roughness: {rms: 0.3 um, shortest: 50 um}, material: ceramic, object: {shape: plate, length: 40 cm, width: 20 cm, thickness: 2.5 mm}}
-ball: {radius: 8 mm, material: glass}
-motion: {path: line, from: [8 cm, 8.3 cm], to: [12 cm, 8.3 cm], duration: 0.25 s}
-contact: {model: roll_coupled, roll: {mu: 0.5 s/m, drop: 2 mm}}
-output: {tail: 0 s, sample_rate: 16 kHz}
-accuracy: {error: -60 dB}
-YAML
+. "$ROOT/tests/cli/accuracy-make.inc"
+echo 'accuracy: {error: -60 dB}' >> drop.yaml
 try rasp render scene.yaml 2> words
 sed 's/leaves -[0-9.]* dB; the best that can be promised here is -[0-9]* dB/leaves X dB; the best Y dB/' words >&2
 try rasp check scene.yaml --set accuracy.error=-80 --set accuracy.oversampling=1 2> words

@@ -18,6 +18,11 @@ done
 wrong=$(find root \( -type f ! -perm -444 -o -type d ! -perm -555 \) -o -perm /022)
 [ -z "$wrong" ] || fail "modes: $wrong"
 
+cp -R root 'a root'
+rm -r 'a root/usr/bin' 'a root/usr/share/rasp'
+place DESTDIR="$PWD/a root" install
+diff -r root 'a root' > log || fail "a folder's name with a space: $(head -n 3 log)"
+
 installed=$PWD/root/usr/bin/rasp
 "$installed" --version > version || fail "the installed program does not run"
 for scene in root/usr/share/rasp/scenes/*.yaml; do
@@ -30,6 +35,9 @@ PATH=/usr/bin:/bin "$installed" modes compute --shape bar:length=20cm,width=2cm,
     fail "the installed completion does not complete"
 diff <("$installed" explain --schema=scene) root/usr/share/rasp/scene.schema.json > log || fail "the installed schema is another"
 
+place DESTDIR="$PWD/a root" uninstall
+left=$(find 'a root' -type f)
+[ "$left" = 'a root/usr/share/zsh/site-functions/_other' ] || fail "make uninstall leaves: $left"
 place uninstall
 left=$(find root -mindepth 2 ! -type d)
 [ "$left" = root/usr/share/zsh/site-functions/_other ] || fail "make uninstall leaves: $left"

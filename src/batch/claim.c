@@ -1,0 +1,102 @@
+/* See claim.h. The file is read and written under a lock of its own (flock), held for that time only: of two that begin at once, one is first. Who is at work
+   is told by folder_enter's lock, which cannot be had alone while another has it; nobody can enter while the first lock is held. */
+#include "batch/claim.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "base/relpath.h"
+#include "batch/folder.h"
+
+enum { MOST = 4096 + HASH_TEXT /* bytes of the file */ };
+
+struct owner {
+    char text[MOST + 1];
+    const char *sha256, *place;  /* in text; NULL: the file is not there, or not whole */
+};
+
+static void parse(struct owner *o, ssize_t n)
+{
+    o->sha256 = o->place = NULL;
+    if (n <= HASH_TEXT || o->text[HASH_TEXT - 1] != '\n' || o->text[n - 1] != '\n')
+        return;
+    o->text[HASH_TEXT - 1] = o->text[n - 1] = '\0';
+    o->sha256 = o->text;
+    o->place = o->text + HASH_TEXT;
+}
+
+static const char *place_of(const struct claim *c, struct arena *a)
+{
+    return relpath_make(c->design, c->folder, a);
+}
+
+/* Of another design? A manifest of which nothing says whose it is counts as one. */
+static bool is_free(const struct claim *c, const struct owner *o, struct arena *a, struct err *e)
+{
+    static const char what[] = "choose another folder with -o, or say --replace, and the folder is this design's from now on";
+    const char *manifest = arena_format(a, "%s/manifest.csv", c->folder);
+    if (c->replace)
+        return true;
+    if (!o->sha256)
+        return access(manifest, F_OK) != 0 || err_set(e, ERR_CREATE, "%s: is there already, and nothing says of which design: %s", manifest, what);
+    if (!strcmp(o->sha256, c->sha256) || !strcmp(o->place, place_of(c, a)))
+        return true;
+    const char *seen = o->place[0] == '/' ? o->place : relpath_make(arena_format(a, "%s/%s", c->folder, o->place), NULL, a);
+    return err_set(e, ERR_CREATE, "%s: holds the set of another design, %s: %s", c->folder, seen, what);
+}
+
+bool claim_look(const struct claim *c, struct arena *a, struct err *e)
+{
+    struct owner o;
+    int fd = open(arena_format(a, "%s/.rasp/design", c->folder), O_RDONLY | O_CLOEXEC);
+    parse(&o, fd < 0 ? 0 : pread(fd, o.text, MOST, 0));
+    if (fd >= 0)
+        close(fd);
+    return is_free(c, &o, a, e);
+}
+
+/* Enters, and sees whether that is alone. */
+static bool enter(const struct claim *c, const struct owner *o, int *entered, struct err *e)
+{
+    bool same = o->sha256 && !strcmp(o->sha256, c->sha256);
+    *entered = folder_enter(c->folder);
+    if (same || *entered < 0)
+        return true;
+    if (folder_is_mine(*entered) && flock(*entered, LOCK_SH) == 0)
+        return true;
+    return err_set(e, ERR_CREATE, "%s: another rasp is at work in it, for another design or an earlier state of this one: wait until it has ended, or choose another folder with -o",
+                   c->folder);
+}
+
+static bool note(const struct claim *c, const struct owner *o, int fd, struct arena *a, struct err *e)
+{
+    const char *place = place_of(c, a), *text = arena_format(a, "%s\n%s\n", c->sha256, place);
+    size_t n = strlen(text);
+    if (o->sha256 && !strcmp(o->sha256, c->sha256) && !strcmp(o->place, place))
+        return true;
+    if (n > MOST)
+        return err_set(e, ERR_CREATE, "%s: the path is too long", c->design);
+    errno = ENOSPC; /* where less is written than was asked for */
+    if (pwrite(fd, text, n, 0) == (ssize_t)n && ftruncate(fd, (off_t)n) == 0)
+        return true;
+    return err_set(e, err_system(ERR_CREATE), "%s/.rasp/design: cannot be written: %s", c->folder, strerror(errno));
+}
+
+bool claim_enter(const struct claim *c, struct arena *a, int *entered, struct err *e)
+{
+    struct owner o;
+    const char *path = arena_format(a, "%s/.rasp/design", c->folder);
+    *entered = -1;
+    int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return err_set(e, err_system(ERR_CREATE), "%s: cannot be written: %s", path, strerror(errno));
+    flock(fd, LOCK_EX); /* where there are no locks, two that begin at once are not told apart */
+    parse(&o, pread(fd, o.text, MOST, 0));
+    bool ok = is_free(c, &o, a, e) && enter(c, &o, entered, e) && note(c, &o, fd, a, e);
+    close(fd);
+    return ok;
+}

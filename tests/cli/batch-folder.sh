@@ -1,0 +1,52 @@
+# A folder holds the set of one design: another one is refused, the same one, edited, goes on and names what is left over; nothing is removed unasked.
+. "$ROOT/tests/cli/batch-make.inc"
+code() { "$@" 2> err.txt > out.txt || echo "exit $?"; sed "s/, in [0-9:]*.*//" out.txt; cat err.txt; }
+rasp batch six.yaml -o one -q
+cp -r one before
+echo "-- another design"
+sed 's/seed: 3/seed: 4/' six.yaml > other.yaml
+code rasp batch other.yaml -o one
+code rasp batch other.yaml -o one --dry-run
+code rasp batch other.yaml -o one --shard 1/2
+code rasp batch six.yaml -o one --shard 1/2 --prune
+diff -r before one && echo "nothing was written"
+echo "-- the same one, under another name"
+cp six.yaml again.yaml
+code rasp batch again.yaml -o one
+code rasp batch six.yaml -o one
+echo "-- two at once: of the same state of the design, and of another"
+code flock -s one/.rasp rasp batch six.yaml -o one
+cp six.yaml whole.yaml
+sed -i 's/, 300 ms//' six.yaml
+code flock -s one/.rasp rasp batch six.yaml -o one
+code flock -s one/.rasp rasp batch other.yaml -o one --replace
+echo "-- a level less"
+code rasp batch six.yaml -o one
+code rasp batch six.yaml -o one -q
+code rasp batch six.yaml -o one -q --diagnostics=json
+rasp batch six.yaml -o one --json 2> /dev/null | python3 -c 'import json, sys; d = json.load(sys.stdin); print(d["left_over"], d["pruned"])'
+echo "-- removed, but for what was changed since, and what the set is made from"
+echo mine >> one/low_300ms.scene.yaml
+echo mine > one/mine.txt
+code rasp batch six.yaml -o one --prune
+ls -d one/*300ms* one/mine*
+(cd one && sha256sum --quiet -c SHA256SUMS) && echo "sums hold"
+mv whole.yaml six.yaml
+rasp batch six.yaml -o made -q
+{ sed "s/300 ms/290 ms/" six.yaml; echo "recordings: [{file: made/low_300ms.wav, material: low, motion.duration: 290 ms, name: kept}]"; } > made.yaml
+code rasp batch made.yaml -o made --replace --prune
+ls made/*_300ms*
+echo "-- shards: told when they are merged"
+sed 's/, 300 ms//' six.yaml > fewer.yaml
+rasp batch six.yaml -o parts -q
+cp fewer.yaml six.yaml
+for i in 1 2; do rasp batch six.yaml -o parts -q --shard $i/2; done
+code rasp merge parts -q
+echo "-- taken over; and a manifest of which nothing says whose it is"
+code rasp batch other.yaml -o parts --replace
+code rasp batch six.yaml -o parts
+mkdir bare
+echo x > bare/manifest.csv
+code rasp batch other.yaml -o bare
+cat bare/manifest.csv
+code rasp batch other.yaml -o bare --replace
