@@ -28,7 +28,11 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
 /* Sets gains (and poles) at once: a start, or a contact that does not move. */
 void resonators_set(struct resonators *r, const struct modes_point *at);
 
-/* True when every state is exactly zero (they are flushed below 1e-200). */
+/* Groups of eight modes with a state that is not zero: what the next call without force costs. Without force, what has fallen below 1e-22 of the loudest
+   state there was becomes zero. */
+int resonators_awake(const struct resonators *r);
+
+/* True when every state is exactly zero. */
 int resonators_silent(const struct resonators *r);
 
 #endif

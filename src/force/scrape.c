@@ -20,6 +20,8 @@
 #include "force/scrape.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "num/lanes.h"
 #include "num/real.h"
@@ -123,6 +125,18 @@ static bool scrape_open(struct stage_run *r, struct err *e)
     return scrape_make(s, r, 1, e);
 }
 
+/* Does nothing move in those n sub-intervals, or to and from them, so that there is no force? */
+static bool scrape_rests(const struct scrape *s, const struct board *b, long first, int n)
+{
+    const double *u = way_values(b, ITEM_POSITION, first), *v = way_values(b, ITEM_VELOCITY, first);
+    if (s->momentum != 0)
+        return false;
+    for (int i = 0; i <= n; i++)
+        if (v[i] != 0 || u[i] != u[0])
+            return false;
+    return true;
+}
+
 static bool scrape_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct scrape *s = r->state;
@@ -130,7 +144,10 @@ static bool scrape_run(struct stage_run *r, long from, long to, struct err *e)
     (void)e;
     for (long first = from * b->over, last = to * b->over; first < last;) {
         int n = way_some(first, last);
-        scrape_force(s, r, first, n);
+        if (scrape_rests(s, b, first, n))
+            memset(&s->hats, 0, offsetof(struct hats, carried));
+        else
+            scrape_force(s, r, first, n);
         hats_lay(&s->hats, b, first, n);
         first += n;
     }

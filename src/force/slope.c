@@ -198,7 +198,7 @@ static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
     }
 }
 
-/* The same of a straight way whose slope alone is asked for. Each piece waits for the one before it, for a multiplication and two additions: the sign of the
+/* The same of a straight way whose slope alone is asked for. Each piece waits for the one before it, for a multiplication and an addition: the sign of the
    direction is taken out of that, and each piece writes its sub-interval's end, the last of them what stays. */
 static void slope_straight(struct slope *s, const struct way_pieces *p)
 {

@@ -1,4 +1,4 @@
-/* Loops over pieces, which leave two multiplications and additions a piece to the recursion in slope.c: on a line over roughness, half the time of
+/* Loops over pieces, which leave one multiplication and one addition a piece to the recursion in slope.c: on a line over roughness, half the time of
    slope and crossing piece by piece. */
 #include "force/slope_terms.h"
 
@@ -31,17 +31,17 @@ static void terms_leak(struct slope_terms *t, const double *length, double leak,
 INLINE void terms_each(struct slope_terms *t, const struct way_pieces *p, int channel, const int *at)
 {
     const double *means = p->mean[channel], *moments = p->moment[channel], *limited = p->limited[channel], *length = p->length;
-    double *bent = t->bent[channel], *leaned = t->leaned[channel], *risen = t->risen[channel], *tilted = t->tilted[channel], *bowed = t->bowed[channel];
+    double *restrict bent = t->bent[channel];
     int n = p->n;
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        bent[i] = t->phi[i] * length[i] * means[i] + t->z[i] * ((1 - t->z[i] / 2) * length[i] * moments[i]);
+    n = channel == 0 ? n : 0;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
         int a = at ? at[i] : i, b = a + 1;
-        double h = length[i], z = t->z[i], moment = (1 - z / 2) * h * moments[i];
-        bent[i] = t->phi[i] * h * means[i];
-        leaned[i] = z * moment;
-        risen[i] = t->chi[i] * h * means[i];
-        tilted[i] = moment;
-        bowed[i] = z * h * (means[i] - 0.5 * (limited[a] + limited[b])) * (1.0 / 60);
+        double h = length[i], z = t->z[i], bow = z * h * (means[i] - 0.5 * (limited[a] + limited[b])) * (1.0 / 60);
+        t->risen[i] = t->chi[i] * h * means[i] - (1 - z / 2) * h * moments[i] + bow;
     }
 }
 
@@ -73,7 +73,7 @@ void slope_terms_mean(struct slope_terms *t, int n)
 {
 #pragma omp simd
     for (int i = 0; i < n; i++)
-        t->mean[i] = t->phi[i] * t->start[i] + t->risen[0][i] - t->tilted[0][i] + t->bowed[0][i];
+        t->mean[i] = t->phi[i] * t->start[i] + t->risen[i];
 }
 
 /* As crossing_slope (force/crossing.c) of each, both outcomes of every question worked out. */

@@ -6,16 +6,14 @@
 struct slope_terms {
     double z[LIMITED_PIECES], phi[LIMITED_PIECES], chi[LIMITED_PIECES]; /* 1 */
     double kept[LIMITED_PIECES];                        /* 1 - z phi                                   */
-    double bent[WAY_CHANNELS][LIMITED_PIECES];          /* phi h mean(T)                               */
-    double leaned[WAY_CHANNELS][LIMITED_PIECES];        /* z (1 - z/2) h moment(T)                     */
-    double risen[WAY_CHANNELS][LIMITED_PIECES];         /* chi h mean(T)                               */
-    double tilted[WAY_CHANNELS][LIMITED_PIECES];        /* (1 - z/2) h moment(T)                       */
-    double bowed[WAY_CHANNELS][LIMITED_PIECES];         /* z h (mean(T) - (T_start + T_end)/2) / 60    */
+    double bent[WAY_CHANNELS][LIMITED_PIECES];          /* what the end gains: phi h mean(T) + z (1 - z/2) h moment(T) */
+    double risen[LIMITED_PIECES];                       /* what the mean gains, of channel 0: chi h mean(T) - (1 - z/2) h moment(T)
+                                                           + z h (mean(T) - (T_start + T_end)/2) / 60 */
     double start[LIMITED_PIECES], end[LIMITED_PIECES], mean[LIMITED_PIECES]; /* S' along the direction of travel; set where the slope is known */
     double whole[LIMITED_PIECES], late[LIMITED_PIECES]; /* integrals of |S'|, q |S'| dq over the piece */
 };
 
-/* All of p's pieces and channels, up to `bowed`. leak: l, m. */
+/* All of p's pieces and channels, up to `risen`. leak: l, m. */
 void slope_terms(struct slope_terms *t, const struct way_pieces *p, int channels, double leak);
 
 /* mean[] of n pieces of channel 0 from start[]. */
@@ -27,7 +25,7 @@ void slope_terms_crossing(struct slope_terms *t, int n);
 /* S' at the piece's end from that at its start. */
 static inline double slope_terms_end(const struct slope_terms *t, int channel, int i, double start)
 {
-    return t->kept[i] * start + t->bent[channel][i] + t->leaned[channel][i];
+    return t->kept[i] * start + t->bent[channel][i];
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* The common case of a way (force/way.h): straight, no halves, one channel. The sub-intervals' first knots are looked for all at once, and where one
+/* The common case of a way (force/way.h): straight, one channel. The sub-intervals' first knots are looked for all at once, and where one
    ends in the same place and at the same alpha as the next begins, their pieces share the point. */
 #ifndef FORCE_WAY_STRAIGHT_H
 #define FORCE_WAY_STRAIGHT_H
@@ -8,6 +8,7 @@ struct way_straight {
     const double *u;             /* m: sub-interval i goes from u[i] to u[i + 1]  */
     double alpha[WAY_CHUNK];     /* m */
     double first[WAY_CHUNK];     /* m: length of its first piece                  */
+    double second[WAY_CHUNK];    /* m: behind its first piece no knot is nearer   */
     int pieces[WAY_CHUNK];       /* 1 or 2, where that is known beforehand; else 0 */
     void (*flush)(struct way *); /* uses the pieces and empties them              */
 };

@@ -31,6 +31,7 @@ struct force_table {
     double value[COLUMNS];
     double sum, squares, peak;  /* of the row being filled */
     long samples, lift_offs, row, rows;
+    long behind;                /* sample that is the first behind the row */
     struct row_motion motion;
     struct strike_train train;   /* of what strikes: the impacts from `impact` on     */
     struct strike_impact impact;
@@ -261,15 +262,31 @@ static void rows_before(struct force_table *t, const struct stage_run *r, long e
     }
 }
 
-/* A sample belongs to row floor(n rate_d / rate); a row is written when the first sample behind it comes, the last ones with
-   the motion's last sample. */
+/* A sample belongs to row floor(n rate_d / rate). */
+static long row_of(const struct stage_run *r, long n)
+{
+    return (long)floor((double)n * r->scene->output.diagnostics.rate / r->board->rate);
+}
+
+/* The first sample behind a row. */
+static long row_behind(const struct stage_run *r, long row)
+{
+    long n = (long)((double)(row + 1) * r->board->rate / r->scene->output.diagnostics.rate) - 1; /* that one or one or two before */
+    while (row_of(r, n) <= row)
+        n++;
+    return n;
+}
+
+/* A row is written when the first sample behind it comes, the last ones with the motion's last sample. */
 static bool force_table_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct force_table *t = r->state;
-    double rate = r->scene->output.diagnostics.rate, fs = r->board->rate;
     for (long n = from; n < to && t->row < t->rows; n++) {
-        long row = (long)floor((double)n * rate / fs);
-        rows_before(t, r, row < t->rows ? row : t->rows);
+        if (n >= t->behind) {
+            long row = row_of(r, n);
+            rows_before(t, r, row < t->rows ? row : t->rows);
+            t->behind = row_behind(r, row);
+        }
         row_frame(t, r->board, n);
         if (n == r->board->moving - 1)
             rows_before(t, r, t->rows);

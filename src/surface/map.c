@@ -21,26 +21,33 @@ static const double *map_around(const struct map *m, long column, long row, doub
         return m->c + (row - 1) * m->columns + column - 1;
     }
     *stride = 4;
-    for (long j = 0; j < 4; j++)
+    long across[4];
+    for (long i = 0; i < 4; i++)
+        across[i] = profile_folded(column - 1 + i, m->columns, m->off_map);
+    for (long j = 0; j < 4; j++) {
+        const double *from = m->c + profile_folded(row - 1 + j, m->rows, m->off_map) * m->columns;
         for (long i = 0; i < 4; i++)
-            edge[4 * j + i] = m->c[profile_folded(row - 1 + j, m->rows, m->off_map) * m->columns + profile_folded(column - 1 + i, m->columns, m->off_map)];
+            edge[4 * j + i] = from[across[i]];
+    }
     return edge;
 }
 
 LANES_CLONES
 static void places(const struct map *m, int n, const double *x, const double *y, double *p[2])
 {
-    double *px = p[0], *py = p[1];
+    double *restrict px = p[0], *restrict py = p[1], from[2] = {m->origin[0], m->origin[1]}, pitch[2] = {m->pitch[0], m->pitch[1]};
+#pragma omp simd
     for (int i = 0; i < n; i++) {
-        px[i] = (x[i] - m->origin[0]) / m->pitch[0];
-        py[i] = (y[i] - m->origin[1]) / m->pitch[1];
+        px[i] = (x[i] - from[0]) / pitch[0];
+        py[i] = (y[i] - from[1]) / pitch[1];
     }
 }
 
 LANES_CLONES
 static void values_put(int n, const double *from, double base, double *to)
 {
-    for (int i = 0; to && i < n; i++)
+#pragma omp simd
+    for (int i = 0; i < n; i++)
         to[i] += base + from[i];
 }
 

@@ -193,11 +193,12 @@ def growth():
     row("cycles a sample that 50 more modes cost, from 50 to 100, 100 to 150", ", ".join(f"{s:.0f}" for s in slopes), "the same within 30 %", max(slopes) <= 1.3 * min(slopes))
 
 
-prepare()
-if JOBS:
-    jobs()
-if not ONLY:
-    print("\n| | measured | goal | |\n|---|---|---|---|")
-    start_up()
-    batches()
-    growth()
+if __name__ == "__main__":
+    prepare()
+    if JOBS:
+        jobs()
+    if not ONLY:
+        print("\n| | measured | goal | |\n|---|---|---|---|")
+        start_up()
+        batches()
+        growth()

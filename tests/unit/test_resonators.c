@@ -247,6 +247,45 @@ START_TEST(silence)
 }
 END_TEST
 
+/* A blow, then no force: groups go to rest one after another, each when its slowest mode has fallen to 1e-22 of the loudest and not before, and what is
+   left out is below 1e-20 of the loudest sound: 64 modes, 1e-22 each. The judge is the closed form. Modes without gain never wake. */
+START_TEST(tails_go_to_rest)
+{
+    enum { BLOCK = 64 };
+    struct scene s = scene_of(64, 100, 20000);
+    struct arena *a = arena_open();
+    double y[BLOCK], f[BLOCK] = {RATE};
+    int fewest = 8;
+    for (int i = 0; i < 64; i++) {
+        s.decay[i] = 20 * (1 + i / 8); /* 1/s, of each group its own */
+        s.re[i] = 0;
+        s.im[i] = i / 8 == 6 ? 0 : 1;  /* one group has no gain */
+    }
+    struct resonators *r = bank_of(a, &s, BLOCK);
+    struct modes_point to = point(&s);
+    resonators_set(r, &to);
+    for (int n = 0; n < 3 * (int)RATE; n += BLOCK) {
+        memset(y, 0, sizeof y);
+        resonators_run(r, f, y, BLOCK, &to);
+        f[0] = 0;
+        double sum = 0, seconds = (n + BLOCK - 1) / RATE;
+        for (int i = 0; i < 64; i++)
+            sum += s.im[i] * exp(-s.decay[i] * seconds) * cos(2 * M_PI * s.frequency[i] * seconds);
+        ck_assert_double_le(fabs(y[BLOCK - 1] - sum), 1e-9 * fabs(exp(-20 * seconds)) + 1e-20); /* phases of the judge are good to 1e-9 */
+        int early = 0, late = 0; /* half a neper of 50.7: the state's parts, and the loudest is taken at the first block's end */
+        for (int k = 0; k < 8; k++) {
+            early += k != 6 && 20 * (1 + k) * seconds < log(1e22) - 0.5;
+            late += k != 6 && 20 * (1 + k) * (seconds - BLOCK / RATE) < log(1e22) + 0.5;
+        }
+        ck_assert_int_ge(resonators_awake(r), early);
+        ck_assert_int_le(resonators_awake(r), late);
+        fewest = resonators_awake(r) < fewest ? resonators_awake(r) : fewest;
+    }
+    ck_assert_int_eq(fewest, 0);
+    arena_close(a);
+}
+END_TEST
+
 /* No modes at all: no sound. */
 START_TEST(no_modes)
 {
@@ -310,4 +349,4 @@ START_TEST(zero_hertz)
 END_TEST
 
 UNIT("resonators", equals_the_defining_sum, ramped_gains_converge_at_order_2, cuts_do_not_matter, frequency_and_decay_are_the_tables,
-     silence, no_modes, acceleration_has_its_direct_term, zero_hertz)
+     silence, tails_go_to_rest, no_modes, acceleration_has_its_direct_term, zero_hertz)
