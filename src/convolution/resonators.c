@@ -22,7 +22,7 @@
    so that then the output does not depend on how the frames are cut into calls.
    Stability: |z| never grows by more than |A f|/rate, whatever gains and poles do, for a chord of the unit disk stays in it (|p| < 1;
    |p| = 1 for a mode without decay). A direct-form biquad under the same modulation blows up (test_glide.c).
-   Silence: after a call without force, states become zero that have fallen in both parts below 1e-22 (-440 dB) of the loudest state there was, which is
+   Silence: after 256 frames without force, states become zero that have fallen in both parts below 1e-22 (-440 dB) of the loudest state there was, which is
    below the rounding of any sound that has not itself fallen by as much; after a call with force those below 1e-200. A group of eight modes that are
    zero and get no force costs nothing. Nothing becomes subnormal on the way unless a mode falls by 1e-107 within one call.
 
@@ -42,7 +42,7 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-enum { SPAN = 4, PIECE_MIN = 64, PIECE_MAX = 256 }; /* samples per visit to a group; frames whose lane sums are kept at a time */
+enum { SPAN = 4, PIECE_MIN = 64, PIECE_MAX = 256, WATCH = 256 }; /* samples per visit to a group; frames whose lane sums are kept at a time; from one look at what has died away to the next */
 
 struct group {
     _Alignas(64) double zr[LANES];
@@ -52,13 +52,14 @@ struct group {
     double tr[LANES], ti[LANES];         /* their targets                         */
     double psr[LANES], psi[LANES];       /* steps and targets of poles that move  */
     double ptr[LANES], pti[LANES];
-    int awake;                           /* a state is not zero                   */
+    int awake;                           /* a state may not be zero               */
 };
 
 struct resonators {
     int n, quantity, groups, n_active, piece;
-    bool glides, steady;                          /* steady: no gain changes in this call */
-    double rate, per_rate, loudest;               /* loudest: greatest part of a state at the end of a call */
+    int watched;                                  /* frames since the last look at what has died away */
+    bool glides, steady, forced;                  /* steady: no gain changes in this call; forced: since that look */
+    double rate, per_rate, loudest;               /* loudest: greatest part of a state at any look */
     double through, through_target, through_step; /* y(n) gets through * f(n) */
     const double *frequency, *decay;              /* [n] of the start         */
     double *size, *turn, *rise;                   /* [n] room for the evaluation of poles */
@@ -339,6 +340,23 @@ static void flush(struct resonators *r, bool force)
     }
 }
 
+/* At every WATCH-th frame of all, so that it does not depend on how they are cut into calls. force: there is some in this call. */
+static void watch(struct resonators *r, const double *f, int n, bool force)
+{
+    bool forced = force && !product_nothing(f, n);
+    for (int k = 0; forced && k < r->n_active; k++)
+        r->active[k]->awake = 1;
+    r->forced = r->forced || forced;
+    r->watched += n;
+    if (r->watched < WATCH)
+        return;
+    flush(r, r->forced);
+    r->watched = 0;
+    r->forced = false;
+    if (!force)
+        find_active(r, force);
+}
+
 void resonators_run(struct resonators *r, const double *f, double *y, int frames, const struct modes_point *to)
 {
     if (frames < 1)
@@ -347,16 +365,19 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
     set_steps(r, frames);
     bool force = !product_nothing(f, frames);
     find_active(r, force);
-    for (int done = 0; done < frames && r->n_active;) {
-        int n = frames - done < r->piece ? frames - done : r->piece;
-        memset(r->sums, 0, (size_t)n * sizeof *r->sums);
-        (r->glides ? ring_gliding : r->steady ? ring_steady : ring)(r->active, r->n_active, f + done, r->sums, n);
-        fold(r, f + done, y + done, n);
-        r->through += n * r->through_step;
+    for (int done = 0; done < frames;) {
+        int left = frames - done, n = left < r->piece ? left : r->piece;
+        n = n < WATCH - r->watched ? n : WATCH - r->watched;
+        if (r->n_active) {
+            memset(r->sums, 0, (size_t)n * sizeof *r->sums);
+            (r->glides ? ring_gliding : r->steady ? ring_steady : ring)(r->active, r->n_active, f + done, r->sums, n);
+            fold(r, f + done, y + done, n);
+            r->through += n * r->through_step;
+        }
+        watch(r, f + done, n, force);
         done += n;
     }
     arrive(r);
-    flush(r, force);
 }
 
 int resonators_awake(const struct resonators *r)

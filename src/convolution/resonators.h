@@ -28,8 +28,8 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
 /* Sets gains (and poles) at once: a start, or a contact that does not move. */
 void resonators_set(struct resonators *r, const struct modes_point *at);
 
-/* Groups of eight modes with a state that is not zero: what the next call without force costs. Without force, what has fallen below 1e-22 of the loudest
-   state there was becomes zero. */
+/* Groups of eight modes with a state that is not zero: what the next call without force costs. After 256 frames without force, what has fallen below 1e-22
+   of the loudest state there was becomes zero, whatever the calls. */
 int resonators_awake(const struct resonators *r);
 
 /* True when every state is exactly zero. */

@@ -32,7 +32,9 @@ static void write_render(const char *hash)
 
 static struct plot_page page(const char *file, struct arena *a)
 {
-    return (struct plot_page){.file = file, .from = NAN, .to = NAN, .channel = 1, .arena = a};
+    struct cmd_call *call = ARENA_TAKE(a, struct cmd_call, 1);
+    call->arena = a;
+    return (struct plot_page){.call = call, .file = file, .from = NAN, .to = NAN, .channel = 1, .arena = a};
 }
 
 /* Of a table, each mode has its largest magnitude over the places. Numbers are read, not computed: exact. */

@@ -167,7 +167,10 @@ START_TEST(cuts_do_not_matter)
 {
     static double f[N], y[N], z[N];
     struct scene s = scene_of(51, 60, 20000);
-    force(f, N);
+    force(f, N / 8);
+    memset(f + N / 8, 0, (N - N / 8) * sizeof *f); /* here modes go to rest */
+    for (int i = 0; i < 51; i++)
+        s.decay[i] = 200 * (1 + i);
     for (int i = 0; i < N; i++)
         y[i] = z[i] = 0;
     struct arena *a = arena_open();
@@ -180,6 +183,7 @@ START_TEST(cuts_do_not_matter)
     for (int at = 0, n = 1; at < N; at += n, n = n % 97 + 13)
         resonators_run(q, f + at, z + at, at + n < N ? n : N - at, &to);
     ck_assert(memcmp(y, z, sizeof y) == 0);
+    ck_assert_int_lt(resonators_awake(p), 4); /* of 7 groups */
     resonators_run(p, f, y, 0, &to);
     arena_close(a);
 }
@@ -251,7 +255,7 @@ END_TEST
    left out is below 1e-20 of the loudest sound: 64 modes, 1e-22 each. The judge is the closed form. Modes without gain never wake. */
 START_TEST(tails_go_to_rest)
 {
-    enum { BLOCK = 64 };
+    enum { BLOCK = 256 };
     struct scene s = scene_of(64, 100, 20000);
     struct arena *a = arena_open();
     double y[BLOCK], f[BLOCK] = {RATE};
