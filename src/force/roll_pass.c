@@ -7,7 +7,8 @@
    Of a motion of more than ROLL_PASS_MOST grains one in every `stride` is kept, at a place among them that goes by the golden ratio, so that nothing that
    repeats itself falls in step with it.
 
-   Beyond its end a straight motion goes straight on as it last went. One on a curved or cornered way goes on in HEADINGS straight stretches of the same length,
+   Beyond its end a straight motion goes straight on as it last went. One on a curved or cornered way goes on in up to HEADINGS straight stretches of the same length, at
+   least STRETCH each (S takes some leaks to turn from one to the next),
    whose directions are those of the motion, shared out by the way that it goes in each: over ridges or along a grain the ground depends on the direction, and
    that in which the motion happens to end is none of the stiffness's business. There and back are one direction, for S varies alike in both: all turned to
    +x or -x, as the motion last went, and taken from -y to +y, the stretches never come back to ground that they were on, along x either. The ground is the one
@@ -26,6 +27,7 @@ extern const struct stage trajectory_stage, load_stage, limiter_stage, tip_stage
 
 enum { HALVINGS = 20, HEADINGS = 8, LOOKS = 1024 };
 
+#define STRETCH 4.0 /* l, at least, where there are several */
 #define GOLDEN 0.6180339887498949
 
 /* ------------------------------------------------------------------ grains */
@@ -217,8 +219,8 @@ static int pass_look(const struct trajectory *tr, const struct pass_on *last, st
     return n;
 }
 
-/* The directions of a motion on a curved way. One that rests at all instants keeps the one that it ended in. */
-static void pass_headings(const struct trajectory *tr, struct pass_on *on)
+/* `most` directions of a motion on a curved way. One that rests at all instants keeps the one that it ended in. */
+static void pass_headings(const struct trajectory *tr, int most, struct pass_on *on)
 {
     struct heading h[LOOKS];
     double all = 0, sum = 0;
@@ -226,14 +228,20 @@ static void pass_headings(const struct trajectory *tr, struct pass_on *on)
     qsort(h, (size_t)n, sizeof *h, heading_order);
     for (int i = 0; i < n; i++)
         all += h[i].speed;
-    for (int k = 0, i = 0; k < HEADINGS && n > 0; k++) {
-        while (i + 1 < n && sum + h[i].speed <= (k + 0.5) / HEADINGS * all)
+    for (int k = 0, i = 0; k < most && n > 0; k++) {
+        while (i + 1 < n && sum + h[i].speed <= (k + 0.5) / most * all)
             sum += h[i++].speed;
         on->ex[k] = h[i].ex;
         on->ey[k] = h[i].ey;
-        on->share[k] = 1.0 / HEADINGS;
+        on->share[k] = 1.0 / most;
     }
-    on->n = n > 0 ? HEADINGS : on->n;
+    on->n = n > 0 ? most : on->n;
+}
+
+/* Into how many. */
+static int pass_most(double way, double leak)
+{
+    return (int)fmin(fmax(way / (STRETCH * leak), 1), HEADINGS);
 }
 
 /* n grains of `step` m in whole stretches. */
@@ -287,7 +295,7 @@ bool roll_pass_beyond(struct roll_pass *p, long n, double step, double normal, d
     if (!pass_end(p->board.trajectory, &on))
         return false;
     if (p->slope.way.curved)
-        pass_headings(p->board.trajectory, &on);
+        pass_headings(p->board.trajectory, pass_most((double)n * step, p->slope.leak), &on);
     pass_stretches(&on, n, step);
     if (p->board.limiter)
         limiter_alpha(p->board.limiter, 1, &normal, &alpha);

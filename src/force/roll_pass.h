@@ -4,7 +4,7 @@
 #include "force/roll_centre.h"
 #include "stage.h"
 
-enum { ROLL_PASS_RATE = 48000, ROLL_PASS_MOST = 1 << 20 }; /* Hz, least grains per second; grains kept, 144 MB at most while it lasts */
+enum { ROLL_PASS_RATE = 48000, ROLL_PASS_MOST = 1 << 20 }; /* Hz, least grains per second; grains kept, 201 MB at most while it lasts */
 
 struct roll_pass {
     struct stage_run run;           /* the rolling stage's, on the board below */

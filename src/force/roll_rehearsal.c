@@ -124,7 +124,7 @@ static bool rehearsal_stiffness(struct roll_pass *p, const struct stage_run *r, 
 
 static bool rehearsal_settle(struct roll_pass *p, const struct stage_run *r, struct roll_law *l, struct roll_rehearsal *found, struct err *e)
 {
-    slope_level(&p->slope, found->level);
+    slope_level(&p->slope, true, found->level);
     if (!rehearsal_stiffness(p, r, l, found, e))
         return false;
     for (int k = 0; k < 2; k++)

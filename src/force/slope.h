@@ -6,7 +6,7 @@
 
 #define SLOPE_LEAK 2e-3 /* m, where the scene has no contact.leak: a ball whose scraping terms are as printed (contact.force: paper) */
 
-enum { SLOPE_GRAIN = 6, SLOPE_LEVELS = 10 }; /* levels: without ridges, and at most (force/slope.c) */
+enum { SLOPE_PAIR = 2, SLOPE_LEVELS = 10 }; /* levels: of a straight way, and of one that turns (force/slope.c) */
 
 struct slope {
     struct way way;
@@ -19,11 +19,13 @@ struct slope {
     double lift[SLOPE_LEVELS];       /* m^2, S of the same                           */
     double radius, alpha, bend;      /* m, R; m, alpha last met; alpha/R where the load is constant, 0 without a limiter */
     double flat[SLOPE_LEVELS], aside[SLOPE_LEVELS]; /* 1, over 1/R: shapes of the mean of T (force/slope.c) */
-    bool ridges;                     /* the surface, or a part of it, is the same along a direction, which the path meets at changing angles */
-    int first;                       /* of the four levels that have them then       */
-    double normal[2];                /* the unit vector across that direction        */
+    bool ridges;                     /* the surface is the same along a direction, which the path meets at changing angles */
+    double normal[2];                /* the unit vector across that direction, or across that of a part of it; else along x */
     double bent[SLOPE_LEVELS];       /* integral so far of T(c) flat[k] + T(d) aside[k] ds */
     double gone[SLOPE_LEVELS][SLOPE_LEVELS]; /* m, of flat[k] flat[j] + aside[k] aside[j] ds, j <= k */
+    double rose[SLOPE_LEVELS];       /* m^4, of S lift[k] ds                         */
+    double risen[SLOPE_LEVELS][SLOPE_LEVELS]; /* m^5, of lift[k] lift[j] ds, j <= k  */
+    double far;                      /* m, of ds                                     */
     double ex, ey;                   /* e where they are; 0, 0: nowhere yet          */
     double ends[WAY_CHUNK];          /* dS/du at each sub-interval's end             */
     double heights[WAY_CHUNK];       /* m, S there                                   */
