@@ -125,7 +125,7 @@ YAML
 }
 
 experiment > experiment.txt
-cat << EOF
+cat > batch.md << EOF
 # Sets of stimuli from one command
 
 Made by \`make evidence\` (evidence/batch.sh), on $(nproc) cores. Times are of one run, and move with the machine's neighbours.
@@ -148,3 +148,4 @@ Stimuli of 20 ms; how long a sound is does not matter, as it is made in blocks. 
 
 $(memory)
 EOF
+cp batch.md "$ROOT/evidence/batch.md"

@@ -211,12 +211,16 @@ START_TEST(test_errors)
 {
     struct result r = read_with(MIN "ablation: {sound: ball}\n", NULL);
     one_error(&r, "scenes/t.yaml:5:19", "ablation.sound is ball, and what touches the surface here is called scraper", "write ablation.sound: scraper");
+    arena_close(r.arena);
     r = read_with(MIN "ablation: {sound: scraper}\n", NULL);
     one_error(&r, "scenes/t.yaml:5:19", "ablation.sound is scraper, which does not ring: nothing would be heard", "give scraper.response and a weight above 0");
+    arena_close(r.arena);
     r = read_with(MIN "load: {recorded: n.csv}\nablation: {normal_force: constant}\n", NULL);
     one_error(&r, "scenes/t.yaml:6:26", "ablation.normal_force is constant, and a recorded force has no mean that is known", "give load.constant");
+    arena_close(r.arena);
     r = read_with(MIN "ablation: {place: [1 cm, 0]}\n", NULL);
     one_error(&r, "scenes/t.yaml:5:12", "ablation.place applies only where ablation.response is constant", "");
+    arena_close(r.arena);
 }
 END_TEST
 
