@@ -201,6 +201,7 @@ static bool end(struct batch *b, struct err *e)
     bool ok = finish_set(&f, e);
     r->full_scale = f.full_scale;
     r->left = f.left;
+    r->unheard = f.unheard;
     return ok;
 }
 
@@ -230,7 +231,7 @@ void batch_close(struct batch_report *r)
 
 static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *a, struct batch_report *r, struct err *e)
 {
-    *r = (struct batch_report){.messages = "", .full_scale = NAN};
+    *r = (struct batch_report){.messages = "", .unheard = "", .full_scale = NAN};
     if (!design_read(ask->design, a, &r->design, &r->messages, e))
         return false;
     set_make(&r->design, ask->build, a, &r->set);

@@ -25,6 +25,7 @@ struct batch_report {
     int n_mine, rendered, kept, failed, waiting;
     double full_scale;          /* the set's; NAN: it has none, or it is not known yet */
     struct leftover left;       /* what is in the folder besides; of a shard nothing is known */
+    const char *unheard;        /* a warning of factors that are not heard; "": none */
     double seconds;             /* wall clock */
 };
 

@@ -12,6 +12,7 @@
 #include "batch/level.h"
 #include "batch/pool.h"
 #include "batch/sums.h"
+#include "batch/unheard.h"
 
 struct levelled {                /* what became of a stimulus that gets its gain, until it is taken */
     struct journal_ref record;
@@ -188,7 +189,8 @@ bool finish_set(struct finish *f, struct err *e)
 {
     bool waits = set_waits(f->kit->set), complete = whole(f);
     f->full_scale = waits ? NAN : f->kit->set->level.full_scale;
+    f->unheard = "";
     if (waits && complete && !lay_level(f, e))
         return false;
-    return write_tables(f, e) && settle(f, !waits || whole(f), e);
+    return write_tables(f, e) && unheard_find(&f->results, f->arena, &f->unheard, e) && settle(f, !waits || whole(f), e);
 }

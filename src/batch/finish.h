@@ -16,10 +16,11 @@ struct finish {
     const struct spare *inputs;  /* of the set, which are not left over; NULL: not known */
     bool prune;                  /* what is left over is removed */
     struct leftover left;        /* what is there besides the set */
+    const char *unheard;         /* of unheard_find */
 };
 
 /* Where the level waits and all stimuli are there, gives them their gain. Then writes manifest.csv, manifest.json, SHA256SUMS and timings.csv, settles the journal, sweeps,
-   and looks for what is left over.
+   and looks for what is left over, and for factors that are not heard.
    Failures of single stimuli go to their outcomes. ERR_CREATE, ERR_IO, ERR_INTERRUPTED */
 bool finish_set(struct finish *f, struct err *e);
 

@@ -89,12 +89,19 @@ bool job_is_there(const char *folder, const struct record *r, struct arena *a)
     return !job_differs(folder, r, a, &file);
 }
 
+/* Is all known of it that the set's level asks for? A common loudness is found from the raw sounds', which a set of another level had no need of; the file's own, rounded to its
+   encoding, would do for a gain that is nearly the same. */
+static bool tells_enough(const struct set *s, const struct record *r)
+{
+    return !set_waits(s) || isnan(s->level.lufs) || !r->sounds || r->loud;
+}
+
 /* Complete, or waiting for its gain; its effective scene names the inputs as they are seen from the folder. */
 static const struct record *find(const struct job_kit *k, const struct record *asked, struct arena *a, struct journal_ref *ref)
 {
     for (int waits = 0; waits <= set_waits(k->set); waits++) {
         const struct record *r = k->force || (k->again && !waits) ? NULL : journal_find(k->journal, asked->key, waits, a, ref);
-        if (r && r->place && !strcmp(r->place, asked->place) && job_is_there(k->folder, r, a))
+        if (r && r->place && !strcmp(r->place, asked->place) && tells_enough(k->set, r) && job_is_there(k->folder, r, a))
             return r;
     }
     return NULL;
@@ -181,6 +188,7 @@ static bool measure(const struct job_kit *k, struct record *r, struct err *e)
         return true;
     if (!job_measure(k->folder, true, r, e))
         return false;
+    r->loud = raw;
     if (raw)
         r->lufs = r->file_lufs;
     return true;

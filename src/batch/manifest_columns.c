@@ -100,7 +100,7 @@ static void row(const struct manifest_cell *c) { fprintf(c->f, "%d", c->row + 1)
 static void scene_file(const struct manifest_cell *c) { put(c, file_of(c, "scene") ? file_of(c, "scene")->path : NULL); }
 static void scene_sha256(const struct manifest_cell *c) { put(c, file_of(c, "scene") ? file_of(c, "scene")->sha256 : NULL); }
 static void text(const struct manifest_cell *c) { put(c, row_of(c)->text); }
-static void replicate(const struct manifest_cell *c) { fprintf(c->f, "%d", row_of(c)->replicate); }
+static void replicate(const struct manifest_cell *c) { put_number(c, !row_of(c)->recording, row_of(c)->replicate); }
 static void recording(const struct manifest_cell *c) { put(c, row_of(c)->recording); }
 
 static void seed(const struct manifest_cell *c)
@@ -144,7 +144,7 @@ const struct manifest_column manifest_columns[] = {
     {"scene_sha256", "Hash of the scene", "SHA-256 of scene_file, which names its inputs as they are seen from its folder: it is another where the folder lies elsewhere", NULL, scene_sha256},
     {"*", NULL, NULL, NULL, NULL},
     {"text", "Text", "what the stimulus is, in words for those who listen", NULL, text},
-    {"replicate", "Replicate", "number of the replicate, from 1: replicates differ in their noise alone", NULL, replicate},
+    {"replicate", "Replicate", "number of the replicate, from 1: replicates differ in their noise alone; n/a of a recording", NULL, replicate},
     {"seed", "Noise seed", "seed of the scene's noise, 64 bits: stimuli of one replicate share it, but for factors that the design calls independent", NULL, seed},
     {"recording", "Recording", "the supplied WAV that this stimulus was made from; n/a of what is rendered", NULL, recording},
     {"sample_rate_hz", "Sample rate", "audio samples per second", "Hz", rate},

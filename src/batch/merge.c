@@ -237,6 +237,7 @@ static bool join(struct merge *m, int threads, struct err *e)
         return false;
     m->report->full_scale = f.full_scale;
     m->report->left = f.left;
+    m->report->unheard = f.unheard;
     if (!judge(m, e))
         return false;
     take_away(m);
@@ -252,7 +253,7 @@ void merge_close(struct merge_report *r)
 bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
 {
     struct merge m = {.folder = folder, .arena = a, .report = r, .kit = {.set = &r->set, .folder = folder}};
-    *r = (struct merge_report){.missing = "", .full_scale = NAN};
+    *r = (struct merge_report){.missing = "", .unheard = "", .full_scale = NAN};
     find_parts(&m);
     if (!m.n)
         return err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv, as rasp batch --shard leaves them: there is nothing to merge", folder);

@@ -12,6 +12,7 @@ struct merge_report {
     int failed, waiting;
     double full_scale;           /* as of struct finish */
     struct leftover left;        /* as of struct batch_report */
+    const char *unheard;         /* a warning of factors that are not heard; "": none */
     const char *missing;         /* of shards, "3,17"; "": none */
     const char **names;          /* of stimuli that are not there as the shards left them; ends with NULL */
     const char **whys;           /* the same: what is the matter with each, "low.wav is missing" */

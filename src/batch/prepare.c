@@ -209,6 +209,21 @@ static void look_at_recordings(struct preparation *p, struct set *s)
     }
 }
 
+/* Found out before anything is rendered, too: what keeps one of them from its level, which depends on the set's length. */
+static void look_at_levels(struct preparation *p, const struct set *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        struct look *l = &p->looks[i];
+        const char *file = p->design->stimuli[i].recording;
+        if (!file || l->fault)
+            continue;
+        l->trial = trial_open();
+        if (!recording_check_level(file, s, &l->trial->e))
+            design_scene_recording(p->design, i, &l->trial->e);
+        settle(p, i, l);
+    }
+}
+
 static void find_length(const struct preparation *p, struct set *s)
 {
     double longest = 0;
@@ -259,6 +274,7 @@ bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, 
     find_form(&p, s);
     look_at_recordings(&p, s);
     find_length(&p, s);
+    look_at_levels(&p, s);
     add_up(&p, s);
     return tell(out, s, e) && (!ask->folder || spare_check(p.spare, s, p.first, &(struct spare_place){ask->folder, ask->shard}, e));
 }

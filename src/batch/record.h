@@ -20,7 +20,8 @@ struct record {
     const char *build;
     const char *place;      /* of the design, seen from the output folder; NULL: of a recording           */
     double full_scale;      /* its level as it was written; NAN: not by this                              */
-    double peak, rms, lufs; /* of the raw sound: in the quantity, and LUFS as if that were the file; lufs NAN: not measured */
+    double peak, rms, lufs; /* of the raw sound: in the quantity, and LUFS as if that were the file; lufs NAN: not measured, or (loud) too short or too quiet */
+    bool loud;              /* lufs was measured: a common peak or rms does not need it                   */
     double rate;            /* Hz                                                                         */
     int channels, encoding; /* of the file, enum encoding                                                 */
     long frames;

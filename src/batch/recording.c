@@ -41,6 +41,12 @@ bool recording_check(const char *file, double *rate, int *channels, double *seco
                    w.channels == 1 ? "" : "s", w.rate, *channels, *rate, file, *rate, *channels);
 }
 
+/* As many frames of it are heard; its level is theirs. */
+static long length(const struct set *s)
+{
+    return isnan(s->length) ? LONG_MAX : (long)rint(s->length * s->rate);
+}
+
 /* What the level asks of a recording that holds this. */
 static bool find_gain(const struct set *set, const char *file, const struct measure *m, double *gain, struct err *e)
 {
@@ -55,10 +61,17 @@ static bool find_gain(const struct set *set, const char *file, const struct meas
     else if (isnan(l->lufs))
         *gain = fmin(real_exp10(l->peak / 20), set->encoding <= ENCODING_PCM24 ? 1 - ldexp(1, set->encoding == ENCODING_PCM16 ? -15 : -23) : 1) / m->peak;
     else if (isnan(m->lufs))
-        return err_set(e, ERR_SCENE, "%s: its loudness cannot be measured: BS.1770 needs 0.4 s that are not nearly silent", file);
+        return err_set(e, ERR_SCENE, "%s: its loudness cannot be measured: BS.1770 needs 0.4 s that are not nearly silent: give the level as peak or rms, or leave it out", file);
     else
         *gain = real_exp10((l->lufs - m->lufs) / 20);
     return true;
+}
+
+bool recording_check_level(const char *file, const struct set *s, struct err *e)
+{
+    struct measure m;
+    double gain;
+    return isnan(s->level.lufs) || (measure_part(file, length(s), true, &m, e) && find_gain(s, file, &m, &gain, e));
 }
 
 struct copy {
@@ -120,12 +133,6 @@ static bool write_it(const struct set *set, const char *file, const char *path, 
     if (c.out)
         wav_drop(c.out);
     return false;
-}
-
-/* As many frames of it are heard; its level is theirs. */
-static long length(const struct set *s)
-{
-    return isnan(s->length) ? LONG_MAX : (long)rint(s->length * s->rate);
 }
 
 /* What its bytes depend on. */

@@ -124,7 +124,7 @@ void batch_tell_left(struct cmd_call *c, const char *folder, const struct leftov
     if (l->n_files > LEFT_TOLD)
         list = arena_format(c->arena, "%s and %d more", list, l->n_files - LEFT_TOLD);
     bool one = l->n_files == 1;
-    tell_warning(c, folder, arena_format(c->arena, "%d file%s of stimuli that the design does not have any more %s still there, outside the manifest: %s; rasp batch --prune removes %s", l->n_files, one ? "" : "s",
+    tell_warning(c, folder, arena_format(c->arena, "%d file%s of stimuli that the design does not have any more %s still there, outside the manifest: %s; rasp batch --prune removes %s (of a NAME.json it cannot tell)", l->n_files, one ? "" : "s",
                                          one ? "is" : "are", list, one ? "it unless it was changed since" : "those that nobody changed since"));
 }
 
@@ -172,7 +172,7 @@ static json_t *report_json(const struct batch_ask *ask, const struct batch_repor
     json_object_set_new(j, "left_over", batch_left_json(&r->left));
     json_object_set_new(j, "pruned", json_integer(r->left.removed));
     json_object_set_new(j, "sound_s", json_real(r->prepare.seconds));
-    json_object_set_new(j, "wav_bytes", json_real(r->prepare.bytes));
+    json_object_set_new(j, "wav_bytes", json_integer((json_int_t)r->prepare.bytes));
     json_object_set_new(j, "predicted_cpu_s", json_real(r->prepare.cycles / 3e9));
     json_object_set_new(j, "wall_s", json_real(r->seconds));
     return j;
@@ -252,6 +252,8 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     tell_faults(c, &r.prepare);
     if (r.journal)
         batch_tell(c, "batch", ask.design, &(struct results){&r.set, r.outcomes, r.journal});
+    if (*r.unheard)
+        tell_warning(c, ask.design, r.unheard);
     batch_tell_left(c, ask.folder, &r.left);
     batch_close(&r);
     if (!r.outcomes)
@@ -279,7 +281,7 @@ const struct command batch_command = {
             "A folder holds the set of one design, which is known by its file and by what it says: the file may be edited, or be moved or renamed as it is. Another design is refused (exit code 73) "
             "unless --replace gives it the folder; so is a second batch while one is at work for another state of the design, where batches of the same state share the work. "
             "Files of stimuli that are no more in the design (a level was taken out, a label changed) stay, are named in a warning at the end, "
-            "and are in no table; --prune removes those stimuli of which no file was changed.",
+            "and are in no table; --prune removes those stimuli of which no file was changed, with their NAME.json, whose bytes are not kept account of: rename one with notes in it.",
     .operands = "DESIGN",
     .least = 1,
     .most = 1,

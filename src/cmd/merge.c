@@ -52,6 +52,8 @@ static int merge_command_run(struct cmd_call *c, struct err *e)
     tell_missing(c, &r);
     if (ok || r.failed)
         batch_tell(c, "merge", NULL, &(struct results){&r.set, r.outcomes, r.journal});
+    if (*r.unheard)
+        tell_warning(c, folder, r.unheard);
     batch_tell_left(c, folder, &r.left);
     merge_close(&r);
     if (!r.outcomes)

@@ -218,11 +218,16 @@ static void put_figure(const struct page *g, size_t row, int k, const char *name
     fputs("</dd>", f);
 }
 
+/* Over those that have it. */
 static bool varies(const struct page *g, int k)
 {
-    for (size_t row = 1; row < g->manifest.rows; row++)
-        if (strcmp(cell(g, row, k), cell(g, 0, k)) != 0)
+    const char *first = NULL;
+    for (size_t row = 0; row < g->manifest.rows; row++) {
+        const char *here = is_there(cell(g, row, k)) ? cell(g, row, k) : first;
+        if (first && strcmp(here, first) != 0)
             return true;
+        first = here;
+    }
     return false;
 }
 

@@ -27,6 +27,7 @@ code rasp batch six.yaml -o one -q --diagnostics=json
 rasp batch six.yaml -o one --json 2> /dev/null | python3 -c 'import json, sys; d = json.load(sys.stdin); print(d["left_over"], d["pruned"])'
 echo "-- removed, but for what was changed since, and what the set is made from"
 echo mine >> one/low_300ms.scene.yaml
+echo mine >> one/wood__light_300ms.json
 echo mine > one/mine.txt
 code rasp batch six.yaml -o one --prune
 ls -d one/*300ms* one/mine*

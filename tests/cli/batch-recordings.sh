@@ -21,3 +21,18 @@ for r in csv.DictReader(open("out/manifest.csv")):
 rasp batch set.yaml -o out | sed 's/, in.*//'
 sed 's/short.wav/other.wav/' set.yaml > wrong.yaml
 rasp batch wrong.yaml -o wrong || echo "exit $?" >&2
+echo "-- what the dry run says of a recording is what the manifest says"
+sed '/^length/a replicates: 2' set.yaml > twice.yaml
+rasp batch twice.yaml --dry-run | awk '{ print $2, $4 }' | head -5
+rasp batch twice.yaml -o twice -q
+columns twice/manifest.csv stimulus_id replicate
+rasp batch set.yaml --dry-run --json | grep wav_bytes
+echo "-- one that has no loudness is told before anything is rendered; it may have a peak or an rms"
+for level in '{common: {lufs: -30}}' '{each: {lufs: -30}}'; do
+    { grep -v length set.yaml; echo 'length: own'; echo "level: $level"; } > loud.yaml
+    rasp batch loud.yaml -o loud || echo "exit $?" >&2
+    rasp batch loud.yaml --dry-run --quiet || echo "exit $?" >&2
+    ls loud 2> /dev/null || true
+done
+sed -i 's/lufs: -30/rms: -30 dB/' loud.yaml
+rasp batch loud.yaml -o loud -q && columns loud/manifest.csv stimulus_id status
