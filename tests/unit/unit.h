@@ -13,7 +13,7 @@ static inline int unit_run(const char *name, const TTest *const *tests, size_t n
     Suite *suite = suite_create(name);
     for (size_t i = 0; i < n; i++) {
         TCase *one = tcase_create(tests[i]->name);
-        tcase_set_timeout(one, 120);
+        tcase_set_timeout(one, 300);
         tcase_add_test(one, tests[i]);
         suite_add_tcase(suite, one);
     }
