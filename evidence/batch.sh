@@ -137,8 +137,8 @@ $(cat experiment.txt)
 ## Many two-second stimuli
 
 $MANY stimuli a run, each with a WAV and a table of forces at 1 kHz, half of them cells of their own, the gain known beforehand. The goal was 300 a second on one core and 520
-on two. It counted on 3.3 ms for a stimulus, which is 35 ns a sample for all of it; what rendering takes is in the table, and it is that, not the batch about it,
-which the goal is missed by. All else is reading and checking the scene, planning its cell before anything is rendered, measuring and hashing what was written, the journal and the tables.
+on two. It counted on 3.3 ms for a stimulus, which is 35 ns a sample for all of it; what rendering takes is most of it, as the table shows, but all else
+alone is more than that, too: it is reading and checking the scene, planning its cell before anything is rendered, measuring and hashing what was written, the journal and the tables.
 
 $(rates)
 
