@@ -106,6 +106,7 @@ struct smoothing {          /* of constant width, by a kernel of sub-samples */
 struct signal {
     int per_frame;          /* 0: not a signal, or not in this plan */
     long first, capacity;   /* frames held: [first, first + capacity) */
+    long worked;            /* zeros from this frame on: nothing has been written there */
     double *x;
 };
 
@@ -146,7 +147,9 @@ struct stage_run {          /* one stage at work */
     struct arena *arena;
     void *state;
     int back, ahead;        /* frames read around a frame; set by open     */
+    long ends;              /* from this frame on it gives zeros only; LONG_MAX, unless open sets it */
     long offset, done;      /* the runner's: lead, and frames done         */
+    long limit;             /* the runner's: until when it works (run_limits.h) */
     double seconds;         /* CPU time spent                              */
     size_t bytes;           /* memory taken                                */
     long blocks;            /* calls of run                                */
@@ -158,6 +161,7 @@ struct stage {
     const char *idle;           /* why a scene may not want it, for `rasp plan`           */
     unsigned needs, takes, gives; /* sets of items; takes: read if something gives it; needs and gives: refined in place */
     unsigned (*asks)(const struct contact *, const struct scene *); /* further needs; may be NULL */
+    bool spreads;               /* makes zeros of zeros: what it needs reaches no further than it reads */
     unsigned knobs;             /* set of knobs (scene/accuracy.def) that what it gives depends on, be it by its own doing only: those of what it reads are theirs */
     unsigned (*turns)(const struct contact *, const struct scene *); /* further knobs, of some scenes; may be NULL */
     bool (*wanted)(const struct contact *, const struct scene *);

@@ -1,6 +1,7 @@
 /* Total response: the surface's sound and the scraper's or ball's (papers/000 section 2.4), times the contact's gain, at each listening place. */
 #include <string.h>
 
+#include "num/scaled.h"
 #include "response/listener.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -31,9 +32,8 @@ static bool mix_run(struct stage_run *r, long from, long to, struct err *e)
     long count = (to - from) * b->channels;
     memset(y, 0, (size_t)count * sizeof *y);
     for (int k = 0; k < 2; k++) {
-        const double *x = board_has(b, parts[k]) ? board_at(b, parts[k], from) : NULL;
-        for (long n = 0; x && n < count; n++)
-            y[n] += gain * x[n];
+        if (board_has(b, parts[k]))
+            scaled_add(y, gain, board_at(b, parts[k], from), count);
     }
     return true;
 }

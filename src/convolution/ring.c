@@ -173,7 +173,9 @@ double *ring_component_hops(const struct ring *g, const struct ring_voice *v, st
 void ring_put(const struct ring *g, int channel, long from, long to)
 {
     double *out = board_at(g->board, g->out, from) + channel;
-    for (long n = 0; n < to - from; n++)
+    if (g->channels == 1)
+        memcpy(out, g->y, (size_t)(to - from) * sizeof *out);
+    for (long n = 0; g->channels > 1 && n < to - from; n++)
         out[n * g->channels] = g->y[n];
 }
 

@@ -21,6 +21,8 @@ static bool approach_open(struct stage_run *r, struct err *e)
 {
     struct load_law *l = ARENA_TAKE(r->arena, struct load_law, 1);
     r->state = l;
+    if (rules_approach(r->contact, true) > 0)
+        r->ends = r->board->moving;
     if (r->board->load)
         *l = *r->board->load;
     return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, l, e);

@@ -118,6 +118,7 @@ const struct stage decimate_stage = {
     .idle = "contact.given.file holds samples",
     .needs = ITEM_BIT(ITEM_SUBFORCE),
     .gives = ITEM_BIT(ITEM_FORCE),
+    .spreads = true,
     .knobs = KNOB_BIT(oversampling),
     .wanted = decimate_wanted,
     .work = decimate_work,

@@ -169,6 +169,7 @@ static bool paper_open(struct stage_run *r, struct err *e)
     (void)e;
     r->state = ARENA_TAKE(r->arena, struct paper_speeds, 1); /* of the sub-interval before */
     r->ahead = 1;
+    r->ends = r->board->moving;
     r->board->hats = true;
     return true;
 }

@@ -121,6 +121,7 @@ static bool scrape_open(struct stage_run *r, struct err *e)
     struct scrape *s = ARENA_TAKE(r->arena, struct scrape, 1);
     r->state = s;
     r->ahead = 1;
+    r->ends = r->board->moving;
     r->board->hats = true;
     return scrape_make(s, r, 1, e);
 }

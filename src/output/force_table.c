@@ -172,6 +172,7 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     t->rows = t->motion.rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
     head_put(t, r->board->table->stream);
     r->ahead = 1;
+    r->ends = r->board->moving;
     return true;
 }
 

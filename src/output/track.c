@@ -15,6 +15,7 @@
 #include "base/scratch.h"
 #include "num/lanes.h"
 #include "num/real.h"
+#include "num/scaled.h"
 
 bool track_open(struct track *t, const char *path, const struct track_format *f, double gain, struct arena *a, struct err *e)
 {
@@ -132,8 +133,8 @@ static bool put(struct track *t, const double *x, long n, struct err *e)
     int places = t->format.places, channels = t->format.channels, copies = channels / places;
     for (long i = 0; i < n; i += TRACK_CHUNK) {
         long some = n - i < TRACK_CHUNK ? n - i : TRACK_CHUNK;
-        for (long k = 0; copies == 1 && k < some * channels; k++)
-            t->wide[k] = t->gain * x[i * places + k];
+        if (copies == 1)
+            scaled_copy(t->wide, t->gain, x + i * places, some * channels);
         for (long k = 0; copies > 1 && k < some * channels; k++)
             t->wide[k] = t->gain * x[i * places + k / copies];
         if (!wav_write(t->wav, t->wide, (size_t)some, e))

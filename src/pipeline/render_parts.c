@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "num/scaled.h"
 #include "pipeline/outputs.h"
 #include "pipeline/stages.h"
 #include "response/listener.h"
@@ -147,8 +148,7 @@ static void part_sum(const struct render_part *p, enum item item, const long ran
     double gain = body ? p->plan.contact->gain : 1;
     int width = p->run.board.signals[item].per_frame;
     sum += (begin + p->start - range[0]) * width;
-    for (long n = 0; n < (end - begin) * width; n++)
-        sum[n] += gain * x[n];
+    scaled_add(sum, gain, x, (end - begin) * width);
 }
 
 void render_parts_sum(const struct render_parts *p, long from, long to, double *sum)

@@ -6,14 +6,16 @@
    offset(giver) back to the slowest reader's first. Every item that is given is checked to be finite. */
 #include "pipeline/run.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/stopwatch.h"
 #include "num/lanes.h"
+#include "pipeline/run_limits.h"
 #include "response/listener.h"
 
-static unsigned reads(const struct stage_run *r)
+unsigned run_reads(const struct stage_run *r)
 {
     return r->stage->needs | r->stage->takes | (r->stage->asks ? r->stage->asks(r->contact, r->scene) : 0);
 }
@@ -22,7 +24,7 @@ static void run_offsets(struct run *r)
 {
     for (int i = r->n - 1; i >= 0; i--)
         for (int k = i + 1; k < r->n; k++)
-            if (reads(&r->stages[k]) & r->stages[i].stage->gives) {
+            if (run_reads(&r->stages[k]) & r->stages[i].stage->gives) {
                 long lead = r->stages[k].offset + r->stages[k].ahead;
                 r->stages[i].offset = lead > r->stages[i].offset ? lead : r->stages[i].offset;
             }
@@ -42,7 +44,7 @@ static long run_behind(const struct run *r, enum item item)
 {
     long behind = 0;
     for (int i = 0; i < r->n; i++)
-        if (reads(&r->stages[i]) & ITEM_BIT(item) && r->stages[i].back > behind)
+        if (run_reads(&r->stages[i]) & ITEM_BIT(item) && r->stages[i].back > behind)
             behind = r->stages[i].back;
     return behind;
 }
@@ -72,7 +74,7 @@ static bool run_open_stages(struct run *r, struct err *e)
         if (r->plan.rows[i].verdict != PLAN_RUNS)
             continue;
         struct stage_run *one = &r->stages[r->n];
-        *one = (struct stage_run){.stage = st, .scene = r->scene, .contact = r->plan.contact, .board = &r->board, .arena = r->arena};
+        *one = (struct stage_run){.stage = st, .scene = r->scene, .contact = r->plan.contact, .board = &r->board, .arena = r->arena, .ends = LONG_MAX};
         size_t before = arena_bytes(r->arena);
         double start = stopwatch_cpu();
         r->n++;
@@ -97,17 +99,22 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
         return false;
     }
     run_offsets(r);
+    run_limits(r);
     for (int i = 0; i < ITEM_COUNT; i++)
         run_signal(r, (enum item)i);
     return true;
 }
 
-/* Makes room for frames up to `end` by dropping the oldest. */
+/* Makes room for frames up to `end` by dropping the oldest. What no stage has worked on for as long as the signal is holds zeros already. */
 static void signal_slide(struct signal *s, long end)
 {
     long drop = end - (s->first + s->capacity);
     if (!s->per_frame || drop <= 0)
         return;
+    if (s->worked <= s->first) {
+        s->first += drop;
+        return;
+    }
     size_t gone = (size_t)(drop * s->per_frame), all = (size_t)(s->capacity * s->per_frame);
     memmove(s->x, s->x + gone, (all - gone) * sizeof *s->x);
     memset(s->x + (all - gone), 0, gone * sizeof *s->x);
@@ -149,6 +156,15 @@ static bool run_finite(const struct stage_run *r, long from, long to, struct err
     return true;
 }
 
+static bool stage_work(struct stage_run *st, long to, struct err *e)
+{
+    for (int i = 0; i < ITEM_COUNT; i++)
+        if (st->stage->gives & ITEM_BIT(i))
+            st->board->signals[i].worked = st->board->signals[i].first + st->board->signals[i].capacity;
+    st->blocks++;
+    return st->stage->run(st, st->done, to, e) && run_finite(st, st->done, to, e);
+}
+
 /* *clock: CPU time when the stage before was done. A reading asks the system: two for each block were 2 % of a draft. */
 static bool stage_block(struct stage_run *st, long to, double *clock, struct err *e)
 {
@@ -157,9 +173,8 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
         for (int i = 0; i < ITEM_COUNT; i++)
             if (st->stage->gives & ITEM_BIT(i) && !(st->stage->needs & ITEM_BIT(i)))
                 signal_slide(&st->board->signals[i], end + 1);
-        if (!st->stage->run(st, st->done, end, e) || !run_finite(st, st->done, end, e))
+        if (st->done < st->limit && !stage_work(st, st->limit < end ? st->limit : end, e))
             return false;
-        st->blocks++;
         st->done = end;
         double now = stopwatch_cpu();
         st->seconds += now - *clock;
@@ -191,7 +206,7 @@ void run_skip(struct run *r, long frame)
         struct signal *s = &r->board.signals[i];
         if (!s->per_frame)
             continue;
-        s->first = frame - run_behind(r, (enum item)i);
+        s->first = s->worked = frame - run_behind(r, (enum item)i);
         memset(s->x, 0, (size_t)(s->capacity * s->per_frame) * sizeof *s->x);
     }
 }

@@ -27,6 +27,9 @@ bool run_block(struct run *r, long to, struct err *e);
    As many frames as they look back in all, at least, are not yet as they would be. */
 void run_skip(struct run *r, long frame);
 
+/* The set of items that a stage reads. */
+unsigned run_reads(const struct stage_run *r);
+
 void run_close(struct run *r);
 
 #endif

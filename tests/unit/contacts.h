@@ -34,7 +34,7 @@ static inline struct contact shot_contact(int model, double duration)
 static inline void shot_room(struct shot *s, enum item item, int per_frame, long frames)
 {
     struct signal *x = &s->board.signals[item];
-    *x = (struct signal){per_frame, -SHOT_MARGIN, frames + 2 * SHOT_MARGIN, NULL};
+    *x = (struct signal){per_frame, -SHOT_MARGIN, frames + 2 * SHOT_MARGIN, 0, NULL};
     x->x = ARENA_TAKE(s->arena, double, x->capacity * per_frame + 8);
 }
 

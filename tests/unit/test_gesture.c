@@ -36,7 +36,7 @@ static void hand_begin(struct hand *h)
     ck_assert_msg(gesture_stage.open(&h->run, &e), "%s", e.text);
     for (int k = 0; k < 2; k++) {
         struct signal *s = &h->board.signals[k ? ITEM_VELOCITY : ITEM_FORCE];
-        *s = (struct signal){1, 0, h->n, ARENA_TAKE(h->arena, double, h->n + 8)};
+        *s = (struct signal){1, 0, h->n, 0, ARENA_TAKE(h->arena, double, h->n + 8)};
     }
     h->force = h->board.signals[ITEM_FORCE].x;
     h->velocity = h->board.signals[ITEM_VELOCITY].x;

@@ -64,7 +64,7 @@ static void prepare(const struct motion *m, double rate, int over)
         t[i] = (double)i / (rate * over);
     for (int k = 0; k < 6; k++) {
         x[k] = ARENA_TAKE(arena, double, n);
-        board.signals[items[k]] = (struct signal){over, 0, FRAMES + 1, x[k]};
+        board.signals[items[k]] = (struct signal){over, 0, FRAMES + 1, 0, x[k]};
     }
     trajectory_at(&motion, n, t, (struct trajectory_out){.u = x[0], .du = x[1], .x = x[2], .y = x[3], .vx = x[4], .vy = x[5]});
     run = (struct stage_run){.contact = &contact, .board = &board, .arena = arena};

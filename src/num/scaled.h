@@ -1,0 +1,9 @@
+/* Arrays times a number, in registers of the CPU's width. */
+#ifndef NUM_SCALED_H
+#define NUM_SCALED_H
+
+/* y[i] = factor x[i], y[i] += factor x[i], i < n; y and x do not overlap. The same bits as the plain loop. */
+void scaled_copy(double *y, double factor, const double *x, long n);
+void scaled_add(double *y, double factor, const double *x, long n);
+
+#endif
