@@ -9,12 +9,13 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/relpath.h"
 
 enum state { MAKING, THERE, GONE /* its making failed */ };
 
 struct entry {
     const struct shelf_kind *kind;
-    const char *file;
+    const char *file, *key;
     struct stat status;
     struct arena *arena; /* that it and its thing lie in */
     void *thing;
@@ -71,10 +72,11 @@ static bool unchanged(const struct stat *a, const struct stat *b)
 }
 
 /* Waits where another makes it. NULL: nobody has. */
-static const struct entry *find(struct shelf *s, const struct shelf_kind *kind, const char *file, const struct stat *status)
+static const struct entry *find(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
 {
+    const char *key = ask->key ? ask->key : "";
     for (struct entry *x = s->entries; x; x = x->next) {
-        if (x->kind != kind || x->state == GONE || !unchanged(&x->status, status) || strcmp(x->file, file) != 0)
+        if (x->kind != ask->kind || x->state == GONE || !unchanged(&x->status, status) || strcmp(x->file, ask->file) != 0 || strcmp(x->key, key) != 0)
             continue;
         while (x->state == MAKING)
             pthread_cond_wait(&s->made, &s->lock);
@@ -84,19 +86,19 @@ static const struct entry *find(struct shelf *s, const struct shelf_kind *kind, 
     return NULL;
 }
 
-static struct entry *enter(struct shelf *s, const struct shelf_kind *kind, const char *file, const struct stat *status)
+static struct entry *enter(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
 {
     struct arena *a = arena_open();
     struct entry *x = ARENA_TAKE(a, struct entry, 1);
-    *x = (struct entry){kind, arena_text(a, file), *status, a, arena_take(a, 1, kind->size), MAKING, s->entries};
+    *x = (struct entry){ask->kind, arena_text(a, ask->file), arena_text(a, ask->key ? ask->key : ""), *status, a, arena_take(a, 1, ask->kind->size), MAKING, s->entries};
     s->entries = x;
     return x;
 }
 
-static const void *make(struct shelf *s, struct entry *x, struct err *e)
+static const void *make(struct shelf *s, struct entry *x, const void *how, struct err *e)
 {
     struct err own = {0};
-    bool ok = x->kind->make(x->file, x->arena, x->thing, &own);
+    bool ok = x->kind->make(x->file, how, x->arena, x->thing, &own);
     pthread_mutex_lock(&s->lock);
     x->state = ok ? THERE : GONE;
     s->bytes += arena_bytes(x->arena);
@@ -107,35 +109,48 @@ static const void *make(struct shelf *s, struct entry *x, struct err *e)
     return ok ? x->thing : NULL;
 }
 
-const void *shelf_take(struct shelf *s, const struct shelf_kind *kind, const char *file, struct arena *a, struct err *e)
+const void *shelf_take(struct shelf *s, const struct shelf_ask *ask, struct arena *a, struct err *e)
 {
     struct stat status;
     struct entry *mine = NULL;
-    if (s && stat(file, &status) == 0) {
+    if (s && stat(ask->file, &status) == 0) {
         pthread_mutex_lock(&s->lock);
-        const struct entry *found = find(s, kind, file, &status);
+        const struct entry *found = find(s, ask, &status);
         if (!found && s->bytes < s->most)
-            mine = enter(s, kind, file, &status);
+            mine = enter(s, ask, &status);
         pthread_mutex_unlock(&s->lock);
         if (found)
             return found->thing;
     }
     if (mine)
-        return make(s, mine, e);
-    void *thing = arena_take(a, 1, kind->size);
-    return kind->make(file, a, thing, e) ? thing : NULL;
+        return make(s, mine, ask->how, e);
+    void *thing = arena_take(a, 1, ask->kind->size);
+    return ask->kind->make(ask->file, ask->how, a, thing, e) ? thing : NULL;
 }
 
-static bool make_sha256(const char *file, struct arena *a, void *thing, struct err *e)
+const char *shelf_changed(struct shelf *s, struct arena *a)
 {
-    (void)a;
+    const char *file = NULL;
+    pthread_mutex_lock(&s->lock);
+    for (const struct entry *x = s->entries; x && !file; x = x->next) {
+        struct stat now;
+        if (stat(x->file, &now) != 0 || !unchanged(&x->status, &now))
+            file = relpath_make(x->file, NULL, a);
+    }
+    pthread_mutex_unlock(&s->lock);
+    return file;
+}
+
+static bool make_sha256(const char *file, const void *how, struct arena *a, void *thing, struct err *e)
+{
+    (void)a, (void)how;
     return hash_file(file, thing, e);
 }
 
 const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, struct err *e)
 {
     static const struct shelf_kind sha256 = {"sha256", HASH_TEXT, make_sha256};
-    return shelf_take(s, &sha256, file, a, e);
+    return shelf_take(s, &(struct shelf_ask){.kind = &sha256, .file = file}, a, e);
 }
 
 /* ------------------------------------------------------------------ notes */

@@ -175,7 +175,8 @@ static void forget_tables(const struct batch *b)
 
 /* ------------------------------------------------------------------ the whole */
 
-static bool judge(struct batch *b, struct err *e)
+/* changed: an input; NULL: none. */
+static bool judge(struct batch *b, const char *changed, struct err *e)
 {
     struct batch_report *r = b->report;
     enum err_kind worst = ERR_NONE;
@@ -186,6 +187,8 @@ static bool judge(struct batch *b, struct err *e)
         r->waiting += o->record.size && o->waits;
         worst = o->kind > worst ? o->kind : worst;
     }
+    if (changed)
+        return err_set(e, ERR_INPUT, "%s has changed while stimuli were made of it: some may be of what it was before; run the same command again, which renders those anew", changed);
     return !worst || err_set(e, worst, "%d of %d stimuli failed; the column error of the manifest says why%s", r->failed, r->n_mine,
                              r->waiting ? ", and the common level waits for them" : "");
 }
@@ -211,7 +214,9 @@ static bool render_in_folder(struct batch *b, struct err *e)
         return false;
     forget_tables(b);
     resample_prepare();
-    return run_jobs(b, e) && end(b, e) && judge(b, e);
+    bool ok = run_jobs(b, e);
+    const char *changed = ok && b->report->rendered > 0 ? shelf_changed(b->kit.shelf, b->arena) : NULL; /* seen from folders that the end removes */
+    return ok && end(b, e) && judge(b, changed, e);
 }
 
 static bool render(struct batch *b, struct err *e)

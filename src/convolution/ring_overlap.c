@@ -47,7 +47,7 @@ static void response_modes(void *self, long k, double *h, size_t length)
 static bool open_wav(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)
 {
     const char *dot = strrchr(given->file, '.');
-    if (!ir_read(given->file, r->board->rate, given->length, r->arena, &s->ir, e))
+    if (!ir_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->ir, e))
         return dot && strcmp(dot, ".wav") == 0 ? false : err_at(e, "a response is a mode table (NAME.csv), a sound file, or a folder of them");
     r->board->unstated = true;
     r->board->ring = fmax(r->board->ring, (double)s->ir.length / r->board->rate);

@@ -127,7 +127,7 @@ static bool open_recorded(struct ring_panned *s, struct stage_run *r, struct err
 {
     const struct response *given = &r->contact->surface.response;
     size_t length = 0;
-    if (!ir_set_read(given->file, r->board->rate, given->length, r->arena, &s->set, e))
+    if (!ir_set_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->set, e))
         return false;
     if (ablation_one_place(r->contact)) {
         struct modes_where first = ring_along_first(r->contact, r->board->trajectory);

@@ -5,6 +5,7 @@
    At the audio rate samples stay what they are; at another they are resampled as a band-limited signal (num/resample.h). */
 #include <string.h>
 
+#include "base/shelf.h"
 #include "file/bytes.h"
 #include "file/heightfile_npy.h"
 #include "file/npy.h"
@@ -33,54 +34,67 @@ static double samples_work(const struct contact *c, const struct scene *s)
     return 2;
 }
 
-static bool wav_take(const struct stage_run *r, struct arena *scratch, struct given_samples *g, struct err *e)
+/* As the file has them. */
+struct given_file {
+    bool is_npy;
+    struct wav wav;
+    struct heightfile npy;
+};
+
+static bool given_make(const char *path, const void *how, struct arena *a, void *thing, struct err *e)
+{
+    struct arena *scratch = arena_open(); /* the file's own bytes are not kept */
+    struct given_file *f = thing;
+    struct bytes b;
+    (void)how;
+    bool ok = bytes_read(path, scratch, &b, e);
+    f->is_npy = ok && npy_is(&b);
+    ok = ok && (f->is_npy ? heightfile_npy_read(path, &b, a, &f->npy, e) : wav_read(path, a, &f->wav, e));
+    arena_close(scratch);
+    return ok;
+}
+
+static bool wav_take(const struct stage_run *r, const struct wav *w, struct given_samples *g, struct err *e)
 {
     const struct given_force *given = &r->contact->contact.given;
-    struct wav w;
-    if (!given_fits(r->contact, "WAV", e) || !wav_read(given->file, scratch, &w, e))
-        return false;
-    if (given->channel > w.channels)
+    if (given->channel > w->channels)
         return err_set(e, ERR_SCENE, "contact '%s': contact.given.channel is %d, but %s has %d channel%s", r->contact->name, given->channel, given->file,
-                       w.channels, w.channels == 1 ? "" : "s");
+                       w->channels, w->channels == 1 ? "" : "s");
     if (isnan(given->scale))
         return err_set(e, ERR_SCENE, "contact '%s': contact.given.scale must be given: %s does not say how many newtons its %s stands for",
-                       r->contact->name, given->file, w.bits ? "full scale" : "unit");
-    *g = (struct given_samples){w.rate, w.frames, ARENA_TAKE(r->arena, double, w.frames)};
-    for (size_t i = 0; i < w.frames; i++)
-        g->force[i] = given->scale * w.x[i * (size_t)w.channels + (size_t)given->channel - 1];
+                       r->contact->name, given->file, w->bits ? "full scale" : "unit");
+    *g = (struct given_samples){w->rate, w->frames, ARENA_TAKE(r->arena, double, w->frames)};
+    for (size_t i = 0; i < w->frames; i++)
+        g->force[i] = given->scale * w->x[i * (size_t)w->channels + (size_t)given->channel - 1];
     return true;
 }
 
-static bool npy_take(const struct stage_run *r, const struct bytes *b, struct given_samples *g, struct err *e)
+static bool npy_take(const struct stage_run *r, const struct heightfile *h, struct given_samples *g, struct err *e)
 {
     const struct given_force *given = &r->contact->contact.given;
-    struct heightfile h;
-    if (!given_fits(r->contact, "NPY", e) || !heightfile_npy_read(given->file, b, r->arena, &h, e))
-        return false;
-    if (h.rows > 1)
-        return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension", given->file, h.rows, h.columns);
+    if (h->rows > 1)
+        return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension", given->file, h->rows, h->columns);
     if (isnan(given->rate))
         return err_set(e, ERR_SCENE, "contact '%s': contact.given.rate must be given: %s does not say how many samples a second has", r->contact->name,
                        given->file);
-    *g = (struct given_samples){given->rate, h.columns, h.z};
+    *g = (struct given_samples){given->rate, h->columns, ARENA_TAKE(r->arena, double, h->columns)};
     double scale = given_scale(r->contact);
     for (size_t i = 0; i < g->n; i++) {
-        if (!isfinite(h.z[i]))
+        if (!isfinite(h->z[i]))
             return err_set(e, ERR_SCENE, "%s: element %zu is not a finite number", given->file, i);
-        g->force[i] *= scale;
+        g->force[i] = h->z[i] * scale;
     }
     return true;
 }
 
-/* By content. The file's own bytes are not kept. */
+/* By content. */
 static bool samples_take(const struct stage_run *r, struct given_samples *g, struct err *e)
 {
-    struct arena *scratch = arena_open();
-    struct bytes b;
-    bool ok = bytes_read(r->contact->contact.given.file, scratch, &b, e);
-    ok = ok && (npy_is(&b) ? npy_take(r, &b, g, e) : wav_take(r, scratch, g, e));
-    arena_close(scratch);
-    return ok;
+    static const struct shelf_kind forces = {"samples of a force", sizeof(struct given_file), given_make};
+    const struct given_file *f = shelf_take(r->scene->shelf, &(struct shelf_ask){.kind = &forces, .file = r->contact->contact.given.file}, r->arena, e);
+    if (!f || !given_fits(r->contact, f->is_npy ? "NPY" : "WAV", e))
+        return false;
+    return f->is_npy ? npy_take(r, &f->npy, g, e) : wav_take(r, &f->wav, g, e);
 }
 
 static bool samples_open(struct stage_run *r, struct err *e)

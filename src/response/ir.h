@@ -8,11 +8,12 @@
 
 #include "base/arena.h"
 #include "base/err.h"
+#include "base/shelf.h"
 #include "response/modes.h"
 
 struct ir {
     size_t length;
-    double *h; /* [length], quantity per newton and sample */
+    const double *h; /* [length], quantity per newton and sample */
     const char *note; /* that it was resampled, for a warning; NULL: it was not */
 };
 
@@ -22,7 +23,12 @@ size_t ir_length(double rate, double t0);
 /* A mono WAV: sample value x[n] is the response at t = n/rate in its quantity per N s, as it stands (nothing is rescaled), the first one
    h(0+). At another rate than `rate` (Hz) it is resampled, see ir_read.c. Cut to t < t0 (s); NAN: whole. Errors: as wav_read; ERR_SCENE when
    it is not mono, or silent before t0. */
-bool ir_read(const char *path, double rate, double t0, struct arena *a, struct ir *ir, struct err *e);
+struct ir_ask {
+    const char *path;    /* of a file, or of a folder (ir_set.h)                              */
+    double rate, t0;     /* Hz, s                                                             */
+    struct shelf *shelf; /* where others may have put it, and h may lie: not to be changed; NULL: none */
+};
+bool ir_read(const struct ir_ask *ask, struct arena *a, struct ir *ir, struct err *e);
 
 /* Samples modes into impulse responses at that rate (Hz): n components, each below rate/2 while its gain is not 0 (modes_drop_above, morph.c). */
 struct ir_sampler;

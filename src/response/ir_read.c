@@ -28,35 +28,51 @@ static size_t cut(double rate, double t0, size_t n)
 }
 
 /* h with the rate of the file, and with `rate`. */
-static bool convert(const char *path, const struct wav *w, double rate, struct arena *a, struct ir *ir, struct err *e)
+/* NULL: an error. */
+static double *convert(const struct ir_ask *ask, const struct wav *w, struct arena *a, struct ir *ir, struct err *e)
 {
+    double *h = w->x;
     ir->note = NULL;
-    ir->h = w->x;
     ir->length = w->frames;
-    if (w->rate == rate)
-        return true;
-    if (!resample(a, w->x, w->frames, w->rate, rate, &ir->h, &ir->length, e))
-        return err_at(e, "%s", path);
-    ir->note = arena_format(a, "%s: resampled from %g Hz to %g Hz", path, w->rate, rate);
-    return true;
+    if (w->rate == ask->rate)
+        return h;
+    ir->note = arena_format(a, "%s: resampled from %g Hz to %g Hz", ask->path, w->rate, ask->rate);
+    if (resample(a, w->x, w->frames, w->rate, ask->rate, &h, &ir->length, e))
+        return h;
+    err_at(e, "%s", ask->path);
+    return NULL;
 }
 
-bool ir_read(const char *path, double rate, double t0, struct arena *a, struct ir *ir, struct err *e)
+static bool make(const char *path, const void *how, struct arena *a, void *thing, struct err *e)
 {
+    const struct ir_ask *ask = how;
+    struct ir *ir = thing;
     struct wav w;
     if (!wav_read(path, a, &w, e))
         return false;
     if (w.channels != 1)
         return err_set(e, ERR_SCENE, "%s: has %d channels; an impulse response is mono: extract one channel", path, w.channels);
-    size_t before = cut(w.rate, t0, w.frames);
+    size_t before = cut(w.rate, ask->t0, w.frames);
     if (silent(w.x, before))
         return err_set(e, ERR_SCENE, "%s: the impulse response is silent%s; give one that rings, or leave the response out", path,
                        before < w.frames ? " before response_length" : "");
     w.x[0] *= 0.5;
-    if (!convert(path, &w, rate, a, ir, e))
+    double *h = convert(ask, &w, a, ir, e);
+    if (!h)
         return false;
-    ir->length = cut(rate, t0, ir->length);
+    ir->length = cut(ask->rate, ask->t0, ir->length);
     for (size_t n = 0; n < ir->length; n++)
-        ir->h[n] /= rate;
+        h[n] /= ask->rate;
+    ir->h = h;
     return true;
+}
+
+bool ir_read(const struct ir_ask *ask, struct arena *a, struct ir *ir, struct err *e)
+{
+    static const struct shelf_kind recorded = {"recorded response", sizeof(struct ir), make};
+    const char *key = ask->shelf ? arena_format(a, "%a %a", ask->rate, ask->t0) : NULL;
+    const struct ir *found = shelf_take(ask->shelf, &(struct shelf_ask){&recorded, ask->path, key, ask}, a, e);
+    if (found)
+        *ir = *found;
+    return found;
 }

@@ -11,16 +11,16 @@
 
 #include "file/csv.h"
 #include "num/real.h"
+#include "num/scaled.h"
 
 enum { FILE_NAME, X, Y, Z, GAIN, COLUMNS };
 static const char *const names[COLUMNS] = {"file_name", "x_m", "y_m", "z_m", "gain_db"};
 static const double most_gain = 200.0; /* dB */
 
 struct reader {
-    const char *folder;
+    const struct ir_ask *ask;
     struct csv table;
     int column[COLUMNS];
-    double rate, t0;
     struct arena *arena;
     struct err *e;
 };
@@ -99,11 +99,15 @@ static bool read_response(const struct reader *r, size_t row, struct ir *ir)
         return false;
     if (fabs(gain) > most_gain)
         return err_set(r->e, ERR_SCENE, "gain_db is %g; it lies between -200 and 200 dB", gain) || at(r, row);
-    if (!ir_read(arena_format(r->arena, "%s/%s", r->folder, cell(r, row, FILE_NAME)), r->rate, r->t0, r->arena, ir, r->e))
+    struct ir_ask one = *r->ask;
+    one.path = arena_format(r->arena, "%s/%s", r->ask->path, cell(r, row, FILE_NAME));
+    if (!ir_read(&one, r->arena, ir, r->e))
         return at(r, row);
-    double factor = real_exp10(gain / 20.0);
-    for (size_t n = 0; gain != 0.0 && n < ir->length; n++)
-        ir->h[n] *= factor;
+    if (gain != 0.0) {
+        double *h = ARENA_TAKE(r->arena, double, ir->length);
+        scaled_copy(h, real_exp10(gain / 20.0), ir->h, (long)ir->length);
+        ir->h = h;
+    }
     return true;
 }
 
@@ -137,11 +141,11 @@ static bool read_rows(const struct reader *r, struct ir_set *s)
     return true;
 }
 
-bool ir_set_read(const char *folder, double rate, double t0, struct arena *a, struct ir_set *s, struct err *e)
+bool ir_set_read(const struct ir_ask *ask, struct arena *a, struct ir_set *s, struct err *e)
 {
-    struct reader r = {.folder = folder, .rate = rate, .t0 = t0, .arena = a, .e = e};
+    struct reader r = {.ask = ask, .arena = a, .e = e};
     *s = (struct ir_set){0};
-    if (!csv_read(arena_format(a, "%s/index.csv", folder), a, &r.table, e))
+    if (!csv_read(arena_format(a, "%s/index.csv", ask->path), a, &r.table, e))
         return e->kind == ERR_INPUT ? err_at(e, "a folder of responses has its places in index.csv (file_name,x_m,y_m)") : false;
     return find_columns(&r) && read_rows(&r, s);
 }

@@ -17,6 +17,6 @@ struct ir_set {
 };
 
 /* Errors: ERR_INPUT, ERR_SCENE: no index.csv, unknown columns, a file twice, a place twice, not mono, names that leave the folder. */
-bool ir_set_read(const char *folder, double rate, double t0, struct arena *a, struct ir_set *s, struct err *e);
+bool ir_set_read(const struct ir_ask *ask, struct arena *a, struct ir_set *s, struct err *e);
 
 #endif

@@ -269,15 +269,16 @@ static void make_modes(const struct making *k, double rate, struct modes *m)
     set_home(k, m);
 }
 
-static bool make_table(const char *path, struct arena *a, void *table, struct err *e)
+static bool make_table(const char *path, const void *how, struct arena *a, void *table, struct err *e)
 {
+    (void)how;
     return mode_table_read(path, a, table, e);
 }
 
 bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e)
 {
     static const struct shelf_kind tables = {"mode table", sizeof(struct mode_table), make_table};
-    struct making k = {.t = shelf_take(ask->shelf, &tables, path, a, e), .arena = a};
+    struct making k = {.t = shelf_take(ask->shelf, &(struct shelf_ask){.kind = &tables, .file = path}, a, e), .arena = a};
     if (!k.t || !make_places(&k, e))
         return false;
     make_tracks(&k, ask->pairing);

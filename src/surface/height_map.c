@@ -1,4 +1,5 @@
-/* A measured map or profile under the contact: file, checks of its geometry, spline. */
+/* A measured map or profile under the contact: file, spline, checks of its geometry. */
+#include "base/shelf.h"
 #include "file/heightfile_load.h"
 #include "num/real.h"
 #include "stage.h"
@@ -18,19 +19,45 @@ static void height_map_grain(struct stage_run *r, const struct heightfile *h)
                                           "%.3g 1/m; use a finer file (32-bit), or a coarser pitch", r->contact->surface.height_map, step, noise, limit));
 }
 
-static bool height_map_load(struct stage_run *r, struct height_map *m, struct err *e)
+/* A map as it was read, with its spline: what all stimuli of a set share. */
+struct height_map_read {
+    struct heightfile file;
+    struct height_map map;
+    struct map_spline *plane; /* NULL: a profile                     */
+    double *line;             /* [columns] a profile's coefficients  */
+};
+
+static bool height_map_make(const char *path, const void *how, struct arena *a, void *thing, struct err *e)
 {
-    const struct surface *s = &r->contact->surface;
-    struct heightfile h;
+    const struct surface *s = how;
+    struct height_map_read *m = thing;
+    struct heightfile *h = &m->file;
     struct heightfile_options o = {.pitch = s->pitch, .height_scale = s->height_scale, .height_range = s->height_range, .holes = s->holes,
                                    .levelling = s->levelling};
-    if (!heightfile_load(s->height_map, &o, r->arena, &h, e))
+    *m = (struct height_map_read){0};
+    if (!heightfile_load(path, &o, a, h, e))
         return false;
-    *m = (struct height_map){h.z, h.columns, h.rows, {h.pitch_x, h.rows > 1 ? h.pitch_y : h.pitch_x}};
-    if (h.filled)
-        board_warn(r->board, arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, h.filled));
-    height_map_grain(r, &h);
+    m->map = (struct height_map){h->z, h->columns, h->rows, {h->pitch_x, h->rows > 1 ? h->pitch_y : h->pitch_x}};
+    if (h->rows > 1) {
+        m->plane = map_spline(a, &m->map, s->off_map);
+        return true;
+    }
+    m->line = ARENA_TAKE(a, double, h->columns);
+    profile_coefficients(h->z, m->line, h->columns, s->off_map);
     return true;
+}
+
+static const struct height_map_read *height_map_load(struct stage_run *r, struct err *e)
+{
+    static const struct shelf_kind maps = {"height map", sizeof(struct height_map_read), height_map_make};
+    const struct surface *s = &r->contact->surface;
+    const char *key = arena_format(r->arena, "%a %a %a %d %d %d", s->pitch, s->height_scale, s->height_range, s->holes, s->levelling, s->off_map);
+    const struct height_map_read *m = shelf_take(r->scene->shelf, &(struct shelf_ask){&maps, s->height_map, key, s}, r->arena, e);
+    if (m && m->file.filled)
+        board_warn(r->board, arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, m->file.filled));
+    if (m)
+        height_map_grain(r, &m->file);
+    return m;
 }
 
 /* Decides which coordinates the surface follows, from the number of rows. */
@@ -46,13 +73,12 @@ static bool height_map_along(struct relief *r, const struct contact *c, const st
            err_set(e, ERR_SCENE, "%s: a profile has no second dimension: leave surface.along out, or set it to path or x", c->surface.height_map);
 }
 
-static struct relief_part *height_map_part(struct stage_run *r, const struct height_map *m)
+static struct relief_part *height_map_part(struct stage_run *r, const struct height_map_read *m)
 {
-    const struct surface *s = &r->contact->surface;
-    int along = r->board->relief->along;
-    if (along == ALONG_PLANE)
-        return map_part(r->arena, m->z, m->columns, m->rows, m->pitch, (double[]){0, 0}, s->off_map, "height_map");
-    return profile_part(r->arena, profile_from_samples(r->arena, m->z, m->columns, m->pitch[0], s->off_map), "height_map", 0);
+    if (r->board->relief->along == ALONG_PLANE)
+        return map_part(r->arena, m->plane, (double[]){0, 0}, "height_map");
+    struct profile *p = profile_from_coefficients(r->arena, m->line, m->map.columns, m->map.pitch[0], r->contact->surface.off_map);
+    return profile_part(r->arena, p, "height_map", 0);
 }
 
 /* surface.off_map: error. */
@@ -76,12 +102,12 @@ static bool height_map_inside(const struct stage_run *r, const struct relief_par
 static bool height_map_open(struct stage_run *r, struct err *e)
 {
     const struct surface *s = &r->contact->surface;
-    struct height_map *m = ARENA_TAKE(r->arena, struct height_map, 1);
-    if (!height_map_load(r, m, e) || !height_map_along(r->board->relief, r->contact, m, e))
+    const struct height_map_read *m = height_map_load(r, e);
+    if (!m || !height_map_along(r->board->relief, r->contact, &m->map, e))
         return false;
     struct relief_part *part = height_map_part(r, m);
     relief_add(r->board->relief, part);
-    r->board->height_map = m;
+    r->board->height_map = &m->map;
     r->state = part;
     return s->off_map != OFF_MAP_ERROR || height_map_inside(r, part, e);
 }

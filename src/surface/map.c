@@ -7,14 +7,12 @@
 #include "surface/profile.h"
 
 struct map {
-    long columns, rows;
-    double pitch[2], origin[2];
-    int off_map;
-    double base, *c;   /* m; coefficients above base, so that a flat map is flat to the bit */
+    struct map_spline spline;
+    double origin[2];
 };
 
 /* The 4 x 4 coefficients around a cell, in rows `stride` numbers apart: in the map, or at its edges gathered. */
-static const double *map_around(const struct map *m, long column, long row, double edge[16], long *stride)
+static const double *map_around(const struct map_spline *m, long column, long row, double edge[16], long *stride)
 {
     if (column >= 1 && column + 2 < m->columns && row >= 1 && row + 2 < m->rows) {
         *stride = m->columns;
@@ -35,7 +33,7 @@ static const double *map_around(const struct map *m, long column, long row, doub
 LANES_CLONES
 static void places(const struct map *m, int n, const double *x, const double *y, double *p[2])
 {
-    double *restrict px = p[0], *restrict py = p[1], from[2] = {m->origin[0], m->origin[1]}, pitch[2] = {m->pitch[0], m->pitch[1]};
+    double *restrict px = p[0], *restrict py = p[1], from[2] = {m->origin[0], m->origin[1]}, pitch[2] = {m->spline.pitch[0], m->spline.pitch[1]};
 #pragma omp simd
     for (int i = 0; i < n; i++) {
         px[i] = (x[i] - from[0]) / pitch[0];
@@ -51,7 +49,7 @@ static void values_put(int n, const double *from, double base, double *to)
         to[i] += base + from[i];
 }
 
-static void map_put(const struct map *m, const struct bicubic *b, const struct relief_values *v, size_t at)
+static void map_put(const struct map_spline *m, const struct bicubic *b, const struct relief_values *v, size_t at)
 {
     const double *from[6] = {b->z, b->x, b->y, b->xx, b->xy, b->yy};
     double *to[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
@@ -72,17 +70,17 @@ static void map_add(struct relief_part *part, const struct relief_points *p, con
         for (int i = 0, end; i < n; i = end) {
             double edge[16];
             long stride;
-            const double *from = map_around(m, (long)b.column[i], (long)b.row[i], edge, &stride);
+            const double *from = map_around(&m->spline, (long)b.column[i], (long)b.row[i], edge, &stride);
             end = bicubic_run(&b, i);
             bicubic_put(&b, i, end, from, stride);
         }
-        bicubic_sum(&b, 1 / m->pitch[0], 1 / m->pitch[1], v);
-        map_put(m, &b, v, at);
+        bicubic_sum(&b, 1 / m->spline.pitch[0], 1 / m->spline.pitch[1], v);
+        map_put(&m->spline, &b, v, at);
     }
 }
 
 /* Along rows into c, then along columns in place, one column at a time; then above the first. */
-static void map_coefficients(struct map *m, const double *z, struct arena *a)
+static void map_coefficients(struct map_spline *m, const double *z, struct arena *a)
 {
     double *column = ARENA_TAKE(a, double, m->rows), *smooth = ARENA_TAKE(a, double, m->rows);
     for (long j = 0; j < m->rows; j++)
@@ -99,17 +97,24 @@ static void map_coefficients(struct map *m, const double *z, struct arena *a)
         m->c[k] -= m->base;
 }
 
-struct relief_part *map_part(struct arena *a, const double *z, size_t columns, size_t rows, const double pitch[2], const double origin[2],
-                             int off_map, const char *name)
+struct map_spline *map_spline(struct arena *a, const struct height_map *h, int off_map)
+{
+    struct map_spline *m = ARENA_TAKE(a, struct map_spline, 1);
+    *m = (struct map_spline){.columns = (long)h->columns, .rows = (long)h->rows, .pitch = {h->pitch[0], h->pitch[1]}, .off_map = off_map,
+                             .c = ARENA_TAKE(a, double, h->columns * h->rows)};
+    map_coefficients(m, h->z, a);
+    return m;
+}
+
+struct relief_part *map_part(struct arena *a, const struct map_spline *spline, const double origin[2], const char *name)
 {
     struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct map *m = ARENA_TAKE(a, struct map, 1);
-    *m = (struct map){.columns = (long)columns, .rows = (long)rows, .pitch = {pitch[0], pitch[1]}, .origin = {origin[0], origin[1]},
-                      .off_map = off_map, .c = ARENA_TAKE(a, double, columns * rows)};
-    map_coefficients(m, z, a);
+    const double *pitch = spline->pitch;
+    *m = (struct map){*spline, {origin[0], origin[1]}};
     *part = (struct relief_part){.name = name, .pitch = {pitch[0], pitch[1]}, .origin = {origin[0], origin[1]},
                                  .finest = pitch[0] < pitch[1] ? pitch[0] : pitch[1], .from = {origin[0], origin[1]},
-                                 .to = {origin[0] + pitch[0] * (double)(columns - 1), origin[1] + pitch[1] * (double)(rows - 1)},
+                                 .to = {origin[0] + pitch[0] * (double)(spline->columns - 1), origin[1] + pitch[1] * (double)(spline->rows - 1)},
                                  .add = map_add, .state = m};
     return part;
 }

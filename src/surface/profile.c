@@ -17,7 +17,7 @@
 struct sampled {
     long n;
     int off_map;
-    double *c;
+    const double *c;
 };
 
 long profile_folded(long i, long n, int off_map)
@@ -66,10 +66,16 @@ void profile_coefficients(const double *z, double *c, size_t size, int off_map)
 
 struct profile *profile_from_samples(struct arena *a, const double *z, size_t n, double pitch, int off_map)
 {
+    double *c = ARENA_TAKE(a, double, n);
+    profile_coefficients(z, c, n, off_map);
+    return profile_from_coefficients(a, c, n, pitch, off_map);
+}
+
+struct profile *profile_from_coefficients(struct arena *a, const double *c, size_t n, double pitch, int off_map)
+{
     struct profile *p = ARENA_TAKE(a, struct profile, 1);
     struct sampled *s = ARENA_TAKE(a, struct sampled, 1);
-    *s = (struct sampled){.n = (long)n, .off_map = off_map, .c = ARENA_TAKE(a, double, n)};
-    profile_coefficients(z, s->c, n, off_map);
+    *s = (struct sampled){.n = (long)n, .off_map = off_map, .c = c};
     *p = (struct profile){.pitch = pitch, .from = 0, .to = pitch * (double)(n - 1), .read = sampled_read, .state = s};
     return p;
 }

@@ -18,6 +18,9 @@ struct profile {
 /* The spline through n >= 4 samples (m), continued beyond its ends by the rule (enum off_map; error continues as mirror does). */
 struct profile *profile_from_samples(struct arena *a, const double *z, size_t n, double pitch, int off_map);
 
+/* The same, of its coefficients, which are kept elsewhere. */
+struct profile *profile_from_coefficients(struct arena *a, const double *c, size_t n, double pitch, int off_map);
+
 /* The B-spline coefficients c[n] of the spline through z[n]; two arrays. */
 void profile_coefficients(const double *z, double *c, size_t n, int off_map);
 

@@ -87,24 +87,42 @@ static void like_reachable(struct arena *a, struct roughness_plan *p, const char
                                     "%.3g here", skewness, kurtosis, file, p->skewness, p->kurtosis);
 }
 
-static bool plan_like(struct arena *a, const struct roughness *r, struct roughness_plan *p, struct err *e)
+/* What the map is like, of its own pitch and heights. */
+static bool like_make(const char *file, const void *how, struct arena *a, void *thing, struct err *e)
 {
+    const struct roughness *r = how;
     struct heightfile_options o = {.pitch = r->like_pitch, .height_scale = NAN, .height_range = NAN, .holes = HEIGHTFILE_FILL};
     static const struct heightfile_names names = {"surface.roughness.like_pitch", "a file whose heights are in metres", "another format",
                                                   "a file without holes"};
     struct heightfile h;
     o.names = &names;
-    if (!heightfile_load(r->like, &o, a, &h, e) || !like_spectrum(a, &h, p, r->like, e))
+    *(struct roughness_plan *)thing = (struct roughness_plan){0};
+    return heightfile_load(file, &o, a, &h, e) && like_spectrum(a, &h, thing, file, e);
+}
+
+static double *copied(struct arena *a, const double *x, int n)
+{
+    return memcpy(ARENA_TAKE(a, double, n), x, (size_t)n * sizeof *x);
+}
+
+static bool plan_like(struct shelf *shelf, const struct roughness *r, struct arena *a, struct roughness_plan *p, struct err *e)
+{
+    static const struct shelf_kind likes = {"statistics of a height map", sizeof(struct roughness_plan), like_make};
+    const struct roughness_plan *found = shelf_take(shelf, &(struct shelf_ask){&likes, r->like, arena_format(a, "%a", r->like_pitch), r}, a, e);
+    if (!found)
         return false;
+    *p = *found;
+    p->spectrum.k = copied(a, found->spectrum.k, found->spectrum.n); /* what is made of it may scale it */
+    p->spectrum.p = copied(a, found->spectrum.p, found->spectrum.n);
     like_reachable(a, p, r->like);
     return true;
 }
 
-bool roughness_plan(struct arena *a, const struct roughness *r, struct roughness_plan *p, struct err *e)
+bool roughness_plan(struct arena *a, struct shelf *shelf, const struct roughness *r, struct roughness_plan *p, struct err *e)
 {
     *p = (struct roughness_plan){.rms = r->rms, .skewness = r->skewness, .kurtosis = r->kurtosis};
     if (r->like)
-        return plan_like(a, r, p, e);
+        return plan_like(shelf, r, a, p, e);
     if (r->longest <= r->shortest)
         return err_set(e, ERR_SCENE, "surface.roughness: longest (%g m) must be more than shortest (%g m)", r->longest, r->shortest);
     if (r->longest / r->shortest > 1e5)
@@ -172,7 +190,7 @@ static bool roughness_open(struct stage_run *r, struct err *e)
     struct roughness_plan p;
     relief_settle(r->board->relief, r->contact);
     struct relief_part *part = NULL;
-    if (roughness_plan(r->arena, recipe, &p, e))
+    if (roughness_plan(r->arena, r->scene->shelf, recipe, &p, e))
         part = roughness_part(r->arena, &p, recipe, r->board->relief->along, stream, e);
     if (!part)
         return err_at(e, "contact '%s'", r->contact->name);

@@ -3,6 +3,7 @@
 #define SURFACE_ROUGHNESS_H
 #include "base/arena.h"
 #include "base/err.h"
+#include "base/shelf.h"
 #include "num/noise.h"
 #include "scene/scene.h"
 #include "surface/profile.h"
@@ -16,8 +17,8 @@ struct roughness_plan {
     const char *remark;         /* what had to be departed from, or NULL */
 };
 
-/* The plan of a recipe, of its own numbers or of the map that it names (`like`, which is read). ERR_SCENE, ERR_INPUT. */
-bool roughness_plan(struct arena *a, const struct roughness *recipe, struct roughness_plan *p, struct err *e);
+/* The plan of a recipe, of its own numbers or of the map that it names (`like`, which is read, once for all that have the shelf; NULL: none). ERR_SCENE, ERR_INPUT. */
+bool roughness_plan(struct arena *a, struct shelf *shelf, const struct roughness *recipe, struct roughness_plan *p, struct err *e);
 
 /* A part with the heights of that plan and noise stream, in the coordinates `along` (enum along, decided). Close it with its own close(). NULL:
    ERR_SCENE, for heights or a spectrum that there are none of. */

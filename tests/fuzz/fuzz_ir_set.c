@@ -34,7 +34,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     put(folder, "a.wav", sound, sizeof sound);
     put(folder, "index.csv", data, size);
-    fuzz_check(ir_set_read(folder, 44100, 1, a, &s, &e), &e);
+    fuzz_check(ir_set_read(&(struct ir_ask){folder, 44100, 1, NULL}, a, &s, &e), &e);
     drop(folder, "a.wav");
     drop(folder, "index.csv");
     if (rmdir(folder) != 0)

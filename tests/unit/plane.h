@@ -43,7 +43,7 @@ static inline struct relief_part *plane_wave_map(struct arena *a, const struct c
     for (int j = 0; j < PLANE_SIDE; j++)
         for (int i = 0; i < PLANE_SIDE; i++)
             z[j * PLANE_SIDE + i] = plane_wave.amplitude * cos(k * pitch * (i * cos(plane_wave.angle) + j * sin(plane_wave.angle)));
-    return map_part(a, z, PLANE_SIDE, PLANE_SIDE, (double[]){pitch, pitch}, (double[]){0, 0}, OFF_MAP_MIRROR, "wave");
+    return map_part(a, map_spline(a, &(struct height_map){z, PLANE_SIDE, PLANE_SIDE, {pitch, pitch}}, OFF_MAP_MIRROR), (double[]){0, 0}, "wave");
 }
 
 /* 200 x 160 samples 5 um x 7 um apart, wrapped: 60 waves of 50 um and more, of random direction, each of 0.2 um. */
@@ -60,7 +60,7 @@ static inline struct relief_part *plane_rough_map(struct arena *a, const struct 
             for (int i = 0; i < COLUMNS; i++)
                 z[j * COLUMNS + i] += 0.2e-6 * cos(2 * M_PI * ((double)(kx * i) / COLUMNS + (double)(ky * j) / ROWS) + phase);
     }
-    return map_part(a, z, COLUMNS, ROWS, (double[]){5e-6, 7e-6}, (double[]){0, 0}, OFF_MAP_WRAP, "rough");
+    return map_part(a, map_spline(a, &(struct height_map){z, COLUMNS, ROWS, {5e-6, 7e-6}}, OFF_MAP_WRAP), (double[]){0, 0}, "rough");
 }
 
 /* ------------------------------------------------------------------ scenes */

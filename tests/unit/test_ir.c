@@ -111,8 +111,8 @@ START_TEST(wav_is_the_table)
     struct err e = {0};
     struct modes m;
     struct ir ir, cut;
-    ck_assert_msg(ir_read(shipped("ceramic_tile_tap.wav"), 48000, NAN, a, &ir, &e), "%s", e.text);
-    ck_assert_msg(ir_read(shipped("ceramic_tile_tap.wav"), 48000, 0.1, a, &cut, &e), "%s", e.text);
+    ck_assert_msg(ir_read(&(struct ir_ask){shipped("ceramic_tile_tap.wav"), 48000, NAN, NULL}, a, &ir, &e), "%s", e.text);
+    ck_assert_msg(ir_read(&(struct ir_ask){shipped("ceramic_tile_tap.wav"), 48000, 0.1, NULL}, a, &cut, &e), "%s", e.text);
     ck_assert_msg(modes_table(shipped("ceramic_tile.csv"), &(struct modes_ask){.strongest = 1000, .pairing = 0.03, .rate = 48000}, a, &m, &e), "%s", e.text);
     ck_assert_uint_eq(ir.length, 12000);
     ck_assert_uint_eq(cut.length, 4800);
@@ -141,7 +141,7 @@ static void refused(int channels, double level, double rate, double t0, const ch
     x[150] = level;
     struct wav_out *w = wav_create("ir.tmp.wav", &format, &e);
     ck_assert(w && wav_write(w, x, 200 / (size_t)channels, &e) && wav_commit(w, &e));
-    ck_assert(!ir_read("ir.tmp.wav", rate, t0, a, &ir, &e));
+    ck_assert(!ir_read(&(struct ir_ask){"ir.tmp.wav", rate, t0, NULL}, a, &ir, &e));
     unlink("ir.tmp.wav");
     ck_assert_int_eq(e.kind, ERR_SCENE);
     ck_assert_msg(strstr(e.text, says) != NULL, "%s", e.text);
@@ -153,7 +153,7 @@ START_TEST(bad_files_are_refused)
     struct arena *a = arena_open();
     struct err e = {0};
     struct ir ir;
-    ck_assert(!ir_read("no-such.wav", 48000, NAN, a, &ir, &e));
+    ck_assert(!ir_read(&(struct ir_ask){"no-such.wav", 48000, NAN, NULL}, a, &ir, &e));
     ck_assert_int_eq(e.kind, ERR_INPUT);
     arena_close(a);
     refused(2, 1, 44100, NAN, "has 2 channels; an impulse response is mono");

@@ -79,11 +79,11 @@ START_TEST(reads)
     char path[128];
     make_folder();
     write_index("# plank: oak\nfile_name,x_m,y_m,gain_db,z_m\nb.wav,0.1,0,-20,0\na.wav,0,0,0,0.0\n\"other rate.wav\",0.05,0.02,6,0\n");
-    ck_assert_msg(ir_set_read(folder, 48000, NAN, a, &s, &e), "%s", e.text);
+    ck_assert_msg(ir_set_read(&(struct ir_ask){folder, 48000, NAN, NULL}, a, &s, &e), "%s", e.text);
     ck_assert_int_eq(s.n, 3);
     ck_assert(places_kind(s.places) == PLACES_PLANE);
     path_of(path, sizeof path, "a.wav");
-    ck_assert(ir_read(path, 48000, NAN, a, &alone, &e));
+    ck_assert(ir_read(&(struct ir_ask){path, 48000, NAN, NULL}, a, &alone, &e));
     ck_assert_uint_eq(s.ir[1].length, LENGTH);
     ck_assert_mem_eq(s.ir[1].h, alone.h, LENGTH * sizeof *alone.h);
     ck_assert(alone.h[0] == 0.5 / 48000); /* cos 0, half */
@@ -112,13 +112,13 @@ START_TEST(one_and_cut)
     struct places_mix mix;
     make_folder();
     write_index("file_name,x_m,y_m\na.wav,0.3,0.1\n");
-    ck_assert_msg(ir_set_read(folder, 48000, 0.01, a, &s, &e), "%s", e.text);
+    ck_assert_msg(ir_set_read(&(struct ir_ask){folder, 48000, 0.01, NULL}, a, &s, &e), "%s", e.text);
     ck_assert(places_kind(s.places) == PLACES_ONE && s.note == NULL);
     ck_assert_uint_eq(s.ir[0].length, 480);
     places_at(s.places, -7, 3, &mix);
     ck_assert(mix.n == 1 && mix.index[0] == 0 && mix.weight[0] == 1);
     write_index("file_name,x_m,y_m\na.wav,0.3,0.1\n./b.wav,0,0\n");
-    ck_assert_msg(ir_set_read(folder, 44100, NAN, a, &s, &e), "%s", e.text);
+    ck_assert_msg(ir_set_read(&(struct ir_ask){folder, 44100, NAN, NULL}, a, &s, &e), "%s", e.text);
     ck_assert_msg(strstr(s.note, "a.wav: resampled from 48000 Hz to 44100 Hz (and 1 more of the folder's 2 responses)"), "%s", s.note);
     remove_folder();
     arena_close(a);
@@ -131,7 +131,7 @@ static void refused(const char *index, const char *says)
     struct err e = {0};
     struct ir_set s;
     write_index(index);
-    ck_assert_msg(!ir_set_read(folder, 48000, NAN, a, &s, &e), "read: %s", index);
+    ck_assert_msg(!ir_set_read(&(struct ir_ask){folder, 48000, NAN, NULL}, a, &s, &e), "read: %s", index);
     ck_assert_int_ne(e.kind, ERR_NONE);
     ck_assert_msg(strstr(e.text, says) != NULL, "'%s' instead of '%s'", e.text, says);
     arena_close(a);
@@ -143,7 +143,7 @@ START_TEST(refusals)
     struct err e = {0};
     struct ir_set s;
     make_folder();
-    ck_assert(!ir_set_read(folder, 48000, NAN, a, &s, &e));
+    ck_assert(!ir_set_read(&(struct ir_ask){folder, 48000, NAN, NULL}, a, &s, &e));
     ck_assert_int_eq(e.kind, ERR_INPUT);
     ck_assert_ptr_nonnull(strstr(e.text, "index.csv"));
     refused("file_name,x_m\na.wav,0\n", "index.csv: no column 'y_m'");
@@ -185,7 +185,7 @@ START_TEST(jump)
         char path[128];
         double sum = 0, middle = 0, low = fmin(rates[k], 44100);
         path_of(path, sizeof path, "a.wav");
-        ck_assert_msg(ir_read(path, rates[k], NAN, a, &ir, &e), "%s", e.text);
+        ck_assert_msg(ir_read(&(struct ir_ask){path, rates[k], NAN, NULL}, a, &ir, &e), "%s", e.text);
         for (size_t n = 0; n < ir.length; n++)
             sum += ir.h[n];
         for (size_t n = (size_t)(0.01 * rates[k]); n < ir.length / 2; n++) /* far from the jump: the samples of the exponential */

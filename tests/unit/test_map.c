@@ -25,7 +25,7 @@ static void random_heights(long seed)
 
 static struct relief_part *made(struct arena *a, int off_map)
 {
-    return map_part(a, &z[0][0], COLUMNS, ROWS, pitch, origin, off_map, "map");
+    return map_part(a, map_spline(a, &(struct height_map){&z[0][0], COLUMNS, ROWS, {pitch[0], pitch[1]}}, off_map), origin, "map");
 }
 
 static struct six read_at(struct relief_part *part, double x, double y)
@@ -215,7 +215,7 @@ static struct six errors_of(int n)
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++)
             wave[j * n + i] = cos(k * (i + j) / n);
-    struct relief_part *part = map_part(a, wave, (size_t)n, (size_t)n, (double[]){1.0 / n, 1.0 / n}, (double[]){0, 0}, OFF_MAP_WRAP, "wave");
+    struct relief_part *part = map_part(a, map_spline(a, &(struct height_map){wave, (size_t)n, (size_t)n, {1.0 / n, 1.0 / n}}, OFF_MAP_WRAP), (double[]){0, 0}, "wave");
     for (int i = 0; i < 3000; i++) {
         double x = drand48(), y = drand48(), c = cos(k * (x + y)), s = -k * sin(k * (x + y)), cc = -k * k * c, want[6] = {c, s, s, cc, cc, cc};
         struct six got = read_at(part, x, y);

@@ -150,7 +150,7 @@ static struct relief_part *map(struct arena *a, const struct contact *c)
     srand48(5);
     for (int i = 0; i < 40 * 50; i++)
         z[i] = 1e-6 * drand48();
-    return map_part(a, z, 50, 40, pitch, origin, OFF_MAP_WRAP, "map");
+    return map_part(a, map_spline(a, &(struct height_map){z, 50, 40, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin, "map");
 }
 
 START_TEST(a_map_slantwise)

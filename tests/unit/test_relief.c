@@ -46,7 +46,7 @@ static struct relief_part *random_map(struct arena *a)
     double z[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++)
         z[i] = 1e-6 * (drand48() - 0.5);
-    return map_part(a, z, SIDE, SIDE, pitch, origin, OFF_MAP_WRAP, "map");
+    return map_part(a, map_spline(a, &(struct height_map){z, SIDE, SIDE, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin, "map");
 }
 
 /* Each value is the sum of the parts' own, in the order in which they were added; what was in the arrays before is gone; what is not asked for

@@ -454,7 +454,7 @@ START_TEST(refused)
         struct err e = {0};
         struct roughness_plan p;
         bad[i].kurtosis = i < 2 ? 3 : bad[i].kurtosis;
-        ck_assert(!roughness_plan(a, &bad[i], &p, &e) || !roughness_part(a, &p, &bad[i], ALONG_PATH, noise_make(1, "x"), &e));
+        ck_assert(!roughness_plan(a, NULL, &bad[i], &p, &e) || !roughness_part(a, &p, &bad[i], ALONG_PATH, noise_make(1, "x"), &e));
         ck_assert_int_eq(e.kind, ERR_SCENE);
         ck_assert_msg(strstr(e.text, says[i]) != NULL, "%s", e.text);
         arena_close(a);

@@ -19,9 +19,9 @@ __attribute__((constructor)) static void open_arena(void)
 
 static atomic_int made;
 
-static bool make_text(const char *file, struct arena *arena, void *thing, struct err *e)
+static bool make_text(const char *file, const void *how, struct arena *arena, void *thing, struct err *e)
 {
-    (void)arena;
+    (void)arena, (void)how;
     made++;
     usleep(2000);
     FILE *f = fopen(file, "r");
@@ -34,6 +34,11 @@ static bool make_text(const char *file, struct arena *arena, void *thing, struct
 static const struct shelf_kind texts = {"text", 16, make_text}, others = {"other text", 16, make_text};
 
 static char path[64];
+
+static const void *take(struct shelf *s, const struct shelf_kind *kind, struct arena *arena, struct err *e)
+{
+    return shelf_take(s, &(struct shelf_ask){.kind = kind, .file = path}, arena, e);
+}
 
 static void put(const char *text)
 {
@@ -56,7 +61,7 @@ static void *asks(void *shelf)
     struct arena *own = arena_open();
     struct err e = {0};
     for (int i = 0; i < 50; i++)
-        if (strcmp(shelf_take(shelf, &texts, path, own, &e), "one") != 0)
+        if (strcmp(take(shelf, &texts, own, &e), "one") != 0)
             abort();
     arena_close(own);
     return NULL;
@@ -73,7 +78,7 @@ START_TEST(many_threads_make_it_once)
         pthread_join(threads[i], NULL);
     ck_assert_int_eq(made, 1);
     struct err e = {0};
-    ck_assert_ptr_ne(shelf_take(s, &others, path, a, &e), shelf_take(s, &texts, path, a, &e));
+    ck_assert_ptr_ne(take(s, &others, a, &e), take(s, &texts, a, &e));
     ck_assert_int_eq(made, 2);
     shelf_close(s);
     unlink(path);
@@ -85,16 +90,23 @@ START_TEST(a_file_that_has_changed_is_read_anew)
     struct err e = {0};
     begin("one");
     struct shelf *s = shelf_open(1 << 20);
-    const char *old = shelf_take(s, &texts, path, a, &e);
+    const char *old = take(s, &texts, a, &e);
     put("other");
-    ck_assert_str_eq(shelf_take(s, &texts, path, a, &e), "other");
+    ck_assert_str_eq(take(s, &texts, a, &e), "other");
     ck_assert_str_eq(old, "one");
     put("");
-    ck_assert_ptr_null(shelf_take(s, &texts, path, a, &e));
+    ck_assert_ptr_null(take(s, &texts, a, &e));
     ck_assert_int_eq(e.kind, ERR_INPUT);
     put("more");
     e = (struct err){0};
-    ck_assert_str_eq(shelf_take(s, &texts, path, a, &e), "more");
+    ck_assert_str_eq(take(s, &texts, a, &e), "more");
+    ck_assert_ptr_nonnull(strstr(shelf_changed(s, a), "rasp-test-")); /* since "one" */
+    shelf_close(s);
+    s = shelf_open(1 << 20);
+    take(s, &texts, a, &e);
+    ck_assert_ptr_null(shelf_changed(s, a));
+    unlink(path);
+    ck_assert_ptr_nonnull(strstr(shelf_changed(s, a), "rasp-test-"));
     shelf_close(s);
     unlink(path);
 }
@@ -106,9 +118,9 @@ START_TEST(what_has_no_room_is_made_for_each)
     struct err e = {0};
     begin("one");
     struct shelf *s = shelf_open(0);
-    ck_assert_str_eq(shelf_take(s, &texts, path, a, &e), "one");
-    ck_assert_str_eq(shelf_take(s, &texts, path, a, &e), "one");
-    ck_assert_str_eq(shelf_take(NULL, &texts, path, a, &e), "one");
+    ck_assert_str_eq(take(s, &texts, a, &e), "one");
+    ck_assert_str_eq(take(s, &texts, a, &e), "one");
+    ck_assert_str_eq(take(NULL, &texts, a, &e), "one");
     ck_assert_int_eq(made, 3);
     shelf_close(s);
     unlink(path);

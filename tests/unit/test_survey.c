@@ -97,7 +97,7 @@ START_TEST(like_a_file)
     for (int along = ALONG_PATH; along <= ALONG_PLANE; along += ALONG_PLANE - ALONG_PATH) {
         struct roughness r = {.given = true, .like = "like.gsf", .like_pitch = NAN, .grain = 1};
         struct roughness_plan plan;
-        ck_assert_msg(roughness_plan(a, &r, &plan, &e), "%s", e.text);
+        ck_assert_msg(roughness_plan(a, NULL, &r, &plan, &e), "%s", e.text);
         ck_assert_double_eq_tol(spectrum_rms(&plan.spectrum) / want.rms, 1, 1e-6);
         struct relief_part *made = roughness_part(a, &plan, &r, along, noise_make(5, "like"), &e);
         ck_assert_msg(made != NULL, "%s", e.text);
