@@ -30,7 +30,7 @@ static void make_modes(struct arena *a, const struct coupled_ask *ask, struct co
     m->frequency = padded_copy(a, m->padded, ask->frequency, ask->n);
     m->decay = padded_copy(a, m->padded, ask->decay, ask->n);
     double **const zeroed[] = {&m->q, &m->p, &m->phi, &m->phi_to, &m->square, &m->inertia, &m->spring,
-                               &m->turn, &m->pull, &m->push, &m->drain, &m->swing, &m->ahead, &m->slant};
+                               &m->turn, &m->pull, &m->push, &m->drain, &m->stay, &m->carry, &m->thrust, &m->tilt, &m->swing, &m->ahead, &m->slant};
     for (size_t i = 0; i < sizeof zeroed / sizeof zeroed[0]; i++)
         *zeroed[i] = ARENA_TAKE(a, double, m->padded);
     for (int i = 0; i < m->padded; i++) {
@@ -102,13 +102,21 @@ static void start_modes(struct coupled *c, const double *phi, bool settled)
     }
 }
 
-/* The greatest part of H and, added in a fixed order, H itself. */
-static double energy_of(const struct coupled *c, double *greatest, const char **whose)
+LANES_CLONES
+double coupled_modal(const struct coupled *c)
 {
     const struct coupled_modes *m = &c->modes;
-    double modal = 0;
-    for (int i = 0; i < m->padded; i++)
-        modal += 0.5 * (m->inertia[i] * m->p[i] * m->p[i] + m->spring[i] * m->q[i] * m->q[i]);
+    double lane[LANES] = {0};
+    for (int i = 0; i < m->padded; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++)
+            lane[l] += 0.5 * (m->inertia[i + l] * m->p[i + l] * m->p[i + l] + m->spring[i + l] * m->q[i + l] * m->q[i + l]);
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+/* The greatest part of H and, added in a fixed order, H itself. */
+static double energy_of(const struct coupled *c, double modal, double *greatest, const char **whose)
+{
     const struct { const char *name; double value; } part[] = {
         {"the ball's velocity", 0.5 * c->ask.mass * c->speed * c->speed}, {"the ball's height", c->ask.weight * c->height},
         {"the modes", modal}, {"the contact", coupled_potential(c->ask.stiffness, c->penetration)}};
@@ -125,6 +133,20 @@ static double energy_of(const struct coupled *c, double *greatest, const char **
     return sum;
 }
 
+static double with(struct coupled_sum sum, double more)
+{
+    coupled_sum_add(&sum, more);
+    return coupled_sum_of(&sum);
+}
+
+static void account(const struct coupled *c, const struct coupled_account *more, struct coupled_state *s)
+{
+    s->surface_work = with(c->surface_work, more->work);
+    s->contact_loss = with(c->contact_loss, more->contact_loss);
+    s->mode_loss = with(c->mode_loss, more->mode_loss);
+    s->residual = ((s->energy - c->energy_start) - s->surface_work) + (s->contact_loss + s->mode_loss);
+}
+
 static bool unbalanced(const struct coupled *c, double bound, const char *whose, struct err *e)
 {
     const struct coupled_state *s = &c->state;
@@ -139,15 +161,12 @@ bool coupled_balance(struct coupled *c, bool held, struct err *e)
     struct coupled_state *s = &c->state;
     double greatest;
     const char *whose;
-    s->energy = energy_of(c, &greatest, &whose);
+    s->energy = energy_of(c, coupled_modal(c), &greatest, &whose);
     if (!isfinite(s->energy) || !isfinite(c->force))
         return err_set(e, ERR_NUMBERS, "the coupled contact is no longer finite at step %ld (force %g N, penetration %g m, %g J in %s): take more steps (accuracy.contact_steps)",
                        s->steps, c->force, c->penetration, greatest, whose);
     s->highest = fmax(s->highest, fmax(greatest, fabs(s->energy)));
-    s->surface_work = coupled_sum_of(&c->surface_work);
-    s->contact_loss = coupled_sum_of(&c->contact_loss);
-    s->mode_loss = coupled_sum_of(&c->mode_loss);
-    s->residual = ((s->energy - c->energy_start) - s->surface_work) + (s->contact_loss + s->mode_loss);
+    account(c, &(struct coupled_account){0}, s);
     double bound = (1e-10 + 4 * DBL_EPSILON * (double)s->steps) * s->highest;
     return !held || fabs(s->residual) <= bound || unbalanced(c, bound, whose, e);
 }
@@ -166,6 +185,8 @@ void coupled_crossing(struct coupled *c, long step, double before, double after,
     if (after > 0) {
         k->begun_step = step;
         k->begun_fraction = fraction;
+        s->hop[1] = s->lift_offs > 0 ? s->hop[0] : 0;
+        s->hop[0] = 0;
         s->flights += s->lift_offs > 0 && since(c, k->ended_step, k->ended_fraction, step, fraction) > c->flight_least;
         s->landings++;
         s->impact = closing;
@@ -180,10 +201,9 @@ void coupled_crossing(struct coupled *c, long step, double before, double after,
     s->lift_offs++;
 }
 
-static void publish(struct coupled *c)
+static void fill(const struct coupled *c, struct coupled_state *s)
 {
     const struct coupled_contact *k = &c->contact;
-    struct coupled_state *s = &c->state;
     bool touching = c->penetration > 0;
     s->height = c->height + c->origin;
     s->speed = c->speed;
@@ -195,6 +215,24 @@ static void publish(struct coupled *c)
     s->flight = touching ? 0 : since(c, k->ended_step, k->ended_fraction, s->steps, 0);
 }
 
+void coupled_seen(struct coupled *c, long steps, const struct coupled_account *more)
+{
+    double greatest;
+    const char *whose;
+    struct coupled_state *s = &c->seen[c->seen_so_far++];
+    *s = c->state;
+    s->steps = steps;
+    s->energy = energy_of(c, more->modal, &greatest, &whose);
+    account(c, more, s);
+    fill(c, s);
+}
+
+void coupled_watch(struct coupled *c, int every, struct coupled_state *seen)
+{
+    c->every = every;
+    c->seen = seen;
+}
+
 void coupled_flights(struct coupled *c, double least)
 {
     c->flight_least = least;
@@ -202,7 +240,7 @@ void coupled_flights(struct coupled *c, double least)
 
 void coupled_start(struct coupled *c, double height, double speed, double surface, const double *phi, bool settled)
 {
-    struct coupled fresh = {.ask = c->ask, .modes = c->modes, .flight_least = c->flight_least, .origin = surface, .height = height - surface, .speed = speed, .closing = -speed};
+    struct coupled fresh = {.ask = c->ask, .modes = c->modes, .flight_least = c->flight_least, .every = c->every, .seen = c->seen, .origin = surface, .height = height - surface, .speed = speed, .closing = -speed};
     *c = fresh;
     start_modes(c, phi, settled);
     double bent = 0;
@@ -211,9 +249,9 @@ void coupled_start(struct coupled *c, double height, double speed, double surfac
     c->penetration = -bent - c->height;
     double greatest;
     const char *whose;
-    c->energy_start = c->state.energy = energy_of(c, &greatest, &whose);
+    c->energy_start = c->state.energy = energy_of(c, coupled_modal(c), &greatest, &whose);
     c->state.highest = fmax(greatest, fabs(c->energy_start));
-    publish(c);
+    fill(c, &c->state);
 }
 
 static bool given(const struct coupled *c, int steps, const double *surface, const double *phi_to, struct err *e)
@@ -233,6 +271,7 @@ bool coupled_run(struct coupled *c, int steps, const double *surface, const doub
         [INTEGRATOR_DISCRETE_GRADIENT] = coupled_gradient_run, [INTEGRATOR_RK4] = coupled_rk4_run, [INTEGRATOR_EXACT_IMPACT] = coupled_exact_run};
     if (steps < 1)
         return true;
+    c->seen_so_far = 0;
     if (!given(c, steps, surface, phi_to, e))
         return false;
     bool moves = phi_to && c->modes.n > 0 && memcmp(phi_to, c->modes.phi, (size_t)c->modes.n * sizeof *phi_to) != 0;
@@ -241,7 +280,7 @@ bool coupled_run(struct coupled *c, int steps, const double *surface, const doub
     if (!runs[c->ask.integrator](c, steps, surface, moves ? c->modes.phi_to : NULL, force, e) ||
         !coupled_balance(c, c->ask.integrator != INTEGRATOR_RK4, e))
         return false;
-    publish(c);
+    fill(c, &c->state);
     return true;
 }
 

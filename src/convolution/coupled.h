@@ -35,6 +35,7 @@ struct coupled_state {               /* at the end of the last step             
     long steps, contact_steps;       /* in all; in contact                                */
     long lift_offs, landings;        /* contacts ended and begun; one at the start is no landing */
     long flights;                    /* flights from a lift-off to a landing, longer than coupled_flights says; a fall at the start is none */
+    double hop[2];                   /* m, greatest height over the surface in this flight, and in the one before if it began with a lift-off */
     double contact_time;             /* s, fractions of steps by linear crossing of xi    */
     double impact;                   /* m/s, closing speed at the last landing            */
     double impact_most;              /* greatest closing speed of a landing               */
@@ -56,6 +57,10 @@ void coupled_flights(struct coupled *c, double least);
 
 /* Height at which the ball rests on a surface of that height under its weight (modes bent too, where there are any). */
 double coupled_rest(const struct coupled *c, double surface, const double *phi);
+
+/* In each run from now on, the states before its first step and after every `every` steps but the last go to seen[0], [1], ...; 0: no more. It changes no
+   bit of what is computed. The residual is watched in them, but refused only at a run's end. */
+void coupled_watch(struct coupled *c, int every, struct coupled_state *seen);
 
 /* `steps` steps: surface[i] m at the end of step i; phi_to [n] at the end of the last one (between, straight from what it was; NULL: as it was);
    force[i] N, the mean over step i, which hands over exactly the momentum that the ball gets. ERR_NUMBERS with what went wrong: not finite, or the energy's balance

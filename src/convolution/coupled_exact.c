@@ -180,6 +180,7 @@ static void take(struct coupled *c, const struct impact *s, double surface)
     c->penetration = s->xi;
     c->closing = s->v;
     c->height = surface - s->xi;
+    coupled_rise(c, s->xi);
     c->speed += c->ask.step * (s->force - c->ask.weight / c->ask.mass);
     state->contact_steps += push > 0;
     state->iterations += s->iterations;
@@ -195,6 +196,8 @@ bool coupled_exact_run(struct coupled *c, int steps, const double *surface, cons
     if (!ready(c, e))
         return false;
     for (int i = 0; i < steps; i++) {
+        if (coupled_unseen(c, i, steps) == i)
+            coupled_seen(c, c->state.steps + i, &(struct coupled_account){.modal = coupled_modal(c)});
         double to = surface[i] - c->origin, slope = (to - c->surface) / r.step, before = c->penetration;
         struct impact s = {.xi = before, .v = slope - c->speed};
         double landing = before > 0 ? s.v : sqrt(s.v * s.v - 2 * r.gravity * before);

@@ -15,13 +15,15 @@
 
    The step's equation is solved in coupled_pinch.c.
 
-   Modes: with swing P = h p / 2 a step is d = turn P - pull q + push phibar f, q += d, P = d - P. What a step's force does two steps on is known
-   beforehand (`reply` below), so the sum that the next step needs runs while this one's force is looked for. */
+   Modes (coupled_chorus.c): what a step's force does two steps on is known beforehand (`reply`), so that the modes are one step behind the ball: a step's
+   pass over them runs while the next step's force, a chain of about 150 cycles of latency, is looked for. */
 #include <string.h>
 
-#include "convolution/coupled_parts.h"
+#include "convolution/coupled_chorus.h"
 #include "convolution/coupled_pinch.h"
 #include "num/real.h"
+
+#define INLINE static inline __attribute__((always_inline))
 
 enum { SPELL = 256 }; /* steps between two closings of the ledger */
 
@@ -44,109 +46,24 @@ bool coupled_gradient_make(struct coupled *c, struct err *e)
         m->pull[i] = square * h * h / (2 * all);
         m->push[i] = h * h / (2 * all * mass);
         m->drain[i] = 2 * damping * mass / h;
+        m->stay[i] = (1 - m->pull[i]) * (1 - m->pull[i]) - m->turn[i] * m->pull[i];
+        m->carry[i] = m->turn[i] * (m->turn[i] - m->pull[i]);
     }
     return true;
 }
 
-/* What the modes say in one step, summed over them. */
-struct chorus {
-    double next, later; /* sum phi q at the end of the step to come, and of the one after it, as if no force acted in either */
-    double place;       /* sum slant q                                                                                      */
-    double lost[LANES]; /* J, of the steps that have ended since begin                                                     */
-};
-
-static double added(const double *lane)
-{
-    double sum = 0;
-    for (int l = 0; l < LANES; l++)
-        sum += lane[l];
-    return sum;
-}
-
-/* From step `on - 1` of the run, whose ends are known. */
-LANES_CLONES
-static void begin(const struct coupled_modes *m, double on, struct chorus *sum)
-{
-    double next[LANES] = {0}, later[LANES] = {0}, place[LANES] = {0};
-    double *restrict ahead = m->ahead;
-    for (int i = 0; i < m->padded; i += LANES)
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            double x = m->q[i + l], v = m->swing[i + l], phi = m->phi[i + l], slant = m->slant[i + l];
-            double free = m->turn[i + l] * v - m->pull[i + l] * x;
-            place[l] += slant * x;
-            ahead[i + l] = free;
-            x += free;
-            v = free - v;
-            next[l] += (phi + on * slant) * x;
-            later[l] += (phi + (on + 1) * slant) * (x + (m->turn[i + l] * v - m->pull[i + l] * x));
-        }
-    *sum = (struct chorus){.next = added(next), .later = added(later), .place = added(place)};
-}
-
-/* Ends a step whose force is known (bar: its middle) and goes ahead by two (on: the end of the second), in steps of the run, in which phi is straight. */
-LANES_CLONES
-static void advance(const struct coupled_modes *m, double bar, double on, double force, struct chorus *sum)
-{
-    double later[LANES] = {0}, place[LANES] = {0}, lost[LANES];
-    memcpy(lost, sum->lost, sizeof lost);
-    double *restrict q = m->q, *restrict swing = m->swing, *restrict ahead = m->ahead;
-    const double *restrict phi = m->phi, *restrict slant = m->slant, *restrict turn = m->turn, *restrict pull = m->pull;
-    const double *restrict push = m->push, *restrict drain = m->drain;
-    for (int i = 0; i < m->padded; i += LANES)
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            double d = ahead[i + l] + push[i + l] * ((phi[i + l] + bar * slant[i + l]) * force);
-            double x = q[i + l] + d, v = d - swing[i + l];
-            lost[l] += drain[i + l] * (d * d);
-            place[l] += slant[i + l] * x;
-            q[i + l] = x;
-            swing[i + l] = v;
-            double free = turn[i + l] * v - pull[i + l] * x;
-            ahead[i + l] = free;
-            x += free;
-            v = free - v;
-            later[l] += (phi[i + l] + on * slant[i + l]) * (x + (turn[i + l] * v - pull[i + l] * x));
-        }
-    memcpy(sum->lost, lost, sizeof lost);
-    sum->later = added(later);
-    sum->place = added(place);
-}
-
-/* A run: what stays the same in it, and the modes' answers to a force as polynomials of the step's number, for phi is straight. */
+/* A run: what stays the same in it, and what is summed up between two closings of the ledger. */
 struct gradient_run {
     struct coupled *c;
-    double own;                           /* h^2 / 2m                                                    */
-    double press[3];                      /* sum push phi^2, push phi slant, push slant^2: sum phi+ q+ per N */
-    double reply[3];                      /* the same of (1 + turn - pull) push: one step later              */
-    struct chorus sum;
+    double own;                  /* h^2 / 2m                                                        */
+    struct coupled_answers answers;
+    struct coupled_chorus sum;
     struct coupled_pinch pinch;
-    bool moves;                           /* phi does                                                    */
-    double deepest, fastest;              /* greatest xi and |w'| so far                                 */
+    bool moves;                  /* phi does                                                        */
+    double wide;                 /* xi+ - xi of the last step                                       */
+    double work, loss;           /* J, by the surface and in the contact, in this spell             */
+    double deepest, fastest;     /* greatest xi and |w'| so far                                     */
 };
-
-static double along(const double *c, double to, double middle)
-{
-    return c[0] + (to + middle) * c[1] + to * middle * c[2];
-}
-
-static void prepare(struct gradient_run *r, int steps, const double *phi_to)
-{
-    struct coupled *c = r->c;
-    const struct coupled_modes *m = &c->modes;
-    for (int i = 0; i < m->padded; i++) {
-        double phi = m->phi[i], slant = phi_to ? (phi_to[i] - phi) / steps : 0, later = (1 + m->turn[i] - m->pull[i]) * m->push[i];
-        m->slant[i] = slant;
-        const double product[3] = {phi * phi, phi * slant, slant * slant};
-        for (int k = 0; k < 3; k++) {
-            r->press[k] += m->push[i] * product[k];
-            r->reply[k] += later * product[k];
-        }
-    }
-    r->own = c->ask.step * c->ask.step / (2 * c->ask.mass);
-    r->pinch = (struct coupled_pinch){.stiffness = 0.4 * c->ask.stiffness, .rate = c->ask.mu / c->ask.step, .from = c->penetration,
-                              .root = c->penetration > 0 ? sqrt(c->penetration) : 0};
-}
 
 static bool stuck(const struct gradient_run *r, long step, double free, double yield, struct err *e)
 {
@@ -155,23 +72,24 @@ static bool stuck(const struct gradient_run *r, long step, double free, double y
 }
 
 /* The ball and the ledger, from a force that is found. work: by the surface, per N. */
-static inline void take(struct gradient_run *r, long step, double free, double work)
+INLINE void take(struct gradient_run *r, long step, double free, double work)
 {
     struct coupled *c = r->c;
     struct coupled_pinch *k = &r->pinch;
     double h = c->ask.step, net = k->force - c->ask.weight, wide = k->to - k->from;
+    c->height += h * c->speed + r->own * net;
+    c->speed += h / c->ask.mass * net;
     if (k->from > 0 || k->to > 0) {
         double factor = k->rate * wide;
-        coupled_sum_add(&c->surface_work, k->force * work);
-        coupled_sum_add(&c->contact_loss, k->gradient * (factor > -1 ? factor : -1) * wide);
+        r->work += k->force * work;
+        r->loss += k->gradient * (factor > -1 ? factor : -1) * wide;
         c->state.iterations += k->passes;
         c->state.iterations_most = k->passes > c->state.iterations_most ? k->passes : c->state.iterations_most;
         c->state.contact_steps++;
         coupled_touch(c, step, k->from, k->to, (free - k->from) / h);
     }
-    c->height += h * c->speed + r->own * net;
-    c->speed += h / c->ask.mass * net;
-    c->closing = wide / h;
+    coupled_rise(c, k->to);
+    r->wide = wide;
     c->own[0] = c->force_before;
     c->force_before = c->force;
     c->force = k->force;
@@ -181,11 +99,18 @@ static inline void take(struct gradient_run *r, long step, double free, double w
     r->fastest = fabs(c->speed) > r->fastest ? fabs(c->speed) : r->fastest;
 }
 
-/* The moving place's work on the modes in a step that has ended, from both its ends. */
-static inline void lean(struct gradient_run *r, double before)
+/* The moving place's work on the modes in a step, from both its ends. */
+INLINE void lean(struct gradient_run *r, double force, double before, double after)
 {
     if (r->moves)
-        coupled_sum_add(&r->c->surface_work, -r->c->force * (0.5 * (before + r->sum.place)));
+        r->work -= force * (0.5 * (before + after));
+}
+
+/* The ball's fields that change with every step but are read between spells only. */
+static void settle(struct gradient_run *r)
+{
+    r->c->penetration = r->pinch.from;
+    r->c->closing = r->wide / r->c->ask.step;
 }
 
 /* The modes' true displacements and velocities, and what they have lost. */
@@ -193,38 +118,100 @@ static void finish(struct gradient_run *r, int to)
 {
     struct coupled_modes *m = &r->c->modes;
     double before = r->sum.place;
-    advance(m, to - 0.5, to + 2.0, r->c->force, &r->sum);
-    lean(r, before);
-    coupled_sum_add(&r->c->mode_loss, added(r->sum.lost));
+    coupled_chorus_advance(m, to - 0.5, to + 2.0, r->c->force, &r->sum);
+    lean(r, r->c->force, before, r->sum.place);
+    coupled_sum_add(&r->c->mode_loss, coupled_chorus_sum(r->sum.lanes.lost));
     for (int i = 0; i < m->padded; i++)
         m->p[i] = m->swing[i] * (2 / r->c->ask.step);
+}
+
+/* A step's force, and the modes' end of the step before (on: as coupled_chorus_advance has it), whose force is known. Each fills the other's latencies, which is why
+   they are laid between each other in pieces: 50 modes take 230 cycles a step so (AVX-512), 390 one after the other, whichever is first, as no CPU looks far enough
+   ahead. */
+INLINE bool press(struct gradient_run *r, double free, double yield, double on)
+{
+    const struct coupled *c = r->c;
+    struct coupled_pinch *k = &r->pinch;
+    const struct coupled_modes *m = &c->modes;
+    const int end = m->padded, half = end / (2 * LANES) * LANES;
+    const double last = c->force, lean = (on - 2.5) * last, guess = free - yield * (3 * (last - c->force_before) + c->own[0]);
+    const bool stays = coupled_pinch_stays(k, free, yield);
+    struct coupled_chorus *sum = &r->sum;
+    double x = 0, change = 0;
+    if (on == 0)
+        return coupled_pinch(k, free, yield, guess);
+    if (stays)
+        x = coupled_pinch_first(k, guess);
+    coupled_chorus_open(sum);
+    coupled_chorus_some(m, (int[]){0, half}, last, lean, &sum->lanes);
+    if (stays) {
+        change = coupled_pinch_pass(k, free, yield, x);
+        x -= change;
+        k->passes = 1;
+    }
+    coupled_chorus_some(m, (int[]){half, end}, last, lean, &sum->lanes);
+    coupled_chorus_close(sum, on);
+    return stays ? coupled_pinch_close(k, x, change) || coupled_pinch_on(k, free, yield, x) : coupled_pinch(k, free, yield, guess);
+}
+
+/* Steps first + 1 to `to` of the run, in a spell that began after step `from`. */
+LANES_CLONES
+static bool steps_on(struct gradient_run *r, const int spell[3], const double *surface, double *force, struct err *e)
+{
+    struct coupled *c = r->c;
+    const int from = spell[0], first = spell[1], to = spell[2];
+    const double h = c->ask.step, drop = r->own * c->ask.weight;
+    for (int j = first + 1; j <= to; j++) {
+        const bool behind = c->modes.padded > 0 && j > from + 1;
+        const double last = c->force, place = r->sum.place, next = surface[j - 1] - c->origin;
+        double bent = behind ? r->sum.later + last * coupled_chorus_along(r->answers.reply, j, j - 1.5) : r->sum.next;
+        double free = (next - bent) - (c->height + (h * c->speed - drop)), yield = r->own + coupled_chorus_along(r->answers.press, j, j - 0.5);
+        if (!(yield > 0) || !press(r, free, yield, behind ? j + 1 : 0))
+            return stuck(r, c->state.steps + j - from, free, yield, e);
+        if (behind)
+            lean(r, last, place, r->sum.place);
+        take(r, c->state.steps + j - from - 1, free, next - c->surface);
+        c->surface = next;
+        force[j - 1] = r->pinch.force;
+    }
+    return true;
+}
+
+/* What is seen after step `at`, where the modes are one step behind. */
+static void watch(struct gradient_run *r, int from, int at)
+{
+    struct coupled *c = r->c;
+    struct coupled_look look = {coupled_modal(c), 0, 0};
+    double work = r->work;
+    if (c->modes.padded > 0 && at > from) {
+        look = coupled_chorus_look(&c->modes, at - 0.5, c->force, c->ask.step, &r->sum);
+        work -= r->moves ? c->force * (0.5 * (r->sum.place + look.place)) : 0;
+    }
+    settle(r);
+    coupled_seen(c, c->state.steps + at - from, &(struct coupled_account){look.energy, work, r->loss, look.lost});
 }
 
 /* Steps from + 1 to `to` of the run. */
 static bool spell(struct gradient_run *r, int from, int to, const double *surface, double *force, struct err *e)
 {
     struct coupled *c = r->c;
-    const bool modes = c->modes.padded > 0;
-    const double h = c->ask.step, drop = r->own * c->ask.weight;
-    if (modes)
-        begin(&c->modes, from + 1, &r->sum);
-    for (int j = from + 1; j <= to; j++) {
-        double bent = r->sum.next, place = r->sum.place, next = surface[j - 1] - c->origin;
-        if (modes && j > from + 1) {
-            bent = r->sum.later + c->force * along(r->reply, j, j - 1.5);
-            advance(&c->modes, j - 1.5, j + 1.0, c->force, &r->sum);
-            lean(r, place);
-        }
-        double free = (next - bent) - (c->height + (h * c->speed - drop)), yield = r->own + along(r->press, j, j - 0.5);
-        if (!(yield > 0) || !coupled_pinch(&r->pinch, free, yield, free - yield * (3 * (c->force - c->force_before) + c->own[0])))
-            return stuck(r, c->state.steps + j - from, free, yield, e);
-        take(r, c->state.steps + j - from - 1, free, next - c->surface);
-        c->surface = next;
-        force[j - 1] = r->pinch.force;
+    if (c->modes.padded > 0)
+        coupled_chorus_begin(&c->modes, from + 1, &r->sum);
+    for (int at = from; at < to;) {
+        int end = coupled_unseen(c, at, to);
+        if (end == at)
+            watch(r, from, at);
+        end = coupled_unseen(c, at + 1, to);
+        if (!steps_on(r, (int[]){from, at, end}, surface, force, e))
+            return false;
+        at = end;
     }
-    if (modes)
+    if (c->modes.padded > 0)
         finish(r, to);
-    c->penetration = r->pinch.from;
+    settle(r);
+    coupled_sum_add(&c->surface_work, r->work);
+    coupled_sum_add(&c->contact_loss, r->loss);
+    r->work = r->loss = 0;
     c->state.highest = fmax(c->state.highest, fmax(coupled_potential(c->ask.stiffness, r->deepest), 0.5 * c->ask.mass * r->fastest * r->fastest));
     c->state.steps += to - from;
     return true;
@@ -232,8 +219,10 @@ static bool spell(struct gradient_run *r, int from, int to, const double *surfac
 
 bool coupled_gradient_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force, struct err *e)
 {
-    struct gradient_run r = {.c = c, .moves = phi_to != NULL};
-    prepare(&r, steps, phi_to);
+    struct gradient_run r = {.c = c, .own = c->ask.step * c->ask.step / (2 * c->ask.mass), .moves = phi_to != NULL};
+    coupled_chorus_answers(&c->modes, steps, phi_to, &r.answers);
+    r.pinch = (struct coupled_pinch){.stiffness = 0.4 * c->ask.stiffness, .rate = c->ask.mu / c->ask.step, .from = c->penetration,
+                                     .root = c->penetration > 0 ? sqrt(c->penetration) : 0};
     for (int from = 0; from < steps; from += SPELL) {
         int to = from + SPELL < steps ? from + SPELL : steps;
         if (!spell(&r, from, to, surface, force, e) || !coupled_balance(c, true, e))

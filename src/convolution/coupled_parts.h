@@ -25,8 +25,10 @@ struct coupled_modes {
     double *frequency, *decay;           /* [padded] Hz (damped), 1/s; as asked                                       */
     double *square;                      /* [padded] |s|^2 = decay^2 + (2 pi frequency)^2; 1 in the padding           */
     double *inertia, *spring;            /* [padded] energy of a mode is (inertia p^2 + spring q^2) / 2: 1 and |s|^2, unless the integrator has its own */
-    /* The discrete gradient's own (coupled_gradient.c says what they are). */
+    /* The discrete gradient's own (coupled_gradient.c and coupled_chorus.h say what they are). */
     double *turn, *pull, *push, *drain;  /* [padded] coefficients of a step                                          */
+    double *stay, *carry;                /* [padded] the same of q two steps without a force: stay q + carry P       */
+    double *thrust, *tilt;               /* [padded] push phi, push slant                                            */
     double *swing, *ahead, *slant;       /* [padded] half a step's way at the velocity; the next step's way without force; phi's change per step */
 };
 
@@ -46,6 +48,10 @@ struct coupled {
     double force, force_before;          /* N, means over the last step and the one before                           */
     double own[4];                       /* whatever else an integrator carries; 0 at the start                       */
     struct coupled_sum surface_work, contact_loss, mode_loss; /* J since the start                                    */
+
+    /* Who watches (coupled_watch): after every so many steps of a run a state goes to seen[0], [1], ... */
+    int every, seen_so_far;
+    struct coupled_state *seen;
 
     /* Kept by coupled.c. */
     double energy_start;                 /* J */
@@ -92,6 +98,31 @@ static inline void coupled_touch(struct coupled *c, long step, double before, do
     if ((before > 0) != (after > 0))
         coupled_crossing(c, step, before, after, closing);
 }
+
+/* Every step's end goes through this too: how high the ball is over the surface in its flight. */
+static inline void coupled_rise(struct coupled *c, double penetration)
+{
+    c->state.hop[0] = -penetration > c->state.hop[0] ? -penetration : c->state.hop[0];
+}
+
+/* Energy of the modes as of now, J. */
+double coupled_modal(const struct coupled *c);
+
+/* The next step, from `at` on, after which a state is to be seen (at itself, or a multiple of `every`); `to` if that comes first or nobody watches. */
+static inline int coupled_unseen(const struct coupled *c, int at, int to)
+{
+    long next = c->every > 0 ? ((long)at + c->every - 1) / c->every * c->every : to;
+    return next < to ? (int)next : to;
+}
+
+/* What an integrator knows better than c in the midst of a run. */
+struct coupled_account {
+    double modal;                           /* J: energy of the modes                             */
+    double work, contact_loss, mode_loss;   /* J beyond surface_work, contact_loss and mode_loss  */
+};
+
+/* The ball, the ledger and the contacts as they are in c after `steps` steps since the start, to who watches. */
+void coupled_seen(struct coupled *c, long steps, const struct coupled_account *more);
 
 /* Energy, highest and residual as of now. ERR_NUMBERS: not finite; held: nor the residual within its bound (coupled_run asks at the end of each run;
    an integrator of long runs may ask between). */

@@ -12,7 +12,7 @@
 
 #include "force/hertz_mean.h"
 
-enum { PASSES = 60 }; /* most passes of Newton's method and halving */
+enum { HALLEY = 8, PASSES = 60 }; /* most passes of Halley's method; of Newton's and halving */
 
 /* Force at xi+ and, in *slope, its derivative. Not both penetrations <= 0. */
 static double force_at(struct coupled_pinch *k, double to, double *slope)
@@ -76,49 +76,30 @@ static void part(struct coupled_pinch *k, double a, double b)
     k->passes++;
 }
 
-/* Both penetrations > 0, by the polynomial in b with Halley's method (of third order): when a pass moves b by less than 2^-18 of itself the next
-   one would be below the rounding. False: not settled. */
-static bool stay(struct coupled_pinch *k, double a, double b, double guess)
+bool coupled_pinch_on(struct coupled_pinch *k, double a, double b, double x)
 {
-    const double r = k->root, square = k->from, cube = square * r, kb = k->stiffness * b, rate = k->rate;
-    double x = guess > 0 ? sqrt(guess) : r;
-    for (k->passes = 1; k->passes <= 8; k->passes++) {
-        double xx = x * x, s = x + r, factor = 1 + rate * (xx - square), n = xx * (xx + r * x + square) + cube * s;
-        double n1 = x * (4 * xx + 3 * r * x + 2 * square) + cube, n2 = 12 * xx + 6 * r * x + 2 * square;
-        double off = (xx - a) * s + kb * n * factor;
-        double slope = 2 * x * s + (xx - a) + kb * (n1 * factor + 2 * rate * n * x);
-        double bend = 2 * (s + 2 * x) + kb * (n2 * factor + 2 * rate * (2 * n1 * x + n)); /* off's second derivative */
-        double change = off * slope / (slope * slope - 0.5 * off * bend);
+    while (x > 0 && k->passes < HALLEY) {
+        double change = coupled_pinch_pass(k, a, b, x);
         x -= change;
-        if (!(factor > 0) || !(x > 0))
-            return false;
-        if (fabs(change) > 0x1p-18 * x)
-            continue;
-        xx = x * x;
-        factor = 1 + rate * (xx - square);
-        k->gradient = k->stiffness * (xx * (xx + r * x + square) + cube * (x + r)) / (x + r);
-        k->force = k->gradient * factor;
-        k->to = xx;
-        k->to_root = x;
-        return factor > 0;
+        k->passes++;
+        if (coupled_pinch_close(k, x, change))
+            return true;
     }
-    return false;
+    return search(k, a, b);
 }
 
 bool coupled_pinch(struct coupled_pinch *k, double a, double b, double guess)
 {
-    if (k->from <= 0) {
-        k->passes = 0;
-        if (a > 0)
-            return search(k, a, b);
-        k->to = a;
-        k->to_root = k->gradient = k->force = 0;
+    k->passes = 0;
+    if (coupled_pinch_stays(k, a, b))
+        return coupled_pinch_on(k, a, b, coupled_pinch_first(k, guess));
+    if (k->from > 0) {
+        part(k, a, b);
         return true;
     }
-    double least = 1 - k->rate * k->from; /* f(0) = (2/5) k xi^1.5 max(0, least) */
-    if (a > (least > 0 ? b * k->stiffness * k->from * k->root * least : 0))
-        return stay(k, a, b, guess) || search(k, a, b);
-    k->passes = 0;
-    part(k, a, b);
+    if (a > 0)
+        return search(k, a, b);
+    k->to = a;
+    k->to_root = k->gradient = k->force = 0;
     return true;
 }

@@ -182,6 +182,7 @@ static void take(struct coupled *c, double to, const struct ball *b, const struc
     c->speed += k->step * ((b->force - k->weight) / k->mass);
     c->surface = to;
     c->penetration = to - s->lean - c->height;
+    coupled_rise(c, c->penetration);
     c->closing = (across - s->glide) / k->step - s->fall - c->speed;
     c->force_before = c->force;
     c->force = b->force;
@@ -238,6 +239,8 @@ bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const 
     if (c->state.steps == 0 && !modes_hold(c, e))
         return false;
     for (int i = 0; i < steps; i++) {
+        if (coupled_unseen(c, i, steps) == i)
+            coupled_seen(c, c->state.steps + i, &(struct coupled_account){.modal = coupled_modal(c)});
         struct drive d = {.to = phi_to ? phi_to : m->phi, .part = 1.0 / (steps - i), .step = c->ask.step};
         struct sums s = {0};
         double to = surface[i] - c->origin, before = c->penetration;

@@ -28,19 +28,20 @@
 #define PAPER_SPEED 0.05     /* m/s */
 #define DEEP 0.1             /* of the radius: a rest deeper than that is told */
 #define STILL_BOUNCES 0.01   /* of the drop: a last flight higher than that is told */
-enum { BATCH = 4096, SUBSTEPS_MOST = 1000, FEW_STEPS = 4 };
+enum { LEG_STEPS = 4096, LEG_FRAMES = 128, SUBSTEPS_MOST = 1000, FEW_STEPS = 4 };
 
 struct rolling {
     struct coupled *ball;
     struct roll_curve curve;
     struct roll_ground ground;
     int substeps, per_frame;  /* steps of a sub-interval, of a frame                          */
-    long batch;               /* frames whose curve is read at a time                         */
-    double *force;            /* [batch * per_frame] N                                        */
+    long longest;             /* frames of a leg, at most                                     */
+    long leg, end;            /* frames: where the leg at hand begins, and ends               */
+    double *force;            /* [longest * per_frame] N, over the steps of the leg           */
+    struct coupled_state *seen; /* [longest + 1] where the board asks for ITEM_ROLL: before each of its frames, and after the last */
     double mass, stiffness, gravity, drop;
     double rest;              /* m, height of the ball that lies where the motion starts      */
-    double apex[2];           /* m, highest over the surface: of this flight, of the one before */
-    double residual;          /* J, greatest                                                  */
+    double residual;          /* J, greatest at the legs' ends                                */
     bool over;                /* the end has been told                                        */
 };
 
@@ -73,9 +74,11 @@ static bool rolling_steps(struct rolling *w, const struct stage_run *r, struct e
                        "or contact.roll.stiffness (or kappa)", r->contact->name, speed, time, r->scene->accuracy.contact_steps, substeps * b->over);
     w->substeps = (int)substeps;
     w->per_frame = w->substeps * b->over;
-    w->batch = BATCH / w->per_frame > 1 ? BATCH / w->per_frame : 1;
-    long room = w->batch * w->per_frame;
+    w->longest = LEG_STEPS / w->per_frame > 1 ? LEG_STEPS / w->per_frame : 1;
+    w->longest = w->longest < LEG_FRAMES ? w->longest : LEG_FRAMES;
+    long room = w->longest * w->per_frame;
     w->force = ARENA_TAKE(r->arena, double, room);
+    w->seen = ARENA_TAKE(r->arena, struct coupled_state, w->longest + 1);
     roll_curve_make(&w->curve, r, room > ROLL_CURVE_LEAST ? room : ROLL_CURVE_LEAST);
     return true;
 }
@@ -130,18 +133,32 @@ static bool rolling_open(struct stage_run *r, struct err *e)
 
 /* ------------------------------------------------------------------ running */
 
-/* Before the frame: what holds at its beginning. */
-static void rolling_note(struct rolling *w, const struct board *b, long frame)
+/* The leg from `frame` on. Legs end where the shapes under the ball bend (roll_ground.h) and where the motion does, whatever blocks are asked for, so that these
+   change no bit; what it costs to begin and end a run of steps (shapes, the ledger) is paid once a leg: 2000 of 2800 cycles a sample when it was once a frame. */
+static bool rolling_leg(struct rolling *w, struct stage_run *r, long frame, struct err *e)
 {
-    const struct coupled_state *s = coupled_state(w->ball);
-    w->residual = fmax(w->residual, fabs(s->residual));
-    if (s->penetration > 0 && w->apex[0] > 0) {
-        w->apex[1] = s->lift_offs > 0 ? w->apex[0] : 0;
-        w->apex[0] = 0;
-    }
-    w->apex[0] = fmax(w->apex[0], -s->penetration);
-    if (!board_has(b, ITEM_ROLL))
-        return;
+    const struct board *b = r->board;
+    double before = (double)frame * w->per_frame, per_second = b->rate * w->per_frame;
+    long frames = w->longest < b->moving - frame ? w->longest : b->moving - frame;
+    const double *phi_to = roll_ground_next(&w->ground, frame, &frames);
+    int steps = (int)frames * w->per_frame;
+    for (int i = 0; i < steps; i++)
+        w->curve.t[i] = (before + i + 1) / per_second;
+    roll_curve_read(&w->curve, (size_t)steps);
+    coupled_watch(w->ball, board_has(b, ITEM_ROLL) ? w->per_frame : 0, w->seen);
+    if (!coupled_run(w->ball, steps, w->curve.s, phi_to, w->force, e))
+        return err_at(e, "contact '%s', %.6g s after its start", r->contact->name, (double)coupled_state(w->ball)->steps / per_second);
+    w->residual = fmax(w->residual, fabs(coupled_state(w->ball)->residual));
+    w->seen[frames] = *coupled_state(w->ball);
+    w->leg = frame;
+    w->end = frame + frames;
+    return true;
+}
+
+/* Of a frame of the leg: what holds at its beginning; and of contacts what happens in it. */
+static void rolling_note(const struct rolling *w, const struct board *b, long frame)
+{
+    const struct coupled_state *s = w->seen + (frame - w->leg);
     double *v = board_at(b, ITEM_ROLL, frame);
     v[ROLL_PENETRATION] = s->penetration;
     v[ROLL_HEIGHT] = s->height - w->rest;
@@ -150,31 +167,16 @@ static void rolling_note(struct rolling *w, const struct board *b, long frame)
     v[ROLL_CONTACT_LOSS] = s->contact_loss;
     v[ROLL_MODE_LOSS] = s->mode_loss;
     v[ROLL_RESIDUAL] = s->residual;
+    v[ROLL_CONTACT] = (s[1].contact_time - s->contact_time) * b->rate;
+    v[ROLL_LIFT_OFFS] = (double)(s[1].lift_offs - s->lift_offs);
 }
 
-static bool rolling_frame(struct rolling *w, struct stage_run *r, long frame, long first, struct err *e)
+/* Means over the frame's sub-intervals, from those over steps. */
+static void rolling_means(const struct rolling *w, const struct board *b, long frame)
 {
-    struct board *b = r->board;
-    const struct coupled_state *s = coupled_state(w->ball);
-    double contact = s->contact_time, *force = w->force + (frame - first) * w->per_frame;
-    long lifts = s->lift_offs;
-    rolling_note(w, b, frame);
-    if (!coupled_run(w->ball, w->per_frame, w->curve.s + (frame - first) * w->per_frame, roll_ground_next(&w->ground, frame), force, e))
-        return err_at(e, "contact '%s', %.6g s after its start", r->contact->name, (double)frame / b->rate);
-    if (board_has(b, ITEM_ROLL)) {
-        double *v = board_at(b, ITEM_ROLL, frame);
-        v[ROLL_CONTACT] = (s->contact_time - contact) * b->rate;
-        v[ROLL_LIFT_OFFS] = (double)(s->lift_offs - lifts);
-    }
-    return true;
-}
-
-/* Means over sub-intervals, from those over steps of the frames [first, last). */
-static void rolling_means(const struct rolling *w, const struct board *b, long first, long last)
-{
-    double *to = board_at(b, ITEM_SUBFORCE, first);
-    for (long i = 0; i < (last - first) * b->over; i++) {
-        const double *force = w->force + i * w->substeps;
+    const double *force = w->force + (frame - w->leg) * w->per_frame;
+    double *to = board_at(b, ITEM_SUBFORCE, frame);
+    for (int i = 0; i < b->over; i++, force += w->substeps) {
         double sum = 0;
         for (int k = 0; k < w->substeps; k++)
             sum += force[k];
@@ -182,34 +184,33 @@ static void rolling_means(const struct rolling *w, const struct board *b, long f
     }
 }
 
-static bool rolling_batch(struct rolling *w, struct stage_run *r, long first, long last, struct err *e)
+static bool rolling_frames(struct rolling *w, struct stage_run *r, long from, long to, struct err *e)
 {
     const struct board *b = r->board;
-    double before = (double)first * w->per_frame, per_second = b->rate * w->per_frame;
-    for (long i = 0; i < (last - first) * w->per_frame; i++)
-        w->curve.t[i] = (before + (double)i + 1) / per_second;
-    roll_curve_read(&w->curve, (size_t)((last - first) * w->per_frame));
-    for (long frame = first; frame < last; frame++)
-        if (!rolling_frame(w, r, frame, first, e))
+    for (long frame = from; frame < to; frame++) {
+        if (frame >= w->end && !rolling_leg(w, r, frame, e))
             return false;
-    if (board_has(b, ITEM_SUBFORCE))
-        rolling_means(w, b, first, last);
+        if (board_has(b, ITEM_ROLL))
+            rolling_note(w, b, frame);
+        if (board_has(b, ITEM_SUBFORCE))
+            rolling_means(w, b, frame);
+    }
     return true;
 }
 
-static void rolling_report(const struct rolling *w, struct board *b, long frames)
+static void rolling_report(const struct rolling *w, struct board *b)
 {
     const struct coupled_state *s = coupled_state(w->ball);
     struct roll_report *o = &b->roll;
     o->contact = s->contact_time;
-    o->time = (double)frames / b->rate;
+    o->time = (double)w->end / b->rate;
     o->lift_offs = s->lift_offs;
     o->bounces = s->flights + (s->lift_offs > 0 && s->flight > 1 / b->rate); /* the last one may still go on */
     o->steps = s->steps;
     o->contact_samples[0] = s->lift_offs > 0 ? s->contact_sum / (double)s->lift_offs * b->rate : NAN;
     o->contact_samples[1] = s->lift_offs > 0 ? s->contact_least * b->rate : NAN;
     o->fastest = s->impact_most;
-    o->residual = s->highest > 0 ? fmax(w->residual, fabs(s->residual)) / s->highest : 0;
+    o->residual = s->highest > 0 ? w->residual / s->highest : 0;
     o->iterations[0] = s->contact_steps > 0 ? (double)s->iterations / (double)s->contact_steps : 0;
     o->iterations[1] = (double)s->iterations_most;
 }
@@ -220,7 +221,7 @@ static void rolling_told(const struct rolling *w, struct stage_run *r)
     const struct coupled_state *s = coupled_state(w->ball);
     struct board *b = r->board;
     const char *name = r->contact->name;
-    double still = s->lift_offs > 0 ? fmax(w->apex[0], w->apex[1]) : 0, fastest = s->impact_most;
+    double still = s->lift_offs > 0 ? fmax(s->hop[0], s->hop[1]) : 0, fastest = s->impact_most;
     double steps = fastest > 0 ? coupled_contact_time(w->mass, w->stiffness, fastest) / b->roll.step : HUGE_VAL;
     if (ball_gravity(r->contact) == 0)
         board_warn(b, arena_format(r->arena, "contact '%s': nothing presses the ball down: contact.gravity is 0, and once it is off the surface it stays off", name));
@@ -238,9 +239,8 @@ static bool rolling_run(struct stage_run *r, long from, long to, struct err *e)
     struct rolling *w = r->state;
     struct board *b = r->board;
     long end = to < b->moving ? to : b->moving;
-    for (long first = from; first < end; first += w->batch)
-        if (!rolling_batch(w, r, first, first + w->batch < end ? first + w->batch : end, e))
-            return false;
+    if (!rolling_frames(w, r, from, end, e))
+        return false;
     for (int item = 0; item < ITEM_COUNT; item++) {
         const struct signal *x = &b->signals[item];
         if ((item == ITEM_SUBFORCE || item == ITEM_ROLL) && x->per_frame > 0)
@@ -248,7 +248,7 @@ static bool rolling_run(struct stage_run *r, long from, long to, struct err *e)
                 *v = 0;
     }
     if (from < b->moving)
-        rolling_report(w, b, end);
+        rolling_report(w, b);
     if (to >= b->moving && !w->over) {
         w->over = true;
         rolling_told(w, r);
@@ -271,7 +271,7 @@ static unsigned rolling_turns(const struct contact *c, const struct scene *s)
     return roll_ground_modes(c) > 0 && c->motion.path != PATH_STILL ? KNOB_BIT(gain_ramp) : 0;
 }
 
-/* Cycles of a step: 60 on rigid ground, 100 of its place on the curve, 5 a mode. */
+/* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode. */
 static double rolling_work(const struct contact *c, const struct scene *s)
 {
     double k = ball_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
@@ -279,7 +279,7 @@ static double rolling_work(const struct contact *c, const struct scene *s)
     if (isnan(k) && !hertz_stiffness(c, &k, &unknown))
         return 0;
     double time = coupled_contact_time(c->scraper.mass, k, fmax(PAPER_SPEED, sqrt(2 * ball_gravity(c) * c->contact.roll.drop)));
-    return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) * (160 + 5 * roll_ground_modes(c));
+    return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) * (270 + 2 * roll_ground_modes(c));
 }
 
 const struct stage roll_coupled_stage = {

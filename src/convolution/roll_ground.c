@@ -57,7 +57,7 @@ const double *roll_ground_start(const struct roll_ground *g)
     return g->shapes.n > 0 ? g->to : NULL;
 }
 
-const double *roll_ground_next(struct roll_ground *g, long frame)
+const double *roll_ground_next(struct roll_ground *g, long frame, long *frames)
 {
     if (!g->moves)
         return NULL;
@@ -68,9 +68,11 @@ const double *roll_ground_next(struct roll_ground *g, long frame)
         g->ramp_end += g->ramp;
         ground_phi(g, g->ramp_end, g->to);
     }
-    if (frame + 1 == g->ramp_end)
+    if (frame + *frames >= g->ramp_end) {
+        *frames = g->ramp_end - frame;
         return g->to;
-    double share = 1 - (double)(g->ramp_end - frame - 1) / (double)g->ramp;
+    }
+    double share = 1 - (double)(g->ramp_end - frame - *frames) / (double)g->ramp;
     for (int i = 0; i < g->shapes.n; i++)
         g->phi[i] = g->from[i] + share * (g->to[i] - g->from[i]);
     return g->phi;

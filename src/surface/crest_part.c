@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "surface/crest_lanes.h"
 #include "surface/crest_piece.h"
 #include "surface/kept.h"
 
@@ -98,19 +99,50 @@ static const double *bed_stretch(struct bed *g, double x)
     return g->at_hand + 1 + g->hint * CREST_NUMBERS;
 }
 
-static void bed_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
+static void bed_put(const struct relief_values *v, size_t n, double z, double slope, double bend)
 {
-    struct bed *g = part->state;
+    if (v->z)
+        v->z[n] += z;
+    if (v->x)
+        v->x[n] += slope;
+    if (v->xx)
+        v->xx[n] += bend;
+}
+
+static void bed_points(struct bed *g, const struct relief_points *p, const struct relief_values *v)
+{
     for (size_t n = 0; n < p->n; n++) {
         const double *s = bed_stretch(g, p->x[n]);
         struct crest_jet j = crest_piece_rest(&g->disc, s + CREST_PIECE, p->x[n] - s[CREST_AT]);
-        if (v->z)
-            v->z[n] += j.z;
-        if (v->x)
-            v->x[n] += j.slope;
-        if (v->xx)
-            v->xx[n] += j.bend;
+        bed_put(v, n, j.z, j.slope, j.bend);
     }
+}
+
+/* The last group is filled up with the last place. */
+static void bed_lanes(struct bed *g, const struct relief_points *p, const struct relief_values *v, size_t from)
+{
+    struct crest_lanes at;
+    size_t n = p->n - from < LANES ? p->n - from : LANES;
+    for (size_t l = 0; l < LANES; l++) {
+        double x = p->x[l < n ? from + l : p->n - 1];
+        const double *s = bed_stretch(g, x);
+        for (int k = 0; k < CREST_TERMS; k++)
+            at.terms[k][l] = s[CREST_PIECE + k];
+        at.y[l] = x - s[CREST_AT];
+    }
+    crest_lanes_rest(&g->disc, &at);
+    for (size_t l = 0; l < n; l++)
+        bed_put(v, from + l, at.z[l], at.slope[l], at.bend[l]);
+}
+
+static void bed_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
+{
+    struct bed *g = part->state;
+    if (g->disc.half == 0 || p->n < LANES)
+        bed_points(g, p, v);
+    else
+        for (size_t from = 0; from < p->n; from += LANES)
+            bed_lanes(g, p, v, from);
 }
 
 static long plan_reach(const struct crest_plan *p)

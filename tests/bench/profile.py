@@ -1,4 +1,4 @@
-"""Where the instructions of a steady audio sample go: four jobs of pipeline.py under callgrind, by part of the program; and their time, as cycles and over the yardstick.
+"""Where the instructions of a steady audio sample go: six jobs of pipeline.py under callgrind, by part of the program; and their time, as cycles and over the yardstick.
 
 Counted are two renders of SHORT and LONG seconds, and their difference over the samples between, so that reading, choosing and opening are not in. Instructions are those a function
 has itself, added up by its source file (PARTS); valgrind's CPU has AVX2 and no AVX-512. Two counts of one render are the same to a few, whatever else the machine does."""
@@ -7,11 +7,18 @@ import re, sys
 
 SHORT, LONG = 2.0, 4.0
 SCENES = {"1-D profile, draft": "scrape, profile, draft", "1-D profile, standard": "scrape, profile, standard", "2-D map, CSV 1 kHz, draft": "scrape, 2-D map, CSV 1 kHz, draft",
-          "object at rest, given force": "object at rest, 50 modes, given force"}
+          "object at rest, given force": "object at rest, 50 modes, given force", "coupled ball, 1 step a sample": "coupled ball, 50 modes, implicit, 1 step a sample",
+          "coupled ball, 8 steps a sample": "coupled ball, 50 modes, implicit, 8 steps a sample"}
+SCENES = {name: job for name, job in SCENES.items() if job in JOBS}
 # part: what the names of file:function match, the first that does
 PARTS = {
     "motion": r"src/trajectory/|vecmath_sincospi|:(stroke_|at_inside)",
     "cutting the way at knots": r"src/force/way|:(knots_first|pieces_count|way_)",
+    "the curve the ball rolls on": r"src/surface/crest|src/convolution/roll_curve|lanes\.h:(begin|look|move|rest)$",
+    "coupled steps: modes": r"coupled_chorus|coupled_gradient\.c:(advance|begin)$",
+    "coupled steps: force": r"coupled_pinch|hertz_mean",
+    "coupled steps: ball and ledger; shapes at a run's start": r"coupled_gradient|coupled_parts",
+    "coupled runs: state, balance, shapes": r"src/convolution/(coupled|roll_)",
     "limiter: means of tanh": r"src/surface/limited|vecmath_tanh|:(pieces_|points_)",
     "surface: second derivatives": r"src/surface/|:(batch_|bicubic_|sum_)",
     "slope along the way": r"src/force/(slope|crossing)|:slope_",
@@ -88,9 +95,14 @@ def fixed(path):
     return rows
 
 
+def since(name):
+    """The commit whose figures stand beside a job's."""
+    return "1968b6b" if name.startswith("coupled") else "18f57f9"
+
+
 def tell(name, parts, functions, before, took):
     total, was = sum(parts.values()), sum(v for k, v in before.items() if k not in ("cycles", "scalar"))
-    print(f"\n## {name}\n\n| part | instructions a sample | share | at 18f57f9 |\n|---|---|---|---|")
+    print(f"\n## {name}\n\n| part | instructions a sample | share | at {since(name)} |\n|---|---|---|---|")
     for part in sorted(parts, key=lambda part: -parts[part]):
         if parts[part] >= 0.5 or before.get(part, 0) >= 0.5:
             print(f"| {part} | {parts[part]:.0f} | {100 * parts[part] / total:.0f} % | {before.get(part, 0):.0f} |")
@@ -128,5 +140,5 @@ if __name__ == "__main__":
                 print(f"{name}|{part}|{n:.2f}")
         else:
             tell(name, parts, functions, before[name], one)
-    if "RAW" not in os.environ:
+    if "RAW" not in os.environ and not ONLY:
         silence(rasp)

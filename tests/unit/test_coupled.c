@@ -261,5 +261,52 @@ START_TEST(test_flights_are_counted)
 }
 END_TEST
 
-UNIT("coupled", test_a_ledger_out_of_balance_is_refused, test_flights_are_counted, test_closed_form_is_known, test_elastic_impact_keeps_its_speed, test_dissipative_impact_is_of_second_order,
+/* What is seen in the midst of runs is what a ball says that runs so far and no further: bit by bit but for modes, where the cut rounds otherwise. Watching
+   changes no bit of the forces, nor of the account at the end. By each integrator, bouncing, and over a place that moves. */
+START_TEST(test_watching_changes_nothing)
+{
+    enum { STEPS = 700, EVERY = 7, MODES = 9 };
+    static double surface[STEPS], force[STEPS], watched[STEPS], cut[STEPS];
+    static struct coupled_state seen[STEPS / EVERY + 1];
+    double frequency[MODES], decay[MODES], phi[MODES], to[MODES], on[MODES];
+    for (int i = 0; i < STEPS; i++)
+        surface[i] = 2e-6 * sin(0.02 * i);
+    for (int i = 0; i < MODES; i++) {
+        frequency[i] = 300 + 400 * i;
+        decay[i] = 30;
+        phi[i] = cos(i);
+        to[i] = cos(i + 0.1);
+    }
+    for (int integrator = 0; integrator < 3; integrator++) {
+        struct arena *a = arena_open();
+        struct coupled *c[3];
+        int n = integrator == INTEGRATOR_EXACT_IMPACT ? 0 : MODES;
+        for (int k = 0; k < 3; k++) {
+            ck_assert(coupled_make(a, &(struct coupled_ask){integrator, 1e-5, 0.02, 0.2, 1e8, 1, n, frequency, decay}, &c[k], &error));
+            coupled_start(c[k], 1e-6, -0.01, 0, phi, false);
+        }
+        ck_assert(coupled_run(c[0], STEPS, surface, to, force, &error));
+        coupled_watch(c[1], EVERY, seen);
+        ck_assert(coupled_run(c[1], STEPS, surface, to, watched, &error));
+        ck_assert(!memcmp(force, watched, sizeof force) && !memcmp(coupled_state(c[0]), coupled_state(c[1]), sizeof *seen));
+        ck_assert_int_gt(coupled_state(c[0])->lift_offs, 1);
+        for (int i = 0; i < STEPS; i += EVERY) {
+            const struct coupled_state *x = &seen[i / EVERY], *y = coupled_state(c[2]);
+            double least = 1e-9 * y->highest;
+            ck_assert(x->steps == y->steps && x->lift_offs == y->lift_offs && x->landings == y->landings && x->flights == y->flights);
+            ck_assert_double_eq_tol(x->height, y->height, 1e-13);
+            ck_assert_double_eq_tol(x->penetration, y->penetration, 1e-13);
+            ck_assert_double_eq_tol(x->contact_time, y->contact_time, 1e-10);
+            ck_assert(fabs(x->energy - y->energy) < least && fabs(x->surface_work - y->surface_work) < least && fabs(x->mode_loss - y->mode_loss) < least);
+            ck_assert(fabs(x->contact_loss - y->contact_loss) < least && (integrator == INTEGRATOR_RK4 || fabs(x->residual) < 1e-12 * y->highest));
+            for (int k = 0; k < MODES; k++)
+                on[k] = phi[k] + (to[k] - phi[k]) * (i + EVERY) / STEPS;
+            ck_assert(coupled_run(c[2], EVERY, surface + i, on, cut + i, &error));
+        }
+        arena_close(a);
+    }
+}
+END_TEST
+
+UNIT("coupled", test_a_ledger_out_of_balance_is_refused, test_flights_are_counted, test_watching_changes_nothing, test_closed_form_is_known, test_elastic_impact_keeps_its_speed, test_dissipative_impact_is_of_second_order,
      test_stiffness_up_to_contacts_below_a_step, test_stiffest_ball_gains_nothing, test_contact_is_counted, test_errors_name_the_cause)

@@ -186,22 +186,28 @@ static long flights(const struct rig *r)
     return n;
 }
 
-/* The same however it is cut into blocks, and with or without the account. */
+/* The same however it is cut into blocks, and with or without the account: rigid, and on a plate under a place that moves. */
 START_TEST(blocks_do_not_matter)
 {
+    static const char *const plates[] = {"", ", along: path, material: steel, object: {shape: plate, edges: supported, length: 30 cm, width: 20 cm, thickness: 1 mm}, modes: 20"};
     wave_height = 2e-6;
     wave_number = 2 * M_PI / 5e-4;
-    struct scene s = on_rigid("path: line, to: [10 cm, 0], speed: 20 cm/s", "stiffness: 1e8 N/m^1.5, drop: 0.1 mm",
-                              "output: {sample_rate: 8 kHz, diagnostics: {}}\naccuracy: {contact_steps: 12}");
-    struct rig *r = rig_record(&s, ITEM_SUBFORCE, 4200, 1024), *odd;
-    rig_probe.also = ITEM_BIT(ITEM_ROLL);
-    odd = rig_record(&s, ITEM_SUBFORCE, 4200, 37);
-    ck_assert_int_eq(memcmp(r->x, odd->x, (size_t)(4200 * r->per_frame) * sizeof *r->x), 0);
-    ck_assert_int_eq(r->run.board.roll.bounces, flights(r));
-    ck_assert_int_gt(flights(r), 10);
-    ck_assert_int_le(flights(r), r->run.board.roll.lift_offs);
-    rig_close(r);
-    rig_close(odd);
+    for (int k = 0; k < 2; k++) {
+        struct scene s = scene_of("", plates[k], "path: line, from: [1 cm, 2 cm], to: [11 cm, 2 cm], speed: 20 cm/s", "stiffness: 1e8 N/m^1.5, drop: 0.1 mm",
+                                  "output: {sample_rate: 8 kHz, diagnostics: {}}\naccuracy: {contact_steps: 12}");
+        struct rig *r = rig_record(&s, ITEM_SUBFORCE, 4200, 1024), *odd;
+        rig_probe.also = ITEM_BIT(ITEM_ROLL);
+        odd = rig_record(&s, ITEM_SUBFORCE, 4200, 37);
+        rig_probe.also = 0;
+        ck_assert_int_eq(memcmp(r->x, odd->x, (size_t)(4200 * r->per_frame) * sizeof *r->x), 0);
+        ck_assert_double_eq(r->run.board.roll.residual, odd->run.board.roll.residual);
+        ck_assert(k > 0 || r->run.board.roll.bounces == flights(r));
+        ck_assert(labs(r->run.board.roll.bounces - flights(r)) <= 1); /* a flight of just one frame may be either */
+        ck_assert_int_gt(flights(r), 10);
+        ck_assert_int_le(flights(r), r->run.board.roll.lift_offs);
+        rig_close(r);
+        rig_close(odd);
+    }
 }
 END_TEST
 
@@ -293,7 +299,10 @@ START_TEST(shapes_follow_the_contact)
             ck_assert_double_eq_tol(phi[i], knots[0][i] + (double)(n % 64) / 64 * (knots[1][i] - knots[0][i]), 1e-11);
             changes += knots[0][i] * knots[1][i] < 0;
         }
-        phi = roll_ground_next(&ground, n);
+        long frames = n < 2400 ? 1 : 1 + n % 3;
+        phi = roll_ground_next(&ground, n, &frames);
+        ck_assert(frames <= 64 - n % 64); /* a leg ends where the shapes bend */
+        n += frames - 1;
     }
     ck_assert_double_gt(changes, 64 * 20);
 }
