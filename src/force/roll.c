@@ -70,15 +70,17 @@ static double roll_way(const struct motion *m)
     return rules_straight(m) ? sqrt(dx * dx + dy * dy) : isnan(m->duration) ? 1 : rules_speed(m) * m->duration;
 }
 
-/* Where the stiffness is made: what is gone over beyond a short motion, and, where the tip reads more densely, the whole way as it reads plainly. Cycles per
+/* Where the stiffness is made: what the means are of, where the way turns, what is gone over beyond a short motion, and, where the tip reads more densely, the whole way as it reads plainly. Cycles per
    metre, those of the tip (surface/tip.c) among them. */
 static double roll_ground_work(const struct contact *c, const struct scene *s)
 {
     double way = roll_way(&c->motion), again = s->accuracy.tip_heights != 1 ? way : 0, lattice = c->scraper.patch / 4;
     double lasts = isnan(c->motion.duration) ? way / rules_speed(&c->motion) : c->motion.duration;
     double metre = rules_along(c) == ALONG_PLANE ? 3e5 / lattice : 8e2 / lattice + 340 / roll_pass_grain(c);
+    double looked = rules_straight(&c->motion) || rules_along(c) == ALONG_PATH || c->contact.limiter.curve != LIMITER_TANH ? 0 : fmax(ball_ground(c), fmin(way, 4 * ball_ground(c))); /* slope_heading.c */
     bool made = ball_beyond(c, 1e-9) > 0; /* of next to no ground, if of any */
-    return made && way > 0 && lasts > 0 ? (ball_beyond(c, way) + again) * metre / (lasts * s->output.sample_rate) : 0;
+    double ground = looked + (made ? ball_beyond(c, way) + again : 0);
+    return way > 0 && lasts > 0 ? ground * metre / (lasts * s->output.sample_rate) : 0;
 }
 
 /* The rehearsal goes the whole way once more, in grains of its own. */
@@ -106,7 +108,7 @@ static bool roll_rehearse(struct stage_run *r, struct roll_state *s, struct err 
 {
     const struct contact *c = r->contact;
     s->law.mu = c->contact.roll.mu;
-    if (!roll_rehearsal_run(r, &s->law, &s->found, e))
+    if (!roll_rehearsal_run(r, s->scrape.slope.turned.heading, &s->law, &s->found, e))
         return false;
     s->idle = !(s->found.normal > 0);
     roll_told(r, &s->found);
@@ -120,6 +122,7 @@ static bool roll_open(struct stage_run *r, struct err *e)
     struct roll_report *report = &r->board->roll;
     s->law.stiffness = ball_stiffness(c);
     s->scrape.slope.rising = true;
+    s->scrape.slope.turned.heading = slope_heading_make(r, r->arena);
     s->centre = roll_centre_make(c);
     s->touches = true;
     s->added = c->contact.force == FORCE_PAPER;
@@ -190,13 +193,13 @@ static void roll_tell(struct roll_state *s, struct board *b, const double *load,
     }
 }
 
-/* dS/dt = v dS/du - |v| S/l at the chunk's instants; rate[0] is the last one's of the chunk before. */
+/* dS/dt = v (dS/du + S/l) - |v| S/l at the chunk's instants; rate[0] is the last one's of the chunk before. */
 static void roll_rates(struct roll_state *s, const double *v, int n)
 {
     const struct slope *l = &s->scrape.slope;
     s->rate[0] = s->rate_last;
     for (int i = 0; i < n; i++)
-        s->rate[i + 1] = v[i + 1] * l->ends[i] - fabs(v[i + 1]) * l->heights[i] / l->leak;
+        s->rate[i + 1] = v[i + 1] * l->climbs[i] - fabs(v[i + 1]) * l->heights[i] / l->leak;
     s->rate_last = s->rate[n];
 }
 
@@ -234,10 +237,8 @@ static void roll_add(struct roll_state *s, struct board *b, long first, int n)
 
 static void roll_level(struct roll_centre *m, const double *level, int n)
 {
-    double *lifts[SLOPE_LEVELS];
-    for (int k = 0; k < m->levels; k++)
-        lifts[k] = m->lifts[k];
-    roll_centre_level(m->at, n, m->levels, lifts, level);
+    double *const lifts[SLOPE_LEVELS] = {m->lifts[0], m->lifts[1]};
+    roll_centre_level(m->at, n, lifts, level);
 }
 
 static bool roll_run(struct stage_run *r, long from, long to, struct err *e)

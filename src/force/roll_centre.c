@@ -23,8 +23,7 @@ void roll_centre_follow(struct roll_centre *m, const struct slope *s, int n)
     m->at[0] = m->height;
     memcpy(m->at + 1, s->heights, (size_t)n * sizeof *m->at);
     m->height = m->at[n];
-    m->levels = s->levels;
-    for (int k = 0; k < s->levels; k++) {
+    for (int k = 0; k < SLOPE_LEVELS; k++) {
         m->lifts[k][0] = m->lift[k];
         memcpy(m->lifts[k] + 1, s->lifts[k], (size_t)n * sizeof *m->lifts[k]);
         m->lift[k] = m->lifts[k][n];
@@ -43,12 +42,8 @@ void roll_centre_run(struct roll_centre *m, const struct slope *s, const struct 
         m->rise[i] += bulge[i];
 }
 
-void roll_centre_level(double *at, long n, int levels, double *const *lifts, const double *level)
+void roll_centre_level(double *at, long n, double *const lifts[SLOPE_LEVELS], const double level[SLOPE_LEVELS])
 {
-    for (long i = 0; i < n; i++) {
-        double off = level[0] * lifts[0][i] + level[1] * lifts[1][i];
-        for (int k = 2; k < levels; k++)
-            off += level[k] * lifts[k][i];
-        at[i] -= off;
-    }
+    for (long i = 0; i < n; i++)
+        at[i] -= level[0] * lifts[0][i] + level[1] * lifts[1][i];
 }

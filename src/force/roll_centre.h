@@ -9,7 +9,6 @@ struct roll_centre {
     bool round;                     /* neither offset nor lobes                         */
     double height, lift[SLOPE_LEVELS]; /* m, S at the start of the next sub-interval; m^2, lift (force/slope.h) */
     double at[WAY_CHUNK + 1];       /* m: S at the start of the first sub-interval and at each one's end, */
-    int levels;                     /* how many there are of lifts */
     double lifts[SLOPE_LEVELS][WAY_CHUNK + 1]; /* m^2: less the levels (force/slope.h) times these */
     double rise[WAY_CHUNK + 1];     /* m, of the same instants: rise + bulge; 0 of what is round */
 };
@@ -22,7 +21,7 @@ void roll_centre_run(struct roll_centre *m, const struct slope *s, const struct 
 /* at[] and lifts[] alone. */
 void roll_centre_follow(struct roll_centre *m, const struct slope *s, int n);
 
-/* The last term, of which there are `levels`: takes level[] (1/m, slope_level) times lifts off n heights. */
-void roll_centre_level(double *at, long n, int levels, double *const *lifts, const double *level);
+/* The last term: takes level[] (1/m, slope_level) times lifts off n heights. */
+void roll_centre_level(double *at, long n, double *const lifts[SLOPE_LEVELS], const double level[SLOPE_LEVELS]);
 
 #endif

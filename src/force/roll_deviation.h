@@ -7,7 +7,8 @@ struct roll_spread {
     double mean, square;    /* m, m^2: variance */
 };
 
-struct roll_spread roll_deviation_spread(const double *at, long n);
+/* Each of n counts by way[] (m; NULL, or 0 of all: alike). */
+struct roll_spread roll_deviation_spread(const double *at, const double *way, long n);
 
 /* To *rms, m: of the ground under r's ball, of which p has just gone the motion (and may be gone on from there). normal: N, mean. Errors as of roll_pass_make. */
 bool roll_deviation_of(struct roll_pass *p, const struct stage_run *r, double normal, double *rms, struct err *e);

@@ -79,9 +79,10 @@ static void pass_room(struct roll_pass *p, struct arena *a)
     p->stride = (p->grains + ROLL_PASS_MOST - 1) / ROLL_PASS_MOST;
     p->next = pass_pick(p, 0);
     long room = p->grains / p->stride + 1;
+    p->way = ARENA_TAKE(a, double, room);
     for (int k = 0; k < 2; k++) {
         p->at[k] = ARENA_TAKE(a, double, room);
-        for (int j = 0; j < p->slope.levels; j++)
+        for (int j = 0; j < SLOPE_LEVELS; j++)
             p->lift[k][j] = ARENA_TAKE(a, double, room);
         p->load[k] = p->board.load ? ARENA_TAKE(a, double, room) : NULL;
     }
@@ -113,7 +114,7 @@ bool roll_pass_plain(struct roll_pass *p, struct err *e)
     p->board.relief = plain;
     if (!tip_stage.open(&p->run, e))
         return false;
-    p->slope = (struct slope){.rising = true};
+    p->slope = (struct slope){.rising = true, .turned = {.heading = slope_heading_make(&p->run, a)}};
     return slope_make(&p->slope, &p->run, e);
 }
 
@@ -135,14 +136,17 @@ static bool pass_fill(struct roll_pass *p, long from, long to, struct err *e)
 static void pass_keep(struct roll_pass *p, long first, int n)
 {
     const double *load = p->board.load ? way_values(&p->board, ITEM_LOAD, first) : NULL;
-    for (; p->next < first + n; p->next = pass_pick(p, ++p->n))
-        for (long k = 0, i = p->next - first; k < 2; k++) {
+    for (; p->next < first + n; p->next = pass_pick(p, ++p->n)) {
+        long i = p->next - first;
+        p->way[p->n] = p->slope.travelled[i];
+        for (int k = 0; k < 2; k++) {
             p->at[k][p->n] = p->centre.at[i + k];
-            for (int j = 0; j < p->slope.levels; j++)
+            for (int j = 0; j < SLOPE_LEVELS; j++)
                 p->lift[k][j][p->n] = p->centre.lifts[j][i + k];
             if (load)
                 p->load[k][p->n] = load[i + k];
         }
+    }
 }
 
 bool roll_pass_motion(struct roll_pass *p, struct err *e)
@@ -308,7 +312,7 @@ bool roll_pass_beyond(struct roll_pass *p, long n, double step, double normal, d
         roll_centre_follow(&p->centre, &p->slope, some);
         for (int i = 0; i < some; i++) {
             to[0][from + i] = p->centre.at[i];
-            for (int k = 0; k < p->slope.levels; k++)
+            for (int k = 0; k < SLOPE_LEVELS; k++)
                 to[1 + k][from + i] = p->centre.lifts[k][i];
         }
         from += some;

@@ -1,6 +1,6 @@
 /* The rehearsal of a rolling ball: k and rho_0 of rho = max(0, rho_0 + rest ((N(t)/N)^(2/3) - 1) + D), force/roll.c.
 
-     D      deviation of S, the height of the ball's geometric centre as it follows the ground, from its mean over the motion (force/roll_centre.c)
+     D      deviation of S, the height of the ball's geometric centre as it follows the ground, from its mean over the way (force/roll_centre.c)
      N(t)   normal force, what of it presses; N its mean over the motion
      k      = N / (n rms)^1.5       n    contact.roll.static_depth      rms    of S over the ground (force/roll_deviation.c), m
      rest   = (N / k)^(2/3), the penetration at rest; where k is not given, n rms
@@ -15,7 +15,6 @@
 #include "force/roll_rehearsal.h"
 
 #include "force/roll_deviation.h"
-#include "force/slope_level.h"
 #include "num/lanes.h"
 #include "num/vecmath.h"
 #include "scene/rules.h"
@@ -124,12 +123,12 @@ static bool rehearsal_stiffness(struct roll_pass *p, const struct stage_run *r, 
 
 static bool rehearsal_settle(struct roll_pass *p, const struct stage_run *r, struct roll_law *l, struct roll_rehearsal *found, struct err *e)
 {
-    slope_level(&p->slope, true, found->level);
+    slope_level(&p->slope, found->level);
     if (!rehearsal_stiffness(p, r, l, found, e))
         return false;
     for (int k = 0; k < 2; k++)
-        roll_centre_level(p->at[k], p->n, p->slope.levels, p->lift[k], found->level);
-    struct roll_spread spread = roll_deviation_spread(p->at[0], p->n);
+        roll_centre_level(p->at[k], p->n, p->lift[k], found->level);
+    struct roll_spread spread = roll_deviation_spread(p->at[0], p->way, p->n);
     found->mean = spread.mean;
     found->deviation = isnan(found->deviation) ? sqrt(spread.square) : found->deviation;
     found->rest = roll_law_rest(found->normal, l->stiffness);
@@ -147,7 +146,7 @@ static bool rehearsal_all(struct roll_pass *p, const struct stage_run *r, struct
     return !(found->normal > 0) || rehearsal_settle(p, r, l, found, e);
 }
 
-bool roll_rehearsal_run(struct stage_run *r, struct roll_law *l, struct roll_rehearsal *found, struct err *e)
+bool roll_rehearsal_run(struct stage_run *r, const struct slope_heading *h, struct roll_law *l, struct roll_rehearsal *found, struct err *e)
 {
     *found = (struct roll_rehearsal){.normal = rules_load(r->contact), .deviation = NAN};
     if (!r->board->load && !(found->normal > 0))
@@ -155,6 +154,7 @@ bool roll_rehearsal_run(struct stage_run *r, struct roll_law *l, struct roll_reh
     struct arena *a = arena_open();
     struct roll_pass *p = ARENA_TAKE(a, struct roll_pass, 1);
     p->run.arena = a;
+    p->slope.turned.heading = h;
     bool good = rehearsal_all(p, r, l, found, e);
     arena_close(a);
     return good;

@@ -2,7 +2,7 @@
 
      dS'/ds + S'/l = T(c) + kappa S_n       S' = dS/ds, slope of S along the path; s arc length      after papers/000 eq. 4, 5
      dS_n/ds + S_n/l = T(d) - kappa S'      S_n, slope across the path (only where the path is curved)
-     dS/ds + S/l = S'                       S, height, m: its deviation from its mean                (read by what rolls)
+     dS/ds + S/l = S'                       S, height, m: its deviation from its mean                (read by what rolls; where the way turns: slope_height.c)
 
      c = e' H e, d = e' H n   second derivatives of z along the unit tangent e, and mixed with the normal n, 1/m; H the surface's Hessian
      l     contact.leak, m    kappa    curvature of the path in the plane, 1/m    T    tanh(alpha c) / alpha
@@ -14,18 +14,13 @@
 
    T has a mean although c has none: under a ball long stretches are bent downwards by up to 1/R and short ones upwards by more, and the limiter makes these
    alike. S runs from 0 to l^2 times that mean over the first millimetres, by many times what it varies by later; and where alpha follows a normal force
-   that swings, the mean swings with it, and S, opposite to the force. So the same is solved beside it ((even, sideways) for (S', S_n), lift for S, turned by
-   kappa and at corners as they are) for some shapes that the mean of T may have over direction and alpha, (flat, aside) in (c, d): S less what of T goes with
-   these, by least squares over the motion (slope_level), times their lifts has none of them. They are, over 1/R,
+   that swings, the mean swings with it, and S, opposite to the force. So the same is solved beside it (even for S', lift for S) for two shapes that the mean of T
+   may have over alpha, flat: S less what of T goes with these, by least squares over the motion (slope_level), times their lifts has none of them. They are
+   T of the curve -1/R that the ball follows over a high point, not limited and limited, over 1/R: 1 and tanh(alpha/R) / (alpha/R). Over ridges, of a profile
+   along x or nothing but ridges in the plane, it is bent along their normal x only: c = e_x^2 / R, limited as such.
 
-     [0], [1]  T of the curve -1/R that the ball follows over a high point, not limited and limited, along the path: 1 and tanh(alpha/R) / (alpha/R). Over
-               ridges, of a profile along x or nothing but ridges in the plane, it is bent along their normal x only: c = e_x^2 / R, limited as such
-     [2]..[9]  where the path turns: what ridges in eight directions 22.5 degrees apart would have, the first of them those that there are, c and d limited by
-               the alpha of a constant force, times [1] over [0]. They make up what has a grain, and ridges that nothing tells from it, as of a map, or with
-               something else beside them; and over ridges alone what their high points do not: the kinks between these are bent up by far more than 1/R, so
-               that T of them hardly goes with the direction. With four directions the rms of S over 20 um of ridges was 2 times too great, with [0], [1] 1.7
-
-   On a straight way, cut in pieces or not, [0] and [1] alone are left. Turned with the way, ground that is alike in all directions gives the same.
+   On a way that turns the mean of T goes with the heading, and S is made of heights (force/slope_height.c), not of S'; the two shapes are then those of
+   what is left of T there, whatever the heading.
 
    Over a piece of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
 
@@ -44,31 +39,24 @@
 
 #include "force/crossing.h"
 #include "num/real.h"
-#include "surface/limiter.h"
 
 static void slope_fill(struct slope *s, int upto)
 {
     for (; s->filled < upto; s->filled++) {
         s->ends[s->filled] = s->slope;
         s->heights[s->filled] = s->height;
-        for (int k = 0; k < s->levels && s->rising; k++)
+        s->climbs[s->filled] = s->climb;
+        for (int k = 0; k < SLOPE_LEVELS && s->rising; k++)
             s->lifts[k][s->filled] = s->lift[k];
     }
 }
 
-static void vector_rotate(double *along, double *across, double sine, double cosine)
-{
-    double before = *along;
-    *along = before * cosine + *across * sine;
-    *across = *across * cosine - before * sine;
-}
-
-/* The slope vector, and its level, as seen from axes turned by the angle of that sine and cosine. */
+/* The slope vector as seen from axes turned by the angle of that sine and cosine. */
 static void slope_rotate(struct slope *s, double sine, double cosine)
 {
-    vector_rotate(&s->slope, &s->across, sine, cosine);
-    for (int k = 0; k < s->levels && s->rising; k++)
-        vector_rotate(&s->even[k], &s->sideways[k], sine, cosine);
+    double before = s->slope;
+    s->slope = before * cosine + s->across * sine;
+    s->across = s->across * cosine - before * sine;
 }
 
 /* From the axes the slope is in to those at a point; at once where the path has a corner. */
@@ -88,62 +76,32 @@ static void slope_halfway(const struct way_pieces *p, int i, double *ex, double 
     *ey = y / length;
 }
 
-/* T of a curve c/R over T of 1/R where alpha is 0. */
-static double slope_limited(double bend, double c)
-{
-    return bend > 0 ? real_tanh(bend * c) / bend : c;
-}
-
-/* Bent across the ridges that there are, 22.5 degrees from that, and so on. x, y: e as seen from there. */
-static void slope_grain(struct slope *s, double x, double y)
-{
-    const double cosine = 0.9238795325112867, sine = 0.3826834323650898; /* of 22.5 degrees */
-    double limited = s->flat[0] > 0 ? s->flat[1] / s->flat[0] : 1;
-    for (int k = SLOPE_PAIR; k < SLOPE_LEVELS; k++) {
-        s->flat[k] = limited * slope_limited(s->bend, x * x);
-        s->aside[k] = limited * slope_limited(s->bend, -x * y);
-        double turned = x * cosine + y * sine;
-        y = y * cosine - x * sine;
-        x = turned;
-    }
-}
-
 /* T of a ball's curve over a high point, -1/R, over T of that where alpha is 0; 1 where nothing is limited. */
 static void slope_flat(struct slope *s, double alpha)
 {
-    double bend = alpha / s->radius, x = s->ex * s->normal[0] + s->ey * s->normal[1], y = s->ey * s->normal[0] - s->ex * s->normal[1];
-    if (s->ridges)
-        s->flat[0] = x * x;
-    if (s->ridges || alpha != s->alpha)
-        s->flat[1] = slope_limited(bend, s->flat[0]);
-    if (s->levels > SLOPE_PAIR)
-        slope_grain(s, x, y);
+    double bend = alpha / s->radius;
+    if (alpha != s->alpha)
+        s->flat[1] = bend > 0 ? real_tanh(bend * s->flat[0]) / bend : s->flat[0];
     s->alpha = alpha;
 }
 
-/* The same as of slope and height, for T(c) = flat[], T(d) = aside[]. */
+/* The same as of slope and height, for T = flat[]. */
 static void slope_lift(struct slope *s, double h, int heading, double phi, double chi)
 {
     double kept = 1 - h / s->leak * phi;
-    for (int k = 0; k < s->levels; k++) {
+    for (int k = 0; k < SLOPE_LEVELS; k++) {
         double even = s->even[k] * heading;
         s->lift[k] = kept * (s->lift[k] + h * even) + h * h * (phi - chi) * s->flat[k];
         s->even[k] = heading * (kept * even + phi * h * s->flat[k]);
-        s->sideways[k] = kept * s->sideways[k] + heading * phi * h * s->aside[k];
     }
 }
 
-static void slope_weigh(struct slope *s, double h, double along, double across)
+static void slope_weigh(struct slope *s, double h, double mean)
 {
-    s->far += h;
-    for (int k = 0; k < s->levels; k++) {
-        double lifted = h * s->lift[k];
-        s->bent[k] += h * along * s->flat[k] + h * across * s->aside[k];
-        s->rose[k] += lifted * s->height;
-        for (int j = 0; j <= k; j++) {
-            s->gone[k][j] += h * s->flat[j] * s->flat[k] + h * s->aside[j] * s->aside[k];
-            s->risen[k][j] += lifted * s->lift[j];
-        }
+    for (int k = 0; k < SLOPE_LEVELS; k++) {
+        s->bent[k] += h * mean * s->flat[k];
+        for (int j = 0; j <= k; j++)
+            s->gone[k][j] += h * s->flat[j] * s->flat[k];
     }
 }
 
@@ -151,10 +109,17 @@ static void slope_weigh(struct slope *s, double h, double along, double across)
 static void slope_rise(struct slope *s, const struct way_pieces *p, int i, double a)
 {
     double h = p->length[i], z = s->terms.z[i], phi = s->terms.phi[i], chi = s->terms.chi[i], mean = p->mean[0][i];
-    slope_flat(s, s->way.limiter ? p->alpha[0][p->at[i]] : 0);
+    double alpha = s->way.limiter ? p->alpha[0][p->at[i]] : 0;
+    slope_flat(s, alpha);
     slope_lift(s, h, p->heading[i], phi, chi);
-    s->height = s->terms.kept[i] * (s->height + h * a) + h * h * ((phi - chi) * mean - (1 - z) * p->moment[0][i]);
-    slope_weigh(s, h, mean, s->way.curved ? p->mean[1][i] : 0);
+    if (s->way.curved) {
+        mean = slope_height_piece(&s->turned, p, &s->terms, i, alpha);
+        s->height = s->turned.sum + s->turned.rise;
+        s->climb = p->heading[i] * slope_height_climb(&s->turned, p, i, alpha, s->leak);
+    } else {
+        s->height = s->terms.kept[i] * (s->height + h * a) + h * h * ((phi - chi) * mean - (1 - z) * p->moment[0][i]);
+    }
+    slope_weigh(s, h, mean);
 }
 
 /* Length times the sine of the angle by which a piece turns on the way. */
@@ -187,6 +152,7 @@ static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
     if (s->rising)
         slope_rise(s, p, i, a);
     s->slope = b * p->heading[i];
+    s->climb = s->way.curved ? s->climb : s->slope;
     if (s->way.curved) {
         slope_lean(s, p, i);
         slope_face(s, p->ex[p->at[i] + 1], p->ey[p->at[i] + 1]);
@@ -265,25 +231,13 @@ static void slope_use(void *self, const struct way_pieces *p)
     slope_gather(s, p);
 }
 
-/* Is the surface the same all along a direction? normal[] is across that, as far as it or a part of it is. */
-static bool slope_ridges(struct slope *s, const struct stage_run *r)
+/* Of a straight way over what is the same all along a direction, the square of its share across that; else 1. */
+static double slope_across(const struct slope *s, const struct stage_run *r)
 {
     const struct surface *c = &r->contact->surface;
-    bool profile = r->board->relief->along == ALONG_X, parted = !profile && c->ridges.given;
-    bool beside = c->height_map || c->roughness.given || c->grit.given || c->fractal.given;
-    s->normal[0] = parted ? real_sin(c->ridges.direction) : 1;
-    s->normal[1] = parted ? -real_cos(c->ridges.direction) : 0;
-    return s->way.field && (profile || (parted && !beside));
-}
-
-/* Which levels there are. */
-static void slope_shapes(struct slope *s, const struct stage_run *r)
-{
-    bool ridges = slope_ridges(s, r);
-    double across = s->way.e[0] * s->normal[0] + s->way.e[1] * s->normal[1];
-    s->flat[0] = s->flat[1] = !s->way.curved && ridges ? across * across : 1;
-    s->ridges = s->way.curved && ridges;
-    s->levels = s->way.curved ? SLOPE_LEVELS : SLOPE_PAIR;
+    bool profile = r->board->relief->along == ALONG_X, beside = c->height_map || c->roughness.given || c->grit.given || c->fractal.given;
+    double x = profile ? 1 : real_sin(c->ridges.direction), y = profile ? 0 : -real_cos(c->ridges.direction), across = s->way.e[0] * x + s->way.e[1] * y;
+    return s->way.field && !s->way.curved && (profile || (c->ridges.given && !beside)) ? across * across : 1;
 }
 
 bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
@@ -297,16 +251,23 @@ bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
     s->way.self = s;
     if (!way_make(&s->way, r, WAY_ALONG, s->leak / 16, e))
         return false;
-    slope_shapes(s, r);
-    s->bend = s->way.limiter ? limiter_constant(r->contact) / s->radius : 0;
+    s->way.heights = s->rising && s->way.curved;
+    s->flat[0] = s->flat[1] = slope_across(s, r);
     return true;
+}
+
+void slope_level(const struct slope *s, double level[SLOPE_LEVELS])
+{
+    double own = s->gone[0][0], both = s->gone[1][0], left = own * s->gone[1][1] - both * both; /* all to the first where no more than rounding is left of the second */
+    level[1] = left > 1e-9 * own * s->gone[1][1] ? (own * s->bent[1] - both * s->bent[0]) / left : 0;
+    level[0] = own > 0 ? (s->bent[0] - both * level[1]) / own : 0;
 }
 
 void slope_forget(struct slope *s)
 {
-    s->slope = s->across = s->height = s->ex = s->ey = 0;
+    s->slope = s->across = s->height = s->climb = s->ex = s->ey = 0;
+    s->turned = (struct slope_height){.heading = s->turned.heading};
     memset(s->even, 0, sizeof s->even);
-    memset(s->sideways, 0, sizeof s->sideways);
     memset(s->lift, 0, sizeof s->lift);
     s->alpha = -1;
 }

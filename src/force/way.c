@@ -112,7 +112,7 @@ static void values_along(struct way *w)
     }
 }
 
-static void values_axes(struct way *w, const double *zx, const double *zy)
+static void values_axes(struct way *w)
 {
     struct way_pieces *p = &w->pieces;
     for (int k = 0; k < p->points; k++) {
@@ -120,8 +120,13 @@ static void values_axes(struct way *w, const double *zx, const double *zy)
         p->curvature[0][k] = w->xx[k];
         p->curvature[1][k] = w->yy[k];
         p->bend[k] = x * x * w->xx[k] + 2 * x * y * w->xy[k] + y * y * w->yy[k];
-        p->slope[k] = x * zx[k] + y * zy[k];
     }
+}
+
+static void values_slope(struct way_pieces *p, const double *zx, const double *zy)
+{
+    for (int k = 0; k < p->points; k++)
+        p->slope[k] = p->ex[k] * zx[k] + p->ey[k] * zy[k];
 }
 
 /* Pieces come in pairs (a, m), (m, b): of a parabola through the three, each half bulges by a quarter of what m lies above the chord. */
@@ -137,15 +142,17 @@ static void values_bulge(struct way_pieces *p, int channel)
 static void way_flush(struct way *w)
 {
     struct way_pieces *p = &w->pieces;
-    bool plane = w->relief->along == ALONG_PLANE, axes = w->kind == WAY_AXES;
+    bool plane = w->relief->along == ALONG_PLANE, axes = w->kind == WAY_AXES, slopes = axes || w->heights;
     double zx[LIMITED_POINTS], zy[LIMITED_POINTS] = {0};
     if (p->n == 0)
         return;
     relief_at(w->relief, &(struct relief_points){(size_t)p->points, p->x, plane ? p->y : NULL},
-              &(struct relief_values){.x = axes ? zx : NULL, .y = axes && plane ? zy : NULL, .xx = w->along ? p->curvature[0] : w->xx, .xy = plane ? w->xy : NULL,
+              &(struct relief_values){.z = w->heights ? p->z : NULL, .x = slopes ? zx : NULL, .y = slopes && plane ? zy : NULL, .xx = w->along ? p->curvature[0] : w->xx, .xy = plane ? w->xy : NULL,
                                       .yy = plane ? w->yy : NULL});
+    if (slopes)
+        values_slope(p, zx, zy);
     if (axes)
-        values_axes(w, zx, zy);
+        values_axes(w);
     else if (!w->along)
         values_along(w);
     for (int k = 0; k < w->channels; k++) {

@@ -69,12 +69,16 @@ double ball_leak(const struct contact *c)
     return c->contact.leak > 0 ? c->contact.leak : LEAK;
 }
 
+double ball_ground(const struct contact *c)
+{
+    return fmin((rules_along(c) == ALONG_PLANE ? LEAKS_PLANE : LEAKS_LINE) * ball_leak(c), GROUND_MOST);
+}
+
 double ball_beyond(const struct contact *c, double ground)
 {
     const struct roll *r = &c->contact.roll;
     bool has = c->contact.model != CONTACT_ROLL || r->penetration != PENETRATION_DEVIATION || !isnan(ball_stiffness(c));
-    double wanted = fmin((rules_along(c) == ALONG_PLANE ? LEAKS_PLANE : LEAKS_LINE) * ball_leak(c), GROUND_MOST);
-    return has || !(ground > 0) ? 0 : fmax(wanted - ground, 0);
+    return has || !(ground > 0) ? 0 : fmax(ball_ground(c) - ground, 0);
 }
 
 double ball_deviation_error(const struct contact *c, double ground)

@@ -39,6 +39,9 @@ double ball_gravity(const struct contact *c);
 /* m, l: contact.leak, or what stands for it where the scene has none. */
 double ball_leak(const struct contact *c);
 
+/* m of ground that a stiffness asks for. */
+double ball_ground(const struct contact *c);
+
 /* m of ground that a ball of model roll goes over in thought, beyond the `ground` m of its motion, so that the stiffness it is to have (static_depth) does not come
    from too little; 0: it has one, or goes nowhere, or far enough. */
 double ball_beyond(const struct contact *c, double ground);

@@ -128,10 +128,13 @@ static double tip_pitch(const struct stage_run *r, const struct relief *under, c
 
 static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *under)
 {
-    const struct scraper *s = &r->contact->scraper;
+    const struct contact *c = r->contact;
+    const struct scraper *s = &c->scraper;
     const struct trajectory *tr = r->board->trajectory;
     bool plane = under->along == ALONG_PLANE;
-    double beyond = fmin(s->radius, 1e-3) + ball_beyond(r->contact, trajectory_ground(tr, under->along, ball_leak(r->contact)));
+    double beyond = fmin(s->radius, 1e-3) + ball_beyond(c, trajectory_ground(tr, under->along, ball_leak(c)));
+    if (c->contact.model == CONTACT_ROLL && !tr->straight && under->along != ALONG_PATH)
+        beyond = fmax(beyond, 0.5 * ball_ground(c)); /* as far as the mean of the ground is looked for (force/slope_heading.c) */
     double wanted = tip_wanted_pitch(r, under), finer = s->patch > 0 ? ceil(s->patch / ROLLING_PER_PATCH / wanted * (1 - 1e-12)) : 1;
     bool look = plane || s->patch == 0 || relief_kinks(under) > 0 || s->radius > REACH_ALL * wanted / 2;
     double scouted = look ? tip_scouted(under, tr, beyond) : 0, map = tip_map_span(r->board->height_map);

@@ -1,0 +1,26 @@
+/* What limited curvature is in the mean, for each direction in which a way may go over the ground. */
+#ifndef FORCE_SLOPE_HEADING_H
+#define FORCE_SLOPE_HEADING_H
+#include "stage.h"
+
+enum { SLOPE_ALPHAS = 9, SLOPE_HEADINGS = 128 };
+
+/* T(c) = share c + mean by least squares over the ground, at directions evenly over |x| + |y| = 1, half way round, and at alphas evenly by logarithm. */
+struct slope_heading {
+    int alphas;             /* 1: alpha is constant */
+    double least, step;     /* log(alpha / m) of the first, from one to the next */
+    double share[SLOPE_ALPHAS][SLOPE_HEADINGS + 1]; /* 1   */
+    double mean[SLOPE_ALPHAS][SLOPE_HEADINGS + 1];  /* 1/m */
+};
+
+struct slope_part {
+    double share, mean;     /* 1, 1/m */
+};
+
+/* Of the ground of r's contact as its relief reads it now; from the arena. NULL where nothing is limited, or the way goes straight on: then share is 1, mean 0. */
+const struct slope_heading *slope_heading_make(const struct stage_run *r, struct arena *a);
+
+/* Of a way in the direction of ex, ey (a unit vector, of either sign); alpha in m. */
+struct slope_part slope_heading_at(const struct slope_heading *h, double ex, double ey, double alpha);
+
+#endif

@@ -1,0 +1,20 @@
+/* The height S of a limited trajectory on a way that turns. */
+#ifndef FORCE_SLOPE_HEIGHT_H
+#define FORCE_SLOPE_HEIGHT_H
+#include "force/slope_heading.h"
+#include "force/slope_terms.h"
+#include "force/way.h"
+
+struct slope_height {
+    const struct slope_heading *heading; /* NULL: nothing is limited                       */
+    double rest, sum;                    /* 1, dR/ds + R/l in the direction of travel; m, R */
+    double climb, rise;                  /* m, G1, G2                                      */
+};
+
+/* Piece i from its start to its end. alpha: m, as at the piece; mean: 1/m, of r over it. S is then sum + rise. */
+double slope_height_piece(struct slope_height *s, const struct way_pieces *p, const struct slope_terms *t, int i, double alpha);
+
+/* dS/ds + S/l in the direction of travel, where piece i ended. */
+double slope_height_climb(const struct slope_height *s, const struct way_pieces *p, int i, double alpha, double leak);
+
+#endif
