@@ -2,7 +2,8 @@
    10 Hz apart, in white noise; SNR = rms of the first 0.1 s over the noise's. The Cramer-Rao bound is had from the derivatives of every sample
    (tests/unit/ringing_series.h).
 
-     ringing_judge table SEEDS      rows of a table: every level of noise, both methods
+     ringing_judge table SEEDS      rows of a table: every level of noise, both methods, with and without second slopes
+     ringing_judge missed SEEDS     rows of modes that the bound lets one tell and that were not found
      ringing_judge nothing SEEDS    white noise alone, and noise of one pole: how often something is found
      ringing_judge exact            the 50 modes without noise
      ringing_judge slopes SEEDS     one frequency of two decays: how often both are found
@@ -20,14 +21,23 @@
 extern void openblas_set_num_threads(int n);
 
 #define RATE 44100.0
-#define TELLS 6.0 /* of a gain over its bound: what can be told from its neighbour and from noise */
+#define TELLS 6.0 /* of a gain over its bound, and of the nearest mode's distance over the frequency's: what can be told from its neighbour and from noise */
 
 enum { LENGTH = 44100, SEEDS_MOST = 100 };
 
 typedef bool method(const struct ringing *, const struct ringing_options *, struct arena *, struct ringing_modes *, struct err *);
 
+struct way {
+    method *find;
+    bool slopes;
+    const char *name;
+};
+
+enum { WAYS = 3 };
+static const struct way ways[WAYS] = {{ringing_esprit, false, "sub-band ESPRIT"}, {ringing_esprit, true, "the same, --slopes"}, {ringing_spectrogram, false, "spectrogram"}};
+
 struct row {
-    int n, found, tell, told, given, extra, ratios;
+    int n, found, tell, told, far, far_found, extra, ratios;
     double df[SERIES_MODES * SEEDS_MOST], dd[SERIES_MODES * SEEDS_MOST], frequency, decay, cpu;
     int inside, intervals;
 };
@@ -45,6 +55,16 @@ static int rising(const void *x, const void *y)
     return (a > b) - (a < b);
 }
 
+/* Hz from the nearest other. */
+static double nearest_hertz(const struct truth *m, int i)
+{
+    double least = HUGE_VAL;
+    for (int k = 0; k < SERIES_MODES; k++)
+        if (k != i)
+            least = fmin(least, fabs(m[k].frequency - m[i].frequency));
+    return least;
+}
+
 static void row_add(struct row *r, const struct truth *m, const struct ringing_modes *found)
 {
     double frequency[4 * SERIES_MODES];
@@ -58,6 +78,9 @@ static void row_add(struct row *r, const struct truth *m, const struct ringing_m
         bool tells = m[i].gain > TELLS * m[i].bound_gain;
         r->tell += tells;
         r->told += tells && of[i] >= 0;
+        bool far = tells && nearest_hertz(m, i) > TELLS * m[i].bound_frequency;
+        r->far += far;
+        r->far_found += far && of[i] >= 0;
         if (of[i] < 0)
             continue;
         const struct ringing_mode *k = &found->mode[of[i]];
@@ -78,42 +101,97 @@ static void row_print(struct row *r, const char *name, double decibel, int seeds
 {
     qsort(r->df, (size_t)r->n, sizeof *r->df, rising);
     qsort(r->dd, (size_t)r->n, sizeof *r->dd, rising);
-    printf("| %g | %s | %.1f of %d | %.1f of %.1f | %.1f | %.4f | %.3f (%.2f) | %.2f, %.2f | %.1f | %.2f |\n", decibel, name, (double)r->found / seeds, SERIES_MODES,
-           (double)r->told / seeds, (double)r->tell / seeds, (double)r->extra / seeds, r->n ? r->df[r->n / 2] : 0, r->n ? 100 * r->dd[r->n / 2] : 0,
+    printf("| %g | %s | %.1f of %d | %.1f of %.1f | %.1f of %.1f | %.1f | %.4f | %.3f (%.2f) | %.2f, %.2f | %.1f | %.2f |\n", decibel, name, (double)r->found / seeds, SERIES_MODES,
+           (double)r->told / seeds, (double)r->tell / seeds, (double)r->far_found / seeds, (double)r->far / seeds, (double)r->extra / seeds, r->n ? r->df[r->n / 2] : 0, r->n ? 100 * r->dd[r->n / 2] : 0,
            r->n ? 100 * r->dd[r->n * 9 / 10] : 0, sqrt(r->frequency / fmax(r->ratios, 1)), sqrt(r->decay / fmax(r->ratios, 1)),
            100.0 * r->inside / fmax(r->intervals, 1), r->cpu / seeds);
 }
 
-static void run(method *find, const char *name, double decibel, int seeds)
+struct series {
+    struct truth m[SERIES_MODES];
+    double h[LENGTH];
+};
+
+/* 50 modes in noise, with their bounds. */
+static void series_make(int seed, double decibel, struct series *s)
+{
+    gsl_rng *g = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(g, (unsigned long)seed);
+    series_fifty(g, s->m);
+    series_sum(s->m, SERIES_MODES, RATE, LENGTH, s->h);
+    double deviation = series_deviation(s->h, RATE, decibel);
+    series_bound(s->m, SERIES_MODES, RATE, LENGTH, deviation);
+    series_noise(g, deviation, LENGTH, s->h);
+    gsl_rng_free(g);
+}
+
+static void found_make(const struct way *w, const struct series *s, struct arena *a, struct ringing_modes *found)
+{
+    struct ringing_options o = ringing_options;
+    struct err e = {0};
+    o.most = 200;
+    o.slope_test = w->slopes ? o.slope_test : 0;
+    if (!w->find(&(struct ringing){.places = 1, .n = LENGTH, .rate = RATE, .h = (const double *const[]){s->h}}, &o, a, found, &e)) {
+        fprintf(stderr, "ringing_judge: %s\n", e.text);
+        exit(1);
+    }
+}
+
+static void run(const struct way *w, double decibel, int seeds)
 {
     static struct row r;
-    static double h[LENGTH];
+    static struct series s;
     r = (struct row){0};
     for (int seed = 1; seed <= seeds; seed++) {
-        gsl_rng *g = gsl_rng_alloc(gsl_rng_mt19937);
-        struct truth m[SERIES_MODES];
         struct arena *a = arena_open();
         struct ringing_modes found;
-        struct err e = {0};
-        gsl_rng_set(g, (unsigned long)seed);
-        series_fifty(g, m);
-        series_sum(m, SERIES_MODES, RATE, LENGTH, h);
-        double deviation = series_deviation(h, RATE, decibel);
-        series_bound(m, SERIES_MODES, RATE, LENGTH, deviation);
-        series_noise(g, deviation, LENGTH, h);
-        struct ringing_options o = ringing_options;
-        o.most = 200;
+        series_make(seed, decibel, &s);
         double before = cpu_now();
-        if (!find(&(struct ringing){.places = 1, .n = LENGTH, .rate = RATE, .h = (const double *const[]){h}}, &o, a, &found, &e)) {
-            fprintf(stderr, "ringing_judge: %s\n", e.text);
-            exit(1);
-        }
+        found_make(w, &s, a, &found);
         r.cpu += cpu_now() - before;
-        row_add(&r, m, &found);
+        row_add(&r, s.m, &found);
         arena_close(a);
-        gsl_rng_free(g);
     }
-    row_print(&r, name, decibel, seeds);
+    row_print(&r, w->name, decibel, seeds);
+}
+
+/* Of one response: what was not found, and the components that stand where it and its neighbour are. */
+static void missed_print(const struct series *s, const struct way *w, int seed)
+{
+    struct arena *a = arena_open();
+    struct ringing_modes found;
+    double frequency[4 * SERIES_MODES];
+    int of[SERIES_MODES];
+    found_make(w, s, a, &found);
+    int n = found.n < 4 * SERIES_MODES ? found.n : 4 * SERIES_MODES;
+    for (int i = 0; i < n; i++)
+        frequency[i] = found.mode[i].frequency;
+    series_match(s->m, SERIES_MODES, frequency, n, 3, of);
+    for (int i = 0; i < SERIES_MODES; i++) {
+        const struct truth *m = &s->m[i];
+        double apart = nearest_hertz(s->m, i);
+        if (of[i] >= 0 || !(m->gain > TELLS * m->bound_gain))
+            continue;
+        printf("| %d | %s | %.2f | %.1f | %.2f | %.1f |", seed, w->name, m->frequency, m->gain / m->bound_gain, apart, apart / m->bound_frequency);
+        const char *join = "";
+        for (int k = 0; k < n; k++)
+            if (fabs(frequency[k] - m->frequency) < 2 * apart) {
+                printf("%s %.2f Hz, %.1f 1/s", join, frequency[k], found.mode[k].decay);
+                join = ";";
+            }
+        printf(" |\n");
+    }
+    arena_close(a);
+}
+
+static void missed(int seeds)
+{
+    static struct series s;
+    for (int k = 0; k < 2; k++)
+        for (int seed = 1; seed <= seeds; seed++) {
+            series_make(seed, 40, &s);
+            missed_print(&s, &ways[k], seed);
+        }
 }
 
 static void find_all(const struct ringing *r, int most, struct arena *a, struct ringing_modes *found)
@@ -146,10 +224,9 @@ static const struct ringing_mode *nearest(const struct ringing_modes *m, double 
 static void table(int seeds)
 {
     const double decibels[] = {60, 40, 20};
-    for (int i = 0; i < 3; i++) {
-        run(ringing_esprit, "sub-band ESPRIT", decibels[i], seeds);
-        run(ringing_spectrogram, "spectrogram", decibels[i], seeds);
-    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < WAYS; k++)
+            run(&ways[k], decibels[i], seeds);
 }
 
 static void nothing(int seeds)
@@ -364,6 +441,8 @@ int main(int count, char **text)
     openblas_set_num_threads(1);
     if (!strcmp(what, "table"))
         table(seeds < SEEDS_MOST ? seeds : SEEDS_MOST);
+    else if (!strcmp(what, "missed"))
+        missed(seeds);
     else if (!strcmp(what, "nothing"))
         nothing(seeds);
     else if (!strcmp(what, "exact"))
@@ -377,7 +456,7 @@ int main(int count, char **text)
     else if (!strcmp(what, "picture") && count > 2)
         picture(text[2]);
     else {
-        fprintf(stderr, "ringing_judge table|nothing|exact|slopes|places|many|picture\n");
+        fprintf(stderr, "ringing_judge table|missed|nothing|exact|slopes|places|many|picture\n");
         return 1;
     }
     return 0;

@@ -43,7 +43,7 @@ echo "One scrape, ten solids, each meshed and solved by rasp (rasp modes compute
 object oak_plank "dry: tones near 0.3, 0.8, 1.5 and 3.3 kHz, gone as soon as the scrape ends"
 object stoneware_tile "hard: 0.8 and 1.3 kHz, gone within a second"
 object glass_plate "many tones from 0.2 kHz on, the strongest at 1.3 kHz; rings on, by 17 dB in 0.8 s"
-object steel_bowl "2.6 kHz, and a shimmer at 7 kHz; rings on"
+object steel_bowl "2.6 kHz, and a shimmer round 8 kHz; rings on"
 object ceramic_mug "2 kHz, three tones close together, and 5 kHz; dry"
 object aluminium_rod "a chime: 0.5 and 2.7 kHz, far apart; long"
 object steel_sphere "a hollow ball: bright, 10 kHz, nothing low"

@@ -110,7 +110,7 @@ static const struct args_option options[] = {
     {"low", 0, "FREQUENCY", false, "extract: modes are looked for from here on; default: where the sound stands out of the noise"},
     {"high", 0, "FREQUENCY", false, "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest"},
     {"method", 0, "esprit|spectrogram", false, "extract: spectrogram takes the peaks of the power spectrogram; default: esprit"},
-    {"slopes", 0, NULL, false, "extract: a mode may decay with two slopes"},
+    {"slopes", 0, NULL, false, "extract: a mode may decay with two slopes (method esprit)"},
     {"regularisation", 0, "SHARE", false, "extract: added to the force's power where it is divided out, as a share of its greatest; default: that of its noise, at least 1e-6"},
     {"strike-threshold", 0, "DECIBEL", false, "extract: by how much a strike must rise above the noise (default 20)"},
     {"response", 0, "FILE.wav", false, "extract: writes the impulse response, one channel for each place"},
@@ -148,10 +148,11 @@ const struct command modes_command = {
             "reads, with one strike or many on one place. The strikes are found; where a channel holds the hammer's force (--force-channel) it is divided out; and the strongest "
             "modes are fitted to the response that all strikes have in common: no more of them than --modes, fitted by themselves in the end, and none that stands out of the noise and of what "
             "the strikes do not agree on by no more than chance; a warning names those that had not settled. A second of silence before the first strike tells the noise, pauses in which the object rings out "
-            "tell slow decays, and strikes that clip are left out. Several places are FILE@X,Y each, or one folder with index.csv (columns file_name,x_m,y_m): they share "
-            "frequencies and decays. The sound is taken for a microphone's pressure unless --quantity says what else it is. Levels are physical where --scale and "
+            "tell slow decays, and strikes that clip are left out. Without a force channel a hammer that hits twice is mostly not seen where the second hit comes 5 to 100 ms after the first and is half as strong (after 200 ms it is a strike of its own), and the table then holds the spectrum of both hits: listen, or cut such strikes out. Several places are FILE@X,Y each, or one folder with index.csv (columns file_name,x_m,y_m): they share "
+            "frequencies and decays. The sound is taken for a microphone's pressure unless --quantity says what else it is. Without a force each place has a level and an onset of its own, so that places cannot be compared with each other. Levels are physical where --scale and "
             "--force-scale are given and the sound is a vibration, or a pressure with --radius and --distance; else they are relative, and the table says so and why. Standard "
-            "errors stand in the report and in the table's comments.\n"
+            "errors stand in the report and in the table's comments. The report's median decay counts all modes alike, its median by energy is the decay that half of the modes' energy decays no faster than: the one to "
+            "compare materials by, as weak pieces that are gone within milliseconds do not move it.\n"
             "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over "
             "its places, of an object over a grid of places, or at one place with --at).",
     .operands = "ACTION FILE",

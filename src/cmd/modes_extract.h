@@ -26,7 +26,8 @@ struct modes_extract_given {
 };
 
 struct modes_extract_place {
-    const char *file, *shown;      /* shown: as it stands in the table and in messages */
+    const char *file, *shown;      /* shown: as it stands in errors */
+    const char *name;              /* without folders, one line: as it stands in table, notes and picture, which do not depend on where the file lies */
     char hash[HASH_TEXT];
     bool placed;                   /* a place was given */
     double x, y, gain;             /* m; factor of the sound */
@@ -55,7 +56,8 @@ struct modes_extract {
     const char *why_not;           /* what lacks for a physical level; NULL */
     const char *note[MODES_EXTRACT_NOTES];
     int notes;
-    double median_decay;           /* 1/s */
+    double median_decay;           /* 1/s, of all components alike */
+    double median_by_energy;       /* 1/s, that half of the energy of all components, at all places, decays no faster than */
 };
 
 void modes_extract_find_note(struct modes_extract *x, const char *text);

@@ -25,7 +25,7 @@ void modes_extract_find_note(struct modes_extract *x, const char *text)
 static void place_note(struct modes_extract *x, const struct modes_extract_place *p, const char *text)
 {
     for (const char *line = text; line && *line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
-        modes_extract_find_note(x, arena_format(x->arena, "%s: %.*s", p->shown, (int)strcspn(line, "\n"), line));
+        modes_extract_find_note(x, arena_format(x->arena, "%s: %.*s", p->name, (int)strcspn(line, "\n"), line));
 }
 
 /* ------------------------------------------------------------------ responses */

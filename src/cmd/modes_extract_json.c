@@ -60,9 +60,9 @@ bool modes_extract_json(const struct modes_extract *x, struct err *e)
         json_array_append_new(places, place(x, k));
     for (int k = 0; k < x->notes; k++)
         json_array_append_new(notes, json_value_text(x->note[k]));
-    json_t *j = json_pack("{s:s, s:o, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "table", x->given.output, "sample_rate", json_value_number(x->rate), "method",
+    json_t *j = json_pack("{s:s, s:o, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "table", x->given.output, "sample_rate", json_value_number(x->rate), "method",
                           x->given.spectrogram ? "spectrogram" : "esprit", "quantity", modes_quantity_name(x->quantity), "physical", x->physical, "low_hz", json_value_number(x->low),
-                          "high_hz", json_value_number(x->high), "median_decay_per_s", json_value_number(x->median_decay), "places", places, "modes", modes(x), "warnings", notes);
+                          "high_hz", json_value_number(x->high), "median_decay_per_s", json_value_number(x->median_decay), "median_decay_by_energy_per_s", json_value_number(x->median_by_energy), "places", places, "modes", modes(x), "warnings", notes);
     bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
     putchar('\n');
     json_decref(j);

@@ -65,6 +65,8 @@ static bool together(struct modes_extract *x, struct err *e)
     const struct args *a = &x->c->args;
     if (g->impulse && (g->force_channel || args_given(a, "strike-threshold") || args_given(a, "regularisation")))
         return err_set(e, ERR_USAGE, "--impulse says that the recording is an impulse response already: --force-channel, --regularisation and --strike-threshold are for strikes");
+    if (g->slopes && g->spectrogram)
+        return err_set(e, ERR_USAGE, "--slopes is for --method esprit: a peak of the spectrogram has one decay; leave out --slopes or --method spectrogram");
     if (g->force_channel == g->channel)
         return err_set(e, ERR_USAGE, "--channel and --force-channel are both %ld; sound and force are in different channels", g->channel);
     if (!g->force_channel && args_given(a, "force-scale"))

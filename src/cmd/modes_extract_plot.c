@@ -100,7 +100,7 @@ void modes_extract_plot(void *self, struct gnuplot *g)
     fprintf(g->in, x->given.svg ? "set terminal svg size 1100,900 font 'DejaVu Sans,13' background rgb 'white'\n"
                                 : "set terminal pngcairo size 1100,900 font 'DejaVu Sans,10' background rgb 'white'\n");
     fputs("set encoding utf8\nset border linewidth 0.8\nset tics out nomirror scale 0.6\nset key noenhanced outside top horizontal center samplen 2\nset multiplot title ", g->in);
-    gnuplot_put_text(g, arena_format(x->arena, "%s: %d modes, %.1f %% of the energy", p->shown, x->modes.modes, 100.0 * x->modes.explained[0]));
+    gnuplot_put_text(g, arena_format(x->arena, "%s: %d modes, %.1f %% of the energy", p->name, x->modes.modes, 100.0 * x->modes.explained[0]));
     fprintf(g->in, " noenhanced\nset size 1,0.56\nset origin 0,0.4\nset logscale x\nset xrange [%.6g:%.6g]\nset xlabel 'frequency / Hz'\nset ylabel 'level / dB'\n", low, high);
     spectra(x, p, low, high, g);
     stems(x, g);

@@ -52,7 +52,8 @@ static void place(const struct modes_extract *x, int k)
 
 static void modes(const struct modes_extract *x)
 {
-    printf("%d mode%s between %.5g and %.5g Hz, median decay %.4g 1/s\n", x->modes.modes, x->modes.modes == 1 ? "" : "s", x->low, x->high, x->median_decay);
+    printf("%d mode%s between %.5g and %.5g Hz, median decay %.4g 1/s, by energy %.4g 1/s\n", x->modes.modes, x->modes.modes == 1 ? "" : "s", x->low, x->high, x->median_decay,
+           x->median_by_energy);
     printf("%5s %13s %9s %11s %9s %12s %9s%s\n", "mode", "frequency_hz", "error", "t60_s", "error", "largest_gain", "error", x->modes.n > x->modes.modes ? "  slope" : "");
     for (int i = 0; i < x->modes.n; i++) {
         const struct ringing_mode *m = &x->modes.mode[i];

@@ -177,12 +177,22 @@ static bool samples(struct modes_extract *x, struct modes_extract_place *p, stru
                                         x->place[0].shown, x->rate);
 }
 
+static void name(struct modes_extract_place *p, struct arena *a)
+{
+    const char *slash = strrchr(p->shown, '/');
+    char *text = arena_text(a, slash ? slash + 1 : p->shown);
+    for (char *c = text; *c; c++)
+        *c = (unsigned char)*c < ' ' ? '?' : *c;
+    p->name = text;
+}
+
 bool modes_extract_read(struct modes_extract *x, struct err *e)
 {
     if (!places(x, e) || !apart(x, e) || !spared(x, e))
         return false;
     for (int k = 0; k < x->n && e->kind == ERR_NONE; k++) {
         struct arena *scratch = arena_open();
+        name(&x->place[k], x->arena);
         samples(x, &x->place[k], scratch, e);
         arena_close(scratch);
     }

@@ -3,6 +3,7 @@
    A microphone's pressure is, without the sizes of a radiator, taken as proportional to the acceleration of the surface, as of a small source: gains then hold what the way
    through the air did to each mode. With them each mode's gain is divided by a monopole's H(s), pressure over velocity (response/radiator_monopole.c). */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cmd/modes_extract.h"
@@ -25,6 +26,27 @@ static void divide(const struct radiator_monopole *r, int places, struct ringing
     }
 }
 
+static int slower(const void *a, const void *b)
+{
+    const struct ringing_mode *m = *(const struct ringing_mode *const *)a, *k = *(const struct ringing_mode *const *)b;
+    return (m->decay > k->decay) - (m->decay < k->decay);
+}
+
+static double median_by_energy(const struct modes_extract *x)
+{
+    int n = x->modes.n, i = 0;
+    const struct ringing_mode **m = arena_take(x->arena, (size_t)n, sizeof *m);
+    double left = 0.0;
+    for (int k = 0; k < n; k++) {
+        m[k] = &x->modes.mode[k];
+        left += 0.5 * m[k]->energy;
+    }
+    qsort(m, (size_t)n, sizeof *m, slower);
+    while (i < n - 1 && (left -= m[i]->energy) > 0.0)
+        i++;
+    return m[i]->decay;
+}
+
 static double *copy(const double *x, int n, struct arena *a)
 {
     double *y = ARENA_TAKE(a, double, n);
@@ -36,7 +58,10 @@ static void level(struct modes_extract *x)
 {
     const struct modes_extract_given *g = &x->given;
     bool air = g->quantity == MODES_PRESSURE && isnan(g->radius);
-    if (!g->force_channel && !g->impulse)
+    if (!g->force_channel && !g->impulse && x->n > 1)
+        x->why_not = "no channel holds the force, so that gains at each place are those of a strike whose sound there has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be "
+                     "compared with each other; --force-channel, or impulse responses with --impulse and one --delay for all, keep what is between them";
+    else if (!g->force_channel && !g->impulse)
         x->why_not = "no channel holds the force, so that gains are those of a strike whose sound's peak is 1, and hold the hammer's spectrum";
     else if (air)
         x->why_not = "a microphone's pressure is taken as proportional to the surface's acceleration (--radius and --distance would divide a monopole out)";
@@ -66,6 +91,7 @@ void modes_extract_write_radiation(struct modes_extract *x)
         if (divides)
             divide(&r, x->n, m);
     }
+    x->median_by_energy = median_by_energy(x);
     level(x);
 }
 
@@ -75,11 +101,7 @@ static void sources(FILE *f, const struct modes_extract *x)
 {
     for (int k = 0; k < x->n; k++) {
         const struct modes_extract_place *p = &x->place[k];
-        const char *slash = strrchr(p->shown, '/');
-        fprintf(f, "# source %d: ", k + 1);
-        for (const char *c = slash ? slash + 1 : p->shown; *c; c++)
-            fputc((unsigned char)*c < ' ' ? '?' : *c, f);
-        fprintf(f, ", sha256 %s\n", p->hash);
+        fprintf(f, "# source %d: %s, sha256 %s\n", k + 1, p->name, p->hash);
         if (!x->given.impulse)
             fprintf(f, "# strikes %d: %d of %d used\n", k + 1, p->response.used, p->strikes.n);
     }

@@ -124,3 +124,17 @@ void version_print(bool verbose)
     print_level();
     print_libraries();
 }
+
+bool version_asked(int argc, char **argv)
+{
+    bool asked = false, verbose = false, other = false;
+    for (int i = 0; i < argc; i++) {
+        bool is = !strcmp(argv[i], "--version") || !strcmp(argv[i], "-V"), more = !strcmp(argv[i], "--verbose") || !strcmp(argv[i], "-v");
+        asked = asked || is;
+        verbose = verbose || more;
+        other = other || (!is && !more);
+    }
+    if (asked && !other)
+        version_print(verbose);
+    return asked && !other;
+}

@@ -1,0 +1,39 @@
+# The report of modes extract, and what stands in the table: the median decay by energy; the recording's name without its folder; places that cannot be compared without a
+# force; --slopes, which the spectrogram's method has not.
+. "$ROOT/tests/cli/modes-extract-make.inc"
+rasp render -q plate.yaml
+python3 wav.py join plate.wav plate.force.wav strikes.wav 1e-6
+echo "half of the energy, gain^2/(4 decay), decays no faster than the median by energy:"
+extract strikes.wav --force-channel 2 --json -o energy.csv > energy.json
+extract strikes.wav --force-channel 2 -f -o energy.csv | sed -n 's/.*by energy \(.*\) 1.s$/\1/p' > energy.txt
+cat > energy.py << 'END'
+import json
+d = json.load(open("energy.json"))
+of = [(m["decay_per_s"], m["places"][0]["gain"] ** 2 / (4 * m["decay_per_s"])) for m in d["modes"]]
+whole, middle = sum(e for _, e in of), d["median_decay_by_energy_per_s"]
+print("a mode's decay", middle in [x for x, _ in of], "at least half", sum(e for x, e in of if x <= middle) >= whole / 2, "less without it", sum(e for x, e in of if x < middle) < whole / 2,
+      "not the plain one", middle != d["median_decay_per_s"], "printed", abs(float(open("energy.txt").read()) / middle - 1) < 1e-3)
+END
+python3 energy.py
+echo "from another folder the same table and picture:"
+python3 wav.py make late.wav 8000 late 8000
+words="--impulse --scale 1 --quantity velocity -q"
+command -v gnuplot > /dev/null && plot=1 || plot=
+mkdir folder
+# shellcheck disable=SC2086
+extract late.wav $words -o here.csv ${plot:+--plot here.svg}
+# shellcheck disable=SC2086
+(cd folder && extract "$OLDPWD/late.wav" $words -o ../there.csv ${plot:+--plot ../there.svg})
+cmp here.csv there.csv
+[ -z "$plot" ] || cmp here.svg there.svg
+grep -E '^# (source|note)' there.csv | sed 's/sha256 .*/sha256 ../'
+echo "several places without a force:"
+sed 's/at: .7 cm/at: [15 cm/' plate.yaml > other.yaml
+rasp render -q other.yaml
+python3 wav.py join other.wav other.force.wav other_strikes.wav 1e-6
+extract strikes.wav@7cm,6cm other_strikes.wav@15cm,6cm --modes 6 -o places.csv | sed -n '/^warning/,$p'
+grep -c 'compared with each other' places.csv
+extract strikes.wav --modes 6 -q -o one.csv
+grep -c 'compared with each other' one.csv || true
+try extract late.wav --impulse --slopes --method spectrogram -o x.csv
+ls x.csv 2> /dev/null || true
