@@ -1,6 +1,6 @@
 /* A component whose gain is uncertain while all poles are free (though significant with the others' poles held) may be the half of one that was split: then the fit is made without the weaker
    of it and its nearest neighbour, polished, and the rise of the residual is held against the noise there: F(2 places + 2, freedom), as there go two gains per place and a
-   pole. Two components of about one frequency are tried as two decays of one in the same way: there goes 1. */
+   pole. */
 #include "analysis/ringing_apart.h"
 
 #include <gsl/gsl_cdf.h>
@@ -75,39 +75,6 @@ bool ringing_apart_try(struct ringing_fit *f, const struct ringing_noise *noise,
     return gone;
 }
 
-double ringing_apart_strength(const struct ringing_fit *f, int i)
-{
-    double sum = 0;
-    for (int p = 0; p < f->r->places; p++) {
-        double complex b = f->gain[(long)p * f->most + i];
-        sum += creal(b) * creal(b) + cimag(b) * cimag(b);
-    }
-    return sum / (f->decay[i] + f->r->rate / (double)f->r->n);
-}
-
-bool ringing_apart_tie(struct ringing_fit *f, const struct ringing_noise *noise, const int pair[2], double least)
-{
-    int first = pair[0], second = pair[1];
-    struct arena *a = arena_open();
-    struct kept k;
-    int places = f->r->places;
-    double *variance = ARENA_TAKE(a, double, f->m * places), *freedom = ARENA_TAKE(a, double, f->m), rise = 0;
-    double heavy = ringing_apart_strength(f, first), light = ringing_apart_strength(f, second);
-    keep(f, a, &k);
-    ringing_noise_levels(noise, f, variance, freedom);
-    f->omega[first] = (heavy * f->omega[first] + light * f->omega[second]) / (heavy + light);
-    f->omega[second] = f->omega[first];
-    f->tie[second] = first;
-    ringing_fit_polish(f, 30);
-    for (int p = 0; p < places; p++)
-        rise += (f->energy[p] - k.energy[p]) / variance[p * k.m + first];
-    bool tied = rise < least;
-    if (!tied)
-        keep_back(f, &k);
-    arena_close(a);
-    return tied;
-}
-
 static int nearest(const struct ringing_fit *f, int i)
 {
     double least = HUGE_VAL;
@@ -120,6 +87,16 @@ static int nearest(const struct ringing_fit *f, int i)
         }
     }
     return at;
+}
+
+static double strength(const struct ringing_fit *f, int i)
+{
+    double sum = 0;
+    for (int p = 0; p < f->r->places; p++) {
+        double complex b = f->gain[(long)p * f->most + i];
+        sum += creal(b) * creal(b) + cimag(b) * cimag(b);
+    }
+    return sum / (f->decay[i] + f->r->rate / (double)f->r->n);
 }
 
 /* The least sure component that was not yet tried; 0: none. */
@@ -151,7 +128,7 @@ int ringing_apart(struct ringing_fit *f, const struct ringing_noise *noise, doub
     double *tried = ARENA_TAKE(a, double, f->m + 2); /* rad/s of what was tried and stays */
     int gone = 0, stays = 0;
     for (int i, room = f->m, row = 0; room > 0 && row < ROW && (i = least_sure(f, noise, level, tried)) > 0; room--) {
-        int other = nearest(f, i), weaker = other > 0 && ringing_apart_strength(f, other) < ringing_apart_strength(f, i) ? other : i;
+        int other = nearest(f, i), weaker = other > 0 && strength(f, other) < strength(f, i) ? other : i;
         double omega = f->omega[i];
         bool went = ringing_apart_try(f, noise, weaker, level);
         row = went ? 0 : row + 1;

@@ -7,8 +7,8 @@
 /* Looks for a second decay at every frequency that stands far above the noise; what is no more than chance (at `level`) is not kept. */
 void ringing_slopes_find(struct ringing_fit *f, const struct ringing_noise *noise, double level);
 
-/* Pairs whose frequencies cannot be told apart and whose decays can get one frequency, if two decays fit better at this level of an F test and two
-   frequencies no better than they; else they stay two, if these do, or, and with level 0, one of them goes. */
+/* Pairs whose frequencies cannot be told apart and whose decays can get one frequency, if two decays fit better at this level of an F test; else, and with
+   level 0, one of them goes. */
 void ringing_slopes_tie(struct ringing_fit *f, const struct ringing_noise *noise, double level);
 
 #endif
