@@ -54,7 +54,8 @@ static void open_map(struct opened *o, const struct contact *c)
     *o = (struct opened){.arena = arena_open(), .relief = {.along = c->surface.along, .origin = {c->surface.origin[0], c->surface.origin[1]}}};
     ck_assert_msg(trajectory_make(&c->motion, 1, o->arena, &o->motion, &o->err), "%s", o->err.text);
     o->board = (struct board){.relief = &o->relief, .trajectory = &o->motion};
-    struct stage_run run = {.stage = &height_map_stage, .contact = c, .board = &o->board, .arena = o->arena};
+    static const struct scene none;
+    struct stage_run run = {.stage = &height_map_stage, .scene = &none, .contact = c, .board = &o->board, .arena = o->arena};
     o->good = height_map_stage.open(&run, &o->err);
 }
 
