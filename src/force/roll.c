@@ -77,7 +77,8 @@ static double roll_ground_work(const struct contact *c, const struct scene *s)
     double way = roll_way(&c->motion), again = s->accuracy.tip_heights != 1 ? way : 0, lattice = c->scraper.patch / 4;
     double lasts = isnan(c->motion.duration) ? way / rules_speed(&c->motion) : c->motion.duration;
     double metre = rules_along(c) == ALONG_PLANE ? 3e5 / lattice : 8e2 / lattice + 340 / roll_pass_grain(c);
-    double looked = rules_straight(&c->motion) || rules_along(c) == ALONG_PATH || c->contact.limiter.curve != LIMITER_TANH ? 0 : fmax(ball_ground(c), fmin(way, 4 * ball_ground(c))); /* slope_heading.c */
+    bool one = rules_straight(&c->motion) || rules_along(c) == ALONG_PATH;
+    double looked = c->contact.limiter.curve != LIMITER_TANH || (one && !load_varies(c)) ? 0 : fmax(ball_ground(c), one ? 0 : fmin(way, 4 * ball_ground(c))); /* slope_heading.c */
     bool made = ball_beyond(c, 1e-9) > 0; /* of next to no ground, if of any */
     double ground = looked + (made ? ball_beyond(c, way) + again : 0);
     return way > 0 && lasts > 0 ? ground * metre / (lasts * s->output.sample_rate) : 0;

@@ -19,8 +19,8 @@
    T of the curve -1/R that the ball follows over a high point, not limited and limited, over 1/R: 1 and tanh(alpha/R) / (alpha/R). Over ridges, of a profile
    along x or nothing but ridges in the plane, it is bent along their normal x only: c = e_x^2 / R, limited as such.
 
-   On a way that turns the mean of T goes with the heading, and S is made of heights (force/slope_height.c), not of S'; the two shapes are then those of
-   what is left of T there, whatever the heading.
+   On a way that turns the mean of T goes with the heading, and over ridges, where alpha varies, it is of no such shape: there S is made of heights
+   (force/slope_height.c), not of S', and the two shapes are those of what is left of T, whatever heading and alpha.
 
    Over a piece of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
 
@@ -112,7 +112,7 @@ static void slope_rise(struct slope *s, const struct way_pieces *p, int i, doubl
     double alpha = s->way.limiter ? p->alpha[0][p->at[i]] : 0;
     slope_flat(s, alpha);
     slope_lift(s, h, p->heading[i], phi, chi);
-    if (s->way.curved) {
+    if (s->by_height) {
         mean = slope_height_piece(&s->turned, p, &s->terms, i, alpha);
         s->height = s->turned.sum + s->turned.rise;
         s->climb = p->heading[i] * slope_height_climb(&s->turned, p, i, alpha, s->leak);
@@ -152,7 +152,7 @@ static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
     if (s->rising)
         slope_rise(s, p, i, a);
     s->slope = b * p->heading[i];
-    s->climb = s->way.curved ? s->climb : s->slope;
+    s->climb = s->by_height ? s->climb : s->slope;
     if (s->way.curved) {
         slope_lean(s, p, i);
         slope_face(s, p->ex[p->at[i] + 1], p->ey[p->at[i] + 1]);
@@ -251,7 +251,7 @@ bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
     s->way.self = s;
     if (!way_make(&s->way, r, WAY_ALONG, s->leak / 16, e))
         return false;
-    s->way.heights = s->rising && s->way.curved;
+    s->by_height = s->way.heights = s->rising && (s->way.curved || s->turned.heading);
     s->flat[0] = s->flat[1] = slope_across(s, r);
     return true;
 }

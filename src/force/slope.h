@@ -13,8 +13,9 @@ struct slope {
     double leak, power;              /* m, l; |S'|^power is what crossed[] holds     */
     bool crossing, rising;           /* is crossed[] asked for? heights[] and lifts[]? The maker's to set */
     double slope, across, height;    /* dS/du, dS/dn, S now                          */
-    struct slope_height turned;      /* S where the way turns; `heading` is the maker's to set  */
-    double climb;                    /* dS/du + S/l now: S' where the way does not turn         */
+    bool by_height;                  /* S is made of heights                                    */
+    struct slope_height turned;      /* S of heights; `heading` is the maker's to set           */
+    double climb;                    /* dS/du + S/l now: S' where S is not made of heights      */
     double even[SLOPE_LEVELS];       /* dS/du per 1/m that T would make if it were flat[k] / m all the time */
     double lift[SLOPE_LEVELS];       /* m^2, S of the same                           */
     double radius, alpha;            /* m, R; m, alpha last met                      */

@@ -67,11 +67,33 @@ static int look_some(const struct stage_run *r)
     return (int)fmax(1, fmin(LINES, rint(ground / ball_ground(r->contact))));
 }
 
+/* Is there but one direction, to[]? */
+static bool heading_one(const struct stage_run *r, double to[2])
+{
+    const struct trajectory *tr = r->board->trajectory;
+    bool path = r->board->relief->along == ALONG_PATH;
+    to[0] = !path && tr->straight ? tr->e[0] : 1;
+    to[1] = !path && tr->straight ? tr->e[1] : 0;
+    return path || tr->straight;
+}
+
+/* m, the corners of what the motion goes over. */
+static void look_box(const struct stage_run *r, double box[2][2])
+{
+    const struct trajectory *tr = r->board->trajectory;
+    bool path = r->board->relief->along == ALONG_PATH;
+    for (int k = 0; k < 2; k++) {
+        box[k][0] = path ? tr->reach[k] : tr->box[k][0];
+        box[k][1] = path ? 0 : tr->box[k][1];
+    }
+}
+
 static void look_along(struct look *g, const struct stage_run *r)
 {
-    const double (*box)[2] = r->board->trajectory->box;
-    double to[2] = {1, 0}, way = ball_ground(r->contact), patch = r->contact->scraper.patch;
-    int lines = look_some(r), each = (int)fmax(EACH_LEAST, fmin(EACH_MOST, ceil(4 * way / patch)));
+    double box[2][2], to[2], way = ball_ground(r->contact), patch = r->contact->scraper.patch;
+    int lines = r->board->relief->along == ALONG_PATH ? 1 : look_some(r), each = (int)fmax(EACH_LEAST, fmin(EACH_MOST, ceil(4 * way / patch)));
+    look_box(r, box);
+    to[0] = 1, to[1] = 0;
     if (r->board->relief->along == ALONG_PLANE)
         look_across(g, r, to);
     double apart = fmax((fabs(to[1]) * (box[1][0] - box[0][0]) + fabs(to[0]) * (box[1][1] - box[0][1])) / lines, APART * patch);
@@ -107,15 +129,38 @@ static struct slope_part look_part(struct look *g, double x, double y, double al
 static void heading_alphas(struct slope_heading *h, const struct stage_run *r)
 {
     const struct limiter_law *l = r->board->limiter;
-    bool varies = l && l->varies && l->alpha_min != l->alpha_max;
-    h->alphas = varies ? SLOPE_ALPHAS : 1;
+    bool varies = l && l->varies, range = varies && l->alpha_min != l->alpha_max;
+    h->alphas = range ? SLOPE_ALPHAS : 1;
     h->least = real_log(varies ? fmin(l->alpha_min, l->alpha_max) : l ? l->fixed : limiter_constant(r->contact));
-    h->step = varies ? fabs(real_log(l->alpha_max / l->alpha_min)) / (SLOPE_ALPHAS - 1) : 1;
+    h->step = range ? fabs(real_log(l->alpha_max / l->alpha_min)) / (SLOPE_ALPHAS - 1) : 1;
+}
+
+/* On a straight way share and mean are the same all along it, unless alpha varies. */
+static bool heading_asked(const struct stage_run *r)
+{
+    const struct limiter_law *l = r->board->limiter;
+    double to[2];
+    return r->contact->contact.limiter.curve == LIMITER_TANH && ((l && l->varies && l->alpha_min != l->alpha_max) || !heading_one(r, to));
+}
+
+/* At the alpha of that number. */
+static void heading_fill(struct slope_heading *h, struct look *g, const struct stage_run *r, int k)
+{
+    double e[2], alpha = real_exp(h->least + k * h->step);
+    bool one = heading_one(r, e);
+    struct slope_part p = {1, 0};
+    for (int i = 0; i <= SLOPE_HEADINGS; i++) {
+        double side = 2.0 * i / SLOPE_HEADINGS, x = 1 - side, y = 1 - fabs(x), length = sqrt(x * x + y * y);
+        if (!one || i == 0)
+            p = look_part(g, one ? e[0] : x / length, one ? e[1] : y / length, alpha);
+        h->share[k][i] = p.share;
+        h->mean[k][i] = p.mean;
+    }
 }
 
 const struct slope_heading *slope_heading_make(const struct stage_run *r, struct arena *a)
 {
-    if (r->contact->contact.limiter.curve != LIMITER_TANH || r->board->relief->along == ALONG_PATH || r->board->trajectory->straight)
+    if (!heading_asked(r))
         return NULL;
     struct slope_heading *h = ARENA_TAKE(a, struct slope_heading, 1);
     struct arena *own = arena_open();
@@ -123,12 +168,7 @@ const struct slope_heading *slope_heading_make(const struct stage_run *r, struct
     heading_alphas(h, r);
     look_along(g, r);
     for (int k = 0; k < h->alphas; k++)
-        for (int i = 0; i <= SLOPE_HEADINGS; i++) {
-            double side = 2.0 * i / SLOPE_HEADINGS, x = 1 - side, y = 1 - fabs(x), length = sqrt(x * x + y * y);
-            struct slope_part p = look_part(g, x / length, y / length, real_exp(h->least + k * h->step));
-            h->share[k][i] = p.share;
-            h->mean[k][i] = p.mean;
-        }
+        heading_fill(h, g, r, k);
     arena_close(own);
     return h;
 }

@@ -17,7 +17,8 @@ struct slope_part {
     double share, mean;     /* 1, 1/m */
 };
 
-/* Of the ground of r's contact as its relief reads it now; from the arena. NULL where nothing is limited, or the way goes straight on: then share is 1, mean 0. */
+/* Of the ground of r's contact as its relief reads it now; from the arena. NULL where nothing is limited, or alike all along a straight way, as alpha does not vary: then share is 1,
+   mean 0. */
 const struct slope_heading *slope_heading_make(const struct stage_run *r, struct arena *a);
 
 /* Of a way in the direction of ex, ey (a unit vector, of either sign); alpha in m. */

@@ -1,4 +1,4 @@
-/* On a straight way S is T(c), leaked and integrated twice (force/slope.c). T has a mean, which goes with the heading: under a ball the long caps of the ground are bent
+/* On a straight way S is T(c), leaked and integrated twice (force/slope.c). T has a mean, which goes with the heading, and with alpha: under a ball the long caps of the ground are bent
    down by up to 1/R and the kinks between them up by far more, and the limiter makes these alike. On a way that turns, l^2 times that mean, hundreds of
    micrometres, would be lifted and dropped as the heading changes, and what S' owes to the heading that it had would go into S in the next. So there
 

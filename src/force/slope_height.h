@@ -1,4 +1,4 @@
-/* The height S of a limited trajectory on a way that turns. */
+/* The height S of a limited trajectory on a way that turns, or where alpha varies. */
 #ifndef FORCE_SLOPE_HEIGHT_H
 #define FORCE_SLOPE_HEIGHT_H
 #include "force/slope_heading.h"
