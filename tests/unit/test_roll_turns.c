@@ -238,17 +238,17 @@ static void grain_windows(const char *along, double degrees, int n, double *wind
    ridges as a profile does not; and turned with the ball's way the ground is the same, but for the four directions that the level knows. */
 START_TEST(a_grain_in_the_plane_is_ridges)
 {
-    static const double angles[] = {0, 22.5, 100};
+    static const double angles[] = {22.5, 100};
     double wanted[12];
     rig_relief = grain_part;
     grain_windows("x", 0, 12, wanted);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < (int)(sizeof angles / sizeof *angles); k++) {
         double is[12], worst = 0;
         grain_windows("plane", angles[k], 12, is);
         for (int i = 0; i < 12; i++)
             worst = fmax(worst, fabs(is[i] - wanted[i])), printf("%.3f %.3f\n", wanted[i], is[i]);
         printf("%g degrees: worst %.3g of the weight\n", angles[k], worst), fflush(stdout);
-        ck_assert_double_lt(worst, 0.8);
+        ck_assert_double_lt(worst, 0.05);
     }
     rig_relief = NULL;
 }
