@@ -133,6 +133,7 @@ struct board {
     bool rolls;             /* the report holds something                        */
     struct impact_report impacts;
     bool unstated;          /* a recorded response, whose quantity is not stated, rings */
+    double energy[2];       /* quantity^2, summed over frames and channels: of the surface's sound and of the scraper's or ball's, where both are heard */
     const char *warnings[16];
     int n_warnings;         /* may exceed the room: what is beyond is counted only */
 };

@@ -1,7 +1,7 @@
 /* Whose set a folder holds: DIR/.rasp/design, the hash of the design on the first line, on the second where the design lies, seen from the folder.
 
-   A design is known by its file: edited, it is the same design, and its set goes on from what is there. It is known by its hash, too (struct design): moved, renamed or copied,
-   it is the same. Any other is refused, for it would replace tables and stimuli of a set that is not its own. */
+   A design is known by its file: edited, it is the same design, and its set goes on from what is there. It is known by its hash, too (struct set): moved, renamed or copied with the
+   scenes and files that it builds on, it is the same. Any other is refused, for it would replace tables and stimuli of a set that is not its own. */
 #ifndef BATCH_CLAIM_H
 #define BATCH_CLAIM_H
 #include <stdbool.h>
@@ -11,7 +11,7 @@
 
 struct claim {
     const char *folder, *design; /* the design's file, seen from here                                     */
-    const char *sha256;          /* of struct design                                                      */
+    const char *sha256;          /* of struct set                                                         */
     bool replace;                /* another design's folder is taken over; nothing of it is removed by that */
 };
 

@@ -48,7 +48,7 @@ static bool again(const struct finish *f, int i, struct arena *a, const struct r
     struct job_result result;
     k.again = true;
     if (!k.design)
-        return err_set(e, ERR_INPUT, "%s: its raw sound is not there any more: run its shard again", f->kit->set->rows[i].name);
+        return err_set(e, ERR_INPUT, "it has the level that an earlier merge gave it, and for another one its raw sound is needed, which a merge cannot render: run its shard again with the same command, then merge");
     if (!job_do(&k, i, a, &result, e))
         return false;
     *raw = result.record;

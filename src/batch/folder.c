@@ -16,13 +16,23 @@
 
 #include "base/text.h"
 
+/* Of ENOENT. */
+static const char *missing(const char *path)
+{
+    char parent[4096];
+    struct stat s;
+    const char *slash = strrchr(path, '/');
+    snprintf(parent, sizeof parent, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+    return stat(parent, &s) == 0 ? "no folder can be made there: choose another place with -o" : "its parent is not there";
+}
+
 static bool make_one(const char *path, struct err *e)
 {
     struct stat s;
     if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode)))
         return true;
     return err_set(e, err_system(ERR_CREATE), "the folder %s cannot be created: %s", path,
-                   errno == ENOENT ? "its parent is not there" : errno == EEXIST ? "a file has that name" : strerror(errno));
+                   errno == ENOENT ? missing(path) : errno == EEXIST ? "a file has that name" : strerror(errno));
 }
 
 bool folder_make(const char *folder, struct err *e)

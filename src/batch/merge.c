@@ -103,7 +103,7 @@ static bool same_set(const struct merge *m, const struct csv *t, const char *fil
 {
     const char *design = csv_comment(t, "design"), *build = csv_comment(t, "build");
     if (!design || strcmp(design, m->report->set.sha256) != 0)
-        return err_set(e, ERR_SCENE, "%s/%s is of another design than the rest: run all shards of one design again, or remove it", m->folder, file);
+        return err_set(e, ERR_SCENE, "%s/%s is of another design than the rest, or of another state of its scenes or of the files that they read: run all shards again, or remove it", m->folder, file);
     if (!build || strcmp(build, m->report->set.build) != 0)
         return err_set(e, ERR_SCENE, "%s/%s was made by %s, the rest by %s: run its shard again with the same program", m->folder, file, build ? build : "an unknown program",
                        m->report->set.build);

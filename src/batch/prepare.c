@@ -12,12 +12,14 @@
 #include "output/sound.h"
 #include "pipeline/plan_scene.h"
 #include "scene/scene_places.h"
+#include "scene/scene_write.h"
 
 struct trial {               /* of one scene, until it is taken; it lies in its own arena */
     struct arena *arena;
     const struct diag *diag;
     const char *messages;
     struct scene scene;
+    char sha256[HASH_TEXT];  /* of what the scene means, and of its inputs */
     struct err e;            /* none: it can be rendered */
 };
 
@@ -38,6 +40,7 @@ struct preparation {
     struct prepare *out;
     struct arena *arena;
     struct spare *spare;
+    struct hash scenes;      /* of the design and of all of them, in their order */
 };
 
 /* ------------------------------------------------------------------ one */
@@ -50,6 +53,15 @@ static struct trial *trial_open(void)
     return t;
 }
 
+/* File names are seen from the base scene: where all lies does not count. */
+static void hash_scene(struct trial *t)
+{
+    const struct scene *s = &t->scene;
+    const char *slash = strrchr(s->sources[0], '/'), *beside = slash ? arena_format(t->arena, "%.*s", slash == s->sources[0] ? 1 : (int)(slash - s->sources[0]), s->sources[0]) : ".";
+    const char *text = scene_write(s, beside, t->arena);
+    hash_bytes(text, strlen(text), t->sha256);
+}
+
 static bool estimate(const struct preparation *p, int i, struct look *l)
 {
     struct plan_scene_estimate x;
@@ -60,6 +72,7 @@ static bool estimate(const struct preparation *p, int i, struct look *l)
     if (!read)
         return false;
     s->shelf = p->shelf;
+    hash_scene(t);
     if (!isnan(p->set->length))
         s->output.duration = p->set->length;
     if (p->set->level_rule != DESIGN_LEVEL_SCENE)
@@ -141,6 +154,8 @@ static void took(void *context, int i)
     struct look *l = &p->looks[p->first[i]];
     if (p->design->stimuli[i].recording)
         return;
+    if (l->trial)
+        hash_add(&p->scenes, l->trial->sha256, HASH_TEXT);
     if (l->trial && !l->trial->e.kind)
         spare_scene(p->spare, p->first[i], &l->trial->scene);
     settle(p, i, l);
@@ -243,6 +258,8 @@ static void add_up(const struct preparation *p, struct set *s)
         o->lengths[i] = seconds;
         o->seconds += l->sounds ? seconds : 0;
         o->n_sounds += l->sounds;
+        if (l->sounds)
+            lengths_add(&o->own, i, l->seconds);
         o->cycles += s->rows[i].cost;
         o->bytes += samples * l->bits / 8;
         o->raw_bytes += set_waits(s) && !s->rows[i].recording ? samples * 8 : 0;
@@ -262,15 +279,20 @@ static bool tell(const struct prepare *p, const struct set *s, struct err *e)
 
 bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *out, struct err *e)
 {
-    struct preparation p = {ask->design, ask->shelf, s, ARENA_TAKE(a, struct look, s->n), ARENA_TAKE(a, int, s->n), out, a, spare_open(ask->design, a)};
+    struct preparation p = {.design = ask->design, .shelf = ask->shelf, .set = s, .looks = ARENA_TAKE(a, struct look, s->n), .first = ARENA_TAKE(a, int, s->n), .out = out, .arena = a,
+                            .spare = spare_open(ask->design, a), .scenes = hash_start()};
     *out = (struct prepare){.lengths = ARENA_TAKE(a, double, s->n), .inputs = p.spare};
     find_first(&p);
+    hash_add(&p.scenes, ask->design->sha256, HASH_TEXT);
     int done = pool_run(&(struct pool_work){.n = s->n, .threads = ask->threads, .context = &p, .job = look, .took = took});
     for (int i = 0; i < s->n; i++)
         if (p.looks[i].trial)
             arena_close(p.looks[i].trial->arena);
     if (done < s->n)
         return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+    char *sha256 = arena_take(a, HASH_TEXT, 1);
+    hash_end(&p.scenes, sha256);
+    s->sha256 = sha256;
     find_form(&p, s);
     look_at_recordings(&p, s);
     find_length(&p, s);

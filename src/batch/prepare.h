@@ -2,6 +2,7 @@
 #ifndef BATCH_PREPARE_H
 #define BATCH_PREPARE_H
 #include "batch/design.h"
+#include "batch/lengths.h"
 #include "batch/set.h"
 #include "batch/shard.h"
 #include "batch/spare.h"
@@ -27,6 +28,7 @@ struct prepare {
     double seconds;          /* of sound, all stimuli                     */
     int n_sounds;            /* how many make any                         */
     double *lengths;         /* s, [n]: of each                           */
+    struct lengths own;      /* of those that sound, before they are made equal */
     double bytes, raw_bytes; /* of the WAVs; of what waits for a level    */
     double cycles;           /* predicted, of all                         */
     struct prepare_fault *faults;
@@ -34,7 +36,7 @@ struct prepare {
     const struct spare *inputs; /* what the set is made from              */
 };
 
-/* Completes the set: costs, the common length, the form of the WAVs. Replicates of a cell differ in their noise alone: the first one is read for all. Takes as many
+/* Completes the set: its hash, costs, the common length, the form of the WAVs. Replicates of a cell differ in their noise alone: the first one is read for all. Takes as many
    threads. False: there are faults (*e: the gravest kind and a summary), or ERR_INTERRUPTED, or
    an output would take the place of an input (ERR_CREATE). */
 void prepare_close(struct prepare *p);

@@ -27,7 +27,7 @@ struct set_row {                    /* one stimulus                             
 };
 
 struct set {
-    const char *title, *sha256;     /* of the design; title NULL: none                                      */
+    const char *title, *sha256;     /* of the design, with its scenes and what they read; title NULL: none  */
     const char *build;              /* of the program that renders it                                       */
     struct set_factor *factors;
     int n_factors;

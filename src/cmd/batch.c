@@ -184,7 +184,7 @@ static void print_silence(const struct batch_report *r)
         printf("no stimulus makes a sound, only tables: what is touched or what scrapes needs a response, as in set: {surface.response: table.csv}\n");
 }
 
-static void print_plan(const struct batch_ask *ask, const struct batch_report *r)
+static void print_plan(const struct batch_ask *ask, const struct batch_report *r, struct arena *a)
 {
     char cpu[24];
     design_print(&r->design, stdout);
@@ -192,6 +192,9 @@ static void print_plan(const struct batch_ask *ask, const struct batch_report *r
     printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r->set.n, r->prepare.seconds, r->prepare.bytes / 1e6, cpu);
     if (r->prepare.raw_bytes > 0)
         printf("%.3g MB more while the common level is not known\n", r->prepare.raw_bytes / 1e6);
+    const char *lengths = lengths_told(&r->prepare.own, &r->design, a);
+    if (lengths)
+        printf("%s\n", lengths);
     print_silence(r);
     if (ask->shard.n > 1)
         printf("shard %d/%d: %d of them\n", ask->shard.i, ask->shard.n, r->n_mine);
@@ -261,7 +264,7 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     if (json)
         batch_print_json(report_json(&ask, &r), e);
     else if (ok && ask.dry)
-        print_plan(&ask, &r);
+        print_plan(&ask, &r, c->arena);
     else if ((ok || r.failed) && !ask.quiet)
         print_report(&ask, &r, c->arena);
     return (int)e->kind;
@@ -279,7 +282,7 @@ const struct command batch_command = {
             "end (exit code 66), and the next run renders what may be of the old one. A stimulus that fails does not stop the others: the manifest has its error, and the exit code is the worst of all. Where the level is common, the set's gain is "
             "known only when all stimuli are: until then their raw sounds wait in FOLDER/.rasp, 8 bytes a sample. With --shard the set is rendered by several runs, on several machines "
             "perhaps, each with a manifest.I-of-N.csv; rasp merge makes one set of them. FOLDER/.rasp also keeps the list of what is done.\n"
-            "A folder holds the set of one design, which is known by its file and by what it says: the file may be edited, or be moved or renamed as it is. Another design is refused (exit code 73) "
+            "A folder holds the set of one design, which is known by its file and by what it says, its scenes and what they read included: the file may be edited, or be moved or renamed as it is. Another design is refused (exit code 73) "
             "unless --replace gives it the folder; so is a second batch while one is at work for another state of the design, where batches of the same state share the work. "
             "Files of stimuli that are no more in the design (a level was taken out, a label changed) stay, are named in a warning at the end, "
             "and are in no table; --prune removes those stimuli of which no file was changed, with their NAME.json, whose bytes are not kept account of: rename one with notes in it.",

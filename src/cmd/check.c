@@ -11,11 +11,12 @@
 #include "pipeline/promise.h"
 #include "scene/scene_places.h"
 
-static bool check_scene(struct cmd_call *c, const char *file, struct err *e)
+/* remark: of a design without fault; NULL: none. */
+static bool check_scene(struct cmd_call *c, const char *file, const char **remark, struct err *e)
 {
     struct scene s, kept;
     if (design_is(file))
-        return check_design(c, file, e);
+        return check_design(c, file, remark, e);
     return cmd_read_scene(c, file, &s, e) && ((promise_keep(&s, c->arena, &kept, NULL, e) && plan_scene(&kept, c->arena, e)) || scene_places_tell(&s, e));
 }
 
@@ -32,12 +33,15 @@ static json_t *row(const char *file, const struct err *e, json_t *errors)
 
 static void check_told(struct cmd_call *c, const char *file, json_t *rows, struct err *e)
 {
+    const char *remark = NULL;
     if (rows)
         tell_keep(c);
-    if (!check_scene(c, file, e))
+    if (!check_scene(c, file, &remark, e))
         tell_error(c, "check", e);
     else if (!rows)
         printf("%s: ok\n", text_shown(c->arena, file));
+    if (remark && !rows)
+        printf("%s: %s\n", text_shown(c->arena, file), remark);
     if (rows)
         json_array_append_new(rows, row(text_shown(c->arena, file), e, tell_kept(c)));
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "batch/design.h"
+#include "batch/lengths.h"
 #include "cmd/tell.h"
 #include "file/wav_check.h"
 #include "pipeline/plan_scene.h"
@@ -24,8 +25,9 @@ struct fault {
 
 struct faults {
     const struct design *design;
+    struct lengths lengths;
     struct fault *all;
-    int n, stimuli, worst;
+    int n, stimuli, worst, recordings;
 };
 
 static bool recording_good(const char *file, struct err *e)
@@ -34,16 +36,23 @@ static bool recording_good(const char *file, struct err *e)
 }
 
 /* What is wrong with stimulus i; false: something is. */
-static bool stimulus_good(const struct design *d, int i, struct fault *f)
+static bool stimulus_good(struct faults *x, int i, struct fault *f)
 {
+    const struct design *d = x->design;
+    struct plan_scene_estimate estimate;
     struct scene s, kept;
     const char *recording = d->stimuli[i].recording;
     f->messages = "";
+    x->recordings += recording != NULL;
     if (recording)
         return recording_good(recording, &f->err) || design_scene_recording(d, i, &f->err);
     bool read = design_scene(d, i, f->arena, &s, &f->messages, &f->err);
     f->diag = s.diag;
-    return read && ((promise_keep(&s, f->arena, &kept, NULL, &f->err) && plan_scene(&kept, f->arena, &f->err)) || scene_places_tell(&s, &f->err));
+    if (!read || !((promise_keep(&s, f->arena, &kept, NULL, &f->err) && plan_scene_estimate(&kept, f->arena, &estimate, &f->err)) || scene_places_tell(&s, &f->err)))
+        return false;
+    if (estimate.sounds)
+        lengths_add(&x->lengths, i, (double)estimate.length.frames / kept.output.sample_rate);
+    return true;
 }
 
 static void fault_add(struct faults *x, struct fault *f)
@@ -89,7 +98,7 @@ static bool faults_tell(struct cmd_call *c, struct faults *x, struct err *e)
     return x->stimuli == 0 || err_set(e, (enum err_kind)x->worst, "%s: %d of %d stimuli cannot be rendered", x->design->file, x->stimuli, x->design->n_stimuli);
 }
 
-bool check_design(struct cmd_call *c, const char *file, struct err *e)
+bool check_design(struct cmd_call *c, const char *file, const char **remark, struct err *e)
 {
     struct design d;
     const char *messages;
@@ -103,9 +112,11 @@ bool check_design(struct cmd_call *c, const char *file, struct err *e)
     struct faults x = {.design = &d, .all = ARENA_TAKE(c->arena, struct fault, FAULTS)};
     for (int i = 0; i < d.n_stimuli; i++) {
         struct fault f = {.arena = arena_open(), .n = 1, .first = i};
-        if (!stimulus_good(&d, i, &f))
+        if (!stimulus_good(&x, i, &f))
             fault_add(&x, &f);
         arena_close(f.arena);
     }
+    if (!x.recordings && !x.stimuli) /* how long recordings are is not read */
+        *remark = lengths_told(&x.lengths, &d, c->arena);
     return faults_tell(c, &x, e);
 }

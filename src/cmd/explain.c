@@ -87,6 +87,22 @@ static const char *endings(const char *word, const char **names, struct arena *a
     return found;
 }
 
+/* A key of designs, which are explained elsewhere; of scenes there may be one of that name in some section, too. False: there is none. */
+static bool explain_design(const char *word, const char **names, struct arena *a)
+{
+    json_t *schema = schema_design(a), *key = json_object_get(json_object_get(schema, "properties"), word);
+    key = key && json_object_get(key, "$ref") ? json_object_get(json_object_get(schema, "$defs"), word) : key;
+    const char *text = key ? json_string_value(json_object_get(key, "description")) : NULL, *scenes = endings(word, names, a);
+    if (key) {
+        printf("%s\n  a key of designs", word);
+        int n = 18 + (text ? printf(": ") : 0);
+        wrap_print(stdout, text ? text : "", n, "  ");
+        printf("%s  designs: man rasp-design(5)%s%s\n", text ? "" : "\n", scenes ? "; of scenes there is " : "", scenes ? scenes : "");
+    }
+    json_decref(schema);
+    return key != NULL;
+}
+
 static void unknown(const char *word, const char **names, struct arena *a, struct err *e)
 {
     const char *meant = endings(word, names, a);
@@ -156,7 +172,7 @@ static int explain_run(struct cmd_call *c, struct err *e)
         return 0;
     else if (is_scene_file(word))
         explain_scene(c, word, e);
-    else
+    else if (!explain_design(word, names, c->arena))
         unknown(word, names, c->arena, e);
     return 0;
 }
@@ -173,7 +189,7 @@ const struct command explain_command = {
     .name = "explain",
     .summary = "says what a key means, or all that a scene leaves unsaid",
     .does = "Without an operand: a scene with every key there is, explained. With a key or a section (motion.rate, motion, "
-            "accuracy.oversampling): its type, unit, range, default and meaning. With a scene file: the effective scene, in which every "
+            "accuracy.oversampling): its type, unit, range, default and meaning. With a key of designs (factors, level, length): what it is for; rasp-design(5) has the rest. With a scene file: the effective scene, in which every "
             "default and accuracy knob is written out; rendering it gives the same bytes.",
     .operands = "[KEY | SECTION | SCENE]",
     .least = 0,

@@ -1,8 +1,12 @@
 /* rasp new: a starter scene. */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "base/outfile.h"
+#include "base/relpath.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/starters.h"
@@ -25,14 +29,38 @@ static bool unknown(const char *name, struct err *e)
     return err_set(e, ERR_USAGE, "no starter scene '%s'; rasp new --list shows all", name);
 }
 
+/* "/usr/bin/" of the running program; "": nobody knows. */
+static const char *own_folder(struct arena *a)
+{
+    char self[4096];
+    ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
+    self[n > 0 ? n : 0] = '\0';
+    char *slash = strrchr(self, '/');
+    return slash ? arena_format(a, "%.*s", (int)(slash - self) + 1, self) : "";
+}
+
+/* The folder of the shipped responses, as a scene in `folder` calls it: seen from there where rasp was built in its source tree, else as it was installed, else of a source tree that
+   is the current folder. */
+static const char *irs_seen(const char *folder, struct arena *a)
+{
+    const char *self = own_folder(a), *tree = arena_format(a, "%s../irs", self), *installed = arena_format(a, "%s../share/rasp/irs", self);
+    if (*self && access(arena_format(a, "%s/README.md", tree), F_OK) == 0)
+        return relpath_make(tree, folder, a);
+    char *real = *self ? memory_realpath(installed) : NULL;
+    const char *seen = real ? arena_text(a, real) : access("irs/README.md", F_OK) == 0 ? relpath_make("irs", folder, a) : "irs";
+    free(real);
+    return seen;
+}
+
 static bool write_file(const struct starter *s, const char *file, bool force, struct arena *a, struct err *e)
 {
     struct outfile o;
+    const char *slash = strrchr(file, '/'), *folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL;
     if (!force && access(file, F_OK) == 0)
         return err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
     if (!outfile_open(&o, file, e))
         return false;
-    starters_print(o.stream, s, a);
+    starters_print(o.stream, s, irs_seen(folder, a), a);
     return outfile_commit(&o, e);
 }
 
@@ -48,7 +76,7 @@ static int new_run(struct cmd_call *c, struct err *e)
     else if (file)
         write_file(s, file, args_given(&c->args, "force"), c->arena, e);
     else
-        starters_print(stdout, s, c->arena);
+        starters_print(stdout, s, irs_seen(NULL, c->arena), c->arena);
     return 0;
 }
 
@@ -62,7 +90,8 @@ static const struct args_option options[] = {
 const struct command new_command = {
     .name = "new",
     .summary = "writes a commented starter scene",
-    .does = "Writes the starter scene NAME (scrape, if none is named), with every line explained. It can be rendered as it is.",
+    .does = "Writes the starter scene NAME (scrape, if none is named), with every line explained. It can be rendered as it is; for sound, remove the # before a response, which names a file of rasp's irs/ "
+            "that fits the motion (seen from the folder of FILE, or from the current one).",
     .operands = "[NAME]",
     .least = 0,
     .most = 1,

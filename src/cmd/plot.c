@@ -13,7 +13,7 @@ static const struct args_option plot_options[] = {
     {"panels", 'p', "PANEL,...", false, "which of waveform, spectrogram, force, normal, motion, modes and decays; default: all that there are data for, of a gallery waveform and spectrogram of what has a sound"},
     {"gallery", 'g', NULL, false, "a page of HTML for a folder of renders, or for the manifest.csv of a set: a picture, the sound and the factors of each"},
     {"format", 'f', "png|svg", false, "format of the picture; default: by the output's ending, else png"},
-    {"title", 't', "TEXT", false, "title; default: the scene's, if its summary lies beside the sound, else the file's name"},
+    {"title", 't', "TEXT", false, "title; default: the file's name and the scene's title, if its summary lies beside the sound, else the file's name"},
     {"from", 0, "SECONDS", false, "start of the time shown; default: 0"},
     {"channel", 'c', "N", false, "which channel of the sound, from 1 (of several listening places each is one); default: 1"},
     {"to", 0, "SECONDS", false, "end of the time shown; default: the end of the sound"},

@@ -255,13 +255,20 @@ static bool anything(const struct plot_page *p, struct err *e)
                    plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
 }
 
+/* "glass_1Hz: a tool scraped back and forth": of a set every stimulus has the same title. */
+static const char *titled(const struct plot_page *p, const char *title)
+{
+    const char *slash = strrchr(p->file, '/'), *name = slash ? slash + 1 : p->file, *dot = strrchr(name, '.');
+    return arena_format(p->arena, "%.*s: %s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name, title);
+}
+
 bool plot_data(struct plot_page *p, struct err *e)
 {
     size_t n = strlen(p->file);
     bool table = n > 4 && (strcmp(p->file + n - 4, ".csv") == 0 || strcmp(p->file + n - 4, ".npy") == 0);
     struct plot_summary summary = plot_summary_read(beside(p, ".json"), p->arena);
     bool foreign = summary_foreign(p, &summary, table, e);
-    const char *title = *summary.title && !foreign ? summary.title : p->file;
+    const char *title = *summary.title && !foreign ? titled(p, summary.title) : p->file;
     if (e->kind != ERR_NONE)
         return false;
     if (table ? !table_alone(p, e) : p->silent ? !silent_gather(p, &summary, e) : !sound_gather(p, e) || !(foreign || tables_find(p, &summary, e)))

@@ -64,8 +64,19 @@ static bool count_operands(const struct command *m, const struct args *g, struct
     return true;
 }
 
+/* Known before anything is taken: --diagnostics=json, or two words. */
+static bool asks_json(int argc, char **argv)
+{
+    for (int i = 0; i < argc; i++)
+        if (!strcmp(argv[i], "--diagnostics=json") || (!strcmp(argv[i], "--diagnostics") && i + 1 < argc && !strcmp(argv[i + 1], "json")))
+            return true;
+    return false;
+}
+
 int program_run(const struct command *m, int argc, char **argv)
 {
+    if (asks_json(argc, argv))
+        memory_out_as_json();
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
     int code = 0;

@@ -59,7 +59,7 @@ static json_t *level(struct arena *a)
     json_t *map = schema_value_map(json_pack("{s:O, s:o}", "common", one, "each", one), NULL);
     json_object_set_new(map, "maxProperties", json_integer(1));
     return json_pack("{s:[{s:[s, n]}, o], s:s}", "anyOf", "enum", "scene", map, "description",
-                     "one gain for the whole set (common), a gain for each stimulus (each), or as each scene says (scene); default: {common: {peak: -3 dB}}");
+                     "one gain for the whole set, as in {common: {peak: -3 dB}}, the default; a gain for each stimulus, as in {each: {lufs: -23}}: all equally loud; or as each scene says (scene)");
 }
 
 static json_t *order(struct arena *a)
@@ -68,20 +68,26 @@ static json_t *order(struct arena *a)
     return json_pack("{s:[{s:[s, n]}, o], s:s}", "anyOf", "enum", "design", map, "description", "as written (design, the default), or shuffled by {seed: NUMBER}");
 }
 
+static json_t *described(json_t *o, const char *description)
+{
+    json_object_set_new(o, "description", json_string(description));
+    return o;
+}
+
 static void add_rest(json_t *all, struct arena *a)
 {
     const struct schema_value_quantity length = {KEY_TIME, 0, 0, false, "longest|own"}, replicates = {KEY_NONE, 1, 1000000, true, NULL};
-    json_object_set_new(all, "replicates", schema_value_quantity(&replicates, a));
+    json_object_set_new(all, "replicates", described(schema_value_quantity(&replicates, a), "takes of each cell, which differ in their noise; default: 1"));
     json_object_set_new(all, "independent", schema_value_list(schema_value_plain("text", NULL), 0, 1000, "factors whose levels have noise of their own"));
     json_object_set_new(all, "name", schema_value_plain("text", "names of files: {FACTOR}, {replicate}, {order}, {cell} between other characters"));
     json_object_set_new(all, "level", level(a));
-    json_object_set_new(all, "length", schema_value_quantity(&length, a));
+    json_object_set_new(all, "length", described(schema_value_quantity(&length, a), "how long each sound is: as the longest of the set (longest, the default), as by itself (own), or a time"));
 }
 
 json_t *schema_design(struct arena *a)
 {
     json_t *all = json_object(), *defs = schema_maps(a);
-    json_object_set_new(all, "rasp-design", schema_value_quantity(&(struct schema_value_quantity){KEY_NONE, 1, 1, true, NULL}, a));
+    json_object_set_new(all, "rasp-design", described(schema_value_quantity(&(struct schema_value_quantity){KEY_NONE, 1, 1, true, NULL}, a), "version of the format of designs; this is version 1"));
     json_object_set_new(all, "title", schema_value_plain("text", "what the set is, for people"));
     json_object_set_new(all, "text", schema_value_plain("text", "what a trial says, {FACTOR} standing for a level's text"));
     json_object_set_new(all, "base", schema_value_plain("text", "the scene that all stimuli build on, as seen from the design's folder"));

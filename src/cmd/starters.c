@@ -1,5 +1,5 @@
 /* Starter scenes as lines of keys and values; the comment above a key is its meaning in keys.def. They render as they are: no line that is
-   on names a file. */
+   on names a file. The shipped responses that are off fit the motion: tables with places on y = 0 where it is a line along x, else one response that holds everywhere. */
 #include "cmd/starters.h"
 
 #include <stdbool.h>
@@ -14,8 +14,9 @@
 #define ROUGHNESS                                                                                                    \
     ON("surface.roughness.exponent", "-2.4"), ON("surface.roughness.rms", "4 um"), ON("surface.roughness.longest", "2 mm"), \
         ON("surface.roughness.shortest", "20 um")
-#define SURFACE_RESPONSE OFF("surface.response", "plank.csv")
-#define SCRAPER ON("scraper.mass", "20 g"), OFF("scraper.response", "tool.csv")
+#define PLANK OFF("surface.response", "irs/oak_plank.csv")
+#define TILE OFF("surface.response", "irs/ceramic_tile_tap.wav")
+#define SCRAPER ON("scraper.mass", "20 g"), OFF("scraper.response", "irs/pvc_rod.csv"), OFF("scraper.weight", "0.03")
 #define STROKES                                                                                                       \
     ON("motion.path", "back_and_forth"), ON("motion.from", "[0 cm, 0 cm]"), ON("motion.to", "[4.5 cm, 0 cm]"), ON("motion.rate", "2 Hz"), \
         ON("motion.duration", "2 s")
@@ -34,26 +35,26 @@
 #define TAIL OUTPUT, ON("accuracy", "standard"), END
 
 static const struct keys_line scrape[] = {ON("rasp", "1"), ON("title", "a tool scraped back and forth"), ON("seed", "1"), ROUGHNESS,
-                                          SURFACE_RESPONSE, SCRAPER, STROKES, OFF("load.constant", "1.5 N"), TAIL};
+                                          PLANK, SCRAPER, STROKES, OFF("load.constant", "1.5 N"), TAIL};
 
 static const struct keys_line stroke[] = {ON("rasp", "1"), ON("title", "one stroke from rest to rest"), ON("seed", "1"), ROUGHNESS,
-                                          SURFACE_RESPONSE, SCRAPER, LINE, ON("motion.duration", "0.8 s"), ON("motion.law", "minimum_jerk"),
+                                          PLANK, SCRAPER, LINE, ON("motion.duration", "0.8 s"), ON("motion.law", "minimum_jerk"),
                                           TAIL};
 
 static const struct keys_line grip[] = {ON("rasp", "1"), ON("title", "a tool held in the hand"), ON("seed", "1"), ROUGHNESS,
-                                        SURFACE_RESPONSE, SCRAPER, STROKES, HAND, OFF("contact.limiter.force_range", "[0.2 N, 5 N]"), TAIL};
+                                        PLANK, SCRAPER, STROKES, HAND, OFF("contact.limiter.force_range", "[0.2 N, 5 N]"), TAIL};
 
 static const struct keys_line circle[] = {ON("rasp", "1"), ON("title", "round and round on a ribbed plate"), ON("seed", "1"), ROUGHNESS,
                                           ON("surface.ridges.spacing", "1 mm"), ON("surface.ridges.height", "20 um"),
-                                          ON("surface.ridges.direction", "90 deg"), SURFACE_RESPONSE, SCRAPER, CIRCLE, HAND, TAIL};
+                                          ON("surface.ridges.direction", "90 deg"), TILE, SCRAPER, CIRCLE, HAND, TAIL};
 
 static const struct keys_line pen[] = {ON("rasp", "1"), ON("title", "a curve as a hand draws it"), ON("seed", "1"), ROUGHNESS,
-                                       ON("surface.roughness.grain", "5"), ON("surface.roughness.grain_direction", "0 deg"), SURFACE_RESPONSE, SCRAPER,
+                                       ON("surface.roughness.grain", "5"), ON("surface.roughness.grain_direction", "0 deg"), TILE, SCRAPER,
                                        STROKE_OF_A_PEN, OFF("load.constant", "1.5 N"), TAIL};
 
 static const struct keys_line sandpaper[] = {ON("rasp", "1"), ON("title", "scribbling on sandpaper"), ON("seed", "1"),
                                              ON("surface.roughness.rms", "2 um"), ON("surface.grit.density", "30 /mm^2"),
-                                             ON("surface.grit.diameter", "125 um"), ON("surface.grit.height", "40 um"), SURFACE_RESPONSE, SCRAPER,
+                                             ON("surface.grit.diameter", "125 um"), ON("surface.grit.height", "40 um"), TILE, SCRAPER,
                                              ON("motion.path", "scribble"), ON("motion.size", "[6 cm, 4 cm]"), ON("motion.rate", "2 Hz"),
                                              ON("motion.duration", "2 s"), TAIL};
 
@@ -65,14 +66,14 @@ static const struct keys_line profile[] = {ON("rasp", "1"),
                                            ON("surface.along", "path"),
                                            OFF("surface.off_map", "mirror"),
                                            ROUGHNESS,
-                                           SURFACE_RESPONSE,
+                                           PLANK,
                                            SCRAPER,
                                            LINE,
                                            ON("motion.speed", "10 cm/s"),
                                            TAIL};
 
 static const struct keys_line paper[] = {ON("rasp", "1"), ON("title", "the equations as printed"), ON("seed", "1"), ROUGHNESS,
-                                         SURFACE_RESPONSE, SCRAPER, STROKES, HAND, ON("contact.force", "paper"), ON("contact.beta1", "0.05"),
+                                         PLANK, SCRAPER, STROKES, HAND, ON("contact.force", "paper"), ON("contact.beta1", "0.05"),
                                          ON("contact.beta2", "1"), ON("contact.limiter.alpha_min", "1 cm"),
                                          ON("contact.limiter.alpha_max", "5 cm"), ON("contact.limiter.zeta", "0.95"), TAIL};
 
@@ -85,8 +86,8 @@ static const struct keys_line strike[] = {ON("rasp", "1"), ON("title", "a steel 
                                           ON("contact.model", "strike"), ON("contact.strike.speed", "1 m/s"),
                                           OFF("contact.strike.restitution", "0.7"), TAIL};
 
-static const struct keys_line roll[] = {ON("rasp", "1"), ON("title", "a marble rolls over a plank"), ON("seed", "1"), ROUGHNESS, SURFACE_RESPONSE,
-                                        ON("ball.radius", "8 mm"), ON("ball.material", "glass"), OFF("ball.offset", "0.5 mm"), OFF("ball.response", "marble.csv"),
+static const struct keys_line roll[] = {ON("rasp", "1"), ON("title", "a marble rolls over a plank"), ON("seed", "1"), ROUGHNESS, PLANK,
+                                        ON("ball.radius", "8 mm"), ON("ball.material", "glass"), OFF("ball.offset", "0.5 mm"), OFF("ball.response", "irs/glass_ball.csv"), OFF("ball.weight", "10"),
                                         LINE, ON("motion.speed", "20 cm/s"), ON("contact.model", "roll"), ON("contact.roll.mu", "1 s/m"),
                                         ON("contact.roll.static_depth", "3"), ON("contact.roll.scraping", "1"), TAIL};
 
@@ -102,12 +103,12 @@ static const struct keys_line impacts[] = {ON("rasp", "1"), ON("title", "rolling
                                            ON("contact.impacts.roughness", "0.5"), OFF("contact.gesture.cutoff", "4 kHz"), TAIL};
 
 static const struct keys_line contacts_head[] = {ON("rasp", "1"), ON("title", "two tools on one plank"), ON("seed", "1"), END};
-static const struct keys_line contacts_rod[] = {ON("name", "rod"), ROUGHNESS, SURFACE_RESPONSE, SCRAPER, LINE, ON("motion.speed", "5 cm/s"), END};
+static const struct keys_line contacts_rod[] = {ON("name", "rod"), ROUGHNESS, PLANK, SCRAPER, LINE, ON("motion.speed", "5 cm/s"), END};
 static const struct keys_line contacts_comb[] = {ON("name", "comb"),
                                                  ON("start", "0.5 s"),
                                                  ON("gain", "0.5"),
                                                  ON("surface.roughness.rms", "9 um"),
-                                                 SURFACE_RESPONSE,
+                                                 PLANK,
                                                  ON("scraper.mass", "8 g"),
                                                  LINE,
                                                  ON("motion.speed", "20 cm/s"),
@@ -181,30 +182,44 @@ static const char *meaning(const char *path)
     return k ? k->meaning : NULL;
 }
 
-static void print_lines(FILE *f, const struct keys_line *lines, const struct keys_style *style, struct arena *a)
+/* "irs/oak_plank.csv", in the folder that `irs` names. */
+static const char *found_in(const char *irs, const char *value, struct arena *a)
+{
+    return strncmp(value, "irs/", 4) ? value : arena_format(a, "%s/%s", irs, value + 4);
+}
+
+struct printing {
+    FILE *f;
+    const char *irs;
+    struct arena *arena;
+};
+
+static void print_lines(const struct printing *p, const struct keys_line *lines, const struct keys_style *style)
 {
     int n = 0;
     while (lines[n].path)
         n++;
-    struct keys_line *told = ARENA_TAKE(a, struct keys_line, n);
+    struct keys_line *told = ARENA_TAKE(p->arena, struct keys_line, n);
     for (int i = 0; i < n; i++) {
         told[i] = lines[i];
+        told[i].value = found_in(p->irs, lines[i].value, p->arena);
         told[i].comment = style->comments ? meaning(lines[i].path) : NULL;
     }
-    keys_yaml_print(f, told, n, style);
+    keys_yaml_print(p->f, told, n, style);
 }
 
-void starters_print(FILE *f, const struct starter *s, struct arena *a)
+void starters_print(FILE *f, const struct starter *s, const char *irs, struct arena *a)
 {
+    struct printing p = {f, irs, a};
     fprintf(f, "# ");
     wrap_print(f, s->about, 2, "# ");
     fprintf(f, "# Every key: rasp explain. One key: rasp explain motion.rate. A bare number is in SI units.\n"
-               "# Responses to begin with are in irs/ of rasp's folder (installed: share/rasp/), surfaces in surfaces/.\n\n");
-    print_lines(f, s->head, &(struct keys_style){.comments = true}, a);
+               "# Responses to begin with are in irs/ of rasp's folder (installed: share/rasp/), surfaces in surfaces/. Those named here fit the motion.\n\n");
+    print_lines(&p, s->head, &(struct keys_style){.comments = true});
     if (s->items[0])
         fputs("\ncontacts:\n", f);
     for (int i = 0; s->items[i]; i++)
-        print_lines(f, s->items[i], &(struct keys_style){.indent = 4, .item = true}, a);
+        print_lines(&p, s->items[i], &(struct keys_style){.indent = 4, .item = true});
     if (s->tail)
-        print_lines(f, s->tail, &(struct keys_style){.comments = true}, a);
+        print_lines(&p, s->tail, &(struct keys_style){.comments = true});
 }

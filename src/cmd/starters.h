@@ -17,6 +17,7 @@ struct starter {
 extern const struct starter starters_table[]; /* the first is the default; ends with name NULL */
 
 const struct starter *starters_find(const char *name); /* NULL: none */
-void starters_print(FILE *f, const struct starter *s, struct arena *a);
+/* irs: the folder of the shipped responses, as the scene is to call it. */
+void starters_print(FILE *f, const struct starter *s, const char *irs, struct arena *a);
 
 #endif

@@ -25,15 +25,18 @@ static bool mix_open(struct stage_run *r, struct err *e)
 
 static bool mix_run(struct stage_run *r, long from, long to, struct err *e)
 {
-    const struct board *b = r->board;
+    struct board *b = r->board;
     double *y = board_at(b, ITEM_SOUND, from), gain = r->contact->gain;
     const enum item parts[] = {ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND};
+    bool both = board_has(b, parts[0]) && board_has(b, parts[1]);
     (void)e;
     long count = (to - from) * b->channels;
     memset(y, 0, (size_t)count * sizeof *y);
     for (int k = 0; k < 2; k++) {
         if (board_has(b, parts[k]))
             scaled_add(y, gain, board_at(b, parts[k], from), count);
+        if (both)
+            b->energy[k] += scaled_squares(board_at(b, parts[k], from), count);
     }
     return true;
 }

@@ -10,6 +10,7 @@
 #include "convolution/ring_along.h"
 #include "response/ir.h"
 #include "response/ir_set.h"
+#include "response/places.h"
 #include "scene/ablation.h"
 #include "trajectory/trajectory.h"
 
@@ -117,8 +118,9 @@ static bool recorded_inside(const struct ring_panned *s, const struct stage_run 
             trajectory_continued(tr, t, p);
         double out = places_at(s->set.places, p[0], p[1], &mix);
         if (out > 1e-9 && s->set.n > 1)
-            return err_set(e, ERR_SCENE, "contact '%s': %s [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: nearest",
-                           r->contact->name, s->one && !isnan(r->contact->ablation.place[0]) ? "ablation.place is" : "the motion reaches", p[0], p[1], out, r->contact->surface.response.file);
+            return err_set(e, ERR_SCENE, "contact '%s': %s [%g m, %g m], %.3g m beyond the places of %s: %s; move it, or set surface.extrapolate: nearest",
+                           r->contact->name, s->one && !isnan(r->contact->ablation.place[0]) ? "ablation.place is" : "the motion reaches", p[0], p[1], out, r->contact->surface.response.file,
+                           places_told(s->set.places, r->arena));
     }
     return true;
 }

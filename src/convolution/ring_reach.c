@@ -6,6 +6,7 @@
 
 #include "convolution/ring_along.h"
 #include "convolution/ring_choice.h"
+#include "response/places.h"
 #include "scene/ablation.h"
 #include "trajectory/trajectory.h"
 
@@ -14,8 +15,9 @@
 static bool reach_told(const struct modes *m, const struct stage_run *r, const double p[2], double out, struct err *e)
 {
     bool place = ablation_one_place(r->contact) && !isnan(r->contact->ablation.place[0]);
-    return err_set(e, ERR_SCENE, "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s; move it, or set surface.extrapolate: nearest", r->contact->name,
-                   ring_choice_about(r->contact, RING_SURFACE), place ? "ablation.place is" : "the motion reaches", p[0], p[1], out, m->name);
+    return err_set(e, ERR_SCENE, "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s%s%s; move it, or set surface.extrapolate: nearest", r->contact->name,
+                   ring_choice_about(r->contact, RING_SURFACE), place ? "ablation.place is" : "the motion reaches", p[0], p[1], out, m->name, m->places ? ": " : "",
+                   m->places ? places_told(m->places, r->arena) : "");
 }
 
 bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)

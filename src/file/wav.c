@@ -46,6 +46,12 @@ static bool text_given(const char *s)
     return s && *s;
 }
 
+/* Why libsndfile did not do it: the system's reason, if there was one, is plainer than its own. */
+static const char *reason(SNDFILE *sound)
+{
+    return errno ? strerror(errno) : sf_strerror(sound);
+}
+
 /* Says so, if that was why; returns false. */
 static bool out_of_memory(const struct wav_out *w, struct err *e)
 {
@@ -60,11 +66,12 @@ static bool sound_open(struct wav_out *w, int container, struct err *e)
     errno = 0;
     w->sound = sf_open_fd(w->out.fd, SFM_WRITE, &i, 0);
     if (!w->sound)
-        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: libsndfile cannot write this format: %s", w->path, sf_strerror(NULL));
+        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: the sound file cannot be begun, of %d channel%s at %g Hz: %s; is the disk full, or the size of files limited? Make room, or write "
+                                                             "elsewhere with -o", w->path, f->channels, f->channels == 1 ? "" : "s", f->rate, reason(NULL));
     sf_command(w->sound, SFC_SET_ADD_PEAK_CHUNK, NULL, SF_FALSE);
     if ((text_given(f->title) && sf_set_string(w->sound, SF_STR_TITLE, f->title)) ||
         (text_given(f->comment) && sf_set_string(w->sound, SF_STR_COMMENT, f->comment)))
-        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: libsndfile refuses the title or comment: %s", w->path, sf_strerror(w->sound));
+        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: the scene's title, or the comment that says the gain, cannot be written into the sound file: %s; shorten title, or leave it out", w->path, reason(w->sound));
     return true;
 }
 
@@ -131,13 +138,13 @@ bool wav_comment(struct wav_out *w, const char *text, struct err *e)
         return err_set(e, ERR_MEMORY, "%s: out of memory", w->path);
     errno = 0;
     if (w->frames > 0 || sf_set_string(w->sound, SF_STR_COMMENT, text))
-        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: libsndfile refuses the comment: %s", w->path, sf_strerror(w->sound));
+        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: the comment that says the gain cannot be written into the sound file: %s; is the disk full?", w->path, reason(w->sound));
     return true;
 }
 
 static bool write_failed(const struct wav_out *w, struct err *e)
 {
-    const char *why = errno ? strerror(errno) : sf_strerror(w->sound);
+    const char *why = reason(w->sound);
     return err_set(e, ERR_IO, "%s: cannot be written: %s", w->path, why);
 }
 

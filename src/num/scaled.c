@@ -18,3 +18,19 @@ void scaled_add(double *restrict y, double factor, const double *restrict x, lon
     for (long i = 0; i < n; i++)
         y[i] += factor * x[i];
 }
+
+LANES_CLONES
+double scaled_squares(const double *x, long n)
+{
+    double sum[LANES] = {0}, all = 0;
+    long i = 0;
+    for (; i + LANES <= n; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++)
+            sum[l] += x[i + l] * x[i + l];
+    for (int l = 0; l < LANES; l++)
+        all += sum[l];
+    for (; i < n; i++)
+        all += x[i] * x[i];
+    return all;
+}

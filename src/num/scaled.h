@@ -6,4 +6,7 @@
 void scaled_copy(double *y, double factor, const double *x, long n);
 void scaled_add(double *y, double factor, const double *x, long n);
 
+/* Sum of x[i]^2, by LANES of num/lanes.h. */
+double scaled_squares(const double *x, long n);
+
 #endif

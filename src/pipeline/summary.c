@@ -108,6 +108,18 @@ void summary_notes(const struct scene *s, const struct run *const *runs, struct 
 
 /* ------------------------------------------------------------------ remarks */
 
+/* 20 dB: beside a sound of its own kind that much louder, one adds 0.04 dB to the whole, and what is varied of it alone is hardly heard. */
+static void warn_drowned(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
+{
+    const char *other = ball_rolls(c) ? "ball" : "scraper";
+    double ratio = b->energy[1] / b->energy[0];
+    if (ratio > 100)
+        warn(report, arena_format(a, "contact '%s': the surface is more than 20 dB under its %s, and hardly heard; %s.weight lowers the %s (ablation.sound: surface is the surface alone)", c->name, other,
+                                  other, other));
+    else if (ratio < 0.01)
+        warn(report, arena_format(a, "contact '%s': the %s is more than 20 dB under its surface, and hardly heard; %s.weight raises it (ablation.sound: %s is it alone)", c->name, other, other, other));
+}
+
 static void warn_contact(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
 {
     for (int k = 0; k < b->n_warnings && k < MOST_OF_BOARD; k++)
@@ -120,6 +132,7 @@ static void warn_contact(const struct contact *c, const struct board *b, struct 
     if (b->unstated && b->quantity >= 0)
         warn(report, arena_format(a, "contact '%s': its WAV response does not say what it is in, and is summed as if in %s, like its mode table",
                                   c->name, modes_quantity_unit(b->quantity)));
+    warn_drowned(c, b, report, a);
     if (impacts(b))
         warn_impacts(c, &b->impacts, report, a);
 }

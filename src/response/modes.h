@@ -31,6 +31,7 @@ struct modes_point {             /* what rings when it is touched there; arrays 
 };
 
 struct object;
+struct places;
 
 struct modes {
     int n;                       /* components, strongest mode first                                        */
@@ -44,6 +45,7 @@ struct modes {
     const struct object *object; /* NULL: not one of closed form                                            */
     const char *name;            /* file or "surface.object", for messages                                  */
     const char *note;            /* what to warn of; NULL: nothing                                          */
+    const struct places *places; /* that a table knows; NULL: no table                                      */
     double home[2];              /* m: the place that counts where nothing says which (of a line its first)  */
     /* Kinks of the way from one point to another, as places_kinks; NULL: there are none. */
     int (*kinks)(const struct modes *, const double from[2], const double to[2], double *u, int most);

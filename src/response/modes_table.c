@@ -256,7 +256,7 @@ static void make_modes(const struct making *k, double rate, struct modes *m)
     double **own[] = {&m->frequency, &m->decay, &m->slowest, &p->largest, &p->lowest, &p->highest};
     *p = (struct morph){.n = k->n, .rows = (int)k->t->places, .places = k->places, .rate = rate};
     *m = (struct modes){.n = k->n, .quantity = k->t->quantity, .shared = k->t->shared || p->rows == 1, .moves = p->rows > 1, .radius = k->t->radius,
-                        .name = k->t->csv.file, .note = k->t->note, .kinks = kinks, .drop = drop, .self = p};
+                        .name = k->t->csv.file, .note = k->t->note, .places = k->places, .kinks = kinks, .drop = drop, .self = p};
     for (int c = 0; c < 6; c++)
         *own[c] = ARENA_TAKE(k->arena, double, k->n);
     for (int i = 0; i < k->n; i++)

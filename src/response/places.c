@@ -203,6 +203,27 @@ int places_kinks(const struct places *p, const double from[2], const double to[2
     return n;
 }
 
+/* "0 <= x <= 40 cm", "y = 3.7 cm" */
+static const char *extent(const struct places *p, int axis, struct arena *a)
+{
+    double least = p->xy[axis], most = least;
+    for (int i = 1; i < p->n; i++) {
+        least = fmin(least, p->xy[2 * i + axis]);
+        most = fmax(most, p->xy[2 * i + axis]);
+    }
+    char name = axis ? 'y' : 'x';
+    return most - least <= same ? arena_format(a, "%c = %.6g cm", name, 100 * least) : arena_format(a, "%.6g <= %c <= %.6g cm", 100 * least, name, 100 * most);
+}
+
+const char *places_told(const struct places *p, struct arena *a)
+{
+    bool slanting = p->kind == PLACES_LINE && fabs(p->axis[0]) > same && fabs(p->axis[1]) > same;
+    if (!slanting)
+        return arena_format(a, "its places lie %s %s, %s", p->kind == PLACES_PLANE ? "within" : "on", extent(p, 0, a), extent(p, 1, a));
+    const double *from = p->xy + 2 * p->index[0], *to = p->xy + 2 * p->index[p->n - 1];
+    return arena_format(a, "its places lie on the line from (%.6g, %.6g) to (%.6g, %.6g) cm", 100 * from[0], 100 * from[1], 100 * to[0], 100 * to[1]);
+}
+
 int places_edges(const struct places *p, const int (**edge)[2])
 {
     if (p->kind == PLACES_PLANE)

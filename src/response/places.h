@@ -25,6 +25,9 @@ enum places_kind places_kind(const struct places *p);
    everywhere: 0. */
 double places_at(const struct places *p, double x, double y, struct places_mix *mix);
 
+/* Where they lie, for a message: "its places lie on 0 <= x <= 40 cm, y = 3.7 cm"; of a slanting line its two ends, of the plane a box that holds them. */
+const char *places_told(const struct places *p, struct arena *a);
+
 /* Parameters u in (0, 1), increasing, at which the straight way from `from` to `to` passes from one simplex to the next (kinks of linear
    interpolation), off the hull those of its nearest point; writes the first `most`, returns how many there are. Some may be none: where
    the way goes through a place, or along an edge. */

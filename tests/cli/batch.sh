@@ -36,7 +36,13 @@ rasp batch six.yaml -o one | count && same one two
 rasp batch six.yaml -o one --force | count && same one two
 echo "-- --json, --dry-run"
 rasp batch six.yaml -o one --json | python3 -c 'import json, sys; d = json.load(sys.stdin); print(d["stimuli"], d["ok"], d["kept"], d["failed"], d["full_scale"] > 0)'
-rasp batch six.yaml --dry-run | tail -n 2 | sed 's/CPU.*//'
+rasp batch six.yaml --dry-run | tail -n 3 | sed 's/CPU.*//'
+rasp check six.yaml
+{ cat six.yaml; echo 'length: own'; } > own.yaml
+rasp batch own.yaml --dry-run | tail -n 2 | sed 's/CPU.*//'
+rasp check own.yaml
+sed 's/low.csv/none.csv/' six.yaml > bad.yaml
+rasp check bad.yaml 2> /dev/null || echo "exit $?, and nothing more"
 echo "-- a folder elsewhere: the same jobs; moved, its scenes are written again"
 mkdir -p far/away
 rasp batch six.yaml -o far/away/two -q && cmp <(columns two/manifest.csv job_hash audio_sha256) <(columns far/away/two/manifest.csv job_hash audio_sha256) && echo "the same jobs"

@@ -8,7 +8,7 @@ contacts:
 output: {tail: 50 ms, diagnostics: {rate: 1 kHz}}
 END
 printf '%s\n' '# poles: shared' '# quantity: velocity' place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad a,0,0,1,1000,60,1,0 > modes.csv
-title() { grep -q '<text>.*a stroke' "$1" && echo "the scene's title" || echo "another title"; }
+title() { grep -o '<text>.*a stroke' "$1" | sed 's/<[^>]*>//g' | grep . || echo "another title"; }
 rasp render -q x.yaml
 cp x.csv first.csv
 rasp plot x.wav

@@ -14,6 +14,11 @@ expect_text err '^rasp render: error: .*(sound|diagnostics|large|space|write)'
 expect_files
 cd ..
 
+# Not a byte fits; what is said goes through a pipe, for there is no file for it either.
+code=0
+told=$(ulimit -f 0 && trap '' XFSZ && rasp render --quiet "$scene" -o none.wav --set 'output.level={full_scale: 10 m/s}' --set output.diagnostics=null 2>&1) || code=$?
+[ "$code" = 73 ] && grep -q 'none.wav: the sound file cannot be begun, .*File too large; is the disk full' <<< "$told" || fail "exit $code, and $told"
+
 mkdir disk
 if [ "$(id -u)" = 0 ] && mount -t tmpfs -o size=64k none disk 2> /dev/null; then
     expect_exit 74 rasp render "$scene" -o disk/sound.wav

@@ -40,6 +40,7 @@ each() {
 each "a list of modes" rasp modes list "$ROOT/irs/steel_bowl.csv"
 each "a comparison" rasp compare tap.wav tap.wav
 each "a check" rasp check small.yaml
+each "a check that is told as JSON" FAULTS_SAYS='{"severity": "error"' rasp check --diagnostics=json small.yaml
 each "a plan" rasp plan --json small.yaml
 each "a design" rasp check design.yaml
 each "a render" rasp render --quiet small.yaml -o out/sound.wav

@@ -13,6 +13,15 @@ expect_exit 73 rasp render "$scene" -o file/
 expect_text err '^rasp render: error: .*file'
 expect_exit 73 rasp render "$scene" -o nowhere/deeper/
 expect_text err '^rasp render: error: .*nowhere/deeper'
+# /proc is a folder, but none of files.
+expect_exit 73 rasp render "$scene" -o /proc/
+expect_text err '^rasp render: error: .*/proc/.*cannot be created: its folder is none in which files can be made'
+printf 'rasp-design: 1\nbase: %s\nreplicates: 2\n' "$scene" > set.yaml
+expect_exit 73 rasp batch set.yaml -o /proc
+expect_text err '^rasp batch: error: the folder /proc/.rasp cannot be created: no folder can be made there'
+expect_exit 73 rasp batch set.yaml -o nowhere/set
+expect_text err 'its parent is not there'
+rm set.yaml
 [ "$(cat file)" = plain ] || fail "the file was changed"
 expect_files file sealed
 

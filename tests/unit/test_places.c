@@ -332,4 +332,17 @@ START_TEST(nearly_straight_sides)
 }
 END_TEST
 
-UNIT("places", one_place, a_line, random_places_are_delaunays, grids, circles, distance_to_the_hull, kinks_against_bisection, refused, nearly_straight_sides)
+/* How messages name them; the line's ends are where it runs to, in whatever order the places are. */
+START_TEST(told)
+{
+    setup();
+    double plank[] = {0.1, 0.037, 0, 0.037, 0.4, 0.037}, upright[] = {0.02, 0.3, 0.02, -0.1}, slanting[] = {1.3, 1.4, 1, 1, 1.6, 1.8}, plane[] = {0, 0, 0.2, 0, 0.05, -0.1};
+    ck_assert_str_eq(places_told(made(3, plank, PLACES_LINE), arena), "its places lie on 0 <= x <= 40 cm, y = 3.7 cm");
+    ck_assert_str_eq(places_told(made(2, upright, PLACES_LINE), arena), "its places lie on x = 2 cm, -10 <= y <= 30 cm");
+    ck_assert_str_eq(places_told(made(3, slanting, PLACES_LINE), arena), "its places lie on the line from (100, 100) to (160, 180) cm");
+    ck_assert_str_eq(places_told(made(3, plane, PLACES_PLANE), arena), "its places lie within 0 <= x <= 20 cm, -10 <= y <= 0 cm");
+    teardown();
+}
+END_TEST
+
+UNIT("places", one_place, told, a_line, random_places_are_delaunays, grids, circles, distance_to_the_hull, kinks_against_bisection, refused, nearly_straight_sides)

@@ -15,7 +15,7 @@ static char *starter_text(const struct starter *starter, size_t *size)
 {
     char *text = NULL;
     FILE *f = open_memstream(&text, size);
-    starters_print(f, starter, a);
+    starters_print(f, starter, "irs", a);
     fclose(f);
     return text;
 }
