@@ -8,33 +8,115 @@
 
 #include "base/outfile.h"
 #include "cmd/accuracy.h"
+#include "pipeline/plan_scene.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 
 enum { REFERENCE, OWN };
 
-/* The preset reference, but nowhere coarser than what is verified. */
-static struct accuracy finest(const struct accuracy *own)
+/* ------------------------------------------------------------------ the reference
+
+   The preset reference, but of every knob at least twice as fine as what is verified, so that no more than a fraction of its error (2^-order of it; of morph_error, in 12 dB,
+   a quarter) is left out of what is measured. Where that is beyond the knob's range, or a stage refuses it (memory), the reference is as fine as it may be, and the knob is
+   told. A method has nothing finer; exact values (ramps of one sample) leave no error. */
+
+#define FINER_DB 12.0
+
+static double finer(int knob, double own)
+{
+    switch (keys_knobs[knob].scale) {
+    case KEY_STEPS:
+        return fmin(2 * own, keys_knobs[knob].high);
+    case KEY_ERROR:
+        return own < 0 ? fmax(own - FINER_DB, keys_knobs[knob].low) : own;
+    case KEY_SECONDS:
+        return fmax(own / 2, keys_knobs[knob].low);
+    case KEY_SAMPLES:
+        return fmax(floor(own / 2), keys_knobs[knob].low);
+    default:
+        return own;
+    }
+}
+
+/* Is `than` at least twice as fine as own, or own without an error of its own? */
+static bool twice(int knob, double own, double than)
+{
+    switch (keys_knobs[knob].scale) {
+    case KEY_STEPS:
+        return than >= 2 * own;
+    case KEY_ERROR:
+        return own == 0 || than <= own - FINER_DB;
+    case KEY_SECONDS:
+        return than <= own / 2;
+    case KEY_SAMPLES:
+        return own <= 1 || than <= own / 2;
+    default:
+        return true;
+    }
+}
+
+/* `raised`: set of knobs that are finer than the preset has them. */
+static struct accuracy finest(const struct accuracy *own, unsigned used, unsigned *raised)
 {
     struct accuracy set = *own;
     accuracy_preset(&set, "reference");
+    *raised = 0;
     for (int k = 0; k < KNOBS; k++) {
-        double x = accuracy_knob(own, (enum knob)k), y = accuracy_knob(&set, (enum knob)k);
+        double x = accuracy_knob(own, (enum knob)k), y = accuracy_knob(&set, (enum knob)k), z = used & 1u << k ? finer(k, x) : x;
         bool up = keys_knobs[k].scale == KEY_STEPS || keys_knobs[k].scale == KEY_METHOD;
-        accuracy_turn(&set, (enum knob)k, up ? fmax(x, y) : keys_knobs[k].scale == KEY_ERROR && x == 0 ? y : fmin(x, y));
+        double best = up ? fmax(z, y) : keys_knobs[k].scale == KEY_ERROR && x == 0 ? y : fmin(z, y);
+        accuracy_turn(&set, (enum knob)k, best);
+        *raised |= best != y ? 1u << k : 0;
     }
     return set;
 }
 
-static bool measure(struct accuracy_sweep *s, struct err *e)
+/* What is raised and refused (heights that take too much memory) is had one and a half times as fine as what is verified, or as fine, never coarser than the preset has it:
+   one knob after another, until the reference is rendered. */
+static bool reference(struct accuracy_sweep *s, unsigned raised, struct err *e)
+{
+    struct accuracy_render *r = &s->renders[REFERENCE];
+    struct accuracy preset = r->set;
+    accuracy_preset(&preset, "reference");
+    s->reference = -1; /* that a reference is refused would be an error */
+    bool ok = accuracy_child(s, REFERENCE, e);
+    for (int i = 0; ok && r->code != 0 && i < 2 * KNOBS; i++) {
+        enum knob k = (enum knob)(i / 2);
+        double own = accuracy_knob(&s->renders[OWN].set, k), least = accuracy_knob(&preset, k);
+        bool steps = keys_knobs[k].scale == KEY_STEPS;
+        if (!(raised & 1u << k) || (!steps && i % 2 == 0))
+            continue;
+        accuracy_turn(&r->set, k, steps ? fmax(i % 2 ? own : floor(1.5 * own), least) : fmin(own, least));
+        ok = accuracy_child(s, REFERENCE, e);
+    }
+    s->reference = REFERENCE;
+    return ok;
+}
+
+static bool measure(struct accuracy_sweep *s, unsigned raised, struct err *e)
 {
     if (!accuracy_child_folder(s, e))
         return false;
     bool ok = true;
-    for (int i = 0; ok && i < s->n_renders; i++)
-        ok = accuracy_child(s, i, e) && (s->renders[i].code == 0 || err_set(e, (enum err_kind)s->renders[i].code, "%s", s->renders[i].words)) && accuracy_compare(s, i, e);
+    for (int i = 0; ok && i < s->n_renders; i++) {
+        const struct accuracy_render *r = &s->renders[i];
+        ok = (i == REFERENCE ? reference(s, raised, e) : accuracy_child(s, i, e)) && (r->code == 0 || err_set(e, (enum err_kind)r->code, "%s", r->words)) && accuracy_compare(s, i, e);
+    }
     accuracy_child_end(s);
     return ok;
+}
+
+/* Of which knobs there is nothing twice as fine: "" or what is told. */
+static const char *unmeasured(const struct accuracy_sweep *s, unsigned used, struct arena *a)
+{
+    const char *text = "";
+    for (int k = 0; k < KNOBS; k++) {
+        double own = accuracy_knob(&s->renders[OWN].set, (enum knob)k), than = accuracy_knob(&s->renders[REFERENCE].set, (enum knob)k);
+        if (used & 1u << k && !twice(k, own, than))
+            text = arena_format(a, "%s; %s of %s %.6g%s, as the reference has no finer than %.6g%s", text, than == own ? "nothing" : "less than all", keys_knobs[k].name, own,
+                                accuracy_unit((enum knob)k), than, accuracy_unit((enum knob)k));
+    }
+    return text;
 }
 
 /* The summary once more, with what was measured. */
@@ -73,14 +155,20 @@ bool render_verify(struct cmd_call *c, const char *file, const struct scene *ask
     struct accuracy_sweep s = {.call = c, .file = file, .scene = *asked, .until = INFINITY, .high = -1, .n_renders = 2, .reference = REFERENCE};
     s.renders = ARENA_TAKE(c->arena, struct accuracy_render, 2);
     s.force = accuracy_silent(asked);
-    s.renders[REFERENCE] = (struct accuracy_render){.set = finest(&r->accuracy), .cpu = HUGE_VAL, .contact_share = NAN};
+    unsigned used, raised;
+    s.scene.accuracy = r->accuracy;
+    if (!plan_scene_knobs(&s.scene, c->arena, &used, e))
+        return false;
+    s.renders[REFERENCE] = (struct accuracy_render){.set = finest(&r->accuracy, used, &raised), .cpu = HUGE_VAL, .contact_share = NAN};
     s.renders[OWN] = (struct accuracy_render){.set = r->accuracy, .cpu = HUGE_VAL, .contact_share = NAN};
-    if (!measure(&s, e))
+    if (!measure(&s, raised, e))
         return false;
     double measured = -s.renders[OWN].error.snr;
     if (!summary_again(r, measured, c->arena, e))
         return false;
-    note(r, isfinite(measured) ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference", measured) : "accuracy: measured: the same bits as the reference", c->arena);
+    const char *less = unmeasured(&s, used, c->arena);
+    note(r, isfinite(measured) ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s", measured, less)
+                               : arena_format(c->arena, "accuracy: measured: the same bits as the reference%s", less), c->arena);
     return isnan(asked->accuracy.error) || measured <= asked->accuracy.error ||
            err_set(e, ERR_DIFFERS, "%s: accuracy.error: %.6g dB is not kept: %.1f dB measured against the reference; the files stay as they are: ask for less error, or say the knobs",
                    file, asked->accuracy.error, measured);

@@ -184,6 +184,16 @@ static bool run_stretches(struct excerpts *x, struct run *r, double *force, stru
     return true;
 }
 
+bool excerpts_can(struct excerpts *x, const struct accuracy *set, struct err *e)
+{
+    struct run r;
+    x->scene.accuracy = *set;
+    bool ok = run_open(&r, &x->plan, &x->scene, NULL, e);
+    if (ok)
+        run_close(&r);
+    return ok;
+}
+
 bool excerpts_run(struct excerpts *x, const struct accuracy *set, double *force, struct err *e)
 {
     struct run r;

@@ -37,6 +37,9 @@ bool excerpts_make(const struct scene *s, const struct contact *c, double first,
 /* The force at these settings, [frames] in N, stretch after stretch. */
 bool excerpts_run(struct excerpts *x, const struct accuracy *set, double *force, struct err *e);
 
+/* Would it be run, as far as stages tell when they are opened? */
+bool excerpts_can(struct excerpts *x, const struct accuracy *set, struct err *e);
+
 /* Energy of the sound that the force makes, of the whole motion as the stretches stand for it. */
 double excerpts_energy(const struct excerpts *x, const double *force);
 

@@ -112,7 +112,7 @@ static bool refuse(struct promise_making *m, struct err *e)
         return false;
     for (int k = 0; k < KNOBS; k++)
         if (promise_rehearse_is(m, k) && !promise_said(m, k))
-            accuracy_turn(&m->kept->accuracy, (enum knob)k, m->curves[k].end);
+            accuracy_turn(&m->kept->accuracy, (enum knob)k, promise_curve_best(&m->curves[k]));
     if (!promise_said(m, KNOB_morph_error))
         m->morph = fmin(m->morph, PROMISE_FLOOR);
     tell_parts(m);
@@ -129,11 +129,14 @@ static bool refuse(struct promise_making *m, struct err *e)
 
 /* ------------------------------------------------------------------ choosing */
 
+/* That an error cannot be kept is believed when all is rehearsed, and not before. */
 static bool choose(struct promise_making *m, struct err *e)
 {
     double tenths = 0, work;
-    if (!promise_share(m, &tenths))
-        return refuse(m, e);
+    if (!promise_rehearse(m, m->whole, e))
+        return false;
+    if (!promise_share(m, &tenths) && (!promise_rehearse(m, 0, e) || !promise_share(m, &tenths)))
+        return e->kind == ERR_NONE && refuse(m, e);
     return tenths == 0 || plan_at(m, morph_for(m, tenths), &work, e);
 }
 
@@ -156,7 +159,7 @@ static bool make(struct promise_making *m, struct err *e)
         return false;
     if (!m->morphs)
         m->work[0] = m->work[1];
-    if (!promise_rehearse(m, e) || !choose(m, e))
+    if (!choose(m, e))
         return false;
     tell_parts(m);
     keep_choices(m);

@@ -3,7 +3,10 @@
      e_i = d_i / (1 - 2^-p_i)        p_i = log2(d_i / d_(i+1)), of the last one that of the one before, from 1/2 to `order`
 
    Between values log e is a straight line over log v. Beyond the last one it falls with that one's p, so never faster than `order`: what has been seen to
-   fall more slowly is not trusted to fall faster. A sound's rest of the filters' ripple and of rounding is no power: PROMISE_FLOOR, -140 dB. */
+   fall more slowly is not trusted to fall faster. A sound's rest of the filters' ripple and of rounding is no power: PROMISE_FLOOR, -140 dB.
+
+   The first differences may fall by another power than the later ones, or even grow: that a value will do is told from them by two doublings at most, that none will do
+   from a settled curve only. */
 #include "pipeline/promise_curve.h"
 
 #include <math.h>
@@ -12,11 +15,11 @@
 
 #define LOG2 0.6931471805599453
 #define SLOWEST 0.5
+#define ALIKE 0.25 /* orders that agree */
 
 double promise_curve_value(const struct promise_curve *c, int i)
 {
-    double v = c->down ? c->low / (double)(1L << i) : c->low * (double)(1L << i);
-    return c->down ? fmax(v, c->end) : fmin(v, c->end);
+    return c->down ? c->low / (double)(1L << i) : c->low * (double)(1L << i);
 }
 
 static double order_at(const struct promise_curve *c, int i)
@@ -50,14 +53,41 @@ double promise_curve_error(const struct promise_curve *c, double value)
     return fmax(real_exp(log_error(c, i) - slope * (x - i)), PROMISE_FLOOR);
 }
 
-bool promise_curve_enough(const struct promise_curve *c, double error)
+static bool ended(const struct promise_curve *c)
+{
+    double next = promise_curve_value(c, c->n + 1);
+    return c->n == PROMISE_CURVE_MOST || c->apart[c->n - 1] == 0 || (c->down ? next < c->end : next > c->end);
+}
+
+bool promise_curve_settled(const struct promise_curve *c)
 {
     if (c->n < 1)
         return false;
-    int i = c->n - 1;
-    if (c->n == PROMISE_CURVE_MOST || promise_curve_value(c, c->n) == promise_curve_value(c, c->n + 1) || c->apart[i] == 0 || real_exp(log_error(c, i)) <= error)
+    if (ended(c))
         return true;
-    return c->n > 1 && (promise_curve_error(c, promise_curve_value(c, c->n)) <= error || promise_curve_error(c, promise_curve_value(c, c->n + 1)) <= error / 2 || promise_curve_error(c, c->end) > error * 8);
+    if (c->n < PROMISE_CURVE_FAR)
+        return false;
+    double last = order_at(c, c->n - 2), before = order_at(c, c->n - 3);
+    return last > SLOWEST && before > SLOWEST && fabs(last - before) <= ALIKE;
+}
+
+bool promise_curve_enough(const struct promise_curve *c, double error)
+{
+    if (promise_curve_settled(c))
+        return true;
+    if (c->n < 1)
+        return false;
+    double next = promise_curve_value(c, c->n), second = promise_curve_value(c, c->n + 1);
+    return real_exp(log_error(c, c->n - 1)) <= error || (c->n > 1 && (promise_curve_error(c, next) <= error || promise_curve_error(c, second) <= error / 2));
+}
+
+double promise_curve_best(const struct promise_curve *c)
+{
+    double best = c->end;
+    for (int i = c->n - 1; i >= 0; i--)
+        if (promise_curve_error(c, promise_curve_value(c, i)) < promise_curve_error(c, best))
+            best = promise_curve_value(c, i);
+    return best;
 }
 
 double promise_curve_least(const struct promise_curve *c, double error)

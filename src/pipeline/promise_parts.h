@@ -34,13 +34,14 @@ static inline bool promise_said(const struct promise_making *m, int knob)
 /* Is its error rehearsed? A ramp of gains is measured beforehand, except under a ball that is coupled. */
 bool promise_rehearse_is(const struct promise_making *m, int knob);
 
-/* The curves of all knobs whose errors are rehearsed. ERR_SCENE: of a ball that bounces; else those of stages. */
-bool promise_rehearse(struct promise_making *m, struct err *e);
+/* The curves of all knobs whose errors are rehearsed, each until it tells which value has at most that error; 0: until all of them are settled. ERR_SCENE: of a ball that
+   bounces; else those of stages. */
+bool promise_rehearse(struct promise_making *m, double error, struct err *e);
 
 /* True, with an error: a coupled ball bounces or, where the promise cannot be kept anyway (failed), leaves the surface. */
 bool promise_rehearse_chaos(const struct promise_making *m, bool failed, struct err *e);
 
-/* Sets the knobs that the scene leaves open but morph_error, which is free to have so many tenths of the budget's square. ERR_NONE and false: there are no such values. */
+/* Sets the knobs that the scene leaves open but morph_error, which is free to have so many tenths of the budget's square. False: there are no such values. */
 bool promise_share(struct promise_making *m, double *morph_tenths);
 
 enum { PROMISE_TENTHS = 10 };

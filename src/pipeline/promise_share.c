@@ -1,5 +1,5 @@
 /* The budget is shared in tenths of its square between the knobs that are free; the shares whose values cost the least, by the plans' predicted work, are taken, and
-   morph_error gets what whole numbers leave over. */
+   morph_error gets what whole numbers leave over. Where tenths are too coarse to keep the error, every knob is as fine as helps. */
 #include <math.h>
 #include <string.h>
 
@@ -91,6 +91,21 @@ static double left_over(const struct promise_making *m)
     return left;
 }
 
+/* Every knob as fine as helps, however the budget is then shared. */
+static bool take_best(const struct promise_making *m, const struct sources *s, struct accuracy *set, double *spent)
+{
+    *spent = 0;
+    for (int i = 0; i < s->n; i++) {
+        const struct promise_curve *c = &m->curves[s->knob[i]];
+        if (s->knob[i] == KNOB_morph_error)
+            continue;
+        double value = promise_curve_best(c), error = promise_curve_error(c, value) / m->whole;
+        *spent += error * error;
+        accuracy_turn(set, (enum knob)s->knob[i], value);
+    }
+    return *spent < s->left;
+}
+
 bool promise_share(struct promise_making *m, double *morph_tenths)
 {
     struct sources s = {.cost = HUGE_VAL, .left = left_over(m)};
@@ -104,9 +119,10 @@ bool promise_share(struct promise_making *m, double *morph_tenths)
         return s.left >= 1 - real_exp10(PROMISE_MARGIN / 10);
     if (s.left > 0)
         share(m, &s, 0, PROMISE_TENTHS);
-    if (!isfinite(s.cost))
+    struct accuracy set = m->kept->accuracy;
+    if (!(isfinite(s.cost) ? take(m, &s, s.best, &set, &spent) : take_best(m, &s, &set, &spent)))
         return false;
-    take(m, &s, s.best, &m->kept->accuracy, &spent);
+    m->kept->accuracy = set;
     *morph_tenths = s.knob[s.n - 1] == KNOB_morph_error ? PROMISE_TENTHS * (s.left - spent) : 0;
     return true;
 }

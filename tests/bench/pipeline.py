@@ -155,10 +155,37 @@ def row(what, value, goal, met):
     print(f"| {what} | {value} | {goal} | {'met' if met else 'not met'} |", flush=True)
 
 
+TEN = "columns: [time_s, x_m, y_m, vx_m_per_s, vy_m_per_s, stroke_m, speed_m_per_s, normal_force_n, force_mean_n, force_peak_n]"
+
+
+def tables():
+    """What a row a sample costs, of 10 columns and of all that a scrape has: the bytes of CSV over what it adds to the render without (columns, text, checksum, file); renders with .npy over the same
+    without. As in the jobs, what begins and ends a render is not in."""
+    for accuracy in ("draft", "standard"):
+        outputs = {("none",): ""} | {(form, n): f"diagnostics: {{rate: 44.1 kHz, format: {form}{columns}}}" for form in ("csv", "npy") for n, columns in (("10", ", " + TEN), ("all", ""))}
+        kept, size = Least(), {}
+        for _ in range(REPEATS):
+            for key, output in outputs.items():
+                for seconds in (SHORT, STEADY):
+                    clock, _ = yardstick()
+                    name = f"table_{'_'.join(key)}"
+                    kept.take((key, seconds), clock * render(moving(PROFILE, output=output, accuracy=accuracy), seconds, name)[0])
+                    size[key, seconds] = os.path.getsize(f"{name}.csv") if key[0] == "csv" else 0
+        with open("table_csv_all.csv") as table:
+            count = len(next(line for line in table if not line.startswith("#")).split(","))
+        cost = {key: kept.kept[key, STEADY] - kept.kept[key, SHORT] for key in outputs}
+        for n in ("10", "all"):
+            named = f"{count if n == 'all' else n} columns at 44.1 kHz, profile, {accuracy}"
+            rate = (size[("csv", n), STEADY] - size[("csv", n), SHORT]) / (cost["csv", n] - cost["none",]) * 3.6e9 / 1e6
+            row(f"CSV, MB/s at 3.6 GHz: its bytes over what it adds, {named}", f"{rate:.0f}", "500", rate >= 500)
+            ratio = cost["npy", n] / cost["none",]
+            row(f".npy, a sample over that of the render without, {named}", f"{ratio:.1f}", "2.5", ratio <= 2.5)
+
+
 def batches():
     """Stimuli of 2 s in one command, all of one core."""
     count = 20
-    for output, what, goal in ((TABLE, "CSV at 1 kHz", 300), ("diagnostics: {rate: 44.1 kHz, columns: [time_s, x_m, y_m, vx_m_per_s, vy_m_per_s, stroke_m, speed_m_per_s, normal_force_n, force_mean_n, force_peak_n]}", "CSV of 10 columns at 44.1 kHz", 38)):
+    for output, what, goal in ((TABLE, "CSV at 1 kHz", 300), (f"diagnostics: {{rate: 44.1 kHz, {TEN}}}", "CSV of 10 columns at 44.1 kHz", 38)):
         for accuracy in ("draft", "standard"):
             for k in range(count):
                 with open(f"stimulus{k}.yaml", "w") as out:
@@ -200,5 +227,6 @@ if __name__ == "__main__":
     if not ONLY:
         print("\n| | measured | goal | |\n|---|---|---|---|")
         start_up()
+        tables()
         batches()
         growth()

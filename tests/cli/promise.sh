@@ -64,4 +64,18 @@ rasp render broken.yaml --verify -o e.wav > /dev/null 2> words || code=$?
 [ $code = 1 ] || fail "exit code $code where the error is not kept"
 grep -q 'accuracy.error: -70 dB is not kept: -[0-9.]* dB measured' words || fail "$(cat words)"
 [ -f e.wav ] && [ -f e.json ] || fail 'files are gone'
+# A knob as fine as the reference's is measured against twice that; one that has nothing finer is told.
+scene tip <<YAML
+surface: {roughness: {rms: 3 um, longest: 1 mm, shortest: 50 um}}
+scraper: {mass: 8 g, radius: 0.3 mm, patch: 30 um}
+motion: {path: circle, center: [5 cm, 5 cm], radius: 5 mm, turns: 0.1, duration: 0.05 s}
+output: {quantity: force}
+accuracy: reference
+YAML
+rasp render tip.yaml --verify -o f.wav > words 2>&1
+grep -q 'accuracy: -[0-9.]* dB measured, against the reference; nothing of oversampling 64, as the reference has no finer than 64$' words || fail "$(cat words)"
+rasp render tip.yaml --set accuracy.oversampling=32 --verify -o f.wav > words 2>&1
+grep -q 'dB measured, against the reference$' words || fail "$(cat words)"
+rasp render tip.yaml --set accuracy.oversampling=33 --verify -o f.wav > words 2>&1
+grep -q '; less than all of oversampling 33, as the reference has no finer than 64$' words || fail "$(cat words)"
 finish

@@ -58,16 +58,49 @@ START_TEST(lowest)
 }
 END_TEST
 
-/* Rehearsals end as soon as the answer is known, and where there is none. */
+/* Rehearsals end as soon as the answer is known; that there is none, when all is. */
 START_TEST(enough)
 {
     for (int n = 0; n < 5; n++) {
         struct promise_curve o = of_power(1e-2, 2, n);
         ck_assert_int_eq(promise_curve_enough(&o, 1e-3), n >= 2);       /* 4 does: e(4) = 6e-4, from what 1, 2 and 4 show */
-        ck_assert_int_eq(promise_curve_enough(&o, 1e-8), n >= 2);       /* 64 has 2.4e-6                                  */
+        ck_assert_int_eq(promise_curve_enough(&o, 1e-8), 0);            /* 64 has 2.4e-6, but who knows                   */
         ck_assert_int_eq(promise_curve_enough(&o, 2e-2), n >= 1);
     }
 }
 END_TEST
 
-UNIT("promise_curve", power, order, least, lowest, enough)
+/* A curve that begins flat is settled at its end, or far out where its slope is its last; its best is what the rest says, and is asked for with success. */
+START_TEST(settled)
+{
+    for (int n = 1; n <= 11; n++) {
+        struct promise_curve o = of_power(1e-2, 2, n), longer = o;
+        for (int i = 0; i < 2 && i < n; i++)
+            longer.apart[i] = o.apart[i] = 6e-4 - 1e-4 * i; /* falls by 1.6 dB, then by 0.6 to o.apart[2] = 4.7e-4, then by 12 */
+        longer.end = 100000;
+        ck_assert_int_eq(promise_curve_settled(&o), n >= 6);
+        ck_assert_int_eq(promise_curve_settled(&longer), n >= 6);
+        ck_assert_int_eq(promise_curve_enough(&longer, 1e-12), n >= 6);
+        if (n != 6)
+            continue;
+        ck_assert_double_eq(promise_curve_best(&o), 64);
+        ck_assert_double_eq_tol(promise_curve_error(&o, 64), 1e-2 / 64 / 64, 1e-15);
+    }
+    struct promise_curve rising = of_power(1e-2, 2, 6); /* what seems finer is not better */
+    rising.apart[5] = 1;
+    ck_assert_double_eq(promise_curve_best(&rising), 16);
+}
+END_TEST
+
+/* A last doubling that would go beyond the end is not run: a difference over less than a doubling is none of a power. */
+START_TEST(doublings)
+{
+    struct promise_curve o = of_power(1e-2, 2, 3);
+    o.end = 15;
+    ck_assert(promise_curve_settled(&o));
+    o.end = 16;
+    ck_assert(!promise_curve_settled(&o));
+}
+END_TEST
+
+UNIT("promise_curve", settled, doublings, power, order, least, lowest, enough)
