@@ -512,7 +512,7 @@ A ball that bounces forgets its start: two forces whose initial heights differ b
 
 $(cat chaos.txt)
 
-So of a bouncing ball two runs agree to the last bit for 0.1 to 0.4 s at most, two integrators to 10 % for 20 to 200 ms, and beyond that a pointwise comparison means nothing; where the ball stays down, or mu damps it, it holds
+So of a bouncing ball two runs agree to the last bit for 0.07 to 0.3 s at most, two integrators to 10 % for 20 to 200 ms, and beyond that a pointwise comparison means nothing; where the ball stays down, or mu damps it, it holds
 for ever. What can be compared instead, 30 s, three seeds, mean+-deviation; 20 cm/s, kappa 5e9, mu 1, beta -0.5:
 
 $(cat statistics.txt)

@@ -3,11 +3,11 @@
 #define FORCE_SLOPE_HEADING_H
 #include "stage.h"
 
-enum { SLOPE_ALPHAS = 9, SLOPE_HEADINGS = 128 };
+enum { SLOPE_ALPHAS = 65, SLOPE_HEADINGS = 128 };
 
-/* T(c) = share c + mean by least squares over the ground, at directions evenly over |x| + |y| = 1, half way round, and at alphas evenly by logarithm. */
+/* T(c) = share c + mean by least squares over the ground, at directions evenly over |x| + |y| = 1, half way round, and at alphas evenly by logarithm, at most 1.23 times apart over a range of 4e5. */
 struct slope_heading {
-    int alphas;             /* 1: alpha is constant */
+    int alphas;             /* so many are in use; 1: alpha is constant */
     double least, step;     /* log(alpha / m) of the first, from one to the next */
     double share[SLOPE_ALPHAS][SLOPE_HEADINGS + 1]; /* 1   */
     double mean[SLOPE_ALPHAS][SLOPE_HEADINGS + 1];  /* 1/m */
