@@ -115,7 +115,7 @@ static void slope_rise(struct slope *s, const struct way_pieces *p, int i, doubl
     if (s->by_height) {
         mean = slope_height_piece(&s->turned, p, &s->terms, i, alpha);
         s->height = s->turned.sum + s->turned.rise;
-        s->climb = p->heading[i] * slope_height_climb(&s->turned, p, i, alpha, s->leak);
+        s->climb = p->heading[i] * slope_height_climb(&s->turned, p, i, s->leak);
     } else {
         s->height = s->terms.kept[i] * (s->height + h * a) + h * h * ((phi - chi) * mean - (1 - z) * p->moment[0][i]);
     }

@@ -149,7 +149,7 @@ static bool heading_asked(const struct stage_run *r)
 static void heading_fill(struct slope_heading *h, struct look *g, const struct stage_run *r, int k)
 {
     double e[2], alpha = real_exp(h->least + k * h->step);
-    bool one = heading_one(r, e);
+    bool one = h->one = heading_one(r, e);
     struct slope_part p = {1, 0};
     for (int i = 0; i <= SLOPE_HEADINGS; i++) {
         double side = 2.0 * i / SLOPE_HEADINGS, x = 1 - side, y = 1 - fabs(x), length = sqrt(x * x + y * y);
@@ -180,18 +180,18 @@ static int heading_below(double place, int last)
     return place < last ? (int)place : last - 1;
 }
 
-struct slope_part slope_heading_at(const struct slope_heading *h, double ex, double ey, double alpha)
+double slope_heading_row(const struct slope_heading *h, double alpha)
+{
+    return h && h->alphas > 1 ? fmin(fmax((real_log(alpha) - h->least) / h->step, 0), h->alphas - 1) : 0;
+}
+
+struct slope_part slope_heading_at(const struct slope_heading *h, double ex, double ey, double row)
 {
     if (!h)
         return (struct slope_part){1, 0};
-    double place = SLOPE_HEADINGS / 2 * (1 - (ey < 0 ? -ex : ex) / (fabs(ex) + fabs(ey))), one = 0;
-    int i = heading_below(place, SLOPE_HEADINGS), k = 0;
-    if (h->alphas > 1) {
-        one = fmin(fmax((real_log(alpha) - h->least) / h->step, 0), h->alphas - 1);
-        k = heading_below(one, h->alphas - 1);
-    }
-    double f = place - i, low = 1 - (one - k), high = one - k;
-    int up = h->alphas > 1 ? k + 1 : k;
+    double place = h->one ? 0 : SLOPE_HEADINGS / 2 * (1 - (ey < 0 ? -ex : ex) / (fabs(ex) + fabs(ey)));
+    int i = heading_below(place, SLOPE_HEADINGS), k = h->alphas > 1 ? heading_below(row, h->alphas - 1) : 0, up = h->alphas > 1 ? k + 1 : k;
+    double f = place - i, low = 1 - (row - k), high = row - k;
     return (struct slope_part){low * ((1 - f) * h->share[k][i] + f * h->share[k][i + 1]) + high * ((1 - f) * h->share[up][i] + f * h->share[up][i + 1]),
                                low * ((1 - f) * h->mean[k][i] + f * h->mean[k][i + 1]) + high * ((1 - f) * h->mean[up][i] + f * h->mean[up][i + 1])};
 }

@@ -25,16 +25,19 @@ static double height_curve(const struct way_pieces *p, int i, double *moment)
 }
 
 /* Half way. */
-static struct slope_part height_part(const struct slope_height *s, const struct way_pieces *p, int i, double alpha)
+static struct slope_part height_part(const struct slope_height *s, const struct way_pieces *p, int i)
 {
     int a = p->at[i], b = a + 1;
     double x = p->ex[a] + p->ex[b], y = p->ey[a] + p->ey[b];
-    return slope_heading_at(s->heading, x, y, alpha);
+    return slope_heading_at(s->heading, x, y, s->row);
 }
 
 double slope_height_piece(struct slope_height *s, const struct way_pieces *p, const struct slope_terms *t, int i, double alpha)
 {
-    struct slope_part part = height_part(s, p, i, alpha);
+    if (alpha != s->alpha)
+        s->row = slope_heading_row(s->heading, alpha);
+    s->alpha = alpha;
+    struct slope_part part = height_part(s, p, i);
     int a = p->at[i], b = a + 1;
     double h = p->length[i], z = t->z[i], phi = t->phi[i], kept = t->kept[i], bend, curve = height_curve(p, i, &bend);
     double mean = p->mean[0][i] - part.share * curve - part.mean, moment = p->moment[0][i] - part.share * bend;
@@ -46,9 +49,9 @@ double slope_height_piece(struct slope_height *s, const struct way_pieces *p, co
     return mean;
 }
 
-double slope_height_climb(const struct slope_height *s, const struct way_pieces *p, int i, double alpha, double leak)
+double slope_height_climb(const struct slope_height *s, const struct way_pieces *p, int i, double leak)
 {
     int end = p->at[i] + 1;
-    double share = slope_heading_at(s->heading, p->ex[end], p->ey[end], alpha).share;
+    double share = slope_heading_at(s->heading, p->ex[end], p->ey[end], s->row).share;
     return s->rest + share * (p->heading[i] * p->slope[end] - s->climb / leak);
 }
