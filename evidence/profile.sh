@@ -52,27 +52,27 @@ Goals are in cycles a sample of a core of 3.6 GHz (evidence/bench.sh); what take
   a root and two divisions. (At 1968b6b it took 420; and what begins and ends a run of steps, 1900 cycles, was paid each sample, now once in up to 64.) The goal
   was set on a prototype that did nothing else; here each step reads its place on the curve, where the ball rests on a piece of it by Newton's method (110 cycles, eight places at a
   time; 370 one at a time), and a sample has its sound besides: trajectory, decimation, the same 50 modes as they ring, WAV: 250 cycles, which alone is nearly the goal.
-- **2-D roughness with CSV, 170 cycles (43 of 480 times real time at draft):** 1913 cycles, 1707 of them the scrape's. Of 5170 instructions a sample the ground's second derivatives take 2280 (284 on the map of the row
+- **2-D roughness with CSV, 170 cycles (45 of 480 times real time at draft):** 1826 cycles, 1628 of them the scrape's. Of 5170 instructions a sample the ground's second derivatives take 2280 (284 on the map of the row
   above): it has no end and does not repeat, so that the lattice of its splines is made where the contact goes (`blocks_sum` 890, `patch_hold` 185) before 16 coefficients a point
   are read. Its lattice is finer than that map's 50 um, so there are more pieces: the limiter takes 1070 (320 there), cutting 650 (237), the slope 480 (190). Keeping what a motion to and fro has met before
   would save the making; it is memory that grows with the way, and is not done.
-- **32 recorded responses, 136 cycles (82 of 600 times real time):** 992. Of 2870 instructions a sample 1110 find, for each sample, which responses the place lies between and with what shares (`share_places`,
+- **32 recorded responses, 136 cycles (79 of 600 times real time):** 1038. Of 2870 instructions a sample 1110 find, for each sample, which responses the place lies between and with what shares (`share_places`,
   `places_plane_at`), some 1200 are the transforms of blocks of 2048 and products of spectra, 220 the checksum of the force. Places found once in some samples and shares ramped between would take most of
   the first away, with an error to be kept like that of ramped gains; it is not done.
-- **Given force, moving contact, 45 cycles (421 of 1800 times real time fixed, 372 glide):** 194 and 219 cycles. Beside what the object at rest pays, gains are ramped: `ring` takes 253 instructions, `ring_steady` 218; the checksum of the
+- **Given force, moving contact, 45 cycles (454 of 1800 times real time fixed, 359 glide):** 180 and 227 cycles. Beside what the object at rest pays, gains are ramped: `ring` takes 253 instructions, `ring_steady` 218; the checksum of the
   force 223 and the places the rest. What would do is less to read: the file of forces is 8 bytes a sample, read twice.
-- **What glide adds to fixed, 10 cycles: 25.** 95 instructions: 36 in the recursion, whose poles are ramped too (`ring_gliding` 289), 57 at the ramps' ends, where poles of the place become rotations (exp, sin, cos of 50
+- **What glide adds to fixed, 10 cycles: 25 to 48, by the run.** 95 instructions: 36 in the recursion, whose poles are ramped too (`ring_gliding` 289), 57 at the ramps' ends, where poles of the place become rotations (exp, sin, cos of 50
   modes, `set_targets`). A plate's poles do not move; to find that out once, and then ring as fixed does, would make it free here, not where poles do move, and is not done.
 - **Start-up, 3 ms: 4.2 ms wall, 3.6 ms CPU** (8.8 and 4.3 while others were at work). Of 16.4 million instructions (callgrind) 21 % clear memory, 13 % decimate and 8 % resonate the sound that the tiny scene has, 5 % copy, 7 % and more link shared libraries, 5 %
   tell which keys decide on which. Fewer pages to clear, and linking statically, would save most; neither is done.
-- **Stimuli of 2 s a second, 85 of 300 (with CSV at 1 kHz), 19 of 38 (ten columns at 44.1 kHz):** 42 million cycles a stimulus, 31 of which are 88200 samples at 351 cycles: the goal, 12 million, is that of the 1-D profile once
+- **Stimuli of 2 s a second, 86 of 300 (with CSV at 1 kHz), 21 of 38 (ten columns at 44.1 kHz):** 42 million cycles a stimulus, 31 of which are 88200 samples at 351 cycles: the goal, 12 million, is that of the 1-D profile once
   more, and the other 11 are start and end of each render. Of 189 million with the large table some 147 are its own, see CSV.
-- **CSV, 500 MB/s: 499 in memory (`tests/bench/decimal.c`: 25.9 ns a number, 7.7 times printf's speed; 479 in another run), 283 to 306 from end to end (`tests/bench/pipeline.py`):** of the 5660 instructions that a row of ten columns adds, 1570 turn numbers into
+- **CSV, 500 MB/s: 499 in memory (`tests/bench/decimal.c`: 25.9 ns a number, 7.7 times printf's speed; 479 in another run), 283 to 319 from end to end (`tests/bench/pipeline.py`):** of the 5660 instructions that a row of ten columns adds, 1570 turn numbers into
   text, 3280 are its checksum (SHA-256; far less of the cycles where the CPU has instructions for it), 225 put lines together, 210 and more gather columns; the kernel's copying comes on top. A checksum on a
   thread of its own would hide it; of one core it would not.
 - **.npy, 2.5 times the render without: 3.3 with ten columns, 3.9 with 14 at draft (3.4 and 4.3 in another run; 1.9 and 2.0 at standard):** 80 and 112 bytes a sample. Of the 2980 instructions that ten columns add 2240 are their checksum, 500
   gather them, 120 write. As with CSV.
-- **csound, 5 times: 3.4; SciPy's lfilter, 25 times: 21.** Whole processes: of 26 ms of rasp's, for 10 s of force on an object at rest, start-up is 4, and of the rest the modes are half (46 %), reading the force and its checksum a third: what csound, which
+- **csound, 5 times: 3.2 to 3.5; SciPy's lfilter, 25 times: 19 to 21.** Whole processes: of 26 ms of rasp's, for 10 s of force on an object at rest, start-up is 4, and of the rest the modes are half (46 %), reading the force and its checksum a third: what csound, which
   makes its noise or reads it once, has not. The modes cannot be had for less without contraction (see given force, at rest), so it is again reading and start-up.
 - **rk4, 82 cycles a step: 1650.** Of 5170 instructions a step 2860 look where the modes are at each of its four stages, which wait for one another (`modes_at`), 1660 carry them on (`advance_modes`). As the modes are linear, all four could be had from one
   pass and scalars: what they do by themselves in half a step and a whole one, and what a unit of force adds, which is the same each step; then a step would cost about an implicit one's 480 cycles. It is known, and not done.
