@@ -168,8 +168,9 @@ static bool open_folder(struct batch *b, struct err *e)
 /* Tables of an earlier run would speak of files that may be replaced now. */
 static void forget_tables(const struct batch *b)
 {
-    static const char *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS"};
-    for (int i = 0; i < 3; i++)
+    const struct shard *part = &b->ask->shard;
+    const char *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS", arena_format(b->arena, "manifest.%d-of-%d.csv", part->i, part->n)};
+    for (int i = 0; i < (part->n > 1 ? 4 : 3); i++)
         unlink(arena_format(b->arena, "%s/%s", b->ask->folder, tables[i]));
 }
 
@@ -216,7 +217,8 @@ static bool render_in_folder(struct batch *b, struct err *e)
     resample_prepare();
     bool ok = run_jobs(b, e);
     const char *changed = ok && b->report->rendered > 0 ? shelf_changed(b->kit.shelf, b->arena) : NULL; /* seen from folders that the end removes */
-    return ok && end(b, e) && judge(b, changed, e);
+    bool whole = b->ask->shard.n == 1 || !changed; /* a shard of two states is not one that can be merged: it has no manifest */
+    return ok && (!whole || end(b, e)) && judge(b, changed, e);
 }
 
 static bool render(struct batch *b, struct err *e)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/shelf.h"
 #include "batch/pool.h"
 #include "batch/recording.h"
 #include "batch/spare.h"
@@ -40,7 +41,7 @@ struct preparation {
     struct prepare *out;
     struct arena *arena;
     struct spare *spare;
-    struct hash scenes;      /* of the design and of all of them, in their order */
+    struct hash scenes;      /* of the design, of all of them and of the recordings, in their order */
 };
 
 /* ------------------------------------------------------------------ one */
@@ -62,6 +63,15 @@ static void hash_scene(struct trial *t)
     hash_bytes(text, strlen(text), t->sha256);
 }
 
+/* The texts it was read from lie on the shelf from now on, which knows whether they change while the set is rendered: each stimulus reads them once more. */
+static bool watch_sources(const struct preparation *p, struct trial *t)
+{
+    for (const char *const *file = t->scene.sources; *file; file++)
+        if (!shelf_sha256(p->shelf, *file, t->arena, &t->e))
+            return false;
+    return true;
+}
+
 static bool estimate(const struct preparation *p, int i, struct look *l)
 {
     struct plan_scene_estimate x;
@@ -69,7 +79,7 @@ static bool estimate(const struct preparation *p, int i, struct look *l)
     struct scene *s = &t->scene;
     bool read = design_scene(p->design, i, t->arena, s, &t->messages, &t->e);
     t->diag = s->diag;
-    if (!read)
+    if (!read || !watch_sources(p, t))
         return false;
     s->shelf = p->shelf;
     hash_scene(t);
@@ -213,7 +223,10 @@ static void look_at_recordings(struct preparation *p, struct set *s)
         if (!file)
             continue;
         l->trial = trial_open();
-        if (!recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e))
+        const char *sha256 = shelf_sha256(p->shelf, file, l->trial->arena, &l->trial->e);
+        if (sha256)
+            hash_add(&p->scenes, sha256, HASH_TEXT);
+        if (!sha256 || !recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e))
             design_scene_recording(p->design, i, &l->trial->e);
         settle(p, i, l);
         l->cost = fmax(1, 1000 * l->seconds * s->rate);
@@ -290,11 +303,11 @@ bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, 
             arena_close(p.looks[i].trial->arena);
     if (done < s->n)
         return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+    find_form(&p, s);
+    look_at_recordings(&p, s);
     char *sha256 = arena_take(a, HASH_TEXT, 1);
     hash_end(&p.scenes, sha256);
     s->sha256 = sha256;
-    find_form(&p, s);
-    look_at_recordings(&p, s);
     find_length(&p, s);
     look_at_levels(&p, s);
     add_up(&p, s);
