@@ -63,7 +63,7 @@ Goals are in cycles a sample of a core of 3.6 GHz (evidence/bench.sh); what take
   force 223 and the places the rest. What would do is less to read: the file of forces is 8 bytes a sample, read twice.
 - **What glide adds to fixed, 10 cycles: 25 to 48, by the run.** 95 instructions: 36 in the recursion, whose poles are ramped too (`ring_gliding` 289), 57 at the ramps' ends, where poles of the place become rotations (exp, sin, cos of 50
   modes, `set_targets`). A plate's poles do not move; to find that out once, and then ring as fixed does, would make it free here, not where poles do move, and is not done.
-- **Start-up, 3 ms: 4.2 ms wall, 3.6 ms CPU** (8.8 and 4.3 while others were at work). Of 16.4 million instructions (callgrind) 21 % clear memory, 13 % decimate and 8 % resonate the sound that the tiny scene has, 5 % copy, 7 % and more link shared libraries, 5 %
+- **Start-up, 3 ms: 4.2 ms wall, 3.6 ms CPU** (4.9 and 3.7, 8.8 and 4.3 while others were at work). Of 16.4 million instructions (callgrind) 21 % clear memory, 13 % decimate and 8 % resonate the sound that the tiny scene has, 5 % copy, 7 % and more link shared libraries, 5 %
   tell which keys decide on which. Fewer pages to clear, and linking statically, would save most; neither is done.
 - **Stimuli of 2 s a second, 86 of 300 (with CSV at 1 kHz), 21 of 38 (ten columns at 44.1 kHz):** 42 million cycles a stimulus, 31 of which are 88200 samples at 351 cycles: the goal, 12 million, is that of the 1-D profile once
   more, and the other 11 are start and end of each render. Of 189 million with the large table some 147 are its own, see CSV.
@@ -72,10 +72,20 @@ Goals are in cycles a sample of a core of 3.6 GHz (evidence/bench.sh); what take
   thread of its own would hide it; of one core it would not.
 - **.npy, 2.5 times the render without: 3.3 with ten columns, 3.9 with 14 at draft (3.4 and 4.3 in another run; 1.9 and 2.0 at standard):** 80 and 112 bytes a sample. Of the 2980 instructions that ten columns add 2240 are their checksum, 500
   gather them, 120 write. As with CSV.
+- **Given force, whole process of 10 s, 10 ms: 28** (27.7 in bench.md's table of other programs). Start-up is 4; the rest is 441000 samples at 145 cycles and the first reading of the file: the rows of the given force and of start-up.
 - **csound, 5 times: 3.2 to 3.5; SciPy's lfilter, 25 times: 19 to 21.** Whole processes: of 26 ms of rasp's, for 10 s of force on an object at rest, start-up is 4, and of the rest the modes are half (46 %), reading the force and its checksum a third: what csound, which
   makes its noise or reads it once, has not. The modes cannot be had for less without contraction (see given force, at rest), so it is again reading and start-up.
-- **rk4, 82 cycles a step: 1650.** Of 5170 instructions a step 2860 look where the modes are at each of its four stages, which wait for one another (`modes_at`), 1660 carry them on (`advance_modes`). As the modes are linear, all four could be had from one
+- **rk4, 82 cycles a step: 1520 to 1650.** Of 5170 instructions a step 2860 look where the modes are at each of its four stages, which wait for one another (`modes_at`), 1660 carry them on (`advance_modes`). As the modes are linear, all four could be had from one
   pass and scalars: what they do by themselves in half a step and a whole one, and what a unit of force adds, which is the same each step; then a step would cost about an implicit one's 480 cycles. It is known, and not done.
+- **rk4, one step a sample, 1000 times real time: 365 on rigid ground, 65 with 50 modes** (evidence/rolling.md; it is refused there where a contact has fewer than 12 steps), for the same reason.
+- **Coupled ball, implicit, 8 steps, 38 times real time: 22.** 470 cycles a step, as above, the 2000 of a sample's beginning and end shared by eight.
+- **Roughness on a line, 900 times real time: 257.** As the 1-D profile, on knots 1.25 times as close, and the profile's lattice made where the contact goes.
+- **Batch on two cores, 520 and 70 a second:** 70 a second of a shipped scene with 2 s at draft, WAV and 1 kHz CSV (evidence/batch.md; 37 on one): stimuli share no work, so that two cores do twice what one does, and what a stimulus costs is
+  told above.
+- **50 more modes, the same within 30 %: 71 and 50 cycles** (51 and 74 in another run): differences of two times of some 270 cycles, each of which moves by 10 and more; by instructions (callgrind, a scrape over roughness on a line,
+  draft) 187 and 188.
+- **What lies beyond the goals** (half as many cycles again less, start-up in 1 ms, csound 10 times) is nowhere near: it asks for single precision or contraction, which would change the bytes from CPU to CPU, or for eight scenes in
+  lanes, which evidence/rolling.md works out not to pay beside `--jobs`.
 - **A finished tail** costs what is left when the modes are at rest: 121 instructions a sample 28 s after the motion, 227 from 2 to 4 s after it (235 and 340 while the motion's and the force's zeros were still paid: `src/pipeline/run_limits.c`), of which the WAV takes some 24.
 END
 } > "$RESULT"

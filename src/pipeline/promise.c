@@ -103,6 +103,8 @@ static const char *tell_text(struct arena *a, const struct promise *p)
     return text;
 }
 
+#define MORPH_ROOM 0.1 /* dB: 2 % of a budget's square, 16 dB below it */
+
 /* What is in the way, and what could be had: every free knob at its finest. */
 static bool refuse(struct promise_making *m, struct err *e)
 {
@@ -114,16 +116,16 @@ static bool refuse(struct promise_making *m, struct err *e)
         if (promise_rehearse_is(m, k) && !promise_said(m, k))
             accuracy_turn(&m->kept->accuracy, (enum knob)k, promise_curve_best(&m->curves[k]));
     if (!promise_said(m, KNOB_morph_error))
-        m->morph = fmin(m->morph, PROMISE_FLOOR);
+        m->morph = 0; /* it takes what MORPH_ROOM leaves it, whatever the last plan had */
     tell_parts(m);
     for (int i = 0; i < p->n; i++)
         worst = p->parts[i].error > worst->error ? &p->parts[i] : worst;
-    double best = ceil(p->predicted + PROMISE_MARGIN);
+    double best = ceil(p->predicted + PROMISE_MARGIN + MORPH_ROOM);
     err_about(e, NULL, "accuracy.error");
     if (worst->said)
         return err_set(e, ERR_SCENE, "accuracy.error: %.6g dB cannot be promised: accuracy.%s is %.6g%s, which alone leaves %.1f dB; take it out, or ask for %.0f dB at most",
                        p->error, keys_knobs[worst->knob].name, worst->value, accuracy_unit(worst->knob), decibel(worst->error), best);
-    return err_set(e, ERR_SCENE, "accuracy.error: %.6g dB cannot be promised: %s stands in the way, which at its finest, %.6g%s, leaves %.1f dB; the best that can be promised here is %.0f dB",
+    return err_set(e, ERR_SCENE, "accuracy.error: %.6g dB cannot be promised: %s stands in the way, of which at its finest, %.6g%s, no less than %.1f dB is promised; the best that can be promised here is %.0f dB",
                    p->error, keys_knobs[worst->knob].name, worst->value, accuracy_unit(worst->knob), decibel(worst->error), best);
 }
 
