@@ -1,12 +1,14 @@
 #!/bin/bash
 # Makes evidence/batch.md: sets of stimuli from one command. To be run on a machine that does nothing else. What it takes is set by
-#   MANY    two-second stimuli of a run that is timed (10000: the whole set; the default is enough for the rate)
+#   MANY    two-second stimuli of a run that is timed
+#   WHOLE   of the one great set (10000; 4 GB on the disk for some minutes)
 #   SIZES   sets of which the memory is measured
 #   KILLS   how often experiment 1 is killed
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
 MANY=${MANY:-200}
+WHOLE=${WHOLE:-10000}
 SIZES=${SIZES:-100 1000 10000}
 KILLS=${KILLS:-10}
 PATH=$BUILD:$PATH
@@ -101,6 +103,22 @@ basswood_scrape standard 1
 SCENES
 }
 
+# $WHOLE of basswood_scrape at draft on two cores, beside 100 of them.
+whole() {
+    echo '| stimuli | wall clock (s) | per second | CPU of a stimulus (ms) | greatest memory (MB) | sound (GB) |'
+    echo '|---|---|---|---|---|---|'
+    for n in 100 "$WHOLE"; do
+        design "$n" "$ROOT/scenes/basswood_scrape.yaml" "accuracy: draft, motion.duration: 2 s, output.tail: 0 s, output.diagnostics.rate: 1 kHz" 1 > whole.yaml
+        rm -rf whole
+        local r
+        read -r -a r < <(measured rasp batch whole.yaml -o whole -j 2 -q)
+        (cd whole && sha256sum --quiet -c SHA256SUMS)
+        awk -v n="$(($(wc -l < whole/manifest.csv) - 1))" -v t="${r[0]}" -v cpu="${r[1]}" -v m="${r[2]}" -v kb="$(cat whole/*.wav | wc -c)" \
+            'BEGIN { printf "| %d | %.1f | %.1f | %.2f | %.1f | %.2f |\n", n, t, n / t, 1000 * cpu / n, m / 1024, kb / 1e9 }'
+    done
+    rm -rf whole
+}
+
 memory() {
     echo '| stimuli | level | greatest memory (MB) | again, all there (MB) |'
     echo '|---|---|---|---|'
@@ -124,6 +142,10 @@ YAML
     done
 }
 
+if [ "${1-}" = whole ]; then
+    whole
+    exit
+fi
 experiment > experiment.txt
 cat > batch.md << EOF
 # Sets of stimuli from one command
@@ -141,6 +163,10 @@ on two. It counted on 3.3 ms for a stimulus, which is 35 ns a sample for all of 
 alone is more than that, too: it is reading and checking the scene, planning its cell before anything is rendered, measuring and hashing what was written, the journal and the tables.
 
 $(rates)
+
+The whole set (\`evidence/batch.sh whole\` prints it alone), -j 2, its sums checked behind it:
+
+$(whole)
 
 ## Memory
 

@@ -87,11 +87,16 @@ static const char *endings(const char *word, const char **names, struct arena *a
     return found;
 }
 
+static json_t *design_key(json_t *schema, const char *word)
+{
+    json_t *key = json_object_get(json_object_get(schema, "properties"), word);
+    return key && json_object_get(key, "$ref") ? json_object_get(json_object_get(schema, "$defs"), word) : key;
+}
+
 /* A key of designs, which are explained elsewhere; of scenes there may be one of that name in some section, too. False: there is none. */
 static bool explain_design(const char *word, const char **names, struct arena *a)
 {
-    json_t *schema = schema_design(a), *key = json_object_get(json_object_get(schema, "properties"), word);
-    key = key && json_object_get(key, "$ref") ? json_object_get(json_object_get(schema, "$defs"), word) : key;
+    json_t *schema = schema_design(a), *key = design_key(schema, word);
     const char *text = key ? json_string_value(json_object_get(key, "description")) : NULL, *scenes = endings(word, names, a);
     if (key) {
         printf("%s\n  a key of designs", word);
@@ -150,7 +155,12 @@ static void explain_rows(const char *word, const char **names, struct arena *a, 
         return;
     }
     json_decref(rows);
-    if (is_scene_file(word))
+    json_t *schema = schema_design(a);
+    bool of_designs = design_key(schema, word) != NULL;
+    json_decref(schema);
+    if (of_designs)
+        err_set(e, ERR_USAGE, "%s is a key of designs, which rasp explain --schema=design has; --json is for scenes", word);
+    else if (is_scene_file(word))
         err_set(e, ERR_USAGE, "--json is for keys and sections; an effective scene is YAML");
     else
         unknown(word, names, a, e);
