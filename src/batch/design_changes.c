@@ -95,8 +95,11 @@ static bool value_good(const struct design_reading *r, const char *path, const s
     size_t size = sizeof(struct scene) > sizeof(struct contact) ? sizeof(struct scene) : sizeof(struct contact);
     if (!k || yaml_null(value))
         return true;
-    struct scene_part part = {r->yaml, r->root, prefix_of(path, r->arena), k->of, arena_take(r->arena, 1, size)};
-    return scene_values_read(&part, k, value);
+    struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
+    struct scene_part part = {r->yaml, r->root, prefix_of(path, own), k->of, arena_take(own, 1, size)};
+    bool good = scene_values_read(&part, k, value);
+    arena_close(own);
+    return good;
 }
 
 static bool leaf_add(const struct design_reading *r, struct design_change *c, const struct yaml_node *key, const struct yaml_node *value)
