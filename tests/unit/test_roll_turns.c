@@ -230,7 +230,7 @@ static struct relief_part *grain_part(struct arena *a, const struct contact *c)
 static void grain_windows(const char *along, double degrees, int n, double *windows)
 {
     grain_angle = degrees * M_PI / 180;
-    ball_windows(arena_format(rig_arena(), "surface: {along: %s, roughness: {}}\n", along), "",
+    ball_windows(arena_format(rig_arena(), "surface: {along: %s, roughness: {}}\n", along), "leak: 1 mm, ",
                  arena_format(rig_arena(), "{path: circle, radius: 3 mm, start_angle: %g deg, turns: 1, duration: 0.06 s}", degrees), n, windows);
 }
 
