@@ -25,7 +25,7 @@ nice -n 19 tests/fuzz/run.sh "$BUILD/fuzz" $((EACH * ((${#targets[@]} + 1) / 2))
 
 Made by \`EACH=$EACH evidence/fuzz.sh\`: libFuzzer under the address and undefined-behaviour sanitizers (clang $(clang -dumpversion)), inputs of at most 16 KiB, **$EACH seconds of each target**, two
 at a time at the lowest priority of a machine that had other work to do. A finding is a crash, a sanitizer's word, a leak, more than 10 s or 1 GB for an input, or a promise of the reader
-that does not hold (the targets check: what is accepted is finite, in range, and says so; what is refused says why).
+that does not hold (the targets check: what is accepted is finite, in range, and says so; what is refused says why).$([ "$EACH" -ge 3600 ] || printf ' %s' "An hour of each, which is meant (EACH=3600, ten hours of two cores), was not run.")
 
 Coverage is libFuzzer's: branches of rasp's own code that were taken, and features (how often, in which combination), with the kept inputs at the start and at the end. The libraries' code
 is not counted. The kept inputs are tests/fuzz/corpus ($(find tests/fuzz/corpus -type f | wc -l) files, $(find tests/fuzz/corpus -type f -printf '%s\n' | awk '{ n += $1 } END { printf "%.0f", n / 1000 }') kB) and what earlier runs added.
