@@ -72,19 +72,19 @@ Goals are in cycles a sample of a core of 3.6 GHz (evidence/bench.sh); what take
   thread of its own would hide it; of one core it would not.
 - **.npy, 2.5 times the render without: 3.3 with ten columns, 3.9 with 14 at draft (3.4 and 4.3 in another run; 1.9 and 2.0 at standard):** 80 and 112 bytes a sample. Of the 2980 instructions that ten columns add 2240 are their checksum, 500
   gather them, 120 write. As with CSV.
-- **Given force, whole process of 10 s, 10 ms: 28** (27.7 in bench.md's table of other programs). Start-up is 4; the rest is 441000 samples at 145 cycles and the first reading of the file: the rows of the given force and of start-up.
+- **Given force, whole process of 10 s, 10 ms: 28** (27.7 in bench.md's table of other programs). Start-up is 4; 441000 samples at 145 cycles are 18, which the rows of the given force and of start-up tell; the 6 that are left, of reading the file for the first time or not, were not looked into.
 - **csound, 5 times: 3.2 to 3.5; SciPy's lfilter, 25 times: 19 to 21.** Whole processes: of 26 ms of rasp's, for 10 s of force on an object at rest, start-up is 4, and of the rest the modes are half (46 %), reading the force and its checksum a third: what csound, which
   makes its noise or reads it once, has not. The modes cannot be had for less without contraction (see given force, at rest), so it is again reading and start-up.
 - **rk4, 82 cycles a step: 1520 to 1650.** Of 5170 instructions a step 2860 look where the modes are at each of its four stages, which wait for one another (`modes_at`), 1660 carry them on (`advance_modes`). As the modes are linear, all four could be had from one
   pass and scalars: what they do by themselves in half a step and a whole one, and what a unit of force adds, which is the same each step; then a step would cost about an implicit one's 480 cycles. It is known, and not done.
 - **rk4, one step a sample, 1000 times real time: 365 on rigid ground, 65 with 50 modes** (evidence/rolling.md; it is refused there where a contact has fewer than 12 steps), for the same reason.
-- **Coupled ball, implicit, 8 steps, 38 times real time: 22.** 470 cycles a step, as above, the 2000 of a sample's beginning and end shared by eight.
-- **Roughness on a line, 900 times real time: 257.** As the 1-D profile, on knots 1.25 times as close, and the profile's lattice made where the contact goes.
+- **Coupled ball, implicit, 8 steps, 38 times real time: 22.** 470 cycles a step, 426 of them the stage's (bench.md); what they are is told above.
+- **Roughness on a line, 900 times real time: 257.** The scrape takes 233 cycles where that on the 1-D profile takes 156, making the roughness 19 (bench.md); why the first is more was not looked into.
 - **Batch on two cores, 520 and 70 a second:** 70 a second of a shipped scene with 2 s at draft, WAV and 1 kHz CSV (evidence/batch.md; 37 on one): stimuli share no work, so that two cores do twice what one does, and what a stimulus costs is
   told above.
 - **50 more modes, the same within 30 %: 71 and 50 cycles** (51 and 74 in another run): differences of two times of some 270 cycles, each of which moves by 10 and more; by instructions (callgrind, a scrape over roughness on a line,
   draft) 187 and 188.
-- **What lies beyond the goals** (half as many cycles again less, start-up in 1 ms, csound 10 times) is nowhere near: it asks for single precision or contraction, which would change the bytes from CPU to CPU, or for eight scenes in
+- **What lies beyond the goals** (a third fewer cycles, start-up in 1 ms, csound 10 times) is nowhere near: what is known to be left there is single precision, contraction, whose bytes differ from CPU to CPU, or eight scenes in
   lanes, which evidence/rolling.md works out not to pay beside `--jobs`.
 - **A finished tail** costs what is left when the modes are at rest: 121 instructions a sample 28 s after the motion, 227 from 2 to 4 s after it (235 and 340 while the motion's and the force's zeros were still paid: `src/pipeline/run_limits.c`), of which the WAV takes some 24.
 END

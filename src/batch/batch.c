@@ -168,10 +168,10 @@ static bool open_folder(struct batch *b, struct err *e)
 /* Tables of an earlier run would speak of files that may be replaced now. */
 static void forget_tables(const struct batch *b)
 {
-    const struct shard *part = &b->ask->shard;
-    const char *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS", arena_format(b->arena, "manifest.%d-of-%d.csv", part->i, part->n)};
-    for (int i = 0; i < (part->n > 1 ? 4 : 3); i++)
+    static const char *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS"};
+    for (int i = 0; i < 3; i++)
         unlink(arena_format(b->arena, "%s/%s", b->ask->folder, tables[i]));
+    unlink(manifest_path(b->ask->folder, &b->ask->shard, b->arena));
 }
 
 /* ------------------------------------------------------------------ the whole */

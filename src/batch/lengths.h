@@ -13,7 +13,7 @@ struct lengths {
 void lengths_add(struct lengths *l, int i, double seconds);
 
 /* "each 9.45 s, as long as the longest (NAME; the shortest, NAME, is 2.6 s by itself); length: own, or a time, in the design"; NULL: the design has another
-   rule, or no two differ by as much as a millisecond. */
+   rule, or they differ by less than a hundredth. */
 const char *lengths_told(const struct lengths *l, const struct design *d, struct arena *a);
 
 #endif

@@ -62,14 +62,18 @@ bool manifest_print(FILE *f, const struct results *r, const bool *mine, struct e
     return ok;
 }
 
+const char *manifest_path(const char *folder, const struct shard *shard, struct arena *a)
+{
+    return shard->n > 1 ? arena_format(a, "%s/manifest.%d-of-%d.csv", folder, shard->i, shard->n) : arena_format(a, "%s/manifest.csv", folder);
+}
+
 bool manifest_write(const char *folder, const struct results *r, const struct shard *shard, const bool *mine, struct err *e)
 {
     struct arena *a = arena_open();
     struct outfile f;
     const struct set *s = r->set;
     bool part = shard->n > 1;
-    const char *path = part ? arena_format(a, "%s/manifest.%d-of-%d.csv", folder, shard->i, shard->n) : arena_format(a, "%s/manifest.csv", folder);
-    bool ok = outfile_open(&f, path, e);
+    bool ok = outfile_open(&f, manifest_path(folder, shard, a), e);
     if (ok) {
         if (part)
             fprintf(f.stream, "# design: %s\n# build: %s\n# shard: %d of %d\n", s->sha256, s->build, shard->i, shard->n);

@@ -23,7 +23,10 @@ struct results {                 /* of a set                                    
     struct journal *journal;     /* that has their records                                   */
 };
 
-/* manifest.csv of a whole set, or (shard->n > 1) manifest.i-of-n.csv with the rows in `mine` and, in comments before the header, design, build and shard.
+/* "FOLDER/manifest.csv"; of a shard (n > 1) "FOLDER/manifest.i-of-n.csv". */
+const char *manifest_path(const char *folder, const struct shard *shard, struct arena *a);
+
+/* manifest_path: of a whole set, or of a shard with the rows in `mine` and, in comments before the header, design, build and shard.
    ERR_CREATE, ERR_IO */
 bool manifest_write(const char *folder, const struct results *r, const struct shard *shard, const bool *mine, struct err *e);
 

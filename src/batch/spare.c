@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/memory.h"
+#include "batch/manifest.h"
 #include "pipeline/outputs.h"
 
 struct file_read {
@@ -135,7 +136,7 @@ static bool tables_spared(const struct spare *s, const struct spare_place *p, st
     for (int k = 0; k < 4; k++)
         if (!spared(s, s->design->file, arena_format(a, "%s/%s", p->folder, tables[k]), e))
             return false;
-    return spared(s, s->design->file, arena_format(a, "%s/manifest.%d-of-%d.csv", p->folder, p->shard->i, p->shard->n), e);
+    return spared(s, s->design->file, manifest_path(p->folder, p->shard, a), e);
 }
 
 /* What lies in FOLDER/.rasp is the program's own, and is taken away. */

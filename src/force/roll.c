@@ -70,7 +70,7 @@ static double roll_way(const struct motion *m)
     return rules_straight(m) ? sqrt(dx * dx + dy * dy) : isnan(m->duration) ? 1 : rules_speed(m) * m->duration;
 }
 
-/* Where the stiffness is made: what the means are of, where the way turns, what is gone over beyond a short motion, and, where the tip reads more densely, the whole way as it reads plainly. Cycles per
+/* Where the stiffness is made: what the means are of, where the way turns or alpha varies, what is gone over beyond a short motion, and, where the tip reads more densely, the whole way as it reads plainly. Cycles per
    metre, those of the tip (surface/tip.c) among them. */
 static double roll_ground_work(const struct contact *c, const struct scene *s)
 {
@@ -78,7 +78,8 @@ static double roll_ground_work(const struct contact *c, const struct scene *s)
     double lasts = isnan(c->motion.duration) ? way / rules_speed(&c->motion) : c->motion.duration;
     double metre = rules_along(c) == ALONG_PLANE ? 3e5 / lattice : 8e2 / lattice + 340 / roll_pass_grain(c);
     bool one = rules_straight(&c->motion) || rules_along(c) == ALONG_PATH;
-    double looked = c->contact.limiter.curve != LIMITER_TANH || (one && !load_varies(c)) ? 0 : fmax(ball_ground(c), one ? 0 : fmin(way, 4 * ball_ground(c))); /* slope_heading.c */
+    bool means = c->contact.limiter.curve == LIMITER_TANH && (!one || load_varies(c)); /* force/slope_heading.c */
+    double looked = means ? fmax(ball_ground(c), one ? 0 : fmin(way, 4 * ball_ground(c))) : 0;
     bool made = ball_beyond(c, 1e-9) > 0; /* of next to no ground, if of any */
     double ground = looked + (made ? ball_beyond(c, way) + again : 0);
     return way > 0 && lasts > 0 ? ground * metre / (lasts * s->output.sample_rate) : 0;

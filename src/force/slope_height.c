@@ -8,7 +8,8 @@
    share and mean by the heading (force/slope_heading.h): least squares of T(c) by c over the ground. What goes with c is then read as a height, which needs no integral,
    is the same on whatever way the place is reached, and cannot drift; the rest has neither a mean nor, as good as, a slow part in any heading. r is not turned as
    the slope vector is: it belongs to no place. On a straight way c = d2E/ds2, share and mean do not change, and S is what it is there, but for the level that
-   force/slope.c takes off anyway. Without a limiter S is E, leaked twice, whatever the way.
+   force/slope.c takes off anyway. Where alpha varies along a straight way, the mean goes with alpha, and the same is done: dG2/ds takes the slope of E at the share of
+   the place, so that d2S/ds2 has dshare/ds dE/ds besides T(c), by as much as the height that is kept changes with alpha. Without a limiter S is E, leaked twice, whatever the way.
 
    The slope vector (S', S_n) turned into S the same way had 2 to 4 times the rms of straight lines on circles of 1 to 2 mm over 20 um of ridges, 1.4 to 2 times on
    scribbles, and without any limiter still 1.9 times: what leaks while a way keeps along a ridge is missing when it turns across.
