@@ -7,14 +7,9 @@
 #include "base/text.h"
 #include "cmd/paint.h"
 #include "cmd/program.h"
+#include "cmd/warnings.h"
 
 enum { FILES_NAMED = 4 /* of a warning that several scenes have */ };
-
-struct warning {
-    const char *text, **files;
-    int n, room;
-    struct warning *next;
-};
 
 struct cmd_tell {
     bool json, group;
@@ -225,10 +220,10 @@ static void warn_json(const struct warning *w)
     json_decref(o);
 }
 
-/* " (and of 2 other scenes: b.yaml, c.yaml)" */
+/* " (and of 2 other scenes: b.yaml, c.yaml)", or " (and, with other numbers, of ..." */
 static const char *others(struct cmd_call *c, const struct warning *w)
 {
-    const char *all = arena_format(c->arena, " (and of %d other scene%s:", w->n - 1, w->n > 2 ? "s" : "");
+    const char *all = arena_format(c->arena, " (and%s of %d other scene%s:", w->numbers ? ", with other numbers," : "", w->n - 1, w->n > 2 ? "s" : "");
     for (int i = 1; i < w->n && i <= FILES_NAMED; i++)
         all = arena_format(c->arena, "%s%s %s", all, i > 1 ? "," : "", w->files[i]);
     return arena_format(c->arena, "%s%s)", all, w->n - 1 > FILES_NAMED ? ", ..." : "");
@@ -242,37 +237,12 @@ static void warn(struct cmd_call *c, const struct warning *w)
         paint_lines(stderr, arena_format(c->arena, "%s: warning: %s%s\n", w->files[0], w->text, w->n > 1 ? others(c, w) : ""));
 }
 
-static struct warning *same(struct cmd_tell *t, const char *text, struct arena *a)
-{
-    struct warning **w = &t->warnings;
-    while (*w && strcmp((*w)->text, text) != 0)
-        w = &(*w)->next;
-    if (!*w) {
-        *w = ARENA_TAKE(a, struct warning, 1);
-        (*w)->text = text;
-    }
-    return *w;
-}
-
-static void name(struct warning *w, const char *file, struct arena *a)
-{
-    if (w->n > 0 && !strcmp(w->files[w->n - 1], file))
-        return;
-    if (w->n == w->room) {
-        const char **more = ARENA_TAKE(a, const char *, w->room = 2 * w->room + 4);
-        if (w->n > 0)
-            memcpy(more, w->files, (size_t)w->n * sizeof *more);
-        w->files = more;
-    }
-    w->files[w->n++] = file;
-}
-
 void tell_warning(struct cmd_call *c, const char *file, const char *text)
 {
     const char *shown = text_shown(c->arena, file);
     text = text_shown(c->arena, text);
     if (of(c)->group)
-        name(same(c->tell, text, c->arena), shown, c->arena);
+        warnings_add(&c->tell->warnings, shown, text, c->tell->json, c->arena);
     else
         warn(c, &(struct warning){.text = text, .files = &shown, .n = 1});
 }

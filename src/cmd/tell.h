@@ -25,7 +25,8 @@ void tell_error(struct cmd_call *c, const char *command, const struct err *e);
    is none, JSON says `file` (NULL: not known). */
 void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e);
 
-/* A warning about a file. Where several scenes are processed (tell_group) it waits, so that one that many scenes have is told once, at the end. */
+/* A warning about a file. Where several scenes are processed (tell_group) it waits, so that one that many scenes have is told once, at the end; in text also one
+   that they have with other numbers, which are the first one's. */
 void tell_warning(struct cmd_call *c, const char *file, const char *text);
 /* The same about what a command does, at once: "rasp COMMAND: warning: text". */
 void tell_remark(struct cmd_call *c, const char *command, const char *text);
