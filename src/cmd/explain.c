@@ -93,25 +93,70 @@ static json_t *design_key(json_t *schema, const char *word)
     return key && json_object_get(key, "$ref") ? json_object_get(json_object_get(schema, "$defs"), word) : key;
 }
 
+static const char *design_text(json_t *key)
+{
+    const char *text = json_string_value(json_object_get(key, "description"));
+    return text ? text : "";
+}
+
+/* Every key of designs and what it is for. */
+static void list_designs(json_t *schema)
+{
+    const char *name;
+    json_t *unused;
+    json_object_foreach(json_object_get(schema, "properties"), name, unused) {
+        int n = printf("%s: ", name);
+        wrap_print(stdout, design_text(design_key(schema, name)), n, "  ");
+    }
+    printf("\ndesigns: man rasp-design(5), rasp batch --help\n");
+}
+
 /* A key of designs, which are explained elsewhere; of scenes there may be one of that name in some section, too. False: there is none. */
 static bool explain_design(const char *word, const char **names, struct arena *a)
 {
     json_t *schema = schema_design(a), *key = design_key(schema, word);
-    const char *text = key ? json_string_value(json_object_get(key, "description")) : NULL, *scenes = endings(word, names, a);
-    if (key) {
+    const char *text = design_text(key), *scenes = endings(word, names, a);
+    bool all = !strcmp(word, "design") || !strcmp(word, "designs");
+    if (all)
+        list_designs(schema);
+    else if (key) {
         printf("%s\n  a key of designs", word);
-        int n = 18 + (text ? printf(": ") : 0);
-        wrap_print(stdout, text ? text : "", n, "  ");
-        printf("%s  designs: man rasp-design(5)%s%s\n", text ? "" : "\n", scenes ? "; of scenes there is " : "", scenes ? scenes : "");
+        int n = 18 + (*text ? printf(": ") : 0);
+        wrap_print(stdout, text, n, "  ");
+        printf("%s  designs: man rasp-design(5)%s%s\n", *text ? "" : "\n", scenes ? "; of scenes there is " : "", scenes ? scenes : "");
     }
     json_decref(schema);
-    return key != NULL;
+    return key || all;
+}
+
+/* Of scenes and of designs, each with a meaning of its own. */
+static void tell_design_too(const char *word, struct arena *a)
+{
+    json_t *schema = schema_design(a), *key = design_key(schema, word);
+    if (key) {
+        int n = printf("  designs   have one, too: ");
+        wrap_print(stdout, design_text(key), n, "            ");
+    }
+    json_decref(schema);
+}
+
+static const char *nearest_of_designs(const char *word, struct arena *a)
+{
+    json_t *schema = schema_design(a), *keys = json_object_get(schema, "properties"), *unused;
+    const char **names = ARENA_TAKE(a, const char *, json_object_size(keys) + 1), *name;
+    int n = 0;
+    json_object_foreach(keys, name, unused)
+        names[n++] = arena_text(a, name);
+    const char *nearest = text_nearest(word, names);
+    json_decref(schema);
+    return nearest ? arena_format(a, "%s of designs", nearest) : NULL;
 }
 
 static void unknown(const char *word, const char **names, struct arena *a, struct err *e)
 {
     const char *meant = endings(word, names, a);
     meant = meant ? meant : text_nearest(word, names);
+    meant = meant ? meant : nearest_of_designs(word, a);
     if (meant)
         err_set(e, ERR_USAGE, "no key, section or scene file '%s'; did you mean %s?", word, meant);
     else
@@ -179,7 +224,7 @@ static int explain_run(struct cmd_call *c, struct err *e)
     else if (!word)
         keys_reference_print(stdout, c->arena);
     else if (explain_path(keys_text_plain(word), names, c->arena))
-        return 0;
+        tell_design_too(word, c->arena);
     else if (is_scene_file(word))
         explain_scene(c, word, e);
     else if (!explain_design(word, names, c->arena))
@@ -199,7 +244,7 @@ const struct command explain_command = {
     .name = "explain",
     .summary = "says what a key means, or all that a scene leaves unsaid",
     .does = "Without an operand: a scene with every key there is, explained. With a key or a section (motion.rate, motion, "
-            "accuracy.oversampling): its type, unit, range, default and meaning. With a key of designs (factors, level, length): what it is for; rasp-design(5) has the rest. With a scene file: the effective scene, in which every "
+            "accuracy.oversampling): its type, unit, range, default and meaning. With a key of designs (factors, level, length): what it is for; with design: all of them; rasp-design(5) has the rest. With a scene file: the effective scene, in which every "
             "default and accuracy knob is written out; rendering it gives the same bytes.",
     .operands = "[KEY | SECTION | SCENE]",
     .least = 0,
@@ -209,6 +254,7 @@ const struct command explain_command = {
                 "rasp explain motion.rate\n"
                 "rasp explain accuracy\n"
                 "rasp explain --json motion\n"
+                "rasp explain design\n"
                 "rasp explain --schema=scene > scene.schema.json\n"
                 "rasp explain scrape.yaml > effective.yaml\n",
     .run = explain_run,

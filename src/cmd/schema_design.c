@@ -91,7 +91,10 @@ json_t *schema_design(struct arena *a)
     json_object_set_new(all, "title", schema_value_plain("text", "what the set is, for people"));
     json_object_set_new(all, "text", schema_value_plain("text", "what a trial says, {FACTOR} standing for a level's text"));
     json_object_set_new(all, "base", schema_value_plain("text", "the scene that all stimuli build on, as seen from the design's folder"));
-    json_object_set_new(all, "seed", schema_value_key(keys_find("seed"), a));
+    json_t *seed = schema_value_key(keys_find("seed"), a);
+    json_object_set_new(seed, "description", json_string("seed of the set: a stimulus's own is made of it and of its replicate, so that cells differ in nothing else; default: 1"));
+    json_object_set_new(seed, "default", json_integer(1));
+    json_object_set_new(all, "seed", seed);
     json_object_set_new(all, "set", schema_value_ref("set"));
     json_object_set_new(all, "factors", factors());
     json_object_set_new(all, "exclude", cells(json_object(), "cells that are left out: those that match all pairs of FACTOR: LABEL"));
