@@ -111,13 +111,14 @@ void summary_notes(const struct scene *s, const struct run *const *runs, struct 
 /* 20 dB: beside a sound of its own kind that much louder, one adds 0.04 dB to the whole, and what is varied of it alone is hardly heard. */
 static void warn_drowned(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
 {
-    const char *other = ball_rolls(c) ? "ball" : "scraper";
-    double ratio = b->energy[1] / b->energy[0];
-    if (ratio > 100)
-        warn(report, arena_format(a, "contact '%s': the surface is more than 20 dB under its %s, and hardly heard; %s.weight lowers the %s (ablation.sound: surface is the surface alone)", c->name, other,
-                                  other, other));
-    else if (ratio < 0.01)
-        warn(report, arena_format(a, "contact '%s': the %s is more than 20 dB under its surface, and hardly heard; %s.weight raises it (ablation.sound: %s is it alone)", c->name, other, other, other));
+    const char *other = ball_rolls(c) ? "ball" : "scraper", *under[2] = {other, "surface"}, *help = "";
+    double ratio = b->energy[1] / b->energy[0], equal = (ball_rolls(c) ? c->ball.weight : c->scraper.weight) / sqrt(ratio);
+    if (!(ratio > 100) && !(ratio < 0.01))
+        return;
+    bool surface = ratio > 100;
+    if (equal >= 1e-6 && equal <= 1000) /* what can be set, and means something */
+        help = arena_format(a, "; %s.weight %s the %s, %.2g makes both alike", other, surface ? "lowers" : "raises", other, equal);
+    warn(report, arena_format(a, "contact '%s': the %s is more than 20 dB under its %s, and hardly heard%s (ablation.sound: %s gives it alone)", c->name, under[surface], under[!surface], help, under[surface]));
 }
 
 static void warn_contact(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
