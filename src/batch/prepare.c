@@ -279,7 +279,7 @@ static void add_up(const struct preparation *p, struct set *s)
     }
 }
 
-static bool tell(const struct prepare *p, const struct set *s, struct err *e)
+static bool tell(const struct prepare *p, const struct set *s, const char *folder, struct err *e)
 {
     int n = 0;
     enum err_kind worst = ERR_NONE;
@@ -287,7 +287,7 @@ static bool tell(const struct prepare *p, const struct set *s, struct err *e)
         n += p->faults[k].n;
         worst = p->faults[k].err->kind > worst ? p->faults[k].err->kind : worst;
     }
-    return !p->n_faults || err_set(e, worst, "%d of %d stimuli cannot be rendered; nothing was written", n, s->n);
+    return !p->n_faults || err_set(e, worst, "%d of %d stimuli cannot be rendered%s", n, s->n, folder ? "; nothing was written" : "");
 }
 
 bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *out, struct err *e)
@@ -311,5 +311,5 @@ bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, 
     find_length(&p, s);
     look_at_levels(&p, s);
     add_up(&p, s);
-    return tell(out, s, e) && (!ask->folder || spare_check(p.spare, s, p.first, &(struct spare_place){ask->folder, ask->shard}, e));
+    return tell(out, s, ask->folder, e) && (!ask->folder || spare_check(p.spare, s, p.first, &(struct spare_place){ask->folder, ask->shard}, e));
 }

@@ -36,10 +36,15 @@ const char *batch_folder(struct arena *a, const char *given)
     return arena_format(a, "%.*s", (int)n, given);
 }
 
-bool batch_threads(const struct cmd_call *c, int *threads, struct err *e)
+int batch_cores(void)
 {
     long n = sysconf(_SC_NPROCESSORS_ONLN);
-    n = n < 1 ? 1 : n > 256 ? 256 : n;
+    return (int)(n < 1 ? 1 : n > 256 ? 256 : n);
+}
+
+bool batch_threads(const struct cmd_call *c, int *threads, struct err *e)
+{
+    long n = batch_cores();
     if (!args_whole(&c->args, "jobs", (const long[2]){1, 256}, &n, e))
         return false;
     *threads = (int)n;
@@ -55,7 +60,7 @@ void batch_tell_more(struct cmd_call *c, const char *command, enum err_kind kind
     tell_error(c, command, &told);
 }
 
-static void tell_faults(struct cmd_call *c, const struct prepare *p)
+void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct prepare *p)
 {
     for (int k = 0; k < p->n_faults && k < TOLD; k++) {
         const struct prepare_fault *f = &p->faults[k];
@@ -63,14 +68,14 @@ static void tell_faults(struct cmd_call *c, const struct prepare *p)
         struct err told = {0};
         if (*f->messages) {
             tell_scene(c, f->diag, f->messages, f->err->kind);
-            err_set(&told, f->err->kind, "the scene of %s is not valid", whose);
+            err_set(&told, f->err->kind, "%s: the scene of %s is not valid", file, whose);
         } else
             err_set(&told, f->err->kind, "%s (%s)", f->err->text, whose);
         told.place = *f->messages ? told.place : f->err->place;
-        tell_error(c, "batch", &told);
+        tell_error(c, command, &told);
     }
     if (p->n_faults > TOLD)
-        batch_tell_more(c, "batch", p->faults[TOLD].err->kind, arena_format(c->arena, "and %d more errors", p->n_faults - TOLD));
+        batch_tell_more(c, command, p->faults[TOLD].err->kind, arena_format(c->arena, "and %d more errors", p->n_faults - TOLD));
 }
 
 static void tell_remarks(struct cmd_call *c, const struct results *all, int i)
@@ -252,7 +257,7 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
         *e = (struct err){0};
         err_set(e, kind, "%s %s", ask.design, kind == ERR_INPUT ? "cannot be read" : "is not a valid design");
     }
-    tell_faults(c, &r.prepare);
+    batch_tell_faults(c, "batch", ask.design, &r.prepare);
     if (r.journal)
         batch_tell(c, "batch", ask.design, &(struct results){&r.set, r.outcomes, r.journal});
     if (*r.unheard)

@@ -9,6 +9,9 @@
 /* Failures of single stimuli, each error once, and remarks of those that were rendered now, as errors and warnings. file: the design's, NULL: not known. */
 void batch_tell(struct cmd_call *c, const char *command, const char *file, const struct results *all);
 
+/* What is wrong with scenes and recordings of a set, found before any was rendered: each fault once. file: the design. */
+void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct prepare *p);
+
 /* What is too much to be told one by one, as an error. */
 void batch_tell_more(struct cmd_call *c, const char *command, enum err_kind kind, const char *text);
 
@@ -21,7 +24,10 @@ json_t *batch_json(const struct set *s, const struct outcome *outcomes, double f
 /* Their names. */
 json_t *batch_left_json(const struct leftover *l);
 
-/* --jobs: 0 or none: as many as there are cores. ERR_USAGE */
+/* How many threads do best, 1 to 256. */
+int batch_cores(void);
+
+/* --jobs: none: as many as there are cores. ERR_USAGE */
 bool batch_threads(const struct cmd_call *c, int *threads, struct err *e);
 
 /* The folder of -o, without a slash at its end. */

@@ -36,3 +36,8 @@ for level in '{common: {lufs: -30}}' '{each: {lufs: -30}}'; do
 done
 sed -i 's/lufs: -30/rms: -30 dB/' loud.yaml
 rasp batch loud.yaml -o loud -q && columns loud/manifest.csv stimulus_id status
+echo "-- rasp check finds the same, and counts recordings among what the longest is of"
+rasp check wrong.yaml || echo "exit $?" >&2
+sed '/^length/d' set.yaml > longest.yaml
+rasp check longest.yaml
+rasp batch longest.yaml --dry-run | grep longest
