@@ -26,7 +26,7 @@ if [ "$EACH" -gt 0 ]; then
         found=$(find "$BUILD/fuzz/found" -name "$name-*" 2> /dev/null | wc -l)
         grep -q "^ok fuzz/$name " "$BUILD/fuzz/report" || [ "$found" -gt 0 ] || found=1 # it did not end
         seconds=$(sed -n 's/^Done [0-9]* runs in \([0-9]*\) .*/\1/p' "$BUILD/fuzz/$name.log")
-        echo "$name,$commit,${seconds:-0},$(stat_of "$name" cpu_seconds),$(stat_of "$name" number_of_executed_units),$(cover "$name" head),$(cover "$name" tail),$found"
+        echo "$name,$commit,${seconds:-0},$(($(stat_of "$name" cpu_seconds))),$(stat_of "$name" number_of_executed_units),$(cover "$name" head),$(cover "$name" tail),$found"
     done >> evidence/fuzz.csv
     tail -n 3 "$BUILD/fuzz/report"
 fi

@@ -116,7 +116,7 @@ const void *shelf_take(struct shelf *s, const struct shelf_ask *ask, struct aren
     if (s && stat(ask->file, &status) == 0) {
         pthread_mutex_lock(&s->lock);
         const struct entry *found = find(s, ask, &status);
-        if (!found && s->bytes < s->most)
+        if (!found && (s->bytes < s->most || ask->kind->small))
             mine = enter(s, ask, &status);
         pthread_mutex_unlock(&s->lock);
         if (found)
@@ -149,7 +149,7 @@ static bool make_sha256(const char *file, const void *how, struct arena *a, void
 
 const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, struct err *e)
 {
-    static const struct shelf_kind sha256 = {"sha256", HASH_TEXT, make_sha256};
+    static const struct shelf_kind sha256 = {"sha256", HASH_TEXT, make_sha256, true};
     return shelf_take(s, &(struct shelf_ask){.kind = &sha256, .file = file}, a, e);
 }
 

@@ -36,6 +36,7 @@ struct batch {
     struct err stop;
     struct claim claim;
     int entered;                 /* claim_enter's */
+    const char *changed;         /* an input, while stimuli were made of it; NULL: none */
 };
 
 /* ------------------------------------------------------------------ jobs */
@@ -176,8 +177,7 @@ static void forget_tables(const struct batch *b)
 
 /* ------------------------------------------------------------------ the whole */
 
-/* changed: an input; NULL: none. */
-static bool judge(struct batch *b, const char *changed, struct err *e)
+static bool judge(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
     enum err_kind worst = ERR_NONE;
@@ -188,10 +188,24 @@ static bool judge(struct batch *b, const char *changed, struct err *e)
         r->waiting += o->record.size && o->waits;
         worst = o->kind > worst ? o->kind : worst;
     }
-    if (changed)
-        return err_set(e, ERR_INPUT, "%s has changed while stimuli were made of it: some may be of what it was before; run the same command again, which renders those anew", changed);
+    if (b->changed)
+        return err_set(e, ERR_INPUT, "%s has changed while stimuli were made of it: some may be of what it was before; run the same command again, which renders those anew", b->changed);
     return !worst || err_set(e, worst, "%d of %d stimuli failed; the column error of the manifest says why%s", r->failed, r->n_mine,
                              r->waiting ? ", and the common level waits for them" : "");
+}
+
+/* Inputs may be seen from folders that the end removes: it is looked before. anew: something was made of them. */
+static void look_for_changes(struct batch *b, bool anew)
+{
+    b->changed = anew ? shelf_changed(b->kit.shelf, b->arena) : NULL;
+}
+
+/* A shard of two states is not one that can be merged: it has no manifest. */
+static bool end_shard(struct batch *b, struct err *e)
+{
+    struct batch_report *r = b->report;
+    look_for_changes(b, r->rendered > 0);
+    return b->changed || manifest_write(b->ask->folder, &(struct results){&r->set, r->outcomes, r->journal}, &b->ask->shard, r->mine, e);
 }
 
 static bool end(struct batch *b, struct err *e)
@@ -201,11 +215,15 @@ static bool end(struct batch *b, struct err *e)
     struct finish f = {.kit = &b->kit, .results = results, .threads = b->ask->threads, .entered = b->entered, .arena = b->arena, .anew = r->rendered > 0,
                        .inputs = r->prepare.inputs, .prune = b->ask->prune};
     if (b->ask->shard.n > 1)
-        return manifest_write(b->ask->folder, &results, &b->ask->shard, r->mine, e);
-    bool ok = finish_set(&f, e);
+        return end_shard(b, e);
+    bool ok = finish_level(&f, e);
+    r->rendered += f.again;
+    r->kept -= f.again;
+    look_for_changes(b, f.anew);
+    ok = ok && finish_tables(&f, e);
     r->full_scale = f.full_scale;
     r->left = f.left;
-    r->unheard = f.unheard;
+    r->unheard = f.unheard ? f.unheard : "";
     return ok;
 }
 
@@ -215,10 +233,7 @@ static bool render_in_folder(struct batch *b, struct err *e)
         return false;
     forget_tables(b);
     resample_prepare();
-    bool ok = run_jobs(b, e);
-    const char *changed = ok && b->report->rendered > 0 ? shelf_changed(b->kit.shelf, b->arena) : NULL; /* seen from folders that the end removes */
-    bool whole = b->ask->shard.n == 1 || !changed; /* a shard of two states is not one that can be merged: it has no manifest */
-    return ok && (!whole || end(b, e)) && judge(b, changed, e);
+    return run_jobs(b, e) && end(b, e) && judge(b, e);
 }
 
 static bool render(struct batch *b, struct err *e)

@@ -16,7 +16,7 @@
 
 struct levelled {                /* what became of a stimulus that gets its gain, until it is taken */
     struct journal_ref record;
-    bool done;
+    bool done, again;            /* again: it was rendered once more for it */
     struct err *e;               /* by malloc; NULL: none */
 };
 
@@ -41,16 +41,27 @@ static bool has_level(const struct finish *f, int i, const struct record *r)
     return f->kit->set->rows[i].recording || (r->job && r->full_scale == f->full_scale);
 }
 
-/* Renders the raw sound again: another gain was given to it, and it is gone. */
-static bool again(const struct finish *f, int i, struct arena *a, const struct record **raw, struct err *e)
+struct relevel {                 /* of one stimulus */
+    const struct finish *finish;
+    int i;
+    const char *key;             /* of what the set's gain was found with */
+    struct levelled *to;
+    struct arena *arena;
+};
+
+/* Renders the raw sound again: another gain was given to it, and it is gone. It must be what the gain was found with. */
+static bool again(const struct relevel *l, const struct record **raw, struct err *e)
 {
-    struct job_kit k = *f->kit;
+    struct job_kit k = *l->finish->kit;
     struct job_result result;
     k.again = true;
     if (!k.design)
         return err_set(e, ERR_INPUT, "it has the level that an earlier merge gave it, and for another one its raw sound is needed, which a merge cannot render: run its shard again with the same command, then merge");
-    if (!job_do(&k, i, a, &result, e))
+    if (!job_do(&k, l->i, l->arena, &result, e))
         return false;
+    l->to->again |= !result.kept;
+    if (strcmp(result.record->key, l->key) != 0)
+        return err_set(e, ERR_INPUT, "what it is made of has changed since its level was measured: run the same command again");
     *raw = result.record;
     return true;
 }
@@ -58,14 +69,15 @@ static bool again(const struct finish *f, int i, struct arena *a, const struct r
 enum { TRIES = 6 };
 
 /* Another batch in the same folder takes raw sounds away when it has given them their gain, and once more when it has finished. */
-static bool level_raw(const struct finish *f, int i, const struct record *raw, struct journal_ref *done, struct arena *a, struct err *e)
+static bool level_raw(const struct relevel *l, const struct record *raw, struct err *e)
 {
+    const struct finish *f = l->finish;
     for (int tries = 0; tries < TRIES; tries++) {
         *e = (struct err){0};
         if (tries || !raw)
-            if (!again(f, i, a, &raw, e))
+            if (!again(l, &raw, e))
                 return false;
-        if (level_apply(f->kit, raw, f->full_scale, a, done, e))
+        if (level_apply(f->kit, raw, f->full_scale, l->arena, &l->to->record, e))
             return true;
         if (e->kind != ERR_INPUT)
             return false;
@@ -73,16 +85,16 @@ static bool level_raw(const struct finish *f, int i, const struct record *raw, s
     return false;
 }
 
-static bool level_one(const struct finish *f, int i, struct journal_ref *done, struct arena *a, struct err *e)
+static bool level_one(const struct finish *f, int i, struct levelled *to, struct arena *a, struct err *e)
 {
     struct journal_ref old;
-    *done = f->results.of[i].record;
-    const struct record *r = journal_read(f->kit->journal, *done, a, e);
+    to->record = f->results.of[i].record;
+    const struct record *r = journal_read(f->kit->journal, to->record, a, e);
     if (!r)
         return false;
     if (has_level(f, i, r))
         return true;
-    return level_raw(f, i, r->job ? journal_find(f->kit->journal, r->key, true, a, &old) : r, done, a, e);
+    return level_raw(&(struct relevel){f, i, r->key, to, a}, r->job ? journal_find(f->kit->journal, r->key, true, a, &old) : r, e);
 }
 
 static bool stops(const struct err *e)
@@ -97,7 +109,7 @@ static bool job(void *context, int i)
     struct err e = {0};
     struct arena *a = arena_open();
     bool ok = interrupt_seen() ? err_set(&e, ERR_INTERRUPTED, "interrupted; run the same command again, and it goes on from here")
-                               : level_one(w->finish, i, &l->record, a, &e);
+                               : level_one(w->finish, i, l, a, &e);
     arena_close(a);
     l->done = true;
     if (!ok)
@@ -110,6 +122,9 @@ static void took(void *context, int i)
     struct work *w = context;
     struct levelled *l = &w->now[i];
     struct outcome *o = &w->finish->results.of[i];
+    w->finish->anew = w->finish->anew || l->again;
+    w->finish->again += l->again && o->kept;
+    o->kept = o->kept && !l->again;
     if (!l->e) {
         w->finish->anew = w->finish->anew || l->record.at != o->record.at;
         o->record = l->record;
@@ -185,12 +200,15 @@ static bool settle(struct finish *f, bool complete, struct err *e)
     return true;
 }
 
-bool finish_set(struct finish *f, struct err *e)
+bool finish_level(struct finish *f, struct err *e)
 {
-    bool waits = set_waits(f->kit->set), complete = whole(f);
+    bool waits = set_waits(f->kit->set);
     f->full_scale = waits ? NAN : f->kit->set->level.full_scale;
+    return !waits || !whole(f) || lay_level(f, e);
+}
+
+bool finish_tables(struct finish *f, struct err *e)
+{
     f->unheard = "";
-    if (waits && complete && !lay_level(f, e))
-        return false;
-    return write_tables(f, e) && unheard_find(&f->results, f->arena, &f->unheard, e) && settle(f, !waits || whole(f), e);
+    return write_tables(f, e) && unheard_find(&f->results, f->arena, &f->unheard, e) && settle(f, !set_waits(f->kit->set) || whole(f), e);
 }

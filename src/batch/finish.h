@@ -13,15 +13,19 @@ struct finish {
     struct arena *arena;
     double full_scale;           /* of the set, once it is known; NAN */
     bool anew;                   /* something was rendered: timings are written */
+    int again;                   /* how many that were there have been rendered once more for another gain */
     const struct spare *inputs;  /* of the set, which are not left over; NULL: not known */
     bool prune;                  /* what is left over is removed */
     struct leftover left;        /* what is there besides the set */
     const char *unheard;         /* of unheard_find */
 };
 
-/* Where the level waits and all stimuli are there, gives them their gain. Then writes manifest.csv, manifest.json, SHA256SUMS and timings.csv, settles the journal, sweeps,
-   and looks for what is left over, and for factors that are not heard.
-   Failures of single stimuli go to their outcomes. ERR_CREATE, ERR_IO, ERR_INTERRUPTED */
-bool finish_set(struct finish *f, struct err *e);
+/* Where the level waits and all stimuli are there, gives them their gain. Failures of single stimuli go to their outcomes: so does one that would be rendered again for it and is not what
+   it was (ERR_INPUT). ERR_SCENE, ERR_CREATE, ERR_IO, ERR_INTERRUPTED */
+bool finish_level(struct finish *f, struct err *e);
+
+/* Then writes manifest.csv, manifest.json, SHA256SUMS and timings.csv, settles the journal, sweeps, and looks for what is left over, and for factors that are not heard.
+   ERR_CREATE, ERR_IO */
+bool finish_tables(struct finish *f, struct err *e);
 
 #endif

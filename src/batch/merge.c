@@ -233,7 +233,7 @@ static bool judge(struct merge *m, struct err *e)
 static bool join(struct merge *m, int threads, struct err *e)
 {
     struct finish f = {.kit = &m->kit, .results = {&m->report->set, m->report->outcomes, m->kit.journal}, .threads = threads, .entered = m->entered, .arena = m->arena, .anew = true};
-    if (!read_parts(m, e) || !all_there(m, threads, e) || !finish_set(&f, e))
+    if (!read_parts(m, e) || !all_there(m, threads, e) || !finish_level(&f, e) || !finish_tables(&f, e))
         return false;
     m->report->full_scale = f.full_scale;
     m->report->left = f.left;

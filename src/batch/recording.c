@@ -166,6 +166,13 @@ static bool make(const struct job_kit *k, const char *file, struct record *r, st
     return job_measure(k->folder, true, r, e);
 }
 
+/* The copy is called by what the file was before. */
+static bool still(const char *file, const char *was, struct err *e)
+{
+    char hex[HASH_TEXT];
+    return hash_file(file, hex, e) && (strcmp(hex, was) == 0 || err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", file));
+}
+
 static bool do_it(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
 {
     char hex[HASH_TEXT];
@@ -181,7 +188,7 @@ static bool do_it(const struct job_kit *k, int i, struct arena *a, struct job_re
     struct record *r = ARENA_TAKE(a, struct record, 1);
     *r = (struct record){.name = name, .key = key, .job = key, .build = k->set->build};
     result->record = r;
-    return make(k, file, r, a, e) && journal_add(k->journal, r, &result->ref, e);
+    return make(k, file, r, a, e) && still(file, hex, e) && journal_add(k->journal, r, &result->ref, e);
 }
 
 bool recording_do(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)

@@ -90,7 +90,7 @@ static bool npy_take(const struct stage_run *r, const struct heightfile *h, stru
 /* By content. */
 static bool samples_take(const struct stage_run *r, struct given_samples *g, struct err *e)
 {
-    static const struct shelf_kind forces = {"samples of a force", sizeof(struct given_file), given_make};
+    static const struct shelf_kind forces = {"samples of a force", sizeof(struct given_file), given_make, false};
     const struct given_file *f = shelf_take(r->scene->shelf, &(struct shelf_ask){.kind = &forces, .file = r->contact->contact.given.file}, r->arena, e);
     if (!f || !given_fits(r->contact, f->is_npy ? "NPY" : "WAV", e))
         return false;

@@ -69,7 +69,7 @@ static bool make(const char *path, const void *how, struct arena *a, void *thing
 
 bool ir_read(const struct ir_ask *ask, struct arena *a, struct ir *ir, struct err *e)
 {
-    static const struct shelf_kind recorded = {"recorded response", sizeof(struct ir), make};
+    static const struct shelf_kind recorded = {"recorded response", sizeof(struct ir), make, false};
     const char *key = ask->shelf ? arena_format(a, "%a %a", ask->rate, ask->t0) : NULL;
     const struct ir *found = shelf_take(ask->shelf, &(struct shelf_ask){&recorded, ask->path, key, ask}, a, e);
     if (found)

@@ -49,7 +49,7 @@ static bool height_map_make(const char *path, const void *how, struct arena *a, 
 
 static const struct height_map_read *height_map_load(struct stage_run *r, struct err *e)
 {
-    static const struct shelf_kind maps = {"height map", sizeof(struct height_map_read), height_map_make};
+    static const struct shelf_kind maps = {"height map", sizeof(struct height_map_read), height_map_make, false};
     const struct surface *s = &r->contact->surface;
     const char *key = arena_format(r->arena, "%a %a %a %d %d %d", s->pitch, s->height_scale, s->height_range, s->holes, s->levelling, s->off_map);
     const struct height_map_read *m = shelf_take(r->scene->shelf, &(struct shelf_ask){&maps, s->height_map, key, s}, r->arena, e);

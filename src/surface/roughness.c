@@ -107,7 +107,7 @@ static double *copied(struct arena *a, const double *x, int n)
 
 static bool plan_like(struct shelf *shelf, const struct roughness *r, struct arena *a, struct roughness_plan *p, struct err *e)
 {
-    static const struct shelf_kind likes = {"statistics of a height map", sizeof(struct roughness_plan), like_make};
+    static const struct shelf_kind likes = {"statistics of a height map", sizeof(struct roughness_plan), like_make, false};
     const struct roughness_plan *found = shelf_take(shelf, &(struct shelf_ask){&likes, r->like, arena_format(a, "%a", r->like_pitch), r}, a, e);
     if (!found)
         return false;

@@ -29,7 +29,7 @@ fuzz() {
     [ "$name" != heightfile ] || seeds=(corpus/{csv,grid,gsf,gwy,npy,png,sdf})
     words=()
     case $name in scene | design | recipe) words=("-dict=$folder/words") ;; esac
-    if { TIMEFORMAT='stat::cpu_seconds: %0U'; time ASAN_OPTIONS=allocator_may_return_null=1 "$folder/fuzz_$name" -max_total_time="$((share > 0 ? share : 1))" \
+    if { TIMEFORMAT='stat::cpu_seconds: %0U+%0S'; time ASAN_OPTIONS=allocator_may_return_null=1 "$folder/fuzz_$name" -max_total_time="$((share > 0 ? share : 1))" \
         -max_len=16384 -timeout=10 -rss_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$folder/found/$name-" "${words[@]}" "$folder/corpus/$name" \
         "${seeds[@]}" < /dev/null; } > "$log" 2>&1
     then

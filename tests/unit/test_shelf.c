@@ -31,7 +31,7 @@ static bool make_text(const char *file, const void *how, struct arena *arena, vo
     return n > 0 || err_set(e, ERR_INPUT, "%s: empty", file);
 }
 
-static const struct shelf_kind texts = {"text", 16, make_text}, others = {"other text", 16, make_text};
+static const struct shelf_kind texts = {"text", 16, make_text, false}, others = {"other text", 16, make_text, false};
 
 static char path[64];
 
@@ -127,6 +127,24 @@ START_TEST(what_has_no_room_is_made_for_each)
 }
 END_TEST
 
+/* A file that was asked for by its hash is watched, full shelf or not. */
+START_TEST(what_is_small_has_room)
+{
+    struct err e = {0};
+    begin("one");
+    struct shelf *s = shelf_open(0);
+    take(s, &texts, a, &e);
+    put("other");
+    ck_assert_ptr_null(shelf_changed(s, a));
+    ck_assert_ptr_eq(shelf_sha256(s, path, a, &e), shelf_sha256(s, path, a, &e));
+    ck_assert_ptr_null(shelf_changed(s, a));
+    put("third");
+    ck_assert_ptr_nonnull(strstr(shelf_changed(s, a), "rasp-test-"));
+    shelf_close(s);
+    unlink(path);
+}
+END_TEST
+
 /* sha256sum of "one". */
 START_TEST(hashes_are_those_of_the_file)
 {
@@ -181,4 +199,4 @@ START_TEST(notes_are_found_until_others_need_their_room)
 }
 END_TEST
 
-UNIT("shelf", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each, hashes_are_those_of_the_file, notes_are_found_until_others_need_their_room)
+UNIT("shelf", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each, what_is_small_has_room, hashes_are_those_of_the_file, notes_are_found_until_others_need_their_room)
