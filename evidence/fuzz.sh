@@ -18,7 +18,7 @@ stat_of() { sed -n "s/^stat::$2: *//p" "$BUILD/fuzz/$1.log"; }
 cover() { grep -oE 'cov: [0-9]+ ft: [0-9]+' "$BUILD/fuzz/$1.log" | sed 's/cov: //; s/ ft: /,/' | "$2" -n 1; }
 
 if [ "$EACH" -gt 0 ]; then
-    commit=$(git rev-parse --short HEAD)$(git diff --quiet HEAD -- src tests/fuzz || echo +)
+    commit=$(git rev-parse --short HEAD)$(git diff --quiet HEAD -- src 'tests/fuzz/*.c' || echo +)
     make --no-print-directory -s BUILD="$BUILD" fuzz SECONDS=0 > /dev/null 2>&1 || true # builds; a run of a second each
     rm -rf "$BUILD/fuzz/found"
     nice -n 19 tests/fuzz/run.sh "$BUILD/fuzz" $((EACH * ((${#targets[@]} + 1) / 2))) "${targets[@]}" > "$BUILD/fuzz/report" 2>&1 || true
