@@ -3,7 +3,7 @@
 . "$ROOT/tests/cli/batch-make.inc"
 printf 'scraper: {mass: 10 g}\n' > rod.yaml
 sed -i 's/^scraper: .*/include: [rod.yaml]/; s/duration: 0.3 s/duration: 2 s/' tiny.yaml
-sed 's/^factors/replicates: 20\nfactors/' six.yaml > many.yaml
+sed 's/^factors/replicates: 4\nfactors/' six.yaml > many.yaml
 
 # batch_while COMMAND: is done when the first stimulus has the new gain.
 batch_while() {
@@ -41,6 +41,6 @@ sed -i 's/^\(level.*\)-[0-9]* dB/\1-7 dB/' many.yaml
 rasp batch many.yaml -o set | sed 's/, in .*//'
 rasp batch many.yaml -o set | sed 's/, in .*//'
 echo "-- more stimuli, and an edit"
-sed -i 's/^replicates: 20/replicates: 21/; s/^\(level.*\)-[0-9]* dB/\1-9 dB/' many.yaml
+sed -i 's/^replicates: 4/replicates: 5/; s/^\(level.*\)-[0-9]* dB/\1-9 dB/' many.yaml
 batch_while "sed -i 's/20 g/10 g/' rod.yaml"
 as_fresh

@@ -3,7 +3,7 @@
 . "$ROOT/tests/cli/batch-make.inc"
 printf 'scraper: {mass: 10 g}\n' > rod.yaml
 sed -i 's/^scraper: .*/include: [rod.yaml]/; s/duration: 0.3 s/duration: 2 s/' tiny.yaml
-sed 's/^factors/replicates: 20\nrecordings: [{file: real.wav, name: real}]\nfactors/' six.yaml > many.yaml
+sed 's/^factors/replicates: 4\nrecordings: [{file: real.wav, name: real}]\nfactors/' six.yaml > many.yaml
 rasp render tiny.yaml -o real.wav -q
 
 # changes FOLDER COMMAND [OPTION...]: the command, while the set is rendered there.
