@@ -30,6 +30,7 @@
 #include "num/real.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
+#include "surface/tip_work.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
@@ -74,15 +75,15 @@ static double roll_way(const struct motion *m)
    metre, those of the tip (surface/tip.c) among them. */
 static double roll_ground_work(const struct contact *c, const struct scene *s)
 {
-    double way = roll_way(&c->motion), again = s->accuracy.tip_heights != 1 ? way : 0, lattice = c->scraper.patch / 4;
+    double way = roll_way(&c->motion), again = s->accuracy.tip_heights != 1 ? way : 0;
     double lasts = isnan(c->motion.duration) ? way / rules_speed(&c->motion) : c->motion.duration;
-    double metre = rules_along(c) == ALONG_PLANE ? 3e5 / lattice : 8e2 / lattice + 340 / roll_pass_grain(c);
+    double pass = rules_along(c) == ALONG_PLANE ? 0 : 340 / roll_pass_grain(c), plain = tip_work_metre(c, 1) + pass, dense = tip_work_metre(c, s->accuracy.tip_heights) + pass;
     bool one = rules_straight(&c->motion) || rules_along(c) == ALONG_PATH;
     bool means = c->contact.limiter.curve == LIMITER_TANH && (!one || load_varies(c)); /* force/slope_heading.c */
     double looked = means ? fmax(ball_ground(c), one ? 0 : fmin(way, 4 * ball_ground(c))) : 0;
     bool made = ball_beyond(c, 1e-9) > 0; /* of next to no ground, if of any */
-    double ground = looked + (made ? ball_beyond(c, way) + again : 0);
-    return way > 0 && lasts > 0 ? ground * metre / (lasts * s->output.sample_rate) : 0;
+    double work = looked * dense + (made ? ball_beyond(c, way) + again : 0) * plain;
+    return way > 0 && lasts > 0 ? work / (lasts * s->output.sample_rate) : 0;
 }
 
 /* The rehearsal goes the whole way once more, in grains of its own. */

@@ -8,6 +8,7 @@
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/rules.h"
+#include "surface/roughness.h"
 
 #define REAL_TIME 62500.0 /* cycles per audio sample of a core of 3 GHz at 48 kHz */
 
@@ -183,12 +184,14 @@ static void row_print(const struct plan *p, const struct plan_row *r, double who
             r->stage->paper[0] ? "]" : "");
 }
 
-/* Engines take little memory, but for responses at nodes. */
+/* Engines take little memory, but for responses at nodes; a surface whose ground is kept as it is made says how much that may be. */
 static void memory_print(const struct plan *p, FILE *out)
 {
     const struct ring_choice *c = p->contact->surface.response.choice;
     if (c && c->engine == RING_PANNED && !c->recorded)
         fprintf(out, "  up to %.0f MB of memory for responses at %d nodes\n", c->bytes / 1e6, c->nodes.n);
+    if (p->alive & ITEM_BIT(ITEM_SURFACE) && roughness_bytes(p->contact) > 0)
+        fprintf(out, "  up to %.0f MB of memory for roughness in the plane\n", roughness_bytes(p->contact) / 1e6);
 }
 
 static void ablation_print(const struct plan *p, FILE *out)

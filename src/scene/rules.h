@@ -58,6 +58,12 @@ static inline bool rules_straight(const struct motion *m)
            m->path == PATH_INCLINE;
 }
 
+/* Is no place of the surface come back to? A round tip keeps the heights that it has read. */
+static inline bool rules_once(const struct contact *c)
+{
+    return !isnan(c->scraper.radius) || (rules_straight(&c->motion) && c->motion.path != PATH_BACK_AND_FORTH);
+}
+
 static inline double rules_incline_speed(const struct motion *m)
 {
     struct incline i = incline_make(m);

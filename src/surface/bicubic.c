@@ -26,14 +26,34 @@ void bicubic_cells(struct bicubic *b, int n, const double *p, const double *q)
 LANES_CLONES
 void bicubic_put(struct bicubic *b, int i, int end, const double *from, long stride)
 {
-    for (int j = 0; j < 4; j++)
-        for (int k = 0; k < 4; k++) {
-            double value = from[j * stride + k], *to = b->c[4 * j + k];
-            for (int at = i; at < end; at += LANES)
+    for (int at = i; at < end; at += LANES)
+        for (int j = 0; j < 4; j++) {
+            const double *row = from + j * stride;
+            double c0 = row[0], c1 = row[1], c2 = row[2], c3 = row[3], *to = b->c[4 * j] + at;
 #pragma omp simd
-                for (int l = 0; l < LANES; l++)
-                    to[at + l] = value;
+            for (int l = 0; l < LANES; l++) {
+                to[l] = c0;
+                to[l + BICUBIC_ROOM] = c1;
+                to[l + 2 * BICUBIC_ROOM] = c2;
+                to[l + 3 * BICUBIC_ROOM] = c3;
+            }
         }
+}
+
+LANES_CLONES
+void bicubic_put_row(struct bicubic *b, int i, const double *from, long stride)
+{
+    for (int j = 0; j < 4; j++) {
+        const double *row = from + j * stride;
+        double *to = b->c[4 * j] + i;
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            to[l] = row[l];
+            to[l + BICUBIC_ROOM] = row[l + 1];
+            to[l + 2 * BICUBIC_ROOM] = row[l + 2];
+            to[l + 3 * BICUBIC_ROOM] = row[l + 3];
+        }
+    }
 }
 
 /* Four numbers by name: in arrays, gcc would not vectorise the loops below. */

@@ -33,6 +33,18 @@ static inline int bicubic_run(const struct bicubic *b, int i)
    is overwritten. */
 void bicubic_put(struct bicubic *b, int i, int end, const double *from, long stride);
 
+/* The end of the points from i on that lie each in the next cell of its row; at most LANES of them. */
+static inline int bicubic_row(const struct bicubic *b, int i)
+{
+    int end = i + 1;
+    while (end < b->n && end < i + LANES && b->column[end] == b->column[end - 1] + 1 && b->row[end] == b->row[i])
+        end++;
+    return end;
+}
+
+/* The same of up to LANES points that bicubic_row counts: from[0 .. LANES + 2], and three rows more. */
+void bicubic_put_row(struct bicubic *b, int i, const double *from, long stride);
+
 /* sum of c[j][k] B(f - k) B(g - j) and its derivatives per pitch (across columns u, rows v: both 1/m) into z ... yy: all that v asks for, the rest
    perhaps too. A value has the same bits whatever else is asked for. */
 void bicubic_sum(struct bicubic *b, double u, double v, const struct relief_values *asked);

@@ -10,6 +10,7 @@
 #include "surface/continuation.h"
 
 #include "num/real.h"
+#include "scene/rules.h"
 #include "stage.h"
 #include "surface/blocks.h"
 #include "surface/reading.h"
@@ -63,10 +64,13 @@ static bool continuation_wanted(const struct contact *c, const struct scene *s)
     return c->surface.continuation.given && c->surface.height_map;
 }
 
+/* As roughness_work (surface/roughness.c). */
 static double continuation_work(const struct contact *c, const struct scene *s)
 {
-    bool plane = c->surface.along == ALONG_PLANE;
-    return (plane ? 60 * 4 : 8) * reading_points(s, c->surface.continuation.shortest / 4);
+    double finest = c->surface.continuation.shortest / 4, cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
+    if (c->surface.along != ALONG_PLANE)
+        return 8 * reading_points(s, finest);
+    return isnan(c->scraper.radius) ? 800 * cells + 50 * s->accuracy.oversampling : 1;
 }
 
 static bool continuation_open(struct stage_run *r, struct err *e)
@@ -78,7 +82,7 @@ static bool continuation_open(struct stage_run *r, struct err *e)
     relief_settle(relief, r->contact);
     if (!continuation_spectrum(r->arena, &r->contact->surface.continuation, r->board->height_map, &s, e))
         return err_at(e, "contact '%s'", r->contact->name);
-    struct relief_part *part = relief->along == ALONG_PLANE ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0}, stream, &lost, e)
+    struct relief_part *part = relief->along == ALONG_PLANE ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0, rules_once(r->contact)}, stream, &lost, e)
                                                             : profile_part(r->arena, blocks_make(r->arena, &s, stream), "continuation", 0);
     part->name = "continuation";
     relief_add(relief, part);

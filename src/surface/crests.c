@@ -10,6 +10,7 @@
 
 #include <math.h>
 
+#include "num/lanes.h"
 #include "surface/envelope.h"
 
 enum { LINE = 1024, CREST = 32, READ = 64, EIGHT = 8 };
@@ -28,12 +29,33 @@ struct crests {
 
 /* ------------------------------------------------------------------ heights */
 
+/* The least and most of n numbers, a multiple of LANES. */
+LANES_CLONES
+static void extremes(const double *z, long n, double found[2])
+{
+    double least[LANES], most[LANES];
+    for (int l = 0; l < LANES; l++)
+        least[l] = most[l] = z[l];
+    for (long i = LANES; i < n; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            least[l] = lanes_select(z[i + l] < least[l], z[i + l], least[l]);
+            most[l] = lanes_select(z[i + l] > most[l], z[i + l], most[l]);
+        }
+    found[0] = least[0];
+    found[1] = most[0];
+    for (int l = 1; l < LANES; l++) {
+        found[0] = least[l] < found[0] ? least[l] : found[0];
+        found[1] = most[l] > found[1] ? most[l] : found[1];
+    }
+}
+
 static void heights_watch(struct crests *w, const double *z, long n)
 {
-    for (long i = 0; i < n; i++) {
-        w->least = fmin(w->least, z[i]);
-        w->most = fmax(w->most, z[i]);
-    }
+    double found[2];
+    extremes(z, n, found);
+    w->least = fmin(w->least, found[0]);
+    w->most = fmax(w->most, found[1]);
     if (!w->warned && w->most - w->least > w->plan.span) {
         w->warned = true;
         if (w->plan.exceeded)
@@ -41,13 +63,35 @@ static void heights_watch(struct crests *w, const double *z, long n)
     }
 }
 
-/* Reading is most of the work, and parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in
-   its middle, and they are its Taylor polynomial of second degree. 64 points are read at a time, in a square, as parts that keep a patch of
-   coefficients like it. */
+struct reading {
+    double z[READ], x[READ], y[READ], xx[READ], xy[READ], yy[READ];
+};
+
+/* Heights, `stride` to a row, of the 2 x 2 places about each of EIGHT x EIGHT points, s away from it in both directions. */
+LANES_CLONES
+static void squares_put(const struct reading *r, double s, double *out, long stride)
+{
+    for (long j = 0; j < EIGHT; j++) {
+        double *low = out + 2 * j * stride, *high = low + stride;
+#pragma omp simd
+        for (long i = 0; i < EIGHT; i++) {
+            long k = j * EIGHT + i;
+            double even = r->z[k] + 0.5 * s * s * (r->xx[k] + r->yy[k]), cross = s * s * r->xy[k], a = s * r->x[k], b = s * r->y[k];
+            low[2 * i] = even + cross - (a + b);
+            low[2 * i + 1] = even - cross + (a - b);
+            high[2 * i] = even - cross - (a - b);
+            high[2 * i + 1] = even + cross + (a + b);
+        }
+    }
+}
+
+/* Parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in its middle, and they are its Taylor polynomial of second degree. 64 points are
+   read at a time, in a square of the lattice, as parts that keep patches of coefficients like it. */
 static void heights_fill(void *self, long column, long row, double *out)
 {
     struct crests *w = self;
-    double x[READ], y[READ], z[READ], zx[READ], zy[READ], xx[READ], xy[READ], yy[READ], s = w->d / 2;
+    struct reading r;
+    double x[READ], y[READ];
     long side = w->heights.side[0], first_x = column * side, first_y = row * side;
     for (long at = 0; at < side * side / (2 * EIGHT * 2 * EIGHT); at++) {
         long left = at % (side / (2 * EIGHT)) * 2 * EIGHT, below = at / (side / (2 * EIGHT)) * 2 * EIGHT;
@@ -55,15 +99,8 @@ static void heights_fill(void *self, long column, long row, double *out)
             x[k] = ((double)(first_x + left + 2 * (k % EIGHT)) + 0.5) * w->d;
             y[k] = ((double)(first_y + below + 2 * (k / EIGHT)) + 0.5) * w->d;
         }
-        relief_at(w->under, &(struct relief_points){READ, x, y}, &(struct relief_values){z, zx, zy, xx, xy, yy});
-        for (long k = 0; k < READ; k++) {
-            double *to = out + (below + 2 * (k / EIGHT)) * side + left + 2 * (k % EIGHT);
-            double even = z[k] + 0.5 * s * s * (xx[k] + yy[k]), cross = s * s * xy[k], a = s * zx[k], b = s * zy[k];
-            to[0] = even + cross - (a + b);
-            to[1] = even - cross + (a - b);
-            to[side] = even - cross - (a - b);
-            to[side + 1] = even + cross + (a + b);
-        }
+        relief_at(w->under, &(struct relief_points){READ, x, y}, &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
+        squares_put(&r, w->d / 2, out + below * side + left, side);
     }
     heights_watch(w, out, side * side);
 }

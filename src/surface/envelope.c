@@ -90,9 +90,10 @@ void envelope_prepare(struct envelope *e)
     e->seed_x = e->seed_y = 0;
 }
 
-static void try(struct envelope *e, long x, long y, double square)
+static void try(struct envelope *e, long x, long y)
 {
     const struct level *l = &e->levels[0];
+    double dx = (double)x - e->x, dy = (double)y - e->y, square = (dx * dx + dy * dy) * e->unit;
     double reached = l->most[y * l->columns + x] - square / (e->radius + sqrt(e->square - square));
     if (reached > e->best) {
         e->best = reached;
@@ -101,37 +102,47 @@ static void try(struct envelope *e, long x, long y, double square)
     }
 }
 
-/* Squares of the distances to the nearest sample of the FACTOR x tall blocks from (x, y) on, and what the ball can reach there at most. */
-LANES_CLONES
-static void bounds(const struct envelope *e, const struct level *l, long x, long y, double *square, double *bound)
+/* Square of the distance from `at`, in samples, to the nearest of those from `first` to `first` + last. */
+static inline __attribute__((always_inline)) double apart(double first, double last, double at)
 {
-    double left[FACTOR], last = l->span - 1;
+    double from = first - at, d = lanes_select(from > 0, from, lanes_select(from + last < 0, from + last, 0));
+    return d * d;
+}
+
+/* What the ball can reach at most in each of the FACTOR x tall blocks from (x, y) on; bit k of what is returned: block k is within its radius, and that is more than the best so far. */
+LANES_CLONES
+static int promising(const struct envelope *e, const struct level *l, long x, long y, double *bound)
+{
+    static const double nth[FACTOR] = {0, 1, 2, 3}, bits[FACTOR * FACTOR] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+    double left[FACTOR], below[FACTOR], found[FACTOR] = {0}, column = (double)x, row = (double)y, last = l->span - 1;
+#pragma omp simd
     for (int i = 0; i < FACTOR; i++) {
-        double from = (double)(x + i) * l->span - e->x, d = from > 0 ? from : from + last < 0 ? from + last : 0;
-        left[i] = d * d;
+        left[i] = apart((column + nth[i]) * l->span, last, e->x);
+        below[i] = apart((row + nth[i]) * l->span, last, e->y);
     }
     for (int j = 0; j < e->tall; j++) {
-        double from = (double)(y + j) * l->span - e->y, d = from > 0 ? from : from + last < 0 ? from + last : 0, below = d * d;
         const double *most = l->most + (y + j) * l->columns + x;
 #pragma omp simd
         for (int i = 0; i < FACTOR; i++) {
-            square[j * FACTOR + i] = (left[i] + below) * e->unit;
-            bound[j * FACTOR + i] = most[i] - square[j * FACTOR + i] * e->loose;
+            double square = (left[i] + below[j]) * e->unit, b = most[i] - square * e->loose;
+            bound[j * FACTOR + i] = b;
+            found[i] += lanes_select((b > e->best) & (square <= e->square), bits[j * FACTOR + i], 0);
         }
     }
+    return (int)((found[0] + found[1]) + (found[2] + found[3]));
 }
 
 /* Block (column, row) of the level above `level`. */
 static void search(struct envelope *e, int level, long column, long row)
 {
-    double square[FACTOR * FACTOR], bound[FACTOR * FACTOR];
+    double bound[FACTOR * FACTOR];
     long x = column * FACTOR, y = row * e->tall;
-    bounds(e, &e->levels[level], x, y, square, bound);
-    for (int k = 0; k < FACTOR * e->tall; k++) {
-        if (bound[k] <= e->best || square[k] > e->square)
+    for (int left = promising(e, &e->levels[level], x, y, bound); left; left &= left - 1) {
+        int k = __builtin_ctz((unsigned)left);
+        if (bound[k] <= e->best)
             continue;
         if (level == 0)
-            try(e, x + k % FACTOR, y + k / FACTOR, square[k]);
+            try(e, x + k % FACTOR, y + k / FACTOR);
         else
             search(e, level - 1, x + k % FACTOR, y + k / FACTOR);
     }
@@ -141,14 +152,14 @@ double envelope_at(struct envelope *e, long column, long row)
 {
     const struct level *l = &e->levels[0];
     long x = e->seed_x, y = e->seed_y;
-    double dx = (double)(column - x), dy = (double)(row - y), square = (dx * dx + dy * dy) * e->unit;
+    double dx = (double)(column - x), dy = (double)(row - y);
     e->x = (double)column;
     e->y = (double)row;
     e->best = l->most[row * l->columns + column];
     e->seed_x = column;
     e->seed_y = row;
-    if (square <= e->square)
-        try(e, x, y, square);
+    if ((dx * dx + dy * dy) * e->unit <= e->square)
+        try(e, x, y);
     const struct level *top = &e->levels[e->top];
     for (long j = 0; j < top->rows / e->tall; j++)
         for (long i = 0; i < top->columns / FACTOR; i++)

@@ -16,8 +16,10 @@
 #include "stage.h"
 #include "surface/blocks.h"
 #include "surface/heights.h"
+#include "surface/patches.h"
 #include "surface/reading.h"
 #include "surface/survey.h"
+#include "surface/tile.h"
 #include "surface/tiles.h"
 
 double roughness_density(const struct roughness *r, double k)
@@ -137,7 +139,7 @@ static struct relief_part *gaussian_part(struct arena *a, struct roughness_plan 
                                          struct err *e)
 {
     double lost = 0;
-    struct relief_part *part = tiles_part(a, &p->spectrum, &(struct tiles_grain){r->grain, r->grain_direction}, stream, r->like ? &lost : NULL, e);
+    struct relief_part *part = tiles_part(a, &p->spectrum, &(struct tiles_grain){r->grain, r->grain_direction, p->once}, stream, r->like ? &lost : NULL, e);
     if (lost > 1e-3)
         p->remark = arena_format(a, "%s%ssurface.roughness.like: no surface in the plane has the spectrum of %s along every line; %.2g %% of its power "
                                     "was moved", p->remark ? p->remark : "", p->remark ? "; " : "", r->like, 100 * lost);
@@ -174,13 +176,27 @@ static bool roughness_wanted(const struct contact *c, const struct scene *s)
     return c->surface.roughness.given;
 }
 
-/* Cycles per point: a spline's 8, or 60 for each octave of a plane's; 60 more for another distribution of heights. */
+static double roughness_octaves(const struct roughness *r)
+{
+    return r->like ? 9 : 1 + real_log(r->longest / r->shortest) / real_log(2);
+}
+
+double roughness_bytes(const struct contact *c)
+{
+    int bands = c->surface.roughness.given ? (int)roughness_octaves(&c->surface.roughness) : 0;
+    return bands > 0 && rules_along(c) == ALONG_PLANE ? (double)(patches_bytes(bands, rules_once(c)) + (size_t)bands * TILE_SIDE * TILE_ROW * sizeof(double)) : 0;
+}
+
+/* Measured, in cycles: along a line 8 per point of its spline; in the plane per cell that is crossed, which has its coefficients made and is read at some 6 points, less where they are kept; 60 more
+   per point for another distribution of heights. What a tip reads in the plane is told with the tip. */
 static double roughness_work(const struct contact *c, const struct scene *s)
 {
     const struct roughness *r = &c->surface.roughness;
-    bool line = rules_along(c) != ALONG_PLANE;
-    double octaves = r->like ? 9 : 1 + real_log(r->longest / r->shortest) / real_log(2), shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
-    return (line ? 8 : 60 * octaves) * reading_points(s, r->shortest / 4) + 60 * shaped * reading_points(s, r->shortest / 4);
+    bool plane = rules_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
+    double points = reading_points(s, r->shortest / 4), cells = rules_speed(&c->motion) / (s->output.sample_rate * r->shortest / 4);
+    if (plane && !isnan(c->scraper.radius))
+        return 1;
+    return (plane ? (rules_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) + 60 * shaped * points;
 }
 
 static bool roughness_open(struct stage_run *r, struct err *e)
@@ -190,8 +206,10 @@ static bool roughness_open(struct stage_run *r, struct err *e)
     struct roughness_plan p;
     relief_settle(r->board->relief, r->contact);
     struct relief_part *part = NULL;
-    if (roughness_plan(r->arena, r->scene->shelf, recipe, &p, e))
+    if (roughness_plan(r->arena, r->scene->shelf, recipe, &p, e)) {
+        p.once = rules_once(r->contact);
         part = roughness_part(r->arena, &p, recipe, r->board->relief->along, stream, e);
+    }
     if (!part)
         return err_at(e, "contact '%s'", r->contact->name);
     if (p.remark)

@@ -8,7 +8,7 @@
 enum {
     TILE_SIDE = 128,              /* coefficients, four to the shortest wavelength                */
     TILE_LINES = TILE_SIDE / 4,   /* lines of the spectrum in use, along each axis                */
-    TILE_EXTRA = 8,               /* first columns again behind the last                          */
+    TILE_EXTRA = 12,              /* first columns again behind the last: a patch's                */
     TILE_ROW = TILE_SIDE + TILE_EXTRA,
     TILE_BANDS = 40
 };

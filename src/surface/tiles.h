@@ -12,6 +12,7 @@
 /* Features are `ratio` times longer along `direction` (rad, 0 = +x) than across; ratio 1: isotropic. */
 struct tiles_grain {
     double ratio, direction;
+    bool once;              /* it is read on a way that does not come back: made again where it does, for less memory */
 };
 
 /* A part whose traces across the grain (along any line if isotropic) have the spectrum. A density that no surface has (spectrum_beyond) is

@@ -29,13 +29,12 @@
 #include "surface/height_map.h"
 #include "surface/relief.h"
 #include "surface/rolling.h"
+#include "surface/tip_work.h"
 #include "trajectory/trajectory.h"
 
 #include <math.h>
 
 enum { SCOUTS = 16384, SCOUT_BATCH = 1024, SIDE_MOST = 2048, LINE_MOST = 1 << 21, REACH_ALL = 65536 }; /* heights */
-
-#define DIP 1e-3 /* of the span of heights: what E may dip between two of them */
 
 /* ------------------------------------------------------------------ how far heights span */
 
@@ -120,7 +119,7 @@ static double tip_knots(const struct relief *under)
 /* In one coordinate. Of splines at their knots, which is exact; of what has kinks as the dip and these ask for. */
 static double tip_pitch(const struct stage_run *r, const struct relief *under, const struct rolling_plan *p, double scouted)
 {
-    double kinks = relief_kinks(under), dip = scouted > 0 ? sqrt(8 * p->radius * DIP * scouted) / r->scene->accuracy.tip_heights : HUGE_VAL;
+    double kinks = relief_kinks(under), dip = scouted > 0 ? sqrt(8 * p->radius * TIP_DIP * scouted) / r->scene->accuracy.tip_heights : HUGE_VAL;
     double knots = kinks > 0 ? kinks : tip_knots(under), most = knots > 0 && kinks == 0 ? p->radius : fmin(tip_wanted_pitch(r, under), p->radius);
     most = kinks > 0 ? fmin(most / 2, dip) : most;
     return knots > 0 ? knots / ceil(knots / most * (1 - 1e-12)) : most;
@@ -201,30 +200,13 @@ static bool tip_wanted(const struct contact *c, const struct scene *s)
     return !isnan(c->scraper.radius);
 }
 
-/* m: heights of a patch of 0, as far as the scene tells; of a map, whose pitch its file may hold, as for 5 um. */
-static double tip_likely_pitch(const struct contact *c)
-{
-    const struct surface *s = &c->surface;
-    double finest = s->height_map ? isnan(s->pitch) ? 5e-6 : s->pitch : HUGE_VAL;
-    finest = fmin(finest, s->roughness.given ? s->roughness.shortest / 4 : HUGE_VAL);
-    finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
-    finest = fmin(finest, s->ridges.given ? s->ridges.spacing / 8 : HUGE_VAL);
-    finest = fmin(finest, s->grit.given ? s->grit.diameter / 8 : HUGE_VAL);
-    if (!s->fractal.given)
-        return finest / 4;
-    return fmin(fmin(finest, s->fractal.pitch) / 4, sqrt(8 * c->scraper.radius * DIP * 2 * s->fractal.maximum));
-}
-
-/* Measured: cycles per lattice point of path, along a line and for the strip that a path in the plane needs. Going over it again costs nothing. */
+/* Going over it again costs nothing. */
 static double tip_work(const struct contact *c, const struct scene *s)
 {
     const struct motion *m = &c->motion;
-    double speed = rules_speed(m), dense = s->accuracy.tip_heights, patch = c->scraper.patch;
     double times = m->path == PATH_CIRCLE ? fabs(m->turns) : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration : 1;
-    double way = speed / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
-    if (patch == 0)
-        return way / tip_likely_pitch(c) * 2e2 * dense;
-    return way / (patch / ROLLING_PER_PATCH) * (rules_along(c) == ALONG_PLANE ? 3e5 * dense * dense : 8e2 * dense);
+    double way = rules_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
+    return way > 0 ? way * tip_work_metre(c, s->accuracy.tip_heights) : 0;
 }
 
 const struct stage tip_stage = {

@@ -82,7 +82,7 @@ START_TEST(traces_have_the_spectrum_in_every_direction)
     static struct measured m;
     for (int e = 0; e < 4; e++) {
         struct arena *a = arena_open();
-        struct relief_part *p = field(a, exponents[e], (struct tiles_grain){1, 0}, "spectrum");
+        struct relief_part *p = field(a, exponents[e], (struct tiles_grain){1, 0, false}, "spectrum");
         for (int k = e ? e : 0; k < (e ? e + 1 : 4); k++) { /* all directions once */
             measure(p, angles[k] * M_PI / 180, 5e-6, &m);
             check_bands(&m, exponents[e], 5e-6, 1, angles[k]);
@@ -102,7 +102,7 @@ START_TEST(grain_lengthens_one_way)
     static struct measured m;
     double along = 20 * M_PI / 180;
     struct arena *a = arena_open();
-    struct relief_part *p = field(a, -2.4, (struct tiles_grain){8, along}, "grain");
+    struct relief_part *p = field(a, -2.4, (struct tiles_grain){8, along, false}, "grain");
     measure(p, along + M_PI / 2, 5e-6, &m);
     check_bands(&m, -2.4, 5e-6, 1, 110);
     measure(p, along, 40e-6, &m);
@@ -127,7 +127,7 @@ START_TEST(continuation_has_its_rings)
         want += (last - next) * spectrum_takeover(&s, k * sqrt(step));
         last = next;
     }
-    struct relief_part *p = tiles_part(a, &s, &(struct tiles_grain){1, 0}, noise_make(7, "takeover"), &lost, &e);
+    struct relief_part *p = tiles_part(a, &s, &(struct tiles_grain){1, 0, false}, noise_make(7, "takeover"), &lost, &e);
     ck_assert(p && lost == 0);
     measure(p, 0.4, 5e-6, &m);
     ck_assert_double_eq_tol(m.sum[2] * 16e-12 / want, 1, 0.02);
@@ -138,7 +138,7 @@ END_TEST
 START_TEST(derivatives_and_continuity)
 {
     struct arena *a = arena_open();
-    struct relief_part *round = field(a, -2.4, (struct tiles_grain){1, 0}, "c2"), *grain = field(a, -1.5, (struct tiles_grain){5, 0.7}, "c2 grain");
+    struct relief_part *round = field(a, -2.4, (struct tiles_grain){1, 0, false}, "c2"), *grain = field(a, -1.5, (struct tiles_grain){5, 0.7, false}, "c2 grain");
     parts_derivatives(round, 0.05, true);
     parts_derivatives(grain, 0.05, true);
     /* second derivatives go through their whole range in some 2 pitches, which is 100 steps; block borders and patches are crossed */
@@ -152,9 +152,9 @@ END_TEST
 START_TEST(any_order)
 {
     struct arena *a = arena_open();
-    parts_any_order(field(a, -2.4, (struct tiles_grain){1, 0}, "order"), field(a, -2.4, (struct tiles_grain){1, 0}, "order"), 3e-6);
-    parts_any_order(field(a, -2, (struct tiles_grain){3, 1}, "order"), field(a, -2, (struct tiles_grain){3, 1}, "order"), 40e-6);
-    parts_asked_alone(field(a, -2, (struct tiles_grain){3, 1}, "order"));
+    parts_any_order(field(a, -2.4, (struct tiles_grain){1, 0, false}, "order"), field(a, -2.4, (struct tiles_grain){1, 0, false}, "order"), 3e-6);
+    parts_any_order(field(a, -2, (struct tiles_grain){3, 1, false}, "order"), field(a, -2, (struct tiles_grain){3, 1, false}, "order"), 40e-6);
+    parts_asked_alone(field(a, -2, (struct tiles_grain){3, 1, false}, "order"));
     arena_close(a);
 }
 END_TEST
@@ -166,7 +166,7 @@ START_TEST(nothing_repeats_in_a_minute)
     enum { N = 1 << 20, NEAR = 12000 };
     double *z = calloc(2 * N, sizeof *z), *x = calloc(N, sizeof *x), *y = calloc(N, sizeof *y);
     struct arena *a = arena_open();
-    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0}, "repeat");
+    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0, false}, "repeat");
     for (int i = 0; i < N; i++)
         x[i] = 28e-6 * i, y[i] = 0.13;
     for (int bend = 0; bend < 2; bend++) {
@@ -209,7 +209,7 @@ static double alike(struct relief_part *p, struct relief_part *q, double far)
 START_TEST(streams_and_far_places_differ)
 {
     struct arena *a = arena_open();
-    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0}, "a"), *q = field(a, -2.4, (struct tiles_grain){1, 0}, "b");
+    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0, false}, "a"), *q = field(a, -2.4, (struct tiles_grain){1, 0, false}, "b");
     ck_assert_double_eq_tol(alike(p, p, 0), 1, 1e-12);
     ck_assert_double_lt(fabs(alike(p, q, 0)), 0.11);
     static const double far[] = {0.016, 1, 100, -50, 4194.304};
@@ -225,10 +225,10 @@ START_TEST(refused_where_negative)
     struct err e = {0};
     struct spectrum s = spectrum_power_law(a, 1.5, 2e-3, 20e-6, 4e-6);
     double lost = 0;
-    ck_assert_ptr_null(tiles_part(a, &s, &(struct tiles_grain){1, 0}, noise_make(1, "x"), NULL, &e));
+    ck_assert_ptr_null(tiles_part(a, &s, &(struct tiles_grain){1, 0, false}, noise_make(1, "x"), NULL, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
     ck_assert_ptr_nonnull(strstr(e.text, "lower the exponent"));
-    ck_assert_ptr_nonnull(tiles_part(a, &s, &(struct tiles_grain){1, 0}, noise_make(1, "x"), &lost, &e));
+    ck_assert_ptr_nonnull(tiles_part(a, &s, &(struct tiles_grain){1, 0, false}, noise_make(1, "x"), &lost, &e));
     ck_assert_double_gt(lost, 0.01);
     arena_close(a);
 }
@@ -243,7 +243,7 @@ START_TEST(little_beyond_the_shortest)
     double pitch = 2.5e-6, dk = 1 / (SEGMENT * pitch);
     for (int e = 0; e < 3; e++) {
         struct arena *a = arena_open();
-        struct relief_part *p = field(a, exponents[e], (struct tiles_grain){1, 0}, "beyond");
+        struct relief_part *p = field(a, exponents[e], (struct tiles_grain){1, 0, false}, "beyond");
         double edge = 0, lines = 0, most = 0, next = 0;
         memset(power, 0, sizeof power);
         for (int s = 0; s < 60; s++) {
@@ -327,7 +327,7 @@ START_TEST(the_sum_of_its_bands)
 {
     struct arena *a = arena_open();
     struct spectrum s = spectrum_power_law(a, -2.4, 2e-3, 20e-6, 4e-6);
-    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0}, "bands");
+    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0, false}, "bands");
     struct fft_plane *fft = fft_plane_open(TILE_SIDE);
     double (*power)[TILE_LINES] = (double (*)[TILE_LINES])ARENA_TAKE(a, double, TILE_BANDS * TILE_LINES), *tiles[TILE_BANDS];
     struct noise own[TILE_BANDS];
