@@ -499,8 +499,8 @@ Accuracy against time: a ball dropped 1 mm, the first 30 ms. Signal-to-noise rat
 |---|---|---|---|---|---|---|
 $(cat ladder.txt)
 
-Where it is not refused, and the contact has a few dozen steps, rk4 is the better buy for 60 dB and more: with modes two fifths of the time, on rigid ground with a soft contact three fifths of it for 80 dB, as discrete_gradient's
-flights cost next to nothing there. For less, with a stiff contact or with high modes at the rate of the samples, where rk4 is refused, and wherever the energy must balance, discrete_gradient is. On rigid ground exact_impact errs in an
+Where it is not refused, and the contact has a few dozen steps, rk4 is the better buy for 60 dB and more: with modes half of the time for 60 dB and a quarter from 70 dB on, on rigid ground with a soft contact four
+fifths of it for 80 dB and a third for 108, as discrete_gradient's flights cost next to nothing there (each sample is a run of its own here, and what begins a run is paid for each). For less, with a stiff contact or with high modes at the rate of the samples, where rk4 is refused, and wherever the energy must balance, discrete_gradient is. On rigid ground exact_impact errs in an
 isolated impact by rounding alone (section 1); here its error is that of gravity in the contact, of the same size as discrete_gradient's.
 
 $(lanes)

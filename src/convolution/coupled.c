@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "convolution/coupled_parts.h"
+#include "convolution/coupled_stages.h"
 #include "num/real.h"
 #include "scene/scene.h"
 
@@ -68,6 +69,8 @@ bool coupled_make(struct arena *a, const struct coupled_ask *ask, struct coupled
     c->ask.frequency = c->modes.frequency;
     c->ask.decay = c->modes.decay;
     *made = c;
+    if (ask->integrator == INTEGRATOR_RK4)
+        coupled_stages_make(a, c);
     return ask->integrator != INTEGRATOR_DISCRETE_GRADIENT || coupled_gradient_make(c, e);
 }
 
@@ -95,6 +98,7 @@ double coupled_rest(const struct coupled *c, double surface, const double *phi)
 static void start_modes(struct coupled *c, const double *phi, bool settled)
 {
     struct coupled_modes *m = &c->modes;
+    m->known = false;
     for (int i = 0; i < m->padded; i++) {
         m->phi[i] = phi && i < m->n ? phi[i] : 0;
         m->q[i] = settled ? m->phi[i] * c->ask.weight / m->square[i] : 0;

@@ -30,6 +30,10 @@ struct coupled_modes {
     double *stay, *carry;                /* [padded] the same of q two steps without a force: stay q + carry P       */
     double *thrust, *tilt;               /* [padded] push phi, push slant                                            */
     double *swing, *ahead, *slant;       /* [padded] half a step's way at the velocity; the next step's way without force; phi's change per step */
+    /* rk4's own, which also uses swing, slant and drain (coupled_stages.h says what they are). */
+    double *rows;                        /* [padded / LANES][ROWS][LANES] coefficients of a step                     */
+    struct coupled_stages *standing;     /* of phi as it is, if known                                                */
+    bool known;
 };
 
 struct coupled_contact {

@@ -14,198 +14,208 @@
      - the contact's dissipation is a decay of mu k xi^1.5 / m, stable up to 2.8 / h: beyond 1 / h it is refused.
      - a mode is damped of its own by about omega^6 h^5 / 144 (at 44.1 kHz: 37 1/s at 5 kHz, 2000 1/s at 10 kHz) and unstable beyond omega h = 2.83.
        Refused where this passes the decay that the mode was given. The sound is made from the force by exact poles; what is damped too much is the push back.
-   No balance is kept: the residual of the ledger is the error of the method. Work and losses are integrated along with the state, by the same weights. */
+   No balance is kept: the residual of the ledger is the error of the method. Work and losses are integrated along with the state, by the same weights.
+
+   Modes (coupled_stages.h): linear, so that one pass over them tells all four stages what they would do without a force, and it is one step behind the ball. In its
+   units, g = f h^2/4 and h/2 times a velocity, the ball is one more mode, of mass m, with nothing that holds it. */
 #include <math.h>
 
-#include "convolution/coupled_parts.h"
+#include "convolution/coupled_stages.h"
 #include "num/real.h"
 
 #define INLINE static inline __attribute__((always_inline))
 
-enum { STAGES = 4, CONTACT_STEPS_LEAST = 12 };
+enum { CONTACT_STEPS_LEAST = 12, SPELL = 256 }; /* SPELL: steps between two entries in the ledger */
 
-static const double reach[STAGES] = {0, 0.5, 0.5, 1};
-static const double share[STAGES] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+static const double reach[STAGES] = {0, 0.5, 0.5, 1}, twice[STAGES] = {0, 1, 1, 2};
 
-struct drive {
-    const double *to;    /* where phi goes; phi itself when it stays              */
-    double part, step;   /* the part of the way to `to` that this step takes; s   */
-    double push[STAGES]; /* N, force at the stages                                */
+/* What is under the ball: decided once a run. */
+enum ground { RIGID, STANDS, MOVES };
+
+/* The ball at the end of a step, and what has been summed up since the last entry in the ledger. */
+struct rk4_ball {
+    double height, way, surface;             /* m from origin; h w'/2, m; m from origin             */
+    double penetration, force, force_before; /* m; g, means over the last step and the one before   */
+    double across;                           /* m: the surface's change in the last step            */
+    double work, loss;                       /* g m: by surface and moving place; in the contact    */
 };
 
-struct sums {
-    double lean, fall, glide; /* sum phi q; sum phi p; sum (phi+ - phi) q         */
-    double loss;              /* J/s/2: sum decay p^2 times the stages' shares    */
+struct rk4_run {
+    struct coupled *c;
+    double unit;                         /* N per g: 4/h^2                                            */
+    double spring, rate;                 /* k per unit; mu/h                                          */
+    double bare, fall;                   /* 1/m; m: what the weight takes off the way in half a step  */
+    double sunk[STAGES], slowed[STAGES]; /* m: what it takes off height and way at the stages         */
+    double stiff;                        /* g: the spring's force at which mu k xi^1.5 h / m is 1     */
+    struct rk4_ball ball;
+    struct coupled_push push;            /* of the last step                                          */
+    struct coupled_stages stages;
 };
 
-struct swing {
-    double q, p;
+/* At the stages, first as if no force acted in the step. */
+struct stages {
+    double xi[STAGES];    /* m                                                          */
+    double slip[STAGES];  /* m: h times what surface and place change in xi             */
+    double close[STAGES]; /* m: h xi'                                                   */
+    double answer[ANSWERS];
+    double bent[STAGES];  /* g: the spring's force                                      */
+    double g[STAGES];
 };
 
-struct mode {
-    struct swing from, y, k, sum;        /* at the step's start; at a stage; its derivative; the derivatives' shares so far */
-    double decay, square, phi, slant, loss;
-};
-
-INLINE void derive(struct mode *o, const struct drive *d, int stage)
+/* The step after n of the run, which goes `across` up. */
+INLINE void foresee(const struct rk4_run *r, enum ground ground, double n, double across, struct stages *o)
 {
-    o->k.q = o->y.p;
-    o->k.p = (o->phi + reach[stage] * o->slant) * d->push[stage] - 2 * o->decay * o->y.p - o->square * o->y.q;
-    o->sum.q += share[stage] * o->k.q;
-    o->sum.p += share[stage] * o->k.p;
-    o->loss += share[stage] * o->decay * o->y.p * o->y.p;
-}
-
-INLINE void move(struct mode *o, const struct drive *d, int stage)
-{
-    derive(o, d, stage - 1);
-    o->y.q = o->from.q + reach[stage] * d->step * o->k.q;
-    o->y.p = o->from.p + reach[stage] * d->step * o->k.p;
-}
-
-/* Mode i at a stage, from the step's start and the forces of the stages before; nothing kept, as memory costs more. */
-INLINE struct mode at_stage(const struct coupled_modes *m, const struct drive *d, int i, int stage)
-{
-    struct swing from = {m->q[i], m->p[i]};
-    struct mode o = {.from = from, .y = from, .decay = m->decay[i], .square = m->square[i], .phi = m->phi[i], .slant = (d->to[i] - m->phi[i]) * d->part};
-    if (stage >= 1)
-        move(&o, d, 1);
-    if (stage >= 2)
-        move(&o, d, 2);
-    if (stage >= 3)
-        move(&o, d, 3);
-    return o;
-}
-
-static double total(const double *x)
-{
-    return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
-}
-
-INLINE void sums_at(const struct coupled_modes *m, const struct drive *d, int stage, struct sums *s)
-{
-    double lean[LANES] = {0}, fall[LANES] = {0}, glide[LANES] = {0};
-    for (int i = 0; i < m->padded; i += LANES)
+    const double *x = r->stages.now, *y = r->stages.now + LANES, height = r->ball.height, way = r->ball.way, surface = r->ball.surface;
+    if (ground == MOVES)
 #pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            struct mode o = at_stage(m, d, i + l, stage);
-            double phi = o.phi + reach[stage] * o.slant;
-            lean[l] += phi * o.y.q;
-            fall[l] += phi * o.y.p;
-            glide[l] += o.slant * o.y.q;
+        for (int k = 0; k < ANSWERS; k++)
+            o->answer[k] = r->stages.answer[0][k] + n * (r->stages.answer[1][k] + n * r->stages.answer[2][k]);
+#pragma omp simd
+    for (int j = 0; j < STAGES; j++) {
+        double lean = ground == RIGID ? 0 : x[SUM_Q] + twice[j] * x[j], fall = ground == RIGID ? 0 : x[SUM_V + j], glide = 0;
+        if (ground == MOVES) {
+            double on = n + reach[j];
+            glide = y[SUM_Q] + twice[j] * y[j];
+            lean += on * glide;
+            fall += on * y[SUM_V + j];
         }
-    *s = (struct sums){total(lean), total(fall), total(glide), 0};
-}
-
-LANES_CLONES
-static void modes_at(const struct coupled_modes *m, const struct drive *d, int stage, struct sums *s)
-{
-    switch (stage) {
-    case 0: sums_at(m, d, 0, s); break;
-    case 1: sums_at(m, d, 1, s); break;
-    case 2: sums_at(m, d, 2, s); break;
-    default: sums_at(m, d, 3, s); break;
+        o->slip[j] = across - glide;
+        o->xi[j] = ((surface + reach[j] * across) - lean) - (height + (twice[j] * way - r->sunk[j]));
+        o->close[j] = (across - glide) - 2 * (fall + (way - r->slowed[j]));
     }
 }
 
-/* The modes' end of the step; phi goes on, and s is for that end (glide: at the speed of this step). */
-LANES_CLONES
-static void advance_modes(const struct coupled_modes *m, struct drive d, struct sums *s)
+INLINE void press(const struct rk4_run *r, struct stages *o, int stage)
 {
-    double lean[LANES] = {0}, fall[LANES] = {0}, glide[LANES] = {0}, lost[LANES] = {0};
-    for (int i = 0; i < m->padded; i += LANES)
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            struct mode o = at_stage(m, &d, i + l, STAGES - 1);
-            derive(&o, &d, STAGES - 1);
-            double new_q = o.from.q + d.step * o.sum.q, new_p = o.from.p + d.step * o.sum.p, new_phi = o.phi + o.slant;
-            m->q[i + l] = new_q;
-            m->p[i + l] = new_p;
-            m->phi[i + l] = new_phi;
-            lean[l] += new_phi * new_q;
-            fall[l] += new_phi * new_p;
-            glide[l] += o.slant * new_q;
-            lost[l] += o.loss;
-        }
-    *s = (struct sums){total(lean), total(fall), total(glide), total(lost)};
+    double xi = o->xi[stage], factor = 1 + r->rate * o->close[stage];
+    o->bent[stage] = xi > 0 ? r->spring * xi * sqrt(xi) : 0;
+    o->g[stage] = o->bent[stage] * (factor > 0 ? factor : 0);
 }
 
-struct ball {
-    double w, u;              /* at a stage: m from origin, m/s                   */
-    double force, rise;       /* means over the step: N, m/s                      */
-    double work, loss;        /* J: of the step                                   */
-    double landing, stiffest; /* m/s: closing at the start; greatest mu k xi^1.5 / m, 1/s */
-};
-
-/* Force and its shares at a stage of the step to the surface height `to`. */
-static double stage_force(const struct coupled *c, double to, int stage, const struct sums *s, struct ball *b)
+INLINE void slide(struct stages *o, int stage, double by)
 {
-    const struct coupled_ask *k = &c->ask;
-    double across = to - c->surface, xi = c->surface + reach[stage] * across - s->lean - b->w;
-    double closing = (across - s->glide) / k->step - s->fall - b->u;
-    double spring = xi > 0 ? k->stiffness * xi * sqrt(xi) : 0, force = spring * fmax(0, 1 + k->mu * closing);
-    if (stage == 0)
-        b->landing = closing + 0.5 * k->step * k->weight / k->mass;
-    b->force += share[stage] * force;
-    b->rise += share[stage] * b->u;
-    b->work += share[stage] * force * (across - s->glide);
-    b->loss += share[stage] * k->step * (force - spring) * closing;
-    b->stiffest = fmax(b->stiffest, k->mu * spring / k->mass);
-    return force;
+    o->slip[stage] -= by;
+    o->close[stage] -= by;
 }
 
-static struct ball ball_step(const struct coupled *c, double to, struct drive *d)
+/* The four forces, and among them the modes' end of the step before (behind: there is one): each fills the other's latencies. */
+INLINE void press_all(struct rk4_run *r, enum ground ground, bool behind, struct stages *o)
 {
-    struct ball b = {.w = c->height, .u = c->speed};
-    double h = c->ask.step, rise = 0, gain = 0;
-    for (int stage = 0; stage < STAGES; stage++) {
-        struct sums s = {0};
-        b.w = c->height + reach[stage] * h * rise;
-        b.u = c->speed + reach[stage] * h * gain;
-        if (c->modes.n > 0)
-            modes_at(&c->modes, d, stage, &s);
-        d->push[stage] = stage_force(c, to, stage, &s, &b);
-        rise = b.u;
-        gain = (d->push[stage] - c->ask.weight) / c->ask.mass;
-    }
-    return b;
+    const double *a = ground == MOVES ? o->answer : r->stages.answer[0], *g = o->g;
+    press(r, o, 0);
+    o->close[1] -= 2 * (a[A1_SELF] * g[0]);
+    o->xi[2] -= a[A1_SELF] * g[0];
+    if (ground == MOVES)
+        slide(o, 2, a[GLIDE2] * g[0]);
+    if (ground != RIGID && behind)
+        coupled_stages_pass(&r->c->modes, &r->push, ground == MOVES, &r->stages);
+    press(r, o, 1);
+    o->close[2] -= 2 * (a[A2_OLDER] * g[0] + a[A2_SELF] * g[1]);
+    o->xi[3] -= 2 * (a[A3_OLDER] * g[0] + a[A3_SELF] * g[1]);
+    if (ground == MOVES)
+        slide(o, 3, 2 * (a[GLIDE3_OLDER] * g[0] + a[GLIDE3_SELF] * g[1]));
+    press(r, o, 2);
+    o->close[3] -= 4 * ((a[A3_OLDEST] * g[0] + a[A3_MIDDLE] * g[1]) + a[A3_SELF] * g[2]);
+    press(r, o, 3);
 }
 
-static void take(struct coupled *c, double to, const struct ball *b, const struct sums *s)
+/* By the stages' shares, 1 2 2 1 over 6. */
+INLINE double mean(const double *x)
 {
-    const struct coupled_ask *k = &c->ask;
-    double across = to - c->surface;
-    coupled_sum_add(&c->surface_work, b->work);
-    coupled_sum_add(&c->contact_loss, b->loss);
-    coupled_sum_add(&c->mode_loss, 2 * k->step * s->loss);
-    c->height += k->step * b->rise;
-    c->speed += k->step * ((b->force - k->weight) / k->mass);
-    c->surface = to;
-    c->penetration = to - s->lean - c->height;
-    coupled_rise(c, c->penetration);
-    c->closing = (across - s->glide) / k->step - s->fall - c->speed;
-    c->force_before = c->force;
-    c->force = b->force;
-    c->state.contact_steps += b->force > 0;
-    c->state.iterations += b->force > 0;
-    if (b->force > 0)
-        c->state.iterations_most = 1;
+    return (1.0 / 6) * ((x[0] + x[3]) + 2 * (x[1] + x[2]));
+}
+
+/* Ball and ledger at the step's end, on a surface of that height. */
+INLINE void take(struct rk4_run *r, double surface, const struct stages *o)
+{
+    struct rk4_ball *b = &r->ball;
+    double net = mean(o->g);
+    b->work += mean((double[]){o->g[0] * o->slip[0], o->g[1] * o->slip[1], o->g[2] * o->slip[2], o->g[3] * o->slip[3]});
+    b->loss += mean((double[]){(o->g[0] - o->bent[0]) * o->close[0], (o->g[1] - o->bent[1]) * o->close[1], (o->g[2] - o->bent[2]) * o->close[2],
+                               (o->g[3] - o->bent[3]) * o->close[3]});
+    b->height += 2 * b->way + ((2.0 / 3) * ((o->g[0] + (o->g[1] + o->g[2])) * r->bare) - 2 * r->fall);
+    b->way += 2 * (net * r->bare - r->fall);
+    b->across = surface - b->surface;
+    b->surface = surface;
+    b->force_before = b->force;
+    b->force = net;
+}
+
+static bool too_short(const struct coupled *c, long step, double landing, double lasts, struct err *e)
+{
+    double h = c->ask.step;
+    return err_set(e, ERR_SCENE, "contact.roll.integrator: rk4: an impact at %.3g m/s (step %ld) lasts %.1f steps of %.3g s, and rk4 needs %d of them: raise accuracy.contact_steps until a step takes "
+                                 "at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
+                   landing, step + 1, lasts / h, h, CONTACT_STEPS_LEAST, lasts / CONTACT_STEPS_LEAST);
+}
+
+static bool too_stiff(const struct rk4_run *r, long step, double bent, struct err *e)
+{
+    double h = r->c->ask.step, by = bent / r->stiff;
+    return err_set(e, ERR_SCENE, "contact.roll.integrator: rk4: mu k xi^1.5 / m times the step of %.3g s reaches %.3g at step %ld, and rk4 is not to be trusted beyond 1: raise accuracy.contact_steps until "
+                                 "a step takes at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
+                   h, by, step + 1, h / by);
+}
+
+INLINE double greater(double a, double b)
+{
+    return a > b ? a : b;
 }
 
 /* What an impact must not do: last too few steps, or be damped too fast for them. */
-static bool resolved(const struct coupled *c, long step, double before, const struct ball *b, struct err *e)
+INLINE bool resolved(const struct rk4_run *r, long step, double before, const struct stages *o, struct err *e)
 {
-    const struct coupled_ask *k = &c->ask;
-    bool lands = before <= 0 && c->penetration > 0 && b->landing > 0;
-    double lasts = lands ? coupled_contact_time(k->mass, k->stiffness, b->landing) : INFINITY;
-    if (lasts < CONTACT_STEPS_LEAST * k->step)
-        return err_set(e, ERR_SCENE, "contact.roll.integrator: rk4: an impact at %.3g m/s (step %ld) lasts %.1f steps of %.3g s, and rk4 needs %d of them: raise accuracy.contact_steps until a step takes "
-                                     "at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
-                       b->landing, step + 1, lasts / k->step, k->step, CONTACT_STEPS_LEAST, lasts / CONTACT_STEPS_LEAST);
-    return b->stiffest * k->step <= 1 ||
-           err_set(e, ERR_SCENE, "contact.roll.integrator: rk4: mu k xi^1.5 / m times the step of %.3g s reaches %.3g at step %ld, and rk4 is not to be trusted beyond 1: raise accuracy.contact_steps until "
-                                 "a step takes at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
-                   k->step, b->stiffest * k->step, step + 1, 1 / b->stiffest);
+    struct coupled *c = r->c;
+    double after = r->ball.penetration, most = greater(greater(o->bent[0], o->bent[1]), greater(o->bent[2], o->bent[3]));
+    if ((before > 0) != (after > 0)) {
+        double landing = (o->close[0] + 2 * r->fall) / c->ask.step;
+        double lasts = after > 0 && landing > 0 ? coupled_contact_time(c->ask.mass, c->ask.stiffness, landing) : INFINITY;
+        coupled_crossing(c, step, before, after, landing);
+        if (lasts < CONTACT_STEPS_LEAST * c->ask.step)
+            return too_short(c, step, landing, lasts, e);
+    }
+    return !(most > r->stiff) || too_stiff(r, step, most, e);
+}
+
+/* Steps at[0] + 1 to at[1] of the run. */
+INLINE bool go(struct rk4_run *r, enum ground ground, const int at[2], const double *surface, double *restrict force, struct err *e)
+{
+    struct coupled *c = r->c;
+    const double *now = r->stages.now;
+    long touched = 0;
+    bool good = true;
+    for (int i = at[0]; i < at[1] && good; i++) {
+        struct stages o;
+        const double n = i, next = surface[i] - c->origin, across = next - r->ball.surface, before = r->ball.penetration;
+        foresee(r, ground, n, across, &o);
+        press_all(r, ground, i > 0, &o);
+        r->push = (struct coupled_push){{o.g[0], o.g[1], o.g[2], o.g[3]}, n};
+        if (ground != RIGID)
+            coupled_stages_next(&r->stages, &r->push, ground == MOVES);
+        take(r, next, &o);
+        r->ball.penetration = next - (ground == RIGID ? 0 : ground == MOVES ? now[SUM_Q] + (n + 1) * now[LANES + SUM_Q] : now[SUM_Q]) - r->ball.height;
+        coupled_rise(c, r->ball.penetration);
+        touched += r->ball.force > 0;
+        good = resolved(r, c->state.steps + i, before, &o, e);
+        force[i] = r->ball.force * r->unit;
+    }
+    c->state.contact_steps += touched;
+    c->state.iterations += touched;
+    if (touched > 0)
+        c->state.iterations_most = 1;
+    return good;
+}
+
+LANES_CLONES
+static bool on_modes(struct rk4_run *r, const int at[2], const double *surface, double *force, struct err *e)
+{
+    return r->stages.moves ? go(r, MOVES, at, surface, force, e) : go(r, STANDS, at, surface, force, e);
+}
+
+/* No lanes: there is nothing for them, and four stages in a wide register cost more than one by one. */
+static bool on_rigid(struct rk4_run *r, const int at[2], const double *surface, double *force, struct err *e)
+{
+    return go(r, RIGID, at, surface, force, e);
 }
 
 /* Decay per second that the method gives to the pole s = -decay + j omega: -ln |R(s h)| / h, R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24. */
@@ -233,28 +243,84 @@ static bool modes_hold(const struct coupled *c, struct err *e)
     return true;
 }
 
+/* The ball's fields of c, after n steps of the run. */
+static void settle(struct rk4_run *r, double n)
+{
+    struct coupled *c = r->c;
+    const struct rk4_ball *b = &r->ball;
+    const double *x = r->stages.now, *y = x + LANES, h = c->ask.step;
+    c->height = b->height;
+    c->speed = b->way * (2 / h);
+    c->surface = b->surface;
+    c->penetration = b->penetration;
+    c->closing = ((b->across - y[SUM_Q]) - 2 * (x[SUM_V] + n * y[SUM_V])) / h - c->speed;
+    c->force = b->force * r->unit;
+    c->force_before = b->force_before * r->unit;
+}
+
+/* What is seen after step `at`, where the modes are one step behind. */
+static void watch(struct rk4_run *r, int at)
+{
+    struct coupled *c = r->c;
+    struct coupled_account more = {.modal = coupled_modal(c)};
+    if (at > 0) {
+        settle(r, at);
+        coupled_stages_look(c, &r->push, &r->stages, &more);
+        more.work = r->ball.work * r->unit;
+        more.contact_loss = r->ball.loss * r->unit;
+    }
+    coupled_seen(c, c->state.steps + at, &more);
+}
+
+/* Into the ledger. */
+static void enter(struct rk4_run *r)
+{
+    coupled_sum_add(&r->c->surface_work, r->ball.work * r->unit);
+    coupled_sum_add(&r->c->contact_loss, r->ball.loss * r->unit);
+    coupled_sum_add(&r->c->mode_loss, coupled_stages_sum(r->stages.lost));
+    r->ball.work = r->ball.loss = 0;
+    memset(r->stages.lost, 0, sizeof r->stages.lost);
+}
+
+static void open_run(struct rk4_run *r, struct coupled *c, int steps, const double *phi_to)
+{
+    const struct coupled_ask *k = &c->ask;
+    const double square = k->step * k->step / 4;
+    *r = (struct rk4_run){.c = c, .unit = 1 / square, .spring = k->stiffness * square, .rate = k->mu / k->step, .bare = 1 / k->mass, .fall = k->weight * square / k->mass,
+                          .stiff = k->mu > 0 ? k->mass / (k->mu * k->step) * square : INFINITY};
+    r->ball = (struct rk4_ball){.height = c->height, .way = c->speed * (k->step / 2), .surface = c->surface, .penetration = c->penetration,
+                                .force = c->force * square, .force_before = c->force_before * square};
+    for (int j = 0; j < STAGES; j++) {
+        r->sunk[j] = (j < 2 ? 0 : j - 1) * r->fall;
+        r->slowed[j] = twice[j] * r->fall;
+    }
+    coupled_stages_open(c, steps, phi_to, &r->stages);
+    r->stages.answer[0][A1_SELF] += r->bare;
+    r->stages.answer[0][A2_SELF] += r->bare;
+    r->stages.answer[0][A3_SELF] += r->bare;
+}
+
 bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force, struct err *e)
 {
-    struct coupled_modes *m = &c->modes;
+    struct rk4_run r;
     if (c->state.steps == 0 && !modes_hold(c, e))
         return false;
-    for (int i = 0; i < steps; i++) {
-        if (coupled_unseen(c, i, steps) == i)
-            coupled_seen(c, c->state.steps + i, &(struct coupled_account){.modal = coupled_modal(c)});
-        struct drive d = {.to = phi_to ? phi_to : m->phi, .part = 1.0 / (steps - i), .step = c->ask.step};
-        struct sums s = {0};
-        double to = surface[i] - c->origin, before = c->penetration;
-        struct ball b = ball_step(c, to, &d);
-        if (m->n > 0)
-            advance_modes(m, d, &s);
-        take(c, to, &b, &s);
-        coupled_touch(c, c->state.steps + i, before, c->penetration, b.landing);
-        if (!resolved(c, c->state.steps + i, before, &b, e))
+    open_run(&r, c, steps, phi_to);
+    for (int at = 0; at < steps;) {
+        if (coupled_unseen(c, at, steps) == at)
+            watch(&r, at);
+        int spell = at / SPELL * SPELL + SPELL, end = coupled_unseen(c, at + 1, steps < spell ? steps : spell);
+        if (!(c->modes.n > 0 ? on_modes : on_rigid)(&r, (int[]){at, end}, surface, force, e))
             return false;
-        force[i] = c->force;
+        if (end == spell)
+            enter(&r);
+        at = end;
     }
-    for (int i = 0; phi_to && i < m->padded; i++)
-        m->phi[i] = phi_to[i];
+    settle(&r, steps);
+    coupled_stages_finish(c, &r.push, &r.stages);
+    enter(&r);
+    for (int i = 0; phi_to && i < c->modes.padded; i++)
+        c->modes.phi[i] = phi_to[i];
     c->state.steps += steps;
     return true;
 }

@@ -271,15 +271,16 @@ static unsigned rolling_turns(const struct contact *c, const struct scene *s)
     return roll_ground_modes(c) > 0 && c->motion.path != PATH_STILL ? KNOB_BIT(gain_ramp) : 0;
 }
 
-/* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode. */
+/* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode, of rk4 11. */
 static double rolling_work(const struct contact *c, const struct scene *s)
 {
     double k = ball_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
     struct err unknown = {0};
     if (isnan(k) && !hertz_stiffness(c, &k, &unknown))
         return 0;
+    double mode = c->contact.roll.integrator == INTEGRATOR_RK4 ? 11 : 2;
     double time = coupled_contact_time(c->scraper.mass, k, fmax(PAPER_SPEED, sqrt(2 * ball_gravity(c) * c->contact.roll.drop)));
-    return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) * (270 + 2 * roll_ground_modes(c));
+    return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) * (270 + mode * roll_ground_modes(c));
 }
 
 const struct stage roll_coupled_stage = {
