@@ -36,34 +36,24 @@
 #include <string.h>
 
 #include "convolution/product.h"
+#include "convolution/resonator_group.h"
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
-enum { SPAN = 4, PIECE_MIN = 64, PIECE_MAX = 256, WATCH = 256 }; /* samples per visit to a group; frames whose lane sums are kept at a time; from one look at what has died away to the next */
-
-struct group {
-    _Alignas(64) double zr[LANES];
-    double zi[LANES], pr[LANES], pi[LANES];
-    double gr[LANES], gi[LANES];         /* gains / rate                          */
-    double sr[LANES], si[LANES];         /* their steps per sample                */
-    double tr[LANES], ti[LANES];         /* their targets                         */
-    double psr[LANES], psi[LANES];       /* steps and targets of poles that move  */
-    double ptr[LANES], pti[LANES];
-    int awake;                           /* a state may not be zero               */
-};
+enum { PIECE_MIN = 64, PIECE_MAX = 256, WATCH = 256 }; /* frames whose lane sums are kept at a time; from one look at what has died away to the next */
 
 struct resonators {
     int n, quantity, groups, n_active, piece;
     int watched;                                  /* frames since the last look at what has died away */
     bool glides, steady, forced;                  /* steady: no gain changes in this call; forced: since that look */
+    bool posed, bends;                            /* poles have been given; they change in this call */
     double rate, per_rate, loudest;               /* loudest: greatest part of a state at any look */
     double through, through_target, through_step; /* y(n) gets through * f(n) */
     const double *frequency, *decay;              /* [n] of the start         */
+    double *last_frequency, *last_decay;          /* [n] of the poles that were given last */
     double *size, *turn, *rise;                   /* [n] room for the evaluation of poles */
-    struct group *group, **active;
+    struct resonator_group *group, **active;
     double (*sums)[LANES];                        /* [piece] */
 };
 
@@ -80,17 +70,19 @@ struct resonators *resonators_make(struct arena *a, const struct resonators_ask 
     struct resonators *r = ARENA_TAKE(a, struct resonators, 1);
     *r = (struct resonators){.n = ask->n, .quantity = ask->quantity, .glides = ask->glides, .rate = ask->rate, .per_rate = 1.0 / ask->rate};
     r->groups = (r->n + LANES - 1) / LANES;
-    r->group = ARENA_TAKE(a, struct group, r->groups + 1);
-    r->active = ARENA_TAKE(a, struct group *, r->groups + 1);
+    r->group = ARENA_TAKE(a, struct resonator_group, r->groups + 1);
+    r->active = ARENA_TAKE(a, struct resonator_group *, r->groups + 1);
     r->piece = ask->ramp < PIECE_MIN ? PIECE_MIN : ask->ramp < PIECE_MAX ? ask->ramp : PIECE_MAX;
     r->sums = arena_take(a, (size_t)r->piece, sizeof *r->sums);
     r->frequency = copy(a, ask->frequency, r->n);
     r->decay = copy(a, ask->decay, r->n);
+    r->last_frequency = ARENA_TAKE(a, double, r->n + 1);
+    r->last_decay = ARENA_TAKE(a, double, r->n + 1);
     r->size = ARENA_TAKE(a, double, r->n + 1);
     r->turn = ARENA_TAKE(a, double, r->n + 1);
     r->rise = ARENA_TAKE(a, double, r->n + 1);
     for (int i = 0; i < r->n; i++) {
-        struct group *g = &r->group[i / LANES];
+        struct resonator_group *g = &r->group[i / LANES];
         double size = real_exp(-ask->decay[i] / ask->rate), turn = 2.0 * ask->frequency[i] / ask->rate;
         g->pr[i % LANES] = size * real_cospi(turn);
         g->pi[i % LANES] = size * real_sinpi(turn);
@@ -104,10 +96,16 @@ static double lanes_sum(const double *s)
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
 
-/* Targets of poles that move: e^(-decay/rate) e^(j 2 pi f/rate). */
+/* Targets of poles that move: e^(-decay/rate) e^(j 2 pi f/rate). Those that are where they were need not be found again, and the call is one of gains alone: its bits are the same. */
 static void set_poles(struct resonators *r, const struct modes_point *to)
 {
-    size_t n = (size_t)r->n;
+    size_t n = (size_t)r->n, bytes = n * sizeof *to->frequency;
+    r->bends = n > 0 && !(r->posed && !memcmp(r->last_frequency, to->frequency, bytes) && !memcmp(r->last_decay, to->decay, bytes));
+    if (!r->bends)
+        return;
+    memcpy(r->last_frequency, to->frequency, bytes);
+    memcpy(r->last_decay, to->decay, bytes);
+    r->posed = true;
     for (size_t i = 0; i < n; i++) {
         r->size[i] = -to->decay[i] / r->rate;
         r->turn[i] = 2.0 * to->frequency[i] / r->rate;
@@ -115,7 +113,7 @@ static void set_poles(struct resonators *r, const struct modes_point *to)
     vecmath_exp(n, r->size, r->size);
     vecmath_sincospi(n, r->turn, r->rise, r->turn);
     for (size_t i = 0; i < n; i++) {
-        struct group *g = &r->group[i / LANES];
+        struct resonator_group *g = &r->group[i / LANES];
         g->ptr[i % LANES] = r->size[i] * r->turn[i];
         g->pti[i % LANES] = r->size[i] * r->rise[i];
     }
@@ -125,7 +123,7 @@ static void set_targets(struct resonators *r, const struct modes_point *to)
 {
     double half[LANES] = {0};
     for (int k = 0; k < r->groups; k++) {
-        struct group *g = &r->group[k];
+        struct resonator_group *g = &r->group[k];
         int used = r->n - k * LANES < LANES ? r->n - k * LANES : LANES;
         for (int l = 0; l < used; l++) {
             g->tr[l] = to->re[k * LANES + l] * r->per_rate;
@@ -145,13 +143,13 @@ static void set_steps(struct resonators *r, int frames)
     double share = 1.0 / frames;
     r->steady = true;
     for (int k = 0; k < r->groups; k++) {
-        struct group *g = &r->group[k];
+        struct resonator_group *g = &r->group[k];
         r->steady = r->steady && !memcmp(g->gr, g->tr, sizeof g->gr) && !memcmp(g->gi, g->ti, sizeof g->gi);
         for (int l = 0; l < LANES; l++) {
             g->sr[l] = (g->tr[l] - g->gr[l]) * share;
             g->si[l] = (g->ti[l] - g->gi[l]) * share;
         }
-        for (int l = 0; l < LANES && r->glides; l++) {
+        for (int l = 0; l < LANES && r->bends; l++) {
             g->psr[l] = (g->ptr[l] - g->pr[l]) * share;
             g->psi[l] = (g->pti[l] - g->pi[l]) * share;
         }
@@ -162,10 +160,10 @@ static void set_steps(struct resonators *r, int frames)
 static void arrive(struct resonators *r)
 {
     for (int k = 0; k < r->groups; k++) {
-        struct group *g = &r->group[k];
+        struct resonator_group *g = &r->group[k];
         memcpy(g->gr, g->tr, sizeof g->gr);
         memcpy(g->gi, g->ti, sizeof g->gi);
-        if (r->glides) {
+        if (r->bends) {
             memcpy(g->pr, g->ptr, sizeof g->pr);
             memcpy(g->pi, g->pti, sizeof g->pi);
         }
@@ -177,102 +175,6 @@ void resonators_set(struct resonators *r, const struct modes_point *at)
 {
     set_targets(r, at);
     arrive(r);
-}
-
-enum change { STEADY, RAMPS, GLIDES }; /* nothing within a call; gains; gains and poles */
-
-/* What changes of one mode in a sample, and how. */
-struct lane {
-    double zr, zi, gr, gi, pr, pi, sr, si, psr, psi;
-};
-
-INLINE double lane_step(struct lane *v, double f, enum change change)
-{
-    if (change != STEADY) {
-        v->gr += v->sr;
-        v->gi += v->si;
-    }
-    if (change == GLIDES) {
-        v->pr += v->psr;
-        v->pi += v->psi;
-    }
-    double zr = v->pr * v->zr - (v->pi * v->zi - v->gr * f);
-    v->zi = v->pr * v->zi + (v->pi * v->zr + v->gi * f);
-    v->zr = zr;
-    return v->zi;
-}
-
-INLINE struct lane lane_take(const struct group *g, int l, enum change change)
-{
-    struct lane v = {g->zr[l], g->zi[l], g->gr[l], g->gi[l], g->pr[l], g->pi[l], g->sr[l], g->si[l], 0, 0};
-    if (change == GLIDES) {
-        v.psr = g->psr[l];
-        v.psi = g->psi[l];
-    }
-    return v;
-}
-
-INLINE void lane_keep(struct group *g, int l, const struct lane *v, enum change change)
-{
-    g->zr[l] = v->zr;
-    g->zi[l] = v->zi;
-    if (change != STEADY) {
-        g->gr[l] = v->gr;
-        g->gi[l] = v->gi;
-    }
-    if (change == GLIDES) {
-        g->pr[l] = v->pr;
-        g->pi[l] = v->pi;
-    }
-}
-
-/* Adds the lanes' Im z of `n` samples to sums[n][LANES]. */
-INLINE void ring_all(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n, enum change change)
-{
-    int i = 0;
-    for (; i + SPAN <= n; i += SPAN) {
-        for (int k = 0; k < n_active; k++) {
-            struct group *restrict g = active[k];
-#pragma omp simd
-            for (int l = 0; l < LANES; l++) {
-                struct lane v = lane_take(g, l, change);
-                sums[i][l] += lane_step(&v, f[i], change);
-                sums[i + 1][l] += lane_step(&v, f[i + 1], change);
-                sums[i + 2][l] += lane_step(&v, f[i + 2], change);
-                sums[i + 3][l] += lane_step(&v, f[i + 3], change);
-                lane_keep(g, l, &v, change);
-            }
-        }
-    }
-    for (; i < n; i++) {
-        for (int k = 0; k < n_active; k++) {
-            struct group *restrict g = active[k];
-#pragma omp simd
-            for (int l = 0; l < LANES; l++) {
-                struct lane v = lane_take(g, l, change);
-                sums[i][l] += lane_step(&v, f[i], change);
-                lane_keep(g, l, &v, change);
-            }
-        }
-    }
-}
-
-LANES_CLONES
-static void ring_steady(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
-{
-    ring_all(active, n_active, f, sums, n, STEADY);
-}
-
-LANES_CLONES
-static void ring(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
-{
-    ring_all(active, n_active, f, sums, n, RAMPS);
-}
-
-LANES_CLONES
-static void ring_gliding(struct group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
-{
-    ring_all(active, n_active, f, sums, n, GLIDES);
 }
 
 /* The lanes of each sample as by lanes_sum, and what goes through directly; halves and quarters of all samples in turn, which keeps registers full. */
@@ -299,7 +201,7 @@ static void find_active(struct resonators *r, bool force)
 {
     r->n_active = 0;
     for (int k = 0; k < r->groups; k++) {
-        struct group *g = &r->group[k];
+        struct resonator_group *g = &r->group[k];
         bool deaf = product_nothing(g->gr, LANES) && product_nothing(g->gi, LANES) && product_nothing(g->tr, LANES) && product_nothing(g->ti, LANES);
         if (g->awake || (force && !deaf))
             r->active[r->n_active++] = g;
@@ -311,7 +213,7 @@ static double loudest(const struct resonators *r)
 {
     double part[LANES] = {0}, most = r->loudest;
     for (int k = 0; k < r->n_active; k++) {
-        const struct group *g = r->active[k];
+        const struct resonator_group *g = r->active[k];
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
             double re = fabs(g->zr[l]), im = fabs(g->zi[l]);
@@ -330,7 +232,7 @@ static void flush(struct resonators *r, bool force)
     r->loudest = loudest(r);
     double quiet = 1e-22 * r->loudest, least = !force && quiet > 1e-200 ? quiet : 1e-200;
     for (int k = 0; k < r->n_active; k++) {
-        struct group *g = r->active[k];
+        struct resonator_group *g = r->active[k];
         g->awake = 0;
         for (int l = 0; l < LANES; l++)
             if (fabs(g->zr[l]) < least && fabs(g->zi[l]) < least)
@@ -363,6 +265,7 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
         return;
     set_targets(r, to);
     set_steps(r, frames);
+    enum resonator_change change = r->bends ? RESONATOR_GLIDES : r->steady ? RESONATOR_STEADY : RESONATOR_RAMPS;
     bool force = !product_nothing(f, frames);
     find_active(r, force);
     for (int done = 0; done < frames;) {
@@ -370,7 +273,7 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
         n = n < WATCH - r->watched ? n : WATCH - r->watched;
         if (r->n_active) {
             memset(r->sums, 0, (size_t)n * sizeof *r->sums);
-            (r->glides ? ring_gliding : r->steady ? ring_steady : ring)(r->active, r->n_active, f + done, r->sums, n);
+            resonator_group_ring(r->active, r->n_active, f + done, r->sums, n, change);
             fold(r, f + done, y + done, n);
             r->through += n * r->through_step;
         }

@@ -73,7 +73,7 @@ static bool choose_along(struct ring_choosing *c, struct err *e)
 {
     struct ring_survey_ask ask = {.modes = &c->to->modes, .trajectory = &c->trajectory, .by_speed = c->contact->contact.model == CONTACT_SCRAPE,
                                   .stays = c->to->reading == MOVING_GLIDE || c->to->reading == MOVING_READOUT,
-                                  .slopes = c->to->reading == MOVING_GLIDE};
+                                  .slopes = ring_choice_glides(c->to)};
     const char *key = ring_noted_key(c->scene, c->contact, c->work);
     if (ring_noted_find(c->scene->shelf, key, c->arena, c->to))
         return true;

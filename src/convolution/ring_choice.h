@@ -31,6 +31,12 @@ struct ring_choice {
     double cpu;                  /* s of CPU time that choosing took, the response being read*/
 };
 
+/* The contact retunes what rings; poles that are the same everywhere stay where they are. */
+static inline bool ring_choice_glides(const struct ring_choice *c)
+{
+    return c->reading == MOVING_GLIDE && !c->modes.shared;
+}
+
 /* NULL: the body does not ring. Errors: as modes_table, object_make, space_modes; ERR_SCENE where what is asked cannot be had. */
 bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice,
                  struct err *e);

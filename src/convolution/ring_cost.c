@@ -67,7 +67,7 @@ double ring_cost_listening(const struct ring_choosing *c)
 
 double ring_cost_resonators(const struct ring_choosing *c)
 {
-    bool glides = c->to->reading == MOVING_GLIDE;
+    bool glides = ring_choice_glides(c->to);
     return 10 + lanes(c) * (glides ? GLIDING : RESONATOR * gammatone_cost(c->to->gamma)) + (c->to->moves ? (point_cost(c) + lanes(c) * RAMPED) / c->to->ramp : 0);
 }
 

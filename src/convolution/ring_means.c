@@ -76,7 +76,7 @@ static void choose_hop(struct ring_choosing *c)
 /* Samples from one evaluation of gains and poles to the next, at most gain_ramp. */
 static void choose_ramp(struct ring_choosing *c)
 {
-    bool glides = c->to->reading == MOVING_GLIDE;
+    bool glides = ring_choice_glides(c->to);
     c->to->ramp = 1;
     if (!c->to->moves)
         return;

@@ -48,7 +48,7 @@ static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
         return;
     }
     struct resonators_ask ask = {.n = v->n, .quantity = listener_quantity(v->listener), .rate = r->board->rate, .frequency = b->to.frequency,
-                                 .decay = b->to.decay, .glides = s->ring.choice->reading == MOVING_GLIDE, .ramp = s->ramp};
+                                 .decay = b->to.decay, .glides = ring_choice_glides(s->ring.choice), .ramp = s->ramp};
     b->bank = resonators_make(r->arena, &ask);
     resonators_set(b->bank, &b->to);
 }
