@@ -181,9 +181,11 @@ static bool judge(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
     enum err_kind worst = ERR_NONE;
-    r->failed = r->waiting = 0;
+    r->failed = r->waiting = r->rendered = r->kept = 0; /* the level may have changed what became of some */
     for (int i = 0; i < r->set.n; i++) {
         const struct outcome *o = &r->outcomes[i];
+        r->rendered += o->record.size && !o->kept;
+        r->kept += o->record.size && o->kept;
         r->failed += o->kind != ERR_NONE;
         r->waiting += o->record.size && o->waits;
         worst = o->kind > worst ? o->kind : worst;
@@ -217,8 +219,6 @@ static bool end(struct batch *b, struct err *e)
     if (b->ask->shard.n > 1)
         return end_shard(b, e);
     bool ok = finish_level(&f, e);
-    r->rendered += f.again;
-    r->kept -= f.again;
     look_for_changes(b, f.anew);
     ok = ok && finish_tables(&f, e);
     r->full_scale = f.full_scale;

@@ -123,8 +123,7 @@ static void took(void *context, int i)
     struct levelled *l = &w->now[i];
     struct outcome *o = &w->finish->results.of[i];
     w->finish->anew = w->finish->anew || l->again;
-    w->finish->again += l->again && o->kept;
-    o->kept = o->kept && !l->again;
+    o->kept = o->kept && !l->again && !l->e;
     if (!l->e) {
         w->finish->anew = w->finish->anew || l->record.at != o->record.at;
         o->record = l->record;

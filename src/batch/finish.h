@@ -13,7 +13,6 @@ struct finish {
     struct arena *arena;
     double full_scale;           /* of the set, once it is known; NAN */
     bool anew;                   /* something was rendered: timings are written */
-    int again;                   /* how many that were there have been rendered once more for another gain */
     const struct spare *inputs;  /* of the set, which are not left over; NULL: not known */
     bool prune;                  /* what is left over is removed */
     struct leftover left;        /* what is there besides the set */

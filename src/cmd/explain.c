@@ -111,12 +111,17 @@ static void list_designs(json_t *schema)
     printf("\ndesigns: man rasp-design(5), rasp batch --help\n");
 }
 
+static bool names_designs(const char *word)
+{
+    return !strcmp(word, "design") || !strcmp(word, "designs");
+}
+
 /* A key of designs, which are explained elsewhere; of scenes there may be one of that name in some section, too. False: there is none. */
 static bool explain_design(const char *word, const char **names, struct arena *a)
 {
     json_t *schema = schema_design(a), *key = design_key(schema, word);
     const char *text = design_text(key), *scenes = endings(word, names, a);
-    bool all = !strcmp(word, "design") || !strcmp(word, "designs");
+    bool all = names_designs(word);
     if (all)
         list_designs(schema);
     else if (key) {
@@ -143,13 +148,14 @@ static void tell_design_too(const char *word, struct arena *a)
 static const char *nearest_of_designs(const char *word, struct arena *a)
 {
     json_t *schema = schema_design(a), *keys = json_object_get(schema, "properties"), *unused;
-    const char **names = ARENA_TAKE(a, const char *, json_object_size(keys) + 1), *name;
+    const char **names = ARENA_TAKE(a, const char *, json_object_size(keys) + 2), *name;
     int n = 0;
+    names[n++] = "design";
     json_object_foreach(keys, name, unused)
         names[n++] = arena_text(a, name);
     const char *nearest = text_nearest(word, names);
     json_decref(schema);
-    return nearest ? arena_format(a, "%s of designs", nearest) : NULL;
+    return !nearest || nearest == names[0] ? nearest : arena_format(a, "%s of designs", nearest);
 }
 
 static void unknown(const char *word, const char **names, struct arena *a, struct err *e)
@@ -203,7 +209,9 @@ static void explain_rows(const char *word, const char **names, struct arena *a, 
     json_t *schema = schema_design(a);
     bool of_designs = design_key(schema, word) != NULL;
     json_decref(schema);
-    if (of_designs)
+    if (names_designs(word))
+        err_set(e, ERR_USAGE, "designs' keys are in rasp explain --schema=design; --json is for scenes");
+    else if (of_designs)
         err_set(e, ERR_USAGE, "%s is a key of designs, which rasp explain --schema=design has; --json is for scenes", word);
     else if (is_scene_file(word))
         err_set(e, ERR_USAGE, "--json is for keys and sections; an effective scene is YAML");

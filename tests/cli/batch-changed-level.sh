@@ -17,6 +17,7 @@ batch_while() {
     wait $! || code=$?
     echo "exit $code, $(grep -q ': what it is made of has changed since its level was measured' log && echo "some failed")"
     grep 'has changed while' log || echo "no file was named"
+    sed -n 's/^set: \([0-9]*\) stimuli rendered, \([0-9]*\) there already, \([0-9]*\) failed.*/\1 \2 \3/p' log | awk '{ print $1 + $2 + $3, "in all;", ($3 > 0 ? "some failed" : "none failed") }'
 }
 
 as_fresh() {

@@ -71,3 +71,6 @@ sed 's/^rasp-design: 1/rasp-design: 2/; s/^base.*/bass: x/' scenes.yaml > later.
 tell check later.yaml
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors:' '  output.level.peak: [-3 dB, -6 dB, -9 dB]' '  motion.rate: [1 Hz, 2 Hz, 3 Hz]' > peaks.yaml
 tell check peaks.yaml
+# Promises that cannot be kept: each once, with its place; what is wrong in the noise alone is of all replicates.
+printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'replicates: 2' 'order: {seed: 3}' 'factors:' '  accuracy.error: [-40 dB, -200 dB, -210 dB]' '  motion.rate: [1 Hz, 2 Hz]' 'exclude: [{accuracy.error: -40 dB, motion.rate: 1 Hz}]' > promises.yaml
+tell check promises.yaml

@@ -4,4 +4,4 @@ for key in motion.rate motion.points motion.law surface.along surface.grit.densi
     rasp explain $key
     echo
 done
-rasp explain factor || true
+for word in factor desing "base --json" "design --json"; do rasp explain $word || true; done
