@@ -52,38 +52,38 @@ Goals are in cycles a sample of a core of 3.6 GHz (evidence/bench.sh); what take
   a root and two divisions. (At 1968b6b it took 420; and what begins and ends a run of steps, 1900 cycles, was paid each sample, now once in up to 64.) The goal
   was set on a prototype that did nothing else; here each step reads its place on the curve, where the ball rests on a piece of it by Newton's method (110 cycles, eight places at a
   time; 370 one at a time), and a sample has its sound besides: trajectory, decimation, the same 50 modes as they ring, WAV: 250 cycles, which alone is nearly the goal.
-- **2-D roughness with CSV, 170 cycles (55 of 480 times real time at draft):** 1472 cycles, 1315 of them the scrape's (1773 and 1589 of the commit before its lattice was kept, in the same run). Of 3500 instructions a sample (5180) the
+- **2-D roughness with CSV, 170 cycles (58 of 480 times real time at draft):** 1399 cycles, 1290 of them the scrape's (in another run 1472 and 1315, and 1773 and 1589 of the commit before its lattice was kept). Of 3500 instructions a sample (5180) the
   ground's second derivatives take 600 (2280; 284 on the map of the row above): it has no end and does not repeat, so that the lattice of its splines is made where the contact goes, in patches of which some
   10 MB are kept, the last that were read (`src/surface/patches.c`): what a motion to and fro has met before, up to 13 cm of way at 20 um, is not made again. On a way that does not come back making takes 780
   instructions a sample (1240), and less is kept, so that the tiles that it is made of stay in the CPU's second cache. The lattice is finer than that map's 50 um, so there are more pieces: the limiter
   takes 1070 (320 there), cutting 650 (237), the slope 480 (190).
-- **32 recorded responses, 136 cycles (79 of 600 times real time):** 1038. Of 2870 instructions a sample 1110 find, for each sample, which responses the place lies between and with what shares (`share_places`,
+- **32 recorded responses, 136 cycles (88 of 600 times real time):** 930. Of 2870 instructions a sample 1110 find, for each sample, which responses the place lies between and with what shares (`share_places`,
   `places_plane_at`), some 1200 are the transforms of blocks of 2048 and products of spectra, 220 the checksum of the force. Places found once in some samples and shares ramped between would take most of
   the first away, with an error to be kept like that of ramped gains; it is not done.
-- **Given force, moving contact, 45 cycles (454 of 1800 times real time; glide costs the same where poles are alike everywhere, as on this plate):** 180 cycles. Beside what the object at rest pays, gains are ramped: `ring` takes 253 instructions, `ring_steady` 218; the checksum of the
+- **Given force, moving contact, 45 cycles (464 of 1800 times real time; glide costs the same where poles are alike everywhere, as on this plate):** 176 cycles. Beside what the object at rest pays, gains are ramped: `ring` takes 253 instructions, `ring_steady` 218; the checksum of the
   force 223 and the places the rest. What would do is less to read: the file of forces is 8 bytes a sample, read twice.
-- **Start-up, 3 ms: 4.2 ms wall, 3.6 ms CPU** (4.9 and 3.7, 8.8 and 4.3 while others were at work). Of 16.4 million instructions (callgrind) 21 % clear memory, 13 % decimate and 8 % resonate the sound that the tiny scene has, 5 % copy, 7 % and more link shared libraries, 5 %
+- **Start-up, 3 ms: 4.0 ms wall, 3.2 ms CPU** (4.9 and 3.7, 8.8 and 4.3 in other runs). Of 16.4 million instructions (callgrind) 21 % clear memory, 13 % decimate and 8 % resonate the sound that the tiny scene has, 5 % copy, 7 % and more link shared libraries, 5 %
   tell which keys decide on which. Fewer pages to clear, and linking statically, would save most; neither is done.
-- **Stimuli of 2 s a second, 86 of 300 (with CSV at 1 kHz), 21 of 38 (ten columns at 44.1 kHz):** 42 million cycles a stimulus, 31 of which are 88200 samples at 351 cycles: the goal, 12 million, is that of the 1-D profile once
-  more, and the other 11 are start and end of each render. Of 189 million with the large table some 147 are its own, see CSV.
-- **CSV, 500 MB/s: 499 in memory (`tests/bench/decimal.c`: 25.9 ns a number, 7.7 times printf's speed; 479 in another run), 283 to 319 from end to end (`tests/bench/pipeline.py`):** of the 5660 instructions that a row of ten columns adds, 1570 turn numbers into
+- **Stimuli of 2 s a second, 98 of 300 (with CSV at 1 kHz), 22 of 38 (ten columns at 44.1 kHz):** 37 million cycles a stimulus, 28 of which are 88200 samples at 315 cycles: the goal, 12 million, is that of the 1-D profile once
+  more, and the other 9 are start and end of each render. Of 164 million with the large table some 127 are its own, see CSV.
+- **CSV, 500 MB/s: 499 in memory (`tests/bench/decimal.c`: 25.9 ns a number, 7.7 times printf's speed; 479 in another run), 277 to 319 from end to end (`tests/bench/pipeline.py`):** of the 5660 instructions that a row of ten columns adds, 1570 turn numbers into
   text, 3280 are its checksum (SHA-256; far less of the cycles where the CPU has instructions for it), 225 put lines together, 210 and more gather columns; the kernel's copying comes on top. A checksum on a
   thread of its own would hide it; of one core it would not.
-- **.npy, 2.5 times the render without: 3.3 with ten columns, 3.9 with 14 at draft (3.4 and 4.3 in another run; 1.9 and 2.0 at standard):** 80 and 112 bytes a sample. Of the 2980 instructions that ten columns add 2240 are their checksum, 500
+- **.npy, 2.5 times the render without: 3.6 with ten columns, 4.3 with 14 at draft (3.3 and 3.8 in another run; 2.1 and 2.2 at standard):** 80 and 112 bytes a sample. Of the 2980 instructions that ten columns add 2240 are their checksum, 500
   gather them, 120 write. As with CSV.
-- **Given force, whole process of 10 s, 10 ms: 28** (27.7 in bench.md's table of other programs). Start-up is 4; 441000 samples at 145 cycles are 18, which the rows of the given force and of start-up tell; the 6 that are left, of reading the file for the first time or not, were not looked into.
-- **csound, 5 times: 3.2 to 3.5; SciPy's lfilter, 25 times: 19 to 21.** Whole processes: of 26 ms of rasp's, for 10 s of force on an object at rest, start-up is 4, and of the rest the modes are half (46 %), reading the force and its checksum a third: what csound, which
+- **Given force, whole process of 10 s, 10 ms: 24** (bench.md's table of other programs). Start-up is 4; 441000 samples at 149 cycles are 18, which the rows of the given force and of start-up tell; the 2 that are left, of reading the file for the first time or not, were not looked into.
+- **csound, 5 times: 3.1 to 3.5; SciPy's lfilter, 25 times: 19 to 21.** Whole processes: of 24 ms of rasp's, for 10 s of force on an object at rest, start-up is 4, and of the rest the modes are half (46 %), reading the force and its checksum a third: what csound, which
   makes its noise or reads it once, has not. The modes cannot be had for less without contraction (see given force, at rest), so it is again reading and start-up.
 - **rk4, 82 cycles a step: 815.** (1485 in the same rounds for 0b5dd52, which went over the modes five times a step, once for each stage and once for its end, each waiting for the last.) Of 3030 instructions a step (5650 at 0b5dd52) 2580 are rk4's
   (5190), nearly all of them one pass over the modes: 46 multiplications and additions a mode for the end of the step and what is lost in it, 27 for the sums that the ball will feel at the stages of the step after the next, 16 more where the place moves. Two
   units of eight lanes cannot do them in less than 260 cycles, 310 where it moves; called for by itself (evidence/rolling.md) a step takes 340 of the time stamp counter's.
 - **rk4, one step a sample, 1000 times real time: 650 to 760 on rigid ground, 170 with 50 modes** (365 and 65 at 0b5dd52; evidence/rolling.md; it is refused there where a contact has fewer than 12 steps). On rigid ground what is left is a chain: four forces, each of
   which has its root and waits for those before it; 1000 times would be 59 cycles a step.
-- **Coupled ball, implicit, 8 steps, 38 times real time: 22.** 470 cycles a step, 426 of them the stage's (bench.md); what they are is told above.
-- **Roughness on a line, 900 times real time: 257.** The scrape takes 233 cycles where that on the 1-D profile takes 156, making the roughness 19 (bench.md); why the first is more was not looked into.
+- **Coupled ball, implicit, 8 steps, 38 times real time: 23.** 440 cycles a step, 405 of them the stage's (bench.md); what they are is told above.
+- **Roughness on a line, 900 times real time: 266.** The scrape takes 223 cycles where that on the 1-D profile takes 152, making the roughness 22 (bench.md); why the first is more was not looked into.
 - **Batch on two cores, 520 and 70 a second:** 70 a second of a shipped scene with 2 s at draft, WAV and 1 kHz CSV (evidence/batch.md; 37 on one): stimuli share no work, so that two cores do twice what one does, and what a stimulus costs is
   told above.
-- **50 more modes, the same within 30 %: 71 and 50 cycles** (51 and 74 in another run): differences of two times of some 270 cycles, each of which moves by 10 and more; by instructions (callgrind, a scrape over roughness on a line,
+- **50 more modes, the same within 30 %: 48 and 62 cycles, which is within** (71 and 50, 51 and 74 in other runs, which are not): differences of two times of some 270 cycles, each of which moves by 10 and more; by instructions (callgrind, a scrape over roughness on a line,
   draft) 187 and 188.
 - **What lies beyond the goals** (a third fewer cycles, start-up in 1 ms, csound 10 times) is nowhere near: what is known to be left there is single precision, contraction, whose bytes differ from CPU to CPU, or eight scenes in
   lanes, which evidence/rolling.md works out not to pay beside `--jobs`.
