@@ -69,7 +69,7 @@ Goals are in cycles a sample of a core of 3.6 GHz (evidence/bench.sh); what take
 - **CSV, 500 MB/s: 499 in memory (`tests/bench/decimal.c`: 25.9 ns a number, 7.7 times printf's speed; 479 in another run), 277 to 319 from end to end (`tests/bench/pipeline.py`):** of the 5660 instructions that a row of ten columns adds, 1570 turn numbers into
   text, 3280 are its checksum (SHA-256; far less of the cycles where the CPU has instructions for it), 225 put lines together, 210 and more gather columns; the kernel's copying comes on top. A checksum on a
   thread of its own would hide it; of one core it would not.
-- **.npy, 2.5 times the render without: 3.6 with ten columns, 4.3 with 14 at draft (3.3 and 3.8 in another run; 2.1 and 2.2 at standard):** 80 and 112 bytes a sample. Of the 2980 instructions that ten columns add 2240 are their checksum, 500
+- **.npy, 2.5 times the render without: 3.6 with ten columns, 4.3 with 14 at draft (3.3 and 3.8 in another run; 1.9 and 2.2 at standard):** 80 and 112 bytes a sample. Of the 2980 instructions that ten columns add 2240 are their checksum, 500
   gather them, 120 write. As with CSV.
 - **Given force, whole process of 10 s, 10 ms: 24** (bench.md's table of other programs). Start-up is 4; 441000 samples at 149 cycles are 18, which the rows of the given force and of start-up tell; the 2 that are left, of reading the file for the first time or not, were not looked into.
 - **csound, 5 times: 3.1 to 3.5; SciPy's lfilter, 25 times: 19 to 21.** Whole processes: of 24 ms of rasp's, for 10 s of force on an object at rest, start-up is 4, and of the rest the modes are half (46 %), reading the force and its checksum a third: what csound, which
