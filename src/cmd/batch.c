@@ -60,6 +60,16 @@ void batch_tell_more(struct cmd_call *c, const char *command, enum err_kind kind
     tell_error(c, command, &told);
 }
 
+void batch_tell_unread(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e)
+{
+    enum err_kind kind = e->kind;
+    if (!*r->messages)
+        return;
+    tell_scene(c, r->design.diag, r->messages, kind);
+    *e = (struct err){0};
+    err_set(e, kind, "%s %s", file, kind == ERR_INPUT ? "cannot be read" : "is not a valid design");
+}
+
 void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct prepare *p)
 {
     for (int k = 0; k < p->n_faults && k < TOLD; k++) {
@@ -251,12 +261,7 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     interrupt_catch();
     tell_group(c);
     bool ok = batch_run(&ask, c->arena, &r, e);
-    if (*r.messages) {
-        tell_scene(c, r.design.diag, r.messages, e->kind);
-        enum err_kind kind = e->kind;
-        *e = (struct err){0};
-        err_set(e, kind, "%s %s", ask.design, kind == ERR_INPUT ? "cannot be read" : "is not a valid design");
-    }
+    batch_tell_unread(c, ask.design, &r, e);
     batch_tell_faults(c, "batch", ask.design, &r.prepare);
     if (r.journal)
         batch_tell(c, "batch", ask.design, &(struct results){&r.set, r.outcomes, r.journal});

@@ -9,6 +9,9 @@
 /* Failures of single stimuli, each error once, and remarks of those that were rendered now, as errors and warnings. file: the design's, NULL: not known. */
 void batch_tell(struct cmd_call *c, const char *command, const char *file, const struct results *all);
 
+/* What is wrong with the design's own text, if anything is: *e then says that it cannot be used. */
+void batch_tell_unread(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e);
+
 /* What is wrong with scenes and recordings of a set, found before any was rendered: each fault once. file: the design. */
 void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct prepare *p);
 

@@ -9,9 +9,9 @@
 #include "pipeline/promise.h"
 #include "scene/scene_places.h"
 
-struct broken {                 /* promises that cannot be kept */
+struct broken {             /* promises that cannot be kept */
     struct prepare_fault *faults;
-    int n, worst, *of_cell;     /* of_cell: from 1; 0: it is kept */
+    int n, stimuli, worst;
 };
 
 /* Whether the promise of stimulus i can be kept; its error is told with its place. */
@@ -25,7 +25,8 @@ static bool promise_kept(const struct design *d, int i, struct arena *a, struct 
     return ok && (promise_keep(&s, a, &kept, NULL, e) || scene_places_tell(&s, e));
 }
 
-static void note(struct broken *b, const struct design_stimulus *x, const struct err *e, struct arena *a)
+/* Of a cell, with all its replicates. */
+static void note(struct broken *b, const struct design *d, const char *name, const struct err *e, struct arena *a)
 {
     int k = 0;
     while (k < b->n && strcmp(b->faults[k].err->text, e->text) != 0)
@@ -33,49 +34,39 @@ static void note(struct broken *b, const struct design_stimulus *x, const struct
     if (k == b->n) {
         struct err *own = ARENA_TAKE(a, struct err, 1);
         *own = *e;
-        b->faults[b->n++] = (struct prepare_fault){.messages = "", .err = own, .name = x->name};
+        b->faults[b->n++] = (struct prepare_fault){.messages = "", .err = own, .name = name};
     }
-    b->of_cell[x->cell] = k + 1;
+    b->faults[k].n += d->replicates;
+    b->stimuli += d->replicates;
     b->worst = (int)e->kind > b->worst ? (int)e->kind : b->worst;
 }
 
 /* The first of each cell is looked at: others differ in their noise alone. */
 static bool promises_kept(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
 {
-    long cells = 0;
-    for (int i = 0; i < d->n_stimuli; i++)
-        cells = d->stimuli[i].cell >= cells ? d->stimuli[i].cell + 1 : cells;
-    struct broken b = {.faults = ARENA_TAKE(c->arena, struct prepare_fault, d->n_stimuli), .of_cell = ARENA_TAKE(c->arena, int, cells)};
-    int broken = 0;
+    struct broken b = {.faults = ARENA_TAKE(c->arena, struct prepare_fault, d->n_stimuli)};
     for (int i = 0; i < d->n_stimuli; i++) {
         const struct design_stimulus *x = &d->stimuli[i];
         struct err cause = {0};
         struct arena *a = arena_open();
         if (!x->recording && x->replicate == 1 && !promise_kept(d, i, a, &cause))
-            note(&b, x, &cause, c->arena);
+            note(&b, d, x->name, &cause, c->arena);
         arena_close(a);
     }
-    for (int i = 0; i < d->n_stimuli; i++) {
-        int k = d->stimuli[i].recording ? 0 : b.of_cell[d->stimuli[i].cell];
-        if (k)
-            b.faults[k - 1].n++;
-        broken += k > 0;
-    }
     batch_tell_faults(c, "check", file, &(struct prepare){.faults = b.faults, .n_faults = b.n});
-    return !broken || err_set(e, (enum err_kind)b.worst, "%s: %d of %d stimuli cannot be rendered", file, broken, d->n_stimuli);
+    return !b.stimuli || err_set(e, (enum err_kind)b.worst, "%s: %d of %d stimuli cannot be rendered", file, b.stimuli, d->n_stimuli);
 }
 
 /* What is wrong is told, and what it comes to is set. */
 static void tell_wrong(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e)
 {
     struct err cause = *e;
-    *e = (struct err){0};
     if (*r->messages) {
-        tell_scene(c, r->design.diag, r->messages, cause.kind);
-        err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_INPUT ? "cannot be read" : "is not a valid design");
+        batch_tell_unread(c, file, r, e);
         return;
     }
     batch_tell_faults(c, "check", file, &r->prepare);
+    *e = (struct err){0};
     err_set(e, cause.kind, "%s: %s", file, cause.text);
 }
 
