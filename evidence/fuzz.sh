@@ -19,11 +19,11 @@ cover() { grep -oE 'cov: [0-9]+ ft: [0-9]+' "$BUILD/fuzz/$1.log" | sed 's/cov: /
 
 if [ "$EACH" -gt 0 ]; then
     commit=$(git rev-parse --short HEAD)$(git diff --quiet HEAD -- src 'tests/fuzz/*.c' || echo +)
-    make --no-print-directory -s BUILD="$BUILD" fuzz SECONDS=0 > /dev/null 2>&1 || true # builds; a run of a second each
-    rm -rf "$BUILD/fuzz/found"
+    make --no-print-directory -s BUILD="$BUILD" fuzz SECONDS=0 > /dev/null # builds
+    touch "$BUILD/fuzz/started"
     nice -n 19 tests/fuzz/run.sh "$BUILD/fuzz" $((EACH * ((${#targets[@]} + 1) / 2))) "${targets[@]}" > "$BUILD/fuzz/report" 2>&1 || true
     for name in "${targets[@]}"; do
-        found=$(find "$BUILD/fuzz/found" -name "$name-*" 2> /dev/null | wc -l)
+        found=$(find "$BUILD/fuzz/found" -name "$name-*" -newer "$BUILD/fuzz/started" 2> /dev/null | wc -l)
         grep -q "^ok fuzz/$name " "$BUILD/fuzz/report" || [ "$found" -gt 0 ] || found=1 # it did not end
         seconds=$(sed -n 's/^Done [0-9]* runs in \([0-9]*\) .*/\1/p' "$BUILD/fuzz/$name.log")
         echo "$name,$commit,${seconds:-0},$(($(stat_of "$name" cpu_seconds))),$(stat_of "$name" number_of_executed_units),$(cover "$name" head),$(cover "$name" tail),$found"

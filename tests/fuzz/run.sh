@@ -1,8 +1,9 @@
 #!/bin/bash
 # Runs each fuzz target for its share of the time, two at once:  tests/fuzz/run.sh FOLDER SECONDS [TARGET...]
-# Starts from tests/fuzz/corpus/NAME and what earlier runs found new; an input that breaks a target is left in FOLDER/found/.
+# SECONDS=0: none of them runs. Starts from tests/fuzz/corpus/NAME and what earlier runs found new; an input that breaks a target is left in FOLDER/found/.
 set -uo pipefail
 folder=$(realpath "$1") seconds=${2:-60}
+[ "$seconds" -gt 0 ] || exit 0
 cd "$(dirname "$0")" || exit 1
 shift $(($# < 2 ? $# : 2))
 targets=("${@/%/.c}")
