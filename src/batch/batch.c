@@ -61,17 +61,6 @@ static bool job(void *context, int at)
     return ok || !stops(e.kind);
 }
 
-/* The manifest of a set does not say in which folder it was made. */
-static const char *without_folder(const struct batch *b, const char *text)
-{
-    const char *marks[] = {arena_format(b->arena, "%s/.rasp/raw/", b->ask->folder), arena_format(b->arena, "%s/", b->ask->folder)};
-    char *out = arena_text(b->arena, text);
-    for (int k = 0; k < 2; k++)
-        for (char *at; (at = strstr(out, marks[k]));)
-            memmove(at, at + strlen(marks[k]), strlen(at + strlen(marks[k])) + 1);
-    return out;
-}
-
 static void took_failure(struct batch *b, struct outcome *o, const struct err *e)
 {
     if (stops(e->kind)) {
@@ -79,7 +68,7 @@ static void took_failure(struct batch *b, struct outcome *o, const struct err *e
         return;
     }
     o->kind = e->kind;
-    o->text = without_folder(b, e->text);
+    o->text = folder_seen(b->ask->folder, e->text, b->arena);
     b->report->failed++;
 }
 

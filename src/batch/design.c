@@ -99,12 +99,16 @@ bool design_is(const char *file)
 {
     static const char key[] = "rasp-design";
     char line[64];
-    bool found = false, start = true;
+    bool found = false, start = true, flow = false; /* {rasp-design: 1, ...} */
     FILE *f = memory_fopen(file, "r");
     while (f && !found && fgets(line, sizeof line, f)) {
-        const char *s = line + (*line == '"' || *line == '\'');
+        const char *key_at = line;
+        flow = flow || (start && *line == '{');
+        if (flow)
+            key_at += strspn(line, "{ \t");
+        const char *s = key_at + (*key_at == '"' || *key_at == '\'');
         size_t n = strncmp(s, key, strlen(key)) == 0 ? strlen(key) : 0;
-        found = start && n > 0 && (s[n] == ':' || s[n] == ' ' || (s != line && s[n] == *line));
+        found = start && n > 0 && (s[n] == ':' || s[n] == ' ' || (s != key_at && s[n] == *key_at));
         start = strchr(line, '\n') != NULL;
     }
     if (f)

@@ -3,6 +3,7 @@
 #include "batch/design_columns.h"
 
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -77,6 +78,33 @@ static void values_make(struct design_factor *f, struct arena *a)
         f->levels[i].value = !numbers ? f->levels[i].label : same ? number_as_written(&q[i], a) : number_si(f->levels[i].label, q[i].dimension, a);
     const char *unit = !numbers ? "" : same ? q[0].unit : keys_text_unit(q[0].dimension);
     f->unit = *unit ? unit : NULL;
+}
+
+static int by_value(const void *pa, const void *pb)
+{
+    const struct design_level *const *a = pa, *const *b = pb;
+    int order = strcmp((*a)->value, (*b)->value);
+    return order ? order : *a < *b ? -1 : *a > *b;
+}
+
+/* 2 Hz and 2.0 Hz would be one in the manifest. */
+static void values_differ(const struct design_reading *r, int f)
+{
+    const struct design_factor *factor = &r->design->factors[f];
+    struct design_level **sorted = ARENA_TAKE(r->arena, struct design_level *, factor->n_levels + 1);
+    for (int i = 0; i < factor->n_levels; i++)
+        sorted[i] = &factor->levels[i];
+    qsort(sorted, (size_t)factor->n_levels, sizeof *sorted, by_value);
+    for (int i = 1; i < factor->n_levels; i++) {
+        const struct yaml_node *item = r->factors[f]->first;
+        const char *labels[2] = {sorted[i - 1]->label, sorted[i]->label};
+        if (strcmp(sorted[i]->value, sorted[i - 1]->value) != 0 || strcmp(labels[0], labels[1]) == 0)
+            continue;
+        for (long at = sorted[i] - factor->levels; at > 0; at--)
+            item = item->next;
+        diag_add(r->yaml->diag, item->at, "remove one of them, or label them with words: - {label: slow, value: 2 Hz}", "the levels '%s' and '%s' of %s are the same number",
+                 diag_shown(r->yaml->diag, labels[0]), diag_shown(r->yaml->diag, labels[1]), factor->name);
+    }
 }
 
 /* ------------------------------------------------------------------ names */
@@ -162,6 +190,7 @@ void design_columns_make(struct design_reading *r)
         struct design_factor *factor = &r->design->factors[f];
         const struct key *k = design_changes_key(factor->name);
         values_make(factor, r->arena);
+        values_differ(r, f);
         factor->column = column_of(factor, r->arena);
         factor->meaning = k ? k->meaning : NULL;
         column_check(r, f);

@@ -18,7 +18,7 @@ static bool ends_in(const char *s, size_t n, const char *ending)
 /* What is wrong with a part between slashes; NULL: nothing. */
 static const char *part_fault(const char *s, size_t n, const char **cure)
 {
-    static const char *const endings[] = {".wav", ".csv", ".json", ".yaml", ".yml"};
+    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", ".yml", NULL};
     *cure = "write another template for name:, or other labels";
     if (n == 0)
         return "has a folder without a name";
@@ -27,7 +27,7 @@ static const char *part_fault(const char *s, size_t n, const char **cure)
     if (n > PART_LONGEST)
         return "has a part of more than 200 letters";
     *cure = "leave the ending out: each file gets its own";
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; endings[i]; i++)
         if (ends_in(s, n, endings[i]))
             return "ends as a file does";
     return NULL;

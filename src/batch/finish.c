@@ -85,16 +85,23 @@ static bool level_raw(const struct relevel *l, const struct record *raw, struct 
     return false;
 }
 
+/* Its raw sound, if an earlier run left it and it is still there: another state of the design may have put its own in its place. */
+static const struct record *left_raw(const struct finish *f, const struct record *r, struct arena *a)
+{
+    struct journal_ref ref;
+    const struct record *raw = journal_find(f->kit->journal, r->key, true, a, &ref);
+    return raw && raw->place && r->place && !strcmp(raw->place, r->place) && job_is_there(f->kit->folder, raw, a) ? raw : NULL;
+}
+
 static bool level_one(const struct finish *f, int i, struct levelled *to, struct arena *a, struct err *e)
 {
-    struct journal_ref old;
     to->record = f->results.of[i].record;
     const struct record *r = journal_read(f->kit->journal, to->record, a, e);
     if (!r)
         return false;
     if (has_level(f, i, r))
         return true;
-    return level_raw(&(struct relevel){f, i, r->key, to, a}, r->job ? journal_find(f->kit->journal, r->key, true, a, &old) : r, e);
+    return level_raw(&(struct relevel){f, i, r->key, to, a}, r->job ? left_raw(f, r, a) : r, e);
 }
 
 static bool stops(const struct err *e)
@@ -130,7 +137,7 @@ static void took(void *context, int i)
         o->waits = false;
     } else {
         o->kind = l->e->kind;
-        o->text = arena_text(w->finish->arena, l->e->text);
+        o->text = folder_seen(w->finish->kit->folder, l->e->text, w->finish->arena);
         if (stops(l->e))
             err_set(&w->stop, l->e->kind, "%s", l->e->text);
         o->record = (struct journal_ref){0};

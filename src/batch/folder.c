@@ -164,6 +164,28 @@ void folder_sweep(const char *folder, const char *const *names, int n, bool raw)
     }
 }
 
+static const char *behind(const char *text, const char *start)
+{
+    size_t n = strlen(start);
+    return strncmp(text, start, n) ? text : text + n;
+}
+
+const char *folder_seen(const char *folder, const char *text, struct arena *a)
+{
+    const char *prefix = arena_format(a, "%s/", folder), *from = text;
+    char *seen = arena_text(a, text), *to = seen;
+    while (*from) {
+        bool begins = from == text || strchr(" '\"(", from[-1]);
+        const char *within = begins ? behind(from, prefix) : from;
+        if (within == from)
+            *to++ = *from++;
+        else
+            from = behind(within, ".rasp/raw/");
+    }
+    *to = '\0';
+    return seen;
+}
+
 double folder_free(const char *folder)
 {
     struct statvfs s;

@@ -23,6 +23,9 @@ bool folder_is_mine(int entered);
    (.rasp-PID-*.part) whose program is not there any more. Only in folders in which one of these names stands. Errors are no matter. */
 void folder_sweep(const char *folder, const char *const *names, int n, bool raw);
 
+/* The text with the names of files in the folder as they are seen from there: tables and journals of a set do not say where it was made. */
+const char *folder_seen(const char *folder, const char *text, struct arena *a);
+
 /* Bytes free for files in it; a great number when that cannot be told. */
 double folder_free(const char *folder);
 

@@ -35,22 +35,12 @@ const char *job_hash(const char *const *texts, int n, struct arena *a)
 
 /* ------------------------------------------------------------------ the scene */
 
-static void lay_over(const struct set *set, struct scene *s)
-{
-    if (!isnan(set->length))
-        s->output.duration = set->length;
-    if (set->level_rule != DESIGN_LEVEL_SCENE)
-        s->output.level = set->level;
-    if (set_waits(set))
-        s->output.level = (struct level){.full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
-}
-
 bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s, struct err *e)
 {
     const char *messages = "";
     if (!design_scene(k->design, i, a, s, &messages, e))
         return false;
-    lay_over(k->set, s);
+    set_lay(k->set, s);
     design_scene_places(k->design, s, a);
     s->shelf = k->shelf;
     return true;

@@ -2,120 +2,28 @@
 #include "batch/prepare.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "base/shelf.h"
 #include "batch/pool.h"
+#include "batch/prepare_look.h"
 #include "batch/recording.h"
 #include "batch/spare.h"
-#include "output/sound.h"
-#include "pipeline/plan_scene.h"
-#include "scene/scene_places.h"
-#include "scene/scene_write.h"
-
-struct trial {               /* of one scene, until it is taken; it lies in its own arena */
-    struct arena *arena;
-    const struct diag *diag;
-    const char *messages;
-    struct scene scene;
-    char sha256[HASH_TEXT];  /* of what the scene means, and of its inputs */
-    struct err e;            /* none: it can be rendered */
-};
-
-struct look {                /* at one stimulus */
-    struct trial *trial;     /* NULL: not begun, or taken */
-    int fault;               /* from 1; 0: it can be rendered */
-    double seconds, cost, rate, ramp;
-    int channels, encoding, bits;
-    bool sounds;
-};
 
 struct preparation {
-    const struct design *design;
-    struct shelf *shelf;
-    const struct set *set;
-    struct look *looks;      /* [n] */
-    int *first;              /* [n] the first stimulus of the cell */
+    struct prepare_view view;
+    struct prepare_look *looks; /* [n] */
+    int *first;              /* [n] the stimulus that is looked at for it: the first of its cell, itself where the seed says where it goes */
+    bool *now, second;       /* [n] those that are looked at; for the second time: what was drawn otherwise than the first of its cell */
     struct prepare *out;
     struct arena *arena;
     struct spare *spare;
     struct hash scenes;      /* of the design, of all of them and of the recordings, in their order */
 };
 
-/* ------------------------------------------------------------------ one */
-
-static struct trial *trial_open(void)
-{
-    struct arena *a = arena_open();
-    struct trial *t = ARENA_TAKE(a, struct trial, 1);
-    *t = (struct trial){.arena = a, .messages = ""};
-    return t;
-}
-
-/* File names are seen from the base scene: where all lies does not count. */
-static void hash_scene(struct trial *t)
-{
-    const struct scene *s = &t->scene;
-    const char *slash = strrchr(s->sources[0], '/'), *beside = slash ? arena_format(t->arena, "%.*s", slash == s->sources[0] ? 1 : (int)(slash - s->sources[0]), s->sources[0]) : ".";
-    const char *text = scene_write(s, beside, t->arena);
-    hash_bytes(text, strlen(text), t->sha256);
-}
-
-/* The texts it was read from lie on the shelf from now on, which knows whether they change while the set is rendered: each stimulus reads them once more. */
-static bool watch_sources(const struct preparation *p, struct trial *t)
-{
-    for (const char *const *file = t->scene.sources; *file; file++)
-        if (!shelf_sha256(p->shelf, *file, t->arena, &t->e))
-            return false;
-    return true;
-}
-
-static bool estimate(const struct preparation *p, int i, struct look *l)
-{
-    struct plan_scene_estimate x;
-    struct trial *t = l->trial;
-    struct scene *s = &t->scene;
-    bool read = design_scene(p->design, i, t->arena, s, &t->messages, &t->e);
-    t->diag = s->diag;
-    if (!read || !watch_sources(p, t))
-        return false;
-    s->shelf = p->shelf;
-    hash_scene(t);
-    if (!isnan(p->set->length))
-        s->output.duration = p->set->length;
-    if (p->set->level_rule != DESIGN_LEVEL_SCENE)
-        s->output.level = p->set->level;
-    design_scene_places(p->design, s, t->arena);
-    if (!plan_scene_estimate(s, t->arena, &x, &t->e))
-        return scene_places_tell(s, &t->e);
-    struct track_format f = sound_format(s, x.length.frames);
-    l->seconds = (double)x.length.frames / f.rate;
-    l->cost = fmax(x.cycles, 1);
-    l->rate = f.rate;
-    l->channels = f.channels;
-    l->bits = abs(f.bits);
-    l->encoding = s->output.encoding;
-    l->ramp = s->output.ramp;
-    l->sounds = x.sounds;
-    return true;
-}
-
-static bool look(void *context, int i)
-{
-    struct preparation *p = context;
-    struct look *l = &p->looks[i];
-    if (p->design->stimuli[i].recording || p->first[i] != i)
-        return true;
-    l->trial = trial_open();
-    estimate(p, i, l);
-    return !interrupt_seen();
-}
-
 /* ------------------------------------------------------------------ faults */
 
-static bool same(const struct prepare_fault *f, const struct trial *t)
+static bool same(const struct prepare_fault *f, const struct prepare_trial *t)
 {
     return !strcmp(f->messages, t->messages) && (*t->messages || !strcmp(f->err->text, t->e.text));
 }
@@ -133,22 +41,22 @@ static struct prepare_fault *more_faults(struct preparation *p)
 }
 
 /* Which fault it is. The first that has it keeps what it is told with. */
-static int note(struct preparation *p, int i, struct trial *t)
+static int note(struct preparation *p, int i, struct prepare_trial *t)
 {
     struct prepare *o = p->out;
     int k = 0;
     while (k < o->n_faults && !same(&o->faults[k], t))
         k++;
     if (k == o->n_faults)
-        *more_faults(p) = (struct prepare_fault){t->arena, t->diag, t->messages, &t->e, p->set->rows[i].name, 0};
+        *more_faults(p) = (struct prepare_fault){t->arena, t->diag, t->messages, &t->e, p->view.set->rows[i].name, 0};
     else
         arena_close(t->arena);
     return k;
 }
 
-static void settle(struct preparation *p, int i, struct look *l)
+static void settle(struct preparation *p, int i, struct prepare_look *l)
 {
-    struct trial *t = l->trial;
+    struct prepare_trial *t = l->trial;
     l->trial = NULL;
     if (t && t->e.kind)
         l->fault = note(p, i, t) + 1;
@@ -158,17 +66,68 @@ static void settle(struct preparation *p, int i, struct look *l)
         p->out->faults[l->fault - 1].n++;
 }
 
+/* ------------------------------------------------------------------ scenes */
+
+static bool look(void *context, int i)
+{
+    struct preparation *p = context;
+    if (p->now[i])
+        prepare_look_at(&p->view, i, &p->looks[i]);
+    return !p->now[i] || !interrupt_seen();
+}
+
 static void took(void *context, int i)
 {
     struct preparation *p = context;
-    struct look *l = &p->looks[p->first[i]];
-    if (p->design->stimuli[i].recording)
+    struct prepare_look *l = &p->looks[p->first[i]];
+    if (p->view.design->stimuli[i].recording || (!p->now[i] && (p->second || l->drawn)))
         return;
-    if (l->trial)
+    if (l->trial && !p->second)
         hash_add(&p->scenes, l->trial->sha256, HASH_TEXT);
     if (l->trial && !l->trial->e.kind)
         spare_scene(p->spare, p->first[i], &l->trial->scene);
     settle(p, i, l);
+}
+
+static void find_first(struct preparation *p)
+{
+    long cells = 0;
+    for (int i = 0; i < p->view.set->n; i++)
+        cells = p->view.design->stimuli[i].cell >= cells ? p->view.design->stimuli[i].cell + 1 : cells;
+    int *of = ARENA_TAKE(p->arena, int, cells + 1);
+    for (int i = 0; i < p->view.set->n; i++) {
+        int *first = &of[p->view.design->stimuli[i].cell];
+        p->first[i] = i;
+        if (p->view.design->stimuli[i].recording)
+            continue;
+        if (!*first)
+            *first = i + 1;
+        p->first[i] = *first - 1;
+        p->now[i] = p->first[i] == i;
+    }
+}
+
+/* The noise decides where a scribble goes, and so how fast it is, and whether it stays on its map. */
+static bool find_drawn(struct preparation *p)
+{
+    bool any = false;
+    p->second = true;
+    for (int i = 0; i < p->view.set->n; i++) {
+        bool other = !p->view.design->stimuli[i].recording && p->first[i] != i && p->looks[p->first[i]].drawn;
+        p->now[i] = other;
+        p->first[i] = other ? i : p->first[i];
+        any = any || other;
+    }
+    return any;
+}
+
+static bool look_at_all(struct preparation *p, int threads, struct err *e)
+{
+    int n = p->view.set->n, done = pool_run(&(struct pool_work){.n = n, .threads = threads, .context = p, .job = look, .took = took});
+    for (int i = 0; i < n; i++)
+        if (p->looks[i].trial)
+            arena_close(p->looks[i].trial->arena);
+    return done == n || err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
 }
 
 void prepare_close(struct prepare *p)
@@ -180,32 +139,14 @@ void prepare_close(struct prepare *p)
 
 /* ------------------------------------------------------------------ the whole */
 
-static void find_first(struct preparation *p)
-{
-    long cells = 0;
-    for (int i = 0; i < p->set->n; i++)
-        cells = p->design->stimuli[i].cell >= cells ? p->design->stimuli[i].cell + 1 : cells;
-    int *of = ARENA_TAKE(p->arena, int, cells + 1);
-    for (int i = 0; i < p->set->n; i++) {
-        int *first = &of[p->design->stimuli[i].cell];
-        if (p->design->stimuli[i].recording) {
-            p->first[i] = i;
-            continue;
-        }
-        if (!*first)
-            *first = i + 1;
-        p->first[i] = *first - 1;
-    }
-}
-
 /* The form of the set is that of its first sound; recordings alone have that of the first of them, in 24 bits. */
 static void find_form(struct preparation *p, struct set *s)
 {
     s->encoding = ENCODING_PCM24;
     s->ramp = 0.01;
     for (int i = 0; i < s->n; i++) {
-        const struct look *l = &p->looks[p->first[i]];
-        if (p->design->stimuli[i].recording || !l->sounds)
+        const struct prepare_look *l = &p->looks[p->first[i]];
+        if (p->view.design->stimuli[i].recording || !l->sounds)
             continue;
         s->rate = l->rate;
         s->channels = l->channels;
@@ -218,16 +159,16 @@ static void find_form(struct preparation *p, struct set *s)
 static void look_at_recordings(struct preparation *p, struct set *s)
 {
     for (int i = 0; i < s->n; i++) {
-        struct look *l = &p->looks[i];
-        const char *file = p->design->stimuli[i].recording;
+        struct prepare_look *l = &p->looks[i];
+        const char *file = p->view.design->stimuli[i].recording;
         if (!file)
             continue;
-        l->trial = trial_open();
-        const char *sha256 = shelf_sha256(p->shelf, file, l->trial->arena, &l->trial->e);
+        l->trial = prepare_look_open();
+        const char *sha256 = shelf_sha256(p->view.shelf, file, l->trial->arena, &l->trial->e);
         if (sha256)
             hash_add(&p->scenes, sha256, HASH_TEXT);
         if (!sha256 || !recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e))
-            design_scene_recording(p->design, i, &l->trial->e);
+            design_scene_recording(p->view.design, i, &l->trial->e);
         settle(p, i, l);
         l->cost = fmax(1, 1000 * l->seconds * s->rate);
         l->rate = s->rate;
@@ -237,17 +178,48 @@ static void look_at_recordings(struct preparation *p, struct set *s)
     }
 }
 
+static void look_at_levels_of_recordings(struct preparation *p, const struct set *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        struct prepare_look *l = &p->looks[i];
+        const char *file = p->view.design->stimuli[i].recording;
+        if (!file || l->fault)
+            continue;
+        l->trial = prepare_look_open();
+        if (!recording_check_level(file, s, &l->trial->e))
+            design_scene_recording(p->view.design, i, &l->trial->e);
+        settle(p, i, l);
+    }
+}
+
+static double seconds_of(const struct set *s, const struct prepare_look *l)
+{
+    return isnan(s->length) ? l->seconds : s->length;
+}
+
+/* Of a common loudness one that is long enough is enough. */
+static bool may_be_short(const struct preparation *p, const struct set *s)
+{
+    for (int i = 0; i < s->n && s->level_rule == DESIGN_LEVEL_COMMON; i++) {
+        const struct prepare_look *l = &p->looks[p->first[i]];
+        if (!p->view.design->stimuli[i].recording && l->sounds && !prepare_look_is_short(l, seconds_of(s, l)))
+            return false;
+    }
+    return true;
+}
+
 /* Found out before anything is rendered, too: what keeps one of them from its level, which depends on the set's length. */
 static void look_at_levels(struct preparation *p, const struct set *s)
 {
-    for (int i = 0; i < s->n; i++) {
-        struct look *l = &p->looks[i];
-        const char *file = p->design->stimuli[i].recording;
-        if (!file || l->fault)
+    look_at_levels_of_recordings(p, s);
+    for (int i = 0, some = may_be_short(p, s); some && i < s->n; i++) {
+        struct prepare_look *l = &p->looks[p->first[i]];
+        double seconds = seconds_of(s, l);
+        if (p->view.design->stimuli[i].recording || (p->first[i] == i ? l->fault || !prepare_look_is_short(l, seconds) : !l->brief))
             continue;
-        l->trial = trial_open();
-        if (!recording_check_level(file, s, &l->trial->e))
-            design_scene_recording(p->design, i, &l->trial->e);
+        if (p->first[i] == i)
+            prepare_look_short(&p->view, i, seconds, l);
+        l->brief = true;
         settle(p, i, l);
     }
 }
@@ -257,7 +229,7 @@ static void find_length(const struct preparation *p, struct set *s)
     double longest = 0;
     for (int i = 0; i < s->n; i++)
         longest = fmax(longest, p->looks[p->first[i]].seconds);
-    if (p->design->length_rule == DESIGN_LENGTH_LONGEST)
+    if (p->view.design->length_rule == DESIGN_LENGTH_LONGEST)
         s->length = longest;
 }
 
@@ -265,8 +237,8 @@ static void add_up(const struct preparation *p, struct set *s)
 {
     struct prepare *o = p->out;
     for (int i = 0; i < s->n; i++) {
-        const struct look *l = &p->looks[p->first[i]];
-        double seconds = isnan(s->length) ? l->seconds : s->length, samples = l->sounds ? seconds * l->rate * l->channels : 0;
+        const struct prepare_look *l = &p->looks[p->first[i]];
+        double seconds = seconds_of(s, l), samples = l->sounds ? seconds * l->rate * l->channels : 0;
         s->rows[i].cost = fmax(1, l->seconds > 0 ? l->cost * seconds / l->seconds : l->cost);
         o->lengths[i] = seconds;
         o->seconds += l->sounds ? seconds : 0;
@@ -292,17 +264,13 @@ static bool tell(const struct prepare *p, const struct set *s, const char *folde
 
 bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *out, struct err *e)
 {
-    struct preparation p = {.design = ask->design, .shelf = ask->shelf, .set = s, .looks = ARENA_TAKE(a, struct look, s->n), .first = ARENA_TAKE(a, int, s->n), .out = out, .arena = a,
-                            .spare = spare_open(ask->design, a), .scenes = hash_start()};
+    struct preparation p = {.view = {ask->design, s, ask->shelf}, .looks = ARENA_TAKE(a, struct prepare_look, s->n), .first = ARENA_TAKE(a, int, s->n),
+                            .now = ARENA_TAKE(a, bool, s->n), .out = out, .arena = a, .spare = spare_open(ask->design, a), .scenes = hash_start()};
     *out = (struct prepare){.lengths = ARENA_TAKE(a, double, s->n), .inputs = p.spare};
     find_first(&p);
     hash_add(&p.scenes, ask->design->sha256, HASH_TEXT);
-    int done = pool_run(&(struct pool_work){.n = s->n, .threads = ask->threads, .context = &p, .job = look, .took = took});
-    for (int i = 0; i < s->n; i++)
-        if (p.looks[i].trial)
-            arena_close(p.looks[i].trial->arena);
-    if (done < s->n)
-        return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+    if (!look_at_all(&p, ask->threads, e) || (find_drawn(&p) && !look_at_all(&p, ask->threads, e)))
+        return false;
     find_form(&p, s);
     look_at_recordings(&p, s);
     char *sha256 = arena_take(a, HASH_TEXT, 1);

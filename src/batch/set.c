@@ -52,6 +52,16 @@ bool set_waits(const struct set *s)
     return s->level_rule == DESIGN_LEVEL_COMMON && isnan(s->level.full_scale) && isnan(s->level.dbfs_at_1_pa);
 }
 
+void set_lay(const struct set *s, struct scene *over)
+{
+    if (!isnan(s->length))
+        over->output.duration = s->length;
+    if (s->level_rule != DESIGN_LEVEL_SCENE)
+        over->output.level = s->level;
+    if (set_waits(s))
+        over->output.level = (struct level){.full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
+}
+
 const char *set_level_text(const struct set *s, struct arena *a)
 {
     static const char *const rules[] = {[DESIGN_LEVEL_COMMON] = "common", [DESIGN_LEVEL_EACH] = "each", [DESIGN_LEVEL_SCENE] = "scene"};

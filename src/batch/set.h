@@ -48,6 +48,9 @@ void set_make(const struct design *d, const char *build, struct arena *a, struct
 /* Does the gain wait for the whole set? */
 bool set_waits(const struct set *s);
 
+/* Lays the set's length and level over a scene of it. A sound that waits for its gain has full_scale 1. */
+void set_lay(const struct set *s, struct scene *over);
+
 /* "common peak -3 dB", for the manifest. */
 const char *set_level_text(const struct set *s, struct arena *a);
 

@@ -14,7 +14,7 @@ struct search {
     struct sound *sounds;
     int n, found;            /* found: stimuli that differ in some factor from the first of their group */
     bool *factors;           /* [n_factors] that they differ in */
-    const struct sound *pair[2]; /* the first in the design */
+    const struct sound *pair[2], *replicates[2]; /* the first in the design: of these, and of a cell's; NULL: none */
 };
 
 static bool gather(struct search *s, struct err *e)
@@ -52,9 +52,11 @@ static void compare(struct search *s, const struct sound *first, const struct so
             differ = s->factors[k] = true;
     if (differ && (!s->found++ || first->row < s->pair[0]->row))
         s->pair[0] = first, s->pair[1] = other;
+    if (!differ && (!s->replicates[0] || first->row < s->replicates[0]->row))
+        s->replicates[0] = first, s->replicates[1] = other;
 }
 
-static const char *tell(const struct search *s, struct arena *a)
+static const char *tell_factors(const struct search *s, struct arena *a)
 {
     const struct set *set = s->all->set;
     const char *names = "";
@@ -63,6 +65,16 @@ static const char *tell(const struct search *s, struct arena *a)
             names = arena_format(a, "%s%s%s", names, *names ? ", " : "", set->factors[k].name);
     return arena_format(a, "%d of %d sounds %s the very samples of another one that differs in %s (%s and %s): what the factor's levels set has no effect there", s->found, s->n,
                         s->found == 1 ? "has" : "have", names, set->rows[s->pair[0]->row].name, set->rows[s->pair[1]->row].name);
+}
+
+static const char *tell(const struct search *s, struct arena *a)
+{
+    const struct set_row *rows = s->all->set->rows;
+    const char *text = s->found ? tell_factors(s, a) : "";
+    if (!s->replicates[0])
+        return text;
+    return arena_format(a, "%s%sreplicates have the very samples of each other (%s and %s): nothing is random there, and one would do", text, *text ? "; " : "",
+                        rows[s->replicates[0]->row].name, rows[s->replicates[1]->row].name);
 }
 
 bool unheard_find(const struct results *all, struct arena *a, const char **text, struct err *e)
@@ -79,7 +91,6 @@ bool unheard_find(const struct results *all, struct arena *a, const char **text,
         else
             compare(&s, &s.sounds[first], &s.sounds[i]);
     }
-    if (s.found)
-        *text = tell(&s, a);
+    *text = tell(&s, a);
     return true;
 }

@@ -1,21 +1,28 @@
 /* See check_design.h. What rasp batch finds out before it renders anything, and what it leaves to the rendering: whether a promised error can be kept. */
 #include "cmd/check_design.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "batch/batch.h"
+#include "batch/pool.h"
 #include "cmd/batch.h"
 #include "cmd/tell.h"
+#include "num/resample.h"
 #include "pipeline/promise.h"
 #include "scene/scene_places.h"
 
-struct broken {             /* promises that cannot be kept */
+struct promises {
+    const struct design *design;
+    struct err **broken;     /* [n_stimuli] by malloc, until it is taken; NULL: kept, or none is made */
     struct prepare_fault *faults;
     int n, stimuli, worst;
+    struct arena *arena;
 };
 
 /* Whether the promise of stimulus i can be kept; its error is told with its place. */
-static bool promise_kept(const struct design *d, int i, struct arena *a, struct err *e)
+static bool is_kept(const struct design *d, int i, struct arena *a, struct err *e)
 {
     struct scene s, kept;
     const char *messages;
@@ -25,36 +32,49 @@ static bool promise_kept(const struct design *d, int i, struct arena *a, struct 
     return ok && (promise_keep(&s, a, &kept, NULL, e) || scene_places_tell(&s, e));
 }
 
-/* Of a cell, with all its replicates. */
-static void note(struct broken *b, const struct design *d, const char *name, const struct err *e, struct arena *a)
+static bool look(void *context, int i)
 {
-    int k = 0;
-    while (k < b->n && strcmp(b->faults[k].err->text, e->text) != 0)
-        k++;
-    if (k == b->n) {
-        struct err *own = ARENA_TAKE(a, struct err, 1);
-        *own = *e;
-        b->faults[b->n++] = (struct prepare_fault){.messages = "", .err = own, .name = name};
-    }
-    b->faults[k].n += d->replicates;
-    b->stimuli += d->replicates;
-    b->worst = (int)e->kind > b->worst ? (int)e->kind : b->worst;
+    struct promises *p = context;
+    struct err e = {0};
+    struct arena *a = arena_open();
+    if (!p->design->stimuli[i].recording && !is_kept(p->design, i, a, &e))
+        *(p->broken[i] = memory_take(sizeof e)) = e;
+    arena_close(a);
+    return true;
 }
 
-/* The first of each cell is looked at: others differ in their noise alone. */
+static void note(struct promises *p, const char *name, const struct err *e)
+{
+    int k = 0;
+    while (k < p->n && strcmp(p->faults[k].err->text, e->text) != 0)
+        k++;
+    if (k == p->n) {
+        struct err *own = ARENA_TAKE(p->arena, struct err, 1);
+        *own = *e;
+        p->faults[p->n++] = (struct prepare_fault){.messages = "", .err = own, .name = name};
+    }
+    p->faults[k].n++;
+    p->stimuli++;
+    p->worst = (int)e->kind > p->worst ? (int)e->kind : p->worst;
+}
+
+static void took(void *context, int i)
+{
+    struct promises *p = context;
+    if (p->broken[i])
+        note(p, p->design->stimuli[i].name, p->broken[i]);
+    free(p->broken[i]);
+    p->broken[i] = NULL;
+}
+
+/* Each is looked at, replicates too: an error is measured with the noise that is there. */
 static bool promises_kept(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
 {
-    struct broken b = {.faults = ARENA_TAKE(c->arena, struct prepare_fault, d->n_stimuli)};
-    for (int i = 0; i < d->n_stimuli; i++) {
-        const struct design_stimulus *x = &d->stimuli[i];
-        struct err cause = {0};
-        struct arena *a = arena_open();
-        if (!x->recording && x->replicate == 1 && !promise_kept(d, i, a, &cause))
-            note(&b, d, x->name, &cause, c->arena);
-        arena_close(a);
-    }
-    batch_tell_faults(c, "check", file, &(struct prepare){.faults = b.faults, .n_faults = b.n});
-    return !b.stimuli || err_set(e, (enum err_kind)b.worst, "%s: %d of %d stimuli cannot be rendered", file, b.stimuli, d->n_stimuli);
+    struct promises p = {.design = d, .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli), .faults = ARENA_TAKE(c->arena, struct prepare_fault, d->n_stimuli), .arena = c->arena};
+    resample_prepare();
+    pool_run(&(struct pool_work){.n = d->n_stimuli, .threads = batch_cores(), .context = &p, .job = look, .took = took});
+    batch_tell_faults(c, "check", file, &(struct prepare){.faults = p.faults, .n_faults = p.n});
+    return !p.stimuli || err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
 }
 
 /* What is wrong is told, and what it comes to is set. */

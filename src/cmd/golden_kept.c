@@ -101,7 +101,7 @@ static struct golden_files in_sums(const struct golden *g, const char *scene, st
 static bool is_kept(const char *name)
 {
     const char *dot = strrchr(name, '.');
-    return *name != '.' && dot && (!strcmp(dot, ".wav") || !strcmp(dot, ".csv"));
+    return *name != '.' && dot && (!strcmp(dot, ".wav") || !strcmp(dot, ".csv") || !strcmp(dot, ".npy"));
 }
 
 /* Sounds and tables in a folder, without hashes; none where there is no such folder. */

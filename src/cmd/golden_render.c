@@ -76,11 +76,11 @@ bool golden_render(const struct golden *g, struct golden_scene *s, int pass, con
 /* What a render writes: no folder in it, and nothing of somebody else's. */
 static void clear(const char *folder)
 {
-    static const char *const endings[] = {".wav", ".csv", ".json", ".yaml"};
+    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", NULL};
     DIR *d = opendir(folder);
     for (struct dirent *entry; d && (entry = readdir(d));) {
         const char *dot = strrchr(entry->d_name, '.');
-        for (int k = 0; k < 4 && dot; k++)
+        for (int k = 0; endings[k] && dot; k++)
             if (!strncmp(entry->d_name, "sound.", 6) && !strcmp(dot, endings[k]))
                 unlinkat(dirfd(d), entry->d_name, 0);
     }

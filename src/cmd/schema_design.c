@@ -39,12 +39,18 @@ static json_t *factors(void)
     return o;
 }
 
-/* Maps whose keys are factors: what `own` says, else labels. */
-static json_t *cells(json_t *own, const char *description)
+/* One label, or several. */
+static json_t *labels(void)
+{
+    return json_pack("{s:[o, o]}", "anyOf", schema_value_plain("text", NULL), schema_value_list(schema_value_plain("text", NULL), 0, 1000000, NULL));
+}
+
+/* Maps whose keys are factors: what `own` says, else a label of the factor, as `label` has it. */
+static json_t *cells(json_t *own, json_t *label, const char *description)
 {
     json_t *entry = schema_value_plain("object", NULL);
     json_object_set_new(entry, "properties", own);
-    json_object_set_new(entry, "additionalProperties", schema_value_plain("text", NULL));
+    json_object_set_new(entry, "additionalProperties", label);
     return schema_value_list(entry, 0, 1000000, description);
 }
 
@@ -97,9 +103,9 @@ json_t *schema_design(struct arena *a)
     json_object_set_new(all, "seed", seed);
     json_object_set_new(all, "set", schema_value_ref("set"));
     json_object_set_new(all, "factors", factors());
-    json_object_set_new(all, "exclude", cells(json_object(), "cells that are left out: those that match all pairs of FACTOR: LABEL"));
-    json_object_set_new(all, "cells", cells(json_object(), "the cells, listed, in place of crossing the factors"));
-    json_object_set_new(all, "recordings", cells(json_pack("{s:o, s:o}", "file", schema_value_plain("text", "a WAV"), "name", schema_value_plain("text", NULL)), "supplied sounds as cells of their own"));
+    json_object_set_new(all, "exclude", cells(json_object(), labels(), "cells that are left out: those that match all pairs of FACTOR: LABEL, or one of its LABELS"));
+    json_object_set_new(all, "cells", cells(json_object(), schema_value_plain("text", NULL), "the cells, listed, in place of crossing the factors"));
+    json_object_set_new(all, "recordings", cells(json_pack("{s:o, s:o}", "file", schema_value_plain("text", "a WAV"), "name", schema_value_plain("text", NULL)), schema_value_plain("text", NULL), "supplied sounds as cells of their own"));
     json_object_set_new(all, "order", order(a));
     add_rest(all, a);
     json_object_set_new(defs, "set", settings(a));

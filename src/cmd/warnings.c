@@ -34,13 +34,17 @@ static bool alike(const char *a, const char *b)
 static struct warning *same(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
 {
     struct warning **w = all, *near = NULL;
-    for (; *w && strcmp((*w)->text, text) != 0; w = &(*w)->next)
-        if (!exact && !near && strcmp((*w)->files[(*w)->n - 1], file) != 0 && alike((*w)->text, text))
+    for (; *w; w = &(*w)->next) {
+        bool told = strcmp((*w)->files[(*w)->n - 1], file) == 0;
+        if (strcmp((*w)->text, text) == 0 && !(told && (*w)->other)) {
+            (*w)->other = false;
+            return *w;
+        }
+        if (!exact && !near && !told && alike((*w)->text, text))
             near = *w;
-    if (*w)
-        return *w;
+    }
     if (near) {
-        near->numbers = true;
+        near->numbers = near->other = true;
         return near;
     }
     *w = ARENA_TAKE(a, struct warning, 1);

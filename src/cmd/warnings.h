@@ -8,7 +8,7 @@
 struct warning {
     const char *text, **files;  /* of the first; files [n] that have it */
     int n, room;
-    bool numbers;               /* some have it with other numbers      */
+    bool numbers, other;        /* some have it with other numbers; so has the last */
     struct warning *next;       /* in the order they came; NULL: last   */
 };
 

@@ -7,6 +7,11 @@
 
 #include "base/memory.h"
 
+long loudness_least(double rate)
+{
+    return 4 * (((long)rate + 5) / 10);
+}
+
 struct loudness *loudness_open(int channels, double rate)
 {
     int layout = channels == 1 ? EBUR128_DUAL_MONO : EBUR128_LEFT;

@@ -7,6 +7,9 @@
 
 struct loudness;
 
+/* As many frames are needed: one block of 0.4 s, as libebur128 counts them. */
+long loudness_least(double rate);
+
 struct loudness *loudness_open(int channels, double rate); /* NULL: cannot be set up */
 
 /* Frames [n][channels]; times scale. Blocks below -70 LUFS do not count: bring a sound to peak 1 first. */

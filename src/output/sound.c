@@ -75,6 +75,13 @@ static bool meter_open(struct sound *o, struct err *e)
     return o->meter || err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
 }
 
+bool sound_long_enough(const struct scene *s, long frames, struct err *e)
+{
+    return isnan(s->output.level.lufs) || frames >= loudness_least(s->output.sample_rate) ||
+           err_set(e, ERR_SCENE, "output.level.lufs: BS.1770 loudness needs 0.4 s, and the sound is %.3g s long: use output.level.rms or output.level.peak",
+                   (double)frames / s->output.sample_rate);
+}
+
 struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e)
 {
     struct sound *o = ARENA_TAKE(a, struct sound, 1);
@@ -85,7 +92,7 @@ struct sound *sound_open(const struct scene *s, const char *path, long frames, s
         err_set(e, ERR_SCENE, "output.channels: each of the %d listening places is a channel of its own: leave output.channels out", f.places);
         return NULL;
     }
-    if (!track_open(&o->track, path, &f, gain, a, e))
+    if (!sound_long_enough(s, frames, e) || !track_open(&o->track, path, &f, gain, a, e))
         return NULL;
     if (meter_open(o, e) && (f.waits || note(o, gain, e)))
         return o;

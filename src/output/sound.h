@@ -31,7 +31,11 @@ double sound_known_gain(const struct scene *s);
 /* The WAV's comment at that gain, ended by a 0. */
 void sound_comment(const struct scene *s, double gain, char text[80]);
 
-/* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. ERR_SCENE: channels that do not go together. */
+/* Has a sound of so many frames the length that its level asks for? Anything has but for a loudness. ERR_SCENE */
+bool sound_long_enough(const struct scene *s, long frames, struct err *e);
+
+/* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. ERR_SCENE: channels that do not go together, or
+   sound_long_enough. */
 struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e);
 
 /* The next n frames (quantity units), interleaved; they are ramped in place. */

@@ -2,6 +2,7 @@
 #include "pipeline/plan_scene.h"
 
 #include "base/memory.h"
+#include "output/sound.h"
 #include "pipeline/inputs.h"
 #include "pipeline/render_parts.h"
 #include "scene/accuracy.h"
@@ -34,7 +35,7 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err
     struct render_parts p = render_parts_make(s, "", a);
     struct plan *plans = ARENA_TAKE(a, struct plan, s->n_contacts);
     struct render_length length;
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &length, e))
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &length, e) || (p.asked & ITEM_BIT(ITEM_SOUND) && !sound_long_enough(s, length.frames, e)))
         return NULL;
     for (int i = 0; i < s->n_contacts; i++)
         plans[i] = p.parts[i].plan;

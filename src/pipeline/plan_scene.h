@@ -14,7 +14,7 @@ struct plan_scene_estimate {
     bool sounds;             /* there is a WAV */
 };
 
-/* How long the render will be and what it will cost; as plan_scene otherwise. */
+/* How long the render will be and what it will cost; as plan_scene otherwise, but a sound that is too short for its level is none of its errors. */
 bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e);
 
 /* The knobs of scene/accuracy.def that some contact's plan depends on: as the scene stands, or in one of the presets (which may choose other engines; one that

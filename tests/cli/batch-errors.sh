@@ -72,7 +72,7 @@ code rasp batch still.yaml -o still | sed 's/; full_scale.*//'
 echo 'level: {each: {rms: -30}}' >> still.yaml
 code rasp batch still.yaml -o silent
 columns silent/manifest.csv stimulus_id status
-sed 's/level:.*/level: {each: {lufs: -30}}/; s/base: tiny.yaml/&\nset: {surface.response: zero.csv}/' still.yaml > none.yaml
+sed 's/level:.*/level: {each: {lufs: -30}}/; s/base: tiny.yaml/&\nset: {surface.response: zero.csv, output.tail: 0.2 s}/' still.yaml > none.yaml
 sed 's/,60,1,0/,60,0,0/' modes.csv > zero.csv
 code rasp batch none.yaml -o none
 sed 's/still.wav/gone.wav/' still.yaml > gone.yaml
@@ -104,3 +104,16 @@ echo x >> lost/.rasp/raw/low_200ms.wav
 code rasp merge lost
 rasp batch six.yaml -o parts --shard 1/2 -q
 code rasp merge parts
+echo "-- files are named as they are, and a manifest does not say in which folder it was made"
+mkdir layout
+sed 's|: modes.csv|: ../modes.csv|' tiny.yaml > layout/b.yaml
+printf '%s\n' 'rasp-design: 1' 'base: b.yaml' 'set: {motion.path: back_and_forth}' 'factors: {motion.rate: [4 Hz, 8 Hz]}' 'level: {common: {full_scale: 1e-9 m/s}}' > layout/d.yaml
+code rasp batch layout/d.yaml -o out -q | sed 's/frame .*/.../'
+columns out/manifest.csv error | sed 's/frame .*/.../'
+(cd layout && code rasp batch ../layout/d.yaml -o . -q | sed 's/frame .*/.../' | head -n 1)
+sed -i 's/full_scale: .*/rms: -1 dB}}/' layout/d.yaml
+for folder in q1 q22; do code rasp batch layout/d.yaml -o $folder -q | sed 's/frame .*/.../'; done
+for i in 1 2; do rasp batch layout/d.yaml -o parts3 -q --shard $i/2; done
+code rasp merge parts3 -q | sed 's/frame .*/.../'
+cmp q1/manifest.csv q22/manifest.csv
+cmp q1/manifest.csv parts3/manifest.csv

@@ -22,3 +22,10 @@ design '  scraper.mass: [10 g, 30 g]' '  motion.rate: [1 Hz, 3 Hz]' 'replicates:
 code rasp batch set.yaml -o four
 design '  kind: [{label: made}, {label: real}]' 'cells: [{kind: made}]' 'recordings: [{file: four/10g_1Hz_r1.wav, kind: real, name: r}, {file: four/10g_1Hz_r1.wav, kind: made, name: s}]'
 code rasp batch set.yaml -o five
+echo "-- replicates of scenes in which nothing is random; with a factor that is not heard"
+printf '%s\n' 'rasp: 1' 'surface: {response: modes.csv, material: glass}' 'scraper: {mass: 4 g, radius: 5 mm, material: steel}' 'motion: {path: still, duration: 0.1 s}' 'contact: {model: strike, strike: {speed: 1 m/s}}' \
+    'output: {tail: 0.1 s}' > tiny.yaml
+design '  contact.strike.speed: [1 m/s, 2 m/s]' 'replicates: 3'
+code rasp batch set.yaml -o six
+design '  title: [x, y]' 'replicates: 2'
+code rasp batch set.yaml -o seven

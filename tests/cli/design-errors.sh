@@ -71,6 +71,8 @@ sed 's/^rasp-design: 1/rasp-design: 2/; s/^base.*/bass: x/' scenes.yaml > later.
 tell check later.yaml
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors:' '  output.level.peak: [-3 dB, -6 dB, -9 dB]' '  motion.rate: [1 Hz, 2 Hz, 3 Hz]' > peaks.yaml
 tell check peaks.yaml
-# Promises that cannot be kept: each once, with its place; what is wrong in the noise alone is of all replicates.
+printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors:' '  motion.rate: [2 Hz, 1 Hz, 2.0 Hz, 1000 mHz]' '  scraper.mass: [{label: "20 g", value: 20 g}, {label: 0.02 kg, value: 20 g}, {label: light, value: 20 g}]' '  tip: [{label: 1 mm}, {label: 0.1 cm}]' > equal.yaml
+tell check equal.yaml
+# Promises that cannot be kept: each once, with its place.
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'replicates: 2' 'order: {seed: 3}' 'factors:' '  accuracy.error: [-40 dB, -200 dB, -210 dB]' '  motion.rate: [1 Hz, 2 Hz]' 'exclude: [{accuracy.error: -40 dB, motion.rate: 1 Hz}]' > promises.yaml
 tell check promises.yaml

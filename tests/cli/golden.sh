@@ -62,3 +62,15 @@ printf 'bad.yaml\ngone.yaml\nforces.yaml\n' > bad.txt
 try rasp golden check bad.txt --tap
 try rasp golden update gone.yaml --kept none
 ls -d none 2> /dev/null || echo "nothing was written"
+echo "-- tables as NPY"
+sed 's/rate: 1 kHz/rate: 1 kHz, format: npy/' forces.yaml > arrays.yaml
+export TMPDIR=$PWD/scratch
+mkdir scratch
+try rasp golden update arrays.yaml --kept arrays
+try rasp golden check arrays.yaml --kept arrays --effective
+flip arrays/arrays/sound.npy 1003
+try rasp golden check arrays.yaml --kept arrays
+touch arrays/stray.npy
+echo arrays.yaml > arrays.txt
+try rasp golden check arrays.txt --kept arrays -q
+ls -A scratch

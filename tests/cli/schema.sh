@@ -7,6 +7,7 @@ mkdir starters effective mutants
 rasp new --list | while read -r name _; do rasp new "$name" -o "starters/$name.yaml"; done
 rasp explain > starters/reference.yaml
 for scene in "$ROOT"/scenes/*.yaml; do rasp explain "$scene" > "effective/${scene##*/}"; done
+printf '%s\n' 'rasp-design: 1' 'base: a.yaml' 'factors: {motion.rate: [1 Hz, 2 Hz, 3 Hz], scraper.mass: [10 g, 20 g]}' 'exclude: [{motion.rate: [1 Hz, 3 Hz], scraper.mass: 10 g}]' > starters/excluding.yaml
 cat > validate.py <<'X'
 import copy, glob, json, os, re
 import jsonschema, yaml

@@ -68,6 +68,24 @@ START_TEST(test_one_file)
 }
 END_TEST
 
+/* What it tells with the numbers of an earlier file counts as told by that one, which is not lost when its own come, too. */
+START_TEST(test_crossed)
+{
+    a = arena_open();
+    add("a", "lifts off for 1 s", false);
+    add("a", "lifts off for 2 s", false);
+    add("b", "lifts off for 3 s", false);
+    add("b", "lifts off for 1 s", false);
+    ck_assert_str_eq(listed(), "lifts off for 1 s+ [a b]; lifts off for 2 s+ [a b]");
+    add("a", "lifts off for 1 s", false);
+    add("b", "lifts off for 3 s", false);
+    add("b", "lifts off for 1 s", false);
+    add("b", "lifts off for 1 s", false);
+    ck_assert_str_eq(listed(), "lifts off for 1 s+ [a b]; lifts off for 1 s [b]");
+    arena_close(a);
+}
+END_TEST
+
 START_TEST(test_names)
 {
     a = arena_open();
@@ -81,4 +99,4 @@ START_TEST(test_names)
 }
 END_TEST
 
-UNIT("warnings", test_the_same, test_other_numbers, test_one_file, test_names)
+UNIT("warnings", test_the_same, test_other_numbers, test_one_file, test_crossed, test_names)

@@ -1,0 +1,44 @@
+/* One stimulus, looked at before anything of its set is rendered: its scene is read, its inputs are opened, its length and cost are known. */
+#ifndef BATCH_PREPARE_LOOK_H
+#define BATCH_PREPARE_LOOK_H
+#include "base/shelf.h"
+#include "batch/design.h"
+#include "batch/set.h"
+
+struct prepare_trial {       /* of one scene, until it is taken; it lies in its own arena */
+    struct arena *arena;
+    const struct diag *diag;
+    const char *messages;    /* as of scene_read */
+    struct scene scene;
+    char sha256[HASH_TEXT];  /* of what the scene means */
+    struct err e;            /* none: it can be rendered */
+};
+
+struct prepare_look {
+    struct prepare_trial *trial; /* NULL: not begun, or taken */
+    int fault;               /* from 1; 0: it can be rendered */
+    double seconds, cost, rate, ramp;
+    int channels, encoding, bits;
+    bool sounds, loud;       /* loud: its level is a loudness */
+    bool brief;              /* found to be too short for that */
+    bool drawn;              /* its seed says where it goes, too, as a scribble's does: replicates differ in more than their noise */
+};
+
+struct prepare_view {        /* what all stimuli are looked at with */
+    const struct design *design;
+    const struct set *set;
+    struct shelf *shelf;
+};
+
+struct prepare_trial *prepare_look_open(void); /* empty; arena_close(its arena) ends it */
+
+/* Fills in a stimulus that is no recording; l->trial says what is wrong with it. */
+void prepare_look_at(const struct prepare_view *v, int i, struct prepare_look *l);
+
+/* Is a sound of so many seconds, looked at before, too short for the loudness that is asked of it? */
+bool prepare_look_is_short(const struct prepare_look *l, double seconds);
+
+/* Then l->trial says so. */
+void prepare_look_short(const struct prepare_view *v, int i, double seconds, struct prepare_look *l);
+
+#endif
