@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/relpath.h"
+#include "base/watch.h"
 
 enum state { MAKING, THERE, GONE /* its making failed */ };
 
@@ -65,18 +66,12 @@ void shelf_close(struct shelf *s)
     free(s);
 }
 
-static bool unchanged(const struct stat *a, const struct stat *b)
-{
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec &&
-           a->st_ctim.tv_sec == b->st_ctim.tv_sec && a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
-}
-
 /* Waits where another makes it. NULL: nobody has. */
 static const struct entry *find(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
 {
     const char *key = ask->key ? ask->key : "";
     for (struct entry *x = s->entries; x; x = x->next) {
-        if (x->kind != ask->kind || x->state == GONE || !unchanged(&x->status, status) || strcmp(x->file, ask->file) != 0 || strcmp(x->key, key) != 0)
+        if (x->kind != ask->kind || x->state == GONE || !watch_same(&x->status, status) || strcmp(x->file, ask->file) != 0 || strcmp(x->key, key) != 0)
             continue;
         while (x->state == MAKING)
             pthread_cond_wait(&s->made, &s->lock);
@@ -134,7 +129,7 @@ const char *shelf_changed(struct shelf *s, struct arena *a)
     pthread_mutex_lock(&s->lock);
     for (const struct entry *x = s->entries; x && !file; x = x->next) {
         struct stat now;
-        if (stat(x->file, &now) != 0 || !unchanged(&x->status, &now))
+        if (stat(x->file, &now) != 0 || !watch_same(&x->status, &now))
             file = relpath_make(x->file, NULL, a);
     }
     pthread_mutex_unlock(&s->lock);

@@ -249,7 +249,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
     if (!prepare_set(&(struct prepare_ask){&r->design, ask->threads, shelf, ask->folder, &ask->shard}, a, &r->set, &r->prepare, e))
         return false;
     struct batch b = {.ask = ask, .report = r, .arena = a, .kit = {.design = &r->design, .set = &r->set, .folder = ask->folder, .shelf = shelf, .force = ask->force},
-                      .claim = {ask->folder, ask->design, r->set.sha256, ask->replace}};
+                      .claim = {ask->folder, ask->design, r->set.sha256, ask->build, ask->replace}};
     r->outcomes = ARENA_TAKE(a, struct outcome, r->set.n);
     divide(&b);
     return ask->dry ? !ask->folder || claim_look(&b.claim, a, e) : render(&b, e);

@@ -12,11 +12,12 @@
 #include "base/relpath.h"
 #include "batch/folder.h"
 
-enum { MOST = 4096 + HASH_TEXT /* bytes of the file */ };
+enum { MOST = 4096 + 256 + HASH_TEXT /* bytes of the file */ };
 
 struct owner {
     char text[MOST + 1];
     const char *sha256, *place;  /* in text; NULL: the file is not there, or not whole */
+    const char *build;           /* "": an earlier program's, which did not say it */
 };
 
 static void parse(struct owner *o, ssize_t n)
@@ -27,6 +28,10 @@ static void parse(struct owner *o, ssize_t n)
     o->text[HASH_TEXT - 1] = o->text[n - 1] = '\0';
     o->sha256 = o->text;
     o->place = o->text + HASH_TEXT;
+    char *end = strrchr(o->text + HASH_TEXT, '\n');
+    o->build = end ? end + 1 : "";
+    if (end)
+        *end = '\0';
 }
 
 static const char *place_of(const struct claim *c, struct arena *a)
@@ -62,21 +67,21 @@ bool claim_look(const struct claim *c, struct arena *a, struct err *e)
 /* Enters, and sees whether that is alone. */
 static bool enter(const struct claim *c, const struct owner *o, int *entered, struct err *e)
 {
-    bool same = o->sha256 && !strcmp(o->sha256, c->sha256);
+    bool same = o->sha256 && !strcmp(o->sha256, c->sha256) && !strcmp(o->build, c->build);
     *entered = folder_enter(c->folder);
     if (same || *entered < 0)
         return true;
     if (folder_is_mine(*entered) && flock(*entered, LOCK_SH) == 0)
         return true;
-    return err_set(e, ERR_CREATE, "%s: another rasp is at work in it, for another design or an earlier state of this one: wait until it has ended, or choose another folder with -o",
+    return err_set(e, ERR_CREATE, "%s: another rasp is at work in it, for another design, an earlier state of this one, or of another version: wait until it has ended, or choose another folder with -o",
                    c->folder);
 }
 
 static bool note(const struct claim *c, const struct owner *o, int fd, struct arena *a, struct err *e)
 {
-    const char *place = place_of(c, a), *text = arena_format(a, "%s\n%s\n", c->sha256, place);
+    const char *place = place_of(c, a), *text = arena_format(a, "%s\n%s\n%s\n", c->sha256, place, c->build);
     size_t n = strlen(text);
-    if (o->sha256 && !strcmp(o->sha256, c->sha256) && !strcmp(o->place, place))
+    if (o->sha256 && !strcmp(o->sha256, c->sha256) && !strcmp(o->place, place) && !strcmp(o->build, c->build))
         return true;
     if (n > MOST)
         return err_set(e, ERR_CREATE, "%s: the path is too long", c->design);
@@ -86,17 +91,39 @@ static bool note(const struct claim *c, const struct owner *o, int fd, struct ar
     return err_set(e, err_system(ERR_CREATE), "%s/.rasp/design: cannot be written: %s", c->folder, strerror(errno));
 }
 
+/* The file, locked until it is closed. -1: *e */
+static int open_owner(const struct claim *c, struct arena *a, struct owner *o, struct err *e)
+{
+    const char *path = arena_format(a, "%s/.rasp/design", c->folder);
+    int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0) {
+        err_set(e, err_system(ERR_CREATE), "%s: cannot be written: %s", path, strerror(errno));
+        return -1;
+    }
+    flock(fd, LOCK_EX); /* where there are no locks, two that begin at once are not told apart */
+    parse(o, pread(fd, o->text, MOST, 0));
+    return fd;
+}
+
 bool claim_enter(const struct claim *c, struct arena *a, int *entered, struct err *e)
 {
     struct owner o;
-    const char *path = arena_format(a, "%s/.rasp/design", c->folder);
     *entered = -1;
-    int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (fd < 0)
-        return err_set(e, err_system(ERR_CREATE), "%s: cannot be written: %s", path, strerror(errno));
-    flock(fd, LOCK_EX); /* where there are no locks, two that begin at once are not told apart */
-    parse(&o, pread(fd, o.text, MOST, 0));
-    bool ok = is_free(c, &o, a, e) && enter(c, &o, entered, e) && note(c, &o, fd, a, e);
-    close(fd);
+    int fd = open_owner(c, a, &o, e);
+    bool ok = fd >= 0 && is_free(c, &o, a, e) && enter(c, &o, entered, e) && note(c, &o, fd, a, e);
+    if (fd >= 0)
+        close(fd);
+    return ok;
+}
+
+bool claim_join(const struct claim *c, struct arena *a, int *entered, struct err *e)
+{
+    struct owner o;
+    *entered = -1;
+    int fd = open_owner(c, a, &o, e);
+    bool ok = fd >= 0 && (!o.sha256 || !strcmp(o.sha256, c->sha256) || err_set(e, ERR_INPUT, "%s: holds another state of the set by now than its shards: run the shards again", c->folder)) &&
+              enter(c, &o, entered, e);
+    if (fd >= 0)
+        close(fd);
     return ok;
 }

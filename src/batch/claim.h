@@ -1,4 +1,4 @@
-/* Whose set a folder holds: DIR/.rasp/design, the hash of the design on the first line, on the second where the design lies, seen from the folder.
+/* Whose set a folder holds: DIR/.rasp/design, the hash of the design on the first line, on the second where the design lies, seen from the folder, on the third which program rendered it.
 
    A design is known by its file: edited, it is the same design, and its set goes on from what is there. It is known by its hash, too (struct set): moved, renamed or copied with the
    scenes and files that it builds on, it is the same. Any other is refused, for it would replace tables and stimuli of a set that is not its own. */
@@ -12,12 +12,16 @@
 struct claim {
     const char *folder, *design; /* the design's file, seen from here                                     */
     const char *sha256;          /* of struct set                                                         */
+    const char *build;           /* of the program                                                          */
     bool replace;                /* another design's folder is taken over; nothing of it is removed by that */
 };
 
-/* folder_enter, unless the folder is another design's, or other programs work in it for another state of this one. Those of the same state share it.
+/* folder_enter, unless the folder is another design's, or other programs work in it for another state of this one, or of another build. Those of the same state share it.
    folder_make was called. *entered is set in any case. ERR_CREATE */
 bool claim_enter(const struct claim *c, struct arena *a, int *entered, struct err *e);
+
+/* The same for a merge, which knows no design's file: the folder must hold this state of the set, or say nothing. ERR_CREATE; ERR_INPUT: it holds another by now */
+bool claim_join(const struct claim *c, struct arena *a, int *entered, struct err *e);
 
 /* Would it be let in? Writes nothing; the folder need not be there. ERR_CREATE */
 bool claim_look(const struct claim *c, struct arena *a, struct err *e);

@@ -11,6 +11,7 @@
 #include "batch/folder.h"
 #include "batch/level.h"
 #include "batch/pool.h"
+#include "batch/shard.h"
 #include "batch/sums.h"
 #include "batch/unheard.h"
 
@@ -193,16 +194,18 @@ static bool settle(struct finish *f, bool complete, struct err *e)
     int n = s->n + f->left.n;
     struct journal_ref *records = ARENA_TAKE(f->arena, struct journal_ref, n);
     const char **names = ARENA_TAKE(f->arena, const char *, s->n);
+    for (int i = 0; i < f->left.n; i++) /* before the set's: the later a record stands, the newer it is */
+        records[i] = f->left.refs[i];
     for (int i = 0; i < s->n; i++) {
-        records[i] = f->results.of[i].record;
+        records[f->left.n + i] = f->results.of[i].record;
         names[i] = s->rows[i].name;
     }
-    for (int i = s->n; i < n; i++)
-        records[i] = f->left.refs[i - s->n];
     if (!journal_settle(f->kit->journal, records, n, e))
         return false;
-    if (folder_is_mine(f->entered))
+    if (folder_is_mine(f->entered)) {
+        shard_sweep(f->kit->folder);
         folder_sweep(f->kit->folder, names, s->n, complete);
+    }
     return true;
 }
 

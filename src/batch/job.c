@@ -11,6 +11,7 @@
 #include "batch/folder.h"
 #include "batch/measure.h"
 #include "batch/recording.h"
+#include "pipeline/inputs.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
 #include "scene/scene_places.h"
@@ -235,6 +236,7 @@ bool job_do(const struct job_kit *k, int i, struct arena *a, struct job_result *
         return recording_do(k, i, a, result, e);
     if (!job_scene(k, i, a, &s, e))
         return false;
+    struct watch inputs = inputs_watch(&s, a);
     const char *effective = outputs_effective(&s, k->design->file, a);
     const char *key = job_hash((const char *const[]){"stimulus", row->name, k->set->build, set_waits(k->set) ? "waits" : "", effective}, 5, a);
     *r = (struct record){.name = row->name, .key = key, .job = set_waits(k->set) ? NULL : key, .build = k->set->build, .place = place_of(k, a)};
@@ -242,7 +244,7 @@ bool job_do(const struct job_kit *k, int i, struct arena *a, struct job_result *
     result->kept = result->record != NULL;
     if (result->kept)
         return true;
-    if (!render(k, &s, r, a, e) || !journal_add(k->journal, r, &result->ref, e))
+    if (!render(k, &s, r, a, e) || (!inputs_still(&inputs, e) && !scene_places_tell(&s, e)) || !journal_add(k->journal, r, &result->ref, e))
         return false;
     result->record = r;
     return true;

@@ -175,20 +175,33 @@ static bool is_of(const struct record *r, const char *hash)
     return !strcmp(r->key, hash) || (r->job && !strcmp(r->job, hash));
 }
 
-const struct record *journal_find(struct journal *j, const char *hash, bool waits, struct arena *a, struct journal_ref *ref)
+const struct record *journal_find_such(struct journal *j, const struct journal_wish *wish, struct arena *a, struct journal_ref *ref)
 {
     struct err unreadable = {0};
     char kept[HASH_KEPT];
-    *ref = (struct journal_ref){0};
-    keep_hash(kept, hash);
-    for (int i = first_of(j, kept); i < j->n && !memcmp(j->entries[i].hash, kept, HASH_KEPT); i++)
-        if (j->entries[i].waits == waits)
-            *ref = j->entries[i].ref;
-    const struct record *found = ref->size ? journal_read(j, *ref, a, &unreadable) : NULL;
-    if (found && is_of(found, hash))
-        return found;
+    keep_hash(kept, wish->hash);
+    int begin = first_of(j, kept), end = begin;
+    while (end < j->n && !memcmp(j->entries[end].hash, kept, HASH_KEPT))
+        end++;
+    for (int i = end - 1; i >= begin; i--) {
+        *ref = j->entries[i].ref;
+        const struct record *found = j->entries[i].waits == wish->waits ? journal_read(j, *ref, a, &unreadable) : NULL;
+        if (found && is_of(found, wish->hash) && wish->good(wish->context, found, a))
+            return found;
+    }
     *ref = (struct journal_ref){0};
     return NULL;
+}
+
+static bool any(const void *context, const struct record *r, struct arena *a)
+{
+    (void)context, (void)r, (void)a;
+    return true;
+}
+
+const struct record *journal_find(struct journal *j, const char *hash, bool waits, struct arena *a, struct journal_ref *ref)
+{
+    return journal_find_such(j, &(struct journal_wish){hash, waits, any, NULL}, a, ref);
 }
 
 bool journal_each(struct journal *j, void (*take)(void *context, const struct record *r, struct journal_ref ref), void *context, struct err *e)

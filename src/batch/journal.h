@@ -23,6 +23,16 @@ struct journal *journal_open(const char *folder, const char *path, struct arena 
 /* The latest record with that key or job hash: of those that are complete, or of those that wait for their gain. NULL: none. Those that are added later are not found. */
 const struct record *journal_find(struct journal *j, const char *hash, bool waits, struct arena *a, struct journal_ref *ref);
 
+struct journal_wish {
+    const char *hash;        /* as of journal_find */
+    bool waits;
+    bool (*good)(const void *context, const struct record *r, struct arena *a);
+    const void *context;
+};
+
+/* The latest one that is good, besides. */
+const struct record *journal_find_such(struct journal *j, const struct journal_wish *wish, struct arena *a, struct journal_ref *ref);
+
 /* From any thread. ERR_IO */
 bool journal_add(struct journal *j, const struct record *r, struct journal_ref *ref, struct err *e);
 

@@ -1,4 +1,4 @@
-/* See leftover.h. What a folder held is in its journal: records of stimuli that are not in the set stay there as long as one of their files does. */
+/* See leftover.h. What a folder held is in its journal: records of stimuli that are not in the set, or are not any more what they were, stay there as long as one of their files does. */
 #include "batch/leftover.h"
 
 #include <stdlib.h>
@@ -11,16 +11,18 @@
 struct found {                   /* a file of a record                              */
     const char *path, *sha256;   /* NULL: of a summary, which differs from run to run */
     int record;                  /* in list.records                                 */
+    long at;                     /* of that record                                  */
     bool ours, there;            /* ours: a stimulus of the set has a file so named */
 };
 
 struct list {
     const struct leftover_ask *ask;
     struct arena *arena;
-    const char **names;          /* of the set, sorted */
-    int n_names;
-    struct old {
+    struct row {
         const char *name;
+        long at;                 /* of its record; -1: it failed, or waits: what it was stays */
+    } *rows;                     /* of the set, by name */
+    struct old {
         struct journal_ref ref;
         bool touched;            /* some file is not as it was written */
     } *records;
@@ -29,16 +31,9 @@ struct list {
     int n_files, files_room;
 };
 
-static int by_text(const void *a, const void *b)
+static int by_name(const void *a, const void *b)
 {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-static int by_record(const void *a, const void *b)
-{
-    const struct old *p = a, *q = b;
-    int names = strcmp(p->name, q->name);
-    return names ? names : (p->ref.at > q->ref.at) - (p->ref.at < q->ref.at);
+    return strcmp(((const struct row *)a)->name, ((const struct row *)b)->name);
 }
 
 static int by_path(const void *a, const void *b)
@@ -46,12 +41,21 @@ static int by_path(const void *a, const void *b)
     return strcmp(((const struct found *)a)->path, ((const struct found *)b)->path);
 }
 
+/* Of one file the latest record first. */
+static int by_path_and_time(const void *a, const void *b)
+{
+    const struct found *p = a, *q = b;
+    int paths = by_path(a, b);
+    return paths ? paths : (p->at < q->at) - (p->at > q->at);
+}
+
 /* ------------------------------------------------------------------ records */
 
 static void take_record(void *context, const struct record *r, struct journal_ref ref)
 {
     struct list *l = context;
-    if (!r->job || bsearch(&r->name, l->names, (size_t)l->n_names, sizeof *l->names, by_text))
+    const struct row *row = bsearch(&(struct row){.name = r->name}, l->rows, (size_t)l->ask->all->set->n, sizeof *row, by_name);
+    if (!r->job || (row && (row->at < 0 || row->at == ref.at)))
         return;
     if (l->n == l->room) {
         struct old *more = ARENA_TAKE(l->arena, struct old, l->room = 2 * l->room + 16);
@@ -59,28 +63,17 @@ static void take_record(void *context, const struct record *r, struct journal_re
             memcpy(more, l->records, (size_t)l->n * sizeof *more);
         l->records = more;
     }
-    l->records[l->n++] = (struct old){arena_text(l->arena, r->name), ref, false};
+    l->records[l->n++] = (struct old){ref, false};
 }
 
-/* Of each name the latest. */
 static bool read_records(struct list *l, struct err *e)
 {
-    const struct set *s = l->ask->all->set;
-    l->names = ARENA_TAKE(l->arena, const char *, s->n);
-    l->n_names = s->n;
-    for (int i = 0; i < s->n; i++)
-        l->names[i] = s->rows[i].name;
-    qsort(l->names, (size_t)s->n, sizeof *l->names, by_text);
-    if (!journal_each(l->ask->all->journal, take_record, l, e))
-        return false;
-    int kept = 0;
-    if (l->n)
-        qsort(l->records, (size_t)l->n, sizeof *l->records, by_record);
-    for (int i = 0; i < l->n; i++)
-        if (i + 1 == l->n || strcmp(l->records[i].name, l->records[i + 1].name) != 0)
-            l->records[kept++] = l->records[i];
-    l->n = kept;
-    return true;
+    const struct results *all = l->ask->all;
+    l->rows = ARENA_TAKE(l->arena, struct row, all->set->n);
+    for (int i = 0; i < all->set->n; i++)
+        l->rows[i] = (struct row){all->set->rows[i].name, all->of[i].record.size && !all->of[i].waits ? all->of[i].record.at : -1};
+    qsort(l->rows, (size_t)all->set->n, sizeof *l->rows, by_name);
+    return journal_each(all->journal, take_record, l, e);
 }
 
 /* ------------------------------------------------------------------ files */
@@ -105,19 +98,25 @@ static bool read_one(struct list *l, int i, struct err *e)
     for (int k = 0; k < n; k++) {
         const struct record_file *f = &r->files[k];
         if (is_within(f->path))
-            l->files[l->n_files++] = (struct found){arena_text(l->arena, f->path), f->sha256 ? arena_text(l->arena, f->sha256) : NULL, i, false, false};
+            l->files[l->n_files++] = (struct found){arena_text(l->arena, f->path), f->sha256 ? arena_text(l->arena, f->sha256) : NULL, i, l->records[i].ref.at, false, false};
     }
     arena_close(a);
     return r != NULL;
 }
 
+/* Each once, of its latest record. */
 static bool read_files(struct list *l, struct err *e)
 {
     for (int i = 0; i < l->n; i++)
         if (!read_one(l, i, e))
             return false;
     if (l->n_files)
-        qsort(l->files, (size_t)l->n_files, sizeof *l->files, by_path);
+        qsort(l->files, (size_t)l->n_files, sizeof *l->files, by_path_and_time);
+    int n = 0;
+    for (int i = 0; i < l->n_files; i++)
+        if (!n || by_path(&l->files[i], &l->files[n - 1]) != 0)
+            l->files[n++] = l->files[i];
+    l->n_files = n;
     return true;
 }
 
@@ -155,12 +154,11 @@ static void look(struct list *l)
 {
     for (int i = 0; i < l->n_files; i++) {
         struct found *f = &l->files[i];
-        bool twice = i && !by_path(f, f - 1);
         char hex[HASH_TEXT];
         struct err unreadable = {0};
         struct arena *a = arena_open();
         const char *path = arena_format(a, "%s/%s", l->ask->folder, f->path);
-        f->there = !twice && !f->ours && is_left(l, path);
+        f->there = !f->ours && is_left(l, path);
         if (f->there && f->sha256 && (!hash_file(path, hex, &unreadable) || strcmp(hex, f->sha256) != 0))
             l->records[f->record].touched = true;
         arena_close(a);
@@ -186,6 +184,12 @@ static int remove_files(struct list *l)
     return n;
 }
 
+static int by_age(const void *a, const void *b)
+{
+    const struct journal_ref *p = a, *q = b;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
 static void gather(const struct list *l, struct leftover *to)
 {
     bool *kept = ARENA_TAKE(l->arena, bool, l->n);
@@ -199,6 +203,7 @@ static void gather(const struct list *l, struct leftover *to)
     for (int i = 0; i < l->n; i++)
         if (kept[i])
             to->refs[to->n++] = l->records[i].ref;
+    qsort(to->refs, (size_t)to->n, sizeof *to->refs, by_age);
 }
 
 bool leftover_find(const struct leftover_ask *ask, struct arena *a, struct leftover *to, struct err *e)

@@ -1,4 +1,4 @@
-/* Files in a set's folder that were of a stimulus once, and are of none of the design as it is now: a level was taken out, a name was changed, another design took the folder over.
+/* Files in a set's folder that were of a stimulus once, and are of none of the design as it is now: a level was taken out, a name was changed, a stem is not asked for any more, another design took the folder over.
    They are told, never removed unless that is asked for. */
 #ifndef BATCH_LEFTOVER_H
 #define BATCH_LEFTOVER_H

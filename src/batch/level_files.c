@@ -126,7 +126,7 @@ static bool read_scene(struct level_files *f, int i, struct err *e)
     const char *messages = "";
     if (!scene_read(f->raw[i], NULL, f->arena, &f->scene, &messages, e))
         return false;
-    f->scene.shelf = f->shelf;
+    f->scene.inputs_known = true; /* it says what the sound was made of */
     f->scene.output.encoding = f->record->encoding;
     f->scene.output.level.full_scale = f->record->full_scale;
     return true;
@@ -169,7 +169,7 @@ static void list(struct level_files *f, const struct record *r)
 
 bool level_files_make(struct level_files *f, const struct job_kit *k, struct record *r, struct arena *a, struct err *e)
 {
-    *f = (struct level_files){.folder = k->folder, .shelf = k->shelf, .record = r, .arena = a};
+    *f = (struct level_files){.folder = k->folder, .record = r, .arena = a};
     list(f, r);
     int scene = find(f, "scene");
     if (scene < 0)

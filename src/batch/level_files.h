@@ -8,7 +8,6 @@
 
 struct level_files {
     const char *folder;
-    struct shelf *shelf;
     const struct record *record;  /* with raw files, and the gain that it gets */
     struct scene scene;           /* as it will be effective */
     struct record_file *made;     /* [n], as they will be */

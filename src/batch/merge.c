@@ -7,22 +7,20 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/shelf.h"
 #include "base/text.h"
+#include "batch/claim.h"
 #include "batch/finish.h"
 #include "batch/folder.h"
 #include "batch/pool.h"
 #include "batch/set_file.h"
 #include "file/csv.h"
 
-enum { SHELF_MOST = 1 << 20 /* bytes; hashes of inputs only */ };
-
 struct merge {
     const char *folder;
     struct arena *arena;
     struct merge_report *report;
     struct job_kit kit;
-    int entered;             /* folder_enter's */
+    int entered;             /* claim_join's */
     const char **files;      /* manifests of shards */
     int n;
     bool *seen;              /* [shards] */
@@ -31,22 +29,10 @@ struct merge {
 
 /* ------------------------------------------------------------------ which shards */
 
-/* "manifest.3-of-7.csv" */
-static bool part_of_name(const char *name, struct shard *s)
-{
-    char text[32];
-    const char *of = strstr(name, "-of-"), *dot = of ? strstr(of, ".csv") : NULL;
-    if (strncmp(name, "manifest.", 9) != 0 || !of || !dot || dot[4] || dot - name > 30)
-        return false;
-    snprintf(text, sizeof text, "%.*s/%.*s", (int)(of - name - 9), name + 9, (int)(dot - of - 4), of + 4);
-    struct err e = {0};
-    return shard_read(text, s, &e);
-}
-
 static int is_part(const struct dirent *d)
 {
     struct shard s;
-    return part_of_name(d->d_name, &s);
+    return shard_of_manifest(d->d_name, &s);
 }
 
 static void find_parts(struct merge *m)
@@ -66,14 +52,14 @@ static bool same_division(struct merge *m, struct err *e)
 {
     struct shard s;
     for (int i = 0; i < m->n; i++) {
-        part_of_name(m->files[i], &s);
+        shard_of_manifest(m->files[i], &s);
         if (m->report->shards && s.n != m->report->shards)
             return err_set(e, ERR_SCENE, "%s: %s and %s are of different divisions of the set: remove those of the one that is out of date", m->folder, m->files[0], m->files[i]);
         m->report->shards = s.n;
     }
     m->seen = ARENA_TAKE(m->arena, bool, m->report->shards + 1);
     for (int i = 0; i < m->n; i++) {
-        part_of_name(m->files[i], &s);
+        shard_of_manifest(m->files[i], &s);
         m->seen[s.i] = true;
     }
     return true;
@@ -167,16 +153,46 @@ static bool read_parts(struct merge *m, struct err *e)
 
 /* ------------------------------------------------------------------ what is there */
 
+static bool is_there(const void *context, const struct record *r, struct arena *a)
+{
+    const struct merge *m = context;
+    return job_is_there(m->folder, r, a);
+}
+
+/* The latest record is not always the one whose files are there: journals of several divisions are read by their names. */
 static bool look(void *context, int i)
 {
     struct merge *m = context;
     struct arena *a = arena_open();
     struct err unreadable = {0};
-    struct journal_ref ref = m->report->outcomes[i].record;
-    const struct record *r = ref.size ? journal_read(m->kit.journal, ref, a, &unreadable) : NULL;
+    struct journal_ref *ref = &m->report->outcomes[i].record, other;
+    const struct record *r = ref->size ? journal_read(m->kit.journal, *ref, a, &unreadable) : NULL;
     m->there[i] = r && job_is_there(m->folder, r, a);
+    if (r && !m->there[i] && journal_find_such(m->kit.journal, &(struct journal_wish){r->job ? r->job : r->key, !r->job, is_there, m}, a, &other)) {
+        m->there[i] = true;
+        *ref = other;
+    }
     arena_close(a);
     return true;
+}
+
+/* Their scenes name files as seen from the folder in which each was made. */
+static bool seen_alike(const struct merge *m, struct err *e)
+{
+    const char *first = NULL;
+    bool ok = true;
+    for (int i = 0; ok && i < m->report->set.n; i++) {
+        struct journal_ref ref = m->report->outcomes[i].record;
+        struct arena *a = arena_open();
+        const struct record *r = ref.size ? journal_read(m->kit.journal, ref, a, e) : NULL;
+        if (r && r->place && first && strcmp(first, r->place) != 0)
+            ok = err_set(e, ERR_INPUT, "%s: its shards were made in folders from which the design was seen as %s and as %s, and their scenes name files so: run those of one kind again here", m->folder,
+                         first, r->place);
+        else if (r && r->place && !first)
+            first = arena_text(m->arena, r->place);
+        arena_close(a);
+    }
+    return ok && !e->kind;
 }
 
 /* "low is missing", "low.wav was changed" */
@@ -210,13 +226,6 @@ static bool all_there(struct merge *m, int threads, struct err *e)
 
 /* ------------------------------------------------------------------ the whole */
 
-static void take_away(struct merge *m)
-{
-    for (int i = 0; i < m->n; i++)
-        unlink(arena_format(m->arena, "%s/%s", m->folder, m->files[i]));
-    unlink(arena_format(m->arena, "%s/.rasp/set.json", m->folder));
-}
-
 static bool judge(struct merge *m, struct err *e)
 {
     struct merge_report *r = m->report;
@@ -233,14 +242,14 @@ static bool judge(struct merge *m, struct err *e)
 static bool join(struct merge *m, int threads, struct err *e)
 {
     struct finish f = {.kit = &m->kit, .results = {&m->report->set, m->report->outcomes, m->kit.journal}, .threads = threads, .entered = m->entered, .arena = m->arena, .anew = true};
-    if (!read_parts(m, e) || !all_there(m, threads, e) || !finish_level(&f, e) || !finish_tables(&f, e))
+    if (!read_parts(m, e) || !all_there(m, threads, e) || !seen_alike(m, e) || !finish_level(&f, e) || !finish_tables(&f, e))
         return false;
     m->report->full_scale = f.full_scale;
     m->report->left = f.left;
     m->report->unheard = f.unheard;
     if (!judge(m, e))
         return false;
-    take_away(m);
+    shard_sweep(m->folder);
     return true;
 }
 
@@ -262,11 +271,9 @@ bool merge_run(const char *folder, int threads, struct arena *a, struct merge_re
     r->outcomes = ARENA_TAKE(a, struct outcome, r->set.n);
     if (!note_missing(&m, e))
         return false;
-    m.entered = folder_enter(folder);
-    m.kit.journal = r->journal = journal_open(folder, arena_format(a, "%s/.rasp/journal", folder), a, e);
-    m.kit.shelf = shelf_open(SHELF_MOST);
-    bool ok = m.kit.journal && join(&m, threads, e);
-    shelf_close(m.kit.shelf);
+    bool ok = claim_join(&(struct claim){.folder = folder, .sha256 = r->set.sha256, .build = r->set.build}, a, &m.entered, e);
+    m.kit.journal = r->journal = ok ? journal_open(folder, arena_format(a, "%s/.rasp/journal", folder), a, e) : NULL;
+    ok = m.kit.journal && join(&m, threads, e);
     folder_leave(m.entered);
     return ok;
 }

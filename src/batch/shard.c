@@ -1,8 +1,11 @@
 /* See shard.h: longest processing time first (Graham 1969). The least loaded shard is kept on top of a heap, ordered by load, then by number. */
 #include "batch/shard.h"
 
+#include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/text.h"
 
@@ -16,6 +19,30 @@ bool shard_read(const char *text, struct shard *s, struct err *e)
     if (slash && n < sizeof left && text_int(slash + 1, 1, SHARD_MOST, &s->n) && text_int(left, 1, s->n, &s->i))
         return true;
     return err_set(e, ERR_USAGE, "--shard %s: write i/n, with n from 1 to %d and i from 1 to n, as in --shard 3/7", text, SHARD_MOST);
+}
+
+bool shard_of_manifest(const char *name, struct shard *s)
+{
+    char text[32];
+    const char *of = strstr(name, "-of-"), *dot = of ? strstr(of, ".csv") : NULL;
+    if (strncmp(name, "manifest.", 9) != 0 || !of || !dot || dot[4] || dot - name > 30)
+        return false;
+    snprintf(text, sizeof text, "%.*s/%.*s", (int)(of - name - 9), name + 9, (int)(dot - of - 4), of + 4);
+    struct err e = {0};
+    return shard_read(text, s, &e);
+}
+
+void shard_sweep(const char *folder)
+{
+    struct shard s;
+    DIR *d = opendir(folder);
+    for (struct dirent *entry; d && (entry = readdir(d));)
+        if (shard_of_manifest(entry->d_name, &s))
+            unlinkat(dirfd(d), entry->d_name, 0);
+    if (d) {
+        unlinkat(dirfd(d), ".rasp/set.json", 0);
+        closedir(d);
+    }
 }
 
 struct dear {

@@ -70,7 +70,8 @@ static int merge_command_run(struct cmd_call *c, struct err *e)
 const struct command merge_command = {
     .name = "merge",
     .summary = "joins the shards of a set",
-    .does = "FOLDER is where all shards of rasp batch --shard went; what was rendered on other machines is copied into it first, with its hidden folder .rasp (rsync -a, cp -r). "
+    .does = "FOLDER is where all shards of rasp batch --shard went; what was rendered on other machines is copied into it first, with its hidden folder .rasp (rsync -a, cp -r), "
+            "out of folders from which the design is seen as it is from here, for scenes name files so. "
             "Checks that all shards are there, of one design and one build of the program, and that every file has the bytes that it had; gives the sounds their common level, if the "
             "design wants one; writes manifest.csv, manifest.json, SHA256SUMS and timings.csv. The folder is then the same as after a batch in one piece, byte for byte but for times. "
             "Shards that are missing are named as a list for a job array, --array=3,17, stimuli by name; the exit code is 66 then.",

@@ -10,6 +10,7 @@
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
+#include "scene/scene_write_inputs.h"
 
 static const char *why_unreadable(const char *file)
 {
@@ -78,4 +79,17 @@ bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
         if (!is_pinned(s, &s->inputs[i], a, e))
             return false;
     return true;
+}
+
+struct watch inputs_watch(const struct scene *s, struct arena *a)
+{
+    int n;
+    const char **files = scene_write_inputs_files(s, &n, a);
+    return watch_begin(files, n, a);
+}
+
+bool inputs_still(const struct watch *w, struct err *e)
+{
+    const char *file = watch_changed(w);
+    return !file || err_set(e, ERR_INPUT, "%s: has changed while the sound was made of it: run the same command again", file);
 }

@@ -178,13 +178,14 @@ bool render_scene(const struct scene *s, const char *base, struct arena *a, stru
 {
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
     struct scene *kept = ARENA_TAKE(a, struct scene, 1);
+    struct watch inputs = inputs_watch(s, a);
     *report = (struct render_report){.quantity = -1};
     if (!promise_keep(s, a, kept, &report->promise, e))
         return false;
     report->accuracy = kept->accuracy;
     struct render r = {.scene = kept, .base = base, .arena = a, .report = report, .parts = render_parts_make(kept, base, a)};
     r.effective.fd = r.summary.fd = -1;
-    bool ok = render_open(&r, e) && render_blocks(&r, e) && render_finish(&r, start, e) && render_settle(&r, e) && render_commit(&r, e);
+    bool ok = render_open(&r, e) && render_blocks(&r, e) && render_finish(&r, start, e) && render_settle(&r, e) && inputs_still(&inputs, e) && render_commit(&r, e);
     render_close(&r);
     return ok;
 }

@@ -385,6 +385,7 @@ struct scene {
     struct accuracy accuracy;
     struct input *inputs;   /* pinned hashes of an effective scene                               */
     int n_inputs;
+    bool inputs_known;      /* they are as these hashes say, whatever the files hold by now          */
     struct scene_place *places;
     const struct diag *diag; /* what is wrong with its text; NULL: nothing is                    */
     struct shelf *shelf;     /* what it shares with other scenes of the files that they read (base/shelf.h); NULL: nothing */

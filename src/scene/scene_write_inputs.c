@@ -88,12 +88,26 @@ static const char *pinned(const struct scene *s, const char *file)
     return NULL;
 }
 
+const char **scene_write_inputs_files(const struct scene *s, int *n, struct arena *a)
+{
+    struct list l = {s, a, NULL, 0, 0};
+    if (!s->inputs_known) {
+        add_keys(&l, false);
+        add_keys(&l, true);
+    }
+    for (int i = 0; i < s->n_inputs; i++)
+        if (s->inputs[i].file)
+            add(&l, s->inputs[i].file);
+    *n = l.n;
+    return l.files;
+}
+
 /* A file that cannot be read keeps the hash it was pinned to; without one it is listed unpinned, with a remark. */
-static void write_input(FILE *f, const struct list *l, const char *file, const char *beside)
+static void write_input(FILE *f, const struct scene *s, const char *file, const char *beside, struct arena *a)
 {
     struct err unreadable = {0};
-    const char *now = shelf_sha256(l->scene->shelf, file, l->arena, &unreadable), *sha256 = now ? now : pinned(l->scene, file);
-    fprintf(f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, beside, l->arena), l->arena));
+    const char *now = s->inputs_known ? NULL : shelf_sha256(s->shelf, file, a, &unreadable), *sha256 = now ? now : pinned(s, file);
+    fprintf(f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, beside, a), a));
     if (sha256)
         fprintf(f, "    sha256: \"%s\"\n", sha256);
     else
@@ -102,14 +116,10 @@ static void write_input(FILE *f, const struct list *l, const char *file, const c
 
 void scene_write_inputs(FILE *f, const struct scene *s, const char *beside, struct arena *a)
 {
-    struct list l = {s, a, NULL, 0, 0};
-    add_keys(&l, false);
-    add_keys(&l, true);
-    for (int i = 0; i < s->n_inputs; i++)
-        if (s->inputs[i].file)
-            add(&l, s->inputs[i].file);
-    if (l.n)
+    int n;
+    const char **files = scene_write_inputs_files(s, &n, a);
+    if (n)
         fputs("inputs:\n", f);
-    for (int i = 0; i < l.n; i++)
-        write_input(f, &l, l.files[i], beside);
+    for (int i = 0; i < n; i++)
+        write_input(f, s, files[i], beside, a);
 }

@@ -7,6 +7,9 @@
 #include "scene/keys.h"
 #include "scene/scene.h"
 
+/* The files, in that order. */
+const char **scene_write_inputs_files(const struct scene *s, int *n, struct arena *a);
+
 /* Writes them to f; file names are relative to the folder `beside`. */
 void scene_write_inputs(FILE *f, const struct scene *s, const char *beside, struct arena *a);
 

@@ -1,0 +1,71 @@
+# Shards and what became of the folder and the design since; files of what a stimulus was before.
+. "$ROOT/tests/cli/batch-make.inc"
+shards() { for part in "$@"; do rasp batch six.yaml -o parts -q --shard "$part"; done; }
+merge() { rasp merge "$1" -q 2>&1 || echo "exit $?"; }
+names() { (cd "$1" && find . -type f ! -path './.rasp/*' | sort | tr '\n' ' ') && echo; }
+sed -i '/^seed/a level: {common: {peak: -6 dB}}' six.yaml
+cp six.yaml six.txt
+rasp batch six.yaml -o fresh -q
+echo "-- an input is edited before the merge: the scenes say what the sounds were made of"
+shards 1/2 2/2
+cp modes.csv good.csv
+sed -i 's/,1000,60,1,0/,1100,60,1,0/' modes.csv
+merge parts
+cp good.csv modes.csv
+same fresh parts && echo "the same as fresh"
+rm -r parts
+echo "-- another state is at work in the folder, or has taken it"
+shards 1/2 2/2
+sed -i 's/seed: 3/seed: 4/' six.yaml
+rasp batch six.yaml -o parts -q -j 1 2> /dev/null &
+disown
+for _ in $(seq 500); do if [ -s parts/.rasp/journal ]; then break; fi; sleep 0.01; done
+kill -STOP $!
+merge parts | sed 's/: wait.*//'
+kill -KILL $!
+while kill -0 $! 2> /dev/null; do sleep 0.01; done
+merge parts
+cp six.txt six.yaml
+shards 1/2 2/2
+merge parts
+same fresh parts && echo "the same as fresh"
+echo "-- a whole batch leaves nothing to be merged"
+shards 1/2 2/2
+rasp batch six.yaml -o parts -q
+merge parts
+same fresh parts && echo "the same as fresh"
+rm -r parts
+echo "-- shards that were made in folders from which the design is seen otherwise"
+shards 1/2
+mkdir -p deep/er
+rasp batch six.yaml -o deep/er/parts -q --shard 2/2
+cp -r deep/er/parts/. parts/
+merge parts
+shards 2/2
+merge parts
+same fresh parts && echo "the same as fresh"
+rm -r parts
+echo "-- the design is moved, and the set divided otherwise"
+shards 1/6 2/6 3/6 4/6 5/6 6/6
+mkdir moved
+cp six.yaml tiny.yaml modes.csv low.csv moved
+rm parts/manifest.*
+for i in 1 2; do rasp batch moved/six.yaml -o parts -q --shard $i/2; done
+merge parts
+rasp batch moved/six.yaml -o elsewhere -q
+same elsewhere parts && echo "the same as fresh"
+echo "-- a stem and a table that are not asked for any more, and a stimulus that becomes a recording"
+printf '%s\n' 'rasp-design: 1' 'base: tiny.yaml' 'set: {output.stems: [force], output.diagnostics.rate: 1 kHz}' 'factors: {kind: [{label: a}, {label: b}, {label: c, set: {motion.duration: 0.2 s}}]}' > kinds.yaml
+rasp batch kinds.yaml -o kinds -q
+names kinds
+sed -i 's/^set.*/set: {output.stems: [force]}/' kinds.yaml
+rasp batch kinds.yaml -o kinds -q 2>&1
+sed -i '/^set/d' kinds.yaml
+cp kinds/a.wav a.wav
+printf '%s\n' 'cells: [{kind: b}, {kind: c}]' 'recordings: [{file: a.wav, kind: a, name: a}]' >> kinds.yaml
+rasp batch kinds.yaml -o kinds -q 2>&1
+echo >> kinds/b.csv
+rasp batch kinds.yaml -o kinds -q --prune 2>&1
+names kinds
+rasp batch kinds.yaml -o new -q
+diff -r -q -x .rasp -x timings.csv -x '*.json' new kinds || true
