@@ -31,9 +31,9 @@ if [ "$EACH" -gt 0 ]; then
     tail -n 3 "$BUILD/fuzz/report"
 fi
 
-# What column $2 of target $1 comes to: sum, first or last ($3).
-of() { awk -F, -v target="$1" -v column="$2" -v how="$3" '$1 == target { sum += $column; last = $column; if (!n++) first = $column } END { print how == "sum" ? sum + 0 : how == "first" ? first : last }' evidence/fuzz.csv; }
-least=$(for name in "${all[@]}"; do of "$name" 4 sum; done | sort -n | head -n 1)
+# What column $2 of target $1 comes to: sum, first or last ($3); or since: the sum of the runs after the last one that found something.
+of() { awk -F, -v target="$1" -v column="$2" -v how="$3" '$1 == target { sum += $column; since = $10 > 0 ? 0 : since + $column; last = $column; if (!n++) first = $column } END { print how == "sum" ? sum + 0 : how == "since" ? since + 0 : how == "first" ? first : last }' evidence/fuzz.csv; }
+least=$(for name in "${all[@]}"; do of "$name" 4 since; done | sort -n | head -n 1)
 {
     cat << END
 # Fuzzing
@@ -41,16 +41,16 @@ least=$(for name in "${all[@]}"; do of "$name" 4 sum; done | sort -n | head -n 1
 Made by \`evidence/fuzz.sh\` in several runs, whose lines are in [fuzz.csv](fuzz.csv): libFuzzer under the address and undefined-behaviour sanitizers (clang $(clang -dumpversion)), inputs of
 at most 16 KiB, two targets at a time at the lowest priority. A finding is a crash, a sanitizer's word, a leak, more than 10 s or 1 GB for an input, or a promise of the reader that
 does not hold (the targets check: what is accepted is finite, in range, and says so; what is refused says why). Seconds are of CPU: a target that had a core for itself would have
-run as long. An hour of each is meant; the least that a target had is **$least s**.
+run as long. An hour of each is meant; the least that a target had is **$least s**. What was found was mended, its input is in tests/fuzz/corpus from then on, and the hour counts from there.
 
 Coverage is libFuzzer's: branches of rasp's own code that were taken, and features (how often, in which combination), with the kept inputs at the start of the first run and at the end of
 the last. The libraries' code is not counted. The kept inputs are tests/fuzz/corpus ($(find tests/fuzz/corpus -type f | wc -l) files, $(find tests/fuzz/corpus -type f -printf '%s\n' | awk '{ n += $1 } END { printf "%.0f", n / 1000 }') kB) and what earlier runs added.
 Commits that were run: $(awk -F, 'NR > 1 && !seen[$2]++ { printf "%s%s", n++ ? ", " : "", $2 }' evidence/fuzz.csv).
 
-| target | what it reads | inputs | CPU seconds | coverage at the start | at the end | findings |
+| target | what it reads | inputs | CPU seconds since the last finding | coverage at the start | at the end | findings |
 |---|---|---|---|---|---|---|
 END
     for name in "${all[@]}"; do
-        echo "| $name | $(describe "$name") | $(of "$name" 5 sum) | $(of "$name" 4 sum) | $(of "$name" 6 first), $(of "$name" 7 first) | $(of "$name" 8 last), $(of "$name" 9 last) | $(of "$name" 10 sum) |"
+        echo "| $name | $(describe "$name") | $(of "$name" 5 sum) | $(of "$name" 4 since) | $(of "$name" 6 first), $(of "$name" 7 first) | $(of "$name" 8 last), $(of "$name" 9 last) | $(of "$name" 10 sum) |"
     done
 } > evidence/fuzz.md

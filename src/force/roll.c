@@ -92,7 +92,7 @@ static double roll_work(const struct contact *c, const struct scene *s)
     bool round = c->ball.offset == 0 && c->ball.lobe_height == 0, printed = c->contact.roll.penetration == PENETRATION_PAPER;
     double way = (c->contact.limiter.curve == LIMITER_TANH ? 180 : 80) * way_work(c, s), over = s->accuracy.oversampling;
     double grains = printed ? 0 : roll_pass_rate(c, 1, rules_speed(&c->motion)) / s->output.sample_rate;
-    double again = printed ? 0 : way * fmax(grains / over, rules_speed(&c->motion) > 0 ? 0.5 : 0);
+    double again = printed ? 0 : (c->whole ? 2 : 1) * way * fmax(grains / over, rules_speed(&c->motion) > 0 ? 0.5 : 0);
     return way + again + (round ? 30 : 180) * over + (load_varies(c) ? 300 : 110) * grains + roll_ground_work(c, s);
 }
 

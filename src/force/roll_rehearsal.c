@@ -2,7 +2,7 @@
 
      D      deviation of S, the height of the ball's geometric centre as it follows the ground, from its mean over the way (force/roll_centre.c)
      N(t)   normal force, what of it presses; N its mean over the motion
-     k      = N / (n rms)^1.5       n    contact.roll.static_depth      rms    of S over the ground (force/roll_deviation.c), m
+     k      = N / (n rms)^1.5       n    contact.roll.static_depth      rms    of S over the ground (force/roll_deviation.c), m; N and rms of the contact before its ablation, if it has one
      rest   = (N / k)^(2/3), the penetration at rest; where k is not given, n rms
      rho_0  : mean of max(0, k rho^1.5 (1 + mu rho')) = N
 
@@ -18,6 +18,8 @@
 #include "num/lanes.h"
 #include "num/vecmath.h"
 #include "scene/rules.h"
+
+extern const struct stage load_stage, limiter_stage;
 
 static bool rehearsal_lifted(const struct roll_pass *p, long i)
 {
@@ -108,10 +110,38 @@ static bool rehearsal_even(const struct contact *c, struct err *e)
                    "give contact.roll.stiffness (or kappa), or a rougher surface", c->name);
 }
 
+/* The stiffness that the contact has before its ablation, which takes away what it says and no more: on a board of its own, with the normal force and the limit of curvature of then. */
+static bool rehearsal_whole(const struct stage_run *r, struct roll_law *l, struct roll_rehearsal *found, struct err *e)
+{
+    struct arena *a = arena_open();
+    struct contact *whole = ARENA_TAKE(a, struct contact, 1);
+    struct board *board = ARENA_TAKE(a, struct board, 1);
+    struct stage_run run = *r;
+    struct roll_rehearsal before;
+    *whole = *r->contact->whole;
+    whole->ablation.normal_force = ABLATED_FORCE_VARYING;
+    whole->ablation.nonlinearity = ABLATED_NONLINEARITY_KEPT;
+    *board = *r->board;
+    board->load = NULL;
+    board->limiter = NULL;
+    run.contact = whole;
+    run.board = board;
+    bool ok = (!load_stage.wanted(whole, r->scene) || load_stage.open(&run, e)) && (!limiter_stage.wanted(whole, r->scene) || limiter_stage.open(&run, e));
+    board->n_warnings = 0;
+    ok = ok && roll_rehearsal_run(&run, slope_heading_make(&run, a), l, &before, e);
+    found->deviation = ok ? before.deviation : NAN;
+    for (int i = 0; ok && i < board->n_warnings; i++)
+        board_warn(r->board, board->warnings[i]);
+    arena_close(a);
+    return ok;
+}
+
 static bool rehearsal_stiffness(struct roll_pass *p, const struct stage_run *r, struct roll_law *l, struct roll_rehearsal *found, struct err *e)
 {
     if (!isnan(l->stiffness))
         return true;
+    if (r->contact->whole)
+        return rehearsal_whole(r, l, found, e);
     if (!roll_deviation_of(p, r, found->normal, &found->deviation, e))
         return false;
     if (!(found->deviation > 1e-15))

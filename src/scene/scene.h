@@ -299,6 +299,7 @@ struct contact {
     struct load load;
     struct contact_model contact;
     struct ablation ablation;
+    const struct contact *whole; /* as it is given, where that tells more than what the ablation has left of it (scene/ablation.h); NULL: this is it */
 };
 
 /* ------------------------------------------------------------------ the scene */

@@ -158,7 +158,7 @@ static bool load_recorded(const struct contact *c, const struct trajectory *tr, 
     static const char *const columns[2] = {"normal_force_n", NULL};
     struct load_record *r = ARENA_TAKE(a, struct load_record, 1);
     struct series s;
-    if (!series_read(c->load.recorded, columns, a, &s, e))
+    if (!series_read(c->load.recorded, columns, a, &s, e) || !series_apart(&s, c->load.recorded, e))
         return false;
     double first = s.time[0], last = s.time[s.n - 1], start = tr->clock, end = tr->clock + tr->duration;
     if (first > start + 1e-9 || last < end - 1e-9)

@@ -50,7 +50,7 @@ bool recorded_read(const struct motion *m, double duration, struct arena *a, str
 {
     static const char *const columns[2] = {"x_m", "y_m"};
     struct series s;
-    if (!series_read(m->file, columns, a, &s, e) || !recorded_near(m, &s, e) || !recorded_moves(m, &s, e))
+    if (!series_read(m->file, columns, a, &s, e) || !series_apart(&s, m->file, e) || !recorded_near(m, &s, e) || !recorded_moves(m, &s, e))
         return false;
     *clock = s.time[0];
     for (size_t i = 0; i < s.n; i++)

@@ -36,3 +36,14 @@ bool series_read(const char *file, const char *const columns[2], struct arena *a
                            s->time[i], s->time[i - 1]);
     return true;
 }
+
+static const double NEAREST = 1e-9; /* s */
+
+bool series_apart(const struct series *s, const char *file, struct err *e)
+{
+    for (size_t i = 1; i < s->n; i++)
+        if (s->time[i] - s->time[i - 1] < NEAREST)
+            return err_set(e, ERR_SCENE, "%s:%d: column 'time_s': %.9g s comes %.3g s after the row before; a smooth way through the rows needs them 1 ns apart or more: remove one of them",
+                           file, s->lines[i], s->time[i], s->time[i] - s->time[i - 1]);
+    return true;
+}

@@ -134,7 +134,7 @@ bool speed_given(struct speed *speed, const char *file, double fold, struct aren
     struct given *g = ARENA_TAKE(a, struct given, 1);
     struct series s;
     double top = 0, start;
-    if (!series_read(file, columns, a, &s, e))
+    if (!series_read(file, columns, a, &s, e) || !series_apart(&s, file, e))
         return false;
     start = s.time[0];
     for (size_t i = 0; i < s.n; i++) {

@@ -326,6 +326,8 @@ START_TEST(files_refused)
         {"time_s,x_m,y_m\n0,0,0\n1,nan,0\n", ":3: column 'x_m': 'nan' is not a", 0},
         {"time_s,x_m,y_m\n0,0,0\n1,0,5000\n", ":3: column 'y_m': 5000 m is farther than 100 m", 0},
         {"time_s,x_m,y_m\n0,0,0\n1,0,1\n0.5,1,1\n", ":4: column 'time_s': 0.5 s comes after 1 s; times must rise", 0},
+        {"time_s,x_m,y_m\n0,0,0\n9e-126,0,0.002\n1,0,0\n", ":3: column 'time_s': 9e-126 s comes 9e-126 s after the row before; a smooth way", 0},
+        {"time_s,x_m,y_m\n5,0,0\n5.1,0,0.002\n5.1000000009,1,0\n", ":4: column 'time_s': 5.1 s comes 9e-10 s after", 10},
         {"time_s,x_m,y_m\n0,0,0\n1,0\n", ":3: 2 cells", 0},
         {"time_s,x_m,y_m\n0,1,1\n1,1,1\n2,1,1\n", "all positions are the same", 0},
         {"time_s,x_m,y_m\n0,1,1\n1,1,2\n2,1,1\n", "motion.cutoff: 0.5 Hz is not below half of the 1 rows per second", 0.5},

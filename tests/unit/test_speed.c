@@ -358,6 +358,7 @@ START_TEST(tables_refused)
         {"time_s,speed_m_per_s\n0,1\n1,-0.1\n", ":3: column 'speed_m_per_s': -0.1 is negative"},
         {"time_s,speed_m_per_s\n0,1\n1,x\n", ":3: column 'speed_m_per_s': 'x' is not a number"},
         {"time_s,speed_m_per_s\n0,1\n1,1\n1,2\n", ":4: column 'time_s': 1 s comes after 1 s"},
+        {"time_s,speed_m_per_s\n0,1\n1e-10,1\n1,2\n", ":3: column 'time_s': 1e-10 s comes 1e-10 s after the row before"},
         {"time_s,speed_m_per_s\n0,0\n1,0\n", "all speeds are 0"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
