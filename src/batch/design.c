@@ -95,13 +95,15 @@ const char *design_value(const struct design *d, int i, int factor)
     return level < 0 ? "n/a" : d->factors[factor].levels[level].value;
 }
 
+enum { LINES_MOST = 4 << 20 /* of a design, which is a file of YAML: it has no more bytes */ };
+
 bool design_is(const char *file)
 {
     static const char key[] = "rasp-design";
     char line[64];
     bool found = false, start = true, flow = false; /* {rasp-design: 1, ...} */
     FILE *f = memory_fopen(file, "r");
-    while (f && !found && fgets(line, sizeof line, f)) {
+    for (long lines = 0; f && !found && lines < LINES_MOST && fgets(line, sizeof line, f); lines++) {
         const char *key_at = line;
         flow = flow || (start && *line == '{');
         if (flow)

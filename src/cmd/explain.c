@@ -2,7 +2,7 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include "base/text.h"
 #include "base/wrap.h"
@@ -18,8 +18,9 @@
 static bool is_scene_file(const char *word)
 {
     size_t n = strlen(word);
+    struct stat s;
     return strchr(word, '/') || (n > 5 && !strcmp(word + n - 5, ".yaml")) || (n > 4 && !strcmp(word + n - 4, ".yml")) ||
-           access(word, F_OK) == 0;
+           (stat(word, &s) == 0 && !S_ISDIR(s.st_mode));
 }
 
 static void explain_scene(struct cmd_call *c, const char *file, struct err *e)

@@ -4,9 +4,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "cmd/cmd.h"
 #include "output/picture.h"
+#include "pipeline/outputs.h"
+#include "scene/scene_read.h"
 
 static const struct args_option plot_options[] = {
     {"output", 'o', "FILE", false, "where to write; default: NAME.png beside NAME.wav, or NAME.svg; of a gallery gallery.html in the folder"},
@@ -43,6 +47,25 @@ static const char *plot_target(struct cmd_call *c, const struct plot_page *p)
 {
     const char *o = args_value(&c->args, "output");
     return o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p->file) - 4, p->file, p->svg ? "svg" : "png");
+}
+
+/* A picture takes the place of no file that the sound was made from. */
+static bool plot_spares(const struct plot_page *p, const char *target, struct err *e)
+{
+    struct scene scene;
+    struct stat t;
+    struct err unreadable = {0};
+    const char *effective = arena_format(p->arena, "%.*s.scene.yaml", (int)strlen(p->file) - 4, p->file), *messages;
+    int n = 0;
+    const struct outputs_source *sources = NULL;
+    if (stat(target, &t) != 0)
+        return true;
+    if (access(effective, F_OK) == 0 && scene_read(effective, NULL, p->arena, &scene, &messages, &unreadable))
+        sources = outputs_sources(&scene, &n, p->arena);
+    for (int i = 0; i < n; i++)
+        if (sources[i].device == t.st_dev && sources[i].inode == t.st_ino)
+            return err_set(e, ERR_CREATE, "%s: the picture would overwrite an input of %s (%s); write elsewhere: -o OTHER.png", target, effective, sources[i].what);
+    return true;
 }
 
 static void plot_page(void *self, struct gnuplot *g)
@@ -82,7 +105,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
         return (int)e->kind;
     p.channel = (int)channel;
     const char *target = plot_target(c, &p);
-    if (!plot_data(&p, e) || !picture_write(target, p.svg, plot_page, &p, e))
+    if (!plot_data(&p, e) || !plot_spares(&p, target, e) || !picture_write(target, p.svg, plot_page, &p, e))
         return (int)e->kind;
     printf("%s ", target);
     plot_panels_list(&p, stdout);

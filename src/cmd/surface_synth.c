@@ -8,9 +8,11 @@
 #include <string.h>
 
 #include "cmd/recipe.h"
+#include "cmd/spares.h"
 #include "cmd/surface.h"
 #include "cmd/tell.h"
 #include "file/heightfile_write.h"
+#include "pipeline/outputs.h"
 #include "pipeline/stages.h"
 #include "scene/units.h"
 #include "surface/relief.h"
@@ -133,13 +135,24 @@ static void report(const struct synth *s, const char *out)
     printf(" samples, pitch %.9g um, rms height %.4g um\n", s->pitch * 1e6, sqrt(square) * 1e6);
 }
 
+/* Neither recipe, nor what it includes, nor the map whose statistics it has. */
+static bool all_spared(const struct synth *s, const char *out, struct err *e)
+{
+    int n;
+    const struct outputs_source *sources = outputs_sources(&s->scene, &n, s->c->arena);
+    for (int i = 0; i < n; i++)
+        if (!spares(out, "the heights", sources[i].file, "a file of another name", e))
+            return false;
+    return true;
+}
+
 int surface_synth_run(struct cmd_call *c, struct err *e)
 {
     struct synth s = {.c = c};
     enum heightfile_format format;
     struct heightfile_written w;
     const char *out = c->args.operands[1];
-    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e) || !read_along(&s, e) || !make(&s, e))
+    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e) || !all_spared(&s, out, e) || !read_along(&s, e) || !make(&s, e))
         return (int)e->kind;
     s.h.pitch_x = s.h.pitch_y = s.pitch;
     s.h.metric = true;

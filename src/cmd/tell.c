@@ -25,6 +25,11 @@ static struct cmd_tell *of(struct cmd_call *c)
     return c->tell;
 }
 
+void tell_as_json(struct cmd_call *c)
+{
+    of(c)->json = true;
+}
+
 bool tell_begin(struct cmd_call *c, struct err *e)
 {
     const char *format = args_value(&c->args, "diagnostics");
@@ -143,10 +148,10 @@ void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, 
 void tell_error(struct cmd_call *c, const char *command, const struct err *e)
 {
     struct cmd_tell *t = of(c);
-    if ((t->json || t->kept) && !t->told && e->kind != ERR_USAGE)
+    if ((t->json || t->kept) && !t->told)
         put(c, of_err(e));
     t->told = false;
-    if (!t->json || e->kind == ERR_USAGE)
+    if (!t->json)
         program_complain(command, e);
 }
 

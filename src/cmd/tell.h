@@ -15,6 +15,9 @@
 /* Heeds --diagnostics. ERR_USAGE */
 bool tell_begin(struct cmd_call *c, struct err *e);
 
+/* As though --diagnostics=json had been read already: what is wrong with the command line is told so, too. */
+void tell_as_json(struct cmd_call *c);
+
 /* The errors in a scene's text; messages: the same as text. */
 void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind);
 

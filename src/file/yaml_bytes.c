@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -13,7 +14,7 @@ enum { SIZE_MAX_BYTES = 4 << 20 };
 
 static bool unreadable(struct yaml *y, const char *file, struct diag_place named)
 {
-    const char *why = strerror(errno);
+    const char *why = errno == ENXIO ? "it is a pipe" : strerror(errno);
     y->missing = true;
     if (named.source)
         diag_add(y->diag, named, "a path in a file is relative to that file's folder", "cannot read '%s': %s", file, why);
@@ -54,8 +55,11 @@ static void note_file(struct yaml *y, const char *name)
 struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct diag_place named)
 {
     size_t size;
-    FILE *in = memory_fopen(file, "rb");
+    struct stat s;
+    bool waits = named.source && stat(file, &s) == 0 && S_ISFIFO(s.st_mode); /* until somebody writes into it */
+    FILE *in = waits ? NULL : memory_fopen(file, "rb");
     if (!in) {
+        errno = waits ? ENXIO : errno;
         unreadable(y, file, named);
         return NULL;
     }

@@ -73,6 +73,8 @@ printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors:' '  output.level.pe
 tell check peaks.yaml
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors:' '  motion.rate: [2 Hz, 1 Hz, 2.0 Hz, 1000 mHz]' '  scraper.mass: [{label: "20 g", value: 20 g}, {label: 0.02 kg, value: 20 g}, {label: light, value: 20 g}]' '  tip: [{label: 1 mm}, {label: 0.1 cm}]' > equal.yaml
 tell check equal.yaml
+printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors: {motion.rate: [1 Hz, 2 Hz]}' 'name: "SHA256SUMS/{motion.rate}"' > sums.yaml
+tell check sums.yaml
 # Promises that cannot be kept: each once, with its place.
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'replicates: 2' 'order: {seed: 3}' 'factors:' '  accuracy.error: [-40 dB, -200 dB, -210 dB]' '  motion.rate: [1 Hz, 2 Hz]' 'exclude: [{accuracy.error: -40 dB, motion.rate: 1 Hz}]' > promises.yaml
 tell check promises.yaml
