@@ -134,6 +134,7 @@ END
 #   long    30 cm in 2 s, from rest to rest: 15 cm/s, 28 at most
 # The rods weigh what 25 cm of 10 mm PVC and of a 12 mm dowel do. Each sound has the same loudness: without the non-linearity forces are larger by far, and it is
 # not loudness that is judged. Levels are ours; so is the taking of a dowel for "poplar wood".
+# The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1
 title: Agarwal et al. 2021, experiment 1, realism of synthetic scraping sounds
 base: 000_scraping/parts/scrape.yaml
@@ -170,6 +171,7 @@ END
 # motion: {path: recorded, file: ...}; this one is drawn from the seed. A hand at constant speed on a straight line presses evenly: of the line, full and
 # constant_force are the same but for rounding. The paper's recordings are a condition more:
 #   recordings: [{file: recordings/circle.wav, motion: circle, condition: recorded}]
+# The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1
 title: Agarwal et al. 2021, experiment 2, perception of motion from scraping sounds
 base: 000_scraping/parts/scrape.yaml
@@ -199,7 +201,8 @@ END
 # their centres, by how much it does not print: balls of this size turn once or twice at most on such planks, and 1 mm would vary the normal force by 0.3 %, so it
 # is left out (set: {ball.offset: 1 mm} adds it). The constant response is that of a place between the nodal lines of the lower modes: where the ball starts, near
 # the edge, the plank hardly rings. Balls as large as these follow the ground in such wide curves that the limiter has little to do: without it the sound differs
-# by -15 dB, mostly above 5 kHz, far less than a scraped one (papers/000 limits the ground itself, which no ball has smoothed).
+# by -9 to -17 dB, mostly above 5 kHz, far less than a scraped one (papers/000 limits the ground itself, which no ball has smoothed).
+# The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1
 title: Agarwal et al. 2021, experiment 3, realism of synthetic rolling sounds
 base: 000_rolling/parts/plank.yaml
