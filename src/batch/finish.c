@@ -189,7 +189,7 @@ static bool write_tables(struct finish *f, struct err *e)
 static bool settle(struct finish *f, bool complete, struct err *e)
 {
     const struct set *s = f->kit->set;
-    if (!leftover_find(&(struct leftover_ask){f->kit->folder, &f->results, f->inputs, f->prune}, f->arena, &f->left, e))
+    if (!leftover_find(&(struct leftover_ask){f->kit->folder, &f->results, f->inputs, f->kit->design != NULL, f->prune}, f->arena, &f->left, e))
         return false;
     int n = s->n + f->left.n;
     struct journal_ref *records = ARENA_TAKE(f->arena, struct journal_ref, n);
@@ -203,7 +203,8 @@ static bool settle(struct finish *f, bool complete, struct err *e)
     if (!journal_settle(f->kit->journal, records, n, e))
         return false;
     if (folder_is_mine(f->entered)) {
-        shard_sweep(f->kit->folder);
+        if (f->kit->design) /* what a merge has merged it takes away itself, if nothing failed */
+            shard_sweep(f->kit->folder);
         folder_sweep(f->kit->folder, names, s->n, complete);
     }
     return true;

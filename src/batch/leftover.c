@@ -25,6 +25,7 @@ struct list {
     struct old {
         struct journal_ref ref;
         bool touched;            /* some file is not as it was written */
+        bool waits;              /* for what becomes of its stimulus: it stays, and nothing is said of it */
     } *records;
     int n, room;
     struct found *files;
@@ -55,7 +56,7 @@ static void take_record(void *context, const struct record *r, struct journal_re
 {
     struct list *l = context;
     const struct row *row = bsearch(&(struct row){.name = r->name}, l->rows, (size_t)l->ask->all->set->n, sizeof *row, by_name);
-    if (!r->job || (row && (row->at < 0 || row->at == ref.at)))
+    if (!r->job || (row && (row->at == ref.at || (row->at < 0 && !l->ask->keep))))
         return;
     if (l->n == l->room) {
         struct old *more = ARENA_TAKE(l->arena, struct old, l->room = 2 * l->room + 16);
@@ -63,7 +64,7 @@ static void take_record(void *context, const struct record *r, struct journal_re
             memcpy(more, l->records, (size_t)l->n * sizeof *more);
         l->records = more;
     }
-    l->records[l->n++] = (struct old){ref, false};
+    l->records[l->n++] = (struct old){ref, false, row && row->at < 0};
 }
 
 static bool read_records(struct list *l, struct err *e)
@@ -86,6 +87,8 @@ static bool is_within(const char *path)
 
 static bool read_one(struct list *l, int i, struct err *e)
 {
+    if (l->records[i].waits)
+        return true;
     struct arena *a = arena_open();
     const struct record *r = journal_read(l->ask->all->journal, l->records[i].ref, a, e);
     int n = r ? r->n_files : 0;
@@ -193,6 +196,7 @@ static int by_age(const void *a, const void *b)
 static void gather(const struct list *l, struct leftover *to)
 {
     bool *kept = ARENA_TAKE(l->arena, bool, l->n);
+    int n = 0;
     to->files = ARENA_TAKE(l->arena, const char *, l->n_files + 1);
     to->refs = ARENA_TAKE(l->arena, struct journal_ref, l->n);
     for (int i = 0; i < l->n_files; i++)
@@ -201,9 +205,13 @@ static void gather(const struct list *l, struct leftover *to)
             kept[l->files[i].record] = true;
         }
     for (int i = 0; i < l->n; i++)
-        if (kept[i])
+        if (kept[i] || l->records[i].waits)
             to->refs[to->n++] = l->records[i].ref;
     qsort(to->refs, (size_t)to->n, sizeof *to->refs, by_age);
+    for (int i = 0; i < to->n; i++) /* a record is known by two hashes, and may come twice */
+        if (!n || to->refs[n - 1].at != to->refs[i].at)
+            to->refs[n++] = to->refs[i];
+    to->n = n;
 }
 
 bool leftover_find(const struct leftover_ask *ask, struct arena *a, struct leftover *to, struct err *e)

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/stopwatch.h"
+#include "base/watch.h"
 #include "batch/folder.h"
 #include "batch/measure.h"
 #include "file/wav.h"
@@ -166,17 +167,17 @@ static bool make(const struct job_kit *k, const char *file, struct record *r, st
     return job_measure(k->folder, true, r, e);
 }
 
-/* The copy is called by what the file was before. */
-static bool still(const char *file, const char *was, struct err *e)
+/* The copy is called by what the file was before: put back, too, it is none of that. */
+static bool still(const struct watch *w, const char *file, struct err *e)
 {
-    char hex[HASH_TEXT];
-    return hash_file(file, hex, e) && (strcmp(hex, was) == 0 || err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", file));
+    return !watch_changed(w) || err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", file);
 }
 
 static bool do_it(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
 {
     char hex[HASH_TEXT];
     const char *file = k->design->stimuli[i].recording;
+    struct watch w = watch_begin(&file, 1, a);
     if (!hash_file(file, hex, e))
         return false;
     const char *name = k->set->rows[i].name, *key = key_of(k, name, hex, a);
@@ -188,7 +189,7 @@ static bool do_it(const struct job_kit *k, int i, struct arena *a, struct job_re
     struct record *r = ARENA_TAKE(a, struct record, 1);
     *r = (struct record){.name = name, .key = key, .job = key, .build = k->set->build};
     result->record = r;
-    return make(k, file, r, a, e) && still(file, hex, e) && journal_add(k->journal, r, &result->ref, e);
+    return make(k, file, r, a, e) && still(&w, file, e) && journal_add(k->journal, r, &result->ref, e);
 }
 
 bool recording_do(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)

@@ -75,12 +75,13 @@ static bool asks_json(int argc, char **argv)
 
 int program_run(const struct command *m, int argc, char **argv)
 {
+    bool json = asks_json(argc, argv);
+    if (json)
+        memory_out_as_json();
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
-    if (asks_json(argc, argv)) {
-        memory_out_as_json();
+    if (json)
         tell_as_json(&c);
-    }
     int code = 0;
     if (!args_parse(&c.args, cmd_options(m, c.arena), argc, argv, c.arena, &e))
         code = (int)e.kind;

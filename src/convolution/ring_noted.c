@@ -13,6 +13,7 @@ static struct contact chosen_by(const struct contact *c)
 {
     struct contact to = *c;
     to.gain = 1;
+    to.whole = NULL;
     to.surface = (struct surface){.pitch = NAN, .height_scale = NAN, .height_range = NAN, .response = c->surface.response};
     to.grip = (struct grip){0};
     to.load = (struct load){.constant = NAN, .approach = NAN, .release = NAN};

@@ -9,6 +9,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "file/folder_index.h"
 #include "pipeline/plan.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
@@ -116,14 +117,37 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
 
 struct sources {
     struct outputs_source *list;
-    int n;
+    int n, room;
+    struct arena *arena;
 };
 
 static void note(struct sources *all, const struct scene *s, const char *file, const char *what)
 {
     struct stat status;
-    if (file && stat(file, &status) == 0)
-        all->list[all->n++] = (struct outputs_source){file, what, s, status.st_dev, status.st_ino};
+    if (!file || stat(file, &status) != 0)
+        return;
+    if (all->n == all->room) {
+        struct outputs_source *more = ARENA_TAKE(all->arena, struct outputs_source, all->room = 2 * all->room + 16);
+        if (all->n)
+            memcpy(more, all->list, (size_t)all->n * sizeof *more);
+        all->list = more;
+    }
+    all->list[all->n++] = (struct outputs_source){file, what, s, status.st_dev, status.st_ino};
+}
+
+/* Of a folder what is read of it. */
+static void note_folder(struct sources *all, const struct scene *s, const char *folder, const char *what)
+{
+    int n = 0;
+    const char **files = folder ? folder_index_files(folder, &n, all->arena) : NULL;
+    for (int i = 0; i < n; i++)
+        note(all, s, files[i], what);
+}
+
+static void note_key(struct sources *all, const struct scene *s, const char *file, const char *what)
+{
+    note(all, s, file, what);
+    note_folder(all, s, file, what);
 }
 
 static void note_scene(struct sources *all, const struct scene *s)
@@ -133,28 +157,14 @@ static void note_scene(struct sources *all, const struct scene *s)
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++)
             if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
-                note(all, s, *(const char *const *)((const char *)&s->contacts[i] + k->offset), k->path);
+                note_key(all, s, *(const char *const *)((const char *)&s->contacts[i] + k->offset), k->path);
     for (int i = 0; i < s->n_inputs; i++)
         note(all, s, s->inputs[i].file, "inputs");
 }
 
-/* How many files a scene may name. */
-static size_t most_sources(const struct scene *s)
-{
-    size_t n = (size_t)s->n_inputs, keys = 0;
-    for (int i = 0; s->sources && s->sources[i]; i++)
-        n++;
-    for (const struct key *k = keys_table; k->path; k++)
-        keys += k->of == KEY_CONTACT && k->type == KEY_FILE;
-    return n + keys * (size_t)s->n_contacts;
-}
-
 static struct sources sources_of(const struct outputs *o, int n, struct arena *a)
 {
-    size_t most = 0;
-    for (int i = 0; i < n; i++)
-        most += most_sources(o[i].scene);
-    struct sources all = {ARENA_TAKE(a, struct outputs_source, most), 0};
+    struct sources all = {NULL, 0, 0, a};
     for (int i = 0; i < n; i++)
         note_scene(&all, o[i].scene);
     return all;
@@ -162,7 +172,7 @@ static struct sources sources_of(const struct outputs *o, int n, struct arena *a
 
 const struct outputs_source *outputs_sources(const struct scene *s, int *n, struct arena *a)
 {
-    struct sources all = {ARENA_TAKE(a, struct outputs_source, most_sources(s)), 0};
+    struct sources all = {NULL, 0, 0, a};
     note_scene(&all, s);
     *n = all.n;
     return all.list;

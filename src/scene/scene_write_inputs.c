@@ -1,15 +1,13 @@
-/* `inputs` names every file of the scene once, with its sha256 as it is now: those of its keys (of a folder of responses its index.csv and its
-   WAVs, by name), and those that it has pinned besides (such as the recipe that an effective scene was made with). An effective scene has
+/* `inputs` names every file of the scene once, with its sha256 as it is now: those of its keys (of a folder of responses its index.csv and the
+   files that this names, by name), and those that it has pinned besides (such as the recipe that an effective scene was made with). An effective scene has
    them in the same order again. */
 #include "scene/scene_write_inputs.h"
 
-#include <dirent.h>
-#include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/relpath.h"
 #include "base/shelf.h"
+#include "file/folder_index.h"
 #include "scene/keys_yaml.h"
 
 struct list {
@@ -41,30 +39,15 @@ static void add(struct list *l, const char *file)
     l->files[l->n++] = file;
 }
 
-static int is_response(const struct dirent *entry)
-{
-    size_t n = strlen(entry->d_name);
-    return !strcmp(entry->d_name, "index.csv") || (n > 4 && entry->d_name[0] != '.' && !strcasecmp(entry->d_name + n - 4, ".wav"));
-}
-
-static int by_name(const struct dirent **a, const struct dirent **b)
-{
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
-
 /* A file; or what is read of a folder. */
 static void add_all(struct list *l, const char *name)
 {
-    struct dirent **entries;
-    int n = scandir(name, &entries, is_response, by_name);
-    if (n <= 0)
+    int n;
+    const char **files = folder_index_files(name, &n, l->arena);
+    if (n == 0)
         add(l, name);
-    for (int i = 0; i < n; i++) {
-        add(l, arena_format(l->arena, "%s/%s", name, entries[i]->d_name));
-        free(entries[i]);
-    }
-    if (n >= 0)
-        free(entries);
+    for (int i = 0; i < n; i++)
+        add(l, files[i]);
 }
 
 static void add_keys(struct list *l, bool only)

@@ -69,3 +69,17 @@ rasp batch kinds.yaml -o kinds -q --prune 2>&1
 names kinds
 rasp batch kinds.yaml -o new -q
 diff -r -q -x .rasp -x timings.csv -x '*.json' new kinds || true
+echo "-- what a failed run leaves is not forgotten"
+printf '%s\n' 'rasp-design: 1' 'base: tiny.yaml' 'set: {output.stems: [force]}' 'factors: {kind: [{label: a}, {label: b, set: {motion.duration: 0.2 s}}]}' > stems.yaml
+rasp batch stems.yaml -o stems -q
+sed -i 's/output.stems: .force./accuracy.error: -239 dB/' stems.yaml
+rasp batch stems.yaml -o stems -q 2> /dev/null || echo "exit $?"
+sed -i '/^set/d' stems.yaml
+rasp batch stems.yaml -o stems --prune | sed 's/, in .*//'
+names stems
+echo "-- a merge in which some failed can be done again"
+printf '%s\n' 'rasp-design: 1' 'base: tiny.yaml' 'factors: {kind: [{label: a}, {label: b, set: {accuracy.error: -239 dB}}]}' 'level: {common: {full_scale: 1 m/s}}' > failing.yaml
+for part in 1/2 2/2; do rasp batch failing.yaml -o failing -q --shard $part 2> /dev/null || echo "exit $?"; done
+merge failing | cut -c 1-60
+rasp batch failing.yaml -o failing -q --shard 1/2 2> /dev/null || echo "exit $?"
+merge failing | cut -c 1-60

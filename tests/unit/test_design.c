@@ -89,9 +89,9 @@ END_TEST
 START_TEST(labels_in_names)
 {
     arena = folder_make();
-    struct design d = made("factors:\n  scraper.mass: [10 g, 1e-2 kg]\n  load.constant: [1 N]\n  surface.roughness.rms: [10 \xc2\xb5m]\n"
+    struct design d = made("factors:\n  scraper.mass: [10 g, 2e-2 kg]\n  load.constant: [1 N]\n  surface.roughness.rms: [10 \xc2\xb5m]\n"
                            "  surface.response: [../irs/a b.csv]\n  x: [{label: -3 dB (10%)}]\n");
-    names_are(&d, "10g_1N_10um_a_b_-3dB__10__ 1e-2kg_1N_10um_a_b_-3dB__10__");
+    names_are(&d, "10g_1N_10um_a_b_-3dB__10__ 2e-2kg_1N_10um_a_b_-3dB__10__");
     folder_remove();
 }
 END_TEST
