@@ -134,7 +134,7 @@ static void enter(void)
     put("in/files/force.csv", "a force\n");
     put("in/files/force.wav", "a sound\n");
     ck_assert_int_eq(mkdir("in/files/set", 0700), 0);
-    put("in/files/set/index.csv", "an index\n");
+    put("in/files/set/index.csv", INDEX);
     put("in/files/set/b.WAV", "a sound at b\n");
     put("in/files/set/a.wav", "a sound at a\n");
     put("in/files/set/remarks.txt", "not read\n");
@@ -435,7 +435,7 @@ START_TEST(test_every_file_is_an_input)
     struct scene s;
     enter();
     static const char *const named[][3] = {{EVERYTHING, "force.csv", "a force\n"}, {GIVEN, "speed.csv", "a speed\n"}, {RECORDED, "path.csv", "a path\n"},
-                                           {SCRIBBLE, "map.npy", "a map\n"}, {SAMPLES, "force.wav", "a sound\n"}, {TABLE, "set/index.csv", "an index\n"},
+                                           {SCRIBBLE, "map.npy", "a map\n"}, {SAMPLES, "force.wav", "a sound\n"}, {TABLE, "set/index.csv", INDEX},
                                            {TABLE, "set/a.wav", "a sound at a\n"}, {TABLE, "set/b.WAV", "a sound at b\n"}};
     for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
         char hex[HASH_TEXT];
