@@ -11,6 +11,8 @@
 #include "scene/scene_read.h"
 #include "scene/scene_write.h"
 
+#define INDEX "file_name,x_m,y_m\na.wav,0,0\nb.WAV,1,0\n" /* of a folder of responses */
+
 static const char PLAIN[] = "rasp: 1\nsurface: {roughness: {}, response: files/plank.csv}\nscraper: {mass: 20 g}\n"
                             "motion: {path: back_and_forth, to: [4.5 cm, 0], rate: 2 Hz, duration: 2 s}\n";
 static const char FULL[] =
