@@ -27,7 +27,7 @@ static inline struct fuzz_file fuzz_open(const uint8_t *data, size_t size)
     return f;
 }
 
-static char fuzz_folder[64];
+static char fuzz_folder[40];
 static char fuzz_names[8][32]; /* in it */
 
 static inline void fuzz_folder_gone(void)
@@ -40,13 +40,21 @@ static inline void fuzz_folder_gone(void)
     rmdir(fuzz_folder);
 }
 
+/* A folder of its own; in memory, where there is room for that: waiting for a disk is no fuzzing. */
+static inline void fuzz_make_folder(char folder[40])
+{
+    snprintf(folder, 40, "%s/rasp-fuzz-XXXXXX", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp");
+    if (!mkdtemp(folder))
+        abort();
+}
+
 /* Writes folder/name, of at most 8 different names, and puts its path into path. */
 static inline const char *fuzz_put(char path[128], const char *name, const void *data, size_t size)
 {
     int i = 0;
     if (!fuzz_folder[0]) {
-        strcpy(fuzz_folder, "/tmp/rasp-fuzz-XXXXXX");
-        if (!mkdtemp(fuzz_folder) || atexit(fuzz_folder_gone) != 0)
+        fuzz_make_folder(fuzz_folder);
+        if (atexit(fuzz_folder_gone) != 0)
             abort();
     }
     while (i < 7 && fuzz_names[i][0] && strcmp(fuzz_names[i], name) != 0)

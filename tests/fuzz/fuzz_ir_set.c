@@ -26,12 +26,11 @@ static void drop(const char *folder, const char *name)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char folder[] = "/tmp/fuzz_ir_set.XXXXXX";
+    char folder[40];
     struct arena *a = arena_open();
     struct err e = {0};
     struct ir_set s;
-    if (!mkdtemp(folder))
-        abort();
+    fuzz_make_folder(folder);
     put(folder, "a.wav", sound, sizeof sound);
     put(folder, "index.csv", data, size);
     fuzz_check(ir_set_read(&(struct ir_ask){folder, 44100, 1, NULL}, a, &s, &e), &e);

@@ -9,7 +9,7 @@
 #include "file/mesh_formats.h"
 #include "fuzz.h"
 
-static char folder[64];
+static char folder[40];
 static void remove_folder(void)
 {
     static const char *const endings[] = {"node", "ele", "face"};
@@ -35,9 +35,7 @@ static bool read_tetgen(const uint8_t *data, size_t size, struct arena *a, struc
     static const char *const endings[] = {"node", "ele", "face"};
     char path[96];
     if (!folder[0]) {
-        strcpy(folder, "/tmp/rasp_fuzz_XXXXXX");
-        if (!mkdtemp(folder))
-            abort();
+        fuzz_make_folder(folder);
         atexit(remove_folder);
     }
     for (int i = 0; i < 3; i++) {
