@@ -6,7 +6,7 @@
 #include "batch/spare.h"
 
 struct leftover {
-    struct journal_ref *refs;    /* records of stimuli that the set has not, of which some file is there          */
+    struct journal_ref *refs;    /* records of what the set has not, of which some file is there, and those of keep */
     int n;
     const char **files;          /* their files that are there, as seen from the folder, by name; ends with NULL */
     int n_files, removed;        /* removed: how many files there were, and are no more                           */

@@ -135,19 +135,14 @@ static void note(struct sources *all, const struct scene *s, const char *file, c
     all->list[all->n++] = (struct outputs_source){file, what, s, status.st_dev, status.st_ino};
 }
 
-/* Of a folder what is read of it. */
-static void note_folder(struct sources *all, const struct scene *s, const char *folder, const char *what)
-{
-    int n = 0;
-    const char **files = folder ? folder_index_files(folder, &n, all->arena) : NULL;
-    for (int i = 0; i < n; i++)
-        note(all, s, files[i], what);
-}
-
+/* What a key names; of a folder what is read of it, too. */
 static void note_key(struct sources *all, const struct scene *s, const char *file, const char *what)
 {
+    int n = 0;
+    const char **files = file ? folder_index_files(file, &n, all->arena) : NULL;
     note(all, s, file, what);
-    note_folder(all, s, file, what);
+    for (int i = 0; i < n; i++)
+        note(all, s, files[i], what);
 }
 
 static void note_scene(struct sources *all, const struct scene *s)
