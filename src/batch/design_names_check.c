@@ -1,9 +1,13 @@
-/* See design_names_check.h. A stimulus NAME has the files NAME.wav, NAME.scene.yaml, NAME.json, and NAME.WORD.wav or NAME.WORD.csv of stems and of contacts. */
+/* See design_names_check.h. A stimulus NAME has the files NAME.wav, NAME.scene.yaml, NAME.json, and NAME.WORD.wav or NAME.WORD.csv of stems and of contacts.
+
+   Sets are rendered here and played there: what Windows, macOS and memory sticks cannot tell apart, or cannot hold, is no name either. They do not tell a from A; Windows takes CON, and
+   CON.wav, for a device, and leaves off a dot at the end. */
 #include "batch/design_names_check.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { PART_LONGEST = 200, NAME_LONGEST = 1000 };
 
@@ -12,7 +16,21 @@ enum { PART_LONGEST = 200, NAME_LONGEST = 1000 };
 static bool ends_in(const char *s, size_t n, const char *ending)
 {
     size_t m = strlen(ending);
-    return n >= m && strncmp(s + n - m, ending, m) == 0;
+    return n >= m && strncasecmp(s + n - m, ending, m) == 0;
+}
+
+static bool is_device(const char *s, size_t n)
+{
+    static const char *const words[] = {"con", "prn", "aux", "nul", NULL}, *const numbered[] = {"com", "lpt", NULL};
+    size_t stem = strcspn(s, "./");
+    stem = stem < n ? stem : n;
+    for (int i = 0; words[i]; i++)
+        if (stem == 3 && strncasecmp(s, words[i], 3) == 0)
+            return true;
+    for (int i = 0; numbered[i]; i++)
+        if (stem == 4 && strncasecmp(s, numbered[i], 3) == 0 && s[3] >= '1' && s[3] <= '9')
+            return true;
+    return false;
 }
 
 /* What is wrong with a part between slashes; NULL: nothing. */
@@ -26,6 +44,10 @@ static const char *part_fault(const char *s, size_t n, const char **cure)
         return "has a part that begins with a dot: it would be hidden, or lie outside of the output folder";
     if (n > PART_LONGEST)
         return "has a part of more than 200 letters";
+    if (s[n - 1] == '.')
+        return "has a part that ends with a dot, which Windows leaves off";
+    if (is_device(s, n))
+        return "has a part that is a device on Windows, which cannot have such a file";
     *cure = "leave the ending out: each file gets its own";
     for (int i = 0; endings[i]; i++)
         if (ends_in(s, n, endings[i]))
@@ -48,7 +70,7 @@ static const char *name_fault(const char *name, const char **cure)
         fault = "has more than 1000 letters";
     }
     size_t first = strcspn(name, "/"); /* a folder SHA256SUMS/ would stand where the file shall be */
-    if (!fault && (strcmp(name, "manifest") == 0 || strcmp(name, "timings") == 0 || (first == 10 && strncmp(name, "SHA256SUMS", first) == 0))) {
+    if (!fault && (strcasecmp(name, "manifest") == 0 || strcasecmp(name, "timings") == 0 || (first == 10 && strncasecmp(name, "SHA256SUMS", first) == 0))) {
         *cure = "write another template for name:";
         fault = "is that of a table of the set";
     }
@@ -60,13 +82,13 @@ static const char *name_fault(const char *name, const char **cure)
 static int by_name(const void *pa, const void *pb)
 {
     const struct design_stimulus *const *a = pa, *const *b = pb;
-    int order = strcmp((*a)->name, (*b)->name);
+    int order = strcasecmp((*a)->name, (*b)->name);
     return order ? order : *a < *b ? -1 : *a > *b;
 }
 
 static int name_only(const void *name, const void *p)
 {
-    return strcmp(name, (*(const struct design_stimulus *const *)p)->name);
+    return strcasecmp(name, (*(const struct design_stimulus *const *)p)->name);
 }
 
 /* "wood, 2 Hz, replicate 2", "the recording wood.wav" */
@@ -103,6 +125,9 @@ static void clash(const struct design_reading *r, const struct design_stimulus *
     if (strcmp(a->name, b->name) == 0)
         diag_add(r->yaml->diag, place_of(r, second), apart(r, a, b), "two stimuli would be named '%s': %s; and %s", diag_shown(r->yaml->diag, a->name), called(r, first),
                  called(r, second));
+    else if (strcasecmp(a->name, b->name) == 0)
+        diag_add(r->yaml->diag, place_of(r, second), "write labels that differ in more than capitals, or another template for name:",
+                 "two stimuli would be named '%s' and '%s', which Windows and macOS take for one name", diag_shown(r->yaml->diag, first->name), diag_shown(r->yaml->diag, second->name));
     else
         diag_add(r->yaml->diag, place_of(r, second), "write another template for name:, or other labels",
                  "files of '%s' and of '%s' could have one name, as .WORD may follow a name", diag_shown(r->yaml->diag, first->name),
@@ -133,7 +158,7 @@ static void clashes(const struct design_reading *r)
         sorted[i] = &d->stimuli[i];
     qsort(sorted, (size_t)d->n_stimuli, sizeof *sorted, by_name);
     for (int i = 0; i < d->n_stimuli; i++) {
-        const struct design_stimulus *other = i > 0 && strcmp(sorted[i]->name, sorted[i - 1]->name) == 0 ? sorted[i - 1] : NULL;
+        const struct design_stimulus *other = i > 0 && strcasecmp(sorted[i]->name, sorted[i - 1]->name) == 0 ? sorted[i - 1] : NULL;
         other = other ? other : continued(sorted, d->n_stimuli, sorted[i]->name, r->arena);
         if (other) {
             clash(r, other, sorted[i]);

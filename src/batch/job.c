@@ -14,6 +14,7 @@
 #include "pipeline/inputs.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
+#include "response/modes.h"
 #include "scene/scene_places.h"
 
 const char *job_base(const char *folder, const char *name, bool raw, struct arena *a)
@@ -159,6 +160,7 @@ static void fill(const struct scene *s, const struct render_report *report, stru
     r->encoding = s->output.encoding;
     r->frames = report->frames;
     r->sounds = report->sounds;
+    r->unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL;
     r->peak = report->sound.peak, r->rms = report->sound.rms;
     r->gain = report->sound.gain;
     r->ramp = report->sound.ramp;

@@ -91,7 +91,7 @@ static json_t *factor_json(const struct set_factor *f)
 {
     json_t *j = json_pack("{s:s, s:s, s:s*}", "LongName", f->name, "Description", f->meaning ? f->meaning : "a factor of the design", "Units", f->unit), *levels = json_object();
     for (int i = 0; i < f->n; i++)
-        json_object_set_new(levels, f->values[i], json_string(f->labels[i]));
+        json_object_set_new(levels, f->values[i], json_string(f->texts[i]));
     json_object_set_new(j, "Levels", levels);
     return j;
 }

@@ -118,6 +118,7 @@ static void duration(const struct manifest_cell *c) { put_number(c, record_of(c)
 static void encoding(const struct manifest_cell *c) { put(c, sound_of(c) ? keys_find("output.encoding")->choices[sound_of(c)->encoding].word : NULL); }
 static void level_mode(const struct manifest_cell *c) { put(c, c->level); }
 static void gain(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->gain) : 0); }
+static void unit(const struct manifest_cell *c) { put(c, sound_of(c) ? sound_of(c)->unit : NULL); }
 static void peak(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_peak) : 0); }
 static void rms(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_rms) : 0); }
 static void lufs(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? rint(sound_of(c)->file_lufs * 1e4) / 1e4 : 0); }
@@ -134,7 +135,7 @@ static void status(const struct manifest_cell *c)
 }
 
 static void error_code(const struct manifest_cell *c) { fprintf(c->f, "%d", (int)c->is->kind); }
-static void error(const struct manifest_cell *c) { put(c, c->is->text ? c->is->text : ""); }
+static void error(const struct manifest_cell *c) { put(c, c->is->text); }
 
 const struct manifest_column manifest_columns[] = {
     {"file_name", "File", "the stimulus, from the folder of this table: a WAV, or the table of what makes no sound", NULL, file_name},
@@ -154,6 +155,7 @@ const struct manifest_column manifest_columns[] = {
     {"encoding", "Encoding", "how samples are stored", NULL, encoding},
     {"level_mode", "Level rule", "how the level was set: common: one gain for the whole set, such that its greatest stimulus has the level; each: every stimulus has it; scene: as its scene says", NULL, level_mode},
     {"gain_db", "Gain", "file value per unit of the sound's quantity (of a recording: per its own sample value), in decibels", "dB", gain},
+    {"gain_per", "Unit of the gain", "unit of the sound's quantity, which gain_db is per; n/a where recorded responses do not say theirs, and of a recording", NULL, unit},
     {"peak_dbfs", "Peak", "greatest sample of the file, re full scale", "dB", peak},
     {"rms_dbfs", "Level", "rms of the whole file, re full scale (a square wave of full scale has 0)", "dB", rms},
     {"loudness_lufs", "Loudness", "integrated loudness of the file, BS.1770, mono counted on two ears; n/a below 0.4 s", "LUFS", lufs},
@@ -165,6 +167,6 @@ const struct manifest_column manifest_columns[] = {
     {"tool_version", "Program", "the program that made it", NULL, version},
     {"status", "Status", "ok; failed: see error; waits: the common gain is not known while other stimuli are missing; missing: not rendered yet", NULL, status},
     {"error_code", "Exit code", "what a render of this stimulus alone exits with: 0, or as the manual's EXIT STATUS has it", NULL, error_code},
-    {"error", "Error", "why it failed", NULL, error},
+    {"error", "Error", "why it failed; n/a of what did not", NULL, error},
     {NULL, NULL, NULL, NULL, NULL},
 };

@@ -1,11 +1,9 @@
 /* See measure.h. */
 #include "batch/measure.h"
 
-#include <limits.h>
 #include <math.h>
 
 #include "analysis/distance.h"
-#include "file/wav_stream.h"
 #include "num/real.h"
 #include "output/loudness.h"
 
@@ -26,72 +24,74 @@ static void add(struct sums *s, const double *x, long n)
     distance_hash_add(&s->hash, x, (size_t)n);
 }
 
-static bool pass(struct wav_stream *w, struct sums *s, struct err *e)
+static bool pass(struct cut *c, struct sums *s, struct err *e)
 {
     double x[PIECE];
-    long n, most = PIECE / w->channels;
+    long n, most = PIECE / c->in.channels;
     do {
-        if (!wav_stream_read(w, x, most, &n, e))
+        if (!cut_read(c, x, most, &n, e))
             return false;
-        add(s, x, n * w->channels);
+        add(s, x, n * c->in.channels);
     } while (n > 0);
     return true;
 }
 
 /* BS.1770's gate is absolute: the sound is brought to peak 1 first. */
-static bool loud_pass(struct wav_stream *w, double peak, struct loudness *l, struct err *e)
+static bool loud_pass(struct cut *c, double peak, struct loudness *l, struct err *e)
 {
     double x[PIECE];
-    long n, most = PIECE / w->channels;
+    long n, most = PIECE / c->in.channels;
     do {
-        if (!wav_stream_read(w, x, most, &n, e))
+        if (!cut_read(c, x, most, &n, e))
             return false;
-        for (long i = 0; i < n * w->channels; i++)
+        for (long i = 0; i < n * c->in.channels; i++)
             x[i] /= peak;
         loudness_add(l, x, (size_t)n);
     } while (n > 0);
     return true;
 }
 
-static bool find_loudness(const char *path, struct measure *m, struct err *e)
+static bool find_loudness(const char *path, const struct cut_form *form, struct measure *m, struct err *e)
 {
-    struct wav_stream w;
+    struct cut c;
     double lufs;
     struct loudness *l = loudness_open(m->channels, m->rate);
     if (!l)
         return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", m->rate);
-    bool ok = wav_stream_open(&w, path, e);
-    w.frames = w.frames < m->frames ? w.frames : m->frames;
-    ok = ok && loud_pass(&w, m->peak, l, e);
+    bool ok = cut_open(&c, path, form, e) && loud_pass(&c, m->peak, l, e);
     if (ok && loudness_read(l, &lufs))
         m->lufs = lufs + 20 * real_log10(m->peak);
-    wav_stream_close(&w);
+    cut_close(&c);
     loudness_close(l);
     return ok;
 }
 
-bool measure_part(const char *path, long frames, bool loud, struct measure *m, struct err *e)
+static bool find_rest(struct cut *c, struct measure *m, struct err *e)
 {
-    struct wav_stream w;
-    if (!wav_stream_open(&w, path, e))
-        return false;
-    if (w.channels > PIECE) {
-        wav_stream_close(&w);
-        return err_set(e, ERR_SCENE, "%s: has %d channels", path, w.channels);
-    }
-    w.frames = w.frames < frames ? w.frames : frames;
     struct sums s = {.hash = hash_start()};
-    *m = (struct measure){.rate = w.rate, .channels = w.channels, .frames = w.frames, .lufs = NAN};
-    distance_hash_add(&s.hash, (const double[2]){w.rate, w.channels}, 2);
-    bool ok = pass(&w, &s, e);
-    wav_stream_close(&w);
+    *m = (struct measure){.rate = c->in.rate, .channels = c->in.channels, .frames = c->frames, .own = c->own, .lufs = NAN};
+    distance_hash_add(&s.hash, (const double[2]){m->rate, m->channels}, 2);
+    bool ok = pass(c, &s, e);
     hash_end(&s.hash, m->audio);
+    m->end = c->end;
+    m->before = c->before;
     m->peak = s.peak;
     m->rms = sqrt(s.squares / fmax(1, (double)m->frames * m->channels));
-    return ok && (!loud || m->peak == 0 || find_loudness(path, m, e));
+    return ok;
+}
+
+bool measure_cut(const char *path, const struct cut_form *form, bool loud, struct measure *m, struct err *e)
+{
+    struct cut c;
+    bool ok = cut_open(&c, path, form, e);
+    if (ok && c.in.channels > PIECE)
+        ok = err_set(e, ERR_SCENE, "%s: has %d channels", path, c.in.channels);
+    ok = ok && find_rest(&c, m, e);
+    cut_close(&c);
+    return ok && (!loud || m->peak == 0 || find_loudness(path, form, m, e));
 }
 
 bool measure_file(const char *path, bool loud, struct measure *m, struct err *e)
 {
-    return measure_part(path, LONG_MAX, loud, m, e);
+    return measure_cut(path, NULL, loud, m, e);
 }

@@ -5,11 +5,13 @@
 
 #include "base/err.h"
 #include "base/hash.h"
+#include "batch/cut.h"
 
 struct measure {
     double rate;         /* Hz                                                        */
     int channels;
-    long frames;
+    long frames, own;    /* own: of the file; others where it is cut or continued   */
+    double end, before;  /* as of struct cut                                          */
     double peak, rms;    /* re full scale, of all channels                            */
     double lufs;         /* integrated; NAN: shorter than 0.4 s, or silent            */
     char audio[HASH_TEXT]; /* of the decoded samples, as rasp compare --hash has it   */
@@ -18,7 +20,7 @@ struct measure {
 /* loud: the loudness is measured, too, at the cost of as much again. Two passes over the file, the second for the loudness. ERR_INPUT, ERR_SCENE */
 bool measure_file(const char *path, bool loud, struct measure *m, struct err *e);
 
-/* The same of its first frames, if it has more. */
-bool measure_part(const char *path, long frames, bool loud, struct measure *m, struct err *e);
+/* The same of what becomes of it by a cut. */
+bool measure_cut(const char *path, const struct cut_form *form, bool loud, struct measure *m, struct err *e);
 
 #endif

@@ -11,6 +11,7 @@
 #include "batch/claim.h"
 #include "batch/finish.h"
 #include "batch/folder.h"
+#include "batch/merged.h"
 #include "batch/pool.h"
 #include "batch/set_file.h"
 #include "file/csv.h"
@@ -109,7 +110,8 @@ static struct outcome outcome_of(const struct merge *m, const struct csv *t, siz
     if (!strcmp(status, "ok") || !strcmp(status, "waits")) {
         struct arena *a = arena_open();
         o.waits = !strcmp(status, "waits");
-        journal_find(m->kit.journal, cell[c->job], o.waits, a, &o.record);
+        if (!journal_find(m->kit.journal, cell[c->job], o.waits, a, &o.record) && o.waits)
+            journal_find(m->kit.journal, cell[c->job], false, a, &o.record); /* a merge that was cut off had done with it */
         arena_close(a);
         return o;
     }
@@ -159,19 +161,28 @@ static bool is_there(const void *context, const struct record *r, struct arena *
     return job_is_there(m->folder, r, a);
 }
 
-/* The latest record is not always the one whose files are there: journals of several divisions are read by their names. */
+/* The latest record is not always the one whose files are there: journals of several divisions are read by their names, and of what waited a merge that was cut off may have made
+   what has its level. */
+static bool find_other(const struct merge *m, struct outcome *o, const struct record *r, struct arena *a)
+{
+    struct journal_ref other;
+    const char *hash = r->job && !o->waits ? r->job : r->key;
+    for (int waits = o->waits; waits >= 0; waits--)
+        if (journal_find_such(m->kit.journal, &(struct journal_wish){hash, waits, is_there, m}, a, &other)) {
+            o->record = other;
+            return true;
+        }
+    return false;
+}
+
 static bool look(void *context, int i)
 {
     struct merge *m = context;
     struct arena *a = arena_open();
     struct err unreadable = {0};
-    struct journal_ref *ref = &m->report->outcomes[i].record, other;
-    const struct record *r = ref->size ? journal_read(m->kit.journal, *ref, a, &unreadable) : NULL;
-    m->there[i] = r && job_is_there(m->folder, r, a);
-    if (r && !m->there[i] && journal_find_such(m->kit.journal, &(struct journal_wish){r->job ? r->job : r->key, !r->job, is_there, m}, a, &other)) {
-        m->there[i] = true;
-        *ref = other;
-    }
+    struct outcome *o = &m->report->outcomes[i];
+    const struct record *r = o->record.size ? journal_read(m->kit.journal, o->record, a, &unreadable) : NULL;
+    m->there[i] = r && (job_is_there(m->folder, r, a) || find_other(m, o, r, a));
     arena_close(a);
     return true;
 }
@@ -265,7 +276,7 @@ bool merge_run(const char *folder, int threads, struct arena *a, struct merge_re
     *r = (struct merge_report){.missing = "", .unheard = "", .full_scale = NAN};
     find_parts(&m);
     if (!m.n)
-        return err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv, as rasp batch --shard leaves them: there is nothing to merge", folder);
+        return merged_already(folder, a, r, e);
     if (!same_division(&m, e) || !set_file_load(arena_format(a, "%s/.rasp/set.json", folder), a, &r->set, e))
         return false;
     r->outcomes = ARENA_TAKE(a, struct outcome, r->set.n);

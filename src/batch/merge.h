@@ -13,13 +13,14 @@ struct merge_report {
     double full_scale;           /* as of struct finish */
     struct leftover left;        /* as of struct batch_report */
     const char *unheard;         /* a warning of factors that are not heard; "": none */
+    int already;                 /* there was nothing to merge: the set is done, of so many stimuli */
     const char *missing;         /* of shards, "3,17"; "": none */
     const char **names;          /* of stimuli that are not there as the shards left them; ends with NULL */
     const char **whys;           /* the same: what is the matter with each, "low.wav is missing" */
 };
 
 /* Joins what `rasp batch --shard` left in the folder: the result is that of a batch in one piece, byte for byte. ERR_INPUT: shards or stimuli are missing (the report says
-   which), or nothing of shards is there; ERR_SCENE: they are of different designs, of different builds of the program, or of divisions into different numbers. A set of which
+   which), or neither anything of shards is there nor a set that is done (batch/merged.h); ERR_SCENE: they are of different designs, of different builds of the program, or of divisions into different numbers. A set of which
    stimuli failed is joined all the same; then *e is the worst of the failures, and what the shards left stays. */
 bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e);
 

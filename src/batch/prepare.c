@@ -139,20 +139,43 @@ void prepare_close(struct prepare *p)
 
 /* ------------------------------------------------------------------ the whole */
 
+static bool is_sound(const struct preparation *p, int i)
+{
+    return !p->view.design->stimuli[i].recording && p->looks[p->first[i]].sounds;
+}
+
 /* The form of the set is that of its first sound; recordings alone have that of the first of them, in 24 bits. */
-static void find_form(struct preparation *p, struct set *s)
+static void find_form(const struct preparation *p, struct set *s, struct prepare_form *f)
 {
     s->encoding = ENCODING_PCM24;
     s->ramp = 0.01;
-    for (int i = 0; i < s->n; i++) {
+    *f = (struct prepare_form){NULL, NULL, NULL, NULL};
+    for (int i = 0; i < s->n && !(f->first && f->stated); i++) {
         const struct prepare_look *l = &p->looks[p->first[i]];
-        if (p->view.design->stimuli[i].recording || !l->sounds)
+        if (!is_sound(p, i))
             continue;
+        if (!f->stated && l->quantity >= 0) {
+            f->stated = l;
+            f->stated_name = s->rows[i].name;
+        }
+        if (f->first)
+            continue;
+        *f = (struct prepare_form){l, f->stated, s->rows[i].name, f->stated_name};
         s->rate = l->rate;
         s->channels = l->channels;
         s->encoding = l->encoding;
         s->ramp = l->ramp;
-        return;
+    }
+}
+
+static void look_at_forms(struct preparation *p, struct set *s)
+{
+    struct prepare_form f;
+    find_form(p, s, &f);
+    for (int i = 0; i < s->n; i++) {
+        struct prepare_look *l = &p->looks[p->first[i]];
+        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && prepare_look_otherwise(&p->view, i, &f, l) : l->otherwise))
+            settle(p, i, l);
     }
 }
 
@@ -271,7 +294,7 @@ bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, 
     hash_add(&p.scenes, ask->design->sha256, HASH_TEXT);
     if (!look_at_all(&p, ask->threads, e) || (find_drawn(&p) && !look_at_all(&p, ask->threads, e)))
         return false;
-    find_form(&p, s);
+    look_at_forms(&p, s);
     look_at_recordings(&p, s);
     char *sha256 = arena_take(a, HASH_TEXT, 1);
     hash_end(&p.scenes, sha256);

@@ -8,6 +8,7 @@
 #include "output/loudness.h"
 #include "output/sound.h"
 #include "pipeline/plan_scene.h"
+#include "response/modes.h"
 #include "scene/scene_places.h"
 #include "scene/scene_write.h"
 
@@ -76,6 +77,7 @@ static bool estimate(const struct prepare_view *v, int i, struct prepare_look *l
     l->encoding = s->output.encoding;
     l->ramp = s->output.ramp;
     l->sounds = x.sounds;
+    l->quantity = x.quantity;
     l->loud = !isnan(wants(v, s).lufs);
     return true;
 }
@@ -106,4 +108,35 @@ void prepare_look_short(const struct prepare_view *v, int i, double seconds, str
     design_scene_places(v->design, s, t->arena);
     if (!sound_long_enough(s, frames_of(l, seconds), &t->e))
         scene_places_tell(s, &t->e);
+}
+
+/* ------------------------------------------------------------------ one form */
+
+/* Players and trial scripts take one rate and one number of channels for all that they play, and resample, or fail, where it is another. */
+static bool tell_otherwise(const struct prepare_view *v, const struct prepare_form *f, const struct prepare_look *l, struct err *e)
+{
+    if (l->rate != f->first->rate)
+        return err_set(e, ERR_SCENE, "output.sample_rate: the sound has %g Hz, '%s' of the same set %g Hz: give all one sample rate, or make two sets", l->rate, f->first_name, f->first->rate);
+    if (l->channels != f->first->channels)
+        return err_set(e, ERR_SCENE, "output.channels: the sound has %d channel%s, '%s' of the same set %d: give all as many (output.channels, output.listen), or make two sets", l->channels,
+                       l->channels == 1 ? "" : "s", f->first_name, f->first->channels);
+    if (v->set->level_rule == DESIGN_LEVEL_COMMON && l->quantity >= 0 && l->quantity != f->stated->quantity)
+        return err_set(e, ERR_SCENE, "output.quantity: the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose one quantity, or level: {each: ...}",
+                       modes_quantity_unit(l->quantity), f->stated_name, modes_quantity_unit(f->stated->quantity));
+    return true;
+}
+
+bool prepare_look_otherwise(const struct prepare_view *v, int i, const struct prepare_form *f, struct prepare_look *l)
+{
+    struct err e = {0};
+    if (!l->sounds || tell_otherwise(v, f, l, &e))
+        return false;
+    struct prepare_trial *t = l->trial = prepare_look_open();
+    l->otherwise = true;
+    if (!design_scene(v->design, i, t->arena, &t->scene, &t->messages, &t->e))
+        return true;
+    t->e = e;
+    design_scene_places(v->design, &t->scene, t->arena);
+    scene_places_tell(&t->scene, &t->e);
+    return true;
 }

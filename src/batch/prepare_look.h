@@ -19,8 +19,10 @@ struct prepare_look {
     int fault;               /* from 1; 0: it can be rendered */
     double seconds, cost, rate, ramp;
     int channels, encoding, bits;
+    int quantity;            /* of the sound, enum modes_quantity; -1: not stated */
     bool sounds, loud;       /* loud: its level is a loudness */
     bool brief;              /* found to be too short for that */
+    bool otherwise;          /* found to be of another form than the set's sounds */
     bool drawn;              /* its seed says where it goes, too, as a scribble's does: replicates differ in more than their noise */
 };
 
@@ -40,5 +42,13 @@ bool prepare_look_is_short(const struct prepare_look *l, double seconds);
 
 /* Then l->trial says so. */
 void prepare_look_short(const struct prepare_view *v, int i, double seconds, struct prepare_look *l);
+
+struct prepare_form {        /* what the sounds of a set have in common: that of the first of them, and of the first that says its quantity; NULL: none yet */
+    const struct prepare_look *first, *stated;
+    const char *first_name, *stated_name;
+};
+
+/* Is it of another rate, of another number of channels, or, where one gain is common to all, in another quantity? Then l->trial says so. A stimulus that makes no sound is of no form. */
+bool prepare_look_otherwise(const struct prepare_view *v, int i, const struct prepare_form *f, struct prepare_look *l);
 
 #endif

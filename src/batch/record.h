@@ -25,6 +25,7 @@ struct record {
     double rate;            /* Hz                                                                         */
     int channels, encoding; /* of the file, enum encoding                                                 */
     long frames;
+    const char *unit;       /* of the sound's quantity; NULL: not stated, or a recording                  */
     bool sounds;            /* there is a WAV                                                             */
     double gain;            /* file value per unit of the quantity                                        */
     double file_peak, file_rms, file_lufs; /* of the WAV's samples, re full scale; LUFS (NAN: too short or too quiet) */

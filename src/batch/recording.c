@@ -5,19 +5,17 @@
 
    (a silent one has no level, which is a warning, as it is of a render)
 
-   and cut to the set's length under the set's ramp, or continued by silence. It must have the set's sample rate and channels: converting is left to programs made for it. */
+   and cut to the set's length under the set's ramp, or continued by silence (batch/cut.c). Its level is that of the whole file then, as a render's is. It must have
+   the set's sample rate and channels: converting is left to programs made for it. */
 #include "batch/recording.h"
 
-#include <limits.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/stopwatch.h"
 #include "base/watch.h"
 #include "batch/folder.h"
 #include "batch/measure.h"
 #include "file/wav.h"
-#include "file/wav_stream.h"
 #include "num/real.h"
 #include "scene/keys_yaml.h"
 
@@ -42,10 +40,9 @@ bool recording_check(const char *file, double *rate, int *channels, double *seco
                    w.channels == 1 ? "" : "s", w.rate, *channels, *rate, file, *rate, *channels);
 }
 
-/* As many frames of it are heard; its level is theirs. */
-static long length(const struct set *s)
+static struct cut_form form_of(const struct set *s)
 {
-    return isnan(s->length) ? LONG_MAX : (long)rint(s->length * s->rate);
+    return (struct cut_form){s->length, s->ramp};
 }
 
 /* What the level asks of a recording that holds this. */
@@ -72,67 +69,45 @@ bool recording_check_level(const char *file, const struct set *s, struct err *e)
 {
     struct measure m;
     double gain;
-    return isnan(s->level.lufs) || (measure_part(file, length(s), true, &m, e) && find_gain(s, file, &m, &gain, e));
+    struct cut_form form = form_of(s);
+    return isnan(s->level.lufs) || (measure_cut(file, &form, true, &m, e) && find_gain(s, file, &m, &gain, e));
 }
 
-struct copy {
-    struct wav_stream in;
-    struct wav_out *out;
-    long frames, ramp, done;
-    double gain;
-};
-
-static void shape(struct copy *c, double *x, long n)
-{
-    bool cut = c->ramp > 0;
-    for (long i = 0; i < n; i++) {
-        long rest = c->frames - 1 - (c->done + i);
-        double s = cut && rest < c->ramp ? real_sinpi(0.5 * ((double)rest + 0.5) / (double)c->ramp) : 1;
-        for (int k = 0; k < c->in.channels; k++)
-            x[i * c->in.channels + k] *= c->gain * s * s;
-    }
-}
-
-static bool copy_all(struct copy *c, struct err *e)
+static bool copy_all(struct cut *c, struct wav_out *out, double gain, struct err *e)
 {
     double x[PIECE];
-    long most = PIECE / c->in.channels;
-    while (c->done < c->frames) {
-        long some = c->frames - c->done < most ? c->frames - c->done : most, n;
-        memset(x, 0, sizeof x);
-        if (!wav_stream_read(&c->in, x, some, &n, e))
+    long n, most = PIECE / c->in.channels;
+    do {
+        if (!cut_read(c, x, most, &n, e))
             return false;
-        shape(c, x, some);
-        if (!wav_write(c->out, x, (size_t)some, e))
+        for (long i = 0; i < n * c->in.channels; i++)
+            x[i] *= gain;
+        if (n > 0 && !wav_write(out, x, (size_t)n, e))
             return false;
-        c->done += some;
-    }
+    } while (n > 0);
     return true;
 }
 
-static bool write_it(const struct set *set, const char *file, const char *path, double gain, struct record *r, struct err *e)
+static bool write_it(const struct set *set, const char *file, const char *path, struct record *r, struct err *e)
 {
     static const int bits[] = {[ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
     char comment[80];
-    struct copy c = {.gain = gain};
-    if (!wav_stream_open(&c.in, file, e))
+    struct cut c;
+    struct cut_form form = form_of(set);
+    if (!cut_open(&c, file, &form, e))
         return false;
-    long own = c.in.frames;
-    c.frames = isnan(set->length) ? own : (long)rint(set->length * c.in.rate);
-    c.ramp = c.frames < own ? (long)rint(set->ramp * c.in.rate) : 0;
-    c.ramp = c.ramp < c.frames / 2 ? c.ramp : c.frames / 2;
-    snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", gain, 20 * real_log10(gain));
+    snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", r->gain, 20 * real_log10(r->gain));
     struct wav_format f = {.rate = c.in.rate, .channels = c.in.channels, .bits = bits[set->encoding], .comment = comment};
-    c.out = wav_create(path, &f, e);
-    bool ok = c.out && copy_all(&c, e);
-    wav_stream_close(&c.in);
+    struct wav_out *out = wav_create(path, &f, e);
+    bool ok = out && copy_all(&c, out, r->gain, e);
+    cut_close(&c);
     r->frames = c.frames;
     r->rate = c.in.rate;
     r->ramp = c.ramp > 0 ? (double)c.ramp / c.in.rate : 0;
     if (ok)
-        return wav_commit(c.out, e);
-    if (c.out)
-        wav_drop(c.out);
+        return wav_commit(out, e);
+    if (out)
+        wav_drop(out);
     return false;
 }
 
@@ -144,23 +119,41 @@ static const char *key_of(const struct job_kit *k, const char *name, const char 
                                           arena_format(a, "%d", s->encoding), keys_yaml_number(s->ramp, a)}, 8, a);
 }
 
+/* A cut where the sound is less than 80 dB below its peak is told, as it is of a render. */
+static const char **remarks_of(const struct measure *m, struct arena *a)
+{
+    const char **all = ARENA_TAKE(a, const char *, 3);
+    int n = 0;
+    if (m->peak == 0)
+        all[n++] = "the recording is silent: no level was set";
+    if (m->frames < m->own && m->end > 1e-4 * m->before)
+        all[n++] = arena_format(a, "length: the recording is cut at %.4g s of %.4g s, where it is %.1f dB below its peak before the ramp", (double)m->frames / m->rate, (double)m->own / m->rate,
+                                fmax(0, -20 * real_log10(m->end / m->before)));
+    return all;
+}
+
+static bool measure(const struct set *s, const char *file, struct measure *m, struct record *r, struct err *e)
+{
+    struct cut_form form = form_of(s);
+    if (!measure_cut(file, &form, !isnan(s->level.lufs), m, e) || !find_gain(s, file, m, &r->gain, e))
+        return false;
+    r->peak = m->peak, r->rms = m->rms, r->lufs = m->lufs;
+    return true;
+}
+
 static bool make(const struct job_kit *k, const char *file, struct record *r, struct arena *a, struct err *e)
 {
     struct measure m;
     char hex[HASH_TEXT];
-    double gain, start[2] = {stopwatch_wall(), stopwatch_cpu()};
+    double start[2] = {stopwatch_wall(), stopwatch_cpu()};
     const char *path = arena_format(a, "%s.wav", job_base(k->folder, r->name, false, a));
-    if (!folder_make_for(k->folder, r->name, e) || !measure_part(file, length(k->set), !isnan(k->set->level.lufs), &m, e) || !find_gain(k->set, file, &m, &gain, e) ||
-        !write_it(k->set, file, path, gain, r, e) || !hash_file(path, hex, e))
+    if (!folder_make_for(k->folder, r->name, e) || !measure(k->set, file, &m, r, e) || !write_it(k->set, file, path, r, e) || !hash_file(path, hex, e))
         return false;
     r->files = ARENA_TAKE(a, struct record_file, 1);
     r->files[r->n_files++] = (struct record_file){"wav", arena_format(a, "%s.wav", r->name), arena_text(a, hex)};
     r->audio = arena_take(a, HASH_TEXT, 1);
     r->sounds = true;
-    r->remarks = ARENA_TAKE(a, const char *, 2);
-    if (m.peak == 0)
-        r->remarks[0] = "the recording is silent: no level was set";
-    r->gain = gain, r->peak = m.peak, r->rms = m.rms, r->lufs = m.lufs;
+    r->remarks = remarks_of(&m, a);
     r->encoding = k->set->encoding;
     r->full_scale = NAN;
     r->wall = stopwatch_wall() - start[0], r->cpu = stopwatch_cpu() - start[1];

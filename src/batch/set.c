@@ -9,10 +9,10 @@
 static struct set_factor factor_make(const struct design_factor *d, struct arena *a)
 {
     struct set_factor f = {.name = d->name, .column = d->column, .unit = d->unit, .meaning = d->meaning, .n = d->n_levels};
-    f.labels = ARENA_TAKE(a, const char *, d->n_levels);
+    f.texts = ARENA_TAKE(a, const char *, d->n_levels);
     f.values = ARENA_TAKE(a, const char *, d->n_levels);
     for (int i = 0; i < d->n_levels; i++) {
-        f.labels[i] = d->levels[i].label;
+        f.texts[i] = d->levels[i].text ? d->levels[i].text : d->levels[i].label;
         f.values[i] = d->levels[i].value;
     }
     return f;

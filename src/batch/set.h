@@ -12,7 +12,7 @@
 struct set_factor {
     const char *name, *column;      /* as of struct design_factor                                          */
     const char *unit, *meaning;     /* NULL: none                                                          */
-    const char **labels, **values;  /* [n] of its levels                                                   */
+    const char **texts, **values;   /* [n] of its levels; texts: what they are, in words                      */
     int n;
 };
 

@@ -12,8 +12,8 @@
 
 static json_t *factor_json(const struct set_factor *f)
 {
-    return json_pack("{s:s, s:s, s:s?, s:s?, s:o, s:o}", "name", f->name, "column", f->column, "unit", f->unit, "meaning", f->meaning, "labels",
-                     json_value_texts(f->labels, f->n), "values", json_value_texts(f->values, f->n));
+    return json_pack("{s:s, s:s, s:s?, s:s?, s:o, s:o}", "name", f->name, "column", f->column, "unit", f->unit, "meaning", f->meaning, "texts",
+                     json_value_texts(f->texts, f->n), "values", json_value_texts(f->values, f->n));
 }
 
 static json_t *row_json(const struct set *s, const struct set_row *r)
@@ -78,8 +78,8 @@ static const char **texts_of(const json_t *j, const char *key, int n, struct are
 static bool factor_of(const json_t *j, struct arena *a, struct set_factor *f)
 {
     *f = (struct set_factor){.name = json_value_text_of(j, "name", a), .column = json_value_text_of(j, "column", a), .unit = json_value_text_of(j, "unit", a),
-                             .meaning = json_value_text_of(j, "meaning", a), .n = (int)json_array_size(json_object_get(j, "labels"))};
-    f->labels = texts_of(j, "labels", f->n, a);
+                             .meaning = json_value_text_of(j, "meaning", a), .n = (int)json_array_size(json_object_get(j, "texts"))};
+    f->texts = texts_of(j, "texts", f->n, a);
     f->values = texts_of(j, "values", f->n, a);
     return f->name && f->column;
 }

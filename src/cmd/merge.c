@@ -29,15 +29,26 @@ static void tell_missing(struct cmd_call *c, const struct merge_report *r)
 
 static json_t *report_json(const struct merge_report *r, const char *folder)
 {
-    json_t *j = batch_json(&r->set, r->outcomes, r->full_scale), *missing = json_array();
+    json_t *j = r->already ? json_pack("{s:i}", "stimuli", r->already) : batch_json(&r->set, r->outcomes, r->full_scale), *missing = json_array();
     for (int i = 0; r->names && r->names[i]; i++)
         json_array_append_new(missing, json_string(r->names[i]));
     json_object_set_new(j, "folder", json_string(folder));
+    json_object_set_new(j, "merged_already", json_boolean(r->already && !r->names[0]));
     json_object_set_new(j, "shards", json_integer(r->shards));
     json_object_set_new(j, "missing_shards", json_string(r->missing));
     json_object_set_new(j, "missing_stimuli", missing);
     json_object_set_new(j, "left_over", batch_left_json(&r->left));
     return j;
+}
+
+static void print_report(const struct merge_report *r, const char *folder, struct arena *a)
+{
+    if (r->already) {
+        printf("%s: merged already: all %d stimuli are there as manifest.csv says\n", folder, r->already);
+        return;
+    }
+    printf("%s: %d stimuli of %d shards, %d failed", folder, r->set.n, r->shards, r->failed);
+    printf("%s%s\n", isnan(r->full_scale) ? "" : "; full_scale ", isnan(r->full_scale) ? "" : keys_yaml_number(r->full_scale, a));
 }
 
 static int merge_command_run(struct cmd_call *c, struct err *e)
@@ -50,20 +61,18 @@ static int merge_command_run(struct cmd_call *c, struct err *e)
     interrupt_catch();
     bool ok = merge_run(folder, threads, c->arena, &r, e);
     tell_missing(c, &r);
-    if (ok || r.failed)
+    if (r.outcomes && (ok || r.failed))
         batch_tell(c, "merge", NULL, &(struct results){&r.set, r.outcomes, r.journal});
     if (*r.unheard)
         tell_warning(c, folder, r.unheard);
     batch_tell_left(c, folder, &r.left);
     merge_close(&r);
-    if (!r.outcomes)
+    if (!r.outcomes && !r.already)
         return (int)e->kind;
     if (args_given(&c->args, "json"))
         batch_print_json(report_json(&r, folder), e);
-    else if ((ok || r.failed) && !args_given(&c->args, "quiet")) {
-        printf("%s: %d stimuli of %d shards, %d failed", folder, r.set.n, r.shards, r.failed);
-        printf("%s%s\n", isnan(r.full_scale) ? "" : "; full_scale ", isnan(r.full_scale) ? "" : keys_yaml_number(r.full_scale, c->arena));
-    }
+    else if ((ok || r.failed) && !args_given(&c->args, "quiet"))
+        print_report(&r, folder, c->arena);
     return (int)e->kind;
 }
 
@@ -74,7 +83,8 @@ const struct command merge_command = {
             "out of folders from which the design is seen as it is from here, for scenes name files so. "
             "Checks that all shards are there, of one design and one build of the program, and that every file has the bytes that it had; gives the sounds their common level, if the "
             "design wants one; writes manifest.csv, manifest.json, SHA256SUMS and timings.csv. The folder is then the same as after a batch in one piece, byte for byte but for times. "
-            "Shards that are missing are named as a list for a job array, --array=3,17, stimuli by name; the exit code is 66 then.",
+            "Shards that are missing are named as a list for a job array, --array=3,17, stimuli by name; the exit code is 66 then. A merge that was cut off goes on when it is run again; of a set that "
+            "was merged already it looks whether every file is as it was.",
     .operands = "FOLDER",
     .least = 1,
     .most = 1,

@@ -17,13 +17,15 @@ static bool open_part(const struct scene *s, struct render_part *one, FILE *nowh
     return one->open;
 }
 
-static bool open_parts(struct render_parts *p, struct render_length *length, struct err *e)
+/* quantity: as of struct plan_scene_estimate. */
+static bool open_parts(struct render_parts *p, struct render_length *length, int *quantity, struct err *e)
 {
     FILE *nowhere = memory_fopen("/dev/null", "w");
     bool ok = nowhere || err_set(e, ERR_IO, "/dev/null cannot be opened");
     for (int i = 0; ok && i < p->scene->n_contacts; i++)
         ok = open_part(p->scene, &p->parts[i], nowhere, e);
     ok = ok && render_parts_agree(p, e) && render_parts_length(p, length, e);
+    *quantity = ok ? render_parts_quantity(p) : -1;
     render_parts_close(p);
     if (nowhere)
         fclose(nowhere);
@@ -35,7 +37,8 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err
     struct render_parts p = render_parts_make(s, "", a);
     struct plan *plans = ARENA_TAKE(a, struct plan, s->n_contacts);
     struct render_length length;
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &length, e) || (p.asked & ITEM_BIT(ITEM_SOUND) && !sound_long_enough(s, length.frames, e)))
+    int quantity;
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &length, &quantity, e) || (p.asked & ITEM_BIT(ITEM_SOUND) && !sound_long_enough(s, length.frames, e)))
         return NULL;
     for (int i = 0; i < s->n_contacts; i++)
         plans[i] = p.parts[i].plan;
@@ -45,7 +48,7 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, struct err
 bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e)
 {
     struct render_parts p = render_parts_make(s, "", a);
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &x->length, e))
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, &x->length, &x->quantity, e))
         return false;
     x->cycles = 0;
     x->sounds = p.asked & ITEM_BIT(ITEM_SOUND);

@@ -12,6 +12,7 @@ struct plan_scene_estimate {
     struct render_length length;
     double cycles;           /* predicted, of the whole render: of one core with 256-bit vectors */
     bool sounds;             /* there is a WAV */
+    int quantity;            /* of the sound, enum modes_quantity; -1: not stated */
 };
 
 /* How long the render will be and what it will cost; as plan_scene otherwise, but a sound that is too short for its level is none of its errors. */

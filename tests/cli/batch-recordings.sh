@@ -19,6 +19,15 @@ for r in csv.DictReader(open("out/manifest.csv")):
     x = [int.from_bytes(b[3 * i:3 * i + 3], "little", signed=True) for i in range(w.getnframes())]
     print(r["stimulus_id"], w.getnframes(), abs(float(r["peak_dbfs"]) + 3) < 1e-4, x[-1] == 0, r["offset_ramp_s"])'
 rasp batch set.yaml -o out | sed 's/, in.*//'
+echo "-- a level is that of the whole file, cut or continued, as a render's is"
+for level in 'rms: -26 dB' 'lufs: -30' 'peak: -6 dB'; do
+    { sed 's/^length.*/length: 450 ms/' set.yaml; echo "level: {each: {$level}}"; } > each.yaml
+    rm -rf each
+    rasp batch each.yaml -o each -q 2> told.txt || cat told.txt
+    columns each/manifest.csv stimulus_id rms_dbfs loudness_lufs peak_dbfs | awk -F' [|] ' -v l="$level" '
+        { v = l ~ /rms/ ? $2 : l ~ /lufs/ ? $3 : $4; print $1, l, (v - (l ~ /rms/ ? -26 : l ~ /lufs/ ? -30 : -6)) ^ 2 < 1e-6 ? "met" : v }'
+done
+sed 's/, where.*//' told.txt
 sed 's/short.wav/other.wav/' set.yaml > wrong.yaml
 rasp batch wrong.yaml -o wrong || echo "exit $?" >&2
 echo "-- what the dry run says of a recording is what the manifest says"

@@ -46,7 +46,6 @@ factors:
     - {label: likes, set: {surface.roughness: {like: like.csv, like_pitch: 8 um, rms: null}}}
     - {label: tap, set: {surface.response: tap.wav}}
     - {label: short, set: {surface.response: tap.wav, surface.response_length: 20 ms}}
-    - {label: rate, set: {surface.response: tap.wav, output.sample_rate: 44.1 kHz}}
     - {label: launch, set: {surface.response: modes.csv, surface.pairing: 0.05}}
     - {label: pairs, set: {surface.response: modes.csv, surface.pairing: 0.3}}
     - {label: fewer, set: {surface.response: modes.csv, surface.modes: 1}}

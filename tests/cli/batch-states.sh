@@ -32,7 +32,7 @@ same fresh parts && echo "the same as fresh"
 echo "-- a whole batch leaves nothing to be merged"
 shards 1/2 2/2
 rasp batch six.yaml -o parts -q
-merge parts
+rasp merge parts
 same fresh parts && echo "the same as fresh"
 rm -r parts
 echo "-- shards that were made in folders from which the design is seen otherwise"

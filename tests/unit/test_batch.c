@@ -300,7 +300,7 @@ static void put_set(FILE *f, const void *set)
 START_TEST(a_manifest_is_quoted_as_tables_are)
 {
     const char *labels[] = {"wood, light", "\"hard\""};
-    struct set_factor factor = {.name = "material", .column = "material", .labels = labels, .values = labels, .n = 2};
+    struct set_factor factor = {.name = "material", .column = "material", .texts = labels, .values = labels, .n = 2};
     struct set_row rows[] = {{.name = "a/b", .values = &labels[0], .replicate = 1, .seed = UINT64_MAX, .cost = 1}, {.name = "c", .values = &labels[1], .replicate = 2, .cost = 1}};
     struct set s = {.sha256 = "d", .build = "rasp", .factors = &factor, .n_factors = 1, .rows = rows, .n = 2, .level = {.full_scale = NAN, .peak = -3, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN}};
     char path[] = "/tmp/rasp-test-XXXXXX";

@@ -1,0 +1,46 @@
+# A merge that is cut off at any moment goes on when it is run again; one of a set that was merged already says so, and looks at its files.
+. "$ROOT/tests/cli/batch-make.inc"
+merge() { rasp merge "$@" 2>&1 || echo "exit $?"; }
+names() { (cd "$1" && find . -name '.rasp-*' -o -name raw); }
+sed -i 's/^factors/level: {common: {peak: -6 dB}}\nreplicates: 3\nfactors/' six.yaml
+rasp batch six.yaml -o ref -q
+for part in 1/2 2/2; do rasp batch six.yaml -o shards -q --shard $part; done
+cp -r shards whole && merge whole -q
+echo "-- cut off between two stimuli: some have their level, and their raw sounds are gone"
+cp -r shards half
+cat whole/.rasp/journal >> half/.rasp/journal
+for sound in whole/low*.wav; do
+    name=$(basename "$sound" .wav)
+    cp whole/"$name".* half
+    rm half/.rasp/raw/"$name".*
+done
+merge half -q
+same ref half && names half && echo "half: the same"
+echo "-- cut off when all was done but taking the shards' manifests away"
+cp -r whole late
+cp shards/manifest.* late
+cp shards/.rasp/set.json late/.rasp
+merge late -q
+same ref late && echo "late: the same"
+echo "-- killed and interrupted wherever it is"
+cp -r shards killed
+for t in 0.01 0.02 0.03 0.04 0.05 0.06 0.08 0.1; do
+    for signal in KILL INT; do
+        timeout -s $signal $t rasp merge -j 1 killed > log 2>&1 || true
+    done
+done 2> /dev/null
+merge killed -q
+same ref killed && names killed && echo "killed: the same"
+echo "-- once more"
+merge whole
+merge whole -q
+merge whole --json
+same ref whole && echo "whole: the same"
+rm whole/low_200ms_r1.wav
+echo >> whole/low_250ms_r2.scene.yaml
+merge whole
+merge whole --json 2> /dev/null
+rm -r whole/.rasp
+merge whole | tail -n 2
+mkdir none
+merge none
