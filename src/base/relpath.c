@@ -8,12 +8,36 @@
 
 #include "base/memory.h"
 
-static const char *real_folder(const char *folder, struct arena *a)
+static const char *real_one(const char *folder, struct arena *a)
 {
-    char *real = memory_realpath(*folder ? folder : ".");
+    char *real = memory_realpath(folder);
     const char *kept = real ? arena_text(a, real) : NULL;
     free(real);
     return kept;
+}
+
+static const char *joined(const char *folder, const char *name, size_t n, struct arena *a)
+{
+    return arena_format(a, "%s/%.*s", strcmp(folder, "/") ? folder : "", (int)n, name);
+}
+
+/* Of a folder that is not there, or whose own cannot be looked into, as far as it is, then by its names. */
+static const char *real_folder(const char *folder, struct arena *a)
+{
+    const char *at = real_one(*folder ? folder : ".", a);
+    if (at)
+        return at;
+    at = *folder == '/' ? "/" : real_one(".", a);
+    for (size_t n; at && *folder; folder += n + (folder[n] == '/')) {
+        n = strcspn(folder, "/");
+        const char *slash = strrchr(at, '/');
+        if (n == 0 || (n == 1 && *folder == '.'))
+            continue;
+        const char *next = n == 2 && !strncmp(folder, "..", 2) ? (slash == at ? "/" : arena_format(a, "%.*s", (int)(slash - at), at)) : joined(at, folder, n, a);
+        const char *real = real_one(next, a);
+        at = real ? real : next;
+    }
+    return at;
 }
 
 static const char *absolute(const char *file, struct arena *a)

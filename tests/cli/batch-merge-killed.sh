@@ -31,6 +31,20 @@ for t in 0.01 0.02 0.03 0.04 0.05 0.06 0.08 0.1; do
 done 2> /dev/null
 merge killed -q
 same ref killed && names killed && echo "killed: the same"
+echo "-- where what it is made of is not at hand: scenes name it as they would, and it is there again later"
+mkdir irs
+mv low.csv irs
+sed -i 's/low.csv/irs\/low.csv/' six.yaml
+rasp batch six.yaml -o near -q
+for part in 1/2 2/2; do rasp batch six.yaml -o far -q --shard $part; done
+mkdir -p elsewhere
+cp -r far elsewhere
+mv irs away
+rasp merge far -q
+(cd elsewhere && rasp merge far -q)
+mv away irs
+same near far && same near elsewhere/far && echo "far: the same"
+rasp render far/low_200ms_r1.scene.yaml -q -o again.wav && cmp again.wav far/low_200ms_r1.wav
 echo "-- once more"
 merge whole
 merge whole -q

@@ -77,4 +77,30 @@ START_TEST(test_absolute)
 }
 END_TEST
 
-UNIT("relpath", test_same_file, test_absolute)
+/* What is not there is called as it was when it was there. */
+START_TEST(test_missing)
+{
+    static const char *const file_of[] = {"d/file", "a/b/../../d/file", "./d/./file", "l/../../d//file", "d/../d/file"}, *const folder_of[] = {"", "a/b", "l", "d", "a/b/../../d"};
+    char here[4096];
+    const char *before[5][5];
+    struct arena *a = arena_open();
+    make_tree();
+    ck_assert_ptr_nonnull(getcwd(here, sizeof here));
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < 5; i++)
+            for (int k = 0; k < 5; k++) {
+                const char *file = i == 4 ? arena_format(a, "%s/%s", here, file_of[i]) : file_of[i], *name = relpath_make(file, folder_of[k], a);
+                ck_assert_msg(pass == 0 || !strcmp(name, before[i][k]), "%s from %s is %s, not %s", file, folder_of[k], name, before[i][k]);
+                before[i][k] = name;
+            }
+        ck_assert_int_eq(rename(pass == 0 ? "d" : "away", pass == 0 ? "away" : "d"), 0);
+    }
+    ck_assert_str_eq(before[1][1], "../../d/file");
+    ck_assert_str_eq(relpath_make("no/such/../file", "a", a), "../no/file");
+    ck_assert_str_eq(relpath_make("/../no/../x", "/y", a), "/x");
+    remove_tree();
+    arena_close(a);
+}
+END_TEST
+
+UNIT("relpath", test_same_file, test_absolute, test_missing)
