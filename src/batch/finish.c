@@ -141,6 +141,7 @@ static void took(void *context, int i)
         o->text = folder_seen(w->finish->kit->folder, l->e->text, w->finish->arena);
         if (stops(l->e))
             err_set(&w->stop, l->e->kind, "%s", l->e->text);
+        o->raw = o->waits ? o->record : (struct journal_ref){0};
         o->record = (struct journal_ref){0};
     }
     free(l->e);
@@ -197,7 +198,8 @@ static bool settle(struct finish *f, bool complete, struct err *e)
     for (int i = 0; i < f->left.n; i++) /* before the set's: the later a record stands, the newer it is */
         records[i] = f->left.refs[i];
     for (int i = 0; i < s->n; i++) {
-        records[f->left.n + i] = f->results.of[i].record;
+        const struct outcome *o = &f->results.of[i];
+        records[f->left.n + i] = o->record.size ? o->record : o->raw;
         names[i] = s->rows[i].name;
     }
     if (!journal_settle(f->kit->journal, records, n, e))

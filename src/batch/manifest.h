@@ -11,6 +11,7 @@
 
 struct outcome {                 /* of one stimulus                                          */
     struct journal_ref record;   /* size 0: it failed, or is not of this shard               */
+    struct journal_ref raw;      /* of what failed when it got its level: its raw sound, which stays; size 0: none */
     bool waits;                  /* the record is of a raw sound, which waits for its gain   */
     bool kept;                   /* it was there                                             */
     enum err_kind kind;          /* why it failed; ERR_NONE without a record: not tried      */

@@ -2,9 +2,12 @@
 #include "batch/merge.h"
 
 #include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "base/text.h"
@@ -270,10 +273,9 @@ void merge_close(struct merge_report *r)
     r->journal = NULL;
 }
 
-bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
+static bool run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
 {
     struct merge m = {.folder = folder, .arena = a, .report = r, .kit = {.set = &r->set, .folder = folder}};
-    *r = (struct merge_report){.missing = "", .unheard = "", .full_scale = NAN};
     find_parts(&m);
     if (!m.n)
         return merged_already(folder, a, r, e);
@@ -286,5 +288,17 @@ bool merge_run(const char *folder, int threads, struct arena *a, struct merge_re
     m.kit.journal = r->journal = ok ? journal_open(folder, arena_format(a, "%s/.rasp/journal", folder), a, e) : NULL;
     ok = m.kit.journal && join(&m, threads, e);
     folder_leave(m.entered);
+    return ok;
+}
+
+/* Two merges would take the raw sounds away from each other. What both read is what they are told apart by; where it is not there, nothing is merged. */
+bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
+{
+    *r = (struct merge_report){.missing = "", .unheard = "", .full_scale = NAN};
+    int set = open(arena_format(a, "%s/.rasp/set.json", folder), O_RDONLY | O_CLOEXEC);
+    bool alone = set < 0 || flock(set, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    bool ok = alone ? run(folder, threads, a, r, e) : err_set(e, ERR_CREATE, "%s: another rasp merge is at work in it: wait until it has ended", folder);
+    if (set >= 0)
+        close(set);
     return ok;
 }

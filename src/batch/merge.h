@@ -20,7 +20,7 @@ struct merge_report {
 };
 
 /* Joins what `rasp batch --shard` left in the folder: the result is that of a batch in one piece, byte for byte. ERR_INPUT: shards or stimuli are missing (the report says
-   which), or neither anything of shards is there nor a set that is done (batch/merged.h); ERR_SCENE: they are of different designs, of different builds of the program, or of divisions into different numbers. A set of which
+   which), or neither anything of shards is there nor a set that is done (batch/merged.h); ERR_SCENE: they are of different designs, of different builds of the program, or of divisions into different numbers. ERR_CREATE: another merge is at work there. A set of which
    stimuli failed is joined all the same; then *e is the worst of the failures, and what the shards left stays. */
 bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e);
 

@@ -45,6 +45,24 @@ rasp merge far -q
 mv away irs
 same near far && same near elsewhere/far && echo "far: the same"
 rasp render far/low_200ms_r1.scene.yaml -q -o again.wav && cmp again.wav far/low_200ms_r1.wav
+echo "-- two at once: the second is refused"
+cp -r shards both
+flock both/.rasp/set.json rasp merge both 2>&1 || echo "exit $?"
+merge both -q
+same ref both && echo "both: the same"
+echo "-- one that cannot have its level: the others have it, and the same is told of it again"
+mkdir loud
+cp ./*.yaml ./*.csv loud
+cp -r irs loud
+cd loud
+sed -i 's/peak: -6 dB/rms: -12 dB/; s/replicates: 3/replicates: 1/' six.yaml
+for part in 1/2 2/2; do rasp batch six.yaml -o parts -q --shard $part; done
+merge parts -q | sed 's/frame .*/.../'
+merge parts -q | sed 's/frame .*/.../'
+columns parts/manifest.csv stimulus_id status
+rasp batch six.yaml -o parts 2> told.txt | sed 's/, in .*//' || true
+sed 's/frame .*/.../' told.txt
+cd ..
 echo "-- once more"
 merge whole
 merge whole -q
