@@ -39,28 +39,37 @@ static const char *place_of(const struct claim *c, struct arena *a)
     return relpath_make(c->design, c->folder, a);
 }
 
-/* Of another design? A manifest of which nothing says whose it is counts as one. */
+/* Of another design? */
 static bool is_free(const struct claim *c, const struct owner *o, struct arena *a, struct err *e)
 {
     static const char what[] = "choose another folder with -o, or say --replace, and the folder is this design's from now on";
-    const char *manifest = arena_format(a, "%s/manifest.csv", c->folder);
-    if (c->replace)
+    if (c->replace || !o->sha256)
         return true;
-    if (!o->sha256)
-        return access(manifest, F_OK) != 0 || err_set(e, ERR_CREATE, "%s: is there already, and nothing says of which design: %s", manifest, what);
     if (!strcmp(o->sha256, c->sha256) || !strcmp(o->place, place_of(c, a)))
         return true;
     const char *seen = o->place[0] == '/' ? o->place : relpath_make(arena_format(a, "%s/%s", c->folder, o->place), NULL, a);
     return err_set(e, ERR_CREATE, "%s: holds the set of another design, %s: %s", c->folder, seen, what);
 }
 
+static void look(const char *folder, struct arena *a, struct owner *o)
+{
+    int fd = open(arena_format(a, "%s/.rasp/design", folder), O_RDONLY | O_CLOEXEC);
+    parse(o, fd < 0 ? 0 : pread(fd, o->text, MOST, 0));
+    if (fd >= 0)
+        close(fd);
+}
+
+bool claim_is_noted(const char *folder, struct arena *a)
+{
+    struct owner o;
+    look(folder, a, &o);
+    return o.sha256 != NULL;
+}
+
 bool claim_look(const struct claim *c, struct arena *a, struct err *e)
 {
     struct owner o;
-    int fd = open(arena_format(a, "%s/.rasp/design", c->folder), O_RDONLY | O_CLOEXEC);
-    parse(&o, fd < 0 ? 0 : pread(fd, o.text, MOST, 0));
-    if (fd >= 0)
-        close(fd);
+    look(c->folder, a, &o);
     return is_free(c, &o, a, e);
 }
 

@@ -23,6 +23,9 @@ bool claim_enter(const struct claim *c, struct arena *a, int *entered, struct er
 /* The same for a merge, which knows no design's file: the folder must hold this state of the set, or say nothing. ERR_CREATE; ERR_INPUT: it holds another by now */
 bool claim_join(const struct claim *c, struct arena *a, int *entered, struct err *e);
 
+/* Does the folder say whose it is? If not, nothing in it is a set's. */
+bool claim_is_noted(const char *folder, struct arena *a);
+
 /* Would it be let in? Writes nothing; the folder need not be there. ERR_CREATE */
 bool claim_look(const struct claim *c, struct arena *a, struct err *e);
 

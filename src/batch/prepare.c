@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "batch/claim.h"
 #include "batch/pool.h"
 #include "batch/prepare_look.h"
 #include "batch/recording.h"
@@ -302,5 +303,5 @@ bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, 
     find_length(&p, s);
     look_at_levels(&p, s);
     add_up(&p, s);
-    return tell(out, s, ask->folder, e) && (!ask->folder || spare_check(p.spare, s, p.first, &(struct spare_place){ask->folder, ask->shard}, e));
+    return tell(out, s, ask->folder, e) && (!ask->folder || spare_check(p.spare, s, p.first, &(struct spare_place){ask->folder, ask->shard, !ask->replace && !claim_is_noted(ask->folder, a)}, e));
 }

@@ -22,6 +22,7 @@ struct prepare_ask {
     struct shelf *shelf;     /* for what the scenes read                  */
     const char *folder;      /* where the set goes; NULL: it is not said  */
     const struct shard *shard;
+    bool replace;            /* what is there already may be anybody's    */
 };
 
 struct prepare {
@@ -38,8 +39,8 @@ struct prepare {
 
 /* Completes the set: its hash, costs, the common length, the form of the WAVs. Replicates of a cell differ in their noise alone: the first one is read for all. Takes as many
    threads. False: there are faults (*e: the gravest kind and a summary), or ERR_INTERRUPTED, or
-   an output would take the place of an input (ERR_CREATE). */
-void prepare_close(struct prepare *p);
+   an output would take the place of an input, or of a file that nothing says to be this design's (ERR_CREATE). */
 bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *p, struct err *e);
+void prepare_close(struct prepare *p);
 
 #endif

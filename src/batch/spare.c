@@ -2,11 +2,13 @@
    the inputs: all of those are there. The inputs are kept in a table with open addressing, so that a set of many stimuli costs little more than a look at each file. */
 #include "batch/spare.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/memory.h"
+#include "batch/claim.h"
 #include "batch/manifest.h"
 #include "pipeline/outputs.h"
 
@@ -122,9 +124,19 @@ bool spare_reads(const struct spare *s, const char *path)
     return reads(s, path) != NULL;
 }
 
-static bool spared(const struct spare *s, const char *whose, const char *path, struct err *e)
+/* Another shard may have begun meanwhile: it says whose the folder is before it writes anything else. */
+static bool is_foreign(const struct spare_place *p, const char *path, struct arena *a)
+{
+    struct stat status;
+    return p->unknown && lstat(path, &status) == 0 && !claim_is_noted(p->folder, a);
+}
+
+static bool spared(const struct spare *s, const struct spare_place *p, const char *whose, const char *path, struct err *e)
 {
     const struct file_read *in = reads(s, path);
+    if (!in && is_foreign(p, path, s->arena))
+        return err_set(e, ERR_CREATE, "%s: is there already, and nothing says of which design: choose another folder with -o, or say --replace, and the folder is this design's from now on; nothing was "
+                                      "written", path);
     return !in ||
            err_set(e, ERR_CREATE, "%s: the output %s would overwrite the input %s (%s): write into another folder with -o, or change the name; nothing was written", whose, path, in->file,
                    in->what);
@@ -134,9 +146,23 @@ static bool tables_spared(const struct spare *s, const struct spare_place *p, st
 {
     static const char *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS", "timings.csv"};
     for (int k = 0; k < 4; k++)
-        if (!spared(s, s->design->file, arena_format(a, "%s/%s", p->folder, tables[k]), e))
+        if (!spared(s, p, s->design->file, arena_format(a, "%s/%s", p->folder, tables[k]), e))
             return false;
-    return spared(s, s->design->file, manifest_path(p->folder, p->shard, a), e);
+    return spared(s, p, s->design->file, manifest_path(p->folder, p->shard, a), e);
+}
+
+/* The end of a whole set takes shards' manifests away. */
+static bool shards_spared(const struct spare *s, const struct spare_place *p, struct err *e)
+{
+    struct shard other;
+    bool ok = true;
+    DIR *d = p->unknown ? opendir(p->folder) : NULL;
+    for (struct dirent *entry; d && ok && (entry = readdir(d));)
+        if (shard_of_manifest(entry->d_name, &other))
+            ok = spared(s, p, s->design->file, arena_format(s->arena, "%s/%s", p->folder, entry->d_name), e);
+    if (d)
+        closedir(d);
+    return ok;
 }
 
 /* What lies in FOLDER/.rasp is the program's own, and is taken away. */
@@ -164,7 +190,7 @@ static bool all_spared(const struct spare *s, const struct set *set, const int *
         bool recording = s->design->stimuli[i].recording;
         const char *const *endings = recording ? wav : s->writes[first[i]].of;
         for (int k = 0; ok && k < (recording ? 1 : s->writes[first[i]].n); k++)
-            ok = spared(s, set->rows[i].name, arena_format(a, "%s/%s%s", p->folder, set->rows[i].name, endings[k]), e);
+            ok = spared(s, p, set->rows[i].name, arena_format(a, "%s/%s%s", p->folder, set->rows[i].name, endings[k]), e);
         arena_close(a);
     }
     return ok;
@@ -178,5 +204,5 @@ bool spare_check(struct spare *s, const struct set *set, const int *first, const
     for (int i = 0; i < set->n; i++)
         if (s->design->stimuli[i].recording)
             add_file(s, s->design->stimuli[i].recording, "a recording");
-    return all_spared(s, set, first, p, e) && tables_spared(s, p, s->arena, e) && hidden_spared(s, p->folder, s->arena, e);
+    return all_spared(s, set, first, p, e) && tables_spared(s, p, s->arena, e) && shards_spared(s, p, e) && hidden_spared(s, p->folder, s->arena, e);
 }

@@ -1,4 +1,4 @@
-/* No output of a set may be one of the files that it is made from. */
+/* No output of a set may be one of the files that it is made from, nor anybody's file. */
 #ifndef BATCH_SPARE_H
 #define BATCH_SPARE_H
 #include "batch/set.h"
@@ -9,6 +9,7 @@ struct spare;                /* what the set reads, each file once, and what eac
 struct spare_place {         /* where the set goes */
     const char *folder;
     const struct shard *shard;
+    bool unknown;            /* nothing says whose files lie there */
 };
 
 struct spare *spare_open(const struct design *d, struct arena *a);
@@ -19,7 +20,7 @@ void spare_scene(struct spare *s, int i, const struct scene *scene);
 /* Is the file one that the set reads, as far as they were noted? */
 bool spare_reads(const struct spare *s, const char *path);
 
-/* first: [n] the stimulus whose scene was noted for stimulus i. False: ERR_CREATE, with both names. */
+/* first: [n] the stimulus whose scene was noted for stimulus i. False: ERR_CREATE, with both names; or a file of the set is there already, and the folder says nothing. */
 bool spare_check(struct spare *s, const struct set *set, const int *first, const struct spare_place *place, struct err *e);
 
 #endif

@@ -284,7 +284,7 @@ const struct command batch_command = {
     .name = "batch",
     .summary = "renders the set of stimuli that a design describes",
     .does = "A design (rasp-design(5)) has a base scene, factors and levels, replicates, an order, one rule for the level and one for the length. Everything is read and checked before "
-            "anything is rendered. FOLDER then has NAME.wav, NAME.scene.yaml (rendering it gives the same bytes) and NAME.json of every stimulus, with whatever else its scene "
+            "anything is rendered, but for promised errors (accuracy.error), which rasp check looks at beforehand. FOLDER then has NAME.wav, NAME.scene.yaml (rendering it gives the same bytes) and NAME.json of every stimulus, with whatever else its scene "
             "writes; manifest.csv, a row for each with factors, seed, levels and hashes; manifest.json, which says what its columns mean; SHA256SUMS, for sha256sum -c; timings.csv. "
             "None of them may take the place of a file that the set is made from. All but the last, and the NAME.json, are the same bytes whatever the number of threads and shards.\n"
             "Run again, it renders only what is not there as it should be: after a change of the design, of an input or of the program, after an interruption (exit code 75), a crash or a "
@@ -293,7 +293,8 @@ const struct command batch_command = {
             "known only when all stimuli are: until then their raw sounds wait in FOLDER/.rasp, 8 bytes a sample. With --shard the set is rendered by several runs, on several machines "
             "perhaps, each with a manifest.I-of-N.csv; rasp merge makes one set of them. FOLDER/.rasp also keeps the list of what is done.\n"
             "A folder holds the set of one design, which is known by its file and by what it says, its scenes and what they read included: the file may be edited, or be moved or renamed as it is. Another design is refused (exit code 73) "
-            "unless --replace gives it the folder; so is a second batch while one is at work for another state of the design, where batches of the same state share the work. "
+            "unless --replace gives it the folder; so is a second batch while one is at work for another state of the design; two of the same state get along, and what both are at they both render, to the same bytes. A folder that holds "
+            "nobody's set is taken if no file in it has the name of one of the set's. "
             "Files of stimuli that are no more in the design (a level was taken out, a label changed) stay, are named in a warning at the end, "
             "and are in no table; --prune removes those stimuli of which no file was changed, with their NAME.json, whose bytes are not kept account of: rename one with notes in it.",
     .operands = "DESIGN",

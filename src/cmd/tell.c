@@ -145,16 +145,6 @@ void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, 
         fputc('\n', stderr);
 }
 
-void tell_error(struct cmd_call *c, const char *command, const struct err *e)
-{
-    struct cmd_tell *t = of(c);
-    if ((t->json || t->kept) && !t->told)
-        put(c, of_err(e));
-    t->told = false;
-    if (!t->json)
-        program_complain(command, e);
-}
-
 /* ":12" at the beginning of a text; the rest is behind it, NULL: there is none. */
 static const char *number_at(const char *text, int *n)
 {
@@ -177,6 +167,32 @@ static struct err_place place_in(const char *text)
         }
     }
     return (struct err_place){0};
+}
+
+/* The same of a text that begins with one of the command's operands, or "OPERAND: ". */
+static struct err_place operand_in(const struct cmd_call *c, const char *text)
+{
+    for (int i = 0; i < c->args.n_operands; i++) {
+        int n = (int)strlen(c->args.operands[i]);
+        if (!n || strncmp(text, c->args.operands[i], (size_t)n) != 0 || text[n] != ':')
+            continue;
+        struct err_place p = place_in(text);
+        return p.file == n ? p : text[n + 1] == ' ' ? (struct err_place){.file = n, .message = n + 2} : (struct err_place){0};
+    }
+    return (struct err_place){0};
+}
+
+void tell_error(struct cmd_call *c, const char *command, const struct err *e)
+{
+    struct cmd_tell *t = of(c);
+    struct err placed = *e;
+    if (!e->place.file)
+        placed.place = operand_in(c, e->text);
+    if ((t->json || t->kept) && !t->told)
+        put(c, of_err(&placed));
+    t->told = false;
+    if (!t->json)
+        program_complain(command, e);
 }
 
 void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e)

@@ -4,7 +4,7 @@
 
    null stands for what is not known or there is none of; lines and columns count from 1, columns and width in characters; code is the exit code that the error
    alone would make, null of a warning. What an option of the command line says wrongly has "option", --set motion.rate say, and no file. The error of one stimulus of a set has "stimulus", its name. A file that another names has "named_at", the places of its name, the nearest first. A warning of several scenes has
-   "files". What is wrong with the command line itself is told as text. */
+   "files". What is wrong with the command line itself has no file; where no command is known yet it is told as text. */
 #ifndef CMD_TELL_H
 #define CMD_TELL_H
 #include <jansson.h>

@@ -50,4 +50,25 @@ mkdir bare
 echo x > bare/manifest.csv
 code rasp batch other.yaml -o bare
 cat bare/manifest.csv
+for file in manifest.json SHA256SUMS timings.csv manifest.2-of-3.csv; do
+    mkdir own
+    echo mine > own/$file
+    code rasp batch six.yaml -o own -q | cut -d: -f 3-5
+    ls -A own
+    rm -r own
+done
+mkdir own
+for name in $(rasp batch six.yaml -n | awk 'NR == 2 { print $2 }'); do
+    for ending in wav scene.yaml json; do
+        echo mine > own/$name.$ending
+        code rasp batch six.yaml -o own -n -q | cut -d: -f 3-5
+        code rasp batch six.yaml -o own -q --shard 1/2 | cut -d: -f 3-5
+        ls -A own
+        rm own/$name.$ending
+    done
+    rasp batch six.yaml -o own -q
+    echo "-- what a set wrote is its own, though the journal is gone"
+    rm own/.rasp/journal
+    code rasp batch six.yaml -o own | sed 's/, in .*//'
+done
 code rasp batch other.yaml -o bare --replace

@@ -54,7 +54,7 @@ echo "-- one that cannot have its level: the others have it, and the same is tol
 mkdir loud
 cp ./*.yaml ./*.csv loud
 cp -r irs loud
-cd loud
+cd loud || exit
 sed -i 's/peak: -6 dB/rms: -12 dB/; s/replicates: 3/replicates: 1/' six.yaml
 for part in 1/2 2/2; do rasp batch six.yaml -o parts -q --shard $part; done
 merge parts -q | sed 's/frame .*/.../'
@@ -62,7 +62,7 @@ merge parts -q | sed 's/frame .*/.../'
 columns parts/manifest.csv stimulus_id status
 rasp batch six.yaml -o parts 2> told.txt | sed 's/, in .*//' || true
 sed 's/frame .*/.../' told.txt
-cd ..
+cd .. || exit
 echo "-- once more"
 merge whole
 merge whole -q
