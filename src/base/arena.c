@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 
-enum { ARENA_ALIGN = 64, ARENA_CHUNK = 1 << 16, ARENA_HUGE = 1 << 21 /* a large page's bytes */ };
+enum { ARENA_ALIGN = 64, ARENA_FIRST = 1 << 10, ARENA_CHUNK = 1 << 16 /* chunks double from the first to this */, ARENA_HUGE = 1 << 21 /* a large page's bytes */ };
 
 struct chunk {
     struct chunk *next;
@@ -58,7 +58,9 @@ static void chunk_huge(void *whole, size_t size)
 
 static struct chunk *chunk_add(struct arena *a, size_t need)
 {
-    size_t size = need > ARENA_CHUNK ? need : ARENA_CHUNK;
+    size_t size = a->chunks ? 2 * a->chunks->size : ARENA_FIRST;
+    size = size < ARENA_CHUNK ? size : ARENA_CHUNK;
+    size = need > size ? need : size;
     void *whole = size <= SIZE_MAX - 2 * ARENA_ALIGN ? calloc(1, size + 2 * ARENA_ALIGN) : NULL;
     if (!whole)
         arena_full(1, need);

@@ -18,10 +18,12 @@ struct entry {
     const struct shelf_kind *kind;
     const char *file, *key;
     struct stat status;
-    struct arena *arena; /* that it and its thing lie in */
+    struct arena *arena; /* that what its thing has besides lies in; NULL: it is small */
     void *thing;
     enum state state;
-    struct entry *next;
+    size_t hash;         /* of kind, file and key */
+    struct entry *next;  /* of all */
+    struct entry *other; /* of those that have their place in the table in common */
 };
 
 enum { NOTES = 1 << 14 /* a power of two */, NOTES_MOST = 8 << 20 /* bytes */ };
@@ -35,7 +37,9 @@ struct note {
 struct shelf {
     pthread_mutex_t lock;
     pthread_cond_t made;
-    struct entry *entries;
+    struct arena *arena; /* of the entries */
+    struct entry *entries, **table;
+    size_t n, places;    /* entries; of the table, a power of two */
     size_t bytes, most;
     struct note **notes; /* [NOTES], or NULL: none yet; a key has one place, and drives out what is there */
     size_t noted;        /* their bytes */
@@ -44,7 +48,8 @@ struct shelf {
 struct shelf *shelf_open(size_t most)
 {
     struct shelf *s = memory_take(sizeof *s);
-    *s = (struct shelf){.most = most};
+    *s = (struct shelf){.most = most, .arena = arena_open(), .places = 64};
+    s->table = ARENA_TAKE(s->arena, struct entry *, s->places);
     pthread_mutex_init(&s->lock, NULL);
     pthread_cond_init(&s->made, NULL);
     return s;
@@ -54,10 +59,9 @@ void shelf_close(struct shelf *s)
 {
     if (!s)
         return;
-    for (struct entry *x = s->entries, *next; x; x = next) {
-        next = x->next;
+    for (struct entry *x = s->entries; x; x = x->next)
         arena_close(x->arena);
-    }
+    arena_close(s->arena);
     for (int i = 0; s->notes && i < NOTES; i++)
         free(s->notes[i]);
     free(s->notes);
@@ -66,12 +70,31 @@ void shelf_close(struct shelf *s)
     free(s);
 }
 
+/* FNV-1a. */
+static size_t hash_text(size_t h, const char *text)
+{
+    for (; *text; text++)
+        h = (h ^ (unsigned char)*text) * (size_t)0x100000001b3;
+    return (h ^ 0xff) * (size_t)0x100000001b3;
+}
+
+static const char *key_of(const struct shelf_ask *ask)
+{
+    return ask->key ? ask->key : "";
+}
+
+static size_t hash_of(const struct shelf_ask *ask)
+{
+    size_t h = hash_text(hash_text(hash_text((size_t)0xcbf29ce484222325, ask->kind->name), ask->file), key_of(ask));
+    return h ^ h >> 32;
+}
+
 /* Waits where another makes it. NULL: nobody has. */
 static const struct entry *find(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
 {
-    const char *key = ask->key ? ask->key : "";
-    for (struct entry *x = s->entries; x; x = x->next) {
-        if (x->kind != ask->kind || x->state == GONE || !watch_same(&x->status, status) || strcmp(x->file, ask->file) != 0 || strcmp(x->key, key) != 0)
+    size_t hash = hash_of(ask);
+    for (struct entry *x = s->table[hash & (s->places - 1)]; x; x = x->other) {
+        if (x->hash != hash || x->kind != ask->kind || x->state == GONE || !watch_same(&x->status, status) || strcmp(x->file, ask->file) != 0 || strcmp(x->key, key_of(ask)) != 0)
             continue;
         while (x->state == MAKING)
             pthread_cond_wait(&s->made, &s->lock);
@@ -81,12 +104,31 @@ static const struct entry *find(struct shelf *s, const struct shelf_ask *ask, co
     return NULL;
 }
 
+static void lay(struct shelf *s, struct entry *x)
+{
+    struct entry **at = &s->table[x->hash & (s->places - 1)];
+    x->other = *at;
+    *at = x;
+}
+
+static void grow(struct shelf *s)
+{
+    s->places *= 4;
+    s->table = ARENA_TAKE(s->arena, struct entry *, s->places);
+    for (struct entry *x = s->entries; x; x = x->next)
+        lay(s, x);
+}
+
 static struct entry *enter(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
 {
-    struct arena *a = arena_open();
-    struct entry *x = ARENA_TAKE(a, struct entry, 1);
-    *x = (struct entry){ask->kind, arena_text(a, ask->file), arena_text(a, ask->key ? ask->key : ""), *status, a, arena_take(a, 1, ask->kind->size), MAKING, s->entries};
+    struct entry *x = ARENA_TAKE(s->arena, struct entry, 1);
+    *x = (struct entry){.kind = ask->kind, .file = arena_text(s->arena, ask->file), .key = *key_of(ask) ? arena_text(s->arena, ask->key) : "", .status = *status,
+                        .thing = arena_take(s->arena, 1, ask->kind->size), .state = MAKING, .hash = hash_of(ask), .next = s->entries};
+    x->arena = ask->kind->small ? NULL : arena_open();
     s->entries = x;
+    lay(s, x);
+    if (++s->n > 2 * s->places)
+        grow(s);
     return x;
 }
 
@@ -96,7 +138,7 @@ static const void *make(struct shelf *s, struct entry *x, const void *how, struc
     bool ok = x->kind->make(x->file, how, x->arena, x->thing, &own);
     pthread_mutex_lock(&s->lock);
     x->state = ok ? THERE : GONE;
-    s->bytes += arena_bytes(x->arena);
+    s->bytes += x->arena ? arena_bytes(x->arena) : 0;
     pthread_cond_broadcast(&s->made);
     pthread_mutex_unlock(&s->lock);
     if (!ok && !e->kind)

@@ -14,7 +14,7 @@ struct shelf_kind {
     const char *name;   /* "mode table": of one file there may be several things */
     size_t size;        /* of the thing, a struct that `make` fills              */
     bool (*make)(const char *file, const void *how, struct arena *a, void *thing, struct err *e);
-    bool small;         /* there is room for it in any case                      */
+    bool small;         /* there is room for it in any case; `make` gets no arena */
 };
 
 struct shelf_ask {

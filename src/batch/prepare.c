@@ -46,7 +46,8 @@ static int note(struct preparation *p, int i, struct prepare_trial *t)
 {
     struct prepare *o = p->out;
     int k = 0;
-    while (k < o->n_faults && !same(&o->faults[k], t))
+    o->worst = t->e.kind > o->worst ? t->e.kind : o->worst;
+    while (k < o->n_faults && k < PREPARE_FAULTS && !same(&o->faults[k], t))
         k++;
     if (k == o->n_faults)
         *more_faults(p) = (struct prepare_fault){t->arena, t->diag, t->messages, &t->e, p->view.set->rows[i].name, 0};
@@ -278,12 +279,9 @@ static void add_up(const struct preparation *p, struct set *s)
 static bool tell(const struct prepare *p, const struct set *s, const char *folder, struct err *e)
 {
     int n = 0;
-    enum err_kind worst = ERR_NONE;
-    for (int k = 0; k < p->n_faults; k++) {
+    for (int k = 0; k < p->n_faults; k++)
         n += p->faults[k].n;
-        worst = p->faults[k].err->kind > worst ? p->faults[k].err->kind : worst;
-    }
-    return !p->n_faults || err_set(e, worst, "%d of %d stimuli cannot be rendered%s", n, s->n, folder ? "; nothing was written" : "");
+    return !p->n_faults || err_set(e, p->worst, "%d of %d stimuli cannot be rendered%s", n, s->n, folder ? "; nothing was written" : "");
 }
 
 bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *out, struct err *e)

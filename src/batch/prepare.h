@@ -16,6 +16,8 @@ struct prepare_fault {
     int n;                   /* how many have it                          */
 };
 
+enum { PREPARE_FAULTS = 64 /* that are told apart; the next one stands for all others, whatever they say */ };
+
 struct prepare_ask {
     const struct design *design;
     int threads;
@@ -34,6 +36,7 @@ struct prepare {
     double cycles;           /* predicted, of all                         */
     struct prepare_fault *faults;
     int n_faults, room;      /* 0: nothing is wrong; there is room for    */
+    enum err_kind worst;     /* of all                                    */
     const struct spare *inputs; /* what the set is made from              */
 };
 

@@ -85,7 +85,8 @@ void batch_tell_faults(struct cmd_call *c, const char *command, const char *file
         tell_error(c, command, &told);
     }
     if (p->n_faults > TOLD)
-        batch_tell_more(c, command, p->faults[TOLD].err->kind, arena_format(c->arena, "and %d more errors", p->n_faults - TOLD));
+        batch_tell_more(c, command, p->faults[TOLD].err->kind,
+                        arena_format(c->arena, p->n_faults > PREPARE_FAULTS ? "and many more errors" : "and %d more errors", p->n_faults - TOLD));
 }
 
 static void tell_remarks(struct cmd_call *c, const struct results *all, int i)
