@@ -64,7 +64,7 @@ static bool folder(struct modes_extract *x, const char *path, struct err *e)
 {
     struct csv t;
     x->index = arena_format(x->arena, "%s/index.csv", path);
-    if (!csv_read(x->index, x->arena, &t, e))
+    if (!csv_read_file(x->index, x->arena, &t, e))
         return e->kind == ERR_INPUT ? err_at(e, "a folder of recordings has its places in index.csv (file_name,x_m,y_m)") : false;
     if (t.rows == 0)
         return err_set(e, ERR_SCENE, "%s: has no rows; name at least one recording", t.file);

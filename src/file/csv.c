@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "num/decimal.h"
 
@@ -178,6 +179,14 @@ bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e)
 {
     struct bytes b;
     return bytes_read(path, a, &b, e) && csv_read_bytes(path, b, a, t, e);
+}
+
+bool csv_read_file(const char *path, struct arena *a, struct csv *t, struct err *e)
+{
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return err_set(e, ERR_INPUT, "%s: is not a file", path);
+    return csv_read(path, a, t, e);
 }
 
 bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e)

@@ -32,6 +32,7 @@ enum { CSV_ROOM = 32 };
 /* Also of bytes that were read from the path, and are taken apart in place. ERR_INPUT missing or unreadable; ERR_SCENE: no header, a row with another number of cells, an open quote, NUL bytes,
    duplicate or empty column names; the text says file:line: what. */
 bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e);
+bool csv_read_file(const char *path, struct arena *a, struct csv *t, struct err *e); /* of one that another file names: a pipe, a device or a folder is none, ERR_INPUT */
 bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e);
 
 /* Column by name, or -1. */

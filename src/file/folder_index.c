@@ -20,7 +20,7 @@ const char **folder_index_files(const char *folder, int *n, struct arena *a)
     *n = 0;
     if (access(index, F_OK) != 0)
         return NULL;
-    int column = csv_read(index, a, &t, &unreadable) && t.cells ? csv_column(&t, "file_name") : -1;
+    int column = csv_read_file(index, a, &t, &unreadable) && t.cells ? csv_column(&t, "file_name") : -1;
     size_t rows = column >= 0 ? t.rows : 0;
     const char **files = ARENA_TAKE(a, const char *, rows + 1);
     files[(*n)++] = index;

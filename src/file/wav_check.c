@@ -46,14 +46,13 @@ static double missing_bytes(FILE *f)
 bool wav_check(const char *path, struct err *e)
 {
     struct stat s;
+    if (stat(path, &s) == 0 && !S_ISREG(s.st_mode)) /* to open a pipe is to wait for who writes into it */
+        return err_set(e, ERR_INPUT, "%s: is not a file", path);
     FILE *f = memory_fopen(path, "rb");
     if (!f)
         return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
-    bool is_file = fstat(fileno(f), &s) == 0 && S_ISREG(s.st_mode);
-    double missing = is_file ? missing_bytes(f) : 0;
+    double missing = missing_bytes(f);
     fclose(f);
-    if (!is_file)
-        return err_set(e, ERR_INPUT, "%s: is not a file", path);
     if (missing > 0)
         return err_set(e, ERR_SCENE, "%s: is truncated: its last %.0f bytes are missing", path, missing);
     return true;

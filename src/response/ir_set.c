@@ -145,7 +145,7 @@ bool ir_set_read(const struct ir_ask *ask, struct arena *a, struct ir_set *s, st
 {
     struct reader r = {.ask = ask, .arena = a, .e = e};
     *s = (struct ir_set){0};
-    if (!csv_read(arena_format(a, "%s/index.csv", ask->path), a, &r.table, e))
+    if (!csv_read_file(arena_format(a, "%s/index.csv", ask->path), a, &r.table, e))
         return e->kind == ERR_INPUT ? err_at(e, "a folder of responses has its places in index.csv (file_name,x_m,y_m)") : false;
     return find_columns(&r) && read_rows(&r, s);
 }

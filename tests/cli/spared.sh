@@ -27,6 +27,22 @@ tell timeout 10 rasp check including.yaml
 printf '%s\n' 'rasp-design: 1' 'base: pipe.yaml' 'factors: {motion.rate: [1 Hz]}' > set.yaml
 tell timeout 10 rasp batch set.yaml --dry-run
 tell timeout 10 rasp check /dev/zero
+mkdir taps
+mkfifo taps/pipe.wav
+printf '%s\n' 'rasp: 1' 'surface: {roughness: {rms: 4 um}, response: taps}' 'scraper: {mass: 10 g}' 'motion: {path: line, to: [2 cm, 0], duration: 0.1 s}' > tapped.yaml
+printf '%s\n' file_name,x_m,y_m pipe.wav,0,0 > taps/index.csv
+printf '%s\n' 'rasp-design: 1' 'base: tapped.yaml' 'factors: {motion.duration: [0.1 s]}' > tapset.yaml
+for call in 'check tapped.yaml' 'render tapped.yaml' 'plan tapped.yaml' 'batch tapset.yaml --dry-run' 'modes extract taps -o taps.csv'; do
+    # shellcheck disable=SC2086
+    tell timeout 10 rasp $call
+done
+rm taps/index.csv
+for index in 'mkfifo taps/index.csv' 'ln -s /dev/zero taps/index.csv' 'mkdir taps/index.csv'; do
+    $index
+    tell timeout 10 rasp check tapped.yaml
+    tell timeout 10 rasp modes extract taps -o taps.csv
+    rm -r taps/index.csv
+done
 echo "-- words that are folders, too"
 mkdir design factors motion
 rasp explain design | head -n 1
