@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "base/relpath.h"
 #include "batch/folder.h"
 #include "batch/measure.h"
@@ -50,6 +51,17 @@ bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s,
 
 /* ------------------------------------------------------------------ is it there? */
 
+/* Of what has no hash, for it differs from run to run: NAME.json. What a power cut leaves of one is empty, or ends anywhere. */
+static bool ends_as_written(const char *path)
+{
+    char first = 0, last[2] = {0};
+    FILE *f = memory_fopen(path, "rb");
+    bool ok = f && fread(&first, 1, 1, f) == 1 && fseek(f, -2, SEEK_END) == 0 && fread(last, 1, 2, f) == 2;
+    if (f)
+        fclose(f);
+    return ok && first == '{' && last[0] == '}' && last[1] == '\n';
+}
+
 static const char *file_differs(const char *folder, const struct record_file *f, struct arena *a)
 {
     char hex[HASH_TEXT];
@@ -61,7 +73,7 @@ static const char *file_differs(const char *folder, const struct record_file *f,
     if (!S_ISREG(s.st_mode))
         return "is no file";
     if (!f->sha256)
-        return NULL;
+        return ends_as_written(path) ? NULL : "is not whole";
     return !hash_file(path, hex, &unreadable) ? "cannot be read" : strcmp(hex, f->sha256) ? "was changed" : NULL;
 }
 

@@ -180,8 +180,8 @@ static int remove_files(struct list *l)
             continue;
         f->there = false;
         n++;
-        if (slash)
-            rmdir(arena_format(a, "%s/%.*s", l->ask->folder, (int)(slash - f->path), f->path)); /* if nothing is in it */
+        while (slash && rmdir(arena_format(a, "%s/%.*s", l->ask->folder, (int)(slash - f->path), f->path)) == 0) /* if nothing is in it */
+            slash = memrchr(f->path, '/', (size_t)(slash - f->path));
     }
     arena_close(a);
     return n;

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "batch/folder.h"
+#include "file/bytes.h"
 #include "file/wav_stream.h"
 #include "num/real.h"
 #include "output/sound.h"
@@ -183,14 +184,31 @@ bool level_files_make(struct level_files *f, const struct job_kit *k, struct rec
     return put_texts(f, e);
 }
 
+/* Beside the stimulus, which may lie on another disk than what is hidden. */
+static bool carry(const char *from, const char *to, struct arena *a, struct err *e)
+{
+    struct bytes b;
+    struct outfile o;
+    if (rename(from, to) == 0)
+        return true;
+    if (errno != EXDEV)
+        return err_set(e, err_system(ERR_INPUT), "%s: %s", from, strerror(errno));
+    if (!bytes_read(from, a, &b, e) || !outfile_open(&o, to, e))
+        return false;
+    fwrite(b.at, 1, b.n, o.stream); /* what goes wrong here the commit says */
+    if (outfile_commit(&o, e))
+        return true;
+    outfile_drop(&o);
+    return false;
+}
+
 static bool commit_one(struct level_files *f, int i, struct err *e)
 {
     struct wav_out *w = f->sounds[i];
     char hex[HASH_TEXT];
     f->sounds[i] = NULL;
     if (!w)
-        return f->texts[i].target[0] ? outfile_commit(&f->texts[i], e)
-                                     : rename(f->raw[i], f->paths[i]) == 0 || err_set(e, err_system(ERR_INPUT), "%s: %s", f->raw[i], strerror(errno));
+        return f->texts[i].target[0] ? outfile_commit(&f->texts[i], e) : carry(f->raw[i], f->paths[i], f->arena, e);
     if (!wav_commit(w, e) || !hash_file(f->paths[i], hex, e))
         return false;
     f->made[i].sha256 = arena_text(f->arena, hex);

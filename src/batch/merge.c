@@ -216,7 +216,7 @@ static const char *why_not(const struct merge *m, int i)
     struct err unreadable = {0};
     struct journal_ref ref = m->report->outcomes[i].record;
     const struct record *r = ref.size ? journal_read(m->kit.journal, ref, a, &unreadable) : NULL;
-    const char *file = NULL, *state = r ? job_differs(m->folder, r, a, &file) : "is missing";
+    const char *file = NULL, *state = r ? job_differs(m->folder, r, a, &file) : "is in no journal of .rasp: that folder is copied with the files of its shard, too";
     const char *why = arena_format(m->arena, "%s %s", file ? file : m->report->set.rows[i].name, state ? state : "has come back");
     arena_close(a);
     return why;

@@ -289,6 +289,9 @@ bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, 
     struct preparation p = {.view = {ask->design, s, ask->shelf}, .looks = ARENA_TAKE(a, struct prepare_look, s->n), .first = ARENA_TAKE(a, int, s->n),
                             .now = ARENA_TAKE(a, bool, s->n), .out = out, .arena = a, .spare = spare_open(ask->design, a), .scenes = hash_start()};
     *out = (struct prepare){.lengths = ARENA_TAKE(a, double, s->n), .inputs = p.spare};
+    for (const char *const *file = ask->design->sources; *file; file++) /* are known to the shelf, which sees whether they change */
+        if (!shelf_sha256(ask->shelf, *file, a, e))
+            return false;
     find_first(&p);
     hash_add(&p.scenes, ask->design->sha256, HASH_TEXT);
     if (!look_at_all(&p, ask->threads, e) || (find_drawn(&p) && !look_at_all(&p, ask->threads, e)))

@@ -1,6 +1,7 @@
 /* See set_file.h. */
 #include "batch/set_file.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -125,9 +126,10 @@ static bool set_of(const json_t *j, struct arena *a, struct set *s)
 bool set_file_load(const char *path, struct arena *a, struct set *s, struct err *e)
 {
     json_error_t fault;
+    errno = 0;
     json_t *j = json_load_file(path, 0, &fault);
     if (!j && fault.line < 0)
-        return err_set(e, ERR_INPUT, "%s: %s", path, fault.text);
+        return err_set(e, ERR_INPUT, "%s: %s: the hidden folder .rasp is copied with the files of a shard, too; else run the shards again", path, strerror(errno));
     bool ok = j && set_of(j, a, s);
     json_decref(j);
     return ok || err_set(e, ERR_SCENE, "%s: is no list of a set's stimuli as rasp batch --shard writes it; remove it and run the shards again", path);

@@ -49,6 +49,19 @@ static const char *plot_target(struct cmd_call *c, const struct plot_page *p)
     return o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p->file) - 4, p->file, p->svg ? "svg" : "png");
 }
 
+/* Nor of the sound, or what lies beside it. */
+static bool plot_spares_drawn(const struct plot_page *p, const char *target, const struct stat *t, struct err *e)
+{
+    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".scene.yaml"};
+    struct stat s;
+    for (int i = 0; i < 5; i++) {
+        const char *file = arena_format(p->arena, "%.*s%s", (int)strlen(p->file) - 4, p->file, endings[i]);
+        if (stat(file, &s) == 0 && s.st_dev == t->st_dev && s.st_ino == t->st_ino)
+            return err_set(e, ERR_CREATE, "%s: the picture would overwrite %s, which it shows; write elsewhere: -o OTHER.png", target, file);
+    }
+    return true;
+}
+
 /* A picture takes the place of no file that the sound was made from. */
 static bool plot_spares(const struct plot_page *p, const char *target, struct err *e)
 {
@@ -60,6 +73,8 @@ static bool plot_spares(const struct plot_page *p, const char *target, struct er
     const struct outputs_source *sources = NULL;
     if (stat(target, &t) != 0)
         return true;
+    if (!plot_spares_drawn(p, target, &t, e))
+        return false;
     if (access(effective, F_OK) == 0 && scene_read(effective, NULL, p->arena, &scene, &messages, &unreadable))
         sources = outputs_sources(&scene, &n, p->arena);
     for (int i = 0; i < n; i++)

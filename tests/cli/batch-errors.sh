@@ -102,6 +102,12 @@ cp -r parts lost
 rm lost/.rasp/raw/low_250ms.wav
 echo x >> lost/.rasp/raw/low_200ms.wav
 code rasp merge lost
+cp -r parts bald
+rm bald/.rasp/set.json
+code rasp merge bald
+cp -r parts alone
+rm alone/.rasp/journal.2-of-5
+code rasp merge alone
 rasp batch six.yaml -o parts --shard 1/2 -q
 code rasp merge parts
 echo "-- files are named as they are, and a manifest does not say in which folder it was made"

@@ -24,6 +24,18 @@ try rasp plot good.csv --to 0.004
 try rasp plot good.csv --from 0.002 --to 0.001
 try rasp plot good.csv -o nowhere/picture.png
 
+echo "-- nor over what it shows, or what lies beside it"
+mkdir over
+printf '%s\n' 'rasp: 1' 'surface: {roughness: {rms: 5 um}}' 'scraper: {mass: 10 g}' 'motion: {path: line, to: [1 cm, 0], duration: 0.05 s}' 'output: {quantity: force, sample_rate: 8 kHz, diagnostics: {rate: 1 kHz}}' > over/s.yaml
+rasp render over/s.yaml -o over/one.wav -q
+for ending in wav csv json scene.yaml; do
+    ln -s one.$ending over/two.png
+    try rasp plot over/one.wav -o over/two.png
+    rm over/two.png
+done
+ln over/one.wav over/one.png
+try rasp plot over/one.wav
+
 echo "-- without gnuplot, and with one that fails"
 mkdir empty broken
 try env PATH="$PWD/empty" "$(command -v rasp)" plot good.csv
