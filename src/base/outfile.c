@@ -152,7 +152,7 @@ static bool flush_it(struct outfile *o)
         return true;
     if (fflush(o->stream) != 0)
         return false;
-    errno = EIO; /* an earlier write failed; its reason is not kept by the stream */
+    errno = o->why ? o->why : EIO; /* an earlier write failed; its reason is not kept by the stream */
     return !ferror(o->stream);
 }
 
@@ -161,6 +161,13 @@ static bool give_up(struct outfile *o, struct err *e)
     err_set(e, err_system(ERR_IO), "%s: cannot be written: %s", o->target, strerror(errno));
     outfile_drop(o);
     return false;
+}
+
+void outfile_put(struct outfile *o, const void *data, size_t n)
+{
+    errno = 0;
+    if (fwrite(data, 1, n, o->stream) != n && !o->why)
+        o->why = errno;
 }
 
 bool outfile_settle(struct outfile *o, struct err *e)

@@ -50,6 +50,17 @@ static bool another_version(struct yaml *y, const struct yaml_node *root)
     return true;
 }
 
+/* Which a design was asked for: what is wrong with it as one is no help. */
+static bool a_scene(struct yaml *y, const struct yaml_node *root)
+{
+    const struct yaml_node *node = yaml_get(root, "rasp");
+    if (!node || yaml_get(root, "rasp-design"))
+        return false;
+    y->diag->n = 0;
+    diag_add(y->diag, node->key->at, "rasp render renders it, rasp check checks it; rasp new design writes a starter design", "this is a scene, not a design of many scenes");
+    return true;
+}
+
 static void text_read(struct yaml *y, const struct diag_source *source, struct design *d)
 {
     struct yaml_node *root = yaml_parse(y, source);
@@ -61,7 +72,7 @@ static void text_read(struct yaml *y, const struct diag_source *source, struct d
         diag_add(y->diag, root->at, "write keys with values, such as: base: scrape.yaml", "a design must be a map of keys");
         return;
     }
-    if (another_version(y, root))
+    if (another_version(y, root) || a_scene(y, root))
         return;
     r.keys = keys_text_names(y->arena);
     parts_read(&r);

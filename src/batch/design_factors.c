@@ -47,7 +47,7 @@ static void label_set(const struct reading_level *l, const struct yaml_node *nod
     if (good)
         level_of(l)->label = text;
     else
-        design_reading_must(l->r, node, "label", "a short text", "write for instance: label: wood");
+        design_reading_must(l->r, node, "label", "a text of 1 to 100 bytes in one line", "write for instance: label: wood");
 }
 
 static int by_label(const void *pa, const void *pb)
@@ -171,7 +171,7 @@ static bool name_good(const struct design_reading *r, const struct yaml_node *na
     for (int i = 0; taken[i]; i++)
         if (strcmp(name->text, taken[i]) == 0)
             return diag_add(r->yaml->diag, name->at, "call the factor otherwise", "%s has a meaning of its own in names: a factor cannot be called so", name->text);
-    return is_word(name->text) || diag_add(r->yaml->diag, name->at, "write for instance: material", "a factor must be a key of scenes, or a word, not '%s'",
+    return is_word(name->text) || diag_add(r->yaml->diag, name->at, "write for instance: material", "a factor must be a key of scenes, or a word (letters, digits, _ and -, a letter first), not '%s'",
                                            diag_shown(r->yaml->diag, name->text));
 }
 

@@ -74,7 +74,7 @@ static void put_row(const struct table *t, int row, int digits)
     fputc('\n', t->f);
 }
 
-void design_print(const struct design *d, FILE *f)
+void design_print(const struct design *d, const bool *mine, FILE *f)
 {
     struct arena *a = arena_open();
     struct table t = {.d = d, .f = f, .width = ARENA_TAKE(a, int, COLUMN_FACTORS + d->n_factors), .replicates = d->replicates > 1};
@@ -83,6 +83,7 @@ void design_print(const struct design *d, FILE *f)
         t.recordings = t.recordings || d->stimuli[i].recording;
     widths(&t);
     for (int row = -1; row < d->n_stimuli; row++)
-        put_row(&t, row, digits);
+        if (row < 0 || !mine || mine[row])
+            put_row(&t, row, digits);
     arena_close(a);
 }

@@ -27,7 +27,7 @@ static void version_read(const struct design_reading *r)
 {
     const struct yaml_node *node = yaml_get(r->root, "rasp-design");
     if (!node)
-        diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0}, "begin with: rasp-design: 1", "rasp-design is missing: is this a design?");
+        diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0}, "begin with: rasp-design: 1 (rasp new design writes one)", "rasp-design is missing: is this a design?");
     else if (!is_text(node, "1"))
         design_reading_must(r, node, "rasp-design", "1", "this program reads designs of version 1; a newer one may read this");
 }

@@ -195,7 +195,7 @@ static bool carry(const char *from, const char *to, struct arena *a, struct err 
         return err_set(e, err_system(ERR_INPUT), "%s: %s", from, strerror(errno));
     if (!bytes_read(from, a, &b, e) || !outfile_open(&o, to, e))
         return false;
-    fwrite(b.at, 1, b.n, o.stream); /* what goes wrong here the commit says */
+    outfile_put(&o, b.at, b.n);
     if (outfile_commit(&o, e))
         return true;
     outfile_drop(&o);

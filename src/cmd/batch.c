@@ -1,6 +1,7 @@
 /* rasp batch: a design into a set of stimuli. */
 #include "cmd/batch.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@ static const struct args_option batch_options[] = {
     {"output", 'o', "FOLDER", false, "where the set goes; it is made if its parent is there"},
     {"jobs", 'j', "N", false, "how many stimuli are rendered at once, 1 to 256; default: one for each core"},
     {"shard", 0, "I/N", false, "render part I of N only (from 1/N to N/N), of about equal cost; rasp merge joins them"},
-    {"dry-run", 'n', NULL, false, "read and check everything, list the stimuli, write nothing"},
+    {"dry-run", 'n', NULL, false, "read and check everything, list the stimuli (with --json as \"list\"), write nothing"},
     {"force", 'f', NULL, false, "render what is there already, too"},
     {"replace", 0, NULL, false, "take over a folder that holds the set of another design"},
     {"prune", 0, NULL, false, "remove what was a stimulus of the set once, and is none of the design any more"},
@@ -177,6 +178,28 @@ json_t *batch_left_json(const struct leftover *l)
     return files;
 }
 
+/* What a dry run lists. */
+static json_t *stimulus_json(const struct design *d, const struct prepare *p, int i)
+{
+    const struct design_stimulus *s = &d->stimuli[i];
+    char seed[24];
+    json_t *factors = json_object();
+    snprintf(seed, sizeof seed, "%" PRIu64, s->seed); /* as text: many readers of JSON have no 64 bits */
+    for (int f = 0; f < d->n_factors; f++)
+        json_object_set_new(factors, d->factors[f].name, s->level[f] < 0 ? json_null() : json_string(design_label(d, i, f)));
+    return json_pack("{s:i, s:s, s:o, s:o, s:o, s:s?, s:f}", "row", i + 1, "name", s->name, "factors", factors, "replicate", s->recording ? json_null() : json_integer(s->replicate), "seed",
+                     s->recording ? json_null() : json_string(seed), "recording", s->recording, "length_s", p->lengths[i]);
+}
+
+static json_t *list_json(const struct batch_report *r)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < r->set.n; i++)
+        if (!r->mine || r->mine[i])
+            json_array_append_new(all, stimulus_json(&r->design, &r->prepare, i));
+    return all;
+}
+
 static json_t *report_json(const struct batch_ask *ask, const struct batch_report *r)
 {
     json_t *j = batch_json(&r->set, r->outcomes, r->full_scale);
@@ -191,6 +214,8 @@ static json_t *report_json(const struct batch_ask *ask, const struct batch_repor
     json_object_set_new(j, "wav_bytes", json_integer((json_int_t)r->prepare.bytes));
     json_object_set_new(j, "predicted_cpu_s", json_real(r->prepare.cycles / 3e9));
     json_object_set_new(j, "wall_s", json_real(r->seconds));
+    if (ask->dry)
+        json_object_set_new(j, "list", list_json(r));
     return j;
 }
 
@@ -203,7 +228,7 @@ static void print_silence(const struct batch_report *r)
 static void print_plan(const struct batch_ask *ask, const struct batch_report *r, struct arena *a)
 {
     char cpu[24];
-    design_print(&r->design, stdout);
+    design_print(&r->design, r->mine, stdout);
     progress_time(r->prepare.cycles / 3e9, cpu);
     printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r->set.n, r->prepare.seconds, r->prepare.bytes / 1e6, cpu);
     if (r->prepare.raw_bytes > 0)

@@ -64,7 +64,7 @@ void commands_print(FILE *f)
             fprintf(f, "  %-10s %s\n", g->members[i]->name, g->members[i]->summary);
     }
     fputs("\n`rasp help COMMAND` explains a command; `rasp --version --verbose` belongs in bug reports.\n"
-          "Manual: man rasp, man rasp-scene\n",
+          "Manual: man rasp, man rasp-scene, man rasp-design\n",
           f);
 }
 

@@ -89,7 +89,7 @@ static bool copy(struct writing *w, const char *from, const char *to, struct err
     bool ok = bytes_read(from, a, &b, e) && outfile_open(o, to, e);
     if (ok) {
         w->n++;
-        fwrite(b.at, 1, b.n, o->stream);
+        outfile_put(o, b.at, b.n);
         ok = outfile_settle(o, e);
     }
     arena_close(a);

@@ -20,8 +20,8 @@ static int list(void)
 
 static bool unknown(const char *name, struct err *e)
 {
-    const char *names[16] = {NULL};
-    for (int i = 0; starters_table[i].name && i < 15; i++)
+    const char *names[32] = {NULL};
+    for (int i = 0; starters_table[i].name && i < 31; i++)
         names[i] = starters_table[i].name;
     const char *meant = text_nearest(name, names);
     if (meant)
@@ -83,7 +83,7 @@ static int new_run(struct cmd_call *c, struct err *e)
 static const struct args_option options[] = {
     {"output", 'o', "FILE", false, "the file to write; without it the scene goes to standard output"},
     {"force", 'f', NULL, false, "overwrites FILE if it exists"},
-    {"list", 0, NULL, false, "lists the starter scenes"},
+    {"list", 0, NULL, false, "lists the starters"},
     {0},
 };
 
@@ -91,13 +91,14 @@ const struct command new_command = {
     .name = "new",
     .summary = "writes a commented starter scene",
     .does = "Writes the starter scene NAME (scrape, if none is named), with every line explained. It can be rendered as it is; for sound, remove the # before a response, which names a file of rasp's irs/ "
-            "that fits the motion (seen from the folder of FILE, or from the current one).",
+            "that fits the motion (seen from the folder of FILE, or from the current one). NAME design is a starter design of a set of stimuli (rasp-design(5)), whose base is the scene scrape.yaml beside it.",
     .operands = "[NAME]",
     .least = 0,
     .most = 1,
     .options = options,
     .examples = "rasp new --list                  # which there are\n"
                 "rasp new -o scrape.yaml          # the default\n"
-                "rasp new grip -o grip.yaml       # a tool held in the hand\n",
+                "rasp new grip -o grip.yaml       # a tool held in the hand\n"
+                "rasp new design -o set.yaml      # four conditions of scrape.yaml, twice each, for rasp batch\n",
     .run = new_run,
 };

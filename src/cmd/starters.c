@@ -162,6 +162,7 @@ const struct starter starters_table[] = {
     {"contacts", "two contacts whose sounds add up",
      "Every contact has its own surface, scraper and motion; rasp render --set contacts.comb.gain=0.2 changes one.", contacts_head,
      {contacts_rod, contacts_comb}, contacts_tail},
+    {"design", "not a scene, but a design: a set of stimuli, for rasp batch", NULL, NULL, {NULL}, NULL},
     {NULL, NULL, NULL, NULL, {NULL}, NULL},
 };
 
@@ -211,6 +212,10 @@ static void print_lines(const struct printing *p, const struct keys_line *lines,
 void starters_print(FILE *f, const struct starter *s, const char *irs, struct arena *a)
 {
     struct printing p = {f, irs, a};
+    if (!s->head) {
+        starters_design(f, irs);
+        return;
+    }
     fprintf(f, "# ");
     wrap_print(f, s->about, 2, "# ");
     fprintf(f, "# Every key: rasp explain. One key: rasp explain motion.rate. A bare number is in SI units.\n"

@@ -184,7 +184,7 @@ static void both_given(const struct scene_part *p, const struct yaml_node *const
         where = arena_format(a, "%s line %d", where, first->key->at.line);
     const char *cure = arena_format(a, "%s stands in %s; remove one of them", gone, where);
     if (other != second->key->at.source)
-        cure = arena_format(a, "%s, or take that one away with %s: null", cure, gone);
+        cure = arena_format(a, "%s, or take that one away with %s: null (on the command line: --set %s=null)", cure, gone, gone);
     diag_add(p->yaml->diag, second->key->at, cure, "%s and %s exclude each other", scene_part_label(p, names[!swap]), gone);
 }
 

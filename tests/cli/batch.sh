@@ -53,3 +53,8 @@ rasp new -o starter.yaml
 printf '%s\n' 'rasp-design: 1' 'base: starter.yaml' 'factors: {motion.duration: [0.1 s, 0.2 s]}' > starters.yaml
 rasp batch starters.yaml --dry-run | tail -n 2 | sed 's/CPU.*//'
 rasp batch starters.yaml -o starters | sed 's/, in .*//'
+echo "-- what a dry run lists, as JSON and of a shard"
+rasp batch six.yaml --dry-run --json | python3 -c 'import json, sys
+for r in json.load(sys.stdin)["list"]: print(r["row"], r["name"], r["factors"], r["replicate"], r["seed"], r["recording"], round(r["length_s"], 3))'
+rasp batch six.yaml --dry-run --shard 2/4 | awk '{ print $1, $2 }'
+rasp batch six.yaml --dry-run --shard 2/4 --json | python3 -c 'import json, sys; print([r["name"] for r in json.load(sys.stdin)["list"]])'

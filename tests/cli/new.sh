@@ -1,6 +1,7 @@
 # Every starter scene is written once, is not overwritten by mistake, and passes the check.
 try() { local code=0; "$@" || code=$?; echo "$code"; }
 rasp new --list
+ln -s "$ROOT/irs" irs
 for kind in $(rasp new --list | cut -d ' ' -f 1); do
     rasp new $kind -o $kind.yaml
     rasp check $kind.yaml

@@ -8,6 +8,7 @@ for kind in $(rasp new --list | cut -d ' ' -f 1); do
     rasp new "$kind" -o tree/out/"$kind".yaml
     uncovered < tree/out/"$kind".yaml > far/away/"$kind".yaml
     cp far/away/"$kind".yaml tree/out/
+    if [ "$kind" = design ]; then continue; fi
     grep -q '^ *-* *response:' tree/out/"$kind".yaml || continue
     rasp render --quiet --set output.tail=0 tree/out/"$kind".yaml -o tree/out/ 2> told.txt || { echo "$kind: exit $?"; cat told.txt; }
     grep -v 'its WAV response does not say' told.txt || true
