@@ -63,7 +63,7 @@ else
 fi
 
 build gcc-O0 CC=gcc OPT=-O0 && same "gcc -O0" "$BUILDS/gcc-O0/rasp"
-build clang-O2 CC=clang OPT=-O2 && same "clang -O2" "$BUILDS/clang-O2/rasp"
+build clang-O2 CC=clang OPT=-O2 WERROR="${WERROR:-}" && same "clang -O2" "$BUILDS/clang-O2/rasp"
 for isa in v2 v3 v4; do
     cpu_has $isa || { echo "left out: this CPU has no x86-64-$isa"; continue; }
     build gcc-$isa CC=gcc OPT=-O2 ISA=$isa && same "gcc -O2 for x86-64-$isa" "$BUILDS/gcc-$isa/rasp"

@@ -129,4 +129,4 @@ START_TEST(the_best_is_the_same)
 }
 END_TEST
 
-UNIT("promise", the_best_is_the_same, the_cheapest, what_is_said_stays, chosen_once, the_best_is_told)
+UNIT("promise", UNIT_LONG(the_best_is_the_same), the_cheapest, what_is_said_stays, chosen_once, the_best_is_told)

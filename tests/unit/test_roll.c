@@ -920,11 +920,11 @@ START_TEST(what_is_beyond_the_model_is_told)
 }
 END_TEST
 
-UNIT("roll", means_are_the_integral, parts_of_a_smooth_way, means_keep_their_digits, means_have_that_derivative, the_printed_penetration_is_absurd, an_offset_oval_on_level_ground,
+UNIT("roll", means_are_the_integral, parts_of_a_smooth_way, means_keep_their_digits, means_have_that_derivative, the_printed_penetration_is_absurd, UNIT_LONG(an_offset_oval_on_level_ground),
      level_ground_bears_the_normal_force, third_order_in_the_sub_intervals, penetration_as_printed, height_of_an_offset_ball, an_oval_on_level_ground,
      round_and_level, no_force_where_it_flies, height_over_a_wave,
      height_does_not_depend_on_the_pieces, the_mean_force_is_the_weight, the_force_follows_the_normal_force,
      lobes_are_no_roughness, short_motions_have_the_grounds_stiffness, beyond_a_circle_it_goes_all_ways, an_end_along_the_ridges_is_no_level_ground,
      ridges_in_the_plane_are_those_along_x, an_offset_ball_on_a_circle, what_is_beyond_the_model_is_told,
      what_slips_is_what_scrapes, terms_add_up, no_thump_at_the_start_nor_at_turns, up_and_down_a_slope, alpha_follows_the_turning, blocks_do_not_matter,
-     grains_are_the_rehearsals_own, long_motions_are_thinned, thinning_keeps_no_step, without_weight_nothing_rolls, too_soft_a_ball_is_told)
+     grains_are_the_rehearsals_own, long_motions_are_thinned, UNIT_LONG(thinning_keeps_no_step), without_weight_nothing_rolls, too_soft_a_ball_is_told)

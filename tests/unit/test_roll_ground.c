@@ -101,4 +101,4 @@ START_TEST(a_small_scribble_in_the_plane)
 }
 END_TEST
 
-UNIT("roll_ground", how_often_round_is_no_matter, how_often_round_is_no_matter_in_the_plane, small_motions_have_the_grounds_stiffness, a_small_scribble_in_the_plane)
+UNIT("roll_ground", how_often_round_is_no_matter, how_often_round_is_no_matter_in_the_plane, UNIT_LONG(small_motions_have_the_grounds_stiffness), a_small_scribble_in_the_plane)

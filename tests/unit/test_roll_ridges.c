@@ -335,5 +335,5 @@ START_TEST(short_legs_bear_the_weight)
 }
 END_TEST
 
-UNIT("roll_ridges", circles_and_arcs_are_the_lines_of_their_headings, a_small_circle_on_ground_without_ridges, tight_turns_are_the_lines_of_their_headings,
+UNIT("roll_ridges", UNIT_LONG(circles_and_arcs_are_the_lines_of_their_headings), UNIT_LONG(a_small_circle_on_ground_without_ridges), UNIT_LONG(tight_turns_are_the_lines_of_their_headings),
      heights_where_nothing_is_limited, a_turning_way_converges, short_legs_bear_the_weight)

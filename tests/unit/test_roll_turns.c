@@ -254,4 +254,4 @@ START_TEST(a_grain_in_the_plane_is_ridges)
 }
 END_TEST
 
-UNIT("roll_turns", a_hill_is_a_height, a_leg_is_a_straight_way, a_grain_in_the_plane_is_ridges, a_sharp_corner_is_a_reversal, a_square_corner_makes_no_thump, a_first_turn_is_as_the_second)
+UNIT("roll_turns", a_hill_is_a_height, a_leg_is_a_straight_way, UNIT_LONG(a_grain_in_the_plane_is_ridges), a_sharp_corner_is_a_reversal, a_square_corner_makes_no_thump, a_first_turn_is_as_the_second)
