@@ -152,7 +152,7 @@ static bool add_files(const char *folder, const struct render_report *report, st
 bool job_measure(const char *folder, bool loud, struct record *r, struct err *e)
 {
     struct arena *a = arena_open();
-    struct measure m = {.lufs = NAN};
+    struct measure m = {.lufs = NAN, .true_peak = NAN};
     const char *wav = NULL;
     for (int i = 0; i < r->n_files; i++)
         if (!strcmp(r->files[i].kind, "wav"))
@@ -160,7 +160,7 @@ bool job_measure(const char *folder, bool loud, struct record *r, struct err *e)
     bool ok = wav && measure_file(wav, loud, &m, e);
     arena_close(a);
     r->channels = m.channels;
-    r->file_peak = m.peak, r->file_rms = m.rms, r->file_lufs = m.lufs;
+    r->file_peak = m.peak, r->file_rms = m.rms, r->file_lufs = m.lufs, r->true_peak = m.true_peak;
     if (ok)
         memcpy((char *)r->audio, m.audio, HASH_TEXT);
     return ok;
@@ -176,7 +176,7 @@ static void fill(const struct scene *s, const struct render_report *report, stru
     r->peak = report->sound.peak, r->rms = report->sound.rms;
     r->gain = report->sound.gain;
     r->ramp = report->sound.ramp;
-    r->lufs = r->file_peak = r->file_rms = r->file_lufs = NAN;
+    r->lufs = r->file_peak = r->file_rms = r->file_lufs = r->true_peak = NAN;
     r->full_scale = s->output.level.full_scale;
     r->wall = report->seconds, r->cpu = report->cpu;
     r->remarks = ARENA_TAKE(a, const char *, report->n_warnings + 1);

@@ -120,6 +120,7 @@ static void level_mode(const struct manifest_cell *c) { put(c, c->level); }
 static void gain(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->gain) : 0); }
 static void unit(const struct manifest_cell *c) { put(c, sound_of(c) ? sound_of(c)->unit : NULL); }
 static void peak(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_peak) : 0); }
+static void true_peak(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? rint(decibel(sound_of(c)->true_peak) * 1e4) / 1e4 : 0); }
 static void rms(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_rms) : 0); }
 static void lufs(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? rint(sound_of(c)->file_lufs * 1e4) / 1e4 : 0); }
 static void ramp(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->ramp : 0); }
@@ -157,6 +158,7 @@ const struct manifest_column manifest_columns[] = {
     {"gain_db", "Gain", "file value per unit of the sound's quantity (of a recording: per its own sample value), in decibels", "dB", gain},
     {"gain_per", "Unit of the gain", "unit of the sound's quantity, which gain_db is per; n/a where recorded responses do not say theirs, and of a recording", NULL, unit},
     {"peak_dbfs", "Peak", "greatest sample of the file, re full scale", "dB", peak},
+    {"true_peak_dbtp", "True peak", "greatest magnitude of the file between samples, too, re full scale: BS.1770, of four times as many samples (below 96 kHz)", "dB", true_peak},
     {"rms_dbfs", "Level", "rms of the whole file, re full scale (a square wave of full scale has 0)", "dB", rms},
     {"loudness_lufs", "Loudness", "integrated loudness of the file, BS.1770, mono counted on two ears; n/a below 0.4 s", "LUFS", lufs},
     {"onset_ramp_s", "Onset ramp", "length of the raised-cosine ramp at the beginning", "s", onset},

@@ -55,12 +55,13 @@ static bool find_loudness(const char *path, const struct cut_form *form, struct 
 {
     struct cut c;
     double lufs;
-    struct loudness *l = loudness_open(m->channels, m->rate);
+    struct loudness *l = loudness_open(m->channels, m->rate, true);
     if (!l)
         return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", m->rate);
     bool ok = cut_open(&c, path, form, e) && loud_pass(&c, m->peak, l, e);
     if (ok && loudness_read(l, &lufs))
         m->lufs = lufs + 20 * real_log10(m->peak);
+    m->true_peak = ok ? fmax(1, loudness_true_peak(l)) * m->peak : NAN; /* of a sound brought to peak 1 */
     cut_close(&c);
     loudness_close(l);
     return ok;
@@ -69,7 +70,7 @@ static bool find_loudness(const char *path, const struct cut_form *form, struct 
 static bool find_rest(struct cut *c, struct measure *m, struct err *e)
 {
     struct sums s = {.hash = hash_start()};
-    *m = (struct measure){.rate = c->in.rate, .channels = c->in.channels, .frames = c->frames, .own = c->own, .lufs = NAN};
+    *m = (struct measure){.rate = c->in.rate, .channels = c->in.channels, .frames = c->frames, .own = c->own, .lufs = NAN, .true_peak = NAN};
     distance_hash_add(&s.hash, (const double[2]){m->rate, m->channels}, 2);
     bool ok = pass(c, &s, e);
     hash_end(&s.hash, m->audio);

@@ -12,12 +12,12 @@ long loudness_least(double rate)
     return 4 * (((long)rate + 5) / 10);
 }
 
-struct loudness *loudness_open(int channels, double rate)
+struct loudness *loudness_open(int channels, double rate, bool peaks)
 {
     int layout = channels == 1 ? EBUR128_DUAL_MONO : EBUR128_LEFT;
     bool ok = true;
     errno = 0;
-    ebur128_state *meter = ebur128_init((unsigned)channels, (unsigned long)rate, EBUR128_MODE_I);
+    ebur128_state *meter = ebur128_init((unsigned)channels, (unsigned long)rate, EBUR128_MODE_I | (peaks ? EBUR128_MODE_TRUE_PEAK : 0));
     for (int k = 0; meter && k < channels; k++)
         ok = ok && ebur128_set_channel(meter, (unsigned)k, layout) == EBUR128_SUCCESS;
     if (!meter && errno == ENOMEM)
@@ -39,6 +39,16 @@ bool loudness_read(struct loudness *l, double *lufs)
         return false;
     *lufs = rint(*lufs * 1e6) / 1e6;
     return true;
+}
+
+double loudness_true_peak(struct loudness *l)
+{
+    const ebur128_state *meter = (const ebur128_state *)l;
+    double most = 0, one;
+    for (unsigned k = 0; k < meter->channels; k++)
+        if (ebur128_true_peak((ebur128_state *)l, k, &one) == EBUR128_SUCCESS && one > most)
+            most = one;
+    return most;
 }
 
 void loudness_close(struct loudness *l)

@@ -71,7 +71,7 @@ static bool meter_open(struct sound *o, struct err *e)
 {
     if (isnan(o->scene->output.level.lufs))
         return true;
-    o->meter = loudness_open(o->track.format.places, o->scene->output.sample_rate);
+    o->meter = loudness_open(o->track.format.places, o->scene->output.sample_rate, false);
     return o->meter || err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
 }
 
