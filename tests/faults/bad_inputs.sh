@@ -21,8 +21,7 @@ rasp() { timeout -k 5 120 "$RASP" "$@"; }
 state_of() {
     (
         cd "$1" || exit
-        find . \( -type d -printf '%y %m %p\n' \) -o -printf '%y %m %i %s %T@ %p\n' | sort
-        find . -type f -exec cksum {} + | sort
+        find . \( -type d -printf '%y %m %p\n' \) -o \( -printf '%y %m %i %s %T@ %p\n' -type f -exec cksum {} + \) | sort
     )
 }
 
@@ -31,7 +30,7 @@ run() {
     CASE=$TOP/$1
     mkdir "$CASE" "$CASE/in" "$CASE/tmp"
     (cd "$CASE/in" && good_inputs && eval "$2") > "$CASE/make" 2>&1 || echo "its inputs cannot be made" > "$CASE/why"
-    state_of "$CASE/in" > "$CASE/before"
+    STATE=$(state_of "$CASE/in")
     (cd "$CASE/in" && export TMPDIR=$CASE/tmp && eval "$3") > "$CASE/out" 2> "$CASE/err" < /dev/null
     echo $? > "$CASE/code"
     [ -z "${BAD_INPUTS_SHOW:-}" ] || { echo "== $1: $(cat "$CASE/code")"; cat "$CASE/err"; }
@@ -40,8 +39,10 @@ run() {
 because() { echo "$*" >> "$CASE/why"; }
 
 unchanged() {
-    state_of "$CASE/in" | diff "$CASE/before" - > "$CASE/changes" || because "the folder changed: $(grep '^[<>]' "$CASE/changes")"
-    [ -z "$(ls -A "$CASE/tmp")" ] || because "left in TMPDIR: $(ls -A "$CASE/tmp")"
+    local after
+    after=$(state_of "$CASE/in")
+    [ "$after" = "$STATE" ] || because "the folder changed: $(diff <(echo "$STATE") <(echo "$after") | grep '^[<>]')"
+    rmdir "$CASE/tmp" || because "left in TMPDIR: $(ls -A "$CASE/tmp")"
 }
 
 verdict() {
@@ -56,7 +57,7 @@ verdict() {
 }
 
 sound_of_mind() {
-    [ "$(cat "$CASE/code")" = "$1" ] || because "exit code $(cat "$CASE/code") instead of $1"
+    [ "$(< "$CASE/code")" = "$1" ] || because "exit code $(< "$CASE/code") instead of $1"
     ! grep -Eq 'runtime error:|Sanitizer' "$CASE/err" || because "a sanitizer speaks"
 }
 
