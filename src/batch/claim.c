@@ -66,6 +66,13 @@ bool claim_is_noted(const char *folder, struct arena *a)
     return o.sha256 != NULL;
 }
 
+bool claim_holds(const char *folder, const char *sha256, struct arena *a)
+{
+    struct owner o;
+    look(folder, a, &o);
+    return o.sha256 && strcmp(o.sha256, sha256) == 0;
+}
+
 bool claim_look(const struct claim *c, struct arena *a, struct err *e)
 {
     struct owner o;

@@ -26,6 +26,9 @@ bool claim_join(const struct claim *c, struct arena *a, int *entered, struct err
 /* Does the folder say whose it is? If not, nothing in it is a set's. */
 bool claim_is_noted(const char *folder, struct arena *a);
 
+/* Does it say that it is this one's? sha256: as of struct claim. */
+bool claim_holds(const char *folder, const char *sha256, struct arena *a);
+
 /* Would it be let in? Writes nothing; the folder need not be there. ERR_CREATE */
 bool claim_look(const struct claim *c, struct arena *a, struct err *e);
 

@@ -51,15 +51,17 @@ bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s,
 
 /* ------------------------------------------------------------------ is it there? */
 
-/* Of what has no hash, for it differs from run to run: NAME.json. What a power cut leaves of one is empty, or ends anywhere. */
-static bool ends_as_written(const char *path)
+/* Of what has no hash, for it differs from run to run: NAME.json, which may hold somebody's notes. What a power cut leaves of one is empty, or ends anywhere. */
+static bool is_whole(const char *path)
 {
-    char first = 0, last[2] = {0};
+    char first = 0, last[16] = "";
     FILE *f = memory_fopen(path, "rb");
-    bool ok = f && fread(&first, 1, 1, f) == 1 && fseek(f, -2, SEEK_END) == 0 && fread(last, 1, 2, f) == 2;
+    size_t n = f && fread(&first, 1, 1, f) == 1 && (fseek(f, -(long)sizeof last, SEEK_END) == 0 || fseek(f, 0, SEEK_SET) == 0) ? fread(last, 1, sizeof last, f) : 0;
     if (f)
         fclose(f);
-    return ok && first == '{' && last[0] == '}' && last[1] == '\n';
+    while (n && strchr(" \t\r\n", last[n - 1]))
+        n--;
+    return first == '{' && n && last[n - 1] == '}';
 }
 
 static const char *file_differs(const char *folder, const struct record_file *f, struct arena *a)
@@ -73,7 +75,7 @@ static const char *file_differs(const char *folder, const struct record_file *f,
     if (!S_ISREG(s.st_mode))
         return "is no file";
     if (!f->sha256)
-        return ends_as_written(path) ? NULL : "is not whole";
+        return is_whole(path) ? NULL : "is not whole";
     return !hash_file(path, hex, &unreadable) ? "cannot be read" : strcmp(hex, f->sha256) ? "was changed" : NULL;
 }
 
@@ -93,9 +95,8 @@ bool job_is_there(const char *folder, const struct record *r, struct arena *a)
     return !job_differs(folder, r, a, &file);
 }
 
-/* Is all known of it that the set's level asks for? A common loudness is found from the raw sounds', which a set of another level had no need of; the file's own, rounded to its
-   encoding, would do for a gain that is nearly the same. */
-static bool tells_enough(const struct set *s, const struct record *r)
+/* A common loudness is found from the raw sounds', which a set of another level had no need of; the file's own, rounded to its encoding, would do for a gain that is nearly the same. */
+bool job_tells_enough(const struct set *s, const struct record *r)
 {
     return !set_waits(s) || isnan(s->level.lufs) || !r->sounds || r->loud;
 }
@@ -105,7 +106,7 @@ static const struct record *find(const struct job_kit *k, const struct record *a
 {
     for (int waits = 0; waits <= set_waits(k->set); waits++) {
         const struct record *r = k->force || (k->again && !waits) ? NULL : journal_find(k->journal, asked->key, waits, a, ref);
-        if (r && r->place && !strcmp(r->place, asked->place) && tells_enough(k->set, r) && job_is_there(k->folder, r, a))
+        if (r && r->place && !strcmp(r->place, asked->place) && job_tells_enough(k->set, r) && job_is_there(k->folder, r, a))
             return r;
     }
     return NULL;

@@ -35,6 +35,9 @@ bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s,
 /* What is the matter with the first file of the record (*file) that is not there with the bytes that it had: "is missing", "was changed"; NULL: nothing is. */
 const char *job_differs(const char *folder, const struct record *r, struct arena *a, const char **file);
 
+/* Is all known of it that the set's level asks for? */
+bool job_tells_enough(const struct set *s, const struct record *r);
+
 /* Are all files of the record there, with the bytes that they had? */
 bool job_is_there(const char *folder, const struct record *r, struct arena *a);
 

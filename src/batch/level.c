@@ -23,6 +23,7 @@ void level_look(struct level_greatest *g, const struct record *r)
         return;
     g->peak = fmax(g->peak, r->peak);
     g->rms = fmax(g->rms, r->rms);
+    g->unmeasured = g->unmeasured || !r->loud;
     g->lufs = isnan(r->lufs) ? g->lufs : fmax(g->lufs, r->lufs);
     g->encoding = r->encoding < g->encoding ? r->encoding : g->encoding;
     g->sounds = g->sounds || r->peak > 0;
@@ -43,6 +44,8 @@ bool level_find(const struct set *set, const struct level_greatest *g, double *f
         *full_scale = g->rms / real_exp10(l->rms / 20);
     else if (isnan(l->lufs))
         *full_scale = g->peak / fmin(real_exp10(l->peak / 20), largest(g->encoding));
+    else if (g->unmeasured)
+        return err_set(e, ERR_INPUT, "level: lufs: the loudness of a stimulus was not measured when it was rendered for another level: run its shard again");
     else if (isinf(g->lufs))
         return err_set(e, ERR_SCENE, "level: lufs: no stimulus of the set has a loudness that BS.1770 can measure (0.4 s or more that are not nearly silent): use rms or peak");
     else

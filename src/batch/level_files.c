@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "batch/folder.h"
-#include "file/bytes.h"
+#include "base/memory.h"
 #include "file/wav_stream.h"
 #include "num/real.h"
 #include "output/sound.h"
@@ -184,22 +184,24 @@ bool level_files_make(struct level_files *f, const struct job_kit *k, struct rec
     return put_texts(f, e);
 }
 
-/* Beside the stimulus, which may lie on another disk than what is hidden. */
-static bool carry(const char *from, const char *to, struct arena *a, struct err *e)
+/* The raw file stays until the record is noted: who is killed before finds it whole. */
+static bool copy_file(const char *from, const char *to, struct err *e)
 {
-    struct bytes b;
+    char piece[1 << 16];
     struct outfile o;
-    if (rename(from, to) == 0)
-        return true;
-    if (errno != EXDEV)
+    FILE *in = memory_fopen(from, "rb");
+    if (!in)
         return err_set(e, err_system(ERR_INPUT), "%s: %s", from, strerror(errno));
-    if (!bytes_read(from, a, &b, e) || !outfile_open(&o, to, e))
-        return false;
-    outfile_put(&o, b.at, b.n);
-    if (outfile_commit(&o, e))
+    bool ok = outfile_open(&o, to, e);
+    for (size_t n; ok && (n = fread(piece, 1, sizeof piece, in)) > 0;)
+        outfile_put(&o, piece, n);
+    bool read = !ferror(in);
+    fclose(in);
+    if (ok && read && outfile_commit(&o, e))
         return true;
-    outfile_drop(&o);
-    return false;
+    if (ok)
+        outfile_drop(&o);
+    return e->kind ? false : err_set(e, ERR_IO, "%s: cannot be read", from);
 }
 
 static bool commit_one(struct level_files *f, int i, struct err *e)
@@ -208,7 +210,7 @@ static bool commit_one(struct level_files *f, int i, struct err *e)
     char hex[HASH_TEXT];
     f->sounds[i] = NULL;
     if (!w)
-        return f->texts[i].target[0] ? outfile_commit(&f->texts[i], e) : carry(f->raw[i], f->paths[i], f->arena, e);
+        return f->texts[i].target[0] ? outfile_commit(&f->texts[i], e) : copy_file(f->raw[i], f->paths[i], e);
     if (!wav_commit(w, e) || !hash_file(f->paths[i], hex, e))
         return false;
     f->made[i].sha256 = arena_text(f->arena, hex);

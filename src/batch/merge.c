@@ -1,19 +1,18 @@
 /* See merge.h. Which record of the journals counts is said by the shards' manifests, by its job hash: the journals may hold more, of earlier designs. */
 #include "batch/merge.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include "base/text.h"
 #include "batch/claim.h"
 #include "batch/finish.h"
 #include "batch/folder.h"
+#include "batch/merge_shards.h"
 #include "batch/merged.h"
 #include "batch/pool.h"
 #include "batch/set_file.h"
@@ -25,62 +24,9 @@ struct merge {
     struct merge_report *report;
     struct job_kit kit;
     int entered;             /* claim_join's */
-    const char **files;      /* manifests of shards */
-    int n;
-    bool *seen;              /* [shards] */
+    struct merge_shards shards;
     bool *there;             /* [set.n] */
 };
-
-/* ------------------------------------------------------------------ which shards */
-
-static int is_part(const struct dirent *d)
-{
-    struct shard s;
-    return shard_of_manifest(d->d_name, &s);
-}
-
-static void find_parts(struct merge *m)
-{
-    struct dirent **found;
-    int n = scandir(m->folder, &found, is_part, alphasort);
-    m->files = ARENA_TAKE(m->arena, const char *, n > 0 ? n : 0);
-    for (int i = 0; i < n; i++) {
-        m->files[m->n++] = arena_text(m->arena, found[i]->d_name);
-        free(found[i]);
-    }
-    if (n >= 0)
-        free(found);
-}
-
-static bool same_division(struct merge *m, struct err *e)
-{
-    struct shard s;
-    for (int i = 0; i < m->n; i++) {
-        shard_of_manifest(m->files[i], &s);
-        if (m->report->shards && s.n != m->report->shards)
-            return err_set(e, ERR_SCENE, "%s: %s and %s are of different divisions of the set: remove those of the one that is out of date", m->folder, m->files[0], m->files[i]);
-        m->report->shards = s.n;
-    }
-    m->seen = ARENA_TAKE(m->arena, bool, m->report->shards + 1);
-    for (int i = 0; i < m->n; i++) {
-        shard_of_manifest(m->files[i], &s);
-        m->seen[s.i] = true;
-    }
-    return true;
-}
-
-static bool note_missing(struct merge *m, struct err *e)
-{
-    const char *text = "";
-    int missing = 0;
-    for (int i = 1; i <= m->report->shards; i++)
-        if (!m->seen[i]) {
-            text = arena_format(m->arena, "%s%s%d", text, missing ? "," : "", i);
-            missing++;
-        }
-    m->report->missing = text;
-    return !missing || err_set(e, ERR_INPUT, "%s: %d of %d shards %s missing: --array=%s", m->folder, missing, m->report->shards, missing == 1 ? "is" : "are", text);
-}
 
 /* ------------------------------------------------------------------ what they say */
 
@@ -104,6 +50,22 @@ struct columns {
     int name, status, job, code, error;
 };
 
+static bool tells_enough(const void *context, const struct record *r, struct arena *a)
+{
+    const struct merge *m = context;
+    (void)a;
+    return job_tells_enough(&m->report->set, r);
+}
+
+/* What waited may have its level already, of a merge that was cut off. */
+static void find_record(const struct merge *m, const char *hash, struct outcome *o)
+{
+    struct arena *a = arena_open();
+    if (!journal_find_such(m->kit.journal, &(struct journal_wish){hash, o->waits, tells_enough, m}, a, &o->record) && o->waits)
+        o->waits = !journal_find_such(m->kit.journal, &(struct journal_wish){hash, false, tells_enough, m}, a, &o->record);
+    arena_close(a);
+}
+
 static struct outcome outcome_of(const struct merge *m, const struct csv *t, size_t row, const struct columns *c)
 {
     const char *const *cell = t->cells + row * t->columns;
@@ -111,11 +73,8 @@ static struct outcome outcome_of(const struct merge *m, const struct csv *t, siz
     struct outcome o = {.kept = true};
     int code = ERR_NUMBERS;
     if (!strcmp(status, "ok") || !strcmp(status, "waits")) {
-        struct arena *a = arena_open();
         o.waits = !strcmp(status, "waits");
-        if (!journal_find(m->kit.journal, cell[c->job], o.waits, a, &o.record) && o.waits)
-            journal_find(m->kit.journal, cell[c->job], false, a, &o.record); /* a merge that was cut off had done with it */
-        arena_close(a);
+        find_record(m, cell[c->job], &o);
         return o;
     }
     if (!strcmp(status, "failed")) {
@@ -150,8 +109,8 @@ static bool read_parts(struct merge *m, struct err *e)
     for (int i = 0; i < s->n; i++)
         sorted[i] = &s->rows[i];
     qsort(sorted, (size_t)s->n, sizeof(struct set_row *), by_name);
-    for (int i = 0; i < m->n; i++)
-        if (!read_part(m, m->files[i], sorted, e))
+    for (int i = 0; i < m->shards.n; i++)
+        if (!read_part(m, m->shards.files[i], sorted, e))
             return false;
     return true;
 }
@@ -161,7 +120,7 @@ static bool read_parts(struct merge *m, struct err *e)
 static bool is_there(const void *context, const struct record *r, struct arena *a)
 {
     const struct merge *m = context;
-    return job_is_there(m->folder, r, a);
+    return job_tells_enough(&m->report->set, r) && job_is_there(m->folder, r, a);
 }
 
 /* The latest record is not always the one whose files are there: journals of several divisions are read by their names, and of what waited a merge that was cut off may have made
@@ -173,6 +132,7 @@ static bool find_other(const struct merge *m, struct outcome *o, const struct re
     for (int waits = o->waits; waits >= 0; waits--)
         if (journal_find_such(m->kit.journal, &(struct journal_wish){hash, waits, is_there, m}, a, &other)) {
             o->record = other;
+            o->waits = waits;
             return true;
         }
     return false;
@@ -216,7 +176,7 @@ static const char *why_not(const struct merge *m, int i)
     struct err unreadable = {0};
     struct journal_ref ref = m->report->outcomes[i].record;
     const struct record *r = ref.size ? journal_read(m->kit.journal, ref, a, &unreadable) : NULL;
-    const char *file = NULL, *state = r ? job_differs(m->folder, r, a, &file) : "is in no journal of .rasp: that folder is copied with the files of its shard, too";
+    const char *file = NULL, *state = r ? job_differs(m->folder, r, a, &file) : "is not known here: .rasp is copied with the files of a shard, too; else run its shard again";
     const char *why = arena_format(m->arena, "%s %s", file ? file : m->report->set.rows[i].name, state ? state : "has come back");
     arena_close(a);
     return why;
@@ -273,16 +233,27 @@ void merge_close(struct merge_report *r)
     r->journal = NULL;
 }
 
+static bool sweep_rest(const struct merge *m, struct err *e)
+{
+    if (!merged_already(m->folder, m->arena, m->report, e))
+        return false;
+    shard_sweep(m->folder);
+    return true;
+}
+
 static bool run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
 {
     struct merge m = {.folder = folder, .arena = a, .report = r, .kit = {.set = &r->set, .folder = folder}};
-    find_parts(&m);
-    if (!m.n)
-        return merged_already(folder, a, r, e);
-    if (!same_division(&m, e) || !set_file_load(arena_format(a, "%s/.rasp/set.json", folder), a, &r->set, e))
+    merge_shards_find(folder, a, &m.shards);
+    if (!m.shards.n || merge_shards_swept(&m.shards, a))
+        return sweep_rest(&m, e);
+    if (!merge_shards_agree(&m.shards, e) || !set_file_load(arena_format(a, "%s/.rasp/set.json", folder), a, &r->set, e))
         return false;
     r->outcomes = ARENA_TAKE(a, struct outcome, r->set.n);
-    if (!note_missing(&m, e))
+    bool all = merge_shards_complete(&m.shards, a, e);
+    r->shards = m.shards.of;
+    r->missing = m.shards.missing;
+    if (!all)
         return false;
     bool ok = claim_join(&(struct claim){.folder = folder, .sha256 = r->set.sha256, .build = r->set.build}, a, &m.entered, e);
     m.kit.journal = r->journal = ok ? journal_open(folder, arena_format(a, "%s/.rasp/journal", folder), a, e) : NULL;
@@ -291,14 +262,21 @@ static bool run(const char *folder, int threads, struct arena *a, struct merge_r
     return ok;
 }
 
-/* Two merges would take the raw sounds away from each other. What both read is what they are told apart by; where it is not there, nothing is merged. */
+/* Two merges would take the raw sounds away from each other. A lock of its own kind on the file of claim.c, which flocks it and is not in the way, nor ever replaces it. -1: there is none */
+static int lock(const char *folder, bool *alone, struct arena *a)
+{
+    int fd = open(arena_format(a, "%s/.rasp/design", folder), O_RDWR | O_CLOEXEC);
+    *alone = fd < 0 || fcntl(fd, F_OFD_SETLK, &(struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET}) == 0 || (errno != EAGAIN && errno != EACCES);
+    return fd;
+}
+
 bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
 {
     *r = (struct merge_report){.missing = "", .unheard = "", .full_scale = NAN};
-    int set = open(arena_format(a, "%s/.rasp/set.json", folder), O_RDONLY | O_CLOEXEC);
-    bool alone = set < 0 || flock(set, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    bool alone;
+    int locked = lock(folder, &alone, a);
     bool ok = alone ? run(folder, threads, a, r, e) : err_set(e, ERR_CREATE, "%s: another rasp merge is at work in it: wait until it has ended", folder);
-    if (set >= 0)
-        close(set);
+    if (locked >= 0)
+        close(locked);
     return ok;
 }

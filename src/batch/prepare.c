@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/interrupt.h"
 #include "batch/claim.h"
@@ -284,14 +285,23 @@ static bool tell(const struct prepare *p, const struct set *s, const char *folde
     return !p->n_faults || err_set(e, p->worst, "%d of %d stimuli cannot be rendered%s", n, s->n, folder ? "; nothing was written" : "");
 }
 
+/* What the design was read from is known to the shelf, which sees whether it changes; a pipe is read and gone. */
+static bool watch_sources(const struct prepare_ask *ask, struct arena *a, struct err *e)
+{
+    struct stat s;
+    for (const char *const *file = ask->design->sources; *file; file++)
+        if (stat(*file, &s) == 0 && S_ISREG(s.st_mode) && !shelf_sha256(ask->shelf, *file, a, e))
+            return false;
+    return true;
+}
+
 bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, struct prepare *out, struct err *e)
 {
     struct preparation p = {.view = {ask->design, s, ask->shelf}, .looks = ARENA_TAKE(a, struct prepare_look, s->n), .first = ARENA_TAKE(a, int, s->n),
                             .now = ARENA_TAKE(a, bool, s->n), .out = out, .arena = a, .spare = spare_open(ask->design, a), .scenes = hash_start()};
     *out = (struct prepare){.lengths = ARENA_TAKE(a, double, s->n), .inputs = p.spare};
-    for (const char *const *file = ask->design->sources; *file; file++) /* are known to the shelf, which sees whether they change */
-        if (!shelf_sha256(ask->shelf, *file, a, e))
-            return false;
+    if (!watch_sources(ask, a, e))
+        return false;
     find_first(&p);
     hash_add(&p.scenes, ask->design->sha256, HASH_TEXT);
     if (!look_at_all(&p, ask->threads, e) || (find_drawn(&p) && !look_at_all(&p, ask->threads, e)))

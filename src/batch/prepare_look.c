@@ -116,14 +116,24 @@ void prepare_look_short(const struct prepare_view *v, int i, double seconds, str
 static bool tell_otherwise(const struct prepare_view *v, const struct prepare_form *f, const struct prepare_look *l, struct err *e)
 {
     if (l->rate != f->first->rate)
-        return err_set(e, ERR_SCENE, "output.sample_rate: the sound has %g Hz, '%s' of the same set %g Hz: give all one sample rate, or make two sets", l->rate, f->first_name, f->first->rate);
+        return err_set(e, ERR_SCENE, "the sound has %g Hz, '%s' of the same set %g Hz: give all one output.sample_rate, or make two sets", l->rate, f->first_name, f->first->rate);
     if (l->channels != f->first->channels)
-        return err_set(e, ERR_SCENE, "output.channels: the sound has %d channel%s, '%s' of the same set %d: give all as many (output.channels, output.listen), or make two sets", l->channels,
+        return err_set(e, ERR_SCENE, "the sound has %d channel%s, '%s' of the same set %d: give all as many (output.channels, output.listen), or make two sets", l->channels,
                        l->channels == 1 ? "" : "s", f->first_name, f->first->channels);
     if (v->set->level_rule == DESIGN_LEVEL_COMMON && l->quantity >= 0 && l->quantity != f->stated->quantity)
-        return err_set(e, ERR_SCENE, "output.quantity: the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose one quantity, or level: {each: ...}",
+        return err_set(e, ERR_SCENE, "the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose one by output.quantity, or level: {each: ...}",
                        modes_quantity_unit(l->quantity), f->stated_name, modes_quantity_unit(f->stated->quantity));
     return true;
+}
+
+/* The key by which it became so. */
+static bool about(const struct prepare_form *f, const struct prepare_look *l, const struct scene *s, struct err *e)
+{
+    if (l->rate != f->first->rate)
+        return err_about(e, NULL, "output.sample_rate");
+    if (l->channels != f->first->channels)
+        return err_about(e, NULL, l->channels == s->output.channels ? "output.channels" : "output.listen");
+    return s->output.quantity == QUANTITY_AUTO ? err_about(e, s->contacts[0].name, "surface.response") : err_about(e, NULL, "output.quantity");
 }
 
 bool prepare_look_otherwise(const struct prepare_view *v, int i, const struct prepare_form *f, struct prepare_look *l)
@@ -136,6 +146,7 @@ bool prepare_look_otherwise(const struct prepare_view *v, int i, const struct pr
     if (!design_scene(v->design, i, t->arena, &t->scene, &t->messages, &t->e))
         return true;
     t->e = e;
+    about(f, l, &t->scene, &t->e);
     design_scene_places(v->design, &t->scene, t->arena);
     scene_places_tell(&t->scene, &t->e);
     return true;

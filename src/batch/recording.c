@@ -59,7 +59,8 @@ static bool find_gain(const struct set *set, const char *file, const struct meas
     else if (isnan(l->lufs))
         *gain = fmin(real_exp10(l->peak / 20), set->encoding <= ENCODING_PCM24 ? 1 - ldexp(1, set->encoding == ENCODING_PCM16 ? -15 : -23) : 1) / m->peak;
     else if (isnan(m->lufs))
-        return err_set(e, ERR_SCENE, "%s: its loudness cannot be measured: BS.1770 needs 0.4 s that are not nearly silent: give the level as peak or rms, or leave it out", file);
+        return err_set(e, ERR_SCENE, "%s: its loudness cannot be measured: BS.1770 needs 0.4 s that are not nearly silent, and its file in the set has %.3g s: give the level as peak or rms, or leave it out", file,
+                       (double)m->frames / m->rate);
     else
         *gain = real_exp10((l->lufs - m->lufs) / 20);
     return true;

@@ -36,13 +36,13 @@ void shard_sweep(const char *folder)
 {
     struct shard s;
     DIR *d = opendir(folder);
+    if (d)
+        unlinkat(dirfd(d), ".rasp/set.json", 0); /* first: manifests without it are of a set that is done (merge.c) */
     for (struct dirent *entry; d && (entry = readdir(d));)
         if (shard_of_manifest(entry->d_name, &s))
             unlinkat(dirfd(d), entry->d_name, 0);
-    if (d) {
-        unlinkat(dirfd(d), ".rasp/set.json", 0);
+    if (d)
         closedir(d);
-    }
 }
 
 struct dear {

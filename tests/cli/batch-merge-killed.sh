@@ -22,6 +22,13 @@ cp shards/manifest.* late
 cp shards/.rasp/set.json late/.rasp
 merge late -q
 same ref late && echo "late: the same"
+cp shards/manifest.2-of-2.csv late
+merge late
+same ref late && echo "later: the same"
+echo "-- manifests of another state are not of a set that is done"
+cp shards/manifest.2-of-2.csv late
+sed -i '1s/.*/# design: 0000/' late/manifest.2-of-2.csv
+merge late
 echo "-- killed and interrupted wherever it is"
 cp -r shards killed
 for t in 0.01 0.02 0.03 0.04 0.05 0.06 0.08 0.1; do
@@ -31,6 +38,19 @@ for t in 0.01 0.02 0.03 0.04 0.05 0.06 0.08 0.1; do
 done 2> /dev/null
 merge killed -q
 same ref killed && names killed && echo "killed: the same"
+echo "-- with tables and stems, which no gain changes"
+mkdir long
+cp ./*.csv long
+sed 's/^output.*/output: {tail: 0 s, stems: [force], diagnostics: {rate: 2 kHz}}/; s/5 um/5 um, shortest: 1 mm/' tiny.yaml > long/tiny.yaml
+sed 's/peak: -6 dB/rms: -50 dB/; s/replicates: 3/replicates: 1/; s/200 ms, 250 ms, 300 ms/4 s, 5 s, 6 s/' six.yaml > long/six.yaml
+(cd long && rasp batch six.yaml -o ref -q && for part in 1/2 2/2; do rasp batch six.yaml -o shards -q --shard $part; done)
+for t in 0.03 0.06 0.09 0.12 0.18; do
+    cp -r long/shards long/killed
+    timeout -s KILL $t rasp merge long/killed > log 2>&1 || true
+    merge long/killed -q
+    same long/ref long/killed && echo "long: the same"
+    rm -r long/killed
+done 2> /dev/null
 echo "-- where what it is made of is not at hand: scenes name it as they would, and it is there again later"
 mkdir irs
 mv low.csv irs
@@ -47,7 +67,11 @@ same near far && same near elsewhere/far && echo "far: the same"
 rasp render far/low_200ms_r1.scene.yaml -q -o again.wav && cmp again.wav far/low_200ms_r1.wav
 echo "-- two at once: the second is refused"
 cp -r shards both
-flock both/.rasp/set.json rasp merge both 2>&1 || echo "exit $?"
+python3 -c '
+import fcntl, subprocess
+held = open("both/.rasp/design", "r+")
+fcntl.lockf(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+print("exit", subprocess.run(["rasp", "merge", "both"], stderr=subprocess.STDOUT).returncode)'
 merge both -q
 same ref both && echo "both: the same"
 echo "-- one that cannot have its level: the others have it, and the same is told of it again"
