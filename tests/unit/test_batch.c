@@ -349,6 +349,8 @@ START_TEST(the_common_level_is_that_of_the_loudest)
 {
     const struct level none = {NAN, NAN, NAN, NAN, NAN};
     struct record one = a_record("a", "k", NULL), other = one;
+    struct level_greatest g = level_start();
+    struct err e = {0};
     struct level l;
     one.peak = 2, one.rms = 0.1, one.lufs = -20;
     other.peak = 1, other.rms = 0.5, other.lufs = NAN;
@@ -360,6 +362,11 @@ START_TEST(the_common_level_is_that_of_the_loudest)
     ck_assert_double_eq_tol(found(l, &one, &other), 0.5 / 0.1, 1e-14);
     ck_assert_double_eq_tol(found(l, &other, &one), 0.5 / 0.1, 1e-14);
     l = none, l.lufs = -40;
+    one.loud = true;
+    level_look(&g, &one);
+    level_look(&g, &other); /* of which it is not known whether it is too quiet or was not measured */
+    ck_assert(!level_find(&(struct set){.n = 2, .level_rule = DESIGN_LEVEL_COMMON, .level = l}, &g, &(double){0}, &e) && e.kind == ERR_INPUT);
+    other.loud = true;
     ck_assert_double_eq_tol(found(l, &one, &other), 10, 1e-13);
     one.peak = other.peak = 0;
     ck_assert_double_eq(found(l, &one, &other), 1);
