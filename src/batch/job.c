@@ -1,13 +1,13 @@
 /* See job.h. */
 #include "batch/job.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/memory.h"
 #include "base/relpath.h"
 #include "batch/folder.h"
 #include "batch/measure.h"
@@ -54,14 +54,11 @@ bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s,
 /* Of what has no hash, for it differs from run to run: NAME.json, which may hold somebody's notes. What a power cut leaves of one is empty, or ends anywhere. */
 static bool is_whole(const char *path)
 {
-    char first = 0, last[16] = "";
-    FILE *f = memory_fopen(path, "rb");
-    size_t n = f && fread(&first, 1, 1, f) == 1 && (fseek(f, -(long)sizeof last, SEEK_END) == 0 || fseek(f, 0, SEEK_SET) == 0) ? fread(last, 1, sizeof last, f) : 0;
-    if (f)
-        fclose(f);
-    while (n && strchr(" \t\r\n", last[n - 1]))
-        n--;
-    return first == '{' && n && last[n - 1] == '}';
+    json_error_t fault;
+    json_t *j = json_load_file(path, 0, &fault);
+    bool whole = json_is_object(j);
+    json_decref(j);
+    return whole;
 }
 
 static const char *file_differs(const char *folder, const struct record_file *f, struct arena *a)

@@ -8,3 +8,9 @@ for kind in $(rasp new --list | cut -d ' ' -f 1); do
 done
 rasp batch design.yaml -o out -q
 ls out
+# and what is off in it is right, too
+cp out/oak_1Hz_1.wav real.wav
+sed -E 's/^# (exclude:|order:|recordings:|  - )/\1/' design.yaml > all.yaml
+diff design.yaml all.yaml | grep -c '^>'
+rasp check all.yaml
+rasp batch all.yaml --dry-run | cut -d ' ' -f 1-4 | sed -n 2,8p

@@ -72,14 +72,14 @@ for label in manifest timings; do
     refused 65 "the name '$label' .* is that of a table of the set"
 done
 design "factors: {m: [{label: $(repeat 5000 a)}]}"
-refused 65 'label must be a short text'
+refused 65 'label must be a text of 1 to 100 bytes in one line'
 design "factors: {m: [{label: $(repeat 90 a)}], n: [{label: $(repeat 90 b)}], o: [{label: $(repeat 90 c)}]}" "name: '{m}{n}{o}'"
 refused 65 'the name .* has a part of more than 200 letters'
 design 'factors: {m: [{label: a}]}' "name: \"$(repeat 5000 a)\""
 refused 65 'name must be a text of at most 1000 letters'
 for label in 'a\x07b' 'a\nb' 'a\e[31mb' 'a\x7fb'; do
     design "factors: {m: [{label: \"$label\"}]}"
-    refused 65 'label must be a short text'
+    refused 65 'label must be a text of 1 to 100 bytes in one line'
     ! LC_ALL=C grep -q "$(printf '[\001-\011\013-\037]')" err || fail "a control character reaches the terminal: $label"
 done
 

@@ -42,6 +42,10 @@ START_TEST(test_starters_are_scenes)
     for (const struct starter *starter = starters_table; starter->name; starter++) {
         size_t size;
         char *text = starter_text(starter, &size);
+        if (!starter->head) { /* the design, which cli/new and cli/new_renders try */
+            free(text);
+            continue;
+        }
         must_read(text, starter->name, NULL);
         ck_assert_msg(s.output.diagnostics.given, "%s asks for nothing", starter->name);
         ck_assert_msg(strstr(text, " irs/") && strstr(text, " surfaces/"), "%s does not say where responses and surfaces are", starter->name);
@@ -58,7 +62,7 @@ START_TEST(test_what_is_off_is_right_too)
 {
     a = arena_open();
     for (const struct starter *starter = starters_table; starter->name; starter++)
-        for (const struct keys_line *l = starter->head; l->path; l++) {
+        for (const struct keys_line *l = starter->head; l && l->path; l++) {
             size_t size;
             const char *set[] = {arena_format(a, "%s=%s", l->path, l->value), "surface.roughness=null"};
             const struct key *k = keys_find(l->path);
