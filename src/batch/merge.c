@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/text.h"
@@ -262,11 +263,18 @@ static bool run(const char *folder, int threads, struct arena *a, struct merge_r
     return ok;
 }
 
+enum { TRIES = 20 };
+
 /* Two merges would take the raw sounds away from each other. A lock of its own kind on the file of claim.c, which flocks it and is not in the way, nor ever replaces it. -1: there is none */
 static int lock(const char *folder, bool *alone, struct arena *a)
 {
     int fd = open(arena_format(a, "%s/.rasp/design", folder), O_RDWR | O_CLOEXEC);
-    *alone = fd < 0 || fcntl(fd, F_OFD_SETLK, &(struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET}) == 0 || (errno != EAGAIN && errno != EACCES);
+    *alone = fd < 0;
+    for (int tries = 0; tries < TRIES && !*alone; tries++) {
+        if (tries) /* one that was killed takes a moment to be gone */
+            nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
+        *alone = fcntl(fd, F_OFD_SETLK, &(struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET}) == 0 || (errno != EAGAIN && errno != EACCES);
+    }
     return fd;
 }
 
