@@ -39,6 +39,7 @@ name_of() {
 # run_one KIND/NAME: one line (and the output of a failure), and a line "passed failed skipped" in $COUNTS.
 run_one() {
     local kind=${1%%/*} name=${1#*/} log folder code=0 counts
+    SECONDS=0
     folder=$(mktemp -d "$SCRATCH/run.XXXXXXXX")
     log=$(mktemp "$SCRATCH/log.XXXXXXXX")
     (cd "$folder" && "kind_$kind" "$name") > "$log" 2>&1 < /dev/null || code=$?
@@ -64,7 +65,11 @@ counts_of() {
 report() {
     local text
     case $1 in
-        0) text="ok $2" && [ "${4%% *}" = 1 ] || text="ok $2 (${4%% *})" ;;
+        0)
+            text="ok $2"
+            [ "${4%% *}" = 1 ] || text+=" (${4%% *})"
+            [ "$SECONDS" -lt 10 ] || text+=", $SECONDS s" # what makes the whole long
+            ;;
         77) text="skip $2: $(tail -n 1 "$3")" ;;
         *) text="FAILED $2"$'\n'"$(tail -n 60 "$3" | sed 's/^/    /')" ;;
     esac
