@@ -107,9 +107,9 @@ warnings: warnings-gcc warnings-clang
 warnings-gcc warnings-clang:
 	$(SUB) BUILD=$(BUILD)/$@ CC=$(@:warnings-%=%) WERROR=-Werror all unit
 
-# With clang, whose instrumented code is up to three times faster than gcc's.
+# With clang, whose instrumented code is up to three times faster than gcc's. -g1: lines are all a report shows, and 200 programs are linked in less time.
 sanitize:
-	$(SUB) BUILD=$(BUILD)/sanitize CC=clang SAN=1 OPT="-O2 -g" all unit
+	$(SUB) BUILD=$(BUILD)/sanitize CC=clang SAN=1 OPT="-O2 -g1" all unit
 	@SANITIZED=1 BUILD=$(BUILD)/sanitize tests/run.sh faults unit cli
 
 # The same bytes from every build, on every CPU, in every run: tests/bytes/.
@@ -118,7 +118,7 @@ bytes: all
 
 # SECONDS in total, shared by the fuzz targets; what they find is left in build/fuzz/.
 fuzz:
-	$(SUB) BUILD=$(BUILD)/fuzz CC=clang SAN="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -DRASP_NO_CLONES" OPT="-O1 -g" fuzzers
+	$(SUB) BUILD=$(BUILD)/fuzz CC=clang SAN="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -DRASP_NO_CLONES" OPT="-O1 -g1" fuzzers
 	@tests/fuzz/run.sh $(BUILD)/fuzz $(SECONDS)
 fuzzers: $(FUZZ)
 $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(BUILD)/librasp.a
