@@ -169,7 +169,8 @@ END
 # sound and chooses one of the five texts. Back and forth and four in a line share their speed over time, and so do the line and the circle, as in
 # the paper; sizes and durations are ours, 2 s each, and materials too (it does not say): PVC on basswood. The paper's scribble was tracked: give yours by
 # motion: {path: recorded, file: ...}; this one is drawn from the seed. A hand at constant speed on a straight line presses evenly: of the line, full and
-# constant_force are the same but for rounding. The paper's recordings are a condition more:
+# constant_force are the same but for rounding. The paper's recordings are a condition more, which only they have:
+#   - {label: recorded, text: a recording, of: recordings}
 #   recordings: [{file: recordings/circle.wav, motion: circle, condition: recorded}]
 # The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1

@@ -19,6 +19,7 @@ struct design_level {
     const char **set;       /* "motion.rate=3 Hz": what it lays over the base scene, in order; ends with NULL */
     const char *base;       /* a scene that takes the place of the design's; NULL: none does                 */
     const char *text;       /* what the stimulus' text says of it (YAML: text); NULL: its label              */
+    bool recorded;          /* only recordings have it (YAML: of: recordings): no cell is crossed with it     */
 };
 
 struct design_factor {

@@ -15,20 +15,37 @@ struct exclusion {
 
 /* ------------------------------------------------------------------ crossing */
 
-static double crossed(const struct design *d)
+struct crossing {           /* a factor's levels but for those of recordings */
+    int *level, n;
+};
+
+static struct crossing *crossings(const struct design_reading *r)
+{
+    const struct design *d = r->design;
+    struct crossing *all = ARENA_TAKE(r->arena, struct crossing, d->n_factors + 1);
+    for (int f = 0; f < d->n_factors; f++) {
+        all[f].level = ARENA_TAKE(r->arena, int, d->factors[f].n_levels + 1);
+        for (int i = 0; i < d->factors[f].n_levels; i++)
+            if (!d->factors[f].levels[i].recorded)
+                all[f].level[all[f].n++] = i;
+    }
+    return all;
+}
+
+static double crossed(const struct design *d, const struct crossing *all)
 {
     double n = 1;
     for (int f = 0; f < d->n_factors; f++)
-        n *= d->factors[f].n_levels;
+        n *= all[f].n;
     return n;
 }
 
 /* The first factor is the slowest. */
-static void levels_of(const struct design *d, long cell, int *level)
+static void levels_of(const struct design *d, const struct crossing *all, long cell, int *level)
 {
     for (int f = d->n_factors - 1; f >= 0; f--) {
-        level[f] = (int)(cell % d->factors[f].n_levels);
-        cell /= d->factors[f].n_levels;
+        level[f] = all[f].level[cell % all[f].n];
+        cell /= all[f].n;
     }
 }
 
@@ -57,14 +74,14 @@ static bool excluded(const struct design *d, const int *level, struct exclusion 
     return any;
 }
 
-static void cells_cross(struct design_reading *r, struct exclusion *all, int n)
+static void cells_cross(struct design_reading *r, const struct crossing *factors, struct exclusion *all, int n)
 {
     const struct design *d = r->design;
-    long room = (long)crossed(d);
+    long room = (long)crossed(d, factors);
     int *levels = ARENA_TAKE(r->arena, int, room * d->n_factors + 1);
     r->cells = ARENA_TAKE(r->arena, struct design_cell, room + 1);
     for (long i = 0, most = room; i < most; i++) {
-        levels_of(d, i, levels);
+        levels_of(d, factors, i, levels);
         if (excluded(d, levels, all, n))
             continue;
         *cell_add(r, &room) = (struct design_cell){.level = levels};
@@ -73,6 +90,14 @@ static void cells_cross(struct design_reading *r, struct exclusion *all, int n)
 }
 
 /* ------------------------------------------------------------------ listing */
+
+static void crossed_only(const struct design_reading *r, const int *level, const struct yaml_node *entry)
+{
+    for (int f = 0; f < r->design->n_factors; f++)
+        if (level[f] >= 0 && r->design->factors[f].levels[level[f]].recorded)
+            diag_add(r->yaml->diag, yaml_get(entry, r->design->factors[f].name)->at, "list a recording under recordings:, or leave of: out of the level", "'%s' of %s is a level that only recordings have",
+                     diag_shown(r->yaml->diag, r->design->factors[f].levels[level[f]].label), r->design->factors[f].name);
+}
 
 /* The levels that a map of factor: label says, -1 where it says none; keys of `own` (NULL-terminated) are not factors. */
 static int *entry_levels(const struct design_reading *r, const struct yaml_node *map, const char *const *own)
@@ -121,6 +146,7 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
             continue;
         int *level = entry_levels(r, entry, own);
         cell_complete(r, entry);
+        crossed_only(r, level, entry);
         if (r->yaml->diag->n == errors && !excluded(r->design, level, all, n))
             *cell_add(r, &room) = (struct design_cell){.level = level, .entry = entry};
     }
@@ -198,6 +224,23 @@ static void recordings_add(struct design_reading *r, const struct yaml_node *lis
     }
 }
 
+/* Levels that are told to be of recordings, and are of none. */
+static void recorded_check(const struct design_reading *r)
+{
+    for (int f = 0; f < r->design->n_factors; f++) {
+        const struct design_factor *factor = &r->design->factors[f];
+        const struct yaml_node *item = r->factors[f]->first;
+        bool *used = ARENA_TAKE(r->arena, bool, factor->n_levels + 1);
+        for (long c = 0; c < r->n_cells; c++)
+            if (r->cells[c].level[f] >= 0)
+                used[r->cells[c].level[f]] = true;
+        for (int i = 0; i < factor->n_levels; i++, item = item->next)
+            if (factor->levels[i].recorded && !used[i])
+                diag_add(r->yaml->diag, item->at, arena_format(r->arena, "give it to one: recordings: [{file: recorded.wav, %s: %s}]; or remove it", factor->name, factor->levels[i].label),
+                         "no recording has this level of %s", factor->name);
+    }
+}
+
 /* ------------------------------------------------------------------ all */
 
 static void matched_check(const struct design_reading *r, const struct exclusion *all, int n)
@@ -219,16 +262,19 @@ void design_cells_make(struct design_reading *r)
     const struct yaml_node *cells = design_reading_value(r, "cells"), *recordings = design_reading_value(r, "recordings");
     int n, errors = r->yaml->diag->n;
     struct exclusion *all = exclusions_read(r, &n);
-    if (!few_enough(r, cells ? cells->n : crossed(r->design), cells ? cells : design_reading_value(r, "factors")))
+    struct crossing *levels = crossings(r);
+    if (!few_enough(r, cells ? cells->n : crossed(r->design, levels), cells ? cells : design_reading_value(r, "factors")))
         return;
     if (cells)
         cells_list(r, cells, all, n);
     else if (r->yaml->diag->n == errors)
-        cells_cross(r, all, n);
+        cells_cross(r, levels, all, n);
     if (r->yaml->diag->n == errors)
         matched_check(r, all, n);
     if (r->yaml->diag->n == errors && r->n_cells == 0)
-        diag_add(r->yaml->diag, (cells ? cells : yaml_get(r->root, "exclude"))->at, "leave some in", "no cell is left");
+        diag_add(r->yaml->diag, (cells ? cells : yaml_get(r->root, yaml_get(r->root, "exclude") ? "exclude" : "factors"))->at, "leave some in", "no cell is left");
     if (recordings)
         recordings_add(r, recordings);
+    if (r->yaml->diag->n == errors)
+        recorded_check(r);
 }

@@ -114,9 +114,21 @@ static void base_read(const struct reading_level *l, const struct yaml_node *bas
     level_of(l)->base = scene_merge_path(l->r->yaml, base->at.source, base->text);
 }
 
+/* A level of recordings has no scene to change. */
+static void of_read(const struct reading_level *l, const struct yaml_node *map, const struct yaml_node *of)
+{
+    static const char cure[] = "write for instance: - {label: recorded, of: recordings}";
+    if (of->kind != YAML_SCALAR || strcmp(of->text, "recordings") != 0)
+        design_reading_must(l->r, of, "of", "the word recordings", cure);
+    level_of(l)->recorded = true;
+    for (const char *const *other = (const char *const[]){"set", "base", "value", NULL}; *other; other++)
+        if (yaml_get(map, *other))
+            diag_add(l->r->yaml->diag, yaml_get(map, *other)->key->at, cure, "a level that only recordings have has no %s", *other);
+}
+
 static void map_read(const struct reading_level *l, const struct yaml_node *map)
 {
-    static const char *const names[] = {"label", "text", "set", "base", "value", NULL};
+    static const char *const names[] = {"label", "text", "set", "base", "value", "of", NULL};
     const struct yaml_node *label = yaml_get(map, "label"), *set = yaml_get(map, "set"), *base = yaml_get(map, "base"), *value = yaml_get(map, "value");
     const struct yaml_node *text = yaml_get(map, "text");
     design_reading_known(l->r, map, names, " in a level");
@@ -136,6 +148,8 @@ static void map_read(const struct reading_level *l, const struct yaml_node *map)
         level_of(l)->text = text->text;
     if (base)
         base_read(l, base);
+    if (yaml_get(map, "of"))
+        of_read(l, map, yaml_get(map, "of"));
 }
 
 static void level_read(const struct reading_level *l, const struct yaml_node *item)
@@ -229,13 +243,16 @@ static void factors_read(struct design_reading *r, const struct yaml_node *map)
 
 /* ------------------------------------------------------------------ bases */
 
-static int bases_of(const struct design_reading *r, int f, const struct yaml_node **one)
+static int bases_of(const struct design_reading *r, int f, const struct yaml_node **one, bool *all)
 {
     int n = 0;
+    *all = true;
     for (int i = 0; i < r->design->factors[f].n_levels; i++)
         if (r->texts->levels[f][i].base) {
             *one = r->texts->levels[f][i].base;
             n++;
+        } else if (!r->design->factors[f].levels[i].recorded) {
+            *all = false;
         }
     return n;
 }
@@ -246,11 +263,12 @@ static void bases_check(const struct design_reading *r)
     const struct yaml_node *one = NULL;
     bool all = false, some = false;
     for (int f = 0; f < r->design->n_factors; f++) {
-        int n = bases_of(r, f, &one);
+        bool every;
+        int n = bases_of(r, f, &one, &every);
         if (n && some)
             diag_add(r->yaml->diag, one->key->at, "let one factor choose the scene", "levels of two factors have a base");
         some = some || n;
-        all = all || n == r->design->factors[f].n_levels;
+        all = all || (n && every);
     }
     if (!r->texts->base && !(all && some))
         diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0}, "write for instance: base: scrape.yaml",

@@ -65,7 +65,10 @@ static void no_level(const struct design_reading *r, int f, const struct yaml_no
     const char **names = ARENA_TAKE(r->arena, const char *, factor->n_levels + 1);
     for (int i = 0; i < factor->n_levels; i++)
         names[i] = factor->levels[i].label;
-    diag_add(r->yaml->diag, label->at, near_or_all(r, label->text, names, "its levels"), "'%s' is no level of %s",
+    const char *cure = near_or_all(r, label->text, names, "its levels");
+    if (yaml_get(r->root, "recordings"))
+        cure = arena_format(r->arena, "%s (a level that only recordings have: - {label: %s, of: recordings})", cure, diag_shown(r->yaml->diag, label->text));
+    diag_add(r->yaml->diag, label->at, cure, "'%s' is no level of %s",
              diag_shown(r->yaml->diag, label->text), factor->name);
 }
 

@@ -27,15 +27,26 @@ static json_t *settings(struct arena *a)
     return o;
 }
 
-static json_t *factors(void)
+/* A word, a key of scenes, or what contacts have. */
+static json_t *factor_names(struct arena *a)
 {
-    json_t *level = schema_value_map(json_pack("{s:o, s:o, s:b, s:o, s:o}", "label", schema_value_plain("text", "what it is called in names and lists"), "text", schema_value_plain("text", "what it is called in the text of a trial"), "value", 1, "set", schema_value_ref("set"),
-                                         "base", schema_value_plain("text", "a scene that takes the place of the design's")),
+    json_t *keys = json_array();
+    for (const char **names = keys_text_names(a); *names; names++)
+        if (strchr(*names, '.'))
+            json_array_append_new(keys, json_string(*names));
+    return json_pack("{s:[{s:s}, {s:o}]}", "anyOf", "pattern", "^([A-Za-z][A-Za-z0-9_-]*|contacts\\..*)$", "enum", keys);
+}
+
+static json_t *factors(struct arena *a)
+{
+    json_t *level = schema_value_map(json_pack("{s:o, s:o, s:b, s:o, s:o, s:{s:[s], s:s}}", "label", schema_value_plain("text", "what it is called in names and lists"), "text", schema_value_plain("text", "what it is called in the text of a trial"), "value", 1, "set", schema_value_ref("set"),
+                                         "base", schema_value_plain("text", "a scene that takes the place of the design's"), "of", "enum", "recordings", "description", "only recordings have it: no cell is crossed with it"),
                                NULL);
     json_object_set_new(level, "required", json_pack("[s]", "label"));
     json_t *levels = schema_value_list(json_pack("{s:[{s:[s, s, s]}, o]}", "anyOf", "type", "string", "number", "boolean", level), 1, 1000000, NULL);
     json_t *o = schema_value_plain("object", "factors, crossed, the first slowest: a dotted key with values, or a word with levels {label, set, base}");
     json_object_set_new(o, "additionalProperties", levels);
+    json_object_set_new(o, "propertyNames", factor_names(a));
     return o;
 }
 
@@ -49,6 +60,8 @@ static json_t *labels(void)
 static json_t *cells(json_t *own, json_t *label, const char *description)
 {
     json_t *entry = schema_value_plain("object", NULL);
+    if (json_object_get(own, "file"))
+        json_object_set_new(entry, "required", json_pack("[s]", "file"));
     json_object_set_new(entry, "properties", own);
     json_object_set_new(entry, "additionalProperties", label);
     return schema_value_list(entry, 0, 1000000, description);
@@ -102,7 +115,7 @@ json_t *schema_design(struct arena *a)
     json_object_set_new(seed, "default", json_integer(1));
     json_object_set_new(all, "seed", seed);
     json_object_set_new(all, "set", schema_value_ref("set"));
-    json_object_set_new(all, "factors", factors());
+    json_object_set_new(all, "factors", factors(a));
     json_object_set_new(all, "exclude", cells(json_object(), labels(), "cells that are left out: those that match all pairs of FACTOR: LABEL, or one of its LABELS"));
     json_object_set_new(all, "cells", cells(json_object(), schema_value_plain("text", NULL), "the cells, listed, in place of crossing the factors"));
     json_object_set_new(all, "recordings", cells(json_pack("{s:o, s:o}", "file", schema_value_plain("text", "a WAV"), "name", schema_value_plain("text", NULL)), schema_value_plain("text", NULL), "supplied sounds as cells of their own"));

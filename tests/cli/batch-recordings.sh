@@ -30,6 +30,16 @@ done
 sed 's/, where.*//' told.txt
 sed 's/short.wav/other.wav/' set.yaml > wrong.yaml
 rasp batch wrong.yaml -o wrong || echo "exit $?" >&2
+echo "-- a level that only recordings have: no cell is crossed with it"
+printf '%s\n' 'rasp-design: 1' 'base: tiny.yaml' 'factors:' '  kind: [{label: made}, {label: real, of: recordings}]' '  motion.duration: [0.2 s, 0.3 s]' \
+    'recordings: [{file: long.wav, kind: real}]' > only.yaml
+rasp batch only.yaml -o only -q
+columns only/manifest.csv stimulus_id kind motion_duration_s
+for wrong in 's/kind: real}\]/kind: physical}]/' 's/kind: real}\]/kind: rael}]/' 's/, kind: real}\]/}]/' 's/of: recordings/of: cells, set: {seed: 1}/' 's/{label: made}, //' \
+    's/^rec/cells: [{kind: real, motion.duration: 0.2 s}]\nrec/' 's/^rec/exclude: [{kind: made}]\nrec/'; do
+    sed "$wrong" only.yaml > bad.yaml
+    rasp check bad.yaml || true
+done
 echo "-- what the dry run says of a recording is what the manifest says"
 sed '/^length/a replicates: 2' set.yaml > twice.yaml
 rasp batch twice.yaml --dry-run | awk '{ print $2, $4 }' | head -5

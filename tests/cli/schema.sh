@@ -42,6 +42,12 @@ differ = set(re.findall(r'"([^"]+)"', reader)) ^ set(validators["design"].schema
 if differ:
     print("keys of designs that the schema or the reader lacks:", differ)
 
+# What is likely to be wrong in designs, and what looks so and is right.
+for wrong, part in (True, {"factors": {"motion.raet": [1]}}), (True, {"factors": {"kind": [{"label": "a", "of": "cells"}]}}), (True, {"recordings": [{"fil": "x.wav"}]}), \
+                   (True, {"factors": {"a b": [1]}}), (False, {"factors": {"kind": [{"label": "a", "of": "recordings"}], "contacts.rod.motion.rate": [1], "accuracy": ["draft"]}, "recordings": [{"file": "x", "kind": "a"}]}):
+    if bool(errors({"rasp-design": 1, "base": "a.yaml"} | part)[1]) != wrong:
+        print("the schema of designs", "takes" if wrong else "refuses", part)
+
 # One thing wrong at a time, at every place of these scenes.
 def places(node, path=()):
     yield path, node
