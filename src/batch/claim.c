@@ -6,10 +6,12 @@
 #include <fcntl.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/hash.h"
 #include "base/relpath.h"
+#include "base/text.h"
 #include "batch/folder.h"
 
 enum { MOST = 4096 + 256 + HASH_TEXT /* bytes of the file */ };
@@ -34,9 +36,30 @@ static void parse(struct owner *o, ssize_t n)
         *end = '\0';
 }
 
+static const char piped[] = "-";
+
+/* What is opened anew by that name is the same file. */
+static bool lasts(const char *file)
+{
+    struct stat s;
+    return strncmp(file, "/dev/", 5) != 0 && strncmp(file, "/proc/", 6) != 0 && (stat(file, &s) != 0 || S_ISREG(s.st_mode));
+}
+
+const char *claim_place(const char *design, const char *folder, struct arena *a)
+{
+    return lasts(design) ? text_shown(a, relpath_make(design, folder, a)) : piped;
+}
+
 static const char *place_of(const struct claim *c, struct arena *a)
 {
-    return relpath_make(c->design, c->folder, a);
+    return claim_place(c->design, c->folder, a);
+}
+
+static const char *seen_from_here(const struct claim *c, const char *place, struct arena *a)
+{
+    if (!strcmp(place, piped))
+        return "one that came through a pipe";
+    return place[0] == '/' ? place : relpath_make(arena_format(a, "%s/%s", c->folder, place), NULL, a);
 }
 
 /* Of another design? */
@@ -45,10 +68,10 @@ static bool is_free(const struct claim *c, const struct owner *o, struct arena *
     static const char what[] = "choose another folder with -o, or say --replace, and the folder is this design's from now on";
     if (c->replace || !o->sha256)
         return true;
-    if (!strcmp(o->sha256, c->sha256) || !strcmp(o->place, place_of(c, a)))
+    const char *place = place_of(c, a);
+    if (!strcmp(o->sha256, c->sha256) || (strcmp(place, piped) != 0 && !strcmp(o->place, place)))
         return true;
-    const char *seen = o->place[0] == '/' ? o->place : relpath_make(arena_format(a, "%s/%s", c->folder, o->place), NULL, a);
-    return err_set(e, ERR_CREATE, "%s: holds the set of another design, %s: %s", c->folder, seen, what);
+    return err_set(e, ERR_CREATE, "%s: holds the set of another design, %s: %s", c->folder, seen_from_here(c, o->place, a), what);
 }
 
 static void look(const char *folder, struct arena *a, struct owner *o)

@@ -1,6 +1,6 @@
 /* Whose set a folder holds: DIR/.rasp/design, the hash of the design on the first line, on the second where the design lies, seen from the folder, on the third which program rendered it.
 
-   A design is known by its file: edited, it is the same design, and its set goes on from what is there. It is known by its hash, too (struct set): moved, renamed or copied with the
+   A design is known by its file, unless that is a pipe: edited, it is the same design, and its set goes on from what is there. It is known by its hash, too (struct set): moved, renamed or copied with the
    scenes and files that it builds on, it is the same. Any other is refused, for it would replace tables and stimuli of a set that is not its own. */
 #ifndef BATCH_CLAIM_H
 #define BATCH_CLAIM_H
@@ -22,6 +22,10 @@ bool claim_enter(const struct claim *c, struct arena *a, int *entered, struct er
 
 /* The same for a merge, which knows no design's file: the folder must hold this state of the set, or say nothing. ERR_CREATE; ERR_INPUT: it holds another by now */
 bool claim_join(const struct claim *c, struct arena *a, int *entered, struct err *e);
+
+/* Where a design lies, seen from its folder: the hash of a stimulus does not know where the folder is, but the file names in its scene do. UTF-8; "-": it comes through a pipe or from
+   stdin, which are called alike, or each time otherwise, whatever comes. */
+const char *claim_place(const char *design, const char *folder, struct arena *a);
 
 /* Does the folder say whose it is? If not, nothing in it is a set's. */
 bool claim_is_noted(const char *folder, struct arena *a);

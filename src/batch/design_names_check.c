@@ -70,7 +70,7 @@ static const char *name_fault(const char *name, const char **cure)
         fault = "has more than 1000 letters";
     }
     size_t first = strcspn(name, "/"); /* a folder SHA256SUMS/ would stand where the file shall be */
-    if (!fault && (strcasecmp(name, "manifest") == 0 || strcasecmp(name, "timings") == 0 || (first == 10 && strncasecmp(name, "SHA256SUMS", first) == 0))) {
+    if (!fault && (strcasecmp(name, "manifest") == 0 || strncasecmp(name, "manifest.", 9) == 0 || strcasecmp(name, "timings") == 0 || (first == 10 && strncasecmp(name, "SHA256SUMS", first) == 0))) {
         *cure = "write another template for name:";
         fault = "is that of a table of the set";
     }

@@ -204,7 +204,8 @@ static bool settle(struct finish *f, bool complete, struct err *e)
     }
     if (!journal_settle(f->kit->journal, records, n, e))
         return false;
-    if (folder_is_mine(f->entered)) {
+    f->alone = folder_is_mine(f->entered);
+    if (f->alone) {
         if (f->kit->design) /* what a merge has merged it takes away itself, if nothing failed */
             shard_sweep(f->kit->folder);
         folder_sweep(f->kit->folder, names, s->n, complete);

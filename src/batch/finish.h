@@ -17,6 +17,7 @@ struct finish {
     bool prune;                  /* what is left over is removed */
     struct leftover left;        /* what is there besides the set */
     const char *unheard;         /* of unheard_find */
+    bool alone;                  /* nobody else was at work in the folder at the end, and none can begin before folder_leave */
 };
 
 /* Where the level waits and all stimuli are there, gives them their gain. Failures of single stimuli go to their outcomes: so does one that would be rendered again for it and is not what

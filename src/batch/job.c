@@ -8,10 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/relpath.h"
+#include "batch/claim.h"
 #include "batch/folder.h"
 #include "batch/measure.h"
 #include "batch/recording.h"
+#include "file/bytes.h"
 #include "pipeline/inputs.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
@@ -51,13 +52,19 @@ bool job_scene(const struct job_kit *k, int i, struct arena *a, struct scene *s,
 
 /* ------------------------------------------------------------------ is it there? */
 
-/* Of what has no hash, for it differs from run to run: NAME.json, which may hold somebody's notes. What a power cut leaves of one is empty, or ends anywhere. */
+/* Of what has no hash, for it differs from run to run: NAME.json, which may hold somebody's notes, in whatever form. What a power cut leaves of one is empty, ends anywhere, or
+   has zeros. */
 static bool is_whole(const char *path)
 {
+    struct err unreadable = {0};
+    struct bytes b;
     json_error_t fault;
-    json_t *j = json_load_file(path, 0, &fault);
-    bool whole = json_is_object(j);
+    struct arena *a = arena_open();
+    bool whole = bytes_read(path, a, &b, &unreadable) && b.n > 0 && !memchr(b.at, '\0', b.n);
+    json_t *j = whole ? json_loadb(b.at, b.n, JSON_DISABLE_EOF_CHECK, &fault) : NULL;
+    whole = j || (whole && (size_t)fault.position < b.n);
     json_decref(j);
+    arena_close(a);
     return whole;
 }
 
@@ -92,10 +99,11 @@ bool job_is_there(const char *folder, const struct record *r, struct arena *a)
     return !job_differs(folder, r, a, &file);
 }
 
-/* A common loudness is found from the raw sounds', which a set of another level had no need of; the file's own, rounded to its encoding, would do for a gain that is nearly the same. */
+/* A common loudness is found from the raw sounds', which a set of another level had no need of; the file's own, rounded to its encoding, would do for a gain that is nearly the same.
+   A recording, which lies in no place, has its level already. */
 bool job_tells_enough(const struct set *s, const struct record *r)
 {
-    return !set_waits(s) || isnan(s->level.lufs) || !r->sounds || r->loud;
+    return !set_waits(s) || isnan(s->level.lufs) || !r->sounds || !r->place || r->loud;
 }
 
 /* Complete, or waiting for its gain; its effective scene names the inputs as they are seen from the folder. */
@@ -107,12 +115,6 @@ static const struct record *find(const struct job_kit *k, const struct record *a
             return r;
     }
     return NULL;
-}
-
-/* Where the design lies, seen from the folder. The hash does not know where the folder is, but the file names in its effective scenes do. */
-static const char *place_of(const struct job_kit *k, struct arena *a)
-{
-    return relpath_make(k->design->file, k->folder, a);
 }
 
 /* ------------------------------------------------------------------ rendering */
@@ -251,7 +253,7 @@ bool job_do(const struct job_kit *k, int i, struct arena *a, struct job_result *
     struct watch inputs = inputs_watch(&s, a);
     const char *effective = outputs_effective(&s, k->design->file, a);
     const char *key = job_hash((const char *const[]){"stimulus", row->name, k->set->build, set_waits(k->set) ? "waits" : "", effective}, 5, a);
-    *r = (struct record){.name = row->name, .key = key, .job = set_waits(k->set) ? NULL : key, .build = k->set->build, .place = place_of(k, a)};
+    *r = (struct record){.name = row->name, .key = key, .job = set_waits(k->set) ? NULL : key, .build = k->set->build, .place = claim_place(k->design->file, k->folder, a)};
     result->record = find(k, r, a, &result->ref);
     result->kept = result->record != NULL;
     if (result->kept)

@@ -20,12 +20,12 @@ struct list {
     struct arena *arena;
     struct row {
         const char *name;
-        long at;                 /* of its record; -1: it failed, or waits: what it was stays */
+        long at;                 /* of its record; -1: it failed, or waits */
     } *rows;                     /* of the set, by name */
     struct old {
         struct journal_ref ref;
         bool touched;            /* some file is not as it was written */
-        bool waits;              /* for what becomes of its stimulus: it stays, and nothing is said of it */
+        bool forgotten;          /* though its files are there */
     } *records;
     int n, room;
     struct found *files;
@@ -56,7 +56,7 @@ static void take_record(void *context, const struct record *r, struct journal_re
 {
     struct list *l = context;
     const struct row *row = bsearch(&(struct row){.name = r->name}, l->rows, (size_t)l->ask->all->set->n, sizeof *row, by_name);
-    if (!r->job || (row && (row->at == ref.at || (row->at < 0 && !l->ask->keep))))
+    if (!r->job || (row && row->at == ref.at))
         return;
     if (l->n == l->room) {
         struct old *more = ARENA_TAKE(l->arena, struct old, l->room = 2 * l->room + 16);
@@ -64,7 +64,7 @@ static void take_record(void *context, const struct record *r, struct journal_re
             memcpy(more, l->records, (size_t)l->n * sizeof *more);
         l->records = more;
     }
-    l->records[l->n++] = (struct old){ref, false, row && row->at < 0};
+    l->records[l->n++] = (struct old){ref, false, row && row->at < 0 && !l->ask->keep};
 }
 
 static bool read_records(struct list *l, struct err *e)
@@ -87,8 +87,6 @@ static bool is_within(const char *path)
 
 static bool read_one(struct list *l, int i, struct err *e)
 {
-    if (l->records[i].waits)
-        return true;
     struct arena *a = arena_open();
     const struct record *r = journal_read(l->ask->all->journal, l->records[i].ref, a, e);
     int n = r ? r->n_files : 0;
@@ -205,7 +203,7 @@ static void gather(const struct list *l, struct leftover *to)
             kept[l->files[i].record] = true;
         }
     for (int i = 0; i < l->n; i++)
-        if (kept[i] || l->records[i].waits)
+        if (kept[i] && !l->records[i].forgotten)
             to->refs[to->n++] = l->records[i].ref;
     qsort(to->refs, (size_t)to->n, sizeof *to->refs, by_age);
     for (int i = 0; i < to->n; i++) /* a record is known by two hashes, and may come twice */

@@ -1,12 +1,12 @@
-/* Files in a set's folder that were of a stimulus once, and are of none of the design as it is now: a level was taken out, a name was changed, a stem is not asked for any more, another design took the folder over.
-   They are told, never removed unless that is asked for. */
+/* Files in a set's folder that were of a stimulus once, and are of none as it is now: a level was taken out, a name was changed, a stem is not asked for any more, another design took the folder over,
+   or the stimulus failed, or waits for its level, and what is there is what it was before. They are told, never removed unless that is asked for. */
 #ifndef BATCH_LEFTOVER_H
 #define BATCH_LEFTOVER_H
 #include "batch/manifest.h"
 #include "batch/spare.h"
 
 struct leftover {
-    struct journal_ref *refs;    /* records of what the set has not, of which some file is there, and those of keep */
+    struct journal_ref *refs;    /* records of what the set has not, of which some file is there */
     int n;
     const char **files;          /* their files that are there, as seen from the folder, by name; ends with NULL */
     int n_files, removed;        /* removed: how many files there were, and are no more                           */
@@ -16,7 +16,7 @@ struct leftover_ask {
     const char *folder;
     const struct results *all;
     const struct spare *inputs;  /* files that the set is made from are not left over; NULL: not known            */
-    bool keep;                   /* records of what a stimulus was before that failed now, or waits; a merge cannot use them: what it asks a shard for anew must not seem to be there */
+    bool keep;                   /* the records, too, of what a stimulus was before that failed now, or waits; a merge cannot use them: what it asks a shard for anew must not seem to be there */
     bool remove;                 /* stimuli whose files have the bytes that they were written with; what was changed since stays, and is told */
 };
 

@@ -7,7 +7,7 @@
 #include "num/real.h"
 #include "output/loudness.h"
 
-enum { PIECE = 4096 }; /* samples */
+enum { PIECE = 4096 /* samples */, BEHIND = 32 /* frames: the meter of true peaks is 6 to 12 late */ };
 
 struct sums {
     double peak, squares;
@@ -54,13 +54,15 @@ static bool loud_pass(struct cut *c, double peak, struct loudness *l, struct err
 static bool find_loudness(const char *path, const struct cut_form *form, struct measure *m, struct err *e)
 {
     struct cut c;
-    double lufs;
+    double lufs, silence[PIECE] = {0};
     struct loudness *l = loudness_open(m->channels, m->rate, true);
     if (!l)
         return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", m->rate);
     bool ok = cut_open(&c, path, form, e) && loud_pass(&c, m->peak, l, e);
     if (ok && loudness_read(l, &lufs))
         m->lufs = lufs + 20 * real_log10(m->peak);
+    for (int i = 0; ok && i < BEHIND; i++)
+        loudness_add(l, silence, 1);
     m->true_peak = ok ? fmax(1, loudness_true_peak(l)) * m->peak : NAN; /* of a sound brought to peak 1 */
     cut_close(&c);
     loudness_close(l);

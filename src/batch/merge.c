@@ -1,18 +1,15 @@
 /* See merge.h. Which record of the journals counts is said by the shards' manifests, by its job hash: the journals may hold more, of earlier designs. */
 #include "batch/merge.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "base/text.h"
 #include "batch/claim.h"
 #include "batch/finish.h"
 #include "batch/folder.h"
+#include "batch/merge_lock.h"
 #include "batch/merge_shards.h"
 #include "batch/merged.h"
 #include "batch/pool.h"
@@ -224,7 +221,8 @@ static bool join(struct merge *m, int threads, struct err *e)
     m->report->unheard = f.unheard;
     if (!judge(m, e))
         return false;
-    shard_sweep(m->folder);
+    if (f.alone) /* else a shard that runs again has taken the tables away, and the next merge writes them anew */
+        shard_sweep(m->folder);
     return true;
 }
 
@@ -234,11 +232,15 @@ void merge_close(struct merge_report *r)
     r->journal = NULL;
 }
 
+/* Looking takes its time, in which shards of another state may begin, and end: what they have left is not swept. */
 static bool sweep_rest(const struct merge *m, struct err *e)
 {
     if (!merged_already(m->folder, m->arena, m->report, e))
         return false;
-    shard_sweep(m->folder);
+    int entered = folder_enter(m->folder);
+    if (m->shards.n && folder_is_mine(entered) && merge_shards_swept(&m->shards, m->arena))
+        shard_sweep(m->folder);
+    folder_leave(entered);
     return true;
 }
 
@@ -263,28 +265,11 @@ static bool run(const char *folder, int threads, struct arena *a, struct merge_r
     return ok;
 }
 
-enum { TRIES = 20 };
-
-/* Two merges would take the raw sounds away from each other. A lock of its own kind on the file of claim.c, which flocks it and is not in the way, nor ever replaces it. -1: there is none */
-static int lock(const char *folder, bool *alone, struct arena *a)
-{
-    int fd = open(arena_format(a, "%s/.rasp/design", folder), O_RDWR | O_CLOEXEC);
-    *alone = fd < 0;
-    for (int tries = 0; tries < TRIES && !*alone; tries++) {
-        if (tries) /* one that was killed takes a moment to be gone */
-            nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
-        *alone = fcntl(fd, F_OFD_SETLK, &(struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET}) == 0 || (errno != EAGAIN && errno != EACCES);
-    }
-    return fd;
-}
-
 bool merge_run(const char *folder, int threads, struct arena *a, struct merge_report *r, struct err *e)
 {
     *r = (struct merge_report){.missing = "", .unheard = "", .full_scale = NAN};
-    bool alone;
-    int locked = lock(folder, &alone, a);
-    bool ok = alone ? run(folder, threads, a, r, e) : err_set(e, ERR_CREATE, "%s: another rasp merge is at work in it: wait until it has ended", folder);
-    if (locked >= 0)
-        close(locked);
+    struct merge_lock lock;
+    bool ok = merge_lock_take(folder, a, &lock) ? run(folder, threads, a, r, e) : err_set(e, ERR_CREATE, "%s: another rasp merge is at work in it: wait until it has ended", folder);
+    merge_lock_give(&lock);
     return ok;
 }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "batch/job.h"
+#include "file/bytes.h"
 #include "file/csv.h"
 
 struct columns {
@@ -51,12 +52,33 @@ static bool judge(const char *folder, const struct csv *t, const struct columns 
                              "batch, again", folder, wrong, r->already);
 }
 
+/* "manifest.csv is not as SHA256SUMS says"; NULL: the tables are as they were written. */
+static const char *wrong_with_tables(const char *folder, struct arena *a)
+{
+    static const char *const tables[] = {"manifest.csv", "manifest.json", NULL};
+    struct err unreadable = {0};
+    struct bytes sums;
+    char hex[HASH_TEXT];
+    if (!bytes_read(arena_format(a, "%s/SHA256SUMS", folder), a, &sums, &unreadable))
+        return "SHA256SUMS is missing";
+    for (int i = 0; tables[i]; i++) {
+        if (!hash_file(arena_format(a, "%s/%s", folder, tables[i]), hex, &unreadable))
+            return arena_format(a, "%s is missing", tables[i]);
+        if (!strstr(sums.at, arena_format(a, "%s  %s\n", hex, tables[i])))
+            return arena_format(a, "%s is not as SHA256SUMS says", tables[i]);
+    }
+    return NULL;
+}
+
 bool merged_already(const char *folder, struct arena *a, struct merge_report *r, struct err *e)
 {
     struct csv t;
     const char *file = arena_format(a, "%s/manifest.csv", folder);
     if (access(file, F_OK) != 0)
         return err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv, as rasp batch --shard leaves them: there is nothing to merge", folder);
+    const char *why = wrong_with_tables(folder, a);
+    if (why)
+        return err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv: there is nothing to merge; and %s: run the shards, or the whole batch, again", folder, why);
     if (!csv_read(file, a, &t, e))
         return false;
     struct columns c = {csv_column(&t, "stimulus_id"), csv_column(&t, "status"), csv_column(&t, "job_hash")};

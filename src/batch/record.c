@@ -18,7 +18,7 @@ static json_t *remarks_json(const struct record *r)
 {
     json_t *all = json_array();
     for (int i = 0; r->remarks && r->remarks[i]; i++)
-        json_array_append_new(all, json_string(r->remarks[i]));
+        json_array_append_new(all, json_value_shown(r->remarks[i]));
     return all;
 }
 

@@ -12,6 +12,7 @@
 #include "batch/progress.h"
 #include "cmd/batch_build.h"
 #include "cmd/tell.h"
+#include "file/json_value.h"
 #include "scene/keys_yaml.h"
 
 enum { TOLD = 20 /* failures that are told one by one */, LEFT_TOLD = 6 /* files that are left over */ };
@@ -23,7 +24,7 @@ static const struct args_option batch_options[] = {
     {"dry-run", 'n', NULL, false, "read and check everything, list the stimuli (with --json as \"list\"), write nothing"},
     {"force", 'f', NULL, false, "render what is there already, too"},
     {"replace", 0, NULL, false, "take over a folder that holds the set of another design"},
-    {"prune", 0, NULL, false, "remove what was a stimulus of the set once, and is none of the design any more"},
+    {"prune", 0, NULL, false, "remove what was a stimulus of the set once, and is none of it as it is now"},
     {"json", 0, NULL, false, "print what was done on stdout as JSON"},
     {"quiet", 'q', NULL, false, "no progress and no summary, only warnings and errors"},
     {0},
@@ -96,7 +97,7 @@ static void tell_remarks(struct cmd_call *c, const struct results *all, int i)
     struct err unreadable = {0};
     const struct record *r = journal_read(all->journal, all->of[i].record, a, &unreadable);
     for (int k = 0; r && r->remarks[k]; k++)
-        tell_warning(c, all->set->rows[i].name, r->remarks[k]);
+        tell_stimulus_warning(c, all->set->rows[i].name, r->remarks[k]);
     arena_close(a);
 }
 
@@ -141,7 +142,7 @@ void batch_tell_left(struct cmd_call *c, const char *folder, const struct leftov
     if (l->n_files > LEFT_TOLD)
         list = arena_format(c->arena, "%s and %d more", list, l->n_files - LEFT_TOLD);
     bool one = l->n_files == 1;
-    tell_warning(c, folder, arena_format(c->arena, "%d file%s of stimuli that the design does not have any more %s still there, outside the manifest: %s; rasp batch --prune removes %s (of a NAME.json it cannot tell)", l->n_files, one ? "" : "s",
+    tell_warning(c, folder, arena_format(c->arena, "%d file%s of an earlier state of the set %s still there, outside the manifest: %s; rasp batch --prune removes %s (of a NAME.json it cannot tell)", l->n_files, one ? "" : "s",
                                          one ? "is" : "are", list, one ? "it unless it was changed since" : "those that nobody changed since"));
 }
 
@@ -149,7 +150,7 @@ void batch_tell_left(struct cmd_call *c, const char *folder, const struct leftov
 
 bool batch_print_json(json_t *j, struct err *e)
 {
-    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII) == 0;
+    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII) == 0;
     putchar('\n');
     json_decref(j);
     return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
@@ -164,7 +165,7 @@ json_t *batch_json(const struct set *s, const struct outcome *outcomes, double f
         ok += o->record.size && !o->waits;
         waiting += o->record.size && o->waits;
         if (o->kind)
-            json_array_append_new(failed, json_pack("{s:s, s:i, s:s}", "stimulus", s->rows[i].name, "code", (int)o->kind, "error", o->text ? o->text : ""));
+            json_array_append_new(failed, json_pack("{s:s, s:i, s:o}", "stimulus", s->rows[i].name, "code", (int)o->kind, "error", json_value_shown(o->text ? o->text : "")));
     }
     return json_pack("{s:s?, s:s, s:i, s:i, s:i, s:o, s:o}", "title", s->title, "design_sha256", s->sha256, "stimuli", s->n, "ok", ok, "waiting", waiting, "full_scale",
                      isnan(full_scale) ? json_null() : json_real(full_scale), "failed", failed);
@@ -174,7 +175,7 @@ json_t *batch_left_json(const struct leftover *l)
 {
     json_t *files = json_array();
     for (int i = 0; i < l->n_files; i++)
-        json_array_append_new(files, json_string(l->files[i]));
+        json_array_append_new(files, json_value_shown(l->files[i]));
     return files;
 }
 
@@ -187,8 +188,8 @@ static json_t *stimulus_json(const struct design *d, const struct prepare *p, in
     snprintf(seed, sizeof seed, "%" PRIu64, s->seed); /* as text: many readers of JSON have no 64 bits */
     for (int f = 0; f < d->n_factors; f++)
         json_object_set_new(factors, d->factors[f].name, s->level[f] < 0 ? json_null() : json_string(design_label(d, i, f)));
-    return json_pack("{s:i, s:s, s:o, s:o, s:o, s:s?, s:f}", "row", i + 1, "name", s->name, "factors", factors, "replicate", s->recording ? json_null() : json_integer(s->replicate), "seed",
-                     s->recording ? json_null() : json_string(seed), "recording", s->recording, "length_s", p->lengths[i]);
+    return json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:f}", "row", i + 1, "name", s->name, "factors", factors, "replicate", s->recording ? json_null() : json_integer(s->replicate), "seed",
+                     s->recording ? json_null() : json_string(seed), "recording", s->recording ? json_value_shown(s->recording) : json_null(), "length_s", p->lengths[i]);
 }
 
 static json_t *list_json(const struct batch_report *r)
@@ -203,7 +204,7 @@ static json_t *list_json(const struct batch_report *r)
 static json_t *report_json(const struct batch_ask *ask, const struct batch_report *r)
 {
     json_t *j = batch_json(&r->set, r->outcomes, r->full_scale);
-    json_object_set_new(j, "folder", ask->folder ? json_string(ask->folder) : json_null());
+    json_object_set_new(j, "folder", json_value_text(ask->folder));
     json_object_set_new(j, "shard", json_pack("[i, i]", ask->shard.i, ask->shard.n));
     json_object_set_new(j, "mine", json_integer(r->n_mine));
     json_object_set_new(j, "rendered", json_integer(r->rendered));
@@ -268,6 +269,8 @@ static bool read_ask(struct cmd_call *c, struct batch_ask *ask, struct err *e)
                               .quiet = args_given(&c->args, "quiet"), .replace = args_given(&c->args, "replace"), .prune = args_given(&c->args, "prune")};
     if (!ask->dry && (!folder || !*folder))
         return err_set(e, ERR_USAGE, "--output: a folder for the set is needed, as in -o out");
+    if (folder && !strcmp(folder, "-"))
+        return err_set(e, ERR_USAGE, "--output -: a set is a folder of files, and cannot go to standard output; a folder of that name is ./-");
     ask->folder = folder ? batch_folder(c->arena, folder) : NULL;
     if (shard && ask->prune)
         return err_set(e, ERR_USAGE, "--prune: a shard does not know what is left over: merge first, then run rasp batch --prune without --shard");
@@ -321,7 +324,7 @@ const struct command batch_command = {
             "A folder holds the set of one design, which is known by its file and by what it says, its scenes and what they read included: the file may be edited, or be moved or renamed as it is. Another design is refused (exit code 73) "
             "unless --replace gives it the folder; so is a second batch while one is at work for another state of the design; two of the same state get along, and what both are at they both render, to the same bytes. A folder that holds "
             "nobody's set is taken if no file in it has the name of one of the set's. "
-            "Files of stimuli that are no more in the design (a level was taken out, a label changed) stay, are named in a warning at the end, "
+            "Files of an earlier state of the set (a level was taken out, a label changed; a stimulus failed, or waits for its level, that was there before) stay, are named in a warning at the end, "
             "and are in no table; --prune removes those stimuli of which no file was changed, with their NAME.json, whose bytes are not kept account of: rename one with notes in it.",
     .operands = "DESIGN",
     .least = 1,

@@ -2,6 +2,7 @@
 #include "cmd/golden.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "base/interrupt.h"
 #include "base/text.h"
@@ -14,6 +15,8 @@ static bool begin(struct golden *g, struct cmd_call *c, struct err *e)
                          .tap = args_given(&c->args, "tap"), .quiet = args_given(&c->args, "quiet")};
     if ((g->kept && !*g->kept) || (g->hashes && !*g->hashes))
         return err_set(e, ERR_USAGE, "--%s is empty", g->kept && !*g->kept ? "kept" : "hashes");
+    if (g->kept && !strcmp(g->kept, "-"))
+        return err_set(e, ERR_USAGE, "--kept -: what is kept is a folder of files; one of that name is ./-");
     if (!g->kept && !g->hashes)
         g->kept = "golden";
     if (g->kept)

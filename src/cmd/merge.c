@@ -6,6 +6,7 @@
 #include "batch/merge.h"
 #include "cmd/batch.h"
 #include "cmd/tell.h"
+#include "file/json_value.h"
 #include "scene/keys_yaml.h"
 
 enum { NAMED = 20 /* stimuli that are missing */ };
@@ -32,7 +33,7 @@ static json_t *report_json(const struct merge_report *r, const char *folder)
     json_t *j = r->already ? json_pack("{s:i}", "stimuli", r->already) : batch_json(&r->set, r->outcomes, r->full_scale), *missing = json_array();
     for (int i = 0; r->names && r->names[i]; i++)
         json_array_append_new(missing, json_string(r->names[i]));
-    json_object_set_new(j, "folder", json_string(folder));
+    json_object_set_new(j, "folder", json_value_text(folder));
     json_object_set_new(j, "merged_already", json_boolean(r->already && !r->names[0]));
     json_object_set_new(j, "shards", json_integer(r->shards));
     json_object_set_new(j, "missing_shards", json_string(r->missing));

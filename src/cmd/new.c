@@ -73,6 +73,8 @@ static int new_run(struct cmd_call *c, struct err *e)
         return list();
     if (!s)
         unknown(name, e);
+    else if (file && !strcmp(file, "-"))
+        err_set(e, ERR_USAGE, "--output -: leave it out, and the scene goes to standard output; a file of that name is ./-");
     else if (file)
         write_file(s, file, args_given(&c->args, "force"), c->arena, e);
     else

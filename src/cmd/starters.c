@@ -213,7 +213,7 @@ void starters_print(FILE *f, const struct starter *s, const char *irs, struct ar
 {
     struct printing p = {f, irs, a};
     if (!s->head) {
-        starters_design(f, irs);
+        starters_design(f, irs, a);
         return;
     }
     fprintf(f, "# ");

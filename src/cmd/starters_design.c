@@ -1,7 +1,16 @@
 /* The starter design: what most sets need is on, the rest behind a #. */
 #include "cmd/starters.h"
 
-void starters_design(FILE *f, const char *irs)
+#include <string.h>
+
+/* Within braces a comma ends a plain text, and more than that. */
+static const char *response(const char *irs, const char *name, struct arena *a)
+{
+    const char *file = arena_format(a, "%s/%s", irs, name);
+    return strpbrk(file, ",[]{}#:\"'") ? keys_yaml_quoted(file, a) : file;
+}
+
+void starters_design(FILE *f, const char *irs, struct arena *a)
 {
     fputs("# A set of stimuli: every combination of its factors' levels. Its base is the starter scene of the same folder:\n"
           "#   rasp new -o scrape.yaml\n"
@@ -20,9 +29,9 @@ void starters_design(FILE *f, const char *irs)
           "  material:                  # a word: each level says what it sets\n",
           f);
     fprintf(f,
-            "    - {label: oak, set: {surface.response: %s/oak_plank.csv}}\n"
-            "    - {label: stoneware, set: {surface.response: %s/stoneware_tile.csv}}\n",
-            irs, irs);
+            "    - {label: oak, set: {surface.response: %s}}\n"
+            "    - {label: stoneware, set: {surface.response: %s}}\n",
+            response(irs, "oak_plank.csv", a), response(irs, "stoneware_tile.csv", a));
     fputs("  motion.rate: [1 Hz, 2 Hz]  # a key of scenes: its levels are its values\n"
           "# exclude:                   # cells that the set does not have\n"
           "#   - {material: oak, motion.rate: 2 Hz}\n"

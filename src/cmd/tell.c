@@ -232,10 +232,10 @@ static void warn_json(const struct warning *w)
     json_t *o = object("warning", ERR_NONE), *files = json_array();
     for (int i = 0; i < w->n; i++)
         json_array_append_new(files, text_or_null(w->files[i], strlen(w->files[i])));
-    json_object_set(o, "file", json_array_get(files, 0));
+    json_object_set(o, w->stimuli ? "stimulus" : "file", json_array_get(files, 0));
     json_object_set_new(o, "message", text_or_null(w->text, strlen(w->text)));
     if (w->n > 1)
-        json_object_set(o, "files", files);
+        json_object_set(o, w->stimuli ? "stimuli" : "files", files);
     json_decref(files);
     print(o);
     json_decref(o);
@@ -258,14 +258,24 @@ static void warn(struct cmd_call *c, const struct warning *w)
         paint_lines(stderr, arena_format(c->arena, "%s: warning: %s%s\n", w->files[0], w->text, w->n > 1 ? others(c, w) : ""));
 }
 
-void tell_warning(struct cmd_call *c, const char *file, const char *text)
+static void warn_of(struct cmd_call *c, const char *name, const char *text, bool stimulus)
 {
-    const char *shown = text_shown(c->arena, file);
+    const char *shown = text_shown(c->arena, name);
     text = text_shown(c->arena, text);
     if (of(c)->group)
-        warnings_add(&c->tell->warnings, shown, text, c->tell->json, c->arena);
+        warnings_add(&c->tell->warnings, shown, text, c->tell->json, c->arena)->stimuli = stimulus;
     else
-        warn(c, &(struct warning){.text = text, .files = &shown, .n = 1});
+        warn(c, &(struct warning){.text = text, .files = &shown, .n = 1, .stimuli = stimulus});
+}
+
+void tell_warning(struct cmd_call *c, const char *file, const char *text)
+{
+    warn_of(c, file, text, false);
+}
+
+void tell_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text)
+{
+    warn_of(c, stimulus, text, true);
 }
 
 void tell_remark(struct cmd_call *c, const char *command, const char *text)

@@ -3,7 +3,7 @@
      {"severity": "error", "file": "scene.yaml", "line": 12, "column": 9, "width": 3, "message": "...", "help": "...", "code": 65}
 
    null stands for what is not known or there is none of; lines and columns count from 1, columns and width in characters; code is the exit code that the error
-   alone would make, null of a warning. What an option of the command line says wrongly has "option", --set motion.rate say, and no file. The error of one stimulus of a set has "stimulus", its name. A file that another names has "named_at", the places of its name, the nearest first. A warning of several scenes has
+   alone would make, null of a warning. What an option of the command line says wrongly has "option", --set motion.rate say, and no file. What is about one stimulus of a set has "stimulus", its name, a warning of several "stimuli". A file that another names has "named_at", the places of its name, the nearest first. A warning of several scenes has
    "files". What is wrong with the command line itself has no file; where no command is known yet it is told as text. */
 #ifndef CMD_TELL_H
 #define CMD_TELL_H
@@ -31,6 +31,8 @@ void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus
 /* A warning about a file. Where several scenes are processed (tell_group) it waits, so that one that many scenes have is told once, at the end; in text also one
    that they have with other numbers, which are the first one's. */
 void tell_warning(struct cmd_call *c, const char *file, const char *text);
+/* The same about a stimulus of a set: in JSON the name is its "stimulus", of several "stimuli". */
+void tell_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text);
 /* The same about what a command does, at once: "rasp COMMAND: warning: text". */
 void tell_remark(struct cmd_call *c, const char *command, const char *text);
 void tell_group(struct cmd_call *c);

@@ -52,11 +52,11 @@ static struct warning *same(struct warning **all, const char *file, const char *
     return *w;
 }
 
-void warnings_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
+struct warning *warnings_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
 {
     struct warning *w = same(all, file, text, exact, a);
     if (w->n > 0 && !strcmp(w->files[w->n - 1], file))
-        return;
+        return w;
     if (w->n == w->room) {
         const char **more = ARENA_TAKE(a, const char *, w->room = 2 * w->room + 4);
         if (w->n > 0)
@@ -64,4 +64,5 @@ void warnings_add(struct warning **all, const char *file, const char *text, bool
         w->files = more;
     }
     w->files[w->n++] = file;
+    return w;
 }

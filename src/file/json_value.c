@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/text.h"
+
 json_t *json_value_number(double x)
 {
     return isfinite(x) ? json_real(x) : json_null();
@@ -12,6 +14,14 @@ json_t *json_value_text(const char *s)
 {
     json_t *j = s ? json_string(s) : NULL; /* NULL also for what is not UTF-8 */
     return j ? j : json_null();
+}
+
+json_t *json_value_shown(const char *s)
+{
+    struct arena *a = arena_open();
+    json_t *j = json_value_text(text_shown(a, s));
+    arena_close(a);
+    return j;
 }
 
 json_t *json_value_texts(const char *const *list, int n)

@@ -282,7 +282,7 @@ static json_t *files_json(const struct render_report *report)
         const char *slash = strrchr(f->path, '/');
         if (!strcmp(f->kind, "summary"))
             continue;
-        json_array_append_new(all, json_pack("{s:s, s:s, s:s*, s:s*, s:s*}", "kind", f->kind, "name", slash ? slash + 1 : f->path, "contact",
+        json_array_append_new(all, json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name", json_value_shown(slash ? slash + 1 : f->path), "contact",
                                              f->contact, "stem", f->stem, "sha256", f->sha256));
     }
     return all;
@@ -306,7 +306,7 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
         if (runs[i])
             json_array_append_new(contacts, contact_json(runs[i], report->cpu));
     for (int i = 0; i < report->n_warnings; i++)
-        json_array_append_new(remarks, json_string(report->warnings[i]));
+        json_array_append_new(remarks, json_value_shown(report->warnings[i]));
     json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
                               (json_int_t)report->frames, "sample_rate_hz", json_value_number(s->output.sample_rate), "duration_s", json_value_number(duration),
                               "wall_s", json_value_number(report->seconds), "cpu_s", json_value_number(report->cpu), "real_time_factor",

@@ -20,6 +20,17 @@ printf '%s\n' 'rasp-design: 1' 'base: tiny.yaml' 'level: scene' 'set: {output.le
 code rasp batch clips.yaml -o clips | sed 's/frame.*/.../'
 columns clips/manifest.csv stimulus_id status error_code
 (cd clips && sha256sum --quiet -c SHA256SUMS && ls)
+echo "-- one that failed, or waits for its level, and was there before: what is left of that is told, and can be removed"
+sed 's/1e-9/1/' clips.yaml > state.yaml
+rasp batch state.yaml -o state -q
+cp state.yaml whole.yaml
+cp clips.yaml state.yaml
+code rasp batch state.yaml -o state | sed 's/frame [^ ]*.*/.../'
+rasp batch state.yaml -o state --json 2> /dev/null | python3 -c 'import json, sys; print(json.load(sys.stdin)["left_over"])' || true
+code rasp batch state.yaml -o state --prune -q | sed 's/frame [^ ]*.*/.../'
+ls state
+cp whole.yaml state.yaml
+code rasp batch state.yaml -o state
 echo "-- the design's level is told where it stands, not where the base has another"
 sed 's/tail: 0 s/tail: 0 s, level: {peak: -3 dB}/' tiny.yaml > peak.yaml
 printf '%s\n' 'rasp-design: 1' 'base: peak.yaml' 'level: {common: {full_scale: 1e-9}}' > laid.yaml
@@ -72,6 +83,7 @@ code rasp batch still.yaml -o still | sed 's/; full_scale.*//'
 echo 'level: {each: {rms: -30}}' >> still.yaml
 code rasp batch still.yaml -o silent
 columns silent/manifest.csv stimulus_id status
+code rasp batch still.yaml -o silent -q --force --diagnostics=json
 sed 's/level:.*/level: {each: {lufs: -30}}/; s/base: tiny.yaml/&\nset: {surface.response: zero.csv, output.tail: 0.2 s}/' still.yaml > none.yaml
 sed 's/,60,1,0/,60,0,0/' modes.csv > zero.csv
 code rasp batch none.yaml -o none

@@ -14,6 +14,17 @@ echo "-- the same one, under another name"
 cp six.yaml again.yaml
 code rasp batch again.yaml -o one
 code rasp batch six.yaml -o one
+echo "-- those that come through a pipe are not one because they are called alike; shards of one go together"
+here=$PWD
+piped() { sed "s|base: |&$here/|; s|low.csv|$here/&|" "$1"; }
+piped six.yaml > six.abs
+piped other.yaml > other.abs
+code rasp batch /dev/stdin -o pipe -q < six.abs
+cat other.abs | code rasp batch /dev/stdin -o pipe
+code rasp batch <(cat other.abs) -o pipe -q
+cat six.abs | code rasp batch /dev/stdin -o pipe
+for i in 1 2; do rasp batch <(sleep 0.0$i; cat six.abs) -o piped -q --shard $i/2; done
+code rasp merge piped
 echo "-- two at once: of the same state of the design, and of another"
 code flock -s one/.rasp rasp batch six.yaml -o one
 cp six.yaml whole.yaml

@@ -22,7 +22,7 @@ design 'factors: {in: [{label: sound}, {label: table, set: {surface.response: nu
 tell rasp batch set.yaml -o tables -q
 columns tables/manifest.csv file_name sample_rate_hz gain_per
 echo "-- names"
-for labels in 'x, X' 'con, b' 'Aux.1, b' 'lpt9, b' 'b., c' 'a, A.b' 'Manifest, b' 'b.WAV, c' 'con1, conn' 'com0, lpt'; do
+for labels in 'x, X' 'con, b' 'Aux.1, b' 'lpt9, b' 'b., c' 'a, A.b' 'Manifest, b' 'manifest.1-of-2, b' 'b.WAV, c' 'con1, conn' 'com0, lpt'; do
     design "factors: {kind: [{label: ${labels%, *}}, {label: ${labels#*, }}]}"
     tell rasp check set.yaml | sed -n 1p
 done

@@ -69,11 +69,26 @@ echo "-- two at once: the second is refused"
 cp -r shards both
 python3 -c '
 import fcntl, subprocess
-held = open("both/.rasp/design", "r+")
-fcntl.lockf(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+held = open("both/.rasp/merging", "w")
+fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
 print("exit", subprocess.run(["rasp", "merge", "both"], stderr=subprocess.STDOUT).returncode)'
 merge both -q
 same ref both && echo "both: the same"
+echo "-- while another is at work the shards' manifests stay: it may write some"
+cp -r shards both2
+cp -r whole done
+cp shards/manifest.* done
+python3 -c '
+import fcntl, os, subprocess
+for folder in "both2", "done":
+    held = os.open(folder + "/.rasp", os.O_RDONLY)
+    fcntl.flock(held, fcntl.LOCK_SH)
+    print("exit", subprocess.run(["rasp", "merge", folder, "-q"], stderr=subprocess.STDOUT).returncode)'
+ls both2/manifest* done/manifest*
+merge both2 -q
+merge done -q
+same ref both2 && same ref done && echo "both: the same"
+rm -r done
 echo "-- one that cannot have its level: the others have it, and the same is told of it again"
 mkdir loud
 cp ./*.yaml ./*.csv loud
@@ -96,6 +111,17 @@ rm whole/low_200ms_r1.wav
 echo >> whole/low_250ms_r2.scene.yaml
 merge whole
 merge whole --json 2> /dev/null
+rm -r whole
+cp -r ref whole
+head -n 2 ref/manifest.csv > whole/manifest.csv
+merge whole
+cp ref/manifest.csv whole
+rm whole/manifest.json
+merge whole
+rm whole/SHA256SUMS
+merge whole
+rm -r whole
+cp -r ref whole
 rm -r whole/.rasp
 merge whole | tail -n 2
 mkdir none

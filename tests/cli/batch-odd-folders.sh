@@ -13,10 +13,32 @@ find out/.rasp -type f | sort
 echo "-- summaries"
 : > ref/a/low/200ms.json
 head -c -3 ref/a/low/250ms.json > short && cp short ref/a/low/250ms.json
-tail -c +2 ref/a/low/300ms.json > short && cp short ref/a/low/300ms.json
+{ head -c 100 /dev/zero; tail -c +101 ref/a/low/300ms.json; } > short && cp short ref/a/low/300ms.json
 rasp batch six.yaml -o ref | sed 's/, in .*//'
 rasp batch six.yaml -o ref | sed 's/, in .*//'
 for file in ref/a/low/*.json; do python3 -m json.tool "$file" > /dev/null && echo "$file"; done
+echo "-- notes in them, in whatever form, stay; what a power cut left of them does not"
+echo '# a good one' >> ref/a/low/200ms.json
+{ echo '# good, too'; cat ref/a/low/250ms.json; } > short && cp short ref/a/low/250ms.json
+printf 'sch\366n' | sed 's/.*/{"note": "&"}/' > ref/a/low/300ms.json
+for k in 200 250 300; do cp "ref/a/low/${k}ms.json" $k.kept; done
+rasp batch six.yaml -o ref | sed 's/, in .*//'
+for k in 200 250 300; do cmp "ref/a/low/${k}ms.json" $k.kept && echo kept; done
+printf '{"a": 1\0\0' > ref/a/low/200ms.json
+printf '{"a": tr' > ref/a/low/250ms.json
+printf '\n' > ref/a/low/300ms.json
+rasp batch six.yaml -o ref | sed 's/, in .*//'
+echo "-- a design in a folder whose name is no UTF-8"
+latin=$(printf 'caf\351')
+mkdir "$latin"
+for file in six.yaml tiny.yaml; do sed "s|[a-z]*\.csv|$PWD/&|" $file > "$latin/$file"; done
+rasp batch "$latin/six.yaml" -o far -q
+rasp batch "$latin/six.yaml" -o far | sed 's/, in .*//'
+cp "$latin/six.yaml" "$latin/with.yaml"
+echo "recordings: [{file: real.wav, name: real}]" >> "$latin/with.yaml"
+cp far/a/low/200ms.wav "$latin/real.wav"
+rasp batch "$latin/with.yaml" -o with --dry-run --json | grep '"recording": "'
+python3 -c 'import json; print([f["name"] for f in json.load(open("far/a/low/200ms.json"))["files"]])'
 echo "-- folders that are empty"
 sed -i 's/{material}/b/; /^  material/d' six.yaml
 rasp batch six.yaml -o ref --prune -q

@@ -13,3 +13,16 @@ cat mine.yaml
 rasp new --force -o mine.yaml
 cmp mine.yaml scrape.yaml
 try rasp new -o no/such/folder/a.yaml
+try rasp new -o -
+echo "-- a design by a program whose folder would end a text between braces"
+mkdir -p 'a, b: {c} #d/bin' && cp -r irs/ 'a, b: {c} #d/irs' && cp "$(command -v rasp)" 'a, b: {c} #d/bin'
+cd 'a, b: {c} #d' || exit
+bin/rasp new -o scrape.yaml
+bin/rasp new design -o set.yaml
+grep -c '"irs/oak_plank.csv"\|: irs/oak_plank.csv' set.yaml
+mkdir far && cd far || exit
+../bin/rasp new -o scrape.yaml
+../bin/rasp new design -o ../../set.yaml
+cp scrape.yaml ../..
+cd ../..
+rasp check set.yaml

@@ -37,6 +37,12 @@ static double sine(long i, double how)
     return fmin(1, (double)i / 4800) * sin(2 * M_PI * how * (double)i / RATE + M_PI / 4);
 }
 
+/* The same, and slowly to nothing at half a second. */
+static double swell(long i, double how)
+{
+    return fmin(1, (double)(RATE / 2 - i) / 4800) * sine(i, how);
+}
+
 static struct measure of(double seconds, double ramp, bool loud)
 {
     struct err e = {0};
@@ -79,7 +85,7 @@ START_TEST(peaks_between_samples)
     static const struct { double frequency, below; } rows[] = {{100, 0.01}, {997, 0.01}, {12000, 0.17}};
     close(mkstemps(file, 4));
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        make(RATE / 2, sine, rows[i].frequency);
+        make(RATE / 2, swell, rows[i].frequency);
         struct measure m = of(NAN, 0, true);
         printf("%g Hz: sample %.4f, true %.4f, %.3f LUFS\n", rows[i].frequency, m.peak, m.true_peak, m.lufs);
         ck_assert_double_ge(20 * log10(m.true_peak), -rows[i].below);
@@ -87,6 +93,18 @@ START_TEST(peaks_between_samples)
         if (rows[i].frequency == 12000)
             ck_assert_double_eq_tol(m.peak, sqrt(0.5), 1e-9);
     }
+    unlink(file);
+}
+END_TEST
+
+/* Where a sound ends abruptly it rings between the samples, whether the file goes on in silence or not. */
+START_TEST(peaks_at_the_end)
+{
+    close(mkstemps(file, 4));
+    make(RATE / 2 + 7, sine, 997);
+    double own = of(NAN, 0, true).true_peak, longer = of(1, 0, true).true_peak;
+    ck_assert_double_eq(own, longer);
+    ck_assert_double_ge(own, of(0.499, 0.01, true).true_peak + 1e-4);
     unlink(file);
 }
 END_TEST
@@ -107,4 +125,4 @@ START_TEST(loudness_is_that_of_the_parts_that_sound)
 }
 END_TEST
 
-UNIT("measure", levels_are_those_of_the_whole_file, peaks_between_samples, loudness_is_that_of_the_parts_that_sound)
+UNIT("measure", levels_are_those_of_the_whole_file, peaks_between_samples, peaks_at_the_end, loudness_is_that_of_the_parts_that_sound)
