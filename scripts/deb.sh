@@ -1,7 +1,7 @@
 #!/bin/bash
-# Builds the Debian package from the source archive and tries it.
-#     scripts/deb.sh [FOLDER [--install]]      default: build/deb, where the .deb and the build's log are left
-# The package is checked by lintian (an error ends this), unpacked, and run from there. --install, as root: it is installed, a scene that it brings is rendered, and it
+# Builds the Debian source package from the source archive, the package from that, and tries it.
+#     scripts/deb.sh [FOLDER [--install]]      default: build/deb, where the .dsc with its archive, the .deb and the build's log are left
+# Both are checked by lintian (an error ends this); the package is unpacked, and run from there. --install, as root: it is installed, a scene that it brings is rendered, and it
 # is purged, which leaves nothing. Its tools are those of `scripts/setup.sh build package`. A few minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,9 +11,13 @@ rm -rf "$folder"
 mkdir -p "$folder"
 scripts/dist.sh "$folder/rasp-$version.tar.gz" > /dev/null
 tar -xzf "$folder/rasp-$version.tar.gz" -C "$folder"
-(cd "$folder/rasp-$version" && DEB_BUILD_OPTIONS="parallel=$(getconf _NPROCESSORS_ONLN)" dpkg-buildpackage -us -uc -b) > "$folder/log" 2>&1 || { tail -n 30 "$folder/log"; exit 1; }
+(cd "$folder/rasp-$version" && dpkg-buildpackage -us -uc -S -d) > "$folder/log" 2>&1 || { tail -n 30 "$folder/log"; exit 1; }
+lintian --fail-on error --suppress-tags initial-upload-closes-no-bugs "$folder"/rasp_*_source.changes
+rm -rf "$folder/rasp-$version"
+dpkg-source --no-check -x "$folder/rasp_$version.dsc" "$folder/rasp-$version" >> "$folder/log" 2>&1 || { tail -n 30 "$folder/log"; exit 1; }
+(cd "$folder/rasp-$version" && DEB_BUILD_OPTIONS="parallel=$(getconf _NPROCESSORS_ONLN)" dpkg-buildpackage -us -uc -b) >> "$folder/log" 2>&1 || { tail -n 30 "$folder/log"; exit 1; }
 deb=$folder/rasp_${version}_amd64.deb
-lintian --fail-on error --suppress-tags initial-upload-closes-no-bugs "$folder"/rasp_*.changes
+lintian --fail-on error --suppress-tags initial-upload-closes-no-bugs "$folder"/rasp_*_amd64.changes
 
 # try COMMAND ROOT: what is under ROOT/usr runs with its scenes.
 try() {
