@@ -4,12 +4,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/memory.h"
 #include "base/relpath.h"
 #include "base/text.h"
 #include "batch/folder.h"
@@ -38,21 +40,26 @@ static void parse(struct owner *o, ssize_t n)
 
 static const char piped[] = "-";
 
-/* What is opened anew by that name is the same file. */
-static bool lasts(const char *file)
+/* Is another file opened by that name each time, or may be? */
+static bool is_piped(const char *file)
 {
     struct stat s;
-    return strncmp(file, "/dev/", 5) != 0 && strncmp(file, "/proc/", 6) != 0 && (stat(file, &s) != 0 || S_ISREG(s.st_mode));
+    return !strcmp(file, "/dev/stdin") || !strncmp(file, "/dev/fd/", 8) || (!strncmp(file, "/proc/", 6) && strstr(file, "/fd/")) || (stat(file, &s) == 0 && !S_ISREG(s.st_mode));
 }
 
 const char *claim_place(const char *design, const char *folder, struct arena *a)
 {
-    return lasts(design) ? text_shown(a, relpath_make(design, folder, a)) : piped;
+    if (!is_piped(design))
+        return text_shown(a, relpath_make(design, folder, a));
+    char *real = memory_realpath(folder);
+    const char *place = arena_format(a, "%s %s", piped, text_shown(a, real ? real : folder));
+    free(real);
+    return place;
 }
 
 static const char *place_of(const struct claim *c, struct arena *a)
 {
-    return claim_place(c->design, c->folder, a);
+    return is_piped(c->design) ? piped : claim_place(c->design, c->folder, a);
 }
 
 static const char *seen_from_here(const struct claim *c, const char *place, struct arena *a)

@@ -23,8 +23,8 @@ bool claim_enter(const struct claim *c, struct arena *a, int *entered, struct er
 /* The same for a merge, which knows no design's file: the folder must hold this state of the set, or say nothing. ERR_CREATE; ERR_INPUT: it holds another by now */
 bool claim_join(const struct claim *c, struct arena *a, int *entered, struct err *e);
 
-/* Where a design lies, seen from its folder: the hash of a stimulus does not know where the folder is, but the file names in its scene do. UTF-8; "-": it comes through a pipe or from
-   stdin, which are called alike, or each time otherwise, whatever comes. */
+/* Where a design lies, seen from its folder: the hash of a stimulus does not know where the folder is, but the file names in its scene do. UTF-8. What comes through a pipe or
+   from stdin is called alike, or each time otherwise, whatever comes, and names its files from nowhere: then it is the folder that is named, "- /where/it/is". */
 const char *claim_place(const char *design, const char *folder, struct arena *a);
 
 /* Does the folder say whose it is? If not, nothing in it is a set's. */

@@ -111,7 +111,7 @@ static int *entry_levels(const struct design_reading *r, const struct yaml_node 
             i++;
         int f = own[i] ? -1 : design_reading_factor(r, item->key);
         if (f >= 0)
-            level[f] = design_reading_level(r, f, item);
+            level[f] = design_reading_level(r, f, item, own[0] != NULL);
     }
     return level;
 }
@@ -156,7 +156,7 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
 
 static void level_name(const struct design_reading *r, int f, const struct yaml_node *label, unsigned char *named)
 {
-    int i = design_reading_level(r, f, label);
+    int i = design_reading_level(r, f, label, false);
     if (i >= 0)
         named[i] = 1;
 }

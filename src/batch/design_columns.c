@@ -55,28 +55,43 @@ static bool of_numbers(const struct key *k)
     return k->type == KEY_NUMBER || k->type == KEY_WHOLE || k->type == KEY_COUNT || k->type == KEY_TIME_OR_AUTO;
 }
 
-/* Are all labels quantities of one dimension? Then that of each, and whether all have the same unit. */
-static bool quantities(const struct design_factor *f, struct measure *q, bool *same)
+/* Are the labels quantities of one dimension, those of levels that scenes have? Then that of each (number NULL: a recorded one that is none), and whether all have the same unit; the first.
+   NULL: they are not */
+static const struct measure *quantities(const struct design_factor *f, struct measure *q, bool *same)
 {
     const struct key *k = design_changes_key(f->name);
-    *same = true;
-    if (k && !of_numbers(k))
-        return false;
-    for (int i = 0; i < f->n_levels; i++) {
-        if (!quantity_of(f->levels[i].label, k ? k->dimension : KEY_NONE, &q[i]) || q[i].dimension != q[0].dimension)
-            return false;
-        *same = *same && strcmp(q[i].unit, q[0].unit) == 0;
+    const struct measure *first = NULL;
+    for (int i = 0; i < f->n_levels && !(k && !of_numbers(k)); i++) {
+        bool good = quantity_of(f->levels[i].label, k ? k->dimension : KEY_NONE, &q[i]);
+        if (f->levels[i].recorded)
+            continue;
+        if (!good || (first && q[i].dimension != first->dimension))
+            return NULL;
+        first = first ? first : &q[i];
     }
-    return f->n_levels > 0;
+    *same = true;
+    for (int i = 0; first && i < f->n_levels; i++)
+        if (q[i].number && q[i].dimension == first->dimension)
+            *same = *same && strcmp(q[i].unit, first->unit) == 0;
+        else
+            q[i].number = NULL;
+    return first;
 }
 
-static void values_make(struct design_factor *f, struct arena *a)
+static void values_make(const struct design_reading *r, struct design_factor *f)
 {
-    struct measure *q = ARENA_TAKE(a, struct measure, f->n_levels + 1);
-    bool same, numbers = quantities(f, q, &same);
-    for (int i = 0; i < f->n_levels; i++)
-        f->levels[i].value = !numbers ? f->levels[i].label : same ? number_as_written(&q[i], a) : number_si(f->levels[i].label, q[i].dimension, a);
-    const char *unit = !numbers ? "" : same ? q[0].unit : keys_text_unit(q[0].dimension);
+    struct measure *q = ARENA_TAKE(r->arena, struct measure, f->n_levels + 1);
+    const struct yaml_node *item = r->factors[f - r->design->factors]->first;
+    bool same;
+    const struct measure *first = quantities(f, q, &same);
+    for (int i = 0; i < f->n_levels; i++, item = item->next) {
+        bool number = first && q[i].number;
+        f->levels[i].value = !number ? f->levels[i].label : same ? number_as_written(&q[i], r->arena) : number_si(f->levels[i].label, q[i].dimension, r->arena);
+        if (first && !number)
+            diag_add(r->yaml->diag, item->at, "leave the factor out of the recording, whose cell in that column is n/a then; a condition of its own is a level of a factor that is a word",
+                     "'%s' is no quantity as the other levels of %s are, whose column holds numbers", diag_shown(r->yaml->diag, f->levels[i].label), f->name);
+    }
+    const char *unit = !first ? "" : same ? first->unit : keys_text_unit(first->dimension);
     f->unit = *unit ? unit : NULL;
 }
 
@@ -189,7 +204,7 @@ void design_columns_make(struct design_reading *r)
     for (int f = 0; f < r->design->n_factors; f++) {
         struct design_factor *factor = &r->design->factors[f];
         const struct key *k = design_changes_key(factor->name);
-        values_make(factor, r->arena);
+        values_make(r, factor);
         values_differ(r, f);
         factor->column = column_of(factor, r->arena);
         factor->meaning = k ? k->meaning : NULL;

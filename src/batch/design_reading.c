@@ -59,20 +59,20 @@ int design_reading_factor(const struct design_reading *r, const struct yaml_node
     return -1;
 }
 
-static void no_level(const struct design_reading *r, int f, const struct yaml_node *label)
+static void no_level(const struct design_reading *r, int f, const struct yaml_node *label, bool recording)
 {
     const struct design_factor *factor = &r->design->factors[f];
     const char **names = ARENA_TAKE(r->arena, const char *, factor->n_levels + 1);
     for (int i = 0; i < factor->n_levels; i++)
         names[i] = factor->levels[i].label;
     const char *cure = near_or_all(r, label->text, names, "its levels");
-    if (yaml_get(r->root, "recordings"))
+    if (recording)
         cure = arena_format(r->arena, "%s (a level that only recordings have: - {label: %s, of: recordings})", cure, diag_shown(r->yaml->diag, label->text));
     diag_add(r->yaml->diag, label->at, cure, "'%s' is no level of %s",
              diag_shown(r->yaml->diag, label->text), factor->name);
 }
 
-int design_reading_level(const struct design_reading *r, int f, const struct yaml_node *label)
+int design_reading_level(const struct design_reading *r, int f, const struct yaml_node *label, bool recording)
 {
     const struct design_factor *factor = &r->design->factors[f];
     const struct yaml_node *item = r->factors[f]->first;
@@ -83,7 +83,7 @@ int design_reading_level(const struct design_reading *r, int f, const struct yam
     for (int i = 0; i < factor->n_levels; i++, item = item->next)
         if (strcmp(factor->levels[i].label, label->text) == 0 || (item->kind == YAML_SCALAR && strcmp(item->text, label->text) == 0))
             return i;
-    no_level(r, f, label);
+    no_level(r, f, label, recording);
     return -1;
 }
 

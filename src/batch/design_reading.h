@@ -56,7 +56,7 @@ const char *design_reading_joined(const struct design_reading *r, const char *co
 /* The factor of that name, of its key; -1: there is none, which has been told. */
 int design_reading_factor(const struct design_reading *r, const struct yaml_node *key);
 /* The factor's level of that label, or with that text; -1: there is none, which has been told. */
-int design_reading_level(const struct design_reading *r, int factor, const struct yaml_node *label);
+int design_reading_level(const struct design_reading *r, int factor, const struct yaml_node *label, bool recording);
 
 /* "wood, 2 Hz" */
 const char *design_reading_labels(const struct design *d, const int *level, struct arena *a);

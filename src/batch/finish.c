@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "batch/folder.h"
 #include "batch/level.h"
+#include "batch/merge_lock.h"
 #include "batch/pool.h"
 #include "batch/shard.h"
 #include "batch/sums.h"
@@ -142,6 +143,7 @@ static void took(void *context, int i)
         if (stops(l->e))
             err_set(&w->stop, l->e->kind, "%s", l->e->text);
         o->raw = o->waits ? o->record : (struct journal_ref){0};
+        o->refused = o->waits || w->finish->kit->design ? (struct journal_ref){0} : o->record;
         o->record = (struct journal_ref){0};
     }
     free(l->e);
@@ -190,7 +192,7 @@ static bool write_tables(struct finish *f, struct err *e)
 static bool settle(struct finish *f, bool complete, struct err *e)
 {
     const struct set *s = f->kit->set;
-    if (!leftover_find(&(struct leftover_ask){f->kit->folder, &f->results, f->inputs, f->kit->design != NULL, f->prune}, f->arena, &f->left, e))
+    if (!leftover_find(&(struct leftover_ask){f->kit->folder, &f->results, f->inputs, f->prune}, f->arena, &f->left, e))
         return false;
     int n = s->n + f->left.n;
     struct journal_ref *records = ARENA_TAKE(f->arena, struct journal_ref, n);
@@ -206,8 +208,10 @@ static bool settle(struct finish *f, bool complete, struct err *e)
         return false;
     f->alone = folder_is_mine(f->entered);
     if (f->alone) {
-        if (f->kit->design) /* what a merge has merged it takes away itself, if nothing failed */
+        if (f->kit->design) { /* what a merge has merged it takes away itself, if nothing failed */
             shard_sweep(f->kit->folder);
+            merge_lock_sweep(f->kit->folder, f->arena);
+        }
         folder_sweep(f->kit->folder, names, s->n, complete);
     }
     return true;

@@ -60,9 +60,9 @@ static bool is_whole(const char *path)
     struct bytes b;
     json_error_t fault;
     struct arena *a = arena_open();
-    bool whole = bytes_read(path, a, &b, &unreadable) && b.n > 0 && !memchr(b.at, '\0', b.n);
+    bool whole = bytes_read(path, a, &b, &unreadable) && b.at[strspn(b.at, " \t\r\n")] && !memchr(b.at, '\0', b.n);
     json_t *j = whole ? json_loadb(b.at, b.n, JSON_DISABLE_EOF_CHECK, &fault) : NULL;
-    whole = j || (whole && (size_t)fault.position < b.n);
+    whole = j || (whole && (b.at[0] != '{' || (size_t)fault.position < b.n));
     json_decref(j);
     arena_close(a);
     return whole;

@@ -21,11 +21,11 @@ struct list {
     struct row {
         const char *name;
         long at;                 /* of its record; -1: it failed, or waits */
+        const char *refused;     /* key of what is to be made anew: its records are forgotten, though their files are there; NULL: none */
     } *rows;                     /* of the set, by name */
     struct old {
         struct journal_ref ref;
         bool touched;            /* some file is not as it was written */
-        bool forgotten;          /* though its files are there */
     } *records;
     int n, room;
     struct found *files;
@@ -56,7 +56,7 @@ static void take_record(void *context, const struct record *r, struct journal_re
 {
     struct list *l = context;
     const struct row *row = bsearch(&(struct row){.name = r->name}, l->rows, (size_t)l->ask->all->set->n, sizeof *row, by_name);
-    if (!r->job || (row && row->at == ref.at))
+    if (!r->job || (row && (row->at == ref.at || (row->refused && !strcmp(row->refused, r->key)))))
         return;
     if (l->n == l->room) {
         struct old *more = ARENA_TAKE(l->arena, struct old, l->room = 2 * l->room + 16);
@@ -64,15 +64,28 @@ static void take_record(void *context, const struct record *r, struct journal_re
             memcpy(more, l->records, (size_t)l->n * sizeof *more);
         l->records = more;
     }
-    l->records[l->n++] = (struct old){ref, false, row && row->at < 0 && !l->ask->keep};
+    l->records[l->n++] = (struct old){ref, false};
+}
+
+static bool read_refused(struct list *l, int i, struct err *e)
+{
+    struct arena *a = arena_open();
+    const struct record *r = journal_read(l->ask->all->journal, l->ask->all->of[i].refused, a, e);
+    l->rows[i].refused = r ? arena_text(l->arena, r->key) : NULL;
+    arena_close(a);
+    return r != NULL;
 }
 
 static bool read_records(struct list *l, struct err *e)
 {
     const struct results *all = l->ask->all;
     l->rows = ARENA_TAKE(l->arena, struct row, all->set->n);
-    for (int i = 0; i < all->set->n; i++)
-        l->rows[i] = (struct row){all->set->rows[i].name, all->of[i].record.size && !all->of[i].waits ? all->of[i].record.at : -1};
+    for (int i = 0; i < all->set->n; i++) {
+        const struct outcome *o = &all->of[i];
+        l->rows[i] = (struct row){all->set->rows[i].name, o->record.size && !o->waits ? o->record.at : -1, NULL};
+        if (o->refused.size && !read_refused(l, i, e))
+            return false;
+    }
     qsort(l->rows, (size_t)all->set->n, sizeof *l->rows, by_name);
     return journal_each(all->journal, take_record, l, e);
 }
@@ -203,7 +216,7 @@ static void gather(const struct list *l, struct leftover *to)
             kept[l->files[i].record] = true;
         }
     for (int i = 0; i < l->n; i++)
-        if (kept[i] && !l->records[i].forgotten)
+        if (kept[i])
             to->refs[to->n++] = l->records[i].ref;
     qsort(to->refs, (size_t)to->n, sizeof *to->refs, by_age);
     for (int i = 0; i < to->n; i++) /* a record is known by two hashes, and may come twice */

@@ -16,7 +16,6 @@ struct leftover_ask {
     const char *folder;
     const struct results *all;
     const struct spare *inputs;  /* files that the set is made from are not left over; NULL: not known            */
-    bool keep;                   /* the records, too, of what a stimulus was before that failed now, or waits; a merge cannot use them: what it asks a shard for anew must not seem to be there */
     bool remove;                 /* stimuli whose files have the bytes that they were written with; what was changed since stays, and is told */
 };
 

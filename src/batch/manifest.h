@@ -12,6 +12,7 @@
 struct outcome {                 /* of one stimulus                                          */
     struct journal_ref record;   /* size 0: it failed, or is not of this shard               */
     struct journal_ref raw;      /* of what failed when it got its level: its raw sound, which stays; size 0: none */
+    struct journal_ref refused;  /* of what a merge could not give another level: what there was, which a shard makes anew; size 0: none */
     bool waits;                  /* the record is of a raw sound, which waits for its gain   */
     bool kept;                   /* it was there                                             */
     enum err_kind kind;          /* why it failed; ERR_NONE without a record: not tried      */

@@ -47,3 +47,10 @@ void merge_lock_give(struct merge_lock *l)
         unlink(l->path);
     drop(l);
 }
+
+void merge_lock_sweep(const char *folder, struct arena *a)
+{
+    struct merge_lock l;
+    if (access(arena_format(a, "%s/.rasp/merging", folder), F_OK) == 0 && merge_lock_take(folder, a, &l))
+        merge_lock_give(&l);
+}

@@ -14,4 +14,7 @@ struct merge_lock {
 bool merge_lock_take(const char *folder, struct arena *a, struct merge_lock *l);
 void merge_lock_give(struct merge_lock *l);
 
+/* Takes away what a merge that was killed has left of it. */
+void merge_lock_sweep(const char *folder, struct arena *a);
+
 #endif

@@ -48,7 +48,7 @@ static bool judge(const char *folder, const struct csv *t, const struct columns 
         wrong += why != NULL;
     }
     journal_close(j);
-    return !wrong || err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv: there is nothing to merge; and %d of the %d stimuli of its manifest.csv are not there as it says: run the shards, or the whole "
+    return !wrong || err_set(e, ERR_INPUT, "%s: there is nothing to merge, and %d of the %d stimuli of its manifest.csv are not there as it says: run the shards, or the whole "
                              "batch, again", folder, wrong, r->already);
 }
 
@@ -78,7 +78,7 @@ bool merged_already(const char *folder, struct arena *a, struct merge_report *r,
         return err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv, as rasp batch --shard leaves them: there is nothing to merge", folder);
     const char *why = wrong_with_tables(folder, a);
     if (why)
-        return err_set(e, ERR_INPUT, "%s: has no manifest.I-of-N.csv: there is nothing to merge; and %s: run the shards, or the whole batch, again", folder, why);
+        return err_set(e, ERR_INPUT, "%s: there is nothing to merge, and %s: run the shards, or the whole batch, again", folder, why);
     if (!csv_read(file, a, &t, e))
         return false;
     struct columns c = {csv_column(&t, "stimulus_id"), csv_column(&t, "status"), csv_column(&t, "job_hash")};

@@ -321,7 +321,7 @@ const struct command batch_command = {
             "end (exit code 66), and the next run renders what may be of the old one. A stimulus that fails does not stop the others: the manifest has its error, and the exit code is the worst of all. Where the level is common, the set's gain is "
             "known only when all stimuli are: until then their raw sounds wait in FOLDER/.rasp, 8 bytes a sample. With --shard the set is rendered by several runs, on several machines "
             "perhaps, each with a manifest.I-of-N.csv; rasp merge makes one set of them. FOLDER/.rasp also keeps the list of what is done.\n"
-            "A folder holds the set of one design, which is known by its file and by what it says, its scenes and what they read included: the file may be edited, or be moved or renamed as it is. Another design is refused (exit code 73) "
+            "A folder holds the set of one design, which is known by its file and by what it says, its scenes and what they read included: the file may be edited, or be moved or renamed as it is; what comes through a pipe is known by what it says alone. Another design is refused (exit code 73) "
             "unless --replace gives it the folder; so is a second batch while one is at work for another state of the design; two of the same state get along, and what both are at they both render, to the same bytes. A folder that holds "
             "nobody's set is taken if no file in it has the name of one of the set's. "
             "Files of an earlier state of the set (a level was taken out, a label changed; a stimulus failed, or waits for its level, that was there before) stay, are named in a warning at the end, "

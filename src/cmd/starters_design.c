@@ -3,11 +3,12 @@
 
 #include <string.h>
 
-/* Within braces a comma ends a plain text, and more than that. */
+/* Within braces a comma ends a plain text; more than that ends or begins otherwise. */
 static const char *response(const char *irs, const char *name, struct arena *a)
 {
     const char *file = arena_format(a, "%s/%s", irs, name);
-    return strpbrk(file, ",[]{}#:\"'") ? keys_yaml_quoted(file, a) : file;
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-";
+    return file[0] == '-' || file[strspn(file, plain)] ? keys_yaml_quoted(file, a) : file;
 }
 
 void starters_design(FILE *f, const char *irs, struct arena *a)

@@ -31,6 +31,11 @@ code rasp batch state.yaml -o state --prune -q | sed 's/frame [^ ]*.*/.../'
 ls state
 cp whole.yaml state.yaml
 code rasp batch state.yaml -o state
+cp clips.yaml state.yaml
+for i in 1 2; do code rasp batch state.yaml -o state --shard $i/2 -q | sed 's/frame [^ ]*.*/.../'; done
+code rasp merge state | sed 's/frame [^ ]*.*/.../'
+code rasp batch state.yaml -o state --prune | sed 's/frame [^ ]*.*/.../'
+ls state
 echo "-- the design's level is told where it stands, not where the base has another"
 sed 's/tail: 0 s/tail: 0 s, level: {peak: -3 dB}/' tiny.yaml > peak.yaml
 printf '%s\n' 'rasp-design: 1' 'base: peak.yaml' 'level: {common: {full_scale: 1e-9}}' > laid.yaml

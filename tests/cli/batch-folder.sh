@@ -24,7 +24,24 @@ cat other.abs | code rasp batch /dev/stdin -o pipe
 code rasp batch <(cat other.abs) -o pipe -q
 cat six.abs | code rasp batch /dev/stdin -o pipe
 for i in 1 2; do rasp batch <(sleep 0.0$i; cat six.abs) -o piped -q --shard $i/2; done
+mkdir -p deep/er
+cp -r piped deep/er/piped
+cp -r piped both
 code rasp merge piped
+cp -r pipe deep/er/pipe
+code rasp batch <(cat six.abs) -o deep/er/pipe
+rasp check deep/er/pipe/*.scene.yaml > told.txt
+rm -r both/manifest.2-of-2.csv both/.rasp/journal.2-of-2
+(cd deep && code rasp batch <(cat ../six.abs) -o er/piped -q --shard 2/2 --force)
+cp deep/er/piped/manifest.2* both && cp deep/er/piped/.rasp/journal.2* both/.rasp && cp -r deep/er/piped/.rasp/raw both/.rasp
+code rasp merge both 2>&1 | sed "s|$here|HERE|g"
+echo "-- a file is no pipe, wherever it lies"
+disk=$(mktemp -d /dev/shm/rasp-test.XXXXXX 2> /dev/null) || disk=$(mktemp -d)
+trap 'rm -rf "$disk"' EXIT
+cp six.abs "$disk/six.yaml"
+rasp batch "$disk/six.yaml" -o shm -q
+sed -i 's/seed: 3/seed: 4/' "$disk/six.yaml"
+code rasp batch "$disk/six.yaml" -o shm
 echo "-- two at once: of the same state of the design, and of another"
 code flock -s one/.rasp rasp batch six.yaml -o one
 cp six.yaml whole.yaml

@@ -21,6 +21,8 @@ echo "-- notes in them, in whatever form, stay; what a power cut left of them do
 echo '# a good one' >> ref/a/low/200ms.json
 { echo '# good, too'; cat ref/a/low/250ms.json; } > short && cp short ref/a/low/250ms.json
 printf 'sch\366n' | sed 's/.*/{"note": "&"}/' > ref/a/low/300ms.json
+printf good > ref/a/wood__light/200ms.json
+printf '"good"' > ref/a/wood__light/250ms.json
 for k in 200 250 300; do cp "ref/a/low/${k}ms.json" $k.kept; done
 rasp batch six.yaml -o ref | sed 's/, in .*//'
 for k in 200 250 300; do cmp "ref/a/low/${k}ms.json" $k.kept && echo kept; done

@@ -36,7 +36,8 @@ printf '%s\n' 'rasp-design: 1' 'base: tiny.yaml' 'factors:' '  kind: [{label: ma
 rasp batch only.yaml -o only -q
 columns only/manifest.csv stimulus_id kind motion_duration_s
 for wrong in 's/kind: real}\]/kind: physical}]/' 's/kind: real}\]/kind: rael}]/' 's/, kind: real}\]/}]/' 's/of: recordings/of: cells, set: {seed: 1}/' 's/{label: made}, //' \
-    's/^rec/cells: [{kind: real, motion.duration: 0.2 s}]\nrec/' 's/^rec/exclude: [{kind: made}]\nrec/'; do
+    's/^rec/cells: [{kind: real, motion.duration: 0.2 s}]\nrec/' 's/^rec/exclude: [{kind: made}]\nrec/' \
+    's/0.3 s\]/0.3 s, {label: recorded, of: recordings}]/; s/kind: real}\]/motion.duration: recorded, kind: real}]/' 's/0.3 s\]/0.3 s, 0.30 s, {label: 500 ms, of: recordings}]/; s/kind: real}\]/motion.duration: 500 ms, kind: real}]/'; do
     sed "$wrong" only.yaml > bad.yaml
     rasp check bad.yaml || true
 done

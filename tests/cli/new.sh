@@ -20,9 +20,12 @@ cd 'a, b: {c} #d' || exit
 bin/rasp new -o scrape.yaml
 bin/rasp new design -o set.yaml
 grep -c '"irs/oak_plank.csv"\|: irs/oak_plank.csv' set.yaml
+mv 'irs' kept && mkdir @x && mv kept @x/irs && mv bin @x
+@x/bin/rasp new design -o outside.yaml
+rasp check outside.yaml
 mkdir far && cd far || exit
-../bin/rasp new -o scrape.yaml
-../bin/rasp new design -o ../../set.yaml
+../@x/bin/rasp new -o scrape.yaml
+../@x/bin/rasp new design -o ../../set.yaml
 cp scrape.yaml ../..
 cd ../..
 rasp check set.yaml
