@@ -76,19 +76,19 @@ merge both -q
 same ref both && echo "both: the same"
 echo "-- while another is at work the shards' manifests stay: it may write some"
 cp -r shards both2
-cp -r whole done
-cp shards/manifest.* done
+cp -r whole again
+cp shards/manifest.* again
 python3 -c '
 import fcntl, os, subprocess
-for folder in "both2", "done":
+for folder in "both2", "again":
     held = os.open(folder + "/.rasp", os.O_RDONLY)
     fcntl.flock(held, fcntl.LOCK_SH)
     print("exit", subprocess.run(["rasp", "merge", folder, "-q"], stderr=subprocess.STDOUT).returncode)'
-ls both2/manifest* done/manifest*
+ls both2/manifest* again/manifest*
 merge both2 -q
-merge done -q
-same ref both2 && same ref done && echo "both: the same"
-rm -r done
+merge again -q
+same ref both2 && same ref again && echo "both: the same"
+rm -r again
 echo "-- one that cannot have its level: the others have it, and the same is told of it again"
 mkdir loud
 cp ./*.yaml ./*.csv loud

@@ -50,7 +50,7 @@ python3 -c 'import json; print([(o["file"], o["ok"], o["code"], [(e["line"], e["
 
 # every command, and every action of one, has it
 for command in $(rasp help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
-    rasp "$command" --help 2> no_command | grep -q diagnostics=text || echo "$command has no --diagnostics"
+    rasp "$command" --help 2> no_command | grep diagnostics=text > /dev/null || echo "$command has no --diagnostics"
 done
 tell golden check --diagnostics=json good.yaml --kept no
 tell compare --diagnostics=json no.wav no.wav
