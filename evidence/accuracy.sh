@@ -14,7 +14,7 @@ cd "$ROOT"
 
 # presets SCENE: a row of the first table
 presets() {
-    rasp accuracy "scenes/$1.yaml" --presets --runs "$RUNS" --csv "$WORK/presets.csv" > /dev/null
+    rasp accuracy "scenes/$1.yaml" --presets --runs "$RUNS" --force --csv "$WORK/presets.csv" > /dev/null
     awk -F, -v scene="$1" '
         NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
         $1 != "preset" { next }

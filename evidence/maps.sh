@@ -39,7 +39,7 @@ synthetic() {
     local rms exponent skewness kurtosis size
     while read -r rms exponent skewness kurtosis size; do
         echo "roughness: {rms: $rms um, exponent: $exponent, longest: 0.5 mm, shortest: 20 um, skewness: $skewness, kurtosis: $kurtosis}" > recipe.yaml
-        rasp surface synth -q recipe.yaml map.npy --size "$size" --pitch 5um --seed 3
+        rasp surface synth -q -f recipe.yaml map.npy --size "$size" --pitch 5um --seed 3
         rasp surface info --json --pitch 5um map.npy > info.json
         echo "| rms $rms um, exponent $exponent, skewness $skewness, kurtosis $kurtosis | $size | $(value sq_m 1e6 %.3f) | $(value exponent 1 %.2f) | $(value ssk 1 %.2f) | $(value sku 1 %.2f) |"
     done << TABLE

@@ -10,7 +10,7 @@ mkdir -p "$to"
 
 # profile NAME SIZE PITCH: four samples of the pitch to the recipe's shortest wavelength.
 profile() {
-    "$rasp" surface synth --quiet --along path --seed 1 --size "$2" --pitch "$3" "$here/surfaces/$1.yaml" "$to/$1.gsf"
+    "$rasp" surface synth --quiet --force --along path --seed 1 --size "$2" --pitch "$3" "$here/surfaces/$1.yaml" "$to/$1.gsf"
 }
 
 profile basswood 100mm 6.25um

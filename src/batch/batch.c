@@ -246,7 +246,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
     if (!design_read(ask->design, a, &r->design, &r->messages, e))
         return false;
     set_make(&r->design, ask->build, a, &r->set);
-    if (!prepare_set(&(struct prepare_ask){&r->design, ask->threads, shelf, ask->folder, &ask->shard, ask->replace}, a, &r->set, &r->prepare, e))
+    if (!prepare_set(&(struct prepare_ask){&r->design, ask->threads, shelf, ask->folder, &ask->shard, ask->replace, ask->force || ask->replace}, a, &r->set, &r->prepare, e))
         return false;
     struct batch b = {.ask = ask, .report = r, .arena = a, .kit = {.design = &r->design, .set = &r->set, .folder = ask->folder, .shelf = shelf, .force = ask->force},
                       .claim = {ask->folder, ask->design, r->set.sha256, ask->build, ask->replace}};

@@ -314,5 +314,7 @@ bool prepare_set(const struct prepare_ask *ask, struct arena *a, struct set *s, 
     find_length(&p, s);
     look_at_levels(&p, s);
     add_up(&p, s);
-    return tell(out, s, ask->folder, e) && (!ask->folder || spare_check(p.spare, s, p.first, &(struct spare_place){ask->folder, ask->shard, !ask->replace && !claim_is_noted(ask->folder, a)}, e));
+    const struct spare_place place = {.folder = ask->folder, .shard = ask->shard, .unknown = ask->folder && !ask->replace && !claim_is_noted(ask->folder, a),
+                                      .links = ask->links};
+    return tell(out, s, ask->folder, e) && (!ask->folder || spare_check(p.spare, s, p.first, &place, e));
 }

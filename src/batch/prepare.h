@@ -25,6 +25,7 @@ struct prepare_ask {
     const char *folder;      /* where the set goes; NULL: it is not said  */
     const struct shard *shard;
     bool replace;            /* what is there already may be anybody's    */
+    bool links;              /* symbolic links are written through        */
 };
 
 struct prepare {

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "batch/claim.h"
 #include "batch/manifest.h"
+#include "output/mark.h"
 #include "pipeline/outputs.h"
 
 struct file_read {
@@ -137,6 +138,9 @@ static bool spared(const struct spare *s, const struct spare_place *p, const cha
     if (!in && is_foreign(p, path, s->arena))
         return err_set(e, ERR_CREATE, "%s: is there already, and nothing says of which design: choose another folder with -o, or say --replace, and the folder is this design's from now on; nothing was "
                                       "written", path);
+    struct err link = {0};
+    if (!in && !mark_links(path, p->links, &link))
+        return err_set(e, link.kind, "%s; nothing was written", link.text);
     return !in ||
            err_set(e, ERR_CREATE, "%s: the output %s would overwrite the input %s (%s): write into another folder with -o, or change the name; nothing was written", whose, path, in->file,
                    in->what);

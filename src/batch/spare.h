@@ -10,6 +10,7 @@ struct spare_place {         /* where the set goes */
     const char *folder;
     const struct shard *shard;
     bool unknown;            /* nothing says whose files lie there */
+    bool links;              /* symbolic links are written through */
 };
 
 struct spare *spare_open(const struct design *d, struct arena *a);

@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "base/outfile.h"
 #include "cmd/accuracy.h"
+#include "output/mark.h"
 #include "output/picture.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan_scene.h"
@@ -22,6 +23,7 @@ static const struct args_option accuracy_options[] = {
     {"csv", 0, "FILE", false, "write the table to FILE, which ends in .csv"},
     {"plot", 0, "FILE", false, "draw error against real-time factor into FILE, which ends in .png or .svg"},
     {"json", 0, NULL, false, "print the table as JSON"},
+    {"force", 'f', NULL, false, "replaces the files of --csv and --plot if they exist"},
     CMD_SCENE_OPTIONS,
     {0},
 };
@@ -72,7 +74,7 @@ static bool ask_files(const struct accuracy_sweep *s, struct err *e)
             continue;
         if (!outputs_spare(&o, 1, s->call->arena, &(struct err){0}))
             return err_set(e, ERR_CREATE, "%s is a file that the scene reads: give --%s another name", paths[i], i ? "plot" : "csv");
-        if (!outfile_open_fd(&probe, paths[i], e))
+        if (!mark_permits(paths[i], NULL, args_given(&s->call->args, "force"), e) || !outfile_open_fd(&probe, paths[i], e))
             return false;
         outfile_drop(&probe);
     }

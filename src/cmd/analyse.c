@@ -240,7 +240,7 @@ static const struct args_option analyse_options[] = {
     {"distribution", 0, "auto|gaussian|table", false,
      "of the whitened series in the parameter file; default: auto, a table where it is not normal"},
     {"output", 'o', "FILE.yaml", false, "writes the parameter file, and tables beside it where they are needed"},
-    {"force", 'f', NULL, false, "overwrites FILE.yaml and the tables beside it if they exist"},
+    {"force", 'f', NULL, false, "replaces what exists of FILE.yaml, the tables beside it, and the plots"},
     {"plot", 0, "PREFIX", false, "draws PREFIX.correlations.png, .distributions.png, .duration.png and .shape.png; a folder: its files are called as FILE is"},
     {"format", 0, "png|svg", false, "format of the plots; default: png"},
     {"json", 'j', NULL, false, "prints the figures as one JSON object; null stands for one that is not there"},

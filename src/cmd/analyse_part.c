@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "analysis/frequency_polygon.h"
 #include "base/outfile.h"
@@ -11,10 +10,11 @@
 #include "cmd/analyse.h"
 #include "file/csv.h"
 #include "num/real.h"
+#include "output/mark.h"
 
 static bool name_free(const struct analysis *a, const char *file, struct err *e)
 {
-    return a->force || access(file, F_OK) != 0 || err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
+    return mark_permits(file, NULL, a->force, e);
 }
 
 bool analyse_part_free(const struct analysis *a, const char *file, struct err *e)

@@ -14,6 +14,7 @@
 
 #include "cmd/analyse.h"
 #include "num/real.h"
+#include "output/mark.h"
 #include "output/picture.h"
 
 enum { BARS = 40 };
@@ -233,7 +234,7 @@ bool analyse_plot(struct analysis *a, const char *prefix, bool svg, struct analy
         const char *file = arena_format(a->arena, "%s.%s.%s", prefix, all[i].name, svg ? "svg" : "png");
         if (!all[i].there)
             continue;
-        if (!picture_draw(&to->o[to->n], file, svg, all[i].draw, &p, e))
+        if (!mark_permits(file, NULL, a->force, e) || !picture_draw(&to->o[to->n], file, svg, all[i].draw, &p, e))
             return false;
         to->name[to->n++] = file;
     }

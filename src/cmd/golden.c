@@ -43,7 +43,7 @@ static int update_run(struct cmd_call *c, struct err *e) { return run(c, golden_
 static const struct action actions[] = {
     {"check", "LIST|SCENE.yaml...", 1, -1,
      {"kept", "hashes", "output", "jobs", "effective", "tap", "quiet", "snr", "lsb", "third-octave", "within", "tolerance", "column", "abs", "rel"}, check_run},
-    {"update", "LIST|SCENE.yaml...", 1, -1, {"kept", "hashes", "jobs", "quiet"}, update_run},
+    {"update", "LIST|SCENE.yaml...", 1, -1, {"kept", "hashes", "jobs", "force", "quiet"}, update_run},
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
@@ -61,6 +61,7 @@ static const struct args_option options[] = {
     {"tap", 0, NULL, false, "check: prints the Test Anything Protocol, version 13"},
     COMPARE_SOUND_LIMITS,
     COMPARE_TABLE_LIMITS,
+    {"force", 'f', NULL, false, "update: replaces files in FOLDER that rasp did not write, and writes through symbolic links"},
     {"quiet", 'q', NULL, false, "prints only what fails"},
     {0}};
 

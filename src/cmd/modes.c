@@ -74,7 +74,7 @@ static int modes_run(struct cmd_call *c, struct err *e)
 
 static const struct args_option options[] = {
     {"output", 'o', "FILE.csv", false, "object, compute, extract: the mode table to write; must be given"},
-    {"force", 'f', NULL, false, "object, compute, extract: overwrites files that exist"},
+    {"force", 'f', NULL, false, "object, compute, extract: replaces files that exist"},
     {"shape", 0, "SHAPE", false, "compute: a solid by its sizes, such as plate:length=30cm,width=20cm,thickness=5mm"},
     {"order", 0, "N", false, "compute: of the polynomials that an element moves by, 2 to 4 (default 3, of a bowl and a mug 4, of a mesh file 2)"},
     {"estimate", 0, NULL, false, "compute: estimates the error of every frequency from a second, coarser computation, into the report and the table's comments"},

@@ -8,6 +8,7 @@
 #include "cmd/modes_output.h"
 #include "cmd/tell.h"
 #include "fem/shapes.h"
+#include "output/mark.h"
 
 /* A mesh of TetGen is several files. */
 static bool read_output(const struct compute *k, const char **file, struct err *e)
@@ -58,17 +59,12 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
     if (!read_output(&k, &file, e) || !modes_compute_solid_read(&k, e) || !modes_compute_places(&k, e))
         return (int)e->kind;
     modes_compute_write_inputs(&k, inputs);
-    bool there = access(file, F_OK) == 0;
-    if (there && modes_compute_write_is_current(file, inputs, c->arena)) {
+    if (access(file, F_OK) == 0 && modes_compute_write_is_current(file, inputs, c->arena)) {
         if (!quiet)
             printf("%s: up to date\n", text_shown(c->arena, file));
         return 0;
     }
-    if (there && !args_given(&c->args, "force")) {
-        err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
-        return (int)e->kind;
-    }
-    if (!modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) || !modes_compute_estimate(&k, e) || !modes_compute_write(&k, file, inputs, e))
+    if (!mark_permits(file, NULL, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) || !modes_compute_estimate(&k, e) || !modes_compute_write(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {
         report(&k, file);

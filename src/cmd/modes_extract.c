@@ -23,7 +23,7 @@ static const double *part(const struct modes_extract *x, int what, int place)
 /* One channel for each place; floating point, the response's own unit. */
 static bool sound(const struct modes_extract *x, const char *file, int what, struct wav_out **w, struct err *e)
 {
-    struct wav_format f = {.rate = x->rate, .channels = x->n, .bits = -32};
+    struct wav_format f = {.rate = x->rate, .channels = x->n, .bits = -32, .comment = "rasp: by rasp modes extract"};
     if (!file)
         return true;
     *w = wav_create(file, &f, e);

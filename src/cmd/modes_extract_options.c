@@ -1,9 +1,9 @@
 /* The options of `rasp modes extract`, and which of them belong together. */
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cmd/modes_extract.h"
+#include "output/mark.h"
 #include "scene/rules.h"
 #include "scene/units.h"
 
@@ -80,7 +80,7 @@ static bool together(struct modes_extract *x, struct err *e)
     return (isnan(g->low) || isnan(g->high) || g->low < g->high) || err_set(e, ERR_USAGE, "--low %g Hz is not below --high %g Hz", g->low, g->high);
 }
 
-/* Outputs: they may not be there yet, but for --force; no two are one file. */
+/* Outputs: each may be written (output/mark.h), and no two are one file. */
 static bool outputs(struct modes_extract *x, struct err *e)
 {
     struct modes_extract_given *g = &x->given;
@@ -88,8 +88,8 @@ static bool outputs(struct modes_extract *x, struct err *e)
     const char **to[] = {&g->output, &g->residual, &g->resynthesis, &g->response, &g->plot};
     for (int k = 0; k < 5; k++) {
         const char *file = *to[k] = args_value(&x->c->args, names[k]);
-        if (file && !args_given(&x->c->args, "force") && access(file, F_OK) == 0)
-            return err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
+        if (file && !mark_permits(file, NULL, args_given(&x->c->args, "force"), e))
+            return false;
         for (int i = 0; i < k; i++)
             if (file && *to[i] && !strcmp(file, *to[i]))
                 return err_set(e, ERR_USAGE, "--%s and --%s are both %s", names[i], names[k], file);

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/outfile.h"
 #include "base/text.h"
@@ -16,6 +15,7 @@
 #include "cmd/modes_output.h"
 #include "cmd/tell.h"
 #include "num/real.h"
+#include "output/mark.h"
 #include "response/mode_table_write.h"
 #include "scene/units.h"
 
@@ -38,9 +38,7 @@ static bool read_output(struct job *j, struct err *e)
     const char *file = args_value(&j->c->args, "output");
     if (!file)
         return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
-    if (!modes_output_spares(file, j->c->args.operands[0], e))
-        return false;
-    return args_given(&j->c->args, "force") || access(file, F_OK) != 0 || err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
+    return modes_output_spares(file, j->c->args.operands[0], e) && mark_permits(file, NULL, args_given(&j->c->args, "force"), e);
 }
 
 static bool read_load(struct job *j, struct err *e)

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/starters.h"
+#include "output/mark.h"
 
 static int list(void)
 {
@@ -56,9 +57,7 @@ static bool write_file(const struct starter *s, const char *file, bool force, st
 {
     struct outfile o;
     const char *slash = strrchr(file, '/'), *folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL;
-    if (!force && access(file, F_OK) == 0)
-        return err_set(e, ERR_CREATE, "%s exists already; --force overwrites it", file);
-    if (!outfile_open(&o, file, e))
+    if (!mark_permits(file, NULL, force, e) || !outfile_open(&o, file, e))
         return false;
     starters_print(o.stream, s, irs_seen(folder, a), a);
     return outfile_commit(&o, e);
@@ -84,7 +83,7 @@ static int new_run(struct cmd_call *c, struct err *e)
 
 static const struct args_option options[] = {
     {"output", 'o', "FILE", false, "the file to write; without it the scene goes to standard output"},
-    {"force", 'f', NULL, false, "overwrites FILE if it exists"},
+    {"force", 'f', NULL, false, "replaces FILE if it exists"},
     {"list", 0, NULL, false, "lists the starters"},
     {0},
 };

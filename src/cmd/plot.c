@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "cmd/cmd.h"
+#include "output/mark.h"
 #include "output/picture.h"
 #include "pipeline/outputs.h"
 #include "scene/scene_read.h"
@@ -21,6 +22,7 @@ static const struct args_option plot_options[] = {
     {"from", 0, "SECONDS", false, "start of the time shown; default: 0"},
     {"channel", 'c', "N", false, "which channel of the sound, from 1 (of several listening places each is one); default: 1"},
     {"to", 0, "SECONDS", false, "end of the time shown; default: the end of the sound"},
+    {"force", 0, NULL, false, "replaces a file that rasp did not draw, or writes through a link"},
     {0},
 };
 
@@ -92,7 +94,7 @@ static int gallery_run(struct cmd_call *c, struct err *e)
 {
     const char *format = args_value(&c->args, "format"), *panels = args_value(&c->args, "panels");
     struct plot_gallery g = {.source = c->args.operands[0], .output = args_value(&c->args, "output"), .title = args_value(&c->args, "title"), .arena = c->arena, .call = c,
-                             .svg = format && !strcmp(format, "svg")};
+                             .svg = format && !strcmp(format, "svg"), .force = args_given(&c->args, "force")};
     static const char *const others[] = {"from", "to", "channel"};
     for (int k = 0; k < 3; k++)
         if (args_given(&c->args, others[k]))
@@ -120,7 +122,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
         return (int)e->kind;
     p.channel = (int)channel;
     const char *target = plot_target(c, &p);
-    if (!plot_data(&p, e) || !plot_spares(&p, target, e) || !picture_write(target, p.svg, plot_page, &p, e))
+    if (!plot_data(&p, e) || !plot_spares(&p, target, e) || !mark_permits(target, NULL, args_given(&c->args, "force"), e) || !picture_write(target, p.svg, plot_page, &p, e))
         return (int)e->kind;
     printf("%s ", target);
     plot_panels_list(&p, stdout);

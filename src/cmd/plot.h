@@ -118,7 +118,7 @@ void plot_modes_decays(const struct plot_page *p, const struct plot_place *at, s
 struct plot_gallery {
     const char *source, *output, *title; /* NULL: default */
     unsigned asked;
-    bool svg, quiet;
+    bool svg, quiet, force;
     struct cmd_call *call;
     struct arena *arena;
 };

@@ -13,6 +13,7 @@
 #include "base/relpath.h"
 #include "base/text.h"
 #include "cmd/plot.h"
+#include "output/mark.h"
 #include "output/picture.h"
 
 enum kind { SOUND, SILENT, FAILED }; /* silent: a render that made tables only */
@@ -151,7 +152,7 @@ static bool draw_item(struct page *g, struct item *item, struct err *e)
     bool ok = plot_data(&p, &why);
     if (!ok)
         item->why = arena_text(g->arena, why.text);
-    else if (picture_write(target, p.svg, draw, &p, e))
+    else if (mark_permits(target, NULL, g->of->force, e) && picture_write(target, p.svg, draw, &p, e))
         item->picture = target;
     arena_close(a);
     return e->kind == ERR_NONE;
@@ -310,7 +311,7 @@ static const char *counted(const struct page *g)
 static void put_page(const struct page *g, FILE *f)
 {
     const char *title = g->of->title ? g->of->title : *g->folder ? arena_format(g->arena, "%.*s", (int)strlen(g->folder) - 1, g->folder) : "sounds";
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>", f);
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" MARK_PAGE "\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>", f);
     put(f, title, g->arena);
     fputs("</title>\n<style>\n"
           "body { font: 15px/1.4 'DejaVu Sans', sans-serif; margin: 1.5em; color: #222; background: #fafafa }\n"
@@ -337,7 +338,7 @@ bool plot_gallery(const struct plot_gallery *of, struct err *e)
         return false;
     g.output = of->output ? of->output : arena_format(of->arena, "%sgallery.html", g.folder);
     g.files = arena_format(of->arena, "%.*s_files", (int)strlen(g.output) - 5, g.output);
-    if (!outfile_open(&o, g.output, e))
+    if (!mark_permits(g.output, NULL, of->force, e) || !outfile_open(&o, g.output, e))
         return false;
     if (draw_all(&g, e)) {
         put_page(&g, o.stream);

@@ -17,6 +17,7 @@ static const struct args_option render_options[] = {
     CMD_SCENE_OPTIONS,
     {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
     {"verify", 0, NULL, false, "render the reference, too, and measure what accuracy was kept; exit code 1 if that is less than accuracy.error asks for"},
+    {"force", 'f', NULL, false, "replaces files that rasp did not write, and writes through symbolic links"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},
     {0},
 };
@@ -92,7 +93,10 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
             return NULL;
         all[i] = outputs_make(&scenes[i], base, c->arena);
     }
-    return outputs_distinct(all, n, c->arena, e) && outputs_spare(all, n, c->arena, e) && render_folder(c, e) ? all : NULL;
+    return outputs_distinct(all, n, c->arena, e) && outputs_spare(all, n, c->arena, e) &&
+                   outputs_replace(all, n, args_given(&c->args, "force"), c->arena, e) && render_folder(c, e)
+               ? all
+               : NULL;
 }
 
 /* printed: how many scenes' summaries are. */
@@ -130,7 +134,7 @@ const struct command render_command = {
             "impacts), NAME.scene.yaml (the effective scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which files were written). "
             "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes reads is refused, whatever "
             "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two scenes that would write "
-            "the same file. Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are chosen as the cheapest that keep it, and told; what cannot be kept "
+            "the same file. What an earlier render wrote is replaced; another file, or a symbolic link, is only with --force: rasp(1), FILES. Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are chosen as the cheapest that keep it, and told; what cannot be kept "
             "is refused. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a warning. Several scenes "
             "are all read before the first is rendered; the first that fails ends the run.",
     .operands = "SCENE...",

@@ -10,8 +10,8 @@
 
 static const struct action actions[] = {
     {"info", "FILE...", 1, -1, {"pitch", "height-scale", "height-range", "holes", "levelling", "json"}, surface_info_run},
-    {"convert", "IN OUT", 2, 2, {"pitch", "height-scale", "height-range", "holes", "levelling", "crop", "row", "text", "quiet"}, surface_convert_run},
-    {"synth", "RECIPE OUT", 2, 2, {"size", "pitch", "along", "set", "seed", "quiet"}, surface_synth_run},
+    {"convert", "IN OUT", 2, 2, {"pitch", "height-scale", "height-range", "holes", "levelling", "crop", "row", "text", "force", "quiet"}, surface_convert_run},
+    {"synth", "RECIPE OUT", 2, 2, {"size", "pitch", "along", "set", "seed", "force", "quiet"}, surface_synth_run},
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
@@ -74,6 +74,7 @@ static const struct args_option options[] = {
     {"size", 0, "SIZE", false, "synth: a length (a profile) or WIDTHxHEIGHT (a map), as in 20mm or 2mmx1mm"},
     {"along", 0, "path|x|plane", false, "synth: what it follows (x: the profile that a straight motion meets); default: that of the scene, or of the size"},
     CMD_SCENE_OPTIONS,
+    {"force", 'f', NULL, false, "convert, synth: replaces OUT if it exists"},
     {"quiet", 'q', NULL, false, "convert, synth: prints nothing"},
     {0}};
 

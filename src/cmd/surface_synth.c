@@ -12,6 +12,7 @@
 #include "cmd/surface.h"
 #include "cmd/tell.h"
 #include "file/heightfile_write.h"
+#include "output/mark.h"
 #include "pipeline/outputs.h"
 #include "pipeline/stages.h"
 #include "scene/units.h"
@@ -152,7 +153,8 @@ int surface_synth_run(struct cmd_call *c, struct err *e)
     enum heightfile_format format;
     struct heightfile_written w;
     const char *out = c->args.operands[1];
-    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e) || !all_spared(&s, out, e) || !read_along(&s, e) || !make(&s, e))
+    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e) || !all_spared(&s, out, e) ||
+        !mark_permits(out, NULL, args_given(&c->args, "force"), e) || !read_along(&s, e) || !make(&s, e))
         return (int)e->kind;
     s.h.pitch_x = s.h.pitch_y = s.pitch;
     s.h.metric = true;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/outfile.h"
+#include "output/mark.h"
 
 /* gnuplot does not notice a full disk: is the last thing of the format there? */
 static bool picture_whole(int fd, bool svg)
@@ -27,7 +28,7 @@ bool picture_draw(struct outfile *o, const char *target, bool svg, void (*draw)(
     }
     draw(self, &g);
     bool ok = gnuplot_close(&g, e);
-    if (ok && !picture_whole(o->fd, svg))
+    if (ok && (!picture_whole(o->fd, svg) || !mark_picture(o->fd, svg)))
         ok = err_set(e, ERR_IO, "%s: cannot be written whole (is the disk full?)", target);
     if (!ok)
         outfile_drop(o);

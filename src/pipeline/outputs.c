@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "file/folder_index.h"
+#include "output/mark.h"
 #include "pipeline/plan.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
@@ -212,6 +213,20 @@ bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *
         for (int k = 0; k < o[i].n; k++)
             if (!spared(&o[i], k, &all, a, e))
                 return false;
+    return true;
+}
+
+/* ------------------------------------------------------------------ outputs and what is there */
+
+bool outputs_replace(const struct outputs *o, int n, bool force, struct arena *a, struct err *e)
+{
+    struct err why = {0};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < o[i].n; k++, why.kind = ERR_NONE) {
+            const char *summary = outputs_path(o[i].scene, o[i].base, OUTPUT_SUMMARY, NULL, a);
+            if (!mark_permits(o[i].paths[k], summary, force, &why) && !unchanged(&o[i], k, a))
+                return err_set(e, why.kind, "%s: %s", o[i].scene->file, why.text);
+        }
     return true;
 }
 

@@ -41,6 +41,9 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
    name; an effective scene that has the bytes of the file it replaces does no harm. ERR_CREATE: names both. */
 bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *e);
 
+/* The rule of output/mark.h for all that these n scenes write; an effective scene that has the bytes of the file it replaces does no harm. ERR_CREATE */
+bool outputs_replace(const struct outputs *o, int n, bool force, struct arena *a, struct err *e);
+
 struct outputs_source {      /* a file that a scene reads */
     const char *file, *what; /* what: "surface.response", "the scene itself" */
     const struct scene *scene;

@@ -7,6 +7,7 @@
 #include "convolution/ring_choice.h"
 #include "file/json_value.h"
 #include "num/real.h"
+#include "output/mark.h"
 #include "response/modes.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
@@ -288,6 +289,17 @@ static json_t *files_json(const struct render_report *report)
     return all;
 }
 
+/* What an earlier render wrote under these names and this one does not, so that a later one may replace it. */
+static void set_older(json_t *whole, const struct render_report *report, struct arena *a)
+{
+    for (int i = 0; i < report->n_files; i++) {
+        json_t *older = strcmp(report->files[i].kind, "summary") ? NULL : mark_older(report->files[i].path, json_object_get(whole, "files"), a);
+        if (json_array_size(older))
+            json_object_set(whole, "older", older);
+        json_decref(older);
+    }
+}
+
 /* What accuracy.error asked for, and what the knobs that leave an error are predicted to leave. */
 static json_t *promise_json(const struct promise *p)
 {
@@ -312,6 +324,7 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
                               "wall_s", json_value_number(report->seconds), "cpu_s", json_value_number(report->cpu), "real_time_factor",
                               json_value_number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks,
                               "files", files_json(report));
+    set_older(whole, report, a);
     if (report->promise.asked)
         json_object_set_new(whole, "accuracy", promise_json(&report->promise));
     if (report->sounds)
