@@ -15,6 +15,7 @@
 #include "base/relpath.h"
 #include "base/text.h"
 #include "batch/folder.h"
+#include "file/piped.h"
 
 enum { MOST = 4096 + 256 + HASH_TEXT /* bytes of the file */ };
 
@@ -40,16 +41,9 @@ static void parse(struct owner *o, ssize_t n)
 
 static const char piped[] = "-";
 
-/* Is another file opened by that name each time, or may be? */
-static bool is_piped(const char *file)
-{
-    struct stat s;
-    return !strcmp(file, "/dev/stdin") || !strncmp(file, "/dev/fd/", 8) || (!strncmp(file, "/proc/", 6) && strstr(file, "/fd/")) || (stat(file, &s) == 0 && !S_ISREG(s.st_mode));
-}
-
 const char *claim_place(const char *design, const char *folder, struct arena *a)
 {
-    if (!is_piped(design))
+    if (!piped_is(design))
         return text_shown(a, relpath_make(design, folder, a));
     char *real = memory_realpath(folder);
     const char *place = arena_format(a, "%s %s", piped, text_shown(a, real ? real : folder));
@@ -59,7 +53,7 @@ const char *claim_place(const char *design, const char *folder, struct arena *a)
 
 static const char *place_of(const struct claim *c, struct arena *a)
 {
-    return is_piped(c->design) ? piped : claim_place(c->design, c->folder, a);
+    return piped_is(c->design) ? piped : claim_place(c->design, c->folder, a);
 }
 
 static const char *seen_from_here(const struct claim *c, const char *place, struct arena *a)

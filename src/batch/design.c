@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "base/memory.h"
+#include "base/interrupt.h"
 #include "batch/design_cells.h"
 #include "batch/design_factors.h"
 #include "batch/design_names.h"
@@ -91,7 +91,7 @@ bool design_read(const char *file, struct arena *a, struct design *d, const char
     if (y->diag->n == 0)
         return true;
     *messages = diag_text(y->diag);
-    return err_set(e, y->missing ? ERR_INPUT : ERR_SCENE, "%s", diag_first(y->diag));
+    return err_set(e, y->missing ? interrupt_seen() ? ERR_INTERRUPTED : ERR_INPUT : ERR_SCENE, "%s", diag_first(y->diag));
 }
 
 const char *design_label(const struct design *d, int i, int factor)
@@ -106,25 +106,25 @@ const char *design_value(const struct design *d, int i, int factor)
     return level < 0 ? "n/a" : d->factors[factor].levels[level].value;
 }
 
-enum { LINES_MOST = 4 << 20 /* of a design, which is a file of YAML: it has no more bytes */ };
+/* A line's beginning, after { in flow style ({rasp-design: 1, ...}), is the key, quoted perhaps. */
+static bool names_design(const char *line, bool flow)
+{
+    static const char key[] = "rasp-design";
+    const char *at = line + (flow ? strspn(line, "{ \t") : 0), *s = at + (*at == '"' || *at == '\'');
+    size_t n = strlen(key);
+    return !strncmp(s, key, n) && (s[n] == ':' || s[n] == ' ' || (s != at && s[n] == *at));
+}
 
 bool design_is(const char *file)
 {
-    static const char key[] = "rasp-design";
-    char line[64];
-    bool found = false, start = true, flow = false; /* {rasp-design: 1, ...} */
-    FILE *f = memory_fopen(file, "r");
-    for (long lines = 0; f && !found && lines < LINES_MOST && fgets(line, sizeof line, f); lines++) {
-        const char *key_at = line;
-        flow = flow || (start && *line == '{');
-        if (flow)
-            key_at += strspn(line, "{ \t");
-        const char *s = key_at + (*key_at == '"' || *key_at == '\'');
-        size_t n = strncmp(s, key, strlen(key)) == 0 ? strlen(key) : 0;
-        found = start && n > 0 && (s[n] == ':' || s[n] == ' ' || (s != key_at && s[n] == *key_at));
-        start = strchr(line, '\n') != NULL;
+    struct arena *a = arena_open();
+    size_t size;
+    const char *text = yaml_bytes_text(file, a, &size), *end = text ? text + size : NULL;
+    bool found = false, flow = false;
+    for (const char *line = text; line && line < end && !found; line = memchr(line, '\n', (size_t)(end - line)), line += line != NULL) {
+        flow = flow || *line == '{';
+        found = names_design(line, flow);
     }
-    if (f)
-        fclose(f);
+    arena_close(a);
     return found;
 }

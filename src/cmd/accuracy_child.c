@@ -19,6 +19,8 @@
 #include "base/scratch.h"
 #include "base/text.h"
 #include "cmd/accuracy.h"
+#include "file/piped.h"
+#include "file/yaml_bytes.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 
@@ -91,12 +93,25 @@ static char **command_line(const struct accuracy_sweep *s, const struct accuracy
     put(&w, "--set", "accuracy=standard");
     for (int k = 0; k < KNOBS; k++)
         put(&w, "--set", arena_format(a, "accuracy.%s=%.17g", keys_knobs[k].name, accuracy_knob(set, (enum knob)k)));
-    put(&w, "--", s->file);
+    put(&w, "--", piped_is(s->file) ? "/dev/stdin" : s->file);
     return (char **)w.list;
 }
 
-static _Noreturn void become(char **argv, int end, FILE *says)
+/* A scene that came through a pipe, for the child to read once more. NULL: it did not, or *e */
+static FILE *again(const char *file, struct err *e)
 {
+    size_t size;
+    const char *text = piped_is(file) ? yaml_bytes_text(file, NULL, &size) : NULL;
+    FILE *f = text ? scratch_open() : NULL;
+    if (text && (!f || fwrite(text, 1, size, f) != size || fflush(f) != 0))
+        err_set(e, ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s", scratch_folder(), strerror(errno));
+    return f;
+}
+
+static _Noreturn void become(char **argv, int end, FILE *says, FILE *scene)
+{
+    if (scene)
+        dup2(fileno(scene), STDIN_FILENO);
     dup2(end, STDOUT_FILENO);
     dup2(fileno(says), STDERR_FILENO);
     execv("/proc/self/exe", argv);
@@ -139,7 +154,7 @@ static void listen_to(int fd, pid_t pid, struct text *t)
 }
 
 /* Runs it; its standard output in *out (to be freed), its standard error in the file. The exit code, or -1: it was killed. */
-static int run(char **argv, FILE *says, struct text *out, double *peak, struct err *e)
+static int run(char **argv, FILE *says, FILE *scene, struct text *out, double *peak, struct err *e)
 {
     struct rusage used;
     int ends[2], status = 0;
@@ -148,7 +163,7 @@ static int run(char **argv, FILE *says, struct text *out, double *peak, struct e
     fflush(NULL);
     pid_t pid = fork();
     if (pid == 0)
-        become(argv, ends[1], says);
+        become(argv, ends[1], says, scene);
     close(ends[1]);
     if (pid > 0)
         listen_to(ends[0], pid, out);
@@ -213,7 +228,10 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
     double peak = 0.0;
     if (!says)
         return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno));
-    r->code = run(command_line(s, &r->set), says, &out, &peak, &cause);
+    FILE *scene = again(s->file, &cause);
+    r->code = cause.kind ? -1 : run(command_line(s, &r->set), says, scene, &out, &peak, &cause);
+    if (scene)
+        fclose(scene);
     r->peak = fmax(r->peak, peak);
     const char *words = first_words(says, s->call->arena);
     fclose(says);

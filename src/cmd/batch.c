@@ -69,7 +69,7 @@ void batch_tell_unread(struct cmd_call *c, const char *file, const struct batch_
         return;
     tell_scene(c, r->design.diag, r->messages, kind);
     *e = (struct err){0};
-    err_set(e, kind, "%s %s", file, kind == ERR_INPUT ? "cannot be read" : "is not a valid design");
+    err_set(e, kind, "%s %s", file, kind == ERR_SCENE ? "is not a valid design" : "cannot be read");
 }
 
 void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct prepare *p)

@@ -24,7 +24,7 @@ bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struc
     if (!messages || !*messages)
         return err_set(e, cause.kind, "%s", cause.text);
     tell_scene(c, s->diag, messages, cause.kind);
-    return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_INPUT ? "or a file it includes cannot be read" : "is not a valid scene");
+    return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_SCENE ? "is not a valid scene" : "or a file it includes cannot be read");
 }
 
 /* ------------------------------------------------------------------ options */

@@ -1,22 +1,23 @@
 /* Reading a recipe of surface keys, or a scene: see recipe.h. */
 #include "cmd/recipe.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cmd/tell.h"
-#include "file/bytes.h"
 #include "file/yaml_bytes.h"
 #include "file/yaml_parse.h"
 #include "scene/scene_read.h"
 
 bool recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err *e)
 {
-    struct bytes b;
+    size_t size;
+    const char *text = yaml_bytes_text(file, c->arena, &size);
     *is = false;
-    if (!bytes_read(file, c->arena, &b, e))
-        return false;
-    for (const char *line = b.at; line && !*is; line = strchr(line, '\n')) {
+    if (!text)
+        return err_set(e, errno == EINTR ? ERR_INTERRUPTED : ERR_INPUT, "%s: %s", file, strerror(errno));
+    for (const char *line = text; line && !*is; line = strchr(line, '\n')) {
         line += *line == '\n';
         *is = !strncmp(line, "rasp:", 5) || !strncmp(line, "include:", 8);
     }
@@ -47,7 +48,7 @@ static bool read_recipe(struct cmd_call *c, const char *file, const char *rest, 
     if (scene_read_made(text, file, &over, c->arena, s, &messages, &cause))
         return true;
     tell_scene(c, s->diag, messages, cause.kind);
-    return err_set(e, cause.kind, "%s is not a valid recipe", file);
+    return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_SCENE ? "is not a valid recipe" : "cannot be read");
 }
 
 bool recipe_read(struct cmd_call *c, const char *file, const char *rest, struct scene *s, struct err *e)

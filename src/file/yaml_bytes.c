@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "file/piped.h"
 
 enum { SIZE_MAX_BYTES = 4 << 20 };
 
@@ -44,6 +45,22 @@ static char *all_of(FILE *in, struct arena *a, size_t *size)
     }
 }
 
+const char *yaml_bytes_text(const char *file, struct arena *a, size_t *size)
+{
+    if (piped_is(file))
+        return piped_read(file, SIZE_MAX_BYTES, size);
+    FILE *in = memory_fopen(file, "rb");
+    char *text = in ? all_of(in, a, size) : NULL;
+    bool good = in && !ferror(in);
+    int why = errno;
+    if (good)
+        text[*size] = '\0';
+    if (in)
+        fclose(in);
+    errno = why;
+    return good ? text : NULL;
+}
+
 static void note_file(struct yaml *y, const char *name)
 {
     struct yaml_file *f = ARENA_TAKE(y->arena, struct yaml_file, 1);
@@ -56,18 +73,13 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
 {
     size_t size;
     struct stat s;
-    bool waits = named.source && stat(file, &s) == 0 && S_ISFIFO(s.st_mode); /* until somebody writes into it */
-    FILE *in = waits ? NULL : memory_fopen(file, "rb");
-    if (!in) {
+    bool waits = named.source && !named.source->made && stat(file, &s) == 0 && S_ISFIFO(s.st_mode); /* until somebody writes into it */
+    const char *text = waits ? NULL : yaml_bytes_text(file, y->arena, &size);
+    if (!text) {
         errno = waits ? ENXIO : errno;
         unreadable(y, file, named);
         return NULL;
     }
-    const char *text = all_of(in, y->arena, &size);
-    bool good = !ferror(in) || unreadable(y, file, named);
-    fclose(in);
-    if (!good)
-        return NULL;
     const char *name = arena_text(y->arena, file);
     note_file(y, name);
     struct diag_source *source = yaml_source(y, name, text, size);

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "file/yaml_bytes.h"
 #include "scene/accuracy.h"
 #include "scene/scene_check.h"
@@ -117,7 +118,7 @@ static bool finish(struct yaml *y, struct scene *s, const char **messages, struc
         return true;
     s->diag = y->diag;
     *messages = diag_text(y->diag);
-    return err_set(e, y->missing ? ERR_INPUT : ERR_SCENE, "%s", diag_first(y->diag));
+    return err_set(e, y->missing ? interrupt_seen() ? ERR_INTERRUPTED : ERR_INPUT : ERR_SCENE, "%s", diag_first(y->diag));
 }
 
 bool scene_read_text(const char *text, size_t n, const char *name, const struct scene_overrides *over, struct arena *a,
