@@ -11,6 +11,7 @@
 #include "pipeline/plan_scene.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
+#include "scene/scene_places.h"
 
 enum { REFERENCE, OWN };
 
@@ -170,6 +171,7 @@ bool render_verify(struct cmd_call *c, const char *file, const struct scene *ask
     note(r, isfinite(measured) ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s", measured, less)
                                : arena_format(c->arena, "accuracy: measured: the same bits as the reference%s", less), c->arena);
     return isnan(asked->accuracy.error) || measured <= asked->accuracy.error ||
-           err_set(e, ERR_DIFFERS, "%s: accuracy.error: %.6g dB is not kept: %.1f dB measured against the reference; the files stay as they are: ask for less error, or say the knobs",
-                   file, asked->accuracy.error, measured);
+           err_set(e, ERR_DIFFERS, "accuracy.error: %.6g dB is not kept: %.1f dB measured against the reference; the files stay as they are: ask for less (accuracy.error: %.0f dB), or say the knobs",
+                   asked->accuracy.error, measured, ceil(measured)) ||
+           scene_places_tell(asked, e);
 }

@@ -69,7 +69,8 @@ static bool rolling_steps(struct rolling *w, const struct stage_run *r, struct e
     double speed = fmax(fmax(PAPER_SPEED, sqrt(2 * w->gravity * w->drop)), roll_curve_fastest(&scout));
     double time = coupled_contact_time(w->mass, w->stiffness, speed), substeps = substeps_for(r->scene->accuracy.contact_steps, time, b->rate * b->over);
     if (!(substeps <= SUBSTEPS_MOST))
-        return err_set(e, ERR_SCENE,
+        return err_about(e, NULL, "accuracy.contact_steps") ||
+               err_set(e, ERR_SCENE,
                        "contact '%s': an impact at %.3g m/s lasts %.3g s, and accuracy.contact_steps: %g in it would be %.6g steps per audio sample; lower accuracy.contact_steps, "
                        "or contact.roll.stiffness (or kappa)", r->contact->name, speed, time, r->scene->accuracy.contact_steps, substeps * b->over);
     w->substeps = (int)substeps;

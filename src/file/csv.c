@@ -160,7 +160,7 @@ static bool csv_row(struct csv_reader *r, struct csv *t)
             t->cells[t->rows * t->columns + n] = cell;
     }
     if (n != t->columns)
-        return err_set(r->e, ERR_SCENE, "%s:%d: %zu cells, where the header has %zu columns", r->file, line, n, t->columns);
+        return err_set(r->e, ERR_SCENE, "%s:%d: %zu cells, where the header has %zu columns: mend the row; every row has one cell for each column", r->file, line, n, t->columns);
     t->lines[t->rows++] = line;
     return true;
 }

@@ -74,7 +74,7 @@ bool heightfile_read(const char *path, struct arena *a, struct heightfile *h, st
         k++;
     if (ok && k == n)
         ok = err_set(e, ERR_SCENE, "%s: is no height map: neither GSF, GWY, SDF, NPY, PNG nor a CSV grid of numbers%s", path,
-                     b.n ? "" : ": it is empty");
+                     b.n ? "" : ": it is empty; write it again, or name another file");
     ok = ok && formats[k].read(path, &b, a, h, e) && look_over(path, h, e);
     arena_close(file);
     return ok;

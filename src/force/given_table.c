@@ -39,7 +39,8 @@ static bool table_open(struct stage_run *r, struct err *e)
     *g = (struct given_table){.n = s.n, .at = ARENA_TAKE(r->arena, double, s.n), .force = ARENA_TAKE(r->arena, double, s.n)};
     double first = s.time[0] - tr->clock, last = s.time[s.n - 1] - tr->clock;
     if (first < -1e-9)
-        return err_set(e, ERR_SCENE, "%s:%d: column 'time_s': %.9g s lies before the motion's start, %.9g s", given->file, s.lines[0], s.time[0], tr->clock);
+        return err_set(e, ERR_SCENE, "%s:%d: column 'time_s': %.9g s lies before the motion's start, %.9g s: take away the rows before it, or let "
+                                     "motion.file begin earlier", given->file, s.lines[0], s.time[0], tr->clock);
     if (!given_ends(r->contact, last, tr->duration, e))
         return false;
     onset_told(r, "the largest force", s.time[onset_largest(s.n, s.x[0])] - tr->clock);

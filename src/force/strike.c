@@ -39,7 +39,7 @@ static bool strike_can(const struct contact *c, const struct strike_train *s, st
     if (s->most != 1 && s->interval < lasts)
         return err_set(e, ERR_SCENE, "contact '%s': contact.strike.interval, %.4g s, is shorter than an impact, %.4g s: give a longer one, or raise "
                                      "contact.strike.stiffness", c->name, s->interval, lasts);
-    return s->first + lasts <= s->end ||
+    return s->first + lasts <= s->end || err_about(e, c->name, "motion.duration") ||
            err_set(e, ERR_SCENE, "contact '%s': the first impact comes at %.4g s and lasts %.4g s, but the motion is over at %.4g s: raise "
                                  "motion.duration", c->name, s->first, lasts, s->end);
 }

@@ -214,8 +214,8 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
     if (!list_ringing(in, &limit, a, e))
         return false;
     if (in->list.n == 0)
-        return err_set(e, ERR_SCENE, "%s: %s mode of this object below %g Hz: it is too %s", b->key, in->list.dropped ? "no ringing" : "no", ask->top,
-                       in->list.dropped ? "damped" : "small or too stiff");
+        return err_set(e, ERR_SCENE, "%s: %s mode of this object below %g Hz: it is too %s; give %s", b->key, in->list.dropped ? "no ringing" : "no", ask->top,
+                       in->list.dropped ? "damped" : "small or too stiff", in->list.dropped ? "a material of less damping" : "larger sizes, a softer material, or a higher output.sample_rate");
     *note = notes(in, a);
     *o = (struct object){.key = b->key};
     finish(o, in, a);

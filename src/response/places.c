@@ -121,7 +121,7 @@ static bool make_plane(struct arena *a, struct places *p, struct err *e)
     p->kind = PLACES_PLANE;
     p->plane = places_plane_make(a, p->n, p->xy);
     return p->plane || err_set(e, ERR_SCENE, "the places cannot be triangulated: they lie almost, but not within 1e-9 m, on one line, or almost at the "
-                               "same point");
+                               "same point: write them with more digits, or take one place of those that are close");
 }
 
 bool places_make(struct arena *a, int n, const double *xy, struct places **places, int *bad, struct err *e)

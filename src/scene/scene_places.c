@@ -223,6 +223,48 @@ static const struct scene_place *by_text(const struct scene *s, const char *text
     return contacts && !c ? NULL : nearest(s, contacts ? c->name : NULL, path, text);
 }
 
+/* The first key that stands anywhere in the text and is given; else the section of the first that is not. */
+static const struct scene_place *by_mention(const struct scene *s, const struct contact *c, const char *text)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789_.";
+    const struct scene_place *section = NULL;
+    char path[KEY_MAX];
+    for (size_t n; *text; text += n + (text[n] != '\0')) {
+        n = strspn(text, letters);
+        enum key_struct of = leading_key(text, path);
+        if (!*path || (of == KEY_CONTACT && !c))
+            continue;
+        const char *name = of == KEY_CONTACT ? c->name : NULL;
+        const struct scene_place *p = find(s, name, path, NULL);
+        if (p)
+            return p;
+        section = section ? section : nearest(s, name, path, NULL);
+    }
+    return section;
+}
+
+/* Every scene says what a contact is. */
+static const struct scene_place *by_contact(const struct scene *s, const struct contact *c)
+{
+    static const char *const sections[] = {"contact", "motion", "surface", NULL};
+    const struct scene_place *p = NULL;
+    for (int i = 0; c && !p && sections[i]; i++)
+        p = find(s, c->name, sections[i], NULL);
+    return p ? p : s->places;
+}
+
+/* No refusal of a scene is without a place: the key that the code says, the file or key that the text begins with, one that the text names, or the contact. */
+static const struct scene_place *place_of(const struct scene *s, const struct err *e)
+{
+    const char *rest;
+    const struct contact *c = contact_of(s, e->text, &rest);
+    const struct scene_place *p = e->key ? nearest(s, e->contact, e->key, e->text) : by_text(s, e->text);
+    c = c || s->n_contacts != 1 ? c : s->contacts;
+    if (!p && e->kind == ERR_SCENE)
+        p = by_mention(s, c, e->text);
+    return p || e->kind != ERR_SCENE ? p : by_contact(s, c);
+}
+
 /* ------------------------------------------------------------------ telling */
 
 const char *scene_places_text(const struct scene *s, const struct scene_place *p, struct arena *a)
@@ -283,9 +325,9 @@ bool scene_places_tell(const struct scene *s, struct err *e)
 {
     struct arena *a = arena_open();
     struct err told = {.contact = e->contact, .key = e->key};
-    const struct scene_place *p = e->key ? nearest(s, e->contact, e->key, e->text) : by_text(s, e->text);
+    const struct scene_place *p = place_of(s, e), *said = e->key ? p : by_text(s, e->text);
     const char *place = scene_places_text(s, p, a), *text = whole_keys(s, p ? p->contact : e->contact, e->text, a);
-    if (p && (!e->key || strcmp(p->key, e->key) == 0))
+    if (p && p == said && (!e->key || strcmp(p->key, e->key) == 0))
         text = labelled(s, p, text, a);
     told.place = parts_of(s, p, place);
     err_set(&told, e->kind, "%s: %s%s", place, text, p && !strstr(text, p->named) ? p->named : "");

@@ -91,7 +91,8 @@ static bool height_map_inside(const struct stage_run *r, const struct relief_par
         double from = p->from[axis] + relief_shift(r->board->relief, axis), to = p->to[axis] + relief_shift(r->board->relief, axis);
         double slack = 1e-9 * p->pitch[axis], out = *least < from - slack ? *least : *most;
         if (*least < from - slack || *most > to + slack)
-            return err_set(e, ERR_SCENE,
+            return err_about(e, r->contact->name, "motion") ||
+                   err_set(e, ERR_SCENE,
                            "contact '%s': the motion leaves the height map: it reaches %g m %s, and the map goes from %g to %g m; shorten or move "
                            "the motion, or set surface.off_map to mirror or wrap",
                            r->contact->name, out, path ? "along the path" : axis ? "in y" : "in x", from, to);

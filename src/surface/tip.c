@@ -155,6 +155,7 @@ static bool tip_affordable(const struct stage_run *r, const struct rolling_plan 
     long side = plane ? crests_side(p) : crest_part_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
     if (side <= most)
         return true;
+    err_about(e, r->contact->name, ball_rolls(r->contact) ? "ball.radius" : "scraper.radius");
     return err_set(e, ERR_SCENE,
                    "contact '%s': a %s of %g m radius reaches %g m over this surface, which is read every %g m: %ld x %ld heights at a time, and "
                    "at most %ld x %ld are held; lower %s.radius, or %s%s", r->contact->name, ball_rolls(r->contact) ? "ball" : "tip", p->radius, p->reach, p->pitch,

@@ -181,6 +181,7 @@ static bool load_ends(const struct contact *c, const struct trajectory *tr, stru
     l->approach = isnan(c->load.approach) && scrapes && tr->starts_at_rest ? 0 : rules_approach(c, false);
     l->release = isnan(c->load.release) && scrapes && tr->ends_at_rest ? 0 : rules_approach(c, true);
     return l->approach + l->release <= tr->duration * (1 + 1e-9) ||
+           err_about(e, c->name, !isnan(c->load.approach) ? "load.approach" : !isnan(c->load.release) ? "load.release" : "motion") ||
            err_set(e, ERR_SCENE,
                    "contact '%s': load.approach, %.4g s, and load.release, %.4g s%s, do not fit into the motion, which lasts %.4g s; give "
                    "shorter ones, or 0 s",

@@ -62,7 +62,7 @@ sed 's/^  oversampling: .*/  oversampling: 1/' a.scene.yaml > broken.yaml
 code=0
 rasp render broken.yaml --verify -o e.wav > /dev/null 2> words || code=$?
 [ $code = 1 ] || fail "exit code $code where the error is not kept"
-grep -q 'accuracy.error: -70 dB is not kept: -[0-9.]* dB measured' words || fail "$(cat words)"
+grep -Eq '^rasp render: error: broken.yaml:[0-9]+:[0-9]+: accuracy.error: -70 dB is not kept: -[0-9.]* dB measured' words || fail "$(cat words)"
 [ -f e.wav ] && [ -f e.json ] || fail 'files are gone'
 # A knob as fine as the reference's is measured against twice that; one that has nothing finer is told.
 scene tip <<YAML
