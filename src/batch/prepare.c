@@ -57,10 +57,22 @@ static int note(struct preparation *p, int i, struct prepare_trial *t)
     return k;
 }
 
+static void remark(struct preparation *p, int i, const char *text)
+{
+    struct prepare *o = p->out;
+    int k = 0;
+    while (k < o->n_remarks && strcmp(o->remarks[k].text, text) != 0)
+        k++;
+    if (k == o->n_remarks && k < PREPARE_FAULTS)
+        o->remarks[o->n_remarks++] = (struct prepare_remark){arena_text(p->arena, text), p->view.set->rows[i].name};
+}
+
 static void settle(struct preparation *p, int i, struct prepare_look *l)
 {
     struct prepare_trial *t = l->trial;
     l->trial = NULL;
+    for (int k = 0; t && !t->e.kind && t->warnings && t->warnings[k]; k++)
+        remark(p, i, t->warnings[k]);
     if (t && t->e.kind)
         l->fault = note(p, i, t) + 1;
     else if (t)

@@ -16,6 +16,10 @@ struct prepare_fault {
     int n;                   /* how many have it                          */
 };
 
+struct prepare_remark {      /* what a render will warn of */
+    const char *text, *name; /* name: of the first stimulus that has it */
+};
+
 enum { PREPARE_FAULTS = 64 /* that are told apart; the next one stands for all others, whatever they say */ };
 
 struct prepare_ask {
@@ -38,6 +42,8 @@ struct prepare {
     struct prepare_fault *faults;
     int n_faults, room;      /* 0: nothing is wrong; there is room for    */
     enum err_kind worst;     /* of all                                    */
+    struct prepare_remark remarks[PREPARE_FAULTS]; /* the first that differ */
+    int n_remarks;
     const struct spare *inputs; /* what the set is made from              */
 };
 

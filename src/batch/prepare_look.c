@@ -68,6 +68,7 @@ static bool estimate(const struct prepare_view *v, int i, struct prepare_look *l
     design_scene_places(v->design, s, t->arena);
     if (!plan_scene_estimate(s, t->arena, &x, &t->e))
         return scene_places_tell(s, &t->e);
+    t->warnings = x.warnings;
     struct track_format f = sound_format(s, x.length.frames);
     l->seconds = (double)x.length.frames / f.rate;
     l->cost = fmax(x.cycles, 1);

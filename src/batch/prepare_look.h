@@ -12,6 +12,7 @@ struct prepare_trial {       /* of one scene, until it is taken; it lies in its 
     struct scene scene;
     char sha256[HASH_TEXT];  /* of what the scene means */
     struct err e;            /* none: it can be rendered */
+    const char **warnings;   /* of what is opened; ends with NULL, NULL: not known */
 };
 
 struct prepare_look {

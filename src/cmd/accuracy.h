@@ -110,4 +110,8 @@ void accuracy_table(const struct accuracy_sweep *s, FILE *f);
 bool accuracy_json(const struct accuracy_sweep *s, struct err *e);
 void accuracy_plot(void *sweep, struct gnuplot *g);
 
+/* Where a logarithmic axis from low to high > 2.25 low has its labels, rising: at powers of ten; where that is not two of them, at 2 and 5 as well, or more. */
+enum { ACCURACY_PLOT_TICS = 64 };
+int accuracy_plot_tics(double low, double high, double tics[ACCURACY_PLOT_TICS]);
+
 #endif

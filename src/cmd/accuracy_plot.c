@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cmd/accuracy.h"
+#include "num/real.h"
 
 /* Okabe and Ito's set, told apart by colour-blind people too. */
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
@@ -35,6 +36,24 @@ static void put_block(const struct accuracy_sweep *s, int from, int to, struct g
     fputs("END\n", g->in);
 }
 
+/* Leading digits of labels, from few to many: the last set has two in whatever spans a factor of 2.25. */
+static const double digits[3][11] = {{1}, {1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}};
+
+int accuracy_plot_tics(double low, double high, double tics[ACCURACY_PLOT_TICS])
+{
+    int n = 0;
+    for (int set = 0; set < 3 && n < 2; set++) {
+        n = 0;
+        for (int e = (int)floor(real_log10(low)); e <= (int)ceil(real_log10(high)); e++)
+            for (const double *d = digits[set]; *d; d++) {
+                double x = *d * real_pow(10, e);
+                if (x >= low && x <= high && n < ACCURACY_PLOT_TICS)
+                    tics[n++] = x;
+            }
+    }
+    return n;
+}
+
 /* From a little below the slowest to a little above the fastest. */
 static void put_range(const struct accuracy_sweep *s, struct gnuplot *g)
 {
@@ -44,8 +63,14 @@ static void put_range(const struct accuracy_sweep *s, struct gnuplot *g)
             low = fmin(low, speed(&s->renders[s->rows[i].total]));
             high = fmax(high, speed(&s->renders[s->rows[i].total]));
         }
-    if (high > 0.0)
-        fprintf(g->in, "set xrange [%.4g:%.4g]\n", low / 1.5, high * 1.5);
+    if (!(high > 0.0))
+        return;
+    double tics[ACCURACY_PLOT_TICS];
+    int n = accuracy_plot_tics(low / 1.5, high * 1.5, tics);
+    fprintf(g->in, "set xrange [%.4g:%.4g]\nset xtics (", low / 1.5, high * 1.5);
+    for (int i = 0; i < n; i++)
+        fprintf(g->in, "%s'%.6g' %.6g", i ? ", " : "", tics[i], tics[i]);
+    fputs(")\n", g->in);
 }
 
 static int put_front(const struct accuracy_sweep *s, struct gnuplot *g)

@@ -91,6 +91,12 @@ void batch_tell_faults(struct cmd_call *c, const char *command, const char *file
                         arena_format(c->arena, p->n_faults > PREPARE_FAULTS ? "and many more errors" : "and %d more errors", p->n_faults - TOLD));
 }
 
+void batch_tell_remarks(struct cmd_call *c, const struct prepare *p)
+{
+    for (int k = 0; k < p->n_remarks; k++)
+        tell_stimulus_warning(c, p->remarks[k].name, p->remarks[k].text);
+}
+
 static void tell_remarks(struct cmd_call *c, const struct results *all, int i)
 {
     struct arena *a = arena_open();
@@ -292,6 +298,8 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     bool ok = batch_run(&ask, c->arena, &r, e);
     batch_tell_unread(c, ask.design, &r, e);
     batch_tell_faults(c, "batch", ask.design, &r.prepare);
+    if (ask.dry)
+        batch_tell_remarks(c, &r.prepare);
     if (r.journal)
         batch_tell(c, "batch", ask.design, &(struct results){&r.set, r.outcomes, r.journal});
     if (*r.unheard)

@@ -12,6 +12,9 @@ void batch_tell(struct cmd_call *c, const char *command, const char *file, const
 /* What is wrong with the design's own text, if anything is: *e then says that it cannot be used. */
 void batch_tell_unread(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e);
 
+/* What renders will warn of, as far as it is known beforehand. */
+void batch_tell_remarks(struct cmd_call *c, const struct prepare *p);
+
 /* What is wrong with scenes and recordings of a set, found before any was rendered: each fault once. file: the design. */
 void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct prepare *p);
 

@@ -15,9 +15,16 @@
 static bool check_scene(struct cmd_call *c, const char *file, const char **remark, struct err *e)
 {
     struct scene s, kept;
+    const char **warnings = NULL;
     if (design_is(file))
         return check_design(c, file, remark, e);
-    return cmd_read_scene(c, file, &s, e) && ((promise_keep(&s, c->arena, &kept, NULL, e) && plan_scene(&kept, c->arena, e)) || scene_places_tell(&s, e));
+    if (!cmd_read_scene(c, file, &s, e))
+        return false;
+    if (!promise_keep(&s, c->arena, &kept, NULL, e) || !plan_scene(&kept, c->arena, &warnings, e))
+        return scene_places_tell(&s, e);
+    for (int i = 0; warnings[i]; i++)
+        tell_warning(c, file, warnings[i]);
+    return true;
 }
 
 /* The scene's row of --json. */

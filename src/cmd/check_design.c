@@ -96,6 +96,7 @@ bool check_design(struct cmd_call *c, const char *file, const char **remark, str
         return err_set(e, ERR_USAGE, "%s is a design: --set and --seed change scenes; write set: and seed: into it", file);
     struct batch_report r;
     bool ok = batch_run(&(struct batch_ask){.design = file, .build = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true}, c->arena, &r, e);
+    batch_tell_remarks(c, &r.prepare);
     if (!ok)
         tell_wrong(c, file, &r, e);
     else if ((ok = promises_kept(c, file, &r.design, e)))

@@ -1,6 +1,7 @@
 /* rasp plan: what a scene would run, and why. */
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "cmd/tell.h"
 #include "cmd/plan_json.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
@@ -25,11 +26,14 @@ static bool plan_one(struct cmd_call *c, const char *file, json_t *rows, struct 
 {
     struct scene s, kept;
     struct promise promise;
+    const char **warnings = NULL;
     if (!cmd_read_scene(c, file, &s, e))
         return false;
-    const struct plan *plans = promise_keep(&s, c->arena, &kept, &promise, e) ? plan_scene(&kept, c->arena, e) : NULL;
+    const struct plan *plans = promise_keep(&s, c->arena, &kept, &promise, e) ? plan_scene(&kept, c->arena, &warnings, e) : NULL;
     if (!plans)
         return scene_places_tell(&s, e);
+    for (int i = 0; warnings[i]; i++)
+        tell_warning(c, file, warnings[i]);
     if (rows)
         json_array_append_new(rows, plan_json(&s, plans, promise.text));
     else

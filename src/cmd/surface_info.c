@@ -10,20 +10,6 @@
 
 const double surface_info_alphas[SURFACE_INFO_ALPHAS] = {0.01, 0.05};
 
-const char *surface_info_length(double x, struct arena *a)
-{
-    static const struct {
-        double from, factor;
-        const char *name;
-    } units[] = {{1, 1, "m"}, {1e-3, 1e3, "mm"}, {1e-6, 1e6, "um"}, {0, 1e9, "nm"}};
-    int k = 0;
-    if (isnan(x))
-        return "unknown";
-    while (fabs(x) < units[k].from)
-        k++;
-    return x == 0 ? "0" : arena_format(a, "%.4g %s", x * units[k].factor, units[k].name);
-}
-
 /* The steps show in the heights as they are stored: so levelling comes after. */
 static bool gather(struct surface_info *i, struct heightfile_options o, struct err *e)
 {

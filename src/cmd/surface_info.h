@@ -5,6 +5,7 @@
 #include "analysis/surface_ends.h"
 #include "analysis/surface_heights.h"
 #include "base/arena.h"
+#include "file/heightfile_doubt.h"
 #include "file/heightfile_load.h"
 
 enum { SURFACE_INFO_NOTES = 16, SURFACE_INFO_ALPHAS = 2 };
@@ -29,7 +30,6 @@ struct surface_info {
 /* What looks like a fault, into i->notes. */
 void surface_info_notes(struct surface_info *i);
 /* A length as text: 4 digits in nm, um, mm or m. */
-const char *surface_info_length(double x, struct arena *a);
 void surface_info_print(const struct surface_info *i);
 /* The report of several files as one object on stdout. ERR_IO */
 bool surface_info_json(const struct surface_info *const *list, int n, struct err *e);

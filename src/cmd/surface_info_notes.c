@@ -7,7 +7,7 @@
 
 static const char *len(const struct surface_info *i, double x)
 {
-    return surface_info_length(x, i->arena);
+    return heightfile_doubt_length(x, i->arena);
 }
 
 static void note_holes(struct surface_info *i)
@@ -35,19 +35,14 @@ static void note_steps(struct surface_info *i)
         NOTE(i, "heights take only %zu values: an 8-bit original", s->levels);
 }
 
-/* Below polished glass, or steeper than a wall. */
 static void note_units(struct surface_info *i)
 {
-    const struct surface_heights *s = &i->heights;
-    if (s->sz == 0)
+    const char *doubts[HEIGHTFILE_DOUBTS];
+    int n = heightfile_doubt(&i->h, &heightfile_load_option_names, i->arena, doubts);
+    if (i->heights.sz == 0)
         NOTE(i, "all heights are the same: there is nothing to be heard");
-    else if (s->sq < 1e-9)
-        NOTE(i, "an rms height of %s is finer than polished glass: were micrometres taken for millimetres somewhere? --height-scale 1000 would be "
-                "an ordinary surface", len(i, s->sq));
-    if (s->slope > 3)
-        NOTE(i, "an rms slope of %.3g is steeper than any scraped surface: heights or pitch have the wrong unit", s->slope);
-    if (s->sq > 1e-3)
-        NOTE(i, "an rms height of %s is that of gravel: is the unit right?", len(i, s->sq));
+    for (int k = 0; k < n; k++)
+        NOTE(i, "%s", doubts[k]);
 }
 
 static void note_tilt(struct surface_info *i)

@@ -7,7 +7,7 @@
 
 static const char *len(const struct surface_info *i, double x)
 {
-    return surface_info_length(x, i->arena);
+    return heightfile_doubt_length(x, i->arena);
 }
 
 static void print_size(const struct surface_info *i)

@@ -1,5 +1,6 @@
 /* A measured map or profile under the contact: file, spline, checks of its geometry. */
 #include "base/shelf.h"
+#include "file/heightfile_doubt.h"
 #include "file/heightfile_load.h"
 #include "num/real.h"
 #include "stage.h"
@@ -25,6 +26,8 @@ struct height_map_read {
     struct height_map map;
     struct map_spline *plane; /* NULL: a profile                     */
     double *line;             /* [columns] a profile's coefficients  */
+    const char *doubts[HEIGHTFILE_DOUBTS];
+    int n_doubts;
 };
 
 static bool height_map_make(const char *path, const void *how, struct arena *a, void *thing, struct err *e)
@@ -37,6 +40,7 @@ static bool height_map_make(const char *path, const void *how, struct arena *a, 
     *m = (struct height_map_read){0};
     if (!heightfile_load(path, &o, a, h, e))
         return false;
+    m->n_doubts = heightfile_doubt(h, NULL, a, m->doubts);
     m->map = (struct height_map){h->z, h->columns, h->rows, {h->pitch_x, h->rows > 1 ? h->pitch_y : h->pitch_x}};
     if (h->rows > 1) {
         m->plane = map_spline(a, &m->map, s->off_map);
@@ -57,6 +61,8 @@ static const struct height_map_read *height_map_load(struct stage_run *r, struct
         board_warn(r->board, arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, m->file.filled));
     if (m)
         height_map_grain(r, &m->file);
+    for (int k = 0; m && k < m->n_doubts; k++)
+        board_warn(r->board, arena_format(r->arena, "%s: %s", s->height_map, m->doubts[k]));
     return m;
 }
 

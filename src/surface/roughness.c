@@ -99,7 +99,11 @@ static bool like_make(const char *file, const void *how, struct arena *a, void *
     struct heightfile h;
     o.names = &names;
     *(struct roughness_plan *)thing = (struct roughness_plan){0};
-    return heightfile_load(file, &o, a, &h, e) && like_spectrum(a, &h, thing, file, e);
+    struct roughness_plan *p = thing;
+    if (!heightfile_load(file, &o, a, &h, e) || !like_spectrum(a, &h, p, file, e))
+        return false;
+    p->n_doubts = heightfile_doubt(&h, &names, a, p->doubts);
+    return true;
 }
 
 static double *copied(struct arena *a, const double *x, int n)
@@ -214,6 +218,8 @@ static bool roughness_open(struct stage_run *r, struct err *e)
         return err_at(e, "contact '%s'", r->contact->name);
     if (p.remark)
         board_warn(r->board, p.remark);
+    for (int k = 0; k < p.n_doubts; k++)
+        board_warn(r->board, arena_format(r->arena, "%s: %s", recipe->like, p.doubts[k]));
     relief_add(r->board->relief, part);
     r->state = part;
     return true;

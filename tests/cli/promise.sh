@@ -31,7 +31,7 @@ output: {tail: 0.2 s}
 YAML
 # NAME ERROR: told, kept, and by no more than 35 dB too well where a knob was chosen above its least.
 kept() {
-    rasp render "$1.yaml" --set "accuracy.error=$2" --verify --json -o out.wav > out.json 2> /dev/null || fail "$1 at $2 dB: exit code $?"
+    rasp render "$1.yaml" --set "accuracy.error=$2" --verify --json -o out.wav > said.json 2> /dev/null || fail "$1 at $2 dB: exit code $?"
     awk -v asked="$2" '
         /"(asked|predicted|measured)_db"/ { gsub(/[",:]/, ""); got[$1] = $2 }
         /"knob"/ { gsub(/[",:]/, ""); knob = $2 }
