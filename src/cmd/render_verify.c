@@ -170,7 +170,7 @@ bool render_verify(struct cmd_call *c, const char *file, const struct scene *ask
     const char *less = unmeasured(&s, used, c->arena);
     note(r, isfinite(measured) ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s", measured, less)
                                : arena_format(c->arena, "accuracy: measured: the same bits as the reference%s", less), c->arena);
-    return isnan(asked->accuracy.error) || measured <= asked->accuracy.error ||
+    return isnan(asked->accuracy.error) || measured <= asked->accuracy.error || err_about(e, NULL, "accuracy.error") ||
            err_set(e, ERR_DIFFERS, "accuracy.error: %.6g dB is not kept: %.1f dB measured against the reference; the files stay as they are: ask for less (accuracy.error: %.0f dB), or say the knobs",
                    asked->accuracy.error, measured, ceil(measured)) ||
            scene_places_tell(asked, e);

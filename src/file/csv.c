@@ -233,7 +233,7 @@ bool csv_number(const struct csv *t, size_t row, int column, double *value, stru
     double v = strtod(s, &end);
     bool whole = end > s && end[strspn(end, " \t")] == '\0' && strspn(s, " \t0123456789+-.eE") == strlen(s);
     if (!whole || !isfinite(v))
-        return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not a %snumber", t->file, t->lines[row], t->names[column], s,
+        return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not a %snumber: mend the cell", t->file, t->lines[row], t->names[column], s,
                        whole ? "finite " : "");
     *value = v;
     return true;

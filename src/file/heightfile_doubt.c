@@ -20,11 +20,13 @@ const char *heightfile_doubt_length(double x, struct arena *a)
 /* Root mean square about the mean, and of the slope along rows; holes (NaN) are left out. */
 static void figures(const struct heightfile *h, double *rms, double *slope)
 {
-    double n = 0, sum = 0, square = 0, steps = 0, rise = 0;
+    double n = 0, sum = 0, square = 0, steps = 0, rise = 0, low = HUGE_VAL, high = -HUGE_VAL;
     for (size_t i = 0; i < h->rows * h->columns; i++)
         if (!isnan(h->z[i])) {
             n++;
             sum += h->z[i];
+            low = fmin(low, h->z[i]);
+            high = fmax(high, h->z[i]);
         }
     for (size_t j = 0; j < h->rows; j++)
         for (size_t i = 0; i < h->columns; i++) {
@@ -33,7 +35,7 @@ static void figures(const struct heightfile *h, double *rms, double *slope)
             steps += !isnan(step);
             rise += isnan(step) ? 0 : step * step;
         }
-    *rms = n > 0 ? sqrt(square / n) : 0;
+    *rms = high > low ? sqrt(square / n) : 0; /* without the rounding of the sum */
     *slope = steps > 0 ? sqrt(rise / steps) / h->pitch_x : 0;
 }
 

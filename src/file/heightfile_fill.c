@@ -182,7 +182,7 @@ bool heightfile_fill(const char *path, struct heightfile *h, struct err *e)
     if (h->holes == 0)
         return true;
     if (h->holes > n / 2)
-        return err_set(e, ERR_SCENE, "%s: %zu of %zu points are missing: too many to be filled (more than half)", path, h->holes, n);
+        return err_set(e, ERR_SCENE, "%s: %zu of %zu points are missing: too many to be filled (more than half): cut out a part that has them (rasp surface convert --crop), or mend the file", path, h->holes, n);
     if (h->rows == 1)
         fill_profile(h);
     else if (!fill_map(path, h, e))

@@ -23,7 +23,7 @@ static bool check_shape(const struct load *l)
 {
     const struct heightfile *h = l->h;
     if (h->rows == 1)
-        return h->columns >= 4 || err_set(l->e, ERR_SCENE, "%s: %zu samples are too few for a profile (at least 4)", l->path, h->columns);
+        return h->columns >= 4 || err_set(l->e, ERR_SCENE, "%s: %zu samples are too few for a profile (at least 4): give a longer one", l->path, h->columns);
     return (h->rows >= 4 && h->columns >= 4) ||
            err_set(l->e, ERR_SCENE, "%s: %zu x %zu samples are too few for a map (at least 4 x 4); a profile is one row", l->path, h->columns, h->rows);
 }
@@ -98,7 +98,7 @@ static bool take_holes(const struct load *l)
 {
     const struct heightfile *h = l->h;
     if (h->holes == 0 || l->o->holes == HEIGHTFILE_KEEP)
-        return h->holes < h->rows * h->columns || err_set(l->e, ERR_SCENE, "%s: all heights are missing", l->path);
+        return h->holes < h->rows * h->columns || err_set(l->e, ERR_SCENE, "%s: all heights are missing: give another map", l->path);
     if (l->o->holes == HEIGHTFILE_FILL)
         return heightfile_fill(l->path, l->h, l->e);
     return err_set(l->e, ERR_SCENE, "%s: missing heights (NaN): %zu of %zu, the first at row %zu, column %zu (counted from 0): set %s, or mend the file",

@@ -54,6 +54,6 @@ bool wav_check(const char *path, struct err *e)
     double missing = missing_bytes(f);
     fclose(f);
     if (missing > 0)
-        return err_set(e, ERR_SCENE, "%s: is truncated: its last %.0f bytes are missing", path, missing);
+        return err_set(e, ERR_SCENE, "%s: is truncated: its last %.0f bytes are missing: copy or export it again", path, missing);
     return true;
 }

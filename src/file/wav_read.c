@@ -25,7 +25,7 @@ static bool check_info(const char *path, const SF_INFO *i, struct err *e)
 {
     struct stat s;
     if (i->frames <= 0)
-        return err_set(e, ERR_SCENE, "%s: has no samples", path);
+        return err_set(e, ERR_SCENE, "%s: has no samples: name another file", path);
     if (stat(path, &s) != 0 || (double)i->frames * i->channels > 32768.0 * (double)s.st_size)
         return err_set(e, ERR_SCENE, "%s: its header says %lld frames, more than the file can hold", path, (long long)i->frames);
     return true;
@@ -35,7 +35,7 @@ static bool check_finite(const char *path, const struct wav *w, struct err *e)
 {
     for (size_t i = 0; i < w->frames * (size_t)w->channels; i++)
         if (!isfinite(w->x[i]))
-            return err_set(e, ERR_SCENE, "%s: frame %zu, channel %d: %g is not finite", path, i / (size_t)w->channels,
+            return err_set(e, ERR_SCENE, "%s: frame %zu, channel %d: %g is not finite: mend it", path, i / (size_t)w->channels,
                            (int)(i % (size_t)w->channels) + 1, w->x[i]);
     return true;
 }

@@ -58,7 +58,7 @@ static bool wav_take(const struct stage_run *r, const struct wav *w, struct give
 {
     const struct given_force *given = &r->contact->contact.given;
     if (given->channel > w->channels)
-        return err_set(e, ERR_SCENE, "contact '%s': contact.given.channel is %d, but %s has %d channel%s", r->contact->name, given->channel, given->file,
+        return err_set(e, ERR_SCENE, "contact '%s': contact.given.channel is %d, but %s has %d channel%s: give one of those", r->contact->name, given->channel, given->file,
                        w->channels, w->channels == 1 ? "" : "s");
     if (isnan(given->scale))
         return err_set(e, ERR_SCENE, "contact '%s': contact.given.scale must be given: %s does not say how many newtons its %s stands for",
@@ -73,7 +73,7 @@ static bool npy_take(const struct stage_run *r, const struct heightfile *h, stru
 {
     const struct given_force *given = &r->contact->contact.given;
     if (h->rows > 1)
-        return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension", given->file, h->rows, h->columns);
+        return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension: save one row of it", given->file, h->rows, h->columns);
     if (isnan(given->rate))
         return err_set(e, ERR_SCENE, "contact '%s': contact.given.rate must be given: %s does not say how many samples a second has", r->contact->name,
                        given->file);
@@ -81,7 +81,7 @@ static bool npy_take(const struct stage_run *r, const struct heightfile *h, stru
     double scale = given_scale(r->contact);
     for (size_t i = 0; i < g->n; i++) {
         if (!isfinite(h->z[i]))
-            return err_set(e, ERR_SCENE, "%s: element %zu is not a finite number", given->file, i);
+            return err_set(e, ERR_SCENE, "%s: element %zu is not a finite number: mend it", given->file, i);
         g->force[i] = h->z[i] * scale;
     }
     return true;

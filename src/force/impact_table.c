@@ -13,7 +13,7 @@ static bool table_columns(const struct csv *c, struct impact_table *t, struct er
 {
     int value = csv_column(c, "value"), density = csv_column(c, "density");
     if (value < 0 || density < 0)
-        return err_set(e, ERR_SCENE, "%s: there is no column '%s'; a distribution has the columns value, density, separated by commas", c->file,
+        return err_set(e, ERR_SCENE, "%s: there is no column '%s'; a distribution has the columns value, density, separated by commas: name them in its first line", c->file,
                        value < 0 ? "value" : "density");
     if (c->rows < 2)
         return err_set(e, ERR_SCENE, "%s: %zu row%s; a density needs at least 2", c->file, c->rows, c->rows == 1 ? "" : "s");
@@ -27,7 +27,7 @@ static bool table_values(const struct csv *c, const struct impact_table *t, stru
 {
     for (int i = 0; i < t->n; i++) {
         if (t->density[i] < 0)
-            return err_set(e, ERR_SCENE, "%s:%d: column 'density': %.9g is below 0; a density is 0 or more", c->file, c->lines[i], t->density[i]);
+            return err_set(e, ERR_SCENE, "%s:%d: column 'density': %.9g is below 0; a density is 0 or more: mend the row", c->file, c->lines[i], t->density[i]);
         if (i > 0 && !(t->value[i] > t->value[i - 1]))
             return err_set(e, ERR_SCENE, "%s:%d: column 'value': %.9g comes after %.9g; values must rise from row to row", c->file, c->lines[i],
                            t->value[i], t->value[i - 1]);

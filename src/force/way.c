@@ -41,7 +41,7 @@ static bool way_grids(struct way *w, const char *contact, struct err *e)
             if (known)
                 continue;
             if (w->n_grids == WAY_GRIDS)
-                return err_set(e, ERR_SCENE, "contact '%s': the surface is made of too many parts", contact);
+                return err_set(e, ERR_SCENE, "contact '%s': the surface is made of too many parts: leave out one of height_map, roughness, ridges, grit", contact);
             w->grids[w->n_grids++] = g;
         }
     return true;

@@ -108,7 +108,7 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     for (int i = 0; names && names[i]; i++) {
         int k = column_find(names[i]);
         if (k < 0 || !column_exists(r->contact, k))
-            return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no column '%s'", r->contact->name, names[i]);
+            return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no column '%s'; take it out", r->contact->name, names[i]);
         t->wanted[k] = true;
     }
     return true;

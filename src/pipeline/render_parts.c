@@ -31,7 +31,7 @@ bool render_parts_plan(struct render_parts *p, struct err *e)
         one->start = rules_first_frame(&p->scene->contacts[i], p->scene->output.sample_rate);
         p->asked |= one->plan.targets;
     }
-    return p->asked || err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render");
+    return p->asked || err_about(e, p->scene->contacts[0].name, "gain") || err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render");
 }
 
 /* ------------------------------------------------------------------ runs */
@@ -58,7 +58,8 @@ bool render_parts_agree(const struct render_parts *p, struct err *e)
     for (int i = 0; i < p->scene->n_contacts; i++) {
         const struct run *run = &p->parts[i].run;
         if (p->parts[i].open && run->board.quantity >= 0 && run->board.quantity != first->board.quantity)
-            return err_set(e, ERR_SCENE,
+            return err_about(e, run->plan.contact->name, "surface.response") ||
+                   err_set(e, ERR_SCENE,
                            "contact '%s' gives %s, but contact '%s' %s: they cannot be summed; use mode tables of one quantity, or choose one by "
                            "output.quantity", run->plan.contact->name, modes_quantity_name(run->board.quantity), first->plan.contact->name,
                            modes_quantity_name(first->board.quantity));

@@ -215,7 +215,7 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
         return false;
     if (in->list.n == 0)
         return err_set(e, ERR_SCENE, "%s: %s mode of this object below %g Hz: it is too %s; give %s", b->key, in->list.dropped ? "no ringing" : "no", ask->top,
-                       in->list.dropped ? "damped" : "small or too stiff", in->list.dropped ? "a material of less damping" : "larger sizes, a softer material, or a higher output.sample_rate");
+                       in->list.dropped ? "damped" : "small or too stiff", in->list.dropped ? "a material of less damping" : "larger sizes or a softer material, or look higher (output.sample_rate; of rasp modes object --top)");
     *note = notes(in, a);
     *o = (struct object){.key = b->key};
     finish(o, in, a);

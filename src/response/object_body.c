@@ -73,7 +73,7 @@ static bool fits(const struct object_body *b, struct err *e)
     if (g->shape == OBJECT_ROD && wall > 0.5 * g->diameter)
         return err_set(e, ERR_SCENE, "%s.thickness: a wall of %g m does not fit into a rod of %g m diameter; leave it out for a solid rod", b->key, wall, g->diameter);
     if (g->shape == OBJECT_SHELL && wall >= 0.5 * g->diameter)
-        return err_set(e, ERR_SCENE, "%s.thickness: a wall of %g m does not fit into a shell of %g m diameter", b->key, wall, g->diameter);
+        return err_set(e, ERR_SCENE, "%s.thickness: a wall of %g m does not fit into a shell of %g m diameter; give a thinner one", b->key, wall, g->diameter);
     if (g->shape == OBJECT_DISK && g->edges == EDGES_CANTILEVER)
         return err_set(e, ERR_SCENE, "%s.edges: a disk has one edge all round; cantilever is for bars, rods and plates", b->key);
     return true;

@@ -19,6 +19,17 @@
 #include "scene/scene_values.h"
 #include "scene/units.h"
 
+/* Where the preset and the knobs stand, which are no rows of keys.def. */
+static void note_accuracy(struct yaml *y, const struct yaml_node *accuracy, struct scene *s)
+{
+    const struct yaml_node *at = accuracy && accuracy->kind == YAML_MAP ? accuracy->key : accuracy;
+    if (at && at->at.source)
+        scene_places_key(y, "accuracy", &at->at, s);
+    for (const struct yaml_node *knob = accuracy && accuracy->kind == YAML_MAP ? accuracy->first : NULL; knob; knob = knob->next)
+        if (knob->at.source)
+            scene_places_key(y, arena_format(y->arena, "accuracy.%s", knob->key->text), &knob->at, s);
+}
+
 static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct scene_part top = {y, root, "", KEY_SCENE, s};
@@ -31,9 +42,7 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
     scene_table_names(y, root);
     scene_contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
-    const struct yaml_node *error = yaml_find(root, "accuracy.error");
-    if (error && error->at.source)
-        scene_places_key(y, "accuracy.error", &error->at, s);
+    note_accuracy(y, yaml_get(root, "accuracy"), s);
     scene_inputs_read(y, yaml_get(root, "inputs"), s);
     if (y->diag->n == 0 && !y->missing) {
         scene_sense_output_stems(&top);

@@ -33,10 +33,10 @@ static struct takeover takeover_of(const struct continuation *c, const struct sp
 bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map, struct spectrum *s, struct err *e)
 {
     if (map->columns < 64)
-        return err_set(e, ERR_SCENE, "surface.continuation: %zu samples along a row are too few to tell a spectrum (at least 64)", map->columns);
+        return err_set(e, ERR_SCENE, "surface.continuation: %zu samples along a row are too few to tell a spectrum (at least 64): give a larger map, or leave surface.continuation out", map->columns);
     struct spectrum measured = survey_spectrum(a, &(struct survey_grid){map->z, map->columns, map->rows, map->pitch[0]});
     if (measured.n < 3)
-        return err_set(e, ERR_SCENE, "surface.continuation: the map is flat: there is no spectrum to continue");
+        return err_set(e, ERR_SCENE, "surface.continuation: the map is flat: there is no spectrum to continue: give another map, or leave surface.continuation out");
     struct takeover t = takeover_of(c, &measured);
     double density, fitted = survey_fit(&measured, t.fit, &density), exponent = isnan(c->exponent) ? fitted : c->exponent, top = 1 / c->shortest;
     if (isnan(fitted))

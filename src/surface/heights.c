@@ -148,7 +148,7 @@ bool heights_make(double skewness, double kurtosis, struct heights *h, struct er
     struct aim aim = {&n, 0, fabs(skewness), kurtosis};
     double lo, range[2];
     if (!reach_of(&aim, &lo, range))
-        return err_set(err, ERR_SCENE, "no height distribution with skewness %g is known to this program", skewness);
+        return err_set(err, ERR_SCENE, "no height distribution with skewness %g is known to this program: choose one nearer to 0", skewness);
     if (kurtosis < range[0] || kurtosis > range[1])
         return err_set(err, ERR_SCENE, "no height distribution with skewness %g and kurtosis %g is known to this program: with that skewness, "
                        "kurtosis can be from %.4g to %.4g", skewness, kurtosis, range[0] * 1.0001, range[1] * 0.9999);

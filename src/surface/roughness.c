@@ -59,10 +59,10 @@ static bool like_spectrum(struct arena *a, const struct heightfile *h, struct ro
 {
     struct survey_grid g = {h->z, h->columns, h->rows, h->pitch_x};
     if (h->columns < 64)
-        return err_set(e, ERR_SCENE, "%s: %zu samples along a row are too few to take statistics from (at least 64)", file, h->columns);
+        return err_set(e, ERR_SCENE, "%s: %zu samples along a row are too few to take statistics from (at least 64): give a larger map", file, h->columns);
     struct survey_moments m = survey_heights(&g);
     if (!(m.rms > 0))
-        return err_set(e, ERR_SCENE, "%s: is flat: there is no roughness to take statistics from", file);
+        return err_set(e, ERR_SCENE, "%s: is flat: there is no roughness to take statistics from: give another map", file);
     struct spectrum all = survey_spectrum(a, &g), s = {.k = ARENA_TAKE(a, double, all.n + 1), .p = ARENA_TAKE(a, double, all.n + 1), .flat = true};
     double limit = survey_limit(&all);
     for (; s.n < all.n && all.k[s.n] <= limit * (1 + 1e-9); s.n++) {
@@ -70,7 +70,7 @@ static bool like_spectrum(struct arena *a, const struct heightfile *h, struct ro
         s.p[s.n] = all.p[s.n];
     }
     if (s.n < 3)
-        return err_set(e, ERR_SCENE, "%s: its spectrum cannot be told: fewer than three thirds of an octave hold anything", file);
+        return err_set(e, ERR_SCENE, "%s: its spectrum cannot be told: fewer than three thirds of an octave hold anything: give a larger or finer map", file);
     like_long_waves(&s, m.rms);
     p->spectrum = s;
     p->rms = m.rms, p->skewness = m.skewness, p->kurtosis = m.kurtosis;

@@ -16,7 +16,7 @@ static bool recorded_near(const struct motion *m, const struct series *s, struct
     for (size_t i = 0; i < s->n; i++)
         for (int k = 0; k < 2; k++)
             if (fabs(s->x[k][i]) > FARTHEST)
-                return err_set(e, ERR_SCENE, "%s:%d: column '%s': %.9g m is farther than %g m from the origin; positions are in metres", m->file,
+                return err_set(e, ERR_SCENE, "%s:%d: column '%s': %.9g m is farther than %g m from the origin; positions are in metres: mend the row, or the unit", m->file,
                                s->lines[i], k ? "y_m" : "x_m", s->x[k][i], FARTHEST);
     return true;
 }
@@ -43,7 +43,7 @@ static bool recorded_moves(const struct motion *m, const struct series *s, struc
     for (size_t i = 1; i < s->n; i++)
         if (s->x[0][i] != s->x[0][0] || s->x[1][i] != s->x[1][0])
             return true;
-    return err_set(e, ERR_SCENE, "%s: all positions are the same: nothing moves", m->file);
+    return err_set(e, ERR_SCENE, "%s: all positions are the same: nothing moves: give motion.path: still instead", m->file);
 }
 
 bool recorded_read(const struct motion *m, double duration, struct arena *a, struct course *c, double *clock, struct err *e)

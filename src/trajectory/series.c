@@ -29,7 +29,7 @@ bool series_read(const char *file, const char *const columns[2], struct arena *a
             return false;
     }
     if (t.rows < 2)
-        return err_set(e, ERR_SCENE, "%s: %zu row%s; at least 2 are needed", file, t.rows, t.rows == 1 ? "" : "s");
+        return err_set(e, ERR_SCENE, "%s: %zu row%s; at least 2 are needed: add some", file, t.rows, t.rows == 1 ? "" : "s");
     for (size_t i = 1; i < s->n; i++)
         if (!(s->time[i] > s->time[i - 1]))
             return err_set(e, ERR_SCENE, "%s:%d: column 'time_s': %.9g s comes after %.9g s; times must rise from row to row", file, t.lines[i],

@@ -140,13 +140,13 @@ bool speed_given(struct speed *speed, const char *file, double fold, struct aren
     for (size_t i = 0; i < s.n; i++) {
         if (s.x[0][i] < 0)
             return err_set(e, ERR_SCENE,
-                           "%s:%d: column 'speed_m_per_s': %.9g is negative; a speed is at least 0 (a back_and_forth motion turns by itself)",
+                           "%s:%d: column 'speed_m_per_s': %.9g is negative; a speed is at least 0 (a back_and_forth motion turns by itself): write its magnitude",
                            file, s.lines[i], s.x[0][i]);
         top = fmax(top, s.x[0][i]);
         s.time[i] -= start;
     }
     if (!(top > 0))
-        return err_set(e, ERR_SCENE, "%s: all speeds are 0: nothing moves", file);
+        return err_set(e, ERR_SCENE, "%s: all speeds are 0: nothing moves: give motion.path: still instead", file);
     *g = (struct given){.n = s.n, .t = s.time, .fold = fold};
     given_fit(g, s.x[0], a);
     double far = g->far[g->n - 1];

@@ -56,7 +56,7 @@ awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
     $1 == "contact_steps" && $2 == 100000 { print $at["exit_code"], ($at["snr_db"] $at["cpu_s"] == "" ? "no figures" : $0); next }
     $at["exit_code"] != 0 { print "refused, too: " $0 }' hard.csv
-grep '^exit 65 with contact_steps' table | grep -Eo "^exit 65 with contact_steps 100000(, else reference)?: hard.yaml: contact 'contact': an impact|lower accuracy.contact_steps"
+grep '^exit 65 with contact_steps' table | grep -Eo "^exit 65 with contact_steps 100000(, else reference)?: hard.yaml: --set accuracy.contact_steps: contact 'contact': an impact|lower accuracy.contact_steps"
 # when the scene itself fails, the program ends as the render does
 sed "s/kappa: 5e13/kappa: 9e17/; s/quantity: force/&, sample_rate: 8 kHz/" hard.yaml > worse.yaml
 try rasp accuracy worse.yaml --csv worse.csv 2>&1 | grep -Eo '^rasp accuracy: error: the render with preset reference ended with exit code [0-9]+|exit code [0-9]+$'

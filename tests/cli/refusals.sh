@@ -48,6 +48,7 @@ motion: {path: line, to: [5 cm, 0], speed: 10 cm/s}
 contact: {model: roll_coupled, roll: {ground: rigid, stiffness: 1e17}}
 output: {quantity: force}
 YAML
+{ cat steps.yaml; printf '%s\n' 'accuracy: {oversampling: 4,' '           contact_steps: 300}'; } > knob.yaml
 scene small << 'YAML'
 surface: {object: {shape: plate, length: 1 mm, width: 1 mm, thickness: 1 mm}, material: steel}
 motion: {path: still, at: [0.4 mm, 0.3 mm], duration: 100 ms}
@@ -71,7 +72,7 @@ output: {quantity: force}
 YAML
 sed 's/a,0,0,1,1000,60,1,0/a,0,0,1,1000,60,1,0,5,5,5,5,5,5/' modes.csv > long.csv
 sed 's/empty.gsf}/empty.gsf,\n          response: long.csv}/; s/height_map: empty.gsf/roughness: {}/; /^output/d' empty.yaml > cells.yaml
-for name in ball tip ends auto late off steps small early empty cells; do
+for name in ball tip ends auto late off steps knob small early empty cells; do
     echo "-- $name"
     tell check $name.yaml
 done
