@@ -7,6 +7,7 @@
 #include "response/ir_set.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "file/csv.h"
@@ -123,6 +124,41 @@ static const char *note_of(const struct reader *r, const struct ir_set *s)
     return n < 2 ? first : arena_format(r->arena, "%s (and %d more of the folder's %d responses)", first, n - 1, s->n);
 }
 
+struct spot {
+    double x, y;
+    size_t row;
+};
+
+static int spot_order(const void *a, const void *b)
+{
+    const struct spot *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return p->y != q->y ? (p->y < q->y ? -1 : 1) : (p->row > q->row) - (p->row < q->row);
+}
+
+/* Responses are kept by x, then y: in what order rows stand tells nothing. */
+static bool take_in_order(const struct reader *r, const double *xy, struct ir_set *s)
+{
+    struct spot *spot = ARENA_TAKE(r->arena, struct spot, s->n);
+    int *place = ARENA_TAKE(r->arena, int, s->n);
+    for (int k = 0; k < s->n; k++)
+        spot[k] = (struct spot){xy[2 * k], xy[2 * k + 1], (size_t)k};
+    qsort(spot, (size_t)s->n, sizeof *spot, spot_order);
+    for (int k = 0; k < s->n; k++)
+        place[spot[k].row] = k;
+    for (int row = 0; row < s->n; row++)
+        if (!read_response(r, (size_t)row, &s->ir[place[row]]))
+            return false;
+    double *sorted = ARENA_TAKE(r->arena, double, 2 * (size_t)s->n);
+    int bad;
+    for (int k = 0; k < s->n; k++) {
+        sorted[2 * k] = spot[k].x;
+        sorted[2 * k + 1] = spot[k].y;
+    }
+    return places_make(r->arena, s->n, sorted, &s->places, &bad, r->e);
+}
+
 static bool read_rows(const struct reader *r, struct ir_set *s)
 {
     int bad = -1;
@@ -134,9 +170,8 @@ static bool read_rows(const struct reader *r, struct ir_set *s)
         return bad < 0 ? err_at(r->e, "%s", r->table.file) : at(r, (size_t)bad);
     s->n = (int)r->table.rows;
     s->ir = ARENA_TAKE(r->arena, struct ir, s->n);
-    for (int k = 0; k < s->n; k++)
-        if (!read_response(r, (size_t)k, &s->ir[k]))
-            return false;
+    if (!take_in_order(r, xy, s))
+        return false;
     s->note = note_of(r, s);
     return true;
 }

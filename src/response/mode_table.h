@@ -29,7 +29,7 @@ struct mode_slope {
 };
 
 struct mode_entry {            /* a mode at a place */
-    size_t place, mode, row;   /* indices in order of first appearance; first row of the CSV */
+    size_t place, mode, row;   /* numbers: places by x, then y, modes by lowest frequency; first row of the CSV */
     double frequency;
     int n;
     struct mode_slope *slope;  /* [n] by rising decay */

@@ -124,6 +124,41 @@ static size_t number_labels(const struct mode_table_rows *r, int c, struct arena
     return n;
 }
 
+struct number {
+    double first, second;
+    const char *text;
+    size_t old;
+};
+
+static int number_order(const void *a, const void *b)
+{
+    const struct number *p = a, *q = b;
+    if (p->first != q->first)
+        return p->first < q->first ? -1 : 1;
+    if (p->second != q->second)
+        return p->second < q->second ? -1 : 1;
+    return strcmp(p->text, q->text);
+}
+
+/* Numbers anew what has been numbered as it appeared: places by x, then y; modes by their lowest frequency; what is equal in that, by name. So nothing that follows can
+   depend on the order of rows. */
+static void settle_numbers(const struct mode_table_rows *r, int c, struct arena *a)
+{
+    size_t n = c == PLACE ? r->places : r->modes, *id = c == PLACE ? r->place : r->mode, *to = ARENA_TAKE(a, size_t, n);
+    struct number *s = ARENA_TAKE(a, struct number, n);
+    for (size_t i = r->csv->rows; i-- > 0;) {
+        const double *v = mode_table_rows_values(r, i);
+        struct number *at = &s[id[i]];
+        double lowest = at->text ? fmin(at->first, v[FREQUENCY]) : v[FREQUENCY];
+        *at = (struct number){c == PLACE ? v[X] : lowest, c == PLACE ? v[Y] : 0.0, mode_table_rows_cell(r, i, c), id[i]};
+    }
+    qsort(s, n, sizeof *s, number_order);
+    for (size_t k = 0; k < n; k++)
+        to[s[k].old] = k;
+    for (size_t i = 0; i < r->csv->rows; i++)
+        id[i] = to[id[i]];
+}
+
 size_t mode_table_rows_first(const struct mode_table_rows *r, int column, size_t number)
 {
     const size_t *id = column == PLACE ? r->place : r->mode;
@@ -212,5 +247,9 @@ bool mode_table_rows_read(const struct csv *csv, struct arena *a, struct mode_ta
     r->mode = ARENA_TAKE(a, size_t, csv->rows);
     r->places = number_labels(r, PLACE, a, r->place);
     r->modes = number_labels(r, MODE, a, r->mode);
-    return check_points(r, a, e) && sort_rows(r, a, e);
+    if (!check_points(r, a, e))
+        return false;
+    settle_numbers(r, PLACE, a);
+    settle_numbers(r, MODE, a);
+    return sort_rows(r, a, e);
 }

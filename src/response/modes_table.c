@@ -14,7 +14,7 @@
 
 struct rank {
     double energy;
-    size_t row, track; /* first row in the table */
+    size_t track;
 };
 
 struct component {
@@ -105,7 +105,7 @@ static int strongest_first(const void *a, const void *b)
     const struct rank *p = a, *q = b;
     if (p->energy != q->energy)
         return p->energy > q->energy ? -1 : 1;
-    return (p->row > q->row) - (p->row < q->row);
+    return (p->track > q->track) - (p->track < q->track);
 }
 
 static void rank_modes(struct making *k)
@@ -113,12 +113,9 @@ static void rank_modes(struct making *k)
     const struct mode_table *t = k->t;
     k->rank = ARENA_TAKE(k->arena, struct rank, k->tracks);
     for (size_t i = 0; i < k->tracks; i++)
-        k->rank[i] = (struct rank){0.0, t->csv.rows, i};
-    for (size_t i = 0; i < t->first[t->places]; i++) {
-        struct rank *r = &k->rank[k->track[i]];
-        r->energy += energy(&t->entry[i]);
-        r->row = t->entry[i].row < r->row ? t->entry[i].row : r->row;
-    }
+        k->rank[i] = (struct rank){0.0, i};
+    for (size_t i = 0; i < t->first[t->places]; i++)
+        k->rank[k->track[i]].energy += energy(&t->entry[i]);
     qsort(k->rank, k->tracks, sizeof *k->rank, strongest_first);
 }
 
@@ -193,8 +190,9 @@ static void survey(const struct making *k, struct modes *m, struct morph *p, int
 static void fill_shared(const struct making *k, const struct modes *m, struct morph *p)
 {
     const struct mode_slope *s;
-    p->re = ARENA_TAKE(k->arena, double, (size_t)p->rows * p->n);
-    p->im = ARENA_TAKE(k->arena, double, (size_t)p->rows * p->n);
+    size_t all = (size_t)places_terms(p->places) * p->rows * p->n;
+    p->re = ARENA_TAKE(k->arena, double, all);
+    p->im = ARENA_TAKE(k->arena, double, all);
     for (int i = 0; i < p->n; i++) {
         m->frequency[i] = entry_of(k, i, 0, &s)->frequency;
         m->decay[i] = m->slowest[i] = s->decay;
@@ -204,6 +202,7 @@ static void fill_shared(const struct making *k, const struct modes *m, struct mo
             p->im[(size_t)row * p->n + i] = s->gain * real_sin(s->phase);
         }
     }
+    morph_slopes(p);
 }
 
 static void fill_separate(const struct making *k, const struct modes *m, struct morph *p)
@@ -214,7 +213,7 @@ static void fill_separate(const struct making *k, const struct modes *m, struct 
     for (int c = 0; c < 5; c++)
         *rows[c] = ARENA_TAKE(k->arena, double, (size_t)p->rows * p->n);
     for (int c = 0; c < 6; c++)
-        *work[c] = ARENA_TAKE(k->arena, double, (c < 3 ? 1 : 3) * (size_t)p->n);
+        *work[c] = ARENA_TAKE(k->arena, double, (c < 3 ? 1 : 4) * (size_t)p->n);
     p->high = ARENA_TAKE(k->arena, int, p->n);
     for (int i = 0; i < p->n; i++)
         for (int row = 0; row < p->rows; row++) {

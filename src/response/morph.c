@@ -1,19 +1,20 @@
-/* Modes between places, at the mix x = sum w_k x_k of up to three of them (places.h).
+/* Modes between places (places.h).
 
-   Shared poles: the complex gain is linear, A = sum w_k A_k, with its sign: a mode shape passes through zero at a nodal line, where log amplitudes have no
-   value.
+   Shared poles: the complex gain is a linear sum of the places' own, with its sign: a mode shape passes through zero at a nodal line, where log amplitudes have no
+   value. On lines and grids it is the spline through the places, in triangles linear: places_smooth_at, over the gains and, in `re` and `im` after them, their slopes.
 
-   Separate poles (papers/000 section 2.4: "logarithmically interpolated ... in both frequency and amplitude"; decays likewise), over the places that
-   have the mode, W = sum of their w_k:
+   Separate poles (papers/000 section 2.4: "logarithmically interpolated ... in both frequency and amplitude"; decays likewise) at the mix x = sum w_k x_k of up to four places
+   (places_at), over those that have the mode, W = sum of their w_k:
        log f = sum w_k log f_k / W,  log decay likewise,  |A| = W exp(sum w_k log|A_k| / W)
    so that a mode that a place lacks keeps the poles of those that have it and fades linearly towards that place. A gain below -120 dB of the mode's largest
    counts as that; a gain of 0 is no mode. Logarithms are stored less those of the modes' own frequency, decay and largest gain: poles that are the
-   same at all places come out so to the last bit.
+   same at all places come out so to the last bit. Shares are linear here, on grids too, w_k >= 0: a spline through logarithms as far down as -120 dB, or beside a place that lacks
+   the mode, would overshoot by tens of decibels.
 
-   The phase, in units of pi in [0, 2), takes the shorter turn from place to place; of half a turn (a change of sign), which both ways are, that which does
-   not pass 2 pi. Where the turns around three places add up to a whole one, no phase is linear over the triangle and that on each edge: there must be a
-   zero inside. Then the modes of the edges at the points behind which their opposite corners lie are mixed as complex numbers, the edge from k to l by
-   w_k w_l: on each edge that is the edge's own.
+   The phase, in units of pi in [0, 2), takes the shorter turn from place to place along the edges of the triangle or cell; of half a turn (a change of sign), which both ways are, that
+   which does not pass 2 pi. Phases are unrolled round the corners that have the mode and mixed by their shares. Where the turns round all corners add up to a whole one, no phase is
+   continuous over the cell and that on each edge: there must be a zero inside. Then the modes of the edges at the share that their two ends have of each other are mixed as complex
+   numbers, the edge from k to l by w_k w_l: on each edge that is the edge's own. None of it depends on where the corners are counted from, nor on which way round.
 
    Modes that reach half the sample rate fade: from 0.45 to 0.5 of it by (1 + cos(pi u))/2, beyond they are silent. */
 #include "response/morph.h"
@@ -30,50 +31,53 @@ static const double floor_gain = 1e-6;      /* -120 dB */
 
 /* ------------------------------------------------------------------ shared */
 
+/* to = by x, or to += by x. */
 LANES_CLONES
-static void blend(int n, const double *a, const double *b, const double *c, const double w[2], double *to)
+static void add(int n, bool first, double by, const double *x, double *to)
 {
-    double v = w[0], u = w[1];
+    if (first) {
+#pragma omp simd
+        for (int i = 0; i < n; i++)
+            to[i] = by * x[i];
+        return;
+    }
 #pragma omp simd
     for (int i = 0; i < n; i++)
-        to[i] = a[i] + v * (b[i] - a[i]) + u * (c[i] - a[i]);
-}
-
-/* Of a mix of fewer places the others count 0. */
-static const double *row_of(const struct morph *p, const double *rows, const struct places_mix *mix, int k)
-{
-    return rows + (size_t)mix->index[k] * p->n;
+        to[i] += by * x[i];
 }
 
 double morph_shared(const struct modes *m, const struct modes_where *where, const struct modes_point *to)
 {
     const struct morph *p = m->self;
-    struct places_mix mix;
-    double off = places_at(p->places, where->x, where->y, &mix);
-    blend(p->n, row_of(p, p->re, &mix, 0), row_of(p, p->re, &mix, 1), row_of(p, p->re, &mix, 2), mix.weight + 1, to->re);
-    blend(p->n, row_of(p, p->im, &mix, 0), row_of(p, p->im, &mix, 1), row_of(p, p->im, &mix, 2), mix.weight + 1, to->im);
+    struct places_sum sum;
+    double off = places_smooth_at(p->places, where->x, where->y, &sum);
+    for (int k = 0; k < sum.n; k++) {
+        add(p->n, k == 0, sum.weight[k], p->re + (size_t)sum.index[k] * p->n, to->re);
+        add(p->n, k == 0, sum.weight[k], p->im + (size_t)sum.index[k] * p->n, to->im);
+    }
     return off;
 }
 
 /* ------------------------------------------------------------------ separate */
 
-struct rows { /* of the up to three places of a mix */
-    const double *a, *b, *c;
+enum { CORNERS = 4 };
+
+struct rows { /* of the corners of a mix, in turn; of fewer than four the last again */
+    const double *at[CORNERS];
 };
 
 static struct rows rows_of(const struct morph *p, const double *rows, const struct places_mix *mix)
 {
-    return (struct rows){row_of(p, rows, mix, 0), row_of(p, rows, mix, 1), row_of(p, rows, mix, 2)};
+    struct rows r;
+    for (int k = 0; k < CORNERS; k++)
+        r.at[k] = rows + (size_t)mix->index[k < mix->n ? k : mix->n - 1] * p->n;
+    return r;
 }
 
-LANES_CLONES
-static void add_up(int n, struct rows r, const double w[3], double *to)
+static void add_up(int n, const struct places_mix *mix, const struct rows *r, double *to)
 {
-    const double *a = r.a, *b = r.b, *c = r.c;
-    double u = w[0], v = w[1], x = w[2];
-#pragma omp simd
-    for (int i = 0; i < n; i++)
-        to[i] = u * a[i] + v * b[i] + x * c[i];
+    for (int k = 0; k < mix->n; k++)
+        add(n, k == 0, mix->weight[k], r->at[k], to);
 }
 
 LANES_CLONES
@@ -97,21 +101,51 @@ static inline __attribute__((always_inline)) double shorter(double turn)
     return turn > half_turn ? turn - 2.0 : turn < -half_turn ? turn + 2.0 : turn;
 }
 
-/* Phases, and torn[i]: whether the three turns add up to a whole one. `there` as rows: a place that lacks the mode has no say. */
+/* Phases where every corner has the mode, and torn[i]: whether the turns round them add up to a whole one. */
 LANES_CLONES
-static void turn_to(int n, const struct rows *phase, const struct rows *there, const double w[3], const struct morph *p, double *to)
+static void turn_all(int n, const struct rows *phase, const double w[CORNERS], double *torn, double *to)
 {
-    const double *qa = phase->a, *qb = phase->b, *qc = phase->c, *ta = there->a, *tb = there->b, *tc = there->c;
-    double *torn = p->torn, u = w[0], v = w[1], x = w[2];
-    const double *share = p->share;
+    const double *qa = phase->at[0], *qb = phase->at[1], *qc = phase->at[2], *qd = phase->at[3];
+    double v = w[1], x = w[2], y = w[3];
 #pragma omp simd
     for (int i = 0; i < n; i++) {
-        double from = ta[i] > 0.0 ? qa[i] : tb[i] > 0.0 ? qb[i] : qc[i];
-        double a = shorter(qa[i] - from), b = shorter(qb[i] - from), c = shorter(qc[i] - from), bc = shorter(qc[i] - qb[i]);
-        double sum = u * ta[i] * a + v * tb[i] * b + x * tc[i] * c;
-        to[i] = from + (share[i] > 0.0 ? sum / share[i] : 0.0);
-        torn[i] = fabs(c - b - bc) > 0.5 ? ta[i] * tb[i] * tc[i] : 0.0;
+        double b = shorter(qb[i] - qa[i]), c = b + shorter(qc[i] - qb[i]), d = c + shorter(qd[i] - qc[i]);
+        to[i] = qa[i] + (v * b + x * c + y * d);
+        torn[i] = fabs(d + shorter(qa[i] - qd[i])) > 1.0 ? 1.0 : 0.0;
     }
+}
+
+/* The same of mode i where some corner may lack it: phases are unrolled from the corner behind one that does. */
+static void turn_some(const struct morph *p, const struct places_mix *mix, const struct rows *phase, const struct rows *there, int i, double *to)
+{
+    double last = 0, sum = 0, turned = 0, first = 0;
+    int corners = mix->n, from = 0, have = 0;
+    for (int k = 0; k < corners; k++)
+        if (there->at[k][i] > 0 && !(there->at[(k + corners - 1) % corners][i] > 0))
+            from = k;
+    for (int j = 0; j < corners; j++) {
+        int k = (from + j) % corners;
+        if (!(there->at[k][i] > 0))
+            continue;
+        first = have++ == 0 ? phase->at[k][i] : first;
+        turned = have > 1 ? turned + shorter(phase->at[k][i] - last) : 0;
+        last = phase->at[k][i];
+        sum += mix->weight[k] * turned;
+    }
+    to[i] = first + (p->share[i] > 0.0 ? sum / p->share[i] : 0.0);
+    p->torn[i] = have == corners && fabs(turned + shorter(first - last)) > 1.0 ? 1.0 : 0.0;
+}
+
+static void turn_to(const struct morph *p, const struct places_mix *mix, double *to)
+{
+    struct rows phase = rows_of(p, p->phase, mix), there = rows_of(p, p->there, mix);
+    double w[CORNERS] = {0};
+    for (int k = 0; k < mix->n; k++)
+        w[k] = mix->weight[k];
+    if (!p->gaps)
+        turn_all(p->n, &phase, w, p->torn, to);
+    for (int i = 0; p->gaps && i < p->n; i++)
+        turn_some(p, mix, &phase, &there, i, to);
 }
 
 static double fade_of(const struct morph *p, double frequency)
@@ -126,7 +160,8 @@ static void logarithms(const struct morph *p, const struct modes *m, const struc
     const double *rows[3] = {p->frequency, p->decay, p->gain}, *by[3] = {m->frequency, m->decay, p->largest};
     double *out[3] = {to->frequency, to->decay, p->amplitude};
     for (int c = 0; c < 3; c++) {
-        add_up(p->n, rows_of(p, rows[c], mix), mix->weight, out[c]);
+        struct rows r = rows_of(p, rows[c], mix);
+        add_up(p->n, mix, &r, out[c]);
         if (p->gaps)
             divide(p->n, p->share, out[c]);
         vecmath_exp((size_t)p->n, out[c], out[c]);
@@ -140,28 +175,38 @@ static double on_edge(const double *w, int k, int l)
     return w[k] + w[l] > 0.0 ? w[l] / (w[k] + w[l]) : 0.5;
 }
 
-/* The gains of the components that are torn: those of the three edges at the weights with the third left out, three after each other. */
+/* Shares of the edges from corner k to the next; false: the point is a corner. */
+static bool share_edges(const struct places_mix *mix, double share[CORNERS])
+{
+    double sum = 0.0;
+    for (int k = 0; k < mix->n; k++)
+        sum += share[k] = mix->weight[k] * mix->weight[(k + 1) % mix->n];
+    for (int k = 0; k < mix->n && sum > 0.0; k++)
+        share[k] /= sum;
+    return sum > 0.0;
+}
+
+/* The gains of the components that are torn: those of the edges at the shares of their ends, one after the other. */
 static void mend(const struct morph *p, const struct places_mix *mix, const struct modes_point *to)
 {
     struct rows gain = rows_of(p, p->gain, mix), phase = rows_of(p, p->phase, mix);
-    const double *w = mix->weight, sum = w[0] * w[1] + w[1] * w[2] + w[2] * w[0];
-    const double share[3] = {w[0] * w[1] / sum, w[1] * w[2] / sum, w[2] * w[0] / sum};
-    int n = 0;
-    for (int i = 0; i < p->n; i++) {
-        const double g[3] = {gain.a[i], gain.b[i], gain.c[i]}, q[3] = {phase.a[i], phase.b[i], phase.c[i]};
-        for (int k = 0, l = 1; k < 3 && p->torn[i] > 0.0; k++, l = (k + 1) % 3, n++) {
-            double on = on_edge(w, k, l);
-            p->size[n] = g[k] + on * (g[l] - g[k]);
-            p->sine[n] = q[k] + on * shorter(q[l] - q[k]);
+    double share[CORNERS];
+    int n = 0, edges = mix->n;
+    if (edges < 3 || !share_edges(mix, share))
+        return;
+    for (int i = 0; i < p->n; i++)
+        for (int k = 0, l = 1; k < edges && p->torn[i] > 0.0; k++, l = (k + 1) % edges, n++) {
+            double on = on_edge(mix->weight, k, l), from = gain.at[k][i], q = phase.at[k][i];
+            p->size[n] = from + on * (gain.at[l][i] - from);
+            p->sine[n] = q + on * shorter(phase.at[l][i] - q);
         }
-    }
     vecmath_exp((size_t)n, p->size, p->size);
     vecmath_sincospi((size_t)n, p->sine, p->sine, p->cosine);
     n = 0;
     for (int i = 0; i < p->n; i++)
         if (p->torn[i] > 0.0) {
             double re = 0.0, im = 0.0, by = p->largest[i] * fade_of(p, to->frequency[i]);
-            for (int k = 0; k < 3; k++, n++) {
+            for (int k = 0; k < edges; k++, n++) {
                 re += share[k] * p->size[n] * p->cosine[n];
                 im += share[k] * p->size[n] * p->sine[n];
             }
@@ -175,10 +220,10 @@ double morph_separate(const struct modes *m, const struct modes_where *where, co
     const struct morph *p = m->self;
     struct places_mix mix;
     double off = places_at(p->places, where->x, where->y, &mix);
-    struct rows phase = rows_of(p, p->phase, &mix), there = rows_of(p, p->there, &mix);
-    add_up(p->n, there, mix.weight, p->share);
+    struct rows there = rows_of(p, p->there, &mix);
+    add_up(p->n, &mix, &there, p->share);
     logarithms(p, m, &mix, to);
-    turn_to(p->n, &phase, &there, mix.weight, p, to->im);
+    turn_to(p, &mix, to->im);
     vecmath_sincospi((size_t)p->n, to->im, to->im, to->re);
     if (p->gaps)
         times(p->n, p->share, p->amplitude);
@@ -186,8 +231,7 @@ double morph_separate(const struct modes *m, const struct modes_where *where, co
         p->amplitude[p->high[k]] *= fade_of(p, to->frequency[p->high[k]]);
     times(p->n, p->amplitude, to->re);
     times(p->n, p->amplitude, to->im);
-    if (mix.n == 3 && mix.weight[0] < 1.0 && mix.weight[1] < 1.0 && mix.weight[2] < 1.0)
-        mend(p, &mix, to);
+    mend(p, &mix, to);
     return off;
 }
 
@@ -218,6 +262,12 @@ void morph_settle(struct morph *p)
             p->high[p->highs++] = i;
 }
 
+void morph_slopes(struct morph *p)
+{
+    places_fill(p->places, p->n, p->re);
+    places_fill(p->places, p->n, p->im);
+}
+
 /* Rows are packed towards the front: nothing is overwritten before it is read. */
 static void pack(double *v, int rows, int n, const bool *keep)
 {
@@ -234,7 +284,7 @@ int morph_keep(struct morph *p, struct modes *m, const bool *keep)
     double *single[] = {p->largest, p->lowest, p->highest, m->frequency, m->decay, m->slowest};
     int n = p->n, kept = 0;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
-        pack(rows[k], p->rows, n, keep);
+        pack(rows[k], k < 2 ? p->rows * places_terms(p->places) : p->rows, n, keep);
     for (size_t k = 0; k < sizeof single / sizeof *single; k++)
         pack(single[k], 1, n, keep);
     for (int i = 0; i < n; i++)

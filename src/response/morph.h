@@ -7,7 +7,7 @@
 struct morph {
     int n, rows;                   /* components; places */
     struct places *places;
-    double *re, *im;               /* shared poles: [rows][n] complex gains */
+    double *re, *im;               /* shared poles: [places_terms()][rows][n] complex gains, then what places_fill makes of them */
     double *frequency, *decay, *gain; /* separate: [rows][n] logarithms, less that of the modes' frequency, decay and largest |gain|; 0 where absent */
     double *phase;                 /* [rows][n] in units of pi, 0 to 2 */
     double *there;                 /* [rows][n] 1, or 0: the place lacks the mode */
@@ -17,8 +17,11 @@ struct morph {
     bool gaps;                     /* some place lacks some mode */
     int *high, highs;              /* components that reach 0.45 rate somewhere */
     double *share, *amplitude, *torn; /* [n] work */
-    double *size, *sine, *cosine;  /* [3 n] work */
+    double *size, *sine, *cosine;  /* [4 n] work */
 };
+
+/* Shared poles: after the last gain, what morph_shared needs of their slopes. */
+void morph_slopes(struct morph *p);
 
 /* Separate poles: a place's frequency and decay (above 0) and gain e^(j phase) of component i, after the modes' own frequency[i], decay[i] and largest[i]
    are set; a gain of 0 is none. */

@@ -1,32 +1,39 @@
-/* Places on a line, and which of line and plane they are (places_plane.c has the plane).
+/* Which of line, grid and plane places are. places_lattice.c has the first two, places_plane.c the third.
 
-   The line runs between the two places farthest apart (the farthest from the farthest from the first), towards +x, or +y when it is upright;
-   a point's coordinate is that of its foot. */
+   Places are sorted by x, then y, before anything is made of them, so that their order as given tells nothing: where a rule takes the first of several (a tie of
+   Delaunay's triangulation), that is the one farthest left.
+
+   The line runs between the two places farthest apart (the farthest from the farthest from the leftmost), towards +x, or +y when it is upright;
+   a point's coordinate is that of its foot.
+
+   A grid has its axes along x and y; or turned: the leftmost place is a corner of it, whose nearest place lies along an axis, and the farthest place near that line shows the axis
+   more exactly. */
 #include "response/places.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "response/places_lattice.h"
 #include "response/places_plane.h"
 
-static const double same = 1e-9; /* m */
+static const double same = 1e-9;    /* m */
+static const double rounded = 1e-5; /* of the extent: what rounding in a file leaves of a grid */
 
 struct places {
     enum places_kind kind;
     int n;
-    double *xy;                /* [n][2] */
+    double *xy;                /* [n][2], sorted */
+    int *order;                /* [n] as they were given */
     double base[2], axis[2];   /* line: base + along axis, axis a unit vector */
-    int *index;                /* [n] places in order along it */
-    double *along;             /* [n] m, increasing */
-    int (*edge)[2];            /* [n - 1] */
-    double *work;              /* [n] kinks */
+    struct places_lattice *lattice;
     struct places_plane *plane;
+    int (*edge)[2], edges;     /* of the plane */
 };
 
 /* ------------------------------------------------------------------ making */
 
 struct rank {
-    double key;
+    double key, other;
     int index;
 };
 
@@ -35,6 +42,8 @@ static int rank_up(const void *a, const void *b)
     const struct rank *p = a, *q = b;
     if (p->key != q->key)
         return p->key < q->key ? -1 : 1;
+    if (p->other != q->other)
+        return p->other < q->other ? -1 : 1;
     return (p->index > q->index) - (p->index < q->index);
 }
 
@@ -42,6 +51,20 @@ static double distance(const double *p, const double *q)
 {
     double x = q[0] - p[0], y = q[1] - p[1];
     return sqrt(x * x + y * y);
+}
+
+static void sort(struct arena *a, struct places *p, const double *xy, struct rank *r)
+{
+    p->xy = ARENA_TAKE(a, double, 2 * (size_t)p->n);
+    p->order = ARENA_TAKE(a, int, p->n);
+    for (int i = 0; i < p->n; i++)
+        r[i] = (struct rank){xy[2 * i], xy[2 * i + 1], i};
+    qsort(r, (size_t)p->n, sizeof *r, rank_up);
+    for (int i = 0; i < p->n; i++) {
+        p->order[i] = r[i].index;
+        p->xy[2 * i] = r[i].key;
+        p->xy[2 * i + 1] = r[i].other;
+    }
 }
 
 static int farthest(const struct places *p, int from)
@@ -56,12 +79,7 @@ static int farthest(const struct places *p, int from)
 static void find_line(struct places *p)
 {
     int u = farthest(p, 0), v = farthest(p, u);
-    const double *a = p->xy + 2 * u, *b = p->xy + 2 * v;
-    if (b[0] < a[0] || (b[0] == a[0] && b[1] < a[1])) {
-        const double *swap = a;
-        a = b;
-        b = swap;
-    }
+    const double *a = p->xy + 2 * (u < v ? u : v), *b = p->xy + 2 * (u < v ? v : u);
     double length = distance(a, b);
     for (int c = 0; c < 2; c++) {
         p->base[c] = a[c];
@@ -69,59 +87,93 @@ static void find_line(struct places *p)
     }
 }
 
-/* Coordinate along the line; *off: m beside it, with its sign. */
-static double foot(const struct places *p, double x, double y, double *off)
+/* Coordinate along a line from `base`; *off: m beside it, with its sign. */
+static double foot(const double base[2], const double axis[2], const double *xy, double *off)
 {
-    double dx = x - p->base[0], dy = y - p->base[1];
-    *off = dy * p->axis[0] - dx * p->axis[1];
-    return dx * p->axis[0] + dy * p->axis[1];
+    double dx = xy[0] - base[0], dy = xy[1] - base[1];
+    *off = dy * axis[0] - dx * axis[1];
+    return dx * axis[0] + dy * axis[1];
 }
 
 /* Sorts along the line; true: all lie on it. */
-static bool order(struct places *p, struct rank *r)
+static bool all_on_line(const struct places *p, struct rank *r)
 {
     double off, most = 0.0;
     for (int i = 0; i < p->n; i++) {
-        r[i] = (struct rank){foot(p, p->xy[2 * i], p->xy[2 * i + 1], &off), i};
+        r[i] = (struct rank){foot(p->base, p->axis, p->xy + 2 * i, &off), 0, i};
         most = fmax(most, fabs(off));
     }
     qsort(r, (size_t)p->n, sizeof *r, rank_up);
     return most <= same;
 }
 
-/* A place that is where another one is, or -1: such two are neighbours but for those with the same foot. */
-static int doubled(const struct places *p, const struct rank *r)
+/* A place that is where another one is, the later as given, or -1: such two are neighbours but for those with the same foot. */
+static int doubled(const struct places *p, const struct rank *r, bool straight)
 {
     for (int i = 1; i < p->n; i++)
         for (int k = i - 1; k >= 0 && r[i].key - r[k].key <= same; k--)
-            if (distance(p->xy + 2 * r[i].index, p->xy + 2 * r[k].index) <= same)
-                return r[i].index > r[k].index ? r[i].index : r[k].index;
+            if ((straight && r[i].key == r[k].key) || distance(p->xy + 2 * r[i].index, p->xy + 2 * r[k].index) <= same) {
+                int one = p->order[r[i].index], other = p->order[r[k].index];
+                return one > other ? one : other;
+            }
     return -1;
 }
 
-static void make_line(struct arena *a, struct places *p, const struct rank *r)
+static struct places_lattice *lattice_along(struct arena *a, const struct places *p, const double base[2], const double axis[2], bool one_row)
 {
-    p->kind = p->n == 1 ? PLACES_ONE : PLACES_LINE;
-    p->index = ARENA_TAKE(a, int, p->n);
-    p->along = ARENA_TAKE(a, double, p->n);
-    p->work = ARENA_TAKE(a, double, p->n);
-    p->edge = arena_take(a, (size_t)p->n, sizeof *p->edge);
-    for (int i = 0; i < p->n; i++) {
-        p->index[i] = r[i].index;
-        p->along[i] = r[i].key;
-        if (i > 0) {
-            p->edge[i - 1][0] = r[i - 1].index;
-            p->edge[i - 1][1] = r[i].index;
+    double extent = distance(p->xy, p->xy + 2 * farthest(p, 0));
+    return places_lattice_make(a, &(struct places_lattice_ask){p->n, p->xy, p->order, base, axis, rounded * extent, one_row});
+}
+
+/* The axis of a turned grid, if it is one: from the leftmost place to the farthest that lies beside the way to its nearest by less than half of that. */
+static void turned_axis(const struct places *p, double axis[2])
+{
+    int near = 1, far;
+    for (int k = 2; k < p->n; k++)
+        near = distance(p->xy, p->xy + 2 * k) < distance(p->xy, p->xy + 2 * near) ? k : near;
+    double step = distance(p->xy, p->xy + 2 * near), least = 0, off;
+    far = near;
+    for (int pass = 0; pass < 2; pass++) {
+        const double *to = p->xy + 2 * (pass ? far : near);
+        double length = distance(p->xy, to);
+        axis[0] = (to[0] - p->xy[0]) / length;
+        axis[1] = (to[1] - p->xy[1]) / length;
+        for (int k = 1; k < p->n && pass == 0; k++) {
+            double along = foot(p->xy, axis, p->xy + 2 * k, &off);
+            if (fabs(off) < 0.5 * step && along > least) {
+                least = along;
+                far = k;
+            }
         }
     }
 }
 
+static bool make_grid(struct arena *a, struct places *p)
+{
+    double axis[2] = {1, 0};
+    p->kind = PLACES_GRID;
+    p->lattice = lattice_along(a, p, p->xy, axis, false);
+    if (p->lattice || p->n < 4)
+        return p->lattice;
+    turned_axis(p, axis);
+    p->lattice = lattice_along(a, p, p->xy, axis, false);
+    return p->lattice;
+}
+
 static bool make_plane(struct arena *a, struct places *p, struct err *e)
 {
+    const int(*edge)[2];
     p->kind = PLACES_PLANE;
     p->plane = places_plane_make(a, p->n, p->xy);
-    return p->plane || err_set(e, ERR_SCENE, "the places cannot be triangulated: they lie almost, but not within 1e-9 m, on one line, or almost at the "
-                               "same point: write them with more digits, or take one place of those that are close");
+    if (!p->plane)
+        return err_set(e, ERR_SCENE, "the places cannot be triangulated: they lie almost, but not within 1e-9 m, on one line, or almost at the "
+                                      "same point: write them with more digits, or take one place of those that are close");
+    p->edges = places_plane_edges(p->plane, &edge);
+    p->edge = arena_take(a, (size_t)p->edges, sizeof *p->edge);
+    for (int k = 0; k < p->edges; k++)
+        for (int c = 0; c < 2; c++)
+            p->edge[k][c] = p->order[edge[k][c]];
+    return true;
 }
 
 bool places_make(struct arena *a, int n, const double *xy, struct places **places, int *bad, struct err *e)
@@ -130,17 +182,16 @@ bool places_make(struct arena *a, int n, const double *xy, struct places **place
     struct rank *r = ARENA_TAKE(a, struct rank, n);
     *places = p;
     p->n = n;
-    p->xy = ARENA_TAKE(a, double, 2 * (size_t)n);
-    for (int i = 0; i < 2 * n; i++)
-        p->xy[i] = xy[i];
+    sort(a, p, xy, r);
     find_line(p);
-    bool straight = order(p, r);
-    *bad = doubled(p, r);
+    bool straight = all_on_line(p, r);
+    *bad = doubled(p, r, straight);
     if (*bad >= 0)
         return err_set(e, ERR_SCENE, "is at the same point as another place");
     if (!straight)
-        return make_plane(a, p, e);
-    make_line(a, p, r);
+        return make_grid(a, p) || make_plane(a, p, e);
+    p->kind = n == 1 ? PLACES_ONE : PLACES_LINE;
+    p->lattice = lattice_along(a, p, p->base, p->axis, true);
     return true;
 }
 
@@ -151,56 +202,45 @@ enum places_kind places_kind(const struct places *p)
 
 /* ------------------------------------------------------------------ reading */
 
-/* Index k of the interval [along[k], along[k + 1]] that holds s, n >= 2. */
-static int interval(const struct places *p, double s)
-{
-    int low = 0, high = p->n - 1;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (p->along[middle] <= s)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static double line_at(const struct places *p, double x, double y, struct places_mix *mix)
-{
-    double beside, s = foot(p, x, y, &beside);
-    double on = fmin(fmax(s, p->along[0]), p->along[p->n - 1]);
-    int k = interval(p, on);
-    double w = (on - p->along[k]) / (p->along[k + 1] - p->along[k]);
-    *mix = (struct places_mix){2, {p->index[k], p->index[k + 1], p->index[k]}, {1.0 - w, w, 0.0}};
-    double off = sqrt((s - on) * (s - on) + beside * beside);
-    return off > same ? off : 0.0;
-}
-
 double places_at(const struct places *p, double x, double y, struct places_mix *mix)
 {
-    if (p->kind == PLACES_PLANE)
-        return places_plane_at(p->plane, x, y, mix);
-    if (p->kind == PLACES_LINE)
-        return line_at(p, x, y, mix);
-    *mix = (struct places_mix){1, {0, 0, 0}, {1.0, 0.0, 0.0}};
-    return 0.0;
+    double off = p->plane ? places_plane_at(p->plane, x, y, mix) : places_lattice_at(p->lattice, x, y, mix);
+    for (int k = 0; k < mix->n && p->plane; k++)
+        mix->index[k] = p->order[mix->index[k]];
+    return p->kind == PLACES_ONE ? 0.0 : off;
+}
+
+int places_terms(const struct places *p)
+{
+    return p->lattice ? places_lattice_terms(p->lattice) : 1;
+}
+
+void places_fill(const struct places *p, int n, double *rows)
+{
+    if (p->lattice)
+        places_lattice_fill(p->lattice, n, rows);
+}
+
+double places_smooth_at(const struct places *p, double x, double y, struct places_sum *sum)
+{
+    struct places_mix mix;
+    double off;
+    if (p->lattice) {
+        off = places_lattice_smooth_at(p->lattice, x, y, sum);
+        return p->kind == PLACES_ONE ? 0.0 : off;
+    }
+    off = places_at(p, x, y, &mix);
+    sum->n = mix.n;
+    for (int k = 0; k < mix.n; k++) {
+        sum->index[k] = mix.index[k];
+        sum->weight[k] = mix.weight[k];
+    }
+    return off;
 }
 
 int places_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most)
 {
-    if (p->kind == PLACES_PLANE)
-        return places_plane_kinks(p->plane, from, to, u, most);
-    double off, start = foot(p, from[0], from[1], &off), by = foot(p, to[0], to[1], &off) - start;
-    int n = 0;
-    for (int k = 0; p->kind == PLACES_LINE && k < p->n; k++) {
-        double at = by != 0.0 ? (p->along[k] - start) / by : 0.0;
-        if (at > 1e-12 && at < 1.0 - 1e-12)
-            p->work[n++] = at;
-    }
-    n = places_plane_sort(p->work, n);
-    for (int i = 0; i < n && i < most; i++)
-        u[i] = p->work[i];
-    return n;
+    return p->plane ? places_plane_kinks(p->plane, from, to, u, most) : places_lattice_kinks(p->lattice, from, to, u, most);
 }
 
 /* "0 <= x <= 40 cm", "y = 3.7 cm" */
@@ -219,15 +259,15 @@ const char *places_told(const struct places *p, struct arena *a)
 {
     bool slanting = p->kind == PLACES_LINE && fabs(p->axis[0]) > same && fabs(p->axis[1]) > same;
     if (!slanting)
-        return arena_format(a, "its places lie %s %s, %s", p->kind == PLACES_PLANE ? "within" : "on", extent(p, 0, a), extent(p, 1, a));
-    const double *from = p->xy + 2 * p->index[0], *to = p->xy + 2 * p->index[p->n - 1];
+        return arena_format(a, "its places lie %s %s, %s", p->kind > PLACES_LINE ? "within" : "on", extent(p, 0, a), extent(p, 1, a));
+    const double *from = p->xy, *to = p->xy + 2 * (p->n - 1);
     return arena_format(a, "its places lie on the line from (%.6g, %.6g) to (%.6g, %.6g) cm", 100 * from[0], 100 * from[1], 100 * to[0], 100 * to[1]);
 }
 
 int places_edges(const struct places *p, const int (**edge)[2])
 {
-    if (p->kind == PLACES_PLANE)
-        return places_plane_edges(p->plane, edge);
+    if (p->lattice)
+        return places_lattice_edges(p->lattice, edge);
     *edge = (const int(*)[2])p->edge;
-    return p->n - 1;
+    return p->edges;
 }

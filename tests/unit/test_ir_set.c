@@ -81,21 +81,21 @@ START_TEST(reads)
     write_index("# plank: oak\nfile_name,x_m,y_m,gain_db,z_m\nb.wav,0.1,0,-20,0\na.wav,0,0,0,0.0\n\"other rate.wav\",0.05,0.02,6,0\n");
     ck_assert_msg(ir_set_read(&(struct ir_ask){folder, 48000, NAN, NULL}, a, &s, &e), "%s", e.text);
     ck_assert_int_eq(s.n, 3);
-    ck_assert(places_kind(s.places) == PLACES_PLANE);
+    ck_assert(places_kind(s.places) == PLACES_PLANE); /* by x: a.wav, "other rate.wav", b.wav */
     path_of(path, sizeof path, "a.wav");
     ck_assert(ir_read(&(struct ir_ask){path, 48000, NAN, NULL}, a, &alone, &e));
-    ck_assert_uint_eq(s.ir[1].length, LENGTH);
-    ck_assert_mem_eq(s.ir[1].h, alone.h, LENGTH * sizeof *alone.h);
+    ck_assert_uint_eq(s.ir[0].length, LENGTH);
+    ck_assert_mem_eq(s.ir[0].h, alone.h, LENGTH * sizeof *alone.h);
     ck_assert(alone.h[0] == 0.5 / 48000); /* cos 0, half */
-    ck_assert_uint_eq(s.ir[0].length, LENGTH / 2);
+    ck_assert_uint_eq(s.ir[2].length, LENGTH / 2);
     for (int n = 0; n < LENGTH / 2; n++)
-        ck_assert_double_eq_tol(s.ir[0].h[n], 0.1 * exp(-n / 100.0) * sin(0.5 * n) / 48000, 1e-20);
+        ck_assert_double_eq_tol(s.ir[2].h[n], 0.1 * exp(-n / 100.0) * sin(0.5 * n) / 48000, 1e-20);
     places_at(s.places, 0.1, 0, &mix);
     for (int k = 0; k < mix.n; k++)
-        ck_assert_double_eq_tol(mix.weight[k], mix.index[k] == 0, 1e-12);
-    ck_assert_uint_eq(s.ir[2].length, (size_t)ceil(LENGTH / 44100.0 * 48000));
-    for (size_t n = 0; n < s.ir[2].length; n++)
-        ck_assert_double_eq_tol(s.ir[2].h[n], pow(10, 0.3) * soft((double)n / 48000, 3000) / 48000, 1e-8 / 48000);
+        ck_assert_double_eq_tol(mix.weight[k], mix.index[k] == 2, 1e-12);
+    ck_assert_uint_eq(s.ir[1].length, (size_t)ceil(LENGTH / 44100.0 * 48000));
+    for (size_t n = 0; n < s.ir[1].length; n++)
+        ck_assert_double_eq_tol(s.ir[1].h[n], pow(10, 0.3) * soft((double)n / 48000, 3000) / 48000, 1e-8 / 48000);
     ck_assert_ptr_nonnull(s.note);
     ck_assert_msg(strstr(s.note, "other rate.wav: resampled from 44100 Hz to 48000 Hz"), "%s", s.note);
     remove_folder();
@@ -119,7 +119,7 @@ START_TEST(one_and_cut)
     ck_assert(mix.n == 1 && mix.index[0] == 0 && mix.weight[0] == 1);
     write_index("file_name,x_m,y_m\na.wav,0.3,0.1\n./b.wav,0,0\n");
     ck_assert_msg(ir_set_read(&(struct ir_ask){folder, 44100, NAN, NULL}, a, &s, &e), "%s", e.text);
-    ck_assert_msg(strstr(s.note, "a.wav: resampled from 48000 Hz to 44100 Hz (and 1 more of the folder's 2 responses)"), "%s", s.note);
+    ck_assert_msg(strstr(s.note, "b.wav: resampled from 48000 Hz to 44100 Hz (and 1 more of the folder's 2 responses)"), "%s", s.note);
     remove_folder();
     arena_close(a);
 }

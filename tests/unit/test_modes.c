@@ -53,9 +53,9 @@ START_TEST(gains_between_and_beyond)
     struct modes m = table_of(table, 50, arena);
     struct modes_point p = modes_point_make(arena, m.n);
     ck_assert(table_at(&m, 1.15, 1.2, &p) == 0);
-    ck_assert_double_eq_tol(p.re[1], 1.5, 1e-12);
-    ck_assert(table_at(&m, 1.3 + 0.24, 1.4 + 0.32, &p) == 0); /* 0.4 of 0.5 m on the way: 2 + 0.8 (-3 - 2) */
-    ck_assert_double_eq_tol(p.re[1], -2.0, 1e-12);
+    ck_assert_double_eq_tol(p.re[1], 2.25, 1e-12); /* the parabola through 1, 2, -3: 1 + u - 3 u (u - 1) */
+    ck_assert(table_at(&m, 1.3 + 0.24, 1.4 + 0.32, &p) == 0); /* u = 1.8 */
+    ck_assert_double_eq_tol(p.re[1], 1 + 1.8 - 3 * 1.8 * 0.8, 1e-12);
     ck_assert_double_eq_tol(p.im[0], 28 * sin(1.5), 1e-12);
     ck_assert_double_eq_tol(table_at(&m, 1 - 0.06, 1 - 0.08, &p), 0.1, 1e-12); /* before the first place */
     ck_assert_double_eq_tol(p.re[1], 1, 1e-12);
