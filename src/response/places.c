@@ -6,8 +6,7 @@
    The line runs between the two places farthest apart (the farthest from the farthest from the leftmost), towards +x, or +y when it is upright;
    a point's coordinate is that of its foot.
 
-   A grid has its axes along x and y; or turned: the leftmost place is a corner of it, whose nearest place lies along an axis, and the farthest place near that line shows the axis
-   more exactly. */
+   A grid has its axes along x and y; or turned: the leftmost place is a corner of it, whose nearest place lies along an axis. */
 #include "response/places.h"
 
 #include <math.h>
@@ -17,7 +16,7 @@
 #include "response/places_plane.h"
 
 static const double same = 1e-9;    /* m */
-static const double rounded = 1e-5; /* of the extent: what rounding in a file leaves of a grid */
+static const double rounded = 1e-4; /* of the extent: what rounding in a file leaves of a grid */
 
 struct places {
     enum places_kind kind;
@@ -125,27 +124,23 @@ static struct places_lattice *lattice_along(struct arena *a, const struct places
     return places_lattice_make(a, &(struct places_lattice_ask){p->n, p->xy, p->order, base, axis, rounded * extent, one_row});
 }
 
-/* The axis of a turned grid, if it is one: from the leftmost place to the farthest that lies beside the way to its nearest by less than half of that. */
+/* The axis of a turned grid, if it is one: from the leftmost place, a corner, towards its nearest, as exactly as the longer of the two sides at that corner tells. */
 static void turned_axis(const struct places *p, double axis[2])
 {
-    int near = 1, far;
+    int near = 1, far = 1;
     for (int k = 2; k < p->n; k++)
         near = distance(p->xy, p->xy + 2 * k) < distance(p->xy, p->xy + 2 * near) ? k : near;
-    double step = distance(p->xy, p->xy + 2 * near), least = 0, off;
-    far = near;
-    for (int pass = 0; pass < 2; pass++) {
-        const double *to = p->xy + 2 * (pass ? far : near);
-        double length = distance(p->xy, to);
-        axis[0] = (to[0] - p->xy[0]) / length;
-        axis[1] = (to[1] - p->xy[1]) / length;
-        for (int k = 1; k < p->n && pass == 0; k++) {
-            double along = foot(p->xy, axis, p->xy + 2 * k, &off);
-            if (fabs(off) < 0.5 * step && along > least) {
-                least = along;
-                far = k;
-            }
-        }
+    double step = distance(p->xy, p->xy + 2 * near), off;
+    for (int c = 0; c < 2; c++)
+        axis[c] = (p->xy[2 * near + c] - p->xy[c]) / step;
+    for (int k = 1; k < p->n; k++) {
+        double along = foot(p->xy, axis, p->xy + 2 * k, &off);
+        if (fmin(fabs(along), fabs(off)) < 0.5 * step && distance(p->xy, p->xy + 2 * k) > distance(p->xy, p->xy + 2 * far))
+            far = k;
     }
+    double length = distance(p->xy, p->xy + 2 * far);
+    for (int c = 0; c < 2; c++)
+        axis[c] = (p->xy[2 * far + c] - p->xy[c]) / length;
 }
 
 static bool make_grid(struct arena *a, struct places *p)

@@ -111,8 +111,10 @@ static void make_smooth(struct arena *a, struct axis *x)
 {
     if (x->n < 3)
         return;
+    struct arena *work = arena_open();
     x->spline = places_spline_make(a, x->n, x->at);
-    x->smooth = places_spline_grows(&x->spline, a) <= GROWS;
+    x->smooth = places_spline_grows(&x->spline, work) <= GROWS;
+    arena_close(work);
 }
 
 static void find_edges(struct arena *a, struct places_lattice *l)

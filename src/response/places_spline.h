@@ -15,7 +15,7 @@ struct places_spline places_spline_make(struct arena *a, int n, const double *at
 /* Slopes m[k][count] at the knots from the values f[k][count]. */
 void places_spline_slopes(const struct places_spline *s, int count, const double *const *f, double *const *m);
 
-/* How many times as large as the largest error of a value the spline's between knots may become, at most. */
+/* How many times as large as the values' largest error the spline's may become, at eighths of the intervals. */
 double places_spline_grows(const struct places_spline *s, struct arena *a);
 
 #endif
