@@ -33,19 +33,25 @@ bool modes_body_object(struct cmd_call *c, const struct modes_body *b, struct ob
 struct modes_places {
     int n, left_out;       /* left_out: of a grid, those off the object */
     double (*xy)[2];       /* m */
+    bool chosen;           /* as many as the goal of cmd/modes_fit.h needs */
+    bool line;             /* from, to: of the line; else of the box that holds them */
+    double from[2], to[2];
 };
+struct modes_fit;
 struct modes_ground {
     const void *self;
     double (*off)(const void *self, double x, double y); /* m, how far off the object; INFINITY: there is none */
     double low[2], high[2]; /* m, box of the places */
     int standard[2];       /* by default: NX, NY a grid; N, 1 a line in the middle; 1, 1 the place `at` */
+    struct modes_fit *fit; /* by default, and on a line, as many places as its goal needs (cmd/modes_fit.h); NULL: those of `standard` */
     double at[2];
     const char *remark;    /* ends a message that a place is beside the object; NULL: nothing */
 };
 bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p, struct err *e);
 /* No two are at one point, to a nanometre: a scene takes no table of such. *bad: the second of two. ERR_SCENE */
 bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad, struct err *e);
-bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_places *p, struct err *e);
+/* fit: as in struct modes_ground. */
+bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit, struct modes_places *p, struct err *e);
 
 /* "# key: value" lines that say what the object is: object, material, damping, holds. */
 void modes_describe(FILE *f, const struct object *o);

@@ -82,7 +82,7 @@ static bool from_object(struct list *l, const struct modes_body *b, struct err *
     struct modes_places places;
     const double *origin = b->response->object.origin;
     const char *note;
-    if (!modes_body_object(l->c, b, &o, &note, e) || !modes_body_places(l->c, b, &o, &places, e))
+    if (!modes_body_object(l->c, b, &o, &note, e) || !modes_body_places(l->c, b, &o, NULL, &places, e))
         return false;
     if (note)
         tell_remark(l->c, "modes", note);

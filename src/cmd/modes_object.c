@@ -12,6 +12,7 @@
 #include "base/outfile.h"
 #include "base/text.h"
 #include "cmd/modes.h"
+#include "cmd/modes_fit.h"
 #include "cmd/modes_output.h"
 #include "cmd/tell.h"
 #include "num/real.h"
@@ -24,7 +25,9 @@ struct job {
     struct modes_body body;
     struct object object;
     struct modes modes;
+    struct modes_fit fit;
     struct modes_places places;
+    double error;         /* dB, of interpolation between the places; NAN: of none */
     double listen[2];
     bool heard_elsewhere;
     double load;          /* kg */
@@ -48,25 +51,6 @@ static bool read_load(struct job *j, struct err *e)
     if (text && !units_read(text, KEY_MASS, &j->load, j->c->arena, &fault))
         return err_set(e, ERR_USAGE, "--load %s: %s", fault.text, fault.cure);
     return !text || (j->load > 0 && j->load <= 1000) || err_set(e, ERR_USAGE, "--load: %s is not above 0 and at most 1000 kg", text);
-}
-
-static bool make(struct job *j, struct err *e)
-{
-    static const long counts[2] = {1, 100000};
-    long most = 100000;
-    const struct object *o = &j->object;
-    for (const char *const *s = (const char *const *)j->body.scene.sources; s && *s; s++) /* what a scene includes */
-        if (!modes_output_spares(args_value(&j->c->args, "output"), *s, e))
-            return false;
-    j->heard_elsewhere = args_given(&j->c->args, "listen");
-    if (!args_whole(&j->c->args, "modes", counts, &most, e) || !modes_lengths(j->c, &(struct modes_lengths){"listen", "X,Y", 2}, j->listen, e) ||
-        !modes_body_object(j->c, &j->body, &j->object, &j->note, e) || !modes_body_places(j->c, &j->body, o, &j->places, e))
-        return false;
-    double off = j->heard_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
-    if (off > 1e-9)
-        return err_set(e, ERR_SCENE, "--listen: the place (%.9g, %.9g) m lies %.3g m off the object", j->listen[0], j->listen[1], off);
-    object_modes(o, j->body.response->object.origin, j->heard_elsewhere ? j->listen : NULL, (int)most, j->c->arena, &j->modes);
-    return true;
 }
 
 /* Modes by rising frequency; those of one frequency as they come. */
@@ -98,6 +82,44 @@ static void load(const struct job *j, double x, double y, const struct modes_poi
     }
 }
 
+/* What a table holds at a place in the object's coordinates. */
+static double gains_at(const void *self, double x, double y, const struct modes_point *p)
+{
+    const struct job *j = (const struct job *)self;
+    const struct modes *m = &j->modes;
+    const double *origin = j->body.response->object.origin;
+    double off = modes_at(m, &(struct modes_where){.x = x + origin[0], .y = y + origin[1]}, p);
+    memcpy(p->frequency, m->frequency, (size_t)m->n * sizeof *p->frequency);
+    memcpy(p->decay, m->decay, (size_t)m->n * sizeof *p->decay);
+    load(j, x, y, p);
+    modes_to_quantity(j->quantity, m->n, p);
+    return off;
+}
+
+static bool make(struct job *j, struct err *e)
+{
+    static const long counts[2] = {1, 100000};
+    long most = 100000;
+    const struct object *o = &j->object;
+    for (const char *const *s = (const char *const *)j->body.scene.sources; s && *s; s++) /* what a scene includes */
+        if (!modes_output_spares(args_value(&j->c->args, "output"), *s, e))
+            return false;
+    j->heard_elsewhere = args_given(&j->c->args, "listen");
+    if (!args_whole(&j->c->args, "modes", counts, &most, e) || !modes_lengths(j->c, &(struct modes_lengths){"listen", "X,Y", 2}, j->listen, e) ||
+        !modes_body_object(j->c, &j->body, &j->object, &j->note, e))
+        return false;
+    double off = j->heard_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
+    if (off > 1e-9)
+        return err_set(e, ERR_SCENE, "--listen: the place (%.9g, %.9g) m lies %.3g m off the object", j->listen[0], j->listen[1], off);
+    object_modes(o, j->body.response->object.origin, j->heard_elsewhere ? j->listen : NULL, (int)most, j->c->arena, &j->modes);
+    j->phi = ARENA_TAKE(j->c->arena, double, j->modes.n);
+    j->fit = (struct modes_fit){.self = j, .at = gains_at, .n = j->modes.n, .shared = j->load == 0.0, .arena = j->c->arena};
+    if (!modes_body_places(j->c, &j->body, o, &j->fit, &j->places, e))
+        return false;
+    j->error = modes_fit_error(&j->fit, &j->places);
+    return true;
+}
+
 static void comments(FILE *f, const struct job *j)
 {
     const double *origin = j->body.response->object.origin;
@@ -115,6 +137,7 @@ static void comments(FILE *f, const struct job *j)
     modes_describe(f, &j->object);
     if (j->load > 0.0)
         fprintf(f, "# load: %.12g kg rest where the object is touched; each mode keeps its shape (Rayleigh's quotient), its mass grows by load x shape^2\n", j->load);
+    modes_fit_write(f, j->error, &j->places, j->c->arena);
     if (j->note)
         fprintf(f, "# note: %s\n", j->note);
 }
@@ -128,11 +151,7 @@ static void write_table(FILE *f, const struct job *j)
     mode_table_write_header(f);
     for (int i = 0; i < j->places.n; i++) {
         struct mode_table_place place = {12, i + 1, j->places.xy[i][0] + origin[0], j->places.xy[i][1] + origin[1]};
-        modes_at(m, &(struct modes_where){.x = place.x, .y = place.y}, &p);
-        memcpy(p.frequency, m->frequency, (size_t)m->n * sizeof *p.frequency);
-        memcpy(p.decay, m->decay, (size_t)m->n * sizeof *p.decay);
-        load(j, j->places.xy[i][0], j->places.xy[i][1], &p);
-        modes_to_quantity(j->quantity, m->n, &p);
+        gains_at(j, j->places.xy[i][0], j->places.xy[i][1], &p);
         mode_table_write_place(f, &place, m->n, j->order, &p, j->quantity);
     }
 }
@@ -144,6 +163,7 @@ static void report(const struct job *j, const char *file)
            j->places.n, j->places.n == 1 ? "" : "s");
     if (j->places.left_out)
         printf(" (%d of the grid lie beside the object)", j->places.left_out);
+    modes_fit_report(j->error, j->c->arena);
     putchar('\n');
 }
 
@@ -155,7 +175,6 @@ int modes_object_run(struct cmd_call *c, struct err *e)
     if (!read_output(&j, e) || !modes_quantity(c, &j.quantity, e) || !read_load(&j, e) || !modes_body_read(c, c->args.operands[0], &j.body, e) || !make(&j, e))
         return (int)e->kind;
     sort(&j);
-    j.phi = ARENA_TAKE(c->arena, double, j.modes.n);
     if (!outfile_open(&o, file, e))
         return (int)e->kind;
     write_table(o.stream, &j);
@@ -165,5 +184,6 @@ int modes_object_run(struct cmd_call *c, struct err *e)
         report(&j, file);
     if (j.note && !args_given(&c->args, "quiet"))
         tell_remark(c, "modes", j.note);
+    modes_fit_warn(c, j.error, &j.places);
     return 0;
 }

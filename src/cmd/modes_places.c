@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "cmd/modes.h"
+#include "cmd/modes_fit.h"
 #include "num/real.h"
 
 enum { PLACES = 100000 };
@@ -16,7 +17,7 @@ static void add(struct modes_places *p, double x, double y)
 /* ends: x0, y0, x1, y1. Exact at both ends and in the middle. */
 static void line(struct modes_places *p, const double ends[4], int n, struct arena *a)
 {
-    p->xy = arena_take(a, (size_t)n, sizeof *p->xy);
+    *p = (struct modes_places){.xy = arena_take(a, (size_t)n, sizeof *p->xy), .line = true, .from = {ends[0], ends[1]}, .to = {ends[2], ends[3]}};
     for (int i = 0; i < n; i++) {
         double u = n > 1 ? (double)i / (n - 1) : 0.0;
         add(p, ends[0] + u * (ends[2] - ends[0]), ends[1] + u * (ends[3] - ends[1]));
@@ -25,14 +26,14 @@ static void line(struct modes_places *p, const double ends[4], int n, struct are
 
 static void circle(struct modes_places *p, double radius, int n, struct arena *a)
 {
-    p->xy = arena_take(a, (size_t)n, sizeof *p->xy);
+    *p = (struct modes_places){.xy = arena_take(a, (size_t)n, sizeof *p->xy), .from = {-radius, -radius}, .to = {radius, radius}};
     for (int i = 0; i < n; i++)
         add(p, radius * real_cospi(2.0 * i / n), radius * real_sinpi(2.0 * i / n));
 }
 
 static void grid(struct modes_places *p, const struct modes_ground *g, const int n[2], struct arena *a)
 {
-    p->xy = arena_take(a, (size_t)n[0] * (size_t)n[1], sizeof *p->xy);
+    *p = (struct modes_places){.xy = arena_take(a, (size_t)n[0] * (size_t)n[1], sizeof *p->xy), .from = {g->low[0], g->low[1]}, .to = {g->high[0], g->high[1]}};
     for (int j = 0; j < n[1]; j++)
         for (int i = 0; i < n[0]; i++) {
             double x = g->low[0] + (g->high[0] - g->low[0]) * i / (n[0] - 1), y = g->low[1] + (g->high[1] - g->low[1]) * j / (n[1] - 1);
@@ -71,15 +72,45 @@ static bool all_on(const struct modes_ground *g, const struct modes_places *p, s
     return p->n > 0 || err_set(e, ERR_SCENE, "none of the %d places of the grid lies on the object; take a finer one, or --line or --at", p->left_out);
 }
 
+struct layout { /* for cmd/modes_fit.h */
+    const struct modes_ground *ground;
+    double ends[4];
+    struct arena *arena;
+};
+
+static void lay_line(const void *self, const int n[2], struct modes_places *p)
+{
+    const struct layout *l = (const struct layout *)self;
+    line(p, l->ends, n[0], l->arena);
+}
+
+static void lay_grid(const void *self, const int n[2], struct modes_places *p)
+{
+    const struct layout *l = (const struct layout *)self;
+    grid(p, l->ground, n, l->arena);
+}
+
+static void along(struct cmd_call *c, const struct modes_ground *g, const double ends[4], int n, struct modes_places *p)
+{
+    struct layout l = {.arena = c->arena, .ends = {ends[0], ends[1], ends[2], ends[3]}};
+    if (g->fit)
+        modes_fit_places(g->fit, lay_line, &l, true, p);
+    else
+        line(p, ends, n, c->arena);
+}
+
 static void standard(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p)
 {
     double middle = 0.5 * (g->low[1] + g->high[1]);
+    struct layout l = {.arena = c->arena, .ground = g};
     if (g->standard[0] == 1)
         line(p, (double[4]){g->at[0], g->at[1], g->at[0], g->at[1]}, 1, c->arena);
-    else if (g->standard[1] > 1)
-        grid(p, g, g->standard, c->arena);
+    else if (g->standard[1] == 1)
+        along(c, g, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], p);
+    else if (g->fit)
+        modes_fit_places(g->fit, lay_grid, &l, false, p);
     else
-        line(p, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], c->arena);
+        grid(p, g, g->standard, c->arena);
 }
 
 static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], struct err *e)
@@ -136,8 +167,10 @@ bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes
         grid(p, g, n, c->arena);
     else if (args_given(&c->args, "circle"))
         circle(p, ends[0], (int)places, c->arena);
-    else if (args_given(&c->args, "line"))
+    else if (args_given(&c->args, "line") && args_given(&c->args, "places"))
         line(p, ends, (int)places, c->arena);
+    else if (args_given(&c->args, "line"))
+        along(c, g, ends, (int)places, p);
     else
         standard(c, g, p);
     int bad;

@@ -7,6 +7,7 @@
 
 #include "convolution/nodes.h"
 #include "num/real.h"
+#include "response/places.h"
 
 enum { MOST_KINKS = 4096, LOOKS = 9 };
 
@@ -35,6 +36,15 @@ static void widen(struct range *r, double x)
     r->high = fmax(r->high, x);
 }
 
+/* Across the cells of a grid logarithms go as parabolas: the whole piece counts as steep as its steepest part. */
+static double steepest(const struct modes_point *at, int i)
+{
+    double most = 0;
+    for (int k = 1; k < LOOKS; k++)
+        most = fmax(most, fabs(at[k].frequency[i] - at[k - 1].frequency[i]));
+    return 2 * REAL_PI * (LOOKS - 1) * most;
+}
+
 /* rad by which the gain of mode i turns from one look to the next. */
 static double turn(const struct modes_point *p, const struct modes_point *q, int i)
 {
@@ -56,7 +66,8 @@ static int mode_needs(const struct ring_nodes_ask *ask, const struct modes_point
     double turned = 0, change = gain.high > gain.low ? gain.high - gain.low : 0;
     for (int k = 1; k < LOOKS; k++)
         turned += turn(&at[k - 1], &at[k], i);
-    return nodes_needed(&(struct nodes_ask){0.5 * (pole.high - pole.low), {decay.low, decay.high}, ask->seconds, sqrt(change * change + turned * turned)}, ask->error);
+    double turns = ask->modes->places && places_kind(ask->modes->places) == PLACES_GRID ? steepest(at, i) : pole.high - pole.low;
+    return nodes_needed(&(struct nodes_ask){0.5 * turns, {decay.low, decay.high}, ask->seconds, sqrt(change * change + turned * turned)}, ask->error);
 }
 
 static int piece_needs(const struct ring_nodes_ask *ask, const double u[2], struct modes_point *at)

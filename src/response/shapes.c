@@ -9,8 +9,8 @@
 
    Gains at two different places are phi(x) phi(l) / w_d, of either sign, from which phi cannot be told; as coupled to a ball they could give out more energy than
    they take. They are refused: at each of the table's places the phase of A / s^q may be off by PHASE rad (a table whose velocity starts as a cosine is off by the
-   loss factor over 2), beyond FLOOR of the mode's largest, and of what is off the real part counts. The sign of phi is lost on a table; between places A is linear
-   (morph.c), so that phi passes 0 there only where some place lies on a nodal line. */
+   loss factor over 2), beyond FLOOR of the mode's largest, and of what is off the real part counts. The sign of phi is lost on a table. Between places A is what
+   morph.c makes of it: in triangles phi is 0 only where a place lies on a nodal line; where a spline of phi^2 comes out a little below 0, beside such a line, phi is 0. */
 #include "response/shapes.h"
 
 #include <math.h>
