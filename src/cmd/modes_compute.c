@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "cmd/modes_compute.h"
+#include "cmd/modes_fit.h"
 #include "cmd/modes_output.h"
 #include "cmd/tell.h"
 #include "fem/shapes.h"
@@ -31,6 +32,7 @@ static void report(const struct compute *k, const char *file)
            k->places == 1 ? "" : "s");
     if (k->left_out)
         printf(" (%d of the grid lie beside the solid)", k->left_out);
+    modes_fit_report(k->error, k->c->arena);
     printf("; %d tetrahedra of order %ld, %ld freedoms, %.4g kg, %d rigid motion%s\n", k->mesh.elements, k->order, k->modes.freedoms, k->modes.mass, k->modes.rigid,
            k->modes.rigid == 1 ? "" : "s");
     if (k->estimated)
@@ -64,11 +66,13 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
             printf("%s: up to date\n", text_shown(c->arena, file));
         return 0;
     }
-    if (!mark_permits(file, NULL, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) || !modes_compute_estimate(&k, e) || !modes_compute_write(&k, file, inputs, e))
+    if (!mark_permits(file, NULL, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) ||
+        !modes_compute_estimate(&k, e) || !modes_compute_places_settle(&k, e) || !modes_compute_write(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {
         report(&k, file);
         warn(c, k.note);
+        modes_fit_warn(c, k.error, &k.laid);
     }
     return 0;
 }

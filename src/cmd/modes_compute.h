@@ -31,6 +31,9 @@ struct compute {
     int places, left_out;
     double (*xy)[2];                 /* [places] m, on the chart */
     struct boundary_point *point;    /* [places] */
+    struct modes_places laid;        /* the same as they were laid out; not those of a list */
+    double error;                    /* dB, of interpolation between them; NAN: of none */
+    double *phi, *ear_phi;           /* [modes.n] work */
     bool elsewhere;                  /* heard at ... */
     struct boundary_point ear;
     struct solid_modes modes;
@@ -66,6 +69,9 @@ void modes_compute_estimate_write(FILE *f, const struct compute *k); /* "# ..." 
 
 /* --face, --line ..., --points, --listen, --origin. */
 bool modes_compute_places(struct compute *k, struct err *e);
+
+/* After the modes are known: as many places as they need where their number was left open, and the error. */
+bool modes_compute_places_settle(struct compute *k, struct err *e);
 
 /* SHA-256 of all that the table follows from. */
 void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT]);

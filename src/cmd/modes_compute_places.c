@@ -4,7 +4,10 @@
 
 #include "base/text.h"
 #include "cmd/modes_compute.h"
+#include "cmd/modes_fit.h"
+#include "fem/touch.h"
 #include "file/csv.h"
+#include "num/real.h"
 
 #define POINT_OFF 0.01 /* of the solid's size: a point of --points may lie so far off its surface, as it may lie off the flat faces of a mesh */
 
@@ -90,11 +93,11 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
 /* ------------------------------------------------------------------ --line ..., --listen */
 
 /* What is slender is touched along its middle, all else on a grid. */
-static bool read_places(struct compute *k, struct err *e)
+static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
 {
     const struct chart *c = &k->chart;
     double wide = c->high[0] - c->low[0], high = c->high[1] - c->low[1];
-    struct modes_ground ground = {.self = c, .off = off, .low = {c->low[0], c->low[1]}, .high = {c->high[0], c->high[1]}, .standard = {17, 9}};
+    struct modes_ground ground = {.self = c, .off = off, .low = {c->low[0], c->low[1]}, .high = {c->high[0], c->high[1]}, .standard = {17, 9}, .fit = fit};
     struct modes_places p;
     if (c->face >= CHART_AROUND)
         ground.remark = "; x is the arc round the axis x = y = 0 of the mesh's file, y is z, and the solid must be where they lead";
@@ -102,12 +105,49 @@ static bool read_places(struct compute *k, struct err *e)
         memcpy(ground.standard, (int[2]){33, 1}, sizeof ground.standard);
     if (!modes_places(k->c, &ground, &p, e))
         return false;
+    k->laid = p;
     k->places = p.n;
     k->left_out = p.left_out;
     k->xy = p.xy;
     k->point = ARENA_TAKE(k->c->arena, struct boundary_point, p.n);
     for (int i = 0; i < p.n; i++)
         chart_point(c, p.xy[i][0], p.xy[i][1], &k->point[i]);
+    return true;
+}
+
+/* Gains and poles of the modes at a place. */
+static double gains_at(const void *self, double x, double y, const struct modes_point *to)
+{
+    const struct compute *k = (const struct compute *)self;
+    struct boundary_point at;
+    if (!chart_point(&k->chart, x, y, &at))
+        return (double)INFINITY;
+    touch_shapes(&k->modes, &at, k->phi);
+    for (int i = 0; i < k->n; i++) {
+        to->frequency[i] = k->frequency[i];
+        to->decay[i] = k->decay[i];
+        to->im[i] = k->phi[k->mode[i]] * (k->elsewhere ? k->ear_phi : k->phi)[k->mode[i]];
+        to->re[i] = -to->im[i] * k->decay[i] / (2 * REAL_PI * k->frequency[i]);
+    }
+    modes_to_quantity(k->quantity, k->n, to);
+    return 0;
+}
+
+/* Places of a list lie on the chart where the list says, and between them no point of the surface is known. */
+bool modes_compute_places_settle(struct compute *k, struct err *e)
+{
+    const struct args *g = &k->c->args;
+    struct modes_fit fit = {.self = k, .at = gains_at, .n = k->n, .shared = true, .arena = k->c->arena};
+    k->error = NAN;
+    if (args_given(g, "points"))
+        return true;
+    k->phi = ARENA_TAKE(k->c->arena, double, k->modes.n);
+    k->ear_phi = ARENA_TAKE(k->c->arena, double, k->modes.n);
+    if (k->elsewhere)
+        touch_shapes(&k->modes, &k->ear, k->ear_phi);
+    if (!read_places(k, &fit, e))
+        return false;
+    k->error = modes_fit_error(&fit, &k->laid);
     return true;
 }
 
@@ -142,5 +182,5 @@ bool modes_compute_places(struct compute *k, struct err *e)
         if (args_given(&k->c->args, others[i]))
             return err_set(e, ERR_USAGE, "--points and --%s exclude each other", others[i]);
     return modes_lengths(k->c, &(struct modes_lengths){"origin", "X,Y", 2}, k->origin, e) && modes_quantity(k->c, &k->quantity, e) && read_face(k, e) &&
-           (points ? read_points(k, points, e) : read_places(k, e)) && read_listen(k, e);
+           (points ? read_points(k, points, e) : read_places(k, NULL, e)) && read_listen(k, e);
 }

@@ -14,6 +14,7 @@
 #include "base/outfile.h"
 #include "base/text.h"
 #include "cmd/modes_compute.h"
+#include "cmd/modes_fit.h"
 #include "cmd/version.h"
 #include "fem/touch.h"
 #include "num/real.h"
@@ -41,7 +42,7 @@ void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
     const double numbers[] = {m->alpha, m->beta, m->loss, m->elastic.density, k->top, k->origin[0], k->origin[1]};
     const long wholes[] = {k->most, k->order, k->quantity, k->chart.face, k->places, k->elsewhere, m->own, m->own_damping};
     struct hash h = hash_start();
-    add_text(&h, "rasp modes compute, table 1");
+    add_text(&h, "rasp modes compute, table 2");
     add_text(&h, k->mesh.name);
     add_text(&h, args_value(&k->c->args, "title"));
     add_text(&h, m->named ? m->named->name : NULL);
@@ -57,6 +58,7 @@ void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
         add_text(&h, k->held_names[i]);
         hash_add(&h, k->held[i].corner, (size_t)k->held[i].n * sizeof *k->held[i].corner);
     }
+    add_text(&h, args_given(&k->c->args, "grid") || args_given(&k->c->args, "places") ? "so many places" : "as many places as needed");
     hash_add(&h, k->xy, (size_t)k->places * sizeof *k->xy);
     for (int i = 0; i < k->places; i++)
         add_point(&h, &k->point[i]);
@@ -152,6 +154,7 @@ static void comments(FILE *f, const struct compute *k, const char *inputs)
     else
         fprintf(f, "# places: on the solid as seen from its side '%s': its %s, moved by (%.9g, %.9g) m\n", chart_faces[k->chart.face], axes[k->chart.face], k->origin[0],
                 k->origin[1]);
+    modes_fit_write(f, k->error, &k->laid, k->c->arena);
     fprintf(f, "# radius_m: %.9g\n", sqrt(k->boundary.outer / (4.0 * REAL_PI)));
     object(f, k);
     material(f, &k->material);
