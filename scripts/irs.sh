@@ -47,7 +47,7 @@ solid stoneware_tile 'porcelain stoneware tile, free' plate:length=30cm,width=30
 solid glass_plate 'pane of glass, free' plate:length=30cm,width=20cm,thickness=4mm --material glass \
     --line 0,7cm,30cm,7cm --places 25 --origin 0,-7cm --listen 23.1cm,12.7cm
 solid steel_bowl 'steel bowl, free, scraped inside across its foot' bowl:diameter=20cm,height=8cm,thickness=1.5mm --material steel \
-    --line=-6cm,1cm,6cm,1cm --places 17 --origin 6cm,-1cm --listen 5.3cm,-4.1cm
+    --line=-6cm,1cm,6cm,1cm --places 21 --origin 6cm,-1cm --listen 5.3cm,-4.1cm
 solid ceramic_mug 'ceramic mug, free, scraped round its wall' mug:diameter=8cm,height=9cm,wall=4mm --material ceramic \
     --face around --line 4cm,5.5cm,14cm,5.5cm --places 17 --origin=-4cm,-5.5cm --listen 17.1cm,8cm
 solid aluminium_rod 'aluminium rod, free, scraped along its back' rod:length=30cm,diameter=1cm --material aluminium \

@@ -2,6 +2,8 @@
    triangles; pairing; fading where a place lacks a mode and at half the sample rate. */
 #include "tables.h"
 
+#include "response/places.h"
+
 static struct arena *arena;
 static const double pi = 3.14159265358979323846;
 
@@ -366,5 +368,61 @@ START_TEST(slopes_between_places)
 }
 END_TEST
 
+/* Any phases, decays, signs and missing modes on a grid: a mirrored table is the same, mirrored; nothing is larger than the largest of a cell's corners, nor has a pole beyond theirs. */
+START_TEST(grids_are_symmetric)
+{
+    enum { NX = 4, NY = 3 };
+    static struct known k[NX * NY], mirror[NX * NY];
+    setup();
+    for (int trial = 0; trial < 24; trial++) {
+        fill(k, NX * NY, trial % 2 ? 0.2 : 0);
+        for (int p = 0; p < NX * NY; p++) {
+            k[p].x = 0.1 * (p % NX) + 0.02 * (p % NX == 2), k[p].y = 0.1 * (p / NX);
+            for (int i = 0; trial % 3 == 0 && i < MODES; i++)
+                k[p].phase[i] = 0.3; /* changes of sign alone */
+        }
+        for (int p = 0; p < NX * NY; p++) {
+            mirror[NX * NY - 1 - p] = k[p]; /* in another order, too */
+            if (trial % 4 < 2)
+                mirror[NX * NY - 1 - p].x = 0.3 - k[p].x;
+            else
+                mirror[NX * NY - 1 - p].y = 0.2 - k[p].y;
+        }
+        struct modes m = table_of(text_of(k, NX * NY, "# pairing: ids\n" SEPARATE), MODES, arena), o = table_of(text_of(mirror, NX * NY, "# pairing: ids\n" SEPARATE), MODES, arena);
+        struct modes_point a = modes_point_make(arena, m.n), b = modes_point_make(arena, m.n), at = modes_point_make(arena, m.n);
+        ck_assert(places_kind(m.places) == PLACES_GRID && m.n == MODES && o.n == MODES);
+        for (int q = 0; q < 500; q++) {
+            double x = 0.3 * drand48(), y = 0.2 * drand48(), most[MODES] = {0}, low[MODES], high[MODES] = {0};
+            for (int i = 0; i < MODES; i++)
+                low[i] = 1e9;
+            table_at(&m, x, y, &a);
+            table_at(&o, trial % 4 < 2 ? 0.3 - x : x, trial % 4 < 2 ? y : 0.2 - y, &b);
+            for (int p = 0; p < NX * NY; p++) {
+                int column = x < 0.1 ? 0 : x < 0.22 ? 1 : 2, row = y < 0.1 ? 0 : 1;
+                if (p % NX < column || p % NX > column + 1 || p / NX < row || p / NX > row + 1)
+                    continue;
+                table_at(&m, k[p].x, k[p].y, &at);
+                for (int i = 0; i < MODES; i++) {
+                    double size = sqrt(at.re[i] * at.re[i] + at.im[i] * at.im[i]);
+                    most[i] = fmax(most[i], size);
+                    high[i] = size > 0 ? fmax(high[i], at.frequency[i]) : high[i];
+                    low[i] = size > 0 ? fmin(low[i], at.frequency[i]) : low[i];
+                }
+            }
+            for (int i = 0; i < MODES; i++) {
+                double size = sqrt(a.re[i] * a.re[i] + a.im[i] * a.im[i]);
+                ck_assert_double_eq_tol(a.re[i], b.re[i], 1e-10 * (most[i] + 1e-3));
+                ck_assert_double_eq_tol(a.im[i], b.im[i], 1e-10 * (most[i] + 1e-3));
+                ck_assert_double_eq_tol(a.frequency[i], b.frequency[i], 1e-11 * a.frequency[i]);
+                ck_assert_double_le(size, most[i] * (1 + 1e-12));
+                if (high[i] > 0 && size > 1e-9)
+                    ck_assert(a.frequency[i] <= high[i] * (1 + 1e-12) && a.frequency[i] >= low[i] * (1 - 1e-12));
+            }
+        }
+    }
+    teardown();
+}
+END_TEST
+
 UNIT("morph", on_a_line, at_the_places, in_a_triangle, continuous_everywhere, a_vortex_has_a_zero, equal_poles_stay, very_weak_gains, fades_at_half_the_rate, a_change_of_sign_turns,
-     pairing_of_a_table, slopes_between_places)
+     pairing_of_a_table, slopes_between_places, grids_are_symmetric)
