@@ -42,7 +42,7 @@ grep -E '^# (clamped|supported)' hinged.csv
 echo '== places'
 ring=ring:diameter=10cm,width=1cm,thickness=1cm,fineness=1
 places() { awk -F, '!/^#/ && $1 ~ /^[0-9]+$/ && !($1 in seen) { seen[$1]; n++; if (n <= 2) printf "(%.4g, %.4g) ", $2, $3 } END { print n, "places" }' "$1"; }
-compute --shape $ring --material glass --modes 4 -o grid.csv
+compute --shape $ring --material glass --modes 4 --grid 17,9 -q -o grid.csv
 places grid.csv
 compute --shape $ring --material glass --modes 4 --circle 4.5cm --places 8 -q -o circle.csv
 places circle.csv
