@@ -9,9 +9,9 @@
    y, and slopes along x of slopes along y at the four corners of the cell, 16 numbers. Two lines are linear and three a parabola. An axis whose distances are so
    uneven that an error of one value might come out GROWS times as large stays linear (places_spline_grows).
 
-   Why a spline: of the gains of a plate (50 modes, heard at another place, 33 x 23 places) linear shares miss 25 dB below them, four-point Lagrange 43, Hermite with
-   parabolas' slopes 41, with five-point slopes 56, the spline 52 dB, on a supported plate; 30, 52, 48, 59, 65 dB on a free one; of 100 modes 33, 33, 41, 40 dB but for the linear
-   ones, and free 40, 37, 47, 55 dB. Slopes of five points make 2.2 of an error of 1 where places are evenly far from each other and 25 where distances alternate by a factor of 2, the spline 2 and 10.
+   Why a spline: between 33 x 23 places the gains of the 50 lowest modes of a supported plate, heard at another place, are off by -25 dB with linear shares, -43 with four-point Lagrange, -41 by Hermite's
+   form with parabolas' slopes, -56 with five-point slopes, -52 with the spline; of 100 modes -20, -32, -33, -41, -40 dB. Of a free plate -30, -52, -48, -59, -65, and -23, -40, -37, -47, -55 dB. An error of 1
+   becomes 2.2 with five-point slopes and 2.0 with the spline where places are even, and at worst 25 and 10 where distances go up and down by factors of 2.
 
    Kinks are the lines: of linear shares the slope jumps there, of the spline the third derivative. Beyond the outermost lines the nearest point counts. */
 #include "response/places_lattice.h"
