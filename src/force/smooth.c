@@ -11,7 +11,10 @@
    sub-samples of which one sample is made cost 4 times as much, and behind a low-pass so smooth another one hardly needs its own length.
 
    Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes every 64 sub-samples and
-   an element between two nodes spreads with both kernels, linearly weighted (error of second order in sigma's change over 64 sub-samples). */
+   an element between two nodes spreads with both kernels, linearly weighted (error of second order in sigma's change over 64 sub-samples).
+
+   Nothing comes before the start: what would be spread to there is reflected at it, as heat is at an insulated end. Momentum is kept, and what begins at full height stays at full height, where
+   without it it would begin at half. (What decimate joins to its kernel it reflects itself, num/lead.h.) */
 #include "force/smooth.h"
 
 #include <math.h>
@@ -204,6 +207,22 @@ static void smooth_segments(struct smooth *s, const struct board *b, long end)
     }
 }
 
+/* Of the first sub-samples: what was spread to those before 0. */
+static void smooth_reflect(struct smooth *s)
+{
+    double *start = s->sum + s->reach;
+    for (int i = 0; i < s->reach; i++)
+        start[i] += start[-1 - i];
+}
+
+/* The same by elements before 0, as the kernel is symmetric. */
+static void smooth_mirror(struct smooth *s)
+{
+    double *start = s->raw + s->reach;
+    for (int i = 0; i < s->reach; i++)
+        start[-1 - i] = start[i];
+}
+
 /* Hands over the finished sums of [first, end) and makes room behind them. */
 static void smooth_hand_over(struct smooth *s, double *y, long first, long end)
 {
@@ -225,12 +244,16 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
         return true;
     if (!s->varies) {
         smooth_take(s, b, first - s->reach, (to + r->ahead - 1) * b->over);
+        if (first == 0)
+            smooth_mirror(s);
         spread_still(&s->still.kernel, s->raw + (first - s->reach - s->raw_first), y, end - first);
         return true;
     }
     long keep = s->node < s->start ? s->raw_first : s->node;
     smooth_take(s, b, keep, (to + r->ahead - 1) * b->over);
     smooth_segments(s, b, end);
+    if (first == 0)
+        smooth_reflect(s);
     smooth_hand_over(s, y, first, end);
     return true;
 }

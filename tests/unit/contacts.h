@@ -64,14 +64,17 @@ static inline const double *shot_force(struct shot *s, long frames)
     return board_at(&s->board, item, 0);
 }
 
-/* The same decimated to the audio rate, from frame -SHOT_MARGIN / 2 on. */
+/* The same decimated to the audio rate, in uneven blocks. */
 static inline const double *shot_decimated(struct shot *s, long frames)
 {
     shot_force(s, frames);
     shot_room(s, ITEM_FORCE, 1, frames);
     ck_assert(s->decimate.back < SHOT_MARGIN / 2 && s->decimate.ahead < SHOT_MARGIN / 2);
-    ck_assert(decimate_stage.run(&s->decimate, -SHOT_MARGIN / 2, frames, &s->e));
-    return board_at(&s->board, ITEM_FORCE, -SHOT_MARGIN / 2);
+    for (long from = 0, to, block = 1; from < frames; from = to, block = (11 * block + 5) % 2027 + 1) {
+        to = from + block < frames ? from + block : frames;
+        ck_assert(decimate_stage.run(&s->decimate, from, to, &s->e));
+    }
+    return board_at(&s->board, ITEM_FORCE, 0);
 }
 
 #endif

@@ -138,7 +138,7 @@ START_TEST(bounces)
         c.contact.strike.first = 0.01;
         ck_assert_msg(shot_open(&s, &strike_stage, &c, rate, 4), "%s", s.e.text);
         long n = (long)(1.9 * rate);
-        struct impact_signal signal = {shot_decimated(&s, n) + SHOT_MARGIN / 2, n, rate, 0};
+        struct impact_signal signal = {shot_decimated(&s, n), n, rate, 0};
         ck_assert(impact_find(&signal, &impact_find_options, s.arena, &f, &e));
         ck_assert(impact_duration_single(&f.events, true, &d));
         double zeta = 2.9432751843247045 * sqrt(1.25 * c.scraper.mass / stiffness) * pow(0.9 * stiffness, 1.0 / 6);

@@ -208,7 +208,7 @@ START_TEST(decimated)
         c.contact.strike.speed = 1;
         c.contact.strike.stiffness = 1.25 * c.scraper.mass / pow(lasts[k] / 48000 / 2.9432751843247045, 2.5);
         ck_assert(shot_open(&s, &strike_stage, &c, 48000, 4) && strike_make(&c, 1, &train, &e));
-        const double *force = shot_decimated(&s, 40000) + SHOT_MARGIN / 2;
+        const double *force = shot_decimated(&s, 40000);
         struct impact_signal signal = {force, 40000, 48000, 0};
         ck_assert(impact_find(&signal, &impact_find_options, s.arena, &f, &e));
         ck_assert_int_ge(f.events.n, 4);

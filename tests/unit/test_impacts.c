@@ -108,7 +108,7 @@ static double after_start(const struct impact *i)
 }
 
 /* Sum of the sub-intervals, and of the decimated samples, against sum A t0 / 2: rounding of as many terms; the decimator's gain at 0 Hz is 1 to rounding, and
-   of what it leaves of the images, and of its tail where the motion begins and ends, 2e-5 remains. Of signed series a share of sum |A| t0 / 2. */
+   of what it leaves of the images 2e-7 remains. A series that is under way at the start is cut there at full height, and what the decimator would spread before it is in the first samples. Of signed series a share of sum |A| t0 / 2. */
 START_TEST(momentum_is_kept)
 {
     for (int r = 0; r < RATES; r++)
@@ -127,11 +127,11 @@ START_TEST(momentum_is_kept)
                 const double *force = shot_decimated(&s, frames), *means = board_at(&s.board, ITEM_SUBFORCE, 0);
                 for (long i = 0; i < frames * over; i++)
                     sum += means[i];
-                for (long i = 0; i < frames + SHOT_MARGIN / 2; i++)
+                for (long i = 0; i < frames; i++)
                     all += force[i];
                 ck_assert_double_gt(whole, 0);
                 ck_assert_double_eq_tol(sum / (rates[r] * over), want, 1e-12 * whole);
-                ck_assert_double_eq_tol(all / rates[r], want, 2e-5 * whole);
+                ck_assert_double_eq_tol(all / rates[r], want, 1e-6 * whole);
                 free(list);
                 arena_close(s.arena);
             }
