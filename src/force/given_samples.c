@@ -2,7 +2,8 @@
 
      f[n] = scale x[n]     N, at n / rate after the contact's start; 0 before the first and after the last sample
 
-   At the audio rate samples stay what they are; at another they are resampled as a band-limited signal (num/resample.h). */
+   At the audio rate samples stay what they are; at another they are resampled as a band-limited signal (num/resample.h), with the sum over the rate, the momentum, that they have: what would ring
+   before the first is folded into the first ones, what rings after the last is kept. */
 #include <string.h>
 
 #include "base/shelf.h"
@@ -97,6 +98,16 @@ static bool samples_take(const struct stage_run *r, struct given_samples *g, str
     return f->is_npy ? npy_take(r, &f->npy, g, e) : wav_take(r, &f->wav, g, e);
 }
 
+/* To the audio rate, with what rings after the last sample. */
+static bool samples_resample(const struct stage_run *r, struct given_samples *g, struct err *e)
+{
+    double rate = r->board->rate;
+    size_t rings = (size_t)ceil(RESAMPLE_REACH * g->rate / fmin(rate, g->rate));
+    double *x = ARENA_TAKE(r->arena, double, g->n + rings);
+    memcpy(x, g->force, g->n * sizeof *x);
+    return resample(r->arena, x, g->n + rings, g->rate, rate, &g->force, &g->n, e);
+}
+
 static bool samples_open(struct stage_run *r, struct err *e)
 {
     struct given_samples *g = ARENA_TAKE(r->arena, struct given_samples, 1);
@@ -105,7 +116,7 @@ static bool samples_open(struct stage_run *r, struct err *e)
         return false;
     if (r->contact->start < r->scene->output.ramp)
         onset_told(r, "the largest force", (double)onset_largest(g->n, g->force) / g->rate);
-    return g->rate == r->board->rate || resample(r->arena, g->force, g->n, g->rate, r->board->rate, &g->force, &g->n, e);
+    return g->rate == r->board->rate || samples_resample(r, g, e);
 }
 
 static bool samples_fill(struct stage_run *r, long from, long to, struct err *e)

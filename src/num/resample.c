@@ -10,6 +10,11 @@
    - A clock of 32 bits for ratios that are not small fractions: SOXR_HI_PREC_CLOCK makes it exact enough for the figure above.
    What remains: another version of libsoxr may differ, as another FFTW may.
 
+   The beginning. libsoxr starts as if nothing could ring before sample 0, and where it has several stages each of them drops its own: of an impulse in the first sample 4 % are missing even from
+   what comes after it (44.1 to 48 kHz). So the signal is converted behind P samples of silence, which take Q samples out, P/Q being rate_in/rate_out; and what then rings before it is folded into
+   the first samples (num/lead.h). P and Q are whole and at most STILL where the ratio allows; else P/Q is the best approximation by such (continued fraction), and the signal comes out by less than
+   1/STILL of a sample beside its place: -120 dB at the very top of the band.
+
    One thread at a time: the environment is the whole program's, and so are libsoxr's tables for its FFTs. */
 #include "num/resample.h"
 
@@ -22,7 +27,9 @@
 
 #include "base/memory.h"
 #include "num/libm.h"
+#include "num/lead.h"
 
+enum { STILL = 1 << 22, REACH = RESAMPLE_REACH };
 enum { MARGIN = 64 }; /* samples of silence behind x, in and out, so that the last ones come out whole */
 
 static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
@@ -110,6 +117,45 @@ static bool convert_alone(const double *x, size_t n, const double rates[2], stru
     return ok;
 }
 
+/* Numbers of samples, in and out, that take the same time: the last convergent of the ratio's continued fraction with both up to STILL, so often that `least` go in. */
+static void even_times(const double rates[2], size_t least, size_t *in, size_t *out)
+{
+    double ratio = rates[1] / rates[0], rest = ratio, p[2] = {0, 1}, q[2] = {1, 0};
+    for (int k = 0; k < 40; k++) {
+        double whole = floor(rest), next_p = whole * p[1] + p[0], next_q = whole * q[1] + q[0];
+        if (next_p > STILL || next_q > STILL)
+            break;
+        p[0] = p[1], p[1] = next_p;
+        q[0] = q[1], q[1] = next_q;
+        if (p[1] == ratio * q[1] || rest - whole < 1e-12)
+            break;
+        rest = 1 / (rest - whole);
+    }
+    double times = ceil((double)least / q[1]);
+    *in = (size_t)(times * q[1]);
+    *out = (size_t)(times * p[1]);
+}
+
+/* x[n] behind silence; what came out before it folded into y[m]. */
+static bool convert_whole(const double *x, size_t n, const double rates[2], struct out to, struct err *e)
+{
+    double low = fmin(rates[0], rates[1]);
+    size_t leads = (size_t)ceil(REACH * rates[1] / low), still, before;
+    even_times(rates, (size_t)ceil(REACH * rates[0] / low) + 1, &still, &before);
+    struct arena *scratch = arena_open();
+    double *late = ARENA_TAKE(scratch, double, still + n), *y = ARENA_TAKE(scratch, double, before + to.m), *lead = ARENA_TAKE(scratch, double, leads);
+    memcpy(late + still, x, n * sizeof *x);
+    bool ok = convert_alone(late, still + n, rates, (struct out){y, before + to.m}, e);
+    memcpy(to.y, y + before, to.m * sizeof *y);
+    for (size_t m = 1; m <= leads; m++)
+        lead[m - 1] = y[before - m];
+    lead_fold(lead, (long)leads, (long)ceil(rates[1] / low));
+    for (size_t m = 0; m < leads && m < to.m; m++)
+        to.y[m] += lead[m];
+    arena_close(scratch);
+    return ok;
+}
+
 bool resample(struct arena *a, const double *x, size_t n, double rate_in, double rate_out, double **y, size_t *m, struct err *e)
 {
     double ratio = rate_out / rate_in;
@@ -121,5 +167,6 @@ bool resample(struct arena *a, const double *x, size_t n, double rate_in, double
         memcpy(*y, x, n * sizeof *x);
         return true;
     }
-    return convert_alone(x, n, (const double[2]){rate_in, rate_out}, (struct out){*y, *m}, e);
+    const double rates[2] = {rate_in, rate_out};
+    return convert_whole(x, n, rates, (struct out){*y, *m}, e);
 }

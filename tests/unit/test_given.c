@@ -208,11 +208,67 @@ START_TEST(table_decimated)
     struct contact c = giver(path("a.csv"), 0.2);
     struct shot s;
     ck_assert_msg(shot_open(&s, &given_table_stage, &c, 22050, 4), "%s", s.e.text);
-    const double *force = shot_decimated(&s, 4410) + SHOT_MARGIN / 2;
+    const double *force = shot_decimated(&s, 4410);
     for (int i = 300; i < 4100; i++)
         ck_assert_double_eq_tol(force[i], sin(2 * M_PI * 40 * i / 22050.0), 4e-5);
     arena_close(s.arena);
     gone("a.csv");
+}
+END_TEST
+
+/* ------------------------------------------------------------------ from the first sample on */
+
+/* Tables that begin at full height, or stand there and fall at once: sum of the force over the rate against the integral. */
+START_TEST(table_momentum_from_the_start)
+{
+    static const char *const tables[] = {"0,1\n0.01,1\n", "0,5\n1e-6,0\n", "0,-2\n0.0101,3\n0.013,0\n", "0,1\n3.3e-5,7\n3.3001e-5,0\n", "4e-6,9\n2e-5,9\n"};
+    static const double integrals[] = {0.01, 2.5e-6, 0.5 * (-2 + 3) * 0.0101 + 1.5 * 0.0029, 4 * 3.3e-5 + 3.5e-9, 9 * 1.6e-5}, sizes[] = {0.01, 2.5e-6, 0.017, 1.3e-4, 1.44e-4};
+    static const double rates[] = {22050, 44100, 48000, 192000};
+    for (int k = 0; k < 20; k++)
+        for (int over = 1; over <= 64; over *= 4) {
+            char text[200];
+            int length = snprintf(text, sizeof text, "time_s,force_n\n%s", tables[k / 4]);
+            write_text("a.csv", text, (size_t)length);
+            struct contact c = giver(path("a.csv"), 0.02);
+            struct shot s;
+            ck_assert_msg(shot_open(&s, &given_table_stage, &c, rates[k % 4], over), "%s", s.e.text);
+            long n = (long)(0.03 * rates[k % 4]);
+            const double *force = shot_decimated(&s, n);
+            double sum = 0;
+            for (long i = 0; i < n; i++)
+                sum += force[i] / rates[k % 4];
+            ck_assert_double_eq_tol(sum, integrals[k / 4], 1e-6 * sizes[k / 4]);
+            arena_close(s.arena);
+        }
+    gone("a.csv");
+}
+END_TEST
+
+/* Samples that begin and end at full height, at other rates. */
+START_TEST(samples_momentum_from_the_start)
+{
+    static const double rates[] = {22050, 44100, 47999, 96000};
+    enum { N = 700 };
+    static double x[N];
+    double want = 0;
+    srand48(9);
+    for (int i = 0; i < N; i++)
+        want += (x[i] = 1 + drand48()) / 48000;
+    write_wav("a.wav", 48000, 1, -64, x, N);
+    for (int r = 0; r < 4; r++) {
+        struct contact c = giver(path("a.wav"), 1);
+        struct shot s;
+        double sum = 0;
+        c.contact.given.scale = 1;
+        ck_assert_msg(shot_open(&s, &given_samples_stage, &c, rates[r], 4), "%s", s.e.text);
+        long n = (long)(0.03 * rates[r]);
+        const double *force = shot_force(&s, n);
+        for (long i = 0; i < n; i++)
+            sum += force[i] / rates[r];
+        ck_assert_double_eq_tol(sum, want, 1e-8 * want);
+        arena_close(s.arena);
+    }
+    gone("a.wav");
 }
 END_TEST
 
@@ -298,5 +354,6 @@ START_TEST(missing)
 }
 END_TEST
 
-UNIT("given", wav_at_its_own_rate, npy_at_its_own_rate, resampled_is_the_same_signal, table_means_are_exact, ramp_means, table_decimated, wavs_refused,
+UNIT("given", wav_at_its_own_rate, npy_at_its_own_rate, resampled_is_the_same_signal, table_means_are_exact, ramp_means, table_decimated, table_momentum_from_the_start,
+     samples_momentum_from_the_start, wavs_refused,
      npys_refused, tables_refused, missing)

@@ -132,6 +132,38 @@ START_TEST(lengths)
 }
 END_TEST
 
+/* What begins at full height keeps its sum over the rate, and its time of arrival: noise, a single sample, a jump, at the pairs above and at rates that have no small common measure. What rings
+   after the end is in the zeros behind it. Demanded: a gain at 0 Hz of 1 within 1e-8 (libsoxr: -172 dB); a place within 1e-5 samples. */
+START_TEST(sum_from_the_first_sample)
+{
+    static const double odd[][2] = {{12345.678, 48000}, {31415.926535, 44100}, {51200, 44100}, {1000, 192000}};
+    srand48(5);
+    for (int k = 0; k < PAIRS + 4; k++)
+        for (int kind = 0; kind < 3; kind++) {
+            const double *rate = k < PAIRS ? pairs[k] : odd[k - PAIRS];
+            size_t n = 300 + (size_t)(2 * RESAMPLE_REACH * fmax(1, rate[0] / rate[1])), m;
+            struct arena *a = arena_open();
+            struct err e = {0};
+            double *x = ARENA_TAKE(a, double, n), *y, in[2] = {0}, out[2] = {0}, size = 0;
+            for (int i = 0; i < (kind == 0 ? 300 : kind == 1 ? 1 : 200); i++)
+                x[i] = kind == 0 ? drand48() - 0.3 : 1;
+            ck_assert_msg(resample(a, x, n, rate[0], rate[1], &y, &m, &e), "%s", e.text);
+            for (size_t i = 0; i < n; i++) {
+                in[0] += x[i] / rate[0];
+                in[1] += x[i] * ((double)i / rate[0]) / rate[0];
+                size += fabs(x[i]) / rate[0];
+            }
+            for (size_t i = 0; i < m; i++) {
+                out[0] += y[i] / rate[1];
+                out[1] += y[i] * ((double)i / rate[1]) / rate[1];
+            }
+            ck_assert_double_eq_tol(out[0], in[0], 1e-8 * size);
+            ck_assert_double_eq_tol(out[1], in[1], 1e-5 * size / fmin(rate[0], rate[1]));
+            arena_close(a);
+        }
+}
+END_TEST
+
 /* One hash of libsoxr 0.1.3 for every CPU, with and without FMA and AVX, whatever the environment holds. It fails when libsoxr has its
    filters from glibc's libm (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2 shows it) or takes its AVX engine. */
 START_TEST(bits)
@@ -154,9 +186,9 @@ START_TEST(bits)
             hash = (hash ^ ((unsigned char *)y)[i]) * 1099511628211ULL;
     }
     printf("%016llx\n", (unsigned long long)hash);
-    ck_assert_uint_eq(hash, 7991864401972340088ULL);
+    ck_assert_uint_eq(hash, 5924494839503523242ULL);
     arena_close(a);
 }
 END_TEST
 
-UNIT("resample", closed_forms, no_aliases, no_delay_and_linear_phase, equal_rates_copy, lengths, bits)
+UNIT("resample", closed_forms, no_aliases, no_delay_and_linear_phase, equal_rates_copy, lengths, sum_from_the_first_sample, bits)
