@@ -7,10 +7,12 @@
 struct roll_centre {
     struct spin spin;
     bool round;                     /* neither offset nor lobes                         */
+    bool printed;                   /* penetration: paper                               */
     double height, lift[SLOPE_LEVELS]; /* m, S at the start of the next sub-interval; m^2, lift (force/slope.h) */
     double at[WAY_CHUNK + 1];       /* m: S at the start of the first sub-interval and at each one's end, */
     double lifts[SLOPE_LEVELS][WAY_CHUNK + 1]; /* m^2: less the levels (force/slope.h) times these */
     double rise[WAY_CHUNK + 1];     /* m, of the same instants: rise + bulge; 0 of what is round */
+    double in_rho[WAY_CHUNK + 1];  /* m, where printed: what is added to R + S, -r cos(x/R) + bulge */
 };
 
 struct roll_centre roll_centre_make(const struct contact *c);
