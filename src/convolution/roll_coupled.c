@@ -7,8 +7,8 @@
    and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the
    curve is scouted (roll_curve.h). s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
 
-   The start. Dropped, the ball is at rest in the air, `drop` above where it would lie, which is less above the level ground. Otherwise it lies there, bent into the ground, with no vertical speed. That
-   the ground bore it before is known to the equations, but not to what sounds (ring_*), for which a weight that is there at once is a blow; so
+   The start. Dropped, the ball is at rest in the air, `drop` clear of the ground, whose modes are at rest, too: on rigid ground it touches after sqrt(2 h/g) with sqrt(2 g h), however soft the
+   contact. Otherwise it lies there, bent into the ground, with no vertical speed. That the ground bore it before is known to the equations, but not to what sounds (ring_*), for which a weight that is there at once is a blow; so
    the force rises over load.approach where the ball lies at the start, and falls over load.release at the motion's end (force/approach.c, scene/rules.h).
    The equations and the account (ITEM_ROLL) are of the ball without them. */
 #include <math.h>
@@ -40,7 +40,7 @@ struct rolling {
     double *force;            /* [longest * per_frame] N, over the steps of the leg           */
     struct coupled_state *seen; /* [longest + 1] where the board asks for ITEM_ROLL: before each of its frames, and after the last */
     double mass, stiffness, gravity, drop;
-    double rest;              /* m, height of the ball that lies where the motion starts      */
+    double rest;              /* m, height of the ball that lies where the motion starts, below that of one that just touches */
     double residual;          /* J, greatest at the legs' ends                                */
     bool over;                /* the end has been told                                        */
 };
@@ -93,21 +93,16 @@ static void rolling_depth(struct stage_run *r, double rest)
                                                     "dents: raise contact.roll.stiffness (or kappa)", c->name, rest, rest / c->scraper.radius));
 }
 
-static bool rolling_start(struct rolling *w, struct stage_run *r, struct err *e)
+static void rolling_start(struct rolling *w, struct stage_run *r)
 {
     const double *s = w->curve.s, *phi = roll_ground_start(&w->ground);
     w->curve.t[0] = 0;
     roll_curve_read(&w->curve, 1);
     w->rest = coupled_rest(w->ball, *s, phi);
     coupled_flights(w->ball, 1 / r->board->rate);
-    coupled_start(w->ball, w->rest + w->drop, 0, *s, phi, !(w->drop > 0));
-    const struct coupled_state *now = coupled_state(w->ball);
-    if (w->drop > 0 && now->penetration > 0)
-        return err_set(e, ERR_SCENE, "contact '%s': contact.roll.drop: %.3g m is less than the %.3g m by which contact and surface give way under the ball: it would begin "
-                                     "inside the surface; drop it from higher, or leave drop out", r->contact->name, w->drop, w->drop + now->penetration);
+    coupled_start(w->ball, w->drop > 0 ? *s + w->drop : w->rest, 0, *s, phi, !(w->drop > 0));
     if (w->drop > 0)
         onset_told(r, "the ball's first impact", sqrt(2 * w->drop / w->gravity));
-    return true;
 }
 
 static bool rolling_open(struct stage_run *r, struct err *e)
@@ -124,8 +119,7 @@ static bool rolling_open(struct stage_run *r, struct err *e)
                               .frequency = w->ground.shapes.frequency, .decay = w->ground.shapes.decay};
     if (!coupled_make(r->arena, &ask, &w->ball, e))
         return err_at(e, "contact '%s'", c->name);
-    if (!rolling_start(w, r, e))
-        return false;
+    rolling_start(w, r);
     b->rolls = true;
     b->roll = (struct roll_report){.stiffness = w->stiffness, .rest = real_pow(ask.weight / w->stiffness, 2.0 / 3), .deviation = NAN, .step = ask.step};
     rolling_depth(r, b->roll.rest);
