@@ -30,6 +30,9 @@ static bool plan_one(struct cmd_call *c, const char *file, json_t *rows, struct 
     if (!cmd_read_scene(c, file, &s, e))
         return false;
     const struct plan *plans = promise_keep(&s, c->arena, &kept, &promise, e) ? plan_scene(&kept, c->arena, &warnings, e) : NULL;
+    for (int i = 0; plans && i < s.n_contacts; i++)
+        if (!plan_known(&plans[i], e))
+            return false;
     if (!plans)
         return scene_places_tell(&s, e);
     for (int i = 0; warnings[i]; i++)

@@ -11,6 +11,7 @@
 #include "num/lanes.h"
 #include "scene/rules.h"
 #include "surface/limiter.h"
+#include "surface/reading.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
@@ -23,7 +24,7 @@ unsigned way_asks(const struct contact *c)
 double way_work(const struct contact *c, const struct scene *s)
 {
     const struct surface *u = &c->surface;
-    double finest = u->roughness.given ? u->roughness.shortest / 4 : u->height_map && !isnan(u->pitch) ? u->pitch : 5e-6;
+    double finest = u->roughness.given ? reading_roughness(&u->roughness) : u->height_map && !isnan(u->pitch) ? u->pitch : READING_MAP_PITCH;
     bool halves = rules_along(c) == ALONG_PLANE;
     return (halves ? 2 : 1) * (s->accuracy.oversampling + rules_speed(&c->motion) / (s->output.sample_rate * finest));
 }

@@ -1,5 +1,6 @@
 #include "pipeline/plan.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "convolution/ring_choice.h"
@@ -144,6 +145,15 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
         return err_set(e, ERR_SCENE, "contact '%s': nothing in this scene gives its %s%s%s", c->name, first_name(l.hard),
                        l.by[__builtin_ctz(l.hard)] ? ", which is needed by " : "",
                        l.by[__builtin_ctz(l.hard)] ? l.by[__builtin_ctz(l.hard)] : "");
+    return true;
+}
+
+bool plan_known(const struct plan *p, struct err *e)
+{
+    for (int i = 0; i < p->n; i++)
+        if (p->rows[i].verdict == PLAN_RUNS && !(p->rows[i].work >= 0 && isfinite(p->rows[i].work)))
+            return err_set(e, ERR_NUMBERS, "contact '%s': %g cycles per audio sample are predicted for '%s': this is a fault of rasp, not of the scene, which renders all the same",
+                           p->contact->name, p->rows[i].work, p->rows[i].stage->name);
     return true;
 }
 

@@ -34,6 +34,9 @@ unsigned plan_targets(const struct contact *c, const struct scene *s);
 bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a, struct plan *p,
                struct err *e);
 
+/* Is the predicted work of every stage that runs a number? It is read from keys, and a key that is not given is NAN. ERR_NUMBERS: a fault of the program. */
+bool plan_known(const struct plan *p, struct err *e);
+
 /* The knobs of scene/accuracy.def that something which runs depends on, as a set: all others change no bit. */
 unsigned plan_knobs(const struct plan *p);
 

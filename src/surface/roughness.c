@@ -197,7 +197,7 @@ static double roughness_work(const struct contact *c, const struct scene *s)
 {
     const struct roughness *r = &c->surface.roughness;
     bool plane = rules_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
-    double points = reading_points(s, r->shortest / 4), cells = rules_speed(&c->motion) / (s->output.sample_rate * r->shortest / 4);
+    double finest = reading_roughness(r), points = reading_points(s, finest), cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
     if (plane && !isnan(c->scraper.radius))
         return 1;
     return (plane ? (rules_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) + 60 * shaped * points;

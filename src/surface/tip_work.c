@@ -12,6 +12,7 @@
 #include "num/real.h"
 #include "scene/rules.h"
 #include "surface/crests.h"
+#include "surface/reading.h"
 
 enum { CREST = 32, BLOCK = 64, WIDE = 16 + 3 + 2 * 28 + CREST - 1 }; /* a block of splines, what their kernel reads beyond, and what a block of crests has too many */
 
@@ -19,14 +20,13 @@ enum { CREST = 32, BLOCK = 64, WIDE = 16 + 3 + 2 * 28 + CREST - 1 }; /* a block 
 #define GATHER 3.5
 #define HEIGHT 45
 
-#define MAP_PITCH 5e-6 /* m, of a map whose file says it */
 #define MAP_SPAN 20e-6 /* m, of any map */
 
 /* m, the surface's finest scale, as far as the scene tells. */
 static double likely_finest(const struct surface *s)
 {
-    double finest = s->height_map ? isnan(s->pitch) ? MAP_PITCH : s->pitch : HUGE_VAL;
-    finest = fmin(finest, s->roughness.given ? s->roughness.shortest / 4 : HUGE_VAL);
+    double finest = s->height_map ? isnan(s->pitch) ? READING_MAP_PITCH : s->pitch : HUGE_VAL;
+    finest = fmin(finest, s->roughness.given ? reading_roughness(&s->roughness) : HUGE_VAL);
     finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
     finest = fmin(finest, s->ridges.given ? s->ridges.spacing / 8 : HUGE_VAL);
     return fmin(finest, s->grit.given ? s->grit.diameter / 8 : HUGE_VAL);
