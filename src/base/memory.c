@@ -3,42 +3,20 @@
 
 #include <errno.h>
 #include <stdarg.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/err.h"
-
-static bool as_json; /* set before there are threads */
-
-void memory_out_as_json(void)
-{
-    as_json = true;
-}
-
-/* Nothing can be taken any more: what is not plain ASCII becomes ?. */
-static void print_json(const char *what)
-{
-    fputs("{\"severity\": \"error\", \"file\": null, \"line\": null, \"column\": null, \"width\": null, \"message\": \"out of memory (", stderr);
-    for (; *what; what++)
-        if (*what == '"' || *what == '\\')
-            fprintf(stderr, "\\%c", *what);
-        else
-            fputc(*what >= ' ' && *what <= '~' ? *what : '?', stderr);
-    fprintf(stderr, ")\", \"help\": null, \"code\": %d}\n", ERR_MEMORY);
-}
+#include "base/lastwords.h"
 
 _Noreturn void memory_out(const char *format, ...)
 {
-    char what[256];
+    char what[256], text[300];
     va_list ap;
     va_start(ap, format);
     vsnprintf(what, sizeof what, format, ap);
     va_end(ap);
-    if (as_json)
-        print_json(what);
-    else
-        fprintf(stderr, "rasp: error: out of memory (%s)\n", what);
+    snprintf(text, sizeof text, "out of memory (%s)", what);
+    lastwords(ERR_MEMORY, text);
     _exit(ERR_MEMORY);
 }
 

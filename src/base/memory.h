@@ -5,9 +5,6 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* From now on that line is a JSON object, as of rasp's --diagnostics=json (cmd/tell.h). */
-void memory_out_as_json(void);
-
 /* "FFT of 4096 points": what it was wanted for. */
 _Noreturn void memory_out(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -15,6 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
+
 enum { NAMES = 10000 };
 
 /* Length of the folder part of a path with its last slash; 0: the current folder. */
@@ -43,7 +45,7 @@ static bool open_unnamed(struct outfile *o)
     return false;
 }
 
-static bool open_hidden(struct outfile *o)
+static bool try_hidden(struct outfile *o)
 {
     for (int k = 0; k < NAMES; k++) {
         hidden_name(o, k);
@@ -55,6 +57,19 @@ static bool open_hidden(struct outfile *o)
     }
     o->temporary[0] = '\0';
     return false;
+}
+
+/* Tries to give it a hidden name, which goes with the program if that is interrupted. */
+static bool noted(struct outfile *o, bool (*try)(struct outfile *o))
+{
+    interrupt_hold();
+    bool ok = try(o);
+    int why = errno;
+    if (ok)
+        interrupt_temporary(o->temporary);
+    interrupt_go();
+    errno = why;
+    return ok;
 }
 
 static bool set_target(struct outfile *o, const char *target, struct err *e)
@@ -93,7 +108,7 @@ static const char *missing(const struct outfile *o)
 static bool open_one(struct outfile *o, const char *target, bool unnamed, struct err *e)
 {
     *o = (struct outfile){.fd = -1};
-    if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || open_hidden(o)))
+    if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || noted(o, try_hidden)))
         return true;
     err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target, errno == ENOENT ? missing(o) : strerror(errno));
     o->target[0] = '\0';
@@ -123,7 +138,7 @@ bool outfile_open(struct outfile *o, const char *target, struct err *e)
 }
 
 /* Gives an unnamed file its hidden name. */
-static bool name_it(struct outfile *o)
+static bool try_name(struct outfile *o)
 {
     char proc[64];
     snprintf(proc, sizeof proc, "/proc/self/fd/%d", o->fd);
@@ -175,7 +190,7 @@ bool outfile_settle(struct outfile *o, struct err *e)
     if (o->target[0] == '\0')
         return err_set(e, ERR_IO, "an output that is closed already cannot be committed");
     bool open = o->fd >= 0;
-    return !open || (flush_it(o) && (o->temporary[0] || name_it(o)) && close_it(o)) || give_up(o, e);
+    return !open || (flush_it(o) && (o->temporary[0] || noted(o, try_name)) && close_it(o)) || give_up(o, e);
 }
 
 bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e)
@@ -195,7 +210,12 @@ bool outfile_commit(struct outfile *o, struct err *e)
 {
     if (!outfile_settle(o, e))
         return false;
-    if (rename(o->temporary, o->target) != 0)
+    interrupt_hold();
+    bool ok = rename(o->temporary, o->target) == 0;
+    if (ok)
+        interrupt_forget(o->temporary);
+    interrupt_go();
+    if (!ok)
         return give_up(o, e);
     o->target[0] = o->temporary[0] = '\0';
     return true;
@@ -207,7 +227,9 @@ void outfile_drop(struct outfile *o)
         return;
     if (o->fd >= 0)
         close_it(o);
-    if (o->temporary[0])
+    if (o->temporary[0]) {
         unlink(o->temporary);
+        interrupt_forget(o->temporary);
+    }
     o->target[0] = o->temporary[0] = '\0';
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 
 const char *scratch_folder(void)
@@ -21,9 +22,11 @@ static int named_and_forgotten(const char *folder)
         errno = ENAMETOOLONG;
         return -1;
     }
+    interrupt_hold();
     int fd = mkostemp(name, O_CLOEXEC);
     if (fd >= 0)
         unlink(name);
+    interrupt_go();
     return fd;
 }
 

@@ -3,7 +3,6 @@
 #include "batch/pool.h"
 
 #include <pthread.h>
-#include <signal.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -50,16 +49,11 @@ static void *worker(void *pool)
     return NULL;
 }
 
-/* Signals are the first thread's. */
 static int start(struct pool *p, pthread_t *threads, int most)
 {
-    sigset_t all, before;
     int n = 0;
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, &before);
     while (n < most && pthread_create(&threads[n], NULL, worker, p) == 0)
         n++;
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
     return n;
 }
 

@@ -146,7 +146,9 @@ static bool tell(struct accuracy_sweep *s, struct err *e)
         ok = outfile_settle(&csv, e);
     }
     ok = ok && (!s->plot || picture_draw(&plot, s->plot, ends(s->plot, ".svg"), accuracy_plot, s, e));
+    interrupt_hold();
     ok = ok && (!s->plot || outfile_commit(&plot, e)) && (!s->csv || outfile_commit(&csv, e));
+    interrupt_go();
     outfile_drop(&csv);
     outfile_drop(&plot);
     if (ok && !s->json)
@@ -157,7 +159,6 @@ static bool tell(struct accuracy_sweep *s, struct err *e)
 static int accuracy_run(struct cmd_call *c, struct err *e)
 {
     struct accuracy_sweep s = {.call = c, .file = c->args.operands[0], .until = INFINITY};
-    interrupt_catch();
     if (!ask_read(&s, e) || !ask_scene(&s, e) || !accuracy_child_folder(&s, e))
         return (int)e->kind;
     bool ok = sweep(&s, e);

@@ -6,8 +6,6 @@
 #include <fcntl.h>
 #include <jansson.h>
 #include <math.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -29,7 +27,12 @@
 bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e)
 {
     char *name = arena_format(s->call->arena, "%s/rasp-accuracy-XXXXXX", scratch_folder());
-    if (!mkdtemp(name))
+    interrupt_hold();
+    bool made = mkdtemp(name) != NULL;
+    if (made)
+        interrupt_temporary(name);
+    interrupt_go();
+    if (!made)
         return err_set(e, ERR_CREATE, "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written", scratch_folder(), strerror(errno));
     s->folder = name;
     return true;
@@ -53,6 +56,7 @@ void accuracy_child_end(const struct accuracy_sweep *s)
     accuracy_child_clear(s);
     unlink(arena_format(s->call->arena, "%s/reference.wav", s->folder));
     rmdir(s->folder);
+    interrupt_forget(s->folder);
 }
 
 const char *accuracy_child_sound(const struct accuracy_sweep *s)
@@ -133,24 +137,14 @@ static void text_take(struct text *t, const char *from, size_t n)
     t->x[t->n += n] = '\0';
 }
 
-/* What it prints until it ends; a signal to us is passed on once. */
-static void listen_to(int fd, pid_t pid, struct text *t)
+/* What it prints until it ends. */
+static void listen_to(int fd, struct text *t)
 {
     char some[4096];
-    bool told = false;
-    for (;;) {
-        struct pollfd p = {.fd = fd, .events = POLLIN};
-        int ready = poll(&p, 1, 200);
-        if (interrupt_seen() && !told) {
-            kill(pid, SIGTERM);
-            told = true;
-        }
-        ssize_t n = ready > 0 ? read(fd, some, sizeof some) : -1;
+    ssize_t n;
+    while ((n = read(fd, some, sizeof some)) > 0 || (n < 0 && errno == EINTR))
         if (n > 0)
             text_take(t, some, (size_t)n);
-        else if (ready > 0 && (n == 0 || errno != EINTR))
-            return;
-    }
 }
 
 /* Runs it; its standard output in *out (to be freed), its standard error in the file. The exit code, or -1: it was killed. */
@@ -161,17 +155,19 @@ static int run(char **argv, FILE *says, FILE *scene, struct text *out, double *p
     if (pipe2(ends, O_CLOEXEC) != 0)
         return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno)), -1;
     fflush(NULL);
+    interrupt_hold();
     pid_t pid = fork();
     if (pid == 0)
         become(argv, ends[1], says, scene);
+    interrupt_child(pid);
+    interrupt_go();
     close(ends[1]);
     if (pid > 0)
-        listen_to(ends[0], pid, out);
+        listen_to(ends[0], out);
     close(ends[0]);
     if (pid < 0)
         return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno)), -1;
-    while (wait4(pid, &status, 0, &used) < 0 && errno == EINTR)
-        continue;
+    interrupt_wait(pid, &status, &used);
     *peak = 1024.0 * (double)used.ru_maxrss;
     return WIFEXITED(status) ? WEXITSTATUS(status) : (err_set(e, ERR_NUMBERS, "a render was ended by signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status))), -1);
 }

@@ -8,6 +8,7 @@
 #include "analysis/agreement.h"
 #include "analysis/distance.h"
 #include "analysis/log_spectral.h"
+#include "base/interrupt.h"
 #include "cmd/accuracy.h"
 #include "num/real.h"
 
@@ -64,7 +65,10 @@ static bool sound_read(const char *path, double gain, struct arena *a, struct wa
 
 static bool reference_taken(struct accuracy_sweep *s, const char *path, const struct wav *a, struct err *e)
 {
-    if (rename(accuracy_child_sound(s), path) != 0)
+    interrupt_hold(); /* it would slip past what removes the folder */
+    bool moved = rename(accuracy_child_sound(s), path) == 0;
+    interrupt_go();
+    if (!moved)
         return err_set(e, ERR_IO, "%s: %s", path, strerror(errno));
     s->rate = a->rate;
     s->channels = a->channels;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "analysis/frequency_polygon.h"
+#include "base/interrupt.h"
 #include "cmd/cmd.h"
 
 const char *const analyse_series_names[STATISTICS_SERIES] = {"amplitude", "interval"};
@@ -198,9 +199,11 @@ static bool analyse_write(struct cmd_call *c, struct analysis *a, bool svg, stru
         analyse_plot(a, plot, svg, all, e);
     for (int i = 0; e->kind == ERR_NONE && i < all->n; i++)
         outfile_settle(&all->o[i], e);
+    interrupt_hold();
     for (int i = 0; e->kind == ERR_NONE && i < all->n; i++)
         if (outfile_commit(&all->o[i], e))
             a->written[a->n_written++] = all->name[i];
+    interrupt_go();
     for (int i = 0; i < all->n; i++)
         outfile_drop(&all->o[i]);
     return e->kind == ERR_NONE;

@@ -8,7 +8,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/interrupt.h"
 #include "batch/progress.h"
 #include "cmd/batch_build.h"
 #include "cmd/tell.h"
@@ -293,7 +292,6 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     bool json = args_given(&c->args, "json");
     if (!read_ask(c, &ask, e))
         return (int)e->kind;
-    interrupt_catch();
     tell_group(c);
     bool ok = batch_run(&ask, c->arena, &r, e);
     batch_tell_unread(c, ask.design, &r, e);

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/interrupt.h"
 #include "base/text.h"
 #include "cmd/actions.h"
 #include "cmd/batch.h"
@@ -27,7 +26,6 @@ static bool begin(struct golden *g, struct cmd_call *c, struct err *e)
 static int run(struct cmd_call *c, int (*what)(struct golden *g, struct err *e), struct err *e)
 {
     struct golden g;
-    interrupt_catch();
     int code = begin(&g, c, e) ? what(&g, e) : (int)e->kind;
     golden_render_end(&g);
     for (int i = 0; i < g.n; i++)

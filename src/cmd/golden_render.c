@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
 #include "base/scratch.h"
 #include "cmd/golden.h"
 #include "pipeline/render.h"
@@ -24,7 +25,12 @@ bool golden_render_folder(struct golden *g, struct err *e)
         return (stat(given, &st) == 0 && S_ISDIR(st.st_mode)) || mkdir(given, 0777) == 0 || err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", given, strerror(errno));
     }
     char *name = arena_format(g->call->arena, "%s/rasp-golden-XXXXXX", scratch_folder());
-    if (!mkdtemp(name))
+    interrupt_hold();
+    bool made = mkdtemp(name) != NULL;
+    if (made)
+        interrupt_temporary(name);
+    interrupt_go();
+    if (!made)
         return err_set(e, ERR_CREATE, "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written", scratch_folder(), strerror(errno));
     g->work = name;
     return true;
@@ -55,8 +61,10 @@ static bool note_files(struct golden_scene *s, int pass, const struct render_rep
 static bool into(const struct golden *g, struct golden_scene *s, const char *folder, struct err *e)
 {
     const char *outer = arena_format(s->arena, "%s/%s", g->work, s->name);
-    return ((mkdir(outer, 0777) == 0 || errno == EEXIST) && (mkdir(folder, 0777) == 0 || errno == EEXIST)) ||
-           err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", folder, strerror(errno));
+    interrupt_hold();
+    bool there = (mkdir(outer, 0777) == 0 || errno == EEXIST) && (mkdir(folder, 0777) == 0 || errno == EEXIST);
+    interrupt_go();
+    return there || err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", folder, strerror(errno));
 }
 
 bool golden_render(const struct golden *g, struct golden_scene *s, int pass, const char *from, struct err *e)
@@ -100,6 +108,8 @@ void golden_render_end(const struct golden *g)
 {
     for (int i = 0; g->work && !g->stays && i < g->n; i++)
         golden_render_clear(g, &g->scenes[i]);
-    if (g->work)
+    if (g->work) {
         rmdir(g->work);
+        interrupt_forget(g->work);
+    }
 }

@@ -236,11 +236,13 @@ static bool write_all(struct golden *g, struct writing *w, struct err *e)
     for (int i = 0; i < most; i++)
         w->files[i].fd = -1;
     allow_files(most);
+    interrupt_hold();
     bool ok = !e->kind && settle_all(w, e) && commit_all(w, e);
     for (int i = 0; i < w->n; i++)
         outfile_drop(&w->files[i]);
     for (int i = 0; !ok && g->kept && i < g->n; i++)
         rmdir(arena_format(a, "%s/%s", g->kept, g->scenes[i].name)); /* where nothing was in it */
+    interrupt_go();
     return ok;
 }
 

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/interrupt.h"
 #include "batch/merge.h"
 #include "cmd/batch.h"
 #include "cmd/tell.h"
@@ -59,7 +58,6 @@ static int merge_command_run(struct cmd_call *c, struct err *e)
     const char *folder = batch_folder(c->arena, c->args.operands[0]);
     if (!batch_threads(c, &threads, e))
         return (int)e->kind;
-    interrupt_catch();
     bool ok = merge_run(folder, threads, c->arena, &r, e);
     tell_missing(c, &r);
     if (r.outcomes && (ok || r.failed))

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
 #include "cmd/modes.h"
 
 enum { PATH_LENGTH = 4096 };
@@ -21,6 +22,10 @@ int modes_elsewhere_run(struct cmd_call *c, struct err *e)
     argv[0] = arena_text(c->arena, "rasp-modes");
     memcpy(argv + 1, c->argv, (size_t)c->argc * sizeof *argv);
     argv[c->argc + 1] = NULL;
+    if (!interrupt_pass_on()) {
+        err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
+        return (int)e->kind;
+    }
     setenv("OPENBLAS_NUM_THREADS", "1", 1);
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
         execv(arena_format(c->arena, "%s%s", self, places[i]), argv);

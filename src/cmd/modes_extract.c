@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/interrupt.h"
 #include "file/wav.h"
 #include "output/picture.h"
 
@@ -67,7 +68,7 @@ static bool prepare(struct modes_extract *x, struct outputs *o, struct err *e)
     return !g->plot || (o->has_picture && outfile_settle(&o->picture, e));
 }
 
-static bool commit(struct outputs *o, struct err *e)
+static bool commit_all(struct outputs *o, struct err *e)
 {
     for (int k = 0; k < 3; k++)
         if (o->wav[k]) {
@@ -77,6 +78,14 @@ static bool commit(struct outputs *o, struct err *e)
                 return false;
         }
     return (!o->has_picture || outfile_commit(&o->picture, e)) && outfile_commit(&o->table, e);
+}
+
+static bool commit(struct outputs *o, struct err *e)
+{
+    interrupt_hold();
+    bool ok = commit_all(o, e);
+    interrupt_go();
+    return ok;
 }
 
 static void drop(struct outputs *o)

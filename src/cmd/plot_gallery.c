@@ -333,7 +333,6 @@ bool plot_gallery(const struct plot_gallery *of, struct err *e)
     struct page g = {.of = of, .arena = of->arena};
     struct outfile o;
     int drawn = 0;
-    interrupt_catch();
     if (!gather(&g, e))
         return false;
     g.output = of->output ? of->output : arena_format(of->arena, "%sgallery.html", g.folder);

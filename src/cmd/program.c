@@ -12,6 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
+#include "base/lastwords.h"
 #include "base/memory.h"
 #include "cmd/paint.h"
 #include "cmd/tell.h"
@@ -77,7 +79,7 @@ int program_run(const struct command *m, int argc, char **argv)
 {
     bool json = asks_json(argc, argv);
     if (json)
-        memory_out_as_json();
+        lastwords_as_json();
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
     if (json)
@@ -90,6 +92,8 @@ int program_run(const struct command *m, int argc, char **argv)
     else if (tell_begin(&c, &e) && count_operands(m, &c.args, &e))
         code = m->run(&c, &e);
     tell_end(&c);
+    if (e.kind == ERR_INTERRUPTED)
+        interrupt_tell();
     if (e.kind) {
         tell_error(&c, m->name, &e);
         code = (int)e.kind;
@@ -110,6 +114,7 @@ static void gsl_complains(const char *reason, const char *file, int line, int co
 int program_main(int (*run)(int argc, char **argv), int argc, char **argv)
 {
     fill_standard_streams();
+    interrupt_catch();
     gsl_set_error_handler(gsl_complains);
     json_set_alloc_funcs(memory_take, free); /* what jansson gets no memory for is else left out */
     signal(SIGPIPE, SIG_IGN);

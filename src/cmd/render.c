@@ -3,7 +3,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/interrupt.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/render_verify.h"
@@ -113,7 +112,6 @@ static bool render_one(struct cmd_call *c, int i, const struct outputs *o, bool 
 
 static int render_run(struct cmd_call *c, struct err *e)
 {
-    interrupt_catch();
     int n = c->args.n_operands, done = 0;
     if (n > 1)
         tell_group(c);

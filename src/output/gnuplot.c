@@ -8,24 +8,30 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
 #include "base/scratch.h"
 
-/* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore are not ignored by it. */
+/* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore or block are not by it. */
 static int spawn(pid_t *pid, const int fd[3])
 {
     char *argv[] = {(char[]){"gnuplot"}, (char[]){"-d"}, NULL};
     posix_spawn_file_actions_t files;
     posix_spawnattr_t how;
-    sigset_t pipes;
+    sigset_t pipes, none;
+    sigemptyset(&none);
     sigemptyset(&pipes);
     sigaddset(&pipes, SIGPIPE);
     posix_spawn_file_actions_init(&files);
     posix_spawnattr_init(&how);
     posix_spawnattr_setsigdefault(&how, &pipes);
-    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setsigmask(&how, &none);
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     for (int k = 0; k < 3; k++)
         posix_spawn_file_actions_adddup2(&files, fd[k], k);
+    interrupt_hold();
     int code = posix_spawnp(pid, argv[0], &files, &how, argv, environ);
+    interrupt_child(code == 0 ? *pid : 0);
+    interrupt_go();
     posix_spawnattr_destroy(&how);
     posix_spawn_file_actions_destroy(&files);
     return code;
@@ -48,7 +54,7 @@ bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
     close(ends[1]);
     fclose(g->complaints);
     if (code == 0)
-        waitpid(g->pid, NULL, 0);
+        interrupt_wait(g->pid, NULL, NULL);
     if (code == ENOENT || code == EACCES)
         return err_set(e, ERR_UNBUILT, "the program gnuplot draws the plot and is not on the PATH: install it (Debian: gnuplot-nox and, for the "
                                        "labels, fonts-dejavu-core)");
@@ -72,12 +78,11 @@ bool gnuplot_close(struct gnuplot *g, struct err *e)
     char line[400];
     int status = 0;
     bool taken = fclose(g->in) == 0; /* false: it ended before it had read all */
-    while (waitpid(g->pid, &status, 0) < 0 && errno == EINTR)
-        continue;
+    interrupt_wait(g->pid, &status, NULL);
     bool ok = taken && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     if (!ok) {
         first_complaint(g->complaints, line, sizeof line);
-        err_set(e, ERR_IO, "gnuplot failed: %s", line);
+        err_set(e, interrupt_seen() ? ERR_INTERRUPTED : ERR_IO, "gnuplot failed: %s", line);
     }
     fclose(g->complaints);
     return ok;

@@ -154,7 +154,7 @@ static bool render_settle(struct render *r, struct err *e)
            (!r->stems || stems_settle(r->stems, e));
 }
 
-static bool render_commit(struct render *r, struct err *e)
+static bool render_commit_all(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct render_part *p = &r->parts.parts[i];
@@ -163,6 +163,15 @@ static bool render_commit(struct render *r, struct err *e)
     }
     return outfile_commit(&r->effective, e) && outfile_commit(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&
            (!r->stems || stems_commit(r->stems, e));
+}
+
+/* All together or none, also where a signal comes. */
+static bool render_commit(struct render *r, struct err *e)
+{
+    interrupt_hold();
+    bool ok = render_commit_all(r, e);
+    interrupt_go();
+    return ok;
 }
 
 static void render_close(struct render *r)
