@@ -1,0 +1,4 @@
+# SIGINT and SIGTERM at random moments, to every command that can take long or wait: exit code 75 within half a second, no half of what belongs together, no temporary file, no child.
+. "$ROOT/tests/lib/test.sh"
+python3 "$ROOT/tests/faults/signals.py" || fail "see above"
+finish
