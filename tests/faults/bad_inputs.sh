@@ -61,8 +61,13 @@ sound_of_mind() {
     ! grep -Eq 'runtime error:|Sanitizer' "$CASE/err" || because "a sanitizer speaks"
 }
 
+# placed CODE COMMAND: what is refused of a scene has a place in it, or the option that says it.
+placed() {
+    case $1:$2 in 65:rasp\ check* | 65:rasp\ render* | 65:rasp\ plan*) grep -Eq -- '(:[0-9]+:[0-9]+: |--set [a-z_.]+: |--seed: |\.yaml: error: )' "$CASE/err" ;; esac
+}
+
 bad() {
-    local name=$1 code=$2 pattern
+    local name=$1 code=$2 command=$4 pattern
     run "$name" "$3" "$4"
     shift 4
     sound_of_mind "$code"
@@ -71,6 +76,7 @@ bad() {
     done
     if [ "$code" != 1 ]; then
         grep -Eq '^rasp( [a-z]+)?: error: ' "$CASE/err" || because "no line 'rasp COMMAND: error: ...'"
+        placed "$code" "$command" || because "no line and column"
         [ ! -s "$CASE/out" ] || because "on standard output: $(head -n 3 "$CASE/out")"
     fi
     unchanged
