@@ -39,7 +39,7 @@ rasp help anal
 rasp --vers
 rasp check a
 rasp plot c
-rasp plot --for
+rasp plot --form
 rasp plot --format=s
 rasp plot -f p
 rasp plot --panels wa
