@@ -91,7 +91,7 @@ static void level_read(const struct design_reading *r)
 {
     struct design *d = r->design;
     const struct yaml_node *node = design_reading_value(r, "level");
-    d->level = (struct level){NAN, NAN, NAN, NAN, NAN};
+    d->level = (struct level){NAN, NAN, NAN, NAN, NAN, false};
     d->level_rule = node && is_text(node, "scene") ? DESIGN_LEVEL_SCENE : DESIGN_LEVEL_COMMON;
     if (!node)
         d->level.peak = -3;

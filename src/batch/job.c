@@ -16,6 +16,7 @@
 #include "pipeline/inputs.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
+#include "pipeline/written.h"
 #include "response/modes.h"
 #include "scene/scene_places.h"
 
@@ -177,6 +178,7 @@ static void fill(const struct scene *s, const struct render_report *report, stru
     r->gain = report->sound.gain;
     r->ramp = report->sound.ramp;
     r->lufs = r->file_peak = r->file_rms = r->file_lufs = r->true_peak = NAN;
+    r->beyond = report->sounds ? written_sound(report)->written->beyond : NAN;
     r->full_scale = s->output.level.full_scale;
     r->wall = report->seconds, r->cpu = report->cpu;
     r->remarks = ARENA_TAKE(a, const char *, report->n_warnings + 1);

@@ -10,10 +10,12 @@
 
 #include "batch/folder.h"
 #include "base/memory.h"
+#include "file/json_value.h"
 #include "file/wav_stream.h"
 #include "num/real.h"
 #include "output/sound.h"
 #include "pipeline/outputs.h"
+#include "pipeline/written.h"
 #include "scene/scene_read.h"
 
 enum { PIECE = 4096 };
@@ -105,6 +107,71 @@ static void set_hash(json_t *files, const char *sha256)
     }
 }
 
+/* File i as a render has it. */
+static struct render_file written_file(const struct level_files *f, int i, struct wav_written *w)
+{
+    size_t n = strlen(f->made[i].path);
+    struct render_file file = {.kind = f->made[i].kind, .path = f->made[i].path, .written = w};
+    *w = wav_written(f->sounds[i]);
+    for (int k = 0; k < STEMS && is(f, i, "stem"); k++) {
+        const char *ending = arena_format(f->arena, ".%s.wav", stems_names[k]);
+        if (n > strlen(ending) && !strcmp(f->made[i].path + n - strlen(ending), ending))
+            file.stem = stems_names[k];
+    }
+    return file;
+}
+
+/* What a render at that gain would have warned of. A raw sound that is silent has been told of. */
+static void add_remarks(struct level_files *f, struct record *r)
+{
+    int n = 0;
+    while (r->remarks && r->remarks[n])
+        n++;
+    const char **all = ARENA_TAKE(f->arena, const char *, n + 2 * f->n + 1);
+    for (int i = 0; i < n; i++)
+        all[i] = r->remarks[i];
+    f->told = n;
+    for (int i = 0; i < f->n; i++) {
+        struct wav_written w;
+        struct render_file file;
+        if (!f->sounds[i])
+            continue;
+        file = written_file(f, i, &w);
+        r->beyond = is(f, i, "wav") ? w.beyond : r->beyond;
+        const char *silent = r->peak > 0 ? written_silent(&f->scene, &file, r->gain * r->peak, f->arena) : NULL, *beyond = written_beyond(&f->scene, &file, f->arena);
+        for (const char **text = (const char *[]){silent, beyond}, **end = text + 2; text < end; text++) {
+            bool known = !*text;
+            for (int k = 0; k < n && !known; k++)
+                known = !strcmp(all[k], *text);
+            if (!known)
+                all[n++] = *text;
+        }
+    }
+    r->remarks = all;
+}
+
+/* The same in the summary, whose warnings are those of the raw sound so far. */
+static void tell_written(const struct level_files *f, json_t *summary)
+{
+    json_t *files = json_object_get(summary, "files"), *warnings = json_object_get(summary, "warnings");
+    for (int i = 0; i < f->n; i++) {
+        struct wav_written w;
+        if (!f->sounds[i])
+            continue;
+        const struct render_file file = written_file(f, i, &w);
+        const char *slash = strrchr(file.path, '/'), *name = slash ? slash + 1 : file.path;
+        for (size_t k = 0; k < json_array_size(files); k++) {
+            const char *listed = json_string_value(json_object_get(json_array_get(files, k), "name"));
+            if (listed && !strcmp(listed, name))
+                written_tell(&file, json_array_get(files, k));
+        }
+        if (is(f, i, "wav"))
+            written_tell(&file, json_object_get(summary, "sound"));
+    }
+    for (int i = f->told; f->record->remarks[i]; i++)
+        json_array_append_new(warnings, json_value_shown(f->record->remarks[i]));
+}
+
 /* The raw sound's summary, with the gain and the scene that it has now. */
 static bool put_summary(struct level_files *f, int i, const char *scene, struct err *e)
 {
@@ -114,6 +181,7 @@ static bool put_summary(struct level_files *f, int i, const char *scene, struct 
         return err_set(e, ERR_INPUT, "%s: %s", f->raw[i], fault.text);
     if (json_object_get(j, "sound"))
         set_level(json_object_get(j, "sound"), sound_known_gain(&f->scene));
+    tell_written(f, j);
     set_hash(json_object_get(j, "files"), scene);
     char *text = json_dumps(j, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);
     json_decref(j);
@@ -181,6 +249,7 @@ bool level_files_make(struct level_files *f, const struct job_kit *k, struct rec
     for (int i = 0; i < f->n; i++)
         if (is_scaled(f, i) && !scale(f, i, e))
             return false;
+    add_remarks(f, r);
     return put_texts(f, e);
 }
 

@@ -14,7 +14,7 @@ struct level_files {
     const char **raw, **paths;    /* [n] */
     struct wav_out **sounds;      /* [n]; NULL: none */
     struct outfile *texts;        /* [n]; fd < 0 and no target: none */
-    int n;
+    int n, told;                  /* remarks of the raw sound */
     struct arena *arena;
 };
 

@@ -120,6 +120,8 @@ static void level_mode(const struct manifest_cell *c) { put(c, c->level); }
 static void gain(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->gain) : 0); }
 static void unit(const struct manifest_cell *c) { put(c, sound_of(c) ? sound_of(c)->unit : NULL); }
 static void peak(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_peak) : 0); }
+static void silent(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->file_peak == 0 : 0); }
+static void beyond(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->beyond : 0); }
 static void true_peak(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? rint(decibel(sound_of(c)->true_peak) * 1e4) / 1e4 : 0); }
 static void rms(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_rms) : 0); }
 static void lufs(const struct manifest_cell *c) { put_number(c, sound_of(c), sound_of(c) ? rint(sound_of(c)->file_lufs * 1e4) / 1e4 : 0); }
@@ -161,6 +163,8 @@ const struct manifest_column manifest_columns[] = {
     {"true_peak_dbtp", "True peak", "greatest magnitude of the file between samples, too, re full scale: BS.1770, of four times as many samples (below 96 kHz)", "dB", true_peak},
     {"rms_dbfs", "Level", "rms of the whole file, re full scale (a square wave of full scale has 0)", "dB", rms},
     {"loudness_lufs", "Loudness", "integrated loudness of the file, BS.1770, mono counted on two ears; n/a below 0.4 s", "LUFS", lufs},
+    {"silent", "Silent", "1: every sample of the file is 0; 0: some is not", NULL, silent},
+    {"samples_beyond_full_scale", "Samples beyond full scale", "samples of the file, of all channels, whose magnitude is more than 1, as floating point holds them: whatever plays them clips", NULL, beyond},
     {"onset_ramp_s", "Onset ramp", "length of the raised-cosine ramp at the beginning", "s", onset},
     {"offset_ramp_s", "Offset ramp", "length of the raised-cosine ramp at the end", "s", ramp},
     {"audio_sha256", "Hash of the samples", "SHA-256 of the decoded samples, as rasp compare --hash has it", NULL, audio},

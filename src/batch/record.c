@@ -28,6 +28,7 @@ static void add_sound(json_t *j, const struct record *r)
                               json_value_number(r->lufs), "rate", json_value_number(r->rate), "channels", r->channels, "encoding", r->encoding, "gain", json_value_number(r->gain), "file_peak",
                               json_value_number(r->file_peak), "file_rms", json_value_number(r->file_rms), "file_lufs", json_value_number(r->file_lufs), "ramp", json_value_number(r->ramp), "audio", r->audio);
     json_object_set_new(sound, "true_peak", json_value_number(r->true_peak));
+    json_object_set_new(sound, "beyond", json_value_number(r->beyond));
     if (r->unit)
         json_object_set_new(sound, "unit", json_string(r->unit));
     if (r->loud)
@@ -89,6 +90,7 @@ static void sound_of(const json_t *j, struct arena *a, struct record *r)
     r->audio = json_value_text_of(j, "audio", a);
     r->unit = json_value_text_of(j, "unit", a);
     r->true_peak = json_value_number_of(j, "true_peak");
+    r->beyond = json_value_number_of(j, "beyond");
 }
 
 bool record_read(const char *line, size_t n, struct arena *a, struct record *r)

@@ -29,6 +29,7 @@ struct record {
     bool sounds;            /* there is a WAV                                                             */
     double gain;            /* file value per unit of the quantity                                        */
     double file_peak, file_rms, file_lufs, true_peak; /* of the WAV's samples, re full scale; LUFS (NAN: too short or too quiet) */
+    double beyond;          /* samples of the WAV beyond full scale; NAN: not known                       */
     double ramp;            /* s, at both ends                                                            */
     const char *audio;      /* sha256 of the decoded samples; NULL: no WAV                                */
     struct record_file *files;

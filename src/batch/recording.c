@@ -89,7 +89,25 @@ static bool copy_all(struct cut *c, struct wav_out *out, double gain, struct err
     return true;
 }
 
-static bool write_it(const struct set *set, const char *file, const char *path, struct record *r, struct err *e)
+/* A cut where the sound is less than 80 dB below its peak is told, as it is of a render. */
+static const char **remarks_of(const struct measure *m, const struct wav_written *w, struct arena *a)
+{
+    const char **all = ARENA_TAKE(a, const char *, 4);
+    int n = 0;
+    if (m->peak == 0)
+        all[n++] = "the recording is silent: no level was set";
+    else if (!wav_written_heard(w))
+        all[n++] = "the recording is silent in the set's encoding: every sample is 0";
+    if (w->beyond > 0)
+        all[n++] = arena_format(a, "the recording: %.0f of %.0f samples lie beyond full scale, by up to %.2f dB: floating point holds them, but whatever plays them, or makes integers of them, clips",
+                                w->beyond, w->frames * w->channels, 20 * real_log10(w->peak));
+    if (m->frames < m->own && m->end > 1e-4 * m->before)
+        all[n++] = arena_format(a, "length: the recording is cut at %.4g s of %.4g s, where it is %.1f dB below its peak before the ramp", (double)m->frames / m->rate, (double)m->own / m->rate,
+                                fmax(0, -20 * real_log10(m->end / m->before)));
+    return all;
+}
+
+static bool write_it(const struct set *set, const char *file, const char *path, const struct measure *m, struct record *r, struct arena *a, struct err *e)
 {
     static const int bits[] = {[ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
     char comment[80];
@@ -105,8 +123,12 @@ static bool write_it(const struct set *set, const char *file, const char *path, 
     r->frames = c.frames;
     r->rate = c.in.rate;
     r->ramp = c.ramp > 0 ? (double)c.ramp / c.in.rate : 0;
-    if (ok)
+    if (ok) {
+        struct wav_written w = wav_written(out);
+        r->remarks = remarks_of(m, &w, a);
+        r->beyond = w.beyond;
         return wav_commit(out, e);
+    }
     if (out)
         wav_drop(out);
     return false;
@@ -118,19 +140,6 @@ static const char *key_of(const struct job_kit *k, const char *name, const char 
     const struct set *s = k->set;
     return job_hash((const char *const[]){"recording", name, s->build, sha256, set_level_text(s, a), isnan(s->length) ? "" : keys_yaml_number(s->length, a),
                                           arena_format(a, "%d", s->encoding), keys_yaml_number(s->ramp, a)}, 8, a);
-}
-
-/* A cut where the sound is less than 80 dB below its peak is told, as it is of a render. */
-static const char **remarks_of(const struct measure *m, struct arena *a)
-{
-    const char **all = ARENA_TAKE(a, const char *, 3);
-    int n = 0;
-    if (m->peak == 0)
-        all[n++] = "the recording is silent: no level was set";
-    if (m->frames < m->own && m->end > 1e-4 * m->before)
-        all[n++] = arena_format(a, "length: the recording is cut at %.4g s of %.4g s, where it is %.1f dB below its peak before the ramp", (double)m->frames / m->rate, (double)m->own / m->rate,
-                                fmax(0, -20 * real_log10(m->end / m->before)));
-    return all;
 }
 
 static bool measure(const struct set *s, const char *file, struct measure *m, struct record *r, struct err *e)
@@ -148,13 +157,12 @@ static bool make(const struct job_kit *k, const char *file, struct record *r, st
     char hex[HASH_TEXT];
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
     const char *path = arena_format(a, "%s.wav", job_base(k->folder, r->name, false, a));
-    if (!folder_make_for(k->folder, r->name, e) || !measure(k->set, file, &m, r, e) || !write_it(k->set, file, path, r, e) || !hash_file(path, hex, e))
+    if (!folder_make_for(k->folder, r->name, e) || !measure(k->set, file, &m, r, e) || !write_it(k->set, file, path, &m, r, a, e) || !hash_file(path, hex, e))
         return false;
     r->files = ARENA_TAKE(a, struct record_file, 1);
     r->files[r->n_files++] = (struct record_file){"wav", arena_format(a, "%s.wav", r->name), arena_text(a, hex)};
     r->audio = arena_take(a, HASH_TEXT, 1);
     r->sounds = true;
-    r->remarks = remarks_of(&m, a);
     r->encoding = k->set->encoding;
     r->full_scale = NAN;
     r->wall = stopwatch_wall() - start[0], r->cpu = stopwatch_cpu() - start[1];

@@ -59,7 +59,7 @@ void set_lay(const struct set *s, struct scene *over)
     if (s->level_rule != DESIGN_LEVEL_SCENE)
         over->output.level = s->level;
     if (set_waits(s))
-        over->output.level = (struct level){.full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
+        over->output.level = (struct level){.later = true, .full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
 }
 
 const char *set_level_text(const struct set *s, struct arena *a)

@@ -21,6 +21,8 @@
 
 enum { PIECE = 4096 /* samples converted at a time */, COPY = 1 << 16 /* bytes; at least one frame */ };
 
+#define FULL_SCALE (1 + 1e-12) /* a peak that was asked to be 1 is 1 but for rounding */
+
 struct wav_out {
     SNDFILE *sound;
     struct outfile out;
@@ -28,6 +30,9 @@ struct wav_out {
     char *path;
     double frames, riff_bytes;
     bool long_file; /* RF64 already */
+    bool *heard;    /* [channels] */
+    int unheard;    /* channels */
+    double beyond, peak;
 };
 
 static int encoding(int bits)
@@ -95,6 +100,7 @@ static void wav_free(struct wav_out *w)
     free((char *)w->format.title);
     free((char *)w->format.comment);
     free(w->path);
+    free(w->heard);
     free(w);
 }
 
@@ -107,7 +113,9 @@ static struct wav_out *wav_new(const char *path, const struct wav_format *f)
     w->path = strdup(path);
     w->format.title = f->title ? strdup(f->title) : NULL;
     w->format.comment = f->comment ? strdup(f->comment) : NULL;
-    if (w->path && (w->format.title || !f->title) && (w->format.comment || !f->comment))
+    w->heard = calloc((size_t)f->channels, sizeof *w->heard);
+    w->unheard = f->channels;
+    if (w->path && w->heard && (w->format.title || !f->title) && (w->format.comment || !f->comment))
         return w;
     wav_free(w);
     return NULL;
@@ -227,6 +235,28 @@ static int integers_of(const double *x, size_t n, int bits, int *y)
     return !bad;
 }
 
+/* Sample i of a piece, which begins with a frame, is not 0. */
+static void hear(struct wav_out *w, size_t i)
+{
+    bool *heard = &w->heard[i % (size_t)w->format.channels];
+    w->unheard -= !*heard;
+    *heard = true;
+}
+
+LANES_CLONES
+static void look_beyond(const double *x, size_t n, double *beyond, double *peak)
+{
+    double most = *peak, count = 0;
+#pragma omp simd reduction(+ : count) reduction(max : most)
+    for (size_t i = 0; i < n; i++) {
+        double size = fabs(x[i]), above = size > FULL_SCALE ? size : 0;
+        count += above > 0 ? 1 : 0;
+        most = above > most ? above : most;
+    }
+    *beyond += count;
+    *peak = most;
+}
+
 static bool write_integers(struct wav_out *w, const double *x, size_t n, struct err *e)
 {
     int y[PIECE];
@@ -236,6 +266,9 @@ static bool write_integers(struct wav_out *w, const double *x, size_t n, struct 
             i++;
         return sample_bad(w, i, x[i], e);
     }
+    for (size_t i = 0; w->unheard && i < n; i++)
+        if (y[i])
+            hear(w, i);
     errno = 0;
     return sf_write_int(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
 }
@@ -243,11 +276,16 @@ static bool write_integers(struct wav_out *w, const double *x, size_t n, struct 
 static bool write_floats(struct wav_out *w, const double *x, size_t n, struct err *e)
 {
     float y[PIECE];
+    double held[PIECE];
     for (size_t i = 0; i < n; i++) {
         if (!(fabs(x[i]) <= FLT_MAX))
             return sample_bad(w, i, x[i], e);
-        y[i] = (float)x[i];
+        held[i] = y[i] = (float)x[i];
     }
+    for (size_t i = 0; w->unheard && i < n; i++)
+        if (y[i] != 0)
+            hear(w, i);
+    look_beyond(held, n, &w->beyond, &w->peak);
     errno = 0;
     return sf_write_float(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
 }
@@ -257,6 +295,10 @@ static bool write_doubles(struct wav_out *w, const double *x, size_t n, struct e
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i]))
             return sample_bad(w, i, x[i], e);
+    for (size_t i = 0; w->unheard && i < n; i++)
+        if (x[i] != 0)
+            hear(w, i);
+    look_beyond(x, n, &w->beyond, &w->peak);
     errno = 0;
     return sf_write_double(w->sound, x, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
 }
@@ -279,6 +321,19 @@ bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e)
         w->frames += (double)n;
     }
     return true;
+}
+
+struct wav_written wav_written(const struct wav_out *w)
+{
+    return (struct wav_written){w->format.channels, w->frames, w->heard, w->beyond, w->peak};
+}
+
+bool wav_written_heard(const struct wav_written *w)
+{
+    for (int k = 0; k < w->channels; k++)
+        if (w->heard[k])
+            return true;
+    return false;
 }
 
 /* Puts the time stamp of an RF64 file's PEAK chunk to zero. Layout: "RF64", size, "WAVE", then chunks: name, size, content. */

@@ -37,6 +37,16 @@ struct wav_out *wav_create(const char *path, const struct wav_format *f, struct 
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e);
 /* Sets the comment (ICMT) before the first frame is written. */
 bool wav_comment(struct wav_out *w, const char *text, struct err *e);
+/* What the samples are that have been written, as the file holds them: rounded to its encoding. */
+struct wav_written {
+    int channels;
+    double frames;
+    const bool *heard;   /* [channels] some sample of it is not 0; lasts as long as w */
+    double beyond, peak; /* samples beyond full scale (of floating point, by more than 1e-12 of it), and the greatest of them; 0: none */
+};
+struct wav_written wav_written(const struct wav_out *w);
+bool wav_written_heard(const struct wav_written *w); /* some sample of any channel is not 0 */
+
 bool wav_settle(struct wav_out *w, struct err *e); /* as outfile_settle */
 bool wav_commit(struct wav_out *w, struct err *e);
 void wav_drop(struct wav_out *w);

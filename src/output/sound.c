@@ -27,9 +27,9 @@ static int bits_of(int encoding)
     return bits[encoding];
 }
 
-/* The key that sets the level. */
-static const char *level_key(const struct level *l)
+const char *sound_level_key(const struct scene *s)
 {
+    const struct level *l = &s->output.level;
     return !isnan(l->full_scale) ? "output.level.full_scale" : !isnan(l->dbfs_at_1_pa) ? "output.level.dbfs_at_1_pa"
          : !isnan(l->rms)        ? "output.level.rms"
          : !isnan(l->lufs)       ? "output.level.lufs"
@@ -44,7 +44,7 @@ struct track_format sound_format(const struct scene *s, long frames)
     int places = listener_channels(o);
     return (struct track_format){.rate = o->sample_rate, .bits = bits_of(o->encoding), .places = places, .channels = places > 1 ? places : o->channels,
                                  .frames = frames, .ramp = ramp < frames / 2 ? ramp : frames / 2, .recede = recede, .waits = isnan(sound_known_gain(s)),
-                                 .title = s->title, .key = level_key(&o->level)};
+                                 .title = s->title, .key = sound_level_key(s)};
 }
 
 double sound_known_gain(const struct scene *s)
@@ -172,6 +172,11 @@ bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
     if (!report->silent && !gain_find(o, report, &report->gain, e))
         return false;
     return note(o, report->gain, e) && track_finish(t, report->gain, e);
+}
+
+const struct wav_written *sound_written(const struct sound *o)
+{
+    return track_written(&o->track, o->arena);
 }
 
 static void meter_close(struct sound *o)

@@ -18,7 +18,7 @@ struct sound_report {
     double before_ramps;  /* peak before both ramps */
     double lufs;          /* of the file; NAN: not measured                    */
     double gain;          /* file value per unit of the quantity               */
-    bool silent;
+    bool silent;          /* nothing was there to be written: the peak is 0 */
     double ramp;          /* s: less than output.ramp when the sound is too short for it */
 };
 
@@ -43,6 +43,12 @@ bool sound_add(struct sound *o, double *x, long n, struct err *e);
 
 /* Scales and writes what is not written yet. ERR_SCENE: clipping, or a loudness that cannot be measured. */
 bool sound_finish(struct sound *o, struct sound_report *report, struct err *e);
+
+/* What the file holds, once the sound is finished. */
+const struct wav_written *sound_written(const struct sound *o);
+
+/* "output.level.full_scale": the key that sets the level. */
+const char *sound_level_key(const struct scene *s);
 
 /* Gives the file its name, or leaves nothing. Either ends it. */
 bool sound_settle(struct sound *o, struct err *e); /* as outfile_settle */

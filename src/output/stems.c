@@ -91,6 +91,11 @@ bool stems_finish(struct stems *o, double gain, struct err *e)
     return true;
 }
 
+const struct wav_written *stems_written(const struct stems *o, enum stem stem, struct arena *a)
+{
+    return track_written(&o->tracks[stem], a);
+}
+
 bool stems_settle(struct stems *o, struct err *e)
 {
     for (int k = 0; k < STEMS; k++)

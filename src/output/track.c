@@ -182,6 +182,16 @@ bool track_finish(struct track *t, double gain, struct err *e)
     return ferror(t->spool) ? err_set(e, ERR_IO, "samples cannot be read back from the temporary file") : true;
 }
 
+struct wav_written *track_written(const struct track *t, struct arena *a)
+{
+    struct wav_written *w = ARENA_TAKE(a, struct wav_written, 1);
+    *w = wav_written(t->wav);
+    bool *heard = ARENA_TAKE(a, bool, w->channels);
+    memcpy(heard, w->heard, (size_t)w->channels * sizeof *heard);
+    w->heard = heard;
+    return w;
+}
+
 static void forget(struct track *t)
 {
     if (t->spool)

@@ -53,6 +53,9 @@ long track_read(struct track *t, double *x);
 /* Writes what is kept at that gain. */
 bool track_finish(struct track *t, double gain, struct err *e);
 
+/* Of all that has been put into the file; as wav_written, for as long as the arena. */
+struct wav_written *track_written(const struct track *t, struct arena *a);
+
 /* What is kept is given up; the file is settled, gets its name, or leaves nothing. */
 bool track_settle(struct track *t, struct err *e);
 bool track_commit(struct track *t, struct err *e);

@@ -81,7 +81,7 @@ static bool render_blocks(struct render *r, struct err *e)
 static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact, const char *sha256)
 {
     const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL, *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
-    r->report->files[r->report->n_files++] = (struct render_file){outputs_kind(r->scene, kind), path, contact, stem, kept};
+    r->report->files[r->report->n_files++] = (struct render_file){outputs_kind(r->scene, kind), path, contact, stem, kept, NULL};
 }
 
 /* A file of a contact's own. */
@@ -109,11 +109,15 @@ static bool render_list(struct render *r, const char *effective, struct err *e)
     hash_bytes(effective, strlen(effective), hex);
     report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
     report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
-    if (r->sounds)
+    if (r->sounds) {
         report_file(r, OUTPUT_SOUND, r->wav_path, NULL, NULL);
+        r->report->files[r->report->n_files - 1].written = sound_written(r->sound);
+    }
     for (int k = 0; k < STEMS; k++)
-        if (stems_asked(&r->scene->output, (enum stem)k))
+        if (stems_asked(&r->scene->output, (enum stem)k)) {
             report_file(r, OUTPUT_STEM + k, r->stem_paths[k], NULL, NULL);
+            r->report->files[r->report->n_files - 1].written = stems_written(r->stems, (enum stem)k, r->arena);
+        }
     return true;
 }
 

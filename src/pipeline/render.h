@@ -13,6 +13,7 @@ struct render_file {
     const char *contact;     /* of a table or a series of impacts; NULL: of the whole */
     const char *stem;        /* of a stem, which; else NULL      */
     const char *sha256;      /* NULL: not known                  */
+    const struct wav_written *written; /* of a WAV; else NULL     */
 };
 
 struct render_report {

@@ -8,6 +8,7 @@
 #include "file/json_value.h"
 #include "num/real.h"
 #include "output/mark.h"
+#include "pipeline/written.h"
 #include "response/modes.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
@@ -156,12 +157,26 @@ static void warn_cut(const struct scene *s, struct render_report *report, struct
                               (double)l->frames + 1e-3 * rate < (double)l->motion ? "where the motion still goes on, and the sound is" : "where the sound is", fmax(0, -decibel(o->end / o->before_ramps))));
 }
 
+/* Samples that wait for the set's gain are none of a file yet: batch/level_files.c tells of those that will be. */
+static void warn_written(const struct scene *s, struct render_report *report, struct arena *a)
+{
+    bool later = s->output.level.later;
+    for (int i = 0; i < report->n_files; i++) {
+        const struct render_file *f = &report->files[i];
+        const char *silent = written_silent(s, f, report->sound.gain * report->sound.peak, a), *beyond = later ? NULL : written_beyond(s, f, a);
+        if (silent)
+            warn(report, silent);
+        if (beyond)
+            warn(report, beyond);
+    }
+}
+
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     int older = 0;
     while (report->older[older])
         older++;
-    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 8) + 3 + older);
+    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 8) + 2 * report->n_files + 3 + older);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i])
             warn_contact(&s->contacts[i], &runs[i]->board, report, a);
@@ -169,8 +184,7 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
         if (runs[i] && runs[i]->board.lifted > 0 && report->promise.n > 0)
             warn(report, arena_format(a, "contact '%s': where it is lifted off its force is cut, and errors fall more slowly, and less evenly, than accuracy.error counts on: measure them "
                                          "(--verify)", s->contacts[i].name));
-    if (report->sounds && report->sound.silent)
-        warn(report, "the sound is silent: no level was set");
+    warn_written(s, report, a);
     if (report->sounds && report->sound.ramp < s->output.ramp - 0.5 / s->output.sample_rate)
         warn(report, arena_format(a, "output.ramp: the sound is too short for ramps of %.4g s; they take half of it each, %.4g s", s->output.ramp,
                                   report->sound.ramp));
@@ -181,13 +195,13 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
 
 /* A number, or null for one that is not finite. */
 /* Each listening place of several: what is heard there, unscaled. */
-static json_t *channels_json(const struct scene *s, const struct sound_report *o)
+static json_t *channels_json(const struct scene *s, const struct sound_report *o, const struct render_file *wav)
 {
     json_t *all = json_array();
     for (int k = 0; k < o->channels; k++) {
         const double *place = s->output.listen.places + 3 * k;
-        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o}", "place_m", json_value_number(place[0]), json_value_number(place[1]), json_value_number(place[2]), "peak",
-                                             json_value_number(o->channel_peak[k]), "rms", json_value_number(o->channel_rms[k])));
+        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o, s:b}", "place_m", json_value_number(place[0]), json_value_number(place[1]), json_value_number(place[2]), "peak",
+                                             json_value_number(o->channel_peak[k]), "rms", json_value_number(o->channel_rms[k]), "silent", !wav->written->heard[k]));
     }
     return all;
 }
@@ -195,12 +209,14 @@ static json_t *channels_json(const struct scene *s, const struct sound_report *o
 static json_t *sound_json(const struct scene *s, const struct render_report *report)
 {
     const struct sound_report *o = &report->sound;
-    json_t *sound = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "unit",
+    const struct render_file *wav = written_sound(report);
+    json_t *sound = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "unit",
                               report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's", "peak", json_value_number(o->peak), "rms",
                               json_value_number(o->rms), "gain", json_value_number(o->gain), "gain_db", json_value_number(decibel(o->gain)), "peak_dbfs",
-                              json_value_number(decibel(o->gain * o->peak)), "rms_dbfs", json_value_number(decibel(o->gain * o->rms)), "silent", o->silent);
+                              json_value_number(decibel(o->gain * o->peak)), "rms_dbfs", json_value_number(decibel(o->gain * o->rms)));
+    written_tell(wav, sound);
     if (o->channels > 1)
-        json_object_set_new(sound, "channels", channels_json(s, o));
+        json_object_set_new(sound, "channels", channels_json(s, o, wav));
     return sound;
 }
 
@@ -283,8 +299,10 @@ static json_t *files_json(const struct render_report *report)
         const char *slash = strrchr(f->path, '/');
         if (!strcmp(f->kind, "summary"))
             continue;
-        json_array_append_new(all, json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name", json_value_shown(slash ? slash + 1 : f->path), "contact",
-                                             f->contact, "stem", f->stem, "sha256", f->sha256));
+        json_t *one = json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name", json_value_shown(slash ? slash + 1 : f->path), "contact", f->contact, "stem", f->stem,
+                                "sha256", f->sha256);
+        written_tell(f, one);
+        json_array_append_new(all, one);
     }
     return all;
 }

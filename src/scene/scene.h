@@ -308,6 +308,7 @@ struct level {              /* at most one is given; none: peak -3 dBFS         
     double full_scale;      /* the output quantity's unit that becomes 1.0                       */
     double peak, rms, lufs; /* dB relative to full scale                                         */
     double dbfs_at_1_pa;    /* dB: level in the file of 1 Pa, of a sound in pascals              */
+    bool later;             /* not a key: full_scale is 1 until that of the set is known (batch)  */
 };
 
 struct diagnostics {

@@ -347,7 +347,7 @@ static double found(struct level l, const struct record *one, const struct recor
 /* The louder of two sets it; what makes no sound does not. */
 START_TEST(the_common_level_is_that_of_the_loudest)
 {
-    const struct level none = {NAN, NAN, NAN, NAN, NAN};
+    const struct level none = {NAN, NAN, NAN, NAN, NAN, false};
     struct record one = a_record("a", "k", NULL), other = one;
     struct level_greatest g = level_start();
     struct err e = {0};

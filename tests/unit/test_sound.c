@@ -9,7 +9,7 @@ static const double places[15] = {0, 0, 1, 1, 0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1};
 /* A scene whose sound has so many listening places, as floating point, unscaled. */
 static struct scene scene_of(int n, int encoding)
 {
-    struct scene s = {.output = {.sample_rate = 48000, .encoding = encoding, .channels = 1, .level = {NAN, NAN, NAN, NAN, NAN}}};
+    struct scene s = {.output = {.sample_rate = 48000, .encoding = encoding, .channels = 1, .level = {NAN, NAN, NAN, NAN, NAN, false}}};
     if (n > 1)
         s.output.listen = (struct listen){true, RADIATOR_POINT, places, n, 1.2, 343};
     return s;
