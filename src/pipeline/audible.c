@@ -83,7 +83,7 @@ bool audible_power(const struct scene *s, const struct contact *c, const double 
     struct run r;
     for (int k = 0; k < AUDIBLE_BINS; k++)
         power[k] = 1;
-    if (s->output.quantity == QUANTITY_FORCE || !rules_rings(c))
+    if (s->output.quantity == QUANTITY_FORCE || !rules_rings(c) || c->gain == 0)
         return true;
     strike(&struck, place, s->output.sample_rate);
     own.contacts = &struck;

@@ -127,6 +127,8 @@ bool excerpts_make(const struct scene *s, const struct contact *c, double first,
 {
     struct trajectory tr;
     *x = (struct excerpts){.lead = SETTLED, .scene = *s, .contact = *c, .gain = c->gain, .power = ARENA_TAKE(a, double, EXCERPTS_PLACES * AUDIBLE_BINS)};
+    if (c->gain == 0) /* it is here for its table, which holds its force as it is */
+        x->gain = x->contact.gain = 1;
     x->contact.contact.enhance.given = false; /* audible.h has it */
     x->scene.contacts = &x->contact;
     x->scene.n_contacts = 1;

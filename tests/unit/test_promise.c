@@ -129,4 +129,25 @@ START_TEST(the_best_is_the_same)
 }
 END_TEST
 
-UNIT("promise", UNIT_LONG(the_best_is_the_same), the_cheapest, what_is_said_stays, chosen_once, the_best_is_told)
+/* A contact whose gain is 0 is there for its table alone, which holds the force as it is: it is given the knobs that the force itself is, whatever rings. */
+START_TEST(what_is_mute_has_a_force)
+{
+    static const char rings[] = ", material: steel, object: {shape: bar, length: 20 cm, width: 3 cm, thickness: 2 mm}";
+    for (double error = -40; error >= -90; error -= 25) {
+        struct scene kept, heard;
+        struct promise p = kept_of(error, "", &heard);
+        for (int i = 0; i < 2; i++) {
+            const char *text = arena_format(rig_arena(), "rasp: 1\nseed: 2\ngain: 0\nsurface: {roughness: {rms: 5 um}%s}\nscraper: {mass: 20 g}\nmotion: {path: line, to: [5 cm, 0], duration: 0.1 s}\n"
+                                                         "output: {%ssample_rate: 44100, diagnostics: {}}\naccuracy: {error: %g dB}\n", i ? rings : "", i ? "" : "quantity: force, ", error);
+            struct scene s = rig_scene(rig_arena(), text);
+            struct promise mute;
+            struct err e = {0};
+            ck_assert_msg(promise_keep(&s, rig_arena(), &kept, &mute, &e), "%s", e.text);
+            ck_assert_double_eq(kept.accuracy.oversampling, heard.accuracy.oversampling);
+            ck_assert_double_eq(mute.predicted, p.predicted);
+        }
+    }
+}
+END_TEST
+
+UNIT("promise", UNIT_LONG(the_best_is_the_same), the_cheapest, what_is_said_stays, chosen_once, the_best_is_told, what_is_mute_has_a_force)
