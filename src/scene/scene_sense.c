@@ -62,10 +62,11 @@ static void alpha_check(const struct scene_part *p, const struct limiter *l)
         scene_part_contradiction(p, alphas, "must not be greater than", "lower alpha_min, or raise alpha_max");
 }
 
+/* Defaults stand in every effective scene, so that only another value is one that was meant to do something. */
 static void ratio_check(const struct scene_part *p, const struct limiter *l)
 {
     const char *path = "contact.limiter.ratio_y", *curve = "contact.limiter.curve";
-    if (yaml_find(p->map, path) && scene_part_known(p, curve) && l->curve == LIMITER_NONE && !yaml_find(p->map, "ablation.nonlinearity"))
+    if (yaml_find(p->map, path) && l->ratio_y != 1 && scene_part_known(p, curve) && l->curve == LIMITER_NONE && !yaml_find(p->map, "ablation.nonlinearity"))
         diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at, "remove it, or set contact.limiter.curve to tanh",
                  "%s has no effect where %s is none", scene_part_label(p, path), scene_part_label(p, curve));
 }

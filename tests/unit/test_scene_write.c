@@ -44,6 +44,8 @@ static const char EVERYTHING[] =
     "scraper: {mass: 1 g, radius: 0.7 mm, patch: 7 um, response: files/plank.csv}\n"
     "motion: {path: polyline, points: [[0, 0.1], [0.3, 1e-3], [0.7, 7 mm]], corner: 1 mm, duration: 0.7, law: two_thirds, straight: 0.3}\n"
     "load: {recorded: files/force.csv, approach: 3 ms, release: auto}\ncontact: {force: paper, limiter: {ratio_y: 0.7}}\n";
+static const char UNLIMITED[] = "rasp: 1\nsurface: {grit: {}, response: files/plank.csv}\nscraper: {mass: 1}\nmotion: {path: line, to: [0.1, 0.3], duration: 1}\n"
+                                "contact: {force: paper, limiter: {curve: none}}\n";
 static const char CIRCLE[] = "rasp: 1\nsurface: {grit: {}, response: files/plank.csv}\nscraper: {mass: 1}\n"
                              "motion: {path: circle, center: [0.1, 0.2], radius: 3 cm, start_angle: 7 deg, turns: -1.3, speed: 0.3}\n"
                              "ablation: {normal_force: constant, nonlinearity: smoothed, response: constant, place: [3 cm, 0.1], sound: surface}\n";
@@ -111,7 +113,7 @@ static const char PLAYED[] =
 static const char ROLLING[] =
     "rasp: 1\nmotion: {path: line, to: [1 cm, 0], duration: 1 s}\ncontact: {model: impacts, impacts: {prototype: roll, size: 0.2, velocity: 0.3, roughness: 0.4}}\noutput: {diagnostics: {}}\n";
 static const char *const scenes[] = {SERIES, PLAYED, ROLLING, ROLL, COUPLED, DEVIATION, OBJECT, SPACE, SAMPLES, ARRAY, TABLE, PLAIN, FULL, NONE, SEVERAL, EVERYTHING, CIRCLE, SCRIBBLE, GIVEN,
-                                     RECORDED};
+                                     RECORDED, UNLIMITED};
 enum { SCENES = sizeof scenes / sizeof scenes[0] };
 
 static struct arena *a;
