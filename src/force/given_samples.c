@@ -116,7 +116,7 @@ static bool samples_open(struct stage_run *r, struct err *e)
         return false;
     if (r->contact->start < r->scene->output.ramp)
         onset_told(r, "the largest force", (double)onset_largest(g->n, g->force) / g->rate);
-    return g->rate == r->board->rate || samples_resample(r, g, e);
+    return g->rate == r->board->rate || samples_resample(r, g, e) || err_at(e, "%s", r->contact->contact.given.file);
 }
 
 static bool samples_fill(struct stage_run *r, long from, long to, struct err *e)

@@ -160,7 +160,7 @@ bool resample(struct arena *a, const double *x, size_t n, double rate_in, double
 {
     double ratio = rate_out / rate_in;
     if (!(ratio >= 1e-3 && ratio <= 1e3))
-        return err_set(e, ERR_SCENE, "resampling from %g to %g Hz: rates may differ by a factor of 1000 at most", rate_in, rate_out);
+        return err_set(e, ERR_SCENE, "resampling from %g to %g Hz: rates may differ by a factor of 1000 at most; give another sample rate", rate_in, rate_out);
     *m = (size_t)ceil((double)n * rate_out / rate_in);
     *y = ARENA_TAKE(a, double, *m + 1);
     if (rate_in == rate_out) {
