@@ -126,6 +126,13 @@ $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(BUILD)/librasp.a
 	$(call say,$(CC))
 	$Q$(CC) $(CFLAGS) -fsanitize=fuzzer -Itests/fuzz -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(HEAVY) $(LIBS)
 
+# Random scenes, a part of them with a fault planted, for SECONDS: tests/torture/. SEED= others; what is built with sanitizers runs one in four, and must make the same bytes.
+SEED ?= 1
+torture:
+	$(SUB) all
+	$(SUB) BUILD=$(BUILD)/sanitize CC=clang SAN=1 OPT="-O2 -g1" all
+	@tests/torture/torture.py --rasp $(BUILD)/rasp --sanitized $(BUILD)/sanitize/rasp --seed $(SEED) --seconds $(SECONDS) --limit 5 --jobs $(JOBS)
+
 # What takes long: reports that are committed (evidence/), and timings (tests/bench/, programs and scripts).
 evidence: all
 	@BUILD=$(BUILD) scripts/run_all.sh evidence
@@ -185,6 +192,7 @@ help:
 	@echo 'demo           set-up, build, tour    check      set-up, build, every test'
 	@echo 'warnings       -Werror, gcc, clang    sanitize   unit, cli and faults under ASan and UBSan'
 	@echo 'bytes          same bytes, all builds fuzz       SECONDS=60 of fuzzing'
+	@echo 'torture        SECONDS=60 of random scenes, SEED=1'
 	@echo 'evidence       the long reports       bench      timings'
 	@echo 'irs            irs/ from its recipes  install    PREFIX, DESTDIR'
 	@echo 'dist           the source archive     deb        a Debian package'
@@ -193,4 +201,4 @@ help:
 
 -include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:=.d) $(BENCH:=.d)
 FORCE:
-.PHONY: all unit demo check warnings warnings-gcc warnings-clang sanitize bytes fuzz fuzzers evidence bench irs install uninstall dist deb clean help FORCE
+.PHONY: all unit demo check warnings warnings-gcc warnings-clang sanitize bytes fuzz fuzzers torture evidence bench irs install uninstall dist deb clean help FORCE

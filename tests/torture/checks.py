@@ -16,8 +16,10 @@ PROGRAM_FAULTS = re.compile(r"runtime error:|Sanitizer|[Ii]nternal error|[Aa]sse
 # What only the sound itself shows, and rasp check cannot know (rasp-check: "such as clipping").
 ONLY_IN_SOUND = re.compile(r"beyond the range of|re full scale|is silent|silence|not finite|energy|too quiet|loudness|LUFS|out of memory")
 # A refusal has a help of its own, or its text says what would be right.
-CURE = re.compile(r"\b(give|write|set|lower|raise|remove|leave|add|must|needs?|only|at most|at least|instead|should|shorten|lengthen|move|use|cannot be read|is missing|not found|no such|expected|or|than|beyond|between|where)\b", re.I)
-LINELESS = re.compile(r"No such file|cannot be read|Is a directory|Too many levels")
+CURE = re.compile(r"\b(give|take|write|set|lower|raise|remove|leave|add|must|needs?|at most|at least|use|choose|save|mend|restore|shorten|let|make|check|did you mean|restrict|ask|is missing|No such|"
+                  r"exclude|applies only|what is read here|allowed|Is a directory|Too many levels|is not a|not finite|neither|damaged|cut short|there is no|are too few|is no|no column|file ends|nested|truncated|should follow|where the header|blank line|best that can be)\b", re.I)
+# What is wrong with a file as a whole has no line in it.
+WHOLE_FILE = re.compile(r"encoded as UTF|is empty|nothing in it|larger than")
 
 
 class Ended:
@@ -136,7 +138,7 @@ class Judge:
             self.finding(f"{name}: exit code {end.code} without an error")
         for r in errors:
             placed = r["line"] and r["column"] and r["file"] or any(p.get("line") for p in r.get("named_at") or [])
-            if not placed and not r.get("option") and end.code in (65, 66):
+            if not placed and not r.get("option") and end.code in (65, 66) and not WHOLE_FILE.search(r["message"]):
                 self.finding(f"{name}: no line: {r['message']}")
             if not r["help"] and not CURE.search(r["message"]):
                 self.finding(f"{name}: no cure: {r['message']}")
@@ -200,10 +202,8 @@ class Judge:
         return seconds > 100 * self.limit
 
     def render(self, check, options):
-        rng = self.scene.rng
         (self.folder / "out").mkdir()
-        verify = "accuracy.error" in self.scene.top.given and rng.random() < 0.3
-        end = self.run("render", "--json", "--diagnostics=json", *(["--verify"] if verify and False else []), *options, "-o", "out/", "scene.yaml")
+        end = self.run("render", "--json", "--diagnostics=json", *options, "-o", "out/", "scene.yaml")
         rows = self.told(end, "render")
         made = state_of(self.folder / "out")
         if end.slow or end.code < 0:
@@ -270,10 +270,10 @@ class Judge:
             self.finding(f"render: {name} is no NPY, or not finite")
 
     def again(self, made, options):
-        """The same bytes from the same scene, from the effective scene, and from another build of the program."""
-        rng = self.scene.rng
-        way = rng.choice(["again", "effective", "once"]) if "sanitized" not in self.programs else "sanitized"
-        if way == "once":
+        """The same bytes from the same scene, from the effective scene, from another build of the program, and of a set by one thread and by two."""
+        way = self.scene.rng.choice(["again", "again", "effective", "effective", "batch"]) if "sanitized" not in self.programs else "sanitized"
+        if way == "batch":
+            self.batch()
             return
         folder = self.folder / "out again"
         folder.mkdir()
@@ -287,6 +287,20 @@ class Judge:
         differ = sorted(n for n in made.keys() | other.keys() if made.get(n) != other.get(n) and not n.endswith("scene.json"))
         if end.code or differ:
             self.finding(f"render ({way}): exit code {end.code}, other bytes: {differ}: {end.err[-300:]}")
+
+
+    def batch(self):
+        """A set of two other seeds: the same files, but those that hold times, and the same exit code."""
+        (self.folder / "out.design.yaml").write_text("rasp-design: 1\nbase: scene.yaml\nreplicates: 2\n")
+        made, codes = [], []
+        for jobs in ("1", "2"):
+            end = self.run("batch", "-q", "-j", jobs, "out.design.yaml", "-o", f"out of {jobs}")
+            if end.slow:
+                return
+            codes.append(end.code)
+            made.append({n: s for n, s in state_of(self.folder / f"out of {jobs}").items() if not n.startswith(".rasp") and not n.endswith(".json") and n != "timings.csv"})
+        if codes[0] != codes[1] or made[0] != made[1]:
+            self.finding(f"batch: exit codes {codes}, other bytes by two threads: {sorted(set(made[0].items()) ^ set(made[1].items()))[:5]}")
 
 
 def strict(text):

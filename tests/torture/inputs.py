@@ -62,14 +62,14 @@ def gsf(path, array, pitch):
 class Map:
     """A height map in one of the formats: its file's name, and what the scene must say beside it."""
 
-    def __init__(self, scene, holes=False):
+    def __init__(self, scene, holes=False, formats=("gsf", "gwy", "sdf", "npy", "png", "csv"), metres=False):
         rng = scene.rng
-        self.rows = rng.choice([1, 1, rng.randint(3, 40)])
-        self.columns = rng.randint(40, 2000 if self.rows == 1 else 60)
+        self.rows = rng.choice([1, 1, rng.randint(4, 40)])
+        self.columns = rng.randint(64, 2000 if self.rows == 1 else 100)
         self.pitch = float(f"{math.exp(rng.uniform(math.log(2e-6), math.log(1e-4))):.3g}")
         rms = math.exp(rng.uniform(math.log(1e-7), math.log(1e-5)))
         h = heights(rng, self.columns, self.rows, rms)
-        self.format = rng.choice(["gsf", "gwy", "sdf", "npy", "png", "csv"])
+        self.format = rng.choice(formats)
         self.scale = self.range = None
         name = scene.name("map", "." + self.format)
         path = scene.folder / name
@@ -84,7 +84,7 @@ class Map:
             subprocess.run([scene.rasp, "surface", "convert", "-q", *(["--text"] if self.format == "sdf" and rng.random() < 0.5 else []), "map.gsf", name], cwd=scene.folder, check=True, capture_output=True)
             (scene.folder / "map.gsf").unlink()
         elif self.format == "npy":
-            kind = rng.choice(["f4", "f8", "i2", "i4"])
+            kind = rng.choice(["f4", "f8"] if metres else ["f4", "f8", "i2", "i4"])
             self.scale = 1.0 if kind[0] == "f" else float(f"{rms / 1000:.3g}")
             h = [[x / self.scale for x in row] for row in h]
             if kind == "i2":
@@ -95,7 +95,7 @@ class Map:
             self.range = float(f"{max(most - least, 1e-9):.4g}")
             png(path, [[min(65535, round((x - least) / self.range * 65535)) for x in row] for row in h])
         else:
-            self.scale = rng.choice([1.0, 1e-6])
+            self.scale = 1.0 if metres else rng.choice([1.0, 1e-6])
             separator = rng.choice([",", ";", " ", "\t"] if not holes else [",", ";"])
             text(scene, name, [separator.join("" if x is None else f"{x / self.scale:.6g}" for x in row) for row in h])
         self.name = name
@@ -168,15 +168,14 @@ def places(rng, field, kind):
 
 # ------------------------------------------------------------------ mode tables
 
-def mode_table(scene, field, shared=None, kind=None):
-    """Modes at places. shared: poles that are the same everywhere (None: either)."""
+def mode_table(scene, field, kind, drives=False):
+    """Modes at places: one, a line, the plane. drives: such that a ball may press on them (what is heard is what is touched)."""
     rng = scene.rng
-    shared = rng.random() < 0.6 if shared is None else shared
-    kind = kind or rng.choice(["one", "line", "line", "plane"])
-    form = rng.choices(["plain", "slopes", "envelope"], [6, 1, 1])[0]
+    shared = drives or rng.random() < 0.6
+    form = "plain" if drives else rng.choices(["plain", "slopes", "envelope"], [6, 1, 1])[0]
     modes = sorted(math.exp(rng.uniform(math.log(80), math.log(9000))) for _ in range(rng.randint(1, 12)))
     decays = [math.exp(rng.uniform(math.log(3), math.log(300))) for _ in modes]
-    before = [f"# poles: {'shared' if shared else 'separate'}", f"# quantity: {rng.choice(['displacement', 'velocity', 'acceleration'])}"]
+    before = [f"# poles: {'shared' if shared else 'separate'}", f"# quantity: {'velocity' if drives else scene.quantity}"]
     before += ["# pairing: " + ("ids" if shared or rng.random() < 0.5 else "frequency")] * (rng.random() < 0.4) + [f"# radius_m: {rng.uniform(0.01, 0.3):.3g}"]
     header = ["place", "x_m", "y_m", "mode", "frequency_hz", *(["time_s", "amplitude"] if form == "envelope" else ["decay_per_s", "gain"]), "phase_rad", *(["slope"] if form == "slopes" else [])]
     rows = []
@@ -186,7 +185,7 @@ def mode_table(scene, field, shared=None, kind=None):
                 f, d = f * rng.uniform(0.97, 1.03), d * rng.uniform(0.8, 1.2)
                 if len(modes) > 2 and rng.random() < 0.05:
                     continue
-            gain, phase = rng.uniform(-1, 1), rng.choice([0, rng.uniform(-3, 3)])
+            gain, phase = (rng.uniform(0, 1), math.pi / 2) if drives else (rng.uniform(-1, 1), rng.choice([0, rng.uniform(-3, 3)]))
             if form == "envelope":
                 rows += [[p, x, y, m, f, t, abs(gain) * math.exp(-d * t), phase] for t in (i * 0.5 / d for i in range(12))]
             else:

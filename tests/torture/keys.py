@@ -112,7 +112,7 @@ def written(rng, x, key):
         return str(x) if key.whole else plain(x)
     name = rng.choice(sorted(names))
     digits = plain(float(0)) if x == 0 else str(Decimal(plain(x)).scaleb(-names[name])).replace("E", "e")
-    return digits + rng.choice(["", " ", " "]) + name
+    return digits + (" " if name[0].isdigit() else rng.choice(["", " ", " "])) + name
 
 
 def plain(x):

@@ -20,10 +20,12 @@ BALLS = ("roll", "roll_coupled")
 def make(keys, rng, folder, rasp):
     """A scene, and the files that it names, in the folder."""
     scene = Scene(keys, rng, folder, rasp)
+    scene.quantity = rng.choice(["displacement", "velocity", "velocity", "acceleration"])  # of its mode tables
+    scene.only_if = ONLY_IF
     scene.top.say("rasp", 1)
     count = rng.choices([1, 2, 3], [85, 12, 3])[0]
     for i in range(count):
-        part = Part(scene, f"c{i}" if rng.random() < 0.8 else quoted(f"contact {i}, \u00e9"))
+        part = Part(scene, rng.choice(["c", "rod_", "_"]) + str(i))
         scene.contacts.append(part)
         contact(part)
     output(scene)
@@ -47,13 +49,15 @@ def contact(part):
     if model != "scrape" or part.chance(0.3):
         part.say("contact.model", model)
     response(part, model)
+    MODELS[model](part)
     if model in FOLLOWS:
         relief(part, model)
-    MODELS[model](part)
     motion(part, model)
     tool_response(part, tool)
     if part.chance(0.15):
         part.open("ablation")
+        if rings(part, "surface") and rings(part, tool):
+            part.choose("ablation.sound", [None, "both", "surface", tool])
     if model in ("impacts", "playback", "given") and part.chance(0.25) and part.given.get("motion.path") != "still":
         part.open("contact.gesture")
         part.draw("contact.gesture.cutoff")
@@ -65,19 +69,64 @@ def contact(part):
 
 def sprinkle(part, model, tool):
     """What may be added, but for what a recipe has decided about as a whole; now and then that, too."""
-    careless = part.chance(0.06)
     part.sprinkle(("name", "start", "gain", "contact.limiter", "contact.smoothing", "contact.leak", "contact.beta", "contact.gravity", "contact.force", "contact.gesture", "contact.enhance", "ablation",
-                   "grip", "load.approach", "load.release", "contact.impacts", "contact.roll.mu", "contact.roll.lambda", "contact.roll.static_depth", "contact.roll.scraping", "contact.roll.ground"))
-    part.sprinkle(tuple(f"{tool}.{k}" for k in ("weight", "radius", "patch", "offset", "start_angle", "lobe", "body", "wall", "mass", "object")), p=0.1)
+                   "grip", "motion.straight", "load.approach", "load.release", "contact.impacts", "contact.roll.mu", "contact.roll.lambda", "contact.roll.static_depth", "contact.roll.scraping", "contact.roll.ground"))
+    part.sprinkle(tuple(f"{tool}.{k}" for k in ("weight", "radius", "patch", "offset", "start_angle", "lobe", "wall", "mass")), p=0.1)
     if model in FOLLOWS:
         part.sprinkle(("surface.roughness", "surface.ridges", "surface.grit", "surface.fractal", "surface.continuation", "surface.levelling", "surface.along", "surface.origin", "surface.off_map"), p=0.1)
-    rings = [body for body in ("surface", tool) if f"{body}.response" in part or f"{body}.object" in part or f"{body}.space" in part]
-    for body in rings:
-        part.sprinkle((f"{body}.modes", f"{body}.gammatone", f"{body}.response_length", f"{body}.convolution", "surface.moving", "surface.pairing", "surface.extrapolate", f"{body}.object", f"{body}.space"), p=0.08)
-    if careless:
+    for body in ("surface", tool):
+        if rings(part, body):
+            part.sprinkle((f"{body}.modes", f"{body}.object", f"{body}.space"), p=0.1)
+            reading(part, body)
+    if part.chance(0.06):
         part.scene.note("carelessly put together")
+        part.careless = True
         part.sprinkle(("",), p=0.03, closed=0.05)
     kurtosis_fits(part)
+
+
+def rings(part, body):
+    """By what a body rings: table, recorded, object, space or None."""
+    file = part.given.get(f"{body}.response", "").strip('"')
+    if file:
+        return "table" if file.endswith(".csv") else "recorded"
+    return next((kind for kind in ("object", "space") if f"{body}.{kind}" in part), None)
+
+
+def reading(part, body):
+    """How the response is read as the contact moves, and by which engine: what goes together."""
+    kind, straight = rings(part, body), part.given["motion.path"] in ("line", "back_and_forth", "four_in_line", "still", "incline")
+    travels = "surface.space.to" in part or "surface.space.dimension_to" in part
+    moving = None
+    if body == "surface":
+        shared = part.shared if kind == "table" else not travels
+        moving = part.choose("surface.moving", [None, None, "auto", "launch"] + ["glide", "readout"] * (kind != "recorded") + ["fixed"] * (kind != "recorded" and shared))
+        if kind == "table" and part.chance(0.2):
+            part.draw("surface.pairing")
+    glides = moving == "glide" or moving in (None, "auto") and travels and kind == "space"
+    if part.chance(0.3):
+        engines = ["auto"] + ["overlap_add"] * (not glides) + ["resonators"] * (kind != "recorded")
+        if body == "surface" and straight and kind == "table" and not shared and moving in (None, "auto", "launch"):
+            engines += ["nodes", "nodes"]
+        part.choose(f"{body}.convolution", engines)
+    engine = part.given.get(f"{body}.convolution")
+    if not glides and engine != "resonators" and part.chance(0.15):
+        part.draw(f"{body}.response_length")
+    if not glides and kind != "recorded" and engine in (None, "auto", "overlap_add") and part.chance(0.15):
+        part.draw(f"{body}.gammatone")
+
+
+# What is drawn as an optional key only where this holds (of a careless scene always); of keys that recipes decide about it never does.
+ONLY_IF = {
+    "surface.fractal.interpolation": lambda p: False, "surface.roughness.grain": lambda p: p.given.get("surface.along") in (None, "plane") and "surface.fractal" not in p,
+    "surface.ridges.direction": lambda p: "surface.fractal" not in p, "surface.object.origin": lambda p: p.given.get("surface.extrapolate") == "nearest", "surface.object.shape": lambda p: False,
+    "surface.object.edges": lambda p: False, "scraper.object.edges": lambda p: False, "ball.object.edges": lambda p: False, "surface.along": lambda p: "surface.fractal" not in p and "surface.height_map" not in p, "surface.object.thickness": lambda p: False, "scraper.object.thickness": lambda p: False,
+    "ball.object.thickness": lambda p: False, "surface.off_map": lambda p: False, "surface.height_range": lambda p: False, "surface.pitch": lambda p: False,
+    "contact.impacts.amplitude.distribution": lambda p: False, "contact.impacts.interval.distribution": lambda p: False, "contact.impacts.marginal": lambda p: "table" not in str(p.given),
+    "contact.impacts.modulation.rate": lambda p: "contact.impacts.modulation.depth" in p.given, "contact.roll.mu": lambda p: p.given.get("contact.roll.penetration") != "paper",
+    "contact.roll.static_depth": lambda p: not {"contact.roll.stiffness", "contact.roll.kappa"} & set(p.given), "contact.roll.ground": lambda p: False, "contact.roll.drop": lambda p: False,
+    "ablation.sound": lambda p: False, "output.listen.radiator": lambda p: False, "contact.limiter.alpha_min": lambda p: "contact.limiter.alpha_max" in p.given or p.scene.wild == 0,
+}
 
 
 def kurtosis_fits(part):
@@ -127,7 +176,7 @@ def strike(part):
 
 def given(part):
     rng, scene = part.rng, part.scene
-    kind, rate, seconds = rng.choice(["wav", "npy", "csv"]), rng.choice([8000, 44100, 48000, 10000, 96000]), rng.uniform(0.01, 0.1)
+    kind, rate, seconds = rng.choice(["wav", "npy", "csv"]), rng.choice([8000, 44100, 48000, 10000, 96000]), rng.uniform(0.005, 0.018)
     scene.note(f"force: {kind}")
     force = [rng.gauss(0, 0.2) for _ in range(int(rate * seconds))]
     name = scene.name("force", "." + kind)
@@ -146,7 +195,7 @@ def given(part):
         if column != "force_n":
             part.say("contact.given.column", quoted(column))
     if kind != "wav" and part.chance(0.4):
-        part.draw("contact.given.scale", -10, 10)
+        part.draw("contact.given.scale", *rng.choice([(0.1, 10), (-10, -0.1)]))
     part.say("contact.given.file", quoted(name))
 
 
@@ -187,7 +236,7 @@ def roll_coupled(part):
     elif "surface.material" not in part:
         part.choose("surface.material", MATERIALS)
     if part.chance(0.4):
-        part.draw("contact.roll.drop")
+        part.draw("contact.roll.drop", 1e-4, 1e-2)
     part.scene.note(f"roll_coupled: {integrator or 'discrete_gradient'}, {ground or 'auto'} ground")
 
 
@@ -236,8 +285,8 @@ def relief(part, model):
     kinds = rng.sample(["roughness", "like", "map", "ridges", "grit", "fractal", "recipe"], rng.choice([1, 1, 1, 2, 3]))
     if "fractal" in kinds:
         kinds = [k for k in kinds if k in ("fractal", "roughness")]
-    if "like" in kinds and "roughness" in kinds:
-        kinds.remove("roughness")
+    if "like" in kinds:
+        kinds = [k for k in kinds if k not in ("roughness", "recipe")]
     for kind in kinds:
         scene.note(f"surface: {kind}")
         if kind in ("roughness", "like"):
@@ -264,15 +313,16 @@ def relief(part, model):
 def roughness(part, like):
     part.open("surface.roughness")
     if like:
-        m = inputs.Map(part.scene)
+        m = inputs.Map(part.scene, formats=["gsf", "gwy", "sdf", "npy", "csv"], metres=True)
         part.say("surface.roughness.like", quoted(m.name))
         if not m.holds_pitch or part.chance(0.2):
             part.length("surface.roughness.like_pitch", m.pitch)
     else:
         part.draw("surface.roughness.rms")
-    if part.chance(0.15):
+    if part.chance(0.15) and "surface.fractal" not in part:
         part.draw("surface.roughness.grain")
         part.draw("surface.roughness.grain_direction")
+        part.say("surface.along", "plane")
 
 
 def height_map(part):
@@ -281,6 +331,8 @@ def height_map(part):
     part.say("surface.height_map", quoted(m.name))
     if holes:
         part.say("surface.holes", "fill")
+    elif part.chance(0.1):
+        part.say("surface.holes", "refuse")
     if not m.holds_pitch or part.chance(0.2):
         part.length("surface.pitch", m.pitch)
     if m.scale and (m.scale != 1 or part.chance(0.3)):
@@ -295,7 +347,7 @@ def height_map(part):
         part.field = tuple(f * s for f, s in zip(m.field, (1, 1, 1, 1)))
     elif part.chance(0.3):
         part.choose("surface.off_map", ["mirror", "wrap"])
-    if part.chance(0.2):
+    if m.columns >= 64 and part.chance(0.2):
         part.open("surface.continuation")
         part.draw("surface.continuation.from", 4 * m.pitch, 8 * m.pitch)
         part.draw("surface.continuation.shortest", m.pitch / 5, 2 * m.pitch)
@@ -323,9 +375,9 @@ def response(part, model):
         if part.chance(0.4):
             part.draw(rng.choice(["surface.space.to", "surface.space.dimension_to"]))
     elif kind == "table":
-        part.field = (0, 0, rng.uniform(0.05, 0.4), rng.uniform(0.05, 0.3))
+        part.field = (0, 0, rng.randint(5, 40) / 100, rng.randint(3, 15) / 50)
         layout = rng.choice(["one", "line", "line", "plane"])
-        name, _ = inputs.mode_table(scene, part.field, shared=True if model == "roll_coupled" else None, kind=layout)
+        name, part.shared = inputs.mode_table(scene, part.field, layout, drives=model == "roll_coupled")
         part.say("surface.response", quoted(name))
         within(part, layout)
     elif kind == "wav":
@@ -370,12 +422,18 @@ def thing(part, body):
         part.choose(f"{o}.waves", [None, None, "bending", "longitudinal"])
     elif shape in ("plate", "disk"):
         part.choose(f"{o}.edges", [None, "free", "supported", "clamped"])
-    if part.chance(0.7):
+    if f"{body}.material" in part.given:
+        pass
+    elif part.chance(0.7):
         part.choose(f"{body}.material", MATERIALS)
     else:
+        if part.chance(0.5):
+            part.say(f"{body}.material", "custom")
         for name in ("density", "youngs_modulus", "poisson", "loss"):
             part.draw(f"{o}.{name}")
     if body == "surface":
+        if part.chance(0.3):
+            part.say("surface.extrapolate", "nearest")
         round_ = shape in ("disk", "drum", "shell")
         half = size * 0.3
         part.field = (-half, -half, half, half) if round_ else (0, 0, size, sizes.get("width", 0))
@@ -384,10 +442,10 @@ def thing(part, body):
 def tool_response(part, tool):
     kind = part.rng.choice(["none", "none", "table", "wav", "object"])
     if kind == "table":
-        part.say(f"{tool}.response", quoted(inputs.mode_table(part.scene, (0, 0, 0.1, 0), kind="one")[0]))
+        part.say(f"{tool}.response", quoted(inputs.mode_table(part.scene, (0, 0, 0.1, 0), "one")[0]))
     elif kind == "wav":
         part.say(f"{tool}.response", quoted(inputs.impulse_response(part.scene)))
-    elif kind == "object" and f"{tool}.material" not in part:
+    elif kind == "object":
         thing(part, tool)
     part.scene.note(f"{tool}'s response: {kind}")
 
@@ -410,7 +468,7 @@ def motion(part, model):
     PATHS[path](part, box, law)
     part.scene.note(f"motion: {path}, {law or 'auto'}")
     if law == "given":
-        speed = inputs.wave(rng, 0, 1.5 * box.way / part.lasts, part.lasts)
+        speed = inputs.wave(rng, 0, 0.7 * min(box.width, box.height or box.width) / part.lasts, part.lasts)
         rows = [[t, max(0.0, speed(t))] for t in inputs.rising(rng, part.lasts, 0.01)]
         part.lasts = rows[-1][0]
         part.say("motion.profile", quoted(inputs.table(part.scene, "speeds", ["time_s", "speed_m_per_s"], rows)))
@@ -466,7 +524,7 @@ def circle(part, box, law):
     part.point("motion.center", *box.middle())
     part.length("motion.radius", max(1e-4, min(box.width, box.height) / 2.1))
     if part.chance(0.5):
-        part.draw("motion.turns")
+        part.draw("motion.turns", *part.rng.choice([(0.3, 3), (-3, -0.3)]))
     if part.chance(0.3):
         part.draw("motion.start_angle")
 
@@ -485,7 +543,7 @@ def points(part, box, law):
 def polyline(part, box, law):
     points(part, box, law)
     if part.chance(0.4):
-        part.draw("motion.corner", 1e-5, box.way / 20)
+        part.draw("motion.corner", 1e-5, max(1e-5, box.way / 100))
 
 
 def recorded(part, box, law):
@@ -520,33 +578,38 @@ PATHS = {"back_and_forth": back_and_forth, "line": line, "four_in_line": four_in
 
 def output(scene):
     rng, part = scene.rng, scene.top
-    bodies = [body for body in ("surface", "scraper", "ball") for c in scene.contacts if f"{body}.response" in c or f"{body}.object" in c or f"{body}.space" in c]
+    bodies = [body for body in ("surface", "scraper", "ball") for c in scene.contacts if rings(c, body)]
     quantity = "force" if not bodies or rng.random() < 0.15 else None
-    recorded = any(c.given.get(f"{body}.response", '.csv"').endswith(('.wav"', 's"')) or "responses" in c.given.get(f"{body}.response", "") for c in scene.contacts for body in ("surface", "scraper", "ball"))
+    kinds = {rings(c, body) for c in scene.contacts for body in ("surface", "scraper", "ball")}
+    recorded, mixed = "recorded" in kinds, "table" in kinds and kinds & {"object", "space"} and scene.quantity != "velocity"
     if quantity:
         part.say("output.quantity", quantity)
-    elif not recorded and rng.random() < 0.5:
-        quantity = part.choose("output.quantity", ["auto", "displacement", "velocity", "acceleration"])
+    elif mixed and not recorded or not recorded and rng.random() < 0.4:
+        quantity = part.choose("output.quantity", ["displacement", "velocity", "acceleration"] + ["auto"] * (not mixed))
     objects = [c for c in scene.contacts if "surface.object" in c]
-    if quantity in (None, "auto") and not recorded and rng.random() < 0.3:
+    spaces = any("surface.space" in c for c in scene.contacts)  # how large they are is not said
+    if quantity in (None, "auto") and not recorded and not spaces and rng.random() < (0.5 if objects else 0.3):
         listen(part, objects if len(objects) == len(scene.contacts) else [])
     level = rng.choice([None, None, "full_scale", "peak", "rms", "lufs", "dbfs_at_1_pa"])
+    if level == "lufs":
+        part.draw("output.tail", 0.4, 0.5)  # it needs 0.4 s of sound
     if level and (level != "dbfs_at_1_pa" or "output.listen.places" in part):
         part.draw(f"output.level.{level}", *{"peak": (-60, 0), "rms": (-70, -20), "lufs": (-70, -20)}.get(level, ()))
     part.choose("output.encoding", [None, "pcm16", "pcm24", "float32", "float32", "float64", "float64"])
     if rng.random() < 0.4:
-        part.draw("output.sample_rate", *rng.choice([(16000, 48000), (8000, 96000)]))
-    if rng.random() < 0.25:
+        part.draw("output.sample_rate", *rng.choice([(16000, 48000), (16000, 48000), (8000, 768000)]))
+    silent = any("ablation.sound" in c.given or f"{body}.weight" in c.given or "gain" in c.given for c in scene.contacts for body in ("scraper", "ball"))
+    if rng.random() < 0.3 and (not silent or rng.random() < 0.1):
         stems = sorted({"force", *([] if quantity == "force" else bodies)})
         part.say("output.stems", "[" + ", ".join(rng.sample(stems, rng.randint(1, len(stems)))) + "]")
     if rng.random() < 0.6 or not bodies and quantity != "force":
         part.open("output.diagnostics")
-        part.draw("output.diagnostics.rate")
+        part.draw("output.diagnostics.rate", 10, 8000)
         if rng.random() < 0.2:
             part.say("output.diagnostics.columns", "[" + ", ".join(rng.sample(["time_s", "x_m", "y_m", "stroke_m", "speed_m_per_s", "force_rms_n", "force_peak_n", "force_mean_n"], 3)) + "]")
     if any(c.given.get("contact.model") == "impacts" for c in scene.contacts) and rng.random() < 0.5:
-        part.say("output.impacts", "table")
-    if rng.random() < 0.8:
+        part.choose("output.impacts", ["table", "table", "none"])
+    if rng.random() < 0.8 and "output.tail" not in part:
         part.draw("output.tail")
     if rng.random() < 0.1:
         part.draw("output.duration")
@@ -556,7 +619,7 @@ def output(scene):
 def listen(part, objects):
     part.open("output.listen")
     flat = objects and all(c.given["surface.object.shape"] in ("plate", "disk", "membrane", "drum") for c in objects)
-    radiator = part.choose("output.listen.radiator", [None, "monopole", "contact"] + ["point"] * bool(objects) + ["plate"] * bool(flat))
+    radiator = part.choose("output.listen.radiator", [None, "monopole", "contact"] + ["point", "point"] * bool(objects) + ["plate", "plate"] * bool(flat))
     part.scene.note(f"listening: {radiator or 'monopole'}")
     if radiator == "contact":
         return
@@ -581,6 +644,8 @@ def accuracy(scene):
         for key in scene.keys.all.values():
             if key.path.startswith("accuracy.") and key.low is not None and key.path != "accuracy.error" and rng.random() < 0.3:
                 part.draw(key.path)
+        if part.given.get("accuracy.overlap_order") == "3" and rng.random() < 0.9:
+            part.say("accuracy.overlap_order", rng.choice([1, 2, 4]))
     elif kind == "error":
         part.say("accuracy.error", rng.choice(["%.3g dB", "%.4g"]) % rng.uniform(-90, -20))
         scene.note("accuracy.error")

@@ -15,6 +15,7 @@ class Part:
         self.opened = set()  # optional sections that were chosen
         self.field = (-0.05, -0.05, 0.05, 0.05)  # x0, y0, x1, y1: where the contact may be, m
         self.lasts = 0.1
+        self.careless = False
 
     def __contains__(self, path):
         return any(p == path or p.startswith(path + ".") for p in self.given)
@@ -72,10 +73,14 @@ class Part:
                 self.opened.add(section)
         for key in self.keys.all.values():
             section = self.keys.section_of(key.path)
-            if not key.path.startswith(paths) or not key.drawn or key.path in self.given or (section and section not in self.opened):
+            if not key.path.startswith(paths) or not key.drawn or key.path in self or key.path.rpartition(".")[0] in self.given or (section and section not in self.opened):
                 continue
-            if self.chance(p) and self.keys.applies(key, self.given):
+            if self.chance(max(p, 0.3) if section else p) and self.keys.applies(key, self.given) and (self.careless or self.scene.only_if.get(key.path, always)(self)):
                 self.draw(key.path)
+
+
+def always(part):
+    return True
 
 
 class Scene:
@@ -86,6 +91,7 @@ class Scene:
         self.wild = rng.choices([0, 0.01, 0.05, 0.3], [45, 30, 20, 5])[0]
         self.top = Part(self)
         self.contacts = []
+        self.only_if = {}       # key: does it make sense beside what a contact has?
         self.notes = set()      # kinds of files and models, for the report of what was covered
         self.files = {}         # name: kind
         self.options = []       # of the command line
@@ -175,7 +181,9 @@ def plant(tree, path, text):
     *maps, last = path.split(".")
     for name in maps:
         tree = tree.setdefault(name, {})
-    tree[last] = text
+        if not isinstance(tree, dict):  # a careless scene says both accuracy: high and accuracy.preset: the first one stays
+            return
+    tree.setdefault(last, text)
 
 
 def grow(given):

@@ -10,10 +10,12 @@ import json
 import multiprocessing
 import random
 import re
+import resource
 import shutil
 import sys
 import tempfile
 import time
+import traceback
 from collections import Counter
 from pathlib import Path
 from queue import Empty
@@ -23,7 +25,6 @@ import recipes
 from checks import Judge
 from keys import Keys
 
-FAULTY = 0.3        # share of scenes with a fault
 SANITIZED = 4       # one scene in so many is run by the sanitized program, too
 
 
@@ -31,13 +32,13 @@ def one(k):
     """Scene k of the seed, a function of the two alone: made, judged, and what came of it."""
     folder = Path(OPTIONS.keep or tempfile.mkdtemp(prefix="rasp-torture-"))
     folder.mkdir(exist_ok=True)
-    rng = random.Random(f"{OPTIONS.seed}:{k}")
+    rng, before = random.Random(f"{OPTIONS.seed}:{k}"), cpu()
     programs = {"rasp": OPTIONS.rasp}
     if OPTIONS.sanitized and k % SANITIZED == SANITIZED - 1:
         programs["sanitized"] = OPTIONS.sanitized
     try:
         scene = recipes.make(KEYS, rng, folder, OPTIONS.rasp)
-        fault = faults.plant(scene) if rng.random() < FAULTY else None
+        fault = faults.plant(scene) if rng.random() < OPTIONS.faults else None
         if fault:
             fault()
         for name, text in scene.texts.items():
@@ -47,16 +48,27 @@ def one(k):
     finally:
         if not OPTIONS.keep:
             shutil.rmtree(folder)
-    said = {p for p, _ in scene.given()} | {f"{p}: {t}" for p, t in scene.given() if KEYS.all.get(p) and KEYS.all[p].words}
-    return {"scene": k, "findings": judge.findings, "slow": judge.slow, "refusal": judge.refusal, "accepted": judge.accepted, "planted": scene.planted,
+    said = {"name"} if len(scene.contacts) > 1 else set()
+    said |= {p for p, _ in scene.given()} | {f"{p}: {t}" for p, t in scene.given() if KEYS.all.get(p) and KEYS.all[p].words}
+    return {"scene": k, "findings": judge.findings, "slow": judge.slow, "refusal": judge.refusal, "accepted": judge.accepted, "planted": scene.planted, "cpu": cpu() - before,
             "covered": sorted(said) if judge.accepted else [], "notes": sorted(scene.notes) if judge.accepted else []}
+
+
+def cpu():
+    """CPU seconds of the commands that this worker ran."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+# Words that no scene may say: a scraper's and a ball's responses do not move.
+NEVER = {"scraper.convolution: nodes", "ball.convolution: nodes"}
 
 
 def all_there_is():
     """Every key and every word of a choice: what is to be accepted in some scene."""
     for key in KEYS.all.values():
         yield key.path
-        yield from (f"{key.path}: {word}" for word in key.words)
+        yield from (f"{key.path}: {word}" for word in key.words if f"{key.path}: {word}" not in NEVER)
 
 
 def report(results, seconds):
@@ -65,7 +77,8 @@ def report(results, seconds):
     covered = {c for r in results for c in r["covered"]} | {"include" for r in results if "include" in r["notes"]}
     everything = list(all_there_is())
     never = [c for c in everything if c not in covered]
-    print(f"\nScenes: {len(results)} of seed {OPTIONS.seed}, {len(accepted)} rendered, {len(planted)} with a fault planted, in {seconds:.0f} s.")
+    print(f"\nScenes: {len(results)} of seed {OPTIONS.seed}, {len(accepted)} rendered, {len(planted)} with a fault planted, in {seconds:.0f} s ({sum(r['cpu'] for r in results):.0f} s of CPU time; "
+          f"the dearest: {', '.join('%d (%.0f s)' % (r['scene'], r['cpu']) for r in sorted(results, key=lambda r: -r['cpu'])[:5])}).")
     print(f"Keys and words accepted in some scene: {len(everything) - len(never)} of {len(everything)}. Never: {', '.join(never) or 'none'}.")
     for title, counts in (("refused, by exit code", Counter(f"{r['refusal'][0]}" for r in results if r["refusal"])),
                           ("refusals without a fault planted, the most frequent", Counter(bare(r["refusal"][1]) for r in results if r["refusal"] and not r["planted"])),
@@ -94,6 +107,7 @@ def main():
     options.add_argument("--first", type=int, default=0, help="number of the first")
     options.add_argument("--scene", type=int, help="only this one")
     options.add_argument("--seconds", type=float, default=0, help="begin none after so many seconds")
+    options.add_argument("--faults", type=float, default=0.3, help="share of the scenes with a fault planted (0.3)")
     options.add_argument("--limit", type=float, default=20, help="CPU seconds for a command (20)")
     options.add_argument("--memory", type=int, default=4096, help="MiB for a command (4096)")
     options.add_argument("--jobs", type=int, default=2, help="scenes at a time (2)")
@@ -112,7 +126,7 @@ def main():
     for r in all_of([OPTIONS.scene] if OPTIONS.scene is not None else range(OPTIONS.first, OPTIONS.first + OPTIONS.scenes), started + (OPTIONS.seconds or 1e9)):
         results.append(r)
         for f in r["findings"]:
-            print(f"FINDING {f}\n    again: tests/torture/torture.py --seed {OPTIONS.seed} --scene {r['scene']} --keep FOLDER", flush=True)
+            print(f"FINDING {f}\n    again: tests/torture/torture.py --seed {OPTIONS.seed} --scene {r['scene']} --limit {OPTIONS.limit:g}{' --sanitized PROGRAM' * bool(OPTIONS.sanitized)} --keep FOLDER", flush=True)
         if OPTIONS.scene is not None:
             print(json.dumps(r, indent=1))
     if OPTIONS.scene is None:
@@ -132,7 +146,10 @@ def all_of(numbers, end):
                 i, following.value = following.value, following.value + 1
             if i >= len(numbers):
                 break
-            queue.put(one(numbers[i]))
+            try:
+                queue.put(one(numbers[i]))
+            except Exception:  # of the generator itself: told as any finding
+                queue.put({"scene": numbers[i], "findings": [f"the generator: {traceback.format_exc()}"], "slow": [], "refusal": None, "accepted": False, "planted": None, "cpu": 0, "covered": [], "notes": []})
         queue.put(None)
     workers = [multiprocessing.Process(target=work) for _ in range(min(OPTIONS.jobs, len(numbers)))]
     for w in workers:
