@@ -126,12 +126,14 @@ $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(BUILD)/librasp.a
 	$(call say,$(CC))
 	$Q$(CC) $(CFLAGS) -fsanitize=fuzzer -Itests/fuzz -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(HEAVY) $(LIBS)
 
-# Random scenes, a part of them with a fault planted, for SECONDS: tests/torture/. SEED= others; what is built with sanitizers runs one in four, and must make the same bytes.
+# Random scenes, a part of them with a fault planted, for SECONDS: tests/torture/. SEED=2 others. What is built with
+# sanitizers runs one in four, and must make the same bytes.
 SEED ?= 1
 torture:
 	$(SUB) all
 	$(SUB) BUILD=$(BUILD)/sanitize CC=clang SAN=1 OPT="-O2 -g1" all
-	@tests/torture/torture.py --rasp $(BUILD)/rasp --sanitized $(BUILD)/sanitize/rasp --seed $(SEED) --seconds $(SECONDS) --limit 5 --jobs $(JOBS)
+	@tests/torture/torture.py --rasp $(BUILD)/rasp --sanitized $(BUILD)/sanitize/rasp --seed $(SEED) --limit 5 \
+	    --seconds $(SECONDS) --jobs $(JOBS)
 
 # What takes long: reports that are committed (evidence/), and timings (tests/bench/, programs and scripts).
 evidence: all

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Random scenes over the whole legal range, a third of them with a fault planted (tests/torture): what came of SCENES (default 2000) of SEED (default 1). Makes evidence/torture.md.
+# Random scenes over the whole legal range, a third of them with a fault planted (tests/torture): what came of SCENES
+# (default 2000) of SEED (default 1). Makes evidence/torture.md.
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -9,17 +10,20 @@ cd "$ROOT"
 command -v clang > /dev/null || { echo "clang is not installed: skipped"; exit 0; }
 make --no-print-directory -s BUILD="$BUILD" all
 make --no-print-directory -s BUILD="$BUILD/sanitize" CC=clang SAN=1 OPT="-O2 -g1" all
+commit=$(git rev-parse --short HEAD)$(git diff --quiet HEAD -- src tests/torture || echo +)
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 code=0
-tests/torture/torture.py --rasp "$BUILD/rasp" --sanitized "$BUILD/sanitize/rasp" --scenes "$SCENES" --seed "$SEED" --rows 60 > "$report" || code=$?
+tests/torture/torture.py --rasp "$BUILD/rasp" --sanitized "$BUILD/sanitize/rasp" --scenes "$SCENES" --seed "$SEED" \
+    --rows 60 > "$report" || code=$?
 {
     cat << END
 # Random scenes
 
-Made by \`evidence/torture.sh\` at $(git rev-parse --short HEAD)$(git diff --quiet HEAD -- src tests/torture || echo +): \`tests/torture/torture.py --seed $SEED --scenes $SCENES\`. What a scene is held to is in
-[tests/README.md](../tests/README.md). One scene in four is rendered once more by the program under the address and undefined-behaviour sanitizers (clang $(clang -dumpversion)) and must have
-the same bytes. Limits: 20 s of CPU time for a command (80 s sanitized), 4 GiB of memory.
+Made by \`evidence/torture.sh\` at $commit: \`tests/torture/torture.py --seed $SEED --scenes $SCENES\`.
+What a scene is held to is in [tests/README.md](../tests/README.md). One scene in four is rendered once more by the
+program under the address and undefined-behaviour sanitizers (clang $(clang -dumpversion)) and must have the same bytes.
+Limits: 20 s of CPU time for a command (80 s sanitized), 4 GiB of memory.
 END
     sed -n '/^Scenes: /,$p' "$report" | sed -E 's/^(refus|faults|what|over)(.*):$/**\1\2**/'
 } > evidence/torture.md

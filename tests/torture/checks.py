@@ -12,12 +12,20 @@ import time
 from pathlib import Path
 
 CODES = {0, 65, 66, 70, 71, 73, 74}  # of rasp(1), EXIT STATUS, those that a scene can lead to
-PROGRAM_FAULTS = re.compile(r"runtime error:|Sanitizer|[Ii]nternal error|[Aa]ssertion|stack smashing|corrupted|double free")
+PROGRAM_FAULTS = re.compile(
+    r"runtime error:|Sanitizer|[Ii]nternal error|[Aa]ssertion|stack smashing|corrupted|double free")
 # What only the sound itself shows, and rasp check cannot know (rasp-check: "such as clipping").
-ONLY_IN_SOUND = re.compile(r"beyond the range of|re full scale|is silent|silence|not finite|energy|too quiet|loudness|LUFS|out of memory")
-# A refusal has a help of its own, or its text says what would be right.
-CURE = re.compile(r"\b(give|take|write|set|lower|raise|remove|leave|add|must|needs?|at most|at least|use|choose|save|mend|restore|shorten|let|make|check|did you mean|restrict|ask|is missing|No such|"
-                  r"exclude|applies only|what is read here|allowed|Is a directory|Too many levels|is not a|not finite|neither|damaged|cut short|there is no|are too few|is no|no column|file ends|nested|truncated|should follow|where the header|blank line|best that can be)\b", re.I)
+ONLY_IN_SOUND = re.compile(
+    r"beyond the range of|re full scale|silen|not finite|energy|too quiet|loudness|LUFS|out of memory")
+# A refusal has a help of its own, or its text says what to do; of a damaged file it is enough to say what is damaged.
+DO = ("give take write set lower raise remove leave add must needs? use choose save mend restore shorten let make "
+      "check restrict ask").split()
+SAY = ["at most", "at least", "did you mean", "is missing", "No such", "exclude", "applies only", "what is read here",
+       "allowed", "best that can be", "more than 64 deep"]
+DAMAGE = ["Is a directory", "Too many levels", "is not a", "not finite", "neither", "damaged", "cut short", "truncated",
+          "there is no", "no column", "are too few", "is no", "file ends", "should follow", "where the header",
+          "blank line"]
+CURE = re.compile(rf"\b({'|'.join(DO + SAY + DAMAGE)})\b", re.I)
 # What is wrong with a file as a whole has no line in it.
 WHOLE_FILE = re.compile(r"encoded as UTF|is empty|nothing in it|larger than")
 
@@ -31,7 +39,8 @@ class Ended:
             if memory:
                 resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        p = subprocess.Popen(args, cwd=cwd, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limits, env=env)
+        p = subprocess.Popen(args, cwd=cwd, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            preexec_fn=limits, env=env)
         started = time.monotonic()
         while True:
             try:
@@ -97,7 +106,8 @@ class Judge:
     def run(self, *args, program="rasp"):
         """One command; what holds of all of them is looked at here."""
         sanitized = program == "sanitized"
-        end = Ended([self.programs[program], *args], self.folder, self.limit * (4 if sanitized else 1), 0 if sanitized else self.memory,
+        end = Ended([self.programs[program], *args], self.folder, self.limit * (4 if sanitized else 1),
+            0 if sanitized else self.memory,
                     dict(os.environ, LC_ALL="C", ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1"))
         name = f"rasp {args[0]}" + (" (sanitized)" if sanitized else "")
         if end.deaf:
@@ -162,7 +172,8 @@ class Judge:
             self.render(check, options)
         now = state_of(self.folder)
         if {n: s for n, s in now.items() if not n.startswith("out")} != before:
-            self.finding(f"its inputs changed, or something was left beside them: {sorted(set(now.items()) ^ set(before.items()))[:5]}")
+            changed = sorted(set(now.items()) ^ set(before.items()))
+            self.finding(f"its inputs changed, or something was left beside them: {changed[:5]}")
 
     def planted_told(self, check, rows):
         """A fault that was planted at a known line is told there."""
@@ -171,7 +182,8 @@ class Judge:
         file, line = self.scene.expected
         places = [(r["file"], r["line"]) for r in rows if r["severity"] == "error"]
         if check.code != 65 or not any((Path(f or "").name, n) == (file, line) for f, n in places):
-            self.finding(f"check: {self.scene.planted}, planted at {file}:{line}: exit code {check.code}, told at {places[:4]}")
+            self.finding(f"check: {self.scene.planted}, planted at {file}:{line}: exit code {check.code}, "
+                         f"told at {places[:4]}")
 
     def plan(self, check, options):
         plan = self.run("plan", "--json", "--diagnostics=json", *options, "scene.yaml")
@@ -216,7 +228,8 @@ class Judge:
                 self.finding(f"render: exit code {end.code}, and left {sorted(made)[:5]}")
             sound = end.code in (70, 71) or any(ONLY_IN_SOUND.search(e["message"]) for e in errors)
             if check.code == 0 and not sound:
-                self.finding(f"check accepts what render refuses with {end.code}: {errors[0]['message'] if errors else end.err[-300:]}")
+                why = errors[0]["message"] if errors else end.err[-300:]
+                self.finding(f"check accepts what render refuses with {end.code}: {why}")
             if check.code == 0:
                 self.refusal = (end.code, errors[0]["message"] if errors else "")
             return
@@ -261,17 +274,22 @@ class Judge:
         elif not any(samples) and not re.search(r"silen|zero|quiet|no sound", said):
             self.finding(f"render: {name} ({kind}): all samples are 0, without a warning")
         elif kind.startswith("float") and max(map(abs, samples)) > 1 and not re.search(r"full scale", said):
-            self.finding(f"render: {name} ({kind}): {20 * math.log10(max(map(abs, samples))):.1f} dB over full scale, without a warning")
+            level = 20 * math.log10(max(map(abs, samples)))
+            self.finding(f"render: {name} ({kind}): {level:.1f} dB over full scale, without a warning")
 
     def array(self, name):
         data = (self.folder / "out" / name).read_bytes()
         size = struct.unpack("<H", data[8:10])[0]
-        if data[:6] != b"\x93NUMPY" or not all(map(math.isfinite, struct.unpack(f"<{(len(data) - 10 - size) // 8}d", data[10 + size:]))):
+        if data[:6] != b"\x93NUMPY" or not all(map(math.isfinite,
+            struct.unpack(f"<{(len(data) - 10 - size) // 8}d", data[10 + size:]))):
             self.finding(f"render: {name} is no NPY, or not finite")
 
     def again(self, made, options):
-        """The same bytes from the same scene, from the effective scene, from another build of the program, and of a set by one thread and by two."""
-        way = self.scene.rng.choice(["again", "again", "effective", "effective", "batch"]) if "sanitized" not in self.programs else "sanitized"
+        """The same bytes from the same scene, from the effective scene, from another build of the program, and of a set
+        by one thread and by two."""
+        way = self.scene.rng.choice(["again", "again", "effective", "effective", "batch"])
+        if "sanitized" in self.programs:
+            way = "sanitized"
         if way == "batch":
             self.batch()
             return
@@ -280,11 +298,13 @@ class Judge:
         if way == "effective":
             end = self.run("render", "-q", "out/scene.scene.yaml", "-o", "out again/scene.wav")
         else:
-            end = self.run("render", "-q", *options, "scene.yaml", "-o", "out again/", program="sanitized" if way == "sanitized" else "rasp")
+            end = self.run("render", "-q", *options, "scene.yaml", "-o", "out again/",
+                program="sanitized" if way == "sanitized" else "rasp")
         if end.slow:
             return
         other = state_of(folder)
-        differ = sorted(n for n in made.keys() | other.keys() if made.get(n) != other.get(n) and not n.endswith("scene.json"))
+        differ = sorted(n for n in made.keys() | other.keys() if made.get(n) != other.get(n)
+            and not n.endswith("scene.json"))
         if end.code or differ:
             self.finding(f"render ({way}): exit code {end.code}, other bytes: {differ}: {end.err[-300:]}")
 
@@ -298,9 +318,11 @@ class Judge:
             if end.slow:
                 return
             codes.append(end.code)
-            made.append({n: s for n, s in state_of(self.folder / f"out of {jobs}").items() if not n.startswith(".rasp") and not n.endswith(".json") and n != "timings.csv"})
+            made.append({n: s for n, s in state_of(self.folder / f"out of {jobs}").items() if not n.startswith(".rasp")
+                and not n.endswith(".json") and n != "timings.csv"})
         if codes[0] != codes[1] or made[0] != made[1]:
-            self.finding(f"batch: exit codes {codes}, other bytes by two threads: {sorted(set(made[0].items()) ^ set(made[1].items()))[:5]}")
+            differ = sorted(set(made[0].items()) ^ set(made[1].items()))
+            self.finding(f"batch: exit codes {codes}, other bytes by two threads: {differ[:5]}")
 
 
 def strict(text):
@@ -325,6 +347,7 @@ def read_wav(data):
             if kind == "pcm24":
                 samples = [int.from_bytes(body[i:i + 3], "little", signed=True) for i in range(0, len(body) - 2, 3)]
             else:
-                samples = struct.unpack(f"<{len(body) // width}{dict(pcm16='h', float32='f', float64='d')[kind]}", body[:len(body) // width * width])
+                samples = struct.unpack(f"<{len(body) // width}{dict(pcm16='h', float32='f', float64='d')[kind]}",
+                    body[:len(body) // width * width])
         at += 8 + size + size % 2
     return kind, samples

@@ -1,4 +1,5 @@
-"""Faults that are planted: in a scene's text, some of which must be told at their very line, and in the files that it names."""
+"""Faults that are planted: in a scene's text, some of which must be told at their very line, and in the files that it
+names."""
 import os
 import re
 
@@ -6,7 +7,8 @@ from keys import UNITS
 
 
 def plant(scene):
-    """One fault. scene.planted says what it is, scene.expected where it must be told (None: it may be told anywhere, or be none)."""
+    """One fault. scene.planted says what it is, scene.expected where it must be told (None: it may be told anywhere, or
+    be none)."""
     rng = scene.rng
     files = [name for name in scene.files if (scene.folder / name).exists()]
     if files and rng.random() < 0.5:
@@ -81,22 +83,29 @@ def out_of_range(scene):
 def wrong_unit(scene):
     """wrong unit"""
     other = {"m": "s", "s": "m", "Hz": "m", "kg": "N", "N": "kg"}
-    at_key(scene, has_unit, lambda scene, where, name, old: f"{name}: 1 {other.get(key_of(scene, where).unit, 'parsec')}")
+    at_key(scene, has_unit,
+        lambda scene, where, name, old: f"{name}: 1 {other.get(key_of(scene, where).unit, 'parsec')}")
+
+
+NO_NUMBERS = ["many", ".nan", ".inf", "0x10", "1_000", "1,5", "true", "1e", "--1", "1 2"]
 
 
 def no_number(scene):
     """no number"""
-    at_key(scene, has_range, lambda scene, where, name, old: f"{name}: {scene.rng.choice(['many', '.nan', '.inf', '0x10', '1_000', '1,5', 'true', '1e', '--1', '1 2'])}")
+    at_key(scene, has_range,
+        lambda scene, where, name, old: f"{name}: {scene.rng.choice(NO_NUMBERS)}")
 
 
 def wrong_type(scene):
     """a list or a map for a number"""
-    at_key(scene, has_range, lambda scene, where, name, old: f"{name}: {scene.rng.choice(['[1, 2]', '{a: 1}', '[[]]', '[]'])}")
+    at_key(scene, has_range,
+        lambda scene, where, name, old: f"{name}: {scene.rng.choice(['[1, 2]', '{a: 1}', '[[]]', '[]'])}")
 
 
 def no_word(scene):
     """a word that is none"""
-    at_key(scene, lambda s, w: key_of(s, w) and key_of(s, w).words, lambda scene, where, name, old: f"{name}: {scene.rng.choice([old + 'x', 'nothing', '7', '[]'])}")
+    at_key(scene, lambda s, w: key_of(s, w) and key_of(s, w).words,
+        lambda scene, where, name, old: f"{name}: {scene.rng.choice([old + 'x', 'nothing', '7', '[]'])}")
 
 
 def unknown_key(scene):
@@ -163,16 +172,19 @@ def line_gone(rng, data):
 @bytes_of
 def odd_ends(rng, data):
     """ends of line of another system, or a mark of byte order"""
-    return rng.choice([data.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + data, data.replace(b"\n", b"\r"), data.decode().encode("utf-16")])
+    return rng.choice([data.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + data, data.replace(b"\n", b"\r"),
+        data.decode().encode("utf-16")])
 
 
 @bytes_of
 def aliases(rng, data):
     """anchors that multiply"""
-    return data + b"title: &a [x, x, x, x, x, x, x, x, x]\n" + b"".join(b"b%d: &b%d [*a, *a, *a, *a]\n" % (i, i) for i in range(5))
+    return data + b"title: &a [x, x, x, x, x, x, x, x, x]\n" + b"".join(b"b%d: &b%d [*a, *a, *a, *a]\n" % (i, i)
+        for i in range(5))
 
 
-TEXT_FAULTS = [out_of_range, out_of_range, wrong_unit, no_number, wrong_type, no_word, unknown_key, twice, tab, byte, byte, byte, cut, deep, line_gone, odd_ends, aliases]
+TEXT_FAULTS = [out_of_range, out_of_range, wrong_unit, no_number, wrong_type, no_word, unknown_key, twice, tab, byte,
+    byte, byte, cut, deep, line_gone, odd_ends, aliases]
 
 
 # ------------------------------------------------------------------ files
@@ -218,9 +230,11 @@ def file_number(rng, data):
     if data[:200].isascii() and b"," in data:
         numbers = list(re.finditer(rb"[0-9][0-9.e+-]*", data))
         at = rng.choice(numbers)
-        return data[:at.start()] + rng.choice([b"nan", b"inf", b"-inf", b"1e999", b"", b"x", b"1e300", b"-1", b"0"]) + data[at.end():]
+        return data[:at.start()] + rng.choice([b"nan", b"inf", b"-inf", b"1e999", b"", b"x", b"1e300", b"-1",
+            b"0"]) + data[at.end():]
     at = rng.randrange(len(data) // 8 or 1) * 8
-    return data[:at] + rng.choice([b"\0\0\0\0\0\0\xf8\x7f", b"\0\0\0\0\0\0\xf0\x7f", b"\0\0\xc0\x7f\0\0\xc0\x7f"]) + data[at + 8:]
+    return data[:at] + rng.choice([b"\0\0\0\0\0\0\xf8\x7f", b"\0\0\0\0\0\0\xf0\x7f",
+        b"\0\0\xc0\x7f\0\0\xc0\x7f"]) + data[at + 8:]
 
 
 @changed
@@ -244,7 +258,8 @@ def file_rows(rng, data):
 @changed
 def file_other(rng, data):
     """another kind of file"""
-    return rng.choice([b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0", b"\x89PNG\r\n\x1a\n", b"\x93NUMPY\x01\0", b"GWYP", b"Gwyddion Simple Field 1.0\n", b"a,b\n1,2\n", b"\0" * 1000, b"rasp: 1\n"])
+    return rng.choice([b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0", b"\x89PNG\r\n\x1a\n", b"\x93NUMPY\x01\0", b"GWYP",
+        b"Gwyddion Simple Field 1.0\n", b"a,b\n1,2\n", b"\0" * 1000, b"rasp: 1\n"])
 
 
 def file_missing(rng, path):
@@ -264,4 +279,5 @@ def file_loop(rng, path):
     os.symlink(path.name, path)
 
 
-FILE_FAULTS = [file_cut, file_empty, file_head, file_byte, file_number, file_number, file_columns, file_rows, file_other, file_missing, file_folder, file_loop]
+FILE_FAULTS = [file_cut, file_empty, file_head, file_byte, file_number, file_number, file_columns, file_rows,
+    file_other, file_missing, file_folder, file_loop]

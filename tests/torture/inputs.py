@@ -1,4 +1,5 @@
-"""The files that a scene names: height maps, responses, motions, forces, densities; each a function of the generator's random numbers."""
+"""The files that a scene names: height maps, responses, motions, forces, densities; each a function of the generator's
+random numbers."""
 import math
 import struct
 import subprocess
@@ -12,7 +13,8 @@ def text(scene, name, lines):
 
 def table(scene, kind, header, rows, before=()):
     """CSV."""
-    return text(scene, scene.name(kind, ".csv"), [*before, ",".join(header), *(",".join(map(cell, row)) for row in rows)])
+    return text(scene, scene.name(kind, ".csv"),
+        [*before, ",".join(header), *(",".join(map(cell, row)) for row in rows)])
 
 
 def cell(value):
@@ -42,7 +44,8 @@ def npy(path, array, kind, fortran=False):
     header += " " * (-(len(header) + 11) % 64) + "\n"
     if kind[0] == "i":
         flat = [round(x) for x in flat]
-    path.write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + struct.pack(f"<{len(flat)}{dict(f4='f', f8='d', i2='h', i4='i')[kind]}", *flat))
+    path.write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
+        + struct.pack(f"<{len(flat)}{dict(f4='f', f8='d', i2='h', i4='i')[kind]}", *flat))
 
 
 def png(path, array):
@@ -50,11 +53,15 @@ def png(path, array):
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
     lines = b"".join(b"\0" + struct.pack(f">{len(row)}H", *row) for row in array)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(array[0]), len(array), 16, 0, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR",
+        struct.pack(">IIBBBBB", len(array[0]), len(array), 16, 0, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(lines))
+        + chunk(b"IEND", b""))
 
 
 def gsf(path, array, pitch):
-    header = f"Gwyddion Simple Field 1.0\nXRes = {len(array[0])}\nYRes = {len(array)}\nXReal = {len(array[0]) * pitch!r}\nYReal = {len(array) * pitch!r}\nXYUnits = m\nZUnits = m\n".encode()
+    columns, rows = len(array[0]), len(array)
+    header = (f"Gwyddion Simple Field 1.0\nXRes = {columns}\nYRes = {rows}\nXReal = {columns * pitch!r}\n"
+              f"YReal = {rows * pitch!r}\nXYUnits = m\nZUnits = m\n").encode()
     flat = [x for row in array for x in row]
     path.write_bytes(header + b"\0" * (4 - len(header) % 4) + struct.pack(f"<{len(flat)}f", *flat))
 
@@ -81,7 +88,9 @@ class Map:
             gsf(path, h, self.pitch)
         elif self.format in ("gwy", "sdf"):
             gsf(scene.folder / "map.gsf", h, self.pitch)
-            subprocess.run([scene.rasp, "surface", "convert", "-q", *(["--text"] if self.format == "sdf" and rng.random() < 0.5 else []), "map.gsf", name], cwd=scene.folder, check=True, capture_output=True)
+            subprocess.run([scene.rasp, "surface", "convert", "-q",
+                *(["--text"] if self.format == "sdf" and rng.random() < 0.5 else []), "map.gsf", name],
+                cwd=scene.folder, check=True, capture_output=True)
             (scene.folder / "map.gsf").unlink()
         elif self.format == "npy":
             kind = rng.choice(["f4", "f8"] if metres else ["f4", "f8", "i2", "i4"])
@@ -89,7 +98,8 @@ class Map:
             h = [[x / self.scale for x in row] for row in h]
             if kind == "i2":
                 h = [[min(32767, max(-32768, x)) for x in row] for row in h]
-            npy(path, h if self.rows > 1 or rng.random() < 0.5 else h[0], kind, fortran=self.rows > 1 and rng.random() < 0.3)
+            npy(path, h if self.rows > 1 or rng.random() < 0.5 else h[0], kind, fortran=self.rows > 1
+                and rng.random() < 0.3)
         elif self.format == "png":
             least, most = min(map(min, h)), max(map(max, h))
             self.range = float(f"{max(most - least, 1e-9):.4g}")
@@ -114,11 +124,13 @@ def wav(path, channels, rate, encoding):
     elif encoding == "pcm16":
         data = b"".join(struct.pack("<h", round(max(-1, min(1, x)) * 32767)) for f in frames for x in f)
     else:
-        data = b"".join(round(max(-1, min(1, x)) * 8388607).to_bytes(3, "little", signed=True) for f in frames for x in f)
+        data = b"".join(round(max(-1, min(1, x)) * 8388607).to_bytes(3, "little", signed=True) for f in frames
+            for x in f)
     size = {"pcm16": 2, "pcm24": 3, "float32": 4, "float64": 8}[encoding] * len(channels)
     tag = 3 if encoding.startswith("float") else 1
     head = struct.pack("<HHIIHH", tag, len(channels), rate, rate * size, size, size // len(channels) * 8)
-    path.write_bytes(b"RIFF" + struct.pack("<I", 36 + len(data)) + b"WAVEfmt " + struct.pack("<I", 16) + head + b"data" + struct.pack("<I", len(data)) + data)
+    path.write_bytes(b"RIFF" + struct.pack("<I", 36 + len(data)) + b"WAVEfmt " + struct.pack("<I", 16) + head + b"data"
+        + struct.pack("<I", len(data)) + data)
 
 
 ENCODINGS = ["pcm16", "pcm24", "float32", "float64"]
@@ -126,8 +138,10 @@ ENCODINGS = ["pcm16", "pcm24", "float32", "float64"]
 
 def ringing(rng, rate, seconds):
     """An impulse response: decaying sines."""
-    modes = [(rng.uniform(100, rate * 0.4), math.exp(rng.uniform(math.log(10), math.log(300))), rng.uniform(-0.3, 0.3)) for _ in range(rng.randint(1, 4))]
-    return [sum(g * math.exp(-d * n / rate) * math.sin(2 * math.pi * f * n / rate) for f, d, g in modes) for n in range(int(rate * seconds))]
+    modes = [(rng.uniform(100, rate * 0.4), math.exp(rng.uniform(math.log(10), math.log(300))), rng.uniform(-0.3, 0.3))
+        for _ in range(rng.randint(1, 4))]
+    return [sum(g * math.exp(-d * n / rate) * math.sin(2 * math.pi * f * n / rate) for f, d, g in modes)
+        for n in range(int(rate * seconds))]
 
 
 def impulse_response(scene):
@@ -146,12 +160,14 @@ def folder_of_responses(scene, field):
     for i, (x, y) in enumerate(places(rng, field, rng.choice(["one", "line", "plane"]))):
         wav(scene.folder / name / f"{i}.wav", [ringing(rng, 16000, 0.01)], 16000, "float32")
         rows.append([f"{i}.wav", x, y, *([rng.uniform(-6, 6)] if gains else [])])
-    text(scene, name + "/index.csv", [",".join(["file_name", "x_m", "y_m", *(["gain_db"] if gains else [])]), *(",".join(map(cell, row)) for row in rows)])
+    text(scene, name + "/index.csv", [",".join(["file_name", "x_m", "y_m", *(["gain_db"] if gains else [])]),
+        *(",".join(map(cell, row)) for row in rows)])
     return name
 
 
 def places(rng, field, kind):
-    """Where a response is known: at one place, on a line across the field, or a grid over it whose places are a little off."""
+    """Where a response is known: at one place, on a line across the field, or a grid over it whose places are a little
+    off."""
     x0, y0, x1, y1 = field
     if kind == "one":
         return [((x0 + x1) / 2, (y0 + y1) / 2)]
@@ -159,7 +175,8 @@ def places(rng, field, kind):
         n = rng.randint(2, 6)
         return [(x0 + (x1 - x0) * i / (n - 1), (y0 + y1) / 2) for i in range(n)]
     nx, ny, off = rng.randint(2, 5), rng.randint(2, 4), rng.choice([0, 0.1])
-    grid = [(x0 + (x1 - x0) * (i + off * rng.uniform(-1, 1) * (0 < i < nx - 1)) / (nx - 1), y0 + (y1 - y0) * (j + off * rng.uniform(-1, 1) * (0 < j < ny - 1)) / (ny - 1))
+    grid = [(x0 + (x1 - x0) * (i + off * rng.uniform(-1, 1) * (0 < i < nx - 1)) / (nx - 1), y0
+        + (y1 - y0) * (j + off * rng.uniform(-1, 1) * (0 < j < ny - 1)) / (ny - 1))
             for j in range(ny) for i in range(nx)]
     if rng.random() < 0.5:
         rng.shuffle(grid)
@@ -169,15 +186,20 @@ def places(rng, field, kind):
 # ------------------------------------------------------------------ mode tables
 
 def mode_table(scene, field, kind, drives=False):
-    """Modes at places: one, a line, the plane. drives: such that a ball may press on them (what is heard is what is touched)."""
+    """Modes at places: one, a line, the plane. drives: such that a ball may press on them (what is heard is what is
+    touched)."""
     rng = scene.rng
     shared = drives or rng.random() < 0.6
     form = "plain" if drives else rng.choices(["plain", "slopes", "envelope"], [6, 1, 1])[0]
     modes = sorted(math.exp(rng.uniform(math.log(80), math.log(9000))) for _ in range(rng.randint(1, 12)))
     decays = [math.exp(rng.uniform(math.log(3), math.log(300))) for _ in modes]
-    before = [f"# poles: {'shared' if shared else 'separate'}", f"# quantity: {'velocity' if drives else scene.quantity}"]
-    before += ["# pairing: " + ("ids" if shared or rng.random() < 0.5 else "frequency")] * (rng.random() < 0.4) + [f"# radius_m: {rng.uniform(0.01, 0.3):.3g}"]
-    header = ["place", "x_m", "y_m", "mode", "frequency_hz", *(["time_s", "amplitude"] if form == "envelope" else ["decay_per_s", "gain"]), "phase_rad", *(["slope"] if form == "slopes" else [])]
+    before = [f"# poles: {'shared' if shared else 'separate'}",
+        f"# quantity: {'velocity' if drives else scene.quantity}"]
+    before += ["# pairing: " + ("ids" if shared or rng.random() < 0.5 else "frequency")] * (rng.random() < 0.4) + [
+        f"# radius_m: {rng.uniform(0.01, 0.3):.3g}"]
+    header = ["place", "x_m", "y_m", "mode", "frequency_hz",
+        *(["time_s", "amplitude"] if form == "envelope" else ["decay_per_s", "gain"]), "phase_rad",
+        *(["slope"] if form == "slopes" else [])]
     rows = []
     for p, (x, y) in enumerate(places(rng, field, kind), 1):
         for m, (f, d) in enumerate(zip(modes, decays), 1):
@@ -185,14 +207,17 @@ def mode_table(scene, field, kind, drives=False):
                 f, d = f * rng.uniform(0.97, 1.03), d * rng.uniform(0.8, 1.2)
                 if len(modes) > 2 and rng.random() < 0.05:
                     continue
-            gain, phase = (rng.uniform(0, 1), math.pi / 2) if drives else (rng.uniform(-1, 1), rng.choice([0, rng.uniform(-3, 3)]))
+            gain, phase = (rng.uniform(0, 1), math.pi / 2) if drives else (rng.uniform(-1, 1),
+                rng.choice([0, rng.uniform(-3, 3)]))
             if form == "envelope":
-                rows += [[p, x, y, m, f, t, abs(gain) * math.exp(-d * t), phase] for t in (i * 0.5 / d for i in range(12))]
+                rows += [[p, x, y, m, f, t, abs(gain) * math.exp(-d * t), phase]
+                    for t in (i * 0.5 / d for i in range(12))]
             else:
                 rows.append([p, x, y, m, f, d, gain, phase, *([1] if form == "slopes" else [])])
                 if form == "slopes":
                     rows.append([p, x, y, m, f, d * 4, gain / 2, phase, 2])
-    scene.note(f"mode table: {form}, {'shared' if shared else 'separate'} poles, {dict(one='one place', line='a line', plane='the plane')[kind]}")
+    where = {"one": "one place", "line": "a line", "plane": "the plane"}[kind]
+    scene.note(f"mode table: {form}, {'shared' if shared else 'separate'} poles, {where}")
     return table(scene, "modes", header, rows, before), shared
 
 

@@ -1,4 +1,5 @@
-"""Scenes: what has to fit together is put together here, and all that may be added to it is then drawn from the program's own list of keys (Part.sprinkle). A new model, motion or kind of file is a
+"""Scenes: what has to fit together is put together here, and all that may be added to it is then drawn from the
+program's own list of keys (Part.sprinkle). A new model, motion or kind of file is a
 function here; a new key that stands by itself needs nothing."""
 import math
 
@@ -7,10 +8,15 @@ from scene import Part, Scene, quoted
 
 # Which speed laws go with which path.
 LAWS = {
-    "back_and_forth": [None, "auto", "harmonic", "minimum_jerk", "given"], "line": [None, "auto", "harmonic", "constant", "minimum_jerk", "given"],
-    "four_in_line": [None, "harmonic", "constant", "minimum_jerk", "given"], "circle": [None, "harmonic", "constant", "minimum_jerk", "two_thirds", "given"],
-    "scribble": [None, "auto", "harmonic", "constant", "minimum_jerk", "two_thirds", "given"], "spline": [None, "auto", "harmonic", "constant", "minimum_jerk", "two_thirds", "given"],
-    "polyline": [None, "auto", "harmonic", "minimum_jerk"], "recorded": [None, None, "auto", "harmonic", "constant", "minimum_jerk", "two_thirds", "given"], "still": [None, "auto"], "incline": [None, "auto"],
+    "back_and_forth": [None, "auto", "harmonic", "minimum_jerk", "given"],
+    "line": [None, "auto", "harmonic", "constant", "minimum_jerk", "given"],
+    "four_in_line": [None, "harmonic", "constant", "minimum_jerk", "given"],
+    "circle": [None, "harmonic", "constant", "minimum_jerk", "two_thirds", "given"],
+    "scribble": [None, "auto", "harmonic", "constant", "minimum_jerk", "two_thirds", "given"],
+    "spline": [None, "auto", "harmonic", "constant", "minimum_jerk", "two_thirds", "given"],
+    "polyline": [None, "auto", "harmonic", "minimum_jerk"],
+    "recorded": [None, None, "auto", "harmonic", "constant", "minimum_jerk", "two_thirds", "given"],
+    "still": [None, "auto"], "incline": [None, "auto"],
 }
 MATERIALS = ["basswood", "poplar", "oak", "pvc", "polycarbonate", "acrylic", "glass", "ceramic", "steel", "aluminium"]
 FOLLOWS = ("scrape", "roll", "roll_coupled", "playback")  # models that read a surface's heights
@@ -33,7 +39,8 @@ def make(keys, rng, folder, rasp):
     if rng.random() < 0.5:
         scene.top.say("seed", rng.choice([0, 1, rng.getrandbits(64), 2 ** 64 - 1]))
     if rng.random() < 0.2:
-        scene.top.say("title", quoted(rng.choice(["a scene", "\u00fcber # all: {things}, [said]", "x" * 300, "1e5", "~"])))
+        scene.top.say("title", quoted(rng.choice(["a scene", "\u00fcber # all: {things}, [said]", "x" * 300, "1e5",
+            "~"])))
     scene.write()
     if rng.random() < 0.1:
         scene.options += ["--seed", str(rng.getrandbits(40))]
@@ -43,7 +50,8 @@ def make(keys, rng, folder, rasp):
 # ------------------------------------------------------------------ a contact
 
 def contact(part):
-    model = part.rng.choice(["scrape", "scrape", "scrape", "strike", "given", "roll", "roll_coupled", "impacts", "impacts", "playback"])
+    model = part.rng.choice(["scrape", "scrape", "scrape", "strike", "given", "roll", "roll_coupled", "impacts",
+        "impacts", "playback"])
     tool = "ball" if model in BALLS else "scraper"
     part.scene.note(f"model: {model}")
     if model != "scrape" or part.chance(0.3):
@@ -61,7 +69,8 @@ def contact(part):
     if model in ("impacts", "playback", "given") and part.chance(0.25) and part.given.get("motion.path") != "still":
         part.open("contact.gesture")
         part.draw("contact.gesture.cutoff")
-    if part.chance(0.2) and ("surface.object" in part or "surface.space" in part or part.given.get("surface.response", "").rstrip('"').endswith(".csv")):
+    if part.chance(0.2) and ("surface.object" in part or "surface.space" in part
+        or part.given.get("surface.response", "").rstrip('"').endswith(".csv")):
         part.open("contact.enhance")
         part.draw("contact.enhance.gain")
     sprinkle(part, model, tool)
@@ -69,11 +78,15 @@ def contact(part):
 
 def sprinkle(part, model, tool):
     """What may be added, but for what a recipe has decided about as a whole; now and then that, too."""
-    part.sprinkle(("name", "start", "gain", "contact.limiter", "contact.smoothing", "contact.leak", "contact.beta", "contact.gravity", "contact.force", "contact.gesture", "contact.enhance", "ablation",
-                   "grip", "motion.straight", "load.approach", "load.release", "contact.impacts", "contact.roll.mu", "contact.roll.lambda", "contact.roll.static_depth", "contact.roll.scraping", "contact.roll.ground"))
-    part.sprinkle(tuple(f"{tool}.{k}" for k in ("weight", "radius", "patch", "offset", "start_angle", "lobe", "wall", "mass")), p=0.1)
+    part.sprinkle(("name", "start", "gain", "contact.limiter", "contact.smoothing", "contact.leak", "contact.beta",
+        "contact.gravity", "contact.force", "contact.gesture", "contact.enhance", "ablation",
+                   "grip", "motion.straight", "load.approach", "load.release", "contact.impacts", "contact.roll.mu",
+                   "contact.roll.lambda", "contact.roll.static_depth", "contact.roll.scraping", "contact.roll.ground"))
+    part.sprinkle(tuple(f"{tool}.{k}" for k in ("weight", "radius", "patch", "offset", "start_angle", "lobe", "wall",
+        "mass")), p=0.1)
     if model in FOLLOWS:
-        part.sprinkle(("surface.roughness", "surface.ridges", "surface.grit", "surface.fractal", "surface.continuation", "surface.levelling", "surface.along", "surface.origin", "surface.off_map"), p=0.1)
+        part.sprinkle(("surface.roughness", "surface.ridges", "surface.grit", "surface.fractal",
+            "surface.continuation", "surface.levelling", "surface.along", "surface.origin", "surface.off_map"), p=0.1)
     for body in ("surface", tool):
         if rings(part, body):
             part.sprinkle((f"{body}.modes", f"{body}.object", f"{body}.space"), p=0.1)
@@ -95,12 +108,14 @@ def rings(part, body):
 
 def reading(part, body):
     """How the response is read as the contact moves, and by which engine: what goes together."""
-    kind, straight = rings(part, body), part.given["motion.path"] in ("line", "back_and_forth", "four_in_line", "still", "incline")
+    kind, straight = rings(part, body), part.given["motion.path"] in ("line", "back_and_forth", "four_in_line",
+        "still", "incline")
     travels = "surface.space.to" in part or "surface.space.dimension_to" in part
     moving = None
     if body == "surface":
         shared = part.shared if kind == "table" else not travels
-        moving = part.choose("surface.moving", [None, None, "auto", "launch"] + ["glide", "readout"] * (kind != "recorded") + ["fixed"] * (kind != "recorded" and shared))
+        moving = part.choose("surface.moving", [None, None, "auto", "launch"]
+            + ["glide", "readout"] * (kind != "recorded") + ["fixed"] * (kind != "recorded" and shared))
         if kind == "table" and part.chance(0.2):
             part.draw("surface.pairing")
     glides = moving == "glide" or moving in (None, "auto") and travels and kind == "space"
@@ -116,16 +131,29 @@ def reading(part, body):
         part.draw(f"{body}.gammatone")
 
 
-# What is drawn as an optional key only where this holds (of a careless scene always); of keys that recipes decide about it never does.
+# What is drawn as an optional key only where this holds (of a careless scene always); of keys that recipes decide about
+# it never does.
 ONLY_IF = {
-    "surface.fractal.interpolation": lambda p: False, "surface.roughness.grain": lambda p: p.given.get("surface.along") in (None, "plane") and "surface.fractal" not in p,
-    "surface.ridges.direction": lambda p: "surface.fractal" not in p, "surface.object.origin": lambda p: p.given.get("surface.extrapolate") == "nearest", "surface.object.shape": lambda p: False,
-    "surface.object.edges": lambda p: False, "scraper.object.edges": lambda p: False, "ball.object.edges": lambda p: False, "surface.along": lambda p: "surface.fractal" not in p and "surface.height_map" not in p, "surface.object.thickness": lambda p: False, "scraper.object.thickness": lambda p: False,
-    "ball.object.thickness": lambda p: False, "surface.off_map": lambda p: False, "surface.height_range": lambda p: False, "surface.pitch": lambda p: False,
-    "contact.impacts.amplitude.distribution": lambda p: False, "contact.impacts.interval.distribution": lambda p: False, "contact.impacts.marginal": lambda p: "table" not in str(p.given),
-    "contact.impacts.modulation.rate": lambda p: "contact.impacts.modulation.depth" in p.given, "contact.roll.mu": lambda p: p.given.get("contact.roll.penetration") != "paper",
-    "contact.roll.static_depth": lambda p: not {"contact.roll.stiffness", "contact.roll.kappa"} & set(p.given), "contact.roll.ground": lambda p: False, "contact.roll.drop": lambda p: False,
-    "ablation.sound": lambda p: False, "output.listen.radiator": lambda p: False, "contact.limiter.alpha_min": lambda p: "contact.limiter.alpha_max" in p.given or p.scene.wild == 0,
+    "surface.fractal.interpolation": lambda p: False,
+    "surface.roughness.grain": lambda p: p.given.get("surface.along") in (None, "plane") and "surface.fractal" not in p,
+    "surface.ridges.direction": lambda p: "surface.fractal" not in p,
+    "surface.object.origin": lambda p: p.given.get("surface.extrapolate") == "nearest",
+    "surface.object.shape": lambda p: False,
+    "surface.object.edges": lambda p: False, "scraper.object.edges": lambda p: False,
+    "ball.object.edges": lambda p: False, "surface.along": lambda p: "surface.fractal" not in p
+    and "surface.height_map" not in p, "surface.object.thickness": lambda p: False,
+    "scraper.object.thickness": lambda p: False,
+    "ball.object.thickness": lambda p: False, "surface.off_map": lambda p: False,
+    "surface.height_range": lambda p: False, "surface.pitch": lambda p: False,
+    "contact.impacts.amplitude.distribution": lambda p: False,
+    "contact.impacts.interval.distribution": lambda p: False,
+    "contact.impacts.marginal": lambda p: "table" not in str(p.given),
+    "contact.impacts.modulation.rate": lambda p: "contact.impacts.modulation.depth" in p.given,
+    "contact.roll.mu": lambda p: p.given.get("contact.roll.penetration") != "paper",
+    "contact.roll.static_depth": lambda p: not {"contact.roll.stiffness", "contact.roll.kappa"} & set(p.given),
+    "contact.roll.ground": lambda p: False, "contact.roll.drop": lambda p: False,
+    "ablation.sound": lambda p: False, "output.listen.radiator": lambda p: False,
+    "contact.limiter.alpha_min": lambda p: "contact.limiter.alpha_max" in p.given or p.scene.wild == 0,
 }
 
 
@@ -176,7 +204,8 @@ def strike(part):
 
 def given(part):
     rng, scene = part.rng, part.scene
-    kind, rate, seconds = rng.choice(["wav", "npy", "csv"]), rng.choice([8000, 44100, 48000, 10000, 96000]), rng.uniform(0.005, 0.018)
+    kind, rate, seconds = rng.choice(["wav", "npy", "csv"]), rng.choice([8000, 44100, 48000, 10000,
+        96000]), rng.uniform(0.005, 0.018)
     scene.note(f"force: {kind}")
     force = [rng.gauss(0, 0.2) for _ in range(int(rate * seconds))]
     name = scene.name("force", "." + kind)
@@ -191,7 +220,8 @@ def given(part):
         part.draw("contact.given.rate", rate, rate)
     else:
         column = rng.choice(["force_n", "f x"])
-        inputs.text(scene, name, [f"time_s,{column}", *(f"{t:.9g},{rng.gauss(0, 1):.6g}" for t in inputs.rising(rng, seconds, 1e-4))])
+        inputs.text(scene, name, [f"time_s,{column}",
+            *(f"{t:.9g},{rng.gauss(0, 1):.6g}" for t in inputs.rising(rng, seconds, 1e-4))])
         if column != "force_n":
             part.say("contact.given.column", quoted(column))
     if kind != "wav" and part.chance(0.4):
@@ -228,7 +258,8 @@ def roll_coupled(part):
     ball(part)
     modes = "surface.object" in part or "surface.space" in part
     integrator = part.choose("contact.roll.integrator", [None, "discrete_gradient", "rk4", "exact_impact"])
-    ground = "rigid" if integrator == "exact_impact" else part.rng.choice([None, "auto", "rigid", "elastic"] if modes else [None, "auto", "rigid"])
+    ground = "rigid" if integrator == "exact_impact" else part.rng.choice([None, "auto", "rigid", "elastic"]
+        if modes else [None, "auto", "rigid"])
     if ground:
         part.say("contact.roll.ground", ground)
     if part.chance(0.5):
@@ -263,7 +294,8 @@ def impacts(part):
         if way == "walk":
             turn = inputs.wave(part.rng, -400, 400, 0.2)
             rows = [[t, turn(t), part.rng.uniform(-1, 1)] for t in inputs.rising(part.rng, 0.2, 0.03)]
-            part.say("contact.impacts.space.walk", quoted(inputs.table(part.scene, "walk", ["time_s", "angle_deg", "radius"], rows)))
+            part.say("contact.impacts.space.walk",
+                quoted(inputs.table(part.scene, "walk", ["time_s", "angle_deg", "radius"], rows)))
         elif way == "to":
             part.draw("contact.impacts.space.angle_to")
             part.draw("contact.impacts.space.radius_to")
@@ -274,7 +306,8 @@ def playback(part):
         part.draw("contact.playback.stiffness")
 
 
-MODELS = {"scrape": scrape, "strike": strike, "given": given, "roll": roll, "roll_coupled": roll_coupled, "impacts": impacts, "playback": playback}
+MODELS = {"scrape": scrape, "strike": strike, "given": given, "roll": roll, "roll_coupled": roll_coupled,
+    "impacts": impacts, "playback": playback}
 
 
 # ------------------------------------------------------------------ surfaces
@@ -297,7 +330,8 @@ def relief(part, model):
             surface_recipe(part)
         else:
             part.open(f"surface.{kind}")
-            part.draw(f"surface.{kind}.{dict(ridges='spacing', grit='diameter', fractal='pitch')[kind]}", *{"grit": (5e-5, 5e-4)}.get(kind, ()))
+            part.draw(f"surface.{kind}.{dict(ridges='spacing', grit='diameter', fractal='pitch')[kind]}",
+                *{"grit": (5e-5, 5e-4)}.get(kind, ()))
             if kind == "ridges":
                 part.choose("surface.ridges.shape", ["sine", "round", "groove"])
             if kind == "grit":
@@ -405,9 +439,12 @@ def thing(part, body):
     part.scene.note(f"object: {shape}")
     size = rng.uniform(0.05, 0.5) if body == "surface" else rng.uniform(0.02, 0.2)
     thin = size * math.exp(rng.uniform(math.log(0.003), math.log(0.03)))
-    sizes = {"bar": {"length": size, "width": size / 10, "thickness": thin}, "rod": {"length": size, "diameter": 2 * thin}, "string": {"length": size, "diameter": thin / 20},
-             "plate": {"length": size, "width": size * rng.uniform(0.3, 1), "thickness": thin}, "disk": {"diameter": size, "thickness": thin},
-             "membrane": {"length": size, "width": size * rng.uniform(0.3, 1), "thickness": thin / 20}, "drum": {"diameter": size, "thickness": thin / 20}, "shell": {"diameter": size, "thickness": thin}}[shape]
+    sizes = {"bar": {"length": size, "width": size / 10, "thickness": thin},
+        "rod": {"length": size, "diameter": 2 * thin}, "string": {"length": size, "diameter": thin / 20},
+             "plate": {"length": size, "width": size * rng.uniform(0.3, 1), "thickness": thin},
+             "disk": {"diameter": size, "thickness": thin},
+             "membrane": {"length": size, "width": size * rng.uniform(0.3, 1), "thickness": thin / 20},
+             "drum": {"diameter": size, "thickness": thin / 20}, "shell": {"diameter": size, "thickness": thin}}[shape]
     for name, metres in sizes.items():
         if part.chance(part.scene.wild):
             part.draw(f"{o}.{name}")
@@ -456,14 +493,16 @@ def motion(part, model):
     """A path within the field, short enough for the time it lasts."""
     rng = part.rng
     thin = part.field[3] - part.field[1] < 1e-6
-    paths = ["back_and_forth", "line", "four_in_line"] + ["circle", "scribble", "polyline", "spline", "recorded"] * (not thin)
+    paths = ["back_and_forth", "line", "four_in_line"] + ["circle", "scribble", "polyline", "spline",
+        "recorded"] * (not thin)
     if model in ("strike", "given", "impacts", "roll_coupled"):
         paths.append("still")
     if model != "given" and getattr(part, "load", None) != "grip":
         paths.append("incline")
     path = part.say("motion.path", rng.choice(paths))
     law = part.choose("motion.law", LAWS[path])
-    part.lasts = part.draw("motion.duration") if path not in ("incline", "recorded") and law != "given" else math.exp(rng.uniform(math.log(0.02), math.log(0.2)))
+    part.lasts = part.draw("motion.duration") if path not in ("incline",
+        "recorded") and law != "given" else math.exp(rng.uniform(math.log(0.02), math.log(0.2)))
     box = Box(part, min(part.lasts, 1) * math.exp(rng.uniform(math.log(5e-3), math.log(1))))
     PATHS[path](part, box, law)
     part.scene.note(f"motion: {path}, {law or 'auto'}")
@@ -488,7 +527,8 @@ class Box:
         self.rng = part.rng
         x0, y0, x1, y1 = part.field
         margin = 0.05
-        x0, x1, y0, y1 = x0 + margin * (x1 - x0), x1 - margin * (x1 - x0), y0 + margin * (y1 - y0), y1 - margin * (y1 - y0)
+        x0, x1, y0, y1 = x0 + margin * (x1 - x0), x1 - margin * (x1 - x0), y0 + margin * (y1 - y0), y1 - margin * (
+            y1 - y0)
         self.width, self.height = min(way, x1 - x0) / 2, min(way, y1 - y0) / 2
         self.x, self.y = self.rng.uniform(x0, x1 - self.width), self.rng.uniform(y0, y1 - self.height)
         self.way = max(self.width, self.height, 1e-6)
@@ -548,7 +588,8 @@ def polyline(part, box, law):
 
 def recorded(part, box, law):
     rng = part.rng
-    x, y = inputs.wave(rng, box.x, box.x + box.width, part.lasts), inputs.wave(rng, box.y, box.y + box.height, part.lasts)
+    x, y = inputs.wave(rng, box.x, box.x + box.width, part.lasts), inputs.wave(rng, box.y, box.y + box.height,
+        part.lasts)
     rows = [[t, x(t), y(t)] for t in inputs.rising(rng, part.lasts, rng.choice([1e-3, 5e-3]))]
     part.say("motion.file", quoted(inputs.table(part.scene, "positions", ["time_s", "x_m", "y_m"], rows)))
     if part.chance(0.4):
@@ -570,7 +611,8 @@ def incline(part, box, law):
         part.draw("motion.rolling_friction", 1e-4, 0.1)
 
 
-PATHS = {"back_and_forth": back_and_forth, "line": line, "four_in_line": four_in_line, "circle": circle, "scribble": scribble, "polyline": polyline, "spline": points, "recorded": recorded,
+PATHS = {"back_and_forth": back_and_forth, "line": line, "four_in_line": four_in_line, "circle": circle,
+    "scribble": scribble, "polyline": polyline, "spline": points, "recorded": recorded,
          "still": still, "incline": incline}
 
 
@@ -581,7 +623,8 @@ def output(scene):
     bodies = [body for body in ("surface", "scraper", "ball") for c in scene.contacts if rings(c, body)]
     quantity = "force" if not bodies or rng.random() < 0.15 else None
     kinds = {rings(c, body) for c in scene.contacts for body in ("surface", "scraper", "ball")}
-    recorded, mixed = "recorded" in kinds, "table" in kinds and kinds & {"object", "space"} and scene.quantity != "velocity"
+    recorded, mixed = "recorded" in kinds, "table" in kinds and kinds & {"object",
+        "space"} and scene.quantity != "velocity"
     if quantity:
         part.say("output.quantity", quantity)
     elif mixed and not recorded or not recorded and rng.random() < 0.4:
@@ -598,7 +641,8 @@ def output(scene):
     part.choose("output.encoding", [None, "pcm16", "pcm24", "float32", "float32", "float64", "float64"])
     if rng.random() < 0.4:
         part.draw("output.sample_rate", *rng.choice([(16000, 48000), (16000, 48000), (8000, 768000)]))
-    silent = any("ablation.sound" in c.given or f"{body}.weight" in c.given or "gain" in c.given for c in scene.contacts for body in ("scraper", "ball"))
+    silent = any("ablation.sound" in c.given or f"{body}.weight" in c.given or "gain" in c.given
+        for c in scene.contacts for body in ("scraper", "ball"))
     if rng.random() < 0.3 and (not silent or rng.random() < 0.1):
         stems = sorted({"force", *([] if quantity == "force" else bodies)})
         part.say("output.stems", "[" + ", ".join(rng.sample(stems, rng.randint(1, len(stems)))) + "]")
@@ -606,27 +650,32 @@ def output(scene):
         part.open("output.diagnostics")
         part.draw("output.diagnostics.rate", 10, 8000)
         if rng.random() < 0.2:
-            part.say("output.diagnostics.columns", "[" + ", ".join(rng.sample(["time_s", "x_m", "y_m", "stroke_m", "speed_m_per_s", "force_rms_n", "force_peak_n", "force_mean_n"], 3)) + "]")
+            part.say("output.diagnostics.columns", "["
+                + ", ".join(rng.sample(["time_s", "x_m", "y_m", "stroke_m", "speed_m_per_s", "force_rms_n",
+                "force_peak_n", "force_mean_n"], 3)) + "]")
     if any(c.given.get("contact.model") == "impacts" for c in scene.contacts) and rng.random() < 0.5:
         part.choose("output.impacts", ["table", "table", "none"])
     if rng.random() < 0.8 and "output.tail" not in part:
         part.draw("output.tail")
     if rng.random() < 0.1:
         part.draw("output.duration")
-    part.sprinkle(("output.ramp", "output.envelope", "output.diagnostics", *(["output.channels"] if "output.listen.places" not in part else []), "output.listen"), p=0.15)
+    part.sprinkle(("output.ramp", "output.envelope", "output.diagnostics",
+        *(["output.channels"] if "output.listen.places" not in part else []), "output.listen"), p=0.15)
 
 
 def listen(part, objects):
     part.open("output.listen")
     flat = objects and all(c.given["surface.object.shape"] in ("plate", "disk", "membrane", "drum") for c in objects)
-    radiator = part.choose("output.listen.radiator", [None, "monopole", "contact"] + ["point", "point"] * bool(objects) + ["plate", "plate"] * bool(flat))
+    radiator = part.choose("output.listen.radiator", [None, "monopole", "contact"] + ["point", "point"] * bool(objects)
+        + ["plate", "plate"] * bool(flat))
     part.scene.note(f"listening: {radiator or 'monopole'}")
     if radiator == "contact":
         return
     rng = part.rng
     if radiator == "point":
         x0, y0, x1, y1 = objects[0].field
-        spots = [(rng.uniform(0.9 * x0 + 0.1 * x1, x1), rng.uniform(0.9 * y0 + 0.1 * y1, y1), 0) for _ in range(rng.randint(1, 3))]
+        spots = [(rng.uniform(0.9 * x0 + 0.1 * x1, x1), rng.uniform(0.9 * y0 + 0.1 * y1, y1), 0)
+            for _ in range(rng.randint(1, 3))]
     else:
         spots = [(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(0.1, 2)) for _ in range(rng.randint(1, 4))]
     part.say("output.listen.places", "[" + ", ".join("[%.4g, %.4g, %.4g]" % s for s in spots) + "]")
@@ -642,7 +691,8 @@ def accuracy(scene):
         if rng.random() < 0.5:
             part.say("accuracy.preset", rng.choices(presets, [4, 3, 2, 1])[0])
         for key in scene.keys.all.values():
-            if key.path.startswith("accuracy.") and key.low is not None and key.path != "accuracy.error" and rng.random() < 0.3:
+            knob = key.path.startswith("accuracy.") and key.low is not None and key.path != "accuracy.error"
+            if knob and rng.random() < 0.3:
                 part.draw(key.path)
         if part.given.get("accuracy.overlap_order") == "3" and rng.random() < 0.9:
             part.say("accuracy.overlap_order", rng.choice([1, 2, 4]))

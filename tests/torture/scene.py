@@ -3,7 +3,8 @@ import json
 
 from keys import number, plain, written
 
-TOP = ("rasp", "title", "seed", "output", "accuracy", "include", "inputs")  # keys of the scene; all others are a contact's
+# keys of the scene; all others are a contact's
+TOP = ("rasp", "title", "seed", "output", "accuracy", "include", "inputs")
 
 
 class Part:
@@ -29,7 +30,8 @@ class Part:
         return text
 
     def draw(self, path, low=None, high=None):
-        """A key drawn from a range of ours (or the usual one), and in some scenes from all that is legal. Gives the word, or the number in SI (of a point the first)."""
+        """A key drawn from a range of ours (or the usual one), and in some scenes from all that is legal. Gives the
+        word, or the number in SI (of a point the first)."""
         key, rng = self.keys.all[path], self.rng
         if key.words:
             return self.say(path, rng.choice(key.words))
@@ -67,15 +69,18 @@ class Part:
         self.opened.add(section)
 
     def sprinkle(self, paths, p=0.12, closed=0.0):
-        """Optional keys at random: each that may be given beside what there is. Sections that were not chosen are, of `closed`, chosen here."""
+        """Optional keys at random: each that may be given beside what there is. Sections that were not chosen are, of
+        `closed`, chosen here."""
         for section in self.keys.sections:
             if section not in self.opened and self.chance(closed):
                 self.opened.add(section)
         for key in self.keys.all.values():
             section = self.keys.section_of(key.path)
-            if not key.path.startswith(paths) or not key.drawn or key.path in self or key.path.rpartition(".")[0] in self.given or (section and section not in self.opened):
+            if not key.path.startswith(paths) or not key.drawn or key.path in self or key.path.rpartition(".")[
+                0] in self.given or (section and section not in self.opened):
                 continue
-            if self.chance(max(p, 0.3) if section else p) and self.keys.applies(key, self.given) and (self.careless or self.scene.only_if.get(key.path, always)(self)):
+            if self.chance(max(p, 0.3) if section else p) and self.keys.applies(key, self.given) and (self.careless
+                or self.scene.only_if.get(key.path, always)(self)):
                 self.draw(key.path)
 
 
@@ -134,7 +139,8 @@ class Scene:
                 plant(tree, path, text)
         included = {}
         if self.rng.random() < 0.15:
-            for name in [n for n, v in tree.items() if n in ("surface", "motion", "contact", "output", "scraper", "ball")]:
+            for name in [n for n, v in tree.items()
+                if n in ("surface", "motion", "contact", "output", "scraper", "ball")]:
                 if self.rng.random() < 0.5:
                     included[name] = tree.pop(name)
         if included:
@@ -181,7 +187,8 @@ def plant(tree, path, text):
     *maps, last = path.split(".")
     for name in maps:
         tree = tree.setdefault(name, {})
-        if not isinstance(tree, dict):  # a careless scene says both accuracy: high and accuracy.preset: the first one stays
+        # a careless scene says both accuracy: high and accuracy.preset: the first one stays
+        if not isinstance(tree, dict):
             return
     tree.setdefault(last, text)
 

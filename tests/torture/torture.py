@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Random scenes over the whole legal range, a part of them with a fault planted, held to what the program promises of every scene: README.md of tests/ says what.
+"""Random scenes over the whole legal range, a part of them with a fault planted, held to what the program promises of
+every scene: README.md of tests/ says what.
 
     tests/torture/torture.py --scenes 2000                        # seed 1, scenes 0 to 1999, two at a time
     tests/torture/torture.py --seconds 60 --sanitized build/sanitize/rasp
@@ -49,8 +50,10 @@ def one(k):
         if not OPTIONS.keep:
             shutil.rmtree(folder)
     said = {"name"} if len(scene.contacts) > 1 else set()
-    said |= {p for p, _ in scene.given()} | {f"{p}: {t}" for p, t in scene.given() if KEYS.all.get(p) and KEYS.all[p].words}
-    return {"scene": k, "findings": judge.findings, "slow": judge.slow, "refusal": judge.refusal, "accepted": judge.accepted, "planted": scene.planted, "cpu": cpu() - before,
+    said |= {p for p, _ in scene.given()} | {f"{p}: {t}" for p, t in scene.given() if KEYS.all.get(p)
+        and KEYS.all[p].words}
+    return {"scene": k, "findings": judge.findings, "slow": judge.slow, "refusal": judge.refusal,
+        "accepted": judge.accepted, "planted": scene.planted, "cpu": cpu() - before,
             "covered": sorted(said) if judge.accepted else [], "notes": sorted(scene.notes) if judge.accepted else []}
 
 
@@ -77,11 +80,14 @@ def report(results, seconds):
     covered = {c for r in results for c in r["covered"]} | {"include" for r in results if "include" in r["notes"]}
     everything = list(all_there_is())
     never = [c for c in everything if c not in covered]
-    print(f"\nScenes: {len(results)} of seed {OPTIONS.seed}, {len(accepted)} rendered, {len(planted)} with a fault planted, in {seconds:.0f} s ({sum(r['cpu'] for r in results):.0f} s of CPU time; "
-          f"the dearest: {', '.join('%d (%.0f s)' % (r['scene'], r['cpu']) for r in sorted(results, key=lambda r: -r['cpu'])[:5])}).")
-    print(f"Keys and words accepted in some scene: {len(everything) - len(never)} of {len(everything)}. Never: {', '.join(never) or 'none'}.")
+    dearest = ", ".join(f"{r['scene']} ({r['cpu']:.0f} s)" for r in sorted(results, key=lambda r: -r["cpu"])[:5])
+    print(f"\nScenes: {len(results)} of seed {OPTIONS.seed}, {len(accepted)} rendered, {len(planted)} with a fault "
+          f"planted, in {seconds:.0f} s ({sum(r['cpu'] for r in results):.0f} s of CPU time; the dearest: {dearest}).")
+    print(f"Keys and words accepted in some scene: {len(everything) - len(never)} of {len(everything)}. "
+          f"Never: {', '.join(never) or 'none'}.")
     for title, counts in (("refused, by exit code", Counter(f"{r['refusal'][0]}" for r in results if r["refusal"])),
-                          ("refusals without a fault planted, the most frequent", Counter(bare(r["refusal"][1]) for r in results if r["refusal"] and not r["planted"])),
+                          ("refusals without a fault planted, the most frequent",
+                          Counter(bare(r["refusal"][1]) for r in results if r["refusal"] and not r["planted"])),
                           ("faults planted, and refused", Counter(r["planted"] for r in planted if r["refusal"])),
                           ("faults planted, and accepted", Counter(r["planted"] for r in planted if r["accepted"])),
                           ("what accepted scenes had", Counter(n for r in results for n in r["notes"])),
@@ -112,21 +118,24 @@ def main():
     options.add_argument("--memory", type=int, default=4096, help="MiB for a command (4096)")
     options.add_argument("--jobs", type=int, default=2, help="scenes at a time (2)")
     options.add_argument("--rasp", default=str(top / "build/rasp"), help="the program (build/rasp)")
-    options.add_argument("--sanitized", help="the same with sanitizers: one scene in four is run by it, too, and must have the same bytes")
+    options.add_argument("--sanitized",
+        help="the same with sanitizers: one scene in four is run by it, too, and must have the same bytes")
     options.add_argument("--keep", help="folder that keeps the scene's files (with --scene)")
     options.add_argument("--rows", type=int, default=25, help="lines of each list of the report")
     OPTIONS = options.parse_args()
-    OPTIONS.rasp, OPTIONS.sanitized = str(Path(OPTIONS.rasp).resolve()), OPTIONS.sanitized and str(Path(OPTIONS.sanitized).resolve())
+    OPTIONS.rasp, OPTIONS.sanitized = str(Path(OPTIONS.rasp).resolve()), OPTIONS.sanitized and str(Path(
+        OPTIONS.sanitized).resolve())
     if OPTIONS.keep and OPTIONS.scene is None:
         options.error("--keep goes with --scene")
     if OPTIONS.scenes == 10 ** 9 and not OPTIONS.seconds and OPTIONS.scene is None:
         options.error("one of --scenes, --seconds, --scene is needed")
     KEYS = Keys(OPTIONS.rasp)
     started, results = time.monotonic(), []
-    for r in all_of([OPTIONS.scene] if OPTIONS.scene is not None else range(OPTIONS.first, OPTIONS.first + OPTIONS.scenes), started + (OPTIONS.seconds or 1e9)):
+    for r in all_of([OPTIONS.scene] if OPTIONS.scene is not None else range(OPTIONS.first, OPTIONS.first
+        + OPTIONS.scenes), started + (OPTIONS.seconds or 1e9)):
         results.append(r)
         for f in r["findings"]:
-            print(f"FINDING {f}\n    again: tests/torture/torture.py --seed {OPTIONS.seed} --scene {r['scene']} --limit {OPTIONS.limit:g}{' --sanitized PROGRAM' * bool(OPTIONS.sanitized)} --keep FOLDER", flush=True)
+            print(f"FINDING {f}\n    again: {again(r['scene'])}", flush=True)
         if OPTIONS.scene is not None:
             print(json.dumps(r, indent=1))
     if OPTIONS.scene is None:
@@ -136,8 +145,16 @@ def main():
     return failed > 0
 
 
+def again(k):
+    """The command that makes a scene once more, and keeps its files."""
+    sanitized = f" --sanitized {OPTIONS.sanitized}" if OPTIONS.sanitized else ""
+    options = f"--seed {OPTIONS.seed} --scene {k} --limit {OPTIONS.limit:g}{sanitized}"
+    return f"tests/torture/torture.py {options} --keep FOLDER"
+
+
 def all_of(numbers, end):
-    """What comes of each scene, as they come; none is begun after `end`. Workers take the next number, so that a slow scene holds up nobody."""
+    """What comes of each scene, as they come; none is begun after `end`. Workers take the next number, so that a slow
+    scene holds up nobody."""
     following, queue = multiprocessing.Value("l", 0), multiprocessing.Queue()
 
     def work():
@@ -149,7 +166,8 @@ def all_of(numbers, end):
             try:
                 queue.put(one(numbers[i]))
             except Exception:  # of the generator itself: told as any finding
-                queue.put({"scene": numbers[i], "findings": [f"the generator: {traceback.format_exc()}"], "slow": [], "refusal": None, "accepted": False, "planted": None, "cpu": 0, "covered": [], "notes": []})
+                queue.put({"scene": numbers[i], "findings": [f"the generator: {traceback.format_exc()}"], "slow": [],
+                    "refusal": None, "accepted": False, "planted": None, "cpu": 0, "covered": [], "notes": []})
         queue.put(None)
     workers = [multiprocessing.Process(target=work) for _ in range(min(OPTIONS.jobs, len(numbers)))]
     for w in workers:
