@@ -21,6 +21,7 @@ from collections import Counter
 from pathlib import Path
 from queue import Empty
 
+sys.dont_write_bytecode = True  # the source tree stays as it is
 import faults
 import recipes
 from checks import Judge
