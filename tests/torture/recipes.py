@@ -140,7 +140,8 @@ ONLY_IF = {
     "surface.object.origin": lambda p: p.given.get("surface.extrapolate") == "nearest",
     "surface.object.shape": lambda p: False,
     "surface.object.edges": lambda p: False, "scraper.object.edges": lambda p: False,
-    "ball.object.edges": lambda p: False, "surface.along": lambda p: "surface.fractal" not in p
+    "ball.object.edges": lambda p: False, "surface.origin": lambda p: p.given.get("surface.off_map") != "error",
+    "surface.along": lambda p: "surface.fractal" not in p
     and "surface.height_map" not in p, "surface.object.thickness": lambda p: False,
     "scraper.object.thickness": lambda p: False,
     "ball.object.thickness": lambda p: False, "surface.off_map": lambda p: False,
