@@ -24,6 +24,7 @@ Made by \`evidence/torture.sh\` at $commit: \`tests/torture/torture.py --seed $S
 What a scene is held to is in [tests/README.md](../tests/README.md). One scene in four is rendered once more by the
 program under the address and undefined-behaviour sanitizers (clang $(clang -dumpversion)) and must have the same bytes.
 Limits: 20 s of CPU time for a command (80 s sanitized), 4 GiB of memory.
+
 END
     sed -n '/^Scenes: /,$p' "$report" | sed -E 's/^(refus|faults|what|over)(.*):$/**\1\2**/'
 } > evidence/torture.md

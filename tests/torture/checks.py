@@ -21,7 +21,7 @@ ONLY_IN_SOUND = re.compile(
 DO = ("give take write set lower raise remove leave add must needs? use choose save mend restore shorten let make "
       "check restrict ask").split()
 SAY = ["at most", "at least", "did you mean", "is missing", "No such", "exclude", "applies only", "what is read here",
-       "allowed", "best that can be", "more than 64 deep"]
+       "allowed", "can be", "more than 64 deep"]
 DAMAGE = ["Is a directory", "Too many levels", "is not a", "not finite", "neither", "damaged", "cut short", "truncated",
           "there is no", "are called", "no column", "are too few", "is no", "file ends", "should follow",
           "where the header", "blank line"]
