@@ -146,6 +146,7 @@ ONLY_IF = {
     "scraper.object.thickness": lambda p: False,
     "ball.object.thickness": lambda p: False, "surface.off_map": lambda p: False,
     "surface.height_range": lambda p: False, "surface.pitch": lambda p: False,
+    "surface.roughness.like_pitch": lambda p: False,
     "contact.impacts.amplitude.distribution": lambda p: False,
     "contact.impacts.interval.distribution": lambda p: False,
     "contact.impacts.marginal": lambda p: "table" not in str(p.given),
