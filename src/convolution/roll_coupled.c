@@ -7,8 +7,10 @@
    and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the
    curve is scouted (roll_curve.h). s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
 
-   The start. Dropped, the ball is at rest in the air, `drop` clear of the ground, whose modes are at rest, too: on rigid ground it touches after sqrt(2 h/g) with sqrt(2 g h), however soft the
-   contact. Otherwise it lies there, bent into the ground, with no vertical speed. That the ground bore it before is known to the equations, but not to what sounds (ring_*), for which a weight that is there at once is a blow; so
+   The start. Dropped, the ball is at rest in the air, `drop` clear of the ground, whose modes are at rest, too: on
+   rigid ground it touches after sqrt(2 h/g) with sqrt(2 g h), however soft the contact. Otherwise it lies there, bent
+   into the ground, with no vertical speed. That the ground bore it before is known to the equations, but not to what
+   sounds (ring_*), for which a weight that is there at once is a blow; so
    the force rises over load.approach where the ball lies at the start, and falls over load.release at the motion's end (force/approach.c, scene/rules.h).
    The equations and the account (ITEM_ROLL) are of the ball without them. */
 #include <math.h>
@@ -40,7 +42,7 @@ struct rolling {
     double *force;            /* [longest * per_frame] N, over the steps of the leg           */
     struct coupled_state *seen; /* [longest + 1] where the board asks for ITEM_ROLL: before each of its frames, and after the last */
     double mass, stiffness, gravity, drop;
-    double rest;              /* m, height of the ball that lies where the motion starts, below that of one that just touches */
+    double rest;              /* m, height of the ball that lies where the motion starts           */
     double residual;          /* J, greatest at the legs' ends                                */
     bool over;                /* the end has been told                                        */
 };

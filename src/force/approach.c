@@ -1,5 +1,6 @@
 /* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of each sub-interval (of
-   each hat, where the force is means by hats) times the share at its middle to which the scraper is lowered (trajectory/load.h: a minimum-jerk step, 10 u^3 - 15 u^4 + 6 u^5, over load.approach and load.release). Papers/000
+   each hat, where the force is means by hats) times the share at its middle to which the scraper is lowered
+   (trajectory/load.h: a minimum-jerk step, 10 u^3 - 15 u^4 + 6 u^5, over load.approach and load.release). Papers/000
    has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture it comes after the low-pass, in gesture.c. */
 #include "scene/rules.h"
 #include "stage.h"

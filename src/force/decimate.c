@@ -5,8 +5,10 @@
    ends of a low-pass are those of its edge, where the Gaussian has let nothing through: at 4 sub-intervals a sample and 50 us 100 taps a sample in place of 349 and 4
    times 117. What is cut off is a twentieth of what the low-pass's gain is allowed to be off by.
 
-   What the kernel spreads to before frame 0 is folded into the first frames (num/lead.h), whatever the contact: the momentum of any force, the sum of the samples over the rate, is what the
-   sub-intervals hold, within 2e-7 (the kernel's phases do not have quite the same sum). Contacts that start later than the scene begin as causally: nothing is heard of them before. */
+   What the kernel spreads to before frame 0 is folded into the first frames (num/lead.h), whatever the contact: the
+   momentum of any force, the sum of the samples over the rate, is what the sub-intervals hold, within 2e-7 (the
+   kernel's phases do not have quite the same sum). Contacts that start later than the scene begin as causally: nothing
+   is heard of them before. */
 #include <string.h>
 
 #include "force/given.h"
@@ -39,7 +41,8 @@ struct decimate {
     long room;
     bool smooths;           /* a smoothing is joined */
     long leads;             /* frames before 0 that the kernel reaches */
-    double *lead, *head;    /* [leads] what the first frames are raised by; what the kernel then reads: zeros, and the first `reach` inputs */
+    double *lead;           /* [leads] what the first frames are raised by */
+    double *head;           /* what the kernel reads there: zeros, and the first `reach` inputs */
 };
 
 static void decimate_phases(struct decimate *d, const struct filter *f, int over, struct arena *a)
@@ -112,7 +115,8 @@ static void decimate_all(const struct decimate *d, double *y, long n)
     }
 }
 
-/* Of the inputs x from frame 0 on. The kernel reads `reach` inputs to either side, and so from frame -leads on nothing but zeros and these. */
+/* Of the inputs x from frame 0 on. The kernel reads `reach` inputs to either side, and so from frame -leads on nothing
+   but zeros and these. */
 static void decimate_lead(struct decimate *d, const double *x)
 {
     memcpy(d->head + d->leads * d->over + d->reach, x, (size_t)d->reach * sizeof *x);

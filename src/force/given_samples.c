@@ -2,8 +2,9 @@
 
      f[n] = scale x[n]     N, at n / rate after the contact's start; 0 before the first and after the last sample
 
-   At the audio rate samples stay what they are; at another they are resampled as a band-limited signal (num/resample.h), with the sum over the rate, the momentum, that they have: what would ring
-   before the first is folded into the first ones, what rings after the last is kept. */
+   At the audio rate samples stay what they are; at another they are resampled as a band-limited signal
+   (num/resample.h), with the sum over the rate, the momentum, that they have: what would ring before the first is
+   folded into the first ones, what rings after the last is kept. */
 #include <string.h>
 
 #include "base/shelf.h"

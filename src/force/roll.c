@@ -9,11 +9,13 @@
    (force/paper.c), and the rolling term is added to them, not smoothed, as there what is smoothed are curvatures. S follows the ball's rolling curve
    (surface/tip.c), its curvature limited by an alpha that varies with the normal force N(t) (equation 7), whose mean is N.
 
-   Departure. Equation 16 has rho = R - r cos(x/R) + S: it puts the rise of the centre of mass, about -r cos(theta), into the penetration, so that its force
+   Departure. Equation 16 has rho = R - r cos(x/R) + S: it puts the rise of the centre of mass, about -r cos(theta),
+   into the penetration, so that its force
    is largest where the centre of mass is highest. By Newton's second law the normal force, N(t) = m (g + d2(-r cos theta)/dt2), is largest where it is
    lowest; and millimetres of rise stand against micrometres of S. So here rho is of the way over the ground, and what goes up and down with the ball's
    turning, the offset and the lobes of its rim (bulge, which is not in the paper), presses it deeper and less deep as N(t) does, quasi-statically: on level
-   ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll_told.c says where it does not). With penetration: paper, rho = R - r cos(x/R) + S + bulge
+   ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll_told.c says where it does not). With penetration:
+   paper, rho = R - r cos(x/R) + S + bulge
    as printed, k and lambda by hand, and N(t) without the lobes.
 
    rho_0 and, where it is not given, k come from a rehearsal of the motion (force/roll_rehearsal.c). Where N(t) < 0, as when an offset ball spins fast,

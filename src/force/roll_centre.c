@@ -7,8 +7,10 @@
    S is what the ground does, in micrometres and many times in each millimetre. rise and bulge are slow, once or a few times in each turn: the ball follows them
    and stays on the ground, so that they are no part of what the surface meets, and act through the normal force (force/roll.c).
 
-   Departures. The paper writes x/R for theta in equations 16 and 17, and equation 18 for theta itself: theta is solved from that, and only rho under penetration: paper has cos(x/R) as it is
-   printed, x being that of equation 18, counted from where the centre of mass is lowest. Its place x is that of the centre of mass; the point that touches is r sin(theta) away, and S is read at x all the same, as equation 16 has it. */
+   Departures. The paper writes x/R for theta in equations 16 and 17, and equation 18 for theta itself: theta is solved
+   from that, and only rho under penetration: paper has cos(x/R) as it is printed, x being that of equation 18, counted
+   from where the centre of mass is lowest. Its place x is that of the centre of mass; the point that touches is r
+   sin(theta) away, and S is read at x all the same, as equation 16 has it. */
 #include "force/roll_centre.h"
 
 #include <string.h>

@@ -11,10 +11,12 @@
    sub-samples of which one sample is made cost 4 times as much, and behind a low-pass so smooth another one hardly needs its own length.
 
    Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes every 64 sub-samples and
-   an element between two nodes spreads with both kernels, linearly weighted (error of second order in sigma's change over 64 sub-samples).
+   an element between two nodes spreads with both kernels, linearly weighted (error of second order in sigma's change
+   over 64 sub-samples).
 
-   Nothing comes before the start: what would be spread to there is reflected at it, as heat is at an insulated end. Momentum is kept, and what begins at full height stays at full height, where
-   without it it would begin at half. (What decimate joins to its kernel it reflects itself, num/lead.h.) */
+   Nothing comes before the start: what would be spread to there is reflected at it, as heat is at an insulated end.
+   Momentum is kept, and what begins at full height stays at full height, where without it it would begin at half. (What
+   decimate joins to its kernel it reflects itself, num/lead.h.) */
 #include "force/smooth.h"
 
 #include <math.h>

@@ -2,8 +2,9 @@
    at any sample rate and oversampling, also when an impact is over within a fraction of a sub-interval. Times are counted from the sub-interval
    in which an impact begins: an hour into a scene they are as fine as at its start.
 
-   The decimator spreads what is shorter than a sample to both sides, and folds what would come before the contact's start into the first samples (num/lead.h): an impact hands over all of its
-   momentum wherever it begins. strike.first is 20 ms unless the scene says otherwise, so that output.ramp does not fade it in. */
+   The decimator spreads what is shorter than a sample to both sides, and folds what would come before the contact's
+   start into the first samples (num/lead.h): an impact hands over all of its momentum wherever it begins. strike.first
+   is 20 ms unless the scene says otherwise, so that output.ramp does not fade it in. */
 #include <math.h>
 
 #include "force/onset.h"

@@ -10,9 +10,11 @@
    - A clock of 32 bits for ratios that are not small fractions: SOXR_HI_PREC_CLOCK makes it exact enough for the figure above.
    What remains: another version of libsoxr may differ, as another FFTW may.
 
-   The beginning. libsoxr starts as if nothing could ring before sample 0, and where it has several stages each of them drops its own: of an impulse in the first sample 4 % are missing even from
-   what comes after it (44.1 to 48 kHz). So the signal is converted behind P samples of silence, which take Q samples out, P/Q being rate_in/rate_out; and what then rings before it is folded into
-   the first samples (num/lead.h). P and Q are whole and at most STILL where the ratio allows; else P/Q is the best approximation by such (continued fraction), and the signal comes out by less than
+   The beginning. libsoxr starts as if nothing could ring before sample 0, and where it has several stages each of them
+   drops its own: of an impulse in the first sample 4 % are missing even from what comes after it (44.1 to 48 kHz). So
+   the signal is converted behind P samples of silence, which take Q samples out, P/Q being rate_in/rate_out; and what
+   then rings before it is folded into the first samples (num/lead.h). P and Q are whole and at most STILL where the
+   ratio allows; else P/Q is the best approximation by such (continued fraction), and the signal comes out by less than
    1/STILL of a sample beside its place: -120 dB at the very top of the band.
 
    One thread at a time: the environment is the whole program's, and so are libsoxr's tables for its FFTs. */
@@ -117,7 +119,8 @@ static bool convert_alone(const double *x, size_t n, const double rates[2], stru
     return ok;
 }
 
-/* Numbers of samples, in and out, that take the same time: the last convergent of the ratio's continued fraction with both up to STILL, so often that `least` go in. */
+/* Numbers of samples, in and out, that take the same time: the last convergent of the ratio's continued fraction with
+   both up to STILL, so often that `least` go in. */
 static void even_times(const double rates[2], size_t least, size_t *in, size_t *out)
 {
     double ratio = rates[1] / rates[0], rest = ratio, p[2] = {0, 1}, q[2] = {1, 0};
@@ -143,7 +146,8 @@ static bool convert_whole(const double *x, size_t n, const double rates[2], stru
     size_t leads = (size_t)ceil(REACH * rates[1] / low), still, before;
     even_times(rates, (size_t)ceil(REACH * rates[0] / low) + 1, &still, &before);
     struct arena *scratch = arena_open();
-    double *late = ARENA_TAKE(scratch, double, still + n), *y = ARENA_TAKE(scratch, double, before + to.m), *lead = ARENA_TAKE(scratch, double, leads);
+    double *late = ARENA_TAKE(scratch, double, still + n), *y = ARENA_TAKE(scratch, double, before + to.m);
+    double *lead = ARENA_TAKE(scratch, double, leads);
     memcpy(late + still, x, n * sizeof *x);
     bool ok = convert_alone(late, still + n, rates, (struct out){y, before + to.m}, e);
     memcpy(to.y, y + before, to.m * sizeof *y);

@@ -7,7 +7,8 @@
      theta  rad, 0: the centre of mass is lowest     R, r  m     primes: by time, each the derivative of the formula above it:
      theta' = u' / (R - r cos theta)       theta'' = (u'' - r sin(theta) theta'^2) / (R - r cos theta)
 
-   Equations 16 and 17 put theta = x / R into the cosine, which is right for r = 0 only; here theta solves 18, and `printed` is -r cos(x/R) for who wants it as it stands. The point that touches is r sin(theta) away
+   Equations 16 and 17 put theta = x / R into the cosine, which is right for r = 0 only; here theta solves 18, and
+   `printed` is -r cos(x/R) for who wants it as it stands. The point that touches is r sin(theta) away
    from x along the way; like the paper, what reads the surface reads it at x.
 
    Equation 18 is Kepler's: phi - q sin(phi) = y, q = r / R < 1, y = x / R less whole turns, |y| <= pi. On [0, pi] the left side is rising and convex, so
@@ -63,7 +64,8 @@ static bool spin_step(size_t n, double q, const double *y, struct chunk *o)
 
 static void spin_solve(const struct spin *s, size_t n, const double *u, struct chunk *o)
 {
-    double q = s->offset / s->radius, *y = o->y, sign[SPIN_CHUNK], start = s->radius * s->start - s->offset * real_sin(s->start);
+    double q = s->offset / s->radius, *y = o->y, sign[SPIN_CHUNK];
+    double start = s->radius * s->start - s->offset * real_sin(s->start);
     for (size_t i = 0; i < n; i++) {
         double x = (u[i] + start) / s->radius, k = rint(x / (2 * REAL_PI));
         x = ((x - k * TURN[0]) - k * TURN[1]) - k * TURN[2];
@@ -141,7 +143,8 @@ void spin_at(const struct spin *s, size_t n, const double *u, const double *du, 
     for (size_t first = 0; first < n; first += SPIN_CHUNK) {
         size_t some = n - first < SPIN_CHUNK ? n - first : SPIN_CHUNK;
         struct spin_out at = {later(out->theta, first), later(out->turning, first), later(out->rise, first), later(out->climb, first),
-                              later(out->lift, first), later(out->bulge, first), later(out->swell, first), later(out->heave, first), later(out->printed, first)};
+                              later(out->lift, first), later(out->bulge, first), later(out->swell, first),
+                              later(out->heave, first), later(out->printed, first)};
         struct spin_way way = {du ? du + first : NULL, ddu ? ddu + first : NULL};
         spin_solve(s, some, u + first, &o);
         spin_motion(s, some, &o, &way, &at);

@@ -1,4 +1,5 @@
-# Momentum of impacts, and of given forces, that begin with the file: the sum of a float64 file over its rate, at random pulses, stiffnesses, beginnings, rates and sub-intervals, within 1e-6.
+# Momentum of impacts, and of given forces, that begin with the file: the sum of a float64 file over its rate, at random
+# pulses, stiffnesses, beginnings, rates and sub-intervals, within 1e-6.
 command -v python3 > /dev/null || { echo "no python3"; exit 77; }
 cat > momentum.py << 'END'
 import random, struct, subprocess
@@ -34,11 +35,15 @@ output: {{quantity: force, sample_rate: {rate}, ramp: 0, tail: 20 ms, encoding: 
 random.seed(24)
 rates = [8000, 22050, 44100, 47999, 48000, 96000, 192000]
 for k in range(40):
-    rate, over, pulse = random.choice(rates), random.choice([1, 2, 3, 4, 7, 16, 64]), random.choice(['half_sine', 'hertz'])
+    rate, over = random.choice(rates), random.choice([1, 2, 3, 4, 7, 16, 64])
+    pulse, stiffness = random.choice(['half_sine', 'hertz']), 10 ** random.uniform(5, 13)
     m, v, e = 10 ** random.uniform(-3, -1), random.uniform(0.1, 4), random.choice([1, 1, 0.01, random.uniform(0.01, 1)])
     first = random.choice([0, random.random(), random.randrange(5), 5 * random.random()]) / rate
-    off('strike', f'scraper: {{mass: {m!r} kg}}\n', f'model: strike, strike: {{pulse: {pulse}, stiffness: {10 ** random.uniform(5, 13)!r}, speed: {v!r} m/s, first: {first!r} s' +
-        (f', count: 1, restitution: {e!r}' if e < 1 else '') + '}', random.choice(['', '', 'start: 3.3 ms\n']), over, rate, m * v * (1 + e), m * v * (1 + e))
+    strike = f'pulse: {pulse}, stiffness: {stiffness!r}, speed: {v!r} m/s, first: {first!r} s'
+    strike += f', count: 1, restitution: {e!r}' if e < 1 else ''
+    start, want = random.choice(['', '', 'start: 3.3 ms\n']), m * v * (1 + e)
+    mass = f'scraper: {{mass: {m!r} kg}}\n'
+    off('strike', mass, f'model: strike, strike: {{{strike}}}', start, over, rate, want, want)
 for k in range(20):
     rate, over = random.choice(rates), random.choice([1, 4, 16])
     t, f, rows = [0], [random.uniform(1, 3)], random.randrange(1, 5)
@@ -49,10 +54,13 @@ for k in range(20):
     parts = [(t[i + 1] - t[i]) * (f[i] + f[i + 1]) / 2 for i in range(rows)]
     off('table', '', 'model: given, given: {file: f.csv}', '', over, rate, sum(parts), sum(map(abs, parts)))
 for k in range(20):
-    rate, n, given = random.choice(rates), random.randrange(1, 400), random.choice([44100, 48000, 51200, 96000, 12345.678])
+    rate, n = random.choice(rates), random.randrange(1, 400)
+    given = random.choice([44100, 48000, 51200, 96000, 12345.678])
     x = [random.uniform(0.2, 1) for i in range(n)]
     head = "{'descr': '<f8', 'fortran_order': False, 'shape': (%d,), }" % n
-    open('f.npy', 'wb').write(b'\x93NUMPY\x01\x00' + struct.pack('<H', 118) + head.ljust(117).encode() + b'\n' + struct.pack('<%dd' % n, *x))
-    off('samples', '', f'model: given, given: {{file: f.npy, rate: {given}}}', '', 4, rate, sum(x) / given, sum(x) / given)
+    head = b'\x93NUMPY\x01\x00' + struct.pack('<H', 118) + head.ljust(117).encode() + b'\n'
+    open('f.npy', 'wb').write(head + struct.pack('<%dd' % n, *x))
+    want = sum(x) / given
+    off('samples', '', f'model: given, given: {{file: f.npy, rate: {given}}}', '', 4, rate, want, want)
 END
 python3 momentum.py

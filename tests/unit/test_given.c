@@ -218,11 +218,15 @@ END_TEST
 
 /* ------------------------------------------------------------------ from the first sample on */
 
-/* Tables that begin at full height, or stand there and fall at once: sum of the force over the rate against the integral. */
+/* Tables that begin at full height, or stand there and fall at once: sum of the force over the rate against the
+   integral. */
 START_TEST(table_momentum_from_the_start)
 {
-    static const char *const tables[] = {"0,1\n0.01,1\n", "0,5\n1e-6,0\n", "0,-2\n0.0101,3\n0.013,0\n", "0,1\n3.3e-5,7\n3.3001e-5,0\n", "4e-6,9\n2e-5,9\n"};
-    static const double integrals[] = {0.01, 2.5e-6, 0.5 * (-2 + 3) * 0.0101 + 1.5 * 0.0029, 4 * 3.3e-5 + 3.5e-9, 9 * 1.6e-5}, sizes[] = {0.01, 2.5e-6, 0.017, 1.3e-4, 1.44e-4};
+    static const char *const tables[] = {"0,1\n0.01,1\n", "0,5\n1e-6,0\n", "0,-2\n0.0101,3\n0.013,0\n",
+                                         "0,1\n3.3e-5,7\n3.3001e-5,0\n", "4e-6,9\n2e-5,9\n"};
+    static const double integrals[] = {0.01, 2.5e-6, 0.5 * (-2 + 3) * 0.0101 + 1.5 * 0.0029, 4 * 3.3e-5 + 3.5e-9,
+                                      9 * 1.6e-5};
+    static const double sizes[] = {0.01, 2.5e-6, 0.017, 1.3e-4, 1.44e-4};
     static const double rates[] = {22050, 44100, 48000, 192000};
     for (int k = 0; k < 20; k++)
         for (int over = 1; over <= 64; over *= 4) {
@@ -354,6 +358,6 @@ START_TEST(missing)
 }
 END_TEST
 
-UNIT("given", wav_at_its_own_rate, npy_at_its_own_rate, resampled_is_the_same_signal, table_means_are_exact, ramp_means, table_decimated, table_momentum_from_the_start,
-     samples_momentum_from_the_start, wavs_refused,
+UNIT("given", wav_at_its_own_rate, npy_at_its_own_rate, resampled_is_the_same_signal, table_means_are_exact, ramp_means,
+     table_decimated, table_momentum_from_the_start, samples_momentum_from_the_start, wavs_refused,
      npys_refused, tables_refused, missing)

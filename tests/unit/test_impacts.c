@@ -108,7 +108,8 @@ static double after_start(const struct impact *i)
 }
 
 /* Sum of the sub-intervals, and of the decimated samples, against sum A t0 / 2: rounding of as many terms; the decimator's gain at 0 Hz is 1 to rounding, and
-   of what it leaves of the images 2e-7 remains. A series that is under way at the start is cut there at full height, and what the decimator would spread before it is in the first samples. Of signed series a share of sum |A| t0 / 2. */
+   of what it leaves of the images 2e-7 remains. A series that is under way at the start is cut there at full height,
+   and what the decimator would spread before it is in the first samples. Of signed series a share of sum |A| t0 / 2. */
 START_TEST(momentum_is_kept)
 {
     for (int r = 0; r < RATES; r++)

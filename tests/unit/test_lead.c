@@ -38,7 +38,8 @@ START_TEST(reflected)
 }
 END_TEST
 
-/* Largest |Y / Y_0 - 1| at f (in units of the rate) of an impulse within one of the first `within` samples, Y_0 that of the impulse itself. */
+/* Largest |Y / Y_0 - 1| at f (in units of the rate) of an impulse within one of the first `within` samples, Y_0 that of
+   the impulse itself. */
 static double worst(const struct filter *k, int over, int within, double f)
 {
     double most = 0;
@@ -62,7 +63,8 @@ static double worst(const struct filter *k, int over, int within, double f)
     return most;
 }
 
-/* The table in num/lead.h: what is left of the error of an impulse's spectrum. Without the fold it is 0.15 throughout. */
+/* The table in num/lead.h: what is left of the error of an impulse's spectrum. Without the fold it is 0.15 throughout.
+   */
 START_TEST(spectrum_of_an_early_impulse)
 {
     static const double f[] = {0.001, 0.01, 0.1, 0.2, 0.3}, dB[] = {-112, -73, -33.5, -21.5, -13.5};

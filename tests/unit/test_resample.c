@@ -132,8 +132,9 @@ START_TEST(lengths)
 }
 END_TEST
 
-/* What begins at full height keeps its sum over the rate, and its time of arrival: noise, a single sample, a jump, at the pairs above and at rates that have no small common measure. What rings
-   after the end is in the zeros behind it. Demanded: a gain at 0 Hz of 1 within 1e-8 (libsoxr: -172 dB); a place within 1e-5 samples. */
+/* What begins at full height keeps its sum over the rate, and its time of arrival: noise, a single sample, a jump, at
+   the pairs above and at rates that have no small common measure. What rings after the end is in the zeros behind it.
+   Demanded: a gain at 0 Hz of 1 within 1e-8 (libsoxr: -172 dB); a place within 1e-5 samples. */
 START_TEST(sum_from_the_first_sample)
 {
     static const double odd[][2] = {{12345.678, 48000}, {31415.926535, 44100}, {51200, 44100}, {1000, 192000}};
@@ -191,4 +192,5 @@ START_TEST(bits)
 }
 END_TEST
 
-UNIT("resample", closed_forms, no_aliases, no_delay_and_linear_phase, equal_rates_copy, lengths, sum_from_the_first_sample, bits)
+UNIT("resample", closed_forms, no_aliases, no_delay_and_linear_phase, equal_rates_copy, lengths,
+     sum_from_the_first_sample, bits)

@@ -189,7 +189,8 @@ static double turn_normal(double t, double r, double oval)
 static double turn_rho(double t, const struct turn *s)
 {
     double theta = theta_of(0.3 * t, 0.01, s->r), pressed = fmax(turn_normal(t, s->r, s->oval), 0) / s->normal;
-    return s->printed ? 0.01 - s->r * cos(0.3 * t / 0.01) + s->oval * cos(2 * theta) : s->base + s->rest * (pow(pressed, 2.0 / 3) - 1);
+    return s->printed ? 0.01 - s->r * cos(0.3 * t / 0.01) + s->oval * cos(2 * theta)
+                      : s->base + s->rest * (pow(pressed, 2.0 / 3) - 1);
 }
 
 static double turn_force(double t, void *self)
@@ -272,28 +273,34 @@ START_TEST(penetration_as_printed)
 }
 END_TEST
 
-/* Equation 16 by itself, in long double: rho = R - r cos(x/R) + S, x = u + R theta_0 - r sin(theta_0) by equation 18. On level ground, S = 0, and on ridges, where S is what the same ball
-   presses in with nothing off its centre (without limiter, as that follows N(t)). Radii, offsets up to 0.95 of them, start angles, speeds, ways of many turns and backwards. 1e-12 of R, or of
-   the place, whose own rounding is in it. */
+/* Equation 16 by itself, in long double: rho = R - r cos(x/R) + S, x = u + R theta_0 - r sin(theta_0) by equation 18.
+   On level ground, S = 0, and on ridges, where S is what the same ball presses in with nothing off its centre (without
+   limiter, as that follows N(t)). Radii, offsets up to 0.95 of them, start angles, speeds, ways of many turns and
+   backwards. 1e-12 of R, or of the place, whose own rounding is in it. */
 START_TEST(rho_is_equation_16)
 {
     srand48(16);
     for (int trial = 0; trial < 12; trial++) {
-        double radius = 2e-3 * pow(20, drand48()), r = radius * (trial % 3 == 0 ? 0.1 : 0.95 * drand48()), turn = 12.56 * (drand48() - 0.5), speed = 0.2 + drand48();
+        double radius = 2e-3 * pow(20, drand48()), r = radius * (trial % 3 == 0 ? 0.1 : 0.95 * drand48());
+        double turn = 12.56 * (drand48() - 0.5), speed = 0.2 + drand48();
         double from = trial % 2 ? 0.1 * speed : 0;
         bool ridges = trial % 6 >= 4;
         struct rig *g[2];
         for (int k = 0; k < 2; k++) {
             rig_relief = ridges ? NULL : flat_part;
-            struct scene s = made(arena_format(rig_arena(), "surface: {%s}\nball: {radius: %.17g, mass: 10 g, offset: %.17g, start_angle: %.17g}\n"
-                                                            "contact: {model: roll, limiter: {curve: none}, roll: {penetration: paper, stiffness: 500}}\n"
-                                                            "motion: {path: line, from: [%.17g, 0], to: [%.17g, 0], duration: 0.1 s}\n",
-                                               ridges ? "ridges: {spacing: 3 mm, height: 2 um}" : "roughness: {}", radius, k ? 0 : r, turn, from, 0.1 * speed - from));
+            const char *ground = ridges ? "ridges: {spacing: 3 mm, height: 2 um}" : "roughness: {}";
+            struct scene s = made(arena_format(
+                rig_arena(), "surface: {%s}\nball: {radius: %.17g, mass: 10 g, offset: %.17g, start_angle: %.17g}\n"
+                "contact: {model: roll, limiter: {curve: none}, roll: {penetration: paper, stiffness: 500}}\n"
+                "motion: {path: line, from: [%.17g, 0], to: [%.17g, 0], duration: 0.1 s}\n",
+                ground, radius, k ? 0 : r, turn, from, 0.1 * speed - from));
             g[k] = rig_record(&s, ITEM_ROLL, 4700, 1024);
         }
         for (long n = 0; n < 4700; n += 13) {
-            double rho = g[0]->x[n * ROLL_VALUES + ROLL_PENETRATION], round = g[1]->x[n * ROLL_VALUES + ROLL_PENETRATION];
-            long double u = (long double)speed * n / 48000, x = u + (long double)radius * turn - (long double)r * sinl(turn);
+            long at = n * ROLL_VALUES + ROLL_PENETRATION;
+            double rho = g[0]->x[at], round = g[1]->x[at];
+            long double u = (long double)speed * n / 48000;
+            long double x = u + (long double)radius * turn - (long double)r * sinl(turn);
             long double want = (ridges ? round : radius) - r * cosl(x / radius);
             ck_assert_double_eq_tol(rho, (double)want, 1e-12 * fmax(radius, 0.1 * speed));
         }
@@ -953,7 +960,8 @@ START_TEST(what_is_beyond_the_model_is_told)
 END_TEST
 
 UNIT("roll", means_are_the_integral, parts_of_a_smooth_way, means_keep_their_digits, means_have_that_derivative, the_printed_penetration_is_absurd, UNIT_LONG(an_offset_oval_on_level_ground),
-     level_ground_bears_the_normal_force, third_order_in_the_sub_intervals, penetration_as_printed, rho_is_equation_16, height_of_an_offset_ball, an_oval_on_level_ground,
+     level_ground_bears_the_normal_force, third_order_in_the_sub_intervals, penetration_as_printed,
+     rho_is_equation_16, height_of_an_offset_ball, an_oval_on_level_ground,
      round_and_level, no_force_where_it_flies, height_over_a_wave,
      height_does_not_depend_on_the_pieces, the_mean_force_is_the_weight, the_force_follows_the_normal_force,
      lobes_are_no_roughness, short_motions_have_the_grounds_stiffness, beyond_a_circle_it_goes_all_ways, an_end_along_the_ridges_is_no_level_ground,

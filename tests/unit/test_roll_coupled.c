@@ -54,7 +54,8 @@ static struct scene on_rigid(const char *motion, const char *roll, const char *r
     return scene_of("", "", motion, roll, rest);
 }
 
-#define PLATE ", material: steel, object: {shape: plate, edges: supported, length: 30 cm, width: 20 cm, thickness: 2 mm}, modes: 20"
+#define PLATE ", material: steel, modes: 20, " \
+              "object: {shape: plate, edges: supported, length: 30 cm, width: 20 cm, thickness: 2 mm}"
 
 /* ------------------------------------------------------------------ impacts */
 
@@ -91,13 +92,15 @@ static double impact_lasts(double v, double k, double m)
     return 2 * sum;
 }
 
-/* Rigid flat ground, nothing lost: after a fall from h over the ground, h + x_0 over where the ball lies, x_0 = (m g/k)^(2/3) deep, it flies in parabolas from 0 to v and back, the impacts between
+/* Rigid flat ground, nothing lost: after a fall from h over the ground, h + x_0 over where the ball lies, x_0 = (m
+   g/k)^(2/3) deep, it flies in parabolas from 0 to v and back, the impacts between
    them as long as quadrature says. Heights at all frames in the air: in the n-th flight off by v times n impacts' error, 4e-5 of each (order 2, 400 steps), and rounding. */
 START_TEST(a_ball_that_loses_nothing_bounces_in_parabolas)
 {
     struct scene s = on_rigid("path: still, duration: 0.5 s", "stiffness: 1e8 N/m^1.5, mu: 0 s/m, drop: 1 mm", "accuracy: {contact_steps: 400}");
     struct rig *r = rig_record(&s, ITEM_ROLL, 20000, 1024);
-    double rest = pow(0.01 * g / 1e8, 2.0 / 3), fall = 1e-3, v = sqrt(2 * g * fall), lasts = impact_lasts(v, 1e8, 0.01), rate = s.output.sample_rate, worst = 0;
+    double rest = pow(0.01 * g / 1e8, 2.0 / 3), fall = 1e-3, v = sqrt(2 * g * fall);
+    double lasts = impact_lasts(v, 1e8, 0.01), rate = s.output.sample_rate, worst = 0;
     long flown = 0, flights = 0;
     for (long n = 0; n < r->frames; n++) {
         double t = (double)n / rate - v / g, period = 2 * v / g + lasts, k = floor(t / period), q = t - k * period - lasts;
@@ -123,18 +126,22 @@ START_TEST(a_ball_that_loses_nothing_bounces_in_parabolas)
 }
 END_TEST
 
-/* Dropped from h over the ground, whatever gives way when it lands: before it touches, xi = g t^2 / 2 - h to rounding, then it is in contact at once, having come at sqrt(2 g h), up to what gravity adds
-   in a step. Soft contacts (3 mm deep at rest) and stiff ones, rigid ground and a plate that sags, every integrator, at random heights. The old reading, from where the ball lies, is off by that depth. */
+/* Dropped from h over the ground, whatever gives way when it lands: before it touches, xi = g t^2 / 2 - h to rounding,
+   then it is in contact at once, having come at sqrt(2 g h), up to what gravity adds in a step. Soft contacts (3 mm
+   deep at rest) and stiff ones, rigid ground and a plate that sags, every integrator, at random heights. The old
+   reading, from where the ball lies, is off by that depth. */
 START_TEST(dropped_from_the_ground)
 {
     static const char *const integrators[] = {"discrete_gradient", "rk4", "exact_impact"};
     srand48(8);
     for (int trial = 0; trial < 18; trial++) {
-        double h = 1e-4 * pow(200, drand48()), k = trial % 3 ? 600 * pow(10, 8 * drand48()) : 600, t = sqrt(2 * h / g), v = g * t;
+        double h = 1e-4 * pow(200, drand48()), k = trial % 3 ? 600 * pow(10, 8 * drand48()) : 600;
+        double t = sqrt(2 * h / g), v = g * t;
         bool plate = trial % 2 && trial % 3 != 2;
-        const char *roll = arena_format(rig_arena(), "stiffness: %.17g N/m^1.5, drop: %.17g m, integrator: %s", k, h, integrators[trial % 3]);
+        const char *roll = arena_format(rig_arena(), "stiffness: %.17g N/m^1.5, drop: %.17g m, integrator: %s", k, h,
+                                        integrators[trial % 3]);
         wave_height = 0;
-        struct scene s = plate ? scene_of("", PLATE, "path: still, at: [10 cm, 8 cm], duration: 0.15 s", roll, "") : on_rigid("path: still, duration: 0.15 s", roll, "");
+        struct scene s = scene_of("", plate ? PLATE : "", "path: still, at: [10 cm, 8 cm], duration: 0.15 s", roll, "");
         struct rig *r = rig_record(&s, ITEM_ROLL, 4000, 1024);
         double rate = s.output.sample_rate, step = r->run.board.roll.step;
         long lands = (long)floor(t * rate);
@@ -539,5 +546,6 @@ START_TEST(the_force_rises_and_falls_as_told)
 }
 END_TEST
 
-UNIT("roll_coupled", a_ball_that_loses_nothing_bounces_in_parabolas, dropped_from_the_ground, momentum_is_gravitys, steps_follow_the_fastest_impact, blocks_do_not_matter, rise_and_bulge_lift_the_ball,
+UNIT("roll_coupled", a_ball_that_loses_nothing_bounces_in_parabolas, dropped_from_the_ground,
+     momentum_is_gravitys, steps_follow_the_fastest_impact, blocks_do_not_matter, rise_and_bulge_lift_the_ball,
      a_plate_sags_where_the_ball_is, shapes_follow_the_contact, the_account_is_kept, rows_of_a_ball, flights_are_lift_offs, the_force_rises_and_falls_as_told, what_cannot_be_is_refused, what_is_odd_is_told)

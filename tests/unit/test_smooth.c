@@ -49,7 +49,7 @@ static double against_definition(const char *rest, double smoothing)
             sum += kernel[k + reach] = exp(-0.5 * (double)(k * k) / (sigma * sigma));
         for (long k = -reach; k <= reach; k++)
             if (i + k < FRAMES * OVER)
-                want[i + k >= 0 ? i + k : -1 - (i + k)] += raw->x[i] * kernel[k + reach] / sum; /* reflected at the start */
+                want[i + k >= 0 ? i + k : -1 - (i + k)] += raw->x[i] * kernel[k + reach] / sum; /* or reflected */
     }
     for (long i = 0; i < FRAMES * OVER; i++) {
         off += (smooth->x[i] - want[i]) * (smooth->x[i] - want[i]);

@@ -105,7 +105,8 @@ static struct moved moved(const struct spin *s, double a, double t)
     struct moved m;
     double x[3];
     motion(a, t, x);
-    spin_at(s, 1, &x[0], &x[1], &x[2], &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave, NULL});
+    spin_at(s, 1, &x[0], &x[1], &x[2], &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge,
+                                                          &m.swell, &m.heave, NULL});
     return m;
 }
 
@@ -171,7 +172,8 @@ START_TEST(round_ball)
     s.start = 0.7;
     double u = 0.1, v = 2, a = -3;
     struct moved m;
-    spin_at(&s, 1, &u, &v, &a, &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave, NULL});
+    spin_at(&s, 1, &u, &v, &a, &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge,
+                                                          &m.swell, &m.heave, NULL});
     ck_assert_double_eq_tol(m.theta, 0.7 + 0.1 / 0.03, 1e-15 * 4);
     ck_assert_double_eq_tol(m.turning, 2 / 0.03, 1e-13);
     ck_assert(m.rise == 0 && m.climb == 0 && m.lift == 0);

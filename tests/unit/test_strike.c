@@ -129,13 +129,16 @@ START_TEST(momentum_is_kept)
 }
 END_TEST
 
-/* The same from the contact's first sample on, at random: both pulses, stiffnesses from 1e5 to 1e13, impacts that begin 0 to 6 samples after the start, some of them there or on a sample, with
-   restitution and without. Time of arrival, too, of what the sub-intervals hold: the kernel's images weigh it by 2e-3 of a sample at most (at one sub-interval a sample; 5e-4 at more). */
+/* The same from the contact's first sample on, at random: both pulses, stiffnesses from 1e5 to 1e13, impacts that begin
+   0 to 6 samples after the start, some of them there or on a sample, with restitution and without. Time of arrival,
+   too, of what the sub-intervals hold: the kernel's images weigh it by 2e-3 of a sample at most (at one sub-interval a
+   sample; 5e-4 at more). */
 START_TEST(momentum_from_the_start)
 {
     srand48(24);
     for (int trial = 0; trial < 400; trial++) {
-        double rate = rates[(int)(RATES * drand48())], m = 0.02, v = exp2(6 * drand48() - 4), lost = drand48() < 0.5 ? 1 : drand48(), sum = 0, late = 0, due = 0;
+        double rate = rates[(int)(RATES * drand48())], m = 0.02, v = exp2(6 * drand48() - 4);
+        double lost = drand48() < 0.5 ? 1 : drand48(), sum = 0, late = 0, due = 0;
         int over = 1 + (int)(64 * pow(drand48(), 3));
         struct contact c = striker(drand48() < 0.5 ? PULSE_HALF_SINE : PULSE_HERTZ, pow(10, 5 + 8 * drand48()), v);
         struct shot s;
@@ -427,7 +430,7 @@ START_TEST(stiffness_of_materials)
 }
 END_TEST
 
-UNIT("strike", means_are_those_of_the_force, peak_force, momentum_is_kept, momentum_from_the_start, spectrum_is_that_of_a_half_sine,
-     hertz_has_one_spectrum, bounces_follow_the_sum,
+UNIT("strike", means_are_those_of_the_force, peak_force, momentum_is_kept, momentum_from_the_start,
+     spectrum_is_that_of_a_half_sine,      hertz_has_one_spectrum, bounces_follow_the_sum,
      bounces_hand_over_their_momentum, repeated_impacts, an_hour_later_the_same, left_out_impacts_are_told, faded_impacts_are_told, what_cannot_be_is_refused,
      stiffness_of_materials)
