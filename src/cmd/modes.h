@@ -43,7 +43,8 @@ struct modes_ground {
     double (*off)(const void *self, double x, double y); /* m, how far off the object; INFINITY: there is none */
     double low[2], high[2]; /* m, box of the places */
     int standard[2];       /* by default: NX, NY a grid; N, 1 a line in the middle; 1, 1 the place `at` */
-    struct modes_fit *fit; /* by default, and on a line, as many places as its goal needs (cmd/modes_fit.h); NULL: those of `standard` */
+    struct modes_fit *fit; /* by default, and on a line, as many places as its goal needs (cmd/modes_fit.h); NULL: those
+                              of `standard` */
     double at[2];
     const char *remark;    /* ends a message that a place is beside the object; NULL: nothing */
 };
@@ -51,7 +52,8 @@ bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes
 /* No two are at one point, to a nanometre: a scene takes no table of such. *bad: the second of two. ERR_SCENE */
 bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad, struct err *e);
 /* fit: as in struct modes_ground. */
-bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit, struct modes_places *p, struct err *e);
+bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit,
+                       struct modes_places *p, struct err *e);
 
 /* "# key: value" lines that say what the object is: object, material, damping, holds. */
 void modes_describe(FILE *f, const struct object *o);

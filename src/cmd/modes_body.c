@@ -63,10 +63,16 @@ static double off(const void *self, double x, double y)
 }
 
 /* What is slender has its places on a line; of a shell any place is like the other. */
-bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit, struct modes_places *p, struct err *e)
+bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit,
+                       struct modes_places *p, struct err *e)
 {
     struct footing g = {o, ARENA_TAKE(c->arena, double, o->n)};
-    struct modes_ground ground = {.self = &g, .off = off, .low = {o->low[0], o->low[1]}, .high = {o->high[0], o->high[1]}, .standard = {33, 1}, .fit = fit};
+    struct modes_ground ground = {.self = &g,
+                                  .off = off,
+                                  .low = {o->low[0], o->low[1]},
+                                  .high = {o->high[0], o->high[1]},
+                                  .standard = {33, 1},
+                                  .fit = fit};
     const double *at = b->response->object.at;
     bool tool = strcmp(b->key, "surface") != 0;
     if (tool || o->shape == OBJECT_SHELL)

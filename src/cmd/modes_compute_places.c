@@ -97,7 +97,12 @@ static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
 {
     const struct chart *c = &k->chart;
     double wide = c->high[0] - c->low[0], high = c->high[1] - c->low[1];
-    struct modes_ground ground = {.self = c, .off = off, .low = {c->low[0], c->low[1]}, .high = {c->high[0], c->high[1]}, .standard = {17, 9}, .fit = fit};
+    struct modes_ground ground = {.self = c,
+                                  .off = off,
+                                  .low = {c->low[0], c->low[1]},
+                                  .high = {c->high[0], c->high[1]},
+                                  .standard = {17, 9},
+                                  .fit = fit};
     struct modes_places p;
     if (c->face >= CHART_AROUND)
         ground.remark = "; x is the arc round the axis x = y = 0 of the mesh's file, y is z, and the solid must be where they lead";

@@ -58,7 +58,8 @@ void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
         add_text(&h, k->held_names[i]);
         hash_add(&h, k->held[i].corner, (size_t)k->held[i].n * sizeof *k->held[i].corner);
     }
-    add_text(&h, args_given(&k->c->args, "grid") || args_given(&k->c->args, "places") ? "so many places" : "as many places as needed");
+    add_text(&h, args_given(&k->c->args, "grid") || args_given(&k->c->args, "places") ? "so many places"
+                                                                                      : "as many places as needed");
     hash_add(&h, k->xy, (size_t)k->places * sizeof *k->xy);
     for (int i = 0; i < k->places; i++)
         add_point(&h, &k->point[i]);

@@ -1,14 +1,16 @@
 /* The interpolation error of a mode table.
 
-   Complex gains A_i of all modes i at the places x_q of a test, and what the table's places give there by the rules of a scene (response/morph.c):
+   Complex gains A_i of all modes i at the places x_q of a test, and what the table's places give there by the rules of
+   a scene (response/morph.c):
 
        error^2 = sum_q sum_i |A_i'(x_q) - A_i(x_q)|^2 / sum_q sum_i |A_i(x_q)|^2.
 
-   The test's places are the same in every run: SPOTS of them, by Kronecker's sequence, on the line or over the box of the places; those beside the object or beyond the hull of the table's
-   places are left out.
+   The test's places are the same in every run: SPOTS of them, by Kronecker's sequence, on the line or over the box of
+   the places; those beside the object or beyond the hull of the table's places are left out.
 
-   As many places as needed: from 5 lines each way that axis gets a quarter more lines, two at least, that brings the most decibels for the logarithm of the number of places (or both do), until the
-   goal is met; then lines are taken away two by two as long as it is. The numbers are odd: what is symmetric has a place in its middle. */
+   As many places as needed: from 5 lines each way that axis gets a quarter more lines, two at least, that brings the
+   most decibels for the logarithm of the number of places (or both do), until the goal is met; then lines are taken
+   away two by two as long as it is. The numbers are odd: what is symmetric has a place in its middle. */
 #include "cmd/modes_fit.h"
 
 #include <math.h>
@@ -32,7 +34,8 @@ static void make_test(struct modes_fit *f, const struct modes_places *p)
     f->test = ARENA_TAKE(f->arena, double, 2 * (size_t)SPOTS * (size_t)f->n);
     f->spot = arena_take(f->arena, SPOTS, sizeof *f->spot);
     for (int q = 0; q < SPOTS; q++) {
-        double u = share(q, p->line ? 0.6180339887498949 : 0.7548776662466927), v = p->line ? u : share(q, 0.5698402909980532);
+        double u = share(q, p->line ? 0.6180339887498949 : 0.7548776662466927),
+               v = p->line ? u : share(q, 0.5698402909980532);
         double x = p->from[0] + u * (p->to[0] - p->from[0]), y = p->from[1] + v * (p->to[1] - p->from[1]);
         if (!(f->at(f->self, x, y, &at) <= 1e-9))
             continue;
@@ -76,7 +79,8 @@ double modes_fit_error(struct modes_fit *f, const struct modes_places *p)
         at[k] = modes_point_make(a, f->n);
         f->at(f->self, p->xy[k][0], p->xy[k][1], &at[k]);
     }
-    if (p->n > 1 && morph_points(&(struct morph_points_ask){f->n, p->n, (const double(*)[2])p->xy, at, f->shared}, a, &m, &e))
+    if (p->n > 1 &&
+        morph_points(&(struct morph_points_ask){f->n, p->n, (const double(*)[2])p->xy, at, f->shared}, a, &m, &e))
         db = compare(f, &m, a);
     arena_close(a);
     return db;
@@ -91,8 +95,10 @@ void modes_fit_write(FILE *f, double db, const struct modes_places *p, struct ar
 {
     if (isnan(db))
         return;
-    fprintf(f, "# interpolation_error: %s, rms of the differences of all modes' gains at %d places %s, relative to the gains\n", told(db, a), SPOTS,
-            p->line ? "along the line" : "over the box of these, those beside left out");
+    fprintf(f,
+            "# interpolation_error: %s, rms of the differences of all modes' gains at %d places %s, relative to the "
+            "gains\n",
+            told(db, a), SPOTS, p->line ? "along the line" : "over the box of these, those beside left out");
 }
 
 void modes_fit_report(double db, struct arena *a)
@@ -104,8 +110,11 @@ void modes_fit_report(double db, struct arena *a)
 void modes_fit_warn(struct cmd_call *c, double db, const struct modes_places *p)
 {
     if (p->chosen && db > MODES_FIT_GOAL && !args_given(&c->args, "quiet"))
-        tell_remark(c, "modes", arena_format(c->arena, "between the places gains are off by %s, and %g dB would take more than %d places or %d rows; fewer modes (--modes, --top) need fewer",
-                                             told(db, c->arena), MODES_FIT_GOAL, MODES_FIT_PLACES, MODES_FIT_ROWS));
+        tell_remark(c, "modes",
+                    arena_format(c->arena,
+                                 "between the places gains are off by %s, and %g dB would take more than %d places or "
+                                 "%d rows; fewer modes (--modes, --top) need fewer",
+                                 told(db, c->arena), MODES_FIT_GOAL, MODES_FIT_PLACES, MODES_FIT_ROWS));
 }
 
 /* ------------------------------------------------------------------ as many as needed */

@@ -3,7 +3,8 @@
 #define CMD_MODES_FIT_H
 #include "cmd/modes.h"
 
-/* Gains and poles of the object as a table would hold them, at any place in its own coordinates; how far off (m) that is, beyond 1e-9 there is nothing. */
+/* Gains and poles of the object as a table would hold them, at any place in its own coordinates; how far off (m) that
+ * is, beyond 1e-9 there is nothing. */
 struct modes_fit {
     const void *self;
     double (*at)(const void *self, double x, double y, const struct modes_point *p);
@@ -15,10 +16,12 @@ struct modes_fit {
     struct arena *arena;
 };
 
-/* Relative rms over places of the differences of all modes' gains, in dB: see modes_fit.c. NAN: there is one place alone, or all gains are 0. */
+/* Relative rms over places of the differences of all modes' gains, in dB: see modes_fit.c. NAN: there is one place
+ * alone, or all gains are 0. */
 double modes_fit_error(struct modes_fit *f, const struct modes_places *p);
 
-/* The line of the table's head, and what the report goes on with; nothing of NAN. Above the goal where the numbers of places were chosen: a warning (not with --quiet). */
+/* The line of the table's head, and what the report goes on with; nothing of NAN. Above the goal where the numbers of
+ * places were chosen: a warning (not with --quiet). */
 void modes_fit_write(FILE *f, double db, const struct modes_places *p, struct arena *a);
 void modes_fit_report(double db, struct arena *a);
 void modes_fit_warn(struct cmd_call *c, double db, const struct modes_places *p);

@@ -105,15 +105,20 @@ static bool make(struct job *j, struct err *e)
         if (!modes_output_spares(args_value(&j->c->args, "output"), *s, e))
             return false;
     j->heard_elsewhere = args_given(&j->c->args, "listen");
-    if (!args_whole(&j->c->args, "modes", counts, &most, e) || !modes_lengths(j->c, &(struct modes_lengths){"listen", "X,Y", 2}, j->listen, e) ||
+    if (!args_whole(&j->c->args, "modes", counts, &most, e) ||
+        !modes_lengths(j->c, &(struct modes_lengths){"listen", "X,Y", 2}, j->listen, e) ||
         !modes_body_object(j->c, &j->body, &j->object, &j->note, e))
         return false;
-    double off = j->heard_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
+    double off =
+        j->heard_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
     if (off > 1e-9)
-        return err_set(e, ERR_SCENE, "--listen: the place (%.9g, %.9g) m lies %.3g m off the object", j->listen[0], j->listen[1], off);
-    object_modes(o, j->body.response->object.origin, j->heard_elsewhere ? j->listen : NULL, (int)most, j->c->arena, &j->modes);
+        return err_set(e, ERR_SCENE, "--listen: the place (%.9g, %.9g) m lies %.3g m off the object", j->listen[0],
+                       j->listen[1], off);
+    object_modes(o, j->body.response->object.origin, j->heard_elsewhere ? j->listen : NULL, (int)most, j->c->arena,
+                 &j->modes);
     j->phi = ARENA_TAKE(j->c->arena, double, j->modes.n);
-    j->fit = (struct modes_fit){.self = j, .at = gains_at, .n = j->modes.n, .shared = j->load == 0.0, .arena = j->c->arena};
+    j->fit =
+        (struct modes_fit){.self = j, .at = gains_at, .n = j->modes.n, .shared = j->load == 0.0, .arena = j->c->arena};
     if (!modes_body_places(j->c, &j->body, o, &j->fit, &j->places, e))
         return false;
     j->error = modes_fit_error(&j->fit, &j->places);

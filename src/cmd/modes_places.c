@@ -17,7 +17,10 @@ static void add(struct modes_places *p, double x, double y)
 /* ends: x0, y0, x1, y1. Exact at both ends and in the middle. */
 static void line(struct modes_places *p, const double ends[4], int n, struct arena *a)
 {
-    *p = (struct modes_places){.xy = arena_take(a, (size_t)n, sizeof *p->xy), .line = true, .from = {ends[0], ends[1]}, .to = {ends[2], ends[3]}};
+    *p = (struct modes_places){.xy = arena_take(a, (size_t)n, sizeof *p->xy),
+                               .line = true,
+                               .from = {ends[0], ends[1]},
+                               .to = {ends[2], ends[3]}};
     for (int i = 0; i < n; i++) {
         double u = n > 1 ? (double)i / (n - 1) : 0.0;
         add(p, ends[0] + u * (ends[2] - ends[0]), ends[1] + u * (ends[3] - ends[1]));
@@ -26,14 +29,17 @@ static void line(struct modes_places *p, const double ends[4], int n, struct are
 
 static void circle(struct modes_places *p, double radius, int n, struct arena *a)
 {
-    *p = (struct modes_places){.xy = arena_take(a, (size_t)n, sizeof *p->xy), .from = {-radius, -radius}, .to = {radius, radius}};
+    *p = (struct modes_places){
+        .xy = arena_take(a, (size_t)n, sizeof *p->xy), .from = {-radius, -radius}, .to = {radius, radius}};
     for (int i = 0; i < n; i++)
         add(p, radius * real_cospi(2.0 * i / n), radius * real_sinpi(2.0 * i / n));
 }
 
 static void grid(struct modes_places *p, const struct modes_ground *g, const int n[2], struct arena *a)
 {
-    *p = (struct modes_places){.xy = arena_take(a, (size_t)n[0] * (size_t)n[1], sizeof *p->xy), .from = {g->low[0], g->low[1]}, .to = {g->high[0], g->high[1]}};
+    *p = (struct modes_places){.xy = arena_take(a, (size_t)n[0] * (size_t)n[1], sizeof *p->xy),
+                               .from = {g->low[0], g->low[1]},
+                               .to = {g->high[0], g->high[1]}};
     for (int j = 0; j < n[1]; j++)
         for (int i = 0; i < n[0]; i++) {
             double x = g->low[0] + (g->high[0] - g->low[0]) * i / (n[0] - 1), y = g->low[1] + (g->high[1] - g->low[1]) * j / (n[1] - 1);

@@ -66,8 +66,12 @@ static int mode_needs(const struct ring_nodes_ask *ask, const struct modes_point
     double turned = 0, change = gain.high > gain.low ? gain.high - gain.low : 0;
     for (int k = 1; k < LOOKS; k++)
         turned += turn(&at[k - 1], &at[k], i);
-    double turns = ask->modes->places && places_kind(ask->modes->places) == PLACES_GRID ? steepest(at, i) : pole.high - pole.low;
-    return nodes_needed(&(struct nodes_ask){0.5 * turns, {decay.low, decay.high}, ask->seconds, sqrt(change * change + turned * turned)}, ask->error);
+    double turns =
+        ask->modes->places && places_kind(ask->modes->places) == PLACES_GRID ? steepest(at, i) : pole.high - pole.low;
+    return nodes_needed(
+        &(struct nodes_ask){
+            0.5 * turns, {decay.low, decay.high}, ask->seconds, sqrt(change * change + turned * turned)},
+        ask->error);
 }
 
 static int piece_needs(const struct ring_nodes_ask *ask, const double u[2], struct modes_point *at)

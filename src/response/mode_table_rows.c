@@ -140,8 +140,8 @@ static int number_order(const void *a, const void *b)
     return strcmp(p->text, q->text);
 }
 
-/* Numbers anew what has been numbered as it appeared: places by x, then y; modes by their lowest frequency; what is equal in that, by name. So nothing that follows can
-   depend on the order of rows. */
+/* Numbers anew what has been numbered as it appeared: places by x, then y; modes by their lowest frequency; what is
+   equal in that, by name. So nothing that follows can depend on the order of rows. */
 static void settle_numbers(const struct mode_table_rows *r, int c, struct arena *a)
 {
     size_t n = c == PLACE ? r->places : r->modes, *id = c == PLACE ? r->place : r->mode, *to = ARENA_TAKE(a, size_t, n);
@@ -150,7 +150,8 @@ static void settle_numbers(const struct mode_table_rows *r, int c, struct arena 
         const double *v = mode_table_rows_values(r, i);
         struct number *at = &s[id[i]];
         double lowest = at->text ? fmin(at->first, v[FREQUENCY]) : v[FREQUENCY];
-        *at = (struct number){c == PLACE ? v[X] : lowest, c == PLACE ? v[Y] : 0.0, mode_table_rows_cell(r, i, c), id[i]};
+        *at =
+            (struct number){c == PLACE ? v[X] : lowest, c == PLACE ? v[Y] : 0.0, mode_table_rows_cell(r, i, c), id[i]};
     }
     qsort(s, n, sizeof *s, number_order);
     for (size_t k = 0; k < n; k++)

@@ -16,7 +16,7 @@ struct mode_table_rows {
     bool envelope, slopes;         /* the form */
     int column[MODE_TABLE_COLUMNS];
     size_t places, modes;
-    size_t *place, *mode;          /* [rows] number of each: places by x, then y, modes by lowest frequency, then names */
+    size_t *place, *mode; /* [rows] number of each: places by x, then y, modes by lowest frequency, then names */
     double *value;                 /* [rows][MODE_TABLE_COLUMNS] numbers, SI */
     size_t *order;                 /* [rows] rows by place, mode, then slope or time */
 };

@@ -63,11 +63,11 @@ void modes_to_quantity(int quantity, int n, const struct modes_point *p);
 
 struct modes_point modes_point_make(struct arena *a, int n);
 
-/* From a mode table (mode_table.h says what it holds): the `strongest` modes, by energy summed over places, sum gain^2 / (4 decay) of a mode of one
-   slope; of equal ones the one of lower
-   frequency. The order of rows tells nothing. A mode of several slopes counts as one and becomes several components. One place holds everywhere; on a line and
-   in the plane see places.h; between places see morph.c. pairing: see scene.h. rate in Hz: modes whose frequency reaches rate/2 fade out between
-   0.45 and 0.5 times it when poles are separate. Errors name file and line. */
+/* From a mode table (mode_table.h says what it holds): the `strongest` modes, by energy summed over places, sum gain^2
+   / (4 decay) of a mode of one slope; of equal ones the one of lower frequency. The order of rows tells nothing. A mode
+   of several slopes counts as one and becomes several components. One place holds everywhere; on a line and in the
+   plane see places.h; between places see morph.c. pairing: see scene.h. rate in Hz: modes whose frequency reaches
+   rate/2 fade out between 0.45 and 0.5 times it when poles are separate. Errors name file and line. */
 struct modes_ask {
     int strongest;
     double pairing, rate;

@@ -1,20 +1,28 @@
 /* Modes between places (places.h).
 
-   Shared poles: the complex gain is a linear sum of the places' own, with its sign: a mode shape passes through zero at a nodal line, where log amplitudes have no
-   value. On lines and grids it is the spline through the places, in triangles linear: places_smooth_at, over the gains and, in `re` and `im` after them, their slopes.
+   Shared poles: the complex gain is a linear sum of the places' own, with its sign: a mode shape passes through zero at
+   a nodal line, where log amplitudes have no value. On lines and grids it is the spline through the places, in
+   triangles linear: places_smooth_at, over the gains and, in `re` and `im` after them, their slopes.
 
-   Separate poles (papers/000 section 2.4: "logarithmically interpolated ... in both frequency and amplitude"; decays likewise) at the mix x = sum w_k x_k of up to four places
-   (places_at), over those that have the mode, W = sum of their w_k:
+   Separate poles (papers/000 section 2.4: "logarithmically interpolated ... in both frequency and amplitude"; decays
+   likewise) at the mix x = sum w_k x_k of up to four places (places_at), over those that have the mode, W = sum of
+   their w_k:
+
        log f = sum w_k log f_k / W,  log decay likewise,  |A| = W exp(sum w_k log|A_k| / W)
-   so that a mode that a place lacks keeps the poles of those that have it and fades linearly towards that place. A gain below -120 dB of the mode's largest
-   counts as that; a gain of 0 is no mode. Logarithms are stored less those of the modes' own frequency, decay and largest gain: poles that are the
-   same at all places come out so to the last bit. Shares are linear here, on grids too, w_k >= 0: a spline through logarithms as far down as -120 dB, or beside a place that lacks
-   the mode, would overshoot by tens of decibels.
 
-   The phase, in units of pi in [0, 2), takes the shorter turn from place to place along the edges of the triangle or cell; of half a turn (a change of sign), which both ways are, that
-   which does not pass 2 pi. Phases are unrolled round the corners that have the mode and mixed by their shares. Where the turns round all corners add up to a whole one, no phase is
-   continuous over the cell and that on each edge: there must be a zero inside. Then the modes of the edges at the share that their two ends have of each other are mixed as complex
-   numbers, the edge from k to l by w_k w_l: on each edge that is the edge's own. None of it depends on where the corners are counted from, nor on which way round.
+   so that a mode that a place lacks keeps the poles of those that have it and fades linearly towards that place. A gain
+   below -120 dB of the mode's largest counts as that; a gain of 0 is no mode. Logarithms are stored less those of the
+   modes' own frequency, decay and largest gain: poles that are the same at all places come out so to the last bit.
+   Shares are linear here, on grids too, w_k >= 0: a spline through logarithms as far down as -120 dB, or beside a place
+   that lacks the mode, would overshoot by tens of decibels.
+
+   The phase, in units of pi in [0, 2), takes the shorter turn from place to place along the edges of the triangle or
+   cell; of half a turn (a change of sign), which both ways are, that which does not pass 2 pi. Phases are unrolled
+   round the corners that have the mode and mixed by their shares. Where the turns round all corners add up to a whole
+   one, no phase is continuous over the cell and that on each edge: there must be a zero inside. Then the modes of the
+   edges at the share that their two ends have of each other are mixed as complex numbers, the edge from k to l by w_k
+   w_l: on each edge that is the edge's own. None of it depends on where the corners are counted from, nor on which way
+   round.
 
    Modes that reach half the sample rate fade: from 0.45 to 0.5 of it by (1 + cos(pi u))/2, beyond they are silent. */
 #include "response/morph.h"
@@ -116,7 +124,8 @@ static void turn_all(int n, const struct rows *phase, const double w[CORNERS], d
 }
 
 /* The same of mode i where some corner may lack it: phases are unrolled from the corner behind one that does. */
-static void turn_some(const struct morph *p, const struct places_mix *mix, const struct rows *phase, const struct rows *there, int i, double *to)
+static void turn_some(const struct morph *p, const struct places_mix *mix, const struct rows *phase,
+                      const struct rows *there, int i, double *to)
 {
     double last = 0, sum = 0, turned = 0, first = 0;
     int corners = mix->n, from = 0, have = 0;

@@ -7,7 +7,7 @@
 struct morph {
     int n, rows;                   /* components; places */
     struct places *places;
-    double *re, *im;               /* shared poles: [places_terms()][rows][n] complex gains, then what places_fill makes of them */
+    double *re, *im; /* shared poles: [places_terms()][rows][n] complex gains, then what places_fill makes of them */
     double *frequency, *decay, *gain; /* separate: [rows][n] logarithms, less that of the modes' frequency, decay and largest |gain|; 0 where absent */
     double *phase;                 /* [rows][n] in units of pi, 0 to 2 */
     double *there;                 /* [rows][n] 1, or 0: the place lacks the mode */

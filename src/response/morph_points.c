@@ -45,7 +45,8 @@ static void survey(const struct morph_points_ask *ask, struct modes *m, struct m
 
 static void separate(const struct morph_points_ask *ask, struct arena *a, struct modes *m, struct morph *p)
 {
-    double **rows[] = {&p->frequency, &p->decay, &p->gain, &p->phase, &p->there}, **work[] = {&p->share, &p->amplitude, &p->torn, &p->size, &p->sine, &p->cosine};
+    double **rows[] = {&p->frequency, &p->decay, &p->gain, &p->phase, &p->there},
+           **work[] = {&p->share, &p->amplitude, &p->torn, &p->size, &p->sine, &p->cosine};
     double **single[] = {&p->lowest, &p->highest, &p->largest};
     for (int c = 0; c < 5; c++)
         *rows[c] = ARENA_TAKE(a, double, (size_t)p->rows * (size_t)p->n);
@@ -70,8 +71,13 @@ bool morph_points(const struct morph_points_ask *ask, struct arena *a, struct mo
     struct morph *p = ARENA_TAKE(a, struct morph, 1);
     int bad;
     *p = (struct morph){.n = ask->n, .rows = ask->places, .rate = NO_RATE};
-    *m = (struct modes){.n = ask->n, .shared = ask->shared, .moves = ask->places > 1, .frequency = ARENA_TAKE(a, double, ask->n), .decay = ARENA_TAKE(a, double, ask->n),
-                        .self = p, .at = ask->shared ? morph_shared : morph_separate};
+    *m = (struct modes){.n = ask->n,
+                        .shared = ask->shared,
+                        .moves = ask->places > 1,
+                        .frequency = ARENA_TAKE(a, double, ask->n),
+                        .decay = ARENA_TAKE(a, double, ask->n),
+                        .self = p,
+                        .at = ask->shared ? morph_shared : morph_separate};
     if (!places_make(a, ask->places, &ask->xy[0][0], &p->places, &bad, e))
         return false;
     m->places = p->places;

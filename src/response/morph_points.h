@@ -10,7 +10,8 @@ struct morph_points_ask {
     bool shared;                    /* poles are those of the first place */
 };
 
-/* To be read by modes_at of the same arena's lifetime; modes do not fade at half of any rate. ERR_SCENE as places_make. */
+/* To be read by modes_at of the same arena's lifetime; modes do not fade at half of any rate. ERR_SCENE as places_make.
+ */
 bool morph_points(const struct morph_points_ask *ask, struct arena *a, struct modes *m, struct err *e);
 
 #endif

@@ -1,5 +1,5 @@
-/* Places on which something is known, on a line, a grid or anywhere in the plane, and how a point between them is made of its neighbours. Nothing depends on the order in
-   which they are given. */
+/* Places on which something is known, on a line, a grid or anywhere in the plane, and how a point between them is made
+   of its neighbours. Nothing depends on the order in which they are given. */
 #ifndef RESPONSE_PLACES_H
 #define RESPONSE_PLACES_H
 #include <stdbool.h>
@@ -11,7 +11,8 @@ enum places_kind { PLACES_ONE, PLACES_LINE, PLACES_GRID, PLACES_PLANE };
 
 struct places;
 
-struct places_mix {         /* x = sum weight[k] x_{index[k]}, weights >= 0, sum 1; one place, two, a triangle's or a cell's corners in turn */
+struct places_mix { /* x = sum weight[k] x_{index[k]}, weights >= 0, sum 1; one place, two, a triangle's or a cell's
+                       corners in turn */
     int n, index[4];
     double weight[4];
 };
@@ -21,18 +22,20 @@ struct places_sum {         /* of rows as places_fill makes them */
     double weight[16];
 };
 
-/* xy: [n][2] m, n >= 1, different points (copied). Within 1e-9 m of one line: a line; the crossings of two sets of parallel lines, at right angles, each once and
-   to 1e-4 of their extent: a grid; else Delaunay's triangulation. ERR_SCENE: two places at the same point, *bad the later of them and the text what it does ("is at
-   the same point as another place"); or no triangulation, *bad -1. */
+/* xy: [n][2] m, n >= 1, different points (copied). Within 1e-9 m of one line: a line; the crossings of two sets of
+   parallel lines, at right angles, each once and to 1e-4 of their extent: a grid; else Delaunay's triangulation.
+   ERR_SCENE: two places at the same point, *bad the later of them and the text what it does ("is at the same point as
+   another place"); or no triangulation, *bad -1. */
 bool places_make(struct arena *a, int n, const double *xy, struct places **p, int *bad, struct err *e);
 enum places_kind places_kind(const struct places *p);
 
-/* The mix at a point, linear along lines and edges: on a grid bilinear. Off the hull that of the hull's nearest point. Returns how far off it is (m), 0 within 1e-9 m;
-   one place alone holds everywhere: 0. */
+/* The mix at a point, linear along lines and edges: on a grid bilinear. Off the hull that of the hull's nearest point.
+   Returns how far off it is (m), 0 within 1e-9 m; one place alone holds everywhere: 0. */
 double places_at(const struct places *p, double x, double y, struct places_mix *mix);
 
-/* The smooth interpolation: cubic splines on lines and grids (places_lattice.c says when), else the mix. It takes rows[places_terms()][places][n], of which the first
-   [places][n] are the values at the places; places_fill computes the others (their slopes) once. Then the value at a point is sum weight[k] rows[index[k]][]. */
+/* The smooth interpolation: cubic splines on lines and grids (places_lattice.c says when), else the mix. It takes
+   rows[places_terms()][places][n], of which the first [places][n] are the values at the places; places_fill computes
+   the others (their slopes) once. Then the value at a point is sum weight[k] rows[index[k]][]. */
 int places_terms(const struct places *p);
 void places_fill(const struct places *p, int n, double *rows);
 double places_smooth_at(const struct places *p, double x, double y, struct places_sum *sum);
@@ -40,11 +43,13 @@ double places_smooth_at(const struct places *p, double x, double y, struct place
 /* Where they lie, for a message: "its places lie on 0 <= x <= 40 cm, y = 3.7 cm"; of a slanting line its two ends, of the plane a box that holds them. */
 const char *places_told(const struct places *p, struct arena *a);
 
-/* Parameters u in (0, 1), increasing, at which the straight way from `from` to `to` passes from one interval, cell or triangle to the next (kinks of interpolation), off the
-   hull those of its nearest point; writes the first `most`, returns how many there are. Some may be none: where the way goes through a place, or along an edge. */
+/* Parameters u in (0, 1), increasing, at which the straight way from `from` to `to` passes from one interval, cell or
+   triangle to the next (kinks of interpolation), off the hull those of its nearest point; writes the first `most`,
+   returns how many there are. Some may be none: where the way goes through a place, or along an edge. */
 int places_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most);
 
-/* Neighbours: the edges of the triangulation, on lines and grids from place to place along the lines. Returns their number; (*edge)[k] = two indices. */
+/* Neighbours: the edges of the triangulation, on lines and grids from place to place along the lines. Returns their
+ * number; (*edge)[k] = two indices. */
 int places_edges(const struct places *p, const int (**edge)[2]);
 
 #endif

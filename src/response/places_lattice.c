@@ -1,19 +1,24 @@
 /* Interpolation on the crossings of lines, axis by axis; a line of places is a grid of one row.
 
-   A coordinate lies in the interval [x_i, x_(i+1)] of its axis, h long, at the share u. Linear shares are 1 - u and u. Smooth ones are those of the cubic spline
-   through the places (places_spline.h), written with its slopes m at them:
+   A coordinate lies in the interval [x_i, x_(i+1)] of its axis, h long, at the share u. Linear shares are 1 - u and u.
+   Smooth ones are those of the cubic spline through the places (places_spline.h), written with its slopes m at them:
 
        f = (1 - u)^2 (1 + 2 u) f_i + u^2 (3 - 2 u) f_(i+1) + h u (1 - u) ((1 - u) m_i - u m_(i+1)),
 
-   so that at a place its own value comes out to the last bit, and where all values on the lines around are zero the result is. In the plane it is the tensor product: values, slopes along x, slopes along
-   y, and slopes along x of slopes along y at the four corners of the cell, 16 numbers. Two lines are linear and three a parabola. An axis whose distances are so
-   uneven that an error of one value might come out GROWS times as large stays linear (places_spline_grows).
+   so that at a place its own value comes out to the last bit, and along a line whose values are all zero the
+   result is zero. In the plane it is the tensor product: values, slopes along x, slopes along y, and slopes along x of
+   slopes along y at the four corners of the cell, 16 numbers. Two lines are linear and three a parabola. An axis whose
+   distances are so uneven that an error of one value might come out GROWS times as large stays linear
+   (places_spline_grows).
 
-   Why a spline: between 33 x 23 places the gains of the 50 lowest modes of a supported plate, heard at another place, are off by -25 dB with linear shares, -43 with four-point Lagrange, -41 by Hermite's
-   form with parabolas' slopes, -56 with five-point slopes, -52 with the spline; of 100 modes -20, -32, -33, -41, -40 dB. Of a free plate -30, -52, -48, -59, -65, and -23, -40, -37, -47, -55 dB. An error of 1
-   becomes 2.2 with five-point slopes and 2.0 with the spline where places are even, and at worst 25 and 10 where distances go up and down by factors of 2.
+   Why a spline: between 33 x 23 places the gains of the 50 lowest modes of a supported plate, heard at another place,
+   are off by -25 dB with linear shares, -43 with four-point Lagrange, -41 by Hermite's form with parabolas' slopes, -56
+   with five-point slopes, -52 with the spline; of 100 modes -20, -32, -33, -41, -40 dB. Of a free plate -30, -52, -48,
+   -59, -65, and -23, -40, -37, -47, -55 dB. An error of 1 becomes 2.2 with five-point slopes and 2.0 with the spline
+   where places are even, and at worst 25 and 10 where distances go up and down by factors of 2.
 
-   Kinks are the lines: of linear shares the slope jumps there, of the spline the third derivative. Beyond the outermost lines the nearest point counts. */
+   Kinks are the lines: of linear shares the slope jumps there, of the spline the third derivative. Beyond the outermost
+   lines the nearest point counts. */
 #include "response/places_lattice.h"
 
 #include <math.h>
@@ -57,7 +62,8 @@ static int up(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* The lines at which the coordinates s[n] (sorted here) are: those nearer than `same` to the one before are of its line, which lies in the middle of them. */
+/* The lines at which the coordinates s[n] (sorted here) are: those nearer than `same` to the one before are of its
+ * line, which lies in the middle of them. */
 static struct axis lines_of(struct arena *a, int n, double *s, double same)
 {
     struct axis x = {.at = ARENA_TAKE(a, double, n)};
@@ -136,7 +142,8 @@ struct places_lattice *places_lattice_make(struct arena *a, const struct places_
     struct places_lattice *l = ARENA_TAKE(a, struct places_lattice, 1);
     struct arena *work = arena_open();
     double *s[2] = {ARENA_TAKE(work, double, ask->n), ARENA_TAKE(work, double, ask->n)}, at[2];
-    *l = (struct places_lattice){.base = {ask->base[0], ask->base[1]}, .along = {ask->axis[0], ask->axis[1]}, .places = ask->n};
+    *l = (struct places_lattice){
+        .base = {ask->base[0], ask->base[1]}, .along = {ask->axis[0], ask->axis[1]}, .places = ask->n};
     for (int i = 0; i < ask->n; i++) {
         coordinates(l->base, l->along, ask->xy + 2 * i, at);
         s[0][i] = at[0];
@@ -145,7 +152,8 @@ struct places_lattice *places_lattice_make(struct arena *a, const struct places_
     for (int c = 0; c < 2; c++)
         l->axis[c] = lines_of(a, ask->n, s[c], ask->one_row ? 0 : ask->same);
     arena_close(work);
-    if ((long)l->axis[0].n * l->axis[1].n != ask->n || (!ask->one_row && (l->axis[0].n < 2 || l->axis[1].n < 2)) || !fill_crossings(a, l, ask))
+    if ((long)l->axis[0].n * l->axis[1].n != ask->n || (!ask->one_row && (l->axis[0].n < 2 || l->axis[1].n < 2)) ||
+        !fill_crossings(a, l, ask))
         return NULL;
     for (int c = 0; c < 2; c++)
         make_smooth(a, &l->axis[c]);

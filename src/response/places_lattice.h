@@ -1,4 +1,5 @@
-/* Places on the crossings of lines: a grid, or a line, which is a grid of one row. The part of places.h that is not triangles. */
+/* Places on the crossings of lines: a grid, or a line, which is a grid of one row. The part of places.h that is not
+ * triangles. */
 #ifndef RESPONSE_PLACES_LATTICE_H
 #define RESPONSE_PLACES_LATTICE_H
 #include "base/arena.h"
@@ -6,8 +7,9 @@
 
 struct places_lattice;
 
-/* Of n places xy [n][2], in the order order[n] of the caller's (what mixes and edges name), with the axes `axis` (a unit vector) and its left normal, which start at `base`:
-   the grid whose crossings they are, each once, to `same` (m) across its lines; NULL: they are none. one_row: a line along the axis, whatever lies beside it. */
+/* Of n places xy [n][2], in the order order[n] of the caller's (what mixes and edges name), with the axes `axis` (a
+   unit vector) and its left normal, which start at `base`: the grid whose crossings they are, each once, to `same` (m)
+   across its lines; NULL: they are none. one_row: a line along the axis, whatever lies beside it. */
 struct places_lattice_ask {
     int n;
     const double *xy;

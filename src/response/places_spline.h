@@ -1,4 +1,5 @@
-/* Cubic splines on knots at any distances, as far as their knots alone decide: the slopes at the knots of what is known there. */
+/* Cubic splines on knots at any distances, as far as their knots alone decide: the slopes at the knots of what is known
+ * there. */
 #ifndef RESPONSE_PLACES_SPLINE_H
 #define RESPONSE_PLACES_SPLINE_H
 #include "base/arena.h"

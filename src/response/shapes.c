@@ -1,16 +1,19 @@
-/* Of an object of closed form: phi = shape / sqrt(modal mass), exact, with its sign. A shell's modes come in families, one of which answers a force wherever it
-   is with the same gain (object_shell.c): phi = 1/sqrt(mass) everywhere, and its pattern goes with the contact. Rigid motions of what is free are left out, as
-   they are of what sounds.
+/* Of an object of closed form: phi = shape / sqrt(modal mass), exact, with its sign. A shell's modes come in families,
+   one of which answers a force wherever it is with the same gain (object_shell.c): phi = 1/sqrt(mass) everywhere, and
+   its pattern goes with the contact. Rigid motions of what is free are left out, as they are of what sounds.
 
-   Of a mode table with shared poles, heard where it is touched: a mode of complex gain A, h(t) = Im(A e^(s t)), is in displacement A / s^q, q = 0, 1, 2 of
-   displacement, velocity, acceleration, and with q_i'' + 2 sigma q_i' + |s|^2 q_i = phi f, w = phi q_i,
+   Of a mode table with shared poles, heard where it is touched: a mode of complex gain A, h(t) = Im(A e^(s t)), is in
+   displacement A / s^q, q = 0, 1, 2 of displacement, velocity, acceleration, and with q_i'' + 2 sigma q_i' + |s|^2 q_i
+   = phi f, w = phi q_i,
 
      A / s^q = phi^2 / w_d,   w_d = 2 pi f:   real and positive,   phi = sqrt(w_d Re(A / s^q)).
 
-   Gains at two different places are phi(x) phi(l) / w_d, of either sign, from which phi cannot be told; as coupled to a ball they could give out more energy than
-   they take. They are refused: at each of the table's places the phase of A / s^q may be off by PHASE rad (a table whose velocity starts as a cosine is off by the
-   loss factor over 2), beyond FLOOR of the mode's largest, and of what is off the real part counts. The sign of phi is lost on a table. Between places A is what
-   morph.c makes of it: in triangles phi is 0 only where a place lies on a nodal line; where a spline of phi^2 comes out a little below 0, beside such a line, phi is 0. */
+   Gains at two different places are phi(x) phi(l) / w_d, of either sign, from which phi cannot be told; as coupled to a
+   ball they could give out more energy than they take. They are refused: at each of the table's places the phase of A /
+   s^q may be off by PHASE rad (a table whose velocity starts as a cosine is off by the loss factor over 2), beyond
+   FLOOR of the mode's largest, and of what is off the real part counts. The sign of phi is lost on a table. Between
+   places A is what morph.c makes of it: in triangles phi is 0 only where a place lies on a nodal line; where a spline
+   of phi^2 comes out a little below 0, beside such a line, phi is 0. */
 #include "response/shapes.h"
 
 #include <math.h>

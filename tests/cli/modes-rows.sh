@@ -1,5 +1,6 @@
-# The order of a mode table's rows tells nothing: the same bytes in 64-bit floats, of every kind of places, poles, names and envelopes. A rectangle of places is bilinear in its middle, and what is
-# symmetric about the middle of a plate rings alike on both sides.
+# The order of a mode table's rows tells nothing: the same bytes in 64-bit floats, of every kind of places, poles, names
+# and envelopes. A rectangle of places is bilinear in its middle, and what is symmetric about the middle of a plate
+# rings alike on both sides.
 . "$ROOT/tests/lib/test.sh"
 scene() { # KEYS OF SURFACE, MOTION
     cat << END

@@ -119,7 +119,8 @@ START_TEST(one_and_cut)
     ck_assert(mix.n == 1 && mix.index[0] == 0 && mix.weight[0] == 1);
     write_index("file_name,x_m,y_m\na.wav,0.3,0.1\n./b.wav,0,0\n");
     ck_assert_msg(ir_set_read(&(struct ir_ask){folder, 44100, NAN, NULL}, a, &s, &e), "%s", e.text);
-    ck_assert_msg(strstr(s.note, "b.wav: resampled from 48000 Hz to 44100 Hz (and 1 more of the folder's 2 responses)"), "%s", s.note);
+    ck_assert_msg(strstr(s.note, "b.wav: resampled from 48000 Hz to 44100 Hz (and 1 more of the folder's 2 responses)"),
+                  "%s", s.note);
     remove_folder();
     arena_close(a);
 }

@@ -368,7 +368,8 @@ START_TEST(slopes_between_places)
 }
 END_TEST
 
-/* Any phases, decays, signs and missing modes on a grid: a mirrored table is the same, mirrored; nothing is larger than the largest of a cell's corners, nor has a pole beyond theirs. */
+/* Any phases, decays, signs and missing modes on a grid: a mirrored table is the same, mirrored; nothing is larger than
+ * the largest of a cell's corners, nor has a pole beyond theirs. */
 START_TEST(grids_are_symmetric)
 {
     enum { NX = 4, NY = 3 };
@@ -388,8 +389,10 @@ START_TEST(grids_are_symmetric)
             else
                 mirror[NX * NY - 1 - p].y = 0.2 - k[p].y;
         }
-        struct modes m = table_of(text_of(k, NX * NY, "# pairing: ids\n" SEPARATE), MODES, arena), o = table_of(text_of(mirror, NX * NY, "# pairing: ids\n" SEPARATE), MODES, arena);
-        struct modes_point a = modes_point_make(arena, m.n), b = modes_point_make(arena, m.n), at = modes_point_make(arena, m.n);
+        struct modes m = table_of(text_of(k, NX * NY, "# pairing: ids\n" SEPARATE), MODES, arena),
+                     o = table_of(text_of(mirror, NX * NY, "# pairing: ids\n" SEPARATE), MODES, arena);
+        struct modes_point a = modes_point_make(arena, m.n), b = modes_point_make(arena, m.n),
+                           at = modes_point_make(arena, m.n);
         ck_assert(places_kind(m.places) == PLACES_GRID && m.n == MODES && o.n == MODES);
         for (int q = 0; q < 500; q++) {
             double x = 0.3 * drand48(), y = 0.2 * drand48(), most[MODES] = {0}, low[MODES], high[MODES] = {0};

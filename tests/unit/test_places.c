@@ -155,7 +155,8 @@ START_TEST(random_places_are_delaunays)
 }
 END_TEST
 
-/* Grids without one of their crossings (every cell's corners lie on one circle), also turned and of rounded coordinates: triangles, in whatever order the places are. */
+/* Grids without one of their crossings (every cell's corners lie on one circle), also turned and of rounded
+ * coordinates: triangles, in whatever order the places are. */
 START_TEST(holed_grids)
 {
     setup();
@@ -182,7 +183,8 @@ START_TEST(holed_grids)
             double x = 0.8 * drand48() - 0.2, y = 0.8 * drand48() - 0.2;
             ck_assert(places_at(p, x, y, &m) == places_at(q, x, y, &o) && m.n == o.n);
             for (int k = 0; k < m.n; k++)
-                ck_assert(m.weight[k] == o.weight[k] && xy[2 * m.index[k]] == other[2 * o.index[k]] && xy[2 * m.index[k] + 1] == other[2 * o.index[k] + 1]);
+                ck_assert(m.weight[k] == o.weight[k] && xy[2 * m.index[k]] == other[2 * o.index[k]] &&
+                          xy[2 * m.index[k] + 1] == other[2 * o.index[k] + 1]);
         }
     }
     teardown();
@@ -353,4 +355,5 @@ START_TEST(told)
 }
 END_TEST
 
-UNIT("places", one_place, told, a_line, random_places_are_delaunays, holed_grids, circles, distance_to_the_hull, kinks_against_bisection, refused, nearly_straight_sides)
+UNIT("places", one_place, told, a_line, random_places_are_delaunays, holed_grids, circles, distance_to_the_hull,
+     kinks_against_bisection, refused, nearly_straight_sides)

@@ -1,5 +1,6 @@
-/* Grids and lines of places: polynomials in closed form, which the spline must give to rounding; any order of places; mirrored values; the growth of errors against sums
-   of cardinal functions; a plate's mode shapes in closed form against the error that a table may have. */
+/* Grids and lines of places: polynomials in closed form, which the spline must give to rounding; any order of places;
+   mirrored values; the growth of errors against sums of cardinal functions; a plate's mode shapes in closed form
+   against the error that a table may have. */
 #include "response/places.h"
 #include "response/places_spline.h"
 
@@ -47,7 +48,8 @@ static void lay(struct grid *g, int nx, int ny, double ratio, double angle, int 
         g->column[other] = k % nx, g->row[other] = k / nx;
     }
     for (int k = 0; k < g->n; k++) {
-        double x = g->x[g->column[k]], y = g->y[g->row[k]], to[2] = {x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)};
+        double x = g->x[g->column[k]], y = g->y[g->row[k]],
+               to[2] = {x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)};
         for (int c = 0; c < 2; c++)
             g->xy[2 * k + c] = digits ? rint(to[c] * pow(10, digits)) / pow(10, digits) : to[c];
     }
@@ -93,8 +95,9 @@ static double polynomial(const double *c, int nx, int ny, double x, double y)
     return sum;
 }
 
-/* Everywhere, also in the outermost cells; on grids of 2 to 13 lines, evenly and unevenly spaced, straight and turned. The mix gives what is linear in both. Values reach 16 x
-   (10 x 0.4)^6 = 7e4; rounding of shares of that, and of places that a turn has rounded, stays below 1e-9. */
+/* Everywhere, also in the outermost cells; on grids of 2 to 13 lines, evenly and unevenly spaced, straight and turned.
+   The mix gives what is linear in both. Values reach 16 x (10 x 0.4)^6 = 7e4; rounding of shares of that, and of places
+   that a turn has rounded, stays below 1e-9. */
 START_TEST(polynomials)
 {
     setup();
@@ -150,7 +153,8 @@ START_TEST(lines)
 }
 END_TEST
 
-/* Shares of values sum to 1; values that are all 0 around give 0; beyond the outermost lines the nearest point counts. */
+/* Shares of values sum to 1; values that are all 0 around give 0; beyond the outermost lines the nearest point counts.
+ */
 START_TEST(shares)
 {
     setup();
@@ -165,7 +169,8 @@ START_TEST(shares)
         for (int i = 0; i < 200; i++) {
             double x = 0.05 + 0.3 * drand48(), y = 0.05 + 0.3 * drand48(), sum = 0;
             struct places_sum s;
-            double off = places_smooth_at(p, x, y, &s), dx = fmax(fmax(g.x[0] - x, x - g.x[8]), 0), dy = fmax(fmax(g.y[0] - y, y - g.y[6]), 0);
+            double off = places_smooth_at(p, x, y, &s), dx = fmax(fmax(g.x[0] - x, x - g.x[8]), 0),
+                   dy = fmax(fmax(g.y[0] - y, y - g.y[6]), 0);
             ck_assert_double_eq_tol(off, sqrt(dx * dx + dy * dy), 1e-9);
             for (int k = 0; k < s.n; k++)
                 sum += s.index[k] < g.n ? s.weight[k] : 0;
@@ -204,7 +209,8 @@ START_TEST(rectangle)
 }
 END_TEST
 
-/* Two orders of the same places: the same bits. Mirrored places and values: the same but for rounding (shares at u and 1 - u), values up to 1. */
+/* Two orders of the same places: the same bits. Mirrored places and values: the same but for rounding (shares at u and
+ * 1 - u), values up to 1. */
 START_TEST(orders_and_mirrors)
 {
     setup();
@@ -222,7 +228,8 @@ START_TEST(orders_and_mirrors)
             mirror[2 * k] = 1 - g.xy[2 * k];
             mirror[2 * k + 1] = g.xy[2 * k + 1];
         }
-        struct places *p = made(g.n, g.xy, PLACES_GRID), *q = made(g.n, other, PLACES_GRID), *m = made(g.n, mirror, PLACES_GRID);
+        struct places *p = made(g.n, g.xy, PLACES_GRID), *q = made(g.n, other, PLACES_GRID),
+                      *m = made(g.n, mirror, PLACES_GRID);
         const double *rows = filled(p, g.n, value), *again = filled(q, g.n, turned), *there = filled(m, g.n, value);
         for (int i = 0; i < 200; i++) {
             double s = g.x[0] + (g.x[g.nx - 1] - g.x[0]) * drand48(), t = g.y[0] + (g.y[g.ny - 1] - g.y[0]) * drand48();
@@ -257,7 +264,8 @@ START_TEST(recognised)
 }
 END_TEST
 
-/* The growth of errors is the largest sum of the absolute values of all cardinal splines, one by one, at eighths of each interval; what lies between those may be a little more. */
+/* The growth of errors is the largest sum of the absolute values of all cardinal splines, one by one, at eighths of
+ * each interval; what lies between those may be a little more. */
 START_TEST(growth)
 {
     setup();
@@ -278,7 +286,8 @@ START_TEST(growth)
             for (int k = 0; k < 7 * (n - 1); k++) {
                 int cell = k / 7;
                 double h = at[cell + 1] - at[cell], u = (k % 7 + 1) / 8.0, v = 1 - u;
-                sum[k] += fabs(v * v * (1 + 2 * u) * f[cell] + u * u * (1 + 2 * v) * f[cell + 1] + h * u * v * (v * m[cell] - u * m[cell + 1]));
+                sum[k] += fabs(v * v * (1 + 2 * u) * f[cell] + u * u * (1 + 2 * v) * f[cell + 1] +
+                               h * u * v * (v * m[cell] - u * m[cell + 1]));
                 most = fmax(most, sum[k]);
             }
         }
@@ -286,7 +295,8 @@ START_TEST(growth)
         if (trial < 45)
             ck_assert_double_lt(most, 2);
         if (trial % 50 > 47 || trial == 0)
-            printf("distances up to 1:%.1f, %d knots: errors grow %.2f times\n", trial < 45 ? 1.0 : 1 + trial / 50.0, n, most);
+            printf("distances up to 1:%.1f, %d knots: errors grow %.2f times\n", trial < 45 ? 1.0 : 1 + trial / 50.0, n,
+                   most);
     }
     double uneven[] = {0, 0, 0.1, 0, 0.11, 0, 0.21, 0, 0.22, 0, 0.5, 0};
     ck_assert_int_eq(places_terms(made(6, uneven, PLACES_LINE)), 1); /* stays linear */
@@ -294,7 +304,8 @@ START_TEST(growth)
 }
 END_TEST
 
-/* Value, slope and curvature go on over the lines of a grid, the third derivative does not; and between kinks a straight way sees a polynomial, of degree 6 at most. */
+/* Value, slope and curvature go on over the lines of a grid, the third derivative does not; and between kinks a
+ * straight way sees a polynomial, of degree 6 at most. */
 START_TEST(kinks)
 {
     setup();
@@ -307,7 +318,8 @@ START_TEST(kinks)
         for (int k = 0; k < g.n; k++)
             value[k] = drand48() - 0.5;
         struct places *p = made(g.n, g.xy, PLACES_GRID);
-        const double *rows = filled(p, g.n, value), *a = g.xy + 2 * (int)(g.n * drand48()), *b = g.xy + 2 * (int)(g.n * drand48());
+        const double *rows = filled(p, g.n, value), *a = g.xy + 2 * (int)(g.n * drand48()),
+                     *b = g.xy + 2 * (int)(g.n * drand48());
         int n = places_kinks(p, a, b, u + 1, 290);
         u[0] = 0, u[++n] = 1;
         for (int k = 0; k < n; k++) {
@@ -320,12 +332,14 @@ START_TEST(kinks)
             met++;
         }
         double h = 1e-5, y = g.y[0] + (g.y[6] - g.y[0]) * drand48();
-        for (int line = 1; line < 7 && trial % 2 == 0; line++) { /* second differences to the left and right; values up to 1, third derivatives up to 1/(1 cm)^3 */
+        for (int line = 1; line < 7 && trial % 2 == 0; line++) { /* second differences to the left and right; values up
+                                                                    to 1, third derivatives up to 1/(1 cm)^3 */
             double f[5], x = g.x[line];
             for (int k = 0; k < 5; k++)
                 f[k] = smooth(p, rows, x + (k - 2) * h, y);
             ck_assert_double_eq_tol(f[2] - f[1], f[3] - f[2], 1e-4);
-            ck_assert_double_eq_tol((f[0] - 2 * f[1] + f[2]) / h / h, (f[2] - 2 * f[3] + f[4]) / h / h, 4 * h * 60 / 1e-6);
+            ck_assert_double_eq_tol((f[0] - 2 * f[1] + f[2]) / h / h, (f[2] - 2 * f[3] + f[4]) / h / h,
+                                    4 * h * 60 / 1e-6);
         }
     }
     ck_assert_int_gt(met, 150);
@@ -344,7 +358,8 @@ static double freed(int n, double x)
     if (n < 2)
         return n == 0 ? 1 : sqrt(3) * (1 - 2 * x);
     double b = n < 5 ? root[n - 2] : (2 * n - 1) * pi / 2, s = n < 8 ? (cosh(b) - cos(b)) / (sinh(b) - sin(b)) : 1;
-    double end = n < 8 ? 0.5 * ((1 - s) * exp(b * x) + (1 + s) * exp(-b * x)) : exp(-b * x) + (n % 2 ? -1 : 1) * exp(-b * (1 - x));
+    double end = n < 8 ? 0.5 * ((1 - s) * exp(b * x) + (1 + s) * exp(-b * x))
+                       : exp(-b * x) + (n % 2 ? -1 : 1) * exp(-b * (1 - x));
     return cos(b * x) - s * sin(b * x) + end;
 }
 
@@ -359,7 +374,8 @@ static int lower(const void *a, const void *b)
     return (p->f > q->f) - (p->f < q->f);
 }
 
-/* Decibels of the differences of the gains of the 50 lowest modes of a plate of 3 to 2 at 400 random places, relative to the gains. */
+/* Decibels of the differences of the gains of the 50 lowest modes of a plate of 3 to 2 at 400 random places, relative
+ * to the gains. */
 static double missed(bool is_free, int nx, int ny, bool linear)
 {
     static struct mode m[20 * 20];
@@ -383,7 +399,8 @@ static double missed(bool is_free, int nx, int ny, bool linear)
             value[i] = f(m[k].i, xy[2 * i] / 0.3) * f(m[k].j, xy[2 * i + 1] / 0.2);
         const double *rows = linear ? NULL : filled(p, nx * ny, value);
         for (int q = 0; q < 400; q++) {
-            double x = at[q][0], y = at[q][1], exact = f(m[k].i, x / 0.3) * f(m[k].j, y / 0.2), found = linear ? mixed(p, value, x, y) : smooth(p, rows, x, y);
+            double x = at[q][0], y = at[q][1], exact = f(m[k].i, x / 0.3) * f(m[k].j, y / 0.2),
+                   found = linear ? mixed(p, value, x, y) : smooth(p, rows, x, y);
             wrong += (found - exact) * (found - exact);
             whole += exact * exact;
         }
@@ -395,8 +412,10 @@ START_TEST(plates)
 {
     setup();
     for (int is_free = 0; is_free < 2; is_free++) {
-        double fine = missed(is_free, 33, 23, false), dense = missed(is_free, 75, 50, true), coarse = missed(is_free, 33, 23, true);
-        printf("%s plate, 50 modes: 33 x 23 places %.1f dB, bilinear %.1f dB; bilinear at 75 x 50 %.1f dB\n", is_free ? "free" : "supported", fine, coarse, dense);
+        double fine = missed(is_free, 33, 23, false), dense = missed(is_free, 75, 50, true),
+               coarse = missed(is_free, 33, 23, true);
+        printf("%s plate, 50 modes: 33 x 23 places %.1f dB, bilinear %.1f dB; bilinear at 75 x 50 %.1f dB\n",
+               is_free ? "free" : "supported", fine, coarse, dense);
         ck_assert_double_lt(fine, -40);
         ck_assert_double_lt(fine, dense);
         ck_assert_double_gt(coarse, -40);
