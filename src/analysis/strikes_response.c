@@ -22,6 +22,7 @@ static const double alike = 0.3;          /* of a strike's sound: explained by t
 static const double arrival = 0.2;        /* of the response's greatest early value: where it begins */
 static const double way = 0.02;           /* s, the longest way from force to sound */
 static const double quiet_least = 0.03;   /* s of noise that tell its spectrum */
+static const double unsolved = 1e-4;      /* of the gradient: more is told */
 
 /* ------------------------------------------------------------------ which strikes */
 
@@ -100,23 +101,15 @@ static void note(struct strikes_job *j, const char *text)
     j->h->note = j->h->note ? arena_format(j->a, "%s\n%s", j->h->note, text) : text;
 }
 
-/* Does a strike begin in the ringing of another? */
-static bool overlap(const struct strikes_job *j)
-{
-    bool any = false;
-    for (int k = 0; k + 1 < j->s->n; k++)
-        any = any || j->s->strike[k + 1].onset - j->s->strike[k].onset < j->system.length;
-    return any;
-}
-
 static void solve(struct strikes_job *j)
 {
     double left;
     j->h->h = ARENA_TAKE(j->a, double, j->h->length);
     j->left = ARENA_TAKE(j->a, double, j->r->n);
     strikes_solve(&j->system, j->h->h, &left);
-    if (left > 1e-3 && overlap(j))
-        note(j, arena_format(j->a, "strikes run into each other so that they are not wholly told apart: the search ended at %.2g of what it began with; longer pauses help", left));
+    if (!(left <= unsolved))
+        note(j, arena_format(j->a, "strikes are not wholly told apart: the search for the response that they have in common ended at %.2g of what it began with, and what is left "
+                             "may look like modes; longer pauses between strikes help", left));
     strikes_solve_sound(&j->system, j->h->h, j->left);
     for (long i = 0; i < j->r->n; i++)
         j->left[i] = j->system.weight[i] > 0.0 ? j->r->sound[i] - j->left[i] : 0.0;

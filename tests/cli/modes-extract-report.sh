@@ -12,7 +12,7 @@ d = json.load(open("energy.json"))
 of = [(m["decay_per_s"], m["places"][0]["gain"] ** 2 / (4 * m["decay_per_s"])) for m in d["modes"]]
 whole, middle = sum(e for _, e in of), d["median_decay_by_energy_per_s"]
 print("a mode's decay", middle in [x for x, _ in of], "at least half", sum(e for x, e in of if x <= middle) >= whole / 2, "less without it", sum(e for x, e in of if x < middle) < whole / 2,
-      "not the plain one", middle != d["median_decay_per_s"], "printed", abs(float(open("energy.txt").read()) / middle - 1) < 1e-3)
+      "not the plain one", middle != d["median_decay_per_s"], "physical", d["physical"], "printed", abs(float(open("energy.txt").read()) / middle - 1) < 1e-3)
 END
 python3 energy.py
 echo "from another folder the same table and picture:"
@@ -31,9 +31,9 @@ echo "several places without a force:"
 sed 's/at: .7 cm/at: [15 cm/' plate.yaml > other.yaml
 rasp render -q other.yaml
 python3 wav.py join other.wav other.force.wav other_strikes.wav 1e-6
-extract strikes.wav@7cm,6cm other_strikes.wav@15cm,6cm --modes 6 -o places.csv | sed -n '/^warning/,$p'
+extract strikes.wav@7cm,6cm other_strikes.wav@15cm,6cm --method spectrogram -o places.csv | sed -n '/^warning/,$p'
 grep -c 'compared with each other' places.csv
-extract strikes.wav --modes 6 -q -o one.csv
+extract strikes.wav --method spectrogram -q -o one.csv
 grep -c 'compared with each other' one.csv || true
 try extract late.wav --impulse --slopes --method spectrogram -o x.csv
 ls x.csv 2> /dev/null || true
