@@ -40,13 +40,13 @@ const char *modes_per_impulse(int quantity)
     return units[quantity];
 }
 
-/* compute and extract are the other program's: it has them in place of modes_elsewhere_run. */
+/* compute and extract are the other program's: it has them in place of modes_elsewhere_*. */
 static const struct action actions[] = {
     {"object", "one RECIPE or SCENE", 1, 1,
      {"output", "force", "line", "circle", "places", "grid", "at", "listen", "load", "modes", "top", "quantity", "body", "set", "seed", "quiet"}, modes_object_run},
     {"compute", "one MESH, or --shape", 0, 1,
      {"output", "force", "shape", "order", "estimate", "unit", "material", "youngs-modulus", "poisson", "density", "alpha", "beta", "loss", "clamp", "support", "modes", "top", "face",
-      "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, modes_elsewhere_run},
+      "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, modes_elsewhere_compute},
     {"extract", "RECORDING...", 1, -1,
      {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "radius", "distance", "delay", "impulse", "modes", "low", "high", "method",
       "slopes", "regularisation", "strike-threshold", "response", "resynthesis", "residual", "plot", "json", "quiet"}, modes_elsewhere_run},

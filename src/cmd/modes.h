@@ -65,6 +65,7 @@ struct modes_heavy {
 };
 int modes_dispatch(struct cmd_call *c, const struct modes_heavy *heavy, struct err *e);
 int modes_elsewhere_run(struct cmd_call *c, struct err *e);
+int modes_elsewhere_compute(struct cmd_call *c, struct err *e);
 int modes_heavy_run(struct cmd_call *c, struct err *e);
 int modes_compute_run(struct cmd_call *c, struct err *e);
 int modes_extract_run(struct cmd_call *c, struct err *e);

@@ -1,10 +1,11 @@
 /* Modes of equal frequency (of a square, a ring, a ball) are a space, of which a solver returns any basis. Here it is the one that makes extreme, and so M-orthogonal, the weighted
    energy
 
-       Q(u) = sum over axes p of 1, 1/2, 1/4 times |W_p u|^2_M,   W_p(x) = 1/(1 + |x - x_p|^2/s^2),
+       Q(u) = sum over axes p of 1, 1/2, 1/4 times |W_p u|^2_M,   W_p(x) = diag(1, 7/8, 3/4)/(1 + |x - x_p|^2/s^2),
 
    x_p where the line from the middle of the box along +x, +y, +z leaves it, s a quarter of the longest side. The first of a cluster is the one that moves most near +x, as of modes
-   that are struck there. W has no symmetry that a solid could share, and every angular order, so that Q's eigenvalues within a cluster differ. */
+   that are struck there. W has no symmetry that a solid could share, and every angular order, so that Q's eigenvalues within a cluster differ. The diagonal is what tells the two ways in
+   which a slender rod bends, which move the same places. */
 #include "fem/solid_basis.h"
 
 #include <cblas.h>
@@ -34,7 +35,7 @@ static void weigh(const struct solid_place *at, int axis, const double *v, doubl
         for (int k = 0; k < 3; k++) {
             int freedom = at->freedoms->of[i][k];
             if (freedom >= 0)
-                w[freedom] = v[freedom] / (1.0 + 16.0 * far / (side * side));
+                w[freedom] = (1.0 - 0.125 * k) * v[freedom] / (1.0 + 16.0 * far / (side * side));
         }
     }
 }
