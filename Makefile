@@ -107,6 +107,11 @@ warnings: warnings-gcc warnings-clang
 warnings-gcc warnings-clang:
 	$(SUB) BUILD=$(BUILD)/$@ CC=$(@:warnings-%=%) WERROR=-Werror all unit
 
+# The tests that run OpenBLAS's code, once more by other kernels than this CPU's own; KERNELS=all: by all that it can run.
+blas:
+	$(SUB) all unit
+	@BUILD=$(BUILD) tests/blas.sh
+
 # With clang, whose instrumented code is up to three times faster than gcc's. -g1: lines are all a report shows, and 200 programs are linked in less time.
 sanitize:
 	$(SUB) BUILD=$(BUILD)/sanitize CC=clang SAN=1 OPT="-O2 -g1" all unit
@@ -194,7 +199,7 @@ help:
 	@echo 'demo           set-up, build, tour    check      set-up, build, every test'
 	@echo 'warnings       -Werror, gcc, clang    sanitize   unit, cli and faults under ASan and UBSan'
 	@echo 'bytes          same bytes, all builds fuzz       SECONDS=60 of fuzzing'
-	@echo 'torture        SECONDS=60 of random scenes, SEED=1'
+	@echo 'torture        SECONDS=60, SEED=1       blas       by OpenBLAS of another CPU'
 	@echo 'evidence       the long reports       bench      timings'
 	@echo 'irs            irs/ from its recipes  install    PREFIX, DESTDIR'
 	@echo 'dist           the source archive     deb        a Debian package'
@@ -203,4 +208,5 @@ help:
 
 -include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:=.d) $(BENCH:=.d)
 FORCE:
-.PHONY: all unit demo check warnings warnings-gcc warnings-clang sanitize bytes fuzz fuzzers torture evidence bench irs install uninstall dist deb clean help FORCE
+.PHONY: all unit demo check blas warnings warnings-gcc warnings-clang sanitize bytes fuzz fuzzers torture evidence bench irs install uninstall dist deb clean \
+    help FORCE

@@ -1,4 +1,4 @@
-# Same scene, same bytes: the WAV and the CSV of every scene have one sha256 whatever the compiler, the optimisation, the
+# Same scene, same bytes: the WAV and the CSV of every scene, and mode tables computed and extracted, have one sha256 whatever the compiler, the optimisation, the
 # instruction set, the functions libm picks for this CPU, and the run.
 . "$ROOT/tests/lib/test.sh"
 BUILDS=${BYTES:-$BUILD/bytes}
@@ -19,7 +19,15 @@ build() {
 sums() {
     rm -rf rendered && mkdir rendered
     printf '%s\n' "$ROOT"/scenes/*.yaml | xargs -P "$JOBS" -I{} "$1" render --quiet --set output.encoding=float64 -o rendered/ {} > log 2>&1 || cat log
+    tables "$1" >> log 2>&1 || cat log
     (cd rendered && find . -type f \( -name '*.wav' -o -name '*.csv' \) -print0 | sort -z | xargs -0r sha256sum)
+}
+
+# tables PROGRAM: what rasp-modes makes: modes of two solids with equal frequencies; those of a recording of strikes, with the response, what the modes make of it and what is left.
+tables() {
+    "$1" modes compute --shape sphere:diameter=20cm,fineness=1 --material steel --modes 20 --top 60kHz -q -o rendered/table_ball.csv &&
+        "$1" modes compute --shape ring:diameter=14cm,width=10mm,thickness=6mm,fineness=1 --material steel --modes 20 -q -o rendered/table_ring.csv &&
+        "$1" modes extract strikes.wav --force-channel 2 -q -o rendered/table_strikes.csv --response rendered/table_response.wav --resynthesis rendered/table_made.wav --residual rendered/table_left.wav
 }
 
 # same NAME PROGRAM: its sums must be those of the first program asked.
@@ -39,9 +47,11 @@ cpu_has() {
     esac
 }
 
+. "$ROOT/tests/cli/modes-extract-make.inc" # a plate that is struck
+"$BUILD/rasp" render -q plate.yaml && python3 wav.py join plate.wav plate.force.wav strikes.wav 1e-6
 same "gcc -O2, best of the CPU" "$BUILD/rasp"
 scenes=("$ROOT"/scenes/*.yaml)
-[ "$(wc -l < want)" -ge ${#scenes[@]} ] || fail "only $(wc -l < want) files of ${#scenes[@]} scenes"
+[ "$(wc -l < want)" -ge $((${#scenes[@]} + 6)) ] || fail "only $(wc -l < want) files of ${#scenes[@]} scenes and 2 solids and strikes"
 same "a second run" "$BUILD/rasp"
 
 # Without FMA and AVX the C library picks other exp, log, sin ...: the probe shows that it does.

@@ -5,7 +5,7 @@ listen='listen: {radiator: point, places: [[23 cm, 14 cm, 0]]}'
 mkdir taps
 echo file_name,x_m,y_m,gain_db > taps/index.csv
 for x in 5 10 15; do
-    sed "s/at: .7 cm/at: [$x cm/; s/modes: 10/modes: 6/; s/quantity: velocity/$listen/" plate.yaml > p$x.yaml
+    sed "s/at: .7 cm/at: [$x cm/; s/modes: 10/modes: 6/; s/24 kHz/12 kHz/; s/quantity: velocity/$listen/" plate.yaml > p$x.yaml
     rasp render -q p$x.yaml
     python3 wav.py join p$x.wav p$x.force.wav taps/$x.wav 1e-6
     echo "$x.wav,0.$(printf %02d $x),0.06,0" >> taps/index.csv
