@@ -98,7 +98,7 @@ static bool from_object(struct list *l, const struct modes_body *b, struct err *
 static bool from_space(struct list *l, const struct modes_body *b, struct err *e)
 {
     struct modes m;
-    struct modes_ask ask = {.strongest = b->response->modes, .rate = b->scene.output.sample_rate};
+    struct modes_ask ask = {.strongest = b->response->modes, .band = {b->response->band[0], b->response->band[1]}, .rate = b->scene.output.sample_rate};
     if (!space_modes(&b->response->space, &ask, l->c->arena, &m, e))
         return false;
     start(l, m.n, m.quantity);

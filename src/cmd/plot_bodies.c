@@ -56,13 +56,13 @@ static bool is_csv(const char *file)
 /* Nothing: a recording, or none. */
 static bool modes_of(const struct response *r, double rate, struct arena *a, struct modes *m, struct err *e)
 {
-    struct modes_ask ask = {.strongest = r->modes, .pairing = r->pairing, .rate = rate};
+    struct modes_ask ask = {.strongest = r->modes, .band = {r->band[0], r->band[1]}, .pairing = r->pairing, .rate = rate};
     struct object *o = ARENA_TAKE(a, struct object, 1);
     const char *note;
     bool ok = true;
     m->n = 0;
     if (r->object.given) {
-        ok = object_make(&r->object, &(struct object_ask){"object", 0.499 * rate, 4 * r->modes}, a, o, &note, e);
+        ok = object_make(&r->object, &(struct object_ask){.key = "object", .low = r->band[0], .top = r->band[1], .most = 4 * r->modes}, a, o, &note, e);
         if (ok)
             object_modes(o, r->object.origin, NULL, r->modes, a, m);
     } else if (r->space.given) {

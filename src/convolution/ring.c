@@ -88,8 +88,9 @@ static void note_warnings(const struct ring *g, struct stage_run *r)
     if (g->choice->note)
         board_warn(r->board, g->choice->note);
     if (g->choice->high)
-        board_warn(r->board, arena_format(r->arena, "%s: %d of its strongest modes lie above 0.499 times the sample rate and do not ring",
-                                          g->choice->modes.name, g->choice->high));
+        board_warn(r->board, arena_format(r->arena, "%s: %d of its %d strongest modes lie%s above %g Hz, 0.45 of the sample rate, and do%s not ring: raise output.sample_rate, "
+                                          "or end the key band there", g->choice->modes.name, g->choice->high, g->choice->chosen, g->choice->high == 1 ? "s" : "",
+                                          MODES_TOP * g->board->rate, g->choice->high == 1 ? "es" : ""));
 }
 
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e)

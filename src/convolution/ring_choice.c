@@ -20,7 +20,7 @@
 static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, struct err *e)
 {
     struct object *o = ARENA_TAKE(c->arena, struct object, 1);
-    struct object_ask what = {.key = arena_format(c->arena, "%s.object", c->key), .top = 0.499 * ask->rate, .most = 4 * ask->strongest};
+    struct object_ask what = {.key = arena_format(c->arena, "%s.object", c->key), .low = ask->band[0], .top = ask->band[1], .most = 4 * ask->strongest};
     if (!object_make(&c->given->object, &what, c->arena, o, &c->to->note, e))
         return err_at(e, "contact '%s'", c->contact->name);
     object_modes(o, c->given->object.origin, NULL, ask->strongest, c->arena, &c->to->modes);
@@ -30,16 +30,17 @@ static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, st
 static bool read_modes(struct ring_choosing *c, struct err *e)
 {
     double rate = c->scene->output.sample_rate;
-    struct modes_ask ask = {.strongest = c->given->modes, .pairing = c->given->pairing, .rate = rate, .shelf = c->scene->shelf};
+    struct modes_ask ask = {.strongest = c->given->modes, .band = {c->given->band[0], c->given->band[1]}, .pairing = c->given->pairing, .rate = rate, .shelf = c->scene->shelf};
     struct modes *m = &c->to->modes;
     if (c->given->object.given ? !read_object(c, &ask, e)
         : c->given->space.given ? !space_modes(&c->given->space, &ask, c->arena, m, e)
                                 : !modes_table(c->given->file, &ask, c->arena, m, e))
         return false;
     c->to->note = c->to->note ? c->to->note : m->note;
+    c->to->chosen = m->n;
     c->to->high = modes_drop_above(m, rate);
-    return m->n > 0 || err_set(e, ERR_SCENE, "%s: all of its modes lie above %.6g Hz (0.499 times output.sample_rate), and nothing would ring: raise "
-                                             "output.sample_rate, or check that frequency_hz is in Hz", m->name, 0.499 * rate);
+    return m->n > 0 || err_set(e, ERR_SCENE, "%s: all of its modes lie above %.6g Hz (0.45 times output.sample_rate), and nothing would ring: raise "
+                                             "output.sample_rate, or check that frequency_hz is in Hz", m->name, MODES_TOP * rate);
 }
 
 /* ------------------------------------------------------------------ readings */

@@ -13,8 +13,8 @@ struct ring_choice {
     enum ring_engine engine;
     int reading;                 /* enum moving, never auto                                  */
     bool recorded;               /* a WAV or a folder of them: no modes                      */
-    struct modes modes;          /* as read, the strongest below Nyquist                     */
-    int high;                    /* how many were dropped above it                           */
+    struct modes modes;          /* as read, the strongest of the band, below 0.45 of the rate */
+    int chosen, high;            /* components of the strongest; how many of them lie above that */
     const char *note;            /* a warning from reading; NULL: none                       */
     bool moves;                  /* the response changes on the way                          */
     int gamma;                   /* of the modes' onset (gammatone.h); 1: at once            */

@@ -1,4 +1,4 @@
-/* See roll_ground.h. The modes are those that sound (ring_choice.h): the strongest, below 0.499 of the sample rate; the give of all others is left out. */
+/* See roll_ground.h. The modes are those that sound (ring_choice.h): the strongest of the band, below 0.45 of the sample rate; the give of all others is left out. */
 #include "convolution/roll_ground.h"
 
 #include "convolution/ring_along.h"

@@ -45,7 +45,13 @@ double modes_direct(int quantity, int n, const double *frequency, const double *
 
 int modes_drop_above(struct modes *m, double rate)
 {
-    return m->drop ? m->drop(m, 0.499 * rate) : 0;
+    return m->drop ? m->drop(m, MODES_TOP * rate) : 0;
+}
+
+bool modes_in_band(const struct modes_ask *ask, double lowest, double highest)
+{
+    const double same = 1.0 - 1e-9; /* what rounding puts beside an end lies at it */
+    return !(ask->band[1] > 0.0) || (highest >= same * ask->band[0] && lowest < same * ask->band[1]);
 }
 
 double modes_ring_time(const struct modes *m, double decibel)

@@ -63,13 +63,15 @@ void modes_to_quantity(int quantity, int n, const struct modes_point *p);
 
 struct modes_point modes_point_make(struct arena *a, int n);
 
-/* From a mode table (mode_table.h says what it holds): the `strongest` modes, by energy summed over places, sum gain^2
-   / (4 decay) of a mode of one slope; of equal ones the one of lower frequency. The order of rows tells nothing. A mode
-   of several slopes counts as one and becomes several components. One place holds everywhere; on a line and in the
-   plane see places.h; between places see morph.c. pairing: see scene.h. rate in Hz: modes whose frequency reaches
-   rate/2 fade out between 0.45 and 0.5 times it when poles are separate. Errors name file and line. */
+/* From a mode table (mode_table.h says what it holds): the `strongest` modes of the band, by energy summed over places,
+   sum gain^2 / (4 decay) of a mode of one slope; of equal ones the one of lower frequency. The order of rows tells
+   nothing. A mode of several slopes counts as one and becomes several components. One place holds everywhere; on a line
+   and in the plane see places.h; between places see morph.c. pairing: see scene.h. rate in Hz: modes whose frequency
+   reaches rate/2 fade out between 0.45 and 0.5 times it when poles are separate. Errors name file and line; none in the
+   band is ERR_SCENE. */
 struct modes_ask {
     int strongest;
+    double band[2];              /* Hz, low <= f < high, from which they are chosen (modes_in_band); 0, 0: from all */
     double pairing, rate;
     struct shelf *shelf;         /* of the scene (base/shelf.h); NULL: none */
 };
@@ -79,7 +81,11 @@ bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a,
    0 for the other quantities. frequency, decay: the point's, or the modes' own when poles are shared. */
 double modes_direct(int quantity, int n, const double *frequency, const double *decay, const struct modes_point *p);
 
-/* Drops components that nowhere lie below 0.499 rate (sets n); returns how many were dropped. */
+/* Is a mode whose frequency goes from `lowest` to `highest` (Hz) somewhere in the band? */
+bool modes_in_band(const struct modes_ask *ask, double lowest, double highest);
+
+/* Components that nowhere lie below MODES_TOP times the rate cannot be sampled: drops them (sets n), returns how many there were. */
+#define MODES_TOP 0.45
 int modes_drop_above(struct modes *m, double rate);
 
 /* Time after which a unit impulse's response has decayed by `decibel` (> 0) below its initial amplitude bound; slowest mode. */

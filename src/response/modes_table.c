@@ -13,8 +13,9 @@
 #include "response/pairing.h"
 
 struct rank {
-    double energy;
+    double energy, lowest, highest; /* Hz, over the places */
     size_t track;
+    bool inside;                    /* somewhere in the band */
 };
 
 struct component {
@@ -26,7 +27,8 @@ struct making {
     struct arena *arena;
     struct places *places;
     size_t tracks, *track;             /* [entries] of each entry */
-    struct rank *rank;                 /* [tracks], strongest first */
+    struct rank *rank;                 /* [tracks], those of the band first, of these the strongest */
+    size_t inside;                     /* how many are in the band */
     int chosen, n;                     /* modes, components */
     const struct mode_entry **entry;   /* [chosen][places] or NULL */
     struct component *component;       /* [n] */
@@ -103,19 +105,27 @@ static double energy(const struct mode_entry *m)
 static int strongest_first(const void *a, const void *b)
 {
     const struct rank *p = a, *q = b;
+    if (p->inside != q->inside)
+        return p->inside ? -1 : 1;
     if (p->energy != q->energy)
         return p->energy > q->energy ? -1 : 1;
     return (p->track > q->track) - (p->track < q->track);
 }
 
-static void rank_modes(struct making *k)
+static void rank_modes(struct making *k, const struct modes_ask *ask)
 {
     const struct mode_table *t = k->t;
     k->rank = ARENA_TAKE(k->arena, struct rank, k->tracks);
     for (size_t i = 0; i < k->tracks; i++)
-        k->rank[i] = (struct rank){0.0, i};
-    for (size_t i = 0; i < t->first[t->places]; i++)
-        k->rank[k->track[i]].energy += energy(&t->entry[i]);
+        k->rank[i] = (struct rank){.lowest = HUGE_VAL, .track = i};
+    for (size_t i = 0; i < t->first[t->places]; i++) {
+        struct rank *r = &k->rank[k->track[i]];
+        r->energy += energy(&t->entry[i]);
+        r->lowest = fmin(r->lowest, t->entry[i].frequency);
+        r->highest = fmax(r->highest, t->entry[i].frequency);
+    }
+    for (size_t i = 0; i < k->tracks; i++)
+        k->inside += k->rank[i].inside = modes_in_band(ask, k->rank[i].lowest, k->rank[i].highest);
     qsort(k->rank, k->tracks, sizeof *k->rank, strongest_first);
 }
 
@@ -123,7 +133,7 @@ static void choose(struct making *k, int strongest)
 {
     const struct mode_table *t = k->t;
     size_t none = k->tracks, *place = ARENA_TAKE(k->arena, size_t, k->tracks);
-    k->chosen = (size_t)strongest < k->tracks ? strongest : (int)k->tracks;
+    k->chosen = (size_t)strongest < k->inside ? strongest : (int)k->inside;
     k->entry = ARENA_TAKE(k->arena, const struct mode_entry *, (size_t)k->chosen * t->places);
     for (size_t i = 0; i < k->tracks; i++)
         place[k->rank[i].track] = i < (size_t)k->chosen ? i : none;
@@ -281,7 +291,10 @@ bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a,
     if (!k.t || !make_places(&k, e))
         return false;
     make_tracks(&k, ask->pairing);
-    rank_modes(&k);
+    rank_modes(&k, ask);
+    if (k.inside == 0)
+        return err_set(e, ERR_SCENE, "%s: none of its modes lies from %g Hz to below %g Hz, the band from which they are chosen: widen the key band, or check that frequency_hz "
+                                     "is in Hz", path, ask->band[0], ask->band[1]);
     choose(&k, ask->strongest);
     make_components(&k);
     make_modes(&k, ask->rate, m);

@@ -101,7 +101,18 @@ static bool beyond_ringing(const struct object_body *b, const struct object_list
     return b->beta * w * w >= b->alpha && decay_of(b, w) >= w;
 }
 
-/* The shape's list, with so many more asked for as do not ring. */
+/* Takes out those below the band; returns how many. */
+static int drop_below(double low, struct object_list *l)
+{
+    int below = 0;
+    while (below < l->n && l->mode[below].w < low)
+        below++;
+    l->n -= below;
+    memmove(l->mode, l->mode + below, (size_t)l->n * sizeof *l->mode);
+    return below;
+}
+
+/* The shape's list, with so many more asked for as do not ring or lie below the band. */
 static bool list_ringing(struct object_inside *in, const struct object_limit *limit, struct arena *a, struct err *e)
 {
     struct object_limit wide = *limit;
@@ -110,11 +121,13 @@ static bool list_ringing(struct object_inside *in, const struct object_limit *li
         if (!in->kind->list(in->body, &wide, a, &l, e))
             return false;
         bool all = l.n < wide.most || l.capped || beyond_ringing(in->body, &l);
+        int below = l.n > 0 ? drop_below(limit->low, &l) : 0;
         l.dropped = drop_overdamped(in->body, &l);
         in->list = l;
         if (all || l.n >= limit->most)
             break;
-        wide.most = 2 * l.dropped < wide.most ? limit->most + l.dropped : 4 * wide.most;
+        int more = l.dropped + below;
+        wide.most = 2 * more < wide.most ? limit->most + more : 4 * wide.most;
     }
     if (in->list.n > limit->most)
         in->list.n = limit->most;
@@ -209,13 +222,14 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
     if (!b)
         return false;
     struct object_inside *in = ARENA_TAKE(a, struct object_inside, 1);
-    const struct object_limit limit = {2.0 * REAL_PI * ask->top, ask->most};
+    const struct object_limit limit = {2.0 * REAL_PI * ask->top, ask->most, 2.0 * REAL_PI * ask->low};
     *in = (struct object_inside){.kind = kind_of(given->shape), .body = b};
     if (!list_ringing(in, &limit, a, e))
         return false;
     if (in->list.n == 0)
-        return err_set(e, ERR_SCENE, "%s: %s mode of this object below %g Hz: it is too %s; give %s", b->key, in->list.dropped ? "no ringing" : "no", ask->top,
-                       in->list.dropped ? "damped" : "small or too stiff", in->list.dropped ? "a material of less damping" : "larger sizes or a softer material, or look higher (output.sample_rate; of rasp modes object --top)");
+        return err_set(e, ERR_SCENE, "%s: no %smode of this object %s%g Hz: it is too %s; give %s", b->key, in->list.dropped ? "ringing " : "",
+                       ask->low > 0 ? arena_format(a, "from %g Hz to below ", ask->low) : "below ", ask->top, in->list.dropped ? "damped" : "small or too stiff",
+                       in->list.dropped ? "a material of less damping" : "larger sizes or a softer material, or look higher (band; of rasp modes object --top)");
     *note = notes(in, a);
     *o = (struct object){.key = b->key};
     finish(o, in, a);

@@ -28,7 +28,7 @@ struct object {
    round (0, 0); a shell's place is (x, y) = arc length from a pole times (cos, sin) of the azimuth. Longitudinal waves: `supported` means
    `clamped`, the force is along x. Rigid motions of what is free are left out.
 
-   The n = `most` modes of lowest undamped frequency below `top` Hz that ring. given->... NAN are the material's (scene/material.h); an isotropic
+   The n = `most` modes of lowest undamped frequency from `low` to below `top` Hz that ring. given->... NAN are the material's (scene/material.h); an isotropic
    material's moduli follow youngs_modulus and poisson. Errors: ERR_SCENE, with the key's name after `key` ("surface.object"): a needed size
    missing, custom material without its constants, sizes that do not fit, no mode below `top`. *note (text in the arena, else NULL; lines):
    modes more than 5 % too high as the object is not thin enough for thin-plate or slender-bar theory, overdamped modes left out, fewer modes than
@@ -40,13 +40,14 @@ struct object_ask {
     const char *key;
     double top;
     int most;
+    double low;
 };
 bool object_make(const struct object_given *given, const struct object_ask *ask, struct arena *a, struct object *o, const char **note, struct err *e);
 
 /* As modes of velocity (m/s per N s) with shared poles. listen: place (the object's coordinates) that is heard; NULL: the place that is touched, so
    that gains are phi^2/m (of a shell 1/m, wherever it is touched). The `strongest` by energy over the object; m->object holds just these, in the same
    order: m->object->shapes gives phi of component i in phi[i]. */
-void object_modes(const struct object *o, const double origin[2], const double *listen, int strongest, struct arena *a, struct modes *m);
+void object_modes(const struct object *o, const double origin[2], const double *listen, int strongest, struct arena *a, struct modes *m); /* a outlives m */
 
 /* Of such modes: where the object's x = y = 0 lies in the scene, m. */
 const double *object_modes_origin(const struct modes *m);

@@ -32,6 +32,7 @@ struct object_list {
 struct object_limit {
     double w;                       /* rad/s: modes below it, */
     int most;                       /* of these the lowest `most` */
+    double low;                     /* rad/s: object.c takes out those below */
 };
 
 /* list: sorted by w; leaves out rigid motions. bind: o->self is there (object_inside), n and mass are set. */

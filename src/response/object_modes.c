@@ -18,6 +18,7 @@ enum { PLACES = 256 };
 
 struct ear {
     const struct object *o;
+    struct arena *arena;
     double origin[2], listen[2];
     bool fixed;             /* heard at `listen` */
     double *heard;          /* [n] phi(listen)/m, or 1/m */
@@ -52,7 +53,7 @@ static double at(const struct modes *m, const struct modes_where *where, const s
 
 static void ear_make(struct ear *r, const struct object *o, const double origin[2], const double *listen, struct arena *a)
 {
-    *r = (struct ear){.o = o, .origin = {origin[0], origin[1]}, .fixed = listen != NULL};
+    *r = (struct ear){.o = o, .arena = a, .origin = {origin[0], origin[1]}, .fixed = listen != NULL};
     r->heard = ARENA_TAKE(a, double, o->n);
     r->turn = ARENA_TAKE(a, double, o->n);
     if (listen) {
@@ -109,7 +110,7 @@ static int by_energy(const void *p, const void *q)
     return (x->mode > y->mode) - (x->mode < y->mode);
 }
 
-static struct object *strongest_of(const struct ear *r, int strongest, struct arena *a)
+static const struct object *strongest_of(const struct ear *r, int strongest, struct arena *a)
 {
     int all = r->o->n, n = strongest < all ? strongest : all;
     struct object *picked = ARENA_TAKE(a, struct object, 1);
@@ -125,14 +126,41 @@ static struct object *strongest_of(const struct ear *r, int strongest, struct ar
     return picked;
 }
 
+/* ------------------------------------------------------------------ all */
+
+static int drop(struct modes *m, double top);
+
+static void fill(struct ear *r, const struct object *picked, struct modes *m)
+{
+    const double origin[2] = {r->origin[0], r->origin[1]}, listen[2] = {r->listen[0], r->listen[1]};
+    bool fixed = r->fixed;
+    ear_make(r, picked, origin, fixed ? listen : NULL, r->arena);
+    *m = (struct modes){.n = picked->n, .quantity = MODES_VELOCITY, .shared = true, .moves = fixed || !is_family(picked), .frequency = picked->frequency,
+                        .decay = picked->decay, .slowest = picked->decay, .radius = picked->radius, .object = picked, .name = picked->key, .drop = drop, .at = at,
+                        .self = r};
+}
+
+static int drop(struct modes *m, double top)
+{
+    struct ear *r = (struct ear *)m->self;
+    struct object *picked = ARENA_TAKE(r->arena, struct object, 1);
+    int *kept = ARENA_TAKE(r->arena, int, m->n), n = 0, all = m->n;
+    for (int i = 0; i < all; i++)
+        if (m->frequency[i] < top)
+            kept[n++] = i;
+    if (n > 0 && n < all) {
+        object_pick(r->o, kept, n, r->arena, picked);
+        fill(r, picked, m);
+    }
+    m->n = n;
+    return all - n;
+}
+
 void object_modes(const struct object *o, const double origin[2], const double *listen, int strongest, struct arena *a, struct modes *m)
 {
-    struct ear all, *r = ARENA_TAKE(a, struct ear, 1);
-    ear_make(&all, o, origin, listen, a);
-    const struct object *picked = strongest_of(&all, strongest, a);
-    ear_make(r, picked, origin, listen, a);
-    *m = (struct modes){.n = picked->n, .quantity = MODES_VELOCITY, .shared = true, .moves = listen || !is_family(o), .frequency = picked->frequency,
-                        .decay = picked->decay, .slowest = picked->decay, .radius = picked->radius, .object = picked, .name = picked->key, .at = at, .self = r};
+    struct ear *r = ARENA_TAKE(a, struct ear, 1);
+    ear_make(r, o, origin, listen, a);
+    fill(r, strongest_of(r, strongest, a), m);
 }
 
 const double *object_modes_origin(const struct modes *m)

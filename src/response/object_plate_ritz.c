@@ -234,7 +234,7 @@ static bool solve(struct ritz *r, const struct object_body *b, double w, struct 
 
 bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a, struct object_list *l, struct err *e)
 {
-    struct object_limit few = {limit->w, limit->most < MOST ? limit->most : MOST};
+    struct object_limit few = {limit->w, limit->most < MOST ? limit->most : MOST, limit->low};
     struct ritz *r = ARENA_TAKE(a, struct ritz, 1);
     if (!object_plate_stiffness(b, &r->plate, e))
         return false;

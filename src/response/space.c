@@ -11,8 +11,8 @@
    velocity of a damped mode.
 
    A place that moves goes straight from `from` to `to` in proportion to the share of the motion's duration that has passed, the dimension
-   likewise. Modes that reach half the sample rate then fade (raised cosine from 0.45 to 0.5 of it). The modes are the lowest `modes` ones,
-   as far as they somewhere lie below 0.499 of the sample rate. */
+   likewise. Modes that reach half the sample rate then fade (raised cosine from 0.45 to 0.5 of it). The modes are the lowest `modes` ones of those that
+   somewhere on the way lie in the band. */
 #include "response/space.h"
 
 #include <stddef.h>
@@ -23,11 +23,12 @@
 #include "num/vecmath.h"
 #include "response/space_anchors.h"
 
-enum { STEPS = 256, BLOCK = 64 }; /* places at which a moving one is looked at; modes at a time */
+enum { STEPS = 256, BLOCK = 64, MOST = 200000 }; /* places at which a moving one is looked at; modes at a time; modes looked at */
 
 struct self {
     double from[2], to[2], dimension[2];
     double fundamental, gain, rate; /* rate 0: nothing fades */
+    double *low;                    /* [n] Hz, lowest on the way */
     double *spectrum[SPACE_SHAPES][SPACE_ANCHORS], *log_gain[SPACE_SHAPES]; /* [n] */
 };
 
@@ -93,7 +94,7 @@ static void block(const struct self *s, const struct mix *x, const int range[2],
         f[j] *= s->fundamental;
     decays(x, n, f, decay);
     for (int j = 0, i = range[0]; j < n; j++, i++) {
-        double w0 = 2.0 * REAL_PI * f[j], w = sqrt(w0 * w0 - decay[j] * decay[j]), gain = s->gain * g[j] * fade(s, w / (2.0 * REAL_PI));
+        double w0 = 2.0 * REAL_PI * f[j], rings = w0 * w0 - decay[j] * decay[j], w = rings > 0.0 ? sqrt(rings) : INFINITY, gain = s->gain * g[j] * fade(s, w / (2.0 * REAL_PI));
         p->re[i] = -gain * decay[j] / w;
         p->im[i] = gain;
         if (p->frequency) {
@@ -135,9 +136,10 @@ static bool ends(const struct space *g, struct self *s, struct err *e)
     return inside("from", s->from, e) && inside("to", s->to, e);
 }
 
-/* Spectra of at most `most` modes; returns how many of them can lie below half the rate. */
-static int spectra(struct self *s, int most, double rate, struct arena *a)
+/* Spectra of `most` modes; returns how many of them can lie below the band's end. */
+static int spectra(struct self *s, int most, const struct modes_ask *ask, struct arena *a)
 {
+    double top = ask->band[1] > 0.0 ? real_log(ask->band[1] / s->fundamental) : INFINITY;
     int n = 0;
     for (int d = 0; d < SPACE_SHAPES; d++) {
         s->log_gain[d] = ARENA_TAKE(a, double, most);
@@ -147,7 +149,7 @@ static int spectra(struct self *s, int most, double rate, struct arena *a)
             s->spectrum[d][k] = ARENA_TAKE(a, double, most);
             space_anchors_spectrum(d, k, most, s->spectrum[d][k], a);
             int below = 0;
-            while (below < most && s->spectrum[d][k][below] < real_log(0.5 * rate / s->fundamental))
+            while (below < most && s->spectrum[d][k][below] < top)
                 below++;
             n = below > n ? below : n;
         }
@@ -156,7 +158,8 @@ static int spectra(struct self *s, int most, double rate, struct arena *a)
 }
 
 struct rank {
-    double energy, low; /* the most along the way; Hz, the lowest frequency there */
+    double energy, low;     /* the most along the way; Hz, the lowest damped frequency there */
+    double lowest, highest; /* Hz, undamped */
     int index;
 };
 
@@ -174,14 +177,16 @@ static void walk(struct modes *m, struct rank *rank, struct arena *a)
     struct modes_point p = {ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n)};
     for (int i = 0; i < m->n; i++) {
         m->slowest[i] = INFINITY;
-        rank[i] = (struct rank){-1.0, INFINITY, i};
+        rank[i] = (struct rank){.energy = -1.0, .low = INFINITY, .lowest = INFINITY, .index = i};
     }
     for (int k = 0; k <= (m->travels ? STEPS : 0); k++) {
         at(m, &(struct modes_where){.share = (double)k / STEPS}, &p);
         for (int i = 0; i < m->n; i++) {
-            double energy = p.im[i] * p.im[i] / p.decay[i];
+            double energy = p.im[i] * p.im[i] / p.decay[i], damping = p.decay[i] / (2.0 * REAL_PI), undamped = sqrt(p.frequency[i] * p.frequency[i] + damping * damping);
             m->slowest[i] = fmin(m->slowest[i], p.decay[i]);
             rank[i].low = fmin(rank[i].low, p.frequency[i]);
+            rank[i].lowest = fmin(rank[i].lowest, undamped);
+            rank[i].highest = fmax(rank[i].highest, undamped);
             if (energy <= rank[i].energy)
                 continue;
             rank[i].energy = energy;
@@ -191,32 +196,60 @@ static void walk(struct modes *m, struct rank *rank, struct arena *a)
     }
 }
 
-static void permute(double *v, const struct rank *rank, int n, double *room)
+static void permute(double *v, const int *index, int n, double *room)
 {
     for (int i = 0; i < n; i++)
-        room[i] = v[rank[i].index];
+        room[i] = v[index[i]];
     memcpy(v, room, (size_t)n * sizeof *v);
 }
 
-/* Orders the modes, drops what nowhere lies below 0.499 rate. */
-static void arrange(struct modes *m, struct self *s, double rate, struct arena *a)
+/* The modes index[n], in that order. */
+static void keep(struct modes *m, struct self *s, const int *index, int n, double *room)
 {
-    struct rank *rank = ARENA_TAKE(a, struct rank, m->n);
-    double *room = ARENA_TAKE(a, double, m->n), *own[] = {m->frequency, m->decay, m->slowest};
-    int n = 0;
-    walk(m, rank, a);
-    for (int i = 0; i < m->n; i++)
-        if (rank[i].low < 0.499 * rate)
-            rank[n++] = rank[i];
-    qsort(rank, (size_t)n, sizeof *rank, strongest_first);
-    for (int c = 0; c < 3; c++)
-        permute(own[c], rank, n, room);
+    double *own[] = {m->frequency, m->decay, m->slowest, s->low};
+    for (int c = 0; c < 4; c++)
+        permute(own[c], index, n, room);
     for (int d = 0; d < SPACE_SHAPES; d++) {
-        permute(s->log_gain[d], rank, n, room);
+        permute(s->log_gain[d], index, n, room);
         for (int k = 0; k < SPACE_ANCHORS; k++)
-            permute(s->spectrum[d][k], rank, n, room);
+            permute(s->spectrum[d][k], index, n, room);
     }
     m->n = n;
+}
+
+static int drop(struct modes *m, double top)
+{
+    struct self *s = (struct self *)m->self;
+    struct arena *a = arena_open();
+    int *index = ARENA_TAKE(a, int, m->n + 1), n = 0, all = m->n;
+    for (int i = 0; i < all; i++)
+        if (s->low[i] < top)
+            index[n++] = i;
+    keep(m, s, index, n, ARENA_TAKE(a, double, all + 1));
+    arena_close(a);
+    return all - n;
+}
+
+/* The `most` lowest modes of the shapes, without those outside the band, and of these the lowest `strongest`, the strongest first. Returns whether there may be more. */
+static bool choose(struct modes *m, struct self *s, const struct modes_ask *ask, int most, struct arena *a)
+{
+    struct rank *rank = ARENA_TAKE(a, struct rank, most);
+    int *index = ARENA_TAKE(a, int, most), n = 0;
+    double **own[] = {&m->frequency, &m->decay, &m->slowest, &s->low};
+    int below = m->n = spectra(s, most, ask, a);
+    for (int c = 0; c < 4; c++)
+        *own[c] = ARENA_TAKE(a, double, most);
+    walk(m, rank, a);
+    for (int i = 0; i < below; i++) {
+        s->low[i] = rank[i].low;
+        if (n < ask->strongest && modes_in_band(ask, rank[i].lowest, rank[i].highest))
+            rank[n++] = rank[i];
+    }
+    qsort(rank, (size_t)n, sizeof *rank, strongest_first);
+    for (int i = 0; i < n; i++)
+        index[i] = rank[i].index;
+    keep(m, s, index, n, ARENA_TAKE(a, double, most));
+    return n < ask->strongest && below == most && most < MOST;
 }
 
 bool space_modes(const struct space *g, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e)
@@ -225,13 +258,10 @@ bool space_modes(const struct space *g, const struct modes_ask *ask, struct aren
     if (!ends(g, s, e))
         return false;
     bool travels = s->from[0] != s->to[0] || s->from[1] != s->to[1] || s->dimension[0] != s->dimension[1];
-    *m = (struct modes){.quantity = MODES_VELOCITY, .shared = !travels, .travels = travels, .radius = NAN, .name = "surface.space", .at = at, .self = s};
-    s->rate = travels ? ask->rate : 0.0;
-    m->n = spectra(s, ask->strongest, ask->rate, a);
-    m->frequency = ARENA_TAKE(a, double, m->n);
-    m->decay = ARENA_TAKE(a, double, m->n);
-    m->slowest = ARENA_TAKE(a, double, m->n);
-    arrange(m, s, ask->rate, a);
-    return m->n > 0 || err_set(e, ERR_SCENE, "surface.space.fundamental: no mode of %g Hz or above lies below half the sample rate, %g Hz; lower it, or raise "
-                               "output.sample_rate", g->fundamental, 0.5 * ask->rate);
+    *m = (struct modes){.quantity = MODES_VELOCITY, .shared = !travels, .travels = travels, .radius = NAN, .name = "surface.space", .drop = drop, .at = at, .self = s};
+    for (int most = ask->strongest; choose(m, s, ask, most, a); most *= 2)
+        continue;
+    s->rate = travels ? ask->rate : 0.0; /* only now: what is chosen does not depend on it */
+    return m->n > 0 || err_set(e, ERR_SCENE, "surface.space: none of its modes lies from %g Hz to below %g Hz, surface.band: widen the band, or change "
+                               "surface.space.fundamental, %g Hz", ask->band[0], ask->band[1], g->fundamental);
 }

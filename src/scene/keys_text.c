@@ -62,7 +62,7 @@ const char *keys_text_type(const struct key *k)
     case KEY_POINT: return k->dimension == KEY_LENGTH ? "[x, y], two lengths" : "[x, y], two numbers";
     case KEY_POINTS: return "list of 2 to 10000 points [x, y], in lengths";
     case KEY_PLACES: return "list of 1 to 64 places [x, y, z], in lengths";
-    case KEY_RANGE: return "[least, most], two forces";
+    case KEY_RANGE: return k->dimension == KEY_FORCE ? "[least, most], two forces" : "[least, most], two frequencies";
     case KEY_LIST: return "list of names";
     case KEY_CHOICE: return "one of the words below";
     }

@@ -140,6 +140,7 @@ struct response {           /* how a body rings: a table of modes, recorded resp
     struct object_given object;
     struct space space;     /* surface only                                                      */
     int modes;              /* how many of the strongest modes are used                          */
+    double band[2];         /* Hz, from which they are chosen                                    */
     int gammatone;          /* gamma: onset of each mode t^(gamma - 1); 1: at once                */
     double length;          /* s, t0 of eq. 10: the response is cut there; NAN: not cut          */
     int convolution;        /* enum engine                                                       */

@@ -91,14 +91,14 @@ START_TEST(extremes_of_modes)
 {
     static const double cases[][4] = {
         /* frequency, decay, gain, most: force is below 0.1 N, |sum| below gain 0.1 t for an undamped mode */
-        {1e-3, 1, 1, 1},        {23900, 1e-3, 1, 1},  {440, 0, 1, 1},       {440, 1e6, 1, 1},
+        {1e-3, 1, 1, 1},        {21590, 1e-3, 1, 1},  {440, 0, 1, 1},       {440, 1e6, 1, 1},
         {440, 10, 1e-300, 1e-290}, {440, 10, 1e100, 1e100}, {440, 10, -1, 1}, {440, 10, 0, 0},
     };
     struct arena *a = arena_open();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const double *c = cases[i];
         const char *file = table_of(a, c[0], c[1], c[2]);
-        double peak = trapped(arena_format(a, "surface: {roughness: {}, response: %s}\nmotion: {path: line, to: [4 cm, 0], speed: 0.2}\n", file),
+        double peak = trapped(arena_format(a, "surface: {roughness: {}, response: %s, band: [0 Hz, 1 MHz]}\nmotion: {path: line, to: [4 cm, 0], speed: 0.2}\n", file),
                               ITEM_SOUND, 48000);
         unlink(file);
         printf("mode %g Hz, decay %g, gain %g: %.3g\n", c[0], c[1], c[2], peak);

@@ -252,14 +252,40 @@ START_TEST(envelopes_out_of_reach)
 }
 END_TEST
 
-START_TEST(drops_above_nyquist)
+/* The strongest of the band, whatever the rate: its lower end counts, its upper does not, each to 1e-9; of separate poles a mode that is somewhere inside. */
+START_TEST(the_strongest_of_a_band)
 {
     setup();
-    struct modes m = table_of(HEAD "1,0,0,a,100,1,1,0\n1,0,0,b,23953,1,3,0\n1,0,0,c,23951,2,2,0\n"
-                                   "2,1,0,a,100,1,4,0\n2,1,0,b,23953,1,6,0\n2,1,0,c,23951,2,5,0\n", 50, arena);
+    const char *text = HEAD "1,0,0,a,1000,1,1,0\n1,0,0,b,2000,1,9,0\n1,0,0,c,1500,1,2,0\n1,0,0,d,999.9999,1,9,0\n1,0,0,e,1999,1,3,0\n";
+    const char *moving = SEPARATE COLUMNS "1,0,0,a,900,1,1,0\n2,1,0,a,1000,1,1,0\n1,0,0,b,2000,1,2,0\n2,1,0,b,1999,1,2,0\n1,0,0,c,2001,1,9,0\n2,1,0,c,2000,1,9,0\n";
+    struct modes m[4];
+    struct err e = {0};
+    for (int k = 0; k < 2; k++) {
+        double rate = k ? 192000 : 4000, shift = k ? 1 - 3e-10 : 1 + 3e-10;
+        struct modes_ask ask = {.strongest = 2, .band = {1000 * shift, 2000 * shift}, .pairing = 0.2, .rate = rate};
+        ck_assert_msg(table_read(text, &ask, arena, &m[k], &e), "%s", e.text);
+        ck_assert(m[k].n == 2 && m[k].frequency[0] == 1999 && m[k].frequency[1] == 1500);
+        ask.strongest = 50;
+        ck_assert_msg(table_read(text, &ask, arena, &m[k], &e), "%s", e.text);
+        ck_assert(m[k].n == 3 && m[k].frequency[2] == 1000);
+        ck_assert_msg(table_read(moving, &ask, arena, &m[2 + k], &e), "%s", e.text);
+        ck_assert_int_eq(m[2 + k].n, 2);
+    }
+    struct modes_ask none = {.strongest = 50, .band = {2001, 3000}, .pairing = 0.03, .rate = 48000};
+    ck_assert(!table_read(text, &none, arena, &m[0], &e));
+    ck_assert(e.kind == ERR_SCENE && strstr(e.text, "none of its modes lies from 2001 Hz to below 3000 Hz"));
+    teardown();
+}
+END_TEST
+
+START_TEST(drops_what_cannot_be_sampled)
+{
+    setup();
+    struct modes m = table_of(HEAD "1,0,0,a,100,1,1,0\n1,0,0,b,21601,1,3,0\n1,0,0,c,21599,2,2,0\n"
+                                   "2,1,0,a,100,1,4,0\n2,1,0,b,21601,1,6,0\n2,1,0,c,21599,2,5,0\n", 50, arena);
     struct modes_point p = modes_point_make(arena, m.n);
     ck_assert_int_eq(modes_drop_above(&m, 48000), 1);
-    ck_assert(m.n == 2 && m.frequency[0] == 100 && m.frequency[1] == 23951 && m.decay[1] == 2 && m.slowest[1] == 2);
+    ck_assert(m.n == 2 && m.frequency[0] == 100 && m.frequency[1] == 21599 && m.decay[1] == 2 && m.slowest[1] == 2);
     ck_assert(table_at(&m, 0.5, 0, &p) == 0 && p.re[0] == 2.5 && p.re[1] == 3.5);
     ck_assert_int_eq(modes_drop_above(&m, 48000), 0);
     ck_assert_double_eq_tol(modes_ring_time(&m, 60), log(1000.0), 1e-12); /* T60 = ln(1000)/decay */
@@ -401,5 +427,5 @@ START_TEST(shipped_tables)
 END_TEST
 
 UNIT("modes", reads_any_order, gains_between_and_beyond, gains_in_the_plane, one_place_is_everywhere, the_strongest_are_kept, strength_is_energy_over_all_places,
-     slopes_are_one_mode, envelopes_become_slopes, envelopes_out_of_reach, drops_above_nyquist, direct_term_balances, bad_tables_are_refused,
+     slopes_are_one_mode, envelopes_become_slopes, envelopes_out_of_reach, the_strongest_of_a_band, drops_what_cannot_be_sampled, direct_term_balances, bad_tables_are_refused,
      bad_forms_are_refused, missing_file, shipped_tables)
