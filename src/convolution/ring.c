@@ -5,7 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "convolution/alias.h"
 #include "convolution/gammatone.h"
+#include "convolution/ring_alias.h"
 #include "convolution/ring_along.h"
 #include "convolution/ring_reach.h"
 #include "response/object.h"
@@ -50,6 +52,7 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
     memcpy(v->frequency, v->modes->frequency, (size_t)v->modes->n * sizeof *v->frequency);
     memcpy(v->decay, v->modes->decay, (size_t)v->modes->n * sizeof *v->decay);
     listener_poles(v->listener, v->frequency + v->modes->n, v->decay + v->modes->n);
+    v->alias = ring_alias_make(g, v, r->arena);
     g->delay = v->delay > g->delay ? v->delay : g->delay;
     return true;
 }
@@ -99,7 +102,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     const struct response *given = ring_given(r->contact, body);
     *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .contact = r->contact, .key = surface ? "surface" : ball_tool(r->contact),
                        .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight,
-                       .moves = given->choice->moves,
+                       .moves = given->choice->moves, .morph_error = r->scene->accuracy.morph_error,
                        .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT, .channels = r->board->channels};
     r->seconds += g->choice->cpu;
     g->voices = ARENA_TAKE(r->arena, struct ring_voice, g->channels);
@@ -112,7 +115,8 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     note_ring(g, given, r->board);
     note_warnings(g, r);
     note_endless(g, given, r);
-    r->back = (int)g->delay;
+    r->back = (int)g->delay + (g->choice->reading == MOVING_READOUT ? ALIAS_REACH : 0);
+    r->ahead = ALIAS_REACH;
     bool ok = note_quantity(g, r->board, e) && (!surface || ring_reach(&g->choice->modes, r, e));
     return ok || err_about(e, r->contact->name, ring_choice_about(r->contact, body));
 }
@@ -174,6 +178,8 @@ double *ring_component_hops(const struct ring *g, const struct ring_voice *v, st
 void ring_put(const struct ring *g, int channel, long from, long to)
 {
     double *out = board_at(g->board, g->out, from) + channel;
+    if (!g->choice->recorded)
+        ring_alias_add(g->voices[channel].alias, g, &g->voices[channel], g->y, from, to);
     if (g->channels == 1)
         memcpy(out, g->y, (size_t)(to - from) * sizeof *out);
     for (long n = 0; g->channels > 1 && n < to - from; n++)

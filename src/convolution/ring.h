@@ -14,6 +14,7 @@ struct ring_voice {             /* one listening place */
     long delay;                 /* frames by which it is heard later */
     double *frequency, *decay;  /* [n] poles; those at the last place asked for, when they move */
     struct modes_point end;     /* work space */
+    struct ring_alias *alias;   /* what sampling folds in (ring_alias.h) */
 };
 
 struct ring {
@@ -24,6 +25,7 @@ struct ring {
     const char *key;            /* "surface" or "scraper", for messages */
     enum item out;
     double weight;              /* eta for the scraper, 1 for the surface */
+    double morph_error;         /* dB, accuracy's */
     bool moves;                 /* gains or poles change on the way */
     bool stays;                 /* after the motion's end what rings is still retuned or read at a place: the end */
     int channels;
@@ -32,7 +34,7 @@ struct ring {
     double *y;                  /* [STAGE_BLOCK] one voice's sound */
 };
 
-/* Makes the voices, checks the places against the motion, notes quantity, ring time and warnings on the board, and sets r->back. */
+/* Makes the voices, checks the places against the motion, notes quantity, ring time and warnings on the board, and sets r->back and r->ahead, which may be raised. */
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e);
 
 /* Gains (weight included) of the contact at frame `frame`, and poles into p->frequency and p->decay, unless they are NULL. p is [voice->n].
@@ -45,7 +47,7 @@ void ring_point_in(const struct ring *g, const struct ring_voice *v, const struc
 /* [v->n] hops of a voice's components (choice->hops); those of modes that are not the chosen ones, or that a listener adds, are the shortest of all. */
 double *ring_component_hops(const struct ring *g, const struct ring_voice *v, struct arena *a);
 
-/* Writes the voice's sound from v's y into the item's channel, for frames [from, to). */
+/* Writes the voice's sound from the ring's y, less what sampling has folded in, into the item's channel, for frames [from, to). */
 void ring_put(const struct ring *g, int channel, long from, long to);
 
 /* Force under the voice at a frame: its own delay back. */

@@ -105,8 +105,10 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
     r->state = s;
     if (!ring_open(&s->ring, r, body, e) || !(s->ring.choice->recorded ? open_wav(s, r, given, e) : open_modes(s, r)))
         return false;
-    if (!s->voices[0].modes)
-        r->ahead = s->voices[0].readout ? readout_ahead(s->voices[0].readout) : overlap_add_ahead(s->voices[0].launch);
+    if (!s->voices[0].modes) {
+        int ahead = s->voices[0].readout ? readout_ahead(s->voices[0].readout) : overlap_add_ahead(s->voices[0].launch);
+        r->ahead = r->ahead > ahead ? r->ahead : ahead;
+    }
     return true;
 }
 

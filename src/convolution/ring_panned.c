@@ -186,7 +186,7 @@ static bool ring_panned_open(struct stage_run *r, struct err *e)
         s->mix = ARENA_TAKE(r->arena, struct places_mix, CHUNK);
     if (!(s->ring.choice->recorded ? open_recorded(s, r, e) : open_nodes(s, r)))
         return false;
-    r->ahead = panned_ahead(s->voices[0].engine);
+    r->ahead = panned_ahead(s->voices[0].engine); /* more than any other reader's */
     return true;
 }
 

@@ -63,7 +63,7 @@ static bool ring_bank_open(struct stage_run *r, enum ring_body body, struct err 
     s->banks = ARENA_TAKE(r->arena, struct bank, s->ring.channels);
     for (int k = 0; k < s->ring.channels; k++)
         bank_open(s, r, k);
-    r->ahead = s->ramp - 1;
+    r->ahead = r->ahead > s->ramp - 1 ? r->ahead : s->ramp - 1;
     return true;
 }
 

@@ -2,6 +2,7 @@
    long double, for a force from a file and tables of two places, whose gains change their sign (shared) or whose poles move (separate). */
 #include <unistd.h>
 
+#include "convolution/alias.h"
 #include "convolution/ring_choice.h"
 #include "rig.h"
 #include "force_file.h"
@@ -85,14 +86,31 @@ static long double tone(bool shared, int gamma, long double u, long n)
     return sum;
 }
 
+/* What is taken out of sampling frame n's sound of force frame m, at the place u (test_alias.c): sum of Im(A kappa), A = g (e d/(gamma - 1))^(gamma - 1). */
+static long double taken(const struct alias *alias, bool shared, int gamma, long double u, long n)
+{
+    long double sum = 0;
+    for (int i = 0; i < MODES && n >= -ALIAS_REACH && n <= ALIAS_REACH; i++) {
+        double re[ALIAS_TAPS], im[ALIAS_TAPS];
+        long double f = shared ? here.f[i] : between(here.f[i], there.f[i], u), d = shared ? here.d[i] : between(here.d[i], there.d[i], u);
+        long double g = shared ? here.g[i] + u * (turned.g[i] - here.g[i]) : between(here.g[i], there.g[i], u);
+        alias_taps(alias, (double)f, (double)d, re, im);
+        sum += g * powl(M_El * d / (gamma - 1), gamma - 1) * im[n + ALIAS_REACH];
+    }
+    return sum;
+}
+
 /* Against the sum at every 41st frame: relative rms, dB. */
 static double judged(const struct rig *g, bool shared, int gamma, bool readout)
 {
     double wrong = 0, whole = 0;
+    const struct alias *alias = alias_make(rig_arena(), gamma, RATE, false);
     for (long n = 5; n < FRAMES; n += 41) {
         long double want = 0;
         for (long m = 0; m <= n && m < FORCED; m++)
             want += force[m] / RATE * tone(shared, gamma, fminl((readout ? n : m) / (long double)FORCED, 1), n - m);
+        for (long m = n > ALIAS_REACH ? n - ALIAS_REACH : 0; m <= n + ALIAS_REACH && m < FORCED; m++)
+            want += force[m] * taken(alias, shared, gamma, fminl((readout ? n : m) / (long double)FORCED, 1), n - m);
         wrong += (double)((g->x[n] - want) * (g->x[n] - want));
         whole += (double)(want * want);
     }

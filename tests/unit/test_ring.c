@@ -1,7 +1,8 @@
 /* Responses that move with the contact, through the whole pipeline: every engine and reading against sums of the definitions, sample by sample in
-   long double, for a force from a file and a table of two places. */
+   long double, for a force from a file and a table of two places; what sampling folds in is taken out by taps that test_alias.c holds against closed forms. */
 #include <unistd.h>
 
+#include "convolution/alias.h"
 #include "rig.h"
 #include "force_file.h"
 
@@ -145,10 +146,37 @@ static long double share_of(long frame)
     return strokes > 0 ? (1 - cosl(2 * M_PIl * strokes * (long double)frame / RATE)) / 2 : (long double)frame / FORCED;
 }
 
+static struct alias *alias;
+
+/* The taps of the place u. */
+static void taps_of(long double u, long double tap[ALIAS_TAPS])
+{
+    for (int k = 0; k < ALIAS_TAPS; k++)
+        tap[k] = 0;
+    for (int i = 0; i < MODES; i++) {
+        double re[ALIAS_TAPS], im[ALIAS_TAPS];
+        struct at m = mode_at(i, u);
+        alias_taps(alias, (double)m.f, (double)m.d, re, im);
+        for (int k = 0; k < ALIAS_TAPS; k++)
+            tap[k] += m.re * im[k] + m.im * re[k];
+    }
+}
+
+/* Those of force frame m to what is heard around it; what comes before the first frame is heard in it. */
+static void unalias(double *y, long m, double share, long double u)
+{
+    long double tap[ALIAS_TAPS];
+    taps_of(u, tap);
+    for (long k = 0, n = m - ALIAS_REACH; k < ALIAS_TAPS; k++, n++)
+        if (n < FRAMES)
+            y[n > 0 ? n : 0] += (double)(share * tap[k] * force[m]);
+}
+
 static void sum_launch(double *y)
 {
     for (long m = 0; m < FORCED; m++) {
         struct phasors p = phasors_of(share_of(m));
+        unalias(y, m, 1, share_of(m));
         for (long n = m; n < FRAMES; n++)
             y[n] += (double)(response(&p, n - m) * force[m] / RATE);
     }
@@ -156,6 +184,14 @@ static void sum_launch(double *y)
 
 static void sum_readout(double *y)
 {
+    for (long n = -ALIAS_REACH; n < FRAMES; n++) {
+        long double tap[ALIAS_TAPS];
+        taps_of(share_of(n > 0 ? n : 0), tap);
+        for (int k = 0; k < ALIAS_TAPS; k++) {
+            long m = n + ALIAS_REACH - k;
+            y[n > 0 ? n : 0] += m >= 0 && m < FORCED ? (double)(tap[k] * force[m]) : 0;
+        }
+    }
     for (long n = 0; n < FRAMES; n++) {
         struct phasors p = phasors_of(share_of(n));
         for (long m = n; m >= 0; m--)
@@ -165,6 +201,8 @@ static void sum_readout(double *y)
 
 static void sum_glide(double *y)
 {
+    for (long m = 0; m < FORCED; m++)
+        unalias(y, m, 1, share_of(m));
     for (int i = 0; i < MODES; i++) {
         long double re = 0, im = 0;
         for (long n = 0; n < FRAMES; n++) {
@@ -228,7 +266,7 @@ START_TEST(test_launch)
 END_TEST
 
 /* readout: the same, within 5 dB: the response stops at the motion's end, a kink whose error depends by 3 dB on where in a hop it falls. glide: exact
-   when poles are evaluated at every sample. */
+   when poles are evaluated at every sample, but for the taps, which alias_add has within 2e-8 of a gain. */
 START_TEST(test_readout_glide)
 {
     double y[FRAMES] = {0}, z[FRAMES] = {0};
@@ -242,7 +280,7 @@ START_TEST(test_readout_glide)
         rig_close(way);
     }
     struct rig *way = render_file("move.csv", "moving: glide", "gain_ramp: 1");
-    ck_assert_msg(decibels(way->x, z) < -240, "%g dB", decibels(way->x, z));
+    ck_assert_msg(decibels(way->x, z) < -140, "%g dB", decibels(way->x, z));
     rig_close(way);
     way = render_file("move.csv", "moving: glide", "gain_ramp: 64");
     ck_assert_double_lt(decibels(way->x, z), -60); /* 64 frames are 8 ms here */
@@ -303,6 +341,7 @@ START_TEST(test_scraper)
     double y[FRAMES] = {0};
     for (long m = 0; m < FORCED; m++) {
         struct phasors p = phasors_of(0);
+        unalias(y, m, 0.5, 0);
         for (long n = m; n < FRAMES; n++)
             y[n] += 0.5 * (double)(response(&p, n - m) * force[m] / RATE);
     }
@@ -315,6 +354,7 @@ int main(void)
 {
     const TTest *const tests[] = {test_same, test_launch, test_readout_glide, test_strokes, test_blocks, test_scraper};
     setup();
+    alias = alias_make(rig_arena(), 1, RATE, false);
     int failed = unit_run("ring", tests, sizeof tests / sizeof tests[0]);
     teardown();
     return failed;

@@ -1,5 +1,6 @@
 /* Motions that are over long before what they launched has died away: the error that is predicted, and what is measured, against the sums of the
    definitions. The sound's end is known, by output.tail or, where that is auto, by its longest. */
+#include "convolution/alias.h"
 #include "convolution/ring_choice.h"
 #include "folder.h"
 #include "force_file.h"
@@ -31,6 +32,18 @@ static void pole_at(int i, long m, double pole[2])
     pole[1] = size * sin(turn);
 }
 
+/* What is taken out of sampling (test_alias.c): each frame of force to what is heard around it, by the taps of its own place or of the place where it is heard. */
+static void unalias(int i, bool readout, double *y)
+{
+    const struct alias *alias = alias_make(rig_arena(), 1, RATE, false);
+    for (long m = 0; m < FORCED; m++)
+        for (long k = -ALIAS_REACH; k <= ALIAS_REACH; k++) {
+            double re[ALIAS_TAPS], im[ALIAS_TAPS], at = (double)(readout ? m + k : m) / FORCED;
+            alias_taps(alias, f[0][i] * pow(f[1][i] / f[0][i], fmin(fmax(at, 0), 1)), d[i], re, im);
+            y[m + k > 0 ? m + k : 0] += g[i] * force[m] * im[k + ALIAS_REACH];
+        }
+}
+
 struct ringing { /* of one mode: what each frame of force launched */
     double pole[FORCED][2], now[FORCED][2];
 };
@@ -57,6 +70,7 @@ static void sum_launch(int i)
         r.now[m][0] = g[i] * force[m] / RATE;
         r.now[m][1] = 0;
     }
+    unalias(i, false, by_launch);
     for (long n = 0; n < FRAMES; n++)
         by_launch[n] += ring_on(&r, n < FORCED ? n + 1 : FORCED);
 }
@@ -65,6 +79,7 @@ static void sum_launch(int i)
 static void sum_readout(int i)
 {
     double re = 0, im = 0, pole[2];
+    unalias(i, true, by_readout);
     for (long n = 0; n < FRAMES; n++) {
         long first = n > FORCED ? n : 0;
         pole_at(i, n, pole);
@@ -119,8 +134,8 @@ static struct rig *render(const struct way *w, const char *tail, long frames)
     return rig_record(&s, ITEM_SOUND, frames, 1000);
 }
 
-/* Measured: at most 1 dB above what was asked. Predicted: at most 4 dB below what is measured, as far as that is more than rounding; the force is one
-   draw. */
+/* Measured: at most 1 dB above what was asked. Predicted: at most 4 dB below what is measured, as far as that is more than what alias_add leaves
+   (2e-8 of a gain, where hops of one frame are predicted to be exact); the force is one draw. */
 static void check(const struct way *w)
 {
     for (int k = 0; k < w->tails; k++) {
@@ -130,7 +145,7 @@ static void check(const struct way *w)
         printf("%s, order %d, tail %s: asked %d, predicted %.1f, measured %.1f dB; hop %g, %.0f cycles\n", w->surface, w->order, tails[k], w->db, said, made,
                c->hops ? c->hops[0] : c->hop, c->work);
         ck_assert_msg(made < w->db + 1, "%s, order %d, tail %s: measured %g dB, asked %d", w->surface, w->order, tails[k], made, w->db);
-        ck_assert_msg(said > made - 4, "%s, order %d, tail %s: measured %g dB, predicted %g", w->surface, w->order, tails[k], made, said);
+        ck_assert_msg(said > made - 4 || made < -160, "%s, order %d, tail %s: measured %g dB, predicted %g", w->surface, w->order, tails[k], made, said);
         rig_close(r);
     }
 }
