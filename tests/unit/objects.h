@@ -18,7 +18,7 @@ static inline struct object_given objects_given(int shape, int edges, double nu)
 
 static inline struct object objects_make(const struct object_given *g, int most, double top, struct arena *a)
 {
-    struct object_ask ask = {"surface.object", top, most};
+    struct object_ask ask = {.key = "surface.object", .top = top, .most = most};
     struct object o;
     const char *note;
     struct err e = {0};

@@ -4,7 +4,7 @@
 
 static const char *text_of(const struct object_given *g, double top, int most, bool note, struct arena *a)
 {
-    struct object_ask ask = {"surface.object", top, most};
+    struct object_ask ask = {.key = "surface.object", .top = top, .most = most};
     struct object o;
     const char *said = NULL;
     struct err e = {0};
