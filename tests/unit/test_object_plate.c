@@ -65,7 +65,7 @@ START_TEST(test_ritz_supported)
         g.youngs_modulus_across = across, g.shear_modulus = shear;
         struct object closed = objects_make(&g, 100, 1e9, a);
         struct object_body b = {.given = &g, .key = "x", .youngs_modulus = g.youngs_modulus, .across = across, .shear = shear, .poisson = 0.37, .density = 1000.0};
-        struct object_limit limit = {1e12, 100};
+        struct object_limit limit = {.w = 1e12, .most = 100};
         struct object_list l = {0};
         struct err e = {0};
         ck_assert(object_plate_ritz(&b, &limit, a, &l, &e));
