@@ -107,7 +107,7 @@ warnings: warnings-gcc warnings-clang
 warnings-gcc warnings-clang:
 	$(SUB) BUILD=$(BUILD)/$@ CC=$(@:warnings-%=%) WERROR=-Werror all unit
 
-# The tests that run OpenBLAS's code, once more by other kernels than this CPU's own; KERNELS=all: by all that it can run.
+# What runs OpenBLAS's code, once more by other kernels than this CPU's own; KERNELS=all: by all that it can run.
 blas:
 	$(SUB) all unit
 	@BUILD=$(BUILD) tests/blas.sh

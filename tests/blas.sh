@@ -1,8 +1,10 @@
 #!/bin/bash
-# The tests that run OpenBLAS's code, once more by other kernels than those that it takes on this CPU, with which `make check` ran them: what they expect must not depend on a CPU's linear algebra.
+# The tests that run OpenBLAS's code, once more by other kernels than those that it takes on this CPU, with which `make
+# check` ran them: what they expect must not depend on a CPU's linear algebra.
 #     tests/blas.sh             one other kind: the plainest, or where that is this CPU's own the next but two
 #     KERNELS="..." tests/blas.sh   those kinds (OPENBLAS_CORETYPE); all: all that this CPU can run
-# Unit tests are those that link it (of what is built), cli tests those that extract; `rasp modes compute` takes one kind everywhere (cli/modes-compute-kernels).
+# Unit tests are those that link it (of what is built), cli tests those that extract; `rasp modes compute` takes one
+# kind everywhere (cli/modes-compute-kernels).
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -19,7 +21,7 @@ linked() {
 }
 
 mapfile -t tests < <(linked | sort -u)
-[ ${#tests[@]} -gt 10 ] || { echo "tests/blas.sh: only ${#tests[@]} tests run OpenBLAS's code: is everything built (make unit)?" >&2; exit 1; }
+[ ${#tests[@]} -gt 10 ] || { echo "tests/blas.sh: only ${#tests[@]} tests: is everything built (make unit)?" >&2; exit 1; }
 own=$(OPENBLAS_VERBOSE=2 "$BUILD/rasp-modes" --version 2>&1 | sed -n 's/^Core: //p')
 read -r -a can <<< "$(kernels)"
 case ${KERNELS:-} in

@@ -108,8 +108,8 @@ static void solve(struct strikes_job *j)
     j->left = ARENA_TAKE(j->a, double, j->r->n);
     strikes_solve(&j->system, j->h->h, &left);
     if (!(left <= unsolved))
-        note(j, arena_format(j->a, "strikes are not wholly told apart: the search for the response that they have in common ended at %.2g of what it began with, and what is left "
-                             "may look like modes; longer pauses between strikes help", left));
+        note(j, arena_format(j->a, "strikes are not wholly told apart: the search for the response that they have in common ended "
+                             "at %.2g of what it began with, and what is left may look like modes; longer pauses between strikes help", left));
     strikes_solve_sound(&j->system, j->h->h, j->left);
     for (long i = 0; i < j->r->n; i++)
         j->left[i] = j->system.weight[i] > 0.0 ? j->r->sound[i] - j->left[i] : 0.0;

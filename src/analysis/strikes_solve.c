@@ -3,9 +3,11 @@
    With the matrix F of the convolution and the diagonal W of weights, h solves (F' W F + ridge) h = F' W x. Products are transforms, padded so that nothing wraps round.
    Where all samples weigh the same and the pulses stand alone, F' W F is sum |F_k|^2 over the pulses k, a division in frequency; that division, between divisions by
    the root of the weight that each lag has, is the preconditioner (Chan and Jin, An Introduction to Iterative Toeplitz Solvers, 2007): what stands alone takes a few steps,
-   overlapping strikes some hundreds. What is left of the gradient stands as error around every strong mode, and is no noise: stopped at 1e-3 it was taken for modes.
+   overlapping strikes some hundreds. What is left of the gradient stands as error around every strong mode, and is no
+   noise: stopped at 1e-3 it was taken for modes.
 
-   The search ends when `enough` is reached, and where rounding allows no more: when PATIENCE steps have not halved the least that was left. */
+   The search ends when `enough` is reached, and where rounding allows no more: when PATIENCE steps have not halved the
+   least that was left. */
 #include "analysis/strikes_solve.h"
 
 #include <math.h>

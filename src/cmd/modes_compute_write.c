@@ -3,9 +3,12 @@
    A unit impulse (1 N s) that presses at x makes a mass-normalised mode move, where it is heard, by phi(x) phi(l)/w_d e^(-d t) sin(w_d t), displacement along the
    inward normal; velocity is Im(A e^(s t)) with A = phi(x) phi(l) (j - d/w_d), as of objects of closed form (response/object_modes.c).
 
-   One table on every CPU: one kind of kernels (modes_elsewhere.c), nine digits of frequencies, gains of shapes to seven digits of each mode's greatest. So tables agree to these where
-   another version of the library, or another kind of processor, adds otherwise. The first line is the hash of all that follows, which holds the hash of what the table was made from: a
-   table that is current needs no second computation. */
+   One table on every CPU: one kind of kernels (modes_elsewhere.c), nine digits of frequencies, gains of shapes to seven
+   digits of each mode's greatest. So tables agree to these where another version of the library, or another kind of
+   processor, adds otherwise.
+
+   The first line is the hash of all that follows, which holds the hash of what the table was made from: a table that is
+   current needs no second computation. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -168,8 +171,9 @@ static void comments(FILE *f, const struct compute *k, const char *inputs)
 
 /* ------------------------------------------------------------------ rows */
 
-/* Shapes in steps of 2^-23 (1.2e-7) of a mode's greatest, anywhere on the solid: what is left of a nodal line but rounding becomes 0. Of equal frequencies, of which the basis is fixed
-   (fem/solid_basis.c), and of slender solids 1e-9 of it depends on the order of additions. */
+/* Shapes in steps of 2^-23 (1.2e-7) of a mode's greatest, anywhere on the solid: what is left of a nodal line but
+   rounding becomes 0. Up to 1e-9 of it depends on the order of additions, most of slender solids and of equal
+   frequencies, whose basis is fixed (fem/solid_basis.c). */
 static void settle(const struct compute *k, const double *step, double *phi)
 {
     for (int i = 0; i < k->modes.n; i++)

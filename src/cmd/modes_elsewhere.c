@@ -1,7 +1,9 @@
 /* Runs rasp-modes in place of rasp, with the same words: it stands beside rasp, or, installed, in ../libexec/rasp.
 
-   OpenBLAS reads when it is loaded which of its kernels to use, and each adds in an order of its own. `compute` takes those that every x86-64 CPU can run, whatever the CPU and the environment say,
-   so that a solid has one table: where frequencies are equal, shapes differ by up to 1e-9 between kernels, which no rounding hides in all of thousands of gains. The others were faster by a quarter. */
+   OpenBLAS reads when it is loaded which of its kernels to use, and each adds in an order of its own. `compute` takes
+   those that every x86-64 CPU can run, whatever the CPU and the environment say, so that a solid has one table: shapes
+   differ by up to 1e-9 between kernels, which no rounding hides in all of thousands of gains. The others are faster by a
+   quarter. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,8 +4,8 @@
        Q(u) = sum over axes p of 1, 1/2, 1/4 times |W_p u|^2_M,   W_p(x) = diag(1, 7/8, 3/4)/(1 + |x - x_p|^2/s^2),
 
    x_p where the line from the middle of the box along +x, +y, +z leaves it, s a quarter of the longest side. The first of a cluster is the one that moves most near +x, as of modes
-   that are struck there. W has no symmetry that a solid could share, and every angular order, so that Q's eigenvalues within a cluster differ. The diagonal is what tells the two ways in
-   which a slender rod bends, which move the same places. */
+   that are struck there. W has no symmetry that a solid could share, and every angular order, so that Q's eigenvalues
+   within a cluster differ. The diagonal tells apart the two ways in which a slender rod bends: they move the same places. */
 #include "fem/solid_basis.h"
 
 #include <cblas.h>

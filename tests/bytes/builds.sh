@@ -1,4 +1,5 @@
-# Same scene, same bytes: the WAV and the CSV of every scene, and mode tables computed and extracted, have one sha256 whatever the compiler, the optimisation, the
+# Same scene, same bytes: the WAV and the CSV of every scene, and mode tables computed and extracted, have one sha256
+# whatever the compiler, the optimisation, the
 # instruction set, the functions libm picks for this CPU, and the run.
 . "$ROOT/tests/lib/test.sh"
 BUILDS=${BYTES:-$BUILD/bytes}
@@ -23,11 +24,13 @@ sums() {
     (cd rendered && find . -type f \( -name '*.wav' -o -name '*.csv' \) -print0 | sort -z | xargs -0r sha256sum)
 }
 
-# tables PROGRAM: what rasp-modes makes: modes of two solids with equal frequencies; those of a recording of strikes, with the response, what the modes make of it and what is left.
+# tables PROGRAM: what rasp-modes makes: modes of two solids with equal frequencies; those of a recording of strikes,
+# with the response, what the modes make of it and what is left.
 tables() {
     "$1" modes compute --shape sphere:diameter=20cm,fineness=1 --material steel --modes 20 --top 60kHz -q -o rendered/table_ball.csv &&
-        "$1" modes compute --shape ring:diameter=14cm,width=10mm,thickness=6mm,fineness=1 --material steel --modes 20 -q -o rendered/table_ring.csv &&
-        "$1" modes extract strikes.wav --force-channel 2 -q -o rendered/table_strikes.csv --response rendered/table_response.wav --resynthesis rendered/table_made.wav --residual rendered/table_left.wav
+        "$1" modes compute --shape ring:diameter=14cm,width=1cm,thickness=6mm --material steel --modes 20 -q -o rendered/table_ring.csv &&
+        "$1" modes extract strikes.wav --force-channel 2 -q -o rendered/table_strikes.csv --response rendered/table_response.wav \
+            --resynthesis rendered/table_made.wav --residual rendered/table_left.wav
 }
 
 # same NAME PROGRAM: its sums must be those of the first program asked.

@@ -7,9 +7,10 @@ extract strikes.wav@7cm,6cm --force-channel 2 --scale 10 --force-scale 1 --quant
 grep -E '^strikes' report.txt
 sed -n 's/^[0-9]* modes \(between .* Hz\),.*/modes \1/p' report.txt
 grep -E '^# (poles|quantity|normalisation|strikes)' found.csv
-# near TABLE HZ DECAY GAIN [BELOW ABOVE]: of the true modes below that frequency and above that gain, how many have one within those limits (shares but for Hz) in another table.
-# false TABLE DECIBEL: modes of a table further than 1 Hz from any true one, that much below its strongest or louder. Fainter ones are not counted: whether there is one is a matter of the
-# noise's seed (of 6 seeds one has one, at -81 dB).
+# near TABLE HZ DECAY GAIN [BELOW ABOVE]: of the true modes below that frequency and above that gain, how many have one
+# within those limits (shares but for Hz) in another table.
+# false TABLE DECIBEL: modes of a table further than 1 Hz from any true one, that much below its strongest or louder.
+# Fainter ones are not counted: whether there is one is a matter of the noise's seed (of 6 seeds one has one, at -81 dB).
 cat > near.py << 'END'
 import sys
 def modes(name):

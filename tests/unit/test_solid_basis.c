@@ -48,8 +48,9 @@ START_TEST(test_order)
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solid_ask ask = {.material = &steel, .most = 30, .top = 1e6};
-    struct solids s[3] = {solids_box((const int[]){6, 6, 2}, (const double[]){0.1, 0.1, 0.01}, a), solids_ball(4, 0.05, a),
-                          solids_box((const int[]){12, 2, 2}, (const double[]){0.2, 0.01, 0.01}, a)}; /* the last bends two ways that move the same places */
+    struct solids s[3] = {solids_box((const int[]){6, 6, 2}, (const double[]){0.1, 0.1, 0.01}, a),
+                          solids_ball(4, 0.05, a),
+                          solids_box((const int[]){12, 2, 2}, (const double[]){0.2, 0.01, 0.01}, a)}; /* it bends two ways that move the same places */
     for (int i = 0; i < 3; i++) {
         int *where = ARENA_TAKE(a, int, s[i].mesh.nodes), pairs = 0;
         struct solids t = shuffled(&s[i], where, a);

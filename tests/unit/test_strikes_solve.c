@@ -1,4 +1,5 @@
-/* The search for the response of overlapping strikes, beside what plain sums in time make of its normal equations: whether it ends where they hold, and where rounding keeps them from
+/* The search for the response of overlapping strikes, beside what plain sums in time make of its normal equations:
+   whether it ends where they hold, and where rounding keeps them from
    holding, whether it ends at all and says so. */
 #include "unit.h"
 
@@ -20,11 +21,13 @@ static double uniform(unsigned *state)
     return (double)*state / 4294967296.0;
 }
 
-/* Five modes, struck three times at random, each time before they have died away; samples weigh between 1 and 1/faint^2, the louder the less, as in strikes_system.c. */
+/* Five modes, struck three times at random, each time before they have died away; samples weigh between 1 and
+   1/faint^2, the louder the less, as in strikes_system.c. */
 static struct made make(unsigned seed, long n, long length, double faint)
 {
     struct made m = {.a = arena_open()};
-    double *force = ARENA_TAKE(m.a, double, n), *sound = ARENA_TAKE(m.a, double, n), *weight = ARENA_TAKE(m.a, double, n), *lag = ARENA_TAKE(m.a, double, length), pulses[3];
+    double *force = ARENA_TAKE(m.a, double, n), *sound = ARENA_TAKE(m.a, double, n);
+    double *weight = ARENA_TAKE(m.a, double, n), *lag = ARENA_TAKE(m.a, double, length), pulses[3];
     long at[3];
     for (int k = 0; k < 3; k++) {
         at[k] = k * length / 2 + (long)(0.2 * uniform(&seed) * (double)length);
@@ -33,10 +36,13 @@ static struct made make(unsigned seed, long n, long length, double faint)
             force[at[k] + i] += pulses[k] * (0.5 - 0.5 * real_cos(2.0 * REAL_PI * (double)i / PULSE));
     }
     for (int mode = 0; mode < 5; mode++) {
-        double hz = 0.005 + 0.04 * uniform(&seed), decay = (4.0 + 4.0 * uniform(&seed)) / (double)length, phase = 6.28 * uniform(&seed);
-        for (long i = 0; i < n; i++)
-            for (int k = 0; k < 3; k++)
-                sound[i] += i < at[k] ? 0.0 : pulses[k] * real_exp(-decay * (double)(i - at[k])) * real_sin(2.0 * REAL_PI * hz * (double)(i - at[k]) + phase);
+        double hz = 0.005 + 0.04 * uniform(&seed), decay = (4.0 + 4.0 * uniform(&seed)) / (double)length;
+        double phase = 6.28 * uniform(&seed);
+        for (int k = 0; k < 3; k++)
+            for (long i = at[k]; i < n; i++) {
+                double t = (double)(i - at[k]);
+                sound[i] += pulses[k] * real_exp(-decay * t) * real_sin(2.0 * REAL_PI * hz * t + phase);
+            }
     }
     for (long i = 0; i < n; i++) {
         double loud = 0.0;
@@ -47,7 +53,9 @@ static struct made make(unsigned seed, long n, long length, double faint)
     for (long i = 0; i < length; i++)
         lag[i] = (1.0 + faint) / (real_exp(-12.0 / (double)length * (double)i) + faint);
     m.h = ARENA_TAKE(m.a, double, length);
-    m.s = (struct strikes_system){.n = n, .length = length, .force = force, .sound = sound, .weight = weight, .lag = lag};
+    m.s = (struct strikes_system){.n = n, .length = length, .force = force, .sound = sound};
+    m.s.weight = weight;
+    m.s.lag = lag;
     long size = strikes_solve_size(n, length);
     double *one = ARENA_TAKE(m.a, double, size), *im = ARENA_TAKE(m.a, double, size / 2 + 1), all = 0.0, most = 0.0;
     m.s.power = ARENA_TAKE(m.a, double, size / 2 + 1);
@@ -86,7 +94,8 @@ static double gradient(const struct made *m, const double *h)
     return sqrt(sum);
 }
 
-/* The gradient is weighed by the preconditioner where the search measures it and is plain here: up to six times as much was seen, thirty times is allowed. */
+/* The gradient is weighed by the preconditioner where the search measures it and is plain here: up to six times as much
+   was seen, thirty times is allowed. */
 START_TEST(converges)
 {
     for (unsigned seed = 1; seed <= 6; seed++) {
@@ -102,7 +111,8 @@ START_TEST(converges)
 }
 END_TEST
 
-/* A preconditioner that is wrong by twelve decades from lag to lag: what it asks for is not reached in any time, and what stands still ends. */
+/* A preconditioner that is wrong by twelve decades from lag to lag: what it asks for is not reached in any time, and
+   what stands still ends. */
 START_TEST(stagnates)
 {
     struct made m = make(7, 3000, 800, 1e-4);
