@@ -3,8 +3,8 @@
    force sample with the response of its own place, and the taps are a part of it; of `glide`, which retunes what rings, a sample's taps are over after 0.3 ms.
 
    C is known at the ends of pieces and linear between. Under resonators these are ramps like their gains'. Else they have PIECE frames, and one is halved while its middle is farther off than 0.1 of accuracy.morph_error,
-   relative to the rms of what a white force makes of the modes or, if that is more, to C itself. What would be heard before the contact's first frame is
-   added to that frame, so that nothing is lost at 0 Hz. Pieces and taps stand at fixed frames and are added up in their order: the result does not depend
+   relative to the rms of what a white force makes of the modes or, if that is more, to C itself. What would be heard before the first frame at which the contact can be heard,
+   that of the voice's delay, is added to that frame, so that nothing is lost at 0 Hz. Pieces and taps stand at fixed frames and are added up in their order: the result does not depend
    on how the sound is cut into calls. */
 #include "convolution/ring_alias.h"
 
@@ -135,18 +135,18 @@ static double share(const struct ring_alias *s, long frame)
     return s->moves ? (double)(frame - s->start.frame) / (double)(s->end.frame - s->start.frame) : 0;
 }
 
-/* The force f of a frame, to what is heard around it. */
-static void launch(struct ring_alias *s, double f, long frame, long from)
+/* The force f of a frame, to what is heard around it, from frame `begin` on. */
+static void launch(struct ring_alias *s, double f, long frame, long from, long begin)
 {
     double early[ALIAS_TAPS] = {0};
-    long first = frame - ALIAS_REACH - from;
-    if (first >= 0) {
+    long first = frame - ALIAS_REACH - from, least = begin > from ? begin - from : 0;
+    if (first >= least) {
         scatter(s->start.tap, s->end.tap, share(s, frame), f, s->sum + first);
         return;
     }
     scatter(s->start.tap, s->end.tap, share(s, frame), f, early);
     for (int k = 0; k < ALIAS_TAPS; k++)
-        s->sum[first + k > 0 ? first + k : 0] += early[k];
+        s->sum[first + k > least ? first + k : least] += early[k];
 }
 
 /* What is heard in a frame of the force around it, f[0] the frame's own. */
@@ -154,14 +154,15 @@ static double hear(struct ring_alias *s, const struct ring *g, const struct ring
 {
     double sum = 0;
     bool any = false;
+    long at = frame > v->delay ? frame : v->delay;
     for (int k = -ALIAS_REACH; k <= ALIAS_REACH; k++)
-        any = any || (frame + k >= 0 && f[k] != 0.0);
+        any = any || (frame + k >= v->delay && f[k] != 0.0);
     if (!any)
         return 0;
-    find(s, g, v, frame > 0 ? frame : 0);
-    double u = share(s, frame > 0 ? frame : 0);
+    find(s, g, v, at);
+    double u = share(s, at);
     for (int k = 0; k < ALIAS_TAPS; k++)
-        if (frame + ALIAS_REACH - k >= 0)
+        if (frame + ALIAS_REACH - k >= v->delay)
             sum += f[ALIAS_REACH - k] * (s->start.tap[k] + u * (s->end.tap[k] - s->start.tap[k]));
     return sum;
 }
@@ -169,8 +170,11 @@ static double hear(struct ring_alias *s, const struct ring *g, const struct ring
 static void listen(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from, long to)
 {
     const double *f = ring_force(g, v, from);
-    for (long n = from == 0 ? -ALIAS_REACH : from; n < to; n++)
-        y[n < from ? 0 : n - from] += hear(s, g, v, f + (n - from), n);
+    long begin = v->delay;
+    if (to <= begin)
+        return;
+    for (long n = from <= begin ? begin - ALIAS_REACH : from; n < to; n++)
+        y[(n < begin ? begin : n) - from] += hear(s, g, v, f + (n - from), n);
 }
 
 void ring_alias_add(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from, long to)
@@ -183,7 +187,7 @@ void ring_alias_add(struct ring_alias *s, const struct ring *g, const struct rin
     for (; s->next < to + ALIAS_REACH; s->next++)
         if (f[s->next - from] != 0.0) {
             find(s, g, v, s->next);
-            launch(s, f[s->next - from], s->next, from);
+            launch(s, f[s->next - from], s->next, from, v->delay);
         }
     for (long n = 0; n < to - from; n++)
         y[n] += s->sum[n];

@@ -1,19 +1,17 @@
-/* See piped.h. A FIFO is opened without waiting: the waiting is poll's, which a signal ends. poll tells of the end of what was written only after somebody wrote. */
+/* See piped.h. Opening a FIFO waits for a writer, and reading for what is written: a signal ends the program there (base/interrupt.h). */
 #include "file/piped.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <poll.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/interrupt.h"
 #include "base/memory.h"
 
-enum { PIECE = 1 << 16, WAIT_MS = 200 };
+enum { PIECE = 1 << 16 };
 
 struct kept {
     struct kept *next;
@@ -30,22 +28,6 @@ bool piped_is(const char *file)
     return !strcmp(file, "/dev/stdin") || !strncmp(file, "/dev/fd/", 8) || (!strncmp(file, "/proc/", 6) && strstr(file, "/fd/")) || (stat(file, &s) == 0 && !S_ISREG(s.st_mode) && !S_ISDIR(s.st_mode));
 }
 
-/* What is there by now, at most n bytes; 0: its end; -1: errno. */
-static ssize_t some_of(int fd, char *to, size_t n)
-{
-    for (;;) {
-        struct pollfd p = {.fd = fd, .events = POLLIN};
-        if (interrupt_seen()) {
-            errno = EINTR;
-            return -1;
-        }
-        int ready = poll(&p, 1, WAIT_MS);
-        ssize_t got = ready > 0 ? read(fd, to, n) : -1;
-        if (got >= 0 || (ready > 0 && errno != EAGAIN && errno != EINTR) || (ready < 0 && errno != EINTR))
-            return got;
-    }
-}
-
 static bool read_all(int fd, struct kept *k, size_t most)
 {
     for (size_t room = 0;;) {
@@ -56,7 +38,7 @@ static bool read_all(int fd, struct kept *k, size_t most)
             free(k->text);
             k->text = more;
         }
-        ssize_t n = some_of(fd, k->text + k->size, room - k->size);
+        ssize_t n = read(fd, k->text + k->size, room - k->size);
         if (n < 0)
             return false;
         k->size += (size_t)n;
@@ -67,7 +49,7 @@ static bool read_all(int fd, struct kept *k, size_t most)
 
 static struct kept *take(const char *file, size_t most)
 {
-    int fd = open(file, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    int fd = open(file, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return NULL;
     struct kept *k = memory_take(sizeof *k);
