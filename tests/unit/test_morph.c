@@ -274,7 +274,7 @@ START_TEST(very_weak_gains)
 }
 END_TEST
 
-/* A mode whose frequency crosses 0.45 to 0.5 of the rate, 48 kHz: the raised cosine; what nowhere lies below 0.499 is dropped. */
+/* A mode whose frequency crosses 0.45 to 0.5 of the rate, 48 kHz: the raised cosine; what nowhere lies below 0.45 is dropped. */
 START_TEST(fades_at_half_the_rate)
 {
     setup();
