@@ -150,6 +150,35 @@ START_TEST(in_order)
 }
 END_TEST
 
+/* Words take their time, and a second signal does not cut them off; but who does not come to an end is ended. */
+static void tells(int fd)
+{
+    ready(fd);
+    while (!interrupt_seen())
+        rest(0.001);
+    interrupt_tell();
+    rest(0.06);
+    _exit(ORDERLY);
+}
+
+static void tells_for_ever(int fd)
+{
+    ready(fd);
+    while (!interrupt_seen())
+        rest(0.001);
+    interrupt_tell();
+    for (;;)
+        pause();
+}
+
+START_TEST(words_are_whole)
+{
+    quickest(tells, SIGINT, 3, ORDERLY);
+    double took = quickest(tells_for_ever, SIGTERM, 1, ERR_INTERRUPTED);
+    ck_assert_msg(took < 0.5, "%g s", took);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ what it leaves */
 
 static void touch(const char *path)
@@ -260,4 +289,4 @@ START_TEST(passed_on)
 }
 END_TEST
 
-UNIT("interrupt", wherever_it_is, in_order, temporaries_go_and_the_child, what_is_held_together_is_whole, passed_on)
+UNIT("interrupt", wherever_it_is, in_order, words_are_whole, temporaries_go_and_the_child, what_is_held_together_is_whole, passed_on)
