@@ -73,6 +73,12 @@ static void first_complaint(FILE *f, char *line, int size)
     snprintf(line, (size_t)size, "it said nothing");
 }
 
+/* A terminal sends its signal to both, and gnuplot may end before we have seen ours. */
+static bool was_interrupted(int status)
+{
+    return WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM);
+}
+
 bool gnuplot_close(struct gnuplot *g, struct err *e)
 {
     char line[400];
@@ -80,9 +86,11 @@ bool gnuplot_close(struct gnuplot *g, struct err *e)
     bool taken = fclose(g->in) == 0; /* false: it ended before it had read all */
     interrupt_wait(g->pid, &status, NULL);
     bool ok = taken && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    if (!ok) {
+    if (!ok && (interrupt_seen() || was_interrupted(status)))
+        err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
+    else if (!ok) {
         first_complaint(g->complaints, line, sizeof line);
-        err_set(e, interrupt_seen() ? ERR_INTERRUPTED : ERR_IO, "gnuplot failed: %s", line);
+        err_set(e, ERR_IO, "gnuplot failed: %s", line);
     }
     fclose(g->complaints);
     return ok;

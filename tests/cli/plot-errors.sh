@@ -44,4 +44,7 @@ chmod +x broken/gnuplot
 try env PATH="$PWD/broken:$PATH" rasp plot good.csv
 printf '#!/bin/sh\ncat > /dev/null\necho half a picture\n' > broken/gnuplot
 try env PATH="$PWD/broken:$PATH" rasp plot good.csv
+echo "-- nor where a terminal's signal reached gnuplot alone so far"
+printf '#!/bin/sh\nkill -INT $$\n' > broken/gnuplot
+try env PATH="$PWD/broken:$PATH" rasp plot good.csv
 ls
