@@ -75,11 +75,27 @@ struct writing {
     int n;
     const char **gone;           /* ends with NULL: kept so far, and not made any more */
     int n_gone, changed;
+    const char **made;           /* [n_made]: folders that were not there; until the commit they go with the program */
+    int n_made;
 };
 
-static bool make_folder(const char *folder, struct err *e)
+static bool make_folder(struct writing *w, const char *folder, struct err *e)
 {
-    return mkdir(folder, 0777) == 0 || errno == EEXIST || err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", folder, strerror(errno));
+    interrupt_hold();
+    bool made = mkdir(folder, 0777) == 0;
+    int why = errno;
+    if (made) {
+        interrupt_temporary(folder);
+        w->made[w->n_made++] = folder;
+    }
+    interrupt_go();
+    return made || why == EEXIST || err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", folder, strerror(why));
+}
+
+static void forget_folders(const struct writing *w)
+{
+    for (int i = 0; i < w->n_made; i++)
+        interrupt_forget(w->made[i]);
 }
 
 /* How far the table's columns are named: a CSV's first line, an NPY's dtype. */
@@ -131,7 +147,7 @@ static bool write_scene(struct writing *w, const struct golden_scene *s, struct 
     struct arena *a = g->call->arena;
     struct golden_files kept = golden_kept_of(g, s->name, a, e);
     const char *folder = arena_format(a, "%s/%s", g->kept ? g->kept : "", s->name);
-    if (e->kind || (g->kept && !make_folder(folder, e)))
+    if (e->kind || (g->kept && !make_folder(w, folder, e)))
         return false;
     for (int i = 0; i < s->made[0].n; i++) {
         const struct golden_file *made = &s->made[0].list[i], *old = golden_kept_find(&kept, made->name);
@@ -204,7 +220,7 @@ static void allow_files(int n)
 static bool settle_all(struct writing *w, struct err *e)
 {
     struct golden *g = w->g;
-    if (g->kept && !make_folder(g->kept, e))
+    if (g->kept && !make_folder(w, g->kept, e))
         return false;
     for (int i = 0; i < g->n; i++)
         if (!write_scene(w, &g->scenes[i], e))
@@ -232,17 +248,21 @@ static bool write_all(struct golden *g, struct writing *w, struct err *e)
         most += g->scenes[i].made[0].n;
         gone += golden_kept_of(g, g->scenes[i].name, a, e).n;
     }
-    *w = (struct writing){.g = g, .files = ARENA_TAKE(a, struct outfile, most), .gone = ARENA_TAKE(a, const char *, gone)};
+    *w = (struct writing){.g = g, .files = ARENA_TAKE(a, struct outfile, most), .gone = ARENA_TAKE(a, const char *, gone), .made = ARENA_TAKE(a, const char *, g->n + 1)};
     for (int i = 0; i < most; i++)
         w->files[i].fd = -1;
     allow_files(most);
+    bool ok = !e->kind && settle_all(w, e);
     interrupt_hold();
-    bool ok = !e->kind && settle_all(w, e) && commit_all(w, e);
+    if (ok)
+        forget_folders(w);
+    ok = ok && commit_all(w, e);
+    interrupt_go();
     for (int i = 0; i < w->n; i++)
         outfile_drop(&w->files[i]);
     for (int i = 0; !ok && g->kept && i < g->n; i++)
         rmdir(arena_format(a, "%s/%s", g->kept, g->scenes[i].name)); /* where nothing was in it */
-    interrupt_go();
+    forget_folders(w);
     return ok;
 }
 

@@ -1,7 +1,7 @@
-"""Signals at random moments (tests/faults/signals.sh). SIGNALS_ROUNDS: how many for each command and signal (1), SIGNALS_SEED: of the moments, SIGNALS_ONLY: names of commands.
+"""Signals at random moments (tests/faults/signals.sh). SIGNALS_ROUNDS: how many for each command and signal (1), SIGNALS_SEED: of the moments, SIGNALS_ONLY: names of commands, or unread.
 
 Half a second is asked of the quickest of TRIES, for a machine that runs other tests meanwhile may not run us for longer than that; no try may take LONGEST."""
-import glob, os, random, shutil, signal, struct, subprocess, sys, time
+import fcntl, glob, os, random, shutil, signal, struct, subprocess, sys, time
 
 ROOT, ROUNDS, ONLY = os.environ["ROOT"], int(os.environ.get("SIGNALS_ROUNDS", 1)), os.environ.get("SIGNALS_ONLY", "").split()
 SEED = int(os.environ.get("SIGNALS_SEED", random.randrange(10**6)))
@@ -162,6 +162,34 @@ def one(words, together, number, moment):
     return wrong, took, code == 75
 
 
+def unread():
+    """golden update, while nobody reads the pipe into which it lists what it writes: it must be ended there, too, and leave nothing."""
+    os.makedirs(HERE + "/unread/scratch")
+    os.chdir(HERE + "/unread")
+    scenes = [f"{i:02}{'x' * 200}.yaml" for i in range(60)]
+    for name in scenes:
+        open(name, "w").write("rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 10 g}\nmotion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\noutput: {quantity: force, tail: 0}\n")
+    ends = os.pipe()
+    fcntl.fcntl(ends[1], 1031, 4096)  # F_SETPIPE_SZ
+    p = subprocess.Popen(["rasp", "golden", "update", "--kept", "kept", *scenes], stdout=ends[1], stderr=subprocess.DEVNULL, env=dict(os.environ, TMPDIR=HERE + "/unread/scratch"))
+    begun, wrong = time.monotonic(), []
+    while len(glob.glob("kept/*/.rasp-*")) < 30 and p.poll() is None and time.monotonic() < begun + 30:
+        time.sleep(0.05)
+    time.sleep(0.5)  # some more, and the pipe is full
+    p.terminate()
+    try:
+        if p.wait(LONGEST) != 75:
+            wrong.append(f"exit code {p.returncode}")
+    except subprocess.TimeoutExpired:
+        p.kill()
+        p.wait()
+        wrong.append(f"had not ended after {LONGEST} s")
+    wrong += [f"left behind: {f}" for f in glob.glob("kept") + os.listdir("scratch")]
+    for what in wrong:
+        print(f"golden update, its output unread: {what}")
+    return len(wrong)
+
+
 def main():
     prepare()
     moments, bad, slowest = random.Random(SEED), 0, 0.0
@@ -186,6 +214,8 @@ def main():
                 slowest = max(slowest, least)
                 if os.environ.get("SIGNALS_SHOW"):
                     print(f"{name}, {number.name}: {least:.3f} s")
+    if not ONLY or "unread" in ONLY:
+        bad += unread()
     print(f"slowest: {slowest:.3f} s")
     return bad > 0
 
