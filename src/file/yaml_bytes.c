@@ -15,10 +15,11 @@ enum { SIZE_MAX_BYTES = 4 << 20 };
 
 static bool unreadable(struct yaml *y, const char *file, struct diag_place named)
 {
-    const char *why = errno == ENXIO ? "it is a pipe" : strerror(errno);
+    bool pipe = errno == ENXIO;
+    const char *why = pipe ? "it is a pipe" : strerror(errno);
     y->missing = true;
     if (named.source)
-        diag_add(y->diag, named, "a path in a file is relative to that file's folder", "cannot read '%s': %s", file, why);
+        diag_add(y->diag, named, pipe ? "only what the command line names may be one: save it as a file" : "a path in a file is relative to that file's folder", "cannot read '%s': %s", file, why);
     else
         diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s", why);
     return false;

@@ -58,3 +58,6 @@ for call in render plan accuracy 'batch --dry-run'; do
     [ $code = 75 ] || echo "$call ends with $code"
     grep error: log | head -n 1
 done
+echo "-- what a file names is none"
+sed 's/sub.file.yaml/fifo.yaml/' set.yaml > through.yaml
+tell rasp check through.yaml
