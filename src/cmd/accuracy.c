@@ -74,7 +74,9 @@ static bool ask_files(const struct accuracy_sweep *s, struct err *e)
             continue;
         if (!outputs_spare(&o, 1, s->call->arena, &(struct err){0}))
             return err_set(e, ERR_CREATE, "%s is a file that the scene reads: give --%s another name", paths[i], i ? "plot" : "csv");
-        if (!mark_permits(paths[i], NULL, args_given(&s->call->args, "force"), e) || !outfile_open_fd(&probe, paths[i], e))
+        bool force = args_given(&s->call->args, "force");
+        bool may = i ? mark_permits(paths[i], NULL, force, e) : mark_absent(paths[i], force, e);
+        if (!may || !outfile_open_fd(&probe, paths[i], e))
             return false;
         outfile_drop(&probe);
     }

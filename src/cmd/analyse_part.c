@@ -14,7 +14,7 @@
 
 static bool name_free(const struct analysis *a, const char *file, struct err *e)
 {
-    return mark_permits(file, NULL, a->force, e);
+    return mark_absent(file, a->force, e);
 }
 
 bool analyse_part_free(const struct analysis *a, const char *file, struct err *e)

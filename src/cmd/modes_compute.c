@@ -66,7 +66,7 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
             printf("%s: up to date\n", text_shown(c->arena, file));
         return 0;
     }
-    if (!mark_permits(file, NULL, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) ||
+    if (!mark_absent(file, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) ||
         !modes_compute_estimate(&k, e) || !modes_compute_places_settle(&k, e) || !modes_compute_write(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {

@@ -88,7 +88,8 @@ static bool outputs(struct modes_extract *x, struct err *e)
     const char **to[] = {&g->output, &g->residual, &g->resynthesis, &g->response, &g->plot};
     for (int k = 0; k < 5; k++) {
         const char *file = *to[k] = args_value(&x->c->args, names[k]);
-        if (file && !mark_permits(file, NULL, args_given(&x->c->args, "force"), e))
+        bool force = args_given(&x->c->args, "force");
+        if (file && !(k == 0 ? mark_absent(file, force, e) : mark_permits(file, NULL, force, e)))
             return false;
         for (int i = 0; i < k; i++)
             if (file && *to[i] && !strcmp(file, *to[i]))

@@ -41,7 +41,7 @@ static bool read_output(struct job *j, struct err *e)
     const char *file = args_value(&j->c->args, "output");
     if (!file)
         return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
-    return modes_output_spares(file, j->c->args.operands[0], e) && mark_permits(file, NULL, args_given(&j->c->args, "force"), e);
+    return modes_output_spares(file, j->c->args.operands[0], e) && mark_absent(file, args_given(&j->c->args, "force"), e);
 }
 
 static bool read_load(struct job *j, struct err *e)

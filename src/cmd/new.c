@@ -57,7 +57,7 @@ static bool write_file(const struct starter *s, const char *file, bool force, st
 {
     struct outfile o;
     const char *slash = strrchr(file, '/'), *folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL;
-    if (!mark_permits(file, NULL, force, e) || !outfile_open(&o, file, e))
+    if (!mark_absent(file, force, e) || !outfile_open(&o, file, e))
         return false;
     starters_print(o.stream, s, irs_seen(folder, a), a);
     return outfile_commit(&o, e);

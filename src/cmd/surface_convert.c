@@ -144,7 +144,7 @@ int surface_convert_run(struct cmd_call *c, struct err *e)
     enum heightfile_format format;
     const char *in = c->args.operands[0], *out = c->args.operands[1];
     if (!pick_format(c, &format, e) || !spares(out, "the heights", in, "a file of another name", e) ||
-        !mark_permits(out, NULL, args_given(&c->args, "force"), e) || !surface_options(c, HEIGHTFILE_REFUSE, &o, e) || !read_crop(&v, e) ||
+        !mark_absent(out, args_given(&c->args, "force"), e) || !surface_options(c, HEIGHTFILE_REFUSE, &o, e) || !read_crop(&v, e) ||
         !heightfile_load(in, &o, c->arena, &v.h, e) || !crop(&v, e) || !take_row(&v, e) || !heightfile_write(out, &v.h, format, &w, e))
         return (int)e->kind;
     if (!args_given(&c->args, "quiet"))

@@ -154,7 +154,7 @@ int surface_synth_run(struct cmd_call *c, struct err *e)
     struct heightfile_written w;
     const char *out = c->args.operands[1];
     if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e) || !all_spared(&s, out, e) ||
-        !mark_permits(out, NULL, args_given(&c->args, "force"), e) || !read_along(&s, e) || !make(&s, e))
+        !mark_absent(out, args_given(&c->args, "force"), e) || !read_along(&s, e) || !make(&s, e))
         return (int)e->kind;
     s.h.pitch_x = s.h.pitch_y = s.pitch;
     s.h.metric = true;

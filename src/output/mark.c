@@ -164,12 +164,25 @@ bool mark_links(const char *path, bool force, struct err *e)
     return !points || special || err_set(e, ERR_CREATE, "%s is a symbolic link; --force writes to where it points", path);
 }
 
-bool mark_permits(const char *path, const char *summary, bool force, struct err *e)
+static bool is_file(const char *path)
 {
     struct stat file;
+    return stat(path, &file) == 0 && S_ISREG(file.st_mode);
+}
+
+bool mark_permits(const char *path, const char *summary, bool force, struct err *e)
+{
     if (!mark_links(path, force, e))
         return false;
-    return force || stat(path, &file) != 0 || !S_ISREG(file.st_mode) || mark_is(path, summary) || err_set(e, ERR_CREATE, "%s exists already, and nothing says that rasp wrote it; --force replaces it", path);
+    return force || !is_file(path) || mark_is(path, summary) ||
+           err_set(e, ERR_CREATE, "%s exists already, and nothing says that rasp wrote it; --force replaces it", path);
+}
+
+bool mark_absent(const char *path, bool force, struct err *e)
+{
+    if (!mark_links(path, force, e))
+        return false;
+    return force || !is_file(path) || err_set(e, ERR_CREATE, "%s exists already; --force replaces it", path);
 }
 
 /* Before what ends it. */

@@ -179,7 +179,7 @@ static bool same_poles(const struct mode_table_rows *r, const struct mode_entry 
     for (int k = 0; k < m->n; k++)
         if (unequal(m->frequency, w->frequency) || unequal(m->slope[k].decay, w->slope[k].decay)) {
             err_set(e, ERR_SCENE, "mode '%.60s' has frequency %.12g Hz and decay %.12g/s here, %.12g Hz and %.12g/s in line %d; with shared "
-                    "poles they are the same at every place", mode_table_rows_cell(r, m->row, MODE_TABLE_MODE), m->frequency, m->slope[k].decay,
+                    "poles they are the same at every place: correct one, or let the table say # poles: separate", mode_table_rows_cell(r, m->row, MODE_TABLE_MODE), m->frequency, m->slope[k].decay,
                     w->frequency, w->slope[k].decay, r->csv->lines[w->row]);
             return mode_table_rows_bad(r, m->row, e);
         }

@@ -65,7 +65,7 @@ static bool whole(double x)
 static bool check_values(const struct mode_table_rows *r, const double *v, struct err *e)
 {
     if (!(v[FREQUENCY] > 0.0))
-        return err_set(e, ERR_SCENE, "frequency_hz %g must be above 0", v[FREQUENCY]);
+        return err_set(e, ERR_SCENE, "frequency_hz is %g, and must be above 0: take the row out, or correct it", v[FREQUENCY]);
     if (!r->envelope && !(v[DECAY] >= 0.0))
         return err_set(e, ERR_SCENE, "decay_per_s %g must not be negative: the mode would grow for ever", v[DECAY]);
     if (r->envelope && !(v[TIME] >= 0.0 && v[TIME] <= 3600.0))

@@ -293,8 +293,8 @@ bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a,
     make_tracks(&k, ask->pairing);
     rank_modes(&k, ask);
     if (k.inside == 0)
-        return err_set(e, ERR_SCENE, "%s: none of its modes lies from %g Hz to below %g Hz, the band from which they are chosen: widen the key band, or check that frequency_hz "
-                                     "is in Hz", path, ask->band[0], ask->band[1]);
+        return err_set(e, ERR_SCENE, "%s: none of its modes lies from %g Hz to below %g Hz, the band from which they are chosen: widen that band (surface.band, scraper.band "
+                                     "or ball.band), or check that frequency_hz is in Hz", path, ask->band[0], ask->band[1]);
     choose(&k, ask->strongest);
     make_components(&k);
     make_modes(&k, ask->rate, m);

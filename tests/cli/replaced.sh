@@ -76,6 +76,13 @@ refused bar.csv rasp modes compute --shape bar:length=100mm,width=10mm,thickness
 refused part.yaml rasp analyse struck.csv -o part.yaml
 rasp render -q "$ROOT/scenes/strike.yaml" -o out/strike.wav
 refused found.csv rasp modes extract out/strike.wav --method spectrogram -o found.csv
+echo "-- what bears no mark replaces no sound either"
+cp out/strike.wav sound.wav
+for call in 'new -o' 'modes object pvc_rod.yaml -o' 'surface convert basswood.gsf'; do
+    # shellcheck disable=SC2086
+    rasp $call sound.wav 2> err || echo "exit $?: $(grep error: err)"
+done
+cmp out/strike.wav sound.wav
 echo "-- a set: a link in its own folder, too"
 rasp batch -q set.yaml -o set
 mv set/one.wav sound.wav

@@ -321,7 +321,7 @@ START_TEST(bad_tables_are_refused)
         {"1,0,0,1,440,5,1,0\n1,0,0,2,450,5,1,0\n2,1,0,2,450,5,1,0\n", ":7: place '2', which starts here, has no mode '1'"},
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440,5,1,0\n2,1,0,x,450,5,1,0\n", ":5: place '1', which starts here, has no mode 'x'"},
         {"1,0,0,1,440,5,1,0\n1,0,0,2,450,5,1,0\n2,1,0,1,440,5,1,0\n", ":7: place '2', which starts here, has no mode '2'"},
-        {"1,0,0,1,0,5,1,0\n", ":5: frequency_hz 0 must be above 0"},
+        {"1,0,0,1,0,5,1,0\n", ":5: frequency_hz is 0, and must be above 0"},
         {"1,0,0,1,-2,5,1,0\n", "must be above 0"},
         {"1,0,0,1,440,-5,1,0\n", ":5: decay_per_s -5 must not be negative"},
         {"1,0,0,1,440,5,nan,0\n", ":5"},
