@@ -21,7 +21,8 @@
    look ahead the error hardly falls with its length, by some 5 % a tap, as phi has a branch at z = 0.
 
    Where poles move, taps are interpolated: kappa is an analytic function of s, known at s T = 0, j STEP, 2 j STEP, ..., and the cubic through the four nearest is
-   taken at the complex s T; a mode that decays by more than STEP nepers a sample gets its own.
+   taken at the complex s T. Rows of such places lie 2 STEP nepers a sample apart, each computed when it is first asked for; a mode that decays by more
+   than the last of them reaches, 31 STEP, gets taps of its own.
 
    The taps are linear in A: those of all modes are added up before they meet the force. A mode that is left out leaves out its direct term and
    these taps, too. */
@@ -32,7 +33,7 @@
 #include "num/lanes.h"
 #include "num/real.h"
 
-enum { M = ALIAS_REACH, NODES = M - 1, SERIES = 20, ORDERS = 3, MOST = 6, PLACES = 128 }; /* nodes beside 0 Hz; orders: value, slope, curvature; derivatives of phi */
+enum { M = ALIAS_REACH, NODES = M - 1, SERIES = 20, ORDERS = 3, MOST = 6, PLACES = 128, ROWS = 16 }; /* nodes beside 0 Hz; orders: value, slope, curvature; derivatives of phi */
 
 #define TOP 0.8   /* of pi */
 #define STEP (REAL_PI / PLACES)
@@ -49,7 +50,8 @@ struct alias {
     struct z circle[NODES];                       /* e^(-j theta)                  */
     double even[M + 1][M + 1], odd[M][M];         /* values at the nodes to taps   */
     double series[ORDERS][SERIES];                /* of derivatives gamma - 1, ... */
-    double (*re)[ALIAS_TAPS], (*im)[ALIAS_TAPS];  /* [PLACES + 4] taps of s T = j STEP (-1, 0, 1, ...); NULL */
+    struct arena *arena;
+    double (*re[ROWS])[ALIAS_TAPS], (*im[ROWS])[ALIAS_TAPS]; /* of row r [PLACES + 4] taps of s T = -2 r STEP + j STEP (-1, 0, 1, ...); NULL: not yet asked for */
 };
 
 static struct z times(struct z a, struct z b)
@@ -221,7 +223,7 @@ void alias_taps(const struct alias *f, double frequency, double decay, double re
     }
 }
 
-struct alias *alias_make(struct arena *a, int gamma, double rate, bool table)
+struct alias *alias_make(struct arena *a, int gamma, double rate)
 {
     struct alias *f = ARENA_TAKE(a, struct alias, 1);
     f->gamma = gamma;
@@ -229,16 +231,19 @@ struct alias *alias_make(struct arena *a, int gamma, double rate, bool table)
     set_nodes(f);
     set_fit(f);
     set_series(f);
-    if (!table)
-        return f;
-    f->re = arena_take(a, PLACES + 4, sizeof *f->re);
-    f->im = arena_take(a, PLACES + 4, sizeof *f->im);
-    for (int i = 0; i < PLACES + 4; i++)
-        alias_taps(f, (i - 1) * rate / (2 * PLACES), 0, f->re[i], f->im[i]);
+    f->arena = a;
     return f;
 }
 
 /* ------------------------------------------------------------------ taps by interpolation */
+
+static void make_row(struct alias *f, int r)
+{
+    f->re[r] = arena_take(f->arena, PLACES + 4, sizeof *f->re[r]);
+    f->im[r] = arena_take(f->arena, PLACES + 4, sizeof *f->im[r]);
+    for (int i = 0; i < PLACES + 4; i++)
+        alias_taps(f, (i - 1) * f->rate / (2 * PLACES), 2 * r * STEP * f->rate, f->re[r][i], f->im[r][i]);
+}
 
 LANES_CLONES
 static void mix(const double *restrict re, const double *restrict im, const double a[4], const double b[4], double *restrict to)
@@ -251,17 +256,21 @@ static void mix(const double *restrict re, const double *restrict im, const doub
     }
 }
 
-void alias_add(const struct alias *f, double frequency, double decay, const double gain[2], double to[ALIAS_TAPS])
+void alias_add(struct alias *f, double frequency, double decay, const double gain[2], double to[ALIAS_TAPS])
 {
     double x = 2 * PLACES * frequency / f->rate, y = decay / f->rate / STEP, own_re[ALIAS_TAPS], own_im[ALIAS_TAPS], a[4], b[4];
     int i = x < PLACES ? (int)x : PLACES;
-    if (!(fabs(y) <= 1.0)) {
+    if (!(y > -1 && y < 2 * ROWS - 1)) {
         alias_taps(f, frequency, decay, own_re, own_im);
         for (int k = 0; k < ALIAS_TAPS; k++)
             to[k] += gain[0] * own_im[k] + gain[1] * own_re[k];
         return;
     }
-    /* s T = j STEP (x + j y): Lagrange's polynomials of -1, 0, 1, 2 at u = x - i + j y, times A */
+    int r = (int)(0.5 * (y + 1));
+    if (!f->re[r])
+        make_row(f, r);
+    /* s T = j STEP (x + j y): Lagrange's polynomials of -1, 0, 1, 2 at u = x - i + j (y - 2 r), times A */
+    y -= 2 * r;
     struct z u = {x - i, y}, up = {u.re + 1, y}, down = {u.re - 1, y}, two = {u.re - 2, y}, A = {gain[0], gain[1]}, inner = times(up, two), outer = times(u, down);
     const struct z l[4] = {times(outer, two), times(inner, down), times(inner, u), times(outer, up)};
     static const double by[4] = {-1.0 / 6, 0.5, -0.5, 1.0 / 6};
@@ -270,5 +279,5 @@ void alias_add(const struct alias *f, double frequency, double decay, const doub
         a[q] = by[q] * w.re;
         b[q] = by[q] * w.im;
     }
-    mix(f->re[i], f->im[i], a, b, to);
+    mix(f->re[r][i], f->im[r][i], a, b, to);
 }

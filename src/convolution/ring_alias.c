@@ -102,7 +102,7 @@ struct ring_alias *ring_alias_make(const struct ring *g, const struct ring_voice
 {
     struct ring_alias *s = ARENA_TAKE(a, struct ring_alias, 1);
     bool ramps = g->choice->engine == RING_RESONATORS;
-    s->fit = alias_make(a, g->choice->gamma, g->board->rate, g->moves);
+    s->fit = alias_make(a, g->choice->gamma, g->board->rate);
     s->moves = g->moves;
     s->separate = !v->modes->shared;
     s->listens = g->choice->reading == MOVING_READOUT;

@@ -104,7 +104,7 @@ static long double taken(const struct alias *alias, bool shared, int gamma, long
 static double judged(const struct rig *g, bool shared, int gamma, bool readout)
 {
     double wrong = 0, whole = 0;
-    const struct alias *alias = alias_make(rig_arena(), gamma, RATE, false);
+    const struct alias *alias = alias_make(rig_arena(), gamma, RATE);
     for (long n = 5; n < FRAMES; n += 41) {
         long double want = 0;
         for (long m = 0; m <= n && m < FORCED; m++)

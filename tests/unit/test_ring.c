@@ -354,7 +354,7 @@ int main(void)
 {
     const TTest *const tests[] = {test_same, test_launch, test_readout_glide, test_strokes, test_blocks, test_scraper};
     setup();
-    alias = alias_make(rig_arena(), 1, RATE, false);
+    alias = alias_make(rig_arena(), 1, RATE);
     int failed = unit_run("ring", tests, sizeof tests / sizeof tests[0]);
     teardown();
     return failed;

@@ -35,7 +35,7 @@ static void pole_at(int i, long m, double pole[2])
 /* What is taken out of sampling (test_alias.c): each frame of force to what is heard around it, by the taps of its own place or of the place where it is heard. */
 static void unalias(int i, bool readout, double *y)
 {
-    const struct alias *alias = alias_make(rig_arena(), 1, RATE, false);
+    const struct alias *alias = alias_make(rig_arena(), 1, RATE);
     for (long m = 0; m < FORCED; m++)
         for (long k = -ALIAS_REACH; k <= ALIAS_REACH; k++) {
             double re[ALIAS_TAPS], im[ALIAS_TAPS], at = (double)(readout ? m + k : m) / FORCED;
