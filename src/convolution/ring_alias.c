@@ -79,9 +79,9 @@ static bool straight(const struct ring_alias *s)
 /* The piece that holds a frame. */
 static void find(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, long frame)
 {
-    long from = frame - frame % s->piece;
     if (s->start.frame >= 0 && (!s->moves || (frame >= s->start.frame && frame < s->end.frame)))
         return;
+    long from = frame - frame % s->piece;
     if (s->moves && s->end.frame == from && s->start.frame >= 0)
         s->start = s->end;
     else
@@ -135,18 +135,23 @@ static double share(const struct ring_alias *s, long frame)
     return s->moves ? (double)(frame - s->start.frame) / (double)(s->end.frame - s->start.frame) : 0;
 }
 
+/* What would be heard before frame `least`, from `first` on, is added to that. */
+static void launch_early(struct ring_alias *s, double f, double u, long first, long least)
+{
+    double early[ALIAS_TAPS] = {0};
+    scatter(s->start.tap, s->end.tap, u, f, early);
+    for (int k = 0; k < ALIAS_TAPS; k++)
+        s->sum[first + k > least ? first + k : least] += early[k];
+}
+
 /* The force f of a frame, to what is heard around it, from frame `begin` on. */
 static void launch(struct ring_alias *s, double f, long frame, long from, long begin)
 {
-    double early[ALIAS_TAPS] = {0};
     long first = frame - ALIAS_REACH - from, least = begin > from ? begin - from : 0;
-    if (first >= least) {
+    if (first >= least)
         scatter(s->start.tap, s->end.tap, share(s, frame), f, s->sum + first);
-        return;
-    }
-    scatter(s->start.tap, s->end.tap, share(s, frame), f, early);
-    for (int k = 0; k < ALIAS_TAPS; k++)
-        s->sum[first + k > least ? first + k : least] += early[k];
+    else
+        launch_early(s, f, share(s, frame), first, least);
 }
 
 /* What is heard in a frame of the force around it, f[0] the frame's own. */
