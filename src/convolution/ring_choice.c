@@ -20,7 +20,8 @@
 static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, struct err *e)
 {
     struct object *o = ARENA_TAKE(c->arena, struct object, 1);
-    struct object_ask what = {.key = arena_format(c->arena, "%s.object", c->key), .low = ask->band[0], .top = ask->band[1], .most = 4 * ask->strongest};
+    struct object_ask what = {.key = arena_format(c->arena, "%s.object", c->key), .low = ask->band[0], .top = ask->band[1], .most = 4 * ask->strongest,
+                              .heard = MODES_TOP * ask->rate};
     if (!object_make(&c->given->object, &what, c->arena, o, &c->to->note, e))
         return err_at(e, "contact '%s'", c->contact->name);
     object_modes(o, c->given->object.origin, NULL, ask->strongest, c->arena, &c->to->modes);

@@ -187,26 +187,32 @@ static const char *joined(struct arena *a, const char *before, const char *more)
     return before ? arena_format(a, "%s\n%s", before, more) : more;
 }
 
-static const char *reach(const struct object_inside *in, struct arena *a)
+/* Of the modes below `heard`, Hz; 0: of all. */
+static const char *reach(const struct object_inside *in, double heard, struct arena *a)
 {
     const struct object_list *l = &in->list;
-    int high = 0, first = -1;
+    int high = 0, first = -1, all = 0;
     double worst = 0.0;
-    for (int i = 0; i < l->n; i++)
+    for (int i = 0; i < l->n; i++) {
+        double w = l->mode[i].w, d = decay_of(in->body, w);
+        if (heard > 0 && !(sqrt((w - d) * (w + d)) < 2 * REAL_PI * heard))
+            continue;
+        all++;
         if (l->mode[i].excess > TOO_HIGH) {
             first = first < 0 ? i : first;
             worst = fmax(worst, l->mode[i].excess);
             high++;
         }
+    }
     if (high == 0)
         return NULL;
     return arena_format(a, "%s: %s puts the frequencies of %d of its %d modes more than %g %% too high, from %.0f Hz on (by about %.0f %% at most): it is not "
-                        "thin enough for them", in->body->key, in->kind->theory, high, l->n, 100.0 * TOO_HIGH, l->mode[first].w / (2.0 * REAL_PI), 100.0 * worst);
+                        "thin enough for them", in->body->key, in->kind->theory, high, all, 100.0 * TOO_HIGH, l->mode[first].w / (2.0 * REAL_PI), 100.0 * worst);
 }
 
-static const char *notes(const struct object_inside *in, struct arena *a)
+static const char *notes(const struct object_inside *in, double heard, struct arena *a)
 {
-    const char *text = reach(in, a), *key = in->body->key;
+    const char *text = reach(in, heard, a), *key = in->body->key;
     int dropped = in->list.dropped;
     if (dropped > 0)
         text = joined(a, text, arena_format(a, "%s: %d mode%s so damped that %s not ring, and %s left out", key, dropped, dropped > 1 ? "s are" : " is",
@@ -230,7 +236,7 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
         return err_set(e, ERR_SCENE, "%s: no %smode of this object %s%g Hz: it is too %s; give %s", b->key, in->list.dropped ? "ringing " : "",
                        ask->low > 0 ? arena_format(a, "from %g Hz to below ", ask->low) : "below ", ask->top, in->list.dropped ? "damped" : "small or too stiff",
                        in->list.dropped ? "a material of less damping" : "larger sizes or a softer material, or look higher (band; of rasp modes object --top)");
-    *note = notes(in, a);
+    *note = notes(in, ask->heard, a);
     *o = (struct object){.key = b->key};
     finish(o, in, a);
     sort_by_frequency(o, a);
