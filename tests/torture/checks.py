@@ -258,24 +258,32 @@ class Judge:
             if f.get("sha256") and f["sha256"] != made.get(f["name"]):
                 self.finding(f"render: another SHA-256 than the summary's: {f['name']}")
         said = " ".join(warnings + summary["warnings"])
+        told = {f["name"]: f for f in summary["files"]}
         for name in sorted(made):
             if name.endswith(".wav"):
-                self.sound(name, said)
+                self.sound(told.get(name, {}), name, said)
             elif name.endswith(".csv") and re.search(r"(^|,)[-+]?(nan|inf)", (out / name).read_text(), re.M | re.I):
                 self.finding(f"render: {name} is not finite")
             elif name.endswith(".npy"):
                 self.array(name)
 
-    def sound(self, name, said):
-        """Samples are finite; nothing but zeros, and more than full scale, are told."""
+    def sound(self, told, name, said):
+        """Samples are finite; nothing but zeros, and more than full scale, are told, in words and in the summary. The
+        stem force holds newtons, which have no full scale."""
         kind, samples = read_wav((self.folder / "out" / name).read_bytes())
         if not all(map(math.isfinite, samples)):
             self.finding(f"render: {name} is not finite")
-        elif not any(samples) and not re.search(r"silen|zero|quiet|no sound", said):
+            return
+        silent, newtons = not any(samples), told.get("stem") == "force"
+        beyond = sum(abs(x) > 1 for x in samples) if kind.startswith("float") else 0
+        if silent and not re.search(r"silent", said):
             self.finding(f"render: {name} ({kind}): all samples are 0, without a warning")
-        elif kind.startswith("float") and max(map(abs, samples)) > 1 and not re.search(r"full scale", said):
+        elif beyond and not newtons and "full scale" not in said:
             level = 20 * math.log10(max(map(abs, samples)))
             self.finding(f"render: {name} ({kind}): {level:.1f} dB over full scale, without a warning")
+        facts, found = (told.get("silent"), told.get("samples_beyond_full_scale")), (silent, None if newtons else beyond)
+        if facts != found:
+            self.finding(f"render: {name} ({kind}): silent, beyond full scale: {found}, by the summary {facts}")
 
     def array(self, name):
         data = (self.folder / "out" / name).read_bytes()

@@ -66,6 +66,7 @@ USUAL = {
     "surface.object.poisson": (0.05, 0.45), "scraper.object.poisson": (0.05, 0.45), "ball.object.poisson": (0.05, 0.45),
 }
 for body in ("surface", "scraper", "ball"):
+    USUAL[f"{body}.band"] = (20, 4e4)
     for key, usual in {"youngs_modulus": (1e9, 2e11), "youngs_modulus_across": (5e8, 5e9), "shear_modulus": (1e8, 5e9),
         "density": (200, 9000), "alpha": (0, 50), "beta": (0, 1e-6), "loss": (1e-4, 0.05)}.items():
         USUAL[f"{body}.object.{key}"] = usual

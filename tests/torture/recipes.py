@@ -89,7 +89,7 @@ def sprinkle(part, model, tool):
             "surface.continuation", "surface.levelling", "surface.along", "surface.origin", "surface.off_map"), p=0.1)
     for body in ("surface", tool):
         if rings(part, body):
-            part.sprinkle((f"{body}.modes", f"{body}.object", f"{body}.space"), p=0.1)
+            part.sprinkle((f"{body}.modes", f"{body}.band", f"{body}.object", f"{body}.space"), p=0.1)
             reading(part, body)
     if part.chance(0.06):
         part.scene.note("carelessly put together")
