@@ -194,7 +194,7 @@ bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct cs
     *t = (struct csv){.file = arena_text(a, path)};
     const char *nul = memchr(b.at, '\0', b.n);
     if (nul)
-        return err_set(e, ERR_SCENE, "%s:%zu: a NUL byte: this is not text", path, csv_count(b.at, nul, '\n') + 1);
+        return err_set(e, ERR_SCENE, "%s:%zu: a NUL byte: this is not text; save the table as CSV in UTF-8", path, csv_count(b.at, nul, '\n') + 1);
     struct csv_reader r = {t->file, a, b.at, b.at + b.n, 1, e};
     if (b.n >= 3 && !memcmp(b.at, "\xef\xbb\xbf", 3)) /* the byte order mark of spreadsheet programs */
         r.at += 3;

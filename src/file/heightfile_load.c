@@ -84,7 +84,7 @@ static bool take_scale(const struct load *l)
                        l->names->height_scale);
     if (h->white == 0 && ranged)
         return err_set(l->e, ERR_SCENE, "%s: %s is for PNG, where white stands for it; this is %s%s%s", l->path, l->names->height_range, h->format,
-                       h->metric ? ", which holds metres" : ": give ", h->metric ? "" : l->names->height_scale);
+                       h->metric ? ", which holds metres: leave it out" : ": give ", h->metric ? "" : l->names->height_scale);
     double white = h->white > 0 ? h->white : 1, factor = ranged ? l->o->height_range : scaled ? l->o->height_scale : 1;
     for (size_t i = 0; (ranged || scaled) && i < h->rows * h->columns; i++)
         h->z[i] = h->z[i] / white * factor;

@@ -31,7 +31,8 @@ bool render_parts_plan(struct render_parts *p, struct err *e)
         one->start = rules_first_frame(&p->scene->contacts[i], p->scene->output.sample_rate);
         p->asked |= one->plan.targets;
     }
-    return p->asked || err_about(e, p->scene->contacts[0].name, "gain") || err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render");
+    return p->asked || err_about(e, p->scene->contacts[0].name, "gain") ||
+           err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render; give one of them another gain");
 }
 
 /* ------------------------------------------------------------------ runs */

@@ -76,7 +76,7 @@ START_TEST(contradictions)
     o.pitch = 2e-6;
     ck_assert(load() && h.pitch_y == 2e-6);
     o.height_range = 1e-6;
-    fails("surface.height_range is for PNG");
+    fails("surface.height_range is for PNG, where white stands for it; this is SDF (text), which holds metres: leave it out");
 }
 END_TEST
 
