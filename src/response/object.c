@@ -233,9 +233,10 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
     if (!list_ringing(in, &limit, a, e))
         return false;
     if (in->list.n == 0)
-        return err_set(e, ERR_SCENE, "%s: no %smode of this object %s%g Hz: it is too %s; give %s", b->key, in->list.dropped ? "ringing " : "",
-                       ask->low > 0 ? arena_format(a, "from %g Hz to below ", ask->low) : "below ", ask->top, in->list.dropped ? "damped" : "small or too stiff",
-                       in->list.dropped ? "a material of less damping" : "larger sizes or a softer material, or look higher (band; of rasp modes object --top)");
+        return err_set(e, ERR_SCENE, "%s: no %smode of this object %s%g Hz: widen the band (rasp modes object: --top), "
+                                     "or, if it is too %s", b->key, in->list.dropped ? "ringing " : "",
+                       ask->low > 0 ? arena_format(a, "from %g Hz to below ", ask->low) : "below ", ask->top,
+                       in->list.dropped ? "damped, give a material of less damping" : "small or too stiff, give larger sizes or a softer material");
     *note = notes(in, ask->heard, a);
     *o = (struct object){.key = b->key};
     finish(o, in, a);

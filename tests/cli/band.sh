@@ -17,6 +17,7 @@ scene "" 48000 > high.yaml
 scene ", band: [20 Hz, 9.9 kHz]" 22050 > narrow.yaml
 scene ", band: [100 kHz, 200 kHz]" 48000 > empty.yaml
 scene ", band: [2 kHz, 1 kHz]" 48000 > wrong.yaml
+scene ", band: [20 Hz, 21 Hz]" 48000 > between.yaml
 
 rasp render low.yaml -q -o low.wav 2> low.txt
 grep -o '[0-9]* of its [0-9]* strongest modes lie.*' low.txt
@@ -28,6 +29,8 @@ grep 'strongest modes' narrow.txt narrow.json && fail 'a warning where the band 
 expect_exit 65 rasp render empty.yaml -q -o empty.wav
 cat err
 expect_exit 65 rasp check wrong.yaml
+cat err
+expect_exit 65 rasp check between.yaml
 cat err
 [ ! -e empty.wav ] || fail 'empty.wav is there'
 finish
