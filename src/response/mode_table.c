@@ -38,7 +38,7 @@ static bool choose(const struct csv *t, const char *value, const char *const *wo
         if (strcmp(value, words[*index]) == 0)
             return true;
     return words == quantity_names
-               ? err_set(e, ERR_SCENE, "%s: quantity: '%.60s' is not displacement, velocity or acceleration (per N s)", t->file, value)
+               ? err_set(e, ERR_SCENE, "%s: quantity: '%.60s' is not displacement, velocity or acceleration (per N s): write one of them", t->file, value)
                : err_set(e, ERR_SCENE, "%s: %s: '%.60s' is neither %s nor %s", t->file, strcmp(words[0], "shared") == 0 ? "poles" : "pairing", value, words[0],
                          words[1]);
 }

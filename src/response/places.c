@@ -182,7 +182,7 @@ bool places_make(struct arena *a, int n, const double *xy, struct places **place
     bool straight = all_on_line(p, r);
     *bad = doubled(p, r, straight);
     if (*bad >= 0)
-        return err_set(e, ERR_SCENE, "is at the same point as another place: take one of the two out, or correct its x_m and y_m");
+        return err_set(e, ERR_SCENE, "is at the same point as another place: remove one of the two, or mend where it lies");
     if (!straight)
         return make_grid(a, p) || make_plane(a, p, e);
     p->kind = n == 1 ? PLACES_ONE : PLACES_LINE;

@@ -25,7 +25,7 @@ struct places_sum {         /* of rows as places_fill makes them */
 /* xy: [n][2] m, n >= 1, different points (copied). Within 1e-9 m of one line: a line; the crossings of two sets of
    parallel lines, at right angles, each once and to 1e-4 of their extent: a grid; else Delaunay's triangulation.
    ERR_SCENE: two places at the same point, *bad the later of them and the text what it does ("is at the same point as
-   another place"); or no triangulation, *bad -1. */
+   another place: remove one ..."); or no triangulation, *bad -1. */
 bool places_make(struct arena *a, int n, const double *xy, struct places **p, int *bad, struct err *e);
 enum places_kind places_kind(const struct places *p);
 

@@ -331,7 +331,7 @@ START_TEST(bad_tables_are_refused)
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440.1,5,1,0\n", "with shared poles they are the same at every place"},
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440,5.001,1,0\n", ":6: mode '1' has frequency 440 Hz and decay 5.001/s here"},
         {"1,0,0,1,440,5,1,0\n1,0.1,0,2,450,5,1,0\n", ":6: place '1' is at (0.1, 0) m here and at (0, 0) m in line 5"},
-        {"1,0,0,1,440,5,1,0\n2,0,0,1,440,5,1,0\n", ":6: place '2' is at the same point as another place"},
+        {"1,0,0,1,440,5,1,0\n2,0,0,1,440,5,1,0\n", ":6: place '2' is at the same point as another place: remove one of the two, or mend where it lies"},
         {"1,1e300,0,1,440,5,1,0\n", "farther than 1000 m"},
         {"", "without modes"},
     };
@@ -350,7 +350,7 @@ START_TEST(bad_tables_are_refused)
     snprintf(text, sizeof text, "# poles: some\n# quantity: velocity\n%s1,0,0,1,440,5,1,0\n", columns);
     refused(text, "'some' is neither shared nor separate");
     snprintf(text, sizeof text, "# poles: shared\n# quantity: loudness\n%s1,0,0,1,440,5,1,0\n", columns);
-    refused(text, "'loudness' is not displacement, velocity or acceleration");
+    refused(text, "'loudness' is not displacement, velocity or acceleration (per N s): write one of them");
     refused("# poles: shared\n# quantity: velocity\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain\n1,0,0,1,440,5,1\n", "column 'phase_rad'");
     refused("# poles: shared\n# quantity: velocity\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad,q\n1,0,0,1,440,5,1,0,9\n",
             "remove the others");
