@@ -18,12 +18,12 @@ PROGRAM_FAULTS = re.compile(
 ONLY_IN_SOUND = re.compile(
     r"beyond the range of|re full scale|silen|not finite|energy|too quiet|loudness|LUFS|out of memory")
 # A refusal has a help of its own, or its text says what to do; of a damaged file it is enough to say what is damaged.
-DO = ("give take write set lower raise remove leave add must needs? use choose save mend restore shorten let make "
-      "check restrict ask").split()
+DO = ("give move take write set lower raise remove leave add must needs? use choose save mend restore shorten let make "
+      "check restrict ask widen listen").split()
 SAY = ["at most", "at least", "did you mean", "is missing", "No such", "exclude", "applies only", "what is read here",
        "allowed", "can be", "more than 64 deep"]
-DAMAGE = ["Is a directory", "Too many levels", "is not a", "not finite", "neither", "damaged", "cut short", "truncated",
-          "there is no", "are called", "no column", "are too few", "is no", "file ends", "should follow",
+DAMAGE = ["Is a directory", "Too many levels", "is not a", "that is not", "not finite", "neither", "damaged",
+          "cut short", "truncated", "there is no", "are called", "no column", "are too few", "is no", "file ends", "should follow",
           "where the header", "blank line"]
 CURE = re.compile(rf"\b({'|'.join(DO + SAY + DAMAGE)})\b", re.I)
 # What is wrong with a file as a whole has no line in it.
