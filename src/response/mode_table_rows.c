@@ -195,7 +195,7 @@ static bool duplicate(const struct mode_table_rows *r, const struct key *p, cons
         snprintf(what, sizeof what, "the time %.9g s of ", p->within);
     else if (r->slopes)
         snprintf(what, sizeof what, "slope %.0f of ", p->within);
-    return err_set(e, ERR_SCENE, "%s:%d: place '%.60s' has %smode '%.60s' again, after line %d", r->csv->file, r->csv->lines[q->row],
+    return err_set(e, ERR_SCENE, "%s:%d: place '%.60s' has %smode '%.60s' again, after line %d: remove one of the two", r->csv->file, r->csv->lines[q->row],
                    mode_table_rows_cell(r, q->row, PLACE), what, mode_table_rows_cell(r, q->row, MODE), r->csv->lines[p->row]);
 }
 

@@ -317,7 +317,7 @@ START_TEST(bad_tables_are_refused)
     static const struct {
         const char *text, *says;
     } rows[] = {
-        {"1,0,0,1,440,5,1,0\n1,0,0,1,440,5,1,0\n", ":6: place '1' has mode '1' again, after line 5"},
+        {"1,0,0,1,440,5,1,0\n1,0,0,1,440,5,1,0\n", ":6: place '1' has mode '1' again, after line 5: remove one of the two"},
         {"1,0,0,1,440,5,1,0\n1,0,0,2,450,5,1,0\n2,1,0,2,450,5,1,0\n", ":7: place '2', which starts here, has no mode '1'"},
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440,5,1,0\n2,1,0,x,450,5,1,0\n", ":5: place '1', which starts here, has no mode 'x'"},
         {"1,0,0,1,440,5,1,0\n1,0,0,2,450,5,1,0\n2,1,0,1,440,5,1,0\n", ":7: place '2', which starts here, has no mode '2'"},
@@ -368,13 +368,13 @@ START_TEST(bad_forms_are_refused)
     refused("# radius_m: big\n" HEAD "1,0,0,1,440,5,1,0\n", "radius_m: 'big' is not a number above 0");
     refused("# radius_m: 0\n" HEAD "1,0,0,1,440,5,1,0\n", "radius_m: '0' is not a number above 0");
     refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1.5\n", ":5: slope 1.5 is not a whole number from 1 to 100");
-    refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,440,9,1,0,1\n", ":6: place '1' has slope 1 of mode '1' again, after line 5");
+    refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,440,9,1,0,1\n", ":6: place '1' has slope 1 of mode '1' again, after line 5: remove one of the two");
     refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,441,9,1,0,2\n", ":6: mode '1' of place '1' has frequency 441 Hz and phase 0 here");
     refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,440,9,1,0,2\n2,1,0,1,440,5,1,0,1\n", ":7: mode '1' has 1 slopes at this place, 2 at that of line 5");
     refused(SHARED SLOPES "1,0,0,1,440,5,1,0,1\n1,0,0,1,440,9,1,0,2\n2,1,0,1,440,5,1,0,1\n2,1,0,1,440,8,1,0,2\n", "decay 8/s here, 440 Hz and 9/s in line 5");
     refused(SHARED ENVELOPE "1,0,0,1,440,0,1,0\n", ":5: the envelope of mode '1' at place '1' has one sample");
     refused(SHARED ENVELOPE "1,0,0,1,440,-1,1,0\n1,0,0,1,440,0,1,0\n", ":5: time_s -1 must lie between 0");
-    refused(SHARED ENVELOPE "1,0,0,1,440,1,1,0\n1,0,0,1,440,1,2,0\n", ":6: place '1' has the time 1 s of mode '1' again, after line 5");
+    refused(SHARED ENVELOPE "1,0,0,1,440,1,1,0\n1,0,0,1,440,1,2,0\n", ":6: place '1' has the time 1 s of mode '1' again, after line 5: remove one of the two");
     refused(SHARED ENVELOPE "1,0,0,1,440,1,1,0\n1,0,0,1,440,2,1,0.5\n", "an envelope belongs to one frequency and phase");
     refused(SHARED "place,x_m,y_m,mode,frequency_hz,time_s,gain,phase_rad\n1,0,0,1,440,1,1,0\n", "a table of envelopes needs the column 'amplitude'");
     refused(SHARED "place,x_m,y_m,mode,frequency_hz,time_s,amplitude,phase_rad,slope\n1,0,0,1,440,1,1,0,1\n", "9 columns where a mode table has 8");
