@@ -24,7 +24,7 @@ SAY = ["at most", "at least", "did you mean", "is missing", "No such", "exclude"
        "allowed", "can be", "more than 64 deep"]
 DAMAGE = ["Is a directory", "Too many levels", "is not a", "that is not", "not finite", "neither", "damaged",
           "cut short", "truncated", "there is no", "are called", "no column", "are too few", "is no",
-          "file ends", "should follow", "where the header", "blank line"]
+          "file ends", "should (follow|stand)", "where the header", "blank line"]
 CURE = re.compile(rf"\b({'|'.join(DO + SAY + DAMAGE)})\b", re.I)
 # What is wrong with a file as a whole has no line in it.
 WHOLE_FILE = re.compile(r"encoded as UTF|is empty|nothing in it|larger than")
