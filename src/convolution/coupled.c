@@ -69,8 +69,10 @@ bool coupled_make(struct arena *a, const struct coupled_ask *ask, struct coupled
     c->ask.frequency = c->modes.frequency;
     c->ask.decay = c->modes.decay;
     *made = c;
-    if (ask->integrator == INTEGRATOR_RK4)
+    if (ask->integrator == INTEGRATOR_RK4) {
         coupled_stages_make(a, c);
+        return coupled_rk4_make(c, e);
+    }
     return ask->integrator != INTEGRATOR_DISCRETE_GRADIENT || coupled_gradient_make(c, e);
 }
 

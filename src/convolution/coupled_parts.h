@@ -73,6 +73,9 @@ bool coupled_exact_run(struct coupled *c, int steps, const double *surface, cons
 /* The modes' inertia, spring, turn, pull, push, drain. ERR_SCENE: a mode at or above half the rate of the steps. */
 bool coupled_gradient_make(struct coupled *c, struct err *e);
 
+/* ERR_SCENE: a mode whose decay the steps spoil. */
+bool coupled_rk4_make(const struct coupled *c, struct err *e);
+
 /* Potential energy of the contact, J: (2/5) k xi^2.5. */
 static inline double coupled_potential(double stiffness, double penetration)
 {

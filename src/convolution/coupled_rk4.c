@@ -230,7 +230,7 @@ static double decay_of(double decay, double omega, double step)
     return -0.5 * real_log(real * real + imaginary * imaginary) / step;
 }
 
-static bool modes_hold(const struct coupled *c, struct err *e)
+bool coupled_rk4_make(const struct coupled *c, struct err *e)
 {
     const struct coupled_modes *m = &c->modes;
     for (int i = 0; i < m->n; i++) {
@@ -303,8 +303,6 @@ static void open_run(struct rk4_run *r, struct coupled *c, int steps, const doub
 bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force, struct err *e)
 {
     struct rk4_run r;
-    if (c->state.steps == 0 && !modes_hold(c, e))
-        return false;
     open_run(&r, c, steps, phi_to);
     for (int at = 0; at < steps;) {
         if (coupled_unseen(c, at, steps) == at)

@@ -339,18 +339,16 @@ START_TEST(refuses_modes_it_spoils)
     for (int i = 0; i < 5; i++) {
         struct arena *a = arena_open();
         struct err e = {0};
-        double phi = 1, ground = 0, force;
-        struct coupled *c = plate(a, RK4, BALL_RATE, 1e9, 1, &of[i].f, &of[i].decay);
-        coupled_start(c, 1, 0, 0, &phi, false);
-        bool ran = coupled_run(c, 1, &ground, NULL, &force, &e);
-        ck_assert_msg(ran == of[i].good, "%g Hz, %g 1/s: %s", of[i].f, of[i].decay, e.text);
+        struct coupled_ask ask = {.integrator = RK4, .step = 1 / BALL_RATE, .mass = 0.01, .weight = 0.1, .stiffness = 1e9, .n = 1,
+                                  .frequency = &of[i].f, .decay = &of[i].decay};
+        struct coupled *c;
+        bool made = coupled_make(a, &ask, &c, &e);
+        ck_assert_msg(made == of[i].good, "%g Hz, %g 1/s: %s", of[i].f, of[i].decay, e.text);
         ck_assert_int_eq(e.kind, of[i].good ? ERR_NONE : ERR_SCENE);
-        if (!ran) { /* the cure in the message cures */
-            double step = strtod(strstr(e.text, "at most ") + 8, NULL);
+        if (!made) { /* the cure in the message cures */
+            ask.step = strtod(strstr(e.text, "at most ") + 8, NULL);
             e = (struct err){0};
-            c = plate(a, RK4, 1 / step, 1e9, 1, &of[i].f, &of[i].decay);
-            coupled_start(c, 1, 0, 0, &phi, false);
-            ck_assert_msg(coupled_run(c, 1, &ground, NULL, &force, &e), "%s", e.text);
+            ck_assert_msg(coupled_make(a, &ask, &c, &e), "%s", e.text);
         }
         arena_close(a);
     }
