@@ -211,7 +211,8 @@ static bool sample_bad(const struct wav_out *w, size_t i, double x, struct err *
     if (!isfinite(x))
         return err_set(e, ERR_NUMBERS, "%s: frame %.0f (%.6f s), channel %d: the sample is %g", w->path, frame, seconds, channel, x);
     if (bits < 0)
-        return err_set(e, ERR_SCENE, "%s: frame %.0f (%.6f s), channel %d: %g is too large for 32-bit floating point", w->path, frame,
+        return err_set(e, ERR_SCENE, "%s: frame %.0f (%.6f s), channel %d: %g is too large for 32-bit floating point; lower the level, or what the force "
+                       "comes from", w->path, frame,
                        seconds, channel, x);
     return err_set(e, ERR_SCENE,
                    "%s: frame %.0f (%.6f s), channel %d: %.6f is %+.2f dB re full scale, beyond the range of %d-bit integers; lower the "

@@ -231,7 +231,7 @@ static bool check_points(const struct mode_table_rows *r, struct arena *a, struc
         size_t o = first[r->place[i]];
         const double *v = mode_table_rows_values(r, i), *w = mode_table_rows_values(r, o);
         if (v[X] != w[X] || v[Y] != w[Y]) {
-            err_set(e, ERR_SCENE, "place '%.60s' is at (%g, %g) m here and at (%g, %g) m in line %d", mode_table_rows_cell(r, i, PLACE), v[X], v[Y], w[X],
+            err_set(e, ERR_SCENE, "place '%.60s' is at (%g, %g) m here and at (%g, %g) m in line %d: make both the same", mode_table_rows_cell(r, i, PLACE), v[X], v[Y], w[X],
                     w[Y], r->csv->lines[o]);
             return mode_table_rows_bad(r, i, e);
         }

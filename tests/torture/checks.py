@@ -16,14 +16,14 @@ PROGRAM_FAULTS = re.compile(
     r"runtime error:|Sanitizer|[Ii]nternal error|[Aa]ssertion|stack smashing|corrupted|double free")
 # What only the sound itself shows, and rasp check cannot know (rasp-check: "such as clipping").
 ONLY_IN_SOUND = re.compile(
-    r"beyond the range of|re full scale|silen|not finite|energy|too quiet|loudness|LUFS|out of memory")
+    r"beyond the range of|too large for 32-bit|re full scale|silen|not finite|energy|too quiet|loudness|LUFS|out of memory")
 # A refusal has a help of its own, or its text says what to do; of a damaged file it is enough to say what is damaged.
 DO = ("give move take write set lower raise remove leave add must needs? use choose save mend restore shorten let make "
       "check restrict ask widen listen").split()
 SAY = ["at most", "at least", "did you mean", "is missing", "No such", "exclude", "applies only", "what is read here",
        "allowed", "can be", "more than 64 deep"]
 DAMAGE = ["Is a directory", "Too many levels", "is not a", "that is not", "not finite", "neither", "damaged",
-          "cut short", "truncated", "there is no", "are called", "no column", "are too few", "is no",
+          "cut short", "truncated", "there is no", "are called", "no column", "are too few", "is no", "is none",
           "file ends", "should (follow|stand)", "where the header", "blank line"]
 CURE = re.compile(rf"\b({'|'.join(DO + SAY + DAMAGE)})\b", re.I)
 # What is wrong with a file as a whole has no line in it.

@@ -330,7 +330,7 @@ START_TEST(bad_tables_are_refused)
         {"1,0,0,1,440,5,1\n", ":5"},
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440.1,5,1,0\n", "with shared poles they are the same at every place"},
         {"1,0,0,1,440,5,1,0\n2,1,0,1,440,5.001,1,0\n", ":6: mode '1' has frequency 440 Hz and decay 5.001/s here"},
-        {"1,0,0,1,440,5,1,0\n1,0.1,0,2,450,5,1,0\n", ":6: place '1' is at (0.1, 0) m here and at (0, 0) m in line 5"},
+        {"1,0,0,1,440,5,1,0\n1,0.1,0,2,450,5,1,0\n", ":6: place '1' is at (0.1, 0) m here and at (0, 0) m in line 5: make both the same"},
         {"1,0,0,1,440,5,1,0\n2,0,0,1,440,5,1,0\n", ":6: place '2' is at the same point as another place: remove one of the two, or mend where it lies"},
         {"1,1e300,0,1,440,5,1,0\n", "farther than 1000 m"},
         {"", "without modes"},
