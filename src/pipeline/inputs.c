@@ -20,7 +20,7 @@ static const char *why_unreadable(const char *file)
     return S_ISREG(s.st_mode) ? NULL : "is not a file";
 }
 
-/* A response may be a folder, which its reader looks into (response/ir_set.h). */
+/* A response may be a folder, whose reader looks for its places in index.csv (response/ir_set.h). */
 static bool may_be_folder(const char *where, const char *file)
 {
     struct stat s;
@@ -37,10 +37,13 @@ struct missing {
 /* The place of the first is told with the whole (scene_places_tell), those of the others here. What names a file is given: it has a place. */
 static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
-    const char *why = file && !may_be_folder(key, file) ? why_unreadable(file) : NULL;
+    const char *index = may_be_folder(key, file) ? arena_format(m->arena, "%s/index.csv", file) : NULL;
+    const char *why = file ? why_unreadable(index ? index : file) : NULL;
     if (!why)
         return;
     const struct scene_place *p = scene_places_find(m->scene, contact, key, file);
+    if (index)
+        file = arena_format(m->arena, "a folder of responses has its places in index.csv (file_name,x_m,y_m): %s", index);
     const char *between = m->key ? arena_format(m->arena, "; %s: ", scene_places_text(m->scene, p, m->arena)) : "";
     m->text = arena_format(m->arena, "%s%s%s: %s: %s%s", m->text, between, p ? p->label : key, file, why, p ? p->named : "");
     m->contact = m->key ? m->contact : contact;
