@@ -45,7 +45,7 @@ int accuracy_plot_tics(double low, double high, double tics[ACCURACY_PLOT_TICS])
     for (int set = 0; set < 3 && n < 2; set++) {
         n = 0;
         for (int e = (int)floor(real_log10(low)); e <= (int)ceil(real_log10(high)); e++)
-            for (const double *d = digits[set]; *d; d++) {
+            for (const double *d = digits[set]; *d > 0; d++) {
                 double x = *d * real_pow(10, e);
                 if (x >= low && x <= high && n < ACCURACY_PLOT_TICS)
                     tics[n++] = x;
