@@ -15,6 +15,7 @@
 #include "base/lastwords.h"
 #include "base/memory.h"
 
+#define DISMISSED SIGRTMIN /* wakes the thread that waits; not pthread_cancel, whose unwinding the address sanitizer takes for a fault */
 #define GRACE 250000000 /* ns */
 #define WORDS 100000000 /* ns: for who is telling it, and ends the program then */
 
@@ -25,6 +26,7 @@ struct temporary {
 
 static sigset_t signals;                  /* set once, before the thread is there */
 static pthread_t waiter;
+static atomic_bool dismissed;             /* it is to go */
 static bool waits;                        /* there is such a thread */
 static atomic_bool seen;
 static atomic_flag told = ATOMIC_FLAG_INIT;
@@ -108,7 +110,6 @@ void interrupt_tell(void)
 /* The lists are not locked: who would change them waits for `names`, or is cut off. */
 static _Noreturn void end(void)
 {
-    pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, NULL);
     pthread_rwlock_wrlock(&names);
     if (atomic_flag_test_and_set(&told))
         nanosleep(&(struct timespec){.tv_nsec = WORDS}, NULL);
@@ -126,9 +127,15 @@ static _Noreturn void end(void)
 
 static void *wait_for_signals(void *unused)
 {
-    int number;
+    int number = DISMISSED;
+    sigset_t all = signals;
     (void)unused;
-    sigwait(&signals, &number);
+    sigaddset(&all, DISMISSED);
+    while (number == DISMISSED) {
+        if (dismissed)
+            return NULL;
+        sigwait(&all, &number);
+    }
     seen = true;
     while (sigtimedwait(&signals, NULL, &(struct timespec){.tv_nsec = GRACE}) < 0 && errno == EINTR) /* it was stopped, and goes on */
         continue;
@@ -143,7 +150,10 @@ void interrupt_catch(void)
     sigaddset(&signals, SIGTERM);
     signal(SIGINT, SIG_DFL); /* who started us in the background may have had them ignored */
     signal(SIGTERM, SIG_DFL);
-    pthread_sigmask(SIG_BLOCK, &signals, NULL);
+    sigset_t all = signals;
+    sigaddset(&all, DISMISSED);
+    pthread_sigmask(SIG_BLOCK, &all, NULL);
+    dismissed = false;
     waits = pthread_create(&waiter, NULL, wait_for_signals, NULL) == 0;
     if (!waits)
         pthread_sigmask(SIG_UNBLOCK, &signals, NULL);
@@ -153,7 +163,8 @@ void interrupt_catch(void)
 bool interrupt_pass_on(void)
 {
     if (waits) {
-        pthread_cancel(waiter);
+        dismissed = true;
+        pthread_kill(waiter, DISMISSED);
         pthread_join(waiter, NULL);
         waits = false;
     }

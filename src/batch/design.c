@@ -121,9 +121,11 @@ bool design_is(const char *file)
     size_t size;
     const char *text = yaml_bytes_text(file, a, &size), *end = text ? text + size : NULL;
     bool found = false, flow = false;
-    for (const char *line = text; line && line < end && !found; line = memchr(line, '\n', (size_t)(end - line)), line += line != NULL) {
+    for (const char *line = text; line && line < end && !found;) {
         flow = flow || *line == '{';
         found = names_design(line, flow);
+        line = memchr(line, '\n', (size_t)(end - line));
+        line = line ? line + 1 : NULL;
     }
     arena_close(a);
     return found;
