@@ -92,8 +92,8 @@ static const struct args_option options[] = {
     {"line", 0, "X0,Y0,X1,Y1", false, "object, compute: places on a line, its two ends"},
     {"circle", 0, "RADIUS", false, "object, compute: places on a circle round (0, 0)"},
     {"places", 0, "N", false, "object, compute: how many places on the line or circle; default: on a circle 33, on a line as --grid says"},
-    {"grid", 0, "NX,NY", false, "object, compute: places on a grid over the object; those beside it (of what is round) are left out, and between what is then no full grid gains are linear, else smooth; default: as many "
-     "as keep the gains of all modes between the places, as a scene interpolates them, within -40 dB (rms, relative to the gains, at 512 places), at most 4096 and 250000 rows; what is left is told"},
+    {"grid", 0, "NX,NY", false, "object, compute: places on a grid over the object; those beside it (of what is round) are left out, and between what is then no full grid gains are linear, else smooth; default: a grid, "
+     "over what is round rings as far as its surface has no edge (a bowl: to its lip), with as many places as keep the gains of all modes between the places, as a scene interpolates them, within -40 dB (rms, relative to the gains, at 512 places), at most 4096 and 500000 rows; what is left is told"},
     {"at", 0, "X,Y", false, "one place"},
     {"points", 0, "FILE.csv", false, "compute: places by points of space, columns x_m, y_m, z_m, and u_m, v_m where the scene has them (else x_m, y_m)"},
     {"listen", 0, "X,Y", false, "object, compute: the place that is heard (compute also X,Y,Z); default: the place that is touched"},
@@ -133,7 +133,7 @@ const struct command modes_command = {
     .does = "rasp modes object RECIPE -o FILE.csv: the modes of an object of simple shape as a mode table: their frequencies, decays, and gains at places. "
             "RECIPE is a YAML file of surface keys (object, material), as in irs/, or a scene. Places are lengths in the object's own coordinates: "
             "of bars, rods, strings, plates and membranes x from 0 to the length and y from 0 to the width, of what is round from the centre, of a shell "
-            "along great circles from a pole. Without --line, --grid or --at they are a line along what is slender, a grid on what is flat (as many as --grid says), a shell's pole, and of a "
+            "along great circles from a pole. Without --line, --grid or --at they are a line along what is slender, a grid on what is flat, rings on what is round (as many as --grid says), a shell's pole, and of a "
             "scraper or ball its object.at. The table has them where they lie in the scene, moved by surface.object.origin. Rendering needs no such file: "
             "a scene's surface.object gives the same modes at any place. A table is for other programs, and to be changed by hand.\n"
             "rasp modes compute MESH -o FILE.csv: the modes of any solid by finite elements. MESH is a mesh of tetrahedra, of Gmsh (.msh, versions 2.2 and 4.1) or "
@@ -141,7 +141,7 @@ const struct command modes_command = {
             "0.5 % (a ring 14 cm wide, 10 x 6 mm: its lowest 0.12 %, at 14 kHz 0.45 %) and 0.6 % (a mug of 4 mm, a bowl 20 cm wide and 1.5 mm thick), in 4 to 16 s of processor time; thinner walls and higher modes want more: frequencies come out too high and fall with fineness and --order. --estimate "
             "says by how much, from a coarser mesh too (Richardson); it cannot see the error of what both meshes have alike, such as one element through a wall. "
             "The solid is touched and heard along its surface's normal. Its places are those of the plane in which a scene moves: --face says from where that looks at the solid, and "
-            "--origin where the solid lies in the scene. Without --line, --circle, --grid, --at or --points they are a grid over what is seen, a line along what is slender. "
+            "--origin where the solid lies in the scene. Without --line, --circle, --grid, --at or --points they are a grid over what is seen (rings if round), a line along what is slender. "
             "A table that was made from the same inputs and has not been changed since is left as it is.\n"
             "rasp modes extract RECORDING... -o FILE.csv: the modes of a real object from recordings in which it is struck. RECORDING is a sound file of any kind that libsndfile "
             "reads, with one strike or many on one place. The strikes are found; where a channel holds the hammer's force (--force-channel) it is divided out; and the strongest "

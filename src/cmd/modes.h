@@ -36,11 +36,13 @@ struct modes_places {
     bool chosen;           /* as many as the goal of cmd/modes_fit.h needs */
     bool line;             /* from, to: of the line; else of the box that holds them */
     double from[2], to[2];
+    double ring[2];        /* m: of rings, the radii within which they lie; else 0 */
 };
 struct modes_fit;
 struct modes_ground {
     const void *self;
     double (*off)(const void *self, double x, double y); /* m, how far off the object; INFINITY: there is none */
+    bool (*bends)(const void *self, const double from[2], const double to[2]); /* is there an edge between? NULL: none */
     double low[2], high[2]; /* m, box of the places */
     int standard[2];       /* by default: NX, NY a grid; N, 1 a line in the middle; 1, 1 the place `at` */
     struct modes_fit *fit; /* by default, and on a line, as many places as its goal needs (cmd/modes_fit.h); NULL: those

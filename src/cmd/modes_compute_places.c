@@ -17,6 +17,14 @@ static double off(const void *self, double x, double y)
     return chart_point((const struct chart *)self, x, y, &p) ? 0.0 : (double)INFINITY;
 }
 
+/* Gains jump where the surface turns from one of these to the other: by more than half a right angle. */
+static bool bends(const void *self, const double from[2], const double to[2])
+{
+    struct boundary_point p, q;
+    return chart_point((const struct chart *)self, from[0], from[1], &p) && chart_point((const struct chart *)self, to[0], to[1], &q) &&
+           p.normal[0] * q.normal[0] + p.normal[1] * q.normal[1] + p.normal[2] * q.normal[2] < 0.7071;
+}
+
 static double size_of(const struct compute *k)
 {
     double square = 0;
@@ -99,6 +107,7 @@ static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
     double wide = c->high[0] - c->low[0], high = c->high[1] - c->low[1];
     struct modes_ground ground = {.self = c,
                                   .off = off,
+                                  .bends = bends,
                                   .low = {c->low[0], c->low[1]},
                                   .high = {c->high[0], c->high[1]},
                                   .standard = {17, 9},

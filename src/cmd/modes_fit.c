@@ -9,7 +9,7 @@
    the places; those beside the object or beyond the hull of the table's places are left out.
 
    As many places as needed: from 5 lines each way that axis gets a quarter more lines, two at least, that brings the
-   most decibels for the logarithm of the number of places (or both do), until the goal is met; then lines are taken
+   most decibels for the logarithm of the number of places (or both do; and both get them where no step brings STUCK), until the goal is met; then lines are taken
    away two by two as long as it is. The numbers are odd: what is symmetric has a place in its middle. */
 #include "cmd/modes_fit.h"
 
@@ -20,6 +20,7 @@
 #include "response/morph_points.h"
 
 enum { SPOTS = 512 };
+#define STUCK 1.0 /* dB */
 
 static double share(int i, double ratio)
 {
@@ -93,6 +94,8 @@ static const char *told(double db, struct arena *a)
 
 void modes_fit_write(FILE *f, double db, const struct modes_places *p, struct arena *a)
 {
+    if (p->ring[1] > 0)
+        fprintf(f, "# rings: places at radii from %.9g to %.9g m, where the surface has no edge\n", p->ring[0], p->ring[1]);
     if (isnan(db))
         return;
     fprintf(f,
@@ -126,16 +129,15 @@ struct growing {
     long most;
 };
 
-static bool fits(const struct growing *g, const int n[2])
+static double error_of(const struct growing *g, const int n[2], int *places)
 {
-    return (long)n[0] * n[1] <= g->most;
-}
-
-static double error_of(const struct growing *g, const int n[2])
-{
+    struct arena *a = arena_open();
     struct modes_places p = {0};
-    g->lay(g->self, n, &p);
-    return p.n > 1 ? modes_fit_error(g->fit, &p) : 0;
+    g->lay(g->self, n, a, &p);
+    double db = p.n > g->most ? NAN : p.n > 1 ? modes_fit_error(g->fit, &p) : 0;
+    *places = p.n;
+    arena_close(a);
+    return db;
 }
 
 static int more(int n)
@@ -143,35 +145,38 @@ static int more(int n)
     return n + 2 * (n / 8 > 1 ? n / 8 : 1);
 }
 
+struct step {
+    int n[2], places;
+    double db;
+};
+
 /* One step; false: there is no room for any. */
-static bool grow(const struct growing *g, int axes, int n[2], double *db)
+static bool grow(const struct growing *g, int axes, struct step *now)
 {
-    int best[2] = {0, 0};
-    double most = -HUGE_VAL, then = 0;
+    struct step best = {.places = 0}, try = *now;
+    double most = -HUGE_VAL;
     for (int which = 1; which < 1 << axes; which++) {
-        int try[2] = {which & 1 ? more(n[0]) : n[0], which & 2 ? more(n[1]) : n[1]};
-        if (!fits(g, try))
+        try.n[0] = which & 1 ? more(now->n[0]) : now->n[0];
+        try.n[1] = which & 2 ? more(now->n[1]) : now->n[1];
+        try.db = error_of(g, try.n, &try.places);
+        double brings = (now->db - try.db) / real_log((double)try.places / now->places);
+        if (try.places > g->most || isnan(brings) || brings < most)
             continue;
-        double error = error_of(g, try), by = real_log((double)try[0] * try[1] / ((double)n[0] * n[1]));
-        double brings = isnan(error) ? 0 : (*db - error) / by;
-        if (brings >= most) {
-            most = brings;
-            then = error;
-            best[0] = try[0], best[1] = try[1];
-        }
+        most = brings;
+        best = try;
     }
-    if (best[0] == 0)
-        return false;
-    n[0] = best[0], n[1] = best[1];
-    *db = then;
-    return true;
+    if (best.places > 0 && best.db > now->db - STUCK && try.places <= g->most && !isnan(try.db))
+        best = try; /* the last, all axes */
+    if (best.places > 0)
+        *now = best;
+    return best.places > 0;
 }
 
 static void shrink(const struct growing *g, int axis, int n[2])
 {
     while (n[axis] > 5) {
-        int less[2] = {n[0] - 2 * (axis == 0), n[1] - 2 * (axis == 1)};
-        if (!(error_of(g, less) <= MODES_FIT_GOAL))
+        int of, less[2] = {n[0] - 2 * (axis == 0), n[1] - 2 * (axis == 1)};
+        if (!(error_of(g, less, &of) <= MODES_FIT_GOAL))
             return;
         n[axis] = less[axis];
     }
@@ -181,12 +186,13 @@ void modes_fit_places(struct modes_fit *f, modes_fit_lay *lay, const void *self,
 {
     long rows = MODES_FIT_ROWS / f->n;
     struct growing g = {f, lay, self, rows < 153 ? 153 : rows > MODES_FIT_PLACES ? MODES_FIT_PLACES : rows};
-    int n[2] = {5, line ? 1 : 5}, axes = line ? 1 : 2;
-    double db = error_of(&g, n);
-    while (db > MODES_FIT_GOAL && grow(&g, axes, n, &db))
+    struct step now = {.n = {5, line ? 1 : 5}};
+    int axes = line ? 1 : 2;
+    now.db = error_of(&g, now.n, &now.places);
+    while (now.db > MODES_FIT_GOAL && grow(&g, axes, &now))
         ;
-    for (int axis = axes; axis-- > 0 && db <= MODES_FIT_GOAL;)
-        shrink(&g, axis, n);
-    lay(self, n, p);
+    for (int axis = axes; axis-- > 0 && now.db <= MODES_FIT_GOAL;)
+        shrink(&g, axis, now.n);
+    lay(self, now.n, f->arena, p);
     p->chosen = true;
 }

@@ -28,8 +28,8 @@ void modes_fit_warn(struct cmd_call *c, double db, const struct modes_places *p)
 
 /* The least numbers of places, near enough, that keep MODES_FIT_GOAL; set_out lays them out. */
 #define MODES_FIT_GOAL -40.0
-enum { MODES_FIT_PLACES = 4096, MODES_FIT_ROWS = 250000 };
-typedef void modes_fit_lay(const void *self, const int n[2], struct modes_places *p);
+enum { MODES_FIT_PLACES = 4096, MODES_FIT_ROWS = 500000 };
+typedef void modes_fit_lay(const void *self, const int n[2], struct arena *a, struct modes_places *p);
 void modes_fit_places(struct modes_fit *f, modes_fit_lay *lay, const void *self, bool line, struct modes_places *p);
 
 #endif

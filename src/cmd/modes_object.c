@@ -128,8 +128,8 @@ static bool make(struct job *j, struct err *e)
 static void comments(FILE *f, const struct job *j)
 {
     const double *origin = j->body.response->object.origin;
-    fprintf(f, "# poles: %s\n# quantity: %s\n# normalisation: %s, physical; heard at ", j->load > 0.0 ? "separate" : "shared",
-            modes_quantity_name(j->quantity), modes_per_impulse(j->quantity));
+    fprintf(f, "# poles: %s\n%s# quantity: %s\n# normalisation: %s, physical; heard at ", j->load > 0.0 ? "separate" : "shared",
+            j->load > 0.0 ? "# gains: complex\n" : "", modes_quantity_name(j->quantity), modes_per_impulse(j->quantity));
     if (j->heard_elsewhere)
         fprintf(f, "x = %.12g m, y = %.12g m\n", j->listen[0] + origin[0], j->listen[1] + origin[1]);
     else

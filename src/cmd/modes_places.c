@@ -80,25 +80,111 @@ static bool all_on(const struct modes_ground *g, const struct modes_places *p, s
 
 struct layout { /* for cmd/modes_fit.h */
     const struct modes_ground *ground;
-    double ends[4];
-    struct arena *arena;
+    double ends[4], round[2]; /* m: radii of what is round */
 };
 
-static void lay_line(const void *self, const int n[2], struct modes_places *p)
+enum { RAYS = 120, STEPS = 100, FEW = 2 };
+#define ROUND 0.02 /* of the radius: a mesh has corners */
+
+/* Is the ground there, and at `from` (below 0: anywhere) on the same side of all its edges? Shares of a ray. */
+static bool goes_on(const struct modes_ground *g, const double middle[2], const double ray[2], double from, double at)
 {
-    const struct layout *l = (const struct layout *)self;
-    line(p, l->ends, n[0], l->arena);
+    double was[2] = {middle[0] + from * ray[0], middle[1] + from * ray[1]};
+    double is[2] = {middle[0] + at * ray[0], middle[1] + at * ray[1]};
+    return g->off(g->self, is[0], is[1]) <= 1e-9 && !(from >= 0 && g->bends && g->bends(g->self, was, is));
 }
 
-static void lay_grid(const void *self, const int n[2], struct modes_places *p)
+/* The longest stretch of a ray from the middle on which there is ground without an edge, as shares of the ray. */
+static void longest(const struct modes_ground *g, const double middle[2], const double ray[2], double edge[2])
+{
+    double begin = 0, last = -1; /* last: of the stretch; below 0: there is none */
+    edge[0] = edge[1] = 0;
+    for (int k = 0; k <= STEPS + 1; k++) {
+        double at = k == 0 ? 1e-6 : (double)k / STEPS;
+        bool on = k <= STEPS && goes_on(g, middle, ray, last, at), was = last >= 0;
+        double low = was ? last : (double)(k - 1) / STEPS, high = at;
+        for (int pass = 0; pass < 40 && on != was && k > 0; pass++) {
+            double half = 0.5 * (low + high);
+            *(goes_on(g, middle, ray, last, half) == was ? &low : &high) = half;
+        }
+        if (was && !on && low - begin > edge[1] - edge[0]) {
+            edge[0] = begin;
+            edge[1] = low;
+        }
+        if (was && !on) /* beyond an edge another stretch may begin */
+            on = k <= STEPS && goes_on(g, middle, ray, -1, at);
+        else if (was || !on)
+            high = begin;
+        begin = on ? (k == 0 ? 0 : high) : begin;
+        last = on ? at : -1;
+    }
+}
+
+/* Is the ground a disk round the middle of its box, or a ring? Its radii, inside it by what rounding may take, and by as
+   much as radii differ: between rays they may differ a little more. */
+static bool is_round(const struct modes_ground *g, double radii[2])
+{
+    double middle[2] = {0.5 * (g->low[0] + g->high[0]), 0.5 * (g->low[1] + g->high[1])};
+    double reach = 0.5 * (g->high[0] - g->low[0]), least[2] = {reach, reach}, most[2] = {0, 0};
+    if (!(fabs(g->high[1] - g->low[1] - 2 * reach) <= ROUND * reach))
+        return false;
+    for (int k = 0; k < RAYS; k++) {
+        double c = real_cospi(2.0 * k / RAYS), s = real_sinpi(2.0 * k / RAYS), edge[2];
+        longest(g, middle, (double[2]){reach * c, reach * s}, edge);
+        for (int i = 0; i < 2; i++) {
+            least[i] = fmin(least[i], reach * edge[i]);
+            most[i] = fmax(most[i], reach * edge[i]);
+        }
+    }
+    radii[0] = most[0] > 0 ? 2 * most[0] - least[0] + 1e-9 * reach : 0;
+    radii[1] = 2 * least[1] - most[1] - 1e-9 * reach;
+    return most[0] - least[0] <= ROUND * reach && most[1] - least[1] <= ROUND * reach && radii[0] < radii[1];
+}
+
+/* n[0] rings, the rim's of 4 n[1] places, the others' in proportion to their radius, and FEW more near the middle. Rings
+   are closer together near a rim, where a solid that is seen there from its side bends away, and where the spline has
+   neighbours on one side only. Numbers of places are multiples of 4: what is symmetric has its places so. */
+static void rings(struct modes_places *p, const struct layout *l, const int n[2], struct arena *a)
+{
+    const struct modes_ground *g = l->ground;
+    double middle[2] = {0.5 * (g->low[0] + g->high[0]), 0.5 * (g->low[1] + g->high[1])};
+    *p = (struct modes_places){.xy = arena_take(a, 1 + 4 * (size_t)n[0] * (size_t)(n[1] + FEW), sizeof *p->xy),
+                               .from = {g->low[0], g->low[1]},
+                               .to = {g->high[0], g->high[1]}};
+    bool hole = l->round[0] > 0;
+    p->ring[0] = l->round[0], p->ring[1] = l->round[1];
+    if (!hole)
+        add(p, middle[0], middle[1]);
+    for (int j = !hole; j < n[0] + !hole; j++) {
+        double u = hole ? 0.5 - 0.5 * real_cospi((double)j / (n[0] - 1)) : real_sinpi(0.3 * j / n[0]) / real_sinpi(0.3);
+        double radius = l->round[0] + u * (l->round[1] - l->round[0]), share = radius / l->round[1];
+        int count = 4 * (int)ceil(n[1] * share + FEW * (1 - share) - 1e-9);
+        for (int k = 0; k < count; k++)
+            add(p, middle[0] + radius * real_cospi(2.0 * k / count), middle[1] + radius * real_sinpi(2.0 * k / count));
+    }
+}
+
+static void lay_line(const void *self, const int n[2], struct arena *a, struct modes_places *p)
 {
     const struct layout *l = (const struct layout *)self;
-    grid(p, l->ground, n, l->arena);
+    line(p, l->ends, n[0], a);
+}
+
+static void lay_grid(const void *self, const int n[2], struct arena *a, struct modes_places *p)
+{
+    const struct layout *l = (const struct layout *)self;
+    grid(p, l->ground, n, a);
+}
+
+static void lay_rings(const void *self, const int n[2], struct arena *a, struct modes_places *p)
+{
+    const struct layout *l = (const struct layout *)self;
+    rings(p, l, n, a);
 }
 
 static void along(struct cmd_call *c, const struct modes_ground *g, const double ends[4], int n, struct modes_places *p)
 {
-    struct layout l = {.arena = c->arena, .ends = {ends[0], ends[1], ends[2], ends[3]}};
+    struct layout l = {.ends = {ends[0], ends[1], ends[2], ends[3]}};
     if (g->fit)
         modes_fit_places(g->fit, lay_line, &l, true, p);
     else
@@ -108,13 +194,13 @@ static void along(struct cmd_call *c, const struct modes_ground *g, const double
 static void standard(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p)
 {
     double middle = 0.5 * (g->low[1] + g->high[1]);
-    struct layout l = {.arena = c->arena, .ground = g};
+    struct layout l = {.ground = g};
     if (g->standard[0] == 1)
         line(p, (double[4]){g->at[0], g->at[1], g->at[0], g->at[1]}, 1, c->arena);
     else if (g->standard[1] == 1)
         along(c, g, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], p);
     else if (g->fit)
-        modes_fit_places(g->fit, lay_grid, &l, false, p);
+        modes_fit_places(g->fit, is_round(g, l.round) ? lay_rings : lay_grid, &l, false, p);
     else
         grid(p, g, g->standard, c->arena);
 }

@@ -40,8 +40,9 @@ static bool read_modes(struct ring_choosing *c, struct err *e)
     c->to->note = c->to->note ? c->to->note : m->note;
     c->to->chosen = m->n;
     c->to->high = modes_drop_above(m, rate);
-    return m->n > 0 || err_set(e, ERR_SCENE, "%s: all of its modes lie above %.6g Hz (0.45 times output.sample_rate), and nothing would ring: raise "
-                                             "output.sample_rate, or check that frequency_hz is in Hz", m->name, MODES_TOP * rate);
+    return m->n > 0 || err_set(e, ERR_SCENE, "%s: all of its modes in the band lie above %.6g Hz (0.45 times output.sample_rate), and nothing would ring: "
+                                             "raise output.sample_rate, %s", m->name, MODES_TOP * rate,
+                               c->given->object.given ? "or let the key band begin lower" : "or check that frequency_hz is in Hz");
 }
 
 /* ------------------------------------------------------------------ readings */

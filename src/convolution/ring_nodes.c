@@ -7,7 +7,6 @@
 
 #include "convolution/nodes.h"
 #include "num/real.h"
-#include "response/places.h"
 
 enum { MOST_KINKS = 4096, LOOKS = 9 };
 
@@ -36,7 +35,7 @@ static void widen(struct range *r, double x)
     r->high = fmax(r->high, x);
 }
 
-/* Across the cells of a grid logarithms go as parabolas: the whole piece counts as steep as its steepest part. */
+/* Where logarithms go as curves (across the cells of a grid as parabolas, else as splines) the whole piece counts as steep as its steepest part. */
 static double steepest(const struct modes_point *at, int i)
 {
     double most = 0;
@@ -66,8 +65,7 @@ static int mode_needs(const struct ring_nodes_ask *ask, const struct modes_point
     double turned = 0, change = gain.high > gain.low ? gain.high - gain.low : 0;
     for (int k = 1; k < LOOKS; k++)
         turned += turn(&at[k - 1], &at[k], i);
-    double turns =
-        ask->modes->places && places_kind(ask->modes->places) == PLACES_GRID ? steepest(at, i) : pole.high - pole.low;
+    double turns = ask->modes->curved ? steepest(at, i) : pole.high - pole.low;
     return nodes_needed(
         &(struct nodes_ask){
             0.5 * turns, {decay.low, decay.high}, ask->seconds, sqrt(change * change + turned * turned)},

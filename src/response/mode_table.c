@@ -39,7 +39,7 @@ static bool choose(const struct csv *t, const char *value, const char *const *wo
             return true;
     return words == quantity_names
                ? err_set(e, ERR_SCENE, "%s: quantity: '%.60s' is not displacement, velocity or acceleration (per N s): write one of them", t->file, value)
-               : err_set(e, ERR_SCENE, "%s: %s: '%.60s' is neither %s nor %s", t->file, strcmp(words[0], "shared") == 0 ? "poles" : "pairing", value, words[0],
+               : err_set(e, ERR_SCENE, "%s: %s: '%.60s' is neither %s nor %s", t->file, strcmp(words[0], "shared") == 0 ? "poles" : strcmp(words[0], "ids") == 0 ? "pairing" : "gains", value, words[0],
                          words[1]);
 }
 
@@ -57,16 +57,20 @@ static bool read_radius(const struct csv *t, double *radius, struct err *e)
 /* by_frequency: -1 where the table does not say. */
 static bool read_comments(struct mode_table *t, int *by_frequency, struct err *e)
 {
-    static const char *const poles_words[] = {"shared", "separate", NULL}, *const pairing_words[] = {"ids", "frequency", NULL};
-    const char *poles, *quantity, *pairing;
-    int separate;
+    static const char *const poles_words[] = {"shared", "separate", NULL}, *const pairing_words[] = {"ids", "frequency", NULL},
+                      *const gains_words[] = {"logarithmic", "complex", NULL};
+    const char *poles, *quantity, *pairing, *gains;
+    int separate, complex = 0;
     *by_frequency = -1;
     if (!needed(&t->csv, "poles", "shared or separate", &poles, e) ||
-        !needed(&t->csv, "quantity", "displacement, velocity or acceleration", &quantity, e) || !comment(&t->csv, "pairing", &pairing, e) ||
+        !needed(&t->csv, "quantity", "displacement, velocity or acceleration", &quantity, e) || !comment(&t->csv, "pairing", &pairing, e) || !comment(&t->csv, "gains", &gains, e) ||
         !choose(&t->csv, poles, poles_words, &separate, e) || !choose(&t->csv, quantity, quantity_names, &t->quantity, e) ||
-        (pairing && !choose(&t->csv, pairing, pairing_words, by_frequency, e)))
+        (pairing && !choose(&t->csv, pairing, pairing_words, by_frequency, e)) || (gains && !choose(&t->csv, gains, gains_words, &complex, e)))
         return false;
     t->shared = !separate;
+    t->complex = complex;
+    if (t->shared && gains && !complex)
+        return err_set(e, ERR_SCENE, "%s: gains: logarithmic is for separate poles; those of shared ones pass zero at nodal lines: remove that line", t->csv.file);
     if (t->shared && *by_frequency == 1)
         return err_set(e, ERR_SCENE, "%s: pairing: frequency is for separate poles; with shared ones a mode has the same id at every place", t->csv.file);
     return read_radius(&t->csv, &t->radius, e);

@@ -10,6 +10,8 @@
    Comments before the header, "# key: value":
        poles          shared: frequency and decay of a mode are the same at every place (checked, 1e-9), and every place has every mode.
                       separate: a place's own; a place may lack a mode; decays above 0.
+       gains          of separate poles, between places: logarithmic (papers/000; the default), or complex: as numbers that
+                      may pass zero
        quantity       displacement, velocity or acceleration, per N s
        pairing        ids: modes of one id are one mode; frequency: see pairing.h. Default: ids, unless places differ in the ids they have, and ids that
                       several have are not within 12 % of one frequency for the most part
@@ -39,6 +41,7 @@ struct mode_table {
     struct csv csv;
     int quantity;              /* enum modes_quantity */
     bool shared, by_frequency; /* poles; pairing */
+    bool complex;              /* gains, of separate poles */
     double radius;             /* m; NAN: not given */
     size_t places, modes;      /* places; ids of modes */
     double *xy;                /* [places][2] m */

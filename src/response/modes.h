@@ -37,6 +37,7 @@ struct modes {
     int n;                       /* components, strongest mode first                                        */
     int quantity;                /* enum modes_quantity                                                     */
     bool shared;                 /* poles are the same everywhere: those of frequency, decay                */
+    bool curved;                 /* separate poles are not straight in the logarithm between kinks          */
     bool moves;                  /* gains or poles depend on the contact's place                            */
     bool travels;                /* ... or on the time: also where the contact stays                        */
     double *frequency, *decay;   /* [n] shared poles; of separate ones the place's where the mode is strongest */

@@ -197,25 +197,26 @@ static void survey(const struct making *k, struct modes *m, struct morph *p, int
     }
 }
 
-static void fill_shared(const struct making *k, const struct modes *m, struct morph *p)
+/* Shared poles are those of the first place. */
+static void fill_complex(const struct making *k, const struct modes *m, struct morph *p)
 {
     const struct mode_slope *s;
-    size_t all = (size_t)places_terms(p->places) * p->rows * p->n;
-    p->re = ARENA_TAKE(k->arena, double, all);
-    p->im = ARENA_TAKE(k->arena, double, all);
+    morph_begin(p, m->shared, k->arena);
     for (int i = 0; i < p->n; i++) {
-        m->frequency[i] = entry_of(k, i, 0, &s)->frequency;
-        m->decay[i] = m->slowest[i] = s->decay;
+        if (m->shared) {
+            m->frequency[i] = entry_of(k, i, 0, &s)->frequency;
+            m->decay[i] = m->slowest[i] = s->decay;
+        }
         for (int row = 0; row < p->rows; row++) {
-            entry_of(k, i, (size_t)row, &s);
-            p->re[(size_t)row * p->n + i] = s->gain * real_cos(s->phase);
-            p->im[(size_t)row * p->n + i] = s->gain * real_sin(s->phase);
+            const struct mode_entry *at = entry_of(k, i, (size_t)row, &s);
+            if (at)
+                morph_set(p, m, row, i, &(struct morph_pole){at->frequency, s->decay, s->gain * real_cos(s->phase), s->gain * real_sin(s->phase)});
         }
     }
     morph_slopes(p);
 }
 
-static void fill_separate(const struct making *k, const struct modes *m, struct morph *p)
+static void fill_logarithmic(const struct making *k, const struct modes *m, struct morph *p)
 {
     double **rows[] = {&p->frequency, &p->decay, &p->gain, &p->phase, &p->there};
     double **work[] = {&p->share, &p->amplitude, &p->torn, &p->size, &p->sine, &p->cosine};
@@ -248,7 +249,8 @@ static int drop(struct modes *m, double top)
 
 static int kinks(const struct modes *m, const double from[2], const double to[2], double *u, int most)
 {
-    return places_kinks(((const struct morph *)m->self)->places, from, to, u, most);
+    const struct morph *p = m->self;
+    return (p->re ? places_smooth_kinks : places_kinks)(p->places, from, to, u, most);
 }
 
 static void set_home(const struct making *k, struct modes *m)
@@ -270,11 +272,12 @@ static void make_modes(const struct making *k, double rate, struct modes *m)
         *own[c] = ARENA_TAKE(k->arena, double, k->n);
     for (int i = 0; i < k->n; i++)
         survey(k, m, p, i);
-    if (m->shared)
-        fill_shared(k, m, p);
+    if (m->shared || k->t->complex)
+        fill_complex(k, m, p);
     else
-        fill_separate(k, m, p);
-    m->at = m->shared ? morph_shared : morph_separate;
+        fill_logarithmic(k, m, p);
+    m->at = p->re ? morph_complex : morph_separate;
+    m->curved = !m->shared && (p->re ? places_smooth(p->places) : places_kind(p->places) == PLACES_GRID);
     set_home(k, m);
 }
 

@@ -1,10 +1,12 @@
 /* Modes between places (places.h).
 
-   Shared poles: the complex gain is a linear sum of the places' own, with its sign: a mode shape passes through zero at
-   a nodal line, where log amplitudes have no value. On lines and grids it is the spline through the places, in
-   triangles linear: places_smooth_at, over the gains and, in `re` and `im` after them, their slopes.
+   Complex gains, always with shared poles: the gain is a linear sum of the places' own, with its sign: a mode shape
+   passes through zero at a nodal line, where log amplitudes have no value. On lines, grids and rings it is the spline
+   through the places, in triangles linear: places_smooth_at, over the gains and, in `re` and `im` after them, their
+   slopes. Separate poles go the same way in the logarithm; a place that lacks a mode has a gain of 0 and the modes' own
+   poles.
 
-   Separate poles (papers/000 section 2.4: "logarithmically interpolated ... in both frequency and amplitude"; decays
+   Logarithmic gains, of separate poles only (papers/000 section 2.4: "logarithmically interpolated ... in both frequency and amplitude"; decays
    likewise) at the mix x = sum w_k x_k of up to four places (places_at), over those that have the mode, W = sum of
    their w_k:
 
@@ -37,7 +39,7 @@
 static const double half_turn = 1.0 + 1e-7; /* of pi: what rounding makes of a change of sign is one */
 static const double floor_gain = 1e-6;      /* -120 dB */
 
-/* ------------------------------------------------------------------ shared */
+/* ------------------------------------------------------------------ complex gains */
 
 /* to = by x, or to += by x. */
 LANES_CLONES
@@ -54,7 +56,30 @@ static void add(int n, bool first, double by, const double *x, double *to)
         to[i] += by * x[i];
 }
 
-double morph_shared(const struct modes *m, const struct modes_where *where, const struct modes_point *to)
+LANES_CLONES
+static void times(int n, const double *by, double *x)
+{
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        x[i] *= by[i];
+}
+
+static double fade_of(const struct morph *p, double frequency)
+{
+    double u = (frequency / p->rate - 0.45) / 0.05;
+    return u <= 0.0 ? 1.0 : u >= 1.0 ? 0.0 : 0.5 * (1.0 + real_cospi(u));
+}
+
+/* Poles of the sum's shares of their logarithms. */
+static void curve(const struct morph *p, const struct places_sum *sum, const double *rows, const double *own, double *to)
+{
+    for (int k = 0; k < sum->n; k++)
+        add(p->n, k == 0, sum->weight[k], rows + (size_t)sum->index[k] * p->n, to);
+    vecmath_exp((size_t)p->n, to, to);
+    times(p->n, own, to);
+}
+
+double morph_complex(const struct modes *m, const struct modes_where *where, const struct modes_point *to)
 {
     const struct morph *p = m->self;
     struct places_sum sum;
@@ -63,10 +88,19 @@ double morph_shared(const struct modes *m, const struct modes_where *where, cons
         add(p->n, k == 0, sum.weight[k], p->re + (size_t)sum.index[k] * p->n, to->re);
         add(p->n, k == 0, sum.weight[k], p->im + (size_t)sum.index[k] * p->n, to->im);
     }
+    if (!p->frequency)
+        return off;
+    curve(p, &sum, p->frequency, m->frequency, to->frequency);
+    curve(p, &sum, p->decay, m->decay, to->decay);
+    for (int k = 0; k < p->highs; k++) {
+        double fade = fade_of(p, to->frequency[p->high[k]]);
+        to->re[p->high[k]] *= fade;
+        to->im[p->high[k]] *= fade;
+    }
     return off;
 }
 
-/* ------------------------------------------------------------------ separate */
+/* ------------------------------------------------------------------ logarithmic gains */
 
 enum { CORNERS = 4 };
 
@@ -94,14 +128,6 @@ static void divide(int n, const double *share, double *x)
 #pragma omp simd
     for (int i = 0; i < n; i++)
         x[i] = share[i] > 0.0 ? x[i] / share[i] : 0.0;
-}
-
-LANES_CLONES
-static void times(int n, const double *by, double *x)
-{
-#pragma omp simd
-    for (int i = 0; i < n; i++)
-        x[i] *= by[i];
 }
 
 static inline __attribute__((always_inline)) double shorter(double turn)
@@ -155,12 +181,6 @@ static void turn_to(const struct morph *p, const struct places_mix *mix, double 
         turn_all(p->n, &phase, w, p->torn, to);
     for (int i = 0; p->gaps && i < p->n; i++)
         turn_some(p, mix, &phase, &there, i, to);
-}
-
-static double fade_of(const struct morph *p, double frequency)
-{
-    double u = (frequency / p->rate - 0.45) / 0.05;
-    return u <= 0.0 ? 1.0 : u >= 1.0 ? 0.0 : 0.5 * (1.0 + real_cospi(u));
 }
 
 /* Poles, and amplitudes without W. */
@@ -264,17 +284,39 @@ void morph_settle(struct morph *p)
 {
     p->gaps = false;
     p->highs = 0;
-    for (size_t k = 0; k < (size_t)p->rows * p->n; k++)
+    for (size_t k = 0; p->there && k < (size_t)p->rows * p->n; k++)
         p->gaps = p->gaps || p->there[k] == 0.0;
     for (int i = 0; i < p->n; i++)
         if (p->highest[i] > 0.45 * p->rate)
             p->high[p->highs++] = i;
 }
 
+void morph_begin(struct morph *p, bool shared, struct arena *a)
+{
+    double **rows[] = {&p->re, &p->im, &p->frequency, &p->decay};
+    for (int c = 0; c < (shared ? 2 : 4); c++)
+        *rows[c] = ARENA_TAKE(a, double, (size_t)places_rows(p->places) * (size_t)p->n);
+    p->high = ARENA_TAKE(a, int, p->n);
+}
+
+void morph_set(struct morph *p, const struct modes *m, int row, int i, const struct morph_pole *at)
+{
+    size_t k = (size_t)row * p->n + i;
+    p->re[k] = at->re;
+    p->im[k] = at->im;
+    if (!p->frequency)
+        return;
+    p->frequency[k] = at->frequency == m->frequency[i] ? 0.0 : real_log(at->frequency / m->frequency[i]);
+    p->decay[k] = at->decay == m->decay[i] ? 0.0 : real_log(at->decay / m->decay[i]);
+}
+
 void morph_slopes(struct morph *p)
 {
-    places_fill(p->places, p->n, p->re);
-    places_fill(p->places, p->n, p->im);
+    double *rows[] = {p->re, p->im, p->frequency, p->decay};
+    for (int c = 0; c < 4 && rows[c]; c++)
+        places_fill(p->places, p->n, rows[c]);
+    if (p->frequency)
+        morph_settle(p);
 }
 
 /* Rows are packed towards the front: nothing is overwritten before it is read. */
@@ -293,7 +335,7 @@ int morph_keep(struct morph *p, struct modes *m, const bool *keep)
     double *single[] = {p->largest, p->lowest, p->highest, m->frequency, m->decay, m->slowest};
     int n = p->n, kept = 0;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
-        pack(rows[k], k < 2 ? p->rows * places_terms(p->places) : p->rows, n, keep);
+        pack(rows[k], p->re ? places_rows(p->places) : p->rows, n, keep);
     for (size_t k = 0; k < sizeof single / sizeof *single; k++)
         pack(single[k], 1, n, keep);
     for (int i = 0; i < n; i++)

@@ -7,8 +7,9 @@
 struct morph {
     int n, rows;                   /* components; places */
     struct places *places;
-    double *re, *im; /* shared poles: [places_terms()][rows][n] complex gains, then what places_fill makes of them */
-    double *frequency, *decay, *gain; /* separate: [rows][n] logarithms, less that of the modes' frequency, decay and largest |gain|; 0 where absent */
+    double *re, *im; /* complex gains: [places_rows()][n], then what places_fill makes of them; NULL: logarithmic ones */
+    double *frequency, *decay; /* separate poles: logarithms less those of the modes' own; 0 where absent. [places_rows()][n] as re, or [rows][n] */
+    double *gain;                     /* logarithmic: [rows][n] less that of the largest |gain|; 0 where absent */
     double *phase;                 /* [rows][n] in units of pi, 0 to 2 */
     double *there;                 /* [rows][n] 1, or 0: the place lacks the mode */
     double *largest;               /* [n] |gain| */
@@ -20,10 +21,17 @@ struct morph {
     double *size, *sine, *cosine;  /* [4 n] work */
 };
 
-/* Shared poles: after the last gain, what morph_shared needs of their slopes. */
+/* A morph of complex gains: takes its rows, with separate poles or without; then a place's gain and, of separate poles,
+   frequency and decay (above 0) of component i (a gain of 0 with the modes' own, where it is left out); after the last,
+   what morph_complex needs of their slopes. */
+void morph_begin(struct morph *p, bool shared, struct arena *a);
+struct morph_pole {
+    double frequency, decay, re, im;
+};
+void morph_set(struct morph *p, const struct modes *m, int row, int i, const struct morph_pole *at);
 void morph_slopes(struct morph *p);
 
-/* Separate poles: a place's frequency and decay (above 0) and gain e^(j phase) of component i, after the modes' own frequency[i], decay[i] and largest[i]
+/* Logarithmic gains: a place's frequency and decay (above 0) and gain e^(j phase) of component i, after the modes' own frequency[i], decay[i] and largest[i]
    are set; a gain of 0 is none. */
 void morph_put(struct morph *p, const struct modes *m, int row, int i, const double value[4]);
 
@@ -31,7 +39,7 @@ void morph_put(struct morph *p, const struct modes *m, int row, int i, const dou
 void morph_settle(struct morph *p);
 
 /* modes_at of a struct modes whose self is a struct morph. */
-double morph_shared(const struct modes *m, const struct modes_where *where, const struct modes_point *to);
+double morph_complex(const struct modes *m, const struct modes_where *where, const struct modes_point *to);
 double morph_separate(const struct modes *m, const struct modes_where *where, const struct modes_point *to);
 
 /* Keeps the components for which keep[i] is set, here and in m; returns how many were dropped. */

@@ -1,4 +1,5 @@
-/* Modes between places at which they have been computed, as a mode table of those places would give them. */
+/* Modes between places at which they have been computed, as a mode table of those places and of complex gains would
+   give them. */
 #ifndef RESPONSE_MORPH_POINTS_H
 #define RESPONSE_MORPH_POINTS_H
 #include "response/modes.h"

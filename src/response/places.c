@@ -1,4 +1,5 @@
-/* Which of line, grid and plane places are. places_lattice.c has the first two, places_plane.c the third.
+/* Which of line, grid and plane places are. places_lattice.c has the first two, places_plane.c the third, whose
+   smooth interpolation, where they lie on rings, is that of places_rings.c.
 
    Places are sorted by x, then y, before anything is made of them, so that their order as given tells nothing: where a rule takes the first of several (a tie of
    Delaunay's triangulation), that is the one farthest left.
@@ -14,6 +15,7 @@
 
 #include "response/places_lattice.h"
 #include "response/places_plane.h"
+#include "response/places_rings.h"
 
 static const double same = 1e-9;    /* m */
 static const double rounded = 1e-4; /* of the extent: what rounding in a file leaves of a grid */
@@ -26,6 +28,7 @@ struct places {
     double base[2], axis[2];   /* line: base + along axis, axis a unit vector */
     struct places_lattice *lattice;
     struct places_plane *plane;
+    struct places_rings *rings; /* NULL: the plane's places are none */
     int (*edge)[2], edges;     /* of the plane */
 };
 
@@ -163,6 +166,7 @@ static bool make_plane(struct arena *a, struct places *p, struct err *e)
     if (!p->plane)
         return err_set(e, ERR_SCENE, "the places cannot be triangulated: they lie almost, but not within 1e-9 m, on one line, or almost at the "
                                       "same point: write them with more digits, or take one place of those that are close");
+    p->rings = places_rings_make(a, p->n, p->xy, p->order, rounded * distance(p->xy, p->xy + 2 * farthest(p, 0)));
     p->edges = places_plane_edges(p->plane, &edge);
     p->edge = arena_take(a, (size_t)p->edges, sizeof *p->edge);
     for (int k = 0; k < p->edges; k++)
@@ -205,15 +209,22 @@ double places_at(const struct places *p, double x, double y, struct places_mix *
     return p->kind == PLACES_ONE ? 0.0 : off;
 }
 
-int places_terms(const struct places *p)
+bool places_smooth(const struct places *p)
 {
-    return p->lattice ? places_lattice_terms(p->lattice) : 1;
+    return p->rings || places_rows(p) > p->n;
+}
+
+int places_rows(const struct places *p)
+{
+    return p->lattice ? places_lattice_rows(p->lattice) : p->rings ? places_rings_rows(p->rings) : p->n;
 }
 
 void places_fill(const struct places *p, int n, double *rows)
 {
     if (p->lattice)
         places_lattice_fill(p->lattice, n, rows);
+    else if (p->rings)
+        places_rings_fill(p->rings, n, rows);
 }
 
 double places_smooth_at(const struct places *p, double x, double y, struct places_sum *sum)
@@ -224,6 +235,8 @@ double places_smooth_at(const struct places *p, double x, double y, struct place
         off = places_lattice_smooth_at(p->lattice, x, y, sum);
         return p->kind == PLACES_ONE ? 0.0 : off;
     }
+    if (p->rings)
+        return places_rings_smooth_at(p->rings, x, y, sum);
     off = places_at(p, x, y, &mix);
     sum->n = mix.n;
     for (int k = 0; k < mix.n; k++) {
@@ -236,6 +249,11 @@ double places_smooth_at(const struct places *p, double x, double y, struct place
 int places_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most)
 {
     return p->plane ? places_plane_kinks(p->plane, from, to, u, most) : places_lattice_kinks(p->lattice, from, to, u, most);
+}
+
+int places_smooth_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most)
+{
+    return p->rings ? places_rings_kinks(p->rings, from, to, u, most) : places_kinks(p, from, to, u, most);
 }
 
 /* "0 <= x <= 40 cm", "y = 3.7 cm" */

@@ -23,7 +23,8 @@ struct places_sum {         /* of rows as places_fill makes them */
 };
 
 /* xy: [n][2] m, n >= 1, different points (copied). Within 1e-9 m of one line: a line; the crossings of two sets of
-   parallel lines, at right angles, each once and to 1e-4 of their extent: a grid; else Delaunay's triangulation.
+   parallel lines, at right angles, each once and to 1e-4 of their extent: a grid; else the plane, with
+   Delaunay's triangulation, and, if they are such, rings round a centre (places_rings.h).
    ERR_SCENE: two places at the same point, *bad the later of them and the text what it does ("is at the same point as
    another place: remove one ..."); or no triangulation, *bad -1. */
 bool places_make(struct arena *a, int n, const double *xy, struct places **p, int *bad, struct err *e);
@@ -33,10 +34,12 @@ enum places_kind places_kind(const struct places *p);
    Returns how far off it is (m), 0 within 1e-9 m; one place alone holds everywhere: 0. */
 double places_at(const struct places *p, double x, double y, struct places_mix *mix);
 
-/* The smooth interpolation: cubic splines on lines and grids (places_lattice.c says when), else the mix. It takes
-   rows[places_terms()][places][n], of which the first [places][n] are the values at the places; places_fill computes
-   the others (their slopes) once. Then the value at a point is sum weight[k] rows[index[k]][]. */
-int places_terms(const struct places *p);
+/* The smooth interpolation: cubic splines on lines and grids (places_lattice.c says when) and on rings round a centre
+   (places_rings.c), else the mix. It takes rows[places_rows()][n], of which the first [places][n] are the values at the
+   places; places_fill computes the others (their slopes) once. Then the value at a point is sum weight[k]
+   rows[index[k]][]. Returns as places_at; of rings the hull is the outermost's circle. */
+bool places_smooth(const struct places *p); /* is it another than the mix? */
+int places_rows(const struct places *p);
 void places_fill(const struct places *p, int n, double *rows);
 double places_smooth_at(const struct places *p, double x, double y, struct places_sum *sum);
 
@@ -45,8 +48,10 @@ const char *places_told(const struct places *p, struct arena *a);
 
 /* Parameters u in (0, 1), increasing, at which the straight way from `from` to `to` passes from one interval, cell or
    triangle to the next (kinks of interpolation), off the hull those of its nearest point; writes the first `most`,
-   returns how many there are. Some may be none: where the way goes through a place, or along an edge. */
+   returns how many there are. Some may be none: where the way goes through a place, or along an edge.
+   places_smooth_kinks: of the smooth interpolation. */
 int places_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most);
+int places_smooth_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most);
 
 /* Neighbours: the edges of the triangulation, on lines and grids from place to place along the lines. Returns their
  * number; (*edge)[k] = two indices. */

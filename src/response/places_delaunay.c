@@ -247,6 +247,9 @@ int places_delaunay(struct arena *a, int n, const double *xy, const int (**corne
         moved[i] = xy[i] - xy[i % 2];
         extent = fmax(extent, fabs(moved[i]));
     }
+    double step = ldexp(extent, -44); /* above least: rounding of x reverses no order of places one above the other */
+    for (int i = 0; i < 2 * n; i++)
+        moved[i] = step * rint(moved[i] / step);
     m.xy = moved;
     m.least = 1e-14 * extent;
     m.corner = arena_take(a, 2 * (size_t)n, sizeof *m.corner);

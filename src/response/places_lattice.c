@@ -8,8 +8,8 @@
    so that at a place its own value comes out to the last bit, and along a line whose values are all zero the
    result is zero. In the plane it is the tensor product: values, slopes along x, slopes along y, and slopes along x of
    slopes along y at the four corners of the cell, 16 numbers. Two lines are linear and three a parabola. An axis whose
-   distances are so uneven that an error of one value might come out GROWS times as large stays linear
-   (places_spline_grows).
+   distances are so uneven that an error of one value might come out 6 times as large stays linear
+   (PLACES_SPLINE_GROWS).
 
    Why a spline: between 33 x 23 places the gains of the 50 lowest modes of a supported plate, heard at another place,
    are off by -25 dB with linear shares, -43 with four-point Lagrange, -41 by Hermite's form with parabolas' slopes, -56
@@ -28,7 +28,6 @@
 #include "response/places_spline.h"
 
 static const double touching = 1e-9; /* m */
-#define GROWS 6.0
 
 struct axis {
     int n;
@@ -119,7 +118,7 @@ static void make_smooth(struct arena *a, struct axis *x)
         return;
     struct arena *work = arena_open();
     x->spline = places_spline_make(a, x->n, x->at);
-    x->smooth = places_spline_grows(&x->spline, work) <= GROWS;
+    x->smooth = places_spline_grows(&x->spline, work) <= PLACES_SPLINE_GROWS;
     arena_close(work);
 }
 
@@ -216,9 +215,9 @@ static void shares_of(const struct axis *x, const struct cell *c, double share[2
     share[1][1] = x->smooth ? -c->step * u * u * v : 0;
 }
 
-int places_lattice_terms(const struct places_lattice *l)
+int places_lattice_rows(const struct places_lattice *l)
 {
-    return (l->axis[0].smooth ? 2 : 1) * (l->axis[1].smooth ? 2 : 1);
+    return l->places * (l->axis[0].smooth ? 2 : 1) * (l->axis[1].smooth ? 2 : 1);
 }
 
 /* Of slopes along x (i) and y (j): which of the terms. */

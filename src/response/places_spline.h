@@ -19,4 +19,8 @@ void places_spline_slopes(const struct places_spline *s, int count, const double
 /* How many times as large as the values' largest error the spline's may become, at eighths of the intervals. */
 double places_spline_grows(const struct places_spline *s, struct arena *a);
 
+/* Where they are so uneven that an error may come out more than so many times as large, all that is made of places stays
+ * linear. */
+#define PLACES_SPLINE_GROWS 6.0
+
 #endif

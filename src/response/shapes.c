@@ -109,7 +109,7 @@ static bool row_gains(const struct modes *m, const struct shapes_self *self, int
 static bool table_is_driving(const struct modes *m, const struct shapes_self *self, struct err *e)
 {
     const struct morph *p = m->self;
-    if (m->at == morph_shared)
+    if (m->at == morph_complex)
         return row_gains(m, self, p->rows, p->re, p->im, e);
     modes_at(m, &(struct modes_where){m->home[0], m->home[1], 0}, &self->point);
     return row_gains(m, self, 1, self->point.re, self->point.im, e);

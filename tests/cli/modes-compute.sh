@@ -46,6 +46,11 @@ compute --shape $ring --material glass --modes 4 --grid 17,9 -q -o grid.csv
 places grid.csv
 compute --shape $ring --material glass --modes 4 --circle 4.5cm --places 8 -q -o circle.csv
 places circle.csv
+for shape in "$ring" bowl:diameter=10cm,height=4cm,thickness=3mm; do # rings, of a bowl to its lip
+    compute --shape $shape --material glass --order 2 --modes 10 -q --force -o round.csv
+    awk '/^# rings: / { rings++ } /^# interpolation_error: / { told = $3 } END { exit !(rings == 1 && told <= -40) }' round.csv ||
+        echo "$shape: $(grep '^# rings\|^# interpolation' round.csv)"
+done
 compute --shape $ring --material glass --modes 4 --face around --line 0,5mm,10cm,5mm --places 5 --origin 1m,2m -q -o around.csv
 places around.csv
 grep '^# places' around.csv

@@ -427,5 +427,50 @@ START_TEST(grids_are_symmetric)
 }
 END_TEST
 
+/* Complex gains of separate poles on a line: cubics of the place come out as they are, gains through zero, poles in the
+   logarithm; a place that lacks a mode has it with a gain of 0 and the poles it has where it is strongest; what nears half
+   the rate fades. Logarithmic gains of the same table turn at the change of sign. */
+START_TEST(complex_gains)
+{
+    enum { N = 7 };
+    char text[2000], *to = text;
+    setup();
+    to += sprintf(to, "# gains: complex\n%s%s", SEPARATE, COLUMNS);
+    for (int i = 0; i < N; i++) {
+        double x = 0.1 * i, u = x - 0.23;
+        to += sprintf(to, "%d,%.17g,0,a,%.17g,%.17g,%.17g,0.3\n", i + 1, x, 500 * exp(u * u * u), 20 * exp(u - u * u), u * (1 + u * u));
+        if (i != 2)
+            to += sprintf(to, "%d,%.17g,0,b,%.17g,%.17g,2,1\n", i + 1, x, 3000.0, 30.0);
+        to += sprintf(to, "%d,%.17g,0,c,22800,40,1.5,0\n", i + 1, x);
+    }
+    struct modes m = table_of(text, 9, arena);
+    struct modes_point p = modes_point_make(arena, m.n);
+    ck_assert(m.n == 3 && !m.shared && m.curved);
+    for (int q = 0; q <= 60; q++) {
+        double x = 0.01 * q, u = x - 0.23;
+        table_at(&m, x, 0, &p);
+        for (int i = 0; i < 3; i++) {
+            bool a = p.frequency[i] < 1000, b = !a && p.frequency[i] < 5000;
+            if (a) {
+                ck_assert_double_eq_tol(p.frequency[i] / (500 * exp(u * u * u)), 1, 1e-13);
+                ck_assert_double_eq_tol(p.decay[i] / (20 * exp(u - u * u)), 1, 1e-13);
+                ck_assert_double_eq_tol(p.re[i], u * (1 + u * u) * cos(0.3), 1e-14);
+                ck_assert_double_eq_tol(p.im[i], u * (1 + u * u) * sin(0.3), 1e-14);
+            } else if (b) {
+                ck_assert(fabs(p.frequency[i] / 3000 - 1) < 1e-14 && fabs(p.decay[i] / 30 - 1) < 1e-14);
+                ck_assert(q != 20 || (p.re[i] == 0 && p.im[i] == 0));
+                ck_assert(q % 10 || q == 20 || fabs(p.re[i] - 2 * cos(1)) < 1e-14);
+            } else
+                ck_assert_double_eq_tol(p.re[i], 1.5 * 0.5, 1e-13); /* 22.8 kHz: in the middle of 0.45 to 0.5 of 48 kHz */
+        }
+    }
+    m = table_of(strchr(text, '\n') + 1, 9, arena);
+    table_at(&m, 0.25, 0, &p);
+    for (int i = 0; i < 3; i++)
+        ck_assert(p.frequency[i] > 1000 || hypot(p.re[i], p.im[i]) > 0.02); /* there the cubic is at 0.02 */
+    teardown();
+}
+END_TEST
+
 UNIT("morph", on_a_line, at_the_places, in_a_triangle, continuous_everywhere, a_vortex_has_a_zero, equal_poles_stay, very_weak_gains, fades_at_half_the_rate, a_change_of_sign_turns,
-     pairing_of_a_table, slopes_between_places, grids_are_symmetric)
+     pairing_of_a_table, slopes_between_places, grids_are_symmetric, complex_gains)

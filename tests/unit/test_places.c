@@ -211,6 +211,24 @@ START_TEST(circles)
 }
 END_TEST
 
+/* Round a middle, symmetric: many places lie one above the other, but for 1e-17 of the sines' rounding. */
+START_TEST(symmetric_rings)
+{
+    setup();
+    static double xy[2 * 1000];
+    for (int rings = 2; rings <= 12; rings++) {
+        int n = 1;
+        for (int j = 1; j <= rings; j++)
+            for (int k = 0, count = 4 * (j + 1); k < count; k++, n++) {
+                xy[2 * n] = 0.1 * sin(0.9 * j / rings) * cos(2 * 3.14159265358979 * k / count);
+                xy[2 * n + 1] = 0.1 * sin(0.9 * j / rings) * sin(2 * 3.14159265358979 * k / count);
+            }
+        check_delaunay(made(n, xy, PLACES_PLANE), n, xy, -0.12, 0.12);
+    }
+    teardown();
+}
+END_TEST
+
 /* Off the hull: against the nearest of many points of it. */
 START_TEST(distance_to_the_hull)
 {
@@ -355,5 +373,5 @@ START_TEST(told)
 }
 END_TEST
 
-UNIT("places", one_place, told, a_line, random_places_are_delaunays, holed_grids, circles, distance_to_the_hull,
+UNIT("places", one_place, told, a_line, random_places_are_delaunays, holed_grids, circles, symmetric_rings, distance_to_the_hull,
      kinks_against_bisection, refused, nearly_straight_sides)
