@@ -27,7 +27,7 @@ for object in pvc_rod poplar_rod glass_ball ceramic_ball wood_ball; do
 done
 
 # A bar whose frequencies a weight lowers where it lies: poles that differ from place to place.
-table pvc_bar_loaded --load 5g --line 0,1.5cm,40cm,1.5cm --places 33 --listen 3cm,1.5cm
+table pvc_bar_loaded --load 5g --line 0,1.5cm,40cm,1.5cm --listen 3cm,1.5cm
 
 # A tap on the tile at x = 0.15 m: 0.25 s at 48 kHz.
 printf '%b' "$(awk -v place=13 -v rate=48000 -v samples=12000 -f "$here/scripts/ir_wav.awk" "$to/ceramic_tile.csv")" > "$to/ceramic_tile_tap.wav"
