@@ -83,3 +83,9 @@ sed -n '/^motion/,/duration/p' late.yaml > part.yaml
 tell plan including.yaml
 printf '%s\n' 'rasp-design: 1' 'base: late.yaml' 'factors: {motion.duration: [9.995 ms, 1 s]}' > set.yaml
 tell batch set.yaml --dry-run
+echo "-- a stem beyond what 32-bit floating point holds"
+printf '%s\n' time_s,force_n 0,0 0.5,1e39 1,0 > force.csv
+sed 's/file: motion.csv, cutoff: 0 Hz/from: 0/; s/path: recorded, from: 0/path: still, duration: 1 s/' early.yaml > huge.yaml
+echo 'output: {encoding: float64, stems: [force]}' >> huge.yaml
+tell render huge.yaml
+ls huge.*
