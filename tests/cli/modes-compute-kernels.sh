@@ -21,7 +21,7 @@ END
 for solid in ball:sphere:diameter=20cm,fineness=1 ring:ring:diameter=14cm,width=10mm,thickness=6mm,fineness=1 \
     square:plate:length=20cm,width=20cm,thickness=5mm,fineness=1 rod:rod:length=20cm,diameter=1cm; do
     name=${solid%%:*}
-    words=(compute --shape "${solid#*:}" --material steel --modes 20 --top 60kHz --grid 17,17 -q -f)
+    words=(compute --shape "${solid#*:}" --material steel --modes 20 --top 60kHz --grid "17,17" -q -f)
     rasp modes "${words[@]}" -o "$name.csv"
     several=$(grep -v '^[#p]' "$name.csv" | cut -d , -f 4,5 | sort -u | cut -d , -f 2 | sort | uniq -d | wc -l)
     echo "$name: $several frequencies of several modes"
