@@ -362,6 +362,11 @@ bool wav_settle(struct wav_out *w, struct err *e)
     return ok && (!w->long_file || clear_peak_time(w, e)) && outfile_settle(&w->out, e);
 }
 
+const char *wav_temporary(const struct wav_out *w)
+{
+    return w->out.temporary;
+}
+
 bool wav_commit(struct wav_out *w, struct err *e)
 {
     bool ok = wav_settle(w, e) && outfile_commit(&w->out, e);

@@ -48,6 +48,7 @@ struct wav_written wav_written(const struct wav_out *w);
 bool wav_written_heard(const struct wav_written *w); /* some sample of any channel is not 0 */
 
 bool wav_settle(struct wav_out *w, struct err *e); /* as outfile_settle */
+const char *wav_temporary(const struct wav_out *w); /* where it lies once it is settled, until it is committed */
 bool wav_commit(struct wav_out *w, struct err *e);
 void wav_drop(struct wav_out *w);
 

@@ -59,7 +59,7 @@ static bool is_summary(const json_t *whole)
     size_t i;
     json_array_foreach(json_object_get(whole, "files"), i, file) {
         const char *kind = json_string_value(json_object_get(file, "kind"));
-        if (kind && !strcmp(kind, "scene") && json_object_get(whole, "real_time_factor"))
+        if (kind && !strcmp(kind, "scene") && (json_object_get(whole, "real_time_factor") || json_object_get(whole, "set")))
             return true;
     }
     return false;

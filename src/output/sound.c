@@ -191,6 +191,11 @@ bool sound_settle(struct sound *o, struct err *e)
     return track_settle(&o->track, e);
 }
 
+const char *sound_temporary(const struct sound *o)
+{
+    return wav_temporary(o->track.wav);
+}
+
 bool sound_commit(struct sound *o, struct err *e)
 {
     meter_close(o);

@@ -104,6 +104,11 @@ bool stems_settle(struct stems *o, struct err *e)
     return true;
 }
 
+const char *stems_temporary(const struct stems *o, enum stem stem)
+{
+    return wav_temporary(o->tracks[stem].wav);
+}
+
 bool stems_commit(struct stems *o, struct err *e)
 {
     for (int k = 0; k < STEMS; k++) {

@@ -15,6 +15,9 @@
 struct render {
     const struct scene *scene;
     const char *base;
+    bool set;                /* render_make: no summary is written */
+    bool waits;              /* for its gain: no effective scene is written */
+    struct watch inputs;
     struct arena *arena;
     struct render_parts parts;
     bool sounds;
@@ -36,15 +39,19 @@ static bool render_open_sounds(struct render *r, struct err *e)
     return !r->scene->output.stems || (r->stems = stems_open(r->scene, r->stem_paths, r->length.frames, r->arena, e)) != NULL;
 }
 
-static bool render_open(struct render *r, struct err *e)
+static void find_paths(struct render *r, const char *sounds)
 {
-    r->wav_path = outputs_path(r->scene, r->base, OUTPUT_SOUND, NULL, r->arena);
+    r->wav_path = outputs_path(r->scene, sounds, OUTPUT_SOUND, NULL, r->arena);
     r->scene_path = outputs_path(r->scene, r->base, OUTPUT_EFFECTIVE, NULL, r->arena);
     r->summary_path = outputs_path(r->scene, r->base, OUTPUT_SUMMARY, NULL, r->arena);
     for (int k = 0; k < STEMS; k++)
-        r->stem_paths[k] = outputs_path(r->scene, r->base, OUTPUT_STEM + k, NULL, r->arena);
-    if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) || !outfile_open(&r->effective, r->scene_path, e) ||
-        !outfile_open(&r->summary, r->summary_path, e) || !render_parts_open(&r->parts, e) || !render_parts_length(&r->parts, &r->length, e))
+        r->stem_paths[k] = outputs_path(r->scene, sounds, OUTPUT_STEM + k, NULL, r->arena);
+}
+
+static bool render_open(struct render *r, struct err *e)
+{
+    if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) || (!r->waits && !outfile_open(&r->effective, r->scene_path, e)) ||
+        (!r->set && !outfile_open(&r->summary, r->summary_path, e)) || !render_parts_open(&r->parts, e) || !render_parts_length(&r->parts, &r->length, e))
         return false;
     r->sounds = r->parts.asked & ITEM_BIT(ITEM_SOUND);
     return render_open_sounds(r, e);
@@ -81,7 +88,7 @@ static bool render_blocks(struct render *r, struct err *e)
 static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact, const char *sha256)
 {
     const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL, *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
-    r->report->files[r->report->n_files++] = (struct render_file){outputs_kind(r->scene, kind), path, contact, stem, kept, NULL};
+    r->report->files[r->report->n_files++] = (struct render_file){.kind = outputs_kind(r->scene, kind), .path = path, .contact = contact, .stem = stem, .sha256 = kept};
 }
 
 /* A file of a contact's own. */
@@ -107,8 +114,10 @@ static bool render_list(struct render *r, const char *effective, struct err *e)
             if (!report_part(r, &r->parts.parts[i], (enum output_kind)kind, e))
                 return false;
     hash_bytes(effective, strlen(effective), hex);
-    report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
-    report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
+    if (!r->waits)
+        report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
+    if (!r->set)
+        report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
     if (r->sounds) {
         report_file(r, OUTPUT_SOUND, r->wav_path, NULL, NULL);
         r->report->files[r->report->n_files - 1].written = sound_written(r->sound);
@@ -133,16 +142,18 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     report->quantity = render_parts_quantity(&r->parts);
     report->seconds = stopwatch_wall() - start[0];
     report->cpu = stopwatch_cpu() - start[1];
-    report->older = outputs_older(r->scene, r->base, r->arena);
+    report->older = r->set ? ARENA_TAKE(r->arena, const char *, 1) : outputs_older(r->scene, r->base, r->arena);
     const struct run *const *runs = render_parts_runs(&r->parts);
     const char *effective = outputs_effective(r->scene, r->scene_path, r->arena);
     if (!render_list(r, effective, e))
         return false;
     summary_notes(r->scene, runs, report, r->arena);
     summary_warnings(r->scene, runs, report, r->arena);
-    report->summary = summary_text(r->scene, runs, report, r->arena);
-    fputs(effective, r->effective.stream);
-    fputs(report->summary, r->summary.stream);
+    report->summary = summary_text(r->scene, runs, report, !r->set, r->arena);
+    if (!r->waits)
+        fputs(effective, r->effective.stream);
+    if (!r->set)
+        fputs(report->summary, r->summary.stream);
     return true;
 }
 
@@ -154,31 +165,47 @@ static bool render_settle(struct render *r, struct err *e)
         if ((p->table.stream && !outfile_settle(&p->table, e)) || (p->listing.stream && !outfile_settle(&p->listing, e)))
             return false;
     }
-    return outfile_settle(&r->effective, e) && outfile_settle(&r->summary, e) && (!r->sound || sound_settle(r->sound, e)) &&
-           (!r->stems || stems_settle(r->stems, e));
+    return (!r->effective.stream || outfile_settle(&r->effective, e)) && (!r->summary.stream || outfile_settle(&r->summary, e)) &&
+           (!r->sound || sound_settle(r->sound, e)) && (!r->stems || stems_settle(r->stems, e));
 }
 
-static bool render_commit_all(struct render *r, struct err *e)
+/* Where the settled files lie, in the order of render_list. */
+static void find_temporaries(struct render *r)
 {
+    struct render_file *f = r->report->files;
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct render_part *p = &r->parts.parts[i];
-        if ((p->table.target[0] && !outfile_commit(&p->table, e)) || (p->listing.target[0] && !outfile_commit(&p->listing, e)))
-            return false;
+        if (p->table.temporary[0])
+            f++->temporary = p->table.temporary;
+        if (p->listing.temporary[0])
+            f++->temporary = p->listing.temporary;
     }
-    return outfile_commit(&r->effective, e) && outfile_commit(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&
+    if (!r->waits)
+        f++->temporary = r->effective.temporary;
+    if (!r->set)
+        f++->temporary = r->summary.temporary;
+    if (r->sound)
+        f++->temporary = sound_temporary(r->sound);
+    for (int k = 0; k < STEMS; k++)
+        if (stems_asked(&r->scene->output, (enum stem)k))
+            f++->temporary = stems_temporary(r->stems, (enum stem)k);
+}
+
+static bool commit_one(struct outfile *f, struct err *e)
+{
+    return !f->target[0] || outfile_commit(f, e);
+}
+
+static bool commit_all(struct render *r, struct err *e)
+{
+    for (int i = 0; i < r->scene->n_contacts; i++)
+        if (!commit_one(&r->parts.parts[i].table, e) || !commit_one(&r->parts.parts[i].listing, e))
+            return false;
+    return commit_one(&r->effective, e) && commit_one(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&
            (!r->stems || stems_commit(r->stems, e));
 }
 
-/* All together or none, also where a signal comes. */
-static bool render_commit(struct render *r, struct err *e)
-{
-    interrupt_hold();
-    bool ok = render_commit_all(r, e);
-    interrupt_go();
-    return ok;
-}
-
-static void render_close(struct render *r)
+void render_drop(struct render *r)
 {
     sound_drop(r->sound);
     stems_drop(r->stems);
@@ -187,18 +214,45 @@ static void render_close(struct render *r)
     render_parts_close(&r->parts);
 }
 
-bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e)
+/* All together or none, also where a signal comes. */
+bool render_commit(struct render *r, struct err *e)
+{
+    interrupt_hold();
+    bool ok = commit_all(r, e);
+    interrupt_go();
+    render_drop(r);
+    return ok;
+}
+
+/* names NULL: as render_scene. */
+static struct render *make(const struct scene *s, const char *base, const struct render_names *names, struct arena *a, struct render_report *report, struct err *e)
 {
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
     struct scene *kept = ARENA_TAKE(a, struct scene, 1);
-    struct watch inputs = inputs_watch(s, a);
+    struct render *r = ARENA_TAKE(a, struct render, 1);
+    *r = (struct render){.scene = kept, .base = base, .set = names, .waits = names && names->sounds, .inputs = inputs_watch(s, a), .arena = a, .report = report};
     *report = (struct render_report){.quantity = -1};
     if (!promise_keep(s, a, kept, &report->promise, e))
-        return false;
+        return NULL;
     report->accuracy = kept->accuracy;
-    struct render r = {.scene = kept, .base = base, .arena = a, .report = report, .parts = render_parts_make(kept, base, a)};
-    r.effective.fd = r.summary.fd = -1;
-    bool ok = render_open(&r, e) && render_blocks(&r, e) && render_finish(&r, start, e) && render_settle(&r, e) && inputs_still(&inputs, e) && render_commit(&r, e);
-    render_close(&r);
-    return ok;
+    r->parts = render_parts_make(kept, base, a);
+    r->effective.fd = r->summary.fd = -1;
+    find_paths(r, r->waits ? names->sounds : base);
+    if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_settle(r, e) && inputs_still(&r->inputs, e)) {
+        find_temporaries(r);
+        return r;
+    }
+    render_drop(r);
+    return NULL;
+}
+
+struct render *render_make(const struct scene *s, const struct render_names *names, struct arena *a, struct render_report *report, struct err *e)
+{
+    return make(s, names->base, names, a, report, e);
+}
+
+bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e)
+{
+    struct render *r = make(s, base, NULL, a, report, e);
+    return r && render_commit(r, e);
 }

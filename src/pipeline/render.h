@@ -14,6 +14,7 @@ struct render_file {
     const char *stem;        /* of a stem, which; else NULL      */
     const char *sha256;      /* NULL: not known                  */
     const struct wav_written *written; /* of a WAV; else NULL     */
+    const char *temporary;   /* where it lies until it is committed */
 };
 
 struct render_report {
@@ -39,5 +40,21 @@ struct render_report {
    or BASE.CONTACT.impacts.csv (series of impacts), BASE.scene.yaml (the effective scene) and BASE.json
    (the summary). Nothing has a name before everything is complete. */
 bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e);
+
+/* The same in two steps, for a set (batch/stimulus.c), which writes its own record in place of the summary. */
+struct render_names {
+    const char *base;        /* of all files, but for                                                             */
+    const char *sounds;      /* the WAVs and stems; there is no effective scene then, for it tells the gain; NULL: none */
+};
+
+struct render;
+
+/* Renders to files that are complete and have no name yet: report->files, of each where it lies. No summary is among them; report->summary tells no times, and nothing of
+   files that an earlier render left. NULL: *e. */
+struct render *render_make(const struct scene *s, const struct render_names *names, struct arena *a, struct render_report *report, struct err *e);
+
+/* Gives them their names, or leaves nothing. Either ends it. */
+bool render_commit(struct render *r, struct err *e);
+void render_drop(struct render *r);
 
 #endif

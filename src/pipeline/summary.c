@@ -157,7 +157,7 @@ static void warn_cut(const struct scene *s, struct render_report *report, struct
                               (double)l->frames + 1e-3 * rate < (double)l->motion ? "where the motion still goes on, and the sound is" : "where the sound is", fmax(0, -decibel(o->end / o->before_ramps))));
 }
 
-/* Samples that wait for the set's gain are none of a file yet: batch/level_files.c tells of those that will be. */
+/* Samples that wait for the set's gain are none of a file yet: batch/stimulus.c tells of those that will be. */
 static void warn_written(const struct scene *s, struct render_report *report, struct arena *a)
 {
     bool later = s->output.level.later;
@@ -273,12 +273,14 @@ static json_t *impacts_json(const struct impact_report *o)
                      json_value_number(o->mean_amplitude), "mean_interval_s", json_value_number(o->mean_interval), "longest_s", json_value_number(o->longest));
 }
 
+/* cpu NAN: no times. */
 static json_t *contact_json(const struct run *run, double cpu)
 {
     const struct board *b = &run->board;
     const struct ring_choice *choice = run->plan.contact->surface.response.choice;
-    json_t *c = json_pack("{s:s, s:o, s:o}", "name", run->plan.contact->name, "lifted_off_s", json_value_number(b->lifted), "stages",
-                          stages_json(run, cpu));
+    json_t *c = json_pack("{s:s, s:o}", "name", run->plan.contact->name, "lifted_off_s", json_value_number(b->lifted));
+    if (!isnan(cpu))
+        json_object_set_new(c, "stages", stages_json(run, cpu));
     if (choice && !choice->recorded)
         json_object_set_new(c, "response", response_json(choice, b->rate));
     if (b->rolls)
@@ -319,35 +321,44 @@ static void set_older(json_t *whole, const struct render_report *report, struct 
 }
 
 /* What accuracy.error asked for, and what the knobs that leave an error are predicted to leave. */
-static json_t *promise_json(const struct promise *p)
+static json_t *promise_json(const struct promise *p, bool times)
 {
     json_t *by = json_array();
     for (int i = 0; i < p->n; i++)
         json_array_append_new(by, json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value", json_value_number(p->parts[i].value), "error_db",
                                             json_value_number(decibel(p->parts[i].error)), "said", p->parts[i].said));
-    return json_pack("{s:o, s:o, s:b, s:o, s:o}", "asked_db", json_value_number(p->error), "predicted_db", json_value_number(p->predicted), "chosen", p->chosen, "by", by, "cpu_s", json_value_number(p->cpu));
+    json_t *j = json_pack("{s:o, s:o, s:b, s:o}", "asked_db", json_value_number(p->error), "predicted_db", json_value_number(p->predicted), "chosen", p->chosen, "by", by);
+    if (times)
+        json_object_set_new(j, "cpu_s", json_value_number(p->cpu));
+    return j;
 }
 
-const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, struct arena *a)
+static void add_times(json_t *whole, const struct render_report *report, double duration, struct arena *a)
+{
+    json_object_set_new(whole, "wall_s", json_value_number(report->seconds));
+    json_object_set_new(whole, "cpu_s", json_value_number(report->cpu));
+    json_object_set_new(whole, "real_time_factor", json_value_number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL));
+    set_older(whole, report, a);
+}
+
+const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, bool times, struct arena *a)
 {
     double duration = (double)report->frames / s->output.sample_rate;
     json_t *contacts = json_array(), *remarks = json_array();
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i])
-            json_array_append_new(contacts, contact_json(runs[i], report->cpu));
+            json_array_append_new(contacts, contact_json(runs[i], times ? report->cpu : NAN));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_value_shown(report->warnings[i]));
-    json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
-                              (json_int_t)report->frames, "sample_rate_hz", json_value_number(s->output.sample_rate), "duration_s", json_value_number(duration),
-                              "wall_s", json_value_number(report->seconds), "cpu_s", json_value_number(report->cpu), "real_time_factor",
-                              json_value_number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL), "contacts", contacts, "warnings", remarks,
-                              "files", files_json(report));
-    set_older(whole, report, a);
+    json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames", (json_int_t)report->frames, "sample_rate_hz",
+                              json_value_number(s->output.sample_rate), "duration_s", json_value_number(duration), "contacts", contacts, "warnings", remarks, "files", files_json(report));
+    if (times)
+        add_times(whole, report, duration, a);
     if (report->promise.asked)
-        json_object_set_new(whole, "accuracy", promise_json(&report->promise));
+        json_object_set_new(whole, "accuracy", promise_json(&report->promise, times));
     if (report->sounds)
         json_object_set_new(whole, "sound", sound_json(s, report));
-    char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);
+    char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(times ? 9 : 17) | JSON_ENSURE_ASCII);
     const char *kept = arena_format(a, "%s\n", text ? text : "{}");
     free(text);
     json_decref(whole);
