@@ -1,6 +1,8 @@
-/* See batch.h. A failure of one stimulus is its own, but for those that all others would have too: a disk that is full, a folder that cannot be written. */
+/* See batch.h. The design is read and planned; the folder is entered; each stimulus is made that is not there; the gain of the set is found and laid; stale files are looked for; tables are written
+   from the records. A failure of one stimulus is its own, but for those that all others would have too: a disk that is full, a folder that cannot be written. */
 #include "batch/batch.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,34 +10,39 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "base/shelf.h"
 #include "base/stopwatch.h"
-#include "batch/claim.h"
-#include "batch/finish.h"
-#include "batch/folder.h"
 #include "batch/pool.h"
 #include "batch/progress.h"
-#include "batch/set_file.h"
 #include "num/fft.h"
 #include "num/resample.h"
 
 enum { SHELF_MOST = 256 << 20 /* bytes of inputs that stay in memory; what is beyond is read again for every stimulus */ };
 
+struct row {                     /* what is known of a stimulus besides its outcome */
+    bool waits;                  /* for the gain of the set */
+    struct set_measured measured;
+    double full_scale;
+    const char *key;             /* of what has no right record */
+};
+
+struct slot {                    /* what a job came to, until it is taken */
+    struct stimulus is;
+    bool done;
+    char *key;                   /* by malloc, of what failed; NULL: not known */
+    struct err *e;               /* by malloc; NULL: none */
+};
+
 struct batch {
     const struct batch_ask *ask;
     struct batch_report *report;
     struct arena *arena;
-    struct job_kit kit;
-    struct slot {                /* what a job came to, until it is taken */
-        struct journal_ref ref;
-        bool done, kept, waits;
-        struct err *e;           /* by malloc; NULL: none */
-    } *slots;                    /* [n_mine] */
-    int *rows;                   /* [n_mine] which stimuli */
+    struct stimulus_set k;
+    struct row *rows;            /* [n] */
+    bool (*act)(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e); /* what jobs do */
+    struct slot *slots;          /* [n_now] */
+    int *now, n_now;             /* the stimuli that jobs are about */
     struct progress progress;
     struct err stop;
-    struct claim claim;
-    int entered;                 /* claim_enter's */
     const char *changed;         /* an input, while stimuli were made of it; NULL: none */
 };
 
@@ -46,71 +53,142 @@ static bool stops(enum err_kind kind)
     return kind == ERR_CREATE || kind == ERR_IO || kind == ERR_INTERRUPTED || kind == ERR_MEMORY;
 }
 
+static bool look(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e)
+{
+    return stimulus_look(&b->k, i, a, s, e);
+}
+
+static bool make(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e)
+{
+    enum stimulus_how how = b->ask->no_render ? STIMULUS_NEVER : b->ask->force ? STIMULUS_ANEW : STIMULUS_IF_NEEDED;
+    return stimulus_make(&b->k, i, how, a, s, e) &&
+           (s->state == STIMULUS_THERE || err_set(e, ERR_INPUT, "it is not there as it should be (%s): run its shard, or the same command without --no-render", stimulus_states[s->state]));
+}
+
+static bool level(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e)
+{
+    return stimulus_level(&b->k, i, b->report->full_scale, !b->ask->no_render, a, s, e);
+}
+
 static bool job(void *context, int at)
 {
     struct batch *b = context;
     struct slot *s = &b->slots[at];
-    struct job_result result = {0};
     struct err e = {0};
     struct arena *a = arena_open();
-    bool ok = interrupt_seen() ? err_set(&e, ERR_INTERRUPTED, "interrupted") : job_do(&b->kit, b->rows[at], a, &result, &e);
-    *s = (struct slot){result.ref, true, result.kept, ok && !result.record->job, NULL};
-    arena_close(a);
-    if (!ok)
+    bool ok = interrupt_seen() ? err_set(&e, ERR_INTERRUPTED, "interrupted") : b->act(b, b->now[at], a, &s->is, &e);
+    s->done = true;
+    if (!ok) {
         *(s->e = memory_take(sizeof e)) = e;
+        s->key = s->is.key ? memcpy(memory_take(HASH_TEXT), s->is.key, HASH_TEXT) : NULL;
+    }
+    s->is.key = NULL; /* it goes with the arena */
+    arena_close(a);
     return ok || !stops(e.kind);
 }
 
-static void took_failure(struct batch *b, struct outcome *o, const struct err *e)
+static void took_failure(struct batch *b, struct tables_row *o, int i, const struct slot *s)
 {
-    if (stops(e->kind)) {
-        err_set(&b->stop, e->kind, "%s", e->text);
+    if (stops(s->e->kind)) {
+        err_set(&b->stop, s->e->kind, "%s", s->e->text);
         return;
     }
-    o->kind = e->kind;
-    o->text = folder_seen(b->ask->folder, e->text, b->arena);
-    b->report->failed++;
+    o->there = false;
+    o->kind = s->e->kind;
+    o->text = folder_seen(b->ask->folder, s->e->text, b->arena);
+    b->rows[i].key = s->key ? arena_text(b->arena, s->key) : "";
 }
 
 static void took(void *context, int at)
 {
     struct batch *b = context;
     struct slot *s = &b->slots[at];
-    int i = b->rows[at];
-    struct outcome *o = &b->report->outcomes[i];
-    double cost = b->report->set.rows[i].cost, length = b->report->prepare.lengths[i];
+    int i = b->now[at];
+    struct tables_row *o = &b->report->rows[i];
+    double cost = b->report->set.cost[i];
+    bool made = s->is.made && !s->e;
     if (s->e)
-        took_failure(b, o, s->e);
+        took_failure(b, o, i, s);
     else {
-        o->kept = s->kept;
-        o->record = s->ref;
-        o->waits = s->waits;
-        b->report->kept += o->kept;
-        b->report->rendered += !o->kept;
+        o->there = s->is.state == STIMULUS_THERE;
+        o->made = o->made || made;
+        o->wall += s->is.wall, o->cpu += s->is.cpu;
+        b->rows[i] = (struct row){s->is.waits, s->is.measured, s->is.full_scale, NULL};
+        if (b->report->states)
+            b->report->states[i] = s->is.state;
     }
     free(s->e);
+    free(s->key);
     *s = (struct slot){0};
-    progress_step(&b->progress, b->report->set.rows[i].name, o->kept ? 0 : cost, o->kept ? cost : 0, o->kept ? 0 : length);
+    progress_step(&b->progress, b->report->design.stimuli[i].name, made ? cost : 0, made ? 0 : cost, made ? b->report->set.lengths[i] : 0);
 }
 
-/* Results behind the first that was not done are there all the same, and are in the journal. */
-static bool run_jobs(struct batch *b, struct err *e)
+/* Results behind the first that was not done are there all the same, and have their records. */
+static void run_jobs(struct batch *b)
 {
-    struct batch_report *r = b->report;
-    double cost = 0;
-    b->slots = ARENA_TAKE(b->arena, struct slot, r->n_mine);
-    for (int at = 0; at < r->n_mine; at++)
-        cost += r->set.rows[b->rows[at]].cost;
-    progress_begin(&b->progress, r->n_mine, cost, b->ask->quiet);
-    pool_run(&(struct pool_work){.n = r->n_mine, .threads = b->ask->threads, .context = b, .job = job, .took = took});
-    for (int at = 0; at < r->n_mine; at++)
+    pool_run(&(struct pool_work){.n = b->n_now, .threads = b->ask->threads, .context = b, .job = job, .took = took});
+    for (int at = 0; at < b->n_now; at++)
         if (b->slots[at].done)
             took(b, at);
     progress_clear(&b->progress);
+}
+
+static bool make_all(struct batch *b, struct err *e)
+{
+    struct batch_report *r = b->report;
+    double cost = 0;
+    int done = 0;
+    b->act = make;
+    for (int at = 0; at < b->n_now; at++)
+        cost += r->set.cost[b->now[at]];
+    progress_begin(&b->progress, b->n_now, cost, b->ask->quiet);
+    run_jobs(b);
+    for (int at = 0; at < b->n_now; at++)
+        done += r->rows[b->now[at]].there;
     if (b->stop.kind == ERR_INTERRUPTED)
-        return err_set(e, ERR_INTERRUPTED, "interrupted after %d of %d stimuli; run the same command again, and it goes on from here", r->rendered + r->kept, r->n_mine);
-    return !b->stop.kind || err_set(e, b->stop.kind, "%s; stopped after %d of %d stimuli; once that is mended, run the same command again, and it goes on from here", b->stop.text,
-                                    r->rendered + r->kept, r->n_mine);
+        return err_set(e, ERR_INTERRUPTED, "interrupted after %d of %d stimuli; run the same command again, and it goes on from here", done, b->n_now);
+    return !b->stop.kind || err_set(e, b->stop.kind, "%s; stopped after %d of %d stimuli; once that is mended, run the same command again, and it goes on from here", b->stop.text, done, b->n_now);
+}
+
+/* ------------------------------------------------------------------ the gain of the set */
+
+static bool are_all_there(const struct batch *b)
+{
+    bool all = true;
+    for (int i = 0; i < b->report->set.n; i++)
+        all = all && b->report->rows[i].there;
+    return all;
+}
+
+static bool find_gain(const struct batch *b, double *full_scale, struct err *e)
+{
+    struct set_loudest l = set_loudest();
+    for (int i = 0; i < b->report->set.n; i++)
+        set_loudest_add(&l, &b->rows[i].measured);
+    return set_gain(&b->report->set, &l, full_scale, e);
+}
+
+static bool needs_gain(const struct batch *b, int i, double full_scale)
+{
+    return !b->report->design.stimuli[i].recording && (b->rows[i].waits || b->rows[i].full_scale != full_scale);
+}
+
+static bool level_all(struct batch *b, struct err *e)
+{
+    struct batch_report *r = b->report;
+    r->full_scale = set_waits(&r->set) ? NAN : r->set.level.full_scale;
+    if (!set_waits(&r->set) || !are_all_there(b) || shelf_changed(b->k.shelf, b->arena)) /* of two states no gain is found */
+        return true;
+    if (!find_gain(b, &r->full_scale, e))
+        return false;
+    b->n_now = 0;
+    for (int i = 0; i < r->set.n; i++)
+        if (needs_gain(b, i, r->full_scale))
+            b->now[b->n_now++] = i;
+    b->act = level;
+    progress_begin(&b->progress, b->n_now, 0, true);
+    run_jobs(b);
+    return !b->stop.kind || err_set(e, b->stop.kind, "%s; run the same command again, and it goes on from here", b->stop.text);
 }
 
 /* ------------------------------------------------------------------ before */
@@ -119,142 +197,196 @@ static void divide(struct batch *b)
 {
     struct batch_report *r = b->report;
     int *to = ARENA_TAKE(b->arena, int, r->set.n);
-    double *cost = ARENA_TAKE(b->arena, double, r->set.n);
     r->mine = ARENA_TAKE(b->arena, bool, r->set.n);
-    b->rows = ARENA_TAKE(b->arena, int, r->set.n);
-    for (int i = 0; i < r->set.n; i++)
-        cost[i] = r->set.rows[i].cost;
-    shard_assign(cost, r->set.n, b->ask->shard.n, to, b->arena);
+    b->now = ARENA_TAKE(b->arena, int, r->set.n);
+    b->slots = ARENA_TAKE(b->arena, struct slot, r->set.n);
+    set_deal(&r->set, b->ask->shard.n, to, b->arena);
     for (int i = 0; i < r->set.n; i++)
         if ((r->mine[i] = to[i] == b->ask->shard.i))
-            b->rows[r->n_mine++] = i;
+            b->now[b->n_now++] = i;
+    r->n_mine = b->n_now;
 }
 
 static bool has_room(const struct batch *b, struct err *e)
 {
-    const struct prepare *p = &b->report->prepare;
-    double share = (double)b->report->n_mine / b->report->set.n, free = folder_free(b->ask->folder), raw = share * p->raw_bytes;
-    if (raw < free || access(arena_format(b->arena, "%s/.rasp/raw", b->ask->folder), F_OK) == 0)
+    const char *folder = b->ask->folder;
+    double share = (double)b->report->n_mine / b->report->set.n, free = folder_free(folder), raw = share * b->report->plan.raw_bytes;
+    if (raw < free || access(arena_format(b->arena, "%s/.rasp/raw", folder), F_OK) == 0)
         return true;
-    return err_set(e, ERR_CREATE, "%s: %.3g GB are free, and the sounds take %.3g GB until the common level is known: give the level as full_scale, or make room", b->ask->folder,
-                   free / 1e9, raw / 1e9);
+    return err_set(e, ERR_CREATE, "%s: %.3g GB are free, and the sounds take %.3g GB until the common level is known: give the level as full_scale, or make room", folder, free / 1e9, raw / 1e9);
 }
 
-static bool open_folder(struct batch *b, struct err *e)
+/* ------------------------------------------------------------------ only looking */
+
+static void list_missing(struct batch *b)
 {
-    const struct batch_ask *ask = b->ask;
-    bool part = ask->shard.n > 1;
-    const char *name = part ? arena_format(b->arena, "%s/.rasp/journal.%d-of-%d", ask->folder, ask->shard.i, ask->shard.n)
-                            : arena_format(b->arena, "%s/.rasp/journal", ask->folder);
-    if (!folder_make(ask->folder, e))
-        return false;
-    if (!claim_enter(&b->claim, b->arena, &b->entered, e))
-        return false;
-    if (!(b->kit.journal = b->report->journal = journal_open(ask->folder, name, b->arena, e)) || !has_room(b, e))
-        return false;
-    return !part || set_file_save(&b->report->set, arena_format(b->arena, "%s/.rasp/set.json", ask->folder), e);
+    struct batch_report *r = b->report;
+    int shards = b->ask->missing, *to = ARENA_TAKE(b->arena, int, r->set.n);
+    bool *lacks = ARENA_TAKE(b->arena, bool, shards + 1);
+    set_deal(&r->set, shards, to, b->arena);
+    for (int i = 0; i < r->set.n; i++)
+        lacks[to[i]] = lacks[to[i]] || !r->rows[i].there;
+    r->missing = "";
+    for (int k = 1; k <= shards; k++)
+        if (lacks[k])
+            r->missing = arena_format(b->arena, "%s%s%d", r->missing, *r->missing ? "," : "", k);
 }
 
-/* Tables of an earlier run would speak of files that may be replaced now. */
-static void forget_tables(const struct batch *b)
+/* What of the set is there, and why the rest would be made. A gain is known when all are. */
+static bool look_at_folder(struct batch *b, struct err *e)
 {
-    static const char *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS"};
-    for (int i = 0; i < 3; i++)
-        unlink(arena_format(b->arena, "%s/%s", b->ask->folder, tables[i]));
-    unlink(manifest_path(b->ask->folder, &b->ask->shard, b->arena));
+    struct batch_report *r = b->report;
+    struct err silent = {0};
+    double full_scale = NAN;
+    r->states = ARENA_TAKE(b->arena, enum stimulus_state, r->set.n);
+    b->k.read_only = true;
+    b->n_now = 0;
+    for (int i = 0; i < r->set.n; i++)
+        b->now[b->n_now++] = i;
+    b->act = look;
+    progress_begin(&b->progress, b->n_now, 0, true);
+    run_jobs(b);
+    if (b->stop.kind)
+        return err_set(e, b->stop.kind, "%s", b->stop.text);
+    if (b->ask->missing)
+        list_missing(b);
+    bool gain = set_waits(&r->set) && are_all_there(b) && find_gain(b, &full_scale, &silent);
+    for (int i = 0; i < r->set.n; i++)
+        if (r->states[i] == STIMULUS_THERE && set_waits(&r->set) && (b->rows[i].waits || (gain && needs_gain(b, i, full_scale))))
+            r->states[i] = STIMULUS_GAIN;
+    for (int i = 0; i < r->set.n; i++)
+        r->rows[i] = (struct tables_row){0};
+    return true;
 }
 
-/* ------------------------------------------------------------------ the whole */
+/* ------------------------------------------------------------------ the end */
 
 static bool judge(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
     enum err_kind worst = ERR_NONE;
-    r->failed = r->waiting = r->rendered = r->kept = 0; /* the level may have changed what became of some */
     for (int i = 0; i < r->set.n; i++) {
-        const struct outcome *o = &r->outcomes[i];
-        r->rendered += o->record.size && !o->kept;
-        r->kept += o->record.size && o->kept;
+        const struct tables_row *o = &r->rows[i];
+        r->rendered += o->there && o->made;
+        r->kept += o->there && !o->made;
         r->failed += o->kind != ERR_NONE;
-        r->waiting += o->record.size && o->waits;
+        r->waiting += o->there && b->rows[i].waits;
         worst = o->kind > worst ? o->kind : worst;
     }
     if (b->changed)
         return err_set(e, ERR_INPUT, "%s has changed while stimuli were made of it: some may be of what it was before; run the same command again, which renders those anew", b->changed);
-    return !worst || err_set(e, worst, "%d of %d stimuli failed; the column error of the manifest says why%s", r->failed, r->n_mine,
-                             r->waiting ? ", and the common level waits for them" : "");
+    if (worst && b->ask->no_render)
+        return err_set(e, worst, "%d of %d stimuli are missing; no table was written", r->failed, r->n_mine);
+    return !worst || err_set(e, worst, "%d of %d stimuli failed; the column error of the manifest says why%s", r->failed, r->n_mine, r->waiting ? ", and the common level waits for them" : "");
 }
 
-/* Inputs may be seen from folders that the end removes: it is looked before. anew: something was made of them. */
-static void look_for_changes(struct batch *b, bool anew)
+struct wanted {
+    const char *name, *key;
+};
+
+static int by_name(const void *a, const void *b)
 {
-    b->changed = anew ? shelf_changed(b->kit.shelf, b->arena) : NULL;
+    return strcmp(((const struct wanted *)a)->name, ((const struct wanted *)b)->name);
 }
 
-/* A shard of two states is not one that can be merged: it has no manifest. */
-static bool end_shard(struct batch *b, struct err *e)
+static void find_stale(struct batch *b)
 {
     struct batch_report *r = b->report;
-    look_for_changes(b, r->rendered > 0);
-    return b->changed || manifest_write(b->ask->folder, &(struct results){&r->set, r->outcomes, r->journal}, &b->ask->shard, r->mine, e);
+    int n = r->set.n;
+    struct wanted *all = ARENA_TAKE(b->arena, struct wanted, n);
+    struct folder_wanted w = {.folder = b->ask->folder, .names = ARENA_TAKE(b->arena, const char *, n), .keys = ARENA_TAKE(b->arena, const char *, n), .n = n, .inputs = r->plan.inputs,
+                              .prune = b->ask->prune, .all = are_all_there(b)};
+    for (int i = 0; i < n; i++) {
+        w.all = w.all && !b->rows[i].waits;
+        all[i] = (struct wanted){r->design.stimuli[i].name, r->rows[i].there ? NULL : b->rows[i].key ? b->rows[i].key : ""};
+    }
+    qsort(all, (size_t)n, sizeof *all, by_name);
+    for (int i = 0; i < n; i++) {
+        w.names[i] = all[i].name;
+        w.keys[i] = all[i].key;
+    }
+    folder_stale(&w, b->arena, &r->stale);
 }
 
+/* The tables speak of what is on the disk. */
+static void sync_folder(const struct batch *b)
+{
+    bool made = false;
+    for (int i = 0; i < b->report->set.n; i++)
+        made = made || b->report->rows[i].made;
+    int fd = made ? open(b->ask->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (fd >= 0) {
+        syncfs(fd);
+        close(fd);
+    }
+}
+
+/* Inputs may be seen from folders that the end removes: they are looked at before. */
 static bool end(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
-    struct results results = {&r->set, r->outcomes, r->journal};
-    struct finish f = {.kit = &b->kit, .results = results, .threads = b->ask->threads, .entered = b->entered, .arena = b->arena, .anew = r->rendered > 0,
-                       .inputs = r->prepare.inputs, .prune = b->ask->prune};
-    if (b->ask->shard.n > 1)
-        return end_shard(b, e);
-    bool ok = finish_level(&f, e);
-    look_for_changes(b, f.anew);
-    ok = ok && finish_tables(&f, e);
-    r->full_scale = f.full_scale;
-    r->left = f.left;
-    r->unheard = f.unheard ? f.unheard : "";
-    return ok;
+    b->changed = shelf_changed(b->k.shelf, b->arena);
+    bool missing = false;
+    for (int i = 0; i < r->set.n; i++)
+        missing = missing || (b->ask->no_render && r->rows[i].kind);
+    if (missing)
+        return true;
+    find_stale(b);
+    sync_folder(b);
+    return tables_write(&(struct tables){&r->set, b->ask->folder, r->rows, b->arena}, &r->no_effect, e);
 }
 
-static bool render_in_folder(struct batch *b, struct err *e)
+static bool run_in_folder(struct batch *b, struct err *e)
 {
-    if (!open_folder(b, e))
+    if (!has_room(b, e))
         return false;
-    forget_tables(b);
+    b->report->rendering = true;
+    b->k.doubt = !tables_are_there(b->ask->folder, b->arena);
+    tables_remove(b->ask->folder, b->arena);
     resample_prepare();
-    return run_jobs(b, e) && end(b, e) && judge(b, e);
+    if (!make_all(b, e))
+        return false;
+    if (b->ask->shard.n > 1)
+        b->changed = shelf_changed(b->k.shelf, b->arena);
+    else if (!level_all(b, e) || !end(b, e))
+        return false;
+    return judge(b, e);
 }
 
-static bool render(struct batch *b, struct err *e)
+static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *a, struct batch_report *r, struct err *e)
 {
-    b->entered = -1;
-    bool ok = render_in_folder(b, e);
-    folder_leave(b->entered);
+    int lock;
+    *r = (struct batch_report){.messages = "", .no_effect = "", .full_scale = NAN};
+    if (!design_read(ask->design, a, &r->design, &r->messages, e))
+        return false;
+    r->set = set_make(&r->design, ask->program);
+    if (!set_plan(&r->set, &(struct set_plan_ask){ask->threads, shelf, ask->folder, ask->replace, ask->force || ask->replace}, a, &r->plan, e))
+        return false;
+    struct batch b = {.ask = ask, .report = r, .arena = a, .rows = ARENA_TAKE(a, struct row, r->set.n),
+                      .k = {.set = &r->set, .folder = ask->folder, .shelf = shelf, .inputs = r->plan.inputs}};
+    r->rows = ARENA_TAKE(a, struct tables_row, r->set.n);
+    divide(&b);
+    if (!ask->folder)
+        return true;
+    const struct folder_owner owner = {ask->folder, ask->design, r->set.sha256, ask->program, ask->replace, ask->shard.n > 1};
+    if (!folder_look(&owner, a, e)) /* before anything is written */
+        return false;
+    b.k.doubt = !tables_are_there(ask->folder, a);
+    if (ask->dry || ask->missing) {
+        b.k.seen_from = folder_place(ask->design, ask->folder, a);
+        return look_at_folder(&b, e);
+    }
+    if (!folder_enter(&owner, a, &lock, e))
+        return false;
+    b.k.seen_from = folder_place(ask->design, ask->folder, a);
+    bool ok = run_in_folder(&b, e);
+    folder_leave(lock);
     return ok;
 }
 
 void batch_close(struct batch_report *r)
 {
-    prepare_close(&r->prepare);
-    journal_close(r->journal);
-    r->journal = NULL;
-}
-
-static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *a, struct batch_report *r, struct err *e)
-{
-    *r = (struct batch_report){.messages = "", .unheard = "", .full_scale = NAN};
-    if (!design_read(ask->design, a, &r->design, &r->messages, e))
-        return false;
-    set_make(&r->design, ask->build, a, &r->set);
-    if (!prepare_set(&(struct prepare_ask){&r->design, ask->threads, shelf, ask->folder, &ask->shard, ask->replace, ask->force || ask->replace}, a, &r->set, &r->prepare, e))
-        return false;
-    struct batch b = {.ask = ask, .report = r, .arena = a, .kit = {.design = &r->design, .set = &r->set, .folder = ask->folder, .shelf = shelf, .force = ask->force},
-                      .claim = {ask->folder, ask->design, r->set.sha256, ask->build, ask->replace}};
-    r->outcomes = ARENA_TAKE(a, struct outcome, r->set.n);
-    divide(&b);
-    if (ask->folder && !claim_look(&b.claim, a, e)) /* before anything is written */
-        return false;
-    return ask->dry || render(&b, e);
+    set_plan_close(&r->plan);
 }
 
 bool batch_run(const struct batch_ask *ask, struct arena *a, struct batch_report *r, struct err *e)

@@ -1,31 +1,34 @@
 /* A design into a folder of stimuli. */
 #ifndef BATCH_BATCH_H
 #define BATCH_BATCH_H
-#include "batch/leftover.h"
-#include "batch/manifest.h"
-#include "batch/prepare.h"
+#include "batch/stimulus.h"
+#include "batch/tables.h"
 
 struct batch_ask {
     const char *design, *folder;
-    const char *build;          /* what the program is called in the manifest, and what its results depend on */
+    const char *program;        /* what it is called in the manifest, and what its results depend on */
     int threads;
-    struct shard shard;
+    struct set_shard shard;
+    int missing;                /* shards that the set is divided into, of which those are asked for that are not whole; 0: not asked */
     bool force, dry, quiet;
-    bool replace, prune;        /* as of struct claim; what is left over is removed (not by a shard) */
+    bool replace, prune;        /* as of struct folder_owner and folder_wanted; nothing is pruned by a shard */
+    bool no_render;             /* what is not there is reported, not rendered */
 };
 
 struct batch_report {
     struct design design;
     struct set set;
-    struct prepare prepare;
+    struct set_plan plan;
     const char *messages;       /* of a design that cannot be read, as of design_read; "" */
-    struct outcome *outcomes;   /* [set.n] */
-    struct journal *journal;    /* that has their records; NULL: nothing was rendered */
+    struct tables_row *rows;    /* [set.n] NULL: nothing was planned                       */
+    enum stimulus_state *states; /* [set.n] of a dry run that knows the folder; else NULL */
     bool *mine;                 /* [set.n] of this shard */
     int n_mine, rendered, kept, failed, waiting;
+    bool rendering;             /* something was written, or found right */
+    const char *missing;        /* "3,17": shards that are not whole, if they were asked for */
     double full_scale;          /* the set's; NAN: it has none, or it is not known yet */
-    struct leftover left;       /* what is in the folder besides; of a shard nothing is known */
-    const char *unheard;        /* a warning of factors that are not heard; "": none */
+    struct folder_stale stale;  /* what is in the folder besides; of a shard nothing is known */
+    const char *no_effect;      /* of tables_write */
     double seconds;             /* wall clock */
 };
 

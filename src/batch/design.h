@@ -89,8 +89,8 @@ const char *design_value(const struct design *d, int i, int factor);
    NULL: the design has none, or a factor that it names has no level here. */
 const char *design_text(const struct design *d, int i, struct arena *a);
 
-/* The stimuli, one a line under a head: number, name, labels of the factors, replicate, seed, recording. For people (rasp batch --dry-run). mine: [n_stimuli] those that are listed; NULL: all. */
-void design_print(const struct design *d, const bool *mine, FILE *f);
+/* The stimuli, one a line under a head: number, name, labels of the factors, replicate, seed, recording. For people (rasp batch --dry-run). mine: [n_stimuli] those that are listed; NULL: all. states: [n_stimuli] a word of each; NULL: none. */
+void design_print(const struct design *d, const bool *mine, const char *const *states, FILE *f);
 
 /* Has the file's text a top-level key rasp-design? False: it has none, or cannot be read. */
 bool design_is(const char *file);

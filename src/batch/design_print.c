@@ -7,21 +7,22 @@
 struct table {
     const struct design *d;
     FILE *f;
+    const char *const *states; /* NULL: none */
     int *width;   /* [columns] */
     bool replicates, recordings;
 };
 
-enum { COLUMN_NAME, COLUMN_REPLICATE, COLUMN_SEED, COLUMN_RECORDING, COLUMN_FACTORS };
+enum { COLUMN_NAME, COLUMN_REPLICATE, COLUMN_SEED, COLUMN_RECORDING, COLUMN_STATE, COLUMN_FACTORS };
 
 static bool shown(const struct table *t, int column)
 {
-    return (column != COLUMN_REPLICATE || t->replicates) && (column != COLUMN_RECORDING || t->recordings);
+    return (column != COLUMN_REPLICATE || t->replicates) && (column != COLUMN_RECORDING || t->recordings) && (column != COLUMN_STATE || t->states);
 }
 
 /* The cell's text, row -1 the head; `number` is room for numbers. */
 static const char *cell(const struct table *t, int row, int column, char number[24])
 {
-    static const char *const heads[] = {"name", "replicate", "seed", "recording"};
+    static const char *const heads[] = {"name", "replicate", "seed", "recording", "state"};
     const struct design_stimulus *s = row < 0 ? NULL : &t->d->stimuli[row];
     if (column >= COLUMN_FACTORS)
         return s ? design_label(t->d, row, column - COLUMN_FACTORS) : t->d->factors[column - COLUMN_FACTORS].name;
@@ -29,6 +30,8 @@ static const char *cell(const struct table *t, int row, int column, char number[
         return s ? s->name : heads[column];
     if (column == COLUMN_RECORDING)
         return s->recording ? s->recording : "n/a";
+    if (column == COLUMN_STATE)
+        return t->states ? t->states[row] : "";
     if (s->recording)
         return "n/a";
     snprintf(number, 24, "%llu", column == COLUMN_SEED ? (unsigned long long)s->seed : (unsigned long long)s->replicate);
@@ -60,7 +63,7 @@ static void put(const struct table *t, int row, int column, bool last)
 /* Name and labels first, then what follows from them. */
 static void put_row(const struct table *t, int row, int digits)
 {
-    int last = shown(t, COLUMN_RECORDING) ? COLUMN_RECORDING : COLUMN_SEED;
+    int last = shown(t, COLUMN_STATE) ? COLUMN_STATE : shown(t, COLUMN_RECORDING) ? COLUMN_RECORDING : COLUMN_SEED;
     if (row < 0)
         fprintf(t->f, "%*s", digits, "#");
     else
@@ -74,10 +77,10 @@ static void put_row(const struct table *t, int row, int digits)
     fputc('\n', t->f);
 }
 
-void design_print(const struct design *d, const bool *mine, FILE *f)
+void design_print(const struct design *d, const bool *mine, const char *const *states, FILE *f)
 {
     struct arena *a = arena_open();
-    struct table t = {.d = d, .f = f, .width = ARENA_TAKE(a, int, COLUMN_FACTORS + d->n_factors), .replicates = d->replicates > 1};
+    struct table t = {.d = d, .f = f, .states = states, .width = ARENA_TAKE(a, int, COLUMN_FACTORS + d->n_factors), .replicates = d->replicates > 1};
     int digits = snprintf(NULL, 0, "%d", d->n_stimuli);
     for (int i = 0; i < d->n_stimuli; i++)
         t.recordings = t.recordings || d->stimuli[i].recording;

@@ -2,12 +2,70 @@
 #include "batch/measure.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "analysis/distance.h"
 #include "num/real.h"
 #include "output/loudness.h"
 
 enum { PIECE = 4096 /* samples */, BEHIND = 32 /* frames: the meter of true peaks is 6 to 12 late */ };
+
+/* ------------------------------------------------------------------ reading */
+
+bool measure_open(struct measure_source *c, const char *path, const struct measure_form *form, struct err *e)
+{
+    *c = (struct measure_source){.frames = 0};
+    if (!wav_stream_open(&c->in, path, e))
+        return false;
+    c->own = c->frames = c->in.frames;
+    if (!form || isnan(form->seconds))
+        return true;
+    c->frames = (long)rint(form->seconds * c->in.rate);
+    c->ramp = c->frames < c->own ? (long)rint(form->ramp * c->in.rate) : 0;
+    c->ramp = c->ramp < c->frames / 2 ? c->ramp : c->frames / 2;
+    return true;
+}
+
+static double greatest(const double *x, int n)
+{
+    double most = 0;
+    for (int k = 0; k < n; k++)
+        most = fmax(most, fabs(x[k]));
+    return most;
+}
+
+static void shape(struct measure_source *c, double *x, long n)
+{
+    long last = c->ramp > 1 ? c->ramp : 1;
+    for (long i = 0; i < n; i++) {
+        long rest = c->frames - 1 - (c->done + i);
+        double *frame = x + i * c->in.channels, size = greatest(frame, c->in.channels);
+        c->before = fmax(c->before, size);
+        c->end = rest < last ? fmax(c->end, size) : c->end;
+        double s = rest < c->ramp ? real_sinpi(0.5 * ((double)rest + 0.5) / (double)c->ramp) : 1;
+        for (int k = 0; k < c->in.channels && rest < c->ramp; k++)
+            frame[k] *= s * s;
+    }
+}
+
+bool measure_read(struct measure_source *c, double *x, long most, long *n, struct err *e)
+{
+    long some = c->frames - c->done < most ? c->frames - c->done : most, got;
+    *n = some;
+    memset(x, 0, sizeof *x * (size_t)some * (size_t)c->in.channels);
+    if (!wav_stream_read(&c->in, x, some, &got, e))
+        return false;
+    shape(c, x, some);
+    c->done += some;
+    return true;
+}
+
+void measure_close(struct measure_source *c)
+{
+    wav_stream_close(&c->in);
+}
+
+/* ------------------------------------------------------------------ measuring */
 
 struct sums {
     double peak, squares;
@@ -24,12 +82,12 @@ static void add(struct sums *s, const double *x, long n)
     distance_hash_add(&s->hash, x, (size_t)n);
 }
 
-static bool pass(struct cut *c, struct sums *s, struct err *e)
+static bool pass(struct measure_source *c, struct sums *s, struct err *e)
 {
     double x[PIECE];
     long n, most = PIECE / c->in.channels;
     do {
-        if (!cut_read(c, x, most, &n, e))
+        if (!measure_read(c, x, most, &n, e))
             return false;
         add(s, x, n * c->in.channels);
     } while (n > 0);
@@ -37,12 +95,12 @@ static bool pass(struct cut *c, struct sums *s, struct err *e)
 }
 
 /* BS.1770's gate is absolute: the sound is brought to peak 1 first. */
-static bool loud_pass(struct cut *c, double peak, struct loudness *l, struct err *e)
+static bool loud_pass(struct measure_source *c, double peak, struct loudness *l, struct err *e)
 {
     double x[PIECE];
     long n, most = PIECE / c->in.channels;
     do {
-        if (!cut_read(c, x, most, &n, e))
+        if (!measure_read(c, x, most, &n, e))
             return false;
         for (long i = 0; i < n * c->in.channels; i++)
             x[i] /= peak;
@@ -51,25 +109,25 @@ static bool loud_pass(struct cut *c, double peak, struct loudness *l, struct err
     return true;
 }
 
-static bool find_loudness(const char *path, const struct cut_form *form, struct measure *m, struct err *e)
+static bool find_loudness(const char *path, const struct measure_form *form, struct measure *m, struct err *e)
 {
-    struct cut c;
+    struct measure_source c;
     double lufs, silence[PIECE] = {0};
     struct loudness *l = loudness_open(m->channels, m->rate, true);
     if (!l)
         return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", m->rate);
-    bool ok = cut_open(&c, path, form, e) && loud_pass(&c, m->peak, l, e);
+    bool ok = measure_open(&c, path, form, e) && loud_pass(&c, m->peak, l, e);
     if (ok && loudness_read(l, &lufs))
         m->lufs = lufs + 20 * real_log10(m->peak);
     for (int i = 0; ok && i < BEHIND; i++)
         loudness_add(l, silence, 1);
     m->true_peak = ok ? fmax(1, loudness_true_peak(l)) * m->peak : NAN; /* of a sound brought to peak 1 */
-    cut_close(&c);
+    measure_close(&c);
     loudness_close(l);
     return ok;
 }
 
-static bool find_rest(struct cut *c, struct measure *m, struct err *e)
+static bool find_rest(struct measure_source *c, struct measure *m, struct err *e)
 {
     struct sums s = {.hash = hash_start()};
     *m = (struct measure){.rate = c->in.rate, .channels = c->in.channels, .frames = c->frames, .own = c->own, .lufs = NAN, .true_peak = NAN};
@@ -83,18 +141,13 @@ static bool find_rest(struct cut *c, struct measure *m, struct err *e)
     return ok;
 }
 
-bool measure_cut(const char *path, const struct cut_form *form, bool loud, struct measure *m, struct err *e)
+bool measure_cut(const char *path, const struct measure_form *form, bool loud, struct measure *m, struct err *e)
 {
-    struct cut c;
-    bool ok = cut_open(&c, path, form, e);
+    struct measure_source c;
+    bool ok = measure_open(&c, path, form, e);
     if (ok && c.in.channels > PIECE)
         ok = err_set(e, ERR_SCENE, "%s: has %d channels", path, c.in.channels);
     ok = ok && find_rest(&c, m, e);
-    cut_close(&c);
+    measure_close(&c);
     return ok && (!loud || m->peak == 0 || find_loudness(path, form, m, e));
-}
-
-bool measure_file(const char *path, bool loud, struct measure *m, struct err *e)
-{
-    return measure_cut(path, NULL, loud, m, e);
 }

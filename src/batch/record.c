@@ -1,108 +1,211 @@
 /* See record.h. */
 #include "batch/record.h"
 
+#include <jansson.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/outfile.h"
+#include "file/bytes.h"
 #include "file/json_value.h"
 
-static json_t *files_json(const struct record *r)
+static const char *const statuses[] = {[RECORD_MAKING] = "making", [RECORD_WAITS] = "waits", [RECORD_DONE] = "done"};
+static const char before_hash[] = ",\n  \"record\": \"", after_hash[] = "\"\n}\n";
+
+enum { TAIL = sizeof before_hash - 1 + HASH_TEXT - 1 + sizeof after_hash - 1 };
+
+/* The numbers of the sound by their names in the record. */
+static const struct {
+    const char *name;
+    size_t offset;
+} numbers[] = {{"peak", offsetof(struct record, peak)},           {"rms", offsetof(struct record, rms)},
+               {"lufs", offsetof(struct record, lufs)},           {"gain", offsetof(struct record, gain)},
+               {"file_peak", offsetof(struct record, file_peak)}, {"file_rms", offsetof(struct record, file_rms)},
+               {"file_lufs", offsetof(struct record, file_lufs)}, {"true_peak", offsetof(struct record, true_peak)},
+               {"beyond", offsetof(struct record, beyond)},       {"ramp_s", offsetof(struct record, ramp)}};
+
+static double *number(const struct record *r, size_t k)
 {
-    json_t *all = json_array();
-    for (int i = 0; i < r->n_files; i++)
-        json_array_append_new(all, json_pack("{s:s, s:s, s:s*}", "kind", r->files[i].kind, "path", r->files[i].path, "sha256", r->files[i].sha256));
-    return all;
+    return (double *)((char *)r + numbers[k].offset);
 }
 
-static json_t *remarks_json(const struct record *r)
+static const char *base_name(const char *path)
 {
-    json_t *all = json_array();
-    for (int i = 0; r->remarks && r->remarks[i]; i++)
-        json_array_append_new(all, json_value_shown(r->remarks[i]));
-    return all;
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
 }
 
-static void add_sound(json_t *j, const struct record *r)
+const char *record_path(const char *folder, const char *name, struct arena *a)
 {
-    json_t *sound = json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:o, s:o, s:o, s:o, s:o, s:s*}", "peak", json_value_number(r->peak), "rms", json_value_number(r->rms), "lufs",
-                              json_value_number(r->lufs), "rate", json_value_number(r->rate), "channels", r->channels, "encoding", r->encoding, "gain", json_value_number(r->gain), "file_peak",
-                              json_value_number(r->file_peak), "file_rms", json_value_number(r->file_rms), "file_lufs", json_value_number(r->file_lufs), "ramp", json_value_number(r->ramp), "audio", r->audio);
-    json_object_set_new(sound, "true_peak", json_value_number(r->true_peak));
-    json_object_set_new(sound, "beyond", json_value_number(r->beyond));
-    if (r->unit)
-        json_object_set_new(sound, "unit", json_string(r->unit));
-    if (r->loud)
-        json_object_set_new(sound, "loud", json_true());
-    json_object_set_new(j, "sound", sound);
+    return arena_format(a, "%s/%s.json", folder, name);
 }
 
-char *record_text(const struct record *r, bool times)
+const char *record_file_path(const char *name, const char *file, bool raw, struct arena *a)
 {
-    json_t *j = json_pack("{s:s, s:s, s:s*, s:s, s:s*, s:o, s:I, s:o, s:o}", "name", r->name, "key", r->key, "job", r->job, "build", r->build, "place", r->place, "full_scale",
-                          json_value_number(r->full_scale), "frames", (json_int_t)r->frames, "files", files_json(r), "remarks", remarks_json(r));
-    if (!j)
-        return NULL;
-    if (r->sounds)
-        add_sound(j, r);
-    if (times) {
-        json_object_set_new(j, "wall", json_value_number(r->wall));
-        json_object_set_new(j, "cpu", json_value_number(r->cpu));
+    return arena_format(a, "%s%.*s%s", raw ? ".rasp/raw/" : "", (int)(base_name(name) - name), name, file);
+}
+
+/* ------------------------------------------------------------------ writing */
+
+/* What the render's list says of the file, or a new entry. */
+static json_t *file_json(const json_t *listed, const struct record_file *f)
+{
+    const char *name = base_name(f->path);
+    json_t *j = NULL, *file;
+    size_t i;
+    json_array_foreach(listed, i, file) {
+        const char *other = json_string_value(json_object_get(file, "name"));
+        if (!j && other && !strcmp(other, name))
+            j = json_copy(file);
     }
-    char *text = json_dumps(j, JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
+    j = j ? j : json_pack("{s:s, s:s}", "kind", f->kind, "name", name);
+    json_object_set_new(j, "sha256", json_value_text(f->sha256));
+    json_object_set_new(j, "size", json_integer((json_int_t)f->size));
+    if (f->raw)
+        json_object_set_new(j, "raw", json_true());
+    else
+        json_object_del(j, "raw");
+    return j;
+}
+
+static json_t *measured_json(const struct record *r)
+{
+    json_t *j = json_pack("{s:o, s:I}", "rate_hz", json_value_number(r->rate), "frames", (json_int_t)r->frames);
+    if (!r->sounds)
+        return j;
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        json_object_set_new(j, numbers[k].name, json_value_number(*number(r, k)));
+    json_object_set_new(j, "channels", json_integer(r->channels));
+    json_object_set_new(j, "encoding", json_integer(r->encoding));
+    json_object_set_new(j, "unit", json_value_text(r->unit));
+    json_object_set_new(j, "audio_sha256", json_value_text(r->audio));
+    return j;
+}
+
+static json_t *whole_json(const struct record *r)
+{
+    json_t *render = r->render ? json_loads(r->render, 0, NULL) : NULL, *files = json_array(), *warnings = json_array();
+    for (int i = 0; i < r->n_files; i++)
+        json_array_append_new(files, file_json(json_object_get(render, "files"), &r->files[i]));
+    for (int i = 0; r->warnings && r->warnings[i]; i++)
+        json_array_append_new(warnings, json_value_shown(r->warnings[i]));
+    json_t *j = json_pack("{s:i, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "set", 2, "status", statuses[r->status], "key", r->key, "program", r->program,
+                          "seen_from", json_value_text(r->seen_from), "full_scale", json_value_number(r->full_scale), "measured", measured_json(r), "warnings", warnings,
+                          "files", files);
+    if (render)
+        json_object_update_missing(j, render);
+    json_object_del(j, "record");
+    json_decref(render);
+    return j;
+}
+
+const char *record_text(const struct record *r, struct arena *a)
+{
+    json_t *j = whole_json(r);
+    char hex[HASH_TEXT], *text = json_dumps(j, JSON_INDENT(2) | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
+    size_t n = text ? strlen(text) - 2 : 0; /* without its line end and bracket */
+    hash_bytes(text, n, hex);
+    const char *whole = arena_format(a, "%.*s%s%s%s", (int)n, text ? text : "", before_hash, hex, after_hash);
+    free(text);
     json_decref(j);
-    return text;
+    return whole;
+}
+
+bool record_write(const char *folder, const char *name, const struct record *r, struct err *e)
+{
+    struct arena *a = arena_open();
+    struct outfile f;
+    const char *text = record_text(r, a);
+    bool ok = outfile_open(&f, record_path(folder, name, a), e);
+    if (ok) {
+        outfile_put(&f, text, strlen(text));
+        ok = outfile_commit(&f, e);
+    }
+    arena_close(a);
+    return ok;
 }
 
 /* ------------------------------------------------------------------ reading */
 
-static bool files_of(const json_t *list, struct arena *a, struct record *r)
+/* Files of a stimulus are called NAME.something: a record that says otherwise leads nowhere. */
+static bool is_own(const char *file, const char *name)
 {
-    bool ok = true;
-    r->n_files = (int)json_array_size(list);
-    r->files = ARENA_TAKE(a, struct record_file, r->n_files);
-    for (int i = 0; i < r->n_files; i++) {
-        const json_t *f = json_array_get(list, (size_t)i);
-        r->files[i] = (struct record_file){json_value_text_of(f, "kind", a), json_value_text_of(f, "path", a), json_value_text_of(f, "sha256", a)};
-        ok = ok && r->files[i].kind && r->files[i].path;
-    }
-    return ok;
+    const char *base = base_name(name);
+    size_t n = strlen(base);
+    return file && !strchr(file, '/') && !strncmp(file, base, n) && file[n] == '.' && strcmp(file + n, ".json") != 0;
 }
 
-static void remarks_of(const json_t *list, struct arena *a, struct record *r)
+static bool parse_files(const json_t *list, const char *name, struct arena *a, struct record *r)
 {
-    size_t n = json_array_size(list);
-    r->remarks = ARENA_TAKE(a, const char *, n + 1);
-    for (size_t i = 0; i < n; i++) {
-        const char *s = json_string_value(json_array_get(list, i));
-        r->remarks[i] = arena_text(a, s ? s : "");
+    json_t *file;
+    size_t i;
+    r->files = ARENA_TAKE(a, struct record_file, json_array_size(list) + 1);
+    json_array_foreach(list, i, file) {
+        const char *own = json_value_text_of(file, "name", a);
+        struct record_file *f = &r->files[r->n_files++];
+        *f = (struct record_file){.kind = json_value_text_of(file, "kind", a), .raw = json_is_true(json_object_get(file, "raw")),
+                                  .sha256 = json_value_text_of(file, "sha256", a), .size = (double)json_integer_value(json_object_get(file, "size"))};
+        if (!f->kind || !f->sha256 || !is_own(own, name))
+            return false;
+        f->path = record_file_path(name, own, f->raw, a);
     }
+    return json_is_array(list);
 }
 
-static void sound_of(const json_t *j, struct arena *a, struct record *r)
+static void parse_measured(const json_t *j, struct arena *a, struct record *r)
 {
-    r->sounds = j != NULL;
-    r->peak = json_value_number_of(j, "peak"), r->rms = json_value_number_of(j, "rms"), r->lufs = json_value_number_of(j, "lufs");
-    r->rate = json_value_number_of(j, "rate"), r->gain = json_value_number_of(j, "gain"), r->ramp = json_value_number_of(j, "ramp");
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        *number(r, k) = json_value_number_of(j, numbers[k].name);
+    r->rate = json_value_number_of(j, "rate_hz");
+    r->frames = (long)json_integer_value(json_object_get(j, "frames"));
     r->channels = (int)json_integer_value(json_object_get(j, "channels"));
     r->encoding = (int)json_integer_value(json_object_get(j, "encoding"));
-    r->file_peak = json_value_number_of(j, "file_peak"), r->file_rms = json_value_number_of(j, "file_rms"), r->file_lufs = json_value_number_of(j, "file_lufs");
-    r->loud = json_is_true(json_object_get(j, "loud"));
-    r->audio = json_value_text_of(j, "audio", a);
+    r->sounds = r->channels > 0;
     r->unit = json_value_text_of(j, "unit", a);
-    r->true_peak = json_value_number_of(j, "true_peak");
-    r->beyond = json_value_number_of(j, "beyond");
+    r->audio = json_value_text_of(j, "audio_sha256", a);
 }
 
-bool record_read(const char *line, size_t n, struct arena *a, struct record *r)
+static void parse_warnings(const json_t *list, struct arena *a, struct record *r)
 {
-    json_error_t fault;
-    json_t *j = json_loadb(line, n, 0, &fault);
-    *r = (struct record){.name = json_value_text_of(j, "name", a), .key = json_value_text_of(j, "key", a), .job = json_value_text_of(j, "job", a), .build = json_value_text_of(j, "build", a), .place = json_value_text_of(j, "place", a),
-                         .full_scale = json_value_number_of(j, "full_scale"), .frames = (long)json_integer_value(json_object_get(j, "frames")),
-                         .wall = json_value_number_of(j, "wall"), .cpu = json_value_number_of(j, "cpu")};
-    bool ok = j && files_of(json_object_get(j, "files"), a, r) && r->name && r->key && r->build;
-    remarks_of(json_object_get(j, "remarks"), a, r);
-    sound_of(json_object_get(j, "sound"), a, r);
+    size_t n = json_array_size(list);
+    r->warnings = ARENA_TAKE(a, const char *, n + 1);
+    for (size_t i = 0; i < n; i++) {
+        const char *text = json_string_value(json_array_get(list, i));
+        r->warnings[i] = arena_text(a, text ? text : "");
+    }
+}
+
+bool record_parse(const char *text, size_t n, const char *name, struct arena *a, struct record *r)
+{
+    json_t *j = json_loadb(text, n, 0, NULL);
+    const char *status = json_string_value(json_object_get(j, "status"));
+    *r = (struct record){.key = json_value_text_of(j, "key", a), .program = json_value_text_of(j, "program", a), .seen_from = json_value_text_of(j, "seen_from", a),
+                         .full_scale = json_value_number_of(j, "full_scale")};
+    bool ok = j && json_integer_value(json_object_get(j, "set")) == 2 && status && r->key && r->program && parse_files(json_object_get(j, "files"), name, a, r);
+    for (r->status = RECORD_DONE; ok && r->status > RECORD_MAKING && strcmp(status, statuses[r->status]) != 0; r->status--)
+        ;
+    parse_measured(json_object_get(j, "measured"), a, r);
+    parse_warnings(json_object_get(j, "warnings"), a, r);
+    ok = ok && r->encoding >= 0 && r->encoding <= 3;
     json_decref(j);
+    r->render = ok ? arena_format(a, "%.*s", (int)n, text) : NULL;
     return ok;
+}
+
+static bool is_whole(const char *text, size_t n)
+{
+    char hex[HASH_TEXT];
+    const char *tail = text + n - TAIL;
+    if (n < TAIL || memcmp(tail, before_hash, sizeof before_hash - 1) != 0 || memcmp(text + n - (sizeof after_hash - 1), after_hash, sizeof after_hash - 1) != 0)
+        return false;
+    hash_bytes(text, n - TAIL, hex);
+    return memcmp(tail + sizeof before_hash - 1, hex, HASH_TEXT - 1) == 0;
+}
+
+bool record_read(const char *folder, const char *name, struct arena *a, struct record *r)
+{
+    struct err unreadable = {0};
+    struct bytes b;
+    return bytes_read(record_path(folder, name, a), a, &b, &unreadable) && is_whole(b.at, b.n) && record_parse(b.at, b.n, name, a, r);
 }

@@ -1,47 +1,72 @@
-/* What is kept of a stimulus that is done: enough to know that it is, and for its row in the manifest. One line of JSON in the journal. */
+/* The record of a stimulus, NAME.json in the set's folder: what made it, its files with their hashes, its measured levels. It is renamed into place last, so that the records are the journal of a set:
+   whatever a record says is there is there, unless somebody changed it since.
+
+     "set": 2      the format
+     "status"      making   the files are about to get their names; those of before and those to come are listed
+                   waits    the sound waits for the gain of the whole set, as float64 in .rasp/raw
+                   done
+     "key"         SHA-256 of all that made it but the name and the gain of the whole set (batch/stimulus.c)
+     "measured"    what the manifest says of the sound
+     "record"      SHA-256 of the text before it: a record that was cut off, or edited, is none
+
+   and what rasp render writes of a render, without times. */
 #ifndef BATCH_RECORD_H
 #define BATCH_RECORD_H
 #include <stdbool.h>
-#include <stdio.h>
+#include <stddef.h>
 
 #include "base/arena.h"
+#include "base/err.h"
 #include "base/hash.h"
 
+enum record_status { RECORD_MAKING, RECORD_WAITS, RECORD_DONE };
+
 struct record_file {
-    const char *kind;       /* as of render_file: "wav", "scene", "csv" ...; "summary" holds times and has no hash */
-    const char *path;       /* from the output folder                                                     */
-    const char *sha256;     /* NULL: its bytes may differ from run to run                                 */
+    const char *kind;     /* as of render_file: "wav", "scene", "csv" ...                          */
+    const char *path;     /* from the set's folder                                                 */
+    bool raw;             /* it lies in .rasp/raw                                                  */
+    const char *sha256;
+    double size;          /* bytes                                                                 */
 };
 
 struct record {
-    const char *name;       /* of the stimulus                                                            */
-    const char *key;        /* sha256 of all that its samples depend on but a gain that waits for the set */
-    const char *job;        /* sha256 of all that its files depend on; NULL: the gain is not known yet, and its files lie in .rasp/raw */
-    const char *build;
-    const char *place;      /* of the design, seen from the output folder; NULL: of a recording           */
-    double full_scale;      /* its level as it was written; NAN: not by this                              */
-    double peak, rms, lufs; /* of the raw sound: in the quantity, and LUFS as if that were the file; lufs NAN: not measured, or (loud) too short or too quiet */
-    bool loud;              /* lufs was measured: a common peak or rms does not need it                   */
-    double rate;            /* Hz                                                                         */
-    int channels, encoding; /* of the file, enum encoding                                                 */
+    enum record_status status;
+    const char *key, *program;
+    const char *seen_from;  /* the design, as seen from the folder; NULL: of a recording           */
+    double full_scale;      /* the gain of the whole set; NAN: it has none, or waits                */
+    double rate;            /* Hz                                                                  */
     long frames;
-    const char *unit;       /* of the sound's quantity; NULL: not stated, or a recording                  */
-    bool sounds;            /* there is a WAV                                                             */
-    double gain;            /* file value per unit of the quantity                                        */
-    double file_peak, file_rms, file_lufs, true_peak; /* of the WAV's samples, re full scale; LUFS (NAN: too short or too quiet) */
-    double beyond;          /* samples of the WAV beyond full scale; NAN: not known                       */
-    double ramp;            /* s, at both ends                                                            */
-    const char *audio;      /* sha256 of the decoded samples; NULL: no WAV                                */
+    bool sounds;            /* there is a WAV; what follows is about it                             */
+    double peak, rms, lufs; /* of the sound in its quantity; lufs NAN: not needed, or too short or too quiet */
+    int channels, encoding; /* of the file, enum encoding                                           */
+    const char *unit;       /* of the sound's quantity; NULL: not stated, or a recording            */
+    double gain;            /* file value per unit of the quantity                                  */
+    double file_peak, file_rms, file_lufs, true_peak; /* of the WAV, re full scale                  */
+    double beyond;          /* samples beyond full scale                                            */
+    double ramp;            /* s, at the end                                                        */
+    const char *audio;      /* SHA-256 of the decoded samples                                       */
     struct record_file *files;
     int n_files;
-    const char **remarks;   /* ends with NULL                                                             */
-    double wall, cpu;       /* s that it took; NAN: not known                                             */
+    const char **warnings;  /* ends with NULL                                                       */
+    const char *render;     /* the JSON text of the render, or of the whole record; NULL: a recording */
 };
 
-/* One line without its end. times: also what it took, which differs from run to run. Freed by free. NULL: no memory. */
-char *record_text(const struct record *r, bool times);
+/* DIR/NAME.json */
+const char *record_path(const char *folder, const char *name, struct arena *a);
 
-/* False: not such a line, or not a whole one. */
-bool record_read(const char *line, size_t n, struct arena *a, struct record *r);
+/* The path of a file of the stimulus from the set's folder; file: its name without folders. */
+const char *record_file_path(const char *name, const char *file, bool raw, struct arena *a);
+
+/* False: there is none, or it is not whole. */
+bool record_read(const char *folder, const char *name, struct arena *a, struct record *r);
+
+/* The text of a record without regard to its hash. */
+bool record_parse(const char *text, size_t n, const char *name, struct arena *a, struct record *r);
+
+/* As it stands in the file. */
+const char *record_text(const struct record *r, struct arena *a);
+
+/* Under its name when it is complete. ERR_CREATE, ERR_IO */
+bool record_write(const char *folder, const char *name, const struct record *r, struct err *e);
 
 #endif

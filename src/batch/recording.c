@@ -5,17 +5,13 @@
 
    (a silent one has no level, which is a warning, as it is of a render)
 
-   and cut to the set's length under the set's ramp, or continued by silence (batch/cut.c). Its level is that of the whole file then, as a render's is. It must have
+   and cut to the set's length under the set's ramp, or continued by silence (batch/measure.c). Its level is that of the whole file then, as a render's is. It must have
    the set's sample rate and channels: converting is left to programs made for it. */
 #include "batch/recording.h"
 
 #include <math.h>
 
-#include "base/stopwatch.h"
-#include "base/watch.h"
-#include "batch/folder.h"
 #include "batch/measure.h"
-#include "file/wav.h"
 #include "num/real.h"
 #include "scene/keys_yaml.h"
 
@@ -40,9 +36,9 @@ bool recording_check(const char *file, double *rate, int *channels, double *seco
                    w.channels == 1 ? "" : "s", w.rate, *channels, *rate, file, *rate, *channels);
 }
 
-static struct cut_form form_of(const struct set *s)
+static struct measure_form form_of(const struct set *s)
 {
-    return (struct cut_form){s->length, s->ramp};
+    return (struct measure_form){s->length, s->ramp};
 }
 
 /* What the level asks of a recording that holds this. */
@@ -53,7 +49,7 @@ static bool find_gain(const struct set *set, const char *file, const struct meas
     if (set->level_rule == DESIGN_LEVEL_SCENE || !isnan(l->full_scale) || !isnan(l->dbfs_at_1_pa))
         return true;
     if (m->peak == 0)
-        return true; /* told as a remark, as it is of a render */
+        return true; /* warned of, as it is of a render */
     if (!isnan(l->rms))
         *gain = real_exp10(l->rms / 20) / m->rms;
     else if (isnan(l->lufs))
@@ -70,16 +66,16 @@ bool recording_check_level(const char *file, const struct set *s, struct err *e)
 {
     struct measure m;
     double gain;
-    struct cut_form form = form_of(s);
+    struct measure_form form = form_of(s);
     return isnan(s->level.lufs) || (measure_cut(file, &form, true, &m, e) && find_gain(s, file, &m, &gain, e));
 }
 
-static bool copy_all(struct cut *c, struct wav_out *out, double gain, struct err *e)
+static bool copy_all(struct measure_source *c, struct wav_out *out, double gain, struct err *e)
 {
     double x[PIECE];
     long n, most = PIECE / c->in.channels;
     do {
-        if (!cut_read(c, x, most, &n, e))
+        if (!measure_read(c, x, most, &n, e))
             return false;
         for (long i = 0; i < n * c->in.channels; i++)
             x[i] *= gain;
@@ -90,7 +86,7 @@ static bool copy_all(struct cut *c, struct wav_out *out, double gain, struct err
 }
 
 /* A cut where the sound is less than 80 dB below its peak is told, as it is of a render. */
-static const char **remarks_of(const struct measure *m, const struct wav_written *w, struct arena *a)
+static const char **warnings_of(const struct measure *m, const struct wav_written *w, struct arena *a)
 {
     const char **all = ARENA_TAKE(a, const char *, 4);
     int n = 0;
@@ -107,96 +103,54 @@ static const char **remarks_of(const struct measure *m, const struct wav_written
     return all;
 }
 
-static bool write_it(const struct set *set, const char *file, const char *path, const struct measure *m, struct record *r, struct arena *a, struct err *e)
+static int bits_of(int encoding)
 {
     static const int bits[] = {[ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
+    return bits[encoding];
+}
+
+/* Its own samples, times the gain, with its warnings. */
+static struct wav_out *copy(const struct set *set, const char *file, const char *path, const struct measure *m, struct record *r, struct arena *a, struct err *e)
+{
     char comment[80];
-    struct cut c;
-    struct cut_form form = form_of(set);
-    if (!cut_open(&c, file, &form, e))
-        return false;
+    struct measure_source c;
+    struct measure_form form = form_of(set);
+    if (!measure_open(&c, file, &form, e))
+        return NULL;
     snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", r->gain, 20 * real_log10(r->gain));
-    struct wav_format f = {.rate = c.in.rate, .channels = c.in.channels, .bits = bits[set->encoding], .comment = comment};
+    struct wav_format f = {.rate = c.in.rate, .channels = c.in.channels, .bits = bits_of(set->encoding), .comment = comment};
     struct wav_out *out = wav_create(path, &f, e);
-    bool ok = out && copy_all(&c, out, r->gain, e);
-    cut_close(&c);
+    bool ok = out && copy_all(&c, out, r->gain, e) && wav_settle(out, e);
+    measure_close(&c);
     r->frames = c.frames;
     r->rate = c.in.rate;
     r->ramp = c.ramp > 0 ? (double)c.ramp / c.in.rate : 0;
     if (ok) {
         struct wav_written w = wav_written(out);
-        r->remarks = remarks_of(m, &w, a);
+        r->warnings = warnings_of(m, &w, a);
         r->beyond = w.beyond;
-        return wav_commit(out, e);
+        return out;
     }
     if (out)
         wav_drop(out);
-    return false;
+    return NULL;
 }
 
-/* What its bytes depend on. */
-static const char *key_of(const struct job_kit *k, const char *name, const char *sha256, struct arena *a)
-{
-    const struct set *s = k->set;
-    return job_hash((const char *const[]){"recording", name, s->build, sha256, set_level_text(s, a), isnan(s->length) ? "" : keys_yaml_number(s->length, a),
-                                          arena_format(a, "%d", s->encoding), keys_yaml_number(s->ramp, a)}, 8, a);
-}
-
-static bool measure(const struct set *s, const char *file, struct measure *m, struct record *r, struct err *e)
-{
-    struct cut_form form = form_of(s);
-    if (!measure_cut(file, &form, !isnan(s->level.lufs), m, e) || !find_gain(s, file, m, &r->gain, e))
-        return false;
-    r->peak = m->peak, r->rms = m->rms, r->lufs = m->lufs;
-    return true;
-}
-
-static bool make(const struct job_kit *k, const char *file, struct record *r, struct arena *a, struct err *e)
+struct wav_out *recording_make(const struct set *set, const char *file, const char *path, struct record *r, struct arena *a, struct err *e)
 {
     struct measure m;
-    char hex[HASH_TEXT];
-    double start[2] = {stopwatch_wall(), stopwatch_cpu()};
-    const char *path = arena_format(a, "%s.wav", job_base(k->folder, r->name, false, a));
-    if (!folder_make_for(k->folder, r->name, e) || !measure(k->set, file, &m, r, e) || !write_it(k->set, file, path, &m, r, a, e) || !hash_file(path, hex, e))
-        return false;
-    r->files = ARENA_TAKE(a, struct record_file, 1);
-    r->files[r->n_files++] = (struct record_file){"wav", arena_format(a, "%s.wav", r->name), arena_text(a, hex)};
-    r->audio = arena_take(a, HASH_TEXT, 1);
-    r->sounds = true;
-    r->encoding = k->set->encoding;
-    r->full_scale = NAN;
-    r->wall = stopwatch_wall() - start[0], r->cpu = stopwatch_cpu() - start[1];
-    return job_measure(k->folder, true, r, e);
+    struct measure_form form = form_of(set);
+    if (!measure_cut(file, &form, !isnan(set->level.lufs), &m, e) || !find_gain(set, file, &m, &r->gain, e))
+        return NULL;
+    r->peak = m.peak, r->rms = m.rms, r->lufs = m.lufs;
+    r->encoding = set->encoding;
+    r->channels = m.channels;
+    return copy(set, file, path, &m, r, a, e);
 }
 
-/* The copy is called by what the file was before: put back, too, it is none of that. */
-static bool still(const struct watch *w, const char *file, struct err *e)
+const char *recording_key(const struct set *s, const char *sha256, struct arena *a)
 {
-    return !watch_changed(w) || err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", file);
-}
-
-static bool do_it(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
-{
-    char hex[HASH_TEXT];
-    const char *file = k->design->stimuli[i].recording;
-    struct watch w = watch_begin(&file, 1, a);
-    if (!hash_file(file, hex, e))
-        return false;
-    const char *name = k->set->rows[i].name, *key = key_of(k, name, hex, a);
-    const struct record *found = k->force ? NULL : journal_find(k->journal, key, false, a, &result->ref);
-    result->kept = found && job_is_there(k->folder, found, a);
-    result->record = found;
-    if (result->kept)
-        return true;
-    struct record *r = ARENA_TAKE(a, struct record, 1);
-    *r = (struct record){.name = name, .key = key, .job = key, .build = k->set->build};
-    result->record = r;
-    return make(k, file, r, a, e) && still(&w, file, e) && journal_add(k->journal, r, &result->ref, e);
-}
-
-bool recording_do(const struct job_kit *k, int i, struct arena *a, struct job_result *result, struct err *e)
-{
-    if (do_it(k, i, a, result, e))
-        return true;
-    return (e->kind == ERR_INPUT || e->kind == ERR_SCENE) && design_scene_recording(k->design, i, e);
+    const char *const texts[] = {"rasp set 2", "recording", s->program, sha256, set_level_text(s, a), isnan(s->length) ? "" : keys_yaml_number(s->length, a),
+                                 keys_yaml_number(s->rate, a), arena_format(a, "%d", s->encoding), keys_yaml_number(s->ramp, a)};
+    return set_hash(texts, sizeof texts / sizeof *texts, a);
 }

@@ -1,50 +1,35 @@
-/* See set.h. */
+/* See set.h.
+
+   The gain of the whole set, F = full_scale, from sounds that were rendered at full_scale 1, with L the level:
+
+     peak   F = greatest peak / min(10^(L/20), largest value of the encoding)
+     rms    F = greatest rms / 10^(L/20)
+     lufs   F = 10^((greatest loudness - L)/20) */
 #include "batch/set.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/interrupt.h"
+#include "base/text.h"
+#include "batch/pool.h"
+#include "batch/recording.h"
+#include "num/real.h"
+#include "output/loudness.h"
+#include "output/sound.h"
+#include "pipeline/outputs.h"
+#include "pipeline/plan_scene.h"
+#include "response/modes.h"
 #include "scene/keys_yaml.h"
+#include "scene/scene_places.h"
+#include "scene/scene_write.h"
 
-static struct set_factor factor_make(const struct design_factor *d, struct arena *a)
+struct set set_make(const struct design *d, const char *program)
 {
-    struct set_factor f = {.name = d->name, .column = d->column, .unit = d->unit, .meaning = d->meaning, .n = d->n_levels};
-    f.texts = ARENA_TAKE(a, const char *, d->n_levels);
-    f.values = ARENA_TAKE(a, const char *, d->n_levels);
-    for (int i = 0; i < d->n_levels; i++) {
-        f.texts[i] = d->levels[i].text ? d->levels[i].text : d->levels[i].label;
-        f.values[i] = d->levels[i].value;
-    }
-    return f;
-}
-
-static const char *file_of(const char *path)
-{
-    const char *slash = path ? strrchr(path, '/') : NULL;
-    return slash ? slash + 1 : path;
-}
-
-static struct set_row row_make(const struct design *d, int i, struct arena *a)
-{
-    const struct design_stimulus *x = &d->stimuli[i];
-    struct set_row r = {.name = x->name, .replicate = x->replicate, .seed = x->seed, .recording = file_of(x->recording), .cost = 1};
-    r.text = design_text(d, i, a);
-    r.values = ARENA_TAKE(a, const char *, d->n_factors);
-    for (int k = 0; k < d->n_factors; k++)
-        r.values[k] = design_value(d, i, k);
-    return r;
-}
-
-void set_make(const struct design *d, const char *build, struct arena *a, struct set *s)
-{
-    *s = (struct set){.title = d->title, .sha256 = d->sha256, .build = build, .n_factors = d->n_factors, .replicates = d->replicates, .n = d->n_stimuli,
-                      .level_rule = d->level_rule, .level = d->level, .length = d->length_rule == DESIGN_LENGTH_FIXED ? d->length : NAN};
-    s->factors = ARENA_TAKE(a, struct set_factor, d->n_factors);
-    s->rows = ARENA_TAKE(a, struct set_row, d->n_stimuli);
-    for (int k = 0; k < d->n_factors; k++)
-        s->factors[k] = factor_make(&d->factors[k], a);
-    for (int i = 0; i < d->n_stimuli; i++)
-        s->rows[i] = row_make(d, i, a);
+    return (struct set){.design = d, .program = program, .sha256 = d->sha256, .n = d->n_stimuli, .level_rule = d->level_rule, .level = d->level,
+                        .length = d->length_rule == DESIGN_LENGTH_FIXED ? d->length : NAN, .encoding = ENCODING_PCM24, .ramp = 0.01};
 }
 
 bool set_waits(const struct set *s)
@@ -78,4 +63,670 @@ const char *set_level_text(const struct set *s, struct arena *a)
     if (!isnan(l->lufs))
         return arena_format(a, "%s lufs %s LUFS", rule, keys_yaml_number(l->lufs, a));
     return arena_format(a, "%s peak %s dB", rule, keys_yaml_number(l->peak, a));
+}
+
+const char *set_hash(const char *const *texts, int n, struct arena *a)
+{
+    char *hex = arena_take(a, HASH_TEXT, 1), length[32];
+    struct hash h = hash_start();
+    for (int i = 0; i < n; i++) {
+        size_t size = strlen(texts[i]);
+        hash_add(&h, length, (size_t)snprintf(length, sizeof length, "%zu:", size));
+        hash_add(&h, texts[i], size);
+    }
+    hash_end(&h, hex);
+    return hex;
+}
+
+/* ------------------------------------------------------------------ one stimulus */
+
+struct trial {               /* of one scene, until it is taken; it lies in its own arena */
+    struct arena *arena;
+    const struct diag *diag;
+    const char *messages;    /* as of scene_read */
+    struct scene scene;
+    char sha256[HASH_TEXT];  /* of what the scene means */
+    struct err e;            /* none: it can be rendered */
+    const char **warnings;   /* of what is opened; ends with NULL, NULL: not known */
+};
+
+struct look {                /* what is known of a stimulus */
+    struct trial *trial;     /* NULL: not begun, or taken */
+    int fault;               /* from 1; 0: it can be rendered */
+    double seconds, cost, rate, ramp;
+    int channels, encoding, bits;
+    int quantity;            /* of the sound, enum modes_quantity; -1: not stated */
+    bool sounds, loud;       /* loud: its level is a loudness */
+    bool brief;              /* found to be too short for that */
+    bool otherwise;          /* found to be of another form than the set's sounds */
+    bool drawn;              /* its seed says where it goes, too, as a scribble's does: replicates differ in more than their noise */
+};
+
+struct planning {
+    struct set *set;
+    const struct set_plan_ask *ask;
+    struct look *looks;      /* [n] */
+    int *first;              /* [n] the stimulus that is read for it: the first of its cell, itself where the seed says where it goes */
+    bool *now, second;       /* [n] those that are read; for the second time: what was drawn otherwise than the first of its cell */
+    const char ***endings;   /* [n] of the files that those write; each ends with NULL */
+    const char **last;       /* the endings that were noted last: most share theirs */
+    struct set_plan *out;
+    struct arena *arena;
+    struct hash scenes;      /* of the design, of all of them and of the recordings, in their order */
+};
+
+static struct trial *trial_open(void)
+{
+    struct arena *a = arena_open();
+    struct trial *t = ARENA_TAKE(a, struct trial, 1);
+    *t = (struct trial){.arena = a, .messages = ""};
+    return t;
+}
+
+/* File names are seen from the base scene: where all lies does not count. */
+static void hash_scene(struct trial *t)
+{
+    const struct scene *s = &t->scene;
+    const char *slash = strrchr(s->sources[0], '/'), *beside = slash ? arena_format(t->arena, "%.*s", slash == s->sources[0] ? 1 : (int)(slash - s->sources[0]), s->sources[0]) : ".";
+    const char *text = scene_write(s, beside, t->arena);
+    hash_bytes(text, strlen(text), t->sha256);
+}
+
+/* The texts it was read from lie on the shelf from now on, which knows whether they change while the set is rendered: each stimulus reads them once more. */
+static bool watch_sources(const struct planning *p, struct trial *t)
+{
+    for (const char *const *file = t->scene.sources; *file; file++)
+        if (!shelf_sha256(p->ask->shelf, *file, t->arena, &t->e))
+            return false;
+    return true;
+}
+
+/* The level that is asked of it in the end, by itself or with the others of a common one. */
+static struct level wants(const struct planning *p, const struct scene *s)
+{
+    return p->set->level_rule == DESIGN_LEVEL_SCENE ? s->output.level : p->set->level;
+}
+
+static bool draws(const struct scene *s)
+{
+    for (int i = 0; i < s->n_contacts; i++)
+        if (s->contacts[i].motion.path == PATH_SCRIBBLE)
+            return true;
+    return false;
+}
+
+static bool estimate(const struct planning *p, int i, struct look *l)
+{
+    struct plan_scene_estimate x;
+    struct trial *t = l->trial;
+    struct scene *s = &t->scene;
+    bool read = design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e);
+    t->diag = s->diag;
+    if (!read || !watch_sources(p, t))
+        return false;
+    s->shelf = p->ask->shelf;
+    hash_scene(t);
+    l->drawn = draws(s);
+    set_lay(p->set, s);
+    design_scene_places(p->set->design, s, t->arena);
+    if (!plan_scene_estimate(s, t->arena, &x, &t->e))
+        return scene_places_tell(s, &t->e);
+    t->warnings = x.warnings;
+    struct track_format f = sound_format(s, x.length.frames);
+    l->seconds = (double)x.length.frames / f.rate;
+    l->cost = fmax(x.cycles, 1);
+    l->rate = f.rate;
+    l->channels = f.channels;
+    l->bits = abs(f.bits);
+    l->encoding = s->output.encoding;
+    l->ramp = s->output.ramp;
+    l->sounds = x.sounds;
+    l->quantity = x.quantity;
+    l->loud = !isnan(wants(p, s).lufs);
+    return true;
+}
+
+static void look_at(const struct planning *p, int i, struct look *l)
+{
+    l->trial = trial_open();
+    estimate(p, i, l);
+}
+
+static long frames_of(const struct look *l, double seconds)
+{
+    return (long)rint(seconds * l->rate);
+}
+
+static bool is_short(const struct look *l, double seconds)
+{
+    return l->sounds && l->loud && frames_of(l, seconds) < loudness_least(l->rate);
+}
+
+static void tell_short(const struct planning *p, int i, double seconds, struct look *l)
+{
+    struct trial *t = l->trial = trial_open();
+    struct scene *s = &t->scene;
+    if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e))
+        return;
+    s->output.level = wants(p, s);
+    design_scene_places(p->set->design, s, t->arena);
+    if (!sound_long_enough(s, frames_of(l, seconds), &t->e))
+        scene_places_tell(s, &t->e);
+}
+
+/* ------------------------------------------------------------------ one form */
+
+struct form {                /* what the sounds of a set have in common: that of the first of them, and of the first that says its quantity; NULL: none yet */
+    const struct look *first, *stated;
+    const char *first_name, *stated_name;
+};
+
+/* Players and trial scripts take one rate and one number of channels for all that they play, and resample, or fail, where it is another. */
+static bool tell_otherwise(const struct planning *p, const struct form *f, const struct look *l, struct err *e)
+{
+    if (l->rate != f->first->rate)
+        return err_set(e, ERR_SCENE, "the sound has %g Hz, '%s' of the same set %g Hz: give all one output.sample_rate, or make two sets", l->rate, f->first_name, f->first->rate);
+    if (l->channels != f->first->channels)
+        return err_set(e, ERR_SCENE, "the sound has %d channel%s, '%s' of the same set %d: give all as many (output.channels, output.listen), or make two sets", l->channels,
+                       l->channels == 1 ? "" : "s", f->first_name, f->first->channels);
+    if (p->set->level_rule == DESIGN_LEVEL_COMMON && l->quantity >= 0 && l->quantity != f->stated->quantity)
+        return err_set(e, ERR_SCENE, "the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose one by output.quantity, or level: {each: ...}",
+                       modes_quantity_unit(l->quantity), f->stated_name, modes_quantity_unit(f->stated->quantity));
+    return true;
+}
+
+/* The key by which it became so. */
+static bool about(const struct form *f, const struct look *l, const struct scene *s, struct err *e)
+{
+    if (l->rate != f->first->rate)
+        return err_about(e, NULL, "output.sample_rate");
+    if (l->channels != f->first->channels)
+        return err_about(e, NULL, l->channels == s->output.channels ? "output.channels" : "output.listen");
+    return s->output.quantity == QUANTITY_AUTO ? err_about(e, s->contacts[0].name, "surface.response") : err_about(e, NULL, "output.quantity");
+}
+
+static bool is_otherwise(const struct planning *p, int i, const struct form *f, struct look *l)
+{
+    struct err e = {0};
+    if (!l->sounds || tell_otherwise(p, f, l, &e))
+        return false;
+    struct trial *t = l->trial = trial_open();
+    l->otherwise = true;
+    if (!design_scene(p->set->design, i, t->arena, &t->scene, &t->messages, &t->e))
+        return true;
+    t->e = e;
+    about(f, l, &t->scene, &t->e);
+    design_scene_places(p->set->design, &t->scene, t->arena);
+    scene_places_tell(&t->scene, &t->e);
+    return true;
+}
+
+/* ------------------------------------------------------------------ faults */
+
+static bool same(const struct set_fault *f, const struct trial *t)
+{
+    return !strcmp(f->messages, t->messages) && (*t->messages || !strcmp(f->err->text, t->e.text));
+}
+
+static struct set_fault *more_faults(struct planning *p)
+{
+    struct set_plan *o = p->out;
+    if (o->n_faults == o->room) {
+        struct set_fault *more = ARENA_TAKE(p->arena, struct set_fault, o->room = 2 * o->room + 16);
+        if (o->n_faults)
+            memcpy(more, o->faults, (size_t)o->n_faults * sizeof *more);
+        o->faults = more;
+    }
+    return &o->faults[o->n_faults++];
+}
+
+/* Which fault it is. The first that has it keeps what it is told with. */
+static int note(struct planning *p, int i, struct trial *t)
+{
+    struct set_plan *o = p->out;
+    int k = 0;
+    o->worst = t->e.kind > o->worst ? t->e.kind : o->worst;
+    while (k < o->n_faults && k < SET_FAULTS && !same(&o->faults[k], t))
+        k++;
+    if (k == o->n_faults)
+        *more_faults(p) = (struct set_fault){t->arena, t->diag, t->messages, &t->e, p->set->design->stimuli[i].name, 0};
+    else
+        arena_close(t->arena);
+    return k;
+}
+
+static void warn(struct planning *p, int i, const char *text)
+{
+    struct set_plan *o = p->out;
+    int k = 0;
+    while (k < o->n_warnings && strcmp(o->warnings[k].text, text) != 0)
+        k++;
+    if (k == o->n_warnings && k < SET_FAULTS)
+        o->warnings[o->n_warnings++] = (struct set_warning){arena_text(p->arena, text), p->set->design->stimuli[i].name};
+}
+
+static void settle(struct planning *p, int i, struct look *l)
+{
+    struct trial *t = l->trial;
+    l->trial = NULL;
+    for (int k = 0; t && !t->e.kind && t->warnings && t->warnings[k]; k++)
+        warn(p, i, t->warnings[k]);
+    if (t && t->e.kind)
+        l->fault = note(p, i, t) + 1;
+    else if (t)
+        arena_close(t->arena);
+    if (l->fault)
+        p->out->faults[l->fault - 1].n++;
+}
+
+/* ------------------------------------------------------------------ scenes */
+
+static bool has_last_endings(const struct planning *p, const struct outputs *o)
+{
+    bool same = p->last;
+    for (int k = 0; same && k < o->n; k++)
+        same = p->last[k] && !strcmp(o->paths[k], p->last[k]);
+    return same && !p->last[o->n];
+}
+
+/* The files that the scene of stimulus i reads, and the endings of those that it writes. */
+static void note_files(struct planning *p, int i, const struct scene *scene)
+{
+    int n;
+    struct arena *a = arena_open();
+    const struct outputs_source *reads = outputs_sources(scene, &n, a);
+    const struct outputs o = outputs_make(scene, "", a);
+    for (int k = 0; k < n; k++)
+        folder_inputs_add(p->out->inputs, reads[k].file, reads[k].what, reads[k].device, reads[k].inode);
+    if (!has_last_endings(p, &o)) {
+        p->last = ARENA_TAKE(p->arena, const char *, o.n + 1);
+        for (int k = 0; k < o.n; k++)
+            p->last[k] = arena_text(p->arena, o.paths[k]);
+    }
+    p->endings[i] = p->last;
+    arena_close(a);
+}
+
+static bool look(void *context, int i)
+{
+    struct planning *p = context;
+    if (p->now[i])
+        look_at(p, i, &p->looks[i]);
+    return !p->now[i] || !interrupt_seen();
+}
+
+static void took(void *context, int i)
+{
+    struct planning *p = context;
+    struct look *l = &p->looks[p->first[i]];
+    if (p->set->design->stimuli[i].recording || (!p->now[i] && (p->second || l->drawn)))
+        return;
+    if (l->trial && !p->second)
+        hash_add(&p->scenes, l->trial->sha256, HASH_TEXT);
+    if (l->trial && !l->trial->e.kind)
+        note_files(p, p->first[i], &l->trial->scene);
+    settle(p, i, l);
+}
+
+static void find_first(struct planning *p)
+{
+    long cells = 0;
+    for (int i = 0; i < p->set->n; i++)
+        cells = p->set->design->stimuli[i].cell >= cells ? p->set->design->stimuli[i].cell + 1 : cells;
+    int *of = ARENA_TAKE(p->arena, int, cells + 1);
+    for (int i = 0; i < p->set->n; i++) {
+        int *first = &of[p->set->design->stimuli[i].cell];
+        p->first[i] = i;
+        if (p->set->design->stimuli[i].recording)
+            continue;
+        if (!*first)
+            *first = i + 1;
+        p->first[i] = *first - 1;
+        p->now[i] = p->first[i] == i;
+    }
+}
+
+/* The noise decides where a scribble goes, and so how fast it is, and whether it stays on its map. */
+static bool find_drawn(struct planning *p)
+{
+    bool any = false;
+    p->second = true;
+    for (int i = 0; i < p->set->n; i++) {
+        bool other = !p->set->design->stimuli[i].recording && p->first[i] != i && p->looks[p->first[i]].drawn;
+        p->now[i] = other;
+        p->first[i] = other ? i : p->first[i];
+        any = any || other;
+    }
+    return any;
+}
+
+static bool look_at_all(struct planning *p, struct err *e)
+{
+    int n = p->set->n, done = pool_run(&(struct pool_work){.n = n, .threads = p->ask->threads, .context = p, .job = look, .took = took});
+    for (int i = 0; i < n; i++)
+        if (p->looks[i].trial)
+            arena_close(p->looks[i].trial->arena);
+    return done == n || err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static bool is_sound(const struct planning *p, int i)
+{
+    return !p->set->design->stimuli[i].recording && p->looks[p->first[i]].sounds;
+}
+
+/* The form of the set is that of its first sound; recordings alone have that of the first of them, in 24 bits. */
+static void find_form(const struct planning *p, struct form *f)
+{
+    struct set *s = p->set;
+    *f = (struct form){NULL, NULL, NULL, NULL};
+    for (int i = 0; i < s->n && !(f->first && f->stated); i++) {
+        const struct look *l = &p->looks[p->first[i]];
+        if (!is_sound(p, i))
+            continue;
+        if (!f->stated && l->quantity >= 0) {
+            f->stated = l;
+            f->stated_name = s->design->stimuli[i].name;
+        }
+        if (f->first)
+            continue;
+        *f = (struct form){l, f->stated, s->design->stimuli[i].name, f->stated_name};
+        s->rate = l->rate;
+        s->channels = l->channels;
+        s->encoding = l->encoding;
+        s->ramp = l->ramp;
+    }
+}
+
+static void look_at_forms(struct planning *p)
+{
+    struct set *s = p->set;
+    struct form f;
+    find_form(p, &f);
+    for (int i = 0; i < s->n; i++) {
+        struct look *l = &p->looks[p->first[i]];
+        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, &f, l) : l->otherwise))
+            settle(p, i, l);
+    }
+}
+
+static void look_at_recordings(struct planning *p)
+{
+    struct set *s = p->set;
+    for (int i = 0; i < s->n; i++) {
+        struct look *l = &p->looks[i];
+        const char *file = p->set->design->stimuli[i].recording;
+        if (!file)
+            continue;
+        l->trial = trial_open();
+        const char *sha256 = shelf_sha256(p->ask->shelf, file, l->trial->arena, &l->trial->e);
+        if (sha256)
+            hash_add(&p->scenes, sha256, HASH_TEXT);
+        if (!sha256 || !recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e))
+            design_scene_recording(p->set->design, i, &l->trial->e);
+        folder_inputs_add_file(p->out->inputs, file, "a recording");
+        settle(p, i, l);
+        l->cost = fmax(1, 1000 * l->seconds * s->rate);
+        l->rate = s->rate;
+        l->channels = s->channels;
+        l->bits = s->encoding == ENCODING_PCM16 ? 16 : s->encoding == ENCODING_PCM24 ? 24 : s->encoding == ENCODING_FLOAT32 ? 32 : 64;
+        l->sounds = true;
+    }
+}
+
+static void look_at_levels_of_recordings(struct planning *p)
+{
+    struct set *s = p->set;
+    for (int i = 0; i < s->n; i++) {
+        struct look *l = &p->looks[i];
+        const char *file = p->set->design->stimuli[i].recording;
+        if (!file || l->fault)
+            continue;
+        l->trial = trial_open();
+        if (!recording_check_level(file, s, &l->trial->e))
+            design_scene_recording(p->set->design, i, &l->trial->e);
+        settle(p, i, l);
+    }
+}
+
+static double seconds_of(const struct set *s, const struct look *l)
+{
+    return isnan(s->length) ? l->seconds : s->length;
+}
+
+/* Of a common loudness one that is long enough is enough. */
+static bool may_be_short(const struct planning *p)
+{
+    struct set *s = p->set;
+    for (int i = 0; i < s->n && s->level_rule == DESIGN_LEVEL_COMMON; i++) {
+        const struct look *l = &p->looks[p->first[i]];
+        if (!p->set->design->stimuli[i].recording && l->sounds && !is_short(l, seconds_of(s, l)))
+            return false;
+    }
+    return true;
+}
+
+/* Found out before anything is rendered, too: what keeps one of them from its level, which depends on the set's length. */
+static void look_at_levels(struct planning *p)
+{
+    struct set *s = p->set;
+    look_at_levels_of_recordings(p);
+    for (int i = 0, some = may_be_short(p); some && i < s->n; i++) {
+        struct look *l = &p->looks[p->first[i]];
+        double seconds = seconds_of(s, l);
+        if (p->set->design->stimuli[i].recording || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief))
+            continue;
+        if (p->first[i] == i)
+            tell_short(p, i, seconds, l);
+        l->brief = true;
+        settle(p, i, l);
+    }
+}
+
+static void find_length(const struct planning *p)
+{
+    struct set *s = p->set;
+    double longest = 0;
+    for (int i = 0; i < s->n; i++)
+        longest = fmax(longest, p->looks[p->first[i]].seconds);
+    if (p->set->design->length_rule == DESIGN_LENGTH_LONGEST)
+        s->length = longest;
+}
+
+static void note_length(struct set_plan *o, int i, double seconds)
+{
+    if (!o->n_sounds || seconds < o->least) {
+        o->least = seconds;
+        o->shortest = i;
+    }
+    if (!o->n_sounds || seconds > o->most) {
+        o->most = seconds;
+        o->longest = i;
+    }
+    o->n_sounds++;
+}
+
+static void add_up(const struct planning *p)
+{
+    struct set *s = p->set;
+    struct set_plan *o = p->out;
+    for (int i = 0; i < s->n; i++) {
+        const struct look *l = &p->looks[p->first[i]];
+        double seconds = seconds_of(s, l), samples = l->sounds ? seconds * l->rate * l->channels : 0;
+        s->cost[i] = fmax(1, l->seconds > 0 ? l->cost * seconds / l->seconds : l->cost);
+        s->lengths[i] = seconds;
+        o->seconds += l->sounds ? seconds : 0;
+        if (l->sounds)
+            note_length(o, i, l->seconds);
+        o->cycles += s->cost[i];
+        o->bytes += samples * l->bits / 8;
+        o->raw_bytes += set_waits(s) && !s->design->stimuli[i].recording ? samples * 8 : 0;
+    }
+}
+
+static bool report(const struct set_plan *p, const struct set *s, const char *folder, struct err *e)
+{
+    int n = 0;
+    for (int k = 0; k < p->n_faults; k++)
+        n += p->faults[k].n;
+    return !p->n_faults || err_set(e, p->worst, "%d of %d stimuli cannot be rendered%s", n, s->n, folder ? "; nothing was written" : "");
+}
+
+/* What the design was read from is known to the shelf, which sees whether it changes; a pipe is read and gone. */
+static bool watch_design(const struct set *s, const struct set_plan_ask *ask, struct arena *a, struct err *e)
+{
+    struct stat status;
+    for (const char *const *file = s->design->sources; *file; file++)
+        if (stat(*file, &status) == 0 && S_ISREG(status.st_mode) && !shelf_sha256(ask->shelf, *file, a, e))
+            return false;
+    return true;
+}
+
+/* Nothing that the set writes is one of its inputs, or anybody's. */
+static bool spares(const struct planning *p, struct err *e)
+{
+    static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS", "timings.csv", NULL};
+    const struct set *s = p->set;
+    const struct design *d = s->design;
+    const char *folder = p->ask->folder;
+    struct stat status;
+    struct arena *a = arena_open();
+    struct folder_output o = {.folder = folder, .unknown = !p->ask->replace && !folder_is_noted(folder, a), .links = p->ask->links};
+    bool ok = true, there = stat(folder, &status) == 0; /* an empty one cannot hold an input */
+    arena_close(a);
+    for (int i = 0; ok && there && i < s->n; i++) {
+        a = arena_open();
+        o.whose = d->stimuli[i].name;
+        for (const char *const *ending = d->stimuli[i].recording ? own : (const char *const *)p->endings[p->first[i]]; ok && *ending; ending++) {
+            o.path = arena_format(a, "%s/%s%s", folder, o.whose, *ending);
+            ok = folder_spares(p->out->inputs, &o, a, e);
+        }
+        arena_close(a);
+    }
+    o.whose = d->file;
+    for (int k = 0; ok && there && tables[k]; k++) {
+        o.path = arena_format(p->arena, "%s/%s", folder, tables[k]);
+        ok = folder_spares(p->out->inputs, &o, p->arena, e);
+    }
+    return ok && (!there || folder_spares_hidden(p->out->inputs, folder, d->file, e));
+}
+
+bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, struct set_plan *out, struct err *e)
+{
+    struct planning p = {.set = s, .ask = ask, .looks = ARENA_TAKE(a, struct look, s->n), .first = ARENA_TAKE(a, int, s->n), .now = ARENA_TAKE(a, bool, s->n),
+                         .endings = ARENA_TAKE(a, const char **, s->n), .out = out, .arena = a, .scenes = hash_start()};
+    char *sha256 = arena_take(a, HASH_TEXT, 1);
+    *out = (struct set_plan){.inputs = folder_inputs(a)};
+    s->cost = ARENA_TAKE(a, double, s->n);
+    s->lengths = ARENA_TAKE(a, double, s->n);
+    if (!watch_design(s, ask, a, e))
+        return false;
+    for (const char *const *file = s->design->sources; *file; file++)
+        folder_inputs_add_file(out->inputs, *file, "the design");
+    find_first(&p);
+    hash_add(&p.scenes, s->design->sha256, HASH_TEXT);
+    if (!look_at_all(&p, e) || (find_drawn(&p) && !look_at_all(&p, e)))
+        return false;
+    look_at_forms(&p);
+    look_at_recordings(&p);
+    hash_end(&p.scenes, sha256);
+    s->sha256 = sha256;
+    find_length(&p);
+    look_at_levels(&p);
+    add_up(&p);
+    return report(out, s, ask->folder, e) && (!ask->folder || spares(&p, e));
+}
+
+void set_plan_close(struct set_plan *p)
+{
+    for (int k = 0; k < p->n_faults; k++)
+        arena_close(p->faults[k].arena);
+    p->n_faults = 0;
+}
+
+const char *set_lengths_text(const struct set *s, const struct set_plan *p, struct arena *a)
+{
+    const struct design *d = s->design;
+    if (d->length_rule != DESIGN_LENGTH_LONGEST || !p->n_sounds || p->most - p->least < 0.01 * p->most) /* three digits tell them apart */
+        return NULL;
+    return arena_format(a, "each %.3g s, as long as the longest (%s; the shortest, %s, is %.3g s by itself); length: own, or a time, in the design", p->most, d->stimuli[p->longest].name,
+                        d->stimuli[p->shortest].name, p->least);
+}
+
+/* ------------------------------------------------------------------ shards */
+
+bool set_shard_read(const char *text, struct set_shard *s, struct err *e)
+{
+    char left[8] = "";
+    const char *slash = strchr(text, '/');
+    size_t n = slash ? (size_t)(slash - text) : sizeof left;
+    if (n < sizeof left)
+        memcpy(left, text, n);
+    if (slash && n < sizeof left && text_int(slash + 1, 1, SET_SHARDS, &s->n) && text_int(left, 1, s->n, &s->i))
+        return true;
+    return err_set(e, ERR_USAGE, "--shard %s: write i/n, with n from 1 to %d and i from 1 to n, as in --shard 3/7", text, SET_SHARDS);
+}
+
+struct card {
+    char hash[HASH_TEXT];
+    int row;
+};
+
+static int by_hash(const void *a, const void *b)
+{
+    return strcmp(((const struct card *)a)->hash, ((const struct card *)b)->hash); /* names differ */
+}
+
+void set_deal(const struct set *s, int shards, int *to, struct arena *a)
+{
+    struct card *cards = ARENA_TAKE(a, struct card, s->n);
+    for (int i = 0; i < s->n; i++) {
+        const char *name = s->design->stimuli[i].name;
+        hash_bytes(name, strlen(name), cards[i].hash);
+        cards[i].row = i;
+    }
+    qsort(cards, (size_t)s->n, sizeof *cards, by_hash);
+    for (int i = 0; i < s->n; i++)
+        to[cards[i].row] = i % shards + 1;
+}
+
+/* ------------------------------------------------------------------ the common gain */
+
+struct set_loudest set_loudest(void)
+{
+    return (struct set_loudest){.lufs = -HUGE_VAL, .encoding = ENCODING_FLOAT64};
+}
+
+void set_loudest_add(struct set_loudest *l, const struct set_measured *m)
+{
+    if (!m->sounds)
+        return;
+    l->peak = fmax(l->peak, m->peak);
+    l->rms = fmax(l->rms, m->rms);
+    l->lufs = isnan(m->lufs) ? l->lufs : fmax(l->lufs, m->lufs);
+    l->encoding = m->encoding < l->encoding ? m->encoding : l->encoding;
+    l->any = l->any || m->peak > 0;
+}
+
+static double largest(int encoding)
+{
+    return encoding == ENCODING_PCM16 ? 1 - ldexp(1, -15) : encoding == ENCODING_PCM24 ? 1 - ldexp(1, -23) : 1;
+}
+
+bool set_gain(const struct set *s, const struct set_loudest *l, double *full_scale, struct err *e)
+{
+    const struct level *level = &s->level;
+    *full_scale = 1;
+    if (!l->any)
+        return true;
+    if (!isnan(level->rms))
+        *full_scale = l->rms / real_exp10(level->rms / 20);
+    else if (isnan(level->lufs))
+        *full_scale = l->peak / fmin(real_exp10(level->peak / 20), largest(l->encoding));
+    else if (isinf(l->lufs))
+        return err_set(e, ERR_SCENE, "level: lufs: no stimulus of the set has a loudness that BS.1770 can measure (0.4 s or more that are not nearly silent): use rms or peak");
+    else
+        *full_scale = real_exp10((l->lufs - level->lufs) / 20);
+    return true;
 }

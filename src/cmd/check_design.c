@@ -16,7 +16,7 @@
 struct promises {
     const struct design *design;
     struct err **broken;     /* [n_stimuli] by malloc, until it is taken; NULL: kept, or none is made */
-    struct prepare_fault *faults;
+    struct set_fault *faults;
     int n, stimuli, worst;
     struct arena *arena;
 };
@@ -51,7 +51,7 @@ static void note(struct promises *p, const char *name, const struct err *e)
     if (k == p->n) {
         struct err *own = ARENA_TAKE(p->arena, struct err, 1);
         *own = *e;
-        p->faults[p->n++] = (struct prepare_fault){.messages = "", .err = own, .name = name};
+        p->faults[p->n++] = (struct set_fault){.messages = "", .err = own, .name = name};
     }
     p->faults[k].n++;
     p->stimuli++;
@@ -70,10 +70,10 @@ static void took(void *context, int i)
 /* Each is looked at, replicates too: an error is measured with the noise that is there. */
 static bool promises_kept(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
 {
-    struct promises p = {.design = d, .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli), .faults = ARENA_TAKE(c->arena, struct prepare_fault, d->n_stimuli), .arena = c->arena};
+    struct promises p = {.design = d, .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli), .faults = ARENA_TAKE(c->arena, struct set_fault, d->n_stimuli), .arena = c->arena};
     resample_prepare();
     pool_run(&(struct pool_work){.n = d->n_stimuli, .threads = batch_cores(), .context = &p, .job = look, .took = took});
-    batch_tell_faults(c, "check", file, &(struct prepare){.faults = p.faults, .n_faults = p.n});
+    batch_tell_faults(c, "check", file, &(struct set_plan){.faults = p.faults, .n_faults = p.n});
     return !p.stimuli || err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
 }
 
@@ -85,7 +85,7 @@ static void tell_wrong(struct cmd_call *c, const char *file, const struct batch_
         batch_tell_unread(c, file, r, e);
         return;
     }
-    batch_tell_faults(c, "check", file, &r->prepare);
+    batch_tell_faults(c, "check", file, &r->plan);
     *e = (struct err){0};
     err_set(e, cause.kind, "%s: %s", file, cause.text);
 }
@@ -95,12 +95,12 @@ bool check_design(struct cmd_call *c, const char *file, const char **remark, str
     if (args_given(&c->args, "set") || args_given(&c->args, "seed"))
         return err_set(e, ERR_USAGE, "%s is a design: --set and --seed change scenes; write set: and seed: into it", file);
     struct batch_report r;
-    bool ok = batch_run(&(struct batch_ask){.design = file, .build = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true}, c->arena, &r, e);
-    batch_tell_remarks(c, &r.prepare);
+    bool ok = batch_run(&(struct batch_ask){.design = file, .program = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true}, c->arena, &r, e);
+    batch_tell_warnings(c, &r.plan);
     if (!ok)
         tell_wrong(c, file, &r, e);
     else if ((ok = promises_kept(c, file, &r.design, e)))
-        *remark = lengths_told(&r.prepare.own, &r.design, c->arena);
+        *remark = set_lengths_text(&r.set, &r.plan, c->arena);
     batch_close(&r);
     return ok;
 }

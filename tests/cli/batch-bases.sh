@@ -1,4 +1,4 @@
-# A design is known by its scenes, too, and by what they read: the same text over another scene is another design, and shards of different states of a scene are not merged.
+# A design is known by its scenes, too, and by what they read: the same text over another scene is another design, and of another state of a scene a stimulus is missing.
 . "$ROOT/tests/cli/batch-make.inc"
 code() { "$@" 2> err.txt > out.txt || echo "exit $?"; sed "s/, in [0-9:]*.*//; s/;.*//" out.txt; cat err.txt; }
 mkdir a b c
@@ -21,16 +21,22 @@ sed -i 's/rms: 5 um/rms: 6 um/' a/tiny.yaml
 code rasp batch a/six.yaml -o out
 echo "-- shards, the scene edited between them; a remark, a table"
 part() { rasp batch a/six.yaml -o parts -q --shard "$1"; }
+missing() { echo "missing: $(rasp batch a/six.yaml -o parts --missing 2)"; }
 part 1/2
+missing
 sed -i 's/rms: 6 um/rms: 4 um/' a/tiny.yaml
+missing
 part 2/2
-code rasp merge parts | sed 's/manifest.[12]/manifest.N/'
+missing
+code rasp batch a/six.yaml -o parts --no-render
 part 1/2
-code rasp merge parts
+missing
+code rasp batch a/six.yaml -o parts --no-render
 echo '# another remark' >> a/tiny.yaml
-part 1/2
+missing
 echo '# a remark' | cat - modes.csv > a/modes.csv
+missing
 part 2/2
-code rasp merge parts | sed 's/manifest.[12]/manifest.N/'
-part 1/2
-code rasp merge parts
+missing
+code rasp batch a/six.yaml -o parts
+missing

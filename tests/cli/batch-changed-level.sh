@@ -7,10 +7,10 @@ sed 's/^factors/replicates: 4\nfactors/' six.yaml > many.yaml
 
 # batch_while COMMAND: is done when the first stimulus has the new gain.
 batch_while() {
-    local code=0 size
-    size=$(stat -c %s set/.rasp/journal)
+    local code=0 before
+    before=$(grep -h '"full_scale": [0-9]' set/*.json | sort | uniq -c)
     rasp batch many.yaml -o set -j 1 > log 2>&1 &
-    for _ in $(seq 500); do if [ "$(stat -c %s set/.rasp/journal)" -gt "$size" ]; then break; fi; sleep 0.01; done
+    for _ in $(seq 500); do if [ "$(grep -h '"full_scale": [0-9]' set/*.json | sort | uniq -c)" != "$before" ]; then break; fi; sleep 0.01; done
     kill -STOP $!
     eval "$1"
     kill -CONT $!

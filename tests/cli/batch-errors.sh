@@ -33,7 +33,6 @@ cp whole.yaml state.yaml
 code rasp batch state.yaml -o state
 cp clips.yaml state.yaml
 for i in 1 2; do code rasp batch state.yaml -o state --shard $i/2 -q | sed 's/frame [^ ]*.*/.../'; done
-code rasp merge state | sed 's/frame [^ ]*.*/.../'
 code rasp batch state.yaml -o state --prune | sed 's/frame [^ ]*.*/.../'
 ls state
 echo "-- the design's level is told where it stands, not where the base has another"
@@ -101,32 +100,33 @@ code rasp batch short.yaml -o short
 echo "-- a disk that is full"
 (ulimit -f 8; code rasp batch six.yaml -o full -j 1) | sed 's/full.*written/.../'
 rasp batch six.yaml -o full -q && (cd full && sha256sum --quiet -c SHA256SUMS && echo "resumed")
-echo "-- merging"
+echo "-- joining shards"
 code rasp merge full
+code rasp merge
 for i in 1 4; do rasp batch six.yaml -o parts --shard $i/5 -q; done
-code rasp merge parts
+code rasp batch six.yaml -o parts --missing 5
+code rasp batch six.yaml -o parts --no-render
+code rasp batch six.yaml -o parts --no-render --shard 1/5
+code rasp batch six.yaml -o parts --missing 0
 for i in 2 3 5; do rasp batch six.yaml -o parts --shard $i/5 -q; done
+code rasp batch six.yaml -o parts --missing 5
+cp -r parts lost
+rm lost/.rasp/raw/low_250ms.wav
+echo x >> lost/.rasp/raw/low_200ms.wav
+code rasp batch six.yaml -o lost --no-render
 cp -r parts mixed
 cp six.yaml six.txt
 sed -i 's/seed: 3/seed: 4/' six.yaml
 rasp batch six.yaml -o mixed --shard 2/5 -q
 cp six.txt six.yaml
-code rasp merge mixed | sed 's/manifest.[0-9]/manifest.N/'
+code rasp batch six.yaml -o mixed --no-render | sed 's/: [a-z_0-9]*ms/: NAME/'
 cp -r parts built
-sed -i '2s/build: .*/build: rasp 0/' built/manifest.3-of-5.csv
-code rasp merge built | sed 's/the rest by .*/.../'
-cp -r parts lost
-rm lost/.rasp/raw/low_250ms.wav
-echo x >> lost/.rasp/raw/low_200ms.wav
-code rasp merge lost
-cp -r parts bald
-rm bald/.rasp/set.json
-code rasp merge bald
-cp -r parts alone
-rm alone/.rasp/journal.2-of-5
-code rasp merge alone
-rasp batch six.yaml -o parts --shard 1/2 -q
-code rasp merge parts
+sed -i 's/"program": "rasp/"program": "raps/' built/*.json
+code rasp batch six.yaml -o built --no-render -q
+rm -r parts/.rasp/owner
+code rasp batch six.yaml -o parts --no-render -q
+code rasp batch six.yaml -o parts --no-render --replace
+same full parts && echo "the same as in one piece"
 echo "-- files are named as they are, and a manifest does not say in which folder it was made"
 mkdir layout
 sed 's|: modes.csv|: ../modes.csv|' tiny.yaml > layout/b.yaml
@@ -137,6 +137,6 @@ columns out/manifest.csv error | sed 's/frame .*/.../'
 sed -i 's/full_scale: .*/rms: -1 dB}}/' layout/d.yaml
 for folder in q1 q22; do code rasp batch layout/d.yaml -o $folder -q | sed 's/frame .*/.../'; done
 for i in 1 2; do rasp batch layout/d.yaml -o parts3 -q --shard $i/2; done
-code rasp merge parts3 -q | sed 's/frame .*/.../'
+code rasp batch layout/d.yaml -o parts3 -q | sed 's/frame .*/.../'
 cmp q1/manifest.csv q22/manifest.csv
 cmp q1/manifest.csv parts3/manifest.csv

@@ -9,9 +9,9 @@ code rasp batch set.yaml -o one
 columns one/manifest.csv audio_sha256 | sort | uniq | wc -l
 code rasp batch set.yaml -o one -q
 rasp batch set.yaml -o one -q --diagnostics=json 2>&1 | python3 -c 'import json, sys; [print(d["severity"], d["file"], d["code"]) for d in map(json.loads, sys.stdin)]'
-echo "-- of shards, when they are merged"
+echo "-- of shards, when they are joined"
 for i in 1 2; do code rasp batch set.yaml -o parts -q --shard $i/2; done
-code rasp merge parts -q
+code rasp batch set.yaml -o parts -q
 echo "-- two; a level of one that is"
 design '  load.constant: [0.3 N, 1 N]' '  title: [x, y]'
 code rasp batch set.yaml -o two

@@ -25,13 +25,12 @@ print(len({r["gain_db"] for r in rows}), abs(peaks[-1] + 3) < 1e-5, peaks[-2] < 
 echo "-- threads, shards"
 rasp batch six.yaml -o two -j 4 -q && same one two
 for i in 2 3 1; do rasp batch six.yaml -o parts --shard $i/3 -q; done
-head -n 3 parts/manifest.2-of-3.csv | cut -d : -f 1
-rasp merge parts | sed 's/;.*//' && same one parts
+rasp batch six.yaml -o parts | sed 's/, in .*//' && same one parts
 echo "-- again: nothing to do; after damage: that alone"
 count() { sed 's/^[^:]*: //; s/, in.*//'; }
 rasp batch six.yaml -o one | count
 echo x >> one/low_200ms.wav
-rm one/wood_light_300ms.scene.yaml one/manifest.csv 2> rm.err || rm one/*300ms.scene.yaml
+rm one/*300ms.scene.yaml
 rasp batch six.yaml -o one | count && same one two
 rasp batch six.yaml -o one --force | count && same one two
 echo "-- --json, --dry-run"
@@ -53,7 +52,21 @@ rasp new -o starter.yaml
 printf '%s\n' 'rasp-design: 1' 'base: starter.yaml' 'factors: {motion.duration: [0.1 s, 0.2 s]}' > starters.yaml
 rasp batch starters.yaml --dry-run | tail -n 2 | sed 's/CPU.*//'
 rasp batch starters.yaml -o starters | sed 's/, in .*//'
-echo "-- what a dry run lists, as JSON and of a shard"
+echo "-- what a dry run lists: what is there, and why the rest would be made; as JSON and of a shard"
+cp -r one partly
+rm partly/low_200ms.json partly/low_250ms.wav
+sed 's/modes.csv/other.csv/' tiny.yaml > tiny.new && cp modes.csv other.csv && sed -i 's/,1000,/,1100,/' other.csv
+rasp batch six.yaml -o partly --dry-run | awk 'NF == 7 || NF == 8 { print $2, $NF }' | head -n 7
+rasp batch six.yaml -o partly --dry-run --json | python3 -c 'import json, sys; print([r["state"] for r in json.load(sys.stdin)["list"]])'
+cp tiny.yaml tiny.old && cp tiny.new tiny.yaml
+rasp batch six.yaml -o partly -n --json | python3 -c 'import json, sys; print([r["state"] for r in json.load(sys.stdin)["list"]])'
+cp tiny.old tiny.yaml
+{ cat six.yaml; echo 'level: {common: {peak: -6 dB}}'; } > quieter.yaml
+mv six.yaml six.txt && cp quieter.yaml six.yaml
+rasp batch six.yaml -o one -n --json | python3 -c 'import json, sys; print([r["state"] for r in json.load(sys.stdin)["list"]])'
+mv six.txt six.yaml
+rasp batch six.yaml -o one -n --json > /dev/null && same one two && echo "nothing was written"
+
 rasp batch six.yaml --dry-run --json | python3 -c 'import json, sys
 for r in json.load(sys.stdin)["list"]: print(r["row"], r["name"], r["factors"], r["replicate"], r["seed"], r["recording"], round(r["length_s"], 3))'
 rasp batch six.yaml --dry-run --shard 2/4 | awk '{ print $1, $2 }'

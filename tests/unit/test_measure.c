@@ -47,7 +47,7 @@ static struct measure of(double seconds, double ramp, bool loud)
 {
     struct err e = {0};
     struct measure m;
-    ck_assert_msg(measure_cut(file, &(struct cut_form){seconds, ramp}, loud, &m, &e), "%s", e.text);
+    ck_assert_msg(measure_cut(file, &(struct measure_form){seconds, ramp}, loud, &m, &e), "%s", e.text);
     return m;
 }
 

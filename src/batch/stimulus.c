@@ -1,0 +1,642 @@
+/* See stimulus.h. */
+#include "batch/stimulus.h"
+
+#include <fcntl.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+#include "base/outfile.h"
+#include "base/stopwatch.h"
+#include "batch/measure.h"
+#include "batch/recording.h"
+#include "file/json_value.h"
+#include "num/real.h"
+#include "output/sound.h"
+#include "pipeline/inputs.h"
+#include "pipeline/outputs.h"
+#include "pipeline/render.h"
+#include "pipeline/written.h"
+#include "response/modes.h"
+#include "scene/scene_places.h"
+
+const char *const stimulus_states[] = {[STIMULUS_THERE] = "there", [STIMULUS_NEW] = "new", [STIMULUS_KEY] = "key", [STIMULUS_FILE] = "file", [STIMULUS_GAIN] = "gain"};
+
+struct work {                /* one stimulus at work */
+    const struct stimulus_set *k;
+    int i;
+    const char *name, *base; /* base: FOLDER/NAME */
+    struct arena *arena;
+    struct scene scene;      /* of what is rendered */
+    const char *file;        /* of a recording; else NULL */
+    struct watch inputs;
+    const char *key;
+    struct record *was;      /* NULL: none */
+    enum stimulus_state state;
+};
+
+/* ------------------------------------------------------------------ the key */
+
+static bool read_scene(struct work *w, struct err *e)
+{
+    const struct set *set = w->k->set;
+    const char *messages = "";
+    if (!design_scene(set->design, w->i, w->arena, &w->scene, &messages, e))
+        return false;
+    set_lay(set, &w->scene);
+    design_scene_places(set->design, &w->scene, w->arena);
+    w->scene.shelf = w->k->shelf;
+    w->inputs = inputs_watch(&w->scene, w->arena);
+    const char *waits = !set_waits(set) ? "" : isnan(set->level.lufs) ? "waits" : "waits, loudness", *effective = outputs_effective(&w->scene, set->design->file, w->arena);
+    w->key = set_hash((const char *const[]){"rasp set 2", "stimulus", set->program, waits, effective}, 5, w->arena);
+    return true;
+}
+
+static bool read_recording(struct work *w, struct err *e)
+{
+    char hex[HASH_TEXT];
+    w->inputs = watch_begin(&w->file, 1, w->arena);
+    if (!hash_file(w->file, hex, e))
+        return design_scene_recording(w->k->set->design, w->i, e);
+    w->key = recording_key(w->k->set, hex, w->arena);
+    return true;
+}
+
+/* ------------------------------------------------------------------ is it there? */
+
+static bool is_later(const struct timespec *a, const struct timespec *b)
+{
+    return a->tv_sec != b->tv_sec ? a->tv_sec > b->tv_sec : a->tv_nsec > b->tv_nsec;
+}
+
+/* By its hash, if its times say nothing (*hashed). */
+static bool has_file(const struct work *w, const struct record_file *f, const struct stat *record, bool *hashed)
+{
+    char hex[HASH_TEXT];
+    struct err unreadable = {0};
+    struct stat s;
+    const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || (double)s.st_size != f->size)
+        return false;
+    if (!w->k->doubt && !is_later(&s.st_mtim, &record->st_ctim) && !is_later(&s.st_ctim, &record->st_ctim))
+        return true;
+    *hashed = true;
+    return hash_file(path, hex, &unreadable) && !strcmp(hex, f->sha256);
+}
+
+/* What was copied has the times of the copy: once its files have been hashed the record is younger than they are. */
+static bool has_files(const struct work *w)
+{
+    struct stat record;
+    const char *path = record_path(w->k->folder, w->name, w->arena);
+    bool hashed = false, there = stat(path, &record) == 0;
+    for (int k = 0; k < w->was->n_files && there; k++)
+        there = has_file(w, &w->was->files[k], &record, &hashed);
+    if (there && hashed && !w->k->read_only)
+        utimensat(AT_FDCWD, path, NULL, 0);
+    return there;
+}
+
+static enum stimulus_state state_of(const struct work *w)
+{
+    if (!w->was)
+        return STIMULUS_NEW;
+    if (w->was->status == RECORD_MAKING || strcmp(w->was->key, w->key) != 0)
+        return STIMULUS_KEY;
+    return has_files(w) ? STIMULUS_THERE : STIMULUS_FILE;
+}
+
+static bool begin(struct work *w, const struct stimulus_set *k, int i, struct arena *a, struct err *e)
+{
+    const struct design_stimulus *x = &k->set->design->stimuli[i];
+    *w = (struct work){.k = k, .i = i, .name = x->name, .base = arena_format(a, "%s/%s", k->folder, x->name), .arena = a, .file = x->recording};
+    if (!(w->file ? read_recording(w, e) : read_scene(w, e)))
+        return false;
+    struct record *r = ARENA_TAKE(a, struct record, 1);
+    w->was = record_read(k->folder, w->name, a, r) ? r : NULL;
+    w->state = state_of(w);
+    return true;
+}
+
+static void fill(struct stimulus *s, const struct work *w, const struct record *r)
+{
+    s->waits = r->status == RECORD_WAITS;
+    s->full_scale = r->full_scale;
+    s->measured = (struct set_measured){r->peak, r->rms, r->lufs, r->encoding, r->sounds && !w->file};
+}
+
+bool stimulus_look(const struct stimulus_set *k, int i, struct arena *a, struct stimulus *s, struct err *e)
+{
+    struct work w;
+    *s = (struct stimulus){.full_scale = NAN};
+    if (!begin(&w, k, i, a, e))
+        return false;
+    s->key = w.key;
+    s->state = w.state;
+    if (w.state == STIMULUS_THERE)
+        fill(s, &w, w.was);
+    return true;
+}
+
+/* ------------------------------------------------------------------ commit */
+
+struct commit {              /* how complete files get their names */
+    bool (*give)(void *files, struct err *e);
+    void (*drop)(void *files);
+    void *files;
+};
+
+/* What lies there, and what is about to. */
+static struct record making(const struct work *w, const struct record *to)
+{
+    int n = w->was ? w->was->n_files : 0;
+    struct record r = {.status = RECORD_MAKING, .key = to->key, .program = to->program, .seen_from = to->seen_from, .full_scale = NAN, .rate = NAN};
+    r.files = ARENA_TAKE(w->arena, struct record_file, n + to->n_files + 1);
+    for (int k = 0; k < n; k++)
+        r.files[r.n_files++] = w->was->files[k];
+    for (int k = 0; k < to->n_files; k++)
+        r.files[r.n_files++] = to->files[k];
+    return r;
+}
+
+static bool lists(const struct record *r, const char *path)
+{
+    for (int k = 0; k < r->n_files; k++)
+        if (!strcmp(r->files[k].path, path))
+            return true;
+    return false;
+}
+
+/* Files of before that are not written any more, unless somebody changed them. */
+static void remove_old(const struct work *w, const struct record *to)
+{
+    for (int k = 0; w->was && k < w->was->n_files; k++) {
+        const struct record_file *f = &w->was->files[k];
+        char hex[HASH_TEXT];
+        struct err unreadable = {0};
+        const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
+        if (!lists(to, f->path) && !folder_inputs_has(w->k->inputs, path) && hash_file(path, hex, &unreadable) && !strcmp(hex, f->sha256))
+            unlink(path);
+    }
+}
+
+static bool inputs_same(const struct work *w, struct err *e)
+{
+    if (!w->file)
+        return inputs_still(&w->inputs, e) || scene_places_tell(&w->scene, e);
+    return !watch_changed(&w->inputs) || err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
+}
+
+/* From here on *w has the new record as its own. */
+static bool commit(struct work *w, const struct record *to, const struct commit *c, struct err *e)
+{
+    const struct record before = making(w, to);
+    interrupt_hold();
+    bool ok = inputs_same(w, e) && record_write(w->k->folder, w->name, &before, e);
+    if (!ok)
+        c->drop(c->files);
+    ok = ok && c->give(c->files, e);
+    if (ok)
+        remove_old(w, to);
+    ok = ok && record_write(w->k->folder, w->name, to, e);
+    interrupt_go();
+    if (ok) {
+        struct record *r = ARENA_TAKE(w->arena, struct record, 1);
+        *r = *to;
+        w->was = r;
+    }
+    return ok;
+}
+
+/* A settled file that is about to be `path` of the folder. */
+static bool add_file(struct record *r, const char *kind, const char *path, bool raw, const char *temporary, struct arena *a, struct err *e)
+{
+    char hex[HASH_TEXT];
+    struct stat s;
+    if (!hash_file(temporary, hex, e))
+        return false;
+    r->files[r->n_files++] = (struct record_file){kind, path, raw, arena_text(a, hex), stat(temporary, &s) == 0 ? (double)s.st_size : 0};
+    return true;
+}
+
+static const char *file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* As far as it is the same everywhere: the meter's filter has its coefficients from libm. */
+static double rounded(double x)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.8g", x);
+    return strtod(text, NULL);
+}
+
+/* What the WAV holds. */
+static bool measure(struct record *r, const char *path, struct arena *a, struct err *e)
+{
+    struct measure m;
+    if (!measure_cut(path, NULL, true, &m, e))
+        return false;
+    r->channels = m.channels;
+    r->file_peak = m.peak, r->file_rms = m.rms, r->file_lufs = m.lufs, r->true_peak = rounded(m.true_peak);
+    r->audio = arena_text(a, m.audio);
+    return true;
+}
+
+/* ------------------------------------------------------------------ rendering */
+
+static struct record of_render(const struct work *w, const struct render_report *report, bool waits)
+{
+    const struct scene *s = &w->scene;
+    struct record r = {.status = waits ? RECORD_WAITS : RECORD_DONE, .key = w->key, .program = w->k->set->program, .seen_from = w->k->seen_from, .full_scale = NAN,
+                       .rate = report->sounds ? s->output.sample_rate : NAN, .frames = report->frames, .sounds = report->sounds, .peak = report->sound.peak, .rms = report->sound.rms, .lufs = NAN,
+                       .encoding = s->output.encoding, .channels = sound_format(s, report->frames).channels, .unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL,
+                       .gain = report->sound.gain, .ramp = report->sound.ramp, .file_peak = NAN, .file_rms = NAN, .file_lufs = NAN, .true_peak = NAN,
+                       .beyond = report->sounds ? written_sound(report)->written->beyond : NAN, .render = report->summary};
+    r.files = ARENA_TAKE(w->arena, struct record_file, report->n_files + 1);
+    r.warnings = ARENA_TAKE(w->arena, const char *, report->n_warnings + 1);
+    for (int k = 0; k < report->n_warnings; k++)
+        r.warnings[k] = report->warnings[k];
+    return r;
+}
+
+/* A raw sound is measured only as far as the level needs it: its peak and rms are known. */
+static bool measure_render(const struct work *w, struct record *r, const char *wav, struct err *e)
+{
+    bool waits = r->status == RECORD_WAITS;
+    if (!r->sounds || (waits && isnan(w->k->set->level.lufs)))
+        return true;
+    if (!measure(r, wav, w->arena, e))
+        return false;
+    if (waits) {
+        r->lufs = r->file_lufs;
+        r->file_peak = r->file_rms = r->file_lufs = r->true_peak = NAN;
+        r->audio = NULL;
+    }
+    return true;
+}
+
+static bool list_render(const struct work *w, const struct render_report *report, struct record *r, struct err *e)
+{
+    const char *wav = NULL;
+    for (int k = 0; k < report->n_files; k++) {
+        const struct render_file *f = &report->files[k];
+        bool raw = r->status == RECORD_WAITS && f->written;
+        if (!add_file(r, f->kind, record_file_path(w->name, file_name(f->path), raw, w->arena), raw, f->temporary, w->arena, e))
+            return false;
+        wav = !strcmp(f->kind, "wav") ? f->temporary : wav;
+    }
+    return measure_render(w, r, wav, e);
+}
+
+static bool give_render(void *render, struct err *e)
+{
+    return render_commit(render, e);
+}
+
+static void drop_render(void *render)
+{
+    render_drop(render);
+}
+
+static bool render(struct work *w, struct stimulus *s, struct err *e)
+{
+    bool waits = set_waits(w->k->set);
+    struct scene made = w->scene;
+    struct render_report report;
+    const char *raw = waits ? arena_format(w->arena, "%s/.rasp/raw/%s", w->k->folder, w->name) : NULL;
+    if (waits)
+        made.output.encoding = ENCODING_FLOAT64;
+    if (!folder_make_for(w->k->folder, w->name, e) || (waits && !folder_make_for(w->k->folder, arena_format(w->arena, ".rasp/raw/%s", w->name), e)))
+        return false;
+    struct render *x = render_make(&made, &(struct render_names){w->base, raw}, w->arena, &report, e);
+    if (!x)
+        return scene_places_tell(&w->scene, e);
+    struct record r = of_render(w, &report, waits);
+    if (!list_render(w, &report, &r, e)) {
+        render_drop(x);
+        return false;
+    }
+    if (!commit(w, &r, &(struct commit){give_render, drop_render, x}, e))
+        return false;
+    s->wall += report.seconds, s->cpu += report.cpu;
+    return true;
+}
+
+/* ------------------------------------------------------------------ recordings */
+
+static bool give_sound(void *sound, struct err *e)
+{
+    return wav_commit(sound, e);
+}
+
+static void drop_sound(void *sound)
+{
+    wav_drop(sound);
+}
+
+static bool copy(struct work *w, struct stimulus *s, struct err *e)
+{
+    double start[2] = {stopwatch_wall(), stopwatch_cpu()};
+    const struct set *set = w->k->set;
+    struct record r = {.status = RECORD_DONE, .key = w->key, .program = set->program, .full_scale = NAN, .sounds = true, .files = ARENA_TAKE(w->arena, struct record_file, 1)};
+    if (!folder_make_for(w->k->folder, w->name, e))
+        return false;
+    struct wav_out *out = recording_make(set, w->file, arena_format(w->arena, "%s.wav", w->base), &r, w->arena, e);
+    if (!out)
+        return false;
+    const char *lies = wav_temporary(out);
+    if (!add_file(&r, "wav", arena_format(w->arena, "%s.wav", w->name), false, lies, w->arena, e) || !measure(&r, lies, w->arena, e)) {
+        wav_drop(out);
+        return false;
+    }
+    bool ok = commit(w, &r, &(struct commit){give_sound, drop_sound, out}, e);
+    s->wall += stopwatch_wall() - start[0], s->cpu += stopwatch_cpu() - start[1];
+    return ok;
+}
+
+/* ------------------------------------------------------------------ the effective scene */
+
+/* In the place of the one that the record lists, or before the sounds. */
+static bool put_scene(struct outfile *f, const struct work *w, struct record *r, struct err *e)
+{
+    const char *path = arena_format(w->arena, "%s.scene.yaml", w->base), *text = outputs_effective(&w->scene, path, w->arena);
+    char hex[HASH_TEXT];
+    int k = 0;
+    if (!outfile_open(f, path, e))
+        return false;
+    outfile_put(f, text, strlen(text));
+    hash_bytes(text, strlen(text), hex);
+    while (k < r->n_files && strcmp(r->files[k].kind, "scene") != 0 && strcmp(r->files[k].kind, "wav") != 0 && strcmp(r->files[k].kind, "stem") != 0)
+        k++;
+    if (k == r->n_files || strcmp(r->files[k].kind, "scene") != 0)
+        memmove(&r->files[k + 1], &r->files[k], (size_t)(r->n_files++ - k) * sizeof *r->files);
+    r->files[k] = (struct record_file){"scene", arena_format(w->arena, "%s.scene.yaml", w->name), false, arena_text(w->arena, hex), (double)strlen(text)};
+    return outfile_settle(f, e);
+}
+
+/* With room for one more. */
+static struct record copy_of(const struct record *r, struct arena *a)
+{
+    struct record c = *r;
+    c.files = ARENA_TAKE(a, struct record_file, r->n_files + 1);
+    if (r->n_files)
+        memcpy(c.files, r->files, (size_t)r->n_files * sizeof *c.files);
+    return c;
+}
+
+static bool give_scene(void *file, struct err *e)
+{
+    struct outfile *f = file;
+    return !f->target[0] || outfile_commit(f, e);
+}
+
+static void drop_scene(void *file)
+{
+    outfile_drop(file);
+}
+
+/* The design lies elsewhere by now: the files that the effective scene names are called otherwise. */
+static bool move(struct work *w, struct err *e)
+{
+    struct outfile f = {.fd = -1};
+    struct record r = copy_of(w->was, w->arena);
+    r.seen_from = w->k->seen_from;
+    if (!isnan(r.full_scale))
+        w->scene.output.level.full_scale = r.full_scale;
+    if (r.status == RECORD_DONE && !put_scene(&f, w, &r, e)) {
+        outfile_drop(&f);
+        return false;
+    }
+    return commit(w, &r, &(struct commit){give_scene, drop_scene, &f}, e);
+}
+
+bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, struct arena *a, struct stimulus *s, struct err *e)
+{
+    struct work w;
+    *s = (struct stimulus){.full_scale = NAN};
+    if (!begin(&w, k, i, a, e))
+        return false;
+    s->key = w.key;
+    s->state = w.state;
+    s->made = how == STIMULUS_ANEW || (how == STIMULUS_IF_NEEDED && w.state != STIMULUS_THERE);
+    bool moved = w.state == STIMULUS_THERE && !w.file && !s->made && strcmp(w.was->seen_from ? w.was->seen_from : "", k->seen_from) != 0;
+    if (s->made && w.file && !copy(&w, s, e))
+        return e->kind == ERR_INPUT || e->kind == ERR_SCENE ? design_scene_recording(k->set->design, i, e) : false;
+    if ((s->made && !w.file && !render(&w, s, e)) || (moved && !move(&w, e)))
+        return false;
+    s->state = s->made ? STIMULUS_THERE : s->state;
+    if (s->state == STIMULUS_THERE)
+        fill(s, &w, w.was);
+    return true;
+}
+
+/* ------------------------------------------------------------------ the gain of the set */
+
+struct levelled {            /* files that a raw sound becomes */
+    struct wav_out *sounds[1 + STEMS];
+    struct render_file files[1 + STEMS]; /* as a render has them */
+    struct wav_written written[1 + STEMS];
+    struct outfile scene;
+    int n;
+};
+
+static bool give_levelled(void *files, struct err *e)
+{
+    struct levelled *l = files;
+    bool ok = outfile_commit(&l->scene, e);
+    for (int k = 0; k < l->n; k++) {
+        if (ok)
+            ok = wav_commit(l->sounds[k], e);
+        else
+            wav_drop(l->sounds[k]);
+    }
+    l->n = 0;
+    return ok;
+}
+
+static void drop_levelled(void *files)
+{
+    struct levelled *l = files;
+    outfile_drop(&l->scene);
+    for (int k = 0; k < l->n; k++)
+        wav_drop(l->sounds[k]);
+    l->n = 0;
+}
+
+static bool copy_scaled(struct wav_stream *in, struct wav_out *out, double gain, struct err *e)
+{
+    double x[4096];
+    long n, most = (long)(sizeof x / sizeof *x) / in->channels;
+    do {
+        if (!wav_stream_read(in, x, most, &n, e))
+            return false;
+        for (long i = 0; i < n * in->channels; i++)
+            x[i] *= gain;
+        if (n > 0 && !wav_write(out, x, (size_t)n, e))
+            return false;
+    } while (n > 0);
+    return true;
+}
+
+/* A force is in newtons, whatever the gain, in 32 bits. */
+static bool is_force(const char *path)
+{
+    size_t n = strlen(path);
+    return n > 10 && !strcmp(path + n - 10, ".force.wav");
+}
+
+static const char *stem_of(const char *path, struct arena *a)
+{
+    size_t n = strlen(path);
+    for (int k = 0; k < STEMS; k++) {
+        const char *ending = arena_format(a, ".%s.wav", stems_names[k]);
+        if (n > strlen(ending) && !strcmp(path + n - strlen(ending), ending))
+            return stems_names[k];
+    }
+    return NULL;
+}
+
+/* One raw WAV, f, into the file that it becomes. */
+static bool scale(const struct work *w, struct levelled *l, struct record_file *f, struct err *e)
+{
+    struct wav_stream in;
+    char comment[80] = "rasp: contact force, 1.0 is 1 N";
+    bool force = !strcmp(f->kind, "stem") && is_force(f->path);
+    double gain = force ? 1 : sound_known_gain(&w->scene);
+    const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path), *path = record_file_path(w->name, file_name(f->path), false, w->arena);
+    if (!wav_stream_open(&in, raw, e))
+        return false;
+    struct track_format t = sound_format(&w->scene, in.frames);
+    struct wav_format format = {.rate = t.rate, .channels = in.channels, .bits = force ? -32 : t.bits, .title = t.title};
+    if (!force)
+        sound_comment(&w->scene, gain, comment);
+    struct wav_out *out = wav_create(arena_format(w->arena, "%s/%s", w->k->folder, path), &format, e);
+    if (out)
+        l->sounds[l->n++] = out;
+    bool ok = out && wav_comment(out, comment, e) && copy_scaled(&in, out, gain, e) && wav_settle(out, e);
+    wav_stream_close(&in);
+    if (!ok && e->kind == ERR_SCENE)
+        err_at(e, "%s", !strcmp(f->kind, "wav") ? "level" : "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a lower level");
+    if (!ok)
+        return false;
+    l->written[l->n - 1] = wav_written(out);
+    l->files[l->n - 1] = (struct render_file){.kind = f->kind, .path = path, .stem = !strcmp(f->kind, "stem") ? stem_of(path, w->arena) : NULL, .written = &l->written[l->n - 1],
+                                              .temporary = wav_temporary(out)};
+    struct record one = {.files = f};
+    return add_file(&one, f->kind, path, false, wav_temporary(out), w->arena, e);
+}
+
+/* What a render at that gain would have warned of. A raw sound that is silent has been warned of. */
+static void add_warnings(const struct work *w, const struct levelled *l, struct record *r)
+{
+    int n = 0;
+    while (r->warnings[n])
+        n++;
+    const char **all = ARENA_TAKE(w->arena, const char *, n + 2 * l->n + 1);
+    for (int k = 0; k < n; k++)
+        all[k] = r->warnings[k];
+    for (int k = 0; k < l->n; k++) {
+        const char *texts[2] = {r->peak > 0 ? written_silent(&w->scene, &l->files[k], r->gain * r->peak, w->arena) : NULL, written_beyond(&w->scene, &l->files[k], w->arena)};
+        for (int t = 0; t < 2; t++) {
+            bool known = !texts[t];
+            for (int i = 0; i < n && !known; i++)
+                known = !strcmp(all[i], texts[t]);
+            if (!known)
+                all[n++] = texts[t];
+        }
+    }
+    r->warnings = all;
+}
+
+static void set_gain_json(json_t *sound, double gain)
+{
+    double peak = json_number_value(json_object_get(sound, "peak")), rms = json_number_value(json_object_get(sound, "rms"));
+    json_object_set_new(sound, "gain", json_real(gain));
+    json_object_set_new(sound, "gain_db", json_real(20 * real_log10(gain)));
+    json_object_set_new(sound, "peak_dbfs", json_value_number(20 * real_log10(gain * peak)));
+    json_object_set_new(sound, "rms_dbfs", json_value_number(20 * real_log10(gain * rms)));
+}
+
+/* The render's text, with the gain and the files that it has now. */
+static const char *render_text(const struct work *w, const struct levelled *l, const struct record *r)
+{
+    json_t *j = json_loads(r->render, 0, NULL), *sound = json_object_get(j, "sound"), *file;
+    size_t i;
+    if (sound)
+        set_gain_json(sound, r->gain);
+    for (int k = 0; k < l->n; k++) {
+        const char *name = file_name(l->files[k].path);
+        json_array_foreach(json_object_get(j, "files"), i, file) {
+            const char *listed = json_string_value(json_object_get(file, "name"));
+            if (listed && !strcmp(listed, name))
+                written_tell(&l->files[k], file);
+        }
+        if (!l->files[k].stem)
+            written_tell(&l->files[k], sound);
+    }
+    char *text = json_dumps(j, JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
+    const char *whole = arena_text(w->arena, text ? text : "{}");
+    free(text);
+    json_decref(j);
+    return whole;
+}
+
+static bool make_levelled(const struct work *w, struct levelled *l, struct record *r, struct err *e)
+{
+    for (int k = 0; k < r->n_files; k++)
+        if (r->files[k].raw && !scale(w, l, &r->files[k], e))
+            return false;
+    for (int k = 0; k < l->n; k++) {
+        if (l->files[k].stem)
+            continue;
+        r->beyond = l->written[k].beyond;
+        if (!measure(r, l->files[k].temporary, w->arena, e))
+            return false;
+    }
+    add_warnings(w, l, r);
+    r->render = render_text(w, l, r);
+    return put_scene(&l->scene, w, r, e);
+}
+
+static bool lay_gain(struct work *w, double full_scale, struct err *e)
+{
+    struct levelled l = {.scene = {.fd = -1}};
+    struct record r = copy_of(w->was, w->arena);
+    w->scene.output.level.full_scale = full_scale;
+    w->scene.output.level.later = false;
+    r.status = RECORD_DONE;
+    r.full_scale = full_scale;
+    r.gain = sound_known_gain(&w->scene);
+    if (!make_levelled(w, &l, &r, e)) {
+        drop_levelled(&l);
+        return false;
+    }
+    return commit(w, &r, &(struct commit){give_levelled, drop_levelled, &l}, e);
+}
+
+bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool may_render, struct arena *a, struct stimulus *s, struct err *e)
+{
+    struct work w;
+    if (!begin(&w, k, i, a, e))
+        return false;
+    if (w.state == STIMULUS_KEY)
+        return err_set(e, ERR_INPUT, "what it is made of has changed since its level was measured: run the same command again");
+    if (w.state != STIMULUS_THERE || w.was->status != RECORD_WAITS) {
+        if (!may_render)
+            return err_set(e, ERR_INPUT, "its sound before the gain is not there any more: it has to be rendered again");
+        if (!render(&w, s, e))
+            return false;
+        s->made = true;
+    }
+    if (!lay_gain(&w, full_scale, e))
+        return false;
+    fill(s, &w, w.was);
+    return true;
+}
