@@ -166,6 +166,12 @@ static bool is_same_state(const struct folder_owner *o, const struct owner *was)
     return was->lines[0] && !strcmp(was->lines[1], o->sha256) && !strcmp(was->lines[3], o->program);
 }
 
+static bool is_busy(const struct folder_owner *o, const struct owner *was, struct err *e)
+{
+    return err_set(e, ERR_INTERRUPTED, "%s: another rasp is at work in it%s%s: wait until it has ended, or choose another folder with -o; several runs of one set are its shards (--shard)",
+                   o->folder, was->lines[4] ? ", " : "", was->lines[4] ? was->lines[4] : "");
+}
+
 /* The lock of who works, while nobody else can enter. *alone: others are not at work. */
 static bool lock_work(const struct folder_owner *o, int fd, const struct owner *was, bool *alone, struct err *e)
 {
@@ -173,8 +179,7 @@ static bool lock_work(const struct folder_owner *o, int fd, const struct owner *
     bool shared = !*alone && o->part && is_same_state(o, was) && flock(fd, LOCK_SH | LOCK_NB) == 0;
     if (*alone || shared)
         return true;
-    return err_set(e, ERR_INTERRUPTED, "%s: another rasp is at work in it%s%s: wait until it has ended, or choose another folder with -o; several runs of one set are its shards (--shard)",
-                   o->folder, was->lines[4] ? ", " : "", was->lines[4] ? was->lines[4] : "");
+    return is_busy(o, was, e);
 }
 
 static bool note(const struct folder_owner *o, int fd, struct arena *a, struct err *e)
@@ -203,17 +208,30 @@ static bool enter(const struct folder_owner *o, int fd, struct arena *a, struct 
     return true;
 }
 
+/* One at a time comes in; who holds the door longer than a moment was stopped there. */
+static bool open_door(const struct folder_owner *o, int door, struct arena *a, struct err *e)
+{
+    struct owner was;
+    for (int tries = 0; door >= 0 && flock(door, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; tries++) {
+        if (tries == 200) {
+            look(o->folder, a, &was);
+            return is_busy(o, &was, e);
+        }
+        usleep(10000);
+    }
+    return true;
+}
+
 bool folder_enter(const struct folder_owner *o, struct arena *a, int *lock, struct err *e)
 {
     const char *hidden = arena_format(a, "%s/.rasp", o->folder), *path = arena_format(a, "%s/owner", hidden);
     *lock = -1;
     if (!make_one(o->folder, e) || !make_one(hidden, e))
         return false;
-    int door = open(hidden, O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* one at a time comes in */
-    if (door >= 0)
-        flock(door, LOCK_EX);
-    int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    bool ok = fd >= 0 || err_set(e, err_system(ERR_CREATE), "%s: cannot be written: %s", path, strerror(errno));
+    int door = open(hidden, O_RDONLY | O_DIRECTORY | O_CLOEXEC), fd = -1;
+    bool ok = open_door(o, door, a, e);
+    if (ok && (fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666)) < 0)
+        ok = err_set(e, err_system(ERR_CREATE), "%s: cannot be written: %s", path, strerror(errno));
     ok = ok && enter(o, fd, a, e);
     if (door >= 0)
         close(door);

@@ -76,7 +76,7 @@ COMMANDS = {
     "batch": (["batch", "../in/design.yaml", "-o", "set", "-j", "3"], None),
     "batch, one at a time": (["batch", "../in/design.yaml", "-o", "set", "-j", "1"], None),
     "batch, opening": (["batch", "../in/balls.yaml", "-o", "set", "-j", "2"], None),
-    "merge": (["merge", "set"], None),
+    "batch, joining shards": (["batch", "../in/shorts.yaml", "-o", "set", "--no-render"], None),
     "golden check": (["golden", "check", "../in/plate.yaml", "--kept", "kept", "-j", "2"], []),
     "golden update": (["golden", "update", "../in/plate.yaml", "--kept", "kept", "-j", "2"], None),
     "surface synth": (["surface", "synth", "--size", "3cmx2cm", "--pitch", "5um", ROOT + "/surfaces/sandpaper.yaml", "out.gsf"], ["out.gsf"]),
@@ -130,7 +130,7 @@ def one(words, together, number, moment):
     os.makedirs(HERE + "/try/scratch")
     os.chdir(HERE + "/try")
     os.mkdir("kept")
-    if words[0] == "merge":
+    if "--no-render" in words:
         shutil.copytree(IN + "/shards", "set")
     p = subprocess.Popen(["rasp", *words], env=dict(os.environ, TMPDIR=HERE + "/try/scratch"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=open("../said", "w"),
                          start_new_session=True)
