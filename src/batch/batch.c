@@ -1,5 +1,7 @@
-/* See batch.h. The design is read and planned; the folder is entered; each stimulus is made that is not there; the gain of the set is found and laid; stale files are looked for; tables are written
-   from the records. A failure of one stimulus is its own, but for those that all others would have too: a disk that is full, a folder that cannot be written. */
+/* See batch.h. The design is read and planned; the folder is entered; each stimulus is made that is not there; the gain
+   of the set is found and laid; stale files are looked for; tables are written from the records. A failure of one
+   stimulus is its own, but for those that all others would have too: a disk that is full, a folder that cannot be
+   written. */
 #include "batch/batch.h"
 
 #include <fcntl.h>
@@ -16,20 +18,22 @@
 #include "num/fft.h"
 #include "num/resample.h"
 
-enum { SHELF_MOST = 256 << 20 /* bytes of inputs that stay in memory; what is beyond is read again for every stimulus */ };
-
-struct row {                     /* what is known of a stimulus besides its outcome */
-    bool waits;                  /* for the gain of the set */
-    struct set_measured measured;
-    double full_scale;
-    const char *key;             /* of what has no right record */
+enum {
+    SHELF_MOST = 256 << 20 /* bytes of inputs that stay in memory; what is beyond is read again for every stimulus */
 };
 
-struct slot {                    /* what a job came to, until it is taken */
+struct row {    /* what is known of a stimulus besides its outcome */
+    bool waits; /* for the gain of the set */
+    struct set_measured measured;
+    double full_scale;
+    const char *key; /* of what has no right record */
+};
+
+struct slot { /* what a job came to, until it is taken */
     struct stimulus is;
     bool done;
-    char *key;                   /* by malloc, of what failed; NULL: not known */
-    struct err *e;               /* by malloc; NULL: none */
+    char *key;     /* by malloc, of what failed; NULL: not known */
+    struct err *e; /* by malloc; NULL: none */
 };
 
 struct batch {
@@ -37,13 +41,13 @@ struct batch {
     struct batch_report *report;
     struct arena *arena;
     struct stimulus_set k;
-    struct row *rows;            /* [n] */
+    struct row *rows;                                                                              /* [n] */
     bool (*act)(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e); /* what jobs do */
-    struct slot *slots;          /* [n_now] */
-    int *now, n_now;             /* the stimuli that jobs are about */
+    struct slot *slots;                                                                            /* [n_now] */
+    int *now, n_now; /* the stimuli that jobs are about */
     struct progress progress;
     struct err stop;
-    const char *changed;         /* an input, while stimuli were made of it; NULL: none */
+    const char *changed; /* an input, while stimuli were made of it; NULL: none */
 };
 
 /* ------------------------------------------------------------------ jobs */
@@ -62,7 +66,10 @@ static bool make(const struct batch *b, int i, struct arena *a, struct stimulus 
 {
     enum stimulus_how how = b->ask->no_render ? STIMULUS_NEVER : b->ask->force ? STIMULUS_ANEW : STIMULUS_IF_NEEDED;
     return stimulus_make(&b->k, i, how, a, s, e) &&
-           (s->state == STIMULUS_THERE || err_set(e, ERR_INPUT, "it is not there as it should be (%s): run its shard, or the same command without --no-render", stimulus_states[s->state]));
+           (s->state == STIMULUS_THERE ||
+            err_set(e, ERR_INPUT,
+                    "it is not there as it should be (%s): run its shard, or the same command without --no-render",
+                    stimulus_states[s->state]));
 }
 
 static bool level(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e)
@@ -120,7 +127,8 @@ static void took(void *context, int at)
     free(s->e);
     free(s->key);
     *s = (struct slot){0};
-    progress_step(&b->progress, b->report->design.stimuli[i].name, made ? cost : 0, made ? 0 : cost, made ? b->report->set.lengths[i] : 0);
+    progress_step(&b->progress, b->report->design.stimuli[i].name, made ? cost : 0, made ? 0 : cost,
+                  made ? b->report->set.lengths[i] : 0);
 }
 
 /* Results behind the first that was not done are there all the same, and have their records. */
@@ -146,8 +154,13 @@ static bool make_all(struct batch *b, struct err *e)
     for (int at = 0; at < b->n_now; at++)
         done += r->rows[b->now[at]].there;
     if (b->stop.kind == ERR_INTERRUPTED)
-        return err_set(e, ERR_INTERRUPTED, "interrupted after %d of %d stimuli; run the same command again, and it goes on from here", done, b->n_now);
-    return !b->stop.kind || err_set(e, b->stop.kind, "%s; stopped after %d of %d stimuli; once that is mended, run the same command again, and it goes on from here", b->stop.text, done, b->n_now);
+        return err_set(e, ERR_INTERRUPTED,
+                       "interrupted after %d of %d stimuli; run the same command again, and it goes on from here", done,
+                       b->n_now);
+    return !b->stop.kind || err_set(e, b->stop.kind,
+                                    "%s; stopped after %d of %d stimuli; once that is mended, run the same command "
+                                    "again, and it goes on from here",
+                                    b->stop.text, done, b->n_now);
 }
 
 /* ------------------------------------------------------------------ the gain of the set */
@@ -177,7 +190,8 @@ static bool level_all(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
     r->full_scale = set_waits(&r->set) ? NAN : r->set.level.full_scale;
-    if (!set_waits(&r->set) || !are_all_there(b) || shelf_changed(b->k.shelf, b->arena)) /* of two states no gain is found */
+    if (!set_waits(&r->set) || !are_all_there(b) ||
+        shelf_changed(b->k.shelf, b->arena)) /* of two states no gain is found */
         return true;
     if (!find_gain(b, &r->full_scale, e))
         return false;
@@ -188,7 +202,8 @@ static bool level_all(struct batch *b, struct err *e)
     b->act = level;
     progress_begin(&b->progress, b->n_now, 0, true);
     run_jobs(b);
-    return !b->stop.kind || err_set(e, b->stop.kind, "%s; run the same command again, and it goes on from here", b->stop.text);
+    return !b->stop.kind ||
+           err_set(e, b->stop.kind, "%s; run the same command again, and it goes on from here", b->stop.text);
 }
 
 /* ------------------------------------------------------------------ before */
@@ -210,10 +225,14 @@ static void divide(struct batch *b)
 static bool has_room(const struct batch *b, struct err *e)
 {
     const char *folder = b->ask->folder;
-    double share = (double)b->report->n_mine / b->report->set.n, free = folder_free(folder), raw = share * b->report->plan.raw_bytes;
+    double share = (double)b->report->n_mine / b->report->set.n, free = folder_free(folder),
+           raw = share * b->report->plan.raw_bytes;
     if (raw < free || access(arena_format(b->arena, "%s/.rasp/raw", folder), F_OK) == 0)
         return true;
-    return err_set(e, ERR_CREATE, "%s: %.3g GB are free, and the sounds take %.3g GB until the common level is known: give the level as full_scale, or make room", folder, free / 1e9, raw / 1e9);
+    return err_set(e, ERR_CREATE,
+                   "%s: %.3g GB are free, and the sounds take %.3g GB until the common level is known: give the level "
+                   "as full_scale, or make room",
+                   folder, free / 1e9, raw / 1e9);
 }
 
 /* ------------------------------------------------------------------ only looking */
@@ -252,7 +271,8 @@ static bool look_at_folder(struct batch *b, struct err *e)
         list_missing(b);
     bool gain = set_waits(&r->set) && are_all_there(b) && find_gain(b, &full_scale, &silent);
     for (int i = 0; i < r->set.n; i++)
-        if (r->states[i] == STIMULUS_THERE && set_waits(&r->set) && (b->rows[i].waits || (gain && needs_gain(b, i, full_scale))))
+        if (r->states[i] == STIMULUS_THERE && set_waits(&r->set) &&
+            (b->rows[i].waits || (gain && needs_gain(b, i, full_scale))))
             r->states[i] = STIMULUS_GAIN;
     for (int i = 0; i < r->set.n; i++)
         r->rows[i] = (struct tables_row){0};
@@ -274,10 +294,14 @@ static bool judge(struct batch *b, struct err *e)
         worst = o->kind > worst ? o->kind : worst;
     }
     if (b->changed)
-        return err_set(e, ERR_INPUT, "%s has changed while stimuli were made of it: some may be of what it was before; run the same command again, which renders those anew", b->changed);
+        return err_set(e, ERR_INPUT,
+                       "%s has changed while stimuli were made of it: some may be of what it was before; run the same "
+                       "command again, which renders those anew",
+                       b->changed);
     if (worst && b->ask->no_render)
         return err_set(e, worst, "%d of %d stimuli are missing; no table was written", r->failed, r->n_mine);
-    return !worst || err_set(e, worst, "%d of %d stimuli failed; the column error of the manifest says why%s", r->failed, r->n_mine, r->waiting ? ", and the common level waits for them" : "");
+    return !worst || err_set(e, worst, "%d of %d stimuli failed; the column error of the manifest says why%s",
+                             r->failed, r->n_mine, r->waiting ? ", and the common level waits for them" : "");
 }
 
 struct wanted {
@@ -294,11 +318,18 @@ static void find_stale(struct batch *b)
     struct batch_report *r = b->report;
     int n = r->set.n;
     struct wanted *all = ARENA_TAKE(b->arena, struct wanted, n);
-    struct folder_wanted w = {.folder = b->ask->folder, .names = ARENA_TAKE(b->arena, const char *, n), .keys = ARENA_TAKE(b->arena, const char *, n), .n = n, .inputs = r->plan.inputs,
-                              .prune = b->ask->prune, .all = are_all_there(b)};
+    struct folder_wanted w = {.folder = b->ask->folder,
+                              .names = ARENA_TAKE(b->arena, const char *, n),
+                              .keys = ARENA_TAKE(b->arena, const char *, n),
+                              .n = n,
+                              .inputs = r->plan.inputs,
+                              .prune = b->ask->prune,
+                              .all = are_all_there(b)};
     for (int i = 0; i < n; i++) {
         w.all = w.all && !b->rows[i].waits;
-        all[i] = (struct wanted){r->design.stimuli[i].name, r->rows[i].there ? NULL : b->rows[i].key ? b->rows[i].key : ""};
+        all[i] = (struct wanted){r->design.stimuli[i].name, r->rows[i].there ? NULL
+                                                            : b->rows[i].key ? b->rows[i].key
+                                                                             : ""};
     }
     qsort(all, (size_t)n, sizeof *all, by_name);
     for (int i = 0; i < n; i++) {
@@ -353,22 +384,29 @@ static bool run_in_folder(struct batch *b, struct err *e)
     return judge(b, e);
 }
 
-static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *a, struct batch_report *r, struct err *e)
+static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *a, struct batch_report *r,
+                struct err *e)
 {
     int lock;
     *r = (struct batch_report){.messages = "", .no_effect = "", .full_scale = NAN};
     if (!design_read(ask->design, a, &r->design, &r->messages, e))
         return false;
     r->set = set_make(&r->design, ask->program);
-    if (!set_plan(&r->set, &(struct set_plan_ask){ask->threads, shelf, ask->folder, ask->replace, ask->force || ask->replace}, a, &r->plan, e))
+    if (!set_plan(&r->set,
+                  &(struct set_plan_ask){ask->threads, shelf, ask->folder, ask->replace, ask->force || ask->replace}, a,
+                  &r->plan, e))
         return false;
-    struct batch b = {.ask = ask, .report = r, .arena = a, .rows = ARENA_TAKE(a, struct row, r->set.n),
+    struct batch b = {.ask = ask,
+                      .report = r,
+                      .arena = a,
+                      .rows = ARENA_TAKE(a, struct row, r->set.n),
                       .k = {.set = &r->set, .folder = ask->folder, .shelf = shelf, .inputs = r->plan.inputs}};
     r->rows = ARENA_TAKE(a, struct tables_row, r->set.n);
     divide(&b);
     if (!ask->folder)
         return true;
-    const struct folder_owner owner = {ask->folder, ask->design, r->set.sha256, ask->program, ask->replace, ask->shard.n > 1};
+    const struct folder_owner owner = {ask->folder,  ask->design,  r->set.sha256,
+                                       ask->program, ask->replace, ask->shard.n > 1};
     if (!folder_look(&owner, a, e)) /* before anything is written */
         return false;
     b.k.doubt = !tables_are_there(ask->folder, a);
@@ -384,10 +422,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
     return ok;
 }
 
-void batch_close(struct batch_report *r)
-{
-    set_plan_close(&r->plan);
-}
+void batch_close(struct batch_report *r) { set_plan_close(&r->plan); }
 
 bool batch_run(const struct batch_ask *ask, struct arena *a, struct batch_report *r, struct err *e)
 {

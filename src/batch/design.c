@@ -1,22 +1,572 @@
-/* See design.h. The parts in order: rules (design_rules), what is changed (design_factors, design_changes, design_columns), cells (design_cells), stimuli
-   (design_stimuli), names (design_names). Each step tells all its errors; the later ones need the earlier ones whole. */
-#include "batch/design.h"
+/* See design.h: a design from its text, part by part: the rules of the whole set here, then factors and what their
+   levels change (design_factors.c), cells, stimuli (design_rows.c) and names (design_names.c). Each part reports all
+   its errors; the later ones need the earlier ones whole. design_scene only reads design, base and all that is laid
+   over it: any number of threads may ask for scenes at once. */
+#include "batch/design_reading.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "batch/design_cells.h"
-#include "batch/design_factors.h"
-#include "batch/design_names.h"
-#include "batch/design_rules.h"
-#include "batch/design_stimuli.h"
-#include "batch/design_text.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "file/yaml_bytes.h"
 #include "file/yaml_parse.h"
 #include "scene/keys_text.h"
+#include "scene/scene_places.h"
+#include "scene/scene_read.h"
+#include "scene/scene_values.h"
 
-static const char *const keys[] = {"rasp-design", "title", "text", "base", "seed",  "set",  "factors", "exclude", "cells", "recordings", "replicates",
-                                   "independent", "order", "name", "level", "length", NULL};
+/* ------------------------------------------------------------------ what the parts share */
+
+struct yaml_node *design_reading_value(const struct design_reading *r, const char *key)
+{
+    struct yaml_node *node = yaml_get(r->root, key);
+    return node && yaml_null(node) ? NULL : node;
+}
+
+bool design_reading_must(const struct design_reading *r, const struct yaml_node *node, const char *label,
+                         const char *be, const char *cure)
+{
+    return diag_add(r->yaml->diag, node->at, cure, "%s must be %s, not %s", label, be,
+                    node->kind == YAML_LIST && node->n == 0 ? "an empty list" : scene_values_kind(r->yaml, node));
+}
+
+const char *design_reading_joined(const struct design_reading *r, const char *const *names)
+{
+    const char *all = "";
+    for (int i = 0; names[i]; i++)
+        all = i == 12  ? arena_format(r->arena, "%s, ...", all)
+              : i > 12 ? all
+                       : arena_format(r->arena, "%s%s%s", all, i ? ", " : "", names[i]);
+    return all;
+}
+
+/* "did you mean 'x'?", or what there is. */
+static const char *near_or_all(const struct design_reading *r, const char *word, const char *const *names,
+                               const char *there)
+{
+    const char *near = text_nearest(word, names);
+    return near ? arena_format(r->arena, "did you mean '%s'?", near)
+                : arena_format(r->arena, "%s: %s", there, design_reading_joined(r, names));
+}
+
+void design_reading_known(const struct design_reading *r, const struct yaml_node *map, const char *const *names,
+                          const char *in)
+{
+    for (const struct yaml_node *item = map->first; item; item = item->next) {
+        int i = 0;
+        while (names[i] && strcmp(names[i], item->key->text) != 0)
+            i++;
+        if (!names[i])
+            diag_add(r->yaml->diag, item->key->at, near_or_all(r, item->key->text, names, "keys here"),
+                     "unknown key '%s'%s", diag_shown(r->yaml->diag, item->key->text), in);
+    }
+}
+
+int design_reading_factor(const struct design_reading *r, const struct yaml_node *key)
+{
+    const struct design *d = r->design;
+    const char **names = ARENA_TAKE(r->arena, const char *, d->n_factors + 1);
+    for (int f = 0; f < d->n_factors; f++) {
+        if (strcmp(d->factors[f].name, key->text) == 0)
+            return f;
+        names[f] = d->factors[f].name;
+    }
+    diag_add(r->yaml->diag, key->at,
+             d->n_factors ? near_or_all(r, key->text, names, "factors") : "the design has no factors", "no factor '%s'",
+             diag_shown(r->yaml->diag, key->text));
+    return -1;
+}
+
+static void no_level(const struct design_reading *r, int f, const struct yaml_node *label, bool recording)
+{
+    const struct design_factor *factor = &r->design->factors[f];
+    const char **names = ARENA_TAKE(r->arena, const char *, factor->n_levels + 1);
+    for (int i = 0; i < factor->n_levels; i++)
+        names[i] = factor->levels[i].label;
+    const char *cure = near_or_all(r, label->text, names, "its levels");
+    if (recording)
+        cure = arena_format(r->arena, "%s (a level that only recordings have: - {label: %s, of: recordings})", cure,
+                            diag_shown(r->yaml->diag, label->text));
+    diag_add(r->yaml->diag, label->at, cure, "'%s' is no level of %s", diag_shown(r->yaml->diag, label->text),
+             factor->name);
+}
+
+int design_reading_level(const struct design_reading *r, int f, const struct yaml_node *label, bool recording)
+{
+    const struct design_factor *factor = &r->design->factors[f];
+    const struct yaml_node *item = r->factors[f]->first;
+    if (label->kind != YAML_SCALAR) {
+        design_reading_must(r, label, factor->name, "the label of a level",
+                            arena_format(r->arena, "write for instance: %s", factor->levels[0].label));
+        return -1;
+    }
+    for (int i = 0; i < factor->n_levels; i++, item = item->next)
+        if (strcmp(factor->levels[i].label, label->text) == 0 ||
+            (item->kind == YAML_SCALAR && strcmp(item->text, label->text) == 0))
+            return i;
+    no_level(r, f, label, recording);
+    return -1;
+}
+
+const char *design_reading_labels(const struct design *d, const int *level, struct arena *a)
+{
+    const char *all = "";
+    for (int f = 0; f < d->n_factors; f++)
+        if (level[f] >= 0)
+            all = arena_format(a, "%s%s%s", all, *all ? ", " : "", d->factors[f].levels[level[f]].label);
+    return all;
+}
+
+/* ------------------------------------------------------------------ rules of the whole set */
+
+static const char level_cure[] =
+    "write for instance: level: {common: {peak: -3 dB}}, level: {each: {lufs: -23}}, or level: scene";
+
+static bool is_text(const struct yaml_node *node, const char *word)
+{
+    return node->kind == YAML_SCALAR && strcmp(node->text, word) == 0;
+}
+
+/* ------------------------------------------------------------------ numbers */
+
+/* A whole number as a scene has it: no sign, no leading zeros. */
+static void seed_read(const struct design_reading *r, const struct yaml_node *node, const char *label, uint64_t *seed)
+{
+    if (node->kind != YAML_SCALAR || !text_u64(node->text, seed) || (node->text[0] == '0' && node->text[1]))
+        design_reading_must(r, node, label, "a whole number from 0 to 18446744073709551615",
+                            "write for instance: seed: 7");
+}
+
+static void version_read(const struct design_reading *r)
+{
+    const struct yaml_node *node = yaml_get(r->root, "rasp-design");
+    if (!node)
+        diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0},
+                 "begin with: rasp-design: 1 (rasp new design writes one)",
+                 "rasp-design is missing: is this a design?");
+    else if (!is_text(node, "1"))
+        design_reading_must(r, node, "rasp-design", "1",
+                            "this program reads designs of version 1; a newer one may read this");
+}
+
+static void replicates_read(const struct design_reading *r)
+{
+    const struct yaml_node *node = design_reading_value(r, "replicates");
+    r->design->replicates = 1;
+    if (node && (node->kind != YAML_SCALAR || !text_int(node->text, 1, DESIGN_READING_CELLS, &r->design->replicates)))
+        design_reading_must(r, node, "replicates", "a whole number from 1 to 1000000",
+                            "write for instance: replicates: 4");
+}
+
+/* ------------------------------------------------------------------ order */
+
+static void order_read(const struct design_reading *r)
+{
+    static const char *const names[] = {"seed", NULL};
+    const struct yaml_node *node = design_reading_value(r, "order"), *seed = node ? yaml_get(node, "seed") : NULL;
+    if (!node || is_text(node, "design"))
+        return;
+    if (!seed) {
+        design_reading_must(r, node, "order", "design, or {seed: NUMBER}", "write for instance: order: {seed: 7}");
+        return;
+    }
+    design_reading_known(r, node, names, " in order");
+    seed_read(r, seed, "order.seed", &r->design->order_seed);
+    r->design->shuffled = true;
+}
+
+/* ------------------------------------------------------------------ level */
+
+static double *level_field(struct level *l, const char *word)
+{
+    return !strcmp(word, "peak")           ? &l->peak
+           : !strcmp(word, "rms")          ? &l->rms
+           : !strcmp(word, "lufs")         ? &l->lufs
+           : !strcmp(word, "full_scale")   ? &l->full_scale
+           : !strcmp(word, "dbfs_at_1_pa") ? &l->dbfs_at_1_pa
+                                           : NULL;
+}
+
+static void level_value(const struct design_reading *r, const char *rule, const struct yaml_node *map)
+{
+    static const char *const names[] = {"peak", "rms", "lufs", "full_scale", "dbfs_at_1_pa", NULL};
+    const struct yaml_node *value = map->first;
+    if (map->kind != YAML_MAP || map->n != 1) {
+        diag_add(r->yaml->diag, map->at, level_cure, "level.%s must be one of: %s", rule,
+                 design_reading_joined(r, names));
+        return;
+    }
+    double *field = level_field(&r->design->level, value->key->text);
+    if (!field) {
+        design_reading_known(r, map, names, arena_format(r->arena, " in level.%s", rule));
+        return;
+    }
+    const struct key *k = keys_find(arena_format(r->arena, "output.level.%s", value->key->text));
+    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL};
+    scene_values_number(&part, k, value, arena_format(r->arena, "level.%s.%s", rule, value->key->text), field);
+}
+
+static void level_read(const struct design_reading *r)
+{
+    struct design *d = r->design;
+    const struct yaml_node *node = design_reading_value(r, "level");
+    d->level = (struct level){NAN, NAN, NAN, NAN, NAN, false};
+    d->level_rule = node && is_text(node, "scene") ? DESIGN_LEVEL_SCENE : DESIGN_LEVEL_COMMON;
+    if (!node)
+        d->level.peak = -3;
+    if (!node || d->level_rule == DESIGN_LEVEL_SCENE)
+        return;
+    const struct yaml_node *rule = node->kind == YAML_MAP && node->n == 1 ? node->first : NULL;
+    if (rule && strcmp(rule->key->text, "each") == 0)
+        d->level_rule = DESIGN_LEVEL_EACH;
+    else if (!rule || strcmp(rule->key->text, "common") != 0) {
+        diag_add(r->yaml->diag, node->at, level_cure, "level must be {common: ...}, {each: ...} or scene");
+        return;
+    }
+    level_value(r, rule->key->text, rule);
+}
+
+/* ------------------------------------------------------------------ length */
+
+static void length_read(const struct design_reading *r)
+{
+    struct design *d = r->design;
+    const struct yaml_node *node = design_reading_value(r, "length");
+    d->length_rule = DESIGN_LENGTH_LONGEST;
+    if (!node || is_text(node, "longest"))
+        return;
+    if (is_text(node, "own")) {
+        d->length_rule = DESIGN_LENGTH_OWN;
+        return;
+    }
+    d->length_rule = DESIGN_LENGTH_FIXED;
+    if (node->kind != YAML_SCALAR || text_number_length(node->text) == 0) {
+        design_reading_must(r, node, "length", "longest, own or a time", "write for instance: length: 2 s");
+        return;
+    }
+    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL};
+    scene_values_number(&part, keys_find("output.duration"), node, "length", &d->length);
+}
+
+/* ------------------------------------------------------------------ all */
+
+static struct diag_place place_of(const struct design_reading *r, const struct yaml_node *node)
+{
+    return node ? node->at : (struct diag_place){r->root->at.source, 1, 1, 0};
+}
+
+static void design_rules_read(struct design_reading *r)
+{
+    const struct yaml_node *title = design_reading_value(r, "title"), *seed = design_reading_value(r, "seed");
+    r->texts->seed = place_of(r, seed);
+    r->design->seed = 1;
+    version_read(r);
+    if (title && title->kind != YAML_SCALAR)
+        design_reading_must(r, title, "title", "a text", "write for instance: title: three materials by two rates");
+    else if (title)
+        r->design->title = title->text;
+    if (seed)
+        seed_read(r, seed, "seed", &r->design->seed);
+    replicates_read(r);
+    order_read(r);
+    level_read(r);
+    r->texts->level = place_of(r, design_reading_value(r, "level"));
+    length_read(r);
+    r->texts->length = place_of(r, design_reading_value(r, "length"));
+}
+
+static void design_rules_independent(struct design_reading *r)
+{
+    const struct yaml_node *list = design_reading_value(r, "independent");
+    if (list && list->kind != YAML_LIST) {
+        design_reading_must(r, list, "independent", "a list of factors", "write for instance: independent: [material]");
+        return;
+    }
+    for (const struct yaml_node *item = list ? list->first : NULL; item; item = item->next) {
+        int f = -1;
+        if (item->kind == YAML_SCALAR)
+            f = design_reading_factor(r, item);
+        else
+            design_reading_must(r, item, "an entry of independent", "the name of a factor", NULL);
+        if (f >= 0 && r->design->factors[f].independent)
+            diag_add(r->yaml->diag, item->at, "remove one of them", "independent names '%s' twice",
+                     diag_shown(r->yaml->diag, item->text));
+        else if (f >= 0)
+            r->design->factors[f].independent = true;
+    }
+}
+
+/* ------------------------------------------------------------------ texts of trials */
+
+static const char text_cure[] = "write for instance: text: \"a {motion} on {material}\"";
+
+static bool is_field(const char *s, size_t n, const char *name)
+{
+    return strlen(name) == n && strncmp(s, name, n) == 0;
+}
+
+/* ------------------------------------------------------------------ checking */
+
+static void field_check(const struct design_reading *r, const struct yaml_node *node, const char *s, size_t n)
+{
+    if (!is_field(s, n, "replicate"))
+        design_reading_factor(r, yaml_make(r->yaml, YAML_SCALAR, node->at, arena_format(r->arena, "%.*s", (int)n, s)));
+}
+
+static void fields_check(const struct design_reading *r, const struct yaml_node *node)
+{
+    for (const char *s = node->text + strcspn(node->text, "{}"); *s; s += strcspn(s, "{}")) {
+        size_t n = strcspn(s + 1, "{}");
+        if (*s == '}' || s[1 + n] != '}') {
+            diag_add(r->yaml->diag, node->at, text_cure, "a brace is left open in '%s'",
+                     diag_shown(r->yaml->diag, node->text));
+            return;
+        }
+        field_check(r, node, s + 1, n);
+        s += n + 2;
+    }
+}
+
+static void design_text_read(const struct design_reading *r)
+{
+    const struct yaml_node *node = design_reading_value(r, "text");
+    if (!node)
+        return;
+    if (node->kind != YAML_SCALAR || !*node->text) {
+        design_reading_must(r, node, "text", "what the text of a trial is", text_cure);
+        return;
+    }
+    r->design->text = node->text;
+    fields_check(r, node);
+}
+
+/* ------------------------------------------------------------------ making */
+
+/* False: the factor has no level here. */
+static bool field_put(FILE *f, const struct design *d, const struct design_stimulus *s, const char *name, size_t n)
+{
+    if (is_field(name, n, "replicate"))
+        return fprintf(f, "%d", s->replicate) > 0;
+    for (int k = 0; k < d->n_factors; k++) {
+        if (!is_field(name, n, d->factors[k].name))
+            continue;
+        const struct design_level *l = s->level[k] < 0 ? NULL : &d->factors[k].levels[s->level[k]];
+        return l && fputs(l->text ? l->text : l->label, f) >= 0;
+    }
+    return false;
+}
+
+static bool template_put(FILE *f, const struct design *d, const struct design_stimulus *s)
+{
+    for (const char *t = d->text; *t;) {
+        size_t n = strcspn(t, "{");
+        fprintf(f, "%.*s", (int)n, t);
+        t += n;
+        size_t m = *t ? strcspn(t + 1, "}") : 0;
+        if (*t && !field_put(f, d, s, t + 1, m))
+            return false;
+        t += *t ? m + 2 : 0;
+    }
+    return true;
+}
+
+/* Of a recording, what it says itself. */
+static const char *own_text(const struct design *d, const struct design_stimulus *s)
+{
+    const struct yaml_node *entry = s->recording ? d->texts->cells[s->cell].entry : NULL,
+                           *own = entry ? yaml_get(entry, "text") : NULL;
+    return own ? own->text : NULL;
+}
+
+const char *design_text(const struct design *d, int i, struct arena *a)
+{
+    const struct design_stimulus *s = &d->stimuli[i];
+    char *memory = NULL;
+    size_t size = 0;
+    if (own_text(d, s) || !d->text)
+        return own_text(d, s);
+    FILE *f = memory_stream(&memory, &size);
+    bool whole = template_put(f, d, s);
+    memory_stream_end(f, &memory);
+    const char *text = whole ? arena_text(a, memory) : NULL;
+    free(memory);
+    return text;
+}
+
+/* ------------------------------------------------------------------ scenes */
+
+struct layer {
+    struct scene_layer_key *keys;
+    int n;
+};
+
+static void add(struct layer *l, const struct design_change *c)
+{
+    if (c->n > 0)
+        memcpy(l->keys + l->n, c->keys, (size_t)c->n * sizeof *c->keys);
+    l->n += c->n;
+}
+
+/* The design's seed in this stimulus, as a key of the scene. */
+static struct scene_layer_key seed_key(struct yaml *y, const struct design *d, int i)
+{
+    struct yaml_node **path = ARENA_TAKE(y->arena, struct yaml_node *, 2);
+    struct diag_place at = d->texts->seed;
+    path[0] = yaml_make(y, YAML_SCALAR, at, "seed");
+    return (struct scene_layer_key){
+        path, yaml_make(y, YAML_SCALAR, at, arena_format(y->arena, "%llu", (unsigned long long)d->stimuli[i].seed))};
+}
+
+static int most_keys(const struct design *d, const int *level)
+{
+    int n = d->texts->set.n + 1;
+    for (int f = 0; f < d->n_factors; f++)
+        n += d->texts->levels[f][level[f]].n;
+    return n;
+}
+
+bool design_scene(const struct design *d, int i, struct arena *a, struct scene *s, const char **messages, struct err *e)
+{
+    const struct design_texts *t = d->texts;
+    const int *level = d->stimuli[i].level;
+    const char *base = d->base;
+    const struct yaml_node *named = t->base;
+    *messages = "";
+    if (d->stimuli[i].recording)
+        return err_set(e, ERR_USAGE, "%s is a recording: it has no scene", d->stimuli[i].recording);
+    struct layer l = {ARENA_TAKE(a, struct scene_layer_key, most_keys(d, level)), 0};
+    add(&l, &t->set);
+    for (int f = 0; f < d->n_factors; f++) {
+        const struct design_change *c = &t->levels[f][level[f]];
+        add(&l, c);
+        base = c->base ? d->factors[f].levels[level[f]].base : base;
+        named = c->base ? c->base : named;
+    }
+    l.keys[l.n++] = seed_key(yaml_open(a), d, i);
+    const struct scene_layer layer = {named->at, l.keys, l.n};
+    return scene_read(base, &(struct scene_overrides){.layer = &layer}, a, s, messages, e);
+}
+
+bool design_scene_recording(const struct design *d, int i, struct err *e)
+{
+    const struct diag_place *at = &yaml_get(d->texts->cells[d->stimuli[i].cell].entry, "file")->at;
+    char name[sizeof e->text], number[32];
+    text_show(at->source->name, name, sizeof name);
+    int file = (int)strlen(name), rest = snprintf(number, sizeof number, ":%d:%d: ", at->line, at->column);
+    err_at(e, "%s:%d:%d", at->source->name, at->line, at->column);
+    e->place = (struct err_place){file, file + rest, at->line, at->column, at->width};
+    return false;
+}
+
+void design_scene_places(const struct design *d, struct scene *s, struct arena *a)
+{
+    if (d->level_rule != DESIGN_LEVEL_SCENE)
+        scene_places_move(s, "output.level", "level", &d->texts->level, a);
+    if (d->length_rule == DESIGN_LENGTH_FIXED)
+        scene_places_move(s, "output.duration", "length", &d->texts->length, a);
+}
+
+/* ------------------------------------------------------------------ the list */
+
+struct table {
+    const struct design *d;
+    FILE *f;
+    const char *const *states; /* NULL: none */
+    int *width;                /* [columns] */
+    bool replicates, recordings;
+};
+
+enum { COLUMN_NAME, COLUMN_REPLICATE, COLUMN_SEED, COLUMN_RECORDING, COLUMN_STATE, COLUMN_FACTORS };
+
+static bool shown(const struct table *t, int column)
+{
+    return (column != COLUMN_REPLICATE || t->replicates) && (column != COLUMN_RECORDING || t->recordings) &&
+           (column != COLUMN_STATE || t->states);
+}
+
+/* The cell_text's text, row -1 the head; `number` is room for numbers. */
+static const char *cell_text(const struct table *t, int row, int column, char number[24])
+{
+    static const char *const heads[] = {"name", "replicate", "seed", "recording", "state"};
+    const struct design_stimulus *s = row < 0 ? NULL : &t->d->stimuli[row];
+    if (column >= COLUMN_FACTORS)
+        return s ? design_label(t->d, row, column - COLUMN_FACTORS) : t->d->factors[column - COLUMN_FACTORS].name;
+    if (!s || column == COLUMN_NAME)
+        return s ? s->name : heads[column];
+    if (column == COLUMN_RECORDING)
+        return s->recording ? s->recording : "n/a";
+    if (column == COLUMN_STATE)
+        return t->states ? t->states[row] : "";
+    if (s->recording)
+        return "n/a";
+    snprintf(number, 24, "%llu",
+             column == COLUMN_SEED ? (unsigned long long)s->seed : (unsigned long long)s->replicate);
+    return number;
+}
+
+static int width_of(const char *text) { return (int)text_utf8_count(text, strlen(text)); }
+
+static void widths(struct table *t)
+{
+    char number[24];
+    for (int row = -1; row < t->d->n_stimuli; row++)
+        for (int c = 0; c < COLUMN_FACTORS + t->d->n_factors; c++) {
+            int n = width_of(cell_text(t, row, c, number));
+            t->width[c] = n > t->width[c] ? n : t->width[c];
+        }
+}
+
+static void put_cell(const struct table *t, int row, int column, bool last)
+{
+    char number[24];
+    const char *text = cell_text(t, row, column, number);
+    fprintf(t->f, "  %s%*s", text, last ? 0 : t->width[column] - width_of(text), "");
+}
+
+/* Name and labels first, then what follows from them. */
+static void put_row(const struct table *t, int row, int digits)
+{
+    int last = shown(t, COLUMN_STATE) ? COLUMN_STATE : shown(t, COLUMN_RECORDING) ? COLUMN_RECORDING : COLUMN_SEED;
+    if (row < 0)
+        fprintf(t->f, "%*s", digits, "#");
+    else
+        fprintf(t->f, "%*d", digits, row + 1);
+    put_cell(t, row, COLUMN_NAME, false);
+    for (int f = 0; f < t->d->n_factors; f++)
+        put_cell(t, row, COLUMN_FACTORS + f, false);
+    for (int c = COLUMN_REPLICATE; c <= last; c++)
+        if (shown(t, c))
+            put_cell(t, row, c, c == last);
+    fputc('\n', t->f);
+}
+
+void design_print(const struct design *d, const bool *mine, const char *const *states, FILE *f)
+{
+    struct arena *a = arena_open();
+    struct table t = {.d = d,
+                      .f = f,
+                      .states = states,
+                      .width = ARENA_TAKE(a, int, COLUMN_FACTORS + d->n_factors),
+                      .replicates = d->replicates > 1};
+    int digits = snprintf(NULL, 0, "%d", d->n_stimuli);
+    for (int i = 0; i < d->n_stimuli; i++)
+        t.recordings = t.recordings || d->stimuli[i].recording;
+    widths(&t);
+    for (int row = -1; row < d->n_stimuli; row++)
+        if (row < 0 || !mine || mine[row])
+            put_row(&t, row, digits);
+    arena_close(a);
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static const char *const keys[] = {"rasp-design", "title",   "text",  "base",       "seed",       "set",
+                                   "factors",     "exclude", "cells", "recordings", "replicates", "independent",
+                                   "order",       "name",    "level", "length",     NULL};
 
 /* The parts after another, as far as the earlier ones are good. */
 static void parts_read(struct design_reading *r)
@@ -29,23 +579,25 @@ static void parts_read(struct design_reading *r)
     design_names_template(r);
     design_text_read(r);
     if (errors->n == 0)
-        design_cells_make(r);
+        design_rows_cells(r);
     if (errors->n == 0)
-        design_stimuli_make(r);
+        design_rows_stimuli(r);
     if (errors->n == 0)
         design_names_make(r);
     r->texts->cells = r->cells;
     if (errors->n == 0)
-        design_stimuli_hash(r);
+        design_rows_hash(r);
 }
 
 /* A design of another version: what else looks wrong in it need not be. */
 static bool another_version(struct yaml *y, const struct yaml_node *root)
 {
     const struct yaml_node *node = yaml_get(root, "rasp-design");
-    if (!node || node->kind != YAML_SCALAR || !*node->text || strspn(node->text, "0123456789") != strlen(node->text) || strcmp(node->text, "1") == 0)
+    if (!node || node->kind != YAML_SCALAR || !*node->text || strspn(node->text, "0123456789") != strlen(node->text) ||
+        strcmp(node->text, "1") == 0)
         return false;
-    diag_add(y->diag, node->at, "this program reads designs of version 1, written rasp-design: 1; a newer one may read this design",
+    diag_add(y->diag, node->at,
+             "this program reads designs of version 1, written rasp-design: 1; a newer one may read this design",
              "rasp-design must be 1, not '%s'", diag_shown(y->diag, node->text));
     return true;
 }
@@ -57,19 +609,23 @@ static bool a_scene(struct yaml *y, const struct yaml_node *root)
     if (!node || yaml_get(root, "rasp-design"))
         return false;
     y->diag->n = 0;
-    diag_add(y->diag, node->key->at, "rasp render renders it, rasp check checks it; rasp new design writes a starter design", "this is a scene, not a design of many scenes");
+    diag_add(y->diag, node->key->at,
+             "rasp render renders it, rasp check checks it; rasp new design writes a starter design",
+             "this is a scene, not a design of many scenes");
     return true;
 }
 
 static void text_read(struct yaml *y, const struct diag_source *source, struct design *d)
 {
     struct yaml_node *root = yaml_parse(y, source);
-    struct design_reading r = {.yaml = y, .arena = y->arena, .root = root, .design = d, .texts = ARENA_TAKE(y->arena, struct design_texts, 1)};
+    struct design_reading r = {
+        .yaml = y, .arena = y->arena, .root = root, .design = d, .texts = ARENA_TAKE(y->arena, struct design_texts, 1)};
     d->texts = r.texts;
     if (!root)
         return;
     if (root->kind != YAML_MAP) {
-        diag_add(y->diag, root->at, "write keys with values, such as: base: scrape.yaml", "a design must be a map of keys");
+        diag_add(y->diag, root->at, "write keys with values, such as: base: scrape.yaml",
+                 "a design must be a map of keys");
         return;
     }
     if (another_version(y, root) || a_scene(y, root))
@@ -91,7 +647,8 @@ bool design_read(const char *file, struct arena *a, struct design *d, const char
     if (y->diag->n == 0)
         return true;
     *messages = diag_text(y->diag);
-    return err_set(e, y->missing ? interrupt_seen() ? ERR_INTERRUPTED : ERR_INPUT : ERR_SCENE, "%s", diag_first(y->diag));
+    return err_set(e, y->missing ? interrupt_seen() ? ERR_INTERRUPTED : ERR_INPUT : ERR_SCENE, "%s",
+                   diag_first(y->diag));
 }
 
 const char *design_label(const struct design *d, int i, int factor)

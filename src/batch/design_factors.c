@@ -1,21 +1,453 @@
-/* See design_factors.h. A factor that is named by a key of scenes has values of that key as levels, or maps; any other has maps alone. */
-#include "batch/design_factors.h"
+/* `base`, `set` and `factors` of a design. A factor that is named by a key of scenes has values of that key as levels,
+   or maps; any other has maps alone.
+
+   What a level, or `set`, changes of a scene are keys and values. A value is read here into a struct that nobody looks
+   at, so that what is wrong with it is told once, with the design's line, and not for each of the scenes that it is
+   laid over.
+
+   Columns of the manifest are called lower_snake with the unit at the end (motion_rate_hz, speed_cm_per_s), as tables
+   are read by programs that take no other: PsychoPy, R, BIDS. A factor whose labels are all quantities of one dimension
+   has numbers: in the unit that they are written with where it is the same for all, else in SI. */
+#include "batch/design_reading.h"
 
 #include <ctype.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch/design_changes.h"
-#include "batch/design_columns.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "scene/keys_text.h"
+#include "scene/keys_yaml.h"
 #include "scene/scene_merge.h"
 #include "scene/scene_values.h"
+#include "scene/units.h"
+#include "scene/units_table.h"
+
+/* ------------------------------------------------------------------ what is changed */
+
+static const struct key *design_changes_key(const char *path) { return keys_find(keys_text_plain(path)); }
+
+/* ------------------------------------------------------------------ paths */
+
+static bool is_one_of(const char *path, const char *const *names)
+{
+    for (; *names; names++)
+        if (strcmp(*names, path) == 0)
+            return true;
+    return false;
+}
+
+static const char *design_changes_near(const struct design_reading *r, const char *word)
+{
+    const char *found = NULL;
+    for (const char *const *name = r->keys; *name; name++) {
+        const char *dot = strrchr(*name, '.');
+        if (dot && strcmp(dot + 1, word) == 0)
+            found = found ? arena_format(r->arena, "%s or %s", found, *name) : *name;
+    }
+    return found ? found : text_nearest(word, r->keys);
+}
+
+static bool design_changes_known(const struct design_reading *r, const struct yaml_node *key)
+{
+    const char *plain = keys_text_plain(key->text);
+    if (is_one_of(plain, r->keys))
+        return true;
+    const char *near = design_changes_near(r, plain);
+    return diag_add(r->yaml->diag, key->at,
+                    near ? arena_format(r->arena, "did you mean %s?", near) : "rasp explain lists every key of a scene",
+                    "'%s' is no key of scenes", diag_shown(r->yaml->diag, key->text));
+}
+
+static bool starts(const char *path, const char *map)
+{
+    size_t n = strlen(map);
+    return strncmp(path, map, n) == 0 && (!path[n] || path[n] == '.');
+}
+
+/* A factor's key is looked at for each of its levels. */
+static bool is_told(const struct diag *d, const struct diag_place *at)
+{
+    for (int i = 0; i < d->n && i < DIAG_KEPT; i++)
+        if (d->errors[i].at.source == at->source && d->errors[i].at.line == at->line &&
+            d->errors[i].at.column == at->column)
+            return true;
+    return false;
+}
+
+/* Keys that are the design's to say. */
+static bool reserved(const struct design_reading *r, const struct yaml_node *key)
+{
+    const char *cure = NULL;
+    const struct design *d = r->design;
+    if (strcmp(key->text, "seed") == 0)
+        cure = "write seed: at the design's top level: each stimulus's seed is made from it; replicates: gives several";
+    else if (strcmp(key->text, "include") == 0)
+        cure = "write include: into the base scene";
+    else if (strcmp(key->text, "rasp") == 0)
+        cure = "remove it";
+    else if (starts(key->text, "output.level") && d->level_rule != DESIGN_LEVEL_SCENE)
+        cure = "the design has one level rule for the set (level:, by default {common: {peak: -3 dB}}); write level: "
+               "scene to set levels here";
+    else if (starts(key->text, "output.duration") && d->length_rule != DESIGN_LENGTH_OWN)
+        cure = "the design has one length rule for the set (length:, by default longest); write length: own to set "
+               "durations here";
+    return cure && (is_told(r->yaml->diag, &key->at) ||
+                    !diag_add(r->yaml->diag, key->at, cure, "%s cannot be set here", key->text));
+}
+
+/* ------------------------------------------------------------------ values */
+
+/* "contacts.rod." */
+static const char *prefix_of(const char *path, struct arena *a)
+{
+    return arena_format(a, "%.*s", (int)(keys_text_plain(path) - path), path);
+}
+
+static bool value_good(const struct design_reading *r, const char *path, const struct yaml_node *value)
+{
+    const struct key *k = design_changes_key(path);
+    size_t size = sizeof(struct scene) > sizeof(struct contact) ? sizeof(struct scene) : sizeof(struct contact);
+    if (!k || yaml_null(value))
+        return true;
+    struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
+    struct scene_part part = {r->yaml, r->root, prefix_of(path, own), k->of, arena_take(own, 1, size)};
+    bool good = scene_values_read(&part, k, value);
+    arena_close(own);
+    return good;
+}
+
+static bool leaf_add(const struct design_reading *r, struct design_change *c, const struct yaml_node *key,
+                     const struct yaml_node *value)
+{
+    if (reserved(r, key) || !design_changes_known(r, key) || !value_good(r, key->text, value))
+        return false;
+    struct yaml_node **path = scene_layer_path(r->yaml, key);
+    if (!path)
+        return false;
+    if (c->n == c->room) {
+        c->room = 2 * c->room + 4;
+        struct scene_layer_key *more = ARENA_TAKE(r->arena, struct scene_layer_key, c->room);
+        if (c->n > 0)
+            memcpy(more, c->keys, (size_t)c->n * sizeof *more);
+        c->keys = more;
+    }
+    c->keys[c->n++] = (struct scene_layer_key){path, value};
+    return true;
+}
+
+static bool design_changes_add(const struct design_reading *r, struct design_change *c, const struct yaml_node *key,
+                               const struct yaml_node *value)
+{
+    bool good = true;
+    if (value->kind != YAML_MAP || value->n == 0)
+        return leaf_add(r, c, key, value);
+    for (const struct yaml_node *item = value->first; item; item = item->next) {
+        struct yaml_node *path =
+            yaml_make(r->yaml, YAML_SCALAR, item->key->at, arena_format(r->arena, "%s.%s", key->text, item->key->text));
+        path->plain = false; /* its place is that of the last part */
+        good = design_changes_add(r, c, path, item) && good;
+    }
+    return good;
+}
+
+static bool design_changes_map(const struct design_reading *r, struct design_change *c, const struct yaml_node *map)
+{
+    bool good = true;
+    if (map->kind != YAML_MAP)
+        return design_reading_must(r, map, "set", "a map of keys of a scene",
+                                   "write for instance: set: {motion.rate: 2 Hz}");
+    for (const struct yaml_node *item = map->first; item; item = item->next)
+        good = design_changes_add(r, c, item->key, item) && good;
+    return good;
+}
+
+/* ------------------------------------------------------------------ texts */
+
+static const char *scalar_text(const struct yaml_node *node, bool alone, struct arena *a)
+{
+    static const char safe[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./+-^() ";
+    bool plain = *node->text && node->plain &&
+                 (alone ? !strchr("[{\"'", node->text[0]) : node->text[strspn(node->text, safe)] == '\0');
+    return plain ? node->text : keys_yaml_quoted(node->text, a);
+}
+
+static void put_text(FILE *f, const struct yaml_node *node, bool alone, struct arena *a)
+{
+    if (node->kind == YAML_SCALAR) {
+        fputs(scalar_text(node, alone, a), f);
+        return;
+    }
+    fputc(node->kind == YAML_MAP ? '{' : '[', f);
+    for (const struct yaml_node *item = node->first; item; item = item->next) {
+        if (node->kind == YAML_MAP)
+            fprintf(f, "%s: ", scalar_text(item->key, false, a));
+        put_text(f, item, false, a);
+        fputs(item->next ? ", " : "", f);
+    }
+    fputc(node->kind == YAML_MAP ? '}' : ']', f);
+}
+
+static const char *design_changes_text(const struct yaml_node *value, struct arena *a)
+{
+    char *memory = NULL;
+    size_t size = 0;
+    FILE *f = memory_stream(&memory, &size);
+    put_text(f, value, true, a);
+    memory_stream_end(f, &memory);
+    const char *text = arena_text(a, memory);
+    free(memory);
+    return text;
+}
+
+static const char *path_text(struct yaml_node *const *path, struct arena *a)
+{
+    const char *all = "";
+    for (; *path; path++)
+        all = arena_format(a, "%s%s%s", all, *all ? "." : "", (*path)->text);
+    return all;
+}
+
+static const char **design_changes_texts(const struct design_change *c, struct arena *a)
+{
+    const char **all = ARENA_TAKE(a, const char *, c->n + 1);
+    for (int i = 0; i < c->n; i++)
+        all[i] = arena_format(a, "%s=%s", path_text(c->keys[i].path, a), design_changes_text(c->keys[i].value, a));
+    return all;
+}
+
+/* ------------------------------------------------------------------ columns */
+
+struct measure {
+    const char *number, *unit; /* as written; the unit "": none */
+    size_t size;               /* characters of the number      */
+    enum key_dimension dimension;
+};
+
+/* ------------------------------------------------------------------ quantities */
+
+/* `bare` is the dimension of a number without a unit. False: the label is none. */
+static bool quantity_of(const char *label, enum key_dimension bare, struct measure *q)
+{
+    int power;
+    double x;
+    size_t n = text_number_length(label);
+    const char *unit = label + n + strspn(label + n, " \t");
+    const struct units_table_unit *u = *unit ? units_table_find(unit, &power) : NULL;
+    if (n == 0 || (*unit && !u) || !text_scaled(label, n, 0, &x))
+        return false;
+    *q = (struct measure){label, *unit ? unit : keys_text_unit(bare), n, u ? u->dimension : bare};
+    return true;
+}
+
+static const char *number_as_written(const struct measure *q, struct arena *a)
+{
+    double x = 0;
+    text_scaled(q->number, q->size, 0, &x);
+    return keys_yaml_number(x, a);
+}
+
+static const char *number_si(const char *label, enum key_dimension d, struct arena *a)
+{
+    struct units_fault fault;
+    double x = 0;
+    units_read(label, d, &x, a, &fault);
+    return keys_yaml_number(x, a);
+}
+
+static bool of_numbers(const struct key *k)
+{
+    return k->type == KEY_NUMBER || k->type == KEY_WHOLE || k->type == KEY_COUNT || k->type == KEY_TIME_OR_AUTO;
+}
+
+/* Are the labels quantities of one dimension, those of levels that scenes have? Then that of each (number NULL: a
+   recorded one that is none), and whether all have the same unit; the first. NULL: they are not */
+static const struct measure *quantities(const struct design_factor *f, struct measure *q, bool *same)
+{
+    const struct key *k = design_changes_key(f->name);
+    const struct measure *first = NULL;
+    for (int i = 0; i < f->n_levels && !(k && !of_numbers(k)); i++) {
+        bool good = quantity_of(f->levels[i].label, k ? k->dimension : KEY_NONE, &q[i]);
+        if (f->levels[i].recorded)
+            continue;
+        if (!good || (first && q[i].dimension != first->dimension))
+            return NULL;
+        first = first ? first : &q[i];
+    }
+    *same = true;
+    for (int i = 0; first && i < f->n_levels; i++)
+        if (q[i].number && q[i].dimension == first->dimension)
+            *same = *same && strcmp(q[i].unit, first->unit) == 0;
+        else
+            q[i].number = NULL;
+    return first;
+}
+
+static void values_make(const struct design_reading *r, struct design_factor *f)
+{
+    struct measure *q = ARENA_TAKE(r->arena, struct measure, f->n_levels + 1);
+    const struct yaml_node *item = r->factors[f - r->design->factors]->first;
+    bool same;
+    const struct measure *first = quantities(f, q, &same);
+    for (int i = 0; i < f->n_levels; i++, item = item->next) {
+        bool number = first && q[i].number;
+        f->levels[i].value = !number ? f->levels[i].label
+                             : same  ? number_as_written(&q[i], r->arena)
+                                     : number_si(f->levels[i].label, q[i].dimension, r->arena);
+        if (first && !number)
+            diag_add(r->yaml->diag, item->at,
+                     "leave the factor out of the recording, whose cell in that column is n/a then; a condition of its "
+                     "own is a level of a factor that is a word",
+                     "'%s' is no quantity as the other levels of %s are, whose column holds numbers",
+                     diag_shown(r->yaml->diag, f->levels[i].label), f->name);
+    }
+    const char *unit = !first ? "" : same ? first->unit : keys_text_unit(first->dimension);
+    f->unit = *unit ? unit : NULL;
+}
+
+static int by_value(const void *pa, const void *pb)
+{
+    const struct design_level *const *a = pa, *const *b = pb;
+    int order = strcmp((*a)->value, (*b)->value);
+    return order ? order : *a < *b ? -1 : *a > *b;
+}
+
+/* 2 Hz and 2.0 Hz would be one in the manifest. */
+static void values_differ(const struct design_reading *r, int f)
+{
+    const struct design_factor *factor = &r->design->factors[f];
+    struct design_level **sorted = ARENA_TAKE(r->arena, struct design_level *, factor->n_levels + 1);
+    for (int i = 0; i < factor->n_levels; i++)
+        sorted[i] = &factor->levels[i];
+    qsort(sorted, (size_t)factor->n_levels, sizeof *sorted, by_value);
+    for (int i = 1; i < factor->n_levels; i++) {
+        const struct yaml_node *item = r->factors[f]->first;
+        const char *labels[2] = {sorted[i - 1]->label, sorted[i]->label};
+        if (strcmp(sorted[i]->value, sorted[i - 1]->value) != 0 || strcmp(labels[0], labels[1]) == 0)
+            continue;
+        for (long at = sorted[i] - factor->levels; at > 0; at--)
+            item = item->next;
+        diag_add(r->yaml->diag, item->at, "remove one of them, or label them with words: - {label: slow, value: 2 Hz}",
+                 "the levels '%s' and '%s' of %s are the same number", diag_shown(r->yaml->diag, labels[0]),
+                 diag_shown(r->yaml->diag, labels[1]), factor->name);
+    }
+}
+
+/* ------------------------------------------------------------------ names */
+
+struct name {
+    char *to;
+    size_t n;
+};
+
+static void put(struct name *name, const char *s)
+{
+    for (; *s; s++)
+        if (*s != '_' || (name->n > 0 && name->to[name->n - 1] != '_'))
+            name->to[name->n++] = (char)tolower((unsigned char)*s);
+}
+
+/* What stands for a character of a unit that no name has; *n: its bytes. */
+static const char *spelt(const char *s, int *n)
+{
+    static const struct {
+        const char *of, *by;
+    } signs[] = {{"/", "_per_"},    {"^", ""},         {"(", ""},         {")", ""},          {"\xc2\xb5", "u"},
+                 {"\xce\xbc", "u"}, {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "deg"}};
+    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
+        if (strncmp(s, signs[i].of, strlen(signs[i].of)) == 0) {
+            *n = (int)strlen(signs[i].of);
+            return signs[i].by;
+        }
+    *n = 1;
+    return "_";
+}
+
+/* "_cm_per_s"; mega is written out, as milli and mega differ by case alone. */
+static void put_unit(struct name *name, const char *unit)
+{
+    put(name, "_");
+    if (strncmp(unit, "1/", 2) == 0)
+        unit++;
+    if (unit[0] == 'M' && unit[1]) {
+        put(name, "mega");
+        unit++;
+    }
+    for (int n; *unit; unit += n) {
+        const char letter[2] = {*unit, '\0'};
+        n = 1;
+        put(name, isalnum((unsigned char)*unit) ? letter : spelt(unit, &n));
+    }
+}
+
+static const char *column_of(const struct design_factor *f, struct arena *a)
+{
+    struct name name = {arena_take(a, 8 * (strlen(f->name) + (f->unit ? strlen(f->unit) : 0)) + 16, 1), 0};
+    for (const char *s = f->name; *s; s++) {
+        const char letter[2] = {*s, '\0'};
+        put(&name, isalnum((unsigned char)*s) ? letter : "_");
+    }
+    if (f->unit)
+        put_unit(&name, f->unit);
+    while (name.n > 0 && name.to[name.n - 1] == '_')
+        name.n--;
+    name.to[name.n] = '\0';
+    return name.to;
+}
+
+static void column_check(const struct design_reading *r, int f)
+{
+    static const char *const taken[] = {"file_name",      "stimulus_id",
+                                        "stim_file",      "name",
+                                        "scene_file",     "scene_sha256",
+                                        "plan_row",       "row",
+                                        "seed",           "sample_rate_hz",
+                                        "channels",       "frames",
+                                        "duration_s",     "encoding",
+                                        "level_mode",     "gain_db",
+                                        "rms_dbfs",       "peak_dbfs",
+                                        "true_peak_dbtp", "loudness_lufs",
+                                        "onset_ramp_s",   "offset_ramp_s",
+                                        "audio_sha256",   "file_sha256",
+                                        "job_hash",       "tool_version",
+                                        "status",         "recording",
+                                        "full_scale",     "replicate",
+                                        "text",           "error",
+                                        "error_code",     NULL};
+    const char *column = r->design->factors[f].column, *of = NULL;
+    for (int i = 0; taken[i]; i++)
+        of = strcmp(column, taken[i]) == 0 ? "the manifest's own" : of;
+    for (int i = 0; i < f; i++)
+        of = strcmp(column, r->design->factors[i].column) == 0
+                 ? arena_format(r->arena, "that of %s", r->design->factors[i].name)
+                 : of;
+    if (of)
+        diag_add(r->yaml->diag, r->factors[f]->key->at, "call the factor otherwise",
+                 "the manifest's column of %s would be called %s, as is %s", r->design->factors[f].name, column, of);
+}
+
+static void design_columns_make(struct design_reading *r)
+{
+    for (int f = 0; f < r->design->n_factors; f++) {
+        struct design_factor *factor = &r->design->factors[f];
+        const struct key *k = design_changes_key(factor->name);
+        values_make(r, factor);
+        values_differ(r, f);
+        factor->column = column_of(factor, r->arena);
+        factor->meaning = k ? k->meaning : NULL;
+        column_check(r, f);
+    }
+}
+
+/* ------------------------------------------------------------------ factors */
 
 static const char map_cure[] = "write for instance: - {label: wood, set: {surface.response: wood.csv}}";
 
 struct reading_level { /* one that is being read */
     struct design_reading *r;
     int factor, index;
-    bool key;  /* the factor's name is a key of scenes */
+    bool key; /* the factor's name is a key of scenes */
     const struct yaml_node *name;
 };
 
@@ -47,7 +479,8 @@ static void label_set(const struct reading_level *l, const struct yaml_node *nod
     if (good)
         level_of(l)->label = text;
     else
-        design_reading_must(l->r, node, "label", "a text of 1 to 100 bytes in one line", "write for instance: label: wood");
+        design_reading_must(l->r, node, "label", "a text of 1 to 100 bytes in one line",
+                            "write for instance: label: wood");
 }
 
 static int by_label(const void *pa, const void *pb)
@@ -72,7 +505,8 @@ static void labels_differ(const struct design_reading *r, int f, const struct ya
             item = item->next;
         const struct yaml_node *label = yaml_get(item, "label");
         diag_add(r->yaml->diag, label ? label->at : item->at,
-                 item->kind == YAML_SCALAR ? "remove one of them, or write - {label: ..., value: ...}" : "give each level a label of its own",
+                 item->kind == YAML_SCALAR ? "remove one of them, or write - {label: ..., value: ...}"
+                                           : "give each level a label of its own",
                  "two levels of %s are labelled '%s'", factor->name, diag_shown(r->yaml->diag, sorted[i]->label));
     }
 }
@@ -84,9 +518,10 @@ static void no_key(const struct reading_level *l, const struct yaml_node *item)
 {
     const char *near = design_changes_near(l->r, l->name->text);
     if (l->index == 0 || l->r->factors[l->factor]->first->kind != YAML_SCALAR)
-        diag_add(l->r->yaml->diag, item->at, near ? arena_format(l->r->arena, "did you mean %s? else %s", near, map_cure) : map_cure,
-                 "a level of %s must be a map, not %s: %s is no key of scenes whose values could be levels", l->name->text,
-                 scene_values_kind(l->r->yaml, item), l->name->text);
+        diag_add(l->r->yaml->diag, item->at,
+                 near ? arena_format(l->r->arena, "did you mean %s? else %s", near, map_cure) : map_cure,
+                 "a level of %s must be a map, not %s: %s is no key of scenes whose values could be levels",
+                 l->name->text, scene_values_kind(l->r->yaml, item), l->name->text);
 }
 
 static void scalar_read(const struct reading_level *l, const struct yaml_node *item)
@@ -98,7 +533,8 @@ static void scalar_read(const struct reading_level *l, const struct yaml_node *i
         return;
     }
     if (*item->text) {
-        struct yaml_node *label = yaml_make(l->r->yaml, YAML_SCALAR, item->at, k && k->type == KEY_FILE ? stem_of(item->text, a) : item->text);
+        struct yaml_node *label = yaml_make(l->r->yaml, YAML_SCALAR, item->at,
+                                            k && k->type == KEY_FILE ? stem_of(item->text, a) : item->text);
         label_set(l, label);
     }
     design_changes_add(l->r, change_of(l), l->name, item);
@@ -123,13 +559,15 @@ static void of_read(const struct reading_level *l, const struct yaml_node *map, 
     level_of(l)->recorded = true;
     for (const char *const *other = (const char *const[]){"set", "base", "value", NULL}; *other; other++)
         if (yaml_get(map, *other))
-            diag_add(l->r->yaml->diag, yaml_get(map, *other)->key->at, cure, "a level that only recordings have has no %s", *other);
+            diag_add(l->r->yaml->diag, yaml_get(map, *other)->key->at, cure,
+                     "a level that only recordings have has no %s", *other);
 }
 
 static void map_read(const struct reading_level *l, const struct yaml_node *map)
 {
     static const char *const names[] = {"label", "text", "set", "base", "value", "of", NULL};
-    const struct yaml_node *label = yaml_get(map, "label"), *set = yaml_get(map, "set"), *base = yaml_get(map, "base"), *value = yaml_get(map, "value");
+    const struct yaml_node *label = yaml_get(map, "label"), *set = yaml_get(map, "set"), *base = yaml_get(map, "base"),
+                           *value = yaml_get(map, "value");
     const struct yaml_node *text = yaml_get(map, "text");
     design_reading_known(l->r, map, names, " in a level");
     if (label)
@@ -139,11 +577,13 @@ static void map_read(const struct reading_level *l, const struct yaml_node *map)
     if (value && l->key)
         design_changes_add(l->r, change_of(l), l->name, value);
     else if (value)
-        diag_add(l->r->yaml->diag, value->key->at, map_cure, "value needs a factor that is a key of scenes, which %s is not", l->name->text);
+        diag_add(l->r->yaml->diag, value->key->at, map_cure,
+                 "value needs a factor that is a key of scenes, which %s is not", l->name->text);
     if (set && !yaml_null(set))
         design_changes_map(l->r, change_of(l), set);
     if (text && text->kind != YAML_SCALAR)
-        design_reading_must(l->r, text, "text", "what a trial says of the level", "write for instance: text: a plank of poplar");
+        design_reading_must(l->r, text, "text", "what a trial says of the level",
+                            "write for instance: text: a plank of poplar");
     else if (text)
         level_of(l)->text = text->text;
     if (base)
@@ -160,8 +600,8 @@ static void level_read(const struct reading_level *l, const struct yaml_node *it
     else if (item->kind == YAML_SCALAR)
         scalar_read(l, item);
     else
-        diag_add(l->r->yaml->diag, item->at, l->key ? "write: - {label: ..., value: [...]}" : map_cure, "a level of %s that is a list needs a label",
-                 l->name->text);
+        diag_add(l->r->yaml->diag, item->at, l->key ? "write: - {label: ..., value: [...]}" : map_cure,
+                 "a level of %s that is a list needs a label", l->name->text);
     level_of(l)->set = design_changes_texts(change_of(l), l->r->arena);
 }
 
@@ -184,9 +624,12 @@ static bool name_good(const struct design_reading *r, const struct yaml_node *na
         return design_changes_known(r, name);
     for (int i = 0; taken[i]; i++)
         if (strcmp(name->text, taken[i]) == 0)
-            return diag_add(r->yaml->diag, name->at, "call the factor otherwise", "%s has a meaning of its own in names: a factor cannot be called so", name->text);
-    return is_word(name->text) || diag_add(r->yaml->diag, name->at, "write for instance: material", "a factor must be a key of scenes, or a word (letters, digits, _ and -, a letter first), not '%s'",
-                                           diag_shown(r->yaml->diag, name->text));
+            return diag_add(r->yaml->diag, name->at, "call the factor otherwise",
+                            "%s has a meaning of its own in names: a factor cannot be called so", name->text);
+    return is_word(name->text) ||
+           diag_add(r->yaml->diag, name->at, "write for instance: material",
+                    "a factor must be a key of scenes, or a word (letters, digits, _ and -, a letter first), not '%s'",
+                    diag_shown(r->yaml->diag, name->text));
 }
 
 static void factor_read(struct design_reading *r, int f, const struct yaml_node *list)
@@ -198,7 +641,9 @@ static void factor_read(struct design_reading *r, int f, const struct yaml_node 
     factor->levels = ARENA_TAKE(r->arena, struct design_level, list->n + 1);
     r->texts->levels[f] = ARENA_TAKE(r->arena, struct design_change, list->n + 1);
     if (list->kind != YAML_LIST || list->n == 0) {
-        design_reading_must(r, list, factor->name, list->kind == YAML_LIST ? "a list of one level or more" : "a list of levels", key ? "write the values in brackets: [1 Hz, 2 Hz]" : map_cure);
+        design_reading_must(r, list, factor->name,
+                            list->kind == YAML_LIST ? "a list of one level or more" : "a list of levels",
+                            key ? "write the values in brackets: [1 Hz, 2 Hz]" : map_cure);
         return;
     }
     for (const struct yaml_node *item = list->first; good && item; item = item->next) {
@@ -216,12 +661,15 @@ static void keys_once(const struct design_reading *r, int f, int other)
     for (int i = 0; i < g->n_levels; i++)
         for (int k = 0; k < r->texts->levels[other][i].n; k++) {
             struct yaml_node *const *path = r->texts->levels[other][i].keys[k].path;
-            if (!*g->levels[i].label || strncmp(g->levels[i].set[k], r->design->factors[f].name, n) != 0 || g->levels[i].set[k][n] != '=')
+            if (!*g->levels[i].label || strncmp(g->levels[i].set[k], r->design->factors[f].name, n) != 0 ||
+                g->levels[i].set[k][n] != '=')
                 continue;
             while (path[1])
                 path++;
-            diag_add(r->yaml->diag, (*path)->at, "remove it here, or make the other a factor of levels {label: ..., set: ...}", "%s is a factor: '%s' of %s must not set it",
-                     r->design->factors[f].name, diag_shown(r->yaml->diag, g->levels[i].label), g->name);
+            diag_add(r->yaml->diag, (*path)->at,
+                     "remove it here, or make the other a factor of levels {label: ..., set: ...}",
+                     "%s is a factor: '%s' of %s must not set it", r->design->factors[f].name,
+                     diag_shown(r->yaml->diag, g->levels[i].label), g->name);
         }
 }
 
@@ -232,7 +680,8 @@ static void factors_read(struct design_reading *r, const struct yaml_node *map)
     r->texts->levels = ARENA_TAKE(r->arena, struct design_change *, n + 1);
     r->factors = ARENA_TAKE(r->arena, const struct yaml_node *, n + 1);
     if (map && map->kind != YAML_MAP)
-        design_reading_must(r, map, "factors", "a map of factors with their levels", "write for instance: factors: {motion.rate: [1 Hz, 2 Hz]}");
+        design_reading_must(r, map, "factors", "a map of factors with their levels",
+                            "write for instance: factors: {motion.rate: [1 Hz, 2 Hz]}");
     for (const struct yaml_node *item = n ? map->first : NULL; item; item = item->next)
         factor_read(r, r->design->n_factors++, item);
     for (int f = 0; f < n; f++)
@@ -266,12 +715,14 @@ static void bases_check(const struct design_reading *r)
         bool every;
         int n = bases_of(r, f, &one, &every);
         if (n && some)
-            diag_add(r->yaml->diag, one->key->at, "let one factor choose the scene", "levels of two factors have a base");
+            diag_add(r->yaml->diag, one->key->at, "let one factor choose the scene",
+                     "levels of two factors have a base");
         some = some || n;
         all = all || (n && every);
     }
     if (!r->texts->base && !(all && some))
-        diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0}, "write for instance: base: scrape.yaml",
+        diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0},
+                 "write for instance: base: scrape.yaml",
                  some ? "base is missing, and not every level has one" : "base is missing");
 }
 

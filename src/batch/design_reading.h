@@ -1,4 +1,5 @@
-/* A design on its way from its text into struct design: what the parts of design_read share. Each part tells its errors and goes on. */
+/* A design on its way from its text into struct design: what the parts of design_read share. Each part tells its errors
+ * and goes on. */
 #ifndef BATCH_DESIGN_READING_H
 #define BATCH_DESIGN_READING_H
 #include "batch/design.h"
@@ -7,24 +8,24 @@
 
 enum { DESIGN_READING_CELLS = 1000000 /* stimuli at most */ };
 
-struct design_change {              /* what a level, or `set`, changes of the scene       */
+struct design_change { /* what a level, or `set`, changes of the scene       */
     struct scene_layer_key *keys;
     int n, room;
-    const struct yaml_node *base;   /* the scene's file name; NULL: not changed           */
+    const struct yaml_node *base; /* the scene's file name; NULL: not changed           */
 };
 
 struct design_cell {
-    int *level;                     /* [n_factors]                                        */
-    const struct yaml_node *entry;  /* of `cells` or `recordings`; NULL: it was crossed   */
-    const char *recording;          /* as seen from here                                  */
+    int *level;                    /* [n_factors]                                        */
+    const struct yaml_node *entry; /* of `cells` or `recordings`; NULL: it was crossed   */
+    const char *recording;         /* as seen from here                                  */
 };
 
-struct design_texts {               /* what design_scene and design_text need             */
-    const struct yaml_node *base;   /* NULL: there is none                                */
+struct design_texts {             /* what design_scene and design_text need             */
+    const struct yaml_node *base; /* NULL: there is none                                */
     struct design_change set;
-    struct design_change **levels;  /* [n_factors][n_levels]                              */
+    struct design_change **levels; /* [n_factors][n_levels]                              */
     const struct design_cell *cells;
-    struct diag_place seed;         /* where the seed is said, or the design is named     */
+    struct diag_place seed;          /* where the seed is said, or the design is named     */
     struct diag_place level, length; /* the same                                          */
 };
 
@@ -35,8 +36,8 @@ struct design_reading {
     struct design *design;
     struct design_texts *texts;
     const struct yaml_node **factors; /* [n_factors], the value of each                   */
-    const char **keys;              /* every path of scenes (keys_text_names)             */
-    struct design_cell *cells;      /* in the order of the design, recordings at the end  */
+    const char **keys;                /* every path of scenes (keys_text_names)             */
+    struct design_cell *cells;        /* in the order of the design, recordings at the end  */
     long n_cells;
     const struct design_template *template; /* of names                                   */
 };
@@ -45,10 +46,12 @@ struct design_reading {
 struct yaml_node *design_reading_value(const struct design_reading *r, const char *key);
 
 /* Tells what the node must be, and what it is; false. */
-bool design_reading_must(const struct design_reading *r, const struct yaml_node *node, const char *label, const char *be, const char *cure);
+bool design_reading_must(const struct design_reading *r, const struct yaml_node *node, const char *label,
+                         const char *be, const char *cure);
 
 /* Keys of a map that are none of these (NULL-terminated) are told; `in` follows: "unknown key 'x' in cells". */
-void design_reading_known(const struct design_reading *r, const struct yaml_node *map, const char *const *names, const char *in);
+void design_reading_known(const struct design_reading *r, const struct yaml_node *map, const char *const *names,
+                          const char *in);
 
 /* "a, b, c" */
 const char *design_reading_joined(const struct design_reading *r, const char *const *names);
@@ -60,5 +63,19 @@ int design_reading_level(const struct design_reading *r, int factor, const struc
 
 /* "wood, 2 Hz" */
 const char *design_reading_labels(const struct design *d, const int *level, struct arena *a);
+
+/* Of design_factors.c: fills the design's base, set and factors, their texts, and columns, units and values for the
+   manifest. The rules of level and length have been read: they decide what may be set. */
+void design_factors_read(struct design_reading *r);
+
+/* Of design_rows.c: the cells, once the factors have been read without error; stimuli but for their names; sha256, when
+ * all else is there. */
+void design_rows_cells(struct design_reading *r);
+void design_rows_stimuli(struct design_reading *r);
+void design_rows_hash(struct design_reading *r);
+
+/* Of design_names.c: the template into r->template; the name of every stimulus. */
+void design_names_template(struct design_reading *r);
+void design_names_make(struct design_reading *r);
 
 #endif

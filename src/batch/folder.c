@@ -32,7 +32,8 @@ static const char *missing(const char *path)
     struct stat s;
     const char *slash = strrchr(path, '/');
     snprintf(parent, sizeof parent, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
-    return stat(parent, &s) == 0 ? "no folder can be made there: choose another place with -o" : "its parent is not there";
+    return stat(parent, &s) == 0 ? "no folder can be made there: choose another place with -o"
+                                 : "its parent is not there";
 }
 
 static bool make_one(const char *path, struct err *e)
@@ -41,7 +42,9 @@ static bool make_one(const char *path, struct err *e)
     if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode)))
         return true;
     return err_set(e, err_system(ERR_CREATE), "the folder %s cannot be created: %s", path,
-                   errno == ENOENT ? missing(path) : errno == EEXIST ? "a file has that name" : strerror(errno));
+                   errno == ENOENT   ? missing(path)
+                   : errno == EEXIST ? "a file has that name"
+                                     : strerror(errno));
 }
 
 bool folder_make_for(const char *folder, const char *name, struct err *e)
@@ -146,12 +149,16 @@ bool folder_is_noted(const char *folder, struct arena *a)
 static bool is_free(const struct folder_owner *o, const struct owner *was, struct arena *a, struct err *e)
 {
     const char *place = place_of(o, a), *other = was->lines[2];
-    if (o->replace || !other || !strcmp(was->lines[1], o->sha256) || (strcmp(place, piped) != 0 && !strcmp(other, place)))
+    if (o->replace || !other || !strcmp(was->lines[1], o->sha256) ||
+        (strcmp(place, piped) != 0 && !strcmp(other, place)))
         return true;
     const char *seen = !strcmp(other, piped) ? "one that came through a pipe"
                        : other[0] == '/'     ? other
                                              : relpath_make(arena_format(a, "%s/%s", o->folder, other), NULL, a);
-    return err_set(e, ERR_CREATE, "%s: holds the set of another design, %s: choose another folder with -o, or say --replace, and the folder is this design's from now on", o->folder, seen);
+    return err_set(e, ERR_CREATE,
+                   "%s: holds the set of another design, %s: choose another folder with -o, or say --replace, and the "
+                   "folder is this design's from now on",
+                   o->folder, seen);
 }
 
 bool folder_look(const struct folder_owner *o, struct arena *a, struct err *e)
@@ -168,7 +175,9 @@ static bool is_same_state(const struct folder_owner *o, const struct owner *was)
 
 static bool is_busy(const struct folder_owner *o, const struct owner *was, struct err *e)
 {
-    return err_set(e, ERR_INTERRUPTED, "%s: another rasp is at work in it%s%s: wait until it has ended, or choose another folder with -o; several runs of one set are its shards (--shard)",
+    return err_set(e, ERR_INTERRUPTED,
+                   "%s: another rasp is at work in it%s%s: wait until it has ended, or choose another folder with -o; "
+                   "several runs of one set are its shards (--shard)",
                    o->folder, was->lines[4] ? ", " : "", was->lines[4] ? was->lines[4] : "");
 }
 
@@ -186,7 +195,8 @@ static bool note(const struct folder_owner *o, int fd, struct arena *a, struct e
 {
     char host[256] = "";
     gethostname(host, sizeof host - 1);
-    const char *text = arena_format(a, "%s\n%s\n%s\n%s\n%s, process %ld\n", format, o->sha256, place_of(o, a), o->program, text_shown(a, host), (long)getpid());
+    const char *text = arena_format(a, "%s\n%s\n%s\n%s\n%s, process %ld\n", format, o->sha256, place_of(o, a),
+                                    o->program, text_shown(a, host), (long)getpid());
     size_t n = strlen(text);
     if (n > MOST)
         return err_set(e, ERR_CREATE, "%s: the path is too long", o->design);
@@ -264,7 +274,7 @@ struct input {
 
 struct folder_inputs {
     struct arena *arena;
-    struct input *table;     /* [room], a power of two, with open addressing */
+    struct input *table; /* [room], a power of two, with open addressing */
     size_t room, n;
 };
 
@@ -315,10 +325,7 @@ static const struct input *input_at(const struct folder_inputs *all, const char 
     return in && in->file ? in : NULL;
 }
 
-bool folder_inputs_has(const struct folder_inputs *all, const char *path)
-{
-    return input_at(all, path);
-}
+bool folder_inputs_has(const struct folder_inputs *all, const char *path) { return input_at(all, path); }
 
 /* Another shard may have begun meanwhile: it says whose the folder is before it writes anything else. */
 static bool is_foreign(const struct folder_output *o, struct arena *a)
@@ -332,11 +339,16 @@ bool folder_spares(const struct folder_inputs *all, const struct folder_output *
     const struct input *in = input_at(all, o->path);
     struct err link = {0};
     if (in)
-        return err_set(e, ERR_CREATE, "%s: the output %s would overwrite the input %s (%s): write into another folder with -o, or change the name; nothing was written", o->whose, o->path,
-                       in->file, in->what);
+        return err_set(e, ERR_CREATE,
+                       "%s: the output %s would overwrite the input %s (%s): write into another folder with -o, or "
+                       "change the name; nothing was written",
+                       o->whose, o->path, in->file, in->what);
     if (is_foreign(o, a))
-        return err_set(e, ERR_CREATE, "%s: is there already, and nothing says of which design: choose another folder with -o, or say --replace, and the folder is this design's from now on; nothing was "
-                                      "written", o->path);
+        return err_set(e, ERR_CREATE,
+                       "%s: is there already, and nothing says of which design: choose another folder with -o, or say "
+                       "--replace, and the folder is this design's from now on; nothing was "
+                       "written",
+                       o->path);
     return mark_links(o->path, o->links, &link) || err_set(e, link.kind, "%s; nothing was written", link.text);
 }
 
@@ -349,8 +361,10 @@ bool folder_spares_hidden(const struct folder_inputs *all, const char *folder, c
         const struct input *in = &all->table[k];
         char *real = in->file ? memory_realpath(in->file) : NULL;
         if (real && strncmp(real, hidden, strlen(hidden)) == 0 && real[strlen(hidden)] == '/')
-            ok = err_set(e, ERR_CREATE, "%s: the input %s (%s) is in the folder %s/.rasp, whose files come and go with the set: copy it elsewhere; nothing was written", design, in->file, in->what,
-                         folder);
+            ok = err_set(e, ERR_CREATE,
+                         "%s: the input %s (%s) is in the folder %s/.rasp, whose files come and go with the set: copy "
+                         "it elsewhere; nothing was written",
+                         design, in->file, in->what, folder);
         free(real);
     }
     free(hidden);
@@ -374,7 +388,8 @@ static void process_named(const char *pid, char text[64])
     snprintf(text, 64, "%.*s", from && to > from ? (int)(to - from) + 3 : 0, from ? from : "");
 }
 
-/* Does a program like this one run under that number? One that was killed may still be there, as a zombie; and its number may have gone to another. */
+/* Does a program like this one run under that number? One that was killed may still be there, as a zombie; and its
+ * number may have gone to another. */
 static bool runs(int pid)
 {
     char number[16], other[64], self[64];
@@ -409,10 +424,7 @@ struct walk {
     int room;
 };
 
-static int by_text(const void *a, const void *b)
-{
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
+static int by_text(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
 
 /* -1: it is none of the set's. */
 static int stimulus_named(const struct folder_wanted *w, const char *name)
@@ -464,7 +476,8 @@ static void remove_file(struct walk *x, const char *file)
     if (unlink(arena_format(x->arena, "%s/%s", folder, file)) != 0)
         return;
     x->to->removed++;
-    while (slash && rmdir(arena_format(x->arena, "%s/%.*s", folder, (int)(slash - file), file)) == 0) /* if nothing is in it */
+    while (slash &&
+           rmdir(arena_format(x->arena, "%s/%.*s", folder, (int)(slash - file), file)) == 0) /* if nothing is in it */
         slash = memrchr(file, '/', (size_t)(slash - file));
 }
 
@@ -481,7 +494,8 @@ static void take_stale(struct walk *x, const char *name, const struct record *r)
         bool again = false;
         for (int k = 0; k < n; k++)
             again = again || !strcmp(files[k], file);
-        if (again || r->files[i].raw || lstat(path, &s) != 0 || !S_ISREG(s.st_mode) || folder_inputs_has(w->inputs, path) || is_of_another(x, file, name))
+        if (again || r->files[i].raw || lstat(path, &s) != 0 || !S_ISREG(s.st_mode) ||
+            folder_inputs_has(w->inputs, path) || is_of_another(x, file, name))
             continue;
         files[n++] = file;
         changed = changed || was_changed(path, r, file);
@@ -501,7 +515,8 @@ static void look_at_record(struct walk *x, const char *path)
     const char *name = arena_format(x->arena, "%.*s", (int)strlen(path) - 5, path);
     int i = stimulus_named(w, name);
     struct record r;
-    if ((i >= 0 && !w->keys[i]) || !record_read(w->folder, name, x->arena, &r) || (i >= 0 && (r.status != RECORD_DONE || !strcmp(w->keys[i], r.key))))
+    if ((i >= 0 && !w->keys[i]) || !record_read(w->folder, name, x->arena, &r) ||
+        (i >= 0 && (r.status != RECORD_DONE || !strcmp(w->keys[i], r.key))))
         return;
     take_stale(x, name, &r);
 }
@@ -523,12 +538,14 @@ static void walk(struct walk *x, const char *below)
 {
     DIR *d = opendir(arena_format(x->arena, "%s/%s", x->wanted->folder, below));
     for (const struct dirent *entry; d && (entry = readdir(d));) {
-        const char *name = entry->d_name, *path = arena_format(x->arena, "%s%s", below, name), *whole = arena_format(x->arena, "%s/%s", x->wanted->folder, path);
+        const char *name = entry->d_name, *path = arena_format(x->arena, "%s%s", below, name),
+                   *whole = arena_format(x->arena, "%s/%s", x->wanted->folder, path);
         if (is_left(name))
             unlink(whole);
         else if (!is_folder(whole, entry) && is_record_name(name))
             look_at_record(x, path);
-        else if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && is_folder(whole, entry) && (!strcmp(name, ".rasp") || !folder_is_noted(whole, x->arena)))
+        else if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && is_folder(whole, entry) &&
+                 (!strcmp(name, ".rasp") || !folder_is_noted(whole, x->arena)))
             walk(x, arena_format(x->arena, "%s/", path));
     }
     if (d)

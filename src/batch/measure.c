@@ -60,10 +60,7 @@ bool measure_read(struct measure_source *c, double *x, long most, long *n, struc
     return true;
 }
 
-void measure_close(struct measure_source *c)
-{
-    wav_stream_close(&c->in);
-}
+void measure_close(struct measure_source *c) { wav_stream_close(&c->in); }
 
 /* ------------------------------------------------------------------ measuring */
 
@@ -130,7 +127,12 @@ static bool find_loudness(const char *path, const struct measure_form *form, str
 static bool find_rest(struct measure_source *c, struct measure *m, struct err *e)
 {
     struct sums s = {.hash = hash_start()};
-    *m = (struct measure){.rate = c->in.rate, .channels = c->in.channels, .frames = c->frames, .own = c->own, .lufs = NAN, .true_peak = NAN};
+    *m = (struct measure){.rate = c->in.rate,
+                          .channels = c->in.channels,
+                          .frames = c->frames,
+                          .own = c->own,
+                          .lufs = NAN,
+                          .true_peak = NAN};
     distance_hash_add(&s.hash, (const double[2]){m->rate, m->channels}, 2);
     bool ok = pass(c, &s, e);
     hash_end(&s.hash, m->audio);

@@ -8,15 +8,16 @@
 #include "file/wav_stream.h"
 
 struct measure_form {
-    double seconds;      /* NAN: its own length */
-    double ramp;         /* s, raised cosine, at the end of one that is cut; at most half of what is left */
+    double seconds; /* NAN: its own length */
+    double ramp;    /* s, raised cosine, at the end of one that is cut; at most half of what is left */
 };
 
-struct measure_source {  /* a WAV that is cut to a length under a ramp, or continued by silence */
+struct measure_source { /* a WAV that is cut to a length under a ramp, or continued by silence */
     struct wav_stream in;
-    long own, frames;    /* what it has, and what is read of it or after it */
+    long own, frames; /* what it has, and what is read of it or after it */
     long ramp, done;
-    double end, before;  /* of what was read: greatest magnitude where the ramp is (without one, of the last sample), before it; and of all, before it */
+    double end, before; /* of what was read: greatest magnitude where the ramp is (without one, of the last sample),
+                           before it; and of all, before it */
 };
 
 /* form NULL: as it is. path must live as long. As wav_stream_open. */
@@ -28,17 +29,18 @@ bool measure_read(struct measure_source *c, double *x, long most, long *n, struc
 void measure_close(struct measure_source *c);
 
 struct measure {
-    double rate;         /* Hz                                                        */
+    double rate; /* Hz                                                        */
     int channels;
-    long frames, own;    /* own: of the file; others where it is cut or continued   */
-    double end, before;  /* as of struct measure_source                                */
-    double peak, rms;    /* re full scale, of all channels                            */
-    double lufs;         /* integrated; NAN: shorter than 0.4 s, or silent, or not asked for */
-    double true_peak;    /* re full scale; NAN: silent, or not asked for              */
+    long frames, own;      /* own: of the file; others where it is cut or continued   */
+    double end, before;    /* as of struct measure_source                                */
+    double peak, rms;      /* re full scale, of all channels                            */
+    double lufs;           /* integrated; NAN: shorter than 0.4 s, or silent, or not asked for */
+    double true_peak;      /* re full scale; NAN: silent, or not asked for              */
     char audio[HASH_TEXT]; /* of the decoded samples, as rasp compare --hash has it   */
 };
 
-/* form NULL: the file as it is. loud: loudness and true peak are measured, too, in a second pass, at the cost of as much again. ERR_INPUT, ERR_SCENE */
+/* form NULL: the file as it is. loud: loudness and true peak are measured, too, in a second pass, at the cost of as
+ * much again. ERR_INPUT, ERR_SCENE */
 bool measure_cut(const char *path, const struct measure_form *form, bool loud, struct measure *m, struct err *e);
 
 #endif

@@ -1,5 +1,5 @@
-/* See pool.h. One lock guards what is shared: the next job to begin, and which are done; a job takes milliseconds, the lock none to speak of. Results are
-   handed over under the lock, so that what `took` touches needs no other. */
+/* See pool.h. One lock guards what is shared: the next job to begin, and which are done; a job takes milliseconds, the
+   lock none to speak of. Results are handed over under the lock, so that what `took` touches needs no other. */
 #include "batch/pool.h"
 
 #include <pthread.h>
@@ -12,9 +12,9 @@ enum { MOST_THREADS = 256 };
 struct pool {
     const struct pool_work *work;
     pthread_mutex_t lock;
-    int next, taken;     /* jobs begun; handed over */
+    int next, taken; /* jobs begun; handed over */
     bool stop;
-    bool *done;          /* [n] */
+    bool *done; /* [n] */
 };
 
 static bool begin(struct pool *p, int *i)

@@ -1,4 +1,5 @@
-/* See progress.h. What is left is told by predicted cost, not by number, since stimuli differ; what was there already counts for neither side. */
+/* See progress.h. What is left is told by predicted cost, not by number, since stimuli differ; what was there already
+ * counts for neither side. */
 #include "batch/progress.h"
 
 #include <math.h>
@@ -21,7 +22,10 @@ void progress_begin(struct progress *p, int n, double cost, bool quiet)
 {
     const char *term = getenv("TERM");
     bool dumb = !term || !*term || !strcmp(term, "dumb");
-    *p = (struct progress){.shown = !quiet && isatty(STDERR_FILENO) && !dumb && !is_set("CI"), .start = stopwatch_wall(), .cost = cost, .n = n};
+    *p = (struct progress){.shown = !quiet && isatty(STDERR_FILENO) && !dumb && !is_set("CI"),
+                           .start = stopwatch_wall(),
+                           .cost = cost,
+                           .n = n};
 }
 
 void progress_time(double seconds, char text[24])
@@ -47,7 +51,8 @@ void progress_step(struct progress *p, const char *name, double cost, double lef
     if (p->done > 0)
         progress_time(spent * fmax(0, p->cost - p->done) / p->done, eta);
     int width = snprintf(NULL, 0, "%d", p->n);
-    fprintf(stderr, "\r\033[K[%*d/%d] %.40s  x%.3g  ETA %s", width, p->at, p->n, name, spent > 0 ? p->sound / spent : 0, eta);
+    fprintf(stderr, "\r\033[K[%*d/%d] %.40s  x%.3g  ETA %s", width, p->at, p->n, name, spent > 0 ? p->sound / spent : 0,
+            eta);
     fflush(stderr);
 }
 

@@ -4,17 +4,19 @@
 #include <stdbool.h>
 
 struct progress {
-    bool shown;             /* a terminal is there to show it                                        */
-    double start, last;     /* s; when it was last drawn                                             */
-    double cost, done;      /* of all that is to be rendered; of what was                            */
-    double sound;           /* s of sound rendered                                                   */
+    bool shown;         /* a terminal is there to show it                                        */
+    double start, last; /* s; when it was last drawn                                             */
+    double cost, done;  /* of all that is to be rendered; of what was                            */
+    double sound;       /* s of sound rendered                                                   */
     int n, at;
 };
 
-/* quiet: nothing is shown; nor where standard error is no terminal, TERM is dumb, or CI is set. cost: in whatever unit, of all n. */
+/* quiet: nothing is shown; nor where standard error is no terminal, TERM is dumb, or CI is set. cost: in whatever unit,
+ * of all n. */
 void progress_begin(struct progress *p, int n, double cost, bool quiet);
 
-/* One more is there: rendered at that cost, `sound` seconds long; or it was there already (cost 0 then, and `left` less to do). */
+/* One more is there: rendered at that cost, `sound` seconds long; or it was there already (cost 0 then, and `left` less
+ * to do). */
 void progress_step(struct progress *p, const char *name, double cost, double left, double sound);
 
 /* Takes the line away, before something else is written and at the end. */

@@ -25,10 +25,7 @@ static const struct {
                {"file_lufs", offsetof(struct record, file_lufs)}, {"true_peak", offsetof(struct record, true_peak)},
                {"beyond", offsetof(struct record, beyond)},       {"ramp_s", offsetof(struct record, ramp)}};
 
-static double *number(const struct record *r, size_t k)
-{
-    return (double *)((char *)r + numbers[k].offset);
-}
+static double *number(const struct record *r, size_t k) { return (double *)((char *)r + numbers[k].offset); }
 
 static const char *base_name(const char *path)
 {
@@ -54,7 +51,8 @@ static json_t *file_json(const json_t *listed, const struct record_file *f)
     const char *name = base_name(f->path);
     json_t *j = NULL, *file;
     size_t i;
-    json_array_foreach(listed, i, file) {
+    json_array_foreach(listed, i, file)
+    {
         const char *other = json_string_value(json_object_get(file, "name"));
         if (!j && other && !strcmp(other, name))
             j = json_copy(file);
@@ -90,9 +88,10 @@ static json_t *whole_json(const struct record *r)
         json_array_append_new(files, file_json(json_object_get(render, "files"), &r->files[i]));
     for (int i = 0; r->warnings && r->warnings[i]; i++)
         json_array_append_new(warnings, json_value_shown(r->warnings[i]));
-    json_t *j = json_pack("{s:i, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "set", 2, "status", statuses[r->status], "key", r->key, "program", r->program,
-                          "seen_from", json_value_text(r->seen_from), "full_scale", json_value_number(r->full_scale), "measured", measured_json(r), "warnings", warnings,
-                          "files", files);
+    json_t *j =
+        json_pack("{s:i, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "set", 2, "status", statuses[r->status], "key",
+                  r->key, "program", r->program, "seen_from", json_value_text(r->seen_from), "full_scale",
+                  json_value_number(r->full_scale), "measured", measured_json(r), "warnings", warnings, "files", files);
     if (render)
         json_object_update_missing(j, render);
     json_object_del(j, "record");
@@ -141,11 +140,14 @@ static bool parse_files(const json_t *list, const char *name, struct arena *a, s
     json_t *file;
     size_t i;
     r->files = ARENA_TAKE(a, struct record_file, json_array_size(list) + 1);
-    json_array_foreach(list, i, file) {
+    json_array_foreach(list, i, file)
+    {
         const char *own = json_value_text_of(file, "name", a);
         struct record_file *f = &r->files[r->n_files++];
-        *f = (struct record_file){.kind = json_value_text_of(file, "kind", a), .raw = json_is_true(json_object_get(file, "raw")),
-                                  .sha256 = json_value_text_of(file, "sha256", a), .size = (double)json_integer_value(json_object_get(file, "size"))};
+        *f = (struct record_file){.kind = json_value_text_of(file, "kind", a),
+                                  .raw = json_is_true(json_object_get(file, "raw")),
+                                  .sha256 = json_value_text_of(file, "sha256", a),
+                                  .size = (double)json_integer_value(json_object_get(file, "size"))};
         if (!f->kind || !f->sha256 || !is_own(own, name))
             return false;
         f->path = record_file_path(name, own, f->raw, a);
@@ -180,10 +182,14 @@ bool record_parse(const char *text, size_t n, const char *name, struct arena *a,
 {
     json_t *j = json_loadb(text, n, 0, NULL);
     const char *status = json_string_value(json_object_get(j, "status"));
-    *r = (struct record){.key = json_value_text_of(j, "key", a), .program = json_value_text_of(j, "program", a), .seen_from = json_value_text_of(j, "seen_from", a),
+    *r = (struct record){.key = json_value_text_of(j, "key", a),
+                         .program = json_value_text_of(j, "program", a),
+                         .seen_from = json_value_text_of(j, "seen_from", a),
                          .full_scale = json_value_number_of(j, "full_scale")};
-    bool ok = j && json_integer_value(json_object_get(j, "set")) == 2 && status && r->key && r->program && parse_files(json_object_get(j, "files"), name, a, r);
-    for (r->status = RECORD_DONE; ok && r->status > RECORD_MAKING && strcmp(status, statuses[r->status]) != 0; r->status--)
+    bool ok = j && json_integer_value(json_object_get(j, "set")) == 2 && status && r->key && r->program &&
+              parse_files(json_object_get(j, "files"), name, a, r);
+    for (r->status = RECORD_DONE; ok && r->status > RECORD_MAKING && strcmp(status, statuses[r->status]) != 0;
+         r->status--)
         ;
     parse_measured(json_object_get(j, "measured"), a, r);
     parse_warnings(json_object_get(j, "warnings"), a, r);
@@ -197,7 +203,8 @@ static bool is_whole(const char *text, size_t n)
 {
     char hex[HASH_TEXT];
     const char *tail = text + n - TAIL;
-    if (n < TAIL || memcmp(tail, before_hash, sizeof before_hash - 1) != 0 || memcmp(text + n - (sizeof after_hash - 1), after_hash, sizeof after_hash - 1) != 0)
+    if (n < TAIL || memcmp(tail, before_hash, sizeof before_hash - 1) != 0 ||
+        memcmp(text + n - (sizeof after_hash - 1), after_hash, sizeof after_hash - 1) != 0)
         return false;
     hash_bytes(text, n - TAIL, hex);
     return memcmp(tail + sizeof before_hash - 1, hex, HASH_TEXT - 1) == 0;
@@ -207,5 +214,6 @@ bool record_read(const char *folder, const char *name, struct arena *a, struct r
 {
     struct err unreadable = {0};
     struct bytes b;
-    return bytes_read(record_path(folder, name, a), a, &b, &unreadable) && is_whole(b.at, b.n) && record_parse(b.at, b.n, name, a, r);
+    return bytes_read(record_path(folder, name, a), a, &b, &unreadable) && is_whole(b.at, b.n) &&
+           record_parse(b.at, b.n, name, a, r);
 }

@@ -1,5 +1,6 @@
-/* The record of a stimulus, NAME.json in the set's folder: what made it, its files with their hashes, its measured levels. It is renamed into place last, so that the records are the journal of a set:
-   whatever a record says is there is there, unless somebody changed it since.
+/* The record of a stimulus, NAME.json in the set's folder: what made it, its files with their hashes, its measured
+   levels. It is renamed into place last, so that the records are the journal of a set: whatever a record says is there
+   is there, unless somebody changed it since.
 
      "set": 2      the format
      "status"      making   the files are about to get their names; those of before and those to come are listed
@@ -22,19 +23,19 @@
 enum record_status { RECORD_MAKING, RECORD_WAITS, RECORD_DONE };
 
 struct record_file {
-    const char *kind;     /* as of render_file: "wav", "scene", "csv" ...                          */
-    const char *path;     /* from the set's folder                                                 */
-    bool raw;             /* it lies in .rasp/raw                                                  */
+    const char *kind; /* as of render_file: "wav", "scene", "csv" ...                          */
+    const char *path; /* from the set's folder                                                 */
+    bool raw;         /* it lies in .rasp/raw                                                  */
     const char *sha256;
-    double size;          /* bytes                                                                 */
+    double size; /* bytes                                                                 */
 };
 
 struct record {
     enum record_status status;
     const char *key, *program;
-    const char *seen_from;  /* the design, as seen from the folder; NULL: of a recording           */
-    double full_scale;      /* the gain of the whole set; NAN: it has none, or waits                */
-    double rate;            /* Hz                                                                  */
+    const char *seen_from; /* the design, as seen from the folder; NULL: of a recording           */
+    double full_scale;     /* the gain of the whole set; NAN: it has none, or waits                */
+    double rate;           /* Hz                                                                  */
     long frames;
     bool sounds;            /* there is a WAV; what follows is about it                             */
     double peak, rms, lufs; /* of the sound in its quantity; lufs NAN: not needed, or too short or too quiet */
@@ -42,13 +43,13 @@ struct record {
     const char *unit;       /* of the sound's quantity; NULL: not stated, or a recording            */
     double gain;            /* file value per unit of the quantity                                  */
     double file_peak, file_rms, file_lufs, true_peak; /* of the WAV, re full scale                  */
-    double beyond;          /* samples beyond full scale                                            */
-    double ramp;            /* s, at the end                                                        */
-    const char *audio;      /* SHA-256 of the decoded samples                                       */
+    double beyond;     /* samples beyond full scale                                            */
+    double ramp;       /* s, at the end                                                        */
+    const char *audio; /* SHA-256 of the decoded samples                                       */
     struct record_file *files;
     int n_files;
-    const char **warnings;  /* ends with NULL                                                       */
-    const char *render;     /* the JSON text of the render, or of the whole record; NULL: a recording */
+    const char **warnings; /* ends with NULL                                                       */
+    const char *render;    /* the JSON text of the render, or of the whole record; NULL: a recording */
 };
 
 /* DIR/NAME.json */

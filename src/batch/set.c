@@ -28,8 +28,15 @@
 
 struct set set_make(const struct design *d, const char *program)
 {
-    return (struct set){.design = d, .program = program, .sha256 = d->sha256, .n = d->n_stimuli, .level_rule = d->level_rule, .level = d->level,
-                        .length = d->length_rule == DESIGN_LENGTH_FIXED ? d->length : NAN, .encoding = ENCODING_PCM24, .ramp = 0.01};
+    return (struct set){.design = d,
+                        .program = program,
+                        .sha256 = d->sha256,
+                        .n = d->n_stimuli,
+                        .level_rule = d->level_rule,
+                        .level = d->level,
+                        .length = d->length_rule == DESIGN_LENGTH_FIXED ? d->length : NAN,
+                        .encoding = ENCODING_PCM24,
+                        .ramp = 0.01};
 }
 
 bool set_waits(const struct set *s)
@@ -44,12 +51,14 @@ void set_lay(const struct set *s, struct scene *over)
     if (s->level_rule != DESIGN_LEVEL_SCENE)
         over->output.level = s->level;
     if (set_waits(s))
-        over->output.level = (struct level){.later = true, .full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
+        over->output.level =
+            (struct level){.later = true, .full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
 }
 
 const char *set_level_text(const struct set *s, struct arena *a)
 {
-    static const char *const rules[] = {[DESIGN_LEVEL_COMMON] = "common", [DESIGN_LEVEL_EACH] = "each", [DESIGN_LEVEL_SCENE] = "scene"};
+    static const char *const rules[] = {
+        [DESIGN_LEVEL_COMMON] = "common", [DESIGN_LEVEL_EACH] = "each", [DESIGN_LEVEL_SCENE] = "scene"};
     const struct level *l = &s->level;
     const char *rule = rules[s->level_rule];
     if (s->level_rule == DESIGN_LEVEL_SCENE)
@@ -80,39 +89,41 @@ const char *set_hash(const char *const *texts, int n, struct arena *a)
 
 /* ------------------------------------------------------------------ one stimulus */
 
-struct trial {               /* of one scene, until it is taken; it lies in its own arena */
+struct trial { /* of one scene, until it is taken; it lies in its own arena */
     struct arena *arena;
     const struct diag *diag;
-    const char *messages;    /* as of scene_read */
+    const char *messages; /* as of scene_read */
     struct scene scene;
-    char sha256[HASH_TEXT];  /* of what the scene means */
-    struct err e;            /* none: it can be rendered */
-    const char **warnings;   /* of what is opened; ends with NULL, NULL: not known */
+    char sha256[HASH_TEXT]; /* of what the scene means */
+    struct err e;           /* none: it can be rendered */
+    const char **warnings;  /* of what is opened; ends with NULL, NULL: not known */
 };
 
-struct look {                /* what is known of a stimulus */
-    struct trial *trial;     /* NULL: not begun, or taken */
-    int fault;               /* from 1; 0: it can be rendered */
+struct look {            /* what is known of a stimulus */
+    struct trial *trial; /* NULL: not begun, or taken */
+    int fault;           /* from 1; 0: it can be rendered */
     double seconds, cost, rate, ramp;
     int channels, encoding, bits;
-    int quantity;            /* of the sound, enum modes_quantity; -1: not stated */
-    bool sounds, loud;       /* loud: its level is a loudness */
-    bool brief;              /* found to be too short for that */
-    bool otherwise;          /* found to be of another form than the set's sounds */
-    bool drawn;              /* its seed says where it goes, too, as a scribble's does: replicates differ in more than their noise */
+    int quantity;      /* of the sound, enum modes_quantity; -1: not stated */
+    bool sounds, loud; /* loud: its level is a loudness */
+    bool brief;        /* found to be too short for that */
+    bool otherwise;    /* found to be of another form than the set's sounds */
+    bool drawn; /* its seed says where it goes, too, as a scribble's does: replicates differ in more than their noise */
 };
 
 struct planning {
     struct set *set;
     const struct set_plan_ask *ask;
-    struct look *looks;      /* [n] */
-    int *first;              /* [n] the stimulus that is read for it: the first of its cell, itself where the seed says where it goes */
-    bool *now, second;       /* [n] those that are read; for the second time: what was drawn otherwise than the first of its cell */
-    const char ***endings;   /* [n] of the files that those write; each ends with NULL */
-    const char **last;       /* the endings that were noted last: most share theirs */
+    struct look *looks; /* [n] */
+    int *first; /* [n] the stimulus that is read for it: the first of its cell, itself where the seed says where it goes
+                 */
+    bool *now,
+        second; /* [n] those that are read; for the second time: what was drawn otherwise than the first of its cell */
+    const char ***endings; /* [n] of the files that those write; each ends with NULL */
+    const char **last;     /* the endings that were noted last: most share theirs */
     struct set_plan *out;
     struct arena *arena;
-    struct hash scenes;      /* of the design, of all of them and of the recordings, in their order */
+    struct hash scenes; /* of the design, of all of them and of the recordings, in their order */
 };
 
 static struct trial *trial_open(void)
@@ -127,12 +138,16 @@ static struct trial *trial_open(void)
 static void hash_scene(struct trial *t)
 {
     const struct scene *s = &t->scene;
-    const char *slash = strrchr(s->sources[0], '/'), *beside = slash ? arena_format(t->arena, "%.*s", slash == s->sources[0] ? 1 : (int)(slash - s->sources[0]), s->sources[0]) : ".";
+    const char *slash = strrchr(s->sources[0], '/'),
+               *beside = slash ? arena_format(t->arena, "%.*s",
+                                              slash == s->sources[0] ? 1 : (int)(slash - s->sources[0]), s->sources[0])
+                               : ".";
     const char *text = scene_write(s, beside, t->arena);
     hash_bytes(text, strlen(text), t->sha256);
 }
 
-/* The texts it was read from lie on the shelf from now on, which knows whether they change while the set is rendered: each stimulus reads them once more. */
+/* The texts it was read from lie on the shelf from now on, which knows whether they change while the set is rendered:
+ * each stimulus reads them once more. */
 static bool watch_sources(const struct planning *p, struct trial *t)
 {
     for (const char *const *file = t->scene.sources; *file; file++)
@@ -192,10 +207,7 @@ static void look_at(const struct planning *p, int i, struct look *l)
     estimate(p, i, l);
 }
 
-static long frames_of(const struct look *l, double seconds)
-{
-    return (long)rint(seconds * l->rate);
-}
+static long frames_of(const struct look *l, double seconds) { return (long)rint(seconds * l->rate); }
 
 static bool is_short(const struct look *l, double seconds)
 {
@@ -216,21 +228,30 @@ static void tell_short(const struct planning *p, int i, double seconds, struct l
 
 /* ------------------------------------------------------------------ one form */
 
-struct form {                /* what the sounds of a set have in common: that of the first of them, and of the first that says its quantity; NULL: none yet */
+struct form { /* what the sounds of a set have in common: that of the first of them, and of the first that says its
+                 quantity; NULL: none yet */
     const struct look *first, *stated;
     const char *first_name, *stated_name;
 };
 
-/* Players and trial scripts take one rate and one number of channels for all that they play, and resample, or fail, where it is another. */
+/* Players and trial scripts take one rate and one number of channels for all that they play, and resample, or fail,
+ * where it is another. */
 static bool tell_otherwise(const struct planning *p, const struct form *f, const struct look *l, struct err *e)
 {
     if (l->rate != f->first->rate)
-        return err_set(e, ERR_SCENE, "the sound has %g Hz, '%s' of the same set %g Hz: give all one output.sample_rate, or make two sets", l->rate, f->first_name, f->first->rate);
+        return err_set(
+            e, ERR_SCENE,
+            "the sound has %g Hz, '%s' of the same set %g Hz: give all one output.sample_rate, or make two sets",
+            l->rate, f->first_name, f->first->rate);
     if (l->channels != f->first->channels)
-        return err_set(e, ERR_SCENE, "the sound has %d channel%s, '%s' of the same set %d: give all as many (output.channels, output.listen), or make two sets", l->channels,
-                       l->channels == 1 ? "" : "s", f->first_name, f->first->channels);
+        return err_set(e, ERR_SCENE,
+                       "the sound has %d channel%s, '%s' of the same set %d: give all as many (output.channels, "
+                       "output.listen), or make two sets",
+                       l->channels, l->channels == 1 ? "" : "s", f->first_name, f->first->channels);
     if (p->set->level_rule == DESIGN_LEVEL_COMMON && l->quantity >= 0 && l->quantity != f->stated->quantity)
-        return err_set(e, ERR_SCENE, "the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose one by output.quantity, or level: {each: ...}",
+        return err_set(e, ERR_SCENE,
+                       "the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose "
+                       "one by output.quantity, or level: {each: ...}",
                        modes_quantity_unit(l->quantity), f->stated_name, modes_quantity_unit(f->stated->quantity));
     return true;
 }
@@ -242,7 +263,8 @@ static bool about(const struct form *f, const struct look *l, const struct scene
         return err_about(e, NULL, "output.sample_rate");
     if (l->channels != f->first->channels)
         return err_about(e, NULL, l->channels == s->output.channels ? "output.channels" : "output.listen");
-    return s->output.quantity == QUANTITY_AUTO ? err_about(e, s->contacts[0].name, "surface.response") : err_about(e, NULL, "output.quantity");
+    return s->output.quantity == QUANTITY_AUTO ? err_about(e, s->contacts[0].name, "surface.response")
+                                               : err_about(e, NULL, "output.quantity");
 }
 
 static bool is_otherwise(const struct planning *p, int i, const struct form *f, struct look *l)
@@ -302,7 +324,8 @@ static void warn(struct planning *p, int i, const char *text)
     while (k < o->n_warnings && strcmp(o->warnings[k].text, text) != 0)
         k++;
     if (k == o->n_warnings && k < SET_FAULTS)
-        o->warnings[o->n_warnings++] = (struct set_warning){arena_text(p->arena, text), p->set->design->stimuli[i].name};
+        o->warnings[o->n_warnings++] =
+            (struct set_warning){arena_text(p->arena, text), p->set->design->stimuli[i].name};
 }
 
 static void settle(struct planning *p, int i, struct look *l)
@@ -402,7 +425,9 @@ static bool find_drawn(struct planning *p)
 
 static bool look_at_all(struct planning *p, struct err *e)
 {
-    int n = p->set->n, done = pool_run(&(struct pool_work){.n = n, .threads = p->ask->threads, .context = p, .job = look, .took = took});
+    int n = p->set->n,
+        done =
+            pool_run(&(struct pool_work){.n = n, .threads = p->ask->threads, .context = p, .job = look, .took = took});
     for (int i = 0; i < n; i++)
         if (p->looks[i].trial)
             arena_close(p->looks[i].trial->arena);
@@ -470,7 +495,10 @@ static void look_at_recordings(struct planning *p)
         l->cost = fmax(1, 1000 * l->seconds * s->rate);
         l->rate = s->rate;
         l->channels = s->channels;
-        l->bits = s->encoding == ENCODING_PCM16 ? 16 : s->encoding == ENCODING_PCM24 ? 24 : s->encoding == ENCODING_FLOAT32 ? 32 : 64;
+        l->bits = s->encoding == ENCODING_PCM16     ? 16
+                  : s->encoding == ENCODING_PCM24   ? 24
+                  : s->encoding == ENCODING_FLOAT32 ? 32
+                                                    : 64;
         l->sounds = true;
     }
 }
@@ -507,7 +535,8 @@ static bool may_be_short(const struct planning *p)
     return true;
 }
 
-/* Found out before anything is rendered, too: what keeps one of them from its level, which depends on the set's length. */
+/* Found out before anything is rendered, too: what keeps one of them from its level, which depends on the set's length.
+ */
 static void look_at_levels(struct planning *p)
 {
     struct set *s = p->set;
@@ -570,7 +599,8 @@ static bool report(const struct set_plan *p, const struct set *s, const char *fo
     int n = 0;
     for (int k = 0; k < p->n_faults; k++)
         n += p->faults[k].n;
-    return !p->n_faults || err_set(e, p->worst, "%d of %d stimuli cannot be rendered%s", n, s->n, folder ? "; nothing was written" : "");
+    return !p->n_faults || err_set(e, p->worst, "%d of %d stimuli cannot be rendered%s", n, s->n,
+                                   folder ? "; nothing was written" : "");
 }
 
 /* What the design was read from is known to the shelf, which sees whether it changes; a pipe is read and gone. */
@@ -586,19 +616,22 @@ static bool watch_design(const struct set *s, const struct set_plan_ask *ask, st
 /* Nothing that the set writes is one of its inputs, or anybody's. */
 static bool spares(const struct planning *p, struct err *e)
 {
-    static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv", "manifest.json", "SHA256SUMS", "timings.csv", NULL};
+    static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv", "manifest.json",
+                                                                                 "SHA256SUMS", "timings.csv", NULL};
     const struct set *s = p->set;
     const struct design *d = s->design;
     const char *folder = p->ask->folder;
     struct stat status;
     struct arena *a = arena_open();
-    struct folder_output o = {.folder = folder, .unknown = !p->ask->replace && !folder_is_noted(folder, a), .links = p->ask->links};
+    struct folder_output o = {
+        .folder = folder, .unknown = !p->ask->replace && !folder_is_noted(folder, a), .links = p->ask->links};
     bool ok = true, there = stat(folder, &status) == 0; /* an empty one cannot hold an input */
     arena_close(a);
     for (int i = 0; ok && there && i < s->n; i++) {
         a = arena_open();
         o.whose = d->stimuli[i].name;
-        for (const char *const *ending = d->stimuli[i].recording ? own : (const char *const *)p->endings[p->first[i]]; ok && *ending; ending++) {
+        for (const char *const *ending = d->stimuli[i].recording ? own : (const char *const *)p->endings[p->first[i]];
+             ok && *ending; ending++) {
             o.path = arena_format(a, "%s/%s%s", folder, o.whose, *ending);
             ok = folder_spares(p->out->inputs, &o, a, e);
         }
@@ -614,8 +647,15 @@ static bool spares(const struct planning *p, struct err *e)
 
 bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, struct set_plan *out, struct err *e)
 {
-    struct planning p = {.set = s, .ask = ask, .looks = ARENA_TAKE(a, struct look, s->n), .first = ARENA_TAKE(a, int, s->n), .now = ARENA_TAKE(a, bool, s->n),
-                         .endings = ARENA_TAKE(a, const char **, s->n), .out = out, .arena = a, .scenes = hash_start()};
+    struct planning p = {.set = s,
+                         .ask = ask,
+                         .looks = ARENA_TAKE(a, struct look, s->n),
+                         .first = ARENA_TAKE(a, int, s->n),
+                         .now = ARENA_TAKE(a, bool, s->n),
+                         .endings = ARENA_TAKE(a, const char **, s->n),
+                         .out = out,
+                         .arena = a,
+                         .scenes = hash_start()};
     char *sha256 = arena_take(a, HASH_TEXT, 1);
     *out = (struct set_plan){.inputs = folder_inputs(a)};
     s->cost = ARENA_TAKE(a, double, s->n);
@@ -648,10 +688,13 @@ void set_plan_close(struct set_plan *p)
 const char *set_lengths_text(const struct set *s, const struct set_plan *p, struct arena *a)
 {
     const struct design *d = s->design;
-    if (d->length_rule != DESIGN_LENGTH_LONGEST || !p->n_sounds || p->most - p->least < 0.01 * p->most) /* three digits tell them apart */
+    if (d->length_rule != DESIGN_LENGTH_LONGEST || !p->n_sounds ||
+        p->most - p->least < 0.01 * p->most) /* three digits tell them apart */
         return NULL;
-    return arena_format(a, "each %.3g s, as long as the longest (%s; the shortest, %s, is %.3g s by itself); length: own, or a time, in the design", p->most, d->stimuli[p->longest].name,
-                        d->stimuli[p->shortest].name, p->least);
+    return arena_format(a,
+                        "each %.3g s, as long as the longest (%s; the shortest, %s, is %.3g s by itself); length: own, "
+                        "or a time, in the design",
+                        p->most, d->stimuli[p->longest].name, d->stimuli[p->shortest].name, p->least);
 }
 
 /* ------------------------------------------------------------------ shards */
@@ -665,7 +708,8 @@ bool set_shard_read(const char *text, struct set_shard *s, struct err *e)
         memcpy(left, text, n);
     if (slash && n < sizeof left && text_int(slash + 1, 1, SET_SHARDS, &s->n) && text_int(left, 1, s->n, &s->i))
         return true;
-    return err_set(e, ERR_USAGE, "--shard %s: write i/n, with n from 1 to %d and i from 1 to n, as in --shard 3/7", text, SET_SHARDS);
+    return err_set(e, ERR_USAGE, "--shard %s: write i/n, with n from 1 to %d and i from 1 to n, as in --shard 3/7",
+                   text, SET_SHARDS);
 }
 
 struct card {
@@ -693,10 +737,7 @@ void set_deal(const struct set *s, int shards, int *to, struct arena *a)
 
 /* ------------------------------------------------------------------ the common gain */
 
-struct set_loudest set_loudest(void)
-{
-    return (struct set_loudest){.lufs = -HUGE_VAL, .encoding = ENCODING_FLOAT64};
-}
+struct set_loudest set_loudest(void) { return (struct set_loudest){.lufs = -HUGE_VAL, .encoding = ENCODING_FLOAT64}; }
 
 void set_loudest_add(struct set_loudest *l, const struct set_measured *m)
 {
@@ -725,7 +766,9 @@ bool set_gain(const struct set *s, const struct set_loudest *l, double *full_sca
     else if (isnan(level->lufs))
         *full_scale = l->peak / fmin(real_exp10(level->peak / 20), largest(l->encoding));
     else if (isinf(l->lufs))
-        return err_set(e, ERR_SCENE, "level: lufs: no stimulus of the set has a loudness that BS.1770 can measure (0.4 s or more that are not nearly silent): use rms or peak");
+        return err_set(e, ERR_SCENE,
+                       "level: lufs: no stimulus of the set has a loudness that BS.1770 can measure (0.4 s or more "
+                       "that are not nearly silent): use rms or peak");
     else
         *full_scale = real_exp10((l->lufs - level->lufs) / 20);
     return true;

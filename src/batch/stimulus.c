@@ -24,18 +24,22 @@
 #include "response/modes.h"
 #include "scene/scene_places.h"
 
-const char *const stimulus_states[] = {[STIMULUS_THERE] = "there", [STIMULUS_NEW] = "new", [STIMULUS_KEY] = "key", [STIMULUS_FILE] = "file", [STIMULUS_GAIN] = "gain"};
+const char *const stimulus_states[] = {[STIMULUS_THERE] = "there",
+                                       [STIMULUS_NEW] = "new",
+                                       [STIMULUS_KEY] = "key",
+                                       [STIMULUS_FILE] = "file",
+                                       [STIMULUS_GAIN] = "gain"};
 
-struct work {                /* one stimulus at work */
+struct work { /* one stimulus at work */
     const struct stimulus_set *k;
     int i;
     const char *name, *base; /* base: FOLDER/NAME */
     struct arena *arena;
-    struct scene scene;      /* of what is rendered */
-    const char *file;        /* of a recording; else NULL */
+    struct scene scene; /* of what is rendered */
+    const char *file;   /* of a recording; else NULL */
     struct watch inputs;
     const char *key;
-    struct record *was;      /* NULL: none */
+    struct record *was; /* NULL: none */
     enum stimulus_state state;
 };
 
@@ -51,7 +55,10 @@ static bool read_scene(struct work *w, struct err *e)
     design_scene_places(set->design, &w->scene, w->arena);
     w->scene.shelf = w->k->shelf;
     w->inputs = inputs_watch(&w->scene, w->arena);
-    const char *waits = !set_waits(set) ? "" : isnan(set->level.lufs) ? "waits" : "waits, loudness", *effective = outputs_effective(&w->scene, set->design->file, w->arena);
+    const char *waits = !set_waits(set)          ? ""
+                        : isnan(set->level.lufs) ? "waits"
+                                                 : "waits, loudness",
+               *effective = outputs_effective(&w->scene, set->design->file, w->arena);
     w->key = set_hash((const char *const[]){"rasp set 2", "stimulus", set->program, waits, effective}, 5, w->arena);
     return true;
 }
@@ -113,7 +120,12 @@ static enum stimulus_state state_of(const struct work *w)
 static bool begin(struct work *w, const struct stimulus_set *k, int i, struct arena *a, struct err *e)
 {
     const struct design_stimulus *x = &k->set->design->stimuli[i];
-    *w = (struct work){.k = k, .i = i, .name = x->name, .base = arena_format(a, "%s/%s", k->folder, x->name), .arena = a, .file = x->recording};
+    *w = (struct work){.k = k,
+                       .i = i,
+                       .name = x->name,
+                       .base = arena_format(a, "%s/%s", k->folder, x->name),
+                       .arena = a,
+                       .file = x->recording};
     if (!(w->file ? read_recording(w, e) : read_scene(w, e)))
         return false;
     struct record *r = ARENA_TAKE(a, struct record, 1);
@@ -144,7 +156,7 @@ bool stimulus_look(const struct stimulus_set *k, int i, struct arena *a, struct 
 
 /* ------------------------------------------------------------------ commit */
 
-struct commit {              /* how complete files get their names */
+struct commit { /* how complete files get their names */
     bool (*give)(void *files, struct err *e);
     void (*drop)(void *files);
     void *files;
@@ -154,7 +166,12 @@ struct commit {              /* how complete files get their names */
 static struct record making(const struct work *w, const struct record *to)
 {
     int n = w->was ? w->was->n_files : 0;
-    struct record r = {.status = RECORD_MAKING, .key = to->key, .program = to->program, .seen_from = to->seen_from, .full_scale = NAN, .rate = NAN};
+    struct record r = {.status = RECORD_MAKING,
+                       .key = to->key,
+                       .program = to->program,
+                       .seen_from = to->seen_from,
+                       .full_scale = NAN,
+                       .rate = NAN};
     r.files = ARENA_TAKE(w->arena, struct record_file, n + to->n_files + 1);
     for (int k = 0; k < n; k++)
         r.files[r.n_files++] = w->was->files[k];
@@ -179,7 +196,8 @@ static void remove_old(const struct work *w, const struct record *to)
         char hex[HASH_TEXT];
         struct err unreadable = {0};
         const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
-        if (!lists(to, f->path) && !folder_inputs_has(w->k->inputs, path) && hash_file(path, hex, &unreadable) && !strcmp(hex, f->sha256))
+        if (!lists(to, f->path) && !folder_inputs_has(w->k->inputs, path) && hash_file(path, hex, &unreadable) &&
+            !strcmp(hex, f->sha256))
             unlink(path);
     }
 }
@@ -188,7 +206,8 @@ static bool inputs_same(const struct work *w, struct err *e)
 {
     if (!w->file)
         return inputs_still(&w->inputs, e) || scene_places_tell(&w->scene, e);
-    return !watch_changed(&w->inputs) || err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
+    return !watch_changed(&w->inputs) ||
+           err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
 }
 
 /* From here on *w has the new record as its own. */
@@ -213,13 +232,15 @@ static bool commit(struct work *w, const struct record *to, const struct commit 
 }
 
 /* A settled file that is about to be `path` of the folder. */
-static bool add_file(struct record *r, const char *kind, const char *path, bool raw, const char *temporary, struct arena *a, struct err *e)
+static bool add_file(struct record *r, const char *kind, const char *path, bool raw, const char *temporary,
+                     struct arena *a, struct err *e)
 {
     char hex[HASH_TEXT];
     struct stat s;
     if (!hash_file(temporary, hex, e))
         return false;
-    r->files[r->n_files++] = (struct record_file){kind, path, raw, arena_text(a, hex), stat(temporary, &s) == 0 ? (double)s.st_size : 0};
+    r->files[r->n_files++] =
+        (struct record_file){kind, path, raw, arena_text(a, hex), stat(temporary, &s) == 0 ? (double)s.st_size : 0};
     return true;
 }
 
@@ -254,11 +275,28 @@ static bool measure(struct record *r, const char *path, struct arena *a, struct 
 static struct record of_render(const struct work *w, const struct render_report *report, bool waits)
 {
     const struct scene *s = &w->scene;
-    struct record r = {.status = waits ? RECORD_WAITS : RECORD_DONE, .key = w->key, .program = w->k->set->program, .seen_from = w->k->seen_from, .full_scale = NAN,
-                       .rate = report->sounds ? s->output.sample_rate : NAN, .frames = report->frames, .sounds = report->sounds, .peak = report->sound.peak, .rms = report->sound.rms, .lufs = NAN,
-                       .encoding = s->output.encoding, .channels = sound_format(s, report->frames).channels, .unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL,
-                       .gain = report->sound.gain, .ramp = report->sound.ramp, .file_peak = NAN, .file_rms = NAN, .file_lufs = NAN, .true_peak = NAN,
-                       .beyond = report->sounds ? written_sound(report)->written->beyond : NAN, .render = report->summary};
+    struct record r = {.status = waits ? RECORD_WAITS : RECORD_DONE,
+                       .key = w->key,
+                       .program = w->k->set->program,
+                       .seen_from = w->k->seen_from,
+                       .full_scale = NAN,
+                       .rate = report->sounds ? s->output.sample_rate : NAN,
+                       .frames = report->frames,
+                       .sounds = report->sounds,
+                       .peak = report->sound.peak,
+                       .rms = report->sound.rms,
+                       .lufs = NAN,
+                       .encoding = s->output.encoding,
+                       .channels = sound_format(s, report->frames).channels,
+                       .unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL,
+                       .gain = report->sound.gain,
+                       .ramp = report->sound.ramp,
+                       .file_peak = NAN,
+                       .file_rms = NAN,
+                       .file_lufs = NAN,
+                       .true_peak = NAN,
+                       .beyond = report->sounds ? written_sound(report)->written->beyond : NAN,
+                       .render = report->summary};
     r.files = ARENA_TAKE(w->arena, struct record_file, report->n_files + 1);
     r.warnings = ARENA_TAKE(w->arena, const char *, report->n_warnings + 1);
     for (int k = 0; k < report->n_warnings; k++)
@@ -288,22 +326,17 @@ static bool list_render(const struct work *w, const struct render_report *report
     for (int k = 0; k < report->n_files; k++) {
         const struct render_file *f = &report->files[k];
         bool raw = r->status == RECORD_WAITS && f->written;
-        if (!add_file(r, f->kind, record_file_path(w->name, file_name(f->path), raw, w->arena), raw, f->temporary, w->arena, e))
+        if (!add_file(r, f->kind, record_file_path(w->name, file_name(f->path), raw, w->arena), raw, f->temporary,
+                      w->arena, e))
             return false;
         wav = !strcmp(f->kind, "wav") ? f->temporary : wav;
     }
     return measure_render(w, r, wav, e);
 }
 
-static bool give_render(void *render, struct err *e)
-{
-    return render_commit(render, e);
-}
+static bool give_render(void *render, struct err *e) { return render_commit(render, e); }
 
-static void drop_render(void *render)
-{
-    render_drop(render);
-}
+static void drop_render(void *render) { render_drop(render); }
 
 static bool render(struct work *w, struct stimulus *s, struct err *e)
 {
@@ -313,7 +346,8 @@ static bool render(struct work *w, struct stimulus *s, struct err *e)
     const char *raw = waits ? arena_format(w->arena, "%s/.rasp/raw/%s", w->k->folder, w->name) : NULL;
     if (waits)
         made.output.encoding = ENCODING_FLOAT64;
-    if (!folder_make_for(w->k->folder, w->name, e) || (waits && !folder_make_for(w->k->folder, arena_format(w->arena, ".rasp/raw/%s", w->name), e)))
+    if (!folder_make_for(w->k->folder, w->name, e) ||
+        (waits && !folder_make_for(w->k->folder, arena_format(w->arena, ".rasp/raw/%s", w->name), e)))
         return false;
     struct render *x = render_make(&made, &(struct render_names){w->base, raw}, w->arena, &report, e);
     if (!x)
@@ -331,28 +365,28 @@ static bool render(struct work *w, struct stimulus *s, struct err *e)
 
 /* ------------------------------------------------------------------ recordings */
 
-static bool give_sound(void *sound, struct err *e)
-{
-    return wav_commit(sound, e);
-}
+static bool give_sound(void *sound, struct err *e) { return wav_commit(sound, e); }
 
-static void drop_sound(void *sound)
-{
-    wav_drop(sound);
-}
+static void drop_sound(void *sound) { wav_drop(sound); }
 
 static bool copy(struct work *w, struct stimulus *s, struct err *e)
 {
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
     const struct set *set = w->k->set;
-    struct record r = {.status = RECORD_DONE, .key = w->key, .program = set->program, .full_scale = NAN, .sounds = true, .files = ARENA_TAKE(w->arena, struct record_file, 1)};
+    struct record r = {.status = RECORD_DONE,
+                       .key = w->key,
+                       .program = set->program,
+                       .full_scale = NAN,
+                       .sounds = true,
+                       .files = ARENA_TAKE(w->arena, struct record_file, 1)};
     if (!folder_make_for(w->k->folder, w->name, e))
         return false;
     struct wav_out *out = recording_make(set, w->file, arena_format(w->arena, "%s.wav", w->base), &r, w->arena, e);
     if (!out)
         return false;
     const char *lies = wav_temporary(out);
-    if (!add_file(&r, "wav", arena_format(w->arena, "%s.wav", w->name), false, lies, w->arena, e) || !measure(&r, lies, w->arena, e)) {
+    if (!add_file(&r, "wav", arena_format(w->arena, "%s.wav", w->name), false, lies, w->arena, e) ||
+        !measure(&r, lies, w->arena, e)) {
         wav_drop(out);
         return false;
     }
@@ -366,18 +400,21 @@ static bool copy(struct work *w, struct stimulus *s, struct err *e)
 /* In the place of the one that the record lists, or before the sounds. */
 static bool put_scene(struct outfile *f, const struct work *w, struct record *r, struct err *e)
 {
-    const char *path = arena_format(w->arena, "%s.scene.yaml", w->base), *text = outputs_effective(&w->scene, path, w->arena);
+    const char *path = arena_format(w->arena, "%s.scene.yaml", w->base),
+               *text = outputs_effective(&w->scene, path, w->arena);
     char hex[HASH_TEXT];
     int k = 0;
     if (!outfile_open(f, path, e))
         return false;
     outfile_put(f, text, strlen(text));
     hash_bytes(text, strlen(text), hex);
-    while (k < r->n_files && strcmp(r->files[k].kind, "scene") != 0 && strcmp(r->files[k].kind, "wav") != 0 && strcmp(r->files[k].kind, "stem") != 0)
+    while (k < r->n_files && strcmp(r->files[k].kind, "scene") != 0 && strcmp(r->files[k].kind, "wav") != 0 &&
+           strcmp(r->files[k].kind, "stem") != 0)
         k++;
     if (k == r->n_files || strcmp(r->files[k].kind, "scene") != 0)
         memmove(&r->files[k + 1], &r->files[k], (size_t)(r->n_files++ - k) * sizeof *r->files);
-    r->files[k] = (struct record_file){"scene", arena_format(w->arena, "%s.scene.yaml", w->name), false, arena_text(w->arena, hex), (double)strlen(text)};
+    r->files[k] = (struct record_file){"scene", arena_format(w->arena, "%s.scene.yaml", w->name), false,
+                                       arena_text(w->arena, hex), (double)strlen(text)};
     return outfile_settle(f, e);
 }
 
@@ -397,10 +434,7 @@ static bool give_scene(void *file, struct err *e)
     return !f->target[0] || outfile_commit(f, e);
 }
 
-static void drop_scene(void *file)
-{
-    outfile_drop(file);
-}
+static void drop_scene(void *file) { outfile_drop(file); }
 
 /* The design lies elsewhere by now: the files that the effective scene names are called otherwise. */
 static bool move(struct work *w, struct err *e)
@@ -417,7 +451,8 @@ static bool move(struct work *w, struct err *e)
     return commit(w, &r, &(struct commit){give_scene, drop_scene, &f}, e);
 }
 
-bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, struct arena *a, struct stimulus *s, struct err *e)
+bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, struct arena *a, struct stimulus *s,
+                   struct err *e)
 {
     struct work w;
     *s = (struct stimulus){.full_scale = NAN};
@@ -426,7 +461,8 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
     s->key = w.key;
     s->state = w.state;
     s->made = how == STIMULUS_ANEW || (how == STIMULUS_IF_NEEDED && w.state != STIMULUS_THERE);
-    bool moved = w.state == STIMULUS_THERE && !w.file && !s->made && strcmp(w.was->seen_from ? w.was->seen_from : "", k->seen_from) != 0;
+    bool moved = w.state == STIMULUS_THERE && !w.file && !s->made &&
+                 strcmp(w.was->seen_from ? w.was->seen_from : "", k->seen_from) != 0;
     if (s->made && w.file && !copy(&w, s, e))
         return e->kind == ERR_INPUT || e->kind == ERR_SCENE ? design_scene_recording(k->set->design, i, e) : false;
     if ((s->made && !w.file && !render(&w, s, e)) || (moved && !move(&w, e)))
@@ -439,7 +475,7 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
 
 /* ------------------------------------------------------------------ the gain of the set */
 
-struct levelled {            /* files that a raw sound becomes */
+struct levelled { /* files that a raw sound becomes */
     struct wav_out *sounds[1 + STEMS];
     struct render_file files[1 + STEMS]; /* as a render has them */
     struct wav_written written[1 + STEMS];
@@ -510,11 +546,13 @@ static bool scale(const struct work *w, struct levelled *l, struct record_file *
     char comment[80] = "rasp: contact force, 1.0 is 1 N";
     bool force = !strcmp(f->kind, "stem") && is_force(f->path);
     double gain = force ? 1 : sound_known_gain(&w->scene);
-    const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path), *path = record_file_path(w->name, file_name(f->path), false, w->arena);
+    const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path),
+               *path = record_file_path(w->name, file_name(f->path), false, w->arena);
     if (!wav_stream_open(&in, raw, e))
         return false;
     struct track_format t = sound_format(&w->scene, in.frames);
-    struct wav_format format = {.rate = t.rate, .channels = in.channels, .bits = force ? -32 : t.bits, .title = t.title};
+    struct wav_format format = {
+        .rate = t.rate, .channels = in.channels, .bits = force ? -32 : t.bits, .title = t.title};
     if (!force)
         sound_comment(&w->scene, gain, comment);
     struct wav_out *out = wav_create(arena_format(w->arena, "%s/%s", w->k->folder, path), &format, e);
@@ -523,11 +561,17 @@ static bool scale(const struct work *w, struct levelled *l, struct record_file *
     bool ok = out && wav_comment(out, comment, e) && copy_scaled(&in, out, gain, e) && wav_settle(out, e);
     wav_stream_close(&in);
     if (!ok && e->kind == ERR_SCENE)
-        err_at(e, "%s", !strcmp(f->kind, "wav") ? "level" : "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a lower level");
+        err_at(e, "%s",
+               !strcmp(f->kind, "wav") ? "level"
+                                       : "output.stems: a part of the sound may be louder than the whole: use "
+                                         "output.encoding: float32, or a lower level");
     if (!ok)
         return false;
     l->written[l->n - 1] = wav_written(out);
-    l->files[l->n - 1] = (struct render_file){.kind = f->kind, .path = path, .stem = !strcmp(f->kind, "stem") ? stem_of(path, w->arena) : NULL, .written = &l->written[l->n - 1],
+    l->files[l->n - 1] = (struct render_file){.kind = f->kind,
+                                              .path = path,
+                                              .stem = !strcmp(f->kind, "stem") ? stem_of(path, w->arena) : NULL,
+                                              .written = &l->written[l->n - 1],
                                               .temporary = wav_temporary(out)};
     struct record one = {.files = f};
     return add_file(&one, f->kind, path, false, wav_temporary(out), w->arena, e);
@@ -543,7 +587,9 @@ static void add_warnings(const struct work *w, const struct levelled *l, struct 
     for (int k = 0; k < n; k++)
         all[k] = r->warnings[k];
     for (int k = 0; k < l->n; k++) {
-        const char *texts[2] = {r->peak > 0 ? written_silent(&w->scene, &l->files[k], r->gain * r->peak, w->arena) : NULL, written_beyond(&w->scene, &l->files[k], w->arena)};
+        const char *texts[2] = {r->peak > 0 ? written_silent(&w->scene, &l->files[k], r->gain * r->peak, w->arena)
+                                            : NULL,
+                                written_beyond(&w->scene, &l->files[k], w->arena)};
         for (int t = 0; t < 2; t++) {
             bool known = !texts[t];
             for (int i = 0; i < n && !known; i++)
@@ -557,7 +603,8 @@ static void add_warnings(const struct work *w, const struct levelled *l, struct 
 
 static void set_gain_json(json_t *sound, double gain)
 {
-    double peak = json_number_value(json_object_get(sound, "peak")), rms = json_number_value(json_object_get(sound, "rms"));
+    double peak = json_number_value(json_object_get(sound, "peak")),
+           rms = json_number_value(json_object_get(sound, "rms"));
     json_object_set_new(sound, "gain", json_real(gain));
     json_object_set_new(sound, "gain_db", json_real(20 * real_log10(gain)));
     json_object_set_new(sound, "peak_dbfs", json_value_number(20 * real_log10(gain * peak)));
@@ -573,7 +620,8 @@ static const char *render_text(const struct work *w, const struct levelled *l, c
         set_gain_json(sound, r->gain);
     for (int k = 0; k < l->n; k++) {
         const char *name = file_name(l->files[k].path);
-        json_array_foreach(json_object_get(j, "files"), i, file) {
+        json_array_foreach(json_object_get(j, "files"), i, file)
+        {
             const char *listed = json_string_value(json_object_get(file, "name"));
             if (listed && !strcmp(listed, name))
                 written_tell(&l->files[k], file);
@@ -621,16 +669,19 @@ static bool lay_gain(struct work *w, double full_scale, struct err *e)
     return commit(w, &r, &(struct commit){give_levelled, drop_levelled, &l}, e);
 }
 
-bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool may_render, struct arena *a, struct stimulus *s, struct err *e)
+bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool may_render, struct arena *a,
+                    struct stimulus *s, struct err *e)
 {
     struct work w;
     if (!begin(&w, k, i, a, e))
         return false;
     if (w.state == STIMULUS_KEY)
-        return err_set(e, ERR_INPUT, "what it is made of has changed since its level was measured: run the same command again");
+        return err_set(e, ERR_INPUT,
+                       "what it is made of has changed since its level was measured: run the same command again");
     if (w.state != STIMULUS_THERE || w.was->status != RECORD_WAITS) {
         if (!may_render)
-            return err_set(e, ERR_INPUT, "its sound before the gain is not there any more: it has to be rendered again");
+            return err_set(e, ERR_INPUT,
+                           "its sound before the gain is not there any more: it has to be rendered again");
         if (!render(&w, s, e))
             return false;
         s->made = true;

@@ -1,4 +1,5 @@
-/* See tables.h. Names of columns are those that PsychoPy, R and BIDS take: lower case, with the unit at the end; file_name is what Hugging Face's AudioFolder looks for. */
+/* See tables.h. Names of columns are those that PsychoPy, R and BIDS take: lower case, with the unit at the end;
+ * file_name is what Hugging Face's AudioFolder looks for. */
 #include "batch/tables.h"
 
 #include <inttypes.h>
@@ -47,18 +48,18 @@ void tables_text(FILE *f, const char *text)
 
 /* ------------------------------------------------------------------ cells */
 
-struct cell {                   /* what a column may be made from */
+struct cell { /* what a column may be made from */
     const struct set *set;
-    int row;                    /* from 0 */
+    int row; /* from 0 */
     const struct tables_row *is;
     const struct record *record; /* NULL: none                    */
-    const char *level;          /* set_level_text                  */
-    const char *text;           /* of the trial; NULL: none        */
+    const char *level;           /* set_level_text                  */
+    const char *text;            /* of the trial; NULL: none        */
     FILE *f;
 };
 
 struct column {
-    const char *name;           /* NULL: the end; "*": here the factors' columns stand */
+    const char *name;                   /* NULL: the end; "*": here the factors' columns stand */
     const char *title, *meaning, *unit; /* unit NULL: none */
     void (*put)(const struct cell *c);
 };
@@ -70,25 +71,13 @@ static const struct record *done(const struct cell *c)
 }
 
 /* Of one that has a WAV, too. */
-static const struct record *sound_of(const struct cell *c)
-{
-    return done(c) && c->record->sounds ? c->record : NULL;
-}
+static const struct record *sound_of(const struct cell *c) { return done(c) && c->record->sounds ? c->record : NULL; }
 
-static void put(const struct cell *c, const char *text)
-{
-    tables_text(c->f, text ? text : "n/a");
-}
+static void put(const struct cell *c, const char *text) { tables_text(c->f, text ? text : "n/a"); }
 
-static void put_number(const struct cell *c, bool known, double x)
-{
-    tables_number(c->f, known ? x : NAN);
-}
+static void put_number(const struct cell *c, bool known, double x) { tables_number(c->f, known ? x : NAN); }
 
-static double decibel(double x)
-{
-    return x > 0 ? 20 * real_log10(x) : NAN;
-}
+static double decibel(double x) { return x > 0 ? 20 * real_log10(x) : NAN; }
 
 static const struct record_file *file_of(const struct cell *c, const char *kind)
 {
@@ -108,10 +97,7 @@ static const struct record_file *main_file(const struct cell *c)
     return f;
 }
 
-static const struct design_stimulus *row_of(const struct cell *c)
-{
-    return &c->set->design->stimuli[c->row];
-}
+static const struct design_stimulus *row_of(const struct cell *c) { return &c->set->design->stimuli[c->row]; }
 
 static void file_name(const struct cell *c) { put(c, main_file(c) ? main_file(c)->path : NULL); }
 static void stimulus_id(const struct cell *c) { put(c, row_of(c)->name); }
@@ -137,19 +123,37 @@ static void seed(const struct cell *c)
 static void rate(const struct cell *c) { put_number(c, c->record, c->record ? c->record->rate : 0); }
 static void channels(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->channels : 0); }
 static void frames(const struct cell *c) { put_number(c, c->record, c->record ? (double)c->record->frames : 0); }
-static void duration(const struct cell *c) { put_number(c, c->record, c->record ? (double)c->record->frames / c->record->rate : 0); }
-static void encoding(const struct cell *c) { put(c, sound_of(c) ? keys_find("output.encoding")->choices[sound_of(c)->encoding].word : NULL); }
+static void duration(const struct cell *c)
+{
+    put_number(c, c->record, c->record ? (double)c->record->frames / c->record->rate : 0);
+}
+static void encoding(const struct cell *c)
+{
+    put(c, sound_of(c) ? keys_find("output.encoding")->choices[sound_of(c)->encoding].word : NULL);
+}
 static void level_mode(const struct cell *c) { put(c, c->level); }
 static void gain(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->gain) : 0); }
 static void unit(const struct cell *c) { put(c, sound_of(c) ? sound_of(c)->unit : NULL); }
-static void peak(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_peak) : 0); }
+static void peak(const struct cell *c)
+{
+    put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_peak) : 0);
+}
 static void silent(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->file_peak == 0 : 0); }
 static void beyond(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->beyond : 0); }
-static void true_peak(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? rint(decibel(sound_of(c)->true_peak) * 1e4) / 1e4 : 0); }
+static void true_peak(const struct cell *c)
+{
+    put_number(c, sound_of(c), sound_of(c) ? rint(decibel(sound_of(c)->true_peak) * 1e4) / 1e4 : 0);
+}
 static void rms(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_rms) : 0); }
-static void lufs(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? rint(sound_of(c)->file_lufs * 1e4) / 1e4 : 0); }
+static void lufs(const struct cell *c)
+{
+    put_number(c, sound_of(c), sound_of(c) ? rint(sound_of(c)->file_lufs * 1e4) / 1e4 : 0);
+}
 static void ramp(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->ramp : 0); }
-static void onset(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) && !row_of(c)->recording ? sound_of(c)->ramp : 0); }
+static void onset(const struct cell *c)
+{
+    put_number(c, sound_of(c), sound_of(c) && !row_of(c)->recording ? sound_of(c)->ramp : 0);
+}
 static void audio(const struct cell *c) { put(c, sound_of(c) ? sound_of(c)->audio : NULL); }
 static void file_sha256(const struct cell *c) { put(c, main_file(c) ? main_file(c)->sha256 : NULL); }
 static void job(const struct cell *c) { put(c, c->record ? c->record->key : NULL); }
@@ -164,45 +168,81 @@ static void error_code(const struct cell *c) { fprintf(c->f, "%d", (int)c->is->k
 static void error(const struct cell *c) { put(c, c->is->text); }
 
 static const struct column columns[] = {
-    {"file_name", "File", "the stimulus, from the folder of this table: a WAV, or the table of what makes no sound", NULL, file_name},
-    {"stimulus_id", "Stimulus", "name of the stimulus, as the design makes it: its files begin with it", NULL, stimulus_id},
+    {"file_name", "File", "the stimulus, from the folder of this table: a WAV, or the table of what makes no sound",
+     NULL, file_name},
+    {"stimulus_id", "Stimulus", "name of the stimulus, as the design makes it: its files begin with it", NULL,
+     stimulus_id},
     {"plan_row", "Row", "number of the stimulus in the order of the design, from 1", NULL, row},
-    {"scene_file", "Scene", "the effective scene, with every parameter spelt out: rendering it gives the same bytes; n/a of a recording", NULL, scene_file},
-    {"scene_sha256", "Hash of the scene", "SHA-256 of scene_file, which names its inputs as they are seen from its folder: it is another where the folder lies elsewhere", NULL, scene_sha256},
+    {"scene_file", "Scene",
+     "the effective scene, with every parameter spelt out: rendering it gives the same bytes; n/a of a recording", NULL,
+     scene_file},
+    {"scene_sha256", "Hash of the scene",
+     "SHA-256 of scene_file, which names its inputs as they are seen from its folder: it is another where the folder "
+     "lies elsewhere",
+     NULL, scene_sha256},
     {"*", NULL, NULL, NULL, NULL},
     {"text", "Text", "what the stimulus is, in words for those who listen", NULL, text},
-    {"replicate", "Replicate", "number of the replicate, from 1: replicates differ in their noise alone; n/a of a recording", NULL, replicate},
-    {"seed", "Noise seed", "seed of the scene's noise, 64 bits: stimuli of one replicate share it, but for factors that the design calls independent", NULL, seed},
-    {"recording", "Recording", "the supplied WAV that this stimulus was made from; n/a of what is rendered", NULL, recording},
+    {"replicate", "Replicate",
+     "number of the replicate, from 1: replicates differ in their noise alone; n/a of a recording", NULL, replicate},
+    {"seed", "Noise seed",
+     "seed of the scene's noise, 64 bits: stimuli of one replicate share it, but for factors that the design calls "
+     "independent",
+     NULL, seed},
+    {"recording", "Recording", "the supplied WAV that this stimulus was made from; n/a of what is rendered", NULL,
+     recording},
     {"sample_rate_hz", "Sample rate", "audio samples per second", "Hz", rate},
     {"channels", "Channels", "channels of the WAV", NULL, channels},
     {"frames", "Frames", "samples of each channel", NULL, frames},
     {"duration_s", "Duration", "length of the file", "s", duration},
     {"encoding", "Encoding", "how samples are stored", NULL, encoding},
-    {"level_mode", "Level rule", "how the level was set: common: one gain for the whole set, such that its greatest stimulus has the level; each: every stimulus has it; scene: as its scene says", NULL, level_mode},
-    {"gain_db", "Gain", "file value per unit of the sound's quantity (of a recording: per its own sample value), in decibels", "dB", gain},
-    {"gain_per", "Unit of the gain", "unit of the sound's quantity, which gain_db is per; n/a where recorded responses do not say theirs, and of a recording", NULL, unit},
+    {"level_mode", "Level rule",
+     "how the level was set: common: one gain for the whole set, such that its greatest stimulus has the level; each: "
+     "every stimulus has it; scene: as its scene says",
+     NULL, level_mode},
+    {"gain_db", "Gain",
+     "file value per unit of the sound's quantity (of a recording: per its own sample value), in decibels", "dB", gain},
+    {"gain_per", "Unit of the gain",
+     "unit of the sound's quantity, which gain_db is per; n/a where recorded responses do not say theirs, and of a "
+     "recording",
+     NULL, unit},
     {"peak_dbfs", "Peak", "greatest sample of the file, re full scale", "dB", peak},
-    {"true_peak_dbtp", "True peak", "greatest magnitude of the file between samples, too, re full scale: BS.1770, of four times as many samples (below 96 kHz)", "dB", true_peak},
+    {"true_peak_dbtp", "True peak",
+     "greatest magnitude of the file between samples, too, re full scale: BS.1770, of four times as many samples "
+     "(below 96 kHz)",
+     "dB", true_peak},
     {"rms_dbfs", "Level", "rms of the whole file, re full scale (a square wave of full scale has 0)", "dB", rms},
-    {"loudness_lufs", "Loudness", "integrated loudness of the file, BS.1770, mono counted on two ears; n/a below 0.4 s", "LUFS", lufs},
+    {"loudness_lufs", "Loudness", "integrated loudness of the file, BS.1770, mono counted on two ears; n/a below 0.4 s",
+     "LUFS", lufs},
     {"silent", "Silent", "1: every sample of the file is 0; 0: some is not", NULL, silent},
-    {"samples_beyond_full_scale", "Samples beyond full scale", "samples of the file, of all channels, whose magnitude is more than 1, as floating point holds them: whatever plays them clips", NULL, beyond},
+    {"samples_beyond_full_scale", "Samples beyond full scale",
+     "samples of the file, of all channels, whose magnitude is more than 1, as floating point holds them: whatever "
+     "plays them clips",
+     NULL, beyond},
     {"onset_ramp_s", "Onset ramp", "length of the raised-cosine ramp at the beginning", "s", onset},
     {"offset_ramp_s", "Offset ramp", "length of the raised-cosine ramp at the end", "s", ramp},
-    {"audio_sha256", "Hash of the samples", "SHA-256 of the decoded samples, as rasp compare --hash has it", NULL, audio},
+    {"audio_sha256", "Hash of the samples", "SHA-256 of the decoded samples, as rasp compare --hash has it", NULL,
+     audio},
     {"file_sha256", "Hash of the file", "SHA-256 of file_name", NULL, file_sha256},
-    {"job_hash", "Hash of the job", "SHA-256 of all that made the stimulus but its name and a gain that is common to the set: effective scene, with inputs by their hashes and by their names as seen from the design, program, level; the same wherever the output folder lies", NULL, job},
+    {"job_hash", "Hash of the job",
+     "SHA-256 of all that made the stimulus but its name and a gain that is common to the set: effective scene, with "
+     "inputs by their hashes and by their names as seen from the design, program, level; the same wherever the output "
+     "folder lies",
+     NULL, job},
     {"tool_version", "Program", "the program that made it", NULL, version},
-    {"status", "Status", "ok; failed: see error; waits: the common gain is not known while other stimuli are missing; missing: not rendered yet", NULL, status},
-    {"error_code", "Exit code", "what a render of this stimulus alone exits with: 0, or as the manual's EXIT STATUS has it", NULL, error_code},
+    {"status", "Status",
+     "ok; failed: see error; waits: the common gain is not known while other stimuli are missing; missing: not "
+     "rendered yet",
+     NULL, status},
+    {"error_code", "Exit code",
+     "what a render of this stimulus alone exits with: 0, or as the manual's EXIT STATUS has it", NULL, error_code},
     {"error", "Error", "why it failed; n/a of what did not", NULL, error},
     {NULL, NULL, NULL, NULL, NULL},
 };
 
 /* ------------------------------------------------------------------ factors without effect */
 
-/* Sorted by the hash of their samples, stimuli that have the same ones stand together, in the order of the design; each is compared with the first of its group. */
+/* Sorted by the hash of their samples, stimuli that have the same ones stand together, in the order of the design; each
+ * is compared with the first of its group. */
 struct sound {
     char audio[HASH_TEXT];
     int row;
@@ -211,8 +251,8 @@ struct sound {
 struct search {
     const struct design *design;
     struct sound *sounds;
-    int n, found;            /* found: stimuli that differ in some factor from the first of their group */
-    bool *factors;           /* [n_factors] that they differ in */
+    int n, found;  /* found: stimuli that differ in some factor from the first of their group */
+    bool *factors; /* [n_factors] that they differ in */
     const struct sound *pair[2], *replicates[2]; /* the first in the design: of these, and of a cell's; NULL: none */
 };
 
@@ -241,8 +281,11 @@ static const char *factors_text(const struct search *s, struct arena *a)
     for (int k = 0; k < s->design->n_factors; k++)
         if (s->factors[k])
             names = arena_format(a, "%s%s%s", names, *names ? ", " : "", s->design->factors[k].name);
-    return arena_format(a, "%d of %d sounds %s the very samples of another one that differs in %s (%s and %s): what the factor's levels set has no effect there", s->found, s->n,
-                        s->found == 1 ? "has" : "have", names, s->design->stimuli[s->pair[0]->row].name, s->design->stimuli[s->pair[1]->row].name);
+    return arena_format(a,
+                        "%d of %d sounds %s the very samples of another one that differs in %s (%s and %s): what the "
+                        "factor's levels set has no effect there",
+                        s->found, s->n, s->found == 1 ? "has" : "have", names, s->design->stimuli[s->pair[0]->row].name,
+                        s->design->stimuli[s->pair[1]->row].name);
 }
 
 static const char *no_effect_text(const struct search *s, struct arena *a)
@@ -251,8 +294,9 @@ static const char *no_effect_text(const struct search *s, struct arena *a)
     const char *text = s->found ? factors_text(s, a) : "";
     if (!s->replicates[0])
         return text;
-    return arena_format(a, "%s%sreplicates have the very samples of each other (%s and %s): nothing is random there, and one would do", text, *text ? "; " : "",
-                        rows[s->replicates[0]->row].name, rows[s->replicates[1]->row].name);
+    return arena_format(
+        a, "%s%sreplicates have the very samples of each other (%s and %s): nothing is random there, and one would do",
+        text, *text ? "; " : "", rows[s->replicates[0]->row].name, rows[s->replicates[1]->row].name);
 }
 
 static const char *find_no_effect(struct search *s, struct arena *a)
@@ -272,9 +316,12 @@ static const char *find_no_effect(struct search *s, struct arena *a)
 
 static json_t *factor_json(const struct design_factor *f)
 {
-    json_t *j = json_pack("{s:s, s:s, s:s*}", "LongName", f->name, "Description", f->meaning ? f->meaning : "a factor of the design", "Units", f->unit), *levels = json_object();
+    json_t *j = json_pack("{s:s, s:s, s:s*}", "LongName", f->name, "Description",
+                          f->meaning ? f->meaning : "a factor of the design", "Units", f->unit),
+           *levels = json_object();
     for (int i = 0; i < f->n_levels; i++)
-        json_object_set_new(levels, f->levels[i].value, json_string(f->levels[i].text ? f->levels[i].text : f->levels[i].label));
+        json_object_set_new(levels, f->levels[i].value,
+                            json_string(f->levels[i].text ? f->levels[i].text : f->levels[i].label));
     json_object_set_new(j, "Levels", levels);
     return j;
 }
@@ -285,7 +332,9 @@ static json_t *dictionary(const struct design *d)
     json_t *j = json_object();
     for (const struct column *c = columns; c->name; c++) {
         if (strcmp(c->name, "*") != 0)
-            json_object_set_new(j, c->name, json_pack("{s:s, s:s, s:s*}", "LongName", c->title, "Description", c->meaning, "Units", c->unit));
+            json_object_set_new(
+                j, c->name,
+                json_pack("{s:s, s:s, s:s*}", "LongName", c->title, "Description", c->meaning, "Units", c->unit));
         for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++)
             json_object_set_new(j, d->factors[k].column, factor_json(&d->factors[k]));
     }
@@ -303,7 +352,7 @@ struct writing {
     struct outfile files[TABLES];
     struct search search;
     struct cell cell;
-    bool timings;            /* they are written, too */
+    bool timings; /* they are written, too */
 };
 
 static void put_head(FILE *f, const struct design *d)
@@ -361,7 +410,9 @@ static bool put_stimulus(struct writing *w, int i, struct err *e)
     w->cell.is = &t->rows[i];
     w->cell.text = design_text(t->set->design, i, a);
     w->cell.record = t->rows[i].there && record_read(t->folder, x->name, a, &r) ? &r : NULL;
-    bool ok = w->cell.record || !t->rows[i].there || err_set(e, ERR_IO, "%s: the record of the stimulus cannot be read again", record_path(t->folder, x->name, a));
+    bool ok =
+        w->cell.record || !t->rows[i].there ||
+        err_set(e, ERR_IO, "%s: the record of the stimulus cannot be read again", record_path(t->folder, x->name, a));
     if (ok)
         put_row(&w->cell);
     if (done(&w->cell))
@@ -406,7 +457,10 @@ static bool put_all(struct writing *w, struct err *e)
 bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
 {
     const struct design *d = t->set->design;
-    struct writing w = {.t = t, .search = {.design = d, .sounds = ARENA_TAKE(t->arena, struct sound, t->set->n), .factors = ARENA_TAKE(t->arena, bool, d->n_factors + 1)}};
+    struct writing w = {.t = t,
+                        .search = {.design = d,
+                                   .sounds = ARENA_TAKE(t->arena, struct sound, t->set->n),
+                                   .factors = ARENA_TAKE(t->arena, bool, d->n_factors + 1)}};
     bool ok = true;
     w.timings = access(arena_format(t->arena, "%s/%s", t->folder, names[TIMINGS]), F_OK) != 0;
     for (int i = 0; i < t->set->n; i++)
@@ -414,7 +468,8 @@ bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
     for (int k = 0; k < TABLES; k++)
         w.files[k].fd = -1;
     for (int k = 0; k < TABLES && ok; k++)
-        ok = (k == TIMINGS && !w.timings) || outfile_open(&w.files[k], arena_format(t->arena, "%s/%s", t->folder, names[k]), e);
+        ok = (k == TIMINGS && !w.timings) ||
+             outfile_open(&w.files[k], arena_format(t->arena, "%s/%s", t->folder, names[k]), e);
     ok = ok && put_all(&w, e);
     for (int k = 0; k < TABLES; k++)
         if (ok && w.files[k].target[0])
@@ -434,5 +489,6 @@ void tables_remove(const char *folder, struct arena *a)
 
 bool tables_are_there(const char *folder, struct arena *a)
 {
-    return access(arena_format(a, "%s/%s", folder, names[MANIFEST]), F_OK) == 0 && access(arena_format(a, "%s/%s", folder, names[SUMS]), F_OK) == 0;
+    return access(arena_format(a, "%s/%s", folder, names[MANIFEST]), F_OK) == 0 &&
+           access(arena_format(a, "%s/%s", folder, names[SUMS]), F_OK) == 0;
 }

@@ -10,7 +10,8 @@ void batch_tell_unread(struct cmd_call *c, const char *file, const struct batch_
 /* What renders will warn of, as far as it is known beforehand. */
 void batch_tell_warnings(struct cmd_call *c, const struct set_plan *p);
 
-/* What is wrong with scenes and recordings of a set, found before any was rendered: each fault once. file: the design. */
+/* What is wrong with scenes and recordings of a set, found before any was rendered: each fault once. file: the design.
+ */
 void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct set_plan *p);
 
 /* How many threads do best, 1 to 256. */

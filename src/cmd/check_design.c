@@ -1,4 +1,5 @@
-/* See check_design.h. What rasp batch finds out before it renders anything, and what it leaves to the rendering: whether a promised error can be kept. */
+/* See check_design.h. What rasp batch finds out before it renders anything, and what it leaves to the rendering:
+ * whether a promised error can be kept. */
 #include "cmd/check_design.h"
 
 #include <stdlib.h>
@@ -15,7 +16,7 @@
 
 struct promises {
     const struct design *design;
-    struct err **broken;     /* [n_stimuli] by malloc, until it is taken; NULL: kept, or none is made */
+    struct err **broken; /* [n_stimuli] by malloc, until it is taken; NULL: kept, or none is made */
     struct set_fault *faults;
     int n, stimuli, worst;
     struct arena *arena;
@@ -70,11 +71,16 @@ static void took(void *context, int i)
 /* Each is looked at, replicates too: an error is measured with the noise that is there. */
 static bool promises_kept(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
 {
-    struct promises p = {.design = d, .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli), .faults = ARENA_TAKE(c->arena, struct set_fault, d->n_stimuli), .arena = c->arena};
+    struct promises p = {.design = d,
+                         .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli),
+                         .faults = ARENA_TAKE(c->arena, struct set_fault, d->n_stimuli),
+                         .arena = c->arena};
     resample_prepare();
-    pool_run(&(struct pool_work){.n = d->n_stimuli, .threads = batch_cores(), .context = &p, .job = look, .took = took});
+    pool_run(
+        &(struct pool_work){.n = d->n_stimuli, .threads = batch_cores(), .context = &p, .job = look, .took = took});
     batch_tell_faults(c, "check", file, &(struct set_plan){.faults = p.faults, .n_faults = p.n});
-    return !p.stimuli || err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
+    return !p.stimuli ||
+           err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
 }
 
 /* What is wrong is told, and what it comes to is set. */
@@ -93,9 +99,13 @@ static void tell_wrong(struct cmd_call *c, const char *file, const struct batch_
 bool check_design(struct cmd_call *c, const char *file, const char **remark, struct err *e)
 {
     if (args_given(&c->args, "set") || args_given(&c->args, "seed"))
-        return err_set(e, ERR_USAGE, "%s is a design: --set and --seed change scenes; write set: and seed: into it", file);
+        return err_set(e, ERR_USAGE, "%s is a design: --set and --seed change scenes; write set: and seed: into it",
+                       file);
     struct batch_report r;
-    bool ok = batch_run(&(struct batch_ask){.design = file, .program = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true}, c->arena, &r, e);
+    bool ok = batch_run(
+        &(struct batch_ask){
+            .design = file, .program = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true},
+        c->arena, &r, e);
     batch_tell_warnings(c, &r.plan);
     if (!ok)
         tell_wrong(c, file, &r, e);

@@ -108,7 +108,7 @@ def part_kills(n=100):
 
 
 def part_renames():
-    """Each rename fails in turn, on the way from one state to the other."""
+    """Each rename fails in turn, on the way from one state to the other; then to either."""
     for rule in RULES:
         two_states(rule)
         n, failed = 1, True
@@ -120,8 +120,10 @@ def part_renames():
             failed = done.returncode != 0
             if failed and done.returncode != 74:
                 wrong.append(f"rename {n}, {rule}: exit code {done.returncode}: {done.stderr}")
+            state = CHANCE.choice("ab")
+            shutil.copy(f"{state}.yaml", "d.yaml")
             batch("d.yaml", "set", "-q", "--prune")
-            same("set", "fresh_a", f"rename {n}, {rule}")
+            same("set", f"fresh_{state}", f"rename {n}, {rule}, then {state}")
             shutil.rmtree("set")
             n += CHANCE.randint(1, 4)
         if n < 20:

@@ -1,0 +1,489 @@
+/* The cells of a design, crossed or listed, without those that are excluded, and the recordings; stimuli from cells:
+   replicates, noise seeds, the order of presentation.
+
+   The seed of a stimulus is the first 8 bytes (big-endian) of the SHA-256 of the text
+       rasp design seed\0 SEED \0 REPLICATE \0 FACTOR \0 LABEL \0 ...
+   with the factors whose levels are to be independent, in the order of their names (by bytes): it depends on nothing
+   else, so that a level, a factor or a replicate more changes no other stimulus. Shuffling sorts by such a hash of the
+   order's seed and all labels, for the same reason: what is added comes between, and the others keep their order. */
+#include "batch/design_reading.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene_merge.h"
+
+/* ------------------------------------------------------------------ cells */
+
+enum { EXCLUSIONS = 1000 };
+
+struct exclusion {
+    unsigned char **named; /* [n_factors][n_levels], is the level named? NULL: every level is meant */
+    const struct yaml_node *entry;
+    bool matched;
+};
+
+/* ------------------------------------------------------------------ crossing */
+
+struct crossing { /* a factor's levels but for those of recordings */
+    int *level, n;
+};
+
+static struct crossing *crossings(const struct design_reading *r)
+{
+    const struct design *d = r->design;
+    struct crossing *all = ARENA_TAKE(r->arena, struct crossing, d->n_factors + 1);
+    for (int f = 0; f < d->n_factors; f++) {
+        all[f].level = ARENA_TAKE(r->arena, int, d->factors[f].n_levels + 1);
+        for (int i = 0; i < d->factors[f].n_levels; i++)
+            if (!d->factors[f].levels[i].recorded)
+                all[f].level[all[f].n++] = i;
+    }
+    return all;
+}
+
+static double crossed(const struct design *d, const struct crossing *all)
+{
+    double n = 1;
+    for (int f = 0; f < d->n_factors; f++)
+        n *= all[f].n;
+    return n;
+}
+
+/* The first factor is the slowest. */
+static void levels_of(const struct design *d, const struct crossing *all, long cell, int *level)
+{
+    for (int f = d->n_factors - 1; f >= 0; f--) {
+        level[f] = all[f].level[cell % all[f].n];
+        cell /= all[f].n;
+    }
+}
+
+static struct design_cell *cell_add(struct design_reading *r, long *room)
+{
+    if (r->n_cells == *room) {
+        struct design_cell *more = ARENA_TAKE(r->arena, struct design_cell, 2 * *room + 64);
+        if (r->n_cells > 0)
+            memcpy(more, r->cells, (size_t)r->n_cells * sizeof *more);
+        r->cells = more;
+        *room = 2 * *room + 64;
+    }
+    return &r->cells[r->n_cells++];
+}
+
+static bool excluded(const struct design *d, const int *level, struct exclusion *all, int n)
+{
+    bool any = false;
+    for (int i = 0; i < n; i++) {
+        bool match = true;
+        for (int f = 0; match && f < d->n_factors; f++)
+            match = !all[i].named[f] || all[i].named[f][level[f]];
+        all[i].matched = all[i].matched || match;
+        any = any || match;
+    }
+    return any;
+}
+
+static void cells_cross(struct design_reading *r, const struct crossing *factors, struct exclusion *all, int n)
+{
+    const struct design *d = r->design;
+    long room = (long)crossed(d, factors);
+    int *levels = ARENA_TAKE(r->arena, int, room * d->n_factors + 1);
+    r->cells = ARENA_TAKE(r->arena, struct design_cell, room + 1);
+    for (long i = 0, most = room; i < most; i++) {
+        levels_of(d, factors, i, levels);
+        if (excluded(d, levels, all, n))
+            continue;
+        *cell_add(r, &room) = (struct design_cell){.level = levels};
+        levels += d->n_factors;
+    }
+}
+
+/* ------------------------------------------------------------------ listing */
+
+static void crossed_only(const struct design_reading *r, const int *level, const struct yaml_node *entry)
+{
+    for (int f = 0; f < r->design->n_factors; f++)
+        if (level[f] >= 0 && r->design->factors[f].levels[level[f]].recorded)
+            diag_add(r->yaml->diag, yaml_get(entry, r->design->factors[f].name)->at,
+                     "list a recording under recordings:, or leave of: out of the level",
+                     "'%s' of %s is a level that only recordings have",
+                     diag_shown(r->yaml->diag, r->design->factors[f].levels[level[f]].label),
+                     r->design->factors[f].name);
+}
+
+/* The levels that a map of factor: label says, -1 where it says none; keys of `own` (NULL-terminated) are not factors.
+ */
+static int *entry_levels(const struct design_reading *r, const struct yaml_node *map, const char *const *own)
+{
+    int *level = ARENA_TAKE(r->arena, int, r->design->n_factors + 1);
+    for (int f = 0; f < r->design->n_factors; f++)
+        level[f] = -1;
+    for (const struct yaml_node *item = map->first; item; item = item->next) {
+        int i = 0;
+        while (own[i] && strcmp(own[i], item->key->text) != 0)
+            i++;
+        int f = own[i] ? -1 : design_reading_factor(r, item->key);
+        if (f >= 0)
+            level[f] = design_reading_level(r, f, item, own[0] != NULL);
+    }
+    return level;
+}
+
+/* Entries that are no maps are told here. */
+static bool is_list(const struct design_reading *r, const struct yaml_node *list, const char *label, const char *cure)
+{
+    if (list->kind != YAML_LIST)
+        return design_reading_must(r, list, label, "a list", cure);
+    for (const struct yaml_node *item = list->first; item; item = item->next)
+        if (item->kind != YAML_MAP)
+            design_reading_must(r, item, arena_format(r->arena, "an entry of %s", label), "a map", cure);
+    return true;
+}
+
+static void cell_complete(const struct design_reading *r, const struct yaml_node *entry)
+{
+    for (int f = 0; f < r->design->n_factors; f++)
+        if (!yaml_get(entry, r->design->factors[f].name))
+            diag_add(r->yaml->diag, entry->at, "name a level of every factor", "this cell says nothing of %s",
+                     r->design->factors[f].name);
+}
+
+static void cells_list(struct design_reading *r, const struct yaml_node *list, struct exclusion *all, int n)
+{
+    static const char *const own[] = {NULL};
+    int errors = r->yaml->diag->n;
+    long room = 0;
+    if (!is_list(r, list, "cells", "write for instance: cells: [{material: wood, motion.rate: 1 Hz}]"))
+        return;
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
+        if (entry->kind != YAML_MAP)
+            continue;
+        int *level = entry_levels(r, entry, own);
+        cell_complete(r, entry);
+        crossed_only(r, level, entry);
+        if (r->yaml->diag->n == errors && !excluded(r->design, level, all, n))
+            *cell_add(r, &room) = (struct design_cell){.level = level, .entry = entry};
+    }
+}
+
+/* ------------------------------------------------------------------ excluding */
+
+static void level_name(const struct design_reading *r, int f, const struct yaml_node *label, unsigned char *named)
+{
+    int i = design_reading_level(r, f, label, false);
+    if (i >= 0)
+        named[i] = 1;
+}
+
+static void exclusion_read(const struct design_reading *r, struct exclusion *x)
+{
+    x->named = ARENA_TAKE(r->arena, unsigned char *, r->design->n_factors + 1);
+    if (x->entry->n == 0)
+        diag_add(r->yaml->diag, x->entry->at, "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]",
+                 "this excludes every cell");
+    for (const struct yaml_node *item = x->entry->first; item; item = item->next) {
+        int f = design_reading_factor(r, item->key);
+        if (f < 0)
+            continue;
+        x->named[f] = arena_take(r->arena, (size_t)r->design->factors[f].n_levels, 1);
+        if (item->kind != YAML_LIST)
+            level_name(r, f, item, x->named[f]);
+        for (const struct yaml_node *label = item->kind == YAML_LIST ? item->first : NULL; label; label = label->next)
+            level_name(r, f, label, x->named[f]);
+    }
+}
+
+static struct exclusion *exclusions_read(const struct design_reading *r, int *n)
+{
+    const struct yaml_node *list = design_reading_value(r, "exclude");
+    struct exclusion *all = ARENA_TAKE(r->arena, struct exclusion, list ? list->n + 1 : 1);
+    *n = 0;
+    if (list && list->n > EXCLUSIONS) {
+        diag_add(r->yaml->diag, list->at, "list the cells that there are: cells:", "exclude has more than %d entries",
+                 EXCLUSIONS);
+        return all;
+    }
+    if (!list || !is_list(r, list, "exclude", "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]"))
+        return all;
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
+        if (entry->kind != YAML_MAP)
+            continue;
+        all[*n] = (struct exclusion){.entry = entry};
+        exclusion_read(r, &all[(*n)++]);
+    }
+    return all;
+}
+
+/* ------------------------------------------------------------------ recordings */
+
+static void recordings_add(struct design_reading *r, const struct yaml_node *list)
+{
+    static const char *const own[] = {"file", "name", "text", NULL};
+    static const char cure[] = "write for instance: recordings: [{file: recorded/wood.wav, material: wood}]";
+    long room = r->n_cells;
+    if (!is_list(r, list, "recordings", cure))
+        return;
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
+        if (entry->kind != YAML_MAP)
+            continue;
+        const struct yaml_node *file = yaml_get(entry, "file");
+        const struct yaml_node *text = yaml_get(entry, "text");
+        int *level = entry_levels(r, entry, own);
+        if (text && text->kind != YAML_SCALAR)
+            design_reading_must(r, text, "text", "what the text of a trial is", cure);
+        if (!file)
+            diag_add(r->yaml->diag, entry->at, cure, "this recording has no file");
+        else if (file->kind != YAML_SCALAR || !*file->text)
+            design_reading_must(r, file, "file", "the name of a WAV", cure);
+        else
+            *cell_add(r, &room) =
+                (struct design_cell){level, entry, scene_merge_path(r->yaml, file->at.source, file->text)};
+    }
+}
+
+/* Levels that are told to be of recordings, and are of none. */
+static void recorded_check(const struct design_reading *r)
+{
+    for (int f = 0; f < r->design->n_factors; f++) {
+        const struct design_factor *factor = &r->design->factors[f];
+        const struct yaml_node *item = r->factors[f]->first;
+        bool *used = ARENA_TAKE(r->arena, bool, factor->n_levels + 1);
+        for (long c = 0; c < r->n_cells; c++)
+            if (r->cells[c].level[f] >= 0)
+                used[r->cells[c].level[f]] = true;
+        for (int i = 0; i < factor->n_levels; i++, item = item->next)
+            if (factor->levels[i].recorded && !used[i])
+                diag_add(r->yaml->diag, item->at,
+                         arena_format(r->arena,
+                                      "give it to one: recordings: [{file: recorded.wav, %s: %s}]; or remove it",
+                                      factor->name, factor->levels[i].label),
+                         "no recording has this level of %s", factor->name);
+    }
+}
+
+/* ------------------------------------------------------------------ all */
+
+static void matched_check(const struct design_reading *r, const struct exclusion *all, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (!all[i].matched)
+            diag_add(r->yaml->diag, all[i].entry->at, "remove it, or mend it",
+                     "this excludes nothing: there is no such cell");
+}
+
+static bool few_enough(const struct design_reading *r, double cells, const struct yaml_node *at)
+{
+    cells *= r->design->replicates;
+    return cells <= DESIGN_READING_CELLS ||
+           diag_add(r->yaml->diag, at ? at->at : r->root->at, "make several designs of it",
+                    "this makes %.0f stimuli; a design has at most %d", cells, DESIGN_READING_CELLS);
+}
+
+void design_rows_cells(struct design_reading *r)
+{
+    const struct yaml_node *cells = design_reading_value(r, "cells"),
+                           *recordings = design_reading_value(r, "recordings");
+    int n, errors = r->yaml->diag->n;
+    struct exclusion *all = exclusions_read(r, &n);
+    struct crossing *levels = crossings(r);
+    if (!few_enough(r, cells ? cells->n : crossed(r->design, levels),
+                    cells ? cells : design_reading_value(r, "factors")))
+        return;
+    if (cells)
+        cells_list(r, cells, all, n);
+    else if (r->yaml->diag->n == errors)
+        cells_cross(r, levels, all, n);
+    if (r->yaml->diag->n == errors)
+        matched_check(r, all, n);
+    if (r->yaml->diag->n == errors && r->n_cells == 0)
+        diag_add(r->yaml->diag,
+                 (cells ? cells : yaml_get(r->root, yaml_get(r->root, "exclude") ? "exclude" : "factors"))->at,
+                 "leave some in", "no cell is left");
+    if (recordings)
+        recordings_add(r, recordings);
+    if (r->yaml->diag->n == errors)
+        recorded_check(r);
+}
+
+/* ------------------------------------------------------------------ stimuli */
+
+struct hashing {
+    struct hash h;
+};
+
+static void add_text(struct hashing *x, const char *text) { hash_add(&x->h, text, strlen(text) + 1); }
+
+static void add_number(struct hashing *x, uint64_t n)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%llu", (unsigned long long)n);
+    add_text(x, text);
+}
+
+static struct hashing begin(const char *what)
+{
+    struct hashing x = {hash_start()};
+    add_text(&x, what);
+    return x;
+}
+
+static uint64_t first_64_bits(struct hashing *x)
+{
+    char hex[HASH_TEXT];
+    hash_end(&x->h, hex);
+    hex[16] = '\0';
+    return strtoull(hex, NULL, 16);
+}
+
+/* ------------------------------------------------------------------ seeds and order */
+
+static int by_factor_name(const void *pa, const void *pb)
+{
+    const struct design_factor *const *a = pa, *const *b = pb;
+    return strcmp((*a)->name, (*b)->name);
+}
+
+static const struct design_factor **factors_by_name(const struct design_reading *r)
+{
+    int n = r->design->n_factors;
+    const struct design_factor **all = ARENA_TAKE(r->arena, const struct design_factor *, n + 1);
+    for (int f = 0; f < n; f++)
+        all[f] = &r->design->factors[f];
+    qsort(all, (size_t)n, sizeof *all, by_factor_name);
+    return all;
+}
+
+static void add_labels(struct hashing *x, const struct design *d, const struct design_factor *const *factors,
+                       const int *level, bool independent)
+{
+    for (; *factors; factors++) {
+        const struct design_factor *f = *factors;
+        int i = level[f - d->factors];
+        if (i < 0 || (independent && !f->independent))
+            continue;
+        add_text(x, f->name);
+        add_text(x, f->levels[i].label);
+    }
+}
+
+static uint64_t seed_of(const struct design *d, const struct design_factor *const *factors,
+                        const struct design_stimulus *s)
+{
+    struct hashing x = begin("rasp design seed");
+    add_number(&x, d->seed);
+    add_number(&x, (uint64_t)s->replicate);
+    add_labels(&x, d, factors, s->level, true);
+    return first_64_bits(&x);
+}
+
+static uint64_t rank_of(const struct design_reading *r, const struct design_factor *const *factors,
+                        const struct design_stimulus *s)
+{
+    struct hashing x = begin("rasp design order");
+    const struct yaml_node *file = s->recording ? yaml_get(r->cells[s->cell].entry, "file") : NULL;
+    add_number(&x, r->design->order_seed);
+    add_number(&x, (uint64_t)s->replicate);
+    add_text(&x, file ? file->text : "");
+    add_labels(&x, r->design, factors, s->level, false);
+    return first_64_bits(&x);
+}
+
+struct ranked {
+    struct design_stimulus stimulus;
+    uint64_t rank;
+};
+
+static int by_rank(const void *pa, const void *pb)
+{
+    const struct ranked *a = pa, *b = pb;
+    if (a->rank != b->rank)
+        return a->rank < b->rank ? -1 : 1;
+    return a->stimulus.cell < b->stimulus.cell ? -1 : a->stimulus.cell > b->stimulus.cell;
+}
+
+static void shuffle(struct design_reading *r, const struct design_factor *const *factors)
+{
+    struct design *d = r->design;
+    struct ranked *all = ARENA_TAKE(r->arena, struct ranked, d->n_stimuli);
+    for (int i = 0; i < d->n_stimuli; i++)
+        all[i] = (struct ranked){d->stimuli[i], rank_of(r, factors, &d->stimuli[i])};
+    qsort(all, (size_t)d->n_stimuli, sizeof *all, by_rank);
+    for (int i = 0; i < d->n_stimuli; i++)
+        d->stimuli[i] = all[i].stimulus;
+}
+
+void design_rows_stimuli(struct design_reading *r)
+{
+    struct design *d = r->design;
+    const struct design_factor **factors = factors_by_name(r);
+    d->stimuli = ARENA_TAKE(r->arena, struct design_stimulus, r->n_cells * d->replicates + 1);
+    for (long c = 0; c < r->n_cells; c++) {
+        const struct design_cell *cell = &r->cells[c];
+        for (int k = 1; k <= (cell->recording ? 1 : d->replicates); k++) {
+            struct design_stimulus *s = &d->stimuli[d->n_stimuli++];
+            *s =
+                (struct design_stimulus){.level = cell->level, .replicate = k, .cell = c, .recording = cell->recording};
+            s->seed = cell->recording ? 0 : seed_of(d, factors, s);
+        }
+    }
+    if (d->shuffled)
+        shuffle(r, factors);
+}
+
+/* ------------------------------------------------------------------ the design */
+
+static void add_change(struct hashing *x, const struct design_change *c, const char **texts)
+{
+    add_text(x, c->base ? c->base->text : "");
+    for (; *texts; texts++)
+        add_text(x, *texts);
+    add_text(x, "");
+}
+
+static void add_rules(struct hashing *x, const struct design *d)
+{
+    char text[200];
+    const struct level *l = &d->level;
+    add_text(x, d->title ? d->title : "");
+    add_text(x, d->text ? d->text : "");
+    add_number(x, d->seed);
+    snprintf(text, sizeof text, "%d %a %a %a %a %a %d %a", d->level_rule, l->peak, l->rms, l->lufs, l->full_scale,
+             l->dbfs_at_1_pa, d->length_rule, d->length);
+    add_text(x, text);
+}
+
+static void add_stimulus(struct hashing *x, const struct design_reading *r, const struct design_stimulus *s)
+{
+    add_text(x, s->name);
+    for (int f = 0; f < r->design->n_factors; f++)
+        add_number(x, (uint64_t)(s->level[f] + 1));
+    add_number(x, (uint64_t)s->replicate);
+    add_number(x, (uint64_t)s->cell);
+    add_number(x, s->seed);
+    if (s->recording && yaml_get(r->cells[s->cell].entry, "text"))
+        add_text(x, yaml_get(r->cells[s->cell].entry, "text")->text);
+    add_text(x, s->recording ? yaml_get(r->cells[s->cell].entry, "file")->text : "");
+}
+
+void design_rows_hash(struct design_reading *r)
+{
+    const struct design *d = r->design;
+    struct hashing x = begin("rasp design 1");
+    add_rules(&x, d);
+    add_text(&x, r->texts->base ? r->texts->base->text : "");
+    add_change(&x, &r->texts->set, d->set);
+    for (int f = 0; f < d->n_factors; f++) {
+        add_text(&x, d->factors[f].name);
+        add_number(&x, (uint64_t)d->factors[f].n_levels);
+        for (int i = 0; i < d->factors[f].n_levels; i++) {
+            add_text(&x, d->factors[f].levels[i].label);
+            add_text(&x, d->factors[f].levels[i].text ? d->factors[f].levels[i].text : "");
+            add_change(&x, &r->texts->levels[f][i], d->factors[f].levels[i].set);
+        }
+    }
+    for (int i = 0; i < d->n_stimuli; i++)
+        add_stimulus(&x, r, &d->stimuli[i]);
+    hash_end(&x.h, r->design->sha256);
+}
