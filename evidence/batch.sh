@@ -53,8 +53,8 @@ experiment() {
     for i in 3 7 1 5 2 6 4; do
         rasp batch "$EXPERIMENT" -o parts --shard $i/7 -q > /dev/null
     done
-    rasp merge parts -q
-    echo "| seven shards, merged | | | $(same one parts) |"
+    rasp batch "$EXPERIMENT" -o parts -q --no-render
+    echo "| seven shards, joined | | | $(same one parts) |"
     killed "$(awk -v t="${two[0]}" -v n="$KILLS" 'BEGIN { print 2 * t / (n + 2) }')"
     read -r -a two < <(measured rasp batch "$EXPERIMENT" -o two -j 2 -q)
     echo "| -j 2 once more, nothing to do | ${two[0]} | ${two[1]} | $(same one two) |"
@@ -160,7 +160,7 @@ $(cat experiment.txt)
 
 $MANY stimuli a run, each with a WAV and a table of forces at 1 kHz, half of them cells of their own, the gain known beforehand. The goal was 300 a second on one core and 520
 on two. It counted on 3.3 ms for a stimulus, which is 35 ns a sample for all of it; what rendering takes is most of it, as the table shows, but all else
-alone is more than that, too: it is reading and checking the scene, planning its cell before anything is rendered, measuring (true peaks alone take 2.7 ms) and hashing what was written, the journal and the tables.
+alone is more than that, too: it is reading and checking the scene, planning its cell before anything is rendered, measuring (true peaks alone take 2.7 ms) and hashing what was written, the records and the tables.
 
 $(rates)
 

@@ -14,7 +14,7 @@ enum err_kind {
     ERR_MEMORY = 71,      /* out of memory                                        */
     ERR_CREATE = 73,      /* an output cannot be created                          */
     ERR_IO = 74,          /* reading or writing failed half-way                   */
-    ERR_INTERRUPTED = 75  /* stopped by a signal: run again to resume             */
+    ERR_INTERRUPTED = 75  /* stopped by a signal, or others are at work: run again */
 };
 
 struct err_place {     /* where in a text file that stands; file 0: not said, and line 0: in no line of it */
