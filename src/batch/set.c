@@ -126,6 +126,10 @@ struct planning {
     struct hash scenes; /* of the design, of all of them and of the recordings, in their order */
 };
 
+static const char *recording_of(const struct planning *p, int i) { return p->set->design->stimuli[i].recording; }
+
+static const char *name_of(const struct planning *p, int i) { return p->set->design->stimuli[i].name; }
+
 static struct trial *trial_open(void)
 {
     struct arena *a = arena_open();
@@ -311,7 +315,7 @@ static int note(struct planning *p, int i, struct trial *t)
     while (k < o->n_faults && k < SET_FAULTS && !same(&o->faults[k], t))
         k++;
     if (k == o->n_faults)
-        *more_faults(p) = (struct set_fault){t->arena, t->diag, t->messages, &t->e, p->set->design->stimuli[i].name, 0};
+        *more_faults(p) = (struct set_fault){t->arena, t->diag, t->messages, &t->e, name_of(p, i), 0};
     else
         arena_close(t->arena);
     return k;
@@ -324,8 +328,7 @@ static void warn(struct planning *p, int i, const char *text)
     while (k < o->n_warnings && strcmp(o->warnings[k].text, text) != 0)
         k++;
     if (k == o->n_warnings && k < SET_FAULTS)
-        o->warnings[o->n_warnings++] =
-            (struct set_warning){arena_text(p->arena, text), p->set->design->stimuli[i].name};
+        o->warnings[o->n_warnings++] = (struct set_warning){arena_text(p->arena, text), name_of(p, i)};
 }
 
 static void settle(struct planning *p, int i, struct look *l)
@@ -382,7 +385,7 @@ static void took(void *context, int i)
 {
     struct planning *p = context;
     struct look *l = &p->looks[p->first[i]];
-    if (p->set->design->stimuli[i].recording || (!p->now[i] && (p->second || l->drawn)))
+    if (recording_of(p, i) || (!p->now[i] && (p->second || l->drawn)))
         return;
     if (l->trial && !p->second)
         hash_add(&p->scenes, l->trial->sha256, HASH_TEXT);
@@ -400,7 +403,7 @@ static void find_first(struct planning *p)
     for (int i = 0; i < p->set->n; i++) {
         int *first = &of[p->set->design->stimuli[i].cell];
         p->first[i] = i;
-        if (p->set->design->stimuli[i].recording)
+        if (recording_of(p, i))
             continue;
         if (!*first)
             *first = i + 1;
@@ -415,7 +418,7 @@ static bool find_drawn(struct planning *p)
     bool any = false;
     p->second = true;
     for (int i = 0; i < p->set->n; i++) {
-        bool other = !p->set->design->stimuli[i].recording && p->first[i] != i && p->looks[p->first[i]].drawn;
+        bool other = !recording_of(p, i) && p->first[i] != i && p->looks[p->first[i]].drawn;
         p->now[i] = other;
         p->first[i] = other ? i : p->first[i];
         any = any || other;
@@ -436,10 +439,7 @@ static bool look_at_all(struct planning *p, struct err *e)
 
 /* ------------------------------------------------------------------ the whole */
 
-static bool is_sound(const struct planning *p, int i)
-{
-    return !p->set->design->stimuli[i].recording && p->looks[p->first[i]].sounds;
-}
+static bool is_sound(const struct planning *p, int i) { return !recording_of(p, i) && p->looks[p->first[i]].sounds; }
 
 /* The form of the set is that of its first sound; recordings alone have that of the first of them, in 24 bits. */
 static void find_form(const struct planning *p, struct form *f)
@@ -481,7 +481,7 @@ static void look_at_recordings(struct planning *p)
     struct set *s = p->set;
     for (int i = 0; i < s->n; i++) {
         struct look *l = &p->looks[i];
-        const char *file = p->set->design->stimuli[i].recording;
+        const char *file = recording_of(p, i);
         if (!file)
             continue;
         l->trial = trial_open();
@@ -508,7 +508,7 @@ static void look_at_levels_of_recordings(struct planning *p)
     struct set *s = p->set;
     for (int i = 0; i < s->n; i++) {
         struct look *l = &p->looks[i];
-        const char *file = p->set->design->stimuli[i].recording;
+        const char *file = recording_of(p, i);
         if (!file || l->fault)
             continue;
         l->trial = trial_open();
@@ -529,7 +529,7 @@ static bool may_be_short(const struct planning *p)
     struct set *s = p->set;
     for (int i = 0; i < s->n && s->level_rule == DESIGN_LEVEL_COMMON; i++) {
         const struct look *l = &p->looks[p->first[i]];
-        if (!p->set->design->stimuli[i].recording && l->sounds && !is_short(l, seconds_of(s, l)))
+        if (!recording_of(p, i) && l->sounds && !is_short(l, seconds_of(s, l)))
             return false;
     }
     return true;
@@ -544,7 +544,7 @@ static void look_at_levels(struct planning *p)
     for (int i = 0, some = may_be_short(p); some && i < s->n; i++) {
         struct look *l = &p->looks[p->first[i]];
         double seconds = seconds_of(s, l);
-        if (p->set->design->stimuli[i].recording || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief))
+        if (recording_of(p, i) || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief))
             continue;
         if (p->first[i] == i)
             tell_short(p, i, seconds, l);

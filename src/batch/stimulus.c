@@ -112,20 +112,16 @@ static enum stimulus_state state_of(const struct work *w)
 {
     if (!w->was)
         return STIMULUS_NEW;
-    if (w->was->status == RECORD_MAKING || strcmp(w->was->key, w->key) != 0)
+    if (strcmp(w->was->key, w->key) != 0)
         return STIMULUS_KEY;
-    return has_files(w) ? STIMULUS_THERE : STIMULUS_FILE;
+    return w->was->status != RECORD_MAKING && has_files(w) ? STIMULUS_THERE : STIMULUS_FILE;
 }
 
 static bool begin(struct work *w, const struct stimulus_set *k, int i, struct arena *a, struct err *e)
 {
     const struct design_stimulus *x = &k->set->design->stimuli[i];
-    *w = (struct work){.k = k,
-                       .i = i,
-                       .name = x->name,
-                       .base = arena_format(a, "%s/%s", k->folder, x->name),
-                       .arena = a,
-                       .file = x->recording};
+    *w = (struct work){.k = k, .i = i, .name = x->name, .arena = a, .file = x->recording};
+    w->base = arena_format(a, "%s/%s", k->folder, x->name);
     if (!(w->file ? read_recording(w, e) : read_scene(w, e)))
         return false;
     struct record *r = ARENA_TAKE(a, struct record, 1);
@@ -156,23 +152,53 @@ bool stimulus_look(const struct stimulus_set *k, int i, struct arena *a, struct 
 
 /* ------------------------------------------------------------------ commit */
 
-struct commit { /* how complete files get their names */
-    bool (*give)(void *files, struct err *e);
-    void (*drop)(void *files);
-    void *files;
+struct made {              /* files that are complete and settled, without names yet */
+    struct render *render; /* NULL: none; else that alone */
+    struct outfile scene;
+    int n;
+    struct wav_out *sounds[1 + STEMS];
+    struct wav_written written[1 + STEMS];
+    struct render_file files[1 + STEMS]; /* the sounds as a render has them */
 };
+
+static void drop(struct made *m)
+{
+    if (m->render)
+        render_drop(m->render);
+    outfile_drop(&m->scene);
+    for (int k = 0; k < m->n; k++)
+        wav_drop(m->sounds[k]);
+    m->n = 0;
+}
+
+/* Gives them their names. */
+static bool give(struct made *m, struct err *e)
+{
+    bool ok = (!m->render || render_commit(m->render, e)) && (!m->scene.target[0] || outfile_commit(&m->scene, e));
+    m->render = NULL;
+    for (int k = 0; k < m->n && ok; k++) {
+        ok = wav_commit(m->sounds[k], e);
+        m->sounds[k] = NULL;
+    }
+    drop(m);
+    return ok;
+}
+
+/* Of nothing yet, with room for so many files. */
+static struct record begun(const struct work *w, enum record_status status, int n_files)
+{
+    struct record r = {.status = status, .key = w->key, .program = w->k->set->program, .full_scale = NAN, .rate = NAN};
+    r.lufs = r.file_peak = r.file_rms = r.file_lufs = r.true_peak = r.beyond = NAN;
+    r.seen_from = w->file ? NULL : w->k->seen_from;
+    r.files = ARENA_TAKE(w->arena, struct record_file, n_files + 1);
+    return r;
+}
 
 /* What lies there, and what is about to. */
 static struct record making(const struct work *w, const struct record *to)
 {
     int n = w->was ? w->was->n_files : 0;
-    struct record r = {.status = RECORD_MAKING,
-                       .key = to->key,
-                       .program = to->program,
-                       .seen_from = to->seen_from,
-                       .full_scale = NAN,
-                       .rate = NAN};
-    r.files = ARENA_TAKE(w->arena, struct record_file, n + to->n_files + 1);
+    struct record r = begun(w, RECORD_MAKING, n + to->n_files);
     for (int k = 0; k < n; k++)
         r.files[r.n_files++] = w->was->files[k];
     for (int k = 0; k < to->n_files; k++)
@@ -210,23 +236,22 @@ static bool inputs_same(const struct work *w, struct err *e)
            err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
 }
 
-/* From here on *w has the new record as its own. */
-static bool commit(struct work *w, const struct record *to, const struct commit *c, struct err *e)
+/* If all is complete (`whole`), gives the files their names between two records; then *w has the new one as its own. */
+static bool commit(struct work *w, const struct record *to, struct made *m, bool whole, struct err *e)
 {
     const struct record before = making(w, to);
     interrupt_hold();
-    bool ok = inputs_same(w, e) && record_write(w->k->folder, w->name, &before, e);
+    bool ok = whole && inputs_same(w, e) && record_write(w->k->folder, w->name, &before, e);
     if (!ok)
-        c->drop(c->files);
-    ok = ok && c->give(c->files, e);
+        drop(m);
+    ok = ok && give(m, e);
     if (ok)
         remove_old(w, to);
     ok = ok && record_write(w->k->folder, w->name, to, e);
     interrupt_go();
     if (ok) {
-        struct record *r = ARENA_TAKE(w->arena, struct record, 1);
-        *r = *to;
-        w->was = r;
+        w->was = ARENA_TAKE(w->arena, struct record, 1);
+        *w->was = *to;
     }
     return ok;
 }
@@ -275,29 +300,17 @@ static bool measure(struct record *r, const char *path, struct arena *a, struct 
 static struct record of_render(const struct work *w, const struct render_report *report, bool waits)
 {
     const struct scene *s = &w->scene;
-    struct record r = {.status = waits ? RECORD_WAITS : RECORD_DONE,
-                       .key = w->key,
-                       .program = w->k->set->program,
-                       .seen_from = w->k->seen_from,
-                       .full_scale = NAN,
-                       .rate = report->sounds ? s->output.sample_rate : NAN,
-                       .frames = report->frames,
-                       .sounds = report->sounds,
-                       .peak = report->sound.peak,
-                       .rms = report->sound.rms,
-                       .lufs = NAN,
-                       .encoding = s->output.encoding,
-                       .channels = sound_format(s, report->frames).channels,
-                       .unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL,
-                       .gain = report->sound.gain,
-                       .ramp = report->sound.ramp,
-                       .file_peak = NAN,
-                       .file_rms = NAN,
-                       .file_lufs = NAN,
-                       .true_peak = NAN,
-                       .beyond = report->sounds ? written_sound(report)->written->beyond : NAN,
-                       .render = report->summary};
-    r.files = ARENA_TAKE(w->arena, struct record_file, report->n_files + 1);
+    struct record r = begun(w, waits ? RECORD_WAITS : RECORD_DONE, report->n_files);
+    r.rate = report->sounds ? s->output.sample_rate : NAN;
+    r.frames = report->frames;
+    r.sounds = report->sounds;
+    r.peak = report->sound.peak, r.rms = report->sound.rms;
+    r.encoding = s->output.encoding;
+    r.channels = sound_format(s, report->frames).channels;
+    r.unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL;
+    r.gain = report->sound.gain, r.ramp = report->sound.ramp;
+    r.beyond = report->sounds ? written_sound(report)->written->beyond : NAN;
+    r.render = report->summary;
     r.warnings = ARENA_TAKE(w->arena, const char *, report->n_warnings + 1);
     for (int k = 0; k < report->n_warnings; k++)
         r.warnings[k] = report->warnings[k];
@@ -334,10 +347,6 @@ static bool list_render(const struct work *w, const struct render_report *report
     return measure_render(w, r, wav, e);
 }
 
-static bool give_render(void *render, struct err *e) { return render_commit(render, e); }
-
-static void drop_render(void *render) { render_drop(render); }
-
 static bool render(struct work *w, struct stimulus *s, struct err *e)
 {
     bool waits = set_waits(w->k->set);
@@ -349,15 +358,12 @@ static bool render(struct work *w, struct stimulus *s, struct err *e)
     if (!folder_make_for(w->k->folder, w->name, e) ||
         (waits && !folder_make_for(w->k->folder, arena_format(w->arena, ".rasp/raw/%s", w->name), e)))
         return false;
-    struct render *x = render_make(&made, &(struct render_names){w->base, raw}, w->arena, &report, e);
-    if (!x)
+    struct made m = {.render = render_make(&made, &(struct render_names){w->base, raw}, w->arena, &report, e),
+                     .scene = {.fd = -1}};
+    if (!m.render)
         return scene_places_tell(&w->scene, e);
     struct record r = of_render(w, &report, waits);
-    if (!list_render(w, &report, &r, e)) {
-        render_drop(x);
-        return false;
-    }
-    if (!commit(w, &r, &(struct commit){give_render, drop_render, x}, e))
+    if (!commit(w, &r, &m, list_render(w, &report, &r, e), e))
         return false;
     s->wall += report.seconds, s->cpu += report.cpu;
     return true;
@@ -365,32 +371,20 @@ static bool render(struct work *w, struct stimulus *s, struct err *e)
 
 /* ------------------------------------------------------------------ recordings */
 
-static bool give_sound(void *sound, struct err *e) { return wav_commit(sound, e); }
-
-static void drop_sound(void *sound) { wav_drop(sound); }
-
 static bool copy(struct work *w, struct stimulus *s, struct err *e)
 {
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
-    const struct set *set = w->k->set;
-    struct record r = {.status = RECORD_DONE,
-                       .key = w->key,
-                       .program = set->program,
-                       .full_scale = NAN,
-                       .sounds = true,
-                       .files = ARENA_TAKE(w->arena, struct record_file, 1)};
+    struct made m = {.scene = {.fd = -1}, .n = 1};
+    struct record r = begun(w, RECORD_DONE, 1);
+    const char *path = arena_format(w->arena, "%s.wav", w->name);
+    r.sounds = true;
     if (!folder_make_for(w->k->folder, w->name, e))
         return false;
-    struct wav_out *out = recording_make(set, w->file, arena_format(w->arena, "%s.wav", w->base), &r, w->arena, e);
-    if (!out)
-        return false;
-    const char *lies = wav_temporary(out);
-    if (!add_file(&r, "wav", arena_format(w->arena, "%s.wav", w->name), false, lies, w->arena, e) ||
-        !measure(&r, lies, w->arena, e)) {
-        wav_drop(out);
-        return false;
-    }
-    bool ok = commit(w, &r, &(struct commit){give_sound, drop_sound, out}, e);
+    struct wav_out *out = m.sounds[0] =
+        recording_make(w->k->set, w->file, arena_format(w->arena, "%s.wav", w->base), &r, w->arena, e);
+    bool whole = out && add_file(&r, "wav", path, false, wav_temporary(out), w->arena, e) &&
+                 measure(&r, wav_temporary(out), w->arena, e);
+    bool ok = commit(w, &r, &m, whole, e);
     s->wall += stopwatch_wall() - start[0], s->cpu += stopwatch_cpu() - start[1];
     return ok;
 }
@@ -428,27 +422,15 @@ static struct record copy_of(const struct record *r, struct arena *a)
     return c;
 }
 
-static bool give_scene(void *file, struct err *e)
-{
-    struct outfile *f = file;
-    return !f->target[0] || outfile_commit(f, e);
-}
-
-static void drop_scene(void *file) { outfile_drop(file); }
-
 /* The design lies elsewhere by now: the files that the effective scene names are called otherwise. */
 static bool move(struct work *w, struct err *e)
 {
-    struct outfile f = {.fd = -1};
+    struct made m = {.scene = {.fd = -1}};
     struct record r = copy_of(w->was, w->arena);
     r.seen_from = w->k->seen_from;
     if (!isnan(r.full_scale))
         w->scene.output.level.full_scale = r.full_scale;
-    if (r.status == RECORD_DONE && !put_scene(&f, w, &r, e)) {
-        outfile_drop(&f);
-        return false;
-    }
-    return commit(w, &r, &(struct commit){give_scene, drop_scene, &f}, e);
+    return commit(w, &r, &m, r.status == RECORD_WAITS || put_scene(&m.scene, w, &r, e), e);
 }
 
 bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, struct arena *a, struct stimulus *s,
@@ -474,37 +456,6 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
 }
 
 /* ------------------------------------------------------------------ the gain of the set */
-
-struct levelled { /* files that a raw sound becomes */
-    struct wav_out *sounds[1 + STEMS];
-    struct render_file files[1 + STEMS]; /* as a render has them */
-    struct wav_written written[1 + STEMS];
-    struct outfile scene;
-    int n;
-};
-
-static bool give_levelled(void *files, struct err *e)
-{
-    struct levelled *l = files;
-    bool ok = outfile_commit(&l->scene, e);
-    for (int k = 0; k < l->n; k++) {
-        if (ok)
-            ok = wav_commit(l->sounds[k], e);
-        else
-            wav_drop(l->sounds[k]);
-    }
-    l->n = 0;
-    return ok;
-}
-
-static void drop_levelled(void *files)
-{
-    struct levelled *l = files;
-    outfile_drop(&l->scene);
-    for (int k = 0; k < l->n; k++)
-        wav_drop(l->sounds[k]);
-    l->n = 0;
-}
 
 static bool copy_scaled(struct wav_stream *in, struct wav_out *out, double gain, struct err *e)
 {
@@ -540,7 +491,7 @@ static const char *stem_of(const char *path, struct arena *a)
 }
 
 /* One raw WAV, f, into the file that it becomes. */
-static bool scale(const struct work *w, struct levelled *l, struct record_file *f, struct err *e)
+static bool scale(const struct work *w, struct made *m, struct record_file *f, struct err *e)
 {
     struct wav_stream in;
     char comment[80] = "rasp: contact force, 1.0 is 1 N";
@@ -557,7 +508,7 @@ static bool scale(const struct work *w, struct levelled *l, struct record_file *
         sound_comment(&w->scene, gain, comment);
     struct wav_out *out = wav_create(arena_format(w->arena, "%s/%s", w->k->folder, path), &format, e);
     if (out)
-        l->sounds[l->n++] = out;
+        m->sounds[m->n++] = out;
     bool ok = out && wav_comment(out, comment, e) && copy_scaled(&in, out, gain, e) && wav_settle(out, e);
     wav_stream_close(&in);
     if (!ok && e->kind == ERR_SCENE)
@@ -567,29 +518,29 @@ static bool scale(const struct work *w, struct levelled *l, struct record_file *
                                          "output.encoding: float32, or a lower level");
     if (!ok)
         return false;
-    l->written[l->n - 1] = wav_written(out);
-    l->files[l->n - 1] = (struct render_file){.kind = f->kind,
+    m->written[m->n - 1] = wav_written(out);
+    m->files[m->n - 1] = (struct render_file){.kind = f->kind,
                                               .path = path,
                                               .stem = !strcmp(f->kind, "stem") ? stem_of(path, w->arena) : NULL,
-                                              .written = &l->written[l->n - 1],
+                                              .written = &m->written[m->n - 1],
                                               .temporary = wav_temporary(out)};
     struct record one = {.files = f};
     return add_file(&one, f->kind, path, false, wav_temporary(out), w->arena, e);
 }
 
 /* What a render at that gain would have warned of. A raw sound that is silent has been warned of. */
-static void add_warnings(const struct work *w, const struct levelled *l, struct record *r)
+static void add_warnings(const struct work *w, const struct made *m, struct record *r)
 {
     int n = 0;
     while (r->warnings[n])
         n++;
-    const char **all = ARENA_TAKE(w->arena, const char *, n + 2 * l->n + 1);
+    const char **all = ARENA_TAKE(w->arena, const char *, n + 2 * m->n + 1);
     for (int k = 0; k < n; k++)
         all[k] = r->warnings[k];
-    for (int k = 0; k < l->n; k++) {
-        const char *texts[2] = {r->peak > 0 ? written_silent(&w->scene, &l->files[k], r->gain * r->peak, w->arena)
+    for (int k = 0; k < m->n; k++) {
+        const char *texts[2] = {r->peak > 0 ? written_silent(&w->scene, &m->files[k], r->gain * r->peak, w->arena)
                                             : NULL,
-                                written_beyond(&w->scene, &l->files[k], w->arena)};
+                                written_beyond(&w->scene, &m->files[k], w->arena)};
         for (int t = 0; t < 2; t++) {
             bool known = !texts[t];
             for (int i = 0; i < n && !known; i++)
@@ -612,22 +563,22 @@ static void set_gain_json(json_t *sound, double gain)
 }
 
 /* The render's text, with the gain and the files that it has now. */
-static const char *render_text(const struct work *w, const struct levelled *l, const struct record *r)
+static const char *render_text(const struct work *w, const struct made *m, const struct record *r)
 {
     json_t *j = json_loads(r->render, 0, NULL), *sound = json_object_get(j, "sound"), *file;
     size_t i;
     if (sound)
         set_gain_json(sound, r->gain);
-    for (int k = 0; k < l->n; k++) {
-        const char *name = file_name(l->files[k].path);
+    for (int k = 0; k < m->n; k++) {
+        const char *name = file_name(m->files[k].path);
         json_array_foreach(json_object_get(j, "files"), i, file)
         {
             const char *listed = json_string_value(json_object_get(file, "name"));
             if (listed && !strcmp(listed, name))
-                written_tell(&l->files[k], file);
+                written_tell(&m->files[k], file);
         }
-        if (!l->files[k].stem)
-            written_tell(&l->files[k], sound);
+        if (!m->files[k].stem)
+            written_tell(&m->files[k], sound);
     }
     char *text = json_dumps(j, JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
     const char *whole = arena_text(w->arena, text ? text : "{}");
@@ -636,37 +587,33 @@ static const char *render_text(const struct work *w, const struct levelled *l, c
     return whole;
 }
 
-static bool make_levelled(const struct work *w, struct levelled *l, struct record *r, struct err *e)
+static bool make_levelled(const struct work *w, struct made *m, struct record *r, struct err *e)
 {
     for (int k = 0; k < r->n_files; k++)
-        if (r->files[k].raw && !scale(w, l, &r->files[k], e))
+        if (r->files[k].raw && !scale(w, m, &r->files[k], e))
             return false;
-    for (int k = 0; k < l->n; k++) {
-        if (l->files[k].stem)
+    for (int k = 0; k < m->n; k++) {
+        if (m->files[k].stem)
             continue;
-        r->beyond = l->written[k].beyond;
-        if (!measure(r, l->files[k].temporary, w->arena, e))
+        r->beyond = m->written[k].beyond;
+        if (!measure(r, m->files[k].temporary, w->arena, e))
             return false;
     }
-    add_warnings(w, l, r);
-    r->render = render_text(w, l, r);
-    return put_scene(&l->scene, w, r, e);
+    add_warnings(w, m, r);
+    r->render = render_text(w, m, r);
+    return put_scene(&m->scene, w, r, e);
 }
 
 static bool lay_gain(struct work *w, double full_scale, struct err *e)
 {
-    struct levelled l = {.scene = {.fd = -1}};
+    struct made m = {.scene = {.fd = -1}};
     struct record r = copy_of(w->was, w->arena);
     w->scene.output.level.full_scale = full_scale;
     w->scene.output.level.later = false;
     r.status = RECORD_DONE;
     r.full_scale = full_scale;
     r.gain = sound_known_gain(&w->scene);
-    if (!make_levelled(w, &l, &r, e)) {
-        drop_levelled(&l);
-        return false;
-    }
-    return commit(w, &r, &(struct commit){give_levelled, drop_levelled, &l}, e);
+    return commit(w, &r, &m, make_levelled(w, &m, &r, e), e);
 }
 
 bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool may_render, struct arena *a,

@@ -55,13 +55,15 @@ struct cell { /* what a column may be made from */
     const struct record *record; /* NULL: none                    */
     const char *level;           /* set_level_text                  */
     const char *text;            /* of the trial; NULL: none        */
+    char seed[24];
     FILE *f;
 };
 
 struct column {
-    const char *name;                   /* NULL: the end; "*": here the factors' columns stand */
-    const char *title, *meaning, *unit; /* unit NULL: none */
-    void (*put)(const struct cell *c);
+    const char *name;                          /* NULL: the end; "*": here the factors' columns stand */
+    const char *title, *meaning, *unit;        /* unit NULL: none */
+    const char *(*text)(const struct cell *c); /* NULL: it is a number; NULL and NAN of it are n/a */
+    double (*number)(const struct cell *c);
 };
 
 /* Of a stimulus that is complete. */
@@ -73,170 +75,153 @@ static const struct record *done(const struct cell *c)
 /* Of one that has a WAV, too. */
 static const struct record *sound_of(const struct cell *c) { return done(c) && c->record->sounds ? c->record : NULL; }
 
-static void put(const struct cell *c, const char *text) { tables_text(c->f, text ? text : "n/a"); }
-
-static void put_number(const struct cell *c, bool known, double x) { tables_number(c->f, known ? x : NAN); }
+/* Of a sound's record; NAN: there is none. */
+#define SOUND(c, field) (sound_of(c) ? (double)sound_of(c)->field : NAN)
 
 static double decibel(double x) { return x > 0 ? 20 * real_log10(x) : NAN; }
 
+static double rounded(double x) { return rint(x * 1e4) / 1e4; }
+
 static const struct record_file *file_of(const struct cell *c, const char *kind)
 {
+    static const struct record_file none = {0};
     const struct record *r = done(c);
     for (int i = 0; r && i < r->n_files; i++)
         if (!strcmp(r->files[i].kind, kind))
             return &r->files[i];
-    return NULL;
+    return &none;
 }
 
 static const struct record_file *main_file(const struct cell *c)
 {
     static const char *const kinds[] = {"wav", "csv", "npy", "impacts"};
-    const struct record_file *f = NULL;
-    for (int k = 0; !f && k < 4; k++)
+    const struct record_file *f = file_of(c, kinds[0]);
+    for (int k = 1; !f->path && k < 4; k++)
         f = file_of(c, kinds[k]);
     return f;
 }
 
 static const struct design_stimulus *row_of(const struct cell *c) { return &c->set->design->stimuli[c->row]; }
 
-static void file_name(const struct cell *c) { put(c, main_file(c) ? main_file(c)->path : NULL); }
-static void stimulus_id(const struct cell *c) { put(c, row_of(c)->name); }
-static void row(const struct cell *c) { fprintf(c->f, "%d", c->row + 1); }
-static void scene_file(const struct cell *c) { put(c, file_of(c, "scene") ? file_of(c, "scene")->path : NULL); }
-static void scene_sha256(const struct cell *c) { put(c, file_of(c, "scene") ? file_of(c, "scene")->sha256 : NULL); }
-static void text(const struct cell *c) { put(c, c->text); }
-static void replicate(const struct cell *c) { put_number(c, !row_of(c)->recording, row_of(c)->replicate); }
-static void recording(const struct cell *c)
+static const char *base_name(const char *path)
 {
-    const char *file = row_of(c)->recording, *slash = file ? strrchr(file, '/') : NULL;
-    put(c, slash ? slash + 1 : file);
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    return slash ? slash + 1 : path;
 }
 
-static void seed(const struct cell *c)
+static const char *word_of(int encoding) { return keys_find("output.encoding")->choices[encoding].word; }
+
+static const char *file_name(const struct cell *c) { return main_file(c)->path; }
+static const char *stimulus_id(const struct cell *c) { return row_of(c)->name; }
+static const char *scene_file(const struct cell *c) { return file_of(c, "scene")->path; }
+static const char *scene_sha256(const struct cell *c) { return file_of(c, "scene")->sha256; }
+static const char *text(const struct cell *c) { return c->text; }
+static const char *recording(const struct cell *c) { return base_name(row_of(c)->recording); }
+static const char *seed(const struct cell *c) { return row_of(c)->recording ? NULL : c->seed; }
+static const char *encoding(const struct cell *c) { return sound_of(c) ? word_of(sound_of(c)->encoding) : NULL; }
+static const char *level_mode(const struct cell *c) { return c->level; }
+static const char *unit(const struct cell *c) { return sound_of(c) ? sound_of(c)->unit : NULL; }
+static const char *audio(const struct cell *c) { return sound_of(c) ? sound_of(c)->audio : NULL; }
+static const char *file_sha256(const struct cell *c) { return main_file(c)->sha256; }
+static const char *job(const struct cell *c) { return c->record ? c->record->key : NULL; }
+static const char *version(const struct cell *c) { return c->set->program; }
+static const char *error(const struct cell *c) { return c->is->text; }
+
+static const char *status(const struct cell *c)
 {
-    if (row_of(c)->recording)
-        put(c, NULL);
-    else
-        fprintf(c->f, "%" PRIu64, row_of(c)->seed);
+    return done(c) ? "ok" : c->record ? "waits" : c->is->kind ? "failed" : "missing";
 }
 
-static void rate(const struct cell *c) { put_number(c, c->record, c->record ? c->record->rate : 0); }
-static void channels(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->channels : 0); }
-static void frames(const struct cell *c) { put_number(c, c->record, c->record ? (double)c->record->frames : 0); }
-static void duration(const struct cell *c)
-{
-    put_number(c, c->record, c->record ? (double)c->record->frames / c->record->rate : 0);
-}
-static void encoding(const struct cell *c)
-{
-    put(c, sound_of(c) ? keys_find("output.encoding")->choices[sound_of(c)->encoding].word : NULL);
-}
-static void level_mode(const struct cell *c) { put(c, c->level); }
-static void gain(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->gain) : 0); }
-static void unit(const struct cell *c) { put(c, sound_of(c) ? sound_of(c)->unit : NULL); }
-static void peak(const struct cell *c)
-{
-    put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_peak) : 0);
-}
-static void silent(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->file_peak == 0 : 0); }
-static void beyond(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->beyond : 0); }
-static void true_peak(const struct cell *c)
-{
-    put_number(c, sound_of(c), sound_of(c) ? rint(decibel(sound_of(c)->true_peak) * 1e4) / 1e4 : 0);
-}
-static void rms(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? decibel(sound_of(c)->file_rms) : 0); }
-static void lufs(const struct cell *c)
-{
-    put_number(c, sound_of(c), sound_of(c) ? rint(sound_of(c)->file_lufs * 1e4) / 1e4 : 0);
-}
-static void ramp(const struct cell *c) { put_number(c, sound_of(c), sound_of(c) ? sound_of(c)->ramp : 0); }
-static void onset(const struct cell *c)
-{
-    put_number(c, sound_of(c), sound_of(c) && !row_of(c)->recording ? sound_of(c)->ramp : 0);
-}
-static void audio(const struct cell *c) { put(c, sound_of(c) ? sound_of(c)->audio : NULL); }
-static void file_sha256(const struct cell *c) { put(c, main_file(c) ? main_file(c)->sha256 : NULL); }
-static void job(const struct cell *c) { put(c, c->record ? c->record->key : NULL); }
-static void version(const struct cell *c) { put(c, c->set->program); }
-
-static void status(const struct cell *c)
-{
-    put(c, done(c) ? "ok" : c->record ? "waits" : c->is->kind ? "failed" : "missing");
-}
-
-static void error_code(const struct cell *c) { fprintf(c->f, "%d", (int)c->is->kind); }
-static void error(const struct cell *c) { put(c, c->is->text); }
+static double row(const struct cell *c) { return c->row + 1; }
+static double replicate(const struct cell *c) { return row_of(c)->recording ? (double)NAN : row_of(c)->replicate; }
+static double rate(const struct cell *c) { return c->record ? c->record->rate : NAN; }
+static double channels(const struct cell *c) { return SOUND(c, channels); }
+static double frames(const struct cell *c) { return c->record ? (double)c->record->frames : NAN; }
+static double duration(const struct cell *c) { return frames(c) / rate(c); }
+static double gain(const struct cell *c) { return decibel(SOUND(c, gain)); }
+static double peak(const struct cell *c) { return decibel(SOUND(c, file_peak)); }
+static double silent(const struct cell *c) { return sound_of(c) ? sound_of(c)->file_peak == 0 : NAN; }
+static double beyond(const struct cell *c) { return SOUND(c, beyond); }
+static double true_peak(const struct cell *c) { return rounded(decibel(SOUND(c, true_peak))); }
+static double rms(const struct cell *c) { return decibel(SOUND(c, file_rms)); }
+static double lufs(const struct cell *c) { return rounded(SOUND(c, file_lufs)); }
+static double ramp(const struct cell *c) { return SOUND(c, ramp); }
+static double onset(const struct cell *c) { return ramp(c) * !row_of(c)->recording; }
+static double error_code(const struct cell *c) { return c->is->kind; }
 
 static const struct column columns[] = {
     {"file_name", "File", "the stimulus, from the folder of this table: a WAV, or the table of what makes no sound",
-     NULL, file_name},
+     NULL, file_name, NULL},
     {"stimulus_id", "Stimulus", "name of the stimulus, as the design makes it: its files begin with it", NULL,
-     stimulus_id},
-    {"plan_row", "Row", "number of the stimulus in the order of the design, from 1", NULL, row},
+     stimulus_id, NULL},
+    {"plan_row", "Row", "number of the stimulus in the order of the design, from 1", NULL, NULL, row},
     {"scene_file", "Scene",
      "the effective scene, with every parameter spelt out: rendering it gives the same bytes; n/a of a recording", NULL,
-     scene_file},
+     scene_file, NULL},
     {"scene_sha256", "Hash of the scene",
      "SHA-256 of scene_file, which names its inputs as they are seen from its folder: it is another where the folder "
      "lies elsewhere",
-     NULL, scene_sha256},
-    {"*", NULL, NULL, NULL, NULL},
-    {"text", "Text", "what the stimulus is, in words for those who listen", NULL, text},
+     NULL, scene_sha256, NULL},
+    {"*", NULL, NULL, NULL, NULL, NULL},
+    {"text", "Text", "what the stimulus is, in words for those who listen", NULL, text, NULL},
     {"replicate", "Replicate",
-     "number of the replicate, from 1: replicates differ in their noise alone; n/a of a recording", NULL, replicate},
+     "number of the replicate, from 1: replicates differ in their noise alone; n/a of a recording", NULL, NULL,
+     replicate},
     {"seed", "Noise seed",
      "seed of the scene's noise, 64 bits: stimuli of one replicate share it, but for factors that the design calls "
      "independent",
-     NULL, seed},
+     NULL, seed, NULL},
     {"recording", "Recording", "the supplied WAV that this stimulus was made from; n/a of what is rendered", NULL,
-     recording},
-    {"sample_rate_hz", "Sample rate", "audio samples per second", "Hz", rate},
-    {"channels", "Channels", "channels of the WAV", NULL, channels},
-    {"frames", "Frames", "samples of each channel", NULL, frames},
-    {"duration_s", "Duration", "length of the file", "s", duration},
-    {"encoding", "Encoding", "how samples are stored", NULL, encoding},
+     recording, NULL},
+    {"sample_rate_hz", "Sample rate", "audio samples per second", "Hz", NULL, rate},
+    {"channels", "Channels", "channels of the WAV", NULL, NULL, channels},
+    {"frames", "Frames", "samples of each channel", NULL, NULL, frames},
+    {"duration_s", "Duration", "length of the file", "s", NULL, duration},
+    {"encoding", "Encoding", "how samples are stored", NULL, encoding, NULL},
     {"level_mode", "Level rule",
      "how the level was set: common: one gain for the whole set, such that its greatest stimulus has the level; each: "
      "every stimulus has it; scene: as its scene says",
-     NULL, level_mode},
+     NULL, level_mode, NULL},
     {"gain_db", "Gain",
-     "file value per unit of the sound's quantity (of a recording: per its own sample value), in decibels", "dB", gain},
+     "file value per unit of the sound's quantity (of a recording: per its own sample value), in decibels", "dB", NULL,
+     gain},
     {"gain_per", "Unit of the gain",
      "unit of the sound's quantity, which gain_db is per; n/a where recorded responses do not say theirs, and of a "
      "recording",
-     NULL, unit},
-    {"peak_dbfs", "Peak", "greatest sample of the file, re full scale", "dB", peak},
+     NULL, unit, NULL},
+    {"peak_dbfs", "Peak", "greatest sample of the file, re full scale", "dB", NULL, peak},
     {"true_peak_dbtp", "True peak",
      "greatest magnitude of the file between samples, too, re full scale: BS.1770, of four times as many samples "
      "(below 96 kHz)",
-     "dB", true_peak},
-    {"rms_dbfs", "Level", "rms of the whole file, re full scale (a square wave of full scale has 0)", "dB", rms},
+     "dB", NULL, true_peak},
+    {"rms_dbfs", "Level", "rms of the whole file, re full scale (a square wave of full scale has 0)", "dB", NULL, rms},
     {"loudness_lufs", "Loudness", "integrated loudness of the file, BS.1770, mono counted on two ears; n/a below 0.4 s",
-     "LUFS", lufs},
-    {"silent", "Silent", "1: every sample of the file is 0; 0: some is not", NULL, silent},
+     "LUFS", NULL, lufs},
+    {"silent", "Silent", "1: every sample of the file is 0; 0: some is not", NULL, NULL, silent},
     {"samples_beyond_full_scale", "Samples beyond full scale",
      "samples of the file, of all channels, whose magnitude is more than 1, as floating point holds them: whatever "
      "plays them clips",
-     NULL, beyond},
-    {"onset_ramp_s", "Onset ramp", "length of the raised-cosine ramp at the beginning", "s", onset},
-    {"offset_ramp_s", "Offset ramp", "length of the raised-cosine ramp at the end", "s", ramp},
+     NULL, NULL, beyond},
+    {"onset_ramp_s", "Onset ramp", "length of the raised-cosine ramp at the beginning", "s", NULL, onset},
+    {"offset_ramp_s", "Offset ramp", "length of the raised-cosine ramp at the end", "s", NULL, ramp},
     {"audio_sha256", "Hash of the samples", "SHA-256 of the decoded samples, as rasp compare --hash has it", NULL,
-     audio},
-    {"file_sha256", "Hash of the file", "SHA-256 of file_name", NULL, file_sha256},
+     audio, NULL},
+    {"file_sha256", "Hash of the file", "SHA-256 of file_name", NULL, file_sha256, NULL},
     {"job_hash", "Hash of the job",
      "SHA-256 of all that made the stimulus but its name and a gain that is common to the set: effective scene, with "
      "inputs by their hashes and by their names as seen from the design, program, level; the same wherever the output "
      "folder lies",
-     NULL, job},
-    {"tool_version", "Program", "the program that made it", NULL, version},
+     NULL, job, NULL},
+    {"tool_version", "Program", "the program that made it", NULL, version, NULL},
     {"status", "Status",
      "ok; failed: see error; waits: the common gain is not known while other stimuli are missing; missing: not "
      "rendered yet",
-     NULL, status},
+     NULL, status, NULL},
     {"error_code", "Exit code",
-     "what a render of this stimulus alone exits with: 0, or as the manual's EXIT STATUS has it", NULL, error_code},
-    {"error", "Error", "why it failed; n/a of what did not", NULL, error},
-    {NULL, NULL, NULL, NULL, NULL},
+     "what a render of this stimulus alone exits with: 0, or as the manual's EXIT STATUS has it", NULL, NULL,
+     error_code},
+    {"error", "Error", "why it failed; n/a of what did not", NULL, error, NULL},
+    {NULL, NULL, NULL, NULL, NULL, NULL},
 };
 
 /* ------------------------------------------------------------------ factors without effect */
@@ -366,13 +351,22 @@ static void put_head(FILE *f, const struct design *d)
     fputc('\n', f);
 }
 
+static void put(const struct cell *cell, const struct column *c)
+{
+    const char *words = c->text ? c->text(cell) : NULL;
+    if (c->text)
+        tables_text(cell->f, words ? words : "n/a");
+    else
+        tables_number(cell->f, c->number(cell));
+}
+
 static void put_row(const struct cell *cell)
 {
     const struct design *d = cell->set->design;
     for (const struct column *c = columns; c->name; c++) {
         if (strcmp(c->name, "*") != 0) {
             fputs(c == columns ? "" : ",", cell->f);
-            c->put(cell);
+            put(cell, c);
         }
         for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++) {
             fputc(',', cell->f);
@@ -408,6 +402,7 @@ static bool put_stimulus(struct writing *w, int i, struct err *e)
     struct record r;
     w->cell.row = i;
     w->cell.is = &t->rows[i];
+    snprintf(w->cell.seed, sizeof w->cell.seed, "%" PRIu64, x->seed);
     w->cell.text = design_text(t->set->design, i, a);
     w->cell.record = t->rows[i].there && record_read(t->folder, x->name, a, &r) ? &r : NULL;
     bool ok =
