@@ -306,32 +306,46 @@ static void values_make(const struct design_reading *r, struct design_factor *f)
     f->unit = *unit ? unit : NULL;
 }
 
-static int by_value(const void *pa, const void *pb)
+struct sorted_level {
+    const char *text;
+    int index;
+};
+
+static int by_text(const void *pa, const void *pb)
 {
-    const struct design_level *const *a = pa, *const *b = pb;
-    int order = strcmp((*a)->value, (*b)->value);
-    return order ? order : *a < *b ? -1 : *a > *b;
+    const struct sorted_level *a = pa, *b = pb;
+    int order = strcmp(a->text, b->text);
+    return order ? order : a->index - b->index;
+}
+
+/* Calls for each level, and that before it, that has the same label, or the same value, as another. */
+static void find_twice(const struct design_reading *r, int f, bool values,
+                       void (*take)(const struct design_reading *r, int f, const int *two,
+                                    const struct yaml_node *item))
+{
+    const struct design_factor *factor = &r->design->factors[f];
+    struct sorted_level *sorted = ARENA_TAKE(r->arena, struct sorted_level, factor->n_levels + 1);
+    for (int i = 0; i < factor->n_levels; i++)
+        sorted[i] = (struct sorted_level){values ? factor->levels[i].value : factor->levels[i].label, i};
+    qsort(sorted, (size_t)factor->n_levels, sizeof *sorted, by_text);
+    for (int i = 1; i < factor->n_levels; i++) {
+        const struct yaml_node *item = r->factors[f]->first;
+        for (int at = sorted[i].index; at > 0; at--)
+            item = item->next;
+        if (strcmp(sorted[i].text, sorted[i - 1].text) == 0)
+            take(r, f, (const int[2]){sorted[i - 1].index, sorted[i].index}, item);
+    }
 }
 
 /* 2 Hz and 2.0 Hz would be one in the manifest. */
-static void values_differ(const struct design_reading *r, int f)
+static void same_value(const struct design_reading *r, int f, const int *two, const struct yaml_node *item)
 {
     const struct design_factor *factor = &r->design->factors[f];
-    struct design_level **sorted = ARENA_TAKE(r->arena, struct design_level *, factor->n_levels + 1);
-    for (int i = 0; i < factor->n_levels; i++)
-        sorted[i] = &factor->levels[i];
-    qsort(sorted, (size_t)factor->n_levels, sizeof *sorted, by_value);
-    for (int i = 1; i < factor->n_levels; i++) {
-        const struct yaml_node *item = r->factors[f]->first;
-        const char *labels[2] = {sorted[i - 1]->label, sorted[i]->label};
-        if (strcmp(sorted[i]->value, sorted[i - 1]->value) != 0 || strcmp(labels[0], labels[1]) == 0)
-            continue;
-        for (long at = sorted[i] - factor->levels; at > 0; at--)
-            item = item->next;
+    const char *labels[2] = {factor->levels[two[0]].label, factor->levels[two[1]].label};
+    if (strcmp(labels[0], labels[1]) != 0)
         diag_add(r->yaml->diag, item->at, "remove one of them, or label them with words: - {label: slow, value: 2 Hz}",
                  "the levels '%s' and '%s' of %s are the same number", diag_shown(r->yaml->diag, labels[0]),
                  diag_shown(r->yaml->diag, labels[1]), factor->name);
-    }
 }
 
 /* ------------------------------------------------------------------ names */
@@ -398,26 +412,13 @@ static const char *column_of(const struct design_factor *f, struct arena *a)
 
 static void column_check(const struct design_reading *r, int f)
 {
-    static const char *const taken[] = {"file_name",      "stimulus_id",
-                                        "stim_file",      "name",
-                                        "scene_file",     "scene_sha256",
-                                        "plan_row",       "row",
-                                        "seed",           "sample_rate_hz",
-                                        "channels",       "frames",
-                                        "duration_s",     "encoding",
-                                        "level_mode",     "gain_db",
-                                        "rms_dbfs",       "peak_dbfs",
-                                        "true_peak_dbtp", "loudness_lufs",
-                                        "onset_ramp_s",   "offset_ramp_s",
-                                        "audio_sha256",   "file_sha256",
-                                        "job_hash",       "tool_version",
-                                        "status",         "recording",
-                                        "full_scale",     "replicate",
-                                        "text",           "error",
-                                        "error_code",     NULL};
-    const char *column = r->design->factors[f].column, *of = NULL;
-    for (int i = 0; taken[i]; i++)
-        of = strcmp(column, taken[i]) == 0 ? "the manifest's own" : of;
+    static const char taken[] =
+        " file_name stimulus_id stim_file name scene_file scene_sha256 plan_row row seed sample_rate_hz channels "
+        "frames duration_s encoding level_mode gain_db rms_dbfs peak_dbfs true_peak_dbtp "
+        "loudness_lufs onset_ramp_s offset_ramp_s audio_sha256 file_sha256 job_hash tool_version status recording "
+        "full_scale replicate text error error_code ";
+    const char *column = r->design->factors[f].column;
+    const char *of = strstr(taken, arena_format(r->arena, " %s ", column)) ? "the manifest's own" : NULL;
     for (int i = 0; i < f; i++)
         of = strcmp(column, r->design->factors[i].column) == 0
                  ? arena_format(r->arena, "that of %s", r->design->factors[i].name)
@@ -433,7 +434,7 @@ static void design_columns_make(struct design_reading *r)
         struct design_factor *factor = &r->design->factors[f];
         const struct key *k = design_changes_key(factor->name);
         values_make(r, factor);
-        values_differ(r, f);
+        find_twice(r, f, true, same_value);
         factor->column = column_of(factor, r->arena);
         factor->meaning = k ? k->meaning : NULL;
         column_check(r, f);
@@ -483,32 +484,16 @@ static void label_set(const struct reading_level *l, const struct yaml_node *nod
                             "write for instance: label: wood");
 }
 
-static int by_label(const void *pa, const void *pb)
-{
-    const struct design_level *const *a = pa, *const *b = pb;
-    int order = strcmp((*a)->label, (*b)->label);
-    return order ? order : *a < *b ? -1 : *a > *b;
-}
-
-static void labels_differ(const struct design_reading *r, int f, const struct yaml_node *list)
+static void same_label(const struct design_reading *r, int f, const int *two, const struct yaml_node *item)
 {
     const struct design_factor *factor = &r->design->factors[f];
-    struct design_level **sorted = ARENA_TAKE(r->arena, struct design_level *, factor->n_levels + 1);
-    for (int i = 0; i < factor->n_levels; i++)
-        sorted[i] = &factor->levels[i];
-    qsort(sorted, (size_t)factor->n_levels, sizeof *sorted, by_label);
-    for (int i = 1; i < factor->n_levels; i++) {
-        if (!*sorted[i]->label || strcmp(sorted[i]->label, sorted[i - 1]->label) != 0)
-            continue;
-        const struct yaml_node *item = list->first;
-        for (long at = sorted[i] - factor->levels; at > 0; at--)
-            item = item->next;
-        const struct yaml_node *label = yaml_get(item, "label");
+    const struct yaml_node *label = yaml_get(item, "label");
+    if (*factor->levels[two[1]].label)
         diag_add(r->yaml->diag, label ? label->at : item->at,
                  item->kind == YAML_SCALAR ? "remove one of them, or write - {label: ..., value: ...}"
                                            : "give each level a label of its own",
-                 "two levels of %s are labelled '%s'", factor->name, diag_shown(r->yaml->diag, sorted[i]->label));
-    }
+                 "two levels of %s are labelled '%s'", factor->name,
+                 diag_shown(r->yaml->diag, factor->levels[two[1]].label));
 }
 
 /* ------------------------------------------------------------------ levels */
@@ -650,7 +635,7 @@ static void factor_read(struct design_reading *r, int f, const struct yaml_node 
         struct reading_level l = {r, f, factor->n_levels++, key, list->key};
         level_read(&l, item);
     }
-    labels_differ(r, f, list);
+    find_twice(r, f, false, same_label);
 }
 
 /* The value of a key that is a factor is what its levels say: another factor must not change it. */

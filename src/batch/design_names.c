@@ -29,14 +29,11 @@ static bool ends_in(const char *s, size_t n, const char *ending)
 
 static bool is_device(const char *s, size_t n)
 {
-    static const char *const words[] = {"con", "prn", "aux", "nul", NULL}, *const numbered[] = {"com", "lpt", NULL};
+    static const char *const words[] = {"con", "prn", "aux", "nul", "com", "lpt", NULL};
     size_t stem = strcspn(s, "./");
     stem = stem < n ? stem : n;
     for (int i = 0; words[i]; i++)
-        if (stem == 3 && strncasecmp(s, words[i], 3) == 0)
-            return true;
-    for (int i = 0; numbered[i]; i++)
-        if (stem == 4 && strncasecmp(s, numbered[i], 3) == 0 && s[3] >= '1' && s[3] <= '9')
+        if (strncasecmp(s, words[i], 3) == 0 && (i < 4 ? stem == 3 : stem == 4 && s[3] >= '1' && s[3] <= '9'))
             return true;
     return false;
 }
@@ -312,18 +309,22 @@ static const char *piece_read(const struct design_reading *r, struct design_temp
     return s + n + 2;
 }
 
+static struct design_template template_of(const struct design_reading *r, const struct yaml_node *node,
+                                          const char *text)
+{
+    struct design_template t = {.node = node, .pieces = ARENA_TAKE(r->arena, struct piece, strlen(text) + 1)};
+    while (*text)
+        text = piece_read(r, &t, text);
+    return t;
+}
+
 static struct design_template template_read(const struct design_reading *r, const struct yaml_node *node)
 {
-    struct design_template t = {.node = node};
-    if (node->kind != YAML_SCALAR || !*node->text || strlen(node->text) > NAME_MAX_BYTES) {
-        design_reading_must(r, node, "name", "a text of at most 1000 letters",
-                            "write for instance: name: \"{material}_r{replicate}\"");
-        return t;
-    }
-    t.pieces = ARENA_TAKE(r->arena, struct piece, strlen(node->text));
-    for (const char *s = node->text; *s;)
-        s = piece_read(r, &t, s);
-    return t;
+    if (node->kind == YAML_SCALAR && *node->text && strlen(node->text) <= NAME_MAX_BYTES)
+        return template_of(r, node, node->text);
+    design_reading_must(r, node, "name", "a text of at most 1000 letters",
+                        "write for instance: name: \"{material}_r{replicate}\"");
+    return (struct design_template){.node = node};
 }
 
 /* Of a path what stands between folder and ending, in the letters of names. */
@@ -333,28 +334,14 @@ static const char *stem_of(const char *file, struct arena *a)
     return label_name(arena_format(a, "%.*s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name), a);
 }
 
-static void piece_add(struct design_template *t, int field, const char *text)
-{
-    t->pieces[t->n++] = (struct piece){field, text};
-}
-
 /* All factors, and the replicate where there are several; without either the name of the base. */
 static struct design_template template_default(const struct design_reading *r)
 {
     const struct design *d = r->design;
-    struct design_template t = {.pieces = ARENA_TAKE(r->arena, struct piece, 2 * d->n_factors + 4)};
-    for (int f = 0; f < d->n_factors; f++) {
-        if (f)
-            piece_add(&t, FIELD_TEXT, "_");
-        piece_add(&t, f, "");
-    }
-    if (t.n == 0)
-        piece_add(&t, FIELD_TEXT, stem_of(d->base, r->arena));
-    if (d->replicates > 1) {
-        piece_add(&t, FIELD_TEXT, "_r");
-        piece_add(&t, FIELD_REPLICATE, "");
-    }
-    return t;
+    const char *text = d->n_factors ? "" : stem_of(d->base, r->arena);
+    for (int f = 0; f < d->n_factors; f++)
+        text = arena_format(r->arena, "%s%s{%s}", text, f ? "_" : "", d->factors[f].name);
+    return template_of(r, r->root, arena_format(r->arena, "%s%s", text, d->replicates > 1 ? "_r{replicate}" : ""));
 }
 
 /* ------------------------------------------------------------------ making */

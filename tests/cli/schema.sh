@@ -37,7 +37,7 @@ if glob.glob(root + "/scenes/designs/*.yaml") and not count["design"]:
     print("no designs were tried")
 
 # The keys of designs are those that the reader has.
-reader = re.search(r"keys\[\] = \{(.*?), NULL\}", open(root + "/src/batch/design.c").read(), re.S).group(1)
+reader = re.search(r"keys\[\] = \{(.*?),\s*NULL\}", open(root + "/src/batch/design.c").read(), re.S).group(1)
 differ = set(re.findall(r'"([^"]+)"', reader)) ^ set(validators["design"].schema["properties"])
 if differ:
     print("keys of designs that the schema or the reader lacks:", differ)
