@@ -218,7 +218,7 @@ static bool is_short(const struct look *l, double seconds)
     return l->sounds && l->loud && frames_of(l, seconds) < loudness_least(l->rate);
 }
 
-static void tell_short(const struct planning *p, int i, double seconds, struct look *l)
+static void report_short(const struct planning *p, int i, double seconds, struct look *l)
 {
     struct trial *t = l->trial = trial_open();
     struct scene *s = &t->scene;
@@ -240,7 +240,7 @@ struct form { /* what the sounds of a set have in common: that of the first of t
 
 /* Players and trial scripts take one rate and one number of channels for all that they play, and resample, or fail,
  * where it is another. */
-static bool tell_otherwise(const struct planning *p, const struct form *f, const struct look *l, struct err *e)
+static bool report_otherwise(const struct planning *p, const struct form *f, const struct look *l, struct err *e)
 {
     if (l->rate != f->first->rate)
         return err_set(
@@ -274,7 +274,7 @@ static bool about(const struct form *f, const struct look *l, const struct scene
 static bool is_otherwise(const struct planning *p, int i, const struct form *f, struct look *l)
 {
     struct err e = {0};
-    if (!l->sounds || tell_otherwise(p, f, l, &e))
+    if (!l->sounds || report_otherwise(p, f, l, &e))
         return false;
     struct trial *t = l->trial = trial_open();
     l->otherwise = true;
@@ -306,7 +306,7 @@ static struct set_fault *more_faults(struct planning *p)
     return &o->faults[o->n_faults++];
 }
 
-/* Which fault it is. The first that has it keeps what it is told with. */
+/* Which fault it is. The first that has it keeps its texts. */
 static int note(struct planning *p, int i, struct trial *t)
 {
     struct set_plan *o = p->out;
@@ -547,7 +547,7 @@ static void look_at_levels(struct planning *p)
         if (recording_of(p, i) || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief))
             continue;
         if (p->first[i] == i)
-            tell_short(p, i, seconds, l);
+            report_short(p, i, seconds, l);
         l->brief = true;
         settle(p, i, l);
     }

@@ -270,8 +270,8 @@ static void print_report(const struct batch_ask *ask, const struct batch_report 
                ask->folder, ask->shard.i, ask->shard.n, r->rendered, r->kept, r->failed, took);
         return;
     }
-    printf("%s: %d stimuli rendered, %d there already, %d failed, in %s", ask->folder, r->rendered, r->kept, r->failed,
-           took);
+    printf("%s: %d stimuli rendered, %d there already, %d %s, in %s", ask->folder, r->rendered, r->kept, r->failed,
+           ask->no_render ? "missing" : "failed", took);
     if (r->stale.removed)
         printf("; %d file%s left over removed", r->stale.removed, r->stale.removed == 1 ? "" : "s");
     if (!isnan(r->full_scale))
