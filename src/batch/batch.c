@@ -22,13 +22,6 @@ enum {
     SHELF_MOST = 256 << 20 /* bytes of inputs that stay in memory; what is beyond is read again for every stimulus */
 };
 
-struct row {    /* what is known of a stimulus besides its outcome */
-    bool waits; /* for the gain of the set */
-    struct set_measured measured;
-    double full_scale;
-    const char *key; /* of what has no right record */
-};
-
 struct slot { /* what a job came to, until it is taken */
     struct stimulus is;
     bool done;
@@ -41,7 +34,7 @@ struct batch {
     struct batch_report *report;
     struct arena *arena;
     struct stimulus_set k;
-    struct row *rows;                                                                              /* [n] */
+    struct stimulus *is; /* [n] key: of what has no right record */
     bool (*act)(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e); /* what jobs do */
     struct slot *slots;                                                                            /* [n_now] */
     int *now, n_now; /* the stimuli that jobs are about */
@@ -103,7 +96,7 @@ static void took_failure(struct batch *b, struct tables_row *o, int i, const str
     o->there = false;
     o->kind = s->e->kind;
     o->text = folder_seen(b->ask->folder, s->e->text, b->arena);
-    b->rows[i].key = s->key ? arena_text(b->arena, s->key) : "";
+    b->is[i].key = s->key ? arena_text(b->arena, s->key) : "";
 }
 
 static void took(void *context, int at)
@@ -120,7 +113,7 @@ static void took(void *context, int at)
         o->there = s->is.state == STIMULUS_THERE;
         o->made = o->made || made;
         o->wall += s->is.wall, o->cpu += s->is.cpu;
-        b->rows[i] = (struct row){s->is.waits, s->is.measured, s->is.full_scale, NULL};
+        b->is[i] = s->is;
         if (b->report->states)
             b->report->states[i] = s->is.state;
     }
@@ -177,13 +170,13 @@ static bool find_gain(const struct batch *b, double *full_scale, struct err *e)
 {
     struct set_loudest l = set_loudest();
     for (int i = 0; i < b->report->set.n; i++)
-        set_loudest_add(&l, &b->rows[i].measured);
+        set_loudest_add(&l, &b->is[i].measured);
     return set_gain(&b->report->set, &l, full_scale, e);
 }
 
 static bool needs_gain(const struct batch *b, int i, double full_scale)
 {
-    return !b->report->design.stimuli[i].recording && (b->rows[i].waits || b->rows[i].full_scale != full_scale);
+    return !b->report->design.stimuli[i].recording && (b->is[i].waits || b->is[i].full_scale != full_scale);
 }
 
 static bool level_all(struct batch *b, struct err *e)
@@ -272,7 +265,7 @@ static bool look_at_folder(struct batch *b, struct err *e)
     bool gain = set_waits(&r->set) && are_all_there(b) && find_gain(b, &full_scale, &silent);
     for (int i = 0; i < r->set.n; i++)
         if (r->states[i] == STIMULUS_THERE && set_waits(&r->set) &&
-            (b->rows[i].waits || (gain && needs_gain(b, i, full_scale))))
+            (b->is[i].waits || (gain && needs_gain(b, i, full_scale))))
             r->states[i] = STIMULUS_GAIN;
     for (int i = 0; i < r->set.n; i++)
         r->rows[i] = (struct tables_row){0};
@@ -290,7 +283,7 @@ static bool judge(struct batch *b, struct err *e)
         r->rendered += o->there && o->made;
         r->kept += o->there && !o->made;
         r->failed += o->kind != ERR_NONE;
-        r->waiting += o->there && b->rows[i].waits;
+        r->waiting += o->there && b->is[i].waits;
         worst = o->kind > worst ? o->kind : worst;
     }
     if (b->changed)
@@ -326,10 +319,8 @@ static void find_stale(struct batch *b)
                               .prune = b->ask->prune,
                               .all = are_all_there(b)};
     for (int i = 0; i < n; i++) {
-        w.all = w.all && !b->rows[i].waits;
-        all[i] = (struct wanted){r->design.stimuli[i].name, r->rows[i].there ? NULL
-                                                            : b->rows[i].key ? b->rows[i].key
-                                                                             : ""};
+        w.all = w.all && !b->is[i].waits;
+        all[i] = (struct wanted){r->design.stimuli[i].name, r->rows[i].there ? NULL : b->is[i].key ? b->is[i].key : ""};
     }
     qsort(all, (size_t)n, sizeof *all, by_name);
     for (int i = 0; i < n; i++) {
@@ -399,7 +390,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
     struct batch b = {.ask = ask,
                       .report = r,
                       .arena = a,
-                      .rows = ARENA_TAKE(a, struct row, r->set.n),
+                      .is = ARENA_TAKE(a, struct stimulus, r->set.n),
                       .k = {.set = &r->set, .folder = ask->folder, .shelf = shelf, .inputs = r->plan.inputs}};
     r->rows = ARENA_TAKE(a, struct tables_row, r->set.n);
     divide(&b);

@@ -111,7 +111,7 @@ static const char **warnings_of(const struct measure *m, const struct wav_writte
     return all;
 }
 
-static int bits_of(int encoding)
+int recording_bits(int encoding)
 {
     static const int bits[] = {
         [ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
@@ -129,7 +129,7 @@ static struct wav_out *copy(const struct set *set, const char *file, const char 
         return NULL;
     snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", r->gain, 20 * real_log10(r->gain));
     struct wav_format f = {
-        .rate = c.in.rate, .channels = c.in.channels, .bits = bits_of(set->encoding), .comment = comment};
+        .rate = c.in.rate, .channels = c.in.channels, .bits = recording_bits(set->encoding), .comment = comment};
     struct wav_out *out = wav_create(path, &f, e);
     bool ok = out && copy_all(&c, out, r->gain, e) && wav_settle(out, e);
     measure_close(&c);

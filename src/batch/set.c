@@ -123,7 +123,8 @@ struct planning {
     const char **last;     /* the endings that were noted last: most share theirs */
     struct set_plan *out;
     struct arena *arena;
-    struct hash scenes; /* of the design, of all of them and of the recordings, in their order */
+    int first_sound, first_stated; /* of the form of the set; -1: none */
+    struct hash scenes;            /* of the design, of all of them and of the recordings, in their order */
 };
 
 static const char *recording_of(const struct planning *p, int i) { return p->set->design->stimuli[i].recording; }
@@ -232,58 +233,53 @@ static void report_short(const struct planning *p, int i, double seconds, struct
 
 /* ------------------------------------------------------------------ one form */
 
-struct form { /* what the sounds of a set have in common: that of the first of them, and of the first that says its
-                 quantity; NULL: none yet */
-    const struct look *first, *stated;
-    const char *first_name, *stated_name;
-};
-
 /* Players and trial scripts take one rate and one number of channels for all that they play, and resample, or fail,
- * where it is another. */
-static bool report_otherwise(const struct planning *p, const struct form *f, const struct look *l, struct err *e)
+   where it is another. *key: by which it became so. */
+static bool is_of_form(const struct planning *p, const struct look *l, const char **key, struct err *e)
 {
-    if (l->rate != f->first->rate)
+    const struct look *first = &p->looks[p->first[p->first_sound]];
+    const char *name = name_of(p, p->first_sound);
+    *key = "output.sample_rate";
+    if (l->rate != first->rate)
         return err_set(
             e, ERR_SCENE,
             "the sound has %g Hz, '%s' of the same set %g Hz: give all one output.sample_rate, or make two sets",
-            l->rate, f->first_name, f->first->rate);
-    if (l->channels != f->first->channels)
+            l->rate, name, first->rate);
+    *key = "output.channels";
+    if (l->channels != first->channels)
         return err_set(e, ERR_SCENE,
                        "the sound has %d channel%s, '%s' of the same set %d: give all as many (output.channels, "
                        "output.listen), or make two sets",
-                       l->channels, l->channels == 1 ? "" : "s", f->first_name, f->first->channels);
-    if (p->set->level_rule == DESIGN_LEVEL_COMMON && l->quantity >= 0 && l->quantity != f->stated->quantity)
-        return err_set(e, ERR_SCENE,
-                       "the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose "
-                       "one by output.quantity, or level: {each: ...}",
-                       modes_quantity_unit(l->quantity), f->stated_name, modes_quantity_unit(f->stated->quantity));
-    return true;
+                       l->channels, l->channels == 1 ? "" : "s", name, first->channels);
+    *key = "output.quantity";
+    if (p->set->level_rule != DESIGN_LEVEL_COMMON || l->quantity < 0)
+        return true;
+    int other = p->looks[p->first[p->first_stated]].quantity;
+    return l->quantity == other ||
+           err_set(e, ERR_SCENE,
+                   "the sound is in %s, '%s' of the same set in %s, and one gain cannot be common to both: choose one "
+                   "by output.quantity, or level: {each: ...}",
+                   modes_quantity_unit(l->quantity), name_of(p, p->first_stated), modes_quantity_unit(other));
 }
 
-/* The key by which it became so. */
-static bool about(const struct form *f, const struct look *l, const struct scene *s, struct err *e)
-{
-    if (l->rate != f->first->rate)
-        return err_about(e, NULL, "output.sample_rate");
-    if (l->channels != f->first->channels)
-        return err_about(e, NULL, l->channels == s->output.channels ? "output.channels" : "output.listen");
-    return s->output.quantity == QUANTITY_AUTO ? err_about(e, s->contacts[0].name, "surface.response")
-                                               : err_about(e, NULL, "output.quantity");
-}
-
-static bool is_otherwise(const struct planning *p, int i, const struct form *f, struct look *l)
+static bool is_otherwise(const struct planning *p, int i, struct look *l)
 {
     struct err e = {0};
-    if (!l->sounds || report_otherwise(p, f, l, &e))
+    const char *key;
+    if (is_of_form(p, l, &key, &e))
         return false;
     struct trial *t = l->trial = trial_open();
+    struct scene *s = &t->scene;
     l->otherwise = true;
-    if (!design_scene(p->set->design, i, t->arena, &t->scene, &t->messages, &t->e))
+    if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e))
         return true;
     t->e = e;
-    about(f, l, &t->scene, &t->e);
-    design_scene_places(p->set->design, &t->scene, t->arena);
-    scene_places_tell(&t->scene, &t->e);
+    if (!strcmp(key, "output.channels") && l->channels != s->output.channels)
+        key = "output.listen";
+    bool response = !strcmp(key, "output.quantity") && s->output.quantity == QUANTITY_AUTO;
+    err_about(&t->e, response ? s->contacts[0].name : NULL, response ? "surface.response" : key);
+    design_scene_places(p->set->design, s, t->arena);
+    scene_places_tell(s, &t->e);
     return true;
 }
 
@@ -442,21 +438,16 @@ static bool look_at_all(struct planning *p, struct err *e)
 static bool is_sound(const struct planning *p, int i) { return !recording_of(p, i) && p->looks[p->first[i]].sounds; }
 
 /* The form of the set is that of its first sound; recordings alone have that of the first of them, in 24 bits. */
-static void find_form(const struct planning *p, struct form *f)
+static void find_form(struct planning *p)
 {
     struct set *s = p->set;
-    *f = (struct form){NULL, NULL, NULL, NULL};
-    for (int i = 0; i < s->n && !(f->first && f->stated); i++) {
+    p->first_sound = p->first_stated = -1;
+    for (int i = s->n - 1; i >= 0; i--) {
         const struct look *l = &p->looks[p->first[i]];
         if (!is_sound(p, i))
             continue;
-        if (!f->stated && l->quantity >= 0) {
-            f->stated = l;
-            f->stated_name = s->design->stimuli[i].name;
-        }
-        if (f->first)
-            continue;
-        *f = (struct form){l, f->stated, s->design->stimuli[i].name, f->stated_name};
+        p->first_stated = l->quantity >= 0 ? i : p->first_stated;
+        p->first_sound = i;
         s->rate = l->rate;
         s->channels = l->channels;
         s->encoding = l->encoding;
@@ -466,12 +457,10 @@ static void find_form(const struct planning *p, struct form *f)
 
 static void look_at_forms(struct planning *p)
 {
-    struct set *s = p->set;
-    struct form f;
-    find_form(p, &f);
-    for (int i = 0; i < s->n; i++) {
+    find_form(p);
+    for (int i = 0; i < p->set->n; i++) {
         struct look *l = &p->looks[p->first[i]];
-        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, &f, l) : l->otherwise))
+        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, l) : l->otherwise))
             settle(p, i, l);
     }
 }
@@ -495,10 +484,7 @@ static void look_at_recordings(struct planning *p)
         l->cost = fmax(1, 1000 * l->seconds * s->rate);
         l->rate = s->rate;
         l->channels = s->channels;
-        l->bits = s->encoding == ENCODING_PCM16     ? 16
-                  : s->encoding == ENCODING_PCM24   ? 24
-                  : s->encoding == ENCODING_FLOAT32 ? 32
-                                                    : 64;
+        l->bits = abs(recording_bits(s->encoding));
         l->sounds = true;
     }
 }
