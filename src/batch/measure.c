@@ -8,7 +8,7 @@
 #include "num/real.h"
 #include "output/loudness.h"
 
-enum { PIECE = 4096 /* samples */, BEHIND = 32 /* frames: the meter of true peaks is 6 to 12 late */ };
+enum { PIECE = MEASURE_CHANNELS /* samples */, BEHIND = 32 /* frames: the meter of true peaks is 6 to 12 late */ };
 
 /* ------------------------------------------------------------------ reading */
 
@@ -57,6 +57,21 @@ bool measure_read(struct measure_source *c, double *x, long most, long *n, struc
         return false;
     shape(c, x, some);
     c->done += some;
+    return true;
+}
+
+bool measure_copy(struct measure_source *c, struct wav_out *out, double gain, struct err *e)
+{
+    double x[PIECE];
+    long n, most = PIECE / c->in.channels;
+    do {
+        if (!measure_read(c, x, most, &n, e))
+            return false;
+        for (long i = 0; i < n * c->in.channels; i++)
+            x[i] *= gain;
+        if (n > 0 && !wav_write(out, x, (size_t)n, e))
+            return false;
+    } while (n > 0);
     return true;
 }
 

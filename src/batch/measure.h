@@ -5,7 +5,10 @@
 
 #include "base/err.h"
 #include "base/hash.h"
+#include "file/wav.h"
 #include "file/wav_stream.h"
+
+enum { MEASURE_CHANNELS = 4096 /* at most */ };
 
 struct measure_form {
     double seconds; /* NAN: its own length */
@@ -25,6 +28,9 @@ bool measure_open(struct measure_source *c, const char *path, const struct measu
 
 /* The next frames [n][in.channels] of at most `most`; *n 0 at the end. As wav_stream_read. */
 bool measure_read(struct measure_source *c, double *x, long most, long *n, struct err *e);
+
+/* All that is left, times the gain. As measure_read and wav_write. */
+bool measure_copy(struct measure_source *c, struct wav_out *out, double gain, struct err *e);
 
 void measure_close(struct measure_source *c);
 

@@ -17,8 +17,6 @@
 #include "num/real.h"
 #include "scene/keys_yaml.h"
 
-enum { PIECE = 4096 };
-
 bool recording_check(const char *file, double *rate, int *channels, double *seconds, struct err *e)
 {
     struct wav_stream w;
@@ -30,7 +28,7 @@ bool recording_check(const char *file, double *rate, int *channels, double *seco
         *channels = w.channels;
     }
     *seconds = (double)w.frames / w.rate;
-    if (w.frames < 1 || w.channels > PIECE)
+    if (w.frames < 1 || w.channels > MEASURE_CHANNELS)
         return err_set(e, ERR_SCENE, "%s: has no samples, or too many channels", file);
     if (w.rate == *rate && w.channels == *channels)
         return true;
@@ -75,21 +73,6 @@ bool recording_check_level(const char *file, const struct set *s, struct err *e)
     return isnan(s->level.lufs) || (measure_cut(file, &form, true, &m, e) && find_gain(s, file, &m, &gain, e));
 }
 
-static bool copy_all(struct measure_source *c, struct wav_out *out, double gain, struct err *e)
-{
-    double x[PIECE];
-    long n, most = PIECE / c->in.channels;
-    do {
-        if (!measure_read(c, x, most, &n, e))
-            return false;
-        for (long i = 0; i < n * c->in.channels; i++)
-            x[i] *= gain;
-        if (n > 0 && !wav_write(out, x, (size_t)n, e))
-            return false;
-    } while (n > 0);
-    return true;
-}
-
 /* A cut where the sound is less than 80 dB below its peak is told, as it is of a render. */
 static const char **warnings_of(const struct measure *m, const struct wav_written *w, struct arena *a)
 {
@@ -131,7 +114,7 @@ static struct wav_out *copy(const struct set *set, const char *file, const char 
     struct wav_format f = {
         .rate = c.in.rate, .channels = c.in.channels, .bits = recording_bits(set->encoding), .comment = comment};
     struct wav_out *out = wav_create(path, &f, e);
-    bool ok = out && copy_all(&c, out, r->gain, e) && wav_settle(out, e);
+    bool ok = out && measure_copy(&c, out, r->gain, e) && wav_settle(out, e);
     measure_close(&c);
     r->frames = c.frames;
     r->rate = c.in.rate;

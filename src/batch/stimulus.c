@@ -457,21 +457,6 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
 
 /* ------------------------------------------------------------------ the gain of the set */
 
-static bool copy_scaled(struct wav_stream *in, struct wav_out *out, double gain, struct err *e)
-{
-    double x[4096];
-    long n, most = (long)(sizeof x / sizeof *x) / in->channels;
-    do {
-        if (!wav_stream_read(in, x, most, &n, e))
-            return false;
-        for (long i = 0; i < n * in->channels; i++)
-            x[i] *= gain;
-        if (n > 0 && !wav_write(out, x, (size_t)n, e))
-            return false;
-    } while (n > 0);
-    return true;
-}
-
 /* A force is in newtons, whatever the gain, in 32 bits. */
 static bool is_force(const char *path)
 {
@@ -493,24 +478,24 @@ static const char *stem_of(const char *path, struct arena *a)
 /* One raw WAV, f, into the file that it becomes. */
 static bool scale(const struct work *w, struct made *m, struct record_file *f, struct err *e)
 {
-    struct wav_stream in;
+    struct measure_source in;
     char comment[80] = "rasp: contact force, 1.0 is 1 N";
     bool force = !strcmp(f->kind, "stem") && is_force(f->path);
     double gain = force ? 1 : sound_known_gain(&w->scene);
     const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path),
                *path = record_file_path(w->name, file_name(f->path), false, w->arena);
-    if (!wav_stream_open(&in, raw, e))
+    if (!measure_open(&in, raw, NULL, e))
         return false;
     struct track_format t = sound_format(&w->scene, in.frames);
     struct wav_format format = {
-        .rate = t.rate, .channels = in.channels, .bits = force ? -32 : t.bits, .title = t.title};
+        .rate = t.rate, .channels = in.in.channels, .bits = force ? -32 : t.bits, .title = t.title};
     if (!force)
         sound_comment(&w->scene, gain, comment);
     struct wav_out *out = wav_create(arena_format(w->arena, "%s/%s", w->k->folder, path), &format, e);
     if (out)
         m->sounds[m->n++] = out;
-    bool ok = out && wav_comment(out, comment, e) && copy_scaled(&in, out, gain, e) && wav_settle(out, e);
-    wav_stream_close(&in);
+    bool ok = out && wav_comment(out, comment, e) && measure_copy(&in, out, gain, e) && wav_settle(out, e);
+    measure_close(&in);
     if (!ok && e->kind == ERR_SCENE)
         err_at(e, "%s",
                !strcmp(f->kind, "wav") ? "level"
