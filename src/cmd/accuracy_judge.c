@@ -1,8 +1,7 @@
 /* What the errors of a sweep say: the order with which each knob's own error falls, the error that the reference has itself, and which settings are worth their time.
 
    The order between neighbours is of the errors with all other knobs at `reference`. The reference's own error is extrapolated from them (analysis/convergence.h), knob by
-   knob, and added up as powers: what is smaller cannot be told by comparing with this reference. Of a knob that is a method nothing is extrapolated, nor where the
-   sound diverges: there errors have grown to the size of the sound by the end of what is compared, whatever they began with.
+   knob, and added up as powers: what is smaller cannot be told by comparing with this reference. Nothing is extrapolated where the sound diverges: there errors have grown to the size of the sound by the end of what is compared, whatever they began with.
 
    Of a sound that diverges, two renders which are equally right differ by as much as `high` and `reference`: a distance below that is no merit. */
 #include <math.h>
@@ -15,11 +14,6 @@
 
 #define OCTAVE_DB 6.020599913279624 /* 20 log10 2 */
 
-static bool in_decibels(int knob)
-{
-    return keys_knobs[knob].scale == KEY_ERROR;
-}
-
 static const struct accuracy_render *alone(const struct accuracy_sweep *s, const struct accuracy_row *r)
 {
     return r->alone >= 0 && s->renders[r->alone].code == 0 ? &s->renders[r->alone] : NULL;
@@ -30,7 +24,7 @@ static void judge_order(const struct accuracy_sweep *s, const struct accuracy_ro
     const struct accuracy_render *x = alone(s, before), *y = alone(s, r);
     if (!x || !y || before->knob != r->knob || y == &s->renders[s->reference] || x == &s->renders[s->reference])
         return;
-    double unit = in_decibels(r->knob) ? 1.0 : OCTAVE_DB, fine[2] = {before->fine, r->fine}, error[2] = {-x->error.snr / unit, -y->error.snr / unit};
+    double fine[2] = {before->fine, r->fine}, error[2] = {-x->error.snr / OCTAVE_DB, -y->error.snr / OCTAVE_DB};
     r->order = convergence_slope(fine, error);
 }
 
@@ -62,12 +56,12 @@ static double judge_own(const struct accuracy_sweep *s, int knob)
 {
     const struct accuracy_row *r[3];
     int n = finest(s, knob, r);
-    double unit = in_decibels(knob) ? OCTAVE_DB : 1.0, order;
-    if (n < 2 || isnan(r[n - 1]->fine))
+    double order;
+    if (n < 2)
         return NAN;
     if (n == 2)
         return amplitude(s, r[0]);
-    double fine[3] = {r[0]->fine / unit, r[1]->fine / unit, r[2]->fine / unit}, difference[2] = {amplitude(s, r[0]), amplitude(s, r[1])};
+    double fine[3] = {r[0]->fine, r[1]->fine, r[2]->fine}, difference[2] = {amplitude(s, r[0]), amplitude(s, r[1])};
     return convergence_left(fine, difference, &order);
 }
 

@@ -123,8 +123,8 @@ static void print_total(const struct accuracy_sweep *s, const struct accuracy_re
 static void print_row(const struct accuracy_sweep *s, const struct accuracy_row *w, bool colour)
 {
     const struct accuracy_render *r = &s->renders[w->total];
-    const char *unit = w->knob >= 0 ? accuracy_unit((enum knob)w->knob) : "", *order = isnan(w->order) ? "" : arena_format(s->call->arena, "%.2f", w->order);
-    printf("%s%-24s", colour && r->front ? "\033[1;32m" : "", arena_format(s->call->arena, "%c %s %s%s%s", w->chosen ? '=' : ' ', w->name, w->value, unit, r->front ? " *" : ""));
+    const char *order = isnan(w->order) ? "" : arena_format(s->call->arena, "%.2f", w->order);
+    printf("%s%-24s", colour && r->front ? "\033[1;32m" : "", arena_format(s->call->arena, "%c %s %s%s", w->chosen ? '=' : ' ', w->name, w->value, r->front ? " *" : ""));
     printf("  %10s %6s", w->alone >= 0 ? error_text(s, &s->renders[w->alone]) : "", order);
     print_total(s, r);
     printf("%s\n", colour && r->front ? "\033[0m" : "");

@@ -12,14 +12,7 @@ enum { PRESETS = 4 };
 
 double accuracy_rows_fine(int knob, double value)
 {
-    switch (keys_knobs[knob].scale) {
-    case KEY_ERROR: return -value;
-    case KEY_STEPS: return real_log(value) / real_log(2.0);
-    case KEY_SAMPLES:
-    case KEY_SECONDS: return -real_log(value) / real_log(2.0);
-    case KEY_METHOD: return NAN;
-    }
-    return NAN;
+    return (keys_knobs[knob].scale == KEY_STEPS ? 1 : -1) * real_log(value) / real_log(2.0);
 }
 
 static bool same(const struct accuracy_sweep *s, const struct accuracy *x, const struct accuracy *y)
@@ -70,7 +63,7 @@ static void add_presets(struct accuracy_sweep *s)
 static int values_of(int knob, const struct accuracy_values *given, double *x)
 {
     int n = 0;
-    double sign = keys_knobs[knob].scale == KEY_STEPS || keys_knobs[knob].scale == KEY_METHOD ? 1.0 : -1.0;
+    double sign = keys_knobs[knob].scale == KEY_STEPS ? 1.0 : -1.0;
     for (int i = 0; i < PRESETS + given->n; i++) {
         double v = i < PRESETS ? keys_knobs[knob].preset[i] : given->x[i - PRESETS];
         int at = 0;

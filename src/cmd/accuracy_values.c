@@ -33,8 +33,8 @@ static bool value_add(struct accuracy_values *to, int knob, const char *word, st
     if (!text_double(word, &x))
         return err_set(e, ERR_USAGE, "--values: '%s' is not a number (in KNOB=NUMBER,NUMBER..., without units)", word);
     if (!accuracy_takes((enum knob)knob, x))
-        return err_set(e, ERR_USAGE, "--values: accuracy.%s cannot be %s: it takes %snumbers from %g to %g%s; see rasp explain accuracy.%s", k->name, word,
-                       k->whole ? "whole " : "", k->low, k->high, x >= k->low && x <= k->high && k->scale == KEY_METHOD ? ", but not that one" : "", k->name);
+        return err_set(e, ERR_USAGE, "--values: accuracy.%s cannot be %s: it takes %snumbers from %g to %g; see rasp explain accuracy.%s", k->name, word,
+                       k->whole ? "whole " : "", k->low, k->high, k->name);
     if (to->n == ACCURACY_VALUES)
         return err_set(e, ERR_USAGE, "--values: accuracy.%s is given more than %d values; leave some out", k->name, ACCURACY_VALUES);
     to->x[to->n++] = x;

@@ -17,43 +17,24 @@ enum { REFERENCE, OWN };
 
 /* ------------------------------------------------------------------ the reference
 
-   The preset reference, but of every knob at least twice as fine as what is verified, so that no more than a fraction of its error (2^-order of it; of morph_error, in 12 dB,
-   a quarter) is left out of what is measured. Where that is beyond the knob's range, or a stage refuses it (memory), the reference is as fine as it may be, and the knob is
-   told. A method has nothing finer; exact values (ramps of one sample) leave no error. */
+   The preset reference, but of every knob at least twice as fine as what is verified, so that no more than a fraction of its error (2^-order of it) is left out of what is
+   measured. Where that is beyond the knob's range, or a stage refuses it (memory), the reference is as fine as it may be, and the knob is told. Ramps of one sample are as
+   fine as they go. */
 
-#define FINER_DB 12.0
+static bool steps(int knob)
+{
+    return keys_knobs[knob].scale == KEY_STEPS;
+}
 
 static double finer(int knob, double own)
 {
-    switch (keys_knobs[knob].scale) {
-    case KEY_STEPS:
-        return fmin(2 * own, keys_knobs[knob].high);
-    case KEY_ERROR:
-        return own < 0 ? fmax(own - FINER_DB, keys_knobs[knob].low) : own;
-    case KEY_SECONDS:
-        return fmax(own / 2, keys_knobs[knob].low);
-    case KEY_SAMPLES:
-        return fmax(floor(own / 2), keys_knobs[knob].low);
-    default:
-        return own;
-    }
+    return steps(knob) ? fmin(2 * own, keys_knobs[knob].high) : fmax(floor(own / 2), keys_knobs[knob].low);
 }
 
-/* Is `than` at least twice as fine as own, or own without an error of its own? */
+/* Is `than` at least twice as fine as own, or own as fine as it goes? */
 static bool twice(int knob, double own, double than)
 {
-    switch (keys_knobs[knob].scale) {
-    case KEY_STEPS:
-        return than >= 2 * own;
-    case KEY_ERROR:
-        return own == 0 || than <= own - FINER_DB;
-    case KEY_SECONDS:
-        return than <= own / 2;
-    case KEY_SAMPLES:
-        return own <= 1 || than <= own / 2;
-    default:
-        return true;
-    }
+    return steps(knob) ? than >= 2 * own : own <= 1 || than <= own / 2;
 }
 
 /* `raised`: set of knobs that are finer than the preset has them. */
@@ -64,8 +45,7 @@ static struct accuracy finest(const struct accuracy *own, unsigned used, unsigne
     *raised = 0;
     for (int k = 0; k < KNOBS; k++) {
         double x = accuracy_knob(own, (enum knob)k), y = accuracy_knob(&set, (enum knob)k), z = used & 1u << k ? finer(k, x) : x;
-        bool up = keys_knobs[k].scale == KEY_STEPS || keys_knobs[k].scale == KEY_METHOD;
-        double best = up ? fmax(z, y) : keys_knobs[k].scale == KEY_ERROR && x == 0 ? y : fmin(z, y);
+        double best = steps(k) ? fmax(z, y) : fmin(z, y);
         accuracy_turn(&set, (enum knob)k, best);
         *raised |= best != y ? 1u << k : 0;
     }
@@ -84,10 +64,9 @@ static bool reference(struct accuracy_sweep *s, unsigned raised, struct err *e)
     for (int i = 0; ok && r->code != 0 && i < 2 * KNOBS; i++) {
         enum knob k = (enum knob)(i / 2);
         double own = accuracy_knob(&s->renders[OWN].set, k), least = accuracy_knob(&preset, k);
-        bool steps = keys_knobs[k].scale == KEY_STEPS;
-        if (!(raised & 1u << k) || (!steps && i % 2 == 0))
+        if (!(raised & 1u << k) || (!steps(k) && i % 2 == 0))
             continue;
-        accuracy_turn(&r->set, k, steps ? fmax(i % 2 ? own : floor(1.5 * own), least) : fmin(own, least));
+        accuracy_turn(&r->set, k, steps(k) ? fmax(i % 2 ? own : floor(1.5 * own), least) : fmin(own, least));
         ok = accuracy_child(s, REFERENCE, e);
     }
     s->reference = REFERENCE;
@@ -114,8 +93,7 @@ static const char *unmeasured(const struct accuracy_sweep *s, unsigned used, str
     for (int k = 0; k < KNOBS; k++) {
         double own = accuracy_knob(&s->renders[OWN].set, (enum knob)k), than = accuracy_knob(&s->renders[REFERENCE].set, (enum knob)k);
         if (used & 1u << k && !twice(k, own, than))
-            text = arena_format(a, "%s; %s of %s %.6g%s, as the reference has no finer than %.6g%s", text, than == own ? "nothing" : "less than all", keys_knobs[k].name, own,
-                                accuracy_unit((enum knob)k), than, accuracy_unit((enum knob)k));
+            text = arena_format(a, "%s; %s of %s %.6g, as the reference has no finer than %.6g", text, than == own ? "nothing" : "less than all", keys_knobs[k].name, own, than);
     }
     return text;
 }

@@ -46,8 +46,7 @@ static json_t *accuracy(struct arena *a)
     json_object_set_new(error, "description", json_string(frame_meaning("accuracy.error")));
     json_object_set_new(knobs, "error", error);
     for (const struct key_knob *k = keys_knobs; k->name; k++) {
-        enum key_dimension d = k->scale == KEY_SECONDS ? KEY_TIME : k->scale == KEY_ERROR ? KEY_DECIBEL : KEY_NONE;
-        json_t *knob = schema_value_quantity(&(struct schema_value_quantity){d, k->low, k->high, k->whole, NULL}, a);
+        json_t *knob = schema_value_quantity(&(struct schema_value_quantity){KEY_NONE, k->low, k->high, k->whole, NULL}, a);
         json_object_set_new(knob, "description", json_string(k->meaning));
         json_object_set_new(knobs, k->name, knob);
     }

@@ -19,8 +19,7 @@
 #include <string.h>
 
 #include "convolution/resonators.h"
-#include "convolution/ring_along.h"
-#include "convolution/ring_choice.h"
+#include "convolution/ring.h"
 #include "num/real.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -43,7 +42,7 @@ static double *enhance_sizes(const struct modes *m, const struct trajectory *tr,
     double *size = ARENA_TAKE(a, double, m->n);
     struct modes_point p = modes_point_make(a, m->n);
     for (int k = 0; k <= ENHANCE_INSTANTS; k++) {
-        struct modes_where where = ring_along_where(tr, tr->duration * k / ENHANCE_INSTANTS);
+        struct modes_where where = ring_where(tr, tr->duration * k / ENHANCE_INSTANTS);
         modes_at(m, &where, &p);
         for (int i = 0; i < m->n; i++)
             size[i] = fmax(size[i], sqrt(p.re[i] * p.re[i] + p.im[i] * p.im[i]));

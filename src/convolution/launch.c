@@ -2,44 +2,41 @@
 
        y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m),   half of h(0+) at m = n,   h_x(t) = sum_i Im A_i(x) e^(s_i(x) t)
 
-   Component i has nodes at multiples of its own hop H_i; node k has the pole and gain of frame k H_i, gets w_k f with the cardinal windows w_k of
-   order 1, 2 or 4 (cardinal.h), and rings freely afterwards. That interpolates h between nodes: its error is of order H^order (ring_error.h),
-   component by component. What the force adds by itself, -Im A/(2 rate) and the direct term of an acceleration (modes_direct), is
-   interpolated by the same windows.
+   Nodes stand every H frames, and h is the cubic through the four nearest. So in the interval between nodes k and k + 1, u = 0 .. 1 of it, the force
+   drives the resonators of nodes k - 1 .. k + 2 with w_q(u) f,
 
-   Hops are rounded down to powers of two, so that components share the instants at which poles are asked for, windows are exact, and blocks
-   divide them: of 64 frames, less when a hop is less. Order 1 changes nodes halfway between them.
+       w = -u (1-u)(2-u)/6, (1+u)(1-u)(2-u)/2, u (1+u)(2-u)/2, -u (1+u)(1-u)/6
 
-   Per component: `order` resonators under force (launch_driven.c); clusters of nodes that ring out (launch_ringing.c, in blocks of 64; launch_rest.c
-   where a node is freed inside one), which take about as much as three resonators each however many nodes they hold. A node is dropped
-   when |Re z| + |Im z| has fallen to `floor` times the most it has been at any block's end. Poles and gains are not asked for
-   while there is no force.
+   and at its end those of node k - 1 are free and ring out. With poles that move evenly, white force, a mode's relative rms error is
 
-   Nodes, blocks and what is dropped stand at fixed frames, and sums have one order: the sound does not depend on how it is cut into
-   calls, nor on the instruction set. tests/bench/launch.c has the speed. */
+       0.211 rho^4,   rho = |ds/dt| H / (rate |Re s|): half bandwidths by which the pole moves in a hop
+
+   (the mean square of the cubic's node polynomial and int t^8 e^(2 Re s t) dt). What the force adds by itself, -Im A/(2 rate) and the direct term of
+   an acceleration (modes_direct), is interpolated by the same weights.
+
+   Nodes that ring out take about as much as three resonators of a component however many they are (launch_ringing.c). A node is dropped when it has fallen
+   to `floor` times what it was when the force left it. Poles and gains are not asked for while there is no force.
+
+   Nodes and blocks stand at fixed frames, and sums have one order: the sound does not depend on how it is cut into calls, nor on the instruction set. */
 #include "convolution/launch.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
-#include "convolution/launch_driven.h"
-#include "convolution/launch_rest.h"
 #include "convolution/launch_ringing.h"
-#include "convolution/product.h"
+#include "convolution/resonator_group.h"
+#include "num/scaled.h"
 #include "num/vecmath.h"
 
-enum { BLOCK = LAUNCH_RINGING_BLOCK, LONGEST = 1 << 30, MOST = 4 };
+enum { BLOCK = LAUNCH_RINGING_BLOCK, NODES = 4 };
 
+/* The resonators of one node under force. */
 struct node {
-    double frequency, decay;
-    bool known;
-};
-
-struct component {
-    int hop;               /* frames                                          */
-    long first;            /* number of the oldest node under force           */
-    struct node node[MOST]; /* those under force                              */
+    struct resonator_group *group;
+    double *frequency, *decay; /* [n] */
+    double through;            /* what the force adds by itself, per N */
+    bool known, awake;         /* poles and gains are there; a state is not zero */
 };
 
 struct launch {
@@ -47,66 +44,37 @@ struct launch {
     struct launch_ask ask;
     launch_point *point;
     void *self;
-    int block;                          /* frames in which no component changes nodes; divides BLOCK */
+    int groups, block;           /* block: frames, a part of the hop, at most BLOCK */
     long now;
-    struct component *component;
-    struct modes_point at;              /* [n] the place asked for last     */
-    double *size, *turn, *rise;         /* [n] of its poles                 */
-    struct launch_freed *freed;         /* [n]                              */
-    bool unknown;                       /* a node under force has no pole   */
-    bool has_through;                   /* of the present block             */
-    double through[4];
-    struct launch_driven *driven;
+    struct node node[NODES];     /* oldest first */
+    struct resonator_group **active; /* [groups] */
+    struct modes_point at;       /* [n] the place asked for last */
+    double *size, *turn, *rise;  /* [n] of its poles */
+    struct launch_freed *freed;  /* [n] */
     struct launch_ringing *ringing;
-    double sums[BLOCK][LANES];          /* from the last multiple of BLOCK on */
+    double sums[BLOCK][LANES];   /* of the present block */
 };
 
 /* ------------------------------------------------------------------ open and close */
-
-static int power_below(double hop)
-{
-    int power = 1;
-    while (power < LONGEST && 2.0 * power <= hop)
-        power *= 2;
-    return power;
-}
-
-/* Frames from a window's first to its node, order 1; the others' windows begin and end at nodes. */
-static int half_of(const struct launch *l, int i)
-{
-    return l->ask.order == 1 ? l->component[i].hop / 2 : 0;
-}
-
-static void set_hops(struct launch *l)
-{
-    int *hop = ARENA_TAKE(l->arena, int, l->ask.n + 1);
-    l->block = BLOCK;
-    for (int i = 0; i < l->ask.n; i++) {
-        hop[i] = l->component[i].hop = power_below(l->ask.hop[i]);
-        l->component[i].first = l->ask.order == 4 ? -1 : 0;
-        int part = l->ask.order == 1 && hop[i] > 1 ? hop[i] / 2 : hop[i];
-        l->block = part < l->block ? part : l->block;
-    }
-    l->driven = launch_driven_make(l->arena, l->ask.n, l->ask.order, hop);
-    l->ringing = launch_ringing_make(l->arena, l->ask.n, l->ask.rate);
-}
 
 struct launch *launch_open(const struct launch_ask *ask, launch_point *point, void *self)
 {
     struct arena *a = arena_open();
     struct launch *l = ARENA_TAKE(a, struct launch, 1);
-    l->arena = a;
-    l->ask = *ask;
-    l->point = point;
-    l->self = self;
-    l->component = ARENA_TAKE(a, struct component, ask->n + 1);
+    *l = (struct launch){.arena = a, .ask = *ask, .point = point, .self = self, .groups = (ask->n + LANES - 1) / LANES, .at = modes_point_make(a, ask->n + 1)};
+    for (int parts = (ask->hop + BLOCK - 1) / BLOCK; l->block == 0; parts++)
+        l->block = ask->hop % parts == 0 ? ask->hop / parts : 0;
+    for (int q = 0; q < NODES; q++) {
+        l->node[q].group = ARENA_TAKE(a, struct resonator_group, l->groups + 1);
+        l->node[q].frequency = ARENA_TAKE(a, double, ask->n + 1);
+        l->node[q].decay = ARENA_TAKE(a, double, ask->n + 1);
+    }
+    l->active = ARENA_TAKE(a, struct resonator_group *, l->groups + 1);
+    l->size = ARENA_TAKE(a, double, ask->n + 1);
+    l->turn = ARENA_TAKE(a, double, ask->n + 1);
+    l->rise = ARENA_TAKE(a, double, ask->n + 1);
     l->freed = ARENA_TAKE(a, struct launch_freed, ask->n + 1);
-    double **rooms[] = {&l->at.frequency, &l->at.decay, &l->at.re, &l->at.im, &l->size, &l->turn, &l->rise};
-    for (size_t k = 0; k < sizeof rooms / sizeof rooms[0]; k++)
-        *rooms[k] = ARENA_TAKE(a, double, ask->n + 1);
-    l->unknown = ask->n > 0;
-    set_hops(l);
-    l->ask.hop = NULL;
+    l->ringing = launch_ringing_make(a, ask->n, ask->rate, l->block);
     return l;
 }
 
@@ -115,97 +83,69 @@ void launch_close(struct launch *l)
     arena_close(l->arena);
 }
 
-/* ------------------------------------------------------------------ poles and gains of nodes */
+/* ------------------------------------------------------------------ nodes */
 
-static void set_node(struct launch *l, int i, int which)
-{
-    double *re = &l->at.re[i], *im = &l->at.im[i], per = 1.0 / l->ask.rate;
-    struct modes_point own = {.frequency = &l->at.frequency[i], .decay = &l->at.decay[i], .re = re, .im = im};
-    struct launch_node node = {.pole_re = l->size[i] * l->turn[i], .pole_im = l->size[i] * l->rise[i], .gain_re = *re * per, .gain_im = *im * per};
-    node.through = modes_direct(l->ask.quantity, 1, own.frequency, own.decay, &own) - 0.5 * node.gain_im;
-    launch_driven_set(l->driven, i, which, &node);
-    l->component[i].node[which] = (struct node){.frequency = *own.frequency, .decay = *own.decay, .known = true};
-}
-
-static long frame_of(const struct component *c, int which)
-{
-    return (c->first + which) * c->hop;
-}
-
-/* All nodes at that frame. */
-static void ask_at(struct launch *l, long frame)
+/* Poles and gains of the node at that frame. */
+static void set_node(struct launch *l, struct node *v, double frame)
 {
     size_t n = (size_t)l->ask.n;
-    l->point(l->self, (double)frame, &l->at);
+    double per = 1.0 / l->ask.rate;
+    l->point(l->self, frame, &l->at);
+    memcpy(v->frequency, l->at.frequency, n * sizeof *v->frequency);
+    memcpy(v->decay, l->at.decay, n * sizeof *v->decay);
     for (size_t i = 0; i < n; i++) {
         l->size[i] = -l->at.decay[i] / l->ask.rate;
         l->turn[i] = 2.0 * l->at.frequency[i] / l->ask.rate;
     }
     vecmath_exp(n, l->size, l->size);
     vecmath_sincospi(n, l->turn, l->rise, l->turn);
-    for (int i = 0; i < l->ask.n; i++)
-        for (int q = 0; q < l->ask.order; q++)
-            if (!l->component[i].node[q].known && frame_of(&l->component[i], q) == frame)
-                set_node(l, i, q);
+    v->through = modes_direct(l->ask.quantity, l->ask.n, l->at.frequency, l->at.decay, &l->at);
+    for (size_t i = 0; i < n; i++) {
+        struct resonator_group *g = &v->group[i / LANES];
+        g->pr[i % LANES] = l->size[i] * l->turn[i];
+        g->pi[i % LANES] = l->size[i] * l->rise[i];
+        g->gr[i % LANES] = l->at.re[i] * per;
+        g->gi[i % LANES] = l->at.im[i] * per;
+        v->through -= 0.5 * g->gi[i % LANES];
+    }
+    v->known = true;
 }
 
-/* The earliest frame of a node that is not known; false: there is none. */
-static bool next_unknown(const struct launch *l, long *frame)
+/* The oldest node is free: its resonators ring on, and serve the node that comes next. */
+static void next_node(struct launch *l)
 {
-    bool any = false;
-    for (int i = 0; i < l->ask.n; i++)
-        for (int q = 0; q < l->ask.order; q++)
-            if (!l->component[i].node[q].known && (!any || frame_of(&l->component[i], q) < *frame)) {
-                *frame = frame_of(&l->component[i], q);
-                any = true;
-            }
-    return any;
-}
-
-/* Before there is force in a block. */
-static void ready(struct launch *l)
-{
-    for (long frame = 0; l->unknown && next_unknown(l, &frame);)
-        ask_at(l, frame);
-    l->unknown = false;
-    if (!l->has_through)
-        launch_driven_through(l->driven, l->block, l->through);
-    l->has_through = true;
+    struct node old = l->node[0];
+    int count = 0;
+    for (int i = 0; old.awake && i < l->ask.n; i++) {
+        const struct resonator_group *g = &old.group[i / LANES];
+        int lane = i % LANES;
+        double size = fabs(g->zr[lane]) + fabs(g->zi[lane]);
+        if (size > 1e-200)
+            l->freed[count++] = (struct launch_freed){i, l->now, old.frequency[i], old.decay[i], g->zr[lane], g->zi[lane], fmax(l->ask.floor * size, 1e-200)};
+    }
+    launch_ringing_add(l->ringing, l->freed, count);
+    for (int k = 0; old.awake && k < l->groups; k++)
+        memset(old.group[k].zr, 0, sizeof old.group[k].zr), memset(old.group[k].zi, 0, sizeof old.group[k].zi);
+    memmove(l->node, l->node + 1, (NODES - 1) * sizeof *l->node);
+    old.known = old.awake = false;
+    l->node[NODES - 1] = old;
 }
 
 /* ------------------------------------------------------------------ blocks */
 
-/* The component's oldest node leaves the force; true if it rings on. */
-static bool move_on(struct launch *l, int i, struct launch_freed *freed)
+/* After a block: a node whose states have all fallen below 1e-200 is at rest. */
+static void rest(struct launch *l)
 {
-    struct component *c = &l->component[i];
-    struct launch_node old = launch_driven_next(l->driven, i);
-    *freed = (struct launch_freed){.component = i, .frame = l->now, .frequency = c->node[0].frequency, .decay = c->node[0].decay,
-                                   .pole_re = old.pole_re, .pole_im = old.pole_im, .re = old.re, .im = old.im,
-                                   .least = fmax(l->ask.floor * old.largest, 1e-200)};
-    for (int q = 0; q + 1 < l->ask.order; q++)
-        c->node[q] = c->node[q + 1];
-    c->node[l->ask.order - 1].known = false;
-    c->first++;
-    l->unknown = true;
-    return fabs(old.re) + fabs(old.im) > freed->least;
-}
-
-static void begin_block(struct launch *l)
-{
-    int count = 0, at = (int)(l->now % BLOCK);
-    for (int i = 0; i < l->ask.n && l->now > 0; i++)
-        if ((l->now + half_of(l, i)) % l->component[i].hop == 0)
-            count += move_on(l, i, &l->freed[count]);
-    if (at > 0)
-        launch_rest(l->freed, count, l->sums + at, BLOCK - at);
-    launch_ringing_add(l->ringing, l->freed, count);
-    if (at == 0) {
-        memset(l->sums, 0, sizeof l->sums);
-        launch_ringing_run(l->ringing, l->sums);
+    for (int q = 0; q < NODES; q++) {
+        struct node *v = &l->node[q];
+        double most = 0;
+        for (int k = 0; v->awake && k < l->groups; k++)
+            for (int lane = 0; lane < LANES; lane++)
+                most = fmax(most, fmax(fabs(v->group[k].zr[lane]), fabs(v->group[k].zi[lane])));
+        for (int k = 0; v->awake && most < 1e-200 && k < l->groups; k++)
+            memset(v->group[k].zr, 0, sizeof v->group[k].zr), memset(v->group[k].zi, 0, sizeof v->group[k].zi);
+        v->awake = v->awake && most >= 1e-200;
     }
-    l->has_through = false;
-    memset(l->through, 0, sizeof l->through);
 }
 
 /* The order of every sum over lanes. */
@@ -214,30 +154,51 @@ static double lanes_sum(const double *s)
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
 
-/* Frames inside one block. */
+/* n frames inside one block. */
 static void run_some(struct launch *l, const double *f, double *y, int n)
 {
+    static const double by[NODES] = {-1.0 / 6, 0.5, 0.5, -1.0 / 6};
+    long at = l->now % l->ask.hop;
     int from = (int)(l->now % l->block);
-    double(*sums)[LANES] = l->sums + l->now % BLOCK;
-    const double *p = l->through;
-    if (from == 0)
-        begin_block(l);
-    if (!product_nothing(f, n))
-        ready(l);
-    launch_driven_run(l->driven, f, sums, from, n);
+    double share[NODES][BLOCK];
+    bool force = !scaled_is_zero(f, n);
     for (int j = 0; j < n; j++) {
-        double t = (double)(from + j) / l->block;
-        y[j] += lanes_sum(sums[j]) + (p[0] + t * (p[1] + t * (p[2] + t * p[3]))) * f[j];
+        double u = (double)(at + j) / l->ask.hop, v = 1 - u, around = (1 + u) * (2 - u);
+        const double w[NODES] = {u * v * (2 - u), around * v, around * u, u * v * (1 + u)};
+        for (int q = 0; q < NODES; q++)
+            share[q][j] = by[q] * w[q] * f[j];
+    }
+    for (int q = 0; q < NODES; q++) {
+        struct node *v = &l->node[q];
+        if (force && !v->known)
+            set_node(l, v, (double)(l->now - at + (q - 1) * (long)l->ask.hop));
+        v->awake = v->awake || force;
+        for (int k = 0; k < l->groups; k++)
+            l->active[k] = &v->group[k];
+        if (v->awake)
+            resonator_group_ring(l->active, l->groups, share[q], l->sums + from, n, RESONATOR_STEADY);
+    }
+    for (int j = 0; j < n; j++) {
+        double sum = lanes_sum(l->sums[from + j]);
+        for (int q = 0; force && q < NODES; q++)
+            sum += l->node[q].through * share[q][j];
+        y[j] += sum;
     }
     l->now += n;
     if (l->now % l->block == 0)
-        launch_driven_settle(l->driven, l->block);
+        rest(l);
 }
 
 void launch_run(struct launch *l, const double *f, double *y, long frames)
 {
     for (long done = 0; done < frames && l->ask.n > 0;) {
         long left = l->block - l->now % l->block, n = frames - done < left ? frames - done : left;
+        if (l->now % l->block == 0) {
+            if (l->now > 0 && l->now % l->ask.hop == 0)
+                next_node(l);
+            memset(l->sums, 0, sizeof l->sums);
+            launch_ringing_run(l->ringing, l->sums);
+        }
         run_some(l, f + done, y + done, (int)n);
         done += n;
     }
@@ -245,5 +206,9 @@ void launch_run(struct launch *l, const double *f, double *y, long frames)
 
 long launch_active(const struct launch *l)
 {
-    return launch_driven_active(l->driven) + launch_ringing_active(l->ringing);
+    long count = launch_ringing_active(l->ringing);
+    for (int q = 0; q < NODES; q++)
+        for (int i = 0; i < l->ask.n; i++)
+            count += l->node[q].group[i / LANES].zr[i % LANES] != 0.0 || l->node[q].group[i / LANES].zi[i % LANES] != 0.0;
+    return count;
 }

@@ -1,5 +1,4 @@
-/* A moving response by resonators: every force sample launches the response of its own place (`launch` of rasp-scene(5)); each mode has nodes
-   at its own hop, each a resonator that gets the force under its window and then rings out. See launch.c. */
+/* A moving response by resonators: every force sample launches the response of its own place (`launch` of rasp-scene(5)). See launch.c. */
 #ifndef CONVOLUTION_LAUNCH_H
 #define CONVOLUTION_LAUNCH_H
 #include "base/arena.h"
@@ -7,17 +6,15 @@
 
 struct launch;
 
-/* Poles and gains at frame t (may be negative or beyond the end: where the motion's formula goes on). The point has n components. Frames come
-   in no order, each once at most per hop of a component: when its node first gets force. */
+/* Poles and gains of the n components at frame t, which may be negative or beyond the end: there the motion's formula goes on. Frames come in no order. */
 typedef void launch_point(void *self, double frame, const struct modes_point *p);
 
 struct launch_ask {
-    int n;             /* components */
-    int order;         /* 1, 2 or 4 */
-    double rate;       /* Hz */
-    const double *hop; /* [n] frames between a component's nodes, >= 1; rounded down to powers of two */
-    double floor;      /* amplitude relative to the largest of a node at which it is dropped; 0: 1e-200 of the unit */
-    int quantity;      /* enum modes_quantity, for the direct term */
+    int n;        /* components */
+    double rate;  /* Hz */
+    int hop;      /* frames from node to node; fastest where its half, quarter ... is a whole number of 33 to 64 frames */
+    double floor; /* amplitude at which a node is dropped, relative to its own when the force leaves it; 0: 1e-200 of the unit */
+    int quantity; /* enum modes_quantity, for the direct term */
 };
 
 struct launch *launch_open(const struct launch_ask *ask, launch_point *point, void *self);

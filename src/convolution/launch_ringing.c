@@ -1,4 +1,20 @@
-/* Which nodes ring in which cluster (launch_cluster.c), and for how long.
+/* Which nodes ring in which cluster, for how long, and how a cluster sounds.
+
+   Many damped sinusoids with nearly the same pole cost little more than one.
+
+   Nodes k of a cluster ring freely with poles s_k = s + delta_k. In a block of B frames, frame j = 0 .. B-1, c = B/2, tau = (j - c)/c,
+
+       sum_k Im z_k e^(s_k (j+1)/rate) = Im e^(s (j+1)/rate) sum_k x_k e^(d_k tau),   x_k = z_k e^(delta_k (c+1)/rate),   d_k = delta_k c/rate
+
+   z_k the state in the last frame before the block, and with |d_k| < 0.09, |tau| <= 1 seven terms of
+
+       sum_k x_k e^(d_k tau) = sum_r tau^r M_r,   M_r = sum_k x_k d_k^r / r!
+
+   leave 0.09^7/7! = 1e-11 of |x_k| (five terms below 0.0164; one where all poles are the cluster's own, exactly). From block to block each
+   state goes on by its own e^(s_k B/rate), so that nothing adds up. Per frame a cluster costs 38 operations however many nodes it has, and a
+   node, per block, 56; a resonator each would take 7 per frame.
+
+   In blocks of one frame c is taken as 1 in d_k, and tau = 0.
 
    A node freed from the force joins a cluster of its component whose pole s_c is near enough, |s - s_c| c/rate < 0.09 (c half a block); when there
    is none it opens one. Poles move on mostly the way they came, so that the new pole s_c lies ahead of the node's: by half of what the component's
@@ -14,11 +30,233 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "convolution/launch_cluster.h"
 #include "num/real.h"
 #include "num/vecmath.h"
 
-enum { SWEEP = 8, BLOCK = LAUNCH_RINGING_BLOCK, CENTRE = BLOCK / 2 };
+#define INLINE static inline __attribute__((always_inline))
+#define REACH_5 0.0164 /* (5! 1e-11)^(1/5) */
+
+enum { SWEEP = 8, SPAN = 4, TERMS = 7, ROWS = 4 };
+
+/* ------------------------------------------------------------------ clusters: eight of them are the lanes */
+
+/* How far (|d|) a node's pole may lie from its cluster's for an error of 1e-11 of the node's size. */
+#define REACH 0.09
+
+struct row {                /* one node per lane; a state of zero: none */
+    _Alignas(64) double xr[LANES];         /* state, e^(d) from the block's start      */
+    double xi[LANES];
+    double dr[LANES], di[LANES];           /* d = (s_node - s_cluster) times half a block */
+    double ar[LANES], ai[LANES];           /* e^(s_node block)                            */
+    double until[LANES];                   /* frame from which it is dropped              */
+};
+
+struct clusters {
+    _Alignas(64) double qr[LANES];         /* carrier's pole e^(s_cluster/rate) */
+    double qi[LANES];
+    double mr[TERMS][LANES], mi[TERMS][LANES];
+    struct row *rows;
+    int used, room;                        /* rows; multiples of ROWS */
+    double reach;                          /* largest |d| of its nodes               */
+};
+
+/* ------------------------------------------------------------------ moments */
+
+struct term {
+    double r, i, dr, di;
+};
+
+INLINE struct term term_take(const struct row *row, int l)
+{
+    return (struct term){row->xr[l], row->xi[l], row->dr[l], row->di[l]};
+}
+
+INLINE void term_turn(struct term *t)
+{
+    double r = t->r * t->dr - t->i * t->di;
+    t->i = t->r * t->di + t->i * t->dr;
+    t->r = r;
+}
+
+struct four {
+    struct term *a, *b, *c, *d;
+};
+
+INLINE void four_add(const struct four *v, struct clusters *g, int r, int l)
+{
+    g->mr[r][l] += (v->a->r + v->b->r) + (v->c->r + v->d->r);
+    g->mi[r][l] += (v->a->i + v->b->i) + (v->c->i + v->d->i);
+}
+
+INLINE void four_next(const struct four *v, struct clusters *g, int r, int l)
+{
+    term_turn(v->a);
+    term_turn(v->b);
+    term_turn(v->c);
+    term_turn(v->d);
+    four_add(v, g, r, l);
+}
+
+INLINE void row_advance(struct row *row, int l)
+{
+    double r = row->xr[l] * row->ar[l] - row->xi[l] * row->ai[l];
+    row->xi[l] = row->xr[l] * row->ai[l] + row->xi[l] * row->ar[l];
+    row->xr[l] = r;
+}
+
+/* Four rows; `terms` is a constant: 1, 5 or 7. */
+INLINE void gather_four(struct clusters *restrict g, struct row *restrict rows, int terms)
+{
+#pragma omp simd
+    for (int l = 0; l < LANES; l++) {
+        struct term a = term_take(rows, l), b = term_take(rows + 1, l), c = term_take(rows + 2, l), d = term_take(rows + 3, l);
+        const struct four v = {&a, &b, &c, &d};
+        four_add(&v, g, 0, l);
+        if (terms > 1) {
+            four_next(&v, g, 1, l);
+            four_next(&v, g, 2, l);
+            four_next(&v, g, 3, l);
+            four_next(&v, g, 4, l);
+        }
+        if (terms > 5) {
+            four_next(&v, g, 5, l);
+            four_next(&v, g, 6, l);
+        }
+        row_advance(rows, l);
+        row_advance(rows + 1, l);
+        row_advance(rows + 2, l);
+        row_advance(rows + 3, l);
+    }
+}
+
+INLINE void gather(struct clusters *restrict g, int terms)
+{
+    static const double inverse[TERMS] = {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720};
+    for (int k = 0; k < g->used; k += ROWS)
+        gather_four(g, g->rows + k, terms);
+    for (int r = 2; r < terms; r++)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            g->mr[r][l] *= inverse[r];
+            g->mi[r][l] *= inverse[r];
+        }
+}
+
+LANES_CLONES
+static void gather_1(struct clusters *g)
+{
+    gather(g, 1);
+}
+
+LANES_CLONES
+static void gather_5(struct clusters *g)
+{
+    gather(g, 5);
+}
+
+LANES_CLONES
+static void gather_7(struct clusters *g)
+{
+    gather(g, 7);
+}
+
+static int terms_of(const struct clusters *g)
+{
+    return g->reach == 0.0 ? 1 : g->reach < REACH_5 ? 5 : 7;
+}
+
+static void cluster_gather(struct clusters *g)
+{
+    int terms = terms_of(g);
+    memset(g->mr, 0, sizeof g->mr);
+    memset(g->mi, 0, sizeof g->mi);
+    (terms == 1 ? gather_1 : terms == 5 ? gather_5 : gather_7)(g);
+}
+
+/* ------------------------------------------------------------------ sound */
+
+struct carrier {
+    double r, i, qr, qi;
+};
+
+/* Im of the carrier times the polynomial, and the carrier one frame further. */
+INLINE double frame(const struct clusters *g, int l, struct carrier *c, double tau, int terms)
+{
+    double er = g->mr[0][l], ei = g->mi[0][l];
+    if (terms == 5) {
+        er += tau * (g->mr[1][l] + tau * (g->mr[2][l] + tau * (g->mr[3][l] + tau * g->mr[4][l])));
+        ei += tau * (g->mi[1][l] + tau * (g->mi[2][l] + tau * (g->mi[3][l] + tau * g->mi[4][l])));
+    }
+    if (terms == 7) {
+        double hr = g->mr[4][l] + tau * (g->mr[5][l] + tau * g->mr[6][l]), hi = g->mi[4][l] + tau * (g->mi[5][l] + tau * g->mi[6][l]);
+        er += tau * (g->mr[1][l] + tau * (g->mr[2][l] + tau * (g->mr[3][l] + tau * hr)));
+        ei += tau * (g->mi[1][l] + tau * (g->mi[2][l] + tau * (g->mi[3][l] + tau * hi)));
+    }
+    double y = c->r * ei + c->i * er, r = c->r * c->qr - c->i * c->qi;
+    c->i = c->r * c->qi + c->i * c->qr;
+    c->r = r;
+    return y;
+}
+
+/* `frames` is a constant: 1 or SPAN. */
+INLINE void sound_some(const struct clusters *restrict g, double (*restrict carrier)[LANES], double (*restrict sums)[LANES],
+                       const double *restrict tau, int frames, int terms)
+{
+#pragma omp simd
+    for (int l = 0; l < LANES; l++) {
+        struct carrier c = {carrier[0][l], carrier[1][l], g->qr[l], g->qi[l]};
+        sums[0][l] += frame(g, l, &c, tau[0], terms);
+        if (frames == SPAN) {
+            sums[1][l] += frame(g, l, &c, tau[1], terms);
+            sums[2][l] += frame(g, l, &c, tau[2], terms);
+            sums[3][l] += frame(g, l, &c, tau[3], terms);
+        }
+        carrier[0][l] = c.r;
+        carrier[1][l] = c.i;
+    }
+}
+
+INLINE void sound(const struct clusters *restrict g, double (*restrict sums)[LANES], int block, int terms)
+{
+    _Alignas(64) double carrier[2][LANES];
+    double centre = block / 2, per = block > 1 ? 1 / centre : 1;
+    memcpy(carrier[0], g->qr, sizeof carrier[0]);
+    memcpy(carrier[1], g->qi, sizeof carrier[1]);
+    int j = 0;
+    for (; j + SPAN <= block; j += SPAN) {
+        const double tau[SPAN] = {(j - centre) * per, (j + 1 - centre) * per, (j + 2 - centre) * per, (j + 3 - centre) * per};
+        sound_some(g, carrier, sums + j, tau, SPAN, terms);
+    }
+    for (; j < block; j++)
+        sound_some(g, carrier, sums + j, &(double){(j - centre) * per}, 1, terms);
+}
+
+LANES_CLONES
+static void sound_1(const struct clusters *g, double (*sums)[LANES], int block)
+{
+    sound(g, sums, block, 1);
+}
+
+LANES_CLONES
+static void sound_5(const struct clusters *g, double (*sums)[LANES], int block)
+{
+    sound(g, sums, block, 5);
+}
+
+LANES_CLONES
+static void sound_7(const struct clusters *g, double (*sums)[LANES], int block)
+{
+    sound(g, sums, block, 7);
+}
+
+static void cluster_sound(const struct clusters *g, double (*sums)[LANES], int block)
+{
+    int terms = terms_of(g);
+    (terms == 1 ? sound_1 : terms == 5 ? sound_5 : sound_7)(g, sums, block);
+}
+
+/* ------------------------------------------------------------------ all of them */
+
 
 struct lane {
     int component, count; /* nodes; none: free for another cluster */
@@ -37,9 +275,10 @@ struct before { /* the node a component freed last */
 struct launch_ringing {
     struct arena *arena;
     int groups, room; /* groups of clusters: in use, allocated */
+    int block, centre; /* frames; c, 1 of a block of one */
     double rate;
     long now; /* first frame of the coming block */
-    struct launch_cluster *group;
+    struct clusters *group;
     struct lane *lane; /* [room LANES] */
     int *first;        /* [n] a component's newest cluster, -1: none */
     int free;          /* a lane, -1: none                           */
@@ -49,10 +288,10 @@ struct launch_ringing {
     double *dr, *di, *ar, *ai;
 };
 
-struct launch_ringing *launch_ringing_make(struct arena *a, int n, double rate)
+struct launch_ringing *launch_ringing_make(struct arena *a, int n, double rate, int block)
 {
     struct launch_ringing *r = ARENA_TAKE(a, struct launch_ringing, 1);
-    *r = (struct launch_ringing){.arena = a, .rate = rate, .free = -1};
+    *r = (struct launch_ringing){.arena = a, .rate = rate, .free = -1, .block = block, .centre = block > 1 ? block / 2 : 1};
     r->first = ARENA_TAKE(a, int, n + 1);
     r->place = ARENA_TAKE(a, int, n + 1);
     r->before = ARENA_TAKE(a, struct before, n + 1);
@@ -69,7 +308,7 @@ struct launch_ringing *launch_ringing_make(struct arena *a, int n, double rate)
 static void grow_groups(struct launch_ringing *r)
 {
     int room = r->room ? 2 * r->room : 8;
-    struct launch_cluster *group = ARENA_TAKE(r->arena, struct launch_cluster, room);
+    struct clusters *group = ARENA_TAKE(r->arena, struct clusters, room);
     struct lane *lane = ARENA_TAKE(r->arena, struct lane, room * LANES);
     for (int k = 0; k < r->groups; k++)
         group[k] = r->group[k];
@@ -96,17 +335,17 @@ static int free_lane(struct launch_ringing *r)
     return l;
 }
 
-static void grow_rows(struct launch_cluster *g, struct arena *a)
+static void grow_rows(struct clusters *g, struct arena *a)
 {
-    int room = g->room ? 2 * g->room : 2 * LAUNCH_CLUSTER_ROWS;
-    struct launch_cluster_row *rows = ARENA_TAKE(a, struct launch_cluster_row, room);
+    int room = g->room ? 2 * g->room : 2 * ROWS;
+    struct row *rows = ARENA_TAKE(a, struct row, room);
     for (int k = 0; k < g->used; k++)
         rows[k] = g->rows[k];
     g->rows = rows;
     g->room = room;
 }
 
-static void row_copy(struct launch_cluster_row *to, const struct launch_cluster_row *from, int l)
+static void row_copy(struct row *to, const struct row *from, int l)
 {
     to->xr[l] = from->xr[l], to->xi[l] = from->xi[l];
     to->dr[l] = from->dr[l], to->di[l] = from->di[l];
@@ -124,7 +363,7 @@ static void measure(struct launch_ringing *r, int k)
             most = r->lane[l].count > most ? r->lane[l].count : most;
             r->group[k].reach = fmax(r->group[k].reach, r->lane[l].reach);
         }
-    r->group[k].used = (most + LAUNCH_CLUSTER_ROWS - 1) / LAUNCH_CLUSTER_ROWS * LAUNCH_CLUSTER_ROWS;
+    r->group[k].used = (most + ROWS - 1) / ROWS * ROWS;
 }
 
 /* ------------------------------------------------------------------ dropping */
@@ -142,7 +381,7 @@ static void lane_free(struct launch_ringing *r, int l)
 static void lane_sweep(struct launch_ringing *r, int l)
 {
     struct lane *v = &r->lane[l];
-    struct launch_cluster_row *rows = r->group[l / LANES].rows;
+    struct row *rows = r->group[l / LANES].rows;
     v->soonest = HUGE_VAL;
     for (int k = 0; k < v->count;)
         if (rows[k].until[l % LANES] <= (double)r->now) {
@@ -172,10 +411,10 @@ static void sweep(struct launch_ringing *r)
 
 /* ------------------------------------------------------------------ adding */
 
-/* The distance of two poles as launch_cluster.h's d, in [0] and [1]. */
+/* d, the distance of two poles: in [0] and [1], and its size. */
 static double apart(const struct launch_ringing *r, const double *s, const double *from, double d[2])
 {
-    double per = CENTRE / r->rate;
+    double per = r->centre / r->rate;
     d[0] = (s[0] - from[0]) * per;
     d[1] = (s[1] - from[1]) * REAL_PI * per;
     return sqrt(d[0] * d[0] + d[1] * d[1]);
@@ -187,7 +426,7 @@ static void ahead(const struct launch_ringing *r, const struct launch_freed *nod
     const struct before *b = &r->before[node->component];
     double d[2], step = b->any ? apart(r, s, b->s, d) : 0, share = 0;
     if (step > 0) {
-        double most = 0.8 * LAUNCH_CLUSTER_REACH / step;
+        double most = 0.8 * REACH / step;
         share = fmin(0.5 * fmax(life, 0) / (double)(node->frame - b->frame), most);
     }
     for (int k = 0; k < 2; k++)
@@ -198,7 +437,7 @@ static int cluster_open(struct launch_ringing *r, const struct launch_freed *nod
 {
     int l = free_lane(r);
     struct lane *v = &r->lane[l];
-    struct launch_cluster *g = &r->group[l / LANES];
+    struct clusters *g = &r->group[l / LANES];
     *v = (struct lane){.component = node->component, .next = r->first[node->component], .soonest = HUGE_VAL};
     r->first[node->component] = l;
     ahead(r, node, s, life, v->s);
@@ -212,7 +451,7 @@ static int cluster_for(struct launch_ringing *r, const struct launch_freed *node
 {
     double d[2];
     for (int l = r->first[node->component]; l >= 0; l = r->lane[l].next)
-        if (apart(r, s, r->lane[l].s, d) < LAUNCH_CLUSTER_REACH)
+        if (apart(r, s, r->lane[l].s, d) < REACH)
             return l;
     return cluster_open(r, node, s, life);
 }
@@ -220,7 +459,7 @@ static int cluster_for(struct launch_ringing *r, const struct launch_freed *node
 /* Where each node goes, its d, and the arguments of e^(delta (c+1)/rate) and e^(s block/rate). */
 static void place(struct launch_ringing *r, const struct launch_freed *freed, int count)
 {
-    double wait = (CENTRE + 1) / r->rate, span = BLOCK / r->rate;
+    double wait = (r->block / 2 + 1) / r->rate, span = r->block / r->rate;
     for (int k = 0; k < count; k++)
         r->life[k] = (fabs(freed[k].re) + fabs(freed[k].im)) / freed[k].least;
     vecmath_log((size_t)count, r->life, r->life);
@@ -242,7 +481,7 @@ static void place(struct launch_ringing *r, const struct launch_freed *freed, in
 static void insert(struct launch_ringing *r, int k, double re, double im)
 {
     struct lane *v = &r->lane[r->place[k]];
-    struct launch_cluster *g = &r->group[r->place[k] / LANES];
+    struct clusters *g = &r->group[r->place[k] / LANES];
     int l = r->place[k] % LANES, last = v->count - 1;
     double until = (double)r->now + r->life[k];
     if (last >= 0 && g->rows[last].dr[l] == r->dr[k] && g->rows[last].di[l] == r->di[k]) {
@@ -253,7 +492,7 @@ static void insert(struct launch_ringing *r, int k, double re, double im)
     }
     if (v->count == g->room)
         grow_rows(g, r->arena);
-    struct launch_cluster_row *row = &g->rows[v->count++];
+    struct row *row = &g->rows[v->count++];
     row->xr[l] = re, row->xi[l] = im;
     row->dr[l] = r->dr[k], row->di[l] = r->di[k];
     row->ar[l] = r->ar[k], row->ai[l] = r->ai[k];
@@ -285,14 +524,14 @@ void launch_ringing_add(struct launch_ringing *r, const struct launch_freed *fre
 
 void launch_ringing_run(struct launch_ringing *r, double (*sums)[LANES])
 {
-    if ((r->now / BLOCK) % SWEEP == 0)
+    if ((r->now / r->block) % SWEEP == 0)
         sweep(r);
     for (int k = 0; k < r->groups; k++)
         if (r->group[k].used) {
-            launch_cluster_gather(&r->group[k]);
-            launch_cluster_sound(&r->group[k], sums, BLOCK);
+            cluster_gather(&r->group[k]);
+            cluster_sound(&r->group[k], sums, r->block);
         }
-    r->now += BLOCK;
+    r->now += r->block;
 }
 
 long launch_ringing_active(const struct launch_ringing *r)

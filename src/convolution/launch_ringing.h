@@ -6,16 +6,15 @@
 
 struct launch_ringing;
 
-enum { LAUNCH_RINGING_BLOCK = 64 }; /* frames; a power of two */
+enum { LAUNCH_RINGING_BLOCK = 64 }; /* most frames of a block */
 
-/* n components. */
-struct launch_ringing *launch_ringing_make(struct arena *a, int n, double rate);
+/* n components; block: frames. */
+struct launch_ringing *launch_ringing_make(struct arena *a, int n, double rate, int block);
 
 struct launch_freed {
     int component;
     long frame;                 /* first without force                             */
     double frequency, decay;    /* Hz, 1/s                                         */
-    double pole_re, pole_im;    /* e^(s/rate)                                      */
     double re, im;              /* state in the last frame before the coming block */
     double least;               /* size at which it is dropped                     */
 };
@@ -23,7 +22,7 @@ struct launch_freed {
 /* Takes nodes over before a block; no component twice. */
 void launch_ringing_add(struct launch_ringing *r, const struct launch_freed *freed, int count);
 
-/* Adds Im of all states in the next block, lane by lane, to sums[LAUNCH_RINGING_BLOCK][LANES]. */
+/* Adds Im of all states in the next block, lane by lane, to sums[block][LANES]. */
 void launch_ringing_run(struct launch_ringing *r, double (*sums)[LANES]);
 
 long launch_ringing_active(const struct launch_ringing *r);

@@ -1,27 +1,56 @@
-/* Fast convolution with an impulse response that may move. See overlap_add.c. */
+/* Fast convolution: with responses that stay as they are, and with one that moves with the contact. See overlap_add.c. */
 #ifndef CONVOLUTION_OVERLAP_ADD_H
 #define CONVOLUTION_OVERLAP_ADD_H
-#include "base/arena.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Writes the `length` samples of response k into h: h[0] is half of h(0+), already scaled by 1/rate. */
+typedef void overlap_add_response(void *self, long k, double *h, size_t length);
+
+/* Frames of a block, at multiples of it. */
+enum { OVERLAP_ADD_BLOCK = 4096 };
+
+/* Writes the share of the force that goes to response k in frames first .. first + n - 1, at most one block. Returns 0 when all are 0 (w is then not
+   read). In each block k runs from 0 to n - 1. Not called where there is no force in the whole block. The last block may reach beyond the sound's end. */
+typedef int overlap_add_share(void *self, long first, int n, int k, double *w);
+
+/* ------------------------------------------------------------------ responses that stay: y = sum_k h_k * (w_k f) */
 
 struct overlap_add;
 
-/* Writes the `length` samples of the impulse response that belongs to node k (time k hop / rate) into h: h[0] is half of h(0+),
-   already scaled by 1/rate. Nodes are asked for in increasing order, each once, those without any
-   force under their window not at all; k may be negative (the start's response). */
-typedef void overlap_add_response(void *self, long k, double *h, size_t length);
+struct overlap_add_source {
+    int n;                          /* responses */
+    size_t length;                  /* samples of the longest */
+    overlap_add_share *share;       /* NULL: every response gets all of the force */
+    overlap_add_response *response; /* called once for each k, when it first gets force */
+    void *self;
+};
 
-/* order 0: a response that does not move: response(self, 0, ...) is asked for once and convolved exactly by uniform partitions.
-   order 1, 2, 4: y = sum_k h_k * (w_k f), w_k the cardinal windows of piecewise constant, linear, cubic Lagrange interpolation over
-   nodes at multiples of `hop` samples (w_k sums to 1 at every sample): the error against h moving sample by sample is of order
-   hop^order. */
-struct overlap_add *overlap_add_open(size_t length, int order, int hop, overlap_add_response *response, void *self);
+struct overlap_add *overlap_add_open(const struct overlap_add_source *source);
 void overlap_add_close(struct overlap_add *o);
 
-/* Frames by which force must be known ahead of the sound that is asked for. */
+/* Frames by which the force must be known ahead of the sound. */
 int overlap_add_ahead(const struct overlap_add *o);
 
-/* Adds to y[frames] the sound of the next `frames` samples. f points at the force of the first of them; f[0 .. frames + ahead - 1] must
-   be there (zeros after the end). Calls may be of any length; the result does not depend on how it is cut. */
+/* Adds to y[frames] the sound of the next `frames` frames. f points at the force of the first of them; f[0 .. frames + ahead - 1] must be there
+   (zeros after the end). The result does not depend on how the sound is cut into calls. */
 void overlap_add_run(struct overlap_add *o, const double *f, double *y, long frames);
+
+/* ------------------------------------------------------------------ a response that moves */
+
+/* Node k is at frame k hop. The windows w_k of all nodes sum to 1 at every frame.
+
+       launch     y = sum_k h_k * (w_k f)      each force sample launches the response of its own place
+       readout    y = sum_k w_k (h_k * f)      all past force is heard through the response of the present place
+
+   Responses are asked for in increasing order, each once, and not at all where no force reaches their window; k may be negative. */
+enum overlap_add_reading { OVERLAP_ADD_LAUNCH, OVERLAP_ADD_READOUT };
+
+struct overlap_add_moving;
+
+struct overlap_add_moving *overlap_add_moving_open(size_t length, int hop, enum overlap_add_reading reading, overlap_add_response *response, void *self);
+void overlap_add_moving_close(struct overlap_add_moving *o);
+int overlap_add_moving_ahead(const struct overlap_add_moving *o);
+void overlap_add_moving_run(struct overlap_add_moving *o, const double *f, double *y, long frames);
 
 #endif

@@ -35,10 +35,10 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "convolution/product.h"
 #include "convolution/resonator_group.h"
 #include "num/lanes.h"
 #include "num/real.h"
+#include "num/scaled.h"
 #include "num/vecmath.h"
 
 enum { PIECE_MIN = 64, PIECE_MAX = 256, WATCH = 256 }; /* frames whose lane sums are kept at a time; from one look at what has died away to the next */
@@ -202,7 +202,7 @@ static void find_active(struct resonators *r, bool force)
     r->n_active = 0;
     for (int k = 0; k < r->groups; k++) {
         struct resonator_group *g = &r->group[k];
-        bool deaf = product_nothing(g->gr, LANES) && product_nothing(g->gi, LANES) && product_nothing(g->tr, LANES) && product_nothing(g->ti, LANES);
+        bool deaf = scaled_is_zero(g->gr, LANES) && scaled_is_zero(g->gi, LANES) && scaled_is_zero(g->tr, LANES) && scaled_is_zero(g->ti, LANES);
         if (g->awake || (force && !deaf))
             r->active[r->n_active++] = g;
     }
@@ -245,7 +245,7 @@ static void flush(struct resonators *r, bool force)
 /* At every WATCH-th frame of all, so that it does not depend on how they are cut into calls. force: there is some in this call. */
 static void watch(struct resonators *r, const double *f, int n, bool force)
 {
-    bool forced = force && !product_nothing(f, n);
+    bool forced = force && !scaled_is_zero(f, n);
     for (int k = 0; forced && k < r->n_active; k++)
         r->active[k]->awake = 1;
     r->forced = r->forced || forced;
@@ -266,7 +266,7 @@ void resonators_run(struct resonators *r, const double *f, double *y, int frames
     set_targets(r, to);
     set_steps(r, frames);
     enum resonator_change change = r->bends ? RESONATOR_GLIDES : r->steady ? RESONATOR_STEADY : RESONATOR_RAMPS;
-    bool force = !product_nothing(f, frames);
+    bool force = !scaled_is_zero(f, frames);
     find_active(r, force);
     for (int done = 0; done < frames;) {
         int left = frames - done, n = left < r->piece ? left : r->piece;

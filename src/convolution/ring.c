@@ -8,12 +8,93 @@
 #include "convolution/alias.h"
 #include "convolution/gammatone.h"
 #include "convolution/ring_alias.h"
-#include "convolution/ring_along.h"
-#include "convolution/ring_reach.h"
 #include "response/object.h"
+#include "response/places.h"
+#include "scene/ablation.h"
 #include "scene/ball.h"
-#include "scene/rules.h"
-#include "trajectory/trajectory.h"
+
+/* ------------------------------------------------------------------ where the contact is */
+
+struct modes_where ring_where(const struct trajectory *tr, double t)
+{
+    double place[2];
+    trajectory_continued(tr, t, place);
+    return (struct modes_where){place[0], place[1], tr->duration > 0 ? t / tr->duration : 0};
+}
+
+struct modes_where ring_first_place(const struct contact *c, const struct trajectory *tr)
+{
+    const double *place = c->ablation.place;
+    return ablation_one_place(c) && !isnan(place[0]) ? (struct modes_where){place[0], place[1], 0} : ring_where(tr, 0);
+}
+
+/* The power of two at the larger of two gains: in such units they can be squared and multiplied, whatever their size, with the same bits as in any other. */
+static double unit_of(const struct modes_point *p, const struct modes_point *q, int i)
+{
+    double most = fmax(fmax(fabs(p->re[i]), fabs(p->im[i])), fmax(fabs(q->re[i]), fabs(q->im[i])));
+    int exponent = 0;
+    frexp(most, &exponent);
+    return exponent > -1000 && exponent < 1000 ? ldexp(1, exponent) : 1;
+}
+
+/* p <- end^2 / p, of n components: what goes on straight in the logarithm beyond the end, where p is as far inside. A gain that is nearly zero at the end, or turns by more
+   than a quarter of a turn, has no logarithm to go on in: it goes on straight. Poles only if p->frequency is not NULL. */
+static void mirror(int n, const struct modes_point *end, const struct modes_point *p)
+{
+    for (int i = 0; i < n; i++) {
+        double unit = unit_of(end, p, i), per = 1 / unit;
+        double re = end->re[i] * per, im = end->im[i] * per, x = p->re[i] * per, y = p->im[i] * per, square = x * x + y * y, to = re * re + im * im;
+        double lean = re * x + im * y, turn = im * x - re * y; /* end / p = (lean + j turn) / square */
+        bool steady = square > 1e-6 * to && lean > 0;
+        p->re[i] = unit * (steady ? (re * lean - im * turn) / square : 2 * re - x);
+        p->im[i] = unit * (steady ? (re * turn + im * lean) / square : 2 * im - y);
+        if (p->frequency) {
+            p->frequency[i] = p->frequency[i] > 0 ? end->frequency[i] * end->frequency[i] / p->frequency[i] : 0;
+            p->decay[i] = p->decay[i] > 0 ? end->decay[i] * end->decay[i] / p->decay[i] : 0;
+        }
+    }
+}
+
+/* Does it go back before the start (t < 0) or after the end? Where the motion rests at its end, as strokes do, it is taken to come back as it went: x ~ t^2 goes on without
+   a kink. */
+static bool returns(const struct modes *m, const struct trajectory *tr, double t)
+{
+    return !m->travels && (t < 0 ? tr->starts_at_rest : tr->ends_at_rest);
+}
+
+/* The places' hull is convex. A straight motion is inside when its ends are; of a curved one as many instants are looked at as show all of
+   its shape: what is left out between two of them is far less than the distance of two places. */
+#define REACH_SLACK 1e-9 /* m */
+
+static bool reach_told(const struct modes *m, const struct stage_run *r, const double p[2], double out, struct err *e)
+{
+    bool place = ablation_one_place(r->contact) && !isnan(r->contact->ablation.place[0]);
+    return err_set(e, ERR_SCENE, "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s%s%s; move it, or set surface.extrapolate: nearest", r->contact->name,
+                   ring_choice_about(r->contact, RING_SURFACE), place ? "ablation.place is" : "the motion reaches", p[0], p[1], out, m->name, m->places ? ": " : "",
+                   m->places ? places_told(m->places, r->arena) : "");
+}
+
+bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
+{
+    const struct response *given = &r->contact->surface.response;
+    const struct trajectory *tr = r->board->trajectory;
+    struct modes_point point = modes_point_make(r->arena, m->n);
+    bool one = ablation_one_place(r->contact);
+    struct modes_where first = ring_first_place(r->contact, tr);
+    long steps = one ? 0 : tr->straight ? 1 : tr->detail;
+    for (long i = 0; i <= steps && given->extrapolate == EXTRAPOLATE_ERROR; i++) {
+        double t = one ? 0 : tr->duration * (double)i / (double)steps, p[2] = {first.x, first.y};
+        if (tr->straight && !one)
+            for (int xy = 0; xy < 2; xy++)
+                p[xy] = tr->from[xy] + tr->reach[i] * tr->e[xy];
+        else if (!one)
+            trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
+        double out = modes_at(m, &(struct modes_where){p[0], p[1], 0}, &point);
+        if (out > REACH_SLACK)
+            return reach_told(m, r, p, out, e);
+    }
+    return true;
+}
 
 /* ------------------------------------------------------------------ voices */
 
@@ -102,9 +183,8 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     const struct response *given = ring_given(r->contact, body);
     *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .contact = r->contact, .key = surface ? "surface" : ball_tool(r->contact),
                        .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight,
-                       .moves = given->choice->moves, .morph_error = r->scene->accuracy.morph_error,
+                       .moves = given->choice->moves, .ramp = (int)r->scene->accuracy.gain_ramp,
                        .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT, .channels = r->board->channels};
-    r->seconds += g->choice->cpu;
     g->voices = ARENA_TAKE(r->arena, struct ring_voice, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
     if (g->choice->recorded)
@@ -150,29 +230,18 @@ void ring_point_at(const struct ring *g, const struct ring_voice *v, double fram
     if (g->stays)
         t = fmin(fmax(t, 0), last);
     if (g->body == RING_SURFACE && g->moves && (t < 0 || t > last)) {
-        struct modes_where inside = ring_along_where(tr, fmin(fmax(2 * end - t, 0), last));
+        struct modes_where inside = ring_where(tr, fmin(fmax(2 * end - t, 0), last));
         ring_point_in(g, v, &inside, p);
-        if (ring_along_returns(v->modes, tr, t))
+        if (returns(v->modes, tr, t))
             return;
-        where = ring_along_where(tr, end);
+        where = ring_where(tr, end);
         ring_point_in(g, v, &where, &v->end);
-        ring_along_mirror(v->n, &v->end, p);
+        mirror(v->n, &v->end, p);
         return;
     }
     if (g->body == RING_SURFACE)
-        where = g->moves ? ring_along_where(tr, t) : ring_along_first(g->contact, tr);
+        where = g->moves ? ring_where(tr, t) : ring_first_place(g->contact, tr);
     ring_point_in(g, v, &where, p);
-}
-
-double *ring_component_hops(const struct ring *g, const struct ring_voice *v, struct arena *a)
-{
-    const struct ring_choice *c = g->choice;
-    double *all = ARENA_TAKE(a, double, v->n), least = c->hops[0];
-    for (int i = 1; i < c->modes.n; i++)
-        least = fmin(least, c->hops[i]);
-    for (int i = 0; i < v->n; i++)
-        all[i] = v->modes == &c->modes && i < c->modes.n ? c->hops[i] : least;
-    return all;
 }
 
 void ring_put(const struct ring *g, int channel, long from, long to)

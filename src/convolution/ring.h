@@ -6,6 +6,7 @@
 #include "response/listener.h"
 #include "response/modes.h"
 #include "stage.h"
+#include "trajectory/trajectory.h"
 
 struct ring_voice {             /* one listening place */
     const struct modes *modes;
@@ -25,7 +26,7 @@ struct ring {
     const char *key;            /* "surface" or "scraper", for messages */
     enum item out;
     double weight;              /* eta for the scraper, 1 for the surface */
-    double morph_error;         /* dB, accuracy's */
+    int ramp;                   /* frames from one evaluation of gains, poles and taps to the next (accuracy.gain_ramp) */
     bool moves;                 /* gains or poles change on the way */
     bool stays;                 /* after the motion's end what rings is still retuned or read at a place: the end */
     int channels;
@@ -38,17 +39,24 @@ struct ring {
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e);
 
 /* Gains (weight included) of the contact at frame `frame`, and poles into p->frequency and p->decay, unless they are NULL. p is [voice->n].
-   Before the motion's start and after its end, where there is no force, they go on as ring_along.h says. */
+   Before the motion's start and after its end, where there is no force, they go on so that interpolation between instants keeps its order up to there:
+   straight in the logarithm, or back where the motion rests. What is retuned or read out there (`stays`) is that of the end. */
 void ring_point_at(const struct ring *g, const struct ring_voice *v, double frame, const struct modes_point *p);
 
 /* The same at a place. */
 void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where, const struct modes_point *p);
 
-/* [v->n] hops of a voice's components (choice->hops); those of modes that are not the chosen ones, or that a listener adds, are the shortest of all. */
-double *ring_component_hops(const struct ring *g, const struct ring_voice *v, struct arena *a);
-
 /* Writes the voice's sound from the ring's y, less what sampling has folded in, into the item's channel, for frames [from, to). */
 void ring_put(const struct ring *g, int channel, long from, long to);
+
+/* The motion's place, and the share of its duration that has passed. */
+struct modes_where ring_where(const struct trajectory *tr, double t);
+
+/* The place whose response it is all the time, of one that does not change: where the motion starts, or what ablation.place says. */
+struct modes_where ring_first_place(const struct contact *c, const struct trajectory *tr);
+
+/* Does the motion stay on a surface whose modes are m? ERR_SCENE, with its key and place: it leaves the hull of the places, and surface.extrapolate is error. */
+bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e);
 
 /* Force under the voice at a frame: its own delay back. */
 const double *ring_force(const struct ring *g, const struct ring_voice *v, long from);

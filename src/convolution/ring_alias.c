@@ -2,34 +2,30 @@
    place at frame m; of `readout` at frame m + k, where it is heard. That is one filter for all engines: `fixed`, `launch` and their nodes launch each
    force sample with the response of its own place, and the taps are a part of it; of `glide`, which retunes what rings, a sample's taps are over after 0.3 ms.
 
-   C is known at the ends of pieces and linear between. Under resonators these are ramps like their gains'. Else they have PIECE frames, and one is halved while its middle is farther off than 0.1 of accuracy.morph_error,
-   relative to the rms of what a white force makes of the modes or, if that is more, to C itself. What would be heard before the first frame at which the contact can be heard,
+   C is known every accuracy.gain_ramp frames, as gains are, and linear between. What would be heard before the first frame at which the contact can be heard,
    that of the voice's delay, is added to that frame, so that nothing is lost at 0 Hz. Pieces and taps stand at fixed frames and are added up in their order: the result does not depend
    on how the sound is cut into calls. */
 #include "convolution/ring_alias.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "convolution/alias.h"
 #include "num/lanes.h"
-#include "num/real.h"
 
-enum { PIECE = 256, ROOM = STAGE_BLOCK + 2 * ALIAS_REACH };
+enum { ROOM = STAGE_BLOCK + 2 * ALIAS_REACH };
 
 struct known {
     long frame;
-    double tap[ALIAS_TAPS], scale; /* scale: what an error is relative to */
+    double tap[ALIAS_TAPS];
 };
 
 struct ring_alias {
     struct alias *fit;
     bool moves, separate, listens;         /* the taps change on the way; poles do; they are those of the place at which is heard */
     long piece;
-    double error;                          /* INFINITY: none is asked about */
     struct modes_point at;                 /* [n] */
     double (*re)[ALIAS_TAPS], (*im)[ALIAS_TAPS]; /* [n] kappa of poles that stay, where gains move; else [1] */
-    struct known start, end, middle;       /* of the piece at hand; start.frame < 0: there is none */
+    struct known start, end;               /* of the piece at hand; start.frame < 0: there is none */
     long next;                             /* force frame */
     double sum[ROOM];                      /* of frames from the call's first on */
 };
@@ -45,12 +41,10 @@ static void add(const double *restrict re, const double *restrict im, double a, 
 static void taps_at(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, long frame, struct known *to)
 {
     bool kept = s->moves && !s->separate;
-    double energy = 0, own = 0, rate = g->board->rate;
     *to = (struct known){.frame = frame};
     ring_point_at(g, v, (double)frame, &s->at);
     for (int i = 0; i < v->n; i++) {
-        double power = s->at.re[i] * s->at.re[i] + s->at.im[i] * s->at.im[i];
-        if (power == 0.0)
+        if (s->at.re[i] == 0.0 && s->at.im[i] == 0.0)
             continue;
         if (!s->moves)
             alias_taps(s->fit, s->at.frequency[i], s->at.decay[i], *s->re, *s->im);
@@ -58,22 +52,7 @@ static void taps_at(struct ring_alias *s, const struct ring *g, const struct rin
             alias_add(s->fit, s->at.frequency[i], s->at.decay[i], (double[2]){s->at.re[i], s->at.im[i]}, to->tap);
         else
             add(s->re[kept ? i : 0], s->im[kept ? i : 0], s->at.re[i], s->at.im[i], to->tap);
-        energy += power / (4 * rate * fmax(s->at.decay[i], 1));
     }
-    for (int k = 0; k < ALIAS_TAPS; k++)
-        own += to->tap[k] * to->tap[k];
-    to->scale = sqrt(g->choice->gamma > 1 ? own : fmax(own, energy));
-}
-
-/* Is the piece straight enough? */
-static bool straight(const struct ring_alias *s)
-{
-    double off = 0;
-    for (int k = 0; k < ALIAS_TAPS; k++) {
-        double d = s->middle.tap[k] - 0.5 * (s->start.tap[k] + s->end.tap[k]);
-        off += d * d;
-    }
-    return sqrt(off) <= s->error * fmax(s->middle.scale, fmax(s->start.scale, s->end.scale));
 }
 
 /* The piece that holds a frame. */
@@ -90,24 +69,16 @@ static void find(struct ring_alias *s, const struct ring *g, const struct ring_v
     if (!s->moves)
         return;
     taps_at(s, g, v, from + s->piece, &s->end);
-    while (isfinite(s->error) && s->end.frame - s->start.frame > 1) {
-        taps_at(s, g, v, (s->start.frame + s->end.frame) / 2, &s->middle);
-        if (straight(s))
-            break;
-        *(frame < s->middle.frame ? &s->end : &s->start) = s->middle;
-    }
 }
 
 struct ring_alias *ring_alias_make(const struct ring *g, const struct ring_voice *v, struct arena *a)
 {
     struct ring_alias *s = ARENA_TAKE(a, struct ring_alias, 1);
-    bool ramps = g->choice->engine == RING_RESONATORS;
     s->fit = alias_make(a, g->choice->gamma, g->board->rate);
     s->moves = g->moves;
     s->separate = !v->modes->shared;
     s->listens = g->choice->reading == MOVING_READOUT;
-    s->piece = ramps ? g->choice->ramp : PIECE;
-    s->error = ramps ? INFINITY : 0.1 * real_exp10(g->morph_error / 20);
+    s->piece = g->ramp;
     s->at = modes_point_make(a, v->n);
     s->start.frame = -1;
     bool keep = s->moves && !s->separate;

@@ -1,19 +1,47 @@
-/* Which engine makes a body ring. What the scene leaves open (surface.moving: auto, surface.convolution: auto) is decided here, where the response
-   has been read: poles that are the same everywhere make `fixed`, separate ones `launch`, by the cheapest engine that keeps accuracy.morph_error
-   (ring_means.c). */
+/* What the scene leaves open (surface.moving: auto, surface.convolution: auto) is settled here, where the response has been read.
+
+   Reading: poles that are the same everywhere make `fixed`, separate ones `launch`, an object that changes on the way `glide`.
+
+   Engine                                     fixed   glide   launch   readout
+   resonators (one exact recursion per mode)   x       x
+   launch (resonators at nodes)                                x
+   overlap-add (responses at nodes)            o               o        x
+
+   x: where nothing else is asked. o: where surface.convolution says so, or the response is cut (surface.response_length), or begins softly (surface.gammatone) and
+   launches. Recorded responses go by overlap-add, each place's for itself, the force shared between places.
+
+   How finely a response that moves is followed is one knob, accuracy.gain_ramp, n frames:
+
+       resonators    gains and poles are evaluated every n frames, and ramped linearly between
+       launch        nodes every 16 sqrt(n) frames, cubic between
+       overlap-add   nodes every 32 sqrt(n) frames, cubic between; a node costs three long FFTs, so that they stand half as dense
+
+   A line over n frames errs as n^2, and so does a cubic over c sqrt(n). Hops are whole numbers of 8 frames. */
 #include "convolution/ring_choice.h"
 
 #include <math.h>
 
-#include "base/stopwatch.h"
-#include "convolution/ring_cost.h"
-#include "convolution/ring_means.h"
-#include "convolution/ring_noted.h"
+#include "convolution/gammatone.h"
+#include "num/lanes.h"
+#include "response/listener.h"
 #include "response/object.h"
 #include "response/space.h"
+#include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
-#include "trajectory/trajectory.h"
+#include "stage.h"
+
+#define COMPUTED_DB 140.0 /* how far a computed response is followed down */
+#define COMPUTED_MOST 60.0 /* s, and how long */
+
+struct ring_choosing {
+    const struct contact *contact;
+    const struct scene *scene;
+    const struct response *given;
+    const char *key; /* "surface", "scraper", "ball" */
+    struct arena *arena;
+    struct ring_choice *to;
+};
 
 /* ------------------------------------------------------------------ reading */
 
@@ -69,63 +97,90 @@ static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct 
     return true;
 }
 
-/* ------------------------------------------------------------------ all */
+/* ------------------------------------------------------------------ gammatones */
 
-/* Along the motion, unless it is known. */
-static bool choose_along(struct ring_choosing *c, struct err *e)
+static bool undamped(const struct ring_choosing *c, int i, struct err *e)
 {
-    struct ring_survey_ask ask = {.modes = &c->to->modes, .trajectory = &c->trajectory, .by_speed = c->contact->contact.model == CONTACT_SCRAPE,
-                                  .stays = c->to->reading == MOVING_GLIDE || c->to->reading == MOVING_READOUT,
-                                  .slopes = ring_choice_glides(c->to)};
-    const char *key = ring_noted_key(c->scene, c->contact, c->work);
-    if (ring_noted_find(c->scene->shelf, key, c->arena, c->to))
+    return err_set(e, ERR_SCENE, "contact '%s': %s.gammatone: %d: the mode at %.6g Hz of %s has no decay, and a gammatone of it would grow for ever; give it decay, or leave "
+                                 "gammatone out", c->contact->name, c->key, c->to->gamma, c->to->modes.frequency[i], c->to->modes.name);
+}
+
+static bool gammatone_fits(const struct ring_choosing *c, struct err *e)
+{
+    int asked = c->given->convolution, reading = c->to->reading;
+    const char *name = c->contact->name;
+    if (c->to->gamma == 1)
         return true;
-    ring_survey(&ask, c->work, &c->survey);
-    if (!ring_means_choose(c, e))
-        return false;
-    ring_noted_add(c->scene->shelf, key, c->to);
+    for (int i = 0; i < c->to->modes.n; i++)
+        if (!(c->to->modes.slowest[i] > 0))
+            return undamped(c, i, e);
+    if (reading == MOVING_GLIDE)
+        return err_set(e, ERR_SCENE, "contact '%s': surface.gammatone: %d: what glides begins at once%s; set surface.moving to launch or readout, or leave gammatone out", name,
+                       c->to->gamma, c->given->moving == MOVING_AUTO ? " (surface.moving: auto is glide where surface.space travels)" : "");
+    if (asked == ENGINE_RESONATORS && reading != MOVING_FIXED)
+        return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: resonators cannot do surface.gammatone: %d where poles differ from place to place; choose overlap_add, "
+                                     "or leave surface.convolution out", name, c->to->gamma);
     return true;
 }
 
-static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct err *e)
+/* ------------------------------------------------------------------ engines */
+
+static bool choose_engine(struct ring_choosing *c, struct err *e)
 {
-    if (!read_modes(c, e))
-        return err_about(e, c->contact->name, ring_choice_about(c->contact, body));
-    if (!choose_reading(c, body, e))
-        return false;
-    if (!trajectory_make(&c->contact->motion, trajectory_seed(c->scene, c->contact), c->arena, &c->trajectory, e))
-        return err_at(e, "contact '%s'", c->contact->name);
-    double start = stopwatch_cpu();
-    c->heard.force = c->trajectory.duration;
-    if (!ring_heard(c->scene, c->contact, modes_ring_time(&c->to->modes, 80), &c->heard, e))
-        return false;
-    if (!c->to->moves)
-        return ring_means_choose(c, e);
-    c->work = arena_open();
-    bool chosen = choose_along(c, e);
-    c->to->cpu = stopwatch_cpu() - start;
-    arena_close(c->work);
-    return chosen;
+    static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
+    int asked = c->given->convolution, reading = c->to->reading;
+    bool cut = !isnan(c->given->length), overlap = asked == ENGINE_OVERLAP_ADD || cut || (c->to->gamma > 1 && reading == MOVING_LAUNCH) || reading == MOVING_READOUT;
+    if ((reading == MOVING_GLIDE && asked == ENGINE_OVERLAP_ADD) || (reading == MOVING_READOUT && asked == ENGINE_RESONATORS)) {
+        err_about(e, c->contact->name, "surface.convolution");
+        return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: %s cannot do surface.moving: %s, which goes by %s; leave surface.convolution out", c->contact->name,
+                       asked == ENGINE_OVERLAP_ADD ? "overlap_add" : "resonators", readings[reading], asked == ENGINE_OVERLAP_ADD ? "resonators" : "overlap_add");
+    }
+    c->to->engine = overlap && reading != MOVING_GLIDE ? RING_OVERLAP_ADD : reading == MOVING_LAUNCH ? RING_LAUNCH : RING_RESONATORS;
+    c->to->seconds = cut ? c->given->length : fmin(modes_ring_time(&c->to->modes, gammatone_decibel(c->to->gamma, COMPUTED_DB)), COMPUTED_MOST);
+    return true;
 }
 
-static void choose_recorded(struct ring_choosing *c, enum ring_body body)
+int ring_choice_hop(const struct ring_choice *c, const struct accuracy *accuracy)
 {
-    double seconds = isnan(c->given->length) ? 1 : c->given->length, rate = c->scene->output.sample_rate;
-    bool folder = rules_is_folder(c->given);
-    c->to->recorded = true;
-    c->to->reading = MOVING_FIXED;
-    c->to->moves = folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL && !ablation_one_place(c->contact);
-    c->to->engine = folder ? RING_PANNED : RING_OVERLAP;
-    c->to->work = ring_cost_recorded((folder ? 8 : 1) * seconds * rate);
+    return 8 * (int)rint((c->engine == RING_OVERLAP_ADD ? 4 : 2) * sqrt(accuracy->gain_ramp));
 }
+
+/* ------------------------------------------------------------------ all */
 
 static const struct response *given_of(const struct contact *c, enum ring_body body)
 {
     return body == RING_SURFACE ? &c->surface.response : &c->scraper.response;
 }
 
+static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct err *e)
+{
+    static const char *const gammatones[] = {"surface.gammatone", "scraper.gammatone", "ball.gammatone"};
+    if (!read_modes(c, e))
+        return err_about(e, c->contact->name, ring_choice_about(c->contact, body));
+    if (!choose_reading(c, body, e))
+        return false;
+    if (!gammatone_fits(c, e))
+        return err_about(e, c->contact->name, gammatones[body == RING_SURFACE ? 0 : ball_rolls(c->contact) ? 2 : 1]);
+    if (!choose_engine(c, e))
+        return false;
+    const struct output *o = &c->scene->output;
+    double moving = isnan(c->contact->motion.duration) ? 1 : c->contact->motion.duration, ring = isnan(o->tail) ? fmin(modes_ring_time(&c->to->modes, 80), 60) : o->tail;
+    c->to->listening = listener_cost(o, &c->to->modes, c->given->object.origin) / ((moving + ring) * o->sample_rate);
+    return true;
+}
+
+static void choose_recorded(struct ring_choosing *c, enum ring_body body)
+{
+    c->to->recorded = true;
+    c->to->folder = rules_is_folder(c->given);
+    c->to->reading = MOVING_FIXED;
+    c->to->moves = c->to->folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL && !ablation_one_place(c->contact);
+    c->to->engine = RING_OVERLAP_ADD;
+    c->to->seconds = isnan(c->given->length) ? 1 : c->given->length;
+}
+
 bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice,
-                 struct err *e)
+                      struct err *e)
 {
     const struct response *given = given_of(c, body);
     *choice = NULL;
@@ -157,38 +212,80 @@ enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body
     return choice ? choice->engine : RING_NONE;
 }
 
-static double work_of(const struct contact *c, enum ring_body body)
+/* ------------------------------------------------------------------ cost: cycles of one core with 256-bit vectors, by tests/bench and whole renders, within a factor of 3 */
+
+#define RESONATOR 0.8         /* a mode and sample, poles fixed                   */
+#define GLIDING 1.2           /* ... poles ramped                                 */
+#define RAMPED 6.0            /* a mode and ramp                                  */
+#define PLACED 400.0          /* a place of the contact                           */
+#define SHARED 28.0           /* a mode there, poles shared                       */
+#define SEPARATE 80.0         /* ... poles separate                               */
+#define FREED 250.0           /* a node that leaves the force                     */
+#define LAUNCHED 0.22         /* a node that rings and sample                     */
+#define TRANSFORM 90.0        /* three FFTs, per sample of them                   */
+#define SAMPLED 0.7           /* a mode and sample of an impulse response         */
+#define PARTITION (1 / 200.0) /* a sample of a response that is convolved as it is */
+
+static double recorded_work(double samples)
 {
-    const struct ring_choice *choice = given_of(c, body)->choice;
-    return choice ? choice->work : 0;
+    return 70 + samples * PARTITION;
 }
 
-static unsigned knobs_of(const struct contact *c, enum ring_body body)
+/* Nodes that ring at a time: those of each mode until they are dropped, at 100 dB or so. */
+static double alive(const struct ring_choice *c, double rate, double hop)
+{
+    double sum = 0;
+    for (int i = 0; i < c->modes.n; i++)
+        sum += fmin(11.5 / fmax(c->modes.slowest[i], 1e-3), COMPUTED_MOST) * rate / hop;
+    return sum;
+}
+
+/* Under force, at one listening place. */
+static double place_work(const struct ring_choice *c, const struct scene *s)
+{
+    double n = c->modes.n, lanes = LANES * ceil(n / LANES), rate = s->output.sample_rate, length = c->seconds * rate;
+    double point = PLACED + n * (c->modes.shared ? SHARED : SEPARATE), hop = ring_choice_hop(c, &s->accuracy);
+    if (c->engine == RING_LAUNCH)
+        return 20 + 4 * lanes * RESONATOR + (point + FREED * n) / hop + LAUNCHED * alive(c, rate, hop);
+    if (c->engine == RING_OVERLAP_ADD)
+        return c->moves ? (TRANSFORM * (length + 4 * hop) + SAMPLED * n * length + point) / hop : recorded_work(length);
+    return 10 + lanes * (ring_choice_glides(c) ? GLIDING : RESONATOR * gammatone_cost(c->gamma)) + (c->moves ? (point + lanes * RAMPED) / s->accuracy.gain_ramp : 0);
+}
+
+static double work_of(const struct contact *c, const struct scene *s, enum ring_body body)
 {
     const struct ring_choice *choice = given_of(c, body)->choice;
-    return choice ? choice->knobs : 0;
+    if (!choice)
+        return 0;
+    if (choice->recorded)
+        return recorded_work((choice->folder ? 8 : 1) * choice->seconds * s->output.sample_rate);
+    return place_work(choice, s) * listener_channels(&s->output) + choice->listening;
 }
 
 double ring_choice_surface_work(const struct contact *c, const struct scene *s)
 {
-    (void)s;
-    return work_of(c, RING_SURFACE);
+    return work_of(c, s, RING_SURFACE);
 }
 
 double ring_choice_scraper_work(const struct contact *c, const struct scene *s)
 {
-    (void)s;
-    return work_of(c, RING_SCRAPER);
+    return work_of(c, s, RING_SCRAPER);
+}
+
+static unsigned turns_of(const struct contact *c, enum ring_body body)
+{
+    const struct ring_choice *choice = given_of(c, body)->choice;
+    return choice && choice->moves && !choice->recorded ? KNOB_BIT(gain_ramp) : 0;
 }
 
 unsigned ring_choice_surface_turns(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return knobs_of(c, RING_SURFACE);
+    return turns_of(c, RING_SURFACE);
 }
 
 unsigned ring_choice_scraper_turns(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return knobs_of(c, RING_SCRAPER);
+    return turns_of(c, RING_SCRAPER);
 }

@@ -4,7 +4,9 @@
 
 #include "convolution/launch.h"
 #include "convolution/ring.h"
-#include "num/real.h"
+
+/* Nodes that ring out are dropped when they have fallen by 100 dB where gain_ramp is 64, by 12 dB more for each halving, as the error of the nodes falls. */
+#define FLOOR 2.44e-9
 
 struct launching {              /* one voice */
     const struct ring *ring;
@@ -33,8 +35,7 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
     for (int k = 0; k < s->ring.channels; k++) {
         const struct ring_voice *v = &s->ring.voices[k];
         s->voices[k] = (struct launching){.ring = &s->ring, .voice = v};
-        struct launch_ask ask = {.n = v->n, .order = (int)r->scene->accuracy.overlap_order, .rate = r->board->rate,
-                                 .hop = ring_component_hops(&s->ring, v, r->arena), .floor = real_exp10(-s->ring.choice->forgotten / 20),
+        struct launch_ask ask = {.n = v->n, .rate = r->board->rate, .hop = ring_choice_hop(s->ring.choice, &r->scene->accuracy), .floor = FLOOR * s->ring.ramp * s->ring.ramp,
                                  .quantity = listener_quantity(v->listener)};
         s->voices[k].engine = launch_open(&ask, launching_point, &s->voices[k]);
     }
@@ -74,7 +75,6 @@ const struct stage ring_launch_stage = {
     .idle = "the surface's poles are the same everywhere, or they go by another engine",
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
-    .knobs = KNOB_BIT(overlap_order),
     .turns = ring_choice_surface_turns,
     .wanted = ring_launch_wanted,
     .work = ring_choice_surface_work,

@@ -1,15 +1,15 @@
 /* The surface's and the scraper's modes as resonators (convolution/resonators.h): exact for poles that do not move (`fixed`), and the definition of
-   `glide` for those that do. Gains and poles are evaluated every ring_choice.ramp samples, at multiples of it, and ramped linearly between;
+   `glide` for those that do. Gains and poles are evaluated every accuracy.gain_ramp samples, at multiples of it, and ramped linearly between;
    a ramp is always run as a whole, so that nothing depends on where blocks end. */
 #include <string.h>
 
-#include "convolution/gammatones.h"
+#include "convolution/gammatone.h"
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
 
 struct bank {
     struct resonators *bank;  /* or, of a soft onset,                       */
-    struct gammatones *tones;
+    struct gammatone_bank *tones;
     struct modes_point to;    /* at the ramp's end                          */
     double *y;                /* [ramp] sound of the present ramp           */
 };
@@ -23,15 +23,15 @@ struct ring_bank {
 
 static void bank_tones(struct bank *b, struct stage_run *r, const struct ring_bank *s, int n)
 {
-    struct gammatones_ask ask = {.n = n, .gamma = s->ring.choice->gamma, .rate = r->board->rate, .frequency = b->to.frequency, .decay = b->to.decay};
-    b->tones = gammatones_make(r->arena, &ask);
-    gammatones_set(b->tones, &b->to);
+    struct gammatone_bank_ask ask = {.n = n, .gamma = s->ring.choice->gamma, .rate = r->board->rate, .frequency = b->to.frequency, .decay = b->to.decay};
+    b->tones = gammatone_bank_make(r->arena, &ask);
+    gammatone_bank_set(b->tones, &b->to);
 }
 
 static void bank_run(const struct bank *b, const double *f, double *y, int frames)
 {
     if (b->tones)
-        gammatones_run(b->tones, f, y, frames, &b->to);
+        gammatone_bank_run(b->tones, f, y, frames, &b->to);
     else
         resonators_run(b->bank, f, y, frames, &b->to);
 }
@@ -59,7 +59,7 @@ static bool ring_bank_open(struct stage_run *r, enum ring_body body, struct err 
     r->state = s;
     if (!ring_open(&s->ring, r, body, e))
         return false;
-    s->ramp = s->ring.choice->ramp;
+    s->ramp = s->ring.moves ? s->ring.ramp : 1;
     s->banks = ARENA_TAKE(r->arena, struct bank, s->ring.channels);
     for (int k = 0; k < s->ring.channels; k++)
         bank_open(s, r, k);

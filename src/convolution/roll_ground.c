@@ -1,9 +1,7 @@
 /* See roll_ground.h. The modes are those that sound (ring_choice.h): the strongest of the band, below 0.45 of the sample rate; the give of all others is left out. */
 #include "convolution/roll_ground.h"
 
-#include "convolution/ring_along.h"
-#include "convolution/ring_choice.h"
-#include "convolution/ring_reach.h"
+#include "convolution/ring.h"
 #include "scene/ablation.h"
 #include "scene/rules.h"
 #include "trajectory/trajectory.h"
@@ -26,7 +24,7 @@ static void ground_phi(const struct roll_ground *g, long frame, double *phi)
 static void ground_ramps(struct roll_ground *g, const struct stage_run *r)
 {
     g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL && !ablation_one_place(r->contact);
-    g->first = ring_along_first(r->contact, g->board->trajectory);
+    g->first = ring_first_place(r->contact, g->board->trajectory);
     g->ramp = (long)r->scene->accuracy.gain_ramp;
     g->phi = ARENA_TAKE(r->arena, double, g->shapes.n);
     g->from = ARENA_TAKE(r->arena, double, g->shapes.n);

@@ -34,3 +34,11 @@ double scaled_squares(const double *x, long n)
         all += x[i] * x[i];
     return all;
 }
+
+bool scaled_is_zero(const double *x, long n)
+{
+    for (long i = 0; i < n; i++)
+        if (x[i] != 0.0)
+            return false;
+    return true;
+}

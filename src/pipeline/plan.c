@@ -194,12 +194,9 @@ static void row_print(const struct plan *p, const struct plan_row *r, double who
             r->stage->paper[0] ? "]" : "");
 }
 
-/* Engines take little memory, but for responses at nodes; a surface whose ground is kept as it is made says how much that may be. */
+/* A surface whose ground is kept as it is made says how much memory that may be. */
 static void memory_print(const struct plan *p, FILE *out)
 {
-    const struct ring_choice *c = p->contact->surface.response.choice;
-    if (c && c->engine == RING_PANNED && !c->recorded)
-        fprintf(out, "  up to %.0f MB of memory for responses at %d nodes\n", c->bytes / 1e6, c->nodes.n);
     if (p->alive & ITEM_BIT(ITEM_SURFACE) && roughness_bytes(p->contact) > 0)
         fprintf(out, "  up to %.0f MB of memory for roughness in the plane\n", roughness_bytes(p->contact) / 1e6);
 }

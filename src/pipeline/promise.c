@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "base/stopwatch.h"
-#include "convolution/ring_choice.h"
 #include "num/real.h"
 #include "pipeline/inputs.h"
 #include "pipeline/promise_parts.h"
@@ -24,39 +23,21 @@ static double amplitude(double db)
 
 /* ------------------------------------------------------------------ plans */
 
-/* At a morph_error; its error and the plans' work. */
-static bool plan_at(struct promise_making *m, double morph, double *work, struct err *e)
+static bool plan(struct promise_making *m, struct err *e)
 {
-    if (!promise_said(m, KNOB_morph_error))
-        accuracy_turn(&m->kept->accuracy, KNOB_morph_error, morph);
-    m->kept->contacts = m->asked->contacts;
     m->parts = render_parts_make(m->kept, "", m->arena);
     if (!render_parts_plan(&m->parts, e))
         return false;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
-    *work = m->morph = 0;
-    for (int i = 0; i < m->kept->n_contacts; i++) {
-        const struct plan *p = &m->parts.parts[i].plan;
-        const struct ring_choice *c = p->contact ? p->contact->surface.response.choice : NULL;
-        m->used |= plan_knobs(p);
-        m->morph = c && c->moves ? fmax(m->morph, c->error) : m->morph;
-        for (int k = 0; k < p->n; k++)
-            *work += p->rows[k].work;
-    }
+    for (int i = 0; i < m->kept->n_contacts; i++)
+        m->used |= plan_knobs(&m->parts.parts[i].plan);
     return true;
-}
-
-/* dB for so many tenths of the budget's square, in tenths of a dB. */
-static double morph_for(const struct promise_making *m, double tenths)
-{
-    double db = floor(10 * decibel(m->whole * sqrt(tenths / PROMISE_TENTHS))) / 10, low = keys_knobs[KNOB_morph_error].low;
-    return db < low ? low : db;
 }
 
 static void begin_cheaply(struct promise_making *m)
 {
     for (int k = 0; k < KNOBS; k++)
-        if (!promise_said(m, k) && keys_knobs[k].scale != KEY_METHOD)
+        if (!promise_said(m, k))
             accuracy_turn(&m->kept->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
 }
 
@@ -75,10 +56,8 @@ static void tell_parts(struct promise_making *m)
     p->n = 0;
     for (int k = 0; k < KNOBS; k++) {
         double value = accuracy_knob(&m->kept->accuracy, (enum knob)k);
-        if (promise_rehearse_is(m, k))
+        if (promise_used(m, k))
             part_add(p, k, promise_said(m, k), value, promise_curve_error(&m->curves[k], value));
-        else if (k == KNOB_morph_error && m->morphs)
-            part_add(p, k, promise_said(m, k), value, m->morph);
     }
     for (int i = 0; i < p->n; i++)
         sum += p->parts[i].error * p->parts[i].error;
@@ -87,7 +66,7 @@ static void tell_parts(struct promise_making *m)
 
 static const char *part_text(struct arena *a, const struct promise_part *p)
 {
-    return arena_format(a, "%s %.6g%s %.1f dB%s", keys_knobs[p->knob].name, p->value, accuracy_unit(p->knob), decibel(p->error), p->said ? " (said)" : "");
+    return arena_format(a, "%s %.6g %.1f dB%s", keys_knobs[p->knob].name, p->value, decibel(p->error), p->said ? " (said)" : "");
 }
 
 static const char *tell_text(struct arena *a, const struct promise *p)
@@ -103,8 +82,6 @@ static const char *tell_text(struct arena *a, const struct promise *p)
     return text;
 }
 
-#define MORPH_ROOM 0.1 /* dB: 2 % of a budget's square, 16 dB below it */
-
 /* What is in the way, and what could be had: every free knob at its finest. */
 static bool refuse(struct promise_making *m, struct err *e)
 {
@@ -113,20 +90,18 @@ static bool refuse(struct promise_making *m, struct err *e)
     if (promise_rehearse_chaos(m, true, e))
         return false;
     for (int k = 0; k < KNOBS; k++)
-        if (promise_rehearse_is(m, k) && !promise_said(m, k))
+        if (promise_used(m, k) && !promise_said(m, k))
             accuracy_turn(&m->kept->accuracy, (enum knob)k, promise_curve_best(&m->curves[k]));
-    if (!promise_said(m, KNOB_morph_error))
-        m->morph = 0; /* it takes what MORPH_ROOM leaves it, whatever the last plan had */
     tell_parts(m);
     for (int i = 0; i < p->n; i++)
         worst = p->parts[i].error > worst->error ? &p->parts[i] : worst;
-    double best = ceil(p->predicted + PROMISE_MARGIN + MORPH_ROOM);
+    double best = ceil(p->predicted + PROMISE_MARGIN);
     err_about(e, NULL, "accuracy.error");
     if (worst->said)
-        return err_set(e, ERR_SCENE, "accuracy.error: %.6g dB cannot be promised: accuracy.%s is %.6g%s, which alone leaves %.1f dB; take it out, or ask for %.0f dB at most",
-                       p->error, keys_knobs[worst->knob].name, worst->value, accuracy_unit(worst->knob), decibel(worst->error), best);
-    return err_set(e, ERR_SCENE, "accuracy.error: %.6g dB cannot be promised: %s stands in the way, of which at its finest, %.6g%s, no less than %.1f dB is promised; the best that can be promised here is %.0f dB",
-                   p->error, keys_knobs[worst->knob].name, worst->value, accuracy_unit(worst->knob), decibel(worst->error), best);
+        return err_set(e, ERR_SCENE, "accuracy.error: %.6g dB cannot be promised: accuracy.%s is %.6g, which alone leaves %.1f dB; take it out, or ask for %.0f dB at most",
+                       p->error, keys_knobs[worst->knob].name, worst->value, decibel(worst->error), best);
+    return err_set(e, ERR_SCENE, "accuracy.error: %.6g dB cannot be promised: %s stands in the way, of which at its finest, %.6g, no less than %.1f dB is promised; the best that can be promised here is %.0f dB",
+                   p->error, keys_knobs[worst->knob].name, worst->value, decibel(worst->error), best);
 }
 
 /* ------------------------------------------------------------------ choosing */
@@ -134,15 +109,10 @@ static bool refuse(struct promise_making *m, struct err *e)
 /* That an error cannot be kept is believed when all is rehearsed, and not before. */
 static bool choose(struct promise_making *m, struct err *e)
 {
-    double tenths = 0, work;
-    if (!promise_rehearse(m, m->whole, e))
-        return false;
-    if (!promise_share(m, &tenths) && (!promise_rehearse(m, 0, e) || !promise_share(m, &tenths)))
-        return e->kind == ERR_NONE && refuse(m, e);
-    return tenths == 0 || plan_at(m, morph_for(m, tenths), &work, e);
+    return promise_rehearse(m, m->whole, e) && (promise_share(m) || (promise_rehearse(m, 0, e) && (promise_share(m) || refuse(m, e))));
 }
 
-/* The engines were chosen by what is kept: they need not be again. */
+/* The engines are chosen: they need not be again. */
 static void keep_choices(struct promise_making *m)
 {
     struct contact *c = ARENA_TAKE(m->arena, struct contact, m->kept->n_contacts);
@@ -154,14 +124,7 @@ static void keep_choices(struct promise_making *m)
 static bool make(struct promise_making *m, struct err *e)
 {
     begin_cheaply(m);
-    if (!plan_at(m, morph_for(m, 1), &m->work[1], e))
-        return false;
-    m->morphs = m->morph > 0;
-    if (m->morphs && !promise_said(m, KNOB_morph_error) && !plan_at(m, morph_for(m, 9), &m->work[0], e))
-        return false;
-    if (!m->morphs)
-        m->work[0] = m->work[1];
-    if (!choose(m, e))
+    if (!plan(m, e) || !choose(m, e))
         return false;
     tell_parts(m);
     keep_choices(m);

@@ -4,8 +4,8 @@
 
      predicted^2 = sum of e_k^2 <= (asked / margin)^2        margin  PROMISE_MARGIN, for what excerpts do not see
 
-   e of morph_error   the error of ramps, hops and nodes, as measured before a render on the response itself (convolution/ring_means.h)
-   e of steps         rehearsed on excerpts of the motion, up to the force, at doubled values (excerpts.h, promise_curve.h), and weighed by what of the force is heard */
+   e of gain_ramp   the sound of the whole motion at halved values against each other (promise_curve.h), all else at `draft`
+   e of steps       rehearsed on excerpts of the motion, up to the force, at doubled values (excerpts.h), and weighed by what of the force is heard */
 #ifndef PIPELINE_PROMISE_H
 #define PIPELINE_PROMISE_H
 #include "base/arena.h"
@@ -31,7 +31,7 @@ struct promise {
     const char *text;       /* one line of all this; NULL: not asked    */
 };
 
-/* kept: the scene with every knob settled, its engines chosen by them (response.choice: valid with these knobs only); without accuracy.error (or with every knob said) as it was asked. p may be NULL. ERR_SCENE: it cannot be kept, and what can
+/* kept: the scene with every knob settled, its engines chosen (response.choice); without accuracy.error (or with every knob said) as it was asked. p may be NULL. ERR_SCENE: it cannot be kept, and what can
    be (err_about accuracy.error); else those of inputs and plans. */
 bool promise_keep(const struct scene *asked, struct arena *a, struct scene *kept, struct promise *p, struct err *e);
 

@@ -9,6 +9,8 @@
    refusals of shipped scenes: 1.2 s (circle, basswood_scrape), 9 s (roll_coupled), 11 s (round_tip, most of it tip_heights). What is told as the best is so the same
    whatever was asked.
 
+   A ramp of gains is rehearsed up to the sound, over the whole motion, two values side by side: what it misses lies at kinks, and grows with what rings.
+
    What comes in its order is rehearsed in its beginning only. A coupled ball's error grows with time, as its place drifts, up to linearly: measured over 10 times what is
    rehearsed, by 16 dB. So much is added, in proportion to the time (excerpts.h: drift). */
 #include <math.h>
@@ -16,10 +18,13 @@
 
 #include "convolution/ring_choice.h"
 #include "pipeline/promise_parts.h"
+#include "pipeline/run.h"
+#include "pipeline/stages.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 
 #define FIRST 0.5 /* s of what comes in its order, to begin with */
+#define LONGEST 60.0 /* s of what rings */
 
 static bool coupled(const struct promise_making *m)
 {
@@ -27,11 +32,6 @@ static bool coupled(const struct promise_making *m)
         if (m->asked->contacts[i].contact.model == CONTACT_ROLL_COUPLED)
             return true;
     return false;
-}
-
-bool promise_rehearse_is(const struct promise_making *m, int knob)
-{
-    return m->used & 1u << knob && (keys_knobs[knob].scale == KEY_STEPS || (keys_knobs[knob].scale == KEY_SAMPLES && coupled(m)));
 }
 
 static bool heard(const struct promise_making *m, int contact)
@@ -144,6 +144,53 @@ static bool begin_rehearsal(struct promise_making *m, int knob, double value, st
     return true;
 }
 
+/* Adds the energies of a contact's sound at the second of two ramps and of its difference from the first, until 40 dB after the motion's end. */
+static bool compare_ramps(const struct promise_making *m, int contact, const double ramp[2], double *all, double *apart, struct err *e)
+{
+    struct contact own = *m->parts.parts[contact].plan.contact;
+    struct arena *a = arena_open();
+    struct scene set[2];
+    struct plan p;
+    struct run r[2];
+    int open = 0;
+    bool ok = true;
+    for (int k = 0; k < 2; k++) {
+        set[k] = *m->kept;
+        set[k].contacts = &own;
+        set[k].n_contacts = 1;
+        set[k].output.stems = NULL;
+        set[k].output.diagnostics.given = false;
+        set[k].output.impacts = LISTING_NONE;
+        accuracy_turn(&set[k].accuracy, KNOB_gain_ramp, ramp[k]);
+    }
+    for (ok = plan_make(stages_table, &own, set, a, &p, e); ok && open < 2; open += ok)
+        ok = run_open(&r[open], &p, &set[open], NULL, e);
+    long frames = ok ? r[0].board.moving + (long)(0.5 * fmin(r[0].board.ring, LONGEST) * r[0].board.rate) : 0;
+    for (long from = 0, to; ok && from < frames; from = to) {
+        to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
+        ok = run_block(&r[0], to, e) && run_block(&r[1], to, e);
+        const double *x = ok ? board_at(&r[0].board, ITEM_SOUND, from) : NULL, *y = ok ? board_at(&r[1].board, ITEM_SOUND, from) : NULL;
+        for (long i = 0; ok && i < (to - from) * r[0].board.channels; i++) {
+            *all += y[i] * y[i];
+            *apart += (x[i] - y[i]) * (x[i] - y[i]);
+        }
+    }
+    for (int k = 0; k < open; k++)
+        run_close(&r[k]);
+    arena_close(a);
+    return ok;
+}
+
+static bool rehearse_ramp(struct promise_making *m, struct promise_curve *c, struct err *e)
+{
+    double ramp[2] = {promise_curve_value(c, c->n), promise_curve_value(c, c->n + 1)}, all = 0, apart = 0;
+    for (int i = 0; i < m->kept->n_contacts; i++)
+        if (heard(m, i) && !compare_ramps(m, i, ramp, &all, &apart, e))
+            return false;
+    c->apart[c->n++] = all > 0 ? sqrt(apart / all) : 0;
+    return true;
+}
+
 static bool rehearse_knob(struct promise_making *m, int knob, double error, struct err *e)
 {
     const struct key_knob *k = &keys_knobs[knob];
@@ -153,6 +200,12 @@ static bool rehearse_knob(struct promise_making *m, int knob, double error, stru
     if (fixed && (down ? low < 2 * end : low > end / 2))
         low = floor(down ? 2 * end : end / 2);
     *c = (struct promise_curve){.order = k->order, .low = low, .down = down, .end = end};
+    if (knob == KNOB_gain_ramp && !coupled(m)) {
+        while (!promise_curve_enough(c, error) && !(fixed && c->n == 2))
+            if (!rehearse_ramp(m, c, e))
+                return false;
+        return true;
+    }
     if (!begin_rehearsal(m, knob, low, e))
         return false;
     while (!promise_curve_enough(c, error) && !(fixed && c->n == 2)) {
@@ -197,7 +250,7 @@ bool promise_rehearse(struct promise_making *m, double error, struct err *e)
     for (int i = -1; i < KNOBS; i++) {
         int k = i < 0 ? first : i;
         bool known = promise_curve_settled(&m->curves[k]) && !(k == KNOB_oversampling && coupled(m));
-        if (i != first && !known && promise_rehearse_is(m, k) && (!rehearse_knob(m, k, error, e) || promise_rehearse_chaos(m, false, e)))
+        if (i != first && !known && promise_used(m, k) && (!rehearse_knob(m, k, error, e) || promise_rehearse_chaos(m, false, e)))
             return false;
     }
     return true;

@@ -1,5 +1,4 @@
-/* The budget is shared in tenths of its square between the knobs that are free; the shares whose values cost the least, by the plans' predicted work, are taken, and
-   morph_error gets what whole numbers leave over. Where tenths are too coarse to keep the error, every knob is as fine as helps. */
+/* The budget is shared in tenths of its square between the knobs that are free; the shares whose values cost the least, by the plans' predicted work, are taken. Where tenths are too coarse to keep the error, every knob is as fine as helps. */
 #include <math.h>
 #include <string.h>
 
@@ -8,16 +7,15 @@
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 
-enum { SOURCES = 4 };
+enum { SOURCES = 4, TENTHS = 10 };
 
 struct sources {                 /* what is free to be chosen */
-    int n, knob[SOURCES + 1];    /* the last one may be morph_error */
-    int tenths[SOURCES + 1], best[SOURCES + 1];
+    int n, knob[SOURCES], tenths[SOURCES], best[SOURCES];
     double cost, left;           /* left: of the budget's square, share that what is said does not use */
 };
 
-/* The plans' predicted work; that of rings between the two that were planned, as a power of the error. */
-static double cost_of(const struct promise_making *m, const struct accuracy *set, double morph_tenths)
+/* The plans' predicted work. */
+static double cost_of(const struct promise_making *m, const struct accuracy *set)
 {
     struct scene s = *m->kept;
     double all = 0;
@@ -27,8 +25,7 @@ static double cost_of(const struct promise_making *m, const struct accuracy *set
         for (int k = 0; k < p->n; k++)
             all += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].stage->work(p->contact, &s) : 0;
     }
-    double ratio = m->work[0] > 0 && m->work[1] > 0 ? real_log(m->work[1] / m->work[0]) / real_log(9.0) : 0;
-    return all + (morph_tenths > 0 ? m->work[1] * (real_pow(1 / fmax(morph_tenths, 0.1), ratio) - 1) : 0);
+    return all;
 }
 
 /* Sets the knobs for shares of what is left; false: one has no such value. */
@@ -36,9 +33,7 @@ static bool take(const struct promise_making *m, const struct sources *s, const 
 {
     *spent = 0;
     for (int i = 0; i < s->n; i++) {
-        double square = s->left * tenths[i] / PROMISE_TENTHS;
-        if (s->knob[i] == KNOB_morph_error)
-            continue;
+        double square = s->left * tenths[i] / TENTHS;
         double value = promise_curve_least(&m->curves[s->knob[i]], m->whole * sqrt(square));
         if (isnan(value))
             return false;
@@ -55,7 +50,7 @@ static void try_shares(const struct promise_making *m, struct sources *s)
     double spent;
     if (!take(m, s, s->tenths, &set, &spent))
         return;
-    double cost = cost_of(m, &set, m->morphs && !promise_said(m, KNOB_morph_error) ? PROMISE_TENTHS * (s->left - spent) : 0);
+    double cost = cost_of(m, &set);
     if (cost < s->cost) {
         s->cost = cost;
         memcpy(s->best, s->tenths, sizeof s->best);
@@ -82,12 +77,10 @@ static double left_over(const struct promise_making *m)
 {
     double left = 1;
     for (int k = 0; k < KNOBS; k++)
-        if (promise_rehearse_is(m, k) && promise_said(m, k)) {
+        if (promise_used(m, k) && promise_said(m, k)) {
             double error = promise_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
             left -= error * error;
         }
-    if (m->morphs && promise_said(m, KNOB_morph_error))
-        left -= m->morph * m->morph / m->whole / m->whole;
     return left;
 }
 
@@ -97,8 +90,6 @@ static bool take_best(const struct promise_making *m, const struct sources *s, s
     *spent = 0;
     for (int i = 0; i < s->n; i++) {
         const struct promise_curve *c = &m->curves[s->knob[i]];
-        if (s->knob[i] == KNOB_morph_error)
-            continue;
         double value = promise_curve_best(c), error = promise_curve_error(c, value) / m->whole;
         *spent += error * error;
         accuracy_turn(set, (enum knob)s->knob[i], value);
@@ -106,23 +97,20 @@ static bool take_best(const struct promise_making *m, const struct sources *s, s
     return *spent < s->left;
 }
 
-bool promise_share(struct promise_making *m, double *morph_tenths)
+bool promise_share(struct promise_making *m)
 {
     struct sources s = {.cost = HUGE_VAL, .left = left_over(m)};
     double spent = 0;
     for (int k = 0; k < KNOBS; k++)
-        if (!promise_said(m, k) && promise_rehearse_is(m, k) && s.n < SOURCES)
+        if (!promise_said(m, k) && promise_used(m, k) && s.n < SOURCES)
             s.knob[s.n++] = k;
-    if (m->morphs && !promise_said(m, KNOB_morph_error))
-        s.knob[s.n++] = KNOB_morph_error;
     if (s.n == 0) /* nothing is free: the margin is no matter */
         return s.left >= 1 - real_exp10(PROMISE_MARGIN / 10);
     if (s.left > 0)
-        share(m, &s, 0, PROMISE_TENTHS);
+        share(m, &s, 0, TENTHS);
     struct accuracy set = m->kept->accuracy;
     if (!(isfinite(s.cost) ? take(m, &s, s.best, &set, &spent) : take_best(m, &s, &set, &spent)))
         return false;
     m->kept->accuracy = set;
-    *morph_tenths = s.knob[s.n - 1] == KNOB_morph_error ? PROMISE_TENTHS * (s.left - spent) : 0;
     return true;
 }

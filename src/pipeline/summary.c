@@ -232,21 +232,13 @@ static json_t *stages_json(const struct run *run, double cpu)
     return all;
 }
 
-/* How a surface that rings by modes is convolved; of a moving response also with what predicted error. */
-static json_t *response_json(const struct ring_choice *c, double rate)
+/* How a surface that rings by modes is convolved. */
+static json_t *response_json(const struct ring_choice *c, const struct scene *s)
 {
     static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
     json_t *r = json_pack("{s:s, s:i}", "moving", readings[c->reading], "modes", c->modes.n);
-    if (c->moves && (c->engine == RING_OVERLAP || (c->engine == RING_READOUT && !c->hops)))
-        json_object_set_new(r, "hop_s", json_value_number(c->hop / rate));
-    if (c->engine == RING_PANNED)
-        json_object_set_new(r, "nodes", json_integer(c->nodes.n));
-    if (c->error > 0)
-        json_object_set_new(r, "predicted_error_db", json_value_number(decibel(c->error)));
-    else if (c->moves && c->engine != RING_PANNED)
-        json_object_set_new(r, "exact", json_true());
-    if (c->error > 0 && c->engine == RING_PANNED)
-        json_object_set_new(r, "error_is_bound", json_true());
+    if (c->moves && c->engine != RING_RESONATORS)
+        json_object_set_new(r, "hop_s", json_value_number(ring_choice_hop(c, &s->accuracy) / s->output.sample_rate));
     return r;
 }
 
@@ -274,7 +266,7 @@ static json_t *impacts_json(const struct impact_report *o)
 }
 
 /* cpu NAN: no times. */
-static json_t *contact_json(const struct run *run, double cpu)
+static json_t *contact_json(const struct run *run, const struct scene *s, double cpu)
 {
     const struct board *b = &run->board;
     const struct ring_choice *choice = run->plan.contact->surface.response.choice;
@@ -282,7 +274,7 @@ static json_t *contact_json(const struct run *run, double cpu)
     if (!isnan(cpu))
         json_object_set_new(c, "stages", stages_json(run, cpu));
     if (choice && !choice->recorded)
-        json_object_set_new(c, "response", response_json(choice, b->rate));
+        json_object_set_new(c, "response", response_json(choice, s));
     if (b->rolls)
         json_object_set_new(c, "roll", roll_json(&b->roll));
     if (impacts(b))
@@ -347,7 +339,7 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
     json_t *contacts = json_array(), *remarks = json_array();
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i])
-            json_array_append_new(contacts, contact_json(runs[i], times ? report->cpu : NAN));
+            json_array_append_new(contacts, contact_json(runs[i], s, times ? report->cpu : NAN));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_value_shown(report->warnings[i]));
     json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames", (json_int_t)report->frames, "sample_rate_hz",

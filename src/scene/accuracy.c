@@ -52,14 +52,12 @@ static void knob_unknown(struct yaml *y, const struct yaml_node *key)
         names[n++] = k->name;
         all = arena_format(y->arena, "%s, %s", all, k->name);
     }
-    const char *near = text_nearest(key->text, names);
-    diag_add(y->diag, key->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : arena_format(y->arena, "keys here: %s", all),
-             "unknown key '%s' in accuracy", diag_shown(y->diag, key->text));
-}
-
-static enum key_dimension knob_dimension(const struct key_knob *k)
-{
-    return k->scale == KEY_SECONDS ? KEY_TIME : k->scale == KEY_ERROR ? KEY_DECIBEL : KEY_NONE;
+    const char *near = text_nearest(key->text, names), *former = keys_former(arena_format(y->arena, "accuracy.%s", key->text), "");
+    if (former)
+        diag_add(y->diag, key->at, former, "accuracy.%s is no longer there", key->text);
+    else
+        diag_add(y->diag, key->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : arena_format(y->arena, "keys here: %s", all),
+                 "unknown key '%s' in accuracy", diag_shown(y->diag, key->text));
 }
 
 double accuracy_knob(const struct accuracy *accuracy, enum knob k)
@@ -72,15 +70,10 @@ void accuracy_turn(struct accuracy *accuracy, enum knob k, double value)
     *(double *)((char *)accuracy + keys_knobs[k].offset) = value;
 }
 
-const char *accuracy_unit(enum knob k)
-{
-    return keys_knobs[k].scale == KEY_SECONDS ? " s" : keys_knobs[k].scale == KEY_ERROR ? " dB" : "";
-}
-
 bool accuracy_takes(enum knob k, double value)
 {
     const struct key_knob *o = &keys_knobs[k];
-    return value >= o->low && value <= o->high && (!o->whole || value == floor(value)) && !(k == KNOB_overlap_order && value == 3);
+    return value >= o->low && value <= o->high && (!o->whole || value == floor(value));
 }
 
 static void knob_read(struct yaml *y, const struct key_knob *k, const struct yaml_node *node, struct accuracy *accuracy)
@@ -88,14 +81,12 @@ static void knob_read(struct yaml *y, const struct key_knob *k, const struct yam
     const char *label = arena_format(y->arena, "accuracy.%s", k->name);
     const char *given = scene_values_kind(y, node);
     double x;
-    if (!scene_values_quantity(y, node, label, knob_dimension(k), &x))
+    if (!scene_values_quantity(y, node, label, KEY_NONE, &x))
         return;
     if (x < k->low || x > k->high)
         diag_add(y->diag, node->at, k->meaning, "%s must be from %g to %g, not %s", label, k->low, k->high, given);
     else if (k->whole && x != floor(x))
         diag_add(y->diag, node->at, k->meaning, "%s must be a whole number, not %s", label, given);
-    else if (k == &keys_knobs[KNOB_overlap_order] && x == 3)
-        diag_add(y->diag, node->at, "write 1, 2 or 4", "accuracy.overlap_order 3 is not offered: 1, 2 and 4 are");
     else {
         accuracy_turn(accuracy, (enum knob)(k - keys_knobs), x);
         accuracy->said |= 1u << (k - keys_knobs);

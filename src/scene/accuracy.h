@@ -14,9 +14,6 @@ void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy
 double accuracy_knob(const struct accuracy *accuracy, enum knob k);
 void accuracy_turn(struct accuracy *accuracy, enum knob k, double value);
 
-/* " dB", " s" or "": what stands behind its value. */
-const char *accuracy_unit(enum knob k);
-
 /* Is it a value that the knob can have? */
 bool accuracy_takes(enum knob k, double value);
 

@@ -104,6 +104,26 @@ const struct key_knob keys_knobs[] = {
 
 const char *const keys_presets[5] = {"draft", "standard", "high", "reference", NULL};
 
+const char *keys_former(const char *path, const char *word)
+{
+    static const char ramp[] = "leave it out; accuracy.gain_ramp alone says how finely a response that moves is followed (64 is standard, 16 high)";
+    static const char engine[] = "leave it out: surface.moving: launch is the same sound by resonators; or write overlap_add";
+    static const struct {
+        const char *path, *word, *instead;
+    } former[] = {
+        {"accuracy.morph_error", "", ramp},
+        {"accuracy.overlap_hop", "", ramp},
+        {"accuracy.overlap_order", "", ramp},
+        {"surface.convolution", "nodes", engine},
+        {"scraper.convolution", "nodes", engine},
+        {"ball.convolution", "nodes", engine},
+    };
+    for (size_t i = 0; i < sizeof former / sizeof *former; i++)
+        if (strcmp(former[i].path, path) == 0 && strcmp(former[i].word, word) == 0)
+            return former[i].instead;
+    return NULL;
+}
+
 const struct key *keys_find(const char *path)
 {
     for (const struct key *k = keys_table; k->path; k++)

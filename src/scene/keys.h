@@ -58,10 +58,7 @@ struct key_alternative {
 /* What a knob counts, and so how its error is expected to follow it. */
 enum key_scale {
     KEY_STEPS,         /* steps, or points, in something: the more, the finer     */
-    KEY_SAMPLES,       /* audio samples from one to the next: the fewer, the finer */
-    KEY_SECONDS,       /* the same in seconds                                     */
-    KEY_ERROR,         /* dB, the error that is asked for                         */
-    KEY_METHOD         /* which method: values between have no meaning            */
+    KEY_SAMPLES        /* audio samples from one to the next: the fewer, the finer */
 };
 
 struct key_knob {
@@ -69,7 +66,7 @@ struct key_knob {
     double low, high;
     int whole;
     enum key_scale scale;
-    double order;               /* power with which its error falls; 0: not by a power */
+    double order;               /* power with which its error falls */
     double preset[4];           /* draft, standard, high, reference */
     size_t offset;              /* of its double in struct accuracy */
     const char *meaning;
@@ -83,6 +80,9 @@ extern const struct key_knob keys_knobs[];
 extern const char *const keys_presets[5];                /* ends with NULL */
 
 const struct key *keys_find(const char *path);
+
+/* What to write instead of a key that is no longer there or, where word is not "", of a choice's word; NULL: there never was one. */
+const char *keys_former(const char *path, const char *word);
 
 /* The key that decides whether this one applies; NULL: it always does. */
 const struct key *keys_decider(const struct key *k);

@@ -50,7 +50,7 @@ static void recorded_check(const struct body *b)
     struct diag *d = b->part->yaml->diag;
     if (!rules_is_recorded(r))
         return;
-    if (r->convolution == ENGINE_RESONATORS || r->convolution == ENGINE_NODES)
+    if (r->convolution == ENGINE_RESONATORS)
         diag_add(d, later(b, "convolution", "response"), leave_out(b, "convolution", "overlap_add"), "%s: %s need a mode table (.csv) as %s, not '%s'",
                  label_of(b, "convolution"), word(b, "convolution", r->convolution), label_of(b, "response"), diag_shown(d, r->file));
     if (r->moving != MOVING_AUTO && r->moving != MOVING_LAUNCH)
@@ -70,13 +70,12 @@ static void reading_check(const struct body *b)
 {
     const struct response *r = b->response;
     int asked = r->convolution;
-    bool clash = (glides(r) && (asked == ENGINE_OVERLAP_ADD || asked == ENGINE_NODES)) ||
-                 (r->moving == MOVING_READOUT && asked == ENGINE_NODES);
+    bool readout = r->moving == MOVING_READOUT, clash = (glides(r) && asked == ENGINE_OVERLAP_ADD) || (readout && asked == ENGINE_RESONATORS);
     if (r->moving == MOVING_FIXED && rules_travels(&r->space) && known(b, "moving"))
         diag_add(b->part->yaml->diag, later(b, "moving", "space"), "leave surface.moving out, or set it to launch, glide or readout",
                  "%s: fixed needs an object that stays what it is, and %s travels", label_of(b, "moving"), label_of(b, "space"));
     if (clash)
-        diag_add(b->part->yaml->diag, later(b, "convolution", "moving"), leave_out(b, "convolution", "resonators"),
+        diag_add(b->part->yaml->diag, later(b, "convolution", "moving"), leave_out(b, "convolution", readout ? "overlap_add" : "resonators"),
                  "%s: %s cannot do %s: %s%s", label_of(b, "convolution"), word(b, "convolution", asked), label_of(b, "moving"),
                  glides(r) ? "glide" : "readout", r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
 }
@@ -95,25 +94,6 @@ static void length_check(const struct body *b)
         diag_add(b->part->yaml->diag, later(b, "moving", "response_length"),
                  arena_format(b->part->yaml->arena, "leave %s out, or set %s to launch", path_of(b, "response_length"), path_of(b, "moving")),
                  "%s: what glides rings on for ever, and %s cannot cut it", label_of(b, "moving"), label_of(b, "response_length"));
-}
-
-static void nodes_check(const struct body *b, const struct motion *m)
-{
-    struct diag *d = b->part->yaml->diag;
-    const struct response *r = b->response;
-    if (r->convolution != ENGINE_NODES || rules_is_recorded(r))
-        return;
-    if (strcmp(b->name, "surface") != 0)
-        diag_add(d, later(b, "convolution", "convolution"), leave_out(b, "convolution", "resonators"), "%s: nodes are for a response that moves, and a %s's does not",
-                 label_of(b, "convolution"), b->name);
-    else if (!rules_straight(m) && scene_part_known(b->part, "motion.path"))
-        diag_add(d, scene_part_later(b->part, path_of(b, "convolution"), "motion.path"), leave_out(b, "convolution", "overlap_add"),
-                 "%s: nodes lie along a straight motion, and %s is %s", label_of(b, "convolution"), scene_part_label(b->part, "motion.path"),
-                 keys_find("motion.path")->choices[m->path].word);
-    else if (r->object.given && m->path != PATH_STILL)
-        diag_add(d, later(b, "convolution", "convolution"), leave_out(b, "convolution", "resonators"),
-                 "%s: nodes are for frequencies that differ from place to place, and those of %s are the same everywhere", label_of(b, "convolution"),
-                 label_of(b, "object"));
 }
 
 /* ------------------------------------------------------------------ gammatones, and a force louder near the modes */
@@ -135,9 +115,6 @@ static void gammatone_check(const struct body *b)
         diag_add(d, later(b, "gammatone", "moving"), arena_format(a, "set %s to launch or readout, or leave %s out", path_of(b, "moving"), path_of(b, "gammatone")),
                  "%s is %d, and what glides begins at once: %s is glide%s", label_of(b, "gammatone"), r->gammatone, label_of(b, "moving"),
                  r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
-    else if (r->convolution == ENGINE_NODES)
-        diag_add(d, later(b, "gammatone", "convolution"), leave_out(b, "convolution", "overlap_add"), "%s: nodes cannot do %s %d", label_of(b, "convolution"),
-                 label_of(b, "gammatone"), r->gammatone);
 }
 
 static void enhance_check(const struct scene_part *p, const struct contact *c)
@@ -154,7 +131,7 @@ static void enhance_check(const struct scene_part *p, const struct contact *c)
                  "%s needs the surface's modes, and the surface has none", scene_part_label(p, path));
 }
 
-static void body_check(const struct scene_part *p, const char *name, const struct response *r, const struct motion *m)
+static void body_check(const struct scene_part *p, const char *name, const struct response *r)
 {
     struct body b = {p, r, name};
     scene_sense_object(p, &r->object, name);
@@ -165,7 +142,6 @@ static void body_check(const struct scene_part *p, const char *name, const struc
     recorded_check(&b);
     reading_check(&b);
     length_check(&b);
-    nodes_check(&b, m);
     gammatone_check(&b);
 }
 
@@ -181,8 +157,8 @@ static void space_check(const struct scene_part *p, const char *path, const doub
 
 void scene_sense_response(const struct scene_part *p, const struct contact *c)
 {
-    body_check(p, "surface", &c->surface.response, &c->motion);
-    body_check(p, ball_tool(c), &c->scraper.response, &c->motion);
+    body_check(p, "surface", &c->surface.response);
+    body_check(p, ball_tool(c), &c->scraper.response);
     enhance_check(p, c);
     space_check(p, "surface.space.from", c->surface.response.space.from);
     space_check(p, "surface.space.to", c->surface.response.space.to);

@@ -245,6 +245,9 @@ static bool choice_set(const struct value *v)
         words[n] = v->key->choices[n].word;
         all = arena_format(y->arena, "%s%s%s", all, n ? ", " : "", words[n]);
     }
+    const char *former = v->node->kind == YAML_SCALAR ? keys_former(v->key->path, v->node->text) : NULL;
+    if (former)
+        return diag_add(y->diag, v->node->at, former, "%s: %s is no longer there", v->label, v->node->text);
     if (v->node->kind == YAML_SCALAR)
         near = text_nearest(v->node->text, words);
     return diag_add(y->diag, v->node->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : example_cure(v),

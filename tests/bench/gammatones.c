@@ -6,7 +6,7 @@
 #include <time.h>
 #include <x86intrin.h>
 
-#include "convolution/gammatones.h"
+#include "convolution/gammatone.h"
 #include "convolution/resonators.h"
 
 enum { MODES = 200, FRAMES = 64, CALLS = 200, REPEATS = 15 };
@@ -32,13 +32,13 @@ static double plain(struct arena *a)
 
 static double soft(struct arena *a, int gamma)
 {
-    struct gammatones_ask ask = {.n = MODES, .gamma = gamma, .rate = RATE, .frequency = frequency, .decay = decay};
-    struct gammatones *g = gammatones_make(a, &ask);
+    struct gammatone_bank_ask ask = {.n = MODES, .gamma = gamma, .rate = RATE, .frequency = frequency, .decay = decay};
+    struct gammatone_bank *g = gammatone_bank_make(a, &ask);
     uint64_t best = UINT64_MAX;
     for (int k = 0; k < REPEATS; k++) {
         uint64_t start = __rdtsc();
         for (int c = 0; c < CALLS; c++)
-            gammatones_run(g, f, y, FRAMES, &points[c & 1]);
+            gammatone_bank_run(g, f, y, FRAMES, &points[c & 1]);
         uint64_t took = __rdtsc() - start;
         best = took < best ? took : best;
     }

@@ -29,7 +29,7 @@ try rasp accuracy
 try rasp accuracy none.yaml
 try rasp accuracy scene.yaml --values oversampling=2,65
 try rasp accuracy scene.yaml --values oversampling=2.5
-try rasp accuracy scene.yaml --values overlap_order=3
+try rasp accuracy scene.yaml --values gain_ramp=0
 try rasp accuracy scene.yaml --values oversampling=two
 try rasp accuracy scene.yaml --values oversampling=2,,4
 try rasp accuracy scene.yaml --values oversampling

@@ -4,7 +4,7 @@ cat > a.yaml <<'X'
 rasp: 1
 surface:
   response: t.csv
-  convolution: nodes
+  gammatone: 2
 motion: {path: line, from: [0, 0], to: [10 cm, 0], duration: 0.1 s}
 scraper: {mass: 10 g}
 contact: {model: strike, strike: {pulse: half_sine, speed: 1 m/s, stiffness: 1e6}}
@@ -19,15 +19,18 @@ tell() {
     echo "$code"
 }
 table shared 5 440 > t.csv
+tell --set surface.moving=fixed a.yaml
+tell --set surface.convolution=nodes a.yaml
+tell --set surface.extrapolate=error --set motion.to='[20 cm, 0]' a.yaml
+table shared 0 440 > t.csv
 tell a.yaml
-tell --set surface.convolution=auto a.yaml
-tell --set surface.convolution=auto --set surface.extrapolate=error --set motion.to='[20 cm, 0]' a.yaml
 table separate 0 450 > t.csv
 tell a.yaml
 rasp plan a.yaml || echo plan "$?"
 rasp render a.yaml -o out/ || echo render "$?"
 table separate 5 450 > t.csv
-tell --set surface.convolution=resonators --set surface.moving=fixed a.yaml
+tell --set surface.convolution=resonators a.yaml
+tell --set surface.moving=fixed a.yaml
 rm t.csv
 tell a.yaml
 
@@ -44,7 +47,8 @@ printf 'rasp: 1\ninclude: [part.yaml]\nmotion: {path: line, from: [0, 0], to: [1
 echo 'no table' > t.csv
 tell c.yaml
 
-# an object's frequencies are the same everywhere, which the scene alone tells
+# a word and a knob that are no longer there, with what to write instead
 printf 'rasp: 1\nsurface:\n  object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 2.5 mm, edges: supported}\n  material: steel\n' > d.yaml
 printf '  convolution: nodes\nmotion: {path: line, from: [1 cm, 2 cm], to: [10 cm, 2 cm], duration: 0.1 s}\nscraper: {mass: 10 g}\ncontact: {model: strike, strike: {pulse: half_sine, speed: 1 m/s, stiffness: 1e6}}\n' >> d.yaml
+printf 'accuracy: {preset: high, morph_error: -80, overlap_hop: 3 ms}\n' >> d.yaml
 tell d.yaml

@@ -83,21 +83,6 @@ second "$LINE" 'roughness: {rms: 1 um}, response: other.csv' "$SCRAPE"
 agree two.yaml
 second "$LINE" "$ROUGH" "$SCRAPE"
 agree two.yaml --set output.level.dbfs_at_1_pa=-20
-echo "== nodes that take too much memory"
-cat > slow.csv << 'END'
-# poles: separate
-# quantity: velocity
-place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad
-0,0,0,0,2500,0.3,0.5,0
-1,0.01,0,0,2520,0.4,0.6,0
-END
-second "$LINE" "${ROUGH/part/slow}, convolution: nodes" "$SCRAPE"
-agree two.yaml --set output.tail=60
-single "$LINE" "${ROUGH/part/slow}, convolution: nodes" "$SCRAPE"
-agree one.yaml --set output.tail=60
-agree one.yaml --set output.tail=60 --set surface.convolution=auto
-agree one.yaml --set output.tail=60 --set surface.response_length=5
-rasp plan one.yaml --set output.tail=60 --set surface.response_length=5 | grep memory
 echo "== good"
 single "$LINE" "$ROUGH" "$SCRAPE"
 agree one.yaml

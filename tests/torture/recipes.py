@@ -108,8 +108,7 @@ def rings(part, body):
 
 def reading(part, body):
     """How the response is read as the contact moves, and by which engine: what goes together."""
-    kind, straight = rings(part, body), part.given["motion.path"] in ("line", "back_and_forth", "four_in_line",
-        "still", "incline")
+    kind = rings(part, body)
     travels = "surface.space.to" in part or "surface.space.dimension_to" in part
     moving = None
     if body == "surface":
@@ -120,9 +119,7 @@ def reading(part, body):
             part.draw("surface.pairing")
     glides = moving == "glide" or moving in (None, "auto") and travels and kind == "space"
     if part.chance(0.3):
-        engines = ["auto"] + ["overlap_add"] * (not glides) + ["resonators"] * (kind != "recorded")
-        if body == "surface" and straight and kind == "table" and not shared and moving in (None, "auto", "launch"):
-            engines += ["nodes", "nodes"]
+        engines = ["auto"] + ["overlap_add"] * (not glides) + ["resonators"] * (kind != "recorded" and moving != "readout")
         part.choose(f"{body}.convolution", engines)
     engine = part.given.get(f"{body}.convolution")
     if not glides and engine != "resonators" and part.chance(0.15):
@@ -696,8 +693,6 @@ def accuracy(scene):
             knob = key.path.startswith("accuracy.") and key.low is not None and key.path != "accuracy.error"
             if knob and rng.random() < 0.3:
                 part.draw(key.path)
-        if part.given.get("accuracy.overlap_order") == "3" and rng.random() < 0.9:
-            part.say("accuracy.overlap_order", rng.choice([1, 2, 4]))
     elif kind == "error":
         part.say("accuracy.error", rng.choice(["%.3g dB", "%.4g"]) % rng.uniform(-90, -20))
         scene.note("accuracy.error")

@@ -64,15 +64,11 @@ def cpu():
     return used.ru_utime + used.ru_stime
 
 
-# Words that no scene may say: a scraper's and a ball's responses do not move.
-NEVER = {"scraper.convolution: nodes", "ball.convolution: nodes"}
-
-
 def all_there_is():
     """Every key and every word of a choice: what is to be accepted in some scene."""
     for key in KEYS.all.values():
         yield key.path
-        yield from (f"{key.path}: {word}" for word in key.words if f"{key.path}: {word}" not in NEVER)
+        yield from (f"{key.path}: {word}" for word in key.words)
 
 
 def report(results, seconds):

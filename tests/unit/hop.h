@@ -1,4 +1,4 @@
-/* The error of interpolating between responses whose poles move evenly, in closed form: what ring_error.c measures is held against it.
+/* The error of interpolating between responses whose poles move evenly, in closed form.
 
    A mode of an impulse response is h_u(tau) = A e^(s(u) tau), u the place in nodes (node k at u = k), s = -sigma + j omega. The polynomial through
    p nodes (p = 1, 2, 4) errs, to leading order, by

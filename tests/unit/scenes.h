@@ -31,7 +31,7 @@ static const char full[] =
     "  duration: 1.5 s\n"
     "grip: {angle: 0.5 rad}\n"
     "contact: {model: scrape, force: paper, limiter: {alpha_min: 1 cm, alpha_max: 5 cm, zeta: 0.95, force_range: [0.2 N, 5 N]}}\n"
-    "accuracy: {preset: high, oversampling: 16, overlap_hop: 5 ms}\n"
+    "accuracy: {preset: high, oversampling: 16}\n"
     "output: {sample_rate: 44.1 kHz, encoding: pcm16, level: {lufs: -23}, ramp: 20 ms, tail: 2 s,\n"
     "  diagnostics: {columns: [speed_m_per_s, normal_force_n]}}\n"
     "inputs:\n"

@@ -146,8 +146,8 @@ START_TEST(only_what_is_read)
         const char *surface, *scraper, *rest, *knobs;
     } cases[] = {
         {"", "", "output: {diagnostics: {columns: [force_rms_n]}}", "oversampling"},
-        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}", "", "", "oversampling, gain_ramp, morph_error"},
-        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}, response_length: 10 ms", "", "", "oversampling, morph_error, overlap_hop, overlap_order"},
+        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}", "", "", "oversampling, gain_ramp"},
+        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}, response_length: 10 ms", "", "", "oversampling, gain_ramp"},
         {"", ", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}", "", "oversampling"},
         {"", ", radius: 1 mm", "output: {diagnostics: {columns: [force_rms_n]}}", "oversampling, tip_heights"},
     };
@@ -164,7 +164,7 @@ END_TEST
 static unsigned toy_turns(const struct contact *c, const struct scene *s)
 {
     (void)c, (void)s;
-    return KNOB_BIT(overlap_order);
+    return KNOB_BIT(gain_ramp);
 }
 
 START_TEST(a_stage_names_its_knobs)
@@ -181,7 +181,7 @@ START_TEST(a_stage_names_its_knobs)
     for (int n = 0; n == 0 || table[n - 1]; n++)
         table[n] = stages_table[n] == &decimate_stage ? &with : stages_table[n] == &mix_stage ? &unneeded : stages_table[n];
     ck_assert_msg(plan_make(table, &s.contacts[0], &s, a, &p, &e), "%s", e.text);
-    ck_assert_str_eq(plan_knobs_text(plan_knobs(&p), a), "oversampling, overlap_order, contact_steps");
+    ck_assert_str_eq(plan_knobs_text(plan_knobs(&p), a), "oversampling, gain_ramp, contact_steps");
     arena_close(a);
 }
 END_TEST

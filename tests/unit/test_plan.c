@@ -60,7 +60,7 @@ START_TEST(only_what_a_scene_calls_for)
         {BAR ", convolution: overlap_add", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
         {BAR ", moving: launch, convolution: resonators", "", "", "trajectory surface roughness scrape approach smooth decimate surface_launch mix "},
         {BAR ", moving: glide", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {BAR ", moving: readout", "", "", "trajectory surface roughness scrape approach smooth decimate surface_readout mix "},
+        {BAR ", moving: readout", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
         {", space: {to: [1, 0]}", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
         {BAR, "", "output: {stems: [force]}", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
         {"", ", response: a.wav", "", "trajectory surface roughness scrape approach smooth decimate scraper_overlap_add mix "},

@@ -88,7 +88,7 @@ static struct rig *heard(const char *quantity, const char *engine, enum item ite
     char text[1000];
     snprintf(text, sizeof text,
              "rasp: 1\nsurface: {response: %s/table0.csv, convolution: %s}\nscraper: {mass: 1 g}\nmotion: {path: still, duration: 0.01 s}\n"
-             "contact: {model: strike, strike: {pulse: half_sine, stiffness: 4 MN/m, speed: 1 m/s, first: 3 ms}}\naccuracy: {morph_error: -140}\noutput: {quantity: %s, sample_rate: %d}\n", folder, engine, quantity, RATE);
+             "contact: {model: strike, strike: {pulse: half_sine, stiffness: 4 MN/m, speed: 1 m/s, first: 3 ms}}\noutput: {quantity: %s, sample_rate: %d}\n", folder, engine, quantity, RATE);
     struct scene s = rig_scene(rig_arena(), text);
     return rig_record(&s, item, FRAMES, 1024);
 }

@@ -94,7 +94,7 @@ static const struct bad bads[] = {
     {"accuracy: {oversampling: 100}\n", "5:26", "accuracy.oversampling must be from 1 to 64", "sub-intervals"},
     {"accuracy: {oversampling: 2.5}\n", "5:26", "accuracy.oversampling must be a whole number", "sub-intervals"},
     {"accuracy: {oversampling: 2 s}\n", "5:26", "without a unit", "write: 2"},
-    {"accuracy: {overlap_order: 3}\n", "5:27", "overlap_order 3 is not offered", "write 1, 2 or 4"},
+    {"accuracy: {overlap_order: 4}\n", "5:12", "accuracy.overlap_order is no longer there", "leave it out; accuracy.gain_ramp"},
     /* inputs */
     {"inputs: a.csv\n", "5:9", "inputs must be a list", "sha256"},
     {"inputs: [a.csv]\n", "5:10", "an entry of inputs must be a map", "sha256"},

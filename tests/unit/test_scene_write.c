@@ -26,7 +26,7 @@ static const char FULL[] =
     "contact: {force: paper, beta1: 0.7, beta2: 1.1, smoothing: 0, limiter: {alpha_min: 7 mm, force_range: [0.1, 5]}}\n"
     "output: {sample_rate: 44.1 kHz, encoding: float64, channels: 2, level: {lufs: -23}, ramp: 0, tail: 0.3,\n"
     "  diagnostics: {rate: 100, columns: [time_s, speed_m_per_s]}}\n"
-    "accuracy: {preset: high, oversampling: 5, overlap_hop: 7 ms}\n";
+    "accuracy: {preset: high, oversampling: 5, gain_ramp: 7}\n";
 static const char NONE[] = "rasp: 1\nsurface: {height_map: files/map.npy, pitch: 1 um, response: files/plank.csv}\nscraper: {mass: 1}\nload: {constant: 0.1}\n"
                            "motion: {path: line, to: [1, 1], duration: 0.3}\ncontact: {limiter: {curve: none}}\naccuracy: draft\n";
 static const char SEVERAL[] = "rasp: 1\ncontacts:\n"
@@ -62,7 +62,7 @@ static const char OBJECT[] =
     "scraper: {mass: 1, radius: 3 mm, material: steel, weight: 0.3, object: {shape: rod, waves: longitudinal, edges: cantilever, length: 0.3, diameter: 1 cm,\n"
     "  thickness: 1 mm, at: [7 cm, 0]}}\n"
     "motion: {path: line, from: [0.1, 0.1], to: [0.2, 0.1], speed: 0.1}\n"
-    "contact: {model: strike, gravity: 7, strike: {speed: 1.1, first: 0.1, count: 7, restitution: 0.7}}\naccuracy: {morph_error: -77 dB}\n"
+    "contact: {model: strike, gravity: 7, strike: {speed: 1.1, first: 0.1, count: 7, restitution: 0.7}}\naccuracy: {gain_ramp: 77}\n"
     "output: {listen: {radiator: plate, places: [[0, 0.1, 1], [0.3, -0.7, 0.9 m]], density: 1.1, sound_speed: 333}, stems: [force, scraper],\n"
     "  level: {dbfs_at_1_pa: -11 dB}}\n";
 static const char SPACE[] =

@@ -1,8 +1,8 @@
-/* gammatones: the recursion against the gammatone's own formula in long double, sample by sample, and against the defining sum under gains that move. */
+/* gammatone_bank: the recursion against the gammatone's own formula in long double, sample by sample, and against the defining sum under gains that move. */
 #include "unit.h"
 
 #include "convolution/gammatone.h"
-#include "convolution/gammatones.h"
+#include "convolution/gammatone.h"
 
 enum { MODES = 11, N = 6000, FORCE = 700 };
 #define RATE 48000.0
@@ -37,10 +37,10 @@ static struct modes_point gains(double share, double *re, double *im, int gamma)
     return p;
 }
 
-static struct gammatones *bank_of(struct arena *a, int gamma)
+static struct gammatone_bank *bank_of(struct arena *a, int gamma)
 {
-    struct gammatones_ask ask = {.n = MODES, .gamma = gamma, .rate = RATE, .frequency = frequency, .decay = decay};
-    return gammatones_make(a, &ask);
+    struct gammatone_bank_ask ask = {.n = MODES, .gamma = gamma, .rate = RATE, .frequency = frequency, .decay = decay};
+    return gammatone_bank_make(a, &ask);
 }
 
 /* 1e-11 of the sum of |A|: rounding of p alone makes 1e-16 a sample of what rings. */
@@ -52,11 +52,11 @@ START_TEST(impulse_response)
         struct arena *a = arena_open();
         double re[MODES], im[MODES], worst = 0, whole = 0, most = 0;
         struct modes_point p = gains(1, re, im, gamma);
-        struct gammatones *g = bank_of(a, gamma);
-        gammatones_set(g, &p);
+        struct gammatone_bank *g = bank_of(a, gamma);
+        gammatone_bank_set(g, &p);
         memset(y, 0, sizeof y);
         for (int at = 0; at < N; at += 100)
-            gammatones_run(g, f + at, y + at, 100, &p);
+            gammatone_bank_run(g, f + at, y + at, 100, &p);
         for (int i = 0; i < MODES; i++)
             whole += fabs(size[i]);
         for (int n = 0; n < N; n++) {
@@ -102,12 +102,12 @@ START_TEST(gains_that_move)
         struct arena *a = arena_open();
         double re[MODES], im[MODES], worst = 0, most = 0;
         struct modes_point p = gains(cos(0.004 * -1), re, im, gamma);
-        struct gammatones *g = bank_of(a, gamma);
-        gammatones_set(g, &p);
+        struct gammatone_bank *g = bank_of(a, gamma);
+        gammatone_bank_set(g, &p);
         memset(y, 0, sizeof y);
         for (int at = 0; at < LAST; at += RAMP) {
             gains(cos(0.004 * (at + RAMP - 1)), re, im, gamma);
-            gammatones_run(g, f + at, y + at, RAMP, &p);
+            gammatone_bank_run(g, f + at, y + at, RAMP, &p);
         }
         for (int n = 0; n < LAST; n += 7) {
             long double want = 0;
@@ -148,18 +148,18 @@ START_TEST(falls_silent)
     double re[MODES], im[MODES];
     modes();
     struct modes_point p = gains(1, re, im, 4);
-    struct gammatones *g = bank_of(a, 4);
-    gammatones_set(g, &p);
-    ck_assert(gammatones_silent(g));
-    gammatones_run(g, f, y, N, &p);
-    ck_assert(!gammatones_silent(g));
+    struct gammatone_bank *g = bank_of(a, 4);
+    gammatone_bank_set(g, &p);
+    ck_assert(gammatone_bank_silent(g));
+    gammatone_bank_run(g, f, y, N, &p);
+    ck_assert(!gammatone_bank_silent(g));
     memset(f, 0, sizeof f);
     int calls = 0;
-    for (; calls < 1000 && !gammatones_silent(g); calls++)
-        gammatones_run(g, f, y, N, &p);
+    for (; calls < 1000 && !gammatone_bank_silent(g); calls++)
+        gammatone_bank_run(g, f, y, N, &p);
     ck_assert_int_lt(calls, 400); /* 460 nepers at 20/s, 48 000 samples a second */
     arena_close(a);
 }
 END_TEST
 
-UNIT("gammatones", impulse_response, greatest_value, gains_that_move, falls, falls_silent)
+UNIT("gammatone_bank", impulse_response, greatest_value, gains_that_move, falls, falls_silent)
