@@ -26,14 +26,6 @@ struct entry {
     struct entry *other; /* of those that have their place in the table in common */
 };
 
-enum { NOTES = 1 << 14 /* a power of two */, NOTES_MOST = 8 << 20 /* bytes */ };
-
-struct note {
-    char key[HASH_TEXT];
-    size_t size;
-    unsigned char data[];
-};
-
 struct shelf {
     pthread_mutex_t lock;
     pthread_cond_t made;
@@ -41,8 +33,6 @@ struct shelf {
     struct entry *entries, **table;
     size_t n, places;    /* entries; of the table, a power of two */
     size_t bytes, most;
-    struct note **notes; /* [NOTES], or NULL: none yet; a key has one place, and drives out what is there */
-    size_t noted;        /* their bytes */
 };
 
 struct shelf *shelf_open(size_t most)
@@ -62,9 +52,6 @@ void shelf_close(struct shelf *s)
     for (struct entry *x = s->entries; x; x = x->next)
         arena_close(x->arena);
     arena_close(s->arena);
-    for (int i = 0; s->notes && i < NOTES; i++)
-        free(s->notes[i]);
-    free(s->notes);
     pthread_cond_destroy(&s->made);
     pthread_mutex_destroy(&s->lock);
     free(s);
@@ -188,62 +175,4 @@ const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, str
 {
     static const struct shelf_kind sha256 = {"sha256", HASH_TEXT, make_sha256, true};
     return shelf_take(s, &(struct shelf_ask){.kind = &sha256, .file = file}, a, e);
-}
-
-/* ------------------------------------------------------------------ notes */
-
-static size_t place_of(const char *key)
-{
-    return strtoul((const char[9]){key[0], key[1], key[2], key[3], key[4], key[5], key[6], key[7]}, NULL, 16) % NOTES;
-}
-
-static size_t bytes_of(const struct note *n)
-{
-    return n ? sizeof *n + n->size : 0;
-}
-
-/* Under the lock. */
-static void put_note(struct shelf *s, struct note *n)
-{
-    if (!s->notes) {
-        s->notes = memory_take(NOTES * sizeof *s->notes);
-        memset(s->notes, 0, NOTES * sizeof *s->notes);
-    }
-    struct note **to = &s->notes[place_of(n->key)];
-    s->noted += bytes_of(n) - bytes_of(*to);
-    free(*to);
-    *to = n;
-    for (size_t i = place_of(n->key) + 1; s->noted > NOTES_MOST; i++) {
-        struct note **other = &s->notes[i % NOTES];
-        s->noted -= bytes_of(*other);
-        free(*other);
-        *other = NULL;
-    }
-}
-
-void shelf_note(struct shelf *s, const char *key, const void *data, size_t size)
-{
-    size_t length = strlen(key);
-    if (!s || length < 8 || length >= HASH_TEXT)
-        return;
-    struct note *n = memory_take(sizeof *n + size);
-    memcpy(n->key, key, length + 1);
-    n->size = size;
-    memcpy(n->data, data, size);
-    pthread_mutex_lock(&s->lock);
-    put_note(s, n);
-    pthread_mutex_unlock(&s->lock);
-}
-
-const void *shelf_noted(struct shelf *s, const char *key, struct arena *a)
-{
-    const void *found = NULL;
-    if (!s || strlen(key) < 8)
-        return NULL;
-    pthread_mutex_lock(&s->lock);
-    const struct note *n = s->notes ? s->notes[place_of(key)] : NULL;
-    if (n && !strcmp(n->key, key))
-        found = memcpy(arena_take(a, n->size, 1), n->data, n->size);
-    pthread_mutex_unlock(&s->lock);
-    return found;
 }

@@ -37,8 +37,4 @@ const char *shelf_changed(struct shelf *s, struct arena *a);
 /* The file's sha256 as text. ERR_INPUT */
 const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, struct err *e);
 
-/* Bytes that were found out, by a key: a sha256 as text (hash_bytes) of all that they depend on. They stay until others need their room (some megabytes in all). */
-void shelf_note(struct shelf *s, const char *key, const void *data, size_t size);
-const void *shelf_noted(struct shelf *s, const char *key, struct arena *a); /* a copy; NULL: not known */
-
 #endif

@@ -159,44 +159,4 @@ START_TEST(hashes_are_those_of_the_file)
 }
 END_TEST
 
-/* More notes than there is room for: the last is always there, what is there is what was noted, and few are forgotten as long as they fit. */
-START_TEST(notes_are_found_until_others_need_their_room)
-{
-    struct shelf *s = shelf_open(1 << 20);
-    char key[HASH_TEXT];
-    int found = 0;
-    hash_bytes("x", 1, key);
-    ck_assert_ptr_null(shelf_noted(s, key, a));
-    for (int size = 1000; size <= 100000; size *= 100)
-        for (int i = 0; i < 1000; i++) {
-            char *data = calloc(1, (size_t)size);
-            sprintf(data, "%d of %d", i, size);
-            hash_bytes(data, (size_t)size, key);
-            shelf_note(s, key, data, (size_t)size);
-            ck_assert_str_eq(shelf_noted(s, key, a), data);
-            free(data);
-        }
-    for (int i = 0; i < 1000; i++) {
-        char *data = calloc(1, 1000);
-        sprintf(data, "%d of %d", i, 1000);
-        hash_bytes(data, 1000, key);
-        shelf_note(s, key, data, 1000);
-        free(data);
-    }
-    for (int i = 0; i < 1000; i++) {
-        char *data = calloc(1, 1000);
-        sprintf(data, "%d of %d", i, 1000);
-        hash_bytes(data, 1000, key);
-        const char *there = shelf_noted(s, key, a);
-        ck_assert(!there || !strcmp(there, data));
-        found += there != NULL;
-        free(data);
-    }
-    ck_assert_int_ge(found, 850); /* of 1000 in 16384 places 30 share one; 8 MB hold the large ones too, which go first */
-    shelf_note(NULL, key, "x", 1);
-    ck_assert_ptr_null(shelf_noted(NULL, key, a));
-    shelf_close(s);
-}
-END_TEST
-
-UNIT("shelf", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each, what_is_small_has_room, hashes_are_those_of_the_file, notes_are_found_until_others_need_their_room)
+UNIT("shelf", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each, what_is_small_has_room, hashes_are_those_of_the_file)
