@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes evidence/responses.md: how well and at what cost a response that moves with the contact is rendered, from the command line, against
-# evidence/responses_judge.c, which sums the definitions sample by sample (about 25 minutes on two cores). Needs build/tests/test_glide (make unit).
+# evidence/responses_judge.c, which sums the definitions sample by sample (about 10 minutes on two cores). Needs build/tests/test_glide (make unit).
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -41,55 +41,36 @@ make() {
     wait
 }
 
-# render NAME OPTION...: to NAME.wav; sets COST, the seconds of CPU of the stage that rings, and ERROR, the predicted error in dB.
+# render NAME OPTION...: to NAME.wav; sets COST, the seconds of CPU of the stage that rings.
 render() {
     local name=$1
     shift
     rasp render "$name.yaml" -q -o "$name.wav" "$@"
-    read -r COST ERROR < <(python3 -c "import json; c = json.load(open('$name.json'))['contacts'][0]; print(sum(s['cpu_s'] for s in c['stages'] if s['stage'].startswith('surface_')), c.get('response', {}).get('predicted_error_db', 0))")
+    COST=$(python3 -c "import json; c = json.load(open('$name.json'))['contacts'][0]; print(sum(s['cpu_s'] for s in c['stages'] if s['stage'].startswith('surface_')))")
 }
 
 snr() { ./judge snr "$1-$2.npy" "$1.wav" "${@:3}"; }
 
-convergence() {
-    local order hop
-    echo '| hop | ms | order 1: measured, predicted (dB) | order 2 | order 4 | CPU s, order 4 | times real time |'
-    echo '|---|---|---|---|---|---|---|'
-    for hop in 4096 2048 1024 512 256 128; do
-        printf '| %d | %.1f |' $hop "$(awk "BEGIN { print 1e3 * $hop / $RATE }")"
-        for order in 1 2 4; do
-            render main --set surface.convolution=overlap_add \
-                --set "accuracy={overlap_order: $order, morph_error: 0, overlap_hop: $(awk "BEGIN { printf \"%.9g\", ($hop + 0.1) / $RATE }")}"
-            printf ' %s, %.1f |' "$(snr main launch)" "$(awk "BEGIN { print -($ERROR) }")"
-        done
-        awk "BEGIN { printf \" %.3f | %.1f |\n\", $COST, 2 / $COST }"
-    done
-}
-
-asked() {
-    local error
-    echo '| engine | error asked (dB) | measured (dB) | CPU s | times real time |'
-    echo '|---|---|---|---|---|'
-    for error in -40 -70 -100 -140; do
-        for engine in resonators overlap_add nodes; do
-            render main --set surface.convolution=$engine --set "accuracy={morph_error: $error, overlap_order: 4, overlap_hop: 1 s}"
-            printf '| %s | %d | %s |' $engine $error "$(awk "BEGIN { print -($(snr main launch)) }")"
-            awk "BEGIN { printf \" %.3f | %.1f |\n\", $COST, 2 / $COST }"
-        done
-    done
-}
-
-# row LABEL NAME READING ENGINE ERROR: one render, what was asked, predicted, measured.
+# row LABEL NAME READING ENGINE: SNR and CPU time at each gain_ramp.
 row() {
-    render "$2" --set "surface.moving=$3" --set "surface.convolution=$4" --set "accuracy={morph_error: $5, overlap_order: 4, overlap_hop: 1 s, gain_ramp: 256}"
-    printf '| %s | %s | %s | %s | %.1f | %s | %.3f |\n' "$1" "$3" "$4" "$5" "$ERROR" "$(awk "BEGIN { print -($(snr "$2" "$3")) }")" "$COST"
+    local ramp
+    printf '| %s | %s | %s |' "$1" "$3" "$4"
+    for ramp in 256 64 16 4; do
+        render "$2" --set "surface.moving=$3" --set "surface.convolution=$4" --set accuracy.gain_ramp=$ramp
+        printf ' %s, %.3f |' "$(snr "$2" "$3")" "$COST"
+    done
+    echo
+}
+
+head_of() {
+    echo "| $1 | reading | engine | gain_ramp 256: SNR (dB), CPU s | 64 | 16 | 4 |"
+    echo '|---|---|---|---|---|---|---|'
 }
 
 # The same object, along motions that are not at constant speed, 1 s.
 motions() {
-    local motion reading error
-    echo '| motion | reading | engine | asked (dB) | predicted | measured | CPU s |'
-    echo '|---|---|---|---|---|---|---|'
+    local motion reading
+    head_of motion
     for motion in line jerk strokes:2 strokes:8 circle:3; do
         ./judge make m.csv m.npy $RATE 1 0.02
         scene m 1 $motion
@@ -97,45 +78,27 @@ motions() {
             ./judge sum $reading m.csv m.npy $RATE 1 m-$reading.npy $motion &
         done
         wait
-        for error in -40 -70 -100; do
-            row $motion m launch resonators $error
-            row $motion m glide resonators $error
-            row $motion m readout resonators $error
-        done
-        row $motion m launch overlap_add -40
+        row $motion m launch resonators
+        row $motion m launch overlap_add
+        row $motion m glide resonators
+        row $motion m readout overlap_add
     done
 }
 
 # One mode, of which one thing moves a little, 1 s.
 weak() {
-    local motion error what
+    local motion what
     local -A body=([gain]='7000 50 0.8 0.2 7000 50 0.88 0.2' [gain_x3]='7000 50 0.8 0.2 7000 50 2.4 0.2' [frequency]='7000 50 0.8 0.2 7000.7 50 0.8 0.2'
                    [decay]='7000 50 0.8 0.2 7000 50.5 0.8 0.2' [phase]='7000 50 0.8 0.2 7000 50 0.8 0.9')
-    echo '| what moves, motion | reading | engine | asked (dB) | predicted | measured | CPU s |'
-    echo '|---|---|---|---|---|---|---|'
+    head_of 'what moves, motion'
     for what in gain gain_x3 frequency decay phase; do
         # shellcheck disable=SC2086 # eight words
         ./judge one m.csv ${body[$what]}
         for motion in strokes:2 strokes:20; do
             scene m 1 $motion
             ./judge sum launch m.csv m.npy $RATE 1 m-launch.npy $motion
-            for error in -40 -70 -100; do
-                row "$what, $motion" m launch resonators $error
-            done
-            row "$what, $motion" m launch overlap_add -70
-            row "$what, $motion" m launch nodes -70
+            row "$what, $motion" m launch resonators
         done
-    done
-}
-
-# Chebyshev's nodes: how many, and what they keep.
-chebyshev() {
-    local error
-    echo '| asked (dB) | nodes | measured (dB) |'
-    echo '|---|---|---|'
-    for error in -10 -20 -40 -60 -80 -100 -120 -140; do
-        render main --set surface.convolution=nodes --set accuracy.morph_error=$error
-        printf '| %s | %s | %s |\n' $error "$(jq '.contacts[0].response.nodes' main.json)" "$(awk "BEGIN { print -($(snr main launch)) }")"
     done
 }
 
@@ -145,8 +108,8 @@ same() {
     make s 1 same launch
     echo '| reading, engine | error (dB) |'
     echo '|---|---|'
-    for reading in launch,resonators launch,overlap_add launch,nodes glide,resonators readout,resonators readout,overlap_add; do
-        render s --set "surface.moving=${reading%,*}" --set "surface.convolution=${reading#*,}" --set accuracy.morph_error=-240 --set accuracy.overlap_hop=20ms
+    for reading in launch,resonators launch,overlap_add glide,resonators readout,overlap_add; do
+        render s --set "surface.moving=${reading%,*}" --set "surface.convolution=${reading#*,}"
         printf '| %s | %s |\n' "$reading" "$(awk "BEGIN { print -($(snr s launch)) }")"
     done
 }
@@ -156,9 +119,9 @@ readings() {
     echo '| largest change of frequency | glide against launch (dB) | readout against launch | readout against glide |'
     echo '|---|---|---|---|'
     for dmax in 0 0.001 0.005 0.02 0.1; do
-        make r 2 $dmax launch
+        make r 2 $dmax
         for reading in glide readout launch; do
-            render r --set surface.moving=$reading --set "accuracy={preset: high, overlap_hop: 0.2 s, morph_error: -90}"
+            render r --set surface.moving=$reading --set accuracy=high
             cp r.wav r-$reading.wav
         done
         printf '| %s %% | %s | %s | %s |\n' "$(awk "BEGIN { print 100 * $dmax }")" "$(wav_snr launch glide)" "$(wav_snr launch readout)" "$(wav_snr glide readout)"
@@ -168,11 +131,11 @@ wav_snr() { rasp compare r-"$1".wav r-"$2".wav --snr 300 --json 2>&1 | jq -r '[.
 
 glide() {
     local ramp
-    echo '| gain_ramp | SNR (dB) | predicted | times real time |'
-    echo '|---|---|---|---|'
+    echo '| gain_ramp | SNR (dB) | times real time |'
+    echo '|---|---|---|'
     for ramp in 256 128 64 32 16 1; do
-        render main --set surface.moving=glide --set "accuracy={gain_ramp: $ramp, morph_error: 0}"
-        printf '| %d | %s | %s | %s |\n' $ramp "$(snr main glide)" "$(awk "BEGIN { if ($ERROR) printf \"%.1f\", -($ERROR); else print \"exact\" }")" "$(awk "BEGIN { printf \"%.0f\", 2 / $COST }")"
+        render main --set surface.moving=glide --set accuracy.gain_ramp=$ramp
+        printf '| %d | %s | %s |\n' $ramp "$(snr main glide)" "$(awk "BEGIN { printf \"%.0f\", 2 / $COST }")"
     done
 }
 
@@ -183,7 +146,7 @@ modulations() {
     "$BUILD/tests/test_glide" | sed -nE 's/^(.*[^ ]) +([0-9.]+ to [0-9.]+); direct form (.*)$/| \1 | \2 | \3 |/p'
 }
 
-make main 2 0.02 launch glide
+make main 2 0.02 glide
 
 {
     cat << MD
@@ -193,25 +156,11 @@ Made by \`evidence/responses.sh\`. Rendered by \`rasp render\` with \`contact.mo
 (\`responses_judge.c\`). One object: 50 modes from 100 Hz to 15 kHz, T60 = 0.9 s (f/100 Hz)^-0.3, in 2 s from one place to another at which each
 frequency differs by up to 2 %, each decay by up to 30 %, each gain by up to 10 dB; white force, 44.1 kHz.
 
-## \`launch\` by overlap-add: hop and order
+## Motions, readings and engines
 
-SNR against the sum, and the error predicted (\`convolution/ring_error.c\`), which the summary of a render reports. Halving the hop gains 6, 12, 24 dB by
-order.
-
-$(convergence)
-
-## \`launch\`: what is asked and what is kept
-
-\`accuracy.morph_error\` asked for; each engine chooses hops or nodes by itself.
-
-$(asked)
-
-## Motions that are not at constant speed
-
-The same object, 1 s: along a line, at constant speed and at minimum jerk; to and fro, 2 and 8 times a second; three turns of a circle. Predictions are
-expectations for a white force; one kink (the stop at the end, of \`readout\`) or one stroke makes few draws of it, so that single sounds lie some dB off.
-Hops of resonators are powers of two, and \`gain_ramp\` is 256 at most: errors come out below what is asked. What is dropped at the end of each
-response, 20 dB below the error asked, is counted in full; and so is the stop at the end of a line in \`glide\`, which these sounds, cut there, do not hold.
+The same object, 1 s: along a line, at constant speed and at minimum jerk; to and fro, 2 and 8 times a second; three turns of a circle. SNR against the sum,
+and seconds of CPU. \`accuracy.gain_ramp\` from draft's 256 to 4; every second column lies two halvings on, 24 dB finer but for kinks, such as the stop at the end,
+of \`readout\`, and for what launch drops and alias taps leave.
 
 $(motions)
 
@@ -219,13 +168,9 @@ $(motions)
 
 $(weak)
 
-## Chebyshev's nodes
-
-$(chebyshev)
-
 ## Poles that do not move
 
-Fifty modes, both places alike: every reading is the same sound (what is left is the response's end at -240 - 20 dB and rounding).
+Fifty modes, both places alike: every reading is the same sound (what is left is the response's end at -140 dB, what launch drops at -100 dB, and rounding).
 
 $(same)
 
