@@ -37,7 +37,6 @@ struct modes {
     int n;                       /* components, strongest mode first                                        */
     int quantity;                /* enum modes_quantity                                                     */
     bool shared;                 /* poles are the same everywhere: those of frequency, decay                */
-    bool curved;                 /* separate poles are not straight in the logarithm between kinks          */
     bool moves;                  /* gains or poles depend on the contact's place                            */
     bool travels;                /* ... or on the time: also where the contact stays                        */
     double *frequency, *decay;   /* [n] shared poles; of separate ones the place's where the mode is strongest */
@@ -48,8 +47,6 @@ struct modes {
     const char *note;            /* what to warn of; NULL: nothing                                          */
     const struct places *places; /* that a table knows; NULL: no table                                      */
     double home[2];              /* m: the place that counts where nothing says which (of a line its first)  */
-    /* Kinks of the way from one point to another, as places_kinks; NULL: there are none. */
-    int (*kinks)(const struct modes *, const double from[2], const double to[2], double *u, int most);
     int (*drop)(struct modes *, double top); /* as modes_drop_above does, modes from `top` Hz on; NULL: there are none */
     double (*at)(const struct modes *, const struct modes_where *, const struct modes_point *);
     const void *self;

@@ -247,12 +247,6 @@ static int drop(struct modes *m, double top)
     return dropped;
 }
 
-static int kinks(const struct modes *m, const double from[2], const double to[2], double *u, int most)
-{
-    const struct morph *p = m->self;
-    return (p->re ? places_smooth_kinks : places_kinks)(p->places, from, to, u, most);
-}
-
 static void set_home(const struct making *k, struct modes *m)
 {
     const int(*edge)[2];
@@ -267,7 +261,7 @@ static void make_modes(const struct making *k, double rate, struct modes *m)
     double **own[] = {&m->frequency, &m->decay, &m->slowest, &p->largest, &p->lowest, &p->highest};
     *p = (struct morph){.n = k->n, .rows = (int)k->t->places, .places = k->places, .rate = rate};
     *m = (struct modes){.n = k->n, .quantity = k->t->quantity, .shared = k->t->shared || p->rows == 1, .moves = p->rows > 1, .radius = k->t->radius,
-                        .name = k->t->csv.file, .note = k->t->note, .places = k->places, .kinks = kinks, .drop = drop, .self = p};
+                        .name = k->t->csv.file, .note = k->t->note, .places = k->places, .drop = drop, .self = p};
     for (int c = 0; c < 6; c++)
         *own[c] = ARENA_TAKE(k->arena, double, k->n);
     for (int i = 0; i < k->n; i++)
@@ -277,7 +271,6 @@ static void make_modes(const struct making *k, double rate, struct modes *m)
     else
         fill_logarithmic(k, m, p);
     m->at = p->re ? morph_complex : morph_separate;
-    m->curved = !m->shared && (p->re ? places_smooth(p->places) : places_kind(p->places) == PLACES_GRID);
     set_home(k, m);
 }
 

@@ -246,16 +246,6 @@ double places_smooth_at(const struct places *p, double x, double y, struct place
     return off;
 }
 
-int places_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most)
-{
-    return p->plane ? places_plane_kinks(p->plane, from, to, u, most) : places_lattice_kinks(p->lattice, from, to, u, most);
-}
-
-int places_smooth_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most)
-{
-    return p->rings ? places_rings_kinks(p->rings, from, to, u, most) : places_kinks(p, from, to, u, most);
-}
-
 /* "0 <= x <= 40 cm", "y = 3.7 cm" */
 static const char *extent(const struct places *p, int axis, struct arena *a)
 {

@@ -46,13 +46,6 @@ double places_smooth_at(const struct places *p, double x, double y, struct place
 /* Where they lie, for a message: "its places lie on 0 <= x <= 40 cm, y = 3.7 cm"; of a slanting line its two ends, of the plane a box that holds them. */
 const char *places_told(const struct places *p, struct arena *a);
 
-/* Parameters u in (0, 1), increasing, at which the straight way from `from` to `to` passes from one interval, cell or
-   triangle to the next (kinks of interpolation), off the hull those of its nearest point; writes the first `most`,
-   returns how many there are. Some may be none: where the way goes through a place, or along an edge.
-   places_smooth_kinks: of the smooth interpolation. */
-int places_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most);
-int places_smooth_kinks(const struct places *p, const double from[2], const double to[2], double *u, int most);
-
 /* Neighbours: the edges of the triangulation, on lines and grids from place to place along the lines. Returns their
  * number; (*edge)[k] = two indices. */
 int places_edges(const struct places *p, const int (**edge)[2]);

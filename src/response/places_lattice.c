@@ -42,7 +42,6 @@ struct places_lattice {
     struct axis axis[2];
     int *place;                  /* [n of y][n of x] the caller's index         */
     int (*edge)[2], edges;
-    double *work;                /* [n of x + n of y] kinks                     */
 };
 
 /* Coordinates along both axes. */
@@ -157,7 +156,6 @@ struct places_lattice *places_lattice_make(struct arena *a, const struct places_
     for (int c = 0; c < 2; c++)
         make_smooth(a, &l->axis[c]);
     find_edges(a, l);
-    l->work = ARENA_TAKE(a, double, l->axis[0].n + l->axis[1].n);
     return l;
 }
 
@@ -274,25 +272,7 @@ void places_lattice_fill(const struct places_lattice *l, int n, double *rows)
         fill_slopes(l, 0, term(l, 0, 1), term(l, 1, 1), n, rows);
 }
 
-/* ------------------------------------------------------------------ kinks, edges */
-
-int places_lattice_kinks(const struct places_lattice *l, const double from[2], const double to[2], double *u, int most)
-{
-    double s[2], e[2];
-    int n = 0;
-    coordinates(l->base, l->along, from, s);
-    coordinates(l->base, l->along, to, e);
-    for (int c = 0; c < 2; c++)
-        for (int k = 0; k < l->axis[c].n && l->axis[c].n > 1; k++) {
-            double by = e[c] - s[c], at = by != 0.0 ? (l->axis[c].at[k] - s[c]) / by : 0.0;
-            if (at > 1e-12 && at < 1.0 - 1e-12)
-                l->work[n++] = at;
-        }
-    n = places_plane_sort(l->work, n);
-    for (int i = 0; i < n && i < most; i++)
-        u[i] = l->work[i];
-    return n;
-}
+/* ------------------------------------------------------------------ edges */
 
 int places_lattice_edges(const struct places_lattice *l, const int (**edge)[2])
 {

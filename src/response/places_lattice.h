@@ -20,12 +20,11 @@ struct places_lattice_ask {
 };
 struct places_lattice *places_lattice_make(struct arena *a, const struct places_lattice_ask *ask);
 
-/* As places_at, places_smooth_at, places_fill, places_rows, places_kinks, places_edges. */
+/* As places_at, places_smooth_at, places_fill, places_rows, places_edges. */
 double places_lattice_at(const struct places_lattice *l, double x, double y, struct places_mix *mix);
 double places_lattice_smooth_at(const struct places_lattice *l, double x, double y, struct places_sum *sum);
 int places_lattice_rows(const struct places_lattice *l);
 void places_lattice_fill(const struct places_lattice *l, int n, double *rows);
-int places_lattice_kinks(const struct places_lattice *l, const double from[2], const double to[2], double *u, int most);
 int places_lattice_edges(const struct places_lattice *l, const int (**edge)[2]);
 
 /* The line's first and last place, as the caller's indices. */

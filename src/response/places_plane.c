@@ -28,7 +28,6 @@ struct places_plane {
     double low[2], per_metre[2];   /* cells */
     int cells[2];
     int *start, *held;             /* held[start[cell] .. start[cell + 1]): triangles */
-    double *work;                  /* [edges + 2 sides] kinks */
 };
 
 /* ------------------------------------------------------------------ making */
@@ -72,7 +71,6 @@ static void find_edges(struct arena *a, struct places_plane *p)
         }
         i += twice;
     }
-    p->work = ARENA_TAKE(a, double, p->edges + 2 * p->sides);
 }
 
 static int cell_of(const struct places_plane *p, int c, double x)
@@ -195,64 +193,6 @@ double places_plane_at(const struct places_plane *p, double x, double y, struct 
         if (in_triangle(&p->triangle[p->held[k]], x, y, mix))
             return 0.0;
     return off_hull(p, x, y, mix);
-}
-
-/* ------------------------------------------------------------------ kinks */
-
-static int up(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
-int places_plane_sort(double *u, int n)
-{
-    int left = 0;
-    qsort(u, (size_t)n, sizeof *u, up);
-    for (int i = 0; i < n; i++)
-        if (left == 0 || u[i] - u[left - 1] > 1e-12)
-            u[left++] = u[i];
-    return left;
-}
-
-struct way {
-    const double *from;
-    double by[2];
-};
-
-/* Adds where the way meets base + v along, 0 <= v <= most. */
-static int meet(const struct way *w, const double *base, const double along[2], double most, double *u)
-{
-    double dx = base[0] - w->from[0], dy = base[1] - w->from[1];
-    double across = w->by[0] * along[1] - w->by[1] * along[0];
-    double size = (w->by[0] * w->by[0] + w->by[1] * w->by[1]) * (along[0] * along[0] + along[1] * along[1]);
-    if (!(across * across > 1e-24 * size))
-        return 0; /* along each other */
-    double at = (dx * along[1] - dy * along[0]) / across, v = (dx * w->by[1] - dy * w->by[0]) / across;
-    if (!(v >= inside && v <= most - inside && at > -inside && at < 1.0 + inside))
-        return 0;
-    *u = at;
-    return 1;
-}
-
-int places_plane_kinks(const struct places_plane *p, const double from[2], const double to[2], double *u, int most)
-{
-    struct way w = {from, {to[0] - from[0], to[1] - from[1]}};
-    int n = 0;
-    for (int k = 0; k < p->edges; k++) {
-        const double *a = p->xy + 2 * p->edge[k][0], *b = p->xy + 2 * p->edge[k][1];
-        n += meet(&w, a, (double[2]){b[0] - a[0], b[1] - a[1]}, 1.0, p->work + n);
-    }
-    for (int k = 0; k < p->sides; k++) {
-        const double *a = p->xy + 2 * p->side[k][0], *b = p->xy + 2 * p->side[k][1];
-        double outwards[2] = {b[1] - a[1], a[0] - b[0]};
-        n += meet(&w, a, outwards, HUGE_VAL, p->work + n);
-        n += meet(&w, b, outwards, HUGE_VAL, p->work + n);
-    }
-    n = places_plane_sort(p->work, n);
-    for (int i = 0; i < n && i < most; i++)
-        u[i] = p->work[i];
-    return n;
 }
 
 int places_plane_edges(const struct places_plane *p, const int (**edge)[2])

@@ -9,12 +9,8 @@ struct places_plane;
 /* xy [n][2] must stay. NULL: no triangulation. */
 struct places_plane *places_plane_make(struct arena *a, int n, const double *xy);
 
-/* As places_at, places_kinks, places_edges. */
+/* As places_at, places_edges. */
 double places_plane_at(const struct places_plane *p, double x, double y, struct places_mix *mix);
-int places_plane_kinks(const struct places_plane *p, const double from[2], const double to[2], double *u, int most);
 int places_plane_edges(const struct places_plane *p, const int (**edge)[2]);
-
-/* For kinks: sorts u[n] and leaves one of those that are nearer than 1e-12; returns how many are left. */
-int places_plane_sort(double *u, int n);
 
 #endif

@@ -46,7 +46,6 @@ struct places_rings {
     int *place;                 /* [places] the caller's index, ring by ring, anticlockwise */
     int knots;                  /* of a diameter, or a radius */
     double *slope;              /* [rings + 1][knots] of the middle and each ring, from values at the knots; NULL: linear */
-    double *work;               /* [2 rings + 2 places] kinks */
 };
 
 /* ------------------------------------------------------------------ making */
@@ -156,7 +155,6 @@ struct places_rings *places_rings_make(struct arena *a, int n, const double *xy,
         return NULL;
     if (r->middle >= 0 || r->rings >= 3)
         make_slopes(a, r);
-    r->work = ARENA_TAKE(a, double, 2 * (size_t)r->rings + 2 * (size_t)n);
     return r;
 }
 
@@ -344,56 +342,4 @@ void places_rings_fill(const struct places_rings *r, int n, double *rows)
     }
     fill_middle(r, &f, work);
     arena_close(a);
-}
-
-/* ------------------------------------------------------------------ kinks */
-
-struct way {
-    double at[2], by[2]; /* from the centre */
-};
-
-static int meet_circle(const struct way *w, double radius, double *u)
-{
-    double a = w->by[0] * w->by[0] + w->by[1] * w->by[1], b = w->at[0] * w->by[0] + w->at[1] * w->by[1];
-    double c = w->at[0] * w->at[0] + w->at[1] * w->at[1] - radius * radius, root = b * b - a * c;
-    if (!(a > 0 && root > 0))
-        return 0;
-    u[0] = (-b - sqrt(root)) / a;
-    u[1] = (-b + sqrt(root)) / a;
-    return 2;
-}
-
-/* Where the way meets the ray at the angle, between the rings next to ring j. */
-static int meet_ray(const struct places_rings *r, const struct way *w, int j, double angle, double *u)
-{
-    double c = real_cos(angle), s = real_sin(angle), across = w->by[0] * s - w->by[1] * c;
-    if (across == 0)
-        return 0;
-    double at = (w->at[1] * c - w->at[0] * s) / across;
-    double out = (w->at[0] + at * w->by[0]) * c + (w->at[1] + at * w->by[1]) * s;
-    double low = j > 0 ? r->ring[j - 1].radius : 0, high = j + 1 < r->rings ? r->ring[j + 1].radius : HUGE_VAL;
-    *u = at;
-    return out >= low && out <= high;
-}
-
-int places_rings_kinks(const struct places_rings *r, const double from[2], const double to[2], double *u, int most)
-{
-    struct way w = {{from[0] - r->centre[0], from[1] - r->centre[1]}, {to[0] - from[0], to[1] - from[1]}};
-    int all = 0, n = 0;
-    for (int j = 0; j < r->rings; j++) {
-        const struct ring *g = &r->ring[j];
-        all += meet_circle(&w, g->radius, r->work + all);
-        for (int k = 0; k < g->n; k++)
-            all += meet_ray(r, &w, j, g->first + 2 * REAL_PI * k / g->n, r->work + all);
-    }
-    double across = w.at[0] * w.by[1] - w.at[1] * w.by[0], size = w.by[0] * w.by[0] + w.by[1] * w.by[1];
-    if (size > 0 && across * across < 1e-18 * size) /* through the middle */
-        r->work[all++] = -(w.at[0] * w.by[0] + w.at[1] * w.by[1]) / size;
-    for (int i = 0; i < all; i++)
-        if (r->work[i] > 1e-12 && r->work[i] < 1 - 1e-12)
-            r->work[n++] = r->work[i];
-    n = places_plane_sort(r->work, n);
-    for (int i = 0; i < n && i < most; i++)
-        u[i] = r->work[i];
-    return n;
 }

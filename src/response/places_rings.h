@@ -12,10 +12,9 @@ struct places_rings;
 enum { PLACES_RINGS_LEAST = 5 };
 struct places_rings *places_rings_make(struct arena *a, int n, const double *xy, const int *order, double same);
 
-/* As places_rows, places_fill, places_smooth_at, places_smooth_kinks. */
+/* As places_rows, places_fill, places_smooth_at. */
 int places_rings_rows(const struct places_rings *p);
 void places_rings_fill(const struct places_rings *p, int n, double *rows);
 double places_rings_smooth_at(const struct places_rings *p, double x, double y, struct places_sum *sum);
-int places_rings_kinks(const struct places_rings *p, const double from[2], const double to[2], double *u, int most);
 
 #endif

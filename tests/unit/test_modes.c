@@ -64,9 +64,6 @@ START_TEST(gains_between_and_beyond)
     ck_assert_double_eq_tol(table_at(&m, 1.3 - 0.8, 1.4 + 0.6, &p), 1, 1e-12); /* beside the line: its foot */
     ck_assert_double_eq_tol(p.re[1], 2, 1e-12);
     ck_assert(table_at(&m, 1 - 5e-10, 1, &p) == 0); /* rounding of a path is not outside */
-    double u[4];
-    ck_assert_int_eq(m.kinks(&m, (double[]){1.15, 1.2}, (double[]){1.6, 1.8}, u, 4), 1);
-    ck_assert_double_eq_tol(u[0], 1 / 3.0, 1e-12);
     teardown();
 }
 END_TEST
@@ -103,7 +100,6 @@ START_TEST(one_place_is_everywhere)
         struct modes_point p = modes_point_make(arena, m.n);
         ck_assert(table_at(&m, 7, -3, &p) == 0 && p.re[0] == 2 && p.im[0] == 0);
         ck_assert(m.shared && !m.moves && m.decay[0] == 5 - 5 * k && m.home[0] == 0.2 && m.home[1] == 0.3);
-        ck_assert(m.kinks(&m, (double[]){0, 0}, (double[]){1, 1}, NULL, 0) == 0);
     }
     teardown();
 }

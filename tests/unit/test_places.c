@@ -1,5 +1,5 @@
 /* places: weights against the linear functions they must reproduce, triangulations against the definition (no place inside a triangle's
-   circle) checked by brute force, the hull's distance against a dense search, kinks against bisection of the mix itself. */
+   circle) checked by brute force, the hull's distance against a dense search, the mix itself. */
 #include "response/places.h"
 
 #include "unit.h"
@@ -48,7 +48,7 @@ START_TEST(one_place)
     const int (*edge)[2];
     struct places *p = made(1, xy, PLACES_ONE);
     ck_assert(places_at(p, 9, 9, &m) == 0 && m.n == 1 && m.index[0] == 0 && m.weight[0] == 1);
-    ck_assert(places_edges(p, &edge) == 0 && places_kinks(p, (double[]){0, 0}, (double[]){1, 1}, NULL, 0) == 0);
+    ck_assert(places_edges(p, &edge) == 0);
     teardown();
 }
 END_TEST
@@ -57,7 +57,7 @@ END_TEST
 START_TEST(a_line)
 {
     setup();
-    double xy[] = {1.3, 1.4, 1, 1, 1.6, 1.8, 1.06, 1.08}, u[9];
+    double xy[] = {1.3, 1.4, 1, 1, 1.6, 1.8, 1.06, 1.08};
     struct places *p = made(4, xy, PLACES_LINE);
     struct places_mix m;
     for (int i = 0; i < 1000; i++) {
@@ -69,12 +69,6 @@ START_TEST(a_line)
     ck_assert(places_at(p, 1 - 5e-10, 1, &m) == 0); /* rounding of a path is not outside */
     const int (*edge)[2];
     ck_assert(places_edges(p, &edge) == 3 && edge[0][0] == 1 && edge[0][1] == 3 && edge[1][1] == 0 && edge[2][1] == 2);
-    ck_assert_int_eq(places_kinks(p, (double[]){1.12, 1.16}, (double[]){2.2, 2.6}, u, 9), 2); /* s from 0.2 to 2: kinks at 0.5 and 1 */
-    ck_assert_double_eq_tol(u[0], 1.0 / 6, 1e-12);
-    ck_assert_double_eq_tol(u[1], 0.8 / 1.8, 1e-12);
-    ck_assert_int_eq(places_kinks(p, (double[]){2.2, 2.6}, (double[]){1.12, 1.16}, u, 1), 2); /* backwards, and no room */
-    ck_assert_double_eq_tol(u[0], 1 / 1.8, 1e-12);
-    ck_assert_int_eq(places_kinks(p, (double[]){1.3, 1.4}, (double[]){1.3 - 0.8, 1.4 + 0.6}, u, 9), 0); /* across: the foot stays */
     double bent[] = {0, 0, 1, 0, 0.5, 2e-9}, straight[] = {0, 0, 1, 0, 0.5, 9e-10};
     made(3, bent, PLACES_PLANE);
     made(3, straight, PLACES_LINE);
@@ -255,67 +249,6 @@ START_TEST(distance_to_the_hull)
 }
 END_TEST
 
-/* The mix of a function on the way: linear between kinks, so that three points of it are in line when no kink is between them. */
-static double value(const struct places *p, const double *f, const double *from, const double *to, double u)
-{
-    struct places_mix m;
-    double sum = 0;
-    places_at(p, from[0] + u * (to[0] - from[0]), from[1] + u * (to[1] - from[1]), &m);
-    for (int k = 0; k < m.n; k++)
-        sum += m.weight[k] * f[m.index[k]];
-    return sum;
-}
-
-/* Where the slope changes, by bisection of stretches that are not straight. */
-static int bend(const struct places *p, const double *f, const double *from, const double *to, double low, double high, double *u, int n)
-{
-    double l = value(p, f, from, to, low), h = value(p, f, from, to, high), worst = 0;
-    for (int i = 1; i < 8; i++)
-        worst = fmax(worst, fabs(value(p, f, from, to, low + (high - low) * i / 8) - l - (h - l) * i / 8));
-    if (worst < 1e-12 || n >= 200)
-        return n;
-    if (high - low < 1e-7) {
-        if (n == 0 || low - u[n - 1] > 1e-6)
-            u[n++] = (low + high) / 2;
-        return n;
-    }
-    n = bend(p, f, from, to, low, (low + high) / 2, u, n);
-    return bend(p, f, from, to, (low + high) / 2, high, u, n);
-}
-
-START_TEST(kinks_against_bisection)
-{
-    setup();
-    double xy[2 * 25], f[25], u[300], slow[300];
-    int met = 0;
-    for (int trial = 0; trial < 40; trial++) {
-        for (int i = 0; i < 25; i++) {
-            xy[2 * i] = trial % 2 ? drand48() : 0.2 * (i % 5) + 0.01 * (i == 7); /* random, and nearly a grid */
-            xy[2 * i + 1] = trial % 2 ? drand48() : 0.2 * (i / 5);
-            f[i] = drand48() - 0.5;
-        }
-        struct places *p = made(25, xy, PLACES_PLANE);
-        double from[2] = {2 * drand48() - 0.5, 2 * drand48() - 0.5}, to[2] = {2 * drand48() - 0.5, 2 * drand48() - 0.5};
-        int n = places_kinks(p, from, to, u, 300), plain = bend(p, f, from, to, 0, 1, slow, 0);
-        for (int k = 1; k < n; k++)
-            ck_assert(u[k] > u[k - 1]);
-        ck_assert(n == 0 || (u[0] > 0 && u[n - 1] < 1));
-        for (int k = 0; k < plain; k++) { /* every bend is one of the kinks */
-            double nearest = 1;
-            for (int i = 0; i < n; i++)
-                nearest = fmin(nearest, fabs(u[i] - slow[k]));
-            ck_assert_msg(nearest < 1e-6, "trial %d: a bend at %.9f, the nearest kink %g away", trial, slow[k], nearest);
-            met++;
-        }
-        ck_assert_int_le(n, 3 * plain + 12); /* and not many more */
-    }
-    ck_assert_int_gt(met, 200);
-    double straight[2] = {0.1, 0.5}, there[2] = {0.1, 0.5};
-    ck_assert_int_eq(places_kinks(made(25, xy, PLACES_PLANE), straight, there, u, 300), 0); /* no way */
-    teardown();
-}
-END_TEST
-
 START_TEST(refused)
 {
     setup();
@@ -374,4 +307,4 @@ START_TEST(told)
 END_TEST
 
 UNIT("places", one_place, told, a_line, random_places_are_delaunays, holed_grids, circles, symmetric_rings, distance_to_the_hull,
-     kinks_against_bisection, refused, nearly_straight_sides)
+     refused, nearly_straight_sides)
