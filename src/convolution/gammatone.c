@@ -1,26 +1,29 @@
-/* Gammatones, by which Hermes (1998, in papers/002 section II-B) models the impacts of what rolls: "the sharp onset of a conventional impact model ... is
-   replaced by a more gradual onset", s(t) = sum a_i t^(gamma-1) e^(-t/tau_i) sin(2 pi f_i t), gamma = 2. Here gamma is a key of a response, and a mode that
-   rings as Im(A e^(s t)), s = -1/tau + j 2 pi f, rings as
+/* Gammatones, by which Hermes (1998, in papers/002 section II-B) models the impacts of what rolls: "the sharp onset of
+   a conventional impact model ... is replaced by a more gradual onset", s(t) = sum a_i t^(gamma-1) e^(-t/tau_i) sin(2
+   pi f_i t), gamma = 2. Here gamma is a key of a response, and a mode that rings as Im(A e^(s t)), s = -1/tau + j 2 pi
+   f, rings as
 
      h(t) = (t/t_p)^(gamma-1) e^((gamma-1) - t/tau) |A| sin(2 pi f t + arg A),   t_p = (gamma-1) tau
           = Im(A c t^(gamma-1) e^(s t)),                                         c = (e / ((gamma-1) tau))^(gamma-1)
 
    so that the envelope's greatest value, at t_p, is |A|: what gamma = 1 begins with. The paper's a_i is |A| c.
 
-   It is a response, not a force, and it is the sound's: where output.quantity or a radiator turns what the modes hold into something else, A is
-   what it is turned into, and then gets its envelope (the derivative of a gammatone, or what its radiator makes of it, would differ by a share of
-   (gamma-1)/(2 pi f t)). It begins from nothing: there is no jump at t = 0, hence no direct term of an acceleration and no component of a monopole's own,
-   which are there to make up for one. A mode of several slopes is one gammatone for each. An undamped mode has no t_p and is refused.
+   It is a response, not a force, and it is the sound's: where output.quantity or a radiator turns what the modes hold
+   into something else, A is what it is turned into, and then gets its envelope (the derivative of a gammatone, or what
+   its radiator makes of it, would differ by a share of (gamma-1)/(2 pi f t)). It begins from nothing: there is no jump
+   at t = 0, hence no direct term of an acceleration and no component of a monopole's own, which are there to make up
+   for one. A mode of several slopes is one gammatone for each. An undamped mode has no t_p and is refused.
 
-   How it is computed. Where poles move, t^(gamma-1) is common to all modes, and multiplies the computed responses. Where they stay, by a bank. With
-   p = e^(s/rate) and z_k(n) = sum over m <= n of (n-m)^k p^(n-m) A(m) f(m) / rate^gamma,
+   How it is computed. Where poles move, t^(gamma-1) is common to all modes, and multiplies the computed responses.
+   Where they stay, by a bank. With p = e^(s/rate) and z_k(n) = sum over m <= n of (n-m)^k p^(n-m) A(m) f(m) /
+   rate^gamma,
 
        z_k(n) = p sum over j = 0 .. k of C(k, j) z_j(n-1)        + A(n) f(n) / rate^gamma for k = 0
        y(n)   = sum over modes of Im z_(gamma-1)(n)
 
-   for (n-m)^k = ((n-1-m) + 1)^k: a chain of gamma equal poles, the binomial coefficients between them, exact to rounding (z_k grows by what it is made
-   of, and nothing cancels). A goes in with the force, so that gains may change their sign and move as they like. There is no jump at n = m, hence no half
-   of it, and no direct term.
+   for (n-m)^k = ((n-1-m) + 1)^k: a chain of gamma equal poles, the binomial coefficients between them, exact to
+   rounding (z_k grows by what it is made of, and nothing cancels). A goes in with the force, so that gains may change
+   their sign and move as they like. There is no jump at n = m, hence no half of it, and no direct term.
 
    Ramps, silence and order of sums are those of resonators.c. */
 #include "convolution/gammatone.h"
@@ -51,7 +54,8 @@ void gammatone_gains(int gamma, int n, const double *decay, const struct modes_p
     }
 }
 
-void gammatone_sample(int gamma, double rate, struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length)
+void gammatone_sample(int gamma, double rate, struct ir_sampler *s, int quantity, const struct modes_point *p,
+                      double *h, size_t length)
 {
     ir_sample(s, quantity, p, h, length); /* h[0], where jump and direct term are, is multiplied by 0 */
     for (size_t i = 0; gamma > 1 && i < length; i++) {
@@ -105,7 +109,7 @@ struct group {
 
 struct gammatone_bank {
     int n, gamma, groups, n_active;
-    double scale;                /* 1 / rate^gamma */
+    double scale; /* 1 / rate^gamma */
     struct group *group, **active;
     double (*sums)[LANES];
 };
@@ -192,8 +196,16 @@ INLINE double lane_step(struct lane *v, double f, int gamma)
 
 INLINE struct lane lane_take(const struct group *g, int l, int gamma)
 {
-    struct lane v = {.ar = g->zr[0][l], .ai = g->zi[0][l], .br = g->zr[1][l], .bi = g->zi[1][l], .gr = g->gr[l], .gi = g->gi[l], .sr = g->sr[l], .si = g->si[l],
-                     .pr = g->pr[l], .pi = g->pi[l]};
+    struct lane v = {.ar = g->zr[0][l],
+                     .ai = g->zi[0][l],
+                     .br = g->zr[1][l],
+                     .bi = g->zi[1][l],
+                     .gr = g->gr[l],
+                     .gi = g->gi[l],
+                     .sr = g->sr[l],
+                     .si = g->si[l],
+                     .pr = g->pr[l],
+                     .pi = g->pi[l]};
     if (gamma > 2)
         v.cr = g->zr[2][l], v.ci = g->zi[2][l];
     if (gamma > 3)
@@ -213,7 +225,8 @@ INLINE void lane_keep(struct group *g, int l, const struct lane *v, int gamma)
 }
 
 /* Adds the lanes' Im z of `n` samples to sums[n][LANES]. */
-INLINE void ring_group(struct group *restrict g, const double *restrict f, double (*restrict sums)[LANES], int n, int gamma)
+INLINE void ring_group(struct group *restrict g, const double *restrict f, double (*restrict sums)[LANES], int n,
+                       int gamma)
 {
     int i = 0;
     for (; i + SPAN <= n; i += SPAN) {
@@ -261,7 +274,8 @@ static void find_active(struct gammatone_bank *g, bool force)
     g->n_active = 0;
     for (int k = 0; k < g->groups; k++) {
         struct group *v = &g->group[k];
-        bool deaf = scaled_is_zero(v->gr, LANES) && scaled_is_zero(v->gi, LANES) && scaled_is_zero(v->tr, LANES) && scaled_is_zero(v->ti, LANES);
+        bool deaf = scaled_is_zero(v->gr, LANES) && scaled_is_zero(v->gi, LANES) && scaled_is_zero(v->tr, LANES) &&
+                    scaled_is_zero(v->ti, LANES);
         if (v->awake || (force && !deaf))
             g->active[g->n_active++] = v;
     }
@@ -285,7 +299,8 @@ static void flush(struct gammatone_bank *g)
 
 void gammatone_bank_run(struct gammatone_bank *g, const double *f, double *y, int frames, const struct modes_point *to)
 {
-    static void (*const ring[GAMMATONE_MOST + 1])(struct group *, const double *, double (*)[LANES], int) = {NULL, NULL, ring_2, ring_3, ring_4};
+    static void (*const ring[GAMMATONE_MOST + 1])(struct group *, const double *, double(*)[LANES],
+                                                  int) = {NULL, NULL, ring_2, ring_3, ring_4};
     if (frames < 1)
         return;
     set_targets(g, to);

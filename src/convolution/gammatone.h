@@ -1,4 +1,5 @@
-/* Modes that begin softly: each one's envelope is that of a gammatone in place of an exponential. See gammatone.c. Of gamma 1 all of these leave things as they are. */
+/* Modes that begin softly: each one's envelope is that of a gammatone in place of an exponential. See gammatone.c. Of
+   gamma 1 all of these leave things as they are. */
 #ifndef CONVOLUTION_GAMMATONE_H
 #define CONVOLUTION_GAMMATONE_H
 #include "base/arena.h"
@@ -11,17 +12,19 @@ enum { GAMMATONE_MOST = 4 };
 void gammatone_gains(int gamma, int n, const double *decay, const struct modes_point *p);
 
 /* ir_sample of such gains, times t^(gamma - 1): no jump, no direct term. */
-void gammatone_sample(int gamma, double rate, struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length);
+void gammatone_sample(int gamma, double rate, struct ir_sampler *s, int quantity, const struct modes_point *p,
+                      double *h, size_t length);
 
-/* dB by which e^(-t/tau) has fallen when the gammatone has fallen `decibel` (> 0) below its greatest value, after that; and the other way round, of times
-   after the greatest value. */
+/* dB by which e^(-t/tau) has fallen when the gammatone has fallen `decibel` (> 0) below its greatest value, after that;
+   and the other way round, of times after the greatest value. */
 double gammatone_decibel(int gamma, double decibel);
 double gammatone_fallen(int gamma, double decibel);
 
 /* Cost of a mode and sample over that of a plain resonator. */
 double gammatone_cost(int gamma);
 
-/* ------------------------------------------------------------------ where poles do not move: a cascade of equal complex poles per mode, exact */
+/* ------------------------------------------------------------------ where poles do not move: a cascade of equal
+   complex poles per mode, exact */
 
 struct gammatone_bank;
 
@@ -34,7 +37,8 @@ struct gammatone_bank_ask {
 /* States and gains zero. */
 struct gammatone_bank *gammatone_bank_make(struct arena *a, const struct gammatone_bank_ask *ask);
 
-/* As resonators_run and _set, with gains as gammatone_gains gives them: y[n] = (1/rate) sum_m t^(gamma-1) Im(A(m) e^(s t)) f[m], t = (n - m)/rate. */
+/* As resonators_run and _set, with gains as gammatone_gains gives them: y[n] = (1/rate) sum_m t^(gamma-1) Im(A(m) e^(s
+   t)) f[m], t = (n - m)/rate. */
 void gammatone_bank_run(struct gammatone_bank *g, const double *f, double *y, int frames, const struct modes_point *to);
 void gammatone_bank_set(struct gammatone_bank *g, const struct modes_point *at);
 

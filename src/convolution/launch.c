@@ -1,48 +1,55 @@
-/* Every force sample launches the response of its own place, by resonators (papers/000 eq. 10 and 13, `launch` of rasp-scene(5)).
+/* Every force sample launches the response of its own place, by resonators (papers/000 eq. 10 and 13, `launch` of
+   rasp-scene(5)).
 
-       y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m),   half of h(0+) at m = n,   h_x(t) = sum_i Im A_i(x) e^(s_i(x) t)
+       y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m),   half of h(0+) at m = n,   h_x(t) = sum_i Im A_i(x)
+   e^(s_i(x) t)
 
-   Nodes stand every H frames, and h is the cubic through the four nearest. So in the interval between nodes k and k + 1, u = 0 .. 1 of it, the force
-   drives the resonators of nodes k - 1 .. k + 2 with w_q(u) f,
+   Nodes stand every H frames, and h is the cubic through the four nearest. So in the interval between nodes k and k +
+   1, u = 0 .. 1 of it, the force drives the resonators of nodes k - 1 .. k + 2 with w_q(u) f,
 
        w = -u (1-u)(2-u)/6, (1+u)(1-u)(2-u)/2, u (1+u)(2-u)/2, -u (1+u)(1-u)/6
 
-   and at its end those of node k - 1 are free and ring out. With poles that move evenly, white force, a mode's relative rms error is
+   and at its end those of node k - 1 are free and ring out. With poles that move evenly, white force, a mode's relative
+   rms error is
 
        0.211 rho^4,   rho = |ds/dt| H / (rate |Re s|): half bandwidths by which the pole moves in a hop
 
-   (the mean square of the cubic's node polynomial and int t^8 e^(2 Re s t) dt). What the force adds by itself, -Im A/(2 rate) and the direct term of
-   an acceleration (modes_direct), is interpolated by the same weights.
+   (the mean square of the cubic's node polynomial and int t^8 e^(2 Re s t) dt). What the force adds by itself, -Im A/(2
+   rate) and the direct term of an acceleration (modes_direct), is interpolated by the same weights.
 
-   Nodes that ring out take about as much as three resonators of a component however many they are (below). A node is dropped when it has fallen
-   to `floor` times what it was when the force left it. Poles and gains are not asked for while there is no force.
+   Nodes that ring out take about as much as three resonators of a component however many they are (below). A node is
+   dropped when it has fallen to `floor` times what it was when the force left it. Poles and gains are not asked for
+   while there is no force.
 
-   Nodes and blocks stand at fixed frames, and sums have one order: the sound does not depend on how it is cut into calls, nor on the instruction set.
+   Nodes and blocks stand at fixed frames, and sums have one order: the sound does not depend on how it is cut into
+   calls, nor on the instruction set.
 
    What rings out. Many damped sinusoids with nearly the same pole cost little more than one.
 
-   Nodes k of a cluster ring freely with poles s_k = s + delta_k. In a block of B frames, frame j = 0 .. B-1, c = B/2, tau = (j - c)/c,
+   Nodes k of a cluster ring freely with poles s_k = s + delta_k. In a block of B frames, frame j = 0 .. B-1, c = B/2,
+   tau = (j - c)/c,
 
-       sum_k Im z_k e^(s_k (j+1)/rate) = Im e^(s (j+1)/rate) sum_k x_k e^(d_k tau),   x_k = z_k e^(delta_k (c+1)/rate),   d_k = delta_k c/rate
+       sum_k Im z_k e^(s_k (j+1)/rate) = Im e^(s (j+1)/rate) sum_k x_k e^(d_k tau),   x_k = z_k e^(delta_k (c+1)/rate),
+   d_k = delta_k c/rate
 
    z_k the state in the last frame before the block, and with |d_k| < 0.09, |tau| <= 1 seven terms of
 
        sum_k x_k e^(d_k tau) = sum_r tau^r M_r,   M_r = sum_k x_k d_k^r / r!
 
-   leave 0.09^7/7! = 1e-11 of |x_k| (five terms below 0.0164; one where all poles are the cluster's own, exactly). From block to block each
-   state goes on by its own e^(s_k B/rate), so that nothing adds up. Per frame a cluster costs 38 operations however many nodes it has, and a
-   node, per block, 56; a resonator each would take 7 per frame.
+   leave 0.09^7/7! = 1e-11 of |x_k| (five terms below 0.0164; one where all poles are the cluster's own, exactly). From
+   block to block each state goes on by its own e^(s_k B/rate), so that nothing adds up. Per frame a cluster costs 38
+   operations however many nodes it has, and a node, per block, 56; a resonator each would take 7 per frame.
 
    In blocks of one frame c is taken as 1 in d_k, and tau = 0.
 
-   A node freed from the force joins a cluster of its component whose pole s_c is near enough, |s - s_c| c/rate < 0.09 (c half a block); when there
-   is none it opens one. Poles move on mostly the way they came, so that the new pole s_c lies ahead of the node's: by half of what the component's
-   poles will have moved while the node rings, but at most by 0.8 of that reach. A node whose pole is that of the cluster's last is added
-   to its state, which is exact.
+   A node freed from the force joins a cluster of its component whose pole s_c is near enough, |s - s_c| c/rate < 0.09
+   (c half a block); when there is none it opens one. Poles move on mostly the way they came, so that the new pole s_c
+   lies ahead of the node's: by half of what the component's poles will have moved while the node rings, but at most by
+   0.8 of that reach. A node whose pole is that of the cluster's last is added to its state, which is exact.
 
-   A node of size |z| is dropped after log(|z|/least)/decay seconds; that is looked at every SWEEP blocks, so that it may be SWEEP - 1
-   blocks late. What is dropped leaves its row to the lane's last one. Everything depends on frame numbers and states alone: the
-   same order of sums however calls are cut. */
+   A node of size |z| is dropped after log(|z|/least)/decay seconds; that is looked at every SWEEP blocks, so that it
+   may be SWEEP - 1 blocks late. What is dropped leaves its row to the lane's last one. Everything depends on frame
+   numbers and states alone: the same order of sums however calls are cut. */
 #include "convolution/launch.h"
 
 #include <math.h>
@@ -65,21 +72,21 @@ enum { BLOCK = 64, NODES = 4, SWEEP = 8, SPAN = 4, TERMS = 7, ROWS = 4 }; /* BLO
 /* How far (|d|) a node's pole may lie from its cluster's for an error of 1e-11 of the node's size. */
 #define REACH 0.09
 
-struct row {                /* one node per lane; a state of zero: none */
-    _Alignas(64) double xr[LANES];         /* state, e^(d) from the block's start      */
+struct row {                       /* one node per lane; a state of zero: none */
+    _Alignas(64) double xr[LANES]; /* state, e^(d) from the block's start      */
     double xi[LANES];
-    double dr[LANES], di[LANES];           /* d = (s_node - s_cluster) times half a block */
-    double ar[LANES], ai[LANES];           /* e^(s_node block)                            */
-    double until[LANES];                   /* frame from which it is dropped              */
+    double dr[LANES], di[LANES]; /* d = (s_node - s_cluster) times half a block */
+    double ar[LANES], ai[LANES]; /* e^(s_node block)                            */
+    double until[LANES];         /* frame from which it is dropped              */
 };
 
 struct clusters {
-    _Alignas(64) double qr[LANES];         /* carrier's pole e^(s_cluster/rate) */
+    _Alignas(64) double qr[LANES]; /* carrier's pole e^(s_cluster/rate) */
     double qi[LANES];
     double mr[TERMS][LANES], mi[TERMS][LANES];
     struct row *rows;
-    int used, room;                        /* rows; multiples of ROWS */
-    double reach;                          /* largest |d| of its nodes               */
+    int used, room; /* rows; multiples of ROWS */
+    double reach;   /* largest |d| of its nodes               */
 };
 
 /* ------------------------------------------------------------------ moments */
@@ -131,7 +138,8 @@ INLINE void gather_four(struct clusters *restrict g, struct row *restrict rows, 
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        struct term a = term_take(rows, l), b = term_take(rows + 1, l), c = term_take(rows + 2, l), d = term_take(rows + 3, l);
+        struct term a = term_take(rows, l), b = term_take(rows + 1, l), c = term_take(rows + 2, l),
+                    d = term_take(rows + 3, l);
         const struct four v = {&a, &b, &c, &d};
         four_add(&v, g, 0, l);
         if (terms > 1) {
@@ -210,7 +218,8 @@ INLINE double frame(const struct clusters *g, int l, struct carrier *c, double t
         ei += tau * (g->mi[1][l] + tau * (g->mi[2][l] + tau * (g->mi[3][l] + tau * g->mi[4][l])));
     }
     if (terms == 7) {
-        double hr = g->mr[4][l] + tau * (g->mr[5][l] + tau * g->mr[6][l]), hi = g->mi[4][l] + tau * (g->mi[5][l] + tau * g->mi[6][l]);
+        double hr = g->mr[4][l] + tau * (g->mr[5][l] + tau * g->mr[6][l]),
+               hi = g->mi[4][l] + tau * (g->mi[5][l] + tau * g->mi[6][l]);
         er += tau * (g->mr[1][l] + tau * (g->mr[2][l] + tau * (g->mr[3][l] + tau * hr)));
         ei += tau * (g->mi[1][l] + tau * (g->mi[2][l] + tau * (g->mi[3][l] + tau * hi)));
     }
@@ -221,8 +230,8 @@ INLINE double frame(const struct clusters *g, int l, struct carrier *c, double t
 }
 
 /* `frames` is a constant: 1 or SPAN. */
-INLINE void sound_some(const struct clusters *restrict g, double (*restrict carrier)[LANES], double (*restrict sums)[LANES],
-                       const double *restrict tau, int frames, int terms)
+INLINE void sound_some(const struct clusters *restrict g, double (*restrict carrier)[LANES],
+                       double (*restrict sums)[LANES], const double *restrict tau, int frames, int terms)
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
@@ -246,7 +255,8 @@ INLINE void sound(const struct clusters *restrict g, double (*restrict sums)[LAN
     memcpy(carrier[1], g->qi, sizeof carrier[1]);
     int j = 0;
     for (; j + SPAN <= block; j += SPAN) {
-        const double tau[SPAN] = {(j - centre) * per, (j + 1 - centre) * per, (j + 2 - centre) * per, (j + 3 - centre) * per};
+        const double tau[SPAN] = {(j - centre) * per, (j + 1 - centre) * per, (j + 2 - centre) * per,
+                                  (j + 3 - centre) * per};
         sound_some(g, carrier, sums + j, tau, SPAN, terms);
     }
     for (; j < block; j++)
@@ -282,12 +292,11 @@ static void cluster_sound(const struct clusters *g, double (*sums)[LANES], int b
 /* A node that the force leaves. */
 struct freed {
     int component;
-    long frame;                 /* first without force                             */
-    double frequency, decay;    /* Hz, 1/s                                         */
-    double re, im;              /* state in the last frame before the coming block */
-    double least;               /* size at which it is dropped                     */
+    long frame;              /* first without force                             */
+    double frequency, decay; /* Hz, 1/s                                         */
+    double re, im;           /* state in the last frame before the coming block */
+    double least;            /* size at which it is dropped                     */
 };
-
 
 struct lane {
     int component, count; /* nodes; none: free for another cluster */
@@ -305,7 +314,7 @@ struct before { /* the node a component freed last */
 
 struct ringing {
     struct arena *arena;
-    int groups, room; /* groups of clusters: in use, allocated */
+    int groups, room;  /* groups of clusters: in use, allocated */
     int block, centre; /* frames; c, 1 of a block of one */
     double rate;
     long now; /* first frame of the coming block */
@@ -588,15 +597,15 @@ struct launch {
     struct launch_ask ask;
     launch_point *point;
     void *self;
-    int groups, block;           /* block: frames, a part of the hop, at most BLOCK */
+    int groups, block; /* block: frames, a part of the hop, at most BLOCK */
     long now;
-    struct node node[NODES];     /* oldest first */
+    struct node node[NODES];         /* oldest first */
     struct resonator_group **active; /* [groups] */
-    struct modes_point at;       /* [n] the place asked for last */
-    double *size, *turn, *rise;  /* [n] of its poles */
-    struct freed *freed;  /* [n] */
+    struct modes_point at;           /* [n] the place asked for last */
+    double *size, *turn, *rise;      /* [n] of its poles */
+    struct freed *freed;             /* [n] */
     struct ringing *ringing;
-    double sums[BLOCK][LANES];   /* of the present block */
+    double sums[BLOCK][LANES]; /* of the present block */
 };
 
 /* ------------------------------------------------------------------ open and close */
@@ -605,7 +614,12 @@ struct launch *launch_open(const struct launch_ask *ask, launch_point *point, vo
 {
     struct arena *a = arena_open();
     struct launch *l = ARENA_TAKE(a, struct launch, 1);
-    *l = (struct launch){.arena = a, .ask = *ask, .point = point, .self = self, .groups = (ask->n + LANES - 1) / LANES, .at = modes_point_make(a, ask->n + 1)};
+    *l = (struct launch){.arena = a,
+                         .ask = *ask,
+                         .point = point,
+                         .self = self,
+                         .groups = (ask->n + LANES - 1) / LANES,
+                         .at = modes_point_make(a, ask->n + 1)};
     for (int parts = (ask->hop + BLOCK - 1) / BLOCK; l->block == 0; parts++)
         l->block = ask->hop % parts == 0 ? ask->hop / parts : 0;
     for (int q = 0; q < NODES; q++) {
@@ -665,7 +679,8 @@ static void next_node(struct launch *l)
         int lane = i % LANES;
         double size = fabs(g->zr[lane]) + fabs(g->zi[lane]);
         if (size > 1e-200)
-            l->freed[count++] = (struct freed){i, l->now, old.frequency[i], old.decay[i], g->zr[lane], g->zi[lane], fmax(l->ask.floor * size, 1e-200)};
+            l->freed[count++] = (struct freed){
+                i, l->now, old.frequency[i], old.decay[i], g->zr[lane], g->zi[lane], fmax(l->ask.floor * size, 1e-200)};
     }
     ringing_add(l->ringing, l->freed, count);
     for (int k = 0; old.awake && k < l->groups; k++)
@@ -753,6 +768,7 @@ long launch_active(const struct launch *l)
     long count = ringing_active(l->ringing);
     for (int q = 0; q < NODES; q++)
         for (int i = 0; i < l->ask.n; i++)
-            count += l->node[q].group[i / LANES].zr[i % LANES] != 0.0 || l->node[q].group[i / LANES].zi[i % LANES] != 0.0;
+            count +=
+                l->node[q].group[i / LANES].zr[i % LANES] != 0.0 || l->node[q].group[i / LANES].zi[i % LANES] != 0.0;
     return count;
 }

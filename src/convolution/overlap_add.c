@@ -1,27 +1,33 @@
-/* Fast convolution (papers/000 equations 10 and 13), exact to rounding where responses stay, of order hop^4 where one moves.
+/* Fast convolution (papers/000 equations 10 and 13), exact to rounding where responses stay, of order hop^4 where one
+   moves.
 
-   Responses that stay, each fed with its share of the force: y = sum_k h_k * (w_k f). Uniform partitions of B samples; the sum over responses is taken
-   in the spectrum. With f_j the force of block j, zero-padded to 2 B, and H_kq the spectrum of samples q B .. q B + B - 1 of h_k, likewise:
+   Responses that stay, each fed with its share of the force: y = sum_k h_k * (w_k f). Uniform partitions of B samples;
+   the sum over responses is taken in the spectrum. With f_j the force of block j, zero-padded to 2 B, and H_kq the
+   spectrum of samples q B .. q B + B - 1 of h_k, likewise:
 
        Y_{j+q} += sum_k H_kq FFT(w_k f_j)   for q = 0 .. P - 1, P = ceil(length/B)
 
-   Block j of the sound is the first half of IFFT(Y_j) plus the second half of IFFT(Y_{j-1}). The past is P spectra, one set for all responses. A response
-   costs one FFT and P products in a block in which it has a share, and nothing in any other. Its P spectra are made when it is first needed, and kept:
-   16 bytes a sample of h.
+   Block j of the sound is the first half of IFFT(Y_j) plus the second half of IFFT(Y_{j-1}). The past is P spectra, one
+   set for all responses. A response costs one FFT and P products in a block in which it has a share, and nothing in any
+   other. Its P spectra are made when it is first needed, and kept: 16 bytes a sample of h.
 
-   A response that moves. Nodes stand every `hop` samples, h_k is the response there, and between nodes h is the cubic through the four nearest:
+   A response that moves. Nodes stand every `hop` samples, h_k is the response there, and between nodes h is the cubic
+   through the four nearest:
 
        w(u) = (1 - u^2)(2 - |u|)/2          for |u| <= 1     u = n/hop - k
               (1 - |u|)(2 - |u|)(3 - |u|)/6 for |u| > 1
 
-   launch   A node: the 4 hop samples of force under its window times w, zero-padded FFT, times the FFT of h_k, back, added to a ring of sound.
-   readout  Its transpose: the 4 hop samples under the window and the length - 1 before them, FFT, times the FFT of h_k, back; the first length - 1 samples
-            are wrapped and dropped (overlap-save), the rest is multiplied by w and added to the sound.
+   Launch: of a node the 4 hop samples of force under its window times w, zero-padded FFT, times the FFT of h_k, back,
+   added to a ring of sound.
 
-   Either way the error against a response that moves at every sample is of order hop^4 in h's change: 24 dB per halving.
+   Readout, its transpose: the 4 hop samples under the window and the length - 1 before them, FFT, times the FFT of h_k,
+   back; the first length - 1 samples are wrapped and dropped (overlap-save), the rest is multiplied by w and added.
 
-   Blocks and nodes stand at fixed sample numbers, each is complete before its first sample is given out, and additions run in their order: the result
-   does not depend on how the sound is cut into calls. */
+   Either way the error against a response that moves at every sample is of order hop^4 in h's change: 24 dB per
+   halving.
+
+   Blocks and nodes stand at fixed sample numbers, each is complete before its first sample is given out, and additions
+   run in their order: the result does not depend on how the sound is cut into calls. */
 #include "convolution/overlap_add.h"
 
 #include <math.h>
@@ -32,8 +38,9 @@
 #include "num/lanes.h"
 #include "num/scaled.h"
 
-/* Blocks of 2048 to 16384 cost the same within the noise of a measurement for responses of 1 s at 44.1 kHz (tests/bench/overlap_add.c), 1024 and 32768
-   more: transforms grow with log B, products fall with 1/B, and a response that is passed quickly is at work for at least one block. */
+/* Blocks of 2048 to 16384 cost the same within the noise of a measurement for responses of 1 s at 44.1 kHz
+   (tests/bench/overlap_add.c), 1024 and 32768 more: transforms grow with log B, products fall with 1/B, and a response
+   that is passed quickly is at work for at least one block. */
 enum { BLOCK = OVERLAP_ADD_BLOCK, SIZE = 2 * BLOCK, BINS = BLOCK + 1, ORDER = 4 };
 
 struct spectrum {
@@ -93,7 +100,8 @@ struct overlap_add *overlap_add_open(const struct overlap_add_source *source)
 {
     struct arena *a = arena_open();
     struct overlap_add *o = ARENA_TAKE(a, struct overlap_add, 1);
-    *o = (struct overlap_add){.arena = a, .source = *source, .fft = fft_open(SIZE), .parts = (source->length + BLOCK - 1) / BLOCK};
+    *o = (struct overlap_add){
+        .arena = a, .source = *source, .fft = fft_open(SIZE), .parts = (source->length + BLOCK - 1) / BLOCK};
     o->h = ARENA_TAKE(a, struct spectrum, source->n + 1);
     o->sum = take(a, o->parts * BINS);
     o->used = ARENA_TAKE(a, bool, o->parts);
@@ -151,7 +159,8 @@ static void launch(struct overlap_add *o, int k, const double *f)
     fft_forward(o->fft, o->time, o->x.re, o->x.im);
     for (size_t q = 0; q < o->parts; q++) {
         size_t slot = ((size_t)o->next + q) % o->parts, H = q * BINS, Y = slot * BINS;
-        add_product(BINS, (struct spectrum){o->h[k].re + H, o->h[k].im + H}, o->x, (struct spectrum){o->sum.re + Y, o->sum.im + Y});
+        add_product(BINS, (struct spectrum){o->h[k].re + H, o->h[k].im + H}, o->x,
+                    (struct spectrum){o->sum.re + Y, o->sum.im + Y});
         o->used[slot] = true;
     }
 }
@@ -207,8 +216,8 @@ struct overlap_add_moving {
     double *window;             /* [count]                                                */
     double *ring;               /* [room] sound to come                                   */
     size_t room, oldest;
-    double *past;               /* [length - 1] readout: force before `now`, the oldest at `oldest` */
-    long quiet;                 /* samples of zero force before `now`                     */
+    double *past; /* [length - 1] readout: force before `now`, the oldest at `oldest` */
+    long quiet;   /* samples of zero force before `now`                     */
 };
 
 static double window_at(double u)
@@ -222,11 +231,18 @@ static long window_start(const struct overlap_add_moving *o, long k)
     return (k - ORDER / 2) * o->hop;
 }
 
-struct overlap_add_moving *overlap_add_moving_open(size_t length, int hop, enum overlap_add_reading reading, overlap_add_response *response, void *self)
+struct overlap_add_moving *overlap_add_moving_open(size_t length, int hop, enum overlap_add_reading reading,
+                                                   overlap_add_response *response, void *self)
 {
     struct arena *a = arena_open();
     struct overlap_add_moving *o = ARENA_TAKE(a, struct overlap_add_moving, 1);
-    *o = (struct overlap_add_moving){.arena = a, .reading = reading, .response = response, .self = self, .hop = hop, .count = ORDER * hop, .length = length};
+    *o = (struct overlap_add_moving){.arena = a,
+                                     .reading = reading,
+                                     .response = response,
+                                     .self = self,
+                                     .hop = hop,
+                                     .count = ORDER * hop,
+                                     .length = length};
     o->size = fft_good_size(length + (size_t)o->count - 1);
     o->per_size = 1.0 / (double)o->size;
     o->bins = o->size / 2 + 1;
@@ -257,7 +273,8 @@ int overlap_add_moving_ahead(const struct overlap_add_moving *o)
     return o->count - 1;
 }
 
-/* The force that a node's response meets, to x; false: there is none. n samples are under the window, the first of them f[0]. */
+/* The force that a node's response meets, to x; false: there is none. n samples are under the window, the first of them
+   f[0]. */
 static bool gather(struct overlap_add_moving *o, const double *f, int n, const double *window)
 {
     bool readout = o->reading == OVERLAP_ADD_READOUT;
@@ -288,9 +305,11 @@ static void run_node(struct overlap_add_moving *o, const double *f)
     fft_forward(o->fft, o->h, o->own.re, o->own.im);
     multiply(o->bins, o->own, o->force);
     fft_inverse(o->fft, o->force.re, o->force.im, o->x);
-    size_t at = (size_t)o->now % o->room, before = o->length - 1, used = o->reading == OVERLAP_ADD_READOUT ? (size_t)n : before + (size_t)n;
+    size_t at = (size_t)o->now % o->room, before = o->length - 1,
+           used = o->reading == OVERLAP_ADD_READOUT ? (size_t)n : before + (size_t)n;
     for (size_t j = 0; j < used; j++, at = at + 1 == o->room ? 0 : at + 1)
-        o->ring[at] += o->reading == OVERLAP_ADD_READOUT ? window[j] * (o->x[before + j] * o->per_size) : o->x[j] * o->per_size;
+        o->ring[at] +=
+            o->reading == OVERLAP_ADD_READOUT ? window[j] * (o->x[before + j] * o->per_size) : o->x[j] * o->per_size;
 }
 
 static void remember(struct overlap_add_moving *o, const double *f, long n)

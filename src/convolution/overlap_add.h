@@ -1,4 +1,4 @@
-/* Fast convolution: with responses that stay as they are, and with one that moves with the contact. See overlap_add.c. */
+/* Fast convolution: with responses that stay, and with one that moves with the contact. See overlap_add.c. */
 #ifndef CONVOLUTION_OVERLAP_ADD_H
 #define CONVOLUTION_OVERLAP_ADD_H
 #include <stdbool.h>
@@ -10,8 +10,9 @@ typedef void overlap_add_response(void *self, long k, double *h, size_t length);
 /* Frames of a block, at multiples of it. */
 enum { OVERLAP_ADD_BLOCK = 4096 };
 
-/* Writes the share of the force that goes to response k in frames first .. first + n - 1, at most one block. Returns 0 when all are 0 (w is then not
-   read). In each block k runs from 0 to n - 1. Not called where there is no force in the whole block. The last block may reach beyond the sound's end. */
+/* Writes the share of the force that goes to response k in frames first .. first + n - 1, at most one block. Returns 0
+   when all are 0 (w is then not read). In each block k runs from 0 to n - 1. Not called where there is no force in the
+   whole block. The last block may reach beyond the sound's end. */
 typedef int overlap_add_share(void *self, long first, int n, int k, double *w);
 
 /* ------------------------------------------------------------------ responses that stay: y = sum_k h_k * (w_k f) */
@@ -32,8 +33,8 @@ void overlap_add_close(struct overlap_add *o);
 /* Frames by which the force must be known ahead of the sound. */
 int overlap_add_ahead(const struct overlap_add *o);
 
-/* Adds to y[frames] the sound of the next `frames` frames. f points at the force of the first of them; f[0 .. frames + ahead - 1] must be there
-   (zeros after the end). The result does not depend on how the sound is cut into calls. */
+/* Adds to y[frames] the sound of the next `frames` frames. f points at the force of the first of them; f[0 .. frames +
+   ahead - 1] must be there (zeros after the end). The result does not depend on how the sound is cut into calls. */
 void overlap_add_run(struct overlap_add *o, const double *f, double *y, long frames);
 
 /* ------------------------------------------------------------------ a response that moves */
@@ -43,12 +44,14 @@ void overlap_add_run(struct overlap_add *o, const double *f, double *y, long fra
        launch     y = sum_k h_k * (w_k f)      each force sample launches the response of its own place
        readout    y = sum_k w_k (h_k * f)      all past force is heard through the response of the present place
 
-   Responses are asked for in increasing order, each once, and not at all where no force reaches their window; k may be negative. */
+   Responses are asked for in increasing order, each once, and not at all where no force reaches their window; k may be
+   negative. */
 enum overlap_add_reading { OVERLAP_ADD_LAUNCH, OVERLAP_ADD_READOUT };
 
 struct overlap_add_moving;
 
-struct overlap_add_moving *overlap_add_moving_open(size_t length, int hop, enum overlap_add_reading reading, overlap_add_response *response, void *self);
+struct overlap_add_moving *overlap_add_moving_open(size_t length, int hop, enum overlap_add_reading reading,
+                                                   overlap_add_response *response, void *self);
 void overlap_add_moving_close(struct overlap_add_moving *o);
 int overlap_add_moving_ahead(const struct overlap_add_moving *o);
 void overlap_add_moving_run(struct overlap_add_moving *o, const double *f, double *y, long frames);

@@ -1,5 +1,5 @@
-/* Total response: surface + eta x scraper (papers/000 section 2.4: the scraper's response is "weighted by eta"; its equation 11 omits it), heard at
-   each listening place. */
+/* Total response: surface + eta x scraper (papers/000 section 2.4: the scraper's response is "weighted by eta"; its
+   equation 11 omits it), heard at each listening place. */
 #include "convolution/ring.h"
 
 #include <math.h>
@@ -28,7 +28,8 @@ struct modes_where ring_first_place(const struct contact *c, const struct trajec
     return ablation_one_place(c) && !isnan(place[0]) ? (struct modes_where){place[0], place[1], 0} : ring_where(tr, 0);
 }
 
-/* The power of two at the larger of two gains: in such units they can be squared and multiplied, whatever their size, with the same bits as in any other. */
+/* The power of two at the larger of two gains: in such units they can be squared and multiplied, whatever their size,
+   with the same bits as in any other. */
 static double unit_of(const struct modes_point *p, const struct modes_point *q, int i)
 {
     double most = fmax(fmax(fabs(p->re[i]), fabs(p->im[i])), fmax(fabs(q->re[i]), fabs(q->im[i])));
@@ -37,13 +38,15 @@ static double unit_of(const struct modes_point *p, const struct modes_point *q, 
     return exponent > -1000 && exponent < 1000 ? ldexp(1, exponent) : 1;
 }
 
-/* p <- end^2 / p, of n components: what goes on straight in the logarithm beyond the end, where p is as far inside. A gain that is nearly zero at the end, or turns by more
-   than a quarter of a turn, has no logarithm to go on in: it goes on straight. Poles only if p->frequency is not NULL. */
+/* p <- end^2 / p, of n components: what goes on straight in the logarithm beyond the end, where p is as far inside. A
+   gain that is nearly zero at the end, or turns by more than a quarter of a turn, has no logarithm to go on in: it goes
+   on straight. Poles only if p->frequency is not NULL. */
 static void mirror(int n, const struct modes_point *end, const struct modes_point *p)
 {
     for (int i = 0; i < n; i++) {
         double unit = unit_of(end, p, i), per = 1 / unit;
-        double re = end->re[i] * per, im = end->im[i] * per, x = p->re[i] * per, y = p->im[i] * per, square = x * x + y * y, to = re * re + im * im;
+        double re = end->re[i] * per, im = end->im[i] * per, x = p->re[i] * per, y = p->im[i] * per,
+               square = x * x + y * y, to = re * re + im * im;
         double lean = re * x + im * y, turn = im * x - re * y; /* end / p = (lean + j turn) / square */
         bool steady = square > 1e-6 * to && lean > 0;
         p->re[i] = unit * (steady ? (re * lean - im * turn) / square : 2 * re - x);
@@ -55,22 +58,25 @@ static void mirror(int n, const struct modes_point *end, const struct modes_poin
     }
 }
 
-/* Does it go back before the start (t < 0) or after the end? Where the motion rests at its end, as strokes do, it is taken to come back as it went: x ~ t^2 goes on without
-   a kink. */
+/* Does it go back before the start (t < 0) or after the end? Where the motion rests at its end, as strokes do, it is
+   taken to come back as it went: x ~ t^2 goes on without a kink. */
 static bool returns(const struct modes *m, const struct trajectory *tr, double t)
 {
     return !m->travels && (t < 0 ? tr->starts_at_rest : tr->ends_at_rest);
 }
 
-/* The places' hull is convex. A straight motion is inside when its ends are; of a curved one as many instants are looked at as show all of
-   its shape: what is left out between two of them is far less than the distance of two places. */
+/* The places' hull is convex. A straight motion is inside when its ends are; of a curved one as many instants are
+   looked at as show its shape: what is left out between two of them is far less than the distance of two places. */
 #define REACH_SLACK 1e-9 /* m */
 
 static bool reach_told(const struct modes *m, const struct stage_run *r, const double p[2], double out, struct err *e)
 {
     bool place = ablation_one_place(r->contact) && !isnan(r->contact->ablation.place[0]);
-    return err_set(e, ERR_SCENE, "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s%s%s; move it, or set surface.extrapolate: nearest", r->contact->name,
-                   ring_choice_about(r->contact, RING_SURFACE), place ? "ablation.place is" : "the motion reaches", p[0], p[1], out, m->name, m->places ? ": " : "",
+    return err_set(e, ERR_SCENE,
+                   "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s%s%s; move it, or set "
+                   "surface.extrapolate: nearest",
+                   r->contact->name, ring_choice_about(r->contact, RING_SURFACE),
+                   place ? "ablation.place is" : "the motion reaches", p[0], p[1], out, m->name, m->places ? ": " : "",
                    m->places ? places_told(m->places, r->arena) : "");
 }
 
@@ -103,7 +109,8 @@ static const struct response *ring_given(const struct contact *c, enum ring_body
     return body == RING_SURFACE ? &c->surface.response : &c->scraper.response;
 }
 
-/* A surface's object heard at other places of it than the one that is touched has modes of its own for each (ask->listen is then set). */
+/* A surface's object heard at other places of it than the one that is touched has modes of its own for each
+   (ask->listen is then set). */
 static const struct modes *voice_modes(const struct ring *g, struct stage_run *r, struct listener_ask *ask)
 {
     const struct modes *m = &g->choice->modes;
@@ -121,7 +128,8 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
 {
     struct ring_voice *v = &g->voices[channel];
     const double *origin = ring_given(r->contact, g->body)->object.origin;
-    struct listener_ask ask = {.output = &r->scene->output, .channel = channel, .origin = origin, .rate = r->board->rate};
+    struct listener_ask ask = {
+        .output = &r->scene->output, .channel = channel, .origin = origin, .rate = r->board->rate};
     v->modes = voice_modes(g, r, &ask);
     if (!(v->listener = listener_make(r->arena, &ask, v->modes, e)))
         return err_at(e, "contact '%s': %s", r->contact->name, g->key);
@@ -146,15 +154,18 @@ static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
     int quantity = listener_quantity(g->voices[0].listener);
     if (b->quantity >= 0 && b->quantity != quantity)
         return err_set(e, ERR_SCENE,
-                       "%s: this response gives %s, but the surface's gives %s: they cannot be summed; use tables of one quantity, or choose one "
-                       "by output.quantity", g->choice->modes.name, modes_quantity_name(quantity), modes_quantity_name(b->quantity));
+                       "%s: this response gives %s, but the surface's gives %s: they cannot be summed; use tables of "
+                       "one quantity, or choose one "
+                       "by output.quantity",
+                       g->choice->modes.name, modes_quantity_name(quantity), modes_quantity_name(b->quantity));
     b->quantity = quantity;
     return true;
 }
 
 static void note_ring(const struct ring *g, const struct response *given, struct board *b)
 {
-    double ring = modes_ring_time(&g->choice->modes, gammatone_decibel(g->choice->gamma, 80)) + (double)g->delay / b->rate;
+    double ring =
+        modes_ring_time(&g->choice->modes, gammatone_decibel(g->choice->gamma, 80)) + (double)g->delay / b->rate;
     b->ring = fmax(b->ring, isnan(given->length) ? ring : fmin(ring, given->length));
 }
 
@@ -163,8 +174,12 @@ static void note_endless(const struct ring *g, const struct response *given, str
 {
     double falls = gammatone_decibel(g->choice->gamma, 80), ring = modes_ring_time(&g->choice->modes, falls);
     if (isnan(r->scene->output.tail) && isnan(r->scene->output.duration) && isnan(given->length) && ring > 60)
-        board_warn(r->board, arena_format(r->arena, "%s: its slowest mode has fallen by %.3g dB only when the sound ends, 60 s after the motion: set output.tail, or "
-                                          "give the mode more decay", g->choice->modes.name, gammatone_fallen(g->choice->gamma, falls * 60 / ring)));
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "%s: its slowest mode has fallen by %.3g dB only when the sound ends, 60 s after the "
+                                "motion: set output.tail, or "
+                                "give the mode more decay",
+                                g->choice->modes.name, gammatone_fallen(g->choice->gamma, falls * 60 / ring)));
 }
 
 static void note_warnings(const struct ring *g, struct stage_run *r)
@@ -172,19 +187,30 @@ static void note_warnings(const struct ring *g, struct stage_run *r)
     if (g->choice->note)
         board_warn(r->board, g->choice->note);
     if (g->choice->high)
-        board_warn(r->board, arena_format(r->arena, "%s: %d of its %d strongest modes lie%s above %g Hz, 0.45 of the sample rate, and do%s not ring: raise output.sample_rate, "
-                                          "or end the key band there", g->choice->modes.name, g->choice->high, g->choice->chosen, g->choice->high == 1 ? "s" : "",
-                                          MODES_TOP * g->board->rate, g->choice->high == 1 ? "es" : ""));
+        board_warn(r->board, arena_format(r->arena,
+                                          "%s: %d of its %d strongest modes lie%s above %g Hz, 0.45 of the sample "
+                                          "rate, and do%s not ring: raise output.sample_rate, "
+                                          "or end the key band there",
+                                          g->choice->modes.name, g->choice->high, g->choice->chosen,
+                                          g->choice->high == 1 ? "s" : "", MODES_TOP * g->board->rate,
+                                          g->choice->high == 1 ? "es" : ""));
 }
 
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e)
 {
     bool surface = body == RING_SURFACE;
     const struct response *given = ring_given(r->contact, body);
-    *g = (struct ring){.body = body, .choice = given->choice, .board = r->board, .contact = r->contact, .key = surface ? "surface" : ball_tool(r->contact),
-                       .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND, .weight = surface ? 1 : r->contact->scraper.weight,
-                       .moves = given->choice->moves, .ramp = (int)r->scene->accuracy.gain_ramp,
-                       .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT, .channels = r->board->channels};
+    *g = (struct ring){.body = body,
+                       .choice = given->choice,
+                       .board = r->board,
+                       .contact = r->contact,
+                       .key = surface ? "surface" : ball_tool(r->contact),
+                       .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND,
+                       .weight = surface ? 1 : r->contact->scraper.weight,
+                       .moves = given->choice->moves,
+                       .ramp = (int)r->scene->accuracy.gain_ramp,
+                       .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT,
+                       .channels = r->board->channels};
     g->voices = ARENA_TAKE(r->arena, struct ring_voice, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
     if (g->choice->recorded)
@@ -203,7 +229,8 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
 
 /* ------------------------------------------------------------------ a voice at work */
 
-void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where, const struct modes_point *p)
+void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where,
+                   const struct modes_point *p)
 {
     modes_at(v->modes, where, &(struct modes_point){v->frequency, v->decay, p->re, p->im});
     listener_apply(v->listener, v->frequency, v->decay, &(struct modes_point){NULL, NULL, p->re, p->im});

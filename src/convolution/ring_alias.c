@@ -1,10 +1,13 @@
-/* Every force sample f(m) adds C_k f(m) to frames m + k, |k| <= ALIAS_REACH, C_k = sum over components of Im(A_i kappa_i,k) (alias.c), with A and kappa of the contact's
-   place at frame m; of `readout` at frame m + k, where it is heard. That is one filter for all engines: `fixed`, `launch` and their nodes launch each
-   force sample with the response of its own place, and the taps are a part of it; of `glide`, which retunes what rings, a sample's taps are over after 0.3 ms.
+/* Every force sample f(m) adds C_k f(m) to frames m + k, |k| <= ALIAS_REACH, C_k = sum over components of Im(A_i
+   kappa_i,k) (alias.c), with A and kappa of the contact's place at frame m; of `readout` at frame m + k, where it is
+   heard. That is one filter for all engines: `fixed`, `launch` and their nodes launch each force sample with the
+   response of its own place, and the taps are a part of it; of `glide`, which retunes what rings, a sample's taps are
+   over after 0.3 ms.
 
-   C is known every accuracy.gain_ramp frames, as gains are, and linear between. What would be heard before the first frame at which the contact can be heard,
-   that of the voice's delay, is added to that frame, so that nothing is lost at 0 Hz. Pieces and taps stand at fixed frames and are added up in their order: the result does not depend
-   on how the sound is cut into calls. */
+   C is known every accuracy.gain_ramp frames, as gains are, and linear between. What would be heard before the first
+   frame at which the contact can be heard, that of the voice's delay, is added to that frame, so that nothing is lost
+   at 0 Hz. Pieces and taps stand at fixed frames and are added up in their order: the result does not depend on how the
+   sound is cut into calls. */
 #include "convolution/ring_alias.h"
 
 #include <string.h>
@@ -21,13 +24,14 @@ struct known {
 
 struct ring_alias {
     struct alias *fit;
-    bool moves, separate, listens;         /* the taps change on the way; poles do; they are those of the place at which is heard */
+    bool moves, separate; /* the taps change on the way; poles do */
+    bool listens;         /* the taps are those of the place at which is heard */
     long piece;
-    struct modes_point at;                 /* [n] */
+    struct modes_point at;                       /* [n] */
     double (*re)[ALIAS_TAPS], (*im)[ALIAS_TAPS]; /* [n] kappa of poles that stay, where gains move; else [1] */
-    struct known start, end;               /* of the piece at hand; start.frame < 0: there is none */
-    long next;                             /* force frame */
-    double sum[ROOM];                      /* of frames from the call's first on */
+    struct known start, end;                     /* of the piece at hand; start.frame < 0: there is none */
+    long next;                                   /* force frame */
+    double sum[ROOM];                            /* of frames from the call's first on */
 };
 
 /* ------------------------------------------------------------------ taps */
@@ -38,7 +42,8 @@ static void add(const double *restrict re, const double *restrict im, double a, 
         to[k] += a * im[k] + b * re[k];
 }
 
-static void taps_at(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, long frame, struct known *to)
+static void taps_at(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, long frame,
+                    struct known *to)
 {
     bool kept = s->moves && !s->separate;
     *to = (struct known){.frame = frame};
@@ -143,7 +148,8 @@ static double hear(struct ring_alias *s, const struct ring *g, const struct ring
     return sum;
 }
 
-static void listen(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from, long to)
+static void listen(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from,
+                   long to)
 {
     const double *f = ring_force(g, v, from);
     long begin = v->delay;
@@ -153,7 +159,8 @@ static void listen(struct ring_alias *s, const struct ring *g, const struct ring
         y[(n < begin ? begin : n) - from] += hear(s, g, v, f + (n - from), n);
 }
 
-void ring_alias_add(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from, long to)
+void ring_alias_add(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from,
+                    long to)
 {
     const double *f = ring_force(g, v, from);
     if (s->listens) {

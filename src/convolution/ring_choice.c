@@ -1,20 +1,23 @@
-/* What the scene leaves open (surface.moving: auto, surface.convolution: auto) is settled here, where the response has been read.
+/* What the scene leaves open (surface.moving: auto, surface.convolution: auto) is settled here, where the response has
+   been read.
 
-   Reading: poles that are the same everywhere make `fixed`, separate ones `launch`, an object that changes on the way `glide`.
+   Reading: poles that are the same everywhere make `fixed`, separate ones `launch`, an object that changes on the way
+   `glide`.
 
    Engine                                     fixed   glide   launch   readout
    resonators (one exact recursion per mode)   x       x
    launch (resonators at nodes)                                x
    overlap-add (responses at nodes)            o               o        x
 
-   x: where nothing else is asked. o: where surface.convolution says so, or the response is cut (surface.response_length), or begins softly (surface.gammatone) and
-   launches. Recorded responses go by overlap-add, each place's for itself, the force shared between places.
+   x: where nothing else is asked. o: where surface.convolution says so, or the response is cut
+   (surface.response_length), or begins softly (surface.gammatone) and launches. Recorded responses go by overlap-add,
+   each place's for itself, the force shared between places.
 
    How finely a response that moves is followed is one knob, accuracy.gain_ramp, n frames:
 
        resonators    gains and poles are evaluated every n frames, and ramped linearly between
        launch        nodes every 16 sqrt(n) frames, cubic between
-       overlap-add   nodes every 32 sqrt(n) frames, cubic between; a node costs three long FFTs, so that they stand half as dense
+       overlap-add   nodes every 32 sqrt(n) frames, cubic between: half as many, as each costs three long FFTs
 
    A line over n frames errs as n^2, and so does a cubic over c sqrt(n). Hops are whole numbers of 8 frames. */
 #include "convolution/ring_choice.h"
@@ -31,7 +34,7 @@
 #include "scene/rules.h"
 #include "stage.h"
 
-#define COMPUTED_DB 140.0 /* how far a computed response is followed down */
+#define COMPUTED_DB 140.0  /* how far a computed response is followed down */
 #define COMPUTED_MOST 60.0 /* s, and how long */
 
 struct ring_choosing {
@@ -48,7 +51,10 @@ struct ring_choosing {
 static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, struct err *e)
 {
     struct object *o = ARENA_TAKE(c->arena, struct object, 1);
-    struct object_ask what = {.key = arena_format(c->arena, "%s.object", c->key), .low = ask->band[0], .top = ask->band[1], .most = 4 * ask->strongest,
+    struct object_ask what = {.key = arena_format(c->arena, "%s.object", c->key),
+                              .low = ask->band[0],
+                              .top = ask->band[1],
+                              .most = 4 * ask->strongest,
                               .heard = MODES_TOP * ask->rate};
     if (!object_make(&c->given->object, &what, c->arena, o, &c->to->note, e))
         return err_at(e, "contact '%s'", c->contact->name);
@@ -59,18 +65,26 @@ static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, st
 static bool read_modes(struct ring_choosing *c, struct err *e)
 {
     double rate = c->scene->output.sample_rate;
-    struct modes_ask ask = {.strongest = c->given->modes, .band = {c->given->band[0], c->given->band[1]}, .pairing = c->given->pairing, .rate = rate, .shelf = c->scene->shelf};
+    struct modes_ask ask = {.strongest = c->given->modes,
+                            .band = {c->given->band[0], c->given->band[1]},
+                            .pairing = c->given->pairing,
+                            .rate = rate,
+                            .shelf = c->scene->shelf};
     struct modes *m = &c->to->modes;
-    if (c->given->object.given ? !read_object(c, &ask, e)
+    if (c->given->object.given  ? !read_object(c, &ask, e)
         : c->given->space.given ? !space_modes(&c->given->space, &ask, c->arena, m, e)
                                 : !modes_table(c->given->file, &ask, c->arena, m, e))
         return false;
     c->to->note = c->to->note ? c->to->note : m->note;
     c->to->chosen = m->n;
     c->to->high = modes_drop_above(m, rate);
-    return m->n > 0 || err_set(e, ERR_SCENE, "%s: all of its modes in the band lie above %.6g Hz (0.45 times output.sample_rate), and nothing would ring: "
-                                             "raise output.sample_rate, %s", m->name, MODES_TOP * rate,
-                               c->given->object.given ? "or let the key band begin lower" : "or check that frequency_hz is in Hz");
+    return m->n > 0 ||
+           err_set(e, ERR_SCENE,
+                   "%s: all of its modes in the band lie above %.6g Hz (0.45 times output.sample_rate), and nothing "
+                   "would ring: "
+                   "raise output.sample_rate, %s",
+                   m->name, MODES_TOP * rate,
+                   c->given->object.given ? "or let the key band begin lower" : "or check that frequency_hz is in Hz");
 }
 
 /* ------------------------------------------------------------------ readings */
@@ -78,7 +92,8 @@ static bool read_modes(struct ring_choosing *c, struct err *e)
 static bool moves(const struct ring_choosing *c, enum ring_body body)
 {
     const struct modes *m = &c->to->modes;
-    return body == RING_SURFACE && !ablation_one_place(c->contact) && ((m->moves && c->contact->motion.path != PATH_STILL) || m->travels);
+    return body == RING_SURFACE && !ablation_one_place(c->contact) &&
+           ((m->moves && c->contact->motion.path != PATH_STILL) || m->travels);
 }
 
 static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct err *e)
@@ -86,11 +101,17 @@ static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct 
     const struct modes *m = &c->to->modes;
     int asked = body == RING_SURFACE ? c->given->moving : MOVING_AUTO;
     c->to->moves = moves(c, body);
-    c->to->reading = asked != MOVING_AUTO ? asked : m->shared ? MOVING_FIXED : m->travels ? MOVING_GLIDE : MOVING_LAUNCH;
+    c->to->reading = asked != MOVING_AUTO ? asked
+                     : m->shared          ? MOVING_FIXED
+                     : m->travels         ? MOVING_GLIDE
+                                          : MOVING_LAUNCH;
     if (asked == MOVING_FIXED && !m->shared && c->to->moves) {
         err_about(e, c->contact->name, "surface.moving");
-        return err_set(e, ERR_SCENE, "contact '%s': surface.moving: fixed needs poles that are the same everywhere, and those of %s differ from place to "
-                                     "place; leave surface.moving out, or choose launch, glide or readout", c->contact->name, m->name);
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': surface.moving: fixed needs poles that are the same everywhere, and those of %s "
+                       "differ from place to "
+                       "place; leave surface.moving out, or choose launch, glide or readout",
+                       c->contact->name, m->name);
     }
     if (!c->to->moves)
         c->to->reading = MOVING_FIXED;
@@ -101,8 +122,11 @@ static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct 
 
 static bool undamped(const struct ring_choosing *c, int i, struct err *e)
 {
-    return err_set(e, ERR_SCENE, "contact '%s': %s.gammatone: %d: the mode at %.6g Hz of %s has no decay, and a gammatone of it would grow for ever; give it decay, or leave "
-                                 "gammatone out", c->contact->name, c->key, c->to->gamma, c->to->modes.frequency[i], c->to->modes.name);
+    return err_set(e, ERR_SCENE,
+                   "contact '%s': %s.gammatone: %d: the mode at %.6g Hz of %s has no decay, and a gammatone of it "
+                   "would grow for ever; give it decay, or leave "
+                   "gammatone out",
+                   c->contact->name, c->key, c->to->gamma, c->to->modes.frequency[i], c->to->modes.name);
 }
 
 static bool gammatone_fits(const struct ring_choosing *c, struct err *e)
@@ -115,28 +139,58 @@ static bool gammatone_fits(const struct ring_choosing *c, struct err *e)
         if (!(c->to->modes.slowest[i] > 0))
             return undamped(c, i, e);
     if (reading == MOVING_GLIDE)
-        return err_set(e, ERR_SCENE, "contact '%s': surface.gammatone: %d: what glides begins at once%s; set surface.moving to launch or readout, or leave gammatone out", name,
-                       c->to->gamma, c->given->moving == MOVING_AUTO ? " (surface.moving: auto is glide where surface.space travels)" : "");
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': surface.gammatone: %d: what glides begins at once%s; set surface.moving to "
+                       "launch or readout, or leave gammatone out",
+                       name, c->to->gamma,
+                       c->given->moving == MOVING_AUTO ? " (surface.moving: auto is glide where surface.space travels)"
+                                                       : "");
     if (asked == ENGINE_RESONATORS && reading != MOVING_FIXED)
-        return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: resonators cannot do surface.gammatone: %d where poles differ from place to place; choose overlap_add, "
-                                     "or leave surface.convolution out", name, c->to->gamma);
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': surface.convolution: resonators cannot do surface.gammatone: %d where poles "
+                       "differ from place to place; choose overlap_add, "
+                       "or leave surface.convolution out",
+                       name, c->to->gamma);
     return true;
 }
 
 /* ------------------------------------------------------------------ engines */
 
+/* Seconds after the contact's start at which the sound ends, where the scene says so; else HUGE_VAL. */
+static double sound_end(const struct contact *c, const struct scene *s)
+{
+    double end = 0;
+    if (!isnan(s->output.duration))
+        return fmax(s->output.duration - c->start, 0);
+    for (int i = 0; i < s->n_contacts; i++) {
+        double duration = s->contacts[i].motion.duration;
+        end = isnan(duration) ? HUGE_VAL : fmax(end, s->contacts[i].start + duration);
+    }
+    return isnan(s->output.tail) ? HUGE_VAL : end + s->output.tail - c->start;
+}
+
 static bool choose_engine(struct ring_choosing *c, struct err *e)
 {
     static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
     int asked = c->given->convolution, reading = c->to->reading;
-    bool cut = !isnan(c->given->length), overlap = asked == ENGINE_OVERLAP_ADD || cut || (c->to->gamma > 1 && reading == MOVING_LAUNCH) || reading == MOVING_READOUT;
-    if ((reading == MOVING_GLIDE && asked == ENGINE_OVERLAP_ADD) || (reading == MOVING_READOUT && asked == ENGINE_RESONATORS)) {
+    bool cut = !isnan(c->given->length), overlap = asked == ENGINE_OVERLAP_ADD || cut ||
+                                                   (c->to->gamma > 1 && reading == MOVING_LAUNCH) ||
+                                                   reading == MOVING_READOUT;
+    if ((reading == MOVING_GLIDE && asked == ENGINE_OVERLAP_ADD) ||
+        (reading == MOVING_READOUT && asked == ENGINE_RESONATORS)) {
         err_about(e, c->contact->name, "surface.convolution");
-        return err_set(e, ERR_SCENE, "contact '%s': surface.convolution: %s cannot do surface.moving: %s, which goes by %s; leave surface.convolution out", c->contact->name,
-                       asked == ENGINE_OVERLAP_ADD ? "overlap_add" : "resonators", readings[reading], asked == ENGINE_OVERLAP_ADD ? "resonators" : "overlap_add");
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': surface.convolution: %s cannot do surface.moving: %s, which goes by %s; leave "
+                       "surface.convolution out",
+                       c->contact->name, asked == ENGINE_OVERLAP_ADD ? "overlap_add" : "resonators", readings[reading],
+                       asked == ENGINE_OVERLAP_ADD ? "resonators" : "overlap_add");
     }
-    c->to->engine = overlap && reading != MOVING_GLIDE ? RING_OVERLAP_ADD : reading == MOVING_LAUNCH ? RING_LAUNCH : RING_RESONATORS;
-    c->to->seconds = cut ? c->given->length : fmin(modes_ring_time(&c->to->modes, gammatone_decibel(c->to->gamma, COMPUTED_DB)), COMPUTED_MOST);
+    c->to->engine = overlap && reading != MOVING_GLIDE ? RING_OVERLAP_ADD
+                    : reading == MOVING_LAUNCH         ? RING_LAUNCH
+                                                       : RING_RESONATORS;
+    double falls = fmin(modes_ring_time(&c->to->modes, gammatone_decibel(c->to->gamma, COMPUTED_DB)), COMPUTED_MOST);
+    double end = sound_end(c->contact, c->scene) + 2 / c->scene->output.sample_rate;
+    c->to->seconds = fmin(cut ? c->given->length : falls, end);
     return true;
 }
 
@@ -164,7 +218,8 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
     if (!choose_engine(c, e))
         return false;
     const struct output *o = &c->scene->output;
-    double moving = isnan(c->contact->motion.duration) ? 1 : c->contact->motion.duration, ring = isnan(o->tail) ? fmin(modes_ring_time(&c->to->modes, 80), 60) : o->tail;
+    double moving = isnan(c->contact->motion.duration) ? 1 : c->contact->motion.duration,
+           ring = isnan(o->tail) ? fmin(modes_ring_time(&c->to->modes, 80), 60) : o->tail;
     c->to->listening = listener_cost(o, &c->to->modes, c->given->object.origin) / ((moving + ring) * o->sample_rate);
     return true;
 }
@@ -174,20 +229,26 @@ static void choose_recorded(struct ring_choosing *c, enum ring_body body)
     c->to->recorded = true;
     c->to->folder = rules_is_folder(c->given);
     c->to->reading = MOVING_FIXED;
-    c->to->moves = c->to->folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL && !ablation_one_place(c->contact);
+    c->to->moves = c->to->folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL &&
+                   !ablation_one_place(c->contact);
     c->to->engine = RING_OVERLAP_ADD;
     c->to->seconds = isnan(c->given->length) ? 1 : c->given->length;
 }
 
-bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice,
-                      struct err *e)
+bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a,
+                      const struct ring_choice **choice, struct err *e)
 {
     const struct response *given = given_of(c, body);
     *choice = NULL;
     if (!rules_responds(given) || (body == RING_SCRAPER && c->scraper.weight == 0))
         return true;
     struct ring_choice *to = ARENA_TAKE(a, struct ring_choice, 1);
-    struct ring_choosing me = {.contact = c, .scene = s, .given = given, .key = body == RING_SURFACE ? "surface" : ball_tool(c), .arena = a, .to = to};
+    struct ring_choosing me = {.contact = c,
+                               .scene = s,
+                               .given = given,
+                               .key = body == RING_SURFACE ? "surface" : ball_tool(c),
+                               .arena = a,
+                               .to = to};
     *choice = to;
     to->gamma = given->gammatone > 1 ? given->gammatone : 1;
     if (given->file && !rules_is_table(given)) {
@@ -212,7 +273,8 @@ enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body
     return choice ? choice->engine : RING_NONE;
 }
 
-/* ------------------------------------------------------------------ cost: cycles of one core with 256-bit vectors, by tests/bench and whole renders, within a factor of 3 */
+/* ------------------------------------------------------------------ cost: cycles of one core with 256-bit vectors, by
+   tests/bench and whole renders, within a factor of 3 */
 
 #define RESONATOR 0.8         /* a mode and sample, poles fixed                   */
 #define GLIDING 1.2           /* ... poles ramped                                 */
@@ -249,7 +311,8 @@ static double place_work(const struct ring_choice *c, const struct scene *s)
         return 20 + 4 * lanes * RESONATOR + (point + FREED * n) / hop + LAUNCHED * alive(c, rate, hop);
     if (c->engine == RING_OVERLAP_ADD)
         return c->moves ? (TRANSFORM * (length + 4 * hop) + SAMPLED * n * length + point) / hop : recorded_work(length);
-    return 10 + lanes * (ring_choice_glides(c) ? GLIDING : RESONATOR * gammatone_cost(c->gamma)) + (c->moves ? (point + lanes * RAMPED) / s->accuracy.gain_ramp : 0);
+    return 10 + lanes * (ring_choice_glides(c) ? GLIDING : RESONATOR * gammatone_cost(c->gamma)) +
+           (c->moves ? (point + lanes * RAMPED) / s->accuracy.gain_ramp : 0);
 }
 
 static double work_of(const struct contact *c, const struct scene *s, enum ring_body body)

@@ -1,6 +1,7 @@
-/* Responses by fast convolution (overlap_add.h). Recorded: a sound file, or a folder of them recorded at places, between which the force is shared linearly.
-   Modes: each place's response is computed, at nodes along the motion, launched from there (`launch`, `fixed`) or read out at the present place (`readout`).
-   A response of modes is followed for response_length (papers/000 equation 10's t0) or, without, until every mode has decayed by 140 dB. */
+/* Responses by fast convolution (overlap_add.h). Recorded: a sound file, or a folder of them recorded at places,
+   between which the force is shared linearly. Modes: each place's response is computed, at nodes along the motion,
+   launched from there (`launch`, `fixed`) or read out at the present place (`readout`). A response of modes is followed
+   for response_length (papers/000 equation 10's t0) or, without, until every mode has decayed by 140 dB. */
 #include <math.h>
 #include <string.h>
 
@@ -25,13 +26,13 @@ struct overlap_voice { /* of recorded responses the only one */
 
 struct ring_overlap {
     struct ring ring;
-    struct ir_set set;        /* recorded */
+    struct ir_set set; /* recorded */
     struct overlap_voice *voices;
     int n, hop;
-    long first, count;        /* frames that mix[] is of */
-    double *t, *u, *x, *y;    /* [CHUNK] */
-    struct places_mix *mix;   /* [CHUNK] */
-    struct places_mix *one;   /* of the one place that counts; NULL: all do */
+    long first, count;      /* frames that mix[] is of */
+    double *t, *u, *x, *y;  /* [CHUNK] */
+    struct places_mix *mix; /* [CHUNK] */
+    struct places_mix *one; /* of the one place that counts; NULL: all do */
 };
 
 /* ------------------------------------------------------------------ recorded */
@@ -51,7 +52,8 @@ static void locate(struct ring_overlap *s, long first, int n)
             s->mix[i] = *s->one;
             continue;
         }
-        double x = tr->straight ? tr->from[0] + s->u[i] * tr->e[0] : s->x[i], y = tr->straight ? tr->from[1] + s->u[i] * tr->e[1] : s->y[i];
+        double x = tr->straight ? tr->from[0] + s->u[i] * tr->e[0] : s->x[i],
+               y = tr->straight ? tr->from[1] + s->u[i] * tr->e[1] : s->y[i];
         places_at(s->set.places, x, y, &s->mix[i]);
     }
 }
@@ -91,16 +93,20 @@ static bool recorded_inside(const struct ring_overlap *s, const struct stage_run
             trajectory_continued(tr, t, p);
         double out = places_at(s->set.places, p[0], p[1], &mix);
         if (out > 1e-9 && s->set.n > 1)
-            return err_set(e, ERR_SCENE, "contact '%s': %s [%g m, %g m], %.3g m beyond the places of %s: %s; move it, or set surface.extrapolate: nearest",
-                           r->contact->name, s->one && !isnan(r->contact->ablation.place[0]) ? "ablation.place is" : "the motion reaches", p[0], p[1], out, r->contact->surface.response.file,
-                           places_told(s->set.places, r->arena));
+            return err_set(e, ERR_SCENE,
+                           "contact '%s': %s [%g m, %g m], %.3g m beyond the places of %s: %s; move it, or set "
+                           "surface.extrapolate: nearest",
+                           r->contact->name,
+                           s->one && !isnan(r->contact->ablation.place[0]) ? "ablation.place is" : "the motion reaches",
+                           p[0], p[1], out, r->contact->surface.response.file, places_told(s->set.places, r->arena));
     }
     return true;
 }
 
 static bool read_folder(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)
 {
-    if (!ir_set_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->set, e))
+    if (!ir_set_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->set,
+                     e))
         return false;
     s->t = ARENA_TAKE(r->arena, double, CHUNK);
     s->u = ARENA_TAKE(r->arena, double, CHUNK);
@@ -113,16 +119,20 @@ static bool read_folder(struct ring_overlap *s, struct stage_run *r, const struc
         s->one = ARENA_TAKE(r->arena, struct places_mix, 1);
         places_at(s->set.places, first.x, first.y, s->one);
     }
-    return given->extrapolate != EXTRAPOLATE_ERROR || recorded_inside(s, r, e) || err_about(e, r->contact->name, "surface.response");
+    return given->extrapolate != EXTRAPOLATE_ERROR || recorded_inside(s, r, e) ||
+           err_about(e, r->contact->name, "surface.response");
 }
 
 static bool read_file(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)
 {
     const char *dot = strrchr(given->file, '.');
     s->set = (struct ir_set){.n = 1, .ir = ARENA_TAKE(r->arena, struct ir, 1)};
-    if (ir_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->set.ir[0], e))
+    if (ir_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->set.ir[0],
+                e))
         return true;
-    return dot && strcmp(dot, ".wav") == 0 ? false : err_at(e, "a response is a mode table (NAME.csv), a sound file, or a folder of them");
+    return dot && strcmp(dot, ".wav") == 0
+               ? false
+               : err_at(e, "a response is a mode table (NAME.csv), a sound file, or a folder of them");
 }
 
 static bool open_recorded(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)
@@ -136,7 +146,10 @@ static bool open_recorded(struct ring_overlap *s, struct stage_run *r, const str
     r->board->ring = fmax(r->board->ring, (double)length / r->board->rate);
     s->voices = ARENA_TAKE(r->arena, struct overlap_voice, 1);
     s->voices[0] = (struct overlap_voice){.all = s};
-    s->voices[0].stays = overlap_add_open(&(struct overlap_add_source){.n = s->set.n, .length = length, .share = s->mix ? share_places : NULL, .response = response_recorded,
+    s->voices[0].stays = overlap_add_open(&(struct overlap_add_source){.n = s->set.n,
+                                                                       .length = length,
+                                                                       .share = s->mix ? share_places : NULL,
+                                                                       .response = response_recorded,
                                                                        .self = &s->voices[0]});
     s->n = 1;
     return true;
@@ -149,7 +162,8 @@ static void response_modes(void *self, long k, double *h, size_t length)
     struct overlap_voice *v = self;
     const struct ring *g = &v->all->ring;
     ring_point_at(g, v->voice, (double)k * v->all->hop, &v->point);
-    gammatone_sample(g->choice->gamma, g->board->rate, v->sampler, listener_quantity(v->voice->listener), &v->point, h, length);
+    gammatone_sample(g->choice->gamma, g->board->rate, v->sampler, listener_quantity(v->voice->listener), &v->point, h,
+                     length);
 }
 
 static void open_modes(struct ring_overlap *s, struct stage_run *r)
@@ -164,9 +178,12 @@ static void open_modes(struct ring_overlap *s, struct stage_run *r)
         v->sampler = ir_sampler_make(r->arena, v->voice->n, r->board->rate);
         v->point = modes_point_make(r->arena, v->voice->n);
         if (s->ring.moves)
-            v->moves = overlap_add_moving_open(length, s->hop, c->reading == MOVING_READOUT ? OVERLAP_ADD_READOUT : OVERLAP_ADD_LAUNCH, response_modes, v);
+            v->moves = overlap_add_moving_open(length, s->hop,
+                                               c->reading == MOVING_READOUT ? OVERLAP_ADD_READOUT : OVERLAP_ADD_LAUNCH,
+                                               response_modes, v);
         else
-            v->stays = overlap_add_open(&(struct overlap_add_source){.n = 1, .length = length, .response = response_modes, .self = v});
+            v->stays = overlap_add_open(
+                &(struct overlap_add_source){.n = 1, .length = length, .response = response_modes, .self = v});
     }
 }
 
@@ -180,9 +197,11 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
         return false;
     if (!s->ring.choice->recorded)
         open_modes(s, r);
-    else if (!open_recorded(s, r, body == RING_SURFACE ? &r->contact->surface.response : &r->contact->scraper.response, e))
+    else if (!open_recorded(s, r, body == RING_SURFACE ? &r->contact->surface.response : &r->contact->scraper.response,
+                            e))
         return false;
-    int ahead = s->voices[0].stays ? overlap_add_ahead(s->voices[0].stays) : overlap_add_moving_ahead(s->voices[0].moves);
+    int ahead =
+        s->voices[0].stays ? overlap_add_ahead(s->voices[0].stays) : overlap_add_moving_ahead(s->voices[0].moves);
     r->ahead = r->ahead > ahead ? r->ahead : ahead;
     return true;
 }

@@ -1,9 +1,10 @@
-/* The surface's and the scraper's modes as resonators (convolution/resonators.h): exact for poles that do not move (`fixed`), and the definition of
-   `glide` for those that do. Gains and poles are evaluated every accuracy.gain_ramp samples, at multiples of it, and ramped linearly between;
-   a ramp is always run as a whole, so that nothing depends on where blocks end.
+/* The surface's and the scraper's modes as resonators (convolution/resonators.h): exact for poles that do not move
+   (`fixed`), and the definition of `glide` for those that do. Gains and poles are evaluated every accuracy.gain_ramp
+   samples, at multiples of it, and ramped linearly between; a ramp is always run as a whole, so that nothing depends on
+   where blocks end.
 
-   A surface whose poles differ from place to place, every force sample launching the response of its own place (`launch`), by resonators at nodes along the
-   motion (convolution/launch.h). */
+   A surface whose poles differ from place to place, every force sample launching the response of its own place
+   (`launch`), by resonators at nodes along the motion (convolution/launch.h). */
 #include <string.h>
 
 #include "convolution/gammatone.h"
@@ -11,26 +12,31 @@
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
 
-/* Nodes that ring out are dropped when they have fallen by 100 dB where gain_ramp is 64, by 12 dB more for each halving, as the error of the nodes falls. */
+/* Nodes that ring out are dropped when they have fallen by 100 dB where gain_ramp is 64, by 12 dB more for each
+   halving, as the error of the nodes falls. */
 #define FLOOR 2.44e-9
 
 struct bank {
-    struct resonators *bank;  /* or, of a soft onset,                       */
+    struct resonators *bank; /* or, of a soft onset,                       */
     struct gammatone_bank *tones;
-    struct modes_point to;    /* at the ramp's end                          */
-    double *y;                /* [ramp] sound of the present ramp           */
+    struct modes_point to; /* at the ramp's end                          */
+    double *y;             /* [ramp] sound of the present ramp           */
 };
 
 struct ring_bank {
     struct ring ring;
-    struct bank *banks;       /* [channels]                                 */
+    struct bank *banks; /* [channels]                                 */
     int ramp;
-    long ramp_end;            /* frame; the ramp began at ramp_end - ramp   */
+    long ramp_end; /* frame; the ramp began at ramp_end - ramp   */
 };
 
 static void bank_tones(struct bank *b, struct stage_run *r, const struct ring_bank *s, int n)
 {
-    struct gammatone_bank_ask ask = {.n = n, .gamma = s->ring.choice->gamma, .rate = r->board->rate, .frequency = b->to.frequency, .decay = b->to.decay};
+    struct gammatone_bank_ask ask = {.n = n,
+                                     .gamma = s->ring.choice->gamma,
+                                     .rate = r->board->rate,
+                                     .frequency = b->to.frequency,
+                                     .decay = b->to.decay};
     b->tones = gammatone_bank_make(r->arena, &ask);
     gammatone_bank_set(b->tones, &b->to);
 }
@@ -54,8 +60,13 @@ static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
         bank_tones(b, r, s, v->n);
         return;
     }
-    struct resonators_ask ask = {.n = v->n, .quantity = listener_quantity(v->listener), .rate = r->board->rate, .frequency = b->to.frequency,
-                                 .decay = b->to.decay, .glides = ring_choice_glides(s->ring.choice), .ramp = s->ramp};
+    struct resonators_ask ask = {.n = v->n,
+                                 .quantity = listener_quantity(v->listener),
+                                 .rate = r->board->rate,
+                                 .frequency = b->to.frequency,
+                                 .decay = b->to.decay,
+                                 .glides = ring_choice_glides(s->ring.choice),
+                                 .ramp = s->ramp};
     b->bank = resonators_make(r->arena, &ask);
     resonators_set(b->bank, &b->to);
 }
@@ -123,7 +134,7 @@ static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e
 
 /* ------------------------------------------------------------------ launch */
 
-struct launching {              /* one voice */
+struct launching { /* one voice */
     const struct ring *ring;
     const struct ring_voice *voice;
     struct launch *engine;
@@ -131,7 +142,7 @@ struct launching {              /* one voice */
 
 struct ring_launch {
     struct ring ring;
-    struct launching *voices;   /* [channels] */
+    struct launching *voices; /* [channels] */
 };
 
 static void launching_point(void *self, double frame, const struct modes_point *p)
@@ -150,7 +161,10 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
     for (int k = 0; k < s->ring.channels; k++) {
         const struct ring_voice *v = &s->ring.voices[k];
         s->voices[k] = (struct launching){.ring = &s->ring, .voice = v};
-        struct launch_ask ask = {.n = v->n, .rate = r->board->rate, .hop = ring_choice_hop(s->ring.choice, &r->scene->accuracy), .floor = FLOOR * s->ring.ramp * s->ring.ramp,
+        struct launch_ask ask = {.n = v->n,
+                                 .rate = r->board->rate,
+                                 .hop = ring_choice_hop(s->ring.choice, &r->scene->accuracy),
+                                 .floor = FLOOR * s->ring.ramp * s->ring.ramp,
                                  .quantity = listener_quantity(v->listener)};
         s->voices[k].engine = launch_open(&ask, launching_point, &s->voices[k]);
     }
