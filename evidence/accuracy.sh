@@ -90,6 +90,7 @@ The presets aim at 40, 70 and 100 dB; reference is what double precision and the
   acceleration, which is weighed towards high frequencies. Two sub-intervals leave 58 dB by the rehearsals of accuracy.error.
 - **nodal_lines, draft, 32 dB:** oversampling: its limiter has an alpha of 1 cm, so that its force is smoothed over a third of the time that the default of 3 cm gives (with which draft leaves 50 dB), and a ground of
   10 um passes at 20 kHz (of 20 um: 38 dB).
+- **material_space, high, 92 dB:** gain_ramp, whose 16 samples leave 91 dB of a glide whose poles move that fast; 8 leave 99 dB.
 - **marble_drop** is chaotic, see its table.
 
 One sub-interval is what draft is for, so a scene that needs more says so, or asks for its error.
