@@ -21,7 +21,7 @@ linked() {
 }
 
 mapfile -t tests < <(linked | sort -u)
-[ ${#tests[@]} -gt 10 ] || { echo "tests/blas.sh: only ${#tests[@]} tests: is everything built (make unit)?" >&2; exit 1; }
+[ ${#tests[@]} -gt 3 ] || { echo "tests/blas.sh: only ${#tests[@]} tests: is everything built (make unit)?" >&2; exit 1; }
 own=$(OPENBLAS_VERBOSE=2 "$BUILD/rasp-modes" --version 2>&1 | sed -n 's/^Core: //p')
 read -r -a can <<< "$(kernels)"
 case ${KERNELS:-} in

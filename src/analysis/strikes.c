@@ -10,6 +10,7 @@
 #include "analysis/strikes.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "analysis/strikes_level.h"
@@ -22,6 +23,11 @@ static const double edge_share = 0.005;   /* of a pulse's peak: where it begins 
 static const double double_share = 0.2;   /* of the peak: a second pulse */
 static const double apart = 5e-4;         /* s: nearer pulses are one, with what a low-pass makes of its edges */
 static const double shortest = 0.01;      /* s of sound that a strike needs behind it */
+static const double quiet_share = 0.0316; /* of the loudest sound: 30 dB below it a strike is not what the recording is about */
+static const double fewest_steps = 256.0; /* of the file, that a strike is high */
+static const double gap_least = 0.002;    /* s */
+static const double way = 0.02;           /* s, the longest way from force to sound */
+static const double arrival = 0.05;       /* of the greatest step in that time: the sound is there */
 static const double clip_share = 0.9999;  /* of what the file can hold */
 
 enum { BESIDE = 4 }; /* samples to each side of a pulse that are force too: what a converter's low-pass makes of its edges */
@@ -235,18 +241,132 @@ static bool worth_looking(const struct strikes_recording *r, struct err *e)
     return true;
 }
 
-static bool some(const struct finder *f, struct err *e)
+/* Of doubled strikes without force and of those that are much quieter than what else the recording holds the rest of the table would be about something else. */
+static bool choose(struct finder *f, struct err *e)
 {
-    const struct strikes *s = f->s;
-    int clipped = 0;
+    const struct strikes_recording *r = f->r;
+    struct strikes *s = f->s;
+    int clipped = 0, quiet = 0, used = 0;
+    long soon = (long)(0.05 * r->rate);
+    double loudest = greatest(r->sound, 0, r->n);
     if (s->n == 0)
         return err_set(e, ERR_SCENE, "%s: no strike is found: nothing in its %s rises %g dB above the noise at once; a lower --strike-threshold finds softer ones, "
-                       "and a recording that is an impulse response already wants --impulse", f->r->name, f->r->force ? "force" : "sound", f->o->threshold);
+                       "and a recording that is an impulse response already wants --impulse", r->name, r->force ? "force" : "sound", f->o->threshold);
+    for (int k = 0; k < s->n; k++) {
+        struct strikes_one *v = &s->strike[k];
+        v->left_out = v->clipped ? "clipped" : greatest(r->sound, v->onset, v->onset + soon < v->end ? v->onset + soon : v->end) < quiet_share * loudest ? "too quiet" : v->doubled && !r->force ? "doubled" : NULL;
+        clipped += v->clipped;
+        quiet += v->left_out && !strcmp(v->left_out, "too quiet");
+        used += !v->left_out;
+    }
+    for (int k = 0; k < s->n && !used; k++) /* of doubled ones alone all */
+        if (!strcmp(s->strike[k].left_out, "doubled"))
+            s->strike[k].left_out = NULL;
     for (int k = 0; k < s->n; k++)
-        clipped += s->strike[k].clipped;
-    return clipped < s->n || err_set(e, ERR_SCENE, "%s: %s clipped: no strike keeps below what the file can hold; record it again at a lower level", f->r->name,
-                                     s->n == 1 ? "the only strike is" : arena_format(f->a, "all %d strikes are", s->n));
+        used += !s->strike[k].left_out;
+    if (!used && clipped == s->n)
+        return err_set(e, ERR_SCENE, "%s: %s clipped: no strike keeps below what the file can hold; record it again at a lower level", r->name,
+                       s->n == 1 ? "the only strike is" : arena_format(f->a, "all %d strikes are", s->n));
+    if (quiet)
+        note(f, arena_format(f->a, "%d of %d strikes are more than 30 dB quieter than the loudest sound of the recording, and are left out", quiet, s->n));
+    return used || err_set(e, ERR_SCENE, "%s: no strike can be used: %d of %d are clipped, the others more than 30 dB quieter than the loudest sound of the recording; cut that out", r->name,
+                           clipped, s->n);
 }
+
+/* Enough of the file's steps to tell a mode from their rounding, which follows the sound where that is faint. */
+static bool fine_enough(const struct finder *f, struct err *e)
+{
+    const struct strikes_recording *r = f->r;
+    double peak = 0.0, steps;
+    for (int k = 0; k < f->s->n; k++)
+        peak = fmax(peak, f->s->strike[k].left_out ? 0.0 : greatest(r->sound, f->s->strike[k].onset, f->s->strike[k].end));
+    steps = r->rounding > 0.0 ? peak / (r->rounding * sqrt(12.0)) : HUGE_VAL;
+    return steps >= fewest_steps || err_set(e, ERR_SCENE, "%s: the loudest strike is only %.0f of the file's steps high (%.0f are needed): what they round away would be taken for modes; "
+                                            "record it with more bits, or louder", r->name, steps, fewest_steps);
+}
+
+/* A run of one value where the sound rings is a gap: a lost block, or a gate. */
+static bool no_gap(const struct finder *f, struct err *e)
+{
+    const struct strikes_recording *r = f->r;
+    long least = (long)(gap_least * r->rate);
+    for (int k = 0; k < f->s->n; k++) {
+        const struct strikes_one *v = &f->s->strike[k];
+        for (long i = v->over + 1, run = 1; i < v->end && !v->left_out; i++) {
+            run = r->sound[i] == r->sound[i - 1] ? run + 1 : 1;
+            if (run < least)
+                continue;
+            long from = i - run + 1, to = i;
+            while (to < v->end && r->sound[to] == r->sound[i])
+                to++;
+            double before = greatest(r->sound, from - least > v->over ? from - least : v->over, from), after = greatest(r->sound, to, to + least < v->end ? to + least : v->end);
+            if (before > fmax(20.0 * r->rounding, 0.0) && after > fmax(20.0 * r->rounding, 0.0))
+                return err_set(e, ERR_SCENE, "%s: from %.4g s on the sound stands still for %.3g ms while the object rings: the recording has a gap; record it again", r->name,
+                               (double)from / r->rate, 1e3 * (double)(to - from) / r->rate);
+            i = to;
+            run = 1;
+        }
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ length, delay */
+
+static int rising(const void *x, const void *y)
+{
+    double p = *(const double *)x, q = *(const double *)y;
+    return (p > q) - (p < q);
+}
+
+double strikes_ringing(const struct strikes_recording *r, const struct strikes *s, struct arena *a)
+{
+    double *steps = ARENA_TAKE(a, double, r->n), longest = 0.0;
+    for (long i = 1; i < r->n; i++)
+        steps[i] = r->sound[i] - r->sound[i - 1];
+    const double *of[2] = {r->sound, steps}; /* the sound's low modes, its high ones */
+    for (int q = 0; q < 2; q++) {
+        struct strikes_level l = strikes_level(of[q], r->n, r->rate, 0.01, a);
+        double *sorted = ARENA_TAKE(a, double, l.n + 1);
+        memcpy(sorted, l.rms, (size_t)l.n * sizeof *sorted);
+        qsort(sorted, (size_t)l.n, sizeof *sorted, rising);
+        double floor = 1.5 * fmax(sorted[l.n / 5], r->rounding); /* rumble comes and goes: not the quietest moment, and 50 ms together */
+        for (int k = 0; k < s->n; k++) {
+            long first = s->strike[k].onset / l.frame, end = s->strike[k].end / l.frame, last = first;
+            double peak = greatest(l.rms, first, end), power = HUGE_VAL;
+            for (; last + 5 <= end && power > floor * floor; last++) {
+                power = 0.0;
+                for (long i = last; i < last + 5; i++)
+                    power += 0.2 * l.rms[i] * l.rms[i];
+            }
+            last = power > floor * floor ? end : last;
+            double range = peak > floor ? 20.0 * real_log10(peak / floor) : 0.0, more = 1.0 + 20.0 / fmax(range, 13.0);
+            if (!s->strike[k].left_out)
+                longest = fmax(longest, more * (double)((last - first) * l.frame) / r->rate);
+        }
+    }
+    return fmax(longest, 0.25);
+}
+
+double strikes_delay(const struct strikes_recording *r, const struct strikes *s, struct arena *a)
+{
+    double *delay = ARENA_TAKE(a, double, s->n + 1);
+    int n = 0;
+    for (int k = 0; k < s->n; k++) {
+        const struct strikes_one *v = &s->strike[k];
+        long most = (long)(way * r->rate), to = v->onset + most < v->end ? v->onset + most : v->end, i = v->onset + 1;
+        double loudest = 0.0;
+        for (long j = i; j < to; j++)
+            loudest = fmax(loudest, fabs(r->sound[j] - r->sound[j - 1]));
+        while (i < to && fabs(r->sound[i] - r->sound[i - 1]) < arrival * loudest)
+            i++;
+        if (!v->left_out && i < to)
+            delay[n++] = (double)(i - v->onset - BESIDE) / r->rate;
+    }
+    qsort(delay, (size_t)n, sizeof *delay, rising);
+    return n ? fmax(delay[n / 2], 0.0) : 0.0;
+}
+
+/* ------------------------------------------------------------------ all */
 
 bool strikes_find(const struct strikes_recording *r, const struct strikes_options *o, struct arena *a, struct strikes *s, struct err *e)
 {
@@ -261,5 +381,5 @@ bool strikes_find(const struct strikes_recording *r, const struct strikes_option
         by_sound(&f);
     }
     ends(&f);
-    return some(&f, e);
+    return choose(&f, e) && fine_enough(&f, e) && no_gap(&f, e);
 }

@@ -48,8 +48,8 @@ static const struct action actions[] = {
      {"output", "force", "shape", "order", "estimate", "unit", "material", "youngs-modulus", "poisson", "density", "alpha", "beta", "loss", "clamp", "support", "modes", "top", "face",
       "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, modes_elsewhere_compute},
     {"extract", "RECORDING...", 1, -1,
-     {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "radius", "distance", "delay", "impulse", "modes", "low", "high", "method",
-      "slopes", "regularisation", "strike-threshold", "response", "resynthesis", "residual", "plot", "json", "quiet"}, modes_elsewhere_run},
+     {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "radius", "distance", "delay", "impulse", "modes", "low", "high", "fastest", "method",
+      "strike-threshold", "strikes", "resynthesis", "residual", "plot", "json", "quiet"}, modes_elsewhere_run},
     {"list", "one FILE: a mode table (.csv), RECIPE or SCENE", 1, 1, {"at", "modes", "top", "body", "set", "seed"}, modes_list_run},
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
@@ -101,7 +101,7 @@ static const struct args_option options[] = {
     {"load", 0, "MASS", false, "object: a mass that rests where the object is touched and lowers its frequencies: a table of separate poles"},
     {"modes", 0, "N", false, "how many modes, the strongest, of compute the lowest; default: object all below --top, compute 100, extract 50, list 20"},
     {"channel", 0, "N", false, "extract: the channel that holds the sound, from 1 (default 1)"},
-    {"force-channel", 0, "N", false, "extract: the channel that holds the hammer's force, which is divided out"},
+    {"force-channel", 0, "N", false, "extract: the channel that holds the hammer's force"},
     {"scale", 0, "NUMBER", false, "extract: what full scale (floating point: 1) of the sound's channel stands for, in m, m/s, m/s^2 or Pa"},
     {"force-scale", 0, "NEWTONS", false, "extract: what full scale (floating point: 1) of the force's channel stands for"},
     {"radius", 0, "LENGTH", false, "extract: of a sphere of the object's size; with --distance a microphone's pressure is turned into the surface's velocity"},
@@ -109,14 +109,13 @@ static const struct args_option options[] = {
     {"delay", 0, "TIME", false, "extract: by which the sound's channel comes after the force's; default: of pressure, and with --impulse behind silence, found in the response, else 0"},
     {"impulse", 0, NULL, false, "extract: the recordings are impulse responses already, sample 0 at the strike"},
     {"low", 0, "FREQUENCY", false, "extract: modes are looked for from here on; default: where the sound stands out of the noise"},
-    {"high", 0, "FREQUENCY", false, "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest"},
+    {"high", 0, "FREQUENCY", false, "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest power"},
+    {"fastest", 0, "RATE", false, "extract: the fastest decay that is taken for a mode, in 1/s; default: a fiftieth of the sample rate"},
     {"method", 0, "esprit|spectrogram", false, "extract: spectrogram takes the peaks of the power spectrogram; default: esprit"},
-    {"slopes", 0, NULL, false, "extract: a mode may decay with two slopes (method esprit)"},
-    {"regularisation", 0, "SHARE", false, "extract: added to the force's power where it is divided out, as a share of its greatest; default: that of its noise, at least 1e-6"},
     {"strike-threshold", 0, "DECIBEL", false, "extract: by how much a strike must rise above the noise (default 20)"},
-    {"response", 0, "FILE.wav", false, "extract: writes the impulse response, one channel for each place"},
-    {"resynthesis", 0, "FILE.wav", false, "extract: writes what the modes make of it"},
-    {"residual", 0, "FILE.wav", false, "extract: writes what is left of it"},
+    {"strikes", 0, "LIST", false, "extract: only these strikes are fitted, as 1,3,5-7; of the others the report says what the modes explain"},
+    {"resynthesis", 0, "FILE.wav", false, "extract: writes what the modes make of the recording, one channel for each place"},
+    {"residual", 0, "FILE.wav", false, "extract: writes what they leave of it"},
     {"plot", 0, "FILE", false, "extract: draws spectrum, modes, levels and decays of the first place, as .png or .svg"},
     {"json", 0, NULL, false, "extract: the report as JSON"},
     {"top", 0, "FREQUENCY", false, "modes of an object above are left out (default 20 kHz)"},
@@ -144,13 +143,15 @@ const struct command modes_command = {
             "--origin where the solid lies in the scene. Without --line, --circle, --grid, --at or --points they are a grid over what is seen (rings if round), a line along what is slender. "
             "A table that was made from the same inputs and has not been changed since is left as it is.\n"
             "rasp modes extract RECORDING... -o FILE.csv: the modes of a real object from recordings in which it is struck. RECORDING is a sound file of any kind that libsndfile "
-            "reads, with one strike or many on one place. The strikes are found; where a channel holds the hammer's force (--force-channel) it is divided out; and the strongest "
-            "modes are fitted to the response that all strikes have in common: no more of them than --modes, fitted by themselves in the end, and none that stands out of the noise and of what "
-            "the strikes do not agree on by no more than chance; a warning names those that had not settled. A second of silence before the first strike tells the noise, pauses in which the object rings out "
-            "tell slow decays, and strikes that clip are left out. Without a force channel a second hit 5 to 100 ms after the first is mostly not seen, and the table holds "
+            "reads, with one strike or many on one place. The strikes are found, and the "
+            "recording itself is fitted: every strike has gains of its own, frequencies and decays are those of all. A hammer's force (--force-channel) drives the modes, else a strike is an impulse. "
+            "No mode is told that noise might have made; two decays of one frequency are told. A second of silence before "
+            "the first strike tells noise and hums. Strikes that clip or are 30 dB quieter than the loudest sound are left out; "
+            "what modes explain less than half of is refused. "
+            "Without a force channel a second hit 5 to 100 ms after the first is mostly not seen, and the table holds "
             "the spectrum of both: listen, and cut such strikes out. Several places are FILE@X,Y each, or one folder with index.csv (columns file_name,x_m,y_m): they share frequencies and decays. The sound is taken for a microphone's pressure unless --quantity says what else it is. Without a force each place has a level and an onset of its own, so that places cannot be compared with each other. Levels are physical where --scale and "
-            "--force-scale are given and the sound is a vibration, or a pressure with --radius and --distance; else they are relative, and the table says so and why. Standard "
-            "errors stand in the report and in the table's comments. The report's median decay counts all modes alike, its median by energy is the decay that half of the energy decays no faster than: the "
+            "--force-scale are given and the sound is a vibration, or a pressure with --radius and --distance; else they are relative, and the table says so and why. Errors "
+            "stand in the report and in the table's comments: se, by noise, and se_between, the standard deviation from strike to strike. The report's median decay counts all modes alike, its median by energy is the decay that half of the energy decays no faster than: the "
             "one to compare materials by.\n"
             "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over "
             "its places, of an object over a grid of places, or at one place with --at).",

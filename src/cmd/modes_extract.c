@@ -7,42 +7,42 @@
 #include "file/wav.h"
 #include "output/picture.h"
 
+enum { RESYNTHESIS, RESIDUAL, SOUNDS };
+
 struct outputs {
     struct outfile table, picture;
-    struct wav_out *wav[3];
+    struct wav_out *wav[SOUNDS];
     bool has_table, has_picture;
 };
 
-enum { RESPONSE, RESYNTHESIS, RESIDUAL };
-
-static const double *part(const struct modes_extract *x, int what, int place)
-{
-    const struct modes_extract_place *p = &x->place[place];
-    return what == RESPONSE ? p->response.h : what == RESYNTHESIS ? p->sound : p->rest;
-}
-
-/* One channel for each place; floating point, the response's own unit. */
+/* One channel for each place, as long as the longest recording: what the modes make of it, or what they leave. */
 static bool sound(const struct modes_extract *x, const char *file, int what, struct wav_out **w, struct err *e)
 {
     struct wav_format f = {.rate = x->rate, .channels = x->n, .bits = -32, .comment = "rasp: by rasp modes extract"};
+    long length = 0;
     if (!file)
         return true;
+    for (int k = 0; k < x->n; k++)
+        length = x->place[k].recording.n > length ? x->place[k].recording.n : length;
     *w = wav_create(file, &f, e);
     if (!*w)
         return false;
-    double *frames = ARENA_TAKE(x->arena, double, x->length * x->n);
+    double *frames = ARENA_TAKE(x->arena, double, length * x->n);
     for (int k = 0; k < x->n; k++)
-        for (long i = 0; i < x->length; i++)
-            frames[i * x->n + k] = part(x, what, k)[i];
-    return wav_write(*w, frames, (size_t)x->length, e) && wav_settle(*w, e);
+        for (long i = 0; what == RESIDUAL && i < x->place[k].recording.n; i++)
+            frames[i * x->n + k] = x->place[k].recording.sound[i];
+    for (int s = 0; s < x->data.stretches; s++)
+        for (long i = 0; i < x->data.stretch[s].n; i++)
+            frames[(x->data.stretch[s].first + i) * x->n + x->data.stretch[s].place] += (what == RESIDUAL ? -1.0 : 1.0) * x->found.model[s][i];
+    return wav_write(*w, frames, (size_t)length, e) && wav_settle(*w, e);
 }
 
 /* Can the outputs be made at all? Asked before the work. */
 static bool possible(const struct modes_extract *x, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
-    const char *const to[] = {g->output, g->residual, g->resynthesis, g->response, g->plot};
-    for (int k = 0; k < 5; k++) {
+    const char *const to[] = {g->output, g->residual, g->resynthesis, g->plot};
+    for (int k = 0; k < 4; k++) {
         struct outfile o;
         if (to[k] && !outfile_open_fd(&o, to[k], e))
             return false;
@@ -61,8 +61,7 @@ static bool prepare(struct modes_extract *x, struct outputs *o, struct err *e)
     modes_extract_write(o->table.stream, x);
     if (!outfile_settle(&o->table, e))
         return false;
-    if (!sound(x, g->response, RESPONSE, &o->wav[RESPONSE], e) || !sound(x, g->resynthesis, RESYNTHESIS, &o->wav[RESYNTHESIS], e) ||
-        !sound(x, g->residual, RESIDUAL, &o->wav[RESIDUAL], e))
+    if (!sound(x, g->resynthesis, RESYNTHESIS, &o->wav[RESYNTHESIS], e) || !sound(x, g->residual, RESIDUAL, &o->wav[RESIDUAL], e))
         return false;
     o->has_picture = g->plot && picture_draw(&o->picture, g->plot, g->svg, modes_extract_plot, x, e);
     return !g->plot || (o->has_picture && outfile_settle(&o->picture, e));
@@ -70,7 +69,7 @@ static bool prepare(struct modes_extract *x, struct outputs *o, struct err *e)
 
 static bool commit_all(struct outputs *o, struct err *e)
 {
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < SOUNDS; k++)
         if (o->wav[k]) {
             bool done = wav_commit(o->wav[k], e);
             o->wav[k] = NULL;
@@ -90,7 +89,7 @@ static bool commit(struct outputs *o, struct err *e)
 
 static void drop(struct outputs *o)
 {
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < SOUNDS; k++)
         if (o->wav[k])
             wav_drop(o->wav[k]);
     if (o->has_picture)

@@ -1,7 +1,7 @@
 /* Parts of `rasp modes extract`: options, reading, finding, table, report, picture. */
 #ifndef CMD_MODES_EXTRACT_H
 #define CMD_MODES_EXTRACT_H
-#include "analysis/ringing.h"
+#include "analysis/modal.h"
 #include "analysis/spectral_distance.h"
 #include "analysis/strikes.h"
 #include "base/hash.h"
@@ -9,7 +9,7 @@
 #include "cmd/modes.h"
 #include "output/gnuplot.h"
 
-enum { MODES_EXTRACT_NOTES = 64 };
+enum { MODES_EXTRACT_NOTES = 64, MODES_EXTRACT_STRIKES = 250 };
 
 struct modes_extract_given {
     long channel, force_channel;   /* from 1; force 0: none */
@@ -17,11 +17,12 @@ struct modes_extract_given {
     int quantity;                  /* enum modes_quantity of the sound's channel */
     double radius, distance;       /* m; NAN: not given */
     double delay;                  /* s; NAN: to be found */
-    bool impulse, spectrogram, slopes;
-    double regularisation;         /* NAN: by the force's noise */
+    bool impulse, spectrogram;
+    const char *only;              /* strikes that are fitted, as 1,3,5-7; NULL: all that can be */
     double low, high;              /* Hz; NAN: by the band */
+    double fastest;                /* 1/s; NAN: by the rate */
     struct strikes_options strikes;
-    const char *output, *residual, *resynthesis, *response, *plot; /* files; NULL: not wanted */
+    const char *output, *residual, *resynthesis, *plot; /* files; NULL: not wanted */
     bool svg;
 };
 
@@ -34,9 +35,20 @@ struct modes_extract_place {
     int channels, bits;
     struct strikes_recording recording;
     struct strikes strikes;
-    struct strikes_response response;
-    struct spectral_distance distance; /* from the response to its modes' sound */
-    double *sound, *rest;          /* [n] what the modes make, and what is left */
+    double delay;                  /* s, by which the sound comes after the force */
+    double low, high;              /* Hz, the force's reach */
+    int first, stretches;          /* of x->data */
+    double explained;              /* share of the energy of the strikes that are fitted */
+    double predicted;              /* ... of those that are not; NAN: there are none */
+    struct spectral_distance distance; /* from a strike to what its modes make of it: of those that are predicted the loudest, else of those that are fitted */
+    int shown_stretch;             /* which one that is */
+    double noise;                  /* rms */
+};
+
+struct modes_extract_mode {        /* h(t) = Im A e^(s t) per N s at every place, t from the strike; without force of a strike whose sound's peak is 1 */
+    double frequency, decay, frequency_se, decay_se, frequency_between, decay_between, share;
+    double *re, *im, *gain_se;     /* [places] */
+    int mode, slope;
 };
 
 struct modes_extract {
@@ -47,20 +59,23 @@ struct modes_extract {
     struct modes_extract_place *place; /* [n] */
     const char *index;             /* the folder's index.csv; NULL */
     double rate, low, high;        /* Hz; the band that is searched */
-    long length;                   /* samples of each response */
-    long skip;                     /* samples before the first that is fitted */
-    struct ringing_modes modes;    /* with A at t = 0, of the table's quantity */
-    struct ringing_modes heard;    /* of the sound's channel */
+    struct modal_data data;
+    struct modal_result found;
+    int components, modes;
+    struct modes_extract_mode *heard; /* [components] of the sound's channel */
+    struct modes_extract_mode *mode;  /* of the table's quantity */
     int quantity;                  /* of the table */
     bool physical;
     const char *why_not;           /* what lacks for a physical level; NULL */
     const char *note[MODES_EXTRACT_NOTES];
     int notes;
     double median_decay;           /* 1/s, of all components alike */
-    double median_by_energy;       /* 1/s, that half of the energy of all components, at all places, decays no faster than */
+    double median_by_energy;       /* 1/s, that half of the energy of all components decays no faster than; of decays up to 300/s */
 };
 
 void modes_extract_find_note(struct modes_extract *x, const char *text);
+/* Share of a strike's energy that the modes explain; NAN: it is no part of the fit's data. */
+double modes_extract_find_explained(const struct modes_extract *x, const struct modes_extract_place *p, int strike);
 bool modes_extract_options(struct modes_extract *x, struct err *e);
 
 /* Operands to places, with their samples. */

@@ -1,14 +1,25 @@
-/* From recordings to modes: responses, one length and band for all places, the fit, and what it explains.
+/* From recordings to modes: strikes, the stretches that are fitted, the fit, and what it explains.
 
-   A response's first samples are smeared (strikes_response.h), and sample 0 of a sampled response is half of h(0+): the fit begins `skip` samples later, and each mode's
-   complex gain is taken back to t = 0 by e^(-s t). */
+   With a force a stretch begins just before its strike, and what rings on from earlier strikes is carried into it (analysis/modal_fit.h). Without one it begins a
+   millisecond after the strike, when a hard hammer has left, and has gains of its own, which are taken back to the strike by e^(-s t). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/modal_complex.h"
 #include "analysis/strikes_channel.h"
 #include "cmd/modes_extract.h"
+#include "num/fft.h"
 #include "num/real.h"
+
+static const double before = 4e-4;        /* s of a stretch before its force */
+static const double past = 1e-3;          /* s after a strike without force: the hammer has left */
+static const double shortest = 0.01;      /* s of sound that a stretch needs */
+static const double lead_least = 0.05;    /* s of silence before the first strike that tell the noise */
+static const double reach = 1e-4;         /* of the force's greatest power: what lies below is noise */
+static const double half = 0.5;           /* of the energy: a table that explains less is none */
+static const double fastest = 0.02;       /* of the rate: a decay that is gone in 50 samples is no mode unless one asks for it */
+static const double slow = 300.0;         /* 1/s, of decays that the median by energy is about */
 
 void modes_extract_find_note(struct modes_extract *x, const char *text)
 {
@@ -28,19 +39,19 @@ static void place_note(struct modes_extract *x, const struct modes_extract_place
         modes_extract_find_note(x, arena_format(x->arena, "%s: %.*s", p->name, (int)strcspn(line, "\n"), line));
 }
 
-/* ------------------------------------------------------------------ responses */
+/* ------------------------------------------------------------------ strikes */
 
 /* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins there, if all before is fainter. One more stays, as sample 0. */
 static long begins(const double *h, long n, double most)
 {
-    long at = 0, start, before = 0;
+    long at = 0, start, quiet = 0;
     while (at < n && fabs(h[at]) < 0.2 * most)
         at++;
     for (start = at; start > 0 && fabs(h[start - 1]) >= 0.01 * most;)
         start--;
-    while (before < start && fabs(h[before]) < 0.01 * most)
-        before++;
-    return before == start && start > 2 && at - start <= 16 ? start - 1 : 0;
+    while (quiet < start && fabs(h[quiet]) < 0.01 * most)
+        quiet++;
+    return quiet == start && start > 2 && at - start <= 16 ? start - 1 : 0;
 }
 
 /* A recording that is a response already: its delay is taken off; if none is given, what is silent before it. */
@@ -63,150 +74,267 @@ static bool impulse(struct modes_extract *x, struct modes_extract_place *p, stru
     strikes_channel_clip(r->sound, r->n, clip);
     if (most >= 0.9999 * r->full || clip[0] < 0.0 || clip[1] > 0.0)
         place_note(x, p, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
-    p->response = (struct strikes_response){.n = r->n - shift, .length = r->n - shift, .high = 0.5 * r->rate, .delay = (double)shift / r->rate, .smear = 1.0 / r->rate,
-                                            .rounding = r->rounding};
-    p->response.h = ARENA_TAKE(x->arena, double, p->response.n);
-    memcpy(p->response.h, r->sound + shift, (size_t)p->response.n * sizeof *r->sound);
+    p->delay = (double)shift / r->rate;
+    p->strikes = (struct strikes){.n = 1, .strike = ARENA_TAKE(x->arena, struct strikes_one, 1), .sign = 1.0};
+    p->strikes.strike[0] = (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
     return true;
 }
 
-/* Of what a strike together hold: how far do they agree? */
-static void agreement(struct modes_extract *x, const struct modes_extract_place *p)
+/* --strikes 1,3,5-7 */
+static bool chosen(const struct modes_extract *x, int strike, int strikes, bool *yes, struct err *e)
 {
-    double sum = 0.0, n = 0.0;
-    for (int k = 0; k < p->strikes.n; k++)
-        if (!isnan(p->response.explained[k])) {
-            sum += p->response.explained[k];
-            n++;
+    const char *text = x->given.only;
+    *yes = !text;
+    while (text && *text) {
+        char *end;
+        long from = strtol(text, &end, 10), to = from;
+        if (end != text && *end == '-') {
+            text = end + 1;
+            to = strtol(text, &end, 10);
         }
-    if (n > 1.0 && sum / n < 0.5)
-        place_note(x, p, arena_format(x->arena, "the strikes have little in common (the common response explains %.0f %% of their sound): did they fall on one place, and did the "
-                                                "microphone stay? Gains are a mean of what differs; frequencies and decays suffer less", 100.0 * sum / n));
+        if (end == text || (*end && *end != ',') || from < 1 || to < from)
+            return err_set(e, ERR_USAGE, "--strikes: '%s' is not of the form 1,3,5-7", x->given.only);
+        if (to > strikes)
+            return err_set(e, ERR_USAGE, "--strikes: '%s': there are %d strikes", x->given.only, strikes);
+        *yes = *yes || (strike + 1 >= from && strike + 1 <= to);
+        text = *end ? end + 1 : end;
+    }
+    return true;
 }
 
-static bool response(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
+static bool strikes(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
 {
+    int left = 0;
     if (x->given.impulse)
         return impulse(x, p, e);
     place_note(x, p, strikes_channel_prepare(&p->recording, x->arena));
-    if (!strikes_find(&p->recording, &x->given.strikes, x->arena, &p->strikes, e) ||
-        !strikes_response(&p->recording, &p->strikes, x->given.regularisation, x->arena, &p->response, e))
+    if (!strikes_find(&p->recording, &x->given.strikes, x->arena, &p->strikes, e))
         return false;
     place_note(x, p, p->strikes.note);
-    place_note(x, p, p->response.note);
-    agreement(x, p);
+    for (int k = 0; k < p->strikes.n; k++) {
+        bool yes;
+        if (!chosen(x, k, p->strikes.n, &yes, e))
+            return false;
+        if (!yes && !p->strikes.strike[k].left_out)
+            p->strikes.strike[k].left_out = "not in --strikes";
+        left += !p->strikes.strike[k].left_out;
+    }
+    if (!left)
+        return err_set(e, ERR_SCENE, "%s: --strikes %s leaves no strike that can be fitted", p->shown, x->given.only);
+    p->delay = !p->recording.force ? 0.0 : !isnan(x->given.delay) ? x->given.delay : strikes_delay(&p->recording, &p->strikes, x->arena);
     return true;
 }
 
-/* One length, band and beginning of the fit for all. */
-static bool common(struct modes_extract *x, struct err *e)
+/* ------------------------------------------------------------------ stretches */
+
+static int room(const struct modes_extract *x)
+{
+    int n = 0;
+    for (int k = 0; k < x->n; k++)
+        n += x->place[k].strikes.n + 1;
+    return n;
+}
+
+static void add(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p, struct modal_stretch s, long end)
+{
+    const struct strikes_recording *r = &p->recording;
+    s.n = modal_length((end < r->n ? end : r->n) - s.first);
+    s.y = r->sound + s.first;
+    s.place = (int)(p - x->place);
+    if ((double)s.n < shortest * r->rate)
+        return;
+    if (p->stretches++ == 0)
+        p->first = x->data.stretches;
+    list[x->data.stretches++] = s;
+}
+
+/* The force of a strike as late as the sound comes; without a channel for it a unit impulse at that sample. */
+static struct modal_pulse pulse(struct modes_extract *x, const struct modes_extract_place *p, int strike, long at)
+{
+    const struct strikes_one *v = &p->strikes.strike[strike];
+    long n = p->recording.force ? v->over - v->onset : 1;
+    double *f = ARENA_TAKE(x->arena, double, n);
+    f[0] = 1.0;
+    for (long i = 0; p->recording.force && i < n; i++)
+        f[i] = p->strikes.sign * p->recording.force[v->onset + i] - v->base;
+    return (struct modal_pulse){at, n, f};
+}
+
+static void place_stretches(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p)
+{
+    const struct strikes *s = &p->strikes;
+    const struct strikes_recording *r = &p->recording;
+    bool force = r->force != NULL;
+    long late = (long)rint(p->delay * x->rate), early = (long)ceil(before * x->rate), longest = (long)(strikes_ringing(r, s, x->arena) * x->rate);
+    if (!x->given.impulse && s->strike[0].onset - early > (long)(lead_least * x->rate))
+        add(x, list, p, (struct modal_stretch){.group = x->data.groups++, .strike = -1}, s->strike[0].onset - early);
+    for (int k = 0; k < s->n; k++) {
+        const struct strikes_one *v = &s->strike[k];
+        struct modal_stretch st = {.first = v->onset + (x->given.impulse ? 1 : force ? late - early : (long)(past * x->rate)), .group = x->data.groups++, .strike = k, .fitted = !v->left_out};
+        long end = k + 1 < s->n ? s->strike[k + 1].onset + (force ? late - early : -early) : r->n, most = st.first + longest;
+        st.first = st.first > 0 ? st.first : 0;
+        st.ringing = force ? v->over + late - st.first : 0;
+        st.pulse = pulse(x, p, k, force ? v->onset + late : x->given.impulse ? v->onset : st.first);
+        add(x, list, p, st, end < most ? end : most);
+    }
+}
+
+/* Where the force of the strikes that are fitted holds something, Hz. */
+static void band_of_force(struct modes_extract *x, struct modes_extract_place *p)
+{
+    struct arena *a = arena_open();
+    long n = (long)fft_good_size((size_t)(0.1 * x->rate)), half_n = n / 2;
+    double *power = ARENA_TAKE(a, double, half_n + 1), *re = ARENA_TAKE(a, double, half_n + 1), *im = ARENA_TAKE(a, double, half_n + 1), *f = ARENA_TAKE(a, double, n), most = 0.0;
+    struct fft *fft = fft_open((size_t)n);
+    p->low = 0.0;
+    p->high = 0.49 * x->rate;
+    for (int s = p->first; p->recording.force && s < p->first + p->stretches; s++) {
+        const struct modal_stretch *st = &x->data.stretch[s];
+        if (!st->fitted || st->strike < 0)
+            continue;
+        const struct modal_pulse *q = &st->pulse;
+        memset(f, 0, (size_t)n * sizeof *f);
+        memcpy(f, q->f, (size_t)(q->n < n ? q->n : n) * sizeof *f);
+        fft_forward(fft, f, re, im);
+        for (long k = 0; k <= half_n; k++)
+            power[k] += re[k] * re[k] + im[k] * im[k];
+    }
+    for (long k = 0; k <= half_n; k++)
+        most = fmax(most, power[k]);
+    for (long k = half_n; most > 0.0 && k > 0 && power[k] < reach * most; k--)
+        p->high = fmin(p->high, (double)(k - 1) * x->rate / (double)n);
+    fft_close(fft);
+    arena_close(a);
+}
+
+static bool stretches(struct modes_extract *x, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
-    long most = 0, least = x->place[0].response.length;
-    double smear = 0.0;
-    x->low = 0.0;
-    x->high = 0.5 * x->rate;
+    struct modal_stretch *list = ARENA_TAKE(x->arena, struct modal_stretch, room(x));
+    double *rounding = ARENA_TAKE(x->arena, double, x->n);
+    int fitted = 0;
+    x->data = (struct modal_data){.rate = x->rate, .places = x->n, .stretch = list, .rounding = rounding};
+    x->low = 20.0;
+    x->high = 0.49 * x->rate;
     for (int k = 0; k < x->n; k++) {
-        const struct strikes_response *h = &x->place[k].response;
-        most = h->n > most ? h->n : most;
-        least = h->length < least ? h->length : least;
-        x->low = fmax(x->low, h->low);
-        x->high = fmin(x->high, h->high);
-        smear = fmax(smear, h->smear);
+        struct modes_extract_place *p = &x->place[k];
+        place_stretches(x, list, p);
+        band_of_force(x, p);
+        rounding[k] = p->recording.rounding;
+        x->low = fmax(x->low, p->low);
+        x->high = fmin(x->high, p->high);
     }
-    x->length = most < least ? most : least;
-    x->skip = (long)ceil(smear * x->rate);
+    for (int s = 0; s < x->data.stretches; s++)
+        fitted += list[s].fitted;
+    if (x->data.stretches > MODES_EXTRACT_STRIKES)
+        return err_set(e, ERR_SCENE, "%s: %d strikes are more than the %d that are fitted together; cut the recording", x->place[0].shown, x->data.stretches, MODES_EXTRACT_STRIKES);
+    if (!fitted)
+        return err_set(e, ERR_SCENE, "%s: no strike has %.3g ms of sound behind it", x->place[0].shown, 1e3 * shortest);
     if (g->high > x->high)
         modes_extract_find_note(x, arena_format(x->arena, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high));
-    x->low = isnan(g->low) ? x->low : g->low;
+    x->low = isnan(g->low) ? x->low : fmax(g->low, 1.0);
     x->high = isnan(g->high) ? x->high : fmin(g->high, x->high);
     return x->low < x->high || err_set(e, ERR_SCENE, "nothing lies between %.6g and %.6g Hz: --low and --high, or the hammer's reach, leave no band", x->low, x->high);
 }
 
-/* ------------------------------------------------------------------ modes */
+/* ------------------------------------------------------------------ what it explains */
 
-/* The error's spectrum of a response of p->n samples, of as much energy over the bins of n. */
-static const double *unsure(const struct strikes_response *p, long n, struct arena *a)
+/* Energies of the strikes of a place, noise off, that are fitted or not, and what is explained of them. */
+static double share(const struct modes_extract *x, int from, int to, bool fitted)
 {
-    double *to = ARENA_TAKE(a, double, n / 2 + 1), share = (double)p->n / (double)n;
-    for (long i = 0; i <= n / 2; i++) {
-        long k = (long)rint((double)i * share);
-        to[i] = p->unsure[k < p->n / 2 ? k : p->n / 2] * share;
+    double all = 0.0, known = 0.0;
+    for (int s = from; s < to; s++) {
+        const struct modal_stretch *st = &x->data.stretch[s];
+        double energy = 0.0;
+        if (st->strike < 0 || st->fitted != fitted)
+            continue;
+        for (long i = 0; i < st->n; i++)
+            energy += st->y[i] * st->y[i];
+        all += energy;
+        known += energy * x->found.explained[s];
     }
-    return to;
+    return all > 0.0 ? known / all : NAN;
 }
 
-static bool fit(struct modes_extract *x, struct err *e)
+double modes_extract_find_explained(const struct modes_extract *x, const struct modes_extract_place *p, int strike)
 {
-    struct ringing_options o = ringing_options;
-    const double **h = arena_take(x->arena, (size_t)x->n, sizeof *h), **noise = arena_take(x->arena, (size_t)x->n, sizeof *noise);
-    const double **error = arena_take(x->arena, (size_t)x->n, sizeof *error);
-    double *rounding = ARENA_TAKE(x->arena, double, x->n);
-    bool several = true;
-    struct ringing r = {.places = x->n, .n = x->length - x->skip, .rate = x->rate, .h = h, .low = x->low, .high = x->high, .rounding = rounding};
-    long most = 50;
-    if (!args_whole(&x->c->args, "modes", (const long[2]){1, 100000}, &most, e))
-        return false;
-    r.noise_n = x->place[0].response.noise_n;
+    for (int s = p->first; s < p->first + p->stretches; s++)
+        if (x->data.stretch[s].strike == strike)
+            return x->found.explained[s];
+    return NAN;
+}
+
+static void compare(struct modes_extract *x)
+{
     for (int k = 0; k < x->n; k++) {
-        const struct strikes_response *p = &x->place[k].response;
-        h[k] = p->h + x->skip;
-        rounding[k] = p->rounding;
-        noise[k] = p->noise;
-        several = several && p->unsure;
-        error[k] = p->unsure ? unsure(p, r.n, x->arena) : NULL;
-        r.noise_n = p->noise_n < r.noise_n ? p->noise_n : r.noise_n;
-    }
-    r.noise = r.noise_n ? noise : NULL;
-    r.unsure = several ? error : NULL;
-    o.most = (int)most;
-    o.low = x->low;
-    o.high = x->high;
-    if (!x->given.slopes)
-        o.slope_test = 0.0;
-    return x->given.spectrogram ? ringing_spectrogram(&r, &o, x->arena, &x->heard, e) : ringing_esprit(&r, &o, x->arena, &x->heard, e);
-}
-
-/* Modes that have sunk by more than that before the response is sharp are no more than guessed at. */
-static const double guessed = 2.0; /* nepers */
-
-static void leave_out_guessed(struct modes_extract *x)
-{
-    struct ringing_modes *m = &x->heard;
-    int kept = 0, last = 0, was = 0;
-    for (int i = 0; i < m->n; i++)
-        if (m->mode[i].decay * (double)x->skip / x->rate <= guessed)
-            m->mode[kept++] = m->mode[i];
-    if (kept < m->n)
-        modes_extract_find_note(x, arena_format(x->arena, "%d components are left out that die away within the %.2g ms in which the response is not sharp", m->n - kept,
-                                           1e3 * (double)x->skip / x->rate));
-    m->n = kept;
-    m->modes = 0;
-    for (int i = 0; i < kept; i++) { /* numbered anew, without gaps */
-        bool again = i > 0 && m->mode[i].mode == was;
-        was = m->mode[i].mode;
-        last = again ? last + 1 : 1;
-        m->modes += !again;
-        m->mode[i].mode = m->modes;
-        m->mode[i].slope = last;
-    }
-}
-
-/* From the fit's first sample to the strike. */
-static void back_to_strike(struct modes_extract *x)
-{
-    double t = (double)x->skip / x->rate;
-    for (int i = 0; i < x->heard.n; i++) {
-        struct ringing_mode *m = &x->heard.mode[i];
-        double size = real_exp(m->decay * t), c = size * real_cospi(2.0 * m->frequency * t), s = -size * real_sinpi(2.0 * m->frequency * t);
-        for (int k = 0; k < x->n; k++) {
-            double re = m->re[k], im = m->im[k];
-            m->re[k] = re * c - im * s;
-            m->im[k] = re * s + im * c;
-            m->gain_error[k] *= size;
+        struct modes_extract_place *p = &x->place[k];
+        double most = -1.0;
+        p->explained = share(x, p->first, p->first + p->stretches, true);
+        p->predicted = share(x, p->first, p->first + p->stretches, false);
+        p->noise = x->found.noise[k];
+        for (int s = p->first; s < p->first + p->stretches; s++) {
+            const struct modal_stretch *st = &x->data.stretch[s];
+            const struct strikes_one *v = st->strike >= 0 ? &p->strikes.strike[st->strike] : NULL;
+            double worth = !v || (!st->fitted && strcmp(v->left_out, "not in --strikes")) ? -1.0 : st->fitted ? v->peak : 1e6 * v->peak;
+            if (worth > most) {
+                most = worth;
+                p->shown_stretch = s;
+            }
         }
-        m->energy *= size * size;
+        const struct modal_stretch *st = &x->data.stretch[p->shown_stretch];
+        p->distance = spectral_distance(st->y + st->ringing, x->found.model[p->shown_stretch] + st->ringing, st->n - st->ringing,
+                                        &(struct spectral_distance_band){x->rate, x->low, x->high, p->noise * p->noise});
     }
+}
+
+/* ------------------------------------------------------------------ modes of places */
+
+struct strike_gain {
+    double size, se, phase;
+};
+
+/* A of a component in the strikes of a place that are fitted, t from the strike, per N s (without force of a strike whose sound's peak is 1). Returns how many there are. */
+static int strike_gains(const struct modes_extract *x, const struct modal_mode *m, const struct modes_extract_place *p, struct strike_gain *g)
+{
+    int n = 0;
+    for (int k = p->first; k < p->first + p->stretches; k++) {
+        const struct modal_stretch *st = &x->data.stretch[k];
+        if (st->strike < 0 || !st->fitted || !isfinite(m->gain_se[st->group]) || !(m->gain_se[st->group] > 0.0))
+            continue;
+        const struct strikes_one *v = &p->strikes.strike[st->strike];
+        bool alone = !x->given.impulse && !p->recording.force;
+        double back = alone ? (double)(st->pulse.at - v->onset) / x->rate : 0.0, unit = x->given.impulse ? 1.0 : alone ? 1.0 / v->peak : x->rate;
+        cplx a = cplx_scale(unit, cplx_mul((cplx){m->re[st->group], m->im[st->group]}, cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back)));
+        g[n++] = (struct strike_gain){cplx_abs(a), unit * real_exp(m->decay * back) * m->gain_se[st->group], real_atan2(a.im, a.re)};
+    }
+    return n;
+}
+
+/* The place's gain: of its strikes the mean of sizes, weighted by noise and by how far strikes differ, and the phase of the most certain. */
+static void place_gain(const struct modes_extract *x, const struct modal_mode *m, int k, struct modes_extract_mode *to)
+{
+    const struct modes_extract_place *p = &x->place[k];
+    struct arena *a = arena_open();
+    struct strike_gain *g = ARENA_TAKE(a, struct strike_gain, p->stretches + 1);
+    int n = strike_gains(x, m, p, g), best = 0;
+    double mean = 0.0, apart = 0.0, noise = 0.0, weights = 0.0, size = 0.0;
+    for (int i = 0; i < n; i++)
+        mean += g[i].size / n;
+    for (int i = 0; i < n; i++) {
+        apart += n > 1 ? (g[i].size - mean) * (g[i].size - mean) / (n - 1) : 0.0;
+        noise += g[i].se * g[i].se / n;
+        best = g[i].se / fmax(g[i].size, 1e-300) < g[best].se / fmax(g[best].size, 1e-300) ? i : best;
+    }
+    apart = n > 2 ? fmax(apart - 2.0 * noise, 0.0) : 0.0; /* of few strikes chance alone makes some */
+    for (int i = 0; i < n; i++) {
+        double w = 1.0 / (g[i].se * g[i].se + apart);
+        weights += w;
+        size += w * g[i].size;
+    }
+    to->re[k] = n ? size / weights * real_cos(g[best].phase) : 0.0;
+    to->im[k] = n ? size / weights * real_sin(g[best].phase) : 0.0;
+    to->gain_se[k] = n ? 1.0 / sqrt(weights) : 0.0;
+    arena_close(a);
 }
 
 static int rising(const void *a, const void *b)
@@ -217,68 +345,82 @@ static int rising(const void *a, const void *b)
 
 static double median_decay(const struct modes_extract *x)
 {
-    int n = x->heard.n;
+    int n = x->components;
     double *d = ARENA_TAKE(x->arena, double, n);
     for (int i = 0; i < n; i++)
-        d[i] = x->heard.mode[i].decay;
+        d[i] = x->heard[i].decay;
     qsort(d, (size_t)n, sizeof *d, rising);
     return n % 2 ? d[n / 2] : 0.5 * (d[n / 2 - 1] + d[n / 2]);
 }
 
-static void compare(struct modes_extract *x)
+static int slower(const void *a, const void *b)
 {
-    for (int k = 0; k < x->n; k++) {
-        struct modes_extract_place *p = &x->place[k];
-        double power = x->heard.noise ? x->heard.noise[k] * x->heard.noise[k] : 0.0;
-        p->sound = ARENA_TAKE(x->arena, double, x->length);
-        p->rest = ARENA_TAKE(x->arena, double, x->length);
-        ringing_sound(&x->heard, k, x->rate, x->length, p->sound);
-        p->sound[0] *= 0.5; /* as h */
-        for (long i = 0; i < x->length; i++)
-            p->rest[i] = p->response.h[i] - p->sound[i];
-        p->distance = spectral_distance(p->response.h + x->skip, p->sound + x->skip, x->length - x->skip, &(struct spectral_distance_band){x->rate, x->low, x->high, power});
-    }
+    const struct modes_extract_mode *m = a, *k = b;
+    return (m->decay > k->decay) - (m->decay < k->decay);
 }
 
-static const double cancels = 1e4; /* energy of a mode over the response's: 40 dB more than there is */
-
-/* Modes that together are no part of the responses are no table. A single place may be so weak that chance decides. */
-static bool hold(struct modes_extract *x, struct err *e)
+/* Shares add up to 1 and are none below 0, so that components which cancel do not rule. */
+static double median_by_energy(const struct modes_extract *x)
 {
-    double all = 0.0;
-    bool cancel = false;
-    for (int k = 0; k < x->n; k++) {
-        const double *h = x->place[k].response.h;
-        double energy = 0.0;
-        for (long i = x->skip; i < x->length; i++)
-            energy += h[i] * h[i];
-        all += energy * x->heard.explained[k];
-        for (int i = 0; i < x->heard.n; i++) {
-            const struct ringing_mode *m = &x->heard.mode[i];
-            cancel = cancel || (m->re[k] * m->re[k] + m->im[k] * m->im[k]) * x->rate > 4.0 * m->decay * cancels * energy;
+    struct modes_extract_mode *m = ARENA_TAKE(x->arena, struct modes_extract_mode, x->components);
+    double left = 0.0;
+    int n = 0, i = 0;
+    for (int k = 0; k < x->components; k++)
+        if (x->heard[k].decay <= slow) {
+            m[n++] = x->heard[k];
+            left += 0.5 * x->heard[k].share;
         }
-        if (x->heard.n > 0 && !(x->heard.explained[k] > 0.0))
-            place_note(x, &x->place[k], "the modes do not hold the response: a narrower band (--low, --high) or fewer --modes help");
-    }
-    return x->heard.n == 0 || (all >= 0.0 && !cancel) || err_set(e, ERR_SCENE, "%s: the modes that were found do not hold the response (they leave more than there is, or are far greater and cancel), so there is no table: does it begin "
-                                                    "at the strike (--delay)? Else a narrower band (--low, --high) or fewer --modes help", x->place[0].shown);
+    qsort(m, (size_t)n, sizeof *m, slower);
+    while (i < n - 1 && (left -= m[i].share) > 0.0)
+        i++;
+    return n ? m[i].decay : NAN;
 }
+
+static void take_modes(struct modes_extract *x)
+{
+    x->components = x->found.n;
+    x->modes = x->found.modes;
+    x->heard = ARENA_TAKE(x->arena, struct modes_extract_mode, x->components);
+    for (int i = 0; i < x->components; i++) {
+        const struct modal_mode *m = &x->found.mode[i];
+        struct modes_extract_mode *to = &x->heard[i];
+        *to = (struct modes_extract_mode){m->frequency, m->decay, m->frequency_se, m->decay_se, m->frequency_between, m->decay_between, m->share, NULL, NULL, NULL, m->mode, m->slope};
+        to->re = ARENA_TAKE(x->arena, double, x->n);
+        to->im = ARENA_TAKE(x->arena, double, x->n);
+        to->gain_se = ARENA_TAKE(x->arena, double, x->n);
+        for (int k = 0; k < x->n; k++)
+            place_gain(x, m, k, to);
+    }
+    x->median_decay = median_decay(x);
+    x->median_by_energy = median_by_energy(x);
+}
+
+/* ------------------------------------------------------------------ all */
 
 bool modes_extract_find(struct modes_extract *x, struct err *e)
 {
+    long most = 50;
+    if (!args_whole(&x->c->args, "modes", (const long[2]){1, 100000}, &most, e))
+        return false;
     for (int k = 0; k < x->n; k++)
-        if (!response(x, &x->place[k], e))
+        if (!strikes(x, &x->place[k], e))
             return false;
-    if (!common(x, e) || !fit(x, e))
+    if (!stretches(x, e))
         return false;
-    if (!hold(x, e))
-        return false;
-    leave_out_guessed(x);
-    if (x->heard.n == 0)
+    struct modal_options o = {.most = (int)most, .low = x->low, .high = x->high, .fastest = isnan(x->given.fastest) ? fastest * x->rate : x->given.fastest,
+                              .spectrogram = x->given.spectrogram, .threshold = 0.1};
+    if (!modal_find(&x->data, &o, x->arena, &x->found, e))
+        return err_at(e, "%s", x->place[0].shown);
+    if (x->found.n == 0)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown, x->low, x->high);
-    back_to_strike(x);
-    modes_extract_find_note(x, x->heard.note);
-    x->median_decay = median_decay(x);
+    double explained = share(x, 0, x->data.stretches, true);
+    if (x->given.spectrogram && !(explained >= half))
+        modes_extract_find_note(x, arena_format(x->arena, "the modes explain only %.0f %% of the sound: --method esprit finds more", 100.0 * fmax(explained, 0.0)));
+    else if (!(explained >= half))
+        return err_set(e, ERR_SCENE, "%s: the modes that were found explain only %.0f %% of the sound, so there is no table: is it one object, struck and left to ring, and does the sound "
+                       "begin at the strike? A narrower band (--low, --high) may help", x->place[0].shown, 100.0 * fmax(explained, 0.0));
+    take_modes(x);
+    modes_extract_find_note(x, x->found.note);
     compare(x);
     return true;
 }

@@ -37,13 +37,13 @@ static bool numbers(struct modes_extract *x, struct err *e)
 {
     struct modes_extract_given *g = &x->given;
     const struct args *a = &x->c->args;
-    static const double scales[2] = {1e-300, 1e300}, share[2] = {1e-15, 1}, rise[2] = {1, 120};
+    static const double scales[2] = {1e-300, 1e300}, rise[2] = {1, 120};
     static const long channels[2] = {1, 1024};
     return args_whole(a, "channel", channels, &g->channel, e) && args_whole(a, "force-channel", channels, &g->force_channel, e) &&
            args_number(a, "scale", scales, &g->scale, e) && args_number(a, "force-scale", scales, &g->force_scale, e) &&
-           args_number(a, "regularisation", share, &g->regularisation, e) && args_number(a, "strike-threshold", rise, &g->strikes.threshold, e) &&
+           args_number(a, "strike-threshold", rise, &g->strikes.threshold, e) &&
            quantity(x, "radius", KEY_LENGTH, &g->radius, e) && quantity(x, "distance", KEY_LENGTH, &g->distance, e) &&
-           quantity(x, "delay", KEY_TIME, &g->delay, e) && quantity(x, "low", KEY_FREQUENCY, &g->low, e) && quantity(x, "high", KEY_FREQUENCY, &g->high, e);
+           quantity(x, "delay", KEY_TIME, &g->delay, e) && quantity(x, "low", KEY_FREQUENCY, &g->low, e) && quantity(x, "high", KEY_FREQUENCY, &g->high, e) && args_number(a, "fastest", scales, &g->fastest, e);
 }
 
 static bool sizes(const struct modes_extract_given *g, struct err *e)
@@ -63,16 +63,12 @@ static bool together(struct modes_extract *x, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
     const struct args *a = &x->c->args;
-    if (g->impulse && (g->force_channel || args_given(a, "strike-threshold") || args_given(a, "regularisation")))
-        return err_set(e, ERR_USAGE, "--impulse says that the recording is an impulse response already: --force-channel, --regularisation and --strike-threshold are for strikes");
-    if (g->slopes && g->spectrogram)
-        return err_set(e, ERR_USAGE, "--slopes is for --method esprit: a peak of the spectrogram has one decay; leave out --slopes or --method spectrogram");
+    if (g->impulse && (g->force_channel || g->only || args_given(a, "strike-threshold")))
+        return err_set(e, ERR_USAGE, "--impulse says that the recording is an impulse response already: --force-channel, --strikes and --strike-threshold are for strikes");
     if (g->force_channel == g->channel)
         return err_set(e, ERR_USAGE, "--channel and --force-channel are both %ld; sound and force are in different channels", g->channel);
     if (!g->force_channel && args_given(a, "force-scale"))
         return err_set(e, ERR_USAGE, "--force-scale needs --force-channel: which channel holds the force");
-    if (!g->force_channel && args_given(a, "regularisation"))
-        return err_set(e, ERR_USAGE, "--regularisation needs --force-channel: without a force nothing is divided out");
     if (g->force_channel && isnan(g->scale) != isnan(g->force_scale))
         return err_set(e, ERR_USAGE, "--%s is missing: a level per N s takes --scale and --force-scale; without both it is relative", isnan(g->scale) ? "scale" : "force-scale");
     if (!g->force_channel && !g->impulse && !isnan(g->scale))
@@ -84,9 +80,9 @@ static bool together(struct modes_extract *x, struct err *e)
 static bool outputs(struct modes_extract *x, struct err *e)
 {
     struct modes_extract_given *g = &x->given;
-    static const char *const names[] = {"output", "residual", "resynthesis", "response", "plot"};
-    const char **to[] = {&g->output, &g->residual, &g->resynthesis, &g->response, &g->plot};
-    for (int k = 0; k < 5; k++) {
+    static const char *const names[] = {"output", "residual", "resynthesis", "plot"};
+    const char **to[] = {&g->output, &g->residual, &g->resynthesis, &g->plot};
+    for (int k = 0; k < 4; k++) {
         const char *file = *to[k] = args_value(&x->c->args, names[k]);
         bool force = args_given(&x->c->args, "force");
         if (file && !(k == 0 ? mark_absent(file, force, e) : mark_permits(file, NULL, force, e)))
@@ -106,10 +102,9 @@ bool modes_extract_options(struct modes_extract *x, struct err *e)
     static const char *const quantities[] = {"displacement", "velocity", "acceleration", "pressure", NULL}, *const methods[] = {"esprit", "spectrogram", NULL};
     struct modes_extract_given *g = &x->given;
     int method = 0;
-    *g = (struct modes_extract_given){.channel = 1, .scale = NAN, .force_scale = NAN, .quantity = MODES_PRESSURE, .radius = NAN, .distance = NAN, .delay = NAN,
-                                      .regularisation = NAN, .low = NAN, .high = NAN, .strikes = strikes_options};
+    *g = (struct modes_extract_given){.channel = 1, .scale = NAN, .force_scale = NAN, .quantity = MODES_PRESSURE, .radius = NAN, .distance = NAN, .delay = NAN, .fastest = NAN, .low = NAN, .high = NAN, .strikes = strikes_options};
     g->impulse = args_given(&x->c->args, "impulse");
-    g->slopes = args_given(&x->c->args, "slopes");
+    g->only = args_value(&x->c->args, "strikes");
     if (!word(x, "quantity", quantities, &g->quantity, e) || !word(x, "method", methods, &method, e) || !numbers(x, e))
         return false;
     g->spectrogram = method == 1;

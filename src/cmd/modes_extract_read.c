@@ -110,8 +110,8 @@ static bool same(const char *a, const char *b)
 static bool spared(const struct modes_extract *x, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
-    const char *const to[] = {g->output, g->residual, g->resynthesis, g->response, g->plot};
-    for (int k = 0; k < 5; k++)
+    const char *const to[] = {g->output, g->residual, g->resynthesis, g->plot};
+    for (int k = 0; k < 4; k++)
         for (int i = 0; i <= x->n; i++) {
             const char *from = i < x->n ? x->place[i].file : x->index;
             if (same(to[k], from))

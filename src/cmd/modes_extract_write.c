@@ -12,39 +12,17 @@
 
 static const double air_density = 1.204, air_speed = 343.2; /* kg/m^3, m/s: as output.listen has them by default */
 
-static void divide(const struct radiator_monopole *r, int places, struct ringing_mode *m)
+static void divide(const struct radiator_monopole *r, int places, struct modes_extract_mode *m)
 {
     double h[2], s[2] = {-m->decay, 2.0 * REAL_PI * m->frequency};
     radiator_monopole_at(r, s, h);
     double power = h[0] * h[0] + h[1] * h[1];
-    m->energy /= power;
     for (int k = 0; k < places; k++) {
         double re = m->re[k], im = m->im[k];
         m->re[k] = (re * h[0] + im * h[1]) / power;
         m->im[k] = (im * h[0] - re * h[1]) / power;
-        m->gain_error[k] /= sqrt(power);
+        m->gain_se[k] /= sqrt(power);
     }
-}
-
-static int slower(const void *a, const void *b)
-{
-    const struct ringing_mode *m = *(const struct ringing_mode *const *)a, *k = *(const struct ringing_mode *const *)b;
-    return (m->decay > k->decay) - (m->decay < k->decay);
-}
-
-static double median_by_energy(const struct modes_extract *x)
-{
-    int n = x->modes.n, i = 0;
-    const struct ringing_mode **m = arena_take(x->arena, (size_t)n, sizeof *m);
-    double left = 0.0;
-    for (int k = 0; k < n; k++) {
-        m[k] = &x->modes.mode[k];
-        left += 0.5 * m[k]->energy;
-    }
-    qsort(m, (size_t)n, sizeof *m, slower);
-    while (i < n - 1 && (left -= m[i]->energy) > 0.0)
-        i++;
-    return m[i]->decay;
 }
 
 static double *copy(const double *x, int n, struct arena *a)
@@ -80,18 +58,16 @@ void modes_extract_write_radiation(struct modes_extract *x)
     bool divides = g->quantity == MODES_PRESSURE && !isnan(g->radius);
     struct radiator_monopole r = divides ? radiator_monopole(g->radius, g->distance, air_density, air_speed) : (struct radiator_monopole){0};
     x->quantity = g->quantity != MODES_PRESSURE ? g->quantity : divides ? MODES_VELOCITY : MODES_ACCELERATION;
-    x->modes = x->heard;
-    x->modes.mode = ARENA_TAKE(x->arena, struct ringing_mode, x->heard.n);
-    for (int i = 0; i < x->heard.n; i++) {
-        struct ringing_mode *m = &x->modes.mode[i];
-        *m = x->heard.mode[i];
+    x->mode = ARENA_TAKE(x->arena, struct modes_extract_mode, x->components);
+    for (int i = 0; i < x->components; i++) {
+        struct modes_extract_mode *m = &x->mode[i];
+        *m = x->heard[i];
         m->re = copy(m->re, x->n, x->arena);
         m->im = copy(m->im, x->n, x->arena);
-        m->gain_error = copy(m->gain_error, x->n, x->arena);
+        m->gain_se = copy(m->gain_se, x->n, x->arena);
         if (divides)
             divide(&r, x->n, m);
     }
-    x->median_by_energy = median_by_energy(x);
     level(x);
 }
 
@@ -101,31 +77,35 @@ static void sources(FILE *f, const struct modes_extract *x)
 {
     for (int k = 0; k < x->n; k++) {
         const struct modes_extract_place *p = &x->place[k];
+        int used = 0;
+        for (int i = 0; i < p->strikes.n; i++)
+            used += !p->strikes.strike[i].left_out;
         fprintf(f, "# source %d: %s, sha256 %s\n", k + 1, p->name, p->hash);
         if (!x->given.impulse)
-            fprintf(f, "# strikes %d: %d of %d used\n", k + 1, p->response.used, p->strikes.n);
+            fprintf(f, "# strikes %d: %d of %d used\n", k + 1, used, p->strikes.n);
     }
 }
 
 static void method(FILE *f, const struct modes_extract *x)
 {
-    fprintf(f, "# method: %s, %.6g to %.6g Hz, %ld samples at %g Hz from %.3g ms on\n", x->given.spectrogram ? "peaks of the power spectrogram" : "ESPRIT in sub-bands", x->low,
-            x->high, x->length, x->rate, 1e3 * (double)x->skip / x->rate);
+    fprintf(f, "# method: %s, then output error on DFT bins, %.6g to %.6g Hz at %g Hz\n", x->given.spectrogram ? "peaks of the power spectrogram" : "ESPRIT in sub-bands", x->low,
+            x->high, x->rate);
     for (int k = 0; k < x->n; k++)
-        fprintf(f, "# explained %d: %.4g of the energy in the band\n", k + 1, x->modes.explained[k]);
+        fprintf(f, "# explained %d: %.4g of the energy in the band\n", k + 1, x->place[k].explained);
     if (x->given.quantity == MODES_PRESSURE && !isnan(x->given.radius))
         fprintf(f, "# radiation: a monopole of %.9g m at %.9g m is divided out\n# radius_m: %.9g\n", x->given.radius, x->given.distance, x->given.radius);
 }
 
-/* "# error MODE.SLOPE: ..." standard errors. */
+/* "# error MODE.SLOPE: ...": se is the standard error by noise, se_between the standard deviation from strike to strike. */
 static void errors(FILE *f, const struct modes_extract *x)
 {
-    for (int i = 0; i < x->modes.n; i++) {
-        const struct ringing_mode *m = &x->modes.mode[i];
+    for (int i = 0; i < x->components; i++) {
+        const struct modes_extract_mode *m = &x->mode[i];
         double gain = 0.0;
         for (int k = 0; k < x->n; k++)
-            gain = fmax(gain, m->gain_error[k]);
-        fprintf(f, "# error %d.%d: frequency_hz %.3g, decay_per_s %.3g, gain %.3g (standard errors)\n", m->mode, m->slope, m->frequency_error, m->decay_error, gain);
+            gain = fmax(gain, m->gain_se[k]);
+        fprintf(f, "# error %d.%d: frequency_hz se %.3g se_between %.3g, decay_per_s se %.3g se_between %.3g, gain se %.3g\n", m->mode, m->slope, m->frequency_se, m->frequency_between,
+                m->decay_se, m->decay_between, gain);
     }
 }
 
@@ -151,15 +131,15 @@ static double unsigned_zero(double v)
 }
 
 /* All slopes of a mode have the frequency of its first. */
-static double frequency(const struct modes_extract *x, const struct ringing_mode *m)
+static double frequency(const struct modes_extract *x, const struct modes_extract_mode *m)
 {
-    for (int i = 0; i < x->modes.n; i++)
-        if (x->modes.mode[i].mode == m->mode && x->modes.mode[i].slope == 1)
-            return x->modes.mode[i].frequency;
+    for (int i = 0; i < x->components; i++)
+        if (x->mode[i].mode == m->mode && x->mode[i].slope == 1)
+            return x->mode[i].frequency;
     return m->frequency;
 }
 
-static void row(FILE *f, const struct modes_extract *x, const struct ringing_mode *m, int k, bool slopes)
+static void row(FILE *f, const struct modes_extract *x, const struct modes_extract_mode *m, int k, bool slopes)
 {
     const struct modes_extract_place *p = &x->place[k];
     double along = x->quantity == MODES_VELOCITY ? m->im[k] : x->quantity == MODES_ACCELERATION ? -m->re[k] : m->re[k], sign = along < 0.0 ? -1.0 : 1.0;
@@ -173,10 +153,10 @@ static void row(FILE *f, const struct modes_extract *x, const struct ringing_mod
 
 void modes_extract_write(FILE *f, const struct modes_extract *x)
 {
-    bool slopes = x->modes.n > x->modes.modes;
+    bool slopes = x->components > x->modes;
     comments(f, x);
     fprintf(f, "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad%s\n", slopes ? ",slope" : "");
     for (int k = 0; k < x->n; k++)
-        for (int i = 0; i < x->modes.n; i++)
-            row(f, x, &x->modes.mode[i], k, slopes);
+        for (int i = 0; i < x->components; i++)
+            row(f, x, &x->mode[i], k, slopes);
 }

@@ -29,7 +29,7 @@ sums() {
 tables() {
     "$1" modes compute --shape sphere:diameter=20cm,fineness=1 --material steel --modes 20 --top 60kHz -q -o rendered/table_ball.csv &&
         "$1" modes compute --shape ring:diameter=14cm,width=1cm,thickness=6mm --material steel --modes 20 -q -o rendered/table_ring.csv &&
-        "$1" modes extract strikes.wav --force-channel 2 -q -o rendered/table_strikes.csv --response rendered/table_response.wav \
+        "$1" modes extract strikes.wav --force-channel 2 -q -o rendered/table_strikes.csv \
             --resynthesis rendered/table_made.wav --residual rendered/table_left.wav
 }
 

@@ -3,7 +3,7 @@
 rasp render -q plate.yaml
 python3 wav.py join plate.wav plate.force.wav strikes.wav 1e-6
 rasp modes object plate.yaml --at 7cm,6cm --modes 10 -q -o true.csv 2> /dev/null
-extract strikes.wav@7cm,6cm --force-channel 2 --scale 10 --force-scale 1 --quantity velocity -o found.csv --response r.wav --resynthesis s.wav --residual d.wav > report.txt
+extract strikes.wav@7cm,6cm --force-channel 2 --scale 10 --force-scale 1 --quantity velocity -o found.csv --resynthesis s.wav --residual d.wav > report.txt
 grep -E '^strikes' report.txt
 sed -n 's/^[0-9]* modes \(between .* Hz\),.*/modes \1/p' report.txt
 grep -E '^# (poles|quantity|normalisation|strikes)' found.csv

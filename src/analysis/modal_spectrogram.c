@@ -6,20 +6,15 @@
    W the window's own transform of a decaying sinusoid, closed for Hann's window (three geometric sums). f, d and |A| by least squares of log P (GSL, Levenberg and Marquardt), each bin weighted by its
    amplitude over its frame's greatest (far bins hold the neighbours' skirts) and by 1/(TRUST^2 + N/P)^(1/2), what noise does to log P. A peak
    whose fit leaves more than `threshold` of its energy, sum (sqrt P - sqrt model)^2/sum P, is none. The paper says neither window nor patch: here Hann of about 0.09 s, hop a
-   quarter, 5 bins. Later frames are searched too: a mode may show only when a stronger, faster one has gone. Phases, which the power does not hold, and gains come from the same joint least
-   squares as ringing_esprit's, the poles as they are. Two modes within two bins of each other (20 Hz) are one peak. */
+   quarter, 5 bins. Later frames are searched too: a mode may show only when a stronger, faster one has gone. Phases, which the power does not hold, and gains come from the same least squares
+   as all modes', the poles as they are. It is the loudest stretch that is looked at, from the hammer's end on. Two modes within two bins of each other (20 Hz) are one peak. */
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "analysis/ringing_complex.h"
-#include "analysis/ringing_fit.h"
-#include "analysis/ringing_hums.h"
-#include "analysis/ringing_report.h"
-#include "analysis/ringing_select.h"
+#include "analysis/modal_fit.h"
 #include "num/fft.h"
-#include "num/real.h"
 
 enum { SIDE = 2, FRAMES = 40, LEAST = 4, STEPS = 100 };
 
@@ -71,39 +66,34 @@ static void noise_make(struct spectrogram *s, struct arena *a)
     }
 }
 
-static void spectrogram_open(struct spectrogram *s, const struct ringing *r, struct arena *a)
+static void spectrogram_open(struct spectrogram *s, const double *y, long n, double rate, struct arena *a)
 {
     long size = 16;
-    while ((double)size < SECONDS * r->rate && size * 2 <= r->n / 4)
+    while ((double)size < SECONDS * rate && size * 2 <= n / 4)
         size *= 2;
-    *s = (struct spectrogram){.size = size, .hop = size / 4, .bins = size / 2 + 1, .rate = r->rate};
-    s->frames = (r->n - size) / s->hop + 1;
+    *s = (struct spectrogram){.size = size, .hop = size / 4, .bins = size / 2 + 1, .rate = rate};
+    s->frames = (n - size) / s->hop + 1;
     s->power = ARENA_TAKE(a, double, s->frames * s->bins);
     s->noise = ARENA_TAKE(a, double, s->bins);
     s->window = ARENA_TAKE(a, double, size);
     for (long j = 0; j < size; j++)
         s->window[j] = 0.5 - 0.5 * real_cospi(2 * (double)j / (double)size);
-    for (int p = 0; p < r->places; p++)
-        frames_add(s, r->h[p], a);
+    frames_add(s, y, a);
     noise_make(s, a);
 }
 
 /* (1 - e^(w q))/(1 - e^q), q = -d + j x per sample, d > 0; e^(w q) given. */
-static double complex geometric(double d, double x, double complex end)
+static cplx geometric(double d, double x, cplx end)
 {
-    double size = real_exp(-d);
-    double complex below = ringing_complex(1 - size * real_cos(x), -size * real_sin(x)), above = 1 - end;
-    double norm = creal(below) * creal(below) + cimag(below) * cimag(below);
-    return ringing_complex((creal(above) * creal(below) + cimag(above) * cimag(below)) / norm, (cimag(above) * creal(below) - creal(above) * cimag(below)) / norm);
+    return cplx_div((cplx){1.0 - end.re, -end.im}, cplx_sub((cplx){1.0, 0.0}, cplx_exp((cplx){-d, x}, 1.0)));
 }
 
 /* |W|^2 at x rad per sample off the mode, d per sample: the sums at x, and a bin above and below. */
 static double shape(double d, double x, double size)
 {
-    double fall = real_exp(-d * size), bin = 2 * REAL_PI / size;
-    double complex end = ringing_complex(fall * real_cos(x * size), fall * real_sin(x * size));
-    double complex sum = 0.5 * geometric(d, x, end) - 0.25 * geometric(d, x + bin, end) - 0.25 * geometric(d, x - bin, end);
-    return creal(sum) * creal(sum) + cimag(sum) * cimag(sum);
+    double bin = 2 * REAL_PI / size;
+    cplx end = cplx_exp((cplx){-d, x}, size);
+    return cplx_square(cplx_sub(cplx_scale(0.5, geometric(d, x, end)), cplx_scale(0.25, cplx_add(geometric(d, x + bin, end), geometric(d, x - bin, end)))));
 }
 
 struct patch {
@@ -179,59 +169,50 @@ static bool peak(const struct spectrogram *s, long m, long k)
     return p[0] > STANDS * s->noise[k] && p[0] > p[-1] && p[0] >= p[1] && p[0] > p[-2] && p[0] >= p[2];
 }
 
-static bool taken(const struct ringing_fit *f, double omega, double wide)
+static bool taken(const struct modal_fit *f, double omega, double wide)
 {
-    for (int i = 1; i < f->m; i++)
-        if (fabs(f->omega[i] - omega) < wide)
+    for (int i = 0; i < f->m; i++)
+        if (fabs(f->s[i].im - omega) < wide)
             return true;
     return false;
 }
 
-static void frame_search(const struct spectrogram *s, long m, double threshold, const double band[2], struct ringing_fit *f)
+static void frame_search(const struct spectrogram *s, long m, struct modal_fit *f)
 {
     double bin = 2 * REAL_PI * s->rate / (double)s->size, pole[2];
+    struct arena *a = arena_open();
+    cplx *none = ARENA_TAKE(a, cplx, f->data->groups);
     for (long k = SIDE + 1; k < s->bins - SIDE - 1; k++) {
         struct patch p = {s, m, 0, k};
         if (!peak(s, m, k) || taken(f, bin * (double)k, 2 * bin))
             continue;
         while (p.frames < FRAMES && m + p.frames < s->frames && measured(&p, p.frames, k) > FALLEN * s->noise[k])
             p.frames++;
-        if (p.frames >= LEAST && patch_fit(&p, threshold, pole) && pole[1] > band[0] && pole[1] < band[1] && !taken(f, pole[1], bin))
-            ringing_fit_add(f, pole[0], pole[1]);
+        if (p.frames >= LEAST && patch_fit(&p, f->options->threshold, pole) && pole[0] < f->fastest && pole[1] > f->low && pole[1] < f->high && !taken(f, pole[1], bin))
+            modal_fit_add(f, (cplx){-pole[0], pole[1]}, none, false);
     }
+    arena_close(a);
 }
 
-static void search(const struct ringing *r, const struct ringing_options *o, struct arena *a, struct ringing_fit *f)
+void modal_spectrogram(struct modal_fit *f)
 {
+    const struct modal_data *d = f->data;
     struct spectrogram s;
-    double low = fmax(o->low, r->low), high = r->high > 0 ? r->high : r->rate / 2;
-    if (o->high > 0)
-        high = fmin(high, o->high);
-    spectrogram_open(&s, r, a);
-    for (long m = 0; m < s.frames; m += m < 4 ? 1 : m / 4)
-        frame_search(&s, m, o->threshold, (const double[]){2 * REAL_PI * low, 2 * REAL_PI * high}, f);
-}
-
-bool ringing_spectrogram(const struct ringing *r, const struct ringing_options *o, struct arena *a, struct ringing_modes *m, struct err *e)
-{
-    struct ringing_fit f;
-    struct ringing_noise noise;
-    bool silent;
-    if (!ringing_report_check(r, o, &silent, e))
-        return false;
-    if (silent) {
-        ringing_report_silent(r, a, m);
-        return true;
+    struct arena *a = arena_open();
+    double most = -1.0;
+    int loudest = 0;
+    for (int k = 0; k < d->stretches; k++) {
+        double energy = 0.0;
+        for (long i = d->stretch[k].ringing; i < d->stretch[k].n; i++)
+            energy += d->stretch[k].y[i] * d->stretch[k].y[i];
+        if (d->stretch[k].fitted && d->stretch[k].strike >= 0 && energy > most) {
+            most = energy;
+            loudest = k;
+        }
     }
-    struct arena *inner = arena_open();
-    ringing_fit_open(&f, r, (int)fmin((double)(r->n / 8), 8.0 * o->most + 200), inner);
-    ringing_noise_open(r, inner, &noise);
-    search(r, o, inner, &f);
-    ringing_fit_gains(&f);
-    ringing_select_drop(&f, &noise, &(struct ringing_select){o->confidence / (double)r->n, 1});
-    ringing_hums_drop(&f, &noise, false);
-    ringing_report(&f, &noise, o, a, m);
-    ringing_noise_close(&noise);
-    arena_close(inner);
-    return true;
+    const struct modal_stretch *st = &d->stretch[loudest];
+    spectrogram_open(&s, st->y + st->ringing, st->n - st->ringing, d->rate, a);
+    for (long m = 0; m < s.frames; m += m < 4 ? 1 : m / 4)
+        frame_search(&s, m, f);
+    arena_close(a);
 }

@@ -1,0 +1,373 @@
+/* Stretches on their DFT bins, and a mode's sound on them (modal_fit.h has the equations). */
+#include <stdlib.h>
+#include <string.h>
+
+#include "analysis/modal_fit.h"
+#include "num/fft.h"
+#include "num/lanes.h"
+
+enum { GROUP = 8, CHUNK = 256, PATCH = 256 };
+
+static const double quietest = 1e-9; /* of a stretch's rms: no noise of a bin is less, as phases are not known better */
+
+/* ------------------------------------------------------------------ spectra */
+
+static void spectrum(const double *x, long n, const struct modal_bins *b, double *re, double *im)
+{
+    struct arena *a = arena_open();
+    struct fft *fft = fft_open((size_t)n);
+    double *all[2] = {ARENA_TAKE(a, double, n / 2 + 1), ARENA_TAKE(a, double, n / 2 + 1)}, size = 1.0 / sqrt((double)n);
+    fft_forward(fft, x, all[0], all[1]);
+    for (long k = 0; k < b->n; k++) {
+        re[k] = size * all[0][b->first + k];
+        im[k] = size * all[1][b->first + k];
+    }
+    fft_close(fft);
+    arena_close(a);
+}
+
+static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, struct modal_bins *b)
+{
+    double rate = f->data->rate, *force = ARENA_TAKE(f->a, double, s->n), sum = 0.0;
+    b->width = 2.0 * REAL_PI * rate / (double)s->n;
+    b->first = (long)ceil(f->low / b->width);
+    b->first = b->first > 1 ? b->first : 1;
+    b->n = (long)floor(f->high / b->width) - b->first + 1;
+    b->n = b->first + b->n > s->n / 2 ? s->n / 2 - b->first : b->n;
+    b->n = b->n > 0 ? b->n : 0;
+    double **to[] = {&b->er, &b->ei, &b->fr, &b->fi, &b->yr, &b->yi, &b->rr, &b->ri, &b->variance, &b->floor, &b->scale, &b->nr, &b->ni};
+    for (size_t i = 0; i < sizeof to / sizeof *to; i++)
+        *to[i] = ARENA_TAKE(f->a, double, b->n + 1);
+    for (long k = 0; k < b->n; k++) {
+        double turn = 2.0 * (double)(b->first + k) / (double)s->n;
+        b->er[k] = real_cospi(turn);
+        b->ei[k] = -real_sinpi(turn);
+    }
+    for (long i = 0; i < s->pulse.n; i++)
+        if (s->pulse.at + i >= s->first && s->pulse.at + i < s->first + s->n)
+            force[s->pulse.at + i - s->first] = s->pulse.f[i];
+    spectrum(force, s->n, b, b->fr, b->fi);
+    spectrum(s->y, s->n, b, b->yr, b->yi);
+    for (long i = 0; i < s->n; i++)
+        sum += s->y[i] * s->y[i] / (double)s->n;
+    double rounding = f->data->rounding ? f->data->rounding[s->place] : 0.0;
+    for (long k = 0; k < b->n; k++)
+        b->floor[k] = fmax(fmax(quietest * quietest * sum, rounding * rounding), 1e-290);
+    for (long k = 0; k < b->n; k++)
+        b->scale[k] = 1.0;
+}
+
+/* What the lead of a recording holds, smooth over 40 Hz, is noise in its other stretches, too. */
+static void floors_of_leads(struct modal_fit *f);
+
+void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a)
+{
+    *f = (struct modal_fit){.data = d, .options = o, .a = a, .low = 2.0 * REAL_PI * o->low, .high = 2.0 * REAL_PI * o->high, .span = 1.0, .tolerance = 1e-2};
+    f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
+    for (int k = 0; k < d->stretches; k++) {
+        open_bins(f, &d->stretch[k], &f->bins[k]);
+        if (d->stretch[k].fitted && d->stretch[k].strike >= 0)
+            f->longest = fmax(f->longest, (double)d->stretch[k].n / d->rate);
+    }
+    f->slowest = 0.02 / f->longest;
+    f->fastest = o->fastest;
+    modal_fit_rest(f);
+    floors_of_leads(f);
+}
+
+/* ------------------------------------------------------------------ noise */
+
+static int rising(const void *x, const void *y)
+{
+    double a = *(const double *)x, b = *(const double *)y;
+    return (a > b) - (a < b);
+}
+
+/* The running median over `half` means to each side, of n means; sorted once, then by insertion. */
+static void running_median(const double *x, long n, long half, double *to)
+{
+    struct arena *a = arena_open();
+    double *list = ARENA_TAKE(a, double, 2 * half + 2);
+    long from = 0, end = 0, held = 0;
+    for (long k = 0; k < n; k++) {
+        long first = k > half ? k - half : 0, last = k + half + 1 < n ? k + half + 1 : n;
+        if (first > n - 2 * half - 1)
+            first = n > 2 * half + 1 ? n - 2 * half - 1 : 0; /* windows at the ends are as wide as the others */
+        if (last < 2 * half + 1)
+            last = n < 2 * half + 1 ? n : 2 * half + 1;
+        for (; from < first; from++) {
+            double *p = bsearch(&x[from], list, (size_t)held, sizeof *list, rising);
+            memmove(p, p + 1, (size_t)(list + held - p - 1) * sizeof *list);
+            held--;
+        }
+        for (; end < last; end++) {
+            long i = held++;
+            for (; i > 0 && list[i - 1] > x[end]; i--)
+                list[i] = list[i - 1];
+            list[i] = x[end];
+        }
+        to[k] = held % 2 ? list[held / 2] : 0.5 * (list[held / 2 - 1] + list[held / 2]);
+    }
+    arena_close(a);
+}
+
+/* Of |x|^2: medians of means of 8 bins (of chi squared of 16 degrees the median is 0.9586 of the mean), linear in between. */
+static void smooth_power(const double *re, const double *im, long n, long half, double *to)
+{
+    struct arena *a = arena_open();
+    long means = n / GROUP;
+    if (means < 1)
+        means = 1;
+    double *mean = ARENA_TAKE(a, double, means), *median = ARENA_TAKE(a, double, means);
+    for (long k = 0; k < means; k++) {
+        long count = 0;
+        for (long i = k * GROUP; i < (k + 1) * GROUP && i < n; i++, count++)
+            mean[k] += re[i] * re[i] + im[i] * im[i];
+        mean[k] = count ? mean[k] / ((double)count * 0.9586) : 0.0;
+    }
+    running_median(mean, means, half < (means - 1) / 2 ? half : (means - 1) / 2, median);
+    for (long i = 0; i < n; i++) {
+        double at = ((double)i - 0.5 * (GROUP - 1)) / GROUP;
+        long k = at > 0.0 ? (long)at : 0;
+        double part = at > (double)k ? at - (double)k : 0.0;
+        to[i] = k + 1 < means ? median[k] + part * (median[k + 1] - median[k]) : median[means - 1];
+    }
+    arena_close(a);
+}
+
+/* rest - F (c0 + c1 u + c2 u^2), c by least squares on every PATCH bins: what goes straight from the force to the sound, and the skirts of modes that are far away. */
+static void take_smooth_off(struct modal_bins *b)
+{
+    enum { TERMS = 3 };
+    for (long from = 0; from < b->n; from += PATCH) {
+        long n = from + 2 * PATCH <= b->n ? PATCH : b->n - from;
+        double a[(TERMS + 2) * (TERMS + 2)] = {0}, scale[TERMS];
+        bool swept[TERMS];
+        enum { N = TERMS + 2 };
+        for (long k = from; k < from + n; k++) {
+            double power = b->fr[k] * b->fr[k] + b->fi[k] * b->fi[k], u = 2.0 * (double)(k - from) / (double)n - 1.0, row[TERMS] = {1.0, u, u * u};
+            double re = b->fr[k] * b->rr[k] + b->fi[k] * b->ri[k], im = b->fr[k] * b->ri[k] - b->fi[k] * b->rr[k];
+            for (int i = 0; i < TERMS; i++) {
+                for (int j = 0; j < TERMS; j++)
+                    a[i * N + j] += power * row[i] * row[j];
+                a[i * N + TERMS] += row[i] * re;
+                a[i * N + TERMS + 1] += row[i] * im;
+            }
+        }
+        for (int i = 0; i < TERMS; i++)
+            scale[i] = a[i * N + i];
+        modal_block_sweep(a, N, 0, TERMS, scale, swept);
+        for (long k = from; k < from + n; k++) {
+            double u = 2.0 * (double)(k - from) / (double)n - 1.0, row[TERMS] = {1.0, u, u * u}, re = 0.0, im = 0.0;
+            for (int i = 0; i < TERMS; i++)
+                if (swept[i]) {
+                    re += row[i] * a[i * N + TERMS];
+                    im += row[i] * a[i * N + TERMS + 1];
+                }
+            b->nr[k] = b->rr[k] - (b->fr[k] * re - b->fi[k] * im);
+            b->ni[k] = b->ri[k] - (b->fr[k] * im + b->fi[k] * re);
+        }
+        if (n > PATCH)
+            break;
+    }
+}
+
+void modal_fit_noise(struct modal_fit *f, double width)
+{
+    for (int s = 0; s < f->data->stretches; s++) {
+        struct modal_bins *b = &f->bins[s];
+        take_smooth_off(b);
+        long half = (long)(0.5 * 2.0 * REAL_PI * width / (b->width * GROUP));
+        smooth_power(b->nr, b->ni, b->n, half > 25 ? half : 25, b->variance);
+        for (long k = 0; k < b->n; k++)
+            b->variance[k] = fmax(b->variance[k], b->floor[k]);
+    }
+}
+
+static void floors_of_leads(struct modal_fit *f)
+{
+    const struct modal_data *d = f->data;
+    for (int l = 0; l < d->stretches; l++) {
+        struct modal_bins *lead = &f->bins[l];
+        if (d->stretch[l].strike >= 0 || lead->n < 100)
+            continue;
+        struct arena *a = arena_open();
+        double *level = ARENA_TAKE(a, double, lead->n);
+        smooth_power(lead->yr, lead->yi, lead->n, 6, level);
+        for (int s = 0; s < d->stretches; s++)
+            for (long k = 0; d->stretch[s].place == d->stretch[l].place && s != l && k < f->bins[s].n; k++) {
+                long i = (long)rint((double)(f->bins[s].first + k) * f->bins[s].width / lead->width) - lead->first;
+                i = i < 0 ? 0 : i < lead->n ? i : lead->n - 1;
+                f->bins[s].scale[k] = fmax(f->bins[s].floor[k], level[i]);
+                f->bins[s].floor[k] = fmax(f->bins[s].floor[k], 0.7 * level[i]);
+            }
+        arena_close(a);
+    }
+}
+
+/* ------------------------------------------------------------------ a mode on the bins */
+
+/* H - G of the pole s, and their derivative. */
+static void carried(const struct modal_stretch *s, double rate, cplx pole, bool hum, cplx *value, cplx *slope)
+{
+    static const double one = 1.0;
+    const struct modal_pulse start = {0, 1, &one}, *q = hum ? &start : &s->pulse;
+    const cplx p = cplx_exp(pole, 1.0 / rate);
+    *value = *slope = (cplx){0};
+    for (int end = 0; end < 2; end++) { /* what is brought in, less what is carried out */
+        long to = end ? s->first + s->n : s->first, n = to - q->at < q->n ? to - q->at : q->n;
+        cplx sum = {0}, derivative = {0};
+        if (n <= 0)
+            continue;
+        for (long k = 0; k < n; k++) {
+            derivative = cplx_add(cplx_mul(derivative, p), cplx_scale(1.0 / rate, cplx_mul(sum, p)));
+            sum = cplx_mul(sum, p);
+            sum.re += q->f[k];
+        }
+        double t = (double)(to - (q->at + n - 1)) / rate;
+        cplx power = cplx_exp(pole, t);
+        derivative = cplx_mul(power, cplx_add(derivative, cplx_scale(t, sum)));
+        sum = cplx_mul(power, sum);
+        *value = end ? cplx_sub(*value, sum) : cplx_add(*value, sum);
+        *slope = end ? cplx_sub(*slope, derivative) : cplx_add(*slope, derivative);
+    }
+}
+
+struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s, bool hum)
+{
+    const struct modal_stretch *st = &f->data->stretch[stretch];
+    double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
+    cplx value, slope, p = cplx_exp(s, 1.0 / rate);
+    carried(st, rate, s, hum, &value, &slope);
+    return (struct modal_line){p.re, p.im, size * value.re, size * value.im, size * slope.re, size * slope.im, 1.0 / rate, hum ? 0.0 : 1.0};
+}
+
+LANES_CLONES
+void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n, double *const x[4]);
+LANES_CLONES
+void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n, double *const x[4])
+{
+    const double *er = b->er + from, *ei = b->ei + from, *fr = b->fr + from, *fi = b->fi + from;
+    const double pr = l->pr, pi = sign * l->pi, gr = l->gr, gi = sign * l->gi, sr = l->dr, si = sign * l->di, t = l->t, force = l->force;
+    double *xr = x[0], *xi = x[1], *dr = x[2], *di = x[3];
+#pragma omp simd
+    for (long k = 0; k < n; k++) {
+        double ur = 1.0 - (pr * er[k] - pi * ei[k]), ui = -(pr * ei[k] + pi * er[k]), q = 1.0 / (ur * ur + ui * ui);
+        double nr = force * fr[k] + gr, ni = force * fi[k] + gi, ir = ur * q, ii = -ui * q;
+        double vr = nr * ir - ni * ii, vi = nr * ii + ni * ir, wr = t * (1.0 - ur), wi = -t * ui;
+        double tr = sr + wr * vr - wi * vi, ti = si + wr * vi + wi * vr;
+        xr[k] = vr;
+        xi[k] = vi;
+        dr[k] = tr * ir - ti * ii;
+        di[k] = tr * ii + ti * ir;
+    }
+}
+
+void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long to, double *const x[8])
+{
+    modal_fit_half(b, l, 1.0, from, to - from, x);
+    modal_fit_half(b, l, -1.0, from, to - from, x + 4);
+}
+
+/* ------------------------------------------------------------------ components */
+
+/* rest of a stretch += Re part of gain times what the line makes. */
+static void add_line(struct modal_bins *b, const struct modal_line *line, cplx gain)
+{
+    double room[8][CHUNK], *x[8];
+    cplx g = cplx_scale(0.5, gain);
+    for (int c = 0; c < 8; c++)
+        x[c] = room[c];
+    for (long from = 0; from < b->n; from += CHUNK) {
+        long n = from + CHUNK < b->n ? CHUNK : b->n - from;
+        modal_fit_basis(b, line, from, from + n, x);
+        for (long k = 0; k < n; k++) {
+            b->rr[from + k] += g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k]);
+            b->ri[from + k] += g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]);
+        }
+    }
+}
+
+/* What rings on into a stretch: the state x that earlier strikes of its place have left at its first sample makes x (1 - p^n)/(1 - p e^(-jw)). */
+static void add_ringing(const struct modal_fit *f, int s, cplx pole, cplx state, double sign)
+{
+    const struct modal_stretch *st = &f->data->stretch[s];
+    double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
+    cplx p = cplx_exp(pole, 1.0 / rate), left = cplx_sub(state, cplx_mul(state, cplx_exp(pole, (double)st->n / rate)));
+    struct modal_line line = {p.re, p.im, size, 0.0, 0.0, 0.0, 1.0 / rate, 0.0};
+    add_line(&f->bins[s], &line, cplx_scale(sign, left));
+}
+
+void modal_fit_put(struct modal_fit *f, int i, double sign)
+{
+    const struct modal_data *d = f->data;
+    const cplx pole = f->s[i];
+    cplx ringing = {0};
+    long at = 0;
+    int place = -1;
+    for (int s = 0; s < d->stretches; s++) {
+        const struct modal_stretch *st = &d->stretch[s];
+        cplx gain = f->gain[i * d->groups + st->group], force = {0};
+        struct modal_line line = modal_fit_line(f, s, pole, f->hum[i]);
+        if (cplx_square(gain) > 0.0)
+            add_line(&f->bins[s], &line, cplx_scale(sign, gain));
+        if (f->hum[i] || st->strike < 0)
+            continue;
+        cplx state = st->place == place ? cplx_mul(ringing, cplx_exp(pole, (double)(st->first - at) / d->rate)) : (cplx){0};
+        if (cplx_square(state) > 1e-24 * cplx_square(gain))
+            add_ringing(f, s, pole, state, sign);
+        for (long k = 0; k < st->pulse.n; k++)
+            force = cplx_add(force, cplx_scale(st->pulse.f[k], cplx_exp(pole, -(double)k / d->rate)));
+        ringing = cplx_add(st->place == place ? cplx_mul(ringing, cplx_exp(pole, (double)(st->pulse.at - at) / d->rate)) : (cplx){0}, cplx_mul(gain, force));
+        at = st->pulse.at;
+        place = st->place;
+    }
+}
+
+void modal_fit_rest(struct modal_fit *f)
+{
+    for (int s = 0; s < f->data->stretches; s++) {
+        memcpy(f->bins[s].rr, f->bins[s].yr, (size_t)f->bins[s].n * sizeof(double));
+        memcpy(f->bins[s].ri, f->bins[s].yi, (size_t)f->bins[s].n * sizeof(double));
+    }
+    for (int i = 0; i < f->m; i++)
+        modal_fit_put(f, i, -1.0);
+}
+
+void modal_fit_add(struct modal_fit *f, cplx s, const cplx *gain, bool hum)
+{
+    int groups = f->data->groups, room = f->room ? 2 * f->room : 64;
+    if (f->m == f->room) {
+        cplx *poles = ARENA_TAKE(f->a, cplx, room), *gains = ARENA_TAKE(f->a, cplx, room * groups);
+        bool *hums = ARENA_TAKE(f->a, bool, room);
+        double *moved = ARENA_TAKE(f->a, double, room);
+        for (int i = 0; i < f->m; i++) {
+            poles[i] = f->s[i];
+            hums[i] = f->hum[i];
+            moved[i] = f->moved[i];
+            memcpy(gains + i * groups, f->gain + i * groups, (size_t)groups * sizeof *gains);
+        }
+        f->s = poles;
+        f->gain = gains;
+        f->hum = hums;
+        f->moved = moved;
+        f->room = room;
+    }
+    f->s[f->m] = s;
+    f->hum[f->m] = hum;
+    f->moved[f->m] = 1e9;
+    memcpy(f->gain + f->m * groups, gain, (size_t)groups * sizeof *gain);
+    modal_fit_put(f, f->m++, -1.0);
+}
+
+void modal_fit_drop(struct modal_fit *f, int i)
+{
+    int groups = f->data->groups;
+    modal_fit_put(f, i, 1.0);
+    for (f->m--; i < f->m; i++) {
+        f->s[i] = f->s[i + 1];
+        f->hum[i] = f->hum[i + 1];
+        f->moved[i] = f->moved[i + 1];
+        memcpy(f->gain + i * groups, f->gain + (i + 1) * groups, (size_t)groups * sizeof *f->gain);
+    }
+}

@@ -1,0 +1,251 @@
+/* A fit as a whole: blocks of neighbours in turn until nothing moves, and the modes that it does without. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "analysis/modal_fit.h"
+
+enum { NEIGHBOURS = 10, ROUNDS = 30 };
+
+static const double touches = 6.0;  /* of the sum of two widths: nearer modes are fitted together */
+static const double still = 0.02;   /* standard errors: what moved less has not moved */
+static const double cancels = 10.0; /* of the recording's energy in a mode's window: a louder mode is one of several that cancel */
+static const double leave = 23.5;   /* chi squared of 4 degrees, chance 1e-4 */
+
+static double width_of(const struct modal_fit *f, int i)
+{
+    return -f->s[i].re + 4.0 * REAL_PI / f->longest;
+}
+
+static double distance(const struct modal_fit *f, int i, int k)
+{
+    return fabs(f->s[i].im - f->s[k].im) / (width_of(f, i) + width_of(f, k));
+}
+
+int modal_settle_near(const struct modal_fit *f, int i, int most, int *of)
+{
+    double at[MODAL_BLOCK];
+    int n = 0;
+    for (int k = 0; k < f->m; k++) {
+        double q = k == i ? -1.0 : distance(f, i, k);
+        if (q >= touches || (n == most && q >= at[n - 1]))
+            continue;
+        int to = n < most ? n++ : n - 1;
+        for (; to > 0 && at[to - 1] > q; to--) {
+            at[to] = at[to - 1];
+            of[to] = of[to - 1];
+        }
+        at[to] = q;
+        of[to] = k;
+    }
+    for (int a = 1; a < n; a++) /* by frequency: the order of columns is that of the data, not of the search */
+        for (int b = a; b > 0 && f->s[of[b]].im < f->s[of[b - 1]].im; b--) {
+            int swap = of[b];
+            of[b] = of[b - 1];
+            of[b - 1] = swap;
+        }
+    return n;
+}
+
+double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
+{
+    struct arena *a = arena_open();
+    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    double most = 0.0, moved[MODAL_BLOCK];
+    int groups = f->data->groups;
+    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
+    bool converged = modal_block_polish(b, steps);
+    double noise = modal_block_noise(b);
+    for (int i = 0; i < n; i++) {
+        double by[2] = {b->s[i].im - f->s[of[i]].im, real_log(b->s[i].re / f->s[of[i]].re)};
+        double square = by[0] * by[0] * b->normal[2 * i * (2 * n + 1)] + by[1] * by[1] * b->normal[(2 * i + 1) * (2 * n + 1)];
+        moved[i] = sqrt(square / noise);
+        most = fmax(most, moved[i]);
+        modal_fit_put(f, of[i], 1.0);
+        f->s[of[i]] = b->s[i];
+        memcpy(f->gain + of[i] * groups, b->gain + i * groups, (size_t)groups * sizeof *b->gain);
+        modal_fit_put(f, of[i], -1.0);
+        f->moved[of[i]] = converged ? 0.0 : fmin(moved[i], 1.0);
+    }
+    for (int k = 0; k < f->m; k++) {
+        bool mine = false;
+        for (int i = 0; i < n; i++)
+            mine = mine || of[i] == k;
+        for (int i = 0; i < n && !mine; i++) { /* skirts fall with the distance, in power with its square */
+            double q = distance(f, of[i], k);
+            f->moved[k] = fmax(f->moved[k], moved[i] / (1.0 + q * q));
+        }
+    }
+    arena_close(a);
+    return most;
+}
+
+static int by_frequency(const void *x, const void *y)
+{
+    const cplx *a = x, *b = y;
+    return (a->im > b->im) - (a->im < b->im);
+}
+
+double modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
+{
+    double left = 0.0;
+    for (int k = 0; k < rounds; k++) {
+        struct arena *a = arena_open();
+        cplx *order = ARENA_TAKE(a, cplx, f->m + 1); /* index, frequency */
+        int of[MODAL_BLOCK];
+        for (int i = 0; i < f->m; i++)
+            order[i] = (cplx){(double)i, f->s[i].im};
+        qsort(order, (size_t)f->m, sizeof *order, by_frequency);
+        left = 0.0;
+        for (int i = 0; i < f->m; i++)
+            if (f->moved[(int)order[i].re] > still) {
+                int n = modal_settle_near(f, (int)order[i].re, most, of);
+                left = fmax(left, modal_settle_refine(f, n, of, 20));
+            }
+        arena_close(a);
+        if (left <= still)
+            break;
+    }
+    return left;
+}
+
+/* ------------------------------------------------------------------ what a fit can do without */
+
+double modal_settle_limit(const struct modal_fit *f, double chi4)
+{
+    double chance = real_exp(-0.5 * chi4) * (1.0 + 0.5 * chi4), low = chi4, high = chi4 + 20.0 * f->data->groups;
+    for (int k = 0; k < 60; k++) {
+        double x = 0.5 * (low + high), term = real_exp(-0.5 * x), sum = term;
+        for (int i = 1; i <= f->data->groups; i++) {
+            term *= 0.5 * x / i;
+            sum += term;
+        }
+        if (sum > chance)
+            low = x;
+        else
+            high = x;
+    }
+    return 0.5 * (low + high);
+}
+
+double modal_settle_noise(const struct modal_fit *f, cplx s)
+{
+    double reach = f->span * (-30.0 * s.re + 120.0 * REAL_PI / f->longest), sum = 0.0;
+    long rows = 0, inside = 0, used = 0;
+    for (int k = 0; k < f->data->stretches; k++) {
+        const struct modal_bins *b = &f->bins[k];
+        double from = ceil((s.im - reach) / b->width) - (double)b->first, to = floor((s.im + reach) / b->width) - (double)b->first + 1.0;
+        if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0)
+            continue;
+        for (long i = from > 0.0 ? (long)from : 0; i < b->n && (double)i < to; i++) {
+            sum += 2.0 * (b->nr[i] * b->nr[i] + b->ni[i] * b->ni[i]) / b->variance[i];
+            rows += 2;
+        }
+    }
+    for (int i = 0; i < f->m; i++)
+        inside += fabs(f->s[i].im - s.im) < reach;
+    used = inside * (2 + 2 * f->data->groups) + MODAL_SMOOTH * f->data->groups;
+    return fmax(sum / (double)(rows - used > rows / 4 ? rows - used : rows / 4 + 1), 1e-300);
+}
+
+double modal_settle_rise(struct modal_fit *f, int i)
+{
+    struct arena *a = arena_open();
+    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    int of[MODAL_BLOCK], n = modal_settle_near(f, i, NEIGHBOURS, of), at = 0;
+    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
+    modal_block_gains(b);
+    double chi = b->chi;
+    while (b->of[at] != i)
+        at++;
+    modal_block_drop(b, at);
+    modal_block_polish(b, b->m ? 4 : 0);
+    double rise = (b->chi - chi) / fmin(modal_settle_noise(f, f->s[i]), 1e6);
+    arena_close(a);
+    return rise;
+}
+
+void modal_settle_eliminate(struct modal_fit *f, double limit)
+{
+    struct arena *a = arena_open();
+    double *rise = ARENA_TAKE(a, double, f->m + 1);
+    for (int i = 0; i < f->m; i++)
+        rise[i] = NAN;
+    for (;;) {
+        int least = -1, near[MODAL_BLOCK];
+        for (int i = 0; i < f->m; i++) {
+            if (isnan(rise[i]))
+                rise[i] = modal_settle_rise(f, i);
+            if (least < 0 || rise[i] < rise[least] || (rise[i] == rise[least] && f->s[i].im < f->s[least].im))
+                least = i;
+        }
+        if (least < 0 || rise[least] >= limit)
+            break;
+        int n = modal_settle_near(f, least, NEIGHBOURS + 1, near), others = 0;
+        for (int i = 0; i < n; i++) {
+            rise[near[i]] = NAN;
+            if (near[i] != least)
+                near[others++] = near[i] - (near[i] > least);
+        }
+        memmove(rise + least, rise + least + 1, (size_t)(f->m - least - 1) * sizeof *rise);
+        modal_fit_drop(f, least);
+        if (others)
+            modal_settle_refine(f, others, near, 20);
+    }
+    arena_close(a);
+}
+
+/* Energy of a component in its own window over that of what there is without it. */
+static double loudness(const struct modal_fit *f, int i)
+{
+    struct arena *a = arena_open();
+    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    double mine = 0.0, all = 0.0;
+    modal_block_open(b, f, 1, &i, NULL, 0, NULL, a);
+    for (int s = 0; s < f->data->stretches; s++) {
+        const struct modal_bins *bins = &f->bins[s];
+        long n = b->to[s] - b->from[s];
+        for (long k = 0; k < n; k++) {
+            double re = b->r[s][k] - bins->rr[b->from[s] + k], im = b->r[s][n + k] - bins->ri[b->from[s] + k], yr = bins->yr[b->from[s] + k], yi = bins->yi[b->from[s] + k];
+            mine += re * re + im * im;
+            all += yr * yr + yi * yi;
+        }
+    }
+    arena_close(a);
+    return all > 0.0 ? mine / all : 0.0;
+}
+
+int modal_settle_runaways(struct modal_fit *f)
+{
+    int dropped = 0;
+    for (int i = 0; i < f->m;)
+        if (!f->hum[i] && (-f->s[i].re > 0.99 * f->fastest || loudness(f, i) > cancels)) {
+            for (int k = 0; k < f->m; k++)
+                if (distance(f, i, k) < touches)
+                    f->moved[k] = 1.0;
+            modal_fit_drop(f, i);
+            dropped++;
+        } else {
+            i++;
+        }
+    return dropped;
+}
+
+void modal_settle(struct modal_fit *f)
+{
+    double limit = modal_settle_limit(f, leave);
+    f->tolerance = 1e-4;
+    for (int k = 0, m = -1; k < 4 && m != f->m; k++) {
+        for (int i = 0; i < f->m; i++)
+            f->moved[i] = fmax(f->moved[i], 1.0);
+        m = f->m;
+        do
+            modal_settle_sweeps(f, MODAL_BLOCK - 4, ROUNDS);
+        while (modal_settle_runaways(f));
+        modal_fit_rest(f);
+        modal_fit_noise(f, 0.0);
+        modal_settle_eliminate(f, limit);
+    }
+    modal_settle_sweeps(f, MODAL_BLOCK - 4, ROUNDS);
+    modal_fit_rest(f);
+    modal_fit_noise(f, 0.0);
+}

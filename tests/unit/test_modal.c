@@ -1,0 +1,201 @@
+/* The fit of modes to recordings (analysis/modal.h): its basis against plain sums over samples, what comes back of known modes, and what must not. */
+#include "unit.h"
+
+#include "analysis/modal_fit.h"
+#include "num/noise.h"
+
+enum { RATE = 16000, N = 12000, MOST = 24 };
+
+struct known {
+    double f, d, gain, phase;
+};
+
+/* y[n] += sum gain e^(-d t) sin(2 pi f t + phase) of every sample of a force. */
+static void sound(const struct known *m, int modes, const double *force, long pulse, long at, long n, double *y)
+{
+    for (int i = 0; i < modes; i++) {
+        cplx p = cplx_exp((cplx){-m[i].d, 2.0 * REAL_PI * m[i].f}, 1.0 / RATE), x = {0};
+        for (long k = at; k < n; k++) {
+            x = cplx_mul(x, p);
+            x.re += k - at < pulse ? force[k - at] : 0.0;
+            y[k] += m[i].gain * (x.im * real_cos(m[i].phase) + x.re * real_sin(m[i].phase));
+        }
+    }
+}
+
+static const double one = 1.0;
+
+/* Modes of a response in noise of that rms; its last bits as they fall with another seed. */
+static void find(const struct known *m, int modes, double rms, unsigned seed, int flips, struct arena *a, struct modal_result *r)
+{
+    double *y = ARENA_TAKE(a, double, N + 1), *noise = ARENA_TAKE(a, double, N + 1);
+    struct err e = {0};
+    sound(m, modes, &one, 1, 0, N + 1, y);
+    noise_normal(noise_make(seed, "test"), 1, N + 1, noise);
+    for (long i = 0; i <= N; i++)
+        y[i] = (double)(float)(y[i] + rms * noise[i]);
+    for (int k = 0; k < flips; k++)
+        y[97 + 331 * k % N] *= 1.0 + 0x1p-24;
+    struct modal_stretch s = {.y = y + 1, .first = 1, .n = modal_length(N), .fitted = true, .pulse = {0, 1, &one}};
+    struct modal_data d = {.rate = RATE, .places = 1, .groups = 1, .stretches = 1, .stretch = &s};
+    struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE, .threshold = 0.1};
+    ck_assert_msg(modal_find(&d, &o, a, r, &e), "%s", e.text);
+}
+
+static const struct modal_mode *nearest(const struct modal_result *r, const struct known *m)
+{
+    const struct modal_mode *best = &r->mode[0];
+    for (int i = 1; i < r->n; i++)
+        if (fabs(r->mode[i].frequency - m->f) + 0.1 * fabs(r->mode[i].decay - m->d) < fabs(best->frequency - m->f) + 0.1 * fabs(best->decay - m->d))
+            best = &r->mode[i];
+    return best;
+}
+
+/* X of a pole, of a force within the stretch, before it and both, is the DFT of the recursion to 1e-10; dX/ds is its slope over 1e-4/s to 1e-6. */
+START_TEST(basis)
+{
+    const double force[3] = {0.3, 1.0, 0.4};
+    struct arena *a = arena_open();
+    for (long at = 40; at <= 540; at += 250) {
+        double *y = ARENA_TAKE(a, double, 2000), room[3][8][8], *x[8];
+        struct modal_stretch s = {.y = y, .first = 300, .n = 960, .fitted = true, .pulse = {at, 3, force}};
+        struct modal_data d = {.rate = RATE, .places = 1, .groups = 1, .stretches = 1, .stretch = &s};
+        struct modal_options o = {.low = 900, .high = 1100, .fastest = 300};
+        struct modal_fit f;
+        const cplx pole = {-35.0, 2.0 * REAL_PI * 987.6};
+        modal_fit_open(&f, &d, &o, a);
+        for (int k = 0; k < 3; k++) {
+            struct modal_line line = modal_fit_line(&f, 0, (cplx){pole.re + 1e-4 * (k - 1), pole.im}, false);
+            for (int c = 0; c < 8; c++)
+                x[c] = room[k][c];
+            modal_fit_basis(&f.bins[0], &line, 0, 8, x);
+        }
+        cplx p = cplx_exp(pole, 1.0 / RATE), state = {0}, sum[8] = {{0}};
+        double largest = 0.0;
+        for (long n = 0; n < 1260; n++) {
+            state = cplx_mul(state, p);
+            state.re += n >= at && n < at + 3 ? force[n - at] : 0.0;
+            for (int k = 0; n >= 300 && k < 8; k++)
+                sum[k] = cplx_add(sum[k], cplx_mul(state, cplx_exp((cplx){0.0, -f.bins[0].width * (double)(f.bins[0].first + k)}, (double)(n - 300) / RATE)));
+        }
+        for (int k = 0; k < 8; k++)
+            largest = fmax(largest, cplx_abs(sum[k]));
+        for (int k = 0; k < 8; k++) {
+            ck_assert_double_eq_tol(room[1][0][k] * sqrt(960.0), sum[k].re, 1e-10 * largest);
+            ck_assert_double_eq_tol(room[1][1][k] * sqrt(960.0), sum[k].im, 1e-10 * largest);
+            for (int c = 0; c < 2; c++) {
+                double slope = (room[2][c][k] - room[0][c][k]) / 2e-4;
+                ck_assert_double_eq_tol(room[1][2 + c][k], slope, 1e-6 * (fabs(slope) + largest));
+            }
+        }
+    }
+    arena_close(a);
+}
+END_TEST
+
+/* Twelve random modes from 150 to 7000 Hz, levels over 20 dB, of 24 seeds each another draw: all of them, no other, within five standard errors; half of all within 0.67. */
+START_TEST(random_modes)
+{
+    double inside = 0.0, all = 0.0;
+    for (unsigned seed = 1; seed <= 6; seed++) {
+        struct arena *a = arena_open();
+        struct noise source = noise_make(seed, "modes");
+        struct known m[12];
+        struct modal_result r;
+        for (int i = 0; i < 12; i++) /* one in each part of the band, so that the noise lets one tell all */
+            m[i] = (struct known){150.0 + 570.0 * (i + 0.7 * noise_uniform(source, 1, (uint64_t)i)), real_exp(real_log(4.0) + 2.5 * noise_uniform(source, 2, (uint64_t)i)),
+                                  real_exp10(-noise_uniform(source, 3, (uint64_t)i)), 6.0 * noise_uniform(source, 4, (uint64_t)i)};
+        find(m, 12, 1e-3, seed, 0, a, &r);
+        ck_assert_int_eq(r.n, 12);
+        for (int i = 0; i < 12; i++) {
+            const struct modal_mode *k = nearest(&r, &m[i]);
+            double z[3] = {(k->frequency - m[i].f) / k->frequency_se, (k->decay - m[i].d) / k->decay_se,
+                           (sqrt(k->re[0] * k->re[0] + k->im[0] * k->im[0]) - m[i].gain) / k->gain_se[0]};
+            for (int q = 0; q < 3; q++) {
+                ck_assert_double_le(fabs(z[q]), 5.0);
+                inside += fabs(z[q]) < 0.674;
+                all++;
+            }
+        }
+        arena_close(a);
+    }
+    ck_assert_double_eq_tol(inside / all, 0.5, 4.0 * 0.5 / sqrt(all)); /* four standard deviations of a fair coin */
+}
+END_TEST
+
+/* Two modes 2 Hz apart, two decays of one frequency, and one that is neither: as they are, under eight draws of noise and flips of last bits, which move a frequency by no more than a
+   tenth of its standard error. */
+START_TEST(pairs_and_slopes)
+{
+    static const struct known m[] = {{700, 9, 1, 0.4}, {702, 12, 0.4, 2}, {1500, 5, 0.3, 1}, {1500, 40, 1, 1}, {3000, 20, 0.2, 0}};
+    for (unsigned seed = 1; seed <= 8; seed++) {
+        struct arena *a = arena_open();
+        struct modal_result r, flipped;
+        find(m, 5, 1e-3, seed, 0, a, &r);
+        find(m, 5, 1e-3, seed, 40, a, &flipped);
+        ck_assert_int_eq(r.n, 5);
+        ck_assert_int_eq(r.modes, 4);
+        ck_assert_int_eq(flipped.n, 5);
+        ck_assert(r.note && strstr(r.note, "decays with two slopes"));
+        for (int i = 0; i < 5; i++) {
+            const struct modal_mode *k = nearest(&r, &m[i]), *l = nearest(&flipped, &m[i]);
+            ck_assert_double_eq_tol(k->frequency, m[i].f, 5.0 * k->frequency_se);
+            ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
+            ck_assert_double_eq_tol(k->frequency, l->frequency, 0.1 * k->frequency_se);
+        }
+        arena_close(a);
+    }
+}
+END_TEST
+
+/* White noise of 20 draws: nothing. */
+START_TEST(noise_alone)
+{
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        struct arena *a = arena_open();
+        struct modal_result r;
+        find(NULL, 0, 1.0, seed, 0, a, &r);
+        ck_assert_int_eq(r.n, 0);
+        arena_close(a);
+    }
+}
+END_TEST
+
+/* Two strikes by a half sine, the second 0.15 s behind the first, with a lead that hums: the modes, and no hum. */
+START_TEST(strikes_and_hum)
+{
+    enum { LEAD = 6000, PULSE = 6, GAP = 2400, ALL = 24000 };
+    static const struct known m[] = {{310, 15, 1, 0}, {1700, 30, 0.5, 1}, {4400, 60, 0.7, 2}};
+    double force[PULSE];
+    struct arena *a = arena_open();
+    double *y = ARENA_TAKE(a, double, ALL), *noise = ARENA_TAKE(a, double, ALL);
+    struct modal_result r;
+    struct err e = {0};
+    for (int i = 0; i < PULSE; i++)
+        force[i] = real_sin(REAL_PI * (i + 0.5) / PULSE);
+    sound(m, 3, force, PULSE, LEAD, ALL, y);
+    sound(m, 3, force, PULSE, LEAD + GAP, ALL, y);
+    noise_normal(noise_make(3, "test"), 1, ALL, noise);
+    for (long i = 0; i < ALL; i++)
+        y[i] += 1e-3 * noise[i] + 0.02 * real_sin(2.0 * REAL_PI * 150.0 * (double)i / RATE);
+    struct modal_stretch s[3] = {{.y = y, .n = modal_length(LEAD - 8), .strike = -1},
+                                 {.y = y + LEAD - 8, .first = LEAD - 8, .n = modal_length(GAP), .ringing = 8 + PULSE, .group = 1, .fitted = true, .pulse = {LEAD, PULSE, force}},
+                                 {.y = y + LEAD + GAP - 8, .first = LEAD + GAP - 8, .n = modal_length(ALL - LEAD - GAP), .ringing = 8 + PULSE, .group = 2, .strike = 1, .fitted = true,
+                                  .pulse = {LEAD + GAP, PULSE, force}}};
+    struct modal_data d = {.rate = RATE, .places = 1, .groups = 3, .stretches = 3, .stretch = s};
+    struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
+    ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
+    ck_assert_int_eq(r.n, 3);
+    ck_assert(strstr(r.note, "1 line that the recording holds before the first strike"));
+    for (int i = 0; i < 3; i++) {
+        const struct modal_mode *k = nearest(&r, &m[i]);
+        ck_assert_double_eq_tol(k->frequency, m[i].f, 5.0 * k->frequency_se);
+        ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
+        ck_assert_double_eq_tol(sqrt(k->re[1] * k->re[1] + k->im[1] * k->im[1]), m[i].gain, 5.0 * k->gain_se[1]); /* nothing rings before the first strike */
+    }
+    ck_assert_double_ge(r.explained[1], 0.999);
+    arena_close(a);
+}
+END_TEST
+
+UNIT("test_modal", basis, random_modes, pairs_and_slopes, noise_alone, strikes_and_hum)
