@@ -536,7 +536,7 @@ int main(int argc, char **argv)
     if (argc == 4 && !strcmp(argv[1], "cases"))
         printf("%d\n", cases(set, atol(argv[3])));
     else if (argc == 6 && !strcmp(argv[1], "make") && strchr("ABCDEFGHI", set)) {
-        int k = atoi(argv[4]);
+        int k = (int)strtol(argv[4], NULL, 10);
         seeded(strtoull(argv[3], NULL, 10), set, k);
         series_make(&s, set, k);
         sound_make(&s);

@@ -14,7 +14,7 @@ static const double stable = 23.5;          /* chi squared of 4 degrees that a m
 static const double certain = 100.0;        /* ... above which all draws do */
 static const double step = 300.0;            /* of power, from round to round */
 static const double samples = 128.0;        /* of a band's envelope in the longest stretch, in the narrowest bands */
-static const double model_error[2] = {2e-4, 0.05}; /* of frequency and decay, from strike to strike, where there is one strike: evidence/extract.md */
+static const double model_error[2] = {2e-4, 0.05}; /* of frequency and decay, where there is one strike: stated, not measured */
 static const double prior = 3.0;            /* strikes that the scatter of all modes together counts as */
 
 long modal_length(long n)

@@ -141,7 +141,7 @@ static void add(struct modes_extract *x, struct modal_stretch *list, struct mode
     s.n = modal_length((end < r->n ? end : r->n) - s.first);
     s.y = r->sound + s.first;
     s.place = (int)(p - x->place);
-    if ((double)s.n < shortest * r->rate)
+    if ((double)(s.n - s.ringing) < shortest * r->rate)
         return;
     if (p->stretches++ == 0)
         p->first = x->data.stretches;
