@@ -139,7 +139,6 @@ static void by_force(struct finder *f)
     const struct strikes_recording *r = f->r;
     struct strikes_level level = strikes_level(f->force, r->n, r->rate, 0.01, f->a);
     double most = greatest(f->force, 0, r->n), threshold = fmax(level.floor * real_exp10(f->o->threshold / 20.0), least_share * most);
-    f->s->force_noise = level.floor;
     for (long i = 0, after; i < r->n; i++)
         if (f->force[i] > threshold) {
             take_pulse(f, pulse(f, top_of(f, i, threshold, &after)));

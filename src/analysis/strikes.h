@@ -12,7 +12,6 @@ struct strikes_recording {
     const double *force;    /* [n] N; NULL: no channel holds it */
     long n;
     double rate;            /* Hz */
-    double delay;           /* s, by which the sound comes after the force (the way to the microphone); NAN: to be found */
     double full;            /* the greatest value that the file can hold, in the sound's and the force's own unit: what reaches it is clipped; INFINITY: floating point */
     double force_full;
     double offset, force_offset;   /* that strikes_channel.h took off */
@@ -34,7 +33,6 @@ struct strikes {
     int n;
     struct strikes_one *strike;  /* [n] by onset */
     double sign;            /* -1: the force channel points down, and is taken the other way round */
-    double force_noise;     /* N rms */
     const char *note;       /* lines; NULL */
 };
 

@@ -166,7 +166,7 @@ static bool samples(struct modes_extract *x, struct modes_extract_place *p, stru
     if (!has_channels(x, p, e))
         return false;
     double scale = p->gain * (isnan(g->scale) ? 1.0 : g->scale), force_scale = isnan(g->force_scale) ? 1.0 : g->force_scale;
-    p->recording = (struct strikes_recording){.name = p->shown, .n = (long)w.frames, .rate = w.rate, .delay = g->delay, .full = w.bits ? fabs(scale) : INFINITY,
+    p->recording = (struct strikes_recording){.name = p->shown, .n = (long)w.frames, .rate = w.rate, .full = w.bits ? fabs(scale) : INFINITY,
                                               .force_full = w.bits ? force_scale : INFINITY};
     p->recording.rounding = fabs(scale) * rounding(&w, (int)g->channel - 1);
     p->recording.sound = channel(&w, g->channel, scale, x->arena);
