@@ -191,7 +191,8 @@ START_TEST(strikes_and_hum)
         const struct modal_mode *k = nearest(&r, &m[i]);
         ck_assert_double_eq_tol(k->frequency, m[i].f, 5.0 * k->frequency_se);
         ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
-        ck_assert_double_eq_tol(sqrt(k->re[1] * k->re[1] + k->im[1] * k->im[1]), m[i].gain, 5.0 * k->gain_se[1]); /* nothing rings before the first strike */
+        for (int g = 1; g < 3; g++) /* what rings on from the first strike, a tenth of the lowest mode, is none of the second's */
+            ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]), m[i].gain, 5.0 * k->gain_se[g]);
     }
     ck_assert_double_ge(r.explained[1], 0.999);
     arena_close(a);
