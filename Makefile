@@ -71,6 +71,8 @@ $(BUILD)/%.o: src/%.c $(BUILD)/flags
 
 # A sqrt that may set errno is not vectorised.
 $(BUILD)/force/slope_terms.o $(BUILD)/surface/crest_lanes.o: private DEFINES = -fno-math-errno
+# gcc 12 turns products of complex numbers in loops, too, into vfmaddsub.
+$(BUILD)/analysis/modal_search.o: private DEFINES = -fno-tree-vectorize
 # -O3 alone keeps the sums of eight lanes in registers where these are narrower than eight.
 $(BUILD)/analysis/modal_block.o $(BUILD)/force/spread.o $(BUILD)/force/decimate.o $(BUILD)/convolution/coupled_chorus.o $(BUILD)/convolution/coupled_gradient.o $(BUILD)/convolution/coupled_rk4.o \
     $(BUILD)/convolution/coupled_stages.o: private DEFINES = $(if $(filter -O2,$(OPT)),-O3)

@@ -3,8 +3,8 @@
 # check` ran them: what they expect must not depend on a CPU's linear algebra.
 #     tests/blas.sh             one other kind: the plainest, or where that is this CPU's own the next but two
 #     KERNELS="..." tests/blas.sh   those kinds (OPENBLAS_CORETYPE); all: all that this CPU can run
-# Unit tests are those that link it (of what is built), cli tests those that extract; `rasp modes compute` takes one
-# kind everywhere (cli/modes-compute-kernels).
+# Unit tests are those that link it, of what is built; `rasp modes compute` takes one kind everywhere (cli/modes-compute-kernels),
+# and nothing else of rasp links it.
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -17,7 +17,6 @@ linked() {
         name=$(basename "$source" .c)
         ! readelf -d "$BUILD/tests/$name" | grep -q 'NEEDED.*openblas' || echo "unit/$name"
     done
-    grep -lE 'modes extract|modes-extract-make' tests/cli/*.sh | sed 's|^tests/||; s|\.sh$||'
 }
 
 mapfile -t tests < <(linked | sort -u)

@@ -40,29 +40,27 @@ const char *modes_per_impulse(int quantity)
     return units[quantity];
 }
 
-/* compute and extract are the other program's: it has them in place of modes_elsewhere_*. */
+/* compute is the other program's (modes_elsewhere.c). */
 static const struct action actions[] = {
     {"object", "one RECIPE or SCENE", 1, 1,
      {"output", "force", "line", "circle", "places", "grid", "at", "listen", "load", "modes", "top", "quantity", "body", "set", "seed", "quiet"}, modes_object_run},
     {"compute", "one MESH, or --shape", 0, 1,
      {"output", "force", "shape", "order", "estimate", "unit", "material", "youngs-modulus", "poisson", "density", "alpha", "beta", "loss", "clamp", "support", "modes", "top", "face",
-      "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, modes_elsewhere_compute},
+      "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, modes_elsewhere_run},
     {"extract", "RECORDING...", 1, -1,
      {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "radius", "distance", "delay", "impulse", "modes", "low", "high", "fastest", "method",
-      "strike-threshold", "strikes", "resynthesis", "residual", "plot", "json", "quiet"}, modes_elsewhere_run},
+      "strike-threshold", "strikes", "resynthesis", "residual", "plot", "json", "quiet"}, modes_extract_run},
     {"list", "one FILE: a mode table (.csv), RECIPE or SCENE", 1, 1, {"at", "modes", "top", "body", "set", "seed"}, modes_list_run},
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
-int modes_dispatch(struct cmd_call *c, const struct modes_heavy *heavy, struct err *e)
+int modes_dispatch(struct cmd_call *c, int (*compute)(struct cmd_call *c, struct err *e), struct err *e)
 {
     struct action mine[sizeof actions / sizeof *actions];
     for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
         mine[i] = actions[i];
         if (mine[i].name && !strcmp(mine[i].name, "compute"))
-            mine[i].run = heavy->compute;
-        if (mine[i].name && !strcmp(mine[i].name, "extract"))
-            mine[i].run = heavy->extract;
+            mine[i].run = compute;
     }
     return actions_run("modes", mine, c, e);
 }

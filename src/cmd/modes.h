@@ -60,14 +60,9 @@ bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const str
 /* "# key: value" lines that say what the object is: object, material, damping, holds. */
 void modes_describe(FILE *f, const struct object *o);
 
-/* The actions; exit codes as a command's run. compute and extract need CHOLMOD and LAPACK: rasp starts rasp-modes for them (modes_elsewhere.c),
-   which calls modes_heavy_run. */
-struct modes_heavy {
-    int (*compute)(struct cmd_call *c, struct err *e), (*extract)(struct cmd_call *c, struct err *e);
-};
-int modes_dispatch(struct cmd_call *c, const struct modes_heavy *heavy, struct err *e);
+/* The actions; exit codes as a command's run. compute needs CHOLMOD and LAPACK: rasp starts rasp-modes for it (modes_elsewhere.c), which calls modes_heavy_run. */
+int modes_dispatch(struct cmd_call *c, int (*compute)(struct cmd_call *c, struct err *e), struct err *e);
 int modes_elsewhere_run(struct cmd_call *c, struct err *e);
-int modes_elsewhere_compute(struct cmd_call *c, struct err *e);
 int modes_heavy_run(struct cmd_call *c, struct err *e);
 int modes_compute_run(struct cmd_call *c, struct err *e);
 int modes_extract_run(struct cmd_call *c, struct err *e);

@@ -1,6 +1,6 @@
 /* Runs rasp-modes in place of rasp, with the same words: it stands beside rasp, or, installed, in ../libexec/rasp.
 
-   OpenBLAS reads when it is loaded which of its kernels to use, and each adds in an order of its own. `compute` takes
+   OpenBLAS reads when it is loaded which of its kernels to use, and each adds in an order of its own. Here are taken
    those that every x86-64 CPU can run, whatever the CPU and the environment say, so that a solid has one table: shapes
    differ by up to 1e-9 between kernels, which no rounding hides in all of thousands of gains. The others are faster by a
    quarter. */
@@ -13,12 +13,6 @@
 #include "cmd/modes.h"
 
 enum { PATH_LENGTH = 4096 };
-
-int modes_elsewhere_compute(struct cmd_call *c, struct err *e)
-{
-    setenv("OPENBLAS_CORETYPE", "Prescott", 1);
-    return modes_elsewhere_run(c, e);
-}
 
 int modes_elsewhere_run(struct cmd_call *c, struct err *e)
 {
@@ -37,6 +31,7 @@ int modes_elsewhere_run(struct cmd_call *c, struct err *e)
         err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
         return (int)e->kind;
     }
+    setenv("OPENBLAS_CORETYPE", "Prescott", 1);
     setenv("OPENBLAS_NUM_THREADS", "1", 1);
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
         execv(arena_format(c->arena, "%s%s", self, places[i]), argv);

@@ -24,7 +24,7 @@ sums() {
     (cd rendered && find . -type f \( -name '*.wav' -o -name '*.csv' \) -print0 | sort -z | xargs -0r sha256sum)
 }
 
-# tables PROGRAM: what rasp-modes makes: modes of two solids with equal frequencies; those of a recording of strikes,
+# tables PROGRAM: mode tables: modes of two solids with equal frequencies; those of a recording of strikes,
 # with the response, what the modes make of it and what is left.
 tables() {
     "$1" modes compute --shape sphere:diameter=20cm,fineness=1 --material steel --modes 20 --top 60kHz -q -o rendered/table_ball.csv &&
