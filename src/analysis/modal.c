@@ -339,11 +339,8 @@ static void fit_gains(struct modal_fit *f, const bool *only)
         int of[MODAL_BLOCK], n = modal_settle_near(f, i % f->m, 12, of);
         modal_block_open(b, f, n, of, NULL, 0, only, a);
         modal_block_gains(b);
-        for (int k = 0; k < n; k++) {
-            modal_fit_put(f, of[k], 1.0);
-            memcpy(f->gain + of[k] * d->groups, b->gain + k * d->groups, (size_t)d->groups * sizeof *b->gain);
-            modal_fit_put(f, of[k], -1.0);
-        }
+        for (int k = 0; k < n; k++)
+            modal_fit_replace(f, of[k], f->s[of[k]], b->gain + k * d->groups);
         arena_close(a);
     }
 }

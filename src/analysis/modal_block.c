@@ -5,11 +5,11 @@
 #include "analysis/modal_fit.h"
 #include "num/lanes.h"
 
-enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 8 };
+enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 5 };
 
 static const double rounded = 1e-10;  /* of a column's squares: what the others leave of it is rounding */
 
-struct group {               /* columns: gains, smooth ones, poles if full, what is left */
+struct group {               /* columns: gains, smooth ones, gains times steps of poles if full, what is left */
     int n, linear;           /* columns; gains and smooth ones */
     double a[MODAL_COLUMNS * MODAL_COLUMNS], scale[MODAL_COLUMNS];
     bool swept[MODAL_COLUMNS];
@@ -55,61 +55,62 @@ static inline __attribute__((always_inline)) double lanes_sum(const double s[LAN
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 
-/* a[i][j] += sum over ROWS of column i times column j, j <= i < n, by twos; x has a column of zeros behind its last. */
+/* a[i][j] += sum over ROWS of column i times column j, j <= i < n, by blocks of 4 x 2; x has three columns of zeros behind its last. */
 LANES_CLONES
 void modal_block_products(const double *x, int n, double *a);
 LANES_CLONES
 void modal_block_products(const double *x, int n, double *a)
 {
-    for (int i = 0; i < n; i += 2)
-        for (int j = 0; j <= i; j += 2) {
+    for (int i = 0; i < n; i += 4)
+        for (int j = 0; j < i + 4 && j < n; j += 2) {
             const double *p = x + i * ROWS, *q = x + j * ROWS;
-            double s[LANES] = {0}, t[LANES] = {0}, u[LANES] = {0}, v[LANES] = {0};
+            double s[8][LANES] = {{0}};
             for (int k = 0; k < ROWS; k += LANES)
 #pragma omp simd
                 for (int l = 0; l < LANES; l++) {
-                    s[l] += p[k + l] * q[k + l];
-                    t[l] += p[k + l] * q[ROWS + k + l];
-                    u[l] += p[ROWS + k + l] * q[k + l];
-                    v[l] += p[ROWS + k + l] * q[ROWS + k + l];
+                    double u = q[k + l], v = q[ROWS + k + l];
+                    s[0][l] += p[k + l] * u;
+                    s[1][l] += p[k + l] * v;
+                    s[2][l] += p[ROWS + k + l] * u;
+                    s[3][l] += p[ROWS + k + l] * v;
+                    s[4][l] += p[2 * ROWS + k + l] * u;
+                    s[5][l] += p[2 * ROWS + k + l] * v;
+                    s[6][l] += p[3 * ROWS + k + l] * u;
+                    s[7][l] += p[3 * ROWS + k + l] * v;
                 }
-            a[i * n + j] += lanes_sum(s);
-            if (j + 1 < n)
-                a[i * n + j + 1] += lanes_sum(t);
-            if (i + 1 < n) {
-                a[(i + 1) * n + j] += lanes_sum(u);
-                a[(i + 1) * n + j + 1] += lanes_sum(v);
-            }
+            for (int c = 0; c < 8; c++)
+                if (i + c / 2 < n && j + c % 2 <= i + c / 2)
+                    a[(i + c / 2) * n + j + c % 2] += lanes_sum(s[c]);
         }
 }
 
-/* Columns of one mode on n bins: gains to g[2][ROWS], poles to p[2][ROWS] (NULL: not wanted); what it makes with its gain, h = B/2, goes off r. */
+/* Columns of one mode on n bins: v (X + C) and v j (X - C), C of the mirror pole, for its gain; the same of dX/ds for gain times
+   pole's step (p; NULL: not wanted). What the mode makes with its gain B goes off r. */
 LANES_CLONES
-void modal_block_columns(double decay, cplx h, const double *const x[8], const double *weight, long n, double *g, double *p, double *r);
+void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p, double *r);
 LANES_CLONES
-void modal_block_columns(double decay, cplx h, const double *const x[8], const double *weight, long n, double *g, double *p, double *r)
+void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p, double *r)
 {
-    const double *xr = x[0], *xi = x[1], *sr = x[2], *si = x[3], *cr = x[4], *ci = x[5], *mr = x[6], *mi = x[7], br = h.re, bi = h.im;
+    const double *xr = x[0], *xi = x[1], *sr = x[2], *si = x[3], *cr = x[4], *ci = x[5], *mr = x[6], *mi = x[7], br = gain.re, bi = gain.im;
 #pragma omp simd
     for (long k = 0; k < n; k++) {
-        double w = weight[k], v = 0.5 * w;
-        g[k] = v * (xr[k] + cr[k]);
-        g[CHUNK + k] = v * (xi[k] + ci[k]);
-        g[ROWS + k] = -v * (xi[k] - ci[k]);
-        g[ROWS + CHUNK + k] = v * (xr[k] - cr[k]);
-        r[k] -= w * (br * (xr[k] + cr[k]) - bi * (xi[k] - ci[k]));
-        r[CHUNK + k] -= w * (br * (xi[k] + ci[k]) + bi * (xr[k] - cr[k]));
+        double v = 0.5 * weight[k], a = v * (xr[k] + cr[k]), b = v * (xi[k] + ci[k]), c = v * (ci[k] - xi[k]), d = v * (xr[k] - cr[k]);
+        g[k] = a;
+        g[CHUNK + k] = b;
+        g[ROWS + k] = c;
+        g[ROWS + CHUNK + k] = d;
+        r[k] -= br * a + bi * c;
+        r[CHUNK + k] -= br * b + bi * d;
     }
     if (!p)
         return;
 #pragma omp simd
     for (long k = 0; k < n; k++) {
-        double w = weight[k], ar = br * sr[k] - bi * si[k], ai = br * si[k] + bi * sr[k]; /* B dX/ds, and of the mirror pole */
-        double er = br * mr[k] + bi * mi[k], ei = br * mi[k] - bi * mr[k];
-        p[k] = -w * (ai - ei);
-        p[CHUNK + k] = w * (ar - er);
-        p[ROWS + k] = -w * decay * (ar + er);
-        p[ROWS + CHUNK + k] = -w * decay * (ai + ei);
+        double v = 0.5 * weight[k];
+        p[k] = v * (sr[k] + mr[k]);
+        p[CHUNK + k] = v * (si[k] + mi[k]);
+        p[ROWS + k] = v * (mi[k] - si[k]);
+        p[ROWS + CHUNK + k] = v * (sr[k] - mr[k]);
     }
 }
 
@@ -133,7 +134,7 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
     const struct modal_fit *f = b->fit;
     const struct modal_bins *bins = &f->bins[s];
     int groups = f->data->groups, mine = f->data->stretch[s].group;
-    double room[8][CHUNK], weight[CHUNK], *x[8], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 1) * ROWS), *r = columns + (g->n - 1) * ROWS;
+    double room[8][CHUNK], weight[CHUNK], *x[8], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 3) * ROWS), *r = columns + (g->n - 1) * ROWS;
     struct modal_line line[MODAL_BLOCK];
     for (int c = 0; c < 8; c++)
         x[c] = room[c];
@@ -141,7 +142,8 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
         line[i] = modal_fit_line(f, s, b->s[i], b->hum[i]);
     for (long from = b->from[s]; from < b->to[s]; from += CHUNK) {
         long n = from + CHUNK < b->to[s] ? CHUNK : b->to[s] - from, at = from - b->from[s], all = b->to[s] - b->from[s];
-        memset(columns, 0, (size_t)(g->n * size));
+        if (n < CHUNK)
+            memset(columns, 0, (size_t)(g->n * size));
         for (long k = 0; k < n; k++) {
             weight[k] = sqrt(2.0 / bins->variance[from + k]);
             r[k] = weight[k] * b->r[s][at + k];
@@ -149,9 +151,8 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
         }
         for (int i = 0; i < b->m; i++) {
             modal_fit_basis(bins, &line[i], from, from + n, x);
-            modal_block_columns(-b->s[i].re, cplx_scale(0.5, gain[i * groups + mine]), (const double *const *)x, weight, n, columns + 2 * i * ROWS, full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
-            if (full && b->hum[i])
-                memset(columns + (g->linear + 2 * i + 1) * ROWS, 0, (size_t)size);
+            modal_block_columns(gain[i * groups + mine], (const double *const *)x, weight, n, columns + 2 * i * ROWS,
+                                full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
         }
         smooth_columns(bins, b, weight, from, n, columns + 2 * b->m * ROWS);
         modal_block_products(columns, g->n, g->a);
@@ -187,11 +188,43 @@ static bool group_make(struct modal_block *b, int group, const cplx *gain, bool 
     return any;
 }
 
+/* By how much gain times step (its two parts) of component i moves with omega and with log d: to[part][omega, log d]. */
+static void steps_of(const struct modal_block *b, int i, int group, double to[2][2])
+{
+    cplx gain = b->gain[i * b->fit->data->groups + group];
+    double decay = b->hum[i] ? 0.0 : -b->s[i].re;
+    to[0][0] = -gain.im;
+    to[0][1] = -decay * gain.re;
+    to[1][0] = gain.re;
+    to[1][1] = -decay * gain.im;
+}
+
+/* The poles' normal equations of a group, its gains projected out, go to the block's. */
+static void add_normal(struct modal_block *b, int group, const struct group *g)
+{
+    int poles = 2 * b->m, n = g->n;
+    for (int i = 0; i < b->m; i++) {
+        double u[2][2], v[2][2];
+        steps_of(b, i, group, u);
+        const double *row[2] = {g->a + (g->linear + 2 * i) * n + g->linear, g->a + (g->linear + 2 * i + 1) * n + g->linear};
+        for (int k = 0; k < b->m; k++) {
+            steps_of(b, k, group, v);
+            for (int p = 0; p < 2; p++)
+                for (int q = 0; q < 2; q++)
+                    b->normal[(2 * i + p) * poles + 2 * k + q] +=
+                        u[0][p] * (row[0][2 * k] * v[0][q] + row[0][2 * k + 1] * v[1][q]) + u[1][p] * (row[1][2 * k] * v[0][q] + row[1][2 * k + 1] * v[1][q]);
+        }
+        for (int p = 0; p < 2; p++) {
+            b->right[2 * i + p] += u[0][p] * row[0][poles] + u[1][p] * row[1][poles];
+            b->scale[2 * i + p] += u[0][p] * u[0][p] * g->scale[g->linear + 2 * i] + u[1][p] * u[1][p] * g->scale[g->linear + 2 * i + 1];
+        }
+    }
+}
+
 /* All groups: gains += what their columns take of what is left, chi, and with full the poles' normal equations. */
 static void pass(struct modal_block *b, bool full, struct group *keep)
 {
     const struct modal_data *d = b->fit->data;
-    int poles = 2 * b->m;
     struct arena *a = b->a, *inner = arena_open();
     struct group *g = keep ? keep : ARENA_TAKE(inner, struct group, 1);
     b->a = inner;
@@ -209,16 +242,11 @@ static void pass(struct modal_block *b, bool full, struct group *keep)
         int n = g->n, last = n - 1;
         modal_block_sweep(g->a, n, 0, g->linear, g->scale, g->swept);
         b->chi += g->a[last * n + last];
-        for (int i = 0; i < poles; i++)
+        for (int i = 0; i < 2 * b->m; i++)
             if (g->swept[i])
                 (i % 2 ? &b->gain[i / 2 * d->groups + k].im : &b->gain[i / 2 * d->groups + k].re)[0] += g->a[i * n + last];
-        for (int i = 0; full && i < poles; i++) {
-            const double *row = g->a + (g->linear + i) * n + g->linear;
-            for (int j = 0; j < poles; j++)
-                b->normal[i * poles + j] += row[j];
-            b->right[i] += row[poles];
-            b->scale[i] += g->scale[g->linear + i];
-        }
+        if (full)
+            add_normal(b, k, g);
     }
     arena_close(inner);
     b->a = a;
@@ -228,7 +256,7 @@ static void pass(struct modal_block *b, bool full, struct group *keep)
 
 static double reach(const struct modal_fit *f, cplx s)
 {
-    return f->span * (-30.0 * s.re + 120.0 * REAL_PI / f->longest);
+    return -MODAL_REACH * s.re + 4.0 * MODAL_REACH * REAL_PI / f->longest;
 }
 
 void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra, int extras, const bool *stretches, struct arena *a)
@@ -246,8 +274,8 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         b->of[i] = i < m ? of[i] : -1;
         b->s[i] = i < m ? f->s[of[i]] : extra[i - m];
         b->hum[i] = i < m && f->hum[of[i]];
-        for (int g = 0; i < m && g < d->groups; g++)
-            b->gain[i * d->groups + g] = f->gain[of[i] * d->groups + g];
+        if (i < m)
+            modal_fit_totals(f, of[i], b->gain + i * d->groups);
         low = fmin(low, b->s[i].im - reach(f, b->s[i]));
         high = fmax(high, b->s[i].im + reach(f, b->s[i]));
     }
@@ -379,32 +407,28 @@ bool modal_block_polish(struct modal_block *b, int steps)
     int groups = b->fit->data->groups;
     double damping = 1e-3, step[2 * MODAL_BLOCK];
     struct arena *inner = arena_open();
-    cplx *s = ARENA_TAKE(inner, cplx, b->m), *gain = ARENA_TAKE(inner, cplx, b->m * groups);
-    bool converged = false;
-    modal_block_gains(b);
-    for (int k = 0; k < steps && !converged; k++) {
-        pass(b, true, NULL);
-        double chi = b->chi;
-        memcpy(s, b->s, (size_t)b->m * sizeof *s);
+    struct modal_block *was = ARENA_TAKE(inner, struct modal_block, 1);
+    cplx *gain = ARENA_TAKE(inner, cplx, b->m * groups);
+    bool converged = false, better = true;
+    pass(b, steps > 0, NULL);
+    for (int k = 0; k < steps && better && !converged; k++) {
+        double enough = b->fit->tolerance * modal_block_noise(b);
+        converged = solve(b, 0.0, step) < enough;
+        *was = *b;
         memcpy(gain, b->gain, (size_t)(b->m * groups) * sizeof *gain);
-        converged = solve(b, 0.0, step) < b->fit->tolerance * modal_block_noise(b);
-        bool better = false;
+        better = false;
         for (int t = 0; t < TRIES && !better && !converged; t++) {
-            solve(b, damping, step);
-            step_to(b, s, step, b->s);
-            modal_block_gains(b);
-            better = b->chi <= chi;
+            solve(was, damping, step);
+            step_to(b, was->s, step, b->s);
+            pass(b, true, NULL);
+            better = b->chi <= was->chi;
             if (!better) {
-                memcpy(b->s, s, (size_t)b->m * sizeof *s);
+                *b = *was;
                 memcpy(b->gain, gain, (size_t)(b->m * groups) * sizeof *gain);
                 damping = fmax(8.0 * damping, 1e-4);
-                b->chi = chi;
             }
         }
-        if (!converged && !better)
-            break;
-        if (chi - b->chi < b->fit->tolerance * modal_block_noise(b))
-            converged = true;
+        converged = converged || (better && was->chi - b->chi < enough);
         damping = damping > 1e-9 ? damping / 10.0 : 0.0;
     }
     arena_close(inner);
@@ -431,8 +455,13 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
         for (int c = 0; c < 2; c++)
             for (int e = 0; e < 2; e++)
                 sum += u[c] * u[e] * g[k].a[(2 * i + c) * n + 2 * i + e];
-        for (int j = 0; j < p; j++)
-            row[j] = u[0] * g[k].a[2 * i * n + g[k].linear + j] + u[1] * g[k].a[(2 * i + 1) * n + g[k].linear + j];
+        for (int j = 0; j < b->m; j++) {
+            const double *re = g[k].a + 2 * i * n + g[k].linear + 2 * j, *im = re + n;
+            double by[2][2];
+            steps_of(b, j, k, by);
+            for (int q = 0; q < 2; q++)
+                row[2 * j + q] = (u[0] * re[0] + u[1] * im[0]) * by[0][q] + (u[0] * re[1] + u[1] * im[1]) * by[1][q];
+        }
         for (int j = 0; j < p; j++)
             for (int l = 0; l < p; l++)
                 if (swept[j] && swept[l])

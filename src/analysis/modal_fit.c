@@ -62,7 +62,7 @@ static void floors_of_leads(struct modal_fit *f);
 
 void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a)
 {
-    *f = (struct modal_fit){.data = d, .options = o, .a = a, .low = 2.0 * REAL_PI * o->low, .high = 2.0 * REAL_PI * o->high, .span = 1.0, .tolerance = 1e-2};
+    *f = (struct modal_fit){.data = d, .options = o, .a = a, .low = 2.0 * REAL_PI * o->low, .high = 2.0 * REAL_PI * o->high, .tolerance = 1e-2};
     f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
     for (int k = 0; k < d->stretches; k++) {
         open_bins(f, &d->stretch[k], &f->bins[k]);
@@ -298,30 +298,86 @@ static void add_ringing(const struct modal_fit *f, int s, cplx pole, cplx state,
     add_line(&f->bins[s], &line, cplx_scale(sign, left));
 }
 
+/* The state at a strike's pulse that its force makes with a gain of 1, and how a state grows from the stretch's first sample to there. */
+static cplx forced(const struct modal_fit *f, const struct modal_stretch *st, cplx pole, cplx *grown)
+{
+    cplx sum = {0};
+    for (long k = 0; k < st->pulse.n; k++)
+        sum = cplx_add(sum, cplx_scale(st->pulse.f[k], cplx_exp(pole, -(double)k / f->data->rate)));
+    *grown = cplx_exp(pole, (double)(st->pulse.at - st->first) / f->data->rate);
+    return sum;
+}
+
+/* What rings from strike s on, `after` at its pulse, at the first sample of the next stretch of its place; 0: there is none. */
+static cplx rings_on(const struct modal_fit *f, int s, cplx pole, cplx after)
+{
+    const struct modal_stretch *st = &f->data->stretch[s];
+    bool next = s + 1 < f->data->stretches && st[1].place == st->place && st->strike >= 0;
+    return next ? cplx_mul(after, cplx_exp(pole, (double)(st[1].first - st->pulse.at) / f->data->rate)) : (cplx){0};
+}
+
+/* state[stretches] at their first samples, of what earlier strikes have left. */
+static void states(const struct modal_fit *f, int i, cplx *state)
+{
+    const struct modal_data *d = f->data;
+    state[0] = (cplx){0};
+    for (int s = 0; s + 1 < d->stretches; s++) {
+        cplx grown, force = forced(f, &d->stretch[s], f->s[i], &grown);
+        state[s + 1] = rings_on(f, s, f->s[i], cplx_add(cplx_mul(state[s], grown), cplx_mul(f->gain[i * d->groups + d->stretch[s].group], force)));
+    }
+}
+
 void modal_fit_put(struct modal_fit *f, int i, double sign)
 {
     const struct modal_data *d = f->data;
-    const cplx pole = f->s[i];
-    cplx ringing = {0};
-    long at = 0;
-    int place = -1;
+    cplx state[MODAL_STRETCHES];
+    states(f, i, state);
     for (int s = 0; s < d->stretches; s++) {
-        const struct modal_stretch *st = &d->stretch[s];
-        cplx gain = f->gain[i * d->groups + st->group], force = {0};
-        struct modal_line line = modal_fit_line(f, s, pole, f->hum[i]);
+        cplx gain = f->gain[i * d->groups + d->stretch[s].group];
+        struct modal_line line = modal_fit_line(f, s, f->s[i], f->hum[i]);
         if (cplx_square(gain) > 0.0)
             add_line(&f->bins[s], &line, cplx_scale(sign, gain));
-        if (f->hum[i] || st->strike < 0)
-            continue;
-        cplx state = st->place == place ? cplx_mul(ringing, cplx_exp(pole, (double)(st->first - at) / d->rate)) : (cplx){0};
-        if (cplx_square(state) > 1e-24 * cplx_square(gain))
-            add_ringing(f, s, pole, state, sign);
-        for (long k = 0; k < st->pulse.n; k++)
-            force = cplx_add(force, cplx_scale(st->pulse.f[k], cplx_exp(pole, -(double)k / d->rate)));
-        ringing = cplx_add(st->place == place ? cplx_mul(ringing, cplx_exp(pole, (double)(st->pulse.at - at) / d->rate)) : (cplx){0}, cplx_mul(gain, force));
-        at = st->pulse.at;
-        place = st->place;
+        if (!f->hum[i] && d->stretch[s].strike >= 0 && cplx_square(state[s]) > 1e-24 * cplx_square(gain))
+            add_ringing(f, s, f->s[i], state[s], sign);
     }
+}
+
+/* The gain with which strike s would make what rings on at its pulse from the state at the stretch's first sample; 0 where the
+   force hardly drives the pole. In a mode's window the two are alike. */
+static cplx ringing_gain(const struct modal_fit *f, int i, int s, cplx state)
+{
+    static const double blind = 1e-3; /* of the pulse's momentum */
+    const struct modal_stretch *st = &f->data->stretch[s];
+    cplx grown, force = forced(f, st, f->s[i], &grown);
+    double momentum = 0.0;
+    for (long k = 0; k < st->pulse.n; k++)
+        momentum += fabs(st->pulse.f[k]);
+    return !f->hum[i] && st->strike >= 0 && cplx_abs(force) > blind * momentum ? cplx_div(cplx_mul(state, grown), force) : (cplx){0};
+}
+
+void modal_fit_totals(const struct modal_fit *f, int i, cplx *total)
+{
+    const struct modal_data *d = f->data;
+    cplx state[MODAL_STRETCHES];
+    states(f, i, state);
+    memcpy(total, f->gain + i * d->groups, (size_t)d->groups * sizeof *total);
+    for (int s = 0; s < d->stretches; s++)
+        total[d->stretch[s].group] = cplx_add(total[d->stretch[s].group], ringing_gain(f, i, s, state[s]));
+}
+
+void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const cplx *total)
+{
+    const struct modal_data *d = f->data;
+    cplx state = {0}, *mine = f->gain + i * d->groups;
+    modal_fit_put(f, i, 1.0);
+    f->s[i] = pole;
+    memcpy(mine, total, (size_t)d->groups * sizeof *total);
+    for (int s = 0; s < d->stretches && !f->hum[i]; s++) {
+        cplx grown, force = forced(f, &d->stretch[s], pole, &grown), *at = mine + d->stretch[s].group;
+        *at = cplx_sub(*at, ringing_gain(f, i, s, state));
+        state = rings_on(f, s, pole, cplx_add(cplx_mul(state, grown), cplx_mul(*at, force)));
+    }
+    modal_fit_put(f, i, -1.0);
 }
 
 void modal_fit_rest(struct modal_fit *f)
@@ -356,8 +412,8 @@ void modal_fit_add(struct modal_fit *f, cplx s, const cplx *gain, bool hum)
     f->s[f->m] = s;
     f->hum[f->m] = hum;
     f->moved[f->m] = 1e9;
-    memcpy(f->gain + f->m * groups, gain, (size_t)groups * sizeof *gain);
-    modal_fit_put(f, f->m++, -1.0);
+    memset(f->gain + f->m * groups, 0, (size_t)groups * sizeof *gain);
+    modal_fit_replace(f, f->m++, s, gain);
 }
 
 void modal_fit_drop(struct modal_fit *f, int i)

@@ -8,7 +8,7 @@
    exactly, since e^(-jw(b-a)) = 1 there: no window, no truncation, no decimation. White noise stays independent from bin
    to bin, a band of frequencies is a range of bins, and where the force holds nothing neither does X.
    Each strike's stretch has gains of its own, poles are those of all: no hand strikes twice on one point with one delay. What rings on
-   from earlier strikes of a place is a state at the stretch's first sample, of their gains; while a block of modes is fitted it stays as it is. Where no force is known a stretch begins after its strike and f is a unit impulse at its first sample.
+   from earlier strikes of a place is a state at the stretch's first sample, of their gains. Where no force is known a stretch begins after its strike and f is a unit impulse at its first sample.
    A hum is driven by a unit impulse at the recording's first sample, so that it is brought into every stretch.
 
    In a window of bins what modes outside it leave there, and what goes straight from the force to the sound, is smooth in
@@ -21,7 +21,8 @@
 #include "analysis/modal.h"
 #include "analysis/modal_complex.h"
 
-enum { MODAL_BLOCK = 24, MODAL_SMOOTH = 6, MODAL_STRETCHES = 256, MODAL_COLUMNS = 4 * MODAL_BLOCK + MODAL_SMOOTH + 1 };
+/* A window reaches MODAL_REACH half-widths and 2 MODAL_REACH bins to each side of its modes. */
+enum { MODAL_REACH = 12, MODAL_BLOCK = 24, MODAL_SMOOTH = 6, MODAL_STRETCHES = 256, MODAL_COLUMNS = 4 * MODAL_BLOCK + MODAL_SMOOTH + 1 };
 
 struct modal_bins {           /* of one stretch: its DFT over sqrt(n), bins first ... first + n - 1 */
     long first, n;
@@ -54,7 +55,6 @@ struct modal_fit {
     bool *hum;                /* [room] */
     double *moved;            /* [room] how far a pole went since its neighbours were last fitted, in its standard errors */
     double tolerance;         /* squared standard errors of all poles of a block together that a polish may stop within: 1e-2 while modes are looked for, 1e-4 at the end */
-    double span;              /* windows: 1 is 30 half-widths and 60 bins to each side */
 };
 
 /* Some components of a fit, the others as they are: their poles and gains, and what is left of the recordings without them. */
@@ -82,6 +82,10 @@ void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struc
 void modal_fit_noise(struct modal_fit *f, double width); /* variance: a running median over that many Hz of what is left */
 void modal_fit_add(struct modal_fit *f, cplx s, const cplx *gain, bool hum);
 void modal_fit_drop(struct modal_fit *f, int i);
+/* What a block fits: gains with what rings on from earlier strikes of the place, as if the strike had made it. Of a weak strike after a loud
+   one most of what is heard rings on: a pole fitted to the strike's own part alone would overshoot by their ratio. */
+void modal_fit_totals(const struct modal_fit *f, int i, cplx *total);
+void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const cplx *total);
 void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (component i) */
 void modal_fit_rest(struct modal_fit *f);                    /* rest anew */
 /* What X of a pole needs on a stretch's bins: p, H - G and its derivative over sqrt(n). */

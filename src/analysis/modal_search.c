@@ -12,7 +12,6 @@ enum { SAMPLES = 128, ROWS = 40, ORDER = 12, EDGE = 3, ITERATIONS = 60, HUMS = 4
 
 static const double enter = 38.0;   /* chi squared of 4 degrees, chance 1.1e-7 */
 static const double stands = 25.0;   /* power of a bin of a lead over its noise: chance 1e-11 */
-static const double search_span = 0.4;
 
 /* ------------------------------------------------------------------ bands */
 
@@ -51,8 +50,9 @@ static void residual_make(const struct modal_fit *f, struct arena *a, struct res
     fft_close(whole);
 }
 
-/* Samples of the band's complex envelope about bin `centre`, `wide` bins, n/wide samples of the stretch apart; cosine edges of a quarter at each side. */
-static int envelope(const struct residual *r, int s, const struct modal_stretch *st, long centre, long wide, cplx *y)
+/* Samples of the band's complex envelope about bin `centre`, `wide` bins, n/wide samples of the stretch apart, turn[k] = e^(2 pi j k/wide); cosine edges
+   of a quarter at each side. */
+static int envelope(const struct residual *r, int s, const struct modal_stretch *st, long centre, long wide, const cplx *turn, cplx *y)
 {
     double step = (double)r->n / (double)wide;
     long from = (long)ceil((double)st->ringing / step) + EDGE, to = (long)floor((double)st->n / step) - EDGE;
@@ -64,9 +64,8 @@ static int envelope(const struct residual *r, int s, const struct modal_stretch 
             double edge = 4.0 * fabs((double)k) / (double)wide - 1.0, w = edge > 0.0 ? 0.5 + 0.5 * real_cospi(edge) : 1.0;
             if (bin < 1 || bin >= r->n / 2)
                 continue;
-            double turn = 2.0 * (double)((k * i) % wide) / (double)wide;
-            cplx e = {w * real_cospi(turn), w * real_sinpi(turn)};
-            sum = cplx_add(sum, cplx_mul((cplx){r->re[s][bin], r->im[s][bin]}, e));
+            cplx bins = {w * r->re[s][bin], w * r->im[s][bin]};
+            sum = cplx_add(sum, cplx_mul(bins, turn[((k * i) % wide + wide) % wide]));
         }
         y[i - from] = sum;
     }
@@ -368,13 +367,11 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     int came = 0, there = 0, of[NEIGHBOURS], groups = f->data->groups;
-    double span = f->span, quarter = 0.25 * (high - low);
+    double quarter = 0.25 * (high - low);
     for (int i = 0; i < f->m && there < NEIGHBOURS; i++)
         if (f->s[i].im > low - quarter && f->s[i].im < high + quarter)
             of[there++] = i;
-    f->span = search_span;
     modal_block_open(b, f, there, of, pole, n, NULL, a);
-    f->span = span;
     b->fastest = fmin(f->fastest, high - low);
     for (int i = 0; i < there; i++) /* those that are there may be faster than the band lets new ones be */
         b->fastest = fmax(b->fastest, -f->s[of[i]].re);
@@ -388,10 +385,7 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
         came += accepted(b, i, low, high, least);
     for (int i = 0; i < b->m && came; i++) {
         if (b->of[i] >= 0) {
-            modal_fit_put(f, b->of[i], 1.0);
-            f->s[b->of[i]] = b->s[i];
-            memcpy(f->gain + b->of[i] * groups, b->gain + i * groups, (size_t)groups * sizeof *b->gain);
-            modal_fit_put(f, b->of[i], -1.0);
+            modal_fit_replace(f, b->of[i], b->s[i], b->gain + i * groups);
             f->moved[b->of[i]] = 1.0;
         } else if (accepted(b, i, low, high, least)) {
             modal_fit_add(f, b->s[i], b->gain + i * groups, false);
@@ -413,14 +407,14 @@ static int stronger(const void *x, const void *y)
 }
 
 /* ESPRIT's poles of one band that may be modes of it. */
-static int candidates(const struct modal_fit *f, const struct residual *r, long centre, long wide, cplx (*y)[SAMPLES], cplx *pole)
+static int candidates(const struct modal_fit *f, const struct residual *r, long centre, long wide, const cplx *turn, cplx (*y)[SAMPLES], cplx *pole)
 {
     const struct modal_data *d = f->data;
     double bin = 2.0 * REAL_PI * d->rate / (double)r->n, at = (double)centre * bin, quarter = 0.25 * (double)wide * bin, step = (double)r->n / (double)wide / d->rate;
     int n[MODAL_STRETCHES], longest = 0, poles = 0;
     cplx z[ORDER];
     for (int s = 0; s < d->stretches; s++) {
-        n[s] = d->stretch[s].fitted && d->stretch[s].strike >= 0 ? envelope(r, s, &d->stretch[s], centre, wide, y[s]) : 0;
+        n[s] = d->stretch[s].fitted && d->stretch[s].strike >= 0 ? envelope(r, s, &d->stretch[s], centre, wide, turn, y[s]) : 0;
         longest = n[s] > longest ? n[s] : longest;
     }
     int order = esprit(y, n, d->stretches, z);
@@ -461,6 +455,9 @@ int modal_search(struct modal_fit *f, double width, double least)
     wide += wide % 2;
     double bin = 2.0 * REAL_PI * d->rate / (double)r.n, quarter = 0.25 * (double)wide * bin;
     struct band *band = ARENA_TAKE(a, struct band, 2 * r.n / wide + 4);
+    cplx *turn = ARENA_TAKE(a, cplx, wide);
+    for (long k = 0; k < wide; k++)
+        turn[k] = (cplx){real_cospi(2.0 * (double)k / (double)wide), real_sinpi(2.0 * (double)k / (double)wide)};
     for (long centre = (long)(f->low / bin); (double)centre * bin < f->high + quarter; centre += wide / 2) {
         band[bands] = (struct band){centre, stands_out(f, (double)centre * bin - quarter, (double)centre * bin + quarter)};
         bands += band[bands].power > 0.0 && band[bands].power >= least;
@@ -469,7 +466,7 @@ int modal_search(struct modal_fit *f, double width, double least)
     for (int k = 0; k < bands && f->m < most; k++) {
         double at = (double)band[k].centre * bin, power = stands_out(f, at - quarter, at + quarter);
         cplx pole[ORDER];
-        int poles = power > 0.0 && power >= least ? candidates(f, &r, band[k].centre, wide, y, pole) : 0, m = f->m;
+        int poles = power > 0.0 && power >= least ? candidates(f, &r, band[k].centre, wide, turn, y, pole) : 0, m = f->m;
         if (poles && take(f, pole, poles, at - quarter, at + quarter, limit, least))
             came += fit_in(f, m);
     }

@@ -4,10 +4,10 @@
 
 #include "analysis/modal_fit.h"
 
-enum { NEIGHBOURS = 10, ROUNDS = 30 };
+enum { NEIGHBOURS = 10, ROUNDS = 8 };
 
 static const double touches = 6.0;  /* of the sum of two widths: nearer modes are fitted together */
-static const double still = 0.02;   /* standard errors: what moved less has not moved */
+static const double still = 0.05;   /* standard errors: what moved less has not moved */
 static const double cancels = 10.0; /* of the recording's energy in a mode's window: a louder mode is one of several that cancel */
 static const double leave = 23.5;   /* chi squared of 4 degrees, chance 1e-4 */
 
@@ -60,10 +60,7 @@ double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
         double square = by[0] * by[0] * b->normal[2 * i * (2 * n + 1)] + by[1] * by[1] * b->normal[(2 * i + 1) * (2 * n + 1)];
         moved[i] = sqrt(square / noise);
         most = fmax(most, moved[i]);
-        modal_fit_put(f, of[i], 1.0);
-        f->s[of[i]] = b->s[i];
-        memcpy(f->gain + of[i] * groups, b->gain + i * groups, (size_t)groups * sizeof *b->gain);
-        modal_fit_put(f, of[i], -1.0);
+        modal_fit_replace(f, of[i], b->s[i], b->gain + i * groups);
         f->moved[of[i]] = converged ? 0.0 : fmin(moved[i], 1.0);
     }
     for (int k = 0; k < f->m; k++) {
@@ -99,7 +96,7 @@ double modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
         for (int i = 0; i < f->m; i++)
             if (f->moved[(int)order[i].re] > still) {
                 int n = modal_settle_near(f, (int)order[i].re, most, of);
-                left = fmax(left, modal_settle_refine(f, n, of, 20));
+                left = fmax(left, modal_settle_refine(f, n, of, 5));
             }
         arena_close(a);
         if (left <= still)
@@ -129,7 +126,7 @@ double modal_settle_limit(const struct modal_fit *f, double chi4)
 
 double modal_settle_noise(const struct modal_fit *f, cplx s)
 {
-    double reach = f->span * (-30.0 * s.re + 120.0 * REAL_PI / f->longest), sum = 0.0;
+    double reach = -MODAL_REACH * s.re + 4.0 * MODAL_REACH * REAL_PI / f->longest, sum = 0.0;
     long rows = 0, inside = 0, used = 0;
     for (int k = 0; k < f->data->stretches; k++) {
         const struct modal_bins *b = &f->bins[k];
@@ -239,13 +236,13 @@ void modal_settle(struct modal_fit *f)
             f->moved[i] = fmax(f->moved[i], 1.0);
         m = f->m;
         do
-            modal_settle_sweeps(f, MODAL_BLOCK - 4, ROUNDS);
+            modal_settle_sweeps(f, 8, ROUNDS);
         while (modal_settle_runaways(f));
         modal_fit_rest(f);
         modal_fit_noise(f, 0.0);
         modal_settle_eliminate(f, limit);
     }
-    modal_settle_sweeps(f, MODAL_BLOCK - 4, ROUNDS);
+    modal_settle_sweeps(f, 8, ROUNDS);
     modal_fit_rest(f);
     modal_fit_noise(f, 0.0);
 }

@@ -8,9 +8,9 @@ sed 's/^factors/replicates: 4\nfactors/' six.yaml > many.yaml
 # batch_while COMMAND: is done when the first stimulus has the new gain.
 batch_while() {
     local code=0 before
-    before=$(grep -h '"full_scale": [0-9]' set/*.json | sort | uniq -c)
+    before=$(grep -hs '"full_scale": [0-9]' set/*.json | sort | uniq -c)
     rasp batch many.yaml -o set -j 1 > log 2>&1 &
-    for _ in $(seq 500); do if [ "$(grep -h '"full_scale": [0-9]' set/*.json | sort | uniq -c)" != "$before" ]; then break; fi; sleep 0.01; done
+    for _ in $(seq 500); do if [ "$(grep -hs '"full_scale": [0-9]' set/*.json | sort | uniq -c)" != "$before" ]; then break; fi; sleep 0.01; done
     kill -STOP $!
     eval "$1"
     kill -CONT $!
