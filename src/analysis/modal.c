@@ -298,7 +298,7 @@ static void number(struct modal_result *r, int most, struct arena *a)
         note(r, a, arena_format(a, "%d more modes than the %d strongest were found", left_out, most));
 }
 
-/* Energy in the band of what a stretch holds (hums off), and of what is left; noise off both. */
+/* Of the energy in the band, noise off, what the modes explain where the sound does not follow the force at once, and what does. */
 static void explain(struct modal_fit *f, struct modal_result *r, struct arena *a)
 {
     const struct modal_data *d = f->data;
@@ -306,18 +306,22 @@ static void explain(struct modal_fit *f, struct modal_result *r, struct arena *a
     for (int i = 0; i < f->m; i++)
         if (f->hum[i])
             modal_fit_put(f, i, 1.0);
+    modal_fit_noise(f, 0.0);
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         const struct modal_stretch *st = &d->stretch[s];
-        double all = 0.0, left = 0.0, noise = 0.0, *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
+        double all = 0.0, left = 0.0, noise = 0.0, direct = 0.0, *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         for (long k = 0; k < b->n; k++) {
             all += b->yr[k] * b->yr[k] + b->yi[k] * b->yi[k];
-            left += b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k];
+            left += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
+            direct += b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k];
             noise += b->variance[k];
             re[b->first + k] = (b->yr[k] - b->rr[k]) / sqrt((double)st->n);
             im[b->first + k] = (b->yi[k] - b->ri[k]) / sqrt((double)st->n);
         }
-        r->explained[s] = all > noise ? 1.0 - fmax(left - noise, 0.0) / (all - noise) : 0.0;
+        direct = fmax(direct - left, 0.0);
+        r->direct[s] = all > noise ? direct / (all - noise) : 0.0;
+        r->explained[s] = all > noise + direct ? 1.0 - fmax(left - noise, 0.0) / (all - noise - direct) : 0.0;
         r->noise[st->place] += 2.0 * noise;
         count[st->place] += (double)st->n;
         r->model[s] = ARENA_TAKE(a, double, st->n);
@@ -374,6 +378,7 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     int *of_mode = ARENA_TAKE(a, int, f->m + 1), strikes = 0, hums = 0;
     double all = 0.0;
     r->explained = ARENA_TAKE(a, double, d->stretches);
+    r->direct = ARENA_TAKE(a, double, d->stretches);
     r->noise = ARENA_TAKE(a, double, d->places);
     r->model = arena_take(a, (size_t)d->stretches, sizeof *r->model);
     order_by_frequency(f);

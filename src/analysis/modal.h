@@ -48,7 +48,8 @@ struct modal_mode {
 struct modal_result {
     int n, modes;             /* components, modes */
     struct modal_mode *mode;  /* [n] */
-    double *explained;        /* [stretches] share of the energy in the band, noise taken off */
+    double *explained;        /* [stretches] share of the energy in the band, noise and what is direct taken off */
+    double *direct;           /* [stretches] share of what follows the force at once: smooth in frequency but for the force */
     double *noise;            /* [places] rms of the noise in the band */
     double **model;           /* [stretches][n] the modes' sound */
     const char *note;         /* lines; NULL */

@@ -5,7 +5,7 @@
 #include "analysis/modal_fit.h"
 #include "num/lanes.h"
 
-enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 5 };
+enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 3 };
 
 static const double rounded = 1e-10;  /* of a column's squares: what the others leave of it is rounding */
 

@@ -4,7 +4,7 @@
 
 #include "analysis/modal_fit.h"
 
-enum { NEIGHBOURS = 10, ROUNDS = 8 };
+enum { NEIGHBOURS = 10, ROUNDS = 4 };
 
 static const double touches = 6.0;  /* of the sum of two widths: nearer modes are fitted together */
 static const double still = 0.05;   /* standard errors: what moved less has not moved */

@@ -18,6 +18,7 @@ static const double shortest = 0.01;      /* s of sound that a stretch needs */
 static const double lead_least = 0.05;    /* s of silence before the first strike that tell the noise */
 static const double reach = 1e-4;         /* of the force's greatest power: what lies below is noise */
 static const double half = 0.5;           /* of the energy: a table that explains less is none */
+static const double much = 0.2;           /* of the energy: what follows the force at once is reported */
 static const double fastest = 0.02;       /* of the rate: a decay that is gone in 50 samples is no mode unless one asks for it */
 static const double slow = 300.0;         /* 1/s, of decays that the median by energy is about */
 
@@ -395,6 +396,31 @@ static void take_modes(struct modes_extract *x)
     x->median_by_energy = median_by_energy(x);
 }
 
+/* Every strike that was fitted must be explained by half at least, or it is none of this object's. */
+static bool explains(struct modes_extract *x, struct err *e)
+{
+    int worst = -1;
+    double direct = 0.0;
+    for (int s = 0; s < x->data.stretches; s++)
+        if (x->data.stretch[s].fitted && x->data.stretch[s].strike >= 0) {
+            worst = worst < 0 || x->found.explained[s] < x->found.explained[worst] ? s : worst;
+            direct = fmax(direct, x->found.direct[s]);
+        }
+    const struct modal_stretch *st = &x->data.stretch[worst];
+    double percent = 100.0 * fmax(x->found.explained[worst], 0.0);
+    if (direct > much)
+        modes_extract_find_note(x, arena_format(x->arena, "up to %.0f %% of the sound follows the force at once and is in no mode: the object moves as a whole, or modes decay faster "
+                                                "than --fastest", 100.0 * direct));
+    if (percent >= 100.0 * half)
+        return true;
+    if (x->given.spectrogram) {
+        modes_extract_find_note(x, arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more", percent, st->strike + 1));
+        return true;
+    }
+    return err_set(e, ERR_SCENE, "%s: the modes that were found explain only %.0f %% of strike %d, so there is no table: is it one object, struck and left to ring, and does the sound "
+                   "begin at the strike? Without this strike (--strikes) or in a narrower band (--low, --high) there may be one", x->place[st->place].shown, percent, st->strike + 1);
+}
+
 /* ------------------------------------------------------------------ all */
 
 bool modes_extract_find(struct modes_extract *x, struct err *e)
@@ -413,12 +439,8 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
         return err_at(e, "%s", x->place[0].shown);
     if (x->found.n == 0)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown, x->low, x->high);
-    double explained = share(x, 0, x->data.stretches, true);
-    if (x->given.spectrogram && !(explained >= half))
-        modes_extract_find_note(x, arena_format(x->arena, "the modes explain only %.0f %% of the sound: --method esprit finds more", 100.0 * fmax(explained, 0.0)));
-    else if (!(explained >= half))
-        return err_set(e, ERR_SCENE, "%s: the modes that were found explain only %.0f %% of the sound, so there is no table: is it one object, struck and left to ring, and does the sound "
-                       "begin at the strike? A narrower band (--low, --high) may help", x->place[0].shown, 100.0 * fmax(explained, 0.0));
+    if (!explains(x, e))
+        return false;
     take_modes(x);
     modes_extract_find_note(x, x->found.note);
     compare(x);
