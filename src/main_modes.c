@@ -3,12 +3,20 @@
 #include "cmd/program.h"
 #include "cmd/version.h"
 
+extern void openblas_set_num_threads(int n);
+
+static int modes_run(struct cmd_call *c, struct err *e)
+{
+    openblas_set_num_threads(1); /* the order of additions must not depend on the number of processors */
+    return modes_dispatch(c, modes_compute_run, e);
+}
+
 static int run(int argc, char **argv)
 {
     struct command modes = modes_command;
     if (version_asked(argc - 1, argv + 1))
         return 0;
-    modes.run = modes_heavy_run;
+    modes.run = modes_run;
     return program_run(&modes, argc - 1, argv + 1);
 }
 

@@ -600,7 +600,7 @@ static bool watch_design(const struct set *s, const struct set_plan_ask *ask, st
 }
 
 /* Nothing that the set writes is one of its inputs, or anybody's. */
-static bool spares(const struct planning *p, struct err *e)
+static bool cmd_spares(const struct planning *p, struct err *e)
 {
     static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv", "manifest.json",
                                                                                  "SHA256SUMS", "timings.csv", NULL};
@@ -661,7 +661,7 @@ bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, st
     find_length(&p);
     look_at_levels(&p);
     add_up(&p);
-    return report(out, s, ask->folder, e) && (!ask->folder || spares(&p, e));
+    return report(out, s, ask->folder, e) && (!ask->folder || cmd_spares(&p, e));
 }
 
 void set_plan_close(struct set_plan *p)

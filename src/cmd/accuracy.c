@@ -1,24 +1,307 @@
-/* rasp accuracy: what accuracy costs in time. */
+/* --values KNOB=N,N... of `rasp accuracy`: which values of which knobs are rendered besides those of the presets. */
+#include "cmd/accuracy.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "analysis/convergence.h"
 #include "base/interrupt.h"
 #include "base/outfile.h"
-#include "cmd/accuracy.h"
+#include "base/text.h"
+#include "num/real.h"
 #include "output/mark.h"
 #include "output/picture.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
+#include "scene/accuracy.h"
+#include "scene/keys.h"
 #include "scene/rules.h"
 #include "scene/scene_places.h"
 
+static const struct accuracy_render *alone(const struct accuracy_sweep *s, const struct accuracy_row *r);
+
+static int knob_named(const char *name, size_t n)
+{
+    for (int k = 0; k < KNOBS; k++)
+        if (strlen(keys_knobs[k].name) == n && !strncmp(keys_knobs[k].name, name, n)) return k;
+    return -1;
+}
+
+static bool no_knob(const char *name, struct arena *a, struct err *e)
+{
+    const char **names = ARENA_TAKE(a, const char *, KNOBS + 1), *all = "";
+    for (int k = 0; k < KNOBS; k++) {
+        names[k] = keys_knobs[k].name;
+        all = arena_format(a, "%s%s%s", all, k ? ", " : "", names[k]);
+    }
+    const char *near = text_nearest(name, names);
+    return near ? err_set(e, ERR_USAGE, "--values: there is no knob '%s'; did you mean '%s'?", name, near)
+                : err_set(e, ERR_USAGE, "--values: there is no knob '%s'; there are %s", name, all);
+}
+
+static bool value_add(struct accuracy_values *to, int knob, const char *word, struct err *e)
+{
+    const struct key_knob *k = &keys_knobs[knob];
+    double x;
+    if (!text_double(word, &x))
+        return err_set(e, ERR_USAGE, "--values: '%s' is not a number (in KNOB=NUMBER,NUMBER..., without units)", word);
+    if (!accuracy_takes((enum knob)knob, x))
+        return err_set(
+            e, ERR_USAGE,
+            "--values: accuracy.%s cannot be %s: it takes %snumbers from %g to %g; see rasp explain accuracy.%s",
+            k->name, word, k->whole ? "whole " : "", k->low, k->high, k->name);
+    if (to->n == ACCURACY_VALUES)
+        return err_set(e, ERR_USAGE, "--values: accuracy.%s is given more than %d values; leave some out", k->name,
+                       ACCURACY_VALUES);
+    to->x[to->n++] = x;
+    return true;
+}
+
+static bool values_one(const char *given, struct arena *a, struct accuracy_values *to, struct err *e)
+{
+    const char *equals = strchr(given, '=');
+    if (!equals || !equals[1])
+        return err_set(e, ERR_USAGE, "--values: '%s' is not of the form KNOB=NUMBER,NUMBER..., as in oversampling=2,16",
+                       given);
+    int knob = knob_named(given, (size_t)(equals - given));
+    if (knob < 0) return no_knob(arena_format(a, "%.*s", (int)(equals - given), given), a, e);
+    for (const char *p = equals + 1;; p++) {
+        size_t n = strcspn(p, ",");
+        if (!value_add(&to[knob], knob, arena_format(a, "%.*s", (int)n, p), e)) return false;
+        p += n;
+        if (!*p) return true;
+    }
+}
+
+bool accuracy_values(const struct args *args, struct arena *a, struct accuracy_values *to, struct err *e)
+{
+    int n;
+    const char **given = args_values(args, "values", &n);
+    for (int k = 0; k < KNOBS; k++)
+        to[k].x = ARENA_TAKE(a, double, ACCURACY_VALUES);
+    for (int i = 0; i < n; i++)
+        if (!values_one(given[i], a, to, e)) return false;
+    return true;
+}
+
+/* What `rasp accuracy` renders: the presets, the scene as it is, and each knob's values, each once with all other knobs
+   at `reference` (what it spoils alone) and once as the scene has them (what it costs). Knobs that turn nothing are
+   left as they are, so that settings which differ in those are one. */
+
+enum { PRESETS = 4 };
+
+static bool same(const struct accuracy_sweep *s, const struct accuracy *x, const struct accuracy *y)
+{
+    for (int k = 0; k < KNOBS; k++)
+        if (s->knobs & 1u << k && accuracy_knob(x, (enum knob)k) != accuracy_knob(y, (enum knob)k)) return false;
+    return true;
+}
+
+static int render_of(struct accuracy_sweep *s, const struct accuracy *set, bool timed)
+{
+    int i = 0;
+    while (i < s->n_renders && !same(s, &s->renders[i].set, set))
+        i++;
+    if (i == s->n_renders)
+        s->renders[s->n_renders++] = (struct accuracy_render){.set = *set, .cpu = HUGE_VAL, .contact_share = NAN};
+    s->renders[i].timed |= timed;
+    return i;
+}
+
+static struct accuracy_row *row_add(struct accuracy_sweep *s, int knob, const char *name, const char *value)
+{
+    struct accuracy_row *r = &s->rows[s->n_rows++];
+    *r = (struct accuracy_row){.knob = knob, .name = name, .value = value, .alone = -1, .fine = NAN, .order = NAN};
+    return r;
+}
+
+static void add_presets(struct accuracy_sweep *s)
+{
+    bool met = false;
+    for (int i = 0; keys_presets[i]; i++) {
+        struct accuracy set = s->scene.accuracy;
+        accuracy_preset(&set, keys_presets[i]);
+        struct accuracy_row *r = row_add(s, -1, "preset", keys_presets[i]);
+        r->total = render_of(s, &set, true);
+        r->chosen = same(s, &set, &s->scene.accuracy);
+        met |= r->chosen;
+    }
+    if (met) return;
+    struct accuracy_row *r = row_add(s, -1, "scene", "");
+    r->total = render_of(s, &s->scene.accuracy, true);
+    r->chosen = true;
+}
+
+/* Presets' values and those given, coarse to fine, each once. */
+static int values_of(int knob, const struct accuracy_values *given, double *x)
+{
+    int n = 0;
+    double sign = keys_knobs[knob].scale == KEY_STEPS ? 1.0 : -1.0;
+    for (int i = 0; i < PRESETS + given->n; i++) {
+        double v = i < PRESETS ? keys_knobs[knob].preset[i] : given->x[i - PRESETS];
+        int at = 0;
+        while (at < n && sign * x[at] < sign * v)
+            at++;
+        if (at < n && x[at] == v) continue;
+        memmove(x + at + 1, x + at, (size_t)(n - at) * sizeof *x);
+        x[at] = v;
+        n++;
+    }
+    return n;
+}
+
+static void add_knob(struct accuracy_sweep *s, int knob, const struct accuracy_values *given)
+{
+    double x[PRESETS + ACCURACY_VALUES];
+    int n = values_of(knob, given, x);
+    for (int i = 0; i < n; i++) {
+        struct accuracy alone = s->renders[s->reference].set, all = s->scene.accuracy;
+        struct accuracy_row *r = row_add(s, knob, keys_knobs[knob].name, arena_format(s->call->arena, "%.9g", x[i]));
+        accuracy_turn(&alone, (enum knob)knob, x[i]);
+        accuracy_turn(&all, (enum knob)knob, x[i]);
+        r->alone = render_of(s, &alone, false);
+        r->total = render_of(s, &all, true);
+        r->chosen = x[i] == accuracy_knob(&s->scene.accuracy, (enum knob)knob);
+        r->fine = (keys_knobs[knob].scale == KEY_STEPS ? 1 : -1) * real_log(x[i]) / real_log(2.0);
+    }
+}
+
+static int preset_render(struct accuracy_sweep *s, const char *preset)
+{
+    struct accuracy set = s->scene.accuracy;
+    accuracy_preset(&set, preset);
+    return render_of(s, &set, true);
+}
+
+void accuracy_rows(struct accuracy_sweep *s, const struct accuracy_values *own)
+{
+    int most = PRESETS + 1;
+    for (int k = 0; k < KNOBS; k++)
+        most += PRESETS + own[k].n;
+    s->rows = ARENA_TAKE(s->call->arena, struct accuracy_row, most);
+    s->renders = ARENA_TAKE(s->call->arena, struct accuracy_render, 2 * most + 2);
+    s->reference = preset_render(s, "reference"); /* rendered first: the others are compared with it */
+    s->high = preset_render(s, "high");           /* then this, which shows until when that means anything */
+    add_presets(s);
+    for (int k = 0; k < KNOBS && !s->presets; k++)
+        if (s->knobs & 1u << k) add_knob(s, k, &own[k]);
+}
+
+const char *accuracy_rows_name(const struct accuracy_sweep *s, int render)
+{
+    for (int i = 0; i < s->n_rows; i++) {
+        const struct accuracy_row *r = &s->rows[i];
+        if (r->total == render || r->alone == render)
+            return arena_format(s->call->arena, "%s%s%s%s", r->name, *r->value ? " " : "", r->value,
+                                r->total == render ? "" : ", else reference");
+    }
+    return "the scene";
+}
+
+/* What the errors of a sweep say: the order with which each knob's own error falls, the error that the reference has
+   itself, and which settings are worth their time.
+
+   The order between neighbours is of the errors with all other knobs at `reference`. The reference's own error is
+   extrapolated from them (analysis/convergence.h), knob by knob, and added up as powers: what is smaller cannot be told
+   by comparing with this reference. Nothing is extrapolated where the sound diverges: there errors have grown to the
+   size of the sound by the end of what is compared, whatever they began with.
+
+   Of a sound that diverges, two renders which are equally right differ by as much as `high` and `reference`: a distance
+   below that is no merit. */
+
+#define OCTAVE_DB 6.020599913279624 /* 20 log10 2 */
+
+static const struct accuracy_render *alone(const struct accuracy_sweep *s, const struct accuracy_row *r)
+{
+    return r->alone >= 0 && s->renders[r->alone].code == 0 ? &s->renders[r->alone] : NULL;
+}
+
+static void judge_order(const struct accuracy_sweep *s, const struct accuracy_row *before, struct accuracy_row *r)
+{
+    const struct accuracy_render *x = alone(s, before), *y = alone(s, r);
+    if (!x || !y || before->knob != r->knob || y == &s->renders[s->reference] || x == &s->renders[s->reference]) return;
+    double fine[2] = {before->fine, r->fine}, error[2] = {-x->error.snr / OCTAVE_DB, -y->error.snr / OCTAVE_DB};
+    r->order = convergence_slope(fine, error);
+}
+
+/* The reference's row of a knob, and the two before it, coarsest first; how many there are, 0: the reference has none.
+ */
+static int finest(const struct accuracy_sweep *s, int knob, const struct accuracy_row *to[3])
+{
+    int n = 0;
+    for (int i = 0; i < s->n_rows; i++) {
+        const struct accuracy_row *r = &s->rows[i];
+        if (r->knob != knob || !alone(s, r)) continue;
+        if (n == 2 && r->alone != s->reference) {
+            to[0] = to[1];
+            n = 1;
+        }
+        to[n++] = r;
+        if (r->alone == s->reference) return n;
+    }
+    return 0;
+}
+
+static double amplitude(const struct accuracy_sweep *s, const struct accuracy_row *r)
+{
+    return real_exp10(-s->renders[r->alone].error.snr / 20.0);
+}
+
+static double judge_own(const struct accuracy_sweep *s, int knob)
+{
+    const struct accuracy_row *r[3];
+    int n = finest(s, knob, r);
+    double order;
+    if (n < 2) return NAN;
+    if (n == 2) return amplitude(s, r[0]);
+    double fine[3] = {r[0]->fine, r[1]->fine, r[2]->fine}, difference[2] = {amplitude(s, r[0]), amplitude(s, r[1])};
+    return convergence_left(fine, difference, &order);
+}
+
+double accuracy_judge_error(const struct accuracy_sweep *s, const struct accuracy_render *r)
+{
+    if (r->code != 0) return NAN;
+    return isfinite(s->until) ? fmax(r->error.spectral, s->renders[s->high].error.spectral) : -r->error.snr;
+}
+
+bool accuracy_judge_below(const struct accuracy_sweep *s, const struct accuracy_render *r)
+{
+    return r->code == 0 && isfinite(r->error.snr) && r->error.snr > s->own_db;
+}
+
+void accuracy_judge(struct accuracy_sweep *s)
+{
+    double sum = 0.0;
+    for (int i = 1; i < s->n_rows; i++)
+        if (s->rows[i].knob >= 0) judge_order(s, &s->rows[i - 1], &s->rows[i]);
+    for (int k = 0; k < KNOBS; k++) {
+        s->own[k] = s->knobs & 1u << k && isinf(s->until) ? judge_own(s, k) : NAN;
+        sum += isnan(s->own[k]) ? 0.0 : s->own[k] * s->own[k];
+    }
+    s->own_db = sum > 0.0 ? -10.0 * real_log10(sum) : INFINITY;
+    double *cost = ARENA_TAKE(s->call->arena, double, s->n_renders),
+           *error = ARENA_TAKE(s->call->arena, double, s->n_renders);
+    bool *on = ARENA_TAKE(s->call->arena, bool, s->n_renders);
+    for (int i = 0; i < s->n_renders; i++) {
+        cost[i] = s->renders[i].timed ? s->renders[i].cpu : NAN;
+        error[i] = accuracy_judge_error(s, &s->renders[i]);
+    }
+    convergence_front(s->n_renders, cost, error, (struct convergence_equal){0.05, 0.1},
+                      on); /* what 3 runs tell apart, and an ear by far does not */
+    for (int i = 0; i < s->n_renders; i++)
+        s->renders[i].front = on[i];
+}
+
+/* rasp accuracy: what accuracy costs in time. */
+
 static const struct args_option accuracy_options[] = {
     {"presets", 'p', NULL, false, "render only the presets (and the scene as it is), no single knobs"},
-    {"values", 0, "KNOB=N,N...", true, "further values of a knob besides those of the presets, as in oversampling=2,16; may be repeated"},
+    {"values", 0, "KNOB=N,N...", true,
+     "further values of a knob besides those of the presets, as in oversampling=2,16; may be repeated"},
     {"runs", 'n', "N", false, "how often each setting is rendered for its CPU time, in turns; the least counts (3)"},
     {"csv", 0, "FILE", false, "write the table to FILE, which ends in .csv"},
     {"plot", 0, "FILE", false, "draw error against real-time factor into FILE, which ends in .png or .svg"},
@@ -40,25 +323,22 @@ static bool ask_read(struct accuracy_sweep *s, struct err *e)
 {
     const struct args *g = &s->call->args;
     long runs = 3;
-    if (!args_whole(g, "runs", (const long[2]){1, 1000}, &runs, e))
-        return false;
+    if (!args_whole(g, "runs", (const long[2]){1, 1000}, &runs, e)) return false;
     s->runs = (int)runs;
     s->json = args_given(g, "json");
     s->presets = args_given(g, "presets");
-    if (s->presets && args_given(g, "values"))
-        return err_set(e, ERR_USAGE, "--presets leaves no room for --values");
+    if (s->presets && args_given(g, "values")) return err_set(e, ERR_USAGE, "--presets leaves no room for --values");
     s->csv = args_value(g, "csv");
     s->plot = args_value(g, "plot");
-    if (s->csv && !ends(s->csv, ".csv"))
-        return err_set(e, ERR_USAGE, "--csv %s: must end in .csv", s->csv);
-    return !s->plot || ends(s->plot, ".png") || ends(s->plot, ".svg") || err_set(e, ERR_USAGE, "--plot %s: must end in .png or .svg", s->plot);
+    if (s->csv && !ends(s->csv, ".csv")) return err_set(e, ERR_USAGE, "--csv %s: must end in .csv", s->csv);
+    return !s->plot || ends(s->plot, ".png") || ends(s->plot, ".svg") ||
+           err_set(e, ERR_USAGE, "--plot %s: must end in .png or .svg", s->plot);
 }
 
 bool accuracy_silent(const struct scene *s)
 {
     for (int i = 0; i < s->n_contacts; i++)
-        if (s->contacts[i].gain != 0 && rules_heard(&s->contacts[i], &s->output))
-            return false;
+        if (s->contacts[i].gain != 0 && rules_heard(&s->contacts[i], &s->output)) return false;
     return true;
 }
 
@@ -70,14 +350,13 @@ static bool ask_files(const struct accuracy_sweep *s, struct err *e)
         enum output_kind kind = OUTPUT_TABLE;
         struct outputs o = {.scene = &s->scene, .base = "", .paths = &paths[i], .kinds = &kind, .n = 1};
         struct outfile probe;
-        if (!paths[i])
-            continue;
+        if (!paths[i]) continue;
         if (!outputs_spare(&o, 1, s->call->arena, &(struct err){0}))
-            return err_set(e, ERR_CREATE, "%s is a file that the scene reads: give --%s another name", paths[i], i ? "plot" : "csv");
+            return err_set(e, ERR_CREATE, "%s is a file that the scene reads: give --%s another name", paths[i],
+                           i ? "plot" : "csv");
         bool force = args_given(&s->call->args, "force");
         bool may = i ? mark_permits(paths[i], NULL, force, e) : mark_absent(paths[i], force, e);
-        if (!may || !outfile_open_fd(&probe, paths[i], e))
-            return false;
+        if (!may || !outfile_open_fd(&probe, paths[i], e)) return false;
         outfile_drop(&probe);
     }
     return true;
@@ -89,16 +368,12 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
     if (!accuracy_values(&s->call->args, s->call->arena, own, e) || !cmd_read_scene(s->call, s->file, &s->scene, e))
         return false;
     struct scene asked = s->scene;
-    if (!promise_keep(&asked, s->call->arena, &s->scene, NULL, e))
-        return scene_places_tell(&asked, e);
+    if (!promise_keep(&asked, s->call->arena, &s->scene, NULL, e)) return scene_places_tell(&asked, e);
     s->scene.contacts = asked.contacts; /* engines are chosen for each setting */
     s->force = accuracy_silent(&s->scene);
-    if (s->force)
-        s->scene.output.quantity = QUANTITY_FORCE;
-    if (!ask_files(s, e))
-        return false;
-    if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e))
-        return scene_places_tell(&s->scene, e);
+    if (s->force) s->scene.output.quantity = QUANTITY_FORCE;
+    if (!ask_files(s, e)) return false;
+    if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e)) return scene_places_tell(&s->scene, e);
     accuracy_rows(s, own);
     return true;
 }
@@ -128,10 +403,9 @@ static bool sweep(struct accuracy_sweep *s, struct err *e)
     for (int run = 0; ok && run < s->runs; run++)
         for (int i = 0; ok && i < s->n_renders; i++) {
             struct accuracy_render *r = &s->renders[i];
-            if (run > 0 && (!r->timed || r->code != 0))
-                continue;
+            if (run > 0 && (!r->timed || r->code != 0)) continue;
             told(s, done++, all);
-            ok = accuracy_child(s, i, e) && (run > 0 || r->code != 0 || accuracy_compare(s, i, e));
+            ok = accuracy_child(s, i, e) && (run > 0 || r->code != 0 || accuracy_child_compare(s, i, e));
             accuracy_child_clear(s);
         }
     told(s, all, all);
@@ -144,25 +418,23 @@ static bool tell(struct accuracy_sweep *s, struct err *e)
     struct outfile csv = {.fd = -1}, plot = {.fd = -1};
     bool ok = !s->csv || outfile_open(&csv, s->csv, e);
     if (ok && s->csv) {
-        accuracy_table(s, csv.stream);
+        accuracy_report_table(s, csv.stream);
         ok = outfile_settle(&csv, e);
     }
-    ok = ok && (!s->plot || picture_draw(&plot, s->plot, ends(s->plot, ".svg"), accuracy_plot, s, e));
+    ok = ok && (!s->plot || picture_draw(&plot, s->plot, ends(s->plot, ".svg"), accuracy_report_plot, s, e));
     interrupt_hold();
     ok = ok && (!s->plot || outfile_commit(&plot, e)) && (!s->csv || outfile_commit(&csv, e));
     interrupt_go();
     outfile_drop(&csv);
     outfile_drop(&plot);
-    if (ok && !s->json)
-        accuracy_print(s);
-    return ok && (!s->json || accuracy_json(s, e));
+    if (ok && !s->json) accuracy_report_print(s);
+    return ok && (!s->json || accuracy_report_json(s, e));
 }
 
 static int accuracy_run(struct cmd_call *c, struct err *e)
 {
     struct accuracy_sweep s = {.call = c, .file = c->args.operands[0], .until = INFINITY};
-    if (!ask_read(&s, e) || !ask_scene(&s, e) || !accuracy_child_folder(&s, e))
-        return (int)e->kind;
+    if (!ask_read(&s, e) || !ask_scene(&s, e) || !accuracy_child_folder(&s, e)) return (int)e->kind;
     bool ok = sweep(&s, e);
     accuracy_child_end(&s);
     if (ok) {
@@ -175,18 +447,24 @@ static int accuracy_run(struct cmd_call *c, struct err *e)
 const struct command accuracy_command = {
     .name = "accuracy",
     .summary = "shows what accuracy costs: error and time of each preset and knob",
-    .does = "Renders the scene with each preset, and with each value that a preset has of each knob that turns it (rasp plan lists them), and prints how far each is from the "
-            "preset reference: the samples' error in dB, the worst difference of third octaves, the distance of spectra (windows of 5, 20 and 80 ms); and what it costs: CPU time, times "
-            "real time, peak memory. alone: all other knobs at reference, so that the knob's own error shows; order: the power of the knob with which that falls (of a knob in dB, dB per dB); "
-            "total: all other knobs as the scene has them. The error that reference has itself is extrapolated from that, and smaller ones are marked. * marks what nothing else beats in both "
-            "error and CPU time. Where two renders diverge, as of a ball that bounces, it says from when on, and compares levels and spectra of what comes after. A scene without a sound is "
+    .does = "Renders the scene with each preset, and with each value that a preset has of each knob that turns it "
+            "(rasp plan lists them), and prints how far each is from the "
+            "preset reference: the samples' error in dB, the worst difference of third octaves, the distance of "
+            "spectra (windows of 5, 20 and 80 ms); and what it costs: CPU time, times "
+            "real time, peak memory. alone: all other knobs at reference, so that the knob's own error shows; order: "
+            "the power of the knob with which that falls (of a knob in dB, dB per dB); "
+            "total: all other knobs as the scene has them. The error that reference has itself is extrapolated from "
+            "that, and smaller ones are marked. * marks what nothing else beats in both "
+            "error and CPU time. Where two renders diverge, as of a ball that bounces, it says from when on, and "
+            "compares levels and spectra of what comes after. A scene without a sound is "
             "compared by its contact force. Each render is a process of its own, one at a time, in a temporary folder.",
     .operands = "SCENE",
     .least = 1,
     .most = 1,
     .options = accuracy_options,
-    .examples = "rasp accuracy scenes/strike.yaml\n"
-                "rasp accuracy scenes/basswood_scrape.yaml --set 'motion.duration=0.5 s' --csv cost.csv --plot cost.png\n"
-                "rasp accuracy scenes/strike.yaml --values oversampling=2,16 --runs 1 --json\n",
+    .examples =
+        "rasp accuracy scenes/strike.yaml\n"
+        "rasp accuracy scenes/basswood_scrape.yaml --set 'motion.duration=0.5 s' --csv cost.csv --plot cost.png\n"
+        "rasp accuracy scenes/strike.yaml --values oversampling=2,16 --runs 1 --json\n",
     .run = accuracy_run,
 };

@@ -1,6 +1,5 @@
-/* rasp accuracy: a sweep of renders, what each costs and how wrong it is. accuracy.c and accuracy_values.c read the command line; accuracy_rows.c lists what is rendered,
-   accuracy_child.c renders, accuracy_compare.c compares with the reference, accuracy_judge.c has the orders, the reference's own error and the front;
-   accuracy_print.c, accuracy_table.c, accuracy_json.c and accuracy_plot.c tell. */
+/* rasp accuracy: a sweep of renders, what each costs and how wrong it is. accuracy.c reads the command line, lists what is rendered and finds
+   orders, the error of the reference and the front; accuracy_child.c renders and compares; accuracy_report.c prints, writes and draws. */
 #ifndef CMD_ACCURACY_H
 #define CMD_ACCURACY_H
 #include "cmd/cmd.h"
@@ -70,9 +69,6 @@ struct accuracy_values {
 };
 bool accuracy_values(const struct args *args, struct arena *a, struct accuracy_values *to, struct err *e);
 
-/* How fine a knob's value is: octaves, or dB for one that is an error; NAN of a method. */
-double accuracy_rows_fine(int knob, double value);
-
 /* No contact is heard: its force is compared, as output.quantity: force plays it. */
 bool accuracy_silent(const struct scene *s);
 
@@ -85,17 +81,16 @@ const char *accuracy_rows_name(const struct accuracy_sweep *s, int render);
 /* Renders one setting into s->folder (accuracy_child_sound) and notes code, words, cpu, peak, contact_share. False: interrupted, or a failure that is not the
    setting's own. */
 bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e);
-const char *accuracy_child_sound(const struct accuracy_sweep *s);
 bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e);
 void accuracy_child_clear(const struct accuracy_sweep *s); /* what a render left */
 void accuracy_child_end(const struct accuracy_sweep *s);   /* the folder, too    */
 
 /* Takes the sound that was just rendered as the reference, or as `high`, whose divergence is everyone's; else compares. */
-bool accuracy_compare(struct accuracy_sweep *s, int render, struct err *e);
+bool accuracy_child_compare(struct accuracy_sweep *s, int render, struct err *e);
 
 /* The same of two sounds: until (s): from when on they are compared by their statistics, INFINITY: never. Their gains are taken out already. */
 struct wav;
-struct accuracy_error accuracy_compare_sounds(const struct wav *a, const struct wav *b, double until);
+struct accuracy_error accuracy_child_distance(const struct wav *a, const struct wav *b, double until);
 
 void accuracy_judge(struct accuracy_sweep *s);
 
@@ -105,13 +100,13 @@ double accuracy_judge_error(const struct accuracy_sweep *s, const struct accurac
 /* Is it an error so small that the reference is no judge of it? */
 bool accuracy_judge_below(const struct accuracy_sweep *s, const struct accuracy_render *r);
 
-void accuracy_print(const struct accuracy_sweep *s);
-void accuracy_table(const struct accuracy_sweep *s, FILE *f);
-bool accuracy_json(const struct accuracy_sweep *s, struct err *e);
-void accuracy_plot(void *sweep, struct gnuplot *g);
+void accuracy_report_print(const struct accuracy_sweep *s);
+void accuracy_report_table(const struct accuracy_sweep *s, FILE *f);
+bool accuracy_report_json(const struct accuracy_sweep *s, struct err *e);
+void accuracy_report_plot(void *sweep, struct gnuplot *g);
 
 /* Where a logarithmic axis from low to high > 2.25 low has its labels, rising: at powers of ten; where that is not two of them, at 2 and 5 as well, or more. */
-enum { ACCURACY_PLOT_TICS = 64 };
-int accuracy_plot_tics(double low, double high, double tics[ACCURACY_PLOT_TICS]);
+enum { ACCURACY_REPORT_TICS = 64 };
+int accuracy_report_tics(double low, double high, double tics[ACCURACY_REPORT_TICS]);
 
 #endif

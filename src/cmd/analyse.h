@@ -50,13 +50,6 @@ struct analysis {
 
 extern const char *const analyse_series_names[STATISTICS_SERIES]; /* "amplitude", "interval" */
 
-void analyse_note(struct analysis *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-/* Of a force, of an impact that outweighs all others (in squares), of the fitted shapes, of the series. */
-void analyse_notes_force(struct analysis *a, const struct analyse_source *s);
-void analyse_notes_outlier(struct analysis *a);
-void analyse_notes_shape(struct analysis *a);
-void analyse_notes_statistics(struct analysis *a);
 
 /* Why no duration is known. */
 const char *analyse_notes_unknown(const struct analysis *a);
@@ -70,8 +63,8 @@ bool analyse_one_process(const struct analysis *a);
 /* Reads the file, and finds the impacts if it holds a force. ERR_INPUT, ERR_SCENE. */
 bool analyse_read(const char *file, const struct analyse_given *g, struct arena *a, struct analyse_source *s, struct err *e);
 
-void analyse_print(const struct analysis *a);
-bool analyse_json(const struct analysis *a, struct err *e);
+void analyse_report_print(const struct analysis *a);
+bool analyse_report_json(const struct analysis *a, struct err *e);
 
 /* What is written is opened first and gets its names at the end: all or none, as far as that can be had. */
 struct analyse_files {
@@ -81,13 +74,13 @@ struct analyse_files {
 };
 
 /* ERR_CREATE: the file exists and a->force is false; ERR_USAGE: its name does not end in .yaml. */
-bool analyse_part_free(const struct analysis *a, const char *file, struct err *e);
+bool analyse_report_free(const struct analysis *a, const char *file, struct err *e);
 
 /* The parameter file and the tables that it needs beside it. ERR_CREATE (also: one of them is what was analysed), ERR_IO, ERR_SCENE (a value that no
    scene may have). */
-bool analyse_part(struct analysis *a, const char *file, struct analyse_files *all, struct err *e);
+bool analyse_report_part(struct analysis *a, const char *file, struct analyse_files *all, struct err *e);
 
 /* PREFIX.correlations.png and so on; a folder: FOLDER/NAME.correlations.png. ERR_UNBUILT (no gnuplot), ERR_CREATE, ERR_IO. */
-bool analyse_plot(struct analysis *a, const char *prefix, bool svg, struct analyse_files *all, struct err *e);
+bool analyse_report_plot(struct analysis *a, const char *prefix, bool svg, struct analyse_files *all, struct err *e);
 
 #endif

@@ -58,8 +58,7 @@ static const char *program_of(struct arena *a, struct err *e)
     char hex[HASH_TEXT];
     if (!strstr(version_revision, "dirty") && strcmp(version_revision, "unknown") != 0)
         return arena_format(a, "rasp %s %s", version_number, version_revision);
-    if (!hash_file("/proc/self/exe", hex, e))
-        return NULL;
+    if (!hash_file("/proc/self/exe", hex, e)) return NULL;
     return arena_format(a, "rasp %s %s %.12s", version_number, version_revision, hex);
 }
 
@@ -75,8 +74,7 @@ static void tell_more(struct cmd_call *c, const char *command, enum err_kind kin
 void batch_tell_unread(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e)
 {
     enum err_kind kind = e->kind;
-    if (!*r->messages)
-        return;
+    if (!*r->messages) return;
     tell_scene(c, r->design.diag, r->messages, kind);
     *e = (struct err){0};
     err_set(e, kind, "%s %s", file, kind == ERR_SCENE ? "is not a valid design" : "cannot be read");
@@ -127,29 +125,24 @@ static void tell_stimuli(struct cmd_call *c, const struct batch_ask *ask, const 
         const struct tables_row *o = &r->rows[i];
         const char *name = r->design.stimuli[i].name;
         struct err told = {0};
-        if (o->there && o->made)
-            tell_warnings(c, ask->folder, name);
-        if (!o->kind)
-            continue;
+        if (o->there && o->made) tell_warnings(c, ask->folder, name);
+        if (!o->kind) continue;
         err_set(&told, o->kind, "%s", o->text);
         if (++failed <= TOLD)
             tell_stimulus(c, "batch", name, ask->design, &told);
         else
             worst = o->kind > worst ? o->kind : worst;
     }
-    if (worst)
-        tell_more(c, "batch", worst, arena_format(c->arena, "and %d more that failed", failed - TOLD));
+    if (worst) tell_more(c, "batch", worst, arena_format(c->arena, "and %d more that failed", failed - TOLD));
 }
 
 static void tell_stale(struct cmd_call *c, const char *folder, const struct folder_stale *l)
 {
     const char *list = "";
-    if (!l->n_files)
-        return;
+    if (!l->n_files) return;
     for (int i = 0; i < l->n_files && i < STALE_TOLD; i++)
         list = arena_format(c->arena, "%s%s%s", list, i ? ", " : "", l->files[i]);
-    if (l->n_files > STALE_TOLD)
-        list = arena_format(c->arena, "%s and %d more", list, l->n_files - STALE_TOLD);
+    if (l->n_files > STALE_TOLD) list = arena_format(c->arena, "%s and %d more", list, l->n_files - STALE_TOLD);
     bool one = l->n_files == 1;
     tell_warning(
         c, folder,
@@ -185,8 +178,7 @@ static json_t *stimulus_json(const struct batch_report *r, int i)
                           "replicate", s->recording ? json_null() : json_integer(s->replicate), "seed",
                           s->recording ? json_null() : json_string(seed), "recording",
                           s->recording ? json_value_shown(s->recording) : json_null(), "length_s", r->set.lengths[i]);
-    if (r->states)
-        json_object_set_new(j, "state", json_string(stimulus_states[r->states[i]]));
+    if (r->states) json_object_set_new(j, "state", json_string(stimulus_states[r->states[i]]));
     return j;
 }
 
@@ -194,8 +186,7 @@ static json_t *list_json(const struct batch_report *r)
 {
     json_t *all = json_array();
     for (int i = 0; i < r->set.n; i++)
-        if (!r->mine || r->mine[i])
-            json_array_append_new(all, stimulus_json(r, i));
+        if (!r->mine || r->mine[i]) json_array_append_new(all, stimulus_json(r, i));
     return all;
 }
 
@@ -221,10 +212,8 @@ static json_t *report_json(const struct batch_ask *ask, const struct batch_repor
         json_value_text(ask->folder), "shard", ask->shard.i, ask->shard.n, "mine", r->n_mine, "rendered", r->rendered,
         "kept", r->kept, "left_over", stale, "pruned", r->stale.removed, "sound_s", r->plan.seconds, "wav_bytes",
         (json_int_t)r->plan.bytes, "predicted_cpu_s", r->plan.cycles / 3e9, "wall_s", r->seconds);
-    if (r->missing)
-        json_object_set_new(j, "missing_shards", json_string(r->missing));
-    if (ask->dry)
-        json_object_set_new(j, "list", list_json(r));
+    if (r->missing) json_object_set_new(j, "missing_shards", json_string(r->missing));
+    if (ask->dry) json_object_set_new(j, "list", list_json(r));
     return j;
 }
 
@@ -243,23 +232,6 @@ static const char **states_of(const struct batch_report *r, struct arena *a)
     return all;
 }
 
-static void print_plan(const struct batch_ask *ask, const struct batch_report *r, struct arena *a)
-{
-    char cpu[24];
-    design_print(&r->design, r->mine, states_of(r, a), stdout);
-    progress_time(r->plan.cycles / 3e9, cpu);
-    printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r->set.n,
-           r->plan.seconds, r->plan.bytes / 1e6, cpu);
-    if (r->plan.raw_bytes > 0)
-        printf("%.3g MB more while the common level is not known\n", r->plan.raw_bytes / 1e6);
-    const char *lengths = set_lengths_text(&r->set, &r->plan, a);
-    if (lengths)
-        printf("%s\n", lengths);
-    print_silence(r);
-    if (ask->shard.n > 1)
-        printf("shard %d/%d: %d of them\n", ask->shard.i, ask->shard.n, r->n_mine);
-}
-
 static void print_report(const struct batch_ask *ask, const struct batch_report *r, struct arena *a)
 {
     char took[24];
@@ -272,10 +244,8 @@ static void print_report(const struct batch_ask *ask, const struct batch_report 
     }
     printf("%s: %d stimuli rendered, %d there already, %d %s, in %s", ask->folder, r->rendered, r->kept, r->failed,
            ask->no_render ? "missing" : "failed", took);
-    if (r->stale.removed)
-        printf("; %d file%s left over removed", r->stale.removed, r->stale.removed == 1 ? "" : "s");
-    if (!isnan(r->full_scale))
-        printf("; full_scale %s", keys_yaml_number(r->full_scale, a));
+    if (r->stale.removed) printf("; %d file%s left over removed", r->stale.removed, r->stale.removed == 1 ? "" : "s");
+    if (!isnan(r->full_scale)) printf("; full_scale %s", keys_yaml_number(r->full_scale, a));
     printf("\n");
     print_silence(r);
 }
@@ -285,8 +255,7 @@ static void print_report(const struct batch_ask *ask, const struct batch_report 
 bool batch_threads(const struct cmd_call *c, int *threads, struct err *e)
 {
     long n = batch_cores();
-    if (!args_whole(&c->args, "jobs", (const long[2]){1, 256}, &n, e))
-        return false;
+    if (!args_whole(&c->args, "jobs", (const long[2]){1, 256}, &n, e)) return false;
     *threads = (int)n;
     return true;
 }
@@ -323,10 +292,8 @@ static bool read_ask(struct cmd_call *c, struct batch_ask *ask, struct err *e)
                        "--prune: a shard does not know what is left over: run rasp batch --prune without --shard");
     if (ask->no_render && (shard || ask->force))
         return err_set(e, ERR_USAGE, "--no-render: goes with neither --shard nor --force, which render");
-    if ((shard && !set_shard_read(shard, &ask->shard, e)) || !read_numbers(c, ask, e))
-        return false;
-    if (ask->missing && ask->dry)
-        return err_set(e, ERR_USAGE, "--missing: writes nothing anyway: leave --dry-run out");
+    if ((shard && !set_shard_read(shard, &ask->shard, e)) || !read_numbers(c, ask, e)) return false;
+    if (ask->missing && ask->dry) return err_set(e, ERR_USAGE, "--missing: writes nothing anyway: leave --dry-run out");
     ask->program = program_of(c->arena, e);
     return ask->program != NULL;
 }
@@ -336,29 +303,33 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     struct batch_ask ask;
     struct batch_report r;
     bool json = args_given(&c->args, "json");
-    if (!read_ask(c, &ask, e))
-        return (int)e->kind;
+    if (!read_ask(c, &ask, e)) return (int)e->kind;
     tell_group(c);
     bool ok = batch_run(&ask, c->arena, &r, e);
     batch_tell_unread(c, ask.design, &r, e);
     batch_tell_faults(c, "batch", ask.design, &r.plan);
-    if (ask.dry)
-        batch_tell_warnings(c, &r.plan);
-    if (r.rendering)
-        tell_stimuli(c, &ask, &r);
-    if (*r.no_effect)
-        tell_warning(c, ask.design, r.no_effect);
+    if (ask.dry) batch_tell_warnings(c, &r.plan);
+    if (r.rendering) tell_stimuli(c, &ask, &r);
+    if (*r.no_effect) tell_warning(c, ask.design, r.no_effect);
     tell_stale(c, ask.folder, &r.stale);
     batch_close(&r);
-    if (!r.rows)
-        return (int)e->kind;
+    if (!r.rows) return (int)e->kind;
     if (json)
         print_json(report_json(&ask, &r), e);
     else if (ok && ask.missing)
         puts(r.missing);
-    else if (ok && ask.dry)
-        print_plan(&ask, &r, c->arena);
-    else if ((ok || r.failed) && !ask.quiet)
+    else if (ok && ask.dry) {
+        char cpu[24];
+        design_print(&r.design, r.mine, states_of((&r), c->arena), stdout);
+        progress_time(r.plan.cycles / 3e9, cpu);
+        printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r.set.n,
+               r.plan.seconds, r.plan.bytes / 1e6, cpu);
+        if (r.plan.raw_bytes > 0) printf("%.3g MB more while the common level is not known\n", r.plan.raw_bytes / 1e6);
+        const char *lengths = set_lengths_text(&r.set, &r.plan, c->arena);
+        if (lengths) printf("%s\n", lengths);
+        print_silence((&r));
+        if (ask.shard.n > 1) printf("shard %d/%d: %d of them\n", ask.shard.i, ask.shard.n, r.n_mine);
+    } else if ((ok || r.failed) && !ask.quiet)
         print_report(&ask, &r, c->arena);
     return (int)e->kind;
 }

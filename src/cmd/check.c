@@ -1,25 +1,131 @@
-/* rasp check: what can be known to be wrong with a scene before anything is computed. */
+/* rasp check: what can be known to be wrong with a scene or a design before anything is computed. Of a design: what rasp batch finds
+   out before it renders anything, and what it leaves to the rendering, whether a promised error can be kept. */
 #include <jansson.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
+#include "batch/batch.h"
 #include "batch/design.h"
-#include "cmd/check_design.h"
+#include "batch/pool.h"
+#include "cmd/batch.h"
 #include "cmd/cmd.h"
 #include "cmd/tell.h"
+#include "num/resample.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
 #include "scene/scene_places.h"
+
+struct promises {
+    const struct design *design;
+    struct err **broken; /* [n_stimuli] by malloc, until it is taken; NULL: kept, or none is made */
+    struct set_fault *faults;
+    int n, stimuli, worst;
+    struct arena *arena;
+};
+
+/* Whether the promise of stimulus i can be kept; its error is told with its place. */
+static bool is_kept(const struct design *d, int i, struct arena *a, struct err *e)
+{
+    struct scene s, kept;
+    const char *messages;
+    bool ok = design_scene(d, i, a, &s, &messages, e);
+    if (ok) design_scene_places(d, &s, a);
+    return ok && (promise_keep(&s, a, &kept, NULL, e) || scene_places_tell(&s, e));
+}
+
+static bool look(void *context, int i)
+{
+    struct promises *p = context;
+    struct err e = {0};
+    struct arena *a = arena_open();
+    if (!p->design->stimuli[i].recording && !is_kept(p->design, i, a, &e)) *(p->broken[i] = memory_take(sizeof e)) = e;
+    arena_close(a);
+    return true;
+}
+
+static void note(struct promises *p, const char *name, const struct err *e)
+{
+    int k = 0;
+    while (k < p->n && strcmp(p->faults[k].err->text, e->text) != 0)
+        k++;
+    if (k == p->n) {
+        struct err *own = ARENA_TAKE(p->arena, struct err, 1);
+        *own = *e;
+        p->faults[p->n++] = (struct set_fault){.messages = "", .err = own, .name = name};
+    }
+    p->faults[k].n++;
+    p->stimuli++;
+    p->worst = (int)e->kind > p->worst ? (int)e->kind : p->worst;
+}
+
+static void took(void *context, int i)
+{
+    struct promises *p = context;
+    if (p->broken[i]) note(p, p->design->stimuli[i].name, p->broken[i]);
+    free(p->broken[i]);
+    p->broken[i] = NULL;
+}
+
+/* Each is looked at, replicates too: an error is measured with the noise that is there. */
+static bool promises_kept(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
+{
+    struct promises p = {.design = d,
+                         .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli),
+                         .faults = ARENA_TAKE(c->arena, struct set_fault, d->n_stimuli),
+                         .arena = c->arena};
+    resample_prepare();
+    pool_run(
+        &(struct pool_work){.n = d->n_stimuli, .threads = batch_cores(), .context = &p, .job = look, .took = took});
+    batch_tell_faults(c, "check", file, &(struct set_plan){.faults = p.faults, .n_faults = p.n});
+    return !p.stimuli ||
+           err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
+}
+
+/* What is wrong is told, and what it comes to is set. */
+static void tell_wrong(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e)
+{
+    struct err cause = *e;
+    if (*r->messages) {
+        batch_tell_unread(c, file, r, e);
+        return;
+    }
+    batch_tell_faults(c, "check", file, &r->plan);
+    *e = (struct err){0};
+    err_set(e, cause.kind, "%s: %s", file, cause.text);
+}
+
+/* Reads the design and the scene of every stimulus, as far as can be known before rendering. A fault that many stimuli
+   have is told once. *remark: what is worth knowing of a design without fault, or NULL. */
+static bool check_design(struct cmd_call *c, const char *file, const char **remark, struct err *e)
+{
+    if (args_given(&c->args, "set") || args_given(&c->args, "seed"))
+        return err_set(e, ERR_USAGE, "%s is a design: --set and --seed change scenes; write set: and seed: into it",
+                       file);
+    struct batch_report r;
+    bool ok = batch_run(
+        &(struct batch_ask){
+            .design = file, .program = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true},
+        c->arena, &r, e);
+    batch_tell_warnings(c, &r.plan);
+    if (!ok)
+        tell_wrong(c, file, &r, e);
+    else if ((ok = promises_kept(c, file, &r.design, e)))
+        *remark = set_lengths_text(&r.set, &r.plan, c->arena);
+    batch_close(&r);
+    return ok;
+}
+
 
 /* remark: of a design without fault; NULL: none. */
 static bool check_scene(struct cmd_call *c, const char *file, const char **remark, struct err *e)
 {
     struct scene s, kept;
     const char **warnings = NULL;
-    if (design_is(file))
-        return check_design(c, file, remark, e);
-    if (!cmd_read_scene(c, file, &s, e))
-        return false;
+    if (design_is(file)) return check_design(c, file, remark, e);
+    if (!cmd_read_scene(c, file, &s, e)) return false;
     if (!promise_keep(&s, c->arena, &kept, NULL, e) || !plan_scene(&kept, c->arena, &warnings, e))
         return scene_places_tell(&s, e);
     for (int i = 0; warnings[i]; i++)
@@ -41,16 +147,13 @@ static json_t *row(const char *file, const struct err *e, json_t *errors)
 static void check_told(struct cmd_call *c, const char *file, json_t *rows, struct err *e)
 {
     const char *remark = NULL;
-    if (rows)
-        tell_keep(c);
+    if (rows) tell_keep(c);
     if (!check_scene(c, file, &remark, e))
         tell_error(c, "check", e);
     else if (!rows)
         printf("%s: ok\n", text_shown(c->arena, file));
-    if (remark && !rows)
-        printf("%s: %s\n", text_shown(c->arena, file), remark);
-    if (rows)
-        json_array_append_new(rows, row(text_shown(c->arena, file), e, tell_kept(c)));
+    if (remark && !rows) printf("%s: %s\n", text_shown(c->arena, file), remark);
+    if (rows) json_array_append_new(rows, row(text_shown(c->arena, file), e, tell_kept(c)));
 }
 
 static int check_run(struct cmd_call *c, struct err *e)
@@ -73,19 +176,24 @@ static int check_run(struct cmd_call *c, struct err *e)
 
 static const struct args_option options[] = {
     CMD_SCENE_OPTIONS,
-    {"json", 'j', NULL, false, "print an array with a row for each scene on standard output: file, ok, exit code, errors as of --diagnostics=json"},
+    {"json", 'j', NULL, false,
+     "print an array with a row for each scene on standard output: file, ok, exit code, errors as of "
+     "--diagnostics=json"},
     {0},
 };
 
 const struct command check_command = {
     .name = "check",
     .summary = "finds what is wrong with scenes, without rendering them",
-    .does = "Reads each scene and says all that is wrong with its text, each fault with its line: unknown keys, wrong units, values out of range or at odds "
-            "with each other, columns that are not there, nothing to compute. If nothing is, then the first that is wrong with the rest: files that are "
-            "missing, damaged or have changed, a motion that leaves them. "
-            "Only what shows in the sound itself, such as clipping, it cannot know. "
-            "Of a design (rasp-design(5)) the scene of every stimulus is read so, and a fault that many have is told once. "
-            "A scene or design without fault is reported on standard output as ok. The exit code is the worst of all.",
+    .does =
+        "Reads each scene and says all that is wrong with its text, each fault with its line: unknown keys, wrong "
+        "units, values out of range or at odds "
+        "with each other, columns that are not there, nothing to compute. If nothing is, then the first that is wrong "
+        "with the rest: files that are "
+        "missing, damaged or have changed, a motion that leaves them. "
+        "Only what shows in the sound itself, such as clipping, it cannot know. "
+        "Of a design (rasp-design(5)) the scene of every stimulus is read so, and a fault that many have is told once. "
+        "A scene or design without fault is reported on standard output as ok. The exit code is the worst of all.",
     .operands = "SCENE|DESIGN...",
     .least = 1,
     .most = -1,

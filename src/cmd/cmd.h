@@ -9,6 +9,8 @@
 #include "base/args.h"
 #include "base/err.h"
 #include "scene/scene.h"
+#include "cmd/cmd.h"
+#include <stdbool.h>
 
 struct cmd_tell; /* cmd/tell.c */
 
@@ -20,7 +22,7 @@ struct cmd_call {
     struct cmd_tell *tell; /* how errors and warnings are told; NULL: as text, at once */
 };
 
-struct action; /* cmd/actions.h */
+struct action; /* below */
 
 struct command {
     const char *name;
@@ -53,5 +55,32 @@ bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struc
 
 /* --help of one command: summary, examples, usage, options. */
 void cmd_print_help(const struct command *m);
+
+enum { CMD_ACTION_OPTIONS = 40 };
+
+struct action {
+    const char *name;
+    const char *operands;                 /* what it takes, for a message                                          */
+    int least, most;                      /* number of operands behind the action's name; most < 0: any number     */
+    const char *options[CMD_ACTION_OPTIONS]; /* those of the command's that it takes; fewer than that many end in NULL */
+    int (*run)(struct cmd_call *c, struct err *e);
+};
+
+/* Runs the action that the first operand names, with the operands behind it; `table` ends with name NULL. An option that belongs to another
+   action is refused. Exit codes as a command's run. ERR_USAGE */
+int cmd_actions(const char *command, const struct action *table, struct cmd_call *c, struct err *e);
+
+/* Reads the file as a scene if it has the key of scenes, rasp, or includes one; else as a recipe, through a scene that names it and whose other keys
+   are `rest` (YAML lines). --set and --seed count in both. Prints the scene's messages on stderr; ERR_INPUT, ERR_SCENE. */
+bool cmd_recipe_read(struct cmd_call *c, const char *file, const char *rest, struct scene *s, struct err *e);
+
+/* Is it a scene, rather than a recipe? ERR_INPUT */
+bool cmd_recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err *e);
+
+/* A recipe's remark, `title` or `source`, as one line; NULL: it has none. The file has been read before. */
+const char *cmd_recipe_remark(struct cmd_call *c, const char *file, const char *key);
+
+/* The output is not the input, under whatever name (same device and inode; NULL: none is read or written). what: "the table"; cure: "-o OTHER.csv". ERR_CREATE */
+bool cmd_spares(const char *output, const char *what, const char *input, const char *cure, struct err *e);
 
 #endif

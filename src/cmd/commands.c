@@ -25,8 +25,7 @@ const struct command *commands_find(const char *name)
 {
     for (const struct group *g = groups; g->title; g++)
         for (int i = 0; g->members[i]; i++)
-            if (!strcmp(g->members[i]->name, name))
-                return g->members[i];
+            if (!strcmp(g->members[i]->name, name)) return g->members[i];
     return NULL;
 }
 
@@ -34,8 +33,7 @@ const struct command *commands_at(int i)
 {
     for (const struct group *g = groups; g->title; g++)
         for (int k = 0; g->members[k]; k++)
-            if (i-- == 0)
-                return g->members[k];
+            if (i-- == 0) return g->members[k];
     return NULL;
 }
 
@@ -70,38 +68,27 @@ void commands_print(FILE *f)
 
 /* ------------------------------------------------------------------ man rasp(1) */
 
-static void man_option(FILE *f, const struct args_option *o)
+static void man_command(FILE *f, const struct command *m)
 {
-    fputs(".It ", f);
-    if (o->letter)
-        fprintf(f, "Fl %c , ", o->letter);
-    fprintf(f, "Fl \\-%s", o->name);
-    if (o->value)
-        fprintf(f, " Ns = Ns Ar %s", o->value);
-    fprintf(f, "\n%c%s.\n", toupper((unsigned char)o->help[0]), o->help + 1);
-}
-
-/* A full stop ends a sentence and so a line, as mdoc asks for. */
-static void man_paragraph(FILE *f, const char *text)
-{
-    for (const char *p = text; *p; p++) {
+    fprintf(f, ".It Nm Cm %s Oo Ar OPTION Oc ...%s%s\n%c%s.\n", m->name, *m->operands ? " " : "", m->operands,
+            toupper((unsigned char)m->summary[0]), m->summary + 1);
+    /* A full stop ends a sentence and so a line, as mdoc asks for. */
+    for (const char *p = m->does; *p; p++) {
         bool ends = *p == '.' && p[1] == ' ';
         fputc(*p, f);
-        if (ends)
-            fputc('\n', f);
+        if (ends) fputc('\n', f);
         p += ends;
     }
     fputc('\n', f);
-}
-
-static void man_command(FILE *f, const struct command *m)
-{
-    fprintf(f, ".It Nm Cm %s Oo Ar OPTION Oc ...%s%s\n%c%s.\n", m->name, *m->operands ? " " : "", m->operands, toupper((unsigned char)m->summary[0]), m->summary + 1);
-    man_paragraph(f, m->does);
     struct arena *a = arena_open();
     fputs(".Bl -tag -width Ds\n", f);
-    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
-        man_option(f, o);
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++) {
+        fputs(".It ", f);
+        if (o->letter) fprintf(f, "Fl %c , ", o->letter);
+        fprintf(f, "Fl \\-%s", o->name);
+        if (o->value) fprintf(f, " Ns = Ns Ar %s", o->value);
+        fprintf(f, "\n%c%s.\n", toupper((unsigned char)o->help[0]), o->help + 1);
+    }
     fputs(".El\n", f);
     arena_close(a);
 }

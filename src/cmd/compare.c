@@ -1,19 +1,505 @@
-/* rasp compare: two sounds or two tables, the first being the reference, or one of them and a hash. The parts are compare_sound.c,
-   compare_table.c and compare_hash.c. */
+/* rasp compare: two sounds or two tables, the first being the reference, or one of them and a hash.
+
+   Of sounds figures come first, then every criterion with its verdict.
+
+   Rates, channels and numbers of frames must agree under every criterion, with one exception: when third-octave bands
+   are all that is asked about, rates may differ, and lengths by one frame period of the lower rate. Sounds of different
+   rates are not compared sample by sample: equal frame numbers are not equal times. */
 #include "cmd/compare.h"
 
 #include <errno.h>
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "analysis/distance.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "file/json_value.h"
+#include "file/table.h"
+#include "num/real.h"
 
-/* By its first bytes, else by its name; a pipe is a table, for its bytes could not be read twice. ERR_INPUT: not there. */
+enum { COMPARE_SOUND_CRITERIA = 5 };
+
+struct criterion {
+    const char *name;
+    double limit, measured; /* NAN: has none */
+    bool held;
+    const char *says;
+};
+
+struct verdict {
+    const struct compare_ask *ask;
+    struct wav sound[2];
+    char hash[2][HASH_TEXT];
+    bool alike, shape;         /* same number of channels; same rate and frames as well */
+    bool paired;               /* same channels and rate: sample n of A belongs to sample n of B */
+    struct distance_samples d; /* of paired sounds */
+    struct distance_bands bands;
+    struct criterion criteria[COMPARE_SOUND_CRITERIA];
+    int n_criteria;
+    bool held, equal;
+};
+
+static void compare_sound_report_text(const struct verdict *v);
+static bool compare_sound_report_json(const struct verdict *v, struct err *e);
+
+/* "frame 2 (0.000250 s), channel 1: A ..., B ...", "4000 Hz, channel 2: A ... dB, B ... dB". */
+static const char *compare_sound_place(const struct verdict *v, const struct distance_place *p)
+{
+    return arena_format(v->ask->arena, "frame %zu (%.6f s), channel %d: A %.9g, B %.9g", p->frame,
+                        (double)p->frame / v->sound[0].rate, p->channel + 1, p->a, p->b);
+}
+
+static const char *compare_sound_band(const struct verdict *v)
+{
+    return arena_format(v->ask->arena, "%g Hz, channel %d: A %.2f dB, B %.2f dB", distance_band_nominal(v->bands.band),
+                        v->bands.channel + 1, v->bands.a_db, v->bands.b_db);
+}
+
+static void judge(struct verdict *v, struct criterion c)
+{
+    v->criteria[v->n_criteria++] = c;
+    v->held = v->held && c.held;
+}
+
+/* Why no sample of A has a partner in B. */
+static const char *unpaired(const struct verdict *v)
+{
+    return v->alike ? "not measured: the sample rates differ" : "not measured: the numbers of channels differ";
+}
+
+static void judge_exact(struct verdict *v)
+{
+    size_t n = v->d.frames * (size_t)v->sound[0].channels;
+    bool held = v->paired && v->d.differing == 0;
+    const char *says = !v->paired ? unpaired(v)
+                       : held     ? "all samples compared are the same"
+                                  : arena_format(v->ask->arena, "%zu of %zu samples differ, the first at %s",
+                                                 v->d.differing, n, compare_sound_place(v, &v->d.first));
+    judge(v, (struct criterion){"exact", NAN, v->paired ? (double)v->d.differing : NAN, held, says});
+}
+
+/* A figure against a limit that it must not pass; sign +1: at most, -1: at least. */
+static void judge_limit(struct verdict *v, struct criterion c, double sign, const char *unit_and_where[2])
+{
+    const char *unit = unit_and_where[0];
+    struct arena *a = v->ask->arena;
+    c.held = sign * c.measured <= sign * c.limit; /* not when it is NAN: not measured */
+    if (isnan(c.measured) && !v->paired)
+        c.says = unpaired(v);
+    else if (c.held)
+        c.says = arena_format(a, "%.6g %s; %s %g %s is asked for", c.measured, unit, sign > 0 ? "at most" : "at least",
+                              c.limit, unit);
+    else
+        c.says = arena_format(a, "%.6g %s is %.6g %s %s the limit of %g %s; the worst at %s", c.measured, unit,
+                              fabs(c.measured - c.limit), unit, sign > 0 ? "above" : "below", c.limit, unit,
+                              unit_and_where[1]);
+    judge(v, c);
+}
+
+/* The largest difference in steps of the coarser integer encoding; NAN: there is none. */
+static double compare_sound_steps(const struct verdict *v)
+{
+    double step = distance_step(&v->sound[0], &v->sound[1]);
+    return v->paired && step > 0 ? v->d.largest / step : NAN;
+}
+
+static void judge_all(struct verdict *v)
+{
+    const struct compare_ask *ask = v->ask;
+    const char *worst = compare_sound_place(v, &v->d.worst);
+    v->held = true;
+    const struct wav *a = &v->sound[0], *b = &v->sound[1];
+
+    bool bands_alone = !ask->exact && isnan(ask->snr) && isnan(ask->lsb);
+    double off = fabs((double)a->frames / a->rate - (double)b->frames / b->rate);
+    bool near = bands_alone && off <= 1.000001 / fmin(a->rate, b->rate);
+    bool held = v->alike && (v->shape || near);
+    const char *says = arena_format(ask->arena, "the sounds differ in%s%s%s", v->alike ? "" : " channels,",
+                                    a->rate == b->rate ? "" : " rate,", off > 0 ? " length," : "");
+    says = arena_format(ask->arena, "%.*s", (int)strlen(says) - 1, says); /* without the last comma */
+    if (held)
+        says = a->rate == b->rate ? "channels, rate and length are as they should be"
+                                  : "channels and length are as they should be; rates may differ";
+    judge(v, (struct criterion){"form", NAN, NAN, held, says});
+    if (ask->exact) judge_exact(v);
+    if (!isnan(ask->snr))
+        judge_limit(v, (struct criterion){"snr", ask->snr, v->d.snr_db, false, NULL}, -1,
+                    (const char *[]){"dB", worst});
+    if (!isnan(ask->lsb))
+        judge_limit(v, (struct criterion){"lsb", ask->lsb, compare_sound_steps(v), false, NULL}, 1,
+                    (const char *[]){"LSB", worst});
+    if (!isnan(ask->third_octave))
+        judge_limit(v, (struct criterion){"third_octave", ask->third_octave, v->bands.worst_db, false, NULL}, 1,
+                    (const char *[]){"dB", compare_sound_band(v)});
+}
+
+static bool measure(struct verdict *v, struct err *e)
+{
+    struct wav *a = &v->sound[0], *b = &v->sound[1];
+    for (int i = 0; i < 2; i++)
+        if (!wav_read(v->ask->files[i], v->ask->arena, &v->sound[i], e))
+            return false;
+        else
+            distance_hash(&v->sound[i], v->hash[i]);
+    if (!isnan(v->ask->lsb) && distance_step(a, b) == 0)
+        return err_set(
+            e, ERR_USAGE,
+            "--lsb: neither sound holds integers, so there is no step to count in; --snr is for such sounds");
+    v->alike = a->channels == b->channels;
+    v->paired = v->alike && a->rate == b->rate;
+    v->shape = v->paired && a->frames == b->frames;
+    v->d.snr_db = v->bands.worst_db = NAN;
+    if (v->paired) distance_samples(a, b, &v->d);
+    v->equal = v->shape && v->d.differing == 0;
+    if (v->equal)
+        v->bands.worst_db = 0;
+    else if (v->alike)
+        distance_bands(a, b, v->ask->within, v->ask->arena, &v->bands);
+    judge_all(v);
+    return true;
+}
+
+int compare_sound(const struct compare_ask *ask, struct err *e)
+{
+    struct verdict *v = ARENA_TAKE(ask->arena, struct verdict, 1);
+    v->ask = ask;
+    if (!measure(v, e)) return (int)e->kind;
+    if (ask->quiet && v->held) return 0;
+    if (ask->json && !compare_sound_report_json(v, e)) return (int)e->kind;
+    if (!ask->json) compare_sound_report_text(v);
+    return v->held ? 0 : ERR_DIFFERS;
+}
+
+/* The report of `rasp compare` on two sounds, as text or as JSON. */
+
+static double decibels(double x) { return x > 0 ? 20 * real_log10(x) : -INFINITY; }
+
+static const char *encoding(const struct wav *w, struct arena *a)
+{
+    return w->bits ? arena_format(a, "%d-bit integers", w->bits) : "not integers";
+}
+
+static void print_form(const struct verdict *v)
+{
+    const struct wav *a = &v->sound[0], *b = &v->sound[1];
+    double short_by = (double)a->frames - (double)b->frames,
+           seconds[2] = {(double)a->frames / a->rate, (double)b->frames / b->rate};
+    if (a->rate != b->rate) fprintf(v->ask->out, "rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
+    if (a->channels != b->channels) fprintf(v->ask->out, "channels            A %d, B %d\n", a->channels, b->channels);
+    if (a->rate != b->rate)
+        fprintf(v->ask->out, "length              A %.6f s, B %.6f s\n", seconds[0], seconds[1]);
+    else if (a->frames != b->frames)
+        fprintf(v->ask->out, "frames              A %zu, B %zu: B is %.0f (%.6f s) %s%s\n", a->frames, b->frames,
+                fabs(short_by), fabs(seconds[0] - seconds[1]), short_by > 0 ? "shorter" : "longer",
+                v->alike ? "; what both have is compared" : "");
+    if (a->bits != b->bits)
+        fprintf(v->ask->out, "encoding            A %s, B %s\n", encoding(a, v->ask->arena),
+                encoding(b, v->ask->arena));
+}
+
+static void compare_sound_report_text(const struct verdict *v)
+{
+    const struct wav *a = &v->sound[0];
+    fprintf(v->ask->out, "A %s\nB %s\n", v->ask->files[0], v->ask->files[1]);
+    fprintf(v->ask->out, "sha256  A %s B %s\n", v->hash[0], v->hash[1]);
+    print_form(v);
+    if (v->equal)
+        fprintf(v->ask->out, "equal: %zu frames (%.6f s), %d channel%s, %.9g Hz\n", a->frames,
+                (double)a->frames / a->rate, a->channels, a->channels == 1 ? "" : "s", a->rate);
+    else if (v->alike) {
+        if (v->paired) {
+            const struct distance_samples *d = &v->d;
+            double step = distance_step(&v->sound[0], &v->sound[1]);
+            size_t n = d->frames * (size_t)v->sound[0].channels;
+            fprintf(v->ask->out, "differing samples   %zu of %zu (%.3g %%)\n", d->differing, n,
+                    100 * (double)d->differing / (double)n);
+            if (d->differing) {
+                fprintf(v->ask->out, "first difference    %s\n", compare_sound_place(v, &d->first));
+                fprintf(v->ask->out, "largest difference  ");
+                if (step > 0) fprintf(v->ask->out, "%.6g LSB of %d bits, ", d->largest / step, 1 - ilogb(step));
+                fprintf(v->ask->out, "%.2f dBFS, at %s\n", decibels(d->largest), compare_sound_place(v, &d->worst));
+            }
+            fprintf(v->ask->out, "SNR                 %.2f dB\n", d->snr_db);
+        } else
+            fprintf(v->ask->out,
+                    "samples             difference, LSB and SNR are left out, because the sample rates differ\n");
+        if (v->bands.compared)
+            fprintf(v->ask->out, "third-octave bands  at most %.4g dB apart, at %s\n", v->bands.worst_db,
+                    compare_sound_band(v));
+        else
+            fprintf(v->ask->out, "third-octave bands  none to compare\n");
+    }
+    for (int i = 0; i < v->n_criteria && !v->equal; i++)
+        fprintf(v->ask->out, "%s %s: %s\n", v->criteria[i].held ? "ok  " : "FAIL", v->criteria[i].name,
+                v->criteria[i].says);
+}
+
+/* JSON has no infinities: null. */
+/* Of frames or samples that have a partner: null where none has. */
+static json_t *count(const struct verdict *v, size_t n)
+{
+    return v->paired ? json_integer((json_int_t)n) : json_null();
+}
+
+static json_t *name_or_null(const char *s)
+{
+    json_t *j = json_string(s); /* NULL: not UTF-8 */
+    return j ? j : json_null();
+}
+
+static json_t *json_sound(const struct verdict *v, int i)
+{
+    const struct wav *w = &v->sound[i];
+    return json_pack("{s:o, s:o, s:i, s:I, s:o, s:o}", "file", name_or_null(v->ask->files[i]), "rate_hz",
+                     json_value_number(w->rate), "channels", w->channels, "frames", (json_int_t)w->frames, "duration_s",
+                     json_value_number((double)w->frames / w->rate), "bits",
+                     w->bits ? json_integer(w->bits) : json_null());
+}
+
+static json_t *json_place(const struct verdict *v, const struct distance_place *p)
+{
+    if (!v->d.differing) return json_null();
+    return json_pack("{s:I, s:o, s:i, s:o, s:o}", "frame", (json_int_t)p->frame, "time_s",
+                     json_value_number((double)p->frame / v->sound[0].rate), "channel", p->channel + 1, "a",
+                     json_value_number(p->a), "b", json_value_number(p->b));
+}
+
+static json_t *json_bands(const struct verdict *v)
+{
+    const struct distance_bands *d = &v->bands;
+    bool any = d->compared > 0;
+    return json_pack("{s:i, s:o, s:o, s:o, s:o, s:o}", "compared", d->compared, "worst_db",
+                     json_value_number(d->worst_db), "band_hz",
+                     json_value_number(any ? distance_band_nominal(d->band) : NAN), "channel",
+                     any ? json_integer(d->channel + 1) : json_null(), "a_db", json_value_number(any ? d->a_db : NAN),
+                     "b_db", json_value_number(any ? d->b_db : NAN));
+}
+
+static json_t *json_criteria(const struct verdict *v)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < v->n_criteria; i++) {
+        const struct criterion *c = &v->criteria[i];
+        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "name", c->name, "held", c->held, "limit",
+                                              json_value_number(c->limit), "measured", json_value_number(c->measured),
+                                              "says", name_or_null(c->says)));
+    }
+    return list;
+}
+
+static bool compare_sound_report_json(const struct verdict *v, struct err *e)
+{
+    const struct distance_samples *d = &v->d;
+    json_t *j = json_pack(
+        "{s:b, s:b, s:[s, s], s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equal", v->equal, "held",
+        v->held, "audio_sha256", v->hash[0], v->hash[1], "a", json_sound(v, 0), "b", json_sound(v, 1),
+        "frames_compared", count(v, d->frames), "differing_samples", count(v, d->differing), "first_difference",
+        json_place(v, &d->first), "largest_difference", json_value_number(v->paired ? d->largest : NAN),
+        "largest_difference_lsb", json_value_number(compare_sound_steps(v)), "largest_difference_dbfs",
+        json_value_number(v->paired ? decibels(d->largest) : NAN), "largest_difference_at", json_place(v, &d->worst),
+        "snr_db", json_value_number(d->snr_db), "third_octave", json_bands(v), "criteria", json_criteria(v));
+    bool ok = j && json_dumpf(j, v->ask->out, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
+    fputc('\n', v->ask->out);
+    json_decref(j);
+    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+}
+
+/* rasp compare for tables, CSV or NPY: columns by name, each with its tolerance. Comments before the header count only
+   where everything has to be exact: they say where a table comes from. */
+
+struct tables {
+    const struct compare_ask *ask;
+    struct csv a, b;
+    struct table_distance d;
+    char hash[2][HASH_TEXT];
+    bool hashed;      /* both are files, not pipes: their bytes can be read again */
+    bool equal, held; /* not the least difference; every criterion met */
+};
+
+static bool table_measure(struct tables *t, struct err *e)
+{
+    const struct compare_ask *ask = t->ask;
+    const struct csv *both[2] = {&t->a, &t->b};
+    if (!table_read(ask->files[0], ask->arena, &t->a, e) || !table_read(ask->files[1], ask->arena, &t->b, e))
+        return false;
+    if (t->a.rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", ask->files[0]);
+    if (!table_distance(both, ask->tolerances, ask->arena, &t->d, e)) return false;
+    struct err none = {0};
+    t->hashed = hash_file(ask->files[0], t->hash[0], &none) && hash_file(ask->files[1], t->hash[1], &none);
+    t->held =
+        t->a.rows == t->b.rows && !t->d.n_missing && !t->d.n_extra && !t->d.reordered && !(ask->exact && t->d.comment);
+    t->equal = t->held && !t->d.comment;
+    for (size_t i = 0; i < t->d.n_columns; i++) {
+        t->held = t->held && t->d.columns[i].misses == 0;
+        t->equal = t->equal && t->d.columns[i].misses == 0 && t->d.columns[i].largest == 0;
+    }
+    return true;
+}
+
+static void print_names(const struct tables *t, const char *what, const char *const *names, size_t n)
+{
+    if (n == 0) return;
+    fprintf(t->ask->out, "FAIL columns: %s", what);
+    for (size_t i = 0; i < n; i++)
+        fprintf(t->ask->out, "%s %s", i ? "," : "", names[i]);
+    fputc('\n', t->ask->out);
+}
+
+static void print_column(const struct tables *t, const struct table_distance_column *c)
+{
+    const struct table_distance_tolerance *to = &c->tolerance;
+    char room[2][CSV_ROOM];
+    if (c->misses == 0 && c->largest == 0) return;
+    fprintf(t->ask->out, "%s %s: ", c->misses ? "FAIL" : "ok  ", c->name);
+    if (c->misses)
+        fprintf(t->ask->out, "%zu of %zu rows differ", c->misses, t->d.rows);
+    else
+        fprintf(t->ask->out, "differs by at most %.6g", c->largest);
+    if (!to->exact)
+        fprintf(t->ask->out, "%s abs %g, rel %g", c->misses ? " by more than" : ", within", to->abs, to->rel);
+    if (c->misses)
+        fprintf(t->ask->out, "; worst in row %zu (line %d, line %d): A '%s', B '%s'", c->worst_row + 1,
+                t->a.lines[c->worst_row], t->b.lines[c->worst_row], csv_text(&t->a, c->worst_row, c->a, room[0]),
+                csv_text(&t->b, c->worst_row, c->b, room[1]));
+    if (c->misses && isfinite(c->excess) && !to->exact) fprintf(t->ask->out, ", %.6g beyond the tolerance", c->excess);
+    fputc('\n', t->ask->out);
+}
+
+static void print_text(const struct tables *t)
+{
+    fprintf(t->ask->out, "A %s\nB %s\n", t->ask->files[0], t->ask->files[1]);
+    if (t->hashed) fprintf(t->ask->out, "sha256  A %s B %s\n", t->hash[0], t->hash[1]);
+    const struct table_distance *d = &t->d;
+    print_names(t, "missing in B:", d->missing, d->n_missing);
+    print_names(t, "only in B:", d->extra, d->n_extra);
+    if (d->reordered) fprintf(t->ask->out, "FAIL columns: they stand in another order in B\n");
+    if (t->a.rows != t->b.rows)
+        fprintf(t->ask->out, "FAIL rows: A has %zu, B has %zu; the first %zu are compared\n", t->a.rows, t->b.rows,
+                d->rows);
+    if (d->comment)
+        fprintf(t->ask->out, "%s comments: they differ, first in '%s'\n", t->ask->exact ? "FAIL" : "note", d->comment);
+    for (size_t i = 0; i < t->d.n_columns; i++)
+        print_column(t, &t->d.columns[i]);
+    if (t->held)
+        fprintf(t->ask->out, "%s: %zu rows, %zu columns\n", t->equal ? "equal" : "within the tolerances", t->a.rows,
+                t->a.columns);
+}
+
+static json_t *json_names(const char *const *names, size_t n)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++)
+        json_array_append_new(list, json_value_text(names[i]));
+    return list;
+}
+
+static json_t *json_worst(const struct tables *t, const struct table_distance_column *c)
+{
+    char room[2][CSV_ROOM];
+    if (c->misses == 0) return json_null();
+    return json_pack(
+        "{s:I, s:i, s:i, s:o, s:o, s:o}", "row", (json_int_t)c->worst_row + 1, "line_a", t->a.lines[c->worst_row],
+        "line_b", t->b.lines[c->worst_row], "a", json_value_text(csv_text(&t->a, c->worst_row, c->a, room[0])), "b",
+        json_value_text(csv_text(&t->b, c->worst_row, c->b, room[1])), "excess", json_value_number(c->excess));
+}
+
+static json_t *json_columns(const struct tables *t)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < t->d.n_columns; i++) {
+        const struct table_distance_column *c = &t->d.columns[i];
+        const struct table_distance_tolerance *to = &c->tolerance;
+        json_array_append_new(list, json_pack("{s:o, s:b, s:o, s:o, s:I, s:o, s:o}", "name", json_value_text(c->name),
+                                              "exact", to->exact, "abs", json_value_number(to->exact ? 0 : to->abs),
+                                              "rel", json_value_number(to->exact ? 0 : to->rel), "misses",
+                                              (json_int_t)c->misses, "largest_difference",
+                                              json_value_number(c->largest), "worst", json_worst(t, c)));
+    }
+    return list;
+}
+
+static json_t *json_table(const char *file, const struct csv *t)
+{
+    return json_pack("{s:o, s:I}", "file", json_value_text(file), "rows", (json_int_t)t->rows);
+}
+
+static bool print_json(const struct tables *t, struct err *e)
+{
+    const struct table_distance *d = &t->d;
+    json_t *j = json_pack("{s:b, s:b, s:o, s:o, s:o, s:I, s:o, s:o, s:b, s:o, s:o}", "equal", t->equal, "held", t->held,
+                          "file_sha256", t->hashed ? json_pack("[s, s]", t->hash[0], t->hash[1]) : json_null(), "a",
+                          json_table(t->ask->files[0], &t->a), "b", json_table(t->ask->files[1], &t->b),
+                          "rows_compared", (json_int_t)d->rows, "missing_columns", json_names(d->missing, d->n_missing),
+                          "extra_columns", json_names(d->extra, d->n_extra), "columns_reordered", d->reordered,
+                          "differing_comment", json_value_text(d->comment), "columns", json_columns(t));
+    bool ok = j && json_dumpf(j, t->ask->out, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
+    fputc('\n', t->ask->out);
+    json_decref(j);
+    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+}
+
+int compare_table(const struct compare_ask *ask, struct err *e)
+{
+    struct tables *t = ARENA_TAKE(ask->arena, struct tables, 1);
+    t->ask = ask;
+    if (!table_measure(t, e)) return (int)e->kind;
+    if (ask->quiet && t->held) return 0;
+    if (ask->json && !print_json(t, e)) return (int)e->kind;
+    if (!ask->json) print_text(t);
+    return t->held ? 0 : ERR_DIFFERS;
+}
+
+/* rasp compare FILE --hash SHA256: one sound or table against a hash that was kept. */
+
+/* What cannot be compared with a file has no hash to compare either: a table without rows, a sound without samples. */
+static bool file_hash(const struct compare_ask *ask, bool sound, char hex[HASH_TEXT], struct err *e)
+{
+    const char *file = ask->files[0];
+    struct wav w;
+    struct csv t;
+    if (sound) {
+        if (!wav_read(file, ask->arena, &w, e)) return false;
+        distance_hash(&w, hex);
+        return true;
+    }
+    if (!table_read(file, ask->arena, &t, e)) return false;
+    if (t.rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", file);
+    return hash_file(file, hex, e);
+}
+
+static bool hash_print_json(const struct compare_ask *ask, const char *key, const char *hex, struct err *e)
+{
+    json_t *name = json_string(ask->files[0]); /* NULL: not UTF-8 */
+    json_t *j = json_pack("{s:b, s:o, s:s, s:s}", "held", strcmp(hex, ask->hash) == 0, "file",
+                          name ? name : json_null(), key, hex, "expected", ask->hash);
+    bool ok = j && json_dumpf(j, ask->out, JSON_INDENT(2)) == 0;
+    fputc('\n', ask->out);
+    json_decref(j);
+    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+}
+
+static int compare_hash(const struct compare_ask *ask, bool sound, struct err *e)
+{
+    char hex[HASH_TEXT];
+    if (!file_hash(ask, sound, hex, e)) return (int)e->kind;
+    bool held = strcmp(hex, ask->hash) == 0;
+    if (ask->quiet && held) return 0;
+    if (ask->json && !hash_print_json(ask, sound ? "audio_sha256" : "file_sha256", hex, e)) return (int)e->kind;
+    if (!ask->json)
+        fprintf(ask->out, "%s\n%s sha256: %s%s%s\n", ask->files[0], held ? "ok  " : "FAIL", hex,
+                held ? "" : ", where the hash given is ", held ? "" : ask->hash);
+    return held ? 0 : ERR_DIFFERS;
+}
+
+
+/* By its first bytes, else by its name; a pipe is a table, for its bytes could not be read twice. ERR_INPUT: not there.
+ */
 bool compare_is_sound(const char *path, bool *sound, struct err *e)
 {
     static const char *const magics[] = {"RIFF", "RF64", "riff", "FORM", "fLaC", "OggS", "caff", ".snd", NULL};
@@ -21,8 +507,7 @@ bool compare_is_sound(const char *path, bool *sound, struct err *e)
     struct stat s;
     char head[5] = "";
     *sound = false;
-    if (stat(path, &s) != 0)
-        return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
+    if (stat(path, &s) != 0) return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
     FILE *f = S_ISREG(s.st_mode) ? memory_fopen(path, "rb") : NULL;
     if (f) {
         head[fread(head, 1, 4, f)] = '\0';
@@ -44,10 +529,12 @@ static bool column_tolerance(const char *text, struct table_distance_tolerance *
         if (text_double(equals + 1, &t->abs) && text_double(comma + 1, &t->rel) && t->abs >= 0 && t->rel >= 0)
             return true;
     }
-    return err_set(e, ERR_USAGE, "--column: '%s' is not of the form NAME=ABS,REL, as in speed_m_per_s=1e-6,0.001", text);
+    return err_set(e, ERR_USAGE, "--column: '%s' is not of the form NAME=ABS,REL, as in speed_m_per_s=1e-6,0.001",
+                   text);
 }
 
-/* Of the tolerances for all others the first counts, of those for one column the last: so the command line overrides the file. */
+/* Of the tolerances for all others the first counts, of those for one column the last: so the command line overrides
+ * the file. */
 static bool gather_tolerances(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
 {
     static const double range[2] = {0, HUGE_VAL};
@@ -55,23 +542,18 @@ static bool gather_tolerances(const struct args *g, const char *folder, struct c
     const char *path = args_value(g, "tolerance");
     int columns, n = 0, rows = 0;
     const char **texts = args_values(g, "column", &columns);
-    if (path && folder && *path != '/')
-        path = arena_format(ask->arena, "%s/%s", folder, path);
-    if (path && !(file = table_distance_read(path, ask->arena, e)))
-        return false;
+    if (path && folder && *path != '/') path = arena_format(ask->arena, "%s/%s", folder, path);
+    if (path && !(file = table_distance_read(path, ask->arena, e))) return false;
     while (file && file[rows].column)
         rows++;
     struct table_distance_tolerance *list = ARENA_TAKE(ask->arena, struct table_distance_tolerance, rows + columns + 2);
     ask->tolerances = list;
-    if (args_given(g, "abs") || args_given(g, "rel"))
-        list[n++].column = "*";
-    if (!args_number(g, "abs", range, &list[0].abs, e) || !args_number(g, "rel", range, &list[0].rel, e))
-        return false;
+    if (args_given(g, "abs") || args_given(g, "rel")) list[n++].column = "*";
+    if (!args_number(g, "abs", range, &list[0].abs, e) || !args_number(g, "rel", range, &list[0].rel, e)) return false;
     for (int i = 0; i < rows; i++)
         list[n++] = file[i];
     for (int i = 0; i < columns; i++)
-        if (!column_tolerance(texts[i], &list[n++], ask->arena, e))
-            return false;
+        if (!column_tolerance(texts[i], &list[n++], ask->arena, e)) return false;
     return true;
 }
 
@@ -79,7 +561,8 @@ static bool gather_limits(const struct args *g, struct compare_ask *ask, struct 
 {
     static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
     return args_number(g, "snr", any, &ask->snr, e) && args_number(g, "lsb", positive, &ask->lsb, e) &&
-           args_number(g, "third-octave", positive, &ask->third_octave, e) && args_number(g, "within", positive, &ask->within, e);
+           args_number(g, "third-octave", positive, &ask->third_octave, e) &&
+           args_number(g, "within", positive, &ask->within, e);
 }
 
 bool compare_limits(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
@@ -95,8 +578,7 @@ bool compare_limits(const struct args *g, const char *folder, struct compare_ask
 static const char *given_of(const struct args *g, const char *const *names)
 {
     for (; *names; names++)
-        if (args_given(g, *names))
-            return *names;
+        if (args_given(g, *names)) return *names;
     return NULL;
 }
 
@@ -124,9 +606,9 @@ static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, s
     else if (other)
         err_set(e, ERR_USAGE, "--hash leaves no room for --%s: a hash is met or it is not", other);
     else if (strlen(hex) != HASH_TEXT - 1 || strspn(hex, "0123456789abcdefABCDEF") != HASH_TEXT - 1)
-        err_set(e, ERR_USAGE, "--hash: '%s' is not a SHA-256: 64 hexadecimal digits, as `rasp compare FILE FILE` prints them", hex);
-    if (e->kind || !compare_is_sound(ask->files[0], &sound, e))
-        return (int)e->kind;
+        err_set(e, ERR_USAGE,
+                "--hash: '%s' is not a SHA-256: 64 hexadecimal digits, as `rasp compare FILE FILE` prints them", hex);
+    if (e->kind || !compare_is_sound(ask->files[0], &sound, e)) return (int)e->kind;
     for (char *p = hex; *p; p++)
         *p = *p >= 'A' && *p <= 'F' ? (char)(*p + 'a' - 'A') : *p;
     ask->hash = hex;
@@ -135,27 +617,30 @@ static int compare_run_hash(const struct cmd_call *c, struct compare_ask *ask, s
 
 static int compare_run(struct cmd_call *c, struct err *e)
 {
-    const char **files = c->args.operands, *sounds = compare_limit_of_sounds(&c->args), *tables = compare_limit_of_tables(&c->args);
+    const char **files = c->args.operands, *sounds = compare_limit_of_sounds(&c->args),
+               *tables = compare_limit_of_tables(&c->args);
     bool a, b, exact = args_given(&c->args, "exact");
-    struct compare_ask ask = {.files = {files[0], files[1]}, .json = args_given(&c->args, "json"), .quiet = args_given(&c->args, "quiet"),
-                              .exact = exact || (!sounds && !tables), .out = stdout, .arena = c->arena};
-    if (args_given(&c->args, "hash"))
-        return compare_run_hash(c, &ask, e);
+    struct compare_ask ask = {.files = {files[0], files[1]},
+                              .json = args_given(&c->args, "json"),
+                              .quiet = args_given(&c->args, "quiet"),
+                              .exact = exact || (!sounds && !tables),
+                              .out = stdout,
+                              .arena = c->arena};
+    if (args_given(&c->args, "hash")) return compare_run_hash(c, &ask, e);
     if (c->args.n_operands < 2) {
         err_set(e, ERR_USAGE, "operands are missing; usage: rasp compare A B, or rasp compare FILE --hash SHA256");
         return (int)e->kind;
     }
-    if (!compare_is_sound(files[0], &a, e) || !compare_is_sound(files[1], &b, e))
-        return (int)e->kind;
+    if (!compare_is_sound(files[0], &a, e) || !compare_is_sound(files[1], &b, e)) return (int)e->kind;
     if (a != b)
-        err_set(e, ERR_USAGE, "%s is a %s and %s is a %s: they cannot be compared", files[0], a ? "sound" : "table", files[1],
-                b ? "sound" : "table");
+        err_set(e, ERR_USAGE, "%s is a %s and %s is a %s: they cannot be compared", files[0], a ? "sound" : "table",
+                files[1], b ? "sound" : "table");
     else if (a ? tables != NULL : sounds != NULL)
-        err_set(e, ERR_USAGE, "--%s is for %s, and these are %s", a ? tables : sounds, a ? "tables" : "sounds", a ? "sounds" : "tables");
+        err_set(e, ERR_USAGE, "--%s is for %s, and these are %s", a ? tables : sounds, a ? "tables" : "sounds",
+                a ? "sounds" : "tables");
     else if (exact && tables)
         err_set(e, ERR_USAGE, "--exact leaves no room for --%s", tables);
-    if (e->kind || !compare_limits(&c->args, NULL, &ask, e))
-        return (int)e->kind;
+    if (e->kind || !compare_limits(&c->args, NULL, &ask, e)) return (int)e->kind;
     return a ? compare_sound(&ask, e) : compare_table(&ask, e);
 }
 
@@ -163,24 +648,34 @@ static const struct args_option options[] = {
     {"exact", 'e', NULL, false, "every sample or cell must be the same (the default when no limit is given)"},
     COMPARE_SOUND_LIMITS,
     COMPARE_TABLE_LIMITS,
-    {"hash", 0, "SHA256", false, "checks one FILE against a stored hash of 64 hexadecimal digits; only --json and --quiet may stand beside it"},
-    {"json", 'j', NULL, false, "prints the figures as one JSON object; null stands for an infinite figure or one that is not there"},
+    {"hash", 0, "SHA256", false,
+     "checks one FILE against a stored hash of 64 hexadecimal digits; only --json and --quiet may stand beside it"},
+    {"json", 'j', NULL, false,
+     "prints the figures as one JSON object; null stands for an infinite figure or one that is not there"},
     {"quiet", 'q', NULL, false, "prints nothing when all criteria are met"},
     {0}};
 
 const struct command compare_command = {
     .name = "compare",
     .summary = "compare two sounds or two tables within tolerances",
-    .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing samples, the first, the "
-            "largest difference, the signal-to-noise ratio and the third-octave levels; for tables (CSV, or NPY with named fields) the misses of each column and the "
-            "worst of them; for both a SHA-256. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
-            "Sounds of different sample rates are not compared sample by sample: difference, LSB and SNR are left out, and every criterion "
+    .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing "
+            "samples, the first, the "
+            "largest difference, the signal-to-noise ratio and the third-octave levels; for tables (CSV, or NPY with "
+            "named fields) the misses of each column and the "
+            "worst of them; for both a SHA-256. Limits given together must all be met. Cells agree when |B - A| <= ABS "
+            "+ REL |A|.\n"
+            "Sounds of different sample rates are not compared sample by sample: difference, LSB and SNR are left out, "
+            "and every criterion "
             "but --third-octave fails.\n"
-            "The SHA-256 of a sound is that of its audio, not of its file: the rate in Hz, the number of channels, then all samples frame by "
-            "frame (integers of n bits as multiples of 2^(1-n)), each as a little-endian IEEE 754 double, -0 counted as +0; so A and B have "
-            "the same exactly when --exact holds. That of a table is that of the file's bytes. With --hash there is one FILE, which must "
+            "The SHA-256 of a sound is that of its audio, not of its file: the rate in Hz, the number of channels, "
+            "then all samples frame by "
+            "frame (integers of n bits as multiples of 2^(1-n)), each as a little-endian IEEE 754 double, -0 counted "
+            "as +0; so A and B have "
+            "the same exactly when --exact holds. That of a table is that of the file's bytes. With --hash there is "
+            "one FILE, which must "
             "have the hash that is given.\n"
-            "The exit code is 0 when the criteria are met, 1 when they are not, and never 0 when a file is missing or empty.",
+            "The exit code is 0 when the criteria are met, 1 when they are not, and never 0 when a file is missing or "
+            "empty.",
     .operands = "A B | FILE --hash SHA256",
     .least = 1,
     .most = 2,

@@ -43,6 +43,5 @@ bool compare_is_sound(const char *path, bool *sound, struct err *e);
 /* Each prints its report and returns 0 or ERR_DIFFERS, or sets the error and returns its kind. */
 int compare_sound(const struct compare_ask *ask, struct err *e);
 int compare_table(const struct compare_ask *ask, struct err *e);
-int compare_hash(const struct compare_ask *ask, bool sound, struct err *e);
 
 #endif

@@ -1,16 +1,40 @@
 /* rasp completion: scripts that complete rasp's words in a shell.
 
-   What may follow an option, or stand as an operand, is read from what the help calls it: words with | between are the words, PATH=VALUE a key of a scene,
-   PANEL the panels of rasp plot, X,... several, SCENE, RECIPE and DESIGN YAML files, FILE.csv files that end so, FOLDER a folder, KEY a key; other capitals that mean files are listed below. */
-#include "cmd/completion.h"
-
+   What may follow an option, or stand as an operand, is read from what the help calls it: words with | between are the
+   words, PATH=VALUE a key of a scene, PANEL the panels of rasp plot, X,... several, SCENE, RECIPE and DESIGN YAML
+   files, FILE.csv files that end so, FOLDER a folder, KEY a key; other capitals that mean files are listed below. */
 #include <ctype.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "base/arena.h"
+#include "cmd/cmd.h"
 #include "cmd/commands.h"
 #include "cmd/plot.h"
 #include "cmd/starters.h"
 #include "scene/keys_text.h"
+
+enum { COMPLETION_WORDS = 63, COMPLETION_SUFFIXES = 7 };
+
+/* What may stand in a place; all false: anything, of which nothing is known. */
+struct completion_place {
+    bool files, folders;                           /* any file; folders                                           */
+    bool settings, names;                          /* KEY=VALUE as of --set; what `rasp explain` takes            */
+    const char *suffixes[COMPLETION_SUFFIXES + 1]; /* files that end so ("yaml"); NULL-terminated                 */
+    const char *words[COMPLETION_WORDS + 1];       /* NULL-terminated                                             */
+    bool list;                                     /* several of the words, with commas between                   */
+};
+
+/* A key that --set takes, and its words if it has any. */
+struct completion_setting {
+    const char *path;
+    const char *const *words; /* NULL-terminated; NULL: none */
+};
+
+static void completion_bash(FILE *f, struct arena *a);
+static void completion_zsh(FILE *f, struct arena *a);
+static void completion_fish(FILE *f, struct arena *a);
 
 static const char *const any_file[] = {"FILE", "A", "B", "IN", "OUT", "RECORDING", "MESH", "PREFIX", NULL};
 static const char *const folder[] = {"FOLDER", "FOLDER/", "DIR", "DIR/", NULL};
@@ -20,8 +44,7 @@ static const char *const key_name[] = {"KEY", "SECTION", NULL};
 static bool is_one(const char *word, const char *const *list)
 {
     for (; *list; list++)
-        if (!strcmp(*list, word))
-            return true;
+        if (!strcmp(*list, word)) return true;
     return false;
 }
 
@@ -30,32 +53,13 @@ static void add(const char **list, int room, const char *word)
     int n = 0;
     while (list[n] && strcmp(list[n], word) != 0)
         n++;
-    if (n < room)
-        list[n] = word;
-}
-
-static void add_token(struct completion_place *p, const char *token)
-{
-    const char *dot = strchr(token, '.');
-    p->settings = p->settings || !strcmp(token, "PATH=VALUE");
-    p->names = p->names || is_one(token, key_name);
-    for (int k = 0; k < PLOT_PANELS && !strcmp(token, "PANEL"); k++)
-        add(p->words, COMPLETION_WORDS, plot_panels_words[k]);
-    p->files = p->files || is_one(token, any_file);
-    p->folders = p->folders || is_one(token, folder);
-    if (dot && isupper((unsigned char)token[0]) && islower((unsigned char)dot[1]))
-        add(p->suffixes, COMPLETION_SUFFIXES, dot + 1);
-    if (is_one(token, yaml_file) || (dot && !strcmp(dot, ".yaml"))) {
-        add(p->suffixes, COMPLETION_SUFFIXES, "yaml");
-        add(p->suffixes, COMPLETION_SUFFIXES, "yml");
-    }
+    if (n < room) list[n] = word;
 }
 
 static bool is_word_list(const char *text)
 {
     for (const char *p = text; *p; p++)
-        if (isupper((unsigned char)*p) || *p == ' ')
-            return false;
+        if (isupper((unsigned char)*p) || *p == ' ') return false;
     return strchr(text, '|');
 }
 
@@ -70,19 +74,34 @@ static struct completion_place place_of(const char *text, struct arena *a)
         const char *token = arena_format(a, "%.*s", (int)end, s);
         if (words && *token)
             add(p.words, COMPLETION_WORDS, token);
-        else
-            add_token(&p, token);
+        else {
+            const char *dot = strchr(token, '.');
+            p.settings = p.settings || !strcmp(token, "PATH=VALUE");
+            p.names = p.names || is_one(token, key_name);
+            for (int k = 0; k < PLOT_PANELS && !strcmp(token, "PANEL"); k++)
+                add(p.words, COMPLETION_WORDS, plot_panels_words[k]);
+            p.files = p.files || is_one(token, any_file);
+            p.folders = p.folders || is_one(token, folder);
+            if (dot && isupper((unsigned char)token[0]) && islower((unsigned char)dot[1]))
+                add(p.suffixes, COMPLETION_SUFFIXES, dot + 1);
+            if (is_one(token, yaml_file) || (dot && !strcmp(dot, ".yaml"))) {
+                add(p.suffixes, COMPLETION_SUFFIXES, "yaml");
+                add(p.suffixes, COMPLETION_SUFFIXES, "yml");
+            }
+        }
         s += n + !!s[n];
     }
     return p;
 }
 
-struct completion_place completion_value(const struct args_option *o, struct arena *a)
+/* The value of an option; the operands of a command, or of an action of it (NULL: of the command). */
+static struct completion_place completion_value(const struct args_option *o, struct arena *a)
 {
     return place_of(o->value, a);
 }
 
-struct completion_place completion_operands(const struct command *m, const struct action *action, struct arena *a)
+static struct completion_place completion_operands(const struct command *m, const struct action *action,
+                                                   struct arena *a)
 {
     struct completion_place p = place_of(action ? action->operands : m->operands, a);
     for (const struct starter *s = starters_table; m == &new_command && s->name; s++)
@@ -90,11 +109,11 @@ struct completion_place completion_operands(const struct command *m, const struc
     return p;
 }
 
-bool completion_takes(const struct action *action, const struct args_option *o)
+/* Does the action (NULL: all do) take the option? */
+static bool completion_takes(const struct action *action, const struct args_option *o)
 {
-    for (int i = 0; action && i < ACTIONS_OPTIONS && action->options[i]; i++)
-        if (!strcmp(action->options[i], o->name))
-            return true;
+    for (int i = 0; action && i < CMD_ACTION_OPTIONS && action->options[i]; i++)
+        if (!strcmp(action->options[i], o->name)) return true;
     return !action || cmd_shared(o);
 }
 
@@ -109,7 +128,8 @@ static const char *const *words_of(const struct key *k, struct arena *a)
     return words;
 }
 
-const struct completion_setting *completion_settings(struct arena *a)
+/* ends with path NULL */
+static const struct completion_setting *completion_settings(struct arena *a)
 {
     int n = 0, most = 4;
     for (const struct key *k = keys_table; k->path; k++)
@@ -127,7 +147,9 @@ const struct completion_setting *completion_settings(struct arena *a)
     return all;
 }
 
-const char *completion_quoted(const char *text, const char *risky, const char *quote, struct arena *a)
+/* The text between single quotes, each character of `risky` with a backslash before it, each single quote as `quote`
+ * has it. */
+static const char *completion_quoted(const char *text, const char *risky, const char *quote, struct arena *a)
 {
     size_t longest = strlen(quote) > 2 ? strlen(quote) : 2, n = 0;
     char *out = arena_take(a, longest * strlen(text) + 3, 1);
@@ -138,8 +160,7 @@ const char *completion_quoted(const char *text, const char *risky, const char *q
             n += strlen(quote);
             continue;
         }
-        if (strchr(risky, *text))
-            out[n++] = '\\';
+        if (strchr(risky, *text)) out[n++] = '\\';
         out[n++] = *text;
     }
     out[n++] = '\'';
@@ -166,8 +187,10 @@ static const struct args_option options[] = {{0}};
 const struct command completion_command = {
     .name = "completion",
     .summary = "prints a script that completes rasp's words in a shell",
-    .does = "Completed are commands, actions, options, the words that options take, files by their endings, keys of scenes after --set (and their words behind the "
-            "equals sign) and after rasp explain. `make install` puts the three scripts where the shells find them; without it, load one as the examples show.",
+    .does = "Completed are commands, actions, options, the words that options take, files by their endings, keys of "
+            "scenes after --set (and their words behind the "
+            "equals sign) and after rasp explain. `make install` puts the three scripts where the shells find them; "
+            "without it, load one as the examples show.",
     .operands = "bash|zsh|fish",
     .least = 1,
     .most = 1,
@@ -177,3 +200,486 @@ const struct command completion_command = {
                 "rasp completion fish > ~/.config/fish/completions/rasp.fish  # fish\n",
     .run = completion_run,
 };
+
+/* The completion for bash, 4.4 or later. bash breaks words at =, unless COMP_WORDBREAKS says otherwise: the script
+   glues them, and takes from what it answers all up to the last = of the word that is completed. */
+
+static const char body[] =
+    "\n"
+    "# _rasp_add PREFIX COMMAND...: its lines, as answers.\n"
+    "_rasp_add()\n"
+    "{\n"
+    "    local prefix=$1 line\n"
+    "    shift\n"
+    "    while IFS= read -r line; do COMPREPLY+=(\"$prefix$line\"); done < <(\"$@\")\n"
+    "}\n"
+    "\n"
+    "# _rasp_setting PREFIX TEXT: KEY=VALUE.\n"
+    "_rasp_setting()\n"
+    "{\n"
+    "    if [[ $2 == *=* ]]; then\n"
+    "        _rasp_add \"$1${2%%=*}=\" compgen -W \"$(_rasp_words \"${2%%=*}\")\" -- \"${2#*=}\"\n"
+    "    else\n"
+    "        _rasp_add \"$1\" compgen -S = -W \"$_rasp_keys\" -- \"$2\"\n"
+    "        compopt -o nospace 2> /dev/null\n"
+    "    fi\n"
+    "}\n"
+    "\n"
+    "# _rasp_fill PREFIX TEXT RULE...: what a text may become by each rule, which is a word or begins with @.\n"
+    "_rasp_fill()\n"
+    "{\n"
+    "    local prefix=$1 text=$2 rule files=\n"
+    "    shift 2\n"
+    "    for rule; do\n"
+    "        case $rule in\n"
+    "            @files) files=1 && _rasp_add \"$prefix\" compgen -f -- \"$text\" ;;\n"
+    "            @folders) files=1 && _rasp_add \"$prefix\" compgen -d -- \"$text\" ;;\n"
+    "            @settings) _rasp_setting \"$prefix\" \"$text\" ;;\n"
+    "            @list) [[ $text != *,* ]] || { prefix+=${text%,*}, text=${text##*,}; } ;;\n"
+    "            @names) _rasp_add \"$prefix\" compgen -W \"$_rasp_names\" -- \"$text\" ;;\n"
+    "            @.*) files=1 && _rasp_add \"$prefix\" compgen -f -X \"!*${rule#@}\" -- \"$text\" ;;\n"
+    "            *) [[ $rule != \"$text\"* ]] || COMPREPLY+=(\"$prefix$rule\") ;;\n"
+    "        esac\n"
+    "    done\n"
+    "    [[ ! $files ]] || compopt -o filenames -o bashdefault -o default 2> /dev/null\n"
+    "}\n"
+    "\n"
+    "_rasp()\n"
+    "{\n"
+    "    local word cur place glue= command= action= expects= ended= i\n"
+    "    local -a words=()\n"
+    "    COMPREPLY=()\n"
+    "    for ((i = 0; i <= COMP_CWORD; i++)); do\n"
+    "        word=${COMP_WORDS[i]}\n"
+    "        if [[ $glue || $word == =* ]] && ((i > 1)); then\n"
+    "            words[-1]+=$word\n"
+    "        else\n"
+    "            words+=(\"$word\")\n"
+    "        fi\n"
+    "        glue=\n"
+    "        [[ $word != =* ]] || glue=1\n"
+    "    done\n"
+    "    cur=${words[-1]}\n"
+    "    for word in \"${words[@]:1:${#words[@]}-2}\"; do\n"
+    "        if [[ $expects ]]; then\n"
+    "            expects=\n"
+    "            continue\n"
+    "        fi\n"
+    "        case $ended$word in\n"
+    "            --) ended=/ ;;\n"
+    "            --*=*) ;;\n"
+    "            -?*) ! _rasp_value \"$command\" \"$word\" > /dev/null || expects=$word ;;\n"
+    "            *) if [[ ! $command ]]; then command=$word; elif [[ ! $action && $(_rasp_actions \"$command\") ]]; "
+    "then action=$word; fi ;;\n"
+    "        esac\n"
+    "    done\n"
+    "    place=$command${action:+ $action}\n"
+    "    if [[ $expects ]]; then\n"
+    "        _rasp_fill '' \"$cur\" $(_rasp_value \"$command\" \"$expects\")\n"
+    "    elif [[ ! $ended && $cur == --*=* ]]; then\n"
+    "        _rasp_fill \"${cur%%=*}=\" \"${cur#*=}\" $(_rasp_value \"$command\" \"${cur%%=*}\")\n"
+    "    elif [[ ! $ended && $cur == -* ]]; then\n"
+    "        _rasp_fill '' \"$cur\" $(_rasp_options \"$place\")\n"
+    "    elif [[ ! $command ]]; then\n"
+    "        _rasp_fill '' \"$cur\" $_rasp_commands\n"
+    "    elif [[ ! $action && $(_rasp_actions \"$command\") ]]; then\n"
+    "        _rasp_fill '' \"$cur\" $(_rasp_actions \"$command\")\n"
+    "    else\n"
+    "        _rasp_fill '' \"$cur\" $(_rasp_operands \"$place\")\n"
+    "    fi\n"
+    "    [[ $COMP_WORDBREAKS != *=* || $cur != *=* ]] || COMPREPLY=(\"${COMPREPLY[@]#\"${cur%=*}=\"}\")\n"
+    "}\n"
+    "complete -F _rasp rasp\n";
+
+static void put_words(FILE *f, const char *const *words)
+{
+    for (int i = 0; words && words[i]; i++)
+        fprintf(f, "%s%s", i ? " " : "", words[i]);
+}
+
+static void put_place(FILE *f, const struct completion_place *p)
+{
+    const char *gap = "";
+    const char *const rules[] = {p->files ? "@files" : NULL, p->folders ? "@folders" : NULL,
+                                 p->settings ? "@settings" : NULL, p->names ? "@names" : NULL};
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (rules[i]) {
+            fprintf(f, "%s%s", gap, rules[i]);
+            gap = " ";
+        }
+    for (int i = 0; !p->files && p->suffixes[i]; i++, gap = " ")
+        fprintf(f, "%s@.%s", gap, p->suffixes[i]);
+    if (!p->files && !p->folders && p->suffixes[0]) fputs(" @folders", f);
+    if (p->list && p->words[0]) {
+        fprintf(f, "%s@list", gap);
+        gap = " ";
+    }
+    fputs(p->words[0] ? gap : "", f);
+    put_words(f, p->words);
+}
+
+static void put_options(FILE *f, const struct command *m, const struct action *action, struct arena *a)
+{
+    fprintf(f, "        '%s%s%s') echo '", m->name, action ? " " : "", action ? action->name : "");
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
+        if (completion_takes(action, o)) {
+            if (o->letter) fprintf(f, "-%c ", o->letter);
+            fprintf(f, "--%s ", o->name);
+        }
+    fputs("-h --help' ;;\n", f);
+}
+
+static void put_operands(FILE *f, const struct command *m, const struct action *action, struct arena *a)
+{
+    struct completion_place p = completion_operands(m, action, a);
+    fprintf(f, "        '%s%s%s') echo '", m->name, action ? " " : "", action ? action->name : "");
+    put_place(f, &p);
+    fputs("' ;;\n", f);
+}
+
+static void put_values(FILE *f, const struct command *m, struct arena *a)
+{
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++) {
+        if (!o->value) continue;
+        struct completion_place p = completion_value(o, a);
+        fprintf(f, "        '%s --%s'", m->name, o->name);
+        if (o->letter) fprintf(f, " | '%s -%c'", m->name, o->letter);
+        fputs(") echo '", f);
+        put_place(f, &p);
+        fputs("' ;;\n", f);
+    }
+}
+
+static void open_case(FILE *f, const char *name, const char *word)
+{
+    fprintf(f, "%s()\n{\n    case %s in\n", name, word);
+}
+
+static void close_case(FILE *f, const char *last) { fprintf(f, "        *) %s ;;\n    esac\n}\n", last); }
+
+static void put_all_operands(FILE *f, struct arena *a)
+{
+    open_case(f, "_rasp_operands", "$1");
+    for (int i = 0; commands_at(i); i++) {
+        const struct command *m = commands_at(i);
+        if (!m->actions) put_operands(f, m, NULL, a);
+        for (const struct action *x = m->actions; x && x->name; x++)
+            put_operands(f, m, x, a);
+    }
+    fputs("        help) echo \"$_rasp_commands\" ;;\n", f);
+    close_case(f, ":");
+}
+
+static void put_all_options(FILE *f, struct arena *a)
+{
+    open_case(f, "_rasp_options", "$1");
+    for (int i = 0; commands_at(i); i++) {
+        const struct command *m = commands_at(i);
+        put_options(f, m, NULL, a);
+        for (const struct action *x = m->actions; x && x->name; x++)
+            put_options(f, m, x, a);
+    }
+    fputs("        '') echo '-h --help -V --version -v --verbose' ;;\n", f);
+    close_case(f, ":");
+}
+
+static void completion_bash(FILE *f, struct arena *a)
+{
+    fputs("# Completion of rasp for bash, made by `rasp completion bash`.\n", f);
+    fputs("_rasp_commands='", f);
+    for (int i = 0; commands_at(i); i++)
+        fprintf(f, "%s ", commands_at(i)->name);
+    fputs("help'\n", f);
+    const struct completion_setting *s = completion_settings(a);
+    fputs("_rasp_keys='", f);
+    for (int i = 0; s[i].path; i++)
+        fprintf(f, "%s%s", i ? " " : "", s[i].path);
+    fputs("'\n_rasp_names='", f);
+    put_words(f, keys_text_names(a));
+    fputs("'\n", f);
+    open_case(f, "_rasp_words", "$1");
+    for (; s->path; s++)
+        if (s->words) {
+            fprintf(f, "        %s) echo '", s->path);
+            put_words(f, s->words);
+            fputs("' ;;\n", f);
+        }
+    close_case(f, ":");
+    open_case(f, "_rasp_actions", "$1");
+    for (int i = 0; commands_at(i); i++)
+        if (commands_at(i)->actions) {
+            fprintf(f, "        %s) echo '", commands_at(i)->name);
+            for (const struct action *x = commands_at(i)->actions; x->name; x++)
+                fprintf(f, "%s%s", x == commands_at(i)->actions ? "" : " ", x->name);
+            fputs("' ;;\n", f);
+        }
+    close_case(f, ":");
+    put_all_options(f, a);
+    put_all_operands(f, a);
+    fputs("# _rasp_value COMMAND OPTION: what the option takes; exit code 1: nothing.\n", f);
+    open_case(f, "_rasp_value", "\"$1 $2\"");
+    for (int i = 0; commands_at(i); i++)
+        put_values(f, commands_at(i), a);
+    close_case(f, "return 1");
+    fputs(body, f);
+}
+
+/* The completion for zsh, as a function _rasp that its completion system loads: tables of _arguments. */
+
+static const char head[] =
+    "#compdef rasp\n"
+    "# Completion of rasp for zsh, made by `rasp completion zsh`.\n"
+    "\n"
+    "# KEY=VALUE\n"
+    "_rasp_setting()\n"
+    "{\n"
+    "    local -a words\n"
+    "    if compset -P 1 '*='; then\n"
+    "        words=(${(s: :)_rasp_words[${IPREFIX##*--set=}]:-${_rasp_words[${${IPREFIX%=}##*=}]}})\n"
+    "        compadd -a words\n"
+    "    else\n"
+    "        compadd -S = -a _rasp_keys\n"
+    "    fi\n"
+    "}\n";
+
+static const char tail[] =
+    "\n"
+    "_rasp()\n"
+    "{\n"
+    "    local curcontext=$curcontext state\n"
+    "    local -a line _rasp_commands _rasp_keys _rasp_names\n"
+    "    local -A _rasp_words opt_args\n"
+    "    _rasp_tables\n"
+    "    _arguments -C '(-h --help)'{-h,--help}'[the commands]' '(-V --version)'{-V,--version}'[the version]' \\\n"
+    "        '(-v --verbose)'{-v,--verbose}'[with --version\\: compiler, flags and libraries]' '1:command:->command' "
+    "'*::operand:->operand'\n"
+    "    case $state in\n"
+    "        command) _describe -t commands command _rasp_commands ;;\n"
+    "        operand) curcontext=${curcontext%:*:*}:rasp-$line[1]: && (( $+functions[_rasp_of_$line[1]] )) && "
+    "_rasp_of_$line[1] ;;\n"
+    "    esac\n"
+    "}\n"
+    "_rasp \"$@\"\n";
+
+static const char *quoted(const char *text, struct arena *a) { return completion_quoted(text, "", "'\\''", a); }
+
+/* In a specification of _arguments. */
+static const char *escaped(const char *text, struct arena *a)
+{
+    const char *q = completion_quoted(text, "[]:\\", "'\\''", a);
+    return arena_format(a, "%.*s", (int)strlen(q) - 2, q + 1);
+}
+
+/* ":message:action" of _arguments. */
+static void put_action(FILE *f, const char *message, const struct completion_place *p, struct arena *a)
+{
+    fprintf(f, ":%s:", escaped(message, a));
+    if (p->settings)
+        fputs("_rasp_setting", f);
+    else if (p->words[0]) {
+        fputs(p->list ? "_values -s , word " : "(", f);
+        for (int i = 0; p->words[i]; i++)
+            fprintf(f, "%s%s", i ? " " : "", p->words[i]);
+        fputs(p->list ? "" : ")", f);
+    } else if (p->names)
+        fputs("_rasp_name", f);
+    else if (p->files)
+        fputs("_files", f);
+    else if (p->suffixes[0]) {
+        fputs("_files -g \"*.(", f);
+        for (int i = 0; p->suffixes[i]; i++)
+            fprintf(f, "%s%s", i ? "|" : "", p->suffixes[i]);
+        fputs(")(-.)\"", f);
+    } else if (p->folders)
+        fputs("_files -/", f);
+}
+
+static void put_option(FILE *f, const struct args_option *o, struct arena *a)
+{
+    const char *plus = o->value ? "+" : "", *equals = o->value ? "=" : "";
+    fputs(" \\\n        ", f);
+    if (o->letter && o->many)
+        fprintf(f, "'*'{-%c%s,--%s%s}'[%s]", o->letter, plus, o->name, equals, escaped(o->help, a));
+    else if (o->letter)
+        fprintf(f, "'(-%c --%s)'{-%c%s,--%s%s}'[%s]", o->letter, o->name, o->letter, plus, o->name, equals,
+                escaped(o->help, a));
+    else
+        fprintf(f, "'%s--%s%s[%s]", o->many ? "*" : "", o->name, equals, escaped(o->help, a));
+    if (o->value) {
+        struct completion_place p = completion_value(o, a);
+        put_action(f, o->value, &p, a);
+    }
+    fputc('\'', f);
+}
+
+static void put_arguments(FILE *f, const struct command *m, const struct action *action, struct arena *a)
+{
+    struct completion_place p = completion_operands(m, action, a);
+    const char *operands = action ? action->operands : m->operands;
+    fprintf(f, "    _arguments -s -S : '(-h --help)'{-h,--help}'[this command]'");
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
+        if (completion_takes(action, o)) put_option(f, o, a);
+    if (*operands) {
+        fputs(" \\\n        '*", f);
+        put_action(f, operands, &p, a);
+        fputc('\'', f);
+    }
+    fputc('\n', f);
+}
+
+static void completion_zsh(FILE *f, struct arena *a)
+{
+    fputs(head, f);
+    fputs("\n_rasp_tables()\n{\n    _rasp_commands=(\n", f);
+    for (int i = 0; commands_at(i); i++)
+        fprintf(f, "        %s\n", quoted(arena_format(a, "%s:%s", commands_at(i)->name, commands_at(i)->summary), a));
+    fputs("        'help:explains a command'\n    )\n    _rasp_keys=(", f);
+    for (const struct completion_setting *s = completion_settings(a); s->path; s++)
+        fprintf(f, " %s", s->path);
+    fputs(" )\n    _rasp_names=(", f);
+    for (const char **names = keys_text_names(a); *names; names++)
+        fprintf(f, " %s", *names);
+    fputs(" )\n    _rasp_words=(\n", f);
+    for (const struct completion_setting *s = completion_settings(a); s->path; s++) {
+        if (!s->words) continue;
+        fprintf(f, "        %s '", s->path);
+        for (int i = 0; s->words[i]; i++)
+            fprintf(f, "%s%s", i ? " " : "", s->words[i]);
+        fputs("'\n", f);
+    }
+    fputs("    )\n}\n\n_rasp_name()\n{\n    compadd -a _rasp_names\n    _files -g \"*.(yaml|yml)(-.)\"\n}\n", f);
+    for (int i = 0; commands_at(i); i++) {
+        const struct command *m = commands_at(i);
+        fprintf(f, "\n_rasp_of_%s()\n{\n", m->name);
+        if (m->actions) {
+            fputs("    local state\n    local -a line\n    _arguments -C '1:action:(", f);
+            for (const struct action *x = m->actions; x->name; x++)
+                fprintf(f, "%s%s", x == m->actions ? "" : " ", x->name);
+            fputs(")' '*::operand:->operand'\n    [[ $state = operand ]] || return 0\n    case $line[1] in\n", f);
+            for (const struct action *x = m->actions; x->name; x++) {
+                fprintf(f, "    %s)\n", x->name);
+                put_arguments(f, m, x, a);
+                fputs("    ;;\n", f);
+            }
+            fputs("    esac\n", f);
+        } else
+            put_arguments(f, m, NULL, a);
+        fputs("}\n", f);
+    }
+    fputs("\n_rasp_of_help()\n{\n    _arguments '1:command:->command'\n    _describe -t commands command "
+          "_rasp_commands\n}\n",
+          f);
+    fputs(tail, f);
+}
+
+/* The completion for fish: one `complete` for each option, action and operand, with the place where it holds. */
+
+static const char fish_head[] =
+    "# Completion of rasp for fish, made by `rasp completion fish`.\n"
+    "\n"
+    "# __rasp_in [COMMAND [ACTION]]: are these the words before the one that is completed? Without: is there none "
+    "yet?\n"
+    "function __rasp_in\n"
+    "    set -l words (commandline -opc)\n"
+    "    set -e words[1]\n"
+    "    test (count $argv) = 0; and test (count $words) = 0; and return 0\n"
+    "    test (count $argv) = 0; and return 1\n"
+    "    test \"$words[1]\" = $argv[1]; or return 1\n"
+    "    test (count $argv) = 1; or test \"$words[2]\" = $argv[2]\n"
+    "end\n"
+    "function __rasp_no_action\n"
+    "    test (count (commandline -opc)) = 2\n"
+    "end\n"
+    "\n"
+    "# KEY=VALUE\n"
+    "function __rasp_settings\n"
+    "    set -l key (string match -r '(?:^|--set=|-s)([a-z0-9_.]+)=[^=]*$' -- (commandline -ct))[2]\n"
+    "    test -n \"$key\"; and __rasp_words $key; and return\n"
+    "    printf '%s=\\n' $__rasp_keys\n"
+    "end\n";
+
+static const char *fish_quoted(const char *text, struct arena *a) { return completion_quoted(text, "\\", "\\'", a); }
+
+/* -a and what else a place asks for. */
+static void fish_put_place(FILE *f, const struct completion_place *p, struct arena *a)
+{
+    const char *all = "";
+    if (p->settings) all = "(__rasp_settings)";
+    for (int i = 0; p->words[i]; i++)
+        all = arena_format(a, "%s%s%s", all, *all ? " " : "", p->words[i]);
+    if (p->list && *all) all = arena_format(a, "(__fish_append , %s)", all);
+    if (p->names) all = arena_format(a, "%s $__rasp_names", all);
+    for (int i = 0; !p->files && p->suffixes[i]; i++)
+        all = arena_format(a, "%s (__fish_complete_suffix .%s)", all, p->suffixes[i]);
+    if (p->folders && !p->files) all = arena_format(a, "%s (__fish_complete_directories)", all);
+    if (!p->files) fputs(" -f", f);
+    if (p->suffixes[0] && !p->files) fputs(" -k", f);
+    if (*all) fprintf(f, " -a %s", fish_quoted(all, a));
+}
+
+static void fish_put_option(FILE *f, const char *where, const struct args_option *o, struct arena *a)
+{
+    fprintf(f, "complete -c rasp -n %s", fish_quoted(where, a));
+    if (o->letter) fprintf(f, " -s %c", o->letter);
+    fprintf(f, " -l %s -d %s", o->name, fish_quoted(o->help, a));
+    if (o->value) {
+        struct completion_place p = completion_value(o, a);
+        fputs(" -r", f);
+        fish_put_place(f, &p, a);
+    }
+    fputc('\n', f);
+}
+
+static void put_group(FILE *f, const struct command *m, const struct action *action, struct arena *a)
+{
+    static const struct args_option help = {"help", 'h', NULL, false, "this command"};
+    struct completion_place p = completion_operands(m, action, a);
+    const char *where = arena_format(a, "__rasp_in %s%s%s", m->name, action ? " " : "", action ? action->name : "");
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
+        if (completion_takes(action, o)) fish_put_option(f, where, o, a);
+    fish_put_option(f, where, &help, a);
+    fprintf(f, "complete -c rasp -n %s", fish_quoted(where, a));
+    fish_put_place(f, &p, a);
+    fputc('\n', f);
+}
+
+static void put_command(FILE *f, const struct command *m, struct arena *a)
+{
+    fprintf(f, "\ncomplete -c rasp -f -n __rasp_in -a %s -d %s\n", m->name, fish_quoted(m->summary, a));
+    if (!m->actions) put_group(f, m, NULL, a);
+    for (const struct action *x = m->actions; x && x->name; x++) {
+        fprintf(f, "complete -c rasp -f -n '__rasp_in %s; and __rasp_no_action' -a %s\n", m->name, x->name);
+        put_group(f, m, x, a);
+    }
+}
+
+static void completion_fish(FILE *f, struct arena *a)
+{
+    fputs(fish_head, f);
+    fputs("set -g __rasp_keys", f);
+    for (const struct completion_setting *s = completion_settings(a); s->path; s++)
+        fprintf(f, " %s", s->path);
+    fputs("\nset -g __rasp_names", f);
+    for (const char **names = keys_text_names(a); *names; names++)
+        fprintf(f, " %s", *names);
+    fputs("\nfunction __rasp_words\n    switch $argv[1]\n", f);
+    for (const struct completion_setting *s = completion_settings(a); s->path; s++) {
+        if (!s->words) continue;
+        fprintf(f, "        case %s\n            printf '%s=%%s\\n'", s->path, s->path);
+        for (int i = 0; s->words[i]; i++)
+            fprintf(f, " %s", s->words[i]);
+        fputc('\n', f);
+    }
+    fputs("        case '*'\n            return 1\n    end\nend\n", f);
+    fputs("\ncomplete -c rasp -n __rasp_in -s h -l help -d 'the commands'\n"
+          "complete -c rasp -n __rasp_in -s V -l version -d 'the version'\n"
+          "complete -c rasp -n __rasp_in -s v -l verbose -d 'with --version: compiler, flags and libraries'\n"
+          "complete -c rasp -f -n __rasp_in -a help -d 'explains a command'\n"
+          "complete -c rasp -f -n '__rasp_in help' -a '",
+          f);
+    for (int i = 0; commands_at(i); i++)
+        fprintf(f, "%s%s", i ? " " : "", commands_at(i)->name);
+    fputs("'\n", f);
+    for (int i = 0; commands_at(i); i++)
+        put_command(f, commands_at(i), a);
+}

@@ -1,78 +1,544 @@
-/* rasp golden: sounds and tables that are kept, and whether scenes still make them. */
+/* What is kept of the scenes of `rasp golden`: files, hashes, or both. */
 #include "cmd/golden.h"
 
+#include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/text.h"
-#include "cmd/actions.h"
 #include "cmd/batch.h"
+#include "cmd/cmd.h"
+#include "file/bytes.h"
+
+enum { GAP = 2 /* of blanks between hash and name; the second may be * */ };
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const struct golden_file *)a)->name, ((const struct golden_file *)b)->name);
+}
+
+void golden_kept_sort(struct golden_files *files)
+{
+    if (files->n) qsort(files->list, (size_t)files->n, sizeof *files->list, by_name);
+}
+
+const struct golden_file *golden_kept_find(const struct golden_files *files, const char *name)
+{
+    for (int i = 0; i < files->n; i++)
+        if (!strcmp(files->list[i].name, name)) return &files->list[i];
+    return NULL;
+}
+
+/* ------------------------------------------------------------------ hashes */
+
+static bool sum_read(const struct golden *g, char *line, int number, struct golden_sum *sum, struct err *e)
+{
+    size_t n = HASH_TEXT - 1;
+    bool good =
+        strlen(line) > n + GAP && strspn(line, "0123456789abcdef") == n && line[n] == ' ' && strchr(" *", line[n + 1]);
+    if (!good || !strchr(line + n + GAP, '/'))
+        return err_set(e, ERR_SCENE, "%s:%d: is not of the form SHA256  NAME/FILE, as rasp golden update writes it",
+                       g->hashes, number);
+    line[n] = '\0';
+    memcpy(sum->sha256, line, HASH_TEXT);
+    sum->name = line + n + GAP;
+    return true;
+}
+
+bool golden_kept_read(struct golden *g, struct err *e)
+{
+    struct bytes b;
+    int number = 0, most = 1;
+    if (!g->hashes) return true;
+    if (!bytes_read(g->hashes, g->call->arena, &b, e)) return false;
+    for (const char *p = b.at; *p; p++)
+        most += *p == '\n';
+    g->sums = ARENA_TAKE(g->call->arena, struct golden_sum, most);
+    for (char *p = b.at, *next; p; p = next) {
+        next = strchr(p, '\n');
+        if (next) *next++ = '\0';
+        p[strcspn(p, "\r")] = '\0';
+        number++;
+        if (*p && !sum_read(g, p, number, &g->sums[g->n_sums++], e)) return false;
+    }
+    return true;
+}
+
+const struct golden_sum *golden_kept_sum(const struct golden *g, const char *scene, const char *file, struct arena *a)
+{
+    const char *name = arena_format(a, "%s/%s", scene, file);
+    for (int i = 0; i < g->n_sums; i++)
+        if (!strcmp(g->sums[i].name, name)) return &g->sums[i];
+    return NULL;
+}
+
+static struct golden_files in_sums(const struct golden *g, const char *scene, struct arena *a)
+{
+    struct golden_files files = {ARENA_TAKE(a, struct golden_file, g->n_sums + 1), 0};
+    for (int i = 0; i < g->n_sums; i++) {
+        /* What the line is of: FILE of NAME/FILE; NULL: of another scene. */
+        size_t n = strlen(scene);
+        const char *file =
+            !strncmp(g->sums[i].name, scene, n) && g->sums[i].name[n] == '/' ? g->sums[i].name + n + 1 : NULL;
+        if (!file) continue;
+        files.list[files.n].name = file;
+        memcpy(files.list[files.n++].sha256, g->sums[i].sha256, HASH_TEXT);
+    }
+    golden_kept_sort(&files);
+    return files;
+}
+
+/* ------------------------------------------------------------------ files */
+
+static bool is_kept(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return *name != '.' && dot && (!strcmp(dot, ".wav") || !strcmp(dot, ".csv") || !strcmp(dot, ".npy"));
+}
+
+/* Sounds and tables in a folder, without hashes; none where there is no such folder. */
+static struct golden_files in_folder(const char *folder, struct arena *a)
+{
+    struct golden_files files = {NULL, 0};
+    DIR *d = opendir(folder);
+    int room = 0;
+    for (struct dirent *entry; d && (entry = readdir(d));) {
+        if (!is_kept(entry->d_name)) continue;
+        if (files.n == room) {
+            struct golden_file *more = ARENA_TAKE(a, struct golden_file, room = 2 * room + 8);
+            if (files.n) memcpy(more, files.list, (size_t)files.n * sizeof *more);
+            files.list = more;
+        }
+        files.list[files.n++].name = arena_text(a, entry->d_name);
+    }
+    if (d) closedir(d);
+    golden_kept_sort(&files);
+    return files;
+}
+
+struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a, struct err *e)
+{
+    if (!g->kept) return in_sums(g, scene, a);
+    const char *folder = arena_format(a, "%s/%s", g->kept, scene);
+    struct golden_files files = in_folder(folder, a);
+    for (int i = 0; i < files.n; i++)
+        hash_file(arena_format(a, "%s/%s", folder, files.list[i].name), files.list[i].sha256, e);
+    return files;
+}
+
+/* ------------------------------------------------------------------ strays */
+
+struct strays {
+    const char **list;
+    int n, room;
+};
+
+static void stray(struct strays *all, const char *name, struct arena *a)
+{
+    if (all->n + 1 >= all->room) {
+        const char **more = ARENA_TAKE(a, const char *, all->room = 2 * all->room + 16);
+        if (all->n) memcpy(more, all->list, (size_t)all->n * sizeof *more);
+        all->list = more;
+    }
+    all->list[all->n++] = name;
+}
+
+static bool is_scene(const struct golden *g, const char *name, size_t n)
+{
+    for (int i = 0; i < g->n; i++)
+        if (strlen(g->scenes[i].name) == n && !strncmp(g->scenes[i].name, name, n)) return true;
+    return false;
+}
+
+static void strays_in_kept(const struct golden *g, struct strays *all, struct arena *a)
+{
+    struct dirent **entries;
+    int n = scandir(g->kept, &entries, NULL, alphasort);
+    for (int i = 0; i < n; i++) {
+        const char *name = entries[i]->d_name;
+        if (*name != '.' && is_kept(name)) stray(all, arena_text(a, name), a);
+        if (*name != '.' && !is_scene(g, name, strlen(name))) {
+            struct golden_files files = in_folder(arena_format(a, "%s/%s", g->kept, name), a);
+            for (int k = 0; k < files.n; k++)
+                stray(all, arena_format(a, "%s/%s", name, files.list[k].name), a);
+        }
+        free(entries[i]);
+    }
+    if (n >= 0) free(entries);
+}
+
+const char **golden_kept_strays(const struct golden *g, struct arena *a)
+{
+    struct strays all = {ARENA_TAKE(a, const char *, 16), 0, 16};
+    if (g->kept) strays_in_kept(g, &all, a);
+    for (int i = 0; i < g->n_sums; i++)
+        if (!is_scene(g, g->sums[i].name, strcspn(g->sums[i].name, "/")))
+            stray(&all, arena_format(a, "%s, in %s", g->sums[i].name, g->hashes), a);
+    all.list[all.n] = NULL;
+    return all.list;
+}
+
+/* The scenes of `rasp golden`: operands that end in .yaml or .yml are scenes, others are lists, one scene a line:
+
+       # scene                  options
+       scenes/strike.yaml       --snr 120 --third-octave 0.01
+       scenes/strike.yaml       --name strike_fast --set 'contact.strike.speed=4 m/s'
+
+   '#' begins a comment at a line's start or after a blank; quotes hold blanks. Names of files are seen from the list's
+   folder (those in --set from the current one, as everywhere). */
+
+enum { WORDS = 200 };
+
+/* The scenes that the operands stand for, read. What is wrong with a scene is its own failure.
+ * ERR_USAGE, ERR_INPUT, ERR_SCENE */
+static const struct args_option golden_list_options[] = {
+    {"name", 0, "NAME", false, "what the scene's kept files are called"},
+    CMD_SCENE_OPTIONS,
+    COMPARE_SOUND_LIMITS,
+    COMPARE_TABLE_LIMITS,
+    {0}};
+
+struct line {
+    const char *list, *folder; /* NULL: an operand */
+    int number;
+    char *words[WORDS];
+    int n;
+};
+
+/* ------------------------------------------------------------------ words of a line */
+
+/* One word from *p on, which is left behind it. False: a quote is open. */
+static bool take_word(const char **p, char *word)
+{
+    char quote = '\0';
+    for (; **p && (quote || !strchr(" \t", **p)); ++*p) {
+        if (quote ? **p == quote : **p == '\'' || **p == '"')
+            quote = quote ? '\0' : **p;
+        else
+            *word++ = **p;
+    }
+    *word = '\0';
+    return !quote;
+}
+
+static bool split(struct line *l, const char *text, struct arena *a, struct err *e)
+{
+    l->n = 0;
+    for (const char *p = text;;) {
+        p += strspn(p, " \t");
+        if (!*p || *p == '#') return true;
+        char *word = arena_take(a, strlen(p) + 1, 1);
+        if (!take_word(&p, word)) return err_set(e, ERR_SCENE, "%s:%d: a quote is not closed", l->list, l->number);
+        if (l->n == WORDS) return err_set(e, ERR_SCENE, "%s:%d: more than %d words", l->list, l->number, WORDS);
+        l->words[l->n++] = word;
+    }
+}
+
+/* ------------------------------------------------------------------ a scene */
+
+/* NAME of .../NAME.yaml */
+static const char *stem(const char *file, struct arena *a)
+{
+    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file, *dot = strrchr(name, '.');
+    size_t n = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    if (n > 6 && !strncmp(name + n - 6, ".scene", 6)) n -= 6;
+    return arena_format(a, "%.*s", (int)n, name);
+}
+
+static bool name_good(const struct golden_scene *s, struct err *e)
+{
+    static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz+-_.";
+    return (*s->name && *s->name != '.' && strspn(s->name, letters) == strlen(s->name)) ||
+           err_set(e, *s->at ? ERR_SCENE : ERR_USAGE,
+                   "%s'%s' cannot be the name of kept files: letters, digits and + - _ . are taken; in a list --name "
+                   "NAME gives another",
+                   s->at, s->name);
+}
+
+/* Its own limits count, of each kind for which it has any; else those of the command. */
+static bool limits(struct golden *g, struct golden_scene *s, const char *folder, struct err *e)
+{
+    const struct args *all = &g->call->args;
+    struct compare_ask own = {.arena = g->call->arena}, common = own;
+    bool sounds = compare_limit_of_sounds(&s->args), tables = compare_limit_of_tables(&s->args);
+    if (!compare_limits(&s->args, folder, &own, e) || !compare_limits(all, NULL, &common, e)) return false;
+    s->sounds = sounds ? own : common;
+    s->tables = tables ? own : common;
+    s->sounds.exact = !sounds && !compare_limit_of_sounds(all);
+    s->tables.exact = !tables && !compare_limit_of_tables(all);
+    return g->kept || (s->sounds.exact && s->tables.exact) ||
+           err_set(e, ERR_USAGE,
+                   "--%s: where only hashes are kept there is no sound or table to measure from; keep files, too, with "
+                   "--kept",
+                   sounds            ? compare_limit_of_sounds(&s->args)
+                   : tables          ? compare_limit_of_tables(&s->args)
+                   : s->sounds.exact ? compare_limit_of_tables(all)
+                                     : compare_limit_of_sounds(all));
+}
+
+/* An error in a line is one in the list's text. */
+static bool at_line(const struct golden_scene *s, const struct err *why, struct err *e)
+{
+    return err_set(e, *s->at && why->kind == ERR_USAGE ? ERR_SCENE : why->kind, "%s%s", s->at, why->text);
+}
+
+static bool scene_add(struct golden *g, struct line *l, struct err *e)
+{
+    struct arena *a = g->call->arena;
+    struct golden_scene *s = &g->scenes[g->n];
+    struct err why = {0};
+    s->at = l->list ? arena_format(a, "%s:%d: ", l->list, l->number) : "";
+    if (!args_parse(&s->args, golden_list_options, l->n, l->words, a, &why)) return at_line(s, &why, e);
+    if (s->args.help || s->args.n_operands != 1)
+        return err_set(e, ERR_SCENE, "%sa line is one scene and its options, as in: scenes/strike.yaml --snr 120",
+                       s->at);
+    const char *file = s->args.operands[0], *name = args_value(&s->args, "name");
+    s->file = l->folder && *file != '/' ? arena_format(a, "%s/%s", l->folder, file) : file;
+    s->name = name ? name : stem(file, a);
+    if (!name_good(s, e)) return false;
+    if (!limits(g, s, l->folder, &why)) return at_line(s, &why, e);
+    s->arena = arena_open();
+    g->n++;
+    struct cmd_call call = *g->call;
+    call.args = s->args;
+    cmd_read_scene(&call, s->file, &s->scene, &s->failed);
+    return true;
+}
+
+/* ------------------------------------------------------------------ operands */
+
+static int lines_in(const char *text)
+{
+    int n = 1;
+    for (; *text; text++)
+        n += *text == '\n';
+    return n;
+}
+
+static void make_room(struct golden *g, int more)
+{
+    struct golden_scene *scenes = ARENA_TAKE(g->call->arena, struct golden_scene, g->n + more);
+    if (g->n) memcpy(scenes, g->scenes, (size_t)g->n * sizeof *scenes);
+    g->scenes = scenes;
+}
+
+static bool list_add(struct golden *g, const char *file, struct err *e)
+{
+    struct arena *a = g->call->arena;
+    const char *slash = strrchr(file, '/');
+    struct line *l = ARENA_TAKE(a, struct line, 1);
+    struct bytes b;
+    int before = g->n;
+    *l = (struct line){.list = file,
+                       .folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL};
+    if (!bytes_read(file, a, &b, e)) return false;
+    if (strlen(b.at) != b.n) return err_set(e, ERR_SCENE, "%s: is no list of scenes, which is text", file);
+    make_room(g, lines_in(b.at));
+    for (char *p = b.at, *next; p; p = next) {
+        next = strchr(p, '\n');
+        if (next) *next++ = '\0';
+        p[strcspn(p, "\r")] = '\0';
+        l->number++;
+        if (!split(l, p, a, e) || (l->n && !scene_add(g, l, e))) return false;
+    }
+    return g->n > before || err_set(e, ERR_SCENE, "%s: no scene is listed: nothing would be checked", file);
+}
+
+static bool golden_list(struct golden *g, struct err *e)
+{
+    const struct args *args = &g->call->args;
+    g->whole = true;
+    for (int i = 0; i < args->n_operands; i++) {
+        const char *file = args->operands[i];
+        struct line l = {.words = {(char[]){"--"}, arena_text(g->call->arena, file)}, .n = 2};
+        const char *dot = strrchr(file, '.');
+        bool scene = dot && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"));
+        g->whole = g->whole && !scene;
+        if (scene) make_room(g, 1);
+        if (scene ? !scene_add(g, &l, e) : !list_add(g, file, e)) return false;
+    }
+    for (int i = 0; i < g->n; i++)
+        for (int k = 0; k < i; k++)
+            if (!strcmp(g->scenes[i].name, g->scenes[k].name))
+                return err_set(e, *g->scenes[i].at ? ERR_SCENE : ERR_USAGE,
+                               "%s%s and %s are both called %s; in a list --name NAME tells them apart",
+                               g->scenes[i].at, g->scenes[i].file, g->scenes[k].file, g->scenes[i].name);
+    return true;
+}
+
+/* What `rasp golden` prints: lines for people, or the Test Anything Protocol, version 13, each failure with a YAML
+ * block. */
+
+void golden_report_begin(const struct golden *g, int points)
+{
+    if (g->tap) printf("TAP version 13\n1..%d\n", points);
+}
+
+/* 'text' in YAML. */
+static void put_quoted(const struct golden *g, const char *text)
+{
+    putchar('\'');
+    for (const char *p = text_shown(g->call->arena, text); *p; p++)
+        fputs(*p == '\'' ? "''" : (const char[]){*p, '\0'}, stdout);
+    puts("'");
+}
+
+static void put_lines(const char *text, const char *before)
+{
+    for (const char *p = text; *p;) {
+        size_t n = strcspn(p, "\n");
+        printf("%s%.*s\n", before, (int)n, p);
+        p += n + (p[n] == '\n');
+    }
+}
+
+static void put_yaml(const struct golden *g, const struct golden_scene *s)
+{
+    fputs("  ---\n  scene: ", stdout);
+    put_quoted(g, s->file);
+    puts("  severity: fail\n  problems:");
+    for (int i = 0; i < s->n_problems; i++) {
+        const struct golden_problem *p = &s->problems[i];
+        if (*p->file) {
+            fputs("    - file: ", stdout);
+            put_quoted(g, p->file);
+        }
+        fputs(*p->file ? "      says: " : "    - says: ", stdout);
+        put_quoted(g, p->says);
+        if (p->report) {
+            puts("      report: |");
+            put_lines(p->report, "        ");
+        }
+    }
+    puts("  ...");
+}
+
+void golden_report_scene(const struct golden *g, const struct golden_scene *s, int number)
+{
+    struct arena *a = g->call->arena;
+    if (g->tap) {
+        printf("%sok %d - %s", s->n_problems ? "not " : "", number, s->name);
+        puts(s->note && !s->n_problems ? arena_format(g->call->arena, " (within its tolerances: %s)", s->note) : "");
+        if (s->n_problems) put_yaml(g, s);
+    } else if (s->n_problems) {
+        printf("FAILED  %s (%s)\n", s->name, text_shown(a, s->file));
+        for (int i = 0; i < s->n_problems; i++) {
+            const struct golden_problem *p = &s->problems[i];
+            printf("    %s%s%s\n", text_shown(a, p->file), *p->file ? ": " : "", text_shown(a, p->says));
+            if (p->report) put_lines(p->report, "        ");
+        }
+    } else if (!g->quiet) {
+        printf("ok      %s%s%s%s\n", s->name, s->note ? " (within its tolerances: " : "", s->note ? s->note : "",
+               s->note ? ")" : "");
+    }
+    fflush(stdout);
+}
+
+void golden_report_strays(const struct golden *g, const char *const *strays, int number)
+{
+    static const char says[] = "is kept, and no scene of the list makes it: remove it, or list its scene";
+    if (g->tap) {
+        printf("%sok %d - nothing else is kept\n", *strays ? "not " : "", number);
+        if (*strays) puts("  ---\n  severity: fail\n  strays:");
+        for (const char *const *p = strays; *p; p++) {
+            fputs("    - ", stdout);
+            put_quoted(g, *p);
+        }
+        if (*strays) puts("  ...");
+        return;
+    }
+    for (; *strays; strays++)
+        printf("FAILED  %s: %s\n", text_shown(g->call->arena, *strays), says);
+}
+
+void golden_report_end(const struct golden *g, int good, int points)
+{
+    if (!g->tap && (!g->quiet || good < points)) printf("%d passed, %d failed\n", good, points - good);
+}
+
+/* rasp golden: sounds and tables that are kept, and whether scenes still make them. */
 
 static bool begin(struct golden *g, struct cmd_call *c, struct err *e)
 {
-    *g = (struct golden){.call = c, .kept = args_value(&c->args, "kept"), .hashes = args_value(&c->args, "hashes"), .effective = args_given(&c->args, "effective"),
-                         .tap = args_given(&c->args, "tap"), .quiet = args_given(&c->args, "quiet")};
+    *g = (struct golden){.call = c,
+                         .kept = args_value(&c->args, "kept"),
+                         .hashes = args_value(&c->args, "hashes"),
+                         .effective = args_given(&c->args, "effective"),
+                         .tap = args_given(&c->args, "tap"),
+                         .quiet = args_given(&c->args, "quiet")};
     if ((g->kept && !*g->kept) || (g->hashes && !*g->hashes))
         return err_set(e, ERR_USAGE, "--%s is empty", g->kept && !*g->kept ? "kept" : "hashes");
     if (g->kept && !strcmp(g->kept, "-"))
         return err_set(e, ERR_USAGE, "--kept -: what is kept is a folder of files; one of that name is ./-");
-    if (!g->kept && !g->hashes)
-        g->kept = "golden";
-    if (g->kept)
-        g->kept = batch_folder(c->arena, g->kept);
-    return batch_threads(c, &g->threads, e) && golden_list(g, e) && golden_render_folder(g, e);
+    if (!g->kept && !g->hashes) g->kept = "golden";
+    if (g->kept) g->kept = batch_folder(c->arena, g->kept);
+    return batch_threads(c, &g->threads, e) && golden_list(g, e) && golden_run_folder(g, e);
 }
 
 static int run(struct cmd_call *c, int (*what)(struct golden *g, struct err *e), struct err *e)
 {
     struct golden g;
     int code = begin(&g, c, e) ? what(&g, e) : (int)e->kind;
-    golden_render_end(&g);
+    golden_run_end(&g);
     for (int i = 0; i < g.n; i++)
         arena_close(g.scenes[i].arena);
-    if (e->kind && g.tap)
-        printf("Bail out! %s\n", text_shown(c->arena, e->text));
+    if (e->kind && g.tap) printf("Bail out! %s\n", text_shown(c->arena, e->text));
     return code;
 }
 
-static int check_run(struct cmd_call *c, struct err *e) { return run(c, golden_check, e); }
-static int update_run(struct cmd_call *c, struct err *e) { return run(c, golden_update, e); }
+static int check_run(struct cmd_call *c, struct err *e) { return run(c, golden_run_check, e); }
+static int update_run(struct cmd_call *c, struct err *e) { return run(c, golden_run_update, e); }
 
 static const struct action actions[] = {
-    {"check", "LIST|SCENE.yaml...", 1, -1,
-     {"kept", "hashes", "output", "jobs", "effective", "tap", "quiet", "snr", "lsb", "third-octave", "within", "tolerance", "column", "abs", "rel"}, check_run},
+    {"check",
+     "LIST|SCENE.yaml...",
+     1,
+     -1,
+     {"kept", "hashes", "output", "jobs", "effective", "tap", "quiet", "snr", "lsb", "third-octave", "within",
+      "tolerance", "column", "abs", "rel"},
+     check_run},
     {"update", "LIST|SCENE.yaml...", 1, -1, {"kept", "hashes", "jobs", "force", "quiet"}, update_run},
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
-static int golden_run(struct cmd_call *c, struct err *e)
-{
-    return actions_run("golden", actions, c, e);
-}
+static int golden_run(struct cmd_call *c, struct err *e) { return cmd_actions("golden", actions, c, e); }
 
 static const struct args_option options[] = {
-    {"kept", 'k', "FOLDER", false, "where the files are kept, FOLDER/NAME/sound.wav and so on; default: golden, unless --hashes is given"},
-    {"hashes", 0, "FILE", false, "keeps their SHA-256 in FILE, as sha256sum writes them; with --kept both, alone the hashes only"},
+    {"kept", 'k', "FOLDER", false,
+     "where the files are kept, FOLDER/NAME/sound.wav and so on; default: golden, unless --hashes is given"},
+    {"hashes", 0, "FILE", false,
+     "keeps their SHA-256 in FILE, as sha256sum writes them; with --kept both, alone the hashes only"},
     {"output", 'o', "FOLDER", false, "check: what was rendered of a scene that fails stays there, to be listened to"},
     {"jobs", 'j', "N", false, "how many scenes are rendered at once, 1 to 256; default: one for each core"},
     {"effective", 0, NULL, false, "check: renders each scene's effective scene, too, which has to make the same"},
     {"tap", 0, NULL, false, "check: prints the Test Anything Protocol, version 13"},
     COMPARE_SOUND_LIMITS,
     COMPARE_TABLE_LIMITS,
-    {"force", 'f', NULL, false, "update: replaces files in FOLDER that rasp did not write, and writes through symbolic links"},
+    {"force", 'f', NULL, false,
+     "update: replaces files in FOLDER that rasp did not write, and writes through symbolic links"},
     {"quiet", 'q', NULL, false, "prints only what fails"},
     {0}};
 
 const struct command golden_command = {
     .name = "golden",
     .summary = "keep what scenes make, and check that they still do",
-    .does = "rasp golden update LIST renders every scene, then every scene again, and keeps the sounds and tables; where the two renders of one have not the same bytes, "
-            "nothing is written and the exit code is 1. rasp golden check LIST renders every scene and compares with what is kept: the same bytes, or, where the command or a "
-            "line of the list gives limits (as of rasp compare), within these. Of a file that is not, rasp compare's report says how far it is off.\n"
-            "LIST is a text file, one scene a line, with its own options behind it (limits, --set KEY=VALUE, --seed, and --name, for a scene that stands there twice); # begins a comment, "
-            "and names of files start at the list's folder. An operand that ends in .yaml is a scene itself. What is kept is called by the scene's name without .yaml.\n"
-            "check fails where nothing is kept of a scene (and says what makes it), where a kept file is not made any more, where a list is empty, and, when all operands are lists, "
-            "where something is kept that no scene of theirs makes. With --kept and --hashes, the kept files must have the kept hashes. The exit code is 0 when all is as kept, 1 when it is "
+    .does = "rasp golden update LIST renders every scene, then every scene again, and keeps the sounds and tables; "
+            "where the two renders of one have not the same bytes, "
+            "nothing is written and the exit code is 1. rasp golden check LIST renders every scene and compares with "
+            "what is kept: the same bytes, or, where the command or a "
+            "line of the list gives limits (as of rasp compare), within these. Of a file that is not, rasp compare's "
+            "report says how far it is off.\n"
+            "LIST is a text file, one scene a line, with its own options behind it (limits, --set KEY=VALUE, --seed, "
+            "and --name, for a scene that stands there twice); # begins a comment, "
+            "and names of files start at the list's folder. An operand that ends in .yaml is a scene itself. What is "
+            "kept is called by the scene's name without .yaml.\n"
+            "check fails where nothing is kept of a scene (and says what makes it), where a kept file is not made any "
+            "more, where a list is empty, and, when all operands are lists, "
+            "where something is kept that no scene of theirs makes. With --kept and --hashes, the kept files must have "
+            "the kept hashes. The exit code is 0 when all is as kept, 1 when it is "
             "not, and where a scene could not be rendered that render's own; the others are checked all the same.",
     .operands = "ACTION LIST|SCENE.yaml...",
     .least = 1,

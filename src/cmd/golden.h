@@ -56,11 +56,7 @@ struct golden {
     int threads;
 };
 
-/* golden_list.c: the scenes that the operands stand for, read. What is wrong with a scene is its own failure. ERR_USAGE, ERR_INPUT, ERR_SCENE */
-extern const struct args_option golden_list_options[];
-bool golden_list(struct golden *g, struct err *e);
-
-/* golden_kept.c: what is kept. */
+/* What is kept. */
 bool golden_kept_read(struct golden *g, struct err *e); /* the file of hashes. ERR_INPUT, ERR_SCENE */
 struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a, struct err *e); /* ERR_INPUT */
 const struct golden_sum *golden_kept_sum(const struct golden *g, const char *scene, const char *file, struct arena *a);
@@ -68,23 +64,15 @@ const char **golden_kept_strays(const struct golden *g, struct arena *a); /* NAM
 const struct golden_file *golden_kept_find(const struct golden_files *files, const char *name);
 void golden_kept_sort(struct golden_files *files);
 
-/* golden_render.c: the folder of the renders, and one render of a scene into it, by any thread. pass 0 or 1; from: the scene's file, or NULL for it as read. */
-bool golden_render_folder(struct golden *g, struct err *e);
-bool golden_render(const struct golden *g, struct golden_scene *s, int pass, const char *from, struct err *e);
-const char *golden_render_path(const struct golden *g, const struct golden_scene *s, int pass, const char *file, struct arena *a);
-void golden_render_clear(const struct golden *g, const struct golden_scene *s);
-void golden_render_end(const struct golden *g);
+/* The folder of the renders, and one render of a scene into it, by any thread. pass 0 or 1; from: the scene's file, or NULL for it as read. */
+bool golden_run_folder(struct golden *g, struct err *e);
+void golden_run_end(const struct golden *g);
 
-/* golden_judge.c: problems. */
-void golden_judge_add(struct golden_scene *s, const char *file, const char *report, const char *format, ...) __attribute__((format(printf, 4, 5)));
-void golden_judge(const struct golden *g, struct golden_scene *s, int pass); /* what was made against what is kept       */
-void golden_judge_twice(const struct golden *g, struct golden_scene *s);     /* ... by the first render and the second  */
+/* The actions. */
+int golden_run_check(struct golden *g, struct err *e);
+int golden_run_update(struct golden *g, struct err *e);
 
-/* golden_check.c, golden_update.c: the actions. */
-int golden_check(struct golden *g, struct err *e);
-int golden_update(struct golden *g, struct err *e);
-
-/* golden_report.c: what is printed. */
+/* What is printed. */
 void golden_report_begin(const struct golden *g, int points);
 void golden_report_scene(const struct golden *g, const struct golden_scene *s, int number);
 void golden_report_strays(const struct golden *g, const char *const *strays, int number);

@@ -1,10 +1,396 @@
-/* rasp modes ACTION: how objects ring, apart from any contact. The actions are modes_object.c and modes_list.c. */
+/* rasp modes ACTION: the table that it writes, looked at before any work; bodies; closed forms; where compute is. */
 #include "cmd/modes.h"
 
+#include <errno.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#include "cmd/actions.h"
+#include "base/err.h"
+#include "base/interrupt.h"
+#include "base/outfile.h"
+#include "base/text.h"
+#include "cmd/cmd.h"
+#include "cmd/tell.h"
+#include "num/real.h"
+#include "output/mark.h"
+#include "response/mode_table_write.h"
+#include "response/object_kinds.h"
+#include "scene/ball.h"
+#include "scene/keys.h"
+#include "scene/material.h"
 #include "scene/units.h"
+
+/* The output is not the file that is read, under whatever name (same device and inode; NULL: none is read). ERR_CREATE
+ */
+bool modes_output_spares(const char *output, const char *input, struct err *e)
+{
+    return cmd_spares(output, "the table", input, "-o OTHER.csv", e);
+}
+
+/* Can it be created? Nothing is left. ERR_CREATE: a device, pipe or folder, write-protected, its folder is not there.
+ */
+bool modes_output_possible(const char *output, struct err *e)
+{
+    struct outfile o;
+    if (!outfile_open_fd(&o, output, e)) return false;
+    outfile_drop(&o);
+    return true;
+}
+
+/* What an object is, as comment lines of a mode table. */
+
+static const char *word(const char *key, int value) { return keys_find(key)->choices[value].word; }
+
+static void length(FILE *f, const char *name, double value)
+{
+    if (!isnan(value)) fprintf(f, ", %s %.9g m", name, value);
+}
+
+static void object(FILE *f, const struct object_given *g)
+{
+    bool held = g->shape == OBJECT_BAR || g->shape == OBJECT_ROD || g->shape == OBJECT_PLATE || g->shape == OBJECT_DISK;
+    bool slender = g->shape == OBJECT_BAR || g->shape == OBJECT_ROD;
+    fprintf(f, "# object: %s", word("surface.object.shape", g->shape));
+    length(f, "length", g->length);
+    length(f, "width", g->width);
+    length(f, "diameter", g->diameter);
+    length(f, g->shape == OBJECT_ROD ? "wall" : "thickness", g->thickness);
+    if (!isnan(g->tension)) fprintf(f, ", tension %.9g N", g->tension);
+    if (!isnan(g->surface_tension)) fprintf(f, ", tension %.9g N/m", g->surface_tension);
+    if (held) fprintf(f, ", edges %s", word("surface.object.edges", g->edges));
+    if (slender) fprintf(f, ", %s", word("surface.object.waves", g->waves));
+    fputc('\n', f);
+}
+
+static void figure(FILE *f, const char *name, double value, const char *unit)
+{
+    if (!isnan(value)) fprintf(f, ", %s %.9g%s%s", name, value, *unit ? " " : "", unit);
+}
+
+static void material(FILE *f, const struct object_body *b)
+{
+    const struct object_given *g = b->given;
+    const struct material *m = material_find(g->material);
+    bool plate = g->shape == OBJECT_PLATE, sheet = plate || g->shape == OBJECT_DISK || g->shape == OBJECT_SHELL;
+    bool stiff = g->shape != OBJECT_MEMBRANE && g->shape != OBJECT_DRUM;
+    fprintf(f, "# material: %s, density %.9g kg/m^3", word("surface.material", g->material), b->density);
+    figure(f, "Young's modulus", stiff ? b->youngs_modulus : NAN, "Pa");
+    if (plate && b->across != b->youngs_modulus) {
+        figure(f, "along y", b->across, "Pa");
+        figure(f, "shear modulus", b->shear, "Pa");
+    }
+    figure(f, "Poisson's ratio", sheet ? b->poisson : NAN, "");
+    fprintf(f, "\n# damping: decay = (alpha + beta w^2 + loss w)/2, alpha %.9g 1/s, beta %.9g s, loss factor %.9g\n",
+            b->alpha, b->beta, b->loss);
+    if (m)
+        fprintf(f, "# source: %s%s\n# source_of_damping: %s%s\n",
+                !(isnan(g->youngs_modulus) && isnan(g->youngs_modulus_across) && isnan(g->shear_modulus) &&
+                  isnan(g->poisson) && isnan(g->density))
+                    ? "the object's own figures, else "
+                    : "",
+                m->source,
+                !(isnan(g->alpha) && isnan(g->beta) && isnan(g->loss)) ? "the object's own figures, else " : "",
+                m->damping_source);
+    else
+        fputs("# source: the object's own figures\n", f);
+}
+
+/* What `rasp modes` looks at: a body of a scene or recipe, its object, and places on that. */
+
+/* Of a scene that names a recipe of an object nothing else matters. */
+static const char rest[] = "scraper: {mass: 1 g}\nmotion: {path: still, duration: 1 s}\n"
+                           "contact: {model: strike, strike: {pulse: half_sine, speed: 1 m/s, stiffness: "
+                           "1e6}}\noutput: {diagnostics: {rate: 1 kHz}}\n";
+
+bool modes_body_read(struct cmd_call *c, const char *file, struct modes_body *b, struct err *e)
+{
+    const char *word = args_value(&c->args, "body");
+    bool scene, tool = word && (!strcmp(word, "scraper") || !strcmp(word, "ball"));
+    b->key = tool ? word : "surface";
+    if (word && !tool && strcmp(word, "surface") != 0)
+        return err_set(e, ERR_USAGE, "--body: '%s' is not surface, scraper or ball", word);
+    if (!cmd_recipe_is_scene(c, file, &scene, e)) return false;
+    if (tool && !scene)
+        return err_set(e, ERR_USAGE,
+                       "--body %s: %s is a recipe, which describes a surface; it needs a scene (with the key rasp: 1)",
+                       word, file);
+    if (!cmd_recipe_read(c, file, rest, &b->scene, e)) return false;
+    if (b->scene.n_contacts > 1)
+        return err_set(e, ERR_SCENE, "%s: has %d contacts; rasp modes takes a recipe, or a scene of one contact", file,
+                       b->scene.n_contacts);
+    if (tool && strcmp(word, ball_tool(b->scene.contacts)) != 0)
+        return err_set(e, ERR_USAGE, "--body %s: what touches the surface of %s is a %s", word, file,
+                       ball_tool(b->scene.contacts));
+    b->title = scene ? b->scene.title : cmd_recipe_remark(c, file, "title");
+    b->remark = scene ? NULL : cmd_recipe_remark(c, file, "source");
+    b->response = tool ? &b->scene.contacts[0].scraper.response : &b->scene.contacts[0].surface.response;
+    return true;
+}
+
+bool modes_body_object(struct cmd_call *c, const struct modes_body *b, struct object *o, const char **note,
+                       struct err *e)
+{
+    const char *text = args_value(&c->args, "top");
+    struct units_fault fault = {NULL, NULL};
+    struct object_ask ask = {.key = arena_format(c->arena, "%s.object", b->key), .top = 20000, .most = 10000};
+    if (text && !units_read(text, KEY_FREQUENCY, &ask.top, c->arena, &fault))
+        return err_set(e, ERR_USAGE, "--top: '%s' %s", text, fault.text);
+    if (!(ask.top > 0 && ask.top <= 1e7))
+        return err_set(e, ERR_USAGE, "--top: %s is not above 0 and at most 10 MHz", text);
+    if (!b->response->object.given)
+        return err_set(e, ERR_SCENE, "%s: there is no %s: it describes no object of simple shape", c->args.operands[0],
+                       ask.key);
+    if (!object_make(&b->response->object, &ask, c->arena, o, note, e)) return false;
+    return o->n < ask.most ||
+           err_set(e, ERR_SCENE, "%s has more than %d modes below %g Hz; lower --top", ask.key, ask.most - 1, ask.top);
+}
+
+/* ------------------------------------------------------------------ places */
+
+struct footing {
+    const struct object *object;
+    double *phi;
+};
+
+static double off(const void *self, double x, double y)
+{
+    const struct footing *g = (const struct footing *)self;
+    return g->object->shapes(g->object, x, y, g->phi);
+}
+
+/* What is slender has its places on a line; of a shell any place is like the other. */
+bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit,
+                       struct modes_places *p, struct err *e)
+{
+    struct footing g = {o, ARENA_TAKE(c->arena, double, o->n)};
+    struct modes_ground ground = {.self = &g,
+                                  .off = off,
+                                  .low = {o->low[0], o->low[1]},
+                                  .high = {o->high[0], o->high[1]},
+                                  .standard = {33, 1},
+                                  .fit = fit};
+    const double *at = b->response->object.at;
+    bool tool = strcmp(b->key, "surface") != 0;
+    if (tool || o->shape == OBJECT_SHELL)
+        memcpy(ground.standard, (int[2]){1, 1}, sizeof ground.standard);
+    else if (o->flat)
+        memcpy(ground.standard, (int[2]){17, 9}, sizeof ground.standard);
+    if (tool) memcpy(ground.at, at, sizeof ground.at);
+    return modes_places(c, &ground, p, e);
+}
+
+/* rasp modes object RECIPE -o FILE.csv: the modes of an object of closed form as a mode table.
+
+   Velocity per N s at A e^(s t), s = -decay + j w; displacement is A/s, acceleration A s (for t > 0: a reader adds the
+   direct term).
+
+   --load: a point mass M where the object is touched adds M phi^2 to a mode's mass m and nothing to its stiffness or
+   damping. As far as each mode keeps its shape (Rayleigh's quotient; to first order in M phi^2/m) and for weak damping,
+   f falls by q = (1 + M phi^2/m)^(-1/2), decay and gain by q^2. */
+
+struct job {
+    struct cmd_call *c;
+    struct modes_body body;
+    struct object object;
+    struct modes modes;
+    struct modes_fit fit;
+    struct modes_places places;
+    double error; /* dB, of interpolation between the places; NAN: of none */
+    double listen[2];
+    bool heard_elsewhere;
+    double load; /* kg */
+    double *phi; /* [modes.n] */
+    const char *note;
+    int quantity, *order; /* order: of the modes, by frequency */
+};
+
+static bool read_output(struct job *j, struct err *e)
+{
+    const char *file = args_value(&j->c->args, "output");
+    if (!file) return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
+    return modes_output_spares(file, j->c->args.operands[0], e) &&
+           mark_absent(file, args_given(&j->c->args, "force"), e);
+}
+
+static bool read_load(struct job *j, struct err *e)
+{
+    const char *text = args_value(&j->c->args, "load");
+    struct units_fault fault = {NULL, NULL};
+    if (text && !units_read(text, KEY_MASS, &j->load, j->c->arena, &fault))
+        return err_set(e, ERR_USAGE, "--load %s: %s", fault.text, fault.cure);
+    return !text || (j->load > 0 && j->load <= 1000) ||
+           err_set(e, ERR_USAGE, "--load: %s is not above 0 and at most 1000 kg", text);
+}
+
+/* What the mass at the place does to poles and gains of velocity. */
+static void load(const struct job *j, double x, double y, const struct modes_point *p)
+{
+    const struct object *o = j->modes.object;
+    if (j->load == 0.0) return;
+    o->shapes(o, x, y, j->phi);
+    for (int i = 0; i < j->modes.n; i++) {
+        double less = 1.0 / (1.0 + j->load * j->phi[i] * j->phi[i] / o->mass[i]);
+        p->frequency[i] *= sqrt(less);
+        p->decay[i] *= less;
+        p->re[i] *= less;
+        p->im[i] *= less;
+    }
+}
+
+/* What a table holds at a place in the object's coordinates. */
+static double gains_at(const void *self, double x, double y, const struct modes_point *p)
+{
+    const struct job *j = (const struct job *)self;
+    const struct modes *m = &j->modes;
+    const double *origin = j->body.response->object.origin;
+    double off = modes_at(m, &(struct modes_where){.x = x + origin[0], .y = y + origin[1]}, p);
+    memcpy(p->frequency, m->frequency, (size_t)m->n * sizeof *p->frequency);
+    memcpy(p->decay, m->decay, (size_t)m->n * sizeof *p->decay);
+    load(j, x, y, p);
+    modes_to_quantity(j->quantity, m->n, p);
+    return off;
+}
+
+static bool make(struct job *j, struct err *e)
+{
+    static const long counts[2] = {1, 100000};
+    long most = 100000;
+    const struct object *o = &j->object;
+    for (const char *const *s = (const char *const *)j->body.scene.sources; s && *s; s++) /* what a scene includes */
+        if (!modes_output_spares(args_value(&j->c->args, "output"), *s, e)) return false;
+    j->heard_elsewhere = args_given(&j->c->args, "listen");
+    if (!args_whole(&j->c->args, "modes", counts, &most, e) ||
+        !modes_lengths(j->c, &(struct modes_lengths){"listen", "X,Y", 2}, j->listen, e) ||
+        !modes_body_object(j->c, &j->body, &j->object, &j->note, e))
+        return false;
+    double off =
+        j->heard_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
+    if (off > 1e-9)
+        return err_set(e, ERR_SCENE, "--listen: the place (%.9g, %.9g) m lies %.3g m off the object", j->listen[0],
+                       j->listen[1], off);
+    object_modes(o, j->body.response->object.origin, j->heard_elsewhere ? j->listen : NULL, (int)most, j->c->arena,
+                 &j->modes);
+    j->phi = ARENA_TAKE(j->c->arena, double, j->modes.n);
+    j->fit =
+        (struct modes_fit){.self = j, .at = gains_at, .n = j->modes.n, .shared = j->load == 0.0, .arena = j->c->arena};
+    if (!modes_body_places(j->c, &j->body, o, &j->fit, &j->places, e)) return false;
+    j->error = modes_places_error(&j->fit, &j->places);
+    return true;
+}
+
+static void comments(FILE *f, const struct job *j)
+{
+    const double *origin = j->body.response->object.origin;
+    fprintf(f, "# poles: %s\n%s# quantity: %s\n# normalisation: %s, physical; heard at ",
+            j->load > 0.0 ? "separate" : "shared", j->load > 0.0 ? "# gains: complex\n" : "",
+            modes_quantity_name(j->quantity), modes_per_impulse(j->quantity));
+    if (j->heard_elsewhere)
+        fprintf(f, "x = %.12g m, y = %.12g m\n", j->listen[0] + origin[0], j->listen[1] + origin[1]);
+    else
+        fputs("the place that is touched\n", f);
+    fprintf(f, "# radius_m: %.12g\n", j->object.radius);
+    if (j->body.title) fprintf(f, "# title: %s\n", text_shown(j->c->arena, j->body.title));
+    if (j->body.remark) fprintf(f, "# remark: %s\n", text_shown(j->c->arena, j->body.remark));
+    /* "# key: value" lines that say what the object is: object, material, damping, holds. */
+    const struct object_inside *in = object_inside((&j->object));
+    object(f, in->body->given);
+    material(f, in->body);
+    fprintf(f, "# holds: %s: no shear, no rotation of sections, no radiation\n", in->kind->theory);
+    if (j->load > 0.0)
+        fprintf(f,
+                "# load: %.12g kg rest where the object is touched; each mode keeps its shape (Rayleigh's quotient), "
+                "its mass grows by load x shape^2\n",
+                j->load);
+    modes_places_write(f, j->error, &j->places, j->c->arena);
+    if (j->note) fprintf(f, "# note: %s\n", j->note);
+}
+
+static void report(const struct job *j, const char *file)
+{
+    const struct modes *m = &j->modes;
+    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(j->c->arena, file), m->n,
+           m->n == 1 ? "" : "s", m->frequency[j->order[0]], m->frequency[j->order[m->n - 1]], j->places.n,
+           j->places.n == 1 ? "" : "s");
+    if (j->places.left_out) printf(" (%d of the grid lie beside the object)", j->places.left_out);
+    modes_places_report(j->error, j->c->arena);
+    putchar('\n');
+}
+
+static int modes_object_run(struct cmd_call *c, struct err *e)
+{
+    struct job j = {.c = c};
+    struct outfile o;
+    const char *file = args_value(&c->args, "output");
+    if (!read_output(&j, e) || !modes_quantity(c, &j.quantity, e) || !read_load(&j, e) ||
+        !modes_body_read(c, c->args.operands[0], &j.body, e) || !make(&j, e))
+        return (int)e->kind;
+    /* Modes by rising frequency; those of one frequency as they come. */
+    const double *f = j.modes.frequency;
+    j.order = ARENA_TAKE(j.c->arena, int, j.modes.n);
+    for (int i = 0; i < j.modes.n; i++) {
+        int k = i;
+        for (; k > 0 && f[j.order[k - 1]] > f[i]; k--)
+            j.order[k] = j.order[k - 1];
+        j.order[k] = i;
+    }
+    if (!outfile_open(&o, file, e)) return (int)e->kind;
+    const struct modes *m = &j.modes;
+    const double *origin = j.body.response->object.origin;
+    struct modes_point p = modes_point_make(j.c->arena, m->n);
+    comments(o.stream, (&j));
+    mode_table_write_header(o.stream);
+    for (int i = 0; i < j.places.n; i++) {
+        struct mode_table_place place = {12, i + 1, j.places.xy[i][0] + origin[0], j.places.xy[i][1] + origin[1]};
+        gains_at((&j), j.places.xy[i][0], j.places.xy[i][1], &p);
+        mode_table_write_place(o.stream, &place, m->n, j.order, &p, j.quantity);
+    }
+    if (!outfile_commit(&o, e)) return (int)e->kind;
+    if (!args_given(&c->args, "quiet")) report(&j, file);
+    if (j.note && !args_given(&c->args, "quiet")) tell_remark(c, "modes", j.note);
+    modes_places_warn(c, j.error, &j.places);
+    return 0;
+}
+
+/* Runs rasp-modes in place of rasp, with the same words: it stands beside rasp, or, installed, in ../libexec/rasp.
+
+   OpenBLAS reads when it is loaded which of its kernels to use, and each adds in an order of its own. Here are taken
+   those that every x86-64 CPU can run, whatever the CPU and the environment say, so that a solid has one table: shapes
+   differ by up to 1e-9 between kernels, which no rounding hides in all of thousands of gains. The others are faster by
+   a quarter. */
+
+enum { PATH_LENGTH = 4096 };
+
+static int modes_elsewhere_run(struct cmd_call *c, struct err *e)
+{
+    static const char *const places[] = {"rasp-modes", "../libexec/rasp/rasp-modes"};
+    char self[PATH_LENGTH];
+    ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
+    self[n > 0 ? n : 0] = '\0';
+    char *slash = strrchr(self, '/');
+    if (slash) slash[1] = '\0';
+    char **argv = arena_take(c->arena, (size_t)c->argc + 2, sizeof *argv);
+    argv[0] = arena_text(c->arena, "rasp-modes");
+    memcpy(argv + 1, c->argv, (size_t)c->argc * sizeof *argv);
+    argv[c->argc + 1] = NULL;
+    if (!interrupt_pass_on()) {
+        err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
+        return (int)e->kind;
+    }
+    setenv("OPENBLAS_CORETYPE", "Prescott", 1);
+    setenv("OPENBLAS_NUM_THREADS", "1", 1);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        execv(arena_format(c->arena, "%s%s", self, places[i]), argv);
+    err_set(e, ERR_UNBUILT,
+            "cannot run rasp-modes, which stands beside rasp or in ../libexec/rasp: %s; `make` builds it",
+            strerror(errno));
+    return (int)e->kind;
+}
+
+/* rasp modes ACTION: how objects ring, apart from any contact. */
 
 bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double *x, struct err *e)
 {
@@ -13,44 +399,63 @@ bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double 
     for (char *p = text ? arena_text(c->arena, text) : NULL, *next; p; p = next) {
         struct units_fault fault = {NULL, NULL};
         next = strchr(p, ',');
-        if (next)
-            *next++ = '\0';
+        if (next) *next++ = '\0';
         if (n < want->count && !units_read(p, KEY_LENGTH, &x[n], c->arena, &fault))
             return err_set(e, ERR_USAGE, "--%s: '%s': '%s' %s", want->name, text, p, fault.text);
         n++;
     }
-    return !text || n == want->count || err_set(e, ERR_USAGE, "--%s: '%s' is not of the form %s, each a length", want->name, text, want->form);
+    return !text || n == want->count ||
+           err_set(e, ERR_USAGE, "--%s: '%s' is not of the form %s, each a length", want->name, text, want->form);
 }
 
 bool modes_quantity(struct cmd_call *c, int *quantity, struct err *e)
 {
     const char *text = args_value(&c->args, "quantity");
     *quantity = MODES_VELOCITY;
-    if (!text)
-        return true;
+    if (!text) return true;
     for (*quantity = MODES_DISPLACEMENT; *quantity <= MODES_ACCELERATION; ++*quantity)
-        if (!strcmp(text, modes_quantity_name(*quantity)))
-            return true;
+        if (!strcmp(text, modes_quantity_name(*quantity))) return true;
     return err_set(e, ERR_USAGE, "--quantity: '%s' is not displacement, velocity or acceleration", text);
 }
 
 const char *modes_per_impulse(int quantity)
 {
-    static const char *const units[] = {[MODES_DISPLACEMENT] = "m/(N s)", [MODES_VELOCITY] = "(m/s)/(N s)", [MODES_ACCELERATION] = "(m/s^2)/(N s)"};
+    static const char *const units[] = {
+        [MODES_DISPLACEMENT] = "m/(N s)", [MODES_VELOCITY] = "(m/s)/(N s)", [MODES_ACCELERATION] = "(m/s^2)/(N s)"};
     return units[quantity];
 }
 
-/* compute is the other program's (modes_elsewhere.c). */
+/* compute is the other program's (modes_elsewhere_run). */
 static const struct action actions[] = {
-    {"object", "one RECIPE or SCENE", 1, 1,
-     {"output", "force", "line", "circle", "places", "grid", "at", "listen", "load", "modes", "top", "quantity", "body", "set", "seed", "quiet"}, modes_object_run},
-    {"compute", "one MESH, or --shape", 0, 1,
-     {"output", "force", "shape", "order", "estimate", "unit", "material", "youngs-modulus", "poisson", "density", "alpha", "beta", "loss", "clamp", "support", "modes", "top", "face",
-      "line", "circle", "places", "grid", "at", "points", "listen", "origin", "quantity", "title", "quiet"}, modes_elsewhere_run},
-    {"extract", "RECORDING...", 1, -1,
-     {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "radius", "distance", "delay", "impulse", "modes", "low", "high", "fastest", "method",
-      "strike-threshold", "strikes", "resynthesis", "residual", "plot", "json", "quiet"}, modes_extract_run},
-    {"list", "one FILE: a mode table (.csv), RECIPE or SCENE", 1, 1, {"at", "modes", "top", "body", "set", "seed"}, modes_list_run},
+    {"object",
+     "one RECIPE or SCENE",
+     1,
+     1,
+     {"output", "force", "line", "circle", "places", "grid", "at", "listen", "load", "modes", "top", "quantity", "body",
+      "set", "seed", "quiet"},
+     modes_object_run},
+    {"compute",
+     "one MESH, or --shape",
+     0,
+     1,
+     {"output", "force", "shape", "order",  "estimate", "unit",   "material", "youngs-modulus", "poisson", "density",
+      "alpha",  "beta",  "loss",  "clamp",  "support",  "modes",  "top",      "face",           "line",    "circle",
+      "places", "grid",  "at",    "points", "listen",   "origin", "quantity", "title",          "quiet"},
+     modes_elsewhere_run},
+    {"extract",
+     "RECORDING...",
+     1,
+     -1,
+     {"output",           "force",   "channel",     "force-channel", "scale", "force-scale", "quantity", "radius",
+      "distance",         "delay",   "impulse",     "modes",         "low",   "high",        "fastest",  "method",
+      "strike-threshold", "strikes", "resynthesis", "residual",      "plot",  "json",        "quiet"},
+     modes_extract_run},
+    {"list",
+     "one FILE: a mode table (.csv), RECIPE or SCENE",
+     1,
+     1,
+     {"at", "modes", "top", "body", "set", "seed"},
+     modes_list_run},
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
@@ -59,115 +464,177 @@ int modes_dispatch(struct cmd_call *c, int (*compute)(struct cmd_call *c, struct
     struct action mine[sizeof actions / sizeof *actions];
     for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
         mine[i] = actions[i];
-        if (mine[i].name && !strcmp(mine[i].name, "compute"))
-            mine[i].run = compute;
+        if (mine[i].name && !strcmp(mine[i].name, "compute")) mine[i].run = compute;
     }
-    return actions_run("modes", mine, c, e);
+    return cmd_actions("modes", mine, c, e);
 }
 
-static int modes_run(struct cmd_call *c, struct err *e)
-{
-    return actions_run("modes", actions, c, e);
-}
+static int modes_run(struct cmd_call *c, struct err *e) { return cmd_actions("modes", actions, c, e); }
 
 static const struct args_option options[] = {
     {"output", 'o', "FILE.csv", false, "object, compute, extract: the mode table to write; must be given"},
     {"force", 'f', NULL, false, "object, compute, extract: replaces files that exist"},
     {"shape", 0, "SHAPE", false, "compute: a solid by its sizes, such as plate:length=30cm,width=20cm,thickness=5mm"},
-    {"order", 0, "N", false, "compute: of the polynomials that an element moves by, 2 to 4 (default 3, of a bowl and a mug 4, of a mesh file 2)"},
-    {"estimate", 0, NULL, false, "compute: estimates the error of every frequency from a second, coarser computation, into the report and the table's comments"},
+    {"order", 0, "N", false,
+     "compute: of the polynomials that an element moves by, 2 to 4 (default 3, of a bowl and a mug 4, of a mesh file "
+     "2)"},
+    {"estimate", 0, NULL, false,
+     "compute: estimates the error of every frequency from a second, coarser computation, into the report and the "
+     "table's comments"},
     {"unit", 0, "LENGTH", false, "compute: what one unit of the mesh file is, such as mm (default m)"},
-    {"material", 0, "NAME", false, "compute: a material that rasp knows; the next six put their figures in place of its own"},
-    {"youngs-modulus", 0, "PRESSURE", false, "compute: Young's modulus, of a wood that along the grain, x (its other moduli keep their ratios to it)"},
+    {"material", 0, "NAME", false,
+     "compute: a material that rasp knows; the next six put their figures in place of its own"},
+    {"youngs-modulus", 0, "PRESSURE", false,
+     "compute: Young's modulus, of a wood that along the grain, x (its other moduli keep their ratios to it)"},
     {"poisson", 0, "NUMBER", false, "compute: Poisson's ratio"},
     {"density", 0, "DENSITY", false, "compute: density"},
     {"alpha", 0, "RATE", false, "compute: Rayleigh's damping C = alpha M + beta K, in 1/s"},
     {"beta", 0, "TIME", false, "compute: Rayleigh's damping, in s"},
-    {"loss", 0, "NUMBER", false, "compute: loss factor; a mode of angular frequency w decays with (alpha + beta w^2 + loss w)/2"},
-    {"clamp", 0, "FACE", true, "compute: a face that does not move: x0, x1, y0 ... (where the solid ends), or its name in the mesh"},
+    {"loss", 0, "NUMBER", false,
+     "compute: loss factor; a mode of angular frequency w decays with (alpha + beta w^2 + loss w)/2"},
+    {"clamp", 0, "FACE", true,
+     "compute: a face that does not move: x0, x1, y0 ... (where the solid ends), or its name in the mesh"},
     {"support", 0, "FACE", true, "compute: a face that moves along its normal only: a hinge, for what is thin"},
-    {"face", 0, "top|bottom|right|left|back|front|around|inside", false, "compute: the side on which the places are (around: x is the arc round the z axis, y the height); default: top"},
+    {"face", 0, "top|bottom|right|left|back|front|around|inside", false,
+     "compute: the side on which the places are (around: x is the arc round the z axis, y the height); default: top"},
     {"line", 0, "X0,Y0,X1,Y1", false, "object, compute: places on a line, its two ends"},
     {"circle", 0, "RADIUS", false, "object, compute: places on a circle round (0, 0)"},
-    {"places", 0, "N", false, "object, compute: how many places on the line or circle; default: on a circle 33, on a line as --grid says"},
-    {"grid", 0, "NX,NY", false, "object, compute: places on a grid over the object; those beside it (of what is round) are left out, and between what is then no full grid gains are linear, else smooth; default: a grid, "
-     "over what is round rings as far as its surface has no edge (a bowl: to its lip), with as many places as keep the gains of all modes between the places, as a scene interpolates them, within -40 dB (rms, relative to the gains, at 512 places), at most 4096 and 500000 rows; what is left is told"},
+    {"places", 0, "N", false,
+     "object, compute: how many places on the line or circle; default: on a circle 33, on a line as --grid says"},
+    {"grid", 0, "NX,NY", false,
+     "object, compute: places on a grid over the object; those beside it (of what is round) are left out, and between "
+     "what is then no full grid gains are linear, else smooth; default: a grid, "
+     "over what is round rings as far as its surface has no edge (a bowl: to its lip), with as many places as keep the "
+     "gains of all modes between the places, as a scene interpolates them, within -40 dB (rms, relative to the gains, "
+     "at 512 places), at most 4096 and 500000 rows; what is left is told"},
     {"at", 0, "X,Y", false, "one place"},
-    {"points", 0, "FILE.csv", false, "compute: places by points of space, columns x_m, y_m, z_m, and u_m, v_m where the scene has them (else x_m, y_m)"},
-    {"listen", 0, "X,Y", false, "object, compute: the place that is heard (compute also X,Y,Z); default: the place that is touched"},
+    {"points", 0, "FILE.csv", false,
+     "compute: places by points of space, columns x_m, y_m, z_m, and u_m, v_m where the scene has them (else x_m, "
+     "y_m)"},
+    {"listen", 0, "X,Y", false,
+     "object, compute: the place that is heard (compute also X,Y,Z); default: the place that is touched"},
     {"origin", 0, "X,Y", false, "compute: where the solid's x = y = 0 lies in the scene"},
-    {"load", 0, "MASS", false, "object: a mass that rests where the object is touched and lowers its frequencies: a table of separate poles"},
-    {"modes", 0, "N", false, "how many modes, the strongest, of compute the lowest; default: object all below --top, compute 100, extract 50, list 20"},
+    {"load", 0, "MASS", false,
+     "object: a mass that rests where the object is touched and lowers its frequencies: a table of separate poles"},
+    {"modes", 0, "N", false,
+     "how many modes, the strongest, of compute the lowest; default: object all below --top, compute 100, extract 50, "
+     "list 20"},
     {"channel", 0, "N", false, "extract: the channel that holds the sound, from 1 (default 1)"},
     {"force-channel", 0, "N", false, "extract: the channel that holds the hammer's force"},
-    {"scale", 0, "NUMBER", false, "extract: what full scale (floating point: 1) of the sound's channel stands for, in m, m/s, m/s^2 or Pa"},
-    {"force-scale", 0, "NEWTONS", false, "extract: what full scale (floating point: 1) of the force's channel stands for"},
-    {"radius", 0, "LENGTH", false, "extract: of a sphere of the object's size; with --distance a microphone's pressure is turned into the surface's velocity"},
+    {"scale", 0, "NUMBER", false,
+     "extract: what full scale (floating point: 1) of the sound's channel stands for, in m, m/s, m/s^2 or Pa"},
+    {"force-scale", 0, "NEWTONS", false,
+     "extract: what full scale (floating point: 1) of the force's channel stands for"},
+    {"radius", 0, "LENGTH", false,
+     "extract: of a sphere of the object's size; with --distance a microphone's pressure is turned into the surface's "
+     "velocity"},
     {"distance", 0, "LENGTH", false, "extract: from that sphere's middle to the microphone"},
-    {"delay", 0, "TIME", false, "extract: by which the sound's channel comes after the force's; default: of pressure, and with --impulse behind silence, found in the response, else 0"},
+    {"delay", 0, "TIME", false,
+     "extract: by which the sound's channel comes after the force's; default: of pressure, and with --impulse behind "
+     "silence, found in the response, else 0"},
     {"impulse", 0, NULL, false, "extract: the recordings are impulse responses already, sample 0 at the strike"},
-    {"low", 0, "FREQUENCY", false, "extract: modes are looked for from here on; default: where the sound stands out of the noise"},
-    {"high", 0, "FREQUENCY", false, "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest power"},
-    {"fastest", 0, "RATE", false, "extract: the fastest decay that is taken for a mode, in 1/s; default: a fiftieth of the sample rate"},
-    {"method", 0, "esprit|spectrogram", false, "extract: spectrogram takes the peaks of the power spectrogram; default: esprit"},
+    {"low", 0, "FREQUENCY", false,
+     "extract: modes are looked for from here on; default: where the sound stands out of the noise"},
+    {"high", 0, "FREQUENCY", false,
+     "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest power"},
+    {"fastest", 0, "RATE", false,
+     "extract: the fastest decay that is taken for a mode, in 1/s; default: a fiftieth of the sample rate"},
+    {"method", 0, "esprit|spectrogram", false,
+     "extract: spectrogram takes the peaks of the power spectrogram; default: esprit"},
     {"strike-threshold", 0, "DECIBEL", false, "extract: by how much a strike must rise above the noise (default 20)"},
-    {"strikes", 0, "LIST", false, "extract: only these strikes are fitted, as 1,3,5-7; of the others the report says what the modes explain"},
-    {"resynthesis", 0, "FILE.wav", false, "extract: writes what the modes make of the recording, one channel for each place"},
+    {"strikes", 0, "LIST", false,
+     "extract: only these strikes are fitted, as 1,3,5-7; of the others the report says what the modes explain"},
+    {"resynthesis", 0, "FILE.wav", false,
+     "extract: writes what the modes make of the recording, one channel for each place"},
     {"residual", 0, "FILE.wav", false, "extract: writes what they leave of it"},
     {"plot", 0, "FILE", false, "extract: draws spectrum, modes, levels and decays of the first place, as .png or .svg"},
     {"json", 0, NULL, false, "extract: the report as JSON"},
     {"top", 0, "FREQUENCY", false, "modes of an object above are left out (default 20 kHz)"},
-    {"quantity", 0, "displacement|velocity|acceleration|pressure", false, "object, compute: the first three, per N s (default velocity); extract: what the sound's channel holds (default pressure)"},
+    {"quantity", 0, "displacement|velocity|acceleration|pressure", false,
+     "object, compute: the first three, per N s (default velocity); extract: what the sound's channel holds (default "
+     "pressure)"},
     {"title", 0, "TEXT", false, "compute: a line for the table"},
     {"body", 0, "surface|scraper|ball", false, "of a scene: whose modes; default: surface"},
     CMD_SCENE_OPTIONS,
-    {"quiet", 'q', NULL, false, "object, compute, extract: prints nothing; what would be warned of stands in the table's comments all the same"},
+    {"quiet", 'q', NULL, false,
+     "object, compute, extract: prints nothing; what would be warned of stands in the table's comments all the same"},
     {0}};
 
 const struct command modes_command = {
     .name = "modes",
     .summary = "how objects ring: mode tables",
-    .does = "rasp modes object RECIPE -o FILE.csv: the modes of an object of simple shape as a mode table: their frequencies, decays, and gains at places. "
-            "RECIPE is a YAML file of surface keys (object, material), as in irs/, or a scene. Places are lengths in the object's own coordinates: "
-            "of bars, rods, strings, plates and membranes x from 0 to the length and y from 0 to the width, of what is round from the centre, of a shell "
-            "along great circles from a pole. Without --line, --grid or --at they are a line along what is slender, a grid on what is flat, rings on what is round (as many as --grid says), a shell's pole, and of a "
-            "scraper or ball its object.at. The table has them where they lie in the scene, moved by surface.object.origin. Rendering needs no such file: "
-            "a scene's surface.object gives the same modes at any place. A table is for other programs, and to be changed by hand.\n"
-            "rasp modes compute MESH -o FILE.csv: the modes of any solid by finite elements. MESH is a mesh of tetrahedra, of Gmsh (.msh, versions 2.2 and 4.1) or "
-            "TetGen (.node, .ele); or --shape makes one: plate, bar, rod, ring, bowl, sphere, mug (--shape help lists their sizes). At default fineness and order the 60 lowest modes of steel solids are within about 0.1 % (rods, solid balls), 0.3 % (a plate of 40 x 20 x 0.5 cm, a hollow ball of 2 mm), "
-            "0.5 % (a ring 14 cm wide, 10 x 6 mm: its lowest 0.12 %, at 14 kHz 0.45 %) and 0.6 % (a mug of 4 mm, a bowl 20 cm wide and 1.5 mm thick), in 4 to 16 s of processor time; thinner walls and higher modes want more: frequencies come out too high and fall with fineness and --order. --estimate "
-            "says by how much, from a coarser mesh too (Richardson); it cannot see the error of what both meshes have alike, such as one element through a wall. "
-            "The solid is touched and heard along its surface's normal. Its places are those of the plane in which a scene moves: --face says from where that looks at the solid, and "
-            "--origin where the solid lies in the scene. Without --line, --circle, --grid, --at or --points they are a grid over what is seen (rings if round), a line along what is slender. "
-            "A table that was made from the same inputs and has not been changed since is left as it is.\n"
-            "rasp modes extract RECORDING... -o FILE.csv: the modes of a real object from recordings in which it is struck. RECORDING is a sound file of any kind that libsndfile "
-            "reads, with one strike or many on one place. The strikes are found, and the "
-            "recording itself is fitted: every strike has gains of its own, frequencies and decays are those of all. A hammer's force (--force-channel) drives the modes, else a strike is an impulse. "
-            "No mode is told that noise might have made; two decays of one frequency are told. A second of silence before "
-            "the first strike tells noise and hums. Strikes that clip or are 30 dB quieter than the loudest sound are left out; "
-            "what modes explain less than half of is refused. "
-            "Without a force channel a second hit 5 to 100 ms after the first is mostly not seen, and the table holds "
-            "the spectrum of both: listen, and cut such strikes out. Several places are FILE@X,Y each, or one folder with index.csv (columns file_name,x_m,y_m): they share frequencies and decays. The sound is taken for a microphone's pressure unless --quantity says what else it is. Without a force each place has a level and an onset of its own, so that places cannot be compared with each other. Levels are physical where --scale and "
-            "--force-scale are given and the sound is a vibration, or a pressure with --radius and --distance; else they are relative, and the table says so and why. Errors "
-            "stand in the report and in the table's comments: se, by noise, and se_between, the standard deviation from strike to strike. The report's median decay counts all modes alike, its median by energy is the decay that half of the energy decays no faster than: the "
-            "one to compare materials by.\n"
-            "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over "
-            "its places, of an object over a grid of places, or at one place with --at).",
+    .does =
+        "rasp modes object RECIPE -o FILE.csv: the modes of an object of simple shape as a mode table: their "
+        "frequencies, decays, and gains at places. "
+        "RECIPE is a YAML file of surface keys (object, material), as in irs/, or a scene. Places are lengths in the "
+        "object's own coordinates: "
+        "of bars, rods, strings, plates and membranes x from 0 to the length and y from 0 to the width, of what is "
+        "round from the centre, of a shell "
+        "along great circles from a pole. Without --line, --grid or --at they are a line along what is slender, a grid "
+        "on what is flat, rings on what is round (as many as --grid says), a shell's pole, and of a "
+        "scraper or ball its object.at. The table has them where they lie in the scene, moved by "
+        "surface.object.origin. Rendering needs no such file: "
+        "a scene's surface.object gives the same modes at any place. A table is for other programs, and to be changed "
+        "by hand.\n"
+        "rasp modes compute MESH -o FILE.csv: the modes of any solid by finite elements. MESH is a mesh of tetrahedra, "
+        "of Gmsh (.msh, versions 2.2 and 4.1) or "
+        "TetGen (.node, .ele); or --shape makes one: plate, bar, rod, ring, bowl, sphere, mug (--shape help lists "
+        "their sizes). At default fineness and order the 60 lowest modes of steel solids are within about 0.1 % (rods, "
+        "solid balls), 0.3 % (a plate of 40 x 20 x 0.5 cm, a hollow ball of 2 mm), "
+        "0.5 % (a ring 14 cm wide, 10 x 6 mm: its lowest 0.12 %, at 14 kHz 0.45 %) and 0.6 % (a mug of 4 mm, a bowl 20 "
+        "cm wide and 1.5 mm thick), in 4 to 16 s of processor time; thinner walls and higher modes want more: "
+        "frequencies come out too high and fall with fineness and --order. --estimate "
+        "says by how much, from a coarser mesh too (Richardson); it cannot see the error of what both meshes have "
+        "alike, such as one element through a wall. "
+        "The solid is touched and heard along its surface's normal. Its places are those of the plane in which a scene "
+        "moves: --face says from where that looks at the solid, and "
+        "--origin where the solid lies in the scene. Without --line, --circle, --grid, --at or --points they are a "
+        "grid over what is seen (rings if round), a line along what is slender. "
+        "A table that was made from the same inputs and has not been changed since is left as it is.\n"
+        "rasp modes extract RECORDING... -o FILE.csv: the modes of a real object from recordings in which it is "
+        "struck. RECORDING is a sound file of any kind that libsndfile "
+        "reads, with one strike or many on one place. The strikes are found, and the "
+        "recording itself is fitted: every strike has gains of its own, frequencies and decays are those of all. A "
+        "hammer's force (--force-channel) drives the modes, else a strike is an impulse. "
+        "No mode is told that noise might have made; two decays of one frequency are told. A second of silence before "
+        "the first strike tells noise and hums. Strikes that clip or are 30 dB quieter than the loudest sound are left "
+        "out; "
+        "what modes explain less than half of is refused. "
+        "Without a force channel a second hit 5 to 100 ms after the first is mostly not seen, and the table holds "
+        "the spectrum of both: listen, and cut such strikes out. Several places are FILE@X,Y each, or one folder with "
+        "index.csv (columns file_name,x_m,y_m): they share frequencies and decays. The sound is taken for a "
+        "microphone's pressure unless --quantity says what else it is. Without a force each place has a level and an "
+        "onset of its own, so that places cannot be compared with each other. Levels are physical where --scale and "
+        "--force-scale are given and the sound is a vibration, or a pressure with --radius and --distance; else they "
+        "are relative, and the table says so and why. Errors "
+        "stand in the report and in the table's comments: se, by noise, and se_between, the standard deviation from "
+        "strike to strike. The report's median decay counts all modes alike, its median by energy is the decay that "
+        "half of the energy decays no faster than: the "
+        "one to compare materials by.\n"
+        "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 "
+        "dB, largest gain (in a table over "
+        "its places, of an object over a grid of places, or at one place with --at).",
     .operands = "ACTION FILE",
     .least = 1,
     .most = -1,
     .options = options,
     .actions = actions,
     .examples = "rasp modes object irs/glass_ball.yaml -o ball.csv\n"
-                "rasp modes object irs/basswood_plank.yaml --line 0,3.7cm,40cm,3.7cm --places 33 --listen 11.7cm,2.9cm -o plank.csv\n"
+                "rasp modes object irs/basswood_plank.yaml --line 0,3.7cm,40cm,3.7cm --places 33 --listen 11.7cm,2.9cm "
+                "-o plank.csv\n"
                 "rasp modes object irs/poplar_rod.yaml --set surface.object.length=30cm --at 0,0 -o rod.csv\n"
                 "rasp modes object irs/pvc_rod.yaml --load 5g -o loaded.csv\n"
                 "rasp modes list irs/pvc_rod.csv\n"
-                "rasp modes compute --shape plate:length=20cm,width=15cm,thickness=4mm --material glass --listen 12cm,4cm -o plate.csv\n"
-                "rasp modes compute --shape mug:diameter=8cm,height=9cm,wall=4mm --material ceramic --face around --at 3cm,5cm -o mug.csv\n"
-                "rasp modes compute --shape bar:length=20cm,width=2cm,thickness=5mm --material steel --order 2 --modes 20 --estimate -o bar.csv\n"
-                "rasp modes extract irs/ceramic_tile_tap.wav@15cm,3.7cm --impulse --quantity velocity --scale 1 --plot tap.png -o tap.csv\n"
+                "rasp modes compute --shape plate:length=20cm,width=15cm,thickness=4mm --material glass --listen "
+                "12cm,4cm -o plate.csv\n"
+                "rasp modes compute --shape mug:diameter=8cm,height=9cm,wall=4mm --material ceramic --face around --at "
+                "3cm,5cm -o mug.csv\n"
+                "rasp modes compute --shape bar:length=20cm,width=2cm,thickness=5mm --material steel --order 2 --modes "
+                "20 --estimate -o bar.csv\n"
+                "rasp modes extract irs/ceramic_tile_tap.wav@15cm,3.7cm --impulse --quantity velocity --scale 1 --plot "
+                "tap.png -o tap.csv\n"
                 "rasp render scenes/strike.yaml -o struck.wav\n"
-                "rasp modes extract struck.wav --modes 20 --method spectrogram --resynthesis again.wav --residual rest.wav -o struck.csv\n",
+                "rasp modes extract struck.wav --modes 20 --method spectrogram --resynthesis again.wav --residual "
+                "rest.wav -o struck.csv\n",
     .run = modes_run,
 };

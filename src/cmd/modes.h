@@ -5,6 +5,7 @@
 
 #include "cmd/cmd.h"
 #include "response/object.h"
+#include "cmd/modes.h"
 
 /* --NAME as `count` lengths with commas between, each with a unit or bare in metres; x is left alone when the option is not given. ERR_USAGE */
 struct modes_lengths {
@@ -33,7 +34,7 @@ bool modes_body_object(struct cmd_call *c, const struct modes_body *b, struct ob
 struct modes_places {
     int n, left_out;       /* left_out: of a grid, those off the object */
     double (*xy)[2];       /* m */
-    bool chosen;           /* as many as the goal of cmd/modes_fit.h needs */
+    bool chosen;           /* as many as the goal of MODES_FIT_GOAL needs */
     bool line;             /* from, to: of the line; else of the box that holds them */
     double from[2], to[2];
     double ring[2];        /* m: of rings, the radii within which they lie; else 0 */
@@ -45,7 +46,7 @@ struct modes_ground {
     bool (*bends)(const void *self, const double from[2], const double to[2]); /* is there an edge between? NULL: none */
     double low[2], high[2]; /* m, box of the places */
     int standard[2];       /* by default: NX, NY a grid; N, 1 a line in the middle; 1, 1 the place `at` */
-    struct modes_fit *fit; /* by default, and on a line, as many places as its goal needs (cmd/modes_fit.h); NULL: those
+    struct modes_fit *fit; /* by default, and on a line, as many places as its goal needs (MODES_FIT_GOAL); NULL: those
                               of `standard` */
     double at[2];
     const char *remark;    /* ends a message that a place is beside the object; NULL: nothing */
@@ -57,16 +58,44 @@ bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad,
 bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit,
                        struct modes_places *p, struct err *e);
 
-/* "# key: value" lines that say what the object is: object, material, damping, holds. */
-void modes_describe(FILE *f, const struct object *o);
-
-/* The actions; exit codes as a command's run. compute needs CHOLMOD and LAPACK: rasp starts rasp-modes for it (modes_elsewhere.c), which calls modes_heavy_run. */
+/* The actions; exit codes as a command's run. compute needs CHOLMOD and LAPACK: rasp starts rasp-modes for it. */
 int modes_dispatch(struct cmd_call *c, int (*compute)(struct cmd_call *c, struct err *e), struct err *e);
-int modes_elsewhere_run(struct cmd_call *c, struct err *e);
-int modes_heavy_run(struct cmd_call *c, struct err *e);
 int modes_compute_run(struct cmd_call *c, struct err *e);
 int modes_extract_run(struct cmd_call *c, struct err *e);
-int modes_object_run(struct cmd_call *c, struct err *e);
 int modes_list_run(struct cmd_call *c, struct err *e);
+
+/* Gains and poles of the object as a table would hold them, at any place in its own coordinates; how far off (m) that
+ * is, beyond 1e-9 there is nothing. */
+struct modes_fit {
+    const void *self;
+    double (*at)(const void *self, double x, double y, const struct modes_point *p);
+    int n;               /* modes */
+    bool shared;         /* poles are the same everywhere */
+    double *test;        /* work: gains at the places of the test, made once */
+    double (*spot)[2];
+    int spots;
+    struct arena *arena;
+};
+
+/* Relative rms over places of the differences of all modes' gains, in dB: see modes_places.c. NAN: there is one place
+ * alone, or all gains are 0. */
+double modes_places_error(struct modes_fit *f, const struct modes_places *p);
+
+/* The line of the table's head, and what the report goes on with; nothing of NAN. Above the goal where the numbers of
+ * places were chosen: a warning (not with --quiet). */
+void modes_places_write(FILE *f, double db, const struct modes_places *p, struct arena *a);
+void modes_places_report(double db, struct arena *a);
+void modes_places_warn(struct cmd_call *c, double db, const struct modes_places *p);
+
+/* The least numbers of places, near enough, that keep MODES_FIT_GOAL; set_out lays them out. */
+#define MODES_FIT_GOAL -40.0
+enum { MODES_FIT_PLACES = 4096, MODES_FIT_ROWS = 500000 };
+typedef void modes_fit_lay(const void *self, const int n[2], struct arena *a, struct modes_places *p);
+
+/* The output is not the file that is read, under whatever name (same device and inode; NULL: none is read). ERR_CREATE */
+bool modes_output_spares(const char *output, const char *input, struct err *e);
+
+/* Can it be created? Nothing is left. ERR_CREATE: a device, pipe or folder, write-protected, its folder is not there. */
+bool modes_output_possible(const char *output, struct err *e);
 
 #endif

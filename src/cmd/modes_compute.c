@@ -1,15 +1,262 @@
-/* rasp modes compute MESH | --shape ... -o FILE.csv: how a solid rings, by finite elements (papers/003 section A), as a mode table. */
+/* The mode table of `rasp modes compute`.
+
+   A unit impulse (1 N s) that presses at x makes a mass-normalised mode move, where it is heard, by phi(x) phi(l)/w_d
+   e^(-d t) sin(w_d t), displacement along the inward normal; velocity is Im(A e^(s t)) with A = phi(x) phi(l) (j -
+   d/w_d), as of objects of closed form (response/object_modes.c).
+
+   One table on every CPU: one kind of kernels (cmd/modes.c), nine digits of frequencies, gains of shapes to seven
+   digits of each mode's greatest. So tables agree to these where another version of the library, or another kind of
+   processor, adds otherwise.
+
+   The first line is the hash of all that follows, which holds the hash of what the table was made from: a table that is
+   current needs no second computation. */
+#include "cmd/modes_compute.h"
+
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/outfile.h"
 #include "base/text.h"
-#include "cmd/modes_compute.h"
-#include "cmd/modes_fit.h"
-#include "cmd/modes_output.h"
+#include "cmd/modes.h"
 #include "cmd/tell.h"
+#include "cmd/version.h"
 #include "fem/shapes.h"
+#include "fem/touch.h"
+#include "num/real.h"
 #include "output/mark.h"
+#include "response/mode_table_write.h"
+
+static void material(FILE *f, const struct compute_material *m);
+
+static const char first[] = "# content: ", second[] = "# inputs: ";
+enum { DIGITS = 9 };
+
+/* ------------------------------------------------------------------ hashes */
+
+static void add_point(struct hash *h, const struct boundary_point *p)
+{
+    hash_add(h, p->at, sizeof p->at);
+    hash_add(h, p->normal, sizeof p->normal);
+}
+
+static void add_text(struct hash *h, const char *text) { hash_add(h, text ? text : "", text ? strlen(text) + 1 : 1); }
+
+/* SHA-256 of all that the table follows from. */
+static void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
+{
+    const struct compute_material *m = &k->material;
+    const double numbers[] = {m->alpha, m->beta, m->loss, m->elastic.density, k->top, k->origin[0], k->origin[1]};
+    const long wholes[] = {k->most,   k->order,     k->quantity, k->chart.face,
+                           k->places, k->elsewhere, m->own,      m->own_damping};
+    struct hash h = hash_start();
+    add_text(&h, "rasp modes compute, table 2");
+    add_text(&h, k->mesh.name);
+    add_text(&h, args_value(&k->c->args, "title"));
+    add_text(&h, m->named ? m->named->name : NULL);
+    hash_add(&h, k->mesh.at, (size_t)k->mesh.nodes * sizeof *k->mesh.at);
+    hash_add(&h, k->mesh.element, (size_t)k->mesh.elements * sizeof *k->mesh.element);
+    hash_add(&h, m->elastic.c, sizeof m->elastic.c);
+    hash_add(&h, numbers, sizeof numbers);
+    hash_add(&h, wholes, sizeof wholes);
+    if (k->boundary.outer < k->boundary.area)
+        add_text(&h, "radius_m of the outer skin"); /* an older table counted walls of cavities */
+    for (int i = 0; i < k->n_held; i++) {
+        hash_add(&h, &k->held[i].hold, sizeof k->held[i].hold);
+        add_text(&h, k->held_names[i]);
+        hash_add(&h, k->held[i].corner, (size_t)k->held[i].n * sizeof *k->held[i].corner);
+    }
+    add_text(&h, args_given(&k->c->args, "grid") || args_given(&k->c->args, "places") ? "so many places"
+                                                                                      : "as many places as needed");
+    hash_add(&h, k->xy, (size_t)k->places * sizeof *k->xy);
+    for (int i = 0; i < k->places; i++)
+        add_point(&h, &k->point[i]);
+    if (k->elsewhere) add_point(&h, &k->ear);
+    if (args_given(&k->c->args, "estimate")) add_text(&h, "estimate");
+    hash_end(&h, hex);
+}
+
+/* NULL: not a regular file; a pipe would be waited for, a device read for ever. */
+static char *contents(const char *file, size_t *size)
+{
+    struct stat s;
+    if (stat(file, &s) != 0 || !S_ISREG(s.st_mode)) return NULL;
+    char *text = NULL;
+    FILE *in = fopen(file, "rb"), *out = open_memstream(&text, size);
+    char piece[1 << 16];
+    for (size_t n; in && out && (n = fread(piece, 1, sizeof piece, in)) > 0;)
+        fwrite(piece, 1, n, out);
+    if (in) fclose(in);
+    if (out) fclose(out);
+    return text;
+}
+
+/* Is the file a table made of these inputs and not changed since? */
+static bool modes_compute_write_is_current(const char *file, const char *inputs, struct arena *a)
+{
+    size_t size = 0, head = sizeof first - 1 + HASH_TEXT; /* with its line's end in place of the hash's */
+    char *text = contents(file, &size), hex[HASH_TEXT];
+    bool current = false;
+    if (text && size > head && !memcmp(text, first, sizeof first - 1)) {
+        hash_bytes(text + head, size - head, hex);
+        current = !memcmp(text + sizeof first - 1, hex, HASH_TEXT - 1) &&
+                  strstr(text + head, arena_format(a, "\n%s%s\n", second, inputs)) != NULL;
+    }
+    free(text);
+    return current;
+}
+
+/* ------------------------------------------------------------------ comments */
+
+static void material(FILE *f, const struct compute_material *m)
+{
+    bool wood = m->named && m->named->radial.youngs_modulus > 0;
+    fprintf(f, "# material: %s, density %.9g kg/m^3, Young's modulus %.9g Pa", m->named ? m->named->name : "custom",
+            m->elastic.density, m->youngs_modulus);
+    if (wood)
+        fprintf(f, " along x (the grain), %.9g along y (tangential), %.9g along z (radial)",
+                m->youngs_modulus * m->named->across / m->named->youngs_modulus,
+                m->youngs_modulus * m->named->radial.youngs_modulus / m->named->youngs_modulus);
+    else
+        fprintf(f, ", Poisson's ratio %.9g", m->poisson);
+    fprintf(f, "\n# damping: decay = (alpha + beta w^2 + loss w)/2, alpha %.9g 1/s, beta %.9g s, loss factor %.9g\n",
+            m->alpha, m->beta, m->loss);
+    if (!m->named)
+        fputs("# source: the object's own figures\n", f);
+    else
+        fprintf(f, "# source: %s%s\n# source_of_damping: %s%s\n", m->own ? "the object's own figures, else " : "",
+                m->named->source, m->own_damping ? "the object's own figures, else " : "", m->named->damping_source);
+}
+
+static void notes(FILE *f, const char *text, struct arena *a)
+{
+    while (text && *text) {
+        int n = (int)strcspn(text, "\n");
+        fprintf(f, "# note: %s\n", text_shown(a, arena_format(a, "%.*s", n, text)));
+        text += n + (text[n] == '\n');
+    }
+}
+
+/* ------------------------------------------------------------------ rows */
+
+/* Shapes in steps of 2^-23 (1.2e-7) of a mode's greatest, anywhere on the solid: what is left of a nodal line but
+   rounding becomes 0. Up to 1e-9 of it depends on the order of additions, most of slender solids and of equal
+   frequencies, whose basis is fixed (fem/solid_basis.c). */
+static void settle(const struct compute *k, const double *step, double *phi)
+{
+    for (int i = 0; i < k->modes.n; i++)
+        phi[i] = rint(phi[i] / step[i]) * step[i];
+}
+
+static double *steps(const struct compute *k)
+{
+    double *step = ARENA_TAKE(k->c->arena, double, k->modes.n);
+    long wide = 3 * k->modes.nodes;
+    for (int i = 0; i < k->modes.n; i++) {
+        for (long j = 0; j < wide; j++)
+            step[i] = fmax(step[i], fabs(k->modes.shape[i * wide + j]));
+        step[i] = ldexp(1.0, ilogb(step[i]) - 23);
+    }
+    return step;
+}
+
+/* gain[places][n] phi(x) phi(l). */
+static double *gains(const struct compute *k)
+{
+    const int all = k->modes.n;
+    const double *step = steps(k);
+    double *gain = ARENA_TAKE(k->c->arena, double, (long)k->places * k->n), *phi = ARENA_TAKE(k->c->arena, double, all),
+           *ear = ARENA_TAKE(k->c->arena, double, all);
+    if (k->elsewhere) {
+        touch_shapes(&k->modes, &k->ear, ear);
+        settle(k, step, ear);
+    }
+    for (int p = 0; p < k->places; p++) {
+        touch_shapes(&k->modes, &k->point[p], phi);
+        settle(k, step, phi);
+        for (int i = 0; i < k->n; i++)
+            gain[(long)p * k->n + i] = phi[k->mode[i]] * (k->elsewhere ? ear : phi)[k->mode[i]];
+    }
+    return gain;
+}
+
+static void rows(FILE *f, const struct compute *k)
+{
+    struct modes_point p = modes_point_make(k->c->arena, k->n);
+    const double *gain = gains(k);
+    int *order = ARENA_TAKE(k->c->arena, int, k->n);
+    for (int i = 0; i < k->n; i++)
+        order[i] = i;
+    mode_table_write_header(f);
+    for (int at = 0; at < k->places; at++, gain += k->n) {
+        struct mode_table_place place = {DIGITS, at + 1, k->xy[at][0] + k->origin[0], k->xy[at][1] + k->origin[1]};
+        for (int i = 0; i < k->n; i++) {
+            p.frequency[i] = k->frequency[i];
+            p.decay[i] = k->decay[i];
+            p.im[i] = gain[i];
+            p.re[i] = -gain[i] * k->decay[i] / (2.0 * REAL_PI * k->frequency[i]);
+        }
+        modes_to_quantity(k->quantity, k->n, &p);
+        mode_table_write_place(f, &place, k->n, order, &p, k->quantity);
+    }
+}
+
+static bool modes_compute_write(const struct compute *k, const char *file, const char *inputs, struct err *e)
+{
+    struct outfile o;
+    char *text = NULL, hex[HASH_TEXT];
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    if (!f) return err_set(e, ERR_MEMORY, "out of memory");
+    static const char *const axes[] = {"x, y", "x, y", "y, z", "y, z", "x, z", "x, z", "arc, z", "arc, z"};
+    fprintf(f, "# poles: shared\n# quantity: %s\n# normalisation: %s, physical; along the inward normal; heard at ",
+            modes_quantity_name(k->quantity), modes_per_impulse(k->quantity));
+    if (k->elsewhere)
+        fprintf(f, "the point x = %.9g m, y = %.9g m, z = %.9g m of the solid\n", k->ear.at[0], k->ear.at[1],
+                k->ear.at[2]);
+    else
+        fputs("the place that is touched\n", f);
+    if (args_given(&k->c->args, "points"))
+        fputs("# places: points of a list, the nearest of the surface\n", f);
+    else
+        fprintf(f, "# places: on the solid as seen from its side '%s': its %s, moved by (%.9g, %.9g) m\n",
+                chart_faces[k->chart.face], axes[k->chart.face], k->origin[0], k->origin[1]);
+    modes_places_write(f, k->error, &k->laid, k->c->arena);
+    fprintf(f, "# radius_m: %.9g\n", sqrt(k->boundary.outer / (4.0 * REAL_PI)));
+    const struct boundary *b = &k->boundary;
+    const char *title = args_value(&k->c->args, "title");
+    if (title) fprintf(f, "# title: %s\n", text_shown(k->c->arena, title));
+    fprintf(f, "# object: %s, x %.9g to %.9g m, y %.9g to %.9g m, z %.9g to %.9g m, %.6g kg\n",
+            text_shown(k->c->arena, k->mesh.name), b->low[0], b->high[0], b->low[1], b->high[1], b->low[2], b->high[2],
+            k->modes.mass);
+    for (int i = 0; i < k->n_held; i++)
+        fprintf(f, "# %s: %s\n", k->held[i].hold == SOLID_CLAMPED ? "clamped" : "supported",
+                text_shown(k->c->arena, k->held_names[i]));
+    material(f, &k->material);
+    fprintf(f,
+            "# holds: linear elasticity by finite elements, %d tetrahedra of order %ld, %ld freedoms; no radiation\n",
+            k->mesh.elements, k->order, k->modes.freedoms);
+    modes_compute_solid_estimate_write(f, k);
+    notes(f, k->note, k->c->arena);
+    fprintf(f, "%s%s\n", second, inputs);
+    rows(f, k);
+    bool whole = fclose(f) == 0;
+    if (!whole || !outfile_open(&o, file, e)) {
+        free(text);
+        return whole ? false : err_set(e, ERR_MEMORY, "out of memory");
+    }
+    hash_bytes(text, size, hex);
+    fprintf(o.stream, "%s%s\n", first, hex);
+    fwrite(text, 1, size, o.stream);
+    free(text);
+    return outfile_commit(&o, e);
+}
+
+/* rasp modes compute MESH | --shape ... -o FILE.csv: how a solid rings, by finite elements (papers/003 section A), as a
+ * mode table. */
 
 /* A mesh of TetGen is several files. */
 static bool read_output(const struct compute *k, const char **file, struct err *e)
@@ -18,25 +265,11 @@ static bool read_output(const struct compute *k, const char **file, struct err *
     const struct args *g = &k->c->args;
     const char *mesh = g->n_operands ? g->operands[0] : NULL, *dot = mesh ? strrchr(mesh, '.') : NULL;
     *file = args_value(g, "output");
-    if (!*file)
-        return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
+    if (!*file) return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
     for (int i = 0; dot && (!strcmp(dot, ".node") || !strcmp(dot, ".ele")) && i < 3; i++)
         if (!modes_output_spares(*file, arena_format(k->c->arena, "%.*s.%s", (int)(dot - mesh), mesh, endings[i]), e))
             return false;
     return modes_output_spares(*file, mesh, e) && modes_output_spares(*file, args_value(g, "points"), e);
-}
-
-static void report(const struct compute *k, const char *file)
-{
-    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(k->c->arena, file), k->n, k->n == 1 ? "" : "s", k->least, k->greatest, k->places,
-           k->places == 1 ? "" : "s");
-    if (k->left_out)
-        printf(" (%d of the grid lie beside the solid)", k->left_out);
-    modes_fit_report(k->error, k->c->arena);
-    printf("; %d tetrahedra of order %ld, %ld freedoms, %.4g kg, %d rigid motion%s\n", k->mesh.elements, k->order, k->modes.freedoms, k->modes.mass, k->modes.rigid,
-           k->modes.rigid == 1 ? "" : "s");
-    if (k->estimated)
-        printf("%s: %s\n", args_given(&k->c->args, "shape") ? "estimated error of frequencies" : "frequencies of the order below are off by more than these, by", modes_compute_estimate_says(k));
 }
 
 static void warn(struct cmd_call *c, const char *note)
@@ -62,17 +295,27 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
         return (int)e->kind;
     modes_compute_write_inputs(&k, inputs);
     if (access(file, F_OK) == 0 && modes_compute_write_is_current(file, inputs, c->arena)) {
-        if (!quiet)
-            printf("%s: up to date\n", text_shown(c->arena, file));
+        if (!quiet) printf("%s: up to date\n", text_shown(c->arena, file));
         return 0;
     }
-    if (!mark_absent(file, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) || !modes_compute_solid_solve(&k, e) ||
-        !modes_compute_estimate(&k, e) || !modes_compute_places_settle(&k, e) || !modes_compute_write(&k, file, inputs, e))
+    if (!mark_absent(file, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) ||
+        !modes_compute_solid_solve(&k, e) || !modes_compute_solid_estimate(&k, e) ||
+        !modes_compute_places_settle(&k, e) || !modes_compute_write(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {
-        report(&k, file);
+        printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(k.c->arena, file), k.n,
+               k.n == 1 ? "" : "s", k.least, k.greatest, k.places, k.places == 1 ? "" : "s");
+        if (k.left_out) printf(" (%d of the grid lie beside the solid)", k.left_out);
+        modes_places_report(k.error, k.c->arena);
+        printf("; %d tetrahedra of order %ld, %ld freedoms, %.4g kg, %d rigid motion%s\n", k.mesh.elements, k.order,
+               k.modes.freedoms, k.modes.mass, k.modes.rigid, k.modes.rigid == 1 ? "" : "s");
+        if (k.estimated)
+            printf("%s: %s\n",
+                   args_given(&k.c->args, "shape") ? "estimated error of frequencies"
+                                                   : "frequencies of the order below are off by more than these, by",
+                   modes_compute_solid_estimate_says((&k)));
         warn(c, k.note);
-        modes_fit_warn(c, k.error, &k.laid);
+        modes_places_warn(c, k.error, &k.laid);
     }
     return 0;
 }

@@ -55,17 +55,10 @@ bool modes_compute_solid_read(struct compute *k, struct err *e);
    lambda <= d^2 is overdamped and left out, with a note. */
 bool modes_compute_solid_solve(struct compute *k, struct err *e);
 
-/* --clamp, --support: the faces of k->mesh into k->held. */
-bool modes_compute_solid_held(struct compute *k, struct err *e);
-
-/* What is in the wrong unit, most likely: the material's figures, by the limits of the scene's keys, ERR_USAGE; size (of a shape), ERR_SCENE; warnings of size, mass and stiffness. */
-bool modes_compute_limits_material(const struct compute *k, double density, struct err *e);
-bool modes_compute_limits_solid(struct compute *k, struct err *e);
-
 /* --estimate: the modes once more, of a coarser mesh of the shape or, of a mesh file, of the order below. */
-bool modes_compute_estimate(struct compute *k, struct err *e);
-const char *modes_compute_estimate_says(const struct compute *k); /* in a few words */
-void modes_compute_estimate_write(FILE *f, const struct compute *k); /* "# ..." lines */
+bool modes_compute_solid_estimate(struct compute *k, struct err *e);
+const char *modes_compute_solid_estimate_says(const struct compute *k); /* in a few words */
+void modes_compute_solid_estimate_write(FILE *f, const struct compute *k); /* "# ..." lines */
 
 /* --face, --line ..., --points, --listen, --origin. */
 bool modes_compute_places(struct compute *k, struct err *e);
@@ -73,12 +66,5 @@ bool modes_compute_places(struct compute *k, struct err *e);
 /* After the modes are known: as many places as they need where their number was left open, and the error. */
 bool modes_compute_places_settle(struct compute *k, struct err *e);
 
-/* SHA-256 of all that the table follows from. */
-void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT]);
-
-/* Is the file a table made of these inputs and not changed since? */
-bool modes_compute_write_is_current(const char *file, const char *inputs, struct arena *a);
-
-bool modes_compute_write(const struct compute *k, const char *file, const char *inputs, struct err *e);
 
 #endif

@@ -1,10 +1,198 @@
-/* Places on an object: --line, --circle, --grid, --at, else what suits its shape. */
+/* The interpolation error of a mode table.
+
+   Complex gains A_i of all modes i at the places x_q of a test, and what the table's places give there by the rules of
+   a scene (response/morph.c):
+
+       error^2 = sum_q sum_i |A_i'(x_q) - A_i(x_q)|^2 / sum_q sum_i |A_i(x_q)|^2.
+
+   The test's places are the same in every run: SPOTS of them, by Kronecker's sequence, on the line or over the box of
+   the places; those beside the object or beyond the hull of the table's places are left out.
+
+   As many places as needed: from 5 lines each way that axis gets a quarter more lines, two at least, that brings the
+   most decibels for the logarithm of the number of places (or both do; and both get them where no step brings STUCK),
+   until the goal is met; then lines are taken away two by two as long as it is. The numbers are odd: what is symmetric
+   has a place in its middle. */
+#include "cmd/modes.h"
+
 #include <math.h>
 #include <stdlib.h>
 
-#include "cmd/modes.h"
-#include "cmd/modes_fit.h"
+#include "cmd/tell.h"
 #include "num/real.h"
+#include "response/morph_points.h"
+
+static void line(struct modes_places *p, const double ends[4], int n, struct arena *a);
+
+enum { SPOTS = 512 };
+#define STUCK 1.0 /* dB */
+
+static double share(int i, double ratio)
+{
+    double x = 0.5 + (i + 1) * ratio;
+    return x - floor(x);
+}
+
+/* Where the test is made, and the gains there, re and im after each other. */
+static void make_test(struct modes_fit *f, const struct modes_places *p)
+{
+    struct modes_point at = modes_point_make(f->arena, f->n);
+    f->test = ARENA_TAKE(f->arena, double, 2 * (size_t)SPOTS * (size_t)f->n);
+    f->spot = arena_take(f->arena, SPOTS, sizeof *f->spot);
+    for (int q = 0; q < SPOTS; q++) {
+        double u = share(q, p->line ? 0.6180339887498949 : 0.7548776662466927),
+               v = p->line ? u : share(q, 0.5698402909980532);
+        double x = p->from[0] + u * (p->to[0] - p->from[0]), y = p->from[1] + v * (p->to[1] - p->from[1]);
+        if (!(f->at(f->self, x, y, &at) <= 1e-9)) continue;
+        f->spot[f->spots][0] = x;
+        f->spot[f->spots][1] = y;
+        double *to = f->test + 2 * (size_t)f->spots++ * (size_t)f->n;
+        for (int i = 0; i < f->n; i++) {
+            to[i] = at.re[i];
+            to[f->n + i] = at.im[i];
+        }
+    }
+}
+
+static double compare(const struct modes_fit *f, const struct modes *m, struct arena *a)
+{
+    struct modes_point at = modes_point_make(a, f->n);
+    double wrong = 0, whole = 0;
+    for (int q = 0; q < f->spots; q++) {
+        const double *re = f->test + 2 * (size_t)q * (size_t)f->n, *im = re + f->n;
+        if (modes_at(m, &(struct modes_where){.x = f->spot[q][0], .y = f->spot[q][1]}, &at) > 0) continue;
+        for (int i = 0; i < f->n; i++) {
+            double x = at.re[i] - re[i], y = at.im[i] - im[i];
+            wrong += x * x + y * y;
+            whole += re[i] * re[i] + im[i] * im[i];
+        }
+    }
+    return whole > 0 ? 10 * real_log10(fmax(wrong / whole, 1e-30)) : NAN;
+}
+
+double modes_places_error(struct modes_fit *f, const struct modes_places *p)
+{
+    struct arena *a = arena_open();
+    struct modes_point *at = ARENA_TAKE(a, struct modes_point, p->n);
+    struct modes m;
+    struct err e = {0};
+    double db = NAN;
+    if (!f->test) make_test(f, p);
+    for (int k = 0; k < p->n; k++) {
+        at[k] = modes_point_make(a, f->n);
+        f->at(f->self, p->xy[k][0], p->xy[k][1], &at[k]);
+    }
+    if (p->n > 1 &&
+        morph_points(&(struct morph_points_ask){f->n, p->n, (const double(*)[2])p->xy, at, f->shared}, a, &m, &e))
+        db = compare(f, &m, a);
+    arena_close(a);
+    return db;
+}
+
+static const char *told(double db, struct arena *a)
+{
+    return db < -200 ? "less than -200 dB" : arena_format(a, "%.1f dB", db);
+}
+
+void modes_places_write(FILE *f, double db, const struct modes_places *p, struct arena *a)
+{
+    if (p->ring[1] > 0)
+        fprintf(f, "# rings: places at radii from %.9g to %.9g m, where the surface has no edge\n", p->ring[0],
+                p->ring[1]);
+    if (isnan(db)) return;
+    fprintf(f,
+            "# interpolation_error: %s, rms of the differences of all modes' gains at %d places %s, relative to the "
+            "gains\n",
+            told(db, a), SPOTS, p->line ? "along the line" : "over the box of these, those beside left out");
+}
+
+void modes_places_report(double db, struct arena *a)
+{
+    if (!isnan(db)) printf("; between them gains are off by %s", told(db, a));
+}
+
+void modes_places_warn(struct cmd_call *c, double db, const struct modes_places *p)
+{
+    if (p->chosen && db > MODES_FIT_GOAL && !args_given(&c->args, "quiet"))
+        tell_remark(c, "modes",
+                    arena_format(c->arena,
+                                 "between the places gains are off by %s, and %g dB would take more than %d places or "
+                                 "%d rows; fewer modes (--modes, --top) need fewer",
+                                 told(db, c->arena), MODES_FIT_GOAL, MODES_FIT_PLACES, MODES_FIT_ROWS));
+}
+
+/* ------------------------------------------------------------------ as many as needed */
+
+struct growing {
+    struct modes_fit *fit;
+    modes_fit_lay *lay;
+    const void *self;
+    long most;
+};
+
+static double error_of(const struct growing *g, const int n[2], int *places)
+{
+    struct arena *a = arena_open();
+    struct modes_places p = {0};
+    g->lay(g->self, n, a, &p);
+    double db = p.n > g->most ? NAN : p.n > 1 ? modes_places_error(g->fit, &p) : 0;
+    *places = p.n;
+    arena_close(a);
+    return db;
+}
+
+static int more(int n) { return n + 2 * (n / 8 > 1 ? n / 8 : 1); }
+
+struct step {
+    int n[2], places;
+    double db;
+};
+
+/* One step; false: there is no room for any. */
+static bool grow(const struct growing *g, int axes, struct step *now)
+{
+    struct step best = {.places = 0}, try = *now;
+    double most = -HUGE_VAL;
+    for (int which = 1; which < 1 << axes; which++) {
+        try.n[0] = which & 1 ? more(now->n[0]) : now->n[0];
+        try.n[1] = which & 2 ? more(now->n[1]) : now->n[1];
+        try.db = error_of(g, try.n, &try.places);
+        double brings = (now->db - try.db) / real_log((double)try.places / now->places);
+        if (try.places > g->most || isnan(brings) || brings < most) continue;
+        most = brings;
+        best = try;
+    }
+    if (best.places > 0 && best.db > now->db - STUCK && try.places <= g->most && !isnan(try.db))
+        best = try; /* the last, all axes */
+    if (best.places > 0) *now = best;
+    return best.places > 0;
+}
+
+static void shrink(const struct growing *g, int axis, int n[2])
+{
+    while (n[axis] > 5) {
+        int of, less[2] = {n[0] - 2 * (axis == 0), n[1] - 2 * (axis == 1)};
+        if (!(error_of(g, less, &of) <= MODES_FIT_GOAL)) return;
+        n[axis] = less[axis];
+    }
+}
+
+static void modes_places_choose(struct modes_fit *f, modes_fit_lay *lay, const void *self, bool line,
+                                struct modes_places *p)
+{
+    long rows = MODES_FIT_ROWS / f->n;
+    struct growing g = {f, lay, self, rows < 153 ? 153 : rows > MODES_FIT_PLACES ? MODES_FIT_PLACES : rows};
+    struct step now = {.n = {5, line ? 1 : 5}};
+    int axes = line ? 1 : 2;
+    now.db = error_of(&g, now.n, &now.places);
+    while (now.db > MODES_FIT_GOAL && grow(&g, axes, &now))
+        ;
+    for (int axis = axes; axis-- > 0 && now.db <= MODES_FIT_GOAL;)
+        shrink(&g, axis, now.n);
+    lay(self, now.n, f->arena, p);
+    p->chosen = true;
+}
+
+/* Places on an object: --line, --circle, --grid, --at, else what suits its shape. */
 
 enum { PLACES = 100000 };
 
@@ -42,7 +230,8 @@ static void grid(struct modes_places *p, const struct modes_ground *g, const int
                                .to = {g->high[0], g->high[1]}};
     for (int j = 0; j < n[1]; j++)
         for (int i = 0; i < n[0]; i++) {
-            double x = g->low[0] + (g->high[0] - g->low[0]) * i / (n[0] - 1), y = g->low[1] + (g->high[1] - g->low[1]) * j / (n[1] - 1);
+            double x = g->low[0] + (g->high[0] - g->low[0]) * i / (n[0] - 1),
+                   y = g->low[1] + (g->high[1] - g->low[1]) * j / (n[1] - 1);
             if (g->off(g->self, x, y) <= 1e-9)
                 add(p, x, y);
             else
@@ -53,12 +242,14 @@ static void grid(struct modes_places *p, const struct modes_ground *g, const int
 static bool read_grid(struct cmd_call *c, int n[2], struct err *e)
 {
     const char *text = args_value(&c->args, "grid");
-    if (!text)
-        return true;
+    if (!text) return true;
     char *comma, *end;
     long x = strtol(text, &comma, 10), y = *comma == ',' ? strtol(comma + 1, &end, 10) : 0;
     if (y < 2 || x < 2 || x > 1000 || y > 1000 || x * y > PLACES || *end)
-        return err_set(e, ERR_USAGE, "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, at most %d places in all, as in 17,9", text, PLACES);
+        return err_set(
+            e, ERR_USAGE,
+            "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, at most %d places in all, as in 17,9",
+            text, PLACES);
     n[0] = (int)x;
     n[1] = (int)y;
     return true;
@@ -69,16 +260,24 @@ static bool all_on(const struct modes_ground *g, const struct modes_places *p, s
     for (int i = 0; i < p->n; i++) {
         double off = g->off(g->self, p->xy[i][0], p->xy[i][1]);
         if (off > 1e-9 && isfinite(off))
-            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies %.3g m off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m",
+            return err_set(e, ERR_SCENE,
+                           "the place (%.9g, %.9g) m lies %.3g m off the object, which spans x from %.9g to %.9g m and "
+                           "y from %.9g to %.9g m",
                            p->xy[i][0], p->xy[i][1], off, g->low[0], g->high[0], g->low[1], g->high[1]);
         if (off > 1e-9)
-            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m lies off the object, which spans x from %.9g to %.9g m and y from %.9g to %.9g m%s",
-                           p->xy[i][0], p->xy[i][1], g->low[0], g->high[0], g->low[1], g->high[1], g->remark ? g->remark : "");
+            return err_set(e, ERR_SCENE,
+                           "the place (%.9g, %.9g) m lies off the object, which spans x from %.9g to %.9g m and y from "
+                           "%.9g to %.9g m%s",
+                           p->xy[i][0], p->xy[i][1], g->low[0], g->high[0], g->low[1], g->high[1],
+                           g->remark ? g->remark : "");
     }
-    return p->n > 0 || err_set(e, ERR_SCENE, "none of the %d places of the grid lies on the object; take a finer one, or --line or --at", p->left_out);
+    return p->n > 0 ||
+           err_set(e, ERR_SCENE,
+                   "none of the %d places of the grid lies on the object; take a finer one, or --line or --at",
+                   p->left_out);
 }
 
-struct layout { /* for cmd/modes_fit.h */
+struct layout { /* for struct modes_fit */
     const struct modes_ground *ground;
     double ends[4], round[2]; /* m: radii of what is round */
 };
@@ -120,14 +319,13 @@ static void longest(const struct modes_ground *g, const double middle[2], const 
     }
 }
 
-/* Is the ground a disk round the middle of its box, or a ring? Its radii, inside it by what rounding may take, and by as
-   much as radii differ: between rays they may differ a little more. */
+/* Is the ground a disk round the middle of its box, or a ring? Its radii, inside it by what rounding may take, and by
+   as much as radii differ: between rays they may differ a little more. */
 static bool is_round(const struct modes_ground *g, double radii[2])
 {
     double middle[2] = {0.5 * (g->low[0] + g->high[0]), 0.5 * (g->low[1] + g->high[1])};
     double reach = 0.5 * (g->high[0] - g->low[0]), least[2] = {reach, reach}, most[2] = {0, 0};
-    if (!(fabs(g->high[1] - g->low[1] - 2 * reach) <= ROUND * reach))
-        return false;
+    if (!(fabs(g->high[1] - g->low[1] - 2 * reach) <= ROUND * reach)) return false;
     for (int k = 0; k < RAYS; k++) {
         double c = real_cospi(2.0 * k / RAYS), s = real_sinpi(2.0 * k / RAYS), edge[2];
         longest(g, middle, (double[2]){reach * c, reach * s}, edge);
@@ -141,9 +339,9 @@ static bool is_round(const struct modes_ground *g, double radii[2])
     return most[0] - least[0] <= ROUND * reach && most[1] - least[1] <= ROUND * reach && radii[0] < radii[1];
 }
 
-/* n[0] rings, the rim's of 4 n[1] places, the others' in proportion to their radius, and FEW more near the middle. Rings
-   are closer together near a rim, where a solid that is seen there from its side bends away, and where the spline has
-   neighbours on one side only. Numbers of places are multiples of 4: what is symmetric has its places so. */
+/* n[0] rings, the rim's of 4 n[1] places, the others' in proportion to their radius, and FEW more near the middle.
+   Rings are closer together near a rim, where a solid that is seen there from its side bends away, and where the spline
+   has neighbours on one side only. Numbers of places are multiples of 4: what is symmetric has its places so. */
 static void rings(struct modes_places *p, const struct layout *l, const int n[2], struct arena *a)
 {
     const struct modes_ground *g = l->ground;
@@ -153,8 +351,7 @@ static void rings(struct modes_places *p, const struct layout *l, const int n[2]
                                .to = {g->high[0], g->high[1]}};
     bool hole = l->round[0] > 0;
     p->ring[0] = l->round[0], p->ring[1] = l->round[1];
-    if (!hole)
-        add(p, middle[0], middle[1]);
+    if (!hole) add(p, middle[0], middle[1]);
     for (int j = !hole; j < n[0] + !hole; j++) {
         double u = hole ? 0.5 - 0.5 * real_cospi((double)j / (n[0] - 1)) : real_sinpi(0.3 * j / n[0]) / real_sinpi(0.3);
         double radius = l->round[0] + u * (l->round[1] - l->round[0]), share = radius / l->round[1];
@@ -186,7 +383,7 @@ static void along(struct cmd_call *c, const struct modes_ground *g, const double
 {
     struct layout l = {.ends = {ends[0], ends[1], ends[2], ends[3]}};
     if (g->fit)
-        modes_fit_places(g->fit, lay_line, &l, true, p);
+        modes_places_choose(g->fit, lay_line, &l, true, p);
     else
         line(p, ends, n, c->arena);
 }
@@ -200,7 +397,7 @@ static void standard(struct cmd_call *c, const struct modes_ground *g, struct mo
     else if (g->standard[1] == 1)
         along(c, g, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], p);
     else if (g->fit)
-        modes_fit_places(g->fit, is_round(g, l.round) ? lay_rings : lay_grid, &l, false, p);
+        modes_places_choose(g->fit, is_round(g, l.round) ? lay_rings : lay_grid, &l, false, p);
     else
         grid(p, g, g->standard, c->arena);
 }
@@ -209,12 +406,15 @@ static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], str
 {
     static const long counts[2] = {2, PLACES};
     const struct args *g = &c->args;
-    if (!modes_lengths(c, &(struct modes_lengths){"line", "X0,Y0,X1,Y1", 4}, ends, e) || !modes_lengths(c, &(struct modes_lengths){"circle", "RADIUS", 1}, ends, e) ||
-        !modes_lengths(c, &(struct modes_lengths){"at", "X,Y", 2}, ends, e) || !read_grid(c, n, e) || !args_whole(g, "places", counts, places, e))
+    if (!modes_lengths(c, &(struct modes_lengths){"line", "X0,Y0,X1,Y1", 4}, ends, e) ||
+        !modes_lengths(c, &(struct modes_lengths){"circle", "RADIUS", 1}, ends, e) ||
+        !modes_lengths(c, &(struct modes_lengths){"at", "X,Y", 2}, ends, e) || !read_grid(c, n, e) ||
+        !args_whole(g, "places", counts, places, e))
         return false;
     if (args_given(g, "line") + args_given(g, "circle") + args_given(g, "at") + args_given(g, "grid") > 1)
         return err_set(e, ERR_USAGE, "--line, --circle, --grid and --at exclude each other");
-    return !args_given(g, "places") || args_given(g, "line") || args_given(g, "circle") || err_set(e, ERR_USAGE, "--places needs --line or --circle");
+    return !args_given(g, "places") || args_given(g, "line") || args_given(g, "circle") ||
+           err_set(e, ERR_USAGE, "--places needs --line or --circle");
 }
 
 struct spot {
@@ -226,8 +426,7 @@ static int by_place(const void *p, const void *q)
 {
     const struct spot *a = p, *b = q;
     for (int c = 0; c < 2; c++)
-        if (a->nm[c] != b->nm[c])
-            return a->nm[c] < b->nm[c] ? -1 : 1;
+        if (a->nm[c] != b->nm[c]) return a->nm[c] < b->nm[c] ? -1 : 1;
     return (a->index > b->index) - (a->index < b->index);
 }
 
@@ -240,7 +439,10 @@ bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad,
     for (int i = 1; i < p->n; i++)
         if (s[i].nm[0] == s[i - 1].nm[0] && s[i].nm[1] == s[i - 1].nm[1]) {
             *bad = s[i].index;
-            return err_set(e, ERR_SCENE, "the place (%.9g, %.9g) m is there twice, and a scene takes no table of such; --at X,Y is one place", p->xy[*bad][0], p->xy[*bad][1]);
+            return err_set(
+                e, ERR_SCENE,
+                "the place (%.9g, %.9g) m is there twice, and a scene takes no table of such; --at X,Y is one place",
+                p->xy[*bad][0], p->xy[*bad][1]);
         }
     return true;
 }
@@ -251,8 +453,7 @@ bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes
     int n[2];
     long places = 33;
     *p = (struct modes_places){0};
-    if (!read(c, ends, &places, n, e))
-        return false;
+    if (!read(c, ends, &places, n, e)) return false;
     if (args_given(&c->args, "at"))
         line(p, ends, 1, c->arena);
     else if (args_given(&c->args, "grid"))

@@ -26,7 +26,8 @@ static bool unknown(const char *name, struct err *e)
         names[i] = starters_table[i].name;
     const char *meant = text_nearest(name, names);
     if (meant)
-        return err_set(e, ERR_USAGE, "no starter scene '%s'; did you mean '%s'? (rasp new --list shows all)", name, meant);
+        return err_set(e, ERR_USAGE, "no starter scene '%s'; did you mean '%s'? (rasp new --list shows all)", name,
+                       meant);
     return err_set(e, ERR_USAGE, "no starter scene '%s'; rasp new --list shows all", name);
 }
 
@@ -40,15 +41,17 @@ static const char *own_folder(struct arena *a)
     return slash ? arena_format(a, "%.*s", (int)(slash - self) + 1, self) : "";
 }
 
-/* The folder of the shipped responses, as a scene in `folder` calls it: seen from there where rasp was built in its source tree, else as it was installed, else of a source tree that
-   is the current folder. */
+/* The folder of the shipped responses, as a scene in `folder` calls it: seen from there where rasp was built in its
+   source tree, else as it was installed, else of a source tree that is the current folder. */
 static const char *irs_seen(const char *folder, struct arena *a)
 {
-    const char *self = own_folder(a), *tree = arena_format(a, "%s../irs", self), *installed = arena_format(a, "%s../share/rasp/irs", self);
-    if (*self && access(arena_format(a, "%s/README.md", tree), F_OK) == 0)
-        return relpath_make(tree, folder, a);
+    const char *self = own_folder(a), *tree = arena_format(a, "%s../irs", self),
+               *installed = arena_format(a, "%s../share/rasp/irs", self);
+    if (*self && access(arena_format(a, "%s/README.md", tree), F_OK) == 0) return relpath_make(tree, folder, a);
     char *real = *self ? memory_realpath(installed) : NULL;
-    const char *seen = real ? arena_text(a, real) : access("irs/README.md", F_OK) == 0 ? relpath_make("irs", folder, a) : "irs";
+    const char *seen = real                                 ? arena_text(a, real)
+                       : access("irs/README.md", F_OK) == 0 ? relpath_make("irs", folder, a)
+                                                            : "irs";
     free(real);
     return seen;
 }
@@ -56,9 +59,9 @@ static const char *irs_seen(const char *folder, struct arena *a)
 static bool write_file(const struct starter *s, const char *file, bool force, struct arena *a, struct err *e)
 {
     struct outfile o;
-    const char *slash = strrchr(file, '/'), *folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL;
-    if (!mark_absent(file, force, e) || !outfile_open(&o, file, e))
-        return false;
+    const char *slash = strrchr(file, '/'),
+               *folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL;
+    if (!mark_absent(file, force, e) || !outfile_open(&o, file, e)) return false;
     starters_print(o.stream, s, irs_seen(folder, a), a);
     return outfile_commit(&o, e);
 }
@@ -68,12 +71,12 @@ static int new_run(struct cmd_call *c, struct err *e)
     const char *name = c->args.n_operands ? c->args.operands[0] : starters_table[0].name;
     const char *file = args_value(&c->args, "output");
     const struct starter *s = starters_find(name);
-    if (args_given(&c->args, "list"))
-        return list();
+    if (args_given(&c->args, "list")) return list();
     if (!s)
         unknown(name, e);
     else if (file && !strcmp(file, "-"))
-        err_set(e, ERR_USAGE, "--output -: leave it out, and the scene goes to standard output; a file of that name is ./-");
+        err_set(e, ERR_USAGE,
+                "--output -: leave it out, and the scene goes to standard output; a file of that name is ./-");
     else if (file)
         write_file(s, file, args_given(&c->args, "force"), c->arena, e);
     else
@@ -91,8 +94,10 @@ static const struct args_option options[] = {
 const struct command new_command = {
     .name = "new",
     .summary = "writes a commented starter scene",
-    .does = "Writes the starter scene NAME (scrape, if none is named), with every line explained. It can be rendered as it is; for sound, remove the # before a response, which names a file of rasp's irs/ "
-            "that fits the motion (seen from the folder of FILE, or from the current one). NAME design is a starter design of a set of stimuli (rasp-design(5)), whose base is the scene scrape.yaml beside it.",
+    .does = "Writes the starter scene NAME (scrape, if none is named), with every line explained. It can be rendered "
+            "as it is; for sound, remove the # before a response, which names a file of rasp's irs/ "
+            "that fits the motion (seen from the folder of FILE, or from the current one). NAME design is a starter "
+            "design of a set of stimuli (rasp-design(5)), whose base is the scene scrape.yaml beside it.",
     .operands = "[NAME]",
     .least = 0,
     .most = 1,

@@ -4,11 +4,12 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "cmd/cmd.h"
-#include "cmd/plot_summary.h"
+#include "cmd/plot.h"
 #include "file/csv.h"
 #include "output/gnuplot.h"
 #include "output/spectrogram.h"
 #include "scene/scene.h"
+#include <stdbool.h>
 
 enum { PLOT_COLUMNS = 1000 }; /* columns of pixels that a panel has, about */
 
@@ -78,41 +79,50 @@ struct plot_page {
     struct cmd_call *call;            /* for warnings                                         */
 };
 
-/* plot_data.c. Reads the sound or the table p->file and what lies beside it; sets from, to, and the title where they are not given. ERR_INPUT,
+struct plot_summary {
+    const char *file;
+    const char *title;      /* the scene's; "": none                                  */
+    const char **contacts;  /* [n_contacts] names                                     */
+    int n_contacts;
+    bool there;             /* false: there is no summary                             */
+    bool lists;             /* false: it does not say what was written                */
+    bool sounds;            /* it lists a WAV                                         */
+    const char *effective;  /* sha256 of the effective scene; "": not listed          */
+    const char **tables[2]; /* [n_tables] contact and sha256 of every table it lists  */
+    int n_tables;
+};
+
+/* A file that is not there, or is no JSON, gives an empty one. */
+struct plot_summary plot_summary_read(const char *file, struct arena *a);
+
+/* Reads the sound or the table p->file and what lies beside it; sets from, to, and the title where they are not given. ERR_INPUT,
    ERR_SCENE, ERR_USAGE (a time outside; a panel that is asked for and has no data). */
 bool plot_data(struct plot_page *p, struct err *e);
 
 /* Does some table have the column? */
 bool plot_data_has(const struct plot_page *p, enum plot_column column);
 
-/* plot_way.c: where a contact was in the time shown, by its table or by the scene; one that stays has no way. */
-bool plot_way_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times, struct err *e);
-bool plot_way_scene(struct plot_page *p, const struct scene *s, const struct contact *c, struct err *e);
-const struct plot_way *plot_way_of(const struct plot_page *p, const struct scene *s, const struct contact *c); /* NULL: none */
+/* Where a contact was in the time shown, by its table or by the scene; one that stays has no way. */
+bool plot_bodies_way_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times, struct err *e);
 
 /* plot_bodies.c: what rings, by the effective scene beside the sound (of the same render, else nothing), where the motion goes; or a mode table. */
 bool plot_bodies(struct plot_page *p, const struct plot_summary *s, const char *effective, struct err *e);
 bool plot_bodies_table(struct plot_page *p, struct err *e);
 bool plot_bodies_is_table(const struct csv *csv);
 
-/* plot_panels.c */
+/* The panels. */
 extern const char *const plot_panels_words[PLOT_PANELS];
 bool plot_panels_read(const char *words, unsigned *asked, struct arena *a, struct err *e);
 bool plot_panels_there(const struct plot_page *p, int panel);   /* asked for, if anything is, and with data */
-bool plot_panels_check(const struct plot_page *p, struct err *e);
-void plot_panels_list(const struct plot_page *p, FILE *f);      /* what the page shows, as a line */
 const char *plot_panels_colour(int i);
 
-/* plot_draw.c: writes the whole page to gnuplot. plot_motion.c, plot_modes.c: one panel whose box is [left, right] x [bottom, top] in shares of a page
+/* plot_draw.c: writes the whole page to gnuplot. One panel whose box is [left, right] x [bottom, top] in shares of a page
    of `size` pixels. */
 struct plot_place {
     double left, right, bottom, top;
     double size[2];
 };
 void plot_draw(const struct plot_page *p, struct gnuplot *g);
-void plot_motion(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g);
-void plot_modes(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g);
-void plot_modes_decays(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g);
 
 /* plot_gallery.c: a page of HTML for a folder or manifest. */
 struct plot_gallery {

@@ -1,20 +1,324 @@
-/* The page of `rasp plot`, as gnuplot commands with the data inline: panels one above the other on one time axis; below them the plan of the motion and the modes, side by
-   side. */
+/* The plan of the motion: the way seen from above, coloured by speed, with where it begins and ends, the object's
+   edges, and the places of the mode table. One metre is as long along x as along y. An object, or a table's places,
+   that reach much farther than the way are cut off by the panel. */
+#include "cmd/plot.h"
+
 #include <math.h>
 #include <stdint.h>
 
-#include "cmd/plot.h"
 #include "num/real.h"
 
-enum { WIDTH = 1200, LEFT = 95, RIGHT = 105, TOP = 48, BOTTOM = 58, GAP = 22, KEY = 26, BETWEEN = 195 }; /* pixels; BETWEEN: of two panels side by side */
+static double bottom(const struct plot_page *p, double most);
 
-static const int heights[PLOT_PANELS] = {[PLOT_WAVEFORM] = 180, [PLOT_SPECTROGRAM] = 340, [PLOT_FORCE] = 180, [PLOT_HAND] = 150,
-                                         [PLOT_MOTION] = 300,   [PLOT_MODES] = 300,       [PLOT_DECAYS] = 220};
+enum { FAR = 4 /* times the way's size */ };
 
-static bool is_timed(int panel)
+struct view {
+    double low[2], high[2];
+};
+
+static void take(struct view *v, double x, double y)
 {
-    return panel < PLOT_MOTION;
+    const double at[2] = {x, y};
+    for (int k = 0; k < 2; k++) {
+        v->low[k] = fmin(v->low[k], at[k]);
+        v->high[k] = fmax(v->high[k], at[k]);
+    }
 }
+
+static double size_of(const struct view *v) { return fmax(v->high[0] - v->low[0], v->high[1] - v->low[1]); }
+
+/* All of the way, and of what it lies on. */
+static struct view view_of(const struct plot_page *p)
+{
+    struct view way = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}}, all;
+    for (int i = 0; i < p->n_ways; i++)
+        for (int k = 0; k < p->ways[i].n; k++)
+            take(&way, p->ways[i].at[k][0], p->ways[i].at[k][1]);
+    all = way;
+    for (int i = 0; i < p->n_grounds; i++) {
+        const struct plot_ground *g = &p->grounds[i];
+        if (g->box) {
+            take(&all, g->low[0], g->low[1]);
+            take(&all, g->high[0], g->high[1]);
+        }
+        for (int k = 0; k < g->n; k++)
+            take(&all, g->places[k][0], g->places[k][1]);
+    }
+    return size_of(&all) > FAR * size_of(&way) ? way : all;
+}
+
+static void data(const struct plot_page *p, double unit, const struct view *v, FILE *f)
+{
+    for (int i = 0; i < p->n_ways; i++) {
+        fprintf(f, "$way%d << END\n", i);
+        for (int k = 0; k < p->ways[i].n; k++)
+            fprintf(f, "%.9g %.9g %.9g\n", p->ways[i].at[k][0] / unit, p->ways[i].at[k][1] / unit, p->ways[i].at[k][2]);
+        fputs("END\n", f);
+    }
+    for (int i = 0; i < p->n_grounds; i++) {
+        fprintf(f, "$places%d << END\n", i);
+        for (int k = 0; k < p->grounds[i].n; k++)
+            if (p->grounds[i].places[k][0] >= v->low[0] && p->grounds[i].places[k][0] <= v->high[0] &&
+                p->grounds[i].places[k][1] >= v->low[1] && p->grounds[i].places[k][1] <= v->high[1])
+                fprintf(f, "%.9g %.9g\n", p->grounds[i].places[k][0] / unit, p->grounds[i].places[k][1] / unit);
+        fputs("NaN NaN\nEND\n", f);
+    }
+}
+
+static double fastest(const struct plot_page *p)
+{
+    double most = 0;
+    for (int i = 0; i < p->n_ways; i++)
+        for (int k = 0; k < p->ways[i].n; k++)
+            most = fmax(most, p->ways[i].at[k][2]);
+    return most > 0 ? most : 1;
+}
+
+/* Edges as objects, behind all else. */
+static void put_edges(const struct plot_page *p, double unit, FILE *f)
+{
+    for (int i = 0; i < p->n_grounds; i++) {
+        const struct plot_ground *g = &p->grounds[i];
+        if (!g->box) continue;
+        if (g->round)
+            fprintf(f, "set object %d ellipse center %.9g,%.9g size %.9g,%.9g", i + 1,
+                    (g->low[0] + g->high[0]) / 2 / unit, (g->low[1] + g->high[1]) / 2 / unit,
+                    (g->high[0] - g->low[0]) / unit, (g->high[1] - g->low[1]) / unit);
+        else
+            fprintf(f, "set object %d rectangle from %.9g,%.9g to %.9g,%.9g", i + 1, g->low[0] / unit, g->low[1] / unit,
+                    g->high[0] / unit, g->high[1] / unit);
+        fputs(" behind fillcolor rgb '#f4efe6' fillstyle solid 1.0 border linecolor rgb '#9a8f7a'\n", f);
+    }
+}
+
+static void put_curves(const struct plot_page *p, FILE *f)
+{
+    bool first = true, named = false;
+    fputs("plot ", f);
+    for (int i = 0; i < p->n_grounds; i++)
+        if (p->grounds[i].n) {
+            fprintf(f, "%s$places%d using 1:2 with points pointtype 2 pointsize 0.6 linecolor rgb '#707070' %s",
+                    first ? "" : ", ", i, named ? "notitle" : "title 'places'");
+            first = false;
+            named = true;
+        }
+    for (int i = 0; i < p->n_ways; i++) {
+        fprintf(f, "%s$way%d using 1:2:3 with lines linewidth 2.5 linecolor palette notitle", first ? "" : ", ", i);
+        fprintf(f, ", $way%d using 1:2 every ::0::0 with points pointtype 7 pointsize 1.3 linecolor rgb 'black' %s", i,
+                i ? "notitle" : "title 'start'");
+        fprintf(f,
+                ", $way%d using 1:2 every ::%d::%d with points pointtype 4 pointsize 2.2 linewidth 1.6 linecolor rgb "
+                "'black' %s",
+                i, p->ways[i].n - 1, p->ways[i].n - 1, i ? "notitle" : "title 'end'");
+        first = false;
+    }
+    fputc('\n', f);
+}
+
+static void plot_motion(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g)
+{
+    struct view v = view_of(p);
+    /* Some air, and then as much more along one axis as makes the scales equal. */
+    double pixels[2] = {(at->right - at->left) * at->size[0], (at->top - at->bottom) * at->size[1]}, scale = 0;
+    for (int k = 0; k < 2; k++)
+        scale = fmax(scale, 1.12 * (v.high[k] - v.low[k]) / pixels[k]);
+    for (int k = 0; k < 2; k++) {
+        double middle = (v.low[k] + v.high[k]) / 2;
+        v.low[k] = middle - scale * pixels[k] / 2;
+        v.high[k] = middle + scale * pixels[k] / 2;
+    }
+    bool small = v.high[0] - v.low[0] < 0.03;
+    double unit = small ? 1e-3 : 1e-2;
+    data(p, unit, &v, g->in);
+    fprintf(g->in, "set xlabel 'x / %s'\nset ylabel 'y / %s'\nset format x '%%g'\n", small ? "mm" : "cm",
+            small ? "mm" : "cm");
+    fprintf(g->in, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\nset cbrange [0:%.6g]\n", v.low[0] / unit,
+            v.high[0] / unit, v.low[1] / unit, v.high[1] / unit, fastest(p));
+    fputs("set palette defined (0 '#0d0887', 1 '#7e03a8', 2 '#cc4778', 3 '#f0804e', 4 '#f9a242')\nset cblabel 'speed / "
+          "(m/s)'\nset cbtics auto\n",
+          g->in);
+    fprintf(g->in, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
+            at->right + 14 / at->size[0], at->bottom, 14 / at->size[0], at->top - at->bottom);
+    fprintf(g->in, "set key at screen %.5f, screen %.5f right bottom maxrows 1\n", at->right,
+            at->top + 3 / at->size[1]);
+    put_edges(p, unit, g->in);
+    put_curves(p, g->in);
+    fputs("unset colorbox\nunset object\nset key default\nset key noenhanced top right inside horizontal samplen 2 "
+          "spacing 1.0\n",
+          g->in);
+}
+
+/* Modes: stems of gain over frequency, in decibels below the strongest of all, coloured by the time of decay by 60 dB,
+ * T60 = 3 ln 10 / decay; and that time over frequency. */
+
+#define RANGE 80.0 /* dB that are shown */
+
+struct span {
+    double low, high;
+};
+
+static double t60(const struct plot_mode *m) { return 3 * real_log(10.0) / m->decay; }
+
+static double strongest(const struct plot_page *p)
+{
+    double most = 0;
+    for (int i = 0; i < p->n_bodies; i++)
+        for (int k = 0; k < p->bodies[i].n; k++)
+            most = fmax(most, p->bodies[i].modes[k].gain);
+    return most > 0 ? most : 1;
+}
+
+static double level(const struct plot_mode *m, double most)
+{
+    return m->gain > 0 ? 20 * real_log10(m->gain / most) : -HUGE_VAL;
+}
+
+static bool shown(const struct plot_mode *m, double most)
+{
+    return m->frequency > 0 && m->decay > 0 && level(m, most) > -RANGE;
+}
+
+/* Least and greatest of what is shown, with a little air. */
+static void spans(const struct plot_page *p, double most, struct span *khz, struct span *decay)
+{
+    *khz = *decay = (struct span){HUGE_VAL, 0};
+    for (int i = 0; i < p->n_bodies; i++)
+        for (int k = 0; k < p->bodies[i].n; k++) {
+            const struct plot_mode *m = &p->bodies[i].modes[k];
+            if (!shown(m, most)) continue;
+            khz->low = fmin(khz->low, m->frequency / 1000 / 1.15);
+            khz->high = fmax(khz->high, m->frequency / 1000 * 1.15);
+            decay->low = fmin(decay->low, t60(m) / 1.1);
+            decay->high = fmax(decay->high, t60(m) * 1.1);
+        }
+    if (khz->high == 0) *khz = *decay = (struct span){0.1, 10};
+}
+
+/* 1, 2 and 5 of each power of ten within; of a narrow span more. */
+static void put_tics(const char *axis, struct span s, FILE *f)
+{
+    static const double coarse[] = {1, 2, 5}, fine[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9};
+    bool narrow = s.high < 6 * s.low;
+    const double *steps = narrow ? fine : coarse;
+    const char *comma = "";
+    fprintf(f, "set logscale %s\nset %stics (", axis, axis);
+    for (int power = (int)floor(real_log10(s.low)); power <= (int)floor(real_log10(s.high)); power++)
+        for (int k = 0; k < (narrow ? 11 : 3); k++) {
+            double at = steps[k] * real_exp10(power);
+            if (at < s.low || at > s.high) continue;
+            fprintf(f, "%s%.6g", comma, at);
+            comma = ", ";
+        }
+    fprintf(f, ")\n");
+}
+
+static void modes_data(const struct plot_page *p, double most, FILE *f)
+{
+    for (int i = 0; i < p->n_bodies; i++) {
+        fprintf(f, "$modes%d << END\n", i);
+        for (int k = 0; k < p->bodies[i].n; k++) {
+            const struct plot_mode *m = &p->bodies[i].modes[k];
+            if (shown(m, most)) fprintf(f, "%.9g %.6g %.6g\n", m->frequency / 1000, level(m, most), t60(m));
+        }
+        fputs("NaN NaN NaN\nEND\n", f);
+    }
+}
+
+static const int marks[] = {7, 5, 9, 13};
+
+static void put_name(const struct plot_page *p, int i, struct gnuplot *g)
+{
+    fputs(p->n_bodies > 1 ? " title " : " notitle ", g->in);
+    if (p->n_bodies > 1) gnuplot_put_text(g, p->bodies[i].name);
+}
+
+/* To where the stems go down: the next 10 dB below the weakest. */
+static double bottom(const struct plot_page *p, double most)
+{
+    double least = -11;
+    for (int i = 0; i < p->n_bodies; i++)
+        for (int k = 0; k < p->bodies[i].n; k++)
+            if (shown(&p->bodies[i].modes[k], most)) least = fmin(least, level(&p->bodies[i].modes[k], most));
+    return 10 * floor(least / 10);
+}
+
+static void put_stems(const struct plot_page *p, double from, struct gnuplot *g)
+{
+    for (int i = 0; i < p->n_bodies; i++) {
+        fprintf(g->in,
+                "%s $modes%d using 1:(%g):(0):($2-(%g)):3 with vectors nohead linewidth 1.3 linecolor palette notitle",
+                i ? "," : "plot", i, from, from);
+        fprintf(g->in, ", $modes%d using 1:2:3 with points pointtype %d pointsize 0.8 linecolor palette notitle", i,
+                marks[i % 4]);
+        fprintf(g->in, ", NaN with points pointtype %d linecolor rgb '#404040'", marks[i % 4]);
+        put_name(p, i, g);
+    }
+    fputc('\n', g->in);
+}
+
+static void plot_modes(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g)
+{
+    double most = strongest(p);
+    struct span khz, decay;
+    spans(p, most, &khz, &decay);
+    modes_data(p, most, g->in);
+    fprintf(g->in,
+            "set ylabel 'gain / dB re strongest' offset 0,0\nset xlabel 'frequency / kHz'\nset format x '%%g'\nset "
+            "xrange [%.6g:%.6g]\nset yrange [%g:4]\nset cbrange [%.6g:%.6g]\n",
+            khz.low, khz.high, bottom(p, most), decay.low, decay.high);
+    put_tics("x", khz, g->in);
+    put_tics("cb", decay, g->in);
+    fputs("set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#4db84f', 4 '#b8c31f')\nset cblabel 'T60 / "
+          "s' offset 0,0\n",
+          g->in);
+    fprintf(g->in, "set key at screen %.5f, screen %.5f right bottom\n", at->right, at->top + 3 / at->size[1]);
+    fprintf(g->in, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
+            at->right + 14 / at->size[0], at->bottom, 14 / at->size[0], at->top - at->bottom);
+    put_stems(p, bottom(p, most), g);
+    fputs("unset colorbox\nunset logscale\nset xtics autofreq\n", g->in);
+}
+
+static void plot_modes_decays(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g)
+{
+    double most = strongest(p);
+    struct span khz, decay;
+    spans(p, most, &khz, &decay);
+    modes_data(p, most, g->in);
+    fprintf(g->in,
+            "set ylabel 'T60 / s' offset 0,0\nset xlabel 'frequency / kHz'\nset format x '%%g'\nset xrange "
+            "[%.6g:%.6g]\nset yrange [%.6g:%.6g]\n",
+            khz.low, khz.high, decay.low, decay.high);
+    put_tics("x", khz, g->in);
+    put_tics("y", decay, g->in);
+    fprintf(g->in, "set key at screen %.5f, screen %.5f right bottom\n", at->right, at->top + 3 / at->size[1]);
+    fputs("set grid xtics ytics linecolor rgb '#d8d8d8'\n", g->in);
+    for (int i = 0; i < p->n_bodies; i++) {
+        fprintf(g->in, "%s $modes%d using 1:3 with points pointtype %d pointsize 0.8 linecolor rgb '%s'",
+                i ? "," : "plot", i, marks[i % 4], plot_panels_colour(i));
+        put_name(p, i, g);
+    }
+    fputs("\nunset logscale\nset xtics autofreq\nset ytics autofreq\nunset grid\n", g->in);
+}
+
+/* The page of `rasp plot`, as gnuplot commands with the data inline: panels one above the other on one time axis; below
+   them the plan of the motion and the modes, side by side. */
+
+enum {
+    WIDTH = 1200,
+    LEFT = 95,
+    RIGHT = 105,
+    TOP = 48,
+    BOTTOM = 58,
+    GAP = 22,
+    KEY = 26,
+    BETWEEN = 195
+}; /* pixels; BETWEEN: of two panels side by side */
+
+static const int heights[PLOT_PANELS] = {
+    [PLOT_WAVEFORM] = 180, [PLOT_SPECTROGRAM] = 340, [PLOT_FORCE] = 180, [PLOT_HAND] = 150,
+    [PLOT_MOTION] = 300,   [PLOT_MODES] = 300,       [PLOT_DECAYS] = 220};
+
+static bool is_timed(int panel) { return panel < PLOT_MOTION; }
 
 /* Motion and modes share a row. */
 static bool has_row(const struct plot_page *p)
@@ -58,35 +362,7 @@ static void data_table(const struct plot_table *t, int number, FILE *f)
 
 /* ------------------------------------------------------------------ panels */
 
-static double decibel(double x)
-{
-    return 20 * real_log10(x);
-}
-
-static void draw_waveform(const struct plot_page *p, struct gnuplot *g)
-{
-    const struct plot_sound *o = p->sound;
-    double most = o->peak > 0 ? 1.25 * o->peak : 1;
-    const char *which = p->channels > 1 ? arena_format(p->arena, "channel %d of %d, ", p->channel, p->channels) : "";
-    fprintf(g->in, "set ylabel 'amplitude / full scale'\nset yrange [%.6g:%.6g]\n", -most, most);
-    if (o->peak > 0)
-        fprintf(g->in, "set key title '%speak %.1f dBFS, rms %.1f dBFS'\n", which, decibel(o->peak), decibel(o->rms));
-    else
-        fprintf(g->in, "set key title '%ssilent'\n", which);
-    fputs("plot $sound using 1:2:3 with filledcurves fillcolor rgb '#0072b2' notitle, "
-          "'' using 1:2 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle, "
-          "'' using 1:3 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle\n"
-          "unset key\nset key notitle\n", g->in);
-}
-
-/* Top of the colours: the loudest place, up to the next 10 dB. */
-static double colour_top(const struct spectrogram *s, int bins)
-{
-    double most = -HUGE_VAL;
-    for (size_t i = 0; i < (size_t)bins * (size_t)s->columns; i++)
-        most = fmax(most, s->db[i]);
-    return isfinite(most) ? 10 * ceil(most / 10) : 0;
-}
+static double decibel(double x) { return 20 * real_log10(x); }
 
 /* Bins up to 20 kHz as 32-bit floats, what lies below the colours' range drawn as its lowest. */
 static void draw_spectrogram(const struct plot_page *p, double bottom, double height, struct gnuplot *g)
@@ -94,26 +370,26 @@ static void draw_spectrogram(const struct plot_page *p, double bottom, double he
     const struct spectrogram *s = &p->sound->spectrogram;
     double khz = fmin(20e3, p->sound->rate / 2) / 1000, step = (p->to - p->from) / s->columns;
     int bins = (int)fmin(floor(khz * 1000 / s->bin_hz + 0.5) + 1, s->bins);
-    double top = colour_top(s, bins);
-    fprintf(g->in, "set ylabel 'frequency / kHz'\nset yrange [0:%.6g]\nset cbrange [%g:%g]\nset cblabel 'dB re full-scale sine'\nset cbtics 20\n",
+    /* Top of the colours: the loudest place, up to the next 10 dB. */
+    double most = -HUGE_VAL;
+    for (size_t i = 0; i < (size_t)bins * (size_t)s->columns; i++)
+        most = fmax(most, s->db[i]);
+    double top = isfinite(most) ? 10 * ceil(most / 10) : 0;
+    fprintf(g->in,
+            "set ylabel 'frequency / kHz'\nset yrange [0:%.6g]\nset cbrange [%g:%g]\nset cblabel 'dB re full-scale "
+            "sine'\nset cbtics 20\n",
             khz, top - 80, top);
     fprintf(g->in, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
             1 - (RIGHT - 14.0) / WIDTH, bottom, 16.0 / WIDTH, height);
-    fprintf(g->in, "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,0) format='%%float32' using 1 with image notitle\n",
+    fprintf(g->in,
+            "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,0) format='%%float32' using 1 with image "
+            "notitle\n",
             s->columns, bins, step, s->bin_hz / 1000, p->from + 0.5 * step);
     for (size_t i = 0; i < (size_t)bins * (size_t)s->columns; i++) {
         float v = (float)fmax(s->db[i], top - 80);
         fwrite(&v, sizeof v, 1, g->in);
     }
     fputs("unset colorbox\n", g->in);
-}
-
-/* Name of a curve in the key: what it is, and of which contact if there are several. */
-static void put_name(const struct plot_page *p, int i, const char *what, struct gnuplot *g)
-{
-    const char *name = p->tables[i].name;
-    fputs(" title ", g->in);
-    gnuplot_put_text(g, *name ? arena_format(p->arena, "%s, %s", name, what) : what);
 }
 
 static double most_of(const struct plot_page *p, enum plot_column column)
@@ -125,27 +401,22 @@ static double most_of(const struct plot_page *p, enum plot_column column)
 }
 
 /* Puts the curve of a column of every table that has it; says whether it put any. */
-static bool put_curves(const struct plot_page *p, enum plot_column column, const char *style, bool *any, struct gnuplot *g)
+static bool draw_put_curves(const struct plot_page *p, enum plot_column column, const char *style, bool *any,
+                            struct gnuplot *g)
 {
-    static const char *const what[] = {[PLOT_PEAK] = "peak", [PLOT_RMS] = "rms", [PLOT_NORMAL] = "normal force", [PLOT_ALPHA] = "α, right axis"};
+    static const char *const what[] = {
+        [PLOT_PEAK] = "peak", [PLOT_RMS] = "rms", [PLOT_NORMAL] = "normal force", [PLOT_ALPHA] = "α, right axis"};
     for (int i = 0; i < p->n_tables; i++) {
-        if (!p->tables[i].x[column] || p->tables[i].n == 0)
-            continue;
+        if (!p->tables[i].x[column] || p->tables[i].n == 0) continue;
         fprintf(g->in, "%s $table%d using 1:%d with ", *any ? "," : "plot", i, (int)column + 2);
         fprintf(g->in, style, plot_panels_colour(column == PLOT_ALPHA && p->n_tables == 1 ? 1 : i));
-        put_name(p, i, what[column], g);
+        /* Name of a curve in the key: what it is, and of which contact if there are several. */
+        const char *name = p->tables[i].name;
+        fputs(" title ", g->in);
+        gnuplot_put_text(g, *name ? arena_format(p->arena, "%s, %s", name, what[column]) : what[column]);
         *any = true;
     }
     return *any;
-}
-
-static void draw_force(const struct plot_page *p, struct gnuplot *g)
-{
-    bool any = false;
-    fprintf(g->in, "set ylabel 'contact force / N'\nset yrange [0:%.6g]\n", 1.25 * most_of(p, plot_data_has(p, PLOT_PEAK) ? PLOT_PEAK : PLOT_RMS));
-    put_curves(p, PLOT_PEAK, "filledcurves y=0 fillcolor rgb '%s' fillstyle transparent solid 0.35 noborder", &any, g);
-    put_curves(p, PLOT_RMS, "lines linewidth 1.2 linecolor rgb '%s'", &any, g);
-    fputs(any ? "\n" : "plot NaN notitle\n", g->in);
 }
 
 static void draw_normal(const struct plot_page *p, struct gnuplot *g)
@@ -154,42 +425,44 @@ static void draw_normal(const struct plot_page *p, struct gnuplot *g)
     fprintf(g->in, "set ylabel 'normal force / N'\nset yrange [0:%.6g]\n", 1.25 * most_of(p, PLOT_NORMAL));
     if (plot_data_has(p, PLOT_ALPHA))
         fprintf(g->in, "set y2tics\nset y2label 'α / cm'\nset y2range [0:%.6g]\n", 160 * most_of(p, PLOT_ALPHA));
-    put_curves(p, PLOT_NORMAL, "lines linewidth 1.6 linecolor rgb '%s'", &any, g);
-    put_curves(p, PLOT_ALPHA, "lines axes x1y2 linewidth 1.6 dashtype 2 linecolor rgb '%s'", &any, g);
+    draw_put_curves(p, PLOT_NORMAL, "lines linewidth 1.6 linecolor rgb '%s'", &any, g);
+    draw_put_curves(p, PLOT_ALPHA, "lines axes x1y2 linewidth 1.6 dashtype 2 linecolor rgb '%s'", &any, g);
     fputs(any ? "\n" : "plot NaN notitle\n", g->in);
 }
 
 /* ------------------------------------------------------------------ the page */
 
-static void draw_head(const struct plot_page *p, struct gnuplot *g)
-{
-    int height = page_height(p);
-    if (p->svg)
-        fprintf(g->in, "set terminal svg size %d,%d font 'DejaVu Sans,13' background rgb 'white'\n", WIDTH, height);
-    else
-        fprintf(g->in, "set terminal pngcairo size %d,%d font 'DejaVu Sans,10' background rgb 'white'\n", WIDTH, height);
-    fputs("set encoding utf8\n"
-          "set palette defined (0 '#000004', 1 '#280b54', 2 '#65156e', 3 '#9f2a63', 4 '#d44842', 5 '#f57d15', 6 '#fac127', 7 '#fcffa4')\n"
-          "set border linewidth 0.8\nset tics out nomirror scale 0.6\nset style fill solid 1.0 noborder\n"
-          "set ylabel offset 1,0\nset y2label offset -1,0\nset cblabel offset 1.2,0\n"
-          "set key noenhanced top right inside horizontal samplen 2 spacing 1.0\n", g->in);
-    fprintf(g->in, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)LEFT / WIDTH, 1 - (double)RIGHT / WIDTH);
-    fputs("set multiplot\nset label 1 ", g->in);
-    gnuplot_put_text(g, p->title);
-    fprintf(g->in, " at screen %.5f, screen %.5f noenhanced font ',13'\n", (double)LEFT / WIDTH, 1 - 0.5 * TOP / height);
-}
-
 /* A panel over time; the last has the axis' numbers. */
 static void draw_timed(const struct plot_page *p, int panel, const double place[2], struct gnuplot *g)
 {
     fprintf(g->in, "set bmargin at screen %.5f\nset tmargin at screen %.5f\n", place[0], place[0] + place[1]);
-    if (panel == PLOT_WAVEFORM)
-        draw_waveform(p, g);
-    else if (panel == PLOT_SPECTROGRAM)
+    if (panel == PLOT_WAVEFORM) {
+        const struct plot_sound *o = p->sound;
+        double most = o->peak > 0 ? 1.25 * o->peak : 1;
+        const char *which =
+            p->channels > 1 ? arena_format(p->arena, "channel %d of %d, ", p->channel, p->channels) : "";
+        fprintf(g->in, "set ylabel 'amplitude / full scale'\nset yrange [%.6g:%.6g]\n", -most, most);
+        if (o->peak > 0)
+            fprintf(g->in, "set key title '%speak %.1f dBFS, rms %.1f dBFS'\n", which, decibel(o->peak),
+                    decibel(o->rms));
+        else
+            fprintf(g->in, "set key title '%ssilent'\n", which);
+        fputs("plot $sound using 1:2:3 with filledcurves fillcolor rgb '#0072b2' notitle, "
+              "'' using 1:2 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle, "
+              "'' using 1:3 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle\n"
+              "unset key\nset key notitle\n",
+              g->in);
+    } else if (panel == PLOT_SPECTROGRAM)
         draw_spectrogram(p, place[0], place[1], g);
-    else if (panel == PLOT_FORCE)
-        draw_force(p, g);
-    else
+    else if (panel == PLOT_FORCE) {
+        bool any = false;
+        fprintf(g->in, "set ylabel 'contact force / N'\nset yrange [0:%.6g]\n",
+                1.25 * most_of(p, plot_data_has(p, PLOT_PEAK) ? PLOT_PEAK : PLOT_RMS));
+        draw_put_curves(p, PLOT_PEAK, "filledcurves y=0 fillcolor rgb '%s' fillstyle transparent solid 0.35 noborder",
+                        &any, g);
+        draw_put_curves(p, PLOT_RMS, "lines linewidth 1.2 linecolor rgb '%s'", &any, g);
+        fputs(any ? "\n" : "plot NaN notitle\n", g->in);
+    } else
         draw_normal(p, g);
     fputs("unset label 1\n", g->in);
 }
@@ -201,11 +474,9 @@ static double draw_all_timed(const struct plot_page *p, double whole, struct gnu
     int last = -1;
     for (int k = 0; is_timed(k); k++)
         last = plot_panels_there(p, k) ? k : last;
-    if (last >= 0)
-        fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);
+    if (last >= 0) fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);
     for (int k = 0; k <= last; k++) {
-        if (!plot_panels_there(p, k))
-            continue;
+        if (!plot_panels_there(p, k)) continue;
         fputs(k == last ? "set format x '%g'\nset xlabel 'time / s'\n" : "set format x ''\nunset xlabel\n", g->in);
         draw_timed(p, k, (const double[2]){(top - heights[k]) / whole, heights[k] / whole}, g);
         top -= heights[k] + (k == last ? BOTTOM : GAP);
@@ -215,11 +486,16 @@ static double draw_all_timed(const struct plot_page *p, double whole, struct gnu
 }
 
 /* A panel with axes of its own, from pixel to pixel; top: of the page's pixels, from below. */
-static void draw_apart(const struct plot_page *p, void (*draw)(const struct plot_page *, const struct plot_place *, struct gnuplot *), const double box[4], struct gnuplot *g)
+static void draw_apart(const struct plot_page *p,
+                       void (*draw)(const struct plot_page *, const struct plot_place *, struct gnuplot *),
+                       const double box[4], struct gnuplot *g)
 {
     double whole = page_height(p);
     struct plot_place at = {box[0] / WIDTH, box[1] / WIDTH, box[2] / whole, box[3] / whole, {WIDTH, whole}};
-    fprintf(g->in, "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset bmargin at screen %.5f\nset tmargin at screen %.5f\n", at.left, at.right, at.bottom, at.top);
+    fprintf(g->in,
+            "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset bmargin at screen %.5f\nset tmargin at screen "
+            "%.5f\n",
+            at.left, at.right, at.bottom, at.top);
     draw(p, &at, g);
     fputs("unset label 1\n", g->in);
 }
@@ -238,17 +514,35 @@ static void draw_row(const struct plot_page *p, double top, struct gnuplot *g)
 void plot_draw(const struct plot_page *p, struct gnuplot *g)
 {
     double whole = page_height(p), top;
-    if (p->sound)
-        data_sound(p, g->in);
+    if (p->sound) data_sound(p, g->in);
     for (int i = 0; i < p->n_tables; i++)
         data_table(&p->tables[i], i, g->in);
-    draw_head(p, g);
+    int height = page_height(p);
+    if (p->svg)
+        fprintf(g->in, "set terminal svg size %d,%d font 'DejaVu Sans,13' background rgb 'white'\n", WIDTH, height);
+    else
+        fprintf(g->in, "set terminal pngcairo size %d,%d font 'DejaVu Sans,10' background rgb 'white'\n", WIDTH,
+                height);
+    fputs("set encoding utf8\n"
+          "set palette defined (0 '#000004', 1 '#280b54', 2 '#65156e', 3 '#9f2a63', 4 '#d44842', 5 '#f57d15', 6 "
+          "'#fac127', 7 '#fcffa4')\n"
+          "set border linewidth 0.8\nset tics out nomirror scale 0.6\nset style fill solid 1.0 noborder\n"
+          "set ylabel offset 1,0\nset y2label offset -1,0\nset cblabel offset 1.2,0\n"
+          "set key noenhanced top right inside horizontal samplen 2 spacing 1.0\n",
+          g->in);
+    fprintf(g->in, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)LEFT / WIDTH,
+            1 - (double)RIGHT / WIDTH);
+    fputs("set multiplot\nset label 1 ", g->in);
+    gnuplot_put_text(g, p->title);
+    fprintf(g->in, " at screen %.5f, screen %.5f noenhanced font ',13'\n", (double)LEFT / WIDTH,
+            1 - 0.5 * TOP / height);
     top = draw_all_timed(p, whole, g);
     if (has_row(p)) {
         draw_row(p, top - KEY, g);
         top -= KEY + heights[PLOT_MOTION] + BOTTOM;
     }
     if (plot_panels_there(p, PLOT_DECAYS))
-        draw_apart(p, plot_modes_decays, (const double[4]){LEFT, WIDTH - RIGHT, top - KEY - heights[PLOT_DECAYS], top - KEY}, g);
+        draw_apart(p, plot_modes_decays,
+                   (const double[4]){LEFT, WIDTH - RIGHT, top - KEY - heights[PLOT_DECAYS], top - KEY}, g);
     fputs("unset multiplot\n", g->in);
 }

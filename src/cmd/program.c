@@ -15,22 +15,10 @@
 #include "base/interrupt.h"
 #include "base/lastwords.h"
 #include "base/memory.h"
-#include "cmd/paint.h"
 #include "cmd/tell.h"
 
-/* Where stdin, stdout or stderr is closed, an output file would take its number and messages would land in it. Reading this end of
-   /dev/null gives nothing and writing it fails. */
-static void fill_standard_streams(void)
-{
-    int fd;
-    do
-        fd = open("/dev/null", O_RDONLY);
-    while (fd >= 0 && fd <= STDERR_FILENO);
-    if (fd >= 0)
-        close(fd);
-}
-
-/* What was printed has to have arrived: a full disk or a closed pipe is an error, unless there is a worse one already. */
+/* What was printed has to have arrived: a full disk or a closed pipe is an error, unless there is a worse one already.
+ */
 static int close_stdout(int code)
 {
     int failed = ferror(stdout);
@@ -38,11 +26,10 @@ static int close_stdout(int code)
         putchar('\n'); /* else nothing is left that would say why it cannot be written */
     int pending = __fpending(stdout) != 0;
     errno = 0;
-    if (fclose(stdout) != 0)
-        failed |= pending || errno != EBADF;
-    if (!failed)
-        return code;
-    fprintf(stderr, "rasp: error: cannot write to standard output: %s\n", errno ? strerror(errno) : "what was printed is not complete");
+    if (fclose(stdout) != 0) failed |= pending || errno != EBADF;
+    if (!failed) return code;
+    fprintf(stderr, "rasp: error: cannot write to standard output: %s\n",
+            errno ? strerror(errno) : "what was printed is not complete");
     return code ? code : ERR_IO;
 }
 
@@ -50,19 +37,19 @@ int program_complain(const char *command, const struct err *e)
 {
     char line[sizeof e->text + 64];
     snprintf(line, sizeof line, "rasp%s%s: error: %s\n", *command ? " " : "", command, e->text);
-    paint_lines(stderr, line);
-    if (e->kind == ERR_USAGE)
-        fprintf(stderr, "Try: rasp %s%s--help\n", command, *command ? " " : "");
+    tell_paint(stderr, line);
+    if (e->kind == ERR_USAGE) fprintf(stderr, "Try: rasp %s%s--help\n", command, *command ? " " : "");
     return (int)e->kind;
 }
 
 static bool count_operands(const struct command *m, const struct args *g, struct err *e)
 {
     if (g->n_operands < m->least)
-        return err_set(e, ERR_USAGE, "%s missing; usage: rasp %s [OPTION]... %s", m->least > 1 ? "operands are" : "an operand is", m->name,
-                       m->operands);
+        return err_set(e, ERR_USAGE, "%s missing; usage: rasp %s [OPTION]... %s",
+                       m->least > 1 ? "operands are" : "an operand is", m->name, m->operands);
     if (m->most >= 0 && g->n_operands > m->most)
-        return err_set(e, ERR_USAGE, "extra operand '%s'; usage: rasp %s [OPTION]... %s", g->operands[m->most], m->name, m->operands);
+        return err_set(e, ERR_USAGE, "extra operand '%s'; usage: rasp %s [OPTION]... %s", g->operands[m->most], m->name,
+                       m->operands);
     return true;
 }
 
@@ -70,7 +57,8 @@ static bool count_operands(const struct command *m, const struct args *g, struct
 static bool asks_json(int argc, char **argv)
 {
     for (int i = 0; i < argc; i++)
-        if (!strcmp(argv[i], "--diagnostics=json") || (!strcmp(argv[i], "--diagnostics") && i + 1 < argc && !strcmp(argv[i + 1], "json")))
+        if (!strcmp(argv[i], "--diagnostics=json") ||
+            (!strcmp(argv[i], "--diagnostics") && i + 1 < argc && !strcmp(argv[i + 1], "json")))
             return true;
     return false;
 }
@@ -78,12 +66,10 @@ static bool asks_json(int argc, char **argv)
 int program_run(const struct command *m, int argc, char **argv)
 {
     bool json = asks_json(argc, argv);
-    if (json)
-        lastwords_as_json();
+    if (json) lastwords_as_json();
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
-    if (json)
-        tell_as_json(&c);
+    if (json) tell_as_json(&c);
     int code = 0;
     if (!args_parse(&c.args, cmd_options(m, c.arena), argc, argv, c.arena, &e))
         code = (int)e.kind;
@@ -92,8 +78,7 @@ int program_run(const struct command *m, int argc, char **argv)
     else if (tell_begin(&c, &e) && count_operands(m, &c.args, &e))
         code = m->run(&c, &e);
     tell_end(&c);
-    if (e.kind == ERR_INTERRUPTED)
-        interrupt_tell();
+    if (e.kind == ERR_INTERRUPTED) interrupt_tell();
     if (e.kind) {
         tell_error(&c, m->name, &e);
         code = (int)e.kind;
@@ -105,15 +90,20 @@ int program_run(const struct command *m, int argc, char **argv)
 /* GSL's own way with errors, but for one: no memory left is no fault of the program. */
 static void gsl_complains(const char *reason, const char *file, int line, int code)
 {
-    if (code == GSL_ENOMEM)
-        memory_out("GSL: %s", reason);
+    if (code == GSL_ENOMEM) memory_out("GSL: %s", reason);
     fprintf(stderr, "gsl: %s:%d: %s\n", file, line, reason);
     abort();
 }
 
 int program_main(int (*run)(int argc, char **argv), int argc, char **argv)
 {
-    fill_standard_streams();
+    /* Where stdin, stdout or stderr is closed, an output file would take its number and messages would land in it.
+   Reading this end of /dev/null gives nothing and writing it fails. */
+    int fd;
+    do
+        fd = open("/dev/null", O_RDONLY);
+    while (fd >= 0 && fd <= STDERR_FILENO);
+    if (fd >= 0) close(fd);
     interrupt_catch();
     gsl_set_error_handler(gsl_complains);
     json_set_alloc_funcs(memory_take, free); /* what jansson gets no memory for is else left out */

@@ -1,21 +1,178 @@
-/* rasp render: scenes into sounds. */
+/* rasp render: scenes into sounds. With --verify compared is what was computed, before its level is set and its samples are rounded to the file's
+ * encoding. */
+#include <jansson.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/outfile.h"
 #include "base/text.h"
+#include "cmd/accuracy.h"
 #include "cmd/cmd.h"
-#include "cmd/render_verify.h"
 #include "cmd/tell.h"
 #include "pipeline/outputs.h"
+#include "pipeline/plan_scene.h"
 #include "pipeline/render.h"
+#include "scene/accuracy.h"
+#include "scene/keys.h"
 #include "scene/scene_places.h"
 
+enum { REFERENCE, OWN };
+
+/* ------------------------------------------------------------------ the reference
+
+   The preset reference, but of every knob at least twice as fine as what is verified, so that no more than a fraction
+   of its error (2^-order of it) is left out of what is measured. Where that is beyond the knob's range, or a stage
+   refuses it (memory), the reference is as fine as it may be, and the knob is told. Ramps of one sample are as fine as
+   they go. */
+
+static bool steps(int knob) { return keys_knobs[knob].scale == KEY_STEPS; }
+
+static double finer(int knob, double own)
+{
+    return steps(knob) ? fmin(2 * own, keys_knobs[knob].high) : fmax(floor(own / 2), keys_knobs[knob].low);
+}
+
+/* `raised`: set of knobs that are finer than the preset has them. */
+static struct accuracy finest(const struct accuracy *own, unsigned used, unsigned *raised)
+{
+    struct accuracy set = *own;
+    accuracy_preset(&set, "reference");
+    *raised = 0;
+    for (int k = 0; k < KNOBS; k++) {
+        double x = accuracy_knob(own, (enum knob)k), y = accuracy_knob(&set, (enum knob)k),
+               z = used & 1u << k ? finer(k, x) : x;
+        double best = steps(k) ? fmax(z, y) : fmin(z, y);
+        accuracy_turn(&set, (enum knob)k, best);
+        *raised |= best != y ? 1u << k : 0;
+    }
+    return set;
+}
+
+/* What is raised and refused (heights that take too much memory) is had one and a half times as fine as what is
+   verified, or as fine, never coarser than the preset has it: one knob after another, until the reference is rendered.
+ */
+static bool reference(struct accuracy_sweep *s, unsigned raised, struct err *e)
+{
+    struct accuracy_render *r = &s->renders[REFERENCE];
+    struct accuracy preset = r->set;
+    accuracy_preset(&preset, "reference");
+    s->reference = -1; /* that a reference is refused would be an error */
+    bool ok = accuracy_child(s, REFERENCE, e);
+    for (int i = 0; ok && r->code != 0 && i < 2 * KNOBS; i++) {
+        enum knob k = (enum knob)(i / 2);
+        double own = accuracy_knob(&s->renders[OWN].set, k), least = accuracy_knob(&preset, k);
+        if (!(raised & 1u << k) || (!steps(k) && i % 2 == 0)) continue;
+        accuracy_turn(&r->set, k, steps(k) ? fmax(i % 2 ? own : floor(1.5 * own), least) : fmin(own, least));
+        ok = accuracy_child(s, REFERENCE, e);
+    }
+    s->reference = REFERENCE;
+    return ok;
+}
+
+static bool measure(struct accuracy_sweep *s, unsigned raised, struct err *e)
+{
+    if (!accuracy_child_folder(s, e)) return false;
+    bool ok = true;
+    for (int i = 0; ok && i < s->n_renders; i++) {
+        const struct accuracy_render *r = &s->renders[i];
+        ok = (i == REFERENCE ? reference(s, raised, e) : accuracy_child(s, i, e)) &&
+             (r->code == 0 || err_set(e, (enum err_kind)r->code, "%s", r->words)) && accuracy_child_compare(s, i, e);
+    }
+    accuracy_child_end(s);
+    return ok;
+}
+
+/* The summary once more, with what was measured. */
+static bool summary_again(struct render_report *r, double measured, struct arena *a, struct err *e)
+{
+    json_t *whole = json_loads(r->summary, 0, NULL), *accuracy = json_object_get(whole, "accuracy");
+    struct outfile file = {.fd = -1};
+    const char *path = NULL;
+    if (!accuracy) json_object_set_new(whole, "accuracy", accuracy = json_object());
+    json_object_set_new(accuracy, "measured_db", isfinite(measured) ? json_real(measured) : json_null());
+    char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);
+    r->summary = arena_format(a, "%s\n", text ? text : "{}");
+    free(text);
+    json_decref(whole);
+    for (int i = 0; i < r->n_files; i++)
+        path = strcmp(r->files[i].kind, "summary") ? path : r->files[i].path;
+    bool ok = outfile_open(&file, path, e);
+    if (ok) fputs(r->summary, file.stream);
+    ok = ok && outfile_settle(&file, e) && outfile_commit(&file, e);
+    outfile_drop(&file);
+    return ok;
+}
+
+static void note(struct render_report *r, const char *text, struct arena *a)
+{
+    const char **notes = ARENA_TAKE(a, const char *, r->n_notes + 1);
+    memcpy(notes, r->notes, (size_t)r->n_notes * sizeof *notes);
+    notes[r->n_notes++] = text;
+    r->notes = notes;
+}
+
+/* Renders the scene twice more, each in a process of its own and as doubles: with the knobs that it was rendered with,
+   and with the reference's (preset reference, or twice as fine as those); adds a note and, in the summary on disk and
+   in the report, accuracy.measured_db: their difference over the reference, rms, in dB. The note says of which knobs
+   there is nothing twice as fine, so that their error is not or not wholly in it. ERR_DIFFERS: it is more than
+   accuracy.error; the files stay. Else as renders. */
+static bool render_verify(struct cmd_call *c, const char *file, const struct scene *asked, struct render_report *r,
+                          struct err *e)
+{
+    struct accuracy_sweep s = {.call = c,
+                               .file = file,
+                               .scene = *asked,
+                               .until = INFINITY,
+                               .high = -1,
+                               .n_renders = 2,
+                               .reference = REFERENCE};
+    s.renders = ARENA_TAKE(c->arena, struct accuracy_render, 2);
+    s.force = accuracy_silent(asked);
+    unsigned used, raised;
+    s.scene.accuracy = r->accuracy;
+    if (!plan_scene_knobs(&s.scene, c->arena, &used, e)) return false;
+    s.renders[REFERENCE] =
+        (struct accuracy_render){.set = finest(&r->accuracy, used, &raised), .cpu = HUGE_VAL, .contact_share = NAN};
+    s.renders[OWN] = (struct accuracy_render){.set = r->accuracy, .cpu = HUGE_VAL, .contact_share = NAN};
+    if (!measure(&s, raised, e)) return false;
+    double measured = -s.renders[OWN].error.snr;
+    if (!summary_again(r, measured, c->arena, e)) return false;
+    /* Of which knobs there is nothing twice as fine: "" or what is told. */
+    const char *text = "";
+    for (int k = 0; k < KNOBS; k++) {
+        double own = accuracy_knob(&s.renders[OWN].set, (enum knob)k),
+               than = accuracy_knob(&s.renders[REFERENCE].set, (enum knob)k);
+        if (used & 1u << k && !(steps(k) ? than >= 2 * own : own <= 1 || than <= own / 2))
+            text = arena_format(c->arena, "%s; %s of %s %.6g, as the reference has no finer than %.6g", text,
+                                than == own ? "nothing" : "less than all", keys_knobs[k].name, own, than);
+    }
+    const char *less = text;
+    note(r,
+         isfinite(measured)
+             ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s", measured, less)
+             : arena_format(c->arena, "accuracy: measured: the same bits as the reference%s", less),
+         c->arena);
+    return isnan(asked->accuracy.error) || measured <= asked->accuracy.error || err_about(e, NULL, "accuracy.error") ||
+           err_set(e, ERR_DIFFERS,
+                   "accuracy.error: %.6g dB is not kept: %.1f dB measured against the reference; the files stay as "
+                   "they are: ask for less (accuracy.error: %.0f dB), or say the knobs",
+                   asked->accuracy.error, measured, ceil(measured)) ||
+           scene_places_tell(asked, e);
+}
+
+
 static const struct args_option render_options[] = {
-    {"output", 'o', "FILE|FOLDER/", false, "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
+    {"output", 'o', "FILE|FOLDER/", false,
+     "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
     CMD_SCENE_OPTIONS,
-    {"json", 0, NULL, false, "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
-    {"verify", 0, NULL, false, "render the reference, too, and measure what accuracy was kept; exit code 1 if that is less than accuracy.error asks for"},
+    {"json", 0, NULL, false,
+     "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
+    {"verify", 0, NULL, false,
+     "render the reference, too, and measure what accuracy was kept; exit code 1 if that is less than accuracy.error "
+     "asks for"},
     {"force", 'f', NULL, false, "replaces files that rasp did not write, and writes through symbolic links"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},
     {0},
@@ -29,8 +186,7 @@ static char *scene_stem(struct arena *a, const char *file)
     char *stem = arena_text(a, slash ? slash + 1 : file);
     for (int k = 0; k < 3; k++) {
         size_t n = strlen(stem), m = strlen(endings[k]);
-        if (n > m && strcmp(stem + n - m, endings[k]) == 0)
-            stem[n - m] = '\0';
+        if (n > m && strcmp(stem + n - m, endings[k]) == 0) stem[n - m] = '\0';
     }
     return stem;
 }
@@ -40,16 +196,17 @@ static const char *render_base(struct cmd_call *c, const char *file, struct err 
     const char *o = args_value(&c->args, "output"), *stem = scene_stem(c->arena, file);
     size_t n = o ? strlen(o) : 0;
     struct stat st;
-    if (!o)
-        return stem;
-    if (n == 0)
-        return err_set(e, ERR_USAGE, "--output is empty"), NULL;
+    if (!o) return stem;
+    if (n == 0) return err_set(e, ERR_USAGE, "--output is empty"), NULL;
     if (o[n - 1] == '/' || (stat(o, &st) == 0 && S_ISDIR(st.st_mode)))
         return arena_format(c->arena, "%s%s%s", o, o[n - 1] == '/' ? "" : "/", stem);
     if (c->args.n_operands > 1)
-        return err_set(e, ERR_USAGE, "--output %s: for several scenes it must be a folder that exists, or end in /", o), NULL;
+        return err_set(e, ERR_USAGE, "--output %s: for several scenes it must be a folder that exists, or end in /", o),
+               NULL;
     if (n < 5 || strcmp(o + n - 4, ".wav") != 0 || o[n - 5] == '/')
-        return err_set(e, ERR_USAGE, "--output %s: must end in .wav (the other files are named after it) or in / (a folder)", o), NULL;
+        return err_set(e, ERR_USAGE,
+                       "--output %s: must end in .wav (the other files are named after it) or in / (a folder)", o),
+               NULL;
     return arena_format(c->arena, "%.*s", (int)n - 4, o);
 }
 
@@ -58,9 +215,9 @@ static bool render_folder(struct cmd_call *c, struct err *e)
 {
     const char *o = args_value(&c->args, "output");
     struct stat st;
-    if (!o || o[0] == '\0' || o[strlen(o) - 1] != '/' || stat(o, &st) == 0)
-        return true;
-    return mkdir(o, 0777) == 0 || err_set(e, ERR_CREATE, "the folder %s cannot be created: is its parent there, and writable?", o);
+    if (!o || o[0] == '\0' || o[strlen(o) - 1] != '/' || stat(o, &st) == 0) return true;
+    return mkdir(o, 0777) == 0 ||
+           err_set(e, ERR_CREATE, "the folder %s cannot be created: is its parent there, and writable?", o);
 }
 
 /* Several scenes' summaries are one array. */
@@ -73,7 +230,8 @@ static void render_print(struct cmd_call *c, const struct scene *s, const struct
     else if (!args_given(&c->args, "quiet")) {
         for (int i = 0; i < r->n_files; i++)
             if (strcmp(r->files[i].kind, "scene") != 0 && strcmp(r->files[i].kind, "summary") != 0)
-                printf("%s  %.3f s, %.3g times real time\n", text_shown(c->arena, r->files[i].path), (double)r->frames / s->output.sample_rate,
+                printf("%s  %.3f s, %.3g times real time\n", text_shown(c->arena, r->files[i].path),
+                       (double)r->frames / s->output.sample_rate,
                        (double)r->frames / s->output.sample_rate / (r->cpu > 1e-9 ? r->cpu : 1e-9));
         for (int i = 0; i < r->n_notes; i++)
             printf("%s\n", text_shown(c->arena, r->notes[i]));
@@ -88,8 +246,7 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
     struct outputs *all = ARENA_TAKE(c->arena, struct outputs, n);
     for (int i = 0; i < n; i++) {
         const char *file = c->args.operands[i], *base = render_base(c, file, e);
-        if (!base || !cmd_read_scene(c, file, &scenes[i], e))
-            return NULL;
+        if (!base || !cmd_read_scene(c, file, &scenes[i], e)) return NULL;
         all[i] = outputs_make(&scenes[i], base, c->arena);
     }
     return outputs_distinct(all, n, c->arena, e) && outputs_spare(all, n, c->arena, e) &&
@@ -102,8 +259,7 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
 static bool render_one(struct cmd_call *c, int i, const struct outputs *o, bool array, int *printed, struct err *e)
 {
     struct render_report report;
-    if (!render_scene(o->scene, o->base, c->arena, &report, e))
-        return scene_places_tell(o->scene, e);
+    if (!render_scene(o->scene, o->base, c->arena, &report, e)) return scene_places_tell(o->scene, e);
     bool kept = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
     fputs(!array ? "" : (*printed)++ ? "," : "[", stdout);
     render_print(c, o->scene, &report);
@@ -113,29 +269,36 @@ static bool render_one(struct cmd_call *c, int i, const struct outputs *o, bool 
 static int render_run(struct cmd_call *c, struct err *e)
 {
     int n = c->args.n_operands, done = 0;
-    if (n > 1)
-        tell_group(c);
+    if (n > 1) tell_group(c);
     bool array = n > 1 && args_given(&c->args, "json");
     const struct outputs *all = render_read(c, e);
     bool ok = all != NULL;
     for (int i = 0; ok && i < n; i++)
         ok = render_one(c, i, &all[i], array, &done, e);
-    if (array && done)
-        puts("]");
+    if (array && done) puts("]");
     return (int)e->kind;
 }
 
 const struct command render_command = {
     .name = "render",
     .summary = "renders scenes into sound files",
-    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv or NAME.npy (if the scene asks for diagnostics), NAME.impacts.csv (if it asks for the series of "
-            "impacts), NAME.scene.yaml (the effective scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which files were written). "
-            "A file whose samples are all 0, for nothing was there or for it was rounded away, is warned of, and so is each silent channel of several; and so are samples beyond full scale, which "
-            "floating point holds (integers refuse them), with how many they are and how far beyond: in words and in the summary (silent, samples_beyond_full_scale). "
-            "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes reads is refused, whatever "
-            "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two scenes that would write "
-            "the same file. What an earlier render wrote is replaced; another file, or a symbolic link, is only with --force: rasp(1), FILES. Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are chosen as the cheapest that keep it, and told; what cannot be kept "
-            "is refused. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a warning. Several scenes "
+    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv or NAME.npy (if the scene asks for "
+            "diagnostics), NAME.impacts.csv (if it asks for the series of "
+            "impacts), NAME.scene.yaml (the effective scene: rendering it gives the same bytes) and NAME.json (level, "
+            "cost per stage, real-time factor, which files were written). "
+            "A file whose samples are all 0, for nothing was there or for it was rounded away, is warned of, and so is "
+            "each silent channel of several; and so are samples beyond full scale, which "
+            "floating point holds (integers refuse them), with how many they are and how far beyond: in words and in "
+            "the summary (silent, samples_beyond_full_scale). "
+            "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes "
+            "reads is refused, whatever "
+            "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two "
+            "scenes that would write "
+            "the same file. What an earlier render wrote is replaced; another file, or a symbolic link, is only with "
+            "--force: rasp(1), FILES. Where the scene asks for an error (accuracy.error), the knobs that it leaves "
+            "unsaid are chosen as the cheapest that keep it, and told; what cannot be kept "
+            "is refused. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a "
+            "warning. Several scenes "
             "are all read before the first is rendered; the first that fails ends the run.",
     .operands = "SCENE...",
     .least = 1,

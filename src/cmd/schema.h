@@ -11,7 +11,4 @@
 json_t *schema_scene(struct arena *a);
 json_t *schema_design(struct arena *a);
 
-/* "$defs" of both: the scene's top-level maps by name, and accuracy. */
-json_t *schema_maps(struct arena *a);
-
 #endif

@@ -19,6 +19,5 @@ extern const struct starter starters_table[]; /* the first is the default; ends 
 const struct starter *starters_find(const char *name); /* NULL: none */
 /* irs: the folder of the shipped responses, as the scene is to call it. */
 void starters_print(FILE *f, const struct starter *s, const char *irs, struct arena *a);
-void starters_design(FILE *f, const char *irs, struct arena *a);
 
 #endif

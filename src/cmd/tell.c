@@ -1,34 +1,161 @@
-/* See tell.h. */
+/* See tell.h. Painted are the first "error:" or "warning:" at a line's start or after ": ", and what a message adds
+ * below the line it shows. */
 #include "cmd/tell.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/text.h"
-#include "cmd/paint.h"
 #include "cmd/program.h"
-#include "cmd/warnings.h"
+
+#define RED "\033[1;31m"
+#define MAGENTA "\033[1;35m"
+#define GREEN "\033[1;32m"
+#define CYAN "\033[1;36m"
+#define PLAIN "\033[m"
+
+struct piece {
+    const char *at; /* NULL: none */
+    size_t size;
+    const char *colour;
+};
+
+/* A terminal, whose TERM is neither empty nor dumb, and NO_COLOR is not set or empty (no-color.org). */
+static bool tell_colours(FILE *f)
+{
+    const char *off = getenv("NO_COLOR"), *term = getenv("TERM");
+    return !(off && *off) && term && *term && strcmp(term, "dumb") != 0 && isatty(fileno(f));
+}
+
+/* The text in line[0..n), at its start or after ": ". */
+static const char *find(const char *line, size_t n, const char *text)
+{
+    size_t m = strlen(text);
+    for (size_t i = 0; i + m <= n; i++)
+        if (!strncmp(line + i, text, m) && (i == 0 || (i >= 2 && line[i - 1] == ' ' && line[i - 2] == ':')))
+            return line + i;
+    return NULL;
+}
+
+static struct piece piece_of(const char *line, size_t n)
+{
+    size_t bar = strspn(line, " 0123456789"), mark = bar < n ? bar + 1 + strspn(line + bar + 1, " \t") : n;
+    if (bar < n && bar >= 4 && line[bar] == '|')
+        return mark < n && line[mark] == '^' && strspn(line, " ") == bar ? (struct piece){line + mark, n - mark, GREEN}
+                                                                         : (struct piece){NULL, 0, NULL};
+    if (!strncmp(line, "      = help:", 13)) return (struct piece){line + 8, 5, CYAN};
+    const char *error = find(line, n, "error:"), *warning = find(line, n, "warning:");
+    if (error && (!warning || error < warning)) return (struct piece){error, 6, RED};
+    return warning ? (struct piece){warning, 8, MAGENTA} : (struct piece){NULL, 0, NULL};
+}
+
+static void print_line(FILE *f, const char *line, size_t n)
+{
+    const struct piece p = piece_of(line, n);
+    if (!p.at) {
+        fwrite(line, 1, n, f);
+        return;
+    }
+    size_t before = (size_t)(p.at - line);
+    fwrite(line, 1, before, f);
+    fprintf(f, "%s%.*s%s", p.colour, (int)p.size, p.at, PLAIN);
+    fwrite(p.at + p.size, 1, n - before - p.size, f);
+}
+
+void tell_paint(FILE *f, const char *lines)
+{
+    if (!tell_colours(f)) {
+        fputs(lines, f);
+        return;
+    }
+    while (*lines) {
+        size_t n = strcspn(lines, "\n");
+        print_line(f, lines, n);
+        lines += n;
+        if (*lines) {
+            fputc('\n', f);
+            lines++;
+        }
+    }
+}
+
+/* Where a number that stands by itself ends, NULL: none begins here. Those in names, c2 or hit-3.wav, do not stand by
+ * themselves. */
+static const char *number_end(const char *at, char before)
+{
+    bool sign = *at == '-' || *at == '+';
+    if (!strchr(" (", before) || !isdigit((unsigned char)at[sign])) return NULL;
+    char *end;
+    strtod(at, &end);
+    return end;
+}
+
+static bool alike(const char *a, const char *b)
+{
+    char before = 0;
+    while (*a && *b) {
+        const char *past[2] = {number_end(a, before), number_end(b, before)};
+        if (past[0] && past[1]) {
+            a = past[0];
+            b = past[1];
+        } else if (*a++ != *b++)
+            return false;
+        before = a[-1];
+    }
+    return *a == *b;
+}
+
+static struct warning *same(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
+{
+    struct warning **w = all, *near = NULL;
+    for (; *w; w = &(*w)->next) {
+        bool told = strcmp((*w)->files[(*w)->n - 1], file) == 0;
+        if (strcmp((*w)->text, text) == 0 && !(told && (*w)->other)) {
+            (*w)->other = false;
+            return *w;
+        }
+        if (!exact && !near && !told && alike((*w)->text, text)) near = *w;
+    }
+    if (near) {
+        near->numbers = near->other = true;
+        return near;
+    }
+    *w = ARENA_TAKE(a, struct warning, 1);
+    (*w)->text = text;
+    return *w;
+}
+
+struct warning *tell_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
+{
+    struct warning *w = same(all, file, text, exact, a);
+    if (w->n > 0 && !strcmp(w->files[w->n - 1], file)) return w;
+    if (w->n == w->room) {
+        const char **more = ARENA_TAKE(a, const char *, w->room = 2 * w->room + 4);
+        if (w->n > 0) memcpy(more, w->files, (size_t)w->n * sizeof *more);
+        w->files = more;
+    }
+    w->files[w->n++] = file;
+    return w;
+}
 
 enum { FILES_NAMED = 4 /* of a warning that several scenes have */ };
 
 struct cmd_tell {
     bool json, group;
-    bool told;              /* tell_scene has said what tell_error would */
-    json_t *kept;           /* NULL: nothing is kept */
+    bool told;    /* tell_scene has said what tell_error would */
+    json_t *kept; /* NULL: nothing is kept */
     struct warning *warnings;
 };
 
 static struct cmd_tell *of(struct cmd_call *c)
 {
-    if (!c->tell)
-        c->tell = ARENA_TAKE(c->arena, struct cmd_tell, 1);
+    if (!c->tell) c->tell = ARENA_TAKE(c->arena, struct cmd_tell, 1);
     return c->tell;
 }
 
-void tell_as_json(struct cmd_call *c)
-{
-    of(c)->json = true;
-}
+void tell_as_json(struct cmd_call *c) { of(c)->json = true; }
 
 bool tell_begin(struct cmd_call *c, struct err *e)
 {
@@ -47,16 +174,14 @@ static json_t *text_or_null(const char *s, size_t n)
     return j ? j : json_null();
 }
 
-static json_t *whole_or_null(int n)
-{
-    return n > 0 ? json_integer(n) : json_null();
-}
+static json_t *whole_or_null(int n) { return n > 0 ? json_integer(n) : json_null(); }
 
 static json_t *object(const char *severity, enum err_kind kind)
 {
     json_t *o = json_object();
     json_object_set_new(o, "severity", json_string(severity));
-    for (const char *const *key = (const char *const[]){"file", "line", "column", "width", "message", "help", NULL}; *key; key++)
+    for (const char *const *key = (const char *const[]){"file", "line", "column", "width", "message", "help", NULL};
+         *key; key++)
         json_object_set_new(o, *key, json_null());
     json_object_set_new(o, "code", whole_or_null((int)kind));
     return o;
@@ -74,7 +199,8 @@ static void set_source(json_t *o, const struct diag_place *at, struct arena *a)
 {
     const char *name = at->source ? text_shown(a, at->source->name) : NULL;
     bool lines = at->source && !at->source->option && !at->source->made;
-    json_object_set_new(o, at->source && at->source->option ? "option" : "file", text_or_null(name, name ? strlen(name) : 0));
+    json_object_set_new(o, at->source && at->source->option ? "option" : "file",
+                        text_or_null(name, name ? strlen(name) : 0));
     set_place(o, lines ? at->line : 0, at->column, at->width);
 }
 
@@ -94,10 +220,8 @@ static json_t *of_diag(const struct diag_error *x, enum err_kind kind, struct ar
     json_t *o = object("error", kind);
     set_source(o, &x->at, a);
     json_object_set_new(o, "message", text_or_null(x->text, strlen(x->text)));
-    if (x->help)
-        json_object_set_new(o, "help", text_or_null(x->help, strlen(x->help)));
-    if (x->at.source && x->at.source->named.source)
-        json_object_set_new(o, "named_at", named_at(x->at.source, a));
+    if (x->help) json_object_set_new(o, "help", text_or_null(x->help, strlen(x->help)));
+    if (x->at.source && x->at.source->named.source) json_object_set_new(o, "named_at", named_at(x->at.source, a));
     return o;
 }
 
@@ -105,8 +229,7 @@ static json_t *of_err(const struct err *e)
 {
     json_t *o = object("error", e->kind);
     const struct err_place *p = &e->place;
-    if (p->file > 0)
-        json_object_set_new(o, "file", text_or_null(e->text, (size_t)p->file));
+    if (p->file > 0) json_object_set_new(o, "file", text_or_null(e->text, (size_t)p->file));
     set_place(o, p->line, p->column, p->width);
     const char *message = p->message < (int)strlen(e->text) ? e->text + p->message : e->text;
     json_object_set_new(o, "message", text_or_null(message, strlen(message)));
@@ -123,10 +246,8 @@ static void print(json_t *o)
 static void put(struct cmd_call *c, json_t *o)
 {
     struct cmd_tell *t = of(c);
-    if (t->kept)
-        json_array_append(t->kept, o);
-    if (t->json)
-        print(o);
+    if (t->kept) json_array_append(t->kept, o);
+    if (t->json) print(o);
     json_decref(o);
 }
 
@@ -138,11 +259,9 @@ void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, 
     for (int i = 0; (t->json || t->kept) && d && i < d->n && i < DIAG_KEPT; i++)
         put(c, of_diag(&d->errors[i], kind, c->arena));
     t->told = (t->json || t->kept) && d && d->n > 0;
-    if (t->json)
-        return;
-    paint_lines(stderr, messages);
-    if (*messages && messages[strlen(messages) - 1] != '\n')
-        fputc('\n', stderr);
+    if (t->json) return;
+    tell_paint(stderr, messages);
+    if (*messages && messages[strlen(messages) - 1] != '\n') fputc('\n', stderr);
 }
 
 /* ":12" at the beginning of a text; the rest is behind it, NULL: there is none. */
@@ -160,7 +279,8 @@ static struct err_place place_in(const char *text)
 {
     for (const char *at = strchr(text, ':'); at; at = strchr(at + 1, ':')) {
         struct err_place p = {.file = (int)(at - text)};
-        const char *line = at > text ? number_at(at, &p.line) : NULL, *column = line ? number_at(line, &p.column) : NULL, *end = column ? column : line;
+        const char *line = at > text ? number_at(at, &p.line) : NULL,
+                   *column = line ? number_at(line, &p.column) : NULL, *end = column ? column : line;
         if (end && !strncmp(end, ": ", 2)) {
             p.message = (int)(end - text) + 2;
             return p;
@@ -174,10 +294,11 @@ static struct err_place operand_in(const struct cmd_call *c, const char *text)
 {
     for (int i = 0; i < c->args.n_operands; i++) {
         int n = (int)strlen(c->args.operands[i]);
-        if (!n || strncmp(text, c->args.operands[i], (size_t)n) != 0 || text[n] != ':')
-            continue;
+        if (!n || strncmp(text, c->args.operands[i], (size_t)n) != 0 || text[n] != ':') continue;
         struct err_place p = place_in(text);
-        return p.file == n ? p : text[n + 1] == ' ' ? (struct err_place){.file = n, .message = n + 2} : (struct err_place){0};
+        return p.file == n          ? p
+               : text[n + 1] == ' ' ? (struct err_place){.file = n, .message = n + 2}
+                                    : (struct err_place){0};
     }
     return (struct err_place){0};
 }
@@ -186,13 +307,10 @@ void tell_error(struct cmd_call *c, const char *command, const struct err *e)
 {
     struct cmd_tell *t = of(c);
     struct err placed = *e;
-    if (!e->place.file)
-        placed.place = operand_in(c, e->text);
-    if ((t->json || t->kept) && !t->told)
-        put(c, of_err(&placed));
+    if (!e->place.file) placed.place = operand_in(c, e->text);
+    if ((t->json || t->kept) && !t->told) put(c, of_err(&placed));
     t->told = false;
-    if (!t->json)
-        program_complain(command, e);
+    if (!t->json) program_complain(command, e);
 }
 
 void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e)
@@ -202,8 +320,7 @@ void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus
         struct err placed = *e;
         placed.place = place_in(e->text);
         json_t *o = of_err(&placed);
-        if (!placed.place.file && file)
-            json_object_set_new(o, "file", text_or_null(file, strlen(file)));
+        if (!placed.place.file && file) json_object_set_new(o, "file", text_or_null(file, strlen(file)));
         json_object_set_new(o, "stimulus", text_or_null(stimulus, strlen(stimulus)));
         put(c, o);
     } else {
@@ -213,10 +330,7 @@ void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus
     }
 }
 
-void tell_keep(struct cmd_call *c)
-{
-    of(c)->kept = json_array();
-}
+void tell_keep(struct cmd_call *c) { of(c)->kept = json_array(); }
 
 json_t *tell_kept(struct cmd_call *c)
 {
@@ -234,8 +348,7 @@ static void warn_json(const struct warning *w)
         json_array_append_new(files, text_or_null(w->files[i], strlen(w->files[i])));
     json_object_set(o, w->stimuli ? "stimulus" : "file", json_array_get(files, 0));
     json_object_set_new(o, "message", text_or_null(w->text, strlen(w->text)));
-    if (w->n > 1)
-        json_object_set(o, w->stimuli ? "stimuli" : "files", files);
+    if (w->n > 1) json_object_set(o, w->stimuli ? "stimuli" : "files", files);
     json_decref(files);
     print(o);
     json_decref(o);
@@ -244,7 +357,8 @@ static void warn_json(const struct warning *w)
 /* " (and of 2 other scenes: b.yaml, c.yaml)", or " (and, with other numbers, of ..." */
 static const char *others(struct cmd_call *c, const struct warning *w)
 {
-    const char *all = arena_format(c->arena, " (and%s of %d other scene%s:", w->numbers ? ", with other numbers," : "", w->n - 1, w->n > 2 ? "s" : "");
+    const char *all = arena_format(c->arena, " (and%s of %d other scene%s:", w->numbers ? ", with other numbers," : "",
+                                   w->n - 1, w->n > 2 ? "s" : "");
     for (int i = 1; i < w->n && i <= FILES_NAMED; i++)
         all = arena_format(c->arena, "%s%s %s", all, i > 1 ? "," : "", w->files[i]);
     return arena_format(c->arena, "%s%s)", all, w->n - 1 > FILES_NAMED ? ", ..." : "");
@@ -255,7 +369,8 @@ static void warn(struct cmd_call *c, const struct warning *w)
     if (of(c)->json)
         warn_json(w);
     else
-        paint_lines(stderr, arena_format(c->arena, "%s: warning: %s%s\n", w->files[0], w->text, w->n > 1 ? others(c, w) : ""));
+        tell_paint(stderr,
+                   arena_format(c->arena, "%s: warning: %s%s\n", w->files[0], w->text, w->n > 1 ? others(c, w) : ""));
 }
 
 static void warn_of(struct cmd_call *c, const char *name, const char *text, bool stimulus)
@@ -263,15 +378,12 @@ static void warn_of(struct cmd_call *c, const char *name, const char *text, bool
     const char *shown = text_shown(c->arena, name);
     text = text_shown(c->arena, text);
     if (of(c)->group)
-        warnings_add(&c->tell->warnings, shown, text, c->tell->json, c->arena)->stimuli = stimulus;
+        tell_add(&c->tell->warnings, shown, text, c->tell->json, c->arena)->stimuli = stimulus;
     else
         warn(c, &(struct warning){.text = text, .files = &shown, .n = 1, .stimuli = stimulus});
 }
 
-void tell_warning(struct cmd_call *c, const char *file, const char *text)
-{
-    warn_of(c, file, text, false);
-}
+void tell_warning(struct cmd_call *c, const char *file, const char *text) { warn_of(c, file, text, false); }
 
 void tell_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text)
 {
@@ -284,18 +396,14 @@ void tell_remark(struct cmd_call *c, const char *command, const char *text)
     if (of(c)->json)
         warn_json(&(struct warning){.text = text, .files = &(const char *){NULL}, .n = 1});
     else
-        paint_lines(stderr, arena_format(c->arena, "rasp %s: warning: %s\n", command, text));
+        tell_paint(stderr, arena_format(c->arena, "rasp %s: warning: %s\n", command, text));
 }
 
-void tell_group(struct cmd_call *c)
-{
-    of(c)->group = true;
-}
+void tell_group(struct cmd_call *c) { of(c)->group = true; }
 
 void tell_end(struct cmd_call *c)
 {
     for (const struct warning *w = c->tell ? c->tell->warnings : NULL; w; w = w->next)
         warn(c, w);
-    if (c->tell)
-        c->tell->warnings = NULL;
+    if (c->tell) c->tell->warnings = NULL;
 }

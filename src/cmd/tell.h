@@ -11,6 +11,9 @@
 
 #include "base/diag.h"
 #include "cmd/cmd.h"
+#include <stdbool.h>
+#include <stdio.h>
+#include "base/arena.h"
 
 /* Heeds --diagnostics. ERR_USAGE */
 bool tell_begin(struct cmd_call *c, struct err *e);
@@ -41,5 +44,20 @@ void tell_end(struct cmd_call *c);
 /* What would be told of errors is kept from here on, an array of objects as above, until it is taken. */
 void tell_keep(struct cmd_call *c);
 json_t *tell_kept(struct cmd_call *c);
+
+/* Prints messages as base/diag.h lays them out, in colours if they are wanted: the words error: and warning:, the line of carets, help:. */
+void tell_paint(FILE *f, const char *lines);
+
+struct warning {
+    const char *text, **files;  /* of the first; files [n] that have it */
+    int n, room;
+    bool numbers, other;        /* some have it with other numbers; so has the last */
+    bool stimuli;               /* files are names of stimuli of a set; the caller's */
+    struct warning *next;       /* in the order they came; NULL: last   */
+};
+
+/* A warning about a file goes to what tells the same already; else, unless only exactly the same counts, to what tells it of other files with other numbers
+   (those that stand by themselves: not of names); else to the end. Texts are not copied. What tells it. */
+struct warning *tell_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a);
 
 #endif

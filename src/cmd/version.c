@@ -1,5 +1,6 @@
 /* The version of rasp, of the compiler and its flags, of the instruction set and of every library.
-   The build may define RASP_REVISION, RASP_FLAGS and RASP_PACKAGES ("NAME VERSION;" of each, by pkg-config), quoted texts. OpenBLAS and LAPACKE are rasp-modes'. */
+   The build may define RASP_REVISION, RASP_FLAGS and RASP_PACKAGES ("NAME VERSION;" of each, by pkg-config), quoted
+   texts. OpenBLAS and LAPACKE are rasp-modes'. */
 #include "cmd/version.h"
 
 #include <ebur128.h>
@@ -48,12 +49,12 @@ static const char *cpu_level(void)
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
         return "x86-64-v4";
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return "x86-64-v3";
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "x86-64-v3";
     return __builtin_cpu_supports("sse4.2") ? "x86-64-v2" : "x86-64";
 }
 
-/* Which of the levels that hot functions are compiled for this CPU gets (num/lanes.h), or the one that all is compiled for. */
+/* Which of the levels that hot functions are compiled for this CPU gets (num/lanes.h), or the one that all is compiled
+ * for. */
 static void print_level(void)
 {
 #define TEXT(...) #__VA_ARGS__
@@ -88,8 +89,17 @@ static void print_library(const char *name, const char *loaded, const char *pack
     printf("%-12s %s%s(built with %.*s)\n", name, loaded ? loaded : "", loaded ? " " : "", length, built);
 }
 
-static void print_libraries(void)
+const char version_number[] = VERSION, version_revision[] = RASP_REVISION;
+
+void version_print(bool verbose)
 {
+    printf("rasp " VERSION "\n");
+    if (!verbose) return;
+    printf("revision     %s\n", RASP_REVISION);
+    printf("compiler     %s\n", COMPILER);
+    printf("flags        %s\n", RASP_FLAGS);
+    printf("glibc        %s (built with %d.%d)\n", gnu_get_libc_version(), __GLIBC__, __GLIBC_MINOR__);
+    print_level();
     char ebur128[32], png[32];
     int major, minor, patch;
     unsigned v = (unsigned)png_access_version_number();
@@ -110,31 +120,16 @@ static void print_libraries(void)
     print_library("LAPACKE", NULL, "lapacke");
 }
 
-const char version_number[] = VERSION, version_revision[] = RASP_REVISION;
-
-void version_print(bool verbose)
-{
-    printf("rasp " VERSION "\n");
-    if (!verbose)
-        return;
-    printf("revision     %s\n", RASP_REVISION);
-    printf("compiler     %s\n", COMPILER);
-    printf("flags        %s\n", RASP_FLAGS);
-    printf("glibc        %s (built with %d.%d)\n", gnu_get_libc_version(), __GLIBC__, __GLIBC_MINOR__);
-    print_level();
-    print_libraries();
-}
-
 bool version_asked(int argc, char **argv)
 {
     bool asked = false, verbose = false, other = false;
     for (int i = 0; i < argc; i++) {
-        bool is = !strcmp(argv[i], "--version") || !strcmp(argv[i], "-V"), more = !strcmp(argv[i], "--verbose") || !strcmp(argv[i], "-v");
+        bool is = !strcmp(argv[i], "--version") || !strcmp(argv[i], "-V"),
+             more = !strcmp(argv[i], "--verbose") || !strcmp(argv[i], "-v");
         asked = asked || is;
         verbose = verbose || more;
         other = other || (!is && !more);
     }
-    if (asked && !other)
-        version_print(verbose);
+    if (asked && !other) version_print(verbose);
     return asked && !other;
 }

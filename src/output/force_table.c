@@ -1,7 +1,8 @@
-/* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T = 1/rate: kinematics,
-   normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its sign) of the audio-rate force over the
-   samples in the interval; events are counted in it; of a ball see roll_rows.c. Rows end with the motion. Numbers are printed with %.9g, lines
-   end in LF; as NPY (file/npy.h) they are doubles, and how many rows there will be is known when the header is written. */
+/* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T =
+   1/rate: kinematics, normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its
+   sign) of the audio-rate force over the samples in the interval; events are counted in it; of a ball see roll_rows.c.
+   Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY (file/npy.h) they are doubles, and
+   how many rows there will be is known when the header is written. */
 #include "output/force_table.h"
 
 #include <math.h>
@@ -29,22 +30,21 @@ const struct table_column force_table_columns[] = {
 struct force_table {
     bool wanted[COLUMNS], npy;
     double value[COLUMNS];
-    double sum, squares, peak;  /* of the row being filled */
+    double sum, squares, peak; /* of the row being filled */
     long samples, lift_offs, row, rows;
-    long behind;                /* sample that is the first behind the row */
+    long behind; /* sample that is the first behind the row */
     struct row_motion motion;
-    struct strike_train train;   /* of what strikes: the impacts from `impact` on     */
+    struct strike_train train; /* of what strikes: the impacts from `impact` on     */
     struct strike_impact impact;
-    bool struck;                 /* there is such a one                               */
-    struct impact_train series;  /* of model impacts                                  */
+    bool struck;                /* there is such a one                               */
+    struct impact_train series; /* of model impacts                                  */
     struct roll_rows ball;
 };
 
 static int column_find(const char *name)
 {
     for (int k = 0; k < COLUMNS; k++)
-        if (strcmp(force_table_columns[k].name, name) == 0)
-            return k;
+        if (strcmp(force_table_columns[k].name, name) == 0) return k;
     return -1;
 }
 
@@ -63,11 +63,9 @@ static bool column_asked(const struct contact *c, const struct scene *s, int fir
 {
     const char **names = s->output.diagnostics.columns;
     for (int k = first; k <= last; k++) {
-        if (!names && column_exists(c, k))
-            return true;
+        if (!names && column_exists(c, k)) return true;
         for (int i = 0; names && names[i]; i++)
-            if (column_find(names[i]) == k)
-                return true;
+            if (column_find(names[i]) == k) return true;
     }
     return false;
 }
@@ -75,15 +73,13 @@ static bool column_asked(const struct contact *c, const struct scene *s, int fir
 static unsigned force_table_asks(const struct contact *c, const struct scene *s)
 {
     unsigned items = 0;
-    if (load_varies(c) && (column_asked(c, s, NORMAL, NORMAL) || (column_asked(c, s, LIFT_OFFS, LIFT_OFFS) && !ball_rolls(c))))
+    if (load_varies(c) &&
+        (column_asked(c, s, NORMAL, NORMAL) || (column_asked(c, s, LIFT_OFFS, LIFT_OFFS) && !ball_rolls(c))))
         items |= ITEM_BIT(ITEM_LOAD);
     for (int k = 0; k < COLUMNS; k++)
-        if (roll_rows_reads(c, (enum column)k) && column_asked(c, s, k, k))
-            items |= ITEM_BIT(ITEM_ROLL);
-    if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA))
-        items |= ITEM_BIT(ITEM_ALPHA);
-    if (column_asked(c, s, MEAN, PEAK))
-        items |= ITEM_BIT(ITEM_FORCE);
+        if (roll_rows_reads(c, (enum column)k) && column_asked(c, s, k, k)) items |= ITEM_BIT(ITEM_ROLL);
+    if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA)) items |= ITEM_BIT(ITEM_ALPHA);
+    if (column_asked(c, s, MEAN, PEAK)) items |= ITEM_BIT(ITEM_FORCE);
     return items | ITEM_BIT(ITEM_MOTION); /* read at a row's own instant */
 }
 
@@ -99,7 +95,8 @@ static double force_table_work(const struct contact *c, const struct scene *s)
     return 4 + (column_asked(c, s, MEAN, PEAK) ? row : 0.6 * row) * s->output.diagnostics.rate / s->output.sample_rate;
 }
 
-/* The reader has told unknown columns, and those that this contact cannot have, with their place: scene/scene_sense.c. */
+/* The reader has told unknown columns, and those that this contact cannot have, with their place: scene/scene_sense.c.
+ */
 static bool columns_choose(struct force_table *t, const struct stage_run *r, struct err *e)
 {
     const char **names = r->scene->output.diagnostics.columns;
@@ -108,7 +105,8 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     for (int i = 0; names && names[i]; i++) {
         int k = column_find(names[i]);
         if (k < 0 || !column_exists(r->contact, k))
-            return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no column '%s'; take it out", r->contact->name, names[i]);
+            return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no column '%s'; take it out",
+                           r->contact->name, names[i]);
         t->wanted[k] = true;
     }
     return true;
@@ -120,15 +118,15 @@ static bool rate_possible(const struct stage_run *r, struct err *e)
     const struct output *o = &r->scene->output;
     return o->diagnostics.rate <= o->sample_rate ||
            err_set(e, ERR_SCENE,
-                   "output.diagnostics.rate: %.9g Hz is above output.sample_rate, %.9g Hz: some rows would have no samples of the force; lower it",
+                   "output.diagnostics.rate: %.9g Hz is above output.sample_rate, %.9g Hz: some rows would have no "
+                   "samples of the force; lower it",
                    o->diagnostics.rate, o->sample_rate);
 }
 
 /* The law of a varying load is on the board; a constant one's is needed for approach and release. */
 static bool load_find(struct force_table *t, const struct stage_run *r, struct err *e)
 {
-    if (r->contact->contact.model != CONTACT_SCRAPE && r->contact->contact.model != CONTACT_ROLL)
-        return true;
+    if (r->contact->contact.model != CONTACT_SCRAPE && r->contact->contact.model != CONTACT_ROLL) return true;
     struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
     t->motion.load = r->board->load ? r->board->load : own;
     return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, own, e);
@@ -136,27 +134,11 @@ static bool load_find(struct force_table *t, const struct stage_run *r, struct e
 
 static bool impacts_find(struct force_table *t, const struct stage_run *r, struct err *e)
 {
-    if (!t->wanted[IMPACTS])
-        return true;
-    if (r->contact->contact.model == CONTACT_IMPACTS)
-        return impact_train_open(r, &t->series, e);
-    if (!strike_make(r->contact, r->board->trajectory->duration, &t->train, e))
-        return false;
+    if (!t->wanted[IMPACTS]) return true;
+    if (r->contact->contact.model == CONTACT_IMPACTS) return impact_train_open(r, &t->series, e);
+    if (!strike_make(r->contact, r->board->trajectory->duration, &t->train, e)) return false;
     t->struck = strike_next(&t->train, &t->impact);
     return true;
-}
-
-static void head_put(const struct force_table *t, FILE *out)
-{
-    const char *names[COLUMNS];
-    size_t n = 0;
-    for (int k = 0; k < COLUMNS; k++)
-        if (t->wanted[k])
-            names[n++] = force_table_columns[k].name;
-    if (t->npy)
-        npy_write(out, names, n, (size_t)t->rows);
-    for (size_t k = 0; k < n && !t->npy; k++)
-        fprintf(out, "%s%c", names[k], k + 1 < n ? ',' : '\n');
 }
 
 static bool force_table_open(struct stage_run *r, struct err *e)
@@ -164,27 +146,25 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
     r->state = t;
     t->npy = r->scene->output.diagnostics.format == TABLE_NPY;
-    if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e))
-        return false;
+    if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e)) return false;
     roll_rows_make(&t->ball, r->contact);
     t->motion.alpha = limiter_constant(r->contact);
     t->motion.wanted = t->wanted;
     t->rows = t->motion.rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
-    head_put(t, r->board->table->stream);
+    const char *names[COLUMNS];
+    size_t n = 0;
+    for (int k = 0; k < COLUMNS; k++)
+        if (t->wanted[k]) names[n++] = force_table_columns[k].name;
+    if (t->npy) npy_write(r->board->table->stream, names, n, (size_t)t->rows);
+    for (size_t k = 0; k < n && !t->npy; k++)
+        fprintf(r->board->table->stream, "%s%c", names[k], k + 1 < n ? ',' : '\n');
     r->ahead = 1;
     r->ends = r->board->moving;
     return true;
 }
 
-static void row_instant(struct force_table *t, const struct stage_run *r, long row)
-{
-    double *v = t->value;
-    row_motion_take(&t->motion, r, row, v);
-    if (t->wanted[ROLL_ANGLE])
-        v[ROLL_ANGLE] = roll_rows_angle(&t->ball, v[STROKE], v[VELOCITY]);
-}
-
-/* Those that begin (of a series: whose middle comes) before the row ends, and have not been counted; of those before the start, none. */
+/* Those that begin (of a series: whose middle comes) before the row ends, and have not been counted; of those before
+ * the start, none. */
 static void row_impacts(struct force_table *t, double end)
 {
     t->value[IMPACTS] = 0;
@@ -201,22 +181,8 @@ static void row_put_npy(const struct force_table *t, FILE *out)
     double row[COLUMNS];
     size_t n = 0;
     for (int k = 0; k < COLUMNS; k++)
-        if (t->wanted[k])
-            row[n++] = t->value[k] + 0.0;
+        if (t->wanted[k]) row[n++] = t->value[k] + 0.0;
     fwrite(row, sizeof *row, n, out);
-}
-
-/* -0 is written as 0. */
-static void row_put(const struct force_table *t, FILE *out)
-{
-    char text[COLUMNS * (DECIMAL_ROOM + 1) + 1], *end = text;
-    for (int k = 0; k < COLUMNS; k++)
-        if (t->wanted[k]) {
-            end += decimal_9g(t->value[k] + 0.0, end);
-            *end++ = ',';
-        }
-    *(end > text ? end - 1 : end++) = '\n';
-    fwrite(text, 1, (size_t)(end - text), out);
 }
 
 static void row_write(struct force_table *t, const struct board *b)
@@ -226,12 +192,20 @@ static void row_write(struct force_table *t, const struct board *b)
     t->value[RMS] = sqrt(t->squares / n);
     t->value[PEAK] = t->peak;
     t->value[LIFT_OFFS] = (double)t->lift_offs;
-    if (board_has(b, ITEM_ROLL))
-        roll_rows_take(&t->ball, t->samples, t->value);
+    if (board_has(b, ITEM_ROLL)) roll_rows_take(&t->ball, t->samples, t->value);
     if (t->npy)
         row_put_npy(t, b->table->stream);
-    else
-        row_put(t, b->table->stream);
+    else {
+        /* -0 is written as 0. */
+        char text[COLUMNS * (DECIMAL_ROOM + 1) + 1], *end = text;
+        for (int k = 0; k < COLUMNS; k++)
+            if (t->wanted[k]) {
+                end += decimal_9g(t->value[k] + 0.0, end);
+                *end++ = ',';
+            }
+        *(end > text ? end - 1 : end++) = '\n';
+        fwrite(text, 1, (size_t)(end - text), b->table->stream);
+    }
     t->sum = t->squares = t->peak = 0;
     t->samples = t->lift_offs = 0;
 }
@@ -244,8 +218,7 @@ static void row_frame(struct force_table *t, const struct board *b, long n)
         t->squares += f * f;
         t->peak = fabs(f) > fabs(t->peak) ? f : t->peak;
     }
-    if (board_has(b, ITEM_ROLL))
-        roll_rows_frame(&t->ball, board_at(b, ITEM_ROLL, n), t->samples == 0);
+    if (board_has(b, ITEM_ROLL)) roll_rows_frame(&t->ball, board_at(b, ITEM_ROLL, n), t->samples == 0);
     t->samples++;
     if (board_has(b, ITEM_LOAD) && t->wanted[LIFT_OFFS]) {
         const double *load = board_at(b, ITEM_LOAD, n);
@@ -257,7 +230,9 @@ static void row_frame(struct force_table *t, const struct board *b, long n)
 static void rows_before(struct force_table *t, const struct stage_run *r, long end)
 {
     for (; t->row < end; t->row++) {
-        row_instant(t, r, t->row);
+        double *v = t->value;
+        row_motion_take(&t->motion, r, t->row, v);
+        if (t->wanted[ROLL_ANGLE]) v[ROLL_ANGLE] = roll_rows_angle(&t->ball, v[STROKE], v[VELOCITY]);
         row_impacts(t, (double)(t->row + 1) / r->scene->output.diagnostics.rate);
         row_write(t, r->board);
     }
@@ -272,7 +247,8 @@ static long row_of(const struct stage_run *r, long n)
 /* The first sample behind a row. */
 static long row_behind(const struct stage_run *r, long row)
 {
-    long n = (long)((double)(row + 1) * r->board->rate / r->scene->output.diagnostics.rate) - 1; /* that one or one or two before */
+    long n = (long)((double)(row + 1) * r->board->rate / r->scene->output.diagnostics.rate) -
+             1; /* that one or one or two before */
     while (row_of(r, n) <= row)
         n++;
     return n;
@@ -289,10 +265,11 @@ static bool force_table_run(struct stage_run *r, long from, long to, struct err 
             t->behind = row_behind(r, row);
         }
         row_frame(t, r->board, n);
-        if (n == r->board->moving - 1)
-            rows_before(t, r, t->rows);
+        if (n == r->board->moving - 1) rows_before(t, r, t->rows);
     }
-    return ferror(r->board->table->stream) ? err_set(e, ERR_IO, "the diagnostics table cannot be written (is the disk full?)") : true;
+    return ferror(r->board->table->stream)
+               ? err_set(e, ERR_IO, "the diagnostics table cannot be written (is the disk full?)")
+               : true;
 }
 
 const struct stage force_table_stage = {

@@ -42,22 +42,21 @@ bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
     int ends[2], code;
     *g = (struct gnuplot){.complaints = scratch_open()};
     if (!g->complaints || pipe2(ends, O_CLOEXEC) != 0) {
-        if (g->complaints)
-            fclose(g->complaints);
+        if (g->complaints) fclose(g->complaints);
         return err_set(e, err_system(ERR_CREATE), "gnuplot cannot be started: %s", strerror(errno));
     }
     code = spawn(&g->pid, (const int[3]){ends[0], output, fileno(g->complaints)});
     close(ends[0]);
     g->in = code == 0 ? fdopen(ends[1], "w") : NULL;
-    if (g->in)
-        return true;
+    if (g->in) return true;
     close(ends[1]);
     fclose(g->complaints);
-    if (code == 0)
-        interrupt_wait(g->pid, NULL, NULL);
+    if (code == 0) interrupt_wait(g->pid, NULL, NULL);
     if (code == ENOENT || code == EACCES)
-        return err_set(e, ERR_UNBUILT, "the program gnuplot draws the plot and is not on the PATH: install it (Debian: gnuplot-nox and, for the "
-                                       "labels, fonts-dejavu-core)");
+        return err_set(
+            e, ERR_UNBUILT,
+            "the program gnuplot draws the plot and is not on the PATH: install it (Debian: gnuplot-nox and, for the "
+            "labels, fonts-dejavu-core)");
     return err_set(e, err_system(ERR_CREATE), "gnuplot cannot be started: %s", strerror(code ? code : errno));
 }
 
@@ -67,16 +66,9 @@ static void first_complaint(FILE *f, char *line, int size)
     rewind(f);
     while (fgets(line, size, f)) {
         line[strcspn(line, "\n")] = '\0';
-        if (line[strspn(line, " \t^")])
-            return;
+        if (line[strspn(line, " \t^")]) return;
     }
     snprintf(line, (size_t)size, "it said nothing");
-}
-
-/* A terminal sends its signal to both, and gnuplot may end before we have seen ours. */
-static bool was_interrupted(int status)
-{
-    return WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM);
 }
 
 bool gnuplot_close(struct gnuplot *g, struct err *e)
@@ -86,7 +78,8 @@ bool gnuplot_close(struct gnuplot *g, struct err *e)
     bool taken = fclose(g->in) == 0; /* false: it ended before it had read all */
     interrupt_wait(g->pid, &status, NULL);
     bool ok = taken && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    if (!ok && (interrupt_seen() || was_interrupted(status)))
+    if (!ok &&
+        (interrupt_seen() || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))))
         err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
     else if (!ok) {
         first_complaint(g->complaints, line, sizeof line);
@@ -100,8 +93,7 @@ void gnuplot_put_text(struct gnuplot *g, const char *text)
 {
     fputc('\'', g->in);
     for (const char *p = text; *p; p++) {
-        if (*p == '\'')
-            fputc('\'', g->in);
+        if (*p == '\'') fputc('\'', g->in);
         fputc((unsigned char)*p < ' ' || *p == 127 ? '?' : *p, g->in);
     }
     fputc('\'', g->in);

@@ -1,26 +1,19 @@
-/* The stage that writes the series of impacts of a contact: those that take place (force/impact_train.h), at the times at which they sound, so that with
-   the contact's start to the nearest audio sample. Interval is that to the next one. No time depends on the sample rate but by that start. */
+/* The stage that writes the series of impacts of a contact: those that take place (force/impact_train.h), at the times
+   at which they sound, so that with the contact's start to the nearest audio sample. Interval is that to the next one.
+   No time depends on the sample rate but by that start. */
 #include "output/impact_rows.h"
 
 #include "force/impact_train.h"
 #include "scene/rules.h"
 #include "stage.h"
 
-bool impact_rows_head(struct impact_sink *k, struct err *e)
-{
-    return fputs("time_s,amplitude_n,interval_s,duration_s\n", k->stream) >= 0 || err_set(e, ERR_IO, "the series of impacts cannot be written (is the disk full?)");
-}
-
-bool impact_rows_add(struct impact_sink *k, const double row[4], struct err *e)
+static bool impact_rows_add(struct impact_sink *k, const double row[4], struct err *e)
 {
     return fprintf(k->stream, "%.17g,%.17g,%.17g,%.17g\n", row[0], row[1], row[2], row[3]) >= 0 ||
            err_set(e, ERR_IO, "the series of impacts cannot be written (is the disk full?)");
 }
 
-static bool rows_wanted(const struct contact *c, const struct scene *s)
-{
-    return rules_listed(c, &s->output);
-}
+static bool rows_wanted(const struct contact *c, const struct scene *s) { return rules_listed(c, &s->output); }
 
 static double rows_work(const struct contact *c, const struct scene *s)
 {
@@ -32,7 +25,9 @@ static bool rows_open(struct stage_run *r, struct err *e)
 {
     struct impact_train *t = ARENA_TAKE(r->arena, struct impact_train, 1);
     r->state = t;
-    return impact_train_open(r, t, e) && impact_rows_head(r->board->listing, e);
+    return impact_train_open(r, t, e) &&
+           (fputs("time_s,amplitude_n,interval_s,duration_s\n", r->board->listing->stream) >= 0 ||
+            err_set(e, ERR_IO, "the series of impacts cannot be written (is the disk full?)"));
 }
 
 static bool rows_run(struct stage_run *r, long from, long to, struct err *e)
@@ -42,7 +37,8 @@ static bool rows_run(struct stage_run *r, long from, long to, struct err *e)
     (void)from;
     while (t->any && t->next.time < (double)to / rate) {
         struct impact i = impact_train_take(t);
-        if (!impact_rows_add(r->board->listing, (const double[4]){start + i.time, i.amplitude, i.interval, i.duration}, e))
+        if (!impact_rows_add(r->board->listing, (const double[4]){start + i.time, i.amplitude, i.interval, i.duration},
+                             e))
             return false;
     }
     r->board->impacts = t->report;

@@ -9,8 +9,4 @@ struct impact_sink {
     FILE *stream;
 };
 
-/* Of an impact's middle (s after the scene's start), N, s, s. ERR_IO: it could not be written. */
-bool impact_rows_head(struct impact_sink *k, struct err *e);
-bool impact_rows_add(struct impact_sink *k, const double row[4], struct err *e);
-
 #endif

@@ -7,23 +7,19 @@
 
 #include "base/memory.h"
 
-long loudness_least(double rate)
-{
-    return 4 * (((long)rate + 5) / 10);
-}
+long loudness_least(double rate) { return 4 * (((long)rate + 5) / 10); }
 
 struct loudness *loudness_open(int channels, double rate, bool peaks)
 {
     int layout = channels == 1 ? EBUR128_DUAL_MONO : EBUR128_LEFT;
     bool ok = true;
     errno = 0;
-    ebur128_state *meter = ebur128_init((unsigned)channels, (unsigned long)rate, EBUR128_MODE_I | (peaks ? EBUR128_MODE_TRUE_PEAK : 0));
+    ebur128_state *meter =
+        ebur128_init((unsigned)channels, (unsigned long)rate, EBUR128_MODE_I | (peaks ? EBUR128_MODE_TRUE_PEAK : 0));
     for (int k = 0; meter && k < channels; k++)
         ok = ok && ebur128_set_channel(meter, (unsigned)k, layout) == EBUR128_SUCCESS;
-    if (!meter && errno == ENOMEM)
-        memory_out("to measure loudness");
-    if (meter && !ok)
-        ebur128_destroy(&meter);
+    if (!meter && errno == ENOMEM) memory_out("to measure loudness");
+    if (meter && !ok) ebur128_destroy(&meter);
     return (struct loudness *)meter;
 }
 
@@ -35,8 +31,7 @@ void loudness_add(struct loudness *l, double *x, size_t frames)
 
 bool loudness_read(struct loudness *l, double *lufs)
 {
-    if (ebur128_loudness_global((ebur128_state *)l, lufs) != EBUR128_SUCCESS || !isfinite(*lufs))
-        return false;
+    if (ebur128_loudness_global((ebur128_state *)l, lufs) != EBUR128_SUCCESS || !isfinite(*lufs)) return false;
     *lufs = rint(*lufs * 1e6) / 1e6;
     return true;
 }
@@ -46,14 +41,12 @@ double loudness_true_peak(struct loudness *l)
     const ebur128_state *meter = (const ebur128_state *)l;
     double most = 0, one;
     for (unsigned k = 0; k < meter->channels; k++)
-        if (ebur128_true_peak((ebur128_state *)l, k, &one) == EBUR128_SUCCESS && one > most)
-            most = one;
+        if (ebur128_true_peak((ebur128_state *)l, k, &one) == EBUR128_SUCCESS && one > most) most = one;
     return most;
 }
 
 void loudness_close(struct loudness *l)
 {
     ebur128_state *meter = (ebur128_state *)l;
-    if (meter)
-        ebur128_destroy(&meter);
+    if (meter) ebur128_destroy(&meter);
 }

@@ -14,9 +14,10 @@ enum { HEAD = 1 << 16, TAIL = 64, END = 12 /* bytes of a PNG's last chunk */ };
 static const char svg_mark[] = "<!-- made by rasp -->\n";
 
 /* The chunk tEXt of PNG (RFC 2083, 4.2.3): its length, type, keyword and text, and the CRC of the last three. */
-static const unsigned char png_mark[] = {0, 0, 0, 13, 't', 'E', 'X', 't', 'S', 'o', 'f', 't', 'w', 'a', 'r', 'e', 0, 'r', 'a', 's', 'p', 0xe6, 0x9b, 0x35, 0x82};
+static const unsigned char png_mark[] = {0,   0,   0,   13, 't', 'E', 'X', 't', 'S',  'o',  'f',  't', 'w',
+                                         'a', 'r', 'e', 0,  'r', 'a', 's', 'p', 0xe6, 0x9b, 0x35, 0x82};
 
-struct ends {              /* of a file */
+struct ends { /* of a file */
     char head[HEAD], tail[TAIL];
     size_t n_head, n_tail;
 };
@@ -31,23 +32,17 @@ static bool begins(const struct ends *x, const char *with)
 static bool is_sound(const struct ends *x)
 {
     static const char comment[] = {'I', 'C', 'M', 'T'};
-    if (!begins(x, "RIFF") && !begins(x, "RF64"))
-        return false;
-    for (const char *at = x->head, *end = x->head + x->n_head; (at = memmem(at, (size_t)(end - at), comment, 4)); at += 4)
-        if (end - at >= 12 && memcmp(at + 8, "rasp", 4) == 0)
-            return true;
+    if (!begins(x, "RIFF") && !begins(x, "RF64")) return false;
+    for (const char *at = x->head, *end = x->head + x->n_head; (at = memmem(at, (size_t)(end - at), comment, 4));
+         at += 4)
+        if (end - at >= 12 && memcmp(at + 8, "rasp", 4) == 0) return true;
     return false;
 }
 
 static bool is_picture(const struct ends *x)
 {
     return begins(x, "\x89PNG") ? memmem(x->tail, x->n_tail, png_mark, sizeof png_mark)
-                                    : memmem(x->tail, x->n_tail, svg_mark, sizeof svg_mark - 1);
-}
-
-static bool is_page(const struct ends *x)
-{
-    return begins(x, "<!DOCTYPE html>") && memmem(x->head, x->n_head, MARK_PAGE, sizeof MARK_PAGE - 1);
+                                : memmem(x->tail, x->n_tail, svg_mark, sizeof svg_mark - 1);
 }
 
 /* ------------------------------------------------------------------ summaries */
@@ -57,9 +52,11 @@ static bool is_summary(const json_t *whole)
 {
     const json_t *file;
     size_t i;
-    json_array_foreach(json_object_get(whole, "files"), i, file) {
+    json_array_foreach(json_object_get(whole, "files"), i, file)
+    {
         const char *kind = json_string_value(json_object_get(file, "kind"));
-        if (kind && !strcmp(kind, "scene") && (json_object_get(whole, "real_time_factor") || json_object_get(whole, "set")))
+        if (kind && !strcmp(kind, "scene") &&
+            (json_object_get(whole, "real_time_factor") || json_object_get(whole, "set")))
             return true;
     }
     return false;
@@ -75,9 +72,7 @@ static bool has(const json_t *list, const char *key, const char *value)
 {
     const json_t *file;
     size_t i;
-    json_array_foreach(list, i, file)
-        if (!strcmp(text_of(file, key), value))
-            return true;
+    json_array_foreach(list, i, file) if (!strcmp(text_of(file, key), value)) return true;
     return false;
 }
 
@@ -87,8 +82,9 @@ static bool is_listed(const char *path, const char *summary)
     char hex[HASH_TEXT];
     struct err unreadable = {0};
     json_t *whole = summary ? json_load_file(summary, 0, NULL) : NULL;
-    bool is = is_summary(whole) && hash_file(path, hex, &unreadable) &&
-              (has(json_object_get(whole, "files"), "sha256", hex) || has(json_object_get(whole, "older"), "sha256", hex));
+    bool is =
+        is_summary(whole) && hash_file(path, hex, &unreadable) &&
+        (has(json_object_get(whole, "files"), "sha256", hex) || has(json_object_get(whole, "older"), "sha256", hex));
     json_decref(whole);
     return is;
 }
@@ -100,13 +96,16 @@ static void add_older(json_t *older, const json_t *list, const json_t *files, co
     char hex[HASH_TEXT];
     json_t *file;
     size_t i;
-    json_array_foreach(list, i, file) {
+    json_array_foreach(list, i, file)
+    {
         const char *name = text_of(file, "name");
         struct err unreadable = {0};
-        if (strchr(name, '/') || has(files, "name", name) || has(older, "name", name))
-            continue;
-        if (hash_file(arena_format(a, "%.*s%s", slash ? (int)(slash - summary) + 1 : 0, summary, name), hex, &unreadable) && !strcmp(hex, text_of(file, "sha256")))
-            json_array_append_new(older, json_pack("{s:O, s:O}", "name", json_object_get(file, "name"), "sha256", json_object_get(file, "sha256")));
+        if (strchr(name, '/') || has(files, "name", name) || has(older, "name", name)) continue;
+        if (hash_file(arena_format(a, "%.*s%s", slash ? (int)(slash - summary) + 1 : 0, summary, name), hex,
+                      &unreadable) &&
+            !strcmp(hex, text_of(file, "sha256")))
+            json_array_append_new(older, json_pack("{s:O, s:O}", "name", json_object_get(file, "name"), "sha256",
+                                                   json_object_get(file, "sha256")));
     }
 }
 
@@ -138,8 +137,7 @@ static bool read_ends(const char *path, struct ends *x)
         x->n_head = piece(fd, x->head, HEAD, 0);
         x->n_tail = piece(fd, x->tail, TAIL, s.st_size > TAIL ? s.st_size - TAIL : 0);
     }
-    if (fd >= 0)
-        close(fd);
+    if (fd >= 0) close(fd);
     return ok;
 }
 
@@ -151,17 +149,23 @@ static bool is_summary_file(const struct ends *x, const char *path)
     return is;
 }
 
-bool mark_is(const char *path, const char *summary)
+/* Does the file bear the mark, or does the summary (NULL: there is none) beside it list its bytes? */
+static bool mark_is(const char *path, const char *summary)
 {
     struct ends x;
-    return read_ends(path, &x) && (is_sound(&x) || is_picture(&x) || is_page(&x) || is_summary_file(&x, path) || is_listed(path, summary));
+    return read_ends(path, &x) &&
+           (is_sound(&x) || is_picture(&x) ||
+            (begins((&x), "<!DOCTYPE html>") && memmem(x.head, x.n_head, MARK_PAGE, sizeof MARK_PAGE - 1)) ||
+            is_summary_file(&x, path) || is_listed(path, summary));
 }
 
 bool mark_links(const char *path, bool force, struct err *e)
 {
     struct stat link, file;
-    bool points = !force && lstat(path, &link) == 0 && S_ISLNK(link.st_mode), special = points && stat(path, &file) == 0 && !S_ISREG(file.st_mode);
-    return !points || special || err_set(e, ERR_CREATE, "%s is a symbolic link; --force writes to where it points", path);
+    bool points = !force && lstat(path, &link) == 0 && S_ISLNK(link.st_mode),
+         special = points && stat(path, &file) == 0 && !S_ISREG(file.st_mode);
+    return !points || special ||
+           err_set(e, ERR_CREATE, "%s is a symbolic link; --force writes to where it points", path);
 }
 
 static bool is_file(const char *path)
@@ -172,16 +176,14 @@ static bool is_file(const char *path)
 
 bool mark_permits(const char *path, const char *summary, bool force, struct err *e)
 {
-    if (!mark_links(path, force, e))
-        return false;
+    if (!mark_links(path, force, e)) return false;
     return force || !is_file(path) || mark_is(path, summary) ||
            err_set(e, ERR_CREATE, "%s exists already, and nothing says that rasp wrote it; --force replaces it", path);
 }
 
 bool mark_absent(const char *path, bool force, struct err *e)
 {
-    if (!mark_links(path, force, e))
-        return false;
+    if (!mark_links(path, force, e)) return false;
     return force || !is_file(path) || err_set(e, ERR_CREATE, "%s exists already; --force replaces it", path);
 }
 
@@ -192,8 +194,7 @@ bool mark_picture(int fd, bool svg)
     const void *mark = svg ? (const void *)svg_mark : png_mark;
     size_t n = svg ? sizeof svg_mark - 1 : sizeof png_mark;
     off_t at = lseek(fd, 0, SEEK_END) - END;
-    if (at < 0 || pread(fd, end, END, at) != END)
-        return false;
+    if (at < 0 || pread(fd, end, END, at) != END) return false;
     const char *from = svg ? strstr(end, "</svg>") : end;
     size_t left = from ? (size_t)(end + END - from) : 0;
     at += END - (off_t)left;

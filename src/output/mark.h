@@ -13,9 +13,6 @@
 
 #define MARK_PAGE "<meta name=\"generator\" content=\"rasp\">" /* within a page's first kilobytes */
 
-/* Does the file bear the mark, or does the summary (NULL: there is none) beside it list its bytes? */
-bool mark_is(const char *path, const char *summary);
-
 /* The rule. What is neither a file nor a link to one is left to outfile_open. ERR_CREATE */
 bool mark_permits(const char *path, const char *summary, bool force, struct err *e);
 

@@ -1,4 +1,5 @@
-/* Penetration, height and energies are those at the row's first frame; contact is the mean over its frames, lift-offs their sum. */
+/* Penetration, height and energies are those at the row's first frame; contact is the mean over its frames, lift-offs
+ * their sum. */
 #include "output/roll_rows.h"
 
 #include <string.h>
@@ -8,15 +9,19 @@
 static const struct {
     enum column column;
     enum roll_value value;
-} sampled[] = {{PENETRATION, ROLL_PENETRATION},   {HEIGHT, ROLL_HEIGHT},       {ENERGY, ROLL_ENERGY},    {SURFACE_WORK, ROLL_SURFACE_WORK},
-               {CONTACT_LOSS, ROLL_CONTACT_LOSS}, {MODE_LOSS, ROLL_MODE_LOSS}, {RESIDUAL, ROLL_RESIDUAL}};
+} sampled[] = {{PENETRATION, ROLL_PENETRATION},
+               {HEIGHT, ROLL_HEIGHT},
+               {ENERGY, ROLL_ENERGY},
+               {SURFACE_WORK, ROLL_SURFACE_WORK},
+               {CONTACT_LOSS, ROLL_CONTACT_LOSS},
+               {MODE_LOSS, ROLL_MODE_LOSS},
+               {RESIDUAL, ROLL_RESIDUAL}};
 enum { SAMPLED = sizeof sampled / sizeof sampled[0] };
 
 void roll_rows_make(struct roll_rows *r, const struct contact *c)
 {
     *r = (struct roll_rows){0};
-    if (ball_rolls(c))
-        r->spin = spin_make(c);
+    if (ball_rolls(c)) r->spin = spin_make(c);
 }
 
 bool roll_rows_reads(const struct contact *c, enum column k)
@@ -29,8 +34,7 @@ bool roll_rows_reads(const struct contact *c, enum column k)
 
 void roll_rows_frame(struct roll_rows *r, const double values[ROLL_VALUES], bool first)
 {
-    if (first)
-        memcpy(r->first, values, sizeof r->first);
+    if (first) memcpy(r->first, values, sizeof r->first);
     r->contact += values[ROLL_CONTACT];
     r->lift_offs += values[ROLL_LIFT_OFFS];
 }

@@ -1,8 +1,10 @@
-/* Level. `full_scale` and `dbfs_at_1_pa` are physical: file = sound / full_scale, or sound in pascals times 10^(dB/20), written as it comes.
-   `peak`, `rms` and `lufs` scale the file once the whole is known: samples spool to an unnamed file of doubles in the meantime, so that memory
-   does not grow. Nothing given: peak -3 dBFS. A peak of 0 dB is the largest value the encoding has. Of several channels (listening places)
-   the peak is the largest of all, the mean square is that of all together, and one gain serves them all, so that they keep their balance.
-   Loudness is that of output/loudness.h, rounded to 1e-6 LU before it becomes a gain (src/README.md, "same bytes"). A silent sound stays silent (reported), whatever level is asked. */
+/* Level. `full_scale` and `dbfs_at_1_pa` are physical: file = sound / full_scale, or sound in pascals times 10^(dB/20),
+   written as it comes. `peak`, `rms` and `lufs` scale the file once the whole is known: samples spool to an unnamed
+   file of doubles in the meantime, so that memory does not grow. Nothing given: peak -3 dBFS. A peak of 0 dB is the
+   largest value the encoding has. Of several channels (listening places) the peak is the largest of all, the mean
+   square is that of all together, and one gain serves them all, so that they keep their balance. Loudness is that of
+   output/loudness.h, rounded to 1e-6 LU before it becomes a gain (src/README.md, "same bytes"). A silent sound stays
+   silent (reported), whatever level is asked. */
 #include "output/sound.h"
 
 #include <math.h>
@@ -18,22 +20,24 @@ struct sound {
     const struct scene *scene;
     struct track track;
     struct arena *arena;
-    struct loudness *meter;   /* NULL: loudness is not needed */
+    struct loudness *meter; /* NULL: loudness is not needed */
 };
 
 static int bits_of(int encoding)
 {
-    static const int bits[] = {[ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
+    static const int bits[] = {
+        [ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
     return bits[encoding];
 }
 
 const char *sound_level_key(const struct scene *s)
 {
     const struct level *l = &s->output.level;
-    return !isnan(l->full_scale) ? "output.level.full_scale" : !isnan(l->dbfs_at_1_pa) ? "output.level.dbfs_at_1_pa"
-         : !isnan(l->rms)        ? "output.level.rms"
-         : !isnan(l->lufs)       ? "output.level.lufs"
-                                 : "output.level.peak";
+    return !isnan(l->full_scale)     ? "output.level.full_scale"
+           : !isnan(l->dbfs_at_1_pa) ? "output.level.dbfs_at_1_pa"
+           : !isnan(l->rms)          ? "output.level.rms"
+           : !isnan(l->lufs)         ? "output.level.lufs"
+                                     : "output.level.peak";
 }
 
 struct track_format sound_format(const struct scene *s, long frames)
@@ -42,9 +46,16 @@ struct track_format sound_format(const struct scene *s, long frames)
     long ramp = (long)rint(o->ramp * o->sample_rate);
     double recede = o->envelope == ENVELOPE_APPROACH_RECEDE ? sqrt(real_exp10(o->envelope_depth / 10) - 1) : 0;
     int places = listener_channels(o);
-    return (struct track_format){.rate = o->sample_rate, .bits = bits_of(o->encoding), .places = places, .channels = places > 1 ? places : o->channels,
-                                 .frames = frames, .ramp = ramp < frames / 2 ? ramp : frames / 2, .recede = recede, .waits = isnan(sound_known_gain(s)),
-                                 .title = s->title, .key = sound_level_key(s)};
+    return (struct track_format){.rate = o->sample_rate,
+                                 .bits = bits_of(o->encoding),
+                                 .places = places,
+                                 .channels = places > 1 ? places : o->channels,
+                                 .frames = frames,
+                                 .ramp = ramp < frames / 2 ? ramp : frames / 2,
+                                 .recede = recede,
+                                 .waits = isnan(sound_known_gain(s)),
+                                 .title = s->title,
+                                 .key = sound_level_key(s)};
 }
 
 double sound_known_gain(const struct scene *s)
@@ -55,7 +66,9 @@ double sound_known_gain(const struct scene *s)
 
 void sound_comment(const struct scene *s, double gain, char text[80])
 {
-    const char *unit = listener_in_pascals(&s->output) ? "Pa" : s->output.quantity == QUANTITY_FORCE ? "N" : "unit of the response";
+    const char *unit = listener_in_pascals(&s->output)        ? "Pa"
+                       : s->output.quantity == QUANTITY_FORCE ? "N"
+                                                              : "unit of the response";
     snprintf(text, 80, "rasp: gain %.9g per %s (%.4f dB)", gain, unit, 20 * real_log10(gain));
 }
 
@@ -69,16 +82,18 @@ static bool note(struct sound *o, double gain, struct err *e)
 
 static bool meter_open(struct sound *o, struct err *e)
 {
-    if (isnan(o->scene->output.level.lufs))
-        return true;
+    if (isnan(o->scene->output.level.lufs)) return true;
     o->meter = loudness_open(o->track.format.places, o->scene->output.sample_rate, false);
-    return o->meter || err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
+    return o->meter ||
+           err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
 }
 
 bool sound_long_enough(const struct scene *s, long frames, struct err *e)
 {
     return isnan(s->output.level.lufs) || frames >= loudness_least(s->output.sample_rate) ||
-           err_set(e, ERR_SCENE, "output.level.lufs: BS.1770 loudness needs 0.4 s, and the sound is %.3g s long: use output.level.rms or output.level.peak",
+           err_set(e, ERR_SCENE,
+                   "output.level.lufs: BS.1770 loudness needs 0.4 s, and the sound is %.3g s long: use "
+                   "output.level.rms or output.level.peak",
                    (double)frames / s->output.sample_rate);
 }
 
@@ -89,21 +104,18 @@ struct sound *sound_open(const struct scene *s, const char *path, long frames, s
     double gain = sound_known_gain(s);
     *o = (struct sound){.scene = s, .arena = a};
     if (f.places > 1 && s->output.channels > 1) {
-        err_set(e, ERR_SCENE, "output.channels: each of the %d listening places is a channel of its own: leave output.channels out", f.places);
+        err_set(e, ERR_SCENE,
+                "output.channels: each of the %d listening places is a channel of its own: leave output.channels out",
+                f.places);
         return NULL;
     }
-    if (!sound_long_enough(s, frames, e) || !track_open(&o->track, path, &f, gain, a, e))
-        return NULL;
-    if (meter_open(o, e) && (f.waits || note(o, gain, e)))
-        return o;
+    if (!sound_long_enough(s, frames, e) || !track_open(&o->track, path, &f, gain, a, e)) return NULL;
+    if (meter_open(o, e) && (f.waits || note(o, gain, e))) return o;
     sound_drop(o);
     return NULL;
 }
 
-bool sound_add(struct sound *o, double *x, long n, struct err *e)
-{
-    return track_add(&o->track, x, n, e);
-}
+bool sound_add(struct sound *o, double *x, long n, struct err *e) { return track_add(&o->track, x, n, e); }
 
 /* Loudness of the whole in LUFS, brought to peak 1 first: BS.1770's gate at -70 LUFS is absolute. */
 static bool find_loudness(struct sound *o, double peak, double *lufs, struct err *e)
@@ -118,7 +130,8 @@ static bool find_loudness(struct sound *o, double peak, double *lufs, struct err
     }
     if (!loudness_read(o->meter, lufs))
         return err_set(e, ERR_SCENE,
-                       "output.level.lufs: BS.1770 loudness cannot be measured on this sound (%.3g s; it needs 0.4 s that are not nearly "
+                       "output.level.lufs: BS.1770 loudness cannot be measured on this sound (%.3g s; it needs 0.4 s "
+                       "that are not nearly "
                        "silent): use output.level.rms or output.level.peak",
                        (double)o->track.format.frames / o->scene->output.sample_rate);
     return true;
@@ -146,8 +159,11 @@ static struct sound_report report_make(const struct sound *o)
     const struct track *t = &o->track;
     int channels = t->format.places;
     double squares = 0, frames = (double)(t->format.frames > 0 ? t->format.frames : 1);
-    struct sound_report r = {.channels = channels, .channel_peak = ARENA_TAKE(o->arena, double, channels), .channel_rms = ARENA_TAKE(o->arena, double, channels),
-                             .lufs = o->scene->output.level.lufs, .ramp = (double)t->format.ramp / o->scene->output.sample_rate};
+    struct sound_report r = {.channels = channels,
+                             .channel_peak = ARENA_TAKE(o->arena, double, channels),
+                             .channel_rms = ARENA_TAKE(o->arena, double, channels),
+                             .lufs = o->scene->output.level.lufs,
+                             .ramp = (double)t->format.ramp / o->scene->output.sample_rate};
     for (int k = 0; k < channels; k++) {
         squares += track_squares(t, k);
         r.peak = fmax(r.peak, t->peak[k]);
@@ -166,18 +182,13 @@ bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
     struct track *t = &o->track;
     *report = report_make(o);
     report->gain = t->gain;
-    if (!t->spool)
-        return true;
+    if (!t->spool) return true;
     report->gain = 1;
-    if (!report->silent && !gain_find(o, report, &report->gain, e))
-        return false;
+    if (!report->silent && !gain_find(o, report, &report->gain, e)) return false;
     return note(o, report->gain, e) && track_finish(t, report->gain, e);
 }
 
-const struct wav_written *sound_written(const struct sound *o)
-{
-    return track_written(&o->track, o->arena);
-}
+const struct wav_written *sound_written(const struct sound *o) { return track_written(&o->track, o->arena); }
 
 static void meter_close(struct sound *o)
 {
@@ -191,10 +202,7 @@ bool sound_settle(struct sound *o, struct err *e)
     return track_settle(&o->track, e);
 }
 
-const char *sound_temporary(const struct sound *o)
-{
-    return wav_temporary(o->track.wav);
-}
+const char *sound_temporary(const struct sound *o) { return wav_temporary(o->track.wav); }
 
 bool sound_commit(struct sound *o, struct err *e)
 {
@@ -204,8 +212,7 @@ bool sound_commit(struct sound *o, struct err *e)
 
 void sound_drop(struct sound *o)
 {
-    if (!o)
-        return;
+    if (!o) return;
     meter_close(o);
     track_drop(&o->track);
 }

@@ -1,10 +1,11 @@
-/* Short-time Fourier transform with the periodic Hann window w[i] = (1 - cos(2 pi i / n)) / 2 of n samples, n the smallest even 2^a 3^b 5^c
-   of at least 20 ms:
+/* Short-time Fourier transform with the periodic Hann window w[i] = (1 - cos(2 pi i / n)) / 2 of n samples, n the
+   smallest even 2^a 3^b 5^c of at least 20 ms:
 
      A_k = 2 |sum over i of w[i] x[i] exp(-2 pi j i k / n)| / sum of w            dB = 20 log10 A_k
 
-   so that a sine of amplitude 1 on the frequency of a bin gives 0 dB there (and -1.42 dB half-way between two bins). A column that is wider
-   than half a window is the mean power of windows at most half a window apart, so that nothing between two columns is missed. */
+   so that a sine of amplitude 1 on the frequency of a bin gives 0 dB there (and -1.42 dB half-way between two bins). A
+   column that is wider than half a window is the mean power of windows at most half a window apart, so that nothing
+   between two columns is missed. */
 #include "output/spectrogram.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 #include "num/fft.h"
 #include "num/real.h"
 
-struct windows {          /* what the columns share */
+struct windows { /* what the columns share */
     struct fft *fft;
     size_t n;
     double *hann, *x, *re, *im, *power; /* [n], [n], [n/2 + 1] three times */
@@ -44,24 +45,22 @@ static void windows_add(struct windows *w, const struct spectrogram_of *of, doub
         w->power[k] += scale * w->re[k] * (scale * w->re[k]) + scale * w->im[k] * (scale * w->im[k]);
 }
 
-static void column_make(struct windows *w, const struct spectrogram_of *of, int column, struct spectrogram *g)
-{
-    double width = (of->to - of->from) * of->rate / of->columns, first = of->from * of->rate + column * width;
-    int some = (int)fmax(ceil(width / (double)(w->n / 2)), 1);
-    for (int k = 0; k < g->bins; k++)
-        w->power[k] = 0;
-    for (int i = 0; i < some; i++)
-        windows_add(w, of, first + (i + 0.5) / some * width);
-    for (int k = 0; k < g->bins; k++)
-        g->db[(size_t)k * (size_t)g->columns + (size_t)column] = w->power[k] > 0 ? 10 * real_log10(w->power[k] / some) : -HUGE_VAL;
-}
-
 void spectrogram_make(const struct spectrogram_of *of, struct arena *a, struct spectrogram *g)
 {
     struct windows w = windows_open(of->rate, a);
-    *g = (struct spectrogram){.columns = of->columns, .bins = (int)(w.n / 2) + 1, .window = w.n, .bin_hz = of->rate / (double)w.n};
-    g->db = ARENA_TAKE(a, double, (size_t)g->bins * (size_t)g->columns);
-    for (int c = 0; c < of->columns; c++)
-        column_make(&w, of, c, g);
+    *g = (struct spectrogram){
+        .columns = of->columns, .bins = (int)(w.n / 2) + 1, .window = w.n, .bin_hz = of->rate / (double)w.n};
+    g->db = ARENA_TAKE(a, double, (size_t)g->bins *(size_t)g->columns);
+    for (int c = 0; c < of->columns; c++) {
+        double width = (of->to - of->from) * of->rate / of->columns, first = of->from * of->rate + c * width;
+        int some = (int)fmax(ceil(width / (double)(w.n / 2)), 1);
+        for (int k = 0; k < g->bins; k++)
+            w.power[k] = 0;
+        for (int i = 0; i < some; i++)
+            windows_add((&w), of, first + (i + 0.5) / some * width);
+        for (int k = 0; k < g->bins; k++)
+            g->db[(size_t)k * (size_t)g->columns + (size_t)c] =
+                w.power[k] > 0 ? 10 * real_log10(w.power[k] / some) : -HUGE_VAL;
+    }
     fft_close(w.fft);
 }

@@ -1,10 +1,9 @@
-/* force     the contact force, summed over the contacts that are heard, in newtons: 1.0 is 1 N. Always one channel of 32-bit floating point,
-             whatever output.encoding is, so that any force fits; no ramps, no envelope, no level.
-   surface   what the surfaces,
-   scraper   what the scrapers and
-   ball      what the balls (weights included) put into the sound, all contacts times their gains, with the sound's own gain, ramps, envelope, channels and
-             encoding: surface + scraper + ball is the sound, but for the rounding of each. A part may be louder than the whole: where the encoding
-             has no room for it, that is an error. */
+/* force     the contact force, summed over the contacts that are heard, in newtons: 1.0 is 1 N. Always one channel of
+   32-bit floating point, whatever output.encoding is, so that any force fits; no ramps, no envelope, no level. surface
+   what the surfaces, scraper   what the scrapers and ball      what the balls (weights included) put into the sound,
+   all contacts times their gains, with the sound's own gain, ramps, envelope, channels and encoding: surface + scraper
+   + ball is the sound, but for the rounding of each. A part may be louder than the whole: where the encoding has no
+   room for it, that is an error. */
 #include "output/stems.h"
 
 #include <stdio.h>
@@ -25,20 +24,11 @@ struct stems {
 bool stems_asked(const struct output *o, enum stem stem)
 {
     for (int i = 0; o->stems && o->stems[i]; i++)
-        if (strcmp(o->stems[i], stems_names[stem]) == 0)
-            return true;
+        if (strcmp(o->stems[i], stems_names[stem]) == 0) return true;
     return false;
 }
 
-int stems_channels(const struct output *o, enum stem stem)
-{
-    return stem == STEM_FORCE ? 1 : listener_channels(o);
-}
-
-static bool comment_force(struct track *t, struct err *e)
-{
-    return track_note(t, "rasp: contact force, 1.0 is 1 N", e);
-}
+int stems_channels(const struct output *o, enum stem stem) { return stem == STEM_FORCE ? 1 : listener_channels(o); }
 
 static bool comment(const struct stems *o, struct track *t, double gain, struct err *e)
 {
@@ -47,23 +37,25 @@ static bool comment(const struct stems *o, struct track *t, double gain, struct 
     return track_note(t, text, e);
 }
 
-static bool open_one(struct stems *o, enum stem stem, const char *path, struct track_format f, struct arena *a, struct err *e)
+static bool open_one(struct stems *o, enum stem stem, const char *path, struct track_format f, struct arena *a,
+                     struct err *e)
 {
     struct track *t = &o->tracks[stem];
     double gain = sound_known_gain(o->scene);
-    f.key = "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a lower level";
+    f.key = "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a lower "
+            "level";
     if (stem == STEM_FORCE) {
         gain = 1;
         f.places = f.channels = 1, f.bits = -32, f.ramp = 0, f.recede = 0, f.waits = false;
         f.key = "output.stems: force";
     }
-    if (!track_open(t, path, &f, gain, a, e))
-        return false;
+    if (!track_open(t, path, &f, gain, a, e)) return false;
     o->open[stem] = true;
-    return stem == STEM_FORCE ? comment_force(t, e) : f.waits || comment(o, t, gain, e);
+    return stem == STEM_FORCE ? track_note(t, "rasp: contact force, 1.0 is 1 N", e) : f.waits || comment(o, t, gain, e);
 }
 
-struct stems *stems_open(const struct scene *s, const char *const paths[STEMS], long frames, struct arena *a, struct err *e)
+struct stems *stems_open(const struct scene *s, const char *const paths[STEMS], long frames, struct arena *a,
+                         struct err *e)
 {
     struct stems *o = ARENA_TAKE(a, struct stems, 1);
     struct track_format f = sound_format(s, frames);
@@ -85,8 +77,7 @@ bool stems_finish(struct stems *o, double gain, struct err *e)
 {
     for (int k = 0; k < STEMS; k++) {
         struct track *t = &o->tracks[k];
-        if (o->open[k] && t->spool && !(comment(o, t, gain, e) && track_finish(t, gain, e)))
-            return false;
+        if (o->open[k] && t->spool && !(comment(o, t, gain, e) && track_finish(t, gain, e))) return false;
     }
     return true;
 }
@@ -99,23 +90,18 @@ const struct wav_written *stems_written(const struct stems *o, enum stem stem, s
 bool stems_settle(struct stems *o, struct err *e)
 {
     for (int k = 0; k < STEMS; k++)
-        if (o->open[k] && !track_settle(&o->tracks[k], e))
-            return false;
+        if (o->open[k] && !track_settle(&o->tracks[k], e)) return false;
     return true;
 }
 
-const char *stems_temporary(const struct stems *o, enum stem stem)
-{
-    return wav_temporary(o->tracks[stem].wav);
-}
+const char *stems_temporary(const struct stems *o, enum stem stem) { return wav_temporary(o->tracks[stem].wav); }
 
 bool stems_commit(struct stems *o, struct err *e)
 {
     for (int k = 0; k < STEMS; k++) {
         bool open = o->open[k];
         o->open[k] = false;
-        if (open && !track_commit(&o->tracks[k], e))
-            return false;
+        if (open && !track_commit(&o->tracks[k], e)) return false;
     }
     return true;
 }
@@ -123,6 +109,5 @@ bool stems_commit(struct stems *o, struct err *e)
 void stems_drop(struct stems *o)
 {
     for (int k = 0; o && k < STEMS; k++)
-        if (o->open[k])
-            track_drop(&o->tracks[k]);
+        if (o->open[k]) track_drop(&o->tracks[k]);
 }

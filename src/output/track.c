@@ -1,11 +1,13 @@
 /* Ramps are raised cosines over both ends of the whole, sin^2(pi/2 (n + 1/2) / N), all channels alike.
 
-   The envelope is that of a source that passes at constant speed: its pressure goes with 1 over its distance, which is least in the middle of the whole,
+   The envelope is that of a source that passes at constant speed: its pressure goes with 1 over its distance, which is
+   least in the middle of the whole,
 
      gain = 1 / sqrt(1 + c^2 u^2),   u = (2 n + 1) / N - 1 from -1 to 1, N frames
 
-   so that a c of sqrt(10^(depth/10) - 1) puts both ends `depth` dB below the middle. papers/002 III-B says that an amplitude envelope made its sounds
-   approach and recede, and prints no law; this one is ours. No Doppler shift and no direction go with it. */
+   so that a c of sqrt(10^(depth/10) - 1) puts both ends `depth` dB below the middle. papers/002 III-B says that an
+   amplitude envelope made its sounds approach and recede, and prints no law; this one is ours. No Doppler shift and no
+   direction go with it. */
 #include "output/track.h"
 
 #include <errno.h>
@@ -17,35 +19,33 @@
 #include "num/real.h"
 #include "num/scaled.h"
 
-bool track_open(struct track *t, const char *path, const struct track_format *f, double gain, struct arena *a, struct err *e)
+bool track_open(struct track *t, const char *path, const struct track_format *f, double gain, struct arena *a,
+                struct err *e)
 {
     struct wav_format w = {.rate = f->rate, .channels = f->channels, .bits = f->bits, .title = f->title};
-    *t = (struct track){.format = *f, .gain = gain, .peak = ARENA_TAKE(a, double, f->places), .squares = ARENA_TAKE(a, double, f->places * LANES)};
-    if (!(t->wav = wav_create(path, &w, e)))
-        return false;
+    *t = (struct track){.format = *f,
+                        .gain = gain,
+                        .peak = ARENA_TAKE(a, double, f->places),
+                        .squares = ARENA_TAKE(a, double, f->places *LANES)};
+    if (!(t->wav = wav_create(path, &w, e))) return false;
     t->wide = ARENA_TAKE(a, double, TRACK_CHUNK * f->channels);
-    if (!f->waits || (t->spool = scratch_open()))
-        return true;
-    err_set(e, err_system(ERR_CREATE), "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
-            strerror(errno));
+    if (!f->waits || (t->spool = scratch_open())) return true;
+    err_set(e, err_system(ERR_CREATE),
+            "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)",
+            scratch_folder(), strerror(errno));
     track_drop(t);
     return false;
 }
 
-bool track_note(struct track *t, const char *text, struct err *e)
-{
-    return wav_comment(t->wav, text, e);
-}
+bool track_note(struct track *t, const char *text, struct err *e) { return wav_comment(t->wav, text, e); }
 
 static void ramp(const struct track *t, double *x, long n)
 {
     long last = t->format.frames - t->format.ramp;
-    if (t->done >= t->format.ramp && t->done + n <= last)
-        return;
+    if (t->done >= t->format.ramp && t->done + n <= last) return;
     for (long i = 0; i < n; i++) {
         long at = t->done + i, rest = t->format.frames - 1 - at, edge = at < rest ? at : rest;
-        if (edge >= t->format.ramp)
-            continue;
+        if (edge >= t->format.ramp) continue;
         double s = real_sinpi(0.5 * ((double)edge + 0.5) / (double)t->format.ramp);
         for (int k = 0; k < t->format.places; k++)
             x[i * t->format.places + k] *= s * s;
@@ -59,7 +59,8 @@ static double receded(const struct track *t, long i)
     return 1 / sqrt(1 + u * u);
 }
 
-/* Greatest magnitude of frames [from, to) of the whole, those of this block, with the envelope and without the ramps. */
+/* Greatest magnitude of frames [from, to) of the whole, those of this block, with the envelope and without the ramps.
+ */
 static double greatest(const struct track *t, const double *x, long n, const long range[2])
 {
     double most = 0;
@@ -87,7 +88,8 @@ static void recede(const struct track *t, double *x, long n)
     }
 }
 
-/* Of one channel, from a frame on whose number is a multiple of LANES: a quarter of the time of the plain loop below. */
+/* Of one channel, from a frame on whose number is a multiple of LANES: a quarter of the time of the plain loop below.
+ */
 LANES_CLONES
 static void measure_mono(const double *x, long n, double *restrict peak, double *restrict squares)
 {
@@ -110,8 +112,7 @@ static void measure(struct track *t, const double *x, long n)
 {
     int places = t->format.places;
     long done = places == 1 && t->done % LANES == 0 ? n / LANES * LANES : 0;
-    if (done)
-        measure_mono(x, done, t->peak, t->squares);
+    if (done) measure_mono(x, done, t->peak, t->squares);
     for (long i = done; i < n; i++)
         for (int k = 0; k < places; k++) {
             double v = x[i * places + k], size = fabs(v);
@@ -133,8 +134,7 @@ static bool put(struct track *t, const double *x, long n, struct err *e)
     int places = t->format.places, channels = t->format.channels, copies = channels / places;
     for (long i = 0; i < n; i += TRACK_CHUNK) {
         long some = n - i < TRACK_CHUNK ? n - i : TRACK_CHUNK;
-        if (copies == 1)
-            scaled_copy(t->wide, t->gain, x + i * places, some * channels);
+        if (copies == 1) scaled_copy(t->wide, t->gain, x + i * places, some * channels);
         for (long k = 0; copies > 1 && k < some * channels; k++)
             t->wide[k] = t->gain * x[i * places + k / copies];
         if (!wav_write(t->wav, t->wide, (size_t)some, e))
@@ -151,18 +151,15 @@ bool track_add(struct track *t, double *x, long n, struct err *e)
     recede(t, x, n);
     measure(t, x, n);
     t->done += n;
-    if (!t->spool)
-        return put(t, x, n, e);
+    if (!t->spool) return put(t, x, n, e);
     if (fwrite(x, sizeof *x, samples, t->spool) != samples)
-        return err_set(e, err_system(ERR_IO), "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)", scratch_folder(),
-                       strerror(errno));
+        return err_set(e, err_system(ERR_IO),
+                       "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)",
+                       scratch_folder(), strerror(errno));
     return true;
 }
 
-void track_rewind(struct track *t)
-{
-    rewind(t->spool);
-}
+void track_rewind(struct track *t) { rewind(t->spool); }
 
 long track_read(struct track *t, double *x)
 {
@@ -177,8 +174,7 @@ bool track_finish(struct track *t, double gain, struct err *e)
     t->gain = gain;
     track_rewind(t);
     while ((n = track_read(t, x)) > 0)
-        if (!put(t, x, n, e))
-            return false;
+        if (!put(t, x, n, e)) return false;
     return ferror(t->spool) ? err_set(e, ERR_IO, "samples cannot be read back from the temporary file") : true;
 }
 
@@ -194,8 +190,7 @@ struct wav_written *track_written(const struct track *t, struct arena *a)
 
 static void forget(struct track *t)
 {
-    if (t->spool)
-        fclose(t->spool);
+    if (t->spool) fclose(t->spool);
     t->spool = NULL;
 }
 

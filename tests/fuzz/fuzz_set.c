@@ -1,6 +1,6 @@
 /* What `rasp batch` leaves for itself, and the summary that `rasp plot` reads: NAME.json as a record, and as a summary. */
 #include "batch/record.h"
-#include "cmd/plot_summary.h"
+#include "cmd/plot.h"
 #include "fuzz.h"
 
 /* What is read is read again from what is written of it, and leads nowhere but to files of the stimulus. */

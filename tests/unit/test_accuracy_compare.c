@@ -30,7 +30,7 @@ START_TEST(a_factor)
     struct wav a = wav_of(x), b = wav_of(y);
     double louder = 20 * log10(1.001);
     make(1e-3);
-    struct accuracy_error o = accuracy_compare_sounds(&a, &b, INFINITY);
+    struct accuracy_error o = accuracy_child_distance(&a, &b, INFINITY);
     ck_assert_double_eq_tol(o.snr, 60, 1e-9);
     ck_assert_double_eq_tol(o.third, louder, 1e-9);
     ck_assert_double_eq_tol(o.spectral, louder, 1e-4);
@@ -47,13 +47,13 @@ START_TEST(a_divergence)
     make(1e-3);
     for (int i = N; i < N * CHANNELS; i++)
         y[i] = i % CHANNELS ? -0.5 * x[i] : 0.5 * x[i];
-    struct accuracy_error o = accuracy_compare_sounds(&a, &b, 0.5);
+    struct accuracy_error o = accuracy_child_distance(&a, &b, 0.5);
     ck_assert_double_eq_tol(o.snr, 60, 1e-9);
     ck_assert_double_eq_tol(o.third, 20 * log10(2), 1e-9);
     ck_assert_double_eq_tol(o.level, -20 * log10(2), 1e-9);
     ck_assert_double_eq_tol(o.spectral, 20 * log10(2), 0.01);
     ck_assert_double_eq_tol(o.follows, 0.5, 1e-9);
-    o = accuracy_compare_sounds(&a, &b, 0); /* nothing to compare pointwise */
+    o = accuracy_child_distance(&a, &b, 0); /* nothing to compare pointwise */
     ck_assert_double_nan(o.snr);
 }
 END_TEST

@@ -10,8 +10,8 @@ START_TEST(two_numbers_at_least)
 {
     unsigned short state[3] = {1, 2, 3};
     for (int i = 0; i < 20000; i++) {
-        double tics[ACCURACY_PLOT_TICS], low = pow(10, 9 * erand48(state) - 4), high = low * (i % 3 ? 2.25 + 1e-9 : 2.25 * pow(10, 9 * erand48(state)));
-        int n = accuracy_plot_tics(low, high, tics);
+        double tics[ACCURACY_REPORT_TICS], low = pow(10, 9 * erand48(state) - 4), high = low * (i % 3 ? 2.25 + 1e-9 : 2.25 * pow(10, 9 * erand48(state)));
+        int n = accuracy_report_tics(low, high, tics);
         ck_assert_msg(n >= 2 && n <= 20, "%d labels from %g to %g", n, low, high);
         for (int k = 0; k < n; k++)
             ck_assert(tics[k] >= low && tics[k] <= high && (k == 0 || tics[k] > tics[k - 1]));
@@ -22,12 +22,12 @@ END_TEST
 /* Powers of ten where there are two; else 2 and 5. */
 START_TEST(round_numbers)
 {
-    double tics[ACCURACY_PLOT_TICS];
-    ck_assert_int_eq(accuracy_plot_tics(3, 300, tics), 2);
+    double tics[ACCURACY_REPORT_TICS];
+    ck_assert_int_eq(accuracy_report_tics(3, 300, tics), 2);
     ck_assert(fabs(tics[0] - 10) < 1e-9 && fabs(tics[1] - 100) < 1e-9);
-    ck_assert_int_eq(accuracy_plot_tics(11, 70, tics), 2);
+    ck_assert_int_eq(accuracy_report_tics(11, 70, tics), 2);
     ck_assert(fabs(tics[0] - 20) < 1e-9 && fabs(tics[1] - 50) < 1e-9);
-    ck_assert_int_eq(accuracy_plot_tics(21, 48, tics), 2);
+    ck_assert_int_eq(accuracy_report_tics(21, 48, tics), 2);
     ck_assert(fabs(tics[0] - 30) < 1e-9 && fabs(tics[1] - 40) < 1e-9);
 }
 END_TEST

@@ -1,14 +1,14 @@
 /* cmd/warnings.c: which warnings are told together. What is expected is written by hand. */
 #include "unit.h"
 
-#include "cmd/warnings.h"
+#include "cmd/tell.h"
 
 static struct arena *a;
 static struct warning *all;
 
 static void add(const char *file, const char *text, bool exact)
 {
-    warnings_add(&all, file, text, exact, a);
+    tell_add(&all, file, text, exact, a);
 }
 
 /* "text [files]" of each, with a + where some have other numbers. */

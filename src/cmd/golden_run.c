@@ -1,0 +1,586 @@
+/* The renders of `rasp golden`, each in a folder of its own: WORK/NAME/first/, WORK/NAME/again/. */
+#include "cmd/golden.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+#include "base/outfile.h"
+#include "base/scratch.h"
+#include "base/text.h"
+#include "batch/pool.h"
+#include "cmd/tell.h"
+#include "file/bytes.h"
+#include "output/mark.h"
+#include "pipeline/render.h"
+#include "scene/scene_places.h"
+#include "scene/scene_read.h"
+
+static const char *const passes[2] = {"first", "again"};
+
+static void golden_run_judge_add(struct golden_scene *s, const char *file, const char *report, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+bool golden_run_folder(struct golden *g, struct err *e)
+{
+    const char *given = args_value(&g->call->args, "output");
+    struct stat st;
+    if (given) {
+        g->work = given;
+        g->stays = true;
+        return (stat(given, &st) == 0 && S_ISDIR(st.st_mode)) || mkdir(given, 0777) == 0 ||
+               err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", given, strerror(errno));
+    }
+    char *name = arena_format(g->call->arena, "%s/rasp-golden-XXXXXX", scratch_folder());
+    interrupt_hold();
+    bool made = mkdtemp(name) != NULL;
+    if (made) interrupt_temporary(name);
+    interrupt_go();
+    if (!made)
+        return err_set(e, ERR_CREATE,
+                       "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written",
+                       scratch_folder(), strerror(errno));
+    g->work = name;
+    return true;
+}
+
+static const char *golden_run_render_path(const struct golden *g, const struct golden_scene *s, int pass,
+                                          const char *file, struct arena *a)
+{
+    return arena_format(a, "%s/%s/%s/%s", g->work, s->name, passes[pass], file);
+}
+
+/* Sounds and tables, with their hashes. */
+static bool note_files(struct golden_scene *s, int pass, const struct render_report *r, struct err *e)
+{
+    struct golden_files *made = &s->made[pass];
+    *made = (struct golden_files){ARENA_TAKE(s->arena, struct golden_file, r->n_files + 1), 0};
+    for (int i = 0; i < r->n_files; i++) {
+        const struct render_file *f = &r->files[i];
+        if (!strcmp(f->kind, "scene") || !strcmp(f->kind, "summary")) continue;
+        made->list[made->n].name = arena_text(s->arena, strrchr(f->path, '/') + 1);
+        if (!hash_file(f->path, made->list[made->n++].sha256, e)) return false;
+    }
+    golden_kept_sort(made);
+    return true;
+}
+
+static bool into(const struct golden *g, struct golden_scene *s, const char *folder, struct err *e)
+{
+    const char *outer = arena_format(s->arena, "%s/%s", g->work, s->name);
+    interrupt_hold();
+    bool there = (mkdir(outer, 0777) == 0 || errno == EEXIST) && (mkdir(folder, 0777) == 0 || errno == EEXIST);
+    interrupt_go();
+    return there || err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", folder, strerror(errno));
+}
+
+static bool golden_run_render(const struct golden *g, struct golden_scene *s, int pass, const char *from, struct err *e)
+{
+    struct arena *a = arena_open();
+    const char *base = golden_run_render_path(g, s, pass, "sound", a), *messages = "";
+    struct scene read;
+    struct render_report report;
+    bool ok = into(g, s, golden_run_render_path(g, s, pass, "", a), e) &&
+              (!from || scene_read(from, NULL, a, &read, &messages, e)) &&
+              (render_scene(from ? &read : &s->scene, base, a, &report, e) ||
+               scene_places_tell(from ? &read : &s->scene, e)) &&
+              note_files(s, pass, &report, e);
+    arena_close(a);
+    return ok;
+}
+
+/* ------------------------------------------------------------------ away with it */
+
+/* What a render writes: no folder in it, and nothing of somebody else's. */
+static void clear(const char *folder)
+{
+    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", NULL};
+    DIR *d = opendir(folder);
+    for (struct dirent *entry; d && (entry = readdir(d));) {
+        const char *dot = strrchr(entry->d_name, '.');
+        for (int k = 0; endings[k] && dot; k++)
+            if (!strncmp(entry->d_name, "sound.", 6) && !strcmp(dot, endings[k])) unlinkat(dirfd(d), entry->d_name, 0);
+    }
+    if (d) closedir(d);
+    rmdir(folder);
+}
+
+static void golden_run_render_clear(const struct golden *g, const struct golden_scene *s)
+{
+    for (int pass = 0; pass < 2; pass++)
+        clear(golden_run_render_path(g, s, pass, "", s->arena));
+    rmdir(arena_format(s->arena, "%s/%s", g->work, s->name));
+}
+
+void golden_run_end(const struct golden *g)
+{
+    for (int i = 0; g->work && !g->stays && i < g->n; i++)
+        golden_run_render_clear(g, &g->scenes[i]);
+    if (g->work) {
+        rmdir(g->work);
+        interrupt_forget(g->work);
+    }
+}
+
+/* What `rasp golden` has against a scene: files that are missing, stray, or not the same bytes; of these, how far they
+ * are off, by `rasp compare`. */
+
+static void golden_run_judge_add(struct golden_scene *s, const char *file, const char *report, const char *format, ...)
+{
+    char text[1200];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    if (s->n_problems == s->room) {
+        struct golden_problem *more = ARENA_TAKE(s->arena, struct golden_problem, s->room = 2 * s->room + 4);
+        if (s->n_problems) memcpy(more, s->problems, (size_t)s->n_problems * sizeof *more);
+        s->problems = more;
+    }
+    s->problems[s->n_problems++] = (struct golden_problem){file, arena_text(s->arena, text), report};
+}
+
+/* Two files that have not the same bytes, as `rasp compare` sees them: 0, ERR_DIFFERS, or its error. */
+static int measure(struct golden_scene *s, const char *const files[2], const char **report, struct err *e)
+{
+    char *text = NULL;
+    size_t size;
+    bool sound = false;
+    struct arena *a = arena_open();
+    FILE *out = open_memstream(&text, &size);
+    int code = ERR_MEMORY;
+    if (out && compare_is_sound(files[1], &sound, e)) {
+        struct compare_ask ask = sound ? s->sounds : s->tables;
+        ask.files[0] = files[0];
+        ask.files[1] = files[1];
+        ask.out = out;
+        ask.arena = a;
+        code = sound ? compare_sound(&ask, e) : compare_table(&ask, e);
+    }
+    if (out) fclose(out);
+    *report = arena_text(s->arena, text ? text : "");
+    free(text);
+    arena_close(a);
+    return code;
+}
+
+/* The first file is what it should be. `what`: "what is kept". */
+static void judge_bytes(struct golden_scene *s, const char *name, const char *const files[2], const char *what)
+{
+    struct err why = {0};
+    const char *report;
+    int code = measure(s, files, &report, &why);
+    bool sound = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".wav"),
+         exact = sound ? s->sounds.exact : s->tables.exact;
+    if (why.kind)
+        golden_run_judge_add(s, name, NULL, "is not %s, and cannot be compared with it: %s", what, why.text);
+    else if (code)
+        golden_run_judge_add(s, name, report, "is not %s%s", what, exact ? "" : ", nor within its tolerances");
+    else if (exact)
+        golden_run_judge_add(s, name, NULL,
+                             "has the same %s as %s, but not the same bytes: what stands around them differs",
+                             sound ? "samples" : "cells", what);
+    else
+        s->note = arena_format(s->arena, "%s%s%s", s->note ? s->note : "", s->note ? ", " : "", name);
+}
+
+/* Is the kept file the one that was written? */
+static void judge_kept(const struct golden *g, struct golden_scene *s, const struct golden_file *kept)
+{
+    const struct golden_sum *sum = g->hashes && g->kept ? golden_kept_sum(g, s->name, kept->name, s->arena) : NULL;
+    if (sum && strcmp(sum->sha256, kept->sha256) != 0)
+        golden_run_judge_add(s, kept->name, NULL,
+                             "the kept file is not the one whose hash is kept in %s: it was changed or damaged since",
+                             g->hashes);
+    else if (!sum && g->hashes && g->kept)
+        golden_run_judge_add(s, kept->name, NULL, "has no hash in %s", g->hashes);
+}
+
+static void judge_file(const struct golden *g, struct golden_scene *s, const struct golden_file *kept, int pass)
+{
+    const struct golden_file *made = golden_kept_find(&s->made[pass], kept->name);
+    const char *new = golden_run_render_path(g, s, pass, kept->name, s->arena);
+    if (pass == 0) judge_kept(g, s, kept);
+    if (!made)
+        golden_run_judge_add(s, kept->name, NULL, "is kept, but not made any more");
+    else if (strcmp(made->sha256, kept->sha256) == 0)
+        return;
+    else if (g->kept)
+        judge_bytes(s, kept->name,
+                    (const char *[]){arena_format(s->arena, "%s/%s/%s", g->kept, s->name, kept->name), new},
+                    pass ? "what is kept (rendered from the effective scene)" : "what is kept");
+    else
+        golden_run_judge_add(
+            s, kept->name, NULL,
+            "is not what is kept%s: its sha256 is %s, where %s has %s; how far it is off only kept files could tell",
+            pass ? " (rendered from the effective scene)" : "", made->sha256, g->hashes, kept->sha256);
+}
+
+/* what was made against what is kept       */
+static void golden_run_judge(const struct golden *g, struct golden_scene *s, int pass)
+{
+    struct err why = {0};
+    struct golden_files kept = golden_kept_of(g, s->name, s->arena, &why);
+    if (why.kind)
+        golden_run_judge_add(s, "", NULL, "%s", why.text);
+    else if (s->made[pass].n == 0)
+        golden_run_judge_add(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
+    else if (kept.n == 0) {
+        struct arena *a = s->arena;
+        golden_run_judge_add(s, "", NULL, "nothing is kept of it; this makes it: rasp golden update%s%s%s%s %s",
+                             g->kept ? " --kept " : "", g->kept ? g->kept : "", g->hashes ? " --hashes " : "",
+                             g->hashes ? g->hashes : "",
+                             *s->at ? arena_format(a, "%.*s", (int)(strchr(s->at, ':') - s->at), s->at) : s->file);
+    }
+    for (int i = 0; !why.kind && i < kept.n; i++)
+        judge_file(g, s, &kept.list[i], pass);
+    for (int i = 0; !why.kind && kept.n && i < s->made[pass].n; i++)
+        if (!golden_kept_find(&kept, s->made[pass].list[i].name))
+            golden_run_judge_add(s, s->made[pass].list[i].name, NULL, "is made, but not kept");
+}
+
+/* ... by the first render and the second  */
+static void golden_run_judge_twice(const struct golden *g, struct golden_scene *s)
+{
+    s->sounds.exact = s->tables.exact = true;
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < s->made[pass].n; i++) {
+            const struct golden_file *one = &s->made[pass].list[i],
+                                     *other = golden_kept_find(&s->made[1 - pass], one->name);
+            const char *files[2] = {golden_run_render_path(g, s, 0, one->name, s->arena),
+                                    golden_run_render_path(g, s, 1, one->name, s->arena)};
+            if (!other)
+                golden_run_judge_add(s, one->name, NULL, "was made by the %s render only", pass ? "second" : "first");
+            else if (pass == 0 && strcmp(one->sha256, other->sha256) != 0)
+                judge_bytes(s, one->name, files, "what the first render made");
+        }
+    if (s->made[0].n == 0)
+        golden_run_judge_add(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
+}
+
+/* rasp golden check: every scene rendered, and again from its effective scene where that is asked for, against what is
+ * kept. */
+
+static bool interrupted(const struct golden_scene *s) { return s->failed.kind == ERR_INTERRUPTED || interrupt_seen(); }
+
+/* By any thread; all that it touches is the scene's own. */
+static bool check_scene(void *self, int i)
+{
+    const struct golden *g = self;
+    struct golden_scene *s = &g->scenes[i];
+    if (!s->failed.kind && golden_run_render(g, s, 0, NULL, &s->failed)) {
+        golden_run_judge(g, s, 0);
+        bool again = g->effective && s->n_problems == 0;
+        if (again &&
+            golden_run_render(g, s, 1, golden_run_render_path(g, s, 0, "sound.scene.yaml", s->arena), &s->failed))
+            golden_run_judge(g, s, 1);
+        else if (again)
+            err_at(&s->failed, "rendered from the effective scene");
+    }
+    return !interrupted(s);
+}
+
+static void check_took(void *self, int i)
+{
+    const struct golden *g = self;
+    struct golden_scene *s = &g->scenes[i];
+    if (interrupted(s)) return;
+    if (s->failed.kind) golden_run_judge_add(s, "", NULL, "%s", s->failed.text);
+    golden_report_scene(g, s, i + 1);
+    if (!g->stays || s->n_problems == 0) golden_run_render_clear(g, s);
+}
+
+int golden_run_check(struct golden *g, struct err *e)
+{
+    int points = g->n + g->whole, good = 0, code = 0;
+    if (!golden_kept_read(g, e)) return (int)e->kind;
+    golden_report_begin(g, points);
+    if (pool_run(&(struct pool_work){
+            .n = g->n, .threads = g->threads, .context = g, .job = check_scene, .took = check_took}) < g->n ||
+        interrupt_seen()) {
+        err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
+        return (int)e->kind;
+    }
+    for (int i = 0; i < g->n; i++) {
+        good += g->scenes[i].n_problems == 0;
+        code = code ? code : (int)g->scenes[i].failed.kind;
+    }
+    if (g->whole) {
+        const char **strays = golden_kept_strays(g, g->call->arena);
+        golden_report_strays(g, strays, points);
+        good += !*strays;
+    }
+    golden_report_end(g, good, points);
+    return code ? code : good < points ? ERR_DIFFERS : 0;
+}
+
+/* rasp golden update: all scenes rendered, then all once more; only if every file has the same bytes twice is what they
+   made kept. What can fail is done for every file before the first takes its name, and the hashes take theirs last. */
+
+/* ------------------------------------------------------------------ twice */
+
+struct pass {
+    const struct golden *g;
+    int number;
+};
+
+static bool render_one(void *self, int i)
+{
+    const struct pass *p = self;
+    struct golden_scene *s = &p->g->scenes[i];
+    return golden_run_render(p->g, s, p->number, NULL, &s->failed) && !interrupt_seen();
+}
+
+static bool none_failed(const struct golden *g, struct err *e)
+{
+    for (int i = 0; i < g->n; i++)
+        if (g->scenes[i].failed.kind)
+            return err_set(e, g->scenes[i].failed.kind, "%s%s", g->scenes[i].at, g->scenes[i].failed.text);
+    return true;
+}
+
+/* The second pass begins when the first is over: what one render leaves behind for the next would show. */
+static bool render_twice(const struct golden *g, struct err *e)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        struct pass p = {g, pass};
+        int done =
+            none_failed(g, e)
+                ? pool_run(&(struct pool_work){.n = g->n, .threads = g->threads, .context = &p, .job = render_one})
+                : 0;
+        if (!none_failed(g, e)) return false;
+        if (done < g->n)
+            return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+    }
+    return true;
+}
+
+static bool same_twice(const struct golden *g, struct err *e)
+{
+    int unequal = 0;
+    for (int i = 0; i < g->n; i++) {
+        struct golden_scene *s = &g->scenes[i];
+        golden_run_judge_twice(g, s);
+        if (s->n_problems && unequal++ == 0) golden_report_begin(g, g->n);
+        if (s->n_problems) golden_report_scene(g, s, i + 1);
+    }
+    return !unequal ||
+           err_set(e, ERR_DIFFERS, "%d scene%s not the same bytes twice, or nothing to keep: nothing was written",
+                   unequal, unequal == 1 ? " has" : "s have");
+}
+
+/* ------------------------------------------------------------------ writing */
+
+struct writing {
+    struct golden *g;
+    struct outfile *files; /* [n]: of what changes */
+    int n;
+    const char **gone; /* ends with NULL: kept so far, and not made any more */
+    int n_gone, changed;
+    const char **made; /* [n_made]: folders that were not there; until the commit they go with the program */
+    int n_made;
+};
+
+static bool make_folder(struct writing *w, const char *folder, struct err *e)
+{
+    interrupt_hold();
+    bool made = mkdir(folder, 0777) == 0;
+    int why = errno;
+    if (made) {
+        interrupt_temporary(folder);
+        w->made[w->n_made++] = folder;
+    }
+    interrupt_go();
+    return made || why == EEXIST ||
+           err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", folder, strerror(why));
+}
+
+static void forget_folders(const struct writing *w)
+{
+    for (int i = 0; i < w->n_made; i++)
+        interrupt_forget(w->made[i]);
+}
+
+/* How far the table's columns are named: a CSV's first line, an NPY's dtype. */
+static size_t columns_of(const struct bytes *b)
+{
+    const char *shape = b->n > 6 && !memcmp(b->at, "\x93NUMPY", 6) ? memmem(b->at, b->n, "'shape'", 7) : NULL,
+               *line = memchr(b->at, '\n', b->n);
+    return shape ? (size_t)(shape - b->at) : line ? (size_t)(line - b->at) : b->n;
+}
+
+/* The rule of output/mark.h. Nothing lies beside a kept table that names it: it is known as an earlier state of the one
+ * that takes its place by the same columns. */
+static bool may_replace(const struct golden *g, const struct bytes *made, const char *to, struct arena *a,
+                        struct err *e)
+{
+    struct err why = {0}, unreadable = {0};
+    struct stat link;
+    struct bytes old;
+    if (mark_permits(to, NULL, args_given(&g->call->args, "force"), &why)) return true;
+    size_t n = columns_of(made), length = strlen(to);
+    bool table = lstat(to, &link) == 0 && S_ISREG(link.st_mode) && length > 4 && strcmp(to + length - 4, ".wav") != 0;
+    bool same = table && bytes_read(to, a, &old, &unreadable) && columns_of(&old) == n && !memcmp(old.at, made->at, n);
+    return (same && n > 0) || err_set(e, why.kind, "%s; nothing was written", why.text);
+}
+
+static bool copy(struct writing *w, const char *from, const char *to, struct err *e)
+{
+    struct outfile *o = &w->files[w->n];
+    struct arena *a = arena_open();
+    struct bytes b;
+    bool ok = bytes_read(from, a, &b, e) && may_replace(w->g, &b, to, a, e) && outfile_open(o, to, e);
+    if (ok) {
+        w->n++;
+        outfile_put(o, b.at, b.n);
+        ok = outfile_settle(o, e);
+    }
+    arena_close(a);
+    return ok;
+}
+
+static void say(const struct golden *g, const char *what, const char *scene, const char *file)
+{
+    if (!g->quiet) printf("%-7s %s/%s\n", what, scene, text_shown(g->call->arena, file));
+}
+
+/* What a scene made takes the place of all that was kept of it. */
+static bool write_scene(struct writing *w, const struct golden_scene *s, struct err *e)
+{
+    struct golden *g = w->g;
+    struct arena *a = g->call->arena;
+    struct golden_files kept = golden_kept_of(g, s->name, a, e);
+    const char *folder = arena_format(a, "%s/%s", g->kept ? g->kept : "", s->name);
+    if (e->kind || (g->kept && !make_folder(w, folder, e))) return false;
+    for (int i = 0; i < s->made[0].n; i++) {
+        const struct golden_file *made = &s->made[0].list[i], *old = golden_kept_find(&kept, made->name);
+        bool same = old && strcmp(old->sha256, made->sha256) == 0;
+        w->changed += !same;
+        say(g, same ? "same" : old ? "changed" : "new", s->name, made->name);
+        if (g->kept && !same &&
+            !copy(w, golden_run_render_path(g, s, 0, made->name, a), arena_format(a, "%s/%s", folder, made->name), e))
+            return false;
+    }
+    for (int i = 0; i < kept.n; i++)
+        if (!golden_kept_find(&s->made[0], kept.list[i].name)) {
+            w->changed++;
+            say(g, "removed", s->name, kept.list[i].name);
+            if (g->kept) w->gone[w->n_gone++] = arena_format(a, "%s/%s", folder, kept.list[i].name);
+        }
+    return true;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const struct golden_sum *)a)->name, ((const struct golden_sum *)b)->name);
+}
+
+static bool is_ours(const struct golden *g, const char *sum)
+{
+    size_t n = strcspn(sum, "/");
+    for (int i = 0; i < g->n; i++)
+        if (strlen(g->scenes[i].name) == n && !strncmp(g->scenes[i].name, sum, n)) return true;
+    return false;
+}
+
+/* Lines of other scenes stay, but where lists say what all scenes are. */
+static bool write_hashes(struct writing *w, struct err *e)
+{
+    struct golden *g = w->g;
+    int n = 0, most = g->n_sums;
+    for (int i = 0; i < g->n; i++)
+        most += g->scenes[i].made[0].n;
+    struct golden_sum *all = ARENA_TAKE(g->call->arena, struct golden_sum, most);
+    for (int i = 0; i < g->n_sums; i++)
+        if (!g->whole && !is_ours(g, g->sums[i].name)) all[n++] = g->sums[i];
+    for (int i = 0; i < g->n; i++)
+        for (int k = 0; k < g->scenes[i].made[0].n; k++, n++) {
+            all[n].name = arena_format(g->call->arena, "%s/%s", g->scenes[i].name, g->scenes[i].made[0].list[k].name);
+            memcpy(all[n].sha256, g->scenes[i].made[0].list[k].sha256, HASH_TEXT);
+        }
+    qsort(all, (size_t)n, sizeof *all, by_name);
+    struct outfile *o = &w->files[w->n];
+    if (!mark_links(g->hashes, args_given(&g->call->args, "force"), e) || !outfile_open(o, g->hashes, e)) return false;
+    w->n++;
+    for (int i = 0; i < n; i++)
+        fprintf(o->stream, "%s  %s\n", all[i].sha256, all[i].name);
+    return outfile_settle(o, e);
+}
+
+/* Every file that is about to be complete is open. */
+static void allow_files(int n)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= (rlim_t)n + 64) return;
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+static bool settle_all(struct writing *w, struct err *e)
+{
+    struct golden *g = w->g;
+    if (g->kept && !make_folder(w, g->kept, e)) return false;
+    for (int i = 0; i < g->n; i++)
+        if (!write_scene(w, &g->scenes[i], e)) return false;
+    return !g->hashes || write_hashes(w, e);
+}
+
+static bool commit_all(struct writing *w, struct err *e)
+{
+    int files = w->n - (w->g->hashes != NULL);
+    for (int i = 0; i < files; i++)
+        if (!outfile_commit(&w->files[i], e)) return false;
+    for (int i = 0; i < w->n_gone; i++)
+        if (unlink(w->gone[i]) != 0)
+            return err_set(e, ERR_IO, "%s: cannot be removed: %s", w->gone[i], strerror(errno));
+    return files == w->n || outfile_commit(&w->files[files], e);
+}
+
+static bool write_all(struct golden *g, struct writing *w, struct err *e)
+{
+    struct arena *a = g->call->arena;
+    int most = 1, gone = 1;
+    for (int i = 0; i < g->n; i++) {
+        most += g->scenes[i].made[0].n;
+        gone += golden_kept_of(g, g->scenes[i].name, a, e).n;
+    }
+    *w = (struct writing){.g = g,
+                          .files = ARENA_TAKE(a, struct outfile, most),
+                          .gone = ARENA_TAKE(a, const char *, gone),
+                          .made = ARENA_TAKE(a, const char *, g->n + 1)};
+    for (int i = 0; i < most; i++)
+        w->files[i].fd = -1;
+    allow_files(most);
+    bool ok = !e->kind && settle_all(w, e);
+    interrupt_hold();
+    if (ok) forget_folders(w);
+    ok = ok && commit_all(w, e);
+    interrupt_go();
+    for (int i = 0; i < w->n; i++)
+        outfile_drop(&w->files[i]);
+    for (int i = 0; !ok && g->kept && i < g->n; i++)
+        rmdir(arena_format(a, "%s/%s", g->kept, g->scenes[i].name)); /* where nothing was in it */
+    forget_folders(w);
+    return ok;
+}
+
+int golden_run_update(struct golden *g, struct err *e)
+{
+    struct writing w;
+    if (g->hashes && access(g->hashes, F_OK) == 0 && !golden_kept_read(g, e)) return (int)e->kind;
+    if (!none_failed(g, e) || !render_twice(g, e) || !same_twice(g, e) || !write_all(g, &w, e)) return (int)e->kind;
+    if (!g->quiet)
+        printf("%d scene%s rendered twice; %d file%s changed\n", g->n, g->n == 1 ? "" : "s", w.changed,
+               w.changed == 1 ? "" : "s");
+    const char **strays = g->whole ? golden_kept_strays(g, g->call->arena) : NULL;
+    for (; g->kept && strays && *strays; strays++)
+        tell_warning(g->call, *strays, "no scene makes it; rasp golden check will fail until it is removed");
+    return 0;
+}
