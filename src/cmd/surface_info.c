@@ -6,13 +6,12 @@
 #include "analysis/surface_ends.h"
 #include "analysis/surface_heights.h"
 #include "base/arena.h"
-#include "base/wrap.h"
+#include "cmd/report.h"
 #include "cmd/surface.h"
 #include "cmd/tell.h"
 #include "file/heightfile_doubt.h"
 #include "file/heightfile_level.h"
 #include "file/heightfile_load.h"
-#include "file/json_value.h"
 
 enum { SURFACE_INFO_NOTES = 16, SURFACE_INFO_ALPHAS = 2 };
 
@@ -123,198 +122,160 @@ static void surface_info_notes(struct surface_info *i)
              p->lag, len(i, (double)p->lag * i->h.pitch_x), p->peak, p->lag);
 }
 
-/* The report of rasp surface info as text: one fact a line. */
+/* ------------------------------------------------------------------ the report: in text a fact a line, in JSON SI
+ * units */
 
-static void print_steps(const struct surface_info *i)
+static void report_size(struct report *r, const struct surface_info *i)
 {
-    const struct surface_heights_steps *s = &i->steps;
-    if (s->step == 0) {
-        printf("  %-20s none seen (%zu of %zu heights are different)\n", "quantisation", s->levels, s->looked_at);
-        return;
-    }
-    if (2.45 * s->noise < 0.01 / alphas[SURFACE_INFO_ALPHAS - 1]) {
-        printf("  %-20s steps of %.3g nm: nothing beside the limiter (curvature noise %.2g 1/m)\n", "quantisation",
-               s->step * 1e9, s->noise);
-        return;
-    }
-    printf("  %-20s steps of %.4g nm (%zu of %zu heights are different)\n", "quantisation", s->step * 1e9, s->levels,
-           s->looked_at);
-    printf("  %-20s %.3g 1/m, at the spline's knots %.3g 1/m:", "its curvature noise", s->noise, 2.45 * s->noise);
-    for (int k = 0; k < SURFACE_INFO_ALPHAS; k++)
-        printf("%s %.3g %% of the limiter's %g 1/m", k ? "," : "", 100 * s->noise * alphas[k], 1 / alphas[k]);
-    putchar('\n');
-}
-
-static void print_band(const struct surface_info *i, int down)
-{
-    const struct surface_band *b = &i->band[down];
-    const char *where = i->h.rows == 1 ? "" : down ? " in y" : " in x";
-    char label[32];
-    snprintf(label, sizeof label, "band limit%s", where);
-    if (b->segments == 0) {
-        printf("  %-20s unknown: %s\n", label, i->heights.sz > 0 ? "too few samples in a row without holes" : "flat");
-        return;
-    }
-    if (isnan(b->limit))
-        printf("  %-20s none below the Nyquist frequency, %.4g cycles/mm\n", label, b->nyquist * 1e-3);
-    else
-        printf("  %-20s %.4g cycles/mm (wavelength %s), where it %s; %.3g times oversampled\n", label, b->limit * 1e-3,
-               len(i, 1 / b->limit), b->noise ? "meets the noise floor" : "is 80 dB down", b->nyquist / b->limit);
-    double top = isnan(b->limit) ? b->nyquist : b->limit;
-    printf("  %-20s %.4g kHz at 10 cm/s\n", "heard up to", top * 0.1e-3);
-    snprintf(label, sizeof label, "spectrum%s", where);
-    if (!isnan(b->exponent))
-        printf("  %-20s falls as k^%.3g from %.4g to %.4g cycles/mm\n", label, b->exponent, b->from * 1e-3,
-               b->to * 1e-3);
-}
-
-static void print_ends(const struct surface_info *i, int down)
-{
-    const struct surface_ends *s = &i->ends[down];
-    const char *where = i->h.rows == 1 ? "" : down ? " in y" : " in x";
-    char label[32];
-    snprintf(label, sizeof label, "repeated%s", where);
-    printf("  %-20s jumps by %s at the seam (neighbours differ by %s)\n", label, len(i, s->jump), len(i, s->step));
-    snprintf(label, sizeof label, "mirrored%s", where);
-    printf("  %-20s slope changes by %.3g at the ends\n", label, s->kink);
-}
-
-static void surface_info_print(const struct surface_info *i)
-{
-    printf("%s\n", i->file);
-    const struct heightfile *h = &i->h;
-    printf("  %-20s %s", "format", h->format);
-    if (h->bits)
-        printf(h->step > 0 ? ", integers of %d bits" : ", floating point of %d bits", h->bits == 24   ? 32
-                                                                                      : h->bits == 53 ? 64
-                                                                                                      : h->bits);
-    printf("%s%s%s\n", h->title ? ", \"" : "", h->title ? h->title : "", h->title ? "\"" : "");
-    if (h->rows > 1) {
-        printf("  %-20s map, %zu x %zu samples\n", "samples", h->columns, h->rows);
-        printf("  %-20s %.4g mm x %.4g mm\n", "size", h->pitch_x * (double)h->columns * 1e3,
-               h->pitch_y * (double)h->rows * 1e3);
-        printf("  %-20s %.7g um x %.7g um\n", "pitch", h->pitch_x * 1e6, h->pitch_y * 1e6);
-    } else {
-        printf("  %-20s profile, %zu samples\n", "samples", h->columns);
-        printf("  %-20s %.5g mm\n", "size", h->pitch_x * (double)h->columns * 1e3);
-        printf("  %-20s %.7g um\n", "pitch", h->pitch_x * 1e6);
-    }
-    printf("  %-20s %zu", "missing points", h->holes);
-    if (h->filled) printf(", and %zu filled", h->filled);
-    putchar('\n');
-    static const char *const words[] = {"none", "mean", "plane"};
-    const char *word = i->levelling == 2 && i->h.rows == 1 ? "line" : words[i->levelling];
-    printf("  %-20s %s%s\n", "levelling", word, i->levelling ? " subtracted" : "");
-    printf("  %-20s mean %s, slope %.4g um/mm", "as stored", len(i, i->tilt.mean), i->tilt.slope_x * 1e3);
-    if (i->h.rows > 1) printf(" in x, %.4g um/mm in y", i->tilt.slope_y * 1e3);
-    putchar('\n');
-    const struct surface_heights *s = &i->heights;
-    char letter = i->h.rows > 1 ? 'S' : 'R';
-    printf("  %ca                   %s\n  %cq                   %s\n", letter, len(i, s->sa), letter, len(i, s->sq));
-    if (!isnan(s->ssk))
-        printf("  %csk                  %.4g\n  %cku                  %.4g\n", letter, s->ssk, letter, s->sku);
-    printf("  %cz                   %s\n", letter, len(i, s->sz));
-    printf("  %-20s %.4g", "rms slope", s->slope);
-    printf(i->h.rows > 1 ? " in x, %.4g in y\n" : "\n", s->slope_y);
-    printf("  %-20s %.4g 1/m", "rms curvature", s->curvature);
-    printf(i->h.rows > 1 ? " in x, %.4g 1/m in y\n" : "\n", s->curvature_y);
-    print_steps(i);
-    for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
-        print_band(i, down);
-        print_ends(i, down);
-    }
-    if (!isnan(i->period.peak))
-        printf("  %-20s highest %.2f at %s (%zu samples)\n", "autocorrelation", i->period.peak,
-               len(i, (double)i->period.lag * i->h.pitch_x), i->period.lag);
-    for (int k = 0; k < i->n_notes; k++) {
-        printf("  warning: ");
-        wrap_print(stdout, i->notes[k], 11, "           ");
-    }
-}
-
-/* The report of rasp surface info as JSON: SI units, null for what is not there. */
-
-static json_t *json_heights(const struct surface_heights *s)
-{
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "mean_m", json_value_number(s->mean), "sa_m",
-                     json_value_number(s->sa), "sq_m", json_value_number(s->sq), "ssk", json_value_number(s->ssk),
-                     "sku", json_value_number(s->sku), "sz_m", json_value_number(s->sz), "slope_rms_x",
-                     json_value_number(s->slope), "slope_rms_y", json_value_number(s->slope_y), "curvature_rms_x_per_m",
-                     json_value_number(s->curvature), "curvature_rms_y_per_m", json_value_number(s->curvature_y));
-}
-
-static json_t *json_steps(const struct surface_heights_steps *s)
-{
-    json_t *limits = json_array();
-    for (int k = 0; k < SURFACE_INFO_ALPHAS; k++)
-        json_array_append_new(limits,
-                              json_pack("{s:f, s:f}", "alpha_m", alphas[k], "noise_over_limit", s->noise * alphas[k]));
-    return json_pack("{s:f, s:I, s:I, s:f, s:f, s:o}", "step_m", s->step, "levels", (json_int_t)s->levels,
-                     "heights_looked_at", (json_int_t)s->looked_at, "curvature_noise_per_m", s->noise,
-                     "curvature_noise_at_knots_per_m", 2.45 * s->noise, "limiter", limits);
-}
-
-static json_t *json_band(const struct surface_band *b)
-{
-    if (b->segments == 0) return json_null();
-    return json_pack("{s:o, s:b, s:o, s:f, s:o, s:o, s:o, s:o}", "limit_cycles_per_m", json_value_number(b->limit),
-                     "limit_is_noise_floor", b->noise, "curvature_above_limit", json_value_number(b->beyond),
-                     "nyquist_cycles_per_m", b->nyquist, "oversampling",
-                     json_value_number(isnan(b->limit) ? 1 : b->nyquist / b->limit), "exponent",
-                     json_value_number(b->exponent), "exponent_from_cycles_per_m", json_value_number(b->from),
-                     "exponent_to_cycles_per_m", json_value_number(b->to));
-}
-
-static json_t *json_ends(const struct surface_ends *s)
-{
-    return json_pack("{s:o, s:o, s:o, s:[I, I], s:[o, o]}", "step_rms_m", json_value_number(s->step), "jump_repeated_m",
-                     json_value_number(s->jump), "slope_jump_mirrored", json_value_number(s->kink), "fall_samples",
-                     (json_int_t)s->fall[0], (json_int_t)s->fall[1], "fall_m", json_value_number(s->drop[0]),
-                     json_value_number(s->drop[1]));
-}
-
-static json_t *json_period(const struct surface_ends_period *p)
-{
-    if (isnan(p->peak)) return json_null();
-    return json_pack("{s:I, s:f, s:b}", "lag_samples", (json_int_t)p->lag, "autocorrelation", p->peak, "stands_out",
-                     p->stands_out);
-}
-
-static json_t *json_one(const struct surface_info *i)
-{
-    static const char *const levellings[] = {"none", "mean", "plane"};
     const struct heightfile *h = &i->h;
     bool map = h->rows > 1;
-    json_t *notes = json_array();
-    for (int k = 0; k < i->n_notes; k++)
-        json_array_append_new(notes, json_value_text(i->notes[k]));
-    return json_pack(
-        "{s:o, s:s, s:o, s:I, s:I, s:o, s:o, s:I, s:I, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "file",
-        json_value_text(i->file), "format", h->format, "title", json_value_text(h->title), "columns",
-        (json_int_t)h->columns, "rows", (json_int_t)h->rows, "pitch_x_m", json_value_number(h->pitch_x), "pitch_y_m",
-        json_value_number(map ? h->pitch_y : NAN), "missing", (json_int_t)h->holes, "filled", (json_int_t)h->filled,
-        "levelling", levellings[i->levelling], "slope_x", json_value_number(i->tilt.slope_x), "slope_y",
-        json_value_number(map ? i->tilt.slope_y : NAN), "heights", json_heights(&i->heights), "quantisation",
-        json_steps(&i->steps), "band_x", json_band(&i->band[0]), "band_y", map ? json_band(&i->band[1]) : json_null(),
-        "ends_x", json_ends(&i->ends[0]), "ends_y", map ? json_ends(&i->ends[1]) : json_null(), "repetition",
-        json_period(&i->period), "warnings", notes);
+    double x = h->pitch_x, y = h->pitch_y, columns = (double)h->columns, rows = (double)h->rows;
+    const char *bits = h->step > 0 ? ", integers of %d bits" : ", floating point of %d bits", *filled = "";
+    report_set(r, "file:s format:s title:s columns:z rows:z", i->file, h->format, h->title, h->columns, h->rows);
+    report_set(r, "pitch_x_m:n pitch_y_m:n missing:z filled:z", x, map ? y : NAN, h->holes, h->filled);
+    bits = h->bits ? arena_format(i->arena, bits, h->bits == 24 ? 32 : h->bits == 53 ? 64 : h->bits) : "";
+    filled = h->filled ? arena_format(i->arena, ", and %zu filled", h->filled) : "";
+    report_text(r, "%s\n", i->file);
+    report_row(r, "format", "%s%s%s%s%s", h->format, bits, h->title ? ", \"" : "", h->title ? h->title : "",
+               h->title ? "\"" : "");
+    if (map) {
+        report_row(r, "samples", "map, %zu x %zu samples", h->columns, h->rows);
+        report_row(r, "size", "%.4g mm x %.4g mm", x * columns * 1e3, y * rows * 1e3);
+        report_row(r, "pitch", "%.7g um x %.7g um", x * 1e6, y * 1e6);
+    } else {
+        report_row(r, "samples", "profile, %zu samples", h->columns);
+        report_row(r, "size", "%.5g mm", x * columns * 1e3);
+        report_row(r, "pitch", "%.7g um", x * 1e6);
+    }
+    report_row(r, "missing points", "%zu%s", h->holes, filled);
 }
 
-/* The report of several files as one object on stdout. ERR_IO */
-static bool surface_info_json(const struct surface_info *const *list, int n, struct err *e)
+static void report_heights(struct report *r, const struct surface_info *i)
 {
-    json_t *all = json_array(), *j;
-    for (int k = 0; k < n; k++)
-        json_array_append_new(all, json_one(list[k]));
-    j = json_pack("{s:o}", "surfaces", all);
-    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
-    putchar('\n');
-    json_decref(j);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+    static const char *const words[] = {"none", "mean", "plane"};
+    const struct surface_heights *s = &i->heights;
+    bool map = i->h.rows > 1;
+    const char *word = i->levelling == 2 && !map ? "line" : words[i->levelling];
+    report_set(r, "levelling:s slope_x:n slope_y:n", words[i->levelling], i->tilt.slope_x, map ? i->tilt.slope_y : NAN);
+    report_row(r, "levelling", "%s%s", word, i->levelling ? " subtracted" : "");
+    report_row(r, "as stored", map ? "mean %s, slope %.4g um/mm in x, %.4g um/mm in y" : "mean %s, slope %.4g um/mm",
+               len(i, i->tilt.mean), i->tilt.slope_x * 1e3, i->tilt.slope_y * 1e3);
+    report_object(r, "heights");
+    report_set(r, "mean_m:n", s->mean);
+    report_figure(r, "sa_m", s->sa, map ? "Sa" : "Ra", "%s", len(i, s->sa));
+    report_figure(r, "sq_m", s->sq, map ? "Sq" : "Rq", "%s", len(i, s->sq));
+    if (!isnan(s->ssk) || r->json) {
+        report_figure(r, "ssk", s->ssk, map ? "Ssk" : "Rsk", "%.4g", s->ssk);
+        report_figure(r, "sku", s->sku, map ? "Sku" : "Rku", "%.4g", s->sku);
+    }
+    report_figure(r, "sz_m", s->sz, map ? "Sz" : "Rz", "%s", len(i, s->sz));
+    report_figure(r, "slope_rms_x", s->slope, "rms slope", map ? "%.4g in x, %.4g in y" : "%.4g", s->slope, s->slope_y);
+    report_set(r, "slope_rms_y:n", s->slope_y);
+    report_figure(r, "curvature_rms_x_per_m", s->curvature, "rms curvature",
+                  map ? "%.4g 1/m in x, %.4g 1/m in y" : "%.4g 1/m", s->curvature, s->curvature_y);
+    report_set(r, "curvature_rms_y_per_m:n", s->curvature_y);
+    report_end(r);
 }
 
-/* rasp surface info FILE...: gathers; notes say what looks like a fault.
- */
+static void report_steps(struct report *r, const struct surface_info *i)
+{
+    const struct surface_heights_steps *s = &i->steps;
+    const char *shares = "";
+    report_object(r, "quantisation");
+    report_set(r, "step_m:n levels:z heights_looked_at:z curvature_noise_per_m:n curvature_noise_at_knots_per_m:n",
+               s->step, s->levels, s->looked_at, s->noise, 2.45 * s->noise);
+    report_list(r, "limiter");
+    for (int k = 0; k < SURFACE_INFO_ALPHAS; k++) {
+        report_object(r, NULL);
+        report_set(r, "alpha_m:n noise_over_limit:n", alphas[k], s->noise * alphas[k]);
+        report_end(r);
+        shares = arena_format(i->arena, "%s%s %.3g %% of the limiter's %g 1/m", shares, k ? "," : "",
+                              100 * s->noise * alphas[k], 1 / alphas[k]);
+    }
+    report_end(r);
+    report_end(r);
+    if (s->step == 0)
+        report_row(r, "quantisation", "none seen (%zu of %zu heights are different)", s->levels, s->looked_at);
+    else if (2.45 * s->noise < 0.01 / alphas[SURFACE_INFO_ALPHAS - 1])
+        report_row(r, "quantisation", "steps of %.3g nm: nothing beside the limiter (curvature noise %.2g 1/m)",
+                   s->step * 1e9, s->noise);
+    else {
+        report_row(r, "quantisation", "steps of %.4g nm (%zu of %zu heights are different)", s->step * 1e9, s->levels,
+                   s->looked_at);
+        report_row(r, "its curvature noise", "%.3g 1/m, at the spline's knots %.3g 1/m:%s", s->noise, 2.45 * s->noise,
+                   shares);
+    }
+}
+
+/* Along the rows or down the columns; `where`: " in x" or " in y" of a map. */
+static void report_band(struct report *r, const struct surface_info *i, int down, const char *where)
+{
+    const struct surface_band *b = &i->band[down];
+    const char *label = arena_format(i->arena, "band limit%s", where);
+    bool limit = !isnan(b->limit);
+    if (b->segments == 0) {
+        report_row(r, label, "unknown: %s", i->heights.sz > 0 ? "too few samples in a row without holes" : "flat");
+        return;
+    }
+    report_object(r, down ? "band_y" : "band_x");
+    report_set(
+        r, "limit_cycles_per_m:n limit_is_noise_floor:b curvature_above_limit:n nyquist_cycles_per_m:n oversampling:n",
+        b->limit, b->noise, b->beyond, b->nyquist, limit ? b->nyquist / b->limit : 1.0);
+    report_set(r, "exponent:n exponent_from_cycles_per_m:n exponent_to_cycles_per_m:n", b->exponent, b->from, b->to);
+    report_end(r);
+    if (limit)
+        report_row(r, label, "%.4g cycles/mm (wavelength %s), where it %s; %.3g times oversampled", b->limit * 1e-3,
+                   len(i, 1 / b->limit), b->noise ? "meets the noise floor" : "is 80 dB down", b->nyquist / b->limit);
+    else
+        report_row(r, label, "none below the Nyquist frequency, %.4g cycles/mm", b->nyquist * 1e-3);
+    report_row(r, "heard up to", "%.4g kHz at 10 cm/s", (limit ? b->limit : b->nyquist) * 0.1e-3);
+    if (!isnan(b->exponent))
+        report_row(r, arena_format(i->arena, "spectrum%s", where), "falls as k^%.3g from %.4g to %.4g cycles/mm",
+                   b->exponent, b->from * 1e-3, b->to * 1e-3);
+}
+
+static void report_ends(struct report *r, const struct surface_info *i, int down, const char *where)
+{
+    const struct surface_ends *s = &i->ends[down];
+    report_object(r, down ? "ends_y" : "ends_x");
+    report_set(r, "step_rms_m:n jump_repeated_m:n slope_jump_mirrored:n", s->step, s->jump, s->kink);
+    report_list(r, "fall_samples");
+    report_set(r, ":z :z", s->fall[0], s->fall[1]);
+    report_end(r);
+    report_set(r, "fall_m:a", s->drop, 2);
+    report_end(r);
+    report_row(r, arena_format(i->arena, "repeated%s", where), "jumps by %s at the seam (neighbours differ by %s)",
+               len(i, s->jump), len(i, s->step));
+    report_row(r, arena_format(i->arena, "mirrored%s", where), "slope changes by %.3g at the ends", s->kink);
+}
+
+static void report_surface(struct report *r, const struct surface_info *i)
+{
+    const struct surface_ends_period *p = &i->period;
+    report_object(r, NULL);
+    report_size(r, i);
+    report_heights(r, i);
+    report_steps(r, i);
+    report_set(r, "band_x:0 band_y:0 ends_x:0 ends_y:0 repetition:0");
+    for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
+        const char *where = i->h.rows == 1 ? "" : down ? " in y" : " in x";
+        report_band(r, i, down, where);
+        report_ends(r, i, down, where);
+    }
+    if (!isnan(p->peak)) {
+        report_object(r, "repetition");
+        report_set(r, "lag_samples:z autocorrelation:n stands_out:b", p->lag, p->peak, p->stands_out);
+        report_end(r);
+        report_row(r, "autocorrelation", "highest %.2f at %s (%zu samples)", p->peak,
+                   len(i, (double)p->lag * i->h.pitch_x), p->lag);
+    }
+    report_set(r, "warnings:t", i->notes, i->n_notes);
+    for (int k = 0; k < i->n_notes; k++)
+        report_note(r, "  warning: ", i->notes[k]);
+    report_end(r);
+}
+
+/* ------------------------------------------------------------------ the action */
 
 /* The steps show in the heights as they are stored: so levelling comes after. */
 static bool gather(struct surface_info *i, struct heightfile_options o, struct err *e)
@@ -338,25 +299,24 @@ static bool gather(struct surface_info *i, struct heightfile_options o, struct e
 int surface_info_run(struct cmd_call *c, struct err *e)
 {
     struct heightfile_options o;
-    bool json = args_given(&c->args, "json");
     int worst = 0, n = 0;
-    const struct surface_info **list = ARENA_TAKE(c->arena, const struct surface_info *, c->args.n_operands);
     if (!surface_options(c, HEIGHTFILE_KEEP, &o, e)) return (int)e->kind;
+    struct report r = report_open(stdout, args_given(&c->args, "json"));
+    report_list(&r, "surfaces");
     for (int k = 0; k < c->args.n_operands; k++) {
         struct err mine = {0};
-        struct arena *own = json ? c->arena : arena_open(); /* the maps of many files need not all stay */
+        struct arena *own = arena_open(); /* the maps of many files need not all stay */
         struct surface_info *i = ARENA_TAKE(own, struct surface_info, 1);
         *i = (struct surface_info){.file = c->args.operands[k], .arena = own};
-        bool ok = gather(i, o, &mine);
-        if (!ok)
+        if (gather(i, o, &mine)) {
+            report_surface(&r, i);
+            n++;
+        } else
             tell_error(c, "surface", &mine);
-        else if (json)
-            list[n++] = i;
-        else
-            surface_info_print(i);
         worst = (int)mine.kind > worst ? (int)mine.kind : worst;
-        if (!json) arena_close(own);
+        arena_close(own);
     }
-    if (json && n > 0 && !surface_info_json(list, n, e)) return (int)e->kind;
-    return worst;
+    report_end(&r);
+    if (n == 0) json_decref(r.at[0]);
+    return n > 0 && !report_close(&r, 12, e) ? (int)e->kind : worst;
 }
