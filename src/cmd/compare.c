@@ -8,7 +8,6 @@
 #include "cmd/compare.h"
 
 #include <errno.h>
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,7 +18,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
-#include "file/json_value.h"
+#include "cmd/report.h"
 #include "file/table.h"
 #include "num/real.h"
 
@@ -44,9 +43,6 @@ struct verdict {
     int n_criteria;
     bool held, equal;
 };
-
-static void compare_sound_report_text(const struct verdict *v);
-static bool compare_sound_report_json(const struct verdict *v, struct err *e);
 
 /* "frame 2 (0.000250 s), channel 1: A ..., B ...", "4000 Hz, channel 2: A ... dB, B ... dB". */
 static const char *compare_sound_place(const struct verdict *v, const struct distance_place *p)
@@ -165,149 +161,116 @@ static bool measure(struct verdict *v, struct err *e)
     return true;
 }
 
+/* ------------------------------------------------------------------ the report on two sounds */
+
+static double decibels(double x) { return x > 0 ? 20 * real_log10(x) : -INFINITY; }
+
+/* Of frames or samples that have a partner. */
+static long count(const struct verdict *v, size_t n) { return v->paired ? (long)n : -1; }
+
+static void report_form(struct report *r, const struct verdict *v)
+{
+    const struct wav *a = &v->sound[0], *b = &v->sound[1];
+    double short_by = (double)a->frames - (double)b->frames, seconds[2];
+    const char *encoding[2];
+    for (int i = 0; i < 2; i++) {
+        const struct wav *w = &v->sound[i];
+        seconds[i] = (double)w->frames / w->rate;
+        encoding[i] = w->bits ? arena_format(v->ask->arena, "%d-bit integers", w->bits) : "not integers";
+        report_object(r, i ? "b" : "a");
+        report_set(r, "file:s rate_hz:n channels:i frames:z duration_s:n bits:c", v->ask->files[i], w->rate,
+                   w->channels, w->frames, seconds[i], w->bits ? (long)w->bits : -1L);
+        report_end(r);
+    }
+    if (a->rate != b->rate) report_text(r, "rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
+    if (a->channels != b->channels) report_text(r, "channels            A %d, B %d\n", a->channels, b->channels);
+    if (a->rate != b->rate)
+        report_text(r, "length              A %.6f s, B %.6f s\n", seconds[0], seconds[1]);
+    else if (a->frames != b->frames)
+        report_text(r, "frames              A %zu, B %zu: B is %.0f (%.6f s) %s%s\n", a->frames, b->frames,
+                    fabs(short_by), fabs(seconds[0] - seconds[1]), short_by > 0 ? "shorter" : "longer",
+                    v->alike ? "; what both have is compared" : "");
+    if (a->bits != b->bits) report_text(r, "encoding            A %s, B %s\n", encoding[0], encoding[1]);
+}
+
+static void report_place(struct report *r, const char *key, const struct verdict *v, const struct distance_place *p)
+{
+    report_set(r, arena_format(v->ask->arena, "%s:0", key));
+    if (!v->d.differing) return;
+    report_object(r, key);
+    report_set(r, "frame:z time_s:n channel:i a:n b:n", p->frame, (double)p->frame / v->sound[0].rate, p->channel + 1,
+               p->a, p->b);
+    report_end(r);
+}
+
+static void report_samples(struct report *r, const struct verdict *v)
+{
+    const struct distance_samples *d = &v->d;
+    double step = distance_step(&v->sound[0], &v->sound[1]), n = (double)d->frames * v->sound[0].channels;
+    report_set(r, "frames_compared:c differing_samples:c", count(v, d->frames), count(v, d->differing));
+    report_place(r, "first_difference", v, &d->first);
+    report_set(r, "largest_difference:n largest_difference_lsb:n largest_difference_dbfs:n",
+               v->paired ? d->largest : NAN, compare_sound_steps(v), v->paired ? decibels(d->largest) : NAN);
+    report_place(r, "largest_difference_at", v, &d->worst);
+    report_set(r, "snr_db:n", d->snr_db);
+    if (v->equal || !v->alike) return;
+    if (!v->paired) {
+        report_text(r, "samples             difference, LSB and SNR are left out, because the sample rates differ\n");
+        return;
+    }
+    report_text(r, "differing samples   %zu of %.0f (%.3g %%)\n", d->differing, n, 100 * (double)d->differing / n);
+    if (d->differing) {
+        report_text(r, "first difference    %s\n", compare_sound_place(v, &d->first));
+        const char *steps =
+            step > 0 ? arena_format(v->ask->arena, "%.6g LSB of %d bits, ", d->largest / step, 1 - ilogb(step)) : "";
+        report_text(r, "largest difference  %s%.2f dBFS, at %s\n", steps, decibels(d->largest),
+                    compare_sound_place(v, &d->worst));
+    }
+    report_text(r, "SNR                 %.2f dB\n", d->snr_db);
+}
+
+static bool report_sounds(const struct verdict *v, struct err *e)
+{
+    const struct wav *a = &v->sound[0];
+    const struct distance_bands *d = &v->bands;
+    bool any = d->compared > 0;
+    struct report r = report_open(v->ask->out, v->ask->json);
+    report_set(&r, "equal:b held:b audio_sha256:t", v->equal, v->held, (const char *const[]){v->hash[0], v->hash[1]},
+               2);
+    report_text(&r, "A %s\nB %s\nsha256  A %s B %s\n", v->ask->files[0], v->ask->files[1], v->hash[0], v->hash[1]);
+    report_form(&r, v);
+    if (v->equal)
+        report_text(&r, "equal: %zu frames (%.6f s), %d channel%s, %.9g Hz\n", a->frames, (double)a->frames / a->rate,
+                    a->channels, a->channels == 1 ? "" : "s", a->rate);
+    report_samples(&r, v);
+    report_object(&r, "third_octave");
+    report_set(&r, "compared:i worst_db:n band_hz:n channel:c a_db:n b_db:n", d->compared, d->worst_db,
+               any ? distance_band_nominal(d->band) : NAN, any ? d->channel + 1L : -1L, any ? d->a_db : NAN,
+               any ? d->b_db : NAN);
+    report_end(&r);
+    if (!v->equal && v->alike && any)
+        report_text(&r, "third-octave bands  at most %.4g dB apart, at %s\n", d->worst_db, compare_sound_band(v));
+    else if (!v->equal && v->alike)
+        report_text(&r, "third-octave bands  none to compare\n");
+    report_list(&r, "criteria");
+    for (int i = 0; i < v->n_criteria; i++) {
+        const struct criterion *c = &v->criteria[i];
+        report_object(&r, NULL);
+        report_set(&r, "name:s held:b limit:n measured:n says:s", c->name, c->held, c->limit, c->measured, c->says);
+        report_end(&r);
+        if (!v->equal) report_text(&r, "%s %s: %s\n", c->held ? "ok  " : "FAIL", c->name, c->says);
+    }
+    report_end(&r);
+    return report_close(&r, 12, e);
+}
+
 int compare_sound(const struct compare_ask *ask, struct err *e)
 {
     struct verdict *v = ARENA_TAKE(ask->arena, struct verdict, 1);
     v->ask = ask;
     if (!measure(v, e)) return (int)e->kind;
-    if (ask->quiet && v->held) return 0;
-    if (ask->json && !compare_sound_report_json(v, e)) return (int)e->kind;
-    if (!ask->json) compare_sound_report_text(v);
+    if (!(ask->quiet && v->held) && !report_sounds(v, e)) return (int)e->kind;
     return v->held ? 0 : ERR_DIFFERS;
-}
-
-/* The report of `rasp compare` on two sounds, as text or as JSON. */
-
-static double decibels(double x) { return x > 0 ? 20 * real_log10(x) : -INFINITY; }
-
-static const char *encoding(const struct wav *w, struct arena *a)
-{
-    return w->bits ? arena_format(a, "%d-bit integers", w->bits) : "not integers";
-}
-
-static void print_form(const struct verdict *v)
-{
-    const struct wav *a = &v->sound[0], *b = &v->sound[1];
-    double short_by = (double)a->frames - (double)b->frames,
-           seconds[2] = {(double)a->frames / a->rate, (double)b->frames / b->rate};
-    if (a->rate != b->rate) fprintf(v->ask->out, "rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
-    if (a->channels != b->channels) fprintf(v->ask->out, "channels            A %d, B %d\n", a->channels, b->channels);
-    if (a->rate != b->rate)
-        fprintf(v->ask->out, "length              A %.6f s, B %.6f s\n", seconds[0], seconds[1]);
-    else if (a->frames != b->frames)
-        fprintf(v->ask->out, "frames              A %zu, B %zu: B is %.0f (%.6f s) %s%s\n", a->frames, b->frames,
-                fabs(short_by), fabs(seconds[0] - seconds[1]), short_by > 0 ? "shorter" : "longer",
-                v->alike ? "; what both have is compared" : "");
-    if (a->bits != b->bits)
-        fprintf(v->ask->out, "encoding            A %s, B %s\n", encoding(a, v->ask->arena),
-                encoding(b, v->ask->arena));
-}
-
-static void compare_sound_report_text(const struct verdict *v)
-{
-    const struct wav *a = &v->sound[0];
-    fprintf(v->ask->out, "A %s\nB %s\n", v->ask->files[0], v->ask->files[1]);
-    fprintf(v->ask->out, "sha256  A %s B %s\n", v->hash[0], v->hash[1]);
-    print_form(v);
-    if (v->equal)
-        fprintf(v->ask->out, "equal: %zu frames (%.6f s), %d channel%s, %.9g Hz\n", a->frames,
-                (double)a->frames / a->rate, a->channels, a->channels == 1 ? "" : "s", a->rate);
-    else if (v->alike) {
-        if (v->paired) {
-            const struct distance_samples *d = &v->d;
-            double step = distance_step(&v->sound[0], &v->sound[1]);
-            size_t n = d->frames * (size_t)v->sound[0].channels;
-            fprintf(v->ask->out, "differing samples   %zu of %zu (%.3g %%)\n", d->differing, n,
-                    100 * (double)d->differing / (double)n);
-            if (d->differing) {
-                fprintf(v->ask->out, "first difference    %s\n", compare_sound_place(v, &d->first));
-                fprintf(v->ask->out, "largest difference  ");
-                if (step > 0) fprintf(v->ask->out, "%.6g LSB of %d bits, ", d->largest / step, 1 - ilogb(step));
-                fprintf(v->ask->out, "%.2f dBFS, at %s\n", decibels(d->largest), compare_sound_place(v, &d->worst));
-            }
-            fprintf(v->ask->out, "SNR                 %.2f dB\n", d->snr_db);
-        } else
-            fprintf(v->ask->out,
-                    "samples             difference, LSB and SNR are left out, because the sample rates differ\n");
-        if (v->bands.compared)
-            fprintf(v->ask->out, "third-octave bands  at most %.4g dB apart, at %s\n", v->bands.worst_db,
-                    compare_sound_band(v));
-        else
-            fprintf(v->ask->out, "third-octave bands  none to compare\n");
-    }
-    for (int i = 0; i < v->n_criteria && !v->equal; i++)
-        fprintf(v->ask->out, "%s %s: %s\n", v->criteria[i].held ? "ok  " : "FAIL", v->criteria[i].name,
-                v->criteria[i].says);
-}
-
-/* JSON has no infinities: null. */
-/* Of frames or samples that have a partner: null where none has. */
-static json_t *count(const struct verdict *v, size_t n)
-{
-    return v->paired ? json_integer((json_int_t)n) : json_null();
-}
-
-static json_t *name_or_null(const char *s)
-{
-    json_t *j = json_string(s); /* NULL: not UTF-8 */
-    return j ? j : json_null();
-}
-
-static json_t *json_sound(const struct verdict *v, int i)
-{
-    const struct wav *w = &v->sound[i];
-    return json_pack("{s:o, s:o, s:i, s:I, s:o, s:o}", "file", name_or_null(v->ask->files[i]), "rate_hz",
-                     json_value_number(w->rate), "channels", w->channels, "frames", (json_int_t)w->frames, "duration_s",
-                     json_value_number((double)w->frames / w->rate), "bits",
-                     w->bits ? json_integer(w->bits) : json_null());
-}
-
-static json_t *json_place(const struct verdict *v, const struct distance_place *p)
-{
-    if (!v->d.differing) return json_null();
-    return json_pack("{s:I, s:o, s:i, s:o, s:o}", "frame", (json_int_t)p->frame, "time_s",
-                     json_value_number((double)p->frame / v->sound[0].rate), "channel", p->channel + 1, "a",
-                     json_value_number(p->a), "b", json_value_number(p->b));
-}
-
-static json_t *json_bands(const struct verdict *v)
-{
-    const struct distance_bands *d = &v->bands;
-    bool any = d->compared > 0;
-    return json_pack("{s:i, s:o, s:o, s:o, s:o, s:o}", "compared", d->compared, "worst_db",
-                     json_value_number(d->worst_db), "band_hz",
-                     json_value_number(any ? distance_band_nominal(d->band) : NAN), "channel",
-                     any ? json_integer(d->channel + 1) : json_null(), "a_db", json_value_number(any ? d->a_db : NAN),
-                     "b_db", json_value_number(any ? d->b_db : NAN));
-}
-
-static json_t *json_criteria(const struct verdict *v)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < v->n_criteria; i++) {
-        const struct criterion *c = &v->criteria[i];
-        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "name", c->name, "held", c->held, "limit",
-                                              json_value_number(c->limit), "measured", json_value_number(c->measured),
-                                              "says", name_or_null(c->says)));
-    }
-    return list;
-}
-
-static bool compare_sound_report_json(const struct verdict *v, struct err *e)
-{
-    const struct distance_samples *d = &v->d;
-    json_t *j = json_pack(
-        "{s:b, s:b, s:[s, s], s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equal", v->equal, "held",
-        v->held, "audio_sha256", v->hash[0], v->hash[1], "a", json_sound(v, 0), "b", json_sound(v, 1),
-        "frames_compared", count(v, d->frames), "differing_samples", count(v, d->differing), "first_difference",
-        json_place(v, &d->first), "largest_difference", json_value_number(v->paired ? d->largest : NAN),
-        "largest_difference_lsb", json_value_number(compare_sound_steps(v)), "largest_difference_dbfs",
-        json_value_number(v->paired ? decibels(d->largest) : NAN), "largest_difference_at", json_place(v, &d->worst),
-        "snr_db", json_value_number(d->snr_db), "third_octave", json_bands(v), "criteria", json_criteria(v));
-    bool ok = j && json_dumpf(j, v->ask->out, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
-    fputc('\n', v->ask->out);
-    json_decref(j);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
 }
 
 /* rasp compare for tables, CSV or NPY: columns by name, each with its tolerance. Comments before the header count only
@@ -342,106 +305,76 @@ static bool table_measure(struct tables *t, struct err *e)
     return true;
 }
 
-static void print_names(const struct tables *t, const char *what, const char *const *names, size_t n)
+static void report_names(struct report *r, const char *key, const char *what, const char *const *names, size_t n)
 {
-    if (n == 0) return;
-    fprintf(t->ask->out, "FAIL columns: %s", what);
+    report_set(r, key, names, (int)n);
     for (size_t i = 0; i < n; i++)
-        fprintf(t->ask->out, "%s %s", i ? "," : "", names[i]);
-    fputc('\n', t->ask->out);
+        report_text(r, "%s %s", i ? "," : what, names[i]);
+    if (n) report_text(r, "\n");
 }
 
-static void print_column(const struct tables *t, const struct table_distance_column *c)
+static void report_column(struct report *r, const struct tables *t, const struct table_distance_column *c)
 {
     const struct table_distance_tolerance *to = &c->tolerance;
+    size_t row = c->worst_row;
     char room[2][CSV_ROOM];
-    if (c->misses == 0 && c->largest == 0) return;
-    fprintf(t->ask->out, "%s %s: ", c->misses ? "FAIL" : "ok  ", c->name);
-    if (c->misses)
-        fprintf(t->ask->out, "%zu of %zu rows differ", c->misses, t->d.rows);
-    else
-        fprintf(t->ask->out, "differs by at most %.6g", c->largest);
-    if (!to->exact)
-        fprintf(t->ask->out, "%s abs %g, rel %g", c->misses ? " by more than" : ", within", to->abs, to->rel);
-    if (c->misses)
-        fprintf(t->ask->out, "; worst in row %zu (line %d, line %d): A '%s', B '%s'", c->worst_row + 1,
-                t->a.lines[c->worst_row], t->b.lines[c->worst_row], csv_text(&t->a, c->worst_row, c->a, room[0]),
-                csv_text(&t->b, c->worst_row, c->b, room[1]));
-    if (c->misses && isfinite(c->excess) && !to->exact) fprintf(t->ask->out, ", %.6g beyond the tolerance", c->excess);
-    fputc('\n', t->ask->out);
-}
-
-static void print_text(const struct tables *t)
-{
-    fprintf(t->ask->out, "A %s\nB %s\n", t->ask->files[0], t->ask->files[1]);
-    if (t->hashed) fprintf(t->ask->out, "sha256  A %s B %s\n", t->hash[0], t->hash[1]);
-    const struct table_distance *d = &t->d;
-    print_names(t, "missing in B:", d->missing, d->n_missing);
-    print_names(t, "only in B:", d->extra, d->n_extra);
-    if (d->reordered) fprintf(t->ask->out, "FAIL columns: they stand in another order in B\n");
-    if (t->a.rows != t->b.rows)
-        fprintf(t->ask->out, "FAIL rows: A has %zu, B has %zu; the first %zu are compared\n", t->a.rows, t->b.rows,
-                d->rows);
-    if (d->comment)
-        fprintf(t->ask->out, "%s comments: they differ, first in '%s'\n", t->ask->exact ? "FAIL" : "note", d->comment);
-    for (size_t i = 0; i < t->d.n_columns; i++)
-        print_column(t, &t->d.columns[i]);
-    if (t->held)
-        fprintf(t->ask->out, "%s: %zu rows, %zu columns\n", t->equal ? "equal" : "within the tolerances", t->a.rows,
-                t->a.columns);
-}
-
-static json_t *json_names(const char *const *names, size_t n)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < n; i++)
-        json_array_append_new(list, json_value_text(names[i]));
-    return list;
-}
-
-static json_t *json_worst(const struct tables *t, const struct table_distance_column *c)
-{
-    char room[2][CSV_ROOM];
-    if (c->misses == 0) return json_null();
-    return json_pack(
-        "{s:I, s:i, s:i, s:o, s:o, s:o}", "row", (json_int_t)c->worst_row + 1, "line_a", t->a.lines[c->worst_row],
-        "line_b", t->b.lines[c->worst_row], "a", json_value_text(csv_text(&t->a, c->worst_row, c->a, room[0])), "b",
-        json_value_text(csv_text(&t->b, c->worst_row, c->b, room[1])), "excess", json_value_number(c->excess));
-}
-
-static json_t *json_columns(const struct tables *t)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < t->d.n_columns; i++) {
-        const struct table_distance_column *c = &t->d.columns[i];
-        const struct table_distance_tolerance *to = &c->tolerance;
-        json_array_append_new(list, json_pack("{s:o, s:b, s:o, s:o, s:I, s:o, s:o}", "name", json_value_text(c->name),
-                                              "exact", to->exact, "abs", json_value_number(to->exact ? 0 : to->abs),
-                                              "rel", json_value_number(to->exact ? 0 : to->rel), "misses",
-                                              (json_int_t)c->misses, "largest_difference",
-                                              json_value_number(c->largest), "worst", json_worst(t, c)));
+    const char *a = c->misses ? csv_text(&t->a, row, c->a, room[0]) : NULL,
+               *b = c->misses ? csv_text(&t->b, row, c->b, room[1]) : NULL;
+    report_object(r, NULL);
+    report_set(r, "name:s exact:b abs:n rel:n misses:z largest_difference:n worst:0", c->name, to->exact,
+               to->exact ? 0.0 : to->abs, to->exact ? 0.0 : to->rel, c->misses, c->largest);
+    if (c->misses) {
+        report_object(r, "worst");
+        report_set(r, "row:z line_a:i line_b:i a:s b:s excess:n", row + 1, t->a.lines[row], t->b.lines[row], a, b,
+                   c->excess);
+        report_end(r);
     }
-    return list;
+    report_end(r);
+    if (c->misses == 0 && c->largest == 0) return;
+    if (c->misses)
+        report_text(r, "FAIL %s: %zu of %zu rows differ", c->name, c->misses, t->d.rows);
+    else
+        report_text(r, "ok   %s: differs by at most %.6g", c->name, c->largest);
+    if (!to->exact) report_text(r, "%s abs %g, rel %g", c->misses ? " by more than" : ", within", to->abs, to->rel);
+    if (c->misses)
+        report_text(r, "; worst in row %zu (line %d, line %d): A '%s', B '%s'", row + 1, t->a.lines[row],
+                    t->b.lines[row], a, b);
+    if (c->misses && isfinite(c->excess) && !to->exact) report_text(r, ", %.6g beyond the tolerance", c->excess);
+    report_text(r, "\n");
 }
 
-static json_t *json_table(const char *file, const struct csv *t)
-{
-    return json_pack("{s:o, s:I}", "file", json_value_text(file), "rows", (json_int_t)t->rows);
-}
-
-static bool print_json(const struct tables *t, struct err *e)
+static bool report_tables(const struct tables *t, struct err *e)
 {
     const struct table_distance *d = &t->d;
-    json_t *j = json_pack("{s:b, s:b, s:o, s:o, s:o, s:I, s:o, s:o, s:b, s:o, s:o}", "equal", t->equal, "held", t->held,
-                          "file_sha256", t->hashed ? json_pack("[s, s]", t->hash[0], t->hash[1]) : json_null(), "a",
-                          json_table(t->ask->files[0], &t->a), "b", json_table(t->ask->files[1], &t->b),
-                          "rows_compared", (json_int_t)d->rows, "missing_columns", json_names(d->missing, d->n_missing),
-                          "extra_columns", json_names(d->extra, d->n_extra), "columns_reordered", d->reordered,
-                          "differing_comment", json_value_text(d->comment), "columns", json_columns(t));
-    bool ok = j && json_dumpf(j, t->ask->out, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
-    fputc('\n', t->ask->out);
-    json_decref(j);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+    struct report r = report_open(t->ask->out, t->ask->json);
+    report_set(&r, "equal:b held:b file_sha256:0", t->equal, t->held);
+    report_text(&r, "A %s\nB %s\n", t->ask->files[0], t->ask->files[1]);
+    if (t->hashed) {
+        report_set(&r, "file_sha256:t", (const char *const[]){t->hash[0], t->hash[1]}, 2);
+        report_text(&r, "sha256  A %s B %s\n", t->hash[0], t->hash[1]);
+    }
+    for (int i = 0; i < 2; i++) {
+        report_object(&r, i ? "b" : "a");
+        report_set(&r, "file:s rows:z", t->ask->files[i], i ? t->b.rows : t->a.rows);
+        report_end(&r);
+    }
+    report_set(&r, "rows_compared:z", d->rows);
+    report_names(&r, "missing_columns:t", "FAIL columns: missing in B:", d->missing, d->n_missing);
+    report_names(&r, "extra_columns:t", "FAIL columns: only in B:", d->extra, d->n_extra);
+    report_set(&r, "columns_reordered:b differing_comment:s", d->reordered, d->comment);
+    if (d->reordered) report_text(&r, "FAIL columns: they stand in another order in B\n");
+    if (t->a.rows != t->b.rows)
+        report_text(&r, "FAIL rows: A has %zu, B has %zu; the first %zu are compared\n", t->a.rows, t->b.rows, d->rows);
+    if (d->comment)
+        report_text(&r, "%s comments: they differ, first in '%s'\n", t->ask->exact ? "FAIL" : "note", d->comment);
+    report_list(&r, "columns");
+    for (size_t i = 0; i < d->n_columns; i++)
+        report_column(&r, t, &d->columns[i]);
+    report_end(&r);
+    if (t->held)
+        report_text(&r, "%s: %zu rows, %zu columns\n", t->equal ? "equal" : "within the tolerances", t->a.rows,
+                    t->a.columns);
+    return report_close(&r, 12, e);
 }
 
 int compare_table(const struct compare_ask *ask, struct err *e)
@@ -449,9 +382,7 @@ int compare_table(const struct compare_ask *ask, struct err *e)
     struct tables *t = ARENA_TAKE(ask->arena, struct tables, 1);
     t->ask = ask;
     if (!table_measure(t, e)) return (int)e->kind;
-    if (ask->quiet && t->held) return 0;
-    if (ask->json && !print_json(t, e)) return (int)e->kind;
-    if (!ask->json) print_text(t);
+    if (!(ask->quiet && t->held) && !report_tables(t, e)) return (int)e->kind;
     return t->held ? 0 : ERR_DIFFERS;
 }
 
@@ -473,30 +404,19 @@ static bool file_hash(const struct compare_ask *ask, bool sound, char hex[HASH_T
     return hash_file(file, hex, e);
 }
 
-static bool hash_print_json(const struct compare_ask *ask, const char *key, const char *hex, struct err *e)
-{
-    json_t *name = json_string(ask->files[0]); /* NULL: not UTF-8 */
-    json_t *j = json_pack("{s:b, s:o, s:s, s:s}", "held", strcmp(hex, ask->hash) == 0, "file",
-                          name ? name : json_null(), key, hex, "expected", ask->hash);
-    bool ok = j && json_dumpf(j, ask->out, JSON_INDENT(2)) == 0;
-    fputc('\n', ask->out);
-    json_decref(j);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
-}
-
 static int compare_hash(const struct compare_ask *ask, bool sound, struct err *e)
 {
     char hex[HASH_TEXT];
     if (!file_hash(ask, sound, hex, e)) return (int)e->kind;
     bool held = strcmp(hex, ask->hash) == 0;
     if (ask->quiet && held) return 0;
-    if (ask->json && !hash_print_json(ask, sound ? "audio_sha256" : "file_sha256", hex, e)) return (int)e->kind;
-    if (!ask->json)
-        fprintf(ask->out, "%s\n%s sha256: %s%s%s\n", ask->files[0], held ? "ok  " : "FAIL", hex,
+    struct report r = report_open(ask->out, ask->json);
+    report_set(&r, sound ? "held:b file:s audio_sha256:s expected:s" : "held:b file:s file_sha256:s expected:s", held,
+               ask->files[0], hex, ask->hash);
+    report_text(&r, "%s\n%s sha256: %s%s%s\n", ask->files[0], held ? "ok  " : "FAIL", hex,
                 held ? "" : ", where the hash given is ", held ? "" : ask->hash);
-    return held ? 0 : ERR_DIFFERS;
+    return !report_close(&r, 0, e) ? (int)e->kind : held ? 0 : ERR_DIFFERS;
 }
-
 
 /* By its first bytes, else by its name; a pipe is a table, for its bytes could not be read twice. ERR_INPUT: not there.
  */

@@ -36,7 +36,6 @@ static void add(struct report *r, const char *key, json_t *value)
 
 static json_t *value_of(char type, va_list *list)
 {
-    json_t *all;
     switch (type) {
     case 'n':
         return json_value_number(va_arg(*list, double));
@@ -50,6 +49,10 @@ static json_t *value_of(char type, va_list *list)
         return json_integer(va_arg(*list, long));
     case 'z':
         return json_integer((json_int_t)va_arg(*list, size_t));
+    case 'c': {
+        long n = va_arg(*list, long);
+        return n < 0 ? json_null() : json_integer(n);
+    }
     case 't': {
         const char *const *texts = va_arg(*list, const char *const *);
         return json_value_texts(texts, va_arg(*list, int));
@@ -57,7 +60,7 @@ static json_t *value_of(char type, va_list *list)
     case 'a': {
         const double *x = va_arg(*list, const double *);
         int n = va_arg(*list, int);
-        all = json_array();
+        json_t *all = json_array();
         for (int i = 0; i < n; i++)
             json_array_append_new(all, json_value_number(x[i]));
         return all;

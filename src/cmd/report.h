@@ -27,9 +27,9 @@ struct report report_open(FILE *out, bool json);
 bool report_close(struct report *r, int digits, struct err *e);
 
 /* Members of the object that is open: words "KEY:TYPE" with blanks between, a value for each. n: double, null where it
-   is not finite; s: text, null for NULL and for what is not UTF-8; b, i: int; l: long; z: size_t; a: const double *,
-   int; t: const char *const *, int; 0: null, without a value. A later member of the same key takes the place of the
-   first. */
+   is not finite; s: text, null for NULL and for what is not UTF-8; b, i: int; l: long; c: long, null below 0; z:
+   size_t; a: const double *, int; t: const char *const *, int; 0: null, without a value. A later member of the same key
+   takes the place of the first. */
 void report_set(struct report *r, const char *members, ...);
 
 /* A member of the object that is open (a later one of a list: key NULL), open until report_end. */
