@@ -245,18 +245,6 @@ static int levels(const struct impact_signal *s, double x)
     return runs;
 }
 
-/* A recording that clips stands still at its greatest value, again and again. */
-static void clip_notes(struct analysis *a, const struct analyse_source *s)
-{
-    const struct impact_found *f = &s->found;
-    int runs = levels(&s->signal, f->greatest) + (a->given.options.both ? levels(&s->signal, f->least) : 0);
-    if (runs > 1)
-        analyse_note(a,
-                     "%s: the force stands still at its greatest value, %.4g N, %d times, as where a recording clips: "
-                     "how strong those impacts were is lost, and theta with it",
-                     s->file, f->greatest, runs);
-}
-
 /* Of a force, of an impact that outweighs all others (in squares), of the fitted shapes, of the series. */
 static void analyse_notes_force(struct analysis *a, const struct analyse_source *s)
 {
@@ -289,7 +277,14 @@ static void analyse_notes_force(struct analysis *a, const struct analyse_source 
     if ((double)f->merged > 0.01 * n)
         analyse_note(a, "%s: %.1f %% of the impacts have a shoulder: two that made one maximum, and were taken as one",
                      s->file, 100 * (double)f->merged / n);
-    clip_notes(a, s);
+    /* A recording that clips stands still at its greatest value, again and again. */
+
+    int runs = levels(&s->signal, f->greatest) + (a->given.options.both ? levels(&s->signal, f->least) : 0);
+    if (runs > 1)
+        analyse_note(a,
+                     "%s: the force stands still at its greatest value, %.4g N, %d times, as where a recording clips: "
+                     "how strong those impacts were is lost, and theta with it",
+                     s->file, f->greatest, runs);
     /* Are contact times what they seem? */
 
     if (f->feet == 0)
@@ -550,10 +545,7 @@ static int analyse_run(struct cmd_call *c, struct err *e)
     if (!plot_format(c, &svg, e) || (output && !analyse_report_free(a, output, e)) || !analyse_all(c, a, e))
         return (int)e->kind;
     analyse_write(c, a, svg, e);
-    if (!json)
-        analyse_report_print(a);
-    else if (!analyse_report_json(a, e))
-        return (int)e->kind;
+    analyse_report(a, json, e);
     return (int)e->kind;
 }
 

@@ -63,8 +63,8 @@ bool analyse_one_process(const struct analysis *a);
 /* Reads the file, and finds the impacts if it holds a force. ERR_INPUT, ERR_SCENE. */
 bool analyse_read(const char *file, const struct analyse_given *g, struct arena *a, struct analyse_source *s, struct err *e);
 
-void analyse_report_print(const struct analysis *a);
-bool analyse_report_json(const struct analysis *a, struct err *e);
+/* Prints what was found. ERR_IO */
+bool analyse_report(const struct analysis *a, bool json, struct err *e);
 
 /* What is written is opened first and gets its names at the end: all or none, as far as that can be had. */
 struct analyse_files {

@@ -10,64 +10,58 @@
 #include "analysis/frequency_polygon.h"
 #include "base/outfile.h"
 #include "base/wrap.h"
+#include "cmd/report.h"
 #include "file/csv.h"
-#include "file/json_value.h"
 #include "num/real.h"
 #include "output/mark.h"
 #include "output/picture.h"
 
-static json_t *estimate(const struct estimate *x);
-static json_t *series(const struct analysis *a, int k);
-static json_t *statistics(const struct analysis *a);
-static json_t *source(const struct analyse_source *s);
-static json_t *duration(const struct analysis *a);
-static json_t *shape(const struct impact_shape *h);
-static void correlation(const char *what, const double *x, int first, double bound, struct gnuplot *g);
 
 /* Intervals are shown in ms. */
 static double shown(int series, double x) { return series == STATISTICS_AMPLITUDE ? x : 1e3 * x; }
 
 static const char *plural(long n) { return n == 1 ? "" : "s"; }
 
-static void line(const char *name) { printf("  %-22s ", name); }
+static void line(struct report *r, const char *name) { report_text(r, "  %-22s ", name); }
 
 /* ------------------------------------------------------------------ what was found */
 
-static void print_source(const struct analyse_source *s, long which)
+static void print_source(struct report *r, const struct analyse_source *s, long which)
 {
     const struct impact_events *v = &s->found.events;
     if (s->has_force) {
         const struct impact_found *f = &s->found;
         char channel[40] = "";
         if (s->channels > 1) snprintf(channel, sizeof channel, ", channel %ld of %d", which, s->channels);
-        printf("%s: a force, %s%s, %.6g s at %.6g Hz, from %.4g to %.4g N\n", s->file, s->kind, channel,
-               (double)s->signal.n / s->signal.rate, s->signal.rate, f->least, f->greatest);
-        line("impacts");
-        printf("%d: %ld stand%s alone, %ld run%s into a neighbour, %ld with a shoulder\n", f->events.n, f->alone,
-               f->alone == 1 ? "s" : "", f->touching, f->touching == 1 ? "s" : "", f->merged);
-        line("left out");
-        printf("%ld maxim%s below the threshold, %ld that %s not prominent\n", f->low, f->low == 1 ? "um" : "a",
-               f->ripples, f->ripples == 1 ? "is" : "are");
-        line("contact time");
+        report_text(r, "%s: a force, %s%s, %.6g s at %.6g Hz, from %.4g to %.4g N\n", s->file, s->kind, channel,
+                    (double)s->signal.n / s->signal.rate, s->signal.rate, f->least, f->greatest);
+        line(r, "impacts");
+        report_text(r, "%d: %ld stand%s alone, %ld run%s into a neighbour, %ld with a shoulder\n", f->events.n,
+                    f->alone, f->alone == 1 ? "s" : "", f->touching, f->touching == 1 ? "s" : "", f->merged);
+        line(r, "left out");
+        report_text(r, "%ld maxim%s below the threshold, %ld that %s not prominent\n", f->low, f->low == 1 ? "um" : "a",
+                    f->ripples, f->ripples == 1 ? "is" : "are");
+        line(r, "contact time");
         if (f->feet)
-            printf("%.4g times the width at half height (of %ld impact%s; 2: raised cosines, 1.82: Hertz's)\n",
-                   f->stretch, f->feet, plural(f->feet));
+            report_text(r, "%.4g times the width at half height (of %ld impact%s; 2: raised cosines, 1.82: Hertz's)\n",
+                        f->stretch, f->feet, plural(f->feet));
         else
-            printf("taken as twice the width at half height, as of raised cosines (none stands alone, or all are "
-                   "short)\n");
+            report_text(r,
+                        "taken as twice the width at half height, as of raised cosines (none stands alone, or all are "
+                        "short)\n");
     } else {
-        printf("%s: %d impact%s in %.6g s", s->file, v->n, plural(v->n), v->time[v->n - 1] - v->time[0]);
+        report_text(r, "%s: %d impact%s in %.6g s", s->file, v->n, plural(v->n), v->time[v->n - 1] - v->time[0]);
         if (s->found.touching)
-            printf(", %ld run%s into the one before", s->found.touching, s->found.touching == 1 ? "s" : "");
-        putchar('\n');
+            report_text(r, ", %ld run%s into the one before", s->found.touching, s->found.touching == 1 ? "s" : "");
+        report_text(r, "\n");
     }
 }
 
 /* ------------------------------------------------------------------ statistics */
 
-static void print_estimates(const struct analysis *a, const char *name, size_t offset)
+static void print_estimates(struct report *r, const struct analysis *a, const char *name, size_t offset)
 {
-    line(name);
+    line(r, name);
     for (int k = 0; k < STATISTICS_SERIES; k++) {
         const struct estimate *x = (const void *)((const char *)&a->statistics.series[k] + offset);
         double scale =
@@ -76,34 +70,34 @@ static void print_estimates(const struct analysis *a, const char *name, size_t o
                 : shown(k, 1);
         char text[64];
         snprintf(text, sizeof text, "%.4g (%.4g to %.4g)", scale * x->value, scale * x->low, scale * x->high);
-        printf(k ? "%s\n" : "%-33s ", text);
+        report_text(r, k ? "%s\n" : "%-33s ", text);
     }
 }
 
 #define PRINT_PAIR(name, format, ...)                                                                                  \
     do {                                                                                                               \
-        line(name);                                                                                                    \
+        line(r, name);                                                                                                 \
         for (int k = 0; k < STATISTICS_SERIES; k++) {                                                                  \
             const struct series_statistics *s = &a->statistics.series[k];                                              \
             char text[64];                                                                                             \
             snprintf(text, sizeof text, format, __VA_ARGS__);                                                          \
             if (s->flat) snprintf(text, sizeof text, "all alike");                                                     \
-            printf(k ? "%s\n" : "%-33s ", text);                                                                       \
+            report_text(r, k ? "%s\n" : "%-33s ", text);                                                               \
         }                                                                                                              \
     } while (0)
 
-static void print_statistics(const struct analysis *a)
+static void print_statistics(struct report *r, const struct analysis *a)
 {
     const struct impact_statistics *t = &a->statistics;
     const struct impact_modulation *m = &t->modulation;
-    putchar('\n');
-    line("");
-    printf("%-33s %s\n", "amplitude / N", "interval / ms");
-    print_estimates(a, "mean", offsetof(struct series_statistics, mean));
+    report_text(r, "\n");
+    line(r, "");
+    report_text(r, "%-33s %s\n", "amplitude / N", "interval / ms");
+    print_estimates(r, a, "mean", offsetof(struct series_statistics, mean));
     PRINT_PAIR("standard deviation", "%.4g", shown(k, sqrt(s->variance)));
-    print_estimates(a, "a1", offsetof(struct series_statistics, a1));
-    print_estimates(a, "b1", offsetof(struct series_statistics, b1));
-    print_estimates(a, "white: deviation", offsetof(struct series_statistics, deviation));
+    print_estimates(r, a, "a1", offsetof(struct series_statistics, a1));
+    print_estimates(r, a, "b1", offsetof(struct series_statistics, b1));
+    print_estimates(r, a, "white: deviation", offsetof(struct series_statistics, deviation));
     PRINT_PAIR("  whiteness", "Q %.3g, p %.3g", s->whiteness, s->whiteness_p);
     PRINT_PAIR("  skewness, kurtosis", "%.3g, %.3g", s->white.skewness, s->white.kurtosis);
     PRINT_PAIR("  normal", "R2 %.3f, distance %.3f%s", s->white.gaussian_r2, s->white.gaussian_distance,
@@ -113,27 +107,27 @@ static void print_statistics(const struct analysis *a)
                shown(k, s->itself.exponential_mean), s->itself.exponential_distance);
     PRINT_PAIR("  gamma", isnan(s->itself.gamma_shape) ? "values below 0" : "%.3g x %.3g, distance %.3f",
                s->itself.gamma_shape, shown(k, s->itself.gamma_scale), s->itself.gamma_distance);
-    line("one process");
+    line(r, "one process");
     if (isnan(t->one_process))
-        puts("not told: a series is constant");
+        report_text(r, "not told: a series is constant\n");
     else
-        printf("%s: the whitened series' correlation by ranks is %.3f\n", analyse_one_process(a) ? "yes" : "no",
-               t->one_process);
-    line("modulation");
+        report_text(r, "%s: the whitened series' correlation by ranks is %.3f\n", analyse_one_process(a) ? "yes" : "no",
+                    t->one_process);
+    line(r, "modulation");
     if (m->found)
-        printf("depth %.3g at %.4g Hz\n", m->depth, m->rate);
+        report_text(r, "depth %.3g at %.4g Hz\n", m->depth, m->rate);
     else if (!m->looked)
-        puts("not looked for");
+        report_text(r, "not looked for\n");
     else if (m->depth == 0)
-        puts("none");
+        report_text(r, "none\n");
     else
-        printf("none (the strongest: depth %.3g at %.4g Hz, as strong by chance with probability %.2g)\n", m->depth,
-               m->rate, m->probability);
+        report_text(r, "none (the strongest: depth %.3g at %.4g Hz, as strong by chance with probability %.2g)\n",
+                    m->depth, m->rate, m->probability);
 }
 
 /* ------------------------------------------------------------------ durations and shapes */
 
-static void print_duration(const struct analysis *a)
+static void print_duration(struct report *r, const struct analysis *a)
 {
     static const char *const from[] = {[ANALYSE_THETA_GIVEN] = "",
                                        [ANALYSE_THETA_FILE] = "single impacts",
@@ -141,168 +135,169 @@ static void print_duration(const struct analysis *a)
                                        [ANALYSE_THETA_NONE] = ""};
     const struct impact_duration *d = &a->duration;
     const char *whose = a->theta == ANALYSE_THETA_ALONE && !a->source.has_force ? "all" : from[a->theta];
-    if (!a->lasts) return;
-    putchar('\n');
-    line("duration, step 1");
+    report_text(r, "\n");
+    line(r, "duration, step 1");
     if (d->singles && a->theta != ANALYSE_THETA_NONE) {
-        printf("%.4g ms", 1e3 * d->zeta_single);
+        report_text(r, "%.4g ms", 1e3 * d->zeta_single);
         if (isnan(d->r2_single))
-            printf(", all alike");
+            report_text(r, ", all alike");
         else
-            printf(" A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f", -d->theta_single, d->theta_error, d->r2_single,
-                   d->r2_single_log);
-        printf(", over %ld impact%s: %s\n", d->singles, plural(d->singles), whose);
+            report_text(r, " A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f", -d->theta_single, d->theta_error,
+                        d->r2_single, d->r2_single_log);
+        report_text(r, ", over %ld impact%s: %s\n", d->singles, plural(d->singles), whose);
     } else
-        printf("theta %.4g, %s\n", d->theta, a->theta == ANALYSE_THETA_GIVEN ? "given" : "since it cannot be told");
-    line("duration, step 2");
-    printf("%.4g ms", 1e3 * d->zeta);
-    if (d->theta > 0) printf(" A^-%.4f, A in N, R2 %.4f, of its logarithm %.4f", d->theta, d->r2, d->r2_log);
-    printf(a->constant ? ", the median of %ld impact%s\n" : ", over %ld impact%s\n", d->n, plural(d->n));
+        report_text(r, "theta %.4g, %s\n", d->theta,
+                    a->theta == ANALYSE_THETA_GIVEN ? "given" : "since it cannot be told");
+    line(r, "duration, step 2");
+    report_text(r, "%.4g ms", 1e3 * d->zeta);
+    if (d->theta > 0) report_text(r, " A^-%.4f, A in N, R2 %.4f, of its logarithm %.4f", d->theta, d->r2, d->r2_log);
+    report_text(r, a->constant ? ", the median of %ld impact%s\n" : ", over %ld impact%s\n", d->n, plural(d->n));
 }
 
-static void print_shape(const struct analysis *a)
+static void print_shape(struct report *r, const struct analysis *a)
 {
     const struct impact_shape *h = &a->shape;
     if (!a->source.has_force) return;
     if (h->fitted == 0) {
-        line("shape");
-        printf("no impact of %d to %d samples stands alone, to be fitted\n", IMPACT_SHAPE_LEAST, IMPACT_SHAPE_LONGEST);
+        line(r, "shape");
+        report_text(r, "no impact of %d to %d samples stands alone, to be fitted\n", IMPACT_SHAPE_LEAST,
+                    IMPACT_SHAPE_LONGEST);
         return;
     }
-    line("raised cosine");
-    printf("median R2 %.4f (of %ld impact%s; 5 %%: below %.4f, 95 %%: below %.4f), %.4g times the contact time\n",
-           h->r2[0][1], h->fitted, plural(h->fitted), h->r2[0][0], h->r2[0][2], h->stretch);
-    line("Meixner window");
-    printf("median R2 %.4f (5 %%: below %.4f, 95 %%: below %.4f), ", h->r2[1][1], h->r2[1][0], h->r2[1][2]);
-    printf(h->b < 1e4 ? "b %.4g, xi %.4g\n" : "at its limit of large b (xi -> 0)\n", h->b, h->xi);
+    line(r, "raised cosine");
+    report_text(r,
+                "median R2 %.4f (of %ld impact%s; 5 %%: below %.4f, 95 %%: below %.4f), %.4g times the contact time\n",
+                h->r2[0][1], h->fitted, plural(h->fitted), h->r2[0][0], h->r2[0][2], h->stretch);
+    line(r, "Meixner window");
+    report_text(r, "median R2 %.4f (5 %%: below %.4f, 95 %%: below %.4f), ", h->r2[1][1], h->r2[1][0], h->r2[1][2]);
+    report_text(r, h->b < 1e4 ? "b %.4g, xi %.4g\n" : "at its limit of large b (xi -> 0)\n", h->b, h->xi);
 }
 
-void analyse_report_print(const struct analysis *a)
+/* ------------------------------------------------------------------ JSON alone: SI units, null for what is not there
+ */
+
+static void set_estimate(struct report *r, const char *key, const struct estimate *x)
 {
-    print_source(&a->source, a->given.channel);
-    if (a->single.file) print_source(&a->single, a->given.channel);
-    if (a->counted) print_statistics(a);
-    print_duration(a);
-    print_shape(a);
-    for (int i = 0; i < a->n_notes; i++) {
-        fputs(i ? "" : "\n", stdout);
-        fputs("  note: ", stdout);
-        wrap_print(stdout, a->notes[i], 8, "        ");
-    }
-    for (int i = 0; i < a->n_written; i++)
-        printf("%s%s\n", i ? "" : "\nwritten:\n", a->written[i]);
+    report_object(r, key);
+    report_set(r, "value:n error:n low:n high:n", x->value, x->error, x->low, x->high);
+    report_end(r);
 }
 
-/* The report of `rasp analyse` as JSON: SI units, null for what is not there. */
-
-static json_t *list(const double *x, int n)
+static void set_distribution(struct report *r, const char *key, const struct distribution_fits *d)
 {
-    json_t *j = json_array();
-    for (int i = 0; i < n; i++)
-        json_array_append_new(j, json_value_number(x[i]));
-    return j;
+    report_object(r, key);
+    report_set(r,
+               "gaussian_r2:n gaussian_distance:n exponential_mean:n exponential_distance:n gamma_shape:n "
+               "gamma_scale:n gamma_distance:n skewness:n kurtosis:n",
+               d->gaussian_r2, d->gaussian_distance, d->exponential_mean, d->exponential_distance, d->gamma_shape,
+               d->gamma_scale, d->gamma_distance, d->skewness, d->kurtosis);
+    report_end(r);
 }
 
-static json_t *estimate(const struct estimate *x)
-{
-    return json_pack("{s:o, s:o, s:o, s:o}", "value", json_value_number(x->value), "error", json_value_number(x->error),
-                     "low", json_value_number(x->low), "high", json_value_number(x->high));
-}
-
-static json_t *distribution(const struct distribution_fits *d)
-{
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "gaussian_r2", json_value_number(d->gaussian_r2),
-                     "gaussian_distance", json_value_number(d->gaussian_distance), "exponential_mean",
-                     json_value_number(d->exponential_mean), "exponential_distance",
-                     json_value_number(d->exponential_distance), "gamma_shape", json_value_number(d->gamma_shape),
-                     "gamma_scale", json_value_number(d->gamma_scale), "gamma_distance",
-                     json_value_number(d->gamma_distance), "skewness", json_value_number(d->skewness), "kurtosis",
-                     json_value_number(d->kurtosis));
-}
-
-static json_t *series(const struct analysis *a, int k)
+static void set_series(struct report *r, const char *key, const struct analysis *a, int k)
 {
     const struct series_statistics *s = &a->statistics.series[k];
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:b, s:s, s:o, s:o, s:o, s:o}", "mean",
-                     estimate(&s->mean), "a1", estimate(&s->a1), "b1", estimate(&s->b1), "white_deviation",
-                     estimate(&s->deviation), "variance", json_value_number(s->variance), "whiteness_q",
-                     json_value_number(s->whiteness), "whiteness_p", json_value_number(s->whiteness_p), "flat", s->flat,
-                     "ridge", s->ridge, "white_distribution", analyse_tabled(a, k) ? "table" : "gaussian", "white",
-                     distribution(&s->white), "series", distribution(&s->itself), "correlation",
-                     list(s->correlation, STATISTICS_LAGS), "white_correlation",
-                     list(s->white_correlation, STATISTICS_LAGS));
+    report_object(r, key);
+    set_estimate(r, "mean", &s->mean);
+    set_estimate(r, "a1", &s->a1);
+    set_estimate(r, "b1", &s->b1);
+    set_estimate(r, "white_deviation", &s->deviation);
+    report_set(r, "variance:n whiteness_q:n whiteness_p:n flat:b ridge:b white_distribution:s", s->variance,
+               s->whiteness, s->whiteness_p, s->flat, s->ridge, analyse_tabled(a, k) ? "table" : "gaussian");
+    set_distribution(r, "white", &s->white);
+    set_distribution(r, "series", &s->itself);
+    report_set(r, "correlation:a white_correlation:a", s->correlation, STATISTICS_LAGS, s->white_correlation,
+               STATISTICS_LAGS);
+    report_end(r);
 }
 
-static json_t *statistics(const struct analysis *a)
+static void set_statistics(struct report *r, const struct analysis *a)
 {
     const struct impact_statistics *t = &a->statistics;
     const struct impact_modulation *m = &t->modulation;
-    if (!a->counted) return json_null();
-    json_t *modulation = !m->looked ? json_null()
-                                    : json_pack("{s:o, s:o, s:o, s:b}", "depth", json_value_number(m->depth), "rate_hz",
-                                                json_value_number(m->rate), "probability",
-                                                json_value_number(m->probability), "found", m->found);
-    return json_pack("{s:o, s:o, s:o, s:b, s:o, s:o, s:o}", "amplitude_n", series(a, STATISTICS_AMPLITUDE),
-                     "interval_s", series(a, STATISTICS_INTERVAL), "one_process", json_value_number(t->one_process),
-                     "one_process_taken", analyse_one_process(a), "modulation", modulation, "cross_correlation",
-                     list(t->cross, 2 * STATISTICS_LAGS - 1), "white_cross_correlation",
-                     list(t->white_cross, 2 * STATISTICS_LAGS - 1));
+    report_object(r, "statistics");
+    set_series(r, "amplitude_n", a, STATISTICS_AMPLITUDE);
+    set_series(r, "interval_s", a, STATISTICS_INTERVAL);
+    report_set(r, "one_process:n one_process_taken:b modulation:0", t->one_process, analyse_one_process(a));
+    if (m->looked) {
+        report_object(r, "modulation");
+        report_set(r, "depth:n rate_hz:n probability:n found:b", m->depth, m->rate, m->probability, m->found);
+        report_end(r);
+    }
+    report_set(r, "cross_correlation:a white_cross_correlation:a", t->cross, 2 * STATISTICS_LAGS - 1, t->white_cross,
+               2 * STATISTICS_LAGS - 1);
+    report_end(r);
 }
 
-static json_t *source(const struct analyse_source *s)
+static void set_source(struct report *r, const char *key, const struct analyse_source *s)
 {
     const struct impact_found *f = &s->found;
-    if (!s->file) return json_null();
-    json_t *j = json_pack("{s:o, s:s, s:b, s:i, s:I}", "file", json_value_text(s->file), "kind", s->kind, "force",
-                          s->has_force, "impacts", f->events.n, "run_into_neighbour", (json_int_t)f->touching);
+    report_object(r, key);
+    report_set(r, "file:s kind:s force:b impacts:i run_into_neighbour:l", s->file, s->kind, s->has_force, f->events.n,
+               f->touching);
     if (s->has_force) {
-        json_t *more = json_pack(
-            "{s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:I, s:o}", "rate_hz", json_value_number(s->signal.rate),
-            "duration_s", json_value_number((double)s->signal.n / s->signal.rate), "greatest_n",
-            json_value_number(f->greatest), "least_n", json_value_number(f->least), "alone", (json_int_t)f->alone,
-            "with_shoulder", (json_int_t)f->merged, "left_out_below_threshold", (json_int_t)f->low,
-            "left_out_not_prominent", (json_int_t)f->ripples, "both_ends_found", (json_int_t)f->feet,
-            "duration_unknown", (json_int_t)f->unknown, "contact_time_over_width", json_value_number(f->stretch));
-        json_object_update(j, more);
-        json_decref(more);
+        report_set(r, "rate_hz:n duration_s:n greatest_n:n least_n:n", s->signal.rate,
+                   (double)s->signal.n / s->signal.rate, f->greatest, f->least);
+        report_set(r, "alone:l with_shoulder:l left_out_below_threshold:l left_out_not_prominent:l", f->alone,
+                   f->merged, f->low, f->ripples);
+        report_set(r, "both_ends_found:l duration_unknown:l contact_time_over_width:n", f->feet, f->unknown,
+                   f->stretch);
     }
-    return j;
+    report_end(r);
 }
 
-static json_t *duration(const struct analysis *a)
+static void set_duration(struct report *r, const struct analysis *a)
 {
     static const char *const from[] = {"given", "single", "alone", "none"};
     const struct impact_duration *d = &a->duration;
-    if (!a->lasts) return json_null();
-    return json_pack("{s:o, s:o, s:s, s:b, s:I, s:o, s:o, s:o, s:o, s:o, s:I, s:o, s:o}", "theta",
-                     json_value_number(d->theta), "theta_error", json_value_number(d->theta_error), "theta_from",
-                     from[a->theta], "constant", a->constant, "singles", (json_int_t)d->singles, "theta_single",
-                     json_value_number(d->theta_single), "zeta_single_s", json_value_number(d->zeta_single),
-                     "r2_single", json_value_number(d->r2_single), "r2_single_log", json_value_number(d->r2_single_log),
-                     "zeta_s", json_value_number(d->zeta), "impacts", (json_int_t)d->n, "r2", json_value_number(d->r2),
-                     "r2_log", json_value_number(d->r2_log));
+    report_object(r, "duration");
+    report_set(r, "theta:n theta_error:n theta_from:s constant:b singles:l", d->theta, d->theta_error, from[a->theta],
+               a->constant, d->singles);
+    report_set(r, "theta_single:n zeta_single_s:n r2_single:n r2_single_log:n", d->theta_single, d->zeta_single,
+               d->r2_single, d->r2_single_log);
+    report_set(r, "zeta_s:n impacts:l r2:n r2_log:n", d->zeta, d->n, d->r2, d->r2_log);
+    report_end(r);
 }
 
-static json_t *shape(const struct impact_shape *h)
+static void set_shape(struct report *r, const struct impact_shape *h)
 {
-    if (h->fitted == 0) return json_null();
-    return json_pack("{s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "fitted", (json_int_t)h->fitted,
-                     "cosine_r2_5_50_95", list(h->r2[0], 3), "meixner_r2_5_50_95", list(h->r2[1], 3), "meixner_b",
-                     json_value_number(h->b), "meixner_xi", json_value_number(h->xi), "cosine_over_contact_time",
-                     json_value_number(h->stretch), "time_over_duration", list(h->q, IMPACT_SHAPE_POINTS), "mean",
-                     list(h->mean, IMPACT_SHAPE_POINTS), "deviation", list(h->deviation, IMPACT_SHAPE_POINTS));
+    report_object(r, "shape");
+    report_set(r,
+               "fitted:l cosine_r2_5_50_95:a meixner_r2_5_50_95:a meixner_b:n meixner_xi:n cosine_over_contact_time:n",
+               h->fitted, h->r2[0], 3, h->r2[1], 3, h->b, h->xi, h->stretch);
+    report_set(r, "time_over_duration:a mean:a deviation:a", h->q, IMPACT_SHAPE_POINTS, h->mean, IMPACT_SHAPE_POINTS,
+               h->deviation, IMPACT_SHAPE_POINTS);
+    report_end(r);
 }
 
-bool analyse_report_json(const struct analysis *a, struct err *e)
+bool analyse_report(const struct analysis *a, bool json, struct err *e)
 {
-    json_t *j =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "source", source(&a->source), "single", source(&a->single),
-                  "statistics", statistics(a), "duration", duration(a), "shape", shape(&a->shape), "notes",
-                  json_value_texts(a->notes, a->n_notes), "written", json_value_texts(a->written, a->n_written));
-    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12)) == 0;
-    putchar('\n');
-    json_decref(j);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+    struct report r = report_open(stdout, json);
+    report_set(&r, "source:0 single:0 statistics:0 duration:0 shape:0 notes:t written:t", a->notes, a->n_notes,
+               a->written, a->n_written);
+    set_source(&r, "source", &a->source);
+    print_source(&r, &a->source, a->given.channel);
+    if (a->single.file) {
+        set_source(&r, "single", &a->single);
+        print_source(&r, &a->single, a->given.channel);
+    }
+    if (a->counted) {
+        set_statistics(&r, a);
+        print_statistics(&r, a);
+    }
+    if (a->lasts) {
+        set_duration(&r, a);
+        print_duration(&r, a);
+    }
+    if (a->shape.fitted > 0) set_shape(&r, &a->shape);
+    print_shape(&r, a);
+    for (int i = 0; i < a->n_notes; i++) {
+        report_text(&r, "%s", i ? "" : "\n");
+        report_note(&r, "  note: ", a->notes[i]);
+    }
+    for (int i = 0; i < a->n_written; i++)
+        report_text(&r, "%s%s\n", i ? "" : "\nwritten:\n", a->written[i]);
+    return report_close(&r, 12, e);
 }
 
 /* The parameter file of `rasp analyse`: a scene part that a scene includes, and tables of density beside it. */
@@ -428,32 +423,6 @@ static void put_value(FILE *f, const char *key, const struct estimate *x, const 
     fprintf(f, "      %s: %.9g%s%s  # %.4g to %.4g\n", key, x->value, *unit ? " " : "", unit, x->low, x->high);
 }
 
-static void put_rest(const struct part *p, FILE *f)
-{
-    const struct analysis *a = p->a;
-    const struct impact_duration *d = &a->duration;
-    const struct impact_modulation *m = &a->statistics.modulation;
-    fprintf(f, "    duration: {zeta: %.9g s, theta: %.9g}", d->zeta, d->theta);
-    if (d->theta > 0)
-        fprintf(f, "  # R2 %.4f over %ld impact%s", d->r2, d->n, d->n == 1 ? "" : "s");
-    else if (a->constant)
-        fprintf(f, "  # no law: the median of %ld impact%s", d->n, d->n == 1 ? "" : "s");
-    fputc('\n', f);
-    if (m->found)
-        fprintf(f, "    modulation: {depth: %.9g, rate: %.9g Hz}\n", fmin(m->depth, 1), m->rate);
-    else
-        fprintf(f, "    modulation: {depth: 0}  # %s\n", m->looked ? "none found" : "not looked for");
-    fprintf(f, "    floor: {");
-    if (!isnan(p->least_amplitude)) fprintf(f, "amplitude: %.9g, ", p->least_amplitude);
-    fprintf(f, "interval: %.9g s}  # the least that was seen%s\n", p->least_interval,
-            isnan(p->least_amplitude) ? "; amplitudes keep their sign" : "");
-    fprintf(f, "    processes: %s  # ", analyse_one_process(a) ? "one" : "two");
-    if (isnan(a->statistics.one_process))
-        fputs("a series is constant\n", f);
-    else
-        fprintf(f, "the whitened series' correlation by ranks is %.3f\n", a->statistics.one_process);
-}
-
 static void put_part(const struct part *p, FILE *f)
 {
     const struct analysis *a = p->a;
@@ -488,7 +457,28 @@ static void put_part(const struct part *p, FILE *f)
         put_value(f, "a1", &s->a1, "");
         put_value(f, "b1", &s->b1, "");
     }
-    put_rest(p, f);
+
+    const struct impact_duration *d = &a->duration;
+    const struct impact_modulation *m = &a->statistics.modulation;
+    fprintf(f, "    duration: {zeta: %.9g s, theta: %.9g}", d->zeta, d->theta);
+    if (d->theta > 0)
+        fprintf(f, "  # R2 %.4f over %ld impact%s", d->r2, d->n, d->n == 1 ? "" : "s");
+    else if (a->constant)
+        fprintf(f, "  # no law: the median of %ld impact%s", d->n, d->n == 1 ? "" : "s");
+    fputc('\n', f);
+    if (m->found)
+        fprintf(f, "    modulation: {depth: %.9g, rate: %.9g Hz}\n", fmin(m->depth, 1), m->rate);
+    else
+        fprintf(f, "    modulation: {depth: 0}  # %s\n", m->looked ? "none found" : "not looked for");
+    fprintf(f, "    floor: {");
+    if (!isnan(p->least_amplitude)) fprintf(f, "amplitude: %.9g, ", p->least_amplitude);
+    fprintf(f, "interval: %.9g s}  # the least that was seen%s\n", p->least_interval,
+            isnan(p->least_amplitude) ? "; amplitudes keep their sign" : "");
+    fprintf(f, "    processes: %s  # ", analyse_one_process(a) ? "one" : "two");
+    if (isnan(a->statistics.one_process))
+        fputs("a series is constant\n", f);
+    else
+        fprintf(f, "the whitened series' correlation by ranks is %.3f\n", a->statistics.one_process);
 }
 
 static void put_table(const struct part *p, int k, FILE *f)

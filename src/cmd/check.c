@@ -1,5 +1,6 @@
-/* rasp check: what can be known to be wrong with a scene or a design before anything is computed. Of a design: what rasp batch finds
-   out before it renders anything, and what it leaves to the rendering, whether a promised error can be kept. */
+/* rasp check: what can be known to be wrong with a scene or a design before anything is computed. Of a design: what
+   rasp batch finds out before it renders anything, and what it leaves to the rendering, whether a promised error can be
+   kept. */
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -117,7 +118,6 @@ static bool check_design(struct cmd_call *c, const char *file, const char **rema
     batch_close(&r);
     return ok;
 }
-
 
 /* remark: of a design without fault; NULL: none. */
 static bool check_scene(struct cmd_call *c, const char *file, const char **remark, struct err *e)

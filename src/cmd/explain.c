@@ -1,5 +1,5 @@
-/* rasp explain: what a scene may say, and what a scene says in full. As JSON ranges are in SI units; null stands for what there is none of: unit, range, default ("" would be
- * a text), condition, words. */
+/* rasp explain: what a scene may say, and what a scene says in full. As JSON ranges are in SI units; null stands for
+ * what there is none of: unit, range, default ("" would be a text), condition, words. */
 #include <ctype.h>
 #include <jansson.h>
 #include <stdio.h>
@@ -70,7 +70,6 @@ static json_t *explain_json(const char *path)
         if (all || !strcmp(k->name, name)) json_array_append_new(rows, knob(k));
     return rows;
 }
-
 
 static bool is_scene_file(const char *word)
 {

@@ -248,16 +248,6 @@ static const char *stem(const char *file, struct arena *a)
     return arena_format(a, "%.*s", (int)n, name);
 }
 
-static bool name_good(const struct golden_scene *s, struct err *e)
-{
-    static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz+-_.";
-    return (*s->name && *s->name != '.' && strspn(s->name, letters) == strlen(s->name)) ||
-           err_set(e, *s->at ? ERR_SCENE : ERR_USAGE,
-                   "%s'%s' cannot be the name of kept files: letters, digits and + - _ . are taken; in a list --name "
-                   "NAME gives another",
-                   s->at, s->name);
-}
-
 /* Its own limits count, of each kind for which it has any; else those of the command. */
 static bool limits(struct golden *g, struct golden_scene *s, const char *folder, struct err *e)
 {
@@ -298,7 +288,13 @@ static bool scene_add(struct golden *g, struct line *l, struct err *e)
     const char *file = s->args.operands[0], *name = args_value(&s->args, "name");
     s->file = l->folder && *file != '/' ? arena_format(a, "%s/%s", l->folder, file) : file;
     s->name = name ? name : stem(file, a);
-    if (!name_good(s, e)) return false;
+    static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz+-_.";
+    if (!((*s->name && *s->name != '.' && strspn(s->name, letters) == strlen(s->name))))
+        return err_set(
+            e, *s->at ? ERR_SCENE : ERR_USAGE,
+            "%s'%s' cannot be the name of kept files: letters, digits and + - _ . are taken; in a list --name "
+            "NAME gives another",
+            s->at, s->name);
     if (!limits(g, s, l->folder, &why)) return at_line(s, &why, e);
     s->arena = arena_open();
     g->n++;

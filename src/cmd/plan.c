@@ -1,4 +1,5 @@
-/* rasp plan: what a scene would run, and why. As JSON it has what the text has, stage by stage in the order of the table; cost in cycles per audio sample. */
+/* rasp plan: what a scene would run, and why. As JSON it has what the text has, stage by stage in the order of the
+ * table; cost in cycles per audio sample. */
 #include <jansson.h>
 
 #include "base/text.h"
@@ -76,7 +77,6 @@ static json_t *plan_json(const struct scene *s, const struct plan *plans, const 
     return json_pack("{s:o, s:o, s:o}", "file", text_or_null(s->file), "accuracy", text_or_null(promise), "contacts",
                      contacts);
 }
-
 
 static const struct args_option plan_options[] = {
     CMD_SCENE_OPTIONS,

@@ -1,5 +1,5 @@
-/* rasp render: scenes into sounds. With --verify compared is what was computed, before its level is set and its samples are rounded to the file's
- * encoding. */
+/* rasp render: scenes into sounds. With --verify compared is what was computed, before its level is set and its samples
+ * are rounded to the file's encoding. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -162,7 +162,6 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
                    asked->accuracy.error, measured, ceil(measured)) ||
            scene_places_tell(asked, e);
 }
-
 
 static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false,

@@ -388,27 +388,6 @@ static json_t *described(json_t *o, const char *description)
     return o;
 }
 
-static void add_rest(json_t *all, struct arena *a)
-{
-    const struct schema_value_quantity length = {KEY_TIME, 0, 0, false, "longest|own"},
-                                       replicates = {KEY_NONE, 1, 1000000, true, NULL};
-    json_object_set_new(all, "replicates",
-                        described(schema_value_quantity(&replicates, a),
-                                  "takes of each cell, which differ in their noise; default: 1"));
-    json_object_set_new(
-        all, "independent",
-        schema_value_list(schema_value_plain("text", NULL), 0, 1000, "factors whose levels have noise of their own"));
-    json_object_set_new(
-        all, "name",
-        schema_value_plain("text", "names of files: {FACTOR}, {replicate}, {order}, {cell} between other characters"));
-    json_object_set_new(all, "level", level(a));
-    json_object_set_new(
-        all, "length",
-        described(
-            schema_value_quantity(&length, a),
-            "how long each sound is: as the longest of the set (longest, the default), as by itself (own), or a time"));
-}
-
 json_t *schema_design(struct arena *a)
 {
     json_t *all = json_object(), *defs = schema_maps(a);
@@ -443,7 +422,23 @@ json_t *schema_design(struct arena *a)
                                         schema_value_plain("text", NULL)),
                               schema_value_plain("text", NULL), "supplied sounds as cells of their own"));
     json_object_set_new(all, "order", order(a));
-    add_rest(all, a);
+    const struct schema_value_quantity length = {KEY_TIME, 0, 0, false, "longest|own"},
+                                       replicates = {KEY_NONE, 1, 1000000, true, NULL};
+    json_object_set_new(all, "replicates",
+                        described(schema_value_quantity(&replicates, a),
+                                  "takes of each cell, which differ in their noise; default: 1"));
+    json_object_set_new(
+        all, "independent",
+        schema_value_list(schema_value_plain("text", NULL), 0, 1000, "factors whose levels have noise of their own"));
+    json_object_set_new(
+        all, "name",
+        schema_value_plain("text", "names of files: {FACTOR}, {replicate}, {order}, {cell} between other characters"));
+    json_object_set_new(all, "level", level(a));
+    json_object_set_new(
+        all, "length",
+        described(
+            schema_value_quantity(&length, a),
+            "how long each sound is: as the longest of the set (longest, the default), as by itself (own), or a time"));
     json_object_set_new(defs, "set", settings(a));
     return json_pack("{s:s, s:s, s:s, s:s, s:o, s:b, s:[s], s:o}", "$schema",
                      "https://json-schema.org/draft/2020-12/schema", "title", "a design of rasp", "description",

@@ -125,31 +125,6 @@ static void surface_info_notes(struct surface_info *i)
 /* ------------------------------------------------------------------ the report: in text a fact a line, in JSON SI
  * units */
 
-static void report_size(struct report *r, const struct surface_info *i)
-{
-    const struct heightfile *h = &i->h;
-    bool map = h->rows > 1;
-    double x = h->pitch_x, y = h->pitch_y, columns = (double)h->columns, rows = (double)h->rows;
-    const char *bits = h->step > 0 ? ", integers of %d bits" : ", floating point of %d bits", *filled = "";
-    report_set(r, "file:s format:s title:s columns:z rows:z", i->file, h->format, h->title, h->columns, h->rows);
-    report_set(r, "pitch_x_m:n pitch_y_m:n missing:z filled:z", x, map ? y : NAN, h->holes, h->filled);
-    bits = h->bits ? arena_format(i->arena, bits, h->bits == 24 ? 32 : h->bits == 53 ? 64 : h->bits) : "";
-    filled = h->filled ? arena_format(i->arena, ", and %zu filled", h->filled) : "";
-    report_text(r, "%s\n", i->file);
-    report_row(r, "format", "%s%s%s%s%s", h->format, bits, h->title ? ", \"" : "", h->title ? h->title : "",
-               h->title ? "\"" : "");
-    if (map) {
-        report_row(r, "samples", "map, %zu x %zu samples", h->columns, h->rows);
-        report_row(r, "size", "%.4g mm x %.4g mm", x * columns * 1e3, y * rows * 1e3);
-        report_row(r, "pitch", "%.7g um x %.7g um", x * 1e6, y * 1e6);
-    } else {
-        report_row(r, "samples", "profile, %zu samples", h->columns);
-        report_row(r, "size", "%.5g mm", x * columns * 1e3);
-        report_row(r, "pitch", "%.7g um", x * 1e6);
-    }
-    report_row(r, "missing points", "%zu%s", h->holes, filled);
-}
-
 static void report_heights(struct report *r, const struct surface_info *i)
 {
     static const char *const words[] = {"none", "mean", "plane"};
@@ -234,33 +209,48 @@ static void report_band(struct report *r, const struct surface_info *i, int down
                    b->exponent, b->from * 1e-3, b->to * 1e-3);
 }
 
-static void report_ends(struct report *r, const struct surface_info *i, int down, const char *where)
-{
-    const struct surface_ends *s = &i->ends[down];
-    report_object(r, down ? "ends_y" : "ends_x");
-    report_set(r, "step_rms_m:n jump_repeated_m:n slope_jump_mirrored:n", s->step, s->jump, s->kink);
-    report_list(r, "fall_samples");
-    report_set(r, ":z :z", s->fall[0], s->fall[1]);
-    report_end(r);
-    report_set(r, "fall_m:a", s->drop, 2);
-    report_end(r);
-    report_row(r, arena_format(i->arena, "repeated%s", where), "jumps by %s at the seam (neighbours differ by %s)",
-               len(i, s->jump), len(i, s->step));
-    report_row(r, arena_format(i->arena, "mirrored%s", where), "slope changes by %.3g at the ends", s->kink);
-}
-
 static void report_surface(struct report *r, const struct surface_info *i)
 {
     const struct surface_ends_period *p = &i->period;
     report_object(r, NULL);
-    report_size(r, i);
+    const struct heightfile *h = &i->h;
+    bool map = h->rows > 1;
+    double x = h->pitch_x, y = h->pitch_y, columns = (double)h->columns, rows = (double)h->rows;
+    const char *bits = h->step > 0 ? ", integers of %d bits" : ", floating point of %d bits", *filled = "";
+    report_set(r, "file:s format:s title:s columns:z rows:z", i->file, h->format, h->title, h->columns, h->rows);
+    report_set(r, "pitch_x_m:n pitch_y_m:n missing:z filled:z", x, map ? y : NAN, h->holes, h->filled);
+    bits = h->bits ? arena_format(i->arena, bits, h->bits == 24 ? 32 : h->bits == 53 ? 64 : h->bits) : "";
+    filled = h->filled ? arena_format(i->arena, ", and %zu filled", h->filled) : "";
+    report_text(r, "%s\n", i->file);
+    report_row(r, "format", "%s%s%s%s%s", h->format, bits, h->title ? ", \"" : "", h->title ? h->title : "",
+               h->title ? "\"" : "");
+    if (map) {
+        report_row(r, "samples", "map, %zu x %zu samples", h->columns, h->rows);
+        report_row(r, "size", "%.4g mm x %.4g mm", x * columns * 1e3, y * rows * 1e3);
+        report_row(r, "pitch", "%.7g um x %.7g um", x * 1e6, y * 1e6);
+    } else {
+        report_row(r, "samples", "profile, %zu samples", h->columns);
+        report_row(r, "size", "%.5g mm", x * columns * 1e3);
+        report_row(r, "pitch", "%.7g um", x * 1e6);
+    }
+    report_row(r, "missing points", "%zu%s", h->holes, filled);
     report_heights(r, i);
     report_steps(r, i);
     report_set(r, "band_x:0 band_y:0 ends_x:0 ends_y:0 repetition:0");
     for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
         const char *where = i->h.rows == 1 ? "" : down ? " in y" : " in x";
         report_band(r, i, down, where);
-        report_ends(r, i, down, where);
+        const struct surface_ends *s = &i->ends[down];
+        report_object(r, down ? "ends_y" : "ends_x");
+        report_set(r, "step_rms_m:n jump_repeated_m:n slope_jump_mirrored:n", s->step, s->jump, s->kink);
+        report_list(r, "fall_samples");
+        report_set(r, ":z :z", s->fall[0], s->fall[1]);
+        report_end(r);
+        report_set(r, "fall_m:a", s->drop, 2);
+        report_end(r);
+        report_row(r, arena_format(i->arena, "repeated%s", where), "jumps by %s at the seam (neighbours differ by %s)",
+                   len(i, s->jump), len(i, s->step));
+        report_row(r, arena_format(i->arena, "mirrored%s", where), "slope changes by %.3g at the ends", s->kink);
     }
     if (!isnan(p->peak)) {
         report_object(r, "repetition");

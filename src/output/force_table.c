@@ -112,17 +112,6 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     return true;
 }
 
-/* Above the sample rate some rows would have no samples to take a force from. */
-static bool rate_possible(const struct stage_run *r, struct err *e)
-{
-    const struct output *o = &r->scene->output;
-    return o->diagnostics.rate <= o->sample_rate ||
-           err_set(e, ERR_SCENE,
-                   "output.diagnostics.rate: %.9g Hz is above output.sample_rate, %.9g Hz: some rows would have no "
-                   "samples of the force; lower it",
-                   o->diagnostics.rate, o->sample_rate);
-}
-
 /* The law of a varying load is on the board; a constant one's is needed for approach and release. */
 static bool load_find(struct force_table *t, const struct stage_run *r, struct err *e)
 {
@@ -146,7 +135,14 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
     r->state = t;
     t->npy = r->scene->output.diagnostics.format == TABLE_NPY;
-    if (!rate_possible(r, e) || !columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e)) return false;
+    /* Above the sample rate some rows would have no samples to take a force from. */
+    const struct output *o = &r->scene->output;
+    if (!(o->diagnostics.rate <= o->sample_rate))
+        return err_set(e, ERR_SCENE,
+                       "output.diagnostics.rate: %.9g Hz is above output.sample_rate, %.9g Hz: some rows would have no "
+                       "samples of the force; lower it",
+                       o->diagnostics.rate, o->sample_rate);
+    if (!columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e)) return false;
     roll_rows_make(&t->ball, r->contact);
     t->motion.alpha = limiter_constant(r->contact);
     t->motion.wanted = t->wanted;

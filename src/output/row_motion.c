@@ -11,19 +11,6 @@ static const enum column told[] = {TIME, X, Y, VX, VY, STROKE, SPEED, VELOCITY, 
 
 static double *asked(struct row_motion *m, enum column k) { return m->wanted[k] ? m->value[k] : NULL; }
 
-static void row_motion_load(struct row_motion *m, const struct board *b, const double *at)
-{
-    double load[ROW_MOTION_SOME];
-    if (!m->load || (!m->wanted[NORMAL] && !m->wanted[ALPHA])) return;
-    load_along(m->load, b->trajectory, (size_t)m->n, at, load);
-    for (long i = 0; i < m->n; i++) {
-        load[i] = fmax(load[i], 0);
-        m->value[NORMAL][i] = load[i] * load_lowered(m->load, at[i]);
-        m->value[ALPHA][i] = m->alpha;
-    }
-    if (b->limiter && m->wanted[ALPHA]) limiter_alpha(b->limiter, (size_t)m->n, load, m->value[ALPHA]);
-}
-
 static void row_motion_fill(struct row_motion *m, const struct stage_run *r, long row)
 {
     double at[ROW_MOTION_SOME], *v[COLUMNS],
@@ -46,7 +33,15 @@ static void row_motion_fill(struct row_motion *m, const struct stage_run *r, lon
                                           .vy = asked(m, VY)});
     for (long i = 0; i < m->n; i++)
         v[SPEED][i] = fabs(v[VELOCITY][i]);
-    row_motion_load(m, r->board, at);
+    double load[ROW_MOTION_SOME];
+    if (!m->load || (!m->wanted[NORMAL] && !m->wanted[ALPHA])) return;
+    load_along(m->load, r->board->trajectory, (size_t)m->n, at, load);
+    for (long i = 0; i < m->n; i++) {
+        load[i] = fmax(load[i], 0);
+        m->value[NORMAL][i] = load[i] * load_lowered(m->load, at[i]);
+        m->value[ALPHA][i] = m->alpha;
+    }
+    if (r->board->limiter && m->wanted[ALPHA]) limiter_alpha(r->board->limiter, (size_t)m->n, load, m->value[ALPHA]);
 }
 
 void row_motion_take(struct row_motion *m, const struct stage_run *r, long row, double value[COLUMNS])
