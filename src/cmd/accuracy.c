@@ -427,8 +427,7 @@ static bool tell(struct accuracy_sweep *s, struct err *e)
     interrupt_go();
     outfile_drop(&csv);
     outfile_drop(&plot);
-    if (ok && !s->json) accuracy_report_print(s);
-    return ok && (!s->json || accuracy_report_json(s, e));
+    return ok && accuracy_report(s, e);
 }
 
 static int accuracy_run(struct cmd_call *c, struct err *e)

@@ -100,9 +100,8 @@ double accuracy_judge_error(const struct accuracy_sweep *s, const struct accurac
 /* Is it an error so small that the reference is no judge of it? */
 bool accuracy_judge_below(const struct accuracy_sweep *s, const struct accuracy_render *r);
 
-void accuracy_report_print(const struct accuracy_sweep *s);
 void accuracy_report_table(const struct accuracy_sweep *s, FILE *f);
-bool accuracy_report_json(const struct accuracy_sweep *s, struct err *e);
+bool accuracy_report(const struct accuracy_sweep *s, struct err *e); /* prints the table */
 void accuracy_report_plot(void *sweep, struct gnuplot *g);
 
 /* Where a logarithmic axis from low to high > 2.25 low has its labels, rising: at powers of ten; where that is not two of them, at 2 and 5 as well, or more. */

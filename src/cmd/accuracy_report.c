@@ -9,8 +9,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
-#include "base/wrap.h"
-#include "file/json_value.h"
+#include "cmd/report.h"
 #include "num/real.h"
 #include "pipeline/plan.h"
 #include "scene/accuracy.h"
@@ -68,70 +67,11 @@ void accuracy_report_table(const struct accuracy_sweep *s, FILE *f)
         row(s, &s->rows[i], f);
 }
 
-/* The table of `rasp accuracy` as JSON. */
-
-/* JSON has no infinities: null. */
-static json_t *error_json(const struct accuracy_render *r)
-{
-    const struct accuracy_error *o = &r->error;
-    if (r->code != 0) return json_pack("{s:i, s:o}", "exit_code", r->code, "says", json_value_text(r->words));
-    return json_pack("{s:o, s:b, s:o, s:o, s:o, s:o, s:o}", "snr_db", json_value_number(o->snr), "same_samples",
-                     isinf(o->snr) && o->snr > 0, "third_octave_db", json_value_number(o->third), "third_octave_hz",
-                     json_value_number(o->third_hz), "spectral_db", json_value_number(o->spectral), "level_db",
-                     json_value_number(o->level), "follows_s", json_value_number(o->follows));
-}
-
-static json_t *cost_json(const struct accuracy_render *r)
-{
-    if (r->code != 0) return json_null();
-    return json_pack("{s:o, s:o, s:o, s:o}", "cpu_s", json_value_number(r->cpu), "real_time_factor",
-                     json_value_number(r->error.length / fmax(r->cpu, 1e-9)), "peak_bytes", json_value_number(r->peak),
-                     "contact_share", json_value_number(r->contact_share));
-}
-
-static json_t *row_json(const struct accuracy_sweep *s, const struct accuracy_row *w)
-{
-    const struct accuracy_render *r = &s->renders[w->total];
-    return json_pack("{s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:b, s:b}", "setting", w->name, "value", w->value, "scene",
-                     w->chosen, "alone", w->alone >= 0 ? error_json(&s->renders[w->alone]) : json_null(), "order",
-                     json_value_number(w->order), "total", error_json(r), "cost", cost_json(r), "front", r->front,
-                     "below_reference", accuracy_judge_below(s, r));
-}
-
-static json_t *own_json(const struct accuracy_sweep *s)
-{
-    json_t *own = json_object();
-    for (int k = 0; k < KNOBS; k++)
-        if (s->knobs & 1u << k)
-            json_object_set_new(own, keys_knobs[k].name,
-                                json_value_number(s->own[k] > 0.0 ? 20.0 * real_log10(s->own[k]) : NAN));
-    return own;
-}
-
-bool accuracy_report_json(const struct accuracy_sweep *s, struct err *e)
-{
-    json_t *rows = json_array();
-    for (int i = 0; i < s->n_rows; i++)
-        json_array_append_new(rows, row_json(s, &s->rows[i]));
-    json_t *j = json_pack("{s:o, s:s, s:o, s:o, s:i, s:i, s:o, s:o, s:o, s:o}", "scene", json_value_text(s->file),
-                          "compared", s->force ? "force" : "sound", "length_s", json_value_number(s->length), "rate_hz",
-                          json_value_number(s->rate), "channels", s->channels, "runs", s->runs, "diverges_s",
-                          json_value_number(s->until), "reference_error_db", json_value_number(-s->own_db),
-                          "reference_errors_db", own_json(s), "settings", rows);
-    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
-    putchar('\n');
-    json_decref(j);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
-}
-
-/* The table of `rasp accuracy` for people: plain text, in colour on a terminal unless NO_COLOR is set (no-color.org).
- */
+/* What is printed: as JSON, or for people, in colour on a terminal unless NO_COLOR is set (no-color.org). */
 
 enum { BAR = 8 };
 
 /* ------------------------------------------------------------------ what it is about */
-
-static void say(const char *text) { wrap_print(stdout, text, 0, ""); }
 
 static const char *own_text(const struct accuracy_sweep *s)
 {
@@ -194,57 +134,100 @@ static double most_cpu(const struct accuracy_sweep *s)
 }
 
 /* What a render sounds like, and what it costs. */
-static void print_total(const struct accuracy_sweep *s, const struct accuracy_render *r)
+static void print_total(struct report *out, const struct accuracy_sweep *s, const struct accuracy_render *r)
 {
     const struct accuracy_error *o = &r->error;
-    printf("  %10s ", error_text(s, r));
+    report_text(out, "  %10s ", error_text(s, r));
     if (r->code != 0) return;
-    printf("%s  %7.3f %8.3f",
-           r == &s->renders[s->reference] ? bar(s, 1.0) : bar(s, isnan(o->snr) ? 0.0 : o->snr / most_snr(s)), o->third,
-           o->spectral);
+    report_text(out, "%s  %7.3f %8.3f",
+                r == &s->renders[s->reference] ? bar(s, 1.0) : bar(s, isnan(o->snr) ? 0.0 : o->snr / most_snr(s)),
+                o->third, o->spectral);
     if (isfinite(s->until))
-        printf(" %8.2f %6.3f s %8s", o->level, o->follows,
-               isnan(r->contact_share) ? "" : arena_format(s->call->arena, "%.1f %%", 100.0 * r->contact_share));
-    printf("  %7.4f s %s %7.4g  %6.1f MB", r->cpu, bar(s, r->cpu / most_cpu(s)), o->length / fmax(r->cpu, 1e-9),
-           r->peak / 1e6);
+        report_text(out, " %8.2f %6.3f s %8s", o->level, o->follows,
+                    isnan(r->contact_share) ? "" : arena_format(s->call->arena, "%.1f %%", 100.0 * r->contact_share));
+    report_text(out, "  %7.4f s %s %7.4g  %6.1f MB", r->cpu, bar(s, r->cpu / most_cpu(s)),
+                o->length / fmax(r->cpu, 1e-9), r->peak / 1e6);
 }
 
-static void print_row(const struct accuracy_sweep *s, const struct accuracy_row *w, bool colour)
+/* JSON has no infinities: null. */
+static void set_error(struct report *r, const char *key, const struct accuracy_render *x)
 {
-    const struct accuracy_render *r = &s->renders[w->total];
-    const char *order = isnan(w->order) ? "" : arena_format(s->call->arena, "%.2f", w->order);
-    printf("%s%-24s", colour && r->front ? "\033[1;32m" : "",
-           arena_format(s->call->arena, "%c %s %s%s", w->chosen ? '=' : ' ', w->name, w->value, r->front ? " *" : ""));
-    printf("  %10s %6s", w->alone >= 0 ? error_text(s, &s->renders[w->alone]) : "", order);
-    print_total(s, r);
-    printf("%s\n", colour && r->front ? "\033[0m" : "");
+    const struct accuracy_error *o = &x->error;
+    report_object(r, key);
+    if (x->code != 0)
+        report_set(r, "exit_code:i says:s", x->code, x->words);
+    else
+        report_set(r,
+                   "snr_db:n same_samples:b third_octave_db:n third_octave_hz:n spectral_db:n level_db:n follows_s:n",
+                   o->snr, isinf(o->snr) && o->snr > 0, o->third, o->third_hz, o->spectral, o->level, o->follows);
+    report_end(r);
 }
 
-void accuracy_report_print(const struct accuracy_sweep *s)
+static void report_setting(struct report *r, const struct accuracy_sweep *s, const struct accuracy_row *w, bool colour)
+{
+    const struct accuracy_render *x = &s->renders[w->total];
+    struct arena *a = s->call->arena;
+    report_object(r, NULL);
+    report_set(r, "setting:s value:s scene:b alone:0 order:n total:0 cost:0 front:b below_reference:b", w->name,
+               w->value, w->chosen, w->order, x->front, accuracy_judge_below(s, x));
+    if (w->alone >= 0) set_error(r, "alone", &s->renders[w->alone]);
+    set_error(r, "total", x);
+    if (x->code == 0) {
+        report_object(r, "cost");
+        report_set(r, "cpu_s:n real_time_factor:n peak_bytes:n contact_share:n", x->cpu,
+                   x->error.length / fmax(x->cpu, 1e-9), x->peak, x->contact_share);
+        report_end(r);
+    }
+    report_end(r);
+    report_text(r, "%s%-24s", colour && x->front ? "\033[1;32m" : "",
+                arena_format(a, "%c %s %s%s", w->chosen ? '=' : ' ', w->name, w->value, x->front ? " *" : ""));
+    report_text(r, "  %10s %6s", w->alone >= 0 ? error_text(s, &s->renders[w->alone]) : "",
+                isnan(w->order) ? "" : arena_format(a, "%.2f", w->order));
+    print_total(r, s, x);
+    report_text(r, "%s\n", colour && x->front ? "\033[0m" : "");
+}
+
+bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
 {
     const char *no = getenv("NO_COLOR");
     bool colour = isatty(STDOUT_FILENO) && (!no || !*no);
     struct arena *a = s->call->arena;
-    say(arena_format(a, "%s: %s%.3f s, %.9g Hz, %d channel%s; turned by %s.", text_shown(a, s->file),
-                     s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
-                     s->channels == 1 ? "" : "s", plan_knobs_text(s->knobs, a)));
-    say(own_text(s));
-    if (isfinite(s->until)) say(divergence_text(s));
-    say(arena_format(a,
-                     "total: all other knobs as the scene has them (=); alone: the others at reference. CPU: of the "
-                     "render, the least of %d run%s. *: nothing is cheaper and better.",
-                     s->runs, s->runs == 1 ? "" : "s"));
-    putchar('\n');
-    printf("%-24s  %10s %6s  %10s %-*s  %7s %8s", "", "alone", "order", "total", BAR, "", "3rd oct", "spectrum");
-    if (isfinite(s->until)) printf(" %8s %8s %8s", "level", "follows", "contact");
-    printf("  %9s %-*s %7s  %9s\n", "CPU", BAR, "", "x real", "memory");
+    struct report r = report_open(stdout, s->json);
+    report_set(&r, "scene:s compared:s length_s:n rate_hz:n channels:i runs:i", s->file, s->force ? "force" : "sound",
+               s->length, s->rate, s->channels, s->runs);
+    report_set(&r, "diverges_s:n reference_error_db:n", s->until, -s->own_db);
+    report_object(&r, "reference_errors_db");
+    for (int k = 0; k < KNOBS; k++)
+        if (s->knobs & 1u << k)
+            report_set(&r, arena_format(a, "%s:n", keys_knobs[k].name),
+                       s->own[k] > 0.0 ? 20.0 * real_log10(s->own[k]) : NAN);
+    report_end(&r);
+    report_note(&r, "",
+                arena_format(a, "%s: %s%.3f s, %.9g Hz, %d channel%s; turned by %s.", text_shown(a, s->file),
+                             s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
+                             s->channels == 1 ? "" : "s", plan_knobs_text(s->knobs, a)));
+    report_note(&r, "", own_text(s));
+    if (isfinite(s->until)) report_note(&r, "", divergence_text(s));
+    report_note(&r, "",
+                arena_format(a,
+                             "total: all other knobs as the scene has them (=); alone: the others at reference. CPU: "
+                             "of the render, the least of %d run%s. *: nothing is "
+                             "cheaper and better.",
+                             s->runs, s->runs == 1 ? "" : "s"));
+    report_text(&r, "\n%-24s  %10s %6s  %10s %-*s  %7s %8s", "", "alone", "order", "total", BAR, "", "3rd oct",
+                "spectrum");
+    if (isfinite(s->until)) report_text(&r, " %8s %8s %8s", "level", "follows", "contact");
+    report_text(&r, "  %9s %-*s %7s  %9s\n", "CPU", BAR, "", "x real", "memory");
+    report_list(&r, "settings");
     for (int i = 0; i < s->n_rows; i++) {
-        if (i > 0 && strcmp(s->rows[i].name, s->rows[i - 1].name) != 0) putchar('\n');
-        print_row(s, &s->rows[i], colour);
+        if (i > 0 && strcmp(s->rows[i].name, s->rows[i - 1].name) != 0) report_text(&r, "\n");
+        report_setting(&r, s, &s->rows[i], colour);
     }
+    report_end(&r);
     for (int i = 0; i < s->n_renders; i++)
         if (s->renders[i].code != 0)
-            printf("exit %d with %s: %s\n", s->renders[i].code, accuracy_rows_name(s, i), s->renders[i].words);
+            report_text(&r, "exit %d with %s: %s\n", s->renders[i].code, accuracy_rows_name(s, i), s->renders[i].words);
+    return report_close(&r, 9, e);
 }
 
 /* The picture of `rasp accuracy`: what each setting's error is against how many times faster than real time it renders;

@@ -1,7 +1,6 @@
 /* rasp check: what can be known to be wrong with a scene or a design before anything is computed. Of a design: what
    rasp batch finds out before it renders anything, and what it leaves to the rendering, whether a promised error can be
    kept. */
-#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +12,7 @@
 #include "batch/pool.h"
 #include "cmd/batch.h"
 #include "cmd/cmd.h"
+#include "cmd/report.h"
 #include "cmd/tell.h"
 #include "num/resample.h"
 #include "pipeline/plan_scene.h"
@@ -133,45 +133,31 @@ static bool check_scene(struct cmd_call *c, const char *file, const char **remar
     return true;
 }
 
-/* The scene's row of --json. */
-static json_t *row(const char *file, const struct err *e, json_t *errors)
+static void check_told(struct cmd_call *c, const char *file, struct report *r, struct err *e)
 {
-    json_t *o = json_object(), *name = json_string(file);
-    json_object_set_new(o, "file", name ? name : json_null());
-    json_object_set_new(o, "ok", json_boolean(e->kind == ERR_NONE));
-    json_object_set_new(o, "code", json_integer((int)e->kind));
-    json_object_set_new(o, "errors", errors);
-    return o;
-}
-
-static void check_told(struct cmd_call *c, const char *file, json_t *rows, struct err *e)
-{
-    const char *remark = NULL;
-    if (rows) tell_keep(c);
+    const char *remark = NULL, *name = text_shown(c->arena, file);
+    if (r->json) tell_keep(c);
     if (!check_scene(c, file, &remark, e))
         tell_error(c, "check", e);
-    else if (!rows)
-        printf("%s: ok\n", text_shown(c->arena, file));
-    if (remark && !rows) printf("%s: %s\n", text_shown(c->arena, file), remark);
-    if (rows) json_array_append_new(rows, row(text_shown(c->arena, file), e, tell_kept(c)));
+    else
+        report_text(r, "%s: ok\n", name);
+    if (remark) report_text(r, "%s: %s\n", name, remark);
+    if (!r->json) return;
+    report_object(r, NULL);
+    report_set(r, "file:s ok:b code:i errors:o", name, e->kind == ERR_NONE, (int)e->kind, tell_kept(c));
+    report_end(r);
 }
 
 static int check_run(struct cmd_call *c, struct err *e)
 {
     int worst = 0;
-    json_t *rows = args_given(&c->args, "json") ? json_array() : NULL;
-    (void)e;
+    struct report r = report_open_list(stdout, args_given(&c->args, "json"));
     for (int i = 0; i < c->args.n_operands; i++) {
         struct err mine = {0};
-        check_told(c, c->args.operands[i], rows, &mine);
+        check_told(c, c->args.operands[i], &r, &mine);
         worst = (int)mine.kind > worst ? (int)mine.kind : worst;
     }
-    if (rows) {
-        json_dumpf(rows, stdout, JSON_INDENT(2));
-        putchar('\n');
-    }
-    json_decref(rows);
-    return worst;
+    return !report_close(&r, 0, e) ? (int)e->kind : worst;
 }
 
 static const struct args_option options[] = {

@@ -1,9 +1,10 @@
 /* rasp plan: what a scene would run, and why. As JSON it has what the text has, stage by stage in the order of the
  * table; cost in cycles per audio sample. */
-#include <jansson.h>
+#include <math.h>
 
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "cmd/report.h"
 #include "cmd/tell.h"
 #include "pipeline/plan.h"
 #include "pipeline/plan_scene.h"
@@ -12,70 +13,68 @@
 #include "scene/keys.h"
 #include "scene/scene_places.h"
 
-static json_t *stage(const struct plan *p, const struct plan_row *r);
-
-static json_t *text_or_null(const char *s)
+/* Names of bits [0, n) of a set. */
+static void set_names(struct report *r, const char *key, unsigned set, int n, const char *(*name)(int i))
 {
-    json_t *j = s && *s ? json_string(s) : NULL;
-    return j ? j : json_null();
+    const char *names[64];
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        if (set & 1u << i) names[count++] = name(i);
+    report_list(r, key);
+    for (int i = 0; i < count; i++)
+        report_set(r, ":s", names[i]);
+    report_end(r);
 }
 
-static json_t *items(unsigned set)
+static const char *item_name(int i) { return plan_item((enum item)i); }
+
+static const char *knob_name(int i) { return keys_knobs[i].name; }
+
+static const char *text_or_null(const char *s) { return s && *s ? s : NULL; }
+
+static void set_stage(struct report *r, const struct plan *p, const struct plan_row *row)
 {
-    json_t *all = json_array();
-    for (int i = 0; i < ITEM_COUNT; i++)
-        if (set & ITEM_BIT(i)) json_array_append_new(all, json_string(plan_item((enum item)i)));
-    return all;
+    bool runs = row->verdict == PLAN_RUNS;
+    const char *why = runs                            ? NULL
+                      : row->verdict == PLAN_UNWANTED ? row->stage->idle
+                                                      : "nothing that is asked for needs it";
+    report_object(r, NULL);
+    report_set(r, "name:s runs:b why_not:s does:s equations:s", row->stage->name, runs, text_or_null(why),
+               row->stage->does, text_or_null(row->stage->paper));
+    set_names(r, "reads", runs ? row->reads & p->alive : 0, ITEM_COUNT, item_name);
+    set_names(r, "gives", runs ? row->stage->gives & p->alive : 0, ITEM_COUNT, item_name);
+    report_set(r, "cycles_per_sample:n", runs ? row->work : NAN);
+    set_names(r, "knobs", runs ? row->knobs : 0, KNOBS, knob_name);
+    report_end(r);
 }
 
-static json_t *knobs(unsigned set)
+static void report_plans(struct report *r, struct arena *a, const struct scene *s, const struct plan *plans,
+                         const char *promise)
 {
-    json_t *all = json_array();
-    for (int k = 0; k < KNOBS; k++)
-        if (set & 1u << k) json_array_append_new(all, json_string(keys_knobs[k].name));
-    return all;
-}
-
-static const char *why_not(const struct plan_row *r)
-{
-    if (r->verdict == PLAN_RUNS) return NULL;
-    return r->verdict == PLAN_UNWANTED ? r->stage->idle : "nothing that is asked for needs it";
-}
-
-static json_t *stage(const struct plan *p, const struct plan_row *r)
-{
-    bool runs = r->verdict == PLAN_RUNS;
-    return json_pack("{s:s, s:b, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "name", r->stage->name, "runs", runs, "why_not",
-                     text_or_null(why_not(r)), "does", r->stage->does, "equations", text_or_null(r->stage->paper),
-                     "reads", items(runs ? r->reads & p->alive : 0), "gives",
-                     items(runs ? r->stage->gives & p->alive : 0), "cycles_per_sample",
-                     runs ? json_real(r->work) : json_null(), "knobs", knobs(runs ? r->knobs : 0));
-}
-
-static json_t *contact(const struct plan *p)
-{
-    struct arena *a = arena_open();
-    json_t *stages = json_array(), *o;
-    double whole = 0;
-    for (int i = 0; i < p->n; i++) {
-        json_array_append_new(stages, stage(p, &p->rows[i]));
-        whole += p->rows[i].verdict == PLAN_RUNS ? p->rows[i].work : 0;
+    report_object(r, NULL);
+    report_set(r, "file:s accuracy:s", text_or_null(s->file), text_or_null(promise));
+    report_list(r, "contacts");
+    for (int i = 0; i < s->n_contacts; i++) {
+        const struct plan *p = &plans[i];
+        double whole = 0;
+        for (int k = 0; k < p->n; k++)
+            whole += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].work : 0;
+        report_object(r, NULL);
+        report_set(r, "name:s", text_or_null(p->contact->name));
+        set_names(r, "targets", p->targets, ITEM_COUNT, item_name);
+        report_set(r, "cycles_per_sample:n", whole);
+        set_names(r, "knobs", plan_knobs(p), KNOBS, knob_name);
+        report_set(r, "ablation:s", text_or_null(ablation_text(p->contact, a)));
+        report_list(r, "stages");
+        for (int k = 0; k < p->n; k++)
+            set_stage(r, p, &p->rows[k]);
+        report_end(r);
+        report_end(r);
+        if (!r->json) plan_print(p, r->out);
     }
-    o = json_pack("{s:o, s:o, s:f, s:o, s:o, s:o}", "name", text_or_null(p->contact->name), "targets",
-                  items(p->targets), "cycles_per_sample", whole, "knobs", knobs(plan_knobs(p)), "ablation",
-                  text_or_null(ablation_text(p->contact, a)), "stages", stages);
-    arena_close(a);
-    return o;
-}
-
-/* plans: [s->n_contacts]; promise: what accuracy.error chose, as text, NULL: nothing was asked. */
-static json_t *plan_json(const struct scene *s, const struct plan *plans, const char *promise)
-{
-    json_t *contacts = json_array();
-    for (int i = 0; i < s->n_contacts; i++)
-        json_array_append_new(contacts, contact(&plans[i]));
-    return json_pack("{s:o, s:o, s:o}", "file", text_or_null(s->file), "accuracy", text_or_null(promise), "contacts",
-                     contacts);
+    report_end(r);
+    report_end(r);
+    if (promise) report_text(r, "%s\n", text_shown(a, promise));
 }
 
 static const struct args_option plan_options[] = {
@@ -86,8 +85,7 @@ static const struct args_option plan_options[] = {
     {0},
 };
 
-/* rows: NULL: text. */
-static bool plan_one(struct cmd_call *c, const char *file, json_t *rows, struct err *e)
+static bool plan_one(struct cmd_call *c, const char *file, struct report *r, struct err *e)
 {
     struct scene s, kept;
     struct promise promise;
@@ -100,27 +98,20 @@ static bool plan_one(struct cmd_call *c, const char *file, json_t *rows, struct 
     if (!plans) return scene_places_tell(&s, e);
     for (int i = 0; warnings[i]; i++)
         tell_warning(c, file, warnings[i]);
-    if (rows)
-        json_array_append_new(rows, plan_json(&s, plans, promise.text));
-    else {
-        for (int i = 0; i < s.n_contacts; i++)
-            plan_print(&plans[i], stdout);
-        if (promise.text) printf("%s\n", text_shown(c->arena, promise.text));
-    }
+    report_plans(r, c->arena, &s, plans, promise.text);
     return true;
 }
 
 static int plan_run(struct cmd_call *c, struct err *e)
 {
-    json_t *rows = args_given(&c->args, "json") ? json_array() : NULL;
+    struct report r = report_open_list(stdout, args_given(&c->args, "json"));
     bool ok = true;
     for (int i = 0; ok && i < c->args.n_operands; i++)
-        ok = plan_one(c, c->args.operands[i], rows, e);
-    if (rows && ok) {
-        json_dumpf(rows, stdout, JSON_INDENT(2));
-        putchar('\n');
-    }
-    json_decref(rows);
+        ok = plan_one(c, c->args.operands[i], &r, e);
+    if (ok)
+        report_close(&r, 0, e);
+    else
+        json_decref(r.at[0]);
     return (int)e->kind;
 }
 

@@ -14,6 +14,11 @@ struct report report_open(FILE *out, bool json)
     return (struct report){.out = out, .json = json, .at = {json ? json_object() : NULL}};
 }
 
+struct report report_open_list(FILE *out, bool json)
+{
+    return (struct report){.out = out, .json = json, .at = {json ? json_array() : NULL}};
+}
+
 bool report_close(struct report *r, int digits, struct err *e)
 {
     if (!r->json) return true;
@@ -53,6 +58,8 @@ static json_t *value_of(char type, va_list *list)
         long n = va_arg(*list, long);
         return n < 0 ? json_null() : json_integer(n);
     }
+    case 'o':
+        return va_arg(*list, json_t *);
     case 't': {
         const char *const *texts = va_arg(*list, const char *const *);
         return json_value_texts(texts, va_arg(*list, int));

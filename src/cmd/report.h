@@ -22,14 +22,16 @@ struct report {
 
 /* Opens the outermost object; text is printed from here on. */
 struct report report_open(FILE *out, bool json);
+/* The same with a list as the outermost. */
+struct report report_open_list(FILE *out, bool json);
 
 /* Prints the JSON with so many significant digits (0: all), and ends its line. ERR_IO */
 bool report_close(struct report *r, int digits, struct err *e);
 
 /* Members of the object that is open: words "KEY:TYPE" with blanks between, a value for each. n: double, null where it
    is not finite; s: text, null for NULL and for what is not UTF-8; b, i: int; l: long; c: long, null below 0; z:
-   size_t; a: const double *, int; t: const char *const *, int; 0: null, without a value. A later member of the same key
-   takes the place of the first. */
+   size_t; a: const double *, int; t: const char *const *, int; o: json_t *, which JSON takes and text leaves; 0: null,
+   without a value. A later member of the same key takes the place of the first. */
 void report_set(struct report *r, const char *members, ...);
 
 /* A member of the object that is open (a later one of a list: key NULL), open until report_end. */
