@@ -16,7 +16,6 @@
 #include "output/mark.h"
 #include "output/picture.h"
 
-
 /* Intervals are shown in ms. */
 static double shown(int series, double x) { return series == STATISTICS_AMPLITUDE ? x : 1e3 * x; }
 
@@ -126,33 +125,6 @@ static void print_statistics(struct report *r, const struct analysis *a)
 }
 
 /* ------------------------------------------------------------------ durations and shapes */
-
-static void print_duration(struct report *r, const struct analysis *a)
-{
-    static const char *const from[] = {[ANALYSE_THETA_GIVEN] = "",
-                                       [ANALYSE_THETA_FILE] = "single impacts",
-                                       [ANALYSE_THETA_ALONE] = "those that stand alone",
-                                       [ANALYSE_THETA_NONE] = ""};
-    const struct impact_duration *d = &a->duration;
-    const char *whose = a->theta == ANALYSE_THETA_ALONE && !a->source.has_force ? "all" : from[a->theta];
-    report_text(r, "\n");
-    line(r, "duration, step 1");
-    if (d->singles && a->theta != ANALYSE_THETA_NONE) {
-        report_text(r, "%.4g ms", 1e3 * d->zeta_single);
-        if (isnan(d->r2_single))
-            report_text(r, ", all alike");
-        else
-            report_text(r, " A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f", -d->theta_single, d->theta_error,
-                        d->r2_single, d->r2_single_log);
-        report_text(r, ", over %ld impact%s: %s\n", d->singles, plural(d->singles), whose);
-    } else
-        report_text(r, "theta %.4g, %s\n", d->theta,
-                    a->theta == ANALYSE_THETA_GIVEN ? "given" : "since it cannot be told");
-    line(r, "duration, step 2");
-    report_text(r, "%.4g ms", 1e3 * d->zeta);
-    if (d->theta > 0) report_text(r, " A^-%.4f, A in N, R2 %.4f, of its logarithm %.4f", d->theta, d->r2, d->r2_log);
-    report_text(r, a->constant ? ", the median of %ld impact%s\n" : ", over %ld impact%s\n", d->n, plural(d->n));
-}
 
 static void print_shape(struct report *r, const struct analysis *a)
 {
@@ -287,7 +259,30 @@ bool analyse_report(const struct analysis *a, bool json, struct err *e)
     }
     if (a->lasts) {
         set_duration(&r, a);
-        print_duration(&r, a);
+        static const char *const from[] = {[ANALYSE_THETA_GIVEN] = "",
+                                           [ANALYSE_THETA_FILE] = "single impacts",
+                                           [ANALYSE_THETA_ALONE] = "those that stand alone",
+                                           [ANALYSE_THETA_NONE] = ""};
+        const struct impact_duration *d = &a->duration;
+        const char *whose = a->theta == ANALYSE_THETA_ALONE && !a->source.has_force ? "all" : from[a->theta];
+        report_text((&r), "\n");
+        line((&r), "duration, step 1");
+        if (d->singles && a->theta != ANALYSE_THETA_NONE) {
+            report_text((&r), "%.4g ms", 1e3 * d->zeta_single);
+            if (isnan(d->r2_single))
+                report_text((&r), ", all alike");
+            else
+                report_text((&r), " A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f", -d->theta_single, d->theta_error,
+                            d->r2_single, d->r2_single_log);
+            report_text((&r), ", over %ld impact%s: %s\n", d->singles, plural(d->singles), whose);
+        } else
+            report_text((&r), "theta %.4g, %s\n", d->theta,
+                        a->theta == ANALYSE_THETA_GIVEN ? "given" : "since it cannot be told");
+        line((&r), "duration, step 2");
+        report_text((&r), "%.4g ms", 1e3 * d->zeta);
+        if (d->theta > 0)
+            report_text((&r), " A^-%.4f, A in N, R2 %.4f, of its logarithm %.4f", d->theta, d->r2, d->r2_log);
+        report_text((&r), a->constant ? ", the median of %ld impact%s\n" : ", over %ld impact%s\n", d->n, plural(d->n));
     }
     if (a->shape.fitted > 0) set_shape(&r, &a->shape);
     print_shape(&r, a);

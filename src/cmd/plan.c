@@ -48,35 +48,6 @@ static void set_stage(struct report *r, const struct plan *p, const struct plan_
     report_end(r);
 }
 
-static void report_plans(struct report *r, struct arena *a, const struct scene *s, const struct plan *plans,
-                         const char *promise)
-{
-    report_object(r, NULL);
-    report_set(r, "file:s accuracy:s", text_or_null(s->file), text_or_null(promise));
-    report_list(r, "contacts");
-    for (int i = 0; i < s->n_contacts; i++) {
-        const struct plan *p = &plans[i];
-        double whole = 0;
-        for (int k = 0; k < p->n; k++)
-            whole += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].work : 0;
-        report_object(r, NULL);
-        report_set(r, "name:s", text_or_null(p->contact->name));
-        set_names(r, "targets", p->targets, ITEM_COUNT, item_name);
-        report_set(r, "cycles_per_sample:n", whole);
-        set_names(r, "knobs", plan_knobs(p), KNOBS, knob_name);
-        report_set(r, "ablation:s", text_or_null(ablation_text(p->contact, a)));
-        report_list(r, "stages");
-        for (int k = 0; k < p->n; k++)
-            set_stage(r, p, &p->rows[k]);
-        report_end(r);
-        report_end(r);
-        if (!r->json) plan_print(p, r->out);
-    }
-    report_end(r);
-    report_end(r);
-    if (promise) report_text(r, "%s\n", text_shown(a, promise));
-}
-
 static const struct args_option plan_options[] = {
     CMD_SCENE_OPTIONS,
     {"json", 'j', NULL, false,
@@ -98,7 +69,30 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
     if (!plans) return scene_places_tell(&s, e);
     for (int i = 0; warnings[i]; i++)
         tell_warning(c, file, warnings[i]);
-    report_plans(r, c->arena, &s, plans, promise.text);
+    report_object(r, NULL);
+    report_set(r, "file:s accuracy:s", text_or_null(s.file), text_or_null(promise.text));
+    report_list(r, "contacts");
+    for (int i = 0; i < s.n_contacts; i++) {
+        const struct plan *p = &plans[i];
+        double whole = 0;
+        for (int k = 0; k < p->n; k++)
+            whole += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].work : 0;
+        report_object(r, NULL);
+        report_set(r, "name:s", text_or_null(p->contact->name));
+        set_names(r, "targets", p->targets, ITEM_COUNT, item_name);
+        report_set(r, "cycles_per_sample:n", whole);
+        set_names(r, "knobs", plan_knobs(p), KNOBS, knob_name);
+        report_set(r, "ablation:s", text_or_null(ablation_text(p->contact, c->arena)));
+        report_list(r, "stages");
+        for (int k = 0; k < p->n; k++)
+            set_stage(r, p, &p->rows[k]);
+        report_end(r);
+        report_end(r);
+        if (!r->json) plan_print(p, r->out);
+    }
+    report_end(r);
+    report_end(r);
+    if (promise.text) report_text(r, "%s\n", text_shown(c->arena, promise.text));
     return true;
 }
 

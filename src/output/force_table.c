@@ -1,8 +1,5 @@
-/* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T =
-   1/rate: kinematics, normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its
-   sign) of the audio-rate force over the samples in the interval; events are counted in it; of a ball see roll_rows.c.
-   Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY (file/npy.h) they are doubles, and
-   how many rows there will be is known when the header is written. */
+/* Penetration, height and energies are those at the row's first frame; contact is the mean over its frames, lift-offs
+ * their sum. */
 #include "output/force_table.h"
 
 #include <math.h>
@@ -12,13 +9,143 @@
 #include "force/impact_train.h"
 #include "force/strike.h"
 #include "num/decimal.h"
-#include "output/row_motion.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
+#include "trajectory/spin.h"
 #include "trajectory/trajectory.h"
+
+#define COLUMN(id, name, exists, needs, meaning) id,
+enum column {
+#include "scene/columns.def"
+    COLUMNS
+};
+#undef COLUMN
+
+struct roll_rows {
+    struct spin spin;
+    double first[ROLL_VALUES]; /* at the first frame of the row being filled */
+    double contact, lift_offs; /* sums over it */
+};
+
+enum { ROW_MOTION_SOME = 64 };
+
+struct row_motion {
+    const bool *wanted;          /* [COLUMNS]                                */
+    const struct load_law *load; /* NULL: nothing is pressed on              */
+    double alpha;                /* m, where no limiter varies it            */
+    long rows, first, n;         /* of the table; those at hand              */
+    double value[COLUMNS][ROW_MOTION_SOME];
+};
+
+static const struct {
+    enum column column;
+    enum roll_value value;
+} sampled[] = {{PENETRATION, ROLL_PENETRATION},
+               {HEIGHT, ROLL_HEIGHT},
+               {ENERGY, ROLL_ENERGY},
+               {SURFACE_WORK, ROLL_SURFACE_WORK},
+               {CONTACT_LOSS, ROLL_CONTACT_LOSS},
+               {MODE_LOSS, ROLL_MODE_LOSS},
+               {RESIDUAL, ROLL_RESIDUAL}};
+enum { SAMPLED = sizeof sampled / sizeof sampled[0] };
+
+static void roll_rows_make(struct roll_rows *r, const struct contact *c)
+{
+    *r = (struct roll_rows){0};
+    if (ball_rolls(c)) r->spin = spin_make(c);
+}
+
+/* The column's value comes from ITEM_ROLL. */
+static bool roll_rows_reads(const struct contact *c, enum column k)
+{
+    bool reads = k == CONTACT_SHARE || k == LIFT_OFFS;
+    for (int i = 0; i < SAMPLED; i++)
+        reads = reads || sampled[i].column == k;
+    return reads && ball_rolls(c);
+}
+
+/* One more frame of the row; `first`: it is the row's first. */
+static void roll_rows_frame(struct roll_rows *r, const double values[ROLL_VALUES], bool first)
+{
+    if (first) memcpy(r->first, values, sizeof r->first);
+    r->contact += values[ROLL_CONTACT];
+    r->lift_offs += values[ROLL_LIFT_OFFS];
+}
+
+/* Into value[COLUMNS], of a row of so many frames; the next row begins empty. */
+static void roll_rows_take(struct roll_rows *r, long frames, double *value)
+{
+    for (int i = 0; i < SAMPLED; i++)
+        value[sampled[i].column] = r->first[sampled[i].value];
+    value[CONTACT_SHARE] = frames > 0 ? r->contact / (double)frames : 0;
+    value[LIFT_OFFS] = r->lift_offs;
+    r->contact = r->lift_offs = 0;
+}
+
+/* theta at an instant, from u (m) and du (m/s). */
+static double roll_rows_angle(const struct roll_rows *r, double u, double du)
+{
+    double theta;
+    spin_at(&r->spin, 1, &u, &du, NULL, &(struct spin_out){.theta = &theta});
+    return theta;
+}
+
+/* Instants are read ROW_MOTION_SOME at a time: at the audio rate that takes a third of what one by one does. alpha is
+ * that of the force without approach and release. */
+
+static const enum column told[] = {TIME, X, Y, VX, VY, STROKE, SPEED, VELOCITY, ACCELERATION, NORMAL, ALPHA};
+
+static double *asked(struct row_motion *m, enum column k) { return m->wanted[k] ? m->value[k] : NULL; }
+
+static void row_motion_fill(struct row_motion *m, const struct stage_run *r, long row)
+{
+    double at[ROW_MOTION_SOME], *v[COLUMNS],
+        start = (double)rules_first_frame(r->contact, r->board->rate) / r->board->rate;
+    m->first = row;
+    m->n = m->rows - row < ROW_MOTION_SOME ? m->rows - row : ROW_MOTION_SOME;
+    for (int k = 0; k < COLUMNS; k++)
+        v[k] = m->value[k];
+    for (long i = 0; i < m->n; i++) {
+        at[i] = (double)(row + i) / r->scene->output.diagnostics.rate;
+        v[TIME][i] = start + at[i];
+    }
+    trajectory_at(r->board->trajectory, (size_t)m->n, at,
+                  (struct trajectory_out){.u = v[STROKE],
+                                          .du = v[VELOCITY],
+                                          .ddu = asked(m, ACCELERATION),
+                                          .x = asked(m, X),
+                                          .y = asked(m, Y),
+                                          .vx = asked(m, VX),
+                                          .vy = asked(m, VY)});
+    for (long i = 0; i < m->n; i++)
+        v[SPEED][i] = fabs(v[VELOCITY][i]);
+    double load[ROW_MOTION_SOME];
+    if (!m->load || (!m->wanted[NORMAL] && !m->wanted[ALPHA])) return;
+    load_along(m->load, r->board->trajectory, (size_t)m->n, at, load);
+    for (long i = 0; i < m->n; i++) {
+        load[i] = fmax(load[i], 0);
+        m->value[NORMAL][i] = load[i] * load_lowered(m->load, at[i]);
+        m->value[ALPHA][i] = m->alpha;
+    }
+    if (r->board->limiter && m->wanted[ALPHA]) limiter_alpha(r->board->limiter, (size_t)m->n, load, m->value[ALPHA]);
+}
+
+/* Values of a row, which comes behind the one before. */
+static void row_motion_take(struct row_motion *m, const struct stage_run *r, long row, double value[COLUMNS])
+{
+    if (row >= m->first + m->n) row_motion_fill(m, r, row);
+    for (size_t k = 0; k < sizeof told / sizeof told[0]; k++)
+        value[told[k]] = m->value[told[k]][row - m->first];
+}
+
+/* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T =
+   1/rate: kinematics, normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its
+   sign) of the audio-rate force over the samples in the interval; events are counted in it; of a ball see roll_rows.c.
+   Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY (file/npy.h) they are doubles, and
+   how many rows there will be is known when the header is written. */
 
 const struct table_column force_table_columns[] = {
 #define COLUMN(id, name, exists, needs, meaning) {name, meaning},

@@ -26,7 +26,7 @@ PARTS = {
     "decimation": r"src/force/decimate",
     "force from a file": r"src/(force/(given|onset)|file/bytes|file/npy|file/heightfile)",
     "modes": r"src/convolution/|src/response/",
-    "table of diagnostics": r"src/output/(force_table|row_motion)|src/num/decimal|src/file/csv",
+    "table of diagnostics": r"src/output/force_table|src/num/decimal|src/file/csv",
     "sound, WAV": r"src/(output|file)/|sndfile",
     "checksum of inputs and tables": r"(?i)sha\d|crypto|src/base/hash",
     "runner": r"src/pipeline/|src/base/|clock_gettime",
