@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "base/interrupt.h"
@@ -41,4 +42,18 @@ FILE *scratch_open(void)
     if (!f && fd >= 0)
         close(fd);
     return f;
+}
+
+const char *scratch_make_folder(const char *name, struct arena *a, struct err *e)
+{
+    char *path = arena_format(a, "%s/%s-XXXXXX", scratch_folder(), name);
+    interrupt_hold();
+    bool made = mkdtemp(path) != NULL;
+    if (made)
+        interrupt_temporary(path);
+    interrupt_go();
+    if (!made)
+        err_set(e, ERR_CREATE, "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written",
+                scratch_folder(), strerror(errno));
+    return made ? path : NULL;
 }

@@ -218,3 +218,9 @@ const char *text_shown(struct arena *a, const char *s)
     text_show(s, out, room);
     return out;
 }
+
+bool text_ends(const char *s, const char *ending)
+{
+    size_t n = strlen(s), m = strlen(ending);
+    return n > m && strcmp(s + n - m, ending) == 0;
+}

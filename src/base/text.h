@@ -44,4 +44,7 @@ void text_show(const char *s, char *out, size_t room);
 /* The same in the arena, whole. */
 const char *text_shown(struct arena *a, const char *s);
 
+/* Does it end so, and is more than the ending? */
+bool text_ends(const char *s, const char *ending);
+
 #endif

@@ -311,12 +311,6 @@ static const struct args_option accuracy_options[] = {
     {0},
 };
 
-static bool ends(const char *text, const char *ending)
-{
-    size_t n = strlen(text), m = strlen(ending);
-    return n > m && strcmp(text + n - m, ending) == 0;
-}
-
 /* ------------------------------------------------------------------ asking */
 
 static bool ask_read(struct accuracy_sweep *s, struct err *e)
@@ -330,8 +324,8 @@ static bool ask_read(struct accuracy_sweep *s, struct err *e)
     if (s->presets && args_given(g, "values")) return err_set(e, ERR_USAGE, "--presets leaves no room for --values");
     s->csv = args_value(g, "csv");
     s->plot = args_value(g, "plot");
-    if (s->csv && !ends(s->csv, ".csv")) return err_set(e, ERR_USAGE, "--csv %s: must end in .csv", s->csv);
-    return !s->plot || ends(s->plot, ".png") || ends(s->plot, ".svg") ||
+    if (s->csv && !text_ends(s->csv, ".csv")) return err_set(e, ERR_USAGE, "--csv %s: must end in .csv", s->csv);
+    return !s->plot || text_ends(s->plot, ".png") || text_ends(s->plot, ".svg") ||
            err_set(e, ERR_USAGE, "--plot %s: must end in .png or .svg", s->plot);
 }
 
@@ -421,7 +415,7 @@ static bool tell(struct accuracy_sweep *s, struct err *e)
         accuracy_report_table(s, csv.stream);
         ok = outfile_settle(&csv, e);
     }
-    ok = ok && (!s->plot || picture_draw(&plot, s->plot, ends(s->plot, ".svg"), accuracy_report_plot, s, e));
+    ok = ok && (!s->plot || picture_draw(&plot, s->plot, text_ends(s->plot, ".svg"), accuracy_report_plot, s, e));
     interrupt_hold();
     ok = ok && (!s->plot || outfile_commit(&plot, e)) && (!s->csv || outfile_commit(&csv, e));
     interrupt_go();

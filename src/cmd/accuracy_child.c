@@ -33,17 +33,8 @@
 
 bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e)
 {
-    char *name = arena_format(s->call->arena, "%s/rasp-accuracy-XXXXXX", scratch_folder());
-    interrupt_hold();
-    bool made = mkdtemp(name) != NULL;
-    if (made) interrupt_temporary(name);
-    interrupt_go();
-    if (!made)
-        return err_set(e, ERR_CREATE,
-                       "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written",
-                       scratch_folder(), strerror(errno));
-    s->folder = name;
-    return true;
+    s->folder = scratch_make_folder("rasp-accuracy", s->call->arena, e);
+    return s->folder != NULL;
 }
 
 void accuracy_child_clear(const struct accuracy_sweep *s)

@@ -314,17 +314,13 @@ static int put_front(const struct accuracy_sweep *s, struct gnuplot *g)
 
 static void put_head(const struct accuracy_sweep *s, struct gnuplot *g)
 {
-    size_t n = s->plot ? strlen(s->plot) : 0;
-    bool svg = n > 3 && s->plot[n - 1] == 'g' && s->plot[n - 2] == 'v';
-    fprintf(g->in, svg ? "set terminal svg size 1000,640 font 'DejaVu Sans,13' background rgb 'white'\n"
-                       : "set terminal pngcairo size 1000,640 font 'DejaVu Sans,10' background rgb 'white'\n");
-    fputs("set encoding utf8\nset border linewidth 0.8\nset tics out nomirror scale 0.6\nset grid linewidth 0.5 "
-          "linecolor rgb '#dddddd'\nset logscale x\n"
-          "set key noenhanced outside right top vertical samplen 2\nset xlabel 'times real time'\nset offsets 0, 0, "
-          "graph 0.06, graph 0.06\nset title ",
+    gnuplot_page(g, s->plot && text_ends(s->plot, ".svg"), 1000, 640);
+    fputs("set grid linewidth 0.5 linecolor rgb '#dddddd'\nset logscale x\nset key noenhanced outside right top "
+          "vertical samplen 2\n"
+          "set xlabel 'times real time'\nset offsets 0, 0, graph 0.06, graph 0.06\n",
           g->in);
-    gnuplot_put_text(g, s->scene.title ? s->scene.title : s->file);
-    fprintf(g->in, " noenhanced\nset ylabel '%s'\n",
+    gnuplot_put_setting(g, "title", s->scene.title ? s->scene.title : s->file);
+    fprintf(g->in, "set ylabel '%s'\n",
             isfinite(s->until) ? "log-spectral distance from reference after divergence / dB"
                                : "error / dB (of the sound, below it)");
     if (isfinite(s->own_db) && !isfinite(s->until)) fprintf(g->in, "own = %.6g\n", -s->own_db);

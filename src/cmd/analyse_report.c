@@ -553,23 +553,15 @@ struct picture {
     bool svg;
 };
 
-static void head(const struct picture *p, const char *size, struct gnuplot *g)
+static void head(const struct picture *p, int width, int height, struct gnuplot *g)
 {
-    fprintf(g->in,
-            p->svg ? "set terminal svg size %s font 'DejaVu Sans,13' background rgb 'white'\n"
-                   : "set terminal pngcairo size %s font 'DejaVu Sans,10' background rgb 'white'\n",
-            size);
-    fputs("set encoding utf8\nset border linewidth 0.8\nset tics out nomirror scale 0.6\nset style fill solid 1.0 "
-          "noborder\n"
-          "set key noenhanced top right samplen 2 spacing 1.1\n",
-          g->in);
+    gnuplot_page(g, p->svg, width, height);
+    fputs("set style fill solid 1.0 noborder\nset key noenhanced top right samplen 2 spacing 1.1\n", g->in);
 }
 
-static void title(const struct picture *p, const char *what, struct gnuplot *g)
+static void title(const struct picture *p, const char *setting, const char *what, struct gnuplot *g)
 {
-    fputs("set title ", g->in);
-    gnuplot_put_text(g, arena_format(p->a->arena, "%s: %s", p->a->source.file, what));
-    fputs(" noenhanced\n", g->in);
+    gnuplot_put_setting(g, setting, arena_format(p->a->arena, "%s: %s", p->a->source.file, what));
 }
 
 /* ------------------------------------------------------------------ correlations */
@@ -595,10 +587,9 @@ static void draw_correlations(void *self, struct gnuplot *g)
     const struct picture *p = self;
     const struct impact_statistics *t = &p->a->statistics;
     double bound = 1.96 / sqrt(t->n);
-    head(p, "1000,900", g);
-    fputs("set multiplot layout 3,2 title ", g->in);
-    gnuplot_put_text(g, arena_format(p->a->arena, "%s: correlations over lags", p->a->source.file));
-    fputs(" noenhanced\nset yrange [-1:1.05]\nset xzeroaxis linetype 1 linewidth 0.5 linecolor rgb '#888888'\n", g->in);
+    head(p, 1000, 900, g);
+    title(p, "multiplot layout 3,2 title", "correlations over lags", g);
+    fputs("set yrange [-1:1.05]\nset xzeroaxis linetype 1 linewidth 0.5 linecolor rgb '#888888'\n", g->in);
     correlation("amplitude with interval", t->cross, 1 - STATISTICS_LAGS, 0, g);
     correlation("whitened amplitude with interval", t->white_cross, 1 - STATISTICS_LAGS, bound, g);
     for (int k = 0; k < STATISTICS_SERIES; k++) {
@@ -674,10 +665,8 @@ static void draw_distributions(void *self, struct gnuplot *g)
     const struct picture *p = self;
     const struct impact_statistics *t = &p->a->statistics;
     const double *itself[STATISTICS_SERIES] = {t->demodulated, intervals(p->a)};
-    head(p, "1000,840", g);
-    fputs("set multiplot layout 2,2 title ", g->in);
-    gnuplot_put_text(g, arena_format(p->a->arena, "%s: distributions", p->a->source.file));
-    fputs(" noenhanced\n", g->in);
+    head(p, 1000, 840, g);
+    title(p, "multiplot layout 2,2 title", "distributions", g);
     for (int panel = 0; panel < 2 * STATISTICS_SERIES; panel++) {
         int k = panel % STATISTICS_SERIES;
         bool white = panel < STATISTICS_SERIES;
@@ -709,8 +698,8 @@ static void draw_duration(void *self, struct gnuplot *g)
     const struct picture *p = self;
     const struct analysis *a = p->a;
     const struct impact_duration *d = &a->duration;
-    head(p, "760,560", g);
-    title(p, "durations", g);
+    head(p, 760, 560, g);
+    title(p, "title", "durations", g);
     points("series", &a->source.found.events, g);
     if (a->single.file) points("single", &a->single.found.events, g);
     fprintf(g->in, "set logscale xy\nset xlabel 'amplitude A / N'\nset ylabel 'duration / ms'\nset samples 500\n"
@@ -730,8 +719,8 @@ static void draw_shape(void *self, struct gnuplot *g)
 {
     const struct picture *p = self;
     const struct impact_shape *h = &p->a->shape;
-    head(p, "760,560", g);
-    title(p, arena_format(p->a->arena, "mean of %ld impacts", h->fitted), g);
+    head(p, 760, 560, g);
+    title(p, "title", arena_format(p->a->arena, "mean of %ld impacts", h->fitted), g);
     fputs("$x << END\n", g->in);
     for (int j = 0; j < IMPACT_SHAPE_POINTS; j++)
         fprintf(g->in, "%.9g %.9g %.9g %.9g %.9g %.9g\n", h->q[j], h->mean[j], h->mean[j] - h->deviation[j],

@@ -38,17 +38,8 @@ bool golden_run_folder(struct golden *g, struct err *e)
         return (stat(given, &st) == 0 && S_ISDIR(st.st_mode)) || mkdir(given, 0777) == 0 ||
                err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", given, strerror(errno));
     }
-    char *name = arena_format(g->call->arena, "%s/rasp-golden-XXXXXX", scratch_folder());
-    interrupt_hold();
-    bool made = mkdtemp(name) != NULL;
-    if (made) interrupt_temporary(name);
-    interrupt_go();
-    if (!made)
-        return err_set(e, ERR_CREATE,
-                       "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written",
-                       scratch_folder(), strerror(errno));
-    g->work = name;
-    return true;
+    g->work = scratch_make_folder("rasp-golden", g->call->arena, e);
+    return g->work != NULL;
 }
 
 static const char *golden_run_render_path(const struct golden *g, const struct golden_scene *s, int pass,

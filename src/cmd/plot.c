@@ -443,22 +443,16 @@ static const struct args_option plot_options[] = {
     {0},
 };
 
-static bool ends(const char *text, const char *ending)
-{
-    size_t n = strlen(text), m = strlen(ending);
-    return n > m && strcmp(text + n - m, ending) == 0;
-}
-
 static bool plot_format(struct cmd_call *c, struct plot_page *p, struct err *e)
 {
     const char *format = args_value(&c->args, "format"), *o = args_value(&c->args, "output");
     if (format && strcmp(format, "png") != 0 && strcmp(format, "svg") != 0)
         return err_set(e, ERR_USAGE, "--format: '%s' is neither png nor svg", format);
-    if (o && !ends(o, ".png") && !ends(o, ".svg"))
+    if (o && !text_ends(o, ".png") && !text_ends(o, ".svg"))
         return err_set(e, ERR_USAGE, "--output %s: must end in .png or .svg", o);
     if (format && o && strcmp(o + strlen(o) - 3, format) != 0)
         return err_set(e, ERR_USAGE, "--output %s: does not end in .%s, the format that is asked for", o, format);
-    p->svg = format ? strcmp(format, "svg") == 0 : o && ends(o, ".svg");
+    p->svg = format ? strcmp(format, "svg") == 0 : o && text_ends(o, ".svg");
     return true;
 }
 
@@ -516,7 +510,7 @@ static int gallery_run(struct cmd_call *c, struct err *e)
             return err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows whole sounds", others[k]), (int)e->kind;
     if (format && strcmp(format, "png") != 0 && !g.svg)
         err_set(e, ERR_USAGE, "--format: '%s' is neither png nor svg", format);
-    else if (g.output && !ends(g.output, ".html"))
+    else if (g.output && !text_ends(g.output, ".html"))
         err_set(e, ERR_USAGE, "--output %s: a gallery is a page of HTML, its name must end in .html", g.output);
     else if (plot_panels_read(panels ? panels : "waveform,spectrogram", &g.asked, c->arena, e))
         plot_gallery(&g, e);
@@ -534,7 +528,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
     const double range[2] = {0, 1e9};
     long channel = 1;
     if (args_given(&c->args, "gallery")) return gallery_run(c, e);
-    if (!ends(p.file, ".wav") && !ends(p.file, ".csv") && !ends(p.file, ".npy"))
+    if (!text_ends(p.file, ".wav") && !text_ends(p.file, ".csv") && !text_ends(p.file, ".npy"))
         return err_set(e, ERR_USAGE,
                        "%s: neither a sound (.wav) nor a table of diagnostics (.csv, .npy) or modes (.csv); of a "
                        "folder --gallery makes a page",

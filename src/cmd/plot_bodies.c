@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/text.h"
 #include "cmd/tell.h"
 #include "response/mode_table.h"
 #include "response/object.h"
@@ -123,12 +124,6 @@ bool plot_bodies_table(struct plot_page *p, struct err *e)
 
 /* ------------------------------------------------------------------ a response */
 
-static bool is_csv(const char *file)
-{
-    size_t n = strlen(file);
-    return n > 4 && !strcmp(file + n - 4, ".csv");
-}
-
 /* Nothing: a recording, or none. */
 static bool modes_of(const struct response *r, double rate, struct arena *a, struct modes *m, struct err *e)
 {
@@ -146,7 +141,7 @@ static bool modes_of(const struct response *r, double rate, struct arena *a, str
         if (ok) object_modes(o, r->object.origin, NULL, r->modes, a, m);
     } else if (r->space.given) {
         ok = space_modes(&r->space, &ask, a, m, e);
-    } else if (r->file && is_csv(r->file)) {
+    } else if (r->file && text_ends(r->file, ".csv")) {
         ok = modes_table(r->file, &ask, a, m, e);
     }
     if (ok && m->n) modes_drop_above(m, rate);
@@ -185,7 +180,7 @@ static bool add_ground(struct plot_page *p, const struct response *r, const stru
             g->low[k] = r->object.origin[k] + m->object->low[k];
             g->high[k] = r->object.origin[k] + m->object->high[k];
         }
-    } else if (r->file && is_csv(r->file) && !r->object.given && !r->space.given) {
+    } else if (r->file && text_ends(r->file, ".csv") && !r->object.given && !r->space.given) {
         struct mode_table t;
         if (!mode_table_read(r->file, p->arena, &t, e)) return false;
         g->n = t.places > 1 ? (int)t.places : 0;

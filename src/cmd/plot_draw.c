@@ -518,15 +518,10 @@ void plot_draw(const struct plot_page *p, struct gnuplot *g)
     for (int i = 0; i < p->n_tables; i++)
         data_table(&p->tables[i], i, g->in);
     int height = page_height(p);
-    if (p->svg)
-        fprintf(g->in, "set terminal svg size %d,%d font 'DejaVu Sans,13' background rgb 'white'\n", WIDTH, height);
-    else
-        fprintf(g->in, "set terminal pngcairo size %d,%d font 'DejaVu Sans,10' background rgb 'white'\n", WIDTH,
-                height);
-    fputs("set encoding utf8\n"
-          "set palette defined (0 '#000004', 1 '#280b54', 2 '#65156e', 3 '#9f2a63', 4 '#d44842', 5 '#f57d15', 6 "
+    gnuplot_page(g, p->svg, WIDTH, height);
+    fputs("set palette defined (0 '#000004', 1 '#280b54', 2 '#65156e', 3 '#9f2a63', 4 '#d44842', 5 '#f57d15', 6 "
           "'#fac127', 7 '#fcffa4')\n"
-          "set border linewidth 0.8\nset tics out nomirror scale 0.6\nset style fill solid 1.0 noborder\n"
+          "set style fill solid 1.0 noborder\n"
           "set ylabel offset 1,0\nset y2label offset -1,0\nset cblabel offset 1.2,0\n"
           "set key noenhanced top right inside horizontal samplen 2 spacing 1.0\n",
           g->in);

@@ -50,12 +50,6 @@ static const char *cell(const struct page *g, size_t row, int column)
 
 static bool is_there(const char *text) { return *text && strcmp(text, "n/a") != 0; }
 
-static bool ends(const char *text, const char *ending)
-{
-    size_t n = strlen(text), m = strlen(ending);
-    return n > m && !strcmp(text + n - m, ending);
-}
-
 static bool from_manifest(struct page *g, const char *file, struct err *e)
 {
     if (!csv_read(file, g->arena, &g->manifest, e)) return false;
@@ -67,7 +61,7 @@ static bool from_manifest(struct page *g, const char *file, struct err *e)
     g->items = ARENA_TAKE(g->arena, struct item, g->manifest.rows);
     for (size_t row = 0; row < g->manifest.rows; row++) {
         const char *sound = cell(g, row, name), *called = id >= 0 ? cell(g, row, id) : sound;
-        bool sounds = ends(sound, ".wav"),
+        bool sounds = text_ends(sound, ".wav"),
              failed = status >= 0 ? strcmp(cell(g, row, status), "ok") != 0 : !is_there(sound);
         const char *wav = sounds ? sound : arena_format(g->arena, "%s.wav", called);
         g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, wav),
@@ -80,7 +74,7 @@ static bool from_manifest(struct page *g, const char *file, struct err *e)
     return true;
 }
 
-static int is_sound(const struct dirent *entry) { return entry->d_name[0] != '.' && ends(entry->d_name, ".wav"); }
+static int is_sound(const struct dirent *entry) { return entry->d_name[0] != '.' && text_ends(entry->d_name, ".wav"); }
 
 static bool from_folder(struct page *g, struct err *e)
 {
@@ -107,7 +101,7 @@ static bool gather(struct page *g, struct err *e)
 {
     const char *source = g->of->source, *slash = strrchr(source, '/');
     struct stat st;
-    if (ends(source, ".csv")) {
+    if (text_ends(source, ".csv")) {
         g->folder = arena_format(g->arena, "%.*s", slash ? (int)(slash - source + 1) : 0, source);
         return from_manifest(g, source, e);
     }
@@ -117,7 +111,7 @@ static bool gather(struct page *g, struct err *e)
                        source);
     g->folder = !strcmp(source, ".")
                     ? ""
-                    : arena_format(g->arena, "%s%s", source, ends(source, "/") || !strcmp(source, "/") ? "" : "/");
+                    : arena_format(g->arena, "%s%s", source, text_ends(source, "/") || !strcmp(source, "/") ? "" : "/");
     const char *manifest = arena_format(g->arena, "%smanifest.csv", g->folder);
     return access(manifest, F_OK) == 0 ? from_manifest(g, manifest, e) : from_folder(g, e);
 }

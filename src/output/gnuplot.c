@@ -98,3 +98,17 @@ void gnuplot_put_text(struct gnuplot *g, const char *text)
     }
     fputc('\'', g->in);
 }
+
+void gnuplot_page(struct gnuplot *g, bool svg, int width, int height)
+{
+    fprintf(g->in, "set terminal %s size %d,%d font 'DejaVu Sans,%d' background rgb 'white'\n",
+            svg ? "svg" : "pngcairo", width, height, svg ? 13 : 10);
+    fputs("set encoding utf8\nset border linewidth 0.8\nset tics out nomirror scale 0.6\n", g->in);
+}
+
+void gnuplot_put_setting(struct gnuplot *g, const char *setting, const char *text)
+{
+    fprintf(g->in, "set %s ", setting);
+    gnuplot_put_text(g, text);
+    fputs(" noenhanced\n", g->in);
+}

@@ -22,4 +22,10 @@ bool gnuplot_close(struct gnuplot *g, struct err *e);
 /* 'text' as gnuplot reads it: single quotes doubled, nothing expanded; control characters are shown as '?'. */
 void gnuplot_put_text(struct gnuplot *g, const char *text);
 
+/* The terminal of a page of so many pixels, with the borders and tics of all pages. */
+void gnuplot_page(struct gnuplot *g, bool svg, int width, int height);
+
+/* set title 'text' (or another setting), nothing in it expanded. */
+void gnuplot_put_setting(struct gnuplot *g, const char *setting, const char *text);
+
 #endif
