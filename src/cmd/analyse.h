@@ -9,17 +9,17 @@
 
 enum { ANALYSE_NOTES = 32 };
 
-struct analyse_given {      /* what a file does not say itself, and what counts as an impact */
-    double scale, rate;     /* N per unit, Hz; NAN: not given                                */
-    long channel;           /* from 1                                                        */
-    const char *column;     /* NULL: force_n or force_mean_n                                 */
+struct analyse_given {  /* what a file does not say itself, and what counts as an impact */
+    double scale, rate; /* N per unit, Hz; NAN: not given                                */
+    long channel;       /* from 1                                                        */
+    const char *column; /* NULL: force_n or force_mean_n                                 */
     struct impact_options options;
 };
 
-struct analyse_source {     /* a force, or a table of impacts                                */
+struct analyse_source {      /* a force, or a table of impacts                                */
     const char *file, *kind; /* "WAV", "NPY", "CSV"                                          */
-    bool has_force;         /* false: a table of impacts, signal is empty                    */
-    int channels;           /* of a WAV                                                      */
+    bool has_force;          /* false: a table of impacts, signal is empty                    */
+    int channels;            /* of a WAV                                                      */
     struct impact_signal signal;
     struct impact_found found; /* of a table only found.events                               */
 };
@@ -33,15 +33,15 @@ struct analysis {
     struct arena *arena;
     struct analyse_source source, single; /* single.file NULL: none                          */
     struct analyse_given given;
-    bool counted;           /* statistics are there: enough impacts                          */
+    bool counted; /* statistics are there: enough impacts                          */
     struct impact_statistics statistics;
-    bool lasts;             /* durations are known                                           */
+    bool lasts; /* durations are known                                           */
     enum analyse_theta theta;
     struct impact_duration duration;
-    bool constant;          /* no law was taken: theta 0, zeta the durations' median         */
+    bool constant; /* no law was taken: theta 0, zeta the durations' median         */
     struct impact_shape shape;
-    int distribution;       /* enum analyse_distribution, as asked                           */
-    bool force;             /* the parameter file and its tables may be overwritten          */
+    int distribution;                 /* enum analyse_distribution, as asked                           */
+    bool force;                       /* the parameter file and its tables may be overwritten          */
     const char *notes[ANALYSE_NOTES]; /* warnings                                            */
     int n_notes;
     const char *written[8]; /* files                                                         */
@@ -49,7 +49,6 @@ struct analysis {
 };
 
 extern const char *const analyse_series_names[STATISTICS_SERIES]; /* "amplitude", "interval" */
-
 
 /* Why no duration is known. */
 const char *analyse_notes_unknown(const struct analysis *a);
@@ -61,7 +60,8 @@ bool analyse_tabled(const struct analysis *a, int series);
 bool analyse_one_process(const struct analysis *a);
 
 /* Reads the file, and finds the impacts if it holds a force. ERR_INPUT, ERR_SCENE. */
-bool analyse_read(const char *file, const struct analyse_given *g, struct arena *a, struct analyse_source *s, struct err *e);
+bool analyse_read(const char *file, const struct analyse_given *g, struct arena *a, struct analyse_source *s,
+                  struct err *e);
 
 /* Prints what was found. ERR_IO */
 bool analyse_report(const struct analysis *a, bool json, struct err *e);
@@ -76,11 +76,12 @@ struct analyse_files {
 /* ERR_CREATE: the file exists and a->force is false; ERR_USAGE: its name does not end in .yaml. */
 bool analyse_report_free(const struct analysis *a, const char *file, struct err *e);
 
-/* The parameter file and the tables that it needs beside it. ERR_CREATE (also: one of them is what was analysed), ERR_IO, ERR_SCENE (a value that no
-   scene may have). */
+/* The parameter file and the tables that it needs beside it. ERR_CREATE (also: one of them is what was analysed),
+   ERR_IO, ERR_SCENE (a value that no scene may have). */
 bool analyse_report_part(struct analysis *a, const char *file, struct analyse_files *all, struct err *e);
 
-/* PREFIX.correlations.png and so on; a folder: FOLDER/NAME.correlations.png. ERR_UNBUILT (no gnuplot), ERR_CREATE, ERR_IO. */
+/* PREFIX.correlations.png and so on; a folder: FOLDER/NAME.correlations.png. ERR_UNBUILT (no gnuplot), ERR_CREATE,
+ * ERR_IO. */
 bool analyse_report_plot(struct analysis *a, const char *prefix, bool svg, struct analyse_files *all, struct err *e);
 
 #endif

@@ -1,15 +1,15 @@
 /* What a subcommand is. foo.c in this folder exports `const struct command foo_command`; commands.c lists them.
 
-   main parses the options, calls run, and gives its return value as the exit code. When run leaves an error in *e, main prints
-   "rasp foo: error: text" on stderr and the exit code is e->kind. Data goes to stdout (main closes and checks it), messages to stderr;
-   stdin is never read. */
+   main parses the options, calls run, and gives its return value as the exit code. When run leaves an error in *e, main
+   prints "rasp foo: error: text" on stderr and the exit code is e->kind. Data goes to stdout (main closes and checks
+   it), messages to stderr; stdin is never read. */
 #ifndef CMD_CMD_H
 #define CMD_CMD_H
 #include "base/arena.h"
 #include "base/args.h"
 #include "base/err.h"
-#include "scene/scene.h"
 #include "cmd/cmd.h"
+#include "scene/scene.h"
 #include <stdbool.h>
 
 struct cmd_tell; /* cmd/tell.c */
@@ -26,23 +26,27 @@ struct action; /* below */
 
 struct command {
     const char *name;
-    const char *summary;                /* half a line for the list of commands, no full stop          */
-    const char *does;                   /* a paragraph or two for --help                               */
-    const char *operands;               /* as in the usage line: "SCENE...", "A B"; "": none           */
-    int least, most;                    /* number of operands; most < 0: any number                    */
-    const struct args_option *options;  /* its own (cmd_options has the rest); ends with {0}; never NULL */
-    const struct action *actions;       /* what the first operand may be, ends with name NULL; NULL: no such command */
-    const char *examples;               /* shell lines, each ending in \n; a line may end in # comment */
+    const char *summary;               /* half a line for the list of commands, no full stop          */
+    const char *does;                  /* a paragraph or two for --help                               */
+    const char *operands;              /* as in the usage line: "SCENE...", "A B"; "": none           */
+    int least, most;                   /* number of operands; most < 0: any number                    */
+    const struct args_option *options; /* its own (cmd_options has the rest); ends with {0}; never NULL */
+    const struct action *actions;      /* what the first operand may be, ends with name NULL; NULL: no such command */
+    const char *examples;              /* shell lines, each ending in \n; a line may end in # comment */
     int (*run)(struct cmd_call *c, struct err *e);
 };
 
 extern const struct command check_command, explain_command, new_command, render_command, plan_command, compare_command,
-    plot_command, accuracy_command, analyse_command, surface_command, modes_command, completion_command, batch_command, merge_command, golden_command;
+    plot_command, accuracy_command, analyse_command, surface_command, modes_command, completion_command, batch_command,
+    merge_command, golden_command;
 
 /* Rows for the option table of every command that reads scenes; cmd_read_scene heeds them. */
-#define CMD_SCENE_OPTIONS                                                                                                     \
-    {"set", 's', "PATH=VALUE", true, "sets a key of the scene, as in --set motion.rate='3 Hz'; may be repeated, the last wins"}, \
-    {"seed", 0, "NUMBER", false, "sets the scene's seed; same as --set seed=NUMBER"}
+#define CMD_SCENE_OPTIONS                                                                                              \
+    {"set", 's', "PATH=VALUE", true,                                                                                   \
+     "sets a key of the scene, as in --set motion.rate='3 Hz'; may be repeated, the last wins"},                       \
+    {                                                                                                                  \
+        "seed", 0, "NUMBER", false, "sets the scene's seed; same as --set seed=NUMBER"                                 \
+    }
 
 /* Is it an option that every command and action has besides its own? */
 bool cmd_shared(const struct args_option *o);
@@ -50,7 +54,8 @@ bool cmd_shared(const struct args_option *o);
 /* The command's options and those that every command has (cmd/tell.h heeds them); ends with {0}. */
 const struct args_option *cmd_options(const struct command *m, struct arena *a);
 
-/* scene_read with the command line's --set and --seed. Prints the scene's messages on stderr; then *e holds their kind and a summary. */
+/* scene_read with the command line's --set and --seed. Prints the scene's messages on stderr; then *e holds their kind
+ * and a summary. */
 bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e);
 
 /* --help of one command: summary, examples, usage, options. */
@@ -60,18 +65,20 @@ enum { CMD_ACTION_OPTIONS = 40 };
 
 struct action {
     const char *name;
-    const char *operands;                 /* what it takes, for a message                                          */
-    int least, most;                      /* number of operands behind the action's name; most < 0: any number     */
-    const char *options[CMD_ACTION_OPTIONS]; /* those of the command's that it takes; fewer than that many end in NULL */
+    const char *operands; /* what it takes, for a message                                          */
+    int least, most;      /* number of operands behind the action's name; most < 0: any number     */
+    const char
+        *options[CMD_ACTION_OPTIONS]; /* those of the command's that it takes; fewer than that many end in NULL */
     int (*run)(struct cmd_call *c, struct err *e);
 };
 
-/* Runs the action that the first operand names, with the operands behind it; `table` ends with name NULL. An option that belongs to another
-   action is refused. Exit codes as a command's run. ERR_USAGE */
+/* Runs the action that the first operand names, with the operands behind it; `table` ends with name NULL. An option
+   that belongs to another action is refused. Exit codes as a command's run. ERR_USAGE */
 int cmd_actions(const char *command, const struct action *table, struct cmd_call *c, struct err *e);
 
-/* Reads the file as a scene if it has the key of scenes, rasp, or includes one; else as a recipe, through a scene that names it and whose other keys
-   are `rest` (YAML lines). --set and --seed count in both. Prints the scene's messages on stderr; ERR_INPUT, ERR_SCENE. */
+/* Reads the file as a scene if it has the key of scenes, rasp, or includes one; else as a recipe, through a scene that
+   names it and whose other keys are `rest` (YAML lines). --set and --seed count in both. Prints the scene's messages on
+   stderr; ERR_INPUT, ERR_SCENE. */
 bool cmd_recipe_read(struct cmd_call *c, const char *file, const char *rest, struct scene *s, struct err *e);
 
 /* Is it a scene, rather than a recipe? ERR_INPUT */
@@ -80,7 +87,8 @@ bool cmd_recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct 
 /* A recipe's remark, `title` or `source`, as one line; NULL: it has none. The file has been read before. */
 const char *cmd_recipe_remark(struct cmd_call *c, const char *file, const char *key);
 
-/* The output is not the input, under whatever name (same device and inode; NULL: none is read or written). what: "the table"; cure: "-o OTHER.csv". ERR_CREATE */
+/* The output is not the input, under whatever name (same device and inode; NULL: none is read or written). what: "the
+ * table"; cure: "-o OTHER.csv". ERR_CREATE */
 bool cmd_spares(const char *output, const char *what, const char *input, const char *cure, struct err *e);
 
 #endif

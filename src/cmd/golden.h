@@ -1,43 +1,43 @@
 /* What `rasp golden` knows of its scenes, and its parts: the list, the renders, what is kept, the verdicts, the report.
 
-   Kept of a scene are the sounds and tables that its render writes: KEPT/NAME/sound.wav, KEPT/NAME/sound.csv and so on, or, where only hashes are kept, lines
-   "SHA256  NAME/sound.wav" of one file, as sha256sum has them. */
+   Kept of a scene are the sounds and tables that its render writes: KEPT/NAME/sound.wav, KEPT/NAME/sound.csv and so on,
+   or, where only hashes are kept, lines "SHA256  NAME/sound.wav" of one file, as sha256sum has them. */
 #ifndef CMD_GOLDEN_H
 #define CMD_GOLDEN_H
 #include "base/hash.h"
 #include "cmd/compare.h"
 
 struct golden_file {
-    const char *name;            /* "sound.wav"                                            */
+    const char *name; /* "sound.wav"                                            */
     char sha256[HASH_TEXT];
 };
 
-struct golden_files {            /* of one scene, by name                                  */
+struct golden_files { /* of one scene, by name                                  */
     struct golden_file *list;
     int n;
 };
 
 struct golden_problem {
-    const char *file;            /* "sound.wav"; "": the scene as a whole                  */
-    const char *says, *report;   /* one line; several, from `rasp compare`, NULL: none     */
+    const char *file;          /* "sound.wav"; "": the scene as a whole                  */
+    const char *says, *report; /* one line; several, from `rasp compare`, NULL: none     */
 };
 
 struct golden_scene {
     const char *file, *name;
-    const char *at;              /* "scenes.txt:3: "; "": it is an operand                 */
-    struct args args;            /* options of its line                                    */
+    const char *at;                    /* "scenes.txt:3: "; "": it is an operand                 */
+    struct args args;                  /* options of its line                                    */
     struct compare_ask sounds, tables; /* how far either may be off; exact: not at all     */
     struct scene scene;
     struct err failed;           /* kind ERR_NONE: read, and rendered so far               */
     struct golden_files made[2]; /* by the first and the second render                     */
     struct golden_problem *problems;
     int n_problems, room;
-    const char *note;            /* of what is within its tolerances; NULL: nothing        */
-    struct arena *arena;         /* of what one thread at a time finds                     */
+    const char *note;    /* of what is within its tolerances; NULL: nothing        */
+    struct arena *arena; /* of what one thread at a time finds                     */
 };
 
 struct golden_sum {
-    const char *name;            /* NAME/sound.wav */
+    const char *name; /* NAME/sound.wav */
     char sha256[HASH_TEXT];
 };
 
@@ -45,26 +45,28 @@ struct golden {
     struct cmd_call *call;
     struct golden_scene *scenes;
     int n;
-    bool whole;                  /* all operands are lists: nothing else should be kept    */
-    const char *kept;            /* folder of files; NULL: hashes only                     */
-    const char *hashes;          /* file of hashes; NULL: none                             */
-    struct golden_sum *sums;     /* its lines, by name                                     */
+    bool whole;              /* all operands are lists: nothing else should be kept    */
+    const char *kept;        /* folder of files; NULL: hashes only                     */
+    const char *hashes;      /* file of hashes; NULL: none                             */
+    struct golden_sum *sums; /* its lines, by name                                     */
     int n_sums;
-    const char *work;            /* folder of the renders                                  */
-    bool stays;                  /* ... of scenes that fail stays                          */
+    const char *work; /* folder of the renders                                  */
+    bool stays;       /* ... of scenes that fail stays                          */
     bool effective, tap, quiet;
     int threads;
 };
 
 /* What is kept. */
 bool golden_kept_read(struct golden *g, struct err *e); /* the file of hashes. ERR_INPUT, ERR_SCENE */
-struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a, struct err *e); /* ERR_INPUT */
+struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a,
+                                   struct err *e); /* ERR_INPUT */
 const struct golden_sum *golden_kept_sum(const struct golden *g, const char *scene, const char *file, struct arena *a);
 const char **golden_kept_strays(const struct golden *g, struct arena *a); /* NAME/FILE of no scene; ends with NULL */
 const struct golden_file *golden_kept_find(const struct golden_files *files, const char *name);
 void golden_kept_sort(struct golden_files *files);
 
-/* The folder of the renders, and one render of a scene into it, by any thread. pass 0 or 1; from: the scene's file, or NULL for it as read. */
+/* The folder of the renders, and one render of a scene into it, by any thread. pass 0 or 1; from: the scene's file, or
+ * NULL for it as read. */
 bool golden_run_folder(struct golden *g, struct err *e);
 void golden_run_end(const struct golden *g);
 

@@ -8,11 +8,11 @@
 #include "scene/material.h"
 
 struct compute_material {
-    const struct material *named;    /* NULL: all figures are given */
-    bool own, own_damping;           /* figures of --youngs-modulus ..., of --alpha ... */
+    const struct material *named; /* NULL: all figures are given */
+    bool own, own_damping;        /* figures of --youngs-modulus ..., of --alpha ... */
     struct elastic elastic;
-    double youngs_modulus, poisson;  /* for the table; of wood along the grain */
-    double alpha, beta, loss;        /* 1/s, s, - */
+    double youngs_modulus, poisson; /* for the table; of wood along the grain */
+    double alpha, beta, loss;       /* 1/s, s, - */
 };
 
 struct compute {
@@ -21,50 +21,43 @@ struct compute {
     struct boundary boundary;
     struct compute_material material;
     struct solid_held *held;
-    const char **held_names;         /* [n_held] */
+    const char **held_names; /* [n_held] */
     int n_held;
-    double top;                      /* Hz */
+    double top; /* Hz */
     long most, order;
     struct chart chart;
-    double origin[2];                /* m */
-    int quantity;                    /* enum modes_quantity */
+    double origin[2]; /* m */
+    int quantity;     /* enum modes_quantity */
     int places, left_out;
-    double (*xy)[2];                 /* [places] m, on the chart */
-    struct boundary_point *point;    /* [places] */
-    struct modes_places laid;        /* the same as they were laid out; not those of a list */
-    double error;                    /* dB, of interpolation between them; NAN: of none */
-    double *phi, *ear_phi;           /* [modes.n] work */
-    bool elsewhere;                  /* heard at ... */
+    double (*xy)[2];              /* [places] m, on the chart */
+    struct boundary_point *point; /* [places] */
+    struct modes_places laid;     /* the same as they were laid out; not those of a list */
+    double error;                 /* dB, of interpolation between them; NAN: of none */
+    double *phi, *ear_phi;        /* [modes.n] work */
+    bool elsewhere;               /* heard at ... */
     struct boundary_point ear;
     struct solid_modes modes;
-    int n, overdamped;               /* modes that ring; that do not */
-    double *frequency, *decay;       /* [n] Hz (damped; where damping is heavy, in another order than the modes), 1/s */
-    double least, greatest;          /* Hz, of frequency */
-    int *mode;                       /* [n] of modes.lambda */
+    int n, overdamped;         /* modes that ring; that do not */
+    double *frequency, *decay; /* [n] Hz (damped; where damping is heavy, in another order than the modes), 1/s */
+    double least, greatest;    /* Hz, of frequency */
+    int *mode;                 /* [n] of modes.lambda */
     bool estimated;
     struct solid_estimate estimate;
     int coarse_elements;
     long coarse_freedoms, coarse_order;
-    const char *note;                /* lines */
+    const char *note; /* lines */
 };
 
 /* Operand or --shape, --unit, --material ..., --clamp, --support: all that the modes are computed of. */
 bool modes_compute_solid_read(struct compute *k, struct err *e);
 
-/* The modes. A pair w^2 = lambda decays with d = (alpha + beta w^2 + loss w)/2 and sounds at sqrt(lambda - d^2)/(2 pi): papers/003 equations 4, 5, with a loss factor besides;
-   lambda <= d^2 is overdamped and left out, with a note. */
+/* The modes. A pair w^2 = lambda decays with d = (alpha + beta w^2 + loss w)/2 and sounds at sqrt(lambda - d^2)/(2 pi):
+   papers/003 equations 4, 5, with a loss factor besides; lambda <= d^2 is overdamped and left out, with a note. */
 bool modes_compute_solid_solve(struct compute *k, struct err *e);
 
 /* --estimate: the modes once more, of a coarser mesh of the shape or, of a mesh file, of the order below. */
 bool modes_compute_solid_estimate(struct compute *k, struct err *e);
-const char *modes_compute_solid_estimate_says(const struct compute *k); /* in a few words */
+const char *modes_compute_solid_estimate_says(const struct compute *k);    /* in a few words */
 void modes_compute_solid_estimate_write(FILE *f, const struct compute *k); /* "# ..." lines */
-
-/* --face, --line ..., --points, --listen, --origin. */
-bool modes_compute_places(struct compute *k, struct err *e);
-
-/* After the modes are known: as many places as they need where their number was left open, and the error. */
-bool modes_compute_places_settle(struct compute *k, struct err *e);
-
 
 #endif

@@ -8,8 +8,8 @@
 
 struct starter {
     const char *name, *summary;
-    const char *about;              /* the comment at its head                                   */
-    const struct keys_line *head;   /* each array ends with path NULL; NULL: it is a design      */
+    const char *about;                /* the comment at its head                                   */
+    const struct keys_line *head;     /* each array ends with path NULL; NULL: it is a design      */
     const struct keys_line *items[3]; /* several contacts; none: the contact's keys are in head  */
     const struct keys_line *tail;
 };

@@ -1,19 +1,23 @@
 /* How errors and warnings are told: as text, or, with --diagnostics=json, as JSON on stderr, one object a line:
 
-     {"severity": "error", "file": "scene.yaml", "line": 12, "column": 9, "width": 3, "message": "...", "help": "...", "code": 65}
+     {"severity": "error", "file": "scene.yaml", "line": 12, "column": 9, "width": 3, "message": "...", "help": "...",
+   "code": 65}
 
-   null stands for what is not known or there is none of; lines and columns count from 1, columns and width in characters; code is the exit code that the error
-   alone would make, null of a warning. What an option of the command line says wrongly has "option", --set motion.rate say, and no file. What is about one stimulus of a set has "stimulus", its name, a warning of several "stimuli". A file that another names has "named_at", the places of its name, the nearest first. A warning of several scenes has
-   "files". What is wrong with the command line itself has no file; where no command is known yet it is told as text. */
+   null stands for what is not known or there is none of; lines and columns count from 1, columns and width in
+   characters; code is the exit code that the error alone would make, null of a warning. What an option of the command
+   line says wrongly has "option", --set motion.rate say, and no file. What is about one stimulus of a set has
+   "stimulus", its name, a warning of several "stimuli". A file that another names has "named_at", the places of its
+   name, the nearest first. A warning of several scenes has "files". What is wrong with the command line itself has no
+   file; where no command is known yet it is told as text. */
 #ifndef CMD_TELL_H
 #define CMD_TELL_H
 #include <jansson.h>
 
+#include "base/arena.h"
 #include "base/diag.h"
 #include "cmd/cmd.h"
 #include <stdbool.h>
 #include <stdio.h>
-#include "base/arena.h"
 
 /* Heeds --diagnostics. ERR_USAGE */
 bool tell_begin(struct cmd_call *c, struct err *e);
@@ -24,15 +28,18 @@ void tell_as_json(struct cmd_call *c);
 /* The errors in a scene's text; messages: the same as text. */
 void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind);
 
-/* An error by itself, in text "rasp COMMAND: error: ...". After tell_scene, JSON has nothing to add to what that told. */
+/* An error by itself, in text "rasp COMMAND: error: ...". After tell_scene, JSON has nothing to add to what that told.
+ */
 void tell_error(struct cmd_call *c, const char *command, const struct err *e);
 
-/* The error of one stimulus of a set, in text "rasp COMMAND: error: STIMULUS: text", in JSON with the key "stimulus". Its place is the text's beginning, "design.yaml:3:7: ..."; where there
-   is none, JSON says `file` (NULL: not known). */
-void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e);
+/* The error of one stimulus of a set, in text "rasp COMMAND: error: STIMULUS: text", in JSON with the key "stimulus".
+   Its place is the text's beginning, "design.yaml:3:7: ..."; where there is none, JSON says `file` (NULL: not known).
+ */
+void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file,
+                   const struct err *e);
 
-/* A warning about a file. Where several scenes are processed (tell_group) it waits, so that one that many scenes have is told once, at the end; in text also one
-   that they have with other numbers, which are the first one's. */
+/* A warning about a file. Where several scenes are processed (tell_group) it waits, so that one that many scenes have
+   is told once, at the end; in text also one that they have with other numbers, which are the first one's. */
 void tell_warning(struct cmd_call *c, const char *file, const char *text);
 /* The same about a stimulus of a set: in JSON the name is its "stimulus", of several "stimuli". */
 void tell_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text);
@@ -45,19 +52,21 @@ void tell_end(struct cmd_call *c);
 void tell_keep(struct cmd_call *c);
 json_t *tell_kept(struct cmd_call *c);
 
-/* Prints messages as base/diag.h lays them out, in colours if they are wanted: the words error: and warning:, the line of carets, help:. */
+/* Prints messages as base/diag.h lays them out, in colours if they are wanted: the words error: and warning:, the line
+ * of carets, help:. */
 void tell_paint(FILE *f, const char *lines);
 
 struct warning {
-    const char *text, **files;  /* of the first; files [n] that have it */
+    const char *text, **files; /* of the first; files [n] that have it */
     int n, room;
-    bool numbers, other;        /* some have it with other numbers; so has the last */
-    bool stimuli;               /* files are names of stimuli of a set; the caller's */
-    struct warning *next;       /* in the order they came; NULL: last   */
+    bool numbers, other;  /* some have it with other numbers; so has the last */
+    bool stimuli;         /* files are names of stimuli of a set; the caller's */
+    struct warning *next; /* in the order they came; NULL: last   */
 };
 
-/* A warning about a file goes to what tells the same already; else, unless only exactly the same counts, to what tells it of other files with other numbers
-   (those that stand by themselves: not of names); else to the end. Texts are not copied. What tells it. */
+/* A warning about a file goes to what tells the same already; else, unless only exactly the same counts, to what tells
+   it of other files with other numbers (those that stand by themselves: not of names); else to the end. Texts are not
+   copied. What tells it. */
 struct warning *tell_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a);
 
 #endif

@@ -7,13 +7,13 @@
 #include "base/err.h"
 
 struct gnuplot {
-    FILE *in;          /* write commands and inline data here      */
-    FILE *complaints;  /* its stderr, an unnamed temporary file    */
+    FILE *in;         /* write commands and inline data here      */
+    FILE *complaints; /* its stderr, an unnamed temporary file    */
     pid_t pid;
 };
 
-/* Starts it with its standard output going to the descriptor; no initialisation file is read. SIGPIPE must be ignored. ERR_UNBUILT: it
-   is not installed. */
+/* Starts it with its standard output going to the descriptor; no initialisation file is read. SIGPIPE must be ignored.
+   ERR_UNBUILT: it is not installed. */
 bool gnuplot_open(struct gnuplot *g, int output, struct err *e);
 
 /* Ends its input and waits. ERR_IO with its first complaint when it failed. */
