@@ -1,4 +1,4 @@
-/* cmd/warnings.c: which warnings are told together. What is expected is written by hand. */
+/* cmd/tell.c: which warnings are told together. What is expected is written by hand. */
 #include "unit.h"
 
 #include "cmd/tell.h"
