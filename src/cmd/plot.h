@@ -139,7 +139,7 @@ void plot_draw(const struct plot_page *p, struct gnuplot *g);
 struct plot_gallery {
     const char *source, *output, *title; /* NULL: default */
     unsigned asked;
-    bool svg, quiet, force;
+    bool svg, force;
     struct cmd_call *call;
     struct arena *arena;
 };
