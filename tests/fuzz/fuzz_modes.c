@@ -28,11 +28,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     for (int pass = 0; ok && pass < 2 && m.n > 0; pass++) {
         struct modes_point p = modes_point_make(a, m.n);
-        double u[4], from[2] = {-0.01, 0.013}, to[2] = {0.2, 0.017};
         for (int k = 0; k < 20; k++)
             check(&m, &p, modes_at(&m, &(struct modes_where){0.01 * k, 0.02, 0}, &p));
         check(&m, &p, modes_at(&m, &(struct modes_where){m.home[0], m.home[1], 0}, &p));
-        if (m.kinks(&m, from, to, u, 4) < 0 || modes_ring_time(&m, 80) < 0)
+        if (modes_ring_time(&m, 80) < 0)
             abort();
         modes_drop_above(&m, 3000);
     }
