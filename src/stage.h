@@ -53,8 +53,8 @@ static_assert(KNOBS <= 32, "a set of knobs is an unsigned");
 /* Of a ball, for each frame: over the frame's time (share, counts), or at its beginning. A kinematic model has the first four. */
 enum roll_value {
     ROLL_PENETRATION,       /* m, rho or xi at the frame; below 0: clear of the surface            */
-    ROLL_HEIGHT,            /* m, of the ball's centre of mass, over where it is at rest (roll_coupled); over where it is with the geometric centre at
-                               its mean height and the centre of mass lowest (roll) */
+    ROLL_HEIGHT,            /* m, of the ball's centre of mass, over where it is at rest (roll_coupled); over where it lies at rest, its centre of mass
+                               lowest, on ground of height 0 (roll) */
     ROLL_CONTACT,           /* share of the frame's time in contact                                */
     ROLL_LIFT_OFFS,         /* how often it leaves the surface in the frame                        */
     ROLL_ENERGY,            /* J, of ball, contact and modes                                       */
@@ -72,7 +72,8 @@ struct roll_report {        /* of a whole render; steps 0: no coupled model     
     long bounces;           /* times of those it stayed away for longer than a sample               */
     double stiffness;       /* N/m^1.5, k                                                          */
     double rest;            /* m, penetration at rest                                              */
-    double deviation;       /* m, rms of the geometric centre's height (roll)                      */
+    double resonance;       /* Hz, of the ball's mass on the contact; 0: none (roll)               */
+    double roughness, hertz; /* m, Rq and Hertz's part of the rest; NAN: the scene gives the rest (roll) */
     long steps;             /* of the coupled model                                                */
     double step;            /* s                                                                   */
     double contact_samples[2]; /* audio samples of a contact: mean, least                          */

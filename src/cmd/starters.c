@@ -199,7 +199,7 @@ static const struct keys_line roll[] = {ON("rasp", "1"),
                                         ON("motion.speed", "20 cm/s"),
                                         ON("contact.model", "roll"),
                                         ON("contact.roll.mu", "1 s/m"),
-                                        ON("contact.roll.static_depth", "3"),
+                                        OFF("contact.roll.static_penetration", "8 um"),
                                         ON("contact.roll.scraping", "1"),
                                         TAIL};
 

@@ -123,7 +123,7 @@ static bool rolling_open(struct stage_run *r, struct err *e)
         return err_at(e, "contact '%s'", c->name);
     rolling_start(w, r);
     b->rolls = true;
-    b->roll = (struct roll_report){.stiffness = w->stiffness, .rest = real_pow(ask.weight / w->stiffness, 2.0 / 3), .deviation = NAN, .step = ask.step};
+    b->roll = (struct roll_report){.stiffness = w->stiffness, .rest = real_pow(ask.weight / w->stiffness, 2.0 / 3), .roughness = NAN, .hertz = NAN, .step = ask.step};
     rolling_depth(r, b->roll.rest);
     return true;
 }

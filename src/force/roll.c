@@ -1,55 +1,72 @@
 /* The force of a ball that rolls over a surface, papers/000 section 4.
 
-     f     = scraping (f_h + f_v) + f_roll                      equation 19     scraping  contact.roll.scraping, how much the ball slips
+     f      = scraping (f_h + f_v) + f_roll                     equation 19   contact.roll.scraping: how much it slips
      f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0       equation 15     lambda = mu k; force/roll_law.c
-     rho   = rho_0 + rest ((N(t)/N)^(2/3) - 1) + D              for equation 16 m, penetration; rest = (N/k)^(2/3), that at rest
-     D     = S less its mean                                    m, way of the ball's geometric centre over the ground; force/roll_centre.c
+     rho    = delta (N(t)/N)^(2/3) + r + y                      for eq. 16 m; delta that at rest (force/roll_stiffness.c)
+     y'' + (2 zeta w0 + mu N/m) y' + w0^2 y = S''               y  m, how much deeper the ground presses in (roll_follow.c)
+     r'     = -2 pi 2 Hz (delta / 1.5 N) (f_roll - N(t)+)       r  m, holds the mean force at that of N(t)+
 
-   f_h, f_v are those of what scrapes (force/scrape.c), of the same trajectory S; with contact.force: paper those of equations 2 and 3 as printed
-   (force/paper.c), and the rolling term is added to them, not smoothed, as there what is smoothed are curvatures. S follows the ball's rolling curve
-   (surface/tip.c), its curvature limited by an alpha that varies with the normal force N(t) (equation 7), whose mean is N.
+   S'' is the vertical acceleration of the limited trajectory S that the ball is to follow, d/dt (|v| S') of
+   force/scrape.c: S follows the ball's rolling curve (surface/tip.c), its curvature limited by an alpha that varies
+   with the normal force N(t) (equation 7). A ball of mass m on the spring d(f_roll)/d(rho) = 1.5 N/delta = m w0^2
+   keeps to the ground below its resonance w0, where f_roll = N + m S'', and above it stays where it is, and the
+   ground presses into it: f_roll = N + 1.5 N S/delta. zeta is contact.roll.damping_ratio.
 
-   Departure. Equation 16 has rho = R - r cos(x/R) + S: it puts the rise of the centre of mass, about -r cos(theta),
-   into the penetration, so that its force
-   is largest where the centre of mass is highest. By Newton's second law the normal force, N(t) = m (g + d2(-r cos theta)/dt2), is largest where it is
-   lowest; and millimetres of rise stand against micrometres of S. So here rho is of the way over the ground, and what goes up and down with the ball's
-   turning, the offset and the lobes of its rim (bulge, which is not in the paper), presses it deeper and less deep as N(t) does, quasi-statically: on level
-   ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll_told.c says where it does not). With penetration:
-   paper, rho = R - r cos(x/R) + S + bulge
-   as printed, k and lambda by hand, and N(t) without the lobes.
+   f_h, f_v are those of what scrapes (force/scrape.c), of the same trajectory S; with contact.force: paper those of
+   equations 2 and 3 as printed (force/paper.c), and the rolling term is added to them, not smoothed, as there what is
+   smoothed are curvatures.
 
-   rho_0 and, where it is not given, k come from a rehearsal of the motion (force/roll_rehearsal.c). Where N(t) < 0, as when an offset ball spins fast,
-   it is clear of the surface: no force at all. */
+   Departure. Equation 16 has rho = R - r cos(x/R) + S: it puts S itself, and the rise of the centre of mass, about -r
+   cos(theta), into the penetration. S is what the ball meets only where it does not follow; and with the rise the
+   force is largest where the centre of mass is highest. By Newton's second law the normal force, N(t) = m (g + d2(-r
+   cos theta)/dt2), is largest where it is lowest; and millimetres of rise stand against micrometres of S. So here the
+   offset and the lobes of the rim (bulge, which is not in the paper) press the ball deeper and less deep as N(t)
+   does, quasi-statically: on level ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll_told.c says where
+   it does not). With penetration: paper, rho = R - r cos(x/R) + S + bulge as printed, x that of equation 18, S leaked
+   (force/slope.c), k and lambda by hand, and N(t) without the lobes.
+
+   Where N(t) < 0, as when an offset ball spins fast, it is clear of the surface: no force at all. Without a static
+   normal force (contact.gravity: 0) there is no rest and no resonance, and f_roll is what of N(t) presses. */
+#include <math.h>
 #include <string.h>
 
 #include "force/lift.h"
-#include "force/roll_centre.h"
+#include "force/roll_follow.h"
 #include "force/roll_law.h"
-#include "force/roll_pass.h"
-#include "force/roll_rehearsal.h"
+#include "force/roll_stiffness.h"
 #include "force/roll_told.h"
 #include "force/scrape.h"
 #include "num/real.h"
+#include "num/vecmath.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
-#include "surface/tip_work.h"
+#include "surface/relief.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
+#define HOLDING 2.0 /* Hz, how fast the mean force is brought to that of N(t) */
+
 struct roll_state {
     struct scrape scrape;
-    struct roll_centre centre;
+    struct spin spin;
     struct roll_law law;
-    struct roll_rehearsal found;
+    struct roll_stiffness rests;
+    struct roll_follow follow;
+    bool round;                 /* neither offset nor lobes                                    */
     bool printed;               /* penetration: paper                                          */
     bool added;                 /* the scraping terms are there, from force/paper.c            */
     bool idle;                  /* nothing presses the ball                                    */
     bool touches;               /* the ball lay on the surface at the end of the last sub-interval */
-    double rho[WAY_CHUNK + 1];  /* m, at the start of the chunk's first sub-interval and at each one's end */
-    double rate[WAY_CHUNK + 1]; /* m/s, of S there */
-    double rate_last;           /* m/s, at the end of the last sub-interval */
-    double slow[2];             /* m, rho less S where the last sub-interval began and ended */
     bool begun;
+    double climbing;            /* m/s, |v| S' at the end of the last sub-interval             */
+    double shift, excess[2];    /* m, r; N, force less N(t)+ in the last sub-interval, and in that before */
+    double slow[2];             /* m, rho less follows[] where the last sub-interval began and ended */
+    /* At the start of the chunk's first sub-interval and at each one's end: */
+    double follows[WAY_CHUNK + 1], rate[WAY_CHUNK + 1]; /* m, m/s: y (printed: S) and its rate */
+    double mean[WAY_CHUNK];     /* m, of y or S over each                                      */
+    double rests_at[WAY_CHUNK + 1]; /* m: delta (N(t)/N)^(2/3); printed: R - r cos(x/R) + bulge */
+    double rise[WAY_CHUNK + 1]; /* m, of the centre of mass over where it is lowest (trajectory/spin.h) */
+    double rho[WAY_CHUNK + 1], last; /* m; at the end of the chunk before                      */
 };
 
 static bool roll_wanted(const struct contact *c, const struct scene *s)
@@ -64,113 +81,197 @@ static bool roll_added_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_ROLL && c->contact.force == FORCE_PAPER;
 }
 
-/* m, once over, as far as the scene tells; else as far as no stiffness asks for more. */
-static double roll_way(const struct motion *m)
-{
-    double dx = m->to[0] - m->from[0], dy = m->to[1] - m->from[1];
-    if (m->path == PATH_CIRCLE)
-        return 2 * REAL_PI * m->radius * fmin(fabs(m->turns), 1);
-    return rules_straight(m) ? sqrt(dx * dx + dy * dy) : isnan(m->duration) ? 1 : rules_speed(m) * m->duration;
-}
-
-/* Where the stiffness is made: what the means are of, where the way turns or alpha varies, what is gone over beyond a short motion, and, where the tip reads more densely, the whole way as it reads plainly. Cycles per
-   metre, those of the tip (surface/tip.c) among them. */
-static double roll_ground_work(const struct contact *c, const struct scene *s)
-{
-    double way = roll_way(&c->motion), again = s->accuracy.tip_heights != 1 ? way : 0;
-    double lasts = isnan(c->motion.duration) ? way / rules_speed(&c->motion) : c->motion.duration;
-    double pass = rules_along(c) == ALONG_PLANE ? 0 : 340 / roll_pass_grain(c), plain = tip_work_metre(c, 1) + pass, dense = tip_work_metre(c, s->accuracy.tip_heights) + pass;
-    bool one = rules_straight(&c->motion) || rules_along(c) == ALONG_PATH;
-    bool means = c->contact.limiter.curve == LIMITER_TANH && (!one || load_varies(c)); /* force/slope_heading.c */
-    double looked = means ? fmax(ball_ground(c), one ? 0 : fmin(way, 4 * ball_ground(c))) : 0;
-    bool made = ball_beyond(c, 1e-9) > 0; /* of next to no ground, if of any */
-    double work = looked * dense + (made ? ball_beyond(c, way) + again : 0) * plain;
-    return way > 0 && lasts > 0 ? work / (lasts * s->output.sample_rate) : 0;
-}
-
-/* The rehearsal goes the whole way once more, in grains of its own. */
+/* Measured. */
 static double roll_work(const struct contact *c, const struct scene *s)
 {
-    bool round = c->ball.offset == 0 && c->ball.lobe_height == 0, printed = c->contact.roll.penetration == PENETRATION_PAPER;
-    double way = (c->contact.limiter.curve == LIMITER_TANH ? 180 : 80) * way_work(c, s), over = s->accuracy.oversampling;
-    double grains = printed ? 0 : roll_pass_rate(c, 1, rules_speed(&c->motion)) / s->output.sample_rate;
-    double again = printed ? 0 : (c->whole ? 2 : 1) * way * fmax(grains / over, rules_speed(&c->motion) > 0 ? 0.5 : 0);
-    return way + again + (round ? 30 : 180) * over + (load_varies(c) ? 300 : 110) * grains + roll_ground_work(c, s);
+    bool round = c->ball.offset == 0 && c->ball.lobe_height == 0;
+    double piece = c->contact.limiter.curve == LIMITER_TANH ? 180 : 80;
+    return piece * way_work(c, s) + (round ? 60 : 210) * s->accuracy.oversampling;
 }
 
 /* ------------------------------------------------------------------ opening */
 
 static bool roll_printed(const struct contact *c, struct roll_state *s, struct err *e)
 {
-    s->law.mu = c->contact.roll.lambda / s->law.stiffness;
-    s->found = (struct roll_rehearsal){.normal = rules_load(c), .deviation = NAN};
-    s->found.rest = roll_law_rest(s->found.normal, s->law.stiffness);
-    return !isnan(s->law.stiffness) ||
+    double k = s->law.stiffness = ball_stiffness(c), normal = rules_load(c);
+    s->law.mu = c->contact.roll.lambda / k;
+    s->rests = (struct roll_stiffness){.normal = normal, .stiffness = k, .roughness = NAN, .hertz = NAN};
+    s->rests.rest = normal > 0 ? real_pow(normal / k, 2.0 / 3) : 0;
+    return !isnan(k) ||
            err_set(e, ERR_SCENE, "contact '%s': contact.roll.penetration: paper needs contact.roll.stiffness (or kappa)", c->name);
 }
 
-static bool roll_rehearse(struct stage_run *r, struct roll_state *s, struct err *e)
+static void roll_rests(struct stage_run *r, struct roll_state *s)
 {
     const struct contact *c = r->contact;
-    s->law.mu = c->contact.roll.mu;
-    if (!roll_rehearsal_run(r, s->scrape.slope.turned.heading, &s->law, &s->found, e))
-        return false;
-    s->idle = !(s->found.normal > 0);
-    roll_told(r, &s->found);
-    return true;
+    const struct board *b = r->board;
+    struct roll_stiffness *rests = &s->rests;
+    *rests = roll_stiffness_make(r);
+    s->law = (struct roll_law){.stiffness = rests->stiffness, .mu = c->contact.roll.mu};
+    double added = 2 * c->contact.roll.damping_ratio * rests->resonance;
+    double damping = added + s->law.mu * rests->normal / c->scraper.mass;
+    if (rests->resonance > 0)
+        s->follow = roll_follow_make(rests->resonance, damping, 1 / (b->rate * b->over));
+    s->idle = !(rests->normal > 0) && !(b->load && b->load->most > 0);
+    roll_told(r, rests);
+}
+
+static void roll_reports(const struct roll_state *s, struct board *b)
+{
+    const struct roll_stiffness *rests = &s->rests;
+    b->rolls = !s->idle;
+    b->roll.stiffness = rests->stiffness;
+    b->roll.rest = rests->rest;
+    b->roll.resonance = rests->resonance / (2 * REAL_PI);
+    b->roll.roughness = rests->roughness;
+    b->roll.hertz = rests->hertz;
 }
 
 static bool roll_open(struct stage_run *r, struct err *e)
 {
     const struct contact *c = r->contact;
     struct roll_state *s = ARENA_TAKE(r->arena, struct roll_state, 1);
-    struct roll_report *report = &r->board->roll;
-    s->law.stiffness = ball_stiffness(c);
-    s->scrape.slope.rising = true;
-    s->scrape.slope.turned.heading = slope_heading_make(r, r->arena);
-    s->centre = roll_centre_make(c);
-    s->touches = true;
+    s->spin = spin_make(c);
+    s->round = c->ball.offset == 0 && c->ball.lobe_height == 0;
+    s->printed = s->scrape.slope.rising = c->contact.roll.penetration == PENETRATION_PAPER;
     s->added = c->contact.force == FORCE_PAPER;
-    s->printed = c->contact.roll.penetration == PENETRATION_PAPER;
+    s->touches = true;
     r->state = s;
     r->ahead = 1;
-    if (!scrape_make(&s->scrape, r, c->contact.roll.scraping, e) || !(s->printed ? roll_printed(c, s, e) : roll_rehearse(r, s, e)))
+    if (!scrape_make(&s->scrape, r, c->contact.roll.scraping, e) || (s->printed && !roll_printed(c, s, e)))
         return false;
+    if (!s->printed)
+        roll_rests(r, s);
     r->board->hats = true;
-    report->stiffness = s->law.stiffness;
-    report->rest = s->found.rest;
-    report->deviation = s->found.deviation;
-    r->board->rolls = !s->idle;
+    roll_reports(s, r->board);
     return true;
 }
 
-/* ------------------------------------------------------------------ running */
+/* ------------------------------------------------------------------ penetration */
 
-/* rho over the chunk, from the way of the centre. Of what nothing presses it is 0: it just touches. */
-static void roll_press(struct roll_state *s, const double *load, int n)
+/* S and dS/dt = v S'(u) - |v| S/l. */
+static void roll_follows_printed(struct roll_state *s, const double *v, double dt, int n)
 {
-    double deeper[WAY_CHUNK + 1] = {0};
-    if (load && !s->printed && !s->idle)
-        roll_rehearsal_press(&s->found, n + 1, load, deeper);
-    for (int i = 0; i <= n; i++)
-        s->rho[i] = s->idle ? 0 : s->printed ? s->centre.spin.radius + s->centre.at[i] + s->centre.in_rho[i]
-                                             : s->found.base + deeper[i] + (s->centre.at[i] - s->found.mean);
+    const struct slope *l = &s->scrape.slope;
+    for (int i = 0; i < n; i++) {
+        s->follows[i + 1] = l->heights[i];
+        s->rate[i + 1] = v[i + 1] * l->ends[i] - fabs(v[i + 1]) * l->heights[i] / l->leak;
+        s->mean[i] = 0.5 * (s->follows[i] + s->follows[i + 1]) + dt * (s->rate[i] - s->rate[i + 1]) / 12;
+    }
 }
+
+/* y, of S'' as the straight line that has its two parts over the sub-interval, those of f_v/m in force/scrape.c:
+   early = (2 start + end)/6, late = (start + 2 end)/6. */
+static void roll_follows(struct roll_state *s, const double *v, double dt, int n)
+{
+    const struct slope *l = &s->scrape.slope;
+    for (int i = 0; i < n; i++) {
+        double from = s->climbing, to = s->climbing = v[i + 1] * l->ends[i], mean = l->climbed[i] / dt;
+        double early = (mean - from) / dt, late = (to - mean) / dt;
+        s->mean[i] = roll_follow_step(&s->follow, 4 * early - 2 * late, 4 * late - 2 * early);
+        s->follows[i + 1] = s->follow.y;
+        s->rate[i + 1] = s->follow.rate;
+    }
+}
+
+/* rests_at[], and rise[] of what is not round. */
+static void roll_turns(struct roll_state *s, const struct board *b, const double *load, long first, int n)
+{
+    double bulge[WAY_CHUNK + 1], *at = s->rests_at;
+    const struct roll_stiffness *rests = &s->rests;
+    if (!s->round)
+        spin_at(&s->spin, (size_t)n + 1, way_values(b, ITEM_POSITION, first), way_values(b, ITEM_VELOCITY, first), NULL,
+                &(struct spin_out){.rise = s->rise, .printed = s->printed ? at : NULL, .bulge = bulge});
+    for (int i = 0; i <= n && !s->round; i++)
+        s->rise[i] += bulge[i] + s->spin.offset;
+    for (int i = 0; i <= n && s->printed; i++)
+        at[i] = s->spin.radius + (s->round ? 0 : at[i] + bulge[i]);
+    for (int i = 0; i <= n && !s->printed; i++)
+        at[i] = !load || !(rests->normal > 0) ? 1 : load[i] > 0 ? load[i] / rests->normal : 0;
+    if (load && !s->printed)
+        vecmath_pow((size_t)n + 1, at, 2.0 / 3, at);
+    for (int i = 0; i <= n && !s->printed; i++)
+        at[i] *= rests->rest;
+}
+
+/* ------------------------------------------------------------------ force */
+
+/* rho less follows[] changes slowly: its rates at a sub-interval's ends are made of its last two steps. */
+static struct roll_parts roll_force(struct roll_state *s, int i, double dt)
+{
+    double slow = s->rho[i + 1] - s->follows[i + 1], step = slow - s->slow[1];
+    double bend = s->begun ? step - (s->slow[1] - s->slow[0]) : 0;
+    struct roll_end from = {s->rho[i], s->rate[i] + (step - 0.5 * bend) / dt};
+    struct roll_end to = {s->rho[i + 1], s->rate[i + 1] + (step + 0.5 * bend) / dt};
+    s->slow[0] = s->slow[1];
+    s->slow[1] = slow;
+    s->begun = true;
+    return roll_law_force(&s->law, &from, &to, s->mean[i] + 0.5 * (s->slow[0] + slow) - bend / 12, dt);
+}
+
+/* Of what no weight presses: the straight line of N(t), whose part below 0 is cut off (force/lift.h). */
+static struct roll_parts roll_weightless(const double *load, int i)
+{
+    if (!load)
+        return (struct roll_parts){0};
+    return (struct roll_parts){(2 * load[i] + load[i + 1]) / 6, (load[i] + 2 * load[i + 1]) / 6};
+}
+
+/* N, by how much the force is above N(t)+ in the sub-interval. */
+static double roll_excess(const struct roll_state *s, const double *load, int i, struct roll_parts f)
+{
+    if (!load)
+        return f.early + f.late - s->rests.normal;
+    lift_cut(load[i], load[i + 1], &f.early, &f.late);
+    double pressed = lift_pressed(load[i], load[i + 1]);
+    double twice = pressed < 1 ? pressed * fmax(load[i], load[i + 1]) : load[i] + load[i + 1];
+    return f.early + f.late - 0.5 * twice;
+}
+
+/* To the scraping terms' hats, or (added) alone. */
+static void roll_add(struct roll_state *s, const double *load, double dt, int n)
+{
+    struct hats *h = &s->scrape.hats;
+    bool weightless = !s->printed && !(s->rests.normal > 0);
+    double softness = s->printed || weightless ? 0 : s->rests.rest / (1.5 * s->rests.normal); /* m/N */
+    double holding = 2 * REAL_PI * HOLDING * dt * softness;
+    s->rho[0] = s->begun ? s->last : s->rests_at[0];
+    s->slow[1] = s->begun ? s->slow[1] : s->rho[0];
+    for (int i = 0; i < n; i++) {
+        double ahead = 2 * s->excess[0] - s->excess[1]; /* of this sub-interval */
+        s->rho[i + 1] = s->rests_at[i + 1] + s->shift - holding * ahead + s->follows[i + 1];
+        struct roll_parts f = weightless ? roll_weightless(load, i) : roll_force(s, i, dt);
+        s->excess[1] = s->excess[0];
+        s->excess[0] = holding > 0 ? roll_excess(s, load, i, f) : 0;
+        s->shift -= holding * s->excess[0];
+        h->early[i] = f.early + (s->added ? 0 : h->early[i]);
+        h->late[i] = f.late + (s->added ? 0 : h->late[i]);
+    }
+}
+
+/* ------------------------------------------------------------------ account */
 
 /* The share of sub-interval i of the chunk in contact, and whether in it the ball leaves the surface. */
 static double roll_contact(struct roll_state *s, const double *load, int i, bool *leaves)
 {
+    bool before = s->touches, weightless = !s->printed && !(s->rests.normal > 0);
     double pressed = load ? lift_pressed(load[i], load[i + 1]) : 1;
-    bool before = s->touches;
-    s->touches = s->idle || (!(load && load[i + 1] < 0) && s->rho[i + 1] > 0);
+    s->touches = !(load && load[i + 1] < 0) && (weightless || s->rho[i + 1] > 0);
     *leaves = before && !s->touches;
-    return s->idle ? 0 : pressed * roll_law_contact(s->rho[i], s->rho[i + 1]);
+    return s->idle ? 0 : pressed * (weightless ? 1 : roll_law_contact(s->rho[i], s->rho[i + 1]));
 }
 
-/* m, of the centre of mass; 0 where S and the rim have their mean height and the centre of mass lies lowest. */
-static double roll_height(const struct roll_state *s, int i)
+/* m, of the centre of mass at the start of sub-interval i of the chunk: the rolling curve where the ball is, less how
+   much deeper the ground presses in there. */
+static double roll_height(const struct roll_state *s, const struct board *b, long first, int i)
 {
-    return s->centre.at[i] - s->found.mean + (s->centre.round ? 0 : s->centre.rise[i] + s->centre.spin.offset);
+    const struct way *w = &s->scrape.slope.way;
+    double u = way_values(b, ITEM_POSITION, first)[i], z;
+    double x = w->curved ? way_values(b, ITEM_X, first)[i] : w->from[0] + u * w->e[0];
+    double y = w->curved ? way_values(b, ITEM_Y, first)[i] : w->from[1] + u * w->e[1];
+    const double *across = w->relief->along == ALONG_PLANE ? &y : NULL;
+    relief_at(w->relief, &(struct relief_points){1, &x, across}, &(struct relief_values){.z = &z});
+    return z - (s->printed ? 0 : s->follows[i]) + (s->round ? 0 : s->rise[i]);
 }
 
 /* Report and ITEM_ROLL over the chunk's sub-intervals. */
@@ -190,7 +291,7 @@ static void roll_tell(struct roll_state *s, struct board *b, const double *load,
         double *value = board_at(b, ITEM_ROLL, (first + i) / b->over);
         if ((first + i) % b->over == 0) {
             value[ROLL_PENETRATION] = s->rho[i];
-            value[ROLL_HEIGHT] = roll_height(s, i);
+            value[ROLL_HEIGHT] = roll_height(s, b, first, i);
             value[ROLL_CONTACT] = value[ROLL_LIFT_OFFS] = 0;
         }
         value[ROLL_CONTACT] += share / b->over;
@@ -198,75 +299,41 @@ static void roll_tell(struct roll_state *s, struct board *b, const double *load,
     }
 }
 
-/* dS/dt = v (dS/du + S/l) - |v| S/l at the chunk's instants; rate[0] is the last one's of the chunk before. */
-static void roll_rates(struct roll_state *s, const double *v, int n)
-{
-    const struct slope *l = &s->scrape.slope;
-    s->rate[0] = s->rate_last;
-    for (int i = 0; i < n; i++)
-        s->rate[i + 1] = v[i + 1] * l->climbs[i] - fabs(v[i + 1]) * l->heights[i] / l->leak;
-    s->rate_last = s->rate[n];
-}
+/* ------------------------------------------------------------------ running */
 
-/* rho less S changes slowly: its rates at a sub-interval's ends are made of its last two steps. */
-static void roll_ends(struct roll_state *s, int i, double dt, struct roll_end ends[2])
+static void roll_chunk(struct roll_state *s, struct stage_run *r, long first, int n)
 {
-    double slow = s->rho[i + 1] - s->scrape.slope.heights[i], step = slow - s->slow[1], bend = s->begun ? step - (s->slow[1] - s->slow[0]) : 0;
-    ends[0] = (struct roll_end){s->rho[i], s->rate[i] + (step - 0.5 * bend) / dt};
-    ends[1] = (struct roll_end){s->rho[i + 1], s->rate[i + 1] + (step + 0.5 * bend) / dt};
-    s->slow[0] = s->slow[1];
-    s->slow[1] = slow;
-    s->begun = true;
-}
-
-/* To the scraping terms' hats, or (added) to what is on the board already. */
-static void roll_add(struct roll_state *s, struct board *b, long first, int n)
-{
-    struct hats *h = &s->scrape.hats;
+    struct board *b = r->board;
     double dt = 1 / (b->rate * b->over);
-    roll_rates(s, way_values(b, ITEM_VELOCITY, first), n);
-    if (!s->begun)
-        s->slow[1] = s->rho[0];
-    for (int i = 0; i < n; i++) {
-        struct roll_end ends[2];
-        roll_ends(s, i, dt, ends);
-        struct roll_parts f = s->idle ? (struct roll_parts){0} : roll_law_force(&s->law, &ends[0], &ends[1], dt);
-        h->early[i] = f.early + (s->added ? 0 : h->early[i]);
-        h->late[i] = f.late + (s->added ? 0 : h->late[i]);
-    }
+    const double *load = lift_load(b, first), *v = way_values(b, ITEM_VELOCITY, first);
     if (s->added)
-        hats_add(h, b, first, n);
+        slope_run(&s->scrape.slope, r, first, n);
     else
-        hats_lay(h, b, first, n);
-}
-
-static void roll_level(struct roll_centre *m, const double *level, int n)
-{
-    double *const lifts[SLOPE_LEVELS] = {m->lifts[0], m->lifts[1]};
-    roll_centre_level(m->at, n, lifts, level);
+        scrape_force(&s->scrape, r, first, n);
+    if (s->printed)
+        roll_follows_printed(s, v, dt, n);
+    else if (s->rests.resonance > 0)
+        roll_follows(s, v, dt, n);
+    roll_turns(s, b, load, first, n);
+    roll_add(s, load, dt, n);
+    roll_tell(s, b, load, first, n);
+    s->last = s->rho[n];
+    s->follows[0] = s->follows[n];
+    s->rate[0] = s->rate[n];
+    if (!board_has(b, ITEM_SUBFORCE)) /* a table may ask for the ball's height alone */
+        return;
+    if (s->added)
+        hats_add(&s->scrape.hats, b, first, n);
+    else
+        hats_lay(&s->scrape.hats, b, first, n);
 }
 
 static bool roll_run(struct stage_run *r, long from, long to, struct err *e)
 {
-    struct roll_state *s = r->state;
-    struct board *b = r->board;
-    bool forces = board_has(b, ITEM_SUBFORCE); /* a table may ask for the ball's height alone */
+    int over = r->board->over;
     (void)e;
-    for (long first = from * b->over, last = to * b->over; first < last;) {
-        int n = way_some(first, last);
-        const double *load = board_has(b, ITEM_LOAD) ? way_values(b, ITEM_LOAD, first) : NULL;
-        if (forces && !s->added)
-            scrape_force(&s->scrape, r, first, n);
-        else
-            slope_run(&s->scrape.slope, r, first, n);
-        roll_centre_run(&s->centre, &s->scrape.slope, b, first, n);
-        roll_level(&s->centre, s->found.level, n + 1);
-        roll_press(s, load, n);
-        if (forces)
-            roll_add(s, b, first, n);
-        roll_tell(s, b, load, first, n);
-        first += n;
-    }
+    for (long first = from * over, last = to * over; first < last; first += way_some(first, last))
+        roll_chunk(r->state, r, first, way_some(first, last));
     return true;
 }
 
@@ -275,8 +342,8 @@ static void roll_skip(struct stage_run *r, long frame)
     struct roll_state *s = r->state;
     (void)frame;
     scrape_forget(&s->scrape);
-    s->centre.height = s->rate_last = 0;
-    memset(s->centre.lift, 0, sizeof s->centre.lift);
+    s->climbing = s->shift = s->excess[0] = s->excess[1] = 0;
+    s->follow.y = s->follow.rate = s->follows[0] = s->rate[0] = 0;
     s->touches = true;
     s->begun = false;
 }

@@ -1,8 +1,8 @@
 /* f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0, and never below 0: papers/000 equation 15 with lambda = mu k.
 
-   Over a sub-interval dt from a to b, with rho' known at both ends (Euler and Maclaurin's correction to the trapezium):
+   Over a sub-interval dt from a to b, with rho' known at both ends, and rho in the mean (of what is smooth (a + b)/2 + dt (rho'_a - rho'_b)/12, Euler and Maclaurin):
 
-     mean rho^1.5       of the straight line from a to b, raised by dt (rho'_a - rho'_b) / 12, by which the mean of rho lies above it
+     mean rho^1.5       of the straight line from a to b, raised by what the mean of rho lies above it
      its late part      half of it and (b^1.5 - a^1.5) / 12
      lambda rho^1.5 rho' is dQ/dt, Q = (2/5) lambda rho^2.5, mean Q = (Q_a + Q_b) / 2 + dt (Q'_a - Q'_b) / 12; early and late parts as in force/scrape.c
 
@@ -11,18 +11,16 @@
    < -1/mu, where the force would pull: no force. */
 #include "force/roll_law.h"
 
-#include "num/real.h"
-
 /* max(0, rho)^1.5 */
 static double roll_power_at(double rho)
 {
     return rho > 0 ? rho * sqrt(rho) : 0;
 }
 
-struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end *a, const struct roll_end *b, double dt)
+struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end *a, const struct roll_end *b, double mean, double dt)
 {
-    double k = l->stiffness, lambda = k * l->mu, pa = roll_power_at(a->rho), pb = roll_power_at(b->rho), bow = dt * (a->rate - b->rate) / 12;
-    double spring = 0.5 * k * roll_law_power(a->rho + bow, b->rho + bow).mean, tilt = k * (pb - pa) / 12;
+    double k = l->stiffness, lambda = k * l->mu, pa = roll_power_at(a->rho), pb = roll_power_at(b->rho), bow = mean - 0.5 * (a->rho + b->rho);
+    double spring = 0.5 * k * roll_law_power(a->rho + bow, b->rho + bow), tilt = k * (pb - pa) / 12;
     double qa = 0.4 * lambda * pa * a->rho, qb = 0.4 * lambda * pb * b->rho, half = 0.5 * (qb - qa) / dt, bulge = lambda * (pa * a->rate - pb * b->rate) / 12;
     if (dt + l->mu * (b->rho - a->rho) <= 0)
         return (struct roll_parts){0};
@@ -33,9 +31,4 @@ double roll_law_contact(double a, double b)
 {
     double most = a > b ? a : b, least = a > b ? b : a;
     return least > 0 ? 1 : most > 0 ? most / (most - least) : 0;
-}
-
-double roll_law_rest(double normal, double stiffness)
-{
-    return normal > 0 ? real_pow(normal / stiffness, 2.0 / 3) : 0;
 }

@@ -20,30 +20,29 @@ static void told_depth(struct stage_run *r, double rest)
     double radius = r->contact->ball.radius;
     if (rest > DEEP * radius)
         board_warn(r->board, arena_format(r->arena, "contact '%s': at rest the ball lies %.3g m deep, more than a tenth of its radius, %.3g m: so soft a contact "
-                                          "is no ball's; a greater contact.roll.stiffness (or kappa) makes it harder", r->contact->name, rest, radius));
+                                          "is no ball's; a greater contact.roll.stiffness (or kappa), or a smaller static_penetration, makes it harder", r->contact->name, rest, radius));
 }
 
-static void told_lobes(struct stage_run *r, const struct roll_rehearsal *found)
+static void told_lobes(struct stage_run *r, const struct roll_stiffness *rests)
 {
     const struct contact *c = r->contact;
     const struct ball *b = &c->ball;
     double lobes = b->lobes * r->board->trajectory->top_speed / (b->radius - b->offset) / (2 * REAL_PI);
-    double own = sqrt(1.5 * found->normal / (found->rest * c->scraper.mass)) / (2 * REAL_PI);
+    double own = rests->resonance / (2 * REAL_PI);
     if (b->lobe_height > 0 && lobes > FAST * own)
         board_warn(r->board, arena_format(r->arena, "contact '%s': %.3g lobes of the ball pass in a second, and it cannot follow them: on its contact it swings by itself at %.3g Hz; the force "
                                           "that they make is too large: take contact.model: roll_coupled, fewer ball.lobes, or a slower motion", c->name, lobes, own));
 }
 
-/* Equation 7 goes by the extremes of N(t), however near to each other: as N(t) swings less and less alpha, and a stiffness that is made from the ground under
-   that alpha, do not come near to those of a constant force. The paper has the extremes, and so it stays; force_range makes both continuous. */
+/* Equation 7 goes by the extremes of N(t), however near to each other: as N(t) swings less and less, alpha does not come near to that of a constant force. The paper has the extremes, and so
+   it stays; force_range makes it continuous. */
 static void told_alpha(struct stage_run *r)
 {
     const struct load_law *l = r->board->load;
     const struct contact *c = r->contact;
     if (r->board->limiter && r->board->limiter->varies && isnan(c->contact.limiter.force_range[0]) && l->most - l->least < SLIGHT * l->most)
         board_warn(r->board, arena_format(r->arena, "contact '%s': the normal force swings by %.2g %% only, from %.6g to %.6g N, and contact.limiter goes from alpha_max to alpha_min "
-                                          "by it%s; give contact.limiter.force_range, for alpha to go by newtons", c->name, 100 * (1 - l->least / l->most), l->least, l->most,
-                                          isnan(ball_stiffness(c)) ? ", and the stiffness with it, away from what both are under a constant force" : ""));
+                                          "by it; give contact.limiter.force_range, for alpha to go by newtons", c->name, 100 * (1 - l->least / l->most), l->least, l->most));
 }
 
 static void told_weightless(struct stage_run *r)
@@ -53,14 +52,16 @@ static void told_weightless(struct stage_run *r)
                                           "the surface; once off it would stay off, which contact.model: roll_coupled follows", r->contact->name));
 }
 
-void roll_told(struct stage_run *r, const struct roll_rehearsal *found)
+void roll_told(struct stage_run *r, const struct roll_stiffness *rests)
 {
-    if (!(found->normal > 0)) {
+    const struct load_law *l = r->board->load;
+    if (!(rests->normal > 0) && !(l && l->most > 0)) {
         board_warn(r->board, arena_format(r->arena, "contact '%s': nothing presses the ball down: it scrapes, but its rolling force is 0", r->contact->name));
         return;
     }
-    told_depth(r, found->rest);
-    told_lobes(r, found);
+    told_depth(r, rests->rest);
+    if (rests->normal > 0)
+        told_lobes(r, rests);
     told_alpha(r);
     told_weightless(r);
 }

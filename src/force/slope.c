@@ -2,7 +2,7 @@
 
      dS'/ds + S'/l = T(c) + kappa S_n       S' = dS/ds, slope of S along the path; s arc length      after papers/000 eq. 4, 5
      dS_n/ds + S_n/l = T(d) - kappa S'      S_n, slope across the path (only where the path is curved)
-     dS/ds + S/l = S'                       S, height, m: its deviation from its mean                (read by what rolls; where the way turns: slope_height.c)
+     dS/ds + S/l = S'                       S, height, m           (read by what rolls with penetration: paper)
 
      c = e' H e, d = e' H n   second derivatives of z along the unit tangent e, and mixed with the normal n, 1/m; H the surface's Hessian
      l     contact.leak, m    kappa    curvature of the path in the plane, 1/m    T    tanh(alpha c) / alpha
@@ -11,16 +11,6 @@
    walk, hence the leak l, twice. Slope and height come from one trajectory: the raw slope z' would bring back what the limiter removed. (S', S_n) is one
    vector, the slope of S in the plane; kappa turns it as the path turns, so that a tight turn and a reversal, where S' changes sign, are the same thing in
    the limit. Along a profile that follows the path there is no S_n. All start from 0 at the start of the motion.
-
-   T has a mean although c has none: under a ball long stretches are bent downwards by up to 1/R and short ones upwards by more, and the limiter makes these
-   alike. S runs from 0 to l^2 times that mean over the first millimetres, by many times what it varies by later; and where alpha follows a normal force
-   that swings, the mean swings with it, and S, opposite to the force. So the same is solved beside it (even for S', lift for S) for two shapes that the mean of T
-   may have over alpha, flat: S less what of T goes with these, by least squares over the motion (slope_level), times their lifts has none of them. They are
-   T of the curve -1/R that the ball follows over a high point, not limited and limited, over 1/R: 1 and tanh(alpha/R) / (alpha/R). Over ridges, of a profile
-   along x or nothing but ridges in the plane, it is bent along their normal x only: c = e_x^2 / R, limited as such.
-
-   On a way that turns the mean of T goes with the heading, and over ridges, where alpha varies, it is of no such shape: there S is made of heights
-   (force/slope_height.c), not of S', and the two shapes are those of what is left of T, whatever heading and alpha.
 
    Over a piece of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
 
@@ -38,16 +28,12 @@
 #include <string.h>
 
 #include "force/crossing.h"
-#include "num/real.h"
 
 static void slope_fill(struct slope *s, int upto)
 {
     for (; s->filled < upto; s->filled++) {
         s->ends[s->filled] = s->slope;
         s->heights[s->filled] = s->height;
-        s->climbs[s->filled] = s->climb;
-        for (int k = 0; k < SLOPE_LEVELS && s->rising; k++)
-            s->lifts[k][s->filled] = s->lift[k];
     }
 }
 
@@ -76,50 +62,11 @@ static void slope_halfway(const struct way_pieces *p, int i, double *ex, double 
     *ey = y / length;
 }
 
-/* T of a ball's curve over a high point, -1/R, over T of that where alpha is 0; 1 where nothing is limited. */
-static void slope_flat(struct slope *s, double alpha)
-{
-    double bend = alpha / s->radius;
-    if (alpha != s->alpha)
-        s->flat[1] = bend > 0 ? real_tanh(bend * s->flat[0]) / bend : s->flat[0];
-    s->alpha = alpha;
-}
-
-/* The same as of slope and height, for T = flat[]. */
-static void slope_lift(struct slope *s, double h, int heading, double phi, double chi)
-{
-    double kept = 1 - h / s->leak * phi;
-    for (int k = 0; k < SLOPE_LEVELS; k++) {
-        double even = s->even[k] * heading;
-        s->lift[k] = kept * (s->lift[k] + h * even) + h * h * (phi - chi) * s->flat[k];
-        s->even[k] = heading * (kept * even + phi * h * s->flat[k]);
-    }
-}
-
-static void slope_weigh(struct slope *s, double h, double mean)
-{
-    for (int k = 0; k < SLOPE_LEVELS; k++) {
-        s->bent[k] += h * mean * s->flat[k];
-        for (int j = 0; j <= k; j++)
-            s->gone[k][j] += h * s->flat[j] * s->flat[k];
-    }
-}
-
 /* Height at the piece's end, from the slope at its start in the direction of travel. */
-static void slope_rise(struct slope *s, const struct way_pieces *p, int i, double a)
+static double slope_rise(const struct slope *s, const struct way_pieces *p, int i, double a)
 {
-    double h = p->length[i], z = s->terms.z[i], phi = s->terms.phi[i], chi = s->terms.chi[i], mean = p->mean[0][i];
-    double alpha = s->way.limiter ? p->alpha[0][p->at[i]] : 0;
-    slope_flat(s, alpha);
-    slope_lift(s, h, p->heading[i], phi, chi);
-    if (s->by_height) {
-        mean = slope_height_piece(&s->turned, p, &s->terms, i, alpha);
-        s->height = s->turned.sum + s->turned.rise;
-        s->climb = p->heading[i] * slope_height_climb(&s->turned, p, i, s->leak);
-    } else {
-        s->height = s->terms.kept[i] * (s->height + h * a) + h * h * ((phi - chi) * mean - (1 - z) * p->moment[0][i]);
-    }
-    slope_weigh(s, h, mean);
+    double h = p->length[i], z = s->terms.z[i], phi = s->terms.phi[i], chi = s->terms.chi[i];
+    return s->terms.kept[i] * (s->height + h * a) + h * h * ((phi - chi) * p->mean[0][i] - (1 - z) * p->moment[0][i]);
 }
 
 /* Length times the sine of the angle by which a piece turns on the way. */
@@ -150,9 +97,8 @@ static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
     }
     double a = s->terms.start[i] = s->slope * p->heading[i], b = s->terms.end[i] = slope_terms_end(&s->terms, 0, i, a);
     if (s->rising)
-        slope_rise(s, p, i, a);
+        s->height = slope_rise(s, p, i, a);
     s->slope = b * p->heading[i];
-    s->climb = s->by_height ? s->climb : s->slope;
     if (s->way.curved) {
         slope_lean(s, p, i);
         slope_face(s, p->ex[p->at[i] + 1], p->ey[p->at[i] + 1]);
@@ -231,45 +177,19 @@ static void slope_use(void *self, const struct way_pieces *p)
     slope_gather(s, p);
 }
 
-/* Of a straight way over what is the same all along a direction, the square of its share across that; else 1. */
-static double slope_across(const struct slope *s, const struct stage_run *r)
-{
-    const struct surface *c = &r->contact->surface;
-    bool profile = r->board->relief->along == ALONG_X, beside = c->height_map || c->roughness.given || c->grit.given || c->fractal.given;
-    double x = profile ? 1 : real_sin(c->ridges.direction), y = profile ? 0 : -real_cos(c->ridges.direction), across = s->way.e[0] * x + s->way.e[1] * y;
-    return s->way.field && !s->way.curved && (profile || (c->ridges.given && !beside)) ? across * across : 1;
-}
-
 bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
 {
     double given = r->contact->contact.leak;
     s->leak = given > 0 ? given : SLOPE_LEAK;
     s->power = r->contact->contact.beta2;
-    s->radius = r->contact->scraper.radius;
-    s->alpha = -1;
     s->way.use = slope_use;
     s->way.self = s;
-    if (!way_make(&s->way, r, WAY_ALONG, s->leak / 16, e))
-        return false;
-    s->by_height = s->way.heights = s->rising && (s->way.curved || s->turned.heading);
-    s->flat[0] = s->flat[1] = slope_across(s, r);
-    return true;
-}
-
-void slope_level(const struct slope *s, double level[SLOPE_LEVELS])
-{
-    double own = s->gone[0][0], both = s->gone[1][0], left = own * s->gone[1][1] - both * both; /* all to the first where no more than rounding is left of the second */
-    level[1] = left > 1e-9 * own * s->gone[1][1] ? (own * s->bent[1] - both * s->bent[0]) / left : 0;
-    level[0] = own > 0 ? (s->bent[0] - both * level[1]) / own : 0;
+    return way_make(&s->way, r, WAY_ALONG, s->leak / 16, e);
 }
 
 void slope_forget(struct slope *s)
 {
-    s->slope = s->across = s->height = s->climb = s->ex = s->ey = 0;
-    s->turned = (struct slope_height){.heading = s->turned.heading};
-    memset(s->even, 0, sizeof s->even);
-    memset(s->lift, 0, sizeof s->lift);
-    s->alpha = -1;
+    s->slope = s->across = s->height = s->ex = s->ey = 0;
 }
 
 void slope_run(struct slope *s, const struct stage_run *r, long first, int n)

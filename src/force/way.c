@@ -143,14 +143,14 @@ static void values_bulge(struct way_pieces *p, int channel)
 static void way_flush(struct way *w)
 {
     struct way_pieces *p = &w->pieces;
-    bool plane = w->relief->along == ALONG_PLANE, axes = w->kind == WAY_AXES, slopes = axes || w->heights;
+    bool plane = w->relief->along == ALONG_PLANE, axes = w->kind == WAY_AXES;
     double zx[LIMITED_POINTS], zy[LIMITED_POINTS] = {0};
     if (p->n == 0)
         return;
     relief_at(w->relief, &(struct relief_points){(size_t)p->points, p->x, plane ? p->y : NULL},
-              &(struct relief_values){.z = w->heights ? p->z : NULL, .x = slopes ? zx : NULL, .y = slopes && plane ? zy : NULL, .xx = w->along ? p->curvature[0] : w->xx, .xy = plane ? w->xy : NULL,
-                                      .yy = plane ? w->yy : NULL});
-    if (slopes)
+              &(struct relief_values){.x = axes ? zx : NULL, .y = axes && plane ? zy : NULL, .xx = w->along ? p->curvature[0] : w->xx,
+                                      .xy = plane ? w->xy : NULL, .yy = plane ? w->yy : NULL});
+    if (axes)
         values_slope(p, zx, zy);
     if (axes)
         values_axes(w);

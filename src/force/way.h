@@ -24,8 +24,7 @@ struct way_pieces {
     double x[LIMITED_POINTS], y[LIMITED_POINTS];       /* place, as the relief wants it         */
     double ex[LIMITED_POINTS], ey[LIMITED_POINTS];     /* e; (1, 0) along a path                */
     double alpha[WAY_CHANNELS][LIMITED_POINTS];        /* m                                     */
-    double z[LIMITED_POINTS];        /* m, height; where `heights` only                         */
-    double slope[LIMITED_POINTS];    /* dz/du; WAY_AXES, and where `heights`                    */
+    double slope[LIMITED_POINTS];    /* dz/du; WAY_AXES only                                    */
     double bend[LIMITED_POINTS];     /* d2z/du2 of the surface; WAY_AXES only                   */
     double curvature[WAY_CHANNELS][LIMITED_POINTS];    /* 1/m                                   */
     double limited[WAY_CHANNELS][LIMITED_POINTS];      /* T at the points, 1/m                  */
@@ -47,7 +46,6 @@ struct way {
     bool straight;                   /* force/way_straight.h cuts it                                    */
     bool along;                      /* and it goes along x: z_xx is what is limited                    */
     bool limiter;
-    bool heights;                    /* the pieces have z[] and slope[]; the maker's to set, behind way_make */
     double ratio;                    /* alpha of channel 1 over that of channel 0                       */
     double longest;                  /* m: no piece is longer                                           */
     double from[2], e[2];            /* a straight path in the coordinates of the relief: from + u e    */

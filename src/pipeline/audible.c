@@ -23,7 +23,6 @@ static void strike(struct contact *c, const double place[2], double rate)
     if (c->surface.response.choice && c->surface.response.choice->moves)
         c->surface.response.choice = NULL;
     c->start = 0;
-    c->whole = NULL;
     c->contact.model = CONTACT_STRIKE;
     c->contact.strike = (struct strike){.pulse = PULSE_HALF_SINE, .speed = 1, .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT), .first = FIRST / rate, .count = 1,
                                         .interval = NAN, .restitution = NAN};

@@ -43,8 +43,9 @@ static const char *rolled_contacts(const struct roll_report *o, struct arena *a)
 /* Of the coupled model: how long contacts are, and how well energy is kept. */
 static const char *rolled_steps(const struct roll_report *o, struct arena *a)
 {
+    const char *hertz = o->hertz > 0 ? arena_format(a, "Hertz's depth %.3g m and ", o->hertz) : "";
     if (!o->steps)
-        return isnan(o->deviation) ? "" : arena_format(a, "; its centre deviates by %.3g m rms", o->deviation);
+        return isnan(o->roughness) ? "" : arena_format(a, " (from %sa ground of %.3g m rms)", hertz, o->roughness);
     const char *lasts = isnan(o->contact_samples[0]) ? "" : arena_format(a, "; a contact lasts %.3g audio samples, the shortest %.3g", o->contact_samples[0],
                                                                          o->contact_samples[1]);
     const char *fastest = o->fastest > 0 ? arena_format(a, ", the fastest impact %.3g m/s", o->fastest) : "";
@@ -53,7 +54,9 @@ static const char *rolled_steps(const struct roll_report *o, struct arena *a)
 
 static const char *rolled(const struct roll_report *o, struct arena *a)
 {
-    return arena_format(a, "%s; stiffness %.4g N/m^1.5, %.3g m deep at rest%s", rolled_contacts(o, a), o->stiffness, o->rest, rolled_steps(o, a));
+    const char *rests = o->rest > 0 ? arena_format(a, "; stiffness %.4g N/m^1.5, %.3g m deep at rest", o->stiffness, o->rest) : "";
+    const char *rings = o->resonance > 0 ? arena_format(a, "; on its contact it resonates at %.3g Hz", o->resonance) : "";
+    return arena_format(a, "%s%s%s%s", rolled_contacts(o, a), rests, rolled_steps(o, a), rings);
 }
 
 /* ------------------------------------------------------------------ series of impacts */
@@ -246,8 +249,10 @@ static json_t *roll_json(const struct roll_report *o)
 {
     json_t *r = json_pack("{s:o, s:o, s:I, s:o, s:o}", "contact_share", json_value_number(o->time > 0 ? o->contact / o->time : NAN), "contact_s", json_value_number(o->contact), "lift_offs",
                           (json_int_t)o->lift_offs, "stiffness", json_value_number(o->stiffness), "rest_penetration_m", json_value_number(o->rest));
-    if (!isnan(o->deviation))
-        json_object_set_new(r, "deviation_rms_m", json_value_number(o->deviation));
+    if (o->resonance > 0)
+        json_object_set_new(r, "resonance_hz", json_value_number(o->resonance));
+    if (!isnan(o->roughness))
+        json_object_update_new(r, json_pack("{s:o, s:o}", "hertz_penetration_m", json_value_number(o->hertz), "roughness_rms_m", json_value_number(o->roughness)));
     if (!o->steps)
         return r;
     json_t *more = json_pack("{s:I, s:o, s:I, s:[o, o], s:o, s:o, s:[o, o]}", "bounces", (json_int_t)o->bounces, "step_s", json_value_number(o->step), "steps",

@@ -3,22 +3,10 @@
 
 #include <math.h>
 
-#include "scene/ball.h"
 #include "scene/keys.h"
 
-/* Is its stiffness made of what the ablation changes? */
-static bool is_softened(const struct contact *c)
+void ablation_settle(struct contact *c)
 {
-    return c->contact.model == CONTACT_ROLL && isnan(ball_stiffness(c)) && (ablation_steady(c) || c->ablation.nonlinearity != ABLATED_NONLINEARITY_KEPT);
-}
-
-void ablation_settle(struct contact *c, struct arena *a)
-{
-    if (is_softened(c)) {
-        struct contact *whole = ARENA_TAKE(a, struct contact, 1);
-        *whole = *c;
-        c->whole = whole;
-    }
     if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_KEPT)
         return;
     struct limiter *l = &c->contact.limiter; /* as of contact.limiter.curve: none, where its other keys do not apply */

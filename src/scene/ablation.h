@@ -15,8 +15,8 @@
 #include "scene/scene.h"
 
 /* Without a non-linearity: no limiter, and of `omitted` no smoothing, which the paper has in the same section, against the harmonics that the
-   non-linearity makes. A ball whose stiffness is made of the ground keeps it, whatever is taken away: that is found with the whole contact, c->whole. */
-void ablation_settle(struct contact *c, struct arena *a);
+   non-linearity makes. */
+void ablation_settle(struct contact *c);
 
 /* Is the normal force held at its mean (rules_load)? */
 static inline bool ablation_steady(const struct contact *c)

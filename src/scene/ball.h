@@ -36,19 +36,6 @@ double ball_inertia(const struct contact *c);
 /* Acceleration of gravity along the normal of the surface, m/s^2: g cos(incline). */
 double ball_gravity(const struct contact *c);
 
-/* m, l: contact.leak, or what stands for it where the scene has none. */
-double ball_leak(const struct contact *c);
-
-/* m of ground that a stiffness asks for. */
-double ball_ground(const struct contact *c);
-
-/* m of ground that a ball of model roll goes over in thought, beyond the `ground` m of its motion, so that the stiffness it is to have (static_depth) does not come
-   from too little; 0: it has one, or goes nowhere, or far enough. */
-double ball_beyond(const struct contact *c, double ground);
-
-/* Standard error of the rms deviation from `ground` m of way, as a part of it. */
-double ball_deviation_error(const struct contact *c, double ground);
-
 /* Hertz's stiffness of the ball, N/m^1.5: given stiffness, kappa times mass, or NAN. */
 double ball_stiffness(const struct contact *c);
 

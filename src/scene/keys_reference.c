@@ -71,6 +71,7 @@ static const struct {
     {"contact.given.rate", "48 kHz", true},
     {"contact.roll.stiffness", "2e9 N/m^1.5", true},
     {"contact.roll.kappa", "5e9 N/(m^1.5 kg)", true},
+    {"contact.roll.static_penetration", "8 um", true},
     {"contact.impacts.prototype", "roll", true},
     {"contact.impacts.amplitude.mean", "0.35", true},
     {"contact.impacts.amplitude.deviation", "0.04", true},

@@ -259,12 +259,13 @@ struct given_force {        /* force/given.h                                    
 };
 
 struct roll {               /* force/roll.h, convolution/coupled.h                               */
-    double stiffness;       /* N/m^1.5, k; NAN: kappa, or static_depth, or Hertz's               */
+    double stiffness;       /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll_stiffness.h, or Hertz's */
     double kappa;           /* N/(m^1.5 kg), k over the ball's mass                              */
     double mu;              /* s/m, lambda / k                                                   */
     double lambda;          /* N s/m^2.5, of penetration: paper                                  */
     int penetration;        /* enum penetration (roll)                                           */
-    double static_depth;    /* static penetration over the rms of the centre's deviation (roll)  */
+    double static_penetration; /* m, penetration at rest; NAN: of force/roll_stiffness.h (roll)  */
+    double damping_ratio;   /* zeta of the ball's mass on the contact, beside mu's part (roll)   */
     double scraping;        /* factor on equation 19's scraping terms (roll)                     */
     int integrator;         /* enum integrator (roll_coupled)                                    */
     int ground;             /* enum ground (roll_coupled)                                        */
@@ -300,7 +301,6 @@ struct contact {
     struct load load;
     struct contact_model contact;
     struct ablation ablation;
-    const struct contact *whole; /* as it is given, where that tells more than what the ablation has left of it (scene/ablation.h); NULL: this is it */
 };
 
 /* ------------------------------------------------------------------ the scene */

@@ -47,7 +47,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     scene_check_fill(&part);
     scene_places_note(&part, c->name, t->scene);
     ball_settle(c);
-    ablation_settle(c, t->yaml->arena);
+    ablation_settle(c);
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;
     scene_sense_contact(&part);

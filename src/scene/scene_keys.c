@@ -103,8 +103,22 @@ static const char *elsewhere(const struct walk *w, const char *word)
     return n ? joined(w->y->arena, paths, " or ") : NULL;
 }
 
+/* Keys that scenes once had, and what took their place. */
+static const char *former(const char *section, const char *word)
+{
+    static const struct {
+        const char *section, *word, *cure;
+    } all[] = {{"contact.roll", "static_depth", "it is gone: the stiffness follows from both materials and the ground's roughness; remove it, or give contact.roll.static_penetration, a length"}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (strcmp(section, all[i].section) == 0 && strcmp(word, all[i].word) == 0)
+            return all[i].cure;
+    return NULL;
+}
+
 static const char *unknown_cure(const struct walk *w, const char *word, const char *section)
 {
+    if (former(section, word))
+        return former(section, word);
     const char *const *names = names_in(w, section);
     const char *near = text_nearest(word, names), *other = elsewhere(w, word);
     struct arena *a = w->y->arena;

@@ -94,9 +94,6 @@ static void roll_check(const struct scene_part *p, const struct contact *c)
         return;
     if (r->penetration == PENETRATION_PAPER)
         paper_check(p, r);
-    else if (stiffness_is_given(p) && is_given(p, "contact.roll.static_depth") && r->static_depth != 3)
-        tell(p, "contact.roll.static_depth", "remove it, or let the stiffness follow from it by removing contact.roll.stiffness (or kappa)",
-             "has no effect where a stiffness is given");
 }
 
 /* ------------------------------------------------------------------ roll_coupled */

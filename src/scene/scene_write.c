@@ -205,7 +205,7 @@ static void write_contacts(struct writer *w, const struct scene *s)
     if (list)
         fputs("contacts:\n", w->f);
     for (int i = 0; i < s->n_contacts; i++) {
-        const struct contact *c = s->contacts[i].whole ? s->contacts[i].whole : &s->contacts[i];
+        const struct contact *c = &s->contacts[i];
         for (const struct key *k = keys_table; k->path; k++)
             if (k->of == KEY_CONTACT)
                 take(w, k, c);

@@ -20,8 +20,7 @@
 
    Heights are read as far as R; in the plane, where that would be most of the work, and in one coordinate where it is more than 65 536 of
    them, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For H, 16 384 places in the box of the motion
-   are read, R (at most 1 mm) and what a ball goes over in thought (scene/ball.h) beyond it included; H is half as much again, or that span and the map's own
-   together if that is more. Should heights turn up that span more, the render says so. */
+   are read, R (at most 1 mm) beyond it included; H is half as much again, or that span and the map's own together if that is more. Should heights turn up that span more, the render says so. */
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -127,16 +126,11 @@ static double tip_pitch(const struct stage_run *r, const struct relief *under, c
 
 static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *under)
 {
-    const struct contact *c = r->contact;
-    const struct scraper *s = &c->scraper;
-    const struct trajectory *tr = r->board->trajectory;
+    const struct scraper *s = &r->contact->scraper;
     bool plane = under->along == ALONG_PLANE;
-    double beyond = fmin(s->radius, 1e-3) + ball_beyond(c, trajectory_ground(tr, under->along, ball_leak(c)));
-    if (c->contact.model == CONTACT_ROLL && !tr->straight && under->along != ALONG_PATH)
-        beyond = fmax(beyond, 0.5 * ball_ground(c)); /* as far as the mean of the ground is looked for (force/slope_heading.c) */
     double wanted = tip_wanted_pitch(r, under), finer = s->patch > 0 ? ceil(s->patch / ROLLING_PER_PATCH / wanted * (1 - 1e-12)) : 1;
     bool look = plane || s->patch == 0 || relief_kinks(under) > 0 || s->radius > REACH_ALL * wanted / 2;
-    double scouted = look ? tip_scouted(under, tr, beyond) : 0, map = tip_map_span(r->board->height_map);
+    double scouted = look ? tip_scouted(under, r->board->trajectory, fmin(s->radius, 1e-3)) : 0, map = tip_map_span(r->board->height_map);
     struct rolling_plan p = {.radius = s->radius, .patch = s->patch, .reach = s->radius, .span = HUGE_VAL, .exceeded = tip_exceeded, .self = r,
                              .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1, .points = relief_kinks(under) > 0};
     p.pitch = plane ? p.patch / ROLLING_PER_PATCH / p.finer : tip_pitch(r, under, &p, scouted);

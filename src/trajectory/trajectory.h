@@ -60,8 +60,4 @@ void trajectory_continued(const struct trajectory *tr, double t, double place[2]
    t1 the direction turns by more than 90 degrees) and is then of opposite direction. At most one is expected between two force samples. */
 double trajectory_turning(const struct trajectory *tr, double t0, double t1);
 
-/* m of way that the motion goes over ground that is new to it, for a surface that follows `along` (enum along, not auto) and is alike over some `breadth`, m,
-   across the way (trajectory_ground.c). */
-double trajectory_ground(const struct trajectory *tr, int along, double breadth);
-
 #endif

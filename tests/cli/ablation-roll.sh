@@ -1,4 +1,4 @@
-# A rolling ball keeps the stiffness that the ground gives it, whatever an ablation takes away of the force: it is that of the whole contact, and a render with that number given is the same
+# A rolling ball keeps the stiffness that the ground gives it, whatever an ablation takes away of the force, and a render with that number given is the same
 # to the nine digits of the summary. The effective scene makes the same bytes again.
 stiffness() { python3 -c 'import json, sys
 def find(o):

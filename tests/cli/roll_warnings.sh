@@ -20,4 +20,3 @@ roll contact.model=roll_coupled contact.gravity=0 'contact.roll.stiffness=1e9 N/
 roll contact.model=roll_coupled 'contact.roll.stiffness=1e9 N/m^1.5'
 roll 'ball.lobe_height=4 mm'
 roll 'ball.lobe_height=1 um' ball.lobes=40
-roll 'contact.leak=2 cm'

@@ -49,7 +49,7 @@ USUAL = {
     "contact.strike.first": (0, 0.02), "contact.strike.count": (0, 10), "contact.strike.interval": (1e-3, 0.05),
     "contact.strike.restitution": (0.1, 0.95), "contact.strike.speed": (0.05, 5), "contact.roll.drop": (1e-6, 1e-3),
     "contact.roll.stiffness": (1e7, 1e10), "contact.roll.kappa": (1e8, 1e11), "contact.given.channel": (1, 1),
-    "contact.roll.static_depth": (1, 6), "contact.impacts.amplitude.mean": (0.1, 1),
+    "contact.roll.static_penetration": (1e-6, 1e-4), "contact.impacts.amplitude.mean": (0.1, 1),
     "contact.impacts.interval.mean": (1e-3, 0.02), "contact.impacts.amplitude.deviation": (0.01, 0.2),
     "contact.impacts.interval.deviation": (1e-4, 1e-3), "contact.impacts.amplitude.a1": (-0.95, 0.5),
     "contact.impacts.interval.a1": (-0.95, 0.5), "contact.impacts.amplitude.b1": (-1, 1),

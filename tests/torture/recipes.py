@@ -81,7 +81,8 @@ def sprinkle(part, model, tool):
     part.sprinkle(("name", "start", "gain", "contact.limiter", "contact.smoothing", "contact.leak", "contact.beta",
         "contact.gravity", "contact.force", "contact.gesture", "contact.enhance", "ablation",
                    "grip", "motion.straight", "load.approach", "load.release", "contact.impacts", "contact.roll.mu",
-                   "contact.roll.lambda", "contact.roll.static_depth", "contact.roll.scraping", "contact.roll.ground"))
+                   "contact.roll.lambda", "contact.roll.static_penetration", "contact.roll.damping_ratio", "contact.roll.scraping",
+                   "contact.roll.ground"))
     part.sprinkle(tuple(f"{tool}.{k}" for k in ("weight", "radius", "patch", "offset", "start_angle", "lobe", "wall",
         "mass")), p=0.1)
     if model in FOLLOWS:
@@ -149,7 +150,7 @@ ONLY_IF = {
     "contact.impacts.marginal": lambda p: "table" not in str(p.given),
     "contact.impacts.modulation.rate": lambda p: "contact.impacts.modulation.depth" in p.given,
     "contact.roll.mu": lambda p: p.given.get("contact.roll.penetration") != "paper",
-    "contact.roll.static_depth": lambda p: not {"contact.roll.stiffness", "contact.roll.kappa"} & set(p.given),
+    "contact.roll.static_penetration": lambda p: not {"contact.roll.stiffness", "contact.roll.kappa"} & set(p.given),
     "contact.roll.ground": lambda p: False, "contact.roll.drop": lambda p: False,
     "ablation.sound": lambda p: False, "output.listen.radiator": lambda p: False,
     "contact.limiter.alpha_min": lambda p: "contact.limiter.alpha_max" in p.given or p.scene.wild == 0,

@@ -1,5 +1,6 @@
 /* The force of a ball that rolls, piece by piece against closed forms: its law, the height of its centre, its penetration at rest; and what it shares
    with the scraping force. */
+#include <complex.h>
 #include <gsl/gsl_integration.h>
 
 #include "force/roll_law.h"
@@ -48,7 +49,7 @@ static double line_force(double q, void *self)
 static double line_mean(const struct line *s)
 {
     double rate = (s->b - s->a) / s->dt;
-    struct roll_parts f = roll_law_force(s->l, &(struct roll_end){s->a, rate}, &(struct roll_end){s->b, rate}, s->dt);
+    struct roll_parts f = roll_law_force(s->l, &(struct roll_end){s->a, rate}, &(struct roll_end){s->b, rate}, 0.5 * (s->a + s->b), s->dt);
     return f.early + f.late;
 }
 
@@ -93,7 +94,8 @@ START_TEST(parts_of_a_smooth_way)
                 want[0] += (1 - q) * force;
                 want[1] += q * force;
             }
-            struct roll_parts got = roll_law_force(&l, &at[0], &at[1], dt);
+            double mean = 0.5 * (at[0].rho + at[1].rho) + dt * (at[0].rate - at[1].rate) / 12;
+            struct roll_parts got = roll_law_force(&l, &at[0], &at[1], mean, dt);
             worst[fine] = fmax(worst[fine], fmax(fabs(got.early / want[0] - 1), fabs(got.late / want[1] - 1)));
         }
     gsl_integration_glfixed_table_free(rule);
@@ -109,21 +111,8 @@ START_TEST(means_keep_their_digits)
     for (double part = 1e-1; part > 1e-17; part /= 10) {
         double a = 1e-5, b = a * (1 + part), middle = 0.5 * (a + b), half = 0.5 * (b - a);
         double want = middle * sqrt(middle) * (1 + 1.0 / 8 * half * half / (middle * middle)); /* next: 3/640 (half/middle)^4 */
-        double got = roll_law_power(a, b).mean;
+        double got = roll_law_power(a, b);
         ck_assert_double_eq_tol(got / want, 1, 1e-15 + 3.0 / 640 * pow(part / 2, 4) * 1.2);
-    }
-}
-END_TEST
-
-/* The derivative by which rho_0 is found, against differences of order h^4. */
-START_TEST(means_have_that_derivative)
-{
-    static const double ends[][2] = {{2e-6, 5e-6}, {5e-6, 2e-6}, {-1e-6, 3e-6}, {3e-6, -2e-6}, {-3e-6, -2e-6}, {2e-6, 2e-6}};
-    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        double a = ends[i][0], b = ends[i][1], h = 1e-9, d[2];
-        for (int k = 0; k < 2; k++)
-            d[k] = (roll_law_power(a + (k + 1) * h, b + (k + 1) * h).mean - roll_law_power(a - (k + 1) * h, b - (k + 1) * h).mean) / (2 * (k + 1) * h);
-        ck_assert_double_eq_tol(roll_law_power(a, b).slope, (4 * d[0] - d[1]) / 3, 1e-8 * sqrt(5e-6));
     }
 }
 END_TEST
@@ -175,7 +164,7 @@ static struct rig *level_ball(double r, double oval, const char *roll, int over)
 
 struct turn {
     double k, mu, r, oval;
-    double base, rest, normal;          /* rho = base + rest ((N(t) / normal)^(2/3) - 1) */
+    double shift, rest, normal;         /* rho = shift + rest (N(t) / normal)^(2/3)     */
     bool printed;                       /* rho = R - r cos(x/R) + oval cos(2 theta)      */
 };
 
@@ -190,7 +179,7 @@ static double turn_rho(double t, const struct turn *s)
 {
     double theta = theta_of(0.3 * t, 0.01, s->r), pressed = fmax(turn_normal(t, s->r, s->oval), 0) / s->normal;
     return s->printed ? 0.01 - s->r * cos(0.3 * t / 0.01) + s->oval * cos(2 * theta)
-                      : s->base + s->rest * (pow(pressed, 2.0 / 3) - 1);
+                      : s->shift + s->rest * pow(pressed, 2.0 / 3);
 }
 
 static double turn_force(double t, void *self)
@@ -200,43 +189,27 @@ static double turn_force(double t, void *self)
     return rho > 0 && (s->printed || turn_normal(t, s->r, s->oval) >= 0) ? fmax(0, s->k * pow(rho, 1.5) * (1 + s->mu * rate)) : 0;
 }
 
-/* Over the motion, by the midpoint rule. */
-static double turn_mean(struct turn *s)
-{
-    double sum = 0;
-    for (long i = 0; i < 20000; i++)
-        sum += turn_force(0.25 * ((double)i + 0.5) / 20000, s);
-    return sum / 20000;
-}
-
-/* An oval whose centre of mass is off, from theta on by closed forms: N, and the penetration by bisection over the continuous force, then the force. Pressed
-   all the time, and leaving the ground twice in each turn. */
+/* An oval whose centre of mass is off, from theta on by closed forms: N, the penetration, its slow shift by small steps, then the force. Pressed all the time, and leaving the ground twice in
+   each turn. */
 START_TEST(an_offset_oval_on_level_ground)
 {
     static const double ovals[2] = {3e-4, 4e-3};
-    double r = 2e-3;
+    double r = 2e-3, weight = 0.0980665, dt = 1.0 / 192000;
     for (int k = 0; k < 2; k++) {
         struct rig *g = level_ball(r, ovals[k], "{stiffness: 1e6, mu: 4}", 4);
         const struct roll_report *report = &g->run.board.roll;
-        double normal = 0;
-        for (long i = 0; i < 20000; i++)
-            normal += fmax(turn_normal(0.25 * ((double)i + 0.5) / 20000, r, ovals[k]), 0) / 20000;
-        struct turn turn = {.k = 1e6, .mu = 4, .r = r, .oval = ovals[k], .rest = pow(normal / 1e6, 2.0 / 3), .normal = normal};
-        double low = -20 * turn.rest, high = 20 * turn.rest;
-        for (int i = 0; i < 40; i++) {
-            turn.base = 0.5 * (low + high);
-            *(turn_mean(&turn) > normal ? &high : &low) = turn.base;
+        struct turn turn = {.k = 1e6, .mu = 4, .r = r, .oval = ovals[k], .rest = pow(weight / 1e6, 2.0 / 3), .normal = weight};
+        ck_assert_double_eq_tol(report->rest / turn.rest, 1, 1e-12);
+        double worst = 0, most = 0;
+        for (long i = 0; i < 4 * LEVEL_FRAMES; i++) {
+            double t = (double)i * dt, normal = turn_normal(t, r, ovals[k]), force = turn_force(t, &turn);
+            if (i > 4 && fabs(normal) > 0.02 * weight) /* where N passes through 0 its power has no derivative */
+                worst = fmax(worst, fabs(g->x[i] - force));
+            turn.shift -= 2 * M_PI * 2 * dt * turn.rest / (1.5 * weight) * (force - fmax(normal, 0));
+            most = fmax(most, fabs(turn.shift));
         }
-        ck_assert_double_eq_tol(report->rest / turn.rest, 1, 2e-4);
-        ck_assert_double_eq_tol(mean_of(g->x, 4 * LEVEL_FRAMES) / normal, 1, 1e-4);
-        double worst = 0;
-        for (long i = 5; i < 4 * LEVEL_FRAMES; i += 97) {
-            double t = (double)i / 192000;
-            if (fabs(turn_normal(t, r, ovals[k])) > 0.02 * normal) /* where N passes through 0 its power has no derivative */
-                worst = fmax(worst, fabs(g->x[i] - turn_force(t, &turn)));
-        }
-        printf("worst %.3g of the weight, %ld lift-offs, contact %.4g of %.4g s\n", worst / normal, report->lift_offs, report->contact, report->time), fflush(stdout);
-        ck_assert_double_lt(worst, 1e-3 * normal);
+        printf("worst %.3g of the weight, %ld lift-offs, contact %.4g of %.4g s, shift %.3g of the rest\n", worst / weight, report->lift_offs, report->contact, report->time, most / turn.rest);
+        ck_assert_double_lt(worst, 2e-3 * weight);
         ck_assert_double_eq_tol(report->time, 0.25, 1e-5);
         ck_assert((report->lift_offs > 0) == (k == 1));
         ck_assert(k == 0 ? report->contact > 0.2499 : report->contact < 0.2);
@@ -253,7 +226,7 @@ START_TEST(level_ground_bears_the_normal_force)
         struct rig *g = level_ball(balls[k][0], balls[k][1], "{stiffness: 1e6, mu: 0}", 4);
         for (long i = 5; i < 4 * LEVEL_FRAMES; i += 97)
             ck_assert_double_eq_tol(g->x[i] / turn_normal((double)i / 192000, balls[k][0], balls[k][1]), 1, 1e-6); /* rho is straight over 5 us */
-        ck_assert_double_eq_tol(g->run.board.roll.rest, pow(mean_of(g->x, 4 * LEVEL_FRAMES) / 1e6, 2.0 / 3), 1e-9);
+        ck_assert_double_eq_tol(g->run.board.roll.rest / pow(0.0980665 / 1e6, 2.0 / 3), 1, 1e-12);
         rig_close(g);
     }
 }
@@ -332,33 +305,23 @@ START_TEST(an_oval_on_level_ground)
                           "motion: {path: line, to: [6.283185307179586 cm, 0], speed: 30 cm/s}\n"); /* one turn */
     struct rig *g = rig_record(&s, ITEM_ROLL, 10000, 1024);
     for (long n = 0; n < 10000; n++)
-        ck_assert_double_eq_tol(g->x[n * ROLL_VALUES + ROLL_HEIGHT], 3e-6 * cos(2 * 30.0 * (double)n / 48000), 1e-9); /* a mean over whole frames */
+        ck_assert_double_eq_tol(g->x[n * ROLL_VALUES + ROLL_HEIGHT], 3e-6 * cos(2 * 30.0 * (double)n / 48000), 1e-15);
     rig_close(g);
 }
 END_TEST
 
-/* Round, on level ground: nothing to make a stiffness of; with one, rho_0 = (N / k)^(2/3) and the force is the weight. */
+/* Round, on level ground, the force is the weight whatever the stiffness: given, of 1 nm where nothing says more, and as good as rigid. */
 START_TEST(round_and_level)
 {
-    rig_relief = flat_part;
-    struct rig *g = level_ball(0, 0, "{stiffness: 1e6}", 4);
-    ck_assert_double_eq_tol(g->run.board.roll.rest / pow(0.0980665 / 1e6, 2.0 / 3), 1, 1e-9);
-    for (long i = 0; i < 4 * LEVEL_FRAMES; i++) /* half of the first hat is before the start */
-        ck_assert_double_eq_tol(g->x[i], i > 0 ? 0.0980665 : 0.5 * 0.0980665, 1e-9);
-    rig_close(g);
-    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 cm, mass: 10 g, offset: 1 mm, lobe_height: 5 um}\ncontact: {model: roll}\n"
-                          "motion: {path: line, to: [7.5 cm, 0], speed: 30 cm/s}\n"); /* offset and lobes make no ground deviate */
-    struct plan p;
-    struct run run;
-    struct err e = {0};
-    const struct stage *table[64] = {NULL};
-    for (int n = 0; stages_table[n]; n++)
-        table[n] = rig_in_place_of(stages_table[n]);
-    rig_probe.item = ITEM_SUBFORCE;
-    ck_assert(plan_make(table, &s.contacts[0], &s, rig_arena(), &p, &e));
-    ck_assert(!run_open(&run, &p, &s, NULL, &e));
-    ck_assert_int_eq(e.kind, ERR_SCENE);
-    ck_assert_msg(strstr(e.text, "contact.roll.stiffness") != NULL, "%s", e.text);
+    static const char *const rolls[] = {"{stiffness: 1e6}", "{}", "{stiffness: 1e18, damping_ratio: 0}", "{static_penetration: 2 um}"};
+    const double rests[] = {pow(0.0980665 / 1e6, 2.0 / 3), 1e-9, pow(0.0980665 / 1e18, 2.0 / 3), 2e-6};
+    for (int k = 0; k < 4; k++) {
+        struct rig *g = level_ball(0, 0, rolls[k], 4);
+        ck_assert_double_eq_tol(g->run.board.roll.rest / rests[k], 1, 1e-12);
+        for (long i = 0; i < 4 * LEVEL_FRAMES; i++) /* half of the first hat is before the start */
+            ck_assert_double_eq_tol(g->x[i], i > 0 ? 0.0980665 : 0.5 * 0.0980665, 1e-12 * 0.0980665);
+        rig_close(g);
+    }
 }
 END_TEST
 
@@ -438,8 +401,7 @@ START_TEST(an_offset_ball_on_a_circle)
         for (long i = 0; i < (long)(whole / 0.3 * rate); i++)
             sum += g->x[i];
         printf("mean %.9g of the weight\n", sum / (whole / 0.3 * rate) / (0.01 * 9.80665)), fflush(stdout);
-        ck_assert_double_eq_tol(sum / (whole / 0.3 * rate) / (0.01 * 9.80665), 1, 1e-4);
-        ck_assert(k == 0 || g->run.board.roll.deviation > 1e-7);
+        ck_assert_double_eq_tol(sum / (whole / 0.3 * rate) / (0.01 * 9.80665), 1, k ? 1e-3 : 1e-4);
         rig_close(g);
     }
     rig_relief = NULL;
@@ -478,11 +440,11 @@ START_TEST(third_order_in_the_sub_intervals)
 {
     struct rig *g[5];
     double off[4], height = wave_height;
-    wave_height = 1e-5;
+    wave_height = 2e-4;
     rig_relief = wave_part;
     for (int k = 0; k < 5; k++) {
         struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {}}\nball: {radius: 1 mm, mass: 10 g}\naccuracy: {oversampling: %d}\n"
-                                                        "contact: {model: roll, smoothing: 0, limiter: {curve: none}, roll: {static_depth: 0.5, mu: 10, scraping: 0}}\n"
+                                                        "contact: {model: roll, smoothing: 0, limiter: {curve: none}, roll: {static_penetration: 10 um, mu: 10, scraping: 0}}\n"
                                                         "motion: {path: line, to: [7.5 cm, 0], speed: 30 cm/s}\n", k == 4 ? 32 : 1 << k));
         g[k] = rig_record(&s, ITEM_SUBFORCE, LEVEL_FRAMES, 1024);
     }
@@ -503,26 +465,27 @@ START_TEST(third_order_in_the_sub_intervals)
 }
 END_TEST
 
+/* The ball's height is the ground's less y, and rho is y more than at rest: y as of a wave of acceleration that one leak has passed, i q l / (1 + i q l), after some ten times l;
+   in rho what holds the mean force takes out of it what is slower than 2 Hz. */
 START_TEST(height_over_a_wave)
 {
     rig_relief = wave_part;
-    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 mm, mass: 10 g}\ncontact: {model: roll, limiter: {curve: none}}\n"
+    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 mm, mass: 10 g}\ncontact: {model: roll, limiter: {curve: none}, roll: {static_penetration: 40 um, mu: 0}}\n"
                           "motion: {path: line, to: [5 cm, 0], speed: 20 cm/s}\n");
     struct rig *g = rig_record(&s, ITEM_ROLL, 12000, 1024);
-    double q = 2 * M_PI / wave_length, l = 2e-3, size = 1 / (1 + q * q * l * l), turn = -2 * atan(q * l);
-    double high = wave_height * exp(-0.5 * pow(q * 20e-6, 2)) * pow(q * l, 2) * size, worst = 0, level = 0;
+    double q = 2 * M_PI / wave_length, w = q * 0.2, w0 = sqrt(1.5 * 9.80665 / 40e-6), high = wave_height * exp(-0.5 * pow(q * 20e-6, 2)), worst[2] = {0}, level = 0;
+    double complex leaked = I * q * 2e-3 / (1 + I * q * 2e-3), y = -high * w * w * leaked / (w0 * w0 - w * w + I * w * 2 * 0.3 * w0);
+    ck_assert_double_eq_tol(g->run.board.roll.resonance, w0 / (2 * M_PI), 1e-9);
     for (long n = 7200; n < 12000; n++) /* four waves */
         level += g->x[n * ROLL_VALUES + ROLL_HEIGHT] / 4800;
-    double base = g->x[7200 * ROLL_VALUES + ROLL_PENETRATION] - g->x[7200 * ROLL_VALUES + ROLL_HEIGHT];
     for (long n = 7200; n < 12000; n++) {
-        double want = level - high * sin(q * 0.2 * (double)n / 48000 + turn);
-        worst = fmax(worst, fabs(g->x[n * ROLL_VALUES + ROLL_HEIGHT] - want));
-        ck_assert_double_eq_tol(g->x[n * ROLL_VALUES + ROLL_PENETRATION] - g->x[n * ROLL_VALUES + ROLL_HEIGHT], base, 1e-15);
+        double phase = w * (double)n / 48000, lag = cimag(y * cexp(I * phase)), held = cimag(y * I * w / (I * w + 2 * M_PI * 2) * cexp(I * phase));
+        worst[0] = fmax(worst[0], fabs(g->x[n * ROLL_VALUES + ROLL_HEIGHT] - level - high * sin(phase) + lag));
+        worst[1] = fmax(worst[1], fabs(g->x[n * ROLL_VALUES + ROLL_PENETRATION] - 40e-6 - held));
         ck_assert(g->x[n * ROLL_VALUES + ROLL_CONTACT] == 1 && g->x[n * ROLL_VALUES + ROLL_LIFT_OFFS] == 0);
     }
-    printf("height: worst %.3g of %.3g m\n", worst, high);
-    ck_assert_double_lt(worst, 2e-3 * high); /* R q^2 A / 2 = 8e-4, and e^-15 */
-    ck_assert_double_lt(fabs(level), 0.2 * high); /* of the first 2 mm's settling */
+    printf("y %.3g m; height: worst %.3g, penetration: worst %.3g of it\n", cabs(y), worst[0] / cabs(y), worst[1] / cabs(y));
+    ck_assert_double_lt(fmax(worst[0], worst[1]), 1e-2 * cabs(y)); /* R q^2 A / 2 of the wave is 8e-4, and y^1.5 bends */
     rig_close(g);
 }
 END_TEST
@@ -530,7 +493,7 @@ END_TEST
 static const char *const rough = "surface: {roughness: {rms: 5 um}}\n", *const line = "motion: {path: line, from: [1 cm, 0], to: [9 cm, 0], speed: 30 cm/s}\n",
                   *const reversing = "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.4 cm, 0], rate: 30 Hz, duration: 0.05 s}\n";
 
-/* The height is integrated exactly over each piece but for what T varies by: pieces of 5 um and of 0.2 um give the same, with the usual leak l and with
+/* The height S is integrated exactly over each piece but for what T varies by: pieces of 5 um and of 0.2 um give the same, with the usual leak l and with
    one of 16 pieces, where every term in h / l counts. */
 START_TEST(height_does_not_depend_on_the_pieces)
 {
@@ -540,63 +503,43 @@ START_TEST(height_does_not_depend_on_the_pieces)
     rig_relief = NULL;
     for (int j = 0; j < 2; j++) {
         struct rig *g[2];
-        double shift = 0, worst = 0;
+        double worst = 0, mean = 0, square = 0;
         for (int k = 0; k < 2; k++) {
-            struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g}\naccuracy: {oversampling: %d}\ncontact: {model: roll, leak: %s}\n", rough, line,
-                                               over[k], leak[j]));
+            struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g}\naccuracy: {oversampling: %d}\n"
+                                                            "contact: {model: roll, leak: %s, roll: {penetration: paper, stiffness: 500}}\n", rough, line, over[k], leak[j]));
             g[k] = rig_record(&s, ITEM_ROLL, 4000, 1024);
         }
+        for (long n = 0; n < 4000; n++) {
+            mean += g[1]->x[n * ROLL_VALUES] / 4000;
+            worst = fmax(worst, fabs(g[0]->x[n * ROLL_VALUES] - g[1]->x[n * ROLL_VALUES]));
+        }
         for (long n = 0; n < 4000; n++)
-            shift += (g[0]->x[n * ROLL_VALUES] - g[1]->x[n * ROLL_VALUES]) / 4000;
-        for (long n = 0; n < 4000; n++)
-            worst = fmax(worst, fabs(g[0]->x[n * ROLL_VALUES] - g[1]->x[n * ROLL_VALUES] - shift));
-        printf("leak %s: worst %.3g of rms %.3g m\n", leak[j], worst, g[0]->run.board.roll.deviation);
-        ck_assert_double_lt(worst, within[j] * g[0]->run.board.roll.deviation);
+            square += pow(g[1]->x[n * ROLL_VALUES] - mean, 2) / 4000;
+        printf("leak %s: worst %.3g of rms %.3g m\n", leak[j], worst, sqrt(square));
+        ck_assert_double_lt(worst, within[j] * sqrt(square));
         rig_close(g[0]);
         rig_close(g[1]);
     }
 }
 END_TEST
 
-/* By default the mean force is the weight, with what slips and without; the ball hardly ever leaves. */
-START_TEST(the_mean_force_is_the_weight)
-{
-    rig_relief = NULL;
-    struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g, lobe_height: 3 um, lobes: 3}\n"
-                                                    "contact: {model: roll, smoothing: 0, roll: {scraping: 0}}\n", rough, line));
-    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 12800, 1024);
-    double normal = g->run.board.roll.stiffness * pow(g->run.board.roll.rest, 1.5); /* and what the lobes gained of vertical momentum */
-    ck_assert_double_eq_tol(normal, 0.0980665, 0.01 * 3 * 3e-6 * 30 / 0.267);
-    ck_assert_double_eq_tol(mean_of(g->x, 4 * 12800), normal, 0.0981 / (4 * 12800)); /* a hat's half at either end */
-    ck_assert_double_gt(g->run.board.roll.contact, 0.99 * g->run.board.roll.time);
-    ck_assert_double_eq_tol(g->run.board.roll.rest / (3 * g->run.board.roll.deviation), 1, 1e-12);
-    rig_close(g);
-}
-END_TEST
-
-/* An offset ball on ground that is smooth for it (its way varies by 1/30 of its depth) presses it most where N(t) is greatest, also where alpha follows N(t) and the limited trajectory with it: means over
-   2 ms correlate. And its stiffness is about that of a ball without offset: the offset is no roughness. */
+/* An offset ball on ground that is smooth for it presses it most where N(t) is greatest, also where alpha follows N(t) and the limited trajectory with it: means over 2 ms correlate. */
 START_TEST(the_force_follows_the_normal_force)
 {
     enum { BIN = 4 * 96, BINS = 130 };
-    double k[2];
     rig_relief = NULL;
-    for (int j = 0; j < 2; j++) {
-        struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um}}\n%sball: {radius: 1 cm, mass: 10 g, offset: %s}\n"
-                                                        "contact: {model: roll, smoothing: 0, roll: {scraping: 0, static_depth: 30}}\n", line, j ? "4 mm" : "0 mm"));
-        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 12800, 1024);
-        double sums[5] = {0};
-        for (long i = 0; i < BINS; i++) {
-            double f = mean_of(g->x + i * BIN, BIN), n = turn_normal(((double)i + 0.5) * BIN / 192000, 4e-3, 0);
-            sums[0] += f / BINS, sums[1] += n / BINS, sums[2] += f * f / BINS, sums[3] += n * n / BINS, sums[4] += f * n / BINS;
-        }
-        double together = (sums[4] - sums[0] * sums[1]) / sqrt((sums[2] - sums[0] * sums[0]) * (sums[3] - sums[1] * sums[1]));
-        k[j] = g->run.board.roll.stiffness;
-        printf("correlation %.4f, stiffness %.4g\n", together, k[j]), fflush(stdout);
-        ck_assert(j == 0 || together > 0.9);
-        rig_close(g);
+    struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um}}\n%sball: {radius: 1 cm, mass: 10 g, offset: 4 mm}\n"
+                                                    "contact: {model: roll, smoothing: 0, roll: {scraping: 0, static_penetration: 100 um}}\n", line));
+    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 12800, 1024);
+    double sums[5] = {0};
+    for (long i = 0; i < BINS; i++) {
+        double f = mean_of(g->x + i * BIN, BIN), n = turn_normal(((double)i + 0.5) * BIN / 192000, 4e-3, 0);
+        sums[0] += f / BINS, sums[1] += n / BINS, sums[2] += f * f / BINS, sums[3] += n * n / BINS, sums[4] += f * n / BINS;
     }
-    ck_assert_double_eq_tol(log(k[1] / k[0]), 0, log(1.6)); /* alpha varies: 7000 N/m^1.5 if the level did not follow it */
+    double together = (sums[4] - sums[0] * sums[1]) / sqrt((sums[2] - sums[0] * sums[0]) * (sums[3] - sums[1] * sums[1]));
+    printf("correlation %.4f\n", together), fflush(stdout);
+    ck_assert_double_gt(together, 0.97);
+    rig_close(g);
 }
 END_TEST
 
@@ -641,26 +584,6 @@ START_TEST(terms_add_up)
 }
 END_TEST
 
-/* S does not run away from 0 over the first millimetres, where T has a mean: under a ball, whose way is bent by -1/R nearly everywhere. */
-START_TEST(no_thump_at_the_start_nor_at_turns)
-{
-    static const char *const motions[] = {"{path: line, from: [1 cm, 0], to: [9 cm, 0], speed: 30 cm/s}",
-                                          "{path: back_and_forth, from: [1 cm, 0], to: [5 cm, 0], rate: 5 Hz, duration: 0.4 s}"};
-    rig_relief = NULL;
-    for (int k = 0; k < 2; k++) {
-        struct scene s = made(arena_format(rig_arena(), "%sball: {radius: 1 cm, mass: 10 g}\ncontact: {model: roll}\nmotion: %s\n", rough, motions[k]));
-        struct rig *g = rig_record(&s, ITEM_ROLL, 12800, 1024);
-        double most = 0;
-        for (long n = 0; n < 12800; n++)
-            most = fmax(most, fabs(g->x[n * ROLL_VALUES + ROLL_HEIGHT]));
-        printf("rms %.3g m, most %.3g m\n", g->run.board.roll.deviation, most);
-        ck_assert_double_lt(most, 5 * g->run.board.roll.deviation);
-        ck_assert_double_lt(g->run.board.roll.deviation, 5e-6);
-        rig_close(g);
-    }
-}
-END_TEST
-
 /* Up a slope and down again, turning on the way: finite, and the mean force is m g cos(incline) and what the centre of mass gained of vertical momentum,
    m r sin(theta) theta', over the time. A solid ball is slowed by 5/7 g sin(incline). */
 START_TEST(up_and_down_a_slope)
@@ -673,7 +596,7 @@ START_TEST(up_and_down_a_slope)
     ck_assert(!isnan(trajectory_turning(g->run.board.trajectory, 0.16, 0.18)));
     double slow = 5.0 / 7 * 9.80665 * sin(10 * M_PI / 180), theta = theta_of(0.2 * 0.25 - 0.5 * slow * 0.0625, 0.01, 2e-5);
     double climb = 2e-5 * sin(theta) * (0.2 - slow * 0.25) / (0.01 - 2e-5 * cos(theta));
-    ck_assert_double_eq_tol(mean_of(g->x, 48000), 0.0980665 * cos(10 * M_PI / 180) + 0.01 * climb / 0.25, 1e-6); /* it does leave the surface for a moment, within a grain */
+    ck_assert_double_eq_tol(mean_of(g->x, 48000), 0.0980665 * cos(10 * M_PI / 180) + 0.01 * climb / 0.25, 1e-2 * 0.0980665);
     rig_close(g);
 }
 END_TEST
@@ -715,70 +638,6 @@ START_TEST(blocks_do_not_matter)
 }
 END_TEST
 
-/* Neither accuracy, in how the ground is read too, nor the sample rate changes what the rehearsal finds, and the mean force is the weight with all of them: grains are its own. */
-START_TEST(grains_are_the_rehearsals_own)
-{
-    static const struct {
-        int over, rate, heights;
-    } of[] = {{1, 48000, 1}, {4, 48000, 1}, {32, 48000, 4}, {4, 44100, 1}, {2, 192000, 2}};
-    double k = 0, rest = 0;
-    rig_relief = NULL;
-    for (int i = 0; i < 5; i++) {
-        struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g}\naccuracy: {oversampling: %d, tip_heights: %d}\n"
-                                                        "contact: {model: roll, smoothing: 0, roll: {scraping: 0}}\n", rough, line, of[i].over, of[i].heights));
-        s.output.sample_rate = of[i].rate;
-        long frames = lrint(of[i].rate * (0.08 / 0.3));
-        struct rig *g = rig_record(&s, ITEM_SUBFORCE, frames, 1024);
-        const struct roll_report *found = &g->run.board.roll;
-        k = i == 0 ? found->stiffness : k;
-        rest = i == 0 ? found->rest : rest;
-        ck_assert(found->stiffness == k && found->rest == rest);
-        double mean = mean_of(g->x, frames * of[i].over) / 0.0980665;
-        printf("over %d at %d Hz: mean force %.6f of the weight\n", of[i].over, of[i].rate, mean);
-        ck_assert_double_eq_tol(mean, 1, 1e-3); /* a frame more or less at the end, and rho straight over a sub-interval */
-        rig_close(g);
-    }
-}
-END_TEST
-
-/* 60 s, of which one grain in three is kept: so soft a ball that its force is the weight to 1e-4 all the time tells the same rms as a third of it, of the
-   same ground, wholly kept. */
-START_TEST(long_motions_are_thinned)
-{
-    double found[2];
-    rig_relief = NULL;
-    for (int k = 0; k < 2; k++) {
-        struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um, shortest: 200 um}}\nball: {radius: 1 cm, mass: 10 g, patch: 100 um}\n"
-                                                        "contact: {model: roll}\nmotion: {path: back_and_forth, from: [0, 0], to: [20 cm, 0], rate: 0.5 Hz, duration: %d s}\n",
-                                           k ? 60 : 20));
-        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 100, 1024);
-        found[k] = g->run.board.roll.deviation;
-        rig_close(g);
-    }
-    printf("rms deviation %.6g m of all, %.6g m of one in three\n", found[0], found[1]);
-    ck_assert_double_eq_tol(found[1] / found[0], 1, 1e-3);
-    ck_assert(found[0] != found[1]);
-}
-END_TEST
-
-/* A ground in step with the grains: at 96 cm/s waves of 0.1 mm are 5 grains long, and of 100 s one grain in 5 is kept. Its rms is A / sqrt 2 times what
-   patch and leaks pass. */
-START_TEST(thinning_keeps_no_step)
-{
-    struct scene s = made("surface: {roughness: {}}\nball: {radius: 1 mm, mass: 10 g}\ncontact: {model: roll, leak: 200 um, limiter: {curve: none}}\n"
-                          "motion: {path: line, to: [9600 cm, 0], speed: 96 cm/s}\n");
-    double q = 2 * M_PI / 1e-4, l = 2e-4, height = wave_height, length = wave_length;
-    wave_height = 1e-10, wave_length = 1e-4, wave_points = 20;
-    rig_relief = wave_part;
-    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 10, 10);
-    double want = wave_height / sqrt(2) * exp(-0.5 * pow(q * 20e-6, 2)) * pow(q * l, 2) / (1 + q * q * l * l);
-    printf("rms %.6g m of %.6g m\n", g->run.board.roll.deviation, want);
-    ck_assert_double_eq_tol(g->run.board.roll.deviation / want, 1, 3e-2);
-    rig_close(g);
-    wave_height = height, wave_length = length, wave_points = 1000;
-}
-END_TEST
-
 /* Nothing presses: no rolling force, and nothing is said of stiffness and contact. */
 START_TEST(without_weight_nothing_rolls)
 {
@@ -803,7 +662,7 @@ START_TEST(too_soft_a_ball_is_told)
 }
 END_TEST
 
-/* Lobes are no part of the ground: its deviation is the same to the bit, and k but for the mean normal force. Only the force that they make differs. */
+/* Lobes are no part of the ground: the stiffness is the same to the bit. Only the force that they make differs. */
 START_TEST(lobes_are_no_roughness)
 {
     struct rig *g[2];
@@ -813,8 +672,7 @@ START_TEST(lobes_are_no_roughness)
                                                         "contact: {model: roll, smoothing: 0, limiter: {curve: none}, roll: {scraping: 0}}\n", rough, line, k ? "100 um" : "0 um"));
         g[k] = rig_record(&s, ITEM_SUBFORCE, 12800, 1024);
     }
-    ck_assert(g[1]->run.board.roll.deviation == g[0]->run.board.roll.deviation);
-    ck_assert_double_eq_tol(g[1]->run.board.roll.stiffness / g[0]->run.board.roll.stiffness, 1, 1e-3);
+    ck_assert(g[1]->run.board.roll.stiffness == g[0]->run.board.roll.stiffness);
     double most = 0;
     for (long i = 0; i < 4 * 12800; i++) { /* f' = 1.5 k rho^0.5, at most some 1.6 of that at rest: N(t) - N times as much, 3.6 % of N */
         double swing = turn_normal((double)i / 192000, 0, 100e-6) - 0.0980665;
@@ -822,112 +680,9 @@ START_TEST(lobes_are_no_roughness)
         ck_assert(fabs(swing) < 0.04 * 0.0980665);
     }
     printf("worst %.3g of the weight\n", most / 0.0980665);
-    ck_assert_double_lt(most, 0.03 * 0.0980665);
+    ck_assert_double_lt(most, 0.04 * 0.0980665);
     rig_close(g[0]);
     rig_close(g[1]);
-}
-END_TEST
-
-static double stiffness_of(const char *ball, const char *motion)
-{
-    struct scene s = made(arena_format(rig_arena(), "%sball: {radius: 1 cm, mass: 10 g%s}\ncontact: {model: roll, roll: {scraping: 0}}\nmotion: %s\n", rough, ball, motion));
-    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 100, 100);
-    double k = g->run.board.roll.stiffness;
-    rig_close(g);
-    return k;
-}
-
-/* A few millimetres, or none but a few, have the stiffness of the ground: that of 12 cm, which is what is looked at. */
-START_TEST(short_motions_have_the_grounds_stiffness)
-{
-    rig_relief = NULL;
-    double k = stiffness_of("", "{path: line, to: [12 cm, 0], speed: 30 cm/s}");
-    for (double to = 0.1; to < 12; to *= 3) {
-        double is = stiffness_of("", arena_format(rig_arena(), "{path: line, to: [%g cm, 0], speed: 30 cm/s}", to));
-        printf("%g cm: %.6g of that of 12 cm\n", to, is / k), fflush(stdout);
-        ck_assert_double_eq_tol(is / k, 1, 2e-3); /* grains of another length */
-    }
-    double again = stiffness_of("", "{path: back_and_forth, to: [4 mm, 0], rate: 20 Hz, duration: 0.11 s}"); /* of other ground: before its start */
-    printf("4 mm there and back: %.6g\n", again / k);
-    ck_assert_double_eq_tol(log(again / k), 0, 4 * 1.5 * sqrt(1.3 / 60));
-    ck_assert(stiffness_of("", "{path: line, to: [13 cm, 0], speed: 30 cm/s}") != k); /* a longer one's is its own */
-}
-END_TEST
-
-/* Of the rms that patch and two leaks leave of waves along x, in the square's mean over all directions. */
-static double passed_all_round(double q)
-{
-    double l = 2e-3, sum = 0;
-    for (int i = 0; i < 1000; i++) {
-        double p = q * cos(2 * M_PI * (i + 0.5) / 1000), z = exp(-0.5 * pow(q * 20e-6, 2)) * pow(p * l, 2) / (1 + p * p * l * l);
-        sum += z * z / 1000;
-    }
-    return sqrt(sum);
-}
-
-/* Beyond a circle's end the way goes on in the directions that it had: over ground that waves along x it makes little difference which way it ended: how
-   well eight directions stand for all, and what their corners leave behind (2 to 7 % here). Each part counts by its ground, of which a circle along x has half its
-   way, as the other half is over the same, and by its own rms, which a given stiffness leaves: counted each time, the small one had a third of that rms. (A circle
-   leaves some height behind too, which takes a centimetre to settle.) */
-START_TEST(beyond_a_circle_it_goes_all_ways)
-{
-    double q = 2 * M_PI / 1e-3, height = wave_height, length = wave_length;
-    wave_height = 1e-7, wave_length = 1e-3;
-    rig_relief = wave_part;
-    double passed = wave_height / sqrt(2) * passed_all_round(q);
-    for (int k = 0; k < 4; k++) {
-        double rms[2], radius = k / 2 ? 0.1e-3 : 0.9e-3, circle = M_PI * radius;
-        for (int given = 0; given < 2; given++) {
-            struct scene s = made(arena_format(rig_arena(), "surface: {roughness: {}, along: x}\nball: {radius: 1 mm, mass: 10 g}\n"
-                                                            "contact: {model: roll, limiter: {curve: none}, roll: {%s}}\n"
-                                                            "motion: {path: circle, radius: %g mm, start_angle: %s, turns: %d, speed: 10 cm/s}\n",
-                                               given ? "stiffness: 1e6" : "", 1e3 * radius, k % 2 ? "0 deg" : "-90 deg", k / 2 ? 180 : 1));
-            struct rig *g = rig_record(&s, ITEM_SUBFORCE, 100, 100);
-            rms[given] = g->run.board.roll.deviation;
-            rig_close(g);
-        }
-        double want = sqrt((circle * rms[1] * rms[1] + (0.12 - circle) * passed * passed) / 0.12);
-        printf("%.4g m of %.4g m, circle %.4g m\n", rms[0], want, rms[1]), fflush(stdout);
-        ck_assert_double_eq_tol(rms[0] / want, 1, 0.15);
-    }
-    wave_height = height, wave_length = length;
-}
-END_TEST
-
-/* A millimetre across the ridges, then one along them: half of the ground waves, of which rms is 1/sqrt 2 and k 1.7 times that of all. Gone on only as it ended
-   there was next to nothing to make k of, and it was 480 times as great. */
-START_TEST(an_end_along_the_ridges_is_no_level_ground)
-{
-    rig_relief = NULL;
-    double k = stiffness_of("", "{path: line, to: [12 cm, 0], speed: 30 cm/s}");
-    struct scene s = made("surface: {along: x, roughness: {rms: 5 um}}\nball: {radius: 1 cm, mass: 10 g}\ncontact: {model: roll, roll: {scraping: 0}}\n"
-                          "motion: {path: polyline, points: [[0, 0], [1 mm, 0], [1 mm, 1 mm]], duration: 0.2 s}\n");
-    struct rig *g = rig_record(&s, ITEM_SUBFORCE, 100, 100);
-    printf("%.4g times\n", g->run.board.roll.stiffness / k), fflush(stdout);
-    ck_assert_double_eq_tol(log(g->run.board.roll.stiffness / k), log(1.7), log(2));
-    rig_close(g);
-}
-END_TEST
-
-/* Ridges alone are the same ground read along x, in the plane, and turned there with the circle: their level goes with the direction. Where it was taken for a
-   grain's, the ball lay 2.7 times too deep. */
-START_TEST(ridges_in_the_plane_are_those_along_x)
-{
-    const char *const of[] = {"along: x", "along: plane", "along: plane, direction: 30 deg"};
-    double rms[3];
-    rig_relief = NULL;
-    for (int k = 0; k < 3; k++) {
-        struct scene s = made(arena_format(rig_arena(), "surface: {ridges: {spacing: 1 mm, height: 20 um%s}, along: %s}\nball: {radius: 8 mm, mass: 5.4 g, patch: 120 um}\n"
-                                                        "contact: {model: roll, roll: {scraping: 0}}\n"
-                                                        "motion: {path: circle, radius: 15 mm, start_angle: %s, turns: 1, speed: 25 cm/s}\n",
-                                           k == 2 ? ", direction: 30 deg" : "", k ? "plane" : "x", k == 2 ? "-60 deg" : "0 deg"));
-        struct rig *g = rig_record(&s, ITEM_SUBFORCE, 100, 100);
-        rms[k] = g->run.board.roll.deviation;
-        printf("%s: %.4g m\n", of[k], rms[k]), fflush(stdout);
-        rig_close(g);
-    }
-    ck_assert_double_eq_tol(rms[1] / rms[0], 1, 0.15); /* along x half the circle is the same ground as the other, and what is beyond weighs more */
-    ck_assert_double_eq_tol(rms[2] / rms[1], 1, 0.01);
 }
 END_TEST
 
@@ -939,14 +694,11 @@ START_TEST(what_is_beyond_the_model_is_told)
     } of[] = {{"", "", NULL},
               {", lobe_height: 1 mm", "", NULL},
               {", lobe_height: 1 um", "limiter: {force_range: [0 N, 1 N]},", NULL},
-              {", lobe_height: 1 um", "", "and the stiffness with it"},
+              {", lobe_height: 1 um", "", "by it; give contact.limiter.force_range"},
               {", lobe_height: 1 um", "roll: {stiffness: 1e6},", "by it; give contact.limiter.force_range"},
               {", lobe_height: 1 um, lobes: 40", "limiter: {curve: none},", "cannot follow"},
               {", offset: 1 mm", "gravity: 0,", "gravity is 0"},
-              {", lobe_height: 1 mm", "gravity: 0,", "gravity is 0"},
-              {"", "leak: 6 mm,", NULL},
-              {"", "leak: 7 mm,", "contact.leak"},
-              {"", "leak: 7 mm, limiter: {curve: none}, roll: {stiffness: 1e6},", NULL}};
+              {", lobe_height: 1 mm", "gravity: 0,", "gravity is 0"}};
     rig_relief = NULL;
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
         struct scene s = made(arena_format(rig_arena(), "%s%sball: {radius: 1 cm, mass: 10 g%s}\ncontact: {%s model: roll}\n", rough, line, of[i].ball, of[i].contact));
@@ -959,12 +711,8 @@ START_TEST(what_is_beyond_the_model_is_told)
 }
 END_TEST
 
-UNIT("roll", means_are_the_integral, parts_of_a_smooth_way, means_keep_their_digits, means_have_that_derivative, the_printed_penetration_is_absurd, UNIT_LONG(an_offset_oval_on_level_ground),
-     level_ground_bears_the_normal_force, third_order_in_the_sub_intervals, penetration_as_printed,
-     rho_is_equation_16, height_of_an_offset_ball, an_oval_on_level_ground,
-     round_and_level, no_force_where_it_flies, height_over_a_wave,
-     height_does_not_depend_on_the_pieces, the_mean_force_is_the_weight, the_force_follows_the_normal_force,
-     lobes_are_no_roughness, short_motions_have_the_grounds_stiffness, beyond_a_circle_it_goes_all_ways, an_end_along_the_ridges_is_no_level_ground,
-     ridges_in_the_plane_are_those_along_x, an_offset_ball_on_a_circle, what_is_beyond_the_model_is_told,
-     what_slips_is_what_scrapes, terms_add_up, no_thump_at_the_start_nor_at_turns, up_and_down_a_slope, alpha_follows_the_turning, blocks_do_not_matter,
-     grains_are_the_rehearsals_own, long_motions_are_thinned, UNIT_LONG(thinning_keeps_no_step), without_weight_nothing_rolls, too_soft_a_ball_is_told)
+UNIT("roll", means_are_the_integral, parts_of_a_smooth_way, means_keep_their_digits, the_printed_penetration_is_absurd, UNIT_LONG(an_offset_oval_on_level_ground),
+     level_ground_bears_the_normal_force, third_order_in_the_sub_intervals, penetration_as_printed, rho_is_equation_16, height_of_an_offset_ball, an_oval_on_level_ground, round_and_level,
+     no_force_where_it_flies, height_over_a_wave, height_does_not_depend_on_the_pieces, the_force_follows_the_normal_force, lobes_are_no_roughness, an_offset_ball_on_a_circle,
+     what_is_beyond_the_model_is_told, what_slips_is_what_scrapes, terms_add_up, up_and_down_a_slope, alpha_follows_the_turning, blocks_do_not_matter, without_weight_nothing_rolls,
+     too_soft_a_ball_is_told)

@@ -93,7 +93,7 @@ static const char COUPLED[] =
     "output: {quantity: force, level: {full_scale: 3 N}}\naccuracy: {contact_steps: 33}\n";
 static const char DEVIATION[] =
     "rasp: 1\nsurface: {ridges: {}, response: files/plank.csv}\nball: {radius: 1 cm, material: oak, response: files/plank.csv}\n"
-    "motion: {path: circle, radius: 0.1, duration: 3}\ncontact: {model: roll, roll: {static_depth: 7}}\n";
+    "motion: {path: circle, radius: 0.1, duration: 3}\ncontact: {model: roll, roll: {static_penetration: 7 um, damping_ratio: 0.2}}\n";
 static const char SERIES[] =
     "rasp: 1\ncontacts:\n"
     "- name: disk\n  motion: {path: line, to: [1 cm, 0], duration: 1 s}\n  surface: {response: files/plank.csv, gammatone: 2}\n"

@@ -171,6 +171,7 @@ START_TEST(test_examples_are_taken)
         {"ball.response", ROLLS, "ball.radius=1 cm", "ball.mass=1 kg"},
         {"contact.roll.stiffness", "contact.model=roll", "scraper=null", "ball.radius=1 cm", "ball.mass=1 kg"},
         {"contact.roll.kappa", "contact.model=roll", "scraper=null", "ball.radius=1 cm", "ball.mass=1 kg"},
+        {"contact.roll.static_penetration", "contact.model=roll", "scraper=null", "ball.radius=1 cm", "ball.mass=1 kg"},
         {"contact.strike.speed", STRIKE, "contact.strike.stiffness=1e8"},
         {"contact.strike.stiffness", STRIKE, "contact.strike.speed=1"},
         {"contact.strike.interval", STRIKE, "contact.strike.speed=1", "contact.strike.stiffness=1e8"},

@@ -290,54 +290,6 @@ START_TEST(top_speed_is_the_top)
 }
 END_TEST
 
-static double ground_along(const struct motion *m, int along)
-{
-    struct trajectory tr = made(m);
-    return trajectory_ground(&tr, along, 2e-3);
-}
-
-/* There and back, and round and round, is counted once; a profile along the way has no end. Along x a circle has pi R: half of it is over what the other half was. */
-START_TEST(ground_is_counted_once)
-{
-    struct motion fro = harmonic_motion(3.7, 2), circle = {.path = PATH_CIRCLE, .radius = 2e-3, .turns = -7, .speed = 0.1, .duration = NAN};
-    double round = 2 * M_PI * 2e-3, length = made(&fro).length;
-    for (int along = ALONG_PATH; along <= ALONG_PLANE; along++)
-        ck_assert_double_eq_tol(ground_along(&fro, along), length, 1e-15);
-    ck_assert_double_eq_tol(ground_along(&circle, ALONG_PATH), 7 * round, 1e-14);
-    ck_assert_double_eq_tol(ground_along(&circle, ALONG_X), round / 2, 1e-3 * round); /* by chords, 64 a turn */
-    ck_assert_double_eq_tol(ground_along(&circle, ALONG_PLANE), round, 1e-15);
-    circle.turns = 0.25;
-    for (int along = ALONG_PATH; along <= ALONG_PLANE; along++)
-        ck_assert_double_eq_tol(ground_along(&circle, along), round / 4, 1e-14);
-}
-END_TEST
-
-/* Twenty times round a square of side w: along x there and back over w, and as much again across it, twice w; in the plane what a box of w has room for,
-   2 mm wide. A long straight way in pieces, and a bent one, lose nothing. */
-START_TEST(ground_has_room_in_its_box)
-{
-    double points[80][2], w = 3e-3, b = 2e-3;
-    for (int i = 0; i < 80; i++) {
-        points[i][0] = i % 4 == 1 || i % 4 == 2 ? w : 0;
-        points[i][1] = i % 4 >= 2 ? w : 0;
-    }
-    struct motion m = {.path = PATH_POLYLINE, .points = points[0], .n_points = 80, .duration = 20, .speed = NAN};
-    ck_assert_double_eq_tol(ground_along(&m, ALONG_PATH), 79 * w, 1e-12);
-    ck_assert_double_eq_tol(ground_along(&m, ALONG_X), 79 * w / 40, 1e-4 * w);
-    ck_assert_double_eq_tol(ground_along(&m, ALONG_PLANE), (w + b) * (w + b) / b, 1e-9 * w);
-    for (int i = 0; i < 80; i++) {
-        points[i][0] = i * 4e-4;
-        points[i][1] = i * 3e-4;
-    }
-    for (int bent = 0; bent < 2; bent++) {
-        m.n_points = 40;
-        points[39][0] = 39 * 4e-4 + bent * 5e-3;
-        for (int along = ALONG_PATH; along <= ALONG_PLANE; along++)
-            ck_assert_double_eq_tol(ground_along(&m, along) / made(&m).length, 1, 1e-9);
-    }
-}
-END_TEST
-
 /* Inside it is the motion; outside the same formula goes on: a cosine, a straight line, a fifth-order polynomial (long double). */
 START_TEST(test_continued)
 {
@@ -428,4 +380,4 @@ START_TEST(stage_lays_out_the_board)
 END_TEST
 
 UNIT("trajectory", still_stays, stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
-     derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top, ground_is_counted_once, ground_has_room_in_its_box)
+     derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)
