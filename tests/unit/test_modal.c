@@ -199,4 +199,51 @@ START_TEST(strikes_and_hum)
 }
 END_TEST
 
-UNIT("test_modal", basis, random_modes, pairs_and_slopes, noise_alone, strikes_and_hum)
+/* Strikes of random levels, up to 20 dB apart, in time with modes that ring through all of them: most of what is heard after a strike
+   is that of the ones before. */
+START_TEST(strikes_in_time)
+{
+    enum { STRIKES = 8, PULSE = 6, GAP = 4000, ALL = STRIKES * GAP + 8 };
+    static const struct known m[] = {{320, 0.3, 1, 0}, {888, 0.5, 0.7, 1}, {1700, 1, 0.5, 2}};
+    for (unsigned seed = 1; seed <= 4; seed++) {
+        double force[STRIKES][PULSE], level[STRIKES], draw[STRIKES];
+        struct arena *a = arena_open();
+        double *y = ARENA_TAKE(a, double, ALL), *noise = ARENA_TAKE(a, double, ALL);
+        struct modal_stretch s[STRIKES];
+        struct modal_result r;
+        struct err e = {0};
+        noise_normal(noise_make(seed, "levels"), 1, STRIKES, draw);
+        noise_normal(noise_make(seed, "test"), 1, ALL, noise);
+        for (int k = 0; k < STRIKES; k++) {
+            level[k] = real_exp10(-fmin(fabs(draw[k]), 1.0));
+            for (int i = 0; i < PULSE; i++)
+                force[k][i] = level[k] * real_sin(REAL_PI * (i + 0.5) / PULSE);
+            sound(m, 3, force[k], PULSE, k * GAP + 8, ALL, y);
+            s[k] = (struct modal_stretch){.y = y + k * GAP, .first = k * GAP, .n = modal_length(GAP), .ringing = 8 + PULSE, .group = k,
+                                          .strike = k, .fitted = true, .pulse = {k * GAP + 8, PULSE, force[k]}};
+        }
+        for (long i = 0; i < ALL; i++)
+            y[i] += 1e-4 * noise[i];
+        struct modal_data d = {.rate = RATE, .places = 1, .groups = STRIKES, .stretches = STRIKES, .stretch = s};
+        struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
+        ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
+        ck_assert_int_eq(r.n, 3);
+        for (int i = 0; i < 3; i++) {
+            const struct modal_mode *k = nearest(&r, &m[i]);
+            double before = 0.0; /* the squared error of what rings, as a force's */
+            ck_assert_double_eq_tol(k->frequency, m[i].f, 5.0 * k->frequency_se);
+            ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
+            for (int g = 0; g < STRIKES; g++) {
+                double se = k->gain_se[g] * level[g];
+                ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]) * level[g], m[i].gain * level[g], 5.0 * sqrt(before + se * se));
+                before += se * se;
+            }
+        }
+        for (int k = 0; k < STRIKES; k++)
+            ck_assert_double_ge(r.explained[k], 0.999);
+        arena_close(a);
+    }
+}
+END_TEST
+
+UNIT("test_modal", basis, random_modes, pairs_and_slopes, noise_alone, strikes_and_hum, strikes_in_time)
