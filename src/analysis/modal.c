@@ -10,18 +10,18 @@
 
 enum { ROUNDS = 10, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 8 };
 
-static const double stable = 23.5;          /* chi squared of 4 degrees that a mode must keep under noise drawn anew */
-static const double certain = 100.0;        /* ... above which all draws do */
-static const double step = 300.0;            /* of power, from round to round */
-static const double samples = 128.0;        /* of a band's envelope in the longest stretch, in the narrowest bands */
-static const double model_error[2] = {2e-4, 0.05}; /* of frequency and decay, where there is one strike: stated, not measured */
-static const double prior = 3.0;            /* strikes that the scatter of all modes together counts as */
+static const double stable = 23.5;   /* chi squared of 4 degrees that a mode must keep under noise drawn anew */
+static const double certain = 100.0; /* ... above which all draws do */
+static const double step = 300.0;    /* of power, from round to round */
+static const double samples = 128.0; /* of a band's envelope in the longest stretch, in the narrowest bands */
+static const double model_error[2] = {
+    2e-4, 0.05};                 /* of frequency and decay, where there is one strike: stated, not measured */
+static const double prior = 3.0; /* strikes that the scatter of all modes together counts as */
 
 long modal_length(long n)
 {
     for (n -= n % 2; n >= 64; n -= 2)
-        if ((long)fft_good_size((size_t)n) == n)
-            return n;
+        if ((long)fft_good_size((size_t)n) == n) return n;
     return 0;
 }
 
@@ -32,24 +32,22 @@ static void note(struct modal_result *r, struct arena *a, const char *text)
 
 /* ------------------------------------------------------------------ search */
 
-/* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong fast mode is there before its skirts are taken for slow ones. */
+/* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong
+ * fast mode is there before its skirts are taken for slow ones. */
 static void search(struct modal_fit *f)
 {
     double width = samples / f->longest, least = HUGE_VAL, noise;
     for (int round = 0, came = 1; round < ROUNDS; round++) {
         double power = modal_search_round(f, &noise);
-        if ((came <= f->m / 10 && least == 0.0) || f->m >= f->options->most + 10)
-            break;
+        if ((came <= f->m / 10 && least == 0.0) || f->m >= f->options->most + 10) break;
         least = fmin(power / step, came > f->m / 10 ? least : least / step);
         least = least > noise ? least : 0.0;
         int before = f->m;
         for (double w = width; w < f->data->rate / 3.0; w *= 4.0) {
             int n = modal_search(f, w, least);
-            if (n)
-                modal_settle_sweeps(f, 8, 2);
+            if (n) modal_settle_sweeps(f, 8, 2);
         }
-        if (modal_settle_runaways(f))
-            modal_settle_sweeps(f, 8, 2);
+        if (modal_settle_runaways(f)) modal_settle_sweeps(f, 8, 2);
         modal_settle_runaways(f);
         modal_fit_rest(f);
         modal_fit_noise(f, 0.0);
@@ -66,8 +64,7 @@ static void redraw(struct modal_block *b, const struct modal_block *was, double 
     const struct modal_fit *f = b->fit;
     for (int s = 0; s < f->data->stretches; s++) {
         long bins = b->to[s] - b->from[s];
-        if (bins <= 0)
-            continue;
+        if (bins <= 0) continue;
         struct arena *a = arena_open();
         double *x = ARENA_TAKE(a, double, 2 * bins);
         noise_normal(n, row + (uint64_t)s, (size_t)(2 * bins), x);
@@ -117,15 +114,12 @@ static int drop_unstable(struct modal_fit *f)
         }
         n = modal_settle_near(f, i, 11, near);
         for (int k = 0; k < n; k++)
-            if (near[k] != i)
-                near[others++] = near[k] - (near[k] > i);
+            if (near[k] != i) near[others++] = near[k] - (near[k] > i);
         modal_fit_drop(f, i);
-        if (others)
-            modal_settle_refine(f, others, near, 20);
+        if (others) modal_settle_refine(f, others, near, 20);
         dropped++;
     }
-    if (dropped)
-        modal_settle(f);
+    if (dropped) modal_settle(f);
     return dropped;
 }
 
@@ -166,7 +160,8 @@ static double projected(const struct modal_fit *f, int i)
             struct modal_line line = modal_fit_line(f, s, f->s[i], f->hum[i]);
             modal_fit_basis(b, &line, 0, b->n, x);
             for (long k = 0; k < b->n; k++)
-                sum += b->yr[k] * (g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k])) + b->yi[k] * (g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]));
+                sum += b->yr[k] * (g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k])) +
+                       b->yi[k] * (g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]));
         }
         arena_close(a);
     }
@@ -202,8 +197,7 @@ static void scatter(struct modal_fit *f, const struct modal_result *r, const int
     const struct modal_data *d = f->data;
     for (int j = 0; j < r->n; j++)
         for (int s = 0; s < d->stretches; s++) {
-            if (!d->stretch[s].fitted || d->stretch[s].strike < 0)
-                continue;
+            if (!d->stretch[s].fitted || d->stretch[s].strike < 0) continue;
             struct arena *a = arena_open();
             struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
             bool *only = ARENA_TAKE(a, bool, d->stretches);
@@ -214,7 +208,8 @@ static void scatter(struct modal_fit *f, const struct modal_result *r, const int
             while (b->of[at] != of_mode[j])
                 at++;
             if (modal_block_polish(b, 6)) {
-                double by[2] = {(b->s[at].im - f->s[of_mode[j]].im) / (2.0 * REAL_PI), real_log(b->s[at].re / f->s[of_mode[j]].re)};
+                double by[2] = {(b->s[at].im - f->s[of_mode[j]].im) / (2.0 * REAL_PI),
+                                real_log(b->s[at].re / f->s[of_mode[j]].re)};
                 modal_block_errors(b, at, se, gain_se);
                 double noise = sqrt(modal_block_noise(b));
                 if (se[1] * noise < 0.5 && fabs(by[1]) < 2.0) {
@@ -230,10 +225,10 @@ static void scatter(struct modal_fit *f, const struct modal_result *r, const int
 /* Standard deviations from strike to strike, each mode's own drawn towards the median of all. */
 static void between(struct modal_fit *f, struct modal_result *r, const int *of_mode, int strikes, struct arena *a)
 {
-    double(*square)[2] = arena_take(a, (size_t)r->n + 1, sizeof *square), *list = ARENA_TAKE(a, double, r->n + 1), typical[2] = {0};
+    double(*square)[2] = arena_take(a, (size_t)r->n + 1, sizeof *square), *list = ARENA_TAKE(a, double, r->n + 1),
+    typical[2] = {0};
     int *n = ARENA_TAKE(a, int, r->n + 1);
-    if (strikes > 1)
-        scatter(f, r, of_mode, square, n);
+    if (strikes > 1) scatter(f, r, of_mode, square, n);
     for (int q = 0; q < 2; q++) {
         int count = 0;
         for (int j = 0; j < r->n; j++)
@@ -244,11 +239,13 @@ static void between(struct modal_fit *f, struct modal_result *r, const int *of_m
     }
     for (int j = 0; j < r->n; j++) {
         struct modal_mode *m = &r->mode[j];
-        double degrees = n[j] > 1 ? n[j] - 1.0 : 0.0, own[2] = {degrees > 0.0 ? square[j][0] : 0.0, degrees > 0.0 ? square[j][1] : 0.0};
+        double degrees = n[j] > 1 ? n[j] - 1.0 : 0.0,
+               own[2] = {degrees > 0.0 ? square[j][0] : 0.0, degrees > 0.0 ? square[j][1] : 0.0};
         m->frequency_between = sqrt((prior * typical[0] * m->frequency * m->frequency + own[0]) / (prior + degrees));
         m->decay_between = m->decay * sqrt((prior * typical[1] + own[1]) / (prior + degrees));
         if (degrees == 0.0) {
-            m->frequency_between = sqrt(m->frequency_between * m->frequency_between + m->frequency_se * m->frequency_se);
+            m->frequency_between =
+                sqrt(m->frequency_between * m->frequency_between + m->frequency_se * m->frequency_se);
             m->decay_between = sqrt(m->decay_between * m->decay_between + m->decay_se * m->decay_se);
         }
     }
@@ -257,7 +254,8 @@ static void between(struct modal_fit *f, struct modal_result *r, const int *of_m
 static int by_share(const void *x, const void *y)
 {
     const struct modal_mode *a = x, *b = y;
-    return a->share != b->share ? (a->share < b->share) - (a->share > b->share) : (a->frequency > b->frequency) - (a->frequency < b->frequency);
+    return a->share != b->share ? (a->share < b->share) - (a->share > b->share)
+                                : (a->frequency > b->frequency) - (a->frequency < b->frequency);
 }
 
 /* Numbers by falling share; components whose frequencies agree and decays do not are slopes of one mode. */
@@ -271,7 +269,8 @@ static void number(struct modal_result *r, int most, struct arena *a)
         m->mode = 0;
         for (int k = 0; k < n && !m->mode; k++) {
             struct modal_mode *o = &r->mode[k];
-            double se = sqrt(m->frequency_se * m->frequency_se + o->frequency_se * o->frequency_se), ratio = m->decay / o->decay;
+            double se = sqrt(m->frequency_se * m->frequency_se + o->frequency_se * o->frequency_se),
+                   ratio = m->decay / o->decay;
             if (fabs(m->frequency - o->frequency) < 3.0 * se && (ratio > 1.5 || ratio < 1.0 / 1.5)) {
                 m->mode = o->mode;
                 m->slope = 2;
@@ -290,27 +289,29 @@ static void number(struct modal_result *r, int most, struct arena *a)
         if (m->slope == 2)
             for (int k = 0; k < n; k++)
                 if (r->mode[k].mode == m->mode && r->mode[k].slope == 1)
-                    note(r, a, arena_format(a, "%.6g Hz decays with two slopes: %.3g/s and %.3g/s", r->mode[k].frequency, r->mode[k].decay, m->decay));
+                    note(r, a,
+                         arena_format(a, "%.6g Hz decays with two slopes: %.3g/s and %.3g/s", r->mode[k].frequency,
+                                      r->mode[k].decay, m->decay));
         r->mode[n++] = *m;
     }
     r->n = n;
-    if (left_out)
-        note(r, a, arena_format(a, "%d more modes than the %d strongest were found", left_out, most));
+    if (left_out) note(r, a, arena_format(a, "%d more modes than the %d strongest were found", left_out, most));
 }
 
-/* Of the energy in the band, noise off, what the modes explain where the sound does not follow the force at once, and what does. */
+/* Of the energy in the band, noise off, what the modes explain where the sound does not follow the force at once, and
+ * what does. */
 static void explain(struct modal_fit *f, struct modal_result *r, struct arena *a)
 {
     const struct modal_data *d = f->data;
     double *count = ARENA_TAKE(a, double, d->places);
     for (int i = 0; i < f->m; i++)
-        if (f->hum[i])
-            modal_fit_put(f, i, 1.0);
+        if (f->hum[i]) modal_fit_put(f, i, 1.0);
     modal_fit_noise(f, 0.0);
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         const struct modal_stretch *st = &d->stretch[s];
-        double all = 0.0, left = 0.0, noise = 0.0, direct = 0.0, *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
+        double all = 0.0, left = 0.0, noise = 0.0, direct = 0.0, *re = ARENA_TAKE(a, double, st->n / 2 + 1),
+               *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         for (long k = 0; k < b->n; k++) {
             all += b->yr[k] * b->yr[k] + b->yi[k] * b->yi[k];
             left += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
@@ -355,8 +356,7 @@ static void predict(struct modal_fit *f)
     bool *only = ARENA_TAKE(f->a, bool, f->data->stretches), any = false;
     for (int s = 0; s < f->data->stretches; s++)
         any = (only[s] = !f->data->stretch[s].fitted && f->data->stretch[s].strike >= 0) || any;
-    if (any)
-        fit_gains(f, only);
+    if (any) fit_gains(f, only);
 }
 
 /* What does not decay by more than chance is a hum that no lead has told, or what a fit of noise needs. */
@@ -364,11 +364,11 @@ static void drop_undamped(struct modal_result *r, struct arena *a)
 {
     int kept = 0;
     for (int i = 0; i < r->n; i++)
-        if (r->mode[i].decay > 2.0 * r->mode[i].decay_se)
-            r->mode[kept++] = r->mode[i];
+        if (r->mode[i].decay > 2.0 * r->mode[i].decay_se) r->mode[kept++] = r->mode[i];
     if (kept < r->n)
-        note(r, a, arena_format(a, "%d component%s that decay%s by no more than chance %s left out", r->n - kept, r->n - kept == 1 ? "" : "s", r->n - kept == 1 ? "s" : "",
-                                r->n - kept == 1 ? "is" : "are"));
+        note(r, a,
+             arena_format(a, "%d component%s that decay%s by no more than chance %s left out", r->n - kept,
+                          r->n - kept == 1 ? "" : "s", r->n - kept == 1 ? "s" : "", r->n - kept == 1 ? "is" : "are"));
     r->n = kept;
 }
 
@@ -391,7 +391,8 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
             continue;
         }
         of_mode[r->n++] = i;
-        *m = (struct modal_mode){.frequency = f->s[i].im / (2.0 * REAL_PI), .decay = -f->s[i].re, .share = projected(f, i)};
+        *m = (struct modal_mode){
+            .frequency = f->s[i].im / (2.0 * REAL_PI), .decay = -f->s[i].re, .share = projected(f, i)};
         m->re = ARENA_TAKE(a, double, d->groups);
         m->im = ARENA_TAKE(a, double, d->groups);
         m->gain_se = ARENA_TAKE(a, double, d->groups);
@@ -411,7 +412,9 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     number(r, f->options->most, a);
     explain(f, r, a);
     if (hums)
-        note(r, a, arena_format(a, "%d line%s that the recording holds before the first strike (hum) %s fitted and taken out", hums, hums == 1 ? "" : "s", hums == 1 ? "is" : "are"));
+        note(r, a,
+             arena_format(a, "%d line%s that the recording holds before the first strike (hum) %s fitted and taken out",
+                          hums, hums == 1 ? "" : "s", hums == 1 ? "is" : "are"));
 }
 
 /* The data with the few loudest strikes alone to be fitted: what those do not tell, none does. */
@@ -434,7 +437,8 @@ static struct modal_data loudest_of(const struct modal_data *d, struct arena *a)
     return to;
 }
 
-bool modal_find(const struct modal_data *d, const struct modal_options *o, struct arena *a, struct modal_result *r, struct err *e)
+bool modal_find(const struct modal_data *d, const struct modal_options *o, struct arena *a, struct modal_result *r,
+                struct err *e)
 {
     struct modal_fit f;
     struct arena *inner = arena_open();
@@ -442,7 +446,8 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     modal_fit_open(&f, d, o, inner);
     if (f.longest * (o->high - o->low) < 30.0) {
         arena_close(inner);
-        return err_set(e, ERR_SCENE, "between %.6g and %.6g Hz there is too little sound to tell modes: %.3g s", o->low, o->high, f.longest);
+        return err_set(e, ERR_SCENE, "between %.6g and %.6g Hz there is too little sound to tell modes: %.3g s", o->low,
+                       o->high, f.longest);
     }
     modal_fit_noise(&f, 0.0);
     struct modal_data few = loudest_of(d, inner);

@@ -6,9 +6,9 @@
 #include "base/arena.h"
 #include "base/err.h"
 
-struct modal_pulse {          /* a strike's force */
-    long at, n;               /* samples of the recording */
-    const double *f;          /* [n] */
+struct modal_pulse { /* a strike's force */
+    long at, n;      /* samples of the recording */
+    const double *f; /* [n] */
 };
 
 struct modal_stretch {        /* part of a recording, after a strike, or before the first (a lead) */
@@ -22,42 +22,44 @@ struct modal_stretch {        /* part of a recording, after a strike, or before 
 };
 
 struct modal_data {
-    double rate;              /* Hz */
+    double rate; /* Hz */
     int places, groups, stretches;
     const struct modal_stretch *stretch;
-    const double *rounding;   /* [places] rms of the file's steps; no noise is less */
+    const double *rounding; /* [places] rms of the file's steps; no noise is less */
 };
 
 struct modal_options {
-    int most;                 /* modes */
-    double low, high;         /* Hz */
-    double fastest;           /* 1/s, of decays */
-    bool spectrogram;         /* candidates from peaks of the power spectrogram (papers/003 section B) instead of sub-band ESPRIT */
-    double threshold;         /* of the spectrogram's local fit: greatest error, share of its energy; 0.1 */
+    int most;         /* modes */
+    double low, high; /* Hz */
+    double fastest;   /* 1/s, of decays */
+    bool spectrogram; /* candidates from peaks of the power spectrogram (papers/003 section B) instead of sub-band
+                         ESPRIT */
+    double threshold; /* of the spectrogram's local fit: greatest error, share of its energy; 0.1 */
 };
 
 struct modal_mode {
-    double frequency, decay;  /* Hz, 1/s */
-    double *re, *im;          /* [groups] A, h(t) = Im A e^(s t), t from the force's sample, or from the stretch's first */
+    double frequency, decay; /* Hz, 1/s */
+    double *re, *im; /* [groups] A, h(t) = Im A e^(s t), t from the force's sample, or from the stretch's first */
     double frequency_se, decay_se, *gain_se; /* standard errors from noise; of |A| */
     double frequency_between, decay_between; /* standard deviations from strike to strike */
-    double share;             /* of the energy of all modes together */
-    int mode, slope;          /* from 1 by falling share; slopes of one mode from 1 */
+    double share;                            /* of the energy of all modes together */
+    int mode, slope;                         /* from 1 by falling share; slopes of one mode from 1 */
 };
 
 struct modal_result {
-    int n, modes;             /* components, modes */
-    struct modal_mode *mode;  /* [n] */
-    double *explained;        /* [stretches] share of the energy in the band, noise and what is direct taken off */
-    double *direct;           /* [stretches] share of what follows the force at once: smooth in frequency but for the force */
-    double *noise;            /* [places] rms of the noise in the band */
-    double **model;           /* [stretches][n] the modes' sound */
-    const char *note;         /* lines; NULL */
+    int n, modes;            /* components, modes */
+    struct modal_mode *mode; /* [n] */
+    double *explained;       /* [stretches] share of the energy in the band, noise and what is direct taken off */
+    double *direct;   /* [stretches] share of what follows the force at once: smooth in frequency but for the force */
+    double *noise;    /* [places] rms of the noise in the band */
+    double **model;   /* [stretches][n] the modes' sound */
+    const char *note; /* lines; NULL */
 };
 
 /* Longest stretch of at most n samples that the fit takes; 0: too short. */
 long modal_length(long n);
 
-bool modal_find(const struct modal_data *d, const struct modal_options *o, struct arena *a, struct modal_result *r, struct err *e);
+bool modal_find(const struct modal_data *d, const struct modal_options *o, struct arena *a, struct modal_result *r,
+                struct err *e);
 
 #endif

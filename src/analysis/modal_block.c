@@ -1,5 +1,6 @@
-/* Least squares of a block of modes: poles by Levenberg's and Marquardt's steps, gains and the smooth columns projected out of every step (variable projection, in
-   Kaufman's approximation). Sums run in fixed lanes and order, so that all CPUs and compilers make the same bits. */
+/* Least squares of a block of modes: poles by Levenberg's and Marquardt's steps, gains and the smooth columns projected
+   out of every step (variable projection, in Kaufman's approximation). Sums run in fixed lanes and order, so that all
+   CPUs and compilers make the same bits. */
 #include <string.h>
 
 #include "analysis/modal_fit.h"
@@ -7,15 +8,16 @@
 
 enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 3 };
 
-static const double rounded = 1e-10;  /* of a column's squares: what the others leave of it is rounding */
+static const double rounded = 1e-10; /* of a column's squares: what the others leave of it is rounding */
 
-struct group {               /* columns: gains, smooth ones, gains times steps of poles if full, what is left */
-    int n, linear;           /* columns; gains and smooth ones */
+struct group {     /* columns: gains, smooth ones, gains times steps of poles if full, what is left */
+    int n, linear; /* columns; gains and smooth ones */
     double a[MODAL_COLUMNS * MODAL_COLUMNS], scale[MODAL_COLUMNS];
     bool swept[MODAL_COLUMNS];
 };
 
-/* a -> swept by its pivots from ... to - 1, the greatest over its scale first: of those rows and columns the inverse, of the others what is left of them. */
+/* a -> swept by its pivots from ... to - 1, the greatest over its scale first: of those rows and columns the inverse,
+ * of the others what is left of them. */
 int modal_block_sweep(double *a, int n, int from, int to, const double *scale, bool *swept)
 {
     int count = 0;
@@ -29,8 +31,7 @@ int modal_block_sweep(double *a, int n, int from, int to, const double *scale, b
                 most = a[k * n + k] / scale[k];
                 best = k;
             }
-        if (best < 0)
-            return count;
+        if (best < 0) return count;
         double *row = a + best * n, pivot = 1.0 / row[best];
         swept[best] = true;
         count++;
@@ -39,8 +40,7 @@ int modal_block_sweep(double *a, int n, int from, int to, const double *scale, b
             row[j] *= pivot;
         for (int i = 0; i < n; i++) {
             double factor = a[i * n + best];
-            if (i == best || factor == 0.0)
-                continue;
+            if (i == best || factor == 0.0) continue;
             a[i * n + best] = 0.0;
             for (int j = 0; j < n; j++)
                 a[i * n + j] -= factor * row[j];
@@ -55,7 +55,8 @@ static inline __attribute__((always_inline)) double lanes_sum(const double s[LAN
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 
-/* a[i][j] += sum over ROWS of column i times column j, j <= i < n, by blocks of 4 x 2; x has three columns of zeros behind its last. */
+/* a[i][j] += sum over ROWS of column i times column j, j <= i < n, by blocks of 4 x 2; x has three columns of zeros
+ * behind its last. */
 LANES_CLONES
 void modal_block_products(const double *x, int n, double *a);
 LANES_CLONES
@@ -79,22 +80,25 @@ void modal_block_products(const double *x, int n, double *a)
                     s[7][l] += p[3 * ROWS + k + l] * v;
                 }
             for (int c = 0; c < 8; c++)
-                if (i + c / 2 < n && j + c % 2 <= i + c / 2)
-                    a[(i + c / 2) * n + j + c % 2] += lanes_sum(s[c]);
+                if (i + c / 2 < n && j + c % 2 <= i + c / 2) a[(i + c / 2) * n + j + c % 2] += lanes_sum(s[c]);
         }
 }
 
-/* Columns of one mode on n bins: v (X + C) and v j (X - C), C of the mirror pole, for its gain; the same of dX/ds for gain times
-   pole's step (p; NULL: not wanted). What the mode makes with its gain B goes off r. */
+/* Columns of one mode on n bins: v (X + C) and v j (X - C), C of the mirror pole, for its gain; the same of dX/ds for
+   gain times pole's step (p; NULL: not wanted). What the mode makes with its gain B goes off r. */
 LANES_CLONES
-void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p, double *r);
+void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p,
+                         double *r);
 LANES_CLONES
-void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p, double *r)
+void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p,
+                         double *r)
 {
-    const double *xr = x[0], *xi = x[1], *sr = x[2], *si = x[3], *cr = x[4], *ci = x[5], *mr = x[6], *mi = x[7], br = gain.re, bi = gain.im;
+    const double *xr = x[0], *xi = x[1], *sr = x[2], *si = x[3], *cr = x[4], *ci = x[5], *mr = x[6], *mi = x[7],
+                 br = gain.re, bi = gain.im;
 #pragma omp simd
     for (long k = 0; k < n; k++) {
-        double v = 0.5 * weight[k], a = v * (xr[k] + cr[k]), b = v * (xi[k] + ci[k]), c = v * (ci[k] - xi[k]), d = v * (xr[k] - cr[k]);
+        double v = 0.5 * weight[k], a = v * (xr[k] + cr[k]), b = v * (xi[k] + ci[k]), c = v * (ci[k] - xi[k]),
+               d = v * (xr[k] - cr[k]);
         g[k] = a;
         g[CHUNK + k] = b;
         g[ROWS + k] = c;
@@ -102,8 +106,7 @@ void modal_block_columns(cplx gain, const double *const x[8], const double *weig
         r[k] -= br * a + bi * c;
         r[CHUNK + k] -= br * b + bi * d;
     }
-    if (!p)
-        return;
+    if (!p) return;
 #pragma omp simd
     for (long k = 0; k < n; k++) {
         double v = 0.5 * weight[k];
@@ -114,7 +117,8 @@ void modal_block_columns(cplx gain, const double *const x[8], const double *weig
     }
 }
 
-static void smooth_columns(const struct modal_bins *bins, const struct modal_block *b, const double *weight, long from, long n, double *to)
+static void smooth_columns(const struct modal_bins *bins, const struct modal_block *b, const double *weight, long from,
+                           long n, double *to)
 {
     for (long k = 0; k < n; k++) {
         double u = ((double)(bins->first + from + k) * bins->width - b->centre) / b->half, power = weight[k];
@@ -134,7 +138,8 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
     const struct modal_fit *f = b->fit;
     const struct modal_bins *bins = &f->bins[s];
     int groups = f->data->groups, mine = f->data->stretch[s].group;
-    double room[8][CHUNK], weight[CHUNK], *x[8], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 3) * ROWS), *r = columns + (g->n - 1) * ROWS;
+    double room[8][CHUNK], weight[CHUNK], *x[8], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 3) * ROWS),
+                                                 *r = columns + (g->n - 1) * ROWS;
     struct modal_line line[MODAL_BLOCK];
     for (int c = 0; c < 8; c++)
         x[c] = room[c];
@@ -142,8 +147,7 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
         line[i] = modal_fit_line(f, s, b->s[i], b->hum[i]);
     for (long from = b->from[s]; from < b->to[s]; from += CHUNK) {
         long n = from + CHUNK < b->to[s] ? CHUNK : b->to[s] - from, at = from - b->from[s], all = b->to[s] - b->from[s];
-        if (n < CHUNK)
-            memset(columns, 0, (size_t)(g->n * size));
+        if (n < CHUNK) memset(columns, 0, (size_t)(g->n * size));
         for (long k = 0; k < n; k++) {
             weight[k] = sqrt(2.0 / bins->variance[from + k]);
             r[k] = weight[k] * b->r[s][at + k];
@@ -163,8 +167,7 @@ static bool counts(const struct modal_block *b, int s)
 {
     bool lead = b->fit->data->stretch[s].strike < 0; /* only hums are heard in it */
     for (int i = 0; lead && !b->stretches && i < b->m; i++)
-        if (b->hum[i])
-            return true;
+        if (b->hum[i]) return true;
     return b->stretches ? b->stretches[s] : b->fit->data->stretch[s].fitted && !lead;
 }
 
@@ -188,7 +191,8 @@ static bool group_make(struct modal_block *b, int group, const cplx *gain, bool 
     return any;
 }
 
-/* By how much gain times step (its two parts) of component i moves with omega and with log d: to[part][omega, log d]. */
+/* By how much gain times step (its two parts) of component i moves with omega and with log d: to[part][omega, log d].
+ */
 static void steps_of(const struct modal_block *b, int i, int group, double to[2][2])
 {
     cplx gain = b->gain[i * b->fit->data->groups + group];
@@ -206,17 +210,20 @@ static void add_normal(struct modal_block *b, int group, const struct group *g)
     for (int i = 0; i < b->m; i++) {
         double u[2][2], v[2][2];
         steps_of(b, i, group, u);
-        const double *row[2] = {g->a + (g->linear + 2 * i) * n + g->linear, g->a + (g->linear + 2 * i + 1) * n + g->linear};
+        const double *row[2] = {g->a + (g->linear + 2 * i) * n + g->linear,
+                                g->a + (g->linear + 2 * i + 1) * n + g->linear};
         for (int k = 0; k < b->m; k++) {
             steps_of(b, k, group, v);
             for (int p = 0; p < 2; p++)
                 for (int q = 0; q < 2; q++)
                     b->normal[(2 * i + p) * poles + 2 * k + q] +=
-                        u[0][p] * (row[0][2 * k] * v[0][q] + row[0][2 * k + 1] * v[1][q]) + u[1][p] * (row[1][2 * k] * v[0][q] + row[1][2 * k + 1] * v[1][q]);
+                        u[0][p] * (row[0][2 * k] * v[0][q] + row[0][2 * k + 1] * v[1][q]) +
+                        u[1][p] * (row[1][2 * k] * v[0][q] + row[1][2 * k + 1] * v[1][q]);
         }
         for (int p = 0; p < 2; p++) {
             b->right[2 * i + p] += u[0][p] * row[0][poles] + u[1][p] * row[1][poles];
-            b->scale[2 * i + p] += u[0][p] * u[0][p] * g->scale[g->linear + 2 * i] + u[1][p] * u[1][p] * g->scale[g->linear + 2 * i + 1];
+            b->scale[2 * i + p] +=
+                u[0][p] * u[0][p] * g->scale[g->linear + 2 * i] + u[1][p] * u[1][p] * g->scale[g->linear + 2 * i + 1];
         }
     }
 }
@@ -244,9 +251,9 @@ static void pass(struct modal_block *b, bool full, struct group *keep)
         b->chi += g->a[last * n + last];
         for (int i = 0; i < 2 * b->m; i++)
             if (g->swept[i])
-                (i % 2 ? &b->gain[i / 2 * d->groups + k].im : &b->gain[i / 2 * d->groups + k].re)[0] += g->a[i * n + last];
-        if (full)
-            add_normal(b, k, g);
+                (i % 2 ? &b->gain[i / 2 * d->groups + k].im : &b->gain[i / 2 * d->groups + k].re)[0] +=
+                    g->a[i * n + last];
+        if (full) add_normal(b, k, g);
     }
     arena_close(inner);
     b->a = a;
@@ -259,7 +266,8 @@ static double reach(const struct modal_fit *f, cplx s)
     return -MODAL_REACH * s.re + 4.0 * MODAL_REACH * REAL_PI / f->longest;
 }
 
-void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra, int extras, const bool *stretches, struct arena *a)
+void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
+                      int extras, const bool *stretches, struct arena *a)
 {
     const struct modal_data *d = f->data;
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -274,8 +282,7 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         b->of[i] = i < m ? of[i] : -1;
         b->s[i] = i < m ? f->s[of[i]] : extra[i - m];
         b->hum[i] = i < m && f->hum[of[i]];
-        if (i < m)
-            modal_fit_totals(f, of[i], b->gain + i * d->groups);
+        if (i < m) modal_fit_totals(f, of[i], b->gain + i * d->groups);
         low = fmin(low, b->s[i].im - reach(f, b->s[i]));
         high = fmax(high, b->s[i].im + reach(f, b->s[i]));
     }
@@ -286,7 +293,8 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
     b->r = arena_take(a, (size_t)d->stretches, sizeof *b->r);
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_bins *bins = &f->bins[s];
-        double from = ceil(low / bins->width) - (double)bins->first, to = floor(high / bins->width) - (double)bins->first + 1.0;
+        double from = ceil(low / bins->width) - (double)bins->first,
+               to = floor(high / bins->width) - (double)bins->first + 1.0;
         b->from[s] = from > 0.0 ? from < (double)bins->n ? (long)from : bins->n : 0;
         b->to[s] = to > 0.0 ? to < (double)bins->n ? (long)to : bins->n : 0;
         long n = b->to[s] - b->from[s];
@@ -325,10 +333,7 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
     b->dof = b->dof > 1 ? b->dof : 1;
 }
 
-void modal_block_gains(struct modal_block *b)
-{
-    pass(b, false, NULL);
-}
+void modal_block_gains(struct modal_block *b) { pass(b, false, NULL); }
 
 void modal_block_drop(struct modal_block *b, int i)
 {
@@ -352,7 +357,8 @@ void modal_block_worth(struct modal_block *b, double *worth)
         worth[i] = 0.0;
     for (int k = 0; k < groups; k++)
         for (int i = 0; i < b->m && g[k].n; i++) {
-            const double *a = g[k].a + 2 * i * (g[k].n + 1), p = a[0], q = 0.5 * (a[1] + a[g[k].n]), r = a[g[k].n + 1], det = p * r - q * q;
+            const double *a = g[k].a + 2 * i * (g[k].n + 1), p = a[0], q = 0.5 * (a[1] + a[g[k].n]), r = a[g[k].n + 1],
+                         det = p * r - q * q;
             cplx at = b->gain[i * groups + k];
             if (g[k].swept[2 * i] && g[k].swept[2 * i + 1] && det > 0.0)
                 worth[i] += (at.re * at.re * r - 2.0 * at.re * at.im * q + at.im * at.im * p) / det;
@@ -360,15 +366,9 @@ void modal_block_worth(struct modal_block *b, double *worth)
     arena_close(inner);
 }
 
-double modal_block_noise(const struct modal_block *b)
-{
-    return fmax(b->chi / (double)b->dof, 1e-300);
-}
+double modal_block_noise(const struct modal_block *b) { return fmax(b->chi / (double)b->dof, 1e-300); }
 
-static double clamp(double x, double low, double high)
-{
-    return x < low ? low : x > high ? high : x;
-}
+static double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
 /* Where a step of the poles leads. */
 static void step_to(const struct modal_block *b, const cplx *s, const double *step, cplx *to)
@@ -377,7 +377,8 @@ static void step_to(const struct modal_block *b, const cplx *s, const double *st
     for (int i = 0; i < b->m; i++) {
         double wide = -3.0 * s[i].re + 10.0 / f->longest;
         to[i].im = clamp(s[i].im + clamp(step[2 * i], -wide, wide), f->low, f->high);
-        to[i].re = b->hum[i] ? s[i].re : -clamp(-s[i].re * real_exp(clamp(step[2 * i + 1], -0.7, 0.7)), f->slowest, b->fastest);
+        to[i].re = b->hum[i] ? s[i].re
+                             : -clamp(-s[i].re * real_exp(clamp(step[2 * i + 1], -0.7, 0.7)), f->slowest, b->fastest);
     }
 }
 
@@ -447,11 +448,11 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
         se[q] = swept[2 * i + q] ? sqrt(fmax(b->normal[(2 * i + q) * (p + 1)], 0.0)) : HUGE_VAL;
     for (int k = 0; k < groups; k++) {
         cplx at = b->gain[i * groups + k];
-        double size = fmax(cplx_abs(at), 1e-300), u[2] = {at.re / size, at.im / size}, sum = 0.0, *row = ARENA_TAKE(inner, double, p);
+        double size = fmax(cplx_abs(at), 1e-300), u[2] = {at.re / size, at.im / size}, sum = 0.0,
+               *row = ARENA_TAKE(inner, double, p);
         int n = g[k].n;
         gain_se[k] = HUGE_VAL;
-        if (n == 0 || !g[k].swept[2 * i] || !g[k].swept[2 * i + 1])
-            continue;
+        if (n == 0 || !g[k].swept[2 * i] || !g[k].swept[2 * i + 1]) continue;
         for (int c = 0; c < 2; c++)
             for (int e = 0; e < 2; e++)
                 sum += u[c] * u[e] * g[k].a[(2 * i + c) * n + 2 * i + e];
@@ -464,8 +465,7 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
         }
         for (int j = 0; j < p; j++)
             for (int l = 0; l < p; l++)
-                if (swept[j] && swept[l])
-                    sum += row[j] * b->normal[j * p + l] * row[l];
+                if (swept[j] && swept[l]) sum += row[j] * b->normal[j * p + l] * row[l];
         gain_se[k] = sqrt(fmax(sum, 0.0));
     }
     arena_close(inner);

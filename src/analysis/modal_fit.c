@@ -35,7 +35,8 @@ static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, 
     b->n = (long)floor(f->high / b->width) - b->first + 1;
     b->n = b->first + b->n > s->n / 2 ? s->n / 2 - b->first : b->n;
     b->n = b->n > 0 ? b->n : 0;
-    double **to[] = {&b->er, &b->ei, &b->fr, &b->fi, &b->yr, &b->yi, &b->rr, &b->ri, &b->variance, &b->floor, &b->scale, &b->nr, &b->ni};
+    double **to[] = {&b->er, &b->ei,       &b->fr,    &b->fi,    &b->yr, &b->yi, &b->rr,
+                     &b->ri, &b->variance, &b->floor, &b->scale, &b->nr, &b->ni};
     for (size_t i = 0; i < sizeof to / sizeof *to; i++)
         *to[i] = ARENA_TAKE(f->a, double, b->n + 1);
     for (long k = 0; k < b->n; k++) {
@@ -62,7 +63,12 @@ static void floors_of_leads(struct modal_fit *f);
 
 void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a)
 {
-    *f = (struct modal_fit){.data = d, .options = o, .a = a, .low = 2.0 * REAL_PI * o->low, .high = 2.0 * REAL_PI * o->high, .tolerance = 1e-2};
+    *f = (struct modal_fit){.data = d,
+                            .options = o,
+                            .a = a,
+                            .low = 2.0 * REAL_PI * o->low,
+                            .high = 2.0 * REAL_PI * o->high,
+                            .tolerance = 1e-2};
     f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
     for (int k = 0; k < d->stretches; k++) {
         open_bins(f, &d->stretch[k], &f->bins[k]);
@@ -93,8 +99,7 @@ static void running_median(const double *x, long n, long half, double *to)
         long first = k > half ? k - half : 0, last = k + half + 1 < n ? k + half + 1 : n;
         if (first > n - 2 * half - 1)
             first = n > 2 * half + 1 ? n - 2 * half - 1 : 0; /* windows at the ends are as wide as the others */
-        if (last < 2 * half + 1)
-            last = n < 2 * half + 1 ? n : 2 * half + 1;
+        if (last < 2 * half + 1) last = n < 2 * half + 1 ? n : 2 * half + 1;
         for (; from < first; from++) {
             double *p = bsearch(&x[from], list, (size_t)held, sizeof *list, rising);
             memmove(p, p + 1, (size_t)(list + held - p - 1) * sizeof *list);
@@ -111,13 +116,13 @@ static void running_median(const double *x, long n, long half, double *to)
     arena_close(a);
 }
 
-/* Of |x|^2: medians of means of 8 bins (of chi squared of 16 degrees the median is 0.9586 of the mean), linear in between. */
+/* Of |x|^2: medians of means of 8 bins (of chi squared of 16 degrees the median is 0.9586 of the mean), linear in
+ * between. */
 static void smooth_power(const double *re, const double *im, long n, long half, double *to)
 {
     struct arena *a = arena_open();
     long means = n / GROUP;
-    if (means < 1)
-        means = 1;
+    if (means < 1) means = 1;
     double *mean = ARENA_TAKE(a, double, means), *median = ARENA_TAKE(a, double, means);
     for (long k = 0; k < means; k++) {
         long count = 0;
@@ -135,7 +140,8 @@ static void smooth_power(const double *re, const double *im, long n, long half, 
     arena_close(a);
 }
 
-/* rest - F (c0 + c1 u + c2 u^2), c by least squares on every PATCH bins: what goes straight from the force to the sound, and the skirts of modes that are far away. */
+/* rest - F (c0 + c1 u + c2 u^2), c by least squares on every PATCH bins: what goes straight from the force to the
+ * sound, and the skirts of modes that are far away. */
 static void take_smooth_off(struct modal_bins *b)
 {
     enum { TERMS = 3 };
@@ -145,7 +151,8 @@ static void take_smooth_off(struct modal_bins *b)
         bool swept[TERMS];
         enum { N = TERMS + 2 };
         for (long k = from; k < from + n; k++) {
-            double power = b->fr[k] * b->fr[k] + b->fi[k] * b->fi[k], u = 2.0 * (double)(k - from) / (double)n - 1.0, row[TERMS] = {1.0, u, u * u};
+            double power = b->fr[k] * b->fr[k] + b->fi[k] * b->fi[k], u = 2.0 * (double)(k - from) / (double)n - 1.0,
+                   row[TERMS] = {1.0, u, u * u};
             double re = b->fr[k] * b->rr[k] + b->fi[k] * b->ri[k], im = b->fr[k] * b->ri[k] - b->fi[k] * b->rr[k];
             for (int i = 0; i < TERMS; i++) {
                 for (int j = 0; j < TERMS; j++)
@@ -167,8 +174,7 @@ static void take_smooth_off(struct modal_bins *b)
             b->nr[k] = b->rr[k] - (b->fr[k] * re - b->fi[k] * im);
             b->ni[k] = b->ri[k] - (b->fr[k] * im + b->fi[k] * re);
         }
-        if (n > PATCH)
-            break;
+        if (n > PATCH) break;
     }
 }
 
@@ -189,8 +195,7 @@ static void floors_of_leads(struct modal_fit *f)
     const struct modal_data *d = f->data;
     for (int l = 0; l < d->stretches; l++) {
         struct modal_bins *lead = &f->bins[l];
-        if (d->stretch[l].strike >= 0 || lead->n < 100)
-            continue;
+        if (d->stretch[l].strike >= 0 || lead->n < 100) continue;
         struct arena *a = arena_open();
         double *level = ARENA_TAKE(a, double, lead->n);
         smooth_power(lead->yr, lead->yi, lead->n, 6, level);
@@ -217,8 +222,7 @@ static void carried(const struct modal_stretch *s, double rate, cplx pole, bool 
     for (int end = 0; end < 2; end++) { /* what is brought in, less what is carried out */
         long to = end ? s->first + s->n : s->first, n = to - q->at < q->n ? to - q->at : q->n;
         cplx sum = {0}, derivative = {0};
-        if (n <= 0)
-            continue;
+        if (n <= 0) continue;
         for (long k = 0; k < n; k++) {
             derivative = cplx_add(cplx_mul(derivative, p), cplx_scale(1.0 / rate, cplx_mul(sum, p)));
             sum = cplx_mul(sum, p);
@@ -239,16 +243,20 @@ struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s,
     double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
     cplx value, slope, p = cplx_exp(s, 1.0 / rate);
     carried(st, rate, s, hum, &value, &slope);
-    return (struct modal_line){p.re, p.im, size * value.re, size * value.im, size * slope.re, size * slope.im, 1.0 / rate, hum ? 0.0 : 1.0};
+    return (struct modal_line){
+        p.re, p.im, size * value.re, size * value.im, size * slope.re, size * slope.im, 1.0 / rate, hum ? 0.0 : 1.0};
 }
 
 LANES_CLONES
-void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n, double *const x[4]);
+void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n,
+                    double *const x[4]);
 LANES_CLONES
-void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n, double *const x[4])
+void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n,
+                    double *const x[4])
 {
     const double *er = b->er + from, *ei = b->ei + from, *fr = b->fr + from, *fi = b->fi + from;
-    const double pr = l->pr, pi = sign * l->pi, gr = l->gr, gi = sign * l->gi, sr = l->dr, si = sign * l->di, t = l->t, force = l->force;
+    const double pr = l->pr, pi = sign * l->pi, gr = l->gr, gi = sign * l->gi, sr = l->dr, si = sign * l->di, t = l->t,
+                 force = l->force;
     double *xr = x[0], *xi = x[1], *dr = x[2], *di = x[3];
 #pragma omp simd
     for (long k = 0; k < n; k++) {
@@ -288,7 +296,8 @@ static void add_line(struct modal_bins *b, const struct modal_line *line, cplx g
     }
 }
 
-/* What rings on into a stretch: the state x that earlier strikes of its place have left at its first sample makes x (1 - p^n)/(1 - p e^(-jw)). */
+/* What rings on into a stretch: the state x that earlier strikes of its place have left at its first sample makes x (1
+ * - p^n)/(1 - p e^(-jw)). */
 static void add_ringing(const struct modal_fit *f, int s, cplx pole, cplx state, double sign)
 {
     const struct modal_stretch *st = &f->data->stretch[s];
@@ -298,7 +307,8 @@ static void add_ringing(const struct modal_fit *f, int s, cplx pole, cplx state,
     add_line(&f->bins[s], &line, cplx_scale(sign, left));
 }
 
-/* The state at a strike's pulse that its force makes with a gain of 1, and how a state grows from the stretch's first sample to there. */
+/* The state at a strike's pulse that its force makes with a gain of 1, and how a state grows from the stretch's first
+ * sample to there. */
 static cplx forced(const struct modal_fit *f, const struct modal_stretch *st, cplx pole, cplx *grown)
 {
     cplx sum = {0};
@@ -308,7 +318,8 @@ static cplx forced(const struct modal_fit *f, const struct modal_stretch *st, cp
     return sum;
 }
 
-/* What rings from strike s on, `after` at its pulse, at the first sample of the next stretch of its place; 0: there is none. */
+/* What rings from strike s on, `after` at its pulse, at the first sample of the next stretch of its place; 0: there is
+ * none. */
 static cplx rings_on(const struct modal_fit *f, int s, cplx pole, cplx after)
 {
     const struct modal_stretch *st = &f->data->stretch[s];
@@ -323,7 +334,9 @@ static void states(const struct modal_fit *f, int i, cplx *state)
     state[0] = (cplx){0};
     for (int s = 0; s + 1 < d->stretches; s++) {
         cplx grown, force = forced(f, &d->stretch[s], f->s[i], &grown);
-        state[s + 1] = rings_on(f, s, f->s[i], cplx_add(cplx_mul(state[s], grown), cplx_mul(f->gain[i * d->groups + d->stretch[s].group], force)));
+        state[s + 1] = rings_on(
+            f, s, f->s[i],
+            cplx_add(cplx_mul(state[s], grown), cplx_mul(f->gain[i * d->groups + d->stretch[s].group], force)));
     }
 }
 
@@ -335,15 +348,14 @@ void modal_fit_put(struct modal_fit *f, int i, double sign)
     for (int s = 0; s < d->stretches; s++) {
         cplx gain = f->gain[i * d->groups + d->stretch[s].group];
         struct modal_line line = modal_fit_line(f, s, f->s[i], f->hum[i]);
-        if (cplx_square(gain) > 0.0)
-            add_line(&f->bins[s], &line, cplx_scale(sign, gain));
+        if (cplx_square(gain) > 0.0) add_line(&f->bins[s], &line, cplx_scale(sign, gain));
         if (!f->hum[i] && d->stretch[s].strike >= 0 && cplx_square(state[s]) > 1e-24 * cplx_square(gain))
             add_ringing(f, s, f->s[i], state[s], sign);
     }
 }
 
-/* The gain with which strike s would make what rings on at its pulse from the state at the stretch's first sample; 0 where the
-   force hardly drives the pole. In a mode's window the two are alike. */
+/* The gain with which strike s would make what rings on at its pulse from the state at the stretch's first sample; 0
+   where the force hardly drives the pole. In a mode's window the two are alike. */
 static cplx ringing_gain(const struct modal_fit *f, int i, int s, cplx state)
 {
     static const double blind = 1e-3; /* of the pulse's momentum */
@@ -352,7 +364,8 @@ static cplx ringing_gain(const struct modal_fit *f, int i, int s, cplx state)
     double momentum = 0.0;
     for (long k = 0; k < st->pulse.n; k++)
         momentum += fabs(st->pulse.f[k]);
-    return !f->hum[i] && st->strike >= 0 && cplx_abs(force) > blind * momentum ? cplx_div(cplx_mul(state, grown), force) : (cplx){0};
+    return !f->hum[i] && st->strike >= 0 && cplx_abs(force) > blind * momentum ? cplx_div(cplx_mul(state, grown), force)
+                                                                               : (cplx){0};
 }
 
 void modal_fit_totals(const struct modal_fit *f, int i, cplx *total)

@@ -5,15 +5,16 @@
 
        X(w) = (F(w) + H - G)/(1 - p e^(-jw)),   G = sum_{n < b} f[n] p^(b-n),   H = sum_{n < a} f[n] p^(a-n),
 
-   exactly, since e^(-jw(b-a)) = 1 there: no window, no truncation, no decimation. White noise stays independent from bin
-   to bin, a band of frequencies is a range of bins, and where the force holds nothing neither does X.
-   Each strike's stretch has gains of its own, poles are those of all: no hand strikes twice on one point with one delay. What rings on
-   from earlier strikes of a place is a state at the stretch's first sample, of their gains. Where no force is known a stretch begins after its strike and f is a unit impulse at its first sample.
-   A hum is driven by a unit impulse at the recording's first sample, so that it is brought into every stretch.
+   exactly, since e^(-jw(b-a)) = 1 there: no window, no truncation, no decimation. White noise stays independent from
+   bin to bin, a band of frequencies is a range of bins, and where the force holds nothing neither does X. Each strike's
+   stretch has gains of its own, poles are those of all: no hand strikes twice on one point with one delay. What rings
+   on from earlier strikes of a place is a state at the stretch's first sample, of their gains. Where no force is known
+   a stretch begins after its strike and f is a unit impulse at its first sample. A hum is driven by a unit impulse at
+   the recording's first sample, so that it is brought into every stretch.
 
-   In a window of bins what modes outside it leave there, and what goes straight from the force to the sound, is smooth in
-   frequency but for F: F(w) (c0 + c1 u + c2 u^2), u from -1 to 1 over the window (a local polynomial, as of the local
-   polynomial method of system identification). These columns are fitted with the gains, always. */
+   In a window of bins what modes outside it leave there, and what goes straight from the force to the sound, is smooth
+   in frequency but for F: F(w) (c0 + c1 u + c2 u^2), u from -1 to 1 over the window (a local polynomial, as of the
+   local polynomial method of system identification). These columns are fitted with the gains, always. */
 #ifndef ANALYSIS_MODAL_FIT_H
 #define ANALYSIS_MODAL_FIT_H
 #include <stdbool.h>
@@ -22,19 +23,25 @@
 #include "analysis/modal_complex.h"
 
 /* A window reaches MODAL_REACH half-widths and 2 MODAL_REACH bins to each side of its modes. */
-enum { MODAL_REACH = 12, MODAL_BLOCK = 24, MODAL_SMOOTH = 6, MODAL_STRETCHES = 256, MODAL_COLUMNS = 4 * MODAL_BLOCK + MODAL_SMOOTH + 1 };
+enum {
+    MODAL_REACH = 12,
+    MODAL_BLOCK = 24,
+    MODAL_SMOOTH = 6,
+    MODAL_STRETCHES = 256,
+    MODAL_COLUMNS = 4 * MODAL_BLOCK + MODAL_SMOOTH + 1
+};
 
-struct modal_bins {           /* of one stretch: its DFT over sqrt(n), bins first ... first + n - 1 */
+struct modal_bins { /* of one stretch: its DFT over sqrt(n), bins first ... first + n - 1 */
     long first, n;
-    double width;             /* rad/s from bin to bin */
-    double *er, *ei;          /* e^(-jw) */
-    double *fr, *fi;          /* the force */
-    double *yr, *yi;          /* the recording */
-    double *rr, *ri;          /* ... less all modes of the fit */
-    double *nr, *ni;          /* ... and less what is smooth but for the force: noise, and modes that are missing */
-    double *variance;         /* E |noise|^2 */
-    double *floor;            /* the same at least: of the recording where nothing rings, of its rounding */
-    double *scale;            /* the lead's noise; 1: there is none */
+    double width;     /* rad/s from bin to bin */
+    double *er, *ei;  /* e^(-jw) */
+    double *fr, *fi;  /* the force */
+    double *yr, *yi;  /* the recording */
+    double *rr, *ri;  /* ... less all modes of the fit */
+    double *nr, *ni;  /* ... and less what is smooth but for the force: noise, and modes that are missing */
+    double *variance; /* E |noise|^2 */
+    double *floor;    /* the same at least: of the recording where nothing rings, of its rounding */
+    double *scale;    /* the lead's noise; 1: there is none */
 };
 
 struct modal_line {
@@ -45,45 +52,50 @@ struct modal_fit {
     const struct modal_data *data;
     const struct modal_options *options;
     struct arena *a;
-    double low, high;         /* rad/s */
-    double slowest, fastest;  /* 1/s, bounds of a decay */
-    double longest;           /* s, of the longest stretch */
-    struct modal_bins *bins;  /* [stretches] */
+    double low, high;        /* rad/s */
+    double slowest, fastest; /* 1/s, bounds of a decay */
+    double longest;          /* s, of the longest stretch */
+    struct modal_bins *bins; /* [stretches] */
     int m, room;
-    cplx *s;                  /* [room] poles */
-    cplx *gain;               /* [room][groups] B */
-    bool *hum;                /* [room] */
-    double *moved;            /* [room] how far a pole went since its neighbours were last fitted, in its standard errors */
-    double tolerance;         /* squared standard errors of all poles of a block together that a polish may stop within: 1e-2 while modes are looked for, 1e-4 at the end */
+    cplx *s;          /* [room] poles */
+    cplx *gain;       /* [room][groups] B */
+    bool *hum;        /* [room] */
+    double *moved;    /* [room] how far a pole went since its neighbours were last fitted, in its standard errors */
+    double tolerance; /* squared standard errors of all poles of a block together that a polish may stop within: 1e-2
+                         while modes are looked for, 1e-4 at the end */
 };
 
-/* Some components of a fit, the others as they are: their poles and gains, and what is left of the recordings without them. */
+/* Some components of a fit, the others as they are: their poles and gains, and what is left of the recordings without
+ * them. */
 struct modal_block {
     const struct modal_fit *fit;
     int m;
-    int of[MODAL_BLOCK];      /* components of the fit; -1: new */
+    int of[MODAL_BLOCK]; /* components of the fit; -1: new */
     cplx s[MODAL_BLOCK];
     bool hum[MODAL_BLOCK];
-    cplx *gain;               /* [MODAL_BLOCK][groups] */
-    double centre, half;      /* rad/s of the window */
-    long *from, *to;          /* [stretches] bins of it, counted from bins.first */
-    double **r;               /* [stretches][2 (to - from)]: real parts, then imaginary ones */
-    const bool *stretches;    /* [stretches] those that count; NULL: all that are fitted */
-    double fastest;           /* 1/s */
-    double chi;               /* squares left, in units of the variance per real number */
+    cplx *gain;            /* [MODAL_BLOCK][groups] */
+    double centre, half;   /* rad/s of the window */
+    long *from, *to;       /* [stretches] bins of it, counted from bins.first */
+    double **r;            /* [stretches][2 (to - from)]: real parts, then imaginary ones */
+    const bool *stretches; /* [stretches] those that count; NULL: all that are fitted */
+    double fastest;        /* 1/s */
+    double chi;            /* squares left, in units of the variance per real number */
     long dof;
-    double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK], right[2 * MODAL_BLOCK]; /* of the poles (omega, log d), gains projected out */
+    double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK],
+        right[2 * MODAL_BLOCK];    /* of the poles (omega, log d), gains projected out */
     double scale[2 * MODAL_BLOCK]; /* the columns' squares before that: what is less than 1e-10 of them is rounding */
     struct arena *a;
 };
 
 /* modal_fit.c */
 void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a);
-void modal_fit_noise(struct modal_fit *f, double width); /* variance: a running median over that many Hz of what is left */
+void modal_fit_noise(struct modal_fit *f,
+                     double width); /* variance: a running median over that many Hz of what is left */
 void modal_fit_add(struct modal_fit *f, cplx s, const cplx *gain, bool hum);
 void modal_fit_drop(struct modal_fit *f, int i);
-/* What a block fits: gains with what rings on from earlier strikes of the place, as if the strike had made it. Of a weak strike after a loud
-   one most of what is heard rings on: a pole fitted to the strike's own part alone would overshoot by their ratio. */
+/* What a block fits: gains with what rings on from earlier strikes of the place, as if the strike had made it. Of a
+   weak strike after a loud one most of what is heard rings on: a pole fitted to the strike's own part alone would
+   overshoot by their ratio. */
 void modal_fit_totals(const struct modal_fit *f, int i, cplx *total);
 void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const cplx *total);
 void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (component i) */
@@ -94,31 +106,40 @@ struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s,
 void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long to, double *const x[8]);
 
 /* modal_block.c */
-void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra, int extras,
-                      const bool *stretches, struct arena *a);
-void modal_block_gains(struct modal_block *b);                  /* gains of its poles, chi, dof */
-void modal_block_worth(struct modal_block *b, double *worth);    /* the same; worth[m]: by how much chi rises without each, its poles and the others' as they are */
+void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
+                      int extras, const bool *stretches, struct arena *a);
+void modal_block_gains(struct modal_block *b); /* gains of its poles, chi, dof */
+void modal_block_worth(
+    struct modal_block *b,
+    double *worth); /* the same; worth[m]: by how much chi rises without each, its poles and the others' as they are */
 void modal_block_drop(struct modal_block *b, int i);
-bool modal_block_polish(struct modal_block *b, int steps);      /* poles and gains; true: converged to 0.01 standard errors */
-double modal_block_noise(const struct modal_block *b);          /* chi/dof, no less than 1e-300 */
-void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se); /* of omega, log d, |gain| of each group */
+bool modal_block_polish(struct modal_block *b,
+                        int steps);                    /* poles and gains; true: converged to 0.01 standard errors */
+double modal_block_noise(const struct modal_block *b); /* chi/dof, no less than 1e-300 */
+void modal_block_errors(struct modal_block *b, int i, double se[2],
+                        double *gain_se); /* of omega, log d, |gain| of each group */
 int modal_block_sweep(double *a, int n, int from, int to, const double *scale, bool *swept);
 
 /* modal_settle.c */
-int modal_settle_near(const struct modal_fit *f, int i, int most, int *of);     /* components whose bands touch i's, i too, by frequency */
-double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps); /* fits them anew, the greatest move in standard errors */
+int modal_settle_near(const struct modal_fit *f, int i, int most,
+                      int *of); /* components whose bands touch i's, i too, by frequency */
+double modal_settle_refine(struct modal_fit *f, int n, const int *of,
+                           int steps); /* fits them anew, the greatest move in standard errors */
 double modal_settle_sweeps(struct modal_fit *f, int most, int rounds);
-double modal_settle_rise(struct modal_fit *f, int i);                           /* of chi when i goes and its neighbours are fitted anew */
-double modal_settle_noise(const struct modal_fit *f, cplx s);            /* chi/dof in the window of a pole */
+double modal_settle_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
+double modal_settle_noise(const struct modal_fit *f, cplx s); /* chi/dof in the window of a pole */
 void modal_settle_eliminate(struct modal_fit *f, double limit);
 void modal_settle(struct modal_fit *f);
 int modal_settle_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
-double modal_settle_limit(const struct modal_fit *f, double chi4);              /* of chi squared of 2 + 2 groups degrees, as likely as chi4 of four */
+double modal_settle_limit(const struct modal_fit *f,
+                          double chi4); /* of chi squared of 2 + 2 groups degrees, as likely as chi4 of four */
 
 /* modal_search.c */
 void modal_search_hums(struct modal_fit *f);
 void modal_spectrogram(struct modal_fit *f);
-double modal_search_round(struct modal_fit *f, double *noise); /* the greatest power of a bin that is left, and the least noise; over the lead's, if there is one */
-int modal_search(struct modal_fit *f, double width, double least); /* bands of that width in Hz, components of at least that power: how many came */
+double modal_search_round(struct modal_fit *f, double *noise); /* the greatest power of a bin that is left, and the
+                                                                  least noise; over the lead's, if there is one */
+int modal_search(struct modal_fit *f, double width,
+                 double least); /* bands of that width in Hz, components of at least that power: how many came */
 
 #endif

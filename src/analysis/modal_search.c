@@ -1,5 +1,6 @@
-/* Modes that are not in a fit yet: sub-band ESPRIT (Roy, Kailath 1989) on what it leaves, each band's poles polished together on the band's own bins with the smooth columns,
-   and tested before they come in. Hums are lines of the recording before the first strike. */
+/* Modes that are not in a fit yet: sub-band ESPRIT (Roy, Kailath 1989) on what it leaves, each band's poles polished
+   together on the band's own bins with the smooth columns, and tested before they come in. Hums are lines of the
+   recording before the first strike. */
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
 #include <stdlib.h>
@@ -10,14 +11,14 @@
 
 enum { SAMPLES = 128, ROWS = 40, ORDER = 12, EDGE = 3, ITERATIONS = 60, HUMS = 40, NEIGHBOURS = MODAL_BLOCK - ORDER };
 
-static const double enter = 38.0;   /* chi squared of 4 degrees, chance 1.1e-7 */
-static const double stands = 25.0;   /* power of a bin of a lead over its noise: chance 1e-11 */
+static const double enter = 38.0;  /* chi squared of 4 degrees, chance 1.1e-7 */
+static const double stands = 25.0; /* power of a bin of a lead over its noise: chance 1e-11 */
 
 /* ------------------------------------------------------------------ bands */
 
-struct residual {             /* spectra of all stretches, padded to one length */
+struct residual { /* spectra of all stretches, padded to one length */
     long n;
-    double **re, **im;        /* [stretches][n/2 + 1] */
+    double **re, **im; /* [stretches][n/2 + 1] */
 };
 
 static void residual_make(const struct modal_fit *f, struct arena *a, struct residual *r)
@@ -34,8 +35,7 @@ static void residual_make(const struct modal_fit *f, struct arena *a, struct res
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_stretch *st = &d->stretch[s];
         const struct modal_bins *b = &f->bins[s];
-        if (!st->fitted || st->strike < 0)
-            continue;
+        if (!st->fitted || st->strike < 0) continue;
         struct fft *own = fft_open((size_t)st->n);
         double *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         memcpy(re + b->first, b->rr, (size_t)b->n * sizeof *re);
@@ -50,9 +50,10 @@ static void residual_make(const struct modal_fit *f, struct arena *a, struct res
     fft_close(whole);
 }
 
-/* Samples of the band's complex envelope about bin `centre`, `wide` bins, n/wide samples of the stretch apart, turn[k] = e^(2 pi j k/wide); cosine edges
-   of a quarter at each side. */
-static int envelope(const struct residual *r, int s, const struct modal_stretch *st, long centre, long wide, const cplx *turn, cplx *y)
+/* Samples of the band's complex envelope about bin `centre`, `wide` bins, n/wide samples of the stretch apart, turn[k]
+   = e^(2 pi j k/wide); cosine edges of a quarter at each side. */
+static int envelope(const struct residual *r, int s, const struct modal_stretch *st, long centre, long wide,
+                    const cplx *turn, cplx *y)
 {
     double step = (double)r->n / (double)wide;
     long from = (long)ceil((double)st->ringing / step) + EDGE, to = (long)floor((double)st->n / step) - EDGE;
@@ -61,9 +62,9 @@ static int envelope(const struct residual *r, int s, const struct modal_stretch 
         cplx sum = {0};
         for (long k = -wide / 2; k < wide - wide / 2; k++) {
             long bin = centre + k;
-            double edge = 4.0 * fabs((double)k) / (double)wide - 1.0, w = edge > 0.0 ? 0.5 + 0.5 * real_cospi(edge) : 1.0;
-            if (bin < 1 || bin >= r->n / 2)
-                continue;
+            double edge = 4.0 * fabs((double)k) / (double)wide - 1.0,
+                   w = edge > 0.0 ? 0.5 + 0.5 * real_cospi(edge) : 1.0;
+            if (bin < 1 || bin >= r->n / 2) continue;
             cplx bins = {w * r->re[s][bin], w * r->im[s][bin]};
             sum = cplx_add(sum, cplx_mul(bins, turn[((k * i) % wide + wide) % wide]));
         }
@@ -80,10 +81,8 @@ static int eigenvalues(cplx *a, int n, cplx *value)
     for (int k = 1; k < n - 1; k++) { /* elimination with pivoting (comhes) */
         int best = k;
         for (int i = k + 1; i < n; i++)
-            if (cplx_square(a[i * n + k - 1]) > cplx_square(a[best * n + k - 1]))
-                best = i;
-        if (cplx_square(a[best * n + k - 1]) == 0.0)
-            continue;
+            if (cplx_square(a[i * n + k - 1]) > cplx_square(a[best * n + k - 1])) best = i;
+        if (cplx_square(a[best * n + k - 1]) == 0.0) continue;
         for (int j = k - 1; best != k && j < n; j++) {
             cplx t = a[best * n + j];
             a[best * n + j] = a[k * n + j];
@@ -96,8 +95,7 @@ static int eigenvalues(cplx *a, int n, cplx *value)
         }
         for (int i = k + 1; i < n; i++) {
             cplx q = cplx_div(a[i * n + k - 1], a[k * n + k - 1]);
-            if (cplx_square(q) == 0.0)
-                continue;
+            if (cplx_square(q) == 0.0) continue;
             for (int j = k - 1; j < n; j++)
                 a[i * n + j] = cplx_sub(a[i * n + j], cplx_mul(q, a[k * n + j]));
             for (int j = 0; j < n; j++)
@@ -107,22 +105,23 @@ static int eigenvalues(cplx *a, int n, cplx *value)
     int found = 0;
     for (int end = n - 1, tries = 0; end >= 0; tries++) {
         int low = end;
-        while (low > 0 && cplx_abs(a[low * n + low - 1]) > 1e-14 * (cplx_abs(a[low * n + low]) + cplx_abs(a[(low - 1) * n + low - 1])))
+        while (low > 0 && cplx_abs(a[low * n + low - 1]) >
+                              1e-14 * (cplx_abs(a[low * n + low]) + cplx_abs(a[(low - 1) * n + low - 1])))
             low--;
         if (low == end || tries > ITERATIONS) {
-            if (low == end)
-                value[found++] = a[end * n + end];
+            if (low == end) value[found++] = a[end * n + end];
             end--;
             tries = 0;
             continue;
         }
         cplx p = a[(end - 1) * n + end - 1], q = a[(end - 1) * n + end], r = a[end * n + end - 1], s = a[end * n + end];
         cplx half = cplx_scale(0.5, cplx_sub(p, s)), inside = cplx_add(cplx_mul(half, half), cplx_mul(q, r));
-        double size = cplx_abs(inside), re = sqrt(0.5 * (size + fabs(inside.re))), im = re > 0.0 ? 0.5 * inside.im / re : 0.0;
+        double size = cplx_abs(inside), re = sqrt(0.5 * (size + fabs(inside.re))),
+               im = re > 0.0 ? 0.5 * inside.im / re : 0.0;
         cplx root = inside.re >= 0.0 ? (cplx){re, im} : (cplx){fabs(im), inside.im < 0.0 ? -re : re};
-        cplx plus = cplx_add(half, root), minus = cplx_sub(half, root), shift = cplx_add(s, cplx_square(plus) < cplx_square(minus) ? plus : minus);
-        if (tries % 10 == 9)
-            shift = cplx_add(shift, (cplx){cplx_abs(r), 0.0});
+        cplx plus = cplx_add(half, root), minus = cplx_sub(half, root),
+             shift = cplx_add(s, cplx_square(plus) < cplx_square(minus) ? plus : minus);
+        if (tries % 10 == 9) shift = cplx_add(shift, (cplx){cplx_abs(r), 0.0});
         double c[64];
         cplx t[64];
         for (int i = low; i <= end; i++)
@@ -131,7 +130,9 @@ static int eigenvalues(cplx *a, int n, cplx *value)
             cplx x = a[k * n + k], y = a[(k + 1) * n + k];
             double norm = sqrt(cplx_square(x) + cplx_square(y)), ax = cplx_abs(x);
             c[k] = norm > 0.0 ? ax / norm : 1.0;
-            t[k] = norm == 0.0 ? (cplx){0} : ax > 0.0 ? cplx_scale(1.0 / (ax * norm), cplx_mul(x, cplx_conj(y))) : (cplx){y.re / norm, -y.im / norm};
+            t[k] = norm == 0.0 ? (cplx){0}
+                   : ax > 0.0  ? cplx_scale(1.0 / (ax * norm), cplx_mul(x, cplx_conj(y)))
+                               : (cplx){y.re / norm, -y.im / norm};
             for (int j = k; j <= end; j++) {
                 cplx u = a[k * n + j], v = a[(k + 1) * n + j];
                 a[k * n + j] = cplx_add(cplx_scale(c[k], u), cplx_mul(t[k], v));
@@ -152,7 +153,8 @@ static int eigenvalues(cplx *a, int n, cplx *value)
 
 /* ------------------------------------------------------------------ ESPRIT */
 
-/* psi of U_up psi = U_down by normal equations of orthonormal columns: (I - u u^H) is inverted in closed form, u the last row. */
+/* psi of U_up psi = U_down by normal equations of orthonormal columns: (I - u u^H) is inverted in closed form, u the
+ * last row. */
 static void shift_matrix(const gsl_matrix_complex *v, int rows, int order, cplx *psi)
 {
     double last = 0.0;
@@ -166,7 +168,8 @@ static void shift_matrix(const gsl_matrix_complex *v, int rows, int order, cplx 
         for (int j = 0; j < order; j++) {
             cplx sum = {0};
             for (int k = 0; k + 1 < rows; k++) {
-                gsl_complex x = gsl_matrix_complex_get(v, (size_t)k, (size_t)i), y = gsl_matrix_complex_get(v, (size_t)k + 1, (size_t)j);
+                gsl_complex x = gsl_matrix_complex_get(v, (size_t)k, (size_t)i),
+                            y = gsl_matrix_complex_get(v, (size_t)k + 1, (size_t)j);
                 sum = cplx_add(sum, cplx_mul((cplx){x.dat[0], -x.dat[1]}, (cplx){y.dat[0], y.dat[1]}));
             }
             left[i * order + j] = sum;
@@ -193,9 +196,9 @@ static int esprit(cplx (*y)[SAMPLES], const int *n, int stretches, cplx *z)
     for (int s = 0; s < stretches; s++)
         longest = n[s] > longest ? n[s] : longest;
     rows = longest / 2 < ROWS ? longest / 2 : ROWS;
-    if (rows < 6)
-        return 0;
-    gsl_matrix_complex *r = gsl_matrix_complex_calloc((size_t)rows, (size_t)rows), *v = gsl_matrix_complex_alloc((size_t)rows, (size_t)rows);
+    if (rows < 6) return 0;
+    gsl_matrix_complex *r = gsl_matrix_complex_calloc((size_t)rows, (size_t)rows),
+                       *v = gsl_matrix_complex_alloc((size_t)rows, (size_t)rows);
     gsl_vector *value = gsl_vector_alloc((size_t)rows);
     gsl_eigen_hermv_workspace *w = gsl_eigen_hermv_alloc((size_t)rows);
     for (int s = 0; s < stretches; s++)
@@ -211,7 +214,8 @@ static int esprit(cplx (*y)[SAMPLES], const int *n, int stretches, cplx *z)
         double sorted[ROWS];
         for (int i = 0; i < rows; i++)
             for (int j = 0; j < i; j++)
-                gsl_matrix_complex_set(r, (size_t)j, (size_t)i, gsl_complex_conjugate(gsl_matrix_complex_get(r, (size_t)i, (size_t)j)));
+                gsl_matrix_complex_set(r, (size_t)j, (size_t)i,
+                                       gsl_complex_conjugate(gsl_matrix_complex_get(r, (size_t)i, (size_t)j)));
         gsl_eigen_hermv(r, value, v, w);
         gsl_eigen_hermv_sort(value, v, GSL_EIGEN_SORT_VAL_DESC);
         for (int i = 0; i < rows; i++)
@@ -257,11 +261,11 @@ static double power_of(const struct modal_fit *f, cplx s, const cplx *gain)
     for (int k = 0; k < f->data->stretches; k++) {
         const struct modal_bins *b = &f->bins[k];
         long at = (long)rint(s.im / b->width) - b->first;
-        if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0 || at < 0 || at >= b->n)
-            continue;
+        if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0 || at < 0 || at >= b->n) continue;
         struct modal_line line = modal_fit_line(f, k, s, false);
         modal_fit_basis(b, &line, at, at + 1, x);
-        most = fmax(most, 0.25 * cplx_square(gain[f->data->stretch[k].group]) * (x[0][0] * x[0][0] + x[1][0] * x[1][0]) / b->scale[at]);
+        most = fmax(most, 0.25 * cplx_square(gain[f->data->stretch[k].group]) *
+                              (x[0][0] * x[0][0] + x[1][0] * x[1][0]) / b->scale[at]);
     }
     return most;
 }
@@ -272,8 +276,7 @@ static double stands_out(const struct modal_fit *f, double low, double high)
     double excess = 0.0, count = 0.0, most = 0.0, power = 0.0;
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
-        if (!f->data->stretch[s].fitted || f->data->stretch[s].strike < 0)
-            continue;
+        if (!f->data->stretch[s].fitted || f->data->stretch[s].strike < 0) continue;
         long from = (long)ceil(low / b->width) - b->first, to = (long)floor(high / b->width) - b->first;
         for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++) {
             double q = (b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k]) / b->variance[k];
@@ -320,8 +323,7 @@ static void needed_only(struct modal_block *b, double limit)
         double least = HUGE_VAL, noise = modal_block_noise(b);
         modal_block_worth(b, worth);
         for (int i = 0; i < b->m; i++) {
-            if (b->of[i] >= 0 || worth[i] > 100.0 * limit * noise)
-                continue;
+            if (b->of[i] >= 0 || worth[i] > 100.0 * limit * noise) continue;
             *try = *b;
             try->gain = room[0];
             memcpy(try->gain, b->gain, (size_t)(MODAL_BLOCK * groups) * sizeof *b->gain);
@@ -333,8 +335,7 @@ static void needed_only(struct modal_block *b, double limit)
                 *best = *try;
             }
         }
-        if (least - b->chi >= limit * noise)
-            break;
+        if (least - b->chi >= limit * noise) break;
         memcpy(b->gain, room[1], (size_t)(MODAL_BLOCK * groups) * sizeof *room[1]);
         memcpy(b->s, best->s, sizeof b->s);
         memcpy(b->of, best->of, sizeof b->of);
@@ -357,11 +358,13 @@ static int new_ones(const struct modal_block *b)
 static bool accepted(const struct modal_block *b, int i, double low, double high, double least)
 {
     const struct modal_fit *f = b->fit;
-    return b->of[i] < 0 && b->s[i].im >= low && b->s[i].im < high && b->s[i].im > f->low && b->s[i].im < f->high && -b->s[i].re < 0.99 * fmin(f->fastest, high - low) &&
+    return b->of[i] < 0 && b->s[i].im >= low && b->s[i].im < high && b->s[i].im > f->low && b->s[i].im < f->high &&
+           -b->s[i].re < 0.99 * fmin(f->fastest, high - low) &&
            power_of(f, b->s[i], b->gain + i * f->data->groups) >= least;
 }
 
-/* Poles of one band: polished together and with the modes that are there already, tested, added where they lie in its middle. */
+/* Poles of one band: polished together and with the modes that are there already, tested, added where they lie in its
+ * middle. */
 static int take(struct modal_fit *f, cplx *pole, int n, double low, double high, double limit, double least)
 {
     struct arena *a = arena_open();
@@ -369,18 +372,15 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
     int came = 0, there = 0, of[NEIGHBOURS], groups = f->data->groups;
     double quarter = 0.25 * (high - low);
     for (int i = 0; i < f->m && there < NEIGHBOURS; i++)
-        if (f->s[i].im > low - quarter && f->s[i].im < high + quarter)
-            of[there++] = i;
+        if (f->s[i].im > low - quarter && f->s[i].im < high + quarter) of[there++] = i;
     modal_block_open(b, f, there, of, pole, n, NULL, a);
     b->fastest = fmin(f->fastest, high - low);
     for (int i = 0; i < there; i++) /* those that are there may be faster than the band lets new ones be */
         b->fastest = fmax(b->fastest, -f->s[of[i]].re);
     rough_only(b, 0.3 * limit, least);
-    if (new_ones(b))
-        modal_block_polish(b, 8);
+    if (new_ones(b)) modal_block_polish(b, 8);
     rough_only(b, 0.3 * limit, least);
-    if (new_ones(b))
-        needed_only(b, limit);
+    if (new_ones(b)) needed_only(b, limit);
     for (int i = 0; i < b->m; i++)
         came += accepted(b, i, low, high, least);
     for (int i = 0; i < b->m && came; i++) {
@@ -396,31 +396,38 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
 }
 
 struct band {
-    long centre;              /* bin of the residual's spectra */
+    long centre; /* bin of the residual's spectra */
     double power;
 };
 
 static int stronger(const void *x, const void *y)
 {
     const struct band *a = x, *b = y;
-    return a->power != b->power ? (a->power < b->power) - (a->power > b->power) : (a->centre > b->centre) - (a->centre < b->centre);
+    return a->power != b->power ? (a->power < b->power) - (a->power > b->power)
+                                : (a->centre > b->centre) - (a->centre < b->centre);
 }
 
 /* ESPRIT's poles of one band that may be modes of it. */
-static int candidates(const struct modal_fit *f, const struct residual *r, long centre, long wide, const cplx *turn, cplx (*y)[SAMPLES], cplx *pole)
+static int candidates(const struct modal_fit *f, const struct residual *r, long centre, long wide, const cplx *turn,
+                      cplx (*y)[SAMPLES], cplx *pole)
 {
     const struct modal_data *d = f->data;
-    double bin = 2.0 * REAL_PI * d->rate / (double)r->n, at = (double)centre * bin, quarter = 0.25 * (double)wide * bin, step = (double)r->n / (double)wide / d->rate;
+    double bin = 2.0 * REAL_PI * d->rate / (double)r->n, at = (double)centre * bin, quarter = 0.25 * (double)wide * bin,
+           step = (double)r->n / (double)wide / d->rate;
     int n[MODAL_STRETCHES], longest = 0, poles = 0;
     cplx z[ORDER];
     for (int s = 0; s < d->stretches; s++) {
-        n[s] = d->stretch[s].fitted && d->stretch[s].strike >= 0 ? envelope(r, s, &d->stretch[s], centre, wide, turn, y[s]) : 0;
+        n[s] = d->stretch[s].fitted && d->stretch[s].strike >= 0
+                   ? envelope(r, s, &d->stretch[s], centre, wide, turn, y[s])
+                   : 0;
         longest = n[s] > longest ? n[s] : longest;
     }
     int order = esprit(y, n, d->stretches, z);
     for (int i = 0; i < order; i++) {
-        double size = cplx_abs(z[i]), omega = at + real_atan2(z[i].im, z[i].re) / step, decay = size > 0.0 ? -real_log(size) / step : HUGE_VAL;
-        if (fabs(omega - at) > 1.5 * quarter || omega <= f->low || omega >= f->high || decay > 2.0 * quarter || decay < -2.0 / (step * (double)longest))
+        double size = cplx_abs(z[i]), omega = at + real_atan2(z[i].im, z[i].re) / step,
+               decay = size > 0.0 ? -real_log(size) / step : HUGE_VAL;
+        if (fabs(omega - at) > 1.5 * quarter || omega <= f->low || omega >= f->high || decay > 2.0 * quarter ||
+            decay < -2.0 / (step * (double)longest))
             continue;
         decay = fmax(decay, 0.3 / (step * (double)longest));
         pole[poles++] = (cplx){-fmin(decay, f->fastest), omega};
@@ -433,8 +440,7 @@ static int fit_in(struct modal_fit *f, int from)
 {
     for (int i = from; i < f->m; i++) {
         int of[MODAL_BLOCK], near = modal_settle_near(f, i, 8, of);
-        if (f->moved[i] > 1.0)
-            modal_settle_refine(f, near, of, 5);
+        if (f->moved[i] > 1.0) modal_settle_refine(f, near, of, 5);
     }
     int m = f->m;
     return m - from - modal_settle_runaways(f);
@@ -459,16 +465,17 @@ int modal_search(struct modal_fit *f, double width, double least)
     for (long k = 0; k < wide; k++)
         turn[k] = (cplx){real_cospi(2.0 * (double)k / (double)wide), real_sinpi(2.0 * (double)k / (double)wide)};
     for (long centre = (long)(f->low / bin); (double)centre * bin < f->high + quarter; centre += wide / 2) {
-        band[bands] = (struct band){centre, stands_out(f, (double)centre * bin - quarter, (double)centre * bin + quarter)};
+        band[bands] =
+            (struct band){centre, stands_out(f, (double)centre * bin - quarter, (double)centre * bin + quarter)};
         bands += band[bands].power > 0.0 && band[bands].power >= least;
     }
     qsort(band, (size_t)bands, sizeof *band, stronger);
     for (int k = 0; k < bands && f->m < most; k++) {
         double at = (double)band[k].centre * bin, power = stands_out(f, at - quarter, at + quarter);
         cplx pole[ORDER];
-        int poles = power > 0.0 && power >= least ? candidates(f, &r, band[k].centre, wide, turn, y, pole) : 0, m = f->m;
-        if (poles && take(f, pole, poles, at - quarter, at + quarter, limit, least))
-            came += fit_in(f, m);
+        int poles = power > 0.0 && power >= least ? candidates(f, &r, band[k].centre, wide, turn, y, pole) : 0,
+            m = f->m;
+        if (poles && take(f, pole, poles, at - quarter, at + quarter, limit, least)) came += fit_in(f, m);
     }
     arena_close(a);
     return came;
@@ -482,8 +489,7 @@ static double sharpness(const struct modal_bins *b, long k)
     double list[20];
     int n = 0;
     for (long i = k - 12; i <= k + 12; i++)
-        if (i >= 0 && i < b->n && labs(i - k) > 2)
-            list[n++] = b->rr[i] * b->rr[i] + b->ri[i] * b->ri[i];
+        if (i >= 0 && i < b->n && labs(i - k) > 2) list[n++] = b->rr[i] * b->rr[i] + b->ri[i] * b->ri[i];
     qsort(list, (size_t)n, sizeof *list, rising);
     return n ? 0.69 * (b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k]) / fmax(list[n / 2], 1e-300) : 0.0;
 }
@@ -495,16 +501,22 @@ static double line_of_leads(const struct modal_fit *f, double *width)
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         for (long k = 1; k + 1 < b->n && f->data->stretch[s].strike < 0; k++) {
-            double q = fmin(sharpness(b, k), (b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k]) / b->variance[k]), omega = (double)(b->first + k) * b->width;
+            double q = fmin(sharpness(b, k), (b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k]) / b->variance[k]),
+                   omega = (double)(b->first + k) * b->width;
             bool known = false;
             for (int i = 0; i < f->m && q > most; i++)
                 known = known || fabs(f->s[i].im - omega) < 3.5 * b->width;
-            if (q <= most || known)
-                continue;
-            double left = cplx_abs((cplx){b->rr[k - 1], b->ri[k - 1]}), right = cplx_abs((cplx){b->rr[k + 1], b->ri[k + 1]}), size = cplx_abs((cplx){b->rr[k], b->ri[k]});
+            if (q <= most || known) continue;
+            double left = cplx_abs((cplx){b->rr[k - 1], b->ri[k - 1]}),
+                   right = cplx_abs((cplx){b->rr[k + 1], b->ri[k + 1]}), size = cplx_abs((cplx){b->rr[k], b->ri[k]});
             most = q;
             *width = b->width;
-            found = omega + b->width * (right > left ? right / (right + size) : -left / (left + size)); /* between two bins, their sizes are as the distances to the other */
+            found =
+                omega +
+                b->width *
+                    (right > left
+                         ? right / (right + size)
+                         : -left / (left + size)); /* between two bins, their sizes are as the distances to the other */
         }
     }
     return found;

@@ -6,15 +6,13 @@
 
 enum { NEIGHBOURS = 10, ROUNDS = 4 };
 
-static const double touches = 6.0;  /* of the sum of two widths: nearer modes are fitted together */
-static const double still = 0.05;   /* standard errors: what moved less has not moved */
-static const double cancels = 10.0; /* of the recording's energy in a mode's window: a louder mode is one of several that cancel */
-static const double leave = 23.5;   /* chi squared of 4 degrees, chance 1e-4 */
+static const double touches = 6.0; /* of the sum of two widths: nearer modes are fitted together */
+static const double still = 0.05;  /* standard errors: what moved less has not moved */
+static const double cancels =
+    10.0; /* of the recording's energy in a mode's window: a louder mode is one of several that cancel */
+static const double leave = 23.5; /* chi squared of 4 degrees, chance 1e-4 */
 
-static double width_of(const struct modal_fit *f, int i)
-{
-    return -f->s[i].re + 4.0 * REAL_PI / f->longest;
-}
+static double width_of(const struct modal_fit *f, int i) { return -f->s[i].re + 4.0 * REAL_PI / f->longest; }
 
 static double distance(const struct modal_fit *f, int i, int k)
 {
@@ -27,8 +25,7 @@ int modal_settle_near(const struct modal_fit *f, int i, int most, int *of)
     int n = 0;
     for (int k = 0; k < f->m; k++) {
         double q = k == i ? -1.0 : distance(f, i, k);
-        if (q >= touches || (n == most && q >= at[n - 1]))
-            continue;
+        if (q >= touches || (n == most && q >= at[n - 1])) continue;
         int to = n < most ? n++ : n - 1;
         for (; to > 0 && at[to - 1] > q; to--) {
             at[to] = at[to - 1];
@@ -57,7 +54,8 @@ double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
     double noise = modal_block_noise(b);
     for (int i = 0; i < n; i++) {
         double by[2] = {b->s[i].im - f->s[of[i]].im, real_log(b->s[i].re / f->s[of[i]].re)};
-        double square = by[0] * by[0] * b->normal[2 * i * (2 * n + 1)] + by[1] * by[1] * b->normal[(2 * i + 1) * (2 * n + 1)];
+        double square =
+            by[0] * by[0] * b->normal[2 * i * (2 * n + 1)] + by[1] * by[1] * b->normal[(2 * i + 1) * (2 * n + 1)];
         moved[i] = sqrt(square / noise);
         most = fmax(most, moved[i]);
         modal_fit_replace(f, of[i], b->s[i], b->gain + i * groups);
@@ -99,8 +97,7 @@ double modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
                 left = fmax(left, modal_settle_refine(f, n, of, 5));
             }
         arena_close(a);
-        if (left <= still)
-            break;
+        if (left <= still) break;
     }
     return left;
 }
@@ -130,9 +127,9 @@ double modal_settle_noise(const struct modal_fit *f, cplx s)
     long rows = 0, inside = 0, used = 0;
     for (int k = 0; k < f->data->stretches; k++) {
         const struct modal_bins *b = &f->bins[k];
-        double from = ceil((s.im - reach) / b->width) - (double)b->first, to = floor((s.im + reach) / b->width) - (double)b->first + 1.0;
-        if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0)
-            continue;
+        double from = ceil((s.im - reach) / b->width) - (double)b->first,
+               to = floor((s.im + reach) / b->width) - (double)b->first + 1.0;
+        if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0) continue;
         for (long i = from > 0.0 ? (long)from : 0; i < b->n && (double)i < to; i++) {
             sum += 2.0 * (b->nr[i] * b->nr[i] + b->ni[i] * b->ni[i]) / b->variance[i];
             rows += 2;
@@ -170,23 +167,19 @@ void modal_settle_eliminate(struct modal_fit *f, double limit)
     for (;;) {
         int least = -1, near[MODAL_BLOCK];
         for (int i = 0; i < f->m; i++) {
-            if (isnan(rise[i]))
-                rise[i] = modal_settle_rise(f, i);
+            if (isnan(rise[i])) rise[i] = modal_settle_rise(f, i);
             if (least < 0 || rise[i] < rise[least] || (rise[i] == rise[least] && f->s[i].im < f->s[least].im))
                 least = i;
         }
-        if (least < 0 || rise[least] >= limit)
-            break;
+        if (least < 0 || rise[least] >= limit) break;
         int n = modal_settle_near(f, least, NEIGHBOURS + 1, near), others = 0;
         for (int i = 0; i < n; i++) {
             rise[near[i]] = NAN;
-            if (near[i] != least)
-                near[others++] = near[i] - (near[i] > least);
+            if (near[i] != least) near[others++] = near[i] - (near[i] > least);
         }
         memmove(rise + least, rise + least + 1, (size_t)(f->m - least - 1) * sizeof *rise);
         modal_fit_drop(f, least);
-        if (others)
-            modal_settle_refine(f, others, near, 20);
+        if (others) modal_settle_refine(f, others, near, 20);
     }
     arena_close(a);
 }
@@ -202,7 +195,8 @@ static double loudness(const struct modal_fit *f, int i)
         const struct modal_bins *bins = &f->bins[s];
         long n = b->to[s] - b->from[s];
         for (long k = 0; k < n; k++) {
-            double re = b->r[s][k] - bins->rr[b->from[s] + k], im = b->r[s][n + k] - bins->ri[b->from[s] + k], yr = bins->yr[b->from[s] + k], yi = bins->yi[b->from[s] + k];
+            double re = b->r[s][k] - bins->rr[b->from[s] + k], im = b->r[s][n + k] - bins->ri[b->from[s] + k],
+                   yr = bins->yr[b->from[s] + k], yi = bins->yi[b->from[s] + k];
             mine += re * re + im * im;
             all += yr * yr + yi * yi;
         }
@@ -217,8 +211,7 @@ int modal_settle_runaways(struct modal_fit *f)
     for (int i = 0; i < f->m;)
         if (!f->hum[i] && (-f->s[i].re > 0.99 * f->fastest || loudness(f, i) > cancels)) {
             for (int k = 0; k < f->m; k++)
-                if (distance(f, i, k) < touches)
-                    f->moved[k] = 1.0;
+                if (distance(f, i, k) < touches) f->moved[k] = 1.0;
             modal_fit_drop(f, i);
             dropped++;
         } else {

@@ -1,13 +1,16 @@
-/* papers/003 section B: peaks of the power spectrogram (equation 6) in frequency, and a fit of the local shape around each, over the frames in which it stands above the
-   noise: in frame m at bin k
+/* papers/003 section B: peaks of the power spectrogram (equation 6) in frequency, and a fit of the local shape around
+   each, over the frames in which it stands above the noise: in frame m at bin k
 
      P[m, k] = |A/2|^2 e^(-2 d t_m) |W(omega_k - omega, d)|^2 + N_k,   W(x, d) = sum_j w[j] e^(-(d + j x) j/rate),
 
-   W the window's own transform of a decaying sinusoid, closed for Hann's window (three geometric sums). f, d and |A| by least squares of log P (GSL, Levenberg and Marquardt), each bin weighted by its
-   amplitude over its frame's greatest (far bins hold the neighbours' skirts) and by 1/(TRUST^2 + N/P)^(1/2), what noise does to log P. A peak
-   whose fit leaves more than `threshold` of its energy, sum (sqrt P - sqrt model)^2/sum P, is none. The paper says neither window nor patch: here Hann of about 0.09 s, hop a
-   quarter, 5 bins. Later frames are searched too: a mode may show only when a stronger, faster one has gone. Phases, which the power does not hold, and gains come from the same least squares
-   as all modes', the poles as they are. It is the loudest stretch that is looked at, from the hammer's end on. Two modes within two bins of each other (20 Hz) are one peak. */
+   W the window's own transform of a decaying sinusoid, closed for Hann's window (three geometric sums). f, d and |A| by
+   least squares of log P (GSL, Levenberg and Marquardt), each bin weighted by its amplitude over its frame's greatest
+   (far bins hold the neighbours' skirts) and by 1/(TRUST^2 + N/P)^(1/2), what noise does to log P. A peak whose fit
+   leaves more than `threshold` of its energy, sum (sqrt P - sqrt model)^2/sum P, is none. The paper says neither window
+   nor patch: here Hann of about 0.09 s, hop a quarter, 5 bins. Later frames are searched too: a mode may show only when
+   a stronger, faster one has gone. Phases, which the power does not hold, and gains come from the same least squares as
+   all modes', the poles as they are. It is the loudest stretch that is looked at, from the hammer's end on. Two modes
+   within two bins of each other (20 Hz) are one peak. */
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 #include <stdlib.h>
@@ -19,22 +22,23 @@
 enum { SIDE = 2, FRAMES = 40, LEAST = 4, STEPS = 100 };
 
 #define SECONDS 0.08
-#define STANDS 30.0  /* power of a peak over the noise */
+#define STANDS 30.0 /* power of a peak over the noise */
 #define TRUST 0.01
-#define FALLEN 8.0   /* ... of the last frame of its patch */
+#define FALLEN 8.0 /* ... of the last frame of its patch */
 
 struct spectrogram {
     long size, hop, frames, bins;
     double rate;
-    double *power;        /* [frames][bins] summed over places */
-    double *noise;        /* [bins] */
-    double *window;       /* [size] */
+    double *power;  /* [frames][bins] summed over places */
+    double *noise;  /* [bins] */
+    double *window; /* [size] */
 };
 
 static void frames_add(struct spectrogram *s, const double *h, struct arena *a)
 {
     struct fft *fft = fft_open((size_t)s->size);
-    double *x = ARENA_TAKE(a, double, s->size), *re = ARENA_TAKE(a, double, s->bins), *im = ARENA_TAKE(a, double, s->bins);
+    double *x = ARENA_TAKE(a, double, s->size), *re = ARENA_TAKE(a, double, s->bins),
+           *im = ARENA_TAKE(a, double, s->bins);
     for (long m = 0; m < s->frames; m++) {
         for (long j = 0; j < s->size; j++)
             x[j] = s->window[j] * h[m * s->hop + j];
@@ -93,7 +97,8 @@ static double shape(double d, double x, double size)
 {
     double bin = 2 * REAL_PI / size;
     cplx end = cplx_exp((cplx){-d, x}, size);
-    return cplx_square(cplx_sub(cplx_scale(0.5, geometric(d, x, end)), cplx_scale(0.25, cplx_add(geometric(d, x + bin, end), geometric(d, x - bin, end)))));
+    return cplx_square(cplx_sub(cplx_scale(0.5, geometric(d, x, end)),
+                                cplx_scale(0.25, cplx_add(geometric(d, x + bin, end), geometric(d, x - bin, end)))));
 }
 
 struct patch {
@@ -101,14 +106,18 @@ struct patch {
     long frame, frames, bin;
 };
 
-/* Power of the model: at[0] bins off the patch's middle, at[1] log of the decay per sample, at[2] log |A/2|^2 in its first frame. */
+/* Power of the model: at[0] bins off the patch's middle, at[1] log of the decay per sample, at[2] log |A/2|^2 in its
+ * first frame. */
 static double model(const struct patch *p, const double at[3], long frame, long k)
 {
     double size = (double)p->s->size, bin = 2 * REAL_PI / size, d = real_exp(at[1]);
     return real_exp(at[2] - 2 * d * (double)(frame * p->s->hop)) * shape(d, bin * ((double)(p->bin - k) + at[0]), size);
 }
 
-static double measured(const struct patch *p, long frame, long k) { return p->s->power[(p->frame + frame) * p->s->bins + k]; }
+static double measured(const struct patch *p, long frame, long k)
+{
+    return p->s->power[(p->frame + frame) * p->s->bins + k];
+}
 
 static int residuals(const gsl_vector *x, void *context, gsl_vector *out)
 {
@@ -121,7 +130,8 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *out)
             most = fmax(most, measured(p, m, k));
         for (long k = p->bin - SIDE; k <= p->bin + SIDE; k++) {
             double power = fmax(measured(p, m, k), 1e-290), doubt = sqrt(TRUST * TRUST + p->s->noise[k] / power);
-            gsl_vector_set(out, i++, sqrt(power / most) / doubt * real_log((model(p, at, m, k) + p->s->noise[k]) / power));
+            gsl_vector_set(out, i++,
+                           sqrt(power / most) / doubt * real_log((model(p, at, m, k) + p->s->noise[k]) / power));
         }
     }
     return GSL_SUCCESS;
@@ -144,15 +154,16 @@ static double left(const struct patch *p, const double at[3])
 static bool patch_fit(const struct patch *p, double threshold, double pole[2])
 {
     const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    double ratio = measured(p, p->frames - 1, p->bin) / measured(p, 0, p->bin), span = (double)((p->frames - 1) * p->s->hop);
+    double ratio = measured(p, p->frames - 1, p->bin) / measured(p, 0, p->bin),
+           span = (double)((p->frames - 1) * p->s->hop);
     double d = fmax(-real_log(ratio) / (2 * span), 0.1 / span), start[3] = {0, real_log(d), 0}, at[3];
     start[2] = real_log(measured(p, 0, p->bin) / shape(d, 0, (double)p->s->size));
-    gsl_multifit_nlinear_fdf fdf = {.f = residuals, .n = (size_t)(p->frames * (2 * SIDE + 1)), .p = 3, .params = (void *)(uintptr_t)p};
+    gsl_multifit_nlinear_fdf fdf = {
+        .f = residuals, .n = (size_t)(p->frames * (2 * SIDE + 1)), .p = 3, .params = (void *)(uintptr_t)p};
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, fdf.n, 3);
     gsl_vector_view x = gsl_vector_view_array(start, 3);
     int info;
-    if (!w)
-        return false;
+    if (!w) return false;
     bool good = gsl_multifit_nlinear_init(&x.vector, &fdf, w) == GSL_SUCCESS &&
                 gsl_multifit_nlinear_driver(STEPS, 1e-9, 1e-9, 0, NULL, NULL, &info, w) == GSL_SUCCESS;
     for (size_t i = 0; i < 3; i++)
@@ -172,8 +183,7 @@ static bool peak(const struct spectrogram *s, long m, long k)
 static bool taken(const struct modal_fit *f, double omega, double wide)
 {
     for (int i = 0; i < f->m; i++)
-        if (fabs(f->s[i].im - omega) < wide)
-            return true;
+        if (fabs(f->s[i].im - omega) < wide) return true;
     return false;
 }
 
@@ -184,11 +194,11 @@ static void frame_search(const struct spectrogram *s, long m, struct modal_fit *
     cplx *none = ARENA_TAKE(a, cplx, f->data->groups);
     for (long k = SIDE + 1; k < s->bins - SIDE - 1; k++) {
         struct patch p = {s, m, 0, k};
-        if (!peak(s, m, k) || taken(f, bin * (double)k, 2 * bin))
-            continue;
+        if (!peak(s, m, k) || taken(f, bin * (double)k, 2 * bin)) continue;
         while (p.frames < FRAMES && m + p.frames < s->frames && measured(&p, p.frames, k) > FALLEN * s->noise[k])
             p.frames++;
-        if (p.frames >= LEAST && patch_fit(&p, f->options->threshold, pole) && pole[0] < f->fastest && pole[1] > f->low && pole[1] < f->high && !taken(f, pole[1], bin))
+        if (p.frames >= LEAST && patch_fit(&p, f->options->threshold, pole) && pole[0] < f->fastest &&
+            pole[1] > f->low && pole[1] < f->high && !taken(f, pole[1], bin))
             modal_fit_add(f, (cplx){-pole[0], pole[1]}, none, false);
     }
     arena_close(a);

@@ -1,10 +1,12 @@
-/* Offset: the mean of the longest quiet part, in whole tenths of a second, in which hum of 50 or 60 Hz and its harmonics has none. Where no tenth is quiet, that of the median and the
-   mean of all which is nearer to 0, if both are of one sign: most of a recording of strikes is ringing then, which is as often above as below, but even harmonics of a hum move the
-   median, and pulses the mean. It is taken off where it is more than a thousandth of the greatest sample and four standard errors: the thresholds of strikes_find and the
-   energies of strikes_response are about 0.
+/* Offset: the mean of the longest quiet part, in whole tenths of a second, in which hum of 50 or 60 Hz and its
+   harmonics has none. Where no tenth is quiet, that of the median and the mean of all which is nearer to 0, if both are
+   of one sign: most of a recording of strikes is ringing then, which is as often above as below, but even harmonics of
+   a hum move the median, and pulses the mean. It is taken off where it is more than a thousandth of the greatest sample
+   and four standard errors: the thresholds of strikes_find and the energies of strikes_response are about 0.
 
-   Clipping, in files that hold more than they were recorded with (floating point, or scaled afterwards): the greatest sample stands several times in a row, and the signal leaves it at
-   once. A slow wave in few bits has such rows too, but leaves them by single steps, which are the least difference between neighbours that there is. */
+   Clipping, in files that hold more than they were recorded with (floating point, or scaled afterwards): the greatest
+   sample stands several times in a row, and the signal leaves it at once. A slow wave in few bits has such rows too,
+   but leaves them by single steps, which are the least difference between neighbours that there is. */
 #include "analysis/strikes_channel.h"
 
 #include <math.h>
@@ -65,8 +67,7 @@ static double quiet_mean(const double *x, long n, double rate, double *error)
 static double offset_of(const double *x, long n, double rate, double *error)
 {
     double found = quiet_mean(x, n, rate, error), middle, all;
-    if (!isnan(found))
-        return found;
+    if (!isnan(found)) return found;
     middle = median(x, n);
     all = mean(x, 0, n);
     *error = 0.0;
@@ -78,7 +79,8 @@ static bool stands(const double *x, long n, double extreme, double step)
 {
     for (long i = 1, row = 0; i < n; i++) {
         row = x[i] == extreme ? row + 1 : 0;
-        if (row >= ROW && i + 1 < n && x[i + 1] != extreme && i > row && fabs(x[i + 1] - extreme) > STEPS * step && fabs(x[i - row] - extreme) > STEPS * step)
+        if (row >= ROW && i + 1 < n && x[i + 1] != extreme && i > row && fabs(x[i + 1] - extreme) > STEPS * step &&
+            fabs(x[i - row] - extreme) > STEPS * step)
             return true;
     }
     return false;
@@ -90,8 +92,7 @@ void strikes_channel_clip(const double *x, long n, double clip[2])
     for (long i = 0; i < n; i++) {
         least = fmin(least, x[i]);
         most = fmax(most, x[i]);
-        if (i && x[i] != x[i - 1])
-            step = fmin(step, fabs(x[i] - x[i - 1]));
+        if (i && x[i] != x[i - 1]) step = fmin(step, fabs(x[i] - x[i - 1]));
     }
     clip[0] = least < 0.0 && stands(x, n, least, step) ? least : 0.0;
     clip[1] = most > 0.0 && stands(x, n, most, step) ? most : 0.0;
@@ -104,8 +105,7 @@ static const double *level_out(const double *x, const struct strikes_recording *
     double most = 0.0, error = 0.0, middle = offset_of(x, n, r->rate, &error);
     for (long i = 0; i < n; i++)
         most = fmax(most, fabs(x[i] - middle));
-    if (!(fabs(middle) > fmax(considerable * most, 4.0 * error)) || most == 0.0)
-        return x;
+    if (!(fabs(middle) > fmax(considerable * most, 4.0 * error)) || most == 0.0) return x;
     double *to = ARENA_TAKE(a, double, n);
     for (long i = 0; i < n; i++)
         to[i] = x[i] - middle;
@@ -125,6 +125,7 @@ const char *strikes_channel_prepare(struct strikes_recording *r, struct arena *a
     if (r->offset != 0.0)
         note = arena_format(a, "the sound stands beside 0, by %.3g: that offset is taken off", r->offset);
     if (r->force_offset != 0.0)
-        note = arena_format(a, "%s%sthe force stands beside 0, by %.3g: that offset is taken off", note ? note : "", note ? "\n" : "", r->force_offset);
+        note = arena_format(a, "%s%sthe force stands beside 0, by %.3g: that offset is taken off", note ? note : "",
+                            note ? "\n" : "", r->force_offset);
     return note;
 }

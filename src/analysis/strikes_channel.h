@@ -3,7 +3,8 @@
 #define ANALYSIS_STRIKES_CHANNEL_H
 #include "analysis/strikes.h"
 
-/* Takes a considerable offset off both channels (copies of them) and finds where they clip; returns lines that say so, or NULL. */
+/* Takes a considerable offset off both channels (copies of them) and finds where they clip; returns lines that say so,
+ * or NULL. */
 const char *strikes_channel_prepare(struct strikes_recording *r, struct arena *a);
 
 /* Levels at which x[n] clips, below and above; 0: it does not. */

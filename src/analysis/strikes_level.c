@@ -1,4 +1,5 @@
-/* Short-time levels, and what counts as the noise: a recording of strikes is quiet for a fiftieth of its time at least, or its floor is the ringing's. */
+/* Short-time levels, and what counts as the noise: a recording of strikes is quiet for a fiftieth of its time at least,
+ * or its floor is the ringing's. */
 #include "analysis/strikes_level.h"
 
 #include <math.h>

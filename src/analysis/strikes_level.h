@@ -4,9 +4,9 @@
 #include "base/arena.h"
 
 struct strikes_level {
-    long frame, n;   /* samples of a frame, frames */
-    double *rms;     /* [n] about the frame's own mean */
-    double floor;    /* the level that a fiftieth of them stay below */
+    long frame, n; /* samples of a frame, frames */
+    double *rms;   /* [n] about the frame's own mean */
+    double floor;  /* the level that a fiftieth of them stay below */
 };
 
 /* Frames of `seconds`; at least one sample each. */

@@ -1,7 +1,8 @@
 /* From recordings to modes: strikes, the stretches that are fitted, the fit, and what it explains.
 
-   With a force a stretch begins just before its strike, and what rings on from earlier strikes is carried into it (analysis/modal_fit.h). Without one it begins a
-   millisecond after the strike, when a hard hammer has left, and has gains of its own, which are taken back to the strike by e^(-s t). */
+   With a force a stretch begins just before its strike, and what rings on from earlier strikes is carried into it
+   (analysis/modal_fit.h). Without one it begins a millisecond after the strike, when a hard hammer has left, and has
+   gains of its own, which are taken back to the strike by e^(-s t). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,15 +13,16 @@
 #include "num/fft.h"
 #include "num/real.h"
 
-static const double before = 4e-4;        /* s of a stretch before its force */
-static const double past = 1e-3;          /* s after a strike without force: the hammer has left */
-static const double shortest = 0.01;      /* s of sound that a stretch needs */
-static const double lead_least = 0.05;    /* s of silence before the first strike that tell the noise */
-static const double reach = 1e-4;         /* of the force's greatest power: what lies below is noise */
-static const double half = 0.5;           /* of the energy: a table that explains less is none */
-static const double much = 0.2;           /* of the energy: what follows the force at once is reported */
-static const double fastest = 0.02;       /* of the rate: a decay that is gone in 50 samples is no mode unless one asks for it */
-static const double slow = 300.0;         /* 1/s, of decays that the median by energy is about */
+static const double before = 4e-4;     /* s of a stretch before its force */
+static const double past = 1e-3;       /* s after a strike without force: the hammer has left */
+static const double shortest = 0.01;   /* s of sound that a stretch needs */
+static const double lead_least = 0.05; /* s of silence before the first strike that tell the noise */
+static const double reach = 1e-4;      /* of the force's greatest power: what lies below is noise */
+static const double half = 0.5;        /* of the energy: a table that explains less is none */
+static const double much = 0.2;        /* of the energy: what follows the force at once is reported */
+static const double fastest =
+    0.02; /* of the rate: a decay that is gone in 50 samples is no mode unless one asks for it */
+static const double slow = 300.0; /* 1/s, of decays that the median by energy is about */
 
 void modes_extract_find_note(struct modes_extract *x, const char *text)
 {
@@ -29,8 +31,7 @@ void modes_extract_find_note(struct modes_extract *x, const char *text)
         bool known = false;
         for (int k = 0; k < x->notes; k++)
             known = known || !strcmp(x->note[k], one);
-        if (!known && x->notes < MODES_EXTRACT_NOTES)
-            x->note[x->notes++] = one;
+        if (!known && x->notes < MODES_EXTRACT_NOTES) x->note[x->notes++] = one;
     }
 }
 
@@ -42,7 +43,8 @@ static void place_note(struct modes_extract *x, const struct modes_extract_place
 
 /* ------------------------------------------------------------------ strikes */
 
-/* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins there, if all before is fainter. One more stays, as sample 0. */
+/* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins
+ * there, if all before is fainter. One more stays, as sample 0. */
 static long begins(const double *h, long n, double most)
 {
     long at = 0, start, quiet = 0;
@@ -65,9 +67,13 @@ static bool impulse(struct modes_extract *x, struct modes_extract_place *p, stru
     long shift = isnan(x->given.delay) ? begins(r->sound, r->n, most) : (long)rint(x->given.delay * r->rate);
     most = 0.0;
     if (isnan(x->given.delay) && shift)
-        place_note(x, p, arena_format(x->arena, "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)", 1e3 * (double)shift / r->rate));
+        place_note(x, p,
+                   arena_format(x->arena,
+                                "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)",
+                                1e3 * (double)shift / r->rate));
     if ((double)(r->n - shift) < 0.01 * r->rate)
-        return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name, 1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
+        return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name,
+                       1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
     for (long i = shift; i < r->n; i++)
         most = fmax(most, fabs(r->sound[i]));
     if (most == 0.0)
@@ -77,7 +83,8 @@ static bool impulse(struct modes_extract *x, struct modes_extract_place *p, stru
         place_note(x, p, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
     p->delay = (double)shift / r->rate;
     p->strikes = (struct strikes){.n = 1, .strike = ARENA_TAKE(x->arena, struct strikes_one, 1), .sign = 1.0};
-    p->strikes.strike[0] = (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
+    p->strikes.strike[0] =
+        (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
     return true;
 }
 
@@ -95,8 +102,7 @@ static bool chosen(const struct modes_extract *x, int strike, int strikes, bool 
         }
         if (end == text || (*end && *end != ',') || from < 1 || to < from)
             return err_set(e, ERR_USAGE, "--strikes: '%s' is not of the form 1,3,5-7", x->given.only);
-        if (to > strikes)
-            return err_set(e, ERR_USAGE, "--strikes: '%s': there are %d strikes", x->given.only, strikes);
+        if (to > strikes) return err_set(e, ERR_USAGE, "--strikes: '%s': there are %d strikes", x->given.only, strikes);
         *yes = *yes || (strike + 1 >= from && strike + 1 <= to);
         text = *end ? end + 1 : end;
     }
@@ -106,23 +112,21 @@ static bool chosen(const struct modes_extract *x, int strike, int strikes, bool 
 static bool strikes(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
 {
     int left = 0;
-    if (x->given.impulse)
-        return impulse(x, p, e);
+    if (x->given.impulse) return impulse(x, p, e);
     place_note(x, p, strikes_channel_prepare(&p->recording, x->arena));
-    if (!strikes_find(&p->recording, &x->given.strikes, x->arena, &p->strikes, e))
-        return false;
+    if (!strikes_find(&p->recording, &x->given.strikes, x->arena, &p->strikes, e)) return false;
     place_note(x, p, p->strikes.note);
     for (int k = 0; k < p->strikes.n; k++) {
         bool yes;
-        if (!chosen(x, k, p->strikes.n, &yes, e))
-            return false;
-        if (!yes && !p->strikes.strike[k].left_out)
-            p->strikes.strike[k].left_out = "not in --strikes";
+        if (!chosen(x, k, p->strikes.n, &yes, e)) return false;
+        if (!yes && !p->strikes.strike[k].left_out) p->strikes.strike[k].left_out = "not in --strikes";
         left += !p->strikes.strike[k].left_out;
     }
     if (!left)
         return err_set(e, ERR_SCENE, "%s: --strikes %s leaves no strike that can be fitted", p->shown, x->given.only);
-    p->delay = !p->recording.force ? 0.0 : !isnan(x->given.delay) ? x->given.delay : strikes_delay(&p->recording, &p->strikes, x->arena);
+    p->delay = !p->recording.force      ? 0.0
+               : !isnan(x->given.delay) ? x->given.delay
+                                        : strikes_delay(&p->recording, &p->strikes, x->arena);
     return true;
 }
 
@@ -136,16 +140,15 @@ static int room(const struct modes_extract *x)
     return n;
 }
 
-static void add(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p, struct modal_stretch s, long end)
+static void add(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p,
+                struct modal_stretch s, long end)
 {
     const struct strikes_recording *r = &p->recording;
     s.n = modal_length((end < r->n ? end : r->n) - s.first);
     s.y = r->sound + s.first;
     s.place = (int)(p - x->place);
-    if ((double)(s.n - s.ringing) < shortest * r->rate)
-        return;
-    if (p->stretches++ == 0)
-        p->first = x->data.stretches;
+    if ((double)(s.n - s.ringing) < shortest * r->rate) return;
+    if (p->stretches++ == 0) p->first = x->data.stretches;
     list[x->data.stretches++] = s;
 }
 
@@ -166,13 +169,20 @@ static void place_stretches(struct modes_extract *x, struct modal_stretch *list,
     const struct strikes *s = &p->strikes;
     const struct strikes_recording *r = &p->recording;
     bool force = r->force != NULL;
-    long late = (long)rint(p->delay * x->rate), early = (long)ceil(before * x->rate), longest = (long)(strikes_ringing(r, s, x->arena) * x->rate);
+    long late = (long)rint(p->delay * x->rate), early = (long)ceil(before * x->rate),
+         longest = (long)(strikes_ringing(r, s, x->arena) * x->rate);
     if (!x->given.impulse && s->strike[0].onset - early > (long)(lead_least * x->rate))
         add(x, list, p, (struct modal_stretch){.group = x->data.groups++, .strike = -1}, s->strike[0].onset - early);
     for (int k = 0; k < s->n; k++) {
         const struct strikes_one *v = &s->strike[k];
-        struct modal_stretch st = {.first = v->onset + (x->given.impulse ? 1 : force ? late - early : (long)(past * x->rate)), .group = x->data.groups++, .strike = k, .fitted = !v->left_out};
-        long end = k + 1 < s->n ? s->strike[k + 1].onset + (force ? late - early : -early) : r->n, most = st.first + longest;
+        struct modal_stretch st = {.first = v->onset + (x->given.impulse ? 1
+                                                        : force          ? late - early
+                                                                         : (long)(past * x->rate)),
+                                   .group = x->data.groups++,
+                                   .strike = k,
+                                   .fitted = !v->left_out};
+        long end = k + 1 < s->n ? s->strike[k + 1].onset + (force ? late - early : -early) : r->n,
+             most = st.first + longest;
         st.first = st.first > 0 ? st.first : 0;
         st.ringing = force ? v->over + late - st.first : 0;
         st.pulse = pulse(x, p, k, force ? v->onset + late : x->given.impulse ? v->onset : st.first);
@@ -185,14 +195,14 @@ static void band_of_force(struct modes_extract *x, struct modes_extract_place *p
 {
     struct arena *a = arena_open();
     long n = (long)fft_good_size((size_t)(0.1 * x->rate)), half_n = n / 2;
-    double *power = ARENA_TAKE(a, double, half_n + 1), *re = ARENA_TAKE(a, double, half_n + 1), *im = ARENA_TAKE(a, double, half_n + 1), *f = ARENA_TAKE(a, double, n), most = 0.0;
+    double *power = ARENA_TAKE(a, double, half_n + 1), *re = ARENA_TAKE(a, double, half_n + 1),
+           *im = ARENA_TAKE(a, double, half_n + 1), *f = ARENA_TAKE(a, double, n), most = 0.0;
     struct fft *fft = fft_open((size_t)n);
     p->low = 0.0;
     p->high = 0.49 * x->rate;
     for (int s = p->first; p->recording.force && s < p->first + p->stretches; s++) {
         const struct modal_stretch *st = &x->data.stretch[s];
-        if (!st->fitted || st->strike < 0)
-            continue;
+        if (!st->fitted || st->strike < 0) continue;
         const struct modal_pulse *q = &st->pulse;
         memset(f, 0, (size_t)n * sizeof *f);
         memcpy(f, q->f, (size_t)(q->n < n ? q->n : n) * sizeof *f);
@@ -228,14 +238,19 @@ static bool stretches(struct modes_extract *x, struct err *e)
     for (int s = 0; s < x->data.stretches; s++)
         fitted += list[s].fitted;
     if (x->data.stretches > MODES_EXTRACT_STRIKES)
-        return err_set(e, ERR_SCENE, "%s: %d strikes are more than the %d that are fitted together; cut the recording", x->place[0].shown, x->data.stretches, MODES_EXTRACT_STRIKES);
+        return err_set(e, ERR_SCENE, "%s: %d strikes are more than the %d that are fitted together; cut the recording",
+                       x->place[0].shown, x->data.stretches, MODES_EXTRACT_STRIKES);
     if (!fitted)
         return err_set(e, ERR_SCENE, "%s: no strike has %.3g ms of sound behind it", x->place[0].shown, 1e3 * shortest);
     if (g->high > x->high)
-        modes_extract_find_note(x, arena_format(x->arena, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high));
+        modes_extract_find_note(
+            x, arena_format(x->arena, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high));
     x->low = isnan(g->low) ? x->low : fmax(g->low, 1.0);
     x->high = isnan(g->high) ? x->high : fmin(g->high, x->high);
-    return x->low < x->high || err_set(e, ERR_SCENE, "nothing lies between %.6g and %.6g Hz: --low and --high, or the hammer's reach, leave no band", x->low, x->high);
+    return x->low < x->high ||
+           err_set(e, ERR_SCENE,
+                   "nothing lies between %.6g and %.6g Hz: --low and --high, or the hammer's reach, leave no band",
+                   x->low, x->high);
 }
 
 /* ------------------------------------------------------------------ what it explains */
@@ -247,8 +262,7 @@ static double share(const struct modes_extract *x, int from, int to, bool fitted
     for (int s = from; s < to; s++) {
         const struct modal_stretch *st = &x->data.stretch[s];
         double energy = 0.0;
-        if (st->strike < 0 || st->fitted != fitted)
-            continue;
+        if (st->strike < 0 || st->fitted != fitted) continue;
         for (long i = 0; i < st->n; i++)
             energy += st->y[i] * st->y[i];
         all += energy;
@@ -260,8 +274,7 @@ static double share(const struct modes_extract *x, int from, int to, bool fitted
 double modes_extract_find_explained(const struct modes_extract *x, const struct modes_extract_place *p, int strike)
 {
     for (int s = p->first; s < p->first + p->stretches; s++)
-        if (x->data.stretch[s].strike == strike)
-            return x->found.explained[s];
+        if (x->data.stretch[s].strike == strike) return x->found.explained[s];
     return NAN;
 }
 
@@ -276,15 +289,18 @@ static void compare(struct modes_extract *x)
         for (int s = p->first; s < p->first + p->stretches; s++) {
             const struct modal_stretch *st = &x->data.stretch[s];
             const struct strikes_one *v = st->strike >= 0 ? &p->strikes.strike[st->strike] : NULL;
-            double worth = !v || (!st->fitted && strcmp(v->left_out, "not in --strikes")) ? -1.0 : st->fitted ? v->peak : 1e6 * v->peak;
+            double worth = !v || (!st->fitted && strcmp(v->left_out, "not in --strikes")) ? -1.0
+                           : st->fitted                                                   ? v->peak
+                                                                                          : 1e6 * v->peak;
             if (worth > most) {
                 most = worth;
                 p->shown_stretch = s;
             }
         }
         const struct modal_stretch *st = &x->data.stretch[p->shown_stretch];
-        p->distance = spectral_distance(st->y + st->ringing, x->found.model[p->shown_stretch] + st->ringing, st->n - st->ringing,
-                                        &(struct spectral_distance_band){x->rate, x->low, x->high, p->noise * p->noise});
+        p->distance =
+            spectral_distance(st->y + st->ringing, x->found.model[p->shown_stretch] + st->ringing, st->n - st->ringing,
+                              &(struct spectral_distance_band){x->rate, x->low, x->high, p->noise * p->noise});
     }
 }
 
@@ -294,8 +310,10 @@ struct strike_gain {
     double size, se, phase;
 };
 
-/* A of a component in the strikes of a place that are fitted, t from the strike, per N s (without force of a strike whose sound's peak is 1). Returns how many there are. */
-static int strike_gains(const struct modes_extract *x, const struct modal_mode *m, const struct modes_extract_place *p, struct strike_gain *g)
+/* A of a component in the strikes of a place that are fitted, t from the strike, per N s (without force of a strike
+ * whose sound's peak is 1). Returns how many there are. */
+static int strike_gains(const struct modes_extract *x, const struct modal_mode *m, const struct modes_extract_place *p,
+                        struct strike_gain *g)
 {
     int n = 0;
     for (int k = p->first; k < p->first + p->stretches; k++) {
@@ -304,14 +322,19 @@ static int strike_gains(const struct modes_extract *x, const struct modal_mode *
             continue;
         const struct strikes_one *v = &p->strikes.strike[st->strike];
         bool alone = !x->given.impulse && !p->recording.force;
-        double back = alone ? (double)(st->pulse.at - v->onset) / x->rate : 0.0, unit = x->given.impulse ? 1.0 : alone ? 1.0 / v->peak : x->rate;
-        cplx a = cplx_scale(unit, cplx_mul((cplx){m->re[st->group], m->im[st->group]}, cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back)));
-        g[n++] = (struct strike_gain){cplx_abs(a), unit * real_exp(m->decay * back) * m->gain_se[st->group], real_atan2(a.im, a.re)};
+        double back = alone ? (double)(st->pulse.at - v->onset) / x->rate : 0.0, unit = x->given.impulse ? 1.0
+                                                                                        : alone          ? 1.0 / v->peak
+                                                                                                         : x->rate;
+        cplx a = cplx_scale(unit, cplx_mul((cplx){m->re[st->group], m->im[st->group]},
+                                           cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back)));
+        g[n++] = (struct strike_gain){cplx_abs(a), unit * real_exp(m->decay * back) * m->gain_se[st->group],
+                                      real_atan2(a.im, a.re)};
     }
     return n;
 }
 
-/* The place's gain: of its strikes the mean of sizes, weighted by noise and by how far strikes differ, and the phase of the most certain. */
+/* The place's gain: of its strikes the mean of sizes, weighted by noise and by how far strikes differ, and the phase of
+ * the most certain. */
 static void place_gain(const struct modes_extract *x, const struct modal_mode *m, int k, struct modes_extract_mode *to)
 {
     const struct modes_extract_place *p = &x->place[k];
@@ -385,7 +408,18 @@ static void take_modes(struct modes_extract *x)
     for (int i = 0; i < x->components; i++) {
         const struct modal_mode *m = &x->found.mode[i];
         struct modes_extract_mode *to = &x->heard[i];
-        *to = (struct modes_extract_mode){m->frequency, m->decay, m->frequency_se, m->decay_se, m->frequency_between, m->decay_between, m->share, NULL, NULL, NULL, m->mode, m->slope};
+        *to = (struct modes_extract_mode){m->frequency,
+                                          m->decay,
+                                          m->frequency_se,
+                                          m->decay_se,
+                                          m->frequency_between,
+                                          m->decay_between,
+                                          m->share,
+                                          NULL,
+                                          NULL,
+                                          NULL,
+                                          m->mode,
+                                          m->slope};
         to->re = ARENA_TAKE(x->arena, double, x->n);
         to->im = ARENA_TAKE(x->arena, double, x->n);
         to->gain_se = ARENA_TAKE(x->arena, double, x->n);
@@ -409,16 +443,24 @@ static bool explains(struct modes_extract *x, struct err *e)
     const struct modal_stretch *st = &x->data.stretch[worst];
     double percent = 100.0 * fmax(x->found.explained[worst], 0.0);
     if (direct > much)
-        modes_extract_find_note(x, arena_format(x->arena, "up to %.0f %% of the sound follows the force at once and is in no mode: the object moves as a whole, or modes decay faster "
-                                                "than --fastest", 100.0 * direct));
-    if (percent >= 100.0 * half)
-        return true;
+        modes_extract_find_note(x, arena_format(x->arena,
+                                                "up to %.0f %% of the sound follows the force at once and is in no "
+                                                "mode: the object moves as a whole, or modes decay faster "
+                                                "than --fastest",
+                                                100.0 * direct));
+    if (percent >= 100.0 * half) return true;
     if (x->given.spectrogram) {
-        modes_extract_find_note(x, arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more", percent, st->strike + 1));
+        modes_extract_find_note(
+            x, arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more",
+                            percent, st->strike + 1));
         return true;
     }
-    return err_set(e, ERR_SCENE, "%s: the modes that were found explain only %.0f %% of strike %d, so there is no table: is it one object, struck and left to ring, and does the sound "
-                   "begin at the strike? Without this strike (--strikes) or in a narrower band (--low, --high) there may be one", x->place[st->place].shown, percent, st->strike + 1);
+    return err_set(
+        e, ERR_SCENE,
+        "%s: the modes that were found explain only %.0f %% of strike %d, so there is no table: is it one object, "
+        "struck and left to ring, and does the sound "
+        "begin at the strike? Without this strike (--strikes) or in a narrower band (--low, --high) there may be one",
+        x->place[st->place].shown, percent, st->strike + 1);
 }
 
 /* ------------------------------------------------------------------ all */
@@ -426,21 +468,21 @@ static bool explains(struct modes_extract *x, struct err *e)
 bool modes_extract_find(struct modes_extract *x, struct err *e)
 {
     long most = 50;
-    if (!args_whole(&x->c->args, "modes", (const long[2]){1, 100000}, &most, e))
-        return false;
+    if (!args_whole(&x->c->args, "modes", (const long[2]){1, 100000}, &most, e)) return false;
     for (int k = 0; k < x->n; k++)
-        if (!strikes(x, &x->place[k], e))
-            return false;
-    if (!stretches(x, e))
-        return false;
-    struct modal_options o = {.most = (int)most, .low = x->low, .high = x->high, .fastest = isnan(x->given.fastest) ? fastest * x->rate : x->given.fastest,
-                              .spectrogram = x->given.spectrogram, .threshold = 0.1};
-    if (!modal_find(&x->data, &o, x->arena, &x->found, e))
-        return err_at(e, "%s", x->place[0].shown);
+        if (!strikes(x, &x->place[k], e)) return false;
+    if (!stretches(x, e)) return false;
+    struct modal_options o = {.most = (int)most,
+                              .low = x->low,
+                              .high = x->high,
+                              .fastest = isnan(x->given.fastest) ? fastest * x->rate : x->given.fastest,
+                              .spectrogram = x->given.spectrogram,
+                              .threshold = 0.1};
+    if (!modal_find(&x->data, &o, x->arena, &x->found, e)) return err_at(e, "%s", x->place[0].shown);
     if (x->found.n == 0)
-        return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown, x->low, x->high);
-    if (!explains(x, e))
-        return false;
+        return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown,
+                       x->low, x->high);
+    if (!explains(x, e)) return false;
     take_modes(x);
     modes_extract_find_note(x, x->found.note);
     compare(x);

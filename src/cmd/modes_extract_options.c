@@ -11,8 +11,7 @@ static bool quantity(struct modes_extract *x, const char *name, enum key_dimensi
 {
     const char *text = args_value(&x->c->args, name);
     struct units_fault fault = {NULL, NULL};
-    if (!text)
-        return true;
+    if (!text) return true;
     if (!units_read(text, d, value, x->arena, &fault))
         return err_set(e, ERR_USAGE, "--%s %s: %s", name, fault.text, fault.cure);
     return *value >= 0.0 || err_set(e, ERR_USAGE, "--%s: '%s' is below 0", name, text);
@@ -21,8 +20,7 @@ static bool quantity(struct modes_extract *x, const char *name, enum key_dimensi
 static bool word(struct modes_extract *x, const char *name, const char *const *words, int *chosen, struct err *e)
 {
     const char *text = args_value(&x->c->args, name), *all = words[0];
-    if (!text)
-        return true;
+    if (!text) return true;
     for (int k = 0; words[k]; k++)
         if (!strcmp(words[k], text)) {
             *chosen = k;
@@ -39,23 +37,28 @@ static bool numbers(struct modes_extract *x, struct err *e)
     const struct args *a = &x->c->args;
     static const double scales[2] = {1e-300, 1e300}, rise[2] = {1, 120};
     static const long channels[2] = {1, 1024};
-    return args_whole(a, "channel", channels, &g->channel, e) && args_whole(a, "force-channel", channels, &g->force_channel, e) &&
+    return args_whole(a, "channel", channels, &g->channel, e) &&
+           args_whole(a, "force-channel", channels, &g->force_channel, e) &&
            args_number(a, "scale", scales, &g->scale, e) && args_number(a, "force-scale", scales, &g->force_scale, e) &&
            args_number(a, "strike-threshold", rise, &g->strikes.threshold, e) &&
            quantity(x, "radius", KEY_LENGTH, &g->radius, e) && quantity(x, "distance", KEY_LENGTH, &g->distance, e) &&
-           quantity(x, "delay", KEY_TIME, &g->delay, e) && quantity(x, "low", KEY_FREQUENCY, &g->low, e) && quantity(x, "high", KEY_FREQUENCY, &g->high, e) && args_number(a, "fastest", scales, &g->fastest, e);
+           quantity(x, "delay", KEY_TIME, &g->delay, e) && quantity(x, "low", KEY_FREQUENCY, &g->low, e) &&
+           quantity(x, "high", KEY_FREQUENCY, &g->high, e) && args_number(a, "fastest", scales, &g->fastest, e);
 }
 
 static bool sizes(const struct modes_extract_given *g, struct err *e)
 {
     bool radius = !isnan(g->radius), distance = !isnan(g->distance);
-    if (!radius && !distance)
-        return true;
+    if (!radius && !distance) return true;
     if (g->quantity != MODES_PRESSURE)
         return err_set(e, ERR_USAGE, "--radius and --distance are for --quantity pressure, a microphone's");
     if (radius != distance)
-        return err_set(e, ERR_USAGE, "--radius, of a sphere of the object's size, and --distance, from its middle to the microphone, belong together");
-    return (g->radius > 0.0 && g->distance > g->radius) || err_set(e, ERR_USAGE, "--distance %g m must be greater than --radius %g m, and both above 0", g->distance, g->radius);
+        return err_set(e, ERR_USAGE,
+                       "--radius, of a sphere of the object's size, and --distance, from its middle to the microphone, "
+                       "belong together");
+    return (g->radius > 0.0 && g->distance > g->radius) ||
+           err_set(e, ERR_USAGE, "--distance %g m must be greater than --radius %g m, and both above 0", g->distance,
+                   g->radius);
 }
 
 /* What belongs together. */
@@ -64,16 +67,24 @@ static bool together(struct modes_extract *x, struct err *e)
     const struct modes_extract_given *g = &x->given;
     const struct args *a = &x->c->args;
     if (g->impulse && (g->force_channel || g->only || args_given(a, "strike-threshold")))
-        return err_set(e, ERR_USAGE, "--impulse says that the recording is an impulse response already: --force-channel, --strikes and --strike-threshold are for strikes");
+        return err_set(e, ERR_USAGE,
+                       "--impulse says that the recording is an impulse response already: --force-channel, --strikes "
+                       "and --strike-threshold are for strikes");
     if (g->force_channel == g->channel)
-        return err_set(e, ERR_USAGE, "--channel and --force-channel are both %ld; sound and force are in different channels", g->channel);
+        return err_set(e, ERR_USAGE,
+                       "--channel and --force-channel are both %ld; sound and force are in different channels",
+                       g->channel);
     if (!g->force_channel && args_given(a, "force-scale"))
         return err_set(e, ERR_USAGE, "--force-scale needs --force-channel: which channel holds the force");
     if (g->force_channel && isnan(g->scale) != isnan(g->force_scale))
-        return err_set(e, ERR_USAGE, "--%s is missing: a level per N s takes --scale and --force-scale; without both it is relative", isnan(g->scale) ? "scale" : "force-scale");
+        return err_set(e, ERR_USAGE,
+                       "--%s is missing: a level per N s takes --scale and --force-scale; without both it is relative",
+                       isnan(g->scale) ? "scale" : "force-scale");
     if (!g->force_channel && !g->impulse && !isnan(g->scale))
-        return err_set(e, ERR_USAGE, "--scale says nothing without a force: per how many N s? Give --force-channel, or --impulse");
-    return (isnan(g->low) || isnan(g->high) || g->low < g->high) || err_set(e, ERR_USAGE, "--low %g Hz is not below --high %g Hz", g->low, g->high);
+        return err_set(e, ERR_USAGE,
+                       "--scale says nothing without a force: per how many N s? Give --force-channel, or --impulse");
+    return (isnan(g->low) || isnan(g->high) || g->low < g->high) ||
+           err_set(e, ERR_USAGE, "--low %g Hz is not below --high %g Hz", g->low, g->high);
 }
 
 /* Outputs: each may be written (output/mark.h), and no two are one file. */
@@ -85,8 +96,7 @@ static bool outputs(struct modes_extract *x, struct err *e)
     for (int k = 0; k < 4; k++) {
         const char *file = *to[k] = args_value(&x->c->args, names[k]);
         bool force = args_given(&x->c->args, "force");
-        if (file && !(k == 0 ? mark_absent(file, force, e) : mark_permits(file, NULL, force, e)))
-            return false;
+        if (file && !(k == 0 ? mark_absent(file, force, e) : mark_permits(file, NULL, force, e))) return false;
         for (int i = 0; i < k; i++)
             if (file && *to[i] && !strcmp(file, *to[i]))
                 return err_set(e, ERR_USAGE, "--%s and --%s are both %s", names[i], names[k], file);
@@ -99,10 +109,21 @@ static bool outputs(struct modes_extract *x, struct err *e)
 
 bool modes_extract_options(struct modes_extract *x, struct err *e)
 {
-    static const char *const quantities[] = {"displacement", "velocity", "acceleration", "pressure", NULL}, *const methods[] = {"esprit", "spectrogram", NULL};
+    static const char *const quantities[] = {"displacement", "velocity", "acceleration", "pressure", NULL},
+                             *const methods[] = {"esprit", "spectrogram", NULL};
     struct modes_extract_given *g = &x->given;
     int method = 0;
-    *g = (struct modes_extract_given){.channel = 1, .scale = NAN, .force_scale = NAN, .quantity = MODES_PRESSURE, .radius = NAN, .distance = NAN, .delay = NAN, .fastest = NAN, .low = NAN, .high = NAN, .strikes = strikes_options};
+    *g = (struct modes_extract_given){.channel = 1,
+                                      .scale = NAN,
+                                      .force_scale = NAN,
+                                      .quantity = MODES_PRESSURE,
+                                      .radius = NAN,
+                                      .distance = NAN,
+                                      .delay = NAN,
+                                      .fastest = NAN,
+                                      .low = NAN,
+                                      .high = NAN,
+                                      .strikes = strikes_options};
     g->impulse = args_given(&x->c->args, "impulse");
     g->only = args_value(&x->c->args, "strikes");
     if (!word(x, "quantity", quantities, &g->quantity, e) || !word(x, "method", methods, &method, e) || !numbers(x, e))

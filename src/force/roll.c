@@ -2,9 +2,10 @@
 
      f      = scraping (f_h + f_v) + f_roll                     equation 19   contact.roll.scraping: how much it slips
      f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0       equation 15     lambda = mu k; force/roll_law.c
-     rho    = delta (N(t)/N)^(2/3) + r + y                      for eq. 16 m; delta that at rest (force/roll_stiffness.c)
-     y'' + (2 zeta w0 + mu N/m) y' + w0^2 y = S''               y  m, how much deeper the ground presses in (roll_follow.c)
-     r'     = -2 pi 2 Hz (delta / 1.5 N) (f_roll - N(t)+)       r  m, holds the mean force at that of N(t)+
+     rho    = delta (N(t)/N)^(2/3) + r + y                      for eq. 16 m; delta that at rest
+   (force/roll_stiffness.c) y'' + (2 zeta w0 + mu N/m) y' + w0^2 y = S''               y  m, how much deeper the ground
+   presses in (roll_follow.c) r'     = -2 pi 2 Hz (delta / 1.5 N) (f_roll - N(t)+)       r  m, holds the mean force at
+   that of N(t)+
 
    S'' is the vertical acceleration of the limited trajectory S that the ball is to follow, d/dt (|v| S') of
    force/scrape.c: S follows the ball's rolling curve (surface/tip.c), its curvature limited by an alpha that varies
@@ -52,20 +53,20 @@ struct roll_state {
     struct roll_law law;
     struct roll_stiffness rests;
     struct roll_follow follow;
-    bool round;                 /* neither offset nor lobes                                    */
-    bool printed;               /* penetration: paper                                          */
-    bool added;                 /* the scraping terms are there, from force/paper.c            */
-    bool idle;                  /* nothing presses the ball                                    */
-    bool touches;               /* the ball lay on the surface at the end of the last sub-interval */
+    bool round;   /* neither offset nor lobes                                    */
+    bool printed; /* penetration: paper                                          */
+    bool added;   /* the scraping terms are there, from force/paper.c            */
+    bool idle;    /* nothing presses the ball                                    */
+    bool touches; /* the ball lay on the surface at the end of the last sub-interval */
     bool begun;
-    double climbing;            /* m/s, |v| S' at the end of the last sub-interval             */
-    double shift, excess[2];    /* m, r; N, force less N(t)+ in the last sub-interval, and in that before */
-    double slow[2];             /* m, rho less follows[] where the last sub-interval began and ended */
+    double climbing;         /* m/s, |v| S' at the end of the last sub-interval             */
+    double shift, excess[2]; /* m, r; N, force less N(t)+ in the last sub-interval, and in that before */
+    double slow[2];          /* m, rho less follows[] where the last sub-interval began and ended */
     /* At the start of the chunk's first sub-interval and at each one's end: */
     double follows[WAY_CHUNK + 1], rate[WAY_CHUNK + 1]; /* m, m/s: y (printed: S) and its rate */
-    double mean[WAY_CHUNK];     /* m, of y or S over each                                      */
-    double rests_at[WAY_CHUNK + 1]; /* m: delta (N(t)/N)^(2/3); printed: R - r cos(x/R) + bulge */
-    double rise[WAY_CHUNK + 1]; /* m, of the centre of mass over where it is lowest (trajectory/spin.h) */
+    double mean[WAY_CHUNK];          /* m, of y or S over each                                      */
+    double rests_at[WAY_CHUNK + 1];  /* m: delta (N(t)/N)^(2/3); printed: R - r cos(x/R) + bulge */
+    double rise[WAY_CHUNK + 1];      /* m, of the centre of mass over where it is lowest (trajectory/spin.h) */
     double rho[WAY_CHUNK + 1], last; /* m; at the end of the chunk before                      */
 };
 
@@ -98,7 +99,8 @@ static bool roll_printed(const struct contact *c, struct roll_state *s, struct e
     s->rests = (struct roll_stiffness){.normal = normal, .stiffness = k, .roughness = NAN, .hertz = NAN};
     s->rests.rest = normal > 0 ? real_pow(normal / k, 2.0 / 3) : 0;
     return !isnan(k) ||
-           err_set(e, ERR_SCENE, "contact '%s': contact.roll.penetration: paper needs contact.roll.stiffness (or kappa)", c->name);
+           err_set(e, ERR_SCENE,
+                   "contact '%s': contact.roll.penetration: paper needs contact.roll.stiffness (or kappa)", c->name);
 }
 
 static void roll_rests(struct stage_run *r, struct roll_state *s)
@@ -110,8 +112,7 @@ static void roll_rests(struct stage_run *r, struct roll_state *s)
     s->law = (struct roll_law){.stiffness = rests->stiffness, .mu = c->contact.roll.mu};
     double added = 2 * c->contact.roll.damping_ratio * rests->resonance;
     double damping = added + s->law.mu * rests->normal / c->scraper.mass;
-    if (rests->resonance > 0)
-        s->follow = roll_follow_make(rests->resonance, damping, 1 / (b->rate * b->over));
+    if (rests->resonance > 0) s->follow = roll_follow_make(rests->resonance, damping, 1 / (b->rate * b->over));
     s->idle = !(rests->normal > 0) && !(b->load && b->load->most > 0);
     roll_told(r, rests);
 }
@@ -140,8 +141,7 @@ static bool roll_open(struct stage_run *r, struct err *e)
     r->ahead = 1;
     if (!scrape_make(&s->scrape, r, c->contact.roll.scraping, e) || (s->printed && !roll_printed(c, s, e)))
         return false;
-    if (!s->printed)
-        roll_rests(r, s);
+    if (!s->printed) roll_rests(r, s);
     r->board->hats = true;
     roll_reports(s, r->board);
     return true;
@@ -188,8 +188,7 @@ static void roll_turns(struct roll_state *s, const struct board *b, const double
         at[i] = s->spin.radius + (s->round ? 0 : at[i] + bulge[i]);
     for (int i = 0; i <= n && !s->printed; i++)
         at[i] = !load || !(rests->normal > 0) ? 1 : load[i] > 0 ? load[i] / rests->normal : 0;
-    if (load && !s->printed)
-        vecmath_pow((size_t)n + 1, at, 2.0 / 3, at);
+    if (load && !s->printed) vecmath_pow((size_t)n + 1, at, 2.0 / 3, at);
     for (int i = 0; i <= n && !s->printed; i++)
         at[i] *= rests->rest;
 }
@@ -212,16 +211,14 @@ static struct roll_parts roll_force(struct roll_state *s, int i, double dt)
 /* Of what no weight presses: the straight line of N(t), whose part below 0 is cut off (force/lift.h). */
 static struct roll_parts roll_weightless(const double *load, int i)
 {
-    if (!load)
-        return (struct roll_parts){0};
+    if (!load) return (struct roll_parts){0};
     return (struct roll_parts){(2 * load[i] + load[i + 1]) / 6, (load[i] + 2 * load[i + 1]) / 6};
 }
 
 /* N, by how much the force is above N(t)+ in the sub-interval. */
 static double roll_excess(const struct roll_state *s, const double *load, int i, struct roll_parts f)
 {
-    if (!load)
-        return f.early + f.late - s->rests.normal;
+    if (!load) return f.early + f.late - s->rests.normal;
     lift_cut(load[i], load[i + 1], &f.early, &f.late);
     double pressed = lift_pressed(load[i], load[i + 1]);
     double twice = pressed < 1 ? pressed * fmax(load[i], load[i + 1]) : load[i] + load[i + 1];
@@ -286,8 +283,7 @@ static void roll_tell(struct roll_state *s, struct board *b, const double *load,
             b->roll.time += dt;
             b->roll.lift_offs += leaves;
         }
-        if (!board_has(b, ITEM_ROLL))
-            continue;
+        if (!board_has(b, ITEM_ROLL)) continue;
         double *value = board_at(b, ITEM_ROLL, (first + i) / b->over);
         if ((first + i) % b->over == 0) {
             value[ROLL_PENETRATION] = s->rho[i];

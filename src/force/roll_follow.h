@@ -4,10 +4,10 @@
 #define FORCE_ROLL_FOLLOW_H
 
 struct roll_follow {
-    double step[3][2];  /* of (y, dt y', mean y) by y and dt y' before              */
-    double push[3][2];  /* s^2, of the same by the acceleration at start and end    */
-    double dt;          /* s                                                        */
-    double y, rate;     /* m, m/s: how deep the ground presses in, and its rate now */
+    double step[3][2]; /* of (y, dt y', mean y) by y and dt y' before              */
+    double push[3][2]; /* s^2, of the same by the acceleration at start and end    */
+    double dt;         /* s                                                        */
+    double y, rate;    /* m, m/s: how deep the ground presses in, and its rate now */
 };
 
 /* y'' + damping y' + resonance^2 y = acceleration, in steps of dt (s), from y = y' = 0 on. resonance rad/s, damping

@@ -8,8 +8,8 @@
 #include "force/hertz_mean.h"
 
 struct roll_law {
-    double stiffness;   /* N/m^1.5, k       */
-    double mu;          /* s/m, lambda / k  */
+    double stiffness; /* N/m^1.5, k       */
+    double mu;        /* s/m, lambda / k  */
 };
 
 /* m^1.5, mean of max(0, rho)^1.5 over a time in which rho goes in a straight line from a to b (m), p^2, q^2 = a, b:
@@ -23,7 +23,7 @@ static inline double roll_law_power(double a, double b)
 }
 
 struct roll_end {
-    double rho, rate;   /* m, m/s: rho and rho' */
+    double rho, rate; /* m, m/s: rho and rho' */
 };
 
 struct roll_parts {
@@ -31,8 +31,8 @@ struct roll_parts {
 };
 
 /* Of max(0, k rho^1.5 (1 + mu rho')) over dt (s), from a to b, where the mean of rho is `mean` (m). */
-struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end *a, const struct roll_end *b, double mean,
-                                 double dt);
+struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end *a, const struct roll_end *b,
+                                 double mean, double dt);
 
 /* Share of that time in which rho is above 0. */
 double roll_law_contact(double a, double b);

@@ -32,10 +32,10 @@
 
 enum { PLACES = 1024, BATCH = 128 };
 
-#define ROUGH_SHARE 1.5   /* of Rq, in delta */
-#define REST_LEAST 1e-9   /* m */
-#define STRETCH 0.2       /* m of ground, where it has no end */
-#define STEP 0.5e-3       /* m, s */
+#define ROUGH_SHARE 1.5 /* of Rq, in delta */
+#define REST_LEAST 1e-9 /* m */
+#define STRETCH 0.2     /* m of ground, where it has no end */
+#define STEP 0.5e-3     /* m, s */
 
 /* In [0, 1): number i of the recurrence by `step`. */
 static double spread(long i, double step)
@@ -80,7 +80,8 @@ static void second_differences(const struct relief *ground, double extent[2][2],
     for (int i = 0; i < BATCH; i++) {
         double length = STEP * sqrt(-2 * real_log(1 - spread(order[first + i], 0.75487766624669276)));
         double turn = 2 * spread(order[first + i], 0.56984029099805327);
-        double along = (double)(first + i) + noise_uniform(places, ALONG, (uint64_t)(first + i)); /* rising: cheaply read */
+        double along =
+            (double)(first + i) + noise_uniform(places, ALONG, (uint64_t)(first + i)); /* rising: cheaply read */
         along /= PLACES;
         double across = noise_uniform(places, ACROSS, (uint64_t)(first + i));
         for (int k = 0; k < 3; k++) {
@@ -110,10 +111,7 @@ double roll_stiffness_roughness(const struct relief *ground)
     return sqrt(sum / (6.0 * PLACES));
 }
 
-static double rest_of(double normal, double stiffness)
-{
-    return real_pow(normal / stiffness, 2.0 / 3);
-}
+static double rest_of(double normal, double stiffness) { return real_pow(normal / stiffness, 2.0 / 3); }
 
 static double hertz_rest(const struct contact *c, double normal)
 {
@@ -127,8 +125,7 @@ struct roll_stiffness roll_stiffness_make(const struct stage_run *r)
     const struct contact *c = r->contact;
     double given = ball_stiffness(c), depth = c->contact.roll.static_penetration;
     struct roll_stiffness s = {.normal = rules_load(c), .stiffness = given, .roughness = NAN, .hertz = NAN};
-    if (!(s.normal > 0))
-        return s;
+    if (!(s.normal > 0)) return s;
     if (isnan(given) && isnan(depth)) {
         s.roughness = roll_stiffness_roughness(r->board->relief->under);
         s.hertz = hertz_rest(c, s.normal);

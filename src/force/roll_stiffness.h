@@ -5,12 +5,12 @@
 #include "stage.h"
 
 struct roll_stiffness {
-    double normal;      /* N, static normal force, N                                       */
-    double rest;        /* m, penetration at rest, delta                                   */
-    double stiffness;   /* N/m^1.5, k = N / delta^1.5                                      */
-    double roughness;   /* m, Rq of the ground; NAN: not read, as the scene gives the rest */
-    double hertz;       /* m, Hertz's part of delta; 0: a modulus is not known; NAN: as Rq */
-    double resonance;   /* rad/s, of the ball's mass on the contact, w0                    */
+    double normal;    /* N, static normal force, N                                       */
+    double rest;      /* m, penetration at rest, delta                                   */
+    double stiffness; /* N/m^1.5, k = N / delta^1.5                                      */
+    double roughness; /* m, Rq of the ground; NAN: not read, as the scene gives the rest */
+    double hertz;     /* m, Hertz's part of delta; 0: a modulus is not known; NAN: as Rq */
+    double resonance; /* rad/s, of the ball's mass on the contact, w0                    */
 };
 
 /* Of r's contact, whose board has the relief with its tip. Without a static normal force there is neither rest nor
