@@ -17,7 +17,7 @@ static double wave_error(double w0, double zeta, double w, double dt, double las
     for (long i = 0; i < n; i++) {
         roll_follow_step(&f, a * sin(w * dt * (double)i), a * sin(w * dt * (double)(i + 1)));
         double complex turn = cexp(I * w * dt * (double)(i + 1));
-        if (i > 0.9 * (double)n)
+        if ((double)i > 0.9 * (double)n)
             worst = fmax(worst, fmax(fabs(f.y - cimag(y * turn)), fabs(f.rate - cimag(I * w * y * turn)) / w) / cabs(y));
     }
     return worst;
