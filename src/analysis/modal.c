@@ -298,31 +298,48 @@ static void number(struct modal_result *r, int most, struct arena *a)
     if (left_out) note(r, a, arena_format(a, "%d more modes than the %d strongest were found", left_out, most));
 }
 
-/* Of the energy in the band, noise off, what the modes explain where the sound does not follow the force at once, and
- * what does. */
+/* Sums over a stretch's bins of the rest: its energy, and what of that is not smooth but for the force. */
+static void energies(struct modal_fit *f, double (*sum)[2])
+{
+    modal_fit_noise(f, 0.0);
+    for (int s = 0; s < f->data->stretches; s++) {
+        const struct modal_bins *b = &f->bins[s];
+        sum[s][0] = sum[s][1] = 0.0;
+        for (long k = 0; k < b->n; k++) {
+            sum[s][0] += b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k];
+            sum[s][1] += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
+        }
+    }
+}
+
+/* Of the energy in the band, hums and noise off, what follows the force at once, and of the others what the modes
+ * explain. The two are fitted together, so that neither has an energy of its own: what counts is what a fit without
+ * modes leaves, and what one with them does. */
 static void explain(struct modal_fit *f, struct modal_result *r, struct arena *a)
 {
     const struct modal_data *d = f->data;
     double *count = ARENA_TAKE(a, double, d->places);
+    double(*without)[2] = arena_take(a, (size_t)d->stretches, sizeof *without),
+    (*with)[2] = arena_take(a, (size_t)d->stretches, sizeof *with);
+    for (int i = 0; i < f->m; i++)
+        if (!f->hum[i]) modal_fit_put(f, i, 1.0);
+    energies(f, without);
+    modal_fit_rest(f);
+    energies(f, with);
     for (int i = 0; i < f->m; i++)
         if (f->hum[i]) modal_fit_put(f, i, 1.0);
-    modal_fit_noise(f, 0.0);
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         const struct modal_stretch *st = &d->stretch[s];
-        double all = 0.0, left = 0.0, noise = 0.0, direct = 0.0, *re = ARENA_TAKE(a, double, st->n / 2 + 1),
-               *im = ARENA_TAKE(a, double, st->n / 2 + 1);
+        double noise = 0.0, *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         for (long k = 0; k < b->n; k++) {
-            all += b->yr[k] * b->yr[k] + b->yi[k] * b->yi[k];
-            left += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
-            direct += b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k];
             noise += b->variance[k];
             re[b->first + k] = (b->yr[k] - b->rr[k]) / sqrt((double)st->n);
             im[b->first + k] = (b->yi[k] - b->ri[k]) / sqrt((double)st->n);
         }
-        direct = fmax(direct - left, 0.0);
-        r->direct[s] = all > noise ? direct / (all - noise) : 0.0;
-        r->explained[s] = all > noise + direct ? 1.0 - fmax(left - noise, 0.0) / (all - noise - direct) : 0.0;
+        double all = without[s][0] - noise, rings = without[s][1] - noise;
+        r->direct[s] = all > 0.0 ? (all - fmax(rings, 0.0)) / all : 0.0;
+        r->explained[s] = rings > 0.0 ? 1.0 - fmax(with[s][1] - noise, 0.0) / rings : 0.0;
         r->noise[st->place] += 2.0 * noise;
         count[st->place] += (double)st->n;
         r->model[s] = ARENA_TAKE(a, double, st->n);

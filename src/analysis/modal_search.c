@@ -494,8 +494,9 @@ static double sharpness(const struct modal_bins *b, long k)
     return n ? 0.69 * (b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k]) / fmax(list[n / 2], 1e-300) : 0.0;
 }
 
-/* The strongest line of the leads that is none yet, rad/s, and the width of its bins; 0: there is none. */
-static double line_of_leads(const struct modal_fit *f, double *width)
+/* The strongest line of the leads that is no component yet and none of known[n], rad/s, and the width of its bins; 0:
+ * there is none. */
+static double line_of_leads(const struct modal_fit *f, const double *known, int n, double *width)
 {
     double most = stands, found = 0.0;
     for (int s = 0; s < f->data->stretches; s++) {
@@ -503,23 +504,35 @@ static double line_of_leads(const struct modal_fit *f, double *width)
         for (long k = 1; k + 1 < b->n && f->data->stretch[s].strike < 0; k++) {
             double q = fmin(sharpness(b, k), (b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k]) / b->variance[k]),
                    omega = (double)(b->first + k) * b->width;
-            bool known = false;
-            for (int i = 0; i < f->m && q > most; i++)
-                known = known || fabs(f->s[i].im - omega) < 3.5 * b->width;
-            if (q <= most || known) continue;
+            bool old = false;
+            for (int i = 0; i < n && q > most; i++)
+                old = old || fabs(known[i] - omega) < 3.5 * b->width;
+            if (q <= most || old) continue;
             double left = cplx_abs((cplx){b->rr[k - 1], b->ri[k - 1]}),
                    right = cplx_abs((cplx){b->rr[k + 1], b->ri[k + 1]}), size = cplx_abs((cplx){b->rr[k], b->ri[k]});
             most = q;
-            *width = b->width;
-            found =
-                omega +
-                b->width *
-                    (right > left
-                         ? right / (right + size)
-                         : -left / (left + size)); /* between two bins, their sizes are as the distances to the other */
+            *width = b->width; /* between two bins, their sizes are as the distances to the other */
+            found = omega + b->width * (right > left ? right / (right + size) : -left / (left + size));
         }
     }
     return found;
+}
+
+/* Is a line as loud in the leads as in the strikes, within 6 dB? What a strike makes louder is a mode, which rings from
+ * before the recording. */
+static bool lasts(const struct modal_fit *f, const cplx *gain)
+{
+    double lead = 0.0, *strike = ARENA_TAKE(f->a, double, f->data->groups);
+    int strikes = 0;
+    for (int s = 0; s < f->data->stretches; s++) {
+        double size = cplx_abs(gain[f->data->stretch[s].group]);
+        if (f->data->stretch[s].strike < 0)
+            lead = fmax(lead, size);
+        else if (f->data->stretch[s].fitted)
+            strike[strikes++] = size;
+    }
+    qsort(strike, (size_t)strikes, sizeof *strike, rising);
+    return strikes && strike[strikes / 2] < 2.0 * lead;
 }
 
 /* Their frequencies are those of the leads, where nothing else is; they have gains in every stretch. */
@@ -529,20 +542,21 @@ void modal_search_hums(struct modal_fit *f)
     bool *leads = ARENA_TAKE(a, bool, f->data->stretches);
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     cplx *none = ARENA_TAKE(a, cplx, f->data->groups);
-    double omega, width = 0.0;
+    double omega, width = 0.0, known[HUMS];
     for (int s = 0; s < f->data->stretches; s++)
         leads[s] = f->data->stretch[s].strike < 0;
-    while (f->m < HUMS && (omega = line_of_leads(f, &width)) > f->low && omega < f->high) {
+    for (int n = 0; n < HUMS && (omega = line_of_leads(f, known, n, &width)) > f->low && omega < f->high; n++) {
         int i = f->m;
         modal_fit_add(f, (cplx){-1e-4 / f->longest, omega}, none, true);
         modal_block_open(b, f, 1, &i, NULL, 0, leads, a);
         modal_block_polish(b, 10);
-        f->s[i].im = fabs(b->s[0].im - omega) < width ? b->s[0].im : omega;
+        known[n] = f->s[i].im = fabs(b->s[0].im - omega) < width ? b->s[0].im : omega;
         modal_block_open(b, f, 1, &i, NULL, 0, NULL, a);
         modal_block_gains(b);
-        for (int g = 0; g < f->data->groups; g++)
-            f->gain[i * f->data->groups + g] = b->gain[g];
-        modal_fit_put(f, i, -1.0);
+        if (lasts(f, b->gain))
+            modal_fit_replace(f, i, f->s[i], b->gain);
+        else
+            modal_fit_drop(f, i);
         modal_fit_noise(f, 0.0);
     }
     arena_close(a);
