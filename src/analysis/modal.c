@@ -14,9 +14,6 @@ static const double stable = 23.5;   /* chi squared of 4 degrees that a mode mus
 static const double certain = 100.0; /* ... above which all draws do */
 static const double step = 300.0;    /* of power, from round to round */
 static const double samples = 128.0; /* of a band's envelope in the longest stretch, in the narrowest bands */
-static const double model_error[2] = {
-    2e-4, 0.05};                 /* of frequency and decay, where there is one strike: stated, not measured */
-static const double prior = 3.0; /* strikes that the scatter of all modes together counts as */
 
 long modal_length(long n)
 {
@@ -37,29 +34,30 @@ static void note(struct modal_result *r, struct arena *a, const char *text)
 static void search(struct modal_fit *f)
 {
     double width = samples / f->longest, least = HUGE_VAL, noise;
-    for (int round = 0, came = 1; round < ROUNDS; round++) {
+    for (int round = 0, came = 1, last = 0; round < ROUNDS && last < 2 && f->m < f->most; round++) {
         double power = modal_search_round(f, &noise);
-        if ((came <= f->m / 10 && least == 0.0) || f->m >= f->options->most + 10) break;
         least = fmin(power / step, came > f->m / 10 ? least : least / step);
         least = least > noise ? least : 0.0;
         int before = f->m;
-        for (double w = width; w < f->data->rate / 3.0; w *= 4.0) {
+        for (double w = round % 2 ? 2.0 * width : width; w < f->data->rate / 3.0; w *= 4.0) {
             int n = modal_search(f, w, least);
             if (n) modal_settle_sweeps(f, 8, 2);
         }
         if (modal_settle_runaways(f)) modal_settle_sweeps(f, 8, 2);
         modal_settle_runaways(f);
+        modal_settle_sweeps(f, 16, 4);
         modal_fit_rest(f);
         modal_fit_noise(f, 0.0);
         modal_settle_eliminate(f, modal_settle_limit(f, stable));
         came = f->m - before;
+        last = least == 0.0 && came <= f->m / 4 ? last + 1 : 0; /* twice, as the widths of bands take turns */
     }
 }
 
 /* ------------------------------------------------------------------ stability */
 
 /* The block's data as its modes make it, with noise drawn anew. */
-static void redraw(struct modal_block *b, const struct modal_block *was, double noise, uint64_t row, struct noise n)
+static void redraw(struct modal_block *b, const struct modal_block *was, uint64_t row, struct noise n)
 {
     const struct modal_fit *f = b->fit;
     for (int s = 0; s < f->data->stretches; s++) {
@@ -70,7 +68,7 @@ static void redraw(struct modal_block *b, const struct modal_block *was, double 
         noise_normal(n, row + (uint64_t)s, (size_t)(2 * bins), x);
         for (long k = 0; k < bins; k++) {
             const struct modal_bins *of = &f->bins[s];
-            double size = sqrt(0.5 * noise * of->variance[b->from[s] + k]);
+            double size = sqrt(0.5 * was->noise[f->data->stretch[s].group] * of->variance[b->from[s] + k]);
             b->r[s][k] = was->r[s][k] - of->rr[b->from[s] + k] + size * x[2 * k];
             b->r[s][bins + k] = was->r[s][bins + k] - of->ri[b->from[s] + k] + size * x[2 * k + 1];
         }
@@ -84,19 +82,19 @@ static bool survives(struct modal_fit *f, int i, double limit)
     struct arena *a = arena_open();
     struct modal_block *was = ARENA_TAKE(a, struct modal_block, 1), *b = ARENA_TAKE(a, struct modal_block, 1);
     struct noise source = noise_make(1, "modes that survive");
-    double noise = modal_settle_noise(f, f->s[i]);
     modal_block_open(was, f, n, of, NULL, 0, NULL, a);
+    modal_block_gains(was);
     for (int k = 0; k < DRAWS; k++) {
         int at = 0;
         modal_block_open(b, f, n, of, NULL, 0, NULL, a);
-        redraw(b, was, noise, (uint64_t)k << 20 | (uint64_t)i << 32, source);
+        redraw(b, was, (uint64_t)k << 20 | (uint64_t)i << 32, source);
         modal_block_polish(b, 4);
         double chi = b->chi;
         while (b->of[at] != i)
             at++;
         modal_block_drop(b, at);
         modal_block_polish(b, b->m ? 5 : 0);
-        kept += (b->chi - chi) / noise >= limit;
+        kept += b->chi - chi >= limit;
     }
     arena_close(a);
     return kept >= SURVIVES;
@@ -108,7 +106,7 @@ static int drop_unstable(struct modal_fit *f)
     int dropped = 0;
     for (int i = 0; i < f->m;) {
         int near[MODAL_BLOCK], n, others = 0;
-        if (f->hum[i] || modal_settle_rise(f, i) > sure || survives(f, i, limit)) {
+        if (modal_settle_rise(f, i) > sure || survives(f, i, limit)) {
             i++;
             continue;
         }
@@ -127,20 +125,18 @@ static int drop_unstable(struct modal_fit *f)
 
 static void order_by_frequency(struct modal_fit *f)
 {
-    int groups = f->data->groups;
+    size_t size = (size_t)f->data->groups * sizeof *f->part;
     struct arena *a = arena_open();
-    cplx *g = ARENA_TAKE(a, cplx, groups);
+    struct modal_part *mine = ARENA_TAKE(a, struct modal_part, f->data->groups);
     for (int i = 1; i < f->m; i++)
-        for (int k = i; k > 0 && f->s[k].im < f->s[k - 1].im; k--) {
-            cplx s = f->s[k];
-            bool hum = f->hum[k];
-            f->s[k] = f->s[k - 1];
-            f->s[k - 1] = s;
-            f->hum[k] = f->hum[k - 1];
-            f->hum[k - 1] = hum;
-            memcpy(g, f->gain + k * groups, (size_t)groups * sizeof *g);
-            memcpy(f->gain + k * groups, f->gain + (k - 1) * groups, (size_t)groups * sizeof *g);
-            memcpy(f->gain + (k - 1) * groups, g, (size_t)groups * sizeof *g);
+        for (int k = i; k > 0 && f->c[k].s.im < f->c[k - 1].s.im; k--) {
+            struct modal_part *at = f->part + k * f->data->groups, *before = at - f->data->groups;
+            struct modal_component c = f->c[k];
+            f->c[k] = f->c[k - 1];
+            f->c[k - 1] = c;
+            memcpy(mine, at, size);
+            memcpy(at, before, size);
+            memcpy(before, mine, size);
         }
     arena_close(a);
 }
@@ -153,11 +149,12 @@ static double projected(const struct modal_fit *f, int i)
         const struct modal_bins *b = &f->bins[s];
         struct arena *a = arena_open();
         double *x[8];
-        cplx g = cplx_scale(0.5, f->gain[i * f->data->groups + f->data->stretch[s].group]);
+        const struct modal_part *mine = &f->part[i * f->data->groups + f->data->stretch[s].group];
+        cplx g = cplx_scale(0.5, mine->gain);
         for (int c = 0; c < 8; c++)
             x[c] = ARENA_TAKE(a, double, b->n + 1);
         if (f->data->stretch[s].fitted && f->data->stretch[s].strike >= 0) {
-            struct modal_line line = modal_fit_line(f, s, f->s[i], f->hum[i]);
+            struct modal_line line = modal_fit_line(f, s, mine->pole);
             modal_fit_basis(b, &line, 0, b->n, x);
             for (long k = 0; k < b->n; k++)
                 sum += b->yr[k] * (g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k])) +
@@ -171,84 +168,16 @@ static double projected(const struct modal_fit *f, int i)
 static void errors(struct modal_fit *f, int i, struct modal_mode *m)
 {
     int of[MODAL_BLOCK], n = modal_settle_near(f, i, 16, of), at = 0;
-    double se[2], noise = modal_settle_noise(f, f->s[i]);
+    double se[2];
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     modal_block_open(b, f, n, of, NULL, 0, NULL, a);
     while (b->of[at] != i)
         at++;
-    modal_block_errors(b, at, se, m->gain_se);
-    m->frequency_se = sqrt(noise) * se[0] / (2.0 * REAL_PI);
-    m->decay_se = sqrt(noise) * se[1] * m->decay;
-    for (int g = 0; g < f->data->groups; g++)
-        m->gain_se[g] *= sqrt(noise);
+    modal_block_errors(b, at, se, m->gain_se, m->gain_shared);
+    m->frequency_se = se[0] / (2.0 * REAL_PI);
+    m->decay_se = se[1] * m->decay;
     arena_close(a);
-}
-
-static int rising(const void *x, const void *y)
-{
-    double a = *(const double *)x, b = *(const double *)y;
-    return (a > b) - (a < b);
-}
-
-/* Squares of the poles' deviations (Hz, log of decay), strike by strike; n[i]: how many strikes tell. */
-static void scatter(struct modal_fit *f, const struct modal_result *r, const int *of_mode, double (*square)[2], int *n)
-{
-    const struct modal_data *d = f->data;
-    for (int j = 0; j < r->n; j++)
-        for (int s = 0; s < d->stretches; s++) {
-            if (!d->stretch[s].fitted || d->stretch[s].strike < 0) continue;
-            struct arena *a = arena_open();
-            struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-            bool *only = ARENA_TAKE(a, bool, d->stretches);
-            int near[MODAL_BLOCK], m = modal_settle_near(f, of_mode[j], 6, near), at = 0;
-            double se[2], *gain_se = ARENA_TAKE(a, double, d->groups);
-            only[s] = true;
-            modal_block_open(b, f, m, near, NULL, 0, only, a);
-            while (b->of[at] != of_mode[j])
-                at++;
-            if (modal_block_polish(b, 6)) {
-                double by[2] = {(b->s[at].im - f->s[of_mode[j]].im) / (2.0 * REAL_PI),
-                                real_log(b->s[at].re / f->s[of_mode[j]].re)};
-                modal_block_errors(b, at, se, gain_se);
-                double noise = sqrt(modal_block_noise(b));
-                if (se[1] * noise < 0.5 && fabs(by[1]) < 2.0) {
-                    square[j][0] += by[0] * by[0];
-                    square[j][1] += by[1] * by[1];
-                    n[j]++;
-                }
-            }
-            arena_close(a);
-        }
-}
-
-/* Standard deviations from strike to strike, each mode's own drawn towards the median of all. */
-static void between(struct modal_fit *f, struct modal_result *r, const int *of_mode, int strikes, struct arena *a)
-{
-    double(*square)[2] = arena_take(a, (size_t)r->n + 1, sizeof *square), *list = ARENA_TAKE(a, double, r->n + 1),
-    typical[2] = {0};
-    int *n = ARENA_TAKE(a, int, r->n + 1);
-    if (strikes > 1) scatter(f, r, of_mode, square, n);
-    for (int q = 0; q < 2; q++) {
-        int count = 0;
-        for (int j = 0; j < r->n; j++)
-            if (n[j] > 1)
-                list[count++] = square[j][q] / (n[j] - 1) / (q ? 1.0 : r->mode[j].frequency * r->mode[j].frequency);
-        qsort(list, (size_t)count, sizeof *list, rising);
-        typical[q] = count ? list[count / 2] : model_error[q] * model_error[q];
-    }
-    for (int j = 0; j < r->n; j++) {
-        struct modal_mode *m = &r->mode[j];
-        double degrees = n[j] > 1 ? n[j] - 1.0 : 0.0,
-               own[2] = {degrees > 0.0 ? square[j][0] : 0.0, degrees > 0.0 ? square[j][1] : 0.0};
-        m->frequency_between = sqrt((prior * typical[0] * m->frequency * m->frequency + own[0]) / (prior + degrees));
-        m->decay_between = m->decay * sqrt((prior * typical[1] + own[1]) / (prior + degrees));
-        if (degrees == 0.0) {
-            m->frequency_between =
-                sqrt(m->frequency_between * m->frequency_between + m->frequency_se * m->frequency_se);
-            m->decay_between = sqrt(m->decay_between * m->decay_between + m->decay_se * m->decay_se);
-        }
-    }
 }
 
 static int by_share(const void *x, const void *y)
@@ -259,9 +188,9 @@ static int by_share(const void *x, const void *y)
 }
 
 /* Numbers by falling share; components whose frequencies agree and decays do not are slopes of one mode. */
-static void number(struct modal_result *r, int most, struct arena *a)
+static void number(struct modal_result *r, struct arena *a)
 {
-    int left_out = 0, n = 0;
+    int n = 0;
     qsort(r->mode, (size_t)r->n, sizeof *r->mode, by_share);
     r->modes = 0;
     for (int i = 0; i < r->n; i++) {
@@ -278,10 +207,6 @@ static void number(struct modal_result *r, int most, struct arena *a)
                     m->slope += r->mode[l].mode == o->mode;
             }
         }
-        if (!m->mode && r->modes == most) {
-            left_out++;
-            continue;
-        }
         if (!m->mode) {
             m->mode = ++r->modes;
             m->slope = 1;
@@ -294,53 +219,61 @@ static void number(struct modal_result *r, int most, struct arena *a)
                                       r->mode[k].decay, m->decay));
         r->mode[n++] = *m;
     }
-    r->n = n;
-    if (left_out) note(r, a, arena_format(a, "%d more modes than the %d strongest were found", left_out, most));
 }
 
-/* Sums over a stretch's bins of the rest: its energy, and what of that is not smooth but for the force. */
-static void energies(struct modal_fit *f, double (*sum)[2])
+struct energies {               /* of a stretch's rest */
+    double all, ringing, noise; /* ringing: what does not follow the force at once */
+};
+
+static struct energies *energies(struct modal_fit *f, struct arena *a)
 {
+    struct energies *to = ARENA_TAKE(a, struct energies, f->data->stretches);
     modal_fit_noise(f, 0.0);
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
-        sum[s][0] = sum[s][1] = 0.0;
         for (long k = 0; k < b->n; k++) {
-            sum[s][0] += b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k];
-            sum[s][1] += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
+            to[s].all += b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k];
+            to[s].ringing += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
+            to[s].noise += b->variance[k];
         }
     }
+    return to;
 }
 
-/* Of the energy in the band, hums and noise off, what follows the force at once, and of the others what the modes
- * explain. The two are fitted together, so that neither has an energy of its own: what counts is what a fit without
- * modes leaves, and what one with them does. */
-static void explain(struct modal_fit *f, struct modal_result *r, struct arena *a)
+/* Of the energy in the band, hums and noise off, what follows the force at once (direct; NULL: not wanted), and of the
+ * others what the modes explain. What follows the force is fitted together with them, so that neither has an energy of
+ * its own: what counts is what is left with modes and without. */
+static const struct energies *explain(struct modal_fit *f, double *explained, double *direct, struct arena *a)
+{
+    for (int i = 0; i < f->m; i++)
+        if (!f->c[i].hum) modal_fit_put(f, i, 1.0);
+    const struct energies *none = energies(f, a);
+    modal_fit_rest(f);
+    const struct energies *fit = energies(f, a);
+    for (int s = 0; s < f->data->stretches; s++) {
+        double all = none[s].all - fit[s].noise, rings = none[s].ringing - fit[s].noise;
+        if (direct) direct[s] = all > 0.0 ? (all - fmax(rings, 0.0)) / all : 0.0;
+        explained[s] = rings > 0.0 ? 1.0 - fmax(fit[s].ringing - fit[s].noise, 0.0) / rings : 0.0;
+    }
+    return fit;
+}
+
+/* The modes' sound, and the noise of each place. */
+static void sounds(struct modal_fit *f, const struct energies *fit, struct modal_result *r, struct arena *a)
 {
     const struct modal_data *d = f->data;
     double *count = ARENA_TAKE(a, double, d->places);
-    double(*without)[2] = arena_take(a, (size_t)d->stretches, sizeof *without),
-    (*with)[2] = arena_take(a, (size_t)d->stretches, sizeof *with);
     for (int i = 0; i < f->m; i++)
-        if (!f->hum[i]) modal_fit_put(f, i, 1.0);
-    energies(f, without);
-    modal_fit_rest(f);
-    energies(f, with);
-    for (int i = 0; i < f->m; i++)
-        if (f->hum[i]) modal_fit_put(f, i, 1.0);
+        if (f->c[i].hum) modal_fit_put(f, i, 1.0);
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         const struct modal_stretch *st = &d->stretch[s];
-        double noise = 0.0, *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
+        double *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         for (long k = 0; k < b->n; k++) {
-            noise += b->variance[k];
             re[b->first + k] = (b->yr[k] - b->rr[k]) / sqrt((double)st->n);
             im[b->first + k] = (b->yi[k] - b->ri[k]) / sqrt((double)st->n);
         }
-        double all = without[s][0] - noise, rings = without[s][1] - noise;
-        r->direct[s] = all > 0.0 ? (all - fmax(rings, 0.0)) / all : 0.0;
-        r->explained[s] = rings > 0.0 ? 1.0 - fmax(with[s][1] - noise, 0.0) / rings : 0.0;
-        r->noise[st->place] += 2.0 * noise;
+        r->noise[st->place] += 2.0 * fit[s].noise;
         count[st->place] += (double)st->n;
         r->model[s] = ARENA_TAKE(a, double, st->n);
         struct fft *fft = fft_open((size_t)st->n);
@@ -362,7 +295,7 @@ static void fit_gains(struct modal_fit *f, const bool *only)
         modal_block_open(b, f, n, of, NULL, 0, only, a);
         modal_block_gains(b);
         for (int k = 0; k < n; k++)
-            modal_fit_replace(f, of[k], f->s[of[k]], b->gain + k * d->groups);
+            modal_fit_replace(f, of[k], f->c[of[k]].s, b->part + k * d->groups);
         arena_close(a);
     }
 }
@@ -376,26 +309,80 @@ static void predict(struct modal_fit *f)
     if (any) fit_gains(f, only);
 }
 
-/* What does not decay by more than chance is a hum that no lead has told, or what a fit of noise needs. */
-static void drop_undamped(struct modal_result *r, struct arena *a)
+/* A component goes, its neighbours are fitted anew. */
+static void drop_one(struct modal_fit *f, int i)
 {
-    int kept = 0;
-    for (int i = 0; i < r->n; i++)
-        if (r->mode[i].decay > 2.0 * r->mode[i].decay_se) r->mode[kept++] = r->mode[i];
-    if (kept < r->n)
-        note(r, a,
-             arena_format(a, "%d component%s that decay%s by no more than chance %s left out", r->n - kept,
-                          r->n - kept == 1 ? "" : "s", r->n - kept == 1 ? "s" : "", r->n - kept == 1 ? "is" : "are"));
-    r->n = kept;
+    int of[MODAL_BLOCK], n = modal_settle_near(f, i, 9, of), others = 0;
+    for (int k = 0; k < n; k++)
+        if (of[k] != i) of[others++] = of[k] - (of[k] > i);
+    modal_fit_drop(f, i);
+    if (others) modal_settle_refine(f, others, of, 20);
+}
+
+/* Is it as loud in all strikes, within 12 dB, as nothing is that they strike? */
+static bool lasts(const struct modal_fit *f, int i)
+{
+    double size[MODAL_STRETCHES], least = HUGE_VAL, most = 0.0;
+    modal_fit_sizes(f, i, size);
+    for (int s = 0; s < f->data->stretches; s++)
+        if (f->data->stretch[s].fitted && f->data->stretch[s].strike >= 0) {
+            least = fmin(least, size[s]);
+            most = fmax(most, size[s]);
+        }
+    return most < 4.0 * least;
+}
+
+/* What does not decay by more than chance is no mode: a hum, which stays in the fit, or what a fit of noise needs. Of
+ * those the weakest goes first, the others fitted anew: they may decay without it. Returns how many there were. */
+static int drop_undamped(struct modal_fit *f)
+{
+    struct arena *a = arena_open();
+    struct modal_mode m = {.gain_se = ARENA_TAKE(a, double, f->data->groups),
+                           .gain_shared = ARENA_TAKE(a, double, f->data->groups)};
+    int dropped = 0;
+    for (;; dropped++) {
+        double least = HUGE_VAL;
+        int weakest = -1;
+        for (int i = 0; i < f->m; i++) {
+            m.decay = -f->c[i].s.re;
+            if (f->c[i].hum || m.decay > 2.0 / f->longest) continue;
+            errors(f, i, &m);
+            if (m.decay > fmax(2.0 * m.decay_se, 2.0 * f->slowest)) continue;
+            f->c[i].hum = lasts(f, i);
+            double share = f->c[i].hum ? HUGE_VAL : projected(f, i);
+            weakest = share < least ? i : weakest;
+            least = fmin(least, share);
+        }
+        if (weakest < 0) break;
+        drop_one(f, weakest);
+    }
+    if (dropped) modal_settle_sweeps(f, 8, 4);
+    arena_close(a);
+    return dropped;
+}
+
+/* The weakest beyond those that are wanted. */
+static int drop_weakest(struct modal_fit *f)
+{
+    for (int dropped = 0;; dropped++) {
+        int modes = 0, weakest = -1;
+        double least = HUGE_VAL;
+        for (int i = 0; i < f->m; i++) {
+            double share = f->c[i].hum ? HUGE_VAL : projected(f, i);
+            modes += !f->c[i].hum;
+            if (share < least) weakest = i;
+            least = fmin(least, share);
+        }
+        if (modes <= f->options->most) return dropped;
+        drop_one(f, weakest);
+    }
 }
 
 static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
 {
     const struct modal_data *d = f->data;
-    int *of_mode = ARENA_TAKE(a, int, f->m + 1), strikes = 0, hums = 0;
+    int hums = 0;
     double all = 0.0;
-    r->explained = ARENA_TAKE(a, double, d->stretches);
-    r->direct = ARENA_TAKE(a, double, d->stretches);
     r->noise = ARENA_TAKE(a, double, d->places);
     r->model = arena_take(a, (size_t)d->stretches, sizeof *r->model);
     order_by_frequency(f);
@@ -403,35 +390,42 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     r->mode = ARENA_TAKE(a, struct modal_mode, f->m + 1);
     for (int i = 0; i < f->m; i++) {
         struct modal_mode *m = &r->mode[r->n];
-        if (f->hum[i]) {
+        if (f->c[i].hum) {
             hums++;
             continue;
         }
-        of_mode[r->n++] = i;
-        *m = (struct modal_mode){
-            .frequency = f->s[i].im / (2.0 * REAL_PI), .decay = -f->s[i].re, .share = projected(f, i)};
+        r->n++;
+        *m = (struct modal_mode){.component = i,
+                                 .frequency = f->c[i].s.im / (2.0 * REAL_PI),
+                                 .decay = -f->c[i].s.re,
+                                 .share = projected(f, i)};
         m->re = ARENA_TAKE(a, double, d->groups);
         m->im = ARENA_TAKE(a, double, d->groups);
         m->gain_se = ARENA_TAKE(a, double, d->groups);
+        m->gain_shared = ARENA_TAKE(a, double, d->groups);
         for (int g = 0; g < d->groups; g++) {
-            m->re[g] = -f->gain[i * d->groups + g].im;
-            m->im[g] = f->gain[i * d->groups + g].re;
+            m->re[g] = -f->part[i * d->groups + g].gain.im;
+            m->im[g] = f->part[i * d->groups + g].gain.re;
         }
         errors(f, i, m);
         all += m->share;
     }
     for (int j = 0; j < r->n; j++)
         r->mode[j].share /= all > 0.0 ? all : 1.0;
-    for (int s = 0; s < d->stretches; s++)
-        strikes += d->stretch[s].fitted && d->stretch[s].strike >= 0;
-    between(f, r, of_mode, strikes, a);
-    drop_undamped(r, a);
-    number(r, f->options->most, a);
-    explain(f, r, a);
+    modal_spread(f);
+    for (int j = 0; j < r->n; j++) { /* a strike's noise is between strikes, too */
+        struct modal_mode *m = &r->mode[j];
+        const double *spread = f->c[m->component].spread;
+        m->frequency_between =
+            sqrt(spread[0] * spread[0] * m->frequency * m->frequency + f->strikes * m->frequency_se * m->frequency_se);
+        m->decay_between = sqrt(spread[1] * spread[1] * m->decay * m->decay + f->strikes * m->decay_se * m->decay_se);
+    }
+    number(r, a);
+    sounds(f, explain(f, r->explained, NULL, a), r, a);
     if (hums)
         note(r, a,
-             arena_format(a, "%d line%s that the recording holds before the first strike (hum) %s fitted and taken out",
-                          hums, hums == 1 ? "" : "s", hums == 1 ? "is" : "are"));
+             arena_format(a, "%d line%s not decay (hum) and %s left out", hums, hums == 1 ? " does" : "s do",
+                          hums == 1 ? "is" : "are"));
 }
 
 /* The data with the few loudest strikes alone to be fitted: what those do not tell, none does. */
@@ -469,22 +463,37 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     modal_fit_noise(&f, 0.0);
     struct modal_data few = loudest_of(d, inner);
     f.data = &few;
-    modal_search_hums(&f);
     if (o->spectrogram)
         modal_spectrogram(&f);
     else
         search(&f);
     f.data = d;
     for (int i = 0; i < f.m; i++)
-        f.moved[i] = 1e9;
+        f.c[i].moved = 1e9;
     fit_gains(&f, NULL);
     modal_fit_noise(&f, 0.0);
     if (!o->spectrogram) {
+        modal_settle_sweeps(&f, 8, 2);
+        modal_spread(&f);
         modal_settle(&f);
         while (drop_unstable(&f) > 0)
             ;
     }
+    int undamped = drop_undamped(&f), weakest;
+    r->explained = ARENA_TAKE(a, double, d->stretches);
+    r->fitted = ARENA_TAKE(a, double, d->stretches);
+    r->direct = ARENA_TAKE(a, double, d->stretches);
+    explain(&f, r->fitted, r->direct, inner);
+    weakest = drop_weakest(&f);
     report(&f, a, r);
+    if (undamped)
+        note(r, a,
+             arena_format(a, "%d component%s no more than chance %s left out", undamped,
+                          undamped == 1 ? " that decays by" : "s that decay by", undamped == 1 ? "is" : "are"));
+    if (weakest)
+        note(r, a,
+             arena_format(a, "%d more mode%s than the %d strongest %s found", weakest, weakest == 1 ? "" : "s", o->most,
+                          weakest == 1 ? "was" : "were"));
     arena_close(inner);
     return true;
 }

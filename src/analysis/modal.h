@@ -40,9 +40,11 @@ struct modal_options {
 struct modal_mode {
     double frequency, decay; /* Hz, 1/s */
     double *re, *im; /* [groups] A, h(t) = Im A e^(s t), t from the force's sample, or from the stretch's first */
-    double frequency_se, decay_se, *gain_se; /* standard errors from noise; of |A| */
+    double frequency_se, decay_se; /* standard errors from noise */
+    double *gain_se, *gain_shared; /* [groups] of |A|: a strike's own, and by the poles, of all strikes alike */
     double frequency_between, decay_between; /* standard deviations from strike to strike */
     double share;                            /* of the energy of all modes together */
+    int component;                           /* of the fit */
     int mode, slope;                         /* from 1 by falling share; slopes of one mode from 1 */
 };
 
@@ -50,6 +52,7 @@ struct modal_result {
     int n, modes;            /* components, modes */
     struct modal_mode *mode; /* [n] */
     double *explained;       /* [stretches] share of the energy in the band, noise and what is direct taken off */
+    double *fitted;   /* [stretches] the same of the fit, with modes that are weaker than those that are wanted */
     double *direct;   /* [stretches] share of what follows the force at once: smooth in frequency but for the force */
     double *noise;    /* [places] rms of the noise in the band */
     double **model;   /* [stretches][n] the modes' sound */

@@ -8,6 +8,7 @@
 
 enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 3 };
 
+static const double known = 20.0; /* degrees of freedom that the noise of the wider band counts as in a block's own */
 static const double rounded = 1e-10; /* of a column's squares: what the others leave of it is rounding */
 
 struct group {     /* columns: gains, smooth ones, gains times steps of poles if full, what is left */
@@ -132,7 +133,7 @@ static void smooth_columns(const struct modal_bins *bins, const struct modal_blo
     }
 }
 
-static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool full, struct group *g)
+static void stretch_add(struct modal_block *b, int s, bool full, struct group *g)
 {
     static const long size = ROWS * (long)sizeof(double);
     const struct modal_fit *f = b->fit;
@@ -144,7 +145,7 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
     for (int c = 0; c < 8; c++)
         x[c] = room[c];
     for (int i = 0; i < b->m; i++)
-        line[i] = modal_fit_line(f, s, b->s[i], b->hum[i]);
+        line[i] = modal_fit_line(f, s, b->part[i * groups + mine].pole);
     for (long from = b->from[s]; from < b->to[s]; from += CHUNK) {
         long n = from + CHUNK < b->to[s] ? CHUNK : b->to[s] - from, at = from - b->from[s], all = b->to[s] - b->from[s];
         if (n < CHUNK) memset(columns, 0, (size_t)(g->n * size));
@@ -155,8 +156,8 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
         }
         for (int i = 0; i < b->m; i++) {
             modal_fit_basis(bins, &line[i], from, from + n, x);
-            modal_block_columns(gain[i * groups + mine], (const double *const *)x, weight, n, columns + 2 * i * ROWS,
-                                full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
+            modal_block_columns(b->part[i * groups + mine].gain, (const double *const *)x, weight, n,
+                                columns + 2 * i * ROWS, full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
         }
         smooth_columns(bins, b, weight, from, n, columns + 2 * b->m * ROWS);
         modal_block_products(columns, g->n, g->a);
@@ -165,22 +166,20 @@ static void stretch_add(struct modal_block *b, int s, const cplx *gain, bool ful
 
 static bool counts(const struct modal_block *b, int s)
 {
-    bool lead = b->fit->data->stretch[s].strike < 0; /* only hums are heard in it */
-    for (int i = 0; lead && !b->stretches && i < b->m; i++)
-        if (b->hum[i]) return true;
-    return b->stretches ? b->stretches[s] : b->fit->data->stretch[s].fitted && !lead;
+    const struct modal_stretch *st = &b->fit->data->stretch[s];
+    return b->stretches ? b->stretches[s] : st->fitted && st->strike >= 0;
 }
 
 /* The group's sums, its linear columns swept out; false: none of its stretches counts. */
-static bool group_make(struct modal_block *b, int group, const cplx *gain, bool full, struct group *g)
+static bool group_make(struct modal_block *b, int group, bool full, struct group *g)
 {
     bool any = false;
     g->linear = 2 * b->m + MODAL_SMOOTH;
     g->n = g->linear + (full ? 2 * b->m : 0) + 1;
     memset(g->a, 0, (size_t)(g->n * g->n) * sizeof *g->a);
     for (int s = 0; s < b->fit->data->stretches; s++)
-        if (b->fit->data->stretch[s].group == group && counts(b, s) && b->to[s] > b->from[s]) {
-            stretch_add(b, s, gain, full, g);
+        if (b->fit->data->stretch[s].group == group && b->to[s] > b->from[s]) {
+            stretch_add(b, s, full, g);
             any = true;
         }
     for (int i = 0; i < g->n; i++) {
@@ -195,18 +194,20 @@ static bool group_make(struct modal_block *b, int group, const cplx *gain, bool 
  */
 static void steps_of(const struct modal_block *b, int i, int group, double to[2][2])
 {
-    cplx gain = b->gain[i * b->fit->data->groups + group];
-    double decay = b->hum[i] ? 0.0 : -b->s[i].re;
+    const struct modal_part *part = &b->part[i * b->fit->data->groups + group];
+    cplx gain = part->gain;
+    double decay = -part->pole.re;
     to[0][0] = -gain.im;
     to[0][1] = -decay * gain.re;
     to[1][0] = gain.re;
     to[1][1] = -decay * gain.im;
 }
 
-/* The poles' normal equations of a group, its gains projected out, go to the block's. */
-static void add_normal(struct modal_block *b, int group, const struct group *g)
+/* The poles' normal equations of a group, its gains projected out. */
+static void normal_of(const struct modal_block *b, int group, const struct group *g, struct modal_normal *to)
 {
     int poles = 2 * b->m, n = g->n;
+    double part = 1.0 / b->noise[group];
     for (int i = 0; i < b->m; i++) {
         double u[2][2], v[2][2];
         steps_of(b, i, group, u);
@@ -216,45 +217,150 @@ static void add_normal(struct modal_block *b, int group, const struct group *g)
             steps_of(b, k, group, v);
             for (int p = 0; p < 2; p++)
                 for (int q = 0; q < 2; q++)
-                    b->normal[(2 * i + p) * poles + 2 * k + q] +=
-                        u[0][p] * (row[0][2 * k] * v[0][q] + row[0][2 * k + 1] * v[1][q]) +
-                        u[1][p] * (row[1][2 * k] * v[0][q] + row[1][2 * k + 1] * v[1][q]);
+                    to->a[(2 * i + p) * poles + 2 * k + q] =
+                        part * (u[0][p] * (row[0][2 * k] * v[0][q] + row[0][2 * k + 1] * v[1][q]) +
+                                u[1][p] * (row[1][2 * k] * v[0][q] + row[1][2 * k + 1] * v[1][q]));
         }
         for (int p = 0; p < 2; p++) {
-            b->right[2 * i + p] += u[0][p] * row[0][poles] + u[1][p] * row[1][poles];
-            b->scale[2 * i + p] +=
-                u[0][p] * u[0][p] * g->scale[g->linear + 2 * i] + u[1][p] * u[1][p] * g->scale[g->linear + 2 * i + 1];
+            to->right[2 * i + p] = part * (u[0][p] * row[0][poles] + u[1][p] * row[1][poles]);
+            to->scale[2 * i + p] = part * (u[0][p] * u[0][p] * g->scale[g->linear + 2 * i] +
+                                           u[1][p] * u[1][p] * g->scale[g->linear + 2 * i + 1]);
         }
+    }
+    to->used = true;
+}
+
+/* How far a group's own poles are from the shared ones (omega, log d), and what a square of that weighs in chi. */
+static void apart_of(const struct modal_block *b, int group, double *apart, double *weight)
+{
+    static const double least = 1e-11; /* no spread is less: 0 is one that nothing shows */
+    for (int i = 0; i < b->m; i++) {
+        cplx own = b->part[i * b->fit->data->groups + group].pole;
+        double sigma[2] = {fmax(b->spread[i][0], least) * b->s[i].im, fmax(b->spread[i][1], least)};
+        apart[2 * i] = own.im - b->s[i].im;
+        apart[2 * i + 1] = real_log(own.re / b->s[i].re);
+        for (int q = 0; q < 2; q++)
+            weight[2 * i + q] = 1.0 / (sigma[q] * sigma[q]);
     }
 }
 
-/* All groups: gains += what their columns take of what is left, chi, and with full the poles' normal equations. */
+enum { POLES = 2 * MODAL_BLOCK, WIDE = POLES + 1 };
+
+/* to[p][p + 1]: (N + W)^-1 of a group and, last, times its gradient, N damped; returns what the step would take off. */
+static double own_inverse(const struct modal_block *b, const struct modal_normal *g, const double *apart,
+                          const double *weight, double damping, double *to)
+{
+    int p = 2 * b->m, n = p + 1;
+    double scale[POLES] = {0}, fall = 0.0;
+    bool swept[POLES];
+    for (int i = 0; i < p; i++) {
+        memcpy(to + i * n, g->a + i * p, (size_t)p * sizeof *to);
+        to[i * n + i] = (1.0 + damping) * to[i * n + i] + weight[i];
+        scale[i] = (1.0 + damping) * g->scale[i] + weight[i];
+        to[i * n + p] = to[p * n + i] = g->right[i] - weight[i] * apart[i];
+    }
+    to[p * n + p] = 0.0;
+    modal_block_sweep(to, n, 0, p, scale, swept);
+    for (int i = 0; i < p; i++) {
+        for (int j = 0; j < n && !swept[i]; j++)
+            to[i * n + j] = 0.0;
+        for (int j = 0; j < p && !swept[i]; j++)
+            to[j * n + i] = 0.0;
+        fall += to[i * n + p] * (g->right[i] - weight[i] * apart[i]);
+    }
+    return fall;
+}
+
+/* The step of all poles, damped: of the shared ones, step[p], and own[groups][p]; returns what it would take off chi.
+   The shared ones' normal equations are sum N - N (N + W)^-1 N, their right side sum r - N (N + W)^-1 (r - W apart). */
+static double solve(struct modal_block *b, double damping, double *step, double *own)
+{
+    int p = 2 * b->m, n = p + 1, groups = b->fit->data->groups;
+    struct arena *arena = arena_open();
+    double *inverse = ARENA_TAKE(arena, double, n *n), *product = ARENA_TAKE(arena, double, p *n),
+           *a = ARENA_TAKE(arena, double, n *n), apart[POLES], weight[POLES], scale[POLES] = {0}, fall = 0.0;
+    bool swept[POLES];
+    memset(b->normal, 0, sizeof b->normal);
+    for (int g = 0; g < groups; g++) {
+        const struct modal_normal *e = &b->each[g];
+        if (!e->used) continue;
+        apart_of(b, g, apart, weight);
+        fall += own_inverse(b, e, apart, weight, damping, inverse);
+        for (int i = 0; i < p; i++)
+            for (int j = 0; j < n; j++) { /* (N + W)^-1 N, and (N + W)^-1 (r - W apart) */
+                double sum = 0.0;
+                for (int k = 0; k < p && j < p; k++)
+                    sum += inverse[i * n + k] * e->a[k * p + j];
+                product[i * n + j] = j < p ? sum : inverse[i * n + p];
+            }
+        for (int i = 0; i < p; i++) {
+            for (int j = 0; j < n; j++) {
+                double sum = 0.0;
+                for (int k = 0; k < p; k++)
+                    sum += e->a[i * p + k] * product[k * n + j];
+                a[i * n + j] += (j < p ? e->a[i * p + j] : e->right[i]) - sum;
+                if (j < p) b->normal[i * p + j] += e->a[i * p + j] - sum;
+            }
+            scale[i] += e->scale[i];
+        }
+    }
+    for (int i = 0; i < p; i++) {
+        step[i] = a[i * n + p];
+        a[p * n + i] = a[i * n + p];
+        a[i * n + i] *= 1.0 + damping;
+    }
+    a[p * n + p] = 0.0;
+    modal_block_sweep(a, n, 0, p, scale, swept);
+    for (int i = 0; i < p; i++) {
+        double right = step[i];
+        step[i] = swept[i] ? a[i * n + p] : 0.0;
+        fall += step[i] * right;
+    }
+    for (int g = 0; g < groups; g++) {
+        if (!b->each[g].used) continue;
+        apart_of(b, g, apart, weight);
+        for (int i = 0; i < p; i++)
+            apart[i] -= step[i];
+        own_inverse(b, &b->each[g], apart, weight, damping, inverse);
+        for (int i = 0; i < p; i++)
+            own[g * p + i] = inverse[i * n + p];
+    }
+    arena_close(arena);
+    return fall;
+}
+
+/* All groups: gains += what their columns take of what is left, noise, chi, and with full the poles' normal equations.
+ */
 static void pass(struct modal_block *b, bool full, struct group *keep)
 {
     const struct modal_data *d = b->fit->data;
     struct arena *a = b->a, *inner = arena_open();
     struct group *g = keep ? keep : ARENA_TAKE(inner, struct group, 1);
+    double apart[POLES], weight[POLES], sum = 0.0;
     b->a = inner;
-    b->chi = 0.0;
-    if (full) {
-        memset(b->normal, 0, sizeof b->normal);
-        memset(b->right, 0, sizeof b->right);
-        memset(b->scale, 0, sizeof b->scale);
-    }
     for (int k = 0; k < d->groups; k++, g += keep ? 1 : 0) {
-        if (!group_make(b, k, b->gain, full, g)) {
+        if (full) b->each[k].used = false;
+        if (!group_make(b, k, full, g)) {
             g->n = 0;
             continue;
         }
         int n = g->n, last = n - 1;
         modal_block_sweep(g->a, n, 0, g->linear, g->scale, g->swept);
-        b->chi += g->a[last * n + last];
+        b->noise[k] = (g->a[last * n + last] + known) / b->degrees[k];
+        sum += b->degrees[k] * real_log(b->noise[k]);
         for (int i = 0; i < 2 * b->m; i++)
-            if (g->swept[i])
-                (i % 2 ? &b->gain[i / 2 * d->groups + k].im : &b->gain[i / 2 * d->groups + k].re)[0] +=
-                    g->a[i * n + last];
-        if (full) add_normal(b, k, g);
+            if (g->swept[i]) {
+                cplx *gain = &b->part[i / 2 * d->groups + k].gain;
+                *(i % 2 ? &gain->im : &gain->re) += g->a[i * n + last];
+            }
+        if (full) normal_of(b, k, g, &b->each[k]);
     }
+    for (int k = 0; k < d->groups; k++) {
+        apart_of(b, k, apart, weight);
+        for (int i = 0; i < 2 * b->m; i++)
+            sum += apart[i] * apart[i] * weight[i];
+    }
+    b->chi = sum;
     arena_close(inner);
     b->a = a;
 }
@@ -277,12 +383,18 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
     b->stretches = stretches;
     b->fastest = f->fastest;
     b->m = m + extras;
-    b->gain = ARENA_TAKE(a, cplx, MODAL_BLOCK * d->groups);
+    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * d->groups);
+    b->each = ARENA_TAKE(a, struct modal_normal, d->groups);
+    b->noise = ARENA_TAKE(a, double, d->groups);
+    b->degrees = ARENA_TAKE(a, double, d->groups);
     for (int i = 0; i < m + extras; i++) {
         b->of[i] = i < m ? of[i] : -1;
-        b->s[i] = i < m ? f->s[of[i]] : extra[i - m];
-        b->hum[i] = i < m && f->hum[of[i]];
-        if (i < m) modal_fit_totals(f, of[i], b->gain + i * d->groups);
+        b->s[i] = i < m ? f->c[of[i]].s : extra[i - m];
+        for (int q = 0; q < 2; q++)
+            b->spread[i][q] = f->strikes < 2 ? 0.0 : i < m ? f->c[of[i]].spread[q] : f->typical[q];
+        for (int g = 0; g < d->groups; g++)
+            b->part[i * d->groups + g].pole = b->s[i];
+        if (i < m) modal_fit_totals(f, of[i], b->part + i * d->groups);
         low = fmin(low, b->s[i].im - reach(f, b->s[i]));
         high = fmax(high, b->s[i].im + reach(f, b->s[i]));
     }
@@ -309,10 +421,11 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         for (int c = 0; c < 8; c++)
             x[c] = room[c];
         for (int i = 0; i < m; i++) {
-            struct modal_line line = modal_fit_line(f, s, b->s[i], b->hum[i]);
+            const struct modal_part *mine = &b->part[i * d->groups + d->stretch[s].group];
+            struct modal_line line = modal_fit_line(f, s, mine->pole);
             for (long at = 0; at < n; at += CHUNK) {
                 long part = at + CHUNK < n ? CHUNK : n - at;
-                cplx g = cplx_scale(0.5, b->gain[i * d->groups + d->stretch[s].group]);
+                cplx g = cplx_scale(0.5, mine->gain);
                 modal_fit_basis(bins, &line, b->from[s] + at, b->from[s] + at + part, x);
                 for (long k = 0; k < part; k++) {
                     b->r[s][at + k] += g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k]);
@@ -321,16 +434,12 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
             }
         }
     }
-    long rows = 0, groups = 0;
     for (int g = 0; g < d->groups; g++) {
-        long bins = 0;
+        b->degrees[g] = known - 2.0 * b->m - MODAL_SMOOTH - 2.0 * b->m / d->groups;
         for (int s = 0; s < d->stretches; s++)
-            bins += d->stretch[s].group == g ? b->to[s] - b->from[s] : 0;
-        rows += bins > 2 * b->m + MODAL_SMOOTH ? 2 * bins : 0;
-        groups += bins > 2 * b->m + MODAL_SMOOTH;
+            b->degrees[g] += d->stretch[s].group == g ? 2.0 * (double)(b->to[s] - b->from[s]) : 0.0;
+        b->degrees[g] = fmax(b->degrees[g], known);
     }
-    b->dof = rows - 2 * b->m - groups * (2 * b->m + MODAL_SMOOTH);
-    b->dof = b->dof > 1 ? b->dof : 1;
 }
 
 void modal_block_gains(struct modal_block *b) { pass(b, false, NULL); }
@@ -341,10 +450,9 @@ void modal_block_drop(struct modal_block *b, int i)
     for (b->m--; i < b->m; i++) {
         b->of[i] = b->of[i + 1];
         b->s[i] = b->s[i + 1];
-        b->hum[i] = b->hum[i + 1];
-        memcpy(b->gain + i * groups, b->gain + (i + 1) * groups, (size_t)groups * sizeof *b->gain);
+        memcpy(b->spread[i], b->spread[i + 1], sizeof b->spread[i]);
+        memcpy(b->part + i * groups, b->part + (i + 1) * groups, (size_t)groups * sizeof *b->part);
     }
-    b->dof += 2 + 2 * groups;
 }
 
 void modal_block_worth(struct modal_block *b, double *worth)
@@ -359,73 +467,66 @@ void modal_block_worth(struct modal_block *b, double *worth)
         for (int i = 0; i < b->m && g[k].n; i++) {
             const double *a = g[k].a + 2 * i * (g[k].n + 1), p = a[0], q = 0.5 * (a[1] + a[g[k].n]), r = a[g[k].n + 1],
                          det = p * r - q * q;
-            cplx at = b->gain[i * groups + k];
+            cplx at = b->part[i * groups + k].gain;
             if (g[k].swept[2 * i] && g[k].swept[2 * i + 1] && det > 0.0)
-                worth[i] += (at.re * at.re * r - 2.0 * at.re * at.im * q + at.im * at.im * p) / det;
+                worth[i] += (at.re * at.re * r - 2.0 * at.re * at.im * q + at.im * at.im * p) / (det * b->noise[k]);
         }
     arena_close(inner);
 }
 
-double modal_block_noise(const struct modal_block *b) { return fmax(b->chi / (double)b->dof, 1e-300); }
-
 static double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
-/* Where a step of the poles leads. */
-static void step_to(const struct modal_block *b, const cplx *s, const double *step, cplx *to)
+/* Where a step leads a pole. */
+static cplx stepped(const struct modal_block *b, cplx s, const double *step)
 {
     const struct modal_fit *f = b->fit;
-    for (int i = 0; i < b->m; i++) {
-        double wide = -3.0 * s[i].re + 10.0 / f->longest;
-        to[i].im = clamp(s[i].im + clamp(step[2 * i], -wide, wide), f->low, f->high);
-        to[i].re = b->hum[i] ? s[i].re
-                             : -clamp(-s[i].re * real_exp(clamp(step[2 * i + 1], -0.7, 0.7)), f->slowest, b->fastest);
-    }
+    double wide = -3.0 * s.re + 10.0 / f->longest;
+    return (cplx){-clamp(-s.re * real_exp(clamp(step[1], -0.7, 0.7)), f->slowest, b->fastest),
+                  clamp(s.im + clamp(step[0], -wide, wide), f->low, f->high)};
 }
 
-/* The step of the damped normal equations, and what it would take off chi. */
-static double solve(const struct modal_block *b, double damping, double *step)
+/* The poles and gains of `from` go to b, its poles on by the steps (NULL: as they are). */
+static void copy_parts(struct modal_block *b, const struct modal_part *from, const cplx *s, const double *step,
+                       const double *own)
 {
-    int p = 2 * b->m, n = p + 1;
-    double a[(2 * MODAL_BLOCK + 1) * (2 * MODAL_BLOCK + 1)], fall = 0.0;
-    bool swept[2 * MODAL_BLOCK];
-    for (int i = 0; i < p; i++) {
-        for (int j = 0; j < p; j++)
-            a[i * n + j] = b->normal[i * p + j];
-        a[i * n + i] *= 1.0 + damping;
-        a[i * n + p] = a[p * n + i] = b->right[i];
+    int groups = b->fit->data->groups;
+    memcpy(b->part, from, (size_t)(b->m * groups) * sizeof *from);
+    for (int i = 0; i < b->m && step; i++) {
+        b->s[i] = stepped(b, s[i], step + 2 * i);
+        for (int g = 0; g < groups; g++) {
+            struct modal_part *p = &b->part[i * groups + g];
+            p->pole = b->each[g].used ? stepped(b, p->pole, own + (g * b->m + i) * 2) : b->s[i];
+        }
     }
-    a[p * n + p] = 0.0;
-    modal_block_sweep(a, n, 0, p, b->scale, swept);
-    for (int i = 0; i < p; i++) {
-        step[i] = swept[i] ? a[i * n + p] : 0.0;
-        fall += step[i] * b->right[i];
-    }
-    return fall;
 }
 
 bool modal_block_polish(struct modal_block *b, int steps)
 {
     int groups = b->fit->data->groups;
-    double damping = 1e-3, step[2 * MODAL_BLOCK];
+    double damping = 1e-3, step[POLES];
     struct arena *inner = arena_open();
     struct modal_block *was = ARENA_TAKE(inner, struct modal_block, 1);
-    cplx *gain = ARENA_TAKE(inner, cplx, b->m * groups);
+    struct modal_part *part = ARENA_TAKE(inner, struct modal_part, b->m * groups);
+    struct modal_normal *spare = ARENA_TAKE(b->a, struct modal_normal, groups);
+    double *own = ARENA_TAKE(inner, double, groups * 2 * b->m);
     bool converged = false, better = true;
     pass(b, steps > 0, NULL);
     for (int k = 0; k < steps && better && !converged; k++) {
-        double enough = b->fit->tolerance * modal_block_noise(b);
-        converged = solve(b, 0.0, step) < enough;
+        double enough = b->fit->tolerance;
+        converged = solve(b, 0.0, step, own) < enough;
         *was = *b;
-        memcpy(gain, b->gain, (size_t)(b->m * groups) * sizeof *gain);
+        memcpy(part, b->part, (size_t)(b->m * groups) * sizeof *part);
         better = false;
         for (int t = 0; t < TRIES && !better && !converged; t++) {
-            solve(was, damping, step);
-            step_to(b, was->s, step, b->s);
+            solve(b, damping, step, own);
+            copy_parts(b, part, was->s, step, own);
+            b->each = spare;
             pass(b, true, NULL);
             better = b->chi <= was->chi;
+            spare = better ? was->each : spare;
             if (!better) {
                 *b = *was;
-                memcpy(b->gain, gain, (size_t)(b->m * groups) * sizeof *gain);
+                copy_parts(b, part, NULL, NULL, NULL);
                 damping = fmax(8.0 * damping, 1e-4);
             }
         }
@@ -436,37 +537,79 @@ bool modal_block_polish(struct modal_block *b, int steps)
     return converged;
 }
 
-void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se)
+int modal_block_apart(struct modal_block *b, int i, int q, double *by, double *variance)
 {
-    int p = 2 * b->m, groups = b->fit->data->groups;
+    static const double blind = 0.01; /* of what is known of a strike's pole: if the strike says less it says nothing */
+    int n = 2 * b->m + 1, strikes = 0;
+    struct arena *inner = arena_open();
+    double *inverse = ARENA_TAKE(inner, double, n *n), apart[POLES], weight[POLES], value = q ? 1.0 : b->s[i].im;
+    pass(b, true, NULL);
+    for (int k = 0; k < b->fit->data->groups; k++) {
+        if (!b->each[k].used) continue;
+        apart_of(b, k, apart, weight);
+        own_inverse(b, &b->each[k], apart, weight, 0.0, inverse);
+        double all = 1.0 / inverse[(2 * i + q) * (n + 1)], strike = all - weight[2 * i + q];
+        if (!(strike > blind * all)) continue;
+        by[strikes] = apart[2 * i + q] * all / (strike * value);
+        variance[strikes++] = 1.0 / (strike * value * value);
+    }
+    arena_close(inner);
+    return strikes;
+}
+
+/* Of the poles as all strikes together tell them, were they one object at rest, and of each group's gain with what its
+ * own poles are uncertain by. */
+void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se, double *gain_shared)
+{
+    int p = 2 * b->m, n = p + 1, groups = b->fit->data->groups;
     struct arena *inner = arena_open();
     struct group *g = ARENA_TAKE(inner, struct group, groups);
-    bool swept[2 * MODAL_BLOCK];
+    double *all = ARENA_TAKE(inner, double, p *p), *inverse = ARENA_TAKE(inner, double, n *n), scale[POLES] = {0},
+           step[POLES], *own = ARENA_TAKE(inner, double, groups *p), apart[POLES], weight[POLES];
+    bool swept[POLES], shared[POLES];
     pass(b, true, g);
-    modal_block_sweep(b->normal, p, 0, p, b->scale, swept);
+    solve(b, 0.0, step, own);
+    for (int k = 0; k < groups; k++)
+        for (int j = 0; j < p && b->each[k].used; j++) {
+            for (int l = 0; l < p; l++)
+                all[j * p + l] += b->each[k].a[j * p + l];
+            scale[j] += b->each[k].scale[j];
+        }
+    modal_block_sweep(all, p, 0, p, scale, swept);
+    modal_block_sweep(b->normal, p, 0, p, scale, shared);
     for (int q = 0; q < 2; q++)
-        se[q] = swept[2 * i + q] ? sqrt(fmax(b->normal[(2 * i + q) * (p + 1)], 0.0)) : HUGE_VAL;
+        se[q] = swept[2 * i + q] ? sqrt(fmax(all[(2 * i + q) * (p + 1)], 0.0)) : HUGE_VAL;
     for (int k = 0; k < groups; k++) {
-        cplx at = b->gain[i * groups + k];
-        double size = fmax(cplx_abs(at), 1e-300), u[2] = {at.re / size, at.im / size}, sum = 0.0,
-               *row = ARENA_TAKE(inner, double, p);
-        int n = g[k].n;
+        cplx at = b->part[i * groups + k].gain;
+        double size = fmax(cplx_abs(at), 1e-300), u[2] = {at.re / size, at.im / size}, sum = 0.0, row[POLES],
+               through[POLES] = {0};
+        int wide = g[k].n;
         gain_se[k] = HUGE_VAL;
-        if (n == 0 || !g[k].swept[2 * i] || !g[k].swept[2 * i + 1]) continue;
+        gain_shared[k] = 0.0;
+        if (wide == 0 || !g[k].swept[2 * i] || !g[k].swept[2 * i + 1]) continue;
         for (int c = 0; c < 2; c++)
             for (int e = 0; e < 2; e++)
-                sum += u[c] * u[e] * g[k].a[(2 * i + c) * n + 2 * i + e];
+                sum += u[c] * u[e] * g[k].a[(2 * i + c) * wide + 2 * i + e];
+        sum *= b->noise[k];
         for (int j = 0; j < b->m; j++) {
-            const double *re = g[k].a + 2 * i * n + g[k].linear + 2 * j, *im = re + n;
+            const double *re = g[k].a + 2 * i * wide + g[k].linear + 2 * j, *im = re + wide;
             double by[2][2];
             steps_of(b, j, k, by);
             for (int q = 0; q < 2; q++)
                 row[2 * j + q] = (u[0] * re[0] + u[1] * im[0]) * by[0][q] + (u[0] * re[1] + u[1] * im[1]) * by[1][q];
         }
+        apart_of(b, k, apart, weight);
+        own_inverse(b, &b->each[k], apart, weight, 0.0, inverse);
+        for (int j = 0; j < p; j++) /* own poles: (N + W)^-1 by the strike, W (N + W)^-1 times the shared ones' error */
+            for (int l = 0; l < p; l++) {
+                sum += row[j] * inverse[j * n + l] * row[l];
+                through[l] += row[j] * inverse[j * n + l] * weight[l];
+            }
         for (int j = 0; j < p; j++)
             for (int l = 0; l < p; l++)
-                if (swept[j] && swept[l]) sum += row[j] * b->normal[j * p + l] * row[l];
+                if (shared[j] && shared[l]) gain_shared[k] += through[j] * b->normal[j * p + l] * through[l];
         gain_se[k] = sqrt(fmax(sum, 0.0));
+        gain_shared[k] = sqrt(fmax(gain_shared[k], 0.0));
     }
     arena_close(inner);
 }

@@ -68,13 +68,16 @@ void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struc
                             .a = a,
                             .low = 2.0 * REAL_PI * o->low,
                             .high = 2.0 * REAL_PI * o->high,
+                            .typical = {modal_stated[0], modal_stated[1]},
                             .tolerance = 1e-2};
     f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
     for (int k = 0; k < d->stretches; k++) {
         open_bins(f, &d->stretch[k], &f->bins[k]);
+        if (d->stretch[k].fitted && d->stretch[k].strike >= 0) f->strikes++;
         if (d->stretch[k].fitted && d->stretch[k].strike >= 0)
             f->longest = fmax(f->longest, (double)d->stretch[k].n / d->rate);
     }
+    f->most = o->most + o->most / 4 + 10;
     f->slowest = 0.02 / f->longest;
     f->fastest = o->fastest;
     modal_fit_rest(f);
@@ -140,13 +143,13 @@ static void smooth_power(const double *re, const double *im, long n, long half, 
     arena_close(a);
 }
 
-/* rest - F (c0 + c1 u + c2 u^2), c by least squares on every PATCH bins: what goes straight from the force to the
+/* rest - F (c0 + c1 u + c2 u^2), c by least squares on every `patch` bins: what goes straight from the force to the
  * sound, and the skirts of modes that are far away. */
-static void take_smooth_off(struct modal_bins *b)
+static void take_smooth_off(struct modal_bins *b, long patch)
 {
     enum { TERMS = 3 };
-    for (long from = 0; from < b->n; from += PATCH) {
-        long n = from + 2 * PATCH <= b->n ? PATCH : b->n - from;
+    for (long from = 0; from < b->n; from += patch) {
+        long n = from + 2 * patch <= b->n ? patch : b->n - from;
         double a[(TERMS + 2) * (TERMS + 2)] = {0}, scale[TERMS];
         bool swept[TERMS];
         enum { N = TERMS + 2 };
@@ -174,7 +177,7 @@ static void take_smooth_off(struct modal_bins *b)
             b->nr[k] = b->rr[k] - (b->fr[k] * re - b->fi[k] * im);
             b->ni[k] = b->ri[k] - (b->fr[k] * im + b->fi[k] * re);
         }
-        if (n > PATCH) break;
+        if (n > patch) break;
     }
 }
 
@@ -182,7 +185,8 @@ void modal_fit_noise(struct modal_fit *f, double width)
 {
     for (int s = 0; s < f->data->stretches; s++) {
         struct modal_bins *b = &f->bins[s];
-        take_smooth_off(b);
+        long patch = (long)(4.0 * 2.0 * REAL_PI * width / b->width); /* what is as wide as a band stays */
+        take_smooth_off(b, patch > PATCH ? patch : PATCH);
         long half = (long)(0.5 * 2.0 * REAL_PI * width / (b->width * GROUP));
         smooth_power(b->nr, b->ni, b->n, half > 25 ? half : 25, b->variance);
         for (long k = 0; k < b->n; k++)
@@ -213,10 +217,9 @@ static void floors_of_leads(struct modal_fit *f)
 /* ------------------------------------------------------------------ a mode on the bins */
 
 /* H - G of the pole s, and their derivative. */
-static void carried(const struct modal_stretch *s, double rate, cplx pole, bool hum, cplx *value, cplx *slope)
+static void carried(const struct modal_stretch *s, double rate, cplx pole, cplx *value, cplx *slope)
 {
-    static const double one = 1.0;
-    const struct modal_pulse start = {0, 1, &one}, *q = hum ? &start : &s->pulse;
+    const struct modal_pulse *q = &s->pulse;
     const cplx p = cplx_exp(pole, 1.0 / rate);
     *value = *slope = (cplx){0};
     for (int end = 0; end < 2; end++) { /* what is brought in, less what is carried out */
@@ -237,14 +240,14 @@ static void carried(const struct modal_stretch *s, double rate, cplx pole, bool 
     }
 }
 
-struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s, bool hum)
+struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s)
 {
     const struct modal_stretch *st = &f->data->stretch[stretch];
     double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
     cplx value, slope, p = cplx_exp(s, 1.0 / rate);
-    carried(st, rate, s, hum, &value, &slope);
-    return (struct modal_line){
-        p.re, p.im, size * value.re, size * value.im, size * slope.re, size * slope.im, 1.0 / rate, hum ? 0.0 : 1.0};
+    carried(st, rate, s, &value, &slope);
+    return (struct modal_line){p.re,       p.im, size * value.re, size * value.im, size * slope.re, size * slope.im,
+                               1.0 / rate, 1.0};
 }
 
 LANES_CLONES
@@ -333,10 +336,9 @@ static void states(const struct modal_fit *f, int i, cplx *state)
     const struct modal_data *d = f->data;
     state[0] = (cplx){0};
     for (int s = 0; s + 1 < d->stretches; s++) {
-        cplx grown, force = forced(f, &d->stretch[s], f->s[i], &grown);
-        state[s + 1] = rings_on(
-            f, s, f->s[i],
-            cplx_add(cplx_mul(state[s], grown), cplx_mul(f->gain[i * d->groups + d->stretch[s].group], force)));
+        const struct modal_part *p = &f->part[i * d->groups + d->stretch[s].group];
+        cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
+        state[s + 1] = rings_on(f, s, p->pole, cplx_add(cplx_mul(state[s], grown), cplx_mul(p->gain, force)));
     }
 }
 
@@ -346,49 +348,64 @@ void modal_fit_put(struct modal_fit *f, int i, double sign)
     cplx state[MODAL_STRETCHES];
     states(f, i, state);
     for (int s = 0; s < d->stretches; s++) {
-        cplx gain = f->gain[i * d->groups + d->stretch[s].group];
-        struct modal_line line = modal_fit_line(f, s, f->s[i], f->hum[i]);
-        if (cplx_square(gain) > 0.0) add_line(&f->bins[s], &line, cplx_scale(sign, gain));
-        if (!f->hum[i] && d->stretch[s].strike >= 0 && cplx_square(state[s]) > 1e-24 * cplx_square(gain))
-            add_ringing(f, s, f->s[i], state[s], sign);
+        const struct modal_part *p = &f->part[i * d->groups + d->stretch[s].group];
+        struct modal_line line = modal_fit_line(f, s, p->pole);
+        if (cplx_square(p->gain) > 0.0) add_line(&f->bins[s], &line, cplx_scale(sign, p->gain));
+        if (d->stretch[s].strike >= 0 && cplx_square(state[s]) > 1e-24 * cplx_square(p->gain))
+            add_ringing(f, s, p->pole, state[s], sign);
     }
 }
 
 /* The gain with which strike s would make what rings on at its pulse from the state at the stretch's first sample; 0
    where the force hardly drives the pole. In a mode's window the two are alike. */
-static cplx ringing_gain(const struct modal_fit *f, int i, int s, cplx state)
+static cplx ringing_gain(const struct modal_fit *f, int s, cplx pole, cplx state)
 {
     static const double blind = 1e-3; /* of the pulse's momentum */
     const struct modal_stretch *st = &f->data->stretch[s];
-    cplx grown, force = forced(f, st, f->s[i], &grown);
+    cplx grown, force = forced(f, st, pole, &grown);
     double momentum = 0.0;
     for (long k = 0; k < st->pulse.n; k++)
         momentum += fabs(st->pulse.f[k]);
-    return !f->hum[i] && st->strike >= 0 && cplx_abs(force) > blind * momentum ? cplx_div(cplx_mul(state, grown), force)
-                                                                               : (cplx){0};
+    return st->strike >= 0 && cplx_abs(force) > blind * momentum ? cplx_div(cplx_mul(state, grown), force) : (cplx){0};
 }
 
-void modal_fit_totals(const struct modal_fit *f, int i, cplx *total)
+void modal_fit_sizes(const struct modal_fit *f, int i, double *size)
 {
     const struct modal_data *d = f->data;
     cplx state[MODAL_STRETCHES];
     states(f, i, state);
-    memcpy(total, f->gain + i * d->groups, (size_t)d->groups * sizeof *total);
-    for (int s = 0; s < d->stretches; s++)
-        total[d->stretch[s].group] = cplx_add(total[d->stretch[s].group], ringing_gain(f, i, s, state[s]));
+    for (int s = 0; s < d->stretches; s++) {
+        const struct modal_part *p = &f->part[i * d->groups + d->stretch[s].group];
+        cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
+        size[s] = cplx_abs(cplx_add(cplx_mul(state[s], grown), cplx_mul(p->gain, force)));
+    }
 }
 
-void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const cplx *total)
+void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total)
 {
     const struct modal_data *d = f->data;
-    cplx state = {0}, *mine = f->gain + i * d->groups;
+    cplx state[MODAL_STRETCHES];
+    states(f, i, state);
+    memcpy(total, f->part + i * d->groups, (size_t)d->groups * sizeof *total);
+    for (int s = 0; s < d->stretches; s++) {
+        struct modal_part *p = &total[d->stretch[s].group];
+        p->gain = cplx_add(p->gain, ringing_gain(f, s, p->pole, state[s]));
+    }
+}
+
+void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total)
+{
+    const struct modal_data *d = f->data;
+    struct modal_part *mine = f->part + i * d->groups;
+    cplx state = {0};
     modal_fit_put(f, i, 1.0);
-    f->s[i] = pole;
+    f->c[i].s = pole;
     memcpy(mine, total, (size_t)d->groups * sizeof *total);
-    for (int s = 0; s < d->stretches && !f->hum[i]; s++) {
-        cplx grown, force = forced(f, &d->stretch[s], pole, &grown), *at = mine + d->stretch[s].group;
-        *at = cplx_sub(*at, ringing_gain(f, i, s, state));
-        state = rings_on(f, s, pole, cplx_add(cplx_mul(state, grown), cplx_mul(*at, force)));
+    for (int s = 0; s < d->stretches; s++) {
+        struct modal_part *p = &mine[d->stretch[s].group];
+        cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
+        p->gain = cplx_sub(p->gain, ringing_gain(f, s, p->pole, state));
+        state = rings_on(f, s, p->pole, cplx_add(cplx_mul(state, grown), cplx_mul(p->gain, force)));
     }
     modal_fit_put(f, i, -1.0);
 }
@@ -403,40 +420,28 @@ void modal_fit_rest(struct modal_fit *f)
         modal_fit_put(f, i, -1.0);
 }
 
-void modal_fit_add(struct modal_fit *f, cplx s, const cplx *gain, bool hum)
+void modal_fit_add(struct modal_fit *f, cplx s, const struct modal_part *part)
 {
-    int groups = f->data->groups, room = f->room ? 2 * f->room : 64;
-    if (f->m == f->room) {
-        cplx *poles = ARENA_TAKE(f->a, cplx, room), *gains = ARENA_TAKE(f->a, cplx, room * groups);
-        bool *hums = ARENA_TAKE(f->a, bool, room);
-        double *moved = ARENA_TAKE(f->a, double, room);
-        for (int i = 0; i < f->m; i++) {
-            poles[i] = f->s[i];
-            hums[i] = f->hum[i];
-            moved[i] = f->moved[i];
-            memcpy(gains + i * groups, f->gain + i * groups, (size_t)groups * sizeof *gains);
-        }
-        f->s = poles;
-        f->gain = gains;
-        f->hum = hums;
-        f->moved = moved;
-        f->room = room;
+    int groups = f->data->groups, i = f->m++;
+    if (i == f->room) {
+        const struct modal_component *c = f->c;
+        const struct modal_part *parts = f->part;
+        f->room = i ? 2 * i : 64;
+        f->c = ARENA_TAKE(f->a, struct modal_component, f->room);
+        f->part = ARENA_TAKE(f->a, struct modal_part, f->room * groups);
+        if (i) memcpy(f->c, c, (size_t)i * sizeof *c);
+        if (i) memcpy(f->part, parts, (size_t)(i * groups) * sizeof *parts);
     }
-    f->s[f->m] = s;
-    f->hum[f->m] = hum;
-    f->moved[f->m] = 1e9;
-    memset(f->gain + f->m * groups, 0, (size_t)groups * sizeof *gain);
-    modal_fit_replace(f, f->m++, s, gain);
+    f->c[i] = (struct modal_component){s, false, {f->typical[0], f->typical[1]}, 1e9};
+    for (int g = 0; g < groups; g++)
+        f->part[i * groups + g] = (struct modal_part){{0}, s};
+    if (part) modal_fit_replace(f, i, s, part);
 }
 
 void modal_fit_drop(struct modal_fit *f, int i)
 {
-    int groups = f->data->groups;
+    int groups = f->data->groups, after = --f->m - i;
     modal_fit_put(f, i, 1.0);
-    for (f->m--; i < f->m; i++) {
-        f->s[i] = f->s[i + 1];
-        f->hum[i] = f->hum[i + 1];
-        f->moved[i] = f->moved[i + 1];
-        memcpy(f->gain + i * groups, f->gain + (i + 1) * groups, (size_t)groups * sizeof *f->gain);
-    }
+    memmove(f->c + i, f->c + i + 1, (size_t)after * sizeof *f->c);
+    memmove(f->part + i * groups, f->part + (i + 1) * groups, (size_t)(after * groups) * sizeof *f->part);
 }

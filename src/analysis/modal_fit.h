@@ -7,10 +7,11 @@
 
    exactly, since e^(-jw(b-a)) = 1 there: no window, no truncation, no decimation. White noise stays independent from
    bin to bin, a band of frequencies is a range of bins, and where the force holds nothing neither does X. Each strike's
-   stretch has gains of its own, poles are those of all: no hand strikes twice on one point with one delay. What rings
-   on from earlier strikes of a place is a state at the stretch's first sample, of their gains. Where no force is known
-   a stretch begins after its strike and f is a unit impulse at its first sample. A hum is driven by a unit impulse at
-   the recording's first sample, so that it is brought into every stretch.
+   stretch has gains of its own: no hand strikes twice on one point with one delay. Its poles are those of all within
+   what strikes differ by, as an object rests anew each time: a random effect, normal in omega/omega and log d, of a
+   spread that all modes share and that is 0 unless the strikes show one. What rings on from earlier strikes of a place
+   is a state at the stretch's first sample, of their gains. Where no force is known
+   a stretch begins after its strike and f is a unit impulse at its first sample.
 
    In a window of bins what modes outside it leave there, and what goes straight from the force to the sound, is smooth
    in frequency but for F: F(w) (c0 + c1 u + c2 u^2), u from -1 to 1 over the window (a local polynomial, as of the
@@ -31,6 +32,12 @@ enum {
     MODAL_COLUMNS = 4 * MODAL_BLOCK + MODAL_SMOOTH + 1
 };
 
+struct modal_normal { /* normal equations of the poles (omega, log d), gains and what is smooth projected out */
+    bool used;
+    double a[2 * MODAL_BLOCK * 2 * MODAL_BLOCK], right[2 * MODAL_BLOCK];
+    double scale[2 * MODAL_BLOCK]; /* the columns' squares before that: what is less than 1e-10 of them is rounding */
+};
+
 struct modal_bins { /* of one stretch: its DFT over sqrt(n), bins first ... first + n - 1 */
     long first, n;
     double width;     /* rad/s from bin to bin */
@@ -45,7 +52,18 @@ struct modal_bins { /* of one stretch: its DFT over sqrt(n), bins first ... firs
 };
 
 struct modal_line {
-    double pr, pi, gr, gi, dr, di, t, force; /* t: 1/rate; force 1, of a hum 0 */
+    double pr, pi, gr, gi, dr, di, t, force; /* t: 1/rate; force 1, of what rings on 0 */
+};
+
+struct modal_component {
+    cplx s;           /* the pole that strikes share */
+    bool hum;         /* does not decay, and is no mode */
+    double spread[2]; /* standard deviations of strikes' own poles: of omega/omega, of log d */
+    double moved;     /* how far the pole went since its neighbours were last fitted, in its standard errors */
+};
+
+struct modal_part { /* of a component in the stretches of one group */
+    cplx gain, pole;
 };
 
 struct modal_fit {
@@ -55,12 +73,13 @@ struct modal_fit {
     double low, high;        /* rad/s */
     double slowest, fastest; /* 1/s, bounds of a decay */
     double longest;          /* s, of the longest stretch */
+    int most;                /* components: the weakest may be none, or leave in the end */
+    int strikes;             /* that are fitted */
     struct modal_bins *bins; /* [stretches] */
     int m, room;
-    cplx *s;          /* [room] poles */
-    cplx *gain;       /* [room][groups] B */
-    bool *hum;        /* [room] */
-    double *moved;    /* [room] how far a pole went since its neighbours were last fitted, in its standard errors */
+    struct modal_component *c; /* [room] */
+    struct modal_part *part;   /* [room][groups] */
+    double typical[2];         /* spread of a component that is new */
     double tolerance; /* squared standard errors of all poles of a block together that a polish may stop within: 1e-2
                          while modes are looked for, 1e-4 at the end */
 };
@@ -72,18 +91,18 @@ struct modal_block {
     int m;
     int of[MODAL_BLOCK]; /* components of the fit; -1: new */
     cplx s[MODAL_BLOCK];
-    bool hum[MODAL_BLOCK];
-    cplx *gain;            /* [MODAL_BLOCK][groups] */
-    double centre, half;   /* rad/s of the window */
-    long *from, *to;       /* [stretches] bins of it, counted from bins.first */
-    double **r;            /* [stretches][2 (to - from)]: real parts, then imaginary ones */
-    const bool *stretches; /* [stretches] those that count; NULL: all that are fitted */
-    double fastest;        /* 1/s */
-    double chi;            /* squares left, in units of the variance per real number */
-    long dof;
-    double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK],
-        right[2 * MODAL_BLOCK];    /* of the poles (omega, log d), gains projected out */
-    double scale[2 * MODAL_BLOCK]; /* the columns' squares before that: what is less than 1e-10 of them is rounding */
+    double spread[MODAL_BLOCK][2];
+    struct modal_part *part; /* [MODAL_BLOCK][groups] */
+    double centre, half;     /* rad/s of the window */
+    long *from, *to;         /* [stretches] bins of it, counted from bins.first */
+    double **r;              /* [stretches][2 (to - from)]: real parts, then imaginary ones */
+    const bool *stretches;   /* [stretches] those that count; NULL: all that are fitted */
+    double fastest;          /* 1/s */
+    double chi; /* -2 log likelihood: sum of degrees log noise, and the squares of strikes' poles off the shared ones */
+    double *noise;   /* [groups] what a strike's window leaves, over the variance: its noise, and what is no mode */
+    double *degrees; /* [groups] of freedom, of the block as it was opened */
+    double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK]; /* of the shared poles (omega, log d), all others projected out */
+    struct modal_normal *each;                        /* [groups] of the strikes' own poles */
     struct arena *a;
 };
 
@@ -91,33 +110,36 @@ struct modal_block {
 void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a);
 void modal_fit_noise(struct modal_fit *f,
                      double width); /* variance: a running median over that many Hz of what is left */
-void modal_fit_add(struct modal_fit *f, cplx s, const cplx *gain, bool hum);
+void modal_fit_add(struct modal_fit *f, cplx s, const struct modal_part *part); /* part NULL: no gains */
 void modal_fit_drop(struct modal_fit *f, int i);
 /* What a block fits: gains with what rings on from earlier strikes of the place, as if the strike had made it. Of a
    weak strike after a loud one most of what is heard rings on: a pole fitted to the strike's own part alone would
    overshoot by their ratio. */
-void modal_fit_totals(const struct modal_fit *f, int i, cplx *total);
-void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const cplx *total);
-void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (component i) */
-void modal_fit_rest(struct modal_fit *f);                    /* rest anew */
+void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total);
+void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total);
+void modal_fit_sizes(const struct modal_fit *f, int i, double *size); /* [stretches] |x B| at their pulses' ends */
+void modal_fit_put(struct modal_fit *f, int i, double sign);          /* rest += sign (component i) */
+void modal_fit_rest(struct modal_fit *f);                             /* rest anew */
 /* What X of a pole needs on a stretch's bins: p, H - G and its derivative over sqrt(n). */
-struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s, bool hum);
+struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s);
 /* X, dX/ds and the same of the mirror pole at bins [from, to): x[0 ... 7][to - from], re and im each. */
 void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long to, double *const x[8]);
 
 /* modal_block.c */
 void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
                       int extras, const bool *stretches, struct arena *a);
-void modal_block_gains(struct modal_block *b); /* gains of its poles, chi, dof */
+void modal_block_gains(struct modal_block *b); /* gains of its poles, noise, chi */
 void modal_block_worth(
     struct modal_block *b,
     double *worth); /* the same; worth[m]: by how much chi rises without each, its poles and the others' as they are */
 void modal_block_drop(struct modal_block *b, int i);
 bool modal_block_polish(struct modal_block *b,
-                        int steps);                    /* poles and gains; true: converged to 0.01 standard errors */
-double modal_block_noise(const struct modal_block *b); /* chi/dof, no less than 1e-300 */
-void modal_block_errors(struct modal_block *b, int i, double se[2],
-                        double *gain_se); /* of omega, log d, |gain| of each group */
+                        int steps); /* poles and gains; true: converged to 0.01 standard errors */
+/* Standard errors of omega and log d, and of each group's |gain|: of its own, and by the poles that strikes share. */
+void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se, double *gain_shared);
+/* How far pole i of each strike is from the shared one by the strike alone (q 0: omega/omega, 1: log d), and the
+ * variance of that; returns how many strikes there are. */
+int modal_block_apart(struct modal_block *b, int i, int q, double *by, double *variance);
 int modal_block_sweep(double *a, int n, int from, int to, const double *scale, bool *swept);
 
 /* modal_settle.c */
@@ -127,15 +149,17 @@ double modal_settle_refine(struct modal_fit *f, int n, const int *of,
                            int steps); /* fits them anew, the greatest move in standard errors */
 double modal_settle_sweeps(struct modal_fit *f, int most, int rounds);
 double modal_settle_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
-double modal_settle_noise(const struct modal_fit *f, cplx s); /* chi/dof in the window of a pole */
 void modal_settle_eliminate(struct modal_fit *f, double limit);
 void modal_settle(struct modal_fit *f);
 int modal_settle_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
 double modal_settle_limit(const struct modal_fit *f,
                           double chi4); /* of chi squared of 2 + 2 groups degrees, as likely as chi4 of four */
 
+/* modal_spread.c */
+extern const double modal_stated[2]; /* spreads before they are measured, and where one strike is all */
+void modal_spread(struct modal_fit *f);
+
 /* modal_search.c */
-void modal_search_hums(struct modal_fit *f);
 void modal_spectrogram(struct modal_fit *f);
 double modal_search_round(struct modal_fit *f, double *noise); /* the greatest power of a bin that is left, and the
                                                                   least noise; over the lead's, if there is one */

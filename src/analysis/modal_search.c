@@ -1,6 +1,5 @@
 /* Modes that are not in a fit yet: sub-band ESPRIT (Roy, Kailath 1989) on what it leaves, each band's poles polished
-   together on the band's own bins with the smooth columns, and tested before they come in. Hums are lines of the
-   recording before the first strike. */
+   together on the band's own bins with the smooth columns, and tested before they come in. */
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
 #include <stdlib.h>
@@ -9,10 +8,18 @@
 #include "analysis/modal_fit.h"
 #include "num/fft.h"
 
-enum { SAMPLES = 128, ROWS = 40, ORDER = 12, EDGE = 3, ITERATIONS = 60, HUMS = 40, NEIGHBOURS = MODAL_BLOCK - ORDER };
+enum {
+    SAMPLES = 128,
+    ROWS = 40,
+    ORDER = 12,
+    EDGE = 3,
+    ITERATIONS = 60,
 
-static const double enter = 38.0;  /* chi squared of 4 degrees, chance 1.1e-7 */
-static const double stands = 25.0; /* power of a bin of a lead over its noise: chance 1e-11 */
+    WEAKEST = 3,
+    NEIGHBOURS = 8
+};
+
+static const double enter = 38.0; /* chi squared of 4 degrees, chance 1.1e-7 */
 
 /* ------------------------------------------------------------------ bands */
 
@@ -253,7 +260,7 @@ double modal_search_round(struct modal_fit *f, double *noise)
 }
 
 /* The greatest power that a component has in any bin, over the lead's. */
-static double power_of(const struct modal_fit *f, cplx s, const cplx *gain)
+static double power_of(const struct modal_fit *f, cplx s, const struct modal_part *part)
 {
     double most = 0.0, room[8][1], *x[8];
     for (int c = 0; c < 8; c++)
@@ -262,9 +269,9 @@ static double power_of(const struct modal_fit *f, cplx s, const cplx *gain)
         const struct modal_bins *b = &f->bins[k];
         long at = (long)rint(s.im / b->width) - b->first;
         if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0 || at < 0 || at >= b->n) continue;
-        struct modal_line line = modal_fit_line(f, k, s, false);
+        struct modal_line line = modal_fit_line(f, k, s);
         modal_fit_basis(b, &line, at, at + 1, x);
-        most = fmax(most, 0.25 * cplx_square(gain[f->data->stretch[k].group]) *
+        most = fmax(most, 0.25 * cplx_square(part[f->data->stretch[k].group].gain) *
                               (x[0][0] * x[0][0] + x[1][0] * x[1][0]) / b->scale[at]);
     }
     return most;
@@ -297,36 +304,44 @@ static void rough_only(struct modal_block *b, double limit, double least)
         int weakest = -1, m = b->m;
         modal_block_worth(b, worth);
         for (int i = b->m - 1; i >= 0; i--)
-            if (b->of[i] < 0 && power_of(b->fit, b->s[i], b->gain + i * b->fit->data->groups) < 0.25 * least) {
+            if (b->of[i] < 0 && power_of(b->fit, b->s[i], b->part + i * b->fit->data->groups) < 0.25 * least) {
                 modal_block_drop(b, i);
                 memmove(worth + i, worth + i + 1, (size_t)(b->m - i) * sizeof *worth);
             }
         for (int i = 0; i < b->m; i++)
             weakest = b->of[i] < 0 && (weakest < 0 || worth[i] < worth[weakest]) ? i : weakest;
         again = b->m < m;
-        if (!again && weakest >= 0 && worth[weakest] < limit * modal_block_noise(b)) {
+        if (!again && weakest >= 0 && worth[weakest] < limit) {
             modal_block_drop(b, weakest);
             again = true;
         }
     }
 }
 
-/* Drops the component without which chi rises least, the others fitted anew, until all are needed. */
+/* Drops that of the weakest components without which chi rises least, the others fitted anew, until all are needed. */
 static void needed_only(struct modal_block *b, double limit)
 {
     int groups = b->fit->data->groups;
     struct arena *a = arena_open();
     struct modal_block *try = ARENA_TAKE(a, struct modal_block, 1), *best = ARENA_TAKE(a, struct modal_block, 1);
-    cplx *room[2] = {ARENA_TAKE(a, cplx, MODAL_BLOCK * groups), ARENA_TAKE(a, cplx, MODAL_BLOCK * groups)};
+    struct modal_part *room[2] = {ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * groups),
+                                  ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * groups)};
+    struct modal_normal *each = ARENA_TAKE(a, struct modal_normal, groups);
+    double *noise = ARENA_TAKE(a, double, groups);
     double worth[MODAL_BLOCK];
     while (b->m > 0) {
-        double least = HUGE_VAL, noise = modal_block_noise(b);
+        double least = HUGE_VAL;
         modal_block_worth(b, worth);
         for (int i = 0; i < b->m; i++) {
-            if (b->of[i] >= 0 || worth[i] > 100.0 * limit * noise) continue;
+            int less = 0;
+            for (int k = 0; k < b->m; k++)
+                less += b->of[k] < 0 && worth[k] < worth[i];
+            if (b->of[i] >= 0 || worth[i] > 100.0 * limit || less >= WEAKEST) continue;
             *try = *b;
-            try->gain = room[0];
-            memcpy(try->gain, b->gain, (size_t)(MODAL_BLOCK * groups) * sizeof *b->gain);
+            try->part = room[0];
+            try->each = each;
+            try->noise = noise;
+            memcpy(try->part, b->part, (size_t)(MODAL_BLOCK * groups) * sizeof *b->part);
             modal_block_drop(try, i);
             modal_block_polish(try, try->m ? 3 : 0);
             if (try->chi < least) {
@@ -335,13 +350,12 @@ static void needed_only(struct modal_block *b, double limit)
                 *best = *try;
             }
         }
-        if (least - b->chi >= limit * noise) break;
-        memcpy(b->gain, room[1], (size_t)(MODAL_BLOCK * groups) * sizeof *room[1]);
+        if (least - b->chi >= limit) break;
+        memcpy(b->part, room[1], (size_t)(MODAL_BLOCK * groups) * sizeof *room[1]);
         memcpy(b->s, best->s, sizeof b->s);
         memcpy(b->of, best->of, sizeof b->of);
-        memcpy(b->hum, best->hum, sizeof b->hum);
+        memcpy(b->spread, best->spread, sizeof b->spread);
         b->m = best->m;
-        b->dof = best->dof;
         modal_block_polish(b, 5);
     }
     arena_close(a);
@@ -360,7 +374,7 @@ static bool accepted(const struct modal_block *b, int i, double low, double high
     const struct modal_fit *f = b->fit;
     return b->of[i] < 0 && b->s[i].im >= low && b->s[i].im < high && b->s[i].im > f->low && b->s[i].im < f->high &&
            -b->s[i].re < 0.99 * fmin(f->fastest, high - low) &&
-           power_of(f, b->s[i], b->gain + i * f->data->groups) >= least;
+           power_of(f, b->s[i], b->part + i * f->data->groups) >= least;
 }
 
 /* Poles of one band: polished together and with the modes that are there already, tested, added where they lie in its
@@ -369,14 +383,20 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
 {
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    int came = 0, there = 0, of[NEIGHBOURS], groups = f->data->groups;
-    double quarter = 0.25 * (high - low);
-    for (int i = 0; i < f->m && there < NEIGHBOURS; i++)
-        if (f->s[i].im > low - quarter && f->s[i].im < high + quarter) of[there++] = i;
+    int came = 0, there = 0, of[NEIGHBOURS + 1], groups = f->data->groups;
+    double quarter = 0.25 * (high - low), at = 0.5 * (low + high);
+    for (int i = 0; i < f->m; i++) { /* the nearest to the band's middle */
+        int k = there;
+        if (f->c[i].s.im <= low - quarter || f->c[i].s.im >= high + quarter) continue;
+        for (; k > 0 && fabs(f->c[of[k - 1]].s.im - at) > fabs(f->c[i].s.im - at); k--)
+            of[k] = of[k - 1];
+        of[k] = i;
+        there += there < NEIGHBOURS;
+    }
     modal_block_open(b, f, there, of, pole, n, NULL, a);
     b->fastest = fmin(f->fastest, high - low);
     for (int i = 0; i < there; i++) /* those that are there may be faster than the band lets new ones be */
-        b->fastest = fmax(b->fastest, -f->s[of[i]].re);
+        b->fastest = fmax(b->fastest, -f->c[of[i]].s.re);
     rough_only(b, 0.3 * limit, least);
     if (new_ones(b)) modal_block_polish(b, 8);
     rough_only(b, 0.3 * limit, least);
@@ -385,10 +405,10 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
         came += accepted(b, i, low, high, least);
     for (int i = 0; i < b->m && came; i++) {
         if (b->of[i] >= 0) {
-            modal_fit_replace(f, b->of[i], b->s[i], b->gain + i * groups);
-            f->moved[b->of[i]] = 1.0;
+            modal_fit_replace(f, b->of[i], b->s[i], b->part + i * groups);
+            f->c[b->of[i]].moved = 1.0;
         } else if (accepted(b, i, low, high, least)) {
-            modal_fit_add(f, b->s[i], b->gain + i * groups, false);
+            modal_fit_add(f, b->s[i], b->part + i * groups);
         }
     }
     arena_close(a);
@@ -440,7 +460,7 @@ static int fit_in(struct modal_fit *f, int from)
 {
     for (int i = from; i < f->m; i++) {
         int of[MODAL_BLOCK], near = modal_settle_near(f, i, 8, of);
-        if (f->moved[i] > 1.0) modal_settle_refine(f, near, of, 5);
+        if (f->c[i].moved > 1.0) modal_settle_refine(f, near, of, 5);
     }
     int m = f->m;
     return m - from - modal_settle_runaways(f);
@@ -452,7 +472,7 @@ int modal_search(struct modal_fit *f, double width, double least)
     struct arena *a = arena_open();
     struct residual r;
     cplx(*y)[SAMPLES] = arena_take(a, (size_t)d->stretches, sizeof *y);
-    int bands = 0, came = 0, most = f->options->most + 10;
+    int bands = 0, came = 0;
     double limit = modal_settle_limit(f, enter);
     modal_fit_noise(f, 8.0 * width);
     residual_make(f, a, &r);
@@ -470,7 +490,7 @@ int modal_search(struct modal_fit *f, double width, double least)
         bands += band[bands].power > 0.0 && band[bands].power >= least;
     }
     qsort(band, (size_t)bands, sizeof *band, stronger);
-    for (int k = 0; k < bands && f->m < most; k++) {
+    for (int k = 0; k < bands && f->m < f->most; k++) {
         double at = (double)band[k].centre * bin, power = stands_out(f, at - quarter, at + quarter);
         cplx pole[ORDER];
         int poles = power > 0.0 && power >= least ? candidates(f, &r, band[k].centre, wide, turn, y, pole) : 0,
@@ -479,85 +499,4 @@ int modal_search(struct modal_fit *f, double width, double least)
     }
     arena_close(a);
     return came;
-}
-
-/* ------------------------------------------------------------------ hums */
-
-/* Power of bin k over the median of the ten bins to each side, but for the nearest two: rumble is no line. */
-static double sharpness(const struct modal_bins *b, long k)
-{
-    double list[20];
-    int n = 0;
-    for (long i = k - 12; i <= k + 12; i++)
-        if (i >= 0 && i < b->n && labs(i - k) > 2) list[n++] = b->rr[i] * b->rr[i] + b->ri[i] * b->ri[i];
-    qsort(list, (size_t)n, sizeof *list, rising);
-    return n ? 0.69 * (b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k]) / fmax(list[n / 2], 1e-300) : 0.0;
-}
-
-/* The strongest line of the leads that is no component yet and none of known[n], rad/s, and the width of its bins; 0:
- * there is none. */
-static double line_of_leads(const struct modal_fit *f, const double *known, int n, double *width)
-{
-    double most = stands, found = 0.0;
-    for (int s = 0; s < f->data->stretches; s++) {
-        const struct modal_bins *b = &f->bins[s];
-        for (long k = 1; k + 1 < b->n && f->data->stretch[s].strike < 0; k++) {
-            double q = fmin(sharpness(b, k), (b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k]) / b->variance[k]),
-                   omega = (double)(b->first + k) * b->width;
-            bool old = false;
-            for (int i = 0; i < n && q > most; i++)
-                old = old || fabs(known[i] - omega) < 3.5 * b->width;
-            if (q <= most || old) continue;
-            double left = cplx_abs((cplx){b->rr[k - 1], b->ri[k - 1]}),
-                   right = cplx_abs((cplx){b->rr[k + 1], b->ri[k + 1]}), size = cplx_abs((cplx){b->rr[k], b->ri[k]});
-            most = q;
-            *width = b->width; /* between two bins, their sizes are as the distances to the other */
-            found = omega + b->width * (right > left ? right / (right + size) : -left / (left + size));
-        }
-    }
-    return found;
-}
-
-/* Is a line as loud in the leads as in the strikes, within 6 dB? What a strike makes louder is a mode, which rings from
- * before the recording. */
-static bool lasts(const struct modal_fit *f, const cplx *gain)
-{
-    double lead = 0.0, *strike = ARENA_TAKE(f->a, double, f->data->groups);
-    int strikes = 0;
-    for (int s = 0; s < f->data->stretches; s++) {
-        double size = cplx_abs(gain[f->data->stretch[s].group]);
-        if (f->data->stretch[s].strike < 0)
-            lead = fmax(lead, size);
-        else if (f->data->stretch[s].fitted)
-            strike[strikes++] = size;
-    }
-    qsort(strike, (size_t)strikes, sizeof *strike, rising);
-    return strikes && strike[strikes / 2] < 2.0 * lead;
-}
-
-/* Their frequencies are those of the leads, where nothing else is; they have gains in every stretch. */
-void modal_search_hums(struct modal_fit *f)
-{
-    struct arena *a = arena_open();
-    bool *leads = ARENA_TAKE(a, bool, f->data->stretches);
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    cplx *none = ARENA_TAKE(a, cplx, f->data->groups);
-    double omega, width = 0.0, known[HUMS];
-    for (int s = 0; s < f->data->stretches; s++)
-        leads[s] = f->data->stretch[s].strike < 0;
-    for (int n = 0; n < HUMS && (omega = line_of_leads(f, known, n, &width)) > f->low && omega < f->high; n++) {
-        int i = f->m;
-        modal_fit_add(f, (cplx){-1e-4 / f->longest, omega}, none, true);
-        modal_block_open(b, f, 1, &i, NULL, 0, leads, a);
-        modal_block_polish(b, 10);
-        known[n] = f->s[i].im = fabs(b->s[0].im - omega) < width ? b->s[0].im : omega;
-        modal_block_open(b, f, 1, &i, NULL, 0, NULL, a);
-        modal_block_gains(b);
-        if (lasts(f, b->gain))
-            modal_fit_replace(f, i, f->s[i], b->gain);
-        else
-            modal_fit_drop(f, i);
-        modal_fit_noise(f, 0.0);
-    }
-    arena_close(a);
 }

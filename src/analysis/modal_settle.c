@@ -12,11 +12,11 @@ static const double cancels =
     10.0; /* of the recording's energy in a mode's window: a louder mode is one of several that cancel */
 static const double leave = 23.5; /* chi squared of 4 degrees, chance 1e-4 */
 
-static double width_of(const struct modal_fit *f, int i) { return -f->s[i].re + 4.0 * REAL_PI / f->longest; }
+static double width_of(const struct modal_fit *f, int i) { return -f->c[i].s.re + 4.0 * REAL_PI / f->longest; }
 
 static double distance(const struct modal_fit *f, int i, int k)
 {
-    return fabs(f->s[i].im - f->s[k].im) / (width_of(f, i) + width_of(f, k));
+    return fabs(f->c[i].s.im - f->c[k].s.im) / (width_of(f, i) + width_of(f, k));
 }
 
 int modal_settle_near(const struct modal_fit *f, int i, int most, int *of)
@@ -35,7 +35,7 @@ int modal_settle_near(const struct modal_fit *f, int i, int most, int *of)
         of[to] = k;
     }
     for (int a = 1; a < n; a++) /* by frequency: the order of columns is that of the data, not of the search */
-        for (int b = a; b > 0 && f->s[of[b]].im < f->s[of[b - 1]].im; b--) {
+        for (int b = a; b > 0 && f->c[of[b]].s.im < f->c[of[b - 1]].s.im; b--) {
             int swap = of[b];
             of[b] = of[b - 1];
             of[b - 1] = swap;
@@ -51,15 +51,14 @@ double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
     int groups = f->data->groups;
     modal_block_open(b, f, n, of, NULL, 0, NULL, a);
     bool converged = modal_block_polish(b, steps);
-    double noise = modal_block_noise(b);
     for (int i = 0; i < n; i++) {
-        double by[2] = {b->s[i].im - f->s[of[i]].im, real_log(b->s[i].re / f->s[of[i]].re)};
+        double by[2] = {b->s[i].im - f->c[of[i]].s.im, real_log(b->s[i].re / f->c[of[i]].s.re)};
         double square =
             by[0] * by[0] * b->normal[2 * i * (2 * n + 1)] + by[1] * by[1] * b->normal[(2 * i + 1) * (2 * n + 1)];
-        moved[i] = sqrt(square / noise);
+        moved[i] = sqrt(square);
         most = fmax(most, moved[i]);
-        modal_fit_replace(f, of[i], b->s[i], b->gain + i * groups);
-        f->moved[of[i]] = converged ? 0.0 : fmin(moved[i], 1.0);
+        modal_fit_replace(f, of[i], b->s[i], b->part + i * groups);
+        f->c[of[i]].moved = converged ? 0.0 : fmin(moved[i], 1.0);
     }
     for (int k = 0; k < f->m; k++) {
         bool mine = false;
@@ -67,7 +66,7 @@ double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
             mine = mine || of[i] == k;
         for (int i = 0; i < n && !mine; i++) { /* skirts fall with the distance, in power with its square */
             double q = distance(f, of[i], k);
-            f->moved[k] = fmax(f->moved[k], moved[i] / (1.0 + q * q));
+            f->c[k].moved = fmax(f->c[k].moved, moved[i] / (1.0 + q * q));
         }
     }
     arena_close(a);
@@ -88,11 +87,11 @@ double modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
         cplx *order = ARENA_TAKE(a, cplx, f->m + 1); /* index, frequency */
         int of[MODAL_BLOCK];
         for (int i = 0; i < f->m; i++)
-            order[i] = (cplx){(double)i, f->s[i].im};
+            order[i] = (cplx){(double)i, f->c[i].s.im};
         qsort(order, (size_t)f->m, sizeof *order, by_frequency);
         left = 0.0;
         for (int i = 0; i < f->m; i++)
-            if (f->moved[(int)order[i].re] > still) {
+            if (f->c[(int)order[i].re].moved > still) {
                 int n = modal_settle_near(f, (int)order[i].re, most, of);
                 left = fmax(left, modal_settle_refine(f, n, of, 5));
             }
@@ -121,26 +120,6 @@ double modal_settle_limit(const struct modal_fit *f, double chi4)
     return 0.5 * (low + high);
 }
 
-double modal_settle_noise(const struct modal_fit *f, cplx s)
-{
-    double reach = -MODAL_REACH * s.re + 4.0 * MODAL_REACH * REAL_PI / f->longest, sum = 0.0;
-    long rows = 0, inside = 0, used = 0;
-    for (int k = 0; k < f->data->stretches; k++) {
-        const struct modal_bins *b = &f->bins[k];
-        double from = ceil((s.im - reach) / b->width) - (double)b->first,
-               to = floor((s.im + reach) / b->width) - (double)b->first + 1.0;
-        if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0) continue;
-        for (long i = from > 0.0 ? (long)from : 0; i < b->n && (double)i < to; i++) {
-            sum += 2.0 * (b->nr[i] * b->nr[i] + b->ni[i] * b->ni[i]) / b->variance[i];
-            rows += 2;
-        }
-    }
-    for (int i = 0; i < f->m; i++)
-        inside += fabs(f->s[i].im - s.im) < reach;
-    used = inside * (2 + 2 * f->data->groups) + MODAL_SMOOTH * f->data->groups;
-    return fmax(sum / (double)(rows - used > rows / 4 ? rows - used : rows / 4 + 1), 1e-300);
-}
-
 double modal_settle_rise(struct modal_fit *f, int i)
 {
     struct arena *a = arena_open();
@@ -153,7 +132,7 @@ double modal_settle_rise(struct modal_fit *f, int i)
         at++;
     modal_block_drop(b, at);
     modal_block_polish(b, b->m ? 4 : 0);
-    double rise = (b->chi - chi) / fmin(modal_settle_noise(f, f->s[i]), 1e6);
+    double rise = b->chi - chi;
     arena_close(a);
     return rise;
 }
@@ -168,7 +147,7 @@ void modal_settle_eliminate(struct modal_fit *f, double limit)
         int least = -1, near[MODAL_BLOCK];
         for (int i = 0; i < f->m; i++) {
             if (isnan(rise[i])) rise[i] = modal_settle_rise(f, i);
-            if (least < 0 || rise[i] < rise[least] || (rise[i] == rise[least] && f->s[i].im < f->s[least].im))
+            if (least < 0 || rise[i] < rise[least] || (rise[i] == rise[least] && f->c[i].s.im < f->c[least].s.im))
                 least = i;
         }
         if (least < 0 || rise[least] >= limit) break;
@@ -209,9 +188,9 @@ int modal_settle_runaways(struct modal_fit *f)
 {
     int dropped = 0;
     for (int i = 0; i < f->m;)
-        if (!f->hum[i] && (-f->s[i].re > 0.99 * f->fastest || loudness(f, i) > cancels)) {
+        if (-f->c[i].s.re > 0.99 * f->fastest || loudness(f, i) > cancels) {
             for (int k = 0; k < f->m; k++)
-                if (distance(f, i, k) < touches) f->moved[k] = 1.0;
+                if (distance(f, i, k) < touches) f->c[k].moved = 1.0;
             modal_fit_drop(f, i);
             dropped++;
         } else {
@@ -226,7 +205,7 @@ void modal_settle(struct modal_fit *f)
     f->tolerance = 1e-4;
     for (int k = 0, m = -1; k < 4 && m != f->m; k++) {
         for (int i = 0; i < f->m; i++)
-            f->moved[i] = fmax(f->moved[i], 1.0);
+            f->c[i].moved = fmax(f->c[i].moved, 1.0);
         m = f->m;
         do
             modal_settle_sweeps(f, 8, ROUNDS);

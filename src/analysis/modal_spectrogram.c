@@ -183,15 +183,13 @@ static bool peak(const struct spectrogram *s, long m, long k)
 static bool taken(const struct modal_fit *f, double omega, double wide)
 {
     for (int i = 0; i < f->m; i++)
-        if (fabs(f->s[i].im - omega) < wide) return true;
+        if (fabs(f->c[i].s.im - omega) < wide) return true;
     return false;
 }
 
 static void frame_search(const struct spectrogram *s, long m, struct modal_fit *f)
 {
     double bin = 2 * REAL_PI * s->rate / (double)s->size, pole[2];
-    struct arena *a = arena_open();
-    cplx *none = ARENA_TAKE(a, cplx, f->data->groups);
     for (long k = SIDE + 1; k < s->bins - SIDE - 1; k++) {
         struct patch p = {s, m, 0, k};
         if (!peak(s, m, k) || taken(f, bin * (double)k, 2 * bin)) continue;
@@ -199,9 +197,8 @@ static void frame_search(const struct spectrogram *s, long m, struct modal_fit *
             p.frames++;
         if (p.frames >= LEAST && patch_fit(&p, f->options->threshold, pole) && pole[0] < f->fastest &&
             pole[1] > f->low && pole[1] < f->high && !taken(f, pole[1], bin))
-            modal_fit_add(f, (cplx){-pole[0], pole[1]}, none, false);
+            modal_fit_add(f, (cplx){-pole[0], pole[1]}, NULL);
     }
-    arena_close(a);
 }
 
 void modal_spectrogram(struct modal_fit *f)
