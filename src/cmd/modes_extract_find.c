@@ -18,7 +18,9 @@ static const double past = 1e-3;       /* s after a strike without force: the ha
 static const double shortest = 0.01;   /* s of sound that a stretch needs */
 static const double lead_least = 0.05; /* s of silence before the first strike that tell the noise */
 static const double reach = 1e-4;      /* of the force's greatest power: what lies below is noise */
-static const double half = 0.5;        /* of the energy: a table that explains less is none */
+static const double half = 0.5;        /* of a strike's energy: modes that explain less are not its own */
+static const double enough = 0.9;      /* of all strikes' */
+static const double single = 0.7;         /* of a mode's energy in all strikes: less than that is in any of them */
 static const double much = 0.2;        /* of the energy: what follows the force at once is reported */
 static const double fastest =
     0.02; /* of the rate: a decay that is gone in 50 samples is no mode unless one asks for it */
@@ -307,7 +309,7 @@ static void compare(struct modes_extract *x)
 /* ------------------------------------------------------------------ modes of places */
 
 struct strike_gain {
-    double size, se, phase;
+    double size, se, shared, phase; /* shared: of all strikes alike */
 };
 
 /* A of a component in the strikes of a place that are fitted, t from the strike, per N s (without force of a strike
@@ -327,7 +329,8 @@ static int strike_gains(const struct modes_extract *x, const struct modal_mode *
                                                                                                          : x->rate;
         cplx a = cplx_scale(unit, cplx_mul((cplx){m->re[st->group], m->im[st->group]},
                                            cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back)));
-        g[n++] = (struct strike_gain){cplx_abs(a), unit * real_exp(m->decay * back) * m->gain_se[st->group],
+        double scale = unit * real_exp(m->decay * back);
+        g[n++] = (struct strike_gain){cplx_abs(a), scale * m->gain_se[st->group], scale * m->gain_shared[st->group],
                                       real_atan2(a.im, a.re)};
     }
     return n;
@@ -341,7 +344,7 @@ static void place_gain(const struct modes_extract *x, const struct modal_mode *m
     struct arena *a = arena_open();
     struct strike_gain *g = ARENA_TAKE(a, struct strike_gain, p->stretches + 1);
     int n = strike_gains(x, m, p, g), best = 0;
-    double mean = 0.0, apart = 0.0, noise = 0.0, weights = 0.0, size = 0.0;
+    double mean = 0.0, apart = 0.0, noise = 0.0, weights = 0.0, size = 0.0, shared = 0.0;
     for (int i = 0; i < n; i++)
         mean += g[i].size / n;
     for (int i = 0; i < n; i++) {
@@ -354,10 +357,11 @@ static void place_gain(const struct modes_extract *x, const struct modal_mode *m
         double w = 1.0 / (g[i].se * g[i].se + apart);
         weights += w;
         size += w * g[i].size;
+        shared += w * g[i].shared;
     }
     to->re[k] = n ? size / weights * real_cos(g[best].phase) : 0.0;
     to->im[k] = n ? size / weights * real_sin(g[best].phase) : 0.0;
-    to->gain_se[k] = n ? 1.0 / sqrt(weights) : 0.0;
+    to->gain_se[k] = n ? sqrt(1.0 / weights + shared * shared / (weights * weights)) : 0.0;
     arena_close(a);
 }
 
@@ -383,21 +387,27 @@ static int slower(const void *a, const void *b)
     return (m->decay > k->decay) - (m->decay < k->decay);
 }
 
-/* Shares add up to 1 and are none below 0, so that components which cancel do not rule. */
+/* Shares add up to 1 and are none below 0, so that components which cancel do not rule. Between modes it is
+ * interpolated, so that two of equal shares do not change places by chance. */
 static double median_by_energy(const struct modes_extract *x)
 {
     struct modes_extract_mode *m = ARENA_TAKE(x->arena, struct modes_extract_mode, x->components);
-    double left = 0.0;
-    int n = 0, i = 0;
+    double all = 0.0, below = 0.0, at = 0.0, decay = NAN;
+    int n = 0;
     for (int k = 0; k < x->components; k++)
         if (x->heard[k].decay <= slow) {
             m[n++] = x->heard[k];
-            left += 0.5 * x->heard[k].share;
+            all += x->heard[k].share;
         }
     qsort(m, (size_t)n, sizeof *m, slower);
-    while (i < n - 1 && (left -= m[i].share) > 0.0)
-        i++;
-    return n ? m[i].decay : NAN;
+    for (int i = 0; i < n && (i == 0 || at < 0.5 * all); i++) {
+        double last = at, from = decay;
+        at = below + 0.5 * m[i].share;
+        below += m[i].share;
+        decay = m[i].decay;
+        if (i > 0 && at > 0.5 * all) decay = from * real_pow(decay / from, (0.5 * all - last) / (at - last));
+    }
+    return decay;
 }
 
 static void take_modes(struct modes_extract *x)
@@ -430,37 +440,89 @@ static void take_modes(struct modes_extract *x)
     x->median_by_energy = median_by_energy(x);
 }
 
-/* Every strike that was fitted must be explained by half at least, or it is none of this object's. */
+/* Of the modes' own energy in the strikes that are fitted what the strike holds that each is loudest in: the median by
+   shares. Near 1 each mode is heard in one strike alone. */
+static double alone(const struct modes_extract *x, int *strikes)
+{
+    double *part = ARENA_TAKE(x->arena, double, x->found.n), all = 0.0, below = 0.0;
+    for (int i = 0; i < x->found.n; i++) {
+        const struct modal_mode *m = &x->found.mode[i];
+        double most = 0.0, sum = 0.0;
+        *strikes = 0;
+        for (int s = 0; s < x->data.stretches; s++) {
+            const struct modal_stretch *st = &x->data.stretch[s];
+            double power = m->re[st->group] * m->re[st->group] + m->im[st->group] * m->im[st->group];
+            if (!st->fitted || st->strike < 0) continue;
+            most = fmax(most, power);
+            sum += power;
+            ++*strikes;
+        }
+        part[i] = most / sum;
+        all += m->share;
+    }
+    for (double least = 0.0;;) { /* the next greater part, until half of the shares lie below */
+        double next = 2.0;
+        for (int i = 0; i < x->found.n; i++)
+            if (part[i] > least) next = fmin(next, part[i]);
+        for (int i = 0; i < x->found.n; i++)
+            below += part[i] == next ? x->found.mode[i].share : 0.0;
+        if (below >= 0.5 * all || next > 1.0) return next;
+        least = next;
+    }
+}
+
+/* The fit must explain nearly all of what it was made of, and of every strike half at least, or it is none of this
+ * object's. */
 static bool explains(struct modes_extract *x, struct err *e)
 {
-    int worst = -1;
-    double direct = 0.0;
-    for (int s = 0; s < x->data.stretches; s++)
-        if (x->data.stretch[s].fitted && x->data.stretch[s].strike >= 0) {
-            worst = worst < 0 || x->found.explained[s] < x->found.explained[worst] ? s : worst;
-            direct = fmax(direct, x->found.direct[s]);
-        }
+    int worst = -1, strikes = 0;
+    double direct = 0.0, all = 0.0, known = 0.0;
+    for (int s = 0; s < x->data.stretches; s++) {
+        const struct modal_stretch *st = &x->data.stretch[s];
+        double energy = 0.0;
+        if (!st->fitted || st->strike < 0) continue;
+        for (long i = 0; i < st->n; i++)
+            energy += st->y[i] * st->y[i];
+        all += energy;
+        known += energy * x->found.fitted[s];
+        worst = worst < 0 || x->found.fitted[s] < x->found.fitted[worst] ? s : worst;
+        direct = fmax(direct, x->found.direct[s]);
+    }
     const struct modal_stretch *st = &x->data.stretch[worst];
-    double percent = 100.0 * fmax(x->found.explained[worst], 0.0);
-    if (direct > much)
+    const char *name = x->place[st->place].shown;
+    double percent = 100.0 * fmax(x->found.fitted[worst], 0.0);
+    if (direct > much && x->given.force_channel)
         modes_extract_find_note(x, arena_format(x->arena,
                                                 "up to %.0f %% of the sound follows the force at once and is in no "
                                                 "mode: the object moves as a whole, or modes decay faster "
                                                 "than --fastest",
                                                 100.0 * direct));
-    if (percent >= 100.0 * half) return true;
     if (x->given.spectrogram) {
-        modes_extract_find_note(
-            x, arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more",
-                            percent, st->strike + 1));
+        if (percent < 100.0 * half)
+            modes_extract_find_note(
+                x, arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more",
+                                percent, st->strike + 1));
         return true;
     }
-    return err_set(
-        e, ERR_SCENE,
-        "%s: the modes that were found explain only %.0f %% of strike %d, so there is no table: is it one object, "
-        "struck and left to ring, and does the sound "
-        "begin at the strike? Without this strike (--strikes) or in a narrower band (--low, --high) there may be one",
-        x->place[st->place].shown, percent, st->strike + 1);
+    if (percent < 100.0 * half)
+        return err_set(
+            e, ERR_SCENE,
+            "%s: the modes that were found explain only %.0f %% of strike %d, so there is no table: is it one "
+            "object, struck and left to ring, and does the sound begin at the strike? Without this strike "
+            "(--strikes) or in a narrower band (--low, --high) there may be one",
+            name, percent, st->strike + 1);
+    if (known < enough * all)
+        return err_set(e, ERR_SCENE,
+                       "%s: the modes that were found explain only %.0f %% of what rings, so there is no table: noise "
+                       "and speech are explained so far, an object that is struck and left to ring is explained by "
+                       "%.0f %% and more; choose strikes (--strikes) or a narrower band (--low, --high)",
+                       name, 100.0 * known / all, 100.0 * enough);
+    if (alone(x, &strikes) > single && strikes >= 4)
+        return err_set(e, ERR_SCENE,
+                       "%s: most modes are heard in one of the %d strikes alone, so there is no table: are these "
+                       "different objects? Choose the strikes of one (--strikes)",
+                       name, strikes);
+    return true;
 }
 
 /* ------------------------------------------------------------------ all */
