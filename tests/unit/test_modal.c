@@ -51,6 +51,8 @@ static const struct modal_mode *nearest(const struct modal_result *r, const stru
     return best;
 }
 
+static double gain_se(const struct modal_mode *m, int g) { return sqrt(m->gain_se[g] * m->gain_se[g] + m->gain_shared[g] * m->gain_shared[g]); }
+
 /* X of a pole, of a force within the stretch, before it and both, is the DFT of the recursion to 1e-10; dX/ds is its slope over 1e-4/s to 1e-6. */
 START_TEST(basis)
 {
@@ -65,7 +67,7 @@ START_TEST(basis)
         const cplx pole = {-35.0, 2.0 * REAL_PI * 987.6};
         modal_fit_open(&f, &d, &o, a);
         for (int k = 0; k < 3; k++) {
-            struct modal_line line = modal_fit_line(&f, 0, (cplx){pole.re + 1e-4 * (k - 1), pole.im}, false);
+            struct modal_line line = modal_fit_line(&f, 0, (cplx){pole.re + 1e-4 * (k - 1), pole.im});
             for (int c = 0; c < 8; c++)
                 x[c] = room[k][c];
             modal_fit_basis(&f.bins[0], &line, 0, 8, x);
@@ -110,7 +112,7 @@ START_TEST(random_modes)
         for (int i = 0; i < 12; i++) {
             const struct modal_mode *k = nearest(&r, &m[i]);
             double z[3] = {(k->frequency - m[i].f) / k->frequency_se, (k->decay - m[i].d) / k->decay_se,
-                           (sqrt(k->re[0] * k->re[0] + k->im[0] * k->im[0]) - m[i].gain) / k->gain_se[0]};
+                           (sqrt(k->re[0] * k->re[0] + k->im[0] * k->im[0]) - m[i].gain) / gain_se(k, 0)};
             for (int q = 0; q < 3; q++) {
                 ck_assert_double_le(fabs(z[q]), 5.0);
                 inside += fabs(z[q]) < 0.674;
@@ -186,13 +188,13 @@ START_TEST(strikes_and_hum)
     struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
     ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
     ck_assert_int_eq(r.n, 3);
-    ck_assert(strstr(r.note, "1 line that the recording holds before the first strike"));
+    ck_assert(strstr(r.note, "1 line does not decay (hum)"));
     for (int i = 0; i < 3; i++) {
         const struct modal_mode *k = nearest(&r, &m[i]);
         ck_assert_double_eq_tol(k->frequency, m[i].f, 5.0 * k->frequency_se);
         ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
         for (int g = 1; g < 3; g++) /* what rings on from the first strike, a tenth of the lowest mode, is none of the second's */
-            ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]), m[i].gain, 5.0 * k->gain_se[g]);
+            ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]), m[i].gain, 5.0 * gain_se(k, g));
     }
     ck_assert_double_ge(r.explained[1], 0.999);
     arena_close(a);
@@ -234,7 +236,7 @@ START_TEST(strikes_in_time)
             ck_assert_double_eq_tol(k->frequency, m[i].f, 5.0 * k->frequency_se);
             ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
             for (int g = 0; g < STRIKES; g++) {
-                double se = k->gain_se[g] * level[g];
+                double se = gain_se(k, g) * level[g];
                 ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]) * level[g], m[i].gain * level[g], 5.0 * sqrt(before + se * se));
                 before += se * se;
             }
@@ -246,4 +248,51 @@ START_TEST(strikes_in_time)
 }
 END_TEST
 
-UNIT("test_modal", basis, random_modes, pairs_and_slopes, noise_alone, strikes_and_hum, strikes_in_time)
+/* An object that rests anew each time: eight strikes whose frequencies differ by 5e-4 and decays by a tenth, at 80 dB. The modes that there
+   are and no more, which poles that all strikes share would need; their means within 4 standard errors, their spread within what chance
+   makes of eight draws (chi squared of 7 degrees beyond 1e-4, the measured one drawn to that of all modes). */
+START_TEST(strikes_apart)
+{
+    enum { STRIKES = 8, GAP = 8000, ALL = STRIKES * GAP };
+    static const struct known m[] = {{310, 15, 1, 0}, {1700, 30, 0.5, 1}, {2300, 20, 0.3, 2}, {4400, 60, 0.7, 2}};
+    for (unsigned seed = 1; seed <= 4; seed++) {
+        struct arena *a = arena_open();
+        double *y = ARENA_TAKE(a, double, ALL), *noise = ARENA_TAKE(a, double, ALL), draw[STRIKES][8];
+        struct modal_stretch s[STRIKES];
+        struct modal_result r;
+        struct err e = {0};
+        noise_normal(noise_make(seed, "test"), 1, ALL, noise);
+        for (int k = 0; k < STRIKES; k++) {
+            noise_normal(noise_make(seed, "poles"), (unsigned)k + 1, 8, draw[k]);
+            for (int i = 0; i < 4; i++) {
+                struct known own = m[i];
+                own.f *= 1.0 + 5e-4 * draw[k][2 * i];
+                own.d *= real_exp(0.1 * draw[k][2 * i + 1]);
+                sound(&own, 1, &one, 1, k * GAP + 8, (k + 1) * GAP, y);
+            }
+            s[k] = (struct modal_stretch){.y = y + k * GAP, .first = k * GAP, .n = modal_length(GAP), .ringing = 9, .group = k,
+                                          .strike = k, .fitted = true, .pulse = {k * GAP + 8, 1, &one}};
+        }
+        for (long i = 0; i < ALL; i++)
+            y[i] += 1e-4 * noise[i];
+        struct modal_data d = {.rate = RATE, .places = 1, .groups = STRIKES, .stretches = STRIKES, .stretch = s};
+        struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
+        ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
+        ck_assert_int_eq(r.n, 4);
+        for (int i = 0; i < 4; i++) {
+            const struct modal_mode *k = nearest(&r, &m[i]);
+            ck_assert_double_eq_tol(k->frequency, m[i].f, 4.0 * 5e-4 * m[i].f / sqrt(STRIKES));
+            ck_assert_double_eq_tol(real_log(k->decay / m[i].d), 0.0, 4.0 * 0.1 / sqrt(STRIKES));
+            ck_assert_double_ge(k->frequency_between, 0.3 * 5e-4 * m[i].f);
+            ck_assert_double_le(k->frequency_between, 2.0 * 5e-4 * m[i].f);
+            ck_assert_double_ge(k->decay_between, 0.3 * 0.1 * m[i].d);
+            ck_assert_double_le(k->decay_between, 2.0 * 0.1 * m[i].d);
+        }
+        for (int k = 0; k < STRIKES; k++)
+            ck_assert_double_ge(r.explained[k], 0.999);
+        arena_close(a);
+    }
+}
+END_TEST
+
+UNIT("test_modal", strikes_apart, basis, random_modes, pairs_and_slopes, noise_alone, strikes_and_hum, strikes_in_time)
