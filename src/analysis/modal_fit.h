@@ -156,7 +156,7 @@ double modal_settle_limit(const struct modal_fit *f,
                           double chi4); /* of chi squared of 2 + 2 groups degrees, as likely as chi4 of four */
 
 /* modal_spread.c */
-extern const double modal_stated[2]; /* spreads before they are measured, and where one strike is all */
+extern const double modal_spread_stated[2]; /* spreads before they are measured, and where one strike is all */
 void modal_spread(struct modal_fit *f);
 
 /* modal_search.c */

@@ -4,7 +4,7 @@
 
 #include "analysis/modal_fit.h"
 
-const double modal_stated[2] = {2e-4, 0.05};
+const double modal_spread_stated[2] = {2e-4, 0.05};
 static const double prior = 3.0;    /* strikes that the median of all modes counts as */
 static const double doubtful = 6.0; /* by how much noise alone spreads a median, times the root of its degrees */
 
@@ -60,7 +60,7 @@ void modal_spread(struct modal_fit *f)
     double *excess = ARENA_TAKE(a, double, f->m + 1), *variance = ARENA_TAKE(a, double, f->m + 1);
     for (int q = 0; q < 2; q++) {
         int count = 0;
-        double degrees = 0.0, typical = modal_stated[q] * modal_stated[q];
+        double degrees = 0.0, typical = modal_spread_stated[q] * modal_spread_stated[q];
         for (int i = 0; i < f->m; i++) {
             m[i] = moments(f, i, q);
             if (m[i].n < 2) continue;
