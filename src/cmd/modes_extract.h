@@ -73,7 +73,7 @@ struct modes_extract {
     const char *note[MODES_EXTRACT_NOTES];
     int notes;
     double median_decay;     /* 1/s, of all components alike */
-    double median_by_energy; /* 1/s, that half of the energy of all components decays no faster than; of decays up to
+    double median_by_energy; /* 1/s, that half of the energy of all components is slower than; of decays up to
                                 300/s */
 };
 
