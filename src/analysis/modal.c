@@ -29,11 +29,36 @@ static void note(struct modal_result *r, struct arena *a, const char *text)
 
 /* ------------------------------------------------------------------ search */
 
+/* Minus twice the log likelihood of what is left, with a noise of its own in every 64 bins of every stretch, and what
+ * each component must be worth. */
+static double score(struct modal_fit *f)
+{
+    enum { PART = 64 };
+    double sum = modal_settle_limit(f, stable) * f->m;
+    modal_fit_rest(f);
+    modal_fit_noise(f, 0.0);
+    for (int s = 0; s < f->data->stretches; s++) {
+        const struct modal_bins *b = &f->bins[s];
+        if (!f->data->stretch[s].fitted || f->data->stretch[s].strike < 0) continue;
+        for (long from = 0; from + PART <= b->n; from += PART) {
+            double power = 1e-290;
+            for (long k = from; k < from + PART; k++)
+                power += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
+            sum += 2.0 * PART * real_log(power);
+        }
+    }
+    return sum;
+}
+
 /* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong
- * fast mode is there before its skirts are taken for slow ones. */
+ * fast mode is there before its skirts are taken for slow ones. A round may lose what the one before had found: the
+ * best stays. */
 static void search(struct modal_fit *f)
 {
-    double width = samples / f->longest, least = HUGE_VAL, noise;
+    double width = samples / f->longest, least = HUGE_VAL, noise, best = HUGE_VAL;
+    int kept = 0, room = f->most + f->most;
+    struct modal_component *c = ARENA_TAKE(f->a, struct modal_component, room);
+    struct modal_part *part = ARENA_TAKE(f->a, struct modal_part, room * f->data->groups);
     for (int round = 0, came = 1, last = 0; round < ROUNDS && last < 2 && f->m < f->most; round++) {
         double power = modal_search_round(f, &noise);
         least = fmin(power / step, came > f->m / 10 ? least : least / step);
@@ -49,6 +74,14 @@ static void search(struct modal_fit *f)
         modal_fit_rest(f);
         modal_fit_noise(f, 0.0);
         modal_settle_eliminate(f, modal_settle_limit(f, stable));
+        double now = score(f);
+        bool better = now < best && f->m <= room;
+        size_t n = (size_t)(better ? f->m : kept), size = n * (size_t)f->data->groups * sizeof *part;
+        if (n) memcpy(better ? c : f->c, better ? f->c : c, n * sizeof *c);
+        if (n) memcpy(better ? part : f->part, better ? f->part : part, size);
+        best = better ? now : best;
+        kept = f->m = (int)n;
+        modal_fit_rest(f);
         came = f->m - before;
         last = least == 0.0 && came <= f->m / 4 ? last + 1 : 0; /* twice, as the widths of bands take turns */
     }
@@ -319,6 +352,17 @@ static void drop_one(struct modal_fit *f, int i)
     if (others) modal_settle_refine(f, others, of, 20);
 }
 
+/* What decays faster than is wanted goes, the fastest first. */
+static bool drop_fastest(struct modal_fit *f)
+{
+    int fastest = -1;
+    for (int i = 0; i < f->m; i++)
+        if (fastest < 0 || f->c[i].s.re < f->c[fastest].s.re) fastest = i;
+    bool any = fastest >= 0 && -f->c[fastest].s.re > f->options->fastest;
+    if (any) drop_one(f, fastest);
+    return any;
+}
+
 /* Is it as loud in all strikes, within 12 dB, as nothing is that they strike? */
 static bool lasts(const struct modal_fit *f, int i)
 {
@@ -479,6 +523,9 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
         while (drop_unstable(&f) > 0)
             ;
     }
+    int fast = 0;
+    while (drop_fastest(&f))
+        fast++;
     int undamped = drop_undamped(&f), weakest;
     r->explained = ARENA_TAKE(a, double, d->stretches);
     r->fitted = ARENA_TAKE(a, double, d->stretches);
@@ -486,6 +533,10 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     explain(&f, r->fitted, r->direct, inner);
     weakest = drop_weakest(&f);
     report(&f, a, r);
+    if (fast)
+        note(r, a,
+             arena_format(a, "%d component%s faster than %.4g/s %s left out (--fastest)", fast,
+                          fast == 1 ? " that decays" : "s that decay", o->fastest, fast == 1 ? "is" : "are"));
     if (undamped)
         note(r, a,
              arena_format(a, "%d component%s no more than chance %s left out", undamped,

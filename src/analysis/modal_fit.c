@@ -79,7 +79,7 @@ void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struc
     }
     f->most = o->most + o->most / 4 + 10;
     f->slowest = 0.02 / f->longest;
-    f->fastest = o->fastest;
+    f->fastest = 1.5 * o->fastest; /* what stands for several fast modes until they are found may be faster than they */
     modal_fit_rest(f);
     floors_of_leads(f);
 }
