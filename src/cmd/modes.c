@@ -538,7 +538,7 @@ static const struct args_option options[] = {
     {"high", 0, "FREQUENCY", false,
      "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest power"},
     {"fastest", 0, "RATE", false,
-     "extract: the fastest decay that is taken for a mode, in 1/s; default: a fiftieth of the sample rate"},
+     "extract: the fastest decay that is taken for a mode, in 1/s; default: 600, or a 20th of the sample rate if that is less"},
     {"method", 0, "esprit|spectrogram", false,
      "extract: spectrogram takes the peaks of the power spectrogram; default: esprit"},
     {"strike-threshold", 0, "DECIBEL", false, "extract: by how much a strike must rise above the noise (default 20)"},

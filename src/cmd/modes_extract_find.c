@@ -20,11 +20,11 @@ static const double lead_least = 0.05; /* s of silence before the first strike t
 static const double reach = 1e-4;      /* of the force's greatest power: what lies below is noise */
 static const double half = 0.5;        /* of a strike's energy: modes that explain less are not its own */
 static const double enough = 0.9;      /* of all strikes' */
-static const double single = 0.7;         /* of a mode's energy in all strikes: less than that is in any of them */
+static const double single = 0.7;      /* of a mode's energy in all strikes: less than that is in any of them */
 static const double much = 0.2;        /* of the energy: what follows the force at once is reported */
-static const double fastest =
-    0.02; /* of the rate: a decay that is gone in 50 samples is no mode unless one asks for it */
-static const double slow = 300.0; /* 1/s, of decays that the median by energy is about */
+static const double fastest[2] = {600.0, 0.05}; /* 1/s, and of the rate: what decays faster than the less of the two is
+                                                   no mode unless one asks for it */
+static const double slow = 300.0;               /* 1/s, of decays that the median by energy is about */
 
 void modes_extract_find_note(struct modes_extract *x, const char *text)
 {
@@ -537,7 +537,8 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
     struct modal_options o = {.most = (int)most,
                               .low = x->low,
                               .high = x->high,
-                              .fastest = isnan(x->given.fastest) ? fastest * x->rate : x->given.fastest,
+                              .fastest =
+                                  isnan(x->given.fastest) ? fmin(fastest[0], fastest[1] * x->rate) : x->given.fastest,
                               .spectrogram = x->given.spectrogram,
                               .threshold = 0.1};
     if (!modal_find(&x->data, &o, x->arena, &x->found, e)) return err_at(e, "%s", x->place[0].shown);
