@@ -51,12 +51,12 @@ static double score(struct modal_fit *f)
 }
 
 /* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong
- * fast mode is there before its skirts are taken for slow ones. A round may lose what the one before had found: the
- * best stays. */
+ * fast mode is there before its skirts are taken for slow ones. A round that does not gain
+ * likelihood is undone. */
 static void search(struct modal_fit *f)
 {
     double width = samples / f->longest, least = HUGE_VAL, noise, best = HUGE_VAL;
-    int kept = 0, room = f->most + f->most;
+    int kept = 0, room = f->most + MODAL_BLOCK; /* a band brings less than a block */
     struct modal_component *c = ARENA_TAKE(f->a, struct modal_component, room);
     struct modal_part *part = ARENA_TAKE(f->a, struct modal_part, room * f->data->groups);
     for (int round = 0, came = 1, last = 0; round < ROUNDS && last < 2 && f->m < f->most; round++) {
@@ -75,7 +75,7 @@ static void search(struct modal_fit *f)
         modal_fit_noise(f, 0.0);
         modal_settle_eliminate(f, modal_settle_limit(f, stable));
         double now = score(f);
-        bool better = now < best && f->m <= room;
+        bool better = now < best;
         size_t n = (size_t)(better ? f->m : kept), size = n * (size_t)f->data->groups * sizeof *part;
         if (n) memcpy(better ? c : f->c, better ? f->c : c, n * sizeof *c);
         if (n) memcpy(better ? part : f->part, better ? f->part : part, size);
@@ -137,19 +137,13 @@ static int drop_unstable(struct modal_fit *f)
 {
     double limit = modal_settle_limit(f, stable), sure = modal_settle_limit(f, certain);
     int dropped = 0;
-    for (int i = 0; i < f->m;) {
-        int near[MODAL_BLOCK], n, others = 0;
+    for (int i = 0; i < f->m;)
         if (modal_settle_rise(f, i) > sure || survives(f, i, limit)) {
             i++;
-            continue;
+        } else {
+            modal_settle_drop(f, i, 11);
+            dropped++;
         }
-        n = modal_settle_near(f, i, 11, near);
-        for (int k = 0; k < n; k++)
-            if (near[k] != i) near[others++] = near[k] - (near[k] > i);
-        modal_fit_drop(f, i);
-        if (others) modal_settle_refine(f, others, near, 20);
-        dropped++;
-    }
     if (dropped) modal_settle(f);
     return dropped;
 }
@@ -342,16 +336,6 @@ static void predict(struct modal_fit *f)
     if (any) fit_gains(f, only);
 }
 
-/* A component goes, its neighbours are fitted anew. */
-static void drop_one(struct modal_fit *f, int i)
-{
-    int of[MODAL_BLOCK], n = modal_settle_near(f, i, 9, of), others = 0;
-    for (int k = 0; k < n; k++)
-        if (of[k] != i) of[others++] = of[k] - (of[k] > i);
-    modal_fit_drop(f, i);
-    if (others) modal_settle_refine(f, others, of, 20);
-}
-
 /* What decays faster than is wanted goes, the fastest first. */
 static bool drop_fastest(struct modal_fit *f)
 {
@@ -359,7 +343,7 @@ static bool drop_fastest(struct modal_fit *f)
     for (int i = 0; i < f->m; i++)
         if (fastest < 0 || f->c[i].s.re < f->c[fastest].s.re) fastest = i;
     bool any = fastest >= 0 && -f->c[fastest].s.re > f->options->fastest;
-    if (any) drop_one(f, fastest);
+    if (any) modal_settle_drop(f, fastest, 9);
     return any;
 }
 
@@ -398,7 +382,7 @@ static int drop_undamped(struct modal_fit *f)
             least = fmin(least, share);
         }
         if (weakest < 0) break;
-        drop_one(f, weakest);
+        modal_settle_drop(f, weakest, 9);
     }
     if (dropped) modal_settle_sweeps(f, 8, 4);
     arena_close(a);
@@ -418,7 +402,7 @@ static int drop_weakest(struct modal_fit *f)
             least = fmin(least, share);
         }
         if (modes <= f->options->most) return dropped;
-        drop_one(f, weakest);
+        modal_settle_drop(f, weakest, 9);
     }
 }
 

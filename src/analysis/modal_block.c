@@ -244,7 +244,7 @@ static void apart_of(const struct modal_block *b, int group, double *apart, doub
     }
 }
 
-enum { POLES = 2 * MODAL_BLOCK, WIDE = POLES + 1 };
+enum { POLES = 2 * MODAL_BLOCK };
 
 /* to[p][p + 1]: (N + W)^-1 of a group and, last, times its gradient, N damped; returns what the step would take off. */
 static double own_inverse(const struct modal_block *b, const struct modal_normal *g, const double *apart,

@@ -149,6 +149,7 @@ double modal_settle_refine(struct modal_fit *f, int n, const int *of,
                            int steps); /* fits them anew, the greatest move in standard errors */
 double modal_settle_sweeps(struct modal_fit *f, int most, int rounds);
 double modal_settle_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
+void modal_settle_drop(struct modal_fit *f, int i, int most); /* component i; the others of `most` are fitted anew */
 void modal_settle_eliminate(struct modal_fit *f, double limit);
 void modal_settle(struct modal_fit *f);
 int modal_settle_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */

@@ -137,6 +137,15 @@ double modal_settle_rise(struct modal_fit *f, int i)
     return rise;
 }
 
+void modal_settle_drop(struct modal_fit *f, int i, int most)
+{
+    int of[MODAL_BLOCK], n = modal_settle_near(f, i, most, of), others = 0;
+    for (int k = 0; k < n; k++)
+        if (of[k] != i) of[others++] = of[k] - (of[k] > i);
+    modal_fit_drop(f, i);
+    if (others) modal_settle_refine(f, others, of, 20);
+}
+
 void modal_settle_eliminate(struct modal_fit *f, double limit)
 {
     struct arena *a = arena_open();
@@ -151,14 +160,11 @@ void modal_settle_eliminate(struct modal_fit *f, double limit)
                 least = i;
         }
         if (least < 0 || rise[least] >= limit) break;
-        int n = modal_settle_near(f, least, NEIGHBOURS + 1, near), others = 0;
-        for (int i = 0; i < n; i++) {
+        int n = modal_settle_near(f, least, NEIGHBOURS + 1, near);
+        for (int i = 0; i < n; i++)
             rise[near[i]] = NAN;
-            if (near[i] != least) near[others++] = near[i] - (near[i] > least);
-        }
         memmove(rise + least, rise + least + 1, (size_t)(f->m - least - 1) * sizeof *rise);
-        modal_fit_drop(f, least);
-        if (others) modal_settle_refine(f, others, near, 20);
+        modal_settle_drop(f, least, NEIGHBOURS + 1);
     }
     arena_close(a);
 }

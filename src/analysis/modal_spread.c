@@ -19,8 +19,8 @@ static int rising(const void *x, const void *y)
     return (a > b) - (a < b);
 }
 
-/* Strikes weigh as their own noise and the spread so far let them (the general method of moments: DerSimonian and
-   Kacker 2007, equation 6). */
+/* Strikes weigh as their own noise and the spread so far let them. With weights w of sum W the scatter about the mean
+   is expected to be sum w (1 - w/W) (noise + variance), which gives the variance. */
 static struct moments moments(const struct modal_fit *f, int i, int q)
 {
     struct moments m = {0, 0.0, 0.0};

@@ -538,7 +538,8 @@ static const struct args_option options[] = {
     {"high", 0, "FREQUENCY", false,
      "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest power"},
     {"fastest", 0, "RATE", false,
-     "extract: the fastest decay that is taken for a mode, in 1/s; default: 600, or a 20th of the sample rate if that is less"},
+     "extract: the fastest decay that is taken for a mode, in 1/s; default: 600, or a 20th of the sample rate if that "
+     "is less"},
     {"method", 0, "esprit|spectrogram", false,
      "extract: spectrogram takes the peaks of the power spectrogram; default: esprit"},
     {"strike-threshold", 0, "DECIBEL", false, "extract: by how much a strike must rise above the noise (default 20)"},
@@ -593,8 +594,9 @@ const struct command modes_command = {
         "rasp modes extract RECORDING... -o FILE.csv: the modes of a real object from recordings in which it is "
         "struck. RECORDING is a sound file "
         "with one strike or many on one place. The strikes are found, and the "
-        "recording itself is fitted: every strike has gains of its own; frequencies and decays are those of all, within "
-        "what strikes differ by. A hammer's force (--force-channel) drives the modes, else a strike is an impulse. "
+        "recording itself is fitted: every strike has gains of its own; frequencies and decays are those of all, "
+        "within what strikes differ by. A hammer's force (--force-channel) drives the modes, else a strike is an "
+        "impulse. "
         "No mode is reported that noise might have made; two decays of one frequency are. What does not decay is a "
         "hum, and no mode. Strikes that clip or are 30 dB quieter "
         "than the loudest sound are left out. Modes that explain less than nine tenths of what lags the force, or less "
