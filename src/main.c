@@ -37,9 +37,10 @@ static int run_help(int argc, char **argv)
 /* `rasp --version [--verbose]`, `rasp --help`, and what they are mistaken for. */
 static int run_bare(int argc, char **argv)
 {
-    static const struct args_option options[] = {{"version", 'V', NULL, false, "the version"},
-                                                 {"verbose", 'v', NULL, false, "with --version: compiler, flags and libraries"},
-                                                 {0}};
+    static const struct args_option options[] = {
+        {"version", 'V', NULL, false, "the version"},
+        {"verbose", 'v', NULL, false, "with --version: compiler, flags and libraries"},
+        {0}};
     struct err e = {0};
     struct args g;
     struct arena *a = arena_open();
@@ -64,15 +65,10 @@ static int run(int argc, char **argv)
         commands_print(stderr);
         return ERR_USAGE;
     }
-    if (argv[1][0] == '-')
-        return run_bare(argc - 1, argv + 1);
-    if (!strcmp(argv[1], "help"))
-        return run_help(argc - 2, argv + 2);
+    if (argv[1][0] == '-') return run_bare(argc - 1, argv + 1);
+    if (!strcmp(argv[1], "help")) return run_help(argc - 2, argv + 2);
     const struct command *m = commands_find(argv[1]);
     return m ? program_run(m, argc - 2, argv + 2) : unknown_command(argv[1]);
 }
 
-int main(int argc, char **argv)
-{
-    return program_main(run, argc, argv);
-}
+int main(int argc, char **argv) { return program_main(run, argc, argv); }

@@ -1,15 +1,16 @@
 /* What a stage is, and the board that the stages of one contact share.
 
-   A stage file holds its equations and ends in one `const struct stage foo_stage`; pipeline/stages.def lists them in the order in
-   which sound is made. The planner (pipeline/plan.h) walks that list backwards from what the scene asks for and keeps a stage only if
-   the scene wants it and something later needs what it gives. The runner (pipeline/run.h) opens what is kept, lays out the board, and
-   runs blocks. What is not kept is neither opened nor run nor allocated.
+   A stage file holds its equations and ends in one `const struct stage foo_stage`; pipeline/stages.def lists them in
+   the order in which sound is made. The planner (pipeline/plan.h) walks that list backwards from what the scene asks
+   for and keeps a stage only if the scene wants it and something later needs what it gives. The runner (pipeline/run.h)
+   opens what is kept, lays out the board, and runs blocks. What is not kept is neither opened nor run nor allocated.
 
-   Items of the board are endless signals, of which a window is held: `per_frame` values for each audio sample (frame). Frames before 0
-   are zero. A stage says when it is opened how far around a frame it reads (back, ahead); the runner then lets everything before it run
-   that much ahead in time, so that no stage delays or buffers for another. Values of sub-sampled items belong to the instant
-   (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_CURVATURE_Y and ITEM_SLOPE, which are means weighted by a hat about it
-   (force/hats.h), and ITEM_SUBFORCE, which is such a mean where board->hats says so, else the exact mean over the interval that starts there. */
+   Items of the board are endless signals, of which a window is held: `per_frame` values for each audio sample (frame).
+   Frames before 0 are zero. A stage says when it is opened how far around a frame it reads (back, ahead); the runner
+   then lets everything before it run that much ahead in time, so that no stage delays or buffers for another. Values of
+   sub-sampled items belong to the instant (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_CURVATURE_Y and
+   ITEM_SLOPE, which are means weighted by a hat about it (force/hats.h), and ITEM_SUBFORCE, which is such a mean where
+   board->hats says so, else the exact mean over the interval that starts there. */
 #ifndef STAGE_H
 #define STAGE_H
 #include <assert.h>
@@ -22,13 +23,16 @@
 #include "scene/scene.h"
 
 enum item {
-    ITEM_MOTION,        /* board->trajectory, read at any instant           no signal      */
-    ITEM_POSITION,      /* m, signed distance u along the path          over per frame */
-    ITEM_VELOCITY,      /* m/s, du/dt                                   over per frame */
-    ITEM_ACCELERATION,  /* m/s^2, d2u/dt2                               over per frame */
-    ITEM_X, ITEM_Y,     /* m, in the plane (of a motion that is not straight) over per frame */
-    ITEM_VX, ITEM_VY,   /* m/s                                          over per frame */
-    ITEM_AX, ITEM_AY,   /* m/s^2                                        over per frame */
+    ITEM_MOTION,       /* board->trajectory, read at any instant           no signal      */
+    ITEM_POSITION,     /* m, signed distance u along the path          over per frame */
+    ITEM_VELOCITY,     /* m/s, du/dt                                   over per frame */
+    ITEM_ACCELERATION, /* m/s^2, d2u/dt2                               over per frame */
+    ITEM_X,
+    ITEM_Y, /* m, in the plane (of a motion that is not straight) over per frame */
+    ITEM_VX,
+    ITEM_VY, /* m/s                                          over per frame */
+    ITEM_AX,
+    ITEM_AY,            /* m/s^2                                        over per frame */
     ITEM_LOAD,          /* N, normal force; negative: lifted off        over per frame */
     ITEM_ALPHA,         /* m, limiter                                   over per frame */
     ITEM_SURFACE,       /* board->relief, read at any place             no signal      */
@@ -50,45 +54,46 @@ enum item {
 #define KNOB_BIT(name) (1u << KNOB_##name) /* a set of knobs of accuracy.def */
 static_assert(KNOBS <= 32, "a set of knobs is an unsigned");
 
-/* Of a ball, for each frame: over the frame's time (share, counts), or at its beginning. A kinematic model has the first four. */
+/* Of a ball, for each frame: over the frame's time (share, counts), or at its beginning. A kinematic model has the
+ * first four. */
 enum roll_value {
-    ROLL_PENETRATION,       /* m, rho or xi at the frame; below 0: clear of the surface            */
-    ROLL_HEIGHT,            /* m, of the ball's centre of mass, over where it is at rest (roll_coupled); over where it lies at rest, its centre of mass
-                               lowest, on ground of height 0 (roll) */
-    ROLL_CONTACT,           /* share of the frame's time in contact                                */
-    ROLL_LIFT_OFFS,         /* how often it leaves the surface in the frame                        */
-    ROLL_ENERGY,            /* J, of ball, contact and modes                                       */
-    ROLL_SURFACE_WORK,      /* J since the start: done by the surface's shape and the moving contact place */
-    ROLL_CONTACT_LOSS,      /* J since the start: lost in the contact                              */
-    ROLL_MODE_LOSS,         /* J since the start: lost in the modes' damping                       */
-    ROLL_RESIDUAL,          /* J: what the balance of these leaves over                            */
+    ROLL_PENETRATION, /* m, rho or xi at the frame; below 0: clear of the surface            */
+    ROLL_HEIGHT,      /* m, of the ball's centre of mass, over where it is at rest (roll_coupled); over where it lies at
+                         rest, its centre of mass      lowest, on ground of height 0 (roll) */
+    ROLL_CONTACT,     /* share of the frame's time in contact                                */
+    ROLL_LIFT_OFFS,   /* how often it leaves the surface in the frame                        */
+    ROLL_ENERGY,      /* J, of ball, contact and modes                                       */
+    ROLL_SURFACE_WORK, /* J since the start: done by the surface's shape and the moving contact place */
+    ROLL_CONTACT_LOSS, /* J since the start: lost in the contact                              */
+    ROLL_MODE_LOSS,    /* J since the start: lost in the modes' damping                       */
+    ROLL_RESIDUAL,     /* J: what the balance of these leaves over                            */
     ROLL_VALUES
 };
 
-struct roll_report {        /* of a whole render; steps 0: no coupled model                        */
-    double contact;         /* s in contact                                                        */
-    double time;            /* s in all                                                            */
-    long lift_offs;         /* times it left the surface                                           */
-    long bounces;           /* times of those it stayed away for longer than a sample               */
-    double stiffness;       /* N/m^1.5, k                                                          */
-    double rest;            /* m, penetration at rest                                              */
-    double resonance;       /* Hz, of the ball's mass on the contact; 0: none (roll)               */
-    double roughness, hertz; /* m, Rq and Hertz's part of the rest; NAN: the scene gives the rest (roll) */
-    long steps;             /* of the coupled model                                                */
-    double step;            /* s                                                                   */
+struct roll_report {           /* of a whole render; steps 0: no coupled model                        */
+    double contact;            /* s in contact                                                        */
+    double time;               /* s in all                                                            */
+    long lift_offs;            /* times it left the surface                                           */
+    long bounces;              /* times of those it stayed away for longer than a sample               */
+    double stiffness;          /* N/m^1.5, k                                                          */
+    double rest;               /* m, penetration at rest                                              */
+    double resonance;          /* Hz, of the ball's mass on the contact; 0: none (roll)               */
+    double roughness, hertz;   /* m, Rq and Hertz's part of the rest; NAN: the scene gives the rest (roll) */
+    long steps;                /* of the coupled model                                                */
+    double step;               /* s                                                                   */
     double contact_samples[2]; /* audio samples of a contact: mean, least                          */
-    double fastest;         /* m/s, greatest speed of an impact                                    */
-    double residual;        /* greatest |residual| over greatest energy                            */
-    double iterations[2];   /* of a step in contact: mean, greatest                                */
+    double fastest;            /* m/s, greatest speed of an impact                                    */
+    double residual;           /* greatest |residual| over greatest energy                            */
+    double iterations[2];      /* of a step in contact: mean, greatest                                */
 };
 
-struct impact_report {      /* of a whole render; count 0: no series of impacts                    */
-    long count;             /* impacts laid on the board                                            */
+struct impact_report {                        /* of a whole render; count 0: no series of impacts                    */
+    long count;                               /* impacts laid on the board                                            */
     long limited_amplitude, limited_interval; /* draws raised to their floors                       */
-    long overlaps;          /* impacts that begin before the one before is over                     */
-    double time;            /* s in which they come                                                 */
-    double mean_amplitude, mean_interval; /* N, s                                                   */
-    double longest;         /* s, duration of the longest one                                       */
+    long overlaps;                            /* impacts that begin before the one before is over                     */
+    double time;                              /* s in which they come                                                 */
+    double mean_amplitude, mean_interval;     /* N, s                                                   */
+    double longest;                           /* s, duration of the longest one                                       */
 };
 
 struct trajectory;
@@ -99,26 +104,27 @@ struct height_map;
 struct table_sink;
 struct impact_sink;
 
-struct smoothing {          /* of constant width, by a kernel of sub-samples */
+struct smoothing { /* of constant width, by a kernel of sub-samples */
     struct filter kernel;
-    bool taken;             /* set by an opening stage that does it with its own kernel: ITEM_SUBFORCE is then as it was before */
+    bool taken; /* set by an opening stage that does it with its own kernel: ITEM_SUBFORCE is then as it was before */
 };
 
 struct signal {
-    int per_frame;          /* 0: not a signal, or not in this plan */
-    long first, capacity;   /* frames held: [first, first + capacity) */
-    long worked;            /* zeros from this frame on: nothing has been written there */
+    int per_frame;        /* 0: not a signal, or not in this plan */
+    long first, capacity; /* frames held: [first, first + capacity) */
+    long worked;          /* zeros from this frame on: nothing has been written there */
     double *x;
 };
 
 struct board {
-    double rate;            /* Hz, frames per second                       */
-    int over;               /* sub-intervals per frame                     */
-    int channels;           /* listening places                            */
-    struct smoothing *smoothing; /* of ITEM_SUBFORCE, last before the stages that follow; NULL: none that could be taken over */
-    bool hats;              /* ITEM_SUBFORCE: means weighted by hats; set by the opening stage that gives it */
-    long moving;            /* frames that the motion touches              */
-    unsigned alive;         /* items that some stage of the plan reads     */
+    double rate;  /* Hz, frames per second                       */
+    int over;     /* sub-intervals per frame                     */
+    int channels; /* listening places                            */
+    struct smoothing
+        *smoothing; /* of ITEM_SUBFORCE, last before the stages that follow; NULL: none that could be taken over */
+    bool hats;      /* ITEM_SUBFORCE: means weighted by hats; set by the opening stage that gives it */
+    long moving;    /* frames that the motion touches              */
+    unsigned alive; /* items that some stage of the plan reads     */
     struct signal signals[ITEM_COUNT];
     const struct trajectory *trajectory;
     const struct load_law *load;
@@ -127,51 +133,55 @@ struct board {
     const struct height_map *height_map; /* NULL: none */
     struct table_sink *table;
     struct impact_sink *listing; /* where the series of impacts is written; NULL: it is not */
-    int quantity;           /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
-    double ring;            /* s, until the slowest response has decayed by 80 dB */
-    double lifted;          /* s during which the scraper was lifted off         */
+    int quantity;                /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
+    double ring;                 /* s, until the slowest response has decayed by 80 dB */
+    double lifted;               /* s during which the scraper was lifted off         */
     struct roll_report roll;
-    bool rolls;             /* the report holds something                        */
+    bool rolls; /* the report holds something                        */
     struct impact_report impacts;
-    bool unstated;          /* a recorded response, whose quantity is not stated, rings */
-    double energy[2];       /* quantity^2, summed over frames and channels: of the surface's sound and of the scraper's or ball's, where both are heard */
+    bool unstated;    /* a recorded response, whose quantity is not stated, rings */
+    double energy[2]; /* quantity^2, summed over frames and channels: of the surface's sound and of the scraper's or
+                         ball's, where both are heard */
     const char *warnings[16];
-    int n_warnings;         /* may exceed the room: what is beyond is counted only */
+    int n_warnings; /* may exceed the room: what is beyond is counted only */
 };
 
-enum { STAGE_BLOCK = 1024 };    /* most frames of one call of run */
+enum { STAGE_BLOCK = 1024 }; /* most frames of one call of run */
 
-struct stage_run {          /* one stage at work */
+struct stage_run { /* one stage at work */
     const struct stage *stage;
     const struct scene *scene;
     const struct contact *contact;
     struct board *board;
     struct arena *arena;
     void *state;
-    int back, ahead;        /* frames read around a frame; set by open     */
-    long ends;              /* from this frame on it gives zeros only; LONG_MAX, unless open sets it */
-    long offset, done;      /* the runner's: lead, and frames done         */
-    long limit;             /* the runner's: until when it works (run_limits.h) */
-    double seconds;         /* CPU time spent                              */
-    size_t bytes;           /* memory taken                                */
-    long blocks;            /* calls of run                                */
+    int back, ahead;   /* frames read around a frame; set by open     */
+    long ends;         /* from this frame on it gives zeros only; LONG_MAX, unless open sets it */
+    long offset, done; /* the runner's: lead, and frames done         */
+    long limit;        /* the runner's: until when it works (run_limits.h) */
+    double seconds;    /* CPU time spent                              */
+    size_t bytes;      /* memory taken                                */
+    long blocks;       /* calls of run                                */
 };
 
 struct stage {
     const char *name, *does;
-    const char *paper;          /* equations followed; "" if none                         */
-    const char *idle;           /* why a scene may not want it, for `rasp plan`           */
-    unsigned needs, takes, gives; /* sets of items; takes: read if something gives it; needs and gives: refined in place */
+    const char *paper; /* equations followed; "" if none                         */
+    const char *idle;  /* why a scene may not want it, for `rasp plan`           */
+    unsigned needs, takes,
+        gives; /* sets of items; takes: read if something gives it; needs and gives: refined in place */
     unsigned (*asks)(const struct contact *, const struct scene *); /* further needs; may be NULL */
-    bool spreads;               /* makes zeros of zeros: what it needs reaches no further than it reads */
-    unsigned knobs;             /* set of knobs (scene/accuracy.def) that what it gives depends on, be it by its own doing only: those of what it reads are theirs */
+    bool spreads;   /* makes zeros of zeros: what it needs reaches no further than it reads */
+    unsigned knobs; /* set of knobs (scene/accuracy.def) that what it gives depends on, be it by its own doing only:
+                       those of what it reads are theirs */
     unsigned (*turns)(const struct contact *, const struct scene *); /* further knobs, of some scenes; may be NULL */
     bool (*wanted)(const struct contact *, const struct scene *);
-    double (*work)(const struct contact *, const struct scene *);   /* predicted cycles per audio sample */
+    double (*work)(const struct contact *, const struct scene *); /* predicted cycles per audio sample */
     bool (*open)(struct stage_run *, struct err *);
     bool (*run)(struct stage_run *, long from, long to, struct err *); /* frames [from, to); may be NULL */
-    void (*skip)(struct stage_run *, long frame); /* to go on at that frame, from an empty board: of what knows which frame came last (run_skip); may be NULL */
-    void (*close)(struct stage_run *);                                 /* may be NULL */
+    void (*skip)(struct stage_run *, long frame); /* to go on at that frame, from an empty board: of what knows which
+                                                     frame came last (run_skip); may be NULL */
+    void (*close)(struct stage_run *);            /* may be NULL */
 };
 
 /* Values of an item from a frame on; at least up to the frames that the runner has promised. */
@@ -182,16 +192,12 @@ static inline double *board_at(const struct board *b, enum item item, long frame
     return s->x + (frame - s->first) * s->per_frame;
 }
 
-static inline bool board_has(const struct board *b, enum item item)
-{
-    return b->signals[item].per_frame > 0;
-}
+static inline bool board_has(const struct board *b, enum item item) { return b->signals[item].per_frame > 0; }
 
 /* A remark for the summary, printed once at the end; text must live as long as the arena. */
 static inline void board_warn(struct board *b, const char *text)
 {
-    if (b->n_warnings < (int)(sizeof b->warnings / sizeof b->warnings[0]))
-        b->warnings[b->n_warnings] = text;
+    if (b->n_warnings < (int)(sizeof b->warnings / sizeof b->warnings[0])) b->warnings[b->n_warnings] = text;
     b->n_warnings++;
 }
 

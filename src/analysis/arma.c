@@ -4,17 +4,21 @@
 
    by Gauss and Newton. Ours departs from it where that matters for few impacts, as a1 is about -0.97:
 
-   - The pre-sample values are not 0: W_n are the innovations of the stationary series over their deviations (Brockwell and Davis, Time Series: Theory
-     and Methods, section 5.3): v_0 = (1 + b1^2 - 2 a1 b1)/(1 - a1^2), v_n = 1 + b1^2 - b1^2/v_(n-1),
-     I_n = X_n + a1 X_(n-1) - b1/v_(n-1) I_(n-1), W_n = I_n/sqrt(v_n). Nothing is dropped and nothing decays from a wrong start.
-   - The mean is that which leaves the least energy: m = sum W U/sum U^2, U the series of ones whitened (generalised least squares).
-   - The energy is multiplied by (prod v_n . sum U_n^2)^(1/(n-1)): the residual likelihood (Harville, J. Am. Stat. Assoc. 72, 1977, 320), in place
-     of the plain energy, whose a1 lies nearer to 0 by (1 + 3 |a1|)/n or so; half of that is left. The factor tends to 1 with n.
+   - The pre-sample values are not 0: W_n are the innovations of the stationary series over their deviations (Brockwell
+   and Davis, Time Series: Theory and Methods, section 5.3): v_0 = (1 + b1^2 - 2 a1 b1)/(1 - a1^2), v_n = 1 + b1^2 -
+   b1^2/v_(n-1), I_n = X_n + a1 X_(n-1) - b1/v_(n-1) I_(n-1), W_n = I_n/sqrt(v_n). Nothing is dropped and nothing decays
+   from a wrong start.
+   - The mean is that which leaves the least energy: m = sum W U/sum U^2, U the series of ones whitened (generalised
+   least squares).
+   - The energy is multiplied by (prod v_n . sum U_n^2)^(1/(n-1)): the residual likelihood (Harville, J. Am. Stat.
+   Assoc. 72, 1977, 320), in place of the plain energy, whose a1 lies nearer to 0 by (1 + 3 |a1|)/n or so; half of that
+   is left. The factor tends to 1 with n.
 
-   GSL's damped Gauss-Newton steps (Levenberg and Marquardt) in u, v with a1 = EDGE tanh u, b1 = EDGE tanh v: the region cannot be left. From the
-   STARTS best points of a grid; the best end is taken. Of more than MANY values the first MANY tell the best end, and steps with all go on from there.
-   Where a1 and b1 are alike they cancel: any such pair is white noise. a1 = b1 = 0 is taken if the energy is hardly less elsewhere (ARMA_GAIN). The
-   covariance of a1 and b1 is the Jacobian's. */
+   GSL's damped Gauss-Newton steps (Levenberg and Marquardt) in u, v with a1 = EDGE tanh u, b1 = EDGE tanh v: the region
+   cannot be left. From the STARTS best points of a grid; the best end is taken. Of more than MANY values the first MANY
+   tell the best end, and steps with all go on from there. Where a1 and b1 are alike they cancel: any such pair is white
+   noise. a1 = b1 = 0 is taken if the energy is hardly less elsewhere (ARMA_GAIN). The covariance of a1 and b1 is the
+   Jacobian's. */
 #include "analysis/arma.h"
 
 #include <gsl/gsl_multifit_nlinear.h>
@@ -28,17 +32,17 @@
 enum { GRID = 9, STARTS = 3, STEPS = 200, MANY = 20000 };
 
 struct search {
-    const double *x;            /* [n] */
+    const double *x; /* [n] */
     int n;
-    double centre, unit;        /* taken off x before all else, and x over it: precision, and what GSL takes for converged */
+    double centre, unit; /* taken off x before all else, and x over it: precision, and what GSL takes for converged */
 };
 
-struct pass {                   /* one filter's start and its sums */
-    double mean, energy;        /* of the series less `centre`, in `unit`; what is left */
-    double ones, logarithms;    /* sum U^2, sum log v */
+struct pass {                /* one filter's start and its sums */
+    double mean, energy;     /* of the series less `centre`, in `unit`; what is left */
+    double ones, logarithms; /* sum U^2, sum log v */
 };
 
-struct innovations {            /* of the series and of ones: filter, v, 1/sqrt v, b1/v, and the values before */
+struct innovations { /* of the series and of ones: filter, v, 1/sqrt v, b1/v, and the values before */
     double a, b, v, scale, back, x, one, ix, iy;
 };
 
@@ -63,11 +67,9 @@ static inline void innovations_next(struct innovations *s, double x, double w[2]
 static inline void innovations_step(struct innovations *s)
 {
     s->back = s->b / s->v;
-    if (s->v == 1)
-        return;
+    if (s->v == 1) return;
     s->v = 1 + s->b * s->b - s->b * s->back;
-    if (!(s->v > 1 + 1e-15))
-        s->v = 1;
+    if (!(s->v > 1 + 1e-15)) s->v = 1;
     s->scale = 1 / sqrt(s->v);
 }
 
@@ -78,8 +80,7 @@ static struct pass pass_make(const struct search *s, double a, double b)
     innovations_open(&i, a, b);
     for (int k = 0; k < s->n; k++) {
         innovations_next(&i, (s->x[k] - s->centre) / s->unit, w);
-        if (i.v != 1)
-            logarithms += real_log(i.v);
+        if (i.v != 1) logarithms += real_log(i.v);
         innovations_step(&i);
         xx += w[0] * w[0];
         xy += w[0] * w[1];
@@ -140,8 +141,9 @@ static void starts_find(const struct search *s, struct point best[STARTS])
     }
 }
 
-/* The inverse of J'J times the mean square that is left, for a1 and b1. Where it has none nothing is known: both may be anywhere in the region. A zero
-   at the circle (b1 of 1 or -1: times that keep to a beat) has no curvature by which to tell; it is known to some 2/n, and a1 as if it were given. */
+/* The inverse of J'J times the mean square that is left, for a1 and b1. Where it has none nothing is known: both may be
+   anywhere in the region. A zero at the circle (b1 of 1 or -1: times that keep to a beat) has no curvature by which to
+   tell; it is known to some 2/n, and a1 as if it were given. */
 static void covariance_make(const gsl_matrix *jacobian, double mean_square, const struct point *p, double covariance[3])
 {
     double aa = 0, ab = 0, bb = 0, da = EDGE - p->a * p->a / EDGE, db = EDGE - p->b * p->b / EDGE;
@@ -219,8 +221,7 @@ void arma_fit(const double *x, int n, struct arma *f)
             *f = tried;
         }
     }
-    if (first.n < n)
-        descend(&s, &best, f);
+    if (first.n < n) descend(&s, &best, f);
     f->gain = n * real_log(cost(&s, 0, 0) / best.cost);
     f->white = !(f->gain >= ARMA_GAIN);
     f->a1 = f->white ? 0 : best.a;
@@ -240,8 +241,7 @@ double arma_whiten(const double *x, int n, double a1, double b1, double *w)
     for (int k = 0; k < n; k++) {
         innovations_next(&i, x[k], both);
         w[k] = both[0];
-        if (i.v != 1)
-            logarithms += real_log(i.v);
+        if (i.v != 1) logarithms += real_log(i.v);
         innovations_step(&i);
     }
     return logarithms;

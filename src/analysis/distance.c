@@ -1,14 +1,15 @@
 /* See distance.h.
 
-   Third-octave bands: IEC 61260-1, base 10: centres f_m = 1000 * 10^(x/10) Hz, x = -16 .. 13, edges f_m 10^(-1/20) .. f_m 10^(1/20).
-   The power in a band is that of an ideal rectangular filter, from the one-sided spectrum of the whole sound:
+   Third-octave bands: IEC 61260-1, base 10: centres f_m = 1000 * 10^(x/10) Hz, x = -16 .. 13, edges f_m 10^(-1/20) ..
+   f_m 10^(1/20). The power in a band is that of an ideal rectangular filter, from the one-sided spectrum of the whole
+   sound:
 
      P_k = c_k |X_k|^2 / (n N)      X: DFT of the N frames, zero-padded to n;   c_k = 1 for k = 0 and n/2, else 2
      sum over k of P_k = mean square of the N frames (Parseval)
 
-   Bin k stands for the frequencies (k +- 1/2) rate / n, within 0 .. rate / 2; a bin cut by a band's edge is shared out by width.
-   A sound longer than PIECE frames is cut into pieces whose powers add up (memory stays small); no window: nothing is weighted
-   down, and both sounds are cut alike. */
+   Bin k stands for the frequencies (k +- 1/2) rate / n, within 0 .. rate / 2; a bin cut by a band's edge is shared out
+   by width. A sound longer than PIECE frames is cut into pieces whose powers add up (memory stays small); no window:
+   nothing is weighted down, and both sounds are cut alike. */
 #include "analysis/distance.h"
 
 #include <math.h>
@@ -30,8 +31,7 @@ void distance_samples(const struct wav *a, const struct wav *b, struct distance_
         struct distance_place here = {i / channels, (int)(i % channels), p, q};
         signal += p * p;
         noise += off * off;
-        if (q != p && d->differing++ == 0)
-            d->first = here;
+        if (q != p && d->differing++ == 0) d->first = here;
         if (off > d->largest) {
             d->largest = off;
             d->worst = here;
@@ -67,29 +67,23 @@ double distance_step(const struct wav *a, const struct wav *b)
     return bits ? ldexp(1, 1 - bits) : 0;
 }
 
-double distance_band_centre(int band)
-{
-    return 1000 * real_exp10((band - DISTANCE_BAND_1000) / 10.0);
-}
+double distance_band_centre(int band) { return 1000 * real_exp10((band - DISTANCE_BAND_1000) / 10.0); }
 
 double distance_band_nominal(int band)
 {
-    static const double names[DISTANCE_BANDS] = {25,  31.5, 40,   50,   63,   80,   100,  125,  160,  200,
-                                                 250, 315,  400,  500,  630,  800,  1000, 1250, 1600, 2000,
+    static const double names[DISTANCE_BANDS] = {25,   31.5, 40,   50,   63,   80,   100,   125,   160,   200,
+                                                 250,  315,  400,  500,  630,  800,  1000,  1250,  1600,  2000,
                                                  2500, 3150, 4000, 5000, 6300, 8000, 10000, 12500, 16000, 20000};
     return names[band];
 }
 
-static double lower_edge(int band)
-{
-    return 1000 * real_exp10((2 * (band - DISTANCE_BAND_1000) - 1) / 20.0);
-}
+static double lower_edge(int band) { return 1000 * real_exp10((2 * (band - DISTANCE_BAND_1000) - 1) / 20.0); }
 
 struct spectrum {
     struct fft *fft;
-    size_t n;                 /* transform length     */
+    size_t n; /* transform length     */
     double *x, *re, *im;
-    double width;             /* of a bin, Hz         */
+    double width; /* of a bin, Hz         */
 };
 
 /* Sum of P_k N over the frequencies from low to high. */
@@ -121,7 +115,11 @@ static void add_piece(struct spectrum *s, const struct wav *w, const size_t at[3
 void distance_band_levels(const struct wav *w, struct arena *a, double *level)
 {
     size_t piece = w->frames < PIECE ? w->frames : PIECE, n = fft_good_size(piece < 2 ? 2 : piece);
-    struct spectrum s = {fft_open(n), n, ARENA_TAKE(a, double, n), ARENA_TAKE(a, double, n / 2 + 1), ARENA_TAKE(a, double, n / 2 + 1),
+    struct spectrum s = {fft_open(n),
+                         n,
+                         ARENA_TAKE(a, double, n),
+                         ARENA_TAKE(a, double, n / 2 + 1),
+                         ARENA_TAKE(a, double, n / 2 + 1),
                          w->rate / (double)n};
     for (size_t channel = 0; channel < (size_t)w->channels; channel++) {
         double energy[DISTANCE_BANDS] = {0};
@@ -146,16 +144,17 @@ static int shared_bands(const struct wav *a, const struct wav *b)
     return n;
 }
 
-void distance_bands(const struct wav *a, const struct wav *b, double range_db, struct arena *arena, struct distance_bands *d)
+void distance_bands(const struct wav *a, const struct wav *b, double range_db, struct arena *arena,
+                    struct distance_bands *d)
 {
     int shared = shared_bands(a, b), channels = a->channels;
-    double *la = ARENA_TAKE(arena, double, channels * DISTANCE_BANDS), *lb = ARENA_TAKE(arena, double, channels * DISTANCE_BANDS);
+    double *la = ARENA_TAKE(arena, double, channels *DISTANCE_BANDS),
+           *lb = ARENA_TAKE(arena, double, channels *DISTANCE_BANDS);
     double loudest = -INFINITY;
     distance_band_levels(a, arena, la);
     distance_band_levels(b, arena, lb);
     for (int i = 0; i < channels * DISTANCE_BANDS; i++)
-        if (i % DISTANCE_BANDS < shared)
-            loudest = fmax(loudest, fmax(la[i], lb[i]));
+        if (i % DISTANCE_BANDS < shared) loudest = fmax(loudest, fmax(la[i], lb[i]));
     *d = (struct distance_bands){.a_db = -INFINITY, .b_db = -INFINITY};
     for (int i = 0; i < channels * DISTANCE_BANDS; i++) {
         if (i % DISTANCE_BANDS >= shared || loudest == -INFINITY || !(fmax(la[i], lb[i]) >= loudest - range_db))

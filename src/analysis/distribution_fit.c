@@ -1,13 +1,15 @@
 /* Which distribution do values have?
 
-   Gaussian: as papers/002 figure 9, a histogram's density is fitted with a Gaussian one by least squares (its mean over each bin; mean and deviation
-   by Gauss and Newton), gaussian_r2 = 1 - (squares left)/(squares about the mean bin). Bins are 3.49 s n^(-1/3) wide (Scott, Biometrika 66, 1979, 605), at least
-   LEAST and at most MOST of them. Kolmogorov's distance, the greatest between the two cumulative distributions, is to the Gaussian of the values' own
+   Gaussian: as papers/002 figure 9, a histogram's density is fitted with a Gaussian one by least squares (its mean over
+   each bin; mean and deviation by Gauss and Newton), gaussian_r2 = 1 - (squares left)/(squares about the mean bin).
+   Bins are 3.49 s n^(-1/3) wide (Scott, Biometrika 66, 1979, 605), at least LEAST and at most MOST of them.
+   Kolmogorov's distance, the greatest between the two cumulative distributions, is to the Gaussian of the values' own
    mean and deviation.
 
-   Exponential and gamma: as Lagrange, Scavone and Depalle have amplitudes and intervals, by greatest likelihood: the mean of the values above 0;
-   ln k - psi(k) = ln(mean) - mean(ln), scale mean/k. Above a shape of LARGE the gamma distribution is taken by Wilson and Hilferty's cube root, which is
-   off by 1e-6 at most there, as GSL's series do not converge for all. */
+   Exponential and gamma: as Lagrange, Scavone and Depalle have amplitudes and intervals, by greatest likelihood: the
+   mean of the values above 0; ln k - psi(k) = ln(mean) - mean(ln), scale mean/k. Above a shape of LARGE the gamma
+   distribution is taken by Wilson and Hilferty's cube root, which is off by 1e-6 at most there, as GSL's series do not
+   converge for all. */
 #include "analysis/distribution_fit.h"
 
 #include <gsl/gsl_cdf.h>
@@ -43,7 +45,8 @@ static void histogram_make(const double *sorted, int n, double mean, double devi
 static int histogram_residuals(const gsl_vector *at, void *context, gsl_vector *out)
 {
     const struct histogram *h = context;
-    double mean = gsl_vector_get(at, 0), deviation = real_exp(gsl_vector_get(at, 1)), below = gsl_cdf_ugaussian_P((h->from - mean) / deviation);
+    double mean = gsl_vector_get(at, 0), deviation = real_exp(gsl_vector_get(at, 1)),
+           below = gsl_cdf_ugaussian_P((h->from - mean) / deviation);
     for (int i = 0; i < h->bins; i++) {
         double next = gsl_cdf_ugaussian_P((h->from + (i + 1) * h->width - mean) / deviation);
         gsl_vector_set(out, i, h->density[i] - (next - below) / h->width);
@@ -77,17 +80,14 @@ enum shape { GAUSSIAN, EXPONENTIAL, GAMMA };
 
 struct law {
     enum shape shape;
-    double a, b;                /* mean, deviation; mean, -; shape, scale */
+    double a, b; /* mean, deviation; mean, -; shape, scale */
 };
 
 static double law_below(const struct law *l, double x)
 {
-    if (l->shape == GAUSSIAN)
-        return gsl_cdf_ugaussian_P((x - l->a) / l->b);
-    if (l->shape == EXPONENTIAL)
-        return 1 - real_exp(-x / l->a);
-    if (l->a <= LARGE)
-        return gsl_cdf_gamma_P(x, l->a, l->b);
+    if (l->shape == GAUSSIAN) return gsl_cdf_ugaussian_P((x - l->a) / l->b);
+    if (l->shape == EXPONENTIAL) return 1 - real_exp(-x / l->a);
+    if (l->a <= LARGE) return gsl_cdf_gamma_P(x, l->a, l->b);
     return gsl_cdf_ugaussian_P((real_pow(x / (l->a * l->b), 1 / 3.0) - 1 + 1 / (9 * l->a)) * 3 * sqrt(l->a));
 }
 
@@ -108,8 +108,7 @@ static void exponential_fit(const double *sorted, int n, struct distribution_fit
     double sum = 0;
     for (; above < n && sorted[n - 1 - above] > 0; above++)
         sum += sorted[n - 1 - above];
-    if (above < LEAST)
-        return;
+    if (above < LEAST) return;
     f->exponential_mean = sum / above;
     f->exponential_distance = distance(sorted + n - above, above, (struct law){EXPONENTIAL, f->exponential_mean, 0});
 }
@@ -121,8 +120,7 @@ static double gamma_shape(double s)
     for (int i = 0; i < STEPS; i++) {
         double step = (real_log(k) - gsl_sf_psi(k) - s) / (1 / k - gsl_sf_psi_1(k));
         k = fmax(k - step, k / 2);
-        if (!(fabs(step) > 1e-12 * k))
-            break;
+        if (!(fabs(step) > 1e-12 * k)) break;
     }
     return k;
 }
@@ -130,8 +128,7 @@ static double gamma_shape(double s)
 static void gamma_fit(const double *sorted, int n, double mean, struct distribution_fits *f)
 {
     double logarithm = 0;
-    if (!(sorted[0] > 0))
-        return;
+    if (!(sorted[0] > 0)) return;
     for (int i = 0; i < n; i++)
         logarithm += (real_log(sorted[i]) - real_log(mean)) / n;
     if (!(logarithm < -1e-12)) /* the values differ by a part of 1e-6: a shape of 1e12 or more */
@@ -143,13 +140,13 @@ static void gamma_fit(const double *sorted, int n, double mean, struct distribut
 
 void distribution_fit(const double *x, int n, struct arena *a, struct distribution_fits *f)
 {
-    double *sorted = ARENA_TAKE(a, double, n), mean = 0, power[3] = {0}, unit; /* moments in the values' own unit: no power overflows */
+    double *sorted = ARENA_TAKE(a, double, n), mean = 0, power[3] = {0},
+           unit; /* moments in the values' own unit: no power overflows */
     struct histogram h = {0};
     *f = (struct distribution_fits){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     memcpy(sorted, x, n * sizeof *x);
     gsl_sort(sorted, 1, n);
-    if (!(sorted[n - 1] > sorted[0]))
-        return;
+    if (!(sorted[n - 1] > sorted[0])) return;
     for (int i = 0; i < n; i++)
         mean += sorted[i] / n;
     unit = sorted[n - 1] - sorted[0];

@@ -4,7 +4,8 @@
 #include "analysis/impact_statistics.h"
 #include "base/arena.h"
 
-/* x[n], n >= 8. All NAN where all values are alike; gamma NAN unless all are above 0; exponential NAN where fewer than 8 are. */
+/* x[n], n >= 8. All NAN where all values are alike; gamma NAN unless all are above 0; exponential NAN where fewer than
+ * 8 are. */
 void distribution_fit(const double *x, int n, struct arena *a, struct distribution_fits *f);
 
 #endif

@@ -1,11 +1,13 @@
-/* The two steps of papers/002, section IV-E2: outliers (impacts that run into each other) spoil a fit of both parameters to rolling, so theta is
-   taken from single impacts and only zeta from the series. Both are least squares of log t0, where the law is a line:
+/* The two steps of papers/002, section IV-E2: outliers (impacts that run into each other) spoil a fit of both
+   parameters to rolling, so theta is taken from single impacts and only zeta from the series. Both are least squares of
+   log t0, where the law is a line:
 
      log t0 = log zeta - theta log |A|,     log zeta = mean of (log t0 + theta log |A|) where theta is given.
 
-   R^2 = 1 - sum of squared errors / sum of squares about the mean; of t0 with the law so found, and of log t0. The paper does not say which it
-   prints. An R^2 below 0 says that a constant would do better; of durations that are all alike there is none. The standard error of theta is that of the
-   scatter: durations measured in a force are right within 0.5 % only (impact_find.c), which over a decade of amplitudes moves theta by up to 0.003. */
+   R^2 = 1 - sum of squared errors / sum of squares about the mean; of t0 with the law so found, and of log t0. The
+   paper does not say which it prints. An R^2 below 0 says that a constant would do better; of durations that are all
+   alike there is none. The standard error of theta is that of the scatter: durations measured in a force are right
+   within 0.5 % only (impact_find.c), which over a decade of amplitudes moves theta by up to 0.003. */
 #include "analysis/impact_duration.h"
 
 #include <gsl/gsl_sort.h>
@@ -32,7 +34,8 @@ static void r2_both(const struct impact_events *v, bool only_alone, const double
     for (int i = 0; i < v->n; i++)
         if (known(v, i, only_alone)) {
             double y = real_log(v->duration[i]), fit = real_log(law[0]) - law[1] * real_log(fabs(v->amplitude[i]));
-            double d[2] = {v->duration[i] - sum[0] / n, y - sum[1] / n}, e[2] = {v->duration[i] - real_exp(fit), y - fit};
+            double d[2] = {v->duration[i] - sum[0] / n, y - sum[1] / n},
+                   e[2] = {v->duration[i] - real_exp(fit), y - fit};
             for (int k = 0; k < 2; k++) {
                 squares[k] += d[k] * d[k];
                 errors[k] += e[k] * e[k];
@@ -58,8 +61,7 @@ static bool line_fit(const struct impact_events *v, bool only_alone, double c[2]
             sxy += dx * (y - my);
             syy += dy * (y - my);
         }
-    if (n < IMPACT_DURATION_LEAST || sxx < 4e-4 * n)
-        return false;
+    if (n < IMPACT_DURATION_LEAST || sxx < 4e-4 * n) return false;
     c[1] = syy > ALIKE * ALIKE * n ? sxy / sxx : 0;
     c[0] = my - c[1] * mx;
     *error = sqrt(fmax(syy - c[1] * sxy, 0) / (n - 2) / sxx);
@@ -73,8 +75,7 @@ bool impact_duration_single(const struct impact_events *v, bool only_alone, stru
     for (int i = 0; i < v->n; i++)
         n += known(v, i, only_alone);
     d->singles = n;
-    if (!line_fit(v, only_alone, c, &error))
-        return false;
+    if (!line_fit(v, only_alone, c, &error)) return false;
     d->theta = d->theta_single = -c[1];
     d->theta_error = error;
     d->zeta_single = real_exp(c[0]);
@@ -93,8 +94,7 @@ bool impact_duration_series(const struct impact_events *v, struct impact_duratio
             sum += real_log(v->duration[i]) + d->theta * real_log(fabs(v->amplitude[i]));
             d->n++;
         }
-    if (d->n == 0)
-        return false;
+    if (d->n == 0) return false;
     d->zeta = real_exp(sum / (double)d->n);
     r2_both(v, false, (const double[2]){d->zeta, d->theta}, r2);
     d->r2 = r2[0];
@@ -107,12 +107,10 @@ bool impact_duration_constant(const struct impact_events *v, struct arena *a, st
     double *duration = ARENA_TAKE(a, double, v->n + 1), r2[2];
     size_t n = 0;
     for (int i = 0; i < v->n; i++)
-        if (known(v, i, false))
-            duration[n++] = v->duration[i];
+        if (known(v, i, false)) duration[n++] = v->duration[i];
     d->n = (long)n;
     d->theta = 0;
-    if (n == 0)
-        return false;
+    if (n == 0) return false;
     gsl_sort(duration, 1, n);
     d->zeta = gsl_stats_median_from_sorted_data(duration, 1, n);
     r2_both(v, false, (const double[2]){d->zeta, 0}, r2);

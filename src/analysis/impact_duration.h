@@ -5,21 +5,25 @@
 #include "base/arena.h"
 #include "base/err.h"
 
-enum { IMPACT_DURATION_LEAST = 5, IMPACT_DURATION_MANY = 20 }; /* impacts from which theta is told; of a series, from which a law is believed */
+enum {
+    IMPACT_DURATION_LEAST = 5,
+    IMPACT_DURATION_MANY = 20
+}; /* impacts from which theta is told; of a series, from which a law is believed */
 
 struct impact_duration {
     double theta;
     double theta_single, theta_error; /* on single impacts, and its standard error; NAN where theta is given */
-    double zeta_single;         /* s, on single impacts                                          */
-    double r2_single, r2_single_log; /* of t0, and of its logarithm                              */
-    long singles;               /* impacts that theta is from; 0: given                          */
-    double zeta;                /* s, of the series                                              */
+    double zeta_single;               /* s, on single impacts                                          */
+    double r2_single, r2_single_log;  /* of t0, and of its logarithm                              */
+    long singles;                     /* impacts that theta is from; 0: given                          */
+    double zeta;                      /* s, of the series                                              */
     double r2, r2_log;
-    long n;                     /* impacts of the series whose duration is known                 */
+    long n; /* impacts of the series whose duration is known                 */
 };
 
-/* First step: theta and zeta by linear regression of log t0 on log |A|, over the impacts that stand alone, or over all. False, with nothing set but
-   `singles`: fewer than IMPACT_DURATION_LEAST, or amplitudes all alike (their logarithms' deviation is below 0.02). */
+/* First step: theta and zeta by linear regression of log t0 on log |A|, over the impacts that stand alone, or over all.
+   False, with nothing set but `singles`: fewer than IMPACT_DURATION_LEAST, or amplitudes all alike (their logarithms'
+   deviation is below 0.02). */
 bool impact_duration_single(const struct impact_events *v, bool only_alone, struct impact_duration *d);
 
 /* Second step: with d->theta as it is, zeta alone, over all impacts whose duration is known. False: there is none. */

@@ -7,12 +7,13 @@
 
 struct impact_events {
     int n;
-    double *time;       /* [n] s, of the greatest force; rising                                       */
-    double *amplitude;  /* [n] N                                                                      */
-    double *duration;   /* [n] s; NAN where it is not known                                           */
-    bool *alone;        /* [n] the force is 0 before and after it: its duration is a contact time      */
-    long fewer;         /* how many local maxima were left out, below the threshold                   */
-    double blur[2];     /* how far amplitudes that are alike may be apart, as a share of them, and intervals, in s, as they were measured; 0: in a table */
+    double *time;      /* [n] s, of the greatest force; rising                                       */
+    double *amplitude; /* [n] N                                                                      */
+    double *duration;  /* [n] s; NAN where it is not known                                           */
+    bool *alone;       /* [n] the force is 0 before and after it: its duration is a contact time      */
+    long fewer;        /* how many local maxima were left out, below the threshold                   */
+    double blur[2]; /* how far amplitudes that are alike may be apart, as a share of them, and intervals, in s, as they
+                       were measured; 0: in a table */
 };
 
 /* How far a difference of times may be off by rounding, in s. */

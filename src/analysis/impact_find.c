@@ -1,23 +1,24 @@
 /* Impacts are the local maxima of the force (papers/002, section IV-A). What is done beside that:
 
-   Ripples.  A force that was brought to its sample rate by a low-pass has small maxima beside the large ones, and so has noise. A maximum counts if it
-             rises above the higher of the two valleys beside it (that part towards the next higher maximum on each side; its prominence) by at least
-             `prominence` of the greatest force within 24 samples, and if it is at least `threshold` of the greatest of all. What is left out is counted.
-   Place.    The signal is taken as band-limited (num/between.h): the greatest value in steps of 1/32 of a sample, and a parabola through it and those
-             a quarter of a sample beside it. Times are right within 0.01 of a sample of forces that rasp brought to their rate, and of point samples of
-             raised cosines that last 12 or more.
-   Alone.    An impact stands alone if on both sides the force falls to `quiet` of its own amplitude before the valley that parts it from its
-             neighbour. `quiet` is how nearly 0 the force must be, and has to lie above the ripple.
-   Duration. Of one that stands alone, its contact time. Near its ends force is taken as A sin^p of the time from there, which a raised cosine is with
-             p = 2 and Hertz's impact nearly with p = 1.5: the times at which it passes 1/20, 1/10 and 1/5 of A (2, 4 and 8 times `quiet` where that is
-             more) give p and the end. The low-pass blurs the ends: this is right within 0.5 % from 32 samples on (twice the width at half height), and within
-             1 % from 15 on. Of shorter impacts, and of those that do not stand alone, `stretch` times the width at half height, which the low-pass hardly
-             touches (within 0.3 % from 6 samples on): `stretch` is the median ratio of the two durations of the impacts of 32 samples and more that stand
-             alone, if there are IMPACT_FEET_MANY of them and they are a tenth of those of 12 samples and more (fewer may all be merged ones); else of
-             those of 12 and more; if there is none it is 2. It is 2 of raised cosines, 1.82 of Hertz's impacts. Half height may be passed on one side
-             only: then twice the half there.
-   Merged.   A flank whose slope falls and rises again by more than a tenth of its steepest is one of two impacts that made a single maximum: they are
-             counted, and taken as one. */
+   Ripples.  A force that was brought to its sample rate by a low-pass has small maxima beside the large ones, and so
+   has noise. A maximum counts if it rises above the higher of the two valleys beside it (that part towards the next
+   higher maximum on each side; its prominence) by at least `prominence` of the greatest force within 24 samples, and if
+   it is at least `threshold` of the greatest of all. What is left out is counted. Place.    The signal is taken as
+   band-limited (num/between.h): the greatest value in steps of 1/32 of a sample, and a parabola through it and those a
+   quarter of a sample beside it. Times are right within 0.01 of a sample of forces that rasp brought to their rate, and
+   of point samples of raised cosines that last 12 or more. Alone.    An impact stands alone if on both sides the force
+   falls to `quiet` of its own amplitude before the valley that parts it from its neighbour. `quiet` is how nearly 0 the
+   force must be, and has to lie above the ripple. Duration. Of one that stands alone, its contact time. Near its ends
+   force is taken as A sin^p of the time from there, which a raised cosine is with p = 2 and Hertz's impact nearly with
+   p = 1.5: the times at which it passes 1/20, 1/10 and 1/5 of A (2, 4 and 8 times `quiet` where that is more) give p
+   and the end. The low-pass blurs the ends: this is right within 0.5 % from 32 samples on (twice the width at half
+   height), and within 1 % from 15 on. Of shorter impacts, and of those that do not stand alone, `stretch` times the
+   width at half height, which the low-pass hardly touches (within 0.3 % from 6 samples on): `stretch` is the median
+   ratio of the two durations of the impacts of 32 samples and more that stand alone, if there are IMPACT_FEET_MANY of
+   them and they are a tenth of those of 12 samples and more (fewer may all be merged ones); else of those of 12 and
+   more; if there is none it is 2. It is 2 of raised cosines, 1.82 of Hertz's impacts. Half height may be passed on one
+   side only: then twice the half there. Merged.   A flank whose slope falls and rises again by more than a tenth of its
+   steepest is one of two impacts that made a single maximum: they are counted, and taken as one. */
 #include "analysis/impact_find.h"
 
 #include <gsl/gsl_sort.h>
@@ -38,9 +39,9 @@ struct search {
     const struct impact_options *o;
     struct between between;
     struct impact_found *f;
-    long n;             /* maxima */
-    long *at;           /* [n] samples */
-    double *left;       /* [n] N, valley before it; later its prominence */
+    long n;       /* maxima */
+    long *at;     /* [n] samples */
+    double *left; /* [n] N, valley before it; later its prominence */
 };
 
 /* What is searched for maxima. */
@@ -67,7 +68,8 @@ static void maxima_list(struct search *q)
     }
 }
 
-/* Valley of each maximum on the way to the next one that is higher (or, if `equal`, as high), in the order of `step`; 0 where there is none. */
+/* Valley of each maximum on the way to the next one that is higher (or, if `equal`, as high), in the order of `step`; 0
+ * where there is none. */
 static void valleys(const struct search *q, int step, bool equal, double *valley, long *stack)
 {
     long top = 0, from = step > 0 ? 0 : q->n - 1, before = from;
@@ -115,8 +117,8 @@ static void maxima_choose(struct search *q, struct arena *a)
 
 struct one {
     const struct search *q;
-    double sign, amplitude, place;  /* 1 or -1; N; samples              */
-    long at, low, high;             /* samples: its maximum, the valleys beside it */
+    double sign, amplitude, place; /* 1 or -1; N; samples              */
+    long at, low, high;            /* samples: its maximum, the valleys beside it */
 };
 
 static double between_value(const struct one *p, long k)
@@ -141,15 +143,15 @@ static void one_place(struct one *p)
     p->amplitude = y[best] + 0.5 * bend * shift * shift;
 }
 
-/* Where the force first falls to a level on the way to the valley, in samples from the impact's place outwards; NAN: it does not. */
+/* Where the force first falls to a level on the way to the valley, in samples from the impact's place outwards; NAN: it
+ * does not. */
 static double one_crossing(const struct one *p, int step, double level)
 {
     const double *x = p->q->s->force;
     long end = step > 0 ? p->high : p->low, i = p->at;
     while (i != end && p->sign * x[i + step] > level)
         i += step;
-    if (i == end)
-        return NAN;
+    if (i == end) return NAN;
     long in = 0, out = BETWEEN_PHASES; /* above the level at in, not at out */
     while (out - in > 1) {
         long middle = (in + out) / 2;
@@ -158,7 +160,8 @@ static double one_crossing(const struct one *p, int step, double level)
         else
             out = middle;
     }
-    double y0 = between_value(p, i * BETWEEN_PHASES + step * in), y1 = between_value(p, i * BETWEEN_PHASES + step * out);
+    double y0 = between_value(p, i * BETWEEN_PHASES + step * in),
+           y1 = between_value(p, i * BETWEEN_PHASES + step * out);
     double k = (double)in + (y0 > y1 ? (y0 - level) / (y0 - y1) : 0);
     return step * ((double)i - p->place) + k / BETWEEN_PHASES;
 }
@@ -185,8 +188,7 @@ static double one_end(const struct one *p, int step)
         else
             high = m;
     }
-    if (!isfinite(ratio) || low < 0.701 || high > 9.99)
-        return NAN;
+    if (!isfinite(ratio) || low < 0.701 || high > 9.99) return NAN;
     double u0 = arc(level[0], low), u1 = arc(level[1], low);
     return t[0] + (t[0] - t[1]) * u0 / (u1 - u0);
 }
@@ -226,7 +228,8 @@ static void one_take(struct one *p, long k, double *width)
     f->from[k] = isnan(quiet[0]) ? (double)p->low : p->place - quiet[0];
     f->to[k] = isnan(quiet[1]) ? (double)p->high : p->place + quiet[1];
     width[k] = isnan(half[0]) ? 2 * half[1] : isnan(half[1]) ? 2 * half[0] : half[0] + half[1];
-    f->merged += flank_merged(p, -1, (long)fmax(f->from[k], 0)) || flank_merged(p, 1, (long)fmin(f->to[k] + 1, (double)q->s->n - 1));
+    f->merged += flank_merged(p, -1, (long)fmax(f->from[k], 0)) ||
+                 flank_merged(p, 1, (long)fmin(f->to[k] + 1, (double)q->s->n - 1));
     f->events.time[k] = q->s->start + p->place / q->s->rate;
     f->events.amplitude[k] = p->sign * p->amplitude;
     f->events.alone[k] = alone;
@@ -238,8 +241,7 @@ static long valley_between(const struct search *q, long from, long to)
 {
     long best = from;
     for (long i = from; i <= to; i++)
-        if (height(q, i) < height(q, best))
-            best = i;
+        if (height(q, i) < height(q, best)) best = i;
     return best;
 }
 
@@ -253,7 +255,8 @@ static void take_all(const struct search *q, double *width)
     }
 }
 
-/* Contact time over width at half height, of those whose ends are known and that last `least` samples; their number is returned. */
+/* Contact time over width at half height, of those whose ends are known and that last `least` samples; their number is
+ * returned. */
 static size_t ratios_list(const struct search *q, const double *width, int least, double *ratio)
 {
     size_t n = 0;
@@ -269,8 +272,7 @@ static void stretch_widths(const struct search *q, const double *width, struct a
     struct impact_found *f = q->f;
     double *ratio = ARENA_TAKE(a, double, q->n);
     size_t sure = ratios_list(q, width, FEET_SURE, ratio), n = ratios_list(q, width, FEET_LEAST, ratio);
-    if (sure >= IMPACT_FEET_MANY && 10 * sure >= n)
-        n = ratios_list(q, width, FEET_SURE, ratio);
+    if (sure >= IMPACT_FEET_MANY && 10 * sure >= n) n = ratios_list(q, width, FEET_SURE, ratio);
     gsl_sort(ratio, 1, n);
     f->feet = (long)n;
     f->stretch = n ? gsl_stats_median_from_sorted_data(ratio, 1, n) : 2;
@@ -294,7 +296,8 @@ static void take_room(struct impact_found *f, long n, double rate, struct arena 
     f->to = ARENA_TAKE(a, double, n);
 }
 
-bool impact_find(const struct impact_signal *s, const struct impact_options *o, struct arena *a, struct impact_found *f, struct err *e)
+bool impact_find(const struct impact_signal *s, const struct impact_options *o, struct arena *a, struct impact_found *f,
+                 struct err *e)
 {
     struct search q = {.s = s, .o = o, .f = f, .at = ARENA_TAKE(a, long, s->n / 2 + 1)};
     *f = (struct impact_found){.greatest = s->force[0], .least = s->force[0]};
@@ -306,8 +309,11 @@ bool impact_find(const struct impact_signal *s, const struct impact_options *o, 
     maxima_list(&q);
     maxima_choose(&q, a);
     if (q.n == 0)
-        return err_set(e, ERR_SCENE, "no impact: the force, from %.6g to %.6g N, has no local maximum above %.6g N that is prominent enough%s", f->least,
-                       f->greatest, o->threshold * fmax(f->greatest, 0), !o->both && f->least < -fmax(f->greatest, 0) ? "; --signed looks for those below 0 too" : "");
+        return err_set(
+            e, ERR_SCENE,
+            "no impact: the force, from %.6g to %.6g N, has no local maximum above %.6g N that is prominent enough%s",
+            f->least, f->greatest, o->threshold * fmax(f->greatest, 0),
+            !o->both && f->least < -fmax(f->greatest, 0) ? "; --signed looks for those below 0 too" : "");
     take_room(f, q.n, s->rate, a);
     double *width = ARENA_TAKE(a, double, q.n);
     take_all(&q, width);

@@ -8,16 +8,16 @@
 enum { IMPACT_FEET_MANY = 20 }; /* impacts whose ends are known from which their median tells `stretch` */
 
 struct impact_signal {
-    const double *force;    /* [n] N, at start + i / rate                                              */
+    const double *force; /* [n] N, at start + i / rate                                              */
     long n;
-    double rate, start;     /* Hz, s                                                                   */
+    double rate, start; /* Hz, s                                                                   */
 };
 
 struct impact_options {
-    double threshold;       /* least force, as a share of the greatest                                 */
-    double prominence;      /* least prominence, as a share of the greatest force within 24 samples    */
-    double quiet;           /* share of an impact's force below which the force counts as 0            */
-    bool both;              /* impacts in both directions: maxima of |force|                           */
+    double threshold;  /* least force, as a share of the greatest                                 */
+    double prominence; /* least prominence, as a share of the greatest force within 24 samples    */
+    double quiet;      /* share of an impact's force below which the force counts as 0            */
+    bool both;         /* impacts in both directions: maxima of |force|                           */
 };
 
 extern const struct impact_options impact_find_options; /* 0.001, 0.02, 0.01, false */
@@ -36,6 +36,7 @@ struct impact_found {
 };
 
 /* ERR_SCENE: no local maximum is left. */
-bool impact_find(const struct impact_signal *s, const struct impact_options *o, struct arena *a, struct impact_found *f, struct err *e);
+bool impact_find(const struct impact_signal *s, const struct impact_options *o, struct arena *a, struct impact_found *f,
+                 struct err *e);
 
 #endif

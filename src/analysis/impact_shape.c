@@ -3,16 +3,19 @@
      raised cosine    G (1 + cos(2 pi (t - at)/D))/2,   |t - at| <= D/2
      Meixner window   G w(t - at),   w(n) = sqrt((1 - xi^2)^b Gamma(n + b)/(Gamma(b) n!)) xi^n
 
-   The window is the Meixner function of order 0, as parametric audio coders use it for transients (E. Schuijers, W. Oomen, B. den Brinker, J. Breebaart,
-   "Advances in parametric coding for high-quality audio", 114th AES Convention, 2003: reference 39 of papers/002; ISO/IEC 14496-3, subpart 8, computes it as
-   w(0) = (1 - xi^2)^(b/2), w(n + 1) = w(n) xi sqrt((n + b)/(n + 1))); Lagrange, Scavone and Depalle took it for impacts. There n counts samples from the
-   onset; here the onset need not fall on a sample, and n! is Gamma(n + 1), so that w begins at n = -1, where it is 0. w^2 is a negative binomial
-   distribution, of mean m = b xi^2/(1 - xi^2) and variance m/(1 - xi^2): it cannot be narrower than Poisson's, to which it tends for large b and small xi (what is symmetric is fitted there;
-   1 - xi^2 <= 1 - 3e-7), and how well it fits depends on the sample rate.
+   The window is the Meixner function of order 0, as parametric audio coders use it for transients (E. Schuijers, W.
+   Oomen, B. den Brinker, J. Breebaart, "Advances in parametric coding for high-quality audio", 114th AES Convention,
+   2003: reference 39 of papers/002; ISO/IEC 14496-3, subpart 8, computes it as w(0) = (1 - xi^2)^(b/2), w(n + 1) = w(n)
+   xi sqrt((n + b)/(n + 1))); Lagrange, Scavone and Depalle took it for impacts. There n counts samples from the onset;
+   here the onset need not fall on a sample, and n! is Gamma(n + 1), so that w begins at n = -1, where it is 0. w^2 is a
+   negative binomial distribution, of mean m = b xi^2/(1 - xi^2) and variance m/(1 - xi^2): it cannot be narrower than
+   Poisson's, to which it tends for large b and small xi (what is symmetric is fitted there; 1 - xi^2 <= 1 - 3e-7), and
+   how well it fits depends on the sample rate.
 
-   Least squares by Nelder and Mead's simplex (GSL) over (at, log D) or (at, log m, log((1 - xi^2)/xi^2)), begun again at its result once; the gain, which is
-   linear, is solved for. R^2 = 1 - sum of squared errors / sum of squares about the mean, over the samples from where the force has risen to `quiet` to where
-   it has fallen to it, and one more on each side. */
+   Least squares by Nelder and Mead's simplex (GSL) over (at, log D) or (at, log m, log((1 - xi^2)/xi^2)), begun again
+   at its result once; the gain, which is linear, is solved for. R^2 = 1 - sum of squared errors / sum of squares about
+   the mean, over the samples from where the force has risen to `quiet` to where it has fallen to it, and one more on
+   each side. */
 #include "analysis/impact_shape.h"
 
 #include <gsl/gsl_multimin.h>
@@ -26,11 +29,11 @@ enum { PARAMETERS = 3, ROUNDS = 2, STEPS = 400 };
 
 struct problem {
     const double *y;
-    double *w;              /* [n] the shape without its gain */
+    double *w; /* [n] the shape without its gain */
     int n;
     enum impact_shape_kind kind;
-    double total;           /* sum of squares about the mean */
-    double gain, r2;        /* of the last shape             */
+    double total;    /* sum of squares about the mean */
+    double gain, r2; /* of the last shape             */
 };
 
 /* ------------------------------------------------------------------ shapes */
@@ -77,8 +80,7 @@ static double misfit(const gsl_vector *x, void *self)
     struct problem *p = self;
     double yw = 0, ww = 0, errors = 0;
     for (size_t k = 0; k < x->size; k++)
-        if (!(fabs(gsl_vector_get(x, k)) < (double[]){1e9, 40, 15}[k]))
-            return 1e9;
+        if (!(fabs(gsl_vector_get(x, k)) < (double[]){1e9, 40, 15}[k])) return 1e9;
     shape_of(p, x);
     for (int i = 0; i < p->n; i++) {
         yw += p->y[i] * p->w[i];
@@ -117,7 +119,8 @@ void impact_shape_guess(const double *y, int n, enum impact_shape_kind kind, str
     }
 }
 
-static void vector_from(const struct impact_shape_fit *fit, enum impact_shape_kind kind, gsl_vector *x, gsl_vector *step)
+static void vector_from(const struct impact_shape_fit *fit, enum impact_shape_kind kind, gsl_vector *x,
+                        gsl_vector *step)
 {
     double square = fit->xi * fit->xi, odds = (1 - square) / square, m = fit->b / odds;
     bool cosine = kind == IMPACT_SHAPE_COSINE;
@@ -210,7 +213,8 @@ static void fit_one(const struct impact_signal *s, const struct impact_found *f,
     }
 }
 
-static void mean_add(const struct impact_signal *s, const struct between *b, const struct impact_found *f, long k, struct impact_shape *h)
+static void mean_add(const struct impact_signal *s, const struct between *b, const struct impact_found *f, long k,
+                     struct impact_shape *h)
 {
     const struct impact_events *v = &f->events;
     for (int j = 0; j < IMPACT_SHAPE_POINTS; j++) {
@@ -258,8 +262,7 @@ static long fit_list(const struct impact_signal *s, const struct impact_found *f
 {
     long n = 0, first;
     for (long k = 0; k < f->events.n; k++) {
-        if (!f->events.alone[k])
-            continue;
+        if (!f->events.alone[k]) continue;
         int samples = samples_of(s, f, k, &first);
         if (samples < IMPACT_SHAPE_LEAST)
             h->brief++;
@@ -271,7 +274,8 @@ static long fit_list(const struct impact_signal *s, const struct impact_found *f
     return n;
 }
 
-void impact_shape_make(const struct impact_signal *s, const struct impact_found *f, struct arena *a, struct impact_shape *h)
+void impact_shape_make(const struct impact_signal *s, const struct impact_found *f, struct arena *a,
+                       struct impact_shape *h)
 {
     long *list = ARENA_TAKE(a, long, f->events.n);
     struct ratios r;
@@ -279,8 +283,7 @@ void impact_shape_make(const struct impact_signal *s, const struct impact_found 
     *h = (struct impact_shape){.fitted = 0};
     long n = fit_list(s, f, list, h);
     h->fitted = n < IMPACT_SHAPE_MOST ? n : IMPACT_SHAPE_MOST;
-    if (h->fitted == 0)
-        return;
+    if (h->fitted == 0) return;
     for (int j = 0; j < IMPACT_SHAPE_POINTS; j++)
         h->q[j] = (j - IMPACT_SHAPE_POINTS / 2) / 64.0;
     double *room = ARENA_TAKE(a, double, 5 * h->fitted);

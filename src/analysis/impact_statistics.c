@@ -1,12 +1,14 @@
-/* Statistics of impacts, papers/002 section IV-E: mean, filter (arma.c), whitened series (whiteness.c), its distribution (distribution_fit.c), for
-   amplitudes, after what modulates them was divided out (modulation.c), and for intervals T_(n+1) - T_n.
+/* Statistics of impacts, papers/002 section IV-E: mean, filter (arma.c), whitened series (whiteness.c), its
+   distribution (distribution_fit.c), for amplitudes, after what modulates them was divided out (modulation.c), and for
+   intervals T_(n+1) - T_n.
 
    95 % intervals, each checked over 200 seeds and more (evidence/impacts.md):
    - a1, b1: 1.96 errors to each side, kept within -1 and 1; where any a1 = b1 fits, all of -1 to 1.
    - deviation s of the white process: s exp(+- 1.96 e), e^2 = (kurtosis - 1)/(4 n).
-   - mean: s/sqrt(sum U^2), which tends to s |1 + b1|/(|1 + a1| sqrt(n)); 1 + a1 is 0.03 for smooth rolling and known to a fifth of itself after 2000 impacts.
-     So Student's t takes the place of 1.96, with 2/var(ln error^2) degrees of freedom (Satterthwaite, Biometrics Bull. 2, 1946, 110), at least 3; the variance follows from
-     the errors of a1, b1 and s. */
+   - mean: s/sqrt(sum U^2), which tends to s |1 + b1|/(|1 + a1| sqrt(n)); 1 + a1 is 0.03 for smooth rolling and known to
+   a fifth of itself after 2000 impacts. So Student's t takes the place of 1.96, with 2/var(ln error^2) degrees of
+   freedom (Satterthwaite, Biometrics Bull. 2, 1946, 110), at least 3; the variance follows from the errors of a1, b1
+   and s. */
 #include "analysis/impact_statistics.h"
 
 #include <gsl/gsl_cdf.h>
@@ -41,7 +43,8 @@ static struct estimate of_filter(double value, double variance, bool cancelled)
 static struct estimate of_mean(const struct arma *f, int n, double kurtosis)
 {
     const double *g = f->slope, *c = f->covariance;
-    double spread = (kurtosis - 1) / n + (f->white ? 0 : g[0] * g[0] * c[0] + 2 * g[0] * g[1] * c[1] + g[1] * g[1] * c[2]);
+    double spread =
+        (kurtosis - 1) / n + (f->white ? 0 : g[0] * g[0] * c[0] + 2 * g[0] * g[1] * c[1] + g[1] * g[1] * c[2]);
     double freedom = fmax(3, fmin(2 / spread, 1e6));
     return symmetric(f->mean, sqrt(f->mean_variance), gsl_cdf_tdist_Pinv(0.975, freedom));
 }
@@ -49,7 +52,8 @@ static struct estimate of_mean(const struct arma *f, int n, double kurtosis)
 static struct estimate of_deviation(double deviation, int n, double kurtosis)
 {
     double e = sqrt(fmax(kurtosis - 1, 0) / (4 * (double)n));
-    return (struct estimate){deviation, deviation * e, deviation * real_exp(-NORMAL * e), deviation * real_exp(NORMAL * e)};
+    return (struct estimate){deviation, deviation * e, deviation * real_exp(-NORMAL * e),
+                             deviation * real_exp(NORMAL * e)};
 }
 
 static void series_flat(double value, struct arena *a, struct series_statistics *s)
@@ -64,7 +68,8 @@ static void series_flat(double value, struct arena *a, struct series_statistics 
 }
 
 /* x[n]; `grain`: how far values that are alike may be apart by rounding. white[n] gets them whitened. */
-static void series_make(const double *x, int n, double grain, struct arena *a, struct series_statistics *s, double *white)
+static void series_make(const double *x, int n, double grain, struct arena *a, struct series_statistics *s,
+                        double *white)
 {
     double least = x[0], most = x[0], variance = 0;
     struct arma f;
@@ -109,32 +114,36 @@ static void demodulate(const struct impact_events *v, bool wanted, struct arena 
     struct modulation m;
     memcpy(s->demodulated, v->amplitude, v->n * sizeof *v->amplitude);
     s->modulation.probability = 1;
-    if (!wanted || both_signs(v))
-        return;
+    if (!wanted || both_signs(v)) return;
     modulation_find(v->time, v->amplitude, v->n, a, &m);
-    s->modulation = (struct impact_modulation){m.depth, m.rate, m.depth_error, m.rate_error, m.probability, m.found, true};
-    if (m.found)
-        modulation_divide(&m, v->time, v->amplitude, v->n, s->demodulated);
+    s->modulation =
+        (struct impact_modulation){m.depth, m.rate, m.depth_error, m.rate_error, m.probability, m.found, true};
+    if (m.found) modulation_divide(&m, v->time, v->amplitude, v->n, s->demodulated);
 }
 
 static bool check(const struct impact_events *v, struct err *e)
 {
     if (v->n < STATISTICS_LEAST)
-        return err_set(e, ERR_SCENE, "%d impacts are too few for statistics: at least %d are needed, and 2000 for errors worth having", v->n, STATISTICS_LEAST);
+        return err_set(
+            e, ERR_SCENE,
+            "%d impacts are too few for statistics: at least %d are needed, and 2000 for errors worth having", v->n,
+            STATISTICS_LEAST);
     for (int i = 0; i < v->n; i++) {
         if (!isfinite(v->time[i]) || !isfinite(v->amplitude[i]))
             return err_set(e, ERR_SCENE, "impact %d: its time or amplitude is not a number", i + 1);
         if (i && !(v->time[i] > v->time[i - 1]))
-            return err_set(e, ERR_SCENE, "impact %d, at %.9g s, is not after the one before, at %.9g s: times have to rise", i + 1, v->time[i], v->time[i - 1]);
+            return err_set(e, ERR_SCENE,
+                           "impact %d, at %.9g s, is not after the one before, at %.9g s: times have to rise", i + 1,
+                           v->time[i], v->time[i - 1]);
     }
     return true;
 }
 
-bool impact_statistics_make(const struct impact_events *v, bool demodulate_them, struct arena *a, struct impact_statistics *s, struct err *e)
+bool impact_statistics_make(const struct impact_events *v, bool demodulate_them, struct arena *a,
+                            struct impact_statistics *s, struct err *e)
 {
     memset(s, 0, sizeof *s);
-    if (!check(v, e))
-        return false;
+    if (!check(v, e)) return false;
     int n = v->n;
     double *interval = ARENA_TAKE(a, double, n), grain = impact_events_grain(v);
     s->n = n;

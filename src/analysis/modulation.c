@@ -1,13 +1,16 @@
 /* The strongest sinusoid in amplitudes at irregular times, against their own spectrum.
 
-   Amplitudes of rolling are far from white (a1 about -0.97), so that a plain periodogram is greatest at the lowest frequencies whatever there is. So
-   values are whitened first, and where a sinusoid is strongest, and how likely noise makes one as strong, is found in modulation_scan.c.
+   Amplitudes of rolling are far from white (a1 about -0.97), so that a plain periodogram is greatest at the lowest
+   frequencies whatever there is. So values are whitened first, and where a sinusoid is strongest, and how likely noise
+   makes one as strong, is found in modulation_scan.c.
 
-   What is found is refined as what it is, a factor: m, nu, phi make n ln |W (A/(1 + m sin) - mean)|^2 + 2 sum ln(1 + m sin) least (W: the whitening by the ARMA
-   filter of arma.c; the second term is the likelihood's: else a larger factor would always win), by GSL's damped Gauss-Newton steps on the residuals times the
-   factor's geometric mean, in turns with the ARMA filter of what is left, TURNS times. Errors: from the second differences of half of it. The probability
-   is that of the first search, whose filter still has the sinusoid in it: it errs to the careful side. It asks whether the amplitudes' mean moves, not whether
-   their deviation does, which would be seen sooner: a deviation that comes and goes is no sinusoid, and rough ground has one. */
+   What is found is refined as what it is, a factor: m, nu, phi make n ln |W (A/(1 + m sin) - mean)|^2 + 2 sum ln(1 + m
+   sin) least (W: the whitening by the ARMA filter of arma.c; the second term is the likelihood's: else a larger factor
+   would always win), by GSL's damped Gauss-Newton steps on the residuals times the factor's geometric mean, in turns
+   with the ARMA filter of what is left, TURNS times. Errors: from the second differences of half of it. The probability
+   is that of the first search, whose filter still has the sinusoid in it: it errs to the careful side. It asks whether
+   the amplitudes' mean moves, not whether their deviation does, which would be seen sooner: a deviation that comes and
+   goes is no sinusoid, and rough ground has one. */
 #include "analysis/modulation.h"
 
 #include <float.h>
@@ -21,7 +24,8 @@
 
 enum { TURNS = 3, STEPS = 100, GROUP = 32 };
 
-/* ------------------------------------------------------------------ refinement: c = m cos phi, s = m sin phi (from the middle), f in cycles per span */
+/* ------------------------------------------------------------------ refinement: c = m cos phi, s = m sin phi (from the
+ * middle), f in cycles per span */
 
 /* 1 + m sin of each, to out. */
 static void factors(const struct modulation_problem *p, const double at[3], double *out)
@@ -33,15 +37,15 @@ static void factors(const struct modulation_problem *p, const double at[3], doub
         out[i] = 1 + at[0] * p->sine[i] + at[1] * p->cosine[i];
 }
 
-/* The mean logarithm of factors, by products of GROUP of them, which stay within a double's range. False: one is not between 1e-6 and 1e6. */
+/* The mean logarithm of factors, by products of GROUP of them, which stay within a double's range. False: one is not
+ * between 1e-6 and 1e6. */
 static bool mean_logarithm(const double *by, int n, double *mean)
 {
     double sum = 0;
     for (int i = 0; i < n;) {
         double product = 1;
         for (int end = i + GROUP < n ? i + GROUP : n; i < end; i++) {
-            if (!(by[i] > 1e-6 && by[i] < 1e6))
-                return false;
+            if (!(by[i] > 1e-6 && by[i] < 1e6)) return false;
             product *= by[i];
         }
         sum += real_log(product);
@@ -50,13 +54,13 @@ static bool mean_logarithm(const double *by, int n, double *mean)
     return true;
 }
 
-/* Whitened residuals of what is left over their deviation, times the factor's geometric mean. False: the factor is not above 0 everywhere, or out of all bounds. */
+/* Whitened residuals of what is left over their deviation, times the factor's geometric mean. False: the factor is not
+ * above 0 everywhere, or out of all bounds. */
 static bool left(const struct modulation_problem *p, const double at[3], double *out)
 {
     double mean;
     factors(p, at, out);
-    if (!mean_logarithm(out, p->n, &mean))
-        return false;
+    if (!mean_logarithm(out, p->n, &mean)) return false;
     for (int i = 0; i < p->n; i++)
         out[i] = p->amplitude[i] / out[i] - p->filter.mean;
     arma_whiten(out, p->n, p->filter.a1, p->filter.b1, out);
@@ -104,14 +108,14 @@ static void descend(struct modulation_problem *p, double at[3], double step[3])
     gsl_multifit_nlinear_free(w);
 }
 
-/* Phases differ so much within a quarter of a cycle that steps need a start: c and s of least energy at the scan's frequency, from sixteen phases. */
+/* Phases differ so much within a quarter of a cycle that steps need a start: c and s of least energy at the scan's
+ * frequency, from sixteen phases. */
 static void begin(struct modulation_problem *p, const struct modulation *m, double at[3])
 {
     double least = HUGE_VAL, depth = fmin(m->depth, 0.9);
     for (int i = 0; i < 16; i++) {
         double try[3] = {depth * real_cospi(i / 8.0), depth * real_sinpi(i / 8.0), m->rate}, energy;
-        if (!left(p, try, p->value))
-            continue;
+        if (!left(p, try, p->value)) continue;
         energy = modulation_scan_dot(p->value, p->value, p->n);
         if (energy < least) {
             least = energy;
@@ -123,7 +127,8 @@ static void begin(struct modulation_problem *p, const struct modulation *m, doub
 /* n/2 ln of the energy left. */
 static double misfit(struct modulation_problem *p, const double at[3])
 {
-    return left(p, at, p->value) ? 0.5 * p->n * real_log(fmax(modulation_scan_dot(p->value, p->value, p->n), DBL_MIN)) : HUGE_VAL;
+    return left(p, at, p->value) ? 0.5 * p->n * real_log(fmax(modulation_scan_dot(p->value, p->value, p->n), DBL_MIN))
+                                 : HUGE_VAL;
 }
 
 /* Second differences of the misfit at `at`, by a third of an error to each side. */
@@ -194,15 +199,12 @@ void modulation_find(const double *time, const double *amplitude, int n, struct 
         least = fmin(least, amplitude[i]);
         most = fmax(most, amplitude[i]);
     }
-    if (!(most - least > 1e-9 * fmax(fabs(most), fabs(least))))
-        return;
+    if (!(most - least > 1e-9 * fmax(fabs(most), fabs(least)))) return;
     modulation_scan_filter(&p, amplitude);
-    if (!(p.filter.mean > 3 * sqrt(p.filter.mean_variance)))
-        return;
+    if (!(p.filter.mean > 3 * sqrt(p.filter.mean_variance))) return;
     modulation_scan_strongest(&p, m);
     m->found = m->probability < MODULATION_PROBABILITY;
-    if (m->found)
-        refine(&p, a, m);
+    if (m->found) refine(&p, a, m);
     m->rate /= p.span;
     m->phase -= 2 * REAL_PI * m->rate * middle;
     m->phase -= 2 * REAL_PI * floor(m->phase / (2 * REAL_PI));

@@ -1,12 +1,14 @@
-/* Everything is done on values whitened by their ARMA(1,1) filter (arma.c; generalised least squares): with W the whitening, energy left without and
-   with a sinusoid Q0 = min |W (A - m)|^2, Q1 = min |W (A - m - c cos - s sin)|^2, its strength is z = (n - 5)/2 ln(Q0/Q1); of Gaussian noise exp(-z) reach
-   z at one frequency, and somewhere below f (Baluev, Mon. Not. R. Astron. Soc. 385, 2008, 1279, equation 6, after Davies)
+/* Everything is done on values whitened by their ARMA(1,1) filter (arma.c; generalised least squares): with W the
+   whitening, energy left without and with a sinusoid Q0 = min |W (A - m)|^2, Q1 = min |W (A - m - c cos - s sin)|^2,
+   its strength is z = (n - 5)/2 ln(Q0/Q1); of Gaussian noise exp(-z) reach z at one frequency, and somewhere below f
+   (Baluev, Mon. Not. R. Astron. Soc. 385, 2008, 1279, equation 6, after Davies)
 
      1 - (1 - exp(-z)) exp(-f sqrt(4 pi var T) sqrt(z) exp(-z)).
 
-   Where to look: |sum g_n exp(-2 pi i nu T_n)|^2/D(nu), g = W'W (A - m), by one FFT of the g_n spread over a regular grid (four-point Lagrange weights, 8 points a
-   period of the highest frequency, 1 % off at most; a quarter of a cycle over the whole from one frequency to the next), D = |W cos|^2 + |W sin|^2 computed at SCALES
-   frequencies and interpolated. The winner is then taken exactly, at NEAR frequencies around it. */
+   Where to look: |sum g_n exp(-2 pi i nu T_n)|^2/D(nu), g = W'W (A - m), by one FFT of the g_n spread over a regular
+   grid (four-point Lagrange weights, 8 points a period of the highest frequency, 1 % off at most; a quarter of a cycle
+   over the whole from one frequency to the next), D = |W cos|^2 + |W sin|^2 computed at SCALES frequencies and
+   interpolated. The winner is then taken exactly, at NEAR frequencies around it. */
 #include "analysis/modulation_scan.h"
 
 #include <float.h>
@@ -95,7 +97,8 @@ static void spectrum_make(const struct modulation_problem *p, double *power)
 {
     int step = (int)ceil(FINE * p->top), n = (int)fft_good_size((size_t)PAD * step), last = (int)(PAD * p->top);
     struct arena *a = arena_open();
-    double *grid = ARENA_TAKE(a, double, n + 8), *re = ARENA_TAKE(a, double, n / 2 + 1), *im = ARENA_TAKE(a, double, n / 2 + 1), g = 0, scale = (double)n / PAD;
+    double *grid = ARENA_TAKE(a, double, n + 8), *re = ARENA_TAKE(a, double, n / 2 + 1),
+           *im = ARENA_TAKE(a, double, n / 2 + 1), g = 0, scale = (double)n / PAD;
     for (int i = p->n - 1; i >= 0; i--) {
         double ahead = (i + 1 < p->n) ? p->value[i + 1] : 0;
         g = p->value[i] + p->filter.a1 * ahead - p->filter.b1 * g;
@@ -117,7 +120,8 @@ static double scan(const struct modulation_problem *p, double *power)
     spectrum_make(p, power);
     for (int i = 0; i < SCALES; i++) {
         waves_make(p, 2 * real_exp(i * ratio));
-        scale[i] = real_log(modulation_scan_dot(p->cosine, p->cosine, p->n) + modulation_scan_dot(p->sine, p->sine, p->n));
+        scale[i] =
+            real_log(modulation_scan_dot(p->cosine, p->cosine, p->n) + modulation_scan_dot(p->sine, p->sine, p->n));
     }
     for (int k = 2 * PAD; k <= last; k++) {
         double at = real_log(k / (2.0 * PAD)) / ratio;
@@ -149,7 +153,8 @@ void modulation_scan_strongest(struct modulation_problem *p, struct modulation *
     double energy = modulation_scan_dot(p->value, p->value, p->n), middle = scan(p, power);
     arena_close(a);
     for (int i = 0; i < NEAR; i++) {
-        double f = fmax(2, fmin(middle + 0.5 * (i - NEAR / 2) / (PAD * (NEAR / 2.0)) * 2, p->top)), gain = taken(p, f, &size);
+        double f = fmax(2, fmin(middle + 0.5 * (i - NEAR / 2) / (PAD * (NEAR / 2.0)) * 2, p->top)),
+               gain = taken(p, f, &size);
         if (gain > best) {
             best = gain;
             m->rate = f;
@@ -159,4 +164,3 @@ void modulation_scan_strongest(struct modulation_problem *p, struct modulation *
     double z = 0.5 * (p->n - 5) * real_log(energy / fmax(energy - best, 1e-30 * energy));
     m->probability = false_alarm(p, z);
 }
-

@@ -1,4 +1,5 @@
-/* Where in the spectrum of amplitudes at irregular times a sinusoid is strongest, against what noise of the same ARMA(1,1) filter does there. */
+/* Where in the spectrum of amplitudes at irregular times a sinusoid is strongest, against what noise of the same
+ * ARMA(1,1) filter does there. */
 #ifndef ANALYSIS_MODULATION_SCAN_H
 #define ANALYSIS_MODULATION_SCAN_H
 #include "analysis/arma.h"
@@ -6,11 +7,11 @@
 
 struct modulation_problem {
     const double *amplitude;
-    double *time;               /* [n] from the middle, over `span`: -1/2 to 1/2 or so                         */
-    double span, top;           /* s; highest frequency in cycles per span                                     */
+    double *time;     /* [n] from the middle, over `span`: -1/2 to 1/2 or so                         */
+    double span, top; /* s; highest frequency in cycles per span                                     */
     int n;
-    struct arma filter;         /* of the amplitudes, or of what the modulation leaves                         */
-    double *ones;               /* [n] whitened                                                                */
+    struct arma filter;            /* of the amplitudes, or of what the modulation leaves                         */
+    double *ones;                  /* [n] whitened                                                                */
     double *value, *cosine, *sine; /* [n] work                                                                 */
 };
 

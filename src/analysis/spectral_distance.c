@@ -1,9 +1,10 @@
-/* Third-octave levels of the whole (distance.h), and the log-spectral distance: over Hann windows of 2048 samples, half overlapping,
+/* Third-octave levels of the whole (distance.h), and the log-spectral distance: over Hann windows of 2048 samples, half
+   overlapping,
 
        sqrt(mean over windows and bins in the band of (10 log10 P_a/P_b)^2) ,
 
-   both powers no lower than the noise and than 60 dB below the greatest of a: what cannot be heard does not count (Gray and Markel, Distance Measures for Speech Processing,
-   IEEE Trans. ASSP 24, 1976, has it without a floor). */
+   both powers no lower than the noise and than 60 dB below the greatest of a: what cannot be heard does not count (Gray
+   and Markel, Distance Measures for Speech Processing, IEEE Trans. ASSP 24, 1976, has it without a floor). */
 #include "analysis/spectral_distance.h"
 
 #include <math.h>
@@ -65,7 +66,8 @@ static double log_spectral(const double *a, const double *b, long n, const struc
     return count > 0.0 ? sqrt(sum / count) : 0.0;
 }
 
-static void third_octaves(const double *a, const double *b, long n, const struct spectral_distance_band *in, struct spectral_distance *d)
+static void third_octaves(const double *a, const double *b, long n, const struct spectral_distance_band *in,
+                          struct spectral_distance *d)
 {
     struct arena *arena = arena_open();
     double la[DISTANCE_BANDS], lb[DISTANCE_BANDS], most = -INFINITY;
@@ -91,7 +93,8 @@ static void third_octaves(const double *a, const double *b, long n, const struct
     arena_close(arena);
 }
 
-struct spectral_distance spectral_distance(const double *a, const double *b, long n, const struct spectral_distance_band *in)
+struct spectral_distance spectral_distance(const double *a, const double *b, long n,
+                                           const struct spectral_distance_band *in)
 {
     struct spectral_distance d = {0};
     third_octaves(a, b, n, in, &d);

@@ -1,6 +1,6 @@
-/* See surface_band.h. Density of a segment x[n] under the window w: 2 pitch |X_k|^2 / sum w^2; the median of an exponentially distributed
-   figure is ln 2 of its mean. The window is Nuttall's with a continuous first derivative (IEEE ASSP 29, 1981, table II). Bins are averaged
-   over twelfths of an octave before levels are compared. */
+/* See surface_band.h. Density of a segment x[n] under the window w: 2 pitch |X_k|^2 / sum w^2; the median of an
+   exponentially distributed figure is ln 2 of its mean. The window is Nuttall's with a continuous first derivative
+   (IEEE ASSP 29, 1981, table II). Bins are averaged over twelfths of an octave before levels are compared. */
 #include "analysis/surface_band.h"
 
 #include <stdlib.h>
@@ -17,9 +17,9 @@ struct band {
     size_t n;                         /* samples of a segment */
     double pitch;
     double *window, *x, *re, *im;
-    double *power;                    /* [segments][n/2 + 1] */
+    double *power; /* [segments][n/2 + 1] */
     size_t segments;
-    double *k, *p;                    /* [nodes] cycles/m, m^2 per cycle/m */
+    double *k, *p; /* [nodes] cycles/m, m^2 per cycle/m */
     size_t nodes;
     struct fft *fft;
 };
@@ -35,18 +35,19 @@ static size_t band_segment(size_t length, size_t lines)
 
 static struct band band_make(const struct heightfile *h, bool down, struct arena *a)
 {
-    struct band b = {.h = h, .length = h->columns, .lines = h->rows, .next = 1, .line = h->columns, .pitch = h->pitch_x};
+    struct band b = {
+        .h = h, .length = h->columns, .lines = h->rows, .next = 1, .line = h->columns, .pitch = h->pitch_x};
     if (down) {
-        b = (struct band){.h = h, .length = h->rows, .lines = h->columns, .next = h->columns, .line = 1, .pitch = h->pitch_y};
+        b = (struct band){
+            .h = h, .length = h->rows, .lines = h->columns, .next = h->columns, .line = 1, .pitch = h->pitch_y};
     }
     b.n = band_segment(b.length, b.lines);
-    if (b.n < SEGMENT_LEAST)
-        return b;
+    if (b.n < SEGMENT_LEAST) return b;
     b.window = ARENA_TAKE(a, double, b.n);
     b.x = ARENA_TAKE(a, double, b.n);
     b.re = ARENA_TAKE(a, double, b.n / 2 + 1);
     b.im = ARENA_TAKE(a, double, b.n / 2 + 1);
-    b.power = ARENA_TAKE(a, double, SEGMENTS_MOST * (b.n / 2 + 1));
+    b.power = ARENA_TAKE(a, double, SEGMENTS_MOST *(b.n / 2 + 1));
     b.k = ARENA_TAKE(a, double, b.n / 2);
     b.p = ARENA_TAKE(a, double, b.n / 2);
     for (size_t i = 0; i < b.n; i++) {
@@ -76,8 +77,7 @@ static bool band_take(struct band *b, const double *z)
 static void band_add(struct band *b, const double *z)
 {
     double energy = 0, *power = b->power + b->segments * (b->n / 2 + 1);
-    if (!band_take(b, z))
-        return;
+    if (!band_take(b, z)) return;
     for (size_t i = 0; i < b->n; i++)
         energy += b->window[i] * b->window[i];
     fft_forward(b->fft, b->x, b->re, b->im);
@@ -89,7 +89,8 @@ static void band_add(struct band *b, const double *z)
 /* All segments there are, or SEGMENTS_MOST of them evenly spread: number s is piece s % pieces of line s / pieces. */
 static void band_gather(struct band *b)
 {
-    size_t pieces = 2 * (b->length / b->n) - 1, all = pieces * b->lines, take = all < SEGMENTS_MOST ? all : SEGMENTS_MOST;
+    size_t pieces = 2 * (b->length / b->n) - 1, all = pieces * b->lines,
+           take = all < SEGMENTS_MOST ? all : SEGMENTS_MOST;
     for (size_t t = 0; t < take; t++) {
         size_t s = t * all / take;
         band_add(b, b->h->z + s / pieces * b->line + s % pieces * (b->n / 2) * b->next);
@@ -150,26 +151,28 @@ static double band_highest(const struct band *b)
 
 static void band_floor(const struct band *b, struct surface_band *r)
 {
-    double lower = band_mean(b, r->nyquist, 0.5, 0.75), upper = band_mean(b, r->nyquist, 0.75, 1), most = band_highest(b);
+    double lower = band_mean(b, r->nyquist, 0.5, 0.75), upper = band_mean(b, r->nyquist, 0.75, 1),
+           most = band_highest(b);
     r->noise = upper > 0 && lower < 1.25 * upper && upper < 1.25 * lower && most > 10 * upper && upper > 1e-8 * most;
     r->floor = r->noise ? upper : NAN;
 }
 
-/* For an octave from node i on: nothing within 40 dB of the highest, and at most a quarter of the nodes above the threshold. Single weak lines
-   there are artefacts (aliases of resampling, mains hum); strong ones are the harmonics of ridges. */
+/* For an octave from node i on: nothing within 40 dB of the highest, and at most a quarter of the nodes above the
+   threshold. Single weak lines there are artefacts (aliases of resampling, mains hum); strong ones are the harmonics of
+   ridges. */
 static bool band_stays(const struct band *b, size_t i, double threshold, double most)
 {
     size_t above = 0, nodes = 0;
     for (size_t j = i; j < b->nodes && b->k[j] <= 2 * b->k[i]; j++) {
-        if (b->p[j] > fmax(threshold, 1e-4 * most))
-            return false;
+        if (b->p[j] > fmax(threshold, 1e-4 * most)) return false;
         above += b->p[j] > threshold;
         nodes++;
     }
     return 4 * above <= nodes && !(b->p[i] > threshold);
 }
 
-/* From the highest node up to the first from which on it stays below; between it and the one before it the crossing, in log-log. */
+/* From the highest node up to the first from which on it stays below; between it and the one before it the crossing, in
+ * log-log. */
 static void band_limit(const struct band *b, struct surface_band *r)
 {
     double most = band_highest(b), threshold = r->noise ? 4 * r->floor : 1e-8 * most;
@@ -179,8 +182,7 @@ static void band_limit(const struct band *b, struct surface_band *r)
     while (i < b->nodes && !band_stays(b, i, threshold, most))
         i++;
     r->limit = NAN;
-    if (i == b->nodes || i == 0)
-        return;
+    if (i == b->nodes || i == 0) return;
     double share = b->p[i] > 0 ? real_log(b->p[i - 1] / threshold) / real_log(b->p[i - 1] / b->p[i]) : 0;
     r->limit = b->k[i - 1] * real_pow(b->k[i] / b->k[i - 1], share);
 }
@@ -203,8 +205,7 @@ static void band_exponent(const struct band *b, struct surface_band *r)
     r->to = 0.5 * (isnan(r->limit) ? r->nyquist : r->limit);
     r->from = fmax(r->to / 8, b->k[0]);
     for (size_t i = 0; i < b->nodes; i++) {
-        if (b->k[i] < r->from || b->k[i] > r->to || !(b->p[i] > 0))
-            continue;
+        if (b->k[i] < r->from || b->k[i] > r->to || !(b->p[i] > 0)) continue;
         double u = real_log(b->k[i] / r->from), v = real_log(b->p[i] / b->p[0]);
         n += 1, x += u, y += v, xx += u * u, xy += u * v;
     }
@@ -215,14 +216,20 @@ void surface_band(const struct heightfile *h, bool down, struct surface_band *r)
 {
     struct arena *own = arena_open();
     struct band b = band_make(h, down, own);
-    *r = (struct surface_band){.segment = b.n, .nyquist = 0.5 / b.pitch, .limit = NAN, .floor = NAN, .beyond = NAN, .exponent = NAN, .from = NAN, .to = NAN};
+    *r = (struct surface_band){.segment = b.n,
+                               .nyquist = 0.5 / b.pitch,
+                               .limit = NAN,
+                               .floor = NAN,
+                               .beyond = NAN,
+                               .exponent = NAN,
+                               .from = NAN,
+                               .to = NAN};
     if (b.fft) {
         band_gather(&b);
         fft_close(b.fft);
     }
     r->segments = b.segments;
-    if (b.segments > 0)
-        band_nodes(&b);
+    if (b.segments > 0) band_nodes(&b);
     if (b.nodes == 0 || !(band_highest(&b) > 0))
         r->segments = 0;
     else {

@@ -14,10 +14,7 @@ struct ends {
     double pitch;
 };
 
-static double ends_square(double sum, double n)
-{
-    return n > 0 ? sqrt(sum / n) : NAN;
-}
+static double ends_square(double sum, double n) { return n > 0 ? sqrt(sum / n) : NAN; }
 
 /* Root mean square over the lines of z[i] - z[j]. */
 static double ends_between(const struct ends *s, size_t i, size_t j)
@@ -35,8 +32,7 @@ static double ends_between(const struct ends *s, size_t i, size_t j)
 static size_t ends_fall(const struct ends *s, const double *step, double ordinary, bool last, size_t margin)
 {
     for (size_t i = margin; i > 0; i--)
-        if (step[last ? s->n - 1 - i : i - 1] > 1.5 * ordinary)
-            return i;
+        if (step[last ? s->n - 1 - i : i - 1] > 1.5 * ordinary) return i;
     return 0;
 }
 
@@ -55,7 +51,11 @@ static void ends_falls(const struct ends *s, const double *step, struct surface_
 
 void surface_ends(const struct heightfile *h, bool down, struct surface_ends *r)
 {
-    struct ends s = {h, down ? h->rows : h->columns, down ? h->columns : h->rows, down ? h->columns : 1, down ? 1 : h->columns,
+    struct ends s = {h,
+                     down ? h->rows : h->columns,
+                     down ? h->columns : h->rows,
+                     down ? h->columns : 1,
+                     down ? 1 : h->columns,
                      down ? h->pitch_y : h->pitch_x};
     struct arena *own = arena_open();
     double *step = ARENA_TAKE(own, double, s.n), sum = 0, n = 0;
@@ -73,7 +73,8 @@ void surface_ends(const struct heightfile *h, bool down, struct surface_ends *r)
 
 /* ------------------------------------------------------------------ period */
 
-/* r[lag] for lags below n: the product of the two overlapping parts over the root of their squares, so that |r| <= 1. */
+/* r[lag] for lags below n: the product of the two overlapping parts over the root of their squares, so that |r| <= 1.
+ */
 static void period_normalise(double *r, const double *x, size_t n)
 {
     double before = 0, after = 0, least;
@@ -91,8 +92,10 @@ static void period_normalise(double *r, const double *x, size_t n)
 static double *period_correlation(const struct heightfile *h, size_t n, struct arena *a)
 {
     size_t size = fft_good_size(2 * n);
-    struct heightfile part = {.columns = n, .rows = 1, .pitch_x = NAN, .pitch_y = NAN, .z = ARENA_TAKE(a, double, size)};
-    double *re = ARENA_TAKE(a, double, size / 2 + 1), *im = ARENA_TAKE(a, double, size / 2 + 1), *r = ARENA_TAKE(a, double, size);
+    struct heightfile part = {
+        .columns = n, .rows = 1, .pitch_x = NAN, .pitch_y = NAN, .z = ARENA_TAKE(a, double, size)};
+    double *re = ARENA_TAKE(a, double, size / 2 + 1), *im = ARENA_TAKE(a, double, size / 2 + 1),
+           *r = ARENA_TAKE(a, double, size);
     struct fft *f = fft_open(size);
     for (size_t i = 0; i < n; i++)
         part.z[i] = h->z[i];
@@ -131,8 +134,7 @@ void surface_ends_period(const struct heightfile *h, struct surface_ends_period 
     double sum = 0;
     for (size_t i = from; r && half > 0 && i < to; i++) {
         sum += r[i] * r[i];
-        if (p->lag == 0 || r[i] > r[p->lag])
-            p->lag = i;
+        if (p->lag == 0 || r[i] > r[p->lag]) p->lag = i;
     }
     if (p->lag > 0) {
         p->correlation = half;

@@ -1,6 +1,6 @@
-/* See surface_heights.h. Sums go row by row, then over the rows. Rounding to a step q is noise of variance q^2/12 at each sample; the second
-   difference (1, -2, 1) has 6 times the variance, over pitch^2. The spline through such samples has at its knots 2.45 times the second
-   difference's noise. */
+/* See surface_heights.h. Sums go row by row, then over the rows. Rounding to a step q is noise of variance q^2/12 at
+   each sample; the second difference (1, -2, 1) has 6 times the variance, over pitch^2. The spline through such samples
+   has at its knots 2.45 times the second difference's noise. */
 #include "analysis/surface_heights.h"
 
 #include <math.h>
@@ -17,22 +17,22 @@ static double heights_sum(const struct heightfile *h, double mean, int power, do
         double row = 0;
         for (size_t i = 0; i < h->columns; i++) {
             double z = h->z[j * h->columns + i], d = z - mean, d2 = d * d;
-            if (isnan(z))
-                continue;
+            if (isnan(z)) continue;
             n += 1;
             row += power == 0 ? z : power == 1 ? fabs(d) : power == 2 ? d2 : power == 3 ? d2 * d : d2 * d2;
         }
         total += row;
     }
-    if (count)
-        *count = n;
+    if (count) *count = n;
     return total;
 }
 
-/* Root mean square of first and second differences; `next` is the distance of neighbours in z. Those that touch a hole are left out. */
+/* Root mean square of first and second differences; `next` is the distance of neighbours in z. Those that touch a hole
+ * are left out. */
 static void heights_differences(const struct heightfile *h, bool down, double *slope, double *curvature)
 {
-    size_t n = down ? h->rows : h->columns, lines = down ? h->columns : h->rows, next = down ? h->columns : 1, line = down ? 1 : h->columns;
+    size_t n = down ? h->rows : h->columns, lines = down ? h->columns : h->rows, next = down ? h->columns : 1,
+           line = down ? 1 : h->columns;
     double pitch = down ? h->pitch_y : h->pitch_x, s1 = 0, s2 = 0, n1 = 0, n2 = 0;
     for (size_t j = 0; j < lines; j++) {
         const double *z = h->z + j * line;
@@ -61,15 +61,13 @@ void surface_heights(const struct heightfile *h, struct surface_heights *s)
         s->high = fmax(s->high, h->z[i]);
     }
     s->sz = s->high - s->low;
-    if (s->sz == 0)
-        s->mean = s->low; /* without the rounding of the sum */
+    if (s->sz == 0) s->mean = s->low; /* without the rounding of the sum */
     s->sa = heights_sum(h, s->mean, 1, NULL) / n;
     s->sq = sqrt(heights_sum(h, s->mean, 2, NULL) / n);
     s->ssk = s->sz > 0 ? heights_sum(h, s->mean, 3, NULL) / n / (s->sq * s->sq * s->sq) : NAN;
     s->sku = s->sz > 0 ? heights_sum(h, s->mean, 4, NULL) / n / (s->sq * s->sq * s->sq * s->sq) : NAN;
     heights_differences(h, false, &s->slope, &s->curvature);
-    if (h->rows > 1)
-        heights_differences(h, true, &s->slope_y, &s->curvature_y);
+    if (h->rows > 1) heights_differences(h, true, &s->slope_y, &s->curvature_y);
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -87,8 +85,7 @@ static double *heights_sorted(const struct heightfile *h, struct arena *a, size_
     double *z = ARENA_TAKE(a, double, all < STEPS_MOST ? all : STEPS_MOST);
     *n = 0;
     for (size_t i = 0; i < all && *n < STEPS_MOST; i++)
-        if (!isnan(h->z[i]))
-            z[(*n)++] = h->z[i];
+        if (!isnan(h->z[i])) z[(*n)++] = h->z[i];
     qsort(z, *n, sizeof *z, heights_order);
     return z;
 }
@@ -98,15 +95,15 @@ void surface_heights_steps(const struct heightfile *h, struct surface_heights_st
     struct arena *own = arena_open();
     size_t n;
     const double *z = heights_sorted(h, own, &n);
-    double gap = HUGE_VAL, least = n ? 1e-9 * (z[n - 1] - z[0]) : 0; /* levels nearer than that are one, with rounding errors */
+    double gap = HUGE_VAL,
+           least = n ? 1e-9 * (z[n - 1] - z[0]) : 0; /* levels nearer than that are one, with rounding errors */
     *s = (struct surface_heights_steps){.looked_at = n, .levels = n > 0, .step = h->quantum};
     for (size_t i = 1; i < n; i++)
         if (z[i] - z[i - 1] > least) {
             s->levels++;
             gap = fmin(gap, z[i] - z[i - 1]);
         }
-    if (n >= 16 && s->levels > 1 && s->levels <= n / 2 && gap > s->step)
-        s->step = gap;
+    if (n >= 16 && s->levels > 1 && s->levels <= n / 2 && gap > s->step) s->step = gap;
     s->noise = s->step * sqrt(6.0 / 12) / (h->pitch_x * h->pitch_x);
     arena_close(own);
 }

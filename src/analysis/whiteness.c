@@ -1,6 +1,7 @@
-/* Correlations r_k = sum (x_n - m)(x_(n+k) - m)/sum (x_n - m)^2; Q = n (n + 2) sum_k r_k^2/(n - k), chi-squared with lags - fitted degrees of freedom
-   (Ljung and Box, Biometrika 65, 1978, 297). One process that drives two series, each by its own rising function, gives ranks that are alike, whatever
-   the distributions: Spearman's correlation, equal values having their mean rank. */
+/* Correlations r_k = sum (x_n - m)(x_(n+k) - m)/sum (x_n - m)^2; Q = n (n + 2) sum_k r_k^2/(n - k), chi-squared with
+   lags - fitted degrees of freedom (Ljung and Box, Biometrika 65, 1978, 297). One process that drives two series, each
+   by its own rising function, gives ranks that are alike, whatever the distributions: Spearman's correlation, equal
+   values having their mean rank. */
 #include "analysis/whiteness.h"
 
 #include <gsl/gsl_cdf.h>

@@ -9,7 +9,12 @@
 
 #include "base/memory.h"
 
-enum { ARENA_ALIGN = 64, ARENA_FIRST = 1 << 10, ARENA_CHUNK = 1 << 16 /* chunks double from the first to this */, ARENA_HUGE = 1 << 21 /* a large page's bytes */ };
+enum {
+    ARENA_ALIGN = 64,
+    ARENA_FIRST = 1 << 10,
+    ARENA_CHUNK = 1 << 16 /* chunks double from the first to this */,
+    ARENA_HUGE = 1 << 21 /* a large page's bytes */
+};
 
 struct chunk {
     struct chunk *next;
@@ -22,23 +27,18 @@ struct arena {
     size_t bytes;
 };
 
-static _Noreturn void arena_full(size_t count, size_t size)
-{
-    memory_out("%zu x %zu bytes asked for", count, size);
-}
+static _Noreturn void arena_full(size_t count, size_t size) { memory_out("%zu x %zu bytes asked for", count, size); }
 
 struct arena *arena_open(void)
 {
     struct arena *a = calloc(1, sizeof *a);
-    if (!a)
-        arena_full(1, sizeof *a);
+    if (!a) arena_full(1, sizeof *a);
     return a;
 }
 
 void arena_close(struct arena *a)
 {
-    if (!a)
-        return;
+    if (!a) return;
     for (struct chunk *c = a->chunks, *next; c; c = next) {
         next = c->next;
         free(c->whole);
@@ -46,11 +46,13 @@ void arena_close(struct arena *a)
     free(a);
 }
 
-/* Asks for large pages where two or more fit: a render of 22 s of a force from a file fell from 135 to 120 cycles a sample. */
+/* Asks for large pages where two or more fit: a render of 22 s of a force from a file fell from 135 to 120 cycles a
+ * sample. */
 static void chunk_huge(void *whole, size_t size)
 {
 #ifdef MADV_HUGEPAGE
-    uintptr_t at = (uintptr_t)whole, from = (at + ARENA_HUGE - 1) / ARENA_HUGE * ARENA_HUGE, to = (at + size) / ARENA_HUGE * ARENA_HUGE;
+    uintptr_t at = (uintptr_t)whole, from = (at + ARENA_HUGE - 1) / ARENA_HUGE * ARENA_HUGE,
+              to = (at + size) / ARENA_HUGE * ARENA_HUGE;
     if (to >= from + 2 * (uintptr_t)ARENA_HUGE)
         (void)madvise((void *)from, to - from, MADV_HUGEPAGE); /* a wish: nothing depends on it */
 #endif
@@ -62,8 +64,7 @@ static struct chunk *chunk_add(struct arena *a, size_t need)
     size = size < ARENA_CHUNK ? size : ARENA_CHUNK;
     size = need > size ? need : size;
     void *whole = size <= SIZE_MAX - 2 * ARENA_ALIGN ? calloc(1, size + 2 * ARENA_ALIGN) : NULL;
-    if (!whole)
-        arena_full(1, need);
+    if (!whole) arena_full(1, need);
     chunk_huge(whole, size + 2 * ARENA_ALIGN);
     struct chunk *c = (struct chunk *)(((uintptr_t)whole + ARENA_ALIGN - 1) / ARENA_ALIGN * ARENA_ALIGN);
     *c = (struct chunk){.next = a->chunks, .whole = whole, .size = size};
@@ -75,13 +76,10 @@ void *arena_take(struct arena *a, size_t count, size_t size)
 {
     struct chunk *c = a->chunks;
     size_t need;
-    if (size && count > (SIZE_MAX / 2) / size)
-        arena_full(count, size);
+    if (size && count > (SIZE_MAX / 2) / size) arena_full(count, size);
     need = (count * size + ARENA_ALIGN - 1) / ARENA_ALIGN * ARENA_ALIGN;
-    if (need == 0)
-        need = ARENA_ALIGN;
-    if (!c || c->size - c->used < need)
-        c = chunk_add(a, need);
+    if (need == 0) need = ARENA_ALIGN;
+    if (!c || c->size - c->used < need) c = chunk_add(a, need);
     void *p = (char *)c + ARENA_ALIGN + c->used;
     c->used += need;
     a->bytes += need;
@@ -103,13 +101,9 @@ char *arena_format(struct arena *a, const char *format, ...)
     va_end(ap);
     size_t size = n < 0 ? 1 : (size_t)n + 1;
     char *s = arena_take(a, size, 1);
-    if (n > 0)
-        vsnprintf(s, size, format, again);
+    if (n > 0) vsnprintf(s, size, format, again);
     va_end(again);
     return s;
 }
 
-size_t arena_bytes(const struct arena *a)
-{
-    return a->bytes;
-}
+size_t arena_bytes(const struct arena *a) { return a->bytes; }

@@ -24,16 +24,14 @@ static int option_count(const struct args_option *options)
 static int option_long(const struct args_option *options, const char *name, size_t length)
 {
     for (int i = 0; options[i].name; i++)
-        if (strlen(options[i].name) == length && !strncmp(options[i].name, name, length))
-            return i;
+        if (strlen(options[i].name) == length && !strncmp(options[i].name, name, length)) return i;
     return -1;
 }
 
 static int option_letter(const struct args_option *options, char letter)
 {
     for (int i = 0; options[i].name; i++)
-        if (options[i].letter == letter)
-            return i;
+        if (options[i].letter == letter) return i;
     return -1;
 }
 
@@ -67,16 +65,14 @@ static const char *long_meant(const struct args_option *options, const char *nam
 static bool long_unknown(const struct args_option *options, const char *name, struct arena *a, struct err *e)
 {
     const char *meant = long_meant(options, name, a);
-    if (meant)
-        return err_set(e, ERR_USAGE, "no option --%s; did you mean --%s?", name, meant);
+    if (meant) return err_set(e, ERR_USAGE, "no option --%s; did you mean --%s?", name, meant);
     return err_set(e, ERR_USAGE, "no option --%s", name);
 }
 
 /* Notes that option i was given, with its value if it takes one. */
 static bool option_take(struct args *g, int i, const char *value, struct err *e)
 {
-    if (g->given[i] > 0 && !g->options[i].many)
-        return err_set(e, ERR_USAGE, "--%s is given twice", g->options[i].name);
+    if (g->given[i] > 0 && !g->options[i].many) return err_set(e, ERR_USAGE, "--%s is given twice", g->options[i].name);
     g->values[i][g->given[i]++] = value;
     return true;
 }
@@ -95,13 +91,10 @@ static bool long_parse(struct args *g, struct words *w, struct arena *a, struct 
         g->help = true;
         return true;
     }
-    if (i < 0)
-        return long_unknown(g->options, arena_format(a, "%.*s", (int)length, text), a, e);
+    if (i < 0) return long_unknown(g->options, arena_format(a, "%.*s", (int)length, text), a, e);
     const struct args_option *o = &g->options[i];
-    if (!o->value)
-        return equals ? err_set(e, ERR_USAGE, "--%s takes no value", o->name) : option_take(g, i, NULL, e);
-    if (equals)
-        return option_take(g, i, equals + 1, e);
+    if (!o->value) return equals ? err_set(e, ERR_USAGE, "--%s takes no value", o->name) : option_take(g, i, NULL, e);
+    if (equals) return option_take(g, i, equals + 1, e);
     return w->at < w->argc ? option_take(g, i, w->argv[w->at++], e) : value_missing(o, e);
 }
 
@@ -113,16 +106,13 @@ static bool letters_parse(struct args *g, struct words *w, struct err *e)
             g->help = true;
             break;
         }
-        if (i < 0)
-            return err_set(e, ERR_USAGE, "no option -%c", *p);
+        if (i < 0) return err_set(e, ERR_USAGE, "no option -%c", *p);
         const struct args_option *o = &g->options[i];
         if (!o->value) {
-            if (!option_take(g, i, NULL, e))
-                return false;
+            if (!option_take(g, i, NULL, e)) return false;
             continue;
         }
-        if (p[1])
-            return option_take(g, i, p + 1, e);
+        if (p[1]) return option_take(g, i, p + 1, e);
         return w->at < w->argc ? option_take(g, i, w->argv[w->at++], e) : value_missing(o, e);
     }
     return true;
@@ -139,7 +129,8 @@ static void args_clear(struct args *g, const struct args_option *options, int ar
         g->values[i] = ARENA_TAKE(a, const char *, argc + 1);
 }
 
-bool args_parse(struct args *g, const struct args_option *options, int argc, char *const *argv, struct arena *a, struct err *e)
+bool args_parse(struct args *g, const struct args_option *options, int argc, char *const *argv, struct arena *a,
+                struct err *e)
 {
     struct words w = {argv, argc, 0};
     bool ended = false;
@@ -159,10 +150,7 @@ bool args_parse(struct args *g, const struct args_option *options, int argc, cha
     return true;
 }
 
-bool args_given(const struct args *g, const char *name)
-{
-    return g->given[option_named(g, name)] > 0;
-}
+bool args_given(const struct args *g, const char *name) { return g->given[option_named(g, name)] > 0; }
 
 const char *args_value(const struct args *g, const char *name)
 {
@@ -181,10 +169,8 @@ bool args_number(const struct args *g, const char *name, const double range[2], 
 {
     const char *text = args_value(g, name);
     double x;
-    if (!text)
-        return true;
-    if (!text_double(text, &x))
-        return err_set(e, ERR_USAGE, "--%s: '%s' is not a number", name, text);
+    if (!text) return true;
+    if (!text_double(text, &x)) return err_set(e, ERR_USAGE, "--%s: '%s' is not a number", name, text);
     if (x < range[0] || x > range[1])
         return err_set(e, ERR_USAGE, "--%s: %s is not between %g and %g", name, text, range[0], range[1]);
     *value = x;
@@ -194,10 +180,8 @@ bool args_number(const struct args *g, const char *name, const double range[2], 
 bool args_whole(const struct args *g, const char *name, const long range[2], long *value, struct err *e)
 {
     double x = (double)*value;
-    if (!args_number(g, name, (const double[2]){(double)range[0], (double)range[1]}, &x, e))
-        return false;
-    if (x != rint(x))
-        return err_set(e, ERR_USAGE, "--%s: '%s' is not a whole number", name, args_value(g, name));
+    if (!args_number(g, name, (const double[2]){(double)range[0], (double)range[1]}, &x, e)) return false;
+    if (x != rint(x)) return err_set(e, ERR_USAGE, "--%s: '%s' is not a whole number", name, args_value(g, name));
     *value = (long)x;
     return true;
 }

@@ -27,13 +27,13 @@ bool diag_add(struct diag *d, struct diag_place at, const char *help, const char
 {
     char text[1024];
     va_list ap;
-    if (!d->errors)
-        d->errors = ARENA_TAKE(d->arena, struct diag_error, DIAG_KEPT);
+    if (!d->errors) d->errors = ARENA_TAKE(d->arena, struct diag_error, DIAG_KEPT);
     if (d->n < DIAG_KEPT) {
         va_start(ap, format);
         vsnprintf(text, sizeof text, format, ap);
         va_end(ap);
-        d->errors[d->n] = (struct diag_error){at, text_shown(d->arena, text), help ? text_shown(d->arena, help) : NULL, d->n};
+        d->errors[d->n] =
+            (struct diag_error){at, text_shown(d->arena, text), help ? text_shown(d->arena, help) : NULL, d->n};
     }
     d->n++;
     return false;
@@ -59,12 +59,9 @@ const char *diag_shown(struct diag *d, const char *text)
 /* Bytes of the line break at s (YAML's: LF, CR, CR LF, NEL, LS, PS); 0: none. */
 static size_t break_at(const char *s, size_t size)
 {
-    if (s[0] == '\r')
-        return size > 1 && s[1] == '\n' ? 2 : 1;
-    if (s[0] == '\n')
-        return 1;
-    if (size > 1 && memcmp(s, "\xc2\x85", 2) == 0)
-        return 2;
+    if (s[0] == '\r') return size > 1 && s[1] == '\n' ? 2 : 1;
+    if (s[0] == '\n') return 1;
+    if (size > 1 && memcmp(s, "\xc2\x85", 2) == 0) return 2;
     return size > 2 && (memcmp(s, "\xe2\x80\xa8", 3) == 0 || memcmp(s, "\xe2\x80\xa9", 3) == 0) ? 3 : 0;
 }
 
@@ -74,8 +71,7 @@ static struct span line_of(const struct diag_source *source, int line)
     const char *start = s;
     for (int at = 1; s < end;) {
         size_t n = break_at(s, (size_t)(end - s));
-        if (n && at == line)
-            break;
+        if (n && at == line) break;
         s += n ? n : 1;
         if (n) {
             at++;
@@ -89,8 +85,7 @@ static struct span line_of(const struct diag_source *source, int line)
 static struct span line_window(struct span line, int *column)
 {
     size_t n = text_utf8_count(line.start, line.size);
-    if (n <= LINE_SHOWN)
-        return line;
+    if (n <= LINE_SHOWN) return line;
     size_t skip = *column > LINE_BEFORE ? (size_t)(*column - LINE_BEFORE) : 0;
     size_t from = bytes_of(line.start, line.size, skip);
     *column -= (int)skip;
@@ -103,8 +98,7 @@ static void show_caret(FILE *out, struct span line, int column, int width)
     while (rest > 0 && (line.start[before + rest - 1] == ' ' || line.start[before + rest - 1] == '\t'))
         rest--;
     int most = (int)text_utf8_count(line.start + before, rest);
-    if (width <= 0 || width > most)
-        width = most;
+    if (width <= 0 || width > most) width = most;
     fputs("      | ", out);
     for (size_t i = 0, step; i < before; i += step) {
         step = bytes_of(line.start + i, before - i, 1);
@@ -141,10 +135,7 @@ static void show_line(FILE *out, const struct diag_place *at)
     show_caret(out, line, column, at->width);
 }
 
-static bool has_lines(const struct diag_place *at)
-{
-    return at->line > 0 && !at->source->option && !at->source->made;
-}
+static bool has_lines(const struct diag_place *at) { return at->line > 0 && !at->source->option && !at->source->made; }
 
 /* "scene.yaml:4:12", or the name alone. */
 static const char *place_text(struct arena *a, const struct diag_place *at)
@@ -163,30 +154,25 @@ const char *diag_named(struct arena *a, const struct diag_source *source)
 
 static const char *header(struct diag *d, const struct diag_error *x)
 {
-    if (!x->at.source)
-        return arena_format(d->arena, "error: %s", x->text);
-    return arena_format(d->arena, "%s: error: %s%s", place_text(d->arena, &x->at), x->text, diag_named(d->arena, x->at.source));
+    if (!x->at.source) return arena_format(d->arena, "error: %s", x->text);
+    return arena_format(d->arena, "%s: error: %s%s", place_text(d->arena, &x->at), x->text,
+                        diag_named(d->arena, x->at.source));
 }
 
 static void show(FILE *out, struct diag *d, const struct diag_error *x)
 {
     fprintf(out, "%s\n", header(d, x));
-    if (x->at.source && x->at.line > 0 && !x->at.source->made)
-        show_line(out, &x->at);
-    if (x->help)
-        fprintf(out, "      = help: %s\n", x->help);
+    if (x->at.source && x->at.line > 0 && !x->at.source->made) show_line(out, &x->at);
+    if (x->help) fprintf(out, "      = help: %s\n", x->help);
 }
 
 static int by_place(const void *pa, const void *pb)
 {
     const struct diag_error *a = pa, *b = pb;
     int oa = a->at.source ? a->at.source->order : -1, ob = b->at.source ? b->at.source->order : -1;
-    if (oa != ob)
-        return oa < ob ? -1 : 1;
-    if (a->at.line != b->at.line)
-        return a->at.line < b->at.line ? -1 : 1;
-    if (a->at.column != b->at.column)
-        return a->at.column < b->at.column ? -1 : 1;
+    if (oa != ob) return oa < ob ? -1 : 1;
+    if (a->at.line != b->at.line) return a->at.line < b->at.line ? -1 : 1;
+    if (a->at.column != b->at.column) return a->at.column < b->at.column ? -1 : 1;
     return a->serial < b->serial ? -1 : a->serial > b->serial;
 }
 
@@ -205,8 +191,7 @@ const char *diag_text(struct diag *d)
     int kept = sorted(d);
     for (int i = 0; i < kept && i < DIAG_SHOWN; i++)
         show(out, d, &d->errors[i]);
-    if (d->n > DIAG_SHOWN)
-        fprintf(out, "... and %d more\n", d->n - DIAG_SHOWN);
+    if (d->n > DIAG_SHOWN) fprintf(out, "... and %d more\n", d->n - DIAG_SHOWN);
     fprintf(out, "%d error%s\n", d->n, d->n == 1 ? "" : "s");
     memory_stream_end(out, &buffer);
     const char *text = arena_text(d->arena, buffer);
@@ -216,8 +201,7 @@ const char *diag_text(struct diag *d)
 
 const char *diag_first(struct diag *d)
 {
-    if (sorted(d) == 0)
-        return "";
+    if (sorted(d) == 0) return "";
     const char *first = header(d, &d->errors[0]);
     return d->n == 1 ? first : arena_format(d->arena, "%s (and %d more)", first, d->n - 1);
 }

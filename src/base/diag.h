@@ -6,8 +6,8 @@
              = help: write for instance: 2 Hz
        1 error
 
-   Lines and columns count from 1, columns in characters. Of a file that another file (or an option) names, the place of its name follows the
-   message: "wood.yaml:2:1: error: ... (named at scene.yaml:4:12)". */
+   Lines and columns count from 1, columns in characters. Of a file that another file (or an option) names, the place of
+   its name follows the message: "wood.yaml:2:1: error: ... (named at scene.yaml:4:12)". */
 #ifndef BASE_DIAG_H
 #define BASE_DIAG_H
 #include <stdbool.h>
@@ -23,13 +23,13 @@ struct diag_place {
     int width;                        /* characters to underline; 0: to the end of the line     */
 };
 
-struct diag_source {       /* a file's text, or the text of an option on the command line       */
-    const char *name;      /* "scene.yaml", "--set motion.rate"                                 */
+struct diag_source {  /* a file's text, or the text of an option on the command line       */
+    const char *name; /* "scene.yaml", "--set motion.rate"                                 */
     const char *text;
     size_t size;
-    bool option;           /* has no line numbers                                               */
-    bool made;             /* a text of the program's own, of which nothing is shown            */
-    int order;             /* sources are shown in this order                                   */
+    bool option;             /* has no line numbers                                               */
+    bool made;               /* a text of the program's own, of which nothing is shown            */
+    int order;               /* sources are shown in this order                                   */
     struct diag_place named; /* where another source names this file; source NULL: none does    */
 };
 

@@ -10,8 +10,7 @@ bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
 {
     char text[sizeof e->text];
     va_list ap;
-    if (e->kind != ERR_NONE)
-        return false;
+    if (e->kind != ERR_NONE) return false;
     e->kind = kind;
     va_start(ap, format);
     vsnprintf(text, sizeof text, format, ap);
@@ -20,15 +19,11 @@ bool err_set(struct err *e, enum err_kind kind, const char *format, ...)
     return false;
 }
 
-enum err_kind err_system(enum err_kind otherwise)
-{
-    return errno == ENOMEM ? ERR_MEMORY : otherwise;
-}
+enum err_kind err_system(enum err_kind otherwise) { return errno == ENOMEM ? ERR_MEMORY : otherwise; }
 
 bool err_about(struct err *e, const char *contact, const char *key)
 {
-    if (e->key)
-        return false;
+    if (e->key) return false;
     e->contact = contact;
     e->key = key;
     return false;

@@ -1,5 +1,6 @@
-/* SHA-256 (FIPS 180-4) by libcrypto, which uses the CPU's instructions for it where there are some. By SHA256_*, which version 3 calls deprecated and keeps: EVP_* first
-   reads libcrypto's configuration and makes its tables of all algorithms, a tenth of what a short scene takes. */
+/* SHA-256 (FIPS 180-4) by libcrypto, which uses the CPU's instructions for it where there are some. By SHA256_*, which
+   version 3 calls deprecated and keeps: EVP_* first reads libcrypto's configuration and makes its tables of all
+   algorithms, a tenth of what a short scene takes. */
 #define OPENSSL_SUPPRESS_DEPRECATED
 #include "base/hash.h"
 
@@ -21,10 +22,7 @@ struct hash hash_start(void)
     return h;
 }
 
-void hash_add(struct hash *h, const void *data, size_t size)
-{
-    SHA256_Update((SHA256_CTX *)h->state, data, size);
-}
+void hash_add(struct hash *h, const void *data, size_t size) { SHA256_Update((SHA256_CTX *)h->state, data, size); }
 
 void hash_end(struct hash *h, char hex[HASH_TEXT])
 {
@@ -53,13 +51,10 @@ static bool hash_stream(FILE *f, struct hash *h)
 bool hash_file(const char *path, char hex[HASH_TEXT], struct err *e)
 {
     struct stat s;
-    if (stat(path, &s) != 0)
-        return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
-    if (!S_ISREG(s.st_mode))
-        return err_set(e, ERR_INPUT, "%s: is not a file", path);
+    if (stat(path, &s) != 0) return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
+    if (!S_ISREG(s.st_mode)) return err_set(e, ERR_INPUT, "%s: is not a file", path);
     FILE *f = memory_fopen(path, "rb");
-    if (!f)
-        return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
+    if (!f) return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
     struct hash h = hash_start();
     bool ok = hash_stream(f, &h);
     int why = errno;

@@ -15,7 +15,9 @@
 #include "base/lastwords.h"
 #include "base/memory.h"
 
-#define DISMISSED SIGRTMIN /* wakes the thread that waits; not pthread_cancel, whose unwinding the address sanitizer takes for a fault */
+#define DISMISSED                                                                                                      \
+    SIGRTMIN /* wakes the thread that waits; not pthread_cancel, whose unwinding the address sanitizer takes for a     \
+                fault */
 #define GRACE 250000000 /* ns */
 #define WORDS 100000000 /* ns: for who is telling it, and ends the program then */
 
@@ -24,14 +26,15 @@ struct temporary {
     char path[];
 };
 
-static sigset_t signals;                  /* set once, before the thread is there */
+static sigset_t signals; /* set once, before the thread is there */
 static pthread_t waiter;
-static atomic_bool dismissed;             /* it is to go */
-static bool waits;                        /* there is such a thread */
+static atomic_bool dismissed; /* it is to go */
+static bool waits;            /* there is such a thread */
 static atomic_bool seen;
 static atomic_flag told = ATOMIC_FLAG_INIT;
-static atomic_int child;                  /* 0: none */
-static pthread_rwlock_t names = PTHREAD_RWLOCK_WRITER_NONRECURSIVE_INITIALIZER_NP; /* held by all who hold, and for ever by the one who ends */
+static atomic_int child; /* 0: none */
+static pthread_rwlock_t names =
+    PTHREAD_RWLOCK_WRITER_NONRECURSIVE_INITIALIZER_NP; /* held by all who hold, and for ever by the one who ends */
 static _Thread_local int held;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of the list */
 static struct temporary *temporaries;
@@ -40,14 +43,12 @@ static struct temporary *temporaries;
 
 void interrupt_hold(void)
 {
-    if (held++ == 0)
-        pthread_rwlock_rdlock(&names);
+    if (held++ == 0) pthread_rwlock_rdlock(&names);
 }
 
 void interrupt_go(void)
 {
-    if (--held == 0)
-        pthread_rwlock_unlock(&names);
+    if (--held == 0) pthread_rwlock_unlock(&names);
 }
 
 void interrupt_temporary(const char *path)
@@ -68,16 +69,12 @@ void interrupt_forget(const char *path)
     while (*at && strcmp((*at)->path, path) != 0)
         at = &(*at)->next;
     struct temporary *gone = *at;
-    if (gone)
-        *at = gone->next;
+    if (gone) *at = gone->next;
     pthread_mutex_unlock(&lock);
     free(gone);
 }
 
-void interrupt_child(pid_t pid)
-{
-    child = pid > 0 ? pid : 0;
-}
+void interrupt_child(pid_t pid) { child = pid > 0 ? pid : 0; }
 
 /* Whoever ends the program has killed the child, perhaps: then nobody gets beyond the hold. */
 pid_t interrupt_wait(pid_t pid, int *status, struct rusage *used)
@@ -132,12 +129,12 @@ static void *wait_for_signals(void *unused)
     (void)unused;
     sigaddset(&all, DISMISSED);
     while (number == DISMISSED) {
-        if (dismissed)
-            return NULL;
+        if (dismissed) return NULL;
         sigwait(&all, &number);
     }
     seen = true;
-    while (sigtimedwait(&signals, NULL, &(struct timespec){.tv_nsec = GRACE}) < 0 && errno == EINTR) /* it was stopped, and goes on */
+    while (sigtimedwait(&signals, NULL, &(struct timespec){.tv_nsec = GRACE}) < 0 &&
+           errno == EINTR) /* it was stopped, and goes on */
         continue;
     end();
 }
@@ -155,8 +152,7 @@ void interrupt_catch(void)
     pthread_sigmask(SIG_BLOCK, &all, NULL);
     dismissed = false;
     waits = pthread_create(&waiter, NULL, wait_for_signals, NULL) == 0;
-    if (!waits)
-        pthread_sigmask(SIG_UNBLOCK, &signals, NULL);
+    if (!waits) pthread_sigmask(SIG_UNBLOCK, &signals, NULL);
 }
 
 /* Signals stay blocked, and wait for the next program's thread. */
@@ -171,7 +167,4 @@ bool interrupt_pass_on(void)
     return !seen;
 }
 
-bool interrupt_seen(void)
-{
-    return seen;
-}
+bool interrupt_seen(void) { return seen; }

@@ -23,24 +23,21 @@ _Noreturn void memory_out(const char *format, ...)
 void *memory_take(size_t bytes)
 {
     void *p = malloc(bytes);
-    if (!p && bytes > 0)
-        memory_out("%zu bytes asked for", bytes);
+    if (!p && bytes > 0) memory_out("%zu bytes asked for", bytes);
     return p;
 }
 
 char *memory_realpath(const char *path)
 {
     char *real = realpath(path, NULL);
-    if (!real && errno == ENOMEM)
-        memory_out("to look up %.200s", path);
+    if (!real && errno == ENOMEM) memory_out("to look up %.200s", path);
     return real;
 }
 
 FILE *memory_fopen(const char *path, const char *mode)
 {
     FILE *f = fopen(path, mode);
-    if (!f && errno == ENOMEM)
-        memory_out("to open %.200s", path);
+    if (!f && errno == ENOMEM) memory_out("to open %.200s", path);
     return f;
 }
 
@@ -53,8 +50,7 @@ void memory_spare(size_t bytes)
 FILE *memory_stream(char **text, size_t *size)
 {
     FILE *f = open_memstream(text, size);
-    if (!f)
-        memory_out("for a text");
+    if (!f) memory_out("for a text");
     return f;
 }
 
@@ -62,6 +58,5 @@ FILE *memory_stream(char **text, size_t *size)
 void memory_stream_end(FILE *f, char *const *text)
 {
     int lost = ferror(f);
-    if (fclose(f) != 0 || lost || !*text)
-        memory_out("for a text");
+    if (fclose(f) != 0 || lost || !*text) memory_out("for a text");
 }

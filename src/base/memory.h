@@ -1,5 +1,5 @@
-/* No memory left: one line on standard error, and the program ends with exit code 71 (ERR_MEMORY). Outputs are unnamed files until they are complete
-   (base/outfile.h), so that nothing half-written stays behind. */
+/* No memory left: one line on standard error, and the program ends with exit code 71 (ERR_MEMORY). Outputs are unnamed
+   files until they are complete (base/outfile.h), so that nothing half-written stays behind. */
 #ifndef BASE_MEMORY_H
 #define BASE_MEMORY_H
 #include <stddef.h>
@@ -20,7 +20,8 @@ FILE *memory_fopen(const char *path, const char *mode);
 /* Ends the program unless so many bytes can be had: before a library is called that crashes where it gets none. */
 void memory_spare(size_t bytes);
 
-/* A text that is written like a file: *text is there when memory_stream_end has closed the stream, and is freed by free. */
+/* A text that is written like a file: *text is there when memory_stream_end has closed the stream, and is freed by
+ * free. */
 FILE *memory_stream(char **text, size_t *size);
 void memory_stream_end(FILE *f, char *const *text);
 

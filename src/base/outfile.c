@@ -4,8 +4,8 @@
    linkat(/proc/self/fd/N)      a hidden name in the same folder, for linkat cannot replace an existing file
    rename                       over the target, atomically
 
-   Whatever the reason why O_TMPFILE fails (NFS and FUSE do not have it, old kernels answer EISDIR), and where /proc is not mounted,
-   the hidden name is there from the start. */
+   Whatever the reason why O_TMPFILE fails (NFS and FUSE do not have it, old kernels answer EISDIR), and where /proc is
+   not mounted, the hidden name is there from the start. */
 #include "base/outfile.h"
 
 #include <errno.h>
@@ -28,7 +28,8 @@ static int folder_length(const char *path)
 
 static void hidden_name(struct outfile *o, int k)
 {
-    snprintf(o->temporary, sizeof o->temporary, "%.*s.rasp-%ld-%d.part", folder_length(o->target), o->target, (long)getpid(), k);
+    snprintf(o->temporary, sizeof o->temporary, "%.*s.rasp-%ld-%d.part", folder_length(o->target), o->target,
+             (long)getpid(), k);
 }
 
 static bool open_unnamed(struct outfile *o)
@@ -36,11 +37,9 @@ static bool open_unnamed(struct outfile *o)
     char folder[sizeof o->target + 2], proc[64];
     snprintf(folder, sizeof folder, "%.*s.", folder_length(o->target), o->target);
     o->fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-    if (o->fd < 0)
-        return false;
+    if (o->fd < 0) return false;
     snprintf(proc, sizeof proc, "/proc/self/fd/%d", o->fd);
-    if (access(proc, F_OK) == 0)
-        return true;
+    if (access(proc, F_OK) == 0) return true;
     close(o->fd);
     return false;
 }
@@ -50,10 +49,8 @@ static bool try_hidden(struct outfile *o)
     for (int k = 0; k < NAMES; k++) {
         hidden_name(o, k);
         o->fd = open(o->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (o->fd >= 0)
-            return true;
-        if (errno != EEXIST)
-            break;
+        if (o->fd >= 0) return true;
+        if (errno != EEXIST) break;
     }
     o->temporary[0] = '\0';
     return false;
@@ -65,8 +62,7 @@ static bool noted(struct outfile *o, bool (*try)(struct outfile *o))
     interrupt_hold();
     bool ok = try(o);
     int why = errno;
-    if (ok)
-        interrupt_temporary(o->temporary);
+    if (ok) interrupt_temporary(o->temporary);
     interrupt_go();
     errno = why;
     return ok;
@@ -77,22 +73,19 @@ static bool set_target(struct outfile *o, const char *target, struct err *e)
     struct stat s;
     char whole[4096]; /* PATH_MAX, which realpath wants */
     size_t n = strlen(target);
-    if (n == 0)
-        return err_set(e, ERR_CREATE, "an output needs a name");
-    if (n >= sizeof o->target)
-        return err_set(e, ERR_CREATE, "%.60s...: the path is too long", target);
+    if (n == 0) return err_set(e, ERR_CREATE, "an output needs a name");
+    if (n >= sizeof o->target) return err_set(e, ERR_CREATE, "%.60s...: the path is too long", target);
     if (target[n - 1] == '/')
         return err_set(e, ERR_CREATE, "%s: is the name of a folder; a file name is needed", target);
     memcpy(o->target, target, n + 1);
-    if (stat(target, &s) != 0)
-        return errno == ENOENT; /* else a name that rename would refuse when all is done */
+    if (stat(target, &s) != 0) return errno == ENOENT; /* else a name that rename would refuse when all is done */
     if (!S_ISREG(s.st_mode))
         return err_set(e, ERR_CREATE, "%s: %s", target,
-                       S_ISDIR(s.st_mode) ? "is a folder; a file name is needed" : "is not a regular file and would be replaced");
+                       S_ISDIR(s.st_mode) ? "is a folder; a file name is needed"
+                                          : "is not a regular file and would be replaced");
     if (access(target, W_OK) != 0)
         return err_set(e, err_system(ERR_CREATE), "%s: exists and cannot be written: %s", target, strerror(errno));
-    if (realpath(target, whole))
-        memcpy(o->target, whole, strlen(whole) + 1);
+    if (realpath(target, whole)) memcpy(o->target, whole, strlen(whole) + 1);
     return true;
 }
 
@@ -102,36 +95,29 @@ static const char *missing(const struct outfile *o)
     char folder[sizeof o->target + 2];
     struct stat s;
     snprintf(folder, sizeof folder, "%.*s.", folder_length(o->target), o->target);
-    return stat(folder, &s) == 0 ? "its folder is none in which files can be made: choose another" : "its folder does not exist";
+    return stat(folder, &s) == 0 ? "its folder is none in which files can be made: choose another"
+                                 : "its folder does not exist";
 }
 
 static bool open_one(struct outfile *o, const char *target, bool unnamed, struct err *e)
 {
     *o = (struct outfile){.fd = -1};
-    if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || noted(o, try_hidden)))
-        return true;
-    err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target, errno == ENOENT ? missing(o) : strerror(errno));
+    if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || noted(o, try_hidden))) return true;
+    err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target,
+            errno == ENOENT ? missing(o) : strerror(errno));
     o->target[0] = '\0';
     return false;
 }
 
-bool outfile_open_fd(struct outfile *o, const char *target, struct err *e)
-{
-    return open_one(o, target, true, e);
-}
+bool outfile_open_fd(struct outfile *o, const char *target, struct err *e) { return open_one(o, target, true, e); }
 
-bool outfile_open_hidden(struct outfile *o, const char *target, struct err *e)
-{
-    return open_one(o, target, false, e);
-}
+bool outfile_open_hidden(struct outfile *o, const char *target, struct err *e) { return open_one(o, target, false, e); }
 
 bool outfile_open(struct outfile *o, const char *target, struct err *e)
 {
-    if (!outfile_open_fd(o, target, e))
-        return false;
+    if (!outfile_open_fd(o, target, e)) return false;
     o->stream = fdopen(o->fd, "w+");
-    if (o->stream)
-        return true;
+    if (o->stream) return true;
     err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target, strerror(errno));
     outfile_drop(o);
     return false;
@@ -144,10 +130,8 @@ static bool try_name(struct outfile *o)
     snprintf(proc, sizeof proc, "/proc/self/fd/%d", o->fd);
     for (int k = 0; k < NAMES; k++) {
         hidden_name(o, k);
-        if (linkat(AT_FDCWD, proc, AT_FDCWD, o->temporary, AT_SYMLINK_FOLLOW) == 0)
-            return true;
-        if (errno != EEXIST)
-            break;
+        if (linkat(AT_FDCWD, proc, AT_FDCWD, o->temporary, AT_SYMLINK_FOLLOW) == 0) return true;
+        if (errno != EEXIST) break;
     }
     o->temporary[0] = '\0';
     return false;
@@ -163,10 +147,8 @@ static bool close_it(struct outfile *o)
 
 static bool flush_it(struct outfile *o)
 {
-    if (!o->stream)
-        return true;
-    if (fflush(o->stream) != 0)
-        return false;
+    if (!o->stream) return true;
+    if (fflush(o->stream) != 0) return false;
     errno = o->why ? o->why : EIO; /* an earlier write failed; its reason is not kept by the stream */
     return !ferror(o->stream);
 }
@@ -181,14 +163,12 @@ static bool give_up(struct outfile *o, struct err *e)
 void outfile_put(struct outfile *o, const void *data, size_t n)
 {
     errno = 0;
-    if (fwrite(data, 1, n, o->stream) != n && !o->why)
-        o->why = errno;
+    if (fwrite(data, 1, n, o->stream) != n && !o->why) o->why = errno;
 }
 
 bool outfile_settle(struct outfile *o, struct err *e)
 {
-    if (o->target[0] == '\0')
-        return err_set(e, ERR_IO, "an output that is closed already cannot be committed");
+    if (o->target[0] == '\0') return err_set(e, ERR_IO, "an output that is closed already cannot be committed");
     bool open = o->fd >= 0;
     return !open || (flush_it(o) && (o->temporary[0] || noted(o, try_name)) && close_it(o)) || give_up(o, e);
 }
@@ -197,8 +177,7 @@ bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e)
 {
     char piece[1 << 14];
     ssize_t n = 0;
-    if (!flush_it(o))
-        return give_up(o, e);
+    if (!flush_it(o)) return give_up(o, e);
     struct hash h = hash_start();
     for (off_t at = 0; (n = pread(o->fd, piece, sizeof piece, at)) > 0; at += n)
         hash_add(&h, piece, (size_t)n);
@@ -208,25 +187,20 @@ bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e)
 
 bool outfile_commit(struct outfile *o, struct err *e)
 {
-    if (!outfile_settle(o, e))
-        return false;
+    if (!outfile_settle(o, e)) return false;
     interrupt_hold();
     bool ok = rename(o->temporary, o->target) == 0;
-    if (ok)
-        interrupt_forget(o->temporary);
+    if (ok) interrupt_forget(o->temporary);
     interrupt_go();
-    if (!ok)
-        return give_up(o, e);
+    if (!ok) return give_up(o, e);
     o->target[0] = o->temporary[0] = '\0';
     return true;
 }
 
 void outfile_drop(struct outfile *o)
 {
-    if (o->target[0] == '\0')
-        return;
-    if (o->fd >= 0)
-        close_it(o);
+    if (o->target[0] == '\0') return;
+    if (o->fd >= 0) close_it(o);
     if (o->temporary[0]) {
         unlink(o->temporary);
         interrupt_forget(o->temporary);

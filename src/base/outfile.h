@@ -1,8 +1,8 @@
-/* An output that has no name until it is complete: an unnamed file (O_TMPFILE) in the target's folder, linked under a temporary
-   name and renamed over the target when it is committed; where the file system has no unnamed files, a hidden temporary name.
-   A program that is killed leaves nothing half-written (but for that hidden name, ".rasp-*.part", where it had to be used).
-   A target that is a symbolic link replaces what the link points to; a target that is a device, a pipe, a folder or is write-protected
-   is refused. */
+/* An output that has no name until it is complete: an unnamed file (O_TMPFILE) in the target's folder, linked under a
+   temporary name and renamed over the target when it is committed; where the file system has no unnamed files, a hidden
+   temporary name. A program that is killed leaves nothing half-written (but for that hidden name, ".rasp-*.part", where
+   it had to be used). A target that is a symbolic link replaces what the link points to; a target that is a device, a
+   pipe, a folder or is write-protected is refused. */
 #ifndef BASE_OUTFILE_H
 #define BASE_OUTFILE_H
 #include <stdbool.h>
@@ -12,18 +12,22 @@
 #include "base/hash.h"
 
 struct outfile {
-    FILE *stream;      /* NULL when only fd is used (libsndfile)          */
-    int fd, why;       /* why: errno of a put that failed; 0: none did    */
+    FILE *stream;                       /* NULL when only fd is used (libsndfile)          */
+    int fd, why;                        /* why: errno of a put that failed; 0: none did    */
     char target[4096], temporary[4200]; /* temporary is empty while the file is unnamed */
 };
 
-bool outfile_open(struct outfile *o, const char *target, struct err *e);      /* ERR_CREATE */
-bool outfile_open_fd(struct outfile *o, const char *target, struct err *e);   /* same, without a stream */
-bool outfile_open_hidden(struct outfile *o, const char *target, struct err *e); /* _fd by the hidden name at once, for tests */
-void outfile_put(struct outfile *o, const void *data, size_t n); /* into the stream; what goes wrong the settling says */
-bool outfile_settle(struct outfile *o, struct err *e);   /* all of a commit but the rename: with several outputs, settle all, then commit */
-bool outfile_commit(struct outfile *o, struct err *e);   /* settles and renames; closes either way; ERR_IO */
-bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e); /* of what is written so far; ERR_IO, then it is dropped */
-void outfile_drop(struct outfile *o);                    /* closes and leaves nothing; harmless when closed */
+bool outfile_open(struct outfile *o, const char *target, struct err *e);    /* ERR_CREATE */
+bool outfile_open_fd(struct outfile *o, const char *target, struct err *e); /* same, without a stream */
+bool outfile_open_hidden(struct outfile *o, const char *target,
+                         struct err *e); /* _fd by the hidden name at once, for tests */
+void outfile_put(struct outfile *o, const void *data,
+                 size_t n); /* into the stream; what goes wrong the settling says */
+bool outfile_settle(struct outfile *o,
+                    struct err *e); /* all of a commit but the rename: with several outputs, settle all, then commit */
+bool outfile_commit(struct outfile *o, struct err *e); /* settles and renames; closes either way; ERR_IO */
+bool outfile_hash(struct outfile *o, char hex[HASH_TEXT],
+                  struct err *e);     /* of what is written so far; ERR_IO, then it is dropped */
+void outfile_drop(struct outfile *o); /* closes and leaves nothing; harmless when closed */
 
 #endif

@@ -25,15 +25,15 @@ static const char *joined(const char *folder, const char *name, size_t n, struct
 static const char *real_folder(const char *folder, struct arena *a)
 {
     const char *at = real_one(*folder ? folder : ".", a);
-    if (at)
-        return at;
+    if (at) return at;
     at = *folder == '/' ? "/" : real_one(".", a);
     for (size_t n; at && *folder; folder += n + (folder[n] == '/')) {
         n = strcspn(folder, "/");
         const char *slash = strrchr(at, '/');
-        if (n == 0 || (n == 1 && *folder == '.'))
-            continue;
-        const char *next = n == 2 && !strncmp(folder, "..", 2) ? (slash == at ? "/" : arena_format(a, "%.*s", (int)(slash - at), at)) : joined(at, folder, n, a);
+        if (n == 0 || (n == 1 && *folder == '.')) continue;
+        const char *next = n == 2 && !strncmp(folder, "..", 2)
+                               ? (slash == at ? "/" : arena_format(a, "%.*s", (int)(slash - at), at))
+                               : joined(at, folder, n, a);
         const char *real = real_one(next, a);
         at = real ? real : next;
     }
@@ -43,8 +43,7 @@ static const char *real_folder(const char *folder, struct arena *a)
 static const char *absolute(const char *file, struct arena *a)
 {
     char here[PATH_MAX];
-    if (file[0] == '/' || !getcwd(here, sizeof here))
-        return arena_text(a, file);
+    if (file[0] == '/' || !getcwd(here, sizeof here)) return arena_text(a, file);
     return arena_format(a, "%s/%s", here, file);
 }
 
@@ -53,10 +52,8 @@ static size_t shared(const char *x, const char *y)
 {
     size_t last = 0, i = 0;
     for (; x[i] && x[i] == y[i]; i++)
-        if (x[i] == '/')
-            last = i;
-    if ((!x[i] || x[i] == '/') && (!y[i] || y[i] == '/'))
-        last = i;
+        if (x[i] == '/') last = i;
+    if ((!x[i] || x[i] == '/') && (!y[i] || y[i] == '/')) last = i;
     return last;
 }
 
@@ -65,16 +62,12 @@ const char *relpath_make(const char *file, const char *folder, struct arena *a)
     const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
     const char *home = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : ".";
     const char *from = real_folder(folder ? folder : ".", a), *to = real_folder(home, a);
-    if (!from || !to)
-        return absolute(file, a);
-    if (!strcmp(from, to))
-        return arena_text(a, name);
+    if (!from || !to) return absolute(file, a);
+    if (!strcmp(from, to)) return arena_text(a, name);
     size_t n = shared(from, to);
-    if (n == 0)
-        return arena_format(a, "%s/%s", strcmp(to, "/") ? to : "", name);
+    if (n == 0) return arena_format(a, "%s/%s", strcmp(to, "/") ? to : "", name);
     const char *up = "";
     for (const char *p = from + n; *p; p++)
-        if (*p == '/' && p[1])
-            up = arena_format(a, "../%s", up);
+        if (*p == '/' && p[1]) up = arena_format(a, "../%s", up);
     return arena_format(a, "%s%s%s%s", up, to[n] ? to + n + 1 : "", to[n] ? "/" : "", name);
 }

@@ -3,9 +3,10 @@
 #define BASE_RELPATH_H
 #include "base/arena.h"
 
-/* `file` (relative to the current folder, or absolute) as it is called from `folder` (NULL or "": the current one). Symbolic links in
-   folders are followed, the file's own is not; folders that are not there are taken by their names, so that what is called so once is called so again when they come back. Absolute when
-   the two have no folder but / in common. */
+/* `file` (relative to the current folder, or absolute) as it is called from `folder` (NULL or "": the current one).
+   Symbolic links in folders are followed, the file's own is not; folders that are not there are taken by their names,
+   so that what is called so once is called so again when they come back. Absolute when the two have no folder but / in
+   common. */
 const char *relpath_make(const char *file, const char *folder, struct arena *a);
 
 #endif

@@ -31,7 +31,7 @@ struct shelf {
     pthread_cond_t made;
     struct arena *arena; /* of the entries */
     struct entry *entries, **table;
-    size_t n, places;    /* entries; of the table, a power of two */
+    size_t n, places; /* entries; of the table, a power of two */
     size_t bytes, most;
 };
 
@@ -47,8 +47,7 @@ struct shelf *shelf_open(size_t most)
 
 void shelf_close(struct shelf *s)
 {
-    if (!s)
-        return;
+    if (!s) return;
     for (struct entry *x = s->entries; x; x = x->next)
         arena_close(x->arena);
     arena_close(s->arena);
@@ -65,10 +64,7 @@ static size_t hash_text(size_t h, const char *text)
     return (h ^ 0xff) * (size_t)0x100000001b3;
 }
 
-static const char *key_of(const struct shelf_ask *ask)
-{
-    return ask->key ? ask->key : "";
-}
+static const char *key_of(const struct shelf_ask *ask) { return ask->key ? ask->key : ""; }
 
 static size_t hash_of(const struct shelf_ask *ask)
 {
@@ -81,12 +77,12 @@ static const struct entry *find(struct shelf *s, const struct shelf_ask *ask, co
 {
     size_t hash = hash_of(ask);
     for (struct entry *x = s->table[hash & (s->places - 1)]; x; x = x->other) {
-        if (x->hash != hash || x->kind != ask->kind || x->state == GONE || !watch_same(&x->status, status) || strcmp(x->file, ask->file) != 0 || strcmp(x->key, key_of(ask)) != 0)
+        if (x->hash != hash || x->kind != ask->kind || x->state == GONE || !watch_same(&x->status, status) ||
+            strcmp(x->file, ask->file) != 0 || strcmp(x->key, key_of(ask)) != 0)
             continue;
         while (x->state == MAKING)
             pthread_cond_wait(&s->made, &s->lock);
-        if (x->state == THERE)
-            return x;
+        if (x->state == THERE) return x;
     }
     return NULL;
 }
@@ -109,13 +105,18 @@ static void grow(struct shelf *s)
 static struct entry *enter(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
 {
     struct entry *x = ARENA_TAKE(s->arena, struct entry, 1);
-    *x = (struct entry){.kind = ask->kind, .file = arena_text(s->arena, ask->file), .key = *key_of(ask) ? arena_text(s->arena, ask->key) : "", .status = *status,
-                        .thing = arena_take(s->arena, 1, ask->kind->size), .state = MAKING, .hash = hash_of(ask), .next = s->entries};
+    *x = (struct entry){.kind = ask->kind,
+                        .file = arena_text(s->arena, ask->file),
+                        .key = *key_of(ask) ? arena_text(s->arena, ask->key) : "",
+                        .status = *status,
+                        .thing = arena_take(s->arena, 1, ask->kind->size),
+                        .state = MAKING,
+                        .hash = hash_of(ask),
+                        .next = s->entries};
     x->arena = ask->kind->small ? NULL : arena_open();
     s->entries = x;
     lay(s, x);
-    if (++s->n > 2 * s->places)
-        grow(s);
+    if (++s->n > 2 * s->places) grow(s);
     return x;
 }
 
@@ -128,8 +129,7 @@ static const void *make(struct shelf *s, struct entry *x, const void *how, struc
     s->bytes += x->arena ? arena_bytes(x->arena) : 0;
     pthread_cond_broadcast(&s->made);
     pthread_mutex_unlock(&s->lock);
-    if (!ok && !e->kind)
-        *e = own;
+    if (!ok && !e->kind) *e = own;
     return ok ? x->thing : NULL;
 }
 
@@ -140,14 +140,11 @@ const void *shelf_take(struct shelf *s, const struct shelf_ask *ask, struct aren
     if (s && stat(ask->file, &status) == 0) {
         pthread_mutex_lock(&s->lock);
         const struct entry *found = find(s, ask, &status);
-        if (!found && (s->bytes < s->most || ask->kind->small))
-            mine = enter(s, ask, &status);
+        if (!found && (s->bytes < s->most || ask->kind->small)) mine = enter(s, ask, &status);
         pthread_mutex_unlock(&s->lock);
-        if (found)
-            return found->thing;
+        if (found) return found->thing;
     }
-    if (mine)
-        return make(s, mine, ask->how, e);
+    if (mine) return make(s, mine, ask->how, e);
     void *thing = arena_take(a, 1, ask->kind->size);
     return ask->kind->make(ask->file, ask->how, a, thing, e) ? thing : NULL;
 }
@@ -158,8 +155,7 @@ const char *shelf_changed(struct shelf *s, struct arena *a)
     pthread_mutex_lock(&s->lock);
     for (const struct entry *x = s->entries; x && !file; x = x->next) {
         struct stat now;
-        if (stat(x->file, &now) != 0 || !watch_same(&x->status, &now))
-            file = relpath_make(x->file, NULL, a);
+        if (stat(x->file, &now) != 0 || !watch_same(&x->status, &now)) file = relpath_make(x->file, NULL, a);
     }
     pthread_mutex_unlock(&s->lock);
     return file;

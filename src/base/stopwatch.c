@@ -10,12 +10,6 @@ static double read_clock(clockid_t clock)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-double stopwatch_wall(void)
-{
-    return read_clock(CLOCK_MONOTONIC);
-}
+double stopwatch_wall(void) { return read_clock(CLOCK_MONOTONIC); }
 
-double stopwatch_cpu(void)
-{
-    return read_clock(CLOCK_THREAD_CPUTIME_ID);
-}
+double stopwatch_cpu(void) { return read_clock(CLOCK_THREAD_CPUTIME_ID); }

@@ -1,4 +1,5 @@
-/* Texts: see text.h. Distance: optimal string alignment (Damerau 1964, each stretch edited once), by dynamic programming. */
+/* Texts: see text.h. Distance: optimal string alignment (Damerau 1964, each stretch edited once), by dynamic
+ * programming. */
 #include "base/text.h"
 
 #include <ctype.h>
@@ -9,10 +10,7 @@
 
 enum { NUMBER_MAX = 400, WORD_MAX = 63, FAR = 99, ESCAPE_MAX = 4 };
 
-static size_t digits_length(const char *s)
-{
-    return strspn(s, "0123456789");
-}
+static size_t digits_length(const char *s) { return strspn(s, "0123456789"); }
 
 static size_t mantissa_length(const char *s)
 {
@@ -27,8 +25,7 @@ static size_t mantissa_length(const char *s)
 size_t text_number_length(const char *s)
 {
     size_t n = mantissa_length(s);
-    if (n == 0 || (s[n] != 'e' && s[n] != 'E'))
-        return n;
+    if (n == 0 || (s[n] != 'e' && s[n] != 'E')) return n;
     size_t sign = s[n + 1] == '+' || s[n + 1] == '-', digits = digits_length(s + n + 1 + sign);
     return digits ? n + 1 + sign + digits : n;
 }
@@ -36,45 +33,35 @@ size_t text_number_length(const char *s)
 static bool has_value(const char *s, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        if (s[i] >= '1' && s[i] <= '9')
-            return true;
+        if (s[i] >= '1' && s[i] <= '9') return true;
     return false;
 }
 
 bool text_scaled(const char *s, size_t n, int power, double *x)
 {
     char copy[NUMBER_MAX + 1], shifted[NUMBER_MAX + 32];
-    if (n > NUMBER_MAX || n == 0)
-        return false;
+    if (n > NUMBER_MAX || n == 0) return false;
     memcpy(copy, s, n);
     copy[n] = '\0';
-    if (text_number_length(copy) != n)
-        return false;
+    if (text_number_length(copy) != n) return false;
     size_t m = mantissa_length(copy);
     long exponent = m < n ? strtol(copy + m + 1, NULL, 10) : 0;
-    if (exponent < -100000 || exponent > 100000)
-        exponent = exponent < 0 ? -100000 : 100000;
+    if (exponent < -100000 || exponent > 100000) exponent = exponent < 0 ? -100000 : 100000;
     snprintf(shifted, sizeof shifted, "%.*se%ld", (int)m, copy, exponent + power);
     double value = strtod(shifted, NULL);
-    if (!isfinite(value) || (value == 0 && has_value(copy, m)))
-        return false;
+    if (!isfinite(value) || (value == 0 && has_value(copy, m))) return false;
     *x = value;
     return true;
 }
 
-bool text_double(const char *s, double *x)
-{
-    return text_scaled(s, strlen(s), 0, x);
-}
+bool text_double(const char *s, double *x) { return text_scaled(s, strlen(s), 0, x); }
 
 bool text_int(const char *s, int low, int high, int *x)
 {
     size_t sign = *s == '-', n = digits_length(s + sign);
-    if (n == 0 || n > 10 || s[sign + n])
-        return false;
+    if (n == 0 || n > 10 || s[sign + n]) return false;
     long value = strtol(s, NULL, 10);
-    if (value < low || value > high)
-        return false;
+    if (value < low || value > high) return false;
     *x = (int)value;
     return true;
 }
@@ -82,12 +69,10 @@ bool text_int(const char *s, int low, int high, int *x)
 bool text_u64(const char *s, uint64_t *x)
 {
     uint64_t value = 0;
-    if (!*s || s[digits_length(s)])
-        return false;
+    if (!*s || s[digits_length(s)]) return false;
     for (; *s; s++) {
         uint64_t digit = (uint64_t)(*s - '0');
-        if (value > (UINT64_MAX - digit) / 10)
-            return false;
+        if (value > (UINT64_MAX - digit) / 10) return false;
         value = value * 10 + digit;
     }
     *x = value;
@@ -99,28 +84,22 @@ void text_digits(double x, char digits[20], int *exponent)
     char form[40];
     for (int precision = 0; precision < 17; precision++) {
         snprintf(form, sizeof form, "%.*e", precision, x);
-        if (strtod(form, NULL) == x)
-            break;
+        if (strtod(form, NULL) == x) break;
     }
     size_t n = 0;
     for (const char *c = form; *c != 'e'; c++)
-        if (isdigit((unsigned char)*c))
-            digits[n++] = *c;
+        if (isdigit((unsigned char)*c)) digits[n++] = *c;
     digits[n] = '\0';
     *exponent = x > 0 ? (int)strtol(strchr(form, 'e') + 1, NULL, 10) + 1 : 1;
 }
 
-static int least(int a, int b)
-{
-    return a < b ? a : b;
-}
+static int least(int a, int b) { return a < b ? a : b; }
 
 int text_distance(const char *a, const char *b)
 {
     int d[WORD_MAX + 1][WORD_MAX + 1];
     size_t n = strlen(a), m = strlen(b);
-    if (n > WORD_MAX || m > WORD_MAX)
-        return FAR;
+    if (n > WORD_MAX || m > WORD_MAX) return FAR;
     for (size_t i = 0; i <= n; i++)
         for (size_t j = 0; j <= m; j++) {
             if (i == 0 || j == 0) {
@@ -153,19 +132,19 @@ int text_utf8(const char *s, size_t n, uint32_t *code)
 {
     static const uint32_t first[5] = {0, 0, 0x80, 0x800, 0x10000};
     const unsigned char *u = (const unsigned char *)s;
-    if (n == 0)
-        return 0;
-    int length = u[0] < 0x80 ? 1 : u[0] >= 0xc2 && u[0] < 0xe0 ? 2 : (u[0] & 0xf0) == 0xe0 ? 3 : u[0] >= 0xf0 && u[0] < 0xf5 ? 4 : 0;
-    if (length == 0 || (size_t)length > n)
-        return 0;
+    if (n == 0) return 0;
+    int length = u[0] < 0x80                   ? 1
+                 : u[0] >= 0xc2 && u[0] < 0xe0 ? 2
+                 : (u[0] & 0xf0) == 0xe0       ? 3
+                 : u[0] >= 0xf0 && u[0] < 0xf5 ? 4
+                                               : 0;
+    if (length == 0 || (size_t)length > n) return 0;
     uint32_t c = length == 1 ? u[0] : u[0] & (0xffu >> (length + 1));
     for (int i = 1; i < length; i++) {
-        if ((u[i] & 0xc0) != 0x80)
-            return 0;
+        if ((u[i] & 0xc0) != 0x80) return 0;
         c = c << 6 | (u[i] & 0x3fu);
     }
-    if (c < first[length] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000))
-        return 0;
+    if (c < first[length] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) return 0;
     *code = c;
     return length;
 }
@@ -193,7 +172,8 @@ static size_t escape(char byte, char out[ESCAPE_MAX + 1])
 {
     static const char bytes[] = "\n\r\t", letters[] = "nrt";
     const char *at = strchr(bytes, byte);
-    return (size_t)(at ? snprintf(out, ESCAPE_MAX + 1, "\\%c", letters[at - bytes]) : snprintf(out, ESCAPE_MAX + 1, "\\x%02x", (unsigned char)byte));
+    return (size_t)(at ? snprintf(out, ESCAPE_MAX + 1, "\\%c", letters[at - bytes])
+                       : snprintf(out, ESCAPE_MAX + 1, "\\x%02x", (unsigned char)byte));
 }
 
 void text_show(const char *s, char *out, size_t room)
@@ -203,8 +183,7 @@ void text_show(const char *s, char *out, size_t room)
         char escaped[ESCAPE_MAX + 1];
         size_t length = (size_t)text_showable(s + i, size - i), put = length ? length : escape(s[i], escaped);
         step = length ? length : 1;
-        if (n + put >= room)
-            break;
+        if (n + put >= room) break;
         memcpy(out + n, length ? s + i : escaped, put);
         n += put;
     }

@@ -1,4 +1,5 @@
-/* Texts: numbers without leftovers, names that are nearly right, UTF-8, what may stand in a message. Nothing here depends on the locale (none is ever set). */
+/* Texts: numbers without leftovers, names that are nearly right, UTF-8, what may stand in a message. Nothing here
+ * depends on the locale (none is ever set). */
 #ifndef BASE_TEXT_H
 #define BASE_TEXT_H
 #include <stdbool.h>
@@ -10,8 +11,8 @@
 /* Bytes of the decimal number that s starts with: sign, digits with at most one point, exponent; 0: none. */
 size_t text_number_length(const char *s);
 
-/* The number in s[0..n), which must be one as a whole, times 10^power, rounded once (the decimal exponent is moved, nothing is
-   multiplied). False: not a number, more than 400 characters, infinite, or not zero but rounded to zero. */
+/* The number in s[0..n), which must be one as a whole, times 10^power, rounded once (the decimal exponent is moved,
+   nothing is multiplied). False: not a number, more than 400 characters, infinite, or not zero but rounded to zero. */
 bool text_scaled(const char *s, size_t n, int power, double *x);
 
 /* Whole strings: a decimal number; a whole number from low to high; digits only, up to 2^64 - 1. */
@@ -34,11 +35,12 @@ int text_utf8(const char *s, size_t n, uint32_t *code);
 /* Characters in s[0..n); bytes that are not valid UTF-8 count as one each. */
 size_t text_utf8_count(const char *s, size_t n);
 
-/* Bytes of the character that s[0..n) starts with, if a message may show it as it is; 0: a control character (a line feed, say), or not valid UTF-8. */
+/* Bytes of the character that s[0..n) starts with, if a message may show it as it is; 0: a control character (a line
+ * feed, say), or not valid UTF-8. */
 int text_showable(const char *s, size_t n);
 
-/* s for a message, into out[0..room), room > 0: what may not be shown becomes \n, \r, \t, or \xHH for each of its bytes. What is too long is cut off.
-   Showing a shown text changes nothing: a backslash stays as it is. */
+/* s for a message, into out[0..room), room > 0: what may not be shown becomes \n, \r, \t, or \xHH for each of its
+   bytes. What is too long is cut off. Showing a shown text changes nothing: a backslash stays as it is. */
 void text_show(const char *s, char *out, size_t room);
 
 /* The same in the arena, whole. */

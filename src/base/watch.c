@@ -3,7 +3,8 @@
 
 bool watch_same(const struct stat *a, const struct stat *b)
 {
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec &&
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && a->st_size == b->st_size &&
+           a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec &&
            a->st_ctim.tv_sec == b->st_ctim.tv_sec && a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
 }
 
@@ -25,8 +26,7 @@ const char *watch_changed(const struct watch *w)
 {
     for (int i = 0; i < w->n; i++) {
         struct stat now = look(w->files[i]);
-        if ((now.st_nlink == 0) != (w->was[i].st_nlink == 0) || !watch_same(&now, &w->was[i]))
-            return w->files[i];
+        if ((now.st_nlink == 0) != (w->was[i].st_nlink == 0) || !watch_same(&now, &w->was[i])) return w->files[i];
     }
     return NULL;
 }

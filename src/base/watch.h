@@ -1,5 +1,6 @@
-/* Files that must not change while something is made of them: how each is when it begins to be watched, and whether it still is. Told by what stat tells, whose time of change no program can
-   set: a file that was changed and then put back has changed. */
+/* Files that must not change while something is made of them: how each is when it begins to be watched, and whether it
+   still is. Told by what stat tells, whose time of change no program can set: a file that was changed and then put back
+   has changed. */
 #ifndef BASE_WATCH_H
 #define BASE_WATCH_H
 #include <stdbool.h>
@@ -8,8 +9,8 @@
 #include "base/arena.h"
 
 struct watch {
-    const char **files;     /* [n] */
-    struct stat *was;       /* [n]; st_nlink 0: it was not there */
+    const char **files; /* [n] */
+    struct stat *was;   /* [n]; st_nlink 0: it was not there */
     int n;
 };
 

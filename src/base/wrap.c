@@ -8,10 +8,7 @@
 
 enum { WIDTH = 100 };
 
-static int columns(const char *s, size_t n)
-{
-    return (int)text_utf8_count(s, n);
-}
+static int columns(const char *s, size_t n) { return (int)text_utf8_count(s, n); }
 
 static int new_line(FILE *f, const char *margin)
 {

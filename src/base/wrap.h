@@ -3,8 +3,8 @@
 #define BASE_WRAP_H
 #include <stdio.h>
 
-/* Prints text and ends the line. The first line begins at `column` (what has been printed before it); further lines begin with `margin`.
-   A newline in the text begins a new line. Words are never cut. */
+/* Prints text and ends the line. The first line begins at `column` (what has been printed before it); further lines
+   begin with `margin`. A newline in the text begins a new line. Words are never cut. */
 void wrap_print(FILE *f, const char *text, int column, const char *margin);
 
 #endif

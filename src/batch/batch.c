@@ -114,8 +114,7 @@ static void took(void *context, int at)
         o->made = o->made || made;
         o->wall += s->is.wall, o->cpu += s->is.cpu;
         b->is[i] = s->is;
-        if (b->report->states)
-            b->report->states[i] = s->is.state;
+        if (b->report->states) b->report->states[i] = s->is.state;
     }
     free(s->e);
     free(s->key);
@@ -129,8 +128,7 @@ static void run_jobs(struct batch *b)
 {
     pool_run(&(struct pool_work){.n = b->n_now, .threads = b->ask->threads, .context = b, .job = job, .took = took});
     for (int at = 0; at < b->n_now; at++)
-        if (b->slots[at].done)
-            took(b, at);
+        if (b->slots[at].done) took(b, at);
     progress_clear(&b->progress);
 }
 
@@ -186,12 +184,10 @@ static bool level_all(struct batch *b, struct err *e)
     if (!set_waits(&r->set) || !are_all_there(b) ||
         shelf_changed(b->k.shelf, b->arena)) /* of two states no gain is found */
         return true;
-    if (!find_gain(b, &r->full_scale, e))
-        return false;
+    if (!find_gain(b, &r->full_scale, e)) return false;
     b->n_now = 0;
     for (int i = 0; i < r->set.n; i++)
-        if (needs_gain(b, i, r->full_scale))
-            b->now[b->n_now++] = i;
+        if (needs_gain(b, i, r->full_scale)) b->now[b->n_now++] = i;
     b->act = level;
     progress_begin(&b->progress, b->n_now, 0, true);
     run_jobs(b);
@@ -210,8 +206,7 @@ static void divide(struct batch *b)
     b->slots = ARENA_TAKE(b->arena, struct slot, r->set.n);
     set_deal(&r->set, b->ask->shard.n, to, b->arena);
     for (int i = 0; i < r->set.n; i++)
-        if ((r->mine[i] = to[i] == b->ask->shard.i))
-            b->now[b->n_now++] = i;
+        if ((r->mine[i] = to[i] == b->ask->shard.i)) b->now[b->n_now++] = i;
     r->n_mine = b->n_now;
 }
 
@@ -220,8 +215,7 @@ static bool has_room(const struct batch *b, struct err *e)
     const char *folder = b->ask->folder;
     double share = (double)b->report->n_mine / b->report->set.n, free = folder_free(folder),
            raw = share * b->report->plan.raw_bytes;
-    if (raw < free || access(arena_format(b->arena, "%s/.rasp/raw", folder), F_OK) == 0)
-        return true;
+    if (raw < free || access(arena_format(b->arena, "%s/.rasp/raw", folder), F_OK) == 0) return true;
     return err_set(e, ERR_CREATE,
                    "%s: %.3g GB are free, and the sounds take %.3g GB until the common level is known: give the level "
                    "as full_scale, or make room",
@@ -240,8 +234,7 @@ static void list_missing(struct batch *b)
         lacks[to[i]] = lacks[to[i]] || !r->rows[i].there;
     r->missing = "";
     for (int k = 1; k <= shards; k++)
-        if (lacks[k])
-            r->missing = arena_format(b->arena, "%s%s%d", r->missing, *r->missing ? "," : "", k);
+        if (lacks[k]) r->missing = arena_format(b->arena, "%s%s%d", r->missing, *r->missing ? "," : "", k);
 }
 
 /* What of the set is there, and why the rest would be made. A gain is known when all are. */
@@ -258,10 +251,8 @@ static bool look_at_folder(struct batch *b, struct err *e)
     b->act = look;
     progress_begin(&b->progress, b->n_now, 0, true);
     run_jobs(b);
-    if (b->stop.kind)
-        return err_set(e, b->stop.kind, "%s", b->stop.text);
-    if (b->ask->missing)
-        list_missing(b);
+    if (b->stop.kind) return err_set(e, b->stop.kind, "%s", b->stop.text);
+    if (b->ask->missing) list_missing(b);
     bool gain = set_waits(&r->set) && are_all_there(b) && find_gain(b, &full_scale, &silent);
     for (int i = 0; i < r->set.n; i++)
         if (r->states[i] == STIMULUS_THERE && set_waits(&r->set) &&
@@ -351,8 +342,7 @@ static bool end(struct batch *b, struct err *e)
     bool missing = false;
     for (int i = 0; i < r->set.n; i++)
         missing = missing || (b->ask->no_render && r->rows[i].kind);
-    if (missing)
-        return true;
+    if (missing) return true;
     find_stale(b);
     sync_folder(b);
     return tables_write(&(struct tables){&r->set, b->ask->folder, r->rows, b->arena}, &r->no_effect, e);
@@ -360,14 +350,12 @@ static bool end(struct batch *b, struct err *e)
 
 static bool run_in_folder(struct batch *b, struct err *e)
 {
-    if (!has_room(b, e))
-        return false;
+    if (!has_room(b, e)) return false;
     b->report->rendering = true;
     b->k.doubt = !tables_are_there(b->ask->folder, b->arena);
     tables_remove(b->ask->folder, b->arena);
     resample_prepare();
-    if (!make_all(b, e))
-        return false;
+    if (!make_all(b, e)) return false;
     if (b->ask->shard.n > 1)
         b->changed = shelf_changed(b->k.shelf, b->arena);
     else if (!level_all(b, e) || !end(b, e))
@@ -380,8 +368,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
 {
     int lock;
     *r = (struct batch_report){.messages = "", .no_effect = "", .full_scale = NAN};
-    if (!design_read(ask->design, a, &r->design, &r->messages, e))
-        return false;
+    if (!design_read(ask->design, a, &r->design, &r->messages, e)) return false;
     r->set = set_make(&r->design, ask->program);
     if (!set_plan(&r->set,
                   &(struct set_plan_ask){ask->threads, shelf, ask->folder, ask->replace, ask->force || ask->replace}, a,
@@ -394,8 +381,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
                       .k = {.set = &r->set, .folder = ask->folder, .shelf = shelf, .inputs = r->plan.inputs}};
     r->rows = ARENA_TAKE(a, struct tables_row, r->set.n);
     divide(&b);
-    if (!ask->folder)
-        return true;
+    if (!ask->folder) return true;
     const struct folder_owner owner = {ask->folder,  ask->design,  r->set.sha256,
                                        ask->program, ask->replace, ask->shard.n > 1};
     if (!folder_look(&owner, a, e)) /* before anything is written */
@@ -405,8 +391,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
         b.k.seen_from = folder_place(ask->design, ask->folder, a);
         return look_at_folder(&b, e);
     }
-    if (!folder_enter(&owner, a, &lock, e))
-        return false;
+    if (!folder_enter(&owner, a, &lock, e)) return false;
     b.k.seen_from = folder_place(ask->design, ask->folder, a);
     bool ok = run_in_folder(&b, e);
     folder_leave(lock);

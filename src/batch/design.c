@@ -71,8 +71,7 @@ int design_reading_factor(const struct design_reading *r, const struct yaml_node
     const struct design *d = r->design;
     const char **names = ARENA_TAKE(r->arena, const char *, d->n_factors + 1);
     for (int f = 0; f < d->n_factors; f++) {
-        if (strcmp(d->factors[f].name, key->text) == 0)
-            return f;
+        if (strcmp(d->factors[f].name, key->text) == 0) return f;
         names[f] = d->factors[f].name;
     }
     diag_add(r->yaml->diag, key->at,
@@ -116,8 +115,7 @@ const char *design_reading_labels(const struct design *d, const int *level, stru
 {
     const char *all = "";
     for (int f = 0; f < d->n_factors; f++)
-        if (level[f] >= 0)
-            all = arena_format(a, "%s%s%s", all, *all ? ", " : "", d->factors[f].levels[level[f]].label);
+        if (level[f] >= 0) all = arena_format(a, "%s%s%s", all, *all ? ", " : "", d->factors[f].levels[level[f]].label);
     return all;
 }
 
@@ -168,8 +166,7 @@ static void order_read(const struct design_reading *r)
 {
     static const char *const names[] = {"seed", NULL};
     const struct yaml_node *node = design_reading_value(r, "order"), *seed = node ? yaml_get(node, "seed") : NULL;
-    if (!node || is_text(node, "design"))
-        return;
+    if (!node || is_text(node, "design")) return;
     if (!seed) {
         design_reading_must(r, node, "order", "design, or {seed: NUMBER}", "write for instance: order: {seed: 7}");
         return;
@@ -216,10 +213,8 @@ static void level_read(const struct design_reading *r)
     const struct yaml_node *node = design_reading_value(r, "level");
     d->level = (struct level){NAN, NAN, NAN, NAN, NAN, false};
     d->level_rule = node && is_text(node, "scene") ? DESIGN_LEVEL_SCENE : DESIGN_LEVEL_COMMON;
-    if (!node)
-        d->level.peak = -3;
-    if (!node || d->level_rule == DESIGN_LEVEL_SCENE)
-        return;
+    if (!node) d->level.peak = -3;
+    if (!node || d->level_rule == DESIGN_LEVEL_SCENE) return;
     const struct yaml_node *rule = node->kind == YAML_MAP && node->n == 1 ? node->first : NULL;
     if (rule && strcmp(rule->key->text, "each") == 0)
         d->level_rule = DESIGN_LEVEL_EACH;
@@ -237,8 +232,7 @@ static void length_read(const struct design_reading *r)
     struct design *d = r->design;
     const struct yaml_node *node = design_reading_value(r, "length");
     d->length_rule = DESIGN_LENGTH_LONGEST;
-    if (!node || is_text(node, "longest"))
-        return;
+    if (!node || is_text(node, "longest")) return;
     if (is_text(node, "own")) {
         d->length_rule = DESIGN_LENGTH_OWN;
         return;
@@ -269,8 +263,7 @@ static void design_rules_read(struct design_reading *r)
         design_reading_must(r, title, "title", "a text", "write for instance: title: three materials by two rates");
     else if (title)
         r->design->title = title->text;
-    if (seed)
-        seed_read(r, seed, "seed", &r->design->seed);
+    if (seed) seed_read(r, seed, "seed", &r->design->seed);
     replicates_read(r);
     order_read(r);
     level_read(r);
@@ -334,8 +327,7 @@ static void fields_check(const struct design_reading *r, const struct yaml_node 
 static void design_text_read(const struct design_reading *r)
 {
     const struct yaml_node *node = design_reading_value(r, "text");
-    if (!node)
-        return;
+    if (!node) return;
     if (node->kind != YAML_SCALAR || !*node->text) {
         design_reading_must(r, node, "text", "what the text of a trial is", text_cure);
         return;
@@ -349,11 +341,9 @@ static void design_text_read(const struct design_reading *r)
 /* False: the factor has no level here. */
 static bool field_put(FILE *f, const struct design *d, const struct design_stimulus *s, const char *name, size_t n)
 {
-    if (is_field(name, n, "replicate"))
-        return fprintf(f, "%d", s->replicate) > 0;
+    if (is_field(name, n, "replicate")) return fprintf(f, "%d", s->replicate) > 0;
     for (int k = 0; k < d->n_factors; k++) {
-        if (!is_field(name, n, d->factors[k].name))
-            continue;
+        if (!is_field(name, n, d->factors[k].name)) continue;
         const struct design_level *l = s->level[k] < 0 ? NULL : &d->factors[k].levels[s->level[k]];
         return l && fputs(l->text ? l->text : l->label, f) >= 0;
     }
@@ -367,8 +357,7 @@ static bool template_put(FILE *f, const struct design *d, const struct design_st
         fprintf(f, "%.*s", (int)n, t);
         t += n;
         size_t m = *t ? strcspn(t + 1, "}") : 0;
-        if (*t && !field_put(f, d, s, t + 1, m))
-            return false;
+        if (*t && !field_put(f, d, s, t + 1, m)) return false;
         t += *t ? m + 2 : 0;
     }
     return true;
@@ -387,8 +376,7 @@ const char *design_text(const struct design *d, int i, struct arena *a)
     const struct design_stimulus *s = &d->stimuli[i];
     char *memory = NULL;
     size_t size = 0;
-    if (own_text(d, s) || !d->text)
-        return own_text(d, s);
+    if (own_text(d, s) || !d->text) return own_text(d, s);
     FILE *f = memory_stream(&memory, &size);
     bool whole = template_put(f, d, s);
     memory_stream_end(f, &memory);
@@ -406,8 +394,7 @@ struct layer {
 
 static void add(struct layer *l, const struct design_change *c)
 {
-    if (c->n > 0)
-        memcpy(l->keys + l->n, c->keys, (size_t)c->n * sizeof *c->keys);
+    if (c->n > 0) memcpy(l->keys + l->n, c->keys, (size_t)c->n * sizeof *c->keys);
     l->n += c->n;
 }
 
@@ -464,10 +451,8 @@ bool design_scene_recording(const struct design *d, int i, struct err *e)
 
 void design_scene_places(const struct design *d, struct scene *s, struct arena *a)
 {
-    if (d->level_rule != DESIGN_LEVEL_SCENE)
-        scene_places_move(s, "output.level", "level", &d->texts->level, a);
-    if (d->length_rule == DESIGN_LENGTH_FIXED)
-        scene_places_move(s, "output.duration", "length", &d->texts->length, a);
+    if (d->level_rule != DESIGN_LEVEL_SCENE) scene_places_move(s, "output.level", "level", &d->texts->level, a);
+    if (d->length_rule == DESIGN_LENGTH_FIXED) scene_places_move(s, "output.duration", "length", &d->texts->length, a);
 }
 
 /* ------------------------------------------------------------------ the list */
@@ -495,14 +480,10 @@ static const char *cell_text(const struct table *t, int row, int column, char nu
     const struct design_stimulus *s = row < 0 ? NULL : &t->d->stimuli[row];
     if (column >= COLUMN_FACTORS)
         return s ? design_label(t->d, row, column - COLUMN_FACTORS) : t->d->factors[column - COLUMN_FACTORS].name;
-    if (!s || column == COLUMN_NAME)
-        return s ? s->name : heads[column];
-    if (column == COLUMN_RECORDING)
-        return s->recording ? s->recording : "n/a";
-    if (column == COLUMN_STATE)
-        return t->states ? t->states[row] : "";
-    if (s->recording)
-        return "n/a";
+    if (!s || column == COLUMN_NAME) return s ? s->name : heads[column];
+    if (column == COLUMN_RECORDING) return s->recording ? s->recording : "n/a";
+    if (column == COLUMN_STATE) return t->states ? t->states[row] : "";
+    if (s->recording) return "n/a";
     snprintf(number, 24, "%llu",
              column == COLUMN_SEED ? (unsigned long long)s->seed : (unsigned long long)s->replicate);
     return number;
@@ -539,8 +520,7 @@ static void put_row(const struct table *t, int row, int digits)
     for (int f = 0; f < t->d->n_factors; f++)
         put_cell(t, row, COLUMN_FACTORS + f, false);
     for (int c = COLUMN_REPLICATE; c <= last; c++)
-        if (shown(t, c))
-            put_cell(t, row, c, c == last);
+        if (shown(t, c)) put_cell(t, row, c, c == last);
     fputc('\n', t->f);
 }
 
@@ -557,8 +537,7 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
         t.recordings = t.recordings || d->stimuli[i].recording;
     widths(&t);
     for (int row = -1; row < d->n_stimuli; row++)
-        if (row < 0 || !mine || mine[row])
-            put_row(&t, row, digits);
+        if (row < 0 || !mine || mine[row]) put_row(&t, row, digits);
     arena_close(a);
 }
 
@@ -578,15 +557,11 @@ static void parts_read(struct design_reading *r)
     design_rules_independent(r);
     design_names_template(r);
     design_text_read(r);
-    if (errors->n == 0)
-        design_rows_cells(r);
-    if (errors->n == 0)
-        design_rows_stimuli(r);
-    if (errors->n == 0)
-        design_names_make(r);
+    if (errors->n == 0) design_rows_cells(r);
+    if (errors->n == 0) design_rows_stimuli(r);
+    if (errors->n == 0) design_names_make(r);
     r->texts->cells = r->cells;
-    if (errors->n == 0)
-        design_rows_hash(r);
+    if (errors->n == 0) design_rows_hash(r);
 }
 
 /* A design of another version: what else looks wrong in it need not be. */
@@ -606,8 +581,7 @@ static bool another_version(struct yaml *y, const struct yaml_node *root)
 static bool a_scene(struct yaml *y, const struct yaml_node *root)
 {
     const struct yaml_node *node = yaml_get(root, "rasp");
-    if (!node || yaml_get(root, "rasp-design"))
-        return false;
+    if (!node || yaml_get(root, "rasp-design")) return false;
     y->diag->n = 0;
     diag_add(y->diag, node->key->at,
              "rasp render renders it, rasp check checks it; rasp new design writes a starter design",
@@ -621,15 +595,13 @@ static void text_read(struct yaml *y, const struct diag_source *source, struct d
     struct design_reading r = {
         .yaml = y, .arena = y->arena, .root = root, .design = d, .texts = ARENA_TAKE(y->arena, struct design_texts, 1)};
     d->texts = r.texts;
-    if (!root)
-        return;
+    if (!root) return;
     if (root->kind != YAML_MAP) {
         diag_add(y->diag, root->at, "write keys with values, such as: base: scrape.yaml",
                  "a design must be a map of keys");
         return;
     }
-    if (another_version(y, root) || a_scene(y, root))
-        return;
+    if (another_version(y, root) || a_scene(y, root)) return;
     r.keys = keys_text_names(y->arena);
     parts_read(&r);
 }
@@ -642,10 +614,8 @@ bool design_read(const char *file, struct arena *a, struct design *d, const char
     d->sources[0] = d->file;
     d->diag = y->diag;
     *messages = "";
-    if (source)
-        text_read(y, source, d);
-    if (y->diag->n == 0)
-        return true;
+    if (source) text_read(y, source, d);
+    if (y->diag->n == 0) return true;
     *messages = diag_text(y->diag);
     return err_set(e, y->missing ? interrupt_seen() ? ERR_INTERRUPTED : ERR_INPUT : ERR_SCENE, "%s",
                    diag_first(y->diag));

@@ -33,8 +33,7 @@ static const struct key *design_changes_key(const char *path) { return keys_find
 static bool is_one_of(const char *path, const char *const *names)
 {
     for (; *names; names++)
-        if (strcmp(*names, path) == 0)
-            return true;
+        if (strcmp(*names, path) == 0) return true;
     return false;
 }
 
@@ -43,8 +42,7 @@ static const char *design_changes_near(const struct design_reading *r, const cha
     const char *found = NULL;
     for (const char *const *name = r->keys; *name; name++) {
         const char *dot = strrchr(*name, '.');
-        if (dot && strcmp(dot + 1, word) == 0)
-            found = found ? arena_format(r->arena, "%s or %s", found, *name) : *name;
+        if (dot && strcmp(dot + 1, word) == 0) found = found ? arena_format(r->arena, "%s or %s", found, *name) : *name;
     }
     return found ? found : text_nearest(word, r->keys);
 }
@@ -52,8 +50,7 @@ static const char *design_changes_near(const struct design_reading *r, const cha
 static bool design_changes_known(const struct design_reading *r, const struct yaml_node *key)
 {
     const char *plain = keys_text_plain(key->text);
-    if (is_one_of(plain, r->keys))
-        return true;
+    if (is_one_of(plain, r->keys)) return true;
     const char *near = design_changes_near(r, plain);
     return diag_add(r->yaml->diag, key->at,
                     near ? arena_format(r->arena, "did you mean %s?", near) : "rasp explain lists every key of a scene",
@@ -109,8 +106,7 @@ static bool value_good(const struct design_reading *r, const char *path, const s
 {
     const struct key *k = design_changes_key(path);
     size_t size = sizeof(struct scene) > sizeof(struct contact) ? sizeof(struct scene) : sizeof(struct contact);
-    if (!k || yaml_null(value))
-        return true;
+    if (!k || yaml_null(value)) return true;
     struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
     struct scene_part part = {r->yaml, r->root, prefix_of(path, own), k->of, arena_take(own, 1, size)};
     bool good = scene_values_read(&part, k, value);
@@ -121,16 +117,13 @@ static bool value_good(const struct design_reading *r, const char *path, const s
 static bool leaf_add(const struct design_reading *r, struct design_change *c, const struct yaml_node *key,
                      const struct yaml_node *value)
 {
-    if (reserved(r, key) || !design_changes_known(r, key) || !value_good(r, key->text, value))
-        return false;
+    if (reserved(r, key) || !design_changes_known(r, key) || !value_good(r, key->text, value)) return false;
     struct yaml_node **path = scene_layer_path(r->yaml, key);
-    if (!path)
-        return false;
+    if (!path) return false;
     if (c->n == c->room) {
         c->room = 2 * c->room + 4;
         struct scene_layer_key *more = ARENA_TAKE(r->arena, struct scene_layer_key, c->room);
-        if (c->n > 0)
-            memcpy(more, c->keys, (size_t)c->n * sizeof *more);
+        if (c->n > 0) memcpy(more, c->keys, (size_t)c->n * sizeof *more);
         c->keys = more;
     }
     c->keys[c->n++] = (struct scene_layer_key){path, value};
@@ -141,8 +134,7 @@ static bool design_changes_add(const struct design_reading *r, struct design_cha
                                const struct yaml_node *value)
 {
     bool good = true;
-    if (value->kind != YAML_MAP || value->n == 0)
-        return leaf_add(r, c, key, value);
+    if (value->kind != YAML_MAP || value->n == 0) return leaf_add(r, c, key, value);
     for (const struct yaml_node *item = value->first; item; item = item->next) {
         struct yaml_node *path =
             yaml_make(r->yaml, YAML_SCALAR, item->key->at, arena_format(r->arena, "%s.%s", key->text, item->key->text));
@@ -181,8 +173,7 @@ static void put_text(FILE *f, const struct yaml_node *node, bool alone, struct a
     }
     fputc(node->kind == YAML_MAP ? '{' : '[', f);
     for (const struct yaml_node *item = node->first; item; item = item->next) {
-        if (node->kind == YAML_MAP)
-            fprintf(f, "%s: ", scalar_text(item->key, false, a));
+        if (node->kind == YAML_MAP) fprintf(f, "%s: ", scalar_text(item->key, false, a));
         put_text(f, item, false, a);
         fputs(item->next ? ", " : "", f);
     }
@@ -235,8 +226,7 @@ static bool quantity_of(const char *label, enum key_dimension bare, struct measu
     size_t n = text_number_length(label);
     const char *unit = label + n + strspn(label + n, " \t");
     const struct units_table_unit *u = *unit ? units_table_find(unit, &power) : NULL;
-    if (n == 0 || (*unit && !u) || !text_scaled(label, n, 0, &x))
-        return false;
+    if (n == 0 || (*unit && !u) || !text_scaled(label, n, 0, &x)) return false;
     *q = (struct measure){label, *unit ? unit : keys_text_unit(bare), n, u ? u->dimension : bare};
     return true;
 }
@@ -269,10 +259,8 @@ static const struct measure *quantities(const struct design_factor *f, struct me
     const struct measure *first = NULL;
     for (int i = 0; i < f->n_levels && !(k && !of_numbers(k)); i++) {
         bool good = quantity_of(f->levels[i].label, k ? k->dimension : KEY_NONE, &q[i]);
-        if (f->levels[i].recorded)
-            continue;
-        if (!good || (first && q[i].dimension != first->dimension))
-            return NULL;
+        if (f->levels[i].recorded) continue;
+        if (!good || (first && q[i].dimension != first->dimension)) return NULL;
         first = first ? first : &q[i];
     }
     *same = true;
@@ -382,8 +370,7 @@ static const char *spelt(const char *s, int *n)
 static void put_unit(struct name *name, const char *unit)
 {
     put(name, "_");
-    if (strncmp(unit, "1/", 2) == 0)
-        unit++;
+    if (strncmp(unit, "1/", 2) == 0) unit++;
     if (unit[0] == 'M' && unit[1]) {
         put(name, "mega");
         unit++;
@@ -402,8 +389,7 @@ static const char *column_of(const struct design_factor *f, struct arena *a)
         const char letter[2] = {*s, '\0'};
         put(&name, isalnum((unsigned char)*s) ? letter : "_");
     }
-    if (f->unit)
-        put_unit(&name, f->unit);
+    if (f->unit) put_unit(&name, f->unit);
     while (name.n > 0 && name.to[name.n - 1] == '_')
         name.n--;
     name.to[name.n] = '\0';
@@ -564,17 +550,14 @@ static void map_read(const struct reading_level *l, const struct yaml_node *map)
     else if (value)
         diag_add(l->r->yaml->diag, value->key->at, map_cure,
                  "value needs a factor that is a key of scenes, which %s is not", l->name->text);
-    if (set && !yaml_null(set))
-        design_changes_map(l->r, change_of(l), set);
+    if (set && !yaml_null(set)) design_changes_map(l->r, change_of(l), set);
     if (text && text->kind != YAML_SCALAR)
         design_reading_must(l->r, text, "text", "what a trial says of the level",
                             "write for instance: text: a plank of poplar");
     else if (text)
         level_of(l)->text = text->text;
-    if (base)
-        base_read(l, base);
-    if (yaml_get(map, "of"))
-        of_read(l, map, yaml_get(map, "of"));
+    if (base) base_read(l, base);
+    if (yaml_get(map, "of")) of_read(l, map, yaml_get(map, "of"));
 }
 
 static void level_read(const struct reading_level *l, const struct yaml_node *item)
@@ -594,8 +577,7 @@ static void level_read(const struct reading_level *l, const struct yaml_node *it
 
 static bool is_word(const char *s)
 {
-    if (!isalpha((unsigned char)*s))
-        return false;
+    if (!isalpha((unsigned char)*s)) return false;
     while (isalnum((unsigned char)*s) || *s == '_' || *s == '-')
         s++;
     return !*s;
@@ -605,8 +587,7 @@ static bool name_good(const struct design_reading *r, const struct yaml_node *na
 {
     static const char *const taken[] = {"replicate", "order", "cell", NULL};
     *key = design_changes_key(name->text) || strcmp(name->text, "accuracy") == 0 || strchr(name->text, '.');
-    if (*key)
-        return design_changes_known(r, name);
+    if (*key) return design_changes_known(r, name);
     for (int i = 0; taken[i]; i++)
         if (strcmp(name->text, taken[i]) == 0)
             return diag_add(r->yaml->diag, name->at, "call the factor otherwise",
@@ -671,8 +652,7 @@ static void factors_read(struct design_reading *r, const struct yaml_node *map)
         factor_read(r, r->design->n_factors++, item);
     for (int f = 0; f < n; f++)
         for (int g = 0; g < n; g++)
-            if (f != g)
-                keys_once(r, f, g);
+            if (f != g) keys_once(r, f, g);
 }
 
 /* ------------------------------------------------------------------ bases */
@@ -718,8 +698,7 @@ void design_factors_read(struct design_reading *r)
         design_reading_must(r, base, "base", "the file name of a scene", "write for instance: base: scrape.yaml");
     r->texts->base = base;
     r->design->base = base && base->kind == YAML_SCALAR ? scene_merge_path(r->yaml, base->at.source, base->text) : NULL;
-    if (set)
-        design_changes_map(r, &r->texts->set, set);
+    if (set) design_changes_map(r, &r->texts->set, set);
     r->design->set = design_changes_texts(&r->texts->set, r->arena);
     factors_read(r, design_reading_value(r, "factors"));
     bases_check(r);

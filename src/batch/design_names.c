@@ -43,20 +43,15 @@ static const char *part_fault(const char *s, size_t n, const char **cure)
 {
     static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", ".yml", NULL};
     *cure = "write another template for name:, or other labels";
-    if (n == 0)
-        return "has a folder without a name";
+    if (n == 0) return "has a folder without a name";
     if (s[0] == '.')
         return "has a part that begins with a dot: it would be hidden, or lie outside of the output folder";
-    if (n > PART_LONGEST)
-        return "has a part of more than 200 letters";
-    if (s[n - 1] == '.')
-        return "has a part that ends with a dot, which Windows leaves off";
-    if (is_device(s, n))
-        return "has a part that is a device on Windows, which cannot have such a file";
+    if (n > PART_LONGEST) return "has a part of more than 200 letters";
+    if (s[n - 1] == '.') return "has a part that ends with a dot, which Windows leaves off";
+    if (is_device(s, n)) return "has a part that is a device on Windows, which cannot have such a file";
     *cure = "leave the ending out: each file gets its own";
     for (int i = 0; endings[i]; i++)
-        if (ends_in(s, n, endings[i]))
-            return "ends as a file does";
+        if (ends_in(s, n, endings[i])) return "ends as a file does";
     return NULL;
 }
 
@@ -67,8 +62,7 @@ static const char *name_fault(const char *name, const char **cure)
         size_t n = strcspn(s, "/");
         fault = part_fault(s, n, cure);
         s += n;
-        if (!*s)
-            break;
+        if (!*s) break;
     }
     if (!fault && strlen(name) > NAME_LONGEST) {
         *cure = "write a shorter template for name:";
@@ -101,8 +95,7 @@ static int name_only(const void *name, const void *p)
 static const char *called(const struct design_reading *r, const struct design_stimulus *s)
 {
     const char *labels = design_reading_labels(r->design, s->level, r->arena);
-    if (s->recording)
-        return arena_format(r->arena, "the recording %s", s->recording);
+    if (s->recording) return arena_format(r->arena, "the recording %s", s->recording);
     labels = *labels ? labels : "the scene";
     return r->design->replicates > 1 ? arena_format(r->arena, "%s, replicate %d", labels, s->replicate) : labels;
 }
@@ -111,8 +104,7 @@ static const char *called(const struct design_reading *r, const struct design_st
 static const char *apart(const struct design_reading *r, const struct design_stimulus *a,
                          const struct design_stimulus *b)
 {
-    if (a->recording || b->recording)
-        return "give the recording a name: of its own";
+    if (a->recording || b->recording) return "give the recording a name: of its own";
     for (int f = 0; f < r->design->n_factors; f++)
         if (a->level[f] != b->level[f])
             return yaml_get(r->root, "name")
@@ -155,12 +147,10 @@ static const struct design_stimulus *continued(const struct design_stimulus **so
 {
     const char *slash = strrchr(name, '/');
     for (const char *dot = strchr(slash ? slash : name, '.'); dot; dot = strchr(dot + 1, '.')) {
-        if (!isalpha((unsigned char)dot[1]) && dot[1] != '_')
-            continue;
+        if (!isalpha((unsigned char)dot[1]) && dot[1] != '_') continue;
         const char *stem = arena_format(a, "%.*s", (int)(dot - name), name);
         const struct design_stimulus **found = bsearch(stem, sorted, (size_t)n, sizeof *sorted, name_only);
-        if (found)
-            return *found;
+        if (found) return *found;
     }
     return NULL;
 }
@@ -189,8 +179,7 @@ static void design_names_check(const struct design_reading *r)
     for (int i = 0; i < r->design->n_stimuli; i++) {
         const struct design_stimulus *s = &r->design->stimuli[i];
         const char *cure, *fault = name_fault(s->name, &cure);
-        if (!fault)
-            continue;
+        if (!fault) continue;
         diag_add(r->yaml->diag, place_of(r, s), cure, "the name '%s' of %s %s", diag_shown(r->yaml->diag, s->name),
                  called(r, s), fault);
         return;
@@ -233,8 +222,7 @@ static const char *instead(const char *label, const char *s, int size)
     static const char *const signs[][2] = {
         {"\xc2\xb5", "u"}, {"\xce\xbc", "u"}, {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "deg"}};
     for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
-        if (size == 2 && strncmp(s, signs[i][0], 2) == 0)
-            return signs[i][1];
+        if (size == 2 && strncmp(s, signs[i][0], 2) == 0) return signs[i][1];
     return *s == ' ' && s > label && isdigit((unsigned char)s[-1]) && text_number_length(label) == (size_t)(s - label)
                ? ""
                : "_";
@@ -262,12 +250,10 @@ static int field_of(const struct design_reading *r, const struct yaml_node *node
 {
     static const char *const own[] = {"replicate", "order", "cell"};
     for (int i = 0; i < 3; i++)
-        if (strcmp(word, own[i]) == 0)
-            return FIELD_REPLICATE - i;
+        if (strcmp(word, own[i]) == 0) return FIELD_REPLICATE - i;
     const char **names = ARENA_TAKE(r->arena, const char *, r->design->n_factors + 4);
     for (int f = 0; f < r->design->n_factors; f++) {
-        if (strcmp(word, r->design->factors[f].name) == 0)
-            return f;
+        if (strcmp(word, r->design->factors[f].name) == 0) return f;
         names[f] = r->design->factors[f].name;
     }
     memcpy(names + r->design->n_factors, own, sizeof own);
@@ -405,8 +391,7 @@ static void labels_make(struct names *x)
 static const char *recording_name(struct names *x, int i, const struct design_cell *cell)
 {
     const struct yaml_node *node = yaml_get(cell->entry, "name");
-    if (!node)
-        return stem_of(cell->recording, x->r->arena);
+    if (!node) return stem_of(cell->recording, x->r->arena);
     struct design_template own = template_read(x->r, node);
     return expanded(x, &own, i);
 }
@@ -415,8 +400,7 @@ void design_names_template(struct design_reading *r)
 {
     const struct yaml_node *node = design_reading_value(r, "name");
     struct design_template *t = ARENA_TAKE(r->arena, struct design_template, 1);
-    if (node)
-        *t = template_read(r, node);
+    if (node) *t = template_read(r, node);
     r->template = t;
 }
 
@@ -431,6 +415,5 @@ void design_names_make(struct design_reading *r)
         const struct design_cell *cell = &r->cells[d->stimuli[i].cell];
         d->stimuli[i].name = cell->recording ? recording_name(&x, i, cell) : expanded(&x, &t, i);
     }
-    if (r->yaml->diag->n == errors)
-        design_names_check(r);
+    if (r->yaml->diag->n == errors) design_names_check(r);
 }

@@ -37,8 +37,7 @@ static struct crossing *crossings(const struct design_reading *r)
     for (int f = 0; f < d->n_factors; f++) {
         all[f].level = ARENA_TAKE(r->arena, int, d->factors[f].n_levels + 1);
         for (int i = 0; i < d->factors[f].n_levels; i++)
-            if (!d->factors[f].levels[i].recorded)
-                all[f].level[all[f].n++] = i;
+            if (!d->factors[f].levels[i].recorded) all[f].level[all[f].n++] = i;
     }
     return all;
 }
@@ -64,8 +63,7 @@ static struct design_cell *cell_add(struct design_reading *r, long *room)
 {
     if (r->n_cells == *room) {
         struct design_cell *more = ARENA_TAKE(r->arena, struct design_cell, 2 * *room + 64);
-        if (r->n_cells > 0)
-            memcpy(more, r->cells, (size_t)r->n_cells * sizeof *more);
+        if (r->n_cells > 0) memcpy(more, r->cells, (size_t)r->n_cells * sizeof *more);
         r->cells = more;
         *room = 2 * *room + 64;
     }
@@ -93,8 +91,7 @@ static void cells_cross(struct design_reading *r, const struct crossing *factors
     r->cells = ARENA_TAKE(r->arena, struct design_cell, room + 1);
     for (long i = 0, most = room; i < most; i++) {
         levels_of(d, factors, i, levels);
-        if (excluded(d, levels, all, n))
-            continue;
+        if (excluded(d, levels, all, n)) continue;
         *cell_add(r, &room) = (struct design_cell){.level = levels};
         levels += d->n_factors;
     }
@@ -125,8 +122,7 @@ static int *entry_levels(const struct design_reading *r, const struct yaml_node 
         while (own[i] && strcmp(own[i], item->key->text) != 0)
             i++;
         int f = own[i] ? -1 : design_reading_factor(r, item->key);
-        if (f >= 0)
-            level[f] = design_reading_level(r, f, item, own[0] != NULL);
+        if (f >= 0) level[f] = design_reading_level(r, f, item, own[0] != NULL);
     }
     return level;
 }
@@ -134,8 +130,7 @@ static int *entry_levels(const struct design_reading *r, const struct yaml_node 
 /* Entries that are no maps are told here. */
 static bool is_list(const struct design_reading *r, const struct yaml_node *list, const char *label, const char *cure)
 {
-    if (list->kind != YAML_LIST)
-        return design_reading_must(r, list, label, "a list", cure);
+    if (list->kind != YAML_LIST) return design_reading_must(r, list, label, "a list", cure);
     for (const struct yaml_node *item = list->first; item; item = item->next)
         if (item->kind != YAML_MAP)
             design_reading_must(r, item, arena_format(r->arena, "an entry of %s", label), "a map", cure);
@@ -155,11 +150,9 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
     static const char *const own[] = {NULL};
     int errors = r->yaml->diag->n;
     long room = 0;
-    if (!is_list(r, list, "cells", "write for instance: cells: [{material: wood, motion.rate: 1 Hz}]"))
-        return;
+    if (!is_list(r, list, "cells", "write for instance: cells: [{material: wood, motion.rate: 1 Hz}]")) return;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
-        if (entry->kind != YAML_MAP)
-            continue;
+        if (entry->kind != YAML_MAP) continue;
         int *level = entry_levels(r, entry, own);
         cell_complete(r, entry);
         crossed_only(r, level, entry);
@@ -173,8 +166,7 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
 static void level_name(const struct design_reading *r, int f, const struct yaml_node *label, unsigned char *named)
 {
     int i = design_reading_level(r, f, label, false);
-    if (i >= 0)
-        named[i] = 1;
+    if (i >= 0) named[i] = 1;
 }
 
 static void exclusion_read(const struct design_reading *r, struct exclusion *x)
@@ -185,11 +177,9 @@ static void exclusion_read(const struct design_reading *r, struct exclusion *x)
                  "this excludes every cell");
     for (const struct yaml_node *item = x->entry->first; item; item = item->next) {
         int f = design_reading_factor(r, item->key);
-        if (f < 0)
-            continue;
+        if (f < 0) continue;
         x->named[f] = arena_take(r->arena, (size_t)r->design->factors[f].n_levels, 1);
-        if (item->kind != YAML_LIST)
-            level_name(r, f, item, x->named[f]);
+        if (item->kind != YAML_LIST) level_name(r, f, item, x->named[f]);
         for (const struct yaml_node *label = item->kind == YAML_LIST ? item->first : NULL; label; label = label->next)
             level_name(r, f, label, x->named[f]);
     }
@@ -208,8 +198,7 @@ static struct exclusion *exclusions_read(const struct design_reading *r, int *n)
     if (!list || !is_list(r, list, "exclude", "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]"))
         return all;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
-        if (entry->kind != YAML_MAP)
-            continue;
+        if (entry->kind != YAML_MAP) continue;
         all[*n] = (struct exclusion){.entry = entry};
         exclusion_read(r, &all[(*n)++]);
     }
@@ -223,11 +212,9 @@ static void recordings_add(struct design_reading *r, const struct yaml_node *lis
     static const char *const own[] = {"file", "name", "text", NULL};
     static const char cure[] = "write for instance: recordings: [{file: recorded/wood.wav, material: wood}]";
     long room = r->n_cells;
-    if (!is_list(r, list, "recordings", cure))
-        return;
+    if (!is_list(r, list, "recordings", cure)) return;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
-        if (entry->kind != YAML_MAP)
-            continue;
+        if (entry->kind != YAML_MAP) continue;
         const struct yaml_node *file = yaml_get(entry, "file");
         const struct yaml_node *text = yaml_get(entry, "text");
         int *level = entry_levels(r, entry, own);
@@ -251,8 +238,7 @@ static void recorded_check(const struct design_reading *r)
         const struct yaml_node *item = r->factors[f]->first;
         bool *used = ARENA_TAKE(r->arena, bool, factor->n_levels + 1);
         for (long c = 0; c < r->n_cells; c++)
-            if (r->cells[c].level[f] >= 0)
-                used[r->cells[c].level[f]] = true;
+            if (r->cells[c].level[f] >= 0) used[r->cells[c].level[f]] = true;
         for (int i = 0; i < factor->n_levels; i++, item = item->next)
             if (factor->levels[i].recorded && !used[i])
                 diag_add(r->yaml->diag, item->at,
@@ -295,16 +281,13 @@ void design_rows_cells(struct design_reading *r)
         cells_list(r, cells, all, n);
     else if (r->yaml->diag->n == errors)
         cells_cross(r, levels, all, n);
-    if (r->yaml->diag->n == errors)
-        matched_check(r, all, n);
+    if (r->yaml->diag->n == errors) matched_check(r, all, n);
     if (r->yaml->diag->n == errors && r->n_cells == 0)
         diag_add(r->yaml->diag,
                  (cells ? cells : yaml_get(r->root, yaml_get(r->root, "exclude") ? "exclude" : "factors"))->at,
                  "leave some in", "no cell is left");
-    if (recordings)
-        recordings_add(r, recordings);
-    if (r->yaml->diag->n == errors)
-        recorded_check(r);
+    if (recordings) recordings_add(r, recordings);
+    if (r->yaml->diag->n == errors) recorded_check(r);
 }
 
 /* ------------------------------------------------------------------ stimuli */
@@ -361,8 +344,7 @@ static void add_labels(struct hashing *x, const struct design *d, const struct d
     for (; *factors; factors++) {
         const struct design_factor *f = *factors;
         int i = level[f - d->factors];
-        if (i < 0 || (independent && !f->independent))
-            continue;
+        if (i < 0 || (independent && !f->independent)) continue;
         add_text(x, f->name);
         add_text(x, f->levels[i].label);
     }
@@ -398,8 +380,7 @@ struct ranked {
 static int by_rank(const void *pa, const void *pb)
 {
     const struct ranked *a = pa, *b = pb;
-    if (a->rank != b->rank)
-        return a->rank < b->rank ? -1 : 1;
+    if (a->rank != b->rank) return a->rank < b->rank ? -1 : 1;
     return a->stimulus.cell < b->stimulus.cell ? -1 : a->stimulus.cell > b->stimulus.cell;
 }
 
@@ -428,8 +409,7 @@ void design_rows_stimuli(struct design_reading *r)
             s->seed = cell->recording ? 0 : seed_of(d, factors, s);
         }
     }
-    if (d->shuffled)
-        shuffle(r, factors);
+    if (d->shuffled) shuffle(r, factors);
 }
 
 /* ------------------------------------------------------------------ the design */

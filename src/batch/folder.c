@@ -39,8 +39,7 @@ static const char *missing(const char *path)
 static bool make_one(const char *path, struct err *e)
 {
     struct stat s;
-    if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode)))
-        return true;
+    if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode))) return true;
     return err_set(e, err_system(ERR_CREATE), "the folder %s cannot be created: %s", path,
                    errno == ENOENT   ? missing(path)
                    : errno == EEXIST ? "a file has that name"
@@ -53,8 +52,7 @@ bool folder_make_for(const char *folder, const char *name, struct err *e)
     for (const char *slash = strchr(name, '/'); slash; slash = strchr(slash + 1, '/')) {
         if (snprintf(path, sizeof path, "%s/%.*s", folder, (int)(slash - name), name) >= (int)sizeof path)
             return err_set(e, ERR_CREATE, "%s/%s: the path is too long", folder, name);
-        if (!make_one(path, e))
-            return false;
+        if (!make_one(path, e)) return false;
     }
     return true;
 }
@@ -100,8 +98,7 @@ struct owner {
 
 const char *folder_place(const char *design, const char *folder, struct arena *a)
 {
-    if (!piped_is(design))
-        return text_shown(a, relpath_make(design, folder, a));
+    if (!piped_is(design)) return text_shown(a, relpath_make(design, folder, a));
     char *real = memory_realpath(folder);
     const char *place = arena_format(a, "%s %s", piped, text_shown(a, real ? real : folder));
     free(real);
@@ -122,20 +119,17 @@ static void read_owner(int fd, struct owner *was)
     for (int i = 0; i < LINES; i++) {
         char *end = strchr(at, '\n');
         was->lines[i] = end ? at : NULL;
-        if (end)
-            *end = '\0';
+        if (end) *end = '\0';
         at = end ? end + 1 : at + strlen(at);
     }
-    if (!was->lines[3] || strcmp(was->lines[0], format) != 0)
-        memset(was->lines, 0, sizeof was->lines);
+    if (!was->lines[3] || strcmp(was->lines[0], format) != 0) memset(was->lines, 0, sizeof was->lines);
 }
 
 static void look(const char *folder, struct arena *a, struct owner *was)
 {
     int fd = open(arena_format(a, "%s/.rasp/owner", folder), O_RDONLY | O_CLOEXEC);
     read_owner(fd, was);
-    if (fd >= 0)
-        close(fd);
+    if (fd >= 0) close(fd);
 }
 
 bool folder_is_noted(const char *folder, struct arena *a)
@@ -186,8 +180,7 @@ static bool lock_work(const struct folder_owner *o, int fd, const struct owner *
 {
     *alone = flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; /* else there are no locks */
     bool shared = !*alone && o->part && is_same_state(o, was) && flock(fd, LOCK_SH | LOCK_NB) == 0;
-    if (*alone || shared)
-        return true;
+    if (*alone || shared) return true;
     return is_busy(o, was, e);
 }
 
@@ -198,11 +191,9 @@ static bool note(const struct folder_owner *o, int fd, struct arena *a, struct e
     const char *text = arena_format(a, "%s\n%s\n%s\n%s\n%s, process %ld\n", format, o->sha256, place_of(o, a),
                                     o->program, text_shown(a, host), (long)getpid());
     size_t n = strlen(text);
-    if (n > MOST)
-        return err_set(e, ERR_CREATE, "%s: the path is too long", o->design);
+    if (n > MOST) return err_set(e, ERR_CREATE, "%s: the path is too long", o->design);
     errno = ENOSPC; /* where less is written than was asked for */
-    if (pwrite(fd, text, n, 0) == (ssize_t)n && ftruncate(fd, (off_t)n) == 0)
-        return true;
+    if (pwrite(fd, text, n, 0) == (ssize_t)n && ftruncate(fd, (off_t)n) == 0) return true;
     return err_set(e, err_system(ERR_CREATE), "%s/.rasp/owner: cannot be written: %s", o->folder, strerror(errno));
 }
 
@@ -211,10 +202,8 @@ static bool enter(const struct folder_owner *o, int fd, struct arena *a, struct 
     struct owner was;
     bool alone;
     read_owner(fd, &was);
-    if (!is_free(o, &was, a, e) || !lock_work(o, fd, &was, &alone, e) || (alone && !note(o, fd, a, e)))
-        return false;
-    if (o->part && alone)
-        flock(fd, LOCK_SH);
+    if (!is_free(o, &was, a, e) || !lock_work(o, fd, &was, &alone, e) || (alone && !note(o, fd, a, e))) return false;
+    if (o->part && alone) flock(fd, LOCK_SH);
     return true;
 }
 
@@ -236,15 +225,13 @@ bool folder_enter(const struct folder_owner *o, struct arena *a, int *lock, stru
 {
     const char *hidden = arena_format(a, "%s/.rasp", o->folder), *path = arena_format(a, "%s/owner", hidden);
     *lock = -1;
-    if (!make_one(o->folder, e) || !make_one(hidden, e))
-        return false;
+    if (!make_one(o->folder, e) || !make_one(hidden, e)) return false;
     int door = open(hidden, O_RDONLY | O_DIRECTORY | O_CLOEXEC), fd = -1;
     bool ok = open_door(o, door, a, e);
     if (ok && (fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666)) < 0)
         ok = err_set(e, err_system(ERR_CREATE), "%s: cannot be written: %s", path, strerror(errno));
     ok = ok && enter(o, fd, a, e);
-    if (door >= 0)
-        close(door);
+    if (door >= 0) close(door);
     if (ok)
         *lock = fd;
     else if (fd >= 0)
@@ -256,8 +243,7 @@ bool folder_enter(const struct folder_owner *o, struct arena *a, int *lock, stru
 void folder_leave(int lock)
 {
     struct owner was;
-    if (lock < 0)
-        return;
+    if (lock < 0) return;
     read_owner(lock, &was);
     if (was.lines[4] && ftruncate(lock, was.lines[4] - was.text) != 0)
         was.lines[4] = NULL; /* the next one says otherwise */
@@ -284,8 +270,7 @@ static struct input *find(const struct folder_inputs *all, dev_t device, ino_t i
     size_t at = (size_t)(((unsigned long long)inode * 0x9e3779b97f4a7c15ull + (unsigned long long)device) >> 17);
     for (;; at++) {
         struct input *in = &all->table[at & (all->room - 1)];
-        if (!in->file || (in->inode == inode && in->device == device))
-            return in;
+        if (!in->file || (in->inode == inode && in->device == device)) return in;
     }
 }
 
@@ -299,23 +284,19 @@ struct folder_inputs *folder_inputs(struct arena *a)
 void folder_inputs_add(struct folder_inputs *all, const char *file, const char *what, dev_t device, ino_t inode)
 {
     struct input *in = find(all, device, inode);
-    if (in->file)
-        return;
+    if (in->file) return;
     *in = (struct input){arena_text(all->arena, file), what, device, inode};
-    if (2 * ++all->n <= all->room)
-        return;
+    if (2 * ++all->n <= all->room) return;
     const struct folder_inputs old = *all;
     all->table = ARENA_TAKE(all->arena, struct input, all->room *= 2);
     for (size_t i = 0; i < old.room; i++)
-        if (old.table[i].file)
-            *find(all, old.table[i].device, old.table[i].inode) = old.table[i];
+        if (old.table[i].file) *find(all, old.table[i].device, old.table[i].inode) = old.table[i];
 }
 
 void folder_inputs_add_file(struct folder_inputs *all, const char *file, const char *what)
 {
     struct stat s;
-    if (stat(file, &s) == 0)
-        folder_inputs_add(all, file, what, s.st_dev, s.st_ino);
+    if (stat(file, &s) == 0) folder_inputs_add(all, file, what, s.st_dev, s.st_ino);
 }
 
 static const struct input *input_at(const struct folder_inputs *all, const char *path)
@@ -380,10 +361,8 @@ static void process_named(const char *pid, char text[64])
     char path[64], line[256] = "";
     snprintf(path, sizeof path, "/proc/%s/stat", pid);
     FILE *f = fopen(path, "r");
-    if (f && !fgets(line, sizeof line, f))
-        line[0] = '\0';
-    if (f)
-        fclose(f);
+    if (f && !fgets(line, sizeof line, f)) line[0] = '\0';
+    if (f) fclose(f);
     const char *from = strchr(line, '('), *to = strrchr(line, ')');
     snprintf(text, 64, "%.*s", from && to > from ? (int)(to - from) + 3 : 0, from ? from : "");
 }
@@ -397,8 +376,7 @@ static bool runs(int pid)
     process_named("self", self);
     process_named(number, other);
     size_t n = strlen(self);
-    if (!n)
-        return kill(pid, 0) == 0 || errno != ESRCH; /* no /proc */
+    if (!n) return kill(pid, 0) == 0 || errno != ESRCH; /* no /proc */
     return strlen(other) == n && !strncmp(self, other, n - 1) && other[n - 1] != 'Z' && other[n - 1] != 'X';
 }
 
@@ -409,8 +387,7 @@ static bool is_left(const char *name)
     size_t n = strlen(name), digits = dash ? (size_t)(dash - name) - 6 : 0;
     char text[16] = "";
     int pid;
-    if (!dash || n < 6 || strcmp(name + n - 5, ".part") != 0 || digits >= sizeof text)
-        return false;
+    if (!dash || n < 6 || strcmp(name + n - 5, ".part") != 0 || digits >= sizeof text) return false;
     memcpy(text, name + 6, digits);
     return text_int(text, 1, 2147483647, &pid) && !runs(pid);
 }
@@ -450,8 +427,7 @@ static void add(struct walk *x, const char *file)
     struct folder_stale *s = x->to;
     if (s->n_files == x->room) {
         const char **more = ARENA_TAKE(x->arena, const char *, x->room = 2 * x->room + 16);
-        if (s->n_files)
-            memcpy(more, s->files, (size_t)s->n_files * sizeof *more);
+        if (s->n_files) memcpy(more, s->files, (size_t)s->n_files * sizeof *more);
         s->files = more;
     }
     s->files[s->n_files++] = file;
@@ -463,8 +439,7 @@ static bool was_changed(const char *path, const struct record *r, const char *fi
     char hex[HASH_TEXT];
     struct err unreadable = {0};
     bool same = false;
-    if (!hash_file(path, hex, &unreadable))
-        return true;
+    if (!hash_file(path, hex, &unreadable)) return true;
     for (int i = 0; i < r->n_files && !same; i++) /* one that was about to be replaced is listed twice */
         same = !strcmp(r->files[i].path, file) && !strcmp(r->files[i].sha256, hex);
     return !same;
@@ -473,8 +448,7 @@ static bool was_changed(const char *path, const struct record *r, const char *fi
 static void remove_file(struct walk *x, const char *file)
 {
     const char *folder = x->wanted->folder, *slash = strrchr(file, '/');
-    if (unlink(arena_format(x->arena, "%s/%s", folder, file)) != 0)
-        return;
+    if (unlink(arena_format(x->arena, "%s/%s", folder, file)) != 0) return;
     x->to->removed++;
     while (slash &&
            rmdir(arena_format(x->arena, "%s/%.*s", folder, (int)(slash - file), file)) == 0) /* if nothing is in it */
@@ -548,8 +522,7 @@ static void walk(struct walk *x, const char *below)
                  (!strcmp(name, ".rasp") || !folder_is_noted(whole, x->arena)))
             walk(x, arena_format(x->arena, "%s/", path));
     }
-    if (d)
-        closedir(d);
+    if (d) closedir(d);
 }
 
 static int remove_it(const char *path, const struct stat *s, int kind, struct FTW *where)
@@ -563,8 +536,6 @@ void folder_stale(const struct folder_wanted *w, struct arena *a, struct folder_
 {
     *s = (struct folder_stale){.files = ARENA_TAKE(a, const char *, 1)};
     walk(&(struct walk){.wanted = w, .arena = a, .to = s}, "");
-    if (s->n_files)
-        qsort(s->files, (size_t)s->n_files, sizeof *s->files, by_text);
-    if (w->all)
-        nftw(arena_format(a, "%s/.rasp/raw", w->folder), remove_it, 16, FTW_DEPTH | FTW_PHYS);
+    if (s->n_files) qsort(s->files, (size_t)s->n_files, sizeof *s->files, by_text);
+    if (w->all) nftw(arena_format(a, "%s/.rasp/raw", w->folder), remove_it, 16, FTW_DEPTH | FTW_PHYS);
 }

@@ -15,11 +15,9 @@ enum { PIECE = MEASURE_CHANNELS /* samples */, BEHIND = 32 /* frames: the meter 
 bool measure_open(struct measure_source *c, const char *path, const struct measure_form *form, struct err *e)
 {
     *c = (struct measure_source){.frames = 0};
-    if (!wav_stream_open(&c->in, path, e))
-        return false;
+    if (!wav_stream_open(&c->in, path, e)) return false;
     c->own = c->frames = c->in.frames;
-    if (!form || isnan(form->seconds))
-        return true;
+    if (!form || isnan(form->seconds)) return true;
     c->frames = (long)rint(form->seconds * c->in.rate);
     c->ramp = c->frames < c->own ? (long)rint(form->ramp * c->in.rate) : 0;
     c->ramp = c->ramp < c->frames / 2 ? c->ramp : c->frames / 2;
@@ -53,8 +51,7 @@ bool measure_read(struct measure_source *c, double *x, long most, long *n, struc
     long some = c->frames - c->done < most ? c->frames - c->done : most, got;
     *n = some;
     memset(x, 0, sizeof *x * (size_t)some * (size_t)c->in.channels);
-    if (!wav_stream_read(&c->in, x, some, &got, e))
-        return false;
+    if (!wav_stream_read(&c->in, x, some, &got, e)) return false;
     shape(c, x, some);
     c->done += some;
     return true;
@@ -65,12 +62,10 @@ bool measure_copy(struct measure_source *c, struct wav_out *out, double gain, st
     double x[PIECE];
     long n, most = PIECE / c->in.channels;
     do {
-        if (!measure_read(c, x, most, &n, e))
-            return false;
+        if (!measure_read(c, x, most, &n, e)) return false;
         for (long i = 0; i < n * c->in.channels; i++)
             x[i] *= gain;
-        if (n > 0 && !wav_write(out, x, (size_t)n, e))
-            return false;
+        if (n > 0 && !wav_write(out, x, (size_t)n, e)) return false;
     } while (n > 0);
     return true;
 }
@@ -99,8 +94,7 @@ static bool pass(struct measure_source *c, struct sums *s, struct err *e)
     double x[PIECE];
     long n, most = PIECE / c->in.channels;
     do {
-        if (!measure_read(c, x, most, &n, e))
-            return false;
+        if (!measure_read(c, x, most, &n, e)) return false;
         add(s, x, n * c->in.channels);
     } while (n > 0);
     return true;
@@ -112,8 +106,7 @@ static bool loud_pass(struct measure_source *c, double peak, struct loudness *l,
     double x[PIECE];
     long n, most = PIECE / c->in.channels;
     do {
-        if (!measure_read(c, x, most, &n, e))
-            return false;
+        if (!measure_read(c, x, most, &n, e)) return false;
         for (long i = 0; i < n * c->in.channels; i++)
             x[i] /= peak;
         loudness_add(l, x, (size_t)n);
@@ -126,11 +119,9 @@ static bool find_loudness(const char *path, const struct measure_form *form, str
     struct measure_source c;
     double lufs, silence[PIECE] = {0};
     struct loudness *l = loudness_open(m->channels, m->rate, true);
-    if (!l)
-        return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", m->rate);
+    if (!l) return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", m->rate);
     bool ok = measure_open(&c, path, form, e) && loud_pass(&c, m->peak, l, e);
-    if (ok && loudness_read(l, &lufs))
-        m->lufs = lufs + 20 * real_log10(m->peak);
+    if (ok && loudness_read(l, &lufs)) m->lufs = lufs + 20 * real_log10(m->peak);
     for (int i = 0; ok && i < BEHIND; i++)
         loudness_add(l, silence, 1);
     m->true_peak = ok ? fmax(1, loudness_true_peak(l)) * m->peak : NAN; /* of a sound brought to peak 1 */
@@ -162,8 +153,7 @@ bool measure_cut(const char *path, const struct measure_form *form, bool loud, s
 {
     struct measure_source c;
     bool ok = measure_open(&c, path, form, e);
-    if (ok && c.in.channels > PIECE)
-        ok = err_set(e, ERR_SCENE, "%s: has %d channels", path, c.in.channels);
+    if (ok && c.in.channels > PIECE) ok = err_set(e, ERR_SCENE, "%s: has %d channels", path, c.in.channels);
     ok = ok && find_rest(&c, m, e);
     measure_close(&c);
     return ok && (!loud || m->peak == 0 || find_loudness(path, form, m, e));

@@ -21,8 +21,7 @@ static bool begin(struct pool *p, int *i)
 {
     pthread_mutex_lock(&p->lock);
     bool any = !p->stop && p->next < p->work->n;
-    if (any)
-        *i = p->next++;
+    if (any) *i = p->next++;
     pthread_mutex_unlock(&p->lock);
     return any;
 }
@@ -33,8 +32,7 @@ static void end(struct pool *p, int i, bool go_on)
     p->done[i] = true;
     p->stop = p->stop || !go_on;
     while (p->taken < p->work->n && p->done[p->taken]) {
-        if (p->work->took)
-            p->work->took(p->work->context, p->taken);
+        if (p->work->took) p->work->took(p->work->context, p->taken);
         p->taken++;
     }
     pthread_mutex_unlock(&p->lock);
@@ -62,8 +60,7 @@ int pool_run(const struct pool_work *w)
     struct pool p = {.work = w, .done = calloc((size_t)w->n + 1, sizeof *p.done)};
     pthread_t threads[MOST_THREADS];
     int most = w->threads < w->n ? w->threads : w->n;
-    if (!p.done)
-        memory_out("for %d jobs", w->n);
+    if (!p.done) memory_out("for %d jobs", w->n);
     pthread_mutex_init(&p.lock, NULL);
     int n = start(&p, threads, (most < MOST_THREADS ? most : MOST_THREADS) - 1);
     worker(&p);

@@ -45,11 +45,9 @@ void progress_step(struct progress *p, const char *name, double cost, double lef
     p->cost -= left;
     p->done += cost;
     p->sound += sound;
-    if (!p->shown || (now - p->last < PERIOD && p->at < p->n))
-        return;
+    if (!p->shown || (now - p->last < PERIOD && p->at < p->n)) return;
     p->last = now;
-    if (p->done > 0)
-        progress_time(spent * fmax(0, p->cost - p->done) / p->done, eta);
+    if (p->done > 0) progress_time(spent * fmax(0, p->cost - p->done) / p->done, eta);
     int width = snprintf(NULL, 0, "%d", p->n);
     fprintf(stderr, "\r\033[K[%*d/%d] %.40s  x%.3g  ETA %s", width, p->at, p->n, name, spent > 0 ? p->sound / spent : 0,
             eta);
@@ -58,7 +56,6 @@ void progress_step(struct progress *p, const char *name, double cost, double lef
 
 void progress_clear(struct progress *p)
 {
-    if (p->shown && p->last > 0)
-        fputs("\r\033[K", stderr);
+    if (p->shown && p->last > 0) fputs("\r\033[K", stderr);
     p->last = 0;
 }

@@ -54,8 +54,7 @@ static json_t *file_json(const json_t *listed, const struct record_file *f)
     json_array_foreach(listed, i, file)
     {
         const char *other = json_string_value(json_object_get(file, "name"));
-        if (!j && other && !strcmp(other, name))
-            j = json_copy(file);
+        if (!j && other && !strcmp(other, name)) j = json_copy(file);
     }
     j = j ? j : json_pack("{s:s, s:s}", "kind", f->kind, "name", name);
     json_object_set_new(j, "sha256", json_value_text(f->sha256));
@@ -70,8 +69,7 @@ static json_t *file_json(const json_t *listed, const struct record_file *f)
 static json_t *measured_json(const struct record *r)
 {
     json_t *j = json_pack("{s:o, s:I}", "rate_hz", json_value_number(r->rate), "frames", (json_int_t)r->frames);
-    if (!r->sounds)
-        return j;
+    if (!r->sounds) return j;
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         json_object_set_new(j, numbers[k].name, json_value_number(*number(r, k)));
     json_object_set_new(j, "channels", json_integer(r->channels));
@@ -92,8 +90,7 @@ static json_t *whole_json(const struct record *r)
         json_pack("{s:i, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "set", 2, "status", statuses[r->status], "key",
                   r->key, "program", r->program, "seen_from", json_value_text(r->seen_from), "full_scale",
                   json_value_number(r->full_scale), "measured", measured_json(r), "warnings", warnings, "files", files);
-    if (render)
-        json_object_update_missing(j, render);
+    if (render) json_object_update_missing(j, render);
     json_object_del(j, "record");
     json_decref(render);
     return j;
@@ -148,8 +145,7 @@ static bool parse_files(const json_t *list, const char *name, struct arena *a, s
                                   .raw = json_is_true(json_object_get(file, "raw")),
                                   .sha256 = json_value_text_of(file, "sha256", a),
                                   .size = (double)json_integer_value(json_object_get(file, "size"))};
-        if (!f->kind || !f->sha256 || !is_own(own, name))
-            return false;
+        if (!f->kind || !f->sha256 || !is_own(own, name)) return false;
         f->path = record_file_path(name, own, f->raw, a);
     }
     return json_is_array(list);

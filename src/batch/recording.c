@@ -20,8 +20,7 @@
 bool recording_check(const char *file, double *rate, int *channels, double *seconds, struct err *e)
 {
     struct wav_stream w;
-    if (!wav_stream_open(&w, file, e))
-        return false;
+    if (!wav_stream_open(&w, file, e)) return false;
     wav_stream_close(&w);
     if (*rate == 0) {
         *rate = w.rate;
@@ -30,8 +29,7 @@ bool recording_check(const char *file, double *rate, int *channels, double *seco
     *seconds = (double)w.frames / w.rate;
     if (w.frames < 1 || w.channels > MEASURE_CHANNELS)
         return err_set(e, ERR_SCENE, "%s: has no samples, or too many channels", file);
-    if (w.rate == *rate && w.channels == *channels)
-        return true;
+    if (w.rate == *rate && w.channels == *channels) return true;
     return err_set(e, ERR_SCENE,
                    "%s: has %d channel%s at %g Hz, the set has %d at %g Hz: convert it first, as in: sox %s -r %g -c "
                    "%d converted.wav",
@@ -45,10 +43,8 @@ static bool find_gain(const struct set *set, const char *file, const struct meas
 {
     const struct level *l = &set->level;
     *gain = 1;
-    if (set->level_rule == DESIGN_LEVEL_SCENE || !isnan(l->full_scale) || !isnan(l->dbfs_at_1_pa))
-        return true;
-    if (m->peak == 0)
-        return true; /* warned of, as it is of a render */
+    if (set->level_rule == DESIGN_LEVEL_SCENE || !isnan(l->full_scale) || !isnan(l->dbfs_at_1_pa)) return true;
+    if (m->peak == 0) return true; /* warned of, as it is of a render */
     if (!isnan(l->rms))
         *gain = real_exp10(l->rms / 20) / m->rms;
     else if (isnan(l->lufs))
@@ -108,8 +104,7 @@ static struct wav_out *copy(const struct set *set, const char *file, const char 
     char comment[80];
     struct measure_source c;
     struct measure_form form = form_of(set);
-    if (!measure_open(&c, file, &form, e))
-        return NULL;
+    if (!measure_open(&c, file, &form, e)) return NULL;
     snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", r->gain, 20 * real_log10(r->gain));
     struct wav_format f = {
         .rate = c.in.rate, .channels = c.in.channels, .bits = recording_bits(set->encoding), .comment = comment};
@@ -125,8 +120,7 @@ static struct wav_out *copy(const struct set *set, const char *file, const char 
         r->beyond = w.beyond;
         return out;
     }
-    if (out)
-        wav_drop(out);
+    if (out) wav_drop(out);
     return NULL;
 }
 

@@ -46,10 +46,8 @@ bool set_waits(const struct set *s)
 
 void set_lay(const struct set *s, struct scene *over)
 {
-    if (!isnan(s->length))
-        over->output.duration = s->length;
-    if (s->level_rule != DESIGN_LEVEL_SCENE)
-        over->output.level = s->level;
+    if (!isnan(s->length)) over->output.duration = s->length;
+    if (s->level_rule != DESIGN_LEVEL_SCENE) over->output.level = s->level;
     if (set_waits(s))
         over->output.level =
             (struct level){.later = true, .full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
@@ -61,16 +59,12 @@ const char *set_level_text(const struct set *s, struct arena *a)
         [DESIGN_LEVEL_COMMON] = "common", [DESIGN_LEVEL_EACH] = "each", [DESIGN_LEVEL_SCENE] = "scene"};
     const struct level *l = &s->level;
     const char *rule = rules[s->level_rule];
-    if (s->level_rule == DESIGN_LEVEL_SCENE)
-        return rule;
-    if (!isnan(l->full_scale))
-        return arena_format(a, "%s full_scale %s", rule, keys_yaml_number(l->full_scale, a));
+    if (s->level_rule == DESIGN_LEVEL_SCENE) return rule;
+    if (!isnan(l->full_scale)) return arena_format(a, "%s full_scale %s", rule, keys_yaml_number(l->full_scale, a));
     if (!isnan(l->dbfs_at_1_pa))
         return arena_format(a, "%s dbfs_at_1_pa %s dB", rule, keys_yaml_number(l->dbfs_at_1_pa, a));
-    if (!isnan(l->rms))
-        return arena_format(a, "%s rms %s dB", rule, keys_yaml_number(l->rms, a));
-    if (!isnan(l->lufs))
-        return arena_format(a, "%s lufs %s LUFS", rule, keys_yaml_number(l->lufs, a));
+    if (!isnan(l->rms)) return arena_format(a, "%s rms %s dB", rule, keys_yaml_number(l->rms, a));
+    if (!isnan(l->lufs)) return arena_format(a, "%s lufs %s LUFS", rule, keys_yaml_number(l->lufs, a));
     return arena_format(a, "%s peak %s dB", rule, keys_yaml_number(l->peak, a));
 }
 
@@ -156,8 +150,7 @@ static void hash_scene(struct trial *t)
 static bool watch_sources(const struct planning *p, struct trial *t)
 {
     for (const char *const *file = t->scene.sources; *file; file++)
-        if (!shelf_sha256(p->ask->shelf, *file, t->arena, &t->e))
-            return false;
+        if (!shelf_sha256(p->ask->shelf, *file, t->arena, &t->e)) return false;
     return true;
 }
 
@@ -170,8 +163,7 @@ static struct level wants(const struct planning *p, const struct scene *s)
 static bool draws(const struct scene *s)
 {
     for (int i = 0; i < s->n_contacts; i++)
-        if (s->contacts[i].motion.path == PATH_SCRIBBLE)
-            return true;
+        if (s->contacts[i].motion.path == PATH_SCRIBBLE) return true;
     return false;
 }
 
@@ -182,15 +174,13 @@ static bool estimate(const struct planning *p, int i, struct look *l)
     struct scene *s = &t->scene;
     bool read = design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e);
     t->diag = s->diag;
-    if (!read || !watch_sources(p, t))
-        return false;
+    if (!read || !watch_sources(p, t)) return false;
     s->shelf = p->ask->shelf;
     hash_scene(t);
     l->drawn = draws(s);
     set_lay(p->set, s);
     design_scene_places(p->set->design, s, t->arena);
-    if (!plan_scene_estimate(s, t->arena, &x, &t->e))
-        return scene_places_tell(s, &t->e);
+    if (!plan_scene_estimate(s, t->arena, &x, &t->e)) return scene_places_tell(s, &t->e);
     t->warnings = x.warnings;
     struct track_format f = sound_format(s, x.length.frames);
     l->seconds = (double)x.length.frames / f.rate;
@@ -223,12 +213,10 @@ static void report_short(const struct planning *p, int i, double seconds, struct
 {
     struct trial *t = l->trial = trial_open();
     struct scene *s = &t->scene;
-    if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e))
-        return;
+    if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e)) return;
     s->output.level = wants(p, s);
     design_scene_places(p->set->design, s, t->arena);
-    if (!sound_long_enough(s, frames_of(l, seconds), &t->e))
-        scene_places_tell(s, &t->e);
+    if (!sound_long_enough(s, frames_of(l, seconds), &t->e)) scene_places_tell(s, &t->e);
 }
 
 /* ------------------------------------------------------------------ one form */
@@ -252,8 +240,7 @@ static bool is_of_form(const struct planning *p, const struct look *l, const cha
                        "output.listen), or make two sets",
                        l->channels, l->channels == 1 ? "" : "s", name, first->channels);
     *key = "output.quantity";
-    if (p->set->level_rule != DESIGN_LEVEL_COMMON || l->quantity < 0)
-        return true;
+    if (p->set->level_rule != DESIGN_LEVEL_COMMON || l->quantity < 0) return true;
     int other = p->looks[p->first[p->first_stated]].quantity;
     return l->quantity == other ||
            err_set(e, ERR_SCENE,
@@ -266,16 +253,13 @@ static bool is_otherwise(const struct planning *p, int i, struct look *l)
 {
     struct err e = {0};
     const char *key;
-    if (is_of_form(p, l, &key, &e))
-        return false;
+    if (is_of_form(p, l, &key, &e)) return false;
     struct trial *t = l->trial = trial_open();
     struct scene *s = &t->scene;
     l->otherwise = true;
-    if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e))
-        return true;
+    if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e)) return true;
     t->e = e;
-    if (!strcmp(key, "output.channels") && l->channels != s->output.channels)
-        key = "output.listen";
+    if (!strcmp(key, "output.channels") && l->channels != s->output.channels) key = "output.listen";
     bool response = !strcmp(key, "output.quantity") && s->output.quantity == QUANTITY_AUTO;
     err_about(&t->e, response ? s->contacts[0].name : NULL, response ? "surface.response" : key);
     design_scene_places(p->set->design, s, t->arena);
@@ -295,8 +279,7 @@ static struct set_fault *more_faults(struct planning *p)
     struct set_plan *o = p->out;
     if (o->n_faults == o->room) {
         struct set_fault *more = ARENA_TAKE(p->arena, struct set_fault, o->room = 2 * o->room + 16);
-        if (o->n_faults)
-            memcpy(more, o->faults, (size_t)o->n_faults * sizeof *more);
+        if (o->n_faults) memcpy(more, o->faults, (size_t)o->n_faults * sizeof *more);
         o->faults = more;
     }
     return &o->faults[o->n_faults++];
@@ -337,8 +320,7 @@ static void settle(struct planning *p, int i, struct look *l)
         l->fault = note(p, i, t) + 1;
     else if (t)
         arena_close(t->arena);
-    if (l->fault)
-        p->out->faults[l->fault - 1].n++;
+    if (l->fault) p->out->faults[l->fault - 1].n++;
 }
 
 /* ------------------------------------------------------------------ scenes */
@@ -372,8 +354,7 @@ static void note_files(struct planning *p, int i, const struct scene *scene)
 static bool look(void *context, int i)
 {
     struct planning *p = context;
-    if (p->now[i])
-        look_at(p, i, &p->looks[i]);
+    if (p->now[i]) look_at(p, i, &p->looks[i]);
     return !p->now[i] || !interrupt_seen();
 }
 
@@ -381,12 +362,9 @@ static void took(void *context, int i)
 {
     struct planning *p = context;
     struct look *l = &p->looks[p->first[i]];
-    if (recording_of(p, i) || (!p->now[i] && (p->second || l->drawn)))
-        return;
-    if (l->trial && !p->second)
-        hash_add(&p->scenes, l->trial->sha256, HASH_TEXT);
-    if (l->trial && !l->trial->e.kind)
-        note_files(p, p->first[i], &l->trial->scene);
+    if (recording_of(p, i) || (!p->now[i] && (p->second || l->drawn))) return;
+    if (l->trial && !p->second) hash_add(&p->scenes, l->trial->sha256, HASH_TEXT);
+    if (l->trial && !l->trial->e.kind) note_files(p, p->first[i], &l->trial->scene);
     settle(p, i, l);
 }
 
@@ -399,10 +377,8 @@ static void find_first(struct planning *p)
     for (int i = 0; i < p->set->n; i++) {
         int *first = &of[p->set->design->stimuli[i].cell];
         p->first[i] = i;
-        if (recording_of(p, i))
-            continue;
-        if (!*first)
-            *first = i + 1;
+        if (recording_of(p, i)) continue;
+        if (!*first) *first = i + 1;
         p->first[i] = *first - 1;
         p->now[i] = p->first[i] == i;
     }
@@ -428,8 +404,7 @@ static bool look_at_all(struct planning *p, struct err *e)
         done =
             pool_run(&(struct pool_work){.n = n, .threads = p->ask->threads, .context = p, .job = look, .took = took});
     for (int i = 0; i < n; i++)
-        if (p->looks[i].trial)
-            arena_close(p->looks[i].trial->arena);
+        if (p->looks[i].trial) arena_close(p->looks[i].trial->arena);
     return done == n || err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
 }
 
@@ -444,8 +419,7 @@ static void find_form(struct planning *p)
     p->first_sound = p->first_stated = -1;
     for (int i = s->n - 1; i >= 0; i--) {
         const struct look *l = &p->looks[p->first[i]];
-        if (!is_sound(p, i))
-            continue;
+        if (!is_sound(p, i)) continue;
         p->first_stated = l->quantity >= 0 ? i : p->first_stated;
         p->first_sound = i;
         s->rate = l->rate;
@@ -460,8 +434,7 @@ static void look_at_forms(struct planning *p)
     find_form(p);
     for (int i = 0; i < p->set->n; i++) {
         struct look *l = &p->looks[p->first[i]];
-        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, l) : l->otherwise))
-            settle(p, i, l);
+        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, l) : l->otherwise)) settle(p, i, l);
     }
 }
 
@@ -471,12 +444,10 @@ static void look_at_recordings(struct planning *p)
     for (int i = 0; i < s->n; i++) {
         struct look *l = &p->looks[i];
         const char *file = recording_of(p, i);
-        if (!file)
-            continue;
+        if (!file) continue;
         l->trial = trial_open();
         const char *sha256 = shelf_sha256(p->ask->shelf, file, l->trial->arena, &l->trial->e);
-        if (sha256)
-            hash_add(&p->scenes, sha256, HASH_TEXT);
+        if (sha256) hash_add(&p->scenes, sha256, HASH_TEXT);
         if (!sha256 || !recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e))
             design_scene_recording(p->set->design, i, &l->trial->e);
         folder_inputs_add_file(p->out->inputs, file, "a recording");
@@ -495,11 +466,9 @@ static void look_at_levels_of_recordings(struct planning *p)
     for (int i = 0; i < s->n; i++) {
         struct look *l = &p->looks[i];
         const char *file = recording_of(p, i);
-        if (!file || l->fault)
-            continue;
+        if (!file || l->fault) continue;
         l->trial = trial_open();
-        if (!recording_check_level(file, s, &l->trial->e))
-            design_scene_recording(p->set->design, i, &l->trial->e);
+        if (!recording_check_level(file, s, &l->trial->e)) design_scene_recording(p->set->design, i, &l->trial->e);
         settle(p, i, l);
     }
 }
@@ -515,8 +484,7 @@ static bool may_be_short(const struct planning *p)
     struct set *s = p->set;
     for (int i = 0; i < s->n && s->level_rule == DESIGN_LEVEL_COMMON; i++) {
         const struct look *l = &p->looks[p->first[i]];
-        if (!recording_of(p, i) && l->sounds && !is_short(l, seconds_of(s, l)))
-            return false;
+        if (!recording_of(p, i) && l->sounds && !is_short(l, seconds_of(s, l))) return false;
     }
     return true;
 }
@@ -530,10 +498,8 @@ static void look_at_levels(struct planning *p)
     for (int i = 0, some = may_be_short(p); some && i < s->n; i++) {
         struct look *l = &p->looks[p->first[i]];
         double seconds = seconds_of(s, l);
-        if (recording_of(p, i) || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief))
-            continue;
-        if (p->first[i] == i)
-            report_short(p, i, seconds, l);
+        if (recording_of(p, i) || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief)) continue;
+        if (p->first[i] == i) report_short(p, i, seconds, l);
         l->brief = true;
         settle(p, i, l);
     }
@@ -545,8 +511,7 @@ static void find_length(const struct planning *p)
     double longest = 0;
     for (int i = 0; i < s->n; i++)
         longest = fmax(longest, p->looks[p->first[i]].seconds);
-    if (p->set->design->length_rule == DESIGN_LENGTH_LONGEST)
-        s->length = longest;
+    if (p->set->design->length_rule == DESIGN_LENGTH_LONGEST) s->length = longest;
 }
 
 static void note_length(struct set_plan *o, int i, double seconds)
@@ -572,8 +537,7 @@ static void add_up(const struct planning *p)
         s->cost[i] = fmax(1, l->seconds > 0 ? l->cost * seconds / l->seconds : l->cost);
         s->lengths[i] = seconds;
         o->seconds += l->sounds ? seconds : 0;
-        if (l->sounds)
-            note_length(o, i, l->seconds);
+        if (l->sounds) note_length(o, i, l->seconds);
         o->cycles += s->cost[i];
         o->bytes += samples * l->bits / 8;
         o->raw_bytes += set_waits(s) && !s->design->stimuli[i].recording ? samples * 8 : 0;
@@ -646,14 +610,12 @@ bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, st
     *out = (struct set_plan){.inputs = folder_inputs(a)};
     s->cost = ARENA_TAKE(a, double, s->n);
     s->lengths = ARENA_TAKE(a, double, s->n);
-    if (!watch_design(s, ask, a, e))
-        return false;
+    if (!watch_design(s, ask, a, e)) return false;
     for (const char *const *file = s->design->sources; *file; file++)
         folder_inputs_add_file(out->inputs, *file, "the design");
     find_first(&p);
     hash_add(&p.scenes, s->design->sha256, HASH_TEXT);
-    if (!look_at_all(&p, e) || (find_drawn(&p) && !look_at_all(&p, e)))
-        return false;
+    if (!look_at_all(&p, e) || (find_drawn(&p) && !look_at_all(&p, e))) return false;
     look_at_forms(&p);
     look_at_recordings(&p);
     hash_end(&p.scenes, sha256);
@@ -690,8 +652,7 @@ bool set_shard_read(const char *text, struct set_shard *s, struct err *e)
     char left[8] = "";
     const char *slash = strchr(text, '/');
     size_t n = slash ? (size_t)(slash - text) : sizeof left;
-    if (n < sizeof left)
-        memcpy(left, text, n);
+    if (n < sizeof left) memcpy(left, text, n);
     if (slash && n < sizeof left && text_int(slash + 1, 1, SET_SHARDS, &s->n) && text_int(left, 1, s->n, &s->i))
         return true;
     return err_set(e, ERR_USAGE, "--shard %s: write i/n, with n from 1 to %d and i from 1 to n, as in --shard 3/7",
@@ -727,8 +688,7 @@ struct set_loudest set_loudest(void) { return (struct set_loudest){.lufs = -HUGE
 
 void set_loudest_add(struct set_loudest *l, const struct set_measured *m)
 {
-    if (!m->sounds)
-        return;
+    if (!m->sounds) return;
     l->peak = fmax(l->peak, m->peak);
     l->rms = fmax(l->rms, m->rms);
     l->lufs = isnan(m->lufs) ? l->lufs : fmax(l->lufs, m->lufs);
@@ -745,8 +705,7 @@ bool set_gain(const struct set *s, const struct set_loudest *l, double *full_sca
 {
     const struct level *level = &s->level;
     *full_scale = 1;
-    if (!l->any)
-        return true;
+    if (!l->any) return true;
     if (!isnan(level->rms))
         *full_scale = l->rms / real_exp10(level->rms / 20);
     else if (isnan(level->lufs))

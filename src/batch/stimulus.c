@@ -49,8 +49,7 @@ static bool read_scene(struct work *w, struct err *e)
 {
     const struct set *set = w->k->set;
     const char *messages = "";
-    if (!design_scene(set->design, w->i, w->arena, &w->scene, &messages, e))
-        return false;
+    if (!design_scene(set->design, w->i, w->arena, &w->scene, &messages, e)) return false;
     set_lay(set, &w->scene);
     design_scene_places(set->design, &w->scene, w->arena);
     w->scene.shelf = w->k->shelf;
@@ -67,8 +66,7 @@ static bool read_recording(struct work *w, struct err *e)
 {
     char hex[HASH_TEXT];
     w->inputs = watch_begin(&w->file, 1, w->arena);
-    if (!hash_file(w->file, hex, e))
-        return design_scene_recording(w->k->set->design, w->i, e);
+    if (!hash_file(w->file, hex, e)) return design_scene_recording(w->k->set->design, w->i, e);
     w->key = recording_key(w->k->set, hex, w->arena);
     return true;
 }
@@ -87,10 +85,8 @@ static bool has_file(const struct work *w, const struct record_file *f, const st
     struct err unreadable = {0};
     struct stat s;
     const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
-    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || (double)s.st_size != f->size)
-        return false;
-    if (!w->k->doubt && !is_later(&s.st_mtim, &record->st_ctim) && !is_later(&s.st_ctim, &record->st_ctim))
-        return true;
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || (double)s.st_size != f->size) return false;
+    if (!w->k->doubt && !is_later(&s.st_mtim, &record->st_ctim) && !is_later(&s.st_ctim, &record->st_ctim)) return true;
     *hashed = true;
     return hash_file(path, hex, &unreadable) && !strcmp(hex, f->sha256);
 }
@@ -103,17 +99,14 @@ static bool has_files(const struct work *w)
     bool hashed = false, there = stat(path, &record) == 0;
     for (int k = 0; k < w->was->n_files && there; k++)
         there = has_file(w, &w->was->files[k], &record, &hashed);
-    if (there && hashed && !w->k->read_only)
-        utimensat(AT_FDCWD, path, NULL, 0);
+    if (there && hashed && !w->k->read_only) utimensat(AT_FDCWD, path, NULL, 0);
     return there;
 }
 
 static enum stimulus_state state_of(const struct work *w)
 {
-    if (!w->was)
-        return STIMULUS_NEW;
-    if (strcmp(w->was->key, w->key) != 0)
-        return STIMULUS_KEY;
+    if (!w->was) return STIMULUS_NEW;
+    if (strcmp(w->was->key, w->key) != 0) return STIMULUS_KEY;
     return w->was->status != RECORD_MAKING && has_files(w) ? STIMULUS_THERE : STIMULUS_FILE;
 }
 
@@ -122,8 +115,7 @@ static bool begin(struct work *w, const struct stimulus_set *k, int i, struct ar
     const struct design_stimulus *x = &k->set->design->stimuli[i];
     *w = (struct work){.k = k, .i = i, .name = x->name, .arena = a, .file = x->recording};
     w->base = arena_format(a, "%s/%s", k->folder, x->name);
-    if (!(w->file ? read_recording(w, e) : read_scene(w, e)))
-        return false;
+    if (!(w->file ? read_recording(w, e) : read_scene(w, e))) return false;
     struct record *r = ARENA_TAKE(a, struct record, 1);
     w->was = record_read(k->folder, w->name, a, r) ? r : NULL;
     w->state = state_of(w);
@@ -141,12 +133,10 @@ bool stimulus_look(const struct stimulus_set *k, int i, struct arena *a, struct 
 {
     struct work w;
     *s = (struct stimulus){.full_scale = NAN};
-    if (!begin(&w, k, i, a, e))
-        return false;
+    if (!begin(&w, k, i, a, e)) return false;
     s->key = w.key;
     s->state = w.state;
-    if (w.state == STIMULUS_THERE)
-        fill(s, &w, w.was);
+    if (w.state == STIMULUS_THERE) fill(s, &w, w.was);
     return true;
 }
 
@@ -163,8 +153,7 @@ struct made {              /* files that are complete and settled, without names
 
 static void drop(struct made *m)
 {
-    if (m->render)
-        render_drop(m->render);
+    if (m->render) render_drop(m->render);
     outfile_drop(&m->scene);
     for (int k = 0; k < m->n; k++)
         wav_drop(m->sounds[k]);
@@ -209,8 +198,7 @@ static struct record making(const struct work *w, const struct record *to)
 static bool lists(const struct record *r, const char *path)
 {
     for (int k = 0; k < r->n_files; k++)
-        if (!strcmp(r->files[k].path, path))
-            return true;
+        if (!strcmp(r->files[k].path, path)) return true;
     return false;
 }
 
@@ -230,8 +218,7 @@ static void remove_old(const struct work *w, const struct record *to)
 
 static bool inputs_same(const struct work *w, struct err *e)
 {
-    if (!w->file)
-        return inputs_still(&w->inputs, e) || scene_places_tell(&w->scene, e);
+    if (!w->file) return inputs_still(&w->inputs, e) || scene_places_tell(&w->scene, e);
     return !watch_changed(&w->inputs) ||
            err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
 }
@@ -242,11 +229,9 @@ static bool commit(struct work *w, const struct record *to, struct made *m, bool
     const struct record before = making(w, to);
     interrupt_hold();
     bool ok = whole && inputs_same(w, e) && record_write(w->k->folder, w->name, &before, e);
-    if (!ok)
-        drop(m);
+    if (!ok) drop(m);
     ok = ok && give(m, e);
-    if (ok)
-        remove_old(w, to);
+    if (ok) remove_old(w, to);
     ok = ok && record_write(w->k->folder, w->name, to, e);
     interrupt_go();
     if (ok) {
@@ -262,8 +247,7 @@ static bool add_file(struct record *r, const char *kind, const char *path, bool 
 {
     char hex[HASH_TEXT];
     struct stat s;
-    if (!hash_file(temporary, hex, e))
-        return false;
+    if (!hash_file(temporary, hex, e)) return false;
     r->files[r->n_files++] =
         (struct record_file){kind, path, raw, arena_text(a, hex), stat(temporary, &s) == 0 ? (double)s.st_size : 0};
     return true;
@@ -287,8 +271,7 @@ static double rounded(double x)
 static bool measure(struct record *r, const char *path, struct arena *a, struct err *e)
 {
     struct measure m;
-    if (!measure_cut(path, NULL, true, &m, e))
-        return false;
+    if (!measure_cut(path, NULL, true, &m, e)) return false;
     r->channels = m.channels;
     r->file_peak = m.peak, r->file_rms = m.rms, r->file_lufs = m.lufs, r->true_peak = rounded(m.true_peak);
     r->audio = arena_text(a, m.audio);
@@ -321,10 +304,8 @@ static struct record of_render(const struct work *w, const struct render_report 
 static bool measure_render(const struct work *w, struct record *r, const char *wav, struct err *e)
 {
     bool waits = r->status == RECORD_WAITS;
-    if (!r->sounds || (waits && isnan(w->k->set->level.lufs)))
-        return true;
-    if (!measure(r, wav, w->arena, e))
-        return false;
+    if (!r->sounds || (waits && isnan(w->k->set->level.lufs))) return true;
+    if (!measure(r, wav, w->arena, e)) return false;
     if (waits) {
         r->lufs = r->file_lufs;
         r->file_peak = r->file_rms = r->file_lufs = r->true_peak = NAN;
@@ -353,18 +334,15 @@ static bool render(struct work *w, struct stimulus *s, struct err *e)
     struct scene made = w->scene;
     struct render_report report;
     const char *raw = waits ? arena_format(w->arena, "%s/.rasp/raw/%s", w->k->folder, w->name) : NULL;
-    if (waits)
-        made.output.encoding = ENCODING_FLOAT64;
+    if (waits) made.output.encoding = ENCODING_FLOAT64;
     if (!folder_make_for(w->k->folder, w->name, e) ||
         (waits && !folder_make_for(w->k->folder, arena_format(w->arena, ".rasp/raw/%s", w->name), e)))
         return false;
     struct made m = {.render = render_make(&made, &(struct render_names){w->base, raw}, w->arena, &report, e),
                      .scene = {.fd = -1}};
-    if (!m.render)
-        return scene_places_tell(&w->scene, e);
+    if (!m.render) return scene_places_tell(&w->scene, e);
     struct record r = of_render(w, &report, waits);
-    if (!commit(w, &r, &m, list_render(w, &report, &r, e), e))
-        return false;
+    if (!commit(w, &r, &m, list_render(w, &report, &r, e), e)) return false;
     s->wall += report.seconds, s->cpu += report.cpu;
     return true;
 }
@@ -378,8 +356,7 @@ static bool copy(struct work *w, struct stimulus *s, struct err *e)
     struct record r = begun(w, RECORD_DONE, 1);
     const char *path = arena_format(w->arena, "%s.wav", w->name);
     r.sounds = true;
-    if (!folder_make_for(w->k->folder, w->name, e))
-        return false;
+    if (!folder_make_for(w->k->folder, w->name, e)) return false;
     struct wav_out *out = m.sounds[0] =
         recording_make(w->k->set, w->file, arena_format(w->arena, "%s.wav", w->base), &r, w->arena, e);
     bool whole = out && add_file(&r, "wav", path, false, wav_temporary(out), w->arena, e) &&
@@ -398,8 +375,7 @@ static bool put_scene(struct outfile *f, const struct work *w, struct record *r,
                *text = outputs_effective(&w->scene, path, w->arena);
     char hex[HASH_TEXT];
     int k = 0;
-    if (!outfile_open(f, path, e))
-        return false;
+    if (!outfile_open(f, path, e)) return false;
     outfile_put(f, text, strlen(text));
     hash_bytes(text, strlen(text), hex);
     while (k < r->n_files && strcmp(r->files[k].kind, "scene") != 0 && strcmp(r->files[k].kind, "wav") != 0 &&
@@ -417,8 +393,7 @@ static struct record copy_of(const struct record *r, struct arena *a)
 {
     struct record c = *r;
     c.files = ARENA_TAKE(a, struct record_file, r->n_files + 1);
-    if (r->n_files)
-        memcpy(c.files, r->files, (size_t)r->n_files * sizeof *c.files);
+    if (r->n_files) memcpy(c.files, r->files, (size_t)r->n_files * sizeof *c.files);
     return c;
 }
 
@@ -428,8 +403,7 @@ static bool move(struct work *w, struct err *e)
     struct made m = {.scene = {.fd = -1}};
     struct record r = copy_of(w->was, w->arena);
     r.seen_from = w->k->seen_from;
-    if (!isnan(r.full_scale))
-        w->scene.output.level.full_scale = r.full_scale;
+    if (!isnan(r.full_scale)) w->scene.output.level.full_scale = r.full_scale;
     return commit(w, &r, &m, r.status == RECORD_WAITS || put_scene(&m.scene, w, &r, e), e);
 }
 
@@ -438,8 +412,7 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
 {
     struct work w;
     *s = (struct stimulus){.full_scale = NAN};
-    if (!begin(&w, k, i, a, e))
-        return false;
+    if (!begin(&w, k, i, a, e)) return false;
     s->key = w.key;
     s->state = w.state;
     s->made = how == STIMULUS_ANEW || (how == STIMULUS_IF_NEEDED && w.state != STIMULUS_THERE);
@@ -447,11 +420,9 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
                  strcmp(w.was->seen_from ? w.was->seen_from : "", k->seen_from) != 0;
     if (s->made && w.file && !copy(&w, s, e))
         return e->kind == ERR_INPUT || e->kind == ERR_SCENE ? design_scene_recording(k->set->design, i, e) : false;
-    if ((s->made && !w.file && !render(&w, s, e)) || (moved && !move(&w, e)))
-        return false;
+    if ((s->made && !w.file && !render(&w, s, e)) || (moved && !move(&w, e))) return false;
     s->state = s->made ? STIMULUS_THERE : s->state;
-    if (s->state == STIMULUS_THERE)
-        fill(s, &w, w.was);
+    if (s->state == STIMULUS_THERE) fill(s, &w, w.was);
     return true;
 }
 
@@ -469,8 +440,7 @@ static const char *stem_of(const char *path, struct arena *a)
     size_t n = strlen(path);
     for (int k = 0; k < STEMS; k++) {
         const char *ending = arena_format(a, ".%s.wav", stems_names[k]);
-        if (n > strlen(ending) && !strcmp(path + n - strlen(ending), ending))
-            return stems_names[k];
+        if (n > strlen(ending) && !strcmp(path + n - strlen(ending), ending)) return stems_names[k];
     }
     return NULL;
 }
@@ -484,16 +454,13 @@ static bool scale(const struct work *w, struct made *m, struct record_file *f, s
     double gain = force ? 1 : sound_known_gain(&w->scene);
     const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path),
                *path = record_file_path(w->name, file_name(f->path), false, w->arena);
-    if (!measure_open(&in, raw, NULL, e))
-        return false;
+    if (!measure_open(&in, raw, NULL, e)) return false;
     struct track_format t = sound_format(&w->scene, in.frames);
     struct wav_format format = {
         .rate = t.rate, .channels = in.in.channels, .bits = force ? -32 : t.bits, .title = t.title};
-    if (!force)
-        sound_comment(&w->scene, gain, comment);
+    if (!force) sound_comment(&w->scene, gain, comment);
     struct wav_out *out = wav_create(arena_format(w->arena, "%s/%s", w->k->folder, path), &format, e);
-    if (out)
-        m->sounds[m->n++] = out;
+    if (out) m->sounds[m->n++] = out;
     bool ok = out && wav_comment(out, comment, e) && measure_copy(&in, out, gain, e) && wav_settle(out, e);
     measure_close(&in);
     if (!ok && e->kind == ERR_SCENE)
@@ -501,8 +468,7 @@ static bool scale(const struct work *w, struct made *m, struct record_file *f, s
                !strcmp(f->kind, "wav") ? "level"
                                        : "output.stems: a part of the sound may be louder than the whole: use "
                                          "output.encoding: float32, or a lower level");
-    if (!ok)
-        return false;
+    if (!ok) return false;
     m->written[m->n - 1] = wav_written(out);
     m->files[m->n - 1] = (struct render_file){.kind = f->kind,
                                               .path = path,
@@ -530,8 +496,7 @@ static void add_warnings(const struct work *w, const struct made *m, struct reco
             bool known = !texts[t];
             for (int i = 0; i < n && !known; i++)
                 known = !strcmp(all[i], texts[t]);
-            if (!known)
-                all[n++] = texts[t];
+            if (!known) all[n++] = texts[t];
         }
     }
     r->warnings = all;
@@ -552,18 +517,15 @@ static const char *render_text(const struct work *w, const struct made *m, const
 {
     json_t *j = json_loads(r->render, 0, NULL), *sound = json_object_get(j, "sound"), *file;
     size_t i;
-    if (sound)
-        set_gain_json(sound, r->gain);
+    if (sound) set_gain_json(sound, r->gain);
     for (int k = 0; k < m->n; k++) {
         const char *name = file_name(m->files[k].path);
         json_array_foreach(json_object_get(j, "files"), i, file)
         {
             const char *listed = json_string_value(json_object_get(file, "name"));
-            if (listed && !strcmp(listed, name))
-                written_tell(&m->files[k], file);
+            if (listed && !strcmp(listed, name)) written_tell(&m->files[k], file);
         }
-        if (!m->files[k].stem)
-            written_tell(&m->files[k], sound);
+        if (!m->files[k].stem) written_tell(&m->files[k], sound);
     }
     char *text = json_dumps(j, JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
     const char *whole = arena_text(w->arena, text ? text : "{}");
@@ -575,14 +537,11 @@ static const char *render_text(const struct work *w, const struct made *m, const
 static bool make_levelled(const struct work *w, struct made *m, struct record *r, struct err *e)
 {
     for (int k = 0; k < r->n_files; k++)
-        if (r->files[k].raw && !scale(w, m, &r->files[k], e))
-            return false;
+        if (r->files[k].raw && !scale(w, m, &r->files[k], e)) return false;
     for (int k = 0; k < m->n; k++) {
-        if (m->files[k].stem)
-            continue;
+        if (m->files[k].stem) continue;
         r->beyond = m->written[k].beyond;
-        if (!measure(r, m->files[k].temporary, w->arena, e))
-            return false;
+        if (!measure(r, m->files[k].temporary, w->arena, e)) return false;
     }
     add_warnings(w, m, r);
     r->render = render_text(w, m, r);
@@ -605,8 +564,7 @@ bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool
                     struct stimulus *s, struct err *e)
 {
     struct work w;
-    if (!begin(&w, k, i, a, e))
-        return false;
+    if (!begin(&w, k, i, a, e)) return false;
     if (w.state == STIMULUS_KEY)
         return err_set(e, ERR_INPUT,
                        "what it is made of has changed since its level was measured: run the same command again");
@@ -614,12 +572,10 @@ bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool
         if (!may_render)
             return err_set(e, ERR_INPUT,
                            "its sound before the gain is not there any more: it has to be rendered again");
-        if (!render(&w, s, e))
-            return false;
+        if (!render(&w, s, e)) return false;
         s->made = true;
     }
-    if (!lay_gain(&w, full_scale, e))
-        return false;
+    if (!lay_gain(&w, full_scale, e)) return false;
     fill(s, &w, w.was);
     return true;
 }

@@ -26,8 +26,7 @@ void tables_number(FILE *f, double x)
     }
     for (int digits = 1; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
-            break;
+        if (strtod(text, NULL) == x) break;
     }
     fputs(text, f);
 }
@@ -35,15 +34,12 @@ void tables_number(FILE *f, double x)
 void tables_text(FILE *f, const char *text)
 {
     bool quoted = text[strcspn(text, ",\"\r\n")] != '\0' || *text == ' ' || (*text && text[strlen(text) - 1] == ' ');
-    if (quoted)
-        fputc('"', f);
+    if (quoted) fputc('"', f);
     for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', f);
+        if (*text == '"') fputc('"', f);
         fputc(*text, f);
     }
-    if (quoted)
-        fputc('"', f);
+    if (quoted) fputc('"', f);
 }
 
 /* ------------------------------------------------------------------ cells */
@@ -87,8 +83,7 @@ static const struct record_file *file_of(const struct cell *c, const char *kind)
     static const struct record_file none = {0};
     const struct record *r = done(c);
     for (int i = 0; r && i < r->n_files; i++)
-        if (!strcmp(r->files[i].kind, kind))
-            return &r->files[i];
+        if (!strcmp(r->files[i].kind, kind)) return &r->files[i];
     return &none;
 }
 
@@ -254,8 +249,7 @@ static void compare(struct search *s, const struct sound *first, const struct so
     for (int k = 0; k < s->design->n_factors; k++)
         if (strcmp(design_value(s->design, first->row, k), design_value(s->design, other->row, k)) != 0)
             differ = s->factors[k] = true;
-    if (differ && (!s->found++ || first->row < s->pair[0]->row))
-        s->pair[0] = first, s->pair[1] = other;
+    if (differ && (!s->found++ || first->row < s->pair[0]->row)) s->pair[0] = first, s->pair[1] = other;
     if (!differ && (!s->replicates[0] || first->row < s->replicates[0]->row))
         s->replicates[0] = first, s->replicates[1] = other;
 }
@@ -264,8 +258,7 @@ static const char *factors_text(const struct search *s, struct arena *a)
 {
     const char *names = "";
     for (int k = 0; k < s->design->n_factors; k++)
-        if (s->factors[k])
-            names = arena_format(a, "%s%s%s", names, *names ? ", " : "", s->design->factors[k].name);
+        if (s->factors[k]) names = arena_format(a, "%s%s%s", names, *names ? ", " : "", s->design->factors[k].name);
     return arena_format(a,
                         "%d of %d sounds %s the very samples of another one that differs in %s (%s and %s): what the "
                         "factor's levels set has no effect there",
@@ -277,8 +270,7 @@ static const char *no_effect_text(const struct search *s, struct arena *a)
 {
     const struct design_stimulus *rows = s->design->stimuli;
     const char *text = s->found ? factors_text(s, a) : "";
-    if (!s->replicates[0])
-        return text;
+    if (!s->replicates[0]) return text;
     return arena_format(
         a, "%s%sreplicates have the very samples of each other (%s and %s): nothing is random there, and one would do",
         text, *text ? "; " : "", rows[s->replicates[0]->row].name, rows[s->replicates[1]->row].name);
@@ -286,8 +278,7 @@ static const char *no_effect_text(const struct search *s, struct arena *a)
 
 static const char *find_no_effect(struct search *s, struct arena *a)
 {
-    if (s->n)
-        qsort(s->sounds, (size_t)s->n, sizeof *s->sounds, by_audio);
+    if (s->n) qsort(s->sounds, (size_t)s->n, sizeof *s->sounds, by_audio);
     for (int i = 1, first = 0; i < s->n; i++) {
         if (strcmp(s->sounds[first].audio, s->sounds[i].audio) != 0)
             first = i;
@@ -343,8 +334,7 @@ struct writing {
 static void put_head(FILE *f, const struct design *d)
 {
     for (const struct column *c = columns; c->name; c++) {
-        if (strcmp(c->name, "*") != 0)
-            fprintf(f, "%s%s", c == columns ? "" : ",", c->name);
+        if (strcmp(c->name, "*") != 0) fprintf(f, "%s%s", c == columns ? "" : ",", c->name);
         for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++)
             fprintf(f, ",%s", d->factors[k].column);
     }
@@ -408,12 +398,9 @@ static bool put_stimulus(struct writing *w, int i, struct err *e)
     bool ok =
         w->cell.record || !t->rows[i].there ||
         err_set(e, ERR_IO, "%s: the record of the stimulus cannot be read again", record_path(t->folder, x->name, a));
-    if (ok)
-        put_row(&w->cell);
-    if (done(&w->cell))
-        put_sums(w->files[SUMS].stream, &r);
-    if (w->timings && t->rows[i].made)
-        put_time(w->files[TIMINGS].stream, x->name, &t->rows[i]);
+    if (ok) put_row(&w->cell);
+    if (done(&w->cell)) put_sums(w->files[SUMS].stream, &r);
+    if (w->timings && t->rows[i].made) put_time(w->files[TIMINGS].stream, x->name, &t->rows[i]);
     if (sound_of(&w->cell) && r.audio && !x->recording) {
         snprintf(w->search.sounds[w->search.n].audio, HASH_TEXT, "%s", r.audio);
         w->search.sounds[w->search.n++].row = i;
@@ -427,8 +414,7 @@ static bool put_own_sum(struct writing *w, int table, struct err *e)
 {
     char hex[HASH_TEXT];
     bool ok = outfile_hash(&w->files[table], hex, e);
-    if (ok)
-        fprintf(w->files[SUMS].stream, "%s  %s\n", hex, names[table]);
+    if (ok) fprintf(w->files[SUMS].stream, "%s  %s\n", hex, names[table]);
     return ok;
 }
 
@@ -437,11 +423,9 @@ static bool put_all(struct writing *w, struct err *e)
     const struct set *s = w->t->set;
     w->cell = (struct cell){.set = s, .level = set_level_text(s, w->t->arena), .f = w->files[MANIFEST].stream};
     put_head(w->files[MANIFEST].stream, s->design);
-    if (w->timings)
-        fputs("stimulus_id,wall_s,cpu_s\n", w->files[TIMINGS].stream);
+    if (w->timings) fputs("stimulus_id,wall_s,cpu_s\n", w->files[TIMINGS].stream);
     for (int i = 0; i < s->n; i++)
-        if (!put_stimulus(w, i, e))
-            return false;
+        if (!put_stimulus(w, i, e)) return false;
     json_t *j = dictionary(s->design);
     json_dumpf(j, w->files[DICTIONARY].stream, JSON_INDENT(2) | JSON_ENSURE_ASCII);
     fputc('\n', w->files[DICTIONARY].stream);

@@ -126,8 +126,8 @@ void modes_extract_plot(void *self, struct gnuplot *g)
     fputs("set encoding utf8\nset border linewidth 0.8\nset tics out nomirror scale 0.6\nset key noenhanced outside "
           "top horizontal center samplen 2\nset multiplot title ",
           g->in);
-    gnuplot_put_text(
-        g, arena_format(x->arena, "%s: %d modes explain %.1f %%", p->name, x->modes, 100.0 * p->explained));
+    gnuplot_put_text(g,
+                     arena_format(x->arena, "%s: %d modes explain %.1f %%", p->name, x->modes, 100.0 * p->explained));
     fprintf(g->in,
             " noenhanced\nset size 1,0.56\nset origin 0,0.4\nset logscale x\nset xrange [%.6g:%.6g]\nset xlabel "
             "'frequency / Hz'\nset ylabel 'level / dB'\n",

@@ -96,7 +96,8 @@ static void method(FILE *f, const struct modes_extract *x)
     fprintf(f, "# method: %s, then output error on DFT bins, %.6g to %.6g Hz at %g Hz\n",
             x->given.spectrogram ? "peaks of the power spectrogram" : "ESPRIT in sub-bands", x->low, x->high, x->rate);
     for (int k = 0; k < x->n; k++)
-        fprintf(f, "# explained %d: %.4g of the energy in the band that does not follow the force at once\n", k + 1, x->place[k].explained);
+        fprintf(f, "# explained %d: %.4g of the energy in the band that does not follow the force at once\n", k + 1,
+                x->place[k].explained);
     if (x->given.quantity == MODES_PRESSURE && !isnan(x->given.radius))
         fprintf(f, "# radiation: a monopole of %.9g m at %.9g m is divided out\n# radius_m: %.9g\n", x->given.radius,
                 x->given.distance, x->given.radius);

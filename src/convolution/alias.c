@@ -1,8 +1,10 @@
-/* A mode h(t) = Im(A e^(s t)) does not end at half the sample rate: beyond its resonance its transfer function falls as 1/omega where it begins with a jump, and
-   what lies beyond half the rate is folded back by sampling. Below the first mode, where a velocity or acceleration is the small difference of what many
-   modes say, that is most of what is heard: an acceleration's modes and its direct term, which cancel at 0 Hz in continuous time, no longer do.
+/* A mode h(t) = Im(A e^(s t)) does not end at half the sample rate: beyond its resonance its transfer function falls as
+   1/omega where it begins with a jump, and what lies beyond half the rate is folded back by sampling. Below the first
+   mode, where a velocity or acceleration is the small difference of what many modes say, that is most of what is heard:
+   an acceleration's modes and its direct term, which cancel at 0 Hz in continuous time, no longer do.
 
-   With T = 1/rate the trapezium rule's sum T sum' A e^(s n T) e^(-j theta n), half of n = 0 (theta = omega T), is in closed form
+   With T = 1/rate the trapezium rule's sum T sum' A e^(s n T) e^(-j theta n), half of n = 0 (theta = omega T), is in
+   closed form
 
        A (T/2) coth((j theta - s T)/2),      in continuous time it is A T / (j theta - s T),
 
@@ -10,22 +12,26 @@
 
        phi(v) = coth(v/2)/2 - 1/v = sum over k of b_k v^(2k-1), b_k = B_2k/(2k)!  (Bernoulli's numbers; |v| < 2 pi),
 
-   a smooth function of theta in the band, whose nearest poles are the mode's images a whole rate away. A gammatone, t^(gamma-1) e^(s t), is the derivative of
-   that by s, gamma - 1 times: T^gamma phi_gamma(v), phi_gamma = (-1)^(gamma-1) d^(gamma-1) phi / dv^(gamma-1).
+   a smooth function of theta in the band, whose nearest poles are the mode's images a whole rate away. A gammatone,
+   t^(gamma-1) e^(s t), is the derivative of that by s, gamma - 1 times: T^gamma phi_gamma(v), phi_gamma =
+   (-1)^(gamma-1) d^(gamma-1) phi / dv^(gamma-1).
 
-   A filter on the force with taps m = -M .. M, M = ALIAS_REACH, takes it out: sum_m kappa_m e^(-j m theta) = phi(j theta - s T) at nodes in |theta| <= 0.8 pi,
-   0.4 of the rate. The even part in theta is a polynomial of degree M in cos theta, the odd one sin theta times one of degree M - 1; nodes in cos theta
-   are those of Chebyshev's polynomial of degree M + 1 between cos 0.8 pi and 1, but the two nearest 1 are put at 1: there value, slope and curvature hold, whence
-   every zero at 0 Hz, single or double, that the response has in continuous time. Between the nodes the error is at most 1e-4 of |A| T
-   (a mode at 0.45 of the rate; 2e-5 at 0.05), and falls by 1.8 for each further pair of taps. Taps that look ahead are needed: of a filter that does not
-   look ahead the error hardly falls with its length, by some 5 % a tap, as phi has a branch at z = 0.
+   A filter on the force with taps m = -M .. M, M = ALIAS_REACH, takes it out: sum_m kappa_m e^(-j m theta) = phi(j
+   theta - s T) at nodes in |theta| <= 0.8 pi, 0.4 of the rate. The even part in theta is a polynomial of degree M in
+   cos theta, the odd one sin theta times one of degree M - 1; nodes in cos theta are those of Chebyshev's polynomial of
+   degree M + 1 between cos 0.8 pi and 1, but the two nearest 1 are put at 1: there value, slope and curvature hold,
+   whence every zero at 0 Hz, single or double, that the response has in continuous time. Between the nodes the error is
+   at most 1e-4 of |A| T (a mode at 0.45 of the rate; 2e-5 at 0.05), and falls by 1.8 for each further pair of taps.
+   Taps that look ahead are needed: of a filter that does not look ahead the error hardly falls with its length, by some
+   5 % a tap, as phi has a branch at z = 0.
 
-   Where poles move, taps are interpolated: kappa is an analytic function of s, known at s T = 0, j STEP, 2 j STEP, ..., and the cubic through the four nearest is
-   taken at the complex s T. Rows of such places lie 2 STEP nepers a sample apart, each computed when it is first asked for; a mode that decays by more
-   than the last of them reaches, 31 STEP, gets taps of its own.
+   Where poles move, taps are interpolated: kappa is an analytic function of s, known at s T = 0, j STEP, 2 j STEP, ...,
+   and the cubic through the four nearest is taken at the complex s T. Rows of such places lie 2 STEP nepers a sample
+   apart, each computed when it is first asked for; a mode that decays by more than the last of them reaches, 31 STEP,
+   gets taps of its own.
 
-   The taps are linear in A: those of all modes are added up before they meet the force. A mode that is left out leaves out its direct term and
-   these taps, too. */
+   The taps are linear in A: those of all modes are added up before they meet the force. A mode that is left out leaves
+   out its direct term and these taps, too. */
 #include "convolution/alias.h"
 
 #include <math.h>
@@ -33,11 +39,20 @@
 #include "num/lanes.h"
 #include "num/real.h"
 
-enum { M = ALIAS_REACH, NODES = M - 1, SERIES = 20, ORDERS = 3, MOST = 6, PLACES = 128, ROWS = 16 }; /* nodes beside 0 Hz; orders: value, slope, curvature; derivatives of phi */
+enum {
+    M = ALIAS_REACH,
+    NODES = M - 1,
+    SERIES = 20,
+    ORDERS = 3,
+    MOST = 6,
+    PLACES = 128,
+    ROWS = 16
+}; /* nodes beside 0 Hz; orders: value, slope, curvature; derivatives of phi */
 
-#define TOP 0.8   /* of pi */
+#define TOP 0.8 /* of pi */
 #define STEP (REAL_PI / PLACES)
-#define NEAR 1.5  /* |v| up to which the series is summed: 20 terms leave (1.5 / 2 pi)^40 = 1e-25, fifth derivatives 1e-17 */
+#define NEAR                                                                                                           \
+    1.5 /* |v| up to which the series is summed: 20 terms leave (1.5 / 2 pi)^40 = 1e-25, fifth derivatives 1e-17 */
 
 struct z {
     double re, im;
@@ -46,12 +61,13 @@ struct z {
 struct alias {
     int gamma;
     double rate;
-    double turn[NODES];                           /* theta of the nodes            */
-    struct z circle[NODES];                       /* e^(-j theta)                  */
-    double even[M + 1][M + 1], odd[M][M];         /* values at the nodes to taps   */
-    double series[ORDERS][SERIES];                /* of derivatives gamma - 1, ... */
+    double turn[NODES];                   /* theta of the nodes            */
+    struct z circle[NODES];               /* e^(-j theta)                  */
+    double even[M + 1][M + 1], odd[M][M]; /* values at the nodes to taps   */
+    double series[ORDERS][SERIES];        /* of derivatives gamma - 1, ... */
     struct arena *arena;
-    double (*re[ROWS])[ALIAS_TAPS], (*im[ROWS])[ALIAS_TAPS]; /* of row r [PLACES + 4] taps of s T = -2 r STEP + j STEP (-1, 0, 1, ...); NULL: not yet asked for */
+    double (*re[ROWS])[ALIAS_TAPS], (*im[ROWS])[ALIAS_TAPS]; /* of row r [PLACES + 4] taps of s T = -2 r STEP + j STEP
+                                                                (-1, 0, 1, ...); NULL: not yet asked for */
 };
 
 static struct z times(struct z a, struct z b)
@@ -71,7 +87,8 @@ static struct z over(struct z a, struct z b)
 static struct z near(const struct alias *f, int which, struct z v)
 {
     struct z square = times(v, v), sum = {0, 0};
-    int order = f->gamma - 1 + which, first = order / 2; /* of the terms from 0 on, the first whose power is not negative */
+    int order = f->gamma - 1 + which,
+        first = order / 2; /* of the terms from 0 on, the first whose power is not negative */
     for (int k = SERIES - 1; k >= first; k--) {
         sum = times(sum, square);
         sum.re += f->series[which][k];
@@ -82,8 +99,10 @@ static struct z near(const struct alias *f, int which, struct z v)
 /* By closed form: derivatives of C = coth(v/2) are polynomials in C, as dC/dv = (1 - C^2)/2. q = e^(-v). */
 static struct z far(int order, struct z v, struct z q)
 {
-    static const double poly[MOST][MOST + 1] = {{0, 1}, {1, 0, -1}, {0, -2, 0, 2}, {-2, 0, 8, 0, -6}, {0, 16, 0, -40, 0, 24}, {16, 0, -136, 0, 240, 0, -120}};
-    struct z c = over((struct z){1 + q.re, q.im}, (struct z){1 - q.re, -q.im}), one = {1, 0}, inverse = over(one, v), power = inverse, sum = {0, 0};
+    static const double poly[MOST][MOST + 1] = {
+        {0, 1}, {1, 0, -1}, {0, -2, 0, 2}, {-2, 0, 8, 0, -6}, {0, 16, 0, -40, 0, 24}, {16, 0, -136, 0, 240, 0, -120}};
+    struct z c = over((struct z){1 + q.re, q.im}, (struct z){1 - q.re, -q.im}), one = {1, 0}, inverse = over(one, v),
+             power = inverse, sum = {0, 0};
     double scale = 0.5;
     for (int k = MOST; k >= 0; k--) {
         sum = times(sum, c);
@@ -140,7 +159,8 @@ static void set_nodes(struct alias *f)
     }
 }
 
-/* Rows: value and curvature at 0, or the slope there; then the nodes. Columns: cos m theta, m = 0 .. M, or sin m theta, m = 1 .. M. */
+/* Rows: value and curvature at 0, or the slope there; then the nodes. Columns: cos m theta, m = 0 .. M, or sin m theta,
+ * m = 1 .. M. */
 static void set_fit(struct alias *f)
 {
     double even[(M + 1) * (M + 1)], odd[M * M];
@@ -161,10 +181,12 @@ static void set_fit(struct alias *f)
 
 static void set_series(struct alias *f)
 {
-    static const double b[SERIES] = {0.08333333333333333, -0.001388888888888889, 3.306878306878307e-05, -8.267195767195768e-07, 2.08767569878681e-08,
-        -5.284190138687493e-10, 1.3382536530684679e-11, -3.3896802963225827e-13, 8.586062056277845e-15, -2.174868698558062e-16, 5.5090028283602295e-18,
-        -1.3954464685812522e-19, 3.534707039629467e-21, -8.953517427037546e-23, 2.267952452337683e-24, -5.744790668872202e-26, 1.455172475614865e-27,
-        -3.6859949406653103e-29, 9.336734257095045e-31, -2.36502241570063e-32};
+    static const double b[SERIES] = {
+        0.08333333333333333,   -0.001388888888888889,   3.306878306878307e-05,  -8.267195767195768e-07,
+        2.08767569878681e-08,  -5.284190138687493e-10,  1.3382536530684679e-11, -3.3896802963225827e-13,
+        8.586062056277845e-15, -2.174868698558062e-16,  5.5090028283602295e-18, -1.3954464685812522e-19,
+        3.534707039629467e-21, -8.953517427037546e-23,  2.267952452337683e-24,  -5.744790668872202e-26,
+        1.455172475614865e-27, -3.6859949406653103e-29, 9.336734257095045e-31,  -2.36502241570063e-32};
     for (int which = 0; which < ORDERS; which++)
         for (int k = 0; k < SERIES; k++) {
             f->series[which][k] = b[k];
@@ -175,7 +197,7 @@ static void set_series(struct alias *f)
 
 /* ------------------------------------------------------------------ a mode's taps */
 
-struct parts {          /* of phi as a function of theta: even, and j times the odd one */
+struct parts { /* of phi as a function of theta: even, and j times the odd one */
     struct z even[M + 1], odd[M];
 };
 
@@ -246,11 +268,13 @@ static void make_row(struct alias *f, int r)
 }
 
 LANES_CLONES
-static void mix(const double *restrict re, const double *restrict im, const double a[4], const double b[4], double *restrict to)
+static void mix(const double *restrict re, const double *restrict im, const double a[4], const double b[4],
+                double *restrict to)
 {
 #pragma omp simd
     for (int k = 0; k < ALIAS_TAPS; k++) {
-        double inner = (a[1] * im[ALIAS_TAPS + k] + b[1] * re[ALIAS_TAPS + k]) + (a[2] * im[2 * ALIAS_TAPS + k] + b[2] * re[2 * ALIAS_TAPS + k]);
+        double inner = (a[1] * im[ALIAS_TAPS + k] + b[1] * re[ALIAS_TAPS + k]) +
+                       (a[2] * im[2 * ALIAS_TAPS + k] + b[2] * re[2 * ALIAS_TAPS + k]);
         double outer = (a[0] * im[k] + b[0] * re[k]) + (a[3] * im[3 * ALIAS_TAPS + k] + b[3] * re[3 * ALIAS_TAPS + k]);
         to[k] += inner + outer;
     }
@@ -258,7 +282,8 @@ static void mix(const double *restrict re, const double *restrict im, const doub
 
 void alias_add(struct alias *f, double frequency, double decay, const double gain[2], double to[ALIAS_TAPS])
 {
-    double x = 2 * PLACES * frequency / f->rate, y = decay / f->rate / STEP, own_re[ALIAS_TAPS], own_im[ALIAS_TAPS], a[4], b[4];
+    double x = 2 * PLACES * frequency / f->rate, y = decay / f->rate / STEP, own_re[ALIAS_TAPS], own_im[ALIAS_TAPS],
+           a[4], b[4];
     int i = x < PLACES ? (int)x : PLACES;
     if (!(y > -1 && y < 2 * ROWS - 1)) {
         alias_taps(f, frequency, decay, own_re, own_im);
@@ -267,11 +292,11 @@ void alias_add(struct alias *f, double frequency, double decay, const double gai
         return;
     }
     int r = (int)(0.5 * (y + 1));
-    if (!f->re[r])
-        make_row(f, r);
+    if (!f->re[r]) make_row(f, r);
     /* s T = j STEP (x + j y): Lagrange's polynomials of -1, 0, 1, 2 at u = x - i + j (y - 2 r), times A */
     y -= 2 * r;
-    struct z u = {x - i, y}, up = {u.re + 1, y}, down = {u.re - 1, y}, two = {u.re - 2, y}, A = {gain[0], gain[1]}, inner = times(up, two), outer = times(u, down);
+    struct z u = {x - i, y}, up = {u.re + 1, y}, down = {u.re - 1, y}, two = {u.re - 2, y}, A = {gain[0], gain[1]},
+             inner = times(up, two), outer = times(u, down);
     const struct z l[4] = {times(outer, two), times(inner, down), times(inner, u), times(outer, up)};
     static const double by[4] = {-1.0 / 6, 0.5, -0.5, 1.0 / 6};
     for (int q = 0; q < 4; q++) {

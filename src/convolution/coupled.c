@@ -1,11 +1,13 @@
-/* The parts of coupled.h that the integrators share: making, starting, running in the chosen integrator, rest, contacts, and the ledger
+/* The parts of coupled.h that the integrators share: making, starting, running in the chosen integrator, rest,
+   contacts, and the ledger
 
      H = m w'^2 / 2 + G w + sum (inertia p^2 + spring q^2) / 2 + (2/5) k max(0, xi)^2.5,
      residual = H - H(start) - surface work + contact loss + mode loss,
 
-   w counted from the surface's height at the start. In continuous time dH = f (ds - sum dphi q) - (f - k xi^1.5) dxi - sum 2 sigma p^2 dt:
-   equations 2 and 3 of papers/002 times the velocities. What an integrator adds per step is its own discrete form of the three terms; the sums keep
-   what their rounding loses, so that the residual shows the method's balance and not the length of the sound. */
+   w counted from the surface's height at the start. In continuous time dH = f (ds - sum dphi q) - (f - k xi^1.5) dxi -
+   sum 2 sigma p^2 dt: equations 2 and 3 of papers/002 times the velocities. What an integrator adds per step is its own
+   discrete form of the three terms; the sums keep what their rounding loses, so that the residual shows the method's
+   balance and not the length of the sound. */
 #include "convolution/coupled.h"
 
 #include <float.h>
@@ -19,8 +21,7 @@
 static double *padded_copy(struct arena *a, int padded, const double *from, int n)
 {
     double *to = ARENA_TAKE(a, double, padded);
-    if (from)
-        memcpy(to, from, (size_t)n * sizeof *to);
+    if (from) memcpy(to, from, (size_t)n * sizeof *to);
     return to;
 }
 
@@ -30,8 +31,9 @@ static void make_modes(struct arena *a, const struct coupled_ask *ask, struct co
     m->padded = (ask->n + LANES - 1) / LANES * LANES;
     m->frequency = padded_copy(a, m->padded, ask->frequency, ask->n);
     m->decay = padded_copy(a, m->padded, ask->decay, ask->n);
-    double **const zeroed[] = {&m->q, &m->p, &m->phi, &m->phi_to, &m->square, &m->inertia, &m->spring,
-                               &m->turn, &m->pull, &m->push, &m->drain, &m->stay, &m->carry, &m->thrust, &m->tilt, &m->swing, &m->ahead, &m->slant};
+    double **const zeroed[] = {&m->q,      &m->p,      &m->phi,  &m->phi_to, &m->square, &m->inertia,
+                               &m->spring, &m->turn,   &m->pull, &m->push,   &m->drain,  &m->stay,
+                               &m->carry,  &m->thrust, &m->tilt, &m->swing,  &m->ahead,  &m->slant};
     for (size_t i = 0; i < sizeof zeroed / sizeof zeroed[0]; i++)
         *zeroed[i] = ARENA_TAKE(a, double, m->padded);
     for (int i = 0; i < m->padded; i++) {
@@ -44,25 +46,35 @@ static void make_modes(struct arena *a, const struct coupled_ask *ask, struct co
 
 static bool sound(const struct coupled_ask *k, struct err *e)
 {
-    const struct { const char *name; double value; bool good; } of[] = {
-        {"step", k->step, k->step > 0}, {"mass", k->mass, k->mass > 0}, {"weight", k->weight, true},
-        {"stiffness", k->stiffness, k->stiffness > 0}, {"dissipation mu", k->mu, k->mu >= 0}};
+    const struct {
+        const char *name;
+        double value;
+        bool good;
+    } of[] = {{"step", k->step, k->step > 0},
+              {"mass", k->mass, k->mass > 0},
+              {"weight", k->weight, true},
+              {"stiffness", k->stiffness, k->stiffness > 0},
+              {"dissipation mu", k->mu, k->mu >= 0}};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
         if (!of[i].good || !isfinite(of[i].value))
             return err_set(e, ERR_SCENE, "a coupled contact cannot have a %s of %g", of[i].name, of[i].value);
     for (int i = 0; i < k->n; i++)
-        if (!(k->decay[i] >= 0) || !(k->frequency[i] >= 0) || !isfinite(k->decay[i] + k->frequency[i]) || !(k->decay[i] + k->frequency[i] > 0))
-            return err_set(e, ERR_SCENE, "mode %d (%g Hz, decay %g 1/s) cannot carry a ball: it needs a frequency or a decay above 0, and neither below",
+        if (!(k->decay[i] >= 0) || !(k->frequency[i] >= 0) || !isfinite(k->decay[i] + k->frequency[i]) ||
+            !(k->decay[i] + k->frequency[i] > 0))
+            return err_set(e, ERR_SCENE,
+                           "mode %d (%g Hz, decay %g 1/s) cannot carry a ball: it needs a frequency or a decay above "
+                           "0, and neither below",
                            i + 1, k->frequency[i], k->decay[i]);
     return true;
 }
 
 bool coupled_make(struct arena *a, const struct coupled_ask *ask, struct coupled **made, struct err *e)
 {
-    if (!sound(ask, e))
-        return false;
+    if (!sound(ask, e)) return false;
     if (ask->integrator == INTEGRATOR_EXACT_IMPACT && ask->n > 0)
-        return err_set(e, ERR_SCENE, "contact.roll.integrator: exact_impact is for rigid ground; set contact.roll.ground to rigid, or choose discrete_gradient");
+        return err_set(e, ERR_SCENE,
+                       "contact.roll.integrator: exact_impact is for rigid ground; set contact.roll.ground to rigid, "
+                       "or choose discrete_gradient");
     struct coupled *c = ARENA_TAKE(a, struct coupled, 1);
     c->ask = *ask;
     make_modes(a, ask, &c->modes);
@@ -116,16 +128,21 @@ double coupled_modal(const struct coupled *c)
     for (int i = 0; i < m->padded; i += LANES)
 #pragma omp simd
         for (int l = 0; l < LANES; l++)
-            lane[l] += 0.5 * (m->inertia[i + l] * m->p[i + l] * m->p[i + l] + m->spring[i + l] * m->q[i + l] * m->q[i + l]);
+            lane[l] +=
+                0.5 * (m->inertia[i + l] * m->p[i + l] * m->p[i + l] + m->spring[i + l] * m->q[i + l] * m->q[i + l]);
     return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
 /* The greatest part of H and, added in a fixed order, H itself. */
 static double energy_of(const struct coupled *c, double modal, double *greatest, const char **whose)
 {
-    const struct { const char *name; double value; } part[] = {
-        {"the ball's velocity", 0.5 * c->ask.mass * c->speed * c->speed}, {"the ball's height", c->ask.weight * c->height},
-        {"the modes", modal}, {"the contact", coupled_potential(c->ask.stiffness, c->penetration)}};
+    const struct {
+        const char *name;
+        double value;
+    } part[] = {{"the ball's velocity", 0.5 * c->ask.mass * c->speed * c->speed},
+                {"the ball's height", c->ask.weight * c->height},
+                {"the modes", modal},
+                {"the contact", coupled_potential(c->ask.stiffness, c->penetration)}};
     double sum = 0;
     *greatest = 0;
     *whose = part[0].name;
@@ -157,9 +174,12 @@ static bool unbalanced(const struct coupled *c, double bound, const char *whose,
 {
     const struct coupled_state *s = &c->state;
     return err_set(e, ERR_NUMBERS,
-                   "the energy of the coupled contact is off balance by %.3g J at step %ld (allowed: %.3g J): energy %.6g J, most of it in %s; work of the surface %.6g J, "
-                   "lost in the contact %.6g J, in the modes %.6g J; at most %ld iterations a step: take more steps (accuracy.contact_steps)",
-                   s->residual, s->steps, bound, s->energy, whose, s->surface_work, s->contact_loss, s->mode_loss, s->iterations_most);
+                   "the energy of the coupled contact is off balance by %.3g J at step %ld (allowed: %.3g J): energy "
+                   "%.6g J, most of it in %s; work of the surface %.6g J, "
+                   "lost in the contact %.6g J, in the modes %.6g J; at most %ld iterations a step: take more steps "
+                   "(accuracy.contact_steps)",
+                   s->residual, s->steps, bound, s->energy, whose, s->surface_work, s->contact_loss, s->mode_loss,
+                   s->iterations_most);
 }
 
 bool coupled_balance(struct coupled *c, bool held, struct err *e)
@@ -169,7 +189,9 @@ bool coupled_balance(struct coupled *c, bool held, struct err *e)
     const char *whose;
     s->energy = energy_of(c, coupled_modal(c), &greatest, &whose);
     if (!isfinite(s->energy) || !isfinite(c->force))
-        return err_set(e, ERR_NUMBERS, "the coupled contact is no longer finite at step %ld (force %g N, penetration %g m, %g J in %s): take more steps (accuracy.contact_steps)",
+        return err_set(e, ERR_NUMBERS,
+                       "the coupled contact is no longer finite at step %ld (force %g N, penetration %g m, %g J in "
+                       "%s): take more steps (accuracy.contact_steps)",
                        s->steps, c->force, c->penetration, greatest, whose);
     s->highest = fmax(s->highest, fmax(greatest, fabs(s->energy)));
     account(c, &(struct coupled_account){0}, s);
@@ -239,14 +261,19 @@ void coupled_watch(struct coupled *c, int every, struct coupled_state *seen)
     c->seen = seen;
 }
 
-void coupled_flights(struct coupled *c, double least)
-{
-    c->flight_least = least;
-}
+void coupled_flights(struct coupled *c, double least) { c->flight_least = least; }
 
 void coupled_start(struct coupled *c, double height, double speed, double surface, const double *phi, bool settled)
 {
-    struct coupled fresh = {.ask = c->ask, .modes = c->modes, .flight_least = c->flight_least, .every = c->every, .seen = c->seen, .origin = surface, .height = height - surface, .speed = speed, .closing = -speed};
+    struct coupled fresh = {.ask = c->ask,
+                            .modes = c->modes,
+                            .flight_least = c->flight_least,
+                            .every = c->every,
+                            .seen = c->seen,
+                            .origin = surface,
+                            .height = height - surface,
+                            .speed = speed,
+                            .closing = -speed};
     *c = fresh;
     start_modes(c, phi, settled);
     double bent = 0;
@@ -264,25 +291,27 @@ static bool given(const struct coupled *c, int steps, const double *surface, con
 {
     for (int i = 0; i < steps; i++)
         if (!isfinite(surface[i]))
-            return err_set(e, ERR_NUMBERS, "the height of the surface under the ball is not finite (%g m) at step %ld", surface[i], c->state.steps + i + 1);
+            return err_set(e, ERR_NUMBERS, "the height of the surface under the ball is not finite (%g m) at step %ld",
+                           surface[i], c->state.steps + i + 1);
     for (int i = 0; phi_to && i < c->modes.n; i++)
         if (!isfinite(phi_to[i]))
-            return err_set(e, ERR_NUMBERS, "the shape of mode %d under the ball is not finite (%g) at step %ld", i + 1, phi_to[i], c->state.steps + steps);
+            return err_set(e, ERR_NUMBERS, "the shape of mode %d under the ball is not finite (%g) at step %ld", i + 1,
+                           phi_to[i], c->state.steps + steps);
     return true;
 }
 
-bool coupled_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force, struct err *e)
+bool coupled_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force,
+                 struct err *e)
 {
-    static bool (*const runs[])(struct coupled *, int, const double *, const double *, double *, struct err *) = {
-        [INTEGRATOR_DISCRETE_GRADIENT] = coupled_gradient_run, [INTEGRATOR_RK4] = coupled_rk4_run, [INTEGRATOR_EXACT_IMPACT] = coupled_exact_run};
-    if (steps < 1)
-        return true;
+    static bool (*const runs[])(struct coupled *, int, const double *, const double *, double *,
+                                struct err *) = {[INTEGRATOR_DISCRETE_GRADIENT] = coupled_gradient_run,
+                                                 [INTEGRATOR_RK4] = coupled_rk4_run,
+                                                 [INTEGRATOR_EXACT_IMPACT] = coupled_exact_run};
+    if (steps < 1) return true;
     c->seen_so_far = 0;
-    if (!given(c, steps, surface, phi_to, e))
-        return false;
+    if (!given(c, steps, surface, phi_to, e)) return false;
     bool moves = phi_to && c->modes.n > 0 && memcmp(phi_to, c->modes.phi, (size_t)c->modes.n * sizeof *phi_to) != 0;
-    if (moves)
-        memcpy(c->modes.phi_to, phi_to, (size_t)c->modes.n * sizeof *phi_to);
+    if (moves) memcpy(c->modes.phi_to, phi_to, (size_t)c->modes.n * sizeof *phi_to);
     if (!runs[c->ask.integrator](c, steps, surface, moves ? c->modes.phi_to : NULL, force, e) ||
         !coupled_balance(c, c->ask.integrator != INTEGRATOR_RK4, e))
         return false;
@@ -290,10 +319,7 @@ bool coupled_run(struct coupled *c, int steps, const double *surface, const doub
     return true;
 }
 
-const struct coupled_state *coupled_state(const struct coupled *c)
-{
-    return &c->state;
-}
+const struct coupled_state *coupled_state(const struct coupled *c) { return &c->state; }
 
 void coupled_mode(const struct coupled *c, int i, double *displacement, double *velocity)
 {
@@ -301,7 +327,8 @@ void coupled_mode(const struct coupled *c, int i, double *displacement, double *
     *velocity = c->modes.p[i];
 }
 
-/* Twice the integral of dx / sqrt(1 - x^2.5) over 0 to 1, which is 0.8 B(2/5, 1/2), by 30 digits of Gamma(0.4) Gamma(0.5) / Gamma(0.9). */
+/* Twice the integral of dx / sqrt(1 - x^2.5) over 0 to 1, which is 0.8 B(2/5, 1/2), by 30 digits of Gamma(0.4)
+ * Gamma(0.5) / Gamma(0.9). */
 double coupled_contact_time(double mass, double stiffness, double speed)
 {
     return 2.94327518432470482 * real_pow(1.25 * mass / stiffness, 0.4) / real_pow(speed, 0.2);

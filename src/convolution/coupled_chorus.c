@@ -1,4 +1,5 @@
-/* See coupled_chorus.h. Bits do not depend on the instruction set: sums run over LANES accumulators and then in one tree. */
+/* See coupled_chorus.h. Bits do not depend on the instruction set: sums run over LANES accumulators and then in one
+ * tree. */
 #include "convolution/coupled_chorus.h"
 
 #include <string.h>
@@ -45,12 +46,13 @@ void coupled_chorus_begin(const struct coupled_modes *m, double on, struct coupl
             next[l] += (phi + on * slant) * (x + free);
             later[l] += (phi + (on + 1) * slant) * far;
         }
-    *sum = (struct coupled_chorus){.next = coupled_chorus_sum(next), .later = coupled_chorus_sum(later),
-                                   .place = coupled_chorus_sum(place)};
+    *sum = (struct coupled_chorus){
+        .next = coupled_chorus_sum(next), .later = coupled_chorus_sum(later), .place = coupled_chorus_sum(place)};
 }
 
 LANES_CLONES
-void coupled_chorus_advance(const struct coupled_modes *m, double bar, double on, double force, struct coupled_chorus *sum)
+void coupled_chorus_advance(const struct coupled_modes *m, double bar, double on, double force,
+                            struct coupled_chorus *sum)
 {
     coupled_chorus_open(sum);
     coupled_chorus_some(m, (int[]){0, m->padded}, force, bar * force, &sum->lanes);
@@ -58,14 +60,16 @@ void coupled_chorus_advance(const struct coupled_modes *m, double bar, double on
 }
 
 LANES_CLONES
-struct coupled_look coupled_chorus_look(const struct coupled_modes *m, double bar, double force, double step, const struct coupled_chorus *sum)
+struct coupled_look coupled_chorus_look(const struct coupled_modes *m, double bar, double force, double step,
+                                        const struct coupled_chorus *sum)
 {
     double energy[LANES] = {0}, place[LANES] = {0}, lost[LANES], rate = 2 / step;
     memcpy(lost, sum->lanes.lost, sizeof lost);
     for (int i = 0; i < m->padded; i += LANES)
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
-            double d = m->ahead[i + l] + (m->thrust[i + l] * force + m->tilt[i + l] * (bar * force)), x = m->q[i + l] + d, p = (d - m->swing[i + l]) * rate;
+            double d = m->ahead[i + l] + (m->thrust[i + l] * force + m->tilt[i + l] * (bar * force)),
+                   x = m->q[i + l] + d, p = (d - m->swing[i + l]) * rate;
             lost[l] += m->drain[i + l] * (d * d);
             place[l] += m->slant[i + l] * x;
             energy[l] += 0.5 * (m->inertia[i + l] * p * p + m->spring[i + l] * x * x);

@@ -1,17 +1,20 @@
-/* What the modes under a ball say in a step of coupled_gradient.c, all of them together: loops over modes, eight lanes at a time, with the same bits on every CPU.
+/* What the modes under a ball say in a step of coupled_gradient.c, all of them together: loops over modes, eight lanes
+   at a time, with the same bits on every CPU.
 
-   With swing P = h p / 2 a step is d = turn P - pull q + push phibar f, q += d, P = d - P; so two steps without a force take q to stay q + carry P,
-   stay = (1 - pull)^2 - turn pull, carry = turn (turn - pull). Places are counted in steps of a run, in which phi is straight: phi after `on` steps is phi + on slant. */
+   With swing P = h p / 2 a step is d = turn P - pull q + push phibar f, q += d, P = d - P; so two steps without a force
+   take q to stay q + carry P, stay = (1 - pull)^2 - turn pull, carry = turn (turn - pull). Places are counted in steps
+   of a run, in which phi is straight: phi after `on` steps is phi + on slant. */
 #ifndef CONVOLUTION_COUPLED_CHORUS_H
 #define CONVOLUTION_COUPLED_CHORUS_H
 #include "convolution/coupled_parts.h"
 
 struct coupled_chorus {
-    double next, later; /* sum phi q at the end of the step to come, and of the one after it, as if no force acted in either */
-    double place;       /* sum slant q                                                                                       */
+    double next,
+        later; /* sum phi q at the end of the step to come, and of the one after it, as if no force acted in either */
+    double place; /* sum slant q */
     struct coupled_voices {
-        _Alignas(64) double lost[LANES];                   /* J, of the steps that have ended since begin */
-        double later[LANES], slope[LANES], place[LANES];   /* of the pieces that have been gone through   */
+        _Alignas(64) double lost[LANES];                 /* J, of the steps that have ended since begin */
+        double later[LANES], slope[LANES], place[LANES]; /* of the pieces that have been gone through   */
     } lanes;
 };
 
@@ -33,9 +36,10 @@ static inline double coupled_chorus_along(const double *c, double to, double mid
 /* From step `on - 1` of the run, whose ends are known. */
 void coupled_chorus_begin(const struct coupled_modes *m, double on, struct coupled_chorus *sum);
 
-/* Ends a step whose force is known (bar: its middle) and goes ahead by two (on: the end of the second): that is coupled_chorus_open, _some from 0 to
-   padded, in pieces of whole LANES, and _close. */
-void coupled_chorus_advance(const struct coupled_modes *m, double bar, double on, double force, struct coupled_chorus *sum);
+/* Ends a step whose force is known (bar: its middle) and goes ahead by two (on: the end of the second): that is
+   coupled_chorus_open, _some from 0 to padded, in pieces of whole LANES, and _close. */
+void coupled_chorus_advance(const struct coupled_modes *m, double bar, double on, double force,
+                            struct coupled_chorus *sum);
 
 /* What advance would end the step with, nothing being moved. */
 struct coupled_look {
@@ -43,7 +47,8 @@ struct coupled_look {
 };
 
 /* step: s */
-struct coupled_look coupled_chorus_look(const struct coupled_modes *m, double bar, double force, double step, const struct coupled_chorus *sum);
+struct coupled_look coupled_chorus_look(const struct coupled_modes *m, double bar, double force, double step,
+                                        const struct coupled_chorus *sum);
 
 /* Added in pairs: a tree is three additions deep, a row seven. */
 static inline double coupled_chorus_sum(const double *s)
@@ -58,9 +63,11 @@ static inline void coupled_chorus_open(struct coupled_chorus *sum)
     memset(sum->lanes.place, 0, sizeof sum->lanes.place);
 }
 
-/* lean: bar force. 11 multiplications and 10 additions a mode; for callers that are LANES_CLONES. The lanes go to memory as a whole: gcc takes those of a local struct
-   apart, and putting them together again costs 30 cycles. */
-static inline __attribute__((always_inline)) void coupled_chorus_some(const struct coupled_modes *m, const int some[2], double force, double lean, struct coupled_voices *to)
+/* lean: bar force. 11 multiplications and 10 additions a mode; for callers that are LANES_CLONES. The lanes go to
+   memory as a whole: gcc takes those of a local struct apart, and putting them together again costs 30 cycles. */
+static inline __attribute__((always_inline)) void coupled_chorus_some(const struct coupled_modes *m, const int some[2],
+                                                                      double force, double lean,
+                                                                      struct coupled_voices *to)
 {
     double lost[LANES], later[LANES], slope[LANES], place[LANES];
     memcpy(lost, to->lost, sizeof lost);
@@ -69,7 +76,8 @@ static inline __attribute__((always_inline)) void coupled_chorus_some(const stru
     memcpy(place, to->place, sizeof place);
     double *restrict q = m->q, *restrict swing = m->swing, *restrict ahead = m->ahead;
     const double *restrict phi = m->phi, *restrict slant = m->slant, *restrict turn = m->turn, *restrict pull = m->pull;
-    const double *restrict thrust = m->thrust, *restrict tilt = m->tilt, *restrict drain = m->drain, *restrict stay = m->stay, *restrict carry = m->carry;
+    const double *restrict thrust = m->thrust, *restrict tilt = m->tilt, *restrict drain = m->drain,
+                           *restrict stay = m->stay, *restrict carry = m->carry;
     for (int i = some[0]; i < some[1]; i += LANES)
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {

@@ -6,37 +6,44 @@
 
    The isolated impact (a = 0) hides a Hamiltonian. With eta = ln(1 + mu v)/mu,
 
-       eta' = v'/(1 + mu v) = -V'(xi),   xi' = v = K'(eta),   K = (e^(mu eta) - 1)/mu^2 - eta/mu = (mu v - ln(1 + mu v))/mu^2
+       eta' = v'/(1 + mu v) = -V'(xi),   xi' = v = K'(eta),   K = (e^(mu eta) - 1)/mu^2 - eta/mu = (mu v - ln(1 + mu
+   v))/mu^2
 
-   so V + K is kept, which is the relation between v and xi of Papetti, Avanzini and Rocchesso (2011) that papers/002 builds on; where an
-   impact begins and ends V = 0, so K(v_out) = K(v_in), whatever kappa. Gonzalez' discrete gradient on both halves keeps it in finite steps h:
+   so V + K is kept, which is the relation between v and xi of Papetti, Avanzini and Rocchesso (2011) that papers/002
+   builds on; where an impact begins and ends V = 0, so K(v_out) = K(v_in), whatever kappa. Gonzalez' discrete gradient
+   on both halves keeps it in finite steps h:
 
        X := (xi+ - xi)/h = (K+ - K)/(eta+ - eta),   eta+ = eta - h D,   D := (V(xi+) - V(xi))/(xi+ - xi)
 
-   With p = 1 + mu v and d = mu h D this says p+ = p e^-d and 1 + mu X = p (1 - e^-d)/d: the mean force is F = D (1 + mu X), never negative.
-   The mean velocity and X differ by (p/mu) B(d), B = (1 + e^-d)/2 - (1 - e^-d)/d = d^2/12 - ..., which only the force brings about. With
-   gravity in the contact it is brought about by D - a, which is what bends the velocity there:
+   With p = 1 + mu v and d = mu h D this says p+ = p e^-d and 1 + mu X = p (1 - e^-d)/d: the mean force is F = D (1 + mu
+   X), never negative. The mean velocity and X differ by (p/mu) B(d), B = (1 + e^-d)/2 - (1 - e^-d)/d = d^2/12 - ...,
+   which only the force brings about. With gravity in the contact it is brought about by D - a, which is what bends the
+   velocity there:
 
        v+ = v + h (a - D (1 + mu X)),   X = (v + v+)/2 - y h (D - a),   y = p B(d)/d,   p = 1 + mu (v + h a/2)
 
-   These are the equations solved. They are the exact impact when a = 0, the exact parabola out of contact (D = 0), and rest at D = a stays;
-   order 2 in all else. Eliminated: 1 + mu X = p ((1 - e^-d)/d + mu h a B/d/(1 + d/2)), which is positive, so the clamp of equation 3 is met only
-   for p <= 0 (parting faster than 1/mu): F = 0 then, and 0 is what the rest tends to for p -> 0.
+   These are the equations solved. They are the exact impact when a = 0, the exact parabola out of contact (D = 0), and
+   rest at D = a stays; order 2 in all else. Eliminated: 1 + mu X = p ((1 - e^-d)/d + mu h a B/d/(1 + d/2)), which is
+   positive, so the clamp of equation 3 is met only for p <= 0 (parting faster than 1/mu): F = 0 then, and 0 is what the
+   rest tends to for p -> 0.
 
    Energy. By the second and third equation, exactly,
 
-       H+ - H = F (s+ - s) - L,   L = m h (y h (D - a)^2 + mu D (v + v+)/2 X) >= 0,   per unit mass H/m = w'^2/2 + a w + V
+       H+ - H = F (s+ - s) - L,   L = m h (y h (D - a)^2 + mu D (v + v+)/2 X) >= 0,   per unit mass H/m = w'^2/2 + a w +
+   V
 
-   (p <= 0: L = m (V - V+), as xi falls). Both terms together are a quadratic form in (D - a) and (v + v+)/2, not negative for p B <= 4; beyond
-   (p > 8) L stays positive for mu h a < 1, tried on p to 1e4, d from 1e-4 to 600 and mu h a from 1e-8 to 1. A larger mu h a is refused:
-   it means that 1/mu is a speed reached by falling for one step.
+   (p <= 0: L = m (V - V+), as xi falls). Both terms together are a quadratic form in (D - a) and (v + v+)/2, not
+   negative for p B <= 4; beyond (p > 8) L stays positive for mu h a < 1, tried on p to 1e4, d from 1e-4 to 600 and mu h
+   a from 1e-8 to 1. A larger mu h a is refused: it means that 1/mu is a speed reached by falling for one step.
 
-   Solving: xi+ = xi + h X(D(xi+)), X falling in D and D rising in xi+: one root, between the free flight's xi_f and xi + h X(D(xi_f)). Newton from
-   xi_f, bisection when it leaves the bracket (the slope leaves out mu h a, about 1e-3). e^-d by num/real.h: the same bits everywhere.
+   Solving: xi+ = xi + h X(D(xi+)), X falling in D and D rising in xi+: one root, between the free flight's xi_f and xi
+   + h X(D(xi_f)). Newton from xi_f, bisection when it leaves the bracket (the slope leaves out mu h a, about 1e-3).
+   e^-d by num/real.h: the same bits everywhere.
 
-   A kick of gravity before and after the exact impact would be simpler, and its energy would be off by order h^2 in a contact and by order h when
-   a step holds an impact; here the balance is exact. Papetti, Avanzini, Rocchesso: "Numerical methods for a nonlinear impact model: a
-   comparative study with closed-form corrections", IEEE Trans. Audio Speech Lang. Process. 19 (2011), 2146-2158. */
+   A kick of gravity before and after the exact impact would be simpler, and its energy would be off by order h^2 in a
+   contact and by order h when a step holds an impact; here the balance is exact. Papetti, Avanzini, Rocchesso:
+   "Numerical methods for a nonlinear impact model: a comparative study with closed-form corrections", IEEE Trans. Audio
+   Speech Lang. Process. 19 (2011), 2146-2158. */
 #include <math.h>
 
 #include "convolution/coupled_parts.h"
@@ -45,7 +52,8 @@
 
 enum { ITERATIONS_MOST = 60, SERIES = 8 };
 
-#define SMALL 1e-12 /* of |xi| + |xi+| + |h v|: Newton's next move is rounding, and this one is far above the equation's */
+#define SMALL                                                                                                          \
+    1e-12 /* of |xi| + |xi+| + |h v|: Newton's next move is rounding, and this one is far above the equation's */
 
 struct rules {
     double kappa, mu, gravity, step;
@@ -56,13 +64,13 @@ struct waning {
 };
 
 struct impact {
-    double xi, v;        /* before the step, then after it  */
-    double force, loss;  /* N/kg, J/kg: of the step         */
+    double xi, v;       /* before the step, then after it  */
+    double force, loss; /* N/kg, J/kg: of the step         */
     int iterations;
 };
 
-/* z = d/2: mean = e^-z sinh(z)/z, B = e^-z (cosh z - sinh(z)/z), by their series for small z, where the plain forms cancel
-   (z < 1/2: the ninth term is below 1e-19). */
+/* z = d/2: mean = e^-z sinh(z)/z, B = e^-z (cosh z - sinh(z)/z), by their series for small z, where the plain forms
+   cancel (z < 1/2: the ninth term is below 1e-19). */
 static struct waning waning(double d)
 {
     double z = 0.5 * d, term = 1, mean = 1, lag = 0;
@@ -71,8 +79,7 @@ static struct waning waning(double d)
         mean = (1 - e) / d;
         return (struct waning){mean, (0.5 * (1 + e) - mean) / d, (e - mean) / d};
     }
-    if (z <= 0)
-        return (struct waning){1, 0, -0.5};
+    if (z <= 0) return (struct waning){1, 0, -0.5};
     for (int j = 1; j <= SERIES; j++) {
         term *= z * z / (2 * j * (2 * j + 1));
         mean += term;
@@ -82,7 +89,8 @@ static struct waning waning(double d)
     return (struct waning){e * mean, e * lag / d, 0.5 * e * (lag / z - mean)};
 }
 
-/* D for xi = a^2, xi+ = b^2 without differences of near numbers (those of V would cost ten digits), and its derivative by xi+. */
+/* D for xi = a^2, xi+ = b^2 without differences of near numbers (those of V would cost ten digits), and its derivative
+ * by xi+. */
 static double gradient(double kappa, double from, double to, double *slope)
 {
     double a = sqrt(fmax(from, 0)), b = sqrt(fmax(to, 0)), across = to - from;
@@ -115,8 +123,8 @@ static struct trial try_end(const struct rules *r, const struct impact *s, doubl
     return t;
 }
 
-/* xi+ and what follows from it, or NAN when it was not found. The last move is taken after all are small, so that what is left is rounding alone:
-   a leftover of one sign, small as it is, adds up in 30000 steps. */
+/* xi+ and what follows from it, or NAN when it was not found. The last move is taken after all are small, so that what
+   is left is rounding alone: a leftover of one sign, small as it is, adds up in 30000 steps. */
 static double solve(const struct rules *r, struct impact *s, double free, struct trial *t)
 {
     double end = free, low = -INFINITY, high = free, scale = fabs(s->xi) + r->step * fabs(s->v);
@@ -149,8 +157,7 @@ static bool impact_step(const struct rules *r, struct impact *s)
         return true;
     }
     end = solve(r, s, end, &t);
-    if (isnan(end))
-        return false;
+    if (isnan(end)) return false;
     s->force = t.gradient * p * t.mean;
     double change = h * (r->gravity - s->force), middle = s->v + 0.5 * change, bend = h * (t.gradient - r->gravity);
     s->loss = t.lag * bend * bend + h * r->mu * t.gradient * middle * t.x;
@@ -163,8 +170,11 @@ static bool ready(const struct coupled *c, struct err *e)
 {
     const struct coupled_ask *k = &c->ask;
     double fall = k->mu * k->step * k->weight / k->mass;
-    return fall < 1 || err_set(e, ERR_SCENE, "contact.roll.integrator: exact_impact: a ball that falls for one step (%.3g s) is faster than 1/mu = %.3g m/s; raise accuracy.contact_steps, "
-                                             "lower mu, or choose contact.roll.integrator: discrete_gradient", k->step, 1 / k->mu);
+    return fall < 1 || err_set(e, ERR_SCENE,
+                               "contact.roll.integrator: exact_impact: a ball that falls for one step (%.3g s) is "
+                               "faster than 1/mu = %.3g m/s; raise accuracy.contact_steps, "
+                               "lower mu, or choose contact.roll.integrator: discrete_gradient",
+                               k->step, 1 / k->mu);
 }
 
 /* What the step has brought, into the shared state. */
@@ -184,17 +194,16 @@ static void take(struct coupled *c, const struct impact *s, double surface)
     c->speed += c->ask.step * (s->force - c->ask.weight / c->ask.mass);
     state->contact_steps += push > 0;
     state->iterations += s->iterations;
-    if (s->iterations > state->iterations_most)
-        state->iterations_most = s->iterations;
+    if (s->iterations > state->iterations_most) state->iterations_most = s->iterations;
 }
 
-bool coupled_exact_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force, struct err *e)
+bool coupled_exact_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force,
+                       struct err *e)
 {
     const struct coupled_ask *k = &c->ask;
     const struct rules r = {k->stiffness / k->mass, k->mu, k->weight / k->mass, k->step};
     (void)phi_to;
-    if (!ready(c, e))
-        return false;
+    if (!ready(c, e)) return false;
     for (int i = 0; i < steps; i++) {
         if (coupled_unseen(c, i, steps) == i)
             coupled_seen(c, c->state.steps + i, &(struct coupled_account){.modal = coupled_modal(c)});
@@ -202,8 +211,10 @@ bool coupled_exact_run(struct coupled *c, int steps, const double *surface, cons
         struct impact s = {.xi = before, .v = slope - c->speed};
         double landing = before > 0 ? s.v : sqrt(s.v * s.v - 2 * r.gravity * before);
         if (!impact_step(&r, &s))
-            return err_set(e, ERR_NUMBERS, "exact_impact: step %ld (penetration %g m, closing at %g m/s) was not solved in %d iterations", c->state.steps + i, before,
-                           slope - c->speed, ITERATIONS_MOST);
+            return err_set(
+                e, ERR_NUMBERS,
+                "exact_impact: step %ld (penetration %g m, closing at %g m/s) was not solved in %d iterations",
+                c->state.steps + i, before, slope - c->speed, ITERATIONS_MOST);
         take(c, &s, to);
         coupled_touch(c, c->state.steps + i, before, s.xi, landing);
         force[i] = c->force;

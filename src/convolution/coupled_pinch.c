@@ -2,9 +2,9 @@
 
      xi <= 0, A <= 0          free flight, f = 0;
      xi > 0, xi+ <= 0         lift-off: with y = xi - xi+ a quadratic, y^2 - (xi - A - B V mu / h) y = B V;
-     xi > 0, xi+ > 0          with a = sqrt(xi), b = sqrt(xi+): DV is a polynomial over a + b (force/hertz_mean.h); times a + b a
-                              polynomial in b, by Halley's method from the force's continuation by a parabola: one division a pass, no root;
-     else (landings; what that does not settle) Newton's method in xi+, kept between 0 and A by halving. */
+     xi > 0, xi+ > 0          with a = sqrt(xi), b = sqrt(xi+): DV is a polynomial over a + b (force/hertz_mean.h);
+   times a + b a polynomial in b, by Halley's method from the force's continuation by a parabola: one division a pass,
+   no root; else (landings; what that does not settle) Newton's method in xi+, kept between 0 and A by halving. */
 #include "convolution/coupled_pinch.h"
 
 #include <float.h>
@@ -40,8 +40,9 @@ static double force_at(struct coupled_pinch *k, double to, double *slope)
     return k->force = k->gradient * factor;
 }
 
-/* The root between 0 and A, to the rounding of either side. The equation's left side is convex, so Newton's method comes down to it from A; should rounding
-   turn it round, halving goes on: a step is taken as long as it stays between and at least halves the last one. */
+/* The root between 0 and A, to the rounding of either side. The equation's left side is convex, so Newton's method
+   comes down to it from A; should rounding turn it round, halving goes on: a step is taken as long as it stays between
+   and at least halves the last one. */
 static bool search(struct coupled_pinch *k, double a, double b)
 {
     double low = 0, high = a, at = a, last = 2 * a, slope;
@@ -49,16 +50,12 @@ static bool search(struct coupled_pinch *k, double a, double b)
     for (int pass = 0; pass < PASSES; pass++) {
         k->passes++;
         double off = at - a + b * force_at(k, at, &slope);
-        if (fabs(off) <= enough)
-            return true;
+        if (fabs(off) <= enough) return true;
         *(off > 0 ? &high : &low) = at;
         double step = off / (1 + b * slope), next = at - step;
-        if (fabs(step) <= 8 * DBL_EPSILON * (at + fmax(k->from, 0)))
-            return true;
-        if (!(next > low && next < high && fabs(step) <= 0.5 * last))
-            next = low + 0.5 * (high - low);
-        if (next == low || next == high)
-            return true;
+        if (fabs(step) <= 8 * DBL_EPSILON * (at + fmax(k->from, 0))) return true;
+        if (!(next > low && next < high && fabs(step) <= 0.5 * last)) next = low + 0.5 * (high - low);
+        if (next == low || next == high) return true;
         last = fabs(next - at);
         at = next;
     }
@@ -70,8 +67,7 @@ static void part(struct coupled_pinch *k, double a, double b)
 {
     double v = k->stiffness * k->from * k->from * k->root, half = (k->from - a - b * v * k->rate) / 2;
     double wide = sqrt(half * half + b * v), y = half > 0 ? half + wide : b * v / (wide - half), slope;
-    if (1 - k->rate * y <= 0)
-        y = k->from - a;
+    if (1 - k->rate * y <= 0) y = k->from - a;
     force_at(k, fmin(k->from - y, 0), &slope);
     k->passes++;
 }
@@ -82,8 +78,7 @@ bool coupled_pinch_on(struct coupled_pinch *k, double a, double b, double x)
         double change = coupled_pinch_pass(k, a, b, x);
         x -= change;
         k->passes++;
-        if (coupled_pinch_close(k, x, change))
-            return true;
+        if (coupled_pinch_close(k, x, change)) return true;
     }
     return search(k, a, b);
 }
@@ -91,14 +86,12 @@ bool coupled_pinch_on(struct coupled_pinch *k, double a, double b, double x)
 bool coupled_pinch(struct coupled_pinch *k, double a, double b, double guess)
 {
     k->passes = 0;
-    if (coupled_pinch_stays(k, a, b))
-        return coupled_pinch_on(k, a, b, coupled_pinch_first(k, guess));
+    if (coupled_pinch_stays(k, a, b)) return coupled_pinch_on(k, a, b, coupled_pinch_first(k, guess));
     if (k->from > 0) {
         part(k, a, b);
         return true;
     }
-    if (a > 0)
-        return search(k, a, b);
+    if (a > 0) return search(k, a, b);
     k->to = a;
     k->to_root = k->gradient = k->force = 0;
     return true;

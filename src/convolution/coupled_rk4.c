@@ -1,23 +1,26 @@
-/* The classical Runge-Kutta method of order 4 on all of coupled.h's equations, as papers/002 section III integrates equations 2 and 3: ball and modes
-   in one state y = (w, w', q, q'), with stages at 0, h/2, h/2 and h,
+/* The classical Runge-Kutta method of order 4 on all of coupled.h's equations, as papers/002 section III integrates
+   equations 2 and 3: ball and modes in one state y = (w, w', q, q'), with stages at 0, h/2, h/2 and h,
 
      y+ = y + h/6 (k1 + 2 k2 + 2 k3 + k4),   k_j = y'(t + c_j h, y + c_j h k_(j-1)),   c = 0, 1/2, 1/2, 1
 
-   The surface and the shapes are known at the steps' ends and go straight between them; their rates s' and phi' are in xi'. The force over a step is
-   the mean of the stages' forces with the same weights, so that it hands over exactly the momentum that the ball gets.
+   The surface and the shapes are known at the steps' ends and go straight between them; their rates s' and phi' are in
+   xi'. The force over a step is the mean of the stages' forces with the same weights, so that it hands over exactly the
+   momentum that the ball gets.
 
-   Where we depart from the paper: the clamp max(0, 1 + mu xi') of coupled.h (without it a fast ball blows up sooner), and what we refuse.
-   Where the method itself departs from the equations:
-     - xi^1.5 is not smooth at 0, so that an impact converges with order 2.5 or so, not 4, and may gain energy: a part of 4e-5 of the speed at 42 steps
-       per contact, 6e-4 at 12, 7e-3 at 5.5, and 0.45 at 1.6. Hence fewer than 12 steps per contact are refused, counted at each landing by
-       coupled_contact_time at its closing speed.
+   Where we depart from the paper: the clamp max(0, 1 + mu xi') of coupled.h (without it a fast ball blows up sooner),
+   and what we refuse. Where the method itself departs from the equations:
+     - xi^1.5 is not smooth at 0, so that an impact converges with order 2.5 or so, not 4, and may gain energy: a part
+   of 4e-5 of the speed at 42 steps per contact, 6e-4 at 12, 7e-3 at 5.5, and 0.45 at 1.6. Hence fewer than 12 steps per
+   contact are refused, counted at each landing by coupled_contact_time at its closing speed.
      - the contact's dissipation is a decay of mu k xi^1.5 / m, stable up to 2.8 / h: beyond 1 / h it is refused.
-     - a mode is damped of its own by about omega^6 h^5 / 144 (at 44.1 kHz: 37 1/s at 5 kHz, 2000 1/s at 10 kHz) and unstable beyond omega h = 2.83.
-       Refused where this passes the decay that the mode was given. The sound is made from the force by exact poles; what is damped too much is the push back.
-   No balance is kept: the residual of the ledger is the error of the method. Work and losses are integrated along with the state, by the same weights.
+     - a mode is damped of its own by about omega^6 h^5 / 144 (at 44.1 kHz: 37 1/s at 5 kHz, 2000 1/s at 10 kHz) and
+   unstable beyond omega h = 2.83. Refused where this passes the decay that the mode was given. The sound is made from
+   the force by exact poles; what is damped too much is the push back. No balance is kept: the residual of the ledger is
+   the error of the method. Work and losses are integrated along with the state, by the same weights.
 
-   Modes (coupled_stages.h): linear, so that one pass over them tells all four stages what they would do without a force, and it is one step behind the ball. In its
-   units, g = f h^2/4 and h/2 times a velocity, the ball is one more mode, of mass m, with nothing that holds it. */
+   Modes (coupled_stages.h): linear, so that one pass over them tells all four stages what they would do without a
+   force, and it is one step behind the ball. In its units, g = f h^2/4 and h/2 times a velocity, the ball is one more
+   mode, of mass m, with nothing that holds it. */
 #include <math.h>
 
 #include "convolution/coupled_stages.h"
@@ -48,7 +51,7 @@ struct rk4_run {
     double sunk[STAGES], slowed[STAGES]; /* m: what it takes off height and way at the stages         */
     double stiff;                        /* g: the spring's force at which mu k xi^1.5 h / m is 1     */
     struct rk4_ball ball;
-    struct coupled_push push;            /* of the last step                                          */
+    struct coupled_push push; /* of the last step                                          */
     struct coupled_stages stages;
 };
 
@@ -58,21 +61,23 @@ struct stages {
     double slip[STAGES];  /* m: h times what surface and place change in xi             */
     double close[STAGES]; /* m: h xi'                                                   */
     double answer[ANSWERS];
-    double bent[STAGES];  /* g: the spring's force                                      */
+    double bent[STAGES]; /* g: the spring's force                                      */
     double g[STAGES];
 };
 
 /* The step after n of the run, which goes `across` up. */
 INLINE void foresee(const struct rk4_run *r, enum ground ground, double n, double across, struct stages *o)
 {
-    const double *x = r->stages.now, *y = r->stages.now + LANES, height = r->ball.height, way = r->ball.way, surface = r->ball.surface;
+    const double *x = r->stages.now, *y = r->stages.now + LANES, height = r->ball.height, way = r->ball.way,
+                 surface = r->ball.surface;
     if (ground == MOVES)
 #pragma omp simd
         for (int k = 0; k < ANSWERS; k++)
             o->answer[k] = r->stages.answer[0][k] + n * (r->stages.answer[1][k] + n * r->stages.answer[2][k]);
 #pragma omp simd
     for (int j = 0; j < STAGES; j++) {
-        double lean = ground == RIGID ? 0 : x[SUM_Q] + twice[j] * x[j], fall = ground == RIGID ? 0 : x[SUM_V + j], glide = 0;
+        double lean = ground == RIGID ? 0 : x[SUM_Q] + twice[j] * x[j], fall = ground == RIGID ? 0 : x[SUM_V + j],
+               glide = 0;
         if (ground == MOVES) {
             double on = n + reach[j];
             glide = y[SUM_Q] + twice[j] * y[j];
@@ -98,32 +103,27 @@ INLINE void slide(struct stages *o, int stage, double by)
     o->close[stage] -= by;
 }
 
-/* The four forces, and among them the modes' end of the step before (behind: there is one): each fills the other's latencies. */
+/* The four forces, and among them the modes' end of the step before (behind: there is one): each fills the other's
+ * latencies. */
 INLINE void press_all(struct rk4_run *r, enum ground ground, bool behind, struct stages *o)
 {
     const double *a = ground == MOVES ? o->answer : r->stages.answer[0], *g = o->g;
     press(r, o, 0);
     o->close[1] -= 2 * (a[A1_SELF] * g[0]);
     o->xi[2] -= a[A1_SELF] * g[0];
-    if (ground == MOVES)
-        slide(o, 2, a[GLIDE2] * g[0]);
-    if (ground != RIGID && behind)
-        coupled_stages_pass(&r->c->modes, &r->push, ground == MOVES, &r->stages);
+    if (ground == MOVES) slide(o, 2, a[GLIDE2] * g[0]);
+    if (ground != RIGID && behind) coupled_stages_pass(&r->c->modes, &r->push, ground == MOVES, &r->stages);
     press(r, o, 1);
     o->close[2] -= 2 * (a[A2_OLDER] * g[0] + a[A2_SELF] * g[1]);
     o->xi[3] -= 2 * (a[A3_OLDER] * g[0] + a[A3_SELF] * g[1]);
-    if (ground == MOVES)
-        slide(o, 3, 2 * (a[GLIDE3_OLDER] * g[0] + a[GLIDE3_SELF] * g[1]));
+    if (ground == MOVES) slide(o, 3, 2 * (a[GLIDE3_OLDER] * g[0] + a[GLIDE3_SELF] * g[1]));
     press(r, o, 2);
     o->close[3] -= 4 * ((a[A3_OLDEST] * g[0] + a[A3_MIDDLE] * g[1]) + a[A3_SELF] * g[2]);
     press(r, o, 3);
 }
 
 /* By the stages' shares, 1 2 2 1 over 6. */
-INLINE double mean(const double *x)
-{
-    return (1.0 / 6) * ((x[0] + x[3]) + 2 * (x[1] + x[2]));
-}
+INLINE double mean(const double *x) { return (1.0 / 6) * ((x[0] + x[3]) + 2 * (x[1] + x[2])); }
 
 /* Ball and ledger at the step's end, on a surface of that height. */
 INLINE void take(struct rk4_run *r, double surface, const struct stages *o)
@@ -131,8 +131,8 @@ INLINE void take(struct rk4_run *r, double surface, const struct stages *o)
     struct rk4_ball *b = &r->ball;
     double net = mean(o->g);
     b->work += mean((double[]){o->g[0] * o->slip[0], o->g[1] * o->slip[1], o->g[2] * o->slip[2], o->g[3] * o->slip[3]});
-    b->loss += mean((double[]){(o->g[0] - o->bent[0]) * o->close[0], (o->g[1] - o->bent[1]) * o->close[1], (o->g[2] - o->bent[2]) * o->close[2],
-                               (o->g[3] - o->bent[3]) * o->close[3]});
+    b->loss += mean((double[]){(o->g[0] - o->bent[0]) * o->close[0], (o->g[1] - o->bent[1]) * o->close[1],
+                               (o->g[2] - o->bent[2]) * o->close[2], (o->g[3] - o->bent[3]) * o->close[3]});
     b->height += 2 * b->way + ((2.0 / 3) * ((o->g[0] + (o->g[1] + o->g[2])) * r->bare) - 2 * r->fall);
     b->way += 2 * (net * r->bare - r->fall);
     b->across = surface - b->surface;
@@ -144,41 +144,44 @@ INLINE void take(struct rk4_run *r, double surface, const struct stages *o)
 static bool too_short(const struct coupled *c, long step, double landing, double lasts, struct err *e)
 {
     double h = c->ask.step;
-    return err_set(e, ERR_SCENE, "contact.roll.integrator: rk4: an impact at %.3g m/s (step %ld) lasts %.1f steps of %.3g s, and rk4 needs %d of them: raise accuracy.contact_steps until a step takes "
-                                 "at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
+    return err_set(e, ERR_SCENE,
+                   "contact.roll.integrator: rk4: an impact at %.3g m/s (step %ld) lasts %.1f steps of %.3g s, and rk4 "
+                   "needs %d of them: raise accuracy.contact_steps until a step takes "
+                   "at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
                    landing, step + 1, lasts / h, h, CONTACT_STEPS_LEAST, lasts / CONTACT_STEPS_LEAST);
 }
 
 static bool too_stiff(const struct rk4_run *r, long step, double bent, struct err *e)
 {
     double h = r->c->ask.step, by = bent / r->stiff;
-    return err_set(e, ERR_SCENE, "contact.roll.integrator: rk4: mu k xi^1.5 / m times the step of %.3g s reaches %.3g at step %ld, and rk4 is not to be trusted beyond 1: raise accuracy.contact_steps until "
-                                 "a step takes at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
+    return err_set(e, ERR_SCENE,
+                   "contact.roll.integrator: rk4: mu k xi^1.5 / m times the step of %.3g s reaches %.3g at step %ld, "
+                   "and rk4 is not to be trusted beyond 1: raise accuracy.contact_steps until "
+                   "a step takes at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
                    h, by, step + 1, h / by);
 }
 
-INLINE double greater(double a, double b)
-{
-    return a > b ? a : b;
-}
+INLINE double greater(double a, double b) { return a > b ? a : b; }
 
 /* What an impact must not do: last too few steps, or be damped too fast for them. */
 INLINE bool resolved(const struct rk4_run *r, long step, double before, const struct stages *o, struct err *e)
 {
     struct coupled *c = r->c;
-    double after = r->ball.penetration, most = greater(greater(o->bent[0], o->bent[1]), greater(o->bent[2], o->bent[3]));
+    double after = r->ball.penetration,
+           most = greater(greater(o->bent[0], o->bent[1]), greater(o->bent[2], o->bent[3]));
     if ((before > 0) != (after > 0)) {
         double landing = (o->close[0] + 2 * r->fall) / c->ask.step;
-        double lasts = after > 0 && landing > 0 ? coupled_contact_time(c->ask.mass, c->ask.stiffness, landing) : INFINITY;
+        double lasts =
+            after > 0 && landing > 0 ? coupled_contact_time(c->ask.mass, c->ask.stiffness, landing) : INFINITY;
         coupled_crossing(c, step, before, after, landing);
-        if (lasts < CONTACT_STEPS_LEAST * c->ask.step)
-            return too_short(c, step, landing, lasts, e);
+        if (lasts < CONTACT_STEPS_LEAST * c->ask.step) return too_short(c, step, landing, lasts, e);
     }
     return !(most > r->stiff) || too_stiff(r, step, most, e);
 }
 
 /* Steps at[0] + 1 to at[1] of the run. */
-INLINE bool go(struct rk4_run *r, enum ground ground, const int at[2], const double *surface, double *restrict force, struct err *e)
+INLINE bool go(struct rk4_run *r, enum ground ground, const int at[2], const double *surface, double *restrict force,
+               struct err *e)
 {
     struct coupled *c = r->c;
     const double *now = r->stages.now;
@@ -186,14 +189,18 @@ INLINE bool go(struct rk4_run *r, enum ground ground, const int at[2], const dou
     bool good = true;
     for (int i = at[0]; i < at[1] && good; i++) {
         struct stages o;
-        const double n = i, next = surface[i] - c->origin, across = next - r->ball.surface, before = r->ball.penetration;
+        const double n = i, next = surface[i] - c->origin, across = next - r->ball.surface,
+                     before = r->ball.penetration;
         foresee(r, ground, n, across, &o);
         press_all(r, ground, i > 0, &o);
         r->push = (struct coupled_push){{o.g[0], o.g[1], o.g[2], o.g[3]}, n};
-        if (ground != RIGID)
-            coupled_stages_next(&r->stages, &r->push, ground == MOVES);
+        if (ground != RIGID) coupled_stages_next(&r->stages, &r->push, ground == MOVES);
         take(r, next, &o);
-        r->ball.penetration = next - (ground == RIGID ? 0 : ground == MOVES ? now[SUM_Q] + (n + 1) * now[LANES + SUM_Q] : now[SUM_Q]) - r->ball.height;
+        r->ball.penetration = next -
+                              (ground == RIGID   ? 0
+                               : ground == MOVES ? now[SUM_Q] + (n + 1) * now[LANES + SUM_Q]
+                                                 : now[SUM_Q]) -
+                              r->ball.height;
         coupled_rise(c, r->ball.penetration);
         touched += r->ball.force > 0;
         good = resolved(r, c->state.steps + i, before, &o, e);
@@ -201,8 +208,7 @@ INLINE bool go(struct rk4_run *r, enum ground ground, const int at[2], const dou
     }
     c->state.contact_steps += touched;
     c->state.iterations += touched;
-    if (touched > 0)
-        c->state.iterations_most = 1;
+    if (touched > 0) c->state.iterations_most = 1;
     return good;
 }
 
@@ -218,7 +224,8 @@ static bool on_rigid(struct rk4_run *r, const int at[2], const double *surface, 
     return go(r, RIGID, at, surface, force, e);
 }
 
-/* Decay per second that the method gives to the pole s = -decay + j omega: -ln |R(s h)| / h, R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24. */
+/* Decay per second that the method gives to the pole s = -decay + j omega: -ln |R(s h)| / h, R(z) = 1 + z + z^2/2 +
+ * z^3/6 + z^4/24. */
 static double decay_of(double decay, double omega, double step)
 {
     double x = -decay * step, y = omega * step, real = 1, imaginary = 0;
@@ -236,9 +243,12 @@ bool coupled_rk4_make(const struct coupled *c, struct err *e)
     for (int i = 0; i < m->n; i++) {
         double omega = 2 * REAL_PI * m->frequency[i], decay = decay_of(m->decay[i], omega, c->ask.step);
         if (!(fabs(decay - m->decay[i]) <= m->decay[i]))
-            return err_set(e, ERR_SCENE, "contact.roll.integrator: rk4: steps of %.3g s give mode %d (%.6g Hz) a decay of %.3g 1/s instead of its own %.3g 1/s: raise accuracy.contact_steps until a step takes "
-                                         "at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
-                           c->ask.step, i + 1, m->frequency[i], decay, m->decay[i], 0.95 * real_pow(144 * m->decay[i] / real_pow(omega, 6), 0.2));
+            return err_set(e, ERR_SCENE,
+                           "contact.roll.integrator: rk4: steps of %.3g s give mode %d (%.6g Hz) a decay of %.3g 1/s "
+                           "instead of its own %.3g 1/s: raise accuracy.contact_steps until a step takes "
+                           "at most %.3g s, or choose contact.roll.integrator: discrete_gradient",
+                           c->ask.step, i + 1, m->frequency[i], decay, m->decay[i],
+                           0.95 * real_pow(144 * m->decay[i] / real_pow(omega, 6), 0.2));
     }
     return true;
 }
@@ -286,10 +296,19 @@ static void open_run(struct rk4_run *r, struct coupled *c, int steps, const doub
 {
     const struct coupled_ask *k = &c->ask;
     const double square = k->step * k->step / 4;
-    *r = (struct rk4_run){.c = c, .unit = 1 / square, .spring = k->stiffness * square, .rate = k->mu / k->step, .bare = 1 / k->mass, .fall = k->weight * square / k->mass,
+    *r = (struct rk4_run){.c = c,
+                          .unit = 1 / square,
+                          .spring = k->stiffness * square,
+                          .rate = k->mu / k->step,
+                          .bare = 1 / k->mass,
+                          .fall = k->weight * square / k->mass,
                           .stiff = k->mu > 0 ? k->mass / (k->mu * k->step) * square : INFINITY};
-    r->ball = (struct rk4_ball){.height = c->height, .way = c->speed * (k->step / 2), .surface = c->surface, .penetration = c->penetration,
-                                .force = c->force * square, .force_before = c->force_before * square};
+    r->ball = (struct rk4_ball){.height = c->height,
+                                .way = c->speed * (k->step / 2),
+                                .surface = c->surface,
+                                .penetration = c->penetration,
+                                .force = c->force * square,
+                                .force_before = c->force_before * square};
     for (int j = 0; j < STAGES; j++) {
         r->sunk[j] = (j < 2 ? 0 : j - 1) * r->fall;
         r->slowed[j] = twice[j] * r->fall;
@@ -300,18 +319,16 @@ static void open_run(struct rk4_run *r, struct coupled *c, int steps, const doub
     r->stages.answer[0][A3_SELF] += r->bare;
 }
 
-bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force, struct err *e)
+bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force,
+                     struct err *e)
 {
     struct rk4_run r;
     open_run(&r, c, steps, phi_to);
     for (int at = 0; at < steps;) {
-        if (coupled_unseen(c, at, steps) == at)
-            watch(&r, at);
+        if (coupled_unseen(c, at, steps) == at) watch(&r, at);
         int spell = at / SPELL * SPELL + SPELL, end = coupled_unseen(c, at + 1, steps < spell ? steps : spell);
-        if (!(c->modes.n > 0 ? on_modes : on_rigid)(&r, (int[]){at, end}, surface, force, e))
-            return false;
-        if (end == spell)
-            enter(&r);
+        if (!(c->modes.n > 0 ? on_modes : on_rigid)(&r, (int[]){at, end}, surface, force, e)) return false;
+        if (end == spell) enter(&r);
         at = end;
     }
     settle(&r, steps);

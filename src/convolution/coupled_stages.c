@@ -1,15 +1,22 @@
-/* See coupled_stages.h. Bits do not depend on the instruction set: sums run over LANES accumulators and then in one tree. */
+/* See coupled_stages.h. Bits do not depend on the instruction set: sums run over LANES accumulators and then in one
+ * tree. */
 #include "convolution/coupled_stages.h"
 
-/* Where a mode's v is an impulse of 1, e[i] is v after i turns by X = [[0, 1], [-W, -d]]: the row of v in X^i is (-W e[i - 1], e[i]). */
+/* Where a mode's v is an impulse of 1, e[i] is v after i turns by X = [[0, 1], [-W, -d]]: the row of v in X^i is (-W
+ * e[i - 1], e[i]). */
 static void mode_rows(double d, double w, double *row)
 {
     const double e1 = -d, e2 = d * d - w, e3 = -d * e2 - w * e1, e4 = -d * e3 - w * e2;
     /* R = 1 + 2 X + 2 X^2 + (4/3) X^3 + (2/3) X^4: a step without a force */
     const double across = 2 + 2 * e1 + 4.0 / 3 * e2 + 2.0 / 3 * e3;
-    const double r[2][2] = {{1 - w * (2 + 4.0 / 3 * e1 + 2.0 / 3 * e2), across}, {-w * across, 1 + 2 * e1 + 2 * e2 + 4.0 / 3 * e3 + 2.0 / 3 * e4}};
-    const double sum[SUMS][2] = {{1, 0}, {0, 1}, {-w, 1 + e1}, {-w * (1 + e1), 1 + e1 + e2}, {-2 * w * (1 + e1 + e2), 1 + 2 * (e1 + e2 + e3)}};
-    const double end[STAGES][2] = {{2.0 / 3 * (1 + e1 + e2), (1 + 2 * (e1 + e2 + e3)) / 3}, {2.0 / 3 * (1 + e1), 2.0 / 3 * (1 + e1 + e2)}, {2.0 / 3, 2.0 / 3 * (1 + e1)}, {0, 1.0 / 3}};
+    const double r[2][2] = {{1 - w * (2 + 4.0 / 3 * e1 + 2.0 / 3 * e2), across},
+                            {-w * across, 1 + 2 * e1 + 2 * e2 + 4.0 / 3 * e3 + 2.0 / 3 * e4}};
+    const double sum[SUMS][2] = {
+        {1, 0}, {0, 1}, {-w, 1 + e1}, {-w * (1 + e1), 1 + e1 + e2}, {-2 * w * (1 + e1 + e2), 1 + 2 * (e1 + e2 + e3)}};
+    const double end[STAGES][2] = {{2.0 / 3 * (1 + e1 + e2), (1 + 2 * (e1 + e2 + e3)) / 3},
+                                   {2.0 / 3 * (1 + e1), 2.0 / 3 * (1 + e1 + e2)},
+                                   {2.0 / 3, 2.0 / 3 * (1 + e1)},
+                                   {0, 1.0 / 3}};
     row[ROW_DAMP * LANES] = d;
     row[ROW_SQUARE * LANES] = w;
     for (int k = 0; k < SUMS; k++) {
@@ -30,7 +37,8 @@ void coupled_stages_make(struct arena *a, struct coupled *c)
     m->rows = ARENA_TAKE(a, double, ROWS * m->padded);
     m->standing = ARENA_TAKE(a, struct coupled_stages, 1);
     for (int i = 0; i < m->n; i++) {
-        mode_rows(m->decay[i] * h, m->square[i] * (h * h / 4), m->rows + (size_t)(i / LANES * LANES) * ROWS + i % LANES);
+        mode_rows(m->decay[i] * h, m->square[i] * (h * h / 4),
+                  m->rows + (size_t)(i / LANES * LANES) * ROWS + i % LANES);
         m->drain[i] = 4 * m->decay[i] / (3 * h); /* 2 sigma q'^2 by the stages' shares */
     }
 }
@@ -57,9 +65,12 @@ static void weigh(const struct coupled_modes *m, int row, double *to)
 /* Answers of phi at n + x to forces at phi of n + y; of slant, those of y alone. */
 static void find_answers(const struct coupled_modes *m, struct coupled_stages *s)
 {
-    static const struct { int to, turns; double x, y; } of[] = {
-        {A1_SELF, 0, 0.5, 0}, {A2_SELF, 0, 0.5, 0.5}, {A2_OLDER, 1, 0.5, 0}, {A3_SELF, 0, 1, 0.5}, {A3_OLDER, 1, 1, 0}, {A3_MIDDLE, 1, 1, 0.5}, {A3_OLDEST, 2, 1, 0},
-        {GLIDE2, 0, 0, 0}, {GLIDE3_SELF, 0, 0, 0.5}, {GLIDE3_OLDER, 1, 0, 0}};
+    static const struct {
+        int to, turns;
+        double x, y;
+    } of[] = {{A1_SELF, 0, 0.5, 0},     {A2_SELF, 0, 0.5, 0.5}, {A2_OLDER, 1, 0.5, 0}, {A3_SELF, 0, 1, 0.5},
+              {A3_OLDER, 1, 1, 0},      {A3_MIDDLE, 1, 1, 0.5}, {A3_OLDEST, 2, 1, 0},  {GLIDE2, 0, 0, 0},
+              {GLIDE3_SELF, 0, 0, 0.5}, {GLIDE3_OLDER, 1, 0, 0}};
     double sum[3][3];
     for (int i = 0; i < 3; i++)
         weigh(m, ROW_TURNS + i, sum[i]);
@@ -95,10 +106,15 @@ static inline __attribute__((always_inline)) void weigh_five(const struct couple
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
             const double phi = m->phi[i + l], slant = m->slant[i + l], q = m->q[i + l], v = m->swing[i + l];
-            struct coupled_stages_mode at = {.q = q, .v = v}, o = {.q = q, .v = v, .damp = rows[ROW_DAMP * LANES + l], .square = rows[ROW_SQUARE * LANES + l]};
+            struct coupled_stages_mode at = {.q = q, .v = v}, o = {.q = q,
+                                                                   .v = v,
+                                                                   .damp = rows[ROW_DAMP * LANES + l],
+                                                                   .square = rows[ROW_SQUARE * LANES + l]};
             coupled_stages_step(&o, 0, 0, 0, 0);
-            const double f0 = far ? coupled_stages_far(rows, l, SUM_Q, &at) : q, f1 = far ? coupled_stages_far(rows, l, SUM_V, &at) : v,
-                         f2 = far ? coupled_stages_far(rows, l, SUM_V1, &at) : o.v1, f3 = far ? coupled_stages_far(rows, l, SUM_V2, &at) : o.v2,
+            const double f0 = far ? coupled_stages_far(rows, l, SUM_Q, &at) : q,
+                         f1 = far ? coupled_stages_far(rows, l, SUM_V, &at) : v,
+                         f2 = far ? coupled_stages_far(rows, l, SUM_V1, &at) : o.v1,
+                         f3 = far ? coupled_stages_far(rows, l, SUM_V2, &at) : o.v2,
                          f4 = far ? coupled_stages_far(rows, l, SUM_V3, &at) : o.v3;
             s[SUM_Q][l] += phi * f0;
             s[SUM_V][l] += phi * f1;
@@ -144,8 +160,7 @@ void coupled_stages_open(struct coupled *c, int steps, const double *phi_to, str
         m->slant[i] = phi_to ? (phi_to[i] - m->phi[i]) / steps : 0;
         m->swing[i] = m->p[i] * (c->ask.step / 2);
     }
-    if (m->padded == 0)
-        return;
+    if (m->padded == 0) return;
     find_coefficients(m, s);
     find_first(m, s);
 }
@@ -165,10 +180,14 @@ void coupled_stages_finish(struct coupled *c, const struct coupled_push *last, s
 static struct coupled_stages_mode mode_of(const struct coupled_modes *m, int i)
 {
     const double *rows = coupled_stages_rows(m, i / LANES * LANES);
-    return (struct coupled_stages_mode){.q = m->q[i], .v = m->swing[i], .damp = rows[ROW_DAMP * LANES + i % LANES], .square = rows[ROW_SQUARE * LANES + i % LANES]};
+    return (struct coupled_stages_mode){.q = m->q[i],
+                                        .v = m->swing[i],
+                                        .damp = rows[ROW_DAMP * LANES + i % LANES],
+                                        .square = rows[ROW_SQUARE * LANES + i % LANES]};
 }
 
-void coupled_stages_look(const struct coupled *c, const struct coupled_push *p, const struct coupled_stages *s, struct coupled_account *to)
+void coupled_stages_look(const struct coupled *c, const struct coupled_push *p, const struct coupled_stages *s,
+                         struct coupled_account *to)
 {
     const struct coupled_modes *m = &c->modes;
     const double *g = p->g, rate = 2 / c->ask.step;

@@ -1,20 +1,23 @@
-/* The force louder near the frequencies of the surface's modes (`contact.enhance`), as FoleyAutomatic (van den Doel, Kry and Pai 2001) has it for what
-   rolls: papers/002 section II-B, "an additional filtering stage that enhances the spectral envelope near the object's resonance modes". It prints no
-   filter. Ours:
+/* The force louder near the frequencies of the surface's modes (`contact.enhance`), as FoleyAutomatic (van den Doel,
+   Kry and Pai 2001) has it for what rolls: papers/002 section II-B, "an additional filtering stage that enhances the
+   spectral envelope near the object's resonance modes". It prints no filter. Ours:
 
      f' = f + sum over modes of g_i B_i(f),   g_i = (10^(gain/20) - 1) |a_i| / max |a|
 
-     B_i(z) = (1 - r^2)/2 (1 - z^-2) / (1 - 2 r cos(theta) z^-1 + r^2 z^-2)      r = e^(-sigma_i/rate), theta = 2 pi f_i/rate
+     B_i(z) = (1 - r^2)/2 (1 - z^-2) / (1 - 2 r cos(theta) z^-1 + r^2 z^-2)      r = e^(-sigma_i/rate), theta = 2 pi
+   f_i/rate
 
-   B_i has the mode's own poles, hence its bandwidth, and zeros at 0 Hz and half the rate; its gain is 1, without phase, at its peak (where cos is
-   2 r cos(theta)/(1 + r^2): at the mode but for a share (sigma/omega)^2/2), and 2 sigma s/(s^2 + 2 sigma s + sigma^2 + omega^2) as the rate grows. |a_i| is
-   the mode's greatest gain on the contact's way (of 65 instants evenly spaced), in the quantity that its table holds; those of greatest |a| count,
-   `modes` of them. Where poles differ from place to place they are those of the place where the mode is strongest. The filter does not move.
+   B_i has the mode's own poles, hence its bandwidth, and zeros at 0 Hz and half the rate; its gain is 1, without phase,
+   at its peak (where cos is 2 r cos(theta)/(1 + r^2): at the mode but for a share (sigma/omega)^2/2), and 2 sigma
+   s/(s^2 + 2 sigma s + sigma^2 + omega^2) as the rate grows. |a_i| is the mode's greatest gain on the contact's way (of
+   65 instants evenly spaced), in the quantity that its table holds; those of greatest |a| count, `modes` of them. Where
+   poles differ from place to place they are those of the place where the mode is strongest. The filter does not move.
 
-   In series with the mode itself B_i is a double pole: what is enhanced begins like sigma t e^(-sigma t), a gammatone of gamma 2, which is Hermes' model
-   (gammatone.c): the paper names both for the same reason.
+   In series with the mode itself B_i is a double pole: what is enhanced begins like sigma t e^(-sigma t), a gammatone
+   of gamma 2, which is Hermes' model (gammatone.c): the paper names both for the same reason.
 
-   By the engine of resonators.h, whose modes ring as Im(A p^n): A = G (p - 1/p)/Im p, G = (1 - r^2)/2, and what is left of the first sample. */
+   By the engine of resonators.h, whose modes ring as Im(A p^n): A = G (p - 1/p)/Im p, G = (1 - r^2)/2, and what is left
+   of the first sample. */
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +33,7 @@ enum { ENHANCE_INSTANTS = 64, ENHANCE_RAMP = 64 };
 struct enhance_bank {
     struct resonators *bank;
     struct modes_point to;
-    double direct;           /* factor on the force itself */
+    double direct; /* factor on the force itself */
     double y[STAGE_BLOCK];
 };
 
@@ -55,8 +58,7 @@ static int enhance_next(const struct modes *m, double *size, double *was)
 {
     int best = -1;
     for (int i = 0; i < m->n; i++)
-        if (size[i] > 0 && m->decay[i] > 0 && m->frequency[i] > 0 && (best < 0 || size[i] > size[best]))
-            best = i;
+        if (size[i] > 0 && m->decay[i] > 0 && m->frequency[i] > 0 && (best < 0 || size[i] > size[best])) best = i;
     if (best >= 0) {
         *was = size[best];
         size[best] = 0;
@@ -64,7 +66,8 @@ static int enhance_next(const struct modes *m, double *size, double *was)
     return best;
 }
 
-/* Time until (x/tau)^(gamma-1) (1 + g x/gamma) e^-x, the mode's own response in series with g B, is 80 dB below its greatest value. */
+/* Time until (x/tau)^(gamma-1) (1 + g x/gamma) e^-x, the mode's own response in series with g B, is 80 dB below its
+ * greatest value. */
 static double enhance_ring(double g, int gamma, double decay)
 {
     double most = 0, x = 20;
@@ -81,7 +84,8 @@ static double enhance_ring(double g, int gamma, double decay)
 
 static void enhance_mode(struct enhance_bank *s, int i, double rate, double g)
 {
-    double r = real_exp(-s->to.decay[i] / rate), turn = 2 * s->to.frequency[i] / rate, c = real_cospi(turn), sine = real_sinpi(turn);
+    double r = real_exp(-s->to.decay[i] / rate), turn = 2 * s->to.frequency[i] / rate, c = real_cospi(turn),
+           sine = real_sinpi(turn);
     double half = 0.5 * (1 - r * r), im = half * (r * r + 1) / (r * r);
     s->to.re[i] = g * rate * half * (r * r - 1) * c / (r * r * sine);
     s->to.im[i] = g * rate * im;
@@ -94,14 +98,16 @@ static const struct modes *enhance_modes(const struct stage_run *r, int *gamma, 
 {
     const struct contact *c = r->contact;
     const struct ring_choice *choice = c->surface.response.choice;
-    if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e))
-        return NULL;
+    if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e)) return NULL;
     if (choice && !choice->recorded) {
         *gamma = choice->gamma;
         return &choice->modes;
     }
-    err_set(e, ERR_SCENE, "contact '%s': contact.enhance needs the surface's modes, and %s; give surface.response (a mode table), surface.object or surface.space, or remove "
-                          "contact.enhance", c->name, choice ? "its response is recorded" : "the surface has none");
+    err_set(e, ERR_SCENE,
+            "contact '%s': contact.enhance needs the surface's modes, and %s; give surface.response (a mode table), "
+            "surface.object or surface.space, or remove "
+            "contact.enhance",
+            c->name, choice ? "its response is recorded" : "the surface has none");
     return NULL;
 }
 
@@ -112,8 +118,7 @@ static bool enhance_open(struct stage_run *r, struct err *e)
     double rate = r->board->rate, boost = real_exp10(asked->gain / 20) - 1, was = 0, strongest = 0, ring = 0;
     int gamma = 1, n = 0;
     const struct modes *m = enhance_modes(r, &gamma, e);
-    if (!m)
-        return false;
+    if (!m) return false;
     double *size = enhance_sizes(m, r->board->trajectory, r->arena);
     s->to = modes_point_make(r->arena, m->n);
     s->direct = 1;
@@ -125,9 +130,16 @@ static bool enhance_open(struct stage_run *r, struct err *e)
         ring = fmax(ring, enhance_ring(boost * was / strongest, gamma, m->decay[i]));
     }
     if (n == 0)
-        return err_set(e, ERR_SCENE, "contact '%s': contact.enhance: no mode of %s that is damped moves where the contact goes; remove contact.enhance", r->contact->name, m->name);
-    s->bank = resonators_make(r->arena, &(struct resonators_ask){.n = n, .quantity = MODES_VELOCITY, .rate = rate, .frequency = s->to.frequency,
-                                                                 .decay = s->to.decay, .ramp = ENHANCE_RAMP});
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': contact.enhance: no mode of %s that is damped moves where the contact goes; "
+                       "remove contact.enhance",
+                       r->contact->name, m->name);
+    s->bank = resonators_make(r->arena, &(struct resonators_ask){.n = n,
+                                                                 .quantity = MODES_VELOCITY,
+                                                                 .rate = rate,
+                                                                 .frequency = s->to.frequency,
+                                                                 .decay = s->to.decay,
+                                                                 .ramp = ENHANCE_RAMP});
     resonators_set(s->bank, &s->to);
     r->board->ring = fmax(r->board->ring, ring);
     r->state = s;

@@ -1,5 +1,6 @@
-/* output.quantity: force. The contact force is played as it is, in newtons times the contact's gain, as papers/002 section III-B ("raw forces") and 004 do:
-   the part of a rolling sound that is due to the action alone. Nothing rings; what a body would do under the force is not computed. */
+/* output.quantity: force. The contact force is played as it is, in newtons times the contact's gain, as papers/002
+   section III-B ("raw forces") and 004 do: the part of a rolling sound that is due to the action alone. Nothing rings;
+   what a body would do under the force is not computed. */
 #include "response/modes.h"
 #include "scene/rules.h"
 #include "stage.h"

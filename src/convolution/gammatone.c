@@ -43,8 +43,7 @@
 
 void gammatone_gains(int gamma, int n, const double *decay, const struct modes_point *p)
 {
-    if (gamma <= 1)
-        return;
+    if (gamma <= 1) return;
     for (int i = 0; i < n; i++) {
         double c = EULER * decay[i] / (gamma - 1), all = c;
         for (int k = 2; k < gamma; k++)
@@ -72,16 +71,12 @@ static double fallen(int gamma, double x)
     return NEPER * (x - m - m * real_log(x / m));
 }
 
-double gammatone_fallen(int gamma, double decibel)
-{
-    return gamma > 1 ? fallen(gamma, decibel / NEPER) : decibel;
-}
+double gammatone_fallen(int gamma, double decibel) { return gamma > 1 ? fallen(gamma, decibel / NEPER) : decibel; }
 
 double gammatone_decibel(int gamma, double decibel)
 {
     double m = gamma - 1, x = decibel / NEPER + m;
-    if (gamma <= 1)
-        return decibel;
+    if (gamma <= 1) return decibel;
     for (int i = 0; i < 100; i++) /* x = d + m + m log(x/m): a contraction above m, from below */
         x = decibel / NEPER + m + m * real_log(x / m);
     return NEPER * x;
@@ -206,10 +201,8 @@ INLINE struct lane lane_take(const struct group *g, int l, int gamma)
                      .si = g->si[l],
                      .pr = g->pr[l],
                      .pi = g->pi[l]};
-    if (gamma > 2)
-        v.cr = g->zr[2][l], v.ci = g->zi[2][l];
-    if (gamma > 3)
-        v.dr = g->zr[3][l], v.di = g->zi[3][l];
+    if (gamma > 2) v.cr = g->zr[2][l], v.ci = g->zi[2][l];
+    if (gamma > 3) v.dr = g->zr[3][l], v.di = g->zi[3][l];
     return v;
 }
 
@@ -217,10 +210,8 @@ INLINE void lane_keep(struct group *g, int l, const struct lane *v, int gamma)
 {
     g->zr[0][l] = v->ar, g->zi[0][l] = v->ai;
     g->zr[1][l] = v->br, g->zi[1][l] = v->bi;
-    if (gamma > 2)
-        g->zr[2][l] = v->cr, g->zi[2][l] = v->ci;
-    if (gamma > 3)
-        g->zr[3][l] = v->dr, g->zi[3][l] = v->di;
+    if (gamma > 2) g->zr[2][l] = v->cr, g->zi[2][l] = v->ci;
+    if (gamma > 3) g->zr[3][l] = v->dr, g->zi[3][l] = v->di;
     g->gr[l] = v->gr, g->gi[l] = v->gi;
 }
 
@@ -251,22 +242,13 @@ INLINE void ring_group(struct group *restrict g, const double *restrict f, doubl
 }
 
 LANES_CLONES
-static void ring_2(struct group *g, const double *f, double (*sums)[LANES], int n)
-{
-    ring_group(g, f, sums, n, 2);
-}
+static void ring_2(struct group *g, const double *f, double (*sums)[LANES], int n) { ring_group(g, f, sums, n, 2); }
 
 LANES_CLONES
-static void ring_3(struct group *g, const double *f, double (*sums)[LANES], int n)
-{
-    ring_group(g, f, sums, n, 3);
-}
+static void ring_3(struct group *g, const double *f, double (*sums)[LANES], int n) { ring_group(g, f, sums, n, 3); }
 
 LANES_CLONES
-static void ring_4(struct group *g, const double *f, double (*sums)[LANES], int n)
-{
-    ring_group(g, f, sums, n, 4);
-}
+static void ring_4(struct group *g, const double *f, double (*sums)[LANES], int n) { ring_group(g, f, sums, n, 4); }
 
 /* A group takes part when it rings, or when there is force and a gain to launch it. */
 static void find_active(struct gammatone_bank *g, bool force)
@@ -276,8 +258,7 @@ static void find_active(struct gammatone_bank *g, bool force)
         struct group *v = &g->group[k];
         bool deaf = scaled_is_zero(v->gr, LANES) && scaled_is_zero(v->gi, LANES) && scaled_is_zero(v->tr, LANES) &&
                     scaled_is_zero(v->ti, LANES);
-        if (v->awake || (force && !deaf))
-            g->active[g->n_active++] = v;
+        if (v->awake || (force && !deaf)) g->active[g->n_active++] = v;
     }
 }
 
@@ -301,8 +282,7 @@ void gammatone_bank_run(struct gammatone_bank *g, const double *f, double *y, in
 {
     static void (*const ring[GAMMATONE_MOST + 1])(struct group *, const double *, double(*)[LANES],
                                                   int) = {NULL, NULL, ring_2, ring_3, ring_4};
-    if (frames < 1)
-        return;
+    if (frames < 1) return;
     set_targets(g, to);
     set_steps(g, frames);
     find_active(g, !scaled_is_zero(f, frames));
@@ -324,7 +304,6 @@ void gammatone_bank_run(struct gammatone_bank *g, const double *f, double *y, in
 int gammatone_bank_silent(const struct gammatone_bank *g)
 {
     for (int k = 0; k < g->groups; k++)
-        if (g->group[k].awake)
-            return 0;
+        if (g->group[k].awake) return 0;
     return 1;
 }

@@ -173,27 +173,15 @@ INLINE void gather(struct clusters *restrict g, int terms)
 }
 
 LANES_CLONES
-static void gather_1(struct clusters *g)
-{
-    gather(g, 1);
-}
+static void gather_1(struct clusters *g) { gather(g, 1); }
 
 LANES_CLONES
-static void gather_5(struct clusters *g)
-{
-    gather(g, 5);
-}
+static void gather_5(struct clusters *g) { gather(g, 5); }
 
 LANES_CLONES
-static void gather_7(struct clusters *g)
-{
-    gather(g, 7);
-}
+static void gather_7(struct clusters *g) { gather(g, 7); }
 
-static int terms_of(const struct clusters *g)
-{
-    return g->reach == 0.0 ? 1 : g->reach < REACH_5 ? 5 : 7;
-}
+static int terms_of(const struct clusters *g) { return g->reach == 0.0 ? 1 : g->reach < REACH_5 ? 5 : 7; }
 
 static void cluster_gather(struct clusters *g)
 {
@@ -264,22 +252,13 @@ INLINE void sound(const struct clusters *restrict g, double (*restrict sums)[LAN
 }
 
 LANES_CLONES
-static void sound_1(const struct clusters *g, double (*sums)[LANES], int block)
-{
-    sound(g, sums, block, 1);
-}
+static void sound_1(const struct clusters *g, double (*sums)[LANES], int block) { sound(g, sums, block, 1); }
 
 LANES_CLONES
-static void sound_5(const struct clusters *g, double (*sums)[LANES], int block)
-{
-    sound(g, sums, block, 5);
-}
+static void sound_5(const struct clusters *g, double (*sums)[LANES], int block) { sound(g, sums, block, 5); }
 
 LANES_CLONES
-static void sound_7(const struct clusters *g, double (*sums)[LANES], int block)
-{
-    sound(g, sums, block, 7);
-}
+static void sound_7(const struct clusters *g, double (*sums)[LANES], int block) { sound(g, sums, block, 7); }
 
 static void cluster_sound(const struct clusters *g, double (*sums)[LANES], int block)
 {
@@ -362,8 +341,7 @@ static void grow_groups(struct ringing *r)
 static int free_lane(struct ringing *r)
 {
     if (r->free < 0) {
-        if (r->groups == r->room)
-            grow_groups(r);
+        if (r->groups == r->room) grow_groups(r);
         int at = r->groups++ * LANES;
         for (int l = LANES - 1; l >= 0; l--) { /* the lowest is taken first */
             r->lane[at + l].next = r->free;
@@ -431,8 +409,7 @@ static void lane_sweep(struct ringing *r, int l)
             v->soonest = fmin(v->soonest, rows[k].until[l % LANES]);
             k++;
         }
-    if (v->count == 0)
-        lane_free(r, l);
+    if (v->count == 0) lane_free(r, l);
 }
 
 static void sweep(struct ringing *r)
@@ -444,8 +421,7 @@ static void sweep(struct ringing *r)
                 lane_sweep(r, l);
                 dropped = true;
             }
-        if (dropped)
-            measure(r, k);
+        if (dropped) measure(r, k);
     }
 }
 
@@ -491,8 +467,7 @@ static int cluster_for(struct ringing *r, const struct freed *node, const double
 {
     double d[2];
     for (int l = r->first[node->component]; l >= 0; l = r->lane[l].next)
-        if (apart(r, s, r->lane[l].s, d) < REACH)
-            return l;
+        if (apart(r, s, r->lane[l].s, d) < REACH) return l;
     return cluster_open(r, node, s, life);
 }
 
@@ -530,8 +505,7 @@ static void insert(struct ringing *r, int k, double re, double im)
         g->rows[last].until[l] = fmax(g->rows[last].until[l], until);
         return;
     }
-    if (v->count == g->room)
-        grow_rows(g, r->arena);
+    if (v->count == g->room) grow_rows(g, r->arena);
     struct row *row = &g->rows[v->count++];
     row->xr[l] = re, row->xi[l] = im;
     row->dr[l] = r->dr[k], row->di[l] = r->di[k];
@@ -564,8 +538,7 @@ static void ringing_add(struct ringing *r, const struct freed *freed, int count)
 
 static void ringing_run(struct ringing *r, double (*sums)[LANES])
 {
-    if ((r->now / r->block) % SWEEP == 0)
-        sweep(r);
+    if ((r->now / r->block) % SWEEP == 0) sweep(r);
     for (int k = 0; k < r->groups; k++)
         if (r->group[k].used) {
             cluster_gather(&r->group[k]);
@@ -636,10 +609,7 @@ struct launch *launch_open(const struct launch_ask *ask, launch_point *point, vo
     return l;
 }
 
-void launch_close(struct launch *l)
-{
-    arena_close(l->arena);
-}
+void launch_close(struct launch *l) { arena_close(l->arena); }
 
 /* ------------------------------------------------------------------ nodes */
 
@@ -708,10 +678,7 @@ static void rest(struct launch *l)
 }
 
 /* The order of every sum over lanes. */
-static double lanes_sum(const double *s)
-{
-    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-}
+static double lanes_sum(const double *s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
 
 /* n frames inside one block. */
 static void run_some(struct launch *l, const double *f, double *y, int n)
@@ -729,13 +696,11 @@ static void run_some(struct launch *l, const double *f, double *y, int n)
     }
     for (int q = 0; q < NODES; q++) {
         struct node *v = &l->node[q];
-        if (force && !v->known)
-            set_node(l, v, (double)(l->now - at + (q - 1) * (long)l->ask.hop));
+        if (force && !v->known) set_node(l, v, (double)(l->now - at + (q - 1) * (long)l->ask.hop));
         v->awake = v->awake || force;
         for (int k = 0; k < l->groups; k++)
             l->active[k] = &v->group[k];
-        if (v->awake)
-            resonator_group_ring(l->active, l->groups, share[q], l->sums + from, n, RESONATOR_STEADY);
+        if (v->awake) resonator_group_ring(l->active, l->groups, share[q], l->sums + from, n, RESONATOR_STEADY);
     }
     for (int j = 0; j < n; j++) {
         double sum = lanes_sum(l->sums[from + j]);
@@ -744,8 +709,7 @@ static void run_some(struct launch *l, const double *f, double *y, int n)
         y[j] += sum;
     }
     l->now += n;
-    if (l->now % l->block == 0)
-        rest(l);
+    if (l->now % l->block == 0) rest(l);
 }
 
 void launch_run(struct launch *l, const double *f, double *y, long frames)
@@ -753,8 +717,7 @@ void launch_run(struct launch *l, const double *f, double *y, long frames)
     for (long done = 0; done < frames && l->ask.n > 0;) {
         long left = l->block - l->now % l->block, n = frames - done < left ? frames - done : left;
         if (l->now % l->block == 0) {
-            if (l->now > 0 && l->now % l->ask.hop == 0)
-                next_node(l);
+            if (l->now > 0 && l->now % l->ask.hop == 0) next_node(l);
             memset(l->sums, 0, sizeof l->sums);
             ringing_run(l->ringing, l->sums);
         }

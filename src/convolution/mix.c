@@ -1,4 +1,5 @@
-/* Total response: the surface's sound and the scraper's or ball's (papers/000 section 2.4), times the contact's gain, at each listening place. */
+/* Total response: the surface's sound and the scraper's or ball's (papers/000 section 2.4), times the contact's gain,
+ * at each listening place. */
 #include <string.h>
 
 #include "num/scaled.h"
@@ -33,10 +34,8 @@ static bool mix_run(struct stage_run *r, long from, long to, struct err *e)
     long count = (to - from) * b->channels;
     memset(y, 0, (size_t)count * sizeof *y);
     for (int k = 0; k < 2; k++) {
-        if (board_has(b, parts[k]))
-            scaled_add(y, gain, board_at(b, parts[k], from), count);
-        if (both)
-            b->energy[k] += scaled_squares(board_at(b, parts[k], from), count);
+        if (board_has(b, parts[k])) scaled_add(y, gain, board_at(b, parts[k], from), count);
+        if (both) b->energy[k] += scaled_squares(board_at(b, parts[k], from), count);
     }
     return true;
 }

@@ -146,14 +146,11 @@ static void prepare(struct overlap_add *o, int k)
 /* What response k makes of block `now` of the force. */
 static void launch(struct overlap_add *o, int k, const double *f)
 {
-    if (o->source.share && !o->source.share(o->source.self, o->now, BLOCK, k, o->share))
-        return;
+    if (o->source.share && !o->source.share(o->source.self, o->now, BLOCK, k, o->share)) return;
     for (int i = 0; i < BLOCK; i++)
         o->share[i] = o->source.share ? o->share[i] * f[i] : f[i];
-    if (scaled_is_zero(o->share, BLOCK))
-        return;
-    if (!o->h[k].re)
-        prepare(o, k);
+    if (scaled_is_zero(o->share, BLOCK)) return;
+    if (!o->h[k].re) prepare(o, k);
     memcpy(o->time, o->share, BLOCK * sizeof *o->time);
     memset(o->time + BLOCK, 0, BLOCK * sizeof *o->time);
     fft_forward(o->fft, o->time, o->x.re, o->x.im);
@@ -190,8 +187,7 @@ static void run_block(struct overlap_add *o, const double *f)
 void overlap_add_run(struct overlap_add *o, const double *f, double *y, long frames)
 {
     for (long done = 0; done < frames;) {
-        if (o->now == o->next * BLOCK)
-            run_block(o, f + done);
+        if (o->now == o->next * BLOCK) run_block(o, f + done);
         long left = o->next * BLOCK - o->now, n = left < frames - done ? left : frames - done;
         for (long i = 0; i < n; i++)
             y[done + i] += o->sound[BLOCK - left + i];
@@ -226,10 +222,7 @@ static double window_at(double u)
 }
 
 /* First sample of node k's window. */
-static long window_start(const struct overlap_add_moving *o, long k)
-{
-    return (k - ORDER / 2) * o->hop;
-}
+static long window_start(const struct overlap_add_moving *o, long k) { return (k - ORDER / 2) * o->hop; }
 
 struct overlap_add_moving *overlap_add_moving_open(size_t length, int hop, enum overlap_add_reading reading,
                                                    overlap_add_response *response, void *self)
@@ -268,10 +261,7 @@ void overlap_add_moving_close(struct overlap_add_moving *o)
     arena_close(o->arena);
 }
 
-int overlap_add_moving_ahead(const struct overlap_add_moving *o)
-{
-    return o->count - 1;
-}
+int overlap_add_moving_ahead(const struct overlap_add_moving *o) { return o->count - 1; }
 
 /* The force that a node's response meets, to x; false: there is none. n samples are under the window, the first of them
    f[0]. */
@@ -279,8 +269,7 @@ static bool gather(struct overlap_add_moving *o, const double *f, int n, const d
 {
     bool readout = o->reading == OVERLAP_ADD_READOUT;
     size_t before = readout ? o->length - 1 : 0, first = before - o->oldest;
-    if (scaled_is_zero(f, n) && !(readout && o->quiet < (long)before))
-        return false;
+    if (scaled_is_zero(f, n) && !(readout && o->quiet < (long)before)) return false;
     memset(o->x, 0, o->size * sizeof *o->x);
     if (readout) {
         memcpy(o->x, o->past + o->oldest, first * sizeof *o->x);
@@ -297,8 +286,7 @@ static void run_node(struct overlap_add_moving *o, const double *f)
     long k = o->next++;
     int skip = (int)(o->now - window_start(o, k)), n = o->count - skip;
     const double *window = o->window + skip;
-    if (!gather(o, f, n, window))
-        return;
+    if (!gather(o, f, n, window)) return;
     memset(o->h, 0, o->size * sizeof *o->h);
     o->response(o->self, k, o->h, o->length);
     fft_forward(o->fft, o->x, o->force.re, o->force.im);
@@ -317,8 +305,7 @@ static void remember(struct overlap_add_moving *o, const double *f, long n)
     size_t before = o->length - 1;
     for (long i = 0; o->reading == OVERLAP_ADD_READOUT && i < n; i++) {
         o->quiet = f[i] != 0.0 ? 0 : o->quiet + 1;
-        if (before)
-            o->past[o->oldest] = f[i];
+        if (before) o->past[o->oldest] = f[i];
         o->oldest = o->oldest + 1 >= before ? 0 : o->oldest + 1;
     }
 }

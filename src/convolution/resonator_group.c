@@ -51,7 +51,8 @@ INLINE void lane_keep(struct resonator_group *g, int l, const struct lane *v, en
 }
 
 /* Adds the lanes' Im z of `n` samples to sums[n][LANES]. */
-INLINE void ring_all(struct resonator_group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n, enum resonator_change change)
+INLINE void ring_all(struct resonator_group *const *active, int n_active, const double *restrict f,
+                     double (*restrict sums)[LANES], int n, enum resonator_change change)
 {
     int i = 0;
     for (; i + SPAN <= n; i += SPAN) {
@@ -82,24 +83,30 @@ INLINE void ring_all(struct resonator_group *const *active, int n_active, const 
 }
 
 LANES_CLONES
-static void ring_steady(struct resonator_group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
+static void ring_steady(struct resonator_group *const *active, int n_active, const double *restrict f,
+                        double (*restrict sums)[LANES], int n)
 {
     ring_all(active, n_active, f, sums, n, RESONATOR_STEADY);
 }
 
 LANES_CLONES
-static void ring(struct resonator_group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
+static void ring(struct resonator_group *const *active, int n_active, const double *restrict f,
+                 double (*restrict sums)[LANES], int n)
 {
     ring_all(active, n_active, f, sums, n, RESONATOR_RAMPS);
 }
 
 LANES_CLONES
-static void ring_gliding(struct resonator_group *const *active, int n_active, const double *restrict f, double (*restrict sums)[LANES], int n)
+static void ring_gliding(struct resonator_group *const *active, int n_active, const double *restrict f,
+                         double (*restrict sums)[LANES], int n)
 {
     ring_all(active, n_active, f, sums, n, RESONATOR_GLIDES);
 }
 
-void resonator_group_ring(struct resonator_group *const *active, int n_active, const double *f, double (*sums)[LANES], int n, enum resonator_change change)
+void resonator_group_ring(struct resonator_group *const *active, int n_active, const double *f, double (*sums)[LANES],
+                          int n, enum resonator_change change)
 {
-    (change == RESONATOR_GLIDES ? ring_gliding : change == RESONATOR_STEADY ? ring_steady : ring)(active, n_active, f, sums, n);
+    (change == RESONATOR_GLIDES   ? ring_gliding
+     : change == RESONATOR_STEADY ? ring_steady
+                                  : ring)(active, n_active, f, sums, n);
 }

@@ -5,9 +5,10 @@
        z_i(n) = p_i(n) z_i(n-1) + A_i(n) f(n) / rate
        y(n) = sum_i Im z_i(n) - f(n) sum_i Im A_i(n) / (2 rate) + f(n) D(n)
 
-   Poles that do not move (`fixed` of rasp-scene(5)): y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m) with half of h(0+) at m = n
-   (trapezium rule at the jump), to rounding. Poles that do (`glide`): the recursion is the definition, with p and A of the place x(n).
-   D = sum_i Im(A_i/s_i) is the direct term of a table in acceleration and 0 otherwise (modes_direct).
+   Poles that do not move (`fixed` of rasp-scene(5)): y(n) = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f(m) with half
+   of h(0+) at m = n (trapezium rule at the jump), to rounding. Poles that do (`glide`): the recursion is the
+   definition, with p and A of the place x(n). D = sum_i Im(A_i/s_i) is the direct term of a table in acceleration and 0
+   otherwise (modes_direct).
 
    symbol  meaning                               unit
    A       complex gain at the contact           table's quantity per N s
@@ -15,20 +16,23 @@
    z       state of a mode                       table's quantity
    y       sound                                 table's quantity
 
-   Between evaluations. In a call of n frames, sample i (0 .. n-1) uses last + (i+1) (new - last)/n, for gains and for discrete poles,
-   summed up step by step; after the call both are `new` exactly. Against gains and poles of every sample the error is of order n^2. A chord
-   of the unit circle lies inside it: a pole whose angle changes by dtheta within a call is damped by dtheta^2 (1 - 1/n^2)/12 nepers per sample
-   more, and by nothing when poles are given for every sample (n = 1). A call in which nothing changes runs through the same arithmetic,
-   so that then the output does not depend on how the frames are cut into calls.
-   Stability: |z| never grows by more than |A f|/rate, whatever gains and poles do, for a chord of the unit disk stays in it (|p| < 1;
-   |p| = 1 for a mode without decay). A direct-form biquad under the same modulation blows up (test_glide.c).
-   Silence: after 256 frames without force, states become zero that have fallen in both parts below 1e-22 (-440 dB) of the loudest state there was, which is
-   below the rounding of any sound that has not itself fallen by as much; after a call with force those below 1e-200. A group of eight modes that are
-   zero and get no force costs nothing. Nothing becomes subnormal on the way unless a mode falls by 1e-107 within one call.
+   Between evaluations. In a call of n frames, sample i (0 .. n-1) uses last + (i+1) (new - last)/n, for gains and for
+   discrete poles, summed up step by step; after the call both are `new` exactly. Against gains and poles of every
+   sample the error is of order n^2. A chord of the unit circle lies inside it: a pole whose angle changes by dtheta
+   within a call is damped by dtheta^2 (1 - 1/n^2)/12 nepers per sample more, and by nothing when poles are given for
+   every sample (n = 1). A call in which nothing changes runs through the same arithmetic, so that then the output does
+   not depend on how the frames are cut into calls. Stability: |z| never grows by more than |A f|/rate, whatever gains
+   and poles do, for a chord of the unit disk stays in it (|p| < 1; |p| = 1 for a mode without decay). A direct-form
+   biquad under the same modulation blows up (test_glide.c). Silence: after 256 frames without force, states become zero
+   that have fallen in both parts below 1e-22 (-440 dB) of the loudest state there was, which is below the rounding of
+   any sound that has not itself fallen by as much; after a call with force those below 1e-200. A group of eight modes
+   that are zero and get no force costs nothing. Nothing becomes subnormal on the way unless a mode falls by 1e-107
+   within one call.
 
-   Speed: eight modes are the lanes of a group (6 multiplications and 7 additions per mode-sample, which is what bounds it; poles that
-   move take 2 additions more, gains that stand still 2 less), four samples are done before a group's state goes back to memory; tests/bench/resonators.c measures it.
-   Sums run over the groups in order and then over the lanes in one fixed tree, so the bits are the same on every instruction set. */
+   Speed: eight modes are the lanes of a group (6 multiplications and 7 additions per mode-sample, which is what bounds
+   it; poles that move take 2 additions more, gains that stand still 2 less), four samples are done before a group's
+   state goes back to memory; tests/bench/resonators.c measures it. Sums run over the groups in order and then over the
+   lanes in one fixed tree, so the bits are the same on every instruction set. */
 #include "convolution/resonators.h"
 
 #include <math.h>
@@ -41,7 +45,11 @@
 #include "num/scaled.h"
 #include "num/vecmath.h"
 
-enum { PIECE_MIN = 64, PIECE_MAX = 256, WATCH = 256 }; /* frames whose lane sums are kept at a time; from one look at what has died away to the next */
+enum {
+    PIECE_MIN = 64,
+    PIECE_MAX = 256,
+    WATCH = 256
+}; /* frames whose lane sums are kept at a time; from one look at what has died away to the next */
 
 struct resonators {
     int n, quantity, groups, n_active, piece;
@@ -54,7 +62,7 @@ struct resonators {
     double *last_frequency, *last_decay;          /* [n] of the poles that were given last */
     double *size, *turn, *rise;                   /* [n] room for the evaluation of poles */
     struct resonator_group *group, **active;
-    double (*sums)[LANES];                        /* [piece] */
+    double (*sums)[LANES]; /* [piece] */
 };
 
 static const double *copy(struct arena *a, const double *x, int n)
@@ -68,7 +76,8 @@ static const double *copy(struct arena *a, const double *x, int n)
 struct resonators *resonators_make(struct arena *a, const struct resonators_ask *ask)
 {
     struct resonators *r = ARENA_TAKE(a, struct resonators, 1);
-    *r = (struct resonators){.n = ask->n, .quantity = ask->quantity, .glides = ask->glides, .rate = ask->rate, .per_rate = 1.0 / ask->rate};
+    *r = (struct resonators){
+        .n = ask->n, .quantity = ask->quantity, .glides = ask->glides, .rate = ask->rate, .per_rate = 1.0 / ask->rate};
     r->groups = (r->n + LANES - 1) / LANES;
     r->group = ARENA_TAKE(a, struct resonator_group, r->groups + 1);
     r->active = ARENA_TAKE(a, struct resonator_group *, r->groups + 1);
@@ -91,18 +100,16 @@ struct resonators *resonators_make(struct arena *a, const struct resonators_ask 
 }
 
 /* The order of every sum over lanes. */
-static double lanes_sum(const double *s)
-{
-    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-}
+static double lanes_sum(const double *s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
 
-/* Targets of poles that move: e^(-decay/rate) e^(j 2 pi f/rate). Those that are where they were need not be found again, and the call is one of gains alone: its bits are the same. */
+/* Targets of poles that move: e^(-decay/rate) e^(j 2 pi f/rate). Those that are where they were need not be found
+ * again, and the call is one of gains alone: its bits are the same. */
 static void set_poles(struct resonators *r, const struct modes_point *to)
 {
     size_t n = (size_t)r->n, bytes = n * sizeof *to->frequency;
-    r->bends = n > 0 && !(r->posed && !memcmp(r->last_frequency, to->frequency, bytes) && !memcmp(r->last_decay, to->decay, bytes));
-    if (!r->bends)
-        return;
+    r->bends = n > 0 && !(r->posed && !memcmp(r->last_frequency, to->frequency, bytes) &&
+                          !memcmp(r->last_decay, to->decay, bytes));
+    if (!r->bends) return;
     memcpy(r->last_frequency, to->frequency, bytes);
     memcpy(r->last_decay, to->decay, bytes);
     r->posed = true;
@@ -131,11 +138,11 @@ static void set_targets(struct resonators *r, const struct modes_point *to)
             half[l] += 0.5 * g->ti[l];
         }
     }
-    if (r->glides)
-        set_poles(r, to);
+    if (r->glides) set_poles(r, to);
     r->through_target = -lanes_sum(half);
     if (r->n)
-        r->through_target += modes_direct(r->quantity, r->n, r->glides ? to->frequency : r->frequency, r->glides ? to->decay : r->decay, to);
+        r->through_target += modes_direct(r->quantity, r->n, r->glides ? to->frequency : r->frequency,
+                                          r->glides ? to->decay : r->decay, to);
 }
 
 static void set_steps(struct resonators *r, int frames)
@@ -177,7 +184,8 @@ void resonators_set(struct resonators *r, const struct modes_point *at)
     arrive(r);
 }
 
-/* The lanes of each sample as by lanes_sum, and what goes through directly; halves and quarters of all samples in turn, which keeps registers full. */
+/* The lanes of each sample as by lanes_sum, and what goes through directly; halves and quarters of all samples in turn,
+ * which keeps registers full. */
 LANES_CLONES
 static void fold(const struct resonators *r, const double *restrict f, double *restrict y, int n)
 {
@@ -202,9 +210,9 @@ static void find_active(struct resonators *r, bool force)
     r->n_active = 0;
     for (int k = 0; k < r->groups; k++) {
         struct resonator_group *g = &r->group[k];
-        bool deaf = scaled_is_zero(g->gr, LANES) && scaled_is_zero(g->gi, LANES) && scaled_is_zero(g->tr, LANES) && scaled_is_zero(g->ti, LANES);
-        if (g->awake || (force && !deaf))
-            r->active[r->n_active++] = g;
+        bool deaf = scaled_is_zero(g->gr, LANES) && scaled_is_zero(g->gi, LANES) && scaled_is_zero(g->tr, LANES) &&
+                    scaled_is_zero(g->ti, LANES);
+        if (g->awake || (force && !deaf)) r->active[r->n_active++] = g;
     }
 }
 
@@ -226,7 +234,8 @@ static double loudest(const struct resonators *r)
     return most;
 }
 
-/* Measured on a plate of glass, 2 to 4 s after a motion: the recursion took 218 instructions a sample at 1e-200 for all, and takes 140. */
+/* Measured on a plate of glass, 2 to 4 s after a motion: the recursion took 218 instructions a sample at 1e-200 for
+ * all, and takes 140. */
 static void flush(struct resonators *r, bool force)
 {
     r->loudest = loudest(r);
@@ -242,7 +251,8 @@ static void flush(struct resonators *r, bool force)
     }
 }
 
-/* At every WATCH-th frame of all, so that it does not depend on how they are cut into calls. force: there is some in this call. */
+/* At every WATCH-th frame of all, so that it does not depend on how they are cut into calls. force: there is some in
+ * this call. */
 static void watch(struct resonators *r, const double *f, int n, bool force)
 {
     bool forced = force && !scaled_is_zero(f, n);
@@ -250,19 +260,16 @@ static void watch(struct resonators *r, const double *f, int n, bool force)
         r->active[k]->awake = 1;
     r->forced = r->forced || forced;
     r->watched += n;
-    if (r->watched < WATCH)
-        return;
+    if (r->watched < WATCH) return;
     flush(r, r->forced);
     r->watched = 0;
     r->forced = false;
-    if (!force)
-        find_active(r, force);
+    if (!force) find_active(r, force);
 }
 
 void resonators_run(struct resonators *r, const double *f, double *y, int frames, const struct modes_point *to)
 {
-    if (frames < 1)
-        return;
+    if (frames < 1) return;
     set_targets(r, to);
     set_steps(r, frames);
     enum resonator_change change = r->bends ? RESONATOR_GLIDES : r->steady ? RESONATOR_STEADY : RESONATOR_RAMPS;
@@ -291,7 +298,4 @@ int resonators_awake(const struct resonators *r)
     return awake;
 }
 
-int resonators_silent(const struct resonators *r)
-{
-    return !resonators_awake(r);
-}
+int resonators_silent(const struct resonators *r) { return !resonators_awake(r); }

@@ -96,8 +96,7 @@ bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
         else if (!one)
             trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
         double out = modes_at(m, &(struct modes_where){p[0], p[1], 0}, &point);
-        if (out > REACH_SLACK)
-            return reach_told(m, r, p, out, e);
+        if (out > REACH_SLACK) return reach_told(m, r, p, out, e);
     }
     return true;
 }
@@ -115,8 +114,7 @@ static const struct modes *voice_modes(const struct ring *g, struct stage_run *r
 {
     const struct modes *m = &g->choice->modes;
     double *place = ARENA_TAKE(r->arena, double, 2);
-    if (g->body != RING_SURFACE || !m->object || !listener_place(ask, m->object, r->arena, place))
-        return m;
+    if (g->body != RING_SURFACE || !m->object || !listener_place(ask, m->object, r->arena, place)) return m;
     struct modes *own = ARENA_TAKE(r->arena, struct modes, 1);
     object_modes(m->object, ask->origin, place, m->object->n, r->arena, own);
     modes_drop_above(own, r->board->rate);
@@ -184,8 +182,7 @@ static void note_endless(const struct ring *g, const struct response *given, str
 
 static void note_warnings(const struct ring *g, struct stage_run *r)
 {
-    if (g->choice->note)
-        board_warn(r->board, g->choice->note);
+    if (g->choice->note) board_warn(r->board, g->choice->note);
     if (g->choice->high)
         board_warn(r->board, arena_format(r->arena,
                                           "%s: %d of its %d strongest modes lie%s above %g Hz, 0.45 of the sample "
@@ -213,11 +210,9 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
                        .channels = r->board->channels};
     g->voices = ARENA_TAKE(r->arena, struct ring_voice, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
-    if (g->choice->recorded)
-        return true;
+    if (g->choice->recorded) return true;
     for (int k = 0; k < g->channels; k++)
-        if (!voice_open(g, r, k, e))
-            return err_about(e, r->contact->name, ring_choice_about(r->contact, body));
+        if (!voice_open(g, r, k, e)) return err_about(e, r->contact->name, ring_choice_about(r->contact, body));
     note_ring(g, given, r->board);
     note_warnings(g, r);
     note_endless(g, given, r);
@@ -254,30 +249,25 @@ void ring_point_at(const struct ring *g, const struct ring_voice *v, double fram
     struct modes_where where = {v->modes->home[0], v->modes->home[1], 0};
     const struct trajectory *tr = g->board->trajectory;
     double last = tr->duration, t = (frame - (double)v->delay) / g->board->rate, end = t < 0 ? 0 : last;
-    if (g->stays)
-        t = fmin(fmax(t, 0), last);
+    if (g->stays) t = fmin(fmax(t, 0), last);
     if (g->body == RING_SURFACE && g->moves && (t < 0 || t > last)) {
         struct modes_where inside = ring_where(tr, fmin(fmax(2 * end - t, 0), last));
         ring_point_in(g, v, &inside, p);
-        if (returns(v->modes, tr, t))
-            return;
+        if (returns(v->modes, tr, t)) return;
         where = ring_where(tr, end);
         ring_point_in(g, v, &where, &v->end);
         mirror(v->n, &v->end, p);
         return;
     }
-    if (g->body == RING_SURFACE)
-        where = g->moves ? ring_where(tr, t) : ring_first_place(g->contact, tr);
+    if (g->body == RING_SURFACE) where = g->moves ? ring_where(tr, t) : ring_first_place(g->contact, tr);
     ring_point_in(g, v, &where, p);
 }
 
 void ring_put(const struct ring *g, int channel, long from, long to)
 {
     double *out = board_at(g->board, g->out, from) + channel;
-    if (!g->choice->recorded)
-        ring_alias_add(g->voices[channel].alias, g, &g->voices[channel], g->y, from, to);
-    if (g->channels == 1)
-        memcpy(out, g->y, (size_t)(to - from) * sizeof *out);
+    if (!g->choice->recorded) ring_alias_add(g->voices[channel].alias, g, &g->voices[channel], g->y, from, to);
+    if (g->channels == 1) memcpy(out, g->y, (size_t)(to - from) * sizeof *out);
     for (long n = 0; g->channels > 1 && n < to - from; n++)
         out[n * g->channels] = g->y[n];
 }

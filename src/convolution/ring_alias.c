@@ -49,10 +49,8 @@ static void taps_at(struct ring_alias *s, const struct ring *g, const struct rin
     *to = (struct known){.frame = frame};
     ring_point_at(g, v, (double)frame, &s->at);
     for (int i = 0; i < v->n; i++) {
-        if (s->at.re[i] == 0.0 && s->at.im[i] == 0.0)
-            continue;
-        if (!s->moves)
-            alias_taps(s->fit, s->at.frequency[i], s->at.decay[i], *s->re, *s->im);
+        if (s->at.re[i] == 0.0 && s->at.im[i] == 0.0) continue;
+        if (!s->moves) alias_taps(s->fit, s->at.frequency[i], s->at.decay[i], *s->re, *s->im);
         if (s->moves && s->separate)
             alias_add(s->fit, s->at.frequency[i], s->at.decay[i], (double[2]){s->at.re[i], s->at.im[i]}, to->tap);
         else
@@ -63,16 +61,14 @@ static void taps_at(struct ring_alias *s, const struct ring *g, const struct rin
 /* The piece that holds a frame. */
 static void find(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, long frame)
 {
-    if (s->start.frame >= 0 && (!s->moves || (frame >= s->start.frame && frame < s->end.frame)))
-        return;
+    if (s->start.frame >= 0 && (!s->moves || (frame >= s->start.frame && frame < s->end.frame))) return;
     long from = frame - frame % s->piece;
     if (s->moves && s->end.frame == from && s->start.frame >= 0)
         s->start = s->end;
     else
         taps_at(s, g, v, from, &s->start);
     s->end = s->start;
-    if (!s->moves)
-        return;
+    if (!s->moves) return;
     taps_at(s, g, v, from + s->piece, &s->end);
 }
 
@@ -138,8 +134,7 @@ static double hear(struct ring_alias *s, const struct ring *g, const struct ring
     long at = frame > v->delay ? frame : v->delay;
     for (int k = -ALIAS_REACH; k <= ALIAS_REACH; k++)
         any = any || (frame + k >= v->delay && f[k] != 0.0);
-    if (!any)
-        return 0;
+    if (!any) return 0;
     find(s, g, v, at);
     double u = share(s, at);
     for (int k = 0; k < ALIAS_TAPS; k++)
@@ -153,8 +148,7 @@ static void listen(struct ring_alias *s, const struct ring *g, const struct ring
 {
     const double *f = ring_force(g, v, from);
     long begin = v->delay;
-    if (to <= begin)
-        return;
+    if (to <= begin) return;
     for (long n = from <= begin ? begin - ALIAS_REACH : from; n < to; n++)
         y[(n < begin ? begin : n) - from] += hear(s, g, v, f + (n - from), n);
 }

@@ -113,8 +113,7 @@ static bool choose_reading(struct ring_choosing *c, enum ring_body body, struct 
                        "place; leave surface.moving out, or choose launch, glide or readout",
                        c->contact->name, m->name);
     }
-    if (!c->to->moves)
-        c->to->reading = MOVING_FIXED;
+    if (!c->to->moves) c->to->reading = MOVING_FIXED;
     return true;
 }
 
@@ -133,11 +132,9 @@ static bool gammatone_fits(const struct ring_choosing *c, struct err *e)
 {
     int asked = c->given->convolution, reading = c->to->reading;
     const char *name = c->contact->name;
-    if (c->to->gamma == 1)
-        return true;
+    if (c->to->gamma == 1) return true;
     for (int i = 0; i < c->to->modes.n; i++)
-        if (!(c->to->modes.slowest[i] > 0))
-            return undamped(c, i, e);
+        if (!(c->to->modes.slowest[i] > 0)) return undamped(c, i, e);
     if (reading == MOVING_GLIDE)
         return err_set(e, ERR_SCENE,
                        "contact '%s': surface.gammatone: %d: what glides begins at once%s; set surface.moving to "
@@ -160,8 +157,7 @@ static bool gammatone_fits(const struct ring_choosing *c, struct err *e)
 static double sound_end(const struct contact *c, const struct scene *s)
 {
     double end = 0;
-    if (!isnan(s->output.duration))
-        return fmax(s->output.duration - c->start, 0);
+    if (!isnan(s->output.duration)) return fmax(s->output.duration - c->start, 0);
     for (int i = 0; i < s->n_contacts; i++) {
         double duration = s->contacts[i].motion.duration;
         end = isnan(duration) ? HUGE_VAL : fmax(end, s->contacts[i].start + duration);
@@ -209,14 +205,11 @@ static const struct response *given_of(const struct contact *c, enum ring_body b
 static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct err *e)
 {
     static const char *const gammatones[] = {"surface.gammatone", "scraper.gammatone", "ball.gammatone"};
-    if (!read_modes(c, e))
-        return err_about(e, c->contact->name, ring_choice_about(c->contact, body));
-    if (!choose_reading(c, body, e))
-        return false;
+    if (!read_modes(c, e)) return err_about(e, c->contact->name, ring_choice_about(c->contact, body));
+    if (!choose_reading(c, body, e)) return false;
     if (!gammatone_fits(c, e))
         return err_about(e, c->contact->name, gammatones[body == RING_SURFACE ? 0 : ball_rolls(c->contact) ? 2 : 1]);
-    if (!choose_engine(c, e))
-        return false;
+    if (!choose_engine(c, e)) return false;
     const struct output *o = &c->scene->output;
     double moving = isnan(c->contact->motion.duration) ? 1 : c->contact->motion.duration,
            ring = isnan(o->tail) ? fmin(modes_ring_time(&c->to->modes, 80), 60) : o->tail;
@@ -240,8 +233,7 @@ bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_
 {
     const struct response *given = given_of(c, body);
     *choice = NULL;
-    if (!rules_responds(given) || (body == RING_SCRAPER && c->scraper.weight == 0))
-        return true;
+    if (!rules_responds(given) || (body == RING_SCRAPER && c->scraper.weight == 0)) return true;
     struct ring_choice *to = ARENA_TAKE(a, struct ring_choice, 1);
     struct ring_choosing me = {.contact = c,
                                .scene = s,
@@ -288,10 +280,7 @@ enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body
 #define SAMPLED 0.7           /* a mode and sample of an impulse response         */
 #define PARTITION (1 / 200.0) /* a sample of a response that is convolved as it is */
 
-static double recorded_work(double samples)
-{
-    return 70 + samples * PARTITION;
-}
+static double recorded_work(double samples) { return 70 + samples * PARTITION; }
 
 /* Nodes that ring at a time: those of each mode until they are dropped, at 100 dB or so. */
 static double alive(const struct ring_choice *c, double rate, double hop)
@@ -318,22 +307,14 @@ static double place_work(const struct ring_choice *c, const struct scene *s)
 static double work_of(const struct contact *c, const struct scene *s, enum ring_body body)
 {
     const struct ring_choice *choice = given_of(c, body)->choice;
-    if (!choice)
-        return 0;
-    if (choice->recorded)
-        return recorded_work((choice->folder ? 8 : 1) * choice->seconds * s->output.sample_rate);
+    if (!choice) return 0;
+    if (choice->recorded) return recorded_work((choice->folder ? 8 : 1) * choice->seconds * s->output.sample_rate);
     return place_work(choice, s) * listener_channels(&s->output) + choice->listening;
 }
 
-double ring_choice_surface_work(const struct contact *c, const struct scene *s)
-{
-    return work_of(c, s, RING_SURFACE);
-}
+double ring_choice_surface_work(const struct contact *c, const struct scene *s) { return work_of(c, s, RING_SURFACE); }
 
-double ring_choice_scraper_work(const struct contact *c, const struct scene *s)
-{
-    return work_of(c, s, RING_SCRAPER);
-}
+double ring_choice_scraper_work(const struct contact *c, const struct scene *s) { return work_of(c, s, RING_SCRAPER); }
 
 static unsigned turns_of(const struct contact *c, enum ring_body body)
 {

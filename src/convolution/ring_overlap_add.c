@@ -40,8 +40,7 @@ struct ring_overlap {
 static void locate(struct ring_overlap *s, long first, int n)
 {
     const struct trajectory *tr = s->ring.board->trajectory;
-    if (s->first == first && s->count == n)
-        return;
+    if (s->first == first && s->count == n) return;
     s->first = first;
     s->count = n;
     for (int i = 0; i < n; i++)
@@ -89,8 +88,7 @@ static bool recorded_inside(const struct ring_overlap *s, const struct stage_run
     struct modes_where first = ring_first_place(r->contact, tr);
     for (long i = 0; i <= (s->one ? 0 : tr->detail); i++) {
         double t = tr->duration * (double)i / (double)(tr->detail > 0 ? tr->detail : 1), p[2] = {first.x, first.y};
-        if (!s->one)
-            trajectory_continued(tr, t, p);
+        if (!s->one) trajectory_continued(tr, t, p);
         double out = places_at(s->set.places, p[0], p[1], &mix);
         if (out > 1e-9 && s->set.n > 1)
             return err_set(e, ERR_SCENE,
@@ -138,8 +136,7 @@ static bool read_file(struct ring_overlap *s, struct stage_run *r, const struct 
 static bool open_recorded(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)
 {
     size_t length = 0;
-    if (!(s->ring.choice->folder ? read_folder : read_file)(s, r, given, e))
-        return false;
+    if (!(s->ring.choice->folder ? read_folder : read_file)(s, r, given, e)) return false;
     for (int k = 0; k < s->set.n; k++)
         length = s->set.ir[k].length > length ? s->set.ir[k].length : length;
     r->board->unstated = true;
@@ -193,8 +190,7 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
 {
     struct ring_overlap *s = ARENA_TAKE(r->arena, struct ring_overlap, 1);
     r->state = s;
-    if (!ring_open(&s->ring, r, body, e))
-        return false;
+    if (!ring_open(&s->ring, r, body, e)) return false;
     if (!s->ring.choice->recorded)
         open_modes(s, r);
     else if (!open_recorded(s, r, body == RING_SURFACE ? &r->contact->surface.response : &r->contact->scraper.response,
@@ -228,10 +224,8 @@ static void ring_overlap_close(struct stage_run *r)
 {
     const struct ring_overlap *s = r->state;
     for (int k = 0; s && k < s->n; k++) {
-        if (s->voices[k].stays)
-            overlap_add_close(s->voices[k].stays);
-        if (s->voices[k].moves)
-            overlap_add_moving_close(s->voices[k].moves);
+        if (s->voices[k].stays) overlap_add_close(s->voices[k].stays);
+        if (s->voices[k].moves) overlap_add_moving_close(s->voices[k].moves);
     }
 }
 
@@ -247,15 +241,9 @@ static bool scraper_wanted(const struct contact *c, const struct scene *s)
     return ring_choice_engine(c, RING_SCRAPER) == RING_OVERLAP_ADD;
 }
 
-static bool surface_open(struct stage_run *r, struct err *e)
-{
-    return ring_overlap_open(r, RING_SURFACE, e);
-}
+static bool surface_open(struct stage_run *r, struct err *e) { return ring_overlap_open(r, RING_SURFACE, e); }
 
-static bool scraper_open(struct stage_run *r, struct err *e)
-{
-    return ring_overlap_open(r, RING_SCRAPER, e);
-}
+static bool scraper_open(struct stage_run *r, struct err *e) { return ring_overlap_open(r, RING_SCRAPER, e); }
 
 const struct stage ring_overlap_add_surface_stage = {
     .name = "surface_overlap_add",

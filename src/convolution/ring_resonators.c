@@ -75,8 +75,7 @@ static bool ring_bank_open(struct stage_run *r, enum ring_body body, struct err 
 {
     struct ring_bank *s = ARENA_TAKE(r->arena, struct ring_bank, 1);
     r->state = s;
-    if (!ring_open(&s->ring, r, body, e))
-        return false;
+    if (!ring_open(&s->ring, r, body, e)) return false;
     s->ramp = s->ring.moves ? s->ring.ramp : 1;
     s->banks = ARENA_TAKE(r->arena, struct bank, s->ring.channels);
     for (int k = 0; k < s->ring.channels; k++)
@@ -102,8 +101,7 @@ static void ring_next_ramp(struct ring_bank *s)
 static void ring_moving(struct ring_bank *s, long from, long to)
 {
     for (long n = from, end; n < to; n = end) {
-        if (n == s->ramp_end)
-            ring_next_ramp(s);
+        if (n == s->ramp_end) ring_next_ramp(s);
         end = s->ramp_end < to ? s->ramp_end : to;
         for (int k = 0; k < s->ring.channels; k++) {
             memcpy(s->ring.y, s->banks[k].y + s->ramp - (s->ramp_end - n), (size_t)(end - n) * sizeof *s->ring.y);
@@ -155,8 +153,7 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
 {
     struct ring_launch *s = ARENA_TAKE(r->arena, struct ring_launch, 1);
     r->state = s;
-    if (!ring_open(&s->ring, r, RING_SURFACE, e))
-        return false;
+    if (!ring_open(&s->ring, r, RING_SURFACE, e)) return false;
     s->voices = ARENA_TAKE(r->arena, struct launching, s->ring.channels);
     for (int k = 0; k < s->ring.channels; k++) {
         const struct ring_voice *v = &s->ring.voices[k];
@@ -187,8 +184,7 @@ static void ring_launch_close(struct stage_run *r)
 {
     const struct ring_launch *s = r->state;
     for (int k = 0; s && s->voices && k < s->ring.channels; k++)
-        if (s->voices[k].engine)
-            launch_close(s->voices[k].engine);
+        if (s->voices[k].engine) launch_close(s->voices[k].engine);
 }
 
 static bool ring_launch_wanted(const struct contact *c, const struct scene *s)
@@ -211,15 +207,9 @@ static bool scraper_wanted(const struct contact *c, const struct scene *s)
     return ring_choice_engine(c, RING_SCRAPER) == RING_RESONATORS;
 }
 
-static bool surface_open(struct stage_run *r, struct err *e)
-{
-    return ring_bank_open(r, RING_SURFACE, e);
-}
+static bool surface_open(struct stage_run *r, struct err *e) { return ring_bank_open(r, RING_SURFACE, e); }
 
-static bool scraper_open(struct stage_run *r, struct err *e)
-{
-    return ring_bank_open(r, RING_SCRAPER, e);
-}
+static bool scraper_open(struct stage_run *r, struct err *e) { return ring_bank_open(r, RING_SCRAPER, e); }
 
 const struct stage ring_resonators_surface_stage = {
     .name = "surface_resonators",

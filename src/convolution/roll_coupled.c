@@ -1,18 +1,21 @@
-/* `contact.model: roll_coupled`: a ball that rolls, may bounce, and pushes back and forth with the surface's modes (convolution/coupled.h has the equations,
-   papers/002 equations 1 to 3). This stage gives them what is under the ball, and keeps account.
+/* `contact.model: roll_coupled`: a ball that rolls, may bounce, and pushes back and forth with the surface's modes
+   (convolution/coupled.h has the equations, papers/002 equations 1 to 3). This stage gives them what is under the ball,
+   and keeps account.
 
-   The motion is the way of the centre of mass (papers/000 equation 18); it goes on under a ball that flies, at the same speed.
+   The motion is the way of the centre of mass (papers/000 equation 18); it goes on under a ball that flies, at the same
+   speed.
 
-   Steps. Each sub-interval of the force is K of them, K = ceil(contact_steps / (t_c rate oversampling)), t_c = coupled_contact_time of the stiffness
-   and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the
-   curve is scouted (roll_curve.h). s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
+   Steps. Each sub-interval of the force is K of them, K = ceil(contact_steps / (t_c rate oversampling)), t_c =
+   coupled_contact_time of the stiffness and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the
+   fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the curve is scouted (roll_curve.h).
+   s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
 
    The start. Dropped, the ball is at rest in the air, `drop` clear of the ground, whose modes are at rest, too: on
    rigid ground it touches after sqrt(2 h/g) with sqrt(2 g h), however soft the contact. Otherwise it lies there, bent
    into the ground, with no vertical speed. That the ground bore it before is known to the equations, but not to what
    sounds (ring_*), for which a weight that is there at once is a blow; so
-   the force rises over load.approach where the ball lies at the start, and falls over load.release at the motion's end (force/approach.c, scene/rules.h).
-   The equations and the account (ITEM_ROLL) are of the ball without them. */
+   the force rises over load.approach where the ball lies at the start, and falls over load.release at the motion's end
+   (force/approach.c, scene/rules.h). The equations and the account (ITEM_ROLL) are of the ball without them. */
 #include <math.h>
 
 #include "convolution/coupled.h"
@@ -27,24 +30,25 @@
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
 
-#define PAPER_SPEED 0.05     /* m/s */
-#define DEEP 0.1             /* of the radius: a rest deeper than that is told */
-#define STILL_BOUNCES 0.01   /* of the drop: a last flight higher than that is told */
+#define PAPER_SPEED 0.05   /* m/s */
+#define DEEP 0.1           /* of the radius: a rest deeper than that is told */
+#define STILL_BOUNCES 0.01 /* of the drop: a last flight higher than that is told */
 enum { LEG_STEPS = 4096, LEG_FRAMES = 128, SUBSTEPS_MOST = 1000, FEW_STEPS = 4 };
 
 struct rolling {
     struct coupled *ball;
     struct roll_curve curve;
     struct roll_ground ground;
-    int substeps, per_frame;  /* steps of a sub-interval, of a frame                          */
-    long longest;             /* frames of a leg, at most                                     */
-    long leg, end;            /* frames: where the leg at hand begins, and ends               */
-    double *force;            /* [longest * per_frame] N, over the steps of the leg           */
-    struct coupled_state *seen; /* [longest + 1] where the board asks for ITEM_ROLL: before each of its frames, and after the last */
+    int substeps, per_frame; /* steps of a sub-interval, of a frame                          */
+    long longest;            /* frames of a leg, at most                                     */
+    long leg, end;           /* frames: where the leg at hand begins, and ends               */
+    double *force;           /* [longest * per_frame] N, over the steps of the leg           */
+    struct coupled_state
+        *seen; /* [longest + 1] where the board asks for ITEM_ROLL: before each of its frames, and after the last */
     double mass, stiffness, gravity, drop;
-    double rest;              /* m, height of the ball that lies where the motion starts           */
-    double residual;          /* J, greatest at the legs' ends                                */
-    bool over;                /* the end has been told                                        */
+    double rest;     /* m, height of the ball that lies where the motion starts           */
+    double residual; /* J, greatest at the legs' ends                                */
+    bool over;       /* the end has been told                                        */
 };
 
 /* ------------------------------------------------------------------ opening */
@@ -69,12 +73,15 @@ static bool rolling_steps(struct rolling *w, const struct stage_run *r, struct e
     struct roll_curve scout;
     roll_curve_make(&scout, r, ROLL_CURVE_LEAST);
     double speed = fmax(fmax(PAPER_SPEED, sqrt(2 * w->gravity * w->drop)), roll_curve_fastest(&scout));
-    double time = coupled_contact_time(w->mass, w->stiffness, speed), substeps = substeps_for(r->scene->accuracy.contact_steps, time, b->rate * b->over);
+    double time = coupled_contact_time(w->mass, w->stiffness, speed),
+           substeps = substeps_for(r->scene->accuracy.contact_steps, time, b->rate * b->over);
     if (!(substeps <= SUBSTEPS_MOST))
         return err_about(e, NULL, "accuracy.contact_steps") ||
                err_set(e, ERR_SCENE,
-                       "contact '%s': an impact at %.3g m/s lasts %.3g s, and accuracy.contact_steps: %g in it would be %.6g steps per audio sample; lower accuracy.contact_steps, "
-                       "or contact.roll.stiffness (or kappa)", r->contact->name, speed, time, r->scene->accuracy.contact_steps, substeps * b->over);
+                       "contact '%s': an impact at %.3g m/s lasts %.3g s, and accuracy.contact_steps: %g in it would "
+                       "be %.6g steps per audio sample; lower accuracy.contact_steps, "
+                       "or contact.roll.stiffness (or kappa)",
+                       r->contact->name, speed, time, r->scene->accuracy.contact_steps, substeps * b->over);
     w->substeps = (int)substeps;
     w->per_frame = w->substeps * b->over;
     w->longest = LEG_STEPS / w->per_frame > 1 ? LEG_STEPS / w->per_frame : 1;
@@ -91,8 +98,11 @@ static void rolling_depth(struct stage_run *r, double rest)
 {
     const struct contact *c = r->contact;
     if (rest > DEEP * c->scraper.radius)
-        board_warn(r->board, arena_format(r->arena, "contact '%s': at rest the ball is pressed in by %.3g m, %.3g times its radius, and the contact's law is one of shallow "
-                                                    "dents: raise contact.roll.stiffness (or kappa)", c->name, rest, rest / c->scraper.radius));
+        board_warn(r->board, arena_format(r->arena,
+                                          "contact '%s': at rest the ball is pressed in by %.3g m, %.3g times its "
+                                          "radius, and the contact's law is one of shallow "
+                                          "dents: raise contact.roll.stiffness (or kappa)",
+                                          c->name, rest, rest / c->scraper.radius));
 }
 
 static void rolling_start(struct rolling *w, struct stage_run *r)
@@ -103,8 +113,7 @@ static void rolling_start(struct rolling *w, struct stage_run *r)
     w->rest = coupled_rest(w->ball, *s, phi);
     coupled_flights(w->ball, 1 / r->board->rate);
     coupled_start(w->ball, w->drop > 0 ? *s + w->drop : w->rest, 0, *s, phi, !(w->drop > 0));
-    if (w->drop > 0)
-        onset_told(r, "the ball's first impact", sqrt(2 * w->drop / w->gravity));
+    if (w->drop > 0) onset_told(r, "the ball's first impact", sqrt(2 * w->drop / w->gravity));
 }
 
 static bool rolling_open(struct stage_run *r, struct err *e)
@@ -114,24 +123,33 @@ static bool rolling_open(struct stage_run *r, struct err *e)
     struct board *b = r->board;
     r->state = w;
     relief_settle(b->relief, c);
-    if (!rolling_body(w, c, e) || !roll_ground_make(&w->ground, r, e) || !rolling_steps(w, r, e))
-        return false;
-    struct coupled_ask ask = {.integrator = c->contact.roll.integrator, .step = 1 / (b->rate * b->over * w->substeps), .mass = w->mass,
-                              .weight = w->mass * w->gravity, .stiffness = w->stiffness, .mu = c->contact.roll.mu, .n = w->ground.shapes.n,
-                              .frequency = w->ground.shapes.frequency, .decay = w->ground.shapes.decay};
-    if (!coupled_make(r->arena, &ask, &w->ball, e))
-        return err_at(e, "contact '%s'", c->name);
+    if (!rolling_body(w, c, e) || !roll_ground_make(&w->ground, r, e) || !rolling_steps(w, r, e)) return false;
+    struct coupled_ask ask = {.integrator = c->contact.roll.integrator,
+                              .step = 1 / (b->rate * b->over * w->substeps),
+                              .mass = w->mass,
+                              .weight = w->mass * w->gravity,
+                              .stiffness = w->stiffness,
+                              .mu = c->contact.roll.mu,
+                              .n = w->ground.shapes.n,
+                              .frequency = w->ground.shapes.frequency,
+                              .decay = w->ground.shapes.decay};
+    if (!coupled_make(r->arena, &ask, &w->ball, e)) return err_at(e, "contact '%s'", c->name);
     rolling_start(w, r);
     b->rolls = true;
-    b->roll = (struct roll_report){.stiffness = w->stiffness, .rest = real_pow(ask.weight / w->stiffness, 2.0 / 3), .roughness = NAN, .hertz = NAN, .step = ask.step};
+    b->roll = (struct roll_report){.stiffness = w->stiffness,
+                                   .rest = real_pow(ask.weight / w->stiffness, 2.0 / 3),
+                                   .roughness = NAN,
+                                   .hertz = NAN,
+                                   .step = ask.step};
     rolling_depth(r, b->roll.rest);
     return true;
 }
 
 /* ------------------------------------------------------------------ running */
 
-/* The leg from `frame` on. Legs end where the shapes under the ball bend (roll_ground.h) and where the motion does, whatever blocks are asked for, so that these
-   change no bit; what it costs to begin and end a run of steps (shapes, the ledger) is paid once a leg: 2000 of 2800 cycles a sample when it was once a frame. */
+/* The leg from `frame` on. Legs end where the shapes under the ball bend (roll_ground.h) and where the motion does,
+   whatever blocks are asked for, so that these change no bit; what it costs to begin and end a run of steps (shapes,
+   the ledger) is paid once a leg: 2000 of 2800 cycles a sample when it was once a frame. */
 static bool rolling_leg(struct rolling *w, struct stage_run *r, long frame, struct err *e)
 {
     const struct board *b = r->board;
@@ -144,7 +162,8 @@ static bool rolling_leg(struct rolling *w, struct stage_run *r, long frame, stru
     roll_curve_read(&w->curve, (size_t)steps);
     coupled_watch(w->ball, board_has(b, ITEM_ROLL) ? w->per_frame : 0, w->seen);
     if (!coupled_run(w->ball, steps, w->curve.s, phi_to, w->force, e))
-        return err_at(e, "contact '%s', %.6g s after its start", r->contact->name, (double)coupled_state(w->ball)->steps / per_second);
+        return err_at(e, "contact '%s', %.6g s after its start", r->contact->name,
+                      (double)coupled_state(w->ball)->steps / per_second);
     w->residual = fmax(w->residual, fabs(coupled_state(w->ball)->residual));
     w->seen[frames] = *coupled_state(w->ball);
     w->leg = frame;
@@ -185,12 +204,9 @@ static bool rolling_frames(struct rolling *w, struct stage_run *r, long from, lo
 {
     const struct board *b = r->board;
     for (long frame = from; frame < to; frame++) {
-        if (frame >= w->end && !rolling_leg(w, r, frame, e))
-            return false;
-        if (board_has(b, ITEM_ROLL))
-            rolling_note(w, b, frame);
-        if (board_has(b, ITEM_SUBFORCE))
-            rolling_means(w, b, frame);
+        if (frame >= w->end && !rolling_leg(w, r, frame, e)) return false;
+        if (board_has(b, ITEM_ROLL)) rolling_note(w, b, frame);
+        if (board_has(b, ITEM_SUBFORCE)) rolling_means(w, b, frame);
     }
     return true;
 }
@@ -221,14 +237,26 @@ static void rolling_told(const struct rolling *w, struct stage_run *r)
     double still = s->lift_offs > 0 ? fmax(s->hop[0], s->hop[1]) : 0, fastest = s->impact_most;
     double steps = fastest > 0 ? coupled_contact_time(w->mass, w->stiffness, fastest) / b->roll.step : HUGE_VAL;
     if (ball_gravity(r->contact) == 0)
-        board_warn(b, arena_format(r->arena, "contact '%s': nothing presses the ball down: contact.gravity is 0, and once it is off the surface it stays off", name));
+        board_warn(b, arena_format(r->arena,
+                                   "contact '%s': nothing presses the ball down: contact.gravity is 0, and once it is "
+                                   "off the surface it stays off",
+                                   name));
     else if (s->contact_time == 0)
-        board_warn(b, arena_format(r->arena, "contact '%s': the ball never touches the surface: let the motion last longer than the fall, or lower contact.roll.drop", name));
+        board_warn(b, arena_format(r->arena,
+                                   "contact '%s': the ball never touches the surface: let the motion last longer than "
+                                   "the fall, or lower contact.roll.drop",
+                                   name));
     else if (w->drop > 0 && still > STILL_BOUNCES * w->drop)
-        board_warn(b, arena_format(r->arena, "contact '%s': the ball still bounces %.3g m high when its motion ends, and is cut off there: let the motion last longer", name,
-                                   still));
+        board_warn(b, arena_format(r->arena,
+                                   "contact '%s': the ball still bounces %.3g m high when its motion ends, and is cut "
+                                   "off there: let the motion last longer",
+                                   name, still));
     if (steps < FEW_STEPS)
-        board_warn(b, arena_format(r->arena, "contact '%s': the fastest impact, at %.3g m/s, takes %.2g steps only: raise accuracy.contact_steps", name, fastest, steps));
+        board_warn(
+            b, arena_format(
+                   r->arena,
+                   "contact '%s': the fastest impact, at %.3g m/s, takes %.2g steps only: raise accuracy.contact_steps",
+                   name, fastest, steps));
 }
 
 static bool rolling_run(struct stage_run *r, long from, long to, struct err *e)
@@ -236,16 +264,14 @@ static bool rolling_run(struct stage_run *r, long from, long to, struct err *e)
     struct rolling *w = r->state;
     struct board *b = r->board;
     long end = to < b->moving ? to : b->moving;
-    if (!rolling_frames(w, r, from, end, e))
-        return false;
+    if (!rolling_frames(w, r, from, end, e)) return false;
     for (int item = 0; item < ITEM_COUNT; item++) {
         const struct signal *x = &b->signals[item];
         if ((item == ITEM_SUBFORCE || item == ITEM_ROLL) && x->per_frame > 0)
             for (double *v = board_at(b, item, from > end ? from : end), *last = board_at(b, item, to); v < last; v++)
                 *v = 0;
     }
-    if (from < b->moving)
-        rolling_report(w, b);
+    if (from < b->moving) rolling_report(w, b);
     if (to >= b->moving && !w->over) {
         w->over = true;
         rolling_told(w, r);
@@ -273,11 +299,12 @@ static double rolling_work(const struct contact *c, const struct scene *s)
 {
     double k = ball_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
     struct err unknown = {0};
-    if (isnan(k) && !hertz_stiffness(c, &k, &unknown))
-        return 0;
+    if (isnan(k) && !hertz_stiffness(c, &k, &unknown)) return 0;
     double mode = c->contact.roll.integrator == INTEGRATOR_RK4 ? 11 : 2;
-    double time = coupled_contact_time(c->scraper.mass, k, fmax(PAPER_SPEED, sqrt(2 * ball_gravity(c) * c->contact.roll.drop)));
-    return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) * (270 + mode * roll_ground_modes(c));
+    double time =
+        coupled_contact_time(c->scraper.mass, k, fmax(PAPER_SPEED, sqrt(2 * ball_gravity(c) * c->contact.roll.drop)));
+    return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) *
+           (270 + mode * roll_ground_modes(c));
 }
 
 const struct stage roll_coupled_stage = {

@@ -11,7 +11,9 @@ enum { STRETCHES = 16 };
 void roll_curve_make(struct roll_curve *c, const struct stage_run *r, long room)
 {
     double **all[] = {&c->t, &c->s, &c->u, &c->du, &c->x, &c->y, &c->rise, &c->bulge};
-    *c = (struct roll_curve){.board = r->board, .spin = spin_make(r->contact), .turns = r->contact->ball.offset != 0 || r->contact->ball.lobe_height != 0};
+    *c = (struct roll_curve){.board = r->board,
+                             .spin = spin_make(r->contact),
+                             .turns = r->contact->ball.offset != 0 || r->contact->ball.lobe_height != 0};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         *all[k] = ARENA_TAKE(r->arena, double, room);
 }
@@ -20,10 +22,11 @@ void roll_curve_read(const struct roll_curve *c, size_t n)
 {
     const struct relief *z = c->board->relief;
     bool path = z->along == ALONG_PATH, plane = z->along == ALONG_PLANE;
-    trajectory_at(c->board->trajectory, n, c->t, (struct trajectory_out){.u = c->u, .du = c->du, .x = path ? NULL : c->x, .y = plane ? c->y : NULL});
-    relief_at(z, &(struct relief_points){n, path ? c->u : c->x, plane ? c->y : NULL}, &(struct relief_values){.z = c->s});
-    if (!c->turns)
-        return;
+    trajectory_at(c->board->trajectory, n, c->t,
+                  (struct trajectory_out){.u = c->u, .du = c->du, .x = path ? NULL : c->x, .y = plane ? c->y : NULL});
+    relief_at(z, &(struct relief_points){n, path ? c->u : c->x, plane ? c->y : NULL},
+              &(struct relief_values){.z = c->s});
+    if (!c->turns) return;
     spin_at(&c->spin, n, c->u, c->du, NULL, &(struct spin_out){.rise = c->rise, .bulge = c->bulge});
     for (size_t i = 0; i < n; i++)
         c->s[i] += c->bulge[i] + c->rise[i];

@@ -1,4 +1,5 @@
-/* See roll_ground.h. The modes are those that sound (ring_choice.h): the strongest of the band, below 0.45 of the sample rate; the give of all others is left out. */
+/* See roll_ground.h. The modes are those that sound (ring_choice.h): the strongest of the band, below 0.45 of the
+ * sample rate; the give of all others is left out. */
 #include "convolution/roll_ground.h"
 
 #include "convolution/ring.h"
@@ -16,8 +17,7 @@ static void ground_phi(const struct roll_ground *g, long frame, double *phi)
 {
     double t = (double)frame / g->board->rate;
     struct modes_where at = g->first;
-    if (g->moves)
-        trajectory_at(g->board->trajectory, 1, &t, (struct trajectory_out){.x = &at.x, .y = &at.y});
+    if (g->moves) trajectory_at(g->board->trajectory, 1, &t, (struct trajectory_out){.x = &at.x, .y = &at.y});
     shapes_at(&g->shapes, &at, phi);
 }
 
@@ -40,25 +40,21 @@ bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct e
     *g = (struct roll_ground){.board = r->board};
     if (!gives_way(c))
         return c->contact.roll.ground != GROUND_ELASTIC ||
-               err_set(e, ERR_SCENE, "contact '%s': contact.roll.ground: elastic needs modes of the surface, and %s; give surface.object, or take ground: rigid",
+               err_set(e, ERR_SCENE,
+                       "contact '%s': contact.roll.ground: elastic needs modes of the surface, and %s; give "
+                       "surface.object, or take ground: rigid",
                        c->name, rules_responds(given) ? "a recorded response has none" : "it has no response");
-    if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e))
-        return false;
-    if (!shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e))
-        return err_at(e, "contact '%s'", c->name);
+    if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e)) return false;
+    if (!shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e)) return err_at(e, "contact '%s'", c->name);
     ground_ramps(g, r);
     return ring_reach(&choice->modes, r, e) || err_about(e, c->name, ring_choice_about(c, RING_SURFACE));
 }
 
-const double *roll_ground_start(const struct roll_ground *g)
-{
-    return g->shapes.n > 0 ? g->to : NULL;
-}
+const double *roll_ground_start(const struct roll_ground *g) { return g->shapes.n > 0 ? g->to : NULL; }
 
 const double *roll_ground_next(struct roll_ground *g, long frame, long *frames)
 {
-    if (!g->moves)
-        return NULL;
+    if (!g->moves) return NULL;
     if (frame == g->ramp_end) {
         double *from = g->to;
         g->to = g->from;

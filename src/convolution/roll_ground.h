@@ -13,15 +13,16 @@ struct roll_ground {
     const struct board *board;
 };
 
-/* By contact.roll.ground; at rest at the motion's start. ERR_SCENE: no modes though `elastic`, gains that are not the driving point's, a motion that leaves the
-   places that are known. */
+/* By contact.roll.ground; at rest at the motion's start. ERR_SCENE: no modes though `elastic`, gains that are not the
+   driving point's, a motion that leaves the places that are known. */
 bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct err *e);
 
 /* phi[n] at the motion's start; NULL: rigid. */
 const double *roll_ground_start(const struct roll_ground *g);
 
-/* phi[n] at the end of a leg, which begins at `frame`, legs in order: read every accuracy.gain_ramp frames, at multiples of it, straight between. *frames, at
-   least 1: the leg's length, which is shortened to where phi bends next. NULL: as it was. */
+/* phi[n] at the end of a leg, which begins at `frame`, legs in order: read every accuracy.gain_ramp frames, at
+   multiples of it, straight between. *frames, at least 1: the leg's length, which is shortened to where phi bends next.
+   NULL: as it was. */
 const double *roll_ground_next(struct roll_ground *g, long frame, long *frames);
 
 /* How many modes, for predictions of cost. */

@@ -1,4 +1,5 @@
-/* See boundary.h. Area and volume by Radon's seven points on the triangle, exact to degree 5: the volume, one third of the integral of x . n, is of degree 4 and so exact. */
+/* See boundary.h. Area and volume by Radon's seven points on the triangle, exact to degree 5: the volume, one third of
+ * the integral of x . n, is of degree 4 and so exact. */
 #include "fem/boundary.h"
 
 #include <math.h>
@@ -40,8 +41,11 @@ static void outer_faces(const struct mesh *m, struct arena *a, struct boundary *
 
 static void measure_face(const struct mesh *m, const int face[6], double *area, double *volume)
 {
-    const double root = sqrt(15), p = (6 - root) / 21, q = (6 + root) / 21, wp = (155 - root) / 2400, wq = (155 + root) / 2400;
-    const double rule[7][3] = {{1. / 3, 1. / 3, 9. / 80}, {p, p, wp}, {p, 1 - 2 * p, wp}, {1 - 2 * p, p, wp}, {q, q, wq}, {q, 1 - 2 * q, wq}, {1 - 2 * q, q, wq}};
+    const double root = sqrt(15), p = (6 - root) / 21, q = (6 + root) / 21, wp = (155 - root) / 2400,
+                 wq = (155 + root) / 2400;
+    const double rule[7][3] = {{1. / 3, 1. / 3, 9. / 80}, {p, p, wp}, {p, 1 - 2 * p, wp},
+                               {1 - 2 * p, p, wp},        {q, q, wq}, {q, 1 - 2 * q, wq},
+                               {1 - 2 * q, q, wq}};
     for (int k = 0; k < 7; k++) {
         struct boundary_face_at x;
         boundary_face_at(m, face, rule[k], &x);

@@ -8,7 +8,8 @@ void boundary_face_at(const struct mesh *m, const int face[6], const double uv[2
 {
     double u = uv[0], v = uv[1], t = 1 - u - v, w[6];
     boundary_weights(u, v, w);
-    const double wu[6] = {1 - 4 * t, 4 * u - 1, 0, 4 * (t - u), 4 * v, -4 * v}, wv[6] = {1 - 4 * t, 0, 4 * v - 1, -4 * u, 4 * u, 4 * (t - v)};
+    const double wu[6] = {1 - 4 * t, 4 * u - 1, 0, 4 * (t - u), 4 * v, -4 * v},
+                 wv[6] = {1 - 4 * t, 0, 4 * v - 1, -4 * u, 4 * u, 4 * (t - v)};
     memset(x, 0, sizeof *x);
     for (int i = 0; i < 6; i++)
         for (int c = 0; c < 3; c++) {

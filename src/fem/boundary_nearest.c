@@ -1,5 +1,6 @@
-/* The nearest point of the surface: of each face that may be nearer than the best so far, |x(u, v) - place|^2 is made least over the triangle by Newton's method with active sides: each step goes to
-   the lowest place of the quadratic model within the triangle, halved until the distance falls. */
+/* The nearest point of the surface: of each face that may be nearer than the best so far, |x(u, v) - place|^2 is made
+   least over the triangle by Newton's method with active sides: each step goes to the lowest place of the quadratic
+   model within the triangle, halved until the distance falls. */
 #include <math.h>
 
 #include "fem/boundary_face.h"
@@ -14,7 +15,8 @@ struct model { /* g . s + s . H s / 2 */
 
 static double model_at(const struct model *q, const double s[2])
 {
-    return q->g[0] * s[0] + q->g[1] * s[1] + 0.5 * (q->h[0] * s[0] * s[0] + 2 * q->h[1] * s[0] * s[1] + q->h[2] * s[1] * s[1]);
+    return q->g[0] * s[0] + q->g[1] * s[1] +
+           0.5 * (q->h[0] * s[0] * s[0] + 2 * q->h[1] * s[0] * s[1] + q->h[2] * s[1] * s[1]);
 }
 
 static double squared(const struct mesh *m, const int face[6], const double uv[2], const double place[3])
@@ -34,7 +36,8 @@ static struct model model_make(const struct mesh *m, const int face[6], const do
     boundary_face_bend(m, face, bend);
     double d[3] = {x.at[0] - place[0], x.at[1] - place[1], x.at[2] - place[2]};
     struct model q = {{boundary_face_dot(d, x.du), boundary_face_dot(d, x.dv)},
-                      {boundary_face_dot(x.du, x.du), boundary_face_dot(x.du, x.dv), boundary_face_dot(x.dv, x.dv)}}, full = q;
+                      {boundary_face_dot(x.du, x.du), boundary_face_dot(x.du, x.dv), boundary_face_dot(x.dv, x.dv)}},
+                 full = q;
     for (int k = 0; k < 3; k++)
         full.h[k] += boundary_face_dot(d, bend[k]);
     double det = full.h[0] * full.h[2] - full.h[1] * full.h[1];
@@ -45,7 +48,8 @@ static struct model model_make(const struct mesh *m, const int face[6], const do
 static void along_side(const struct model *q, const double uv[2], const double a[2], const double b[2], double s[2])
 {
     double from[2] = {a[0] - uv[0], a[1] - uv[1]}, d[2] = {b[0] - a[0], b[1] - a[1]};
-    double slope = d[0] * (q->g[0] + q->h[0] * from[0] + q->h[1] * from[1]) + d[1] * (q->g[1] + q->h[1] * from[0] + q->h[2] * from[1]);
+    double slope = d[0] * (q->g[0] + q->h[0] * from[0] + q->h[1] * from[1]) +
+                   d[1] * (q->g[1] + q->h[1] * from[0] + q->h[2] * from[1]);
     double curve = q->h[0] * d[0] * d[0] + 2 * q->h[1] * d[0] * d[1] + q->h[2] * d[1] * d[1];
     double t = curve > 0 ? fmin(fmax(-slope / curve, 0), 1) : 0;
     s[0] = from[0] + t * d[0];
@@ -59,8 +63,7 @@ static void lowest(const struct model *q, const double uv[2], double s[2])
     if (det > 0) {
         s[0] = (q->h[1] * q->g[1] - q->h[2] * q->g[0]) / det;
         s[1] = (q->h[1] * q->g[0] - q->h[0] * q->g[1]) / det;
-        if (uv[0] + s[0] >= 0 && uv[1] + s[1] >= 0 && uv[0] + s[0] + uv[1] + s[1] <= 1)
-            return;
+        if (uv[0] + s[0] >= 0 && uv[1] + s[1] >= 0 && uv[0] + s[0] + uv[1] + s[1] <= 1) return;
     }
     for (int i = 0; i < 3; i++) {
         double t[2];
@@ -83,10 +86,8 @@ static double descend(const struct mesh *m, const int face[6], double uv[2], con
         lowest(&q, uv, s);
         for (double part = 1;; part /= 2) {
             double to[2] = {uv[0] + part * s[0], uv[1] + part * s[1]}, there = squared(m, face, to, place);
-            if (part * (fabs(s[0]) + fabs(s[1])) < 1e-13)
-                return d;
-            if (there > d)
-                continue;
+            if (part * (fabs(s[0]) + fabs(s[1])) < 1e-13) return d;
+            if (there > d) continue;
             d = there;
             uv[0] = to[0];
             uv[1] = to[1];
@@ -111,8 +112,7 @@ double boundary_nearest(const struct mesh *m, const struct boundary *b, const do
 {
     double best = INFINITY, tie = 1e-12 * boundary_face_size(b);
     for (int i = 0; i < b->n; i++) {
-        if (box_distance(m, b->face[i], place) >= best - tie)
-            continue;
+        if (box_distance(m, b->face[i], place) >= best - tie) continue;
         for (int k = 0; k < STARTS; k++) {
             double uv[2] = {starts[k][0], starts[k][1]}, d = sqrt(descend(m, b->face[i], uv, place));
             if (d < best - tie) {

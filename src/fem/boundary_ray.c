@@ -1,5 +1,5 @@
-/* Where a ray meets the surface: of each face whose box it passes, the two equations e_i . (x(u, v) - from) = 0, e_1 and e_2 across the ray, by Newton's method from seven places
-   (a ray may cross a bent face more than once). */
+/* Where a ray meets the surface: of each face whose box it passes, the two equations e_i . (x(u, v) - from) = 0, e_1
+   and e_2 across the ray, by Newton's method from seven places (a ray may cross a bent face more than once). */
 #include <math.h>
 
 #include "fem/boundary_face.h"
@@ -19,8 +19,7 @@ static void ray_frame(struct ray *r)
 {
     int least = 0;
     for (int c = 1; c < 3; c++)
-        if (fabs(r->along[c]) < fabs(r->along[least]))
-            least = c;
+        if (fabs(r->along[c]) < fabs(r->along[least])) least = c;
     double length = 0;
     for (int c = 0; c < 3; c++) {
         r->across[0][c] = (c == least) - r->along[least] * r->along[c];
@@ -41,8 +40,7 @@ static bool passes(const struct ray *r, const double low[3], const double high[3
     for (int c = 0; c < 3; c++) {
         double l = low[c] - 1e-6 * r->size - r->from[c], h = high[c] + 1e-6 * r->size - r->from[c];
         if (fabs(r->along[c]) < 1e-300) {
-            if (l > 0 || h < 0)
-                return false;
+            if (l > 0 || h < 0) return false;
             continue;
         }
         l /= r->along[c];
@@ -63,14 +61,13 @@ static bool newton(const struct ray *r, const int face[6], double uv[2], double 
         double f = boundary_face_dot(r->across[0], d), g = boundary_face_dot(r->across[1], d);
         *t = boundary_face_dot(r->along, d);
         double fu = boundary_face_dot(r->across[0], x.du), fv = boundary_face_dot(r->across[0], x.dv);
-        double gu = boundary_face_dot(r->across[1], x.du), gv = boundary_face_dot(r->across[1], x.dv), det = fu * gv - fv * gu;
-        if (fabs(det) <= 1e-12 * boundary_face_dot(x.du, x.du))
-            return false;
+        double gu = boundary_face_dot(r->across[1], x.du), gv = boundary_face_dot(r->across[1], x.dv),
+               det = fu * gv - fv * gu;
+        if (fabs(det) <= 1e-12 * boundary_face_dot(x.du, x.du)) return false;
         double su = (fv * g - gv * f) / det, sv = (gu * f - fu * g) / det;
         uv[0] += su;
         uv[1] += sv;
-        if (!(fabs(uv[0]) < 10 && fabs(uv[1]) < 10))
-            return false;
+        if (!(fabs(uv[0]) < 10 && fabs(uv[1]) < 10)) return false;
         if (fabs(su) + fabs(sv) < 1e-14 || (i > 6 && fabs(su) + fabs(sv) < 1e-12))
             return uv[0] >= -inside && uv[1] >= -inside && uv[0] + uv[1] <= 1 + inside;
     }
@@ -93,7 +90,8 @@ static bool nearer(const struct ray *r, const int face[6], struct boundary_point
     return found;
 }
 
-bool boundary_ray(const struct mesh *m, const struct boundary *b, const double from[3], const double along[3], struct boundary_point *p)
+bool boundary_ray(const struct mesh *m, const struct boundary *b, const double from[3], const double along[3],
+                  struct boundary_point *p)
 {
     struct ray r = {.m = m, .from = from, .along = along, .size = boundary_face_size(b)};
     double best = INFINITY, low[3], high[3];
@@ -101,11 +99,9 @@ bool boundary_ray(const struct mesh *m, const struct boundary *b, const double f
     p->face = -1;
     for (int i = 0; i < b->n; i++) {
         boundary_face_box(m, b->face[i], low, high);
-        if (passes(&r, low, high) && nearer(&r, b->face[i], p, &best))
-            p->face = i;
+        if (passes(&r, low, high) && nearer(&r, b->face[i], p, &best)) p->face = i;
     }
-    if (p->face < 0)
-        return false;
+    if (p->face < 0) return false;
     boundary_face_point(m, b, p);
     return true;
 }

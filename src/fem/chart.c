@@ -6,13 +6,14 @@
 
 #include "num/real.h"
 
-const char *const chart_faces[CHART_FACES + 1] = {"top", "bottom", "right", "left", "back", "front", "around", "inside", NULL};
+const char *const chart_faces[CHART_FACES + 1] = {"top",   "bottom", "right",  "left", "back",
+                                                  "front", "around", "inside", NULL};
 
 static const struct view {
     int across[2], along; /* axes of the place, axis that is looked along */
     double side;          /* of which we look from                        */
-} views[] = {[CHART_TOP] = {{0, 1}, 2, 1}, [CHART_BOTTOM] = {{0, 1}, 2, -1}, [CHART_RIGHT] = {{1, 2}, 0, 1},
-             [CHART_LEFT] = {{1, 2}, 0, -1}, [CHART_BACK] = {{0, 2}, 1, 1}, [CHART_FRONT] = {{0, 2}, 1, -1}};
+} views[] = {[CHART_TOP] = {{0, 1}, 2, 1},   [CHART_BOTTOM] = {{0, 1}, 2, -1}, [CHART_RIGHT] = {{1, 2}, 0, 1},
+             [CHART_LEFT] = {{1, 2}, 0, -1}, [CHART_BACK] = {{0, 2}, 1, 1},    [CHART_FRONT] = {{0, 2}, 1, -1}};
 
 void chart_make(const struct mesh *m, const struct boundary *b, int face, struct chart *c)
 {

@@ -25,14 +25,12 @@ static void grow(struct edges *t)
     t->room *= 2;
     t->slot = ARENA_TAKE(t->arena, struct edges_edge, t->room);
     for (int i = 0; i < old.room; i++)
-        if (old.slot[i].high != 0)
-            *find(t, old.slot[i].low, old.slot[i].high) = old.slot[i];
+        if (old.slot[i].high != 0) *find(t, old.slot[i].low, old.slot[i].high) = old.slot[i];
 }
 
 int *edges_at(struct edges *t, int one, int other)
 {
-    if (2 * t->n >= t->room)
-        grow(t);
+    if (2 * t->n >= t->room) grow(t);
     int low = one < other ? one : other, high = one < other ? other : one;
     struct edges_edge *s = find(t, low, high);
     if (s->high == 0) {

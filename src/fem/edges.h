@@ -5,8 +5,10 @@
 
 struct edges {
     struct arena *arena;
-    int n, room;               /* edges; slots, a power of two */
-    struct edges_edge { int low, high, value; } *slot; /* high 0: free */
+    int n, room; /* edges; slots, a power of two */
+    struct edges_edge {
+        int low, high, value;
+    } * slot; /* high 0: free */
 };
 
 /* The nodes of a tetrahedron's six edges, in the order of its midsides. */

@@ -10,10 +10,8 @@ static int by_corners(const void *p, const void *q)
 {
     const struct faces_face *f = p, *g = q;
     for (int i = 0; i < 3; i++)
-        if (f->corner[i] != g->corner[i])
-            return f->corner[i] < g->corner[i] ? -1 : 1;
-    if (f->element != g->element)
-        return f->element < g->element ? -1 : 1;
+        if (f->corner[i] != g->corner[i]) return f->corner[i] < g->corner[i] ? -1 : 1;
+    if (f->element != g->element) return f->element < g->element ? -1 : 1;
     return (f->side > g->side) - (f->side < g->side);
 }
 

@@ -4,7 +4,7 @@
 #include "file/mesh.h"
 
 struct faces_face {
-    int corner[3];     /* rising indices */
+    int corner[3]; /* rising indices */
     int element, side;
 };
 

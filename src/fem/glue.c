@@ -1,4 +1,5 @@
-/* See glue.h. A hash table over boxes of 1e-5 of the size; a point near the side of its box is looked for in the next box, too. */
+/* See glue.h. A hash table over boxes of 1e-5 of the size; a point near the side of its box is looked for in the next
+ * box, too. */
 #include "fem/glue.h"
 
 #include <math.h>
@@ -26,7 +27,8 @@ static size_t hash(const struct glue *g, const int64_t cell[3])
 
 static bool near(const struct glue *g, const double *p, const double *q)
 {
-    return fabs(p[0] - q[0]) <= g->same * g->size && fabs(p[1] - q[1]) <= g->same * g->size && fabs(p[2] - q[2]) <= g->same * g->size;
+    return fabs(p[0] - q[0]) <= g->same * g->size && fabs(p[1] - q[1]) <= g->same * g->size &&
+           fabs(p[2] - q[2]) <= g->same * g->size;
 }
 
 /* The slot of a point near `at` among those of a box, or the free slot behind them. */
@@ -45,8 +47,7 @@ int *glue_at(struct glue *g, const double at[3])
         for (int c = 0; c < 3; c++)
             cell[c] = (int64_t)floor((at[c] / g->size + (q >> c & 1 ? g->same : -g->same)) / box);
         struct glue_slot *s = find(g, cell, at);
-        if (s->used)
-            return &s->number;
+        if (s->used) return &s->number;
     }
     int64_t own[3];
     for (int c = 0; c < 3; c++)

@@ -4,9 +4,12 @@
 #include "base/arena.h"
 
 struct glue {
-    double size, same;         /* same: share of the size within which points are one, at most 1e-6 */
-    size_t room;               /* slots, a power of two above twice the points */
-    struct glue_slot { double at[3]; int number, used; } *slot;
+    double size, same; /* same: share of the size within which points are one, at most 1e-6 */
+    size_t room;       /* slots, a power of two above twice the points */
+    struct glue_slot {
+        double at[3];
+        int number, used;
+    } * slot;
 };
 
 /* At most `most` points. */

@@ -37,13 +37,20 @@ static double extent(const struct mesh *m)
 
 bool mesh_check_size(const char *name, double size, const char *cure, struct err *e)
 {
-    return (size >= smallest && size <= largest) || err_set(e, ERR_SCENE, "%s: it is %g m large, too %s for an object; %s", name, size, size > largest ? "large" : "small", cure);
+    return (size >= smallest && size <= largest) ||
+           err_set(e, ERR_SCENE, "%s: it is %g m large, too %s for an object; %s", name, size,
+                   size > largest ? "large" : "small", cure);
 }
 
 static bool check_size(const struct mesh *m, double size, struct arena *a, struct err *e)
 {
-    const char *cure = size > largest ? arena_format(a, "the file may be in mm or cm: give --unit mm (then it is %g m) or --unit cm (%g m)", size / 1000, size / 100)
-                                      : arena_format(a, "the file may be in a larger unit: give --unit m, cm or mm (1000 times as large it is %g m)", 1000 * size);
+    const char *cure =
+        size > largest
+            ? arena_format(a, "the file may be in mm or cm: give --unit mm (then it is %g m) or --unit cm (%g m)",
+                           size / 1000, size / 100)
+            : arena_format(a,
+                           "the file may be in a larger unit: give --unit m, cm or mm (1000 times as large it is %g m)",
+                           1000 * size);
     return mesh_check_size(m->name, size, cure, e);
 }
 
@@ -52,8 +59,7 @@ bool mesh_check(struct mesh *m, struct arena *a, struct err *e)
     if (m->elements == 0)
         return err_set(e, ERR_SCENE, "%s: no tetrahedra; fill the solid with elements (gmsh -3, tetgen -pq)", m->name);
     double size = extent(m);
-    if (!check_size(m, size, a, e) || !mesh_check_elements(m, a, e))
-        return false;
+    if (!check_size(m, size, a, e) || !mesh_check_elements(m, a, e)) return false;
     struct faces_face *f = faces_sorted(m, a);
     return mesh_check_joins(m, f, size, a, e) && mesh_check_surface(m, f, a, e);
 }

@@ -1,18 +1,17 @@
-/* Each element for itself. The Jacobian of a curved element is looked at in the 35 places of the lattice of quarters (nodes are among them) and in the four and five of the usual quadratures; of a
-   straight one it is the same everywhere. A sliver's radius ratio, 3 inscribed / circumscribed, is 1 of a regular tetrahedron and 0 of a flat one. */
+/* Each element for itself. The Jacobian of a curved element is looked at in the 35 places of the lattice of quarters
+   (nodes are among them) and in the four and five of the usual quadratures; of a straight one it is the same
+   everywhere. A sliver's radius ratio, 3 inscribed / circumscribed, is 1 of a regular tetrahedron and 0 of a flat one.
+ */
 #include <math.h>
 #include <stdio.h>
 
 #include "fem/edges.h"
 #include "fem/mesh_check_parts.h"
 
-static const double flat = 1e-9;     /* of the longest edge cubed: volumes (six times) below are none */
-static const double sliver = 0.01;   /* radius ratio */
+static const double flat = 1e-9;   /* of the longest edge cubed: volumes (six times) below are none */
+static const double sliver = 0.01; /* radius ratio */
 
-static double dot(const double *p, const double *q)
-{
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-}
+static double dot(const double *p, const double *q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 
 static void cross(const double *p, const double *q, double *r)
 {
@@ -78,7 +77,8 @@ static double jacobian(const struct mesh *m, const int *t, const double l[4])
         int p = edges_nodes[i][0], q = edges_nodes[i][1];
         for (int k = 0; k < 3; k++)
             for (int c = 0; c < 3; c++)
-                j[k][c] += 4 * (l[p] * ((q == k + 1) - (q == 0)) + l[q] * ((p == k + 1) - (p == 0))) * m->at[t[4 + i]][c];
+                j[k][c] +=
+                    4 * (l[p] * ((q == k + 1) - (q == 0)) + l[q] * ((p == k + 1) - (p == 0))) * m->at[t[4 + i]][c];
     }
     cross(j[0], j[1], n);
     return dot(n, j[2]);
@@ -92,8 +92,7 @@ static bool straight(const struct mesh *m, const int *t)
         edge(m, t, edges_nodes[k][0], 4 + k, off);
         for (int c = 0; c < 3; c++)
             off[c] -= 0.5 * d[c];
-        if (dot(off, off) > 1e-18 * dot(d, d))
-            return false;
+        if (dot(off, off) > 1e-18 * dot(d, d)) return false;
     }
     return true;
 }
@@ -101,7 +100,8 @@ static bool straight(const struct mesh *m, const int *t)
 /* The least Jacobian at the places looked at. */
 static double least_jacobian(const struct mesh *m, const int *t)
 {
-    static const double rules[3] = {0.1381966011250105, 1. / 6, 0.0919710780527230}; /* the other three coordinates of points on the medians */
+    static const double rules[3] = {0.1381966011250105, 1. / 6,
+                                    0.0919710780527230}; /* the other three coordinates of points on the medians */
     double least = INFINITY;
     for (int i = 0; i <= 4; i++)
         for (int j = 0; i + j <= 4; j++)
@@ -131,7 +131,8 @@ static bool bad_element(const struct mesh *m, int i, const char *what, struct er
 {
     double at[3];
     mesh_check_middle(m, i, at);
-    return err_set(e, ERR_SCENE, "%s: tetrahedron %d (counted from 1), at (%.4g, %.4g, %.4g) m, %s", m->name, i + 1, at[0], at[1], at[2], what);
+    return err_set(e, ERR_SCENE, "%s: tetrahedron %d (counted from 1), at (%.4g, %.4g, %.4g) m, %s", m->name, i + 1,
+                   at[0], at[1], at[2], what);
 }
 
 /* All the one way round, or turned so; none flat. */
@@ -142,14 +143,15 @@ static bool orient(struct mesh *m, struct arena *a, struct err *e)
         double s = shape_of(m, m->element[i]);
         if (fabs(s) < flat)
             return bad_element(m, i, "has no volume: its corners lie in a plane; mesh again, or leave it out", e);
-        if (s < 0 && wrong++ == 0)
-            first = i;
+        if (s < 0 && wrong++ == 0) first = i;
     }
-    if (wrong == 0)
-        return true;
+    if (wrong == 0) return true;
     if (wrong < m->elements) {
         char text[160];
-        snprintf(text, sizeof text, "is turned inside out, as are %d of %d; the mesh is broken there: mesh again, finer or with another algorithm", wrong, m->elements);
+        snprintf(text, sizeof text,
+                 "is turned inside out, as are %d of %d; the mesh is broken there: mesh again, finer or with another "
+                 "algorithm",
+                 wrong, m->elements);
         return bad_element(m, first, text, e);
     }
     for (int i = 0; i < m->elements; i++)
@@ -162,11 +164,13 @@ bool mesh_check_elements(struct mesh *m, struct arena *a, struct err *e)
 {
     int slivers = 0, worst = 0;
     double ratio = INFINITY, at[3];
-    if (!orient(m, a, e))
-        return false;
+    if (!orient(m, a, e)) return false;
     for (int i = 0; i < m->elements; i++) {
         if (!m->linear && !straight(m, m->element[i]) && !(least_jacobian(m, m->element[i]) > 0))
-            return bad_element(m, i, "is so bent that it folds (its Jacobian is not above 0 everywhere); mesh finer there, or optimise (gmsh -optimize_ho)", e);
+            return bad_element(m, i,
+                               "is so bent that it folds (its Jacobian is not above 0 everywhere); mesh finer there, "
+                               "or optimise (gmsh -optimize_ho)",
+                               e);
         double r = radius_ratio(m, m->element[i]);
         slivers += r < sliver;
         if (r < ratio) {
@@ -176,7 +180,11 @@ bool mesh_check_elements(struct mesh *m, struct arena *a, struct err *e)
     }
     mesh_check_middle(m, worst, at);
     if (slivers > 0)
-        mesh_check_note(m, a, arena_format(a, "%d of %d tetrahedra are nearly flat (radius ratio below %g; the worst, %.2g, at (%.4g, %.4g, %.4g) m): they are stiffer than the solid; "
-                                              "optimise the mesh (gmsh -optimize_netgen)", slivers, m->elements, sliver, ratio, at[0], at[1], at[2]));
+        mesh_check_note(m, a,
+                        arena_format(a,
+                                     "%d of %d tetrahedra are nearly flat (radius ratio below %g; the worst, %.2g, at "
+                                     "(%.4g, %.4g, %.4g) m): they are stiffer than the solid; "
+                                     "optimise the mesh (gmsh -optimize_netgen)",
+                                     slivers, m->elements, sliver, ratio, at[0], at[1], at[2]));
     return true;
 }

@@ -1,7 +1,10 @@
-/* Cells into tetrahedra: the diagonal of every face of a cell starts at the corner of lowest rank, so that two cells agree on the face they share (Dompierre, Labbe, Vallet, Camarero: How to
-   subdivide pyramids, prisms and hexahedra into tetrahedra, 1999). From the cell's lowest corner V the three faces that V is not on, each two triangles, are seen: six tetrahedra. Where all their
-   three diagonals avoid the corner O opposite to V, the three tetrahedra round V-O become two: the middle one and O's, so five. Rank: lattice points of even i + j + k first, so that the diagonals of
-   a regular lattice are those of a union jack and the mesh has the symmetry of the solid; then the order in which they are met. */
+/* Cells into tetrahedra: the diagonal of every face of a cell starts at the corner of lowest rank, so that two cells
+   agree on the face they share (Dompierre, Labbe, Vallet, Camarero: How to subdivide pyramids, prisms and hexahedra
+   into tetrahedra, 1999). From the cell's lowest corner V the three faces that V is not on, each two triangles, are
+   seen: six tetrahedra. Where all their three diagonals avoid the corner O opposite to V, the three tetrahedra round
+   V-O become two: the middle one and O's, so five. Rank: lattice points of even i + j + k first, so that the diagonals
+   of a regular lattice are those of a union jack and the mesh has the symmetry of the solid; then the order in which
+   they are met. */
 #include "fem/shapes_blocks.h"
 
 #include <math.h>
@@ -16,14 +19,17 @@ struct shapes_maker {
     struct mesh *m;
     struct glue glue;
     struct edges edges;
-    bool *odd;                       /* [nodes] */
-    struct { const char *group; int corner[3]; } *face;
+    bool *odd; /* [nodes] */
+    struct {
+        const char *group;
+        int corner[3];
+    } * face;
     int faces;
 };
 
 struct cell {
     const struct shapes_block *block;
-    int at[3], corner[8];            /* lattice place; nodes: bit 0, 1, 2 of the index is the direction */
+    int at[3], corner[8]; /* lattice place; nodes: bit 0, 1, 2 of the index is the direction */
 };
 
 struct shapes_block *shapes_blocks_add(struct shapes_blocks *s, int which, int n0, int n1, int n2)
@@ -36,7 +42,8 @@ double shapes_blocks_nodes(const struct shapes_blocks *s, int order)
 {
     double n = 0;
     for (int i = 0; i < s->n; i++)
-        n += ((double)order * s->block[i].n[0] + 1) * ((double)order * s->block[i].n[1] + 1) * ((double)order * s->block[i].n[2] + 1);
+        n += ((double)order * s->block[i].n[0] + 1) * ((double)order * s->block[i].n[1] + 1) *
+             ((double)order * s->block[i].n[2] + 1);
     return n;
 }
 
@@ -79,7 +86,8 @@ static double turning(const struct mesh *m, const struct cell *c, const int t[4]
     for (int i = 0; i < 3; i++)
         for (int d = 0; d < 3; d++)
             e[i][d] = m->at[c->corner[t[i + 1]]][d] - m->at[c->corner[t[0]]][d];
-    return e[2][0] * (e[0][1] * e[1][2] - e[0][2] * e[1][1]) + e[2][1] * (e[0][2] * e[1][0] - e[0][0] * e[1][2]) + e[2][2] * (e[0][0] * e[1][1] - e[0][1] * e[1][0]);
+    return e[2][0] * (e[0][1] * e[1][2] - e[0][2] * e[1][1]) + e[2][1] * (e[0][2] * e[1][0] - e[0][0] * e[1][2]) +
+           e[2][2] * (e[0][0] * e[1][1] - e[0][1] * e[1][0]);
 }
 
 /* Of four corners of the cell, in any orientation. */
@@ -96,18 +104,14 @@ static void tetrahedron(struct shapes_maker *k, const struct cell *c, int p, int
         midside(k, c, t[edges_nodes[i][0]], t[edges_nodes[i][1]], &e[4 + i]);
 }
 
-static bool before(const struct shapes_maker *k, int a, int b)
-{
-    return k->odd[a] != k->odd[b] ? k->odd[b] : a < b;
-}
+static bool before(const struct shapes_maker *k, int a, int b) { return k->odd[a] != k->odd[b] ? k->odd[b] : a < b; }
 
 /* Index of the one of lowest rank among n corners. */
 static int lowest(const struct shapes_maker *k, const struct cell *c, const int *corner, int n)
 {
     int best = 0;
     for (int i = 1; i < n; i++)
-        if (before(k, c->corner[corner[i]], c->corner[corner[best]]))
-            best = i;
+        if (before(k, c->corner[corner[i]], c->corner[corner[best]])) best = i;
     return best;
 }
 
@@ -133,8 +137,7 @@ static void split(struct shapes_maker *k, const struct cell *c)
     for (int d = 0; d < 3; d++)
         for (int half = 0; half < 2; half++) {
             int i = q[d][first[d]], j = q[d][(first[d] + 1 + half) % 4], l = q[d][(first[d] + 2 + half) % 4];
-            if (avoid < 3 || (i != o && j != o && l != o))
-                tetrahedron(k, c, v, i, j, l);
+            if (avoid < 3 || (i != o && j != o && l != o)) tetrahedron(k, c, v, i, j, l);
         }
     if (avoid == 3) {
         tetrahedron(k, c, v, o ^ 1, o ^ 2, o ^ 4);
@@ -147,8 +150,7 @@ static void name_faces(struct shapes_maker *k, const struct cell *c)
 {
     for (int d = 0; d < 3; d++)
         for (int end = 0; end < 2; end++) {
-            if (!c->block->side[d][end] || c->at[d] != (end ? c->block->n[d] - 1 : 0))
-                continue;
+            if (!c->block->side[d][end] || c->at[d] != (end ? c->block->n[d] - 1 : 0)) continue;
             int q[4];
             face_of(end << d, d, q);
             int i = lowest(k, c, q, 4);
@@ -163,7 +165,7 @@ static void name_faces(struct shapes_maker *k, const struct cell *c)
 static void make_block(struct shapes_maker *k, const struct shapes_block *b, struct arena *a)
 {
     size_t row = (size_t)b->n[0] + 1, plane = row * ((size_t)b->n[1] + 1);
-    int *node = ARENA_TAKE(a, int, plane * ((size_t)b->n[2] + 1)), i[3];
+    int *node = ARENA_TAKE(a, int, plane *((size_t)b->n[2] + 1)), i[3];
     for (i[2] = 0; i[2] <= b->n[2]; i[2]++)
         for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
             for (i[0] = 0; i[0] <= b->n[0]; i[0]++)
@@ -173,7 +175,8 @@ static void make_block(struct shapes_maker *k, const struct shapes_block *b, str
             for (i[0] = 0; i[0] < b->n[0]; i[0]++) {
                 struct cell c = {.block = b, .at = {i[0], i[1], i[2]}};
                 for (int q = 0; q < 8; q++)
-                    c.corner[q] = node[((size_t)i[2] + (size_t)(q >> 2)) * plane + ((size_t)i[1] + (size_t)(q >> 1 & 1)) * row + (size_t)i[0] + (size_t)(q & 1)];
+                    c.corner[q] = node[((size_t)i[2] + (size_t)(q >> 2)) * plane +
+                                       ((size_t)i[1] + (size_t)(q >> 1 & 1)) * row + (size_t)i[0] + (size_t)(q & 1)];
                 split(k, &c);
                 name_faces(k, &c);
             }
@@ -182,8 +185,7 @@ static void make_block(struct shapes_maker *k, const struct shapes_block *b, str
 static struct mesh_group *group_of(struct mesh *m, const char *name)
 {
     for (int i = 0; i < m->groups; i++)
-        if (!strcmp(m->group[i].name, name))
-            return &m->group[i];
+        if (!strcmp(m->group[i].name, name)) return &m->group[i];
     m->group[m->groups].name = name;
     return &m->group[m->groups++];
 }

@@ -1,4 +1,5 @@
-/* A solid put together of blocks, each a lattice of n[0] x n[1] x n[2] hexahedral cells; blocks are glued where their lattice points coincide. */
+/* A solid put together of blocks, each a lattice of n[0] x n[1] x n[2] hexahedral cells; blocks are glued where their
+ * lattice points coincide. */
 #ifndef FEM_SHAPES_BLOCKS_H
 #define FEM_SHAPES_BLOCKS_H
 #include "file/mesh.h"
@@ -6,15 +7,16 @@
 enum { SHAPES_BLOCKS_MOST = 12 };
 
 struct shapes_block {
-    int n[3], which;           /* which: told to place() */
-    const char *side[3][2];    /* group of the faces at 0 and at n of each direction; NULL: none */
+    int n[3], which;        /* which: told to place() */
+    const char *side[3][2]; /* group of the faces at 0 and at n of each direction; NULL: none */
 };
 
 struct shapes_blocks {
     int n;
     struct shapes_block block[SHAPES_BLOCKS_MOST];
-    double size;               /* m, largest extent: points nearer than 1e-8 of it are one */
-    /* Where lattice place c of block `which` lies, m; also between lattice points (halves). Blocks that share a side must agree on it. */
+    double size; /* m, largest extent: points nearer than 1e-8 of it are one */
+    /* Where lattice place c of block `which` lies, m; also between lattice points (halves). Blocks that share a side
+     * must agree on it. */
     void (*place)(const void *shape, int which, const double c[3], double at[3]);
     const void *shape;
 };
@@ -22,10 +24,12 @@ struct shapes_blocks {
 /* One more block. */
 struct shapes_block *shapes_blocks_add(struct shapes_blocks *s, int which, int n0, int n1, int n2);
 
-/* Points of the lattices with each cell cut into `order` along each side, those that blocks share counted for each: at least as many as nodes of elements of that order. */
+/* Points of the lattices with each cell cut into `order` along each side, those that blocks share counted for each: at
+ * least as many as nodes of elements of that order. */
 double shapes_blocks_nodes(const struct shapes_blocks *s, int order);
 
-/* Cells are split into tetrahedra so that neighbours agree; a midside lies where its edge's middle in the lattice lies, so on the true surface. */
+/* Cells are split into tetrahedra so that neighbours agree; a midside lies where its edge's middle in the lattice lies,
+ * so on the true surface. */
 void shapes_blocks_mesh(const struct shapes_blocks *s, struct arena *a, struct mesh *m);
 
 #endif

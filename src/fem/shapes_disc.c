@@ -1,4 +1,5 @@
-/* See shapes_disc.h. The bulge is a share of the smooth map of the square onto the disc, x sqrt(1 - y^2/2): the square's corners then keep clear angles. */
+/* See shapes_disc.h. The bulge is a share of the smooth map of the square onto the disc, x sqrt(1 - y^2/2): the
+ * square's corners then keep clear angles. */
 #include "fem/shapes_disc.h"
 
 #include <math.h>

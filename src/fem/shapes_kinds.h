@@ -1,4 +1,5 @@
-/* The shapes, each in a file of its own: check() fills in the lengths that are not given and says which does not fit; blocks() lays the solid out. */
+/* The shapes, each in a file of its own: check() fills in the lengths that are not given and says which does not fit;
+ * blocks() lays the solid out. */
 #ifndef FEM_SHAPES_KINDS_H
 #define FEM_SHAPES_KINDS_H
 #include "fem/shapes_blocks.h"
@@ -21,7 +22,8 @@ struct shapes_kind {
     void (*blocks)(const struct shapes_ask *q, struct arena *a, struct shapes_blocks *s);
 };
 
-extern const struct shapes_kind shapes_plate, shapes_plate_bar, shapes_rod, shapes_ring, shapes_bowl, shapes_sphere, shapes_mug;
+extern const struct shapes_kind shapes_plate, shapes_plate_bar, shapes_rod, shapes_ring, shapes_bowl, shapes_sphere,
+    shapes_mug;
 
 /* Cells along a length, at least so many. */
 int shapes_kinds_cells(const struct shapes_ask *q, double length, int least);

@@ -1,5 +1,7 @@
-/* A mug: a disc for a bottom, a wall round it, and a handle in the x-z plane at +x: a strip of square section that leaves the wall's outside at z = height/4 and 3/4 height at a right angle, and
-   whose middle line is half a circle between them. The wall's lattice lines are drawn so that the strip's ends are whole cells of it; the ends' bend round the wall fades out along the bow. */
+/* A mug: a disc for a bottom, a wall round it, and a handle in the x-z plane at +x: a strip of square section that
+   leaves the wall's outside at z = height/4 and 3/4 height at a right angle, and whose middle line is half a circle
+   between them. The wall's lattice lines are drawn so that the strip's ends are whole cells of it; the ends' bend round
+   the wall fades out along the bow. */
 #include <math.h>
 
 #include "fem/shapes_disc.h"
@@ -12,7 +14,8 @@ enum { STEPS = 6 };
 
 struct mug {
     double radius, height, wall, bottom, handle;
-    int m, p, ring, layers, under, up, bow; /* cells: a quarter round, handle's side, bottom's ring, through the wall, the bottom, up the wall, along the bow */
+    int m, p, ring, layers, under, up, bow; /* cells: a quarter round, handle's side, bottom's ring, through the wall,
+                                               the bottom, up the wall, along the bow */
     double z[STEPS + 1];                    /* heights between which lattice lines are as far apart, ... */
     int line[STEPS + 1];                    /* ... and the lines there */
     int steps;
@@ -22,18 +25,13 @@ struct mug {
 static double angle(const struct mug *g, double line)
 {
     double all = 4. * g->m, half = g->p / 2., edge;
-    if (line > all / 2)
-        return 360 - angle(g, all - line);
-    if (g->p == 0)
-        return 360 * line / all;
+    if (line > all / 2) return 360 - angle(g, all - line);
+    if (g->p == 0) return 360 * line / all;
     edge = 180 / REAL_PI * real_atan2(g->handle / 2, sqrt(g->radius * g->radius - g->handle * g->handle / 4));
     return line <= half ? edge * line / half : edge + (180 - edge) * (line - half) / (all / 2 - half);
 }
 
-static double signed_angle(const struct mug *g, double line)
-{
-    return line < 0 ? -angle(g, -line) : angle(g, line);
-}
+static double signed_angle(const struct mug *g, double line) { return line < 0 ? -angle(g, -line) : angle(g, line); }
 
 static double height_of(const struct mug *g, double line)
 {
@@ -70,7 +68,8 @@ static void place(const void *shape, int which, const double c[3], double at[3])
         scale += g->wall * (c[1] / g->layers);
         at[2] = height_of(g, c[2]);
     } else
-        shapes_disc_ring(which, 2 * c[0] / g->m - 1, c[1] / g->ring, signed_angle(g, which * g->m + c[0] - g->m / 2.), at);
+        shapes_disc_ring(which, 2 * c[0] / g->m - 1, c[1] / g->ring, signed_angle(g, which * g->m + c[0] - g->m / 2.),
+                         at);
     at[0] *= scale;
     at[1] *= scale;
 }
@@ -115,7 +114,11 @@ static void add(const struct mug *g, struct shapes_blocks *s)
 static void blocks(const struct shapes_ask *q, struct arena *a, struct shapes_blocks *s)
 {
     struct mug *g = ARENA_TAKE(a, struct mug, 1);
-    *g = (struct mug){.radius = q->length[DIAMETER] / 2, .height = q->length[HEIGHT], .wall = q->length[WALL], .bottom = q->length[BOTTOM], .handle = q->length[HANDLE]};
+    *g = (struct mug){.radius = q->length[DIAMETER] / 2,
+                      .height = q->length[HEIGHT],
+                      .wall = q->length[WALL],
+                      .bottom = q->length[BOTTOM],
+                      .handle = q->length[HANDLE]};
     g->m = shapes_kinds_cells(q, REAL_PI / 2 * (g->radius - g->wall / 2), q->fineness + 1);
     if (g->handle > 0) {
         g->p = shapes_kinds_cells(q, g->handle, (q->fineness + 1) / 2);
@@ -137,15 +140,19 @@ static bool check(struct shapes_ask *q, struct err *e)
     d[BOTTOM] = isnan(d[BOTTOM]) ? d[WALL] : d[BOTTOM];
     d[HANDLE] = isnan(d[HANDLE]) ? d[DIAMETER] / 10 : d[HANDLE];
     if (d[WALL] > 0.25 * d[DIAMETER])
-        return err_set(e, ERR_USAGE, "wall is %g m, and a mug's is at most a quarter of the diameter, %g m", d[WALL], d[DIAMETER]);
+        return err_set(e, ERR_USAGE, "wall is %g m, and a mug's is at most a quarter of the diameter, %g m", d[WALL],
+                       d[DIAMETER]);
     if (d[BOTTOM] > 0.5 * d[HEIGHT])
-        return err_set(e, ERR_USAGE, "bottom is %g m, and a mug's is at most half the height, %g m", d[BOTTOM], d[HEIGHT]);
-    if (d[HANDLE] == 0)
-        return true;
+        return err_set(e, ERR_USAGE, "bottom is %g m, and a mug's is at most half the height, %g m", d[BOTTOM],
+                       d[HEIGHT]);
+    if (d[HANDLE] == 0) return true;
     double room = fmin(d[HEIGHT] / 4 - d[BOTTOM], d[HEIGHT] / 4);
     return (d[HANDLE] / 2 <= 0.8 * room && d[HANDLE] <= 0.5 * d[DIAMETER]) ||
-           err_set(e, ERR_USAGE, "a handle %g m thick does not fit a mug %g m high and %g m wide; give a smaller handle=, or handle=0 for none", d[HANDLE], d[HEIGHT], d[DIAMETER]);
+           err_set(e, ERR_USAGE,
+                   "a handle %g m thick does not fit a mug %g m high and %g m wide; give a smaller handle=, or "
+                   "handle=0 for none",
+                   d[HANDLE], d[HEIGHT], d[DIAMETER]);
 }
 
-const struct shapes_kind shapes_mug = {
-    "mug", {"diameter", "height", "wall", "bottom", "handle"}, 3, 4, 20000, check, blocks};
+const struct shapes_kind shapes_mug = {"mug", {"diameter", "height", "wall", "bottom", "handle"}, 3, 4, 20000, check,
+                                       blocks};

@@ -51,7 +51,5 @@ static bool check(struct shapes_ask *q, struct err *e)
     return true;
 }
 
-const struct shapes_kind shapes_plate = {
-    "plate", {"length", "width", "thickness"}, 3, 3, 18000, check, plate_blocks};
-const struct shapes_kind shapes_plate_bar = {
-    "bar", {"length", "width", "thickness"}, 3, 3, 11000, check, bar_blocks};
+const struct shapes_kind shapes_plate = {"plate", {"length", "width", "thickness"}, 3, 3, 18000, check, plate_blocks};
+const struct shapes_kind shapes_plate_bar = {"bar", {"length", "width", "thickness"}, 3, 3, 11000, check, bar_blocks};

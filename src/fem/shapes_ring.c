@@ -39,7 +39,8 @@ static void blocks(const struct shapes_ask *q, struct arena *a, struct shapes_bl
 static bool check(struct shapes_ask *q, struct err *e)
 {
     return !(q->length[WIDTH] > 0.49 * q->length[DIAMETER]) ||
-           err_set(e, ERR_USAGE, "width is %g m, and at most 0.49 of the diameter, %g m, leaves a hole in the ring", q->length[WIDTH], q->length[DIAMETER]);
+           err_set(e, ERR_USAGE, "width is %g m, and at most 0.49 of the diameter, %g m, leaves a hole in the ring",
+                   q->length[WIDTH], q->length[DIAMETER]);
 }
 
 const struct shapes_kind shapes_ring = {"ring", {"diameter", "width", "thickness"}, 3, 3, 11000, check, blocks};

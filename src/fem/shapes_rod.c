@@ -32,7 +32,9 @@ static void place(const void *shape, int which, const double c[3], double at[3])
 static void blocks(const struct shapes_ask *q, struct arena *a, struct shapes_blocks *s)
 {
     struct rod *r = ARENA_TAKE(a, struct rod, 1);
-    *r = (struct rod){.length = q->length[LENGTH], .radius = q->length[DIAMETER] / 2, .wall = isnan(q->length[WALL]) ? 0 : q->length[WALL]};
+    *r = (struct rod){.length = q->length[LENGTH],
+                      .radius = q->length[DIAMETER] / 2,
+                      .wall = isnan(q->length[WALL]) ? 0 : q->length[WALL]};
     r->m = shapes_kinds_cells(q, REAL_PI / 2 * r->radius, r->wall > 0 ? q->fineness + 1 : q->fineness);
     r->layers = shapes_kinds_across(q, r->wall > 0 ? r->wall : r->radius / 2);
     r->along = shapes_kinds_cells(q, r->length, q->fineness);
@@ -53,7 +55,9 @@ static void blocks(const struct shapes_ask *q, struct arena *a, struct shapes_bl
 static bool check(struct shapes_ask *q, struct err *e)
 {
     return !(q->length[WALL] >= 0.49 * q->length[DIAMETER]) ||
-           err_set(e, ERR_USAGE, "wall is %g m, and at most 0.49 of the diameter, %g m, makes a tube; without wall= the rod is solid", q->length[WALL], q->length[DIAMETER]);
+           err_set(e, ERR_USAGE,
+                   "wall is %g m, and at most 0.49 of the diameter, %g m, makes a tube; without wall= the rod is solid",
+                   q->length[WALL], q->length[DIAMETER]);
 }
 
 const struct shapes_kind shapes_rod = {"rod", {"length", "diameter", "wall"}, 2, 3, 13000, check, blocks};

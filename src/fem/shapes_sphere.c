@@ -1,5 +1,7 @@
-/* A ball: a cube of m^3 cells inside, its faces bulged, and six caps of m^2 cells between them and the sphere; hollow: the caps alone. A cap's directions are (1, tan(a pi/4), tan(b pi/4)), a and b in
-   [-1, 1], so that its lines are as far apart in angle; the bulge is half of the smooth map of the cube onto the ball x sqrt(1 - y^2/2 - z^2/2 + y^2 z^2/3). */
+/* A ball: a cube of m^3 cells inside, its faces bulged, and six caps of m^2 cells between them and the sphere; hollow:
+   the caps alone. A cap's directions are (1, tan(a pi/4), tan(b pi/4)), a and b in
+   [-1, 1], so that its lines are as far apart in angle; the bulge is half of the smooth map of the cube onto the ball x
+   sqrt(1 - y^2/2 - z^2/2 + y^2 z^2/3). */
 #include <math.h>
 
 #include "fem/shapes_kinds.h"
@@ -56,8 +58,7 @@ static void blocks(const struct shapes_ask *q, struct arena *a, struct shapes_bl
     b->m = shapes_kinds_cells(q, REAL_PI / 2 * b->radius, q->fineness < 2 ? 2 : q->fineness);
     b->layers = shapes_kinds_across(q, b->wall > 0 ? b->wall : (1 - inner) * b->radius);
     *s = (struct shapes_blocks){.place = place, .shape = b, .size = 2 * b->radius};
-    if (b->wall == 0)
-        shapes_blocks_add(s, 6, b->m, b->m, b->m);
+    if (b->wall == 0) shapes_blocks_add(s, 6, b->m, b->m, b->m);
     for (int i = 0; i < 6; i++)
         shapes_blocks_add(s, i, b->m, b->m, b->layers);
 }
@@ -67,7 +68,10 @@ static bool check(struct shapes_ask *q, struct err *e)
 {
     q->nodes *= isnan(q->length[WALL]) ? 0.55 : 1;
     return !(q->length[WALL] >= 0.49 * q->length[DIAMETER]) ||
-           err_set(e, ERR_USAGE, "wall is %g m, and at most 0.49 of the diameter, %g m, makes a hollow sphere; without wall= it is solid", q->length[WALL], q->length[DIAMETER]);
+           err_set(
+               e, ERR_USAGE,
+               "wall is %g m, and at most 0.49 of the diameter, %g m, makes a hollow sphere; without wall= it is solid",
+               q->length[WALL], q->length[DIAMETER]);
 }
 
 const struct shapes_kind shapes_sphere = {"sphere", {"diameter", "wall"}, 1, 3, 18000, check, blocks};

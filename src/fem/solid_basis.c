@@ -1,11 +1,12 @@
-/* Modes of equal frequency (of a square, a ring, a ball) are a space, of which a solver returns any basis. Here it is the one that makes extreme, and so M-orthogonal, the weighted
-   energy
+/* Modes of equal frequency (of a square, a ring, a ball) are a space, of which a solver returns any basis. Here it is
+   the one that makes extreme, and so M-orthogonal, the weighted energy
 
        Q(u) = sum over axes p of 1, 1/2, 1/4 times |W_p u|^2_M,   W_p(x) = diag(1, 7/8, 3/4)/(1 + |x - x_p|^2/s^2),
 
-   x_p where the line from the middle of the box along +x, +y, +z leaves it, s a quarter of the longest side. The first of a cluster is the one that moves most near +x, as of modes
-   that are struck there. W has no symmetry that a solid could share, and every angular order, so that Q's eigenvalues
-   within a cluster differ. The diagonal tells apart the two ways in which a slender rod bends: they move the same places. */
+   x_p where the line from the middle of the box along +x, +y, +z leaves it, s a quarter of the longest side. The first
+   of a cluster is the one that moves most near +x, as of modes that are struck there. W has no symmetry that a solid
+   could share, and every angular order, so that Q's eigenvalues within a cluster differ. The diagonal tells apart the
+   two ways in which a slender rod bends: they move the same places. */
 #include "fem/solid_basis.h"
 
 #include <cblas.h>
@@ -34,14 +35,14 @@ static void weigh(const struct solid_place *at, int axis, const double *v, doubl
             far += (at->net->at[i][k] - place[k]) * (at->net->at[i][k] - place[k]);
         for (int k = 0; k < 3; k++) {
             int freedom = at->freedoms->of[i][k];
-            if (freedom >= 0)
-                w[freedom] = (1.0 - 0.125 * k) * v[freedom] / (1.0 + 16.0 * far / (side * side));
+            if (freedom >= 0) w[freedom] = (1.0 - 0.125 * k) * v[freedom] / (1.0 + 16.0 * far / (side * side));
         }
     }
 }
 
 /* q += share of one axis. */
-static void add_energy(struct solid_matrices *x, const struct solid_place *at, int axis, const struct solid_pairs *p, struct cluster *c)
+static void add_energy(struct solid_matrices *x, const struct solid_place *at, int axis, const struct solid_pairs *p,
+                       struct cluster *c)
 {
     size_t n = p->freedoms;
     for (int i = 0; i < c->n; i++)
@@ -60,9 +61,11 @@ static bool rotate(const struct solid_pairs *p, struct cluster *c)
     double *value = (double *)malloc((size_t)n * sizeof *value), *v = p->vector + (size_t)c->first * p->freedoms;
     bool ok = value && LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'L', n, c->q, n, value) == 0;
     if (ok) {
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, wide, n, n, 1.0, v, wide, c->q, n, 0.0, c->weighted, wide);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, wide, n, n, 1.0, v, wide, c->q, n, 0.0, c->weighted,
+                    wide);
         for (int i = 0; i < n; i++)
-            memcpy(v + (size_t)(n - 1 - i) * p->freedoms, c->weighted + (size_t)i * p->freedoms, p->freedoms * sizeof *v);
+            memcpy(v + (size_t)(n - 1 - i) * p->freedoms, c->weighted + (size_t)i * p->freedoms,
+                   p->freedoms * sizeof *v);
     }
     free(value);
     return ok;
@@ -94,8 +97,7 @@ bool solid_basis(struct solid_matrices *x, const struct solid_place *at, int fir
     for (int to; first < p->n; first = to) {
         for (to = first + 1; to < p->n && p->lambda[to] - p->lambda[to - 1] <= 2e-6 * p->lambda[to]; to++) {
         }
-        if (to - first > 1 && !turn(x, at, p, first, to - first))
-            return false;
+        if (to - first > 1 && !turn(x, at, p, first, to - first)) return false;
     }
     return true;
 }
@@ -110,6 +112,5 @@ void solid_basis_sign(double *u, size_t n)
         at++;
     for (size_t i = 0; i < n && at < n && u[at] < 0.0; i++)
         u[i] = i == at ? u[i] : -u[i];
-    if (at < n)
-        u[at] = fabs(u[at]);
+    if (at < n) u[at] = fabs(u[at]);
 }

@@ -1,9 +1,10 @@
 /* Sylvester's law of inertia: K - shift M = L D L^T has as many negative pivots as there are lambda below shift.
 
-   The matrix is indefinite, which CHOLMOD's Cholesky cannot factor, so here is the multifrontal method (Duff and Reid 1983; Liu 1992) over the supernodes that CHOLMOD has found: each
-   supernode's columns and its children's updates are summed in a dense front
-       F = [F11 F21^T; F21 F22],   F11 = P L D L^T P^T (Bunch and Kaufman, pivots within the supernode),   update F22 - F21 F11^-1 F21^T  to its parent.
-   Only signs of pivots are kept, so no factor needs memory, only updates that wait for their parents. */
+   The matrix is indefinite, which CHOLMOD's Cholesky cannot factor, so here is the multifrontal method (Duff and Reid
+   1983; Liu 1992) over the supernodes that CHOLMOD has found: each supernode's columns and its children's updates are
+   summed in a dense front F = [F11 F21^T; F21 F22],   F11 = P L D L^T P^T (Bunch and Kaufman, pivots within the
+   supernode),   update F22 - F21 F11^-1 F21^T  to its parent. Only signs of pivots are kept, so no factor needs memory,
+   only updates that wait for their parents. */
 #include "fem/solid_count.h"
 
 #include <cblas.h>
@@ -13,25 +14,26 @@
 
 struct fronts {
     const cholmod_factor *l;
-    cholmod_sparse *a;           /* permuted, lower half */
-    int *place;                  /* [n] row -> row of the front */
-    int *super_of;               /* [n] column -> supernode */
-    int *child, *sibling;        /* [nsuper] lists, -1 ends */
-    double **update;             /* [nsuper] lower half, m x m by columns; NULL: none, or used */
+    cholmod_sparse *a;    /* permuted, lower half */
+    int *place;           /* [n] row -> row of the front */
+    int *super_of;        /* [n] column -> supernode */
+    int *child, *sibling; /* [nsuper] lists, -1 ends */
+    double **update;      /* [nsuper] lower half, m x m by columns; NULL: none, or used */
 };
 
 struct front {
     int s, columns, rows;
-    const int *row;              /* [rows] the first `columns` are its own */
-    double *f;                   /* rows x rows, lower half, by columns */
-    double *x;                   /* columns x (rows - columns): F11^-1 F21^T */
+    const int *row; /* [rows] the first `columns` are its own */
+    double *f;      /* rows x rows, lower half, by columns */
+    double *x;      /* columns x (rows - columns): F11^-1 F21^T */
     int *pivot;
 };
 
 static struct front front_of(const struct fronts *t, int s)
 {
     const int *super = (const int *)t->l->super, *pi = (const int *)t->l->pi;
-    return (struct front){.s = s, .columns = super[s + 1] - super[s], .rows = pi[s + 1] - pi[s], .row = (const int *)t->l->s + pi[s]};
+    return (struct front){
+        .s = s, .columns = super[s + 1] - super[s], .rows = pi[s + 1] - pi[s], .row = (const int *)t->l->s + pi[s]};
 }
 
 static void gather(struct fronts *t, struct front *f)
@@ -72,16 +74,16 @@ static bool pass_on(struct fronts *t, const struct front *f)
     enum { STRIP = 96 };
     int m = f->rows - f->columns, parent = t->super_of[f->row[f->columns]];
     double *u = (double *)malloc((size_t)m * m * sizeof *u);
-    if (!u)
-        return false;
+    if (!u) return false;
     for (int c = 0; c < m; c++)
-        memcpy(u + (size_t)c * m + c, f->f + (size_t)(f->columns + c) * f->rows + f->columns + c, (size_t)(m - c) * sizeof *u);
+        memcpy(u + (size_t)c * m + c, f->f + (size_t)(f->columns + c) * f->rows + f->columns + c,
+               (size_t)(m - c) * sizeof *u);
     for (int c = 0; c < m; c += STRIP) {
         int wide = m - c < STRIP ? m - c : STRIP;
         for (int k = 1; k < wide; k++) /* of its corner the upper half is computed too, and not used */
             memset(u + (size_t)(c + k) * m + c, 0, (size_t)k * sizeof *u);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m - c, wide, f->columns, -1.0, f->f + f->columns + c, f->rows,
-                    f->x + (size_t)c * f->columns, f->columns, 1.0, u + (size_t)c * m + c, m);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m - c, wide, f->columns, -1.0, f->f + f->columns + c,
+                    f->rows, f->x + (size_t)c * f->columns, f->columns, 1.0, u + (size_t)c * m + c, m);
     }
     t->update[f->s] = u;
     t->sibling[f->s] = t->child[parent];
@@ -92,15 +94,14 @@ static bool pass_on(struct fronts *t, const struct front *f)
 static bool eliminate(struct fronts *t, struct front *f, long *count)
 {
     int m = f->rows - f->columns;
-    if (LAPACKE_dsytrf(LAPACK_COL_MAJOR, 'L', f->columns, f->f, f->rows, f->pivot) != 0)
-        return false;
+    if (LAPACKE_dsytrf(LAPACK_COL_MAJOR, 'L', f->columns, f->f, f->rows, f->pivot) != 0) return false;
     *count += negative(f);
-    if (m == 0)
-        return true;
+    if (m == 0) return true;
     for (int c = 0; c < f->columns; c++)
         for (int r = 0; r < m; r++)
             f->x[(size_t)r * f->columns + c] = f->f[(size_t)c * f->rows + f->columns + r];
-    return LAPACKE_dsytrs2(LAPACK_COL_MAJOR, 'L', f->columns, m, f->f, f->rows, f->pivot, f->x, f->columns) == 0 && pass_on(t, f);
+    return LAPACKE_dsytrs2(LAPACK_COL_MAJOR, 'L', f->columns, m, f->f, f->rows, f->pivot, f->x, f->columns) == 0 &&
+           pass_on(t, f);
 }
 
 static bool one_front(struct fronts *t, int s, long *count)
@@ -124,10 +125,8 @@ static bool fronts_open(struct fronts *t, struct solid_matrices *x, double shift
 {
     cholmod_sparse *a = solid_matrices_shifted(x, shift), *upper = NULL;
     size_t n = t->l->n, supers = t->l->nsuper;
-    if (a)
-        upper = cholmod_ptranspose(a, 1, (int *)t->l->Perm, NULL, 0, &x->common);
-    if (upper)
-        t->a = cholmod_transpose(upper, 1, &x->common);
+    if (a) upper = cholmod_ptranspose(a, 1, (int *)t->l->Perm, NULL, 0, &x->common);
+    if (upper) t->a = cholmod_transpose(upper, 1, &x->common);
     cholmod_free_sparse(&a, &x->common);
     cholmod_free_sparse(&upper, &x->common);
     t->place = (int *)calloc(n, sizeof *t->place);
@@ -135,8 +134,7 @@ static bool fronts_open(struct fronts *t, struct solid_matrices *x, double shift
     t->child = (int *)malloc(supers * sizeof *t->child);
     t->sibling = (int *)malloc(supers * sizeof *t->sibling);
     t->update = (double **)calloc(supers, sizeof *t->update);
-    if (!t->a || !t->place || !t->super_of || !t->child || !t->sibling || !t->update)
-        return false;
+    if (!t->a || !t->place || !t->super_of || !t->child || !t->sibling || !t->update) return false;
     for (int s = 0; s < (int)supers; s++) {
         t->child[s] = t->sibling[s] = -1;
         for (int c = ((int *)t->l->super)[s]; c < ((int *)t->l->super)[s + 1]; c++)

@@ -1,5 +1,6 @@
-/* Block Lanczos (solid_lanczos) on CHOLMOD's supernodal factor of K - shift M, nested dissection by METIS. lambda is the Rayleigh quotient, whose error is the square of
-   the vector's. Few freedoms, or a good part of all pairs: LAPACK's dense solver. */
+/* Block Lanczos (solid_lanczos) on CHOLMOD's supernodal factor of K - shift M, nested dissection by METIS. lambda is
+   the Rayleigh quotient, whose error is the square of the vector's. Few freedoms, or a good part of all pairs: LAPACK's
+   dense solver. */
 #include "fem/solid_eigen.h"
 
 #include <cblas.h>
@@ -24,10 +25,10 @@ static void full(const cholmod_sparse *a, double *d)
 static bool dense(struct solid_matrices *x, struct solid_pairs *p, struct err *e)
 {
     size_t n = p->freedoms;
-    double *k = (double *)malloc(n * n * sizeof *k), *m = (double *)malloc(n * n * sizeof *m), *value = (double *)malloc(n * sizeof *value);
+    double *k = (double *)malloc(n * n * sizeof *k), *m = (double *)malloc(n * n * sizeof *m),
+           *value = (double *)malloc(n * sizeof *value);
     bool ok = k && m && value;
-    if (!ok)
-        solid_matrices_no_memory(n, e);
+    if (!ok) solid_matrices_no_memory(n, e);
     if (ok) {
         full(x->k, k);
         full(x->m, m);
@@ -35,7 +36,10 @@ static bool dense(struct solid_matrices *x, struct solid_pairs *p, struct err *e
         if (ok)
             memcpy(p->vector, k, (size_t)p->n * n * sizeof *k);
         else
-            err_set(e, ERR_NUMBERS, "the modes of the solid were not found: the mass matrix of %zu freedoms is not positive definite; look for elements of no volume", n);
+            err_set(e, ERR_NUMBERS,
+                    "the modes of the solid were not found: the mass matrix of %zu freedoms is not positive definite; "
+                    "look for elements of no volume",
+                    n);
     }
     free(k);
     free(m);
@@ -53,13 +57,14 @@ static bool fits(const cholmod_factor *l, int want)
 static bool factorise(struct solid_matrices *x, const struct solid_search *ask, cholmod_factor **factor, struct err *e)
 {
     cholmod_sparse *a = solid_matrices_shifted(x, ask->shift);
-    if (a && !*factor)
-        *factor = cholmod_analyze(a, &x->common);
+    if (a && !*factor) *factor = cholmod_analyze(a, &x->common);
     bool ok = a && *factor && fits(*factor, ask->want) && cholmod_factorize(a, *factor, &x->common);
     if (!ok)
         solid_matrices_no_memory(x->k->ncol, e);
     else if ((*factor)->minor < (*factor)->n)
-        ok = err_set(e, ERR_NUMBERS, "the stiffness of the solid is not positive definite: look for elements that are nearly flat, or a mesh of much too small or large a unit");
+        ok = err_set(e, ERR_NUMBERS,
+                     "the stiffness of the solid is not positive definite: look for elements that are nearly flat, or "
+                     "a mesh of much too small or large a unit");
     cholmod_free_sparse(&a, &x->common);
     return ok;
 }
@@ -78,8 +83,7 @@ struct products {
 static bool products_open(struct products *b, size_t freedoms)
 {
     b->v = (double *)malloc(5 * SOLID_MATRICES_WIDE * freedoms * sizeof *b->v);
-    if (!b->v)
-        return false;
+    if (!b->v) return false;
     b->k = b->v + SOLID_MATRICES_WIDE * freedoms;
     b->m = b->k + SOLID_MATRICES_WIDE * freedoms;
     b->room = b->m + SOLID_MATRICES_WIDE * freedoms;
@@ -107,8 +111,7 @@ static void measure(const struct solid_matrices *x, struct solid_pairs *p, struc
     for (int i = 0; i < p->n; i++) {
         double *v = p->vector + (size_t)i * p->freedoms;
         size_t at = (size_t)(i % SOLID_MATRICES_WIDE) * p->freedoms;
-        if (i % SOLID_MATRICES_WIDE == 0)
-            products_of(b, x, p, i);
+        if (i % SOLID_MATRICES_WIDE == 0) products_of(b, x, p, i);
         double mass = cblas_ddot(n, v, 1, b->m + at, 1);
         order[i] = (struct place){cblas_ddot(n, v, 1, b->k + at, 1) / mass, i};
         cblas_dscal(n, 1.0 / sqrt(mass), v, 1);
@@ -127,7 +130,8 @@ static bool settle(const struct solid_matrices *x, struct solid_pairs *p)
         qsort(order, (size_t)p->n, sizeof *order, compare);
         for (int i = 0; i < p->n; i++) {
             p->lambda[i] = order[i].lambda;
-            memcpy(sorted + (size_t)i * p->freedoms, p->vector + (size_t)order[i].from * p->freedoms, p->freedoms * sizeof *sorted);
+            memcpy(sorted + (size_t)i * p->freedoms, p->vector + (size_t)order[i].from * p->freedoms,
+                   p->freedoms * sizeof *sorted);
         }
         free(p->vector);
         p->vector = sorted;
@@ -139,7 +143,8 @@ static bool settle(const struct solid_matrices *x, struct solid_pairs *p)
     return ok;
 }
 
-static bool find(struct solid_matrices *x, const struct solid_search *ask, cholmod_factor **factor, struct solid_pairs *p, struct err *e)
+static bool find(struct solid_matrices *x, const struct solid_search *ask, cholmod_factor **factor,
+                 struct solid_pairs *p, struct err *e)
 {
     size_t n = p->freedoms;
     bool small = n <= FEW || (ask->want > (int)(n / 3) && n <= DENSE_MOST);
@@ -147,13 +152,13 @@ static bool find(struct solid_matrices *x, const struct solid_search *ask, cholm
     p->lambda = (double *)calloc((size_t)p->n, sizeof *p->lambda);
     p->vector = (double *)calloc((size_t)p->n * n, sizeof *p->vector);
     bool ok = p->lambda && p->vector;
-    if (!ok)
-        solid_matrices_no_memory(n, e);
+    if (!ok) solid_matrices_no_memory(n, e);
     ok = ok && (small ? dense(x, p, e) : factorise(x, ask, factor, e) && solid_lanczos(x, *factor, ask, p, e));
     return ok && (settle(x, p) || solid_matrices_no_memory(n, e));
 }
 
-bool solid_eigen(struct solid_matrices *x, const struct solid_search *ask, cholmod_factor **factor, struct solid_pairs *p, struct err *e)
+bool solid_eigen(struct solid_matrices *x, const struct solid_search *ask, cholmod_factor **factor,
+                 struct solid_pairs *p, struct err *e)
 {
     int threads = openblas_get_num_threads();
     *p = (struct solid_pairs){.freedoms = x->k->ncol};
@@ -174,13 +179,11 @@ double solid_eigen_residual(const struct solid_matrices *x, const struct solid_p
 {
     struct products b;
     double worst = 0.0;
-    if (!products_open(&b, p->freedoms))
-        return INFINITY;
+    if (!products_open(&b, p->freedoms)) return INFINITY;
     for (int i = first; i < first + n; i++) {
         size_t at = (size_t)((i - first) % SOLID_MATRICES_WIDE) * p->freedoms;
         double off = 0.0, size = 0.0;
-        if (at == 0)
-            products_of(&b, x, p, i);
+        if (at == 0) products_of(&b, x, p, i);
         for (size_t k = at; k < at + p->freedoms; k++) {
             double want = p->lambda[i] * b.m[k];
             off += (b.k[k] - want) * (b.k[k] - want);

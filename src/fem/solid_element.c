@@ -1,11 +1,15 @@
-/* Stiffness and consistent mass of a tetrahedron of order p (Zienkiewicz and Taylor, The Finite Element Method, 5th ed., vol. 1, sections 8.8, 9.10):
+/* Stiffness and consistent mass of a tetrahedron of order p (Zienkiewicz and Taylor, The Finite Element Method, 5th
+   ed., vol. 1, sections 8.8, 9.10):
 
-       K = integral B^T C B dV,   m = density integral N_a N_b dV,   x(L) = sum over the ten of N_a(L) x_a   (isoparametric where p is 2).
+       K = integral B^T C B dV,   m = density integral N_a N_b dV,   x(L) = sum over the ten of N_a(L) x_a
+   (isoparametric where p is 2).
 
-   Straight edges, midsides in their middle: the Jacobian is constant, K's integrand of degree 2 p - 2 and the mass's of degree 2 p. Order 2 takes 4 and 14 points (degree 5), others
-   p + 1 and p + 2 Gauss-Legendre points each way of collapsed coordinates (degree 2 n - 3): all exact. Curved: the Jacobian's determinant is of degree 3, the mass's integrand of
-   degree 2 p + 3 (p + 3 points each way, exact); K's is not a polynomial, and as many points as for straight ones (order 2: 14) are exact for a constant strain.
-   Rules: Hammer and Stroud 1956 (4 points); Walkington 2000, Grundmann and Moeller's orbits (14 points, degree 5). */
+   Straight edges, midsides in their middle: the Jacobian is constant, K's integrand of degree 2 p - 2 and the mass's of
+   degree 2 p. Order 2 takes 4 and 14 points (degree 5), others p + 1 and p + 2 Gauss-Legendre points each way of
+   collapsed coordinates (degree 2 n - 3): all exact. Curved: the Jacobian's determinant is of degree 3, the mass's
+   integrand of degree 2 p + 3 (p + 3 points each way, exact); K's is not a polynomial, and as many points as for
+   straight ones (order 2: 14) are exact for a constant strain. Rules: Hammer and Stroud 1956 (4 points); Walkington
+   2000, Grundmann and Moeller's orbits (14 points, degree 5). */
 #include "fem/solid_element.h"
 
 #include <math.h>
@@ -99,8 +103,7 @@ static bool straight(const double at[10][3])
             off += d * d;
             length += (q - p) * (q - p);
         }
-        if (!(off <= 1e-16 * length))
-            return false;
+        if (!(off <= 1e-16 * length)) return false;
     }
     return true;
 }
@@ -169,8 +172,7 @@ static bool integrate(const struct shaped *e, const struct rule *r, const struct
     int n = e->lattice->n;
     for (int p = 0; p < r->n; p++) {
         double value[NODES], slope[NODES][3], cof[3][3], det = jacobian(e->at, r->l[p], cof);
-        if (!(det > 0.0) || !isfinite(det))
-            return false;
+        if (!(det > 0.0) || !isfinite(det)) return false;
         solid_lattice_shapes(e->lattice, r->l[p], value, slope);
         if (s) {
             turn(n, (const double(*)[3])cof, det, slope);
@@ -195,14 +197,14 @@ static void rules(int order, bool flat, struct rule *for_mass, struct rule *for_
         rule_collapsed(order + 1, for_stiffness);
 }
 
-bool solid_element_make(const double at[10][3], const struct solid_lattice *t, const struct elastic *s, struct solid_element *x)
+bool solid_element_make(const double at[10][3], const struct solid_lattice *t, const struct elastic *s,
+                        struct solid_element *x)
 {
     struct rule for_mass, for_stiffness;
     struct shaped e = {at, t};
     rules(t->order, straight(at), &for_mass, &for_stiffness);
     memset(x, 0, sizeof *x);
-    if (!integrate(&e, &for_mass, NULL, x) || !integrate(&e, &for_stiffness, s, x))
-        return false;
+    if (!integrate(&e, &for_mass, NULL, x) || !integrate(&e, &for_stiffness, s, x)) return false;
     for (int i = 0; i < t->n; i++)
         for (int j = 0; j <= i; j++)
             x->m[i][j] = x->m[j][i] = s->density * x->m[i][j];

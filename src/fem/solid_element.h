@@ -10,11 +10,12 @@ struct solid_element {
     double volume;                                              /* m^3 */
 };
 
-/* Values [10] and slopes [10][3] (of L1, L2, L3) of the quadratic shape functions where the corners' coordinates are 1 - L1 - L2 - L3, L1, L2, L3; nodes as in
-   file/mesh.h. */
+/* Values [10] and slopes [10][3] (of L1, L2, L3) of the quadratic shape functions where the corners' coordinates are 1
+   - L1 - L2 - L3, L1, L2, L3; nodes as in file/mesh.h. */
 void solid_element_shapes(const double l[3], double value[10], double slope[10][3]);
 
 /* at: m. false: turned inside out, or of no volume, at a point of the quadrature. */
-bool solid_element_make(const double at[10][3], const struct solid_lattice *t, const struct elastic *s, struct solid_element *x);
+bool solid_element_make(const double at[10][3], const struct solid_lattice *t, const struct elastic *s,
+                        struct solid_element *x);
 
 #endif

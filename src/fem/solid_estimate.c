@@ -1,13 +1,18 @@
-/* Richardson's extrapolation: where frequencies converge with the power q of the cells' length h, two meshes of lengths h and r h give
+/* Richardson's extrapolation: where frequencies converge with the power q of the cells' length h, two meshes of lengths
+   h and r h give
 
        f_coarse - f = (r^q - 1) (f - f_true)   and so   error = (f_coarse - f)/(r^q - 1).
 
-   Smooth modes of order p on flat cells have q = 2 p; places are quadratic, which on curved surfaces leaves about 4 for any p; a held edge beside a free one is a singularity, and leaves 1 to 2.
-   Taken is 4: on flat solids of order 3 and 4 the estimate is too large, at singular edges too small. Cells that are as long in both meshes (one through a thin wall) tell nothing of their error.
+   Smooth modes of order p on flat cells have q = 2 p; places are quadratic, which on curved surfaces leaves about 4 for
+   any p; a held edge beside a free one is a singularity, and leaves 1 to 2. Taken is 4: on flat solids of order 3 and 4
+   the estimate is too large, at singular edges too small. Cells that are as long in both meshes (one through a thin
+   wall) tell nothing of their error.
 
-   Pairs: a fine mode u is fitted by coarse ones near it in frequency, u ~ sum c_k v_k, at points spread over the surface (least squares, all three components). Paired is what is fitted to
-   half of its square; f_coarse^2 is then the mean of the coarse modes' squares by c_k^2 (of those above a tenth of the greatest: what is smaller is the meshes' difference, not a part of the mode).
-   Modes of equal frequency, of which a coarse mesh may hold any basis, are paired that way too. */
+   Pairs: a fine mode u is fitted by coarse ones near it in frequency, u ~ sum c_k v_k, at points spread over the
+   surface (least squares, all three components). Paired is what is fitted to half of its square; f_coarse^2 is then the
+   mean of the coarse modes' squares by c_k^2 (of those above a tenth of the greatest: what is smaller is the meshes'
+   difference, not a part of the mode). Modes of equal frequency, of which a coarse mesh may hold any basis, are paired
+   that way too. */
 #include "fem/solid_estimate.h"
 
 #include <lapacke.h>
@@ -71,7 +76,8 @@ static void move_all(const struct solid_side *fine, const struct solid_side *coa
 static int nearest(const struct solid_modes *coarse, double lambda, int near)
 {
     int first = 0;
-    while (first + near < coarse->n && fabs(coarse->lambda[first + near] - lambda) < fabs(coarse->lambda[first] - lambda))
+    while (first + near < coarse->n &&
+           fabs(coarse->lambda[first + near] - lambda) < fabs(coarse->lambda[first] - lambda))
         first++;
     return first;
 }
@@ -83,8 +89,7 @@ static double pair(const struct solid_modes *coarse, const double *v, const doub
     double a[NEAR * ROWS], b[ROWS], all = 0.0, rest = 0.0, most = 0.0, sum = 0.0, weight = 0.0;
     memcpy(a, v + (long)first * ROWS, (size_t)near * ROWS * sizeof *a);
     memcpy(b, u, sizeof b);
-    if (LAPACKE_dgels(LAPACK_COL_MAJOR, 'N', ROWS, near, 1, a, ROWS, b, ROWS) != 0)
-        return NAN;
+    if (LAPACKE_dgels(LAPACK_COL_MAJOR, 'N', ROWS, near, 1, a, ROWS, b, ROWS) != 0) return NAN;
     for (int i = 0; i < ROWS; i++) {
         all += u[i] * u[i];
         rest += i >= near ? b[i] * b[i] : 0.0;
@@ -111,8 +116,7 @@ static void sum_up(int n, struct solid_estimate *s, struct arena *a)
     int paired = 0;
     s->median = s->most = NAN;
     for (int i = 0; i < n; i++) {
-        if (isnan(s->error[i]))
-            continue;
+        if (isnan(s->error[i])) continue;
         size[paired++] = fabs(s->error[i]);
         if (!(fabs(s->error[i]) <= s->most)) {
             s->most = fabs(s->error[i]);
@@ -121,15 +125,16 @@ static void sum_up(int n, struct solid_estimate *s, struct arena *a)
     }
     s->unpaired = n - paired;
     qsort(size, (size_t)paired, sizeof *size, compare);
-    if (paired)
-        s->median = 0.5 * (size[(paired - 1) / 2] + size[paired / 2]);
+    if (paired) s->median = 0.5 * (size[(paired - 1) / 2] + size[paired / 2]);
 }
 
-void solid_estimate(const struct solid_side *fine, const struct solid_side *coarse, struct arena *a, struct solid_estimate *s)
+void solid_estimate(const struct solid_side *fine, const struct solid_side *coarse, struct arena *a,
+                    struct solid_estimate *s)
 {
     int n = fine->modes->n;
-    double *u = ARENA_TAKE(a, double, (long)n * ROWS), *v = ARENA_TAKE(a, double, (long)coarse->modes->n * ROWS);
-    *s = (struct solid_estimate){.ratio = longest_edges(coarse->mesh) / longest_edges(fine->mesh), .error = ARENA_TAKE(a, double, n)};
+    double *u = ARENA_TAKE(a, double, (long)n *ROWS), *v = ARENA_TAKE(a, double, (long)coarse->modes->n *ROWS);
+    *s = (struct solid_estimate){.ratio = longest_edges(coarse->mesh) / longest_edges(fine->mesh),
+                                 .error = ARENA_TAKE(a, double, n)};
     s->share = fine->mesh->at == coarse->mesh->at ? 1.0 : 1.0 / (s->ratio * s->ratio * s->ratio * s->ratio - 1.0);
     move_all(fine, coarse, u, v);
     for (int i = 0; i < n; i++) {

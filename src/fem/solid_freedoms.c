@@ -1,11 +1,13 @@
 /* Faces that are held, as freedoms that are left out.
 
-   Clamped: u = 0 at the face's nodes. Supported: u along the face = 0, u along its normal n is free; at a node of several faces n is the mean of their normals
-   there (curved faces meet smoothly). Where one of them leans more than 20 degrees from the mean, faces meet in an edge: what each holds
-   together is everything. A normal that is an axis leaves that axis; any other gets a frame of its own, n and two directions across.
+   Clamped: u = 0 at the face's nodes. Supported: u along the face = 0, u along its normal n is free; at a node of
+   several faces n is the mean of their normals there (curved faces meet smoothly). Where one of them leans more than 20
+   degrees from the mean, faces meet in an edge: what each holds together is everything. A normal that is an axis leaves
+   that axis; any other gets a frame of its own, n and two directions across.
 
-   Rigid motions left over: of the six u = t + w x r those that have nothing along any held direction d. The rows (d, r x d), r from the middle of the box in units of its
-   half diagonal, have rank 6 - rigid; squared singular values below 1e-12 of the largest are zero (files hold normals to about 9 digits). */
+   Rigid motions left over: of the six u = t + w x r those that have nothing along any held direction d. The rows (d, r
+   x d), r from the middle of the box in units of its half diagonal, have rank 6 - rigid; squared singular values below
+   1e-12 of the largest are zero (files hold normals to about 9 digits). */
 #include "fem/solid_freedoms.h"
 
 #include <lapacke.h>
@@ -38,8 +40,7 @@ static int compare(const void *x, const void *y)
 {
     const struct known_face *a = (const struct known_face *)x, *b = (const struct known_face *)y;
     for (int i = 0; i < 3; i++)
-        if (a->corner[i] != b->corner[i])
-            return a->corner[i] < b->corner[i] ? -1 : 1;
+        if (a->corner[i] != b->corner[i]) return a->corner[i] < b->corner[i] ? -1 : 1;
     return 0;
 }
 
@@ -69,18 +70,17 @@ static void cross(const double x[3], const double y[3], double z[3])
         z[k] = x[(k + 1) % 3] * y[(k + 2) % 3] - x[(k + 2) % 3] * y[(k + 1) % 3];
 }
 
-static double dot(const double x[3], const double y[3])
-{
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
+static double dot(const double x[3], const double y[3]) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
 /* Unit normal of the curved face at its i-th node: along x_u cross x_v. */
 static void normal_at(const struct solid_net *net, int which, int i, double n[3])
 {
     const struct mesh *m = net->mesh;
     const int *face = net->boundary->face[which], *part = net->lattice.face[i];
-    double u = (double)part[1] / net->lattice.order, v = (double)part[2] / net->lattice.order, l = 1.0 - u - v, along[2][3] = {{0}};
-    const double du[6] = {1 - 4 * l, 4 * u - 1, 0, 4 * (l - u), 4 * v, -4 * v}, dv[6] = {1 - 4 * l, 0, 4 * v - 1, -4 * u, 4 * u, 4 * (l - v)};
+    double u = (double)part[1] / net->lattice.order, v = (double)part[2] / net->lattice.order, l = 1.0 - u - v,
+           along[2][3] = {{0}};
+    const double du[6] = {1 - 4 * l, 4 * u - 1, 0, 4 * (l - u), 4 * v, -4 * v},
+                 dv[6] = {1 - 4 * l, 0, 4 * v - 1, -4 * u, 4 * u, 4 * (l - v)};
     for (int a = 0; a < 6; a++)
         for (int k = 0; k < 3; k++) {
             along[0][k] += du[a] * m->at[face[a]][k];
@@ -92,7 +92,8 @@ static void normal_at(const struct solid_net *net, int which, int i, double n[3]
 
 enum step { SUM, LEAN };
 
-/* SUM adds the normal to each node's, or clamps the node; LEAN clamps nodes from whose mean normal the face's leans away. */
+/* SUM adds the normal to each node's, or clamps the node; LEAN clamps nodes from whose mean normal the face's leans
+ * away. */
 static void hold_face(struct holding *h, int which, int hold, enum step step)
 {
     const int nodes = h->net->lattice.on_face, *face = h->net->face + (size_t)which * (size_t)nodes;
@@ -105,8 +106,7 @@ static void hold_face(struct holding *h, int which, int hold, enum step step)
         }
         normal_at(h->net, which, i, n);
         h->supported[face[i]] = true;
-        if (step == LEAN && dot(n, h->normal[face[i]]) < most)
-            h->clamped[face[i]] = true;
+        if (step == LEAN && dot(n, h->normal[face[i]]) < most) h->clamped[face[i]] = true;
         for (int k = 0; k < 3 && step == SUM; k++)
             h->normal[face[i]][k] += n[k];
     }
@@ -123,7 +123,9 @@ static bool hold_all(struct holding *h, const struct solid_ask *ask, enum step s
             found = (struct known_face *)bsearch(&want, h->known, (size_t)h->net->boundary->n, sizeof want, compare);
             if (!found) {
                 const double *at = h->net->mesh->at[want.corner[0]];
-                return err_set(e, ERR_SCENE, "%s: a face that is to be held, at %g %g %g m, is not on the surface of the solid", h->net->mesh->name, at[0], at[1], at[2]);
+                return err_set(e, ERR_SCENE,
+                               "%s: a face that is to be held, at %g %g %g m, is not on the surface of the solid",
+                               h->net->mesh->name, at[0], at[1], at[2]);
             }
             hold_face(h, found->face, held->hold, step);
         }
@@ -148,8 +150,7 @@ static void frame_of(const double n[3], double d[3][3])
 static int axis_of(const double n[3])
 {
     for (int k = 0; k < 3; k++)
-        if (fabs(n[k]) > 0.9 && fabs(n[(k + 1) % 3]) < 1e-9 && fabs(n[(k + 2) % 3]) < 1e-9)
-            return k;
+        if (fabs(n[k]) > 0.9 && fabs(n[(k + 1) % 3]) < 1e-9 && fabs(n[(k + 2) % 3]) < 1e-9) return k;
     return -1;
 }
 
@@ -158,8 +159,7 @@ static void free_of(const struct holding *h, int node, struct solid_freedoms *f,
 {
     f->frame[node] = -1;
     moves[0] = moves[1] = moves[2] = !h->clamped[node] && !h->supported[node];
-    if (h->clamped[node] || !h->supported[node])
-        return;
+    if (h->clamped[node] || !h->supported[node]) return;
     int axis = axis_of(h->normal[node]);
     if (axis >= 0) {
         moves[axis] = true;
@@ -174,8 +174,7 @@ static void direction(const struct solid_freedoms *f, int node, int k, double d[
 {
     memset(d, 0, 3 * sizeof *d);
     d[k] = 1.0;
-    if (f->frame[node] >= 0)
-        memcpy(d, f->frames[f->frame[node]][k], 3 * sizeof *d);
+    if (f->frame[node] >= 0) memcpy(d, f->frames[f->frame[node]][k], 3 * sizeof *d);
 }
 
 static int rigid_left(const struct solid_net *net, const struct solid_freedoms *f)
@@ -189,8 +188,7 @@ static int rigid_left(const struct solid_net *net, const struct solid_freedoms *
     size = sqrt(size);
     for (int i = 0; i < net->nodes; i++)
         for (int k = 0; k < 3; k++) {
-            if (f->of[i][k] >= 0)
-                continue;
+            if (f->of[i][k] >= 0) continue;
             double row[6], r[3];
             for (int j = 0; j < 3; j++)
                 r[j] = (net->at[i][j] - middle[j]) / size;
@@ -199,8 +197,7 @@ static int rigid_left(const struct solid_net *net, const struct solid_freedoms *
             for (int p = 0; p < 36; p++)
                 c[p / 6][p % 6] += row[p / 6] * row[p % 6];
         }
-    if (LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'L', 6, c[0], 6, value) != 0)
-        return -1;
+    if (LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'L', 6, c[0], 6, value) != 0) return -1;
     int rigid = 0;
     for (int i = 0; i < 6; i++)
         rigid += value[i] <= 1e-12 * value[5];
@@ -214,23 +211,23 @@ static bool hold(struct holding *h, const struct solid_ask *ask, struct arena *a
     h->supported = ARENA_TAKE(a, bool, n);
     h->clamped = ARENA_TAKE(a, bool, n);
     know(h, a);
-    if (!hold_all(h, ask, SUM, e))
-        return false;
+    if (!hold_all(h, ask, SUM, e)) return false;
     for (size_t i = 0; i < n; i++)
-        if (h->supported[i] && unit(h->normal[i]) < 1e-6)
-            h->clamped[i] = true;
+        if (h->supported[i] && unit(h->normal[i]) < 1e-6) h->clamped[i] = true;
     return hold_all(h, ask, LEAN, e);
 }
 
-bool solid_freedoms_make(const struct solid_net *net, const struct solid_ask *ask, struct arena *a, struct solid_freedoms *f, struct err *e)
+bool solid_freedoms_make(const struct solid_net *net, const struct solid_ask *ask, struct arena *a,
+                         struct solid_freedoms *f, struct err *e)
 {
     struct holding h = {.net = net};
     int frames = 0;
-    if (!hold(&h, ask, a, e))
-        return false;
+    if (!hold(&h, ask, a, e)) return false;
     for (int i = 0; i < net->nodes; i++)
         frames += h.supported[i];
-    *f = (struct solid_freedoms){.nodes = net->nodes, .of = (int(*)[3])arena_take(a, (size_t)net->nodes, sizeof *f->of), .frame = ARENA_TAKE(a, int, net->nodes)};
+    *f = (struct solid_freedoms){.nodes = net->nodes,
+                                 .of = (int(*)[3])arena_take(a, (size_t)net->nodes, sizeof *f->of),
+                                 .frame = ARENA_TAKE(a, int, net->nodes)};
     f->frames = (double(*)[3][3])arena_take(a, (size_t)frames + 1, sizeof *f->frames);
     frames = 0;
     for (int i = 0; i < net->nodes; i++) {
@@ -240,7 +237,8 @@ bool solid_freedoms_make(const struct solid_net *net, const struct solid_ask *as
             f->of[i][k] = moves[k] ? f->n++ : -1;
     }
     if (f->n == 0)
-        return err_set(e, ERR_SCENE, "%s: every node of the solid is held: leave some of it free, or use a finer mesh", net->mesh->name);
+        return err_set(e, ERR_SCENE, "%s: every node of the solid is held: leave some of it free, or use a finer mesh",
+                       net->mesh->name);
     f->rigid = rigid_left(net, f);
     return true;
 }
@@ -251,8 +249,7 @@ void solid_freedoms_spread(const struct solid_freedoms *f, const double *q, doub
     for (int i = 0; i < f->nodes; i++)
         for (int k = 0; k < 3; k++) {
             double d[3];
-            if (f->of[i][k] < 0)
-                continue;
+            if (f->of[i][k] < 0) continue;
             direction(f, i, k, d);
             for (int j = 0; j < 3; j++)
                 u[3 * i + j] += d[j] * q[f->of[i][k]];

@@ -2,12 +2,17 @@
 
        S = (K - s M)^-1,   S M u = theta u,   lambda = s + 1/theta,
 
-   with s below 0: K - s M is positive definite for free solids too, and Cholesky's supernodal factor serves. From a block of noise each step takes V_j to S M V_j, makes it
-   M-orthogonal to all earlier ones (twice, by all of V) and M-orthonormal in itself (eigenvectors, then Cholesky's factor of its Gram matrix): S M V_j = V V^T M S M V_j + V_(j+1) R. What is
-   left of S M V_j may be less than a block: noise takes the missing places. T = V^T M S M V is small; its eigenpairs (theta, y) give vectors V y, and |S M V y - theta V y| = |R y_last|. Done when that is below 1e-12 theta for all that are wanted.
+   with s below 0: K - s M is positive definite for free solids too, and Cholesky's supernodal factor serves. From a
+   block of noise each step takes V_j to S M V_j, makes it M-orthogonal to all earlier ones (twice, by all of V) and
+   M-orthonormal in itself (eigenvectors, then Cholesky's factor of its Gram matrix): S M V_j = V V^T M S M V_j +
+   V_(j+1) R. What is left of S M V_j may be less than a block: noise takes the missing places. T = V^T M S M V is
+   small; its eigenpairs (theta, y) give vectors V y, and |S M V y - theta V y| = |R y_last|. Done when that is below
+   1e-12 theta for all that are wanted.
 
-   Blocks: the factor and V are read from memory once for WIDE vectors, not for each; and equal frequencies (5 of a ball's lowest, 2 of whatever is round) are found by
-   more than rounding. Nothing is restarted: about three to four vectors for each pair, all kept. The start is noise of a fixed key, BLAS runs in one thread: the same mesh gives the same pairs. */
+   Blocks: the factor and V are read from memory once for WIDE vectors, not for each; and equal frequencies (5 of a
+   ball's lowest, 2 of whatever is round) are found by more than rounding. Nothing is restarted: about three to four
+   vectors for each pair, all kept. The start is noise of a fixed key, BLAS runs in one thread: the same mesh gives the
+   same pairs. */
 #include "fem/solid_lanczos.h"
 
 #include <cblas.h>
@@ -28,13 +33,13 @@ enum { WIDE = SOLID_MATRICES_WIDE };
 struct krylov {
     struct solid_matrices *x;
     cholmod_factor *l;
-    cholmod_dense *out, *y, *e;          /* CHOLMOD's, kept from solution to solution */
-    int n, m, room;                      /* freedoms; vectors there are, and that there is room for */
-    double *v;                           /* [room][n] */
-    double *u, *z, *lace;                /* [WIDE][n] the next block, M times it; room for the product */
-    double *t, *ritz, *theta;            /* [room][room] V^T M S M V, its upper half; its eigenvectors; eigenvalues, rising */
-    double *h, r[WIDE * WIDE];           /* [WIDE][room] V^T M u; R, by columns */
-    double size;                         /* the longest of the last block before its part along V was taken out */
+    cholmod_dense *out, *y, *e; /* CHOLMOD's, kept from solution to solution */
+    int n, m, room;             /* freedoms; vectors there are, and that there is room for */
+    double *v;                  /* [room][n] */
+    double *u, *z, *lace;       /* [WIDE][n] the next block, M times it; room for the product */
+    double *t, *ritz, *theta;   /* [room][room] V^T M S M V, its upper half; its eigenvectors; eigenvalues, rising */
+    double *h, r[WIDE * WIDE];  /* [WIDE][room] V^T M u; R, by columns */
+    double size;                /* the longest of the last block before its part along V was taken out */
     uint64_t start;
 };
 
@@ -79,29 +84,34 @@ static void krylov_close(struct krylov *k)
 /* u = S z. */
 static bool solve(struct krylov *k)
 {
-    cholmod_dense b = {.nrow = (size_t)k->n, .ncol = WIDE, .nzmax = (size_t)k->n * WIDE, .d = (size_t)k->n, .x = k->z, .xtype = CHOLMOD_REAL, .dtype = CHOLMOD_DOUBLE};
-    if (!cholmod_solve2(CHOLMOD_A, k->l, &b, NULL, &k->out, NULL, &k->y, &k->e, &k->x->common))
-        return false;
+    cholmod_dense b = {.nrow = (size_t)k->n,
+                       .ncol = WIDE,
+                       .nzmax = (size_t)k->n * WIDE,
+                       .d = (size_t)k->n,
+                       .x = k->z,
+                       .xtype = CHOLMOD_REAL,
+                       .dtype = CHOLMOD_DOUBLE};
+    if (!cholmod_solve2(CHOLMOD_A, k->l, &b, NULL, &k->out, NULL, &k->y, &k->e, &k->x->common)) return false;
     memcpy(k->u, k->out->x, (size_t)k->n * WIDE * sizeof *k->u);
     return true;
 }
 
-static void product(struct krylov *k)
-{
-    solid_matrices_times_block(k->x->m_thin, k->u, k->z, k->lace);
-}
+static void product(struct krylov *k) { solid_matrices_times_block(k->x->m_thin, k->u, k->z, k->lace); }
 
-/* u less its part along V, which is added to T where T's last columns are V's last block. z is M u before the second time, and so M u after it to rounding. */
+/* u less its part along V, which is added to T where T's last columns are V's last block. z is M u before the second
+ * time, and so M u after it to rounding. */
 static void part(struct krylov *k, bool known)
 {
     for (int pass = 0; pass < 2; pass++) {
         product(k);
         for (int j = 0; j < WIDE && pass == 0; j++)
-            k->size = fmax(j ? k->size : 0.0, sqrt(cblas_ddot(k->n, k->u + (size_t)j * k->n, 1, k->z + (size_t)j * k->n, 1)));
-        if (k->m == 0)
-            return;
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k->m, WIDE, k->n, 1.0, k->v, k->n, k->z, k->n, 0.0, k->h, k->room);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k->n, WIDE, k->m, -1.0, k->v, k->n, k->h, k->room, 1.0, k->u, k->n);
+            k->size =
+                fmax(j ? k->size : 0.0, sqrt(cblas_ddot(k->n, k->u + (size_t)j * k->n, 1, k->z + (size_t)j * k->n, 1)));
+        if (k->m == 0) return;
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k->m, WIDE, k->n, 1.0, k->v, k->n, k->z, k->n, 0.0, k->h,
+                    k->room);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k->n, WIDE, k->m, -1.0, k->v, k->n, k->h, k->room, 1.0,
+                    k->u, k->n);
         for (int j = 0; j < WIDE && known; j++)
             cblas_daxpy(k->m, 1.0, k->h + (size_t)j * k->room, 1, k->t + (size_t)(k->m - WIDE + j) * k->room, 1);
     }
@@ -119,15 +129,15 @@ static void turn(const struct krylov *k, const double *q, double *w)
     memcpy(w, k->lace, (size_t)k->n * WIDE * sizeof *w);
 }
 
-/* u = (u q/d) (d q^T), u^T z = q d^2 q^T; where d is rounding, noise in place of u q/d and 0 of d. *again: what is left is so little that its part along V has to be taken out once more. false: numbers that are none. */
+/* u = (u q/d) (d q^T), u^T z = q d^2 q^T; where d is rounding, noise in place of u q/d and 0 of d. *again: what is left
+ * is so little that its part along V has to be taken out once more. false: numbers that are none. */
 static bool split(struct krylov *k, bool *again)
 {
     double g[WIDE * WIDE], square[WIDE], q[WIDE * WIDE];
     int lost = 0;
     *again = false;
     gram(k, g);
-    if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', WIDE, g, WIDE, square) != 0)
-        return false;
+    if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', WIDE, g, WIDE, square) != 0) return false;
     for (int j = 0; j < WIDE; j++) {
         double d = sqrt(fmax(square[WIDE - 1 - j], 0.0));
         bool none = d <= EXHAUSTED * k->size;
@@ -142,7 +152,8 @@ static bool split(struct krylov *k, bool *again)
     turn(k, q, k->u);
     turn(k, q, k->z);
     for (int j = WIDE - lost; j < WIDE; j++)
-        noise_normal(noise_make(0, "solid"), k->start + (uint64_t)(k->m + j) * 16, (size_t)k->n, k->u + (size_t)j * k->n);
+        noise_normal(noise_make(0, "solid"), k->start + (uint64_t)(k->m + j) * 16, (size_t)k->n,
+                     k->u + (size_t)j * k->n);
     return true;
 }
 
@@ -151,13 +162,13 @@ static bool norm(struct krylov *k)
 {
     double g[WIDE * WIDE];
     bool again, ok = split(k, &again);
-    if (ok && again)
-        part(k, false);
+    if (ok && again) part(k, false);
     gram(k, g);
-    if (!ok || LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', WIDE, g, WIDE) != 0)
-        return false;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, k->n, WIDE, 1.0, g, WIDE, k->u, k->n);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, k->n, WIDE, 1.0, g, WIDE, k->z, k->n);
+    if (!ok || LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', WIDE, g, WIDE) != 0) return false;
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, k->n, WIDE, 1.0, g, WIDE, k->u,
+                k->n);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, k->n, WIDE, 1.0, g, WIDE, k->z,
+                k->n);
     cblas_dtrmm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, WIDE, WIDE, 1.0, g, WIDE, k->r, WIDE);
     return true;
 }
@@ -165,8 +176,7 @@ static bool norm(struct krylov *k)
 /* The block u becomes V's last. */
 static bool append(struct krylov *k)
 {
-    if (k->m + WIDE > k->room && !room_for(k, k->m + WIDE + k->room / 2))
-        return false;
+    if (k->m + WIDE > k->room && !room_for(k, k->m + WIDE + k->room / 2)) return false;
     memcpy(k->v + (size_t)k->m * (size_t)k->n, k->u, (size_t)k->n * WIDE * sizeof *k->u);
     k->m += WIDE;
     return true;
@@ -178,8 +188,7 @@ static int near_enough(struct krylov *k, int want)
     int m = k->m;
     for (int j = 0; j < m; j++)
         memcpy(k->ritz + (size_t)j * m, k->t + (size_t)j * k->room, (size_t)m * sizeof *k->ritz);
-    if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', m, k->ritz, m, k->theta) != 0)
-        return -1;
+    if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', m, k->ritz, m, k->theta) != 0) return -1;
     int good = 0;
     for (bool ok = true; ok && good < want; good += ok) {
         double last[WIDE], *y = k->ritz + (size_t)(m - 1 - good) * m;
@@ -197,20 +206,21 @@ static bool grow(struct krylov *k, int want, struct err *e)
     while (norm(k)) {
         if (k->m >= next || k->m + WIDE > most) {
             good = near_enough(k, want);
-            if (good == want)
-                return true;
-            if (good < 0 || k->m + WIDE > most)
-                break;
+            if (good == want) return true;
+            if (good < 0 || k->m + WIDE > most) break;
             next = k->m + k->m / 10;
         }
-        if (!append(k) || !solve(k))
-            return solid_matrices_no_memory((size_t)k->n, e);
+        if (!append(k) || !solve(k)) return solid_matrices_no_memory((size_t)k->n, e);
         part(k, true);
     }
-    return err_set(e, ERR_NUMBERS, "the modes of the solid were not found: %d of %d in %d steps; a mesh of better elements, or fewer modes, may help", good < 0 ? 0 : good, want, k->m / WIDE);
+    return err_set(e, ERR_NUMBERS,
+                   "the modes of the solid were not found: %d of %d in %d steps; a mesh of better elements, or fewer "
+                   "modes, may help",
+                   good < 0 ? 0 : good, want, k->m / WIDE);
 }
 
-bool solid_lanczos(struct solid_matrices *x, cholmod_factor *factor, const struct solid_search *ask, struct solid_pairs *p, struct err *e)
+bool solid_lanczos(struct solid_matrices *x, cholmod_factor *factor, const struct solid_search *ask,
+                   struct solid_pairs *p, struct err *e)
 {
     struct krylov k = {.x = x, .l = factor, .n = (int)p->freedoms, .start = ask->start};
     bool ok = krylov_open(&k, 4 * p->n + 2 * WIDE) || solid_matrices_no_memory(p->freedoms, e);
@@ -218,7 +228,8 @@ bool solid_lanczos(struct solid_matrices *x, cholmod_factor *factor, const struc
     for (int i = 0; i < p->n / 2 && ok; i++) /* greatest first */
         cblas_dswap(k.m, k.ritz + (size_t)(k.m - 1 - i) * k.m, 1, k.ritz + (size_t)(k.m - p->n + i) * k.m, 1);
     if (ok)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k.n, p->n, k.m, 1.0, k.v, k.n, k.ritz + (size_t)(k.m - p->n) * k.m, k.m, 0.0, p->vector, k.n);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k.n, p->n, k.m, 1.0, k.v, k.n,
+                    k.ritz + (size_t)(k.m - p->n) * k.m, k.m, 0.0, p->vector, k.n);
     krylov_close(&k);
     return ok;
 }

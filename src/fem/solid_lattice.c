@@ -1,4 +1,5 @@
-/* Lagrange's polynomials on the lattice of a simplex (Silvester 1969): the node of barycentric coordinates a/p, the whole numbers a summing to p, has
+/* Lagrange's polynomials on the lattice of a simplex (Silvester 1969): the node of barycentric coordinates a/p, the
+   whole numbers a summing to p, has
 
        N = product over corners i of R_a_i(L_i),   R_a(L) = product over t = 0 ... a - 1 of (p L - t)/(t + 1).  */
 #include "fem/solid_lattice.h"
@@ -7,7 +8,8 @@
 
 static const int ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
 
-/* The nodes with all of `corners` of the four (or three) at 1 or more and none of the others, in the order of counting. */
+/* The nodes with all of `corners` of the four (or three) at 1 or more and none of the others, in the order of counting.
+ */
 static int add(int order, const int *corner, int corners, int (*at)[4], int n)
 {
     int a[4] = {1, 1, 1, 1};
@@ -18,10 +20,8 @@ static int add(int order, const int *corner, int corners, int (*at)[4], int n)
         int used = order;
         for (int i = 1; i < corners; i++)
             used *= order;
-        if (code >= used)
-            break;
-        if (sum != order)
-            continue;
+        if (code >= used) break;
+        if (sum != order) continue;
         memset(at[n], 0, sizeof at[n]);
         for (int i = 0; i < corners; i++)
             at[n][corner[i]] = a[i];

@@ -5,9 +5,10 @@
 enum { SOLID_LATTICE_LEAST = 2, SOLID_LATTICE_MOST = 4, SOLID_LATTICE_NODES = 35, SOLID_LATTICE_FACE = 15 };
 
 struct solid_lattice {
-    int order, n, on_face;                        /* nodes of a tetrahedron, of a triangle */
-    int at[SOLID_LATTICE_NODES][4];               /* the node's barycentric coordinates times the order: corners, edges 01 12 20 03 13 23, faces, inside */
-    int face[SOLID_LATTICE_FACE][3];              /* corners, edges 01 12 20, inside */
+    int order, n, on_face; /* nodes of a tetrahedron, of a triangle */
+    int at[SOLID_LATTICE_NODES]
+          [4]; /* the node's barycentric coordinates times the order: corners, edges 01 12 20 03 13 23, faces, inside */
+    int face[SOLID_LATTICE_FACE][3]; /* corners, edges 01 12 20, inside */
 };
 
 struct solid_lattice solid_lattice_make(int order);

@@ -1,5 +1,5 @@
-/* Assembly: which nodes share an element gives the pattern, column by column with rising rows; each element's entries are then found by bisection.
-   CHOLMOD's matrices (Chen, Davis, Hager and Rajamanickam 2008), lower halves. */
+/* Assembly: which nodes share an element gives the pattern, column by column with rising rows; each element's entries
+   are then found by bisection. CHOLMOD's matrices (Chen, Davis, Hager and Rajamanickam 2008), lower halves. */
 #include "fem/solid_matrices.h"
 
 #include <stdlib.h>
@@ -8,7 +8,8 @@
 #include "fem/solid_element.h"
 
 struct graph {
-    int *first, *node; /* [nodes + 1]; neighbours of node i, itself included, not below i: node[first[i]] .. node[first[i + 1] - 1], rising */
+    int *first, *node; /* [nodes + 1]; neighbours of node i, itself included, not below i: node[first[i]] ..
+                          node[first[i + 1] - 1], rising */
 };
 
 static int compare(const void *a, const void *b)
@@ -23,16 +24,14 @@ static bool graph_open(const struct solid_net *m, struct graph *g)
     int n = m->lattice.n;
     g->first = (int *)calloc((size_t)m->nodes + 2, sizeof *g->first);
     g->node = (int *)malloc((size_t)(n * (n + 1) / 2) * (size_t)m->mesh->elements * sizeof *g->node);
-    if (!g->first || !g->node)
-        return false;
+    if (!g->first || !g->node) return false;
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < m->nodes && pass; i++)
             g->first[i + 2] += g->first[i + 1];
         for (int p = 0; p < m->mesh->elements; p++)
             for (int q = 0; q < n * n; q++) {
                 int i = m->element[p * n + q / n], j = m->element[p * n + q % n];
-                if (j < i)
-                    continue;
+                if (j < i) continue;
                 if (pass)
                     g->node[g->first[i + 1]++] = j;
                 else
@@ -45,8 +44,7 @@ static bool graph_open(const struct solid_net *m, struct graph *g)
         qsort(g->node + from, (size_t)(to - from), sizeof *g->node, compare);
         g->first[i] = kept;
         for (int k = from; k < to; k++)
-            if (k == from || g->node[k] != g->node[k - 1])
-                g->node[kept++] = g->node[k];
+            if (k == from || g->node[k] != g->node[k - 1]) g->node[kept++] = g->node[k];
         from = to;
     }
     g->first[m->nodes] = kept;
@@ -66,30 +64,24 @@ static size_t fill(const struct graph *g, const struct solid_freedoms *f, cholmo
     for (int i = 0; i < f->nodes; i++)
         for (int c = 0; c < 3; c++) {
             int column = f->of[i][c];
-            if (column < 0)
-                continue;
-            if (a)
-                ((int *)a->p)[column] = (int)n;
+            if (column < 0) continue;
+            if (a) ((int *)a->p)[column] = (int)n;
             for (int k = g->first[i]; k < g->first[i + 1]; k++)
                 for (int r = 0; r < 3; r++) {
                     int row = f->of[g->node[k]][r];
-                    if (row < column)
-                        continue;
-                    if (a)
-                        ((int *)a->i)[n] = row;
+                    if (row < column) continue;
+                    if (a) ((int *)a->i)[n] = row;
                     n++;
                 }
         }
-    if (a)
-        ((int *)a->p)[f->n] = (int)n;
+    if (a) ((int *)a->p)[f->n] = (int)n;
     return n;
 }
 
 static cholmod_sparse *pattern(const struct graph *g, const struct solid_freedoms *f, cholmod_common *c)
 {
     size_t n = fill(g, f, NULL);
-    if (n > 0x7fffffff)
-        return NULL;
+    if (n > 0x7fffffff) return NULL;
     cholmod_sparse *a = cholmod_allocate_sparse((size_t)f->n, (size_t)f->n, n, 1, 1, -1, CHOLMOD_REAL, c);
     if (a) {
         fill(g, f, a);
@@ -117,13 +109,13 @@ static void turn_block(const double (*left)[3], const double (*right)[3], double
 {
     double t[3][3];
     for (int i = 0; i < 9 && left; i++)
-        t[i / 3][i % 3] = left[i / 3][0] * block[0][i % 3] + left[i / 3][1] * block[1][i % 3] + left[i / 3][2] * block[2][i % 3];
-    if (left)
-        memcpy(block, t, sizeof t);
+        t[i / 3][i % 3] =
+            left[i / 3][0] * block[0][i % 3] + left[i / 3][1] * block[1][i % 3] + left[i / 3][2] * block[2][i % 3];
+    if (left) memcpy(block, t, sizeof t);
     for (int i = 0; i < 9 && right; i++)
-        t[i / 3][i % 3] = right[i % 3][0] * block[i / 3][0] + right[i % 3][1] * block[i / 3][1] + right[i % 3][2] * block[i / 3][2];
-    if (right)
-        memcpy(block, t, sizeof t);
+        t[i / 3][i % 3] =
+            right[i % 3][0] * block[i / 3][0] + right[i % 3][1] * block[i / 3][1] + right[i % 3][2] * block[i / 3][2];
+    if (right) memcpy(block, t, sizeof t);
 }
 
 static const double (*frame(const struct solid_freedoms *f, int node))[3]
@@ -138,8 +130,7 @@ static void add_block(const struct solid_freedoms *f, const int node[2], double 
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             int row = f->of[node[0]][i], column = f->of[node[1]][j];
-            if (column >= 0 && row >= column)
-                *entry(a, row, column) += block[i][j];
+            if (column >= 0 && row >= column) *entry(a, row, column) += block[i][j];
         }
 }
 
@@ -156,8 +147,7 @@ static void add_element(const struct part *e, const struct solid_freedoms *f, st
         int a = p / e->n, b = p % e->n;
         const int pair[2] = {e->node[a], e->node[b]};
         double k[3][3], m[3][3] = {{0}};
-        if (pair[0] < pair[1])
-            continue;
+        if (pair[0] < pair[1]) continue;
         for (int i = 0; i < 3; i++) {
             memcpy(k[i], &x->k[3 * a + i][3 * b], sizeof k[i]);
             m[i][i] = x->m[a][b];
@@ -168,7 +158,8 @@ static void add_element(const struct part *e, const struct solid_freedoms *f, st
     }
 }
 
-static bool add_all(const struct solid_net *net, const struct elastic *s, const struct solid_freedoms *f, struct solid_matrices *x, struct err *e)
+static bool add_all(const struct solid_net *net, const struct elastic *s, const struct solid_freedoms *f,
+                    struct solid_matrices *x, struct err *e)
 {
     const struct mesh *m = net->mesh;
     struct part part = {.n = net->lattice.n};
@@ -178,7 +169,8 @@ static bool add_all(const struct solid_net *net, const struct elastic *s, const 
         for (int a = 0; a < 10; a++)
             memcpy(at[a], m->at[m->element[p][a]], sizeof at[a]);
         if (!solid_element_make((const double(*)[3])at, &net->lattice, s, &part.element))
-            return err_set(e, ERR_SCENE, "%s: element %d, at %g %g %g m, is turned inside out or has no volume", m->name, p + 1, at[0][0], at[0][1], at[0][2]);
+            return err_set(e, ERR_SCENE, "%s: element %d, at %g %g %g m, is turned inside out or has no volume",
+                           m->name, p + 1, at[0][0], at[0][1], at[0][2]);
         add_element(&part, f, x);
     }
     return true;
@@ -195,7 +187,8 @@ static void start(cholmod_common *c)
     c->postorder = 1;
 }
 
-bool solid_matrices_open(const struct solid_net *net, const struct elastic *s, const struct solid_freedoms *f, struct solid_matrices *x, struct err *e)
+bool solid_matrices_open(const struct solid_net *net, const struct elastic *s, const struct solid_freedoms *f,
+                         struct solid_matrices *x, struct err *e)
 {
     struct graph g;
     memset(x, 0, sizeof *x);
@@ -205,13 +198,10 @@ bool solid_matrices_open(const struct solid_net *net, const struct elastic *s, c
         x->m = x->k ? cholmod_copy_sparse(x->k, &x->common) : NULL;
     }
     graph_close(&g);
-    if (!x->m)
-        return solid_matrices_no_memory((size_t)f->n, e);
-    if (!add_all(net, s, f, x, e))
-        return false;
+    if (!x->m) return solid_matrices_no_memory((size_t)f->n, e);
+    if (!add_all(net, s, f, x, e)) return false;
     x->m_thin = cholmod_copy_sparse(x->m, &x->common);
-    if (!x->m_thin || !cholmod_drop(0.0, x->m_thin, &x->common))
-        return solid_matrices_no_memory((size_t)f->n, e);
+    if (!x->m_thin || !cholmod_drop(0.0, x->m_thin, &x->common)) return solid_matrices_no_memory((size_t)f->n, e);
     return true;
 }
 
@@ -234,7 +224,8 @@ cholmod_sparse *solid_matrices_shifted(struct solid_matrices *x, double shift)
 
 cholmod_dense solid_matrices_column(double *v, size_t n)
 {
-    return (cholmod_dense){.nrow = n, .ncol = 1, .nzmax = n, .d = n, .x = v, .xtype = CHOLMOD_REAL, .dtype = CHOLMOD_DOUBLE};
+    return (cholmod_dense){
+        .nrow = n, .ncol = 1, .nzmax = n, .d = n, .x = v, .xtype = CHOLMOD_REAL, .dtype = CHOLMOD_DOUBLE};
 }
 
 void solid_matrices_times(struct solid_matrices *x, cholmod_sparse *a, const double *v, double *y)
@@ -256,7 +247,8 @@ void solid_matrices_times_block(const cholmod_sparse *a, const double *v, double
     for (size_t c = 0; c < n; c++) {
         double sum[WIDE] = {0}, *at = in + c * WIDE;
         for (int i = p[c]; i < p[c + 1]; i++) {
-            double *from = in + (size_t)row[i] * WIDE, *to = out + (size_t)row[i] * WIDE, x = ((const double *)a->x)[i], mirrored = (size_t)row[i] == c ? 0.0 : x;
+            double *from = in + (size_t)row[i] * WIDE, *to = out + (size_t)row[i] * WIDE, x = ((const double *)a->x)[i],
+                   mirrored = (size_t)row[i] == c ? 0.0 : x;
             for (int j = 0; j < WIDE; j++) {
                 sum[j] += x * from[j];
                 to[j] += mirrored * at[j];
@@ -271,5 +263,7 @@ void solid_matrices_times_block(const cholmod_sparse *a, const double *v, double
 
 bool solid_matrices_no_memory(size_t freedoms, struct err *e)
 {
-    return err_set(e, ERR_SCENE, "a solid of %zu freedoms is too large for the memory: use a coarser mesh, or ask for fewer modes", freedoms);
+    return err_set(e, ERR_SCENE,
+                   "a solid of %zu freedoms is too large for the memory: use a coarser mesh, or ask for fewer modes",
+                   freedoms);
 }

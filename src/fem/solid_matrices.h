@@ -7,13 +7,14 @@
 
 struct solid_matrices {
     cholmod_common common;
-    cholmod_sparse *k, *m;     /* lower halves, of the same pattern */
-    cholmod_sparse *m_thin;    /* m without its zeros, to multiply with */
-    double mass;               /* kg, of all of the solid */
+    cholmod_sparse *k, *m;  /* lower halves, of the same pattern */
+    cholmod_sparse *m_thin; /* m without its zeros, to multiply with */
+    double mass;            /* kg, of all of the solid */
 };
 
 /* ERR_SCENE: an element that is turned inside out; too large for the memory. Close it in any case. */
-bool solid_matrices_open(const struct solid_net *net, const struct elastic *s, const struct solid_freedoms *f, struct solid_matrices *x, struct err *e);
+bool solid_matrices_open(const struct solid_net *net, const struct elastic *s, const struct solid_freedoms *f,
+                         struct solid_matrices *x, struct err *e);
 void solid_matrices_close(struct solid_matrices *x);
 
 /* K - shift M, as a new matrix; NULL: no memory. */

@@ -1,4 +1,5 @@
-/* A node is known by the corners that it lies between and its whole numbers there (solid_lattice.c): elements that share a corner, an edge or a face share its nodes. */
+/* A node is known by the corners that it lies between and its whole numbers there (solid_lattice.c): elements that
+ * share a corner, an edge or a face share its nodes. */
 #include "fem/solid_net.h"
 
 #include <stdlib.h>
@@ -15,8 +16,7 @@ static int compare(const void *x, const void *y)
 {
     const struct key *a = (const struct key *)x, *b = (const struct key *)y;
     for (int i = 0; i < 4; i++)
-        if (a->part[i] != b->part[i])
-            return a->part[i] < b->part[i] ? -1 : 1;
+        if (a->part[i] != b->part[i]) return a->part[i] < b->part[i] ? -1 : 1;
     return 0;
 }
 
@@ -31,8 +31,7 @@ static struct key key_of(const int *corner, const int *a, int corners)
     struct key k = {{0}, 0};
     for (int i = 0; i < corners; i++) {
         int part = a[i] ? corner[i] * 8 + a[i] : 0, j;
-        if (!part)
-            continue;
+        if (!part) continue;
         for (j = 0; j < 3 && k.part[j + 1] < part; j++)
             k.part[j] = k.part[j + 1];
         k.part[j] = part;
@@ -40,7 +39,8 @@ static struct key key_of(const int *corner, const int *a, int corners)
     return k;
 }
 
-/* Places [per element] -> numbers of nodes, in the order in which nodes are first met; known: one key for each, sorted. Returns how many. */
+/* Places [per element] -> numbers of nodes, in the order in which nodes are first met; known: one key for each, sorted.
+ * Returns how many. */
 static int number(struct key *all, size_t n, int *node, struct key **known, struct arena *a)
 {
     int nodes = 0, kept = 0, *first = ARENA_TAKE(a, int, n);
@@ -78,7 +78,7 @@ static void lift(struct solid_net *net, struct arena *a)
     const struct solid_lattice *t = &net->lattice;
     size_t n = (size_t)m->elements * (size_t)t->n;
     struct key *all = arena_take(a, n, sizeof *all), *known;
-    int *element = ARENA_TAKE(a, int, n), *face = ARENA_TAKE(a, int, (size_t)b->n * (size_t)t->on_face + 1);
+    int *element = ARENA_TAKE(a, int, n), *face = ARENA_TAKE(a, int, (size_t)b->n *(size_t)t->on_face + 1);
     for (size_t i = 0; i < n; i++) {
         all[i] = key_of(m->element[i / (size_t)t->n], t->at[i % (size_t)t->n], 4);
         all[i].place = (int)i;

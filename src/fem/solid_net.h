@@ -1,4 +1,5 @@
-/* The nodes on which the displacement of a solid is given: those of a mesh raised to an order of its own. The mesh's places stay what they are, quadratic. */
+/* The nodes on which the displacement of a solid is given: those of a mesh raised to an order of its own. The mesh's
+ * places stay what they are, quadratic. */
 #ifndef FEM_SOLID_NET_H
 #define FEM_SOLID_NET_H
 #include "fem/boundary.h"

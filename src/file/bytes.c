@@ -13,8 +13,7 @@ static bool bytes_stream(FILE *f, size_t room, struct arena *a, struct bytes *b)
     *b = (struct bytes){.at = arena_take(a, room + 1, 1)};
     for (;;) {
         b->n += fread(b->at + b->n, 1, room - b->n, f);
-        if (b->n < room)
-            return !ferror(f);
+        if (b->n < room) return !ferror(f);
         char *more = arena_take(a, 2 * room + 1, 1);
         memcpy(more, b->at, b->n);
         b->at = more;
@@ -28,8 +27,7 @@ bool bytes_read(const char *path, struct arena *a, struct bytes *b, struct err *
     FILE *f = memory_fopen(path, "rb");
     if (!f || fstat(fileno(f), &s) != 0) {
         int why = errno;
-        if (f)
-            fclose(f);
+        if (f) fclose(f);
         return err_set(e, ERR_INPUT, "%s: %s", path, strerror(why));
     }
     size_t room = S_ISREG(s.st_mode) && s.st_size > 0 ? (size_t)s.st_size + 1 : 1 << 16;

@@ -8,7 +8,7 @@
 #include "base/err.h"
 
 struct bytes {
-    char *at;  /* at[n] is 0, so that text is a string */
+    char *at; /* at[n] is 0, so that text is a string */
     size_t n;
 };
 

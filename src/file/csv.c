@@ -1,5 +1,5 @@
-/* See csv.h. The file is read as a whole and taken apart in place: unquoting only shortens a cell, and the comma or line end after
-   it becomes its terminator, so cells are pointers into the file. */
+/* See csv.h. The file is read as a whole and taken apart in place: unquoting only shortens a cell, and the comma or
+   line end after it becomes its terminator, so cells are pointers into the file. */
 #include "file/csv.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 struct csv_reader {
     const char *file;
     struct arena *arena;
-    char *at, *end;  /* *end is 0 */
+    char *at, *end; /* *end is 0 */
     int line;
     struct err *e;
 };
@@ -50,14 +50,12 @@ static enum csv_ends csv_quoted(struct csv_reader *r, char **cell)
     char *to = ++r->at;
     *cell = to;
     for (; r->at < r->end; *to++ = *r->at++) {
-        if (*r->at == '\n')
-            r->line++;
-        if (*r->at != '"')
-            continue;
-        if (*++r->at == '"')
-            continue;
+        if (*r->at == '\n') r->line++;
+        if (*r->at != '"') continue;
+        if (*++r->at == '"') continue;
         if (r->at < r->end && !strchr(",\r\n", *r->at))
-            return csv_bad(r, r->line, "text after a closing quote; a quote inside a quoted cell is written twice"), CSV_BAD;
+            return csv_bad(r, r->line, "text after a closing quote; a quote inside a quoted cell is written twice"),
+                   CSV_BAD;
         return csv_after(r, to);
     }
     return csv_bad(r, line, "a quote is opened here and never closed"), CSV_BAD;
@@ -65,12 +63,10 @@ static enum csv_ends csv_quoted(struct csv_reader *r, char **cell)
 
 static enum csv_ends csv_cell(struct csv_reader *r, char **cell)
 {
-    if (*r->at == '"')
-        return csv_quoted(r, cell);
+    if (*r->at == '"') return csv_quoted(r, cell);
     *cell = r->at;
     r->at += strcspn(r->at, ",\r\n\"");
-    if (*r->at == '"')
-        return csv_bad(r, r->line, "a quote inside a cell that does not begin with one"), CSV_BAD;
+    if (*r->at == '"') return csv_bad(r, r->line, "a quote inside a cell that does not begin with one"), CSV_BAD;
     return csv_after(r, r->at);
 }
 
@@ -99,11 +95,9 @@ static char *csv_take_line(struct csv_reader *r)
     char *s = r->at, *stop = memchr(s, '\n', (size_t)(r->end - s));
     r->at = stop ? stop + 1 : r->end;
     r->line++;
-    if (stop)
-        *stop = '\0';
+    if (stop) *stop = '\0';
     size_t n = strlen(s);
-    if (n > 0 && s[n - 1] == '\r')
-        s[n - 1] = '\0';
+    if (n > 0 && s[n - 1] == '\r') s[n - 1] = '\0';
     return s;
 }
 
@@ -112,11 +106,9 @@ static bool csv_comments(struct csv_reader *r, struct csv *t)
     while (r->at < r->end && strchr("#\r\n", *r->at)) {
         int line = r->line;
         char *s = csv_take_line(r);
-        if (*s != '#')
-            continue;
+        if (*s != '#') continue;
         char *colon = strchr(s, ':'), *value = colon ? colon + 1 : s + 1;
-        if (colon)
-            *colon = '\0';
+        if (colon) *colon = '\0';
         t->comments[t->n_comments++] = (struct csv_pair){colon ? trim(s + 1) : "", trim(value), line};
     }
     return r->at < r->end || csv_bad(r, r->line, "there is no header line");
@@ -127,10 +119,8 @@ static bool csv_header(struct csv_reader *r, struct csv *t)
     int line = r->line;
     for (enum csv_ends ends = CSV_COMMA; ends == CSV_COMMA;) {
         char *cell;
-        if ((ends = csv_cell(r, &cell)) == CSV_BAD)
-            return false;
-        if (!*cell)
-            return err_set(r->e, ERR_SCENE, "%s:%d: column %zu has no name", r->file, line, t->columns + 1);
+        if ((ends = csv_cell(r, &cell)) == CSV_BAD) return false;
+        if (!*cell) return err_set(r->e, ERR_SCENE, "%s:%d: column %zu has no name", r->file, line, t->columns + 1);
         if (csv_column(t, cell) >= 0)
             return err_set(r->e, ERR_SCENE, "%s:%d: two columns are called '%s'", r->file, line, cell);
         if (t->columns == MOST_COLUMNS)
@@ -141,26 +131,25 @@ static bool csv_header(struct csv_reader *r, struct csv *t)
 }
 
 /* Only blank lines are left. */
-static bool csv_at_end(struct csv_reader *r)
-{
-    return r->at + strspn(r->at, "\r\n") == r->end;
-}
+static bool csv_at_end(struct csv_reader *r) { return r->at + strspn(r->at, "\r\n") == r->end; }
 
 static bool csv_row(struct csv_reader *r, struct csv *t)
 {
     int line = r->line;
     size_t n = 0;
     if (strchr("\r\n", *r->at))
-        return csv_bad(r, line, "a blank line among the rows (an empty cell of a table with one column is written \"\")");
+        return csv_bad(r, line,
+                       "a blank line among the rows (an empty cell of a table with one column is written \"\")");
     for (enum csv_ends ends = CSV_COMMA; ends == CSV_COMMA; n++) {
         char *cell;
-        if ((ends = csv_cell(r, &cell)) == CSV_BAD)
-            return false;
-        if (n < t->columns)
-            t->cells[t->rows * t->columns + n] = cell;
+        if ((ends = csv_cell(r, &cell)) == CSV_BAD) return false;
+        if (n < t->columns) t->cells[t->rows * t->columns + n] = cell;
     }
     if (n != t->columns)
-        return err_set(r->e, ERR_SCENE, "%s:%d: %zu cells, where the header has %zu columns: mend the row; every row has one cell for each column", r->file, line, n, t->columns);
+        return err_set(
+            r->e, ERR_SCENE,
+            "%s:%d: %zu cells, where the header has %zu columns: mend the row; every row has one cell for each column",
+            r->file, line, n, t->columns);
     t->lines[t->rows++] = line;
     return true;
 }
@@ -184,8 +173,7 @@ bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e)
 bool csv_read_file(const char *path, struct arena *a, struct csv *t, struct err *e)
 {
     struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return err_set(e, ERR_INPUT, "%s: is not a file", path);
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) return err_set(e, ERR_INPUT, "%s: is not a file", path);
     return csv_read(path, a, t, e);
 }
 
@@ -194,32 +182,29 @@ bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct cs
     *t = (struct csv){.file = arena_text(a, path)};
     const char *nul = memchr(b.at, '\0', b.n);
     if (nul)
-        return err_set(e, ERR_SCENE, "%s:%zu: a NUL byte: this is not text; save the table as CSV in UTF-8", path, csv_count(b.at, nul, '\n') + 1);
+        return err_set(e, ERR_SCENE, "%s:%zu: a NUL byte: this is not text; save the table as CSV in UTF-8", path,
+                       csv_count(b.at, nul, '\n') + 1);
     struct csv_reader r = {t->file, a, b.at, b.at + b.n, 1, e};
     if (b.n >= 3 && !memcmp(b.at, "\xef\xbb\xbf", 3)) /* the byte order mark of spreadsheet programs */
         r.at += 3;
     csv_room(&r, t);
-    if (!csv_comments(&r, t) || !csv_header(&r, t))
-        return false;
+    if (!csv_comments(&r, t) || !csv_header(&r, t)) return false;
     while (!csv_at_end(&r))
-        if (!csv_row(&r, t))
-            return false;
+        if (!csv_row(&r, t)) return false;
     return true;
 }
 
 int csv_column(const struct csv *t, const char *name)
 {
     for (size_t i = 0; i < t->columns; i++)
-        if (!strcmp(t->names[i], name))
-            return (int)i;
+        if (!strcmp(t->names[i], name)) return (int)i;
     return -1;
 }
 
 const char *csv_text(const struct csv *t, size_t row, int column, char room[CSV_ROOM])
 {
     size_t at = row * t->columns + (size_t)column;
-    if (!t->numbers)
-        return t->cells[at];
+    if (!t->numbers) return t->cells[at];
     snprintf(room, CSV_ROOM, "%.17g", t->numbers[at]);
     return room;
 }
@@ -227,14 +212,13 @@ const char *csv_text(const struct csv *t, size_t row, int column, char room[CSV_
 bool csv_number(const struct csv *t, size_t row, int column, double *value, struct err *e)
 {
     char *end, room[CSV_ROOM];
-    if (t->numbers && isfinite(*value = t->numbers[row * t->columns + (size_t)column]))
-        return true;
+    if (t->numbers && isfinite(*value = t->numbers[row * t->columns + (size_t)column])) return true;
     const char *s = csv_text(t, row, column, room);
     double v = strtod(s, &end);
     bool whole = end > s && end[strspn(end, " \t")] == '\0' && strspn(s, " \t0123456789+-.eE") == strlen(s);
     if (!whole || !isfinite(v))
-        return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not a %snumber: mend the cell", t->file, t->lines[row], t->names[column], s,
-                       whole ? "finite " : "");
+        return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not a %snumber: mend the cell", t->file,
+                       t->lines[row], t->names[column], s, whole ? "finite " : "");
     *value = v;
     return true;
 }
@@ -242,8 +226,7 @@ bool csv_number(const struct csv *t, size_t row, int column, double *value, stru
 const char *csv_comment(const struct csv *t, const char *key)
 {
     for (size_t i = 0; i < t->n_comments; i++)
-        if (!strcmp(t->comments[i].key, key))
-            return t->comments[i].value;
+        if (!strcmp(t->comments[i].key, key)) return t->comments[i].value;
     return NULL;
 }
 
@@ -255,8 +238,7 @@ void csv_put_text(FILE *f, const char *text)
     }
     fputc('"', f);
     for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', f);
+        if (*text == '"') fputc('"', f);
         fputc(*text, f);
     }
     fputc('"', f);

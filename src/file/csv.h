@@ -1,6 +1,6 @@
-/* Comma-separated tables: reading (RFC 4180 quoting, '#' comment lines before the header kept as key: value pairs, LF or CRLF)
-   and writing (LF, %.9g). A comment without a colon is a pair with the key "". Blank lines may stand before the header and at the
-   end of the file; a cell's blanks belong to it. */
+/* Comma-separated tables: reading (RFC 4180 quoting, '#' comment lines before the header kept as key: value pairs, LF
+   or CRLF) and writing (LF, %.9g). A comment without a colon is a pair with the key "". Blank lines may stand before
+   the header and at the end of the file; a cell's blanks belong to it. */
 #ifndef FILE_CSV_H
 #define FILE_CSV_H
 #include <stdbool.h>
@@ -20,19 +20,21 @@ struct csv {
     const char *file;
     struct csv_pair *comments; /* "# key: value" lines before the header        */
     size_t n_comments;
-    const char **names;        /* the header                                    */
+    const char **names; /* the header                                    */
     size_t columns, rows;
-    const char **cells;        /* [rows][columns], unquoted text, never NULL; NULL as a whole: numbers */
-    const double *numbers;     /* [rows][columns] of a table that is no text (table.h), else NULL      */
-    int *lines;                /* [rows] line each row starts on; of numbers the row's own number, from 1 */
+    const char **cells;    /* [rows][columns], unquoted text, never NULL; NULL as a whole: numbers */
+    const double *numbers; /* [rows][columns] of a table that is no text (table.h), else NULL      */
+    int *lines;            /* [rows] line each row starts on; of numbers the row's own number, from 1 */
 };
 
 enum { CSV_ROOM = 32 };
 
-/* Also of bytes that were read from the path, and are taken apart in place. ERR_INPUT missing or unreadable; ERR_SCENE: no header, a row with another number of cells, an open quote, NUL bytes,
-   duplicate or empty column names; the text says file:line: what. */
+/* Also of bytes that were read from the path, and are taken apart in place. ERR_INPUT missing or unreadable; ERR_SCENE:
+   no header, a row with another number of cells, an open quote, NUL bytes, duplicate or empty column names; the text
+   says file:line: what. */
 bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e);
-bool csv_read_file(const char *path, struct arena *a, struct csv *t, struct err *e); /* of one that another file names: a pipe, a device or a folder is none, ERR_INPUT */
+bool csv_read_file(const char *path, struct arena *a, struct csv *t,
+                   struct err *e); /* of one that another file names: a pipe, a device or a folder is none, ERR_INPUT */
 bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e);
 
 /* Column by name, or -1. */
@@ -47,7 +49,8 @@ bool csv_number(const struct csv *t, size_t row, int column, double *value, stru
 /* The value of a comment, or NULL. */
 const char *csv_comment(const struct csv *t, const char *key);
 
-/* Writing: a cell of text, quoted where that is needed, and one of a number (%.9g; "nan", "inf"); the caller puts the commas. */
+/* Writing: a cell of text, quoted where that is needed, and one of a number (%.9g; "nan", "inf"); the caller puts the
+ * commas. */
 void csv_put_text(FILE *f, const char *text);
 void csv_put_number(FILE *f, double value);
 

@@ -7,10 +7,7 @@
 
 #include "file/csv.h"
 
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
+static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
 
 const char **folder_index_files(const char *folder, int *n, struct arena *a)
 {
@@ -18,8 +15,7 @@ const char **folder_index_files(const char *folder, int *n, struct arena *a)
     struct csv t;
     struct err unreadable = {0};
     *n = 0;
-    if (access(index, F_OK) != 0)
-        return NULL;
+    if (access(index, F_OK) != 0) return NULL;
     int column = csv_read_file(index, a, &t, &unreadable) && t.cells ? csv_column(&t, "file_name") : -1;
     size_t rows = column >= 0 ? t.rows : 0;
     const char **files = ARENA_TAKE(a, const char *, rows + 1);

@@ -7,7 +7,8 @@
 enum { HEIGHTFILE_DOUBTS = 2 };
 
 /* The heights, as loaded: told in the names of whoever reads (NULL: a scene's). How many texts there are. */
-int heightfile_doubt(const struct heightfile *h, const struct heightfile_names *names, struct arena *a, const char *texts[HEIGHTFILE_DOUBTS]);
+int heightfile_doubt(const struct heightfile *h, const struct heightfile_names *names, struct arena *a,
+                     const char *texts[HEIGHTFILE_DOUBTS]);
 
 /* "5.2 um"; "unknown" of NAN. */
 const char *heightfile_doubt_length(double x, struct arena *a);

@@ -1,10 +1,11 @@
-/* See heightfile_fill.h. With weights w = 1/pitch^2 of the two directions, each missing height is the weighted mean of its neighbours in the map:
+/* See heightfile_fill.h. With weights w = 1/pitch^2 of the two directions, each missing height is the weighted mean of
+   its neighbours in the map:
 
      sum over neighbours n of w_n (z_n - z) = 0,        known neighbours on the right-hand side
 
-   a symmetric, positive definite system (every hole touches a known height), solved by conjugate gradients with its diagonal as
-   preconditioner, all sums in order: the same bits everywhere. A harmonic polynomial up to the third degree solves it exactly. The number of
-   steps goes with the width of the widest hole in samples. */
+   a symmetric, positive definite system (every hole touches a known height), solved by conjugate gradients with its
+   diagonal as preconditioner, all sums in order: the same bits everywhere. A harmonic polynomial up to the third degree
+   solves it exactly. The number of steps goes with the width of the widest hole in samples. */
 #include "file/heightfile_fill.h"
 
 #include <math.h>
@@ -13,12 +14,12 @@
 enum { FILL_KNOWN = -1 };
 
 struct fill {
-    size_t n;           /* unknowns                                                 */
-    uint32_t *place;    /* [n] index in the map, rising                             */
+    size_t n;             /* unknowns                                                 */
+    uint32_t *place;      /* [n] index in the map, rising                             */
     int32_t (*beside)[4]; /* [n] left, right, up, down: unknown, or FILL_KNOWN      */
-    double *diagonal;   /* [n]                                                      */
+    double *diagonal;     /* [n]                                                      */
     double *x, *r, *p, *q;
-    double weight[2];   /* along rows, across                                       */
+    double weight[2]; /* along rows, across                                       */
 };
 
 static size_t fill_find(const struct fill *f, size_t place)
@@ -39,25 +40,32 @@ static bool fill_neighbour(const struct heightfile *h, size_t place, int side, s
 {
     size_t column = place % h->columns, row = place / h->columns;
     switch (side) {
-        case 0: *there = place - 1; return column > 0;
-        case 1: *there = place + 1; return column + 1 < h->columns;
-        case 2: *there = place - h->columns; return row > 0;
-        default: *there = place + h->columns; return row + 1 < h->rows;
+    case 0:
+        *there = place - 1;
+        return column > 0;
+    case 1:
+        *there = place + 1;
+        return column + 1 < h->columns;
+    case 2:
+        *there = place - h->columns;
+        return row > 0;
+    default:
+        *there = place + h->columns;
+        return row + 1 < h->rows;
     }
 }
 
-/* The unknowns, their neighbours, the diagonal, and the right-hand side in r: heights from the middle of their range, in units of it. */
+/* The unknowns, their neighbours, the diagonal, and the right-hand side in r: heights from the middle of their range,
+ * in units of it. */
 static void fill_system(struct fill *f, const struct heightfile *h, double middle, double span)
 {
     size_t k = 0, there;
     for (size_t i = 0; i < h->rows * h->columns; i++)
-        if (isnan(h->z[i]))
-            f->place[k++] = (uint32_t)i;
+        if (isnan(h->z[i])) f->place[k++] = (uint32_t)i;
     for (k = 0; k < f->n; k++)
         for (int side = 0; side < 4; side++) {
             f->beside[k][side] = FILL_KNOWN;
-            if (!fill_neighbour(h, f->place[k], side, &there))
-                continue;
+            if (!fill_neighbour(h, f->place[k], side, &there)) continue;
             f->diagonal[k] += f->weight[side / 2];
             if (isnan(h->z[there]))
                 f->beside[k][side] = (int32_t)fill_find(f, there);
@@ -72,8 +80,7 @@ static void fill_apply(struct fill *f)
     for (size_t k = 0; k < f->n; k++) {
         double sum = f->diagonal[k] * f->p[k];
         for (int side = 0; side < 4; side++)
-            if (f->beside[k][side] >= 0)
-                sum -= f->weight[side / 2] * f->p[f->beside[k][side]];
+            if (f->beside[k][side] >= 0) sum -= f->weight[side / 2] * f->p[f->beside[k][side]];
         f->q[k] = sum;
     }
 }
@@ -107,8 +114,7 @@ static bool fill_solve(struct fill *f, double tolerance)
         fill_apply(f);
         for (size_t k = 0; k < f->n; k++)
             pq += f->p[k] * f->q[k];
-        if (!(pq > 0))
-            return false;
+        if (!(pq > 0)) return false;
         for (size_t k = 0; k < f->n; k++) {
             f->x[k] += rho / pq * f->p[k];
             f->r[k] -= rho / pq * f->q[k];
@@ -123,8 +129,7 @@ static bool fill_solve(struct fill *f, double tolerance)
 static struct fill fill_make(const struct heightfile *h, struct arena *a)
 {
     struct fill f = {.n = h->holes, .weight = {1, 1}};
-    if (!isnan(h->pitch_x) && !isnan(h->pitch_y))
-        f.weight[1] = h->pitch_x * h->pitch_x / (h->pitch_y * h->pitch_y);
+    if (!isnan(h->pitch_x) && !isnan(h->pitch_y)) f.weight[1] = h->pitch_x * h->pitch_x / (h->pitch_y * h->pitch_y);
     f.place = ARENA_TAKE(a, uint32_t, f.n);
     f.beside = arena_take(a, f.n, sizeof *f.beside);
     f.diagonal = ARENA_TAKE(a, double, f.n);
@@ -169,7 +174,8 @@ static bool fill_map(const char *path, struct heightfile *h, struct err *e)
     double middle = 0.5 * low + 0.5 * high, span = high > low ? high - low : 1;
     fill_system(&f, h, middle, span);
     bool ok = (isfinite(span) && f.weight[1] > 1e-30 && f.weight[1] < 1e30 && fill_solve(&f, 1e-12)) ||
-              err_set(e, ERR_NUMBERS, "%s: its %zu missing points cannot be filled: the solution does not converge", path, h->holes);
+              err_set(e, ERR_NUMBERS, "%s: its %zu missing points cannot be filled: the solution does not converge",
+                      path, h->holes);
     for (size_t k = 0; ok && k < f.n; k++)
         h->z[f.place[k]] = middle + span * f.x[k];
     arena_close(own);
@@ -179,10 +185,12 @@ static bool fill_map(const char *path, struct heightfile *h, struct err *e)
 bool heightfile_fill(const char *path, struct heightfile *h, struct err *e)
 {
     size_t n = h->rows * h->columns;
-    if (h->holes == 0)
-        return true;
+    if (h->holes == 0) return true;
     if (h->holes > n / 2)
-        return err_set(e, ERR_SCENE, "%s: %zu of %zu points are missing: too many to be filled (more than half): cut out a part that has them (rasp surface convert --crop), or mend the file", path, h->holes, n);
+        return err_set(e, ERR_SCENE,
+                       "%s: %zu of %zu points are missing: too many to be filled (more than half): cut out a part that "
+                       "has them (rasp surface convert --crop), or mend the file",
+                       path, h->holes, n);
     if (h->rows == 1)
         fill_profile(h);
     else if (!fill_map(path, h, e))

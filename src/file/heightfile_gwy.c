@@ -4,12 +4,13 @@
      object     name NUL, size u32 of what follows, components
      component  name NUL, type char, data
 
-   b bool, c char, i int32, q int64, d float64, s text with NUL, o object; capitals are arrays: length u32, then the elements. All
-   little-endian. A channel is a component "/N/data" with an object GwyDataField: xres, yres (samples), xreal, yreal (size), si_unit_xy, si_unit_z
-   (objects with unitstr), data (float64, rows from the top). Its title is "/N/data/title", its mask the data field "/N/mask".
+   b bool, c char, i int32, q int64, d float64, s text with NUL, o object; capitals are arrays: length u32, then the
+   elements. All little-endian. A channel is a component "/N/data" with an object GwyDataField: xres, yres (samples),
+   xreal, yreal (size), si_unit_xy, si_unit_z (objects with unitstr), data (float64, rows from the top). Its title is
+   "/N/data/title", its mask the data field "/N/mask".
 
-   Read: channel 0, or the first there is. Where the mask is above 0 the height counts as missing: Gwyddion so marks points that an
-   instrument did not measure. Everything else in the file is passed over. */
+   Read: channel 0, or the first there is. Where the mask is above 0 the height counts as missing: Gwyddion so marks
+   points that an instrument did not measure. Everything else in the file is passed over. */
 #include "file/heightfile_gwy.h"
 
 #include <math.h>
@@ -52,8 +53,7 @@ static bool gwy_bad(const struct gwy *g, const char *at, const char *what)
 static const char *gwy_text(struct gwy_part *p)
 {
     const char *s = p->at, *nul = memchr(s, '\0', (size_t)(p->end - s));
-    if (!nul)
-        return NULL;
+    if (!nul) return NULL;
     p->at = nul + 1;
     return s;
 }
@@ -63,8 +63,7 @@ static bool gwy_object(const struct gwy *g, struct gwy_part *p, const char **nam
 {
     const char *from = p->at;
     *name = gwy_text(p);
-    if (!*name || p->end - p->at < 4)
-        return gwy_bad(g, from, "an object ends inside its head");
+    if (!*name || p->end - p->at < 4) return gwy_bad(g, from, "an object ends inside its head");
     size_t n = (size_t)heightfile_unit_word(p->at, 4);
     if ((size_t)(p->end - p->at) - 4 < n)
         return gwy_bad(g, p->at, "an object is larger than what is left of the file: it is cut short");
@@ -76,18 +75,27 @@ static bool gwy_object(const struct gwy *g, struct gwy_part *p, const char **nam
 static size_t gwy_size(char type)
 {
     switch (type) {
-        case 'b': case 'c': case 'C': return 1;
-        case 'i': case 'I': return 4;
-        case 'q': case 'Q': case 'd': case 'D': return 8;
-        default: return 0;
+    case 'b':
+    case 'c':
+    case 'C':
+        return 1;
+    case 'i':
+    case 'I':
+        return 4;
+    case 'q':
+    case 'Q':
+    case 'd':
+    case 'D':
+        return 8;
+    default:
+        return 0;
     }
 }
 
 /* The length of an array, and p behind it. */
 static bool gwy_count(const struct gwy *g, struct gwy_part *p, struct gwy_item *t)
 {
-    if (p->end - p->at < 4)
-        return gwy_bad(g, p->at, "an array ends inside its length");
+    if (p->end - p->at < 4) return gwy_bad(g, p->at, "an array ends inside its length");
     t->count = (size_t)heightfile_unit_word(p->at, 4);
     p->at += 4;
     t->data = p->at;
@@ -110,18 +118,15 @@ static bool gwy_item(const struct gwy *g, struct gwy_part *p, struct gwy_item *t
 {
     const char *from = p->at;
     t->name = gwy_text(p);
-    if (!t->name || p->at == p->end)
-        return gwy_bad(g, from, "a component ends inside its head");
+    if (!t->name || p->at == p->end) return gwy_bad(g, from, "a component ends inside its head");
     t->type = *p->at++;
     t->data = p->at;
     t->count = 1;
     if (!strchr("bciqdsoCIQDSO", t->type))
         return gwy_bad(g, p->at - 1, "a component's type is none that the format has");
-    if (t->type < 'a' && !gwy_count(g, p, t))
-        return false;
+    if (t->type < 'a' && !gwy_count(g, p, t)) return false;
     size_t size = gwy_size(t->type);
-    if (size == 0 && !gwy_pass(g, p, t))
-        return false;
+    if (size == 0 && !gwy_pass(g, p, t)) return false;
     if ((size_t)(p->end - p->at) / (size ? size : 1) < (size ? t->count : 0))
         return gwy_bad(g, p->at, "a component is larger than its object: the file is cut short or damaged");
     p->at += size * t->count;
@@ -133,14 +138,11 @@ static bool gwy_unit(const struct gwy *g, struct gwy_item *t, const char **unit)
 {
     struct gwy_part p = {t->data, t->data + t->n}, inside;
     const char *name;
-    if (!gwy_object(g, &p, &name, &inside))
-        return false;
+    if (!gwy_object(g, &p, &name, &inside)) return false;
     while (inside.at < inside.end) {
         struct gwy_item u;
-        if (!gwy_item(g, &inside, &u))
-            return false;
-        if (!strcmp(u.name, "unitstr") && u.type == 's')
-            *unit = u.data;
+        if (!gwy_item(g, &inside, &u)) return false;
+        if (!strcmp(u.name, "unitstr") && u.type == 's') *unit = u.data;
     }
     return true;
 }
@@ -174,12 +176,11 @@ static bool gwy_field(const struct gwy *g, const struct gwy_item *item, struct g
     *f = (struct gwy_field){.given = true, .unit_xy = "", .unit_z = ""};
     while (inside.at < inside.end) {
         struct gwy_item t;
-        if (!gwy_item(g, &inside, &t) || !gwy_take(g, &t, f))
-            return false;
+        if (!gwy_item(g, &inside, &t) || !gwy_take(g, &t, f)) return false;
     }
     if (f->xres < 1 || f->yres < 1 || (size_t)f->xres * (size_t)f->yres != f->data.count)
-        return err_set(g->e, ERR_SCENE, "%s: GWY file: the data field %s has %ld x %ld samples, and %zu are there", g->path, item->name, f->xres,
-                       f->yres, f->data.count);
+        return err_set(g->e, ERR_SCENE, "%s: GWY file: the data field %s has %ld x %ld samples, and %zu are there",
+                       g->path, item->name, f->xres, f->yres, f->data.count);
     return true;
 }
 
@@ -188,8 +189,7 @@ static long gwy_channel(const char *name, const char *what)
 {
     size_t digits = name[0] == '/' ? strspn(name + 1, "0123456789") : 0;
     long n = 0;
-    if (digits == 0 || digits > 6 || strcmp(name + 1 + digits, what) != 0)
-        return -1;
+    if (digits == 0 || digits > 6 || strcmp(name + 1 + digits, what) != 0) return -1;
     for (size_t i = 1; i <= digits; i++)
         n = 10 * n + (name[i] - '0');
     return n;
@@ -207,19 +207,19 @@ static bool gwy_choose(const struct gwy *g, struct gwy_part p, struct gwy_found 
     struct gwy_item t;
     for (found->channel = -1; p.at < p.end && found->channel != 0;) {
         struct gwy_field f = {0};
-        if (!gwy_item(g, &p, &t))
-            return false;
+        if (!gwy_item(g, &p, &t)) return false;
         long n = gwy_channel(t.name, "/data");
-        if (n < 0 || (n > 0 && found->channel > 0))
-            continue;
-        if (!gwy_field(g, &t, &f))
-            return false;
+        if (n < 0 || (n > 0 && found->channel > 0)) continue;
+        if (!gwy_field(g, &t, &f)) return false;
         if (f.given) {
             found->channel = n;
             found->field = f;
         }
     }
-    return found->channel >= 0 || err_set(g->e, ERR_SCENE, "%s: the GWY file holds no image (no data field /0/data): graphs and spectra are no height maps", g->path);
+    return found->channel >= 0 ||
+           err_set(g->e, ERR_SCENE,
+                   "%s: the GWY file holds no image (no data field /0/data): graphs and spectra are no height maps",
+                   g->path);
 }
 
 /* The channel's mask and title. */
@@ -227,16 +227,13 @@ static bool gwy_beside(const struct gwy *g, struct gwy_part p, struct gwy_found 
 {
     struct gwy_item t;
     while (p.at < p.end) {
-        if (!gwy_item(g, &p, &t))
-            return false;
-        if (gwy_channel(t.name, "/mask") == found->channel && !gwy_field(g, &t, &found->mask))
-            return false;
-        if (gwy_channel(t.name, "/data/title") == found->channel && t.type == 's')
-            found->title = t.data;
+        if (!gwy_item(g, &p, &t)) return false;
+        if (gwy_channel(t.name, "/mask") == found->channel && !gwy_field(g, &t, &found->mask)) return false;
+        if (gwy_channel(t.name, "/data/title") == found->channel && t.type == 's') found->title = t.data;
     }
     if (found->mask.given && (found->mask.xres != found->field.xres || found->mask.yres != found->field.yres))
-        return err_set(g->e, ERR_SCENE, "%s: GWY file: the mask has %ld x %ld samples and its data field %ld x %ld", g->path, found->mask.xres,
-                       found->mask.yres, found->field.xres, found->field.yres);
+        return err_set(g->e, ERR_SCENE, "%s: GWY file: the mask has %ld x %ld samples and its data field %ld x %ld",
+                       g->path, found->mask.xres, found->mask.yres, found->field.xres, found->field.yres);
     return true;
 }
 
@@ -245,14 +242,19 @@ static bool gwy_heights(const struct gwy *g, const struct gwy_found *found, stru
     const struct gwy_field *f = &found->field;
     double xy, z;
     if (!heightfile_unit(f->unit_xy, &xy) || !heightfile_unit(f->unit_z, &z))
-        return err_set(g->e, ERR_SCENE, "%s: GWY file: the data field's units are '%s' and '%s', not lengths (m, mm, um, nm)", g->path,
+        return err_set(g->e, ERR_SCENE,
+                       "%s: GWY file: the data field's units are '%s' and '%s', not lengths (m, mm, um, nm)", g->path,
                        f->unit_xy, f->unit_z);
     if (!(f->xreal > 0 && isfinite(f->xreal) && f->yreal > 0 && isfinite(f->yreal)))
         return err_set(g->e, ERR_SCENE, "%s: GWY file: the data field's size is %g x %g", g->path, f->xreal, f->yreal);
-    *h = (struct heightfile){.columns = (size_t)f->xres, .rows = (size_t)f->yres, .pitch_x = f->xreal / xy / (double)f->xres,
-                             .pitch_y = f->yreal / xy / (double)f->yres, .metric = true, .bits = 53, .format = "GWY"};
-    if (!heightfile_room(g->path, h, a, g->e))
-        return false;
+    *h = (struct heightfile){.columns = (size_t)f->xres,
+                             .rows = (size_t)f->yres,
+                             .pitch_x = f->xreal / xy / (double)f->xres,
+                             .pitch_y = f->yreal / xy / (double)f->yres,
+                             .metric = true,
+                             .bits = 53,
+                             .format = "GWY"};
+    if (!heightfile_room(g->path, h, a, g->e)) return false;
     for (size_t i = 0; i < f->data.count; i++) {
         bool masked = found->mask.given && heightfile_unit_f64(found->mask.data.data + 8 * i) > 0;
         h->z[i] = masked ? NAN : heightfile_unit_f64(f->data.data + 8 * i) / z;
@@ -261,10 +263,7 @@ static bool gwy_heights(const struct gwy *g, const struct gwy_found *found, stru
     return true;
 }
 
-bool heightfile_gwy_is(const struct bytes *b)
-{
-    return b->n >= 4 && !memcmp(b->at, "GWYP", 4);
-}
+bool heightfile_gwy_is(const struct bytes *b) { return b->n >= 4 && !memcmp(b->at, "GWYP", 4); }
 
 bool heightfile_gwy_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e)
 {
@@ -272,9 +271,7 @@ bool heightfile_gwy_read(const char *path, const struct bytes *b, struct arena *
     struct gwy_part p = {b->at + 4, b->at + b->n}, inside;
     struct gwy_found found = {0};
     const char *name;
-    if (!gwy_object(&g, &p, &name, &inside))
-        return false;
-    if (strcmp(name, "GwyContainer") != 0)
-        return gwy_bad(&g, b->at + 4, "the file does not begin with a GwyContainer");
+    if (!gwy_object(&g, &p, &name, &inside)) return false;
+    if (strcmp(name, "GwyContainer") != 0) return gwy_bad(&g, b->at + 4, "the file does not begin with a GwyContainer");
     return gwy_choose(&g, inside, &found) && gwy_beside(&g, inside, &found) && gwy_heights(&g, &found, a, h);
 }

@@ -1,4 +1,5 @@
-/* Writing Gwyddion's native format: see heightfile_gwy.c. Sizes stand before what they measure, so they are added up first. */
+/* Writing Gwyddion's native format: see heightfile_gwy.c. Sizes stand before what they measure, so they are added up
+ * first. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -7,8 +8,9 @@
 #include "file/heightfile_unit.h"
 
 enum {
-    GWY_UNIT = 10 + 4 + 8 + 1 + 2,                       /* "GwySIUnit" size; "unitstr" s "m"          */
-    GWY_FIELD = 5 + 5 + 5 + 5 + 6 + 9 + 6 + 9 + (11 + 1) + (10 + 1) + 5 + 1 + 4 /* names with their NULs, types, numbers, length */
+    GWY_UNIT = 10 + 4 + 8 + 1 + 2, /* "GwySIUnit" size; "unitstr" s "m"          */
+    GWY_FIELD = 5 + 5 + 5 + 5 + 6 + 9 + 6 + 9 + (11 + 1) + (10 + 1) + 5 + 1 +
+                4 /* names with their NULs, types, numbers, length */
 };
 
 static size_t gwy_field_size(const struct heightfile *h)
@@ -28,15 +30,9 @@ static size_t gwy_all(const struct heightfile *h)
     return sizeof "/0/data" + field + (h->holes ? sizeof "/0/mask" + field : 0) + gwy_title_size(h);
 }
 
-bool heightfile_gwy_write_fits(const struct heightfile *h)
-{
-    return gwy_all(h) <= UINT32_MAX;
-}
+bool heightfile_gwy_write_fits(const struct heightfile *h) { return gwy_all(h) <= UINT32_MAX; }
 
-static void gwy_put_text(FILE *f, const char *s)
-{
-    fwrite(s, 1, strlen(s) + 1, f);
-}
+static void gwy_put_text(FILE *f, const char *s) { fwrite(s, 1, strlen(s) + 1, f); }
 
 static void gwy_put_head(FILE *f, const char *name, char type)
 {
@@ -93,6 +89,5 @@ void heightfile_gwy_write(FILE *f, const struct heightfile *h)
         gwy_put_head(f, "/0/data/title", 's');
         gwy_put_text(f, h->title);
     }
-    if (h->holes)
-        gwy_put_field(f, "/0/mask", h, true);
+    if (h->holes) gwy_put_field(f, "/0/mask", h, true);
 }

@@ -1,5 +1,5 @@
-/* A height map ready for use: in metres, with its pitch, holes filled or refused, levelled, and plausible. What the scene's height maps,
-   `rasp surface` and roughness.like share. */
+/* A height map ready for use: in metres, with its pitch, holes filled or refused, levelled, and plausible. What the
+   scene's height maps, `rasp surface` and roughness.like share. */
 #ifndef FILE_HEIGHTFILE_LOAD_H
 #define FILE_HEIGHTFILE_LOAD_H
 #include "file/heightfile.h"
@@ -23,10 +23,12 @@ struct heightfile_options {
     const struct heightfile_names *names; /* NULL: heightfile_load_scene_names                         */
 };
 
-/* Fills h: metres; pitch_x, and for a map pitch_y, are numbers. Order: scale, holes, limits, levelling (which leaves h->levelled).
-   ERR_INPUT, ERR_SCENE as heightfile_read; and ERR_SCENE: fewer than 4 samples along a direction; pitch not known, given and not that of the
-   file, or outside 10 nm to 1 mm; heights that span less than 1 nm (but are not all the same) or more than 10 mm: a unit is wrong, and the
-   message says which would make sense; holes; a height range that is missing, or given where the file has none. ERR_NUMBERS: filling fails. */
-bool heightfile_load(const char *path, const struct heightfile_options *o, struct arena *a, struct heightfile *h, struct err *e);
+/* Fills h: metres; pitch_x, and for a map pitch_y, are numbers. Order: scale, holes, limits, levelling (which leaves
+   h->levelled). ERR_INPUT, ERR_SCENE as heightfile_read; and ERR_SCENE: fewer than 4 samples along a direction; pitch
+   not known, given and not that of the file, or outside 10 nm to 1 mm; heights that span less than 1 nm (but are not
+   all the same) or more than 10 mm: a unit is wrong, and the message says which would make sense; holes; a height range
+   that is missing, or given where the file has none. ERR_NUMBERS: filling fails. */
+bool heightfile_load(const char *path, const struct heightfile_options *o, struct arena *a, struct heightfile *h,
+                     struct err *e);
 
 #endif

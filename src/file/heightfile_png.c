@@ -1,8 +1,10 @@
-/* 16-bit grey PNG through libpng: heights 0 .. 65535, white being the top. Gamma and physical-size chunks are not looked at: a height is no
-   brightness, and programs write 72 dpi into everything. 8 bits are refused: 256 levels over 20 um are steps of 78 nm, whose noise in
-   the curvature is far above what the limiter lets pass (step sqrt(6/12)/pitch^2).
+/* 16-bit grey PNG through libpng: heights 0 .. 65535, white being the top. Gamma and physical-size chunks are not
+   looked at: a height is no brightness, and programs write 72 dpi into everything. 8 bits are refused: 256 levels over
+   20 um are steps of 78 nm, whose noise in the curvature is far above what the limiter lets pass (step
+   sqrt(6/12)/pitch^2).
 
-   Written are Gwyddion's text chunks Gwy::XReal, YReal, ZMin, ZMax, XYUnit, ZUnit, Title, so that Gwyddion opens the file in metres. */
+   Written are Gwyddion's text chunks Gwy::XReal, YReal, ZMin, ZMax, XYUnit, ZUnit, Title, so that Gwyddion opens the
+   file in metres. */
 #include "file/heightfile_png.h"
 
 #include <math.h>
@@ -27,16 +29,12 @@ static void png_fails(png_structp png, png_const_charp text)
     png_longjmp(png, 1);
 }
 
-static void png_warns(png_structp png, png_const_charp text)
-{
-    (void)png, (void)text;
-}
+static void png_warns(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
 static void png_gives(png_structp png, png_bytep to, size_t n)
 {
     struct reading *r = png_get_io_ptr(png);
-    if (r->b->n - r->at < n)
-        png_error(png, "the file is cut short");
+    if (r->b->n - r->at < n) png_error(png, "the file is cut short");
     memcpy(to, r->b->at + r->at, n);
     r->at += n;
 }
@@ -46,14 +44,18 @@ static bool check_kind(struct reading *r, struct heightfile *h)
 {
     int bits = png_get_bit_depth(r->png, r->info), kind = png_get_color_type(r->png, r->info);
     if (kind != PNG_COLOR_TYPE_GRAY)
-        return err_set(r->e, ERR_SCENE, "%s: the PNG is in colour or has transparency; a height map is 16-bit grey", r->path);
+        return err_set(r->e, ERR_SCENE, "%s: the PNG is in colour or has transparency; a height map is 16-bit grey",
+                       r->path);
     if (bits != 16)
-        return err_set(r->e, ERR_SCENE, "%s: the PNG has %d bits, so %d heights: too coarse, the steps would be heard; export 16-bit grey, or GSF",
-                       r->path, bits, 1 << bits);
+        return err_set(
+            r->e, ERR_SCENE,
+            "%s: the PNG has %d bits, so %d heights: too coarse, the steps would be heard; export 16-bit grey, or GSF",
+            r->path, bits, 1 << bits);
     h->columns = png_get_image_width(r->png, r->info);
     h->rows = png_get_image_height(r->png, r->info);
     return (double)h->columns * (double)h->rows * 2 <= 1100 * (double)r->b->n ||
-           err_set(r->e, ERR_SCENE, "%s: the PNG says %zu x %zu samples, and has %zu bytes: it is cut short", r->path, h->columns, h->rows, r->b->n);
+           err_set(r->e, ERR_SCENE, "%s: the PNG says %zu x %zu samples, and has %zu bytes: it is cut short", r->path,
+                   h->columns, h->rows, r->b->n);
 }
 
 static void make_rows(struct reading *r, const struct heightfile *h)
@@ -67,23 +69,19 @@ static void make_rows(struct reading *r, const struct heightfile *h)
 /* libpng's way out of an error is a jump: so what changes after setjmp lies in *r and *h. */
 static bool png_run(struct reading *r, struct arena *a, struct heightfile *h)
 {
-    if (setjmp(png_jmpbuf(r->png)))
-        return false;
+    if (setjmp(png_jmpbuf(r->png))) return false;
     png_set_read_fn(r->png, r, png_gives);
-    png_set_keep_unknown_chunks(r->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1); /* else memory is taken for whatever length a damaged chunk says */
+    png_set_keep_unknown_chunks(r->png, PNG_HANDLE_CHUNK_NEVER, NULL,
+                                -1); /* else memory is taken for whatever length a damaged chunk says */
     png_read_info(r->png, r->info);
-    if (!check_kind(r, h) || !heightfile_room(r->path, h, a, r->e))
-        return false;
+    if (!check_kind(r, h) || !heightfile_room(r->path, h, a, r->e)) return false;
     make_rows(r, h);
     png_read_image(r->png, r->rows);
     png_read_end(r->png, NULL);
     return true;
 }
 
-bool heightfile_png_is(const struct bytes *b)
-{
-    return b->n >= 8 && !memcmp(b->at, "\x89PNG\r\n\x1a\n", 8);
-}
+bool heightfile_png_is(const struct bytes *b) { return b->n >= 8 && !memcmp(b->at, "\x89PNG\r\n\x1a\n", 8); }
 
 bool heightfile_png_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e)
 {
@@ -124,7 +122,8 @@ static void png_cannot(png_structp png, png_const_charp text)
 
 static void png_say(struct writing *w, const char *key, const char *value)
 {
-    png_text t = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = arena_text(w->own, key), .text = arena_text(w->own, value)};
+    png_text t = {
+        .compression = PNG_TEXT_COMPRESSION_NONE, .key = arena_text(w->own, key), .text = arena_text(w->own, value)};
     png_set_text(w->png, w->info, &t, 1);
 }
 
@@ -143,8 +142,7 @@ static void png_say_all(struct writing *w)
     png_say_number(w, "Gwy::ZMax", w->low + w->range);
     png_say(w, "Gwy::XYUnit", "m");
     png_say(w, "Gwy::ZUnit", "m");
-    if (w->h->title)
-        png_say(w, "Gwy::Title", w->h->title);
+    if (w->h->title) png_say(w, "Gwy::Title", w->h->title);
 }
 
 static void png_put_row(struct writing *w, const double *z)
@@ -159,11 +157,10 @@ static void png_put_row(struct writing *w, const double *z)
 
 static bool png_put(struct writing *w)
 {
-    if (setjmp(png_jmpbuf(w->png)))
-        return false;
+    if (setjmp(png_jmpbuf(w->png))) return false;
     png_init_io(w->png, w->f);
-    png_set_IHDR(w->png, w->info, (png_uint_32)w->h->columns, (png_uint_32)w->h->rows, 16, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(w->png, w->info, (png_uint_32)w->h->columns, (png_uint_32)w->h->rows, 16, PNG_COLOR_TYPE_GRAY,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_say_all(w);
     png_write_info(w->png, w->info);
     for (size_t i = 0; i < w->h->rows; i++)

@@ -8,8 +8,8 @@
 static const struct {
     const char *name;
     double per_metre;
-} units[] = {{"", 1},          {"m", 1},           {"mm", 1e3},       {"um", 1e6}, {"\xc2\xb5m", 1e6},
-             {"\xce\xbcm", 1e6}, {"\xb5m", 1e6},      {"nm", 1e9},       {"pm", 1e12}};
+} units[] = {{"", 1},        {"m", 1},    {"mm", 1e3}, {"um", 1e6}, {"\xc2\xb5m", 1e6}, {"\xce\xbcm", 1e6},
+             {"\xb5m", 1e6}, {"nm", 1e9}, {"pm", 1e12}};
 
 bool heightfile_unit(const char *name, double *per_metre)
 {
@@ -65,8 +65,7 @@ const char *heightfile_unit_text(char text[32], double value)
 {
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, 32, "%.*g", digits, value);
-        if (isnan(value) || strtod(text, NULL) == value)
-            break;
+        if (isnan(value) || strtod(text, NULL) == value) break;
     }
     return isnan(value) ? "nan" : text;
 }

@@ -6,7 +6,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* How many of the unit make a metre: "" and m: 1; mm, um (with either micro sign, also in Latin-1), nm, pm. False: not a length. */
+/* How many of the unit make a metre: "" and m: 1; mm, um (with either micro sign, also in Latin-1), nm, pm. False: not
+ * a length. */
 bool heightfile_unit(const char *name, double *per_metre);
 
 /* `size` bytes, lowest first, as unsigned. */

@@ -5,10 +5,7 @@
 
 #include "base/text.h"
 
-json_t *json_value_number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
+json_t *json_value_number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
 
 json_t *json_value_text(const char *s)
 {

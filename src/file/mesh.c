@@ -11,9 +11,8 @@ bool mesh_read(const char *path, double unit, struct arena *a, struct mesh *m, s
 {
     if (!(unit > 0) || !isfinite(unit))
         return err_set(e, ERR_USAGE, "%s: its unit is %g m, and must be above 0", path, unit);
-    if (text_ends(path, ".msh"))
-        return mesh_msh_read(path, unit, a, m, e);
-    if (text_ends(path, ".node") || text_ends(path, ".ele"))
-        return mesh_tetgen_read(path, unit, a, m, e);
-    return err_set(e, ERR_SCENE, "%s: not a mesh by its name; .msh (Gmsh 2.2 or 4.1) and .node with .ele (TetGen) are read", path);
+    if (text_ends(path, ".msh")) return mesh_msh_read(path, unit, a, m, e);
+    if (text_ends(path, ".node") || text_ends(path, ".ele")) return mesh_tetgen_read(path, unit, a, m, e);
+    return err_set(e, ERR_SCENE,
+                   "%s: not a mesh by its name; .msh (Gmsh 2.2 or 4.1) and .node with .ele (TetGen) are read", path);
 }

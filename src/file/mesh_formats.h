@@ -8,12 +8,25 @@ struct mesh_msh {
     struct mesh_raw raw;
     struct mesh_source source;
     size_t names, belongs, belongs_room;
-    struct mesh_msh_name { int64_t number; const char *text; } *name;
-    struct mesh_msh_belongs { int64_t surface, physical; } *to; /* 4.1 */
+    struct mesh_msh_name {
+        int64_t number;
+        const char *text;
+    } * name;
+    struct mesh_msh_belongs {
+        int64_t surface, physical;
+    } * to; /* 4.1 */
 };
 
 /* Elements by their number in Gmsh. */
-enum { MESH_MSH_LINE = 1, MESH_MSH_TRIANGLE = 2, MESH_MSH_TETRAHEDRON = 4, MESH_MSH_LINE_3 = 8, MESH_MSH_TRIANGLE_6 = 9, MESH_MSH_TETRAHEDRON_10 = 11, MESH_MSH_POINT = 15 };
+enum {
+    MESH_MSH_LINE = 1,
+    MESH_MSH_TRIANGLE = 2,
+    MESH_MSH_TETRAHEDRON = 4,
+    MESH_MSH_LINE_3 = 8,
+    MESH_MSH_TRIANGLE_6 = 9,
+    MESH_MSH_TETRAHEDRON_10 = 11,
+    MESH_MSH_POINT = 15
+};
 
 bool mesh_msh_read(const char *path, double unit, struct arena *a, struct mesh *m, struct err *e);
 bool mesh_tetgen_read(const char *path, double unit, struct arena *a, struct mesh *m, struct err *e);

@@ -8,10 +8,16 @@ struct mesh_raw {
     struct arena *arena;
     size_t nodes, elements, faces, triangles; /* faces: that belong to a group; triangles: all */
     size_t node_room, element_room, face_room;
-    int corners;                              /* nodes of an element: 4 or 10; 0: there is none yet */
-    struct mesh_raw_node { int64_t tag; double at[3]; } *node;
-    int (*element)[10];                       /* [elements] indices of nodes, as struct mesh has them */
-    struct mesh_raw_face { int64_t group; int corner[3]; } *face;
+    int corners; /* nodes of an element: 4 or 10; 0: there is none yet */
+    struct mesh_raw_node {
+        int64_t tag;
+        double at[3];
+    } * node;
+    int (*element)[10]; /* [elements] indices of nodes, as struct mesh has them */
+    struct mesh_raw_face {
+        int64_t group;
+        int corner[3];
+    } * face;
 };
 
 /* Room for so many more nodes (known from a count that was checked). */
@@ -28,11 +34,13 @@ bool mesh_raw_element(struct mesh_raw *r, int corners, const int node[10], const
 
 void mesh_raw_face(struct mesh_raw *r, int64_t group, const int corner[3]);
 
-/* Nodes that are used, in metres; groups by rising number, called name(self, number), or its number where that is NULL. Errors: no elements, coordinates that are not finite in metres. */
+/* Nodes that are used, in metres; groups by rising number, called name(self, number), or its number where that is NULL.
+ * Errors: no elements, coordinates that are not finite in metres. */
 struct mesh_raw_names {
     const char *(*name)(const void *self, int64_t number);
     const void *self;
 };
-bool mesh_raw_finish(struct mesh_raw *r, const char *path, double unit, const struct mesh_raw_names *names, struct mesh *m, struct err *e);
+bool mesh_raw_finish(struct mesh_raw *r, const char *path, double unit, const struct mesh_raw_names *names,
+                     struct mesh *m, struct err *e);
 
 #endif

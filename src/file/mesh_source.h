@@ -1,4 +1,5 @@
-/* What the mesh readers read from: a file in memory, numbers as text or as little-endian binary. Nothing is read beyond its end. */
+/* What the mesh readers read from: a file in memory, numbers as text or as little-endian binary. Nothing is read beyond
+ * its end. */
 #ifndef FILE_MESH_SOURCE_H
 #define FILE_MESH_SOURCE_H
 #include <stdbool.h>

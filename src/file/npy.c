@@ -2,8 +2,9 @@
 
      "\x93NUMPY"  major  minor  length (2 bytes, little-endian; 4 from version 2 on)  header  data
 
-   The header is a Python dictionary in ASCII with the keys 'descr' (such as '<f8', or of a table a list of its fields, [('time_s', '<f8'), ...]),
-   'fortran_order' (False: rows one after the other) and 'shape', padded with blanks. Written: version 1.0, the data at a multiple of 64. */
+   The header is a Python dictionary in ASCII with the keys 'descr' (such as '<f8', or of a table a list of its fields,
+   [('time_s', '<f8'), ...]), 'fortran_order' (False: rows one after the other) and 'shape', padded with blanks.
+   Written: version 1.0, the data at a multiple of 64. */
 #include "file/npy.h"
 
 #include <math.h>
@@ -32,8 +33,7 @@ static void npy_blanks(struct npy_reader *p)
 static bool npy_next(struct npy_reader *p, char c)
 {
     npy_blanks(p);
-    if (p->at == p->end || *p->at != c)
-        return false;
+    if (p->at == p->end || *p->at != c) return false;
     p->at++;
     return true;
 }
@@ -42,8 +42,7 @@ static bool npy_word(struct npy_reader *p, const char *word)
 {
     size_t n = strlen(word);
     npy_blanks(p);
-    if ((size_t)(p->end - p->at) < n || memcmp(p->at, word, n) != 0)
-        return false;
+    if ((size_t)(p->end - p->at) < n || memcmp(p->at, word, n) != 0) return false;
     p->at += n;
     return true;
 }
@@ -53,10 +52,8 @@ static bool npy_string(struct npy_reader *p, char text[NPY_NAME])
 {
     npy_blanks(p);
     const char *s = p->at + 1, *close = NULL;
-    if (p->at < p->end && (*p->at == '\'' || *p->at == '"'))
-        close = memchr(s, *p->at, (size_t)(p->end - s));
-    if (!close || close - s >= NPY_NAME)
-        return false;
+    if (p->at < p->end && (*p->at == '\'' || *p->at == '"')) close = memchr(s, *p->at, (size_t)(p->end - s));
+    if (!close || close - s >= NPY_NAME) return false;
     memcpy(text, s, (size_t)(close - s));
     text[close - s] = '\0';
     p->at = close + 1;
@@ -76,13 +73,11 @@ static bool npy_size(struct npy_reader *p, size_t *n)
 
 static bool npy_shape(struct npy_reader *p)
 {
-    if (!npy_next(p, '('))
-        return npy_bad(p, "'shape' is not a tuple");
+    if (!npy_next(p, '(')) return npy_bad(p, "'shape' is not a tuple");
     while (!npy_next(p, ')')) {
         if (p->to->dimensions == 2)
             return npy_bad(p, "the array has more than two dimensions; a height map has one (a profile) or two");
-        if (!npy_size(p, &p->to->shape[p->to->dimensions++]))
-            return false;
+        if (!npy_size(p, &p->to->shape[p->to->dimensions++])) return false;
         if (!npy_next(p, ',') && (p->at == p->end || *p->at != ')'))
             return npy_bad(p, "the shape is not a list of sizes");
     }
@@ -98,8 +93,7 @@ static bool npy_fields(struct npy_reader *p)
             return npy_bad(p, "a field should stand here, as in ('time_s', '<f8')");
         if (strcmp(type, "<f8") != 0)
             return npy_bad(p, "a field that is not of the type '<f8'; save the table with fields of float64");
-        if (p->to->n_fields == NPY_FIELDS)
-            return npy_bad(p, "more than 1000 fields");
+        if (p->to->n_fields == NPY_FIELDS) return npy_bad(p, "more than 1000 fields");
         p->to->fields[p->to->n_fields++] = arena_text(p->arena, name);
         if (!npy_next(p, ',') && (p->at == p->end || *p->at != ']'))
             return npy_bad(p, "a comma or the end of the list of fields should stand here");
@@ -113,9 +107,9 @@ static bool npy_value(struct npy_reader *p, const char *key)
         p->has_descr = true;
         p->to->descr[0] = '\0';
         p->to->n_fields = 0;
-        if (npy_next(p, '['))
-            return npy_fields(p);
-        return npy_string(p, p->to->descr) || npy_bad(p, "'descr' is not a plain number type; save the array as float64");
+        if (npy_next(p, '[')) return npy_fields(p);
+        return npy_string(p, p->to->descr) ||
+               npy_bad(p, "'descr' is not a plain number type; save the array as float64");
     }
     if (!strcmp(key, "fortran_order")) {
         p->has_order = true;
@@ -129,27 +123,21 @@ static bool npy_value(struct npy_reader *p, const char *key)
 static bool npy_dictionary(struct npy_reader *p)
 {
     char key[NPY_NAME];
-    if (!npy_next(p, '{'))
-        return npy_bad(p, "a dictionary should begin here");
+    if (!npy_next(p, '{')) return npy_bad(p, "a dictionary should begin here");
     while (!npy_next(p, '}')) {
-        if (!npy_string(p, key) || !npy_next(p, ':'))
-            return npy_bad(p, "a quoted key and a colon should stand here");
-        if (!npy_value(p, key))
-            return false;
+        if (!npy_string(p, key) || !npy_next(p, ':')) return npy_bad(p, "a quoted key and a colon should stand here");
+        if (!npy_value(p, key)) return false;
         npy_blanks(p);
         if (!npy_next(p, ',') && (p->at == p->end || *p->at != '}'))
             return npy_bad(p, "a comma or the end of the dictionary should stand here");
     }
     npy_blanks(p);
-    if (p->at != p->end)
-        return npy_bad(p, "text after the dictionary");
-    return (p->has_descr && p->has_order && p->has_shape) || npy_bad(p, "'descr', 'fortran_order' or 'shape' is missing");
+    if (p->at != p->end) return npy_bad(p, "text after the dictionary");
+    return (p->has_descr && p->has_order && p->has_shape) ||
+           npy_bad(p, "'descr', 'fortran_order' or 'shape' is missing");
 }
 
-bool npy_is(const struct bytes *b)
-{
-    return b->n >= 6 && !memcmp(b->at, "\x93NUMPY", 6);
-}
+bool npy_is(const struct bytes *b) { return b->n >= 6 && !memcmp(b->at, "\x93NUMPY", 6); }
 
 static size_t npy_length(const unsigned char *p, size_t width)
 {
@@ -178,10 +166,10 @@ bool npy_read(const char *path, const struct bytes *b, struct arena *a, struct n
 {
     struct npy_reader p = {.path = path, .start = b->at, .to = to, .arena = a, .e = e};
     *to = (struct npy){.fields = ARENA_TAKE(a, const char *, NPY_FIELDS)};
-    if (!npy_open(&p, b) || !npy_dictionary(&p))
-        return false;
+    if (!npy_open(&p, b) || !npy_dictionary(&p)) return false;
     if (to->fortran && to->dimensions == 2)
-        return err_set(e, ERR_SCENE, "%s: the array is in Fortran order; save numpy.ascontiguousarray(z) instead", path);
+        return err_set(e, ERR_SCENE, "%s: the array is in Fortran order; save numpy.ascontiguousarray(z) instead",
+                       path);
     to->data = (size_t)(p.end - b->at);
     return true;
 }

@@ -1,4 +1,5 @@
-/* A table whatever its format: CSV (csv.h) or, known by its first bytes, NPY with named fields of float64, one dimension. */
+/* A table whatever its format: CSV (csv.h) or, known by its first bytes, NPY with named fields of float64, one
+ * dimension. */
 #ifndef FILE_TABLE_H
 #define FILE_TABLE_H
 #include "file/csv.h"

@@ -1,10 +1,10 @@
 /* The writer of wav.h; the reader is wav_read.c.
 
-   Integers are made here, because libsndfile truncates and clips doubles: rint(x 2^(bits-1)), handed over in the upper bits of an int,
-   which libsndfile shifts back. libsndfile's own RF64 with automatic downgrade is not used: it writes WAVE_FORMAT_EXTENSIBLE, which
-   Python's wave module and others refuse, and a PEAK chunk with the time of day that cannot be switched off there. So the file starts
-   as plain RIFF; when its samples outgrow that, they are copied to an RF64 file that goes on from there, and the time stamp of its
-   PEAK chunk is put to zero at the end. */
+   Integers are made here, because libsndfile truncates and clips doubles: rint(x 2^(bits-1)), handed over in the upper
+   bits of an int, which libsndfile shifts back. libsndfile's own RF64 with automatic downgrade is not used: it writes
+   WAVE_FORMAT_EXTENSIBLE, which Python's wave module and others refuse, and a PEAK chunk with the time of day that
+   cannot be switched off there. So the file starts as plain RIFF; when its samples outgrow that, they are copied to an
+   RF64 file that goes on from there, and the time stamp of its PEAK chunk is put to zero at the end. */
 #include "file/wav.h"
 
 #include <errno.h>
@@ -38,24 +38,23 @@ struct wav_out {
 static int encoding(int bits)
 {
     switch (bits) {
-    case 16: return SF_FORMAT_PCM_16;
-    case 24: return SF_FORMAT_PCM_24;
-    case -32: return SF_FORMAT_FLOAT;
-    case -64: return SF_FORMAT_DOUBLE;
-    default: return 0;
+    case 16:
+        return SF_FORMAT_PCM_16;
+    case 24:
+        return SF_FORMAT_PCM_24;
+    case -32:
+        return SF_FORMAT_FLOAT;
+    case -64:
+        return SF_FORMAT_DOUBLE;
+    default:
+        return 0;
     }
 }
 
-static bool text_given(const char *s)
-{
-    return s && *s;
-}
+static bool text_given(const char *s) { return s && *s; }
 
 /* Why libsndfile did not do it: the system's reason, if there was one, is plainer than its own. */
-static const char *reason(SNDFILE *sound)
-{
-    return errno ? strerror(errno) : sf_strerror(sound);
-}
+static const char *reason(SNDFILE *sound) { return errno ? strerror(errno) : sf_strerror(sound); }
 
 /* Says so, if that was why; returns false. */
 static bool out_of_memory(const struct wav_out *w, struct err *e)
@@ -71,22 +70,30 @@ static bool sound_open(struct wav_out *w, int container, struct err *e)
     errno = 0;
     w->sound = sf_open_fd(w->out.fd, SFM_WRITE, &i, 0);
     if (!w->sound)
-        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: the sound file cannot be begun, of %d channel%s at %g Hz: %s; is the disk full, or the size of files limited? Make room, or write "
-                                                             "elsewhere with -o", w->path, f->channels, f->channels == 1 ? "" : "s", f->rate, reason(NULL));
+        return out_of_memory(w, e) || err_set(e, ERR_CREATE,
+                                              "%s: the sound file cannot be begun, of %d channel%s at %g Hz: %s; is "
+                                              "the disk full, or the size of files limited? Make room, or write "
+                                              "elsewhere with -o",
+                                              w->path, f->channels, f->channels == 1 ? "" : "s", f->rate, reason(NULL));
     sf_command(w->sound, SFC_SET_ADD_PEAK_CHUNK, NULL, SF_FALSE);
     if ((text_given(f->title) && sf_set_string(w->sound, SF_STR_TITLE, f->title)) ||
         (text_given(f->comment) && sf_set_string(w->sound, SF_STR_COMMENT, f->comment)))
-        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: the scene's title, or the comment that says the gain, cannot be written into the sound file: %s; shorten title, or leave it out", w->path, reason(w->sound));
+        return out_of_memory(w, e) || err_set(e, ERR_CREATE,
+                                              "%s: the scene's title, or the comment that says the gain, cannot be "
+                                              "written into the sound file: %s; shorten title, or leave it out",
+                                              w->path, reason(w->sound));
     return true;
 }
 
 static bool check_format(const char *path, const struct wav_format *f, struct err *e)
 {
     if (!encoding(f->bits))
-        return err_set(e, ERR_SCENE, "%s: %d bits: only 16 and 24 (integers), -32 and -64 (floating point) can be written", path,
+        return err_set(e, ERR_SCENE,
+                       "%s: %d bits: only 16 and 24 (integers), -32 and -64 (floating point) can be written", path,
                        f->bits);
     if (!(f->rate >= 1 && f->rate <= 1e7) || f->rate != floor(f->rate))
-        return err_set(e, ERR_SCENE, "%s: a WAV's sample rate is a whole number of Hz up to 1e7, not %.9g", path, f->rate);
+        return err_set(e, ERR_SCENE, "%s: a WAV's sample rate is a whole number of Hz up to 1e7, not %.9g", path,
+                       f->rate);
     if (f->channels < 1 || f->channels > 1024)
         return err_set(e, ERR_SCENE, "%s: a WAV has 1 to 1024 channels, not %d", path, f->channels);
     return true;
@@ -94,8 +101,7 @@ static bool check_format(const char *path, const struct wav_format *f, struct er
 
 static void wav_free(struct wav_out *w)
 {
-    if (w->sound)
-        sf_close(w->sound);
+    if (w->sound) sf_close(w->sound);
     outfile_drop(&w->out);
     free((char *)w->format.title);
     free((char *)w->format.comment);
@@ -107,33 +113,30 @@ static void wav_free(struct wav_out *w)
 static struct wav_out *wav_new(const char *path, const struct wav_format *f)
 {
     struct wav_out *w = calloc(1, sizeof *w);
-    if (!w)
-        return NULL;
+    if (!w) return NULL;
     w->format = *f;
     w->path = strdup(path);
     w->format.title = f->title ? strdup(f->title) : NULL;
     w->format.comment = f->comment ? strdup(f->comment) : NULL;
     w->heard = calloc((size_t)f->channels, sizeof *w->heard);
     w->unheard = f->channels;
-    if (w->path && w->heard && (w->format.title || !f->title) && (w->format.comment || !f->comment))
-        return w;
+    if (w->path && w->heard && (w->format.title || !f->title) && (w->format.comment || !f->comment)) return w;
     wav_free(w);
     return NULL;
 }
 
 struct wav_out *wav_create(const char *path, const struct wav_format *f, struct err *e)
 {
-    if (!check_format(path, f, e))
-        return NULL;
+    if (!check_format(path, f, e)) return NULL;
     struct wav_out *w = wav_new(path, f);
     if (!w) {
         err_set(e, ERR_MEMORY, "%s: out of memory", path);
         return NULL;
     }
-    double texts = (double)((f->title ? strlen(f->title) : 0) + (f->comment ? strlen(f->comment) : 0)), header = 4096 + texts;
+    double texts = (double)((f->title ? strlen(f->title) : 0) + (f->comment ? strlen(f->comment) : 0)),
+           header = 4096 + texts;
     w->riff_bytes = f->riff_bytes > 0 ? f->riff_bytes : 4294967295.0 - header;
-    if (outfile_open_fd(&w->out, path, e) && sound_open(w, SF_FORMAT_WAV, e))
-        return w;
+    if (outfile_open_fd(&w->out, path, e) && sound_open(w, SF_FORMAT_WAV, e)) return w;
     wav_free(w);
     return NULL;
 }
@@ -142,11 +145,14 @@ bool wav_comment(struct wav_out *w, const char *text, struct err *e)
 {
     free((char *)w->format.comment);
     w->format.comment = strdup(text);
-    if (!w->format.comment)
-        return err_set(e, ERR_MEMORY, "%s: out of memory", w->path);
+    if (!w->format.comment) return err_set(e, ERR_MEMORY, "%s: out of memory", w->path);
     errno = 0;
     if (w->frames > 0 || sf_set_string(w->sound, SF_STR_COMMENT, text))
-        return out_of_memory(w, e) || err_set(e, ERR_CREATE, "%s: the comment that says the gain cannot be written into the sound file: %s; is the disk full?", w->path, reason(w->sound));
+        return out_of_memory(w, e) ||
+               err_set(
+                   e, ERR_CREATE,
+                   "%s: the comment that says the gain cannot be written into the sound file: %s; is the disk full?",
+                   w->path, reason(w->sound));
     return true;
 }
 
@@ -156,10 +162,7 @@ static bool write_failed(const struct wav_out *w, struct err *e)
     return err_set(e, ERR_IO, "%s: cannot be written: %s", w->path, why);
 }
 
-static int frame_bytes(const struct wav_out *w)
-{
-    return abs(w->format.bits) / 8 * w->format.channels;
-}
+static int frame_bytes(const struct wav_out *w) { return abs(w->format.bits) / 8 * w->format.channels; }
 
 /* Copies the sound data of the short file `from` to w, byte by byte. */
 static bool copy_data(struct wav_out *w, SNDFILE *from, struct err *e)
@@ -188,8 +191,7 @@ static bool go_long(struct wav_out *w, struct err *e)
     bool closed = sf_close(w->sound) == 0;
     w->sound = NULL;
     w->long_file = true;
-    if (!closed)
-        return err_set(e, ERR_IO, "%s: cannot be written", w->path);
+    if (!closed) return err_set(e, ERR_IO, "%s: cannot be written", w->path);
     if (!outfile_open_fd(&w->out, w->path, e)) {
         outfile_drop(&was);
         return false;
@@ -197,8 +199,7 @@ static bool go_long(struct wav_out *w, struct err *e)
     SNDFILE *from = lseek(was.fd, 0, SEEK_SET) == 0 ? sf_open_fd(was.fd, SFM_READ, &i, 0) : NULL;
     bool ok = from || err_set(e, ERR_IO, "%s: what has been written cannot be read back", w->path);
     ok = ok && sound_open(w, SF_FORMAT_RF64, e) && copy_data(w, from, e);
-    if (from)
-        sf_close(from);
+    if (from) sf_close(from);
     outfile_drop(&was);
     return ok;
 }
@@ -209,18 +210,24 @@ static bool sample_bad(const struct wav_out *w, size_t i, double x, struct err *
     double frame = w->frames + (double)(i / (size_t)channels), seconds = frame / w->format.rate;
     int channel = (int)(i % (size_t)channels) + 1;
     if (!isfinite(x))
-        return err_set(e, ERR_NUMBERS, "%s: frame %.0f (%.6f s), channel %d: the sample is %g", w->path, frame, seconds, channel, x);
+        return err_set(e, ERR_NUMBERS, "%s: frame %.0f (%.6f s), channel %d: the sample is %g", w->path, frame, seconds,
+                       channel, x);
     if (bits < 0)
-        return err_set(e, ERR_SCENE, "%s: frame %.0f (%.6f s), channel %d: %g is too large for 32-bit floating point; lower the level, or what the force "
-                       "comes from", w->path, frame,
-                       seconds, channel, x);
+        return err_set(e, ERR_SCENE,
+                       "%s: frame %.0f (%.6f s), channel %d: %g is too large for 32-bit floating point; lower the "
+                       "level, or what the force "
+                       "comes from",
+                       w->path, frame, seconds, channel, x);
     return err_set(e, ERR_SCENE,
-                   "%s: frame %.0f (%.6f s), channel %d: %.6f is %+.2f dB re full scale, beyond the range of %d-bit integers; lower the "
-                   "level or write floating point", w->path, frame, seconds, channel, x, 20 * real_log10(fabs(x)), bits);
+                   "%s: frame %.0f (%.6f s), channel %d: %.6f is %+.2f dB re full scale, beyond the range of %d-bit "
+                   "integers; lower the "
+                   "level or write floating point",
+                   w->path, frame, seconds, channel, x, 20 * real_log10(fabs(x)), bits);
 }
 
-/* Every x rounded to nearest, ties to even, in the upper bits of y; false where one does not fit. Adding and subtracting 1.5 2^52 rounds what could
-   fit, and leaves the rest too large; a call of rint for each took as long as all else in this file. */
+/* Every x rounded to nearest, ties to even, in the upper bits of y; false where one does not fit. Adding and
+   subtracting 1.5 2^52 rounds what could fit, and leaves the rest too large; a call of rint for each took as long as
+   all else in this file. */
 LANES_CLONES
 static int integers_of(const double *x, size_t n, int bits, int *y)
 {
@@ -268,8 +275,7 @@ static bool write_integers(struct wav_out *w, const double *x, size_t n, struct 
         return sample_bad(w, i, x[i], e);
     }
     for (size_t i = 0; w->unheard && i < n; i++)
-        if (y[i])
-            hear(w, i);
+        if (y[i]) hear(w, i);
     errno = 0;
     return sf_write_int(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
 }
@@ -279,13 +285,11 @@ static bool write_floats(struct wav_out *w, const double *x, size_t n, struct er
     float y[PIECE];
     double held[PIECE];
     for (size_t i = 0; i < n; i++) {
-        if (!(fabs(x[i]) <= FLT_MAX))
-            return sample_bad(w, i, x[i], e);
+        if (!(fabs(x[i]) <= FLT_MAX)) return sample_bad(w, i, x[i], e);
         held[i] = y[i] = (float)x[i];
     }
     for (size_t i = 0; w->unheard && i < n; i++)
-        if (y[i] != 0)
-            hear(w, i);
+        if (y[i] != 0) hear(w, i);
     look_beyond(held, n, &w->beyond, &w->peak);
     errno = 0;
     return sf_write_float(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
@@ -294,11 +298,9 @@ static bool write_floats(struct wav_out *w, const double *x, size_t n, struct er
 static bool write_doubles(struct wav_out *w, const double *x, size_t n, struct err *e)
 {
     for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return sample_bad(w, i, x[i], e);
+        if (!isfinite(x[i])) return sample_bad(w, i, x[i], e);
     for (size_t i = 0; w->unheard && i < n; i++)
-        if (x[i] != 0)
-            hear(w, i);
+        if (x[i] != 0) hear(w, i);
     look_beyond(x, n, &w->beyond, &w->peak);
     errno = 0;
     return sf_write_double(w->sound, x, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
@@ -313,12 +315,10 @@ static bool write_piece(struct wav_out *w, const double *x, size_t n, struct err
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e)
 {
     size_t channels = (size_t)w->format.channels, most = PIECE / channels;
-    if (!w->long_file && (w->frames + (double)frames) * frame_bytes(w) > w->riff_bytes && !go_long(w, e))
-        return false;
+    if (!w->long_file && (w->frames + (double)frames) * frame_bytes(w) > w->riff_bytes && !go_long(w, e)) return false;
     for (size_t done = 0, n; done < frames; done += n) {
         n = frames - done < most ? frames - done : most;
-        if (!write_piece(w, x + done * channels, n * channels, e))
-            return false;
+        if (!write_piece(w, x + done * channels, n * channels, e)) return false;
         w->frames += (double)n;
     }
     return true;
@@ -332,19 +332,18 @@ struct wav_written wav_written(const struct wav_out *w)
 bool wav_written_heard(const struct wav_written *w)
 {
     for (int k = 0; k < w->channels; k++)
-        if (w->heard[k])
-            return true;
+        if (w->heard[k]) return true;
     return false;
 }
 
-/* Puts the time stamp of an RF64 file's PEAK chunk to zero. Layout: "RF64", size, "WAVE", then chunks: name, size, content. */
+/* Puts the time stamp of an RF64 file's PEAK chunk to zero. Layout: "RF64", size, "WAVE", then chunks: name, size,
+ * content. */
 static bool clear_peak_time(struct wav_out *w, struct err *e)
 {
     unsigned char head[8], zero[4] = {0};
     for (off_t at = 12; pread(w->out.fd, head, 8, at) == 8 && memcmp(head, "data", 4) != 0;) {
         off_t size = head[4] + 256 * head[5] + 65536 * head[6];
-        if (!memcmp(head, "PEAK", 4) && pwrite(w->out.fd, zero, 4, at + 12) != 4)
-            return write_failed(w, e);
+        if (!memcmp(head, "PEAK", 4) && pwrite(w->out.fd, zero, 4, at + 12) != 4) return write_failed(w, e);
         at += 8 + size + size % 2;
     }
     return true;
@@ -352,20 +351,15 @@ static bool clear_peak_time(struct wav_out *w, struct err *e)
 
 bool wav_settle(struct wav_out *w, struct err *e)
 {
-    if (!w->sound)
-        return true;
+    if (!w->sound) return true;
     errno = 0;
     bool ok = sf_error(w->sound) == 0 || write_failed(w, e);
-    if (sf_close(w->sound) != 0)
-        ok = err_set(e, ERR_IO, "%s: cannot be written", w->path);
+    if (sf_close(w->sound) != 0) ok = err_set(e, ERR_IO, "%s: cannot be written", w->path);
     w->sound = NULL;
     return ok && (!w->long_file || clear_peak_time(w, e)) && outfile_settle(&w->out, e);
 }
 
-const char *wav_temporary(const struct wav_out *w)
-{
-    return w->out.temporary;
-}
+const char *wav_temporary(const struct wav_out *w) { return w->out.temporary; }
 
 bool wav_commit(struct wav_out *w, struct err *e)
 {
@@ -376,6 +370,5 @@ bool wav_commit(struct wav_out *w, struct err *e)
 
 void wav_drop(struct wav_out *w)
 {
-    if (w)
-        wav_free(w);
+    if (w) wav_free(w);
 }

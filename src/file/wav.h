@@ -1,4 +1,5 @@
-/* Sound files through libsndfile: whole-file reading, streamed writing under a name that appears only when it is complete. */
+/* Sound files through libsndfile: whole-file reading, streamed writing under a name that appears only when it is
+ * complete. */
 #ifndef FILE_WAV_H
 #define FILE_WAV_H
 #include <stdbool.h>
@@ -8,31 +9,33 @@
 #include "base/err.h"
 
 struct wav {
-    double rate;    /* Hz                                                     */
+    double rate; /* Hz                                                     */
     int channels;
     size_t frames;
-    double *x;      /* [frames][channels]; integers scaled so that 2^(bits-1) = 1 */
-    int bits;       /* 8, 16, 24, 32 of an integer file; 0: anything else     */
+    double *x; /* [frames][channels]; integers scaled so that 2^(bits-1) = 1 */
+    int bits;  /* 8, 16, 24, 32 of an integer file; 0: anything else     */
 };
 
-/* Whatever libsndfile reads. Errors: ERR_INPUT missing or unreadable, ERR_SCENE not a sound file, truncated, no samples, or not
-   finite. */
+/* Whatever libsndfile reads. Errors: ERR_INPUT missing or unreadable, ERR_SCENE not a sound file, truncated, no
+   samples, or not finite. */
 bool wav_read(const char *path, struct arena *a, struct wav *w, struct err *e);
 
 struct wav_out;
 
 struct wav_format {
     double rate;
-    int channels, bits;  /* bits 16 or 24: PCM; -32 or -64: floating point */
+    int channels, bits;          /* bits 16 or 24: PCM; -32 or -64: floating point */
     const char *title, *comment; /* INAM and ICMT; NULL: none             */
-    double riff_bytes;   /* samples beyond this make it RF64; 0: as late as RIFF allows, 4 GiB less the header (tests set it) */
+    double riff_bytes; /* samples beyond this make it RF64; 0: as late as RIFF allows, 4 GiB less the header (tests set
+                          it) */
 };
 
-/* Opens at once (so that a path that cannot be written fails before any work), writes frames [n][channels], and gives the file
-   its name in wav_commit; wav_drop leaves nothing. PCM is rounded to nearest, ties to even, from x 2^(bits-1); a sample beyond
-   the integer range is an error (ERR_SCENE: says which and by how many dB), never clipped; one that is not finite is ERR_NUMBERS.
-   No PEAK chunk, no dates: same samples, same bytes. Plain RIFF; beyond 4 GiB RF64. Other errors: ERR_CREATE, ERR_IO, ERR_SCENE
-   (a format that cannot be). After an error only wav_drop may follow; commit and drop free w. */
+/* Opens at once (so that a path that cannot be written fails before any work), writes frames [n][channels], and gives
+   the file its name in wav_commit; wav_drop leaves nothing. PCM is rounded to nearest, ties to even, from x 2^(bits-1);
+   a sample beyond the integer range is an error (ERR_SCENE: says which and by how many dB), never clipped; one that is
+   not finite is ERR_NUMBERS. No PEAK chunk, no dates: same samples, same bytes. Plain RIFF; beyond 4 GiB RF64. Other
+   errors: ERR_CREATE, ERR_IO, ERR_SCENE (a format that cannot be). After an error only wav_drop may follow; commit and
+   drop free w. */
 struct wav_out *wav_create(const char *path, const struct wav_format *f, struct err *e);
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e);
 /* Sets the comment (ICMT) before the first frame is written. */
@@ -42,12 +45,13 @@ struct wav_written {
     int channels;
     double frames;
     const bool *heard;   /* [channels] some sample of it is not 0; lasts as long as w */
-    double beyond, peak; /* samples beyond full scale (of floating point, by more than 1e-12 of it), and the greatest of them; 0: none */
+    double beyond, peak; /* samples beyond full scale (of floating point, by more than 1e-12 of it), and the greatest of
+                            them; 0: none */
 };
 struct wav_written wav_written(const struct wav_out *w);
 bool wav_written_heard(const struct wav_written *w); /* some sample of any channel is not 0 */
 
-bool wav_settle(struct wav_out *w, struct err *e); /* as outfile_settle */
+bool wav_settle(struct wav_out *w, struct err *e);  /* as outfile_settle */
 const char *wav_temporary(const struct wav_out *w); /* where it lies once it is settled, until it is committed */
 bool wav_commit(struct wav_out *w, struct err *e);
 void wav_drop(struct wav_out *w);

@@ -11,15 +11,12 @@ bool wav_stream_open(struct wav_stream *w, const char *path, struct err *e)
 {
     SF_INFO i = {0};
     *w = (struct wav_stream){.path = path};
-    if (!wav_check(path, e))
-        return false;
+    if (!wav_check(path, e)) return false;
     memory_spare(1 << 16); /* see wav_read.c */
     errno = 0;
     SNDFILE *f = sf_open(path, SFM_READ, &i);
-    if (!f && errno == ENOMEM)
-        return err_set(e, ERR_MEMORY, "%s: out of memory", path);
-    if (!f)
-        return err_set(e, ERR_SCENE, "%s: is not a sound file that can be read: %s", path, sf_strerror(NULL));
+    if (!f && errno == ENOMEM) return err_set(e, ERR_MEMORY, "%s: out of memory", path);
+    if (!f) return err_set(e, ERR_SCENE, "%s: is not a sound file that can be read: %s", path, sf_strerror(NULL));
     *w = (struct wav_stream){f, path, i.samplerate, i.channels, (long)i.frames};
     return true;
 }
@@ -34,7 +31,6 @@ bool wav_stream_read(struct wav_stream *w, double *x, long most, long *n, struct
 
 void wav_stream_close(struct wav_stream *w)
 {
-    if (w->file)
-        sf_close(w->file);
+    if (w->file) sf_close(w->file);
     w->file = NULL;
 }

@@ -6,9 +6,9 @@
 #include "base/err.h"
 
 struct wav_stream {
-    void *file;         /* SNDFILE */
-    const char *path;   /* must live as long */
-    double rate;        /* Hz */
+    void *file;       /* SNDFILE */
+    const char *path; /* must live as long */
+    double rate;      /* Hz */
     int channels;
     long frames;
 };

@@ -36,16 +36,15 @@ void yaml_append(struct yaml_node *parent, struct yaml_node *key, struct yaml_no
 
 bool yaml_null(const struct yaml_node *node)
 {
-    return node->kind == YAML_SCALAR && node->plain && (strcmp(node->text, "null") == 0 || strcmp(node->text, "~") == 0);
+    return node->kind == YAML_SCALAR && node->plain &&
+           (strcmp(node->text, "null") == 0 || strcmp(node->text, "~") == 0);
 }
 
 struct yaml_node *yaml_get(const struct yaml_node *map, const char *key)
 {
-    if (map->kind != YAML_MAP)
-        return NULL;
+    if (map->kind != YAML_MAP) return NULL;
     for (struct yaml_node *item = map->first; item; item = item->next)
-        if (strcmp(item->key->text, key) == 0)
-            return item;
+        if (strcmp(item->key->text, key) == 0) return item;
     return NULL;
 }
 
@@ -54,13 +53,11 @@ struct yaml_node *yaml_find(struct yaml_node *map, const char *path)
     char part[128];
     while (map) {
         size_t n = strcspn(path, ".");
-        if (n >= sizeof part)
-            return NULL;
+        if (n >= sizeof part) return NULL;
         memcpy(part, path, n);
         part[n] = '\0';
         map = yaml_get(map, part);
-        if (!path[n])
-            return map;
+        if (!path[n]) return map;
         path += n + 1;
     }
     return NULL;

@@ -20,10 +20,10 @@ struct yaml_node {
     struct yaml_node *next;  /* in the same map or list               */
     struct yaml_node *first; /* of a map or list                      */
     struct yaml_node *last;
-    int n;                   /* items of a map or list                */
+    int n; /* items of a map or list                */
 };
 
-struct yaml_file {         /* a file that was read                        */
+struct yaml_file { /* a file that was read                        */
     const char *name;
     struct yaml_file *next;
 };
@@ -31,21 +31,23 @@ struct yaml_file {         /* a file that was read                        */
 struct yaml {
     struct arena *arena;
     struct diag *diag;
-    int nodes;     /* read so far                                     */
-    int sources;   /* made so far                                     */
+    int nodes;                           /* read so far                                     */
+    int sources;                         /* made so far                                     */
     struct yaml_file *files, *last_file; /* in the order of reading   */
-    bool missing;  /* a file could not be read (ERR_INPUT)            */
+    bool missing;                        /* a file could not be read (ERR_INPUT)            */
 };
 
 struct yaml *yaml_open(struct arena *a);
 
-/* A text in memory as a source; an option's text is shown without line numbers. The name and the text must outlive it. */
+/* A text in memory as a source; an option's text is shown without line numbers. The name and the text must outlive it.
+ */
 struct diag_source *yaml_source(struct yaml *y, const char *name, const char *text, size_t size);
 
 /* `null` or `~`. */
 bool yaml_null(const struct yaml_node *node);
 
-/* Value of a key of a map; of a dotted path through maps. NULL: there is none (or something on the way is not a map). */
+/* Value of a key of a map; of a dotted path through maps. NULL: there is none (or something on the way is not a map).
+ */
 struct yaml_node *yaml_get(const struct yaml_node *map, const char *key);
 struct yaml_node *yaml_find(struct yaml_node *map, const char *path);
 

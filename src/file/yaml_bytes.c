@@ -1,5 +1,5 @@
-/* Reads and checks the bytes of a YAML text: see yaml_bytes.h. What is refused here libyaml would refuse too, but without a line,
-   or take for an encoding other than UTF-8. */
+/* Reads and checks the bytes of a YAML text: see yaml_bytes.h. What is refused here libyaml would refuse too, but
+   without a line, or take for an encoding other than UTF-8. */
 #include "file/yaml_bytes.h"
 
 #include <errno.h>
@@ -19,7 +19,10 @@ static bool unreadable(struct yaml *y, const char *file, struct diag_place named
     const char *why = pipe ? "it is a pipe" : strerror(errno);
     y->missing = true;
     if (named.source)
-        diag_add(y->diag, named, pipe ? "only what the command line names may be one: save it as a file" : "a path in a file is relative to that file's folder", "cannot read '%s': %s", file, why);
+        diag_add(y->diag, named,
+                 pipe ? "only what the command line names may be one: save it as a file"
+                      : "a path in a file is relative to that file's folder",
+                 "cannot read '%s': %s", file, why);
     else
         diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s", why);
     return false;
@@ -39,8 +42,7 @@ static char *all_of(FILE *in, struct arena *a, size_t *size)
     char *buffer = arena_take(a, room + 1, 1);
     for (*size = 0;;) {
         *size += fread(buffer + *size, 1, room - *size, in);
-        if (*size < room || *size > SIZE_MAX_BYTES)
-            return buffer;
+        if (*size < room || *size > SIZE_MAX_BYTES) return buffer;
         buffer = memcpy(arena_take(a, 4 * room + 1, 1), buffer, room);
         room *= 4;
     }
@@ -48,16 +50,13 @@ static char *all_of(FILE *in, struct arena *a, size_t *size)
 
 const char *yaml_bytes_text(const char *file, struct arena *a, size_t *size)
 {
-    if (piped_is(file))
-        return piped_read(file, SIZE_MAX_BYTES, size);
+    if (piped_is(file)) return piped_read(file, SIZE_MAX_BYTES, size);
     FILE *in = memory_fopen(file, "rb");
     char *text = in ? all_of(in, a, size) : NULL;
     bool good = in && !ferror(in);
     int why = errno;
-    if (good)
-        text[*size] = '\0';
-    if (in)
-        fclose(in);
+    if (good) text[*size] = '\0';
+    if (in) fclose(in);
     errno = why;
     return good ? text : NULL;
 }
@@ -74,7 +73,8 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
 {
     size_t size;
     struct stat s;
-    bool waits = named.source && !named.source->made && stat(file, &s) == 0 && S_ISFIFO(s.st_mode); /* until somebody writes into it */
+    bool waits = named.source && !named.source->made && stat(file, &s) == 0 &&
+                 S_ISFIFO(s.st_mode); /* until somebody writes into it */
     const char *text = waits ? NULL : yaml_bytes_text(file, y->arena, &size);
     if (!text) {
         errno = waits ? ENXIO : errno;
@@ -90,8 +90,7 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
 
 static const char *byte_order_mark(const struct diag_source *s)
 {
-    if (s->size >= 3 && memcmp(s->text, "\xef\xbb\xbf", 3) == 0)
-        return "UTF-8 with a byte order mark";
+    if (s->size >= 3 && memcmp(s->text, "\xef\xbb\xbf", 3) == 0) return "UTF-8 with a byte order mark";
     if (s->size >= 2 && (memcmp(s->text, "\xff\xfe", 2) == 0 || memcmp(s->text, "\xfe\xff", 2) == 0))
         return "UTF-16 or UTF-32";
     return NULL;
@@ -124,17 +123,16 @@ bool yaml_bytes_good(struct yaml *y, const struct diag_source *s)
 {
     struct diag_place at = {s, 1, 1, 1};
     const char *mark = byte_order_mark(s);
-    if (s->size > SIZE_MAX_BYTES)
-        return too_large(y, s);
+    if (s->size > SIZE_MAX_BYTES) return too_large(y, s);
     if (mark) {
-        diag_add(y->diag, (struct diag_place){s, 0, 0, 0}, "save the file as UTF-8 without a byte order mark (BOM)", "encoded as %s", mark);
+        diag_add(y->diag, (struct diag_place){s, 0, 0, 0}, "save the file as UTF-8 without a byte order mark (BOM)",
+                 "encoded as %s", mark);
         return false;
     }
     for (size_t i = 0; i < s->size;) {
         uint32_t code = 0;
         int length = text_utf8(s->text + i, s->size - i, &code);
-        if (length == 0 || !printable(code))
-            return bad_character(y, at, length, code);
+        if (length == 0 || !printable(code)) return bad_character(y, at, length, code);
         i += (size_t)length;
         at.column++;
         if (line_break(code, i < s->size ? s->text[i] : '\0')) {

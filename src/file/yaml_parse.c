@@ -1,5 +1,5 @@
-/* libyaml's events into nodes: see yaml_parse.h. libyaml itself takes duplicate keys silently and leaves aliases to its caller; an
-   anchor counts from the end of its value, so that nothing can contain itself. */
+/* libyaml's events into nodes: see yaml_parse.h. libyaml itself takes duplicate keys silently and leaves aliases to its
+   caller; an anchor counts from the end of its value, so that nothing can contain itself. */
 #include "file/yaml_parse.h"
 
 #include <string.h>
@@ -52,8 +52,7 @@ static const char *syntax_cure(const char *problem)
 {
     if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
         return "indent with spaces, not tabs; put quotes around a text that starts with @, ` or %";
-    if (strstr(problem, "mapping values"))
-        return "check the indentation; put quotes around a text that holds ': '";
+    if (strstr(problem, "mapping values")) return "check the indentation; put quotes around a text that holds ': '";
     if (strstr(problem, "expected key") || strstr(problem, "block end") || strstr(problem, "expected ':'"))
         return "check the indentation, and that each key is followed by ': ' with a space";
     return "check quotes, brackets and indentation near here";
@@ -61,10 +60,10 @@ static const char *syntax_cure(const char *problem)
 
 static void syntax_error(struct parse *p)
 {
-    if (p->parser->error == YAML_MEMORY_ERROR)
-        memory_out("for %.200s", p->source->name);
+    if (p->parser->error == YAML_MEMORY_ERROR) memory_out("for %.200s", p->source->name);
     const char *problem = p->parser->problem ? p->parser->problem : "cannot be read";
-    struct diag_place at = {p->source, (int)p->parser->problem_mark.line + 1, column_of(p, &p->parser->problem_mark), 1};
+    struct diag_place at = {p->source, (int)p->parser->problem_mark.line + 1, column_of(p, &p->parser->problem_mark),
+                            1};
     diag_add(p->y->diag, at, syntax_cure(problem), "not valid YAML: %s", problem);
 }
 
@@ -114,8 +113,9 @@ static bool event_next(struct parse *p, struct event *ev)
 
 static bool room_for_one(struct parse *p, struct diag_place at)
 {
-    return ++p->y->nodes <= NODES_MAX || diag_add(p->y->diag, at, "a scene needs a few hundred; look for aliases (*name) of aliases",
-                                                  "more than %d values after expanding aliases", NODES_MAX);
+    return ++p->y->nodes <= NODES_MAX ||
+           diag_add(p->y->diag, at, "a scene needs a few hundred; look for aliases (*name) of aliases",
+                    "more than %d values after expanding aliases", NODES_MAX);
 }
 
 static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct diag_place at, const char *text)
@@ -126,14 +126,12 @@ static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct d
 /* A copy keeps the place of what it is a copy of; too many are the alias's fault. */
 static struct yaml_node *node_copy(struct parse *p, const struct yaml_node *from, struct diag_place alias)
 {
-    if (!room_for_one(p, alias))
-        return NULL;
+    if (!room_for_one(p, alias)) return NULL;
     struct yaml_node *copy = yaml_make(p->y, from->kind, from->at, from->text);
     copy->plain = from->plain;
     for (const struct yaml_node *item = from->first; item; item = item->next) {
         struct yaml_node *value = node_copy(p, item, alias);
-        if (!value)
-            return NULL;
+        if (!value) return NULL;
         yaml_append(copy, item->key, value);
     }
     return copy;
@@ -142,9 +140,9 @@ static struct yaml_node *node_copy(struct parse *p, const struct yaml_node *from
 static struct yaml_node *alias_read(struct parse *p, const struct event *ev)
 {
     for (int i = p->n_anchors - 1; i >= 0; i--)
-        if (strcmp(p->anchors[i].name, ev->anchor) == 0)
-            return node_copy(p, p->anchors[i].node, ev->at);
-    diag_add(p->y->diag, ev->at, "an anchor (&name) must stand before its aliases (*name); put quotes around a text that starts with *",
+        if (strcmp(p->anchors[i].name, ev->anchor) == 0) return node_copy(p, p->anchors[i].node, ev->at);
+    diag_add(p->y->diag, ev->at,
+             "an anchor (&name) must stand before its aliases (*name); put quotes around a text that starts with *",
              "no anchor '%s' before this", diag_shown(p->y->diag, ev->anchor));
     return NULL;
 }
@@ -152,11 +150,9 @@ static struct yaml_node *alias_read(struct parse *p, const struct event *ev)
 static struct yaml_node *scalar_read(struct parse *p, const struct event *ev)
 {
     struct yaml_node *node = node_new(p, YAML_SCALAR, ev->at, ev->text);
-    if (!node)
-        return NULL;
+    if (!node) return NULL;
     node->plain = ev->plain;
-    if (strlen(ev->text) == ev->size)
-        return node;
+    if (strlen(ev->text) == ev->size) return node;
     diag_add(p->y->diag, ev->at, "remove \\0 or \\x00", "a text must not hold a NUL character");
     return NULL;
 }
@@ -181,8 +177,7 @@ static struct yaml_node *list_read(struct parse *p, const struct event *start)
             close_place(list, &ev);
             return list;
         }
-        if (!(item = node_read(p, &ev)))
-            return NULL;
+        if (!(item = node_read(p, &ev))) return NULL;
         yaml_append(list, NULL, item);
     }
     return NULL;
@@ -200,7 +195,8 @@ static bool key_good(struct parse *p, const struct yaml_node *map, const struct 
     if (key->kind != YAML_SCALAR)
         diag_add(p->y->diag, key->at, "write a word, a colon and a space", "a key must be a word, not a map or list");
     else if (key->plain && strcmp(key->text, "<<") == 0)
-        diag_add(p->y->diag, key->at, "write the keys out, or put them into a file of their own and include: it", "'<<' is not supported");
+        diag_add(p->y->diag, key->at, "write the keys out, or put them into a file of their own and include: it",
+                 "'<<' is not supported");
     else if (same)
         diag_add(p->y->diag, key->at, first_set(p, same->key), "duplicate key '%s'", diag_shown(p->y->diag, key->text));
     else
@@ -212,14 +208,12 @@ static bool pair_read(struct parse *p, struct yaml_node *map, const struct event
 {
     struct yaml_node *key = node_read(p, key_event), *value = NULL;
     struct event ev;
-    if (!key || !event_next(p, &ev) || !(value = node_read(p, &ev)))
-        return false;
+    if (!key || !event_next(p, &ev) || !(value = node_read(p, &ev))) return false;
     if (map->n == KEYS_MAX) {
         diag_add(p->y->diag, key->at, NULL, "more than %d keys in one map", KEYS_MAX);
         return false;
     }
-    if (key_good(p, map, key))
-        yaml_append(map, key, value);
+    if (key_good(p, map, key)) yaml_append(map, key, value);
     return true;
 }
 
@@ -232,8 +226,7 @@ static struct yaml_node *map_read(struct parse *p, const struct event *start)
             close_place(map, &ev);
             return map;
         }
-        if (!pair_read(p, map, &ev))
-            return NULL;
+        if (!pair_read(p, map, &ev)) return NULL;
     }
     return NULL;
 }
@@ -241,11 +234,16 @@ static struct yaml_node *map_read(struct parse *p, const struct event *start)
 static struct yaml_node *kind_read(struct parse *p, const struct event *ev)
 {
     switch (ev->type) {
-    case YAML_ALIAS_EVENT: return alias_read(p, ev);
-    case YAML_SCALAR_EVENT: return scalar_read(p, ev);
-    case YAML_SEQUENCE_START_EVENT: return list_read(p, ev);
-    case YAML_MAPPING_START_EVENT: return map_read(p, ev);
-    default: return NULL;
+    case YAML_ALIAS_EVENT:
+        return alias_read(p, ev);
+    case YAML_SCALAR_EVENT:
+        return scalar_read(p, ev);
+    case YAML_SEQUENCE_START_EVENT:
+        return list_read(p, ev);
+    case YAML_MAPPING_START_EVENT:
+        return map_read(p, ev);
+    default:
+        return NULL;
     }
 }
 
@@ -255,8 +253,7 @@ static bool anchor_add(struct parse *p, const struct event *ev, const struct yam
         diag_add(p->y->diag, ev->at, NULL, "more than %d anchors", ANCHORS_MAX);
         return false;
     }
-    if (!p->anchors)
-        p->anchors = ARENA_TAKE(p->y->arena, struct anchor, ANCHORS_MAX);
+    if (!p->anchors) p->anchors = ARENA_TAKE(p->y->arena, struct anchor, ANCHORS_MAX);
     p->anchors[p->n_anchors++] = (struct anchor){ev->anchor, node};
     return true;
 }
@@ -264,7 +261,8 @@ static bool anchor_add(struct parse *p, const struct event *ev, const struct yam
 static struct yaml_node *node_read(struct parse *p, const struct event *ev)
 {
     if (ev->tagged)
-        diag_add(p->y->diag, ev->at, "remove the tag (!...); put quotes around a text that starts with !", "tags are not supported");
+        diag_add(p->y->diag, ev->at, "remove the tag (!...); put quotes around a text that starts with !",
+                 "tags are not supported");
     if (p->depth == DEPTH_MAX) {
         diag_add(p->y->diag, ev->at, NULL, "nested more than %d deep", DEPTH_MAX);
         return NULL;
@@ -272,8 +270,7 @@ static struct yaml_node *node_read(struct parse *p, const struct event *ev)
     p->depth++;
     struct yaml_node *node = kind_read(p, ev);
     p->depth--;
-    if (node && ev->anchor && ev->type != YAML_ALIAS_EVENT && !anchor_add(p, ev, node))
-        return NULL;
+    if (node && ev->anchor && ev->type != YAML_ALIAS_EVENT && !anchor_add(p, ev, node)) return NULL;
     return node;
 }
 
@@ -285,25 +282,24 @@ static struct yaml_node *document_read(struct parse *p)
     if (!event_next(p, &ev) || !event_next(p, &ev)) /* the stream's start, then the document's */
         return NULL;
     if (ev.type == YAML_STREAM_END_EVENT) {
-        diag_add(p->y->diag, (struct diag_place){p->source, 0, 0, 0}, "rasp new prints a scene to start from", "there is nothing in it");
+        diag_add(p->y->diag, (struct diag_place){p->source, 0, 0, 0}, "rasp new prints a scene to start from",
+                 "there is nothing in it");
         return NULL;
     }
-    if (!event_next(p, &ev))
-        return NULL;
+    if (!event_next(p, &ev)) return NULL;
     struct yaml_node *root = node_read(p, &ev);
     if (!root || !event_next(p, &ev) || !event_next(p, &ev)) /* the document's end, then the stream's */
         return NULL;
-    if (ev.type == YAML_STREAM_END_EVENT)
-        return root;
-    diag_add(p->y->diag, ev.at, "one file holds one document: put the second into a file of its own", "a second document starts here");
+    if (ev.type == YAML_STREAM_END_EVENT) return root;
+    diag_add(p->y->diag, ev.at, "one file holds one document: put the second into a file of its own",
+             "a second document starts here");
     return NULL;
 }
 
 static struct yaml_node *text_read(struct yaml *y, const struct diag_source *source, size_t from)
 {
     yaml_parser_t parser;
-    if (!yaml_parser_initialize(&parser))
-        memory_out("for %.200s", source->name);
+    if (!yaml_parser_initialize(&parser)) memory_out("for %.200s", source->name);
     struct parse p = {.y = y, .source = source, .parser = &parser, .shift = (int)text_utf8_count(source->text, from)};
     yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&parser, (const unsigned char *)source->text + from, source->size - from);
@@ -319,11 +315,9 @@ struct yaml_node *yaml_parse(struct yaml *y, const struct diag_source *source)
 
 struct yaml_node *yaml_parse_value(struct yaml *y, const struct diag_source *source, size_t from)
 {
-    if (!yaml_bytes_good(y, source))
-        return NULL;
+    if (!yaml_bytes_good(y, source)) return NULL;
     from += strspn(source->text + from, " \t");
-    if (source->text[from] && strchr("[{\"'", source->text[from]))
-        return text_read(y, source, from);
+    if (source->text[from] && strchr("[{\"'", source->text[from])) return text_read(y, source, from);
     size_t size = source->size - from;
     while (size > 0 && strchr(" \t\r\n", source->text[from + size - 1]))
         size--;

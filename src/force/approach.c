@@ -1,7 +1,8 @@
-/* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of each sub-interval (of
-   each hat, where the force is means by hats) times the share at its middle to which the scraper is lowered
-   (trajectory/load.h: a minimum-jerk step, 10 u^3 - 15 u^4 + 6 u^5, over load.approach and load.release). Papers/000
-   has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture it comes after the low-pass, in gesture.c. */
+/* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of
+   each sub-interval (of each hat, where the force is means by hats) times the share at its middle to which the scraper
+   is lowered (trajectory/load.h: a minimum-jerk step, 10 u^3 - 15 u^4 + 6 u^5, over load.approach and load.release).
+   Papers/000 has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture it comes after
+   the low-pass, in gesture.c. */
 #include "scene/rules.h"
 #include "stage.h"
 #include "trajectory/load.h"
@@ -22,10 +23,8 @@ static bool approach_open(struct stage_run *r, struct err *e)
 {
     struct load_law *l = ARENA_TAKE(r->arena, struct load_law, 1);
     r->state = l;
-    if (rules_approach(r->contact, true) > 0)
-        r->ends = r->board->moving;
-    if (r->board->load)
-        *l = *r->board->load;
+    if (rules_approach(r->contact, true) > 0) r->ends = r->board->moving;
+    if (r->board->load) *l = *r->board->load;
     return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, l, e);
 }
 
@@ -33,11 +32,11 @@ static bool approach_run(struct stage_run *r, long from, long to, struct err *e)
 {
     const struct load_law *l = r->state;
     struct board *b = r->board;
-    double *force = board_at(b, ITEM_SUBFORCE, from), rate = b->rate * b->over, t = (double)from / b->rate, end = (double)to / b->rate;
+    double *force = board_at(b, ITEM_SUBFORCE, from), rate = b->rate * b->over, t = (double)from / b->rate,
+           end = (double)to / b->rate;
     double middle = b->hats ? 0 : 0.5;
     (void)e;
-    if (t >= l->approach && end <= l->duration - l->release)
-        return true;
+    if (t >= l->approach && end <= l->duration - l->release) return true;
     for (long i = 0; i < (to - from) * b->over; i++)
         force[i] *= load_lowered(l, ((double)(from * b->over + i) + middle) / rate);
     return true;

@@ -8,16 +8,14 @@
 
 double cosine_share(double q)
 {
-    if (q <= -0.5 || q >= 0.5)
-        return q >= 0.5;
+    if (q <= -0.5 || q >= 0.5) return q >= 0.5;
     return 0.5 + (q + real_sinpi(2 * q) / (2 * REAL_PI));
 }
 
 void cosine_shares(int n, double *q)
 {
     double sine[COSINE_MOST], unused[COSINE_MOST];
-    if (n < 1)
-        return;
+    if (n < 1) return;
     for (int i = 0; i < n; i++) {
         q[i] = q[i] < -0.5 ? -0.5 : q[i] < 0.5 ? q[i] : 0.5; /* where the sine is 0 exactly */
         sine[i] = 2 * q[i];

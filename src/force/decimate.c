@@ -1,9 +1,11 @@
-/* From means over sub-intervals, or means weighted by hats (board->hats), to samples of the force at the audio rate: a linear-phase low-pass that
-   also undoes the means' droop (num/filter.h, filter_decimator). Delay is compensated: sample n is the force at n / rate.
+/* From means over sub-intervals, or means weighted by hats (board->hats), to samples of the force at the audio rate: a
+   linear-phase low-pass that also undoes the means' droop (num/filter.h, filter_decimator). Delay is compensated:
+   sample n is the force at n / rate.
 
-   A smoothing of constant width before it (force/smooth.c) is joined to its kernel. Of the two together hardly more is left than of the Gaussian alone, since the long
-   ends of a low-pass are those of its edge, where the Gaussian has let nothing through: at 4 sub-intervals a sample and 50 us 100 taps a sample in place of 349 and 4
-   times 117. What is cut off is a twentieth of what the low-pass's gain is allowed to be off by.
+   A smoothing of constant width before it (force/smooth.c) is joined to its kernel. Of the two together hardly more is
+   left than of the Gaussian alone, since the long ends of a low-pass are those of its edge, where the Gaussian has let
+   nothing through: at 4 sub-intervals a sample and 50 us 100 taps a sample in place of 349 and 4 times 117. What is cut
+   off is a twentieth of what the low-pass's gain is allowed to be off by.
 
    What the kernel spreads to before frame 0 is folded into the first frames (num/lead.h), whatever the contact: the
    momentum of any force, the sum of the samples over the rate, is what the sub-intervals hold, within 2e-7 (the
@@ -35,14 +37,14 @@ static double decimate_work(const struct contact *c, const struct scene *s)
 enum { WIDE = 4 * LANES }; /* outputs whose sums stay in registers */
 
 struct decimate {
-    int over, reach, taps;  /* taps of each phase */
-    double *tap;            /* [over][taps]: phase r has every over-th tap from tap r on, and zeros at the end */
-    double *x;              /* [over][room]: every over-th input from input r on                                */
+    int over, reach, taps; /* taps of each phase */
+    double *tap;           /* [over][taps]: phase r has every over-th tap from tap r on, and zeros at the end */
+    double *x;             /* [over][room]: every over-th input from input r on                                */
     long room;
-    bool smooths;           /* a smoothing is joined */
-    long leads;             /* frames before 0 that the kernel reaches */
-    double *lead;           /* [leads] what the first frames are raised by */
-    double *head;           /* what the kernel reads there: zeros, and the first `reach` inputs */
+    bool smooths; /* a smoothing is joined */
+    long leads;   /* frames before 0 that the kernel reaches */
+    double *lead; /* [leads] what the first frames are raised by */
+    double *head; /* what the kernel reads there: zeros, and the first `reach` inputs */
 };
 
 static void decimate_phases(struct decimate *d, const struct filter *f, int over, struct arena *a)
@@ -51,8 +53,8 @@ static void decimate_phases(struct decimate *d, const struct filter *f, int over
     d->reach = f->reach;
     d->taps = (f->taps + over - 1) / over;
     d->room = STAGE_BLOCK + d->taps + WIDE;
-    d->tap = ARENA_TAKE(a, double, d->taps * over);
-    d->x = ARENA_TAKE(a, double, d->room * over);
+    d->tap = ARENA_TAKE(a, double, d->taps *over);
+    d->x = ARENA_TAKE(a, double, d->room *over);
     for (int i = 0; i < f->taps; i++)
         d->tap[i % over * d->taps + i / over] = f->tap[i];
     d->leads = f->reach / over + 2;
@@ -89,8 +91,9 @@ static void decimate_sort(const struct decimate *d, const double *x, long n)
             d->x[r * d->room + i] = x[i * d->over + r];
 }
 
-/* y[i] = sum over phases r and their taps k of tap[r][k] x[r][i + k], one addition after another; WIDE outputs at a time, so that inputs and taps are loaded once
-   for all and no sum over lanes is left: with a sum over the lanes of each output it took half as long again. */
+/* y[i] = sum over phases r and their taps k of tap[r][k] x[r][i + k], one addition after another; WIDE outputs at a
+   time, so that inputs and taps are loaded once for all and no sum over lanes is left: with a sum over the lanes of
+   each output it took half as long again. */
 LANES_CLONES
 static void decimate_all(const struct decimate *d, double *y, long n)
 {
@@ -137,8 +140,7 @@ static bool decimate_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct decimate *d = r->state;
     (void)e;
-    if (from == 0)
-        decimate_lead(d, board_at(r->board, ITEM_SUBFORCE, 0));
+    if (from == 0) decimate_lead(d, board_at(r->board, ITEM_SUBFORCE, 0));
     for (long n; from < to; from += n) {
         double *force = board_at(r->board, ITEM_FORCE, from);
         n = to - from < STAGE_BLOCK ? to - from : STAGE_BLOCK;

@@ -1,19 +1,23 @@
-/* A low-pass on the force whose cutoff is in proportion to the contact's speed (papers/004, after van den Doel, Kry and Pai 2001):
+/* A low-pass on the force whose cutoff is in proportion to the contact's speed (papers/004, after van den Doel, Kry and
+   Pai 2001):
 
-     f_c = contact.gesture.cutoff |v| / contact.gesture.speed      -3 dB, at most 0.49 of the sample rate, from where on it counts as open
+     f_c = contact.gesture.cutoff |v| / contact.gesture.speed      -3 dB, at most 0.49 of the sample rate, from where on
+   it counts as open
 
-   Order 1: y' = w (x - y). Order 2, Butterworth's two poles: s' = w (x - sqrt(2) s - y), y' = w s, with w = 2 pi f_c. Each is stepped by the trapezoidal rule
-   with w T / 2 replaced by g = tan(pi f_c T), which puts the -3 dB at f_c at any sample rate (a topology-preserving transform; V. Zavalishin, The Art of VA
-   Filter Design, 2012, chapters 3 and 4). The state is kept as what the integrators hold, so that a step is an implicit midpoint step: |state|^2 never
+   Order 1: y' = w (x - y). Order 2, Butterworth's two poles: s' = w (x - sqrt(2) s - y), y' = w s, with w = 2 pi f_c.
+   Each is stepped by the trapezoidal rule with w T / 2 replaced by g = tan(pi f_c T), which puts the -3 dB at f_c at
+   any sample rate (a topology-preserving transform; V. Zavalishin, The Art of VA Filter Design, 2012, chapters 3 and
+   4). The state is kept as what the integrators hold, so that a step is an implicit midpoint step: |state|^2 never
    grows without input, whatever f_c does.
 
-   Its gain at 0 Hz is 1 at every cutoff. As the speed falls to 0 all that changes is filtered away, and what is left is the force that there is as the contact
-   comes to rest, which stands still with it: a constant force, which drives no mode. So a hand that rests makes no sound, and there is no step when it
-   comes to rest or moves on. (A gain that fell to 0 would be the other reading; neither paper asks for one.) A motion that starts from rest starts
-   from a force of 0.
+   Its gain at 0 Hz is 1 at every cutoff. As the speed falls to 0 all that changes is filtered away, and what is left is
+   the force that there is as the contact comes to rest, which stands still with it: a constant force, which drives no
+   mode. So a hand that rests makes no sound, and there is no step when it comes to rest or moves on. (A gain that fell
+   to 0 would be the other reading; neither paper asks for one.) A motion that starts from rest starts from a force of
+   0.
 
-   load.approach and load.release come after it, in place of the stage approach: what the low-pass holds is let go too. Of a given force, which has
-   neither, it is let go over 5 ms, so that the sound does not end with what it holds. */
+   load.approach and load.release come after it, in place of the stage approach: what the low-pass holds is let go too.
+   Of a given force, which has neither, it is let go over 5 ms, so that the sound does not end with what it holds. */
 #include <math.h>
 
 #include "num/real.h"
@@ -26,9 +30,9 @@
 
 struct gesture_filter {
     struct load_law fade;
-    double per_speed;   /* f_c T over |v|, s/m             */
-    double speed, g;    /* of the frame before             */
-    double held[2];     /* what the integrators hold: s, y */
+    double per_speed; /* f_c T over |v|, s/m             */
+    double speed, g;  /* of the frame before             */
+    double held[2];   /* what the integrators hold: s, y */
     int order;
 };
 
@@ -47,10 +51,8 @@ static double gesture_work(const struct contact *c, const struct scene *s)
 /* The fade of what is lowered and raised; of a given force of the release alone, as far as there is time. */
 static bool fade_make(const struct stage_run *r, struct load_law *fade, struct err *e)
 {
-    if (!load_make(r->contact, r->board->trajectory, r->arena, fade, e))
-        return false;
-    if (r->contact->contact.model == CONTACT_GIVEN)
-        fade->release = fmin(RULES_APPROACH, fade->duration);
+    if (!load_make(r->contact, r->board->trajectory, r->arena, fade, e)) return false;
+    if (r->contact->contact.model == CONTACT_GIVEN) fade->release = fmin(RULES_APPROACH, fade->duration);
     return true;
 }
 
@@ -58,8 +60,12 @@ static void open_told(const struct stage_run *r, double greatest)
 {
     const struct gesture *g = &r->contact->contact.gesture;
     if (greatest > GESTURE_OPEN * r->board->rate)
-        board_warn(r->board, arena_format(r->arena, "contact '%s': contact.gesture: the cutoff reaches %.6g Hz at %.4g m/s; above %.6g Hz, 0.49 of the sample rate, the "
-                                                    "low-pass counts as open", r->contact->name, greatest, greatest / g->cutoff * g->speed, GESTURE_OPEN * r->board->rate));
+        board_warn(r->board, arena_format(r->arena,
+                                          "contact '%s': contact.gesture: the cutoff reaches %.6g Hz at %.4g m/s; "
+                                          "above %.6g Hz, 0.49 of the sample rate, the "
+                                          "low-pass counts as open",
+                                          r->contact->name, greatest, greatest / g->cutoff * g->speed,
+                                          GESTURE_OPEN * r->board->rate));
 }
 
 static bool gesture_open(struct stage_run *r, struct err *e)
@@ -89,8 +95,7 @@ static double filter_step(struct gesture_filter *f, double x)
 
 static void filter_tune(struct gesture_filter *f, double speed)
 {
-    if (speed == f->speed)
-        return;
+    if (speed == f->speed) return;
     f->speed = speed;
     f->g = real_tan(REAL_PI * fmin(f->per_speed * speed, GESTURE_OPEN));
 }

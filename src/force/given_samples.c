@@ -19,9 +19,9 @@
 #include "trajectory/trajectory.h"
 
 struct given_samples {
-    double rate;            /* Hz, of the file; then of the scene */
+    double rate; /* Hz, of the file; then of the scene */
     size_t n;
-    double *force;          /* N                                  */
+    double *force; /* N                                  */
 };
 
 static bool samples_wanted(const struct contact *c, const struct scene *s)
@@ -60,11 +60,14 @@ static bool wav_take(const struct stage_run *r, const struct wav *w, struct give
 {
     const struct given_force *given = &r->contact->contact.given;
     if (given->channel > w->channels)
-        return err_set(e, ERR_SCENE, "contact '%s': contact.given.channel is %d, but %s has %d channel%s: give one of those", r->contact->name, given->channel, given->file,
-                       w->channels, w->channels == 1 ? "" : "s");
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': contact.given.channel is %d, but %s has %d channel%s: give one of those",
+                       r->contact->name, given->channel, given->file, w->channels, w->channels == 1 ? "" : "s");
     if (isnan(given->scale))
-        return err_set(e, ERR_SCENE, "contact '%s': contact.given.scale must be given: %s does not say how many newtons its %s stands for",
-                       r->contact->name, given->file, w->bits ? "full scale" : "unit");
+        return err_set(
+            e, ERR_SCENE,
+            "contact '%s': contact.given.scale must be given: %s does not say how many newtons its %s stands for",
+            r->contact->name, given->file, w->bits ? "full scale" : "unit");
     *g = (struct given_samples){w->rate, w->frames, ARENA_TAKE(r->arena, double, w->frames)};
     for (size_t i = 0; i < w->frames; i++)
         g->force[i] = given->scale * w->x[i * (size_t)w->channels + (size_t)given->channel - 1];
@@ -75,10 +78,12 @@ static bool npy_take(const struct stage_run *r, const struct heightfile *h, stru
 {
     const struct given_force *given = &r->contact->contact.given;
     if (h->rows > 1)
-        return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension: save one row of it", given->file, h->rows, h->columns);
+        return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension: save one row of it",
+                       given->file, h->rows, h->columns);
     if (isnan(given->rate))
-        return err_set(e, ERR_SCENE, "contact '%s': contact.given.rate must be given: %s does not say how many samples a second has", r->contact->name,
-                       given->file);
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': contact.given.rate must be given: %s does not say how many samples a second has",
+                       r->contact->name, given->file);
     *g = (struct given_samples){given->rate, h->columns, ARENA_TAKE(r->arena, double, h->columns)};
     double scale = given_scale(r->contact);
     for (size_t i = 0; i < g->n; i++) {
@@ -93,9 +98,9 @@ static bool npy_take(const struct stage_run *r, const struct heightfile *h, stru
 static bool samples_take(const struct stage_run *r, struct given_samples *g, struct err *e)
 {
     static const struct shelf_kind forces = {"samples of a force", sizeof(struct given_file), given_make, false};
-    const struct given_file *f = shelf_take(r->scene->shelf, &(struct shelf_ask){.kind = &forces, .file = r->contact->contact.given.file}, r->arena, e);
-    if (!f || !given_fits(r->contact, f->is_npy ? "NPY" : "WAV", e))
-        return false;
+    const struct given_file *f = shelf_take(
+        r->scene->shelf, &(struct shelf_ask){.kind = &forces, .file = r->contact->contact.given.file}, r->arena, e);
+    if (!f || !given_fits(r->contact, f->is_npy ? "NPY" : "WAV", e)) return false;
     return f->is_npy ? npy_take(r, &f->npy, g, e) : wav_take(r, &f->wav, g, e);
 }
 
@@ -113,7 +118,8 @@ static bool samples_open(struct stage_run *r, struct err *e)
 {
     struct given_samples *g = ARENA_TAKE(r->arena, struct given_samples, 1);
     r->state = g;
-    if (!samples_take(r, g, e) || !given_ends(r->contact, (double)(g->n - 1) / g->rate, r->board->trajectory->duration, e))
+    if (!samples_take(r, g, e) ||
+        !given_ends(r->contact, (double)(g->n - 1) / g->rate, r->board->trajectory->duration, e))
         return false;
     if (r->contact->start < r->scene->output.ramp)
         onset_told(r, "the largest force", (double)onset_largest(g->n, g->force) / g->rate);

@@ -15,8 +15,7 @@ void hats_add(struct hats *h, struct board *b, long first, int n)
     }
     for (int i = 0; i < n; i++) {
         double early = h->early[i], late = h->late[i];
-        if (load)
-            lift_cut(load[i], load[i + 1], &early, &late);
+        if (load) lift_cut(load[i], load[i + 1], &early, &late);
         force[i] += h->carried + early;
         h->carried = late;
     }

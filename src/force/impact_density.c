@@ -1,7 +1,9 @@
-/* The inverse of the distribution function F of a mixture, F = sum of s_k F_k. With q_k = F_k^-1(w) the root lies between the least and the greatest q_k,
-   since there F is at most and at least w. That bracket is first cut at the places where F jumps (what is constant) or has a kink (the ends of an
-   exponential's and of a table's range); inside, Newton's steps on ln F, and beyond the median on ln(1 - F), which are nearly straight in the tails where F is
-   not; a step that leaves the bracket or does not halve the one before is replaced by bisection. Beyond the median 1 - F is summed itself, not had from F. */
+/* The inverse of the distribution function F of a mixture, F = sum of s_k F_k. With q_k = F_k^-1(w) the root lies
+   between the least and the greatest q_k, since there F is at most and at least w. That bracket is first cut at the
+   places where F jumps (what is constant) or has a kink (the ends of an exponential's and of a table's range); inside,
+   Newton's steps on ln F, and beyond the median on ln(1 - F), which are nearly straight in the tails where F is not; a
+   step that leaves the bracket or does not halve the one before is replaced by bisection. Beyond the median 1 - F is
+   summed itself, not had from F. */
 #include "force/impact_density.h"
 
 #include "num/normal.h"
@@ -34,8 +36,7 @@ struct impact_density *impact_density_exponential(double mean, struct arena *a)
 struct impact_density *impact_density_table(const char *file, struct arena *a, struct err *e)
 {
     struct impact_density *d = density_make(a, IMPACT_DENSITY_TABLE, 0, 0);
-    if (!impact_table_read(file, a, &d->table, e))
-        return NULL;
+    if (!impact_table_read(file, a, &d->table, e)) return NULL;
     d->mean = d->table.mean;
     d->variance = d->table.variance;
     d->deviation = sqrt(d->variance);
@@ -45,10 +46,14 @@ struct impact_density *impact_density_table(const char *file, struct arena *a, s
 double impact_density_quantile(const struct impact_density *d, double w)
 {
     switch (d->kind) {
-    case IMPACT_DENSITY_GAUSSIAN: return d->deviation * normal_quantile(w);
-    case IMPACT_DENSITY_EXPONENTIAL: return -d->mean * (w <= 0.5 ? real_log1p(-w) : real_log(1 - w));
-    case IMPACT_DENSITY_TABLE: return impact_table_quantile(&d->table, w);
-    default: return d->mean;
+    case IMPACT_DENSITY_GAUSSIAN:
+        return d->deviation * normal_quantile(w);
+    case IMPACT_DENSITY_EXPONENTIAL:
+        return -d->mean * (w <= 0.5 ? real_log1p(-w) : real_log(1 - w));
+    case IMPACT_DENSITY_TABLE:
+        return impact_table_quantile(&d->table, w);
+    default:
+        return d->mean;
     }
 }
 
@@ -101,9 +106,9 @@ void impact_density_moments(const struct impact_mixture *m, double *mean, double
 
 struct root {
     const struct impact_mixture *m;
-    bool upper;                 /* w > 1/2: probabilities are those above          */
-    double tail;                /* w, or 1 - w                                     */
-    double low, high;           /* the root lies between                           */
+    bool upper;       /* w > 1/2: probabilities are those above          */
+    double tail;      /* w, or 1 - w                                     */
+    double low, high; /* the root lies between                           */
 };
 
 /* The same of the mixture. */
@@ -123,14 +128,11 @@ static bool root_cut(struct root *r, double b)
 {
     double density, outside = root_beyond(r, b, &density), mass = 0;
     for (int k = 0; k < r->m->n; k++)
-        if (r->m->part[k]->kind == IMPACT_DENSITY_POINT && r->m->part[k]->mean == b)
-            mass += r->m->share[k];
+        if (r->m->part[k]->kind == IMPACT_DENSITY_POINT && r->m->part[k]->mean == b) mass += r->m->share[k];
     bool left = r->upper ? r->tail >= outside + mass : r->tail <= outside; /* w <= P(X < b) */
     bool right = r->upper ? r->tail < outside : r->tail > outside + mass;  /* w > P(X <= b) */
-    if (left)
-        r->high = b;
-    if (right)
-        r->low = b;
+    if (left) r->high = b;
+    if (right) r->low = b;
     return !left && !right;
 }
 
@@ -142,13 +144,12 @@ static double root_step(struct root *r, double x)
         r->low = x;
     else
         r->high = x;
-    if (!(d > 0) || !(outside > 0))
-        return HUGE_VAL;
+    if (!(d > 0) || !(outside > 0)) return HUGE_VAL;
     return (r->upper ? 1 : -1) * real_log(outside / r->tail) * outside / d;
 }
 
-/* Newton's error after a step is about c step^2; c is taken as at least 10 over the least deviation of a part, and as what two steps in a row
-   tell, step / (the step before)^2. */
+/* Newton's error after a step is about c step^2; c is taken as at least 10 over the least deviation of a part, and as
+   what two steps in a row tell, step / (the step before)^2. */
 static double root_find(struct root *r, double x, double width)
 {
     double last = r->high - r->low, least = HUGE_VAL;
@@ -159,16 +160,14 @@ static double root_find(struct root *r, double x, double width)
         double step = root_step(r, x), ratio = fabs(step) / last;
         if (x + step >= r->low && x + step <= r->high && ratio <= 0.5) {
             x += step;
-            if (fmin(fmax(told ? ratio * ratio : 1, 10 * fabs(step) / least), 1) * fabs(step) <= 1e-13 * width)
-                break;
+            if (fmin(fmax(told ? ratio * ratio : 1, 10 * fabs(step) / least), 1) * fabs(step) <= 1e-13 * width) break;
             last = fabs(step);
             told = true;
         } else {
             last = 0.5 * (r->high - r->low);
             x = 0.5 * (r->low + r->high);
             told = false;
-            if (x <= r->low || x >= r->high)
-                break;
+            if (x <= r->low || x >= r->high) break;
         }
     }
     return x;
@@ -186,10 +185,8 @@ double impact_density_mixed(const struct impact_mixture *m, double w)
     }
     for (int k = 0; k < m->n; k++)
         for (int i = breaks(m->part[k], at) - 1; i >= 0; i--)
-            if (at[i] >= r.low && at[i] <= r.high && root_cut(&r, at[i]))
-                return at[i];
+            if (at[i] >= r.low && at[i] <= r.high && root_cut(&r, at[i])) return at[i];
     impact_density_moments(m, &mean, &variance);
-    if (!(start > r.low && start < r.high))
-        start = 0.5 * (r.low + r.high);
+    if (!(start > r.low && start < r.high)) start = 0.5 * (r.low + r.high);
     return root_find(&r, start, sqrt(variance));
 }

@@ -4,16 +4,22 @@
 #include "base/arena.h"
 #include "force/impact_table.h"
 
-enum impact_density_kind { IMPACT_DENSITY_POINT, IMPACT_DENSITY_GAUSSIAN, IMPACT_DENSITY_EXPONENTIAL, IMPACT_DENSITY_TABLE };
+enum impact_density_kind {
+    IMPACT_DENSITY_POINT,
+    IMPACT_DENSITY_GAUSSIAN,
+    IMPACT_DENSITY_EXPONENTIAL,
+    IMPACT_DENSITY_TABLE
+};
 
 struct impact_density {
-    int kind;                   /* enum impact_density_kind                     */
+    int kind; /* enum impact_density_kind                     */
     double mean, variance;
-    double deviation;           /* sqrt(variance)                               */
+    double deviation; /* sqrt(variance)                               */
     struct impact_table table;
 };
 
-/* Always `value`; normal about 0 (deviation 0: always 0); exponential from 0 up (mean 0: always 0); of a CSV (errors: impact_table_read). */
+/* Always `value`; normal about 0 (deviation 0: always 0); exponential from 0 up (mean 0: always 0); of a CSV (errors:
+ * impact_table_read). */
 struct impact_density *impact_density_point(double value, struct arena *a);
 struct impact_density *impact_density_gaussian(double deviation, struct arena *a);
 struct impact_density *impact_density_exponential(double mean, struct arena *a);
@@ -24,7 +30,7 @@ double impact_density_quantile(const struct impact_density *d, double w);
 
 enum { IMPACT_DENSITY_PARTS = 3 };
 
-struct impact_mixture {         /* with probability share[k] a draw is one of part[k]; shares add up to 1 */
+struct impact_mixture { /* with probability share[k] a draw is one of part[k]; shares add up to 1 */
     int n;
     double share[IMPACT_DENSITY_PARTS];
     const struct impact_density *part[IMPACT_DENSITY_PARTS];

@@ -1,16 +1,20 @@
-/* The set P of papers/004 at an instant. On its disk of actions the share of an anchor that lies at theta_k = 0, 2 pi/3, 4 pi/3 (rub, scratch, roll) is
+/* The set P of papers/004 at an instant. On its disk of actions the share of an anchor that lies at theta_k = 0, 2
+   pi/3, 4 pi/3 (rub, scratch, roll) is
 
-     s_k = (1 - r)/3 + r T(theta - theta_k),   T(t) = 1 - 3 |t| / (2 pi) for |t| < 2 pi/3, t taken round the circle, else 0     (equations 8 to 11)
+     s_k = (1 - r)/3 + r T(theta - theta_k),   T(t) = 1 - 3 |t| / (2 pi) for |t| < 2 pi/3, t taken round the circle,
+   else 0     (equations 8 to 11)
 
-   zeta, theta, means and filters are the sums of s_k times the anchors' values; the distributions of the white processes are mixtures with the shares (hence
-   of area 1), from which one number of the uniform process draws by the inverse of the mixture's distribution function (impact_density.c). All poles stay
-   within the unit circle: a1 is a weighted mean of the anchors'. What 004 does not say, and what is taken here:
+   zeta, theta, means and filters are the sums of s_k times the anchors' values; the distributions of the white
+   processes are mixtures with the shares (hence of area 1), from which one number of the uniform process draws by the
+   inverse of the mixture's distribution function (impact_density.c). All poles stay within the unit circle: a1 is a
+   weighted mean of the anchors'. What 004 does not say, and what is taken here:
 
      theta beyond 2 pi, negative r   taken round the circle; the other side
      modulation (not in 004's P)     its depth is roll's times roll's share; its rate is roll's everywhere
-     a floor on amplitudes           002's A is above 0; where roll's share is 1, or for custom if it is asked for. Elsewhere the signs stay
-     |A|^-theta near A = 0           |A| counts as at least 0.01 of the rms amplitude there (of the stationary series), and at least a tenth of what it
-                                     counts as at the quietest anchor; where there is a floor, as the floor times 1 - m, within 0.001 to 0.01 of the rms amplitude */
+     a floor on amplitudes           002's A is above 0; where roll's share is 1, or for custom if it is asked for.
+   Elsewhere the signs stay |A|^-theta near A = 0           |A| counts as at least 0.01 of the rms amplitude there (of
+   the stationary series), and at least a tenth of what it counts as at the quietest anchor; where there is a floor, as
+   the floor times 1 - m, within 0.001 to 0.01 of the rms amplitude */
 #include "force/impact_law.h"
 
 #include "force/impact_anchors.h"
@@ -32,13 +36,13 @@ void impact_law_shares(double angle, double radius, double share[IMPACT_ANCHORS]
     }
 }
 
-static struct impact_mixture law_mixture(const struct impact_law *l, enum impact_series_of which, const struct impact_parameters *p)
+static struct impact_mixture law_mixture(const struct impact_law *l, enum impact_series_of which,
+                                         const struct impact_parameters *p)
 {
     struct impact_mixture m = {0};
     for (int k = 0; k < IMPACT_ANCHORS; k++) {
         int same = 0;
-        if (!(p->share[k] > 0))
-            continue;
+        if (!(p->share[k] > 0)) continue;
         while (same < m.n && m.part[same] != l->density[k][which])
             same++;
         m.part[same] = l->density[k][which];
@@ -48,22 +52,24 @@ static struct impact_mixture law_mixture(const struct impact_law *l, enum impact
     return m;
 }
 
-double impact_law_draw(const struct impact_law *l, enum impact_series_of which, const struct impact_parameters *p, double w)
+double impact_law_draw(const struct impact_law *l, enum impact_series_of which, const struct impact_parameters *p,
+                       double w)
 {
     for (int k = 0; k < IMPACT_ANCHORS; k++)
-        if (p->share[k] == 1)
-            return impact_density_quantile(l->density[k][which], w);
+        if (p->share[k] == 1) return impact_density_quantile(l->density[k][which], w);
     struct impact_mixture m = law_mixture(l, which, p);
     return m.n == 1 ? impact_density_quantile(m.part[0], w) : impact_density_mixed(&m, w);
 }
 
-void impact_law_moments(const struct impact_law *l, enum impact_series_of which, const struct impact_parameters *p, double *mean, double *variance)
+void impact_law_moments(const struct impact_law *l, enum impact_series_of which, const struct impact_parameters *p,
+                        double *mean, double *variance)
 {
     struct impact_mixture m = law_mixture(l, which, p);
     impact_density_moments(&m, mean, variance);
 }
 
-void impact_law_stationary(const struct impact_law *l, enum impact_series_of which, const struct impact_parameters *p, double *mean, double *variance)
+void impact_law_stationary(const struct impact_law *l, enum impact_series_of which, const struct impact_parameters *p,
+                           double *mean, double *variance)
 {
     double a1 = p->a1[which], b1 = p->b1[which], white_mean, white_variance;
     impact_law_moments(l, which, p, &white_mean, &white_variance);
@@ -127,20 +133,20 @@ static bool law_floor(const struct contact *c, int k, struct impact_law *l, stru
 {
     const struct impacts *m = &c->contact.impacts;
     struct impact_parameters *p = &l->anchor[k];
-    double share = isnan(m->least_amplitude) && m->prototype != PROTOTYPE_CUSTOM ? 0.01 : m->least_amplitude, mean, variance, rms = law_rms(l, p);
+    double share = isnan(m->least_amplitude) && m->prototype != PROTOTYPE_CUSTOM ? 0.01 : m->least_amplitude, mean,
+           variance, rms = law_rms(l, p);
     p->least_amplitude = -HUGE_VAL;
     p->shortest = rms > 0 ? 0.01 * rms : 1;
-    if (k != IMPACT_ROLL || isnan(share))
-        return true;
+    if (k != IMPACT_ROLL || isnan(share)) return true;
     impact_law_stationary(l, IMPACT_AMPLITUDE, p, &mean, &variance);
     if (!(mean > 0))
         return err_set(e, ERR_SCENE,
-                       "%s: the mean amplitude is %.6g, and contact.impacts.floor.amplitude is a share of it; give a mean above 0, or prototype: custom "
+                       "%s: the mean amplitude is %.6g, and contact.impacts.floor.amplitude is a share of it; give a "
+                       "mean above 0, or prototype: custom "
                        "without a floor",
                        c->name, mean);
     p->least_amplitude = share * mean;
-    if (share > 0)
-        p->shortest = fmax(fmin(p->least_amplitude * (1 - p->depth), 0.01 * rms), 0.001 * rms);
+    if (share > 0) p->shortest = fmax(fmin(p->least_amplitude * (1 - p->depth), 0.01 * rms), 0.001 * rms);
     return true;
 }
 
@@ -152,14 +158,16 @@ static bool law_marginal(const struct contact *c, const struct impact_law *l, st
         int kind = l->density[l->alone][s]->kind;
         impact_law_stationary(l, s, &l->anchor[l->alone], &mean, &variance);
         if (!(mean > 0) || kind == IMPACT_DENSITY_EXPONENTIAL || kind == IMPACT_DENSITY_TABLE)
-            return err_set(e, ERR_SCENE, "%s: contact.impacts.marginal: lognormal needs contact.impacts.%s.mean above 0 and distribution: gaussian", c->name,
-                           words[s]);
+            return err_set(e, ERR_SCENE,
+                           "%s: contact.impacts.marginal: lognormal needs contact.impacts.%s.mean above 0 and "
+                           "distribution: gaussian",
+                           c->name, words[s]);
     }
     return true;
 }
 
-/* A duration that no impact surpasses: where the place stays its own; else zeta and theta are at most the greatest anchor's, and |A| counts as at
-   least a tenth of the least anchor's `shortest`. */
+/* A duration that no impact surpasses: where the place stays its own; else zeta and theta are at most the greatest
+   anchor's, and |A| counts as at least a tenth of the least anchor's `shortest`. */
 static double law_longest(const struct impact_law *l)
 {
     double zeta = 0, theta = 0, shortest = HUGE_VAL;
@@ -179,19 +187,16 @@ static double law_longest(const struct impact_law *l)
 bool impact_law_make(const struct contact *c, double duration, struct arena *a, struct impact_law *l, struct err *e)
 {
     const struct impacts *m = &c->contact.impacts;
-    *l = (struct impact_law){.unit_force = m->unit_force, .least_interval = m->least_interval, .two = m->processes == PROCESSES_TWO};
-    if (!impact_anchors_make(c, a, l, e))
-        return false;
+    *l = (struct impact_law){
+        .unit_force = m->unit_force, .least_interval = m->least_interval, .two = m->processes == PROCESSES_TWO};
+    if (!impact_anchors_make(c, a, l, e)) return false;
     l->lognormal = l->alone == IMPACT_ROLL && m->marginal == MARGINAL_LOGNORMAL;
     for (int k = 0; k < IMPACT_ANCHORS; k++)
-        if (l->density[k][IMPACT_AMPLITUDE] && !law_floor(c, k, l, e))
-            return false;
-    if (!law_marginal(c, l, e))
-        return false;
+        if (l->density[k][IMPACT_AMPLITUDE] && !law_floor(c, k, l, e)) return false;
+    if (!law_marginal(c, l, e)) return false;
     for (int k = 0; k < IMPACT_ANCHORS && l->alone < 0; k++)
         l->anchor[k].rate = l->anchor[IMPACT_ROLL].rate; /* its phase goes on where its depth is 0 */
-    if (l->alone < 0 && !impact_walk_make(c, duration, a, l, e))
-        return false;
+    if (l->alone < 0 && !impact_walk_make(c, duration, a, l, e)) return false;
     l->longest = law_longest(l);
     return true;
 }

@@ -4,29 +4,31 @@
 
    W_n is number n of one uniform process, which drives both (`processes: two`: each has its own). Then, in this order:
 
-     marginal   lognormal: with M, V the mean and variance of the stationary series, which is Gaussian, value = M exp(s Z - s^2/2), Z = X_n / sqrt(V),
-                s^2 = ln(1 + V/M^2): the same M and V. Correlations become (exp(s^2 r_k) - 1)/(exp(s^2) - 1) of r_k, a little less
-     floors     a value below is raised to it, and told so; X_n stays what it was
-     modulation the amplitude times 1 + m sin(2 pi phase); the phase grows by nu times the interval: continuous whatever moves
-     duration   zeta max(|A|, shortest)^-theta, of the modulated amplitude; then the amplitude becomes newtons
+     marginal   lognormal: with M, V the mean and variance of the stationary series, which is Gaussian, value = M exp(s
+   Z - s^2/2), Z = X_n / sqrt(V), s^2 = ln(1 + V/M^2): the same M and V. Correlations become (exp(s^2 r_k) -
+   1)/(exp(s^2) - 1) of r_k, a little less floors     a value below is raised to it, and told so; X_n stays what it was
+     modulation the amplitude times 1 + m sin(2 pi phase); the phase grows by nu times the interval: continuous whatever
+   moves duration   zeta max(|A|, shortest)^-theta, of the modulated amplitude; then the amplitude becomes newtons
 
-   The start. The series has no beginning: it is begun so long before time 0 that nothing of that beginning is left, with P of time 0, and run until the first
-   impact that is not over at 0. The state is begun at its mean and has then seen about ln(1e-17)/ln |a1| impacts and half as many again. The clock begins at
-   minus that number times (mean + standard deviation) of the intervals, which the mean of floored ones does not surpass, minus a uniform number of 64 mean
-   intervals: however regular the intervals, the phase of the first impact is that of an endless series looked at at any instant. So a long interval is more
-   likely to lie across time 0 than a short one, as it should. */
+   The start. The series has no beginning: it is begun so long before time 0 that nothing of that beginning is left,
+   with P of time 0, and run until the first impact that is not over at 0. The state is begun at its mean and has then
+   seen about ln(1e-17)/ln |a1| impacts and half as many again. The clock begins at minus that number times (mean +
+   standard deviation) of the intervals, which the mean of floored ones does not surpass, minus a uniform number of 64
+   mean intervals: however regular the intervals, the phase of the first impact is that of an endless series looked at
+   at any instant. So a long interval is more likely to lie across time 0 than a short one, as it should. */
 #include "force/impact_series.h"
 
 #include "num/real.h"
 
-#define TOUCH 1e-9              /* of the mean duration */
+#define TOUCH 1e-9 /* of the mean duration */
 
-enum { OVER = 64 };             /* mean intervals over which the beginning is spread */
+enum { OVER = 64 }; /* mean intervals over which the beginning is spread */
 
 /* ------------------------------------------------------------------ one impact */
 
 /* X_n of one series. */
-static double series_step(struct impact_series *s, enum impact_series_of which, const struct impact_parameters *p, double w)
+static double series_step(struct impact_series *s, enum impact_series_of which, const struct impact_parameters *p,
+                          double w)
 {
     double white = impact_law_draw(s->law, which, p, w);
     s->x[which] = -p->a1[which] * s->x[which] + white + p->b1[which] * s->white[which];
@@ -34,11 +36,11 @@ static double series_step(struct impact_series *s, enum impact_series_of which, 
     return s->x[which];
 }
 
-static double series_value(const struct impact_series *s, enum impact_series_of which, const struct impact_parameters *p, double x)
+static double series_value(const struct impact_series *s, enum impact_series_of which,
+                           const struct impact_parameters *p, double x)
 {
     double mean, variance;
-    if (!s->law->lognormal)
-        return p->mean[which] + x;
+    if (!s->law->lognormal) return p->mean[which] + x;
     impact_law_stationary(s->law, which, p, &mean, &variance);
     double square = real_log1p(variance / (mean * mean));
     return variance > 0 ? mean * real_exp(sqrt(square / variance) * x - 0.5 * square) : mean;
@@ -46,8 +48,7 @@ static double series_value(const struct impact_series *s, enum impact_series_of 
 
 static double raised(double value, double least, unsigned flag, unsigned *limited)
 {
-    if (!(value < least))
-        return value;
+    if (!(value < least)) return value;
     *limited |= flag;
     return least;
 }
@@ -62,14 +63,14 @@ void impact_series_next(struct impact_series *s, struct impact *i)
     const struct impact_law *l = s->law;
     struct impact_parameters p;
     impact_law_at(l, s->time, &p);
-    double w = noise_uniform(s->noise, (uint64_t)s->number, 0), other = l->two ? noise_uniform(s->noise, (uint64_t)s->number, 1) : w;
+    double w = noise_uniform(s->noise, (uint64_t)s->number, 0),
+           other = l->two ? noise_uniform(s->noise, (uint64_t)s->number, 1) : w;
     double amplitude = series_value(s, IMPACT_AMPLITUDE, &p, series_step(s, IMPACT_AMPLITUDE, &p, w));
     double interval = series_value(s, IMPACT_INTERVAL, &p, series_step(s, IMPACT_INTERVAL, &p, other));
     *i = (struct impact){.time = s->time};
     amplitude = raised(amplitude, p.least_amplitude, IMPACT_LIMITED_AMPLITUDE, &i->limited);
     i->interval = raised(interval, l->least_interval, IMPACT_LIMITED_INTERVAL, &i->limited);
-    if (p.depth > 0)
-        amplitude *= 1 + p.depth * real_sinpi(2 * s->phase);
+    if (p.depth > 0) amplitude *= 1 + p.depth * real_sinpi(2 * s->phase);
     i->duration = lasts(&p, amplitude);
     i->amplitude = l->unit_force * amplitude;
     s->phase += p.rate * i->interval;
@@ -107,7 +108,8 @@ static void series_begin(struct impact_series *s)
     s->phase -= floor(s->phase);
 }
 
-void impact_series_open(const struct impact_law *l, uint64_t seed, const char *contact, struct arena *a, struct impact_series *s)
+void impact_series_open(const struct impact_law *l, uint64_t seed, const char *contact, struct arena *a,
+                        struct impact_series *s)
 {
     struct impact_series next;
     struct impact i;
@@ -115,7 +117,6 @@ void impact_series_open(const struct impact_law *l, uint64_t seed, const char *c
     series_begin(s);
     for (next = *s;; *s = next) {
         impact_series_next(&next, &i);
-        if (i.time + 0.5 * i.duration > 0)
-            return;
+        if (i.time + 0.5 * i.duration > 0) return;
     }
 }

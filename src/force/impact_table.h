@@ -7,13 +7,14 @@
 #include "base/err.h"
 
 struct impact_table {
-    int n;                      /* rows, at least 2                                                    */
-    double *value, *density;    /* [n] rising; scaled so that the whole probability is 1               */
-    double *below, *above;      /* [n] probability below and above a row's value                       */
+    int n;                   /* rows, at least 2                                                    */
+    double *value, *density; /* [n] rising; scaled so that the whole probability is 1               */
+    double *below, *above;   /* [n] probability below and above a row's value                       */
     double mean, variance;
 };
 
-/* Columns value and density. ERR_INPUT, ERR_SCENE with file and line: fewer than 2 rows, values that do not rise, a density below 0, no area. */
+/* Columns value and density. ERR_INPUT, ERR_SCENE with file and line: fewer than 2 rows, values that do not rise, a
+ * density below 0, no area. */
 bool impact_table_read(const char *file, struct arena *a, struct impact_table *t, struct err *e);
 
 /* x with P(X <= x) = w, 0 < w < 1. */

@@ -17,11 +17,13 @@ bool impact_train_open(const struct stage_run *r, struct impact_train *t, struct
 {
     const struct contact *c = r->contact;
     *t = (struct impact_train){.end = r->board->trajectory->duration};
-    if (!impact_law_make(c, t->end, r->arena, &t->law, e))
-        return false;
+    if (!impact_law_make(c, t->end, r->arena, &t->law, e)) return false;
     if (!(t->law.longest <= IMPACT_LONGEST))
-        return err_set(e, ERR_SCENE, "contact '%s': contact.impacts.duration.zeta: an impact of the least amplitude would last %.4g s, and at most %g s make sense: lower "
-                                     "zeta or theta, or raise contact.impacts.floor.amplitude", c->name, t->law.longest, IMPACT_LONGEST) ||
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': contact.impacts.duration.zeta: an impact of the least amplitude would last %.4g "
+                       "s, and at most %g s make sense: lower "
+                       "zeta or theta, or raise contact.impacts.floor.amplitude",
+                       c->name, t->law.longest, IMPACT_LONGEST) ||
                err_about(e, c->name, "contact.impacts.duration.zeta");
     t->report.time = t->end;
     t->before[0] = HUGE_VAL;

@@ -1,5 +1,5 @@
-/* See impact_walk.h. Straight means in angle and radius: from angle 0 to 360 degrees is once round; from radius 1 to -1 is through the centre to the other
-   side. Times count from the contact's start. */
+/* See impact_walk.h. Straight means in angle and radius: from angle 0 to 360 degrees is once round; from radius 1 to -1
+   is through the centre to the other side. Times count from the contact's start. */
 #include "force/impact_walk.h"
 
 #include "num/real.h"
@@ -9,13 +9,13 @@ static bool walk_read(const char *file, struct arena *a, struct impact_law *l, s
 {
     static const char *const columns[2] = {"angle_deg", "radius"};
     struct series s;
-    if (!series_read(file, columns, a, &s, e))
-        return false;
+    if (!series_read(file, columns, a, &s, e)) return false;
     l->steps = (int)s.n;
     l->walk = ARENA_TAKE(a, double, 3 * s.n);
     for (size_t i = 0; i < s.n; i++) {
         if (!(fabs(s.x[1][i]) <= 1))
-            return err_set(e, ERR_SCENE, "%s:%d: column 'radius': %.9g lies outside the disk; a radius is in -1 .. 1", file, s.lines[i], s.x[1][i]);
+            return err_set(e, ERR_SCENE, "%s:%d: column 'radius': %.9g lies outside the disk; a radius is in -1 .. 1",
+                           file, s.lines[i], s.x[1][i]);
         l->walk[3 * i] = s.time[i];
         l->walk[3 * i + 1] = s.x[0][i] * (REAL_PI / 180);
         l->walk[3 * i + 2] = s.x[1][i];
@@ -26,8 +26,7 @@ static bool walk_read(const char *file, struct arena *a, struct impact_law *l, s
 bool impact_walk_make(const struct contact *c, double duration, struct arena *a, struct impact_law *l, struct err *e)
 {
     const struct impacts *m = &c->contact.impacts;
-    if (m->walk)
-        return walk_read(m->walk, a, l, e);
+    if (m->walk) return walk_read(m->walk, a, l, e);
     l->steps = duration > 0 && (!isnan(m->angle_to) || !isnan(m->radius_to)) ? 2 : 1;
     l->walk = ARENA_TAKE(a, double, 6);
     l->walk[1] = m->angle;
@@ -42,8 +41,7 @@ void impact_walk_at(const struct impact_law *l, double t, double *angle, double 
 {
     const double *w = l->walk;
     int low = 0, high = l->steps - 1;
-    if (t >= w[3 * high])
-        low = high;
+    if (t >= w[3 * high]) low = high;
     while (high - low > 1) {
         int middle = (low + high) / 2;
         if (w[3 * middle] <= t)

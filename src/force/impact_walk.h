@@ -3,7 +3,8 @@
 #define FORCE_IMPACT_WALK_H
 #include "force/impact_law.h"
 
-/* l->walk and l->steps of contact.impacts.space. `duration`: s, of the motion. ERR_INPUT, ERR_SCENE with file and line: see series_read; radius not in
+/* l->walk and l->steps of contact.impacts.space. `duration`: s, of the motion. ERR_INPUT, ERR_SCENE with file and line:
+   see series_read; radius not in
    [-1, 1]. */
 bool impact_walk_make(const struct contact *c, double duration, struct arena *a, struct impact_law *l, struct err *e);
 

@@ -1,14 +1,17 @@
-/* The stage that lays a series of impacts on the board: f(t) = sum over n of A_n phi_n(t - T_n) (papers/002 equation 5, papers/004 equation 2), phi_n a raised
-   cosine (cosine.h) that lasts t0_n. The mean of a sub-interval is the momentum handed over in it, exactly, by all impacts that touch it:
+/* The stage that lays a series of impacts on the board: f(t) = sum over n of A_n phi_n(t - T_n) (papers/002 equation 5,
+   papers/004 equation 2), phi_n a raised cosine (cosine.h) that lasts t0_n. The mean of a sub-interval is the momentum
+   handed over in it, exactly, by all impacts that touch it:
 
-     mean = (1/h) sum over n of A_n t0_n / 2 (p((t + h - T_n) / t0_n) - p((t - T_n) / t0_n)),   h the sub-interval, p the share of cosine.h
+     mean = (1/h) sum over n of A_n t0_n / 2 (p((t + h - T_n) / t0_n) - p((t - T_n) / t0_n)),   h the sub-interval, p
+   the share of cosine.h
 
-   so that all momentum arrives at any sample rate and oversampling. Times are counted from the sub-interval in which an impact begins: an hour into a
-   scene impacts have the same shapes as at its start.
+   so that all momentum arrives at any sample rate and oversampling. Times are counted from the sub-interval in which an
+   impact begins: an hour into a scene impacts have the same shapes as at its start.
 
-   The series is drawn until its time is half the longest impact ahead of the block; what is not over waits in a queue, in the series' order. So the force
-   does not depend on how frames fall into blocks, and the queue's length on the law alone. Of an impact that is under way at time 0 the rest
-   takes place; one that is under way at the motion's end is faded by load.release, and without it goes on until it is over. */
+   The series is drawn until its time is half the longest impact ahead of the block; what is not over waits in a queue,
+   in the series' order. So the force does not depend on how frames fall into blocks, and the queue's length on the law
+   alone. Of an impact that is under way at time 0 the rest takes place; one that is under way at the motion's end is
+   faded by load.release, and without it goes on until it is over. */
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +31,7 @@ struct impact_queue {
     size_t n, room;
 };
 
-struct impact_block {   /* the sub-intervals being filled */
+struct impact_block { /* the sub-intervals being filled */
     double first, end;
     double *force;
 };
@@ -39,21 +42,23 @@ static bool stage_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_IMPACTS;
 }
 
-/* About how many impacts a second, from the keys alone: of papers/002 table I, and of the middle of the disk, some 200. */
+/* About how many impacts a second, from the keys alone: of papers/002 table I, and of the middle of the disk, some 200.
+ */
 static double stage_density(const struct impacts *m)
 {
-    if (m->prototype == PROTOTYPE_RUB)
-        return 1 / m->rub.interval;
-    if (m->prototype == PROTOTYPE_SCRATCH)
-        return 1 / m->scratch.interval;
+    if (m->prototype == PROTOTYPE_RUB) return 1 / m->rub.interval;
+    if (m->prototype == PROTOTYPE_SCRATCH) return 1 / m->scratch.interval;
     return m->interval.mean > 0 ? 1 / m->interval.mean : 200;
 }
 
 static double stage_work(const struct contact *c, const struct scene *s)
 {
     const struct impacts *m = &c->contact.impacts;
-    double rate = s->output.sample_rate, lasts = m->prototype == PROTOTYPE_RUB ? m->rub.duration : m->prototype == PROTOTYPE_SCRATCH ? m->scratch.duration : 5e-4;
-    return s->accuracy.oversampling + stage_density(m) / rate * (500 + 17 * (1 + lasts * rate * s->accuracy.oversampling));
+    double rate = s->output.sample_rate, lasts = m->prototype == PROTOTYPE_RUB       ? m->rub.duration
+                                                 : m->prototype == PROTOTYPE_SCRATCH ? m->scratch.duration
+                                                                                     : 5e-4;
+    return s->accuracy.oversampling +
+           stage_density(m) / rate * (500 + 17 * (1 + lasts * rate * s->accuracy.oversampling));
 }
 
 static bool stage_open(struct stage_run *r, struct err *e)
@@ -86,7 +91,8 @@ static double waiting_share(const struct impact_waiting *w, double k)
 /* Adds what it does in the block; true when it is over then. */
 static bool waiting_lay(struct impact_waiting *w, const struct impact_block *b)
 {
-    double k = fmax(w->from, b->first), last = fmin(b->end, w->from + ceil(w->after + w->length) + 1), share[COSINE_MOST];
+    double k = fmax(w->from, b->first), last = fmin(b->end, w->from + ceil(w->after + w->length) + 1),
+           share[COSINE_MOST];
     while (k < last && w->share < 1) {
         double *force = b->force + (long)(k - b->first);
         int n = (int)fmin(last - k, COSINE_MOST);
@@ -105,7 +111,8 @@ static bool waiting_lay(struct impact_waiting *w, const struct impact_block *b)
 static struct impact_waiting waiting_make(const struct impact *i, double per_second, double first)
 {
     double begins = (i->time - 0.5 * i->duration) * per_second, from = floor(begins);
-    struct impact_waiting w = {from, begins - from, i->duration * per_second, 0.5 * i->amplitude * i->duration * per_second, 0};
+    struct impact_waiting w = {from, begins - from, i->duration * per_second,
+                               0.5 * i->amplitude * i->duration * per_second, 0};
     if (from < first) /* only at the contact's start */
         w.share = waiting_share(&w, first);
     return w;
@@ -116,14 +123,12 @@ static void queue_lay(struct impact_queue *q, const struct impact_block *b, doub
 {
     size_t left = 0;
     for (size_t i = 0; i < q->n; i++)
-        if (!waiting_lay(&q->waiting[i], b))
-            q->waiting[left++] = q->waiting[i];
+        if (!waiting_lay(&q->waiting[i], b)) q->waiting[left++] = q->waiting[i];
     q->n = left;
     while (q->train.any && (q->train.next.time - 0.5 * q->train.law.longest) * per_second < b->end) {
         struct impact now = impact_train_take(&q->train);
         struct impact_waiting w = waiting_make(&now, per_second, b->first);
-        if (!waiting_lay(&w, b))
-            queue_add(q, &w, a);
+        if (!waiting_lay(&w, b)) queue_add(q, &w, a);
     }
 }
 

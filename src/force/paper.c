@@ -2,17 +2,20 @@
 
      S_xx = T(z_xx; alpha_x),  S_yy = T(z_yy; alpha_y)     equations 4, 5
      f_v  = m (S_xx v_x^2 + S_yy v_y^2)                    equation 2
-     f_h  = beta1 | v_x dz/dx + v_y dz/dy |^beta2          equation 3, with the slope of the surface z: only S'' is defined by the paper
+     f_h  = beta1 | v_x dz/dx + v_y dz/dy |^beta2          equation 3, with the slope of the surface z: only S'' is
+   defined by the paper
 
-   Along a path a profile has one axis, the path itself: v_x is the velocity along it and the y terms are zero; with surface.along: x they are
-   zero too. alpha_y = limiter.ratio_y alpha_x. The paper's smoothing acts on the limited curvatures, "the window size in each dimension ...
-   proportional to alpha_x and alpha_y" (section 2.2, last paragraph); the force is formed from them afterwards. At rest curvature and slope are those
-   of the point touched.
+   Along a path a profile has one axis, the path itself: v_x is the velocity along it and the y terms are zero; with
+   surface.along: x they are zero too. alpha_y = limiter.ratio_y alpha_x. The paper's smoothing acts on the limited
+   curvatures, "the window size in each dimension ... proportional to alpha_x and alpha_y" (section 2.2, last
+   paragraph); the force is formed from them afterwards. At rest curvature and slope are those of the point touched.
 
-   Curvatures and |slope|^beta2 are on the board as means weighted by hats (force/hats.h), exact where the speed is constant over a sub-interval:
-   a piece whose middle is at the share q of it gives (1 - q) mean - share moment to the hat of its start, q mean + share moment to that of its end.
-   v_x^2, v_y^2 and |v|^beta2 are means of those of the sub-intervals on both sides of the hat. What a change of speed within a hat has to do with
-   the surface there is left out: of order dt^2 v'/v, -90 dB of the force at 48 kHz without oversampling and v'/v = 30 1/s. Under a ball that rolls these are the scraping terms of equation 19, times contact.roll.scraping. */
+   Curvatures and |slope|^beta2 are on the board as means weighted by hats (force/hats.h), exact where the speed is
+   constant over a sub-interval: a piece whose middle is at the share q of it gives (1 - q) mean - share moment to the
+   hat of its start, q mean + share moment to that of its end. v_x^2, v_y^2 and |v|^beta2 are means of those of the
+   sub-intervals on both sides of the hat. What a change of speed within a hat has to do with the surface there is left
+   out: of order dt^2 v'/v, -90 dB of the force at 48 kHz without oversampling and v'/v = 30 1/s. Under a ball that
+   rolls these are the scraping terms of equation 19, times contact.roll.scraping. */
 #include <math.h>
 #include <string.h>
 
@@ -29,8 +32,10 @@ enum { PAPER_X, PAPER_Y, PAPER_SLOPE, PAPER_SIGNALS }; /* curvatures, as the way
 struct paper {
     struct way way;
     double beta1, beta2;
-    double whole[PAPER_SIGNALS][WAY_CHUNK], late[PAPER_SIGNALS][WAY_CHUNK], length[WAY_CHUNK]; /* integrals of x ds, x s ds; m travelled */
-    double touched[PAPER_SIGNALS][WAY_CHUNK], last[PAPER_SIGNALS], carried[PAPER_SIGNALS];     /* at the last point of a sub-interval; of all; for the next hat */
+    double whole[PAPER_SIGNALS][WAY_CHUNK], late[PAPER_SIGNALS][WAY_CHUNK],
+        length[WAY_CHUNK]; /* integrals of x ds, x s ds; m travelled */
+    double touched[PAPER_SIGNALS][WAY_CHUNK], last[PAPER_SIGNALS],
+        carried[PAPER_SIGNALS]; /* at the last point of a sub-interval; of all; for the next hat */
     bool begun;
 };
 
@@ -62,11 +67,11 @@ static void paper_begin(struct paper *s, const struct way_pieces *p)
 static void paper_use(void *self, const struct way_pieces *p)
 {
     struct paper *s = self;
-    if (!s->begun && p->n > 0)
-        paper_begin(s, p);
+    if (!s->begun && p->n > 0) paper_begin(s, p);
     for (int i = 0; i < p->n; i++) {
         int k = p->interval[i], at = p->at[i];
-        double h = p->length[i], a = p->slope[at], b = p->slope[at + 1], middle = 0.5 * (a + b) + h * p->heading[i] / 8 * (p->bend[at] - p->bend[at + 1]);
+        double h = p->length[i], a = p->slope[at], b = p->slope[at + 1],
+               middle = 0.5 * (a + b) + h * p->heading[i] / 8 * (p->bend[at] - p->bend[at + 1]);
         for (int c = 0; c < s->way.channels; c++) {
             paper_gather(s, c, k, (double[]){h, p->mean[c][i], 0.5 * p->mean[c][i] + p->moment[c][i]});
             s->touched[c][k] = p->limited[c][at + 1];
@@ -127,8 +132,7 @@ static bool paper_curvature_run(struct stage_run *r, long from, long to, struct 
         memset(s->length, 0, sizeof s->length);
         way_run(&s->way, r, first, n);
         paper_hats(s, PAPER_X, way_values(b, ITEM_CURVATURE, first), n);
-        if (board_has(b, ITEM_CURVATURE_Y))
-            paper_hats(s, PAPER_Y, way_values(b, ITEM_CURVATURE_Y, first), n);
+        if (board_has(b, ITEM_CURVATURE_Y)) paper_hats(s, PAPER_Y, way_values(b, ITEM_CURVATURE_Y, first), n);
         paper_hats(s, PAPER_SLOPE, way_values(b, ITEM_SLOPE, first), n);
         first += n;
     }
@@ -161,7 +165,8 @@ const struct stage paper_curvature_stage = {
 
 struct paper_speeds {
     double x, y, power; /* means over a sub-interval: v_x^2, v_y^2, m^2/s^2; |v|^beta2 */
-    double early, late; /* its parts of the hats about its ends, each a half but where it is lifted off (force/lift.h) */
+    double early,
+        late; /* its parts of the hats about its ends, each a half but where it is lifted off (force/lift.h) */
 };
 
 static bool paper_open(struct stage_run *r, struct err *e)
@@ -194,7 +199,8 @@ static double paper_velocity(const struct board *b, long k, int axis)
 static struct paper_speeds paper_speeds(const struct stage_run *r, long k)
 {
     const struct board *b = r->board;
-    double beta2 = r->contact->contact.beta2, vx = paper_velocity(b, k, 0), vy = b->relief->along == ALONG_PLANE ? paper_velocity(b, k, 1) : 0;
+    double beta2 = r->contact->contact.beta2, vx = paper_velocity(b, k, 0),
+           vy = b->relief->along == ALONG_PLANE ? paper_velocity(b, k, 1) : 0;
     double speed = fabs(*way_values(b, ITEM_POSITION, k + 1) - *way_values(b, ITEM_POSITION, k)) * b->rate * b->over;
     struct paper_speeds s = {vx * vx, vy * vy, beta2 == 1 ? speed : speed > 0 ? real_pow(speed, beta2) : 0, 0.5, 0.5};
     if (board_has(b, ITEM_LOAD))
@@ -203,13 +209,15 @@ static struct paper_speeds paper_speeds(const struct stage_run *r, long k)
 }
 
 /* By the hat between two sub-intervals. */
-static double paper_force(const struct stage_run *r, long k, const struct paper_speeds *before, const struct paper_speeds *after)
+static double paper_force(const struct stage_run *r, long k, const struct paper_speeds *before,
+                          const struct paper_speeds *after)
 {
     const struct board *b = r->board;
     const struct contact_model *m = &r->contact->contact;
     double yy = board_has(b, ITEM_CURVATURE_Y) ? *way_values(b, ITEM_CURVATURE_Y, k) : 0;
-    double force = r->contact->scraper.mass * (*way_values(b, ITEM_CURVATURE, k) * (before->late * before->x + after->early * after->x) +
-                                             yy * (before->late * before->y + after->early * after->y));
+    double force = r->contact->scraper.mass *
+                   (*way_values(b, ITEM_CURVATURE, k) * (before->late * before->x + after->early * after->x) +
+                    yy * (before->late * before->y + after->early * after->y));
     force += m->beta1 * *way_values(b, ITEM_SLOPE, k) * (before->late * before->power + after->early * after->power);
     return m->model == CONTACT_ROLL ? m->roll.scraping * force : force;
 }

@@ -1,18 +1,22 @@
-/* The surface's heights are the force (`contact.model: playback`): the surface is played like a record, at the contact's speed. FoleyAutomatic (van den
-   Doel, Kry and Pai 2001), as papers/002 section II-B describes it, plays a noise "at varying speeds according to the relative velocity of the
-   interacting objects", which is "assumed to model the surface roughness", such as a fractal surface.
+/* The surface's heights are the force (`contact.model: playback`): the surface is played like a record, at the
+   contact's speed. FoleyAutomatic (van den Doel, Kry and Pai 2001), as papers/002 section II-B describes it, plays a
+   noise "at varying speeds according to the relative velocity of the interacting objects", which is "assumed to model
+   the surface roughness", such as a fractal surface.
 
-     f(t) = k z(x(t))          f force, N      k contact.playback.stiffness, N/m      z height of the surface where the contact is, m
+     f(t) = k z(x(t))          f force, N      k contact.playback.stiffness, N/m      z height of the surface where the
+   contact is, m
 
-   Departures. The paper plays a sampled noise; here it is the surface itself, whatever it is made of, in metres and newtons, and in the plane too. Heights
-   are taken as they are: a mean is a constant force (surface.levelling takes that of a map away). Nothing follows the surface: no limiter, no mass, no
-   load. Before the motion begins and after it has ended there is no force.
+   Departures. The paper plays a sampled noise; here it is the surface itself, whatever it is made of, in metres and
+   newtons, and in the plane too. Heights are taken as they are: a mean is a constant force (surface.levelling takes
+   that of a map away). Nothing follows the surface: no limiter, no mass, no load. Before the motion begins and after it
+   has ended there is no force.
 
-   Each sub-interval's value is the mean of k z(x(t)) over it, so that momentum is kept and no asperity is skipped however fast the contact goes. Inside
-   a sub-interval each coordinate is the cubic in time through places and velocities at its ends (error h^4 d4x/dt4 / 384: below 1e-16 m for hands;
-   where a velocity jumps inside, at most dv h / 8). It is cut where a coordinate turns, at every line of knots of the surface, and into lengths
-   of at most half the surface's finest scale; over each piece z is smooth, and is integrated over time by Gauss and Legendre's rule of five points:
-   exact to rounding for cubic and bicubic splines at steady speed, else to 1e-9 of the heights. */
+   Each sub-interval's value is the mean of k z(x(t)) over it, so that momentum is kept and no asperity is skipped
+   however fast the contact goes. Inside a sub-interval each coordinate is the cubic in time through places and
+   velocities at its ends (error h^4 d4x/dt4 / 384: below 1e-16 m for hands; where a velocity jumps inside, at most dv h
+   / 8). It is cut where a coordinate turns, at every line of knots of the surface, and into lengths of at most half the
+   surface's finest scale; over each piece z is smooth, and is integrated over time by Gauss and Legendre's rule of five
+   points: exact to rounding for cubic and bicubic splines at steady speed, else to 1e-9 of the heights. */
 #include <math.h>
 #include <string.h>
 
@@ -22,24 +26,26 @@
 enum { BATCH = 512, GAUSS = 5, TURNS = 4 };
 
 /* Abscissae on [0, 1] and weights (Abramowitz and Stegun, 25.4.30). */
-static const double gauss_at[GAUSS] = {0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332};
-static const double gauss_share[GAUSS] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
+static const double gauss_at[GAUSS] = {0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155,
+                                       0.953089922969332};
+static const double gauss_share[GAUSS] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                          0.23931433524968324, 0.11846344252809454};
 
 struct cubic {
     double a[4]; /* a0 + q (a1 + q (a2 + q a3)), q the share of the sub-interval's time, 0 to 1 */
 };
 
 struct playback {
-    struct way way;      /* its places and grids alone */
+    struct way way; /* its places and grids alone */
     double stiffness, longest;
-    double *force;       /* of the present chunk */
-    int n;               /* points */
+    double *force; /* of the present chunk */
+    int n;         /* points */
     int interval[BATCH];
     double x[BATCH], y[BATCH], share[BATCH];
 };
 
-struct crossing {        /* of one family of knots */
-    double knot, at;     /* number; q, HUGE_VAL: none */
+struct crossing {    /* of one family of knots */
+    double knot, at; /* number; q, HUGE_VAL: none */
 };
 
 /* ------------------------------------------------------------------ cubics */
@@ -60,34 +66,31 @@ static double cubic_at(const struct cubic *c, double q)
     return c->a[0] + q * (c->a[1] + q * (c->a[2] + q * c->a[3]));
 }
 
-static double cubic_slope(const struct cubic *c, double q)
-{
-    return c->a[1] + q * (2 * c->a[2] + q * 3 * c->a[3]);
-}
+static double cubic_slope(const struct cubic *c, double q) { return c->a[1] + q * (2 * c->a[2] + q * 3 * c->a[3]); }
 
 /* Adds the places inside (0, 1) at which it turns. */
 static int cubic_turns(const struct cubic *c, double *turn, int n)
 {
-    double a = 3 * c->a[3], b = c->a[2], root = b * b - a * c->a[1], s = b < 0 ? b - sqrt(fmax(root, 0)) : b + sqrt(fmax(root, 0));
+    double a = 3 * c->a[3], b = c->a[2], root = b * b - a * c->a[1],
+           s = b < 0 ? b - sqrt(fmax(root, 0)) : b + sqrt(fmax(root, 0));
     double at[2] = {a != 0 ? -s / a : 0, s != 0 ? -c->a[1] / s : 0};
     for (int k = 0; k < 2 && root > 0; k++)
-        if (at[k] > 0 && at[k] < 1)
-            turn[n++] = at[k];
+        if (at[k] > 0 && at[k] < 1) turn[n++] = at[k];
     return n;
 }
 
-/* Where it reaches `value` between from and to, over which it rises or falls throughout: Newton's steps, halving where they lead outside. */
+/* Where it reaches `value` between from and to, over which it rises or falls throughout: Newton's steps, halving where
+ * they lead outside. */
 static double cubic_reaches(const struct cubic *c, double value, double from, double to)
 {
-    double a = cubic_at(c, from), b = cubic_at(c, to), low = from, high = to, q = from + (to - from) * (value - a) / (b - a);
+    double a = cubic_at(c, from), b = cubic_at(c, to), low = from, high = to,
+           q = from + (to - from) * (value - a) / (b - a);
     for (int i = 0; i < 60; i++) {
         double off = cubic_at(c, q) - value, slope = cubic_slope(c, q), step = slope != 0 ? off / slope : HUGE_VAL;
         *((off < 0) == (a < b) ? &low : &high) = q;
         double next = q - step;
-        if (!(next >= low && next <= high))
-            next = 0.5 * (low + high);
-        if (fabs(next - q) <= 1e-13)
-            return next;
+        if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+        if (fabs(next - q) <= 1e-13) return next;
         q = next;
     }
     return q;
@@ -98,18 +101,19 @@ static double cubic_reaches(const struct cubic *c, double value, double from, do
 static void playback_flush(struct playback *p)
 {
     double z[BATCH];
-    if (p->n == 0)
-        return;
-    relief_at(p->way.relief, &(struct relief_points){(size_t)p->n, p->x, p->way.relief->along == ALONG_PLANE ? p->y : NULL}, &(struct relief_values){.z = z});
+    if (p->n == 0) return;
+    relief_at(p->way.relief,
+              &(struct relief_points){(size_t)p->n, p->x, p->way.relief->along == ALONG_PLANE ? p->y : NULL},
+              &(struct relief_values){.z = z});
     for (int i = 0; i < p->n; i++)
         p->force[p->interval[i]] += p->share[i] * z[i];
     p->n = 0;
 }
 
-static void playback_piece(struct playback *p, const struct cubic c[2], int interval, double from, double to, double share)
+static void playback_piece(struct playback *p, const struct cubic c[2], int interval, double from, double to,
+                           double share)
 {
-    if (p->n + GAUSS > BATCH)
-        playback_flush(p);
+    if (p->n + GAUSS > BATCH) playback_flush(p);
     for (int k = 0; k < GAUSS; k++, p->n++) {
         double q = from + (to - from) * gauss_at[k];
         p->x[p->n] = cubic_at(&c[0], q);
@@ -122,16 +126,19 @@ static void playback_piece(struct playback *p, const struct cubic c[2], int inte
 /* ------------------------------------------------------------------ cutting */
 
 /* The family's next knot behind that of `from` (NAN: the first), up to `to`. */
-static struct crossing playback_next(const struct way_grid *g, const struct cubic *c, double from, double to, double last)
+static struct crossing playback_next(const struct way_grid *g, const struct cubic *c, double from, double to,
+                                     double last)
 {
     double a = (cubic_at(c, from) - g->origin) / g->pitch, b = (cubic_at(c, to) - g->origin) / g->pitch;
     double knot = isnan(last) ? (a < b ? floor(a) + 1 : ceil(a) - 1) : last + (a < b ? 1 : -1);
     bool within = a < b ? knot < b : knot > b;
-    return (struct crossing){knot, a != b && within ? cubic_reaches(c, g->origin + knot * g->pitch, from, to) : HUGE_VAL};
+    return (struct crossing){knot,
+                             a != b && within ? cubic_reaches(c, g->origin + knot * g->pitch, from, to) : HUGE_VAL};
 }
 
 /* Both coordinates rise or fall throughout. */
-static void playback_stretch(struct playback *p, const struct cubic c[2], int interval, const double ends[2], double share)
+static void playback_stretch(struct playback *p, const struct cubic c[2], int interval, const double ends[2],
+                             double share)
 {
     struct crossing next[WAY_GRIDS];
     const struct way *w = &p->way;
@@ -145,12 +152,10 @@ static void playback_stretch(struct playback *p, const struct cubic c[2], int in
         double end = fmin(to, fmax(at + step, at + 1e-12));
         for (int g = 0; g < w->n_grids; g++)
             end = fmin(end, fmax(next[g].at, at));
-        if (end > at)
-            playback_piece(p, c, interval, at, end, share);
+        if (end > at) playback_piece(p, c, interval, at, end, share);
         at = end;
         for (int g = 0; g < w->n_grids; g++)
-            if (next[g].at <= at)
-                next[g] = playback_next(&w->grids[g], &c[w->grids[g].axis], at, to, next[g].knot);
+            if (next[g].at <= at) next[g] = playback_next(&w->grids[g], &c[w->grids[g].axis], at, to, next[g].knot);
     }
 }
 
@@ -174,7 +179,8 @@ static void playback_interval(struct playback *p, const struct cubic c[2], int i
 static void playback_place(const struct way *w, const struct board *b, long k, double h, struct cubic c[2])
 {
     if (w->curved) {
-        const double *x = way_values(b, ITEM_X, k), *y = way_values(b, ITEM_Y, k), *vx = way_values(b, ITEM_VX, k), *vy = way_values(b, ITEM_VY, k);
+        const double *x = way_values(b, ITEM_X, k), *y = way_values(b, ITEM_Y, k), *vx = way_values(b, ITEM_VX, k),
+                     *vy = way_values(b, ITEM_VY, k);
         c[0] = cubic_of(x[0], x[1], vx[0], vx[1], h);
         c[1] = cubic_of(y[0], y[1], vy[0], vy[1], h);
         return;
@@ -194,8 +200,7 @@ static void playback_chunk(struct playback *p, const struct board *b, long first
     for (int i = 0; i < n; i++) {
         double h = fmin(dt, end - (double)(first + i) * dt);
         struct cubic c[2];
-        if (!(h > 0))
-            break;
+        if (!(h > 0)) break;
         playback_place(&p->way, b, first + i, h, c);
         playback_interval(p, c, i, p->stiffness * h / dt);
     }
@@ -208,10 +213,7 @@ static bool playback_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_PLAYBACK;
 }
 
-static double playback_work(const struct contact *c, const struct scene *s)
-{
-    return 90 * way_work(c, s);
-}
+static double playback_work(const struct contact *c, const struct scene *s) { return 90 * way_work(c, s); }
 
 static unsigned playback_asks(const struct contact *c, const struct scene *s)
 {

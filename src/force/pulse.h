@@ -5,9 +5,9 @@
 enum { PULSE_TERMS = 24 };
 
 struct pulse_shape {
-    int kind;                    /* enum pulse                          */
-    double scale;                /* contact time in units of x_m / v    */
-    double term[PULSE_TERMS];    /* hertz: see pulse.c                  */
+    int kind;                 /* enum pulse                          */
+    double scale;             /* contact time in units of x_m / v    */
+    double term[PULSE_TERMS]; /* hertz: see pulse.c                  */
 };
 
 struct pulse_shape pulse_make(int kind);
@@ -15,8 +15,8 @@ struct pulse_shape pulse_make(int kind);
 /* Contact time in s. mass kg, stiffness N/m (half_sine) or N/m^1.5 (hertz), speed m/s, all positive. */
 double pulse_lasts(const struct pulse_shape *p, double mass, double stiffness, double speed);
 
-/* The share, 0 to 1, of its momentum that an impact has handed over at share q of its contact time: 0 before, 1 after it. Rises; error below
-   4e-16; p(q) + p(1 - q) = 1. */
+/* The share, 0 to 1, of its momentum that an impact has handed over at share q of its contact time: 0 before, 1 after
+   it. Rises; error below 4e-16; p(q) + p(1 - q) = 1. */
 double pulse_share(const struct pulse_shape *p, double q);
 
 #endif

@@ -6,17 +6,20 @@
      m     mass of the scraper, kg          v        velocity along the path, m/s
      S'    dS/ds, force/slope.c             beta1    N (s/m)^beta2
 
-   Departures from papers/000, and why. Equation 2 keeps only S'' v^2 of the second time derivative of S and leaves out 2 S_xy v_x v_y and the
-   gradient times the acceleration: momentum is lost at every reversal, and the force changes when the axes are turned; here f_v is the whole
-   derivative along the path. One S serves both forces.
+   Departures from papers/000, and why. Equation 2 keeps only S'' v^2 of the second time derivative of S and leaves out
+   2 S_xy v_x v_y and the gradient times the acceleration: momentum is lost at every reversal, and the force changes
+   when the axes are turned; here f_v is the whole derivative along the path. One S serves both forces.
 
-   What goes on the board are means weighted by hats (force/hats.h). With P = m |v| S', and since v dt = du, a sub-interval's parts of f_v are
+   What goes on the board are means weighted by hats (force/hats.h). With P = m |v| S', and since v dt = du, a
+   sub-interval's parts of f_v are
 
-     early  (mean P - P(start)) / dt        late  (P(end) - mean P) / dt        mean P = m/dt times the integral of S' ds over it
+     early  (mean P - P(start)) / dt        late  (P(end) - mean P) / dt        mean P = m/dt times the integral of S'
+   ds over it
 
-   exactly, whatever the surface does inside. Those of f_h are beta1 / dt |v|^(beta2 - 1) times the integrals of (1 - q) |S'|^beta2 ds and of
-   q |S'|^beta2 ds at the mean speed, with q the share of the way. Where the speed changes from v0 to v1 the force does as its power, and time runs
-   otherwise than the way: beta2/6 (v1 - v0)/(v1 + v0) of f_h goes from early to late (to first order, and as though S' were constant). */
+   exactly, whatever the surface does inside. Those of f_h are beta1 / dt |v|^(beta2 - 1) times the integrals of (1 - q)
+   |S'|^beta2 ds and of q |S'|^beta2 ds at the mean speed, with q the share of the way. Where the speed changes from v0
+   to v1 the force does as its power, and time runs otherwise than the way: beta2/6 (v1 - v0)/(v1 + v0) of f_h goes from
+   early to late (to first order, and as though S' were constant). */
 #include "force/scrape.h"
 
 #include <math.h>
@@ -50,12 +53,11 @@ static void scrape_rubbed(const struct scrape *s, double per_second, int n, doub
     for (int i = 0; i < n; i++)
         rubbed[i] = s->beta1;
     for (int i = 0; i < n && s->beta2 != 1; i++)
-        if (s->slope.crossed[i] > 0)
-            rubbed[i] = s->beta1 * real_pow(s->slope.travelled[i] * per_second, s->beta2 - 1);
+        if (s->slope.crossed[i] > 0) rubbed[i] = s->beta1 * real_pow(s->slope.travelled[i] * per_second, s->beta2 - 1);
 }
 
-/* Both parts of f_h, N, from rubbed[]. `changes` is (v1 - v0)/(v1 + v0), and 0 where these are not the ends of the sub-interval's straight line: at a
-   turn, a sudden start or stop. */
+/* Both parts of f_h, N, from rubbed[]. `changes` is (v1 - v0)/(v1 + v0), and 0 where these are not the ends of the
+   sub-interval's straight line: at a turn, a sudden start or stop. */
 LANES_CLONES
 static void scrape_horizontal(struct scrape *s, const double *v, double per_second, int n, const double *rubbed)
 {
@@ -66,7 +68,8 @@ static void scrape_horizontal(struct scrape *s, const double *v, double per_seco
         double mean = l->travelled[i] * per_second, a = fabs(v[i]), b = fabs(v[i + 1]);
         int straight = (v[i] * v[i + 1] >= 0) & (fabs(a + b - 2 * mean) < 0.1 * mean), some = l->crossed[i] > 0;
         double changes = lanes_select(straight, (b - a) / lanes_select(straight, a + b, 1), 0);
-        double delayed = rubbed[i] * (l->crossed_late[i] / lanes_select(some, l->travelled[i], 1) + power * changes * l->crossed[i]);
+        double delayed =
+            rubbed[i] * (l->crossed_late[i] / lanes_select(some, l->travelled[i], 1) + power * changes * l->crossed[i]);
         late[i] = lanes_select(some, delayed, 0);
         early[i] = lanes_select(some, rubbed[i] * l->crossed[i] - delayed, 0);
     }
@@ -110,13 +113,14 @@ static bool scrape_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_SCRAPE && c->contact.force == FORCE_DIRECTIONAL;
 }
 
-/* Measured. On a way that turns in the plane knots are looked for by Newton's method, and each sub-interval begins anew. */
+/* Measured. On a way that turns in the plane knots are looked for by Newton's method, and each sub-interval begins
+ * anew. */
 static double scrape_work(const struct contact *c, const struct scene *s)
 {
     bool straight = rules_straight(&c->motion), plane = rules_along(c) == ALONG_PLANE;
-    double limited = c->contact.limiter.curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling, way = way_work(c, s);
-    if (plane && !straight)
-        return limited * (850 * over + 2200 * (way / 2 - over));
+    double limited = c->contact.limiter.curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling,
+           way = way_work(c, s);
+    if (plane && !straight) return limited * (850 * over + 2200 * (way / 2 - over));
     return limited * (straight && !plane ? 70 : 150) * way; /* cut by way_straight.c, or not */
 }
 
@@ -134,11 +138,9 @@ static bool scrape_open(struct stage_run *r, struct err *e)
 static bool scrape_rests(const struct scrape *s, const struct board *b, long first, int n)
 {
     const double *u = way_values(b, ITEM_POSITION, first), *v = way_values(b, ITEM_VELOCITY, first);
-    if (s->momentum != 0)
-        return false;
+    if (s->momentum != 0) return false;
     for (int i = 0; i <= n; i++)
-        if (v[i] != 0 || u[i] != u[0])
-            return false;
+        if (v[i] != 0 || u[i] != u[0]) return false;
     return true;
 }
 

@@ -7,8 +7,8 @@
 struct scrape {
     struct slope slope;
     double beta1, beta2, mass;
-    double share;                    /* factor on both forces                         */
-    double momentum;                 /* m v dS/du at the end of the last sub-interval */
+    double share;    /* factor on both forces                         */
+    double momentum; /* m v dS/du at the end of the last sub-interval */
     struct hats hats;
 };
 
@@ -18,7 +18,8 @@ bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err
 /* As at the start. */
 void scrape_forget(struct scrape *s);
 
-/* To hats: both forces' parts over the n <= WAY_CHUNK sub-intervals from number `first` on, which must come in order. */
+/* To hats: both forces' parts over the n <= WAY_CHUNK sub-intervals from number `first` on, which must come in order.
+ */
 void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n);
 
 #endif

@@ -1,15 +1,17 @@
 /* One limited trajectory S along the path, its slope and its height.
 
-     dS'/ds + S'/l = T(c) + kappa S_n       S' = dS/ds, slope of S along the path; s arc length      after papers/000 eq. 4, 5
-     dS_n/ds + S_n/l = T(d) - kappa S'      S_n, slope across the path (only where the path is curved)
-     dS/ds + S/l = S'                       S, height, m           (read by what rolls with penetration: paper)
+     dS'/ds + S'/l = T(c) + kappa S_n       S' = dS/ds, slope of S along the path; s arc length      after papers/000
+   eq. 4, 5 dS_n/ds + S_n/l = T(d) - kappa S'      S_n, slope across the path (only where the path is curved) dS/ds +
+   S/l = S'                       S, height, m           (read by what rolls with penetration: paper)
 
-     c = e' H e, d = e' H n   second derivatives of z along the unit tangent e, and mixed with the normal n, 1/m; H the surface's Hessian
-     l     contact.leak, m    kappa    curvature of the path in the plane, 1/m    T    tanh(alpha c) / alpha
+     c = e' H e, d = e' H n   second derivatives of z along the unit tangent e, and mixed with the normal n, 1/m; H the
+   surface's Hessian l     contact.leak, m    kappa    curvature of the path in the plane, 1/m    T    tanh(alpha c) /
+   alpha
 
-   The paper defines only S'' (equations 4, 5) but uses S' in equation 3 and S in equation 16; the integral of the limited curvature drifts away as a random
-   walk, hence the leak l, twice. Slope and height come from one trajectory: the raw slope z' would bring back what the limiter removed. (S', S_n) is one
-   vector, the slope of S in the plane; kappa turns it as the path turns, so that a tight turn and a reversal, where S' changes sign, are the same thing in
+   The paper defines only S'' (equations 4, 5) but uses S' in equation 3 and S in equation 16; the integral of the
+   limited curvature drifts away as a random walk, hence the leak l, twice. Slope and height come from one trajectory:
+   the raw slope z' would bring back what the limiter removed. (S', S_n) is one vector, the slope of S in the plane;
+   kappa turns it as the path turns, so that a tight turn and a reversal, where S' changes sign, are the same thing in
    the limit. Along a profile that follows the path there is no S_n. All start from 0 at the start of the motion.
 
    Over a piece of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
@@ -18,10 +20,11 @@
      integral of S' ds = h (phi S' + chi h mean(T) - (1 - z/2) h moment(T) + z h (mean(T) - (T_start + T_end)/2) / 60)
      S(end)            = (1 - z phi) (S + h S') + h^2 ((phi - chi) mean(T) - (1 - z) moment(T))
 
-   mean and first moment of T in closed form (surface/limited.c), the last term of the second line as of a parabola. Left out is the leak's weight beyond its straight line: z^2/24 of what
-   T varies by within the piece, of S z h^2/12 times it and 9/20 z^2 of the moment's part. The turn of a piece is taken half before, half after it
-   (error (kappa h)^2/24 of the piece's part), with kappa h moment(T) of T across it. Where S' changes sign inside a piece it is taken as a parabola
-   (power 1) or two straight lines. */
+   mean and first moment of T in closed form (surface/limited.c), the last term of the second line as of a parabola.
+   Left out is the leak's weight beyond its straight line: z^2/24 of what T varies by within the piece, of S z h^2/12
+   times it and 9/20 z^2 of the moment's part. The turn of a piece is taken half before, half after it (error (kappa
+   h)^2/24 of the piece's part), with kappa h moment(T) of T across it. Where S' changes sign inside a piece it is taken
+   as a parabola (power 1) or two straight lines. */
 #include "force/slope.h"
 
 #include <math.h>
@@ -48,8 +51,7 @@ static void slope_rotate(struct slope *s, double sine, double cosine)
 /* From the axes the slope is in to those at a point; at once where the path has a corner. */
 static void slope_face(struct slope *s, double ex, double ey)
 {
-    if (s->ex != 0 || s->ey != 0)
-        slope_rotate(s, s->ex * ey - s->ey * ex, s->ex * ex + s->ey * ey);
+    if (s->ex != 0 || s->ey != 0) slope_rotate(s, s->ex * ey - s->ey * ex, s->ex * ex + s->ey * ey);
     s->ex = ex;
     s->ey = ey;
 }
@@ -57,7 +59,8 @@ static void slope_face(struct slope *s, double ex, double ey)
 /* The unit vector half way between the axes at a piece's two ends, which are never opposed (force/way.c). */
 static void slope_halfway(const struct way_pieces *p, int i, double *ex, double *ey)
 {
-    double x = p->ex[p->at[i]] + p->ex[p->at[i] + 1], y = p->ey[p->at[i]] + p->ey[p->at[i] + 1], length = sqrt(x * x + y * y);
+    double x = p->ex[p->at[i]] + p->ex[p->at[i] + 1], y = p->ey[p->at[i]] + p->ey[p->at[i] + 1],
+           length = sqrt(x * x + y * y);
     *ex = x / length;
     *ey = y / length;
 }
@@ -76,7 +79,8 @@ static double slope_turn(const struct way_pieces *p, int i)
     return p->length[i] * (p->ex[a] * p->ey[b] - p->ey[a] * p->ex[b]);
 }
 
-/* What T varies by within a piece that turns goes partly to the side: T is taken along e half way, and e turns about it. */
+/* What T varies by within a piece that turns goes partly to the side: T is taken along e half way, and e turns about
+ * it. */
 static void slope_lean(struct slope *s, const struct way_pieces *p, int i)
 {
     double turn = p->heading[i] * slope_turn(p, i);
@@ -96,8 +100,7 @@ static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
         s->across = p->heading[i] * slope_terms_end(&s->terms, 1, i, s->across * p->heading[i]);
     }
     double a = s->terms.start[i] = s->slope * p->heading[i], b = s->terms.end[i] = slope_terms_end(&s->terms, 0, i, a);
-    if (s->rising)
-        s->height = slope_rise(s, p, i, a);
+    if (s->rising) s->height = slope_rise(s, p, i, a);
     s->slope = b * p->heading[i];
     if (s->way.curved) {
         slope_lean(s, p, i);
@@ -105,8 +108,9 @@ static void slope_piece(struct slope *s, const struct way_pieces *p, int i)
     }
 }
 
-/* The same of a straight way whose slope alone is asked for. Each piece waits for the one before it, for a multiplication and an addition: the sign of the
-   direction is taken out of that, and each piece writes its sub-interval's end, the last of them what stays. */
+/* The same of a straight way whose slope alone is asked for. Each piece waits for the one before it, for a
+   multiplication and an addition: the sign of the direction is taken out of that, and each piece writes its
+   sub-interval's end, the last of them what stays. */
 static void slope_straight(struct slope *s, const struct way_pieces *p)
 {
     struct slope_terms *t = &s->terms;
@@ -139,7 +143,8 @@ static void slope_crossing(struct slope *s, int n)
         return;
     }
     for (int i = 0; i < n; i++) {
-        struct crossing c = crossing_power((double[]){t->start[i], 1.5 * t->mean[i] - 0.25 * (t->start[i] + t->end[i]), t->end[i]}, s->power);
+        struct crossing c = crossing_power(
+            (double[]){t->start[i], 1.5 * t->mean[i] - 0.25 * (t->start[i] + t->end[i]), t->end[i]}, s->power);
         t->whole[i] = c.whole;
         t->late[i] = c.late;
     }
@@ -172,8 +177,7 @@ static void slope_use(void *self, const struct way_pieces *p)
     else
         slope_straight(s, p);
     slope_terms_mean(&s->terms, p->n);
-    if (s->crossing)
-        slope_crossing(s, p->n);
+    if (s->crossing) slope_crossing(s, p->n);
     slope_gather(s, p);
 }
 
@@ -187,10 +191,7 @@ bool slope_make(struct slope *s, struct stage_run *r, struct err *e)
     return way_make(&s->way, r, WAY_ALONG, s->leak / 16, e);
 }
 
-void slope_forget(struct slope *s)
-{
-    s->slope = s->across = s->height = s->ex = s->ey = 0;
-}
+void slope_forget(struct slope *s) { s->slope = s->across = s->height = s->ex = s->ey = 0; }
 
 void slope_run(struct slope *s, const struct stage_run *r, long first, int n)
 {

@@ -1,5 +1,5 @@
-/* Loops over pieces, which leave one multiplication and one addition a piece to the recursion in slope.c: on a line over roughness, half the time of
-   slope and crossing piece by piece. */
+/* Loops over pieces, which leave one multiplication and one addition a piece to the recursion in slope.c: on a line
+   over roughness, half the time of slope and crossing piece by piece. */
 #include "force/slope_terms.h"
 
 #include <math.h>
@@ -10,7 +10,8 @@ enum { CROSSING_RUN = 16 };
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* phi = (1 - e^-z) / z and chi = (1 - phi) / z for 0 <= z <= 1/16: the series' first term left out is z^8 / 9! < 1e-15. */
+/* phi = (1 - e^-z) / z and chi = (1 - phi) / z for 0 <= z <= 1/16: the series' first term left out is z^8 / 9! < 1e-15.
+ */
 LANES_CLONES
 static void terms_leak(struct slope_terms *t, const double *length, double leak, int n)
 {
@@ -30,7 +31,8 @@ static void terms_leak(struct slope_terms *t, const double *length, double leak,
 /* at: NULL where the pieces are chained, whose points are then loaded one after another. */
 INLINE void terms_each(struct slope_terms *t, const struct way_pieces *p, int channel, const int *at)
 {
-    const double *means = p->mean[channel], *moments = p->moment[channel], *limited = p->limited[channel], *length = p->length;
+    const double *means = p->mean[channel], *moments = p->moment[channel], *limited = p->limited[channel],
+                 *length = p->length;
     double *restrict bent = t->bent[channel];
     int n = p->n;
 #pragma omp simd
@@ -84,10 +86,12 @@ INLINE void crossing_some(struct slope_terms *t, int from, int to)
         double a = t->start[i], b = t->end[i], mean = t->mean[i];
         double bow = 6 * (mean - 0.5 * (a + b)), p = b - a + bow, square = p * p + 4 * bow * a;
         double root = sqrt(lanes_select(square > 0, square, 0)), s = lanes_select(p < 0, p - root, p + root);
-        double q = lanes_select(s != 0, -2 * a / lanes_select(s != 0, s, 1), 0), late = 0.5 * mean + (b - a) * (1.0 / 12);
+        double q = lanes_select(s != 0, -2 * a / lanes_select(s != 0, s, 1), 0),
+               late = 0.5 * mean + (b - a) * (1.0 / 12);
         int inside = (q >= 0) & (q <= 1);
         q = lanes_select(inside, q, s / lanes_select(inside | (bow == 0), 1, 2 * bow));
-        double before = q * (a + q * (0.5 * p - q * bow * (1.0 / 3))), lately = q * q * (0.5 * a + q * (p * (1.0 / 3) - 0.25 * q * bow));
+        double before = q * (a + q * (0.5 * p - q * bow * (1.0 / 3))),
+               lately = q * q * (0.5 * a + q * (p * (1.0 / 3) - 0.25 * q * bow));
         int one_sign = a * b >= 0;
         t->whole[i] = lanes_select(one_sign, fabs(mean), fabs(before) + fabs(mean - before));
         t->late[i] = lanes_select(one_sign, lanes_select(mean < 0, -late, late), fabs(lately) + fabs(late - lately));
@@ -114,7 +118,6 @@ void slope_terms_crossing(struct slope_terms *t, int n)
 {
     for (int from = 0; from < n; from += CROSSING_RUN) {
         int to = from + CROSSING_RUN < n ? from + CROSSING_RUN : n;
-        if (!crossing_none(t, from, to))
-            crossing_some(t, from, to);
+        if (!crossing_none(t, from, to)) crossing_some(t, from, to);
     }
 }

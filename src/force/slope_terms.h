@@ -5,11 +5,12 @@
 
 struct slope_terms {
     double z[LIMITED_PIECES], phi[LIMITED_PIECES], chi[LIMITED_PIECES]; /* 1 */
-    double kept[LIMITED_PIECES];                        /* 1 - z phi                                   */
-    double bent[WAY_CHANNELS][LIMITED_PIECES];          /* what the end gains: phi h mean(T) + z (1 - z/2) h moment(T) */
-    double risen[LIMITED_PIECES];                       /* what the mean gains, of channel 0: chi h mean(T) - (1 - z/2) h moment(T)
-                                                           + z h (mean(T) - (T_start + T_end)/2) / 60 */
-    double start[LIMITED_PIECES], end[LIMITED_PIECES], mean[LIMITED_PIECES]; /* S' along the direction of travel; set where the slope is known */
+    double kept[LIMITED_PIECES];               /* 1 - z phi                                   */
+    double bent[WAY_CHANNELS][LIMITED_PIECES]; /* what the end gains: phi h mean(T) + z (1 - z/2) h moment(T) */
+    double risen[LIMITED_PIECES]; /* what the mean gains, of channel 0: chi h mean(T) - (1 - z/2) h moment(T)
+                                     + z h (mean(T) - (T_start + T_end)/2) / 60 */
+    double start[LIMITED_PIECES], end[LIMITED_PIECES],
+        mean[LIMITED_PIECES]; /* S' along the direction of travel; set where the slope is known */
     double whole[LIMITED_PIECES], late[LIMITED_PIECES]; /* integrals of |S'|, q |S'| dq over the piece */
 };
 

@@ -1,18 +1,20 @@
-/* Gaussian smoothing, papers/000 section 2.2, last paragraph: the limiter's harmonics are removed by "a Gaussian moving average following
-   the non-linearity", its width in proportion to alpha.
+/* Gaussian smoothing, papers/000 section 2.2, last paragraph: the limiter's harmonics are removed by "a Gaussian moving
+   average following the non-linearity", its width in proportion to alpha.
 
      sigma(t) = contact.smoothing alpha(t) / 0.03 m        s
 
-   Directional force: each element of force spreads with its own sigma, y(t) = integral f(t') G(t - t'; sigma(t')) dt', so that momentum is
-   kept. Paper: the same on each limited curvature, sigma in proportion to its own alpha. The paper's "average half window size of 5 samples at a sampling rate of 44.1kHz" is read
-   as an 11-sample window of 5 sigma: 50 us; in seconds here, so that the sound does not depend on the sample rate.
+   Directional force: each element of force spreads with its own sigma, y(t) = integral f(t') G(t - t'; sigma(t')) dt',
+   so that momentum is kept. Paper: the same on each limited curvature, sigma in proportion to its own alpha. The
+   paper's "average half window size of 5 samples at a sampling rate of 44.1kHz" is read as an 11-sample window of 5
+   sigma: 50 us; in seconds here, so that the sound does not depend on the sample rate.
 
-   Where alpha is constant smoothing is one kernel, and the stage that brings the force to the audio rate joins it to its own (force/decimate.c): 4 smoothed
-   sub-samples of which one sample is made cost 4 times as much, and behind a low-pass so smooth another one hardly needs its own length.
+   Where alpha is constant smoothing is one kernel, and the stage that brings the force to the audio rate joins it to
+   its own (force/decimate.c): 4 smoothed sub-samples of which one sample is made cost 4 times as much, and behind a
+   low-pass so smooth another one hardly needs its own length.
 
-   Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes every 64 sub-samples and
-   an element between two nodes spreads with both kernels, linearly weighted (error of second order in sigma's change
-   over 64 sub-samples).
+   Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes
+   every 64 sub-samples and an element between two nodes spreads with both kernels, linearly weighted (error of second
+   order in sigma's change over 64 sub-samples).
 
    Nothing comes before the start: what would be spread to there is reflected at it, as heat is at an insulated end.
    Momentum is kept, and what begins at full height stays at full height, where without it it would begin at half. (What
@@ -45,7 +47,7 @@ struct smooth {
     double *sum;            /* smoothed so far, from sub-sample sum_first on     */
     long raw_first, raw_end, sum_first, node; /* node: sub-sample where the next segment begins */
     size_t room;
-    long start;             /* first sub-sample that there is */
+    long start; /* first sub-sample that there is */
 };
 
 static double smooth_alpha(const struct contact *c, double alpha)
@@ -89,7 +91,8 @@ static bool smooth_curvature_y_wanted(const struct contact *c, const struct scen
 static double smooth_work(const struct contact *c, const struct scene *s)
 {
     bool varies = smooth_varies(c);
-    double over = s->accuracy.oversampling, alpha = varies ? c->contact.limiter.alpha_max : smooth_alpha(c, limiter_constant(c));
+    double over = s->accuracy.oversampling,
+           alpha = varies ? c->contact.limiter.alpha_max : smooth_alpha(c, limiter_constant(c));
     double taps = 13 * c->contact.smoothing * alpha / 0.03 * s->output.sample_rate * over + 1;
     return taps * over * (varies ? 0.65 : 0.35);
 }
@@ -103,8 +106,10 @@ static double smooth_force_work(const struct contact *c, const struct scene *s)
 static bool smooth_too_wide(const struct stage_run *r, double sigma, struct err *e)
 {
     return err_set(e, ERR_SCENE,
-                   "contact '%s': contact.smoothing: the force is smoothed with a sigma of %.3g s (contact.smoothing x alpha / 3 cm), and at most "
-                   "%g s make sense; lower contact.smoothing or contact.limiter's alpha", r->contact->name, sigma, RULES_SMOOTHING_WIDEST);
+                   "contact '%s': contact.smoothing: the force is smoothed with a sigma of %.3g s (contact.smoothing x "
+                   "alpha / 3 cm), and at most "
+                   "%g s make sense; lower contact.smoothing or contact.limiter's alpha",
+                   r->contact->name, sigma, RULES_SMOOTHING_WIDEST);
 }
 
 /* ratio: sigma over that of the first axis. */
@@ -135,11 +140,9 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
 
 static bool smooth_open(struct stage_run *r, struct err *e)
 {
-    if (!smooth_open_item(r, ITEM_SUBFORCE, 1, e))
-        return false;
+    if (!smooth_open_item(r, ITEM_SUBFORCE, 1, e)) return false;
     struct smooth *s = r->state;
-    if (!s->varies)
-        r->board->smoothing = &s->still;
+    if (!s->varies) r->board->smoothing = &s->still;
     return true;
 }
 
@@ -204,7 +207,8 @@ static void smooth_segments(struct smooth *s, const struct board *b, long end)
         s->kernel[1] = swap;
         smooth_kernel(s, *(board_at(b, ITEM_ALPHA, next / b->over) + next % b->over), s->kernel[1]);
         if (s->node >= s->start)
-            spread_segment(s->raw + (s->node - s->raw_first), s->kernel, s->sum + (s->node - s->reach - s->sum_first), 2 * s->reach + 1);
+            spread_segment(s->raw + (s->node - s->raw_first), s->kernel, s->sum + (s->node - s->reach - s->sum_first),
+                           2 * s->reach + 1);
         s->node = next;
     }
 }
@@ -242,20 +246,17 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
     long first = from * b->over, end = to * b->over;
     double *y = board_at(b, s->item, from);
     (void)e;
-    if (s->still.taken)
-        return true;
+    if (s->still.taken) return true;
     if (!s->varies) {
         smooth_take(s, b, first - s->reach, (to + r->ahead - 1) * b->over);
-        if (first == 0)
-            smooth_mirror(s);
+        if (first == 0) smooth_mirror(s);
         spread_still(&s->still.kernel, s->raw + (first - s->reach - s->raw_first), y, end - first);
         return true;
     }
     long keep = s->node < s->start ? s->raw_first : s->node;
     smooth_take(s, b, keep, (to + r->ahead - 1) * b->over);
     smooth_segments(s, b, end);
-    if (first == 0)
-        smooth_reflect(s);
+    if (first == 0) smooth_reflect(s);
     smooth_hand_over(s, y, first, end);
     return true;
 }
@@ -317,7 +318,8 @@ const struct stage smooth_curvature_y_stage = {
     .name = "smooth_curvature_y",
     .does = "Gaussian smoothing of the limited curvature's second axis",
     .paper = "000 sec. 2.2",
-    .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, contact.force is directional, or the surface has one axis",
+    .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, contact.force is directional, or the "
+            "surface has one axis",
     .needs = ITEM_BIT(ITEM_CURVATURE_Y),
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_CURVATURE_Y),

@@ -9,7 +9,8 @@ struct shares { /* of a segment's elements, for the kernels at its two ends */
     double early[SPREAD_SEGMENT], late[SPREAD_SEGMENT];
 };
 
-/* y[i] = sum_j tap[j] x[i + j], SPREAD_WIDE outputs at a time: the additions of one wait for each other, those of four registers hardly. */
+/* y[i] = sum_j tap[j] x[i + j], SPREAD_WIDE outputs at a time: the additions of one wait for each other, those of four
+ * registers hardly. */
 LANES_CLONES
 void spread_still(const struct filter *f, const double *x, double *y, long n)
 {
@@ -50,8 +51,8 @@ static void spread_gather(const struct shares *x, const double *k0, const double
     memcpy(sum, s, sizeof s);
 }
 
-/* sum[i + t] += a k0[t] + b k1[t] for every element i of a segment, a and b its shares for the two kernels; by places, whose sums stay in registers,
-   not by elements: half the time. The kernels have SPREAD_WIDE zeros on each side. */
+/* sum[i + t] += a k0[t] + b k1[t] for every element i of a segment, a and b its shares for the two kernels; by places,
+   whose sums stay in registers, not by elements: half the time. The kernels have SPREAD_WIDE zeros on each side. */
 void spread_segment(const double *x, double *const kernel[2], double *sum, int taps)
 {
     struct shares shares;
@@ -61,7 +62,8 @@ void spread_segment(const double *x, double *const kernel[2], double *sum, int t
         shares.late[i] = later * x[i];
     }
     for (int t = 0; t < taps + SPREAD_SEGMENT - 1; t += SPREAD_WIDE) {
-        int range[2] = {t - taps + 1 > 0 ? t - taps + 1 : 0, t + SPREAD_WIDE < SPREAD_SEGMENT ? t + SPREAD_WIDE : SPREAD_SEGMENT};
+        int range[2] = {t - taps + 1 > 0 ? t - taps + 1 : 0,
+                        t + SPREAD_WIDE < SPREAD_SEGMENT ? t + SPREAD_WIDE : SPREAD_SEGMENT};
         spread_gather(&shares, kernel[0] + t, kernel[1] + t, range, sum + t);
     }
 }

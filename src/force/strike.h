@@ -8,30 +8,31 @@
 #include "scene/scene.h"
 
 struct strike_impact {
-    double start;            /* s after the contact's start       */
-    double speed;            /* m/s, of arrival                   */
-    double lasts;            /* s, contact time                   */
-    double momentum;         /* N s, handed over                  */
+    double start;    /* s after the contact's start       */
+    double speed;    /* m/s, of arrival                   */
+    double lasts;    /* s, contact time                   */
+    double momentum; /* N s, handed over                  */
 };
 
 enum strike_end { STRIKE_GOES_ON, STRIKE_COUNT, STRIKE_RESTS, STRIKE_TIME };
 
 struct strike_train {
     struct pulse_shape shape;
-    double mass, stiffness;  /* kg; N/m or N/m^1.5                */
-    double restitution;      /* 1: nothing is lost                */
-    double gravity;          /* m/s^2                             */
+    double mass, stiffness; /* kg; N/m or N/m^1.5                */
+    double restitution;     /* 1: nothing is lost                */
+    double gravity;         /* m/s^2                             */
     bool bounces;
-    double first, interval;  /* s; interval: of repeated impacts  */
-    double end;              /* s, of the motion                  */
-    long most, number;       /* 0: no limit; impacts so far       */
-    double time, speed;      /* of the next one                   */
-    double flight;           /* s, before it                      */
-    enum strike_end over;    /* why there is no further one       */
+    double first, interval; /* s; interval: of repeated impacts  */
+    double end;             /* s, of the motion                  */
+    long most, number;      /* 0: no limit; impacts so far       */
+    double time, speed;     /* of the next one                   */
+    double flight;          /* s, before it                      */
+    enum strike_end over;   /* why there is no further one       */
 };
 
-/* The impacts of a contact whose motion lasts `duration` (s). ERR_SCENE, with the contact's name: impacts that overlap, a train without gravity,
-   several impacts without an interval, no room for the first one, a stiffness that nothing gives. */
+/* The impacts of a contact whose motion lasts `duration` (s). ERR_SCENE, with the contact's name: impacts that overlap,
+   a train without gravity, several impacts without an interval, no room for the first one, a stiffness that nothing
+   gives. */
 bool strike_make(const struct contact *c, double duration, struct strike_train *s, struct err *e);
 
 /* The next impact; false (see s->over) after the last one. */

@@ -1,6 +1,6 @@
-/* Stretches. Between two force samples a curved path is the cubic Hermite curve through both places with both unit tangents, its parameter w
-   from 0 to the arc length h travelled: within h^4 kappa''.. / 384 of the path, below 1e-16 m at 10 um. Along a profile, and on a straight path,
-   places are exact straight lines in u. */
+/* Stretches. Between two force samples a curved path is the cubic Hermite curve through both places with both unit
+   tangents, its parameter w from 0 to the arc length h travelled: within h^4 kappa''.. / 384 of the path, below 1e-16 m
+   at 10 um. Along a profile, and on a straight path, places are exact straight lines in u. */
 #include "force/way.h"
 
 #include <math.h>
@@ -24,7 +24,9 @@ unsigned way_asks(const struct contact *c)
 double way_work(const struct contact *c, const struct scene *s)
 {
     const struct surface *u = &c->surface;
-    double finest = u->roughness.given ? reading_roughness(&u->roughness) : u->height_map && !isnan(u->pitch) ? u->pitch : READING_MAP_PITCH;
+    double finest = u->roughness.given                  ? reading_roughness(&u->roughness)
+                    : u->height_map && !isnan(u->pitch) ? u->pitch
+                                                        : READING_MAP_PITCH;
     bool halves = rules_along(c) == ALONG_PLANE;
     return (halves ? 2 : 1) * (s->accuracy.oversampling + rules_speed(&c->motion) / (s->output.sample_rate * finest));
 }
@@ -35,14 +37,18 @@ static bool way_grids(struct way *w, const char *contact, struct err *e)
 {
     for (const struct relief_part *p = w->relief->first; p; p = p->next)
         for (int axis = 0; axis < 2; axis++) {
-            struct way_grid g = {.axis = axis, .pitch = p->pitch[axis], .origin = p->origin[axis] + relief_shift(w->relief, axis)};
+            struct way_grid g = {
+                .axis = axis, .pitch = p->pitch[axis], .origin = p->origin[axis] + relief_shift(w->relief, axis)};
             bool known = g.pitch <= 0 || (axis == 1 && w->relief->along != ALONG_PLANE);
             for (int k = 0; k < w->n_grids; k++)
-                known = known || (w->grids[k].axis == axis && w->grids[k].pitch == g.pitch && w->grids[k].origin == g.origin);
-            if (known)
-                continue;
+                known = known ||
+                        (w->grids[k].axis == axis && w->grids[k].pitch == g.pitch && w->grids[k].origin == g.origin);
+            if (known) continue;
             if (w->n_grids == WAY_GRIDS)
-                return err_set(e, ERR_SCENE, "contact '%s': the surface is made of too many parts: leave out one of height_map, roughness, ridges, grit", contact);
+                return err_set(e, ERR_SCENE,
+                               "contact '%s': the surface is made of too many parts: leave out one of height_map, "
+                               "roughness, ridges, grit",
+                               contact);
             w->grids[w->n_grids++] = g;
         }
     return true;
@@ -51,8 +57,7 @@ static bool way_grids(struct way *w, const char *contact, struct err *e)
 static bool way_linear(const struct relief *r)
 {
     for (const struct relief_part *p = r->first; p; p = p->next)
-        if (!p->linear)
-            return false;
+        if (!p->linear) return false;
     return true;
 }
 
@@ -68,7 +73,8 @@ bool way_place(struct way *w, const struct stage_run *r, struct err *e)
     w->from[0] = w->field ? tr->from[0] : 0;
     w->from[1] = w->field ? tr->from[1] : 0;
     if (along == ALONG_X && fabs(w->e[0]) * tr->length < 1e-6 * relief_finest(w->relief) && tr->straight)
-        w->e[0] = 0; /* straight across the profile: what the decimals of the two ends leave in x is no motion along it */
+        w->e[0] =
+            0; /* straight across the profile: what the decimals of the two ends leave in x is no motion along it */
     return way_grids(w, r->contact->name, e);
 }
 
@@ -76,8 +82,7 @@ bool way_make(struct way *w, struct stage_run *r, enum way_kind kind, double lon
 {
     const struct limiter *limiter = &r->contact->contact.limiter;
     int along = r->board->relief->along;
-    if (!way_place(w, r, e))
-        return false;
+    if (!way_place(w, r, e)) return false;
     w->kind = kind;
     w->channels = (kind == WAY_ALONG && w->curved) || (kind == WAY_AXES && along == ALONG_PLANE) ? 2 : 1;
     w->limiter = limiter->curve == LIMITER_TANH;
@@ -130,7 +135,8 @@ static void values_slope(struct way_pieces *p, const double *zx, const double *z
         p->slope[k] = p->ex[k] * zx[k] + p->ey[k] * zy[k];
 }
 
-/* Pieces come in pairs (a, m), (m, b): of a parabola through the three, each half bulges by a quarter of what m lies above the chord. */
+/* Pieces come in pairs (a, m), (m, b): of a parabola through the three, each half bulges by a quarter of what m lies
+ * above the chord. */
 static void values_bulge(struct way_pieces *p, int channel)
 {
     const double *c = p->curvature[channel];
@@ -145,22 +151,23 @@ static void way_flush(struct way *w)
     struct way_pieces *p = &w->pieces;
     bool plane = w->relief->along == ALONG_PLANE, axes = w->kind == WAY_AXES;
     double zx[LIMITED_POINTS], zy[LIMITED_POINTS] = {0};
-    if (p->n == 0)
-        return;
+    if (p->n == 0) return;
     relief_at(w->relief, &(struct relief_points){(size_t)p->points, p->x, plane ? p->y : NULL},
-              &(struct relief_values){.x = axes ? zx : NULL, .y = axes && plane ? zy : NULL, .xx = w->along ? p->curvature[0] : w->xx,
-                                      .xy = plane ? w->xy : NULL, .yy = plane ? w->yy : NULL});
-    if (axes)
-        values_slope(p, zx, zy);
+              &(struct relief_values){.x = axes ? zx : NULL,
+                                      .y = axes && plane ? zy : NULL,
+                                      .xx = w->along ? p->curvature[0] : w->xx,
+                                      .xy = plane ? w->xy : NULL,
+                                      .yy = plane ? w->yy : NULL});
+    if (axes) values_slope(p, zx, zy);
     if (axes)
         values_axes(w);
     else if (!w->along)
         values_along(w);
     for (int k = 0; k < w->channels; k++) {
-        if (w->halves)
-            values_bulge(p, k);
-        limited_run(&(struct limited){p->n, p->points, p->at, p->alpha[k], p->curvature[k], w->halves ? p->bulge[k] : NULL, p->limited[k],
-                                      p->mean[k], p->moment[k]}, w->limiter);
+        if (w->halves) values_bulge(p, k);
+        limited_run(&(struct limited){p->n, p->points, p->at, p->alpha[k], p->curvature[k],
+                                      w->halves ? p->bulge[k] : NULL, p->limited[k], p->mean[k], p->moment[k]},
+                    w->limiter);
     }
     w->use(w->self, p);
     p->n = p->points = 0;
@@ -180,7 +187,9 @@ struct motions {
 
 static struct motions way_motions(const struct way *w, const struct board *b, long first)
 {
-    struct motions m = {.u = way_values(b, ITEM_POSITION, first), .du = way_values(b, ITEM_VELOCITY, first), .top = b->trajectory->top_speed};
+    struct motions m = {.u = way_values(b, ITEM_POSITION, first),
+                        .du = way_values(b, ITEM_VELOCITY, first),
+                        .top = b->trajectory->top_speed};
     if (w->curved) {
         m.x = way_values(b, ITEM_X, first);
         m.y = way_values(b, ITEM_Y, first);
@@ -194,8 +203,7 @@ static struct motions way_motions(const struct way *w, const struct board *b, lo
 static struct instant way_instant(const struct way *w, const struct motions *m, int k)
 {
     struct instant i = {.u = m->u[k]};
-    if (!w->curved)
-        return i;
+    if (!w->curved) return i;
     double vx = m->vx[k], vy = m->vy[k], v = sqrt(vx * vx + vy * vy), top_speed = m->top;
     i.x = m->x[k];
     i.y = m->y[k];
@@ -206,40 +214,38 @@ static struct instant way_instant(const struct way *w, const struct motions *m, 
     return i;
 }
 
-static bool at_rest(struct instant i)
-{
-    return i.ex == 0 && i.ey == 0;
-}
+static bool at_rest(struct instant i) { return i.ex == 0 && i.ey == 0; }
 
-/* From a to b on a smooth curve. Where the contact rests at one end the direction is that of the other: a chord of a few last places of the
-   coordinates points anywhere. */
+/* From a to b on a smooth curve. Where the contact rests at one end the direction is that of the other: a chord of a
+   few last places of the coordinates points anywhere. */
 static void way_stretch(struct way *w, struct instant a, struct instant b, double alpha, int interval)
 {
     struct way_stretch s = {.u = a.u, .end = b.u, .alpha = alpha, .interval = interval};
     double dx = b.x - a.x, dy = b.y - a.y, chord = w->curved ? sqrt(dx * dx + dy * dy) : 0;
-    if (a.u == b.u || (w->curved && chord == 0))
-        return;
+    if (a.u == b.u || (w->curved && chord == 0)) return;
     if (w->curved) {
         struct instant from = at_rest(a) ? b : a, to = at_rest(b) ? a : b;
-        if (at_rest(from))
-            from.ex = to.ex = dx / chord, from.ey = to.ey = dy / chord;
+        if (at_rest(from)) from.ex = to.ex = dx / chord, from.ey = to.ey = dy / chord;
         double h = fabs(b.u - a.u);
         if (chord < 0.9 * h) { /* the last places of x, y are coarser than those of u: straight on */
             b.x = a.x + h * from.ex, b.y = a.y + h * from.ey;
             to = from;
         }
-        s.path = (struct way_curve){.x = {a.x, b.x}, .y = {a.y, b.y}, .length = h, .ex = {from.ex, to.ex}, .ey = {from.ey, to.ey}};
+        s.path = (struct way_curve){
+            .x = {a.x, b.x}, .y = {a.y, b.y}, .length = h, .ex = {from.ex, to.ex}, .ey = {from.ey, to.ey}};
     }
     while (!way_cut(w, &s))
         way_flush(w);
 }
 
-/* Where the motion turns round on itself the stretch is two, each in its own side's direction. So it is where the turn is too slow or too small
-   for its instant to be found: then t is half way. */
-static void way_turn(struct way *w, const struct stage_run *r, struct instant a, struct instant b, double alpha, int interval, double t)
+/* Where the motion turns round on itself the stretch is two, each in its own side's direction. So it is where the turn
+   is too slow or too small for its instant to be found: then t is half way. */
+static void way_turn(struct way *w, const struct stage_run *r, struct instant a, struct instant b, double alpha,
+                     int interval, double t)
 {
     struct instant m = {0};
-    trajectory_at(r->board->trajectory, 1, &t, (struct trajectory_out){.u = &m.u, .x = w->curved ? &m.x : NULL, .y = w->curved ? &m.y : NULL});
+    trajectory_at(r->board->trajectory, 1, &t,
+                  (struct trajectory_out){.u = &m.u, .x = w->curved ? &m.x : NULL, .y = w->curved ? &m.y : NULL});
     way_stretch(w, a, m, alpha, interval);
     way_stretch(w, m, b, alpha, interval);
 }
@@ -250,13 +256,14 @@ static bool way_turns(const struct way *w, struct instant a, struct instant b, d
 }
 
 struct interval {
-    int i;         /* of the chunk          */
-    long number;   /* since the start       */
-    double alpha;  /* m                     */
+    int i;           /* of the chunk          */
+    long number;     /* since the start       */
+    double alpha;    /* m                     */
     const double *v; /* m/s, at both ends   */
 };
 
-static void way_interval(struct way *w, const struct stage_run *r, const struct interval *s, const struct instant ends[2])
+static void way_interval(struct way *w, const struct stage_run *r, const struct interval *s,
+                         const struct instant ends[2])
 {
     const struct board *b = r->board;
     if (!way_turns(w, ends[0], ends[1], s->v[0], s->v[1])) {
@@ -290,8 +297,7 @@ void way_run(struct way *w, const struct stage_run *r, long first, int n)
     s.u = m.u;
     s.flush = way_flush;
     way_alphas(r, first, n, s.alpha);
-    if (w->straight)
-        way_straight_look(w, &s, n);
+    if (w->straight) way_straight_look(w, &s, n);
     for (int i = 0; i < n; i++) {
         int end = i;
         while (w->straight && end < n && m.du[end] * m.du[end + 1] >= 0)

@@ -1,5 +1,6 @@
-/* Measured on a line over roughness at one sub-interval a sample: a third of what way_cut takes for each piece, and half the points where alpha is
-   constant; a whole render in draft over a map on a line fell from 794 to 621 cycles a sample. Operations are those of way_cut.c in the same order: so are the bits. */
+/* Measured on a line over roughness at one sub-interval a sample: a third of what way_cut takes for each piece, and
+   half the points where alpha is constant; a whole render in draft over a map on a line fell from 794 to 621 cycles a
+   sample. Operations are those of way_cut.c in the same order: so are the bits. */
 #include "force/way_straight.h"
 
 #include <math.h>
@@ -22,7 +23,8 @@ struct knots {
     int n;
 };
 
-/* One family's: first[i] m into the sub-interval or before is the nearest knot of all, not before second[i] the one after it. */
+/* One family's: first[i] m into the sub-interval or before is the nearest knot of all, not before second[i] the one
+ * after it. */
 LANES_CLONES
 static void knots_first(const struct knots *g, const double *u, double *first, double *second)
 {
@@ -66,7 +68,8 @@ void way_straight_look(const struct way *w, struct way_straight *s, int n)
     for (int k = 0; k < w->n_grids; k++) {
         const struct way_grid *g = &w->grids[k];
         if (w->e[g->axis] != 0)
-            knots_first(&(struct knots){w->from[g->axis], w->e[g->axis], g->origin, g->pitch, n}, s->u, s->first, s->second);
+            knots_first(&(struct knots){w->from[g->axis], w->e[g->axis], g->origin, g->pitch, n}, s->u, s->first,
+                        s->second);
     }
     pieces_count(w, s, n);
 }
@@ -84,9 +87,9 @@ static double piece_end(const struct way *w, const struct interval *v, double wh
     for (int k = 0; k < w->n_grids; k++) {
         const struct way_grid *g = &w->grids[k];
         double at = w->from[g->axis] + (v->u + v->heading * done) * w->e[g->axis];
-        double rate = v->heading * w->e[g->axis] / g->pitch, q = (at - g->origin) / g->pitch, slack = 1e-7 * (1 + fabs(q) * 1e-6);
-        if (fabs(rate) * (whole - done) < 1e-9)
-            continue;
+        double rate = v->heading * w->e[g->axis] / g->pitch, q = (at - g->origin) / g->pitch,
+               slack = 1e-7 * (1 + fabs(q) * 1e-6);
+        if (fabs(rate) * (whole - done) < 1e-9) continue;
         double knot = done + ((rate > 0 ? lanes_floor(q + slack) + 1 : lanes_ceil(q - slack) - 1) - q) / rate;
         next = knot < next ? knot : next;
     }
@@ -98,17 +101,16 @@ INLINE void put_point(struct way *w, int k, const struct interval *v, double don
 {
     double u = v->u + v->heading * done;
     w->pieces.x[k] = w->from[0] + u * w->e[0];
-    if (halves)
-        w->pieces.y[k] = w->from[1] + u * w->e[1];
+    if (halves) w->pieces.y[k] = w->from[1] + u * w->e[1];
     w->pieces.alpha[0][k] = v->alpha;
 }
 
-/* The point where pieces begin, `done` m into the sub-interval; the last one counts as it where it is the same. Makes room for four pieces. */
+/* The point where pieces begin, `done` m into the sub-interval; the last one counts as it where it is the same. Makes
+ * room for four pieces. */
 INLINE void put_start(struct way *w, const struct way_straight *s, const struct interval *v, double done, bool halves)
 {
     struct way_pieces *p = &w->pieces;
-    if (p->n + 4 > LIMITED_PIECES || p->points + 5 > LIMITED_POINTS)
-        s->flush(w);
+    if (p->n + 4 > LIMITED_PIECES || p->points + 5 > LIMITED_POINTS) s->flush(w);
     int k = p->points;
     put_point(w, k, v, done, halves);
     if (k == 0 || p->x[k - 1] != p->x[k] || (halves && p->y[k - 1] != p->y[k]) || p->alpha[0][k - 1] != v->alpha)
@@ -123,7 +125,8 @@ INLINE void put_piece(struct way_pieces *p, int k, const struct interval *v, dou
     p->length[p->n + k] = length;
 }
 
-/* What lies between `done` and `next` m, as piece k behind those that are counted, or its two halves as pieces 2 k and 2 k + 1. */
+/* What lies between `done` and `next` m, as piece k behind those that are counted, or its two halves as pieces 2 k and
+ * 2 k + 1. */
 INLINE void put_part(struct way *w, int k, const struct interval *v, double done, double next, bool halves)
 {
     struct way_pieces *p = &w->pieces;
@@ -160,8 +163,8 @@ static void cut_any(struct way *w, const struct way_straight *s, int i)
     }
 }
 
-/* Sub-intervals of one or two pieces: whether a knot lies inside is for a CPU to guess, and it guesses wrong, so that two are written every time and one or
-   two are counted. A third of what cut_any takes. */
+/* Sub-intervals of one or two pieces: whether a knot lies inside is for a CPU to guess, and it guesses wrong, so that
+   two are written every time and one or two are counted. A third of what cut_any takes. */
 INLINE void cut_few(struct way *w, const struct way_straight *s, int i, int end, bool halves)
 {
     for (; i < end; i++) {
@@ -183,7 +186,6 @@ void way_straight_cut(struct way *w, const struct way_straight *s, int i, int en
             cut_few(w, s, from, i, true);
         else
             cut_few(w, s, from, i, false);
-        if (i < end)
-            cut_any(w, s, i++);
+        if (i < end) cut_any(w, s, i++);
     }
 }

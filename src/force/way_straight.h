@@ -1,5 +1,5 @@
-/* The common case of a way (force/way.h): straight, one channel. The sub-intervals' first knots are looked for all at once, and where one
-   ends in the same place and at the same alpha as the next begins, their pieces share the point. */
+/* The common case of a way (force/way.h): straight, one channel. The sub-intervals' first knots are looked for all at
+   once, and where one ends in the same place and at the same alpha as the next begins, their pieces share the point. */
 #ifndef FORCE_WAY_STRAIGHT_H
 #define FORCE_WAY_STRAIGHT_H
 #include "force/way.h"

@@ -5,7 +5,8 @@
 
 enum { DECIMAL_ROOM = 24 };
 
-/* The characters that printf("%.9g") writes in the C locale, to the last digit; "nan" has no sign. Returns how many; no NUL follows them. */
+/* The characters that printf("%.9g") writes in the C locale, to the last digit; "nan" has no sign. Returns how many; no
+ * NUL follows them. */
 size_t decimal_9g(double x, char text[DECIMAL_ROOM]);
 
 #endif

@@ -1,8 +1,10 @@
-/* FFTW's real transforms through its guru interface for split arrays. One plan has work arrays of its own, because FFTW asks that
-   re and im lie as far apart when a plan runs as when it was made, and because its inverse destroys its input.
+/* FFTW's real transforms through its guru interface for split arrays. One plan has work arrays of its own, because FFTW
+   asks that re and im lie as far apart when a plan runs as when it was made, and because its inverse destroys its
+   input.
 
-   A program that makes thousands of transforms of a few sizes keeps their plans (fft_keep): making one takes 19 million instructions at 16 000 points, running it 2. A plan
-   may be run on other arrays than it was made for, by several threads at once.
+   A program that makes thousands of transforms of a few sizes keeps their plans (fft_keep): making one takes 19 million
+   instructions at 16 000 points, running it 2. A plan may be run on other arrays than it was made for, by several
+   threads at once.
 
    Without SIMD the codelets are the same on every CPU; its twiddle factors, which it takes from sincos, are made so by
    num/sincos.h. tests/unit/test_fft.c pins the bits. */
@@ -34,7 +36,7 @@ struct fft {
     double *time;     /* [n] */
 };
 
-static struct {     /* between planner_lock and planner_unlock only */
+static struct { /* between planner_lock and planner_unlock only */
     bool on;
     int n;
     struct plans *first;
@@ -42,12 +44,12 @@ static struct {     /* between planner_lock and planner_unlock only */
 
 static void *or_end(void *p, size_t n)
 {
-    if (!p)
-        memory_out("FFT of %zu points", n);
+    if (!p) memory_out("FFT of %zu points", n);
     return p;
 }
 
-/* Wisdom, which FFTW gathers even when it estimates, is forgotten first: a plan must not depend on those made before it. */
+/* Wisdom, which FFTW gathers even when it estimates, is forgotten first: a plan must not depend on those made before
+ * it. */
 static struct plans *plans_make(const struct fft *f)
 {
     fftw_iodim64 dim = {.n = (ptrdiff_t)f->n, .is = 1, .os = 1};
@@ -55,8 +57,10 @@ static struct plans *plans_make(const struct fft *f)
     struct plans *p = or_end(calloc(1, sizeof *p), f->n);
     p->n = f->n;
     fftw_forget_wisdom();
-    p->forward = or_end(fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, f->time, re, im, FLAGS | FFTW_PRESERVE_INPUT), f->n);
-    p->inverse = or_end(fftw_plan_guru64_split_dft_c2r(1, &dim, 0, NULL, re, im, f->time, FLAGS | FFTW_DESTROY_INPUT), f->n);
+    p->forward =
+        or_end(fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, f->time, re, im, FLAGS | FFTW_PRESERVE_INPUT), f->n);
+    p->inverse =
+        or_end(fftw_plan_guru64_split_dft_c2r(1, &dim, 0, NULL, re, im, f->time, FLAGS | FFTW_DESTROY_INPUT), f->n);
     p->kept = keeping.on && keeping.n < KEPT_MOST && f->n <= KEPT_POINTS;
     if (p->kept) {
         p->next = keeping.first;
@@ -88,8 +92,7 @@ void fft_keep(bool on)
         next = p->next;
         plans_drop(p);
     }
-    if (!on)
-        keeping.first = NULL, keeping.n = 0;
+    if (!on) keeping.first = NULL, keeping.n = 0;
     keeping.on = on;
     planner_unlock();
 }
@@ -109,8 +112,7 @@ struct fft *fft_open(size_t n)
 
 void fft_close(struct fft *f)
 {
-    if (!f)
-        return;
+    if (!f) return;
     if (!f->plans->kept) {
         planner_lock();
         plans_drop(f->plans);

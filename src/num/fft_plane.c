@@ -15,8 +15,7 @@ struct fft_plane {
 
 static void *or_end(void *p, size_t n)
 {
-    if (!p)
-        memory_out("FFT of %zu x %zu points", n, n);
+    if (!p) memory_out("FFT of %zu x %zu points", n, n);
     return p;
 }
 
@@ -28,19 +27,21 @@ struct fft_plane *fft_plane_open(size_t n)
     f->re = or_end(fftw_malloc(2 * n * half * sizeof(double)), n);
     f->im = f->re + n * half;
     f->x = or_end(fftw_malloc(n * n * sizeof(double)), n);
-    fftw_iodim64 dims[2] = {{.n = (ptrdiff_t)n, .is = (ptrdiff_t)half, .os = (ptrdiff_t)n}, {.n = (ptrdiff_t)n, .is = 1, .os = 1}};
+    fftw_iodim64 dims[2] = {{.n = (ptrdiff_t)n, .is = (ptrdiff_t)half, .os = (ptrdiff_t)n},
+                            {.n = (ptrdiff_t)n, .is = 1, .os = 1}};
     sincos_keep();
     planner_lock();
     fftw_forget_wisdom();
-    f->inverse = or_end(fftw_plan_guru64_split_dft_c2r(2, dims, 0, NULL, f->re, f->im, f->x, FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_DESTROY_INPUT), n);
+    f->inverse = or_end(fftw_plan_guru64_split_dft_c2r(2, dims, 0, NULL, f->re, f->im, f->x,
+                                                       FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_DESTROY_INPUT),
+                        n);
     planner_unlock();
     return f;
 }
 
 void fft_plane_close(struct fft_plane *f)
 {
-    if (!f)
-        return;
+    if (!f) return;
     planner_lock();
     fftw_destroy_plan(f->inverse);
     planner_unlock();
@@ -49,15 +50,9 @@ void fft_plane_close(struct fft_plane *f)
     fftw_free(f);
 }
 
-double *fft_plane_re(struct fft_plane *f)
-{
-    return f->re;
-}
+double *fft_plane_re(struct fft_plane *f) { return f->re; }
 
-double *fft_plane_im(struct fft_plane *f)
-{
-    return f->im;
-}
+double *fft_plane_im(struct fft_plane *f) { return f->im; }
 
 const double *fft_plane_inverse(struct fft_plane *f)
 {

@@ -1,17 +1,18 @@
-/* Kernels. A decimator is a Kaiser-windowed ideal low-pass g, made to undo the droop of the interval means by a short symmetric
-   polynomial filter. With T = 1/(over fs), times in T, f in 1/T:
+/* Kernels. A decimator is a Kaiser-windowed ideal low-pass g, made to undo the droop of the interval means by a short
+   symmetric polynomial filter. With T = 1/(over fs), times in T, f in 1/T:
 
        g(t) = sin(2 pi fc t)/(pi t) I0(beta sqrt(1 - (t/R)^2))/I0(beta),   t = j + 1/2 (hats: j),  fc = 0.5/over
        droop of a mean: sinc f = sin(phi)/phi, phi = pi f;  y = sin^2 phi is the response of the taps (-1, 2, -1)/4
        1/sinc f = asin(sqrt y)/sqrt y = sum over k of c[k] T_k(2 y/y_top - 1),  0 <= y <= y_top = sin^2(pi 0.4535/over)
        of a hat: sinc^2 f, and the square of the last line
 
-   Every step of T_k lengthens the kernel by one tap at either end. beta and R are Kaiser's (J. F. Kaiser, "Nonrecursive digital
-   filter design using the I0-sinh window function", ISCAS 1974) for ATTENUATION dB:
-   beta = 0.1102 (A - 8.7), 2 R = (A - 7.95)/(2.285 dw), dw = 2 pi (0.5465 - 0.4535)/over.
+   Every step of T_k lengthens the kernel by one tap at either end. beta and R are Kaiser's (J. F. Kaiser, "Nonrecursive
+   digital filter design using the I0-sinh window function", ISCAS 1974) for ATTENUATION dB: beta = 0.1102 (A - 8.7), 2
+   R = (A - 7.95)/(2.285 dw), dw = 2 pi (0.5465 - 0.4535)/over.
 
-   Why not the window on the inverse Fourier transform of the whole wanted response: a window smooths what it multiplies, and 1/sinc
-   is curved; for over = 1 that would be wrong by 3e-4. Here the window acts on a flat pass band, which smoothing leaves flat. */
+   Why not the window on the inverse Fourier transform of the whole wanted response: a window smooths what it
+   multiplies, and 1/sinc is curved; for over = 1 that would be wrong by 3e-4. Here the window acts on a flat pass band,
+   which smoothing leaves flat. */
 #include "num/filter.h"
 
 #include <math.h>
@@ -19,12 +20,14 @@
 
 #include "num/real.h"
 
-#define PASS 0.4535        /* in units of fs */
+#define PASS 0.4535 /* in units of fs */
 #define STOP 0.5465
-#define ATTENUATION 122.0  /* dB; 120 are promised */
-#define DROOP_LEFT 5e-7    /* largest relative error of the polynomial in the pass band */
+#define ATTENUATION 122.0 /* dB; 120 are promised */
+#define DROOP_LEFT 5e-7   /* largest relative error of the polynomial in the pass band */
 
-enum { NODES = 64 }; /* of the Chebyshev interpolation; over = 1, where c[k] falls slowest (as 1.34^-k), uses 31, of hats 35 */
+enum {
+    NODES = 64
+}; /* of the Chebyshev interpolation; over = 1, where c[k] falls slowest (as 1.34^-k), uses 31, of hats 35 */
 
 struct droop {
     double y_top, c[NODES];
@@ -59,7 +62,8 @@ static void low_pass(double *g, int reach, int over, bool odd)
     }
 }
 
-/* Interpolation of 1/sinc, or its square, at the zeros of T_NODES, cut where the sum of what is left out is DROOP_LEFT. */
+/* Interpolation of 1/sinc, or its square, at the zeros of T_NODES, cut where the sum of what is left out is DROOP_LEFT.
+ */
 static struct droop droop_make(int over, bool squared)
 {
     double edge = real_sinpi(PASS / over), left = 0;
@@ -118,15 +122,9 @@ static struct filter decimator(struct arena *a, int over, bool hats)
     return (struct filter){reach, taps, tap};
 }
 
-struct filter filter_decimator(struct arena *a, int over)
-{
-    return decimator(a, over, false);
-}
+struct filter filter_decimator(struct arena *a, int over) { return decimator(a, over, false); }
 
-struct filter filter_decimator_hats(struct arena *a, int over)
-{
-    return decimator(a, over, true);
-}
+struct filter filter_decimator_hats(struct arena *a, int over) { return decimator(a, over, true); }
 
 struct filter filter_gaussian(struct arena *a, double sigma)
 {

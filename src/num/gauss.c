@@ -1,4 +1,5 @@
-/* Gauss-Legendre nodes: zeros of P_n by Newton from cos(pi (i + 3/4)/(n + 1/2)), weights 2/((1 - x^2) P_n'(x)^2) (DLMF 3.5(v)). */
+/* Gauss-Legendre nodes: zeros of P_n by Newton from cos(pi (i + 3/4)/(n + 1/2)), weights 2/((1 - x^2) P_n'(x)^2)
+ * (DLMF 3.5(v)). */
 #include "num/gauss.h"
 
 #include "num/real.h"

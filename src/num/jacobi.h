@@ -1,12 +1,14 @@
-/* Orthonormal functions on [-1, 1] that vanish to a given order at each end: (1 - x)^a (1 + x)^b times Jacobi's polynomials P_k^(2a,2b). */
+/* Orthonormal functions on [-1, 1] that vanish to a given order at each end: (1 - x)^a (1 + x)^b times Jacobi's
+ * polynomials P_k^(2a,2b). */
 #ifndef NUM_JACOBI_H
 #define NUM_JACOBI_H
 
 enum { JACOBI_MOST = 256 };
 
 struct jacobi {
-    int a, b;                                      /* 0 to 2: orders of the zeros at x = 1 and x = -1 */
-    double first, center[JACOBI_MOST], step[JACOBI_MOST]; /* step[k+1] p_{k+1} = (x - center[k]) p_k - step[k] p_{k-1} */
+    int a, b; /* 0 to 2: orders of the zeros at x = 1 and x = -1 */
+    double first, center[JACOBI_MOST],
+        step[JACOBI_MOST]; /* step[k+1] p_{k+1} = (x - center[k]) p_k - step[k] p_{k-1} */
 };
 
 struct jacobi jacobi_make(int a, int b);

@@ -1,5 +1,5 @@
-/* The elementary functions that libsoxr finds, see num/libm.h. SLEEF's deterministic ones: at most 1.0 ulp. rasp's own objects call none of
-   them (tests/tidy/symbols.sh). */
+/* The elementary functions that libsoxr finds, see num/libm.h. SLEEF's deterministic ones: at most 1.0 ulp. rasp's own
+   objects call none of them (tests/tidy/symbols.sh). */
 #include "num/libm.h"
 
 #include "num/real.h"
@@ -12,6 +12,4 @@ double sin(double x) { return real_sin(x); }
 double cos(double x) { return real_cos(x); }
 double asin(double x) { return Sleef_cinz_asind1_u10purec(x); }
 
-void libm_keep(void)
-{
-}
+void libm_keep(void) {}

@@ -1,6 +1,7 @@
-/* Philox 4x32 with 10 rounds: J. Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011, from the authors' header
-   (Random123). Key words are the low and high half of the stream's key; counter words those of row, then of column; output words
-   pair up the same way, low half first. Normals: G. Box, M. Muller, Ann. Math. Stat. 29 (1958) 610,
+/* Philox 4x32 with 10 rounds: J. Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011, from the
+   authors' header (Random123). Key words are the low and high half of the stream's key; counter words those of row,
+   then of column; output words pair up the same way, low half first. Normals: G. Box, M. Muller, Ann. Math. Stat. 29
+   (1958) 610,
 
        y[2j] = sqrt(-2 log u) cos(2 pi v),  y[2j + 1] = sqrt(-2 log u) sin(2 pi v),
 
@@ -23,7 +24,8 @@ static uint64_t hash_of(const char *text)
     return h;
 }
 
-/* One step of splitmix64 (S. Vigna; the finaliser is D. Stafford's Mix13): one-to-one, every output bit depends on every input bit. */
+/* One step of splitmix64 (S. Vigna; the finaliser is D. Stafford's Mix13): one-to-one, every output bit depends on
+ * every input bit. */
 static uint64_t mix(uint64_t z)
 {
     z += 0x9e3779b97f4a7c15;
@@ -32,10 +34,7 @@ static uint64_t mix(uint64_t z)
     return z ^ z >> 31;
 }
 
-struct noise noise_make(uint64_t seed, const char *name)
-{
-    return (struct noise){mix(mix(seed) ^ hash_of(name))};
-}
+struct noise noise_make(uint64_t seed, const char *name) { return (struct noise){mix(mix(seed) ^ hash_of(name))}; }
 
 void noise_bits(struct noise s, uint64_t row, uint64_t column, uint64_t out[2])
 {
@@ -47,10 +46,7 @@ void noise_bits(struct noise s, uint64_t row, uint64_t column, uint64_t out[2])
 }
 
 /* An odd multiple of 2^-53: never 0 or 1, symmetric about 1/2, and exact. */
-static double uniform_of(uint64_t bits)
-{
-    return (double)(bits >> 11 | 1) * 0x1p-53;
-}
+static double uniform_of(uint64_t bits) { return (double)(bits >> 11 | 1) * 0x1p-53; }
 
 double noise_uniform(struct noise s, uint64_t row, uint64_t column)
 {
@@ -69,15 +65,17 @@ static void normal_draw(struct noise s, uint64_t row, uint64_t column, double *u
 }
 
 #ifdef __SSE2__
-/* y[0..3] from counters (row, column) and (row, column + 1): SLEEF's deterministic functions for two at a time, which give the bits of those for one, in half
-   the time. */
+/* y[0..3] from counters (row, column) and (row, column + 1): SLEEF's deterministic functions for two at a time, which
+   give the bits of those for one, in half the time. */
 static void normal_four(struct noise s, uint64_t row, uint64_t column, double *y)
 {
     double u[2], turns[2];
     normal_draw(s, row, column, &u[0], &turns[0]);
     normal_draw(s, row, column + 1, &u[1], &turns[1]);
-    __m128d angle = _mm_loadu_pd(turns), radius = _mm_sqrt_pd(_mm_mul_pd(_mm_set1_pd(-2), Sleef_cinz_logd2_u10sse2(_mm_loadu_pd(u))));
-    __m128d x = _mm_mul_pd(radius, Sleef_cinz_cospid2_u05sse2(angle)), z = _mm_mul_pd(radius, Sleef_cinz_sinpid2_u05sse2(angle));
+    __m128d angle = _mm_loadu_pd(turns),
+            radius = _mm_sqrt_pd(_mm_mul_pd(_mm_set1_pd(-2), Sleef_cinz_logd2_u10sse2(_mm_loadu_pd(u))));
+    __m128d x = _mm_mul_pd(radius, Sleef_cinz_cospid2_u05sse2(angle)),
+            z = _mm_mul_pd(radius, Sleef_cinz_sinpid2_u05sse2(angle));
     _mm_storeu_pd(y, _mm_unpacklo_pd(x, z));
     _mm_storeu_pd(y + 2, _mm_unpackhi_pd(x, z));
 }
@@ -95,7 +93,6 @@ void noise_normal(struct noise s, uint64_t row, size_t n, double *y)
         normal_draw(s, row, i / 2, &u, &turns);
         double radius = sqrt(-2 * real_log(u));
         y[i] = radius * real_cospi(turns);
-        if (i + 1 < n)
-            y[i + 1] = radius * real_sinpi(turns);
+        if (i + 1 < n) y[i + 1] = radius * real_sinpi(turns);
     }
 }

@@ -1,6 +1,7 @@
-/* The normal distribution function after W. J. Cody, Rational Chebyshev approximations for the error function, Math. Comp. 23 (1969) 631, and its
-   inverse after M. J. Wichura, Algorithm AS 241: The percentage points of the normal distribution, Applied Statistics 37 (1988) 477 (PPND16). Both are
-   ratios of polynomials on three ranges; the coefficients are the published ones.
+/* The normal distribution function after W. J. Cody, Rational Chebyshev approximations for the error function, Math.
+   Comp. 23 (1969) 631, and its inverse after M. J. Wichura, Algorithm AS 241: The percentage points of the normal
+   distribution, Applied Statistics 37 (1988) 477 (PPND16). Both are ratios of polynomials on three ranges; the
+   coefficients are the published ones.
 
      |x| <= 0.66291       P = 1/2 + x R(x^2)
      |x| <= sqrt(32)      P = exp(-x^2/2) R(|x|), of the lower tail
@@ -8,7 +9,8 @@
      |w - 1/2| <= 0.425   x = q R(0.425^2 - q^2),  q = w - 1/2
      else                 x = +-R(r - 1.6) for r = sqrt(-ln min(w, 1 - w)) <= 5, +-R(r - 5) beyond
 
-   exp(-x^2/2) is taken in two factors, of s = x rounded to 1/16 and the rest (x - s)(x + s), since the rounding of x^2 alone would cost up to x^2/2 ulp. */
+   exp(-x^2/2) is taken in two factors, of s = x rounded to 1/16 and the rest (x - s)(x + s), since the rounding of x^2
+   alone would cost up to x^2/2 ulp. */
 #include "num/normal.h"
 
 #include "num/real.h"
@@ -30,33 +32,35 @@ static double bell(double x)
     return real_exp(-0.5 * s * s) * real_exp(-0.5 * rest);
 }
 
-double normal_density(double x)
-{
-    return ROOT_TWO_PI_INVERSE * bell(x);
-}
+double normal_density(double x) { return ROOT_TWO_PI_INVERSE * bell(x); }
 
 static double cdf_middle(double x)
 {
-    static const double up[] = {18154.981253343561249, 1067.6894854603709582, 161.02823106855587881, 2.2352520354606839287, 0.065682337918207449113};
-    static const double down[] = {45507.789335026729956, 10260.932208618978205, 976.09855173777669322, 47.20258190468824187, 1};
+    static const double up[] = {18154.981253343561249, 1067.6894854603709582, 161.02823106855587881,
+                                2.2352520354606839287, 0.065682337918207449113};
+    static const double down[] = {45507.789335026729956, 10260.932208618978205, 976.09855173777669322,
+                                  47.20258190468824187, 1};
     return 0.5 + x * (polynomial(up, 5, x * x) / polynomial(down, 5, x * x));
 }
 
 /* P(Z > y) / exp(-y^2/2), y > 0 */
 static double tail_near(double y)
 {
-    static const double up[] = {9842.7148383839780218, 11602.651437647350124, 6848.1904505362823326, 2494.5375852903726711, 597.27027639480026226,
-                                93.506656132177855979, 8.8831497943883759412, 0.39894151208813466764, 1.0765576773720192317e-8};
-    static const double down[] = {19685.429676859990727, 38912.003286093271411, 34900.952721145977266, 18615.571640885098091, 6485.558298266760755,
-                                  1519.377599407554805, 235.38790178262499861, 22.266688044328115691, 1};
+    static const double up[] = {9842.7148383839780218, 11602.651437647350124,  6848.1904505362823326,
+                                2494.5375852903726711, 597.27027639480026226,  93.506656132177855979,
+                                8.8831497943883759412, 0.39894151208813466764, 1.0765576773720192317e-8};
+    static const double down[] = {19685.429676859990727, 38912.003286093271411, 34900.952721145977266,
+                                  18615.571640885098091, 6485.558298266760755,  1519.377599407554805,
+                                  235.38790178262499861, 22.266688044328115691, 1};
     return polynomial(up, 9, y) / polynomial(down, 9, y);
 }
 
 static double tail_far(double y)
 {
-    static const double up[] = {2.9112874951168792e-5, 0.001421619193227893466, 0.022235277870649807, 0.1274011611602473639, 0.21589853405795699,
-                                0.02307344176494017303};
-    static const double down[] = {7.29751555083966205e-5, 0.00378239633202758244, 0.0659881378689285515, 0.468238212480865118, 1.28426009614491121, 1};
+    static const double up[] = {2.9112874951168792e-5, 0.001421619193227893466, 0.022235277870649807,
+                                0.1274011611602473639, 0.21589853405795699,     0.02307344176494017303};
+    static const double down[] = {7.29751555083966205e-5, 0.00378239633202758244, 0.0659881378689285515,
+                                  0.468238212480865118,   1.28426009614491121,    1};
     double z = 1 / (y * y);
     return (ROOT_TWO_PI_INVERSE - z * (polynomial(up, 6, z) / polynomial(down, 6, z))) / y;
 }
@@ -65,16 +69,12 @@ static double tail_far(double y)
 static double cdf_of(double x, double height)
 {
     double y = fabs(x);
-    if (y <= 0.66291)
-        return cdf_middle(x);
+    if (y <= 0.66291) return cdf_middle(x);
     double tail = y < 40 ? height * (y <= 5.656854249492380195 ? tail_near(y) : tail_far(y)) : 0;
     return x < 0 ? tail : 1 - tail;
 }
 
-double normal_cdf(double x)
-{
-    return cdf_of(x, fabs(x) <= 0.66291 ? 1 : bell(x));
-}
+double normal_cdf(double x) { return cdf_of(x, fabs(x) <= 0.66291 ? 1 : bell(x)); }
 
 double normal_cdf_density(double x, double *density)
 {
@@ -86,31 +86,52 @@ double normal_cdf_density(double x, double *density)
 /* r = sqrt(-ln tail) > 1.2 */
 static double quantile_tail(double r)
 {
-    static const double near_up[] = {1.42343711074968357734, 4.63033784615654529590, 5.76949722146069140550, 3.64784832476320460504,
-                                     1.27045825245236838258, 0.241780725177450611770, 0.0227238449892691845833, 7.74545014278341407640e-4};
-    static const double near_down[] = {1, 2.05319162663775882187, 1.67638483018380384940, 0.689767334985100004550,
-                                       0.148103976427480074590, 0.0151986665636164571966, 5.47593808499534494600e-4, 1.05075007164441684324e-9};
-    static const double far_up[] = {6.65790464350110377720, 5.46378491116411436990, 1.78482653991729133580, 0.296560571828504891230,
-                                    0.0265321895265761230930, 0.00124266094738807843860, 2.71155556874348757815e-5, 2.01033439929228813265e-7};
-    static const double far_down[] = {1, 0.599832206555887937690, 0.136929880922735805310, 0.0148753612908506148525,
-                                      7.86869131145613259100e-4, 1.84631831751005468180e-5, 1.42151175831644588870e-7, 2.04426310338993978564e-15};
-    return r <= 5 ? polynomial(near_up, 8, r - 1.6) / polynomial(near_down, 8, r - 1.6) : polynomial(far_up, 8, r - 5) / polynomial(far_down, 8, r - 5);
+    static const double near_up[] = {1.42343711074968357734,   4.63033784615654529590,   5.76949722146069140550,
+                                     3.64784832476320460504,   1.27045825245236838258,   0.241780725177450611770,
+                                     0.0227238449892691845833, 7.74545014278341407640e-4};
+    static const double near_down[] = {1,
+                                       2.05319162663775882187,
+                                       1.67638483018380384940,
+                                       0.689767334985100004550,
+                                       0.148103976427480074590,
+                                       0.0151986665636164571966,
+                                       5.47593808499534494600e-4,
+                                       1.05075007164441684324e-9};
+    static const double far_up[] = {6.65790464350110377720,    5.46378491116411436990,   1.78482653991729133580,
+                                    0.296560571828504891230,   0.0265321895265761230930, 0.00124266094738807843860,
+                                    2.71155556874348757815e-5, 2.01033439929228813265e-7};
+    static const double far_down[] = {1,
+                                      0.599832206555887937690,
+                                      0.136929880922735805310,
+                                      0.0148753612908506148525,
+                                      7.86869131145613259100e-4,
+                                      1.84631831751005468180e-5,
+                                      1.42151175831644588870e-7,
+                                      2.04426310338993978564e-15};
+    return r <= 5 ? polynomial(near_up, 8, r - 1.6) / polynomial(near_down, 8, r - 1.6)
+                  : polynomial(far_up, 8, r - 5) / polynomial(far_down, 8, r - 5);
 }
 
 double normal_quantile(double w)
 {
-    static const double up[] = {3.38713287279636660800, 133.141667891784377450, 1971.59095030655144270, 13731.6937655094611250,
-                                45921.9539315498714570, 67265.7709270087008530, 33430.5755835881281050, 2509.08092873012267270};
-    static const double down[] = {1, 42.3133307016009112520, 687.187007492057908300, 5394.19602142475110770,
-                                  21213.7943015865958670, 39307.8958000927106100, 28729.0857357219426740, 5226.49527885285456100};
+    static const double up[] = {3.38713287279636660800, 133.141667891784377450, 1971.59095030655144270,
+                                13731.6937655094611250, 45921.9539315498714570, 67265.7709270087008530,
+                                33430.5755835881281050, 2509.08092873012267270};
+    static const double down[] = {1,
+                                  42.3133307016009112520,
+                                  687.187007492057908300,
+                                  5394.19602142475110770,
+                                  21213.7943015865958670,
+                                  39307.8958000927106100,
+                                  28729.0857357219426740,
+                                  5226.49527885285456100};
     double q = w - 0.5;
     if (fabs(q) <= 0.425) {
         double r = 0.180625 - q * q;
         return q * (polynomial(up, 8, r) / polynomial(down, 8, r));
     }
     double tail = q < 0 ? w : 1 - w;
-    if (tail <= 0)
-        return q < 0 ? -HUGE_VAL : HUGE_VAL;
+    if (tail <= 0) return q < 0 ? -HUGE_VAL : HUGE_VAL;
     double x = quantile_tail(sqrt(-real_log(tail)));
     return q < 0 ? -x : x;
 }

@@ -1,4 +1,5 @@
-/* FFTW's planner is one for the whole program: plans are made and given up by one thread at a time. Running a plan needs no lock. */
+/* FFTW's planner is one for the whole program: plans are made and given up by one thread at a time. Running a plan
+ * needs no lock. */
 #ifndef NUM_PLANNER_H
 #define NUM_PLANNER_H
 

@@ -1,6 +1,6 @@
 /* Scalar elementary functions that give the same bits on every x86-64 CPU and compiler: SLEEF's deterministic scalar
-   versions (no fused multiply-add, no table chosen by CPU; at most 1.0 ulp). libm's last bits depend on FMA, so nothing that
-   reaches a sample calls it (src/README.md, "same bytes"). Hot loops use num/vecmath.h. */
+   versions (no fused multiply-add, no table chosen by CPU; at most 1.0 ulp). libm's last bits depend on FMA, so nothing
+   that reaches a sample calls it (src/README.md, "same bytes"). Hot loops use num/vecmath.h. */
 #ifndef NUM_REAL_H
 #define NUM_REAL_H
 #include <math.h>

@@ -2,7 +2,8 @@
 
 #include "num/lanes.h"
 
-/* Compiled for the least CPU these took 6 to 8 instructions each a sample, of which every sound passes three or four: a quarter of what a finished tail costs. */
+/* Compiled for the least CPU these took 6 to 8 instructions each a sample, of which every sound passes three or four: a
+ * quarter of what a finished tail costs. */
 LANES_CLONES
 void scaled_copy(double *restrict y, double factor, const double *restrict x, long n)
 {
@@ -38,7 +39,6 @@ double scaled_squares(const double *x, long n)
 bool scaled_is_zero(const double *x, long n)
 {
     for (long i = 0; i < n; i++)
-        if (x[i] != 0.0)
-            return false;
+        if (x[i] != 0.0) return false;
     return true;
 }

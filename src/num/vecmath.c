@@ -1,6 +1,6 @@
-/* Elementary functions over arrays: every element goes through the same + - * /, comparisons that select between two finished
-   values, and 64-bit integer operations that SSE2 has too, so that gcc and clang vectorise the loops for any width and every
-   build gives the same bits.
+/* Elementary functions over arrays: every element goes through the same + - * /, comparisons that select between two
+   finished values, and 64-bit integer operations that SSE2 has too, so that gcc and clang vectorise the loops for any
+   width and every build gives the same bits.
 
        exp      x = k log 2 + r, |r| <= log(2)/2;  exp x = 2^k (1 + r + r^2 P(r))
        log      x = 2^k m, m in [sqrt(1/2), sqrt 2), f = m - 1, s = f/(2 + f), z = s^2
@@ -10,16 +10,17 @@
        tanh     e = exp(-2|x|) - 1 = 2^k q + (2^k - 1), q = r + r^2 P(r);  tanh |x| = -e/(2 + e)
        softplus log(1 + e), e = exp(-2|x|), by the series of log with f = e or f = (e - 1)/2
 
-   The reductions are Cody and Waite's (Software Manual for the Elementary Functions, 1980): log 2 = LN2_HI + LN2_LO, LN2_HI having so
-   few bits that k LN2_HI is exact. P, Q, S and C are minimax polynomials (Remez exchange in 60 digits, weighted to the relative
-   error of the function, coefficients then rounded to double); the error each leaves is noted. Constants are in hexadecimal, so
-   that no compiler's decimal conversion matters.
+   The reductions are Cody and Waite's (Software Manual for the Elementary Functions, 1980): log 2 = LN2_HI + LN2_LO,
+   LN2_HI having so few bits that k LN2_HI is exact. P, Q, S and C are minimax polynomials (Remez exchange in 60 digits,
+   weighted to the relative error of the function, coefficients then rounded to double); the error each leaves is noted.
+   Constants are in hexadecimal, so that no compiler's decimal conversion matters.
 
-   Rounding to the nearest k adds a large constant in whose units of the last place k (or n/2) counts; the low bits of the sum
-   are then k itself in two's complement. This needs the default rounding mode.
+   Rounding to the nearest k adds a large constant in whose units of the last place k (or n/2) counts; the low bits of
+   the sum are then k itself in two's complement. This needs the default rounding mode.
 
-   Arguments are brought into range before they are used, so that lanes whose result is not taken raise no floating-point
-   exception: log and pow of 0, NaN and arguments out of the domain aside, only underflow and inexact are raised. */
+   Arguments are brought into range before they are used, so that lanes whose result is not taken raise no
+   floating-point exception: log and pow of 0, NaN and arguments out of the domain aside, only underflow and inexact are
+   raised. */
 #include "num/vecmath.h"
 
 #include <float.h>
@@ -63,8 +64,9 @@ INLINE double of_bits(uint64_t u)
     return x;
 }
 
-/* test ? a : b by bit masks: of the conditional operator gcc keeps branches, and does not vectorise, where the CPU has no masked
-   stores. (For plain SSE2 gcc 12 leaves this scalar too; from SSE4.2 on, and with clang, it is vectorised.) */
+/* test ? a : b by bit masks: of the conditional operator gcc keeps branches, and does not vectorise, where the CPU has
+   no masked stores. (For plain SSE2 gcc 12 leaves this scalar too; from SSE4.2 on, and with clang, it is vectorised.)
+ */
 INLINE double select(int test, double a, double b)
 {
     uint64_t mask = -(uint64_t)test;
@@ -101,7 +103,8 @@ INLINE double exp_tail(double r)
     return r * r * p;
 }
 
-/* exp(x + x_lo), EXP_MIN <= x <= EXP_MAX, |x_lo| tiny beside 1; k is added to the exponent's bits, for 2^1024 is no double. */
+/* exp(x + x_lo), EXP_MIN <= x <= EXP_MAX, |x_lo| tiny beside 1; k is added to the exponent's bits, for 2^1024 is no
+ * double. */
 INLINE double exp_inside(double x, double x_lo)
 {
     struct reduced d = reduce(x, x_lo);
@@ -138,7 +141,8 @@ INLINE double log_tail(double f, double h)
     return s * (h + z * q);
 }
 
-/* k log 2 + log(1 + f), exact but for the last steps: |k log 2| is 0 or larger than |f - h|, so both sums are Dekker's. */
+/* k log 2 + log(1 + f), exact but for the last steps: |k log 2| is 0 or larger than |f - h|, so both sums are Dekker's.
+ */
 INLINE struct twosum log_sum(double k, double f)
 {
     double h = 0.5 * f * f, d = f - h, d_lo = (f - d) - h;
@@ -146,8 +150,8 @@ INLINE struct twosum log_sum(double k, double f)
     return (struct twosum){hi, ((a - hi) + d) + (d_lo + (log_tail(f, h) + k * LN2_LO))};
 }
 
-/* x = 2^k (1 + f) of a positive finite x; subnormal numbers are scaled by 2^54 first. The exponent is counted from the bits of
-   sqrt(1/2), and made a double by writing it into the last places of 2^52. */
+/* x = 2^k (1 + f) of a positive finite x; subnormal numbers are scaled by 2^54 first. The exponent is counted from the
+   bits of sqrt(1/2), and made a double by writing it into the last places of 2^52. */
 INLINE struct twosum log_inside(double x)
 {
     const uint64_t half_root = 0x3fe6a09e667f3bcd, one = 0x3ff0000000000000;
@@ -174,10 +178,7 @@ void vecmath_log(size_t n, const double *x, double *y)
 }
 
 /* The upper 26 bits: products of two such numbers are exact. */
-INLINE double upper(double x)
-{
-    return of_bits(bits_of(x) & 0xfffffffff8000000);
-}
+INLINE double upper(double x) { return of_bits(bits_of(x) & 0xfffffffff8000000); }
 
 /* p log x is carried to 2^-54 of itself: rounding it to a double would cost |p log x|/2 ulp of the result. */
 INLINE double pow_one(double x, double p)
@@ -271,7 +272,8 @@ void vecmath_tanh(size_t n, const double *x, double *y)
         y[i] = tanh_one(x[i]);
 }
 
-/* log(1 + e), 0 <= e <= 1. A tiny e is its own logarithm; its square would be subnormal, which takes some CPUs three times as long. */
+/* log(1 + e), 0 <= e <= 1. A tiny e is its own logarithm; its square would be subnormal, which takes some CPUs three
+ * times as long. */
 INLINE double softplus_of(double e)
 {
     int tiny = e < 0x1p-60;
@@ -303,7 +305,8 @@ void vecmath_tanh_softplus2(size_t n, const double *x, double *t, double *soft)
         double v = x[i], y = -2 * fabs(v);
         struct reduced d = reduce(select(y < EXP_MIN, EXP_MIN, y), 0);
         double q = d.r + (exp_tail(d.r) + d.r_lo), two_k = of_bits((d.k + 1023) << 52);
-        double less = two_k * select(y < -2 * TANH_MAX, 0, q) + (two_k - 1), e = select(y < EXP_MIN, 0, of_bits(bits_of(1 + q) + (d.k << 52)));
+        double less = two_k * select(y < -2 * TANH_MAX, 0, q) + (two_k - 1),
+               e = select(y < EXP_MIN, 0, of_bits(bits_of(1 + q) + (d.k << 52)));
         const uint64_t sign = 0x8000000000000000;
         t[i] = select(v == v, of_bits((bits_of(-less / (2 + less)) & ~sign) | (bits_of(v) & sign)), v);
         soft[i] = select(v == v, softplus_of(e), v);

@@ -6,9 +6,11 @@
 struct outfile;
 
 /* As picture_write, but without its name yet: o is to be committed, or dropped. Failed: nothing is open. */
-bool picture_draw(struct outfile *o, const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g), void *self, struct err *e);
+bool picture_draw(struct outfile *o, const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g),
+                  void *self, struct err *e);
 
 /* `draw` writes all commands, with a terminal that is svg or pngcairo. ERR_UNBUILT, ERR_CREATE, ERR_IO. */
-bool picture_write(const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g), void *self, struct err *e);
+bool picture_write(const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g), void *self,
+                   struct err *e);
 
 #endif

@@ -11,15 +11,16 @@
 struct sound;
 
 struct sound_report {
-    double peak, rms;     /* of the unscaled sound, in the response's quantity: the largest of all channels; of all together */
-    int channels;         /* listening places */
+    double peak,
+        rms;      /* of the unscaled sound, in the response's quantity: the largest of all channels; of all together */
+    int channels; /* listening places */
     double *channel_peak, *channel_rms; /* [channels] */
-    double end;           /* greatest magnitude under the ramp that ends it, before that ramp */
-    double before_ramps;  /* peak before both ramps */
-    double lufs;          /* of the file; NAN: not measured                    */
-    double gain;          /* file value per unit of the quantity               */
-    bool silent;          /* nothing was there to be written: the peak is 0 */
-    double ramp;          /* s: less than output.ramp when the sound is too short for it */
+    double end;                         /* greatest magnitude under the ramp that ends it, before that ramp */
+    double before_ramps;                /* peak before both ramps */
+    double lufs;                        /* of the file; NAN: not measured                    */
+    double gain;                        /* file value per unit of the quantity               */
+    bool silent;                        /* nothing was there to be written: the peak is 0 */
+    double ramp;                        /* s: less than output.ramp when the sound is too short for it */
 };
 
 /* The WAV's format of a scene's sound of so many frames; a stem may have the same. */
@@ -34,8 +35,8 @@ void sound_comment(const struct scene *s, double gain, char text[80]);
 /* Has a sound of so many frames the length that its level asks for? Anything has but for a loudness. ERR_SCENE */
 bool sound_long_enough(const struct scene *s, long frames, struct err *e);
 
-/* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. ERR_SCENE: channels that do not go together, or
-   sound_long_enough. */
+/* Opens the WAV at once. frames: how many sound_add will bring in all. ERR_CREATE, ERR_IO. ERR_SCENE: channels that do
+   not go together, or sound_long_enough. */
 struct sound *sound_open(const struct scene *s, const char *path, long frames, struct arena *a, struct err *e);
 
 /* The next n frames (quantity units), interleaved; they are ramped in place. */
@@ -51,8 +52,8 @@ const struct wav_written *sound_written(const struct sound *o);
 const char *sound_level_key(const struct scene *s);
 
 /* Gives the file its name, or leaves nothing. Either ends it. */
-bool sound_settle(struct sound *o, struct err *e); /* as outfile_settle */
-const char *sound_temporary(const struct sound *o);        /* as wav_temporary */
+bool sound_settle(struct sound *o, struct err *e);  /* as outfile_settle */
+const char *sound_temporary(const struct sound *o); /* as wav_temporary */
 bool sound_commit(struct sound *o, struct err *e);
 void sound_drop(struct sound *o);
 

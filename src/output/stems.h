@@ -22,9 +22,11 @@ struct stems;
 struct wav_written;
 
 /* Opens paths[stem] of those asked for, at once. frames: how many stems_add will bring in all. ERR_CREATE, ERR_IO. */
-struct stems *stems_open(const struct scene *s, const char *const paths[STEMS], long frames, struct arena *a, struct err *e);
+struct stems *stems_open(const struct scene *s, const char *const paths[STEMS], long frames, struct arena *a,
+                         struct err *e);
 
-/* The next n frames of a stem that is asked for, interleaved: newtons, or the sound's quantity. Ramped in place like the sound. */
+/* The next n frames of a stem that is asked for, interleaved: newtons, or the sound's quantity. Ramped in place like
+ * the sound. */
 bool stems_add(struct stems *o, enum stem stem, double *x, long n, struct err *e);
 
 /* gain: the sound's. ERR_SCENE: clipping. */

@@ -1,5 +1,5 @@
-/* One WAV on its way: ramps at both ends, an envelope, measures of each channel, and samples that wait in an unnamed file while the gain is not known. What the
-   sound (sound.h) and its stems (stems.h) share. */
+/* One WAV on its way: ramps at both ends, an envelope, measures of each channel, and samples that wait in an unnamed
+   file while the gain is not known. What the sound (sound.h) and its stems (stems.h) share. */
 #ifndef OUTPUT_TRACK_H
 #define OUTPUT_TRACK_H
 #include <stdbool.h>
@@ -12,30 +12,32 @@
 enum { TRACK_CHUNK = 4096 }; /* samples */
 
 struct track_format {
-    double rate;             /* Hz */
-    int bits;                /* as wav_format                                                   */
-    int places;              /* channels of what comes in                                       */
-    int channels;            /* of the file: as many, or copies of the only one                 */
-    long frames, ramp;       /* in all; of each ramp, at most half of all                       */
-    double recede;           /* of the envelope, see track.c; 0: none                           */
-    bool waits;              /* the gain comes with track_finish: until then samples are kept   */
-    const char *title;       /* NULL: none */
-    const char *key;         /* what to change when it clips: "output.level.peak"               */
+    double rate;       /* Hz */
+    int bits;          /* as wav_format                                                   */
+    int places;        /* channels of what comes in                                       */
+    int channels;      /* of the file: as many, or copies of the only one                 */
+    long frames, ramp; /* in all; of each ramp, at most half of all                       */
+    double recede;     /* of the envelope, see track.c; 0: none                           */
+    bool waits;        /* the gain comes with track_finish: until then samples are kept   */
+    const char *title; /* NULL: none */
+    const char *key;   /* what to change when it clips: "output.level.peak"               */
 };
 
 struct track {
     struct track_format format;
     struct wav_out *wav;
-    FILE *spool;             /* NULL: it does not wait */
-    long done;               /* frames */
+    FILE *spool; /* NULL: it does not wait */
+    long done;   /* frames */
     double gain;
-    double *peak, *squares;  /* [places] of what came in, ramped; track_squares */
-    double begin, end;       /* greatest magnitude under the first and the last ramp (of the first and last frame, where there is none), before these ramps */
-    double *wide;            /* a chunk, scaled */
+    double *peak, *squares; /* [places] of what came in, ramped; track_squares */
+    double begin, end; /* greatest magnitude under the first and the last ramp (of the first and last frame, where there
+                          is none), before these ramps */
+    double *wide;      /* a chunk, scaled */
 };
 
 /* Opens the file at once. gain: of what does not wait. On an error there is nothing to drop. */
-bool track_open(struct track *t, const char *path, const struct track_format *f, double gain, struct arena *a, struct err *e);
+bool track_open(struct track *t, const char *path, const struct track_format *f, double gain, struct arena *a,
+                struct err *e);
 
 /* Sets the WAV's comment; before the first frame is written. */
 bool track_note(struct track *t, const char *text, struct err *e);

@@ -1,7 +1,8 @@
-/* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever rings (modes, recordings, an object, scraper and surface)
-   and however it is heard needs no second formula here.
+/* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
+   rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
 
-     |H(f)|^2 = sum over channels |FFT of the sound|^2 / (sum of the force's samples)^2      means over 1/512 of the band */
+     |H(f)|^2 = sum over channels |FFT of the sound|^2 / (sum of the force's samples)^2      means over 1/512 of the
+   band */
 #include "pipeline/audible.h"
 
 #include <math.h>
@@ -14,21 +15,26 @@
 #include "pipeline/stages.h"
 #include "scene/rules.h"
 
-#define SHORT 1e-7 /* s, of the strike */
+#define SHORT 1e-7   /* s, of the strike */
 enum { FIRST = 64 }; /* frames before it: the decimator's reach and more */
 
 static void strike(struct contact *c, const double place[2], double rate)
 {
     double mass = 0.01;
-    if (c->surface.response.choice && c->surface.response.choice->moves)
-        c->surface.response.choice = NULL;
+    if (c->surface.response.choice && c->surface.response.choice->moves) c->surface.response.choice = NULL;
     c->start = 0;
     c->contact.model = CONTACT_STRIKE;
-    c->contact.strike = (struct strike){.pulse = PULSE_HALF_SINE, .speed = 1, .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT), .first = FIRST / rate, .count = 1,
-                                        .interval = NAN, .restitution = NAN};
+    c->contact.strike = (struct strike){.pulse = PULSE_HALF_SINE,
+                                        .speed = 1,
+                                        .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT),
+                                        .first = FIRST / rate,
+                                        .count = 1,
+                                        .interval = NAN,
+                                        .restitution = NAN};
     c->contact.gesture.given = false;
     c->scraper.mass = mass;
-    c->motion = (struct motion){.path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
+    c->motion = (struct motion){
+        .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
 }
 
 /* One channel's spectrum onto the bands. */
@@ -45,8 +51,7 @@ static bool record(struct run *r, double *sound, double *pushed, struct err *e)
 {
     int channels = r->board.channels;
     for (long from = 0; from < AUDIBLE_FRAMES; from += STAGE_BLOCK) {
-        if (!run_block(r, from + STAGE_BLOCK, e))
-            return false;
+        if (!run_block(r, from + STAGE_BLOCK, e)) return false;
         const double *x = board_at(&r->board, ITEM_SOUND, from), *f = board_at(&r->board, ITEM_FORCE, from);
         for (long i = 0; i < STAGE_BLOCK; i++) {
             *pushed += f[i];
@@ -60,10 +65,9 @@ static bool record(struct run *r, double *sound, double *pushed, struct err *e)
 static bool measure(struct run *r, struct arena *a, double *power, struct err *e)
 {
     int channels = r->board.channels;
-    double *sound = ARENA_TAKE(a, double, (size_t)channels * AUDIBLE_FRAMES), pushed = 0;
+    double *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), pushed = 0;
     double *work[2] = {ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1), ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1)};
-    if (!record(r, sound, &pushed, e))
-        return false;
+    if (!record(r, sound, &pushed, e)) return false;
     struct fft *f = fft_open(AUDIBLE_FRAMES);
     memset(power, 0, AUDIBLE_BINS * sizeof *power);
     for (int k = 0; k < channels; k++)
@@ -82,8 +86,7 @@ bool audible_power(const struct scene *s, const struct contact *c, const double 
     struct run r;
     for (int k = 0; k < AUDIBLE_BINS; k++)
         power[k] = 1;
-    if (s->output.quantity == QUANTITY_FORCE || !rules_rings(c) || c->gain == 0)
-        return true;
+    if (s->output.quantity == QUANTITY_FORCE || !rules_rings(c) || c->gain == 0) return true;
     strike(&struck, place, s->output.sample_rate);
     own.contacts = &struck;
     own.n_contacts = 1;

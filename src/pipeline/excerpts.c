@@ -1,11 +1,15 @@
 /* Energy of the sound of a stretch of force F, heard by the power |H|^2 (audible.h):
 
-     E = weight  sum over windows, bins of |FFT(w F)|^2 |H|^2 / N        w = sin^2(pi (n + 1/2) / N), N = EXCERPTS_WINDOW
+     E = weight  sum over windows, bins of |FFT(w F)|^2 |H|^2 / N        w = sin^2(pi (n + 1/2) / N), N =
+   EXCERPTS_WINDOW
 
-   A stretch of one window is one window; a longer one is cut into windows that overlap by half. The squares of w have a mean of 3/8: that is what weights undo.
+   A stretch of one window is one window; a longer one is cut into windows that overlap by half. The squares of w have a
+   mean of 3/8: that is what weights undo.
 
-   Instants are drawn as the square of the speed is spread over time (the sound is about as loud as that), one in each of n - 1 equal parts of it, not at
-   equal distances (a motion repeats itself); each stands for as much time as the spread says. So a rest at the beginning is not mistaken for the motion, and the ratio of two energies is that of the motion as a whole. */
+   Instants are drawn as the square of the speed is spread over time (the sound is about as loud as that), one in each
+   of n - 1 equal parts of it, not at equal distances (a motion repeats itself); each stands for as much time as the
+   spread says. So a rest at the beginning is not mistaken for the motion, and the ratio of two energies is that of the
+   motion as a whole. */
 #include "pipeline/excerpts.h"
 
 #include <math.h>
@@ -27,7 +31,9 @@ enum { GRID = 1024, SETTLED = 64 };
 /* Is the force read from the ground wherever the contact is, so that it can begin anywhere? */
 static bool anywhere(const struct contact *c)
 {
-    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL || c->contact.model == CONTACT_PLAYBACK) && c->motion.path != PATH_STILL;
+    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL ||
+            c->contact.model == CONTACT_PLAYBACK) &&
+           c->motion.path != PATH_STILL;
 }
 
 /* In the order of time; what overlaps another, which stands for it, is left out. */
@@ -35,8 +41,7 @@ static void stretch_add(struct excerpts *x, long from, long frames, double weigh
 {
     struct excerpts_stretch s = {.from = from, .frames = frames, .weight = weight};
     for (int i = 0; i < x->n; i++)
-        if (labs(x->stretch[i].from - from) < frames)
-            return;
+        if (labs(x->stretch[i].from - from) < frames) return;
     int at = x->n++;
     for (; at > 0 && x->stretch[at - 1].from > from; at--)
         x->stretch[at] = x->stretch[at - 1];
@@ -61,9 +66,14 @@ static int squares(const struct trajectory *tr, double *sum)
 
 static void stretch_at(struct excerpts *x, const double *sum, double step, int cell, int parts)
 {
-    double rate = x->scene.output.sample_rate, share = (sum[cell + 1] - sum[cell]) / sum[GRID], stands = step / (share * parts);
+    double rate = x->scene.output.sample_rate, share = (sum[cell + 1] - sum[cell]) / sum[GRID],
+           stands = step / (share * parts);
     long from = (long)rint((cell + 0.5) * step * rate) - EXCERPTS_WINDOW / 2, last = x->moving - EXCERPTS_WINDOW;
-    stretch_add(x, from < 0 ? 0 : from > last ? last : from, EXCERPTS_WINDOW, stands * rate / (EXCERPTS_WINDOW * TAPERED));
+    stretch_add(x,
+                from < 0      ? 0
+                : from > last ? last
+                              : from,
+                EXCERPTS_WINDOW, stands * rate / (EXCERPTS_WINDOW * TAPERED));
 }
 
 /* As many as the motion has windows, twelve times over, so that they cost little of it. */
@@ -95,8 +105,7 @@ static void choose(struct excerpts *x, const struct trajectory *tr, double first
         choose_spread(x, tr);
         return;
     }
-    if (some > x->moving || anywhere(&x->contact))
-        some = x->moving;
+    if (some > x->moving || anywhere(&x->contact)) some = x->moving;
     some = some < EXCERPTS_WINDOW ? EXCERPTS_WINDOW : some;
     stretch_add(x, 0, some, (double)x->moving / (double)some / (2 * TAPERED));
 }
@@ -123,10 +132,15 @@ static bool hear(const struct scene *s, const struct contact *c, bool moves, str
     return true;
 }
 
-bool excerpts_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a, struct excerpts *x, struct err *e)
+bool excerpts_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a,
+                   struct excerpts *x, struct err *e)
 {
     struct trajectory tr;
-    *x = (struct excerpts){.lead = SETTLED, .scene = *s, .contact = *c, .gain = c->gain, .power = ARENA_TAKE(a, double, EXCERPTS_PLACES * AUDIBLE_BINS)};
+    *x = (struct excerpts){.lead = SETTLED,
+                           .scene = *s,
+                           .contact = *c,
+                           .gain = c->gain,
+                           .power = ARENA_TAKE(a, double, EXCERPTS_PLACES *AUDIBLE_BINS)};
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         x->gain = x->contact.gain = 1;
     x->contact.contact.enhance.given = false; /* audible.h has it */
@@ -138,28 +152,24 @@ bool excerpts_make(const struct scene *s, const struct contact *c, double first,
     x->scene.output.channels = 1;
     x->scene.output.diagnostics.given = false;
     x->scene.output.impacts = LISTING_NONE;
-    if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e))
-        return err_at(e, "contact '%s'", c->name);
+    if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e)) return err_at(e, "contact '%s'", c->name);
     x->moving = trajectory_frames(&tr, s->output.sample_rate);
     choose(x, &tr, first);
     places(x, &tr);
     x->drift = c->contact.model == CONTACT_ROLL_COUPLED ? fmax(1, (double)x->moving / (double)x->frames) : 1;
-    if (!plan_make(stages_table, &x->contact, &x->scene, a, &x->plan, e) || !hear(s, c, moves, x, e))
-        return false;
+    if (!plan_make(stages_table, &x->contact, &x->scene, a, &x->plan, e) || !hear(s, c, moves, x, e)) return false;
     x->knobs = plan_knobs(&x->plan);
     return true;
 }
 
 /* ------------------------------------------------------------------ running */
 
-
 /* Frames [at, end) to `to`, which takes those from `from` on. */
 static bool run_through(struct run *r, long at, const long range[2], double *to, struct err *e)
 {
     for (long end; at < range[1]; at = end) {
         end = at + STAGE_BLOCK < range[1] ? at + STAGE_BLOCK : range[1];
-        if (!run_block(r, end, e))
-            return false;
+        if (!run_block(r, end, e)) return false;
         long first = at > range[0] ? at : range[0];
         if (first < end)
             memcpy(to + (first - range[0]), board_at(&r->board, ITEM_FORCE, first), (size_t)(end - first) * sizeof *to);
@@ -167,8 +177,9 @@ static bool run_through(struct run *r, long at, const long range[2], double *to,
     return true;
 }
 
-/* Each stretch begins as many frames before as the stages look back, unless what was run last ends there anyway. Where it begins the limited trajectory begins, too,
-   and that is felt for a while: so it is where the first, coarsest run has it for all, and SETTLED frames more than that needed. */
+/* Each stretch begins as many frames before as the stages look back, unless what was run last ends there anyway. Where
+   it begins the limited trajectory begins, too, and that is felt for a while: so it is where the first, coarsest run
+   has it for all, and SETTLED frames more than that needed. */
 static bool run_stretches(struct excerpts *x, struct run *r, double *force, struct err *e)
 {
     long at = 0;
@@ -177,10 +188,8 @@ static bool run_stretches(struct excerpts *x, struct run *r, double *force, stru
     x->settled = true;
     for (int i = 0; i < x->n; force += x->stretch[i++].frames) {
         const struct excerpts_stretch *s = &x->stretch[i];
-        if (s->from - x->lead > at)
-            run_skip(r, at = s->from - x->lead);
-        if (!run_through(r, at, (const long[2]){s->from, s->from + s->frames}, force, e))
-            return false;
+        if (s->from - x->lead > at) run_skip(r, at = s->from - x->lead);
+        if (!run_through(r, at, (const long[2]){s->from, s->from + s->frames}, force, e)) return false;
         at = s->from + s->frames;
     }
     return true;
@@ -191,8 +200,7 @@ bool excerpts_can(struct excerpts *x, const struct accuracy *set, struct err *e)
     struct run r;
     x->scene.accuracy = *set;
     bool ok = run_open(&r, &x->plan, &x->scene, NULL, e);
-    if (ok)
-        run_close(&r);
+    if (ok) run_close(&r);
     return ok;
 }
 
@@ -200,8 +208,7 @@ bool excerpts_run(struct excerpts *x, const struct accuracy *set, double *force,
 {
     struct run r;
     x->scene.accuracy = *set;
-    if (!run_open(&r, &x->plan, &x->scene, NULL, e))
-        return false;
+    if (!run_open(&r, &x->plan, &x->scene, NULL, e)) return false;
     bool ok = run_stretches(x, &r, force, e);
     x->bounces = r.board.roll.bounces > x->bounces ? r.board.roll.bounces : x->bounces;
     x->lift_offs = r.board.roll.lift_offs > x->lift_offs ? r.board.roll.lift_offs : x->lift_offs;
@@ -224,8 +231,7 @@ static double window_energy(struct hearing *h, const double *force, long frames,
         h->x[i] = from + i >= 0 && from + i < frames ? h->taper[i] * force[from + i] : 0;
         any = fmax(any, fabs(h->x[i]));
     }
-    if (any == 0)
-        return 0;
+    if (any == 0) return 0;
     fft_forward(h->fft, h->x, h->re, h->im);
     for (int k = 0; k < AUDIBLE_BINS; k++)
         sum += (k == 0 || k == AUDIBLE_BINS - 1 ? 1 : 2) * power[k] * (h->re[k] * h->re[k] + h->im[k] * h->im[k]);

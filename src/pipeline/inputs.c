@@ -15,8 +15,7 @@
 static const char *why_unreadable(const char *file)
 {
     struct stat s;
-    if (stat(file, &s) != 0 || access(file, R_OK) != 0)
-        return strerror(errno);
+    if (stat(file, &s) != 0 || access(file, R_OK) != 0) return strerror(errno);
     return S_ISREG(s.st_mode) ? NULL : "is not a file";
 }
 
@@ -34,18 +33,20 @@ struct missing {
     const char *contact, *key; /* of the first */
 };
 
-/* The place of the first is told with the whole (scene_places_tell), those of the others here. What names a file is given: it has a place. */
+/* The place of the first is told with the whole (scene_places_tell), those of the others here. What names a file is
+ * given: it has a place. */
 static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
     const char *index = may_be_folder(key, file) ? arena_format(m->arena, "%s/index.csv", file) : NULL;
     const char *why = file ? why_unreadable(index ? index : file) : NULL;
-    if (!why)
-        return;
+    if (!why) return;
     const struct scene_place *p = scene_places_find(m->scene, contact, key, file);
     if (index)
-        file = arena_format(m->arena, "a folder of responses has its places in index.csv (file_name,x_m,y_m): %s", index);
+        file =
+            arena_format(m->arena, "a folder of responses has its places in index.csv (file_name,x_m,y_m): %s", index);
     const char *between = m->key ? arena_format(m->arena, "; %s: ", scene_places_text(m->scene, p, m->arena)) : "";
-    m->text = arena_format(m->arena, "%s%s%s: %s: %s%s", m->text, between, p ? p->label : key, file, why, p ? p->named : "");
+    m->text =
+        arena_format(m->arena, "%s%s%s: %s: %s%s", m->text, between, p ? p->label : key, file, why, p ? p->named : "");
     m->contact = m->key ? m->contact : contact;
     m->key = m->key ? m->key : key;
 }
@@ -65,22 +66,20 @@ static bool are_there(const struct scene *s, struct arena *a, struct err *e)
 static bool is_pinned(const struct scene *s, const struct input *p, struct arena *a, struct err *e)
 {
     const char *hex = p->sha256 ? shelf_sha256(s->shelf, p->file, a, e) : NULL;
-    if (!hex)
-        return !p->sha256;
-    if (!strcmp(hex, p->sha256))
-        return true;
+    if (!hex) return !p->sha256;
+    if (!strcmp(hex, p->sha256)) return true;
     err_about(e, NULL, "inputs");
-    return err_set(e, ERR_SCENE, "inputs: %s has changed: its sha256 is %s, not %s; restore the file, or remove its entry to use it as it is", p->file,
-                   hex, p->sha256);
+    return err_set(
+        e, ERR_SCENE,
+        "inputs: %s has changed: its sha256 is %s, not %s; restore the file, or remove its entry to use it as it is",
+        p->file, hex, p->sha256);
 }
 
 bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
 {
-    if (!are_there(s, a, e))
-        return false;
+    if (!are_there(s, a, e)) return false;
     for (int i = 0; i < s->n_inputs; i++)
-        if (!is_pinned(s, &s->inputs[i], a, e))
-            return false;
+        if (!is_pinned(s, &s->inputs[i], a, e)) return false;
     return true;
 }
 
@@ -94,5 +93,6 @@ struct watch inputs_watch(const struct scene *s, struct arena *a)
 bool inputs_still(const struct watch *w, struct err *e)
 {
     const char *file = watch_changed(w);
-    return !file || err_set(e, ERR_INPUT, "%s: has changed while the sound was made of it: run the same command again", file);
+    return !file ||
+           err_set(e, ERR_INPUT, "%s: has changed while the sound was made of it: run the same command again", file);
 }

@@ -8,8 +8,8 @@
 #include "base/watch.h"
 #include "scene/scene.h"
 
-/* Every file that a key names or `inputs` pins can be read (ERR_INPUT: names all that cannot), and what is pinned is as it was
-   (ERR_SCENE). */
+/* Every file that a key names or `inputs` pins can be read (ERR_INPUT: names all that cannot), and what is pinned is as
+   it was (ERR_SCENE). */
 bool inputs_check(const struct scene *s, struct arena *a, struct err *e);
 
 /* All files that the scene's samples depend on, watched from now on. */

@@ -1,6 +1,6 @@
-/* See outputs.h. Two files are one if they have the same device and inode, so that links count; an output that is not there yet is none
-   of the inputs. Two outputs are one if they have the same path, with symbolic links followed: a commit replaces what they point to, while
-   a hard link to another output is merely given up. */
+/* See outputs.h. Two files are one if they have the same device and inode, so that links count; an output that is not
+   there yet is none of the inputs. Two outputs are one if they have the same path, with symbolic links followed: a
+   commit replaces what they point to, while a hard link to another output is merely given up. */
 #include "pipeline/outputs.h"
 
 #include <stdlib.h>
@@ -18,16 +18,18 @@
 
 const char *outputs_kind(const struct scene *s, enum output_kind kind)
 {
-    static const char *const kinds[OUTPUT_KINDS] = {"csv", "impacts", "scene", "summary", "wav", "stem", "stem", "stem", "stem"};
+    static const char *const kinds[OUTPUT_KINDS] = {"csv",  "impacts", "scene", "summary", "wav",
+                                                    "stem", "stem",    "stem",  "stem"};
     return kind == OUTPUT_TABLE && s->output.diagnostics.format == TABLE_NPY ? "npy" : kinds[kind];
 }
 
-char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c, struct arena *a)
+char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c,
+                   struct arena *a)
 {
     static const char *const endings[] = {".csv", ".impacts.csv", ".scene.yaml", ".json", ".wav"};
-    bool several = kind <= OUTPUT_LISTING && s->n_contacts > 1, npy = kind == OUTPUT_TABLE && s->output.diagnostics.format == TABLE_NPY;
-    if (kind >= OUTPUT_STEM)
-        return arena_format(a, "%s.%s.wav", base, stems_names[kind - OUTPUT_STEM]);
+    bool several = kind <= OUTPUT_LISTING && s->n_contacts > 1,
+         npy = kind == OUTPUT_TABLE && s->output.diagnostics.format == TABLE_NPY;
+    if (kind >= OUTPUT_STEM) return arena_format(a, "%s.%s.wav", base, stems_names[kind - OUTPUT_STEM]);
     return arena_format(a, "%s%s%s%s", base, several ? "." : "", several ? c->name : "", npy ? ".npy" : endings[kind]);
 }
 
@@ -51,18 +53,14 @@ struct outputs outputs_make(const struct scene *s, const char *base, struct aren
     for (int i = 0; i < s->n_contacts; i++) {
         unsigned targets = plan_targets(&s->contacts[i], s);
         asked |= targets;
-        if (targets & ITEM_BIT(ITEM_TABLE))
-            add(&o, OUTPUT_TABLE, &s->contacts[i], a);
-        if (targets & ITEM_BIT(ITEM_LISTING))
-            add(&o, OUTPUT_LISTING, &s->contacts[i], a);
+        if (targets & ITEM_BIT(ITEM_TABLE)) add(&o, OUTPUT_TABLE, &s->contacts[i], a);
+        if (targets & ITEM_BIT(ITEM_LISTING)) add(&o, OUTPUT_LISTING, &s->contacts[i], a);
     }
     add(&o, OUTPUT_EFFECTIVE, NULL, a);
     add(&o, OUTPUT_SUMMARY, NULL, a);
-    if (asked & ITEM_BIT(ITEM_SOUND))
-        add(&o, OUTPUT_SOUND, NULL, a);
+    if (asked & ITEM_BIT(ITEM_SOUND)) add(&o, OUTPUT_SOUND, NULL, a);
     for (int k = 0; k < STEMS; k++)
-        if (stems_asked(&s->output, (enum stem)k))
-            add(&o, OUTPUT_STEM + k, NULL, a);
+        if (stems_asked(&s->output, (enum stem)k)) add(&o, OUTPUT_STEM + k, NULL, a);
     return o;
 }
 
@@ -107,10 +105,12 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
     qsort(places, (size_t)all, sizeof *places, place_order);
     for (k = 1; k < all; k++)
         if (strcmp(places[k].real, places[k - 1].real) == 0)
-            return err_set(e, ERR_USAGE, "%s and %s would both write %s%s%s; rename one, or render them into different folders with -o",
-                           places[k - 1].scene->file, places[k].scene->file, places[k].path,
-                           strcmp(places[k].path, places[k - 1].path) != 0 ? ", which is " : "",
-                           strcmp(places[k].path, places[k - 1].path) != 0 ? places[k - 1].path : "");
+            return err_set(
+                e, ERR_USAGE,
+                "%s and %s would both write %s%s%s; rename one, or render them into different folders with -o",
+                places[k - 1].scene->file, places[k].scene->file, places[k].path,
+                strcmp(places[k].path, places[k - 1].path) != 0 ? ", which is " : "",
+                strcmp(places[k].path, places[k - 1].path) != 0 ? places[k - 1].path : "");
     return true;
 }
 
@@ -125,12 +125,10 @@ struct sources {
 static void note(struct sources *all, const struct scene *s, const char *file, const char *what)
 {
     struct stat status;
-    if (!file || stat(file, &status) != 0)
-        return;
+    if (!file || stat(file, &status) != 0) return;
     if (all->n == all->room) {
         struct outputs_source *more = ARENA_TAKE(all->arena, struct outputs_source, all->room = 2 * all->room + 16);
-        if (all->n)
-            memcpy(more, all->list, (size_t)all->n * sizeof *more);
+        if (all->n) memcpy(more, all->list, (size_t)all->n * sizeof *more);
         all->list = more;
     }
     all->list[all->n++] = (struct outputs_source){file, what, s, status.st_dev, status.st_ino};
@@ -179,8 +177,7 @@ static const struct outputs_source *source_find(const struct sources *all, const
     struct stat status;
     if (stat(path, &status) == 0)
         for (int i = 0; i < all->n; i++)
-            if (all->list[i].device == status.st_dev && all->list[i].inode == status.st_ino)
-                return &all->list[i];
+            if (all->list[i].device == status.st_dev && all->list[i].inode == status.st_ino) return &all->list[i];
     return NULL;
 }
 
@@ -189,8 +186,7 @@ static bool unchanged(const struct outputs *o, int k, struct arena *a)
 {
     char is[HASH_TEXT], becomes[HASH_TEXT];
     struct err unreadable = {0};
-    if (o->kinds[k] != OUTPUT_EFFECTIVE || !hash_file(o->paths[k], is, &unreadable))
-        return false;
+    if (o->kinds[k] != OUTPUT_EFFECTIVE || !hash_file(o->paths[k], is, &unreadable)) return false;
     const char *text = outputs_effective(o->scene, o->paths[k], a);
     hash_bytes(text, strlen(text), becomes);
     return strcmp(is, becomes) == 0;
@@ -199,11 +195,13 @@ static bool unchanged(const struct outputs *o, int k, struct arena *a)
 static bool spared(const struct outputs *o, int k, const struct sources *all, struct arena *a, struct err *e)
 {
     const struct outputs_source *hit = source_find(all, o->paths[k]);
-    if (!hit || unchanged(o, k, a))
-        return true;
+    if (!hit || unchanged(o, k, a)) return true;
     bool other = hit->scene != o->scene, differs = o->kinds[k] == OUTPUT_EFFECTIVE && hit->file == o->scene->sources[0];
-    return err_set(e, ERR_CREATE, "%s: the output %s would overwrite the input %s (%s%s%s%s); write elsewhere: -o FOLDER/ or -o OTHER.wav", o->scene->file,
-                   o->paths[k], hit->file, hit->what, differs ? ", which is not its own effective scene" : "", other ? ", scene " : "", other ? hit->scene->file : "");
+    return err_set(
+        e, ERR_CREATE,
+        "%s: the output %s would overwrite the input %s (%s%s%s%s); write elsewhere: -o FOLDER/ or -o OTHER.wav",
+        o->scene->file, o->paths[k], hit->file, hit->what, differs ? ", which is not its own effective scene" : "",
+        other ? ", scene " : "", other ? hit->scene->file : "");
 }
 
 bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *e)
@@ -211,8 +209,7 @@ bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *
     struct sources all = sources_of(o, n, a);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < o[i].n; k++)
-            if (!spared(&o[i], k, &all, a, e))
-                return false;
+            if (!spared(&o[i], k, &all, a, e)) return false;
     return true;
 }
 
@@ -235,8 +232,7 @@ bool outputs_replace(const struct outputs *o, int n, bool force, struct arena *a
 static bool writes(const struct outputs *o, const char *path)
 {
     for (int i = 0; i < o->n; i++)
-        if (strcmp(o->paths[i], path) == 0)
-            return true;
+        if (strcmp(o->paths[i], path) == 0) return true;
     return false;
 }
 

@@ -15,38 +15,49 @@
 
 static const char *const plan_names[ITEM_COUNT] = {
     [ITEM_MOTION] = "motion",
-    [ITEM_POSITION] = "position",           [ITEM_VELOCITY] = "velocity",
-    [ITEM_ACCELERATION] = "acceleration",   [ITEM_LOAD] = "load",
-    [ITEM_X] = "x",                         [ITEM_Y] = "y",
-    [ITEM_VX] = "vx",                       [ITEM_VY] = "vy",
-    [ITEM_AX] = "ax",                       [ITEM_AY] = "ay",
-    [ITEM_ALPHA] = "alpha",                 [ITEM_SURFACE] = "surface",
-    [ITEM_CURVATURE] = "curvature",         [ITEM_SLOPE] = "slope",
+    [ITEM_POSITION] = "position",
+    [ITEM_VELOCITY] = "velocity",
+    [ITEM_ACCELERATION] = "acceleration",
+    [ITEM_LOAD] = "load",
+    [ITEM_X] = "x",
+    [ITEM_Y] = "y",
+    [ITEM_VX] = "vx",
+    [ITEM_VY] = "vy",
+    [ITEM_AX] = "ax",
+    [ITEM_AY] = "ay",
+    [ITEM_ALPHA] = "alpha",
+    [ITEM_SURFACE] = "surface",
+    [ITEM_CURVATURE] = "curvature",
+    [ITEM_SLOPE] = "slope",
     [ITEM_CURVATURE_Y] = "curvature_y",
     [ITEM_ROLL] = "roll",
-    [ITEM_SUBFORCE] = "subforce",           [ITEM_FORCE] = "force",
-    [ITEM_SURFACE_SOUND] = "surface_sound", [ITEM_SCRAPER_SOUND] = "scraper_sound",
-    [ITEM_SOUND] = "sound",                 [ITEM_TABLE] = "table",
+    [ITEM_SUBFORCE] = "subforce",
+    [ITEM_FORCE] = "force",
+    [ITEM_SURFACE_SOUND] = "surface_sound",
+    [ITEM_SCRAPER_SOUND] = "scraper_sound",
+    [ITEM_SOUND] = "sound",
+    [ITEM_TABLE] = "table",
     [ITEM_LISTING] = "listing",
 };
 
-const char *plan_item(enum item item)
-{
-    return plan_names[item];
-}
+const char *plan_item(enum item item) { return plan_names[item]; }
 
 /* Stems of a contact that is heard. */
 static unsigned plan_stems(const struct contact *c, const struct output *o)
 {
     return (stems_asked(o, STEM_FORCE) ? ITEM_BIT(ITEM_FORCE) : 0) |
            (stems_asked(o, STEM_SURFACE) && rules_surface_rings(c) ? ITEM_BIT(ITEM_SURFACE_SOUND) : 0) |
-           (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && rules_tool_rings(c) ? ITEM_BIT(ITEM_SCRAPER_SOUND) : 0);
+           (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && rules_tool_rings(c)
+                ? ITEM_BIT(ITEM_SCRAPER_SOUND)
+                : 0);
 }
 
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
-    unsigned heard = c->gain != 0 ? (rules_heard(c, &s->output) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
-    return heard | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) | (rules_listed(c, &s->output) ? ITEM_BIT(ITEM_LISTING) : 0);
+    unsigned heard =
+        c->gain != 0 ? (rules_heard(c, &s->output) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
+    return heard | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) |
+           (rules_listed(c, &s->output) ? ITEM_BIT(ITEM_LISTING) : 0);
 }
 
 static bool plan_muted(const struct contact *c, const struct scene *s)
@@ -57,7 +68,8 @@ static bool plan_muted(const struct contact *c, const struct scene *s)
 static bool plan_nothing_asked(const struct contact *c, struct err *e)
 {
     return err_set(e, ERR_SCENE,
-                   "contact '%s': nothing is asked of it: give surface.response (or %s.response) for a sound, or output.diagnostics for "
+                   "contact '%s': nothing is asked of it: give surface.response (or %s.response) for a sound, or "
+                   "output.diagnostics for "
                    "a table of its physics",
                    c->name, ball_tool(c));
 }
@@ -66,42 +78,44 @@ static bool plan_nothing_asked(const struct contact *c, struct err *e)
 static const char *first_name(unsigned items)
 {
     for (int i = 0; i < ITEM_COUNT; i++)
-        if (items & ITEM_BIT(i))
-            return plan_names[i];
+        if (items & ITEM_BIT(i)) return plan_names[i];
     return "nothing";
 }
 
 struct liveness {
-    unsigned need, hard, done; /* read by something later; of these those without which it cannot run; given by a later stage */
+    unsigned need, hard,
+        done; /* read by something later; of these those without which it cannot run; given by a later stage */
     const char *by[ITEM_COUNT];
 };
 
 /* A stage that is needed becomes part of the plan. */
-static bool plan_keep(const struct stage *st, const struct contact *c, const struct scene *s, struct liveness *l, struct err *e)
+static bool plan_keep(const struct stage *st, const struct contact *c, const struct scene *s, struct liveness *l,
+                      struct err *e)
 {
     unsigned makes = st->gives & ~st->needs, needs = st->needs | (st->asks ? st->asks(c, s) : 0);
     if (makes & l->done)
-        return err_set(e, ERR_SCENE, "contact '%s': two stages give %s: '%s' and one after it", c->name, first_name(makes & l->done),
-                       st->name);
+        return err_set(e, ERR_SCENE, "contact '%s': two stages give %s: '%s' and one after it", c->name,
+                       first_name(makes & l->done), st->name);
     l->done |= makes;
     l->need &= ~makes;
     l->hard &= ~makes;
     l->need |= needs | st->takes;
     l->hard |= needs;
     for (int i = 0; i < ITEM_COUNT; i++)
-        if ((needs & ITEM_BIT(i)))
-            l->by[i] = st->name;
+        if ((needs & ITEM_BIT(i))) l->by[i] = st->name;
     return true;
 }
 
-static bool choose_body(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a, const struct ring_choice **choice, struct err *e)
+static bool choose_body(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a,
+                        const struct ring_choice **choice, struct err *e)
 {
     bool rings = body == RING_SURFACE ? rules_surface_rings(c) : rules_tool_rings(c);
     return !rings || *choice || ring_choice_make(c, s, body, a, choice, e);
 }
 
 /* The contact with its engines chosen, unless they are already (pipeline/promise.h). */
-static const struct contact *plan_choose(const struct contact *asked, const struct scene *s, struct arena *a, struct err *e)
+static const struct contact *plan_choose(const struct contact *asked, const struct scene *s, struct arena *a,
+                                         struct err *e)
 {
     struct contact *c = ARENA_TAKE(a, struct contact, 1);
     *c = *asked;
@@ -111,14 +125,14 @@ static const struct contact *plan_choose(const struct contact *asked, const stru
     return c;
 }
 
-bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a, struct plan *p,
-               struct err *e)
+bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a,
+               struct plan *p, struct err *e)
 {
     struct liveness l = {0};
     *p = (struct plan){.contact = c, .targets = plan_targets(c, s)};
-    if (!p->targets && !plan_muted(c, s))
-        return plan_nothing_asked(c, e);
-    if (p->targets & ITEM_BIT(ITEM_SOUND) && s->output.quantity != QUANTITY_FORCE && !(p->contact = c = plan_choose(c, s, a, e)))
+    if (!p->targets && !plan_muted(c, s)) return plan_nothing_asked(c, e);
+    if (p->targets & ITEM_BIT(ITEM_SOUND) && s->output.quantity != QUANTITY_FORCE &&
+        !(p->contact = c = plan_choose(c, s, a, e)))
         return false;
     while (table[p->n])
         p->n++;
@@ -127,23 +141,23 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
     for (int i = p->n - 1; i >= 0; i--) {
         const struct stage *st = table[i];
         p->rows[i] = (struct plan_row){.stage = st, .verdict = PLAN_UNWANTED};
-        if (!st->wanted(c, s))
-            continue;
-        /* a stage is needed when something reads what it gives, or, making an item a second time, would clash with who gave it */
+        if (!st->wanted(c, s)) continue;
+        /* a stage is needed when something reads what it gives, or, making an item a second time, would clash with who
+         * gave it */
         p->rows[i].verdict = st->gives & (l.need | (l.done & ~st->needs)) ? PLAN_RUNS : PLAN_UNNEEDED;
-        if (p->rows[i].verdict != PLAN_RUNS)
-            continue;
+        if (p->rows[i].verdict != PLAN_RUNS) continue;
         p->alive |= l.need & st->gives;
-        p->rows[i].work = (l.need & st->gives) == ITEM_BIT(ITEM_MOTION) ? 0 : st->work(c, s); /* a motion that no stage has laid out costs nothing */
+        p->rows[i].work = (l.need & st->gives) == ITEM_BIT(ITEM_MOTION)
+                              ? 0
+                              : st->work(c, s); /* a motion that no stage has laid out costs nothing */
         p->rows[i].knobs = st->knobs | (st->turns ? st->turns(c, s) : 0);
         p->rows[i].reads = st->needs | st->takes | (st->asks ? st->asks(c, s) : 0);
-        if (!plan_keep(st, c, s, &l, e))
-            return false;
+        if (!plan_keep(st, c, s, &l, e)) return false;
     }
     p->alive |= p->targets;
     if (l.hard)
-        return err_set(e, ERR_SCENE, "contact '%s': nothing in this scene gives its %s%s%s", c->name, first_name(l.hard),
-                       l.by[__builtin_ctz(l.hard)] ? ", which is needed by " : "",
+        return err_set(e, ERR_SCENE, "contact '%s': nothing in this scene gives its %s%s%s", c->name,
+                       first_name(l.hard), l.by[__builtin_ctz(l.hard)] ? ", which is needed by " : "",
                        l.by[__builtin_ctz(l.hard)] ? l.by[__builtin_ctz(l.hard)] : "");
     return true;
 }
@@ -152,7 +166,9 @@ bool plan_known(const struct plan *p, struct err *e)
 {
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_RUNS && !(p->rows[i].work >= 0 && isfinite(p->rows[i].work)))
-            return err_set(e, ERR_NUMBERS, "contact '%s': %g cycles per audio sample are predicted for '%s': this is a fault of rasp, not of the scene, which renders all the same",
+            return err_set(e, ERR_NUMBERS,
+                           "contact '%s': %g cycles per audio sample are predicted for '%s': this is a fault of rasp, "
+                           "not of the scene, which renders all the same",
                            p->contact->name, p->rows[i].work, p->rows[i].stage->name);
     return true;
 }
@@ -171,8 +187,7 @@ const char *plan_knobs_text(unsigned knobs, struct arena *a)
 {
     const char *text = "";
     for (int k = 0; k < KNOBS; k++)
-        if (knobs & 1u << k)
-            text = arena_format(a, "%s%s%s", text, *text ? ", " : "", keys_knobs[k].name);
+        if (knobs & 1u << k) text = arena_format(a, "%s%s%s", text, *text ? ", " : "", keys_knobs[k].name);
     return *text ? text : "none";
 }
 
@@ -189,7 +204,8 @@ static void row_print(const struct plan *p, const struct plan_row *r, double who
     char from[200], to[200];
     names_text(r->reads & p->alive, from, sizeof from);
     names_text(r->stage->gives & p->alive, to, sizeof to);
-    fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * r->work / whole : 0, from, from[0] ? " " : "", to);
+    fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * r->work / whole : 0, from,
+            from[0] ? " " : "", to);
     fprintf(out, "  %-20s          %s%s%s%s\n", "", r->stage->does, r->stage->paper[0] ? " [" : "", r->stage->paper,
             r->stage->paper[0] ? "]" : "");
 }
@@ -205,8 +221,7 @@ static void ablation_print(const struct plan *p, FILE *out)
 {
     struct arena *a = arena_open();
     const char *text = ablation_text(p->contact, a);
-    if (text)
-        fprintf(out, "  ablation: %s\n", text);
+    if (text) fprintf(out, "  ablation: %s\n", text);
     arena_close(a);
 }
 
@@ -219,8 +234,7 @@ void plan_print(const struct plan *p, FILE *out)
         whole += p->rows[i].work;
     fprintf(out, "contact '%s': %s\n", p->contact->name, p->targets ? targets : "nothing, its gain is 0");
     for (int i = 0; i < p->n; i++)
-        if (p->rows[i].verdict == PLAN_RUNS)
-            row_print(p, &p->rows[i], whole, out);
+        if (p->rows[i].verdict == PLAN_RUNS) row_print(p, &p->rows[i], whole, out);
     fprintf(out, "  about %.0f cycles per audio sample%s\n", whole, whole > REAL_TIME ? ": slower than real time" : "");
     struct arena *a = arena_open();
     fprintf(out, "  turned by accuracy: %s\n", plan_knobs_text(plan_knobs(p), a));

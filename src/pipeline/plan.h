@@ -12,29 +12,30 @@ enum plan_verdict { PLAN_RUNS, PLAN_UNWANTED, PLAN_UNNEEDED };
 struct plan_row {
     const struct stage *stage;
     enum plan_verdict verdict;
-    unsigned reads;           /* items, when it runs                                             */
-    unsigned knobs;           /* of scene/accuracy.def that it depends on, when it runs          */
-    double work;              /* predicted cycles per audio sample (one core with 256-bit vectors) */
+    unsigned reads; /* items, when it runs                                             */
+    unsigned knobs; /* of scene/accuracy.def that it depends on, when it runs          */
+    double work;    /* predicted cycles per audio sample (one core with 256-bit vectors) */
 };
 
 struct plan {
     const struct contact *contact;
-    unsigned targets, alive;  /* items asked for; items that something reads */
+    unsigned targets, alive; /* items asked for; items that something reads */
     int n;
-    struct plan_row *rows;    /* one per stage of the table, in its order    */
+    struct plan_row *rows; /* one per stage of the table, in its order    */
 };
 
-/* What a scene asks of a contact: its sound when it has a response and a gain, with the stems that are asked for; its force, when that stem is
-   asked for, also without a response; rows of diagnostics when they are asked for. A contact muted by gain 0 may have no targets, and then runs
-   nothing. */
+/* What a scene asks of a contact: its sound when it has a response and a gain, with the stems that are asked for; its
+   force, when that stem is asked for, also without a response; rows of diagnostics when they are asked for. A contact
+   muted by gain 0 may have no targets, and then runs nothing. */
 unsigned plan_targets(const struct contact *c, const struct scene *s);
 
-/* Walks the table (ends with NULL) backwards from the targets, a compiler's liveness analysis. ERR_SCENE: nothing gives an item that is
-   needed; two stages give it; nothing is asked for. */
-bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a, struct plan *p,
-               struct err *e);
+/* Walks the table (ends with NULL) backwards from the targets, a compiler's liveness analysis. ERR_SCENE: nothing gives
+   an item that is needed; two stages give it; nothing is asked for. */
+bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a,
+               struct plan *p, struct err *e);
 
-/* Is the predicted work of every stage that runs a number? It is read from keys, and a key that is not given is NAN. ERR_NUMBERS: a fault of the program. */
+/* Is the predicted work of every stage that runs a number? It is read from keys, and a key that is not given is NAN.
+ * ERR_NUMBERS: a fault of the program. */
 bool plan_known(const struct plan *p, struct err *e);
 
 /* The knobs of scene/accuracy.def that something which runs depends on, as a set: all others change no bit. */
@@ -43,7 +44,8 @@ unsigned plan_knobs(const struct plan *p);
 /* "oversampling, gain_ramp", in the table's order; "none". */
 const char *plan_knobs_text(unsigned knobs, struct arena *a);
 
-/* The plan as text: what runs, from what to what, at what share of the predicted cost; what does not run, and why not. */
+/* The plan as text: what runs, from what to what, at what share of the predicted cost; what does not run, and why not.
+ */
 void plan_print(const struct plan *p, FILE *out);
 
 /* "an item", for messages. */

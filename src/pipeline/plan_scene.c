@@ -1,4 +1,5 @@
-/* See plan_scene.h. The parts of a render are opened and closed again; what they write into their tables goes nowhere. */
+/* See plan_scene.h. The parts of a render are opened and closed again; what they write into their tables goes nowhere.
+ */
 #include "pipeline/plan_scene.h"
 
 #include "base/memory.h"
@@ -11,16 +12,15 @@
 static bool open_part(const struct scene *s, struct render_part *one, FILE *nowhere, struct err *e)
 {
     one->rows.stream = one->impacts.stream = nowhere;
-    if (!one->plan.targets)
-        return true;
+    if (!one->plan.targets) return true;
     one->open = run_open(&one->run, &one->plan, s, &(struct run_sinks){&one->rows, &one->impacts}, e);
     return one->open;
 }
 
 static const char **warnings_of(const struct render_parts *p, struct arena *a)
 {
-    enum { MOST = (int)(sizeof ((struct board *)0)->warnings / sizeof ((struct board *)0)->warnings[0]) };
-    const char **all = ARENA_TAKE(a, const char *, p->scene->n_contacts * MOST + 1);
+    enum { MOST = (int)(sizeof((struct board *)0)->warnings / sizeof((struct board *)0)->warnings[0]) };
+    const char **all = ARENA_TAKE(a, const char *, p->scene->n_contacts *MOST + 1);
     int n = 0;
     for (int i = 0; i < p->scene->n_contacts; i++) {
         const struct board *b = &p->parts[i].run.board;
@@ -41,8 +41,7 @@ static bool open_parts(struct render_parts *p, struct arena *a, struct plan_scen
     x->quantity = ok ? render_parts_quantity(p) : -1;
     x->warnings = warnings_of(p, a);
     render_parts_close(p);
-    if (nowhere)
-        fclose(nowhere);
+    if (nowhere) fclose(nowhere);
     return ok;
 }
 
@@ -51,7 +50,8 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, const char
     struct render_parts p = render_parts_make(s, "", a);
     struct plan *plans = ARENA_TAKE(a, struct plan, s->n_contacts);
     struct plan_scene_estimate x;
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, &x, e) || (p.asked & ITEM_BIT(ITEM_SOUND) && !sound_long_enough(s, x.length.frames, e)))
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, &x, e) ||
+        (p.asked & ITEM_BIT(ITEM_SOUND) && !sound_long_enough(s, x.length.frames, e)))
         return NULL;
     for (int i = 0; i < s->n_contacts; i++)
         plans[i] = p.parts[i].plan;
@@ -62,13 +62,14 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, const char
 bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e)
 {
     struct render_parts p = render_parts_make(s, "", a);
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, x, e))
-        return false;
+    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, x, e)) return false;
     x->cycles = 0;
     x->sounds = p.asked & ITEM_BIT(ITEM_SOUND);
     for (int i = 0; i < s->n_contacts; i++)
         for (int k = 0; k < p.parts[i].plan.n; k++)
-            x->cycles += p.parts[i].plan.rows[k].verdict == PLAN_RUNS ? p.parts[i].plan.rows[k].work * (double)x->length.frames : 0;
+            x->cycles += p.parts[i].plan.rows[k].verdict == PLAN_RUNS
+                             ? p.parts[i].plan.rows[k].work * (double)x->length.frames
+                             : 0;
     return true;
 }
 
@@ -84,8 +85,7 @@ static bool add_knobs(const struct scene *s, struct arena *a, unsigned *knobs, s
 bool plan_scene_knobs(const struct scene *s, struct arena *a, unsigned *knobs, struct err *e)
 {
     *knobs = 0;
-    if (!inputs_check(s, a, e) || !add_knobs(s, a, knobs, e))
-        return false;
+    if (!inputs_check(s, a, e) || !add_knobs(s, a, knobs, e)) return false;
     for (int i = 0; keys_presets[i]; i++) {
         struct scene other = *s;
         struct err refused = {0};

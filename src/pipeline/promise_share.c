@@ -1,4 +1,6 @@
-/* The budget is shared in tenths of its square between the knobs that are free; the shares whose values cost the least, by the plans' predicted work, are taken. Where tenths are too coarse to keep the error, every knob is as fine as helps. */
+/* The budget is shared in tenths of its square between the knobs that are free; the shares whose values cost the least,
+ * by the plans' predicted work, are taken. Where tenths are too coarse to keep the error, every knob is as fine as
+ * helps. */
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +11,9 @@
 
 enum { SOURCES = 4, TENTHS = 10 };
 
-struct sources {                 /* what is free to be chosen */
+struct sources { /* what is free to be chosen */
     int n, knob[SOURCES], tenths[SOURCES], best[SOURCES];
-    double cost, left;           /* left: of the budget's square, share that what is said does not use */
+    double cost, left; /* left: of the budget's square, share that what is said does not use */
 };
 
 /* The plans' predicted work. */
@@ -29,14 +31,14 @@ static double cost_of(const struct promise_making *m, const struct accuracy *set
 }
 
 /* Sets the knobs for shares of what is left; false: one has no such value. */
-static bool take(const struct promise_making *m, const struct sources *s, const int *tenths, struct accuracy *set, double *spent)
+static bool take(const struct promise_making *m, const struct sources *s, const int *tenths, struct accuracy *set,
+                 double *spent)
 {
     *spent = 0;
     for (int i = 0; i < s->n; i++) {
         double square = s->left * tenths[i] / TENTHS;
         double value = promise_curve_least(&m->curves[s->knob[i]], m->whole * sqrt(square));
-        if (isnan(value))
-            return false;
+        if (isnan(value)) return false;
         double error = promise_curve_error(&m->curves[s->knob[i]], value) / m->whole;
         *spent += error * error;
         accuracy_turn(set, (enum knob)s->knob[i], value);
@@ -48,8 +50,7 @@ static void try_shares(const struct promise_making *m, struct sources *s)
 {
     struct accuracy set = m->kept->accuracy;
     double spent;
-    if (!take(m, s, s->tenths, &set, &spent))
-        return;
+    if (!take(m, s, s->tenths, &set, &spent)) return;
     double cost = cost_of(m, &set);
     if (cost < s->cost) {
         s->cost = cost;
@@ -78,7 +79,8 @@ static double left_over(const struct promise_making *m)
     double left = 1;
     for (int k = 0; k < KNOBS; k++)
         if (promise_used(m, k) && promise_said(m, k)) {
-            double error = promise_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
+            double error =
+                promise_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
             left -= error * error;
         }
     return left;
@@ -102,15 +104,12 @@ bool promise_share(struct promise_making *m)
     struct sources s = {.cost = HUGE_VAL, .left = left_over(m)};
     double spent = 0;
     for (int k = 0; k < KNOBS; k++)
-        if (!promise_said(m, k) && promise_used(m, k) && s.n < SOURCES)
-            s.knob[s.n++] = k;
+        if (!promise_said(m, k) && promise_used(m, k) && s.n < SOURCES) s.knob[s.n++] = k;
     if (s.n == 0) /* nothing is free: the margin is no matter */
         return s.left >= 1 - real_exp10(PROMISE_MARGIN / 10);
-    if (s.left > 0)
-        share(m, &s, 0, TENTHS);
+    if (s.left > 0) share(m, &s, 0, TENTHS);
     struct accuracy set = m->kept->accuracy;
-    if (!(isfinite(s.cost) ? take(m, &s, s.best, &set, &spent) : take_best(m, &s, &set, &spent)))
-        return false;
+    if (!(isfinite(s.cost) ? take(m, &s, s.best, &set, &spent) : take_best(m, &s, &set, &spent))) return false;
     m->kept->accuracy = set;
     return true;
 }

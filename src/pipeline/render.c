@@ -15,16 +15,16 @@
 struct render {
     const struct scene *scene;
     const char *base;
-    bool set;                /* render_make: no summary is written */
-    bool waits;              /* for its gain: no effective scene is written */
+    bool set;   /* render_make: no summary is written */
+    bool waits; /* for its gain: no effective scene is written */
     struct watch inputs;
     struct arena *arena;
     struct render_parts parts;
     bool sounds;
     struct render_length length;
-    double *block;           /* STAGE_BLOCK frames of all channels */
-    struct sound *sound;     /* NULL: nothing rings */
-    struct stems *stems;     /* NULL: none are asked for */
+    double *block;       /* STAGE_BLOCK frames of all channels */
+    struct sound *sound; /* NULL: nothing rings */
+    struct stems *stems; /* NULL: none are asked for */
     char *wav_path, *scene_path, *summary_path;
     const char *stem_paths[STEMS];
     struct outfile effective, summary;
@@ -33,10 +33,10 @@ struct render {
 
 static bool render_open_sounds(struct render *r, struct err *e)
 {
-    r->block = ARENA_TAKE(r->arena, double, STAGE_BLOCK * listener_channels(&r->scene->output));
-    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->length.frames, r->arena, e)))
-        return false;
-    return !r->scene->output.stems || (r->stems = stems_open(r->scene, r->stem_paths, r->length.frames, r->arena, e)) != NULL;
+    r->block = ARENA_TAKE(r->arena, double, STAGE_BLOCK *listener_channels(&r->scene->output));
+    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->length.frames, r->arena, e))) return false;
+    return !r->scene->output.stems ||
+           (r->stems = stems_open(r->scene, r->stem_paths, r->length.frames, r->arena, e)) != NULL;
 }
 
 static void find_paths(struct render *r, const char *sounds)
@@ -50,8 +50,10 @@ static void find_paths(struct render *r, const char *sounds)
 
 static bool render_open(struct render *r, struct err *e)
 {
-    if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) || (!r->waits && !outfile_open(&r->effective, r->scene_path, e)) ||
-        (!r->set && !outfile_open(&r->summary, r->summary_path, e)) || !render_parts_open(&r->parts, e) || !render_parts_length(&r->parts, &r->length, e))
+    if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) ||
+        (!r->waits && !outfile_open(&r->effective, r->scene_path, e)) ||
+        (!r->set && !outfile_open(&r->summary, r->summary_path, e)) || !render_parts_open(&r->parts, e) ||
+        !render_parts_length(&r->parts, &r->length, e))
         return false;
     r->sounds = r->parts.asked & ITEM_BIT(ITEM_SOUND);
     return render_open_sounds(r, e);
@@ -61,14 +63,11 @@ static bool render_open(struct render *r, struct err *e)
 static bool render_put(struct render *r, long from, long to, struct err *e)
 {
     for (int k = 0; k < STEMS; k++) {
-        if (!stems_asked(&r->scene->output, (enum stem)k))
-            continue;
+        if (!stems_asked(&r->scene->output, (enum stem)k)) continue;
         render_parts_stem(&r->parts, (enum stem)k, from, to, r->block);
-        if (!stems_add(r->stems, (enum stem)k, r->block, to - from, e))
-            return false;
+        if (!stems_add(r->stems, (enum stem)k, r->block, to - from, e)) return false;
     }
-    if (!r->sound)
-        return true;
+    if (!r->sound) return true;
     render_parts_sum(&r->parts, from, to, r->block);
     return sound_add(r->sound, r->block, to - from, e);
 }
@@ -79,16 +78,18 @@ static bool render_blocks(struct render *r, struct err *e)
         long to = from + STAGE_BLOCK < r->length.frames ? from + STAGE_BLOCK : r->length.frames;
         if (interrupt_seen())
             return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
-        if (!render_parts_run(&r->parts, to, e) || !render_put(r, from, to, e))
-            return false;
+        if (!render_parts_run(&r->parts, to, e) || !render_put(r, from, to, e)) return false;
     }
     return true;
 }
 
-static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact, const char *sha256)
+static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact,
+                        const char *sha256)
 {
-    const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL, *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
-    r->report->files[r->report->n_files++] = (struct render_file){.kind = outputs_kind(r->scene, kind), .path = path, .contact = contact, .stem = stem, .sha256 = kept};
+    const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL,
+               *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
+    r->report->files[r->report->n_files++] = (struct render_file){
+        .kind = outputs_kind(r->scene, kind), .path = path, .contact = contact, .stem = stem, .sha256 = kept};
 }
 
 /* A file of a contact's own. */
@@ -96,10 +97,8 @@ static bool report_part(struct render *r, struct render_part *p, enum output_kin
 {
     struct outfile *file = kind == OUTPUT_TABLE ? &p->table : &p->listing;
     char hex[HASH_TEXT];
-    if (!file->stream)
-        return true;
-    if (!outfile_hash(file, hex, e))
-        return false;
+    if (!file->stream) return true;
+    if (!outfile_hash(file, hex, e)) return false;
     report_file(r, kind, kind == OUTPUT_TABLE ? p->table_path : p->listing_path, p->plan.contact->name, hex);
     return true;
 }
@@ -111,13 +110,10 @@ static bool render_list(struct render *r, const char *effective, struct err *e)
     r->report->files = ARENA_TAKE(r->arena, struct render_file, 2 * r->scene->n_contacts + OUTPUT_KINDS);
     for (int i = 0; i < r->scene->n_contacts; i++)
         for (int kind = OUTPUT_TABLE; kind <= OUTPUT_LISTING; kind++)
-            if (!report_part(r, &r->parts.parts[i], (enum output_kind)kind, e))
-                return false;
+            if (!report_part(r, &r->parts.parts[i], (enum output_kind)kind, e)) return false;
     hash_bytes(effective, strlen(effective), hex);
-    if (!r->waits)
-        report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
-    if (!r->set)
-        report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
+    if (!r->waits) report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
+    if (!r->set) report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
     if (r->sounds) {
         report_file(r, OUTPUT_SOUND, r->wav_path, NULL, NULL);
         r->report->files[r->report->n_files - 1].written = sound_written(r->sound);
@@ -134,7 +130,8 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
 {
     struct render_report *report = r->report;
     report->sound.gain = 1;
-    if ((r->sound && !sound_finish(r->sound, &report->sound, e)) || (r->stems && !stems_finish(r->stems, report->sound.gain, e)))
+    if ((r->sound && !sound_finish(r->sound, &report->sound, e)) ||
+        (r->stems && !stems_finish(r->stems, report->sound.gain, e)))
         return false;
     report->frames = r->length.frames;
     report->length = r->length;
@@ -145,28 +142,28 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     report->older = r->set ? ARENA_TAKE(r->arena, const char *, 1) : outputs_older(r->scene, r->base, r->arena);
     const struct run *const *runs = render_parts_runs(&r->parts);
     const char *effective = outputs_effective(r->scene, r->scene_path, r->arena);
-    if (!render_list(r, effective, e))
-        return false;
+    if (!render_list(r, effective, e)) return false;
     summary_notes(r->scene, runs, report, r->arena);
     summary_warnings(r->scene, runs, report, r->arena);
     report->summary = summary_text(r->scene, runs, report, !r->set, r->arena);
-    if (!r->waits)
-        fputs(effective, r->effective.stream);
-    if (!r->set)
-        fputs(report->summary, r->summary.stream);
+    if (!r->waits) fputs(effective, r->effective.stream);
+    if (!r->set) fputs(report->summary, r->summary.stream);
     return true;
 }
 
-/* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results or none. */
+/* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results or
+ * none. */
 static bool render_settle(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct render_part *p = &r->parts.parts[i];
-        if ((p->table.stream && !outfile_settle(&p->table, e)) || (p->listing.stream && !outfile_settle(&p->listing, e)))
+        if ((p->table.stream && !outfile_settle(&p->table, e)) ||
+            (p->listing.stream && !outfile_settle(&p->listing, e)))
             return false;
     }
-    return (!r->effective.stream || outfile_settle(&r->effective, e)) && (!r->summary.stream || outfile_settle(&r->summary, e)) &&
-           (!r->sound || sound_settle(r->sound, e)) && (!r->stems || stems_settle(r->stems, e));
+    return (!r->effective.stream || outfile_settle(&r->effective, e)) &&
+           (!r->summary.stream || outfile_settle(&r->summary, e)) && (!r->sound || sound_settle(r->sound, e)) &&
+           (!r->stems || stems_settle(r->stems, e));
 }
 
 /* Where the settled files lie, in the order of render_list. */
@@ -175,32 +172,22 @@ static void find_temporaries(struct render *r)
     struct render_file *f = r->report->files;
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct render_part *p = &r->parts.parts[i];
-        if (p->table.temporary[0])
-            f++->temporary = p->table.temporary;
-        if (p->listing.temporary[0])
-            f++->temporary = p->listing.temporary;
+        if (p->table.temporary[0]) f++->temporary = p->table.temporary;
+        if (p->listing.temporary[0]) f++->temporary = p->listing.temporary;
     }
-    if (!r->waits)
-        f++->temporary = r->effective.temporary;
-    if (!r->set)
-        f++->temporary = r->summary.temporary;
-    if (r->sound)
-        f++->temporary = sound_temporary(r->sound);
+    if (!r->waits) f++->temporary = r->effective.temporary;
+    if (!r->set) f++->temporary = r->summary.temporary;
+    if (r->sound) f++->temporary = sound_temporary(r->sound);
     for (int k = 0; k < STEMS; k++)
-        if (stems_asked(&r->scene->output, (enum stem)k))
-            f++->temporary = stems_temporary(r->stems, (enum stem)k);
+        if (stems_asked(&r->scene->output, (enum stem)k)) f++->temporary = stems_temporary(r->stems, (enum stem)k);
 }
 
-static bool commit_one(struct outfile *f, struct err *e)
-{
-    return !f->target[0] || outfile_commit(f, e);
-}
+static bool commit_one(struct outfile *f, struct err *e) { return !f->target[0] || outfile_commit(f, e); }
 
 static bool commit_all(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++)
-        if (!commit_one(&r->parts.parts[i].table, e) || !commit_one(&r->parts.parts[i].listing, e))
-            return false;
+        if (!commit_one(&r->parts.parts[i].table, e) || !commit_one(&r->parts.parts[i].listing, e)) return false;
     return commit_one(&r->effective, e) && commit_one(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&
            (!r->stems || stems_commit(r->stems, e));
 }
@@ -225,20 +212,27 @@ bool render_commit(struct render *r, struct err *e)
 }
 
 /* names NULL: as render_scene. */
-static struct render *make(const struct scene *s, const char *base, const struct render_names *names, struct arena *a, struct render_report *report, struct err *e)
+static struct render *make(const struct scene *s, const char *base, const struct render_names *names, struct arena *a,
+                           struct render_report *report, struct err *e)
 {
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
     struct scene *kept = ARENA_TAKE(a, struct scene, 1);
     struct render *r = ARENA_TAKE(a, struct render, 1);
-    *r = (struct render){.scene = kept, .base = base, .set = names, .waits = names && names->sounds, .inputs = inputs_watch(s, a), .arena = a, .report = report};
+    *r = (struct render){.scene = kept,
+                         .base = base,
+                         .set = names,
+                         .waits = names && names->sounds,
+                         .inputs = inputs_watch(s, a),
+                         .arena = a,
+                         .report = report};
     *report = (struct render_report){.quantity = -1};
-    if (!promise_keep(s, a, kept, &report->promise, e))
-        return NULL;
+    if (!promise_keep(s, a, kept, &report->promise, e)) return NULL;
     report->accuracy = kept->accuracy;
     r->parts = render_parts_make(kept, base, a);
     r->effective.fd = r->summary.fd = -1;
     find_paths(r, r->waits ? names->sounds : base);
-    if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_settle(r, e) && inputs_still(&r->inputs, e)) {
+    if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_settle(r, e) &&
+        inputs_still(&r->inputs, e)) {
         find_temporaries(r);
         return r;
     }
@@ -246,7 +240,8 @@ static struct render *make(const struct scene *s, const char *base, const struct
     return NULL;
 }
 
-struct render *render_make(const struct scene *s, const struct render_names *names, struct arena *a, struct render_report *report, struct err *e)
+struct render *render_make(const struct scene *s, const struct render_names *names, struct arena *a,
+                           struct render_report *report, struct err *e)
 {
     return make(s, names->base, names, a, report, e);
 }

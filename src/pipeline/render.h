@@ -9,49 +9,51 @@
 #include "pipeline/run.h"
 
 struct render_file {
-    const char *kind, *path; /* "wav", "csv", "npy", "impacts", "scene", "summary", "stem" */
-    const char *contact;     /* of a table or a series of impacts; NULL: of the whole */
-    const char *stem;        /* of a stem, which; else NULL      */
-    const char *sha256;      /* NULL: not known                  */
+    const char *kind, *path;           /* "wav", "csv", "npy", "impacts", "scene", "summary", "stem" */
+    const char *contact;               /* of a table or a series of impacts; NULL: of the whole */
+    const char *stem;                  /* of a stem, which; else NULL      */
+    const char *sha256;                /* NULL: not known                  */
     const struct wav_written *written; /* of a WAV; else NULL     */
-    const char *temporary;   /* where it lies until it is committed */
+    const char *temporary;             /* where it lies until it is committed */
 };
 
 struct render_report {
     long frames;
     struct render_length length;
-    double seconds, cpu;           /* wall clock and CPU time of the whole render */
+    double seconds, cpu; /* wall clock and CPU time of the whole render */
     struct sound_report sound;
-    bool sounds;                   /* there is a WAV */
-    int quantity;                  /* enum modes_quantity of the sound; -1: not stated */
+    bool sounds;  /* there is a WAV */
+    int quantity; /* enum modes_quantity of the sound; -1: not stated */
     struct render_file *files;
     int n_files;
-    const char **older;            /* files of an earlier render that stay; ends with NULL */
-    const char *summary;           /* the JSON text */
-    struct promise promise;        /* of the accuracy that was asked for */
-    struct accuracy accuracy;      /* the knobs that it was rendered with */
+    const char **older;       /* files of an earlier render that stay; ends with NULL */
+    const char *summary;      /* the JSON text */
+    struct promise promise;   /* of the accuracy that was asked for */
+    struct accuracy accuracy; /* the knobs that it was rendered with */
     const char **warnings;
     int n_warnings;
-    const char **notes;            /* what contacts did, one line each */
+    const char **notes; /* what contacts did, one line each */
     int n_notes;
 };
 
-/* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv (diagnostics; .npy), BASE.impacts.csv
-   or BASE.CONTACT.impacts.csv (series of impacts), BASE.scene.yaml (the effective scene) and BASE.json
-   (the summary). Nothing has a name before everything is complete. */
-bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report, struct err *e);
+/* Renders to BASE.wav (if anything sounds), BASE.force.wav and so on (stems), BASE.csv or BASE.CONTACT.csv
+   (diagnostics; .npy), BASE.impacts.csv or BASE.CONTACT.impacts.csv (series of impacts), BASE.scene.yaml (the effective
+   scene) and BASE.json (the summary). Nothing has a name before everything is complete. */
+bool render_scene(const struct scene *s, const char *base, struct arena *a, struct render_report *report,
+                  struct err *e);
 
 /* The same in two steps, for a set (batch/stimulus.c), which writes its own record in place of the summary. */
 struct render_names {
-    const char *base;        /* of all files, but for                                                             */
-    const char *sounds;      /* the WAVs and stems; there is no effective scene then, for it tells the gain; NULL: none */
+    const char *base;   /* of all files, but for                                                             */
+    const char *sounds; /* the WAVs and stems; there is no effective scene then, for it tells the gain; NULL: none */
 };
 
 struct render;
 
-/* Renders to files that are complete and have no name yet: report->files, of each where it lies. No summary is among them; report->summary tells no times, and nothing of
-   files that an earlier render left. NULL: *e. */
-struct render *render_make(const struct scene *s, const struct render_names *names, struct arena *a, struct render_report *report, struct err *e);
+/* Renders to files that are complete and have no name yet: report->files, of each where it lies. No summary is among
+   them; report->summary tells no times, and nothing of files that an earlier render left. NULL: *e. */
+struct render *render_make(const struct scene *s, const struct render_names *names, struct arena *a,
+                           struct render_report *report, struct err *e);
 
 /* Gives them their names, or leaves nothing. Either ends it. */
 bool render_commit(struct render *r, struct err *e);

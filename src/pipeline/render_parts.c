@@ -14,7 +14,8 @@
 
 struct render_parts render_parts_make(const struct scene *s, const char *base, struct arena *a)
 {
-    struct render_parts p = {.scene = s, .base = base, .arena = a, .parts = ARENA_TAKE(a, struct render_part, s->n_contacts)};
+    struct render_parts p = {
+        .scene = s, .base = base, .arena = a, .parts = ARENA_TAKE(a, struct render_part, s->n_contacts)};
     for (int i = 0; i < s->n_contacts; i++)
         p.parts[i].table.fd = p.parts[i].listing.fd = -1;
     return p;
@@ -26,13 +27,13 @@ bool render_parts_plan(struct render_parts *p, struct err *e)
 {
     for (int i = 0; i < p->scene->n_contacts; i++) {
         struct render_part *one = &p->parts[i];
-        if (!plan_make(stages_table, &p->scene->contacts[i], p->scene, p->arena, &one->plan, e))
-            return false;
+        if (!plan_make(stages_table, &p->scene->contacts[i], p->scene, p->arena, &one->plan, e)) return false;
         one->start = rules_first_frame(&p->scene->contacts[i], p->scene->output.sample_rate);
         p->asked |= one->plan.targets;
     }
     return p->asked || err_about(e, p->scene->contacts[0].name, "gain") ||
-           err_set(e, ERR_SCENE, "the gain of every contact is 0: nothing is left to render; give one of them another gain");
+           err_set(e, ERR_SCENE,
+                   "the gain of every contact is 0: nothing is left to render; give one of them another gain");
 }
 
 /* ------------------------------------------------------------------ runs */
@@ -41,8 +42,7 @@ bool render_parts_plan(struct render_parts *p, struct err *e)
 static const struct run *stated(const struct render_parts *p)
 {
     for (int i = 0; i < p->scene->n_contacts; i++)
-        if (p->parts[i].open && p->parts[i].run.board.quantity >= 0)
-            return &p->parts[i].run;
+        if (p->parts[i].open && p->parts[i].run.board.quantity >= 0) return &p->parts[i].run;
     return NULL;
 }
 
@@ -61,14 +61,19 @@ bool render_parts_agree(const struct render_parts *p, struct err *e)
         if (p->parts[i].open && run->board.quantity >= 0 && run->board.quantity != first->board.quantity)
             return err_about(e, run->plan.contact->name, "surface.response") ||
                    err_set(e, ERR_SCENE,
-                           "contact '%s' gives %s, but contact '%s' %s: they cannot be summed; use mode tables of one quantity, or choose one by "
-                           "output.quantity", run->plan.contact->name, modes_quantity_name(run->board.quantity), first->plan.contact->name,
+                           "contact '%s' gives %s, but contact '%s' %s: they cannot be summed; use mode tables of one "
+                           "quantity, or choose one by "
+                           "output.quantity",
+                           run->plan.contact->name, modes_quantity_name(run->board.quantity), first->plan.contact->name,
                            modes_quantity_name(first->board.quantity));
     }
     if (!isnan(p->scene->output.level.dbfs_at_1_pa) && render_parts_quantity(p) != MODES_PRESSURE)
         return err_set(e, ERR_SCENE,
-                       "output.level.dbfs_at_1_pa: the sound is not in pascals but %s: choose output.listen.radiator: monopole or plate, or give "
-                       "output.level.full_scale", first ? modes_quantity_name(first->board.quantity) : "in what its recorded responses are, which they do not say");
+                       "output.level.dbfs_at_1_pa: the sound is not in pascals but %s: choose output.listen.radiator: "
+                       "monopole or plate, or give "
+                       "output.level.full_scale",
+                       first ? modes_quantity_name(first->board.quantity)
+                             : "in what its recorded responses are, which they do not say");
     return true;
 }
 
@@ -88,12 +93,9 @@ bool render_parts_open(struct render_parts *p, struct err *e)
 {
     for (int i = 0; i < p->scene->n_contacts; i++) {
         struct render_part *one = &p->parts[i];
-        if (!part_files(p, one, e))
-            return false;
-        if (!one->plan.targets)
-            continue;
-        if (!run_open(&one->run, &one->plan, p->scene, &(struct run_sinks){&one->rows, &one->impacts}, e))
-            return false;
+        if (!part_files(p, one, e)) return false;
+        if (!one->plan.targets) continue;
+        if (!run_open(&one->run, &one->plan, p->scene, &(struct run_sinks){&one->rows, &one->impacts}, e)) return false;
         one->open = true;
     }
     return render_parts_agree(p, e);
@@ -104,8 +106,7 @@ static bool part_frames(const struct render_parts *p, const struct render_part *
 {
     struct trajectory tr;
     *frames = one->open ? one->run.board.moving : 0;
-    if (one->open)
-        return true;
+    if (one->open) return true;
     if (!trajectory_make(&one->plan.contact->motion, trajectory_seed(p->scene, one->plan.contact), p->arena, &tr, e))
         return err_at(e, "contact '%s'", one->plan.contact->name);
     *frames = trajectory_frames(&tr, p->scene->output.sample_rate);
@@ -118,14 +119,13 @@ bool render_parts_length(const struct render_parts *p, struct render_length *len
     long end = 0, moving;
     for (int i = 0; i < p->scene->n_contacts; i++) {
         struct render_part *one = &p->parts[i];
-        if (!part_frames(p, one, &moving, e))
-            return false;
+        if (!part_frames(p, one, &moving, e)) return false;
         end = one->start + moving > end ? one->start + moving : end;
-        if (one->open)
-            ring = fmax(ring, one->run.board.ring);
+        if (one->open) ring = fmax(ring, one->run.board.ring);
     }
     length->motion = end;
-    length->natural = end + (p->asked & ITEM_BIT(ITEM_SOUND) ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
+    length->natural =
+        end + (p->asked & ITEM_BIT(ITEM_SOUND) ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
     length->frames = !isnan(p->scene->output.duration) ? (long)rint(p->scene->output.duration * rate) : length->natural;
     return true;
 }
@@ -134,8 +134,7 @@ bool render_parts_run(struct render_parts *p, long to, struct err *e)
 {
     for (int i = 0; i < p->scene->n_contacts; i++) {
         struct render_part *one = &p->parts[i];
-        if (one->open && to > one->start && !run_block(&one->run, to - one->start, e))
-            return false;
+        if (one->open && to > one->start && !run_block(&one->run, to - one->start, e)) return false;
     }
     return true;
 }
@@ -144,8 +143,7 @@ static void part_sum(const struct render_part *p, enum item item, const long ran
 {
     long begin = range[0] > p->start ? range[0] - p->start : 0, end = range[1] - p->start;
     bool body = item == ITEM_SURFACE_SOUND || item == ITEM_SCRAPER_SOUND;
-    if (end <= begin || !p->open || !(p->plan.targets & ITEM_BIT(item)))
-        return;
+    if (end <= begin || !p->open || !(p->plan.targets & ITEM_BIT(item))) return;
     const double *x = board_at(&p->run.board, item, begin);
     double gain = body ? p->plan.contact->gain : 1;
     int width = p->run.board.signals[item].per_frame;
@@ -171,8 +169,7 @@ void render_parts_stem(const struct render_parts *p, enum stem stem, long from, 
     static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND, ITEM_SCRAPER_SOUND};
     memset(sum, 0, (size_t)((to - from) * stems_channels(&p->scene->output, stem)) * sizeof *sum);
     for (int i = 0; i < p->scene->n_contacts; i++)
-        if (part_of(&p->scene->contacts[i], stem))
-            part_sum(&p->parts[i], items[stem], (const long[2]){from, to}, sum);
+        if (part_of(&p->scene->contacts[i], stem)) part_sum(&p->parts[i], items[stem], (const long[2]){from, to}, sum);
 }
 
 const struct run *const *render_parts_runs(const struct render_parts *p)
@@ -188,7 +185,6 @@ void render_parts_close(struct render_parts *p)
     for (int i = 0; i < p->scene->n_contacts; i++) {
         outfile_drop(&p->parts[i].table);
         outfile_drop(&p->parts[i].listing);
-        if (p->parts[i].open)
-            run_close(&p->parts[i].run);
+        if (p->parts[i].open) run_close(&p->parts[i].run);
     }
 }

@@ -7,10 +7,10 @@
 #include "output/stems.h"
 #include "pipeline/run.h"
 
-struct render_part {         /* one contact at work */
+struct render_part { /* one contact at work */
     struct plan plan;
     struct run run;
-    long start;              /* frame of the scene at which it begins */
+    long start; /* frame of the scene at which it begins */
     bool open;
     struct outfile table, listing;
     struct table_sink rows;
@@ -32,19 +32,21 @@ struct render_parts render_parts_make(const struct scene *s, const char *base, s
 /* Makes all plans. ERR_SCENE: of the plans; nothing is left to render. */
 bool render_parts_plan(struct render_parts *p, struct err *e);
 
-/* Opens the tables, so that the stages can write their headers, then the stages; all that is summed is of one quantity. */
+/* Opens the tables, so that the stages can write their headers, then the stages; all that is summed is of one quantity.
+ */
 bool render_parts_open(struct render_parts *p, struct err *e);
 
-/* Once all are open (render_parts_open asks too): can the contacts' sounds be summed, and does the level fit what they are? ERR_SCENE */
+/* Once all are open (render_parts_open asks too): can the contacts' sounds be summed, and does the level fit what they
+ * are? ERR_SCENE */
 bool render_parts_agree(const struct render_parts *p, struct err *e);
 
 /* Quantity of the sound (enum modes_quantity); -1: not stated. */
 int render_parts_quantity(const struct render_parts *p);
 
-struct render_length {       /* frames of the whole                                            */
-    long motion;             /* until the last motion's end, also of a muted contact             */
-    long natural;            /* with the tail of what rings                                      */
-    long frames;             /* as output.duration wants it; without it the natural length       */
+struct render_length { /* frames of the whole                                            */
+    long motion;       /* until the last motion's end, also of a muted contact             */
+    long natural;      /* with the tail of what rings                                      */
+    long frames;       /* as output.duration wants it; without it the natural length       */
 };
 
 /* Once all are open. ERR_SCENE and what making a motion gives. */

@@ -1,9 +1,11 @@
-/* The runner. Stage k reads up to ahead_k frames beyond those it makes, so whatever makes its inputs must lead it by that much:
+/* The runner. Stage k reads up to ahead_k frames beyond those it makes, so whatever makes its inputs must lead it by
+   that much:
 
      offset(stage) = max over later stages c that read what it gives of offset(c) + ahead(c)
 
-   and each call of run_block(to) runs every stage, in the order of the plan, up to frame to + offset. A signal holds the frames from
-   offset(giver) back to the slowest reader's first. Every item that is given is checked to be finite. */
+   and each call of run_block(to) runs every stage, in the order of the plan, up to frame to + offset. A signal holds
+   the frames from offset(giver) back to the slowest reader's first. Every item that is given is checked to be finite.
+ */
 #include "pipeline/run.h"
 
 #include <limits.h>
@@ -32,10 +34,8 @@ static void run_offsets(struct run *r)
 
 static int item_per_frame(const struct board *b, enum item item)
 {
-    if (item == ITEM_MOTION || item == ITEM_SURFACE || item == ITEM_TABLE || item == ITEM_LISTING)
-        return 0;
-    if (item == ITEM_ROLL)
-        return ROLL_VALUES;
+    if (item == ITEM_MOTION || item == ITEM_SURFACE || item == ITEM_TABLE || item == ITEM_LISTING) return 0;
+    if (item == ITEM_ROLL) return ROLL_VALUES;
     return item < ITEM_FORCE ? b->over : item == ITEM_FORCE ? 1 : b->channels;
 }
 
@@ -44,42 +44,42 @@ static long run_behind(const struct run *r, enum item item)
 {
     long behind = 0;
     for (int i = 0; i < r->n; i++)
-        if (run_reads(&r->stages[i]) & ITEM_BIT(item) && r->stages[i].back > behind)
-            behind = r->stages[i].back;
+        if (run_reads(&r->stages[i]) & ITEM_BIT(item) && r->stages[i].back > behind) behind = r->stages[i].back;
     return behind;
 }
 
-/* Frames that a signal must hold: from the first that a reader looks back to (all of them begin at frame 0) to the end of its giver's
-   block. */
+/* Frames that a signal must hold: from the first that a reader looks back to (all of them begin at frame 0) to the end
+   of its giver's block. */
 static void run_signal(struct run *r, enum item item)
 {
     struct signal *s = &r->board.signals[item];
     long lead = 0, behind = run_behind(r, item);
     int per_frame = item_per_frame(&r->board, item);
-    if (!(r->plan.alive & ITEM_BIT(item)) || !per_frame)
-        return;
+    if (!(r->plan.alive & ITEM_BIT(item)) || !per_frame) return;
     for (int i = 0; i < r->n; i++)
-        if (r->stages[i].stage->gives & ITEM_BIT(item) && r->stages[i].offset > lead)
-            lead = r->stages[i].offset;
+        if (r->stages[i].stage->gives & ITEM_BIT(item) && r->stages[i].offset > lead) lead = r->stages[i].offset;
     s->per_frame = per_frame;
     s->first = -behind;
     s->capacity = behind + 2 * STAGE_BLOCK + lead + 1;
-    s->x = ARENA_TAKE(r->arena, double, s->capacity * per_frame + 8);
+    s->x = ARENA_TAKE(r->arena, double, s->capacity *per_frame + 8);
 }
 
 static bool run_open_stages(struct run *r, struct err *e)
 {
     for (int i = 0; i < r->plan.n; i++) {
         const struct stage *st = r->plan.rows[i].stage;
-        if (r->plan.rows[i].verdict != PLAN_RUNS)
-            continue;
+        if (r->plan.rows[i].verdict != PLAN_RUNS) continue;
         struct stage_run *one = &r->stages[r->n];
-        *one = (struct stage_run){.stage = st, .scene = r->scene, .contact = r->plan.contact, .board = &r->board, .arena = r->arena, .ends = LONG_MAX};
+        *one = (struct stage_run){.stage = st,
+                                  .scene = r->scene,
+                                  .contact = r->plan.contact,
+                                  .board = &r->board,
+                                  .arena = r->arena,
+                                  .ends = LONG_MAX};
         size_t before = arena_bytes(r->arena);
         double start = stopwatch_cpu();
         r->n++;
-        if (!st->open(one, e))
-            return false;
+        if (!st->open(one, e)) return false;
         one->seconds += stopwatch_cpu() - start; /* open may have put to it what was done for the stage before */
         one->bytes = arena_bytes(r->arena) - before;
     }
@@ -91,8 +91,13 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
     static const struct run_sinks none = {NULL, NULL};
     const struct run_sinks *to = sinks ? sinks : &none;
     *r = (struct run){.scene = s, .plan = *p, .arena = arena_open()};
-    r->board = (struct board){.rate = s->output.sample_rate, .over = (int)s->accuracy.oversampling,
-                              .channels = listener_channels(&s->output), .alive = p->alive, .quantity = -1, .table = to->table, .listing = to->listing};
+    r->board = (struct board){.rate = s->output.sample_rate,
+                              .over = (int)s->accuracy.oversampling,
+                              .channels = listener_channels(&s->output),
+                              .alive = p->alive,
+                              .quantity = -1,
+                              .table = to->table,
+                              .listing = to->listing};
     r->stages = ARENA_TAKE(r->arena, struct stage_run, p->n);
     if (!run_open_stages(r, e)) {
         run_close(r);
@@ -105,12 +110,12 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
     return true;
 }
 
-/* Makes room for frames up to `end` by dropping the oldest. What no stage has worked on for as long as the signal is holds zeros already. */
+/* Makes room for frames up to `end` by dropping the oldest. What no stage has worked on for as long as the signal is
+ * holds zeros already. */
 static void signal_slide(struct signal *s, long end)
 {
     long drop = end - (s->first + s->capacity);
-    if (!s->per_frame || drop <= 0)
-        return;
+    if (!s->per_frame || drop <= 0) return;
     if (s->worked <= s->first) {
         s->first += drop;
         return;
@@ -121,7 +126,8 @@ static void signal_slide(struct signal *s, long end)
     s->first += drop;
 }
 
-/* In registers of the CPU's width and four sums that do not wait for each other: a sixth of the time, which was 10 cycles a frame of four sub-intervals. */
+/* In registers of the CPU's width and four sums that do not wait for each other: a sixth of the time, which was 10
+ * cycles a frame of four sub-intervals. */
 LANES_CLONES
 static int all_finite(const double *x, long n)
 {
@@ -146,12 +152,11 @@ static bool run_finite(const struct stage_run *r, long from, long to, struct err
 {
     for (int item = 0; item < ITEM_COUNT; item++) {
         const struct signal *s = &r->board->signals[item];
-        if (!(r->stage->gives & ITEM_BIT(item)) || !s->per_frame)
-            continue;
+        if (!(r->stage->gives & ITEM_BIT(item)) || !s->per_frame) continue;
         const double *x = board_at(r->board, (enum item)item, from);
         if (!all_finite(x, (to - from) * s->per_frame))
-            return err_set(e, ERR_NUMBERS, "contact '%s': stage '%s' made a %s that is not finite, at about %.6g s", r->contact->name,
-                           r->stage->name, plan_item((enum item)item), (double)from / r->board->rate);
+            return err_set(e, ERR_NUMBERS, "contact '%s': stage '%s' made a %s that is not finite, at about %.6g s",
+                           r->contact->name, r->stage->name, plan_item((enum item)item), (double)from / r->board->rate);
     }
     return true;
 }
@@ -165,7 +170,8 @@ static bool stage_work(struct stage_run *st, long to, struct err *e)
     return st->stage->run(st, st->done, to, e) && run_finite(st, st->done, to, e);
 }
 
-/* *clock: CPU time when the stage before was done. A reading asks the system: two for each block were 2 % of a draft. */
+/* *clock: CPU time when the stage before was done. A reading asks the system: two for each block were 2 % of a draft.
+ */
 static bool stage_block(struct stage_run *st, long to, double *clock, struct err *e)
 {
     while (st->done < to) {
@@ -173,8 +179,7 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
         for (int i = 0; i < ITEM_COUNT; i++)
             if (st->stage->gives & ITEM_BIT(i) && !(st->stage->needs & ITEM_BIT(i)))
                 signal_slide(&st->board->signals[i], end + 1);
-        if (st->done < st->limit && !stage_work(st, st->limit < end ? st->limit : end, e))
-            return false;
+        if (st->done < st->limit && !stage_work(st, st->limit < end ? st->limit : end, e)) return false;
         st->done = end;
         double now = stopwatch_cpu();
         st->seconds += now - *clock;
@@ -188,8 +193,7 @@ bool run_block(struct run *r, long to, struct err *e)
     double clock = stopwatch_cpu();
     for (int i = 0; i < r->n; i++) {
         struct stage_run *st = &r->stages[i];
-        if (st->stage->run && !stage_block(st, to + st->offset, &clock, e))
-            return false;
+        if (st->stage->run && !stage_block(st, to + st->offset, &clock, e)) return false;
     }
     return true;
 }
@@ -199,13 +203,11 @@ void run_skip(struct run *r, long frame)
     for (int i = 0; i < r->n; i++) {
         struct stage_run *st = &r->stages[i];
         st->done = frame;
-        if (st->stage->skip)
-            st->stage->skip(st, frame);
+        if (st->stage->skip) st->stage->skip(st, frame);
     }
     for (int i = 0; i < ITEM_COUNT; i++) {
         struct signal *s = &r->board.signals[i];
-        if (!s->per_frame)
-            continue;
+        if (!s->per_frame) continue;
         s->first = s->worked = frame - run_behind(r, (enum item)i);
         memset(s->x, 0, (size_t)(s->capacity * s->per_frame) * sizeof *s->x);
     }
@@ -214,8 +216,7 @@ void run_skip(struct run *r, long frame)
 void run_close(struct run *r)
 {
     for (int i = r->n - 1; i >= 0; i--)
-        if (r->stages[i].stage->close)
-            r->stages[i].stage->close(&r->stages[i]);
+        if (r->stages[i].stage->close) r->stages[i].stage->close(&r->stages[i]);
     arena_close(r->arena);
     r->arena = NULL;
     r->n = 0;

@@ -12,19 +12,22 @@ struct run {
     int n;
 };
 
-struct run_sinks {            /* where the stages write; NULL: nowhere */
+struct run_sinks { /* where the stages write; NULL: nowhere */
     struct table_sink *table;
     struct impact_sink *listing;
 };
 
-/* Opens the plan's stages and lays out the board; the first error closes what was opened. `sinks` NULL: no stage writes. */
+/* Opens the plan's stages and lays out the board; the first error closes what was opened. `sinks` NULL: no stage
+ * writes. */
 bool run_open(struct run *r, const struct plan *p, const struct scene *s, const struct run_sinks *sinks, struct err *e);
 
-/* Frames [run so far, to): the sound is then on the board as ITEM_SOUND (if the plan has it). At most STAGE_BLOCK frames a call. */
+/* Frames [run so far, to): the sound is then on the board as ITEM_SOUND (if the plan has it). At most STAGE_BLOCK
+ * frames a call. */
 bool run_block(struct run *r, long to, struct err *e);
 
-/* Goes on at a later frame, as though nothing had been before it: the board is empty; what stages remember is left as it is. Of stages up to the force only.
-   As many frames as they look back in all, at least, are not yet as they would be. */
+/* Goes on at a later frame, as though nothing had been before it: the board is empty; what stages remember is left as
+   it is. Of stages up to the force only. As many frames as they look back in all, at least, are not yet as they would
+   be. */
 void run_skip(struct run *r, long frame);
 
 /* The set of items that a stage reads. */

@@ -14,29 +14,26 @@
 #include "scene/keys.h"
 #include "trajectory/load.h"
 
-enum { MOST_OF_BOARD = (int)(sizeof ((struct board *)0)->warnings / sizeof ((struct board *)0)->warnings[0]) };
+enum { MOST_OF_BOARD = (int)(sizeof((struct board *)0)->warnings / sizeof((struct board *)0)->warnings[0]) };
 
 #define LIMITED_OFTEN 5.0 /* per cent of the draws */
 #define IMPACT_LONG 0.1   /* s */
 
-static void warn(struct render_report *report, const char *text)
-{
-    report->warnings[report->n_warnings++] = text;
-}
+static void warn(struct render_report *report, const char *text) { report->warnings[report->n_warnings++] = text; }
 
 /* ------------------------------------------------------------------ what rolls */
 
-static const char *times(long n, struct arena *a)
-{
-    return n == 1 ? "once" : arena_format(a, "%ld times", n);
-}
+static const char *times(long n, struct arena *a) { return n == 1 ? "once" : arena_format(a, "%ld times", n); }
 
 static const char *rolled_contacts(const struct roll_report *o, struct arena *a)
 {
     double share = o->time > 0 ? 100 * o->contact / o->time : 0;
-    const char *flights = o->steps ? arena_format(a, " (for longer than an audio sample %s)", o->bounces > 0 ? times(o->bounces, a) : "never") : "";
+    const char *flights = o->steps ? arena_format(a, " (for longer than an audio sample %s)",
+                                                  o->bounces > 0 ? times(o->bounces, a) : "never")
+                                   : "";
     if (o->lift_offs == 0)
-        return o->contact > 0 ? arena_format(a, "in contact %.4g %% of the time, never lifts off", share) : "never in contact";
+        return o->contact > 0 ? arena_format(a, "in contact %.4g %% of the time, never lifts off", share)
+                              : "never in contact";
     return arena_format(a, "in contact %.4g %% of the time, lifts off %s%s", share, times(o->lift_offs, a), flights);
 }
 
@@ -46,53 +43,64 @@ static const char *rolled_steps(const struct roll_report *o, struct arena *a)
     const char *hertz = o->hertz > 0 ? arena_format(a, "Hertz's depth %.3g m and ", o->hertz) : "";
     if (!o->steps)
         return isnan(o->roughness) ? "" : arena_format(a, " (from %sa ground of %.3g m rms)", hertz, o->roughness);
-    const char *lasts = isnan(o->contact_samples[0]) ? "" : arena_format(a, "; a contact lasts %.3g audio samples, the shortest %.3g", o->contact_samples[0],
-                                                                         o->contact_samples[1]);
+    const char *lasts = isnan(o->contact_samples[0])
+                            ? ""
+                            : arena_format(a, "; a contact lasts %.3g audio samples, the shortest %.3g",
+                                           o->contact_samples[0], o->contact_samples[1]);
     const char *fastest = o->fastest > 0 ? arena_format(a, ", the fastest impact %.3g m/s", o->fastest) : "";
     return arena_format(a, "%s%s; energy balances to %.1e of its greatest", lasts, fastest, o->residual);
 }
 
 static const char *rolled(const struct roll_report *o, struct arena *a)
 {
-    const char *rests = o->rest > 0 ? arena_format(a, "; stiffness %.4g N/m^1.5, %.3g m deep at rest", o->stiffness, o->rest) : "";
-    const char *rings = o->resonance > 0 ? arena_format(a, "; on its contact it resonates at %.3g Hz", o->resonance) : "";
+    const char *rests =
+        o->rest > 0 ? arena_format(a, "; stiffness %.4g N/m^1.5, %.3g m deep at rest", o->stiffness, o->rest) : "";
+    const char *rings =
+        o->resonance > 0 ? arena_format(a, "; on its contact it resonates at %.3g Hz", o->resonance) : "";
     return arena_format(a, "%s%s%s%s", rolled_contacts(o, a), rests, rolled_steps(o, a), rings);
 }
 
 /* ------------------------------------------------------------------ series of impacts */
 
-static double percent(long some, long all)
-{
-    return all > 0 ? 100 * (double)some / (double)all : 0;
-}
+static double percent(long some, long all) { return all > 0 ? 100 * (double)some / (double)all : 0; }
 
 static const char *impacted(const struct impact_report *o, struct arena *a)
 {
-    return arena_format(a, "%ld impact%s, %.*g a second, of %.4g N on average; %ld amplitude%s (%.3g %%) and %ld interval%s (%.3g %%) raised to their floors; %ld overlap%s (%.3g %%)",
-                        o->count, o->count == 1 ? "" : "s", (double)o->count < 1e4 * o->time ? 4 : 6, (double)o->count / o->time, o->mean_amplitude, o->limited_amplitude, o->limited_amplitude == 1 ? "" : "s",
-                        percent(o->limited_amplitude, o->count), o->limited_interval, o->limited_interval == 1 ? "" : "s", percent(o->limited_interval, o->count),
-                        o->overlaps, o->overlaps == 1 ? "" : "s", percent(o->overlaps, o->count));
+    return arena_format(a,
+                        "%ld impact%s, %.*g a second, of %.4g N on average; %ld amplitude%s (%.3g %%) and %ld "
+                        "interval%s (%.3g %%) raised to their floors; %ld overlap%s (%.3g %%)",
+                        o->count, o->count == 1 ? "" : "s", (double)o->count < 1e4 * o->time ? 4 : 6,
+                        (double)o->count / o->time, o->mean_amplitude, o->limited_amplitude,
+                        o->limited_amplitude == 1 ? "" : "s", percent(o->limited_amplitude, o->count),
+                        o->limited_interval, o->limited_interval == 1 ? "" : "s",
+                        percent(o->limited_interval, o->count), o->overlaps, o->overlaps == 1 ? "" : "s",
+                        percent(o->overlaps, o->count));
 }
 
 /* Has it been drawn? */
-static bool impacts(const struct board *b)
-{
-    return b->impacts.time > 0;
-}
+static bool impacts(const struct board *b) { return b->impacts.time > 0; }
 
-static void warn_limited(const struct contact *c, const char *what, long limited, long all, struct render_report *report, struct arena *a)
+static void warn_limited(const struct contact *c, const char *what, long limited, long all,
+                         struct render_report *report, struct arena *a)
 {
     if (percent(limited, all) > LIMITED_OFTEN)
-        warn(report, arena_format(a, "contact '%s': %.3g %% of the %ss were drawn below contact.impacts.floor.%s and raised to it: the series has other statistics than were asked "
-                                     "for; lower the deviation, or set contact.impacts.marginal to lognormal", c->name, percent(limited, all), what, what));
+        warn(report, arena_format(a,
+                                  "contact '%s': %.3g %% of the %ss were drawn below contact.impacts.floor.%s and "
+                                  "raised to it: the series has other statistics than were asked "
+                                  "for; lower the deviation, or set contact.impacts.marginal to lognormal",
+                                  c->name, percent(limited, all), what, what));
 }
 
-static void warn_impacts(const struct contact *c, const struct impact_report *o, struct render_report *report, struct arena *a)
+static void warn_impacts(const struct contact *c, const struct impact_report *o, struct render_report *report,
+                         struct arena *a)
 {
     warn_limited(c, "amplitude", o->limited_amplitude, o->count, report, a);
     warn_limited(c, "interval", o->limited_interval, o->count, report, a);
     if (o->longest > IMPACT_LONG)
-        warn(report, arena_format(a, "contact '%s': an impact lasts %.4g s: lower contact.impacts.duration.zeta, or raise the least amplitude", c->name, o->longest));
+        warn(report, arena_format(a,
+                                  "contact '%s': an impact lasts %.4g s: lower contact.impacts.duration.zeta, or raise "
+                                  "the least amplitude",
+                                  c->name, o->longest));
     if (o->count == 0)
         warn(report, arena_format(a, "contact '%s': no impact comes within the motion's %.4g s", c->name, o->time));
 }
@@ -102,28 +110,33 @@ static void warn_impacts(const struct contact *c, const struct impact_report *o,
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     report->notes = ARENA_TAKE(a, const char *, s->n_contacts + 1);
-    if (report->promise.text)
-        report->notes[report->n_notes++] = report->promise.text;
+    if (report->promise.text) report->notes[report->n_notes++] = report->promise.text;
     for (int i = 0; i < s->n_contacts; i++) {
         const struct board *b = runs[i] ? &runs[i]->board : NULL;
         if (b && (b->rolls || impacts(b)))
-            report->notes[report->n_notes++] = arena_format(a, "contact '%s': %s", s->contacts[i].name, b->rolls ? rolled(&b->roll, a) : impacted(&b->impacts, a));
+            report->notes[report->n_notes++] = arena_format(a, "contact '%s': %s", s->contacts[i].name,
+                                                            b->rolls ? rolled(&b->roll, a) : impacted(&b->impacts, a));
     }
 }
 
 /* ------------------------------------------------------------------ remarks */
 
-/* 20 dB: beside a sound of its own kind that much louder, one adds 0.04 dB to the whole, and what is varied of it alone is hardly heard. */
+/* 20 dB: beside a sound of its own kind that much louder, one adds 0.04 dB to the whole, and what is varied of it alone
+ * is hardly heard. */
 static void warn_drowned(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
 {
     const char *other = ball_rolls(c) ? "ball" : "scraper", *under[2] = {other, "surface"}, *help = "";
-    double ratio = b->energy[1] / b->energy[0], equal = (ball_rolls(c) ? c->ball.weight : c->scraper.weight) / sqrt(ratio);
-    if (!(ratio > 100) && !(ratio < 0.01))
-        return;
+    double ratio = b->energy[1] / b->energy[0],
+           equal = (ball_rolls(c) ? c->ball.weight : c->scraper.weight) / sqrt(ratio);
+    if (!(ratio > 100) && !(ratio < 0.01)) return;
     bool surface = ratio > 100;
     if (equal >= 1e-6 && equal <= 1000) /* what can be set, and means something */
-        help = arena_format(a, "; %s.weight %s the %s, %.2g makes both alike", other, surface ? "lowers" : "raises", other, equal);
-    warn(report, arena_format(a, "contact '%s': the %s is more than 20 dB under its %s, and hardly heard%s (ablation.sound: %s gives it alone)", c->name, under[surface], under[!surface], help, under[surface]));
+        help = arena_format(a, "; %s.weight %s the %s, %.2g makes both alike", other, surface ? "lowers" : "raises",
+                            other, equal);
+    warn(report, arena_format(a,
+                              "contact '%s': the %s is more than 20 dB under its %s, and hardly heard%s "
+                              "(ablation.sound: %s gives it alone)",
+                              c->name, under[surface], under[!surface], help, under[surface]));
 }
 
 static void warn_contact(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
@@ -131,22 +144,24 @@ static void warn_contact(const struct contact *c, const struct board *b, struct 
     for (int k = 0; k < b->n_warnings && k < MOST_OF_BOARD; k++)
         warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
     if (b->n_warnings > MOST_OF_BOARD)
-        warn(report, arena_format(a, "contact '%s': %d more remark%s", c->name, b->n_warnings - MOST_OF_BOARD, b->n_warnings > MOST_OF_BOARD + 1 ? "s" : ""));
+        warn(report, arena_format(a, "contact '%s': %d more remark%s", c->name, b->n_warnings - MOST_OF_BOARD,
+                                  b->n_warnings > MOST_OF_BOARD + 1 ? "s" : ""));
     if (b->lifted > 0)
-        warn(report, arena_format(a, "contact '%s': the %s lifts %s off for %.4g s in all (negative normal force); no force then",
-                                  c->name, ball_rolls(c) ? "turning of the uneven ball" : "hand", ball_rolls(c) ? "it" : "the scraper", b->lifted));
+        warn(report,
+             arena_format(a,
+                          "contact '%s': the %s lifts %s off for %.4g s in all (negative normal force); no force then",
+                          c->name, ball_rolls(c) ? "turning of the uneven ball" : "hand",
+                          ball_rolls(c) ? "it" : "the scraper", b->lifted));
     if (b->unstated && b->quantity >= 0)
-        warn(report, arena_format(a, "contact '%s': its WAV response does not say what it is in, and is summed as if in %s, like its mode table",
+        warn(report, arena_format(a,
+                                  "contact '%s': its WAV response does not say what it is in, and is summed as if in "
+                                  "%s, like its mode table",
                                   c->name, modes_quantity_unit(b->quantity)));
     warn_drowned(c, b, report, a);
-    if (impacts(b))
-        warn_impacts(c, &b->impacts, report, a);
+    if (impacts(b)) warn_impacts(c, &b->impacts, report, a);
 }
 
-static double decibel(double x)
-{
-    return x > 0 ? 20 * real_log10(x) : -HUGE_VAL;
-}
+static double decibel(double x) { return x > 0 ? 20 * real_log10(x) : -HUGE_VAL; }
 
 /* A tail of its own ends 80 dB down; a cut that leaves more off is told. */
 static void warn_cut(const struct scene *s, struct render_report *report, struct arena *a)
@@ -156,8 +171,13 @@ static void warn_cut(const struct scene *s, struct render_report *report, struct
     double rate = s->output.sample_rate;
     if (!report->sounds || (double)l->natural - (double)l->frames < 1e-3 * rate || !(o->end > 1e-4 * o->before_ramps))
         return;
-    warn(report, arena_format(a, "output.duration: the file is cut at %.4g s of %.4g s, %s %.1f dB below its peak before the ramps", (double)l->frames / rate, (double)l->natural / rate,
-                              (double)l->frames + 1e-3 * rate < (double)l->motion ? "where the motion still goes on, and the sound is" : "where the sound is", fmax(0, -decibel(o->end / o->before_ramps))));
+    warn(report,
+         arena_format(
+             a, "output.duration: the file is cut at %.4g s of %.4g s, %s %.1f dB below its peak before the ramps",
+             (double)l->frames / rate, (double)l->natural / rate,
+             (double)l->frames + 1e-3 * rate < (double)l->motion ? "where the motion still goes on, and the sound is"
+                                                                 : "where the sound is",
+             fmax(0, -decibel(o->end / o->before_ramps))));
 }
 
 /* Samples that wait for the set's gain are none of a file yet: batch/stimulus.c tells of those that will be. */
@@ -166,34 +186,41 @@ static void warn_written(const struct scene *s, struct render_report *report, st
     bool later = s->output.level.later;
     for (int i = 0; i < report->n_files; i++) {
         const struct render_file *f = &report->files[i];
-        const char *silent = written_silent(s, f, report->sound.gain * report->sound.peak, a), *beyond = later ? NULL : written_beyond(s, f, a);
-        if (silent)
-            warn(report, silent);
-        if (beyond)
-            warn(report, beyond);
+        const char *silent = written_silent(s, f, report->sound.gain * report->sound.peak, a),
+                   *beyond = later ? NULL : written_beyond(s, f, a);
+        if (silent) warn(report, silent);
+        if (beyond) warn(report, beyond);
     }
 }
 
-void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
+void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report,
+                      struct arena *a)
 {
     int older = 0;
     while (report->older[older])
         older++;
-    report->warnings = ARENA_TAKE(a, const char *, s->n_contacts * (MOST_OF_BOARD + 8) + 2 * report->n_files + 3 + older);
+    report->warnings =
+        ARENA_TAKE(a, const char *, s->n_contacts *(MOST_OF_BOARD + 8) + 2 * report->n_files + 3 + older);
     for (int i = 0; i < s->n_contacts; i++)
-        if (runs[i])
-            warn_contact(&s->contacts[i], &runs[i]->board, report, a);
+        if (runs[i]) warn_contact(&s->contacts[i], &runs[i]->board, report, a);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i] && runs[i]->board.lifted > 0 && report->promise.n > 0)
-            warn(report, arena_format(a, "contact '%s': where it is lifted off its force is cut, and errors fall more slowly, and less evenly, than accuracy.error counts on: measure them "
-                                         "(--verify)", s->contacts[i].name));
+            warn(report, arena_format(a,
+                                      "contact '%s': where it is lifted off its force is cut, and errors fall more "
+                                      "slowly, and less evenly, than accuracy.error counts on: measure them "
+                                      "(--verify)",
+                                      s->contacts[i].name));
     warn_written(s, report, a);
     if (report->sounds && report->sound.ramp < s->output.ramp - 0.5 / s->output.sample_rate)
-        warn(report, arena_format(a, "output.ramp: the sound is too short for ramps of %.4g s; they take half of it each, %.4g s", s->output.ramp,
-                                  report->sound.ramp));
+        warn(report,
+             arena_format(a,
+                          "output.ramp: the sound is too short for ramps of %.4g s; they take half of it each, %.4g s",
+                          s->output.ramp, report->sound.ramp));
     warn_cut(s, report, a);
     for (int i = 0; i < older; i++)
-        warn(report, arena_format(a, "%s is not of this render, which writes no such file; it is older, and stays as it is", report->older[i]));
+        warn(report,
+             arena_format(a, "%s is not of this render, which writes no such file; it is older, and stays as it is",
+                          report->older[i]));
 }
 
 /* A number, or null for one that is not finite. */
@@ -203,8 +230,10 @@ static json_t *channels_json(const struct scene *s, const struct sound_report *o
     json_t *all = json_array();
     for (int k = 0; k < o->channels; k++) {
         const double *place = s->output.listen.places + 3 * k;
-        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o, s:b}", "place_m", json_value_number(place[0]), json_value_number(place[1]), json_value_number(place[2]), "peak",
-                                             json_value_number(o->channel_peak[k]), "rms", json_value_number(o->channel_rms[k]), "silent", !wav->written->heard[k]));
+        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o, s:b}", "place_m", json_value_number(place[0]),
+                                             json_value_number(place[1]), json_value_number(place[2]), "peak",
+                                             json_value_number(o->channel_peak[k]), "rms",
+                                             json_value_number(o->channel_rms[k]), "silent", !wav->written->heard[k]));
     }
     return all;
 }
@@ -214,12 +243,13 @@ static json_t *sound_json(const struct scene *s, const struct render_report *rep
     const struct sound_report *o = &report->sound;
     const struct render_file *wav = written_sound(report);
     json_t *sound = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "unit",
-                              report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's", "peak", json_value_number(o->peak), "rms",
-                              json_value_number(o->rms), "gain", json_value_number(o->gain), "gain_db", json_value_number(decibel(o->gain)), "peak_dbfs",
-                              json_value_number(decibel(o->gain * o->peak)), "rms_dbfs", json_value_number(decibel(o->gain * o->rms)));
+                              report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's",
+                              "peak", json_value_number(o->peak), "rms", json_value_number(o->rms), "gain",
+                              json_value_number(o->gain), "gain_db", json_value_number(decibel(o->gain)), "peak_dbfs",
+                              json_value_number(decibel(o->gain * o->peak)), "rms_dbfs",
+                              json_value_number(decibel(o->gain * o->rms)));
     written_tell(wav, sound);
-    if (o->channels > 1)
-        json_object_set_new(sound, "channels", channels_json(s, o, wav));
+    if (o->channels > 1) json_object_set_new(sound, "channels", channels_json(s, o, wav));
     return sound;
 }
 
@@ -228,9 +258,10 @@ static json_t *stages_json(const struct run *run, double cpu)
     json_t *all = json_array();
     for (int i = 0; i < run->n; i++) {
         const struct stage_run *st = &run->stages[i];
-        json_array_append_new(all, json_pack("{s:s, s:o, s:o, s:I, s:I}", "stage", st->stage->name, "cpu_s", json_value_number(st->seconds), "share",
-                                             json_value_number(cpu > 0 ? st->seconds / cpu : 0), "blocks", (json_int_t)st->blocks, "bytes",
-                                             (json_int_t)st->bytes));
+        json_array_append_new(all, json_pack("{s:s, s:o, s:o, s:I, s:I}", "stage", st->stage->name, "cpu_s",
+                                             json_value_number(st->seconds), "share",
+                                             json_value_number(cpu > 0 ? st->seconds / cpu : 0), "blocks",
+                                             (json_int_t)st->blocks, "bytes", (json_int_t)st->bytes));
     }
     return all;
 }
@@ -247,17 +278,21 @@ static json_t *response_json(const struct ring_choice *c, const struct scene *s)
 
 static json_t *roll_json(const struct roll_report *o)
 {
-    json_t *r = json_pack("{s:o, s:o, s:I, s:o, s:o}", "contact_share", json_value_number(o->time > 0 ? o->contact / o->time : NAN), "contact_s", json_value_number(o->contact), "lift_offs",
-                          (json_int_t)o->lift_offs, "stiffness", json_value_number(o->stiffness), "rest_penetration_m", json_value_number(o->rest));
-    if (o->resonance > 0)
-        json_object_set_new(r, "resonance_hz", json_value_number(o->resonance));
+    json_t *r = json_pack("{s:o, s:o, s:I, s:o, s:o}", "contact_share",
+                          json_value_number(o->time > 0 ? o->contact / o->time : NAN), "contact_s",
+                          json_value_number(o->contact), "lift_offs", (json_int_t)o->lift_offs, "stiffness",
+                          json_value_number(o->stiffness), "rest_penetration_m", json_value_number(o->rest));
+    if (o->resonance > 0) json_object_set_new(r, "resonance_hz", json_value_number(o->resonance));
     if (!isnan(o->roughness))
-        json_object_update_new(r, json_pack("{s:o, s:o}", "hertz_penetration_m", json_value_number(o->hertz), "roughness_rms_m", json_value_number(o->roughness)));
-    if (!o->steps)
-        return r;
-    json_t *more = json_pack("{s:I, s:o, s:I, s:[o, o], s:o, s:o, s:[o, o]}", "bounces", (json_int_t)o->bounces, "step_s", json_value_number(o->step), "steps",
-                             (json_int_t)o->steps, "contact_samples_mean_least", json_value_number(o->contact_samples[0]), json_value_number(o->contact_samples[1]), "fastest_impact_m_per_s",
-                             json_value_number(o->fastest), "energy_residual", json_value_number(o->residual), "iterations_mean_most", json_value_number(o->iterations[0]), json_value_number(o->iterations[1]));
+        json_object_update_new(r, json_pack("{s:o, s:o}", "hertz_penetration_m", json_value_number(o->hertz),
+                                            "roughness_rms_m", json_value_number(o->roughness)));
+    if (!o->steps) return r;
+    json_t *more = json_pack(
+        "{s:I, s:o, s:I, s:[o, o], s:o, s:o, s:[o, o]}", "bounces", (json_int_t)o->bounces, "step_s",
+        json_value_number(o->step), "steps", (json_int_t)o->steps, "contact_samples_mean_least",
+        json_value_number(o->contact_samples[0]), json_value_number(o->contact_samples[1]), "fastest_impact_m_per_s",
+        json_value_number(o->fastest), "energy_residual", json_value_number(o->residual), "iterations_mean_most",
+        json_value_number(o->iterations[0]), json_value_number(o->iterations[1]));
     json_object_update(r, more);
     json_decref(more);
     return r;
@@ -265,9 +300,12 @@ static json_t *roll_json(const struct roll_report *o)
 
 static json_t *impacts_json(const struct impact_report *o)
 {
-    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second", json_value_number((double)o->count / o->time), "limited_amplitudes",
-                     (json_int_t)o->limited_amplitude, "limited_intervals", (json_int_t)o->limited_interval, "overlaps", (json_int_t)o->overlaps, "mean_amplitude_n",
-                     json_value_number(o->mean_amplitude), "mean_interval_s", json_value_number(o->mean_interval), "longest_s", json_value_number(o->longest));
+    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second",
+                     json_value_number((double)o->count / o->time), "limited_amplitudes",
+                     (json_int_t)o->limited_amplitude, "limited_intervals", (json_int_t)o->limited_interval, "overlaps",
+                     (json_int_t)o->overlaps, "mean_amplitude_n", json_value_number(o->mean_amplitude),
+                     "mean_interval_s", json_value_number(o->mean_interval), "longest_s",
+                     json_value_number(o->longest));
 }
 
 /* cpu NAN: no times. */
@@ -276,16 +314,13 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
     const struct board *b = &run->board;
     const struct ring_choice *choice = run->plan.contact->surface.response.choice;
     json_t *c = json_pack("{s:s, s:o}", "name", run->plan.contact->name, "lifted_off_s", json_value_number(b->lifted));
-    if (!isnan(cpu))
-        json_object_set_new(c, "stages", stages_json(run, cpu));
-    if (choice && !choice->recorded)
-        json_object_set_new(c, "response", response_json(choice, s));
-    if (b->rolls)
-        json_object_set_new(c, "roll", roll_json(&b->roll));
-    if (impacts(b))
-        json_object_set_new(c, "impacts", impacts_json(&b->impacts));
+    if (!isnan(cpu)) json_object_set_new(c, "stages", stages_json(run, cpu));
+    if (choice && !choice->recorded) json_object_set_new(c, "response", response_json(choice, s));
+    if (b->rolls) json_object_set_new(c, "roll", roll_json(&b->roll));
+    if (impacts(b)) json_object_set_new(c, "impacts", impacts_json(&b->impacts));
     if (b->load)
-        json_object_set_new(c, "normal_force_n", json_pack("[o, o]", json_value_number(b->load->least), json_value_number(b->load->most)));
+        json_object_set_new(c, "normal_force_n",
+                            json_pack("[o, o]", json_value_number(b->load->least), json_value_number(b->load->most)));
     return c;
 }
 
@@ -296,9 +331,9 @@ static json_t *files_json(const struct render_report *report)
     for (int i = 0; i < report->n_files; i++) {
         const struct render_file *f = &report->files[i];
         const char *slash = strrchr(f->path, '/');
-        if (!strcmp(f->kind, "summary"))
-            continue;
-        json_t *one = json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name", json_value_shown(slash ? slash + 1 : f->path), "contact", f->contact, "stem", f->stem,
+        if (!strcmp(f->kind, "summary")) continue;
+        json_t *one = json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name",
+                                json_value_shown(slash ? slash + 1 : f->path), "contact", f->contact, "stem", f->stem,
                                 "sha256", f->sha256);
         written_tell(f, one);
         json_array_append_new(all, one);
@@ -310,9 +345,10 @@ static json_t *files_json(const struct render_report *report)
 static void set_older(json_t *whole, const struct render_report *report, struct arena *a)
 {
     for (int i = 0; i < report->n_files; i++) {
-        json_t *older = strcmp(report->files[i].kind, "summary") ? NULL : mark_older(report->files[i].path, json_object_get(whole, "files"), a);
-        if (json_array_size(older))
-            json_object_set(whole, "older", older);
+        json_t *older = strcmp(report->files[i].kind, "summary")
+                            ? NULL
+                            : mark_older(report->files[i].path, json_object_get(whole, "files"), a);
+        if (json_array_size(older)) json_object_set(whole, "older", older);
         json_decref(older);
     }
 }
@@ -322,11 +358,12 @@ static json_t *promise_json(const struct promise *p, bool times)
 {
     json_t *by = json_array();
     for (int i = 0; i < p->n; i++)
-        json_array_append_new(by, json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value", json_value_number(p->parts[i].value), "error_db",
+        json_array_append_new(by, json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value",
+                                            json_value_number(p->parts[i].value), "error_db",
                                             json_value_number(decibel(p->parts[i].error)), "said", p->parts[i].said));
-    json_t *j = json_pack("{s:o, s:o, s:b, s:o}", "asked_db", json_value_number(p->error), "predicted_db", json_value_number(p->predicted), "chosen", p->chosen, "by", by);
-    if (times)
-        json_object_set_new(j, "cpu_s", json_value_number(p->cpu));
+    json_t *j = json_pack("{s:o, s:o, s:b, s:o}", "asked_db", json_value_number(p->error), "predicted_db",
+                          json_value_number(p->predicted), "chosen", p->chosen, "by", by);
+    if (times) json_object_set_new(j, "cpu_s", json_value_number(p->cpu));
     return j;
 }
 
@@ -334,27 +371,27 @@ static void add_times(json_t *whole, const struct render_report *report, double 
 {
     json_object_set_new(whole, "wall_s", json_value_number(report->seconds));
     json_object_set_new(whole, "cpu_s", json_value_number(report->cpu));
-    json_object_set_new(whole, "real_time_factor", json_value_number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL));
+    json_object_set_new(whole, "real_time_factor",
+                        json_value_number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL));
     set_older(whole, report, a);
 }
 
-const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report, bool times, struct arena *a)
+const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report,
+                         bool times, struct arena *a)
 {
     double duration = (double)report->frames / s->output.sample_rate;
     json_t *contacts = json_array(), *remarks = json_array();
     for (int i = 0; i < s->n_contacts; i++)
-        if (runs[i])
-            json_array_append_new(contacts, contact_json(runs[i], s, times ? report->cpu : NAN));
+        if (runs[i]) json_array_append_new(contacts, contact_json(runs[i], s, times ? report->cpu : NAN));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_value_shown(report->warnings[i]));
-    json_t *whole = json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames", (json_int_t)report->frames, "sample_rate_hz",
-                              json_value_number(s->output.sample_rate), "duration_s", json_value_number(duration), "contacts", contacts, "warnings", remarks, "files", files_json(report));
-    if (times)
-        add_times(whole, report, duration, a);
-    if (report->promise.asked)
-        json_object_set_new(whole, "accuracy", promise_json(&report->promise, times));
-    if (report->sounds)
-        json_object_set_new(whole, "sound", sound_json(s, report));
+    json_t *whole =
+        json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
+                  (json_int_t)report->frames, "sample_rate_hz", json_value_number(s->output.sample_rate), "duration_s",
+                  json_value_number(duration), "contacts", contacts, "warnings", remarks, "files", files_json(report));
+    if (times) add_times(whole, report, duration, a);
+    if (report->promise.asked) json_object_set_new(whole, "accuracy", promise_json(&report->promise, times));
+    if (report->sounds) json_object_set_new(whole, "sound", sound_json(s, report));
     char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(times ? 9 : 17) | JSON_ENSURE_ASCII);
     const char *kept = arena_format(a, "%s\n", text ? text : "{}");
     free(text);

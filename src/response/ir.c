@@ -1,12 +1,13 @@
 /* Impulse responses as samples (papers/000 eq. 10: 0 <= tau < t0).
 
-   Scale: y[n] = (1/rate) sum_{m <= n} h((n-m)/rate) f[m] with half of h(0+) at m = n, the trapezium rule at the jump. Here 1/rate and
-   the half are inside h[].
+   Scale: y[n] = (1/rate) sum_{m <= n} h((n-m)/rate) f[m] with half of h(0+) at m = n, the trapezium rule at the jump.
+   Here 1/rate and the half are inside h[].
 
-   Sampling modes, h(t) = Im sum_i A_i e^(s_i t): a phasor per mode turns by p = e^(s/rate) from sample to sample; every SEGMENT samples
-   it starts afresh from a second phasor that turns by P = e^(s SEGMENT/rate), whose angle is reduced exactly (SEGMENT f modulo the rate;
-   SEGMENT is a power of 2) before it is rounded. So rounding grows with SEGMENT + length/SEGMENT, not with length. Eight modes
-   are the lanes of a group; sums run over groups in order and then over lanes in a fixed tree: same bits on every CPU. */
+   Sampling modes, h(t) = Im sum_i A_i e^(s_i t): a phasor per mode turns by p = e^(s/rate) from sample to sample; every
+   SEGMENT samples it starts afresh from a second phasor that turns by P = e^(s SEGMENT/rate), whose angle is reduced
+   exactly (SEGMENT f modulo the rate; SEGMENT is a power of 2) before it is rounded. So rounding grows with SEGMENT +
+   length/SEGMENT, not with length. Eight modes are the lanes of a group; sums run over groups in order and then over
+   lanes in a fixed tree: same bits on every CPU. */
 #include "response/ir.h"
 
 #include <math.h>
@@ -20,7 +21,8 @@ enum { SEGMENT = 256, SPAN = 4 }; /* samples between fresh starts; samples per v
 size_t ir_length(double rate, double t0)
 {
     double n = t0 * rate, whole = rint(n);
-    n = fabs(n - whole) < 1e-9 * whole ? whole : ceil(n); /* 0.1 s at 44.1 kHz is 4410 samples however the product rounds */
+    n = fabs(n - whole) < 1e-9 * whole ? whole
+                                       : ceil(n); /* 0.1 s at 44.1 kHz is 4410 samples however the product rounds */
     return n < 1.0 ? 1 : (size_t)n;
 }
 
@@ -40,7 +42,8 @@ struct ir_sampler {
     double sums[SEGMENT][LANES];
 };
 
-/* e^(s n/rate) of a group, n a power of 2. The angle is reduced first, exactly: n f and whole multiples of the rate (a whole number) are. */
+/* e^(s n/rate) of a group, n a power of 2. The angle is reduced first, exactly: n f and whole multiples of the rate (a
+ * whole number) are. */
 static void phasors(const struct ir_sampler *s, int k, double n, double *re, double *im)
 {
     double size[LANES], turn[LANES];
@@ -64,8 +67,8 @@ struct ir_sampler *ir_sampler_make(struct arena *a, int n, double rate)
     s->rate = rate;
     s->groups = (n + LANES - 1) / LANES;
     s->group = ARENA_TAKE(a, struct group, s->groups + 1);
-    s->frequency = ARENA_TAKE(a, double, LANES * (size_t)s->groups);
-    s->decay = ARENA_TAKE(a, double, LANES * (size_t)s->groups);
+    s->frequency = ARENA_TAKE(a, double, LANES *(size_t)s->groups);
+    s->decay = ARENA_TAKE(a, double, LANES *(size_t)s->groups);
     for (int i = 0; i < n; i++)
         s->frequency[i] = NAN; /* no pole yet */
     return s;
@@ -76,9 +79,9 @@ static void set_poles(struct ir_sampler *s, const struct modes_point *p)
     for (int k = 0; k < s->groups; k++) {
         int from = LANES * k, n = s->n - from < LANES ? s->n - from : LANES;
         size_t bytes = (size_t)n * sizeof(double);
-        bool same = memcmp(s->frequency + from, p->frequency + from, bytes) == 0 && memcmp(s->decay + from, p->decay + from, bytes) == 0;
-        if (same)
-            continue;
+        bool same = memcmp(s->frequency + from, p->frequency + from, bytes) == 0 &&
+                    memcmp(s->decay + from, p->decay + from, bytes) == 0;
+        if (same) continue;
         memcpy(s->frequency + from, p->frequency + from, bytes);
         memcpy(s->decay + from, p->decay + from, bytes);
         phasors(s, k, 1.0, s->group[k].pr, s->group[k].pi);

@@ -1,6 +1,6 @@
-/* An impulse response as samples: read from a WAV, or sampled from modes. In both, h is ready for convolution/overlap_add.h:
-   scaled by 1/rate, its first sample half of h(0+) (plus the direct term of an acceleration table), so that y = sum h[n - m] f[m]
-   is in the response's quantity for f in newtons. See ir.c. */
+/* An impulse response as samples: read from a WAV, or sampled from modes. In both, h is ready for
+   convolution/overlap_add.h: scaled by 1/rate, its first sample half of h(0+) (plus the direct term of an acceleration
+   table), so that y = sum h[n - m] f[m] is in the response's quantity for f in newtons. See ir.c. */
 #ifndef RESPONSE_IR_H
 #define RESPONSE_IR_H
 #include <stdbool.h>
@@ -13,16 +13,16 @@
 
 struct ir {
     size_t length;
-    const double *h; /* [length], quantity per newton and sample */
+    const double *h;  /* [length], quantity per newton and sample */
     const char *note; /* that it was resampled, for a warning; NULL: it was not */
 };
 
 /* Number of samples n with n/rate < t0 (t0 > 0, s), at least 1. */
 size_t ir_length(double rate, double t0);
 
-/* A mono WAV: sample value x[n] is the response at t = n/rate in its quantity per N s, as it stands (nothing is rescaled), the first one
-   h(0+). At another rate than `rate` (Hz) it is resampled, see ir_read.c. Cut to t < t0 (s); NAN: whole. Errors: as wav_read; ERR_SCENE when
-   it is not mono, or silent before t0. */
+/* A mono WAV: sample value x[n] is the response at t = n/rate in its quantity per N s, as it stands (nothing is
+   rescaled), the first one h(0+). At another rate than `rate` (Hz) it is resampled, see ir_read.c. Cut to t < t0 (s);
+   NAN: whole. Errors: as wav_read; ERR_SCENE when it is not mono, or silent before t0. */
 struct ir_ask {
     const char *path;    /* of a file, or of a folder (ir_set.h)                              */
     double rate, t0;     /* Hz, s                                                             */
@@ -30,12 +30,14 @@ struct ir_ask {
 };
 bool ir_read(const struct ir_ask *ask, struct arena *a, struct ir *ir, struct err *e);
 
-/* Samples modes into impulse responses at that rate (Hz): n components, each below rate/2 while its gain is not 0 (modes_drop_above, morph.c). */
+/* Samples modes into impulse responses at that rate (Hz): n components, each below rate/2 while its gain is not 0
+ * (modes_drop_above, morph.c). */
 struct ir_sampler;
 struct ir_sampler *ir_sampler_make(struct arena *a, int n, double rate);
 
-/* The response h[length] of a point with its poles, in that quantity (enum modes_quantity; of acceleration and pressure with the direct term). Poles that
-   are those of the call before cost nothing. Absolute error <= 1e-12 sum |gain| / rate up to 1e5 samples. */
+/* The response h[length] of a point with its poles, in that quantity (enum modes_quantity; of acceleration and pressure
+   with the direct term). Poles that are those of the call before cost nothing. Absolute error <= 1e-12 sum |gain| /
+   rate up to 1e5 samples. */
 void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length);
 
 #endif

@@ -1,20 +1,20 @@
 /* Every radiator is a linear filter, and a mode A e^(s t), s = -decay + j 2 pi f, passes one as A H(s) e^(s t):
 
-       quantity      H = s^k, k from -2 to 2: displacement, velocity, acceleration are the mode times 1, s, s^2. (Constants of integration are
-                     left out: the displacement that a velocity would leave behind, a jump of displacement at t = 0. An acceleration's jump of
-                     velocity is its direct term, modes_direct.)
-       contact       H = 1: the motion of the place that is touched, or what a table holds
-       point         H = 1: the motion of another place; the modes are made for it (listener_place)
-       monopole      radiator_monopole.c, with a component of its own
-       plate         radiator_plate.c: H of each mode by quadrature, once
+       quantity      H = s^k, k from -2 to 2: displacement, velocity, acceleration are the mode times 1, s, s^2.
+   (Constants of integration are left out: the displacement that a velocity would leave behind, a jump of displacement
+   at t = 0. An acceleration's jump of velocity is its direct term, modes_direct.) contact       H = 1: the motion of
+   the place that is touched, or what a table holds point         H = 1: the motion of another place; the modes are made
+   for it (listener_place) monopole      radiator_monopole.c, with a component of its own plate radiator_plate.c: H of
+   each mode by quadrature, once
 
-   The way through the air: a channel is later than that of the nearest listening place by d = (r - r_nearest) / c rate samples, of which ceil(d) are a
-   delay and the rest an advance, A e^(s (ceil(d) - d) / rate): the delayed response, exactly, at every sample (whereas the rest as a delay would
-   begin before it). The way to the nearest place, (r_nearest - a) / c of a monopole and R_0 / c of a plate's centre, is left out; objects do not
-   know of each other, and each begins at once at the place nearest to it.
+   The way through the air: a channel is later than that of the nearest listening place by d = (r - r_nearest) / c rate
+   samples, of which ceil(d) are a delay and the rest an advance, A e^(s (ceil(d) - d) / rate): the delayed response,
+   exactly, at every sample (whereas the rest as a delay would begin before it). The way to the nearest place,
+   (r_nearest - a) / c of a monopole and R_0 / c of a plate's centre, is left out; objects do not know of each other,
+   and each begins at once at the place nearest to it.
 
-   The middle of an object is that of its box, in the plane z = 0; of a shell, which is touched on top, its radius below. Of what is no object (a table's,
-   a place in the space of materials) it is the scene's own origin. */
+   The middle of an object is that of its box, in the plane z = 0; of a shell, which is touched on top, its radius
+   below. Of what is no object (a table's, a place in the space of materials) it is the scene's own origin. */
 #include "response/listener.h"
 
 #include <math.h>
@@ -26,11 +26,11 @@
 
 struct listener {
     int n, radiator, extra, quantity;
-    int power;               /* of s, from the modes' quantity to the radiator's */
+    int power; /* of s, from the modes' quantity to the radiator's */
     long delay;
-    double advance;          /* s */
+    double advance; /* s */
     struct radiator_monopole monopole;
-    double *re, *im;         /* [n] of a plate */
+    double *re, *im; /* [n] of a plate */
 };
 
 static int radiator_of(const struct listener_ask *ask)
@@ -46,8 +46,7 @@ static const double *place_of(const struct listener_ask *ask, int channel)
 bool listener_place(const struct listener_ask *ask, const struct object *o, struct arena *a, double place[2])
 {
     int radiator = radiator_of(ask);
-    if (radiator == RADIATOR_PLATE && o->flat)
-        radiator_plate_reference(o, a, place);
+    if (radiator == RADIATOR_PLATE && o->flat) radiator_plate_reference(o, a, place);
     for (int i = 0; i < 2 && radiator == RADIATOR_POINT; i++)
         place[i] = place_of(ask, ask->channel)[i] - ask->origin[i];
     return radiator == RADIATOR_POINT || (radiator == RADIATOR_PLATE && o->flat);
@@ -59,11 +58,11 @@ static double distance(const struct listener_ask *ask, const struct modes *m, in
 {
     const struct object *o = m->object;
     const double *p = place_of(ask, channel);
-    if (o && o->flat)
-        return radiator_plate_distance(o, ask->origin, p);
+    if (o && o->flat) return radiator_plate_distance(o, ask->origin, p);
     bool shell = o && o->shape == OBJECT_SHELL;
     double dx = p[0] - ask->origin[0] - (o && !shell ? 0.5 * (o->low[0] + o->high[0]) : 0);
-    double dy = p[1] - ask->origin[1] - (o && !shell ? 0.5 * (o->low[1] + o->high[1]) : 0), dz = p[2] + (shell ? o->radius : 0);
+    double dy = p[1] - ask->origin[1] - (o && !shell ? 0.5 * (o->low[1] + o->high[1]) : 0),
+           dz = p[2] + (shell ? o->radius : 0);
     return sqrt(dx * dx + dy * dy + dz * dz);
 }
 
@@ -84,28 +83,42 @@ static bool set_monopole(struct listener *l, const struct listener_ask *ask, con
     double r = distance(ask, m, ask->channel);
     if (isnan(m->radius))
         return err_set(e, ERR_SCENE,
-                       "output.listen.radiator: monopole: %s does not say how large the object is; a mode table may, by a line '# radius_m: METRES' (of the "
-                       "sphere of the same surface area); else listen to the contact", m->name);
+                       "output.listen.radiator: monopole: %s does not say how large the object is; a mode table may, "
+                       "by a line '# radius_m: METRES' (of the "
+                       "sphere of the same surface area); else listen to the contact",
+                       m->name);
     if (!(r > m->radius))
         return err_set(e, ERR_SCENE,
-                       "output.listen.places: place %d is %.6g m from the middle of %s, inside the sphere of %.6g m radius that stands for it: listen "
-                       "from farther away", ask->channel + 1, r, m->name, m->radius);
+                       "output.listen.places: place %d is %.6g m from the middle of %s, inside the sphere of %.6g m "
+                       "radius that stands for it: listen "
+                       "from farther away",
+                       ask->channel + 1, r, m->name, m->radius);
     l->monopole = radiator_monopole(m->radius, r, air->density, air->sound_speed);
     l->extra = radiator_monopole_sampled(&l->monopole, ask->rate);
     return true;
 }
 
-static bool set_plate(struct listener *l, const struct listener_ask *ask, const struct modes *m, struct arena *a, struct err *e)
+static bool set_plate(struct listener *l, const struct listener_ask *ask, const struct modes *m, struct arena *a,
+                      struct err *e)
 {
     const struct listen *air = &ask->output->listen;
     const double *at = place_of(ask, ask->channel);
-    struct radiator_plate p = {.modes = m, .object = m->object, .origin = {ask->origin[0], ask->origin[1]}, .place = {at[0], at[1], at[2]},
-                               .density = air->density, .sound_speed = air->sound_speed};
+    struct radiator_plate p = {.modes = m,
+                               .object = m->object,
+                               .origin = {ask->origin[0], ask->origin[1]},
+                               .place = {at[0], at[1], at[2]},
+                               .density = air->density,
+                               .sound_speed = air->sound_speed};
     if (!m->object || !m->object->flat)
         return err_set(e, ERR_SCENE,
-                       "output.listen.radiator: plate: %s is not a plate, disk, membrane or drum, whose mode shapes are known: use monopole", m->name);
+                       "output.listen.radiator: plate: %s is not a plate, disk, membrane or drum, whose mode shapes "
+                       "are known: use monopole",
+                       m->name);
     if (!ask->listen)
-        return err_set(e, ERR_SCENE, "output.listen.radiator: plate: %s is not the surface, which alone can lie in a baffle: use monopole", m->name);
+        return err_set(
+            e, ERR_SCENE,
+            "output.listen.radiator: plate: %s is not the surface, which alone can lie in a baffle: use monopole",
+            m->name);
     memcpy(p.reference, ask->listen, sizeof p.reference);
     l->re = ARENA_TAKE(a, double, m->n);
     l->im = ARENA_TAKE(a, double, m->n);
@@ -117,31 +130,35 @@ static bool point_possible(const struct listener_ask *ask, const struct modes *m
     const struct object *o = m->object;
     const double *p = place_of(ask, ask->channel);
     if (!o)
-        return err_set(e, ERR_SCENE, "output.listen.radiator: point: %s is not an object whose mode shapes are known everywhere: listen to the contact",
+        return err_set(e, ERR_SCENE,
+                       "output.listen.radiator: point: %s is not an object whose mode shapes are known everywhere: "
+                       "listen to the contact",
                        m->name);
     double off = o->shapes(o, p[0] - ask->origin[0], p[1] - ask->origin[1], ARENA_TAKE(a, double, o->n));
-    return off <= 1e-9 || err_set(e, ERR_SCENE, "output.listen.places: place %d, [%.6g, %.6g] m, is %.3g m beside %s, which lies from "
-                                             "[%.6g, %.6g] to [%.6g, %.6g] m: move the place, or the object by its origin",
-                                  ask->channel + 1, p[0], p[1], off, m->name, o->low[0] + ask->origin[0], o->low[1] + ask->origin[1],
-                                  o->high[0] + ask->origin[0], o->high[1] + ask->origin[1]);
+    return off <= 1e-9 ||
+           err_set(e, ERR_SCENE,
+                   "output.listen.places: place %d, [%.6g, %.6g] m, is %.3g m beside %s, which lies from "
+                   "[%.6g, %.6g] to [%.6g, %.6g] m: move the place, or the object by its origin",
+                   ask->channel + 1, p[0], p[1], off, m->name, o->low[0] + ask->origin[0], o->low[1] + ask->origin[1],
+                   o->high[0] + ask->origin[0], o->high[1] + ask->origin[1]);
 }
 
-static bool set_radiator(struct listener *l, const struct listener_ask *ask, const struct modes *m, struct arena *a, struct err *e)
+static bool set_radiator(struct listener *l, const struct listener_ask *ask, const struct modes *m, struct arena *a,
+                         struct err *e)
 {
     bool pascals = listener_in_pascals(ask->output);
     int wanted = ask->output->quantity;
-    if (l->radiator == RADIATOR_POINT && !point_possible(ask, m, a, e))
-        return false;
+    if (l->radiator == RADIATOR_POINT && !point_possible(ask, m, a, e)) return false;
     if (wanted == QUANTITY_FORCE)
         return err_set(e, ERR_SCENE, "output.quantity: a force is no vibration, and what rings cannot give it");
     if (pascals && wanted != QUANTITY_AUTO)
-        return err_set(e, ERR_SCENE, "output.quantity: a radiator's sound is pressure: leave output.quantity out, or listen to the contact");
+        return err_set(
+            e, ERR_SCENE,
+            "output.quantity: a radiator's sound is pressure: leave output.quantity out, or listen to the contact");
     l->quantity = pascals ? MODES_PRESSURE : wanted == QUANTITY_AUTO ? m->quantity : wanted - QUANTITY_DISPLACEMENT;
     l->power = (pascals ? MODES_VELOCITY : l->quantity) - m->quantity;
-    if (pascals)
-        set_delay(l, ask, m);
-    if (l->radiator == RADIATOR_MONOPOLE)
-        return set_monopole(l, ask, m, e);
+    if (pascals) set_delay(l, ask, m);
+    if (l->radiator == RADIATOR_MONOPOLE) return set_monopole(l, ask, m, e);
     return l->radiator != RADIATOR_PLATE || set_plate(l, ask, m, a, e);
 }
 
@@ -158,29 +175,26 @@ double listener_cost(const struct output *o, const struct modes *m, const double
     const struct listen *air = &o->listen;
     struct arena *a = arena_open();
     double cycles = 0;
-    for (int k = 0; k < air->n_places && air->given && air->radiator == RADIATOR_PLATE && m->object && m->object->flat; k++) {
+    for (int k = 0; k < air->n_places && air->given && air->radiator == RADIATOR_PLATE && m->object && m->object->flat;
+         k++) {
         const double *at = air->places + 3 * k;
-        cycles += radiator_plate_cost(&(struct radiator_plate){.modes = m, .object = m->object, .origin = {origin[0], origin[1]}, .place = {at[0], at[1], at[2]},
-                                                               .density = air->density, .sound_speed = air->sound_speed}, a);
+        cycles += radiator_plate_cost(&(struct radiator_plate){.modes = m,
+                                                               .object = m->object,
+                                                               .origin = {origin[0], origin[1]},
+                                                               .place = {at[0], at[1], at[2]},
+                                                               .density = air->density,
+                                                               .sound_speed = air->sound_speed},
+                                      a);
     }
     arena_close(a);
     return cycles;
 }
 
-int listener_extra(const struct listener *l)
-{
-    return l->extra;
-}
+int listener_extra(const struct listener *l) { return l->extra; }
 
-int listener_quantity(const struct listener *l)
-{
-    return l->quantity;
-}
+int listener_quantity(const struct listener *l) { return l->quantity; }
 
-long listener_delay(const struct listener *l)
-{
-    return l->delay;
-}
+long listener_delay(const struct listener *l) { return l->delay; }
 
 void listener_poles(const struct listener *l, double *frequency, double *decay)
 {
@@ -227,8 +241,7 @@ static void apply_one(const struct listener *l, const double s[2], double *re, d
         radiator_monopole_at(&l->monopole, s, h);
         times(re, im, h);
     }
-    if (l->advance != 0)
-        advance(l, s, re, im);
+    if (l->advance != 0) advance(l, s, re, im);
 }
 
 void listener_apply(const struct listener *l, const double *frequency, const double *decay, const struct modes_point *p)
@@ -242,7 +255,6 @@ void listener_apply(const struct listener *l, const double *frequency, const dou
     for (int i = l->n; i < l->n + l->extra; i++) {
         p->re[i] = 0;
         p->im[i] = own * real_exp(-l->monopole.pole * l->advance);
-        if (p->frequency)
-            listener_poles(l, p->frequency + i, p->decay + i);
+        if (p->frequency) listener_poles(l, p->frequency + i, p->decay + i);
     }
 }

@@ -2,21 +2,19 @@
 
    Tidy CSV, one row per place and mode:
        place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad
-   h(t) = gain e^(-decay_per_s t) sin(2 pi frequency_hz t + phase_rad), in the quantity per N s; ids of places and modes are texts, rows in any order.
-   Two other forms, for envelopes that are no single exponential (papers/000 equation 10):
-   - one more column `slope` (1, 2, ...): several rows of one place and mode, with their own decay, gain and phase, that sound together;
-   - the columns `time_s,amplitude` instead of `decay_per_s,gain`, one row per place, mode and time: the envelope A(tau), sampled, which is fitted by up to
-     six slopes (slopes.h).
-   Comments before the header, "# key: value":
-       poles          shared: frequency and decay of a mode are the same at every place (checked, 1e-9), and every place has every mode.
+   h(t) = gain e^(-decay_per_s t) sin(2 pi frequency_hz t + phase_rad), in the quantity per N s; ids of places and modes
+   are texts, rows in any order. Two other forms, for envelopes that are no single exponential (papers/000 equation 10):
+   - one more column `slope` (1, 2, ...): several rows of one place and mode, with their own decay, gain and phase, that
+   sound together;
+   - the columns `time_s,amplitude` instead of `decay_per_s,gain`, one row per place, mode and time: the envelope
+   A(tau), sampled, which is fitted by up to six slopes (slopes.h). Comments before the header, "# key: value": poles
+   shared: frequency and decay of a mode are the same at every place (checked, 1e-9), and every place has every mode.
                       separate: a place's own; a place may lack a mode; decays above 0.
-       gains          of separate poles, between places: logarithmic (papers/000; the default), or complex: as numbers that
-                      may pass zero
-       quantity       displacement, velocity or acceleration, per N s
-       pairing        ids: modes of one id are one mode; frequency: see pairing.h. Default: ids, unless places differ in the ids they have, and ids that
-                      several have are not within 12 % of one frequency for the most part
-       radius_m       of a sphere of the object's size, for a monopole's sound (optional)
-       normalisation, source, ...   free text */
+       gains          of separate poles, between places: logarithmic (papers/000; the default), or complex: as numbers
+   that may pass zero quantity       displacement, velocity or acceleration, per N s pairing        ids: modes of one id
+   are one mode; frequency: see pairing.h. Default: ids, unless places differ in the ids they have, and ids that several
+   have are not within 12 % of one frequency for the most part radius_m       of a sphere of the object's size, for a
+   monopole's sound (optional) normalisation, source, ...   free text */
 #ifndef RESPONSE_MODE_TABLE_H
 #define RESPONSE_MODE_TABLE_H
 #include <stdbool.h>
@@ -30,11 +28,11 @@ struct mode_slope {
     double decay, gain, phase;
 };
 
-struct mode_entry {            /* a mode at a place */
-    size_t place, mode, row;   /* numbers: places by x, then y, modes by lowest frequency; first row of the CSV */
+struct mode_entry {          /* a mode at a place */
+    size_t place, mode, row; /* numbers: places by x, then y, modes by lowest frequency; first row of the CSV */
     double frequency;
     int n;
-    struct mode_slope *slope;  /* [n] by rising decay */
+    struct mode_slope *slope; /* [n] by rising decay */
 };
 
 struct mode_table {

@@ -1,4 +1,5 @@
-/* The rows of a mode table's CSV: which columns there are, their numbers, and which rows belong together. For mode_table.c. */
+/* The rows of a mode table's CSV: which columns there are, their numbers, and which rows belong together. For
+ * mode_table.c. */
 #ifndef RESPONSE_MODE_TABLE_ROWS_H
 #define RESPONSE_MODE_TABLE_ROWS_H
 #include "base/arena.h"
@@ -7,18 +8,28 @@
 
 /* In the order of the three forms' columns; those of an envelope table stand in for decay and gain. */
 enum {
-    MODE_TABLE_PLACE, MODE_TABLE_X, MODE_TABLE_Y, MODE_TABLE_MODE, MODE_TABLE_FREQUENCY, MODE_TABLE_DECAY, MODE_TABLE_GAIN, MODE_TABLE_PHASE,
-    MODE_TABLE_SLOPE, MODE_TABLE_COLUMNS, MODE_TABLE_TIME = MODE_TABLE_DECAY, MODE_TABLE_AMPLITUDE = MODE_TABLE_GAIN
+    MODE_TABLE_PLACE,
+    MODE_TABLE_X,
+    MODE_TABLE_Y,
+    MODE_TABLE_MODE,
+    MODE_TABLE_FREQUENCY,
+    MODE_TABLE_DECAY,
+    MODE_TABLE_GAIN,
+    MODE_TABLE_PHASE,
+    MODE_TABLE_SLOPE,
+    MODE_TABLE_COLUMNS,
+    MODE_TABLE_TIME = MODE_TABLE_DECAY,
+    MODE_TABLE_AMPLITUDE = MODE_TABLE_GAIN
 };
 
 struct mode_table_rows {
     const struct csv *csv;
-    bool envelope, slopes;         /* the form */
+    bool envelope, slopes; /* the form */
     int column[MODE_TABLE_COLUMNS];
     size_t places, modes;
     size_t *place, *mode; /* [rows] number of each: places by x, then y, modes by lowest frequency, then names */
-    double *value;                 /* [rows][MODE_TABLE_COLUMNS] numbers, SI */
-    size_t *order;                 /* [rows] rows by place, mode, then slope or time */
+    double *value;        /* [rows][MODE_TABLE_COLUMNS] numbers, SI */
+    size_t *order;        /* [rows] rows by place, mode, then slope or time */
 };
 
 /* Columns, numbers and their ranges, one point per place, no row twice. */

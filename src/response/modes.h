@@ -1,9 +1,9 @@
-/* Modes: how an object rings, wherever it is touched. A mode is gain e^(-decay t) sin(2 pi f t + phase), t >= 0 (papers/000 equation 10
-   with A_i(t) an exponential; a mode of several slopes is several components of one frequency). Complex gain: A = gain e^(j phase), so that
-   h(t) = Im sum A_i e^(s_i t), s_i = -decay + j 2 pi f.
+/* Modes: how an object rings, wherever it is touched. A mode is gain e^(-decay t) sin(2 pi f t + phase), t >= 0
+   (papers/000 equation 10 with A_i(t) an exponential; a mode of several slopes is several components of one frequency).
+   Complex gain: A = gain e^(j phase), so that h(t) = Im sum A_i e^(s_i t), s_i = -decay + j 2 pi f.
 
-   A `struct modes` comes from a mode table (modes_table.c), a closed-form object (object_modes.c), or a place in the space of materials
-   (space.c); all are read through `at`. */
+   A `struct modes` comes from a mode table (modes_table.c), a closed-form object (object_modes.c), or a place in the
+   space of materials (space.c); all are read through `at`. */
 #ifndef RESPONSE_MODES_H
 #define RESPONSE_MODES_H
 #include <stdbool.h>
@@ -12,22 +12,30 @@
 #include "base/err.h"
 #include "base/shelf.h"
 
-/* The first three in the order of enum quantity of scene.h, which has `auto` before; MODES_PRESSURE comes from a listener only, and MODES_FORCE is no motion
-   at all, but the contact force as the sound (convolution/force_sound.c): no table holds them. */
-enum modes_quantity { MODES_DISPLACEMENT, MODES_VELOCITY, MODES_ACCELERATION, MODES_PRESSURE, MODES_FORCE, MODES_QUANTITIES };
+/* The first three in the order of enum quantity of scene.h, which has `auto` before; MODES_PRESSURE comes from a
+   listener only, and MODES_FORCE is no motion at all, but the contact force as the sound (convolution/force_sound.c):
+   no table holds them. */
+enum modes_quantity {
+    MODES_DISPLACEMENT,
+    MODES_VELOCITY,
+    MODES_ACCELERATION,
+    MODES_PRESSURE,
+    MODES_FORCE,
+    MODES_QUANTITIES
+};
 
 /* "velocity" and "m/s" of such a quantity, for messages. */
 const char *modes_quantity_name(int quantity);
 const char *modes_quantity_unit(int quantity);
 
 struct modes_where {
-    double x, y;   /* m, the contact, in the scene's coordinates */
-    double share;  /* of the motion's duration that has passed, 0 to 1 (the space of materials moves with it) */
+    double x, y;  /* m, the contact, in the scene's coordinates */
+    double share; /* of the motion's duration that has passed, 0 to 1 (the space of materials moves with it) */
 };
 
-struct modes_point {             /* what rings when it is touched there; arrays [n] of the caller (modes_point_make) */
-    double *frequency, *decay;   /* Hz, 1/s */
-    double *re, *im;             /* complex gain, quantity per N s */
+struct modes_point {           /* what rings when it is touched there; arrays [n] of the caller (modes_point_make) */
+    double *frequency, *decay; /* Hz, 1/s */
+    double *re, *im;           /* complex gain, quantity per N s */
 };
 
 struct object;
@@ -47,13 +55,15 @@ struct modes {
     const char *note;            /* what to warn of; NULL: nothing                                          */
     const struct places *places; /* that a table knows; NULL: no table                                      */
     double home[2];              /* m: the place that counts where nothing says which (of a line its first)  */
-    int (*drop)(struct modes *, double top); /* as modes_drop_above does, modes from `top` Hz on; NULL: there are none */
+    int (*drop)(struct modes *,
+                double top); /* as modes_drop_above does, modes from `top` Hz on; NULL: there are none */
     double (*at)(const struct modes *, const struct modes_where *, const struct modes_point *);
     const void *self;
 };
 
-/* Fills the point; poles too when they are not shared (when they are, frequency and decay of the point may be NULL and are left alone).
-   Returns how far (m) the place lies off the hull of those that are known; beyond 1e-9 m the nearest place of the hull counts. */
+/* Fills the point; poles too when they are not shared (when they are, frequency and decay of the point may be NULL and
+   are left alone). Returns how far (m) the place lies off the hull of those that are known; beyond 1e-9 m the nearest
+   place of the hull counts. */
 double modes_at(const struct modes *m, const struct modes_where *where, const struct modes_point *p);
 
 /* Gains of velocity to those of displacement (A/s) or acceleration (A s, for t > 0). */
@@ -69,24 +79,27 @@ struct modes_point modes_point_make(struct arena *a, int n);
    band is ERR_SCENE. */
 struct modes_ask {
     int strongest;
-    double band[2];              /* Hz, low <= f < high, from which they are chosen (modes_in_band); 0, 0: from all */
+    double band[2]; /* Hz, low <= f < high, from which they are chosen (modes_in_band); 0, 0: from all */
     double pairing, rate;
-    struct shelf *shelf;         /* of the scene (base/shelf.h); NULL: none */
+    struct shelf *shelf; /* of the scene (base/shelf.h); NULL: none */
 };
 bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e);
 
-/* The direct term D of an acceleration (or pressure) at those gains (its delta at t = 0: what the force itself adds): sum Im(A_i/s_i);
-   0 for the other quantities. frequency, decay: the point's, or the modes' own when poles are shared. */
+/* The direct term D of an acceleration (or pressure) at those gains (its delta at t = 0: what the force itself adds):
+   sum Im(A_i/s_i); 0 for the other quantities. frequency, decay: the point's, or the modes' own when poles are shared.
+ */
 double modes_direct(int quantity, int n, const double *frequency, const double *decay, const struct modes_point *p);
 
 /* Is a mode whose frequency goes from `lowest` to `highest` (Hz) somewhere in the band? */
 bool modes_in_band(const struct modes_ask *ask, double lowest, double highest);
 
-/* Components that nowhere lie below MODES_TOP times the rate cannot be sampled: drops them (sets n), returns how many there were. */
+/* Components that nowhere lie below MODES_TOP times the rate cannot be sampled: drops them (sets n), returns how many
+ * there were. */
 #define MODES_TOP 0.45
 int modes_drop_above(struct modes *m, double rate);
 
-/* Time after which a unit impulse's response has decayed by `decibel` (> 0) below its initial amplitude bound; slowest mode. */
+/* Time after which a unit impulse's response has decayed by `decibel` (> 0) below its initial amplitude bound; slowest
+ * mode. */
 double modes_ring_time(const struct modes *m, double decibel);
 
 #endif

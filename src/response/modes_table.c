@@ -1,8 +1,10 @@
-/* struct modes from a mode table: its places, which modes of different places are one (by id, or pairing.h), the strongest of them, their gains (morph.h).
+/* struct modes from a mode table: its places, which modes of different places are one (by id, or pairing.h), the
+   strongest of them, their gains (morph.h).
 
-   Strength of a mode: its energy per (N s)^2, summed over the places; of one slope the integral of (gain e^(-decay t) sin(...))^2 dt ~ gain^2/(4 decay), of
-   several slopes sum_jk g_j g_k cos(phase_j - phase_k)/(2 (decay_j + decay_k)). Its slopes become components one after the other, those of
-   equal rank by decay being one and the same at all places. Complex gain: A = gain e^(j phase), so that h(t) = Im(A e^(s t)). */
+   Strength of a mode: its energy per (N s)^2, summed over the places; of one slope the integral of (gain e^(-decay t)
+   sin(...))^2 dt ~ gain^2/(4 decay), of several slopes sum_jk g_j g_k cos(phase_j - phase_k)/(2 (decay_j + decay_k)).
+   Its slopes become components one after the other, those of equal rank by decay being one and the same at all places.
+   Complex gain: A = gain e^(j phase), so that h(t) = Im(A e^(s t)). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,7 +17,7 @@
 struct rank {
     double energy, lowest, highest; /* Hz, over the places */
     size_t track;
-    bool inside;                    /* somewhere in the band */
+    bool inside; /* somewhere in the band */
 };
 
 struct component {
@@ -26,12 +28,12 @@ struct making {
     const struct mode_table *t;
     struct arena *arena;
     struct places *places;
-    size_t tracks, *track;             /* [entries] of each entry */
-    struct rank *rank;                 /* [tracks], those of the band first, of these the strongest */
-    size_t inside;                     /* how many are in the band */
-    int chosen, n;                     /* modes, components */
-    const struct mode_entry **entry;   /* [chosen][places] or NULL */
-    struct component *component;       /* [n] */
+    size_t tracks, *track;           /* [entries] of each entry */
+    struct rank *rank;               /* [tracks], those of the band first, of these the strongest */
+    size_t inside;                   /* how many are in the band */
+    int chosen, n;                   /* modes, components */
+    const struct mode_entry **entry; /* [chosen][places] or NULL */
+    struct component *component;     /* [n] */
 };
 
 /* ------------------------------------------------------------------ places, tracks */
@@ -40,9 +42,9 @@ static bool make_places(struct making *k, struct err *e)
 {
     struct err own = {0};
     int bad;
-    if (places_make(k->arena, (int)k->t->places, k->t->xy, &k->places, &bad, &own))
-        return true;
-    return bad < 0 ? err_set(e, own.kind, "%s: %s", k->t->csv.file, own.text) : mode_table_bad_place(k->t, (size_t)bad, own.text, e);
+    if (places_make(k->arena, (int)k->t->places, k->t->xy, &k->places, &bad, &own)) return true;
+    return bad < 0 ? err_set(e, own.kind, "%s: %s", k->t->csv.file, own.text)
+                   : mode_table_bad_place(k->t, (size_t)bad, own.text, e);
 }
 
 static void track_by_frequency(struct making *k, double gate)
@@ -73,16 +75,14 @@ static void make_tracks(struct making *k, double gate)
     k->tracks = k->t->modes;
     for (size_t i = 0; i < entries; i++)
         k->track[i] = k->t->entry[i].mode;
-    if (k->t->by_frequency && k->t->places > 1)
-        track_by_frequency(k, gate);
+    if (k->t->by_frequency && k->t->places > 1) track_by_frequency(k, gate);
 }
 
 /* ------------------------------------------------------------------ the strongest */
 
 static double slope_energy(const struct mode_slope *p)
 {
-    if (p->gain != 0.0 && p->decay == 0.0)
-        return HUGE_VAL; /* without decay: endless energy, unless silent */
+    if (p->gain != 0.0 && p->decay == 0.0) return HUGE_VAL; /* without decay: endless energy, unless silent */
     double amplitude = p->gain != 0.0 ? p->gain / (2.0 * sqrt(p->decay)) : 0.0;
     return amplitude * amplitude;
 }
@@ -105,10 +105,8 @@ static double energy(const struct mode_entry *m)
 static int strongest_first(const void *a, const void *b)
 {
     const struct rank *p = a, *q = b;
-    if (p->inside != q->inside)
-        return p->inside ? -1 : 1;
-    if (p->energy != q->energy)
-        return p->energy > q->energy ? -1 : 1;
+    if (p->inside != q->inside) return p->inside ? -1 : 1;
+    if (p->energy != q->energy) return p->energy > q->energy ? -1 : 1;
     return (p->track > q->track) - (p->track < q->track);
 }
 
@@ -138,8 +136,7 @@ static void choose(struct making *k, int strongest)
     for (size_t i = 0; i < k->tracks; i++)
         place[k->rank[i].track] = i < (size_t)k->chosen ? i : none;
     for (size_t i = 0; i < t->first[t->places]; i++)
-        if (place[k->track[i]] != none)
-            k->entry[place[k->track[i]] * t->places + t->entry[i].place] = &t->entry[i];
+        if (place[k->track[i]] != none) k->entry[place[k->track[i]] * t->places + t->entry[i].place] = &t->entry[i];
 }
 
 /* Slopes of a chosen mode, at the place where they are most. */
@@ -167,8 +164,7 @@ static void make_components(struct making *k)
 static const struct mode_entry *entry_of(const struct making *k, int i, size_t place, const struct mode_slope **slope)
 {
     const struct mode_entry *m = k->entry[(size_t)k->component[i].chosen * k->t->places + place];
-    if (!m || k->component[i].slope >= m->n)
-        return NULL;
+    if (!m || k->component[i].slope >= m->n) return NULL;
     *slope = &m->slope[k->component[i].slope];
     return m;
 }
@@ -183,8 +179,7 @@ static void survey(const struct making *k, struct modes *m, struct morph *p, int
     p->lowest[i] = m->slowest[i] = HUGE_VAL;
     for (size_t row = 0; row < k->t->places; row++) {
         const struct mode_entry *at = entry_of(k, i, row, &s);
-        if (!at)
-            continue;
+        if (!at) continue;
         p->lowest[i] = fmin(p->lowest[i], at->frequency);
         p->highest[i] = fmax(p->highest[i], at->frequency);
         p->largest[i] = fmax(p->largest[i], fabs(s->gain));
@@ -210,7 +205,9 @@ static void fill_complex(const struct making *k, const struct modes *m, struct m
         for (int row = 0; row < p->rows; row++) {
             const struct mode_entry *at = entry_of(k, i, (size_t)row, &s);
             if (at)
-                morph_set(p, m, row, i, &(struct morph_pole){at->frequency, s->decay, s->gain * real_cos(s->phase), s->gain * real_sin(s->phase)});
+                morph_set(p, m, row, i,
+                          &(struct morph_pole){at->frequency, s->decay, s->gain * real_cos(s->phase),
+                                               s->gain * real_sin(s->phase)});
         }
     }
     morph_slopes(p);
@@ -229,8 +226,7 @@ static void fill_logarithmic(const struct making *k, const struct modes *m, stru
     for (int i = 0; i < p->n; i++)
         for (int row = 0; row < p->rows; row++) {
             const struct mode_entry *at = entry_of(k, i, (size_t)row, &s);
-            if (at)
-                morph_put(p, m, row, i, (double[4]){at->frequency, s->decay, s->gain, s->phase});
+            if (at) morph_put(p, m, row, i, (double[4]){at->frequency, s->decay, s->gain, s->phase});
         }
     morph_settle(p);
 }
@@ -250,7 +246,8 @@ static int drop(struct modes *m, double top)
 static void set_home(const struct making *k, struct modes *m)
 {
     const int(*edge)[2];
-    int edges = places_edges(k->places, &edge), first = places_kind(k->places) == PLACES_LINE && edges > 0 ? edge[0][0] : 0;
+    int edges = places_edges(k->places, &edge),
+        first = places_kind(k->places) == PLACES_LINE && edges > 0 ? edge[0][0] : 0;
     m->home[0] = k->t->xy[2 * first];
     m->home[1] = k->t->xy[2 * first + 1];
 }
@@ -260,8 +257,16 @@ static void make_modes(const struct making *k, double rate, struct modes *m)
     struct morph *p = ARENA_TAKE(k->arena, struct morph, 1);
     double **own[] = {&m->frequency, &m->decay, &m->slowest, &p->largest, &p->lowest, &p->highest};
     *p = (struct morph){.n = k->n, .rows = (int)k->t->places, .places = k->places, .rate = rate};
-    *m = (struct modes){.n = k->n, .quantity = k->t->quantity, .shared = k->t->shared || p->rows == 1, .moves = p->rows > 1, .radius = k->t->radius,
-                        .name = k->t->csv.file, .note = k->t->note, .places = k->places, .drop = drop, .self = p};
+    *m = (struct modes){.n = k->n,
+                        .quantity = k->t->quantity,
+                        .shared = k->t->shared || p->rows == 1,
+                        .moves = p->rows > 1,
+                        .radius = k->t->radius,
+                        .name = k->t->csv.file,
+                        .note = k->t->note,
+                        .places = k->places,
+                        .drop = drop,
+                        .self = p};
     for (int c = 0; c < 6; c++)
         *own[c] = ARENA_TAKE(k->arena, double, k->n);
     for (int i = 0; i < k->n; i++)
@@ -283,14 +288,17 @@ static bool make_table(const char *path, const void *how, struct arena *a, void 
 bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e)
 {
     static const struct shelf_kind tables = {"mode table", sizeof(struct mode_table), make_table, false};
-    struct making k = {.t = shelf_take(ask->shelf, &(struct shelf_ask){.kind = &tables, .file = path}, a, e), .arena = a};
-    if (!k.t || !make_places(&k, e))
-        return false;
+    struct making k = {.t = shelf_take(ask->shelf, &(struct shelf_ask){.kind = &tables, .file = path}, a, e),
+                       .arena = a};
+    if (!k.t || !make_places(&k, e)) return false;
     make_tracks(&k, ask->pairing);
     rank_modes(&k, ask);
     if (k.inside == 0)
-        return err_set(e, ERR_SCENE, "%s: none of its modes lies from %g Hz to below %g Hz, the band from which they are chosen: widen that band (surface.band, scraper.band "
-                                     "or ball.band), or check that frequency_hz is in Hz", path, ask->band[0], ask->band[1]);
+        return err_set(e, ERR_SCENE,
+                       "%s: none of its modes lies from %g Hz to below %g Hz, the band from which they are chosen: "
+                       "widen that band (surface.band, scraper.band "
+                       "or ball.band), or check that frequency_hz is in Hz",
+                       path, ask->band[0], ask->band[1]);
     choose(&k, ask->strongest);
     make_components(&k);
     make_modes(&k, ask->rate, m);

@@ -6,9 +6,9 @@
    slopes. Separate poles go the same way in the logarithm; a place that lacks a mode has a gain of 0 and the modes' own
    poles.
 
-   Logarithmic gains, of separate poles only (papers/000 section 2.4: "logarithmically interpolated ... in both frequency and amplitude"; decays
-   likewise) at the mix x = sum w_k x_k of up to four places (places_at), over those that have the mode, W = sum of
-   their w_k:
+   Logarithmic gains, of separate poles only (papers/000 section 2.4: "logarithmically interpolated ... in both
+   frequency and amplitude"; decays likewise) at the mix x = sum w_k x_k of up to four places (places_at), over those
+   that have the mode, W = sum of their w_k:
 
        log f = sum w_k log f_k / W,  log decay likewise,  |A| = W exp(sum w_k log|A_k| / W)
 
@@ -71,7 +71,8 @@ static double fade_of(const struct morph *p, double frequency)
 }
 
 /* Poles of the sum's shares of their logarithms. */
-static void curve(const struct morph *p, const struct places_sum *sum, const double *rows, const double *own, double *to)
+static void curve(const struct morph *p, const struct places_sum *sum, const double *rows, const double *own,
+                  double *to)
 {
     for (int k = 0; k < sum->n; k++)
         add(p->n, k == 0, sum->weight[k], rows + (size_t)sum->index[k] * p->n, to);
@@ -88,8 +89,7 @@ double morph_complex(const struct modes *m, const struct modes_where *where, con
         add(p->n, k == 0, sum.weight[k], p->re + (size_t)sum.index[k] * p->n, to->re);
         add(p->n, k == 0, sum.weight[k], p->im + (size_t)sum.index[k] * p->n, to->im);
     }
-    if (!p->frequency)
-        return off;
+    if (!p->frequency) return off;
     curve(p, &sum, p->frequency, m->frequency, to->frequency);
     curve(p, &sum, p->decay, m->decay, to->decay);
     for (int k = 0; k < p->highs; k++) {
@@ -156,12 +156,10 @@ static void turn_some(const struct morph *p, const struct places_mix *mix, const
     double last = 0, sum = 0, turned = 0, first = 0;
     int corners = mix->n, from = 0, have = 0;
     for (int k = 0; k < corners; k++)
-        if (there->at[k][i] > 0 && !(there->at[(k + corners - 1) % corners][i] > 0))
-            from = k;
+        if (there->at[k][i] > 0 && !(there->at[(k + corners - 1) % corners][i] > 0)) from = k;
     for (int j = 0; j < corners; j++) {
         int k = (from + j) % corners;
-        if (!(there->at[k][i] > 0))
-            continue;
+        if (!(there->at[k][i] > 0)) continue;
         first = have++ == 0 ? phase->at[k][i] : first;
         turned = have > 1 ? turned + shorter(phase->at[k][i] - last) : 0;
         last = phase->at[k][i];
@@ -177,32 +175,28 @@ static void turn_to(const struct morph *p, const struct places_mix *mix, double 
     double w[CORNERS] = {0};
     for (int k = 0; k < mix->n; k++)
         w[k] = mix->weight[k];
-    if (!p->gaps)
-        turn_all(p->n, &phase, w, p->torn, to);
+    if (!p->gaps) turn_all(p->n, &phase, w, p->torn, to);
     for (int i = 0; p->gaps && i < p->n; i++)
         turn_some(p, mix, &phase, &there, i, to);
 }
 
 /* Poles, and amplitudes without W. */
-static void logarithms(const struct morph *p, const struct modes *m, const struct places_mix *mix, const struct modes_point *to)
+static void logarithms(const struct morph *p, const struct modes *m, const struct places_mix *mix,
+                       const struct modes_point *to)
 {
     const double *rows[3] = {p->frequency, p->decay, p->gain}, *by[3] = {m->frequency, m->decay, p->largest};
     double *out[3] = {to->frequency, to->decay, p->amplitude};
     for (int c = 0; c < 3; c++) {
         struct rows r = rows_of(p, rows[c], mix);
         add_up(p->n, mix, &r, out[c]);
-        if (p->gaps)
-            divide(p->n, p->share, out[c]);
+        if (p->gaps) divide(p->n, p->share, out[c]);
         vecmath_exp((size_t)p->n, out[c], out[c]);
         times(p->n, by[c], out[c]);
     }
 }
 
 /* The weight of l on the edge from k to l. */
-static double on_edge(const double *w, int k, int l)
-{
-    return w[k] + w[l] > 0.0 ? w[l] / (w[k] + w[l]) : 0.5;
-}
+static double on_edge(const double *w, int k, int l) { return w[k] + w[l] > 0.0 ? w[l] / (w[k] + w[l]) : 0.5; }
 
 /* Shares of the edges from corner k to the next; false: the point is a corner. */
 static bool share_edges(const struct places_mix *mix, double share[CORNERS])
@@ -221,8 +215,7 @@ static void mend(const struct morph *p, const struct places_mix *mix, const stru
     struct rows gain = rows_of(p, p->gain, mix), phase = rows_of(p, p->phase, mix);
     double share[CORNERS];
     int n = 0, edges = mix->n;
-    if (edges < 3 || !share_edges(mix, share))
-        return;
+    if (edges < 3 || !share_edges(mix, share)) return;
     for (int i = 0; i < p->n; i++)
         for (int k = 0, l = 1; k < edges && p->torn[i] > 0.0; k++, l = (k + 1) % edges, n++) {
             double on = on_edge(mix->weight, k, l), from = gain.at[k][i], q = phase.at[k][i];
@@ -254,8 +247,7 @@ double morph_separate(const struct modes *m, const struct modes_where *where, co
     logarithms(p, m, &mix, to);
     turn_to(p, &mix, to->im);
     vecmath_sincospi((size_t)p->n, to->im, to->im, to->re);
-    if (p->gaps)
-        times(p->n, p->share, p->amplitude);
+    if (p->gaps) times(p->n, p->share, p->amplitude);
     for (int k = 0; k < p->highs; k++)
         p->amplitude[p->high[k]] *= fade_of(p, to->frequency[p->high[k]]);
     times(p->n, p->amplitude, to->re);
@@ -270,8 +262,7 @@ void morph_put(struct morph *p, const struct modes *m, int row, int i, const dou
 {
     size_t at = (size_t)row * p->n + i;
     double size = fabs(value[2]), q = value[3] / REAL_PI + (value[2] < 0.0);
-    if (size == 0.0)
-        return;
+    if (size == 0.0) return;
     q -= 2.0 * floor(0.5 * q);
     p->there[at] = 1.0;
     p->frequency[at] = value[0] == m->frequency[i] ? 0.0 : real_log(value[0] / m->frequency[i]);
@@ -287,8 +278,7 @@ void morph_settle(struct morph *p)
     for (size_t k = 0; p->there && k < (size_t)p->rows * p->n; k++)
         p->gaps = p->gaps || p->there[k] == 0.0;
     for (int i = 0; i < p->n; i++)
-        if (p->highest[i] > 0.45 * p->rate)
-            p->high[p->highs++] = i;
+        if (p->highest[i] > 0.45 * p->rate) p->high[p->highs++] = i;
 }
 
 void morph_begin(struct morph *p, bool shared, struct arena *a)
@@ -304,8 +294,7 @@ void morph_set(struct morph *p, const struct modes *m, int row, int i, const str
     size_t k = (size_t)row * p->n + i;
     p->re[k] = at->re;
     p->im[k] = at->im;
-    if (!p->frequency)
-        return;
+    if (!p->frequency) return;
     p->frequency[k] = at->frequency == m->frequency[i] ? 0.0 : real_log(at->frequency / m->frequency[i]);
     p->decay[k] = at->decay == m->decay[i] ? 0.0 : real_log(at->decay / m->decay[i]);
 }
@@ -315,8 +304,7 @@ void morph_slopes(struct morph *p)
     double *rows[] = {p->re, p->im, p->frequency, p->decay};
     for (int c = 0; c < 4 && rows[c]; c++)
         places_fill(p->places, p->n, rows[c]);
-    if (p->frequency)
-        morph_settle(p);
+    if (p->frequency) morph_settle(p);
 }
 
 /* Rows are packed towards the front: nothing is overwritten before it is read. */
@@ -325,8 +313,7 @@ static void pack(double *v, int rows, int n, const bool *keep)
     size_t to = 0;
     for (int r = 0; v && r < rows; r++)
         for (int i = 0; i < n; i++)
-            if (keep[i])
-                v[to++] = v[(size_t)r * n + i];
+            if (keep[i]) v[to++] = v[(size_t)r * n + i];
 }
 
 int morph_keep(struct morph *p, struct modes *m, const bool *keep)
@@ -341,7 +328,6 @@ int morph_keep(struct morph *p, struct modes *m, const bool *keep)
     for (int i = 0; i < n; i++)
         kept += keep[i];
     m->n = p->n = kept;
-    if (!m->shared)
-        morph_settle(p);
+    if (!m->shared) morph_settle(p);
     return n - kept;
 }

@@ -1,24 +1,27 @@
-/* Modes between the places where they are known: gains of shared poles, or whole modes with poles of their own (papers/000 section 2.4). */
+/* Modes between the places where they are known: gains of shared poles, or whole modes with poles of their own
+ * (papers/000 section 2.4). */
 #ifndef RESPONSE_MORPH_H
 #define RESPONSE_MORPH_H
 #include "response/modes.h"
 #include "response/places.h"
 
 struct morph {
-    int n, rows;                   /* components; places */
+    int n, rows; /* components; places */
     struct places *places;
-    double *re, *im; /* complex gains: [places_rows()][n], then what places_fill makes of them; NULL: logarithmic ones */
-    double *frequency, *decay; /* separate poles: logarithms less those of the modes' own; 0 where absent. [places_rows()][n] as re, or [rows][n] */
+    double *re,
+        *im; /* complex gains: [places_rows()][n], then what places_fill makes of them; NULL: logarithmic ones */
+    double *frequency, *decay;        /* separate poles: logarithms less those of the modes' own; 0 where absent.
+                                         [places_rows()][n] as re, or [rows][n] */
     double *gain;                     /* logarithmic: [rows][n] less that of the largest |gain|; 0 where absent */
-    double *phase;                 /* [rows][n] in units of pi, 0 to 2 */
-    double *there;                 /* [rows][n] 1, or 0: the place lacks the mode */
-    double *largest;               /* [n] |gain| */
-    double *lowest, *highest;      /* [n] Hz */
-    double rate;                   /* Hz */
-    bool gaps;                     /* some place lacks some mode */
-    int *high, highs;              /* components that reach 0.45 rate somewhere */
+    double *phase;                    /* [rows][n] in units of pi, 0 to 2 */
+    double *there;                    /* [rows][n] 1, or 0: the place lacks the mode */
+    double *largest;                  /* [n] |gain| */
+    double *lowest, *highest;         /* [n] Hz */
+    double rate;                      /* Hz */
+    bool gaps;                        /* some place lacks some mode */
+    int *high, highs;                 /* components that reach 0.45 rate somewhere */
     double *share, *amplitude, *torn; /* [n] work */
-    double *size, *sine, *cosine;  /* [4 n] work */
+    double *size, *sine, *cosine;     /* [4 n] work */
 };
 
 /* A morph of complex gains: takes its rows, with separate poles or without; then a place's gain and, of separate poles,
@@ -31,8 +34,8 @@ struct morph_pole {
 void morph_set(struct morph *p, const struct modes *m, int row, int i, const struct morph_pole *at);
 void morph_slopes(struct morph *p);
 
-/* Logarithmic gains: a place's frequency and decay (above 0) and gain e^(j phase) of component i, after the modes' own frequency[i], decay[i] and largest[i]
-   are set; a gain of 0 is none. */
+/* Logarithmic gains: a place's frequency and decay (above 0) and gain e^(j phase) of component i, after the modes' own
+   frequency[i], decay[i] and largest[i] are set; a gain of 0 is none. */
 void morph_put(struct morph *p, const struct modes *m, int row, int i, const double value[4]);
 
 /* After the last: what morph_separate needs to know of the whole. Also after components have been dropped. */

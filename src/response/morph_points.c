@@ -36,8 +36,7 @@ bool morph_points(const struct morph_points_ask *ask, struct arena *a, struct mo
                         .decay = ARENA_TAKE(a, double, ask->n),
                         .self = p,
                         .at = morph_complex};
-    if (!places_make(a, ask->places, &ask->xy[0][0], &p->places, &bad, e))
-        return false;
+    if (!places_make(a, ask->places, &ask->xy[0][0], &p->places, &bad, e)) return false;
     m->places = p->places;
     fill(ask, a, m, p);
     return true;

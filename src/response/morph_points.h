@@ -5,10 +5,10 @@
 #include "response/modes.h"
 
 struct morph_points_ask {
-    int n, places;                  /* modes, at least 1 */
-    const double (*xy)[2];          /* [places] m */
-    const struct modes_point *at;   /* [places] */
-    bool shared;                    /* poles are those of the first place */
+    int n, places;                /* modes, at least 1 */
+    const double (*xy)[2];        /* [places] m */
+    const struct modes_point *at; /* [places] */
+    bool shared;                  /* poles are those of the first place */
 };
 
 /* To be read by modes_at of the same arena's lifetime; modes do not fade at half of any rate. ERR_SCENE as places_make.

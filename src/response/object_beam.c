@@ -1,18 +1,21 @@
-/* Bending of a slender bar with free or clamped ends (Euler and Bernoulli): phi'''' = beta^4 phi, so that (Rayleigh, The Theory of Sound,
-   sections 170-175; Blevins, Formulas for Natural Frequency and Mode Shape, 1979, table 8-1), z = beta L,
+/* Bending of a slender bar with free or clamped ends (Euler and Bernoulli): phi'''' = beta^4 phi, so that (Rayleigh,
+   The Theory of Sound, sections 170-175; Blevins, Formulas for Natural Frequency and Mode Shape, 1979, table 8-1), z =
+   beta L,
 
        free, clamped:  cos z cosh z = 1,    cantilever:  cos z cosh z = -1,
        free:           phi = cosh bx + cos bx - s (sinh bx + sin bx),
        clamped:        phi = cosh bx - cos bx - s (sinh bx - sin bx),     s = (cosh z - cos z)/(sinh z - sin z),
        cantilever:     as clamped with                                    s = (sinh z - sin z)/(cosh z + cos z),
 
-   for all of which the mean of phi^2 over the length is 1. cosh - s sinh loses all digits for high modes: with e^z divided out,
+   for all of which the mean of phi^2 over the length is 1. cosh - s sinh loses all digits for high modes: with e^z
+   divided out,
 
        cosh bx - s sinh bx = P e^(-b (L - x)) + Q e^(-b x),   Q = (1 + s)/2,
        P = (1 - s) e^z / 2 = (cos z - sin z - e^-z)/(1 - e^-2z - 2 e^-z sin z)      free, clamped
                            = (cos z + sin z + e^-z)/(1 + e^-2z + 2 e^-z cos z)      cantilever,
 
-   nothing overflows or cancels; 1 - s = 2 P e^-z. Roots by Newton on cos z -+ 1/cosh z. Rigid motions of free bars are left out. */
+   nothing overflows or cancels; 1 - s = 2 P e^-z. Roots by Newton on cos z -+ 1/cosh z. Rigid motions of free bars are
+   left out. */
 #include <math.h>
 
 #include "num/real.h"
@@ -73,7 +76,8 @@ void object_beam_bind(struct arena *a, struct object *o)
     for (int i = 0; i < o->n; i++) {
         double z = object_beam_root(edges, in->list.mode[i].a), q = real_exp(-z), s = real_sin(z), c = real_cos(z);
         b->k[i] = z / in->body->given->length;
-        b->far[i] = edges == EDGES_CANTILEVER ? (c + s + q) / (1.0 + q * q + 2.0 * q * c) : (c - s - q) / (1.0 - q * q - 2.0 * q * s);
+        b->far[i] = edges == EDGES_CANTILEVER ? (c + s + q) / (1.0 + q * q + 2.0 * q * c)
+                                              : (c - s - q) / (1.0 - q * q - 2.0 * q * s);
         b->slope[i] = 1.0 - 2.0 * b->far[i] * q;
         b->near[i] = 0.5 * (1.0 + b->slope[i]);
     }

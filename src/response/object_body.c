@@ -1,13 +1,11 @@
-/* What a given object is made of: the material's figures where the scene gives none; whether all that its shape needs is there and fits. */
+/* What a given object is made of: the material's figures where the scene gives none; whether all that its shape needs
+ * is there and fits. */
 #include <math.h>
 
 #include "response/object_kinds.h"
 #include "scene/material.h"
 
-static double given_or(double given, double material)
-{
-    return isnan(given) ? material : given;
-}
+static double given_or(double given, double material) { return isnan(given) ? material : given; }
 
 /* Isotropic materials follow youngs_modulus and poisson wherever those come from. */
 static void elasticity(struct object_body *b, const struct material *m)
@@ -62,7 +60,8 @@ static bool all_there(const struct object_body *b, struct err *e)
             return err_set(e, ERR_SCENE, "%s.%s is missing", b->key, sizes[i].name);
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
         if ((figures[i].shapes >> g->shape & 1u) && isnan(figures[i].value))
-            return err_set(e, ERR_SCENE, "%s: a custom material needs %s (or name one: %s.material)", b->key, figures[i].name, b->key);
+            return err_set(e, ERR_SCENE, "%s: a custom material needs %s (or name one: %s.material)", b->key,
+                           figures[i].name, b->key);
     return true;
 }
 
@@ -71,21 +70,29 @@ static bool fits(const struct object_body *b, struct err *e)
     const struct object_given *g = b->given;
     double wall = g->thickness;
     if (g->shape == OBJECT_ROD && wall > 0.5 * g->diameter)
-        return err_set(e, ERR_SCENE, "%s.thickness: a wall of %g m does not fit into a rod of %g m diameter; leave it out for a solid rod", b->key, wall, g->diameter);
+        return err_set(
+            e, ERR_SCENE,
+            "%s.thickness: a wall of %g m does not fit into a rod of %g m diameter; leave it out for a solid rod",
+            b->key, wall, g->diameter);
     if (g->shape == OBJECT_SHELL && wall >= 0.5 * g->diameter)
-        return err_set(e, ERR_SCENE, "%s.thickness: a wall of %g m does not fit into a shell of %g m diameter; give a thinner one", b->key, wall, g->diameter);
+        return err_set(e, ERR_SCENE,
+                       "%s.thickness: a wall of %g m does not fit into a shell of %g m diameter; give a thinner one",
+                       b->key, wall, g->diameter);
     if (g->shape == OBJECT_DISK && g->edges == EDGES_CANTILEVER)
-        return err_set(e, ERR_SCENE, "%s.edges: a disk has one edge all round; cantilever is for bars, rods and plates", b->key);
+        return err_set(e, ERR_SCENE, "%s.edges: a disk has one edge all round; cantilever is for bars, rods and plates",
+                       b->key);
     return true;
 }
 
-const struct object_body *object_body_make(const struct object_given *given, const char *key, struct arena *a, struct err *e)
+const struct object_body *object_body_make(const struct object_given *given, const char *key, struct arena *a,
+                                           struct err *e)
 {
     struct object_body *b = ARENA_TAKE(a, struct object_body, 1);
     struct object_given *copy = ARENA_TAKE(a, struct object_given, 1);
     const struct material *m = material_find(given->material);
     *copy = *given;
-    *b = (struct object_body){.given = copy, .key = arena_text(a, key), .density = given_or(given->density, m ? m->density : NAN)};
+    *b = (struct object_body){
+        .given = copy, .key = arena_text(a, key), .density = given_or(given->density, m ? m->density : NAN)};
     elasticity(b, m);
     damping(b, m);
     return all_there(b, e) && fits(b, e) ? b : NULL;

@@ -1,5 +1,5 @@
-/* What object.c and the files of the shapes say to each other. A shape lists its modes (frequencies, masses), object.c damps and chooses, and the
-   shape then makes tables for the modes that stay, from which its mode shapes are read. */
+/* What object.c and the files of the shapes say to each other. A shape lists its modes (frequencies, masses), object.c
+   damps and chooses, and the shape then makes tables for the modes that stay, from which its mode shapes are read. */
 #ifndef RESPONSE_OBJECT_KINDS_H
 #define RESPONSE_OBJECT_KINDS_H
 #include <stdbool.h>
@@ -8,48 +8,50 @@
 #include "base/err.h"
 #include "response/object.h"
 
-struct object_body {                /* sizes as given, the material with the given keys put in */
+struct object_body { /* sizes as given, the material with the given keys put in */
     const struct object_given *given;
     const char *key;
     double youngs_modulus, across, shear, poisson, density, alpha, beta, loss;
 };
 
 struct object_mode {
-    double w, mass;                 /* rad/s, undamped; kg, integral of density phi^2 */
-    double excess;                  /* by which share the theory, which knows no shear and no rotation of sections, puts w too high */
-    int a, b, c;                    /* the shape's own */
+    double w, mass; /* rad/s, undamped; kg, integral of density phi^2 */
+    double excess;  /* by which share the theory, which knows no shear and no rotation of sections, puts w too high */
+    int a, b, c;    /* the shape's own */
     double own;
 };
 
 struct object_list {
     int n;
     struct object_mode *mode;
-    const void *work;               /* the shape's own: what it solved for */
-    bool capped;                    /* most was above what the shape computes */
-    int dropped;                    /* object.c: how many were overdamped */
+    const void *work; /* the shape's own: what it solved for */
+    bool capped;      /* most was above what the shape computes */
+    int dropped;      /* object.c: how many were overdamped */
 };
 
 struct object_limit {
-    double w;                       /* rad/s: modes below it, */
-    int most;                       /* of these the lowest `most` */
-    double low;                     /* rad/s: object.c takes out those below */
+    double w;   /* rad/s: modes below it, */
+    int most;   /* of these the lowest `most` */
+    double low; /* rad/s: object.c takes out those below */
 };
 
 /* list: sorted by w; leaves out rigid motions. bind: o->self is there (object_inside), n and mass are set. */
 struct object_kind {
-    const char *theory;             /* for messages */
-    bool (*list)(const struct object_body *, const struct object_limit *, struct arena *, struct object_list *, struct err *);
+    const char *theory; /* for messages */
+    bool (*list)(const struct object_body *, const struct object_limit *, struct arena *, struct object_list *,
+                 struct err *);
     void (*bind)(struct arena *, struct object *);
 };
 
-struct object_inside {              /* what o->self points at */
+struct object_inside { /* what o->self points at */
     const struct object_kind *kind;
     const struct object_body *body;
-    struct object_list list;        /* [o->n], same order as the object's modes */
-    const void *table;              /* bind's */
+    struct object_list list; /* [o->n], same order as the object's modes */
+    const void *table;       /* bind's */
 };
 
-extern const struct object_kind object_bar, object_string, object_plate, object_disk, object_membrane, object_drum, object_shell;
+extern const struct object_kind object_bar, object_string, object_plate, object_disk, object_membrane, object_drum,
+    object_shell;
 
 /* ---- object.c */
 static inline const struct object_inside *object_inside(const struct object *o)
@@ -69,13 +71,15 @@ void object_list_add(struct object_list *l, struct arena *a, struct object_mode 
 void object_list_cut(struct object_list *l, const struct object_limit *limit);
 
 /* ---- object_body.c: NULL: a needed size or figure is missing, or sizes do not fit, ERR_SCENE */
-const struct object_body *object_body_make(const struct object_given *given, const char *key, struct arena *a, struct err *e);
+const struct object_body *object_body_make(const struct object_given *given, const char *key, struct arena *a,
+                                           struct err *e);
 
 /* ---- object_beam.c: bending of a slender bar, edges not supported */
 double object_beam_root(int edges, int i);                /* beta L of mode i = 1, 2, ... */
 void object_beam_bind(struct arena *a, struct object *o); /* a = i */
 
-/* ---- object_sine.c: phi = f(pi a x/(2 length)) sin(pi b y/(2 width)), f sin, or cos where c is 1; b = 0: no second factor */
+/* ---- object_sine.c: phi = f(pi a x/(2 length)) sin(pi b y/(2 width)), f sin, or cos where c is 1; b = 0: no second
+ * factor */
 void object_sine_bind(struct arena *a, struct object *o);
 /* Modes (m, n) >= 1 of w = law(m pi/length, n pi/width) that rises with both. */
 struct object_sine_law {
@@ -84,7 +88,8 @@ struct object_sine_law {
     const void *self;
     double mass;
 };
-void object_sine_list(const struct object_body *b, const struct object_sine_law *law, const struct object_limit *limit, struct arena *a, struct object_list *l);
+void object_sine_list(const struct object_body *b, const struct object_sine_law *law, const struct object_limit *limit,
+                      struct arena *a, struct object_list *l);
 
 /* ---- object_plate.c */
 struct object_plate {               /* of an orthotropic plate; N m, kg/m^2 */
@@ -96,21 +101,25 @@ double object_plate_excess(const void *plate, double w);
 double object_plate_supported(const void *plate, double kx, double ky);
 
 /* ---- object_plate_warburton.c: rad/s, about that of the `most`-th mode */
-double object_plate_warburton(const struct object_body *b, const struct object_plate *p, const struct object_limit *limit, struct arena *a);
+double object_plate_warburton(const struct object_body *b, const struct object_plate *p,
+                              const struct object_limit *limit, struct arena *a);
 
 /* ---- object_plate_ritz.c: any edges */
-bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a, struct object_list *l, struct err *e);
+bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a,
+                       struct object_list *l, struct err *e);
 void object_plate_ritz_bind(struct arena *a, struct object *o);
 
 /* ---- object_radial.c: phi = R_ns(r) cos n theta (c = 0) or sin n theta (c = 1), n = a, s = b, lambda = own */
 struct object_radial {
-    double (*zero)(const struct object_radial *, int n, double lambda);            /* changes sign at the lambda of order n, which lie above 0.9 n and 0.1 */
-    double (*value)(const struct object_radial *, int n, double lambda, double r); /* R, r = 0 to 1 of the radius */
+    double (*zero)(const struct object_radial *, int n,
+                   double lambda); /* changes sign at the lambda of order n, which lie above 0.9 n and 0.1 */
+    double (*value)(const struct object_radial *, int n, double lambda, double r);  /* R, r = 0 to 1 of the radius */
     struct object_mode (*mode)(const struct object_radial *, int n, double lambda); /* w, excess, mass as if n were 0 */
-    double poisson, radius, stiffness, area_density, thickness; /* what these need */
+    double poisson, radius, stiffness, area_density, thickness;                     /* what these need */
     int edges;
 };
-void object_radial_list(const struct object_radial *q, const struct object_limit *limit, double lambda_top, struct arena *a, struct object_list *l);
+void object_radial_list(const struct object_radial *q, const struct object_limit *limit, double lambda_top,
+                        struct arena *a, struct object_list *l);
 void object_radial_bind(struct arena *a, struct object *o); /* the list's work is the object_radial */
 
 /* ---- object_sum.c: sum[0..modes) = sum over t < n of weight[t] row_t, rows [n][modes], in order */

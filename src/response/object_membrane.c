@@ -1,5 +1,6 @@
-/* Stretched rectangular membrane, held at its edges (Rayleigh, The Theory of Sound, section 195): w = sqrt(S/(rho h)) sqrt(kx^2 + ky^2),
-   kx = m pi/a, ky = n pi/b, shapes sin(kx x) sin(ky y), masses rho h a b/4; S in N/m. No stiffness, no air load. */
+/* Stretched rectangular membrane, held at its edges (Rayleigh, The Theory of Sound, section 195): w = sqrt(S/(rho h))
+   sqrt(kx^2 + ky^2), kx = m pi/a, ky = n pi/b, shapes sin(kx x) sin(ky y), masses rho h a b/4; S in N/m. No stiffness,
+   no air load. */
 #include <math.h>
 
 #include "num/real.h"
@@ -17,7 +18,8 @@ static double no_excess(const void *speed, double w)
     return 0.0;
 }
 
-static bool list(const struct object_body *b, const struct object_limit *limit, struct arena *a, struct object_list *l, struct err *e)
+static bool list(const struct object_body *b, const struct object_limit *limit, struct arena *a, struct object_list *l,
+                 struct err *e)
 {
     (void)e;
     const struct object_given *g = b->given;

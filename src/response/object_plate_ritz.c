@@ -1,24 +1,27 @@
-/* Modes of a thin rectangular plate, isotropic or orthotropic, with any edges, by Rayleigh and Ritz (W. Ritz, Ann. Phys. 28, 1909, 737; Leissa, J. Sound Vib.
-   31, 1973, 257; orthogonal polynomials: R. B. Bhat, J. Sound Vib. 102, 1985, 493):
+/* Modes of a thin rectangular plate, isotropic or orthotropic, with any edges, by Rayleigh and Ritz (W. Ritz, Ann.
+   Phys. 28, 1909, 737; Leissa, J. Sound Vib. 31, 1973, 257; orthogonal polynomials: R. B. Bhat, J. Sound Vib. 102,
+   1985, 493):
 
-       w(x, y) = sum c_mn X_m(xi) Y_n(eta),   xi, eta in [-1, 1],   X, Y orthonormal polynomials that keep the edges' geometric conditions
-                                                                    (num/jacobi.h: zeros of order 0 free, 1 supported, 2 clamped),
-       K c = rho h w^2 c,   K_(mn)(pq) = Dx A_mp d_nq + Dy d_mp A_nq + D1 (B_mp B_qn + B_pm B_nq) + 4 Dk C_mp C_nq,
-       A = int X'' X'',  B_mp = int X_m'' X_p,  C = int X' X'   (each derivative times 2/length),   M = 1.
+       w(x, y) = sum c_mn X_m(xi) Y_n(eta),   xi, eta in [-1, 1],   X, Y orthonormal polynomials that keep the edges'
+   geometric conditions (num/jacobi.h: zeros of order 0 free, 1 supported, 2 clamped), K c = rho h w^2 c,   K_(mn)(pq) =
+   Dx A_mp d_nq + Dy d_mp A_nq + D1 (B_mp B_qn + B_pm B_nq) + 4 Dk C_mp C_nq, A = int X'' X'',  B_mp = int X_m'' X_p,  C
+   = int X' X'   (each derivative times 2/length),   M = 1.
 
-   Free edges ask for nothing: their conditions are natural ones, which the sums meet as they converge, exponentially. The rigid motions of a
-   free plate are three of the functions; they are left out. Where both ends of an axis are held alike, even and odd functions do not mix: two
-   to four smaller problems. K c = mu^-1 c is solved as c = mu K c (gsl_eigen_gensymmv with 1 and K, which is graded): the low modes are the large
-   mu, so that they, too, have relative precision.
+   Free edges ask for nothing: their conditions are natural ones, which the sums meet as they converge, exponentially.
+   The rigid motions of a free plate are three of the functions; they are left out. Where both ends of an axis are held
+   alike, even and odd functions do not mix: two to four smaller problems. K c = mu^-1 c is solved as c = mu K c
+   (gsl_eigen_gensymmv with 1 and K, which is graded): the low modes are the large mu, so that they, too, have relative
+   precision.
 
-   Functions along x: degree up to k a/2 + MARGIN, k the wave number (rho h w^2/Dx)^(1/4) of the highest mode asked for (polynomials need
-   more than pi per wave length); of their products those within a superellipse of degrees. Against twice the MARGIN: free and clamped plates,
-   isotropic and orthotropic, 20 to 200 modes, 1:1 to 25:1, are at most 8e-7 too high, cantilevers 4e-6 (moments are singular in the corners
-   where free and clamped edges meet). The frequency of the highest mode is estimated
-   (object_plate_warburton.c); if that was too low all is done again, higher.
+   Functions along x: degree up to k a/2 + MARGIN, k the wave number (rho h w^2/Dx)^(1/4) of the highest mode asked for
+   (polynomials need more than pi per wave length); of their products those within a superellipse of degrees. Against
+   twice the MARGIN: free and clamped plates, isotropic and orthotropic, 20 to 200 modes, 1:1 to 25:1, are at most 8e-7
+   too high, cantilevers 4e-6 (moments are singular in the corners where free and clamped edges meet). The frequency of
+   the highest mode is estimated (object_plate_warburton.c); if that was too low all is done again, higher.
 
    Time grows as the cube of the number of functions per class; at most MOST modes
-   are computed, and of plates so narrow that they need more than FUNCTIONS those that FUNCTIONS give (a note says so). */
+   are computed, and of plates so narrow that they need more than FUNCTIONS those that FUNCTIONS give (a note says so).
+ */
 #include <gsl/gsl_eigen.h>
 #include <math.h>
 
@@ -31,16 +34,17 @@
 
 enum { MOST = 400, FUNCTIONS = 700, CLASSES = 4 };
 
-struct axis {                   /* functions along one axis */
+struct axis { /* functions along one axis */
     struct jacobi functions;
-    bool halves;                /* even and odd ones do not mix */
+    bool halves; /* even and odd ones do not mix */
     int n;
-    double *a, *b, *c;          /* [n][n], in 1/m^4, 1/m^2, 1/m^2 */
+    double *a, *b, *c; /* [n][n], in 1/m^4, 1/m^2, 1/m^2 */
 };
 
-struct class {
-    int n, (*term)[2];          /* m, n of each product */
-    double *vector;             /* [modes][n], unit length */
+struct class
+{
+    int n, (*term)[2]; /* m, n of each product */
+    double *vector;    /* [modes][n], unit length */
     int modes;
 };
 
@@ -63,7 +67,8 @@ static double dot(const double *w, const double *f, const double *g, int n)
 static void axis_integrals(struct axis *s, double length, struct arena *a)
 {
     int n = s->n, points = n + 4;
-    double *node = ARENA_TAKE(a, double, points), *weight = ARENA_TAKE(a, double, points), *row = ARENA_TAKE(a, double, 3 * n);
+    double *node = ARENA_TAKE(a, double, points), *weight = ARENA_TAKE(a, double, points),
+           *row = ARENA_TAKE(a, double, 3 * n);
     double *f[3];
     for (int d = 0; d < 3; d++)
         f[d] = ARENA_TAKE(a, double, n *points);
@@ -89,7 +94,8 @@ static void axis_integrals(struct axis *s, double length, struct arena *a)
 static void axis_make(struct axis *s, int ends, double length, double stiffness, double area_density, double w)
 {
     double degree = 0.5 * length * sqrt(w * sqrt(area_density / stiffness)) + MARGIN;
-    int edge[4][2] = {[EDGES_FREE] = {0, 0}, [EDGES_SUPPORTED] = {1, 1}, [EDGES_CLAMPED] = {2, 2}, [EDGES_CANTILEVER] = {0, 2}};
+    int edge[4][2] = {
+        [EDGES_FREE] = {0, 0}, [EDGES_SUPPORTED] = {1, 1}, [EDGES_CLAMPED] = {2, 2}, [EDGES_CANTILEVER] = {0, 2}};
     s->functions = jacobi_make(edge[ends][0], edge[ends][1]);
     s->halves = ends != EDGES_CANTILEVER;
     s->n = (int)ceil(fmin(degree, 1e6)) + 1 - edge[ends][0] - edge[ends][1];
@@ -115,14 +121,12 @@ static bool is_rigid(const struct ritz *r, int m, int n)
 static void class_terms(struct class *c, const struct ritz *r, int which, struct arena *a)
 {
     int sx = r->x.halves ? 2 : 1, sy = r->y.halves ? 2 : 1;
-    if (which >= sx * sy)
-        return;
+    if (which >= sx * sy) return;
     c->term = (int(*)[2])arena_take(a, (size_t)(r->x.n * r->y.n), sizeof *c->term);
     for (int m = which % sx; m < r->x.n; m += sx)
         for (int n = which / sx; n < r->y.n; n += sy) {
             double u = (double)m / r->x.n, v = (double)n / r->y.n;
-            if (is_rigid(r, m, n) || u * u * u + v * v * v > 1.0)
-                continue;
+            if (is_rigid(r, m, n) || u * u * u + v * v * v > 1.0) continue;
             c->term[c->n][0] = m;
             c->term[c->n++][1] = n;
         }
@@ -132,11 +136,10 @@ static double stiffness(const struct ritz *r, const int i[2], const int k[2])
 {
     const struct object_plate *p = &r->plate;
     int x = i[0] * r->x.n + k[0], xt = k[0] * r->x.n + i[0], y = i[1] * r->y.n + k[1], yt = k[1] * r->y.n + i[1];
-    double sum = p->coupling * (r->x.b[x] * r->y.b[yt] + r->x.b[xt] * r->y.b[y]) + 4.0 * p->twist * r->x.c[x] * r->y.c[y];
-    if (i[1] == k[1])
-        sum += p->dx * r->x.a[x];
-    if (i[0] == k[0])
-        sum += p->dy * r->y.a[y];
+    double sum =
+        p->coupling * (r->x.b[x] * r->y.b[yt] + r->x.b[xt] * r->y.b[y]) + 4.0 * p->twist * r->x.c[x] * r->y.c[y];
+    if (i[1] == k[1]) sum += p->dx * r->x.a[x];
+    if (i[0] == k[0]) sum += p->dy * r->y.a[y];
     return sum / p->area_density;
 }
 
@@ -150,8 +153,7 @@ static bool is_positive(const gsl_matrix *k, gsl_matrix *l)
             double left = gsl_matrix_get(k, i, j);
             for (int m = 0; m < j; m++)
                 left -= row_i[m] * row_j[m];
-            if (i == j && !(left > 0.0))
-                return false;
+            if (i == j && !(left > 0.0)) return false;
             gsl_matrix_set(l, i, j, i == j ? sqrt(left) : left / row_j[j]);
         }
     return true;
@@ -167,7 +169,8 @@ static bool class_eigen(const struct class *c, const struct ritz *r, gsl_vector 
             gsl_matrix_set(k, i, j, stiffness(r, c->term[i], c->term[j]));
     bool good = is_positive(k, one);
     gsl_matrix_set_identity(one);
-    good = good && gsl_eigen_gensymmv(one, k, mu, v, work) == 0 && gsl_eigen_gensymmv_sort(mu, v, GSL_EIGEN_SORT_VAL_DESC) == 0;
+    good = good && gsl_eigen_gensymmv(one, k, mu, v, work) == 0 &&
+           gsl_eigen_gensymmv_sort(mu, v, GSL_EIGEN_SORT_VAL_DESC) == 0;
     gsl_eigen_gensymmv_free(work);
     gsl_matrix_free(one);
     gsl_matrix_free(k);
@@ -196,14 +199,13 @@ static bool class_solve(struct ritz *r, int which, double w, struct arena *a, st
 {
     struct class *c = &r->class[which];
     class_terms(c, r, which, a);
-    if (c->n == 0)
-        return true;
+    if (c->n == 0) return true;
     gsl_vector *mu = gsl_vector_alloc(c->n);
     gsl_matrix *v = gsl_matrix_alloc(c->n, c->n);
     bool good = class_eigen(c, r, mu, v);
     while (good && c->modes < c->n && gsl_vector_get(mu, c->modes) > 1.0 / (w * w))
         c->modes++;
-    c->vector = ARENA_TAKE(a, double, c->modes *c->n);
+    c->vector = ARENA_TAKE(a, double, c->modes * c->n);
     for (int i = 0; i < c->modes; i++) {
         take_vector(v, i, c->n, c->vector + (size_t)i * c->n);
         object_list_add(l, a, (struct object_mode){.w = 1.0 / sqrt(gsl_vector_get(mu, i)), .a = which, .b = i});
@@ -223,8 +225,7 @@ static bool solve(struct ritz *r, const struct object_body *b, double w, struct 
     axis_integrals(&r->x, g->length, a);
     axis_integrals(&r->y, g->width, a);
     for (int i = 0; i < CLASSES; i++)
-        if (!class_solve(r, i, w, a, l))
-            return false;
+        if (!class_solve(r, i, w, a, l)) return false;
     for (int i = 0; i < l->n; i++) {
         l->mode[i].mass = r->plate.area_density * g->length * g->width;
         l->mode[i].excess = object_plate_excess(&r->plate, l->mode[i].w);
@@ -232,12 +233,12 @@ static bool solve(struct ritz *r, const struct object_body *b, double w, struct 
     return true;
 }
 
-bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a, struct object_list *l, struct err *e)
+bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a,
+                       struct object_list *l, struct err *e)
 {
     struct object_limit few = {limit->w, limit->most < MOST ? limit->most : MOST, limit->low};
     struct ritz *r = ARENA_TAKE(a, struct ritz, 1);
-    if (!object_plate_stiffness(b, &r->plate, e))
-        return false;
+    if (!object_plate_stiffness(b, &r->plate, e)) return false;
     double w = fmin(1.08 * object_plate_warburton(b, &r->plate, &few, a), few.w);
     for (;; w = fmin(1.2 * w, few.w)) {
         *r = (struct ritz){.plate = r->plate};
@@ -245,10 +246,12 @@ bool object_plate_ritz(const struct object_body *b, const struct object_limit *l
         while (!axes_make(r, b->given, w))
             few.w = w = 0.95 * w;
         if (!solve(r, b, w, a, l))
-            return err_set(e, ERR_SCENE, "%s: this stiffness is not positive, or so different along and across that numbers do not reach: youngs_modulus "
-                           "%g Pa, across %g Pa, shear_modulus %g Pa, poisson %g", b->key, b->youngs_modulus, b->across, b->shear, b->poisson);
-        if (l->n >= few.most || w >= few.w)
-            break;
+            return err_set(e, ERR_SCENE,
+                           "%s: this stiffness is not positive, or so different along and across that numbers do not "
+                           "reach: youngs_modulus "
+                           "%g Pa, across %g Pa, shear_modulus %g Pa, poisson %g",
+                           b->key, b->youngs_modulus, b->across, b->shear, b->poisson);
+        if (l->n >= few.most || w >= few.w) break;
     }
     l->capped = l->n < few.most ? few.w < limit->w : limit->most > MOST;
     object_list_cut(l, &few);
@@ -257,10 +260,10 @@ bool object_plate_ritz(const struct object_body *b, const struct object_limit *l
 
 /* ------------------------------------------------------------------ shapes */
 
-struct block {                  /* the modes of one class */
+struct block { /* the modes of one class */
     int n, modes, (*term)[2];
-    double *c;                  /* [n][modes], times 2: the mean of phi^2 over the plate is 1 */
-    int *to;                    /* [modes] place in phi */
+    double *c; /* [n][modes], times 2: the mean of phi^2 over the plate is 1 */
+    int *to;   /* [modes] place in phi */
 };
 
 struct table {
@@ -286,8 +289,7 @@ static double shapes(const struct object *o, double x, double y, double *phi)
     jacobi_values(&t->x, t->nx, 2.0 * x / o->high[0] - 1.0, fx);
     jacobi_values(&t->y, t->ny, 2.0 * y / o->high[1] - 1.0, fy);
     for (int i = 0; i < CLASSES; i++)
-        if (t->block[i].modes > 0)
-            block_sum(&t->block[i], fx, fy, phi);
+        if (t->block[i].modes > 0) block_sum(&t->block[i], fx, fy, phi);
     return off;
 }
 
@@ -298,9 +300,8 @@ static void block_make(struct block *k, const struct class *c, int which, const 
     k->term = c->term;
     k->to = ARENA_TAKE(a, int, o->n);
     for (int i = 0; i < o->n; i++)
-        if (mode[i].a == which)
-            k->to[k->modes++] = i;
-    k->c = ARENA_TAKE(a, double, k->n *k->modes);
+        if (mode[i].a == which) k->to[k->modes++] = i;
+    k->c = ARENA_TAKE(a, double, k->n * k->modes);
     for (int i = 0; i < k->modes; i++)
         for (int t = 0; t < k->n; t++)
             k->c[(size_t)t * k->modes + i] = 2.0 * c->vector[(size_t)mode[k->to[i]].b * c->n + t];

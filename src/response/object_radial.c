@@ -1,10 +1,13 @@
-/* Round flat objects (disk, drum): modes R_ns(r) cos n theta and, for n >= 1, R_ns(r) sin n theta of the same frequency.
+/* Round flat objects (disk, drum): modes R_ns(r) cos n theta and, for n >= 1, R_ns(r) sin n theta of the same
+   frequency.
 
-   The lambda of order n are the zeros of a function of the object (no two of one order are closer than about pi, none below 0.9 n):
-   bracketed in steps of a quarter and closed in on by false position (Illinois: Dowell and Jarratt, BIT 11, 1971, 168).
+   The lambda of order n are the zeros of a function of the object (no two of one order are closer than about pi, none
+   below 0.9 n): bracketed in steps of a quarter and closed in on by false position (Illinois: Dowell and Jarratt, BIT
+   11, 1971, 168).
 
-   R is even or odd in r as n is, and band-limited by lambda: it is kept as a Chebyshev sum of its parity of degree lambda + 20 + 2 sqrt(lambda)
-   (to rounding, tests/unit/test_object_round.c), so that a place costs no Bessel function. cos n theta = Re (x + j y)^n/r^n. */
+   R is even or odd in r as n is, and band-limited by lambda: it is kept as a Chebyshev sum of its parity of degree
+   lambda + 20 + 2 sqrt(lambda) (to rounding, tests/unit/test_object_round.c), so that a place costs no Bessel function.
+   cos n theta = Re (x + j y)^n/r^n. */
 #include <math.h>
 
 #include "num/real.h"
@@ -21,8 +24,7 @@ static double close_in(const struct object_radial *q, int n, double low, double 
         double last = middle;
         middle = (low * f_high - high * f_low) / (f_high - f_low);
         double f = q->zero(q, n, middle);
-        if (f == 0.0 || middle == last)
-            break;
+        if (f == 0.0 || middle == last) break;
         if ((f < 0.0) == (f_high < 0.0)) {
             high = middle;
             f_high = f;
@@ -42,12 +44,10 @@ static void add_pair(const struct object_radial *q, int n, int s, double lambda,
     m.a = n;
     m.b = s;
     m.own = lambda;
-    if (n > 0)
-        m.mass *= 0.5; /* the mean of cos^2 */
+    if (n > 0) m.mass *= 0.5; /* the mean of cos^2 */
     object_list_add(l, a, m);
     m.c = 1;
-    if (n > 0)
-        object_list_add(l, a, m);
+    if (n > 0) object_list_add(l, a, m);
 }
 
 static void all_below(const struct object_radial *q, double top, struct arena *a, struct object_list *l)
@@ -59,8 +59,7 @@ static void all_below(const struct object_radial *q, double top, struct arena *a
             double f_high = q->zero(q, n, low + step);
             if ((f_low < 0.0) != (f_high < 0.0)) {
                 double lambda = close_in(q, n, low, low + step);
-                if (lambda < top)
-                    add_pair(q, n, s++, lambda, a, l);
+                if (lambda < top) add_pair(q, n, s++, lambda, a, l);
             }
             f_low = f_high;
         }
@@ -68,15 +67,15 @@ static void all_below(const struct object_radial *q, double top, struct arena *a
 }
 
 /* About lambda^2/4 modes lie below lambda (Weyl). */
-void object_radial_list(const struct object_radial *q, const struct object_limit *limit, double lambda_top, struct arena *a, struct object_list *l)
+void object_radial_list(const struct object_radial *q, const struct object_limit *limit, double lambda_top,
+                        struct arena *a, struct object_list *l)
 {
     const double highest = DEGREES - 200.0; /* a million modes */
     lambda_top = fmin(lambda_top, highest);
     for (double top = fmin(2.0 * sqrt((double)limit->most) + 4.0, lambda_top);; top = fmin(1.3 * top, lambda_top)) {
         l->n = 0;
         all_below(q, top, a, l);
-        if (l->n >= limit->most || top >= lambda_top)
-            break;
+        if (l->n >= limit->most || top >= lambda_top) break;
     }
     l->capped = l->n < limit->most && lambda_top >= highest;
     object_list_cut(l, limit);
@@ -87,26 +86,25 @@ void object_radial_list(const struct object_radial *q, const struct object_limit
 
 /* ------------------------------------------------------------------ shapes */
 
-struct block {                  /* up to CHUNK radial functions of one parity */
+struct block { /* up to CHUNK radial functions of one parity */
     int n, parity, terms;
-    double *c;                  /* [terms][CHUNK] of T_parity, T_parity+2, ... */
+    double *c;                      /* [terms][CHUNK] of T_parity, T_parity+2, ... */
     int order[CHUNK], to[CHUNK][2]; /* n; place in phi of cos and sin, -1: none */
 };
 
 struct table {
-    int blocks, terms, highest;  /* terms: the most of any block; highest order n */
+    int blocks, terms, highest; /* terms: the most of any block; highest order n */
     struct block *block;
 };
 
-static void block_sum(const struct block *k, double *const chebyshev[2], const double *cosine, const double *sine, double *phi)
+static void block_sum(const struct block *k, double *const chebyshev[2], const double *cosine, const double *sine,
+                      double *phi)
 {
     double r[CHUNK];
     object_sum(k->terms, CHUNK, k->c, chebyshev[k->parity], r);
     for (int i = 0; i < k->n; i++) {
-        if (k->to[i][0] >= 0)
-            phi[k->to[i][0]] = r[i] * cosine[k->order[i]];
-        if (k->to[i][1] >= 0)
-            phi[k->to[i][1]] = r[i] * sine[k->order[i]];
+        if (k->to[i][0] >= 0) phi[k->to[i][0]] = r[i] * cosine[k->order[i]];
+        if (k->to[i][1] >= 0) phi[k->to[i][1]] = r[i] * sine[k->order[i]];
     }
 }
 
@@ -133,7 +131,8 @@ static double shapes(const struct object *o, double x, double y, double *phi)
     return fmax(from - o->high[0], 0.0);
 }
 
-/* Coefficients of the terms of that parity, from values at Chebyshev's zeros (of which only the positive half is needed). */
+/* Coefficients of the terms of that parity, from values at Chebyshev's zeros (of which only the positive half is
+ * needed). */
 static void expand(const struct object_radial *q, int n, double lambda, struct block *k)
 {
     int points = 2 * k->terms;
@@ -160,8 +159,7 @@ static struct block *block_for(struct table *t, const struct object_mode *mode, 
                 return k;
             }
         }
-        if (k->parity == m->a % 2 && k->n < CHUNK)
-            room = k;
+        if (k->parity == m->a % 2 && k->n < CHUNK) room = k;
     }
     *at = -1;
     return room;
@@ -190,8 +188,7 @@ void object_radial_bind(struct arena *a, struct object *o)
         const struct object_mode *m = &in->list.mode[i];
         int at;
         struct block *k = block_for(t, in->list.mode, m, &at);
-        if (!k)
-            k = block_new(t, m->a % 2, a);
+        if (!k) k = block_new(t, m->a % 2, a);
         if (at < 0) {
             expand(q, m->a, m->own, k);
             at = k->n++;

@@ -1,18 +1,22 @@
-/* Mode shapes that are sines (or cosines) along x, or products of sines along x and y: supported bars and plates, strings, membranes,
-   longitudinal waves. Each sine of one order is computed once per place (num/vecmath.h) and used by all modes that have it. */
+/* Mode shapes that are sines (or cosines) along x, or products of sines along x and y: supported bars and plates,
+   strings, membranes, longitudinal waves. Each sine of one order is computed once per place (num/vecmath.h) and used by
+   all modes that have it. */
 #include <math.h>
 
 #include "num/real.h"
 #include "num/vecmath.h"
 #include "response/object_kinds.h"
 
-enum { ORDERS = 512, CHUNK = 64 }; /* more orders along one axis than this (long and narrow, very many modes): each mode for itself */
+enum {
+    ORDERS = 512,
+    CHUNK = 64
+}; /* more orders along one axis than this (long and narrow, very many modes): each mode for itself */
 
 struct sine {
     bool cosine;
-    int nx, ny;     /* orders that occur; ny = 0: no second factor; nx = 0: more than ORDERS */
+    int nx, ny; /* orders that occur; ny = 0: no second factor; nx = 0: more than ORDERS */
     double *order_x, *order_y;
-    int *ix, *iy;   /* [n] which of them */
+    int *ix, *iy; /* [n] which of them */
 };
 
 static void products(const struct sine *q, int n, const double u[2], double *phi)
@@ -24,8 +28,7 @@ static void products(const struct sine *q, int n, const double u[2], double *phi
     const double *first = q->cosine ? c : along;
     for (int i = 0; i < n; i++)
         phi[i] = first[q->ix[i]];
-    if (q->ny == 0)
-        return;
+    if (q->ny == 0) return;
     for (int i = 0; i < q->ny; i++)
         t[i] = q->order_y[i] * u[1];
     vecmath_sincospi((size_t)q->ny, t, s, c);
@@ -47,8 +50,7 @@ static void one_by_one(const struct object_mode *mode, int n, const double u[2],
         }
         vecmath_sincospi((size_t)m, t, s, c);
         for (int k = 0; k < m; k++)
-            if (mode[i + k].b)
-                phi[i + k] *= s[k];
+            if (mode[i + k].b) phi[i + k] *= s[k];
     }
 }
 
@@ -57,7 +59,8 @@ static double shapes(const struct object *o, double x, double y, double *phi)
     const struct object_inside *in = object_inside(o);
     const struct sine *q = (const struct sine *)in->table;
     double off = object_nearest(o, &x, &y);
-    double u[2] = {0.5 * ((x - o->low[0]) / (o->high[0] - o->low[0])), 0.5 * ((y - o->low[1]) / (o->high[1] - o->low[1]))};
+    double u[2] = {0.5 * ((x - o->low[0]) / (o->high[0] - o->low[0])),
+                   0.5 * ((y - o->low[1]) / (o->high[1] - o->low[1]))};
     if (q->nx > 0)
         products(q, o->n, u, phi);
     else
@@ -69,8 +72,7 @@ static double shapes(const struct object *o, double x, double y, double *phi)
 static int place_of(int order, double *orders, int *n)
 {
     for (int i = 0; i < *n; i++)
-        if ((int)orders[i] == order)
-            return i;
+        if ((int)orders[i] == order) return i;
     if (*n < ORDERS)
         orders[(*n)++] = order;
     else
@@ -99,15 +101,18 @@ void object_sine_bind(struct arena *a, struct object *o)
     object_keep_table(o, a, q);
 }
 
-void object_sine_list(const struct object_body *b, const struct object_sine_law *law, const struct object_limit *limit, struct arena *a, struct object_list *l)
+void object_sine_list(const struct object_body *b, const struct object_sine_law *law, const struct object_limit *limit,
+                      struct arena *a, struct object_list *l)
 {
     const struct object_given *g = b->given;
     for (int m = 1; m <= limit->most; m++) /* below (m, n) there are the m n - 1 others of no higher orders */
         for (int n = 1; n <= limit->most / m; n++) {
             double w = law->w(law->self, m * REAL_PI / g->length, n * REAL_PI / g->width);
-            if (w >= limit->w)
-                break;
-            object_list_add(l, a, (struct object_mode){.w = w, .mass = law->mass, .excess = law->excess(law->self, w), .a = 2 * m, .b = 2 * n});
+            if (w >= limit->w) break;
+            object_list_add(
+                l, a,
+                (struct object_mode){
+                    .w = w, .mass = law->mass, .excess = law->excess(law->self, w), .a = 2 * m, .b = 2 * n});
         }
     object_list_cut(l, limit);
 }

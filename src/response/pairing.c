@@ -1,17 +1,20 @@
 /* Pairing modes.
 
-   Assignment: shortest augmenting paths with potentials u (rows), v (columns) (Kuhn's Hungarian method in the form of Jonker and Volgenant,
-   Computing 38, 1987). One row after the other is brought in by the alternating path of least reduced cost c - u - v >= 0. A row without partner is
-   paired with a spare column of cost 2 alone: that both of a pair stay alone costs alone + alone, and the columns' share of it is
-   constant but for the pairs made.
+   Assignment: shortest augmenting paths with potentials u (rows), v (columns) (Kuhn's Hungarian method in the form of
+   Jonker and Volgenant, Computing 38, 1987). One row after the other is brought in by the alternating path of least
+   reduced cost c - u - v >= 0. A row without partner is paired with a spare column of cost 2 alone: that both of a pair
+   stay alone costs alone + alone, and the columns' share of it is constant but for the pairs made.
 
-   Cost of a pair: |log f - log f'| + small g d/(1 + d), d = |log decay - log decay'|, g = log(1 + gate), small = 1e-3: decay decides only between what
-   frequency leaves equal to a thousandth of the gate. Alone costs g, so that two modes within the gate with no others near are always a pair, and a chain
-   of pairs is given up for another only where that saves more than what becomes alone.
+   Cost of a pair: |log f - log f'| + small g d/(1 + d), d = |log decay - log decay'|, g = log(1 + gate), small = 1e-3:
+   decay decides only between what frequency leaves equal to a thousandth of the gate. Alone costs g, so that two modes
+   within the gate with no others near are always a pair, and a chain of pairs is given up for another only where that
+   saves more than what becomes alone.
 
-   Modes farther apart than the gate cannot be partners, so the sorted frequencies of both places fall into blocks, each a problem of its own.
+   Modes farther apart than the gate cannot be partners, so the sorted frequencies of both places fall into blocks, each
+   a problem of its own.
 
-   Sorting by frequency and pairing by rank, as is often done, pairs everything above a missing mode wrongly (tests/unit/test_pairing.c). */
+   Sorting by frequency and pairing by rank, as is often done, pairs everything above a missing mode wrongly
+   (tests/unit/test_pairing.c). */
 #include "response/pairing.h"
 
 #include <math.h>
@@ -42,15 +45,13 @@ static int look(struct problem *p, int row, int column)
 {
     int nearest = -1;
     for (int j = 0; j < p->columns + p->rows; j++) {
-        if (p->done[j])
-            continue;
+        if (p->done[j]) continue;
         double cost = reduced(p, row, j);
         if (cost < p->least[j]) {
             p->least[j] = cost;
             p->from[j] = column;
         }
-        if (nearest < 0 || p->least[j] < p->least[nearest])
-            nearest = j;
+        if (nearest < 0 || p->least[j] < p->least[nearest]) nearest = j;
     }
     return nearest;
 }
@@ -75,8 +76,7 @@ static void bring_in(struct problem *p, int first)
         p->done[j] = 0;
     }
     do {
-        if (column >= 0)
-            p->done[column] = 1;
+        if (column >= 0) p->done[column] = 1;
         column = look(p, column < 0 ? first : p->row[column], column);
         shift(p, first, p->least[column]);
     } while (p->row[column] >= 0);
@@ -103,8 +103,7 @@ static void solve(struct arena *a, int rows, int columns, const double *cost, do
         column[i] = -1;
     }
     for (int j = 0; j < columns; j++)
-        if (p.row[j] >= 0)
-            column[p.row[j]] = j;
+        if (p.row[j] >= 0) column[p.row[j]] = j;
 }
 
 void pairing_assign(int rows, int columns, const double *cost, double alone, int *column)
@@ -124,8 +123,7 @@ struct entry {
 static int by_frequency(const void *a, const void *b)
 {
     const struct entry *p = a, *q = b;
-    if (p->f != q->f)
-        return p->f < q->f ? -1 : 1;
+    if (p->f != q->f) return p->f < q->f ? -1 : 1;
     return (p->index > q->index) - (p->index < q->index);
 }
 
@@ -147,7 +145,7 @@ static double pair_cost(const struct entry *p, const struct entry *q, double g)
 static void block(const struct entry *p, int rows, const struct entry *q, int columns, double g, int *column)
 {
     struct arena *a = arena_open();
-    double *cost = ARENA_TAKE(a, double, (size_t)rows * columns);
+    double *cost = ARENA_TAKE(a, double, (size_t)rows *columns);
     int *partner = ARENA_TAKE(a, int, rows);
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < columns; j++)
@@ -233,18 +231,18 @@ static int next(const struct follow *f, int edges, const int (*edge)[2])
     double least = HUGE_VAL;
     for (int k = 0; k < edges; k++) {
         int p = edge[k][0], q = edge[k][1];
-        if (f->met[p] == f->met[q] || apart(f, p, q) >= least)
-            continue;
+        if (f->met[p] == f->met[q] || apart(f, p, q) >= least) continue;
         least = apart(f, p, q);
         best = f->met[p] ? q : p;
     }
     return best;
 }
 
-int pairing_tracks(const struct places *p, int places, const double *xy, const struct pairing_list *list, double gate, int *const *track)
+int pairing_tracks(const struct places *p, int places, const double *xy, const struct pairing_list *list, double gate,
+                   int *const *track)
 {
     struct arena *a = arena_open();
-    const int (*edge)[2];
+    const int(*edge)[2];
     int edges = places_edges(p, &edge), all = 0, place = 0;
     struct follow f = {.places = places, .xy = xy, .list = list, .track = track};
     for (int k = 0; k < places; k++) {

@@ -1,13 +1,14 @@
 /* Which of line, grid and plane places are. places_lattice.c has the first two, places_plane.c the third, whose
    smooth interpolation, where they lie on rings, is that of places_rings.c.
 
-   Places are sorted by x, then y, before anything is made of them, so that their order as given tells nothing: where a rule takes the first of several (a tie of
-   Delaunay's triangulation), that is the one farthest left.
+   Places are sorted by x, then y, before anything is made of them, so that their order as given tells nothing: where a
+   rule takes the first of several (a tie of Delaunay's triangulation), that is the one farthest left.
 
-   The line runs between the two places farthest apart (the farthest from the farthest from the leftmost), towards +x, or +y when it is upright;
-   a point's coordinate is that of its foot.
+   The line runs between the two places farthest apart (the farthest from the farthest from the leftmost), towards +x,
+   or +y when it is upright; a point's coordinate is that of its foot.
 
-   A grid has its axes along x and y; or turned: the leftmost place is a corner of it, whose nearest place lies along an axis. */
+   A grid has its axes along x and y; or turned: the leftmost place is a corner of it, whose nearest place lies along an
+   axis. */
 #include "response/places.h"
 
 #include <math.h>
@@ -23,13 +24,13 @@ static const double rounded = 1e-4; /* of the extent: what rounding in a file le
 struct places {
     enum places_kind kind;
     int n;
-    double *xy;                /* [n][2], sorted */
-    int *order;                /* [n] as they were given */
-    double base[2], axis[2];   /* line: base + along axis, axis a unit vector */
+    double *xy;              /* [n][2], sorted */
+    int *order;              /* [n] as they were given */
+    double base[2], axis[2]; /* line: base + along axis, axis a unit vector */
     struct places_lattice *lattice;
     struct places_plane *plane;
     struct places_rings *rings; /* NULL: the plane's places are none */
-    int (*edge)[2], edges;     /* of the plane */
+    int (*edge)[2], edges;      /* of the plane */
 };
 
 /* ------------------------------------------------------------------ making */
@@ -42,10 +43,8 @@ struct rank {
 static int rank_up(const void *a, const void *b)
 {
     const struct rank *p = a, *q = b;
-    if (p->key != q->key)
-        return p->key < q->key ? -1 : 1;
-    if (p->other != q->other)
-        return p->other < q->other ? -1 : 1;
+    if (p->key != q->key) return p->key < q->key ? -1 : 1;
+    if (p->other != q->other) return p->other < q->other ? -1 : 1;
     return (p->index > q->index) - (p->index < q->index);
 }
 
@@ -73,8 +72,7 @@ static int farthest(const struct places *p, int from)
 {
     int best = from;
     for (int k = 0; k < p->n; k++)
-        if (distance(p->xy + 2 * from, p->xy + 2 * k) > distance(p->xy + 2 * from, p->xy + 2 * best))
-            best = k;
+        if (distance(p->xy + 2 * from, p->xy + 2 * k) > distance(p->xy + 2 * from, p->xy + 2 * best)) best = k;
     return best;
 }
 
@@ -109,25 +107,30 @@ static bool all_on_line(const struct places *p, struct rank *r)
     return most <= same;
 }
 
-/* A place that is where another one is, the later as given, or -1: such two are neighbours but for those with the same foot. */
+/* A place that is where another one is, the later as given, or -1: such two are neighbours but for those with the same
+ * foot. */
 static int doubled(const struct places *p, const struct rank *r, bool straight)
 {
     for (int i = 1; i < p->n; i++)
         for (int k = i - 1; k >= 0 && r[i].key - r[k].key <= same; k--)
-            if ((straight && r[i].key == r[k].key) || distance(p->xy + 2 * r[i].index, p->xy + 2 * r[k].index) <= same) {
+            if ((straight && r[i].key == r[k].key) ||
+                distance(p->xy + 2 * r[i].index, p->xy + 2 * r[k].index) <= same) {
                 int one = p->order[r[i].index], other = p->order[r[k].index];
                 return one > other ? one : other;
             }
     return -1;
 }
 
-static struct places_lattice *lattice_along(struct arena *a, const struct places *p, const double base[2], const double axis[2], bool one_row)
+static struct places_lattice *lattice_along(struct arena *a, const struct places *p, const double base[2],
+                                            const double axis[2], bool one_row)
 {
     double extent = distance(p->xy, p->xy + 2 * farthest(p, 0));
-    return places_lattice_make(a, &(struct places_lattice_ask){p->n, p->xy, p->order, base, axis, rounded * extent, one_row});
+    return places_lattice_make(
+        a, &(struct places_lattice_ask){p->n, p->xy, p->order, base, axis, rounded * extent, one_row});
 }
 
-/* The axis of a turned grid, if it is one: from the leftmost place, a corner, towards its nearest, as exactly as the longer of the two sides at that corner tells. */
+/* The axis of a turned grid, if it is one: from the leftmost place, a corner, towards its nearest, as exactly as the
+ * longer of the two sides at that corner tells. */
 static void turned_axis(const struct places *p, double axis[2])
 {
     int near = 1, far = 1;
@@ -138,7 +141,8 @@ static void turned_axis(const struct places *p, double axis[2])
         axis[c] = (p->xy[2 * near + c] - p->xy[c]) / step;
     for (int k = 1; k < p->n; k++) {
         double along = foot(p->xy, axis, p->xy + 2 * k, &off);
-        if (fmin(fabs(along), fabs(off)) < 0.5 * step && distance(p->xy, p->xy + 2 * k) > distance(p->xy, p->xy + 2 * far))
+        if (fmin(fabs(along), fabs(off)) < 0.5 * step &&
+            distance(p->xy, p->xy + 2 * k) > distance(p->xy, p->xy + 2 * far))
             far = k;
     }
     double length = distance(p->xy, p->xy + 2 * far);
@@ -151,8 +155,7 @@ static bool make_grid(struct arena *a, struct places *p)
     double axis[2] = {1, 0};
     p->kind = PLACES_GRID;
     p->lattice = lattice_along(a, p, p->xy, axis, false);
-    if (p->lattice || p->n < 4)
-        return p->lattice;
+    if (p->lattice || p->n < 4) return p->lattice;
     turned_axis(p, axis);
     p->lattice = lattice_along(a, p, p->xy, axis, false);
     return p->lattice;
@@ -164,8 +167,10 @@ static bool make_plane(struct arena *a, struct places *p, struct err *e)
     p->kind = PLACES_PLANE;
     p->plane = places_plane_make(a, p->n, p->xy);
     if (!p->plane)
-        return err_set(e, ERR_SCENE, "the places cannot be triangulated: they lie almost, but not within 1e-9 m, on one line, or almost at the "
-                                      "same point: write them with more digits, or take one place of those that are close");
+        return err_set(
+            e, ERR_SCENE,
+            "the places cannot be triangulated: they lie almost, but not within 1e-9 m, on one line, or almost at the "
+            "same point: write them with more digits, or take one place of those that are close");
     p->rings = places_rings_make(a, p->n, p->xy, p->order, rounded * distance(p->xy, p->xy + 2 * farthest(p, 0)));
     p->edges = places_plane_edges(p->plane, &edge);
     p->edge = arena_take(a, (size_t)p->edges, sizeof *p->edge);
@@ -186,18 +191,15 @@ bool places_make(struct arena *a, int n, const double *xy, struct places **place
     bool straight = all_on_line(p, r);
     *bad = doubled(p, r, straight);
     if (*bad >= 0)
-        return err_set(e, ERR_SCENE, "is at the same point as another place: remove one of the two, or mend where it lies");
-    if (!straight)
-        return make_grid(a, p) || make_plane(a, p, e);
+        return err_set(e, ERR_SCENE,
+                       "is at the same point as another place: remove one of the two, or mend where it lies");
+    if (!straight) return make_grid(a, p) || make_plane(a, p, e);
     p->kind = n == 1 ? PLACES_ONE : PLACES_LINE;
     p->lattice = lattice_along(a, p, p->base, p->axis, true);
     return true;
 }
 
-enum places_kind places_kind(const struct places *p)
-{
-    return p->kind;
-}
+enum places_kind places_kind(const struct places *p) { return p->kind; }
 
 /* ------------------------------------------------------------------ reading */
 
@@ -209,10 +211,7 @@ double places_at(const struct places *p, double x, double y, struct places_mix *
     return p->kind == PLACES_ONE ? 0.0 : off;
 }
 
-bool places_smooth(const struct places *p)
-{
-    return p->rings || places_rows(p) > p->n;
-}
+bool places_smooth(const struct places *p) { return p->rings || places_rows(p) > p->n; }
 
 int places_rows(const struct places *p)
 {
@@ -235,8 +234,7 @@ double places_smooth_at(const struct places *p, double x, double y, struct place
         off = places_lattice_smooth_at(p->lattice, x, y, sum);
         return p->kind == PLACES_ONE ? 0.0 : off;
     }
-    if (p->rings)
-        return places_rings_smooth_at(p->rings, x, y, sum);
+    if (p->rings) return places_rings_smooth_at(p->rings, x, y, sum);
     off = places_at(p, x, y, &mix);
     sum->n = mix.n;
     for (int k = 0; k < mix.n; k++) {
@@ -255,22 +253,24 @@ static const char *extent(const struct places *p, int axis, struct arena *a)
         most = fmax(most, p->xy[2 * i + axis]);
     }
     char name = axis ? 'y' : 'x';
-    return most - least <= same ? arena_format(a, "%c = %.6g cm", name, 100 * least) : arena_format(a, "%.6g <= %c <= %.6g cm", 100 * least, name, 100 * most);
+    return most - least <= same ? arena_format(a, "%c = %.6g cm", name, 100 * least)
+                                : arena_format(a, "%.6g <= %c <= %.6g cm", 100 * least, name, 100 * most);
 }
 
 const char *places_told(const struct places *p, struct arena *a)
 {
     bool slanting = p->kind == PLACES_LINE && fabs(p->axis[0]) > same && fabs(p->axis[1]) > same;
     if (!slanting)
-        return arena_format(a, "its places lie %s %s, %s", p->kind > PLACES_LINE ? "within" : "on", extent(p, 0, a), extent(p, 1, a));
+        return arena_format(a, "its places lie %s %s, %s", p->kind > PLACES_LINE ? "within" : "on", extent(p, 0, a),
+                            extent(p, 1, a));
     const double *from = p->xy, *to = p->xy + 2 * (p->n - 1);
-    return arena_format(a, "its places lie on the line from (%.6g, %.6g) to (%.6g, %.6g) cm", 100 * from[0], 100 * from[1], 100 * to[0], 100 * to[1]);
+    return arena_format(a, "its places lie on the line from (%.6g, %.6g) to (%.6g, %.6g) cm", 100 * from[0],
+                        100 * from[1], 100 * to[0], 100 * to[1]);
 }
 
 int places_edges(const struct places *p, const int (**edge)[2])
 {
-    if (p->lattice)
-        return places_lattice_edges(p->lattice, edge);
+    if (p->lattice) return places_lattice_edges(p->lattice, edge);
     *edge = (const int(*)[2])p->edge;
     return p->edges;
 }

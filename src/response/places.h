@@ -17,7 +17,7 @@ struct places_mix { /* x = sum weight[k] x_{index[k]}, weights >= 0, sum 1; one 
     double weight[4];
 };
 
-struct places_sum {         /* of rows as places_fill makes them */
+struct places_sum { /* of rows as places_fill makes them */
     int n, index[16];
     double weight[16];
 };
@@ -43,7 +43,8 @@ int places_rows(const struct places *p);
 void places_fill(const struct places *p, int n, double *rows);
 double places_smooth_at(const struct places *p, double x, double y, struct places_sum *sum);
 
-/* Where they lie, for a message: "its places lie on 0 <= x <= 40 cm, y = 3.7 cm"; of a slanting line its two ends, of the plane a box that holds them. */
+/* Where they lie, for a message: "its places lie on 0 <= x <= 40 cm, y = 3.7 cm"; of a slanting line its two ends, of
+ * the plane a box that holds them. */
 const char *places_told(const struct places *p, struct arena *a);
 
 /* Neighbours: the edges of the triangulation, on lines and grids from place to place along the lines. Returns their

@@ -1,18 +1,21 @@
 /* Delaunay's triangulation of places: a sweep, then flips.
 
-   1. Sweep. Places are taken by rising x (then y); each is joined to the sides of the hull so far that it sees, which are those next to the
-      place before it (as in Sinclair's S-hull, 2010). A side is seen from more than 1e-14 of the extent in front of it, so that
-      every triangle has an area. While all places lie on one line the hull is that line, there and back.
-   2. Flips (Lawson, Software for C1 surface interpolation, 1977). An edge is flipped while the angles alpha and beta opposite to it sum to more
-      than pi: cot(alpha) + cot(beta) < -tie. Within the tie the four corners lie on one circle (every cell of a regular grid) and both
-      diagonals are Delaunay's: that through the place of lowest index is taken, so that a grid's all run the same way, and a polygon on a
-      circle becomes a fan. Such flips lower the sum of the triangles' lowest indices, so they end, too.
+   1. Sweep. Places are taken by rising x (then y); each is joined to the sides of the hull so far that it sees, which
+   are those next to the place before it (as in Sinclair's S-hull, 2010). A side is seen from more than 1e-14 of the
+   extent in front of it, so that every triangle has an area. While all places lie on one line the hull is that line,
+   there and back.
+   2. Flips (Lawson, Software for C1 surface interpolation, 1977). An edge is flipped while the angles alpha and beta
+   opposite to it sum to more than pi: cot(alpha) + cot(beta) < -tie. Within the tie the four corners lie on one circle
+   (every cell of a regular grid) and both diagonals are Delaunay's: that through the place of lowest index is taken, so
+   that a grid's all run the same way, and a polygon on a circle becomes a fan. Such flips lower the sum of the
+   triangles' lowest indices, so they end, too.
    3. Slivers that rounded coordinates leave along the hull's straight sides are peeled off from outside.
 
    Whether it is a triangulation is checked by Euler's formula: triangles = 2 n - 2 - sides of the hull.
 
-   Not libqhull: where places lie on common circles and straight sides, as those of a turned grid in rounded coordinates, its merged facets (default, Qt)
-   overlapped in a quarter of our trials, and joggled input (QJ) left turned-over triangles; both would need steps 2 and 3 as well. */
+   Not libqhull: where places lie on common circles and straight sides, as those of a turned grid in rounded
+   coordinates, its merged facets (default, Qt) overlapped in a quarter of our trials, and joggled input (QJ) left
+   turned-over triangles; both would need steps 2 and 3 as well. */
 #include "response/places_delaunay.h"
 
 #include <math.h>
@@ -29,11 +32,11 @@ struct side { /* of a triangle: corner number `at` of it is opposite */
 
 struct mesh {
     const double *xy;
-    double least;      /* m: height that a triangle has */
+    double least; /* m: height that a triangle has */
     int n, triangles, sides, hull;
     int (*corner)[3];  /* [2 n], anticlockwise */
     struct side *side; /* [sides = 3 triangles], those of an edge together */
-    int *count;        /* [2 n] of a triangle: how many of its sides are the hull's; when flipping: whether it has changed */
+    int *count; /* [2 n] of a triangle: how many of its sides are the hull's; when flipping: whether it has changed */
 };
 
 /* ------------------------------------------------------------------ triangles */
@@ -65,8 +68,7 @@ struct point {
 static int left_first(const void *a, const void *b)
 {
     const struct point *p = a, *q = b;
-    if (p->x != q->x)
-        return p->x < q->x ? -1 : 1;
+    if (p->x != q->x) return p->x < q->x ? -1 : 1;
     return (p->y > q->y) - (p->y < q->y);
 }
 
@@ -125,8 +127,7 @@ static int side_order(const void *a, const void *b)
     const struct side *p = a, *q = b;
     const int x[4] = {p->low, p->high, p->triangle, p->at}, y[4] = {q->low, q->high, q->triangle, q->at};
     for (int c = 0; c < 4; c++)
-        if (x[c] != y[c])
-            return x[c] < y[c] ? -1 : 1;
+        if (x[c] != y[c]) return x[c] < y[c] ? -1 : 1;
     return 0;
 }
 
@@ -157,8 +158,7 @@ static void find_sides(struct mesh *m)
 static void peel(struct mesh *m)
 {
     for (int left = -1; left != m->triangles;) {
-        if (left >= 0)
-            m->triangles = left;
+        if (left >= 0) m->triangles = left;
         left = 0;
         find_sides(m);
         for (int t = 0; t < m->triangles; t++) {
@@ -184,8 +184,7 @@ static bool better(const struct mesh *m, int a, int b, int c, int d)
 {
     double sum = angles(m->xy + 2 * a, m->xy + 2 * b, m->xy + 2 * c, m->xy + 2 * d);
     int now = a < b ? a : b, then = c < d ? c : d;
-    if (!(sum < -tie || (sum < tie && then < now)))
-        return false;
+    if (!(sum < -tie || (sum < tie && then < now))) return false;
     return height(m, c, a, d) > m->least && height(m, d, b, c) > m->least;
 }
 
@@ -197,12 +196,10 @@ static int flip(struct mesh *m)
     memset(m->count, 0, (size_t)m->triangles * sizeof *m->count);
     for (int k = 0; k < m->sides; k++) {
         const struct side *s = &m->side[k];
-        if (!twin(m, k) || m->count[s[0].triangle] || m->count[s[1].triangle])
-            continue;
+        if (!twin(m, k) || m->count[s[0].triangle] || m->count[s[1].triangle]) continue;
         int *t = m->corner[s[0].triangle], *u = m->corner[s[1].triangle];
         int c = t[s[0].at], a = t[(s[0].at + 1) % 3], b = t[(s[0].at + 2) % 3], d = u[s[1].at];
-        if (!better(m, a, b, c, d))
-            continue;
+        if (!better(m, a, b, c, d)) continue;
         t[0] = c, t[1] = a, t[2] = d;
         u[0] = d, u[1] = b, u[2] = c;
         m->count[s[0].triangle] = m->count[s[1].triangle] = 1;
@@ -215,8 +212,7 @@ static int by_corner(const void *a, const void *b)
 {
     const int *p = a, *q = b;
     for (int c = 0; c < 3; c++)
-        if (p[c] != q[c])
-            return p[c] < q[c] ? -1 : 1;
+        if (p[c] != q[c]) return p[c] < q[c] ? -1 : 1;
     return 0;
 }
 
@@ -234,8 +230,7 @@ static void settle(struct mesh *m)
 static bool sound(const struct mesh *m)
 {
     for (int t = 0; t < m->triangles; t++)
-        if (!(height(m, m->corner[t][0], m->corner[t][1], m->corner[t][2]) > 0.0))
-            return false;
+        if (!(height(m, m->corner[t][0], m->corner[t][1], m->corner[t][2]) > 0.0)) return false;
     return m->triangles == 2 * m->n - 2 - m->hull;
 }
 

@@ -31,7 +31,7 @@ static const double touching = 1e-9; /* m */
 
 struct axis {
     int n;
-    double *at;                  /* [n] m, increasing                           */
+    double *at; /* [n] m, increasing                           */
     bool smooth;
     struct places_spline spline;
 };
@@ -40,7 +40,7 @@ struct places_lattice {
     double base[2], along[2];
     int places;
     struct axis axis[2];
-    int *place;                  /* [n of y][n of x] the caller's index         */
+    int *place; /* [n of y][n of x] the caller's index         */
     int (*edge)[2], edges;
 };
 
@@ -67,8 +67,7 @@ static struct axis lines_of(struct arena *a, int n, double *s, double same)
     struct axis x = {.at = ARENA_TAKE(a, double, n)};
     qsort(s, (size_t)n, sizeof *s, up);
     for (int i = 0, first = 0; i < n; i++) {
-        if (i > 0 && s[i] - s[i - 1] > same)
-            first = i;
+        if (i > 0 && s[i] - s[i - 1] > same) first = i;
         x.n += first == i;
         x.at[x.n - 1] = 0.5 * (s[first] + s[i]);
     }
@@ -88,8 +87,7 @@ static int interval(const struct axis *x, double s)
 
 static int nearest_line(const struct axis *x, double s)
 {
-    if (x->n == 1)
-        return 0;
+    if (x->n == 1) return 0;
     int k = interval(x, s);
     return k + (s - x->at[k] > x->at[k + 1] - s);
 }
@@ -104,8 +102,7 @@ static bool fill_crossings(struct arena *a, struct places_lattice *l, const stru
         double s[2];
         coordinates(l->base, l->along, ask->xy + 2 * i, s);
         int *at = &l->place[nearest_line(&l->axis[1], s[1]) * l->axis[0].n + nearest_line(&l->axis[0], s[0])];
-        if (*at >= 0)
-            return false;
+        if (*at >= 0) return false;
         *at = ask->order[i];
     }
     return true;
@@ -113,8 +110,7 @@ static bool fill_crossings(struct arena *a, struct places_lattice *l, const stru
 
 static void make_smooth(struct arena *a, struct axis *x)
 {
-    if (x->n < 3)
-        return;
+    if (x->n < 3) return;
     struct arena *work = arena_open();
     x->spline = places_spline_make(a, x->n, x->at);
     x->smooth = places_spline_grows(&x->spline, work) <= PLACES_SPLINE_GROWS;
@@ -128,10 +124,8 @@ static void find_edges(struct arena *a, struct places_lattice *l)
     for (int j = 0; j < ny; j++)
         for (int i = 0; i < nx; i++) {
             const int *at = l->place + j * nx + i;
-            if (i + 1 < nx)
-                l->edge[l->edges][0] = at[0], l->edge[l->edges++][1] = at[1];
-            if (j + 1 < ny)
-                l->edge[l->edges][0] = at[0], l->edge[l->edges++][1] = at[nx];
+            if (i + 1 < nx) l->edge[l->edges][0] = at[0], l->edge[l->edges++][1] = at[1];
+            if (j + 1 < ny) l->edge[l->edges][0] = at[0], l->edge[l->edges++][1] = at[nx];
         }
 }
 
@@ -161,17 +155,16 @@ struct places_lattice *places_lattice_make(struct arena *a, const struct places_
 
 /* ------------------------------------------------------------------ reading */
 
-struct cell { /* along one axis */
-    int at, lines;        /* 1 or 2 */
-    double share[2];      /* linear, of the lines    */
-    double step, off;     /* m; m beyond the lines   */
+struct cell {         /* along one axis */
+    int at, lines;    /* 1 or 2 */
+    double share[2];  /* linear, of the lines    */
+    double step, off; /* m; m beyond the lines   */
 };
 
 static struct cell cell_at(const struct axis *x, double s)
 {
     double on = fmin(fmax(s, x->at[0]), x->at[x->n - 1]);
-    if (x->n == 1)
-        return (struct cell){0, 1, {1, 0}, 0, s - on};
+    if (x->n == 1) return (struct cell){0, 1, {1, 0}, 0, s - on};
     int k = interval(x, on);
     double h = x->at[k + 1] - x->at[k];
     return (struct cell){k, 2, {(x->at[k + 1] - on) / h, (on - x->at[k]) / h}, h, s - on};
@@ -195,8 +188,7 @@ double places_lattice_at(const struct places_lattice *l, double x, double y, str
     *mix = (struct places_mix){0};
     for (int k = 0; k < 4; k++) {
         int i = corner[k][0], j = corner[k][1];
-        if (i >= c[0].lines || j >= c[1].lines)
-            continue;
+        if (i >= c[0].lines || j >= c[1].lines) continue;
         mix->index[mix->n] = l->place[(c[1].at + j) * l->axis[0].n + c[0].at + i];
         mix->weight[mix->n++] = c[0].share[i] * c[1].share[j];
     }
@@ -219,10 +211,7 @@ int places_lattice_rows(const struct places_lattice *l)
 }
 
 /* Of slopes along x (i) and y (j): which of the terms. */
-static int term(const struct places_lattice *l, int i, int j)
-{
-    return i + j * (l->axis[0].smooth ? 2 : 1);
-}
+static int term(const struct places_lattice *l, int i, int j) { return i + j * (l->axis[0].smooth ? 2 : 1); }
 
 double places_lattice_smooth_at(const struct places_lattice *l, double x, double y, struct places_sum *sum)
 {
@@ -235,8 +224,7 @@ double places_lattice_smooth_at(const struct places_lattice *l, double x, double
         for (int corner = 0; corner < 4; corner++) {
             int p = slope & 1, q = slope >> 1, i = corner & 1, j = corner >> 1;
             double w = share[0][p][i] * share[1][q][j];
-            if (w == 0)
-                continue;
+            if (w == 0) continue;
             sum->index[sum->n] = term(l, p, q) * l->places + l->place[(c[1].at + j) * l->axis[0].n + c[0].at + i];
             sum->weight[sum->n++] = w;
         }
@@ -264,12 +252,9 @@ static void fill_slopes(const struct places_lattice *l, int c, int from, int to,
 void places_lattice_fill(const struct places_lattice *l, int n, double *rows)
 {
     bool x = l->axis[0].smooth, y = l->axis[1].smooth;
-    if (y)
-        fill_slopes(l, 1, 0, term(l, 0, 1), n, rows);
-    if (x)
-        fill_slopes(l, 0, 0, term(l, 1, 0), n, rows);
-    if (x && y)
-        fill_slopes(l, 0, term(l, 0, 1), term(l, 1, 1), n, rows);
+    if (y) fill_slopes(l, 1, 0, term(l, 0, 1), n, rows);
+    if (x) fill_slopes(l, 0, 0, term(l, 1, 0), n, rows);
+    if (x && y) fill_slopes(l, 0, term(l, 0, 1), term(l, 1, 1), n, rows);
 }
 
 /* ------------------------------------------------------------------ edges */

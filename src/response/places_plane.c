@@ -1,10 +1,13 @@
-/* Barycentric coordinates in a triangulation (places_delaunay.h): x = x_0 + l_1 (x_1 - x_0) + l_2 (x_2 - x_0), l_0 = 1 - l_1 - l_2.
+/* Barycentric coordinates in a triangulation (places_delaunay.h): x = x_0 + l_1 (x_1 - x_0) + l_2 (x_2 - x_0), l_0 = 1
+   - l_1 - l_2.
 
-   Finding the triangle: the box around the places is cut into cells, about one per triangle; each knows the triangles that reach into it, and
-   the first of them that holds the point counts. No search from where the last one was: the answer depends on the point alone.
+   Finding the triangle: the box around the places is cut into cells, about one per triangle; each knows the triangles
+   that reach into it, and the first of them that holds the point counts. No search from where the last one was: the
+   answer depends on the point alone.
 
-   Off the hull the nearest point of its sides counts. The hull is convex, so along a straight way that point moves linearly as long as it stays
-   on one side or at one corner; it changes over at the perpendiculars on each side at its ends. */
+   Off the hull the nearest point of its sides counts. The hull is convex, so along a straight way that point moves
+   linearly as long as it stays on one side or at one corner; it changes over at the perpendiculars on each side at its
+   ends. */
 #include "response/places_plane.h"
 
 #include <math.h>
@@ -24,10 +27,10 @@ struct places_plane {
     int triangles, edges, sides;
     struct triangle *triangle;
     int (*edge)[2];
-    int (*side)[2];                /* of the hull, anticlockwise */
-    double low[2], per_metre[2];   /* cells */
+    int (*side)[2];              /* of the hull, anticlockwise */
+    double low[2], per_metre[2]; /* cells */
     int cells[2];
-    int *start, *held;             /* held[start[cell] .. start[cell + 1]): triangles */
+    int *start, *held; /* held[start[cell] .. start[cell + 1]): triangles */
 };
 
 /* ------------------------------------------------------------------ making */
@@ -93,8 +96,7 @@ static void enter(struct places_plane *p, int t, int *held)
     for (int j = low[1]; j <= high[1]; j++)
         for (int i = low[0]; i <= high[0]; i++) {
             int *next = &p->start[j * p->cells[0] + i + 1];
-            if (held)
-                held[*next] = t;
+            if (held) held[*next] = t;
             ++*next;
         }
 }
@@ -114,7 +116,8 @@ static void lay_cells(const double *xy, int n, struct places_plane *p)
     }
 }
 
-/* Counts, then sums (start[cell + 1] is where a cell's list begins), then writes: start[cell + 1] has then moved to its end. */
+/* Counts, then sums (start[cell + 1] is where a cell's list begins), then writes: start[cell + 1] has then moved to its
+ * end. */
 static void fill_cells(struct arena *a, struct places_plane *p)
 {
     int cells = p->cells[0] * p->cells[1], sum = 0;
@@ -137,8 +140,7 @@ struct places_plane *places_plane_make(struct arena *a, int n, const double *xy)
     const int(*corner)[3];
     p->xy = xy;
     p->triangles = places_delaunay(a, n, xy, &corner);
-    if (p->triangles == 0)
-        return NULL;
+    if (p->triangles == 0) return NULL;
     p->triangle = ARENA_TAKE(a, struct triangle, p->triangles);
     for (int t = 0; t < p->triangles; t++)
         p->triangle[t] = triangle_make(xy, corner[t]);
@@ -154,8 +156,7 @@ static bool in_triangle(const struct triangle *t, double x, double y, struct pla
 {
     double dx = x - t->origin[0], dy = y - t->origin[1];
     double v = t->to[0][0] * dx + t->to[0][1] * dy, w = t->to[1][0] * dx + t->to[1][1] * dy, u = 1.0 - v - w;
-    if (!(u >= inside && v >= inside && w >= inside))
-        return false;
+    if (!(u >= inside && v >= inside && w >= inside)) return false;
     u = fmax(u, 0.0), v = fmax(v, 0.0), w = fmax(w, 0.0);
     double sum = u + v + w;
     *mix = (struct places_mix){3, {t->corner[0], t->corner[1], t->corner[2]}, {u / sum, v / sum, w / sum}};
@@ -190,8 +191,7 @@ double places_plane_at(const struct places_plane *p, double x, double y, struct 
 {
     int cell = cell_of(p, 1, y) * p->cells[0] + cell_of(p, 0, x);
     for (int k = p->start[cell]; k < p->start[cell + 1]; k++)
-        if (in_triangle(&p->triangle[p->held[k]], x, y, mix))
-            return 0.0;
+        if (in_triangle(&p->triangle[p->held[k]], x, y, mix)) return 0.0;
     return off_hull(p, x, y, mix);
 }
 

@@ -29,23 +29,23 @@
 #include "response/places_plane.h"
 #include "response/places_spline.h"
 
-static const double touching = 1e-9; /* m */
+static const double touching = 1e-9;                /* m */
 static const double pole = -0.26794919243112270647; /* z */
 
 enum { VALUE, TURN, OUT, OUT_TURN, TERMS }; /* rows of a place: slopes per step of the angle, per metre outwards */
 
 struct ring {
-    double radius, first;  /* m; rad, of its place number 0 */
-    int n, at;             /* places; where they begin in `place` */
+    double radius, first; /* m; rad, of its place number 0 */
+    int n, at;            /* places; where they begin in `place` */
 };
 
 struct places_rings {
     double centre[2];
-    int places, rings, middle;  /* middle: the caller's index; -1: none */
-    struct ring *ring;          /* [rings], outwards */
-    int *place;                 /* [places] the caller's index, ring by ring, anticlockwise */
-    int knots;                  /* of a diameter, or a radius */
-    double *slope;              /* [rings + 1][knots] of the middle and each ring, from values at the knots; NULL: linear */
+    int places, rings, middle; /* middle: the caller's index; -1: none */
+    struct ring *ring;         /* [rings], outwards */
+    int *place;                /* [places] the caller's index, ring by ring, anticlockwise */
+    int knots;                 /* of a diameter, or a radius */
+    double *slope; /* [rings + 1][knots] of the middle and each ring, from values at the knots; NULL: linear */
 };
 
 /* ------------------------------------------------------------------ making */
@@ -66,15 +66,13 @@ static bool take_ring(struct places_rings *r, struct polar *p, int n, const int 
 {
     struct ring *g = &r->ring[r->rings++];
     double step = 2 * REAL_PI / n;
-    if (n < PLACES_RINGS_LEAST)
-        return false;
+    if (n < PLACES_RINGS_LEAST) return false;
     for (int k = 0; k < n; k++)
         p[k].key = p[k].angle;
     qsort(p, (size_t)n, sizeof *p, up);
     *g = (struct ring){p[0].radius, p[0].angle, n, r->places};
     for (int k = 0; k < n; k++) {
-        if (fabs(p[k].angle - g->first - k * step) * g->radius > same)
-            return false;
+        if (fabs(p[k].angle - g->first - k * step) * g->radius > same) return false;
         r->place[r->places++] = order[p[k].index];
     }
     return true;
@@ -83,18 +81,15 @@ static bool take_ring(struct places_rings *r, struct polar *p, int n, const int 
 static bool take_rings(struct places_rings *r, int n, struct polar *p, const int *order, double same)
 {
     int from = 0;
-    if (n > 1 && p[0].radius <= same && p[1].radius > same)
-        r->middle = order[p[from++].index];
+    if (n > 1 && p[0].radius <= same && p[1].radius > same) r->middle = order[p[from++].index];
     while (from < n) {
         int to = from + 1;
         while (to < n && p[to].radius - p[to - 1].radius <= same)
             to++;
-        if (p[from].radius <= same || !take_ring(r, p + from, to - from, order, same))
-            return false;
+        if (p[from].radius <= same || !take_ring(r, p + from, to - from, order, same)) return false;
         from = to;
     }
-    if (r->middle >= 0)
-        r->place[r->places++] = r->middle;
+    if (r->middle >= 0) r->place[r->places++] = r->middle;
     return true;
 }
 
@@ -103,14 +98,13 @@ static void make_slopes(struct arena *a, struct places_rings *r)
 {
     int R = r->rings, n = r->middle >= 0 ? 2 * R + 1 : R, first = r->middle >= 0 ? R : -1;
     struct arena *work = arena_open();
-    double *at = ARENA_TAKE(work, double, n), *f = ARENA_TAKE(work, double, (size_t)n * n);
+    double *at = ARENA_TAKE(work, double, n), *f = ARENA_TAKE(work, double, (size_t)n *n);
     const double **from = ARENA_TAKE(work, const double *, n);
-    double **to = ARENA_TAKE(work, double *, n), *m = ARENA_TAKE(work, double, (size_t)n * n);
+    double **to = ARENA_TAKE(work, double *, n), *m = ARENA_TAKE(work, double, (size_t)n *n);
     r->knots = n;
     for (int j = 0; j < R; j++) {
         at[first + 1 + j] = r->ring[j].radius;
-        if (r->middle >= 0)
-            at[R - 1 - j] = -r->ring[j].radius;
+        if (r->middle >= 0) at[R - 1 - j] = -r->ring[j].radius;
     }
     for (int k = 0; k < n; k++) {
         f[(size_t)k * n + k] = 1;
@@ -143,7 +137,8 @@ struct places_rings *places_rings_make(struct arena *a, int n, const double *xy,
     for (int i = 0; i < 2 * n; i++)
         r->centre[i % 2] += (xy[i] - xy[i % 2]) / n;
     for (int i = 0; i < n; i++) {
-        double x = xy[2 * i] - xy[0] - r->centre[0], y = xy[2 * i + 1] - xy[1] - r->centre[1], radius = sqrt(x * x + y * y);
+        double x = xy[2 * i] - xy[0] - r->centre[0], y = xy[2 * i + 1] - xy[1] - r->centre[1],
+               radius = sqrt(x * x + y * y);
         p[i] = (struct polar){radius, real_atan2(y, x), radius, i};
     }
     for (int c = 0; c < 2; c++)
@@ -151,20 +146,15 @@ struct places_rings *places_rings_make(struct arena *a, int n, const double *xy,
     qsort(p, (size_t)n, sizeof *p, up);
     bool round = take_rings(r, n, p, order, same);
     arena_close(work);
-    if (!round)
-        return NULL;
-    if (r->middle >= 0 || r->rings >= 3)
-        make_slopes(a, r);
+    if (!round) return NULL;
+    if (r->middle >= 0 || r->rings >= 3) make_slopes(a, r);
     return r;
 }
 
 /* ------------------------------------------------------------------ slopes */
 
 /* The mean of the innermost ring follows the terms of all places. */
-int places_rings_rows(const struct places_rings *r)
-{
-    return TERMS * r->places + (r->middle < 0);
-}
+int places_rings_rows(const struct places_rings *r) { return TERMS * r->places + (r->middle < 0); }
 
 struct rows { /* [..][n] */
     int n;
@@ -177,10 +167,7 @@ static int row_of(const struct places_rings *r, const struct ring *g, int k, int
     return t * r->places + r->place[g->at + (k % g->n + g->n) % g->n];
 }
 
-static double *row_at(const struct rows *f, int row)
-{
-    return f->at + (size_t)row * (size_t)f->n;
-}
+static double *row_at(const struct rows *f, int row) { return f->at + (size_t)row * (size_t)f->n; }
 
 /* to += by x */
 LANES_CLONES
@@ -239,8 +226,7 @@ static void turn_slopes(const struct places_rings *r, const struct ring *g, int 
 
 static void put(struct places_sum *s, int row, double weight)
 {
-    if (weight == 0)
-        return;
+    if (weight == 0) return;
     s->index[s->n] = row;
     s->weight[s->n++] = weight;
 }

@@ -28,8 +28,7 @@ static struct row row_of(int n, const double *h, int k)
 {
     if (n == 3) { /* the parabola */
         double sum = h[0] + h[1];
-        if (k == 1)
-            return (struct row){0, 1, 0, h[1] / sum, h[0] / sum};
+        if (k == 1) return (struct row){0, 1, 0, h[1] / sum, h[0] / sum};
         return k == 0 ? (struct row){0, 1, 0, 1 + h[0] / sum, -h[0] / sum}
                       : (struct row){0, 1, 0, -h[1] / sum, 1 + h[1] / sum};
     }
@@ -45,10 +44,7 @@ static struct row row_of(int n, const double *h, int k)
 }
 
 /* The chord on whose left side row k's right side begins. */
-static int chord(int n, int k)
-{
-    return k == 0 ? 0 : k == n - 1 ? n - 3 : k - 1;
-}
+static int chord(int n, int k) { return k == 0 ? 0 : k == n - 1 ? n - 3 : k - 1; }
 
 struct places_spline places_spline_make(struct arena *a, int n, const double *at)
 {

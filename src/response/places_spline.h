@@ -5,9 +5,9 @@
 #include "base/arena.h"
 
 struct places_spline {
-    int n;                              /* knots                                                                  */
-    double *step;                       /* [n - 1] distances                                                      */
-    double *below, *pivot, *above;      /* [n] the slopes' equations, eliminated: row k less below[k] of row k - 1 */
+    int n;                         /* knots                                                                  */
+    double *step;                  /* [n - 1] distances                                                      */
+    double *below, *pivot, *above; /* [n] the slopes' equations, eliminated: row k less below[k] of row k - 1 */
 };
 
 /* at[n], increasing, n >= 3. */
@@ -19,8 +19,8 @@ void places_spline_slopes(const struct places_spline *s, int count, const double
 /* How many times as large as the values' largest error the spline's may become, at eighths of the intervals. */
 double places_spline_grows(const struct places_spline *s, struct arena *a);
 
-/* Where they are so uneven that an error may come out more than so many times as large, all that is made of places stays
- * linear. */
+/* Where they are so uneven that an error may come out more than so many times as large, all that is made of places
+ * stays linear. */
 #define PLACES_SPLINE_GROWS 6.0
 
 #endif

@@ -1,5 +1,5 @@
-/* Pulsating sphere (Morse and Ingard, Theoretical Acoustics, 7.1; Kinsler et al., Fundamentals of Acoustics, 7.1): surface velocity v on a sphere of
-   radius a makes at the distance r > a of its middle the pressure
+/* Pulsating sphere (Morse and Ingard, Theoretical Acoustics, 7.1; Kinsler et al., Fundamentals of Acoustics, 7.1):
+   surface velocity v on a sphere of radius a makes at the distance r > a of its middle the pressure
 
        p = rho c v (a / r) j k a / (1 + j k a) e^(-j k (r - a)) ,   k = w / c ,
 
@@ -11,14 +11,15 @@
 
        p(t) = Im sum A_i H(s_i) e^(s_i t)  +  e^(-w t) Im sum A_i K w / (s_i + w) :
 
-   modes of other gains, and one component of the radiator's own, of 0 Hz. s_i + w = 0 cannot be, as the frequency of no mode is 0. No response at
-   0 Hz (H(0) = 0), so no direct term: modes_direct's sum over all components is 0 but for rounding.
+   modes of other gains, and one component of the radiator's own, of 0 Hz. s_i + w = 0 cannot be, as the frequency of no
+   mode is 0. No response at 0 Hz (H(0) = 0), so no direct term: modes_direct's sum over all components is 0 but for
+   rounding.
 
-   A sampled response stands for the continuous one while it does not decay within a sample. The own component is kept while
-   w <= 2.4 rate (a = 3 mm at 48 kHz); of a smaller object it is left out, and modes_direct, whose sum is then Im sum A_i K / (s_i + w), puts its
-   whole area at t = 0: K/w = rho a^2 / r is then all that counts, and the pressure is the acceleration of a volume. What is lost is the
-   fraction j w_audio / w of that one component. (At 2.4 both ways are off alike; a small object's own pole, sampled, would be far too loud: by
-   w / (2 rate).) */
+   A sampled response stands for the continuous one while it does not decay within a sample. The own component is kept
+   while w <= 2.4 rate (a = 3 mm at 48 kHz); of a smaller object it is left out, and modes_direct, whose sum is then Im
+   sum A_i K / (s_i + w), puts its whole area at t = 0: K/w = rho a^2 / r is then all that counts, and the pressure is
+   the acceleration of a volume. What is lost is the fraction j w_audio / w of that one component. (At 2.4 both ways are
+   off alike; a small object's own pole, sampled, would be far too loud: by w / (2 rate).) */
 #include "response/radiator_monopole.h"
 
 #define FASTEST 2.4 /* own pole over sample rate */
@@ -46,7 +47,4 @@ void radiator_monopole_own(const struct radiator_monopole *m, const double s[2],
     over(m, s, (const double[2]){m->gain * m->pole, 0}, share);
 }
 
-bool radiator_monopole_sampled(const struct radiator_monopole *m, double rate)
-{
-    return m->pole <= FASTEST * rate;
-}
+bool radiator_monopole_sampled(const struct radiator_monopole *m, double rate) { return m->pole <= FASTEST * rate; }

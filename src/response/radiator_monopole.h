@@ -1,4 +1,5 @@
-/* The simplest radiator: a sphere of the object's size whose whole surface moves as the place that is heard does. See radiator_monopole.c. */
+/* The simplest radiator: a sphere of the object's size whose whole surface moves as the place that is heard does. See
+ * radiator_monopole.c. */
 #ifndef RESPONSE_RADIATOR_MONOPOLE_H
 #define RESPONSE_RADIATOR_MONOPOLE_H
 #include <stdbool.h>

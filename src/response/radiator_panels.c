@@ -1,13 +1,15 @@
-/* See radiator_panels.h. e^(j k x) over a panel of width W needs about W k / 2 points of Gauss-Legendre's rule, and then each one more takes
-   the error down by orders of magnitude: 12 points over 4 pi of phase leave 4e-12. A singularity j d above or below the panel's middle leaves about
-   (u + sqrt(u^2 + 1))^(-24), u = 2 d / W: 7e-10 at d = W/2. */
+/* See radiator_panels.h. e^(j k x) over a panel of width W needs about W k / 2 points of Gauss-Legendre's rule, and
+   then each one more takes the error down by orders of magnitude: 12 points over 4 pi of phase leave 4e-12. A
+   singularity j d above or below the panel's middle leaves about (u + sqrt(u^2 + 1))^(-24), u = 2 d / W: 7e-10 at d =
+   W/2. */
 #include "response/radiator_panels.h"
 
 #include <math.h>
 
 #include "num/real.h"
 
-/* Nodes and weights on [-1, 1] by Newton's method on Legendre's polynomial; its start is within the reach of the root next to it. */
+/* Nodes and weights on [-1, 1] by Newton's method on Legendre's polynomial; its start is within the reach of the root
+ * next to it. */
 static void rule(int n, double *x, double *w)
 {
     for (int k = 0; k < n; k++) {
@@ -35,11 +37,11 @@ static double far_of(const struct radiator_panels *x, double low, double high)
 
 bool radiator_panels_split(struct radiator_panels *x, double low, double high)
 {
-    if (x->n == RADIATOR_PANELS_MOST)
-        return false;
+    if (x->n == RADIATOR_PANELS_MOST) return false;
     double middle = 0.5 * (low + high), width = high - low;
     if (width * x->wave > 4 * REAL_PI || width > 2 * far_of(x, low, high))
-        return middle > low && middle < high && radiator_panels_split(x, low, middle) && radiator_panels_split(x, middle, high);
+        return middle > low && middle < high && radiator_panels_split(x, low, middle) &&
+               radiator_panels_split(x, middle, high);
     x->ends[x->n++] = low;
     x->ends[x->n] = high;
     return true;

@@ -1,4 +1,5 @@
-/* One coordinate cut into panels for Gauss-Legendre's rule, fine enough for what turns and for what is nearly singular. */
+/* One coordinate cut into panels for Gauss-Legendre's rule, fine enough for what turns and for what is nearly singular.
+ */
 #ifndef RESPONSE_RADIATOR_PANELS_H
 #define RESPONSE_RADIATOR_PANELS_H
 #include <stdbool.h>
@@ -13,8 +14,8 @@ struct radiator_panels {
     double ends[RADIATOR_PANELS_MOST + 1];
 };
 
-/* Adds the panels between low and high: each no wider than 4 pi of phase, and no wider than twice its distance from the singularity. False: too
-   many. */
+/* Adds the panels between low and high: each no wider than 4 pi of phase, and no wider than twice its distance from the
+   singularity. False: too many. */
 bool radiator_panels_split(struct radiator_panels *x, double low, double high);
 
 /* Nodes and weights, `points` to a panel; returns how many there are. */

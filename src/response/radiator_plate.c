@@ -1,25 +1,30 @@
-/* Rayleigh's integral (Rayleigh, Theory of Sound II, 278; Fahy and Gardonio, Sound and Structural Vibration, 3.2): a flat surface that moves with the normal
-   velocity v_n(y) e^(s t) in an infinite rigid baffle, z = 0, makes at the place x, z > 0, the pressure
+/* Rayleigh's integral (Rayleigh, Theory of Sound II, 278; Fahy and Gardonio, Sound and Structural Vibration, 3.2): a
+   flat surface that moves with the normal velocity v_n(y) e^(s t) in an infinite rigid baffle, z = 0, makes at the
+   place x, z > 0, the pressure
 
        p(x) e^(s t) ,   p(x) = (s rho / 2 pi) int v_n(y) e^(-s R / c) / R dS ,   R = |x - y| ,
 
-   here at each mode's own pole s_i = -decay + j 2 pi f (so that its free decay is exact, not that of the undamped mode at j 2 pi f). Shapes phi_i come
-   from the modes' own gains: these are made with a reference place l as the one that is heard, A_i(y) = const phi_i(y) phi_i(l), hence
+   here at each mode's own pole s_i = -decay + j 2 pi f (so that its free decay is exact, not that of the undamped mode
+   at j 2 pi f). Shapes phi_i come from the modes' own gains: these are made with a reference place l as the one that is
+   heard, A_i(y) = const phi_i(y) phi_i(l), hence
 
-       factor_i = (s_i rho / 2 pi) int phi_i(y)/phi_i(l) e^(-s_i (R - R_0) / c) / R dS ,   phi_i(y)/phi_i(l) = A_i(y)/A_i(l) ,
+       factor_i = (s_i rho / 2 pi) int phi_i(y)/phi_i(l) e^(-s_i (R - R_0) / c) / R dS ,   phi_i(y)/phi_i(l) =
+   A_i(y)/A_i(l) ,
 
    R_0 the distance of the object's centre, whose delay R_0/c is left to the caller.
 
-   What is exact. Air that is in motion already: the pressure from the moment on at which the wave of the farthest place of the rim has come by,
-   R_max/c after a force has acted. Before that the true pressure grows as one place after the other is heard, from R_min/c on; here all of a mode is heard
-   from R_0/c on. A bounded surface at rest makes no constant pressure, so the whole response's area is 0; what the early part lacks of it is
-   put in at t = 0 by modes_direct, which takes a pressure like an acceleration: it is exact at 0 Hz, and off at frequencies whose waves are not long
-   beside the plate, in the first R_max - R_0 of the response.
+   What is exact. Air that is in motion already: the pressure from the moment on at which the wave of the farthest place
+   of the rim has come by, R_max/c after a force has acted. Before that the true pressure grows as one place after the
+   other is heard, from R_min/c on; here all of a mode is heard from R_0/c on. A bounded surface at rest makes no
+   constant pressure, so the whole response's area is 0; what the early part lacks of it is put in at t = 0 by
+   modes_direct, which takes a pressure like an acceleration: it is exact at 0 Hz, and off at frequencies whose waves
+   are not long beside the plate, in the first R_max - R_0 of the response.
 
-   Quadrature. Rectangles in x and y, circles in r and angle, Gauss-Legendre's rule of 12 points on panels, each no wider than 4 pi of the phase of shape
-   and sound together, and no wider than twice its distance from where R = 0 (in the complex plane: the foot of the listening place, z above). Panels
-   are halved until rules of 10 and 12 points differ by less than 1e-9 of int |phi_i|/R dS in every mode; measured by refinement the 12 points
-   are then within 1e-11 of it. */
+   Quadrature. Rectangles in x and y, circles in r and angle, Gauss-Legendre's rule of 12 points on panels, each no
+   wider than 4 pi of the phase of shape and sound together, and no wider than twice its distance from where R = 0 (in
+   the complex plane: the foot of the listening place, z above). Panels are halved until rules of 10 and 12 points
+   differ by less than 1e-9 of int |phi_i|/R dS in every mode; measured by refinement the 12 points are then within
+   1e-11 of it. */
 #include "response/radiator_plate.h"
 
 #include <math.h>
@@ -41,10 +46,7 @@ enum { MOST_PLACES = 96, COARSE = 10, FINE = RADIATOR_PANELS_POINTS, HALVINGS = 
 
 /* ------------------------------------------------------------------ the outline */
 
-static bool is_round(const struct object *o)
-{
-    return o->shape == OBJECT_DISK || o->shape == OBJECT_DRUM;
-}
+static bool is_round(const struct object *o) { return o->shape == OBJECT_DISK || o->shape == OBJECT_DRUM; }
 
 static double centre(const struct object *o, int axis)
 {
@@ -94,13 +96,13 @@ void radiator_plate_reference(const struct object *o, struct arena *a, double pl
 struct work {
     const struct radiator_plate *given;
     int n;
-    double far;                         /* m, R_0 */
-    struct radiator_panels *axes;                  /* [2]: x and y, or r and angle */
-    double *inverse;                    /* [n]: 1/A(l) of what A(y) is projected on: (re, im)/|A(l)|^2 in two arrays */
+    double far;                   /* m, R_0 */
+    struct radiator_panels *axes; /* [2]: x and y, or r and angle */
+    double *inverse;              /* [n]: 1/A(l) of what A(y) is projected on: (re, im)/|A(l)|^2 in two arrays */
     double *inverse_im;
     struct modes_point point;
-    double *shape, *grow, *turn, *c;    /* [n] */
-    double *sum[2], *size;              /* [n] */
+    double *shape, *grow, *turn, *c; /* [n] */
+    double *sum[2], *size;           /* [n] */
 };
 
 /* Adds the element dS at y (the object's coordinates). */
@@ -133,8 +135,8 @@ static void integrate(struct work *w, int points, struct arena *a)
     double *at[2], *weight[2];
     int n[2];
     for (int k = 0; k < 2; k++) {
-        at[k] = ARENA_TAKE(a, double, w->axes[k].n * points);
-        weight[k] = ARENA_TAKE(a, double, w->axes[k].n * points);
+        at[k] = ARENA_TAKE(a, double, w->axes[k].n *points);
+        weight[k] = ARENA_TAKE(a, double, w->axes[k].n *points);
         n[k] = radiator_panels_points(&w->axes[k], points, at[k], weight[k]);
     }
     for (int k = 0; k < 2; k++)
@@ -152,14 +154,16 @@ static void integrate(struct work *w, int points, struct arena *a)
     }
 }
 
-/* How fast shapes may turn along the axes, rad/m: n modes of an area fill a disk of wave numbers (Weyl), but those of a strip lie on a line. */
+/* How fast shapes may turn along the axes, rad/m: n modes of an area fill a disk of wave numbers (Weyl), but those of a
+ * strip lie on a line. */
 static void waves(const struct radiator_plate *p, double wave[2])
 {
     const struct object *o = p->object;
     int n = p->modes->n;
     for (int k = 0; k < 2; k++) {
         double length = o->high[k] - o->low[k], other = o->high[1 - k] - o->low[1 - k];
-        wave[k] = is_round(o) ? (2 * sqrt((double)n) + 2) / o->high[0] : fmin(n + 1, 2 * sqrt(n * length / (REAL_PI * other)) + 2) * REAL_PI / length;
+        wave[k] = is_round(o) ? (2 * sqrt((double)n) + 2) / o->high[0]
+                              : fmin(n + 1, 2 * sqrt(n * length / (REAL_PI * other)) + 2) * REAL_PI / length;
     }
 }
 
@@ -178,20 +182,22 @@ static bool axes_make(struct work *w, double fine)
     v->low = o->low[1], v->high = o->high[1], v->wave = fine * (wave[1] + top), v->foot = y, v->height = z / fine;
     if (is_round(o)) {
         double a = o->high[0], r = sqrt(x * x + y * y), rim = fmin(a, sqrt(r * r + z * z));
-        double above = r > 0 ? (rim * rim + r * r + z * z) / (2 * rim * r) - 1 : 1e6; /* cosh of the imaginary part, less 1 */
+        double above =
+            r > 0 ? (rim * rim + r * r + z * z) / (2 * rim * r) - 1 : 1e6; /* cosh of the imaginary part, less 1 */
         u->low = 0, u->foot = r;
         v->low = real_atan2(y, x) - REAL_PI, v->high = v->low + 2 * REAL_PI;
-        v->wave = a * v->wave, v->foot = v->low + REAL_PI, v->height = real_log1p(above + sqrt(above * (above + 2))) / fine;
+        v->wave = a * v->wave, v->foot = v->low + REAL_PI,
+        v->height = real_log1p(above + sqrt(above * (above + 2))) / fine;
     }
-    return radiator_panels_split(u, u->low, u->high) && radiator_panels_split(v, v->low, v->high) && (double)u->n * v->n * FINE * FINE < MOST_POINTS;
+    return radiator_panels_split(u, u->low, u->high) && radiator_panels_split(v, v->low, v->high) &&
+           (double)u->n * v->n * FINE * FINE < MOST_POINTS;
 }
 
 static bool settled(const struct work *w, const double *re, const double *im)
 {
     for (int i = 0; i < w->n; i++) {
         double dx = w->sum[0][i] - re[i], dy = w->sum[1][i] - im[i];
-        if (!(dx * dx + dy * dy <= SETTLED * SETTLED * w->size[i] * w->size[i]))
-            return false;
+        if (!(dx * dx + dy * dy <= SETTLED * SETTLED * w->size[i] * w->size[i])) return false;
     }
     return true;
 }
@@ -200,12 +206,14 @@ static bool settled(const struct work *w, const double *re, const double *im)
 static bool reference_set(struct work *w, struct err *e)
 {
     const struct radiator_plate *p = w->given;
-    modes_at(p->modes, &(struct modes_where){p->origin[0] + p->reference[0], p->origin[1] + p->reference[1], 0}, &w->point);
+    modes_at(p->modes, &(struct modes_where){p->origin[0] + p->reference[0], p->origin[1] + p->reference[1], 0},
+             &w->point);
     for (int i = 0; i < w->n; i++) {
         double re = w->point.re[i], im = w->point.im[i], power = re * re + im * im;
         if (!(power > 0))
-            return err_set(e, ERR_NUMBERS, "%s: the plate's sound cannot be found: the mode of %.6g Hz is still at every place tried", p->modes->name,
-                           p->modes->frequency[i]);
+            return err_set(e, ERR_NUMBERS,
+                           "%s: the plate's sound cannot be found: the mode of %.6g Hz is still at every place tried",
+                           p->modes->name, p->modes->frequency[i]);
         w->inverse[i] = re / power;
         w->inverse_im[i] = im / power;
     }
@@ -215,7 +223,10 @@ static bool reference_set(struct work *w, struct err *e)
 static struct work work_make(const struct radiator_plate *p, struct arena *a)
 {
     int n = p->modes->n;
-    struct work w = {.given = p, .n = n, .far = radiator_plate_distance(p->object, p->origin, p->place), .axes = ARENA_TAKE(a, struct radiator_panels, 2),
+    struct work w = {.given = p,
+                     .n = n,
+                     .far = radiator_plate_distance(p->object, p->origin, p->place),
+                     .axes = ARENA_TAKE(a, struct radiator_panels, 2),
                      .point = modes_point_make(a, n)};
     double **arrays[] = {&w.inverse, &w.inverse_im, &w.shape, &w.grow, &w.turn, &w.c, &w.sum[0], &w.sum[1], &w.size};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
@@ -228,7 +239,8 @@ static void put(const struct work *w, double *re, double *im)
 {
     const struct modes *m = w->given->modes;
     for (int i = 0; i < w->n; i++) {
-        double scale = w->given->density / (2 * REAL_PI), x = -m->decay[i] * scale, y = m->frequency[i] * w->given->density;
+        double scale = w->given->density / (2 * REAL_PI), x = -m->decay[i] * scale,
+               y = m->frequency[i] * w->given->density;
         re[i] = x * w->sum[0][i] - y * w->sum[1][i];
         im[i] = x * w->sum[1][i] + y * w->sum[0][i];
     }
@@ -239,9 +251,11 @@ bool radiator_plate(const struct radiator_plate *p, struct arena *a, double *re,
     struct work w = work_make(p, a);
     double fine = 1;
     if (!(p->place[2] > 0))
-        return err_set(e, ERR_SCENE, "output.listen.places: a plate in a baffle is heard from in front of it only: z must be above 0 m, not %.6g m", p->place[2]);
-    if (!reference_set(&w, e))
-        return false;
+        return err_set(e, ERR_SCENE,
+                       "output.listen.places: a plate in a baffle is heard from in front of it only: z must be above 0 "
+                       "m, not %.6g m",
+                       p->place[2]);
+    if (!reference_set(&w, e)) return false;
     for (int k = 0; k < HALVINGS && axes_make(&w, fine); k++, fine *= 2) {
         integrate(&w, COARSE, a);
         memcpy(re, w.sum[0], (size_t)w.n * sizeof *re);
@@ -252,14 +266,18 @@ bool radiator_plate(const struct radiator_plate *p, struct arena *a, double *re,
             return true;
         }
     }
-    return err_set(e, ERR_NUMBERS, "%s: Rayleigh's integral does not settle at [%.6g, %.6g, %.6g] m: listen from farther away, or use fewer modes",
-                   p->modes->name, p->place[0], p->place[1], p->place[2]);
+    return err_set(
+        e, ERR_NUMBERS,
+        "%s: Rayleigh's integral does not settle at [%.6g, %.6g, %.6g] m: listen from farther away, or use fewer modes",
+        p->modes->name, p->place[0], p->place[1], p->place[2]);
 }
 
 /* Most integrals settle at once; constants measured with 256-bit vectors. */
 double radiator_plate_cost(const struct radiator_plate *p, struct arena *a)
 {
     struct work w = {.given = p, .n = p->modes->n, .axes = ARENA_TAKE(a, struct radiator_panels, 2)};
-    double panels = p->place[2] > 0 && axes_make(&w, 1) ? (double)w.axes[0].n * w.axes[1].n : 0; /* else it is refused at once */
-    return (panels * (COARSE * COARSE + FINE * FINE) + MOST_PLACES) * (ELEMENT + w.n * SHAPED + p->object->terms * SUMMED);
+    double panels =
+        p->place[2] > 0 && axes_make(&w, 1) ? (double)w.axes[0].n * w.axes[1].n : 0; /* else it is refused at once */
+    return (panels * (COARSE * COARSE + FINE * FINE) + MOST_PLACES) *
+           (ELEMENT + w.n * SHAPED + p->object->terms * SUMMED);
 }

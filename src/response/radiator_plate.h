@@ -9,12 +9,13 @@
 #include "response/object.h"
 
 struct radiator_plate {
-    const struct modes *modes;   /* of velocity, linear in the shape where they are touched: made with `listen` = reference */
-    const struct object *object; /* its outline: shape, low, high                                                           */
-    double reference[2];         /* m, the object's coordinates                                                             */
-    double origin[2];            /* m: where the object's x = y = 0 lies in the scene                                       */
-    double place[3];             /* m, in the scene: where it is heard, z > 0                                               */
-    double density, sound_speed; /* kg/m^3, m/s, of the air                                                                 */
+    const struct modes
+        *modes; /* of velocity, linear in the shape where they are touched: made with `listen` = reference */
+    const struct object *object; /* its outline: shape, low, high */
+    double reference[2]; /* m, the object's coordinates                                                             */
+    double origin[2];    /* m: where the object's x = y = 0 lies in the scene                                       */
+    double place[3];     /* m, in the scene: where it is heard, z > 0                                               */
+    double density, sound_speed; /* kg/m^3, m/s, of the air */
 };
 
 /* A place of the object (its own coordinates) at which no mode's shape is near zero. */
@@ -23,11 +24,12 @@ void radiator_plate_reference(const struct object *o, struct arena *a, double pl
 /* Distance (m) from the object's centre. */
 double radiator_plate_distance(const struct object *o, const double origin[2], const double place[3]);
 
-/* Complex factor [modes->n] from a gain to that of the pressure, after the delay from the object's centre. ERR_SCENE: not in front of the plate;
-   ERR_NUMBERS: a mode vanishes at the reference, or the integral does not settle. */
+/* Complex factor [modes->n] from a gain to that of the pressure, after the delay from the object's centre. ERR_SCENE:
+   not in front of the plate; ERR_NUMBERS: a mode vanishes at the reference, or the integral does not settle. */
 bool radiator_plate(const struct radiator_plate *p, struct arena *a, double *re, double *im, struct err *e);
 
-/* CPU cycles that this takes, about, with what comes before it (radiator_plate_reference); of the modes only n and frequency count; reference does not. */
+/* CPU cycles that this takes, about, with what comes before it (radiator_plate_reference); of the modes only n and
+ * frequency count; reference does not. */
 double radiator_plate_cost(const struct radiator_plate *p, struct arena *a);
 
 #endif

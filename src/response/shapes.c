@@ -49,8 +49,7 @@ static void object_phi(const struct shapes *s, const struct modes_where *where, 
 {
     const struct shapes_self *self = s->self;
     const struct object *o = s->modes->object;
-    if (!self->family)
-        o->shapes(o, where->x - self->origin[0], where->y - self->origin[1], phi);
+    if (!self->family) o->shapes(o, where->x - self->origin[0], where->y - self->origin[1], phi);
     for (int i = 0; i < s->n; i++)
         phi[i] = (self->family ? 1 : phi[i]) * self->scale[i];
 }
@@ -59,7 +58,9 @@ static void object_phi(const struct shapes *s, const struct modes_where *where, 
 
 static void of_table(const struct modes *m, struct arena *a, struct shapes_self *self)
 {
-    *self = (struct shapes_self){.turn_re = ARENA_TAKE(a, double, m->n), .turn_im = ARENA_TAKE(a, double, m->n), .point = modes_point_make(a, m->n)};
+    *self = (struct shapes_self){.turn_re = ARENA_TAKE(a, double, m->n),
+                                 .turn_im = ARENA_TAKE(a, double, m->n),
+                                 .point = modes_point_make(a, m->n)};
     for (int i = 0; i < m->n; i++) {
         double w = 2 * REAL_PI * m->frequency[i], d = m->decay[i], size = w * w + d * d, re = w, im = 0;
         for (int q = 0; q < m->quantity; q++) { /* over s: times (-d - j w) / |s|^2 */
@@ -84,12 +85,15 @@ static void table_phi(const struct shapes *s, const struct modes_where *where, d
 static bool gains_elsewhere(const struct modes *m, int i, struct err *e)
 {
     return err_set(e, ERR_SCENE,
-                   "%s: its gains are those of another listening place than the one that is touched (that of the mode at %.6g Hz is no driving point's), and do not "
-                   "say how the surface gives way under the ball; give surface.object, or contact.roll.ground: rigid", m->name, m->frequency[i]);
+                   "%s: its gains are those of another listening place than the one that is touched (that of the mode "
+                   "at %.6g Hz is no driving point's), and do not "
+                   "say how the surface gives way under the ball; give surface.object, or contact.roll.ground: rigid",
+                   m->name, m->frequency[i]);
 }
 
 /* Of one mode: at every row. */
-static bool row_gains(const struct modes *m, const struct shapes_self *self, int rows, const double *re, const double *im, struct err *e)
+static bool row_gains(const struct modes *m, const struct shapes_self *self, int rows, const double *re,
+                      const double *im, struct err *e)
 {
     for (int i = 0; i < m->n; i++) {
         double largest = 0, turn_re = self->turn_re[i], turn_im = self->turn_im[i];
@@ -98,7 +102,8 @@ static bool row_gains(const struct modes *m, const struct shapes_self *self, int
             largest = fmax(largest, sqrt((x * x + y * y) * (turn_re * turn_re + turn_im * turn_im)));
         }
         for (int row = 0; row < rows; row++) {
-            double x = re[row * m->n + i], y = im[row * m->n + i], across = x * turn_im + y * turn_re, along = x * turn_re - y * turn_im;
+            double x = re[row * m->n + i], y = im[row * m->n + i], across = x * turn_im + y * turn_re,
+                   along = x * turn_re - y * turn_im;
             if (along < -FLOOR * largest || fabs(across) > PHASE * fmax(along, 0) + FLOOR * largest)
                 return gains_elsewhere(m, i, e);
         }
@@ -109,8 +114,7 @@ static bool row_gains(const struct modes *m, const struct shapes_self *self, int
 static bool table_is_driving(const struct modes *m, const struct shapes_self *self, struct err *e)
 {
     const struct morph *p = m->self;
-    if (m->at == morph_complex)
-        return row_gains(m, self, p->rows, p->re, p->im, e);
+    if (m->at == morph_complex) return row_gains(m, self, p->rows, p->re, p->im, e);
     modes_at(m, &(struct modes_where){m->home[0], m->home[1], 0}, &self->point);
     return row_gains(m, self, 1, self->point.re, self->point.im, e);
 }
@@ -122,16 +126,22 @@ bool shapes_make(const struct modes *m, const char *key, struct arena *a, struct
     struct shapes_self *self = ARENA_TAKE(a, struct shapes_self, 1);
     *s = (struct shapes){.n = m->n, .frequency = m->frequency, .decay = m->decay, .modes = m, .self = self};
     if (!m->shared || m->travels)
-        return err_set(e, ERR_SCENE, "%s: %s, and so it cannot give way under a ball; give %s.object or a table with the same frequencies at all places, or "
-                                     "contact.roll.ground: rigid", m->name,
-                       m->travels ? "its modes change over time" : "its frequencies and decays differ from place to place", key);
+        return err_set(
+            e, ERR_SCENE,
+            "%s: %s, and so it cannot give way under a ball; give %s.object or a table with the same frequencies at "
+            "all places, or "
+            "contact.roll.ground: rigid",
+            m->name,
+            m->travels ? "its modes change over time" : "its frequencies and decays differ from place to place", key);
     s->moves = m->moves;
     if (m->object) {
         of_object(m, a, self);
         return true;
     }
     if (m->quantity > MODES_ACCELERATION)
-        return err_set(e, ERR_SCENE, "%s: it is of no motion of the surface; give %s.object, or contact.roll.ground: rigid", m->name, key);
+        return err_set(e, ERR_SCENE,
+                       "%s: it is of no motion of the surface; give %s.object, or contact.roll.ground: rigid", m->name,
+                       key);
     of_table(m, a, self);
     return table_is_driving(m, self, e);
 }

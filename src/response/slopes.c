@@ -1,18 +1,21 @@
 /* Least-squares fit of sums of real exponentials to envelopes.
 
-       A_s(t) ~ sum_k g_sk e^(-d_k t),   minimise sum_s sum_i (A_s(t_i) - sum_k g_sk e^(-d_k t_i))^2 over d_k > 0 and any g_sk
+       A_s(t) ~ sum_k g_sk e^(-d_k t),   minimise sum_s sum_i (A_s(t_i) - sum_k g_sk e^(-d_k t_i))^2 over d_k > 0 and
+   any g_sk
 
-   Variable projection (Golub, Pereyra, SIAM J. Numer. Anal. 10, 1973): for given decays the gains are a linear least-squares problem
-   (slopes_gains.c), so that only x_k = log(d_k T), T the longest time, is searched, by Levenberg and Marquardt's steps with Kaufman's
-   derivative (BIT 15, 1975): r = P a, dr/dx_k = P (g_k d_k t e^(-d_k t)), P the projection off the columns. Times may be unevenly spaced, which
-   matrix pencils do not allow.
+   Variable projection (Golub, Pereyra, SIAM J. Numer. Anal. 10, 1973): for given decays the gains are a linear
+   least-squares problem (slopes_gains.c), so that only x_k = log(d_k T), T the longest time, is searched, by Levenberg
+   and Marquardt's steps with Kaufman's derivative (BIT 15, 1975): r = P a, dr/dx_k = P (g_k d_k t e^(-d_k t)), P the
+   projection off the columns. Times may be unevenly spaced, which matrix pencils do not allow.
 
-   Starts: slopes are added one by one; a grid of decays, 8 a decade, is tried beside those found so far, and the search goes on from the STARTS best
-   peaks of what each would take off the error. Decays lie between 1e-3/T and 10 over the least step of time; one is 1.49 times the next
-   at least, or gains would be large and cancel (and between places not any more: t e^(-d t) has gains of 16 times its peak so, -67 dB off).
+   Starts: slopes are added one by one; a grid of decays, 8 a decade, is tried beside those found so far, and the search
+   goes on from the STARTS best peaks of what each would take off the error. Decays lie between 1e-3/T and 10 over the
+   least step of time; one is 1.49 times the next at least, or gains would be large and cancel (and between places not
+   any more: t e^(-d t) has gains of 16 times its peak so, -67 dB off).
 
-   The number is the least whose error is within a tenth of the smallest found; it stops growing below 1e-3, or when two more in a row bring less than
-   a tenth. Each sample counts the same: where the shape matters, sample it densely. Only + - * / sqrt and num/: same bits everywhere. */
+   The number is the least whose error is within a tenth of the smallest found; it stops growing below 1e-3, or when two
+   more in a row bring less than a tenth. Each sample counts the same: where the shape matters, sample it densely. Only
+   + - * / sqrt and num/: same bits everywhere. */
 #include "response/slopes.h"
 
 #include <math.h>
@@ -30,11 +33,11 @@ static const double enough = 1e-3, apart = 0.4; /* of the error; of x */
 
 struct work {
     struct slopes_gains g;
-    double largest;                  /* |amplitude| */
-    double low, high;                /* bounds of x */
-    double *v[SLOPES_MOST];          /* [samples] derivatives */
+    double largest;         /* |amplitude| */
+    double low, high;       /* bounds of x */
+    double *v[SLOPES_MOST]; /* [samples] derivatives */
     int grid;
-    double *column;                  /* [grid][samples] */
+    double *column; /* [grid][samples] */
 };
 
 /* ------------------------------------------------------------------ search */
@@ -61,8 +64,7 @@ static bool space_out(const struct work *w, double *x, int k)
                 good = false;
             }
         }
-        if (good && x[0] >= w->low && x[k - 1] <= w->high)
-            return true;
+        if (good && x[0] >= w->low && x[k - 1] <= w->high) return true;
     }
     return false;
 }
@@ -75,8 +77,7 @@ static bool cholesky(int k, double A[][SLOPES_MOST], double *b)
             double sum = A[i][j];
             for (int m = 0; m < j; m++)
                 sum -= A[i][m] * A[j][m];
-            if (i == j && !(sum > 0.0))
-                return false;
+            if (i == j && !(sum > 0.0)) return false;
             A[i][j] = i == j ? sqrt(sum) : sum / A[j][j];
         }
     for (int i = 0; i < k; i++) {
@@ -117,8 +118,7 @@ static bool step(const struct work *w, const double *x, int k, double damping, d
     }
     for (int i = 0; i < k; i++)
         A[i][i] += damping * A[i][i];
-    if (!cholesky(k, A, b))
-        return false;
+    if (!cholesky(k, A, b)) return false;
     for (int i = 0; i < k; i++)
         to[i] = x[i] + fmin(fmax(b[i], -1.0), 1.0);
     return true;
@@ -133,12 +133,10 @@ static double descend(struct work *w, double *x, int k)
         double sum = HUGE_VAL;
         while (damping < 1e9 && step(w, x, k, damping, to)) {
             sum = space_out(w, to, k) ? slopes_gains_fit(&w->g, to, k) : HUGE_VAL;
-            if (sum < least)
-                break;
+            if (sum < least) break;
             damping *= 4.0;
         }
-        if (!(sum < least))
-            break;
+        if (!(sum < least)) break;
         idle = sum > least * (1.0 - 1e-6) ? idle + 1 : 0;
         least = sum;
         damping *= 0.1;
@@ -147,10 +145,7 @@ static double descend(struct work *w, double *x, int k)
     return slopes_gains_fit(&w->g, x, k);
 }
 
-static double grid_at(const struct work *w, int g)
-{
-    return w->low + (w->high - w->low) * g / (w->grid - 1);
-}
+static double grid_at(const struct work *w, int g) { return w->low + (w->high - w->low) * g / (w->grid - 1); }
 
 /* What one more column of the grid would take off the sum of squares, beside the k that are fitted; v[0] is work. */
 static double promise(struct work *w, int g, int k)
@@ -209,8 +204,7 @@ static bool grow(struct work *w, double *x, int k, double *least)
             memcpy(best, to, sizeof best);
         }
     }
-    if (!(*least < HUGE_VAL))
-        return false;
+    if (!(*least < HUGE_VAL)) return false;
     memcpy(x, best, (size_t)(k + 1) * sizeof *x);
     return true;
 }
@@ -263,15 +257,13 @@ static int choose(struct work *w, int most, double total, double all[][SLOPES_MO
     double x[SLOPES_MOST] = {0}, sum[SLOPES_MOST], best = HUGE_VAL;
     int n = 0;
     for (int idle = 0; n < most && idle < 2 && best > enough * enough * total;) {
-        if (!grow(w, x, n, &sum[n]))
-            break;
+        if (!grow(w, x, n, &sum[n])) break;
         memcpy(all[n], x, sizeof x);
         idle = sum[n] < 0.81 * best ? 0 : idle + 1;
         best = fmin(best, sum[n++]);
     }
     for (int k = 0; k < n; k++)
-        if (sum[k] <= 1.21 * best || sum[k] <= enough * enough * total)
-            return k + 1;
+        if (sum[k] <= 1.21 * best || sum[k] <= enough * enough * total) return k + 1;
     return n;
 }
 

@@ -1,5 +1,6 @@
-/* Gains of given decays: a linear least-squares problem, by orthogonal columns (Gram and Schmidt, twice, which leaves them orthogonal to rounding);
-   a column of which less than 1e-10 is left depends on those before it, and has gain 0. */
+/* Gains of given decays: a linear least-squares problem, by orthogonal columns (Gram and Schmidt, twice, which leaves
+   them orthogonal to rounding); a column of which less than 1e-10 is left depends on those before it, and has gain 0.
+ */
 #include "response/slopes_gains.h"
 
 #include <math.h>
@@ -38,8 +39,7 @@ void slopes_gains_project(const struct slopes_gains *g, int k, double *x, int fr
         for (int j = 0; j < k; j++) {
             double by = slopes_gains_dot(g->q[j] + from, x + from, n);
             take_off(x + from, g->q[j] + from, by, n);
-            if (c)
-                c[j] += by;
+            if (c) c[j] += by;
         }
 }
 

@@ -1,18 +1,19 @@
-/* Modes of an object in the space of materials and shapes: between wood, metal and glass (a place in a unit disk) and between bar, plate and
-   shell (dimension 1 to 3). The anchors, and their shares w_k at a place, are space_anchors.c's; what is interpolated, mode by mode in the
-   order of frequency:
+/* Modes of an object in the space of materials and shapes: between wood, metal and glass (a place in a unit disk) and
+   between bar, plate and shell (dimension 1 to 3). The anchors, and their shares w_k at a place, are space_anchors.c's;
+   what is interpolated, mode by mode in the order of frequency:
 
-     ln f_i = ln f_1 + sum_k w_k ((1 - u) R_dk,i + u R_(d+1)k,i),   d <= dimension = d + u < d + 1,  R = ln(f_i/f_1) of the anchor in that shape
-     ln decay_i = sum_k w_k ln decay_k(2 pi f_i)                     the materials' laws of damping at the mode's own frequency
-     ln g_i = ln g_1 + (1 - u) G_d,i + u G_(d+1),i                   gains depend on the shape only
+     ln f_i = ln f_1 + sum_k w_k ((1 - u) R_dk,i + u R_(d+1)k,i),   d <= dimension = d + u < d + 1,  R = ln(f_i/f_1) of
+   the anchor in that shape ln decay_i = sum_k w_k ln decay_k(2 pi f_i)                     the materials' laws of
+   damping at the mode's own frequency ln g_i = ln g_1 + (1 - u) G_d,i + u G_(d+1),i                   gains depend on
+   the shape only
 
-   (logarithms, since ratios are what is heard; shares of bar, plate and shell as 004 gives none). Modes keep their order, none crosses
-   another; every decay lies between those of the anchors, so that all are stable. h_i(t) = g_i e^(-s t) (cos w t - (s/w) sin w t), w^2 = (2 pi f_i)^2 - s^2: the
-   velocity of a damped mode.
+   (logarithms, since ratios are what is heard; shares of bar, plate and shell as 004 gives none). Modes keep their
+   order, none crosses another; every decay lies between those of the anchors, so that all are stable. h_i(t) = g_i
+   e^(-s t) (cos w t - (s/w) sin w t), w^2 = (2 pi f_i)^2 - s^2: the velocity of a damped mode.
 
-   A place that moves goes straight from `from` to `to` in proportion to the share of the motion's duration that has passed, the dimension
-   likewise. Modes that reach half the sample rate then fade (raised cosine from 0.45 to 0.5 of it). The modes are the lowest `modes` ones of those that
-   somewhere on the way lie in the band. */
+   A place that moves goes straight from `from` to `to` in proportion to the share of the motion's duration that has
+   passed, the dimension likewise. Modes that reach half the sample rate then fade (raised cosine from 0.45 to 0.5 of
+   it). The modes are the lowest `modes` ones of those that somewhere on the way lie in the band. */
 #include "response/space.h"
 
 #include <stddef.h>
@@ -23,18 +24,22 @@
 #include "num/vecmath.h"
 #include "response/space_anchors.h"
 
-enum { STEPS = 256, BLOCK = 64, MOST = 200000 }; /* places at which a moving one is looked at; modes at a time; modes looked at */
+enum {
+    STEPS = 256,
+    BLOCK = 64,
+    MOST = 200000
+}; /* places at which a moving one is looked at; modes at a time; modes looked at */
 
 struct self {
     double from[2], to[2], dimension[2];
-    double fundamental, gain, rate; /* rate 0: nothing fades */
-    double *low;                    /* [n] Hz, lowest on the way */
+    double fundamental, gain, rate;                                         /* rate 0: nothing fades */
+    double *low;                                                            /* [n] Hz, lowest on the way */
     double *spectrum[SPACE_SHAPES][SPACE_ANCHORS], *log_gain[SPACE_SHAPES]; /* [n] */
 };
 
 /* ------------------------------------------------------------------ reading */
 
-struct mix { /* at one share */
+struct mix {                             /* at one share */
     double anchor[SPACE_ANCHORS], upper; /* shares of the anchors, of shape + 1 */
     int shape;
 };
@@ -42,7 +47,8 @@ struct mix { /* at one share */
 static void mix_at(const struct self *s, double share, struct mix *x)
 {
     double dimension = s->dimension[0] + share * (s->dimension[1] - s->dimension[0]);
-    space_anchors_shares(s->from[0] + share * (s->to[0] - s->from[0]), s->from[1] + share * (s->to[1] - s->from[1]), x->anchor);
+    space_anchors_shares(s->from[0] + share * (s->to[0] - s->from[0]), s->from[1] + share * (s->to[1] - s->from[1]),
+                         x->anchor);
     x->shape = dimension < 2.0 ? SPACE_BAR : SPACE_PLATE;
     x->upper = dimension - 1.0 - x->shape;
 }
@@ -94,7 +100,8 @@ static void block(const struct self *s, const struct mix *x, const int range[2],
         f[j] *= s->fundamental;
     decays(x, n, f, decay);
     for (int j = 0, i = range[0]; j < n; j++, i++) {
-        double w0 = 2.0 * REAL_PI * f[j], rings = w0 * w0 - decay[j] * decay[j], w = rings > 0.0 ? sqrt(rings) : INFINITY, gain = s->gain * g[j] * fade(s, w / (2.0 * REAL_PI));
+        double w0 = 2.0 * REAL_PI * f[j], rings = w0 * w0 - decay[j] * decay[j],
+               w = rings > 0.0 ? sqrt(rings) : INFINITY, gain = s->gain * g[j] * fade(s, w / (2.0 * REAL_PI));
         p->re[i] = -gain * decay[j] / w;
         p->im[i] = gain;
         if (p->frequency) {
@@ -119,8 +126,12 @@ static double at(const struct modes *m, const struct modes_where *where, const s
 static bool inside(const char *key, const double place[2], struct err *e)
 {
     double r = sqrt(place[0] * place[0] + place[1] * place[1]);
-    return r <= 1.0 + 1e-6 || err_set(e, ERR_SCENE, "surface.space.%s: [%.9g, %.9g] lies %.6g from the centre, outside the disk of radius 1 whose rim is "
-                                      "that of wood, metal and glass; divide both by that", key, place[0], place[1], r);
+    return r <= 1.0 + 1e-6 ||
+           err_set(
+               e, ERR_SCENE,
+               "surface.space.%s: [%.9g, %.9g] lies %.6g from the centre, outside the disk of radius 1 whose rim is "
+               "that of wood, metal and glass; divide both by that",
+               key, place[0], place[1], r);
 }
 
 static bool ends(const struct space *g, struct self *s, struct err *e)
@@ -166,15 +177,16 @@ struct rank {
 static int strongest_first(const void *a, const void *b)
 {
     const struct rank *p = a, *q = b;
-    if (p->energy != q->energy)
-        return p->energy > q->energy ? -1 : 1;
+    if (p->energy != q->energy) return p->energy > q->energy ? -1 : 1;
     return (p->index > q->index) - (p->index < q->index);
 }
 
-/* What the modes are along the way: where each is strongest, the least decay. Leaves m->frequency, decay, slowest as they are there. */
+/* What the modes are along the way: where each is strongest, the least decay. Leaves m->frequency, decay, slowest as
+ * they are there. */
 static void walk(struct modes *m, struct rank *rank, struct arena *a)
 {
-    struct modes_point p = {ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n)};
+    struct modes_point p = {ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n),
+                            ARENA_TAKE(a, double, m->n)};
     for (int i = 0; i < m->n; i++) {
         m->slowest[i] = INFINITY;
         rank[i] = (struct rank){.energy = -1.0, .low = INFINITY, .lowest = INFINITY, .index = i};
@@ -182,13 +194,13 @@ static void walk(struct modes *m, struct rank *rank, struct arena *a)
     for (int k = 0; k <= (m->travels ? STEPS : 0); k++) {
         at(m, &(struct modes_where){.share = (double)k / STEPS}, &p);
         for (int i = 0; i < m->n; i++) {
-            double energy = p.im[i] * p.im[i] / p.decay[i], damping = p.decay[i] / (2.0 * REAL_PI), undamped = sqrt(p.frequency[i] * p.frequency[i] + damping * damping);
+            double energy = p.im[i] * p.im[i] / p.decay[i], damping = p.decay[i] / (2.0 * REAL_PI),
+                   undamped = sqrt(p.frequency[i] * p.frequency[i] + damping * damping);
             m->slowest[i] = fmin(m->slowest[i], p.decay[i]);
             rank[i].low = fmin(rank[i].low, p.frequency[i]);
             rank[i].lowest = fmin(rank[i].lowest, undamped);
             rank[i].highest = fmax(rank[i].highest, undamped);
-            if (energy <= rank[i].energy)
-                continue;
+            if (energy <= rank[i].energy) continue;
             rank[i].energy = energy;
             m->frequency[i] = p.frequency[i];
             m->decay[i] = p.decay[i];
@@ -223,14 +235,14 @@ static int drop(struct modes *m, double top)
     struct arena *a = arena_open();
     int *index = ARENA_TAKE(a, int, m->n + 1), n = 0, all = m->n;
     for (int i = 0; i < all; i++)
-        if (s->low[i] < top)
-            index[n++] = i;
+        if (s->low[i] < top) index[n++] = i;
     keep(m, s, index, n, ARENA_TAKE(a, double, all + 1));
     arena_close(a);
     return all - n;
 }
 
-/* The `most` lowest modes of the shapes, without those outside the band, and of these the lowest `strongest`, the strongest first. Returns whether there may be more. */
+/* The `most` lowest modes of the shapes, without those outside the band, and of these the lowest `strongest`, the
+ * strongest first. Returns whether there may be more. */
 static bool choose(struct modes *m, struct self *s, const struct modes_ask *ask, int most, struct arena *a)
 {
     struct rank *rank = ARENA_TAKE(a, struct rank, most);
@@ -242,8 +254,7 @@ static bool choose(struct modes *m, struct self *s, const struct modes_ask *ask,
     walk(m, rank, a);
     for (int i = 0; i < below; i++) {
         s->low[i] = rank[i].low;
-        if (n < ask->strongest && modes_in_band(ask, rank[i].lowest, rank[i].highest))
-            rank[n++] = rank[i];
+        if (n < ask->strongest && modes_in_band(ask, rank[i].lowest, rank[i].highest)) rank[n++] = rank[i];
     }
     qsort(rank, (size_t)n, sizeof *rank, strongest_first);
     for (int i = 0; i < n; i++)
@@ -255,13 +266,22 @@ static bool choose(struct modes *m, struct self *s, const struct modes_ask *ask,
 bool space_modes(const struct space *g, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e)
 {
     struct self *s = ARENA_TAKE(a, struct self, 1);
-    if (!ends(g, s, e))
-        return false;
+    if (!ends(g, s, e)) return false;
     bool travels = s->from[0] != s->to[0] || s->from[1] != s->to[1] || s->dimension[0] != s->dimension[1];
-    *m = (struct modes){.quantity = MODES_VELOCITY, .shared = !travels, .travels = travels, .radius = NAN, .name = "surface.space", .drop = drop, .at = at, .self = s};
+    *m = (struct modes){.quantity = MODES_VELOCITY,
+                        .shared = !travels,
+                        .travels = travels,
+                        .radius = NAN,
+                        .name = "surface.space",
+                        .drop = drop,
+                        .at = at,
+                        .self = s};
     for (int most = ask->strongest; choose(m, s, ask, most, a); most *= 2)
         continue;
     s->rate = travels ? ask->rate : 0.0; /* only now: what is chosen does not depend on it */
-    return m->n > 0 || err_set(e, ERR_SCENE, "surface.space: none of its modes lies from %g Hz to below %g Hz, surface.band: widen the band, or change "
-                               "surface.space.fundamental, %g Hz", ask->band[0], ask->band[1], g->fundamental);
+    return m->n > 0 || err_set(e, ERR_SCENE,
+                               "surface.space: none of its modes lies from %g Hz to below %g Hz, surface.band: widen "
+                               "the band, or change "
+                               "surface.space.fundamental, %g Hz",
+                               ask->band[0], ask->band[1], g->fundamental);
 }

@@ -1,5 +1,5 @@
-/* The space of materials and shapes of papers/004 ("Intuitive Sound-Synthesis Control"): an object between wood, metal and glass, and between
-   string, plate and shell. Everything 004 does not print is stated in space.c. */
+/* The space of materials and shapes of papers/004 ("Intuitive Sound-Synthesis Control"): an object between wood, metal
+   and glass, and between string, plate and shell. Everything 004 does not print is stated in space.c. */
 #ifndef RESPONSE_SPACE_H
 #define RESPONSE_SPACE_H
 #include "base/arena.h"
@@ -7,8 +7,8 @@
 #include "response/modes.h"
 #include "scene/scene.h"
 
-/* Modes of velocity (m/s per N s); separate poles that depend on modes_where.share when from and to (or the dimensions) differ. `rate` as modes_ask.
-   ERR_SCENE: a place outside the unit disk. */
+/* Modes of velocity (m/s per N s); separate poles that depend on modes_where.share when from and to (or the dimensions)
+   differ. `rate` as modes_ask. ERR_SCENE: a place outside the unit disk. */
 bool space_modes(const struct space *s, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e);
 
 #endif

@@ -1,4 +1,5 @@
-/* What a contact leaves out of the model (section `ablation`): the ablated models of papers/000, experiments 1 to 3, sections 3.1, 3.2 and 5.1.
+/* What a contact leaves out of the model (section `ablation`): the ablated models of papers/000, experiments 1 to 3,
+   sections 3.1, 3.2 and 5.1.
 
      paper                                                      here
      "using only the surface impulse response (eta = 0)"         sound: surface
@@ -7,15 +8,15 @@
      "without a non-linearity ... (omitting 2.2)"                 nonlinearity: omitted
      "a constant surface IR (omitting ... morphing)"              response: constant
 
-   Where other keys say the same (scraper.weight: 0, contact.limiter.curve: none), they do the same; but an ablation is laid over any scene, whatever its grip,
-   limiter and weights are, and takes nothing else away. */
+   Where other keys say the same (scraper.weight: 0, contact.limiter.curve: none), they do the same; but an ablation is
+   laid over any scene, whatever its grip, limiter and weights are, and takes nothing else away. */
 #ifndef SCENE_ABLATION_H
 #define SCENE_ABLATION_H
 #include "base/arena.h"
 #include "scene/scene.h"
 
-/* Without a non-linearity: no limiter, and of `omitted` no smoothing, which the paper has in the same section, against the harmonics that the
-   non-linearity makes. */
+/* Without a non-linearity: no limiter, and of `omitted` no smoothing, which the paper has in the same section, against
+   the harmonics that the non-linearity makes. */
 void ablation_settle(struct contact *c);
 
 /* Is the normal force held at its mean (rules_load)? */
@@ -36,10 +37,7 @@ static inline bool ablation_mutes_surface(const struct contact *c)
 }
 
 /* ... the scraper, or ball? */
-static inline bool ablation_mutes_tool(const struct contact *c)
-{
-    return c->ablation.sound == ABLATED_SOUND_SURFACE;
-}
+static inline bool ablation_mutes_tool(const struct contact *c) { return c->ablation.sound == ABLATED_SOUND_SURFACE; }
 
 /* "normal_force: constant, sound: surface"; NULL: nothing is left out. */
 const char *ablation_text(const struct contact *c, struct arena *a);

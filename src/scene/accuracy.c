@@ -15,8 +15,7 @@ static const char STANDARD[] = "standard", PRESETS[] = "presets: draft, standard
 bool accuracy_preset(struct accuracy *accuracy, const char *preset)
 {
     for (int i = 0; keys_presets[i]; i++) {
-        if (strcmp(keys_presets[i], preset) != 0)
-            continue;
+        if (strcmp(keys_presets[i], preset) != 0) continue;
         accuracy->preset = keys_presets[i];
         for (const struct key_knob *k = keys_knobs; k->name; k++)
             *(double *)((char *)accuracy + k->offset) = k->preset[i];
@@ -28,10 +27,8 @@ bool accuracy_preset(struct accuracy *accuracy, const char *preset)
 static void preset_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
 {
     const char *near = NULL;
-    if (node->kind == YAML_SCALAR && accuracy_preset(accuracy, node->text))
-        return;
-    if (node->kind == YAML_SCALAR)
-        near = text_nearest(node->text, keys_presets);
+    if (node->kind == YAML_SCALAR && accuracy_preset(accuracy, node->text)) return;
+    if (node->kind == YAML_SCALAR) near = text_nearest(node->text, keys_presets);
     diag_add(y->diag, node->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : PRESETS,
              "accuracy must be a preset or a map of knobs, not %s", scene_values_kind(y, node));
 }
@@ -39,8 +36,7 @@ static void preset_read(struct yaml *y, const struct yaml_node *node, struct acc
 static const struct key_knob *knob_find(const char *name)
 {
     for (const struct key_knob *k = keys_knobs; k->name; k++)
-        if (strcmp(k->name, name) == 0)
-            return k;
+        if (strcmp(k->name, name) == 0) return k;
     return NULL;
 }
 
@@ -52,11 +48,14 @@ static void knob_unknown(struct yaml *y, const struct yaml_node *key)
         names[n++] = k->name;
         all = arena_format(y->arena, "%s, %s", all, k->name);
     }
-    const char *near = text_nearest(key->text, names), *former = keys_former(arena_format(y->arena, "accuracy.%s", key->text), "");
+    const char *near = text_nearest(key->text, names),
+               *former = keys_former(arena_format(y->arena, "accuracy.%s", key->text), "");
     if (former)
         diag_add(y->diag, key->at, former, "accuracy.%s is no longer there", key->text);
     else
-        diag_add(y->diag, key->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : arena_format(y->arena, "keys here: %s", all),
+        diag_add(y->diag, key->at,
+                 near ? arena_format(y->arena, "did you mean '%s'?", near)
+                      : arena_format(y->arena, "keys here: %s", all),
                  "unknown key '%s' in accuracy", diag_shown(y->diag, key->text));
 }
 
@@ -81,8 +80,7 @@ static void knob_read(struct yaml *y, const struct key_knob *k, const struct yam
     const char *label = arena_format(y->arena, "accuracy.%s", k->name);
     const char *given = scene_values_kind(y, node);
     double x;
-    if (!scene_values_quantity(y, node, label, KEY_NONE, &x))
-        return;
+    if (!scene_values_quantity(y, node, label, KEY_NONE, &x)) return;
     if (x < k->low || x > k->high)
         diag_add(y->diag, node->at, k->meaning, "%s must be from %g to %g, not %s", label, k->low, k->high, given);
     else if (k->whole && x != floor(x))
@@ -97,10 +95,10 @@ static void error_read(struct yaml *y, const struct yaml_node *node, struct accu
 {
     static const char meaning[] = "dB relative to the sound, rms; the knobs that are not given are chosen by it";
     double x;
-    if (!scene_values_quantity(y, node, "accuracy.error", KEY_DECIBEL, &x))
-        return;
+    if (!scene_values_quantity(y, node, "accuracy.error", KEY_DECIBEL, &x)) return;
     if (x < LEAST_ERROR || x >= 0)
-        diag_add(y->diag, node->at, meaning, "accuracy.error must be from %g dB to below 0 dB, not %s", LEAST_ERROR, scene_values_kind(y, node));
+        diag_add(y->diag, node->at, meaning, "accuracy.error must be from %g dB to below 0 dB, not %s", LEAST_ERROR,
+                 scene_values_kind(y, node));
     else
         accuracy->error = x;
 }
@@ -108,8 +106,7 @@ static void error_read(struct yaml *y, const struct yaml_node *node, struct accu
 static void entry_read(struct yaml *y, const struct yaml_node *item, struct accuracy *accuracy)
 {
     const struct key_knob *k = knob_find(item->key->text);
-    if (strcmp(item->key->text, "preset") == 0)
-        return;
+    if (strcmp(item->key->text, "preset") == 0) return;
     if (strcmp(item->key->text, "error") == 0)
         error_read(y, item, accuracy);
     else if (k)
@@ -123,15 +120,13 @@ void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy
     accuracy_preset(accuracy, STANDARD);
     accuracy->error = NAN;
     accuracy->said = 0;
-    if (!node)
-        return;
+    if (!node) return;
     if (node->kind != YAML_MAP) {
         preset_read(y, node, accuracy);
         return;
     }
     const struct yaml_node *preset = yaml_get(node, "preset");
-    if (preset)
-        preset_read(y, preset, accuracy);
+    if (preset) preset_read(y, preset, accuracy);
     for (const struct yaml_node *item = node->first; item; item = item->next)
         entry_read(y, item, accuracy);
 }

@@ -29,28 +29,33 @@ static double shell(double w, int n)
 
 double ball_mass(const struct ball *b)
 {
-    double filled = b->body == BODY_SOLID ? 1 : b->body == BODY_HOLLOW && b->wall < b->radius ? shell(b->wall / b->radius, 3) : NAN;
-    if (!isnan(b->mass))
-        return b->mass;
+    double filled = b->body == BODY_SOLID                           ? 1
+                    : b->body == BODY_HOLLOW && b->wall < b->radius ? shell(b->wall / b->radius, 3)
+                                                                    : NAN;
+    if (!isnan(b->mass)) return b->mass;
     return 4.0 / 3 * REAL_PI * b->radius * b->radius * b->radius * filled * density(&b->response.object);
 }
 
 double ball_inertia(const struct contact *c)
 {
     const struct ball *b = &c->ball;
-    if (!ball_rolls(c))
-        return 0;
+    if (!ball_rolls(c)) return 0;
     switch (b->body) {
-    case BODY_SOLID: return 2.0 / 5;
-    case BODY_HOLLOW: return isnan(b->wall) ? 2.0 / 3 : 2.0 / 5 * shell(b->wall / b->radius, 5) / shell(b->wall / b->radius, 3);
-    case BODY_HOOP: return 1;
-    default: return 1.0 / 2;
+    case BODY_SOLID:
+        return 2.0 / 5;
+    case BODY_HOLLOW:
+        return isnan(b->wall) ? 2.0 / 3 : 2.0 / 5 * shell(b->wall / b->radius, 5) / shell(b->wall / b->radius, 3);
+    case BODY_HOOP:
+        return 1;
+    default:
+        return 1.0 / 2;
     }
 }
 
 double ball_gravity(const struct contact *c)
 {
-    return c->motion.path == PATH_INCLINE ? c->contact.gravity * real_cospi(c->motion.incline / REAL_PI) : c->contact.gravity;
+    return c->motion.path == PATH_INCLINE ? c->contact.gravity * real_cospi(c->motion.incline / REAL_PI)
+                                          : c->contact.gravity;
 }
 
 double ball_stiffness(const struct contact *c)
@@ -64,7 +69,7 @@ void ball_settle(struct contact *c)
     const struct ball *b = &c->ball;
     c->motion.gravity = c->contact.gravity;
     c->motion.inertia = ball_inertia(c);
-    if (!ball_rolls(c))
-        return;
-    c->scraper = (struct scraper){.mass = ball_mass(b), .weight = b->weight, .radius = b->radius, .patch = b->patch, .response = b->response};
+    if (!ball_rolls(c)) return;
+    c->scraper = (struct scraper){
+        .mass = ball_mass(b), .weight = b->weight, .radius = b->radius, .patch = b->patch, .response = b->response};
 }

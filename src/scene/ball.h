@@ -13,10 +13,7 @@ static inline bool ball_rolls(const struct contact *c)
 }
 
 /* What touches the surface, in keys and messages: "ball" or "scraper". */
-static inline const char *ball_tool(const struct contact *c)
-{
-    return ball_rolls(c) ? "ball" : "scraper";
-}
+static inline const char *ball_tool(const struct contact *c) { return ball_rolls(c) ? "ball" : "scraper"; }
 
 /* Is a key's value a copy of what the ball's own key says (ball_settle)? */
 static inline bool ball_copies(const struct contact *c, const char *path)
@@ -24,7 +21,8 @@ static inline bool ball_copies(const struct contact *c, const char *path)
     return ball_rolls(c) && strncmp(path, "scraper.", 8) == 0;
 }
 
-/* Of a rolling contact: fills in c->scraper, what touches the surface, from c->ball: mass (NAN: nothing says it), weight, radius, patch, response. */
+/* Of a rolling contact: fills in c->scraper, what touches the surface, from c->ball: mass (NAN: nothing says it),
+ * weight, radius, patch, response. */
 void ball_settle(struct contact *c);
 
 /* kg; NAN where it is neither given nor follows from radius, wall and the material's (or object's) density. */

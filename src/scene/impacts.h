@@ -8,24 +8,24 @@ enum impact_distribution { DISTRIBUTION_GAUSSIAN, DISTRIBUTION_EXPONENTIAL, DIST
 enum impact_marginal { MARGINAL_AS_DRAWN, MARGINAL_LOGNORMAL };
 enum impact_processes { PROCESSES_ONE, PROCESSES_TWO };
 
-struct impact_draws {       /* one series, of amplitudes (no unit) or intervals (s); NAN: the prototype's   */
-    double mean;            /* added to what the filter makes of the white process               */
-    double deviation;       /* standard deviation of the white process; of an exponential one its mean too */
-    double a1, b1;          /* of the filter (1 + b1/z) / (1 + a1/z)                             */
-    int distribution;       /* enum impact_distribution, of the white process                    */
-    const char *table;      /* CSV of value, density                                             */
+struct impact_draws {  /* one series, of amplitudes (no unit) or intervals (s); NAN: the prototype's   */
+    double mean;       /* added to what the filter makes of the white process               */
+    double deviation;  /* standard deviation of the white process; of an exponential one its mean too */
+    double a1, b1;     /* of the filter (1 + b1/z) / (1 + a1/z)                             */
+    int distribution;  /* enum impact_distribution, of the white process                    */
+    const char *table; /* CSV of value, density                                             */
 };
 
-struct impact_grain {       /* rub and scratch: impacts that know nothing of each other          */
-    double deviation;       /* of the amplitudes, whose mean is 0                                */
-    double interval;        /* s, of rub from impact to impact; of scratch the mean              */
-    double duration;        /* s, of an impact                                                   */
+struct impact_grain { /* rub and scratch: impacts that know nothing of each other          */
+    double deviation; /* of the amplitudes, whose mean is 0                                */
+    double interval;  /* s, of rub from impact to impact; of scratch the mean              */
+    double duration;  /* s, of an impact                                                   */
 };
 
-struct impacts {            /* a series of impacts: force/impact_law.h, force/impact_series.h    */
-    int prototype;          /* enum impact_prototype                                             */
+struct impacts {                      /* a series of impacts: force/impact_law.h, force/impact_series.h    */
+    int prototype;                    /* enum impact_prototype                                             */
     double size, velocity, roughness; /* papers/002's controls S, V and rho                      */
-    double unit_force;      /* N of an amplitude of 1                                            */
+    double unit_force;                /* N of an amplitude of 1                                            */
     struct impact_draws amplitude, interval;
     double zeta, theta;     /* duration zeta |A|^-theta, s; NAN: the prototype's                 */
     double depth, rate;     /* m and nu (Hz) of the amplitudes' modulation; NAN: the prototype's */
@@ -34,21 +34,21 @@ struct impacts {            /* a series of impacts: force/impact_law.h, force/im
     int marginal;           /* enum impact_marginal                                              */
     int processes;          /* enum impact_processes                                             */
     struct impact_grain rub, scratch;
-    double angle, radius;   /* rad, 1: place on the disk of actions                              */
+    double angle, radius;       /* rad, 1: place on the disk of actions                              */
     double angle_to, radius_to; /* at the motion's end; NAN: it stays                            */
-    const char *walk;       /* CSV of time_s, angle_deg, radius; NULL: none                      */
+    const char *walk;           /* CSV of time_s, angle_deg, radius; NULL: none                      */
 };
 
-struct gesture {            /* low-pass that follows the contact's speed: force/gesture.c        */
+struct gesture { /* low-pass that follows the contact's speed: force/gesture.c        */
     bool given;
-    double cutoff, speed;   /* Hz at that speed, m/s; in proportion to the speed                 */
-    int order;              /* 1 or 2                                                            */
+    double cutoff, speed; /* Hz at that speed, m/s; in proportion to the speed                 */
+    int order;            /* 1 or 2                                                            */
 };
 
-struct enhance {            /* the force louder near the surface's modes: convolution/enhance.c  */
+struct enhance { /* the force louder near the surface's modes: convolution/enhance.c  */
     bool given;
-    double gain;            /* dB, at the strongest mode                                         */
-    int modes;              /* how many of the strongest                                         */
+    double gain; /* dB, at the strongest mode                                         */
+    int modes;   /* how many of the strongest                                         */
 };
 
 #endif

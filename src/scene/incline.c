@@ -1,19 +1,20 @@
-/* A rigid body that moves freely along a straight line on a slope: it rolls without slipping, or slides (then I = 0). Newton's second law for its
-   centre of mass and its turning, the force at the contact eliminated:
+/* A rigid body that moves freely along a straight line on a slope: it rolls without slipping, or slides (then I = 0).
+   Newton's second law for its centre of mass and its turning, the force at the contact eliminated:
 
      u'' = -g (sin(incline) + c cos(incline) sgn u') / (1 + I / (m R^2))
 
      u        m, way of the centre of mass from `from` towards `to`, u(0) = 0, u'(0) = start_speed >= 0
      g        m/s^2, gravity                      incline  rad, above 0: `to` lies higher
-     c        rolling friction: the couple c N R against the turning of what rolls, or the force c N against what slides, N = m g cos(incline)
-     I        kg m^2, moment of inertia about the centre; R  m, outer radius
+     c        rolling friction: the couple c N R against the turning of what rolls, or the force c N against what
+   slides, N = m g cos(incline) I        kg m^2, moment of inertia about the centre; R  m, outer radius
 
-   So u is one parabola up to the stop (if there is one before `to`), then, where g sin(incline) outweighs friction, a second one back to `from`, or
-   rest for good. u and u' are continuous; u'' jumps at the stop where there is friction. An offset of the centre of mass, air, and the friction of
-   what slips while it rolls are left out.
+   So u is one parabola up to the stop (if there is one before `to`), then, where g sin(incline) outweighs friction, a
+   second one back to `from`, or rest for good. u and u' are continuous; u'' jumps at the stop where there is friction.
+   An offset of the centre of mass, air, and the friction of what slips while it rolls are left out.
 
-   Near the stop u = top + pull/2 (t - stop)^2, which is 0 at t = 0 and top at the stop to the last bit, and never more than top; without a stop u =
-   t (speed + pull t / 2). Papers/000 has balls that roll up and down a slope (section 5.1) and no formula for their motion. */
+   Near the stop u = top + pull/2 (t - stop)^2, which is 0 at t = 0 and top at the stop to the last bit, and never more
+   than top; without a stop u = t (speed + pull t / 2). Papers/000 has balls that roll up and down a slope (section 5.1)
+   and no formula for their motion. */
 #include "scene/incline.h"
 
 #include <math.h>
@@ -23,7 +24,8 @@
 /* Least t > 0 with t (speed + pull t / 2) = way, in the form that keeps its digits. */
 static double time_to(double way, double speed, double pull)
 {
-    return 2 * way / (speed + sqrt(fmax(speed * speed + 2 * pull * way, 0))); /* arrives at rest: rounding leaves -1e-17 */
+    return 2 * way /
+           (speed + sqrt(fmax(speed * speed + 2 * pull * way, 0))); /* arrives at rest: rounding leaves -1e-17 */
 }
 
 static void stops(struct incline *i)
@@ -38,7 +40,11 @@ struct incline incline_make(const struct motion *m)
 {
     double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1], share = m->gravity / (1 + m->inertia);
     double slope = share * real_sin(m->incline), friction = share * m->rolling_friction * real_cos(m->incline);
-    struct incline i = {.length = sqrt(x * x + y * y), .speed = m->start_speed, .pull = 0 - slope - friction, .stop = HUGE_VAL, .top = HUGE_VAL,
+    struct incline i = {.length = sqrt(x * x + y * y),
+                        .speed = m->start_speed,
+                        .pull = 0 - slope - friction,
+                        .stop = HUGE_VAL,
+                        .top = HUGE_VAL,
                         .over = INCLINE_AT_TO};
     i.back = slope > friction ? friction - slope : 0;
     if (i.speed == 0 && i.pull <= 0) {
@@ -84,13 +90,16 @@ double incline_way(const struct incline *i, double t)
 
 const char *incline_event(const struct incline *i)
 {
-    return i->over == INCLINE_AT_TO ? "reaches motion.to" : i->over == INCLINE_AT_FROM ? "is back at motion.from" : "rests";
+    return i->over == INCLINE_AT_TO     ? "reaches motion.to"
+           : i->over == INCLINE_AT_FROM ? "is back at motion.from"
+                                        : "rests";
 }
 
 const char *incline_stuck(const struct motion *m, const char **cure)
 {
     if (m->incline > 0) {
-        *cure = "give a motion.start_speed above 0, such as 1 m/s; or swap motion.from and motion.to and turn motion.incline's sign";
+        *cure = "give a motion.start_speed above 0, such as 1 m/s; or swap motion.from and motion.to and turn "
+                "motion.incline's sign";
         return "the way leads upwards, and motion.start_speed is 0: nothing drives it towards motion.to";
     }
     *cure = "give a motion.start_speed above 0, such as 1 m/s, or a motion.incline further below 0, such as -5 deg";
@@ -106,13 +115,14 @@ bool incline_can(const struct incline *i, const struct motion *m, struct err *e)
         return err_set(e, ERR_SCENE, "motion: contact.gravity must be given where motion.path is incline");
     const char *cure, *why = i->over == INCLINE_STUCK ? incline_stuck(m, &cure) : NULL;
     double lasts = incline_lasts(i, m);
-    if (why)
-        return err_set(e, ERR_SCENE, "motion: %s; %s", why, cure);
+    if (why) return err_set(e, ERR_SCENE, "motion: %s; %s", why, cure);
     if (incline_leaves(i, lasts))
         return err_set(e, ERR_SCENE,
-                       "motion.duration is %.6g s, and the motion %s after %.6g s; lower it or leave it out, or make the way longer", lasts,
-                       incline_event(i), i->end);
+                       "motion.duration is %.6g s, and the motion %s after %.6g s; lower it or leave it out, or make "
+                       "the way longer",
+                       lasts, incline_event(i), i->end);
     return lasts <= INCLINE_LONGEST ||
-           err_set(e, ERR_SCENE, "motion: it is %.4g s before it %s, and a motion lasts at most %g s; give motion.duration", lasts, incline_event(i),
-                   INCLINE_LONGEST);
+           err_set(e, ERR_SCENE,
+                   "motion: it is %.4g s before it %s, and a motion lasts at most %g s; give motion.duration", lasts,
+                   incline_event(i), INCLINE_LONGEST);
 }

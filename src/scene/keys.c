@@ -7,7 +7,12 @@
 
 #define CHOICES(name) static const struct choice words_##name[] = {
 #define CHOICE(name, word, meaning) {word, meaning},
-#define CHOICES_END {NULL, NULL}};
+#define CHOICES_END                                                                                                    \
+    {                                                                                                                  \
+        NULL, NULL                                                                                                     \
+    }                                                                                                                  \
+    }                                                                                                                  \
+    ;
 #include "scene/choices.def"
 #undef CHOICES
 #undef CHOICE
@@ -67,9 +72,17 @@
 #define TYPE_CHOICE_IMPACT_LISTING TYPE_CHOICE(IMPACT_LISTING)
 #define TYPE_CHOICE_TABLE_FORMAT TYPE_CHOICE(TABLE_FORMAT)
 
-#define KEY(owner, field, where, kind, unit, lowest, highest, preset, when, text) \
-    {.of = KEY_##owner, .offset = OFFSET_##owner(field), .path = where, TYPE_##kind, .dimension = KEY_##unit, \
-     .low = lowest, .high = highest, .standard = preset, .applies = when, .meaning = text},
+#define KEY(owner, field, where, kind, unit, lowest, highest, preset, when, text)                                      \
+    {.of = KEY_##owner,                                                                                                \
+     .offset = OFFSET_##owner(field),                                                                                  \
+     .path = where,                                                                                                    \
+     TYPE_##kind,                                                                                                      \
+     .dimension = KEY_##unit,                                                                                          \
+     .low = lowest,                                                                                                    \
+     .high = highest,                                                                                                  \
+     .standard = preset,                                                                                               \
+     .applies = when,                                                                                                  \
+     .meaning = text},
 #define SECTION(...)
 #define ALTERNATIVE(...)
 const struct key keys_table[] = {
@@ -80,7 +93,7 @@ const struct key keys_table[] = {
 #undef ALTERNATIVE
 
 #define KEY(...)
-#define SECTION(owner, field, where, text) \
+#define SECTION(owner, field, where, text)                                                                             \
     {.of = KEY_##owner, .offset = OFFSET_##owner(field.given), .path = where, .meaning = text},
 #define ALTERNATIVE(...)
 const struct key_section keys_sections[] = {
@@ -90,14 +103,22 @@ const struct key_section keys_sections[] = {
 #undef ALTERNATIVE
 
 #define SECTION(...)
-#define ALTERNATIVE(when, lowest, highest, ...) {.applies = when, .least = lowest, .most = highest, .paths = {__VA_ARGS__}},
+#define ALTERNATIVE(when, lowest, highest, ...)                                                                        \
+    {.applies = when, .least = lowest, .most = highest, .paths = {__VA_ARGS__}},
 const struct key_alternative keys_alternatives[] = {
 #include "scene/keys.def"
     {.paths = {NULL}}};
 
-#define KNOB(knob, lowest, highest, integer, counts, falls, draft, standard, best, reference, text) \
-    {.name = #knob, .low = lowest, .high = highest, .whole = integer, .scale = KEY_##counts, .order = falls, .preset = {draft, standard, best, reference}, \
-     .offset = offsetof(struct accuracy, knob), .meaning = text},
+#define KNOB(knob, lowest, highest, integer, counts, falls, draft, standard, best, reference, text)                    \
+    {.name = #knob,                                                                                                    \
+     .low = lowest,                                                                                                    \
+     .high = highest,                                                                                                  \
+     .whole = integer,                                                                                                 \
+     .scale = KEY_##counts,                                                                                            \
+     .order = falls,                                                                                                   \
+     .preset = {draft, standard, best, reference},                                                                     \
+     .offset = offsetof(struct accuracy, knob),                                                                        \
+     .meaning = text},
 const struct key_knob keys_knobs[] = {
 #include "scene/accuracy.def"
     {.name = NULL}};
@@ -106,29 +127,26 @@ const char *const keys_presets[5] = {"draft", "standard", "high", "reference", N
 
 const char *keys_former(const char *path, const char *word)
 {
-    static const char ramp[] = "leave it out; accuracy.gain_ramp alone says how finely a response that moves is followed (64 is standard, 16 high)";
-    static const char engine[] = "leave it out: surface.moving: launch is the same sound by resonators; or write overlap_add";
+    static const char ramp[] = "leave it out; accuracy.gain_ramp alone says how finely a response that moves is "
+                               "followed (64 is standard, 16 high)";
+    static const char engine[] =
+        "leave it out: surface.moving: launch is the same sound by resonators; or write overlap_add";
     static const struct {
         const char *path, *word, *instead;
     } former[] = {
-        {"accuracy.morph_error", "", ramp},
-        {"accuracy.overlap_hop", "", ramp},
-        {"accuracy.overlap_order", "", ramp},
-        {"surface.convolution", "nodes", engine},
-        {"scraper.convolution", "nodes", engine},
-        {"ball.convolution", "nodes", engine},
+        {"accuracy.morph_error", "", ramp},       {"accuracy.overlap_hop", "", ramp},
+        {"accuracy.overlap_order", "", ramp},     {"surface.convolution", "nodes", engine},
+        {"scraper.convolution", "nodes", engine}, {"ball.convolution", "nodes", engine},
     };
     for (size_t i = 0; i < sizeof former / sizeof *former; i++)
-        if (strcmp(former[i].path, path) == 0 && strcmp(former[i].word, word) == 0)
-            return former[i].instead;
+        if (strcmp(former[i].path, path) == 0 && strcmp(former[i].word, word) == 0) return former[i].instead;
     return NULL;
 }
 
 const struct key *keys_find(const char *path)
 {
     for (const struct key *k = keys_table; k->path; k++)
-        if (strcmp(k->path, path) == 0)
-            return k;
+        if (strcmp(k->path, path) == 0) return k;
     return NULL;
 }
 
@@ -137,8 +155,7 @@ const struct key *keys_decider(const struct key *k)
     const char *name = k->applies ? k->applies + (k->applies[0] == '!') : "";
     size_t n = strcspn(name, "=");
     for (const struct key *other = keys_table; n > 0 && other->path; other++)
-        if (other->path[0] == name[0] && strncmp(other->path, name, n) == 0 && !other->path[n])
-            return other;
+        if (other->path[0] == name[0] && strncmp(other->path, name, n) == 0 && !other->path[n]) return other;
     return NULL;
 }
 
@@ -152,40 +169,27 @@ bool keys_applies_with(const struct key *k, const char *word)
 {
     size_t n = strlen(word);
     for (const char *w = keys_words(k); w; w = strchr(w, '|') ? strchr(w, '|') + 1 : NULL)
-        if (strncmp(w, word, n) == 0 && (w[n] == '|' || !w[n]))
-            return true;
+        if (strncmp(w, word, n) == 0 && (w[n] == '|' || !w[n])) return true;
     return false;
 }
 
-bool keys_applies_beside(const struct key *k, bool given)
-{
-    return given == (k->applies[0] != '!');
-}
+bool keys_applies_beside(const struct key *k, bool given) { return given == (k->applies[0] != '!'); }
 
-#define FOLLOWS(owner, number, list) \
-    _Static_assert(offsetof(struct owner, number) == offsetof(struct owner, list) + sizeof(const double *), "the number follows the list")
+#define FOLLOWS(owner, number, list)                                                                                   \
+    _Static_assert(offsetof(struct owner, number) == offsetof(struct owner, list) + sizeof(const double *),            \
+                   "the number follows the list")
 FOLLOWS(motion, n_points, points);
 FOLLOWS(listen, n_places, places);
 
-int *keys_points_count(const void *field)
-{
-    return (int *)((char *)field + sizeof(const double *));
-}
+int *keys_points_count(const void *field) { return (int *)((char *)field + sizeof(const double *)); }
 
-int keys_points_width(const struct key *k)
-{
-    return k->type == KEY_PLACES ? 3 : 2;
-}
+int keys_points_width(const struct key *k) { return k->type == KEY_PLACES ? 3 : 2; }
 
 const struct key *keys_same_words(const struct key *k)
 {
     for (const struct key *other = keys_table; k->choices && other < k; other++)
-        if (other->choices == k->choices)
-            return other;
+        if (other->choices == k->choices) return other;
     return NULL;
 }
 
-struct key keys_condition(const struct key_alternative *t)
-{
-    return (struct key){.path = "", .applies = t->applies};
-}
+struct key keys_condition(const struct key_alternative *t) { return (struct key){.path = "", .applies = t->applies}; }

@@ -1,4 +1,5 @@
-/* The rows of keys.def and choices.def as tables, for the reader, the effective scene, `explain`, `new` and the man page. */
+/* The rows of keys.def and choices.def as tables, for the reader, the effective scene, `explain`, `new` and the man
+ * page. */
 #ifndef SCENE_KEYS_H
 #define SCENE_KEYS_H
 #include <stdbool.h>
@@ -6,24 +7,43 @@
 
 enum key_struct { KEY_SCENE, KEY_CONTACT };
 enum key_type {
-    KEY_NUMBER,        /* double, NAN when not given                      */
-    KEY_WHOLE,         /* double that must be a whole number              */
-    KEY_TIME_OR_AUTO,  /* double, NAN for the word auto                   */
-    KEY_COUNT,         /* int                                             */
-    KEY_SEED,          /* uint64_t                                        */
-    KEY_TEXT,          /* const char *, NULL when not given               */
-    KEY_FILE,          /* const char *, resolved path                     */
-    KEY_POINT,         /* double[2]                                       */
-    KEY_POINTS,        /* const double *, [n][2], and int n, see below    */
-    KEY_PLACES,        /* const double *, [n][3], and int n               */
-    KEY_RANGE,         /* double[2], first < second, NAN when not given   */
-    KEY_LIST,          /* const char **, NULL-terminated; NULL not given  */
-    KEY_CHOICE         /* int, index into choices                         */
+    KEY_NUMBER,       /* double, NAN when not given                      */
+    KEY_WHOLE,        /* double that must be a whole number              */
+    KEY_TIME_OR_AUTO, /* double, NAN for the word auto                   */
+    KEY_COUNT,        /* int                                             */
+    KEY_SEED,         /* uint64_t                                        */
+    KEY_TEXT,         /* const char *, NULL when not given               */
+    KEY_FILE,         /* const char *, resolved path                     */
+    KEY_POINT,        /* double[2]                                       */
+    KEY_POINTS,       /* const double *, [n][2], and int n, see below    */
+    KEY_PLACES,       /* const double *, [n][3], and int n               */
+    KEY_RANGE,        /* double[2], first < second, NAN when not given   */
+    KEY_LIST,         /* const char **, NULL-terminated; NULL not given  */
+    KEY_CHOICE        /* int, index into choices                         */
 };
 enum key_dimension {
-    KEY_NONE, KEY_LENGTH, KEY_TIME, KEY_FREQUENCY, KEY_MASS, KEY_FORCE, KEY_SPEED, KEY_ACCELERATION, KEY_ANGLE, KEY_PER_AREA,
-    KEY_DECIBEL, KEY_LUFS, KEY_FORCE_COEFFICIENT, KEY_OUTPUT, KEY_PRESSURE, KEY_DENSITY, KEY_FORCE_PER_LENGTH, KEY_PER_TIME, KEY_STIFFNESS,
-    KEY_STIFFNESS_PER_MASS, KEY_PER_SPEED, KEY_DISSIPATION
+    KEY_NONE,
+    KEY_LENGTH,
+    KEY_TIME,
+    KEY_FREQUENCY,
+    KEY_MASS,
+    KEY_FORCE,
+    KEY_SPEED,
+    KEY_ACCELERATION,
+    KEY_ANGLE,
+    KEY_PER_AREA,
+    KEY_DECIBEL,
+    KEY_LUFS,
+    KEY_FORCE_COEFFICIENT,
+    KEY_OUTPUT,
+    KEY_PRESSURE,
+    KEY_DENSITY,
+    KEY_FORCE_PER_LENGTH,
+    KEY_PER_TIME,
+    KEY_STIFFNESS,
+    KEY_STIFFNESS_PER_MASS,
+    KEY_PER_SPEED,
+    KEY_DISSIPATION
 };
 
 struct choice {
@@ -32,33 +52,33 @@ struct choice {
 
 struct key {
     enum key_struct of;
-    size_t offset;              /* of the field in struct scene or struct contact */
+    size_t offset; /* of the field in struct scene or struct contact */
     const char *path;
     enum key_type type;
     enum key_dimension dimension;
     double low, high;
-    const char *standard;       /* the default; NULL: must be given; "": may be left out */
-    const char *applies;        /* "key=word|word", "key", "!key" or NULL, see keys.def */
+    const char *standard; /* the default; NULL: must be given; "": may be left out */
+    const char *applies;  /* "key=word|word", "key", "!key" or NULL, see keys.def */
     const char *meaning;
     const struct choice *choices;
 };
 
 struct key_section {
     enum key_struct of;
-    size_t offset;              /* of its bool */
+    size_t offset; /* of its bool */
     const char *path, *meaning;
 };
 
 struct key_alternative {
-    const char *applies;        /* as of a key; NULL: always */
-    int least, most;            /* how many of them may be given */
-    const char *paths[6];       /* ends with NULL */
+    const char *applies;  /* as of a key; NULL: always */
+    int least, most;      /* how many of them may be given */
+    const char *paths[6]; /* ends with NULL */
 };
 
 /* What a knob counts, and so how its error is expected to follow it. */
 enum key_scale {
-    KEY_STEPS,         /* steps, or points, in something: the more, the finer     */
-    KEY_SAMPLES        /* audio samples from one to the next: the fewer, the finer */
+    KEY_STEPS,  /* steps, or points, in something: the more, the finer     */
+    KEY_SAMPLES /* audio samples from one to the next: the fewer, the finer */
 };
 
 struct key_knob {
@@ -66,9 +86,9 @@ struct key_knob {
     double low, high;
     int whole;
     enum key_scale scale;
-    double order;               /* power with which its error falls */
-    double preset[4];           /* draft, standard, high, reference */
-    size_t offset;              /* of its double in struct accuracy */
+    double order;     /* power with which its error falls */
+    double preset[4]; /* draft, standard, high, reference */
+    size_t offset;    /* of its double in struct accuracy */
     const char *meaning;
 };
 
@@ -77,16 +97,18 @@ extern const struct key keys_table[];
 extern const struct key_section keys_sections[];
 extern const struct key_alternative keys_alternatives[]; /* ends with paths[0] NULL */
 extern const struct key_knob keys_knobs[];
-extern const char *const keys_presets[5];                /* ends with NULL */
+extern const char *const keys_presets[5]; /* ends with NULL */
 
 const struct key *keys_find(const char *path);
 
-/* What to write instead of a key that is no longer there or, where word is not "", of a choice's word; NULL: there never was one. */
+/* What to write instead of a key that is no longer there or, where word is not "", of a choice's word; NULL: there
+ * never was one. */
 const char *keys_former(const char *path, const char *word);
 
 /* The key that decides whether this one applies; NULL: it always does. */
 const struct key *keys_decider(const struct key *k);
-/* The words of that key with which this one applies, such as "circle|scribble"; NULL: it applies where that key is given, or is not. */
+/* The words of that key with which this one applies, such as "circle|scribble"; NULL: it applies where that key is
+ * given, or is not. */
 const char *keys_words(const struct key *k);
 /* Does this key apply where the one that decides has the word? */
 bool keys_applies_with(const struct key *k, const char *word);
@@ -97,7 +119,8 @@ bool keys_applies_beside(const struct key *k, bool given);
 /* The alternative's condition as that of a key, for what is asked of keys. */
 struct key keys_condition(const struct key_alternative *t);
 
-/* KEY_POINTS, KEY_PLACES: how many there are; `field` is that of the list, which the number follows. Numbers in each: 2 or 3. */
+/* KEY_POINTS, KEY_PLACES: how many there are; `field` is that of the list, which the number follows. Numbers in each: 2
+ * or 3. */
 int *keys_points_count(const void *field);
 int keys_points_width(const struct key *k);
 

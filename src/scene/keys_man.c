@@ -1,4 +1,5 @@
-/* See keys_man.h. One .Ss for the scene's own keys and one for each top-level map; a sentence begins a line, as mdoc asks for. */
+/* See keys_man.h. One .Ss for the scene's own keys and one for each top-level map; a sentence begins a line, as mdoc
+ * asks for. */
 #include "scene/keys_man.h"
 
 #include <ctype.h>
@@ -10,8 +11,7 @@
 /* Text with roff's own characters made harmless. */
 static void put_text(FILE *f, const char *text)
 {
-    if (*text == '.' || *text == '\'')
-        fputs("\\&", f);
+    if (*text == '.' || *text == '\'') fputs("\\&", f);
     for (; *text; text++) {
         if (*text == '\\')
             fputs("\\e", f);
@@ -55,7 +55,10 @@ static void put_rivals(FILE *f, const char *path, struct arena *a)
     for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
         for (int i = 0; t->paths[i]; i++)
             if (!strcmp(t->paths[i], path))
-                put_opening(f, arena_format(a, "%s %s be given%s", keys_text_rivals(t, a), t->least ? "must" : "may", keys_text_rivals_apply(t, a)), a);
+                put_opening(f,
+                            arena_format(a, "%s %s be given%s", keys_text_rivals(t, a), t->least ? "must" : "may",
+                                         keys_text_rivals_apply(t, a)),
+                            a);
 }
 
 static void put_key(FILE *f, const struct key *k, struct arena *a)
@@ -67,14 +70,11 @@ static void put_key(FILE *f, const struct key *k, struct arena *a)
         put_sentence(f, arena_format(a, "Type: one of the words of %s", keys_same_words(k)->path));
     else
         put_sentence(f, arena_format(a, "Type: %s", keys_text_type(k)));
-    if (range)
-        put_sentence(f, arena_format(a, "Range: %s", range));
+    if (range) put_sentence(f, arena_format(a, "Range: %s", range));
     put_sentence(f, arena_format(a, "Default: %s", k->standard ? keys_text_default(k) : "none, it must be given"));
-    if (when)
-        put_opening(f, arena_format(a, "only %s", when), a);
+    if (when) put_opening(f, arena_format(a, "only %s", when), a);
     put_rivals(f, k->path, a);
-    if (k->choices && !keys_same_words(k))
-        put_words(f, k->choices);
+    if (k->choices && !keys_same_words(k)) put_words(f, k->choices);
 }
 
 static void put_section(FILE *f, const struct key_section *s, struct arena *a)
@@ -88,8 +88,7 @@ static void put_section(FILE *f, const struct key_section *s, struct arena *a)
 static bool opens_section(const struct key *k, const struct key_section *s)
 {
     size_t n = strlen(s->path);
-    if (strncmp(k->path, s->path, n) != 0 || k->path[n] != '.')
-        return false;
+    if (strncmp(k->path, s->path, n) != 0 || k->path[n] != '.') return false;
     return k == keys_table || strncmp(k[-1].path, s->path, n) != 0 || k[-1].path[n] != '.';
 }
 
@@ -103,11 +102,9 @@ static void put_group(FILE *f, const char *map, struct arena *a)
 {
     fprintf(f, ".Ss %s\n.Bl -tag -width Ds\n", *map ? map : "The scene itself");
     for (const struct key *k = keys_table; k->path; k++) {
-        if (!same_group(k, map))
-            continue;
+        if (!same_group(k, map)) continue;
         for (const struct key_section *s = keys_sections; s->path; s++)
-            if (opens_section(k, s))
-                put_section(f, s, a);
+            if (opens_section(k, s)) put_section(f, s, a);
         put_key(f, k, a);
     }
     for (const struct keys_text_frame *p = keys_text_frames; !*map && p->path; p++) {
@@ -120,7 +117,9 @@ static void put_group(FILE *f, const char *map, struct arena *a)
 
 static void put_knobs(FILE *f, struct arena *a)
 {
-    fputs(".Ss accuracy\n.Bl -column \"oversampling\" \"draft\" \"standard\" \"high\" \"reference\"\n.It knob Ta draft Ta standard Ta high Ta reference\n", f);
+    fputs(".Ss accuracy\n.Bl -column \"oversampling\" \"draft\" \"standard\" \"high\" \"reference\"\n.It knob Ta draft "
+          "Ta standard Ta high Ta reference\n",
+          f);
     for (const struct key_knob *k = keys_knobs; k->name; k++) {
         fprintf(f, ".It Ic %s", k->name);
         for (int i = 0; i < 4; i++)
@@ -142,8 +141,7 @@ void keys_man_print(FILE *f, struct arena *a)
     for (const struct key *k = keys_table; k->path; k++) {
         size_t n = strcspn(k->path, ".");
         bool first = k->path[n] && (k == keys_table || strncmp(k[-1].path, k->path, n + 1) != 0);
-        if (first)
-            put_group(f, arena_format(a, "%.*s", (int)n, k->path), a);
+        if (first) put_group(f, arena_format(a, "%.*s", (int)n, k->path), a);
     }
     put_knobs(f, a);
 }

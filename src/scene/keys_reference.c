@@ -1,6 +1,6 @@
-/* See keys_reference.h. From the tables come keys, defaults, ranges, meanings; only what has no default is shown by an example from here.
-   A key is commented out when it stands for something else than the scene shows: a rival of a key that is given, a section that is not,
-   or a key that does not apply. */
+/* See keys_reference.h. From the tables come keys, defaults, ranges, meanings; only what has no default is shown by an
+   example from here. A key is commented out when it stands for something else than the scene shows: a rival of a key
+   that is given, a section that is not, or a key that does not apply. */
 #include "scene/keys_reference.h"
 
 #include <stdbool.h>
@@ -103,13 +103,25 @@ static const struct {
     {NULL, NULL, false},
 };
 
-static const char *const sections_off[] = {"surface.continuation", "surface.ridges", "surface.grit", "surface.fractal", "surface.object", "surface.space",
-                                           "scraper.object", "ball.object", "grip", "contact.gesture", "contact.enhance", "output.listen", NULL};
+static const char *const sections_off[] = {"surface.continuation",
+                                           "surface.ridges",
+                                           "surface.grit",
+                                           "surface.fractal",
+                                           "surface.object",
+                                           "surface.space",
+                                           "scraper.object",
+                                           "ball.object",
+                                           "grip",
+                                           "contact.gesture",
+                                           "contact.enhance",
+                                           "output.listen",
+                                           NULL};
 
 static const char head[] =
     "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"
     "# A line that begins with #key: is an alternative or may be left out; remove the # to use it.\n"
-    "# A bare number is in SI units (m, s, kg, N, Hz, rad); with a unit it is what the unit says: 20 g, 5.6 um, 30 deg.\n"
+    "# A bare number is in SI units (m, s, kg, N, Hz, rad); with a unit it is what the unit says: 20 g, 5.6 um, 30 "
+    "deg.\n"
     "\n";
 
 static const char tail[] =
@@ -133,8 +145,7 @@ static int example(const char *path)
 {
     const char *rest = path + strcspn(path, ".");
     for (int i = 0; examples[i].path; i++)
-        if (!strcmp(examples[i].path, examples[i].path[0] == '.' ? rest : path))
-            return i;
+        if (!strcmp(examples[i].path, examples[i].path[0] == '.' ? rest : path)) return i;
     return -1;
 }
 
@@ -155,17 +166,16 @@ static bool is_off(const struct key *k);
 static bool applies(const struct key *k)
 {
     const struct key *decides = keys_decider(k);
-    if (!decides)
-        return true;
-    return applies(decides) && (keys_words(k) ? keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides)));
+    if (!decides) return true;
+    return applies(decides) &&
+           (keys_words(k) ? keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides)));
 }
 
 static bool is_off(const struct key *k)
 {
     int i = example(k->path);
     for (const char *const *s = sections_off; *s; s++)
-        if (!strncmp(k->path, *s, strlen(*s)) && k->path[strlen(*s)] == '.')
-            return true;
+        if (!strncmp(k->path, *s, strlen(*s)) && k->path[strlen(*s)] == '.') return true;
     return (i >= 0 && examples[i].off) || (i < 0 && k->standard && !*k->standard) || !applies(k);
 }
 
@@ -181,10 +191,9 @@ static const char *rivals(const char *path, struct arena *a)
 static const char *comment(const struct key *k, struct arena *a)
 {
     const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a);
-    const char *all = arena_format(a, "%s%s%s%s%s%s", k->meaning, range ? "; " : "", range ? range : "", when ? "; only " : "",
-                                   when ? when : "", rivals(k->path, a));
-    if (keys_same_words(k))
-        return arena_format(a, "%s; words: see %s", all, keys_same_words(k)->path);
+    const char *all = arena_format(a, "%s%s%s%s%s%s", k->meaning, range ? "; " : "", range ? range : "",
+                                   when ? "; only " : "", when ? when : "", rivals(k->path, a));
+    if (keys_same_words(k)) return arena_format(a, "%s; words: see %s", all, keys_same_words(k)->path);
     for (const struct choice *c = k->choices; c && c->word; c++)
         all = arena_format(a, "%s\n- %s: %s", all, c->word, c->meaning);
     return all;
@@ -208,8 +217,7 @@ static void print_accuracy(FILE *f, struct arena *a)
     lines[1] = (struct keys_line){.path = "accuracy.error", .value = "-80 dB", .off = true};
     for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
         for (int i = 0; i < 2; i++)
-            if (!strcmp(p->path, lines[i].path))
-                lines[i].comment = p->meaning;
+            if (!strcmp(p->path, lines[i].path)) lines[i].comment = p->meaning;
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         lines[n++] = (struct keys_line){.path = arena_format(a, "accuracy.%s", k->name),
                                         .value = keys_yaml_number(k->preset[1], a),
@@ -224,7 +232,8 @@ void keys_reference_print(FILE *f, struct arena *a)
         n++;
     struct keys_line *lines = ARENA_TAKE(a, struct keys_line, n);
     for (int i = 0; i < n; i++)
-        lines[i] = (struct keys_line){keys_table[i].path, shown(&keys_table[i]), comment(&keys_table[i], a), is_off(&keys_table[i])};
+        lines[i] = (struct keys_line){keys_table[i].path, shown(&keys_table[i]), comment(&keys_table[i], a),
+                                      is_off(&keys_table[i])};
     fputs(head, f);
     keys_yaml_print(f, lines, n, &(struct keys_style){.comments = true});
     print_accuracy(f, a);

@@ -6,14 +6,20 @@
 #include "scene/units.h"
 
 const struct keys_text_frame keys_text_frames[] = {
-    {"include", "list of file names", "scene files that this one builds on: maps merge, lists are replaced, the including file wins"},
-    {"contacts", "list of contacts", "several contacts, whose sounds add up: each entry holds a name and what else stands at the top level of a "
-                                     "scene with one (surface, scraper, motion, ...)"},
-    {"accuracy", "draft, standard, high, reference, or a map", "how much time is spent on accuracy: a preset, or a map of preset, error and single knobs"},
+    {"include", "list of file names",
+     "scene files that this one builds on: maps merge, lists are replaced, the including file wins"},
+    {"contacts", "list of contacts",
+     "several contacts, whose sounds add up: each entry holds a name and what else stands at the top level of a "
+     "scene with one (surface, scraper, motion, ...)"},
+    {"accuracy", "draft, standard, high, reference, or a map",
+     "how much time is spent on accuracy: a preset, or a map of preset, error and single knobs"},
     {"accuracy.error", "number, dB, -240 to below 0",
-     "error relative to the sound, rms, that the knobs not given are chosen by, as cheaply as keeps it; what cannot be kept is refused"},
-    {"accuracy.preset", "draft, standard, high or reference", "in a map: the preset that the knobs not given are taken from"},
-    {"inputs", "list of file and sha256", "the files of an effective scene as they were: one that has changed is an error"},
+     "error relative to the sound, rms, that the knobs not given are chosen by, as cheaply as keeps it; what cannot be "
+     "kept is refused"},
+    {"accuracy.preset", "draft, standard, high or reference",
+     "in a map: the preset that the knobs not given are taken from"},
+    {"inputs", "list of file and sha256",
+     "the files of an effective scene as they were: one that has changed is an error"},
     {NULL, NULL, NULL},
 };
 
@@ -44,37 +50,45 @@ static const struct {
     [KEY_DISSIPATION] = {"N s/m^2.5", "dissipation (a bare number is in N s/m^2.5)"},
 };
 
-const char *keys_text_unit(enum key_dimension d)
-{
-    return dimensions[d].unit;
-}
+const char *keys_text_unit(enum key_dimension d) { return dimensions[d].unit; }
 
 const char *keys_text_type(const struct key *k)
 {
     switch (k->type) {
-    case KEY_NUMBER: return dimensions[k->dimension].type;
-    case KEY_WHOLE: return "frequency, a whole number of Hz";
-    case KEY_TIME_OR_AUTO: return "time (a bare number is in s), or auto";
-    case KEY_COUNT: return "whole number";
-    case KEY_SEED: return "whole number from 0 to 18446744073709551615";
-    case KEY_TEXT: return "text";
-    case KEY_FILE: return "file name, as seen from the folder of the file it stands in";
-    case KEY_POINT: return k->dimension == KEY_LENGTH ? "[x, y], two lengths" : "[x, y], two numbers";
-    case KEY_POINTS: return "list of 2 to 10000 points [x, y], in lengths";
-    case KEY_PLACES: return "list of 1 to 64 places [x, y, z], in lengths";
-    case KEY_RANGE: return k->dimension == KEY_FORCE ? "[least, most], two forces" : "[least, most], two frequencies";
-    case KEY_LIST: return "list of names";
-    case KEY_CHOICE: return "one of the words below";
+    case KEY_NUMBER:
+        return dimensions[k->dimension].type;
+    case KEY_WHOLE:
+        return "frequency, a whole number of Hz";
+    case KEY_TIME_OR_AUTO:
+        return "time (a bare number is in s), or auto";
+    case KEY_COUNT:
+        return "whole number";
+    case KEY_SEED:
+        return "whole number from 0 to 18446744073709551615";
+    case KEY_TEXT:
+        return "text";
+    case KEY_FILE:
+        return "file name, as seen from the folder of the file it stands in";
+    case KEY_POINT:
+        return k->dimension == KEY_LENGTH ? "[x, y], two lengths" : "[x, y], two numbers";
+    case KEY_POINTS:
+        return "list of 2 to 10000 points [x, y], in lengths";
+    case KEY_PLACES:
+        return "list of 1 to 64 places [x, y, z], in lengths";
+    case KEY_RANGE:
+        return k->dimension == KEY_FORCE ? "[least, most], two forces" : "[least, most], two frequencies";
+    case KEY_LIST:
+        return "list of names";
+    case KEY_CHOICE:
+        return "one of the words below";
     }
     return "";
 }
 
 const char *keys_text_range(const struct key *k, struct arena *a)
 {
-    if (k->low == 0 && k->high == 0)
-        return NULL;
-    if (k->low == k->high)
-        return arena_format(a, "only %s", units_text(k->low, k->dimension, a));
+    if (k->low == 0 && k->high == 0) return NULL;
+    if (k->low == k->high) return arena_format(a, "only %s", units_text(k->low, k->dimension, a));
     return arena_format(a, "%s to %s", units_text(k->low, k->dimension, a), units_text(k->high, k->dimension, a));
 }
 
@@ -94,11 +108,10 @@ const char *keys_text_words(const struct key *k, struct arena *a)
 const char *keys_text_applies(const struct key *k, struct arena *a)
 {
     const char *words = keys_words(k);
-    if (!k->applies)
-        return NULL;
-    if (words)
-        return arena_format(a, "where %s is %s", keys_decider(k)->path, keys_text_words(k, a));
-    return keys_applies_beside(k, true) ? arena_format(a, "beside %s", k->applies) : arena_format(a, "where %s is not given", keys_decider(k)->path);
+    if (!k->applies) return NULL;
+    if (words) return arena_format(a, "where %s is %s", keys_decider(k)->path, keys_text_words(k, a));
+    return keys_applies_beside(k, true) ? arena_format(a, "beside %s", k->applies)
+                                        : arena_format(a, "where %s is not given", keys_decider(k)->path);
 }
 
 const char *keys_text_rivals_apply(const struct key_alternative *t, struct arena *a)
@@ -125,8 +138,7 @@ static bool within(const char *path, const char *map)
 bool keys_text_has(const struct key_alternative *t, const char *path)
 {
     for (int i = 0; t->paths[i]; i++)
-        if (t->most > 1 ? strcmp(path, t->paths[i]) == 0 : within(path, t->paths[i]))
-            return true;
+        if (t->most > 1 ? strcmp(path, t->paths[i]) == 0 : within(path, t->paths[i])) return true;
     return false;
 }
 
@@ -140,8 +152,7 @@ struct names {
 static void add(struct names *names, const char *path)
 {
     for (int i = 0; i < names->n; i++)
-        if (!strcmp(names->all[i], path))
-            return;
+        if (!strcmp(names->all[i], path)) return;
     names->all[names->n++] = path;
 }
 
@@ -174,15 +185,13 @@ const char **keys_text_names(struct arena *a)
 static bool is_known(const char *path)
 {
     for (const struct key *k = keys_table; k->path; k++)
-        if (k->of == KEY_CONTACT && within(k->path, path))
-            return true;
+        if (k->of == KEY_CONTACT && within(k->path, path)) return true;
     return false;
 }
 
 const char *keys_text_plain(const char *path)
 {
-    if (strncmp(path, "contacts.", 9) != 0)
-        return path;
+    if (strncmp(path, "contacts.", 9) != 0) return path;
     const char *rest = path + 9, *dot = strchr(rest, '.');
     return is_known(rest) || !dot ? rest : dot + 1;
 }

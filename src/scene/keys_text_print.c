@@ -9,8 +9,7 @@
 
 static void print_fact(FILE *f, const char *name, const char *text)
 {
-    if (!text)
-        return;
+    if (!text) return;
     fprintf(f, "  %-10s", name);
     wrap_print(f, text, 12, MARGIN);
 }
@@ -40,19 +39,17 @@ void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
     print_fact(f, "default", keys_text_default(k));
     print_fact(f, "applies", keys_text_applies(k, a));
     print_choose(f, k->path, a);
-    print_fact(f, "belongs", k->of == KEY_SCENE ? "to the scene" : "to a contact: at the top level, or in each entry of contacts");
-    if (k->choices)
-        print_words(f, k->choices);
+    print_fact(f, "belongs",
+               k->of == KEY_SCENE ? "to the scene" : "to a contact: at the top level, or in each entry of contacts");
+    if (k->choices) print_words(f, k->choices);
 }
 
 static const char *map_meaning(const char *path)
 {
     for (const struct key_section *s = keys_sections; s->path; s++)
-        if (!strcmp(s->path, path))
-            return s->meaning;
+        if (!strcmp(s->path, path)) return s->meaning;
     for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
-        if (!strcmp(p->path, path))
-            return p->meaning;
+        if (!strcmp(p->path, path)) return p->meaning;
     return NULL;
 }
 
@@ -61,17 +58,15 @@ void keys_text_print_map(FILE *f, const char *path, struct arena *a)
     const char *meaning = map_meaning(path);
     size_t length = strlen(path);
     fprintf(f, "%s%s", path, meaning ? ": " : "\n");
-    if (meaning)
-        wrap_print(f, meaning, (int)length + 2, MARGIN);
+    if (meaning) wrap_print(f, meaning, (int)length + 2, MARGIN);
     for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
-        if (!strcmp(p->path, path))
-            print_fact(f, "type", p->type);
+        if (!strcmp(p->path, path)) print_fact(f, "type", p->type);
     print_choose(f, path, a);
     for (const struct key *k = keys_table; k->path; k++) {
-        if (strncmp(k->path, path, length) != 0 || k->path[length] != '.')
-            continue;
+        if (strncmp(k->path, path, length) != 0 || k->path[length] != '.') continue;
         int n = fprintf(f, "  %-33s ", k->path);
-        wrap_print(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n, "                                    ");
+        wrap_print(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n,
+                   "                                    ");
     }
 }
 

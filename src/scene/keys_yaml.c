@@ -1,4 +1,5 @@
-/* See keys_yaml.h. A map's header is written when its first key is, and is itself commented out when all of its keys are. */
+/* See keys_yaml.h. A map's header is written when its first key is, and is itself commented out when all of its keys
+ * are. */
 #include "scene/keys_yaml.h"
 
 #include <inttypes.h>
@@ -19,16 +20,14 @@ static bool under(const char *path, const char *map, size_t length)
 static bool all_off(const struct keys_line *lines, int n, const char *path, size_t length)
 {
     for (int i = 0; i < n; i++)
-        if (under(lines[i].path, path, length) && !lines[i].off)
-            return false;
+        if (under(lines[i].path, path, length) && !lines[i].off) return false;
     return true;
 }
 
 static const char *section_meaning(const char *path, size_t length)
 {
     for (const struct key_section *s = keys_sections; s->path; s++)
-        if (strlen(s->path) == length && !strncmp(s->path, path, length))
-            return s->meaning;
+        if (strlen(s->path) == length && !strncmp(s->path, path, length)) return s->meaning;
     return NULL;
 }
 
@@ -57,10 +56,8 @@ static int open_maps(FILE *f, const struct keys_line *lines, int n, int i, const
         size_t length = (size_t)(dot - path);
         const char *meaning = style->comments ? section_meaning(path, length) : NULL;
         if (!under(last, path, length)) {
-            if (style->comments && indent == style->indent)
-                fputc('\n', f);
-            if (meaning)
-                print_comment(f, meaning, indent);
+            if (style->comments && indent == style->indent) fputc('\n', f);
+            if (meaning) print_comment(f, meaning, indent);
             print_header(f, path, length, indent, all_off(lines, n, path, length));
         }
         indent += 2;
@@ -71,8 +68,7 @@ static int open_maps(FILE *f, const struct keys_line *lines, int n, int i, const
 static void print_key(FILE *f, const struct keys_line *l, int indent)
 {
     const char *dot = strrchr(l->path, '.');
-    if (l->comment)
-        print_comment(f, l->comment, indent);
+    if (l->comment) print_comment(f, l->comment, indent);
     fprintf(f, "%*s%s%s: %s\n", indent, "", l->off ? "#" : "", dot ? dot + 1 : l->path, l->value);
 }
 
@@ -86,8 +82,7 @@ static void print_item(FILE *f, const struct keys_line *lines, int n, const stru
     inner.item = false;
     keys_yaml_print(memory, lines, n, &inner);
     memory_stream_end(memory, &text);
-    if (style->indent >= 2 && size > (size_t)style->indent)
-        text[style->indent - 2] = '-';
+    if (style->indent >= 2 && size > (size_t)style->indent) text[style->indent - 2] = '-';
     fputs(text, f);
     free(text);
 }
@@ -99,8 +94,7 @@ void keys_yaml_print(FILE *f, const struct keys_line *lines, int n, const struct
         return;
     }
     for (int i = 0; i < n; i++) {
-        if (style->comments && !strchr(lines[i].path, '.') && i > 0 && strchr(lines[i - 1].path, '.'))
-            fputc('\n', f);
+        if (style->comments && !strchr(lines[i].path, '.') && i > 0 && strchr(lines[i - 1].path, '.')) fputc('\n', f);
         print_key(f, &lines[i], open_maps(f, lines, n, i, style));
     }
 }
@@ -110,7 +104,8 @@ void keys_yaml_print(FILE *f, const struct keys_line *lines, int n, const struct
 /* May it stand in a YAML stream as it is, on one line? (YAML 1.1, c-printable without line breaks.) */
 static bool plain(uint32_t c)
 {
-    return (c >= 0x20 && c <= 0x7E) || (c >= 0xA0 && c != 0x2028 && c != 0x2029 && c != 0xFEFF && c != 0xFFFE && c != 0xFFFF);
+    return (c >= 0x20 && c <= 0x7E) ||
+           (c >= 0xA0 && c != 0x2028 && c != 0x2029 && c != 0xFEFF && c != 0xFFFE && c != 0xFFFF);
 }
 
 static void put_escaped(FILE *f, uint32_t c)
@@ -133,8 +128,7 @@ const char *keys_yaml_quoted(const char *text, struct arena *a)
         if (n && !plain(code)) {
             put_escaped(f, code);
         } else {
-            if (*s == '"' || *s == '\\')
-                fputc('\\', f);
+            if (*s == '"' || *s == '\\') fputc('\\', f);
             fwrite(s, 1, (size_t)(n ? n : 1), f);
         }
         s += n ? n : 1;
@@ -151,8 +145,7 @@ const char *keys_yaml_number(double x, struct arena *a)
     char text[40];
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
-            break;
+        if (strtod(text, NULL) == x) break;
     }
     return arena_text(a, text);
 }

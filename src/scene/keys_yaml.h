@@ -21,7 +21,8 @@ struct keys_style {
 
 void keys_yaml_print(FILE *f, const struct keys_line *lines, int n, const struct keys_style *style);
 
-/* A text as a double-quoted scalar. Bytes that are not UTF-8 are written as they are (YAML has no way to say them, its readers refuse). */
+/* A text as a double-quoted scalar. Bytes that are not UTF-8 are written as they are (YAML has no way to say them, its
+ * readers refuse). */
 const char *keys_yaml_quoted(const char *text, struct arena *a);
 /* The shortest of %.15g, %.16g, %.17g that reads back as the same number. */
 const char *keys_yaml_number(double x, struct arena *a);

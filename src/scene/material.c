@@ -1,7 +1,8 @@
 /* The table of materials (material.def) and the law of damping.
 
-   A mode of mass m, stiffness k = m w^2 and damping constant c: m x'' + c x' + k x = 0 decays with c/(2 m). Rayleigh's C = alpha M + beta K gives
-   c/m = alpha + beta w^2; a loss factor eta (energy lost per radian over energy held) gives c/m = eta w. All three add up:
+   A mode of mass m, stiffness k = m w^2 and damping constant c: m x'' + c x' + k x = 0 decays with c/(2 m). Rayleigh's
+   C = alpha M + beta K gives c/m = alpha + beta w^2; a loss factor eta (energy lost per radian over energy held) gives
+   c/m = eta w. All three add up:
 
      decay = (alpha + beta w^2 + loss w) / 2   in 1/s,   60 dB in 3 ln 10 / decay = 6.908 / decay seconds. */
 #include "scene/material.h"

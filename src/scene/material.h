@@ -3,16 +3,16 @@
 #define SCENE_MATERIAL_H
 #include "scene/scene.h"
 
-struct material_radial {                    /* of wood, through a flat-sawn board; youngs_modulus 0: isotropic */
+struct material_radial {                       /* of wood, through a flat-sawn board; youngs_modulus 0: isotropic */
     double youngs_modulus, shear_lr, shear_rt; /* Pa */
-    double poisson_lr, poisson_rt;          /* -, of pulls along the grain and along the radius */
+    double poisson_lr, poisson_rt;             /* -, of pulls along the grain and along the radius */
 };
 
 struct material {
-    const char *name;                       /* the word of scene.h's enum material_name */
-    double youngs_modulus, across, shear;   /* Pa: along x (the grain), across, shear modulus in the plane */
-    double poisson, density;                /* -, kg/m^3 */
-    double alpha, beta, loss;               /* 1/s, s, loss factor: decay = (alpha + beta w^2 + loss w)/2 at w = 2 pi f */
+    const char *name;                     /* the word of scene.h's enum material_name */
+    double youngs_modulus, across, shear; /* Pa: along x (the grain), across, shear modulus in the plane */
+    double poisson, density;              /* -, kg/m^3 */
+    double alpha, beta, loss;             /* 1/s, s, loss factor: decay = (alpha + beta w^2 + loss w)/2 at w = 2 pi f */
     const char *source, *damping_source;
     struct material_radial radial;
 };

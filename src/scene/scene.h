@@ -1,8 +1,8 @@
 /* What is asked for: a scene as plain structs. Read this first.
 
-   All quantities are SI (angles in radians). Every field a user can set is a row of scene/keys.def (key path, unit, range,
-   default, meaning) or, where time is traded for accuracy, of scene/accuracy.def; from those two tables come the reader, the
-   effective scene, `rasp explain`, `rasp new` and man rasp-scene(5).
+   All quantities are SI (angles in radians). Every field a user can set is a row of scene/keys.def (key path, unit,
+   range, default, meaning) or, where time is traded for accuracy, of scene/accuracy.def; from those two tables come the
+   reader, the effective scene, `rasp explain`, `rasp new` and man rasp-scene(5).
 
    "Not given": a text is NULL, a number is NAN, a section's `given` is false. */
 #ifndef SCENE_SCENE_H
@@ -17,7 +17,16 @@
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
 
 enum motion_path {
-    PATH_BACK_AND_FORTH, PATH_LINE, PATH_FOUR_IN_LINE, PATH_CIRCLE, PATH_SCRIBBLE, PATH_POLYLINE, PATH_SPLINE, PATH_RECORDED, PATH_STILL, PATH_INCLINE
+    PATH_BACK_AND_FORTH,
+    PATH_LINE,
+    PATH_FOUR_IN_LINE,
+    PATH_CIRCLE,
+    PATH_SCRIBBLE,
+    PATH_POLYLINE,
+    PATH_SPLINE,
+    PATH_RECORDED,
+    PATH_STILL,
+    PATH_INCLINE
 };
 enum speed_law { SPEED_AUTO, SPEED_HARMONIC, SPEED_CONSTANT, SPEED_MINIMUM_JERK, SPEED_TWO_THIRDS, SPEED_GIVEN };
 enum along { ALONG_AUTO, ALONG_PATH, ALONG_X, ALONG_PLANE };
@@ -26,7 +35,13 @@ enum levelling { LEVELLING_NONE, LEVELLING_MEAN, LEVELLING_PLANE };
 enum ridge_shape { RIDGE_SINE, RIDGE_ROUND, RIDGE_GROOVE };
 enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
 enum contact_kind {
-    CONTACT_SCRAPE, CONTACT_STRIKE, CONTACT_GIVEN, CONTACT_ROLL, CONTACT_ROLL_COUPLED, CONTACT_IMPACTS, CONTACT_PLAYBACK
+    CONTACT_SCRAPE,
+    CONTACT_STRIKE,
+    CONTACT_GIVEN,
+    CONTACT_ROLL,
+    CONTACT_ROLL_COUPLED,
+    CONTACT_IMPACTS,
+    CONTACT_PLAYBACK
 };
 enum impact_listing { LISTING_NONE, LISTING_TABLE };
 enum table_format { TABLE_CSV, TABLE_NPY };
@@ -41,12 +56,30 @@ enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
 enum limiter_curve { LIMITER_TANH, LIMITER_NONE };
 enum engine { ENGINE_AUTO, ENGINE_RESONATORS, ENGINE_OVERLAP_ADD };
 enum moving { MOVING_AUTO, MOVING_FIXED, MOVING_LAUNCH, MOVING_GLIDE, MOVING_READOUT };
-enum object_shape { OBJECT_BAR, OBJECT_ROD, OBJECT_STRING, OBJECT_PLATE, OBJECT_DISK, OBJECT_MEMBRANE, OBJECT_DRUM, OBJECT_SHELL };
+enum object_shape {
+    OBJECT_BAR,
+    OBJECT_ROD,
+    OBJECT_STRING,
+    OBJECT_PLATE,
+    OBJECT_DISK,
+    OBJECT_MEMBRANE,
+    OBJECT_DRUM,
+    OBJECT_SHELL
+};
 enum object_edges { EDGES_FREE, EDGES_SUPPORTED, EDGES_CLAMPED, EDGES_CANTILEVER };
 enum object_waves { WAVES_BENDING, WAVES_LONGITUDINAL };
 enum material_name {
-    MATERIAL_CUSTOM, MATERIAL_BASSWOOD, MATERIAL_POPLAR, MATERIAL_OAK, MATERIAL_PVC, MATERIAL_POLYCARBONATE, MATERIAL_ACRYLIC, MATERIAL_GLASS,
-    MATERIAL_CERAMIC, MATERIAL_STEEL, MATERIAL_ALUMINIUM
+    MATERIAL_CUSTOM,
+    MATERIAL_BASSWOOD,
+    MATERIAL_POPLAR,
+    MATERIAL_OAK,
+    MATERIAL_PVC,
+    MATERIAL_POLYCARBONATE,
+    MATERIAL_ACRYLIC,
+    MATERIAL_GLASS,
+    MATERIAL_CERAMIC,
+    MATERIAL_STEEL,
+    MATERIAL_ALUMINIUM
 };
 enum quantity { QUANTITY_AUTO, QUANTITY_DISPLACEMENT, QUANTITY_VELOCITY, QUANTITY_ACCELERATION, QUANTITY_FORCE };
 enum sound_envelope { ENVELOPE_NONE, ENVELOPE_APPROACH_RECEDE };
@@ -59,20 +92,20 @@ struct shelf;
 
 /* ------------------------------------------------------------------ one contact */
 
-struct roughness {          /* procedural: surface/roughness.h                                */
+struct roughness { /* procedural: surface/roughness.h                                */
     bool given;
-    double exponent;        /* one-sided power spectral density of a profile over spatial frequency ~ k^exponent */
-    double rms;             /* m, of the heights                                                 */
-    double longest;         /* m, wavelength above which the spectrum is flat (roll-off)         */
-    double shortest;        /* m, wavelength below which it is zero                              */
+    double exponent;           /* one-sided power spectral density of a profile over spatial frequency ~ k^exponent */
+    double rms;                /* m, of the heights                                                 */
+    double longest;            /* m, wavelength above which the spectrum is flat (roll-off)         */
+    double shortest;           /* m, wavelength below which it is zero                              */
     double skewness, kurtosis; /* of the height distribution; 0 and 3 are Gaussian               */
-    double grain;           /* ratio of correlation lengths along and across the grain; 1: isotropic */
-    double grain_direction; /* rad, of the grain's long axis, 0 = +x                             */
-    const char *like;       /* height map whose spectrum, rms, skewness and kurtosis are taken; NULL: none */
-    double like_pitch;      /* m; NAN: the file says it                                          */
+    double grain;              /* ratio of correlation lengths along and across the grain; 1: isotropic */
+    double grain_direction;    /* rad, of the grain's long axis, 0 = +x                             */
+    const char *like;          /* height map whose spectrum, rms, skewness and kurtosis are taken; NULL: none */
+    double like_pitch;         /* m; NAN: the file says it                                          */
 };
 
-struct ridges {             /* parallel ridges: surface/ridges.h                                 */
+struct ridges { /* parallel ridges: surface/ridges.h                                 */
     bool given;
     double spacing, height; /* m, from ridge to ridge; from valley to top                        */
     double width;           /* m, of a ridge or groove at half height (shapes other than sine)   */
@@ -82,71 +115,72 @@ struct ridges {             /* parallel ridges: surface/ridges.h                
     int shape;              /* enum ridge_shape                                                  */
 };
 
-struct grit {               /* scattered grains: surface/grit.h                                  */
+struct grit { /* scattered grains: surface/grit.h                                  */
     bool given;
-    double density;         /* grains per m^2                                                    */
-    double diameter, height;/* m, of the mean grain                                              */
-    double spread;          /* standard deviation of a grain's size over its mean (log-normal)   */
+    double density;          /* grains per m^2                                                    */
+    double diameter, height; /* m, of the mean grain                                              */
+    double spread;           /* standard deviation of a grain's size over its mean (log-normal)   */
 };
 
-struct fractal {            /* a fractal profile as papers/002 and 004 have it: surface/fractal.h   */
+struct fractal { /* a fractal profile as papers/002 and 004 have it: surface/fractal.h   */
     bool given;
-    double exponent;        /* beta: the spectrum over spatial frequency ~ k^exponent            */
-    int spectrum;           /* enum fractal_spectrum: of power or amplitude                      */
-    double maximum;         /* m, largest height above or below the mean                         */
-    double pitch;           /* m between its heights                                             */
-    double length;          /* m, after which it repeats itself                                  */
-    int interpolation;      /* enum interpolation, between its heights                           */
+    double exponent;   /* beta: the spectrum over spatial frequency ~ k^exponent            */
+    int spectrum;      /* enum fractal_spectrum: of power or amplitude                      */
+    double maximum;    /* m, largest height above or below the mean                         */
+    double pitch;      /* m between its heights                                             */
+    double length;     /* m, after which it repeats itself                                  */
+    int interpolation; /* enum interpolation, between its heights                           */
 };
 
-struct continuation {       /* finer roughness than a measured map holds: surface/continuation.h */
+struct continuation { /* finer roughness than a measured map holds: surface/continuation.h */
     bool given;
-    double exponent;        /* of its spectrum; NAN: that of the map's own last octaves          */
-    double from;            /* m, wavelength where it takes over; NAN: the map's band limit, measured */
-    double shortest;        /* m                                                                 */
+    double exponent; /* of its spectrum; NAN: that of the map's own last octaves          */
+    double from;     /* m, wavelength where it takes over; NAN: the map's band limit, measured */
+    double shortest; /* m                                                                 */
 };
 
-struct object_given {       /* an object of simple shape, whose modes are closed forms: response/object.h */
+struct object_given { /* an object of simple shape, whose modes are closed forms: response/object.h */
     bool given;
-    int shape, edges, waves;/* enum object_shape, object_edges, object_waves                     */
-    int material;           /* enum material_name: what the figures below are where they are NAN */
-    double length, width;   /* m, along x and y                                                  */
-    double thickness;       /* m; of a rod its wall's, NAN: solid                                */
-    double diameter;        /* m                                                                 */
-    double tension;         /* N, of a string                                                    */
-    double surface_tension; /* N/m, of a membrane or drum                                        */
-    double youngs_modulus;  /* Pa, along x                                                       */
+    int shape, edges, waves;      /* enum object_shape, object_edges, object_waves                     */
+    int material;                 /* enum material_name: what the figures below are where they are NAN */
+    double length, width;         /* m, along x and y                                                  */
+    double thickness;             /* m; of a rod its wall's, NAN: solid                                */
+    double diameter;              /* m                                                                 */
+    double tension;               /* N, of a string                                                    */
+    double surface_tension;       /* N/m, of a membrane or drum                                        */
+    double youngs_modulus;        /* Pa, along x                                                       */
     double youngs_modulus_across; /* Pa, along y                                                 */
-    double shear_modulus;   /* Pa, in the plane                                                  */
+    double shear_modulus;         /* Pa, in the plane                                                  */
     double poisson;
-    double density;         /* kg/m^3                                                            */
-    double alpha;           /* 1/s, Rayleigh's: C = alpha M + beta K                             */
-    double beta;            /* s                                                                 */
-    double loss;            /* loss factor eta                                                   */
-    double origin[2];       /* m: where the object's x = y = 0 lies in the scene (surface)       */
-    double at[2];           /* m, in the object's coordinates: where it is touched (scraper)     */
+    double density;   /* kg/m^3                                                            */
+    double alpha;     /* 1/s, Rayleigh's: C = alpha M + beta K                             */
+    double beta;      /* s                                                                 */
+    double loss;      /* loss factor eta                                                   */
+    double origin[2]; /* m: where the object's x = y = 0 lies in the scene (surface)       */
+    double at[2];     /* m, in the object's coordinates: where it is touched (scraper)     */
 };
 
-struct space {              /* an object between materials and shapes: response/space.h          */
+struct space { /* an object between materials and shapes: response/space.h          */
     bool given;
-    double from[2], to[2];  /* places in the disk of materials; to NAN: as from                  */
+    double from[2], to[2];          /* places in the disk of materials; to NAN: as from                  */
     double dimension, dimension_to; /* 1 bar, 2 plate, 3 shell                                   */
-    double fundamental;     /* Hz                                                                */
-    double gain;            /* m/s per N s, of the lowest mode                                   */
+    double fundamental;             /* Hz                                                                */
+    double gain;                    /* m/s per N s, of the lowest mode                                   */
 };
 
-struct response {           /* how a body rings: a table of modes, recorded responses, an object, or a place in the space of materials */
-    const char *file;       /* path, already resolved against the scene file; NULL: none         */
+struct response {     /* how a body rings: a table of modes, recorded responses, an object, or a place in the space of
+                         materials */
+    const char *file; /* path, already resolved against the scene file; NULL: none         */
     struct object_given object;
-    struct space space;     /* surface only                                                      */
-    int modes;              /* how many of the strongest modes are used                          */
-    double band[2];         /* Hz, from which they are chosen                                    */
-    int gammatone;          /* gamma: onset of each mode t^(gamma - 1); 1: at once                */
-    double length;          /* s, t0 of eq. 10: the response is cut there; NAN: not cut          */
-    int convolution;        /* enum engine                                                       */
-    int moving;             /* enum moving                                                       */
-    double pairing;         /* largest relative difference of frequencies of one mode at two places */
-    int extrapolate;        /* enum extrapolate: contact outside the places' hull                */
+    struct space space;               /* surface only                                                      */
+    int modes;                        /* how many of the strongest modes are used                          */
+    double band[2];                   /* Hz, from which they are chosen                                    */
+    int gammatone;                    /* gamma: onset of each mode t^(gamma - 1); 1: at once                */
+    double length;                    /* s, t0 of eq. 10: the response is cut there; NAN: not cut          */
+    int convolution;                  /* enum engine                                                       */
+    int moving;                       /* enum moving                                                       */
+    double pairing;                   /* largest relative difference of frequencies of one mode at two places */
+    int extrapolate;                  /* enum extrapolate: contact outside the places' hull                */
     const struct ring_choice *choice; /* the planner's: convolution/ring_choice.h; NULL before   */
 };
 
@@ -169,130 +203,131 @@ struct surface {
     struct response response;
 };
 
-struct scraper {            /* what touches the surface; of rolling models the ball, as scene/ball.h has settled it */
-    double mass;            /* kg, m_p of eq. 1                                                  */
-    double weight;          /* eta: share of its response in the total                           */
-    double radius;          /* m of the tip; NAN: a point                                        */
-    double patch;           /* m, standard deviation of the Gaussian over the contact patch of a round tip */
+struct scraper {   /* what touches the surface; of rolling models the ball, as scene/ball.h has settled it */
+    double mass;   /* kg, m_p of eq. 1                                                  */
+    double weight; /* eta: share of its response in the total                           */
+    double radius; /* m of the tip; NAN: a point                                        */
+    double patch;  /* m, standard deviation of the Gaussian over the contact patch of a round tip */
     struct response response;
 };
 
-struct ball {               /* what rolls: scene/ball.h                                          */
-    double radius;          /* m, R                                                              */
-    double mass;            /* kg; NAN: from body, radius and material                           */
-    int body;               /* enum ball_body                                                    */
-    double wall;            /* m, of what is hollow; NAN: thin                                   */
-    double offset;          /* m, r: of the centre of mass from the geometric centre             */
-    double start_angle;     /* rad, theta at the start; 0: the centre of mass is lowest          */
-    double lobe_height;     /* m, amplitude of the out-of-roundness                              */
-    int lobes;              /* how often round the ball                                          */
-    double patch;           /* m, standard deviation of the Gaussian over the contact patch; 0: none */
-    double weight;          /* share of its response in the total                                */
+struct ball {           /* what rolls: scene/ball.h                                          */
+    double radius;      /* m, R                                                              */
+    double mass;        /* kg; NAN: from body, radius and material                           */
+    int body;           /* enum ball_body                                                    */
+    double wall;        /* m, of what is hollow; NAN: thin                                   */
+    double offset;      /* m, r: of the centre of mass from the geometric centre             */
+    double start_angle; /* rad, theta at the start; 0: the centre of mass is lowest          */
+    double lobe_height; /* m, amplitude of the out-of-roundness                              */
+    int lobes;          /* how often round the ball                                          */
+    double patch;       /* m, standard deviation of the Gaussian over the contact patch; 0: none */
+    double weight;      /* share of its response in the total                                */
     struct response response;
 };
 
 struct motion {
-    int path;               /* enum motion_path                                                  */
-    double at[2];           /* m, of still                                                       */
-    double from[2], to[2];  /* m                                                                 */
-    int strokes;            /* four_in_line                                                      */
-    double center[2];       /* m, of a circle or scribble                                        */
-    double radius;          /* m, of a circle                                                    */
-    double start_angle;     /* rad, where on the circle                                          */
-    double turns;           /* times round; negative: clockwise                                  */
-    double size[2];         /* m, width and height of the box of a scribble                      */
-    const double *points;   /* m, [n_points][2], of a polyline or spline                         */
+    int path;              /* enum motion_path                                                  */
+    double at[2];          /* m, of still                                                       */
+    double from[2], to[2]; /* m                                                                 */
+    int strokes;           /* four_in_line                                                      */
+    double center[2];      /* m, of a circle or scribble                                        */
+    double radius;         /* m, of a circle                                                    */
+    double start_angle;    /* rad, where on the circle                                          */
+    double turns;          /* times round; negative: clockwise                                  */
+    double size[2];        /* m, width and height of the box of a scribble                      */
+    const double *points;  /* m, [n_points][2], of a polyline or spline                         */
     int n_points;
-    double corner;          /* m, radius to which a polyline's corners are rounded               */
-    const char *file;       /* recorded: CSV of time_s, x_m, y_m                                 */
-    double cutoff;          /* Hz, of the recording's smoothing; 0: none                         */
-    double rate;            /* Hz: back_and_forth, full cycles; scribble, loops                  */
-    double speed;           /* m/s, mean; NAN: duration is given                                 */
-    double duration;        /* s; NAN: speed is given, or a file gives it                        */
-    int law;                /* enum speed_law                                                    */
-    const char *profile;    /* law given: CSV of time_s, speed_m_per_s                           */
-    double incline;         /* rad, slope of the path incline: above 0, to lies higher than from  */
-    double start_speed;     /* m/s, of the path incline                                          */
+    double corner;           /* m, radius to which a polyline's corners are rounded               */
+    const char *file;        /* recorded: CSV of time_s, x_m, y_m                                 */
+    double cutoff;           /* Hz, of the recording's smoothing; 0: none                         */
+    double rate;             /* Hz: back_and_forth, full cycles; scribble, loops                  */
+    double speed;            /* m/s, mean; NAN: duration is given                                 */
+    double duration;         /* s; NAN: speed is given, or a file gives it                        */
+    int law;                 /* enum speed_law                                                    */
+    const char *profile;     /* law given: CSV of time_s, speed_m_per_s                           */
+    double incline;          /* rad, slope of the path incline: above 0, to lies higher than from  */
+    double start_speed;      /* m/s, of the path incline                                          */
     double rolling_friction; /* retarding force over normal force, of the path incline           */
-    double gravity, inertia; /* of the path incline, from the contact: m/s^2, g; I / (m R^2) of what moves (ball_settle) */
-    double straight;        /* m, radius of curvature from which on two_thirds counts a path as straight */
+    double gravity,
+        inertia;     /* of the path incline, from the contact: m/s^2, g; I / (m R^2) of what moves (ball_settle) */
+    double straight; /* m, radius of curvature from which on two_thirds counts a path as straight */
 };
 
-struct grip {               /* N(t) from the hand: eq. 8 and 9 generalised                       */
+struct grip { /* N(t) from the hand: eq. 8 and 9 generalised                       */
     bool given;
-    double angle;           /* rad, theta: the tool above the horizontal                         */
-    double azimuth;         /* rad, horizontal direction from the torso outwards, 0 = +x         */
-    double friction;        /* mu                                                                */
+    double angle;    /* rad, theta: the tool above the horizontal                         */
+    double azimuth;  /* rad, horizontal direction from the torso outwards, 0 = +x         */
+    double friction; /* mu                                                                */
 };
 
 struct load {
-    double constant;        /* N; NAN: the scraper's weight m g                                  */
-    const char *recorded;   /* CSV of time_s, normal_force_n; NULL: none                         */
+    double constant;          /* N; NAN: the scraper's weight m g                                  */
+    const char *recorded;     /* CSV of time_s, normal_force_n; NULL: none                         */
     double approach, release; /* s over which contact is made and given up; NAN: auto            */
 };
 
-struct limiter {            /* eq. 4 to 7                                                        */
-    int curve;              /* enum limiter_curve                                                */
-    double alpha;           /* m, for a constant load                                            */
+struct limiter {                 /* eq. 4 to 7                                                        */
+    int curve;                   /* enum limiter_curve                                                */
+    double alpha;                /* m, for a constant load                                            */
     double alpha_min, alpha_max; /* m                                                            */
     double zeta;
-    double ratio_y;         /* alpha_y / alpha_x, paper force                                    */
-    double force_range[2];  /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
+    double ratio_y;        /* alpha_y / alpha_x, paper force                                    */
+    double force_range[2]; /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
 };
 
-struct strike {             /* impacts: force/strike.h                                           */
-    int pulse;              /* enum pulse                                                        */
-    double speed;           /* m/s, of the first impact                                          */
-    double stiffness;       /* N/m of half_sine, N/m^1.5 of hertz; NAN: hertz from radius and materials */
-    double first;           /* s after the contact's start                                       */
+struct strike {       /* impacts: force/strike.h                                           */
+    int pulse;        /* enum pulse                                                        */
+    double speed;     /* m/s, of the first impact                                          */
+    double stiffness; /* N/m of half_sine, N/m^1.5 of hertz; NAN: hertz from radius and materials */
+    double first;     /* s after the contact's start                                       */
     int count;
-    double interval;        /* s; NAN: a bounce train by restitution                             */
-    double restitution;     /* of a bounce train; NAN: repeated impacts                          */
+    double interval;    /* s; NAN: a bounce train by restitution                             */
+    double restitution; /* of a bounce train; NAN: repeated impacts                          */
 };
 
-struct given_force {        /* force/given.h                                                     */
-    const char *file;       /* WAV, NPY or CSV                                                   */
-    int channel;            /* of a WAV, from 1                                                  */
-    double scale;           /* N per stored unit; NAN: 1, and a WAV must say                     */
-    double rate;            /* Hz, of an NPY                                                     */
-    const char *column;     /* of a CSV, beside time_s                                           */
+struct given_force {    /* force/given.h                                                     */
+    const char *file;   /* WAV, NPY or CSV                                                   */
+    int channel;        /* of a WAV, from 1                                                  */
+    double scale;       /* N per stored unit; NAN: 1, and a WAV must say                     */
+    double rate;        /* Hz, of an NPY                                                     */
+    const char *column; /* of a CSV, beside time_s                                           */
 };
 
-struct roll {               /* force/roll.h, convolution/coupled.h                               */
-    double stiffness;       /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll_stiffness.h, or Hertz's */
-    double kappa;           /* N/(m^1.5 kg), k over the ball's mass                              */
-    double mu;              /* s/m, lambda / k                                                   */
-    double lambda;          /* N s/m^2.5, of penetration: paper                                  */
-    int penetration;        /* enum penetration (roll)                                           */
+struct roll {         /* force/roll.h, convolution/coupled.h                               */
+    double stiffness; /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll_stiffness.h, or Hertz's */
+    double kappa;     /* N/(m^1.5 kg), k over the ball's mass                              */
+    double mu;        /* s/m, lambda / k                                                   */
+    double lambda;    /* N s/m^2.5, of penetration: paper                                  */
+    int penetration;  /* enum penetration (roll)                                           */
     double static_penetration; /* m, penetration at rest; NAN: of force/roll_stiffness.h (roll)  */
-    double damping_ratio;   /* zeta of the ball's mass on the contact, beside mu's part (roll)   */
-    double scraping;        /* factor on equation 19's scraping terms (roll)                     */
-    int integrator;         /* enum integrator (roll_coupled)                                    */
-    int ground;             /* enum ground (roll_coupled)                                        */
-    double drop;            /* m, of the ball above its rest at the start (roll_coupled)         */
+    double damping_ratio;      /* zeta of the ball's mass on the contact, beside mu's part (roll)   */
+    double scraping;           /* factor on equation 19's scraping terms (roll)                     */
+    int integrator;            /* enum integrator (roll_coupled)                                    */
+    int ground;                /* enum ground (roll_coupled)                                        */
+    double drop;               /* m, of the ball above its rest at the start (roll_coupled)         */
 };
 
 struct contact_model {
-    int model;              /* enum contact_kind                                                 */
+    int model; /* enum contact_kind                                                 */
     struct strike strike;
     struct given_force given;
     struct roll roll;
     struct impacts impacts;
-    double playback;        /* N/m: force for a metre of the surface's height (playback)         */
+    double playback; /* N/m: force for a metre of the surface's height (playback)         */
     struct gesture gesture;
     struct enhance enhance;
-    int force;              /* enum force_kind                                                   */
-    double beta1, beta2;    /* eq. 3                                                             */
-    double leak;            /* m: l of dS'/ds + S'/l = T(c)                                      */
-    double smoothing;       /* s: sigma at alpha = 0.03 m; 0: none                               */
-    double gravity;         /* m/s^2                                                             */
+    int force;           /* enum force_kind                                                   */
+    double beta1, beta2; /* eq. 3                                                             */
+    double leak;         /* m: l of dS'/ds + S'/l = T(c)                                      */
+    double smoothing;    /* s: sigma at alpha = 0.03 m; 0: none                               */
+    double gravity;      /* m/s^2                                                             */
     struct limiter limiter;
 };
 
 struct contact {
     const char *name;
-    double start;           /* s after the scene's start                                         */
-    double gain;            /* factor on this contact's sound                                    */
+    double start; /* s after the scene's start                                         */
+    double gain;  /* factor on this contact's sound                                    */
     struct surface surface;
     struct scraper scraper;
     struct ball ball;
@@ -314,71 +349,72 @@ struct level {              /* at most one is given; none: peak -3 dBFS         
 
 struct diagnostics {
     bool given;
-    double rate;            /* Hz                                                                */
-    int format;             /* enum table_format                                                 */
-    const char **columns;   /* NULL-terminated; NULL: all that the scene has                     */
+    double rate;          /* Hz                                                                */
+    int format;           /* enum table_format                                                 */
+    const char **columns; /* NULL-terminated; NULL: all that the scene has                     */
 };
 
-struct listen {             /* where the sound is heard: response/listener.h                     */
+struct listen { /* where the sound is heard: response/listener.h                     */
     bool given;
-    int radiator;           /* enum radiator                                                     */
-    const double *places;   /* m, [n_places][3], in the scene's coordinates, z above the surface */
-    int n_places;           /* channels                                                          */
-    double density;         /* kg/m^3, of air                                                    */
-    double sound_speed;     /* m/s                                                               */
+    int radiator;         /* enum radiator                                                     */
+    const double *places; /* m, [n_places][3], in the scene's coordinates, z above the surface */
+    int n_places;         /* channels                                                          */
+    double density;       /* kg/m^3, of air                                                    */
+    double sound_speed;   /* m/s                                                               */
 };
 
 struct output {
-    double sample_rate;     /* Hz, a whole number                                                */
-    int encoding;           /* enum encoding                                                     */
-    int channels;           /* the same sound on each                                            */
-    int quantity;           /* enum quantity                                                     */
+    double sample_rate; /* Hz, a whole number                                                */
+    int encoding;       /* enum encoding                                                     */
+    int channels;       /* the same sound on each                                            */
+    int quantity;       /* enum quantity                                                     */
     struct listen listen;
-    const char **stems;     /* NULL-terminated words: force, surface, scraper, ball; NULL: none  */
+    const char **stems; /* NULL-terminated words: force, surface, scraper, ball; NULL: none  */
     struct level level;
-    double ramp;            /* s, raised-cosine on and off                                       */
-    int envelope;           /* enum sound_envelope                                                */
-    double envelope_depth;  /* dB, how far the ends lie below the middle                         */
-    double tail;            /* s; NAN: auto, until the sound has decayed by 80 dB                */
-    double duration;        /* s, exact length of the file, whatever motion and tail would take; NAN: as long as they take */
+    double ramp;           /* s, raised-cosine on and off                                       */
+    int envelope;          /* enum sound_envelope                                                */
+    double envelope_depth; /* dB, how far the ends lie below the middle                         */
+    double tail;           /* s; NAN: auto, until the sound has decayed by 80 dB                */
+    double duration; /* s, exact length of the file, whatever motion and tail would take; NAN: as long as they take */
     struct diagnostics diagnostics;
-    int impacts;            /* enum impact_listing: is the series of impacts written             */
+    int impacts; /* enum impact_listing: is the series of impacts written             */
 };
 
-struct accuracy {           /* one double per row of accuracy.def                                */
-    const char *preset;     /* draft, standard, high, reference: where the knobs start           */
-    double error;           /* dB relative to the sound, rms: what the knobs that are not said are chosen by (pipeline/promise.h); NAN: not asked for */
-    unsigned said;          /* set of knobs that the scene gives one by one                      */
+struct accuracy {       /* one double per row of accuracy.def                                */
+    const char *preset; /* draft, standard, high, reference: where the knobs start           */
+    double error; /* dB relative to the sound, rms: what the knobs that are not said are chosen by (pipeline/promise.h);
+                     NAN: not asked for */
+    unsigned said; /* set of knobs that the scene gives one by one                      */
 #define KNOB(name, lo, hi, whole, scale, order, draft, standard, high, reference, meaning) double name;
 #include "scene/accuracy.def"
 #undef KNOB
 };
 
-enum knob {                 /* the rows of accuracy.def, as of keys_knobs; a set of them: stage.h */
+enum knob { /* the rows of accuracy.def, as of keys_knobs; a set of them: stage.h */
 #define KNOB(name, lo, hi, whole, scale, order, draft, standard, high, reference, meaning) KNOB_##name,
 #include "scene/accuracy.def"
 #undef KNOB
-    KNOBS
+            KNOBS
 };
 
-struct input {              /* a file the scene names; sha256 NULL: not pinned                   */
+struct input { /* a file the scene names; sha256 NULL: not pinned                   */
     const char *file, *sha256;
 };
 
-struct scene_place {        /* where a key that is given stands: scene/scene_places.h            */
-    const char *contact;    /* its name; NULL: the key is the scene's own                        */
-    const char *key;        /* "surface.response"                                                */
-    const char *label;      /* as messages call it: "contacts.rod.surface.response"              */
-    const char *value;      /* of a key that names a file: its path, as messages show it; else NULL */
-    const char *file;       /* "scene.yaml", or "--set surface.response" with line 0             */
-    const char *named;      /* " (named at scene.yaml:4:12)" of a file that the scene names; ""  */
+struct scene_place {         /* where a key that is given stands: scene/scene_places.h            */
+    const char *contact;     /* its name; NULL: the key is the scene's own                        */
+    const char *key;         /* "surface.response"                                                */
+    const char *label;       /* as messages call it: "contacts.rod.surface.response"              */
+    const char *value;       /* of a key that names a file: its path, as messages show it; else NULL */
+    const char *file;        /* "scene.yaml", or "--set surface.response" with line 0             */
+    const char *named;       /* " (named at scene.yaml:4:12)" of a file that the scene names; ""  */
     int line, column, width; /* of the value; of a section, of its name                          */
     struct scene_place *next;
 };
 
 struct scene {
-    const char *file;       /* where it was read from                                            */
-    const char **sources;   /* every text file that was read for it, itself first; ends with NULL */
+    const char *file;     /* where it was read from                                            */
+    const char **sources; /* every text file that was read for it, itself first; ends with NULL */
     int version;
     const char *title;
     uint64_t seed;
@@ -386,12 +422,13 @@ struct scene {
     int n_contacts;
     struct output output;
     struct accuracy accuracy;
-    struct input *inputs;   /* pinned hashes of an effective scene                               */
+    struct input *inputs; /* pinned hashes of an effective scene                               */
     int n_inputs;
-    bool inputs_known;      /* they are as these hashes say, whatever the files hold by now          */
+    bool inputs_known; /* they are as these hashes say, whatever the files hold by now          */
     struct scene_place *places;
     const struct diag *diag; /* what is wrong with its text; NULL: nothing is                    */
-    struct shelf *shelf;     /* what it shares with other scenes of the files that they read (base/shelf.h); NULL: nothing */
+    struct shelf
+        *shelf; /* what it shares with other scenes of the files that they read (base/shelf.h); NULL: nothing */
 };
 
 #endif

@@ -36,10 +36,12 @@ static void name_check(struct yaml *y, const struct yaml_node *map)
     const char *name = name_of(map);
     if (name && *name && !is_name(name))
         diag_add(y->diag, yaml_get(map, "name")->at, "write for instance: name: left_hand",
-                 "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'", diag_shown(y->diag, name));
+                 "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'",
+                 diag_shown(y->diag, name));
 }
 
-/* errors: how many had been told before this contact; -1: the scene's own keys are in error, so that nothing is known to be missing. */
+/* errors: how many had been told before this contact; -1: the scene's own keys are in error, so that nothing is known
+ * to be missing. */
 static void contact_read(const struct tree *t, struct yaml_node *map, const char *prefix, int errors, struct contact *c)
 {
     struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
@@ -51,8 +53,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;
     scene_sense_contact(&part);
-    if (t->yaml->diag->n == errors)
-        scene_sense_asked(&part, t->scene);
+    if (t->yaml->diag->n == errors) scene_sense_asked(&part, t->scene);
     scene_table_columns(&part, t->root, t->scene);
     scene_sense_output_heard(&part, t->root, t->scene);
 }
@@ -60,7 +61,8 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
 static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)
 {
     const char *name = name_of(map);
-    return name && is_name(name) ? arena_format(y->arena, "contacts.%s.", name) : arena_format(y->arena, "contacts.%d.", index);
+    return name && is_name(name) ? arena_format(y->arena, "contacts.%s.", name)
+                                 : arena_format(y->arena, "contacts.%d.", index);
 }
 
 /* Told at a contact whose name an earlier one has; a contact without a name is called "contact". */
@@ -69,15 +71,16 @@ static void unique_check(struct yaml *y, const struct yaml_node *list, const str
     const char *name = name_of(map);
     for (const struct yaml_node *other = list->first; other != map; other = other->next) {
         const char *taken = name_of(other);
-        if (other->kind != YAML_MAP || strcmp(taken ? taken : "contact", name ? name : "contact") != 0)
-            continue;
-        diag_add(y->diag, name ? yaml_get(map, "name")->at : map->at, "give each contact a name of its own, such as: name: left_hand",
-                 "two contacts are named '%s'", name ? diag_shown(y->diag, name) : "contact");
+        if (other->kind != YAML_MAP || strcmp(taken ? taken : "contact", name ? name : "contact") != 0) continue;
+        diag_add(y->diag, name ? yaml_get(map, "name")->at : map->at,
+                 "give each contact a name of its own, such as: name: left_hand", "two contacts are named '%s'",
+                 name ? diag_shown(y->diag, name) : "contact");
         return;
     }
 }
 
-static void entry_read(const struct tree *t, const struct yaml_node *list, struct yaml_node *map, bool sound, struct contact *c)
+static void entry_read(const struct tree *t, const struct yaml_node *list, struct yaml_node *map, bool sound,
+                       struct contact *c)
 {
     struct yaml *y = t->yaml;
     int index = 0, errors = sound ? y->diag->n : -1;
@@ -85,8 +88,8 @@ static void entry_read(const struct tree *t, const struct yaml_node *list, struc
         index++;
     const char *prefix = prefix_of(y, map, index);
     if (map->kind != YAML_MAP) {
-        diag_add(y->diag, map->at, "write for instance: - name: left_hand", "an entry of contacts must be a map of keys, not %s",
-                 scene_values_kind(y, map));
+        diag_add(y->diag, map->at, "write for instance: - name: left_hand",
+                 "an entry of contacts must be a map of keys, not %s", scene_values_kind(y, map));
         return;
     }
     unique_check(y, list, map);

@@ -23,8 +23,7 @@ struct walk {
 static const char *under(const char *key, const char *section)
 {
     size_t n = strlen(section);
-    if (n == 0)
-        return key;
+    if (n == 0) return key;
     return strncmp(key, section, n) == 0 && key[n] == '.' ? key + n + 1 : NULL;
 }
 
@@ -37,10 +36,8 @@ static enum role role_of(const char *path, const struct key **found)
 {
     for (const struct key *k = keys_table; k->path; k++) {
         *found = k;
-        if (strcmp(k->path, path) == 0)
-            return ROLE_VALUE;
-        if (under(k->path, path))
-            return ROLE_SECTION;
+        if (strcmp(k->path, path) == 0) return ROLE_VALUE;
+        if (under(k->path, path)) return ROLE_SECTION;
     }
     return ROLE_NONE;
 }
@@ -48,16 +45,14 @@ static enum role role_of(const char *path, const struct key **found)
 static bool is_top_name(const struct walk *w, const char *path)
 {
     for (int i = 0; top_names[i]; i++)
-        if (w->where != SCENE_KEYS_ENTRY && strcmp(top_names[i], path) == 0)
-            return true;
+        if (w->where != SCENE_KEYS_ENTRY && strcmp(top_names[i], path) == 0) return true;
     return false;
 }
 
 static bool has(const char *const *names, const char *word)
 {
     for (; *names; names++)
-        if (strcmp(*names, word) == 0)
-            return true;
+        if (strcmp(*names, word) == 0) return true;
     return false;
 }
 
@@ -68,11 +63,9 @@ static const char **names_in(const struct walk *w, const char *section)
     int n = 0;
     for (const struct key *k = keys_table; k->path && n < NAMES_MAX; k++) {
         const char *rest = allowed(w, k) ? under(k->path, section) : NULL;
-        if (!rest)
-            continue;
+        if (!rest) continue;
         const char *name = arena_format(w->y->arena, "%.*s", (int)strcspn(rest, "."), rest);
-        if (!has(names, name))
-            names[n++] = name;
+        if (!has(names, name)) names[n++] = name;
     }
     for (int i = 0; !*section && w->where != SCENE_KEYS_ENTRY && top_names[i]; i++)
         names[n++] = top_names[i];
@@ -94,12 +87,10 @@ static const char *elsewhere(const struct walk *w, const char *word)
     int n = 0;
     for (const struct key *k = keys_table; k->path && n < 4; k++) {
         const char *last = strrchr(k->path, '.');
-        if (allowed(w, k) && last && strcmp(last + 1, word) == 0)
-            paths[n++] = k->path;
+        if (allowed(w, k) && last && strcmp(last + 1, word) == 0) paths[n++] = k->path;
     }
     for (const struct key_knob *k = keys_knobs; k->name && n < 4; k++)
-        if (strcmp(k->name, word) == 0)
-            paths[n++] = arena_format(w->y->arena, "accuracy.%s", word);
+        if (strcmp(k->name, word) == 0) paths[n++] = arena_format(w->y->arena, "accuracy.%s", word);
     return n ? joined(w->y->arena, paths, " or ") : NULL;
 }
 
@@ -108,26 +99,23 @@ static const char *former(const char *section, const char *word)
 {
     static const struct {
         const char *section, *word, *cure;
-    } all[] = {{"contact.roll", "static_depth", "it is gone: the stiffness follows from both materials and the ground's roughness; remove it, or give contact.roll.static_penetration, a length"}};
+    } all[] = {{"contact.roll", "static_depth",
+                "it is gone: the stiffness follows from both materials and the ground's roughness; remove it, or give "
+                "contact.roll.static_penetration, a length"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (strcmp(section, all[i].section) == 0 && strcmp(word, all[i].word) == 0)
-            return all[i].cure;
+        if (strcmp(section, all[i].section) == 0 && strcmp(word, all[i].word) == 0) return all[i].cure;
     return NULL;
 }
 
 static const char *unknown_cure(const struct walk *w, const char *word, const char *section)
 {
-    if (former(section, word))
-        return former(section, word);
+    if (former(section, word)) return former(section, word);
     const char *const *names = names_in(w, section);
     const char *near = text_nearest(word, names), *other = elsewhere(w, word);
     struct arena *a = w->y->arena;
-    if (strchr(word, ':'))
-        return "put a space after the colon";
-    if (other)
-        return arena_format(a, "'%s' belongs elsewhere: %s", word, other);
-    if (near)
-        return arena_format(a, "did you mean '%s'?", near);
+    if (strchr(word, ':')) return "put a space after the colon";
+    if (other) return arena_format(a, "'%s' belongs elsewhere: %s", word, other);
+    if (near) return arena_format(a, "did you mean '%s'?", near);
     return arena_format(a, "keys here: %s", joined(a, names, ", "));
 }
 
@@ -141,7 +129,8 @@ static void unknown(const struct walk *w, const struct yaml_node *key, const cha
     bool top = !*section && !*w->prefix;
     const char *place = *section ? arena_format(d->arena, "%s%s", w->prefix, section)
                                  : arena_format(d->arena, "%.*s", (int)strlen(w->prefix) - !top, w->prefix);
-    diag_add(d, key->at, unknown_cure(w, key->text, section), "unknown key '%s'%s%s", diag_shown(d, key->text), top ? "" : " in ", place);
+    diag_add(d, key->at, unknown_cure(w, key->text, section), "unknown key '%s'%s%s", diag_shown(d, key->text),
+             top ? "" : " in ", place);
 }
 
 static void misplaced(const struct walk *w, const struct yaml_node *key, const struct key *k)
@@ -149,10 +138,13 @@ static void misplaced(const struct walk *w, const struct yaml_node *key, const s
     struct diag *d = w->y->diag;
     if (k->of == KEY_CONTACT)
         diag_add(d, key->at,
-                 arena_format(d->arena, "move it into an entry of contacts (--set contacts.NAME.%s=...), or remove contacts", key->text),
+                 arena_format(d->arena,
+                              "move it into an entry of contacts (--set contacts.NAME.%s=...), or remove contacts",
+                              key->text),
                  "'%s' describes one contact and must not stand beside contacts", key->text);
     else
-        diag_add(d, key->at, "move it to the top level", "'%s' belongs to the whole scene, not to one contact", key->text);
+        diag_add(d, key->at, "move it to the top level", "'%s' belongs to the whole scene, not to one contact",
+                 key->text);
 }
 
 static void walk_map(const struct walk *w, const struct yaml_node *map, const char *section)
@@ -161,9 +153,9 @@ static void walk_map(const struct walk *w, const struct yaml_node *map, const ch
         const struct key *k;
         char path[DEEP_MAX];
         int n = snprintf(path, sizeof path, "%s%s%s", section, *section ? "." : "", item->key->text);
-        enum role role = n < DEEP_MAX && *item->key->text && !strchr(item->key->text, '.') ? role_of(path, &k) : ROLE_NONE;
-        if (!*section && is_top_name(w, item->key->text))
-            continue;
+        enum role role =
+            n < DEEP_MAX && *item->key->text && !strchr(item->key->text, '.') ? role_of(path, &k) : ROLE_NONE;
+        if (!*section && is_top_name(w, item->key->text)) continue;
         if (role == ROLE_NONE)
             unknown(w, item->key, section);
         else if (!allowed(w, k))
@@ -171,7 +163,8 @@ static void walk_map(const struct walk *w, const struct yaml_node *map, const ch
         else if (role == ROLE_SECTION && item->kind == YAML_MAP)
             walk_map(w, item, path);
         else if (role == ROLE_SECTION)
-            diag_add(w->y->diag, item->at, arena_format(w->y->arena, "keys here: %s", joined(w->y->arena, names_in(w, path), ", ")),
+            diag_add(w->y->diag, item->at,
+                     arena_format(w->y->arena, "keys here: %s", joined(w->y->arena, names_in(w, path), ", ")),
                      "%s%s must be a map of keys, not %s", w->prefix, path, scene_values_kind(w->y, item));
     }
 }

@@ -9,8 +9,8 @@ enum scene_keys_where {
     SCENE_KEYS_ENTRY   /* an entry of contacts                                                            */
 };
 
-/* Tells every key of the map (and of the maps in it) that does not belong there, and sections that are not maps. `prefix` stands
-   before key names in messages. */
+/* Tells every key of the map (and of the maps in it) that does not belong there, and sections that are not maps.
+   `prefix` stands before key names in messages. */
 void scene_keys_check(struct yaml *y, const struct yaml_node *map, enum scene_keys_where where, const char *prefix);
 
 #endif

@@ -1,5 +1,5 @@
-/* Keys that another file than the scene says of it, such as a design of many scenes: laid over its tree as a file that includes it would. Errors in them
-   are told where they stand in that file. */
+/* Keys that another file than the scene says of it, such as a design of many scenes: laid over its tree as a file that
+   includes it would. Errors in them are told where they stand in that file. */
 #ifndef SCENE_SCENE_LAYER_H
 #define SCENE_SCENE_LAYER_H
 #include "file/yaml.h"
@@ -10,7 +10,7 @@ struct scene_layer_key {
 };
 
 struct scene_layer {
-    struct diag_place named;       /* where the other file names the scene; its source is the first of all          */
+    struct diag_place named; /* where the other file names the scene; its source is the first of all          */
     const struct scene_layer_key *keys; /* in order: a later one wins                                               */
     int n;
 };

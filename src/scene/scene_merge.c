@@ -21,7 +21,8 @@ struct chain { /* the files that are being included, innermost first */
 
 const char *scene_merge_path(struct yaml *y, const struct diag_source *source, const char *name)
 {
-    const char *slash = source->option || source->made || name[0] == '/' || piped_is(source->name) ? NULL : strrchr(source->name, '/');
+    const char *slash =
+        source->option || source->made || name[0] == '/' || piped_is(source->name) ? NULL : strrchr(source->name, '/');
     return slash ? arena_format(y->arena, "%.*s/%s", (int)(slash - source->name), source->name, name) : name;
 }
 
@@ -34,8 +35,7 @@ void scene_merge_replace(struct yaml_node *in, struct yaml_node *old, struct yam
         link = &(*link)->next;
     value->next = old->next;
     *link = value;
-    if (in->last == old)
-        in->last = value;
+    if (in->last == old) in->last = value;
 }
 
 /* `accuracy: high` as {preset: high}. */
@@ -73,8 +73,7 @@ void scene_merge_put(struct yaml *y, struct yaml_node *map, struct yaml_node *ke
         yaml_append(map, key, value);
         return;
     }
-    if (value->kind == YAML_MAP)
-        old = scene_merge_opened(y, map, old);
+    if (value->kind == YAML_MAP) old = scene_merge_opened(y, map, old);
     if (value->kind == YAML_MAP && old->kind == YAML_MAP) {
         old->key = key;
         merge(y, old, value);
@@ -121,8 +120,7 @@ static bool same_file(const struct chain *a, const struct stat *b)
 static const char *cycle(struct yaml *y, const struct chain *chain, const struct stat *status)
 {
     for (const struct chain *c = chain; c; c = c->outer)
-        if (same_file(c, status))
-            return arena_format(y->arena, "'%s' includes itself", c->source->name);
+        if (same_file(c, status)) return arena_format(y->arena, "'%s' includes itself", c->source->name);
     return NULL;
 }
 
@@ -144,7 +142,8 @@ static struct yaml_node *include_one(struct yaml *y, const struct chain *chain, 
     return inner.source ? read_all(y, &inner) : NULL;
 }
 
-/* Merges the files that `include` lists; false: one of them is in error. One that is not there (y->missing) hides no errors of the others. */
+/* Merges the files that `include` lists; false: one of them is in error. One that is not there (y->missing) hides no
+ * errors of the others. */
 static bool includes(struct yaml *y, const struct chain *chain, struct yaml_node *list, struct yaml_node *into)
 {
     bool good = true;
@@ -154,8 +153,7 @@ static bool includes(struct yaml *y, const struct chain *chain, struct yaml_node
     }
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         struct yaml_node *tree = include_one(y, chain, entry);
-        if (tree)
-            merge(y, into, tree);
+        if (tree) merge(y, into, tree);
         good = good && tree;
     }
     return good;
@@ -164,15 +162,13 @@ static bool includes(struct yaml *y, const struct chain *chain, struct yaml_node
 static struct yaml_node *read_all(struct yaml *y, const struct chain *chain)
 {
     struct yaml_node *own = yaml_parse(y, chain->source);
-    if (!own)
-        return NULL;
+    if (!own) return NULL;
     if (own->kind != YAML_MAP) {
         diag_add(y->diag, own->at, "write keys with values, such as: title: my scene", "a scene must be a map of keys");
         return NULL;
     }
     struct yaml_node *list = yaml_get(own, "include");
-    if (!list || yaml_null(list))
-        return own;
+    if (!list || yaml_null(list)) return own;
     struct yaml_node *whole = yaml_make(y, YAML_MAP, own->at, NULL);
     bool good = includes(y, chain, list, whole);
     merge(y, whole, own);

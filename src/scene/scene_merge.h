@@ -3,8 +3,8 @@
 #define SCENE_SCENE_MERGE_H
 #include "file/yaml.h"
 
-/* The text's tree with its includes merged in (named relative to the source's folder): maps merge deeply, everything else is
-   replaced, later includes win over earlier ones and the including file over all of them. NULL: errors. */
+/* The text's tree with its includes merged in (named relative to the source's folder): maps merge deeply, everything
+   else is replaced, later includes win over earlier ones and the including file over all of them. NULL: errors. */
 struct yaml_node *scene_merge_text(struct yaml *y, const struct diag_source *source);
 
 /* Merges `base` into a map as if the map's file included it: the map's own keys win. `base` is used up. */

@@ -1,5 +1,5 @@
-/* One map of a scene on its way into a struct: the top level (into struct scene), or what describes a contact (into struct
-   contact): the top level again, or an entry of contacts. */
+/* One map of a scene on its way into a struct: the top level (into struct scene), or what describes a contact (into
+   struct contact): the top level again, or an entry of contacts. */
 #ifndef SCENE_SCENE_PART_H
 #define SCENE_SCENE_PART_H
 #include "file/yaml.h"
@@ -8,9 +8,9 @@
 struct scene_part {
     struct yaml *yaml;
     struct yaml_node *map;
-    const char *prefix;  /* of key names in messages: "", or "contacts.rod." */
+    const char *prefix; /* of key names in messages: "", or "contacts.rod." */
     enum key_struct of;
-    void *to;            /* struct scene or struct contact */
+    void *to; /* struct scene or struct contact */
 };
 
 /* A key's name in messages. */
@@ -22,14 +22,16 @@ const char *scene_part_contact(const struct scene_part *p, const char *name);
 /* Where to say that something is missing in a map of the part: its key, its entry, or the top of the file. */
 struct diag_place scene_part_place(const struct scene_part *p, const struct yaml_node *map);
 
-/* The place of that of two keys' values which was laid down later (the command line's rather than the file's); of the part if neither is
-   given. */
+/* The place of that of two keys' values which was laid down later (the command line's rather than the file's); of the
+   part if neither is given. */
 struct diag_place scene_part_later(const struct scene_part *p, const char *path, const char *other);
 
 /* Tells there that "path SAYS other", and whether one of them is a default. */
-void scene_part_contradiction(const struct scene_part *p, const char *const paths[2], const char *says, const char *cure);
+void scene_part_contradiction(const struct scene_part *p, const char *const paths[2], const char *says,
+                              const char *cure);
 
-/* Has the key one of its words, or is it left out? Else its error is told already, and what follows from it is not known. */
+/* Has the key one of its words, or is it left out? Else its error is told already, and what follows from it is not
+ * known. */
 bool scene_part_known(const struct scene_part *p, const char *path);
 
 /* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */

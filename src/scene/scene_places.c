@@ -1,6 +1,7 @@
-/* See scene_places.h. What reads a file knows its path and not who named it, and begins its messages with the path (after "contact 'rod': ", say): so the
-   longest path of a key that stands at the beginning of a part of the text, between colons, is what the error is about; also that of a folder, of a file in it.
-   Stages begin theirs with a contact's name and a key: "contact 'rod': surface.moving: ...". */
+/* See scene_places.h. What reads a file knows its path and not who named it, and begins its messages with the path
+   (after "contact 'rod': ", say): so the longest path of a key that stands at the beginning of a part of the text,
+   between colons, is what the error is about; also that of a folder, of a file in it. Stages begin theirs with a
+   contact's name and a key: "contact 'rod': surface.moving: ...". */
 #include "scene/scene_places.h"
 
 #include <stdio.h>
@@ -29,7 +30,10 @@ static struct list list_of(struct yaml *y, struct scene *s)
 static struct scene_place *place_make(const struct diag_place *at, struct arena *a)
 {
     struct scene_place *p = ARENA_TAKE(a, struct scene_place, 1);
-    *p = (struct scene_place){.file = at->source->name, .named = diag_named(a, at->source), .column = at->column, .width = at->width,
+    *p = (struct scene_place){.file = at->source->name,
+                              .named = diag_named(a, at->source),
+                              .column = at->column,
+                              .width = at->width,
                               .line = at->source->option || at->source->made ? 0 : at->line};
     return p;
 }
@@ -61,10 +65,10 @@ static void note_maps(const struct scene_part *p, struct list *l, const struct k
 {
     for (const char *dot = strchr(k->path, '.'); dot; dot = strchr(dot + 1, '.')) {
         size_t n = (size_t)(dot - k->path);
-        const char *path = in_same_map(before, k->path, n) ? NULL : arena_format(p->yaml->arena, "%.*s", (int)n, k->path);
+        const char *path =
+            in_same_map(before, k->path, n) ? NULL : arena_format(p->yaml->arena, "%.*s", (int)n, k->path);
         const struct yaml_node *node = path ? yaml_find(p->map, path) : NULL;
-        if (node && node->key && node->key->at.source)
-            add(l, path, NULL, &node->key->at);
+        if (node && node->key && node->key->at.source) add(l, path, NULL, &node->key->at);
     }
 }
 
@@ -75,12 +79,10 @@ void scene_places_note(const struct scene_part *p, const char *contact, struct s
     l.contact = contact;
     l.prefix = p->prefix;
     for (const struct key *k = keys_table; k->path; k++) {
-        if (k->of != p->of)
-            continue;
+        if (k->of != p->of) continue;
         const struct yaml_node *node = yaml_find(p->map, k->path);
         note_maps(p, &l, before, k);
-        if (node && node->at.source)
-            add(&l, k->path, file_of(p, k), &node->at);
+        if (node && node->at.source) add(&l, k->path, file_of(p, k), &node->at);
         before = k;
     }
 }
@@ -91,7 +93,8 @@ void scene_places_key(struct yaml *y, const char *key, const struct diag_place *
     add(&l, key, NULL, at);
 }
 
-void scene_places_move(struct scene *s, const char *key, const char *label, const struct diag_place *at, struct arena *a)
+void scene_places_move(struct scene *s, const char *key, const char *label, const struct diag_place *at,
+                       struct arena *a)
 {
     size_t n = strlen(key);
     struct scene_place **end = &s->places;
@@ -113,10 +116,7 @@ void scene_places_input(struct yaml *y, const char *file, const struct diag_plac
 
 /* ------------------------------------------------------------------ finding */
 
-static bool same(const char *a, const char *b)
-{
-    return a == b || (a && b && strcmp(a, b) == 0);
-}
+static bool same(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
 
 /* Does the text, or a part of it after ": ", begin with the path? */
 static bool begins(const char *text, const char *path)
@@ -133,16 +133,15 @@ static const struct scene_place *find(const struct scene *s, const char *contact
 {
     const struct scene_place *first = NULL;
     for (const struct scene_place *p = s->places; p; p = p->next) {
-        if (!same(p->contact, contact) || strcmp(p->key, key) != 0)
-            continue;
-        if (text && p->value && begins(text, p->value))
-            return p;
+        if (!same(p->contact, contact) || strcmp(p->key, key) != 0) continue;
+        if (text && p->value && begins(text, p->value)) return p;
         first = first ? first : p;
     }
     return first;
 }
 
-const struct scene_place *scene_places_find(const struct scene *s, const char *contact, const char *key, const char *file)
+const struct scene_place *scene_places_find(const struct scene *s, const char *contact, const char *key,
+                                            const char *file)
 {
     char shown[sizeof((struct err *)0)->text];
     text_show(file, shown, sizeof shown);
@@ -166,8 +165,7 @@ static const struct scene_place *by_file(const struct scene *s, const char *text
 {
     const struct scene_place *best = NULL;
     for (const struct scene_place *p = s->places; p; p = p->next)
-        if (p->value && begins(text, p->value) && (!best || strlen(p->value) > strlen(best->value)))
-            best = p;
+        if (p->value && begins(text, p->value) && (!best || strlen(p->value) > strlen(best->value))) best = p;
     return best;
 }
 
@@ -177,8 +175,7 @@ static const struct contact *contact_of(const struct scene *s, const char *text,
     static const char head[] = "contact '";
     size_t m = strlen(head);
     *rest = text;
-    if (strncmp(text, head, m) != 0)
-        return NULL;
+    if (strncmp(text, head, m) != 0) return NULL;
     for (int i = 0; i < s->n_contacts; i++) {
         const char *name = s->contacts[i].name;
         size_t n = name ? strlen(name) : 0;
@@ -195,16 +192,15 @@ static bool has_key(const struct key *k, const char *path)
     return strcmp(k->path, path) == 0 || in_same_map(k, path, strlen(path));
 }
 
-/* The key, or section, with whose name the text begins, into path; "": there is none. Of whom it is, is what is returned. A word without a dot may be any
-   word ("contact 'rod', ..."), unless a colon follows. */
+/* The key, or section, with whose name the text begins, into path; "": there is none. Of whom it is, is what is
+   returned. A word without a dot may be any word ("contact 'rod', ..."), unless a colon follows. */
 static enum key_struct leading_key(const char *text, char path[KEY_MAX])
 {
     size_t n = strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_.");
     bool may_be = n < KEY_MAX && (text[n] == ':' || memchr(text, '.', n));
     snprintf(path, KEY_MAX, "%.*s", may_be ? (int)n : 0, text);
     for (const struct key *k = keys_table; k->path && *path; k++)
-        if (has_key(k, path))
-            return k->of;
+        if (has_key(k, path)) return k->of;
     *path = '\0';
     return KEY_SCENE;
 }
@@ -217,8 +213,7 @@ static const struct scene_place *by_text(const struct scene *s, const char *text
     const struct contact *c = contact_of(s, text, &rest);
     const struct scene_place *file = by_file(s, text);
     bool contacts = leading_key(rest, path) == KEY_CONTACT;
-    if (file || !*path)
-        return file;
+    if (file || !*path) return file;
     c = c || s->n_contacts != 1 ? c : s->contacts;
     return contacts && !c ? NULL : nearest(s, contacts ? c->name : NULL, path, text);
 }
@@ -232,12 +227,10 @@ static const struct scene_place *by_mention(const struct scene *s, const struct 
     for (size_t n; *text; text += n + (text[n] != '\0')) {
         n = strspn(text, letters);
         enum key_struct of = leading_key(text, path);
-        if (!*path || (of == KEY_CONTACT && !c))
-            continue;
+        if (!*path || (of == KEY_CONTACT && !c)) continue;
         const char *name = of == KEY_CONTACT ? c->name : NULL;
         const struct scene_place *p = find(s, name, path, NULL);
-        if (p)
-            return p;
+        if (p) return p;
         section = section ? section : nearest(s, name, path, NULL);
     }
     return section;
@@ -253,15 +246,15 @@ static const struct scene_place *by_contact(const struct scene *s, const struct 
     return p ? p : s->places;
 }
 
-/* No refusal of a scene is without a place: the key that the code says, the file or key that the text begins with, one that the text names, or the contact. */
+/* No refusal of a scene is without a place: the key that the code says, the file or key that the text begins with, one
+ * that the text names, or the contact. */
 static const struct scene_place *place_of(const struct scene *s, const struct err *e)
 {
     const char *rest;
     const struct contact *c = contact_of(s, e->text, &rest);
     const struct scene_place *p = e->key ? nearest(s, e->contact, e->key, e->text) : by_text(s, e->text);
     c = c || s->n_contacts != 1 ? c : s->contacts;
-    if (!p && e->kind == ERR_SCENE)
-        p = by_mention(s, c, e->text);
+    if (!p && e->kind == ERR_SCENE) p = by_mention(s, c, e->text);
     return p || e->kind != ERR_SCENE ? p : by_contact(s, c);
 }
 
@@ -269,8 +262,7 @@ static const struct scene_place *place_of(const struct scene *s, const struct er
 
 const char *scene_places_text(const struct scene *s, const struct scene_place *p, struct arena *a)
 {
-    if (!p)
-        return s->file;
+    if (!p) return s->file;
     const char *where = p->line > 0 ? arena_format(a, "%s:%d:%d", p->file, p->line, p->column) : p->file;
     return p->line > 0 || strcmp(p->file, s->file) == 0 ? where : arena_format(a, "%s: %s", s->file, where);
 }
@@ -299,10 +291,8 @@ static const char *whole_keys(const struct scene *s, const char *contact, const 
 static const char *labelled(const struct scene *s, const struct scene_place *p, const char *text, struct arena *a)
 {
     const char *rest = text;
-    if (strstr(text, p->label))
-        return text;
-    if (strcmp(p->label, p->key) != 0)
-        contact_of(s, text, &rest);
+    if (strstr(text, p->label)) return text;
+    if (strcmp(p->label, p->key) != 0) contact_of(s, text, &rest);
     return arena_format(a, "%s: %s", p->label, rest);
 }
 
@@ -316,8 +306,7 @@ static struct err_place parts_of(const struct scene *s, const struct scene_place
     text_show(place, shown, sizeof shown);
     bool lines = p && p->line > 0;
     parts.message = lines ? (int)strlen(shown) + 2 : parts.file + 2;
-    if (lines)
-        parts.line = p->line, parts.column = p->column, parts.width = p->width;
+    if (lines) parts.line = p->line, parts.column = p->column, parts.width = p->width;
     return parts;
 }
 
@@ -327,8 +316,7 @@ bool scene_places_tell(const struct scene *s, struct err *e)
     struct err told = {.contact = e->contact, .key = e->key};
     const struct scene_place *p = place_of(s, e), *said = e->key ? p : by_text(s, e->text);
     const char *place = scene_places_text(s, p, a), *text = whole_keys(s, p ? p->contact : e->contact, e->text, a);
-    if (p && p == said && (!e->key || strcmp(p->key, e->key) == 0))
-        text = labelled(s, p, text, a);
+    if (p && p == said && (!e->key || strcmp(p->key, e->key) == 0)) text = labelled(s, p, text, a);
     told.place = parts_of(s, p, place);
     err_set(&told, e->kind, "%s: %s%s", place, text, p && !strstr(text, p->named) ? p->named : "");
     *e = told;

@@ -20,10 +20,11 @@ static bool item_good(struct yaml *y, const struct yaml_node *item)
 {
     const char *name = item->key->text;
     if (strcmp(name, "recipe") == 0)
-        return diag_add(y->diag, item->key->at, "put both recipes' keys into one file", "a recipe must not name a recipe itself");
+        return diag_add(y->diag, item->key->at, "put both recipes' keys into one file",
+                        "a recipe must not name a recipe itself");
     if (is_remark(item) && item->kind != YAML_SCALAR)
-        return diag_add(y->diag, item->at, "write for instance: title: sandpaper, grit 120", "%s must be a text, not %s", name,
-                        scene_values_kind(y, item));
+        return diag_add(y->diag, item->at, "write for instance: title: sandpaper, grit 120",
+                        "%s must be a text, not %s", name, scene_values_kind(y, item));
     return true;
 }
 
@@ -33,8 +34,7 @@ static struct yaml_node *keys_of(struct yaml *y, struct yaml_node *recipe)
     struct yaml_node *keys = yaml_make(y, YAML_MAP, recipe->at, NULL);
     for (struct yaml_node *item = recipe->first, *next; item; item = next) {
         next = item->next;
-        if (item_good(y, item) && !is_remark(item))
-            yaml_append(keys, item->key, item);
+        if (item_good(y, item) && !is_remark(item)) yaml_append(keys, item->key, item);
     }
     return keys;
 }
@@ -42,16 +42,15 @@ static struct yaml_node *keys_of(struct yaml *y, struct yaml_node *recipe)
 static bool surface_merge(struct yaml *y, struct yaml_node *surface)
 {
     const struct yaml_node *name = yaml_get(surface, "recipe");
-    if (!name || name->kind != YAML_SCALAR || !*name->text || yaml_null(name))
-        return true;
+    if (!name || name->kind != YAML_SCALAR || !*name->text || yaml_null(name)) return true;
     const struct diag_source *source = yaml_bytes_read(y, scene_merge_path(y, name->at.source, name->text), name->at);
     struct yaml_node *recipe = source ? yaml_parse(y, source) : NULL;
     if (recipe && recipe->kind != YAML_MAP)
-        return diag_add(y->diag, recipe->at, CURE, "a recipe must be a map of keys, not %s", scene_values_kind(y, recipe));
+        return diag_add(y->diag, recipe->at, CURE, "a recipe must be a map of keys, not %s",
+                        scene_values_kind(y, recipe));
     if (recipe && yaml_get(recipe, "surface"))
         return diag_add(y->diag, yaml_get(recipe, "surface")->key->at, CURE, "unknown key 'surface' in a recipe");
-    if (recipe)
-        scene_merge_under(y, surface, keys_of(y, recipe));
+    if (recipe) scene_merge_under(y, surface, keys_of(y, recipe));
     return recipe || !source;
 }
 

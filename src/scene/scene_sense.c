@@ -1,5 +1,5 @@
-/* Values against each other: see scene_sense.h. Each is told at that value among those involved which was laid down last: at the command
-   line's rather than the file's. */
+/* Values against each other: see scene_sense.h. Each is told at that value among those involved which was laid down
+   last: at the command line's rather than the file's. */
 #include "scene/scene_sense.h"
 
 #include <math.h>
@@ -18,19 +18,16 @@ static void grip_check(const struct scene_part *p, const struct grip *g)
 {
     if (g->given && rules_jams(g))
         diag_add(p->yaml->diag, scene_part_later(p, "grip.angle", "grip.friction"), "lower grip.angle or grip.friction",
-                 "%s: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999", scene_part_label(p, "grip"),
-                 1 - rules_slip(g));
+                 "%s: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999",
+                 scene_part_label(p, "grip"), 1 - rules_slip(g));
 }
 
 double scene_sense_lasts(const struct motion *m)
 {
     double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
-    if (!isnan(m->duration))
-        return m->duration;
-    if (m->path == PATH_CIRCLE)
-        return 2 * M_PI * m->radius * fabs(m->turns) / m->speed;
-    if (m->path == PATH_INCLINE)
-        return incline_make(m).end;
+    if (!isnan(m->duration)) return m->duration;
+    if (m->path == PATH_CIRCLE) return 2 * M_PI * m->radius * fabs(m->turns) / m->speed;
+    if (m->path == PATH_INCLINE) return incline_make(m).end;
     return rules_straight(m) ? sqrt(x * x + y * y) / m->speed : NAN;
 }
 
@@ -42,8 +39,8 @@ static void lowering_check(const struct scene_part *p, const struct contact *c)
     double lasts = scene_sense_lasts(&c->motion);
     if (taken > lasts * (1 + 1e-9))
         diag_add(p->yaml->diag, scene_part_later(p, approach, release), "lower them, or let the motion last longer",
-                 "%s and %s take %.4g s together, and the motion lasts %.4g s", scene_part_label(p, approach), scene_part_label(p, release), taken,
-                 lasts);
+                 "%s and %s take %.4g s together, and the motion lasts %.4g s", scene_part_label(p, approach),
+                 scene_part_label(p, release), taken, lasts);
 }
 
 static void tip_check(const struct scene_part *p, const struct scraper *s)
@@ -66,7 +63,8 @@ static void alpha_check(const struct scene_part *p, const struct limiter *l)
 static void ratio_check(const struct scene_part *p, const struct limiter *l)
 {
     const char *path = "contact.limiter.ratio_y", *curve = "contact.limiter.curve";
-    if (yaml_find(p->map, path) && l->ratio_y != 1 && scene_part_known(p, curve) && l->curve == LIMITER_NONE && !yaml_find(p->map, "ablation.nonlinearity"))
+    if (yaml_find(p->map, path) && l->ratio_y != 1 && scene_part_known(p, curve) && l->curve == LIMITER_NONE &&
+        !yaml_find(p->map, "ablation.nonlinearity"))
         diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at, "remove it, or set contact.limiter.curve to tanh",
                  "%s has no effect where %s is none", scene_part_label(p, path), scene_part_label(p, curve));
 }
@@ -78,8 +76,7 @@ static double alpha_along_x(const struct contact *c)
     double n = rules_load(c);
     if (!ablation_steady(c) && (c->grip.given || c->load.recorded || (ball_rolls(c) && c->ball.offset > 0)))
         return fmax(l->alpha_max, l->alpha);
-    if (isnan(l->force_range[0]))
-        return l->alpha;
+    if (isnan(l->force_range[0])) return l->alpha;
     double share = (n - l->force_range[0]) / (l->force_range[1] - l->force_range[0]);
     double nu = real_pow(share < 0 ? 0 : share > 1 ? 1 : share, l->zeta);
     return (1 - nu) * l->alpha_max + nu * l->alpha_min;
@@ -96,10 +93,13 @@ static void smoothing_check(const struct scene_part *p, const struct contact *c)
     const char *path = "contact.smoothing";
     double sigma = rules_sigma(&c->contact, alpha_widest(c));
     if (c->contact.smoothing > 0 && c->contact.smoothing < NARROWEST_SMOOTHING)
-        diag_add(p->yaml->diag, scene_part_later(p, path, path), "0 turns it off; or write for instance: smoothing: 50 us",
-                 "%s must be 0 or at least 1 ns", scene_part_label(p, path));
+        diag_add(p->yaml->diag, scene_part_later(p, path, path),
+                 "0 turns it off; or write for instance: smoothing: 50 us", "%s must be 0 or at least 1 ns",
+                 scene_part_label(p, path));
     if (sigma > RULES_SMOOTHING_WIDEST)
-        diag_add(p->yaml->diag, yaml_find(p->map, path) ? scene_part_later(p, path, path) : scene_part_later(p, "contact.limiter.alpha", "contact.limiter.alpha_max"),
+        diag_add(p->yaml->diag,
+                 yaml_find(p->map, path) ? scene_part_later(p, path, path)
+                                         : scene_part_later(p, "contact.limiter.alpha", "contact.limiter.alpha_max"),
                  "lower contact.smoothing or the alpha of contact.limiter; smoothing: 0 turns it off",
                  "%s smooths the force with a sigma of %.3g s (smoothing x alpha / 3 cm), and at most %g s make sense",
                  scene_part_label(p, path), sigma, RULES_SMOOTHING_WIDEST);
@@ -125,10 +125,8 @@ void scene_sense_contact(const struct scene_part *p)
         grip_check(p, &c->grip);
         tip_check(p, &c->scraper);
     }
-    if (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL)
-        follower_check(p, c);
-    if (rules_driven(c))
-        lowering_check(p, c);
+    if (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL) follower_check(p, c);
+    if (rules_driven(c)) lowering_check(p, c);
     scene_sense_model(p, c);
     scene_sense_response(p, c);
     scene_sense_ablation(p, c);
@@ -137,8 +135,7 @@ void scene_sense_contact(const struct scene_part *p)
 static bool force_stem(const struct output *o)
 {
     for (int i = 0; o->stems && o->stems[i]; i++)
-        if (strcmp(o->stems[i], "force") == 0)
-            return true;
+        if (strcmp(o->stems[i], "force") == 0) return true;
     return false;
 }
 
@@ -146,10 +143,14 @@ void scene_sense_asked(const struct scene_part *p, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct yaml_node *surface = yaml_get(p->map, "surface");
-    if (s->output.diagnostics.given || rules_listed(c, &s->output) || rules_heard(c, &s->output) || force_stem(&s->output))
+    if (s->output.diagnostics.given || rules_listed(c, &s->output) || rules_heard(c, &s->output) ||
+        force_stem(&s->output))
         return;
     diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
-             arena_format(p->yaml->arena, "give surface.response, surface.object or surface.space (or one of %s) for a sound, set output.quantity to force for the sound of "
-                                          "the force alone, or ask for output.diagnostics, a table of its physics, or the stem force", ball_tool(c)),
+             arena_format(p->yaml->arena,
+                          "give surface.response, surface.object or surface.space (or one of %s) for a sound, set "
+                          "output.quantity to force for the sound of "
+                          "the force alone, or ask for output.diagnostics, a table of its physics, or the stem force",
+                          ball_tool(c)),
              "nothing is asked of %s", scene_part_contact(p, c->name));
 }

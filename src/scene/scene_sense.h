@@ -7,7 +7,8 @@
 /* Of a filled contact. A value that could not be read is "not given" and takes part in no check. */
 void scene_sense_contact(const struct scene_part *p);
 
-/* A contact that neither rings nor has a table or a stem. To be asked of a contact without errors: a misspelt response is told already. */
+/* A contact that neither rings nor has a table or a stem. To be asked of a contact without errors: a misspelt response
+ * is told already. */
 void scene_sense_asked(const struct scene_part *p, const struct scene *s);
 
 /* What is to be heard and written: scene_sense_output.c. Of the scene's own keys, when they have been read; */

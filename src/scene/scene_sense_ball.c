@@ -7,10 +7,7 @@
 #include "scene/scene_check.h"
 #include "scene/scene_sense_parts.h"
 
-static bool is_given(const struct scene_part *p, const char *path)
-{
-    return yaml_find(p->map, path) != NULL;
-}
+static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
 
 /* Told at a key that is there. */
 static void tell(const struct scene_part *p, const char *path, const char *cure, const char *says)
@@ -24,7 +21,8 @@ static void below_radius(const struct scene_part *p, const char *path, double si
 {
     const char *const sizes[2] = {path, "ball.radius"};
     if (size >= radius)
-        scene_part_contradiction(p, sizes, "must be less than", arena_format(p->yaml->arena, "lower %s, or raise ball.radius", path));
+        scene_part_contradiction(p, sizes, "must be less than",
+                                 arena_format(p->yaml->arena, "lower %s, or raise ball.radius", path));
 }
 
 static void sizes_check(const struct scene_part *p, const struct contact *c)
@@ -36,10 +34,13 @@ static void sizes_check(const struct scene_part *p, const struct contact *c)
     below_radius(p, "ball.lobe_height", b->lobe_height, b->radius);
     if (b->patch == 0 && c->contact.model == CONTACT_ROLL)
         tell(p, "ball.patch", "write for instance: patch: 20 um",
-             "must be above 0 where contact.model is roll: the force follows from the slope and curvature of the rolling curve, which has kinks");
+             "must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
+             "rolling curve, which has kinks");
     if (b->patch == 0 && c->contact.model == CONTACT_ROLL_COUPLED && rules_along(c) == ALONG_PLANE)
-        tell(p, "ball.patch", "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
-             "must be above 0 on a surface in the plane: only along a line is the rolling curve known without smoothing");
+        tell(p, "ball.patch",
+             "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
+             "must be above 0 on a surface in the plane: only along a line is the rolling curve known without "
+             "smoothing");
 }
 
 /* What the mass lacks, with an example of the cure; NULL: it is not the mass. */
@@ -50,7 +51,8 @@ static const char *mass_lacks(const struct scene_part *p, const struct ball *b)
         return ": what a hoop or a wheel weighs does not follow from its radius";
     if (b->body == BODY_HOLLOW && !is_given(p, "ball.wall"))
         return ": it is hollow; or give ball.wall and ball.material, from which it follows";
-    return of_material ? NULL : ": it is not known what the ball is made of; ball.material, such as glass, would do as well";
+    return of_material ? NULL
+                       : ": it is not known what the ball is made of; ball.material, such as glass, would do as well";
 }
 
 static void mass_check(const struct scene_part *p, const struct contact *c)
@@ -71,7 +73,8 @@ static void unit_check(const struct scene_part *p, const struct roll *r)
 {
     const char *path = "contact.roll.stiffness";
     if (!isnan(r->stiffness) && scene_sense_model_unit(yaml_find(p->map, path), false))
-        tell(p, path, "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)", "is in N/m^1.5, not in N/m");
+        tell(p, path, "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)",
+             "is in N/m^1.5, not in N/m");
 }
 
 /* ------------------------------------------------------------------ roll */
@@ -81,45 +84,48 @@ static void paper_check(const struct scene_part *p, const struct roll *r)
 {
     if (!stiffness_is_given(p))
         scene_check_missing(p, "contact.roll.stiffness", "2 kN/m^1.5",
-                            " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and the stiffness is chosen by hand");
+                            " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and "
+                            "the stiffness is chosen by hand");
     if (is_given(p, "contact.roll.mu") && r->mu != 1)
-        tell(p, "contact.roll.mu", "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
+        tell(p, "contact.roll.mu",
+             "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
              "has no effect where contact.roll.penetration is paper");
 }
 
 static void roll_check(const struct scene_part *p, const struct contact *c)
 {
     const struct roll *r = &c->contact.roll;
-    if (!scene_part_known(p, "contact.roll.penetration"))
-        return;
-    if (r->penetration == PENETRATION_PAPER)
-        paper_check(p, r);
+    if (!scene_part_known(p, "contact.roll.penetration")) return;
+    if (r->penetration == PENETRATION_PAPER) paper_check(p, r);
 }
 
 /* ------------------------------------------------------------------ roll_coupled */
 
-/* Why the surface cannot give way; NULL: it may, as far as the scene tells (the poles of a mode table are known when it has been read). */
+/* Why the surface cannot give way; NULL: it may, as far as the scene tells (the poles of a mode table are known when it
+ * has been read). */
 static const char *why_rigid(const struct response *r)
 {
-    if (!rules_responds(r))
-        return "the surface has no modes";
-    if (rules_is_recorded(r))
-        return "what is recorded has no modes";
+    if (!rules_responds(r)) return "the surface has no modes";
+    if (rules_is_recorded(r)) return "what is recorded has no modes";
     return rules_travels(&r->space) ? "a surface.space that travels has no mode shapes" : NULL;
 }
 
 static void ground_check(const struct scene_part *p, const struct contact *c)
 {
-    const char *ground = "contact.roll.ground", *integrator = "contact.roll.integrator", *why = why_rigid(&c->surface.response);
-    bool elastic = c->contact.roll.ground == GROUND_ELASTIC, exact = c->contact.roll.integrator == INTEGRATOR_EXACT_IMPACT;
-    if (!scene_part_known(p, ground) || !scene_part_known(p, integrator))
-        return;
+    const char *ground = "contact.roll.ground", *integrator = "contact.roll.integrator",
+               *why = why_rigid(&c->surface.response);
+    bool elastic = c->contact.roll.ground == GROUND_ELASTIC,
+         exact = c->contact.roll.integrator == INTEGRATOR_EXACT_IMPACT;
+    if (!scene_part_known(p, ground) || !scene_part_known(p, integrator)) return;
     if (elastic && why)
-        diag_add(p->yaml->diag, scene_part_later(p, ground, ground), "give surface.object, or a mode table with shared poles as surface.response; or set it to rigid",
+        diag_add(p->yaml->diag, scene_part_later(p, ground, ground),
+                 "give surface.object, or a mode table with shared poles as surface.response; or set it to rigid",
                  "%s is elastic, and %s", scene_part_label(p, ground), why);
     else if (exact && (elastic || (c->contact.roll.ground == GROUND_AUTO && !why)))
-        diag_add(p->yaml->diag, scene_part_later(p, integrator, ground), "set contact.roll.ground to rigid, or leave contact.roll.integrator out",
-                 "%s: exact_impact needs rigid ground, and %s is %s", scene_part_label(p, integrator), scene_part_label(p, ground),
+        diag_add(p->yaml->diag, scene_part_later(p, integrator, ground),
+                 "set contact.roll.ground to rigid, or leave contact.roll.integrator out",
+                 "%s: exact_impact needs rigid ground, and %s is %s", scene_part_label(p, integrator),
+                 scene_part_label(p, ground),
                  elastic ? "elastic" : "auto, which is elastic where the surface rings by modes");
 }
 
@@ -128,8 +134,10 @@ static void drop_check(const struct scene_part *p, const struct contact *c)
 {
     const char *drop = "contact.roll.drop", *gravity = "contact.gravity";
     if (c->contact.roll.drop > 0 && c->contact.gravity == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, drop, gravity), "raise contact.gravity, or lay the ball down with drop: 0",
-                 "%s is %.4g m and %s is 0: the ball never arrives", scene_part_label(p, drop), c->contact.roll.drop, scene_part_label(p, gravity));
+        diag_add(p->yaml->diag, scene_part_later(p, drop, gravity),
+                 "raise contact.gravity, or lay the ball down with drop: 0",
+                 "%s is %.4g m and %s is 0: the ball never arrives", scene_part_label(p, drop), c->contact.roll.drop,
+                 scene_part_label(p, gravity));
 }
 
 void scene_sense_ball(const struct scene_part *p, const struct contact *c)
@@ -144,5 +152,6 @@ void scene_sense_ball(const struct scene_part *p, const struct contact *c)
     ground_check(p, c);
     drop_check(p, c);
     if (!stiffness_is_given(p))
-        scene_sense_model_moduli(p, c, "the stiffness of the contact follows from it, unless contact.roll.stiffness (or kappa) is given");
+        scene_sense_model_moduli(
+            p, c, "the stiffness of the contact follows from it, unless contact.roll.stiffness (or kappa) is given");
 }

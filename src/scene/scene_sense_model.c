@@ -7,15 +7,9 @@
 #include "scene/scene_check.h"
 #include "scene/scene_sense_parts.h"
 
-static const char *model(const struct contact *c)
-{
-    return keys_find("contact.model")->choices[c->contact.model].word;
-}
+static const char *model(const struct contact *c) { return keys_find("contact.model")->choices[c->contact.model].word; }
 
-static bool is_given(const struct scene_part *p, const char *path)
-{
-    return yaml_find(p->map, path) != NULL;
-}
+static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
 
 /* ------------------------------------------------------------------ scrape, and what only a scrape has */
 
@@ -23,24 +17,29 @@ static bool is_given(const struct scene_part *p, const char *path)
 static void still_check(const struct scene_part *p, const struct contact *c)
 {
     const char *path = "motion.path", *kind = "contact.model";
-    bool rolls = c->contact.model == CONTACT_ROLL, follows = rolls || c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_PLAYBACK;
+    bool rolls = c->contact.model == CONTACT_ROLL,
+         follows = rolls || c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_PLAYBACK;
     if (c->motion.path == PATH_STILL && scene_part_known(p, path) && follows)
         diag_add(p->yaml->diag, scene_part_later(p, path, kind),
-                 rolls ? "let it move, such as path: line; or set contact.model to roll_coupled, under which a ball may bounce on the spot"
+                 rolls ? "let it move, such as path: line; or set contact.model to roll_coupled, under which a ball "
+                         "may bounce on the spot"
                        : "let it move, such as path: line; or set contact.model to strike or given",
-                 "%s is still: nothing would %s where %s is %s", scene_part_label(p, path), c->contact.model == CONTACT_PLAYBACK ? "sound" : model(c),
-                 scene_part_label(p, kind), model(c));
+                 "%s is still: nothing would %s where %s is %s", scene_part_label(p, path),
+                 c->contact.model == CONTACT_PLAYBACK ? "sound" : model(c), scene_part_label(p, kind), model(c));
 }
 
 static void idle_check(const struct scene_part *p, const struct contact *c)
 {
-    static const char *const idle[] = {"grip", "surface.height_map", "surface.roughness", "surface.ridges", "surface.grit", "surface.fractal", "surface.continuation"};
+    static const char *const idle[] = {"grip",         "surface.height_map", "surface.roughness",   "surface.ridges",
+                                       "surface.grit", "surface.fractal",    "surface.continuation"};
     bool reads = ball_rolls(c) || c->contact.model == CONTACT_PLAYBACK;
     for (size_t i = 0; i < (reads ? 1 : sizeof idle / sizeof idle[0]); i++) {
         const struct yaml_node *node = yaml_find(p->map, idle[i]);
         if (node && (node->n == 0 || i > 0)) /* a grip's keys say it themselves */
-            diag_add(p->yaml->diag, node->key->at, "remove it (a null takes away what another file says), or set contact.model to scrape",
-                     "%s has no effect where %s is %s", scene_part_label(p, idle[i]), scene_part_label(p, "contact.model"), model(c));
+            diag_add(p->yaml->diag, node->key->at,
+                     "remove it (a null takes away what another file says), or set contact.model to scrape",
+                     "%s has no effect where %s is %s", scene_part_label(p, idle[i]),
+                     scene_part_label(p, "contact.model"), model(c));
     }
 }
 
@@ -59,10 +58,12 @@ static void stiffness_unit_check(const struct scene_part *p, const struct strike
     const char *path = "contact.strike.stiffness";
     const struct yaml_node *node = yaml_find(p->map, path);
     if (!isnan(s->stiffness) && scene_sense_model_unit(node, s->pulse != PULSE_HERTZ))
-        diag_add(p->yaml->diag, node->at, arena_format(p->yaml->arena, "give it in %s, or set contact.strike.pulse to %s", per_metre[s->pulse == PULSE_HERTZ],
-                                                       s->pulse == PULSE_HERTZ ? "half_sine" : "hertz"),
-                 "%s of a %s pulse is in %s, not '%s'", scene_part_label(p, path), s->pulse == PULSE_HERTZ ? "hertz" : "half_sine",
-                 per_metre[s->pulse == PULSE_HERTZ], diag_shown(p->yaml->diag, node->text));
+        diag_add(p->yaml->diag, node->at,
+                 arena_format(p->yaml->arena, "give it in %s, or set contact.strike.pulse to %s",
+                              per_metre[s->pulse == PULSE_HERTZ], s->pulse == PULSE_HERTZ ? "half_sine" : "hertz"),
+                 "%s of a %s pulse is in %s, not '%s'", scene_part_label(p, path),
+                 s->pulse == PULSE_HERTZ ? "hertz" : "half_sine", per_metre[s->pulse == PULSE_HERTZ],
+                 diag_shown(p->yaml->diag, node->text));
 }
 
 /* Are the moduli of a body known: from its material, or its object's own keys? */
@@ -70,17 +71,19 @@ static bool is_elastic(const struct scene_part *p, const char *body, const struc
 {
     struct arena *a = p->yaml->arena;
     return o->material != MATERIAL_CUSTOM || !scene_part_known(p, arena_format(a, "%s.material", body)) ||
-           (is_given(p, arena_format(a, "%s.object.youngs_modulus", body)) && is_given(p, arena_format(a, "%s.object.poisson", body)));
+           (is_given(p, arena_format(a, "%s.object.youngs_modulus", body)) &&
+            is_given(p, arena_format(a, "%s.object.poisson", body)));
 }
 
 static void moduli_missing(const struct scene_part *p, const char *body, const char *because)
 {
     struct arena *a = p->yaml->arena;
-    const char *material = arena_format(a, "%s.material", body), *object = arena_format(a, "youngs_modulus and poisson of %s.object", body);
+    const char *material = arena_format(a, "%s.material", body),
+               *object = arena_format(a, "youngs_modulus and poisson of %s.object", body);
     const struct yaml_node *custom = yaml_find(p->map, material);
     if (custom)
-        diag_add(p->yaml->diag, custom->at, arena_format(a, "name a material, such as steel, or give %s", object), "%s is custom, and %s are not given: %s",
-                 scene_part_label(p, material), object, because);
+        diag_add(p->yaml->diag, custom->at, arena_format(a, "name a material, such as steel, or give %s", object),
+                 "%s is custom, and %s are not given: %s", scene_part_label(p, material), object, because);
     else
         scene_check_missing(p, material, "steel", arena_format(a, " (or %s): %s", object, because));
 }
@@ -91,42 +94,46 @@ void scene_sense_model_moduli(const struct scene_part *p, const struct contact *
     const struct object_given *const objects[2] = {&c->surface.response.object, &c->scraper.response.object};
     const char *const bodies[2] = {"surface", ball_tool(c)};
     for (int i = 0; i < 2; i++)
-        if (!is_elastic(p, bodies[i], objects[i]))
-            moduli_missing(p, bodies[i], because);
+        if (!is_elastic(p, bodies[i], objects[i])) moduli_missing(p, bodies[i], because);
 }
 
 static void stiffness_check(const struct scene_part *p, const struct contact *c)
 {
-    if (is_given(p, "contact.strike.stiffness"))
-        return;
+    if (is_given(p, "contact.strike.stiffness")) return;
     if (c->contact.strike.pulse == PULSE_HALF_SINE) {
         scene_check_missing(p, "contact.strike.stiffness", "2 MN/m", ": a half_sine pulse needs it");
         return;
     }
-    scene_check_missing(p, "scraper.radius", "5 mm", ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
-    scene_sense_model_moduli(p, c, "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
+    scene_check_missing(p, "scraper.radius", "5 mm",
+                        ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
+    scene_sense_model_moduli(p, c,
+                             "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
 }
 
 static void train_check(const struct scene_part *p, const struct contact *c)
 {
     const struct strike *s = &c->contact.strike;
-    const char *count = "contact.strike.count", *first = "contact.strike.first", *gravity = "contact.gravity", *bounce = "contact.strike.restitution";
+    const char *count = "contact.strike.count", *first = "contact.strike.first", *gravity = "contact.gravity",
+               *bounce = "contact.strike.restitution";
     double lasts = scene_sense_lasts(&c->motion);
     if (s->count > 1 && !is_given(p, "contact.strike.interval") && !is_given(p, bounce))
-        diag_add(p->yaml->diag, scene_part_later(p, count, count), "add for instance: interval: 0.5 s; or restitution: 0.7 for a bounce train",
+        diag_add(p->yaml->diag, scene_part_later(p, count, count),
+                 "add for instance: interval: 0.5 s; or restitution: 0.7 for a bounce train",
                  "%s is %d, and nothing says when the second impact comes", scene_part_label(p, count), s->count);
     if (!isnan(s->restitution) && s->count != 1 && c->contact.gravity == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, gravity, bounce), "raise contact.gravity, or give contact.strike.interval in place of restitution",
+        diag_add(p->yaml->diag, scene_part_later(p, gravity, bounce),
+                 "raise contact.gravity, or give contact.strike.interval in place of restitution",
                  "%s is 0: what bounces never comes back", scene_part_label(p, gravity));
     if (s->first >= lasts)
-        diag_add(p->yaml->diag, scene_part_later(p, first, "motion.duration"), "lower contact.strike.first, or let the motion last longer",
-                 "%s: the first impact comes at %.4g s, and the motion lasts %.4g s", scene_part_label(p, first), s->first, lasts);
+        diag_add(p->yaml->diag, scene_part_later(p, first, "motion.duration"),
+                 "lower contact.strike.first, or let the motion last longer",
+                 "%s: the first impact comes at %.4g s, and the motion lasts %.4g s", scene_part_label(p, first),
+                 s->first, lasts);
 }
 
 static void strike_check(const struct scene_part *p, const struct contact *c)
 {
-    if (!scene_part_known(p, "contact.strike.pulse"))
-        return;
+    if (!scene_part_known(p, "contact.strike.pulse")) return;
     stiffness_unit_check(p, &c->contact.strike);
     stiffness_check(p, c);
     train_check(p, c);
@@ -134,42 +141,41 @@ static void strike_check(const struct scene_part *p, const struct contact *c)
 
 /* ------------------------------------------------------------------ given */
 
-/* The file's name tells what it is; of other names the file itself does, when it is read. One that is not there is what is wrong first (pipeline/inputs.h). */
+/* The file's name tells what it is; of other names the file itself does, when it is read. One that is not there is what
+ * is wrong first (pipeline/inputs.h). */
 static void given_check(const struct scene_part *p, const struct given_force *g)
 {
     static const char *const kinds[] = {"a WAV", "an NPY", "a CSV"}, *const endings[] = {".wav", ".npy", ".csv"};
-    static const char *const keys[] = {"contact.given.channel", "contact.given.rate", "contact.given.column"}; /* each is of one kind */
+    static const char *const keys[] = {"contact.given.channel", "contact.given.rate",
+                                       "contact.given.column"}; /* each is of one kind */
     int kind = 0;
     if (g->scale == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, "contact.given.scale", "contact.given.scale"), "write for instance: 10 N", "%s is 0: there would be no force",
+        diag_add(p->yaml->diag, scene_part_later(p, "contact.given.scale", "contact.given.scale"),
+                 "write for instance: 10 N", "%s is 0: there would be no force",
                  scene_part_label(p, "contact.given.scale"));
     while (g->file && kind < 3 && !rules_ends_in(g->file, endings[kind]))
         kind++;
-    if (!g->file || kind == 3)
-        return;
+    if (!g->file || kind == 3) return;
     if (kind == 0 && rules_is_there(g->file))
-        scene_check_missing(p, "contact.given.scale", "10 N", ": a WAV does not say how many newtons its full scale stands for");
+        scene_check_missing(p, "contact.given.scale", "10 N",
+                            ": a WAV does not say how many newtons its full scale stands for");
     if (kind == 1 && rules_is_there(g->file))
         scene_check_missing(p, "contact.given.rate", "48 kHz", ": an NPY does not say how many samples a second has");
-    const bool said[] = {g->channel > 1, !isnan(g->rate), g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
+    const bool said[] = {g->channel > 1, !isnan(g->rate),
+                         g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
     for (int i = 0; i < 3; i++)
         if (i != kind && said[i])
-            diag_add(p->yaml->diag, yaml_find(p->map, keys[i])->key->at, "remove it", "%s is of %s, and %s is %s", scene_part_label(p, keys[i]),
-                     kinds[i], diag_shown(p->yaml->diag, g->file), kinds[kind]);
+            diag_add(p->yaml->diag, yaml_find(p->map, keys[i])->key->at, "remove it", "%s is of %s, and %s is %s",
+                     scene_part_label(p, keys[i]), kinds[i], diag_shown(p->yaml->diag, g->file), kinds[kind]);
 }
 
 void scene_sense_model(const struct scene_part *p, const struct contact *c)
 {
-    if (!scene_part_known(p, "contact.model"))
-        return;
+    if (!scene_part_known(p, "contact.model")) return;
     still_check(p, c);
-    if (c->contact.model != CONTACT_SCRAPE)
-        idle_check(p, c);
-    if (c->contact.model == CONTACT_STRIKE)
-        strike_check(p, c);
-    if (c->contact.model == CONTACT_GIVEN)
-        given_check(p, &c->contact.given);
+    if (c->contact.model != CONTACT_SCRAPE) idle_check(p, c);
+    if (c->contact.model == CONTACT_STRIKE) strike_check(p, c);
+    if (c->contact.model == CONTACT_GIVEN) given_check(p, &c->contact.given);
     scene_sense_impacts(p, c);
-    if (ball_rolls(c))
-        scene_sense_ball(p, c);
+    if (ball_rolls(c)) scene_sense_ball(p, c);
 }

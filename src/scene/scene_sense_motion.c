@@ -1,4 +1,5 @@
-/* A motion's values against each other: how long is its way, what says how long it takes, which speed law fits which path, and what moves freely. */
+/* A motion's values against each other: how long is its way, what says how long it takes, which speed law fits which
+ * path, and what moves freely. */
 #include <math.h>
 #include <string.h>
 
@@ -9,10 +10,7 @@
 
 #define SHORTEST_WAY 1e-9 /* m */
 
-static const char *word(const char *path, int value)
-{
-    return keys_find(path)->choices[value].word;
-}
+static const char *word(const char *path, int value) { return keys_find(path)->choices[value].word; }
 
 /* Where something is missing in the motion. */
 static struct diag_place motion_place(const struct scene_part *p)
@@ -28,23 +26,21 @@ static void stroke_check(const struct scene_part *p, const struct motion *m)
     static const char *const ends[2] = {"motion.to", "motion.from"};
     double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
     if (m->path != PATH_STILL && rules_straight(m) && sqrt(x * x + y * y) < SHORTEST_WAY)
-        scene_part_contradiction(p, ends, "must differ from", "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
+        scene_part_contradiction(p, ends, "must differ from",
+                                 "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
 }
 
 static void turns_check(const struct scene_part *p, const struct motion *m)
 {
     const char *path = "motion.turns";
     if (m->path == PATH_CIRCLE && 2 * M_PI * m->radius * fabs(m->turns) < SHORTEST_WAY)
-        diag_add(p->yaml->diag, scene_part_later(p, path, path), "write for instance: turns: 1, or -1 for clockwise", "%s must not be 0",
-                 scene_part_label(p, path));
+        diag_add(p->yaml->diag, scene_part_later(p, path, path), "write for instance: turns: 1, or -1 for clockwise",
+                 "%s must not be 0", scene_part_label(p, path));
 }
 
 /* ------------------------------------------------------------------ how long it takes */
 
-static bool given(const struct scene_part *p, const char *path)
-{
-    return yaml_find(p->map, path) != NULL;
-}
+static bool given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
 
 /* A speed profile says all of it. (A scribble's rate is its shape's.) */
 static void profile_check(const struct scene_part *p, const struct motion *m)
@@ -54,8 +50,8 @@ static void profile_check(const struct scene_part *p, const struct motion *m)
         if (given(p, times[i]))
             diag_add(p->yaml->diag, yaml_find(p->map, times[i])->key->at,
                      arena_format(p->yaml->arena, "remove it, or set %smotion.law to another law", p->prefix),
-                     "%s must not be given where %s is given: motion.profile says how fast and how long it goes", scene_part_label(p, times[i]),
-                     scene_part_label(p, "motion.law"));
+                     "%s must not be given where %s is given: motion.profile says how fast and how long it goes",
+                     scene_part_label(p, times[i]), scene_part_label(p, "motion.law"));
 }
 
 static void time_check(const struct scene_part *p, const struct motion *m)
@@ -69,22 +65,21 @@ static void time_check(const struct scene_part *p, const struct motion *m)
     else if (periodic || m->path == PATH_STILL)
         scene_check_missing(p, duration, example, "");
     else if (m->path == PATH_RECORDED && m->law != SPEED_AUTO)
-        scene_check_missing(p, duration, example, arena_format(p->yaml->arena, ": under the law %s a recording gives the path only", word("motion.law", m->law)));
+        scene_check_missing(p, duration, example,
+                            arena_format(p->yaml->arena, ": under the law %s a recording gives the path only",
+                                         word("motion.law", m->law)));
     else if (m->path != PATH_RECORDED && m->path != PATH_INCLINE && !given(p, duration) && !given(p, "motion.speed"))
-        diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given", scene_part_label(p, "motion.speed"),
-                 scene_part_label(p, duration));
+        diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given",
+                 scene_part_label(p, "motion.speed"), scene_part_label(p, duration));
 }
 
 /* ------------------------------------------------------------------ the law */
 
 static const char *why_not(const struct motion *m)
 {
-    if (m->path == PATH_POLYLINE)
-        return "it rests at its corners";
-    if (m->path == PATH_STILL)
-        return "nothing moves";
-    if (m->path == PATH_INCLINE)
-        return "gravity and friction say how fast it goes";
+    if (m->path == PATH_POLYLINE) return "it rests at its corners";
+    if (m->path == PATH_STILL) return "nothing moves";
+    if (m->path == PATH_INCLINE) return "gravity and friction say how fast it goes";
     return m->law == SPEED_CONSTANT ? "it rests where it turns round" : "a straight line has no curvature";
 }
 
@@ -92,16 +87,14 @@ static void law_check(const struct scene_part *p, const struct motion *m)
 {
     struct arena *a = p->yaml->arena;
     const char *laws = "", *cure = "";
-    if (rules_law_fits(m, m->law))
-        return;
+    if (rules_law_fits(m, m->law)) return;
     for (int i = 0; keys_find("motion.law")->choices[i].word; i++)
-        if (rules_law_fits(m, i))
-            laws = arena_format(a, "%s%s%s", laws, *laws ? ", " : "", word("motion.law", i));
-    if (m->path == PATH_POLYLINE)
-        cure = arena_format(a, "; or round the corners: %smotion.corner: 5 mm", p->prefix);
-    diag_add(p->yaml->diag, scene_part_later(p, "motion.law", "motion.path"), arena_format(a, "laws here: %s%s", laws, cure),
-             "%s must not be %s where %s is %s: %s", scene_part_label(p, "motion.law"), word("motion.law", m->law),
-             scene_part_label(p, "motion.path"), word("motion.path", m->path), why_not(m));
+        if (rules_law_fits(m, i)) laws = arena_format(a, "%s%s%s", laws, *laws ? ", " : "", word("motion.law", i));
+    if (m->path == PATH_POLYLINE) cure = arena_format(a, "; or round the corners: %smotion.corner: 5 mm", p->prefix);
+    diag_add(p->yaml->diag, scene_part_later(p, "motion.law", "motion.path"),
+             arena_format(a, "laws here: %s%s", laws, cure), "%s must not be %s where %s is %s: %s",
+             scene_part_label(p, "motion.law"), word("motion.law", m->law), scene_part_label(p, "motion.path"),
+             word("motion.path", m->path), why_not(m));
 }
 
 /* ------------------------------------------------------------------ free motion */
@@ -113,10 +106,12 @@ static bool free_held(const struct scene_part *p)
     const char *model = "contact.model", *path = "motion.path";
     if (c->contact.model == CONTACT_GIVEN && scene_part_known(p, model))
         diag_add(p->yaml->diag, scene_part_later(p, path, model), "let it move otherwise, such as path: line",
-                 "%s must not be incline where %s is given: there is no contact.gravity", scene_part_label(p, path), scene_part_label(p, model));
+                 "%s must not be incline where %s is given: there is no contact.gravity", scene_part_label(p, path),
+                 scene_part_label(p, model));
     else if (grip && c->contact.model == CONTACT_SCRAPE) /* other models have none at all */
         diag_add(p->yaml->diag, grip->key->at, "remove it, or let the hand say how it moves: path: line",
-                 "%s must not be given where %s is incline: nothing holds what moves freely", scene_part_label(p, "grip"), scene_part_label(p, path));
+                 "%s must not be given where %s is incline: nothing holds what moves freely",
+                 scene_part_label(p, "grip"), scene_part_label(p, path));
     else
         return false;
     return true;
@@ -125,8 +120,8 @@ static bool free_held(const struct scene_part *p)
 static void free_stuck(const struct scene_part *p, const struct motion *m)
 {
     const char *cure, *why = incline_stuck(m, &cure), *speed = "motion.start_speed", *slope = "motion.incline";
-    diag_add(p->yaml->diag, given(p, speed) || given(p, slope) ? scene_part_later(p, speed, slope) : motion_place(p), cure, "%s: %s",
-             scene_part_label(p, "motion"), why);
+    diag_add(p->yaml->diag, given(p, speed) || given(p, slope) ? scene_part_later(p, speed, slope) : motion_place(p),
+             cure, "%s: %s", scene_part_label(p, "motion"), why);
 }
 
 static void free_check(const struct scene_part *p, const struct motion *m)
@@ -135,27 +130,26 @@ static void free_check(const struct scene_part *p, const struct motion *m)
     const char *duration = "motion.duration";
     double lasts = incline_lasts(&i, m);
     double known = m->start_speed + m->incline + m->rolling_friction + m->gravity;
-    if (m->path != PATH_INCLINE || free_held(p) || isnan(known) || !(i.length >= SHORTEST_WAY))
-        return;
+    if (m->path != PATH_INCLINE || free_held(p) || isnan(known) || !(i.length >= SHORTEST_WAY)) return;
     if (i.over == INCLINE_STUCK)
         free_stuck(p, m);
     else if (incline_leaves(&i, lasts))
         diag_add(p->yaml->diag, scene_part_later(p, duration, duration),
-                 "lower it, or leave it out: the motion ends there by itself; or make the way longer", "%s is %.6g s, and the motion %s after %.6g s",
-                 scene_part_label(p, duration), lasts, incline_event(&i), i.end);
+                 "lower it, or leave it out: the motion ends there by itself; or make the way longer",
+                 "%s is %.6g s, and the motion %s after %.6g s", scene_part_label(p, duration), lasts,
+                 incline_event(&i), i.end);
     else if (lasts > INCLINE_LONGEST)
-        diag_add(p->yaml->diag, motion_place(p), "add for instance: duration: 1 min", "%s: it is %.4g s before it %s, and a motion lasts at most %g s",
-                 scene_part_label(p, "motion"), lasts, incline_event(&i), INCLINE_LONGEST);
+        diag_add(p->yaml->diag, motion_place(p), "add for instance: duration: 1 min",
+                 "%s: it is %.4g s before it %s, and a motion lasts at most %g s", scene_part_label(p, "motion"), lasts,
+                 incline_event(&i), INCLINE_LONGEST);
 }
 
 void scene_sense_motion(const struct scene_part *p, const struct motion *m)
 {
-    if (!scene_part_known(p, "motion.path"))
-        return;
+    if (!scene_part_known(p, "motion.path")) return;
     stroke_check(p, m);
     turns_check(p, m);
-    if (!scene_part_known(p, "motion.law"))
-        return;
+    if (!scene_part_known(p, "motion.law")) return;
     time_check(p, m);
     law_check(p, m);
     free_check(p, m);

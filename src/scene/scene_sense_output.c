@@ -29,10 +29,10 @@ static void stem_words_check(const struct scene_part *top)
         int i = 0;
         while (item->kind == YAML_SCALAR && stems[i] && strcmp(stems[i], item->text) != 0)
             i++;
-        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || stems[i])
-            continue;
+        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || stems[i]) continue;
         const char *near = text_nearest(item->text, stems);
-        diag_add(y->diag, item->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : "stems: force, surface, scraper, ball",
+        diag_add(y->diag, item->at,
+                 near ? arena_format(y->arena, "did you mean '%s'?", near) : "stems: force, surface, scraper, ball",
                  "output.stems: there is no stem '%s'", diag_shown(y->diag, item->text));
     }
 }
@@ -41,19 +41,25 @@ static void channels_check(const struct scene_part *top, const struct output *o)
 {
     const char *channels = "output.channels", *places = "output.listen.places";
     if (o->channels > 1 && o->listen.n_places > 1)
-        diag_add(top->yaml->diag, scene_part_later(top, channels, places), "leave output.channels out: each place becomes a channel",
-                 "%s is %d and %s has %d places: a scene has either the same sound on all channels or a place for each", channels, o->channels, places,
-                 o->listen.n_places);
+        diag_add(top->yaml->diag, scene_part_later(top, channels, places),
+                 "leave output.channels out: each place becomes a channel",
+                 "%s is %d and %s has %d places: a scene has either the same sound on all channels or a place for each",
+                 channels, o->channels, places, o->listen.n_places);
 }
 
 static void quantity_check(const struct scene_part *top, const struct output *o)
 {
-    const char *quantity = "output.quantity", *radiator = "output.listen.radiator", *level = "output.level.dbfs_at_1_pa";
-    if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && in_pascals(&o->listen) && scene_part_known(top, quantity))
-        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator), "leave output.quantity out, or set output.listen.radiator to contact or point",
-                 "%s must be auto where %s is %s: what is heard is a pressure", quantity, radiator, radiator_word(&o->listen));
+    const char *quantity = "output.quantity", *radiator = "output.listen.radiator",
+               *level = "output.level.dbfs_at_1_pa";
+    if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && in_pascals(&o->listen) &&
+        scene_part_known(top, quantity))
+        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator),
+                 "leave output.quantity out, or set output.listen.radiator to contact or point",
+                 "%s must be auto where %s is %s: what is heard is a pressure", quantity, radiator,
+                 radiator_word(&o->listen));
     if (!isnan(o->level.dbfs_at_1_pa) && !in_pascals(&o->listen))
-        diag_add(top->yaml->diag, yaml_find(top->map, level)->key->at, "add for instance: listen: {places: [[0, 0, 1 m]]}; or scale by level: {full_scale: ...}",
+        diag_add(top->yaml->diag, yaml_find(top->map, level)->key->at,
+                 "add for instance: listen: {places: [[0, 0, 1 m]]}; or scale by level: {full_scale: ...}",
                  "%s needs a sound in pascals: output.listen with a monopole or a plate", level);
 }
 
@@ -62,15 +68,17 @@ static void force_check(const struct scene_part *top, const struct output *o)
 {
     const char *quantity = "output.quantity", *radiator = "output.listen.radiator";
     const struct yaml_node *list = yaml_find(top->map, "output.stems");
-    if (o->quantity != QUANTITY_FORCE || !scene_part_known(top, quantity))
-        return;
+    if (o->quantity != QUANTITY_FORCE || !scene_part_known(top, quantity)) return;
     if (o->listen.given && o->listen.radiator != RADIATOR_CONTACT)
-        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator), "leave output.listen out, or output.quantity",
-                 "%s is force and %s is %s: a force is not radiated, and is the same at all places", quantity, radiator, radiator_word(&o->listen));
+        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator),
+                 "leave output.listen out, or output.quantity",
+                 "%s is force and %s is %s: a force is not radiated, and is the same at all places", quantity, radiator,
+                 radiator_word(&o->listen));
     for (const struct yaml_node *item = o->stems ? list->first : NULL; item; item = item->next)
         if (strcmp(item->text, "force") != 0)
             diag_add(top->yaml->diag, item->at, "leave the stem out, or set output.quantity to auto",
-                     "output.stems: '%s' is a part of what rings, and nothing rings where %s is force", diag_shown(top->yaml->diag, item->text), quantity);
+                     "output.stems: '%s' is a part of what rings, and nothing rings where %s is force",
+                     diag_shown(top->yaml->diag, item->text), quantity);
 }
 
 /* The unit, where one is written, says of what the figure is meant to be. */
@@ -78,13 +86,15 @@ static void full_scale_check(const struct scene_part *top, const struct output *
 {
     const char *path = "output.level.full_scale", *quantity = "output.quantity";
     const struct yaml_node *node = yaml_find(top->map, path);
-    if (isnan(o->level.full_scale) || !node || !scene_part_known(top, quantity))
-        return;
-    bool newtons = strchr(node->text, 'N') != NULL, unit = newtons || strpbrk(node->text, "mPs") != NULL, force = o->quantity == QUANTITY_FORCE;
+    if (isnan(o->level.full_scale) || !node || !scene_part_known(top, quantity)) return;
+    bool newtons = strchr(node->text, 'N') != NULL, unit = newtons || strpbrk(node->text, "mPs") != NULL,
+         force = o->quantity == QUANTITY_FORCE;
     if (unit && newtons != force)
         diag_add(top->yaml->diag, scene_part_later(top, path, quantity),
-                 force ? "write for instance: full_scale: 2 N" : "write for instance: full_scale: 1 mm/s; or set output.quantity to force",
-                 "%s is '%s', and the sound is %s", path, diag_shown(top->yaml->diag, node->text), force ? "a force, in N" : "no force");
+                 force ? "write for instance: full_scale: 2 N"
+                       : "write for instance: full_scale: 1 mm/s; or set output.quantity to force",
+                 "%s is '%s', and the sound is %s", path, diag_shown(top->yaml->diag, node->text),
+                 force ? "a force, in N" : "no force");
 }
 
 /* A plate radiates to its front; an object's own places lie on it. */
@@ -95,7 +105,9 @@ static void heights_check(const struct scene_part *top, const struct listen *l)
         double z = l->places[3 * i + 2];
         if (l->radiator == RADIATOR_PLATE && z <= 0)
             diag_add(top->yaml->diag, place->last->at, "raise z, or set output.listen.radiator to monopole",
-                     "z of place %d of output.listen.places must be above 0 m: a plate in a baffle is heard from in front of it", i + 1);
+                     "z of place %d of output.listen.places must be above 0 m: a plate in a baffle is heard from in "
+                     "front of it",
+                     i + 1);
         if (l->radiator == RADIATOR_POINT && z != 0)
             diag_add(top->yaml->diag, place->last->at, "write 0, or set output.listen.radiator to monopole or plate",
                      "z of place %d of output.listen.places must be 0 m: a point lies on the object", i + 1);
@@ -106,33 +118,31 @@ void scene_sense_output(const struct scene_part *top)
 {
     const struct scene *s = top->to;
     stem_words_check(top);
-    if (s->output.listen.given && !scene_part_known(top, "output.listen.radiator"))
-        return;
+    if (s->output.listen.given && !scene_part_known(top, "output.listen.radiator")) return;
     channels_check(top, &s->output);
     quantity_check(top, &s->output);
     force_check(top, &s->output);
     full_scale_check(top, &s->output);
-    if (s->output.listen.given)
-        heights_check(top, &s->output.listen);
+    if (s->output.listen.given) heights_check(top, &s->output.listen);
 }
 
 /* ------------------------------------------------------------------ what the contacts have */
 
 static bool is_flat(const struct object_given *o)
 {
-    return o->shape == OBJECT_PLATE || o->shape == OBJECT_DISK || o->shape == OBJECT_MEMBRANE || o->shape == OBJECT_DRUM;
+    return o->shape == OBJECT_PLATE || o->shape == OBJECT_DISK || o->shape == OBJECT_MEMBRANE ||
+           o->shape == OBJECT_DRUM;
 }
 
 /* What the radiator needs of the surface's response; NULL: nothing that it lacks. */
 static const char *lacks(const struct listen *l, const struct response *r)
 {
-    if (l->radiator == RADIATOR_CONTACT || !rules_responds(r))
-        return NULL;
-    if (l->radiator == RADIATOR_MONOPOLE)
-        return rules_is_recorded(r) ? "a response with modes" : NULL;
-    if (!r->object.given)
-        return "surface.object";
-    return l->radiator == RADIATOR_PLATE && !is_flat(&r->object) ? "a surface.object that is flat: a plate, disk, membrane or drum" : NULL;
+    if (l->radiator == RADIATOR_CONTACT || !rules_responds(r)) return NULL;
+    if (l->radiator == RADIATOR_MONOPOLE) return rules_is_recorded(r) ? "a response with modes" : NULL;
+    if (!r->object.given) return "surface.object";
+    return l->radiator == RADIATOR_PLATE && !is_flat(&r->object)
+               ? "a surface.object that is flat: a plate, disk, membrane or drum"
+               : NULL;
 }
 
 void scene_sense_output_heard(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
@@ -140,15 +150,18 @@ void scene_sense_output_heard(const struct scene_part *p, struct yaml_node *root
     const struct contact *c = p->to;
     const struct output *o = &s->output;
     const struct scene_part top = {p->yaml, root, "", KEY_SCENE, (void *)s};
-    const char *needs = o->listen.given ? lacks(&o->listen, &c->surface.response) : NULL, *name = scene_part_contact(p, c->name);
+    const char *needs = o->listen.given ? lacks(&o->listen, &c->surface.response) : NULL,
+               *name = scene_part_contact(p, c->name);
     const char *radiator = "output.listen.radiator", *quantity = "output.quantity", *file = c->surface.response.file;
     if (needs)
-        diag_add(p->yaml->diag, yaml_find(root, radiator) ? yaml_find(root, radiator)->at : yaml_find(root, "output.listen")->key->at,
-                 "give what it needs, or set output.listen.radiator to contact", "%s: a %s needs %s, which %s has not", radiator, radiator_word(&o->listen),
-                 needs, name);
+        diag_add(p->yaml->diag,
+                 yaml_find(root, radiator) ? yaml_find(root, radiator)->at : yaml_find(root, "output.listen")->key->at,
+                 "give what it needs, or set output.listen.radiator to contact", "%s: a %s needs %s, which %s has not",
+                 radiator, radiator_word(&o->listen), needs, name);
     if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && rules_is_recorded(&c->surface.response))
         diag_add(p->yaml->diag, scene_part_later(&top, quantity, quantity), "leave output.quantity out",
-                 "%s: '%s' of %s is recorded, and of which quantity is not stated", quantity, diag_shown(p->yaml->diag, file), name);
+                 "%s: '%s' of %s is recorded, and of which quantity is not stated", quantity,
+                 diag_shown(p->yaml->diag, file), name);
 }
 
 /* Has some contact what the stem is of? */
@@ -158,8 +171,7 @@ static bool is_there(const struct scene *s, const char *stem)
         const struct contact *c = &s->contacts[i];
         bool tool = strcmp(stem, ball_tool(c)) == 0 && rules_tool_rings(c);
         bool surface = strcmp(stem, "surface") == 0 && rules_surface_rings(c);
-        if (c->gain != 0 && (strcmp(stem, "force") == 0 || surface || tool))
-            return true;
+        if (c->gain != 0 && (strcmp(stem, "force") == 0 || surface || tool)) return true;
     }
     return false;
 }
@@ -170,8 +182,8 @@ void scene_sense_output_stems(const struct scene_part *top)
     const struct yaml_node *list = yaml_find(top->map, "output.stems");
     for (const struct yaml_node *item = s->output.stems ? list->first : NULL; item; item = item->next)
         if (!is_there(s, item->text))
-            diag_add(top->yaml->diag, item->at, "leave the stem out, or give what it is of", "output.stems: nothing rings of which '%s' would be the stem",
-                     item->text);
+            diag_add(top->yaml->diag, item->at, "leave the stem out, or give what it is of",
+                     "output.stems: nothing rings of which '%s' would be the stem", item->text);
 }
 
 void scene_sense_output_impacts(const struct scene_part *top)
@@ -179,8 +191,7 @@ void scene_sense_output_impacts(const struct scene_part *top)
     const struct scene *s = top->to;
     const char *path = "output.impacts";
     for (int i = 0; i < s->n_contacts; i++)
-        if (s->output.impacts != LISTING_TABLE || rules_listed(&s->contacts[i], &s->output))
-            return;
+        if (s->output.impacts != LISTING_TABLE || rules_listed(&s->contacts[i], &s->output)) return;
     diag_add(top->yaml->diag, scene_part_later(top, path, path), "leave it out, or set contact.model to impacts",
              "%s is table, and no contact is of model impacts", path);
 }

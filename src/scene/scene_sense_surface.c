@@ -8,39 +8,41 @@
 static void band_check(const struct scene_part *p, const struct roughness *r)
 {
     static const char *const waves[2] = {"surface.roughness.shortest", "surface.roughness.longest"};
-    if (isnan(r->longest) || isnan(r->shortest))
-        return;
+    if (isnan(r->longest) || isnan(r->shortest)) return;
     if (!rules_has_band(r))
         scene_part_contradiction(p, waves, "must be less than", "raise longest, or lower shortest");
     else if (!rules_band_fits(r))
         diag_add(p->yaml->diag, scene_part_later(p, waves[0], waves[1]), "lower longest, or raise shortest",
-                 "%s is %.3g times %s, and at most 100 000 times are offered", scene_part_label(p, waves[1]), r->longest / r->shortest,
-                 scene_part_label(p, waves[0]));
+                 "%s is %.3g times %s, and at most 100 000 times are offered", scene_part_label(p, waves[1]),
+                 r->longest / r->shortest, scene_part_label(p, waves[0]));
 }
 
-/* (E x^3)^2 <= E x^2 E (x^2 - 1)^2 for x of mean 0 and variance 1: no distribution lies beyond, and none that is continuous on it. */
+/* (E x^3)^2 <= E x^2 E (x^2 - 1)^2 for x of mean 0 and variance 1: no distribution lies beyond, and none that is
+ * continuous on it. */
 static void moments_check(const struct scene_part *p, const struct roughness *r)
 {
     const char *skewness = "surface.roughness.skewness", *kurtosis = "surface.roughness.kurtosis";
     double least = r->skewness * r->skewness + 1;
     if (r->kurtosis <= least)
-        diag_add(p->yaml->diag, scene_part_later(p, skewness, kurtosis), arena_format(p->yaml->arena, "raise %s, or bring %s nearer to 0", kurtosis, skewness),
-                 "%s: no heights have a skewness of %.4g and a kurtosis of %.4g: it is above skewness^2 + 1, %.4g", scene_part_label(p, "surface.roughness"),
-                 r->skewness, r->kurtosis, least);
+        diag_add(p->yaml->diag, scene_part_later(p, skewness, kurtosis),
+                 arena_format(p->yaml->arena, "raise %s, or bring %s nearer to 0", kurtosis, skewness),
+                 "%s: no heights have a skewness of %.4g and a kurtosis of %.4g: it is above skewness^2 + 1, %.4g",
+                 scene_part_label(p, "surface.roughness"), r->skewness, r->kurtosis, least);
 }
 
 static void grain_check(const struct scene_part *p, const struct surface *s)
 {
     const char *grain = "surface.roughness.grain", *along = "surface.along";
-    if (s->roughness.grain != 1 && !isnan(s->roughness.grain) && scene_part_known(p, along) && (s->along == ALONG_PATH || s->along == ALONG_X))
-        diag_add(p->yaml->diag, scene_part_later(p, grain, along), arena_format(p->yaml->arena, "set %s to plane, or remove the grain", along),
+    if (s->roughness.grain != 1 && !isnan(s->roughness.grain) && scene_part_known(p, along) &&
+        (s->along == ALONG_PATH || s->along == ALONG_X))
+        diag_add(p->yaml->diag, scene_part_later(p, grain, along),
+                 arena_format(p->yaml->arena, "set %s to plane, or remove the grain", along),
                  "%s: a profile has no grain: it needs %s: plane", scene_part_label(p, grain), along);
 }
 
 static void roughness_check(const struct scene_part *p, const struct surface *s)
 {
-    if (!s->roughness.given)
-        return;
+    if (!s->roughness.given) return;
     band_check(p, &s->roughness);
     moments_check(p, &s->roughness);
     grain_check(p, s);
@@ -50,12 +52,13 @@ static void continuation_check(const struct scene_part *p, const struct surface 
 {
     static const char *const waves[2] = {"surface.continuation.shortest", "surface.continuation.from"};
     const struct yaml_node *node = yaml_find(p->map, "surface.continuation");
-    if (!s->continuation.given)
-        return;
+    if (!s->continuation.given) return;
     if (!yaml_find(p->map, "surface.height_map"))
         diag_add(p->yaml->diag, node->key->at, "give surface.height_map, or write roughness in place of continuation",
-                 "%s needs %s, which it continues", scene_part_label(p, "surface.continuation"), scene_part_label(p, "surface.height_map"));
-    if (s->continuation.shortest >= sqrt(0.5) * s->continuation.from) /* it takes over half an octave to both sides of `from` */
+                 "%s needs %s, which it continues", scene_part_label(p, "surface.continuation"),
+                 scene_part_label(p, "surface.height_map"));
+    if (s->continuation.shortest >=
+        sqrt(0.5) * s->continuation.from) /* it takes over half an octave to both sides of `from` */
         scene_part_contradiction(p, waves, "must be less than 0.7 times", "raise from, or lower shortest");
 }
 
@@ -64,28 +67,34 @@ static void ridges_check(const struct scene_part *p, const struct ridges *r)
     const char *width = "surface.ridges.width", *spacing = "surface.ridges.spacing";
     if (r->given && r->width > RULES_RIDGE_WIDEST * r->spacing)
         diag_add(p->yaml->diag, scene_part_later(p, width, spacing), "lower width, or raise spacing",
-                 "%s, %.4g m, must be at most %g times %s, %.4g m", scene_part_label(p, width), r->width, RULES_RIDGE_WIDEST,
-                 scene_part_label(p, spacing), r->spacing);
+                 "%s, %.4g m, must be at most %g times %s, %.4g m", scene_part_label(p, width), r->width,
+                 RULES_RIDGE_WIDEST, scene_part_label(p, spacing), r->spacing);
 }
 
 /* A profile, whose kinks and steps are a surface for what has a radius alone. */
 static void fractal_check(const struct scene_part *p, const struct contact *c)
 {
-    const char *fractal = "surface.fractal", *between = "surface.fractal.interpolation", *pitch = "surface.fractal.pitch", *length = "surface.fractal.length";
+    const char *fractal = "surface.fractal", *between = "surface.fractal.interpolation",
+               *pitch = "surface.fractal.pitch", *length = "surface.fractal.length";
     const struct fractal *f = &c->surface.fractal;
     const struct yaml_node *node = yaml_find(p->map, fractal);
-    if (!f->given || !node)
-        return;
+    if (!f->given || !node) return;
     if (!isnan(f->pitch) && !isnan(f->length) && !rules_fractal_fits(f))
-        diag_add(p->yaml->diag, scene_part_later(p, pitch, length), rules_fractal_size(f) < RULES_FRACTAL_LEAST ? "raise length, or lower pitch" : "lower length, or raise pitch",
-                 "%s over %s is %.4g, and from %d to %d heights are offered", scene_part_label(p, length), scene_part_label(p, pitch), f->length / f->pitch,
-                 RULES_FRACTAL_LEAST, RULES_FRACTAL_MOST);
+        diag_add(p->yaml->diag, scene_part_later(p, pitch, length),
+                 rules_fractal_size(f) < RULES_FRACTAL_LEAST ? "raise length, or lower pitch"
+                                                             : "lower length, or raise pitch",
+                 "%s over %s is %.4g, and from %d to %d heights are offered", scene_part_label(p, length),
+                 scene_part_label(p, pitch), f->length / f->pitch, RULES_FRACTAL_LEAST, RULES_FRACTAL_MOST);
     if (scene_part_known(p, "surface.along") && rules_along(c) == ALONG_PLANE)
-        diag_add(p->yaml->diag, yaml_find(p->map, "surface.along") ? scene_part_later(p, fractal, "surface.along") : node->key->at, "set surface.along to path or x",
-                 "%s is a profile, and this surface lies in the plane", scene_part_label(p, fractal));
-    if (f->interpolation != INTERPOLATION_SPLINE && scene_part_known(p, between) && c->contact.model == CONTACT_SCRAPE && !yaml_find(p->map, "scraper.radius"))
+        diag_add(p->yaml->diag,
+                 yaml_find(p->map, "surface.along") ? scene_part_later(p, fractal, "surface.along") : node->key->at,
+                 "set surface.along to path or x", "%s is a profile, and this surface lies in the plane",
+                 scene_part_label(p, fractal));
+    if (f->interpolation != INTERPOLATION_SPLINE && scene_part_known(p, between) &&
+        c->contact.model == CONTACT_SCRAPE && !yaml_find(p->map, "scraper.radius"))
         diag_add(p->yaml->diag, scene_part_later(p, between, between), "set it to spline, or give scraper.radius",
-                 "%s must be spline where the scraper is a point: kinks and steps are no surface for it", scene_part_label(p, between));
+                 "%s must be spline where the scraper is a point: kinks and steps are no surface for it",
+                 scene_part_label(p, between));
 }
 
 void scene_sense_surface(const struct scene_part *p, const struct contact *c)

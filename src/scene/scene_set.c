@@ -34,14 +34,13 @@ static struct yaml_node *list_entry(struct yaml *y, struct yaml_node *list, cons
     text_int(key->text, 0, list->n - 1, &index);
     for (struct yaml_node *item = list->first; item; item = item->next, i++) {
         const struct yaml_node *name = yaml_get(item, "name");
-        if (i == index || (name && name->kind == YAML_SCALAR && strcmp(name->text, key->text) == 0))
-            return item;
-        if (name && name->kind == YAML_SCALAR)
-            names[n++] = name->text;
+        if (i == index || (name && name->kind == YAML_SCALAR && strcmp(name->text, key->text) == 0)) return item;
+        if (name && name->kind == YAML_SCALAR) names[n++] = name->text;
     }
     const char *near = text_nearest(key->text, names);
-    const char *cure = near ? arena_format(y->arena, "did you mean '%s'?", near)
-                            : arena_format(y->arena, "entries are named by their name or by a number from 0 to %d", list->n - 1);
+    const char *cure =
+        near ? arena_format(y->arena, "did you mean '%s'?", near)
+             : arena_format(y->arena, "entries are named by their name or by a number from 0 to %d", list->n - 1);
     diag_add(y->diag, key->at, cure, "no entry '%s' in this list", diag_shown(y->diag, key->text));
     return NULL;
 }
@@ -49,13 +48,10 @@ static struct yaml_node *list_entry(struct yaml *y, struct yaml_node *list, cons
 /* One step down the path; what is not there, or is not a map, becomes one. */
 static struct yaml_node *step(struct yaml *y, struct yaml_node *at, struct yaml_node *key)
 {
-    if (at->kind == YAML_LIST)
-        return list_entry(y, at, key);
+    if (at->kind == YAML_LIST) return list_entry(y, at, key);
     struct yaml_node *child = yaml_get(at, key->text);
-    if (child)
-        child = scene_merge_opened(y, at, child);
-    if (child && child->kind != YAML_SCALAR)
-        return child;
+    if (child) child = scene_merge_opened(y, at, child);
+    if (child && child->kind != YAML_SCALAR) return child;
     child = yaml_make(y, YAML_MAP, key->at, NULL);
     scene_merge_put(y, at, key, child);
     return child;
@@ -84,11 +80,10 @@ void scene_set_put(struct yaml *y, struct yaml_node *root, struct yaml_node *con
 static bool part_next(struct assignment *s, size_t end)
 {
     s->to = s->from + strcspn(s->source->text + s->from, ".");
-    if (s->to > end)
-        s->to = end;
-    if (s->to > s->from)
-        return true;
-    diag_add(s->y->diag, part_place(s), "write for instance: --set \"motion.rate=3 Hz\"", "a part of the path is empty");
+    if (s->to > end) s->to = end;
+    if (s->to > s->from) return true;
+    diag_add(s->y->diag, part_place(s), "write for instance: --set \"motion.rate=3 Hz\"",
+             "a part of the path is empty");
     return false;
 }
 
@@ -98,8 +93,7 @@ static struct yaml_node **path_of(struct assignment *s, size_t equals)
     struct yaml_node **path = ARENA_TAKE(s->y->arena, struct yaml_node *, equals + 2);
     for (int n = 0; part_next(s, equals); s->from = s->to + 1) {
         path[n++] = part_key(s);
-        if (s->to == equals)
-            return path;
+        if (s->to == equals) return path;
     }
     return NULL;
 }
@@ -107,8 +101,7 @@ static struct yaml_node **path_of(struct assignment *s, size_t equals)
 static void assign(struct assignment *s, struct yaml_node *root, size_t equals)
 {
     struct yaml_node *value = yaml_parse_value(s->y, s->source, equals + 1), **path = value ? path_of(s, equals) : NULL;
-    if (path)
-        scene_set_put(s->y, root, path, value);
+    if (path) scene_set_put(s->y, root, path, value);
 }
 
 void scene_set(struct yaml *y, struct yaml_node *root, const char *text)
@@ -118,9 +111,11 @@ void scene_set(struct yaml *y, struct yaml_node *root, const char *text)
     struct assignment s = {.y = y, .source = yaml_source(y, name, text, strlen(text))};
     s.source->option = true;
     if (!text[equals])
-        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write for instance: --set \"motion.rate=3 Hz\"", "has no '=VALUE'");
+        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write for instance: --set \"motion.rate=3 Hz\"",
+                 "has no '=VALUE'");
     else if (strncmp(text, "include", equals) == 0 && equals == strlen("include"))
-        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write include: into a scene file", "include cannot be set here");
+        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write include: into a scene file",
+                 "include cannot be set here");
     else
         assign(&s, root, equals);
 }
@@ -130,6 +125,5 @@ void scene_set_seed(struct yaml *y, struct yaml_node *root, const char *number)
     struct diag_source *source = yaml_source(y, "--seed", number, strlen(number));
     source->option = true;
     struct yaml_node *value = yaml_parse_value(y, source, 0);
-    if (value)
-        scene_merge_put(y, root, yaml_make(y, YAML_SCALAR, (struct diag_place){source, 1, 1, 0}, "seed"), value);
+    if (value) scene_merge_put(y, root, yaml_make(y, YAML_SCALAR, (struct diag_place){source, 1, 1, 0}, "seed"), value);
 }

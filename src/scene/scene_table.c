@@ -26,8 +26,7 @@ static const char *lacks(const struct contact *c, int column)
 static int column_find(const struct yaml_node *item)
 {
     for (int k = 0; item->kind == YAML_SCALAR && columns[k]; k++)
-        if (strcmp(columns[k], item->text) == 0)
-            return k;
+        if (strcmp(columns[k], item->text) == 0) return k;
     return -1;
 }
 
@@ -40,10 +39,11 @@ static const struct yaml_node *column_first(struct yaml_node *root)
 void scene_table_names(struct yaml *y, struct yaml_node *root)
 {
     for (const struct yaml_node *item = column_first(root); item; item = item->next) {
-        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0)
-            continue;
+        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
         const char *near = text_nearest(item->text, columns);
-        diag_add(y->diag, item->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : "rasp explain output.diagnostics.columns lists them",
+        diag_add(y->diag, item->at,
+                 near ? arena_format(y->arena, "did you mean '%s'?", near)
+                      : "rasp explain output.diagnostics.columns lists them",
                  "output.diagnostics.columns: there is no column '%s'", diag_shown(y->diag, item->text));
     }
 }
@@ -55,8 +55,9 @@ void scene_table_columns(const struct scene_part *p, struct yaml_node *root, con
         int k = column_find(item);
         const char *needs = k < 0 ? "" : lacks(c, k);
         if (*needs)
-            diag_add(p->yaml->diag, item->at, "leave the column out, or give what it needs", "output.diagnostics.columns: %s has no %s: it needs %s",
-                     scene_part_contact(p, c->name), item->text, needs);
+            diag_add(p->yaml->diag, item->at, "leave the column out, or give what it needs",
+                     "output.diagnostics.columns: %s has no %s: it needs %s", scene_part_contact(p, c->name),
+                     item->text, needs);
     }
 }
 
@@ -66,6 +67,6 @@ void scene_table_rate(const struct scene_part *top)
     const struct scene *s = top->to;
     if (s->output.diagnostics.given && s->output.diagnostics.rate > s->output.sample_rate)
         diag_add(top->yaml->diag, scene_part_later(top, rates[0], rates[1]), "lower output.diagnostics.rate",
-                 "%s, %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force", rates[0], s->output.diagnostics.rate, rates[1],
-                 s->output.sample_rate);
+                 "%s, %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force", rates[0],
+                 s->output.diagnostics.rate, rates[1], s->output.sample_rate);
 }

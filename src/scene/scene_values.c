@@ -21,12 +21,9 @@ struct value {
 
 const char *scene_values_kind(struct yaml *y, const struct yaml_node *node)
 {
-    if (node->kind == YAML_MAP)
-        return "a map of keys";
-    if (node->kind == YAML_LIST)
-        return "a list";
-    if (yaml_null(node) || (node->plain && !*node->text))
-        return "an empty value";
+    if (node->kind == YAML_MAP) return "a map of keys";
+    if (node->kind == YAML_LIST) return "a list";
+    if (yaml_null(node) || (node->plain && !*node->text)) return "an empty value";
     return arena_format(y->arena, "'%s'", diag_shown(y->diag, node->text));
 }
 
@@ -46,13 +43,14 @@ static const char *given_list(const struct value *v)
 
 /* ------------------------------------------------------------------ numbers */
 
-bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const char *label, enum key_dimension d, double *x)
+bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const char *label, enum key_dimension d,
+                           double *x)
 {
     struct units_fault fault;
     double value;
     if (node->kind != YAML_SCALAR)
-        return diag_add(y->diag, node->at, arena_format(y->arena, "write for instance: %s", units_example(d)), "%s needs %s, not %s", label,
-                    units_name(d), scene_values_kind(y, node));
+        return diag_add(y->diag, node->at, arena_format(y->arena, "write for instance: %s", units_example(d)),
+                        "%s needs %s, not %s", label, units_name(d), scene_values_kind(y, node));
     if (!units_read(yaml_null(node) ? "" : node->text, d, &value, y->arena, &fault))
         return diag_add(y->diag, node->at, fault.cure, "%s %s", label, fault.text);
     *x = value;
@@ -61,20 +59,19 @@ bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const c
 
 static const char *range_text(const struct key *k, struct arena *a)
 {
-    if (k->low >= k->high)
-        return units_text(k->low, k->dimension, a);
+    if (k->low >= k->high) return units_text(k->low, k->dimension, a);
     return arena_format(a, "from %s to %s", units_text(k->low, k->dimension, a), units_text(k->high, k->dimension, a));
 }
 
-bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node, const char *label, double *x)
+bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node,
+                         const char *label, double *x)
 {
     struct yaml *y = p->yaml;
     double value;
-    if (!scene_values_quantity(y, node, label, k->dimension, &value))
-        return false;
+    if (!scene_values_quantity(y, node, label, k->dimension, &value)) return false;
     if (value < k->low || value > k->high)
-        return diag_add(y->diag, node->at, arena_format(y->arena, "%s: %s", k->path, k->meaning), "%s must be %s, not %s", label,
-                        range_text(k, y->arena), scene_values_kind(y, node));
+        return diag_add(y->diag, node->at, arena_format(y->arena, "%s: %s", k->path, k->meaning),
+                        "%s must be %s, not %s", label, range_text(k, y->arena), scene_values_kind(y, node));
     *x = value;
     return true;
 }
@@ -88,46 +85,39 @@ static bool whole_read(const struct value *v, double *x)
 {
     struct yaml *y = v->part->yaml;
     double value;
-    if (!number_read(v, v->node, v->label, &value))
-        return false;
+    if (!number_read(v, v->node, v->label, &value)) return false;
     if (value != floor(value))
-        return diag_add(y->diag, v->node->at,
-                        arena_format(y->arena, "write for instance: %s", units_text(rint(value), v->key->dimension, y->arena)),
-                        "%s must be a whole number, not %s", v->label, scene_values_kind(y, v->node));
+        return diag_add(
+            y->diag, v->node->at,
+            arena_format(y->arena, "write for instance: %s", units_text(rint(value), v->key->dimension, y->arena)),
+            "%s must be a whole number, not %s", v->label, scene_values_kind(y, v->node));
     *x = value;
     return true;
 }
 
-static bool number_set(const struct value *v)
-{
-    return number_read(v, v->node, v->label, v->field);
-}
+static bool number_set(const struct value *v) { return number_read(v, v->node, v->label, v->field); }
 
-static bool whole_set(const struct value *v)
-{
-    return whole_read(v, v->field);
-}
+static bool whole_set(const struct value *v) { return whole_read(v, v->field); }
 
 static bool count_set(const struct value *v)
 {
     double value;
-    if (!whole_read(v, &value))
-        return false;
+    if (!whole_read(v, &value)) return false;
     *(int *)v->field = (int)value;
     return true;
 }
 
 static bool time_or_auto_set(const struct value *v)
 {
-    if (v->node->kind != YAML_SCALAR || strcmp(v->node->text, "auto") != 0)
-        return number_set(v);
+    if (v->node->kind != YAML_SCALAR || strcmp(v->node->text, "auto") != 0) return number_set(v);
     *(double *)v->field = NAN;
     return true;
 }
 
 static bool seed_set(const struct value *v)
 {
-    if (v->node->kind == YAML_SCALAR && text_u64(v->node->text, v->field) && (v->node->text[0] != '0' || !v->node->text[1]))
+    if (v->node->kind == YAML_SCALAR && text_u64(v->node->text, v->field) &&
+        (v->node->text[0] != '0' || !v->node->text[1]))
         return true;
     return diag_add(v->part->yaml->diag, v->node->at, "write for instance: seed: 7",
                     "%s must be a whole number from 0 to 18446744073709551615, not %s", v->label,
@@ -144,23 +134,22 @@ static bool pair_set(const struct value *v)
     bool good = true;
     const struct yaml_node *item = v->node->first;
     if (v->node->kind != YAML_LIST || v->node->n != 2)
-        return diag_add(y->diag, v->node->at, example_cure(v), "%s must be a list of 2 numbers, not %s", v->label, given_list(v));
+        return diag_add(y->diag, v->node->at, example_cure(v), "%s must be a list of 2 numbers, not %s", v->label,
+                        given_list(v));
     for (int i = 0; i < 2; i++, item = item->next)
         good = number_read(v, item, arena_format(y->arena, "%s of %s", ordinal[i], v->label), &pair[i]) && good;
-    if (good)
-        memcpy(v->field, pair, sizeof pair);
+    if (good) memcpy(v->field, pair, sizeof pair);
     return good;
 }
 
 static bool range_set(const struct value *v)
 {
     double *pair = v->field;
-    if (!pair_set(v))
-        return false;
-    if (pair[0] < pair[1])
-        return true;
+    if (!pair_set(v)) return false;
+    if (pair[0] < pair[1]) return true;
     pair[0] = pair[1] = NAN;
-    return diag_add(v->part->yaml->diag, v->node->at, example_cure(v), "the first number of %s must be less than the second", v->label);
+    return diag_add(v->part->yaml->diag, v->node->at, example_cure(v),
+                    "the first number of %s must be less than the second", v->label);
 }
 
 static bool points_set(const struct value *v)
@@ -174,8 +163,7 @@ static bool points_set(const struct value *v)
 
 static const char *text_of(const struct value *v, const char *needs)
 {
-    if (v->node->kind == YAML_SCALAR && *v->node->text)
-        return v->node->text;
+    if (v->node->kind == YAML_SCALAR && *v->node->text) return v->node->text;
     diag_add(v->part->yaml->diag, v->node->at, example_cure(v), "%s must be %s, not %s", v->label, needs,
              scene_values_kind(v->part->yaml, v->node));
     return NULL;
@@ -199,10 +187,12 @@ static bool item_good(const struct value *v, const struct yaml_node *item)
 {
     struct yaml *y = v->part->yaml;
     if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item))
-        return diag_add(y->diag, item->at, example_cure(v), "an entry of %s must be a text, not %s", v->label, scene_values_kind(y, item));
+        return diag_add(y->diag, item->at, example_cure(v), "an entry of %s must be a text, not %s", v->label,
+                        scene_values_kind(y, item));
     for (const struct yaml_node *other = v->node->first; other != item; other = other->next)
         if (other->kind == YAML_SCALAR && strcmp(other->text, item->text) == 0)
-            return diag_add(y->diag, item->at, "remove one of them", "%s has '%s' twice", v->label, diag_shown(y->diag, item->text));
+            return diag_add(y->diag, item->at, "remove one of them", "%s has '%s' twice", v->label,
+                            diag_shown(y->diag, item->text));
     return true;
 }
 
@@ -212,8 +202,8 @@ static bool list_set(const struct value *v)
     const char **list = ARENA_TAKE(v->part->yaml->arena, const char *, v->node->n + 1);
     int n = 0;
     if (!good)
-        return diag_add(v->part->yaml->diag, v->node->at, example_cure(v), "%s must be a list of 1 to 1000 texts, not %s", v->label,
-                        given_list(v));
+        return diag_add(v->part->yaml->diag, v->node->at, example_cure(v),
+                        "%s must be a list of 1 to 1000 texts, not %s", v->label, given_list(v));
     for (const struct yaml_node *item = v->node->first; item; item = item->next) {
         good = item_good(v, item) && good;
         list[n++] = item->text;
@@ -224,11 +214,9 @@ static bool list_set(const struct value *v)
 
 int scene_values_choice(const struct choice *choices, const struct yaml_node *node)
 {
-    if (node->kind != YAML_SCALAR)
-        return -1;
+    if (node->kind != YAML_SCALAR) return -1;
     for (int i = 0; choices[i].word; i++)
-        if (strcmp(choices[i].word, node->text) == 0)
-            return i;
+        if (strcmp(choices[i].word, node->text) == 0) return i;
     return -1;
 }
 
@@ -246,10 +234,8 @@ static bool choice_set(const struct value *v)
         all = arena_format(y->arena, "%s%s%s", all, n ? ", " : "", words[n]);
     }
     const char *former = v->node->kind == YAML_SCALAR ? keys_former(v->key->path, v->node->text) : NULL;
-    if (former)
-        return diag_add(y->diag, v->node->at, former, "%s: %s is no longer there", v->label, v->node->text);
-    if (v->node->kind == YAML_SCALAR)
-        near = text_nearest(v->node->text, words);
+    if (former) return diag_add(y->diag, v->node->at, former, "%s: %s is no longer there", v->label, v->node->text);
+    if (v->node->kind == YAML_SCALAR) near = text_nearest(v->node->text, words);
     return diag_add(y->diag, v->node->at, near ? arena_format(y->arena, "did you mean '%s'?", near) : example_cure(v),
                     "%s must be %s%s, not %s", v->label, n > 1 ? "one of: " : "", all, scene_values_kind(y, v->node));
 }
@@ -257,9 +243,10 @@ static bool choice_set(const struct value *v)
 /* ------------------------------------------------------------------ all types */
 
 static bool (*const setters[])(const struct value *) = {
-    [KEY_NUMBER] = number_set, [KEY_WHOLE] = whole_set, [KEY_TIME_OR_AUTO] = time_or_auto_set, [KEY_COUNT] = count_set,
-    [KEY_SEED] = seed_set,     [KEY_TEXT] = text_set,   [KEY_FILE] = file_set,                 [KEY_POINT] = pair_set,
-    [KEY_POINTS] = points_set, [KEY_PLACES] = points_set, [KEY_RANGE] = range_set,              [KEY_LIST] = list_set,
+    [KEY_NUMBER] = number_set, [KEY_WHOLE] = whole_set, [KEY_TIME_OR_AUTO] = time_or_auto_set,
+    [KEY_COUNT] = count_set,   [KEY_SEED] = seed_set,   [KEY_TEXT] = text_set,
+    [KEY_FILE] = file_set,     [KEY_POINT] = pair_set,  [KEY_POINTS] = points_set,
+    [KEY_PLACES] = points_set, [KEY_RANGE] = range_set, [KEY_LIST] = list_set,
     [KEY_CHOICE] = choice_set,
 };
 
@@ -276,7 +263,9 @@ void scene_values_clear(const struct scene_part *p, const struct key *k)
     switch (k->type) {
     case KEY_NUMBER:
     case KEY_WHOLE:
-    case KEY_TIME_OR_AUTO: *(double *)field = NAN; break;
+    case KEY_TIME_OR_AUTO:
+        *(double *)field = NAN;
+        break;
     case KEY_POINT:
     case KEY_RANGE:
         ((double *)field)[0] = ((double *)field)[1] = NAN;
@@ -287,23 +276,29 @@ void scene_values_clear(const struct scene_part *p, const struct key *k)
         *keys_points_count(field) = 0;
         break;
     case KEY_COUNT:
-    case KEY_CHOICE: *(int *)field = 0; break;
-    case KEY_SEED: *(uint64_t *)field = 0; break;
+    case KEY_CHOICE:
+        *(int *)field = 0;
+        break;
+    case KEY_SEED:
+        *(uint64_t *)field = 0;
+        break;
     case KEY_TEXT:
-    case KEY_FILE: *(const char **)field = NULL; break;
-    case KEY_LIST: *(const char ***)field = NULL; break;
+    case KEY_FILE:
+        *(const char **)field = NULL;
+        break;
+    case KEY_LIST:
+        *(const char ***)field = NULL;
+        break;
     }
 }
 
 void scene_values_default(const struct scene_part *p, const struct key *k)
 {
     scene_values_clear(p, k);
-    if (!k->standard || !*k->standard)
-        return;
+    if (!k->standard || !*k->standard) return;
     const char *name = arena_format(p->yaml->arena, "default of %s", k->path);
     struct diag_source *source = yaml_source(p->yaml, name, k->standard, strlen(k->standard));
     source->option = true;
     struct yaml_node *node = yaml_parse_value(p->yaml, source, 0);
-    if (node)
-        scene_values_read(p, k, node);
+    if (node) scene_values_read(p, k, node);
 }

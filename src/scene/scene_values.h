@@ -13,10 +13,12 @@ void scene_values_default(const struct scene_part *p, const struct key *k);
 void scene_values_clear(const struct scene_part *p, const struct key *k);
 
 /* A quantity alone, such as a knob; `label` is its name in messages. */
-bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const char *label, enum key_dimension d, double *x);
+bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const char *label, enum key_dimension d,
+                           double *x);
 
 /* The same within the key's dimension and range. */
-bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node, const char *label, double *x);
+bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node,
+                         const char *label, double *x);
 
 /* Index of the node's word in a table of choices, -1: it is none of them (nothing is told). */
 int scene_values_choice(const struct choice *choices, const struct yaml_node *node);

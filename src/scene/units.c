@@ -11,15 +11,9 @@
 
 enum { LONGEST = 200 /* characters */ };
 
-const char *units_name(enum key_dimension d)
-{
-    return units_table_dimension(d)->name;
-}
+const char *units_name(enum key_dimension d) { return units_table_dimension(d)->name; }
 
-const char *units_example(enum key_dimension d)
-{
-    return units_table_dimension(d)->example;
-}
+const char *units_example(enum key_dimension d) { return units_table_dimension(d)->example; }
 
 static bool fault_set(struct units_fault *f, const char *text, const char *cure)
 {
@@ -49,12 +43,10 @@ static const char *unit_cure(const char *number, const char *unit, enum key_dime
     return arena_format(a, "units: %s; write for instance: %s", all, units_example(d));
 }
 
-static const char *without_article(enum key_dimension d)
-{
-    return strchr(units_name(d), ' ') + 1;
-}
+static const char *without_article(enum key_dimension d) { return strchr(units_name(d), ' ') + 1; }
 
-static bool unit_fault(struct units_fault *f, const char *number, const char *unit, enum key_dimension d, struct arena *a)
+static bool unit_fault(struct units_fault *f, const char *number, const char *unit, enum key_dimension d,
+                       struct arena *a)
 {
     int power;
     const struct units_table_unit *other = units_table_find(unit, &power);
@@ -63,13 +55,17 @@ static bool unit_fault(struct units_fault *f, const char *number, const char *un
         return fault_set(f, arena_format(a, "needs %s without a unit, not %s", needs, units_name(other->dimension)),
                          arena_format(a, "write: %s", number));
     if (other)
-        return fault_set(f, arena_format(a, "needs %s; %s is a unit of %s", needs, unit, without_article(other->dimension)),
-                         example_cure(d, a));
+        return fault_set(
+            f, arena_format(a, "needs %s; %s is a unit of %s", needs, unit, without_article(other->dimension)),
+            example_cure(d, a));
     if (strcmp(unit, "%") == 0)
-        return fault_set(f, arena_format(a, "needs %s, not a percentage", needs), "write a share, such as 0.3 for 30 %");
+        return fault_set(f, arena_format(a, "needs %s, not a percentage", needs),
+                         "write a share, such as 0.3 for 30 %");
     if (!has_common(d))
-        return fault_set(f, arena_format(a, "needs %s; '%s' follows it", needs, unit), arena_format(a, "write: %s", number));
-    return fault_set(f, arena_format(a, "needs %s; '%s' is not a unit that is known", needs, unit), unit_cure(number, unit, d, a));
+        return fault_set(f, arena_format(a, "needs %s; '%s' follows it", needs, unit),
+                         arena_format(a, "write: %s", number));
+    return fault_set(f, arena_format(a, "needs %s; '%s' is not a unit that is known", needs, unit),
+                     unit_cure(number, unit, d, a));
 }
 
 /* The text with each character of `of` replaced by `by` (0: left out). */
@@ -88,8 +84,7 @@ static const char *replaced(const char *text, char of, char by, struct arena *a)
 static bool is_word(const char *text, const char *const *words)
 {
     for (; *words; words++)
-        if (strcasecmp(text, *words) == 0)
-            return true;
+        if (strcasecmp(text, *words) == 0) return true;
     return false;
 }
 
@@ -97,10 +92,10 @@ static bool is_word(const char *text, const char *const *words)
 static bool word_fault(struct units_fault *f, const char *text, enum key_dimension d, struct arena *a)
 {
     static const char *const truths[] = {"yes", "no", "true", "false", "on", "off", "y", "n", NULL};
-    static const char *const infinite[] = {".inf", "-.inf", "+.inf", "inf", "-inf", "+inf", ".nan", "nan", "infinity", "-infinity", NULL};
+    static const char *const infinite[] = {".inf", "-.inf", "+.inf",    "inf",       "-inf", "+inf",
+                                           ".nan", "nan",   "infinity", "-infinity", NULL};
     const char *needs = units_name(d);
-    if (!*text)
-        return fault_set(f, arena_format(a, "has no value; it needs %s", needs), example_cure(d, a));
+    if (!*text) return fault_set(f, arena_format(a, "has no value; it needs %s", needs), example_cure(d, a));
     if (is_word(text, truths))
         return fault_set(f, arena_format(a, "needs %s, not the yes/no word '%s'", needs, text), example_cure(d, a));
     if (is_word(text, infinite))
@@ -132,13 +127,13 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
     if (digits[0] == '0' && digits[1] == '0')
         return !fault_set(f, "needs a number without leading zeros, which some take for octal", "write: 0");
     if (text[n] == '_')
-        return !fault_set(f, "needs a number without underscores", arena_format(a, "write: %s", replaced(text, '_', 0, a)));
+        return !fault_set(f, "needs a number without underscores",
+                          arena_format(a, "write: %s", replaced(text, '_', 0, a)));
     if (text[n] == ',')
-        return !fault_set(f, "needs a number with a decimal point, not a comma", arena_format(a, "write: %s", replaced(text, ',', '.', a)));
-    if (text[n] == ':')
-        return !fault_set(f, "needs one number, not a clock time or ratio", clock_cure(text, d, a));
-    if (strncmp(rest, "1/", 2) == 0 && units_table_find(rest, &power))
-        return false;
+        return !fault_set(f, "needs a number with a decimal point, not a comma",
+                          arena_format(a, "write: %s", replaced(text, ',', '.', a)));
+    if (text[n] == ':') return !fault_set(f, "needs one number, not a clock time or ratio", clock_cure(text, d, a));
+    if (strncmp(rest, "1/", 2) == 0 && units_table_find(rest, &power)) return false;
     if ((*rest >= '0' && *rest <= '9') || *rest == '.' || *rest == '+' || *rest == '-')
         return !fault_set(f, arena_format(a, "needs one number; '%s' follows it", rest), example_cure(d, a));
     return false;
@@ -147,10 +142,8 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
 static bool number_read(const char *text, size_t n, int power, double *x)
 {
     char copy[LONGEST + 1];
-    if (power != UNITS_TABLE_DEGREES)
-        return text_scaled(text, n, power, x);
-    if (!text_scaled(text, n, 0, x))
-        return false;
+    if (power != UNITS_TABLE_DEGREES) return text_scaled(text, n, power, x);
+    if (!text_scaled(text, n, 0, x)) return false;
     memcpy(copy, text, n);
     copy[n] = '\0';
     *x = (double)(strtold(copy, NULL) * (3.14159265358979323846264338327950288L / 180));
@@ -163,18 +156,13 @@ bool units_read(const char *text, enum key_dimension d, double *x, struct arena 
     const char *unit = text + n + strspn(text + n, " \t");
     const char *number = arena_format(a, "%.*s", (int)n, text);
     int power = 0;
-    if (strlen(text) > LONGEST)
-        return fault_set(f, "is too long for a number", example_cure(d, a));
-    if (n == 0)
-        return word_fault(f, text, d, a);
-    if (notation_fault(f, text, d, a))
-        return false;
+    if (strlen(text) > LONGEST) return fault_set(f, "is too long for a number", example_cure(d, a));
+    if (n == 0) return word_fault(f, text, d, a);
+    if (notation_fault(f, text, d, a)) return false;
     if (*unit) {
         const struct units_table_unit *u = units_table_find(unit, &power);
-        if (!u || !units_table_fits(u, d))
-            return unit_fault(f, number, unit, d, a);
+        if (!u || !units_table_fits(u, d)) return unit_fault(f, number, unit, d, a);
     }
-    if (number_read(text, n, power, x))
-        return true;
+    if (number_read(text, n, power, x)) return true;
     return fault_set(f, "is a number too large, too small or too long to be read", example_cure(d, a));
 }

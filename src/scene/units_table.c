@@ -17,7 +17,9 @@ static const struct units_table_dimension dimensions[] = {
     [KEY_DECIBEL] = {"a level in decibels", "-3 dB", {"dB"}},
     [KEY_LUFS] = {"a loudness", "-23 LUFS", {"LUFS"}},
     [KEY_FORCE_COEFFICIENT] = {"a force coefficient", "0.05 N s/m", {"N s/m", "N (s/m)^beta2"}},
-    [KEY_OUTPUT] = {"a length, speed, acceleration, pressure or force", "1 mm/s", {"", "m", "mm", "um", "m/s", "mm/s", "m/s^2", "Pa", "N"}},
+    [KEY_OUTPUT] = {"a length, speed, acceleration, pressure or force",
+                    "1 mm/s",
+                    {"", "m", "mm", "um", "m/s", "mm/s", "m/s^2", "Pa", "N"}},
     [KEY_PRESSURE] = {"a pressure or modulus", "12 GPa", {"Pa", "kPa", "MPa", "GPa"}},
     [KEY_DENSITY] = {"a density", "650 kg/m^3", {"kg/m^3", "g/cm^3"}},
     [KEY_FORCE_PER_LENGTH] = {"a force per length", "2 kN/m", {"N/m", "kN/m", "N/mm"}},
@@ -85,20 +87,17 @@ static const struct prefix {
 } prefixes[] = {{"n", 'n', -9}, {"u", 'u', -6}, {"\xc2\xb5", 'u', -6}, {"\xce\xbc", 'u', -6}, {"m", 'm', -3},
                 {"c", 'c', -2}, {"k", 'k', 3},  {"M", 'M', 6},         {"G", 'G', 9}};
 
-const struct units_table_dimension *units_table_dimension(enum key_dimension d)
-{
-    return &dimensions[d];
-}
+const struct units_table_dimension *units_table_dimension(enum key_dimension d) { return &dimensions[d]; }
 
 static bool matches(const struct units_table_unit *u, const char *text, int *power)
 {
     *power = u->power;
-    if (strcmp(u->name, text) == 0)
-        return true;
+    if (strcmp(u->name, text) == 0) return true;
     for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
         size_t n = strlen(prefixes[i].name);
         *power = u->power + prefixes[i].power;
-        if (strncmp(text, prefixes[i].name, n) == 0 && strcmp(text + n, u->name) == 0 && strchr(u->prefixes, prefixes[i].letter))
+        if (strncmp(text, prefixes[i].name, n) == 0 && strcmp(text + n, u->name) == 0 &&
+            strchr(u->prefixes, prefixes[i].letter))
             return true;
     }
     return false;
@@ -107,26 +106,23 @@ static bool matches(const struct units_table_unit *u, const char *text, int *pow
 const struct units_table_unit *units_table_find(const char *text, int *power)
 {
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
-        if (matches(&units[i], text, power))
-            return &units[i];
+        if (matches(&units[i], text, power)) return &units[i];
     return NULL;
 }
 
 bool units_table_fits(const struct units_table_unit *u, enum key_dimension d)
 {
     if (d == KEY_OUTPUT)
-        return u->dimension == KEY_LENGTH || u->dimension == KEY_SPEED || u->dimension == KEY_ACCELERATION || u->dimension == KEY_PRESSURE ||
-               u->dimension == KEY_FORCE;
-    if (d == KEY_STIFFNESS && u->dimension == KEY_FORCE_PER_LENGTH)
-        return true;
+        return u->dimension == KEY_LENGTH || u->dimension == KEY_SPEED || u->dimension == KEY_ACCELERATION ||
+               u->dimension == KEY_PRESSURE || u->dimension == KEY_FORCE;
+    if (d == KEY_STIFFNESS && u->dimension == KEY_FORCE_PER_LENGTH) return true;
     return u->dimension == d;
 }
 
 /* A unit's prefixes as a class; micro has two more letters. */
 static const char *prefix_pattern(const struct units_table_unit *u, struct arena *a)
 {
-    if (!*u->prefixes)
-        return "";
+    if (!*u->prefixes) return "";
     return arena_format(a, "[%s%s]?", u->prefixes, strchr(u->prefixes, 'u') ? "\xc2\xb5\xce\xbc" : "");
 }
 
@@ -143,6 +139,7 @@ const char *units_table_pattern(enum key_dimension d, struct arena *a)
     const char *all = "";
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
         if (units_table_fits(&units[i], d))
-            all = arena_format(a, "%s%s%s%s", all, *all ? "|" : "", prefix_pattern(&units[i], a), escaped(units[i].name, a));
+            all = arena_format(a, "%s%s%s%s", all, *all ? "|" : "", prefix_pattern(&units[i], a),
+                               escaped(units[i].name, a));
     return all;
 }

@@ -16,7 +16,7 @@ struct units_table_dimension {
 struct units_table_unit {
     const char *name;
     enum key_dimension dimension;
-    int power;            /* of ten, to SI */
+    int power; /* of ten, to SI */
     const char *prefixes;
 };
 
@@ -28,7 +28,8 @@ const struct units_table_unit *units_table_find(const char *text, int *power);
 /* What may follow a number of the dimension, as a regular expression: "[numckMG]?m"; "": nothing. */
 const char *units_table_pattern(enum key_dimension d, struct arena *a);
 
-/* May a quantity of the dimension have the unit? KEY_OUTPUT takes those of four dimensions, KEY_STIFFNESS those of a force per length too. */
+/* May a quantity of the dimension have the unit? KEY_OUTPUT takes those of four dimensions, KEY_STIFFNESS those of a
+ * force per length too. */
 bool units_table_fits(const struct units_table_unit *u, enum key_dimension d);
 
 #endif

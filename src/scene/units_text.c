@@ -1,4 +1,5 @@
-/* A value with the unit that suits it: units_text of units.h. Dimensions that stand for several (KEY_OUTPUT, KEY_STIFFNESS) get bare SI numbers. */
+/* A value with the unit that suits it: units_text of units.h. Dimensions that stand for several (KEY_OUTPUT,
+ * KEY_STIFFNESS) get bare SI numbers. */
 #include <math.h>
 #include <string.h>
 
@@ -10,12 +11,9 @@
 static const char *decimal(const char *digits, int e, struct arena *a)
 {
     int n = (int)strlen(digits);
-    if (e < -3 || e > 15)
-        return arena_format(a, "%c%s%se%d", digits[0], n > 1 ? "." : "", digits + 1, e - 1);
-    if (e <= 0)
-        return arena_format(a, "0.%.*s%s", -e, "000", digits);
-    if (e >= n)
-        return arena_format(a, "%s%.*s", digits, e - n, "000000000000000");
+    if (e < -3 || e > 15) return arena_format(a, "%c%s%se%d", digits[0], n > 1 ? "." : "", digits + 1, e - 1);
+    if (e <= 0) return arena_format(a, "0.%.*s%s", -e, "000", digits);
+    if (e >= n) return arena_format(a, "%s%.*s", digits, e - n, "000000000000000");
     return arena_format(a, "%.*s.%s", e, digits, digits + e);
 }
 
@@ -26,10 +24,10 @@ static const struct units_table_unit *fitting_unit(enum key_dimension d, int exp
     for (int i = 0; units_table_dimension(d)->common[i]; i++) {
         int p;
         const struct units_table_unit *u = units_table_find(units_table_dimension(d)->common[i], &p);
-        if (!u || p == UNITS_TABLE_DEGREES || p == -2)
-            continue;
+        if (!u || p == UNITS_TABLE_DEGREES || p == -2) continue;
         bool leaves_one = exponent - p >= 1, best_leaves_one = best && exponent - *power >= 1;
-        if (!best || (leaves_one && (!best_leaves_one || p > *power)) || (!leaves_one && !best_leaves_one && p < *power)) {
+        if (!best || (leaves_one && (!best_leaves_one || p > *power)) ||
+            (!leaves_one && !best_leaves_one && p < *power)) {
             best = u;
             *power = p;
             *name = units_table_dimension(d)->common[i];
@@ -44,7 +42,8 @@ const char *units_text(double x, enum key_dimension d, struct arena *a)
     int exponent, power = 0;
     const char *name = "";
     text_digits(fabs(x), digits, &exponent);
-    bool known = d != KEY_OUTPUT && d != KEY_STIFFNESS && d != KEY_NONE && fitting_unit(d, x == 0 ? 1 : exponent, &power, &name);
+    bool known =
+        d != KEY_OUTPUT && d != KEY_STIFFNESS && d != KEY_NONE && fitting_unit(d, x == 0 ? 1 : exponent, &power, &name);
     if (x == 0 && known) {
         power = 0;
         name = units_table_dimension(d)->common[0];

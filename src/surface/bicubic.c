@@ -4,8 +4,9 @@
      B'   -g^2/2,  -2 f + 3/2 f^2,     2 g - 3/2 g^2,      f^2/2      per pitch
      B''  g,       -2 + 3 f,           -2 + 3 g,           f          per pitch^2
 
-   Measured: copying 16 coefficients point by point took three times as long as the sums. Points follow a path and lie in runs of one cell: a coefficient is
-   now loaded once a run and stored to eight points at a time. Second derivatives alone, all that a scrape asks for, take two thirds of all six. */
+   Measured: copying 16 coefficients point by point took three times as long as the sums. Points follow a path and lie
+   in runs of one cell: a coefficient is now loaded once a run and stored to eight points at a time. Second derivatives
+   alone, all that a scrape asks for, take two thirds of all six. */
 #include "surface/bicubic.h"
 
 #define INLINE static inline __attribute__((always_inline))
@@ -61,14 +62,12 @@ struct four {
     double a, b, c, d;
 };
 
-INLINE double dot(struct four u, struct four v)
-{
-    return (u.a * v.a + u.b * v.b) + (u.c * v.c + u.d * v.d);
-}
+INLINE double dot(struct four u, struct four v) { return (u.a * v.a + u.b * v.b) + (u.c * v.c + u.d * v.d); }
 
 INLINE struct four basis(double f, double g)
 {
-    return (struct four){g * g * g / 6, 2.0 / 3 - f * f + 0.5 * f * f * f, 2.0 / 3 - g * g + 0.5 * g * g * g, f * f * f / 6};
+    return (struct four){g * g * g / 6, 2.0 / 3 - f * f + 0.5 * f * f * f, 2.0 / 3 - g * g + 0.5 * g * g * g,
+                         f * f * f / 6};
 }
 
 INLINE struct four basis_slope(double f, double g)
@@ -76,14 +75,12 @@ INLINE struct four basis_slope(double f, double g)
     return (struct four){-0.5 * g * g, -2 * f + 1.5 * f * f, 2 * g - 1.5 * g * g, 0.5 * f * f};
 }
 
-INLINE struct four basis_bend(double f, double g)
-{
-    return (struct four){g, -2 + 3 * f, -2 + 3 * g, f};
-}
+INLINE struct four basis_bend(double f, double g) { return (struct four){g, -2 + 3 * f, -2 + 3 * g, f}; }
 
 INLINE struct four columns(struct four by, const struct bicubic *b, int i)
 {
-    return (struct four){dot(by, (struct four){b->c[0][i], b->c[4][i], b->c[8][i], b->c[12][i]}), dot(by, (struct four){b->c[1][i], b->c[5][i], b->c[9][i], b->c[13][i]}),
+    return (struct four){dot(by, (struct four){b->c[0][i], b->c[4][i], b->c[8][i], b->c[12][i]}),
+                         dot(by, (struct four){b->c[1][i], b->c[5][i], b->c[9][i], b->c[13][i]}),
                          dot(by, (struct four){b->c[2][i], b->c[6][i], b->c[10][i], b->c[14][i]}),
                          dot(by, (struct four){b->c[3][i], b->c[7][i], b->c[11][i], b->c[15][i]})};
 }
@@ -111,22 +108,13 @@ INLINE void sum_some(struct bicubic *b, double u, double v, bool heights, bool b
 }
 
 LANES_CLONES
-static void sum_all(struct bicubic *b, double u, double v)
-{
-    sum_some(b, u, v, true, true);
-}
+static void sum_all(struct bicubic *b, double u, double v) { sum_some(b, u, v, true, true); }
 
 LANES_CLONES
-static void sum_bends(struct bicubic *b, double u, double v)
-{
-    sum_some(b, u, v, false, true);
-}
+static void sum_bends(struct bicubic *b, double u, double v) { sum_some(b, u, v, false, true); }
 
 LANES_CLONES
-static void sum_heights(struct bicubic *b, double u, double v)
-{
-    sum_some(b, u, v, true, false);
-}
+static void sum_heights(struct bicubic *b, double u, double v) { sum_some(b, u, v, true, false); }
 
 void bicubic_sum(struct bicubic *b, double u, double v, const struct relief_values *asked)
 {

@@ -2,11 +2,13 @@
 
      P(k) = P_fit (k/k_fit)^exponent X(k)    from k_c/sqrt 2 up to 1/shortest           X: surface/spectrum.h
 
-   The map's own spectrum (surface/survey.h) has a knee, where its instrument begins to lose detail, and a band limit, where it has lost 30 dB more.
-   The takeover k_c is the geometric mean of both, unless given. A power law is fitted to the map's two octaves below the knee (below k_c/sqrt 2 where
-   k_c is given); it continues beyond, with its exponent unless that is given. X takes it in over an octave about k_c, in power; the map itself is left as it is, and
-   loses there what it loses: the sum is within 2 dB of the fit about k_c. In the plane X acts on the radial frequency, and the traces of what has only radial
-   frequencies above k_c hold some power below it (the map's traces, whose instrument cut them likewise, miss just that). */
+   The map's own spectrum (surface/survey.h) has a knee, where its instrument begins to lose detail, and a band limit,
+   where it has lost 30 dB more. The takeover k_c is the geometric mean of both, unless given. A power law is fitted to
+   the map's two octaves below the knee (below k_c/sqrt 2 where k_c is given); it continues beyond, with its exponent
+   unless that is given. X takes it in over an octave about k_c, in power; the map itself is left as it is, and loses
+   there what it loses: the sum is within 2 dB of the fit about k_c. In the plane X acts on the radial frequency, and
+   the traces of what has only radial frequencies above k_c hold some power below it (the map's traces, whose instrument
+   cut them likewise, miss just that). */
 #include "surface/continuation.h"
 
 #include "num/real.h"
@@ -19,35 +21,50 @@
 #include "surface/tiles.h"
 
 struct takeover {
-    double k, fit;          /* cycles/m: k_c, and where the fit ends */
+    double k, fit; /* cycles/m: k_c, and where the fit ends */
 };
 
 static struct takeover takeover_of(const struct continuation *c, const struct spectrum *measured)
 {
-    if (!isnan(c->from))
-        return (struct takeover){1 / c->from, sqrt(0.5) / c->from};
+    if (!isnan(c->from)) return (struct takeover){1 / c->from, sqrt(0.5) / c->from};
     double knee = survey_knee(measured);
     return (struct takeover){sqrt(knee * survey_limit(measured)), knee};
 }
 
-bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map, struct spectrum *s, struct err *e)
+bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map,
+                           struct spectrum *s, struct err *e)
 {
     if (map->columns < 64)
-        return err_set(e, ERR_SCENE, "surface.continuation: %zu samples along a row are too few to tell a spectrum (at least 64): give a larger map, or leave surface.continuation out", map->columns);
-    struct spectrum measured = survey_spectrum(a, &(struct survey_grid){map->z, map->columns, map->rows, map->pitch[0]});
+        return err_set(e, ERR_SCENE,
+                       "surface.continuation: %zu samples along a row are too few to tell a spectrum (at least 64): "
+                       "give a larger map, or leave surface.continuation out",
+                       map->columns);
+    struct spectrum measured =
+        survey_spectrum(a, &(struct survey_grid){map->z, map->columns, map->rows, map->pitch[0]});
     if (measured.n < 3)
-        return err_set(e, ERR_SCENE, "surface.continuation: the map is flat: there is no spectrum to continue: give another map, or leave surface.continuation out");
+        return err_set(e, ERR_SCENE,
+                       "surface.continuation: the map is flat: there is no spectrum to continue: give another map, or "
+                       "leave surface.continuation out");
     struct takeover t = takeover_of(c, &measured);
-    double density, fitted = survey_fit(&measured, t.fit, &density), exponent = isnan(c->exponent) ? fitted : c->exponent, top = 1 / c->shortest;
+    double density, fitted = survey_fit(&measured, t.fit, &density),
+                    exponent = isnan(c->exponent) ? fitted : c->exponent, top = 1 / c->shortest;
     if (isnan(fitted))
-        return err_set(e, ERR_SCENE, "surface.continuation: the map holds no two octaves below a wavelength of %g m to continue; give surface.continuation.from "
-                       "(its pitch is %g m)", 1 / t.fit, map->pitch[0]);
+        return err_set(e, ERR_SCENE,
+                       "surface.continuation: the map holds no two octaves below a wavelength of %g m to continue; "
+                       "give surface.continuation.from "
+                       "(its pitch is %g m)",
+                       1 / t.fit, map->pitch[0]);
     if (top <= t.k * sqrt(2))
-        return err_set(e, ERR_SCENE, "surface.continuation: the map reaches down to wavelengths of %g m: shortest (%g m) must be less than %g m", 1 / t.k,
-                       c->shortest, sqrt(0.5) / t.k);
+        return err_set(
+            e, ERR_SCENE,
+            "surface.continuation: the map reaches down to wavelengths of %g m: shortest (%g m) must be less than %g m",
+            1 / t.k, c->shortest, sqrt(0.5) / t.k);
     if (exponent > 0 || exponent < -8)
-        return err_set(e, ERR_SCENE, "surface.continuation: the map's spectrum has the exponent %.3g in the two octaves before %g m, which is no "
-                       "surface's (-8 to 0): give surface.continuation.exponent and from", exponent, 1 / t.fit);
+        return err_set(e, ERR_SCENE,
+                       "surface.continuation: the map's spectrum has the exponent %.3g in the two octaves before %g m, "
+                       "which is no "
+                       "surface's (-8 to 0): give surface.continuation.exponent and from",
+                       exponent, 1 / t.fit);
     *s = (struct spectrum){.n = 2, .k = ARENA_TAKE(a, double, 2), .p = ARENA_TAKE(a, double, 2), .takeover = t.k};
     s->k[0] = t.k * sqrt(0.5);
     s->k[1] = top;
@@ -67,9 +84,9 @@ static bool continuation_wanted(const struct contact *c, const struct scene *s)
 /* As roughness_work (surface/roughness.c). */
 static double continuation_work(const struct contact *c, const struct scene *s)
 {
-    double finest = c->surface.continuation.shortest / 4, cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
-    if (c->surface.along != ALONG_PLANE)
-        return 8 * reading_points(s, finest);
+    double finest = c->surface.continuation.shortest / 4,
+           cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
+    if (c->surface.along != ALONG_PLANE) return 8 * reading_points(s, finest);
     return isnan(c->scraper.radius) ? 800 * cells + 50 * s->accuracy.oversampling : 1;
 }
 
@@ -82,8 +99,10 @@ static bool continuation_open(struct stage_run *r, struct err *e)
     relief_settle(relief, r->contact);
     if (!continuation_spectrum(r->arena, &r->contact->surface.continuation, r->board->height_map, &s, e))
         return err_at(e, "contact '%s'", r->contact->name);
-    struct relief_part *part = relief->along == ALONG_PLANE ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0, rules_once(r->contact)}, stream, &lost, e)
-                                                            : profile_part(r->arena, blocks_make(r->arena, &s, stream), "continuation", 0);
+    struct relief_part *part =
+        relief->along == ALONG_PLANE
+            ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0, rules_once(r->contact)}, stream, &lost, e)
+            : profile_part(r->arena, blocks_make(r->arena, &s, stream), "continuation", 0);
     part->name = "continuation";
     relief_add(relief, part);
     r->state = part;
@@ -93,8 +112,7 @@ static bool continuation_open(struct stage_run *r, struct err *e)
 static void continuation_close(struct stage_run *r)
 {
     struct relief_part *part = r->state;
-    if (part && part->close)
-        part->close(part);
+    if (part && part->close) part->close(part);
 }
 
 const struct stage continuation_stage = {

@@ -8,6 +8,7 @@
 #include "surface/spectrum.h"
 
 /* The continuation's spectrum under a map. ERR_SCENE: nothing to continue, or nothing to tell it from. */
-bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map, struct spectrum *s, struct err *e);
+bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map,
+                           struct spectrum *s, struct err *e);
 
 #endif

@@ -1,5 +1,6 @@
-/* See crest_lanes.h: crest_piece.c's formulas, operation by operation, with selections for its branches; a disc that has found its place stays there while others
-   still look. Newton's method is a chain of roots and divisions, 370 cycles a place one at a time; eight at a time it is 110 a place (AVX-512). */
+/* See crest_lanes.h: crest_piece.c's formulas, operation by operation, with selections for its branches; a disc that
+   has found its place stays there while others still look. Newton's method is a chain of roots and divisions, 370
+   cycles a place one at a time; eight at a time it is 110 a place (AVX-512). */
 #include "surface/crest_lanes.h"
 
 #include <math.h>
@@ -12,13 +13,14 @@ enum { STEPS_MOST = 60 };
 
 struct search {
     _Alignas(64) double q[LANES], off[LANES], falls[LANES], low[LANES], high[LANES];
-    double y[LANES]; /* in half pieces */
+    double y[LANES];    /* in half pieces */
     double open[LANES]; /* 1: still looking; 0: q is found */
 };
 
 INLINE double slope_at(const struct crest_lanes *at, int l, double q)
 {
-    return at->terms[1][l] + q * (2 * at->terms[2][l] + q * (3 * at->terms[3][l] + q * (4 * at->terms[4][l] + q * 5 * at->terms[5][l])));
+    return at->terms[1][l] +
+           q * (2 * at->terms[2][l] + q * (3 * at->terms[3][l] + q * (4 * at->terms[4][l] + q * 5 * at->terms[5][l])));
 }
 
 INLINE double bend_at(const struct crest_lanes *at, int l, double q)
@@ -42,7 +44,8 @@ static void begin(const struct crest_disc *d, const struct crest_lanes *at, stru
         double y = at->y[l] * d->over, falls, away, off = off_at(d, at, l, y, 0, &falls);
         double end = lanes_select(off > 0, 1, -1), beyond = off_at(d, at, l, y, end, &away);
         double low = lanes_select(off > 0, 0, -1), high = lanes_select(off > 0, 1, 0);
-        double range = beyond - off, t = -off / range, chord = end / range, a = -1 / falls - chord, b = chord + 1 / away;
+        double range = beyond - off, t = -off / range, chord = end / range, a = -1 / falls - chord,
+               b = chord + 1 / away;
         double guess = t * (end + (1 - t) * range * ((1 - t) * a + t * b));
         guess = lanes_select(guess > low, guess, low);
         guess = lanes_select(guess < high, guess, high);
@@ -98,7 +101,9 @@ static void rest(const struct crest_disc *d, struct crest_lanes *at, const struc
     for (int l = 0; l < LANES; l++) {
         double q = s->q[l], u = at->y[l] - q * d->half, square = (d->radius - u) * (d->radius + u);
         double side = sqrt(lanes_select(square > 0, square, 0)), arc = d->radius * d->radius / (side * side * side);
-        double z = at->terms[0][l] + q * (at->terms[1][l] + q * (at->terms[2][l] + q * (at->terms[3][l] + q * (at->terms[4][l] + q * at->terms[5][l]))));
+        double z = at->terms[0][l] +
+                   q * (at->terms[1][l] +
+                        q * (at->terms[2][l] + q * (at->terms[3][l] + q * (at->terms[4][l] + q * at->terms[5][l]))));
         int inside = fabs(q) < 1;
         double bend = lanes_select(inside, bend_at(at, l, q) * d->over * d->over, 0);
         at->z[l] = z - u * u / (d->radius + side);

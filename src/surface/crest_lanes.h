@@ -6,8 +6,8 @@
 
 struct crest_lanes {
     _Alignas(64) double terms[CREST_TERMS][LANES];
-    double y[LANES];                              /* m: centres, from the pieces' middles        */
-    double z[LANES], slope[LANES], bend[LANES];   /* what crest_piece_rest says                  */
+    double y[LANES];                            /* m: centres, from the pieces' middles        */
+    double z[LANES], slope[LANES], bend[LANES]; /* what crest_piece_rest says                  */
 };
 
 /* Fills z, slope and bend. For d->half > 0; all lanes must be filled, with anything. */

@@ -1,6 +1,6 @@
-/* See crest_part.h. Blocks of the envelope lie on a lattice of their own, at least twice as long as the reach, and each is made from all the ground
-   within reach of it, so that the ground is looked at twice on average, whatever the radius, and the result is a function of the place alone, to
-   the last bit. */
+/* See crest_part.h. Blocks of the envelope lie on a lattice of their own, at least twice as long as the reach, and each
+   is made from all the ground within reach of it, so that the ground is looked at twice on average, whatever the
+   radius, and the result is a function of the place alone, to the last bit. */
 #include "surface/crest_part.h"
 
 #include <math.h>
@@ -20,14 +20,14 @@ struct bed {
     struct crest_disc disc;
     bool warned;
     double least, most;
-    long reach, side;       /* places: as far as the disc looks; in a block of the envelope */
-    int kinds;              /* of what is known of a place: its height; slope and bend      */
-    double *window[KINDS];  /* work */
+    long reach, side;      /* places: as far as the disc looks; in a block of the envelope */
+    int kinds;             /* of what is known of a place: its height; slope and bend      */
+    double *window[KINDS]; /* work */
     struct crest *crest;
-    struct kept *heights;   /* blocks of LINE places, of one kind after the other */
-    struct kept *blocks;    /* of the envelope: how many stretches, and these */
-    long column, hint;      /* of the block at hand; its stretch that was read last */
-    const double *at_hand;  /* NULL: none */
+    struct kept *heights;  /* blocks of LINE places, of one kind after the other */
+    struct kept *blocks;   /* of the envelope: how many stretches, and these */
+    long column, hint;     /* of the block at hand; its stretch that was read last */
+    const double *at_hand; /* NULL: none */
 };
 
 static void heights_watch(struct bed *g, const double *z)
@@ -38,8 +38,7 @@ static void heights_watch(struct bed *g, const double *z)
     }
     if (!g->warned && g->most - g->least > g->plan.span) {
         g->warned = true;
-        if (g->plan.exceeded)
-            g->plan.exceeded(g->plan.self);
+        if (g->plan.exceeded) g->plan.exceeded(g->plan.self);
     }
 }
 
@@ -51,16 +50,15 @@ static void heights_fill(void *self, long column, long row, double *out)
     for (long i = 0; i < LINE; i += READ) {
         for (long k = 0; k < READ; k++)
             x[k] = (double)(column * LINE + i + k) * g->plan.pitch;
-        struct relief_values v = {.z = out + i, .x = g->plan.points ? NULL : out + LINE + i, .xx = g->plan.points ? NULL : out + 2 * LINE + i};
+        struct relief_values v = {.z = out + i,
+                                  .x = g->plan.points ? NULL : out + LINE + i,
+                                  .xx = g->plan.points ? NULL : out + 2 * LINE + i};
         relief_at(g->under, &(struct relief_points){READ, x, NULL}, &v);
     }
     heights_watch(g, out);
 }
 
-static long floor_over(long i, long n)
-{
-    return i >= 0 ? i / n : -((-i + n - 1) / n);
-}
+static long floor_over(long i, long n) { return i >= 0 ? i / n : -((-i + n - 1) / n); }
 
 static void heights_gather(struct bed *g, long first, long n)
 {
@@ -101,12 +99,9 @@ static const double *bed_stretch(struct bed *g, double x)
 
 static void bed_put(const struct relief_values *v, size_t n, double z, double slope, double bend)
 {
-    if (v->z)
-        v->z[n] += z;
-    if (v->x)
-        v->x[n] += slope;
-    if (v->xx)
-        v->xx[n] += bend;
+    if (v->z) v->z[n] += z;
+    if (v->x) v->x[n] += slope;
+    if (v->xx) v->xx[n] += bend;
 }
 
 static void bed_points(struct bed *g, const struct relief_points *p, const struct relief_values *v)
@@ -145,34 +140,38 @@ static void bed_add(struct relief_part *part, const struct relief_points *p, con
             bed_lanes(g, p, v, from);
 }
 
-static long plan_reach(const struct crest_plan *p)
-{
-    return (long)ceil(p->reach / p->pitch);
-}
+static long plan_reach(const struct crest_plan *p) { return (long)ceil(p->reach / p->pitch); }
 
-static long plan_side(const struct crest_plan *p)
-{
-    return 2 * plan_reach(p) > LINE ? 2 * plan_reach(p) : LINE;
-}
+static long plan_side(const struct crest_plan *p) { return 2 * plan_reach(p) > LINE ? 2 * plan_reach(p) : LINE; }
 
-long crest_part_window(const struct crest_plan *p)
-{
-    return plan_side(p) + 2 * plan_reach(p) + 1;
-}
+long crest_part_window(const struct crest_plan *p) { return plan_side(p) + 2 * plan_reach(p) + 1; }
 
 struct relief_part *crest_part(struct arena *a, const struct relief *under, const struct crest_plan *p)
 {
     struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct bed *g = ARENA_TAKE(a, struct bed, 1);
-    long window = crest_part_window(p), size = 1 + window * CREST_NUMBERS, blocks = NUMBERS_KEPT / size, heights = 2 * (window / LINE + 2);
-    *g = (struct bed){.under = under, .plan = *p, .disc = crest_piece_disc(p->radius, p->points ? 0 : 0.5 * p->pitch), .least = HUGE_VAL, .most = -HUGE_VAL,
-                      .reach = plan_reach(p), .side = plan_side(p), .kinds = p->points ? 1 : KINDS, .crest = crest_make(a, p->radius, p->pitch, window)};
+    long window = crest_part_window(p), size = 1 + window * CREST_NUMBERS, blocks = NUMBERS_KEPT / size,
+         heights = 2 * (window / LINE + 2);
+    *g = (struct bed){.under = under,
+                      .plan = *p,
+                      .disc = crest_piece_disc(p->radius, p->points ? 0 : 0.5 * p->pitch),
+                      .least = HUGE_VAL,
+                      .most = -HUGE_VAL,
+                      .reach = plan_reach(p),
+                      .side = plan_side(p),
+                      .kinds = p->points ? 1 : KINDS,
+                      .crest = crest_make(a, p->radius, p->pitch, window)};
     for (int k = 0; k < g->kinds; k++)
         g->window[k] = ARENA_TAKE(a, double, window);
     blocks = blocks < KEPT_LEAST ? KEPT_LEAST : blocks > KEPT_MOST ? KEPT_MOST : blocks;
-    g->heights = kept_make(a, (size_t)(LINE * g->kinds), (size_t)(heights > HEIGHTS_LEAST ? heights : HEIGHTS_LEAST), heights_fill, g);
+    g->heights = kept_make(a, (size_t)(LINE * g->kinds), (size_t)(heights > HEIGHTS_LEAST ? heights : HEIGHTS_LEAST),
+                           heights_fill, g);
     g->blocks = kept_make(a, (size_t)size, (size_t)blocks, blocks_fill, g);
-    *part = (struct relief_part){.name = "crest", .finest = p->pitch, .from = {-HUGE_VAL, -HUGE_VAL}, .to = {HUGE_VAL, HUGE_VAL}, .add = bed_add,
+    *part = (struct relief_part){.name = "crest",
+                                 .finest = p->pitch,
+                                 .from = {-HUGE_VAL, -HUGE_VAL},
+                                 .to = {HUGE_VAL, HUGE_VAL},
+                                 .add = bed_add,
                                  .state = g};
     return part;
 }

@@ -1,12 +1,15 @@
-/* See crest_piece.h. Ground between two places where height, slope and bend are known is the polynomial of fifth degree that has them: off by
-   (2 half)^6 / 46080 of the sixth derivative; of a cubic spline whose knots are among the places, exact.
+/* See crest_piece.h. Ground between two places where height, slope and bend are known is the polynomial of fifth degree
+   that has them: off by (2 half)^6 / 46080 of the sixth derivative; of a cubic spline whose knots are among the places,
+   exact.
 
-   A disc of radius R whose centre is at y rests on the place t where z(t) + sqrt(R^2 - (y - t)^2) is largest. There its slope is the ground's, p:
+   A disc of radius R whose centre is at y rests on the place t where z(t) + sqrt(R^2 - (y - t)^2) is largest. There its
+   slope is the ground's, p:
 
      y = t - R p / sqrt(1 + p^2)
 
-   which rises with t where the bend z'' < (1 + p^2)^1.5 / R: elsewhere the ground is too hollow for the disc, which touches at a piece's end if at
-   all. The equation is solved by Newton's method between an end and the middle, whichever side it points to. */
+   which rises with t where the bend z'' < (1 + p^2)^1.5 / R: elsewhere the ground is too hollow for the disc, which
+   touches at a piece's end if at all. The equation is solved by Newton's method between an end and the middle,
+   whichever side it points to. */
 #include "surface/crest_piece.h"
 
 #include <math.h>
@@ -21,7 +24,8 @@ struct crest_disc crest_piece_disc(double radius, double half)
     return (struct crest_disc){radius, half, over, radius * over};
 }
 
-void crest_piece_make(const struct crest_disc *d, const struct crest_jet *a, const struct crest_jet *b, double terms[CREST_TERMS])
+void crest_piece_make(const struct crest_disc *d, const struct crest_jet *a, const struct crest_jet *b,
+                      double terms[CREST_TERMS])
 {
     double w = d->half, even = 0.5 * (a->z + b->z), odd = 0.5 * (b->z - a->z);
     double even_1 = 0.5 * w * (b->slope - a->slope), odd_1 = 0.5 * w * (a->slope + b->slope);
@@ -49,7 +53,8 @@ static double piece_bend(const double *c, double q)
     return 2 * c[2] + q * (6 * c[3] + q * (12 * c[4] + q * 20 * c[5]));
 }
 
-/* By how much, in half pieces, y lies to the right of where the disc would rest on q; *falls: its derivative, negated. */
+/* By how much, in half pieces, y lies to the right of where the disc would rest on q; *falls: its derivative, negated.
+ */
 static double piece_off(const struct crest_disc *d, const double *c, double y, double q, double *falls)
 {
     double p = piece_slope(c, q) * d->over, one = 1 / sqrt(1 + p * p), far = d->tall * one;
@@ -67,10 +72,10 @@ static double piece_guess(double off, double falls, double end, double beyond, d
 /* q of the place that the disc rests on; y in half pieces. */
 static double piece_touch(const struct crest_disc *d, const double *c, double y)
 {
-    double falls, away, off = piece_off(d, c, y, 0, &falls), end = off > 0 ? 1 : -1, beyond = piece_off(d, c, y, end, &away);
+    double falls, away, off = piece_off(d, c, y, 0, &falls), end = off > 0 ? 1 : -1,
+                        beyond = piece_off(d, c, y, end, &away);
     double low = off > 0 ? 0 : -1, high = off > 0 ? 1 : 0, q = 0;
-    if (beyond * end >= 0)
-        return end;
+    if (beyond * end >= 0) return end;
     if (falls > 0 && away > 0) {
         q = fmin(fmax(piece_guess(off, falls, end, beyond, away), low), high);
         off = piece_off(d, c, y, q, &falls);
@@ -80,8 +85,7 @@ static double piece_touch(const struct crest_disc *d, const double *c, double y)
         low = off > 0 ? q : low;
         high = off > 0 ? high : q;
         q = falls > 0 && next >= low && next <= high ? next : 0.5 * (low + high);
-        if (fabs(q - before) < NEAR)
-            return q;
+        if (fabs(q - before) < NEAR) return q;
         off = piece_off(d, c, y, q, &falls);
     }
     return q;
@@ -90,10 +94,13 @@ static double piece_touch(const struct crest_disc *d, const double *c, double y)
 /* The second derivative is R^2/s^3 z'' / (R^2/s^3 - z''), and that of the circle where the disc turns about an end. */
 struct crest_jet crest_piece_rest(const struct crest_disc *d, const double terms[CREST_TERMS], double y)
 {
-    double q = d->half > 0 ? piece_touch(d, terms, y * d->over) : 0, u = y - q * d->half, square = (d->radius - u) * (d->radius + u);
-    double s = square > 0 ? sqrt(square) : 0, arc = d->radius * d->radius / (s * s * s), z = d->half > 0 ? piece_height(terms, q) : terms[0];
+    double q = d->half > 0 ? piece_touch(d, terms, y * d->over) : 0, u = y - q * d->half,
+           square = (d->radius - u) * (d->radius + u);
+    double s = square > 0 ? sqrt(square) : 0, arc = d->radius * d->radius / (s * s * s),
+           z = d->half > 0 ? piece_height(terms, q) : terms[0];
     double bend = fabs(q) < 1 && d->half > 0 ? piece_bend(terms, q) * d->over * d->over : 0;
-    return (struct crest_jet){z - u * u / (d->radius + s), -u / s, fabs(q) < 1 && d->half > 0 ? arc * bend / (arc - bend) : -arc};
+    return (struct crest_jet){z - u * u / (d->radius + s), -u / s,
+                              fabs(q) < 1 && d->half > 0 ? arc * bend / (arc - bend) : -arc};
 }
 
 double crest_piece_centre(const struct crest_disc *d, double slope)

@@ -1,11 +1,10 @@
 /* See crests.h. Two memories of blocks on lattices through 0, each made from the one before when it is asked for:
 
-     heights   z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula. In one coordinate crest_part.c
-               keeps them, at a pitch of their own
-     crests    E at multiples of h = patch / 4
+     heights   z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula. In one
+   coordinate crest_part.c keeps them, at a pitch of their own crests    E at multiples of h = patch / 4
 
-   Errors. In one coordinate those of crest.c. In the plane the ball touches between samples too: E is too low by at most d^2/8 (1/R + |z''|) at the places of contact (in each direction;
-   Taylor's formula adds d^3/17 |z'''|). */
+   Errors. In one coordinate those of crest.c. In the plane the ball touches between samples too: E is too low by at
+   most d^2/8 (1/R + |z''|) at the places of contact (in each direction; Taylor's formula adds d^3/17 |z'''|). */
 #include "surface/crests.h"
 
 #include <math.h>
@@ -18,13 +17,13 @@ enum { LINE = 1024, CREST = 32, READ = 64, EIGHT = 8 };
 struct crests {
     const struct relief *under;
     struct rolling_plan plan;
-    double h, d;            /* m; d: of the plane */
-    double least, most;     /* m, of the heights read so far */
+    double h, d;        /* m; d: of the plane */
+    double least, most; /* m, of the heights read so far */
     bool warned;
-    long reach;             /* in d */
+    long reach; /* in d */
     struct grid heights;
     struct envelope *envelope; /* of the plane */
-    struct relief line;     /* the envelope in one coordinate */
+    struct relief line;        /* the envelope in one coordinate */
 };
 
 /* ------------------------------------------------------------------ heights */
@@ -58,8 +57,7 @@ static void heights_watch(struct crests *w, const double *z, long n)
     w->most = fmax(w->most, found[1]);
     if (!w->warned && w->most - w->least > w->plan.span) {
         w->warned = true;
-        if (w->plan.exceeded)
-            w->plan.exceeded(w->plan.self);
+        if (w->plan.exceeded) w->plan.exceeded(w->plan.self);
     }
 }
 
@@ -67,7 +65,8 @@ struct reading {
     double z[READ], x[READ], y[READ], xx[READ], xy[READ], yy[READ];
 };
 
-/* Heights, `stride` to a row, of the 2 x 2 places about each of EIGHT x EIGHT points, s away from it in both directions. */
+/* Heights, `stride` to a row, of the 2 x 2 places about each of EIGHT x EIGHT points, s away from it in both
+ * directions. */
 LANES_CLONES
 static void squares_put(const struct reading *r, double s, double *out, long stride)
 {
@@ -76,7 +75,8 @@ static void squares_put(const struct reading *r, double s, double *out, long str
 #pragma omp simd
         for (long i = 0; i < EIGHT; i++) {
             long k = j * EIGHT + i;
-            double even = r->z[k] + 0.5 * s * s * (r->xx[k] + r->yy[k]), cross = s * s * r->xy[k], a = s * r->x[k], b = s * r->y[k];
+            double even = r->z[k] + 0.5 * s * s * (r->xx[k] + r->yy[k]), cross = s * s * r->xy[k], a = s * r->x[k],
+                   b = s * r->y[k];
             low[2 * i] = even + cross - (a + b);
             low[2 * i + 1] = even - cross + (a - b);
             high[2 * i] = even - cross - (a - b);
@@ -85,8 +85,9 @@ static void squares_put(const struct reading *r, double s, double *out, long str
     }
 }
 
-/* Parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in its middle, and they are its Taylor polynomial of second degree. 64 points are
-   read at a time, in a square of the lattice, as parts that keep patches of coefficients like it. */
+/* Parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in its middle, and they
+   are its Taylor polynomial of second degree. 64 points are read at a time, in a square of the lattice, as parts that
+   keep patches of coefficients like it. */
 static void heights_fill(void *self, long column, long row, double *out)
 {
     struct crests *w = self;
@@ -99,7 +100,8 @@ static void heights_fill(void *self, long column, long row, double *out)
             x[k] = ((double)(first_x + left + 2 * (k % EIGHT)) + 0.5) * w->d;
             y[k] = ((double)(first_y + below + 2 * (k / EIGHT)) + 0.5) * w->d;
         }
-        relief_at(w->under, &(struct relief_points){READ, x, y}, &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
+        relief_at(w->under, &(struct relief_points){READ, x, y},
+                  &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
         squares_put(&r, w->d / 2, out + below * side + left, side);
     }
     heights_watch(w, out, side * side);
@@ -117,7 +119,8 @@ static void crests_square(void *self, long column, long row, double *out)
     struct crests *w = self;
     long finer = w->plan.finer, side = crests_side(&w->plan), stride;
     double *heights = envelope_heights(w->envelope, &stride);
-    grid_gather(&w->heights, (long[]){column * CREST * finer - w->reach, row * CREST * finer - w->reach}, (long[]){side, side}, heights, stride);
+    grid_gather(&w->heights, (long[]){column * CREST * finer - w->reach, row * CREST * finer - w->reach},
+                (long[]){side, side}, heights, stride);
     envelope_prepare(w->envelope);
     for (long j = 0; j < CREST; j++)
         for (long i = 0; i < CREST; i++)
@@ -141,7 +144,8 @@ static void crests_row(void *self, long column, long row, double *out)
 
 /* ------------------------------------------------------------------ making */
 
-/* Blocks held: of heights, what one block of crests needs, and as much again; of crests, what one of splines does, many times. */
+/* Blocks held: of heights, what one block of crests needs, and as much again; of crests, what one of splines does, many
+ * times. */
 static struct grid crests_plane(struct crests *w, struct arena *a)
 {
     long side = crests_side(&w->plan);
@@ -158,8 +162,7 @@ struct grid crests_make(struct arena *a, const struct relief *under, const struc
     struct crest_plan line = crests_line(p);
     double h = p->patch / ROLLING_PER_PATCH;
     *w = (struct crests){.under = under, .plan = *p, .h = h, .d = h / p->finer, .least = HUGE_VAL, .most = -HUGE_VAL};
-    if (under->along == ALONG_PLANE)
-        return crests_plane(w, a);
+    if (under->along == ALONG_PLANE) return crests_plane(w, a);
     w->line.along = ALONG_PATH;
     relief_add(&w->line, crest_part(a, under, &line));
     return (struct grid){kept_make(a, LINE, 64, crests_row, w), {LINE, 1}};

@@ -1,4 +1,5 @@
-/* The upper envelope E of a ball over a surface (surface/envelope.h; in one coordinate crest.h) at the points of a lattice, patch / 4 apart. */
+/* The upper envelope E of a ball over a surface (surface/envelope.h; in one coordinate crest.h) at the points of a
+ * lattice, patch / 4 apart. */
 #ifndef SURFACE_CRESTS_H
 #define SURFACE_CRESTS_H
 #include "surface/grid.h"

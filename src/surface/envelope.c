@@ -2,10 +2,11 @@
 
      cap(d) = sqrt(R^2 - d^2) - R = -d^2 / (R + sqrt(R^2 - d^2))  <=  -d^2 / (2 R)
 
-   The search goes down a pyramid of the largest heights of 4 x 4, 16 x 16 ... samples and leaves out whatever lies, with the paraboloid's cap at
-   its nearest corner, below the best so far, which begins with where the ball touched at the point before: on a rough surface it rests on the
-   same asperity for most of its way. Being the largest of the same numbers in any order, the result does not depend on the path of the search;
-   the bound is loosened by 1e-14 so that its rounding leaves nothing out. */
+   The search goes down a pyramid of the largest heights of 4 x 4, 16 x 16 ... samples and leaves out whatever lies,
+   with the paraboloid's cap at its nearest corner, below the best so far, which begins with where the ball touched at
+   the point before: on a rough surface it rests on the same asperity for most of its way. Being the largest of the same
+   numbers in any order, the result does not depend on the path of the search; the bound is loosened by 1e-14 so that
+   its rounding leaves nothing out. */
 #include "surface/envelope.h"
 
 #include <math.h>
@@ -15,8 +16,8 @@
 enum { FACTOR = 4, LEVELS = 16 };
 
 struct level {
-    long columns, rows;     /* whole blocks of the next level: what lies beyond the heights is -HUGE_VAL */
-    double span;            /* samples of a side */
+    long columns, rows; /* whole blocks of the next level: what lies beyond the heights is -HUGE_VAL */
+    double span;        /* samples of a side */
     double *most;
 };
 
@@ -29,26 +30,25 @@ struct envelope {
     double best;
 };
 
-static long shrunk(long n, long factor)
-{
-    return (n + factor - 1) / factor;
-}
+static long shrunk(long n, long factor) { return (n + factor - 1) / factor; }
 
 struct envelope *envelope_make(struct arena *a, double radius, double pitch, long columns, long rows)
 {
     struct envelope *e = ARENA_TAKE(a, struct envelope, 1);
-    *e = (struct envelope){.radius = radius, .square = radius * radius, .loose = (1 - 1e-14) / (2 * radius), .unit = pitch * pitch,
+    *e = (struct envelope){.radius = radius,
+                           .square = radius * radius,
+                           .loose = (1 - 1e-14) / (2 * radius),
+                           .unit = pitch * pitch,
                            .tall = rows > 1 ? FACTOR : 1};
     for (double span = 1;; span *= FACTOR) {
         long wide = shrunk(columns, FACTOR) * FACTOR, high = shrunk(rows, e->tall) * e->tall;
         struct level *l = &e->levels[e->top];
-        *l = (struct level){wide, high, span, ARENA_TAKE(a, double, wide * high)};
+        *l = (struct level){wide, high, span, ARENA_TAKE(a, double, wide *high)};
         for (long i = 0; i < wide * high; i++)
             l->most[i] = -HUGE_VAL;
         columns = wide / FACTOR;
         rows = high / e->tall;
-        if ((columns == 1 && rows == 1) || e->top == LEVELS - 1)
-            return e;
+        if ((columns == 1 && rows == 1) || e->top == LEVELS - 1) return e;
         e->top++;
     }
 }
@@ -109,11 +109,14 @@ static inline __attribute__((always_inline)) double apart(double first, double l
     return d * d;
 }
 
-/* What the ball can reach at most in each of the FACTOR x tall blocks from (x, y) on; bit k of what is returned: block k is within its radius, and that is more than the best so far. */
+/* What the ball can reach at most in each of the FACTOR x tall blocks from (x, y) on; bit k of what is returned: block
+ * k is within its radius, and that is more than the best so far. */
 LANES_CLONES
 static int promising(const struct envelope *e, const struct level *l, long x, long y, double *bound)
 {
-    static const double nth[FACTOR] = {0, 1, 2, 3}, bits[FACTOR * FACTOR] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+    static const double nth[FACTOR] = {0, 1, 2, 3},
+                        bits[FACTOR * FACTOR] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                 256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
     double left[FACTOR], below[FACTOR], found[FACTOR] = {0}, column = (double)x, row = (double)y, last = l->span - 1;
 #pragma omp simd
     for (int i = 0; i < FACTOR; i++) {
@@ -139,8 +142,7 @@ static void search(struct envelope *e, int level, long column, long row)
     long x = column * FACTOR, y = row * e->tall;
     for (int left = promising(e, &e->levels[level], x, y, bound); left; left &= left - 1) {
         int k = __builtin_ctz((unsigned)left);
-        if (bound[k] <= e->best)
-            continue;
+        if (bound[k] <= e->best) continue;
         if (level == 0)
             try(e, x + k % FACTOR, y + k / FACTOR);
         else
@@ -158,8 +160,7 @@ double envelope_at(struct envelope *e, long column, long row)
     e->best = l->most[row * l->columns + column];
     e->seed_x = column;
     e->seed_y = row;
-    if ((dx * dx + dy * dy) * e->unit <= e->square)
-        try(e, x, y);
+    if ((dx * dx + dy * dy) * e->unit <= e->square) try(e, x, y);
     const struct level *top = &e->levels[e->top];
     for (long j = 0; j < top->rows / e->tall; j++)
         for (long i = 0; i < top->columns / FACTOR; i++)

@@ -3,10 +3,7 @@
 
 #include <string.h>
 
-long grid_block(long i, long n)
-{
-    return i >= 0 ? i / n : -((-i + n - 1) / n);
-}
+long grid_block(long i, long n) { return i >= 0 ? i / n : -((-i + n - 1) / n); }
 
 void grid_gather(const struct grid *g, const long from[2], const long size[2], double *out, long stride)
 {

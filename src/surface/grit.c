@@ -2,13 +2,15 @@
 
      h b(r/R),  b(t) = (1 - t^2)^3 for t < 1        R = v diameter/2, h = v height
 
-   v log-normal with mean 1 and the standard deviation `spread`, v = exp(s n - shift), s^2 = log(1 + spread^2), n standard normal but cut at 3 (by Box and Muller's
-   method with a radius of at most 3), so that grains have a largest size; the deviation of v is 5 % less for it. Second derivatives are continuous. Grains that overlap add up, so that a dense coat is rougher than its grains are high:
-   mean height = density pi/4 E[h R^2], variance of the heights = density pi/7 E[h^2 R^2] (Campbell's theorem).
+   v log-normal with mean 1 and the standard deviation `spread`, v = exp(s n - shift), s^2 = log(1 + spread^2), n
+   standard normal but cut at 3 (by Box and Muller's method with a radius of at most 3), so that grains have a largest
+   size; the deviation of v is 5 % less for it. Second derivatives are continuous. Grains that overlap add up, so that a
+   dense coat is rougher than its grains are high: mean height = density pi/4 E[h R^2], variance of the heights =
+   density pi/7 E[h^2 R^2] (Campbell's theorem).
 
-   The plane is cut into cells, each with its own counter (column, row), from which come its number of grains (inverting the Poisson distribution),
-   their places and sizes. A cell is at least as wide as the largest grain's R, so that the nine cells about a place hold all that reach it; their
-   grains are kept until the place leaves the middle cell. */
+   The plane is cut into cells, each with its own counter (column, row), from which come its number of grains (inverting
+   the Poisson distribution), their places and sizes. A cell is at least as wide as the largest grain's R, so that the
+   nine cells about a place hold all that reach it; their grains are kept until the place leaves the middle cell. */
 #include "surface/grit.h"
 
 #include <limits.h>
@@ -19,20 +21,20 @@
 
 #define GRIT_MEAN_MOST 100.0 /* grains of a cell, in the mean */
 
-enum { GRIT_MOST = 4096 };   /* of nine cells: 900 in the mean at most, with a standard deviation of 30 */
+enum { GRIT_MOST = 4096 }; /* of nine cells: 900 in the mean at most, with a standard deviation of 30 */
 
 struct grain {
-    double x, y, h, u;      /* m; u = 1/R^2 */
+    double x, y, h, u; /* m; u = 1/R^2 */
 };
 
 struct grit_state {
     struct noise stream;
     struct grit recipe;
-    double sigma, shift;    /* log v = sigma n - shift */
-    double cell, mean;      /* m; grains of one */
-    long column, row;       /* middle cell of what is kept; column LONG_MIN: nothing */
+    double sigma, shift; /* log v = sigma n - shift */
+    double cell, mean;   /* m; grains of one */
+    long column, row;    /* middle cell of what is kept; column LONG_MIN: nothing */
     int n;
-    struct grain *grains;   /* [GRIT_MOST] */
+    struct grain *grains; /* [GRIT_MOST] */
 };
 
 /* Standard normal within 3 standard deviations: Box and Muller's with the radius at most 3. */
@@ -42,10 +44,7 @@ static double normal_of(double u, double turns)
     return sqrt(-2 * real_log(least + (1 - least) * u)) * real_cospi(2 * turns);
 }
 
-static double uniform_of(uint64_t bits)
-{
-    return (double)(bits >> 11 | 1) * 0x1p-53;
-}
+static double uniform_of(uint64_t bits) { return (double)(bits >> 11 | 1) * 0x1p-53; }
 
 /* Number of grains of a cell: the n at which the distribution function passes u. */
 static int poisson_of(double mean, double u)
@@ -69,16 +68,17 @@ static void cell_add(struct grit_state *s, long column, long row)
         uint64_t place[2], size[2];
         noise_bits(own, (uint64_t)i, 0, place);
         noise_bits(own, (uint64_t)i, 1, size);
-        double v = real_exp(s->sigma * normal_of(uniform_of(size[0]), uniform_of(size[1])) - s->shift), radius = 0.5 * v * s->recipe.diameter;
-        s->grains[s->n++] = (struct grain){((double)column + uniform_of(place[0])) * s->cell, ((double)row + uniform_of(place[1])) * s->cell,
-                                           v * s->recipe.height, 1 / (radius * radius)};
+        double v = real_exp(s->sigma * normal_of(uniform_of(size[0]), uniform_of(size[1])) - s->shift),
+               radius = 0.5 * v * s->recipe.diameter;
+        s->grains[s->n++] =
+            (struct grain){((double)column + uniform_of(place[0])) * s->cell,
+                           ((double)row + uniform_of(place[1])) * s->cell, v * s->recipe.height, 1 / (radius * radius)};
     }
 }
 
 static void cells_hold(struct grit_state *s, long column, long row)
 {
-    if (s->column == column && s->row == row)
-        return;
+    if (s->column == column && s->row == row) return;
     s->column = column;
     s->row = row;
     s->n = 0;
@@ -109,19 +109,14 @@ static void grit_add(struct relief_part *part, const struct relief_points *p, co
         for (int g = 0; g < s->n; g++) {
             const struct grain *one = &s->grains[g];
             double dx = x - one->x, dy = y - one->y, w = 1 - (dx * dx + dy * dy) * one->u;
-            if (w > 0)
-                grain_add(one, dx, dy, w, out);
+            if (w > 0) grain_add(one, dx, dy, w, out);
         }
         for (int k = 0; k < 6; k++)
-            if (values[k])
-                values[k][i] += out[k];
+            if (values[k]) values[k][i] += out[k];
     }
 }
 
-static double sigma_of(const struct grit *g)
-{
-    return sqrt(real_log1p(g->spread * g->spread));
-}
+static double sigma_of(const struct grit *g) { return sqrt(real_log1p(g->spread * g->spread)); }
 
 /* E[exp(t n)] of n as normal_of draws it: over radii by the midpoint rule, over turns by equal steps. */
 static double growth(double t)
@@ -148,17 +143,30 @@ struct relief_part *grit_part(struct arena *a, const struct grit *g, struct nois
 {
     struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct grit_state *s = ARENA_TAKE(a, struct grit_state, 1);
-    double sigma = sigma_of(g), shift = real_log(growth(sigma)), reach = 0.5 * g->diameter * real_exp(3 * sigma - shift);
+    double sigma = sigma_of(g), shift = real_log(growth(sigma)),
+           reach = 0.5 * g->diameter * real_exp(3 * sigma - shift);
     double cell = fmax(reach, 1 / sqrt(g->density)), mean = g->density * cell * cell;
     if (mean > GRIT_MEAN_MOST) {
-        err_set(e, ERR_SCENE, "surface.grit: %g grains per m^2 of up to %g m diameter lie %.3g deep over each other; lower density, diameter or spread",
+        err_set(e, ERR_SCENE,
+                "surface.grit: %g grains per m^2 of up to %g m diameter lie %.3g deep over each other; lower density, "
+                "diameter or spread",
                 g->density, 2 * reach, g->density * reach * reach * REAL_PI);
         return NULL;
     }
-    *s = (struct grit_state){.stream = stream, .recipe = *g, .sigma = sigma, .shift = shift, .cell = cell, .mean = mean, .column = LONG_MIN,
+    *s = (struct grit_state){.stream = stream,
+                             .recipe = *g,
+                             .sigma = sigma,
+                             .shift = shift,
+                             .cell = cell,
+                             .mean = mean,
+                             .column = LONG_MIN,
                              .grains = ARENA_TAKE(a, struct grain, GRIT_MOST)};
-    *part = (struct relief_part){.name = "grit", .finest = 0.5 * g->diameter * real_exp(-2 * sigma - shift) / 4, .from = {-HUGE_VAL, -HUGE_VAL},
-                                 .to = {HUGE_VAL, HUGE_VAL}, .add = grit_add, .state = s};
+    *part = (struct relief_part){.name = "grit",
+                                 .finest = 0.5 * g->diameter * real_exp(-2 * sigma - shift) / 4,
+                                 .from = {-HUGE_VAL, -HUGE_VAL},
+                                 .to = {HUGE_VAL, HUGE_VAL},
+                                 .add = grit_add,
+                                 .state = s};
     return part;
 }
 
@@ -182,8 +190,7 @@ static bool grit_open(struct stage_run *r, struct err *e)
 {
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "grit/%s", r->contact->name));
     struct relief_part *part = grit_part(r->arena, &r->contact->surface.grit, stream, e);
-    if (!part)
-        return err_at(e, "contact '%s'", r->contact->name);
+    if (!part) return err_at(e, "contact '%s'", r->contact->name);
     relief_settle(r->board->relief, r->contact);
     relief_add(r->board->relief, part);
     return true;

@@ -7,8 +7,8 @@
 #include "scene/scene.h"
 #include "surface/relief.h"
 
-/* The grains of that recipe and noise stream; read without y (along a path or x) it is their trace along y = 0. NULL: ERR_SCENE, for so many
-   grains over each other that reading a place would take thousands. */
+/* The grains of that recipe and noise stream; read without y (along a path or x) it is their trace along y = 0. NULL:
+   ERR_SCENE, for so many grains over each other that reading a place would take thousands. */
 struct relief_part *grit_part(struct arena *a, const struct grit *recipe, struct noise stream, struct err *e);
 
 /* Mean and mean square of the heights (m, m^2), by Campbell's theorem. */

@@ -1,23 +1,28 @@
 /* A measured map or profile under the contact: file, spline, checks of its geometry. */
+#include "surface/height_map.h"
 #include "base/shelf.h"
 #include "file/heightfile_doubt.h"
 #include "file/heightfile_load.h"
 #include "num/real.h"
 #include "stage.h"
-#include "surface/height_map.h"
 #include "surface/map.h"
 #include "surface/profile.h"
 #include "trajectory/trajectory.h"
 
-/* Stored steps make curvature noise: steps of size q, rounded evenly, have a standard deviation of q / sqrt(12), their second difference
-   sqrt(6) times as much over pitch^2, and the spline through them 1.55 times that on average. Above a tenth of the limit 1/alpha it is heard. */
+/* Stored steps make curvature noise: steps of size q, rounded evenly, have a standard deviation of q / sqrt(12), their
+   second difference sqrt(6) times as much over pitch^2, and the spline through them 1.55 times that on average. Above a
+   tenth of the limit 1/alpha it is heard. */
 static void height_map_grain(struct stage_run *r, const struct heightfile *h)
 {
     const struct limiter *l = &r->contact->contact.limiter;
-    double step = h->step, noise = 1.55 * sqrt(0.5) * step / (h->pitch_x * h->pitch_x), limit = 1 / fmax(l->alpha, l->alpha_max);
+    double step = h->step, noise = 1.55 * sqrt(0.5) * step / (h->pitch_x * h->pitch_x),
+           limit = 1 / fmax(l->alpha, l->alpha_max);
     if (l->curve == LIMITER_TANH && noise > 0.1 * limit)
-        board_warn(r->board, arena_format(r->arena, "%s: heights are stored in steps of %.3g m, whose curvature noise of %.3g 1/m is heard: the limiter's is "
-                                          "%.3g 1/m; use a finer file (32-bit), or a coarser pitch", r->contact->surface.height_map, step, noise, limit));
+        board_warn(r->board, arena_format(r->arena,
+                                          "%s: heights are stored in steps of %.3g m, whose curvature noise of %.3g "
+                                          "1/m is heard: the limiter's is "
+                                          "%.3g 1/m; use a finer file (32-bit), or a coarser pitch",
+                                          r->contact->surface.height_map, step, noise, limit));
 }
 
 /* A map as it was read, with its spline: what all stimuli of a set share. */
@@ -35,11 +40,13 @@ static bool height_map_make(const char *path, const void *how, struct arena *a, 
     const struct surface *s = how;
     struct height_map_read *m = thing;
     struct heightfile *h = &m->file;
-    struct heightfile_options o = {.pitch = s->pitch, .height_scale = s->height_scale, .height_range = s->height_range, .holes = s->holes,
+    struct heightfile_options o = {.pitch = s->pitch,
+                                   .height_scale = s->height_scale,
+                                   .height_range = s->height_range,
+                                   .holes = s->holes,
                                    .levelling = s->levelling};
     *m = (struct height_map_read){0};
-    if (!heightfile_load(path, &o, a, h, e))
-        return false;
+    if (!heightfile_load(path, &o, a, h, e)) return false;
     m->n_doubts = heightfile_doubt(h, NULL, a, m->doubts);
     m->map = (struct height_map){h->z, h->columns, h->rows, {h->pitch_x, h->rows > 1 ? h->pitch_y : h->pitch_x}};
     if (h->rows > 1) {
@@ -55,12 +62,14 @@ static const struct height_map_read *height_map_load(struct stage_run *r, struct
 {
     static const struct shelf_kind maps = {"height map", sizeof(struct height_map_read), height_map_make, false};
     const struct surface *s = &r->contact->surface;
-    const char *key = arena_format(r->arena, "%a %a %a %d %d %d", s->pitch, s->height_scale, s->height_range, s->holes, s->levelling, s->off_map);
-    const struct height_map_read *m = shelf_take(r->scene->shelf, &(struct shelf_ask){&maps, s->height_map, key, s}, r->arena, e);
+    const char *key = arena_format(r->arena, "%a %a %a %d %d %d", s->pitch, s->height_scale, s->height_range, s->holes,
+                                   s->levelling, s->off_map);
+    const struct height_map_read *m =
+        shelf_take(r->scene->shelf, &(struct shelf_ask){&maps, s->height_map, key, s}, r->arena, e);
     if (m && m->file.filled)
-        board_warn(r->board, arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, m->file.filled));
-    if (m)
-        height_map_grain(r, &m->file);
+        board_warn(r->board,
+                   arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, m->file.filled));
+    if (m) height_map_grain(r, &m->file);
     for (int k = 0; m && k < m->n_doubts; k++)
         board_warn(r->board, arena_format(r->arena, "%s: %s", s->height_map, m->doubts[k]));
     return m;
@@ -69,21 +78,23 @@ static const struct height_map_read *height_map_load(struct stage_run *r, struct
 /* Decides which coordinates the surface follows, from the number of rows. */
 static bool height_map_along(struct relief *r, const struct contact *c, const struct height_map *m, struct err *e)
 {
-    if (r->along == ALONG_AUTO)
-        r->along = m->rows > 1 ? ALONG_PLANE : ALONG_PATH;
+    if (r->along == ALONG_AUTO) r->along = m->rows > 1 ? ALONG_PLANE : ALONG_PATH;
     if (m->rows > 1 && r->along != ALONG_PLANE)
         return err_set(e, ERR_SCENE,
-                       "%s: a map of %zu x %zu samples lies in the plane: leave surface.along out, or take one row of it with rasp surface convert --row",
+                       "%s: a map of %zu x %zu samples lies in the plane: leave surface.along out, or take one row of "
+                       "it with rasp surface convert --row",
                        c->surface.height_map, m->columns, m->rows);
     return m->rows > 1 || r->along != ALONG_PLANE ||
-           err_set(e, ERR_SCENE, "%s: a profile has no second dimension: leave surface.along out, or set it to path or x", c->surface.height_map);
+           err_set(e, ERR_SCENE,
+                   "%s: a profile has no second dimension: leave surface.along out, or set it to path or x",
+                   c->surface.height_map);
 }
 
 static struct relief_part *height_map_part(struct stage_run *r, const struct height_map_read *m)
 {
-    if (r->board->relief->along == ALONG_PLANE)
-        return map_part(r->arena, m->plane, (double[]){0, 0}, "height_map");
-    struct profile *p = profile_from_coefficients(r->arena, m->line, m->map.columns, m->map.pitch[0], r->contact->surface.off_map);
+    if (r->board->relief->along == ALONG_PLANE) return map_part(r->arena, m->plane, (double[]){0, 0}, "height_map");
+    struct profile *p =
+        profile_from_coefficients(r->arena, m->line, m->map.columns, m->map.pitch[0], r->contact->surface.off_map);
     return profile_part(r->arena, p, "height_map", 0);
 }
 
@@ -93,15 +104,22 @@ static bool height_map_inside(const struct stage_run *r, const struct relief_par
     const struct trajectory *tr = r->board->trajectory;
     bool path = r->board->relief->along == ALONG_PATH;
     for (int axis = 0; axis < (r->board->relief->along == ALONG_PLANE ? 2 : 1); axis++) {
-        const double *least = path ? &tr->reach[0] : &tr->box[0][axis], *most = path ? &tr->reach[1] : &tr->box[1][axis];
-        double from = p->from[axis] + relief_shift(r->board->relief, axis), to = p->to[axis] + relief_shift(r->board->relief, axis);
+        const double *least = path ? &tr->reach[0] : &tr->box[0][axis],
+                     *most = path ? &tr->reach[1] : &tr->box[1][axis];
+        double from = p->from[axis] + relief_shift(r->board->relief, axis),
+               to = p->to[axis] + relief_shift(r->board->relief, axis);
         double slack = 1e-9 * p->pitch[axis], out = *least < from - slack ? *least : *most;
         if (*least < from - slack || *most > to + slack)
             return err_about(e, r->contact->name, "motion") ||
                    err_set(e, ERR_SCENE,
-                           "contact '%s': the motion leaves the height map: it reaches %g m %s, and the map goes from %g to %g m; shorten or move "
+                           "contact '%s': the motion leaves the height map: it reaches %g m %s, and the map goes from "
+                           "%g to %g m; shorten or move "
                            "the motion, or set surface.off_map to mirror or wrap",
-                           r->contact->name, out, path ? "along the path" : axis ? "in y" : "in x", from, to);
+                           r->contact->name, out,
+                           path   ? "along the path"
+                           : axis ? "in y"
+                                  : "in x",
+                           from, to);
     }
     return true;
 }
@@ -110,8 +128,7 @@ static bool height_map_open(struct stage_run *r, struct err *e)
 {
     const struct surface *s = &r->contact->surface;
     const struct height_map_read *m = height_map_load(r, e);
-    if (!m || !height_map_along(r->board->relief, r->contact, &m->map, e))
-        return false;
+    if (!m || !height_map_along(r->board->relief, r->contact, &m->map, e)) return false;
     struct relief_part *part = height_map_part(r, m);
     relief_add(r->board->relief, part);
     r->board->height_map = &m->map;

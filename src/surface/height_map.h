@@ -4,9 +4,9 @@
 #include <stddef.h>
 
 struct height_map {
-    const double *z;      /* m, [rows][columns]; rows = 1: a profile */
+    const double *z; /* m, [rows][columns]; rows = 1: a profile */
     size_t columns, rows;
-    double pitch[2];      /* m along x (or the path) and y */
+    double pitch[2]; /* m along x (or the path) and y */
 };
 
 #endif

@@ -4,15 +4,17 @@
      H'   = scale b cosh(e + b asinh g)/sqrt(1 + g^2)
      H''  = (scale b^2 sinh(e + b asinh g) - H' g)/(1 + g^2)
 
-   It increases, has all derivatives, and both light (b < 1) and heavy tails (b > 1); e leans it. At each b, skewness grows with e, so e is
-   found by false position, and kurtosis grows with b along the curve of the skewness asked for, so b is found by another. Moments are sums over g
-   at a spacing of 1/8 out to 12: the trapezoidal rule, exact to rounding for functions so smooth. |e| <= 5, 0.02 <= b <= 3.
+   It increases, has all derivatives, and both light (b < 1) and heavy tails (b > 1); e leans it. At each b, skewness
+   grows with e, so e is found by false position, and kurtosis grows with b along the curve of the skewness asked for,
+   so b is found by another. Moments are sums over g at a spacing of 1/8 out to 12: the trapezoidal rule, exact to
+   rounding for functions so smooth. |e| <= 5, 0.02 <= b <= 3.
 
-   What it does to the spectrum: with c_n = E[H He_n]/sqrt(n!) the autocorrelation r of g becomes the sum of c_n^2 r^n. The share c_1^2
-   (`linear`) keeps its spectrum, the rest is spread over wider bands, up to n times as far. Coarse detail therefore has at least c_1^2 of the density asked
-   for, and detail much finer than most of the height is steepened as H' has it: its density is multiplied by E[H'^2] = sum of n c_n^2 (`steeper`).
-   Between them lies all; skewness -1 and kurtosis 5: 0.95 and 1.06 (-0.2 and 0.3 dB); 3 and 30: 0.72 and 1.49 (-1.4 and
-   1.7 dB). */
+   What it does to the spectrum: with c_n = E[H He_n]/sqrt(n!) the autocorrelation r of g becomes the sum of c_n^2 r^n.
+   The share c_1^2
+   (`linear`) keeps its spectrum, the rest is spread over wider bands, up to n times as far. Coarse detail therefore has
+   at least c_1^2 of the density asked for, and detail much finer than most of the height is steepened as H' has it: its
+   density is multiplied by E[H'^2] = sum of n c_n^2 (`steeper`). Between them lies all; skewness -1 and kurtosis 5:
+   0.95 and 1.06 (-0.2 and 0.3 dB); 3 and 30: 0.72 and 1.49 (-1.4 and 1.7 dB). */
 #include "surface/heights.h"
 
 #include <string.h>
@@ -36,7 +38,7 @@ struct moments {
     double mean, variance, skewness, kurtosis, linear, steeper;
 };
 
-struct nodes {               /* of the sums over g */
+struct nodes { /* of the sums over g */
     double g[2 * REACH + 1], arc[2 * REACH + 1], p[2 * REACH + 1];
 };
 
@@ -67,8 +69,12 @@ static struct moments moments_of(const struct nodes *n, double e, double b)
         sum[3] += n->p[i] * d * d * d;
         sum[4] += n->p[i] * d * d * d * d;
     }
-    return (struct moments){mean / size, sum[2] / (size * size), sum[3] / (sum[2] * sqrt(sum[2])), sum[4] / (sum[2] * sum[2]),
-                            first * first / sum[2], slopes / sum[2]};
+    return (struct moments){mean / size,
+                            sum[2] / (size * size),
+                            sum[3] / (sum[2] * sqrt(sum[2])),
+                            sum[4] / (sum[2] * sum[2]),
+                            first * first / sum[2],
+                            slopes / sum[2]};
 }
 
 struct aim {
@@ -76,17 +82,16 @@ struct aim {
     double b, skewness, kurtosis;
 };
 
-/* Where f, rising from below 0 at lo to above at hi, is 0: false position, the end that stays counting half (Illinois). */
+/* Where f, rising from below 0 at lo to above at hi, is 0: false position, the end that stays counting half (Illinois).
+ */
 static double root_of(double (*f)(double, const struct aim *), const struct aim *aim, double lo, double hi)
 {
     double at_lo = f(lo, aim), at_hi = f(hi, aim), x = lo;
-    if (at_lo >= 0 || at_hi <= 0)
-        return at_lo >= 0 ? lo : hi;
+    if (at_lo >= 0 || at_hi <= 0) return at_lo >= 0 ? lo : hi;
     for (int i = 0, side = 0; i < 200 && hi - lo > 1e-13 * (1 + hi); i++) {
         x = (lo * at_hi - hi * at_lo) / (at_hi - at_lo);
         double y = f(x, aim);
-        if (fabs(y) < 1e-12)
-            return x;
+        if (fabs(y) < 1e-12) return x;
         if (y > 0) {
             hi = x, at_hi = y;
             at_lo *= side > 0 ? 0.5 : 1;
@@ -125,8 +130,7 @@ static double skewness_reached(double b, const struct aim *aim)
 static bool reach_of(const struct aim *aim, double *b_least, double range[2])
 {
     *b_least = root_of(skewness_reached, aim, B_LEAST, B_MOST);
-    if (skewness_reached(B_MOST, aim) <= 0)
-        return false;
+    if (skewness_reached(B_MOST, aim) <= 0) return false;
     range[0] = (kurtosis_off(*b_least, aim) + aim->kurtosis) * 1.0005;
     range[1] = (kurtosis_off(B_MOST, aim) + aim->kurtosis) * 0.9995;
     return true;
@@ -148,14 +152,24 @@ bool heights_make(double skewness, double kurtosis, struct heights *h, struct er
     struct aim aim = {&n, 0, fabs(skewness), kurtosis};
     double lo, range[2];
     if (!reach_of(&aim, &lo, range))
-        return err_set(err, ERR_SCENE, "no height distribution with skewness %g is known to this program: choose one nearer to 0", skewness);
+        return err_set(err, ERR_SCENE,
+                       "no height distribution with skewness %g is known to this program: choose one nearer to 0",
+                       skewness);
     if (kurtosis < range[0] || kurtosis > range[1])
-        return err_set(err, ERR_SCENE, "no height distribution with skewness %g and kurtosis %g is known to this program: with that skewness, "
-                       "kurtosis can be from %.4g to %.4g", skewness, kurtosis, range[0] * 1.0001, range[1] * 0.9999);
+        return err_set(
+            err, ERR_SCENE,
+            "no height distribution with skewness %g and kurtosis %g is known to this program: with that skewness, "
+            "kurtosis can be from %.4g to %.4g",
+            skewness, kurtosis, range[0] * 1.0001, range[1] * 0.9999);
     double b = root_of(kurtosis_off, &aim, lo, B_MOST), e = e_for(b, &aim), sign = skewness < 0 ? -1 : 1;
     struct moments m = moments_of(&n, e, b);
     double scale = 1 / sqrt(m.variance);
-    *h = (struct heights){.e = sign * e, .b = b, .scale = scale, .shift = sign * scale * m.mean, .linear = m.linear, .steeper = m.steeper};
+    *h = (struct heights){.e = sign * e,
+                          .b = b,
+                          .scale = scale,
+                          .shift = sign * scale * m.mean,
+                          .linear = m.linear,
+                          .steeper = m.steeper};
     return true;
 }
 
@@ -173,7 +187,8 @@ void heights_at(const struct heights *h, size_t n, const double *g, double *z, d
             up[i] = h->e + (g[at + i] < 0 ? -h->b : h->b) * up[i];
         vecmath_exp(m, up, up);
         for (size_t i = 0; i < m; i++) {
-            double x = g[at + i], root2 = 1 + x * x, s = 0.5 * h->scale * (up[i] - 1 / up[i]), c = 0.5 * h->scale * (up[i] + 1 / up[i]);
+            double x = g[at + i], root2 = 1 + x * x, s = 0.5 * h->scale * (up[i] - 1 / up[i]),
+                   c = 0.5 * h->scale * (up[i] + 1 / up[i]);
             z[at + i] = s - h->shift;
             slope[at + i] = h->b * c / sqrt(root2);
             bend[at + i] = (h->b * h->b * s - slope[at + i] * x) / root2;
@@ -198,7 +213,8 @@ static void shaped_chain(const struct shaped *s, size_t n, double g[6][CHUNK], c
     for (int k = 0; k < 6; k++)
         if (out[k])
             for (size_t i = 0; i < n; i++) {
-                double d = k == 0 ? z[i] : slope[i] * g[k][i] + (k > 2 ? bend[i] * g[pair[k][0]][i] * g[pair[k][1]][i] : 0);
+                double d =
+                    k == 0 ? z[i] : slope[i] * g[k][i] + (k > 2 ? bend[i] * g[pair[k][0]][i] * g[pair[k][1]][i] : 0);
                 out[k][at + i] += s->rms * d;
             }
 }
@@ -212,7 +228,11 @@ static void shaped_add(struct relief_part *part, const struct relief_points *p, 
         bool plane = v->y || v->xy || v->yy;
         memset(g, 0, sizeof g);
         struct relief_points some = {n, p->x + at, p->y ? p->y + at : NULL};
-        struct relief_values all = {.z = g[0], .x = g[1], .y = plane ? g[2] : NULL, .xx = g[3], .xy = plane ? g[4] : NULL,
+        struct relief_values all = {.z = g[0],
+                                    .x = g[1],
+                                    .y = plane ? g[2] : NULL,
+                                    .xx = g[3],
+                                    .xy = plane ? g[4] : NULL,
                                     .yy = plane ? g[5] : NULL};
         s->inner->add(s->inner, &some, &all);
         shaped_chain(s, n, g, v, at);
@@ -222,8 +242,7 @@ static void shaped_add(struct relief_part *part, const struct relief_points *p, 
 static void shaped_close(struct relief_part *part)
 {
     const struct shaped *s = part->state;
-    if (s->inner->close)
-        s->inner->close(s->inner);
+    if (s->inner->close) s->inner->close(s->inner);
 }
 
 struct relief_part *heights_part(struct arena *a, struct relief_part *g, const struct heights *h, double rms)

@@ -7,14 +7,14 @@
 #include "base/err.h"
 #include "surface/relief.h"
 
-struct heights {             /* H(g) = scale sinh(e + b asinh g) - shift            */
+struct heights { /* H(g) = scale sinh(e + b asinh g) - shift            */
     double e, b, scale, shift;
-    double linear;           /* share of the variance that keeps the field's own spectrum */
-    double steeper;          /* mean of H'(g)^2: what the density of fine detail is multiplied by */
+    double linear;  /* share of the variance that keeps the field's own spectrum */
+    double steeper; /* mean of H'(g)^2: what the density of fine detail is multiplied by */
 };
 
-/* H with mean 0, variance 1 and that skewness and (plain) kurtosis, under a standard normal g: exact to 1e-9. ERR_SCENE, with the range
-   that can be reached, for a distribution that it does not reach. */
+/* H with mean 0, variance 1 and that skewness and (plain) kurtosis, under a standard normal g: exact to 1e-9.
+   ERR_SCENE, with the range that can be reached, for a distribution that it does not reach. */
 bool heights_make(double skewness, double kurtosis, struct heights *h, struct err *e);
 
 /* H, H' and H'' at g[n]. */

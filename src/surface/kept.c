@@ -1,4 +1,5 @@
-/* See kept.h. Blocks lie in chains, one for each value of a hash, and in a ring from the newest to the oldest; number 0 is no block, and the ring's two ends. */
+/* See kept.h. Blocks lie in chains, one for each value of a hash, and in a ring from the newest to the oldest; number 0
+ * is no block, and the ring's two ends. */
 #include "surface/kept.h"
 
 #include <stdint.h>
@@ -6,15 +7,15 @@
 struct block {
     long column, row;
     double *numbers;
-    size_t next;                        /* of the chain; 0: the last */
+    size_t next; /* of the chain; 0: the last */
     size_t newer, older;
 };
 
 struct kept {
     struct arena *arena;
     size_t size, capacity, held, made, chains; /* chains: a power of two */
-    struct block *blocks;               /* [capacity + 1] */
-    size_t *first;                      /* [chains] */
+    struct block *blocks;                      /* [capacity + 1] */
+    size_t *first;                             /* [chains] */
     kept_fill *fill;
     void *self;
 };
@@ -31,21 +32,24 @@ struct kept *kept_make(struct arena *a, size_t size, size_t capacity, kept_fill 
 {
     struct kept *k = ARENA_TAKE(a, struct kept, 1);
     size_t chains = chains_for(capacity);
-    *k = (struct kept){.arena = a, .size = size, .capacity = capacity, .chains = chains, .fill = fill, .self = self,
-                       .blocks = ARENA_TAKE(a, struct block, capacity + 1), .first = ARENA_TAKE(a, size_t, chains)};
+    *k = (struct kept){.arena = a,
+                       .size = size,
+                       .capacity = capacity,
+                       .chains = chains,
+                       .fill = fill,
+                       .self = self,
+                       .blocks = ARENA_TAKE(a, struct block, capacity + 1),
+                       .first = ARENA_TAKE(a, size_t, chains)};
     return k;
 }
 
 /* As the arena rounds it. */
-static size_t rounded(size_t bytes)
-{
-    return (bytes + 63) / 64 * 64;
-}
+static size_t rounded(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 size_t kept_bytes(size_t size, size_t capacity)
 {
-    return rounded(sizeof(struct kept)) + capacity * rounded(size * sizeof(double)) + rounded((capacity + 1) * sizeof(struct block)) +
-           rounded(chains_for(capacity) * sizeof(size_t));
+    return rounded(sizeof(struct kept)) + capacity * rounded(size * sizeof(double)) +
+           rounded((capacity + 1) * sizeof(struct block)) + rounded(chains_for(capacity) * sizeof(size_t));
 }
 
 /* The multiplier is 2^64 over the golden ratio (Knuth, The Art of Computer Programming, 6.4). */
@@ -106,7 +110,4 @@ const double *kept_at(struct kept *k, long column, long row)
     return b[i].numbers;
 }
 
-size_t kept_made(const struct kept *k)
-{
-    return k->made;
-}
+size_t kept_made(const struct kept *k) { return k->made; }

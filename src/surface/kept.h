@@ -7,10 +7,12 @@
 
 struct kept;
 
-/* Writes the `size` numbers of block (column, row); they must depend on nothing else. It may not read the same memory. */
+/* Writes the `size` numbers of block (column, row); they must depend on nothing else. It may not read the same memory.
+ */
 typedef void kept_fill(void *self, long column, long row, double *out);
 
-/* Blocks of `size` numbers each; beyond `capacity` of them (at least 1) a new one takes the place of that not asked for the longest. Memory is taken as blocks are made. */
+/* Blocks of `size` numbers each; beyond `capacity` of them (at least 1) a new one takes the place of that not asked for
+ * the longest. Memory is taken as blocks are made. */
 struct kept *kept_make(struct arena *a, size_t size, size_t capacity, kept_fill *fill, void *self);
 
 /* The block's numbers, good until the next call. */

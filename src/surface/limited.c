@@ -4,21 +4,24 @@
 
      mean T = [log cosh x1 - log cosh x0] / (alpha (x1 - x0)),   log cosh x = |x| + log(1 + e^(-2|x|)) - log 2
 
-   The two parts of log cosh are subtracted separately: |x1| - |x0| is exact for large x, where the other vanishes. For |x1 - x0| < 1e-3 the
-   corrected trapezoid (T0 + T1)/2 - (x1 - x0)^2/12 T'' is used; its error is (x1 - x0)^4 |T''''| / 720 < 3e-14. Absolute error of
-   alpha mean T in all below 2e-12.
+   The two parts of log cosh are subtracted separately: |x1| - |x0| is exact for large x, where the other vanishes. For
+   |x1 - x0| < 1e-3 the corrected trapezoid (T0 + T1)/2 - (x1 - x0)^2/12 T'' is used; its error is (x1 - x0)^4 |T''''| /
+   720 < 3e-14. Absolute error of alpha mean T in all below 2e-12.
 
    The first moment about the piece's middle needs J(x) = integral of t tanh t from 0 to x = sgn(x) (x^2/2 - G(|x|)),
 
-     G(x) = pi^2/24 - x w + Li2(-e^(-2x))/2,   w = log(1 + e^(-2x)),   Li2(-e^(-2x)) = sum_k B_k (-w)^(k+1)/(k+1)!   (Bernoulli numbers)
+     G(x) = pi^2/24 - x w + Li2(-e^(-2x))/2,   w = log(1 + e^(-2x)),   Li2(-e^(-2x)) = sum_k B_k (-w)^(k+1)/(k+1)!
+   (Bernoulli numbers)
 
-   again with the parts that cancel taken apart: for x0, x1 of one sign the squares drop out. Below |x1 - x0| = 0.05 the moment of the
-   straight line through T0 and T1 is used, (T1 - T0)/12, and the next term of the series, -(x1 - x0)^3/720 T''': off by at most 1e-9 / alpha.
+   again with the parts that cancel taken apart: for x0, x1 of one sign the squares drop out. Below |x1 - x0| = 0.05 the
+   moment of the straight line through T0 and T1 is used, (T1 - T0)/12, and the next term of the series, -(x1 -
+   x0)^3/720 T''': off by at most 1e-9 / alpha.
 
-   Where c bulges above its chord by 4 b q (1 - q) (q from 0 to 1), the mean gains, to first order in b and by one integration by parts,
-     4 b integral of T'(c) q (1 - q) dq = 8 b moment / (c1 - c0),   or 2/3 b (T' + (x1 - x0)^2/40 T''') where |x1 - x0| < 0.05.
-   The second order is below 0.22 alpha b^2. Cutting a piece in two quarters b: where alpha |b| > 1/64 and tanh is not flat, a piece is
-   halved until neither holds, and its mean and moment are gathered from the parts (leaves). */
+   Where c bulges above its chord by 4 b q (1 - q) (q from 0 to 1), the mean gains, to first order in b and by one
+   integration by parts, 4 b integral of T'(c) q (1 - q) dq = 8 b moment / (c1 - c0),   or 2/3 b (T' + (x1 - x0)^2/40
+   T''') where |x1 - x0| < 0.05. The second order is below 0.22 alpha b^2. Cutting a piece in two quarters b: where
+   alpha |b| > 1/64 and tanh is not flat, a piece is halved until neither holds, and its mean and moment are gathered
+   from the parts (leaves). */
 #include "surface/limited.h"
 
 #include <math.h>
@@ -35,9 +38,14 @@ static void points_rest(const double *x, const double *soft, double *rest, int n
 {
 #pragma omp simd
     for (int k = 0; k < n; k++) {
-        double w = soft[k], big = lanes_select(w < 0x1p-200, 0, w), v = big * big; /* no subnormal squares: they are slow */
-        double odd = 1 + v * (1.0 / 36 + v * (-1.0 / 3600 + v * (1.0 / 211680 + v * (-1.0 / 10886400 + v * (1.0 / 526901760 +
-                     v * (-691.0 / 16999766784000.0 + v * (1.0 / 1120863744000.0)))))));
+        double w = soft[k], big = lanes_select(w < 0x1p-200, 0, w),
+               v = big * big; /* no subnormal squares: they are slow */
+        double odd =
+            1 +
+            v * (1.0 / 36 + v * (-1.0 / 3600 +
+                                 v * (1.0 / 211680 + v * (-1.0 / 10886400 +
+                                                          v * (1.0 / 526901760 + v * (-691.0 / 16999766784000.0 +
+                                                                                      v * (1.0 / 1120863744000.0)))))));
         rest[k] = 0.41123351671205660911810 - fabs(x[k]) * w - 0.5 * w * odd - 0.125 * v;
     }
 }
@@ -71,11 +79,14 @@ INLINE void each_moment(const struct limited *p, const int *at, const struct poi
 #pragma omp simd
     for (int i = 0; i < n; i++) {
         int a = at ? at[i] : i, b = a + 1;
-        double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, across = xa * xb, sign_a = lanes_select(xa < 0, -1, 1), sign_b = lanes_select(xb < 0, -1, 1);
+        double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, across = xa * xb,
+               sign_a = lanes_select(xa < 0, -1, 1), sign_b = lanes_select(xb < 0, -1, 1);
         double squares = lanes_select(across < 0, lanes_select(dx < 0, across, -across), 0);
         double whole = squares - (sign_b * rest[b] - sign_a * rest[a]) - 0.5 * (xa + xb) * (soft[b] - soft[a]);
-        double tm = 0.5 * alpha * (t[a] + t[b]), curved = dx * dx * dx * (1.0 / 360) * (1 - tm * tm) * (1 - 3 * tm * tm) * per[a];
-        double by = lanes_select(fabs(dx) < 0.05, 1, dx * dx), straight = (t[b] - t[a]) * (1.0 / 12) + curved, far = whole * per[a] / by;
+        double tm = 0.5 * alpha * (t[a] + t[b]),
+               curved = dx * dx * dx * (1.0 / 360) * (1 - tm * tm) * (1 - 3 * tm * tm) * per[a];
+        double by = lanes_select(fabs(dx) < 0.05, 1, dx * dx), straight = (t[b] - t[a]) * (1.0 / 12) + curved,
+               far = whole * per[a] / by;
         moment[i] = lanes_select(fabs(dx) < 0.05, straight, far);
     }
 }
@@ -109,18 +120,13 @@ INLINE void each_bulge(const struct limited *p, const int *at)
     }
 }
 
-/* With the question which pieces are flat, both piece by piece before, and the map's edge: a render in draft over a map from 618 to 585 cycles a sample. */
+/* With the question which pieces are flat, both piece by piece before, and the map's edge: a render in draft over a map
+ * from 618 to 585 cycles a sample. */
 LANES_CLONES
-static void bulges_apart(const struct limited *p)
-{
-    each_bulge(p, p->at);
-}
+static void bulges_apart(const struct limited *p) { each_bulge(p, p->at); }
 
 LANES_CLONES
-static void bulges_in_chain(const struct limited *p)
-{
-    each_bulge(p, NULL);
-}
+static void bulges_in_chain(const struct limited *p) { each_bulge(p, NULL); }
 
 static void pieces_straight(const struct limited *p)
 {
@@ -160,8 +166,7 @@ static void pieces_limited(const struct limited *p)
     points_over(p->points, p->alpha, q.per, p->limited);
     bool chained = limited_chained(p->n, p->points, p->at);
     (chained ? pieces_in_chain : pieces_apart)(p, &q);
-    if (p->bulge)
-        (chained ? bulges_in_chain : bulges_apart)(p);
+    if (p->bulge) (chained ? bulges_in_chain : bulges_apart)(p);
 }
 
 /* ------------------------------------------------------------------ leaves */
@@ -186,7 +191,8 @@ INLINE int leaf_flat(double x0, double x1, double bulge)
 static void leaves_gather(struct leaves *l)
 {
     const struct limited *w = l->whole;
-    pieces_limited(&(struct limited){l->n, 2 * l->n, l->at, l->alpha, l->curvature, l->bulge, l->limited, l->mean, l->moment});
+    pieces_limited(
+        &(struct limited){l->n, 2 * l->n, l->at, l->alpha, l->curvature, l->bulge, l->limited, l->mean, l->moment});
     for (int k = 0; k < l->n; k++) {
         double off = l->from[k] + 0.5 * l->share[k] - 0.5;
         w->mean[l->piece[k]] += l->share[k] * l->mean[k];
@@ -205,8 +211,7 @@ static void leaves_add(struct leaves *l, int i, double from, double share, const
         leaves_add(l, i, from + 0.5 * share, 0.5 * share, (double[]){middle, c[1]});
         return;
     }
-    if (l->n == LEAVES)
-        leaves_gather(l);
+    if (l->n == LEAVES) leaves_gather(l);
     int k = l->n++;
     l->at[k] = 2 * k;
     l->piece[k] = i;
@@ -239,14 +244,12 @@ static void pieces_leaves(const struct limited *p)
 {
     int flat[LIMITED_PIECES];
     struct leaves l;
-    if (pieces_flat(p, flat))
-        return;
+    if (pieces_flat(p, flat)) return;
     l.whole = p;
     l.n = 0;
     for (int i = 0; i < p->n; i++) {
         const double *c = p->curvature + p->at[i];
-        if (flat[i])
-            continue;
+        if (flat[i]) continue;
         p->mean[i] = p->moment[i] = 0;
         leaves_add(&l, i, 0, 1, c);
     }
@@ -260,6 +263,5 @@ void limited_run(const struct limited *p, bool limiter)
         return;
     }
     pieces_limited(p);
-    if (p->bulge)
-        pieces_leaves(p);
+    if (p->bulge) pieces_leaves(p);
 }

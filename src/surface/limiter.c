@@ -2,11 +2,12 @@
 
      alpha(N) = (1 - nu) alpha_max + nu alpha_min,   nu = ((N - N_min) / (N_max - N_min))^zeta
 
-   alpha is a length in m (the paper prints 0.05 and 0.01 without a unit; with z'' in 1/m it must be one): curvature is limited to
-   1/alpha. By default N_min and N_max are the scene's own extremes, as in the paper; limiter.force_range makes them absolute.
+   alpha is a length in m (the paper prints 0.05 and 0.01 without a unit; with z'' in 1/m it must be one): curvature is
+   limited to 1/alpha. By default N_min and N_max are the scene's own extremes, as in the paper; limiter.force_range
+   makes them absolute.
 
-   Departures: the base of the power is held in [0, 1] (rounding makes it -1e-18, and NaN); equal extremes (0/0 in the paper) give the
-   alpha for constant loads. */
+   Departures: the base of the power is held in [0, 1] (rounding makes it -1e-18, and NaN); equal extremes (0/0 in the
+   paper) give the alpha for constant loads. */
 #include "surface/limiter.h"
 
 #include "num/lanes.h"
@@ -19,8 +20,12 @@
 struct limiter_law limiter_make(const struct limiter *given, double least, double most)
 {
     bool range = !isnan(given->force_range[0]);
-    struct limiter_law l = {.alpha_min = given->alpha_min, .alpha_max = given->alpha_max, .zeta = given->zeta, .fixed = given->alpha,
-                            .least = range ? given->force_range[0] : least, .most = range ? given->force_range[1] : most};
+    struct limiter_law l = {.alpha_min = given->alpha_min,
+                            .alpha_max = given->alpha_max,
+                            .zeta = given->zeta,
+                            .fixed = given->alpha,
+                            .least = range ? given->force_range[0] : least,
+                            .most = range ? given->force_range[1] : most};
     l.varies = l.most - l.least > 1e-12 * fabs(l.most);
     return l;
 }
@@ -62,8 +67,7 @@ double limiter_constant(const struct contact *c)
     const struct limiter *given = &c->contact.limiter;
     double n = rules_load(c), alpha = given->alpha;
     struct limiter_law l = limiter_make(given, n, n);
-    if (!isnan(given->force_range[0]))
-        limiter_alpha(&l, 1, &n, &alpha);
+    if (!isnan(given->force_range[0])) limiter_alpha(&l, 1, &n, &alpha);
     return alpha;
 }
 
@@ -71,9 +75,13 @@ void limiter_told(struct stage_run *r, double least, double most)
 {
     const double *range = r->contact->contact.limiter.force_range;
     if (r->contact->contact.limiter.curve == LIMITER_TANH && !isnan(range[0]) && (least < range[0] || most > range[1]))
-        board_warn(r->board, arena_format(r->arena, "%s: the normal force, %s N, leaves contact.limiter.force_range, %.4g to %.4g N: alpha stays at that of "
-                                          "the range's end there", r->contact->name,
-                                          least == most ? arena_format(r->arena, "%.4g", least) : arena_format(r->arena, "%.4g to %.4g", least, most),
+        board_warn(r->board, arena_format(r->arena,
+                                          "%s: the normal force, %s N, leaves contact.limiter.force_range, %.4g to "
+                                          "%.4g N: alpha stays at that of "
+                                          "the range's end there",
+                                          r->contact->name,
+                                          least == most ? arena_format(r->arena, "%.4g", least)
+                                                        : arena_format(r->arena, "%.4g to %.4g", least, most),
                                           range[0], range[1]));
 }
 
@@ -106,7 +114,8 @@ static bool limiter_run(struct stage_run *r, long from, long to, struct err *e)
 {
     const struct board *b = r->board;
     (void)e;
-    limiter_alpha(b->limiter, (size_t)((to - from) * b->over), board_at(b, ITEM_LOAD, from), board_at(b, ITEM_ALPHA, from));
+    limiter_alpha(b->limiter, (size_t)((to - from) * b->over), board_at(b, ITEM_LOAD, from),
+                  board_at(b, ITEM_ALPHA, from));
     return true;
 }
 

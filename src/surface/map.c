@@ -1,5 +1,5 @@
-/* Height maps as tensor-product cubic splines: C2, so that curvature in any direction is continuous. The coefficients are those of
-   surface/profile.c, along rows, then along columns; they are read by surface/bicubic.c. */
+/* Height maps as tensor-product cubic splines: C2, so that curvature in any direction is continuous. The coefficients
+   are those of surface/profile.c, along rows, then along columns; they are read by surface/bicubic.c. */
 #include "surface/map.h"
 
 #include "num/lanes.h"
@@ -33,7 +33,8 @@ static const double *map_around(const struct map_spline *m, long column, long ro
 LANES_CLONES
 static void places(const struct map *m, int n, const double *x, const double *y, double *p[2])
 {
-    double *restrict px = p[0], *restrict py = p[1], from[2] = {m->origin[0], m->origin[1]}, pitch[2] = {m->spline.pitch[0], m->spline.pitch[1]};
+    double *restrict px = p[0], *restrict py = p[1], from[2] = {m->origin[0], m->origin[1]},
+                     pitch[2] = {m->spline.pitch[0], m->spline.pitch[1]};
 #pragma omp simd
     for (int i = 0; i < n; i++) {
         px[i] = (x[i] - from[0]) / pitch[0];
@@ -54,8 +55,7 @@ static void map_put(const struct map_spline *m, const struct bicubic *b, const s
     const double *from[6] = {b->z, b->x, b->y, b->xx, b->xy, b->yy};
     double *to[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
     for (int k = 0; k < 6; k++)
-        if (to[k])
-            values_put(b->n, from[k], k == 0 ? m->base : 0, to[k] + at);
+        if (to[k]) values_put(b->n, from[k], k == 0 ? m->base : 0, to[k] + at);
 }
 
 static void map_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
@@ -100,7 +100,10 @@ static void map_coefficients(struct map_spline *m, const double *z, struct arena
 struct map_spline *map_spline(struct arena *a, const struct height_map *h, int off_map)
 {
     struct map_spline *m = ARENA_TAKE(a, struct map_spline, 1);
-    *m = (struct map_spline){.columns = (long)h->columns, .rows = (long)h->rows, .pitch = {h->pitch[0], h->pitch[1]}, .off_map = off_map,
+    *m = (struct map_spline){.columns = (long)h->columns,
+                             .rows = (long)h->rows,
+                             .pitch = {h->pitch[0], h->pitch[1]},
+                             .off_map = off_map,
                              .c = ARENA_TAKE(a, double, h->columns * h->rows)};
     map_coefficients(m, h->z, a);
     return m;
@@ -112,9 +115,14 @@ struct relief_part *map_part(struct arena *a, const struct map_spline *spline, c
     struct map *m = ARENA_TAKE(a, struct map, 1);
     const double *pitch = spline->pitch;
     *m = (struct map){*spline, {origin[0], origin[1]}};
-    *part = (struct relief_part){.name = name, .pitch = {pitch[0], pitch[1]}, .origin = {origin[0], origin[1]},
-                                 .finest = pitch[0] < pitch[1] ? pitch[0] : pitch[1], .from = {origin[0], origin[1]},
-                                 .to = {origin[0] + pitch[0] * (double)(spline->columns - 1), origin[1] + pitch[1] * (double)(spline->rows - 1)},
-                                 .add = map_add, .state = m};
+    *part = (struct relief_part){
+        .name = name,
+        .pitch = {pitch[0], pitch[1]},
+        .origin = {origin[0], origin[1]},
+        .finest = pitch[0] < pitch[1] ? pitch[0] : pitch[1],
+        .from = {origin[0], origin[1]},
+        .to = {origin[0] + pitch[0] * (double)(spline->columns - 1), origin[1] + pitch[1] * (double)(spline->rows - 1)},
+        .add = map_add,
+        .state = m};
     return part;
 }

@@ -12,13 +12,15 @@ struct map_spline {
     long columns, rows;
     double pitch[2];
     int off_map;
-    double base, *c;   /* m; coefficients above base, so that a flat map is flat to the bit */
+    double base, *c; /* m; coefficients above base, so that a flat map is flat to the bit */
 };
 
-/* The spline through the heights (at least 4 x 4), continued beyond its edges by the rule (enum off_map; error continues as mirror does). */
+/* The spline through the heights (at least 4 x 4), continued beyond its edges by the rule (enum off_map; error
+ * continues as mirror does). */
 struct map_spline *map_spline(struct arena *a, const struct height_map *m, int off_map);
 
-/* It as a part of a relief, and any number of reliefs: column i lies at x = origin[0] + i pitch[0], row j at y = origin[1] + j pitch[1]. */
+/* It as a part of a relief, and any number of reliefs: column i lies at x = origin[0] + i pitch[0], row j at y =
+ * origin[1] + j pitch[1]. */
 struct relief_part *map_part(struct arena *a, const struct map_spline *m, const double origin[2], const char *name);
 
 #endif

@@ -1,7 +1,9 @@
 /* See patches.h, and surface/tiles.c for what a band is.
 
-   Patches lie side by side, PATCH_CELLS apart, with an edge of PATCH_EDGE coefficients that the next ones hold too: so a cell's 16 coefficients, and the 8 x 8 of a coarser patch that
-   one of a finer band is refined from, are in one patch: the finer patch (i, j) is a quarter of the coarser (floor(i/2), floor(j/2)), and with its edge is made of 8 x 8 coefficients of it. */
+   Patches lie side by side, PATCH_CELLS apart, with an edge of PATCH_EDGE coefficients that the next ones hold too: so
+   a cell's 16 coefficients, and the 8 x 8 of a coarser patch that one of a finer band is refined from, are in one
+   patch: the finer patch (i, j) is a quarter of the coarser (floor(i/2), floor(j/2)), and with its edge is made of 8 x
+   8 coefficients of it. */
 #include "surface/patches.h"
 
 #include <stdbool.h>
@@ -12,29 +14,39 @@
 #include "surface/kept.h"
 #include "surface/tile.h"
 
-enum { N = TILE_SIDE, HALF = N / 2, SIDE = PATCH_SIDE, UNDER = SIDE / 2 + 2, LAID = 8, OVER = 10, KEPT_MANY = 4096, KEPT_FEW = 256, KEPT_LEAST = 32 };
+enum {
+    N = TILE_SIDE,
+    HALF = N / 2,
+    SIDE = PATCH_SIDE,
+    UNDER = SIDE / 2 + 2,
+    LAID = 8,
+    OVER = 10,
+    KEPT_MANY = 4096,
+    KEPT_FEW = 256,
+    KEPT_LEAST = 32
+};
 
-struct laid {               /* how a block reads the tile */
+struct laid { /* how a block reads the tile */
     long bx, by;
     int at_x, at_y;
     double sign;
     bool known;
 };
 
-struct term {               /* what a block adds to a patch */
+struct term {                    /* what a block adds to a patch */
     const double *across, *down; /* its windows */
-    const double *tile;     /* its first column */
+    const double *tile;          /* its first column */
     long row;
     double sign;
 };
 
 struct band {
     const struct patches *whole;
-    const double *tile;     /* [N][TILE_ROW]: surface/tile.h */
+    const double *tile; /* [N][TILE_ROW]: surface/tile.h */
     struct noise stream;
     struct laid laid[LAID * LAID];
-    struct kept *patches;   /* [SIDE][SIDE], of this band and all coarser ones */
-    struct band *coarser;   /* NULL: none */
+    struct kept *patches; /* [SIDE][SIDE], of this band and all coarser ones */
+    struct band *coarser; /* NULL: none */
 };
 
 struct patches {
@@ -50,17 +62,18 @@ static const struct laid *laid_at(struct band *b, long bx, long by)
     if (!k->known || k->bx != bx || k->by != by) {
         uint64_t bits[2];
         noise_bits(b->stream, (uint64_t)by, (uint64_t)bx, bits);
-        *k = (struct laid){.bx = bx, .by = by, .known = true, .at_x = (int)(bits[0] % N), .at_y = (int)(bits[0] / N % N),
+        *k = (struct laid){.bx = bx,
+                           .by = by,
+                           .known = true,
+                           .at_x = (int)(bits[0] % N),
+                           .at_y = (int)(bits[0] / N % N),
                            .sign = bits[1] & 1 ? 1 : -1};
     }
     return k;
 }
 
 /* i / n rounded down; n: a power of two. */
-static long floor_over(long i, long n)
-{
-    return (i - (i & (n - 1))) / n;
-}
+static long floor_over(long i, long n) { return (i - (i & (n - 1))) / n; }
 
 /* Of block (bx, by), for the patch whose first coefficient is (x0, y0). */
 static struct term term_of(struct band *b, long bx, long by, long x0, long y0)
@@ -68,7 +81,8 @@ static struct term term_of(struct band *b, long bx, long by, long x0, long y0)
     const struct laid *k = laid_at(b, bx, by);
     long left = x0 - bx * HALF, below = y0 - by * HALF; /* the patch's corner, in the block */
     const double *window = b->whole->window + SIDE;
-    return (struct term){window + left, window + below, b->tile + ((k->at_x + left) & (N - 1)), k->at_y + below, k->sign};
+    return (struct term){window + left, window + below, b->tile + ((k->at_x + left) & (N - 1)), k->at_y + below,
+                         k->sign};
 }
 
 /* Adds what two terms add; a product with a window's 0 changes no sum. */
@@ -77,7 +91,8 @@ static void terms_two(const struct term *k, double *c)
 {
     const double *w0 = k[0].across, *w1 = k[1].across;
     for (long y = 0; y < SIDE; y++, c += SIDE) {
-        const double *t0 = k[0].tile + ((k[0].row + y) & (N - 1)) * TILE_ROW, *t1 = k[1].tile + ((k[1].row + y) & (N - 1)) * TILE_ROW;
+        const double *t0 = k[0].tile + ((k[0].row + y) & (N - 1)) * TILE_ROW,
+                     *t1 = k[1].tile + ((k[1].row + y) & (N - 1)) * TILE_ROW;
         double f0 = k[0].sign * k[0].down[y], f1 = k[1].sign * k[1].down[y];
 #pragma omp simd
         for (long x = 0; x < SIDE; x++)
@@ -90,16 +105,21 @@ static void terms_four(const struct term *k, double *c)
 {
     const double *w0 = k[0].across, *w1 = k[1].across, *w2 = k[2].across, *w3 = k[3].across;
     for (long y = 0; y < SIDE; y++, c += SIDE) {
-        const double *t0 = k[0].tile + ((k[0].row + y) & (N - 1)) * TILE_ROW, *t1 = k[1].tile + ((k[1].row + y) & (N - 1)) * TILE_ROW;
-        const double *t2 = k[2].tile + ((k[2].row + y) & (N - 1)) * TILE_ROW, *t3 = k[3].tile + ((k[3].row + y) & (N - 1)) * TILE_ROW;
-        double f0 = k[0].sign * k[0].down[y], f1 = k[1].sign * k[1].down[y], f2 = k[2].sign * k[2].down[y], f3 = k[3].sign * k[3].down[y];
+        const double *t0 = k[0].tile + ((k[0].row + y) & (N - 1)) * TILE_ROW,
+                     *t1 = k[1].tile + ((k[1].row + y) & (N - 1)) * TILE_ROW;
+        const double *t2 = k[2].tile + ((k[2].row + y) & (N - 1)) * TILE_ROW,
+                     *t3 = k[3].tile + ((k[3].row + y) & (N - 1)) * TILE_ROW;
+        double f0 = k[0].sign * k[0].down[y], f1 = k[1].sign * k[1].down[y], f2 = k[2].sign * k[2].down[y],
+               f3 = k[3].sign * k[3].down[y];
 #pragma omp simd
         for (long x = 0; x < SIDE; x++)
-            c[x] = (((c[x] + f0 * (w0[x] * t0[x])) + f1 * (w1[x] * t1[x])) + f2 * (w2[x] * t2[x])) + f3 * (w3[x] * t3[x]);
+            c[x] =
+                (((c[x] + f0 * (w0[x] * t0[x])) + f1 * (w1[x] * t1[x])) + f2 * (w2[x] * t2[x])) + f3 * (w3[x] * t3[x]);
     }
 }
 
-/* The sum of the blocks over the patch, always from the lowest row and the left on: 4 blocks, or 6 or 9 where one begins or ends in it. */
+/* The sum of the blocks over the patch, always from the lowest row and the left on: 4 blocks, or 6 or 9 where one
+ * begins or ends in it. */
 static void own_sum(struct band *b, long x0, long y0, double *c)
 {
     struct term terms[OVER];
@@ -114,8 +134,7 @@ static void own_sum(struct band *b, long x0, long y0, double *c)
     memset(c, 0, SIDE * SIDE * sizeof *c);
     for (; n - at >= 4; at += 4)
         terms_four(terms + at, c);
-    if (at < n)
-        terms_two(terms + at, c);
+    if (at < n) terms_two(terms + at, c);
 }
 
 /* ------------------------------------------------------------------ and those of all coarser bands */
@@ -147,16 +166,12 @@ static void patch_fill(void *self, long column, long row, double *c)
 {
     struct band *b = self;
     own_sum(b, column * PATCH_CELLS - PATCH_EDGE, row * PATCH_CELLS - PATCH_EDGE, c);
-    if (!b->coarser)
-        return;
+    if (!b->coarser) return;
     const double *coarse = kept_at(b->coarser->patches, floor_over(column, 2), floor_over(row, 2));
     refine(coarse + (row & 1) * (PATCH_CELLS / 2 * SIDE) + (column & 1) * (PATCH_CELLS / 2), c);
 }
 
-const double *patches_at(struct patches *p, long column, long row)
-{
-    return kept_at(p->bands[0].patches, column, row);
-}
+const double *patches_at(struct patches *p, long column, long row) { return kept_at(p->bands[0].patches, column, row); }
 
 /* ------------------------------------------------------------------ making */
 
@@ -192,7 +207,10 @@ struct patches *patches_make(struct arena *a, const struct patches_plan *plan)
     }
     for (int k = 0; k < plan->bands; k++) {
         struct band *b = &p->bands[k];
-        *b = (struct band){.whole = p, .tile = plan->tiles[k], .stream = plan->streams[k], .coarser = k + 1 < plan->bands ? b + 1 : NULL};
+        *b = (struct band){.whole = p,
+                           .tile = plan->tiles[k],
+                           .stream = plan->streams[k],
+                           .coarser = k + 1 < plan->bands ? b + 1 : NULL};
         b->patches = kept_make(a, PATCH_NUMBERS, capacity_of(k, plan->once), patch_fill, b);
     }
     return p;

@@ -1,10 +1,11 @@
-/* Cubic spline profiles (C2: second derivatives, which the force is made of, do not jump, as a Catmull-Rom interpolant's would).
+/* Cubic spline profiles (C2: second derivatives, which the force is made of, do not jump, as a Catmull-Rom
+   interpolant's would).
 
-   Interpolation: (c[i-1] + 4 c[i] + c[i+1]) / 6 = z[i]. Its solution on an endless grid is c = sqrt(3) sum_k p^|k| z[i-k] with
-   p = sqrt(3) - 2 (Unser, Aldroubi, Eden 1993), computed by one causal and one anticausal recursion; the sums are begun 64 samples
-   beyond the ends, where p^64 < 1e-36, with the samples that the continuation rule puts there:
-     mirror  z[-i] = z[i], z[n-1+i] = z[n-1-i], period 2n - 2      wrap  z[n+i] = z[i], period n
-   Heights are taken from the first sample, so that a flat profile is flat to the bit, wherever it lies. */
+   Interpolation: (c[i-1] + 4 c[i] + c[i+1]) / 6 = z[i]. Its solution on an endless grid is c = sqrt(3) sum_k p^|k|
+   z[i-k] with p = sqrt(3) - 2 (Unser, Aldroubi, Eden 1993), computed by one causal and one anticausal recursion; the
+   sums are begun 64 samples beyond the ends, where p^64 < 1e-36, with the samples that the continuation rule puts
+   there: mirror  z[-i] = z[i], z[n-1+i] = z[n-1-i], period 2n - 2      wrap  z[n+i] = z[i], period n Heights are taken
+   from the first sample, so that a flat profile is flat to the bit, wherever it lies. */
 #include "surface/profile.h"
 
 #include <limits.h>
@@ -24,8 +25,7 @@ long profile_folded(long i, long n, int off_map)
 {
     long period = off_map == OFF_MAP_WRAP ? n : 2 * n - 2;
     i %= period;
-    if (i < 0)
-        i += period;
+    if (i < 0) i += period;
     return i < n ? i : period - i;
 }
 
@@ -87,7 +87,7 @@ enum { WINDOW = 1024 };
 struct window {
     struct profile *profile;
     double origin;
-    long first;         /* coefficients held: first .. first + WINDOW - 1; LONG_MIN: none */
+    long first; /* coefficients held: first .. first + WINDOW - 1; LONG_MIN: none */
     double c[WINDOW];
 };
 
@@ -112,17 +112,16 @@ static void window_plain(struct window *w, const struct relief_points *p, const 
     for (size_t i = 0; i < p->n; i++) {
         double q = (p->x[i] - w->origin) / h, cell = floor(q), f = q - cell;
         const double *c = window_at(w, (long)cell);
-        double b0 = (c[0] - c[1]) + (c[2] - c[1]), b1 = (c[1] - c[2]) + (c[3] - c[2]), rise = b1 - b0, s0 = 0.5 * (c[2] - c[0]);
-        if (v->z)
-            v->z[i] += (c[0] + 4 * c[1] + c[2]) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
-        if (v->x)
-            v->x[i] += (s0 + f * (b0 + 0.5 * f * rise)) / h;
-        if (v->xx)
-            v->xx[i] += (b0 + f * rise) / (h * h);
+        double b0 = (c[0] - c[1]) + (c[2] - c[1]), b1 = (c[1] - c[2]) + (c[3] - c[2]), rise = b1 - b0,
+               s0 = 0.5 * (c[2] - c[0]);
+        if (v->z) v->z[i] += (c[0] + 4 * c[1] + c[2]) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
+        if (v->x) v->x[i] += (s0 + f * (b0 + 0.5 * f * rise)) / h;
+        if (v->xx) v->xx[i] += (b0 + f * rise) / (h * h);
     }
 }
 
-/* ------------------------------------------------------------------ second derivatives alone, which the force asks for */
+/* ------------------------------------------------------------------ second derivatives alone, which the force asks for
+ */
 
 enum { BATCH = 256 };
 
@@ -178,7 +177,8 @@ static void batch_bend(const struct batch *b, const double *c, double *xx)
 #pragma omp simd
     for (size_t i = 0; i < b->n; i++) {
         int k = (int)(b->cell[i] - lowest);
-        double b0 = (c[k] - c[k + 1]) + (c[k + 2] - c[k + 1]), b1 = (c[k + 1] - c[k + 2]) + (c[k + 3] - c[k + 2]), rise = b1 - b0;
+        double b0 = (c[k] - c[k + 1]) + (c[k + 2] - c[k + 1]), b1 = (c[k + 1] - c[k + 2]) + (c[k + 3] - c[k + 2]),
+               rise = b1 - b0;
         xx[i] += (b0 + b->share[i] * rise) / (h * h);
     }
 }
@@ -186,8 +186,7 @@ static void batch_bend(const struct batch *b, const double *c, double *xx)
 /* Does the window now hold all cells of the batch, and more on the way on than behind it? */
 static bool window_holds(struct window *w, const struct batch *b)
 {
-    if (!(b->highest - b->lowest < WINDOW / 2))
-        return false;
+    if (!(b->highest - b->lowest < WINDOW / 2)) return false;
     long low = (long)b->lowest, high = (long)b->highest;
     if (w->first == LONG_MIN || high + 2 >= w->first + WINDOW)
         window_fetch(w, low - 9);
@@ -213,15 +212,15 @@ static void window_add(struct relief_part *part, const struct relief_points *p, 
         if (window_holds(w, &b))
             batch_bend(&b, window_at(w, (long)b.lowest), v->xx + first);
         else
-            window_plain(w, &(struct relief_points){b.n, p->x + first, NULL}, &(struct relief_values){.xx = v->xx + first});
+            window_plain(w, &(struct relief_points){b.n, p->x + first, NULL},
+                         &(struct relief_values){.xx = v->xx + first});
     }
 }
 
 static void window_close(struct relief_part *part)
 {
     struct window *w = part->state;
-    if (w->profile->close)
-        w->profile->close(w->profile);
+    if (w->profile->close) w->profile->close(w->profile);
 }
 
 struct relief_part *profile_part(struct arena *a, struct profile *p, const char *name, double origin)
@@ -231,8 +230,15 @@ struct relief_part *profile_part(struct arena *a, struct profile *p, const char 
     w->profile = p;
     w->origin = origin;
     w->first = LONG_MIN;
-    *part = (struct relief_part){.name = name, .pitch = {p->pitch, 0}, .origin = {origin, 0}, .linear = true, .finest = p->pitch,
-                                 .from = {p->from + origin, -HUGE_VAL}, .to = {p->to + origin, HUGE_VAL}, .add = window_add,
-                                 .close = window_close, .state = w};
+    *part = (struct relief_part){.name = name,
+                                 .pitch = {p->pitch, 0},
+                                 .origin = {origin, 0},
+                                 .linear = true,
+                                 .finest = p->pitch,
+                                 .from = {p->from + origin, -HUGE_VAL},
+                                 .to = {p->to + origin, HUGE_VAL},
+                                 .add = window_add,
+                                 .close = window_close,
+                                 .state = w};
     return part;
 }

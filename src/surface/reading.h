@@ -7,7 +7,8 @@
 
 #define READING_MAP_PITCH 5e-6 /* m, of a map whose file says it */
 
-/* m, the finest scale of roughness, as far as the scene tells: a quarter of its shortest wave. Roughness like a map has the map's waves, and so its pitch. */
+/* m, the finest scale of roughness, as far as the scene tells: a quarter of its shortest wave. Roughness like a map has
+ * the map's waves, and so its pitch. */
 static inline double reading_roughness(const struct roughness *r)
 {
     return !r->like ? r->shortest / 4 : isnan(r->like_pitch) ? READING_MAP_PITCH : r->like_pitch;

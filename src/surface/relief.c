@@ -21,10 +21,7 @@ double relief_shift(const struct relief *r, int axis)
 
 enum { SHIFTED = 256 };
 
-static double *advanced(double *x, size_t by)
-{
-    return x ? x + by : NULL;
-}
+static double *advanced(double *x, size_t by) { return x ? x + by : NULL; }
 
 /* In the surface's own coordinates, some points at a time. */
 static void relief_shifted(const struct relief *r, const struct relief_points *p, const struct relief_values *v)
@@ -37,8 +34,8 @@ static void relief_shifted(const struct relief *r, const struct relief_points *p
             y[i] = p->y ? p->y[first + i] - dy : 0;
         }
         struct relief_points points = {n, x, p->y ? y : NULL};
-        struct relief_values values = {advanced(v->z, first), advanced(v->x, first), advanced(v->y, first), advanced(v->xx, first),
-                                       advanced(v->xy, first), advanced(v->yy, first)};
+        struct relief_values values = {advanced(v->z, first),  advanced(v->x, first),  advanced(v->y, first),
+                                       advanced(v->xx, first), advanced(v->xy, first), advanced(v->yy, first)};
         for (struct relief_part *part = r->first; part; part = part->next)
             part->add(part, &points, &values);
     }
@@ -48,8 +45,7 @@ void relief_at(const struct relief *r, const struct relief_points *p, const stru
 {
     double *all[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
     for (int k = 0; k < 6; k++)
-        if (all[k])
-            memset(all[k], 0, p->n * sizeof(double));
+        if (all[k]) memset(all[k], 0, p->n * sizeof(double));
     if (relief_shift(r, 0) != 0 || relief_shift(r, 1) != 0) {
         relief_shifted(r, p, v);
         return;
@@ -60,8 +56,7 @@ void relief_at(const struct relief *r, const struct relief_points *p, const stru
 
 void relief_settle(struct relief *r, const struct contact *c)
 {
-    if (r->along == ALONG_AUTO)
-        r->along = rules_along(c);
+    if (r->along == ALONG_AUTO) r->along = rules_along(c);
 }
 
 double relief_finest(const struct relief *r)
@@ -79,7 +74,6 @@ double relief_kinks(const struct relief *r)
 {
     double kinks = 0;
     for (const struct relief_part *p = r->first; p; p = p->next)
-        if (p->kinks > 0)
-            kinks = kinks > 0 ? fmin(kinks, p->kinks) : p->kinks;
+        if (p->kinks > 0) kinks = kinks > 0 ? fmin(kinks, p->kinks) : p->kinks;
     return kinks;
 }

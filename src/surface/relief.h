@@ -1,5 +1,6 @@
-/* A surface as a contact meets it: heights z and derivatives, read at batches of points, as the sum of parts (a measured map,
-   roughness, ridges ...) that stages add. Every part has continuous second derivatives (C2), but for those with kinks.
+/* A surface as a contact meets it: heights z and derivatives, read at batches of points, as the sum of parts (a
+   measured map, roughness, ridges ...) that stages add. Every part has continuous second derivatives (C2), but for
+   those with kinks.
 
    Coordinates, by relief->along:
      ALONG_PATH   x is the signed distance u along the motion (0 where it starts); nothing depends on y
@@ -19,28 +20,30 @@ struct relief_points {
     const double *x, *y; /* y: NULL unless along is ALONG_PLANE */
 };
 
-struct relief_values {   /* [n] each; NULL: not asked for. y, xy, yy: NULL unless along is ALONG_PLANE */
-    double *z;           /* m   */
-    double *x, *y;       /* dz/dx, dz/dy */
-    double *xx, *xy, *yy;/* 1/m */
+struct relief_values {    /* [n] each; NULL: not asked for. y, xy, yy: NULL unless along is ALONG_PLANE */
+    double *z;            /* m   */
+    double *x, *y;        /* dz/dx, dz/dy */
+    double *xx, *xy, *yy; /* 1/m */
 };
 
 struct relief_part {
     const char *name;
     double pitch[2], origin[2]; /* m: third derivatives may jump at origin + i pitch (knots); pitch 0: nowhere */
-    bool linear;         /* z'' is a straight line between knots (a cubic spline of one coordinate)           */
-    double finest;       /* m: second derivatives do not vary on scales much shorter than this                */
-    double kinks;        /* m: z itself may have kinks or steps at its multiples; 0: C2. Read by its heights, under a tip, alone */
+    bool linear;                /* z'' is a straight line between knots (a cubic spline of one coordinate)           */
+    double finest;              /* m: second derivatives do not vary on scales much shorter than this                */
+    double kinks; /* m: z itself may have kinks or steps at its multiples; 0: C2. Read by its heights, under a tip,
+                     alone */
     double from[2], to[2]; /* m: where the part is given; -HUGE_VAL, HUGE_VAL: everywhere                     */
-    void (*add)(struct relief_part *, const struct relief_points *, const struct relief_values *); /* adds its values to those there */
-    void (*close)(struct relief_part *); /* may be NULL */
+    void (*add)(struct relief_part *, const struct relief_points *,
+                const struct relief_values *); /* adds its values to those there */
+    void (*close)(struct relief_part *);       /* may be NULL */
     void *state;
     struct relief_part *next;
 };
 
 struct relief {
-    int along;           /* enum along; ALONG_AUTO until a part or relief_settle decides */
-    double origin[2];    /* m, surface.origin: where the surface's own x = y = 0 lies in the scene; not along a path */
+    int along;        /* enum along; ALONG_AUTO until a part or relief_settle decides */
+    double origin[2]; /* m, surface.origin: where the surface's own x = y = 0 lies in the scene; not along a path */
     struct relief_part *first;
     const struct relief *under; /* what a round tip goes over, if first is its way; NULL: no tip */
 };
@@ -48,7 +51,8 @@ struct relief {
 /* Adds a part, behind those there. */
 void relief_add(struct relief *, struct relief_part *);
 
-/* What is subtracted from the scene's coordinate to get the surface's: origin[axis], or 0 where the surface does not follow it. */
+/* What is subtracted from the scene's coordinate to get the surface's: origin[axis], or 0 where the surface does not
+ * follow it. */
 double relief_shift(const struct relief *, int axis);
 
 /* All asked-for values, set to the sum of the parts. The points are in the scene's coordinates (along a path: u). */

@@ -1,15 +1,19 @@
-/* See rolling.h. The envelope E at multiples of h = patch / 4 (surface/crests.h), and from it, block by block, when they are asked for:
+/* See rolling.h. The envelope E at multiples of h = patch / 4 (surface/crests.h), and from it, block by block, when
+   they are asked for:
 
-     splines   coefficients c = G * B^-1 * E of a cubic spline, z = sum c_i B(x/h - i): the Gaussian G of standard deviation 4 h, sampled, and
-               the inverse of reading a spline at its knots (surface/profile.h), in one symmetric kernel in each direction. It is cut at 28
-               points, 7 standard deviations: the Gaussian leaves nothing of the inverse's own slow decay there. Its sum is made 1.
+     splines   coefficients c = G * B^-1 * E of a cubic spline, z = sum c_i B(x/h - i): the Gaussian G of standard
+   deviation 4 h, sampled, and the inverse of reading a spline at its knots (surface/profile.h), in one symmetric kernel
+   in each direction. It is cut at 28 points, 7 standard deviations: the Gaussian leaves nothing of the inverse's own
+   slow decay there. Its sum is made 1.
 
-   All sums are finite and in one order wherever a block begins, so that the result is a function of the place alone, to the last bit.
+   All sums are finite and in one order wherever a block begins, so that the result is a function of the place alone, to
+   the last bit.
 
    Errors, beside those of E. A kink of the envelope by J in slope is J g(x) in curvature after the Gaussian g; on the
-   lattice it is off by h^2/12 J g'', at most 1/192 of its peak, and the spline's curvature by (h k)^2/12 for a spatial frequency k (rad/m):
-   1/192 where k patch = 1. These two together stay within 1 % of the largest curvature. Measured in the plane for the pitch d of heights on roughness of k^-2.4, 5 um rms,
-   down to 20 um, R = 1 mm, patch 20 um: curvature off by 3.0, 0.6, 0.06 % (rms) at d = 1, 1/2, 1/4 of the surface's finest scale. */
+   lattice it is off by h^2/12 J g'', at most 1/192 of its peak, and the spline's curvature by (h k)^2/12 for a spatial
+   frequency k (rad/m): 1/192 where k patch = 1. These two together stay within 1 % of the largest curvature. Measured
+   in the plane for the pitch d of heights on roughness of k^-2.4, 5 um rms, down to 20 um, R = 1 mm, patch 20 um:
+   curvature off by 3.0, 0.6, 0.06 % (rms) at d = 1, 1/2, 1/4 of the surface's finest scale. */
 #include "surface/rolling.h"
 
 #include <math.h>
@@ -25,9 +29,9 @@ struct rolling {
     double h;
     double kernel[KERNEL + 1];
     struct grid crests, splines; /* a block of splines has EDGE more coefficients: those of its cells */
-    double *crest, *half;   /* work: crests under a block of splines; the same, done along rows */
-    long column, row;       /* of the block of splines at hand */
-    const double *at_hand;  /* NULL: none */
+    double *crest, *half;        /* work: crests under a block of splines; the same, done along rows */
+    long column, row;            /* of the block of splines at hand */
+    const double *at_hand;       /* NULL: none */
 };
 
 /* ------------------------------------------------------------------ splines */
@@ -103,7 +107,8 @@ struct cubic {
 static struct cubic cubic_at(const double c[4], double f)
 {
     double b0 = (c[0] - c[1]) + (c[2] - c[1]), rise = (c[1] - c[2]) + (c[3] - c[2]) - b0, s0 = 0.5 * (c[2] - c[0]);
-    return (struct cubic){c[1] + b0 / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise)), s0 + f * (b0 + 0.5 * f * rise), b0 + f * rise};
+    return (struct cubic){c[1] + b0 / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise)), s0 + f * (b0 + 0.5 * f * rise),
+                          b0 + f * rise};
 }
 
 static void line_add(struct rolling *w, const struct relief_points *p, const struct relief_values *v)
@@ -111,29 +116,20 @@ static void line_add(struct rolling *w, const struct relief_points *p, const str
     for (size_t n = 0; n < p->n; n++) {
         double q = p->x[n] / w->h, i = floor(q);
         struct cubic c = cubic_at(rolling_cell(w, (long)i, 0), q - i);
-        if (v->z)
-            v->z[n] += c.z;
-        if (v->x)
-            v->x[n] += c.d / w->h;
-        if (v->xx)
-            v->xx[n] += c.dd / (w->h * w->h);
+        if (v->z) v->z[n] += c.z;
+        if (v->x) v->x[n] += c.d / w->h;
+        if (v->xx) v->xx[n] += c.dd / (w->h * w->h);
     }
 }
 
 static void plane_put(const struct relief_values *v, size_t n, double h, const struct cubic c[3])
 {
-    if (v->z)
-        v->z[n] += c[0].z;
-    if (v->x)
-        v->x[n] += c[1].z / h;
-    if (v->y)
-        v->y[n] += c[0].d / h;
-    if (v->xx)
-        v->xx[n] += c[2].z / (h * h);
-    if (v->xy)
-        v->xy[n] += c[1].d / (h * h);
-    if (v->yy)
-        v->yy[n] += c[0].dd / (h * h);
+    if (v->z) v->z[n] += c[0].z;
+    if (v->x) v->x[n] += c[1].z / h;
+    if (v->y) v->y[n] += c[0].d / h;
+    if (v->xx) v->xx[n] += c[2].z / (h * h);
+    if (v->xy) v->xy[n] += c[1].d / (h * h);
+    if (v->yy) v->yy[n] += c[0].dd / (h * h);
 }
 
 static void plane_add(struct rolling *w, const struct relief_points *p, const struct relief_values *v)
@@ -170,12 +166,19 @@ struct relief_part *rolling_part(struct arena *a, const struct relief *under, co
     double h = p->patch / ROLLING_PER_PATCH;
     long wide = SQUARE + EDGE + 2 * KERNEL;
     *w = (struct rolling){.plane = under->along == ALONG_PLANE, .h = h, .crests = crests_make(a, under, p)};
-    w->crest = ARENA_TAKE(a, double, w->plane ? wide * wide : WIDEST);
-    w->half = ARENA_TAKE(a, double, w->plane ? wide * (SQUARE + EDGE) : 1);
+    w->crest = ARENA_TAKE(a, double, w->plane ? wide *wide : WIDEST);
+    w->half = ARENA_TAKE(a, double, w->plane ? wide *(SQUARE + EDGE) : 1);
     kernel_make(w->kernel);
-    w->splines = w->plane ? (struct grid){kept_make(a, (SQUARE + EDGE) * (SQUARE + EDGE), 8192, splines_fill, w), {SQUARE, SQUARE}}
+    w->splines = w->plane ? (struct grid){kept_make(a, (SQUARE + EDGE) * (SQUARE + EDGE), 8192, splines_fill, w),
+                                          {SQUARE, SQUARE}}
                           : (struct grid){kept_make(a, LINE + EDGE, 512, splines_fill, w), {LINE, 1}};
-    *part = (struct relief_part){.name = "tip", .pitch = {h, w->plane ? h : 0}, .linear = !w->plane, .finest = h,
-                                 .from = {-HUGE_VAL, -HUGE_VAL}, .to = {HUGE_VAL, HUGE_VAL}, .add = rolling_add, .state = w};
+    *part = (struct relief_part){.name = "tip",
+                                 .pitch = {h, w->plane ? h : 0},
+                                 .linear = !w->plane,
+                                 .finest = h,
+                                 .from = {-HUGE_VAL, -HUGE_VAL},
+                                 .to = {HUGE_VAL, HUGE_VAL},
+                                 .add = rolling_add,
+                                 .state = w};
     return part;
 }

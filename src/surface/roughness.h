@@ -15,24 +15,27 @@
 struct roughness_plan {
     struct spectrum spectrum;
     double rms, skewness, kurtosis;
-    const char *remark;         /* what had to be departed from, or NULL */
+    const char *remark;                    /* what had to be departed from, or NULL */
     const char *doubts[HEIGHTFILE_DOUBTS]; /* about the map that it is like */
     int n_doubts;
-    bool once;                  /* as of struct tiles_grain; false unless it is set behind roughness_plan */
+    bool once; /* as of struct tiles_grain; false unless it is set behind roughness_plan */
 };
 
-/* The plan of a recipe, of its own numbers or of the map that it names (`like`, which is read, once for all that have the shelf; NULL: none). ERR_SCENE, ERR_INPUT. */
-bool roughness_plan(struct arena *a, struct shelf *shelf, const struct roughness *recipe, struct roughness_plan *p, struct err *e);
+/* The plan of a recipe, of its own numbers or of the map that it names (`like`, which is read, once for all that have
+ * the shelf; NULL: none). ERR_SCENE, ERR_INPUT. */
+bool roughness_plan(struct arena *a, struct shelf *shelf, const struct roughness *recipe, struct roughness_plan *p,
+                    struct err *e);
 
-/* A part with the heights of that plan and noise stream, in the coordinates `along` (enum along, decided). Close it with its own close(). NULL:
-   ERR_SCENE, for heights or a spectrum that there are none of. */
-struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, const struct roughness *recipe, int along, struct noise stream,
-                                   struct err *e);
+/* A part with the heights of that plan and noise stream, in the coordinates `along` (enum along, decided). Close it
+   with its own close(). NULL: ERR_SCENE, for heights or a spectrum that there are none of. */
+struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, const struct roughness *recipe, int along,
+                                   struct noise stream, struct err *e);
 
 /* What a contact's roughness holds at most, in bytes; 0: next to nothing, or it has none. */
 double roughness_bytes(const struct contact *c);
 
-/* A Gaussian profile of that recipe (longest, shortest, exponent, rms) and noise stream. Close it with its own close(). */
+/* A Gaussian profile of that recipe (longest, shortest, exponent, rms) and noise stream. Close it with its own close().
+ */
 struct profile *roughness_make(struct arena *a, const struct roughness *recipe, struct noise stream);
 
 /* One-sided power spectral density (m^2 per cycle/m) that the profile has at k cycles/m, in the ensemble mean. */

@@ -34,10 +34,8 @@ static double spectrum_exponent(const struct spectrum *s, int i)
 static double table_at(const struct spectrum *s, double k)
 {
     int lo = 0, hi = s->n - 1;
-    if (k < s->k[0])
-        return s->flat ? s->p[0] : 0;
-    if (k >= s->k[hi])
-        return 0;
+    if (k < s->k[0]) return s->flat ? s->p[0] : 0;
+    if (k >= s->k[hi]) return 0;
     while (hi - lo > 1) {
         int mid = (lo + hi) / 2;
         if (k < s->k[mid])
@@ -50,24 +48,19 @@ static double table_at(const struct spectrum *s, double k)
 
 double spectrum_takeover(const struct spectrum *s, double k)
 {
-    if (s->takeover <= 0 || k >= s->takeover * sqrt(2))
-        return 1;
-    if (k <= s->takeover * sqrt(0.5))
-        return 0;
-    double across = real_sinpi(0.25 + 0.5 * real_log(k / s->takeover) / real_log(2)), all = real_sinpi(0.5 * across * across);
+    if (s->takeover <= 0 || k >= s->takeover * sqrt(2)) return 1;
+    if (k <= s->takeover * sqrt(0.5)) return 0;
+    double across = real_sinpi(0.25 + 0.5 * real_log(k / s->takeover) / real_log(2)),
+           all = real_sinpi(0.5 * across * across);
     return all * all;
 }
 
-double spectrum_at(const struct spectrum *s, double k)
-{
-    return table_at(s, k) * spectrum_takeover(s, k);
-}
+double spectrum_at(const struct spectrum *s, double k) { return table_at(s, k) * spectrum_takeover(s, k); }
 
 static double phi(double y)
 {
     double sum = 1, term = 1;
-    if (fabs(y) > 0.5)
-        return (real_exp(y) - 1) / y;
+    if (fabs(y) > 0.5) return (real_exp(y) - 1) / y;
     for (int j = 2; j < 16; j++)
         sum += term *= y / j;
     return sum;
@@ -78,8 +71,7 @@ static double table_power(const struct spectrum *s, double from, double to)
     double sum = s->flat && from < s->k[0] ? s->p[0] * (fmin(to, s->k[0]) - from) : 0;
     for (int i = 0; i + 1 < s->n; i++) {
         double k0 = fmax(from, s->k[i]), k1 = fmin(to, s->k[i + 1]);
-        if (k0 >= k1)
-            continue;
+        if (k0 >= k1) continue;
         double a = spectrum_exponent(s, i), width = real_log(k1 / k0), p0 = s->p[i] * real_pow(k0 / s->k[i], a);
         sum += p0 * k0 * width * phi((a + 1) * width);
     }
@@ -92,7 +84,8 @@ static double crossing_power(const struct spectrum *s, double from, double to)
     enum { STEPS = 64 };
     double span = real_log(to / from), sum = 0;
     for (int i = 0; i < STEPS; i++) {
-        double lo = from * real_exp(span * i / STEPS), hi = from * real_exp(span * (i + 1) / STEPS), mid = sqrt(lo * hi);
+        double lo = from * real_exp(span * i / STEPS), hi = from * real_exp(span * (i + 1) / STEPS),
+               mid = sqrt(lo * hi);
         double x[3] = {spectrum_takeover(s, lo), spectrum_takeover(s, mid), spectrum_takeover(s, hi)};
         double weight[2] = {table_power(s, lo, mid), table_power(s, mid, hi)}, all = weight[0] + weight[1];
         double tilt = all > 0 ? (weight[1] - weight[0]) / all : 0;
@@ -104,28 +97,17 @@ static double crossing_power(const struct spectrum *s, double from, double to)
 double spectrum_power(const struct spectrum *s, double from, double to)
 {
     from = fmax(from, 0);
-    if (from >= to)
-        return 0;
-    if (s->takeover <= 0)
-        return table_power(s, from, to);
+    if (from >= to) return 0;
+    if (s->takeover <= 0) return table_power(s, from, to);
     double lo = s->takeover * sqrt(0.5), hi = s->takeover * sqrt(2), c0 = fmax(from, lo), c1 = fmin(to, hi);
     return (c0 < c1 ? crossing_power(s, c0, c1) : 0) + (to > hi ? table_power(s, fmax(from, hi), to) : 0);
 }
 
-double spectrum_top(const struct spectrum *s)
-{
-    return s->k[s->n - 1];
-}
+double spectrum_top(const struct spectrum *s) { return s->k[s->n - 1]; }
 
-double spectrum_bottom(const struct spectrum *s)
-{
-    return fmax(s->flat ? 0 : s->k[0], s->takeover * sqrt(0.5));
-}
+double spectrum_bottom(const struct spectrum *s) { return fmax(s->flat ? 0 : s->k[0], s->takeover * sqrt(0.5)); }
 
-double spectrum_rms(const struct spectrum *s)
-{
-    return sqrt(spectrum_power(s, 0, spectrum_top(s)));
-}
+double spectrum_rms(const struct spectrum *s) { return sqrt(spectrum_power(s, 0, spectrum_top(s))); }
 
 void spectrum_scale(struct spectrum *s, double rms)
 {
@@ -149,11 +131,9 @@ static double beyond_piece(double kappa, double k0, double k1, double a)
 double spectrum_beyond(const struct spectrum *s, double kappa)
 {
     double first = s->k[0], sum = 0;
-    if (kappa < first && s->flat)
-        sum = s->p[0] * sqrt((first - kappa) * (first + kappa));
+    if (kappa < first && s->flat) sum = s->p[0] * sqrt((first - kappa) * (first + kappa));
     for (int i = 0; i + 1 < s->n; i++) {
-        if (s->k[i + 1] <= kappa)
-            continue;
+        if (s->k[i + 1] <= kappa) continue;
         double a = spectrum_exponent(s, i);
         for (double k0 = fmax(kappa, s->k[i]), k1; k0 < s->k[i + 1]; k0 = k1) {
             k1 = fmin(1.5 * k0, s->k[i + 1]);

@@ -1,9 +1,11 @@
-/* Power spectral densities of heights along a line, as tables: one-sided, m^2 per cycle/m, over spatial frequency k in cycles/m.
+/* Power spectral densities of heights along a line, as tables: one-sided, m^2 per cycle/m, over spatial frequency k in
+   cycles/m.
 
      P(k) = p[i] (k/k[i])^a between k[i] and k[i+1] (a straight line in log-log), 0 above the last node;
      below the first node p[0] if `flat`, else 0;
-     times X(k), the share of a continuation that takes over at `takeover` (0: none, X = 1): 0 below takeover/sqrt 2, 1 above takeover sqrt 2,
-     sin^2(pi/2 sin^2(pi/4 (1 + 2 log2(k/takeover)))) between: with 1 - X, which is its mirror image, it adds to 1.
+     times X(k), the share of a continuation that takes over at `takeover` (0: none, X = 1): 0 below takeover/sqrt 2, 1
+   above takeover sqrt 2, sin^2(pi/2 sin^2(pi/4 (1 + 2 log2(k/takeover)))) between: with 1 - X, which is its mirror
+   image, it adds to 1.
 
    rms^2 = integral of P dk. */
 #ifndef SURFACE_SPECTRUM_H
@@ -13,16 +15,17 @@
 #include "base/arena.h"
 
 struct spectrum {
-    int n;            /* nodes, at least 2          */
-    double *k, *p;    /* [n], k rising, k and p > 0 */
+    int n;         /* nodes, at least 2          */
+    double *k, *p; /* [n], k rising, k and p > 0 */
     bool flat;
-    double takeover;  /* cycles/m                   */
+    double takeover; /* cycles/m                   */
 };
 
 /* The power law k^exponent from 1/longest to 1/shortest, flat below, of that rms height. */
 struct spectrum spectrum_power_law(struct arena *a, double exponent, double longest, double shortest, double rms);
 
-/* P at k >= 0, and its integral from `from` to `to`: in closed form but where X is neither 0 nor 1 (relative error below 1e-9). */
+/* P at k >= 0, and its integral from `from` to `to`: in closed form but where X is neither 0 nor 1 (relative error
+ * below 1e-9). */
 double spectrum_at(const struct spectrum *s, double k);
 double spectrum_power(const struct spectrum *s, double from, double to);
 double spectrum_takeover(const struct spectrum *s, double k); /* X */
@@ -35,8 +38,9 @@ double spectrum_rms(const struct spectrum *s);
 double spectrum_top(const struct spectrum *s);
 double spectrum_bottom(const struct spectrum *s);
 
-/* Power at radial frequencies from kappa on that an isotropic surface has whose traces along straight lines have the table's density (X left
-   out): the inverse Abel transform C2(kappa) = -(1/pi) integral of P1'(k)/sqrt(k^2 - kappa^2), P1 = P/2, over rings 2 pi kappa dkappa, is
+/* Power at radial frequencies from kappa on that an isotropic surface has whose traces along straight lines have the
+   table's density (X left out): the inverse Abel transform C2(kappa) = -(1/pi) integral of P1'(k)/sqrt(k^2 - kappa^2),
+   P1 = P/2, over rings 2 pi kappa dkappa, is
 
      W(kappa) = integral over s >= 0 of P(sqrt(kappa^2 + s^2)) ds        (relative error below 1e-8)
 

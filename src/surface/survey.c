@@ -33,7 +33,7 @@ static void levelled(const double *z, size_t n, double *out)
 }
 
 struct welch {
-    long n;             /* samples of a segment */
+    long n; /* samples of a segment */
     struct fft *fft;
     double *hann, *x, *re, *im, *power; /* power: [n/2] sums of squared moduli */
     long segments;
@@ -52,8 +52,13 @@ static void welch_add(struct welch *w, const double *z)
 static struct welch welch_of(struct arena *a, const struct survey_grid *g)
 {
     long n = segment_of(g->columns);
-    struct welch w = {.n = n, .fft = fft_open((size_t)n), .hann = ARENA_TAKE(a, double, n), .x = ARENA_TAKE(a, double, n),
-                      .re = ARENA_TAKE(a, double, n / 2 + 1), .im = ARENA_TAKE(a, double, n / 2 + 1), .power = ARENA_TAKE(a, double, n / 2)};
+    struct welch w = {.n = n,
+                      .fft = fft_open((size_t)n),
+                      .hann = ARENA_TAKE(a, double, n),
+                      .x = ARENA_TAKE(a, double, n),
+                      .re = ARENA_TAKE(a, double, n / 2 + 1),
+                      .im = ARENA_TAKE(a, double, n / 2 + 1),
+                      .power = ARENA_TAKE(a, double, n / 2)};
     double *row = ARENA_TAKE(a, double, g->columns);
     size_t rows = g->rows < ROWS_MOST ? g->rows : ROWS_MOST;
     for (long i = 0; i < n; i++)
@@ -70,18 +75,17 @@ static struct welch welch_of(struct arena *a, const struct survey_grid *g)
 struct spectrum survey_spectrum(struct arena *a, const struct survey_grid *g)
 {
     struct welch w = welch_of(a, g);
-    double dk = 1 / ((double)w.n * g->pitch), unit = 2 * g->pitch / ((double)w.n * 0.375 * (double)w.segments), step = real_exp(real_log(2) / 3);
+    double dk = 1 / ((double)w.n * g->pitch), unit = 2 * g->pitch / ((double)w.n * 0.375 * (double)w.segments),
+           step = real_exp(real_log(2) / 3);
     struct spectrum s = {.k = ARENA_TAKE(a, double, w.n / 2), .p = ARENA_TAKE(a, double, w.n / 2), .flat = true};
     for (long from = 2, to; from < w.n / 2; from = to) {
         to = (long)((double)from * step + 0.5);
         to = to < from + 3 ? from + 3 : to;
-        if (to > w.n / 2)
-            break;
+        if (to > w.n / 2) break;
         double sum = 0;
         for (long k = from; k < to; k++)
             sum += w.power[k];
-        if (!(sum > 0))
-            break;
+        if (!(sum > 0)) break;
         s.k[s.n] = dk * sqrt(((double)from - 0.5) * ((double)to - 0.5));
         s.p[s.n++] = unit * sum / (double)(to - from);
     }
@@ -95,8 +99,7 @@ double survey_knee(const struct spectrum *s)
     int i = 0;
     while (i + OCTAVE < s->n && (s->k[i + OCTAVE] > 2.2 * s->k[i] || s->p[i + OCTAVE] > 1e-3 * s->p[i]))
         i++;
-    if (i + OCTAVE >= s->n)
-        return spectrum_top(s);
+    if (i + OCTAVE >= s->n) return spectrum_top(s);
     while (s->p[i + 1] > 0.3 * s->p[i])
         i++;
     return s->k[i];
@@ -108,7 +111,8 @@ double survey_limit(const struct spectrum *s)
     for (int i = 0; i + 1 < s->n; i++) {
         double least = 1e-3 * spectrum_at(s, knee);
         if (s->k[i] >= knee && s->p[i] >= least && s->p[i + 1] < least)
-            return s->k[i] * real_exp(real_log(s->k[i + 1] / s->k[i]) * real_log(least / s->p[i]) / real_log(s->p[i + 1] / s->p[i]));
+            return s->k[i] * real_exp(real_log(s->k[i + 1] / s->k[i]) * real_log(least / s->p[i]) /
+                                      real_log(s->p[i + 1] / s->p[i]));
     }
     return spectrum_top(s);
 }
@@ -121,8 +125,7 @@ double survey_fit(const struct spectrum *s, double k, double *density)
             double u = real_log(s->k[i] / k), v = real_log(s->p[i]);
             n++, x += u, y += v, xx += u * u, xy += u * v;
         }
-    if (n < 3)
-        return NAN;
+    if (n < 3) return NAN;
     slope = (n * xy - x * y) / (n * xx - x * x);
     *density = real_exp((y - slope * x) / n);
     return slope;
@@ -130,7 +133,8 @@ double survey_fit(const struct spectrum *s, double k, double *density)
 
 /* ------------------------------------------------------------------ moments */
 
-/* Sums over x and y counted from the middle are independent, so that the least-squares plane has each slope by itself. */
+/* Sums over x and y counted from the middle are independent, so that the least-squares plane has each slope by itself.
+ */
 static void plane_of(const struct survey_grid *g, double *mean, double tilt[2])
 {
     double middle[2] = {0.5 * (double)(g->columns - 1), 0.5 * (double)(g->rows - 1)}, square[2] = {0}, all = 0;

@@ -42,13 +42,11 @@ double tile_mend(int bands, double (*power)[TILE_LINES])
 
 static int ring_of(int i, int j)
 {
-    return (int)sqrt((double)(i * i + j * j)); /* exact: the root of a whole number below 2^52 is not rounded up to one */
+    return (int)sqrt(
+        (double)(i * i + j * j)); /* exact: the root of a whole number below 2^52 is not rounded up to one */
 }
 
-static int folded(int j)
-{
-    return j < HALF ? j : N - j;
-}
+static int folded(int j) { return j < HALF ? j : N - j; }
 
 /* Modulus of a line of each ring, before the spline's response. */
 static void moduli(const double power[TILE_LINES], double modulus[TILE_LINES])
@@ -56,8 +54,7 @@ static void moduli(const double power[TILE_LINES], double modulus[TILE_LINES])
     int count[TILE_LINES] = {0};
     for (int j = -TILE_LINES; j <= TILE_LINES; j++)
         for (int i = -TILE_LINES; i <= TILE_LINES; i++)
-            if (ring_of(i, j) < TILE_LINES)
-                count[ring_of(i, j)]++;
+            if (ring_of(i, j) < TILE_LINES) count[ring_of(i, j)]++;
     for (int r = 0; r < TILE_LINES; r++)
         modulus[r] = sqrt(power[r] / count[r]);
 }
@@ -85,9 +82,9 @@ void tile_make(const double power[TILE_LINES], struct noise stream, struct fft_p
     for (int j = 0; j < N; j++)
         for (int i = 0; i < TILE_LINES; i++) {
             int r = ring_of(i, folded(j)), at = j * (HALF + 1) + i;
-            if (r >= TILE_LINES || modulus[r] <= 0)
-                continue;
-            double turns = 2 * noise_uniform(stream, (uint64_t)at, UINT64_MAX / 2), size = modulus[r] * spline[i] * spline[folded(j)];
+            if (r >= TILE_LINES || modulus[r] <= 0) continue;
+            double turns = 2 * noise_uniform(stream, (uint64_t)at, UINT64_MAX / 2),
+                   size = modulus[r] * spline[i] * spline[folded(j)];
             re[at] = size * (i || j ? real_cospi(turns) : turns < 1 ? 1 : -1);
             im[at] = size * real_sinpi(turns);
         }

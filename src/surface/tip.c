@@ -1,26 +1,31 @@
-/* A round tip: the surface is replaced by the way of a ball of radius R that slides over it without tilting, read by its lowest point,
+/* A round tip: the surface is replaced by the way of a ball of radius R that slides over it without tilting, read by
+   its lowest point,
 
      E(p) = max over |d| <= R of z(p + d) + sqrt(R^2 - |d|^2) - R
 
-   the upper envelope (grey-scale dilation) that drives a rolling ball in papers/002, fig. 1 (there with the ball's centre, E + R). It has kinks
-   where the ball comes to rest on the next asperity, on which a curvature limiter does not converge: no contact is a point, and E is smoothed by
-   a Gaussian of standard deviation scraper.patch (ball.patch) in m, in the coordinates that the surface follows. The rest, and its errors: surface/rolling.c.
-   A ball whose flight and contact are computed (roll_coupled) needs no derivative, and takes E itself where ball.patch is 0 (surface/crest.c).
+   the upper envelope (grey-scale dilation) that drives a rolling ball in papers/002, fig. 1 (there with the ball's
+   centre, E + R). It has kinks where the ball comes to rest on the next asperity, on which a curvature limiter does not
+   converge: no contact is a point, and E is smoothed by a Gaussian of standard deviation scraper.patch (ball.patch) in
+   m, in the coordinates that the surface follows. The rest, and its errors: surface/rolling.c. A ball whose flight and
+   contact are computed (roll_coupled) needs no derivative, and takes E itself where ball.patch is 0 (surface/crest.c).
 
-   Departures. Along a path (or x) the surface is extruded and the ball a disc. The ball looks beyond the edge of a map, up to R, by
-   surface.off_map; for `error` as `mirror` does.
+   Departures. Along a path (or x) the surface is extruded and the ball a disc. The ball looks beyond the edge of a map,
+   up to R, by surface.off_map; for `error` as `mirror` does.
 
-   In one coordinate smooth ground is read as polynomials of fifth degree between places (surface/crest_piece.c), and E is the ball's exact way over these. Of
-   cubic splines (measured profiles, fractal ground) the places are the knots, and nothing is lost; else they lie as far apart as the surface's finest
-   scale, accuracy.tip_heights times as densely: the force under a marble on wood is then off by -99 dB, and by -137 dB where it is 2. A surface with
-   kinks is read by its heights alone: E then dips by d^2 / (8 R) between two of them, d apart, even on level ground; d is so small that this is a
-   thousandth of the span H of heights, and a whole share of the kinks' pitch, so that they are met.
-   In the plane heights are taken every patch / 4 or half the surface's finest scale, whichever is less, and accuracy.tip_heights times as densely; each
-   doubling brings the force some 10 dB nearer (from 37 to 47 and 60 dB for a patch of 20 um on ridges, tests/unit/test_tip_accuracy.c).
+   In one coordinate smooth ground is read as polynomials of fifth degree between places (surface/crest_piece.c), and E
+   is the ball's exact way over these. Of cubic splines (measured profiles, fractal ground) the places are the knots,
+   and nothing is lost; else they lie as far apart as the surface's finest scale, accuracy.tip_heights times as densely:
+   the force under a marble on wood is then off by -99 dB, and by -137 dB where it is 2. A surface with kinks is read by
+   its heights alone: E then dips by d^2 / (8 R) between two of them, d apart, even on level ground; d is so small that
+   this is a thousandth of the span H of heights, and a whole share of the kinks' pitch, so that they are met. In the
+   plane heights are taken every patch / 4 or half the surface's finest scale, whichever is less, and
+   accuracy.tip_heights times as densely; each doubling brings the force some 10 dB nearer (from 37 to 47 and 60 dB for
+   a patch of 20 um on ridges, tests/unit/test_tip_accuracy.c).
 
-   Heights are read as far as R; in the plane, where that would be most of the work, and in one coordinate where it is more than 65 536 of
-   them, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For H, 16 384 places in the box of the motion
-   are read, R (at most 1 mm) beyond it included; H is half as much again, or that span and the map's own together if that is more. Should heights turn up that span more, the render says so. */
+   Heights are read as far as R; in the plane, where that would be most of the work, and in one coordinate where it is
+   more than 65 536 of them, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For
+   H, 16 384 places in the box of the motion are read, R (at most 1 mm) beyond it included; H is half as much again, or
+   that span and the map's own together if that is more. Should heights turn up that span more, the render says so. */
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -63,11 +68,14 @@ static double tip_scouted(const struct relief *r, const struct trajectory *tr, d
     tip_box(r, tr, beyond, box);
     for (long first = 0; first < SCOUTS; first += SCOUT_BATCH) {
         for (long i = 0; i < SCOUT_BATCH; i++) {
-            double along = share(first + i, 0.75487766624669276); /* of one coordinate in rising order: parts are read cheaply so */
-            x[i] = box[0][0] + (r->along == ALONG_PLANE ? along : ((double)(first + i) + along) / SCOUTS) * (box[1][0] - box[0][0]);
+            double along = share(
+                first + i, 0.75487766624669276); /* of one coordinate in rising order: parts are read cheaply so */
+            x[i] = box[0][0] +
+                   (r->along == ALONG_PLANE ? along : ((double)(first + i) + along) / SCOUTS) * (box[1][0] - box[0][0]);
             y[i] = box[0][1] + share(first + i, 0.56984029099805327) * (box[1][1] - box[0][1]);
         }
-        relief_at(r, &(struct relief_points){SCOUT_BATCH, x, r->along == ALONG_PLANE ? y : NULL}, &(struct relief_values){.z = z});
+        relief_at(r, &(struct relief_points){SCOUT_BATCH, x, r->along == ALONG_PLANE ? y : NULL},
+                  &(struct relief_values){.z = z});
         for (long i = 0; i < SCOUT_BATCH; i++) {
             least = fmin(least, z[i]);
             most = fmax(most, z[i]);
@@ -91,35 +99,45 @@ static double tip_map_span(const struct height_map *m)
 static void tip_exceeded(void *self)
 {
     struct stage_run *r = self;
-    board_warn(r->board, arena_format(r->arena, "%s: the surface is higher in places than its first look told; a round tip may have missed a "
-                                      "peak at the edge of its reach", r->contact->name));
+    board_warn(
+        r->board,
+        arena_format(r->arena,
+                     "%s: the surface is higher in places than its first look told; a round tip may have missed a "
+                     "peak at the edge of its reach",
+                     r->contact->name));
 }
 
 /* The ground is read no further apart than this, m. */
 static double tip_wanted_pitch(const struct stage_run *r, const struct relief *under)
 {
-    double patch = r->contact->scraper.patch, finest = relief_finest(under) / 2, coarse = patch > 0 ? patch / ROLLING_PER_PATCH : finest;
+    double patch = r->contact->scraper.patch, finest = relief_finest(under) / 2,
+           coarse = patch > 0 ? patch / ROLLING_PER_PATCH : finest;
     bool smooth = under->along != ALONG_PLANE && relief_kinks(under) == 0 && isfinite(finest);
     return (smooth ? 2 * finest : fmin(coarse, finest)) / r->scene->accuracy.tip_heights;
 }
 
-/* m: the pitch of a lattice through 0 on which all knots of a surface of cubic splines lie; 0: it is none, or they lie on no such lattice. */
+/* m: the pitch of a lattice through 0 on which all knots of a surface of cubic splines lie; 0: it is none, or they lie
+ * on no such lattice. */
 static double tip_knots(const struct relief *under)
 {
     double knots = HUGE_VAL;
     for (const struct relief_part *p = under->first; p; p = p->next)
         knots = p->linear && p->pitch[0] > 0 ? fmin(knots, p->pitch[0]) : 0;
     for (const struct relief_part *p = under->first; p && knots > 0; p = p->next)
-        if (fabs(remainder(p->pitch[0], knots)) > 1e-12 * p->pitch[0] || fabs(remainder(p->origin[0], knots)) > 1e-9 * knots)
+        if (fabs(remainder(p->pitch[0], knots)) > 1e-12 * p->pitch[0] ||
+            fabs(remainder(p->origin[0], knots)) > 1e-9 * knots)
             return 0;
     return isfinite(knots) ? knots : 0;
 }
 
 /* In one coordinate. Of splines at their knots, which is exact; of what has kinks as the dip and these ask for. */
-static double tip_pitch(const struct stage_run *r, const struct relief *under, const struct rolling_plan *p, double scouted)
+static double tip_pitch(const struct stage_run *r, const struct relief *under, const struct rolling_plan *p,
+                        double scouted)
 {
-    double kinks = relief_kinks(under), dip = scouted > 0 ? sqrt(8 * p->radius * TIP_DIP * scouted) / r->scene->accuracy.tip_heights : HUGE_VAL;
-    double knots = kinks > 0 ? kinks : tip_knots(under), most = knots > 0 && kinks == 0 ? p->radius : fmin(tip_wanted_pitch(r, under), p->radius);
+    double kinks = relief_kinks(under),
+           dip = scouted > 0 ? sqrt(8 * p->radius * TIP_DIP * scouted) / r->scene->accuracy.tip_heights : HUGE_VAL;
+    double knots = kinks > 0 ? kinks : tip_knots(under),
+           most = knots > 0 && kinks == 0 ? p->radius : fmin(tip_wanted_pitch(r, under), p->radius);
     most = kinks > 0 ? fmin(most / 2, dip) : most;
     return knots > 0 ? knots / ceil(knots / most * (1 - 1e-12)) : most;
 }
@@ -128,32 +146,43 @@ static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *un
 {
     const struct scraper *s = &r->contact->scraper;
     bool plane = under->along == ALONG_PLANE;
-    double wanted = tip_wanted_pitch(r, under), finer = s->patch > 0 ? ceil(s->patch / ROLLING_PER_PATCH / wanted * (1 - 1e-12)) : 1;
+    double wanted = tip_wanted_pitch(r, under),
+           finer = s->patch > 0 ? ceil(s->patch / ROLLING_PER_PATCH / wanted * (1 - 1e-12)) : 1;
     bool look = plane || s->patch == 0 || relief_kinks(under) > 0 || s->radius > REACH_ALL * wanted / 2;
-    double scouted = look ? tip_scouted(under, r->board->trajectory, fmin(s->radius, 1e-3)) : 0, map = tip_map_span(r->board->height_map);
-    struct rolling_plan p = {.radius = s->radius, .patch = s->patch, .reach = s->radius, .span = HUGE_VAL, .exceeded = tip_exceeded, .self = r,
-                             .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1, .points = relief_kinks(under) > 0};
+    double scouted = look ? tip_scouted(under, r->board->trajectory, fmin(s->radius, 1e-3)) : 0,
+           map = tip_map_span(r->board->height_map);
+    struct rolling_plan p = {.radius = s->radius,
+                             .patch = s->patch,
+                             .reach = s->radius,
+                             .span = HUGE_VAL,
+                             .exceeded = tip_exceeded,
+                             .self = r,
+                             .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1,
+                             .points = relief_kinks(under) > 0};
     p.pitch = plane ? p.patch / ROLLING_PER_PATCH / p.finer : tip_pitch(r, under, &p, scouted);
-    if (!plane && p.reach / p.pitch <= REACH_ALL)
-        return p;
+    if (!plane && p.reach / p.pitch <= REACH_ALL) return p;
     p.span = fmax(1.5 * scouted, scouted + map);
     p.reach = fmin(s->radius, sqrt(2 * s->radius * p.span));
     return p;
 }
 
-static bool tip_affordable(const struct stage_run *r, const struct rolling_plan *p, const struct relief *under, struct err *e)
+static bool tip_affordable(const struct stage_run *r, const struct rolling_plan *p, const struct relief *under,
+                           struct err *e)
 {
-    bool plane = under->along == ALONG_PLANE, fine = !(relief_finest(under) / 2 >= p->patch / ROLLING_PER_PATCH && p->patch > 0);
+    bool plane = under->along == ALONG_PLANE,
+         fine = !(relief_finest(under) / 2 >= p->patch / ROLLING_PER_PATCH && p->patch > 0);
     struct crest_plan crest = crests_line(p);
     const char *tool = ball_tool(r->contact);
     long side = plane ? crests_side(p) : crest_part_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
-    if (side <= most)
-        return true;
+    if (side <= most) return true;
     err_about(e, r->contact->name, ball_rolls(r->contact) ? "ball.radius" : "scraper.radius");
     return err_set(e, ERR_SCENE,
-                   "contact '%s': a %s of %g m radius reaches %g m over this surface, which is read every %g m: %ld x %ld heights at a time, and "
-                   "at most %ld x %ld are held; lower %s.radius, or %s%s", r->contact->name, ball_rolls(r->contact) ? "ball" : "tip", p->radius, p->reach, p->pitch,
-                   side, plane ? side : 1, most, plane ? most : 1, tool, fine ? "take a coarser surface (its finest scale decides)" : "raise ",
+                   "contact '%s': a %s of %g m radius reaches %g m over this surface, which is read every %g m: %ld x "
+                   "%ld heights at a time, and "
+                   "at most %ld x %ld are held; lower %s.radius, or %s%s",
+                   r->contact->name, ball_rolls(r->contact) ? "ball" : "tip", p->radius, p->reach, p->pitch, side,
+                   plane ? side : 1, most, plane ? most : 1, tool,
+                   fine ? "take a coarser surface (its finest scale decides)" : "raise ",
                    fine ? "" : arena_format(r->arena, "%s.patch (a quarter of it decides)", tool));
 }
 
@@ -161,14 +190,18 @@ static bool tip_affordable(const struct stage_run *r, const struct rolling_plan 
 static bool tip_smoothed(const struct stage_run *r, const struct relief *under, struct err *e)
 {
     const struct contact *c = r->contact;
-    if (c->scraper.patch > 0)
-        return true;
+    if (c->scraper.patch > 0) return true;
     if (c->contact.model != CONTACT_ROLL_COUPLED)
-        return err_set(e, ERR_SCENE, "contact '%s': %s.patch is 0, and only contact.model roll_coupled takes the rolling curve with its kinks; "
-                                     "set it to the radius of the contact patch, for instance 20 um", c->name, ball_tool(c));
-    return under->along != ALONG_PLANE ||
-           err_set(e, ERR_SCENE, "contact '%s': ball.patch is 0, and a surface in the plane is rolled over with a contact patch only; set ball.patch, for instance to "
-                                 "20 um, or surface.along to path or x", c->name);
+        return err_set(
+            e, ERR_SCENE,
+            "contact '%s': %s.patch is 0, and only contact.model roll_coupled takes the rolling curve with its kinks; "
+            "set it to the radius of the contact patch, for instance 20 um",
+            c->name, ball_tool(c));
+    return under->along != ALONG_PLANE || err_set(e, ERR_SCENE,
+                                                  "contact '%s': ball.patch is 0, and a surface in the plane is rolled "
+                                                  "over with a contact patch only; set ball.patch, for instance to "
+                                                  "20 um, or surface.along to path or x",
+                                                  c->name);
 }
 
 static bool tip_open(struct stage_run *r, struct err *e)
@@ -176,13 +209,11 @@ static bool tip_open(struct stage_run *r, struct err *e)
     struct relief *relief = r->board->relief, *under = ARENA_TAKE(r->arena, struct relief, 1);
     relief_settle(relief, r->contact);
     *under = *relief;
-    if (!tip_smoothed(r, under, e))
-        return false;
+    if (!tip_smoothed(r, under, e)) return false;
     struct rolling_plan p = tip_plan(r, under);
     struct crest_plan crest = crests_line(&p);
     under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
-    if (!tip_affordable(r, &p, under, e))
-        return false;
+    if (!tip_affordable(r, &p, under, e)) return false;
     relief->first = NULL;
     relief->under = under;
     relief_add(relief, p.patch > 0 ? rolling_part(r->arena, under, &p) : crest_part(r->arena, under, &crest));
@@ -199,7 +230,9 @@ static bool tip_wanted(const struct contact *c, const struct scene *s)
 static double tip_work(const struct contact *c, const struct scene *s)
 {
     const struct motion *m = &c->motion;
-    double times = m->path == PATH_CIRCLE ? fabs(m->turns) : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration : 1;
+    double times = m->path == PATH_CIRCLE           ? fabs(m->turns)
+                   : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
+                                                    : 1;
     double way = rules_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
     return way > 0 ? way * tip_work_metre(c, s->accuracy.tip_heights) : 0;
 }

@@ -16,7 +16,8 @@ void course_speed(const void *self, size_t n, const double *w, double *g, double
         for (size_t i = 0; i < some; i++) {
             double speed = sqrt(d[0][i] * d[0][i] + d[1][i] * d[1][i]);
             g[first + i] = speed;
-            dg[first + i] = speed > 0 ? (d[0][i] * dd[0][i] + d[1][i] * dd[1][i]) / speed : sqrt(dd[0][i] * dd[0][i] + dd[1][i] * dd[1][i]);
+            dg[first + i] = speed > 0 ? (d[0][i] * dd[0][i] + d[1][i] * dd[1][i]) / speed
+                                      : sqrt(dd[0][i] * dd[0][i] + dd[1][i] * dd[1][i]);
         }
     }
 }
@@ -30,14 +31,10 @@ static void course_cubic_at(const struct course *c, size_t n, const double *w, c
         for (int xy = 0; xy < 2; xy++) {
             double v[4];
             cubic_at(&axis[xy], i, w[k], v);
-            if (out->p[xy])
-                out->p[xy][k] = v[0];
-            if (out->d[xy])
-                out->d[xy][k] = v[1];
-            if (out->dd[xy])
-                out->dd[xy][k] = v[2];
-            if (out->ddd[xy])
-                out->ddd[xy][k] = v[3];
+            if (out->p[xy]) out->p[xy][k] = v[0];
+            if (out->d[xy]) out->d[xy][k] = v[1];
+            if (out->dd[xy]) out->dd[xy][k] = v[2];
+            if (out->ddd[xy]) out->ddd[xy][k] = v[3];
         }
     }
 }

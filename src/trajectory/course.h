@@ -1,5 +1,5 @@
-/* A curve in the plane with a parameter of its own, P(w): of a recorded motion and of a scribble w is time in s, of a spline through
-   points the length of chords in m. */
+/* A curve in the plane with a parameter of its own, P(w): of a recorded motion and of a scribble w is time in s, of a
+   spline through points the length of chords in m. */
 #ifndef TRAJECTORY_COURSE_H
 #define TRAJECTORY_COURSE_H
 #include <stddef.h>
@@ -14,8 +14,8 @@ struct course_out {
 };
 
 struct course {
-    double end;             /* w runs from 0 to it; beyond, the formula goes on                */
-    const double *breaks;   /* [n_breaks] rising from 0 to end: where P''' may jump            */
+    double end;           /* w runs from 0 to it; beyond, the formula goes on                */
+    const double *breaks; /* [n_breaks] rising from 0 to end: where P''' may jump            */
     size_t n_breaks;
     void (*at)(const struct course *, size_t n, const double *w, const struct course_out *);
     const void *state;
@@ -23,7 +23,8 @@ struct course {
 
 enum { COURSE_CHUNK = 256 };
 
-/* |P'| and its derivative by w, as a slope of panels.h; self is the course. Where P' is 0 the derivative is that from the right. */
+/* |P'| and its derivative by w, as a slope of panels.h; self is the course. Where P' is 0 the derivative is that from
+ * the right. */
 void course_speed(const void *self, size_t n, const double *w, double *g, double *dg);
 
 /* Natural cubic spline through p[n][2] at rising knots[n >= 2]; straight beyond its ends. */

@@ -2,10 +2,11 @@
 
      x(t) = center + size / 2 sum_k a_k sin(2 pi f_k t + phi_k),   sum_k a_k = 1,   k = 1 .. 4
 
-   f_k = rate 2^(e), e evenly drawn from [-0.7, 0.7], so that no two frequencies have a common period; a_k in proportion to numbers evenly
-   drawn from [0.5, 1]; phi_k from a whole turn. All come from the seed alone: a longer scribble begins as a shorter one. The box is never left,
-   and filled as time goes on. Sums of sines of a narrow band on both axes are near to ellipses at every instant, and an ellipse drawn by
-   two sines obeys the two-thirds power law exactly (F. Lacquaniti, C. Terzuolo, P. Viviani, Acta Psychologica 54 (1983) 115).
+   f_k = rate 2^(e), e evenly drawn from [-0.7, 0.7], so that no two frequencies have a common period; a_k in proportion
+   to numbers evenly drawn from [0.5, 1]; phi_k from a whole turn. All come from the seed alone: a longer scribble
+   begins as a shorter one. The box is never left, and filled as time goes on. Sums of sines of a narrow band on both
+   axes are near to ellipses at every instant, and an ellipse drawn by two sines obeys the two-thirds power law exactly
+   (F. Lacquaniti, C. Terzuolo, P. Viviani, Acta Psychologica 54 (1983) 115).
 
    The argument of a sine is rounded once: after n loops its phase is off by at most 2 pi n 1.6 2^-53. */
 #include <math.h>
@@ -32,7 +33,8 @@ static void add_wave(size_t n, double *y, bool first, double start, double size,
         y[i] = (first ? start : y[i]) + size * wave[i];
 }
 
-static void scribble_axis(const struct scribble *s, int xy, size_t n, const double *w, const struct course_out *out, size_t at)
+static void scribble_axis(const struct scribble *s, int xy, size_t n, const double *w, const struct course_out *out,
+                          size_t at)
 {
     double sine[COURSE_CHUNK], cosine[COURSE_CHUNK];
     for (int k = 0; k < SINES; k++) {

@@ -1,15 +1,18 @@
-/* Interpolation. With h_i = x_{i+1} - x_i, natural ends b_0 = b_{n-1} = 0, the second derivatives b solve the tridiagonal system
+/* Interpolation. With h_i = x_{i+1} - x_i, natural ends b_0 = b_{n-1} = 0, the second derivatives b solve the
+   tridiagonal system
 
-     h_{i-1} b_{i-1} / 6 + (h_{i-1} + h_i) b_i / 3 + h_i b_{i+1} / 6 = (y_{i+1} - y_i) / h_i - (y_i - y_{i-1}) / h_{i-1}      R b = Q'y
+     h_{i-1} b_{i-1} / 6 + (h_{i-1} + h_i) b_i / 3 + h_i b_{i+1} / 6 = (y_{i+1} - y_i) / h_i - (y_i - y_{i-1}) / h_{i-1}
+   R b = Q'y
 
-   Smoothing (C. Reinsch, Numer. Math. 10 (1967) 177; P. Green, B. Silverman, Nonparametric Regression, 1994, section 2.3): the f that
-   minimises sum w_i (y_i - f(x_i))^2 + p integral f''^2 dx is a natural cubic spline with
+   Smoothing (C. Reinsch, Numer. Math. 10 (1967) 177; P. Green, B. Silverman, Nonparametric Regression, 1994,
+   section 2.3): the f that minimises sum w_i (y_i - f(x_i))^2 + p integral f''^2 dx is a natural cubic spline with
 
      (R + p Q' W^-1 Q) b = Q'y,      f(x_i) = y_i - p (W^-1 Q b)_i
 
-   five bands, solved by L D L'. w_i is the knot's share of the axis, (h_{i-1} + h_i) / 2, so that the cut-off does not follow the density of the
-   knots. On evenly spaced knots, at distance h, a sine of theta rad per knot is multiplied by r / (r + p q^2 / h) with r = h (2 + cos theta) / 3
-   and q = 4 sin^2(theta / 2) / h; p is such that this is 1/sqrt 2 at the cut-off (of the mean distance, where distances differ). */
+   five bands, solved by L D L'. w_i is the knot's share of the axis, (h_{i-1} + h_i) / 2, so that the cut-off does not
+   follow the density of the knots. On evenly spaced knots, at distance h, a sine of theta rad per knot is multiplied by
+   r / (r + p q^2 / h) with r = h (2 + cos theta) / 3 and q = 4 sin^2(theta / 2) / h; p is such that this is 1/sqrt 2 at
+   the cut-off (of the mean distance, where distances differ). */
 #include "trajectory/cubic.h"
 
 #include <string.h>
@@ -28,7 +31,8 @@ void cubic_natural(struct cubic *c, size_t n, const double *at, const double *y,
     double *over = ARENA_TAKE(a, double, n); /* upper band over the pivot */
     memcpy(c->y, y, n * sizeof *y);
     for (size_t i = 1; i + 1 < n; i++) {
-        double low = (at[i] - at[i - 1]) / 6, high = (at[i + 1] - at[i]) / 6, pivot = 2 * (low + high) - low * over[i - 1];
+        double low = (at[i] - at[i - 1]) / 6, high = (at[i + 1] - at[i]) / 6,
+               pivot = 2 * (low + high) - low * over[i - 1];
         over[i] = high / pivot;
         c->bend[i] = (bent(at, y, i) - low * c->bend[i - 1]) / pivot;
     }
@@ -58,7 +62,8 @@ static void reinsch_bands(size_t n, const double *x, double p, double *main, dou
 void cubic_smooth(size_t n, const double *x, const double *y, double cutoff, double *y_smooth, struct arena *a)
 {
     double p = penalty((x[n - 1] - x[0]) / (double)(n - 1), cutoff);
-    double *d = ARENA_TAKE(a, double, n), *l1 = ARENA_TAKE(a, double, n), *l2 = ARENA_TAKE(a, double, n), *b = ARENA_TAKE(a, double, n + 1);
+    double *d = ARENA_TAKE(a, double, n), *l1 = ARENA_TAKE(a, double, n), *l2 = ARENA_TAKE(a, double, n),
+           *b = ARENA_TAKE(a, double, n + 1);
     reinsch_bands(n, x, p, d, l1, l2);
     for (size_t i = 1; i + 1 < n; i++) { /* L D L', and L z = Q'y */
         b[i] = bent(x, y, i);
@@ -79,10 +84,8 @@ void cubic_smooth(size_t n, const double *x, const double *y, double cutoff, dou
     b[0] = b[n - 1] = 0;
     for (size_t i = 0; i < n; i++) {
         double before = i > 0 ? x[i] - x[i - 1] : 0, after = i + 1 < n ? x[i + 1] - x[i] : 0, qb = 0;
-        if (i > 0)
-            qb += (b[i - 1] - b[i]) / before;
-        if (i + 1 < n)
-            qb += (b[i + 1] - b[i]) / after;
+        if (i > 0) qb += (b[i - 1] - b[i]) / before;
+        if (i + 1 < n) qb += (b[i + 1] - b[i]) / after;
         y_smooth[i] = y[i] - p * 2 / (before + after) * qb;
     }
 }

@@ -8,28 +8,32 @@
      g      gravity, m/s^2                    mu       coefficient of friction
      a      acceleration, m/s^2               azimuth  horizontal direction from the torso outwards, rad
 
-   For harmonic motion of amplitude L (half the distance between the ends; the paper does not define its L) along that direction,
-   a_out runs from -omega^2 L to omega^2 L, which gives equations 9 and 8 at the two ends. N is largest at the end near the torso, where
-   the acceleration points outwards.
+   For harmonic motion of amplitude L (half the distance between the ends; the paper does not define its L) along that
+   direction, a_out runs from -omega^2 L to omega^2 L, which gives equations 9 and 8 at the two ends. N is largest at
+   the end near the torso, where the acceleration points outwards.
 
-   The paper's denominator vanishes at mu tan theta = 1 (the tool jams): refused from 0.999 on. N < 0 means that the hand lifts the
-   scraper off: no contact, no force; counted by the force stage.
+   The paper's denominator vanishes at mu tan theta = 1 (the tool jams): refused from 0.999 on. N < 0 means that the
+   hand lifts the scraper off: no contact, no force; counted by the force stage.
 
-   Recorded: the natural cubic spline (C2) through the file's rows, their end values before and after them. Its times are those of the motion's
-   file for a recorded motion, else they count from the start of the contact. Between rows a spline overshoots, also below 0.
+   Recorded: the natural cubic spline (C2) through the file's rows, their end values before and after them. Its times
+   are those of the motion's file for a recorded motion, else they count from the start of the contact. Between rows a
+   spline overshoots, also below 0.
 
-   Of a ball whose centre of mass is r off its centre, or whose rim has lobes (model roll), Newton's second law along the normal of the surface:
+   Of a ball whose centre of mass is r off its centre, or whose rim has lobes (model roll), Newton's second law along
+   the normal of the surface:
 
      N(t) = m (g cos(incline) + d2/dt2 (-r cos theta + lobe_height cos(lobes theta)))      theta: trajectory/spin.h
 
-   the two terms by which its centre of mass rises and falls over level ground, slowly enough that it stays on it. (With contact.roll.penetration: paper the
-   lobes are in the penetration, and not here.) As it turns evenly N is largest where the centre of mass is lowest, and least where it is highest: there its
-   acceleration points up, and down.
-   Papers/000 section 4.1 has it "maximal when the centre of mass moves downwards, and minimal when it moves up", a quarter of a turn earlier, and gives no
-   formula; of a rigid body that does not hold. N < 0: the ball leaves the surface; no force, and counted. It is not followed through the air.
+   the two terms by which its centre of mass rises and falls over level ground, slowly enough that it stays on it. (With
+   contact.roll.penetration: paper the lobes are in the penetration, and not here.) As it turns evenly N is largest
+   where the centre of mass is lowest, and least where it is highest: there its acceleration points up, and down.
+   Papers/000 section 4.1 has it "maximal when the centre of mass moves downwards, and minimal when it moves up", a
+   quarter of a turn earlier, and gives no formula; of a rigid body that does not hold. N < 0: the ball leaves the
+   surface; no force, and counted. It is not followed through the air.
 
-   Approach and release: the contact is made over load.approach, p = 10 q^3 - 15 q^4 + 6 q^5 of the force, so that it does not begin with a
-   click; the paper has no such thing. Where the motion starts from rest a scraper's force starts from 0 by itself. */
+   Approach and release: the contact is made over load.approach, p = 10 q^3 - 15 q^4 + 6 q^5 of the force, so that it
+   does not begin with a click; the paper has no such thing. Where the motion starts from rest a scraper's force starts
+   from 0 by itself. */
 #include "trajectory/load.h"
 
 #include <math.h>
@@ -45,7 +49,7 @@ enum { LOAD_SOME = 256 };
 
 struct load_record {
     struct cubic spline;
-    double clock;           /* s: the file's time at the start of the motion */
+    double clock; /* s: the file's time at the start of the motion */
 };
 
 static bool lobes_press(const struct contact *c)
@@ -55,24 +59,21 @@ static bool lobes_press(const struct contact *c)
 
 bool load_varies(const struct contact *c)
 {
-    return !ablation_steady(c) && (c->grip.given || c->load.recorded || (c->contact.model == CONTACT_ROLL && (c->ball.offset > 0 || lobes_press(c))));
+    return !ablation_steady(c) && (c->grip.given || c->load.recorded ||
+                                   (c->contact.model == CONTACT_ROLL && (c->ball.offset > 0 || lobes_press(c))));
 }
 
 static double record_at(const struct load_record *r, size_t *piece, double t)
 {
     const struct cubic *c = &r->spline;
     double out[4], x = t + r->clock;
-    if (x <= c->at[0] || x >= c->at[c->n - 1])
-        return x <= c->at[0] ? c->y[0] : c->y[c->n - 1];
+    if (x <= c->at[0] || x >= c->at[c->n - 1]) return x <= c->at[0] ? c->y[0] : c->y[c->n - 1];
     *piece = knots_next(c->n, c->at, *piece, x);
     cubic_at(c, *piece, x, out);
     return out[0];
 }
 
-static bool load_held(const struct load_law *l)
-{
-    return l->per_acceleration[0] != 0 || l->per_acceleration[1] != 0;
-}
+static bool load_held(const struct load_law *l) { return l->per_acceleration[0] != 0 || l->per_acceleration[1] != 0; }
 
 void load_at(const struct load_law *l, size_t n, const double *t, const double *ax, const double *ay, double *force)
 {
@@ -84,14 +85,16 @@ void load_at(const struct load_law *l, size_t n, const double *t, const double *
         force[i] += l->per_acceleration[0] * ax[i] + l->per_acceleration[1] * ay[i];
 }
 
-void load_turned(const struct load_law *l, size_t n, const double *u, const double *du, const double *ddu, double *force)
+void load_turned(const struct load_law *l, size_t n, const double *u, const double *du, const double *ddu,
+                 double *force)
 {
     double heave[LOAD_SOME];
     for (size_t first = 0, some; first < n; first += some) {
         double *at = force + first;
         bool lobes = l->spin.lobe_height > 0;
         some = n - first < LOAD_SOME ? n - first : LOAD_SOME;
-        spin_at(&l->spin, some, u + first, du + first, ddu + first, &(struct spin_out){.lift = at, .heave = lobes ? heave : NULL});
+        spin_at(&l->spin, some, u + first, du + first, ddu + first,
+                &(struct spin_out){.lift = at, .heave = lobes ? heave : NULL});
         for (size_t i = 0; i < some && lobes; i++)
             at[i] += heave[i];
         for (size_t i = 0; i < some; i++)
@@ -108,8 +111,7 @@ static void load_moved(const struct load_law *l, const struct trajectory *tr, si
         load_turned(l, n, a, b, c, force);
         return;
     }
-    if (load_held(l))
-        trajectory_at(tr, n, t, (struct trajectory_out){.ax = a, .ay = b});
+    if (load_held(l)) trajectory_at(tr, n, t, (struct trajectory_out){.ax = a, .ay = b});
     load_at(l, n, t, a, b, force);
 }
 
@@ -126,10 +128,7 @@ double load_of(const struct load_law *l, const struct trajectory *tr, double t)
     return n;
 }
 
-static double step(double q)
-{
-    return q <= 0 ? 0 : q >= 1 ? 1 : q * q * q * (10 + q * (-15 + q * 6));
-}
+static double step(double q) { return q <= 0 ? 0 : q >= 1 ? 1 : q * q * q * (10 + q * (-15 + q * 6)); }
 
 double load_lowered(const struct load_law *l, double t)
 {
@@ -144,7 +143,8 @@ static bool load_grip(const struct contact *c, struct load_law *l, struct err *e
     double g = ball_gravity(c), m = c->scraper.mass, tangent = real_tan(c->grip.angle), slip = rules_slip(&c->grip);
     if (rules_jams(&c->grip))
         return err_set(e, ERR_SCENE,
-                       "contact '%s': grip: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999; lower grip.angle or "
+                       "contact '%s': grip: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999; "
+                       "lower grip.angle or "
                        "grip.friction",
                        c->name, 1 - slip);
     l->still = m * g / slip;
@@ -153,17 +153,18 @@ static bool load_grip(const struct contact *c, struct load_law *l, struct err *e
     return true;
 }
 
-static bool load_recorded(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e)
+static bool load_recorded(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l,
+                          struct err *e)
 {
     static const char *const columns[2] = {"normal_force_n", NULL};
     struct load_record *r = ARENA_TAKE(a, struct load_record, 1);
     struct series s;
-    if (!series_read(c->load.recorded, columns, a, &s, e) || !series_apart(&s, c->load.recorded, e))
-        return false;
+    if (!series_read(c->load.recorded, columns, a, &s, e) || !series_apart(&s, c->load.recorded, e)) return false;
     double first = s.time[0], last = s.time[s.n - 1], start = tr->clock, end = tr->clock + tr->duration;
     if (first > start + 1e-9 || last < end - 1e-9)
         return err_set(e, ERR_SCENE,
-                       "contact '%s': load.recorded: %s holds the normal force from %.9g s to %.9g s, but the motion lasts from %.9g s to %.9g s; "
+                       "contact '%s': load.recorded: %s holds the normal force from %.9g s to %.9g s, but the motion "
+                       "lasts from %.9g s to %.9g s; "
                        "it must cover the motion",
                        c->name, c->load.recorded, first, last, start, end);
     r->clock = tr->clock;
@@ -181,11 +182,16 @@ static bool load_ends(const struct contact *c, const struct trajectory *tr, stru
     l->approach = isnan(c->load.approach) && scrapes && tr->starts_at_rest ? 0 : rules_approach(c, false);
     l->release = isnan(c->load.release) && scrapes && tr->ends_at_rest ? 0 : rules_approach(c, true);
     return l->approach + l->release <= tr->duration * (1 + 1e-9) ||
-           err_about(e, c->name, !isnan(c->load.approach) ? "load.approach" : !isnan(c->load.release) ? "load.release" : "motion") ||
+           err_about(e, c->name,
+                     !isnan(c->load.approach)  ? "load.approach"
+                     : !isnan(c->load.release) ? "load.release"
+                                               : "motion") ||
            err_set(e, ERR_SCENE,
-                   "contact '%s': load.approach, %.4g s, and load.release, %.4g s%s, do not fit into the motion, which lasts %.4g s; give "
+                   "contact '%s': load.approach, %.4g s, and load.release, %.4g s%s, do not fit into the motion, which "
+                   "lasts %.4g s; give "
                    "shorter ones, or 0 s",
-                   c->name, l->approach, l->release, isnan(c->load.approach) || isnan(c->load.release) ? " (auto)" : "", tr->duration);
+                   c->name, l->approach, l->release, isnan(c->load.approach) || isnan(c->load.release) ? " (auto)" : "",
+                   tr->duration);
 }
 
 struct load_scan {
@@ -199,8 +205,9 @@ static void load_scan_at(const void *self, size_t n, const double *t, double *y)
     load_along(s->law, s->tr, n, t, y);
 }
 
-/* Instants that show each turn of a ball on its own, and each lobe of its rim. x = R theta - r sin theta goes through the lowest place of its centre of mass within about
-   (R - r)^1.5 / R^0.5: as r comes near R the force there is a sharp pulse. */
+/* Instants that show each turn of a ball on its own, and each lobe of its rim. x = R theta - r sin theta goes through
+   the lowest place of its centre of mass within about (R - r)^1.5 / R^0.5: as r comes near R the force there is a sharp
+   pulse. */
 static double load_turns(const struct load_law *l, const struct trajectory *tr)
 {
     const struct spin *s = &l->spin;
@@ -213,7 +220,9 @@ static void load_range(struct load_law *l, const struct trajectory *tr)
 {
     struct load_scan s = {l, tr};
     double range[2];
-    long detail = 4 * tr->detail + (l->record ? 4 * (long)l->record->spline.n : l->turned > 0 ? (long)load_turns(l, tr) : 0);
+    long detail = 4 * tr->detail + (l->record       ? 4 * (long)l->record->spline.n
+                                    : l->turned > 0 ? (long)load_turns(l, tr)
+                                                    : 0);
     scan_range(&(struct scan){load_scan_at, &s}, 0, l->record ? tr->duration : tr->cycle, detail, range);
     l->least = fmax(range[0], 0);
     l->most = fmax(range[1], 0);
@@ -231,9 +240,7 @@ bool load_make(const struct contact *c, const struct trajectory *tr, struct aren
     }
     if (varies && c->grip.given ? !load_grip(c, l, e) : varies && c->load.recorded && !load_recorded(c, tr, a, l, e))
         return false;
-    if (!load_ends(c, tr, l, e))
-        return false;
-    if (varies)
-        load_range(l, tr);
+    if (!load_ends(c, tr, l, e)) return false;
+    if (varies) load_range(l, tr);
     return true;
 }

@@ -1,4 +1,5 @@
-/* The stage that lays the normal force on the board: only a grip, a recording, or a ball that is heavier on one side or not round makes it vary. */
+/* The stage that lays the normal force on the board: only a grip, a recording, or a ball that is heavier on one side or
+ * not round makes it vary. */
 #include "scene/rules.h"
 #include "stage.h"
 #include "trajectory/load.h"
@@ -16,8 +17,7 @@ static unsigned stage_asks(const struct contact *c, const struct scene *s)
     (void)s;
     if (!c->grip.given && !c->load.recorded)
         return ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION);
-    if (!c->grip.given)
-        return ITEM_BIT(ITEM_MOTION); /* its duration */
+    if (!c->grip.given) return ITEM_BIT(ITEM_MOTION); /* its duration */
     return rules_straight(&c->motion) ? ITEM_BIT(ITEM_ACCELERATION) : ITEM_BIT(ITEM_AX) | ITEM_BIT(ITEM_AY);
 }
 
@@ -33,11 +33,12 @@ static bool stage_open(struct stage_run *r, struct err *e)
     return load_make(r->contact, r->board->trajectory, r->arena, l, e);
 }
 
-/* Of a ball. A motion does not go on after its end, and the board's u and its derivatives stay at their last values: so does the force. */
+/* Of a ball. A motion does not go on after its end, and the board's u and its derivatives stay at their last values: so
+ * does the force. */
 static void fill_turned(const struct board *b, long from, long to)
 {
-    load_turned(b->load, (size_t)((to - from) * b->over), board_at(b, ITEM_POSITION, from), board_at(b, ITEM_VELOCITY, from),
-                board_at(b, ITEM_ACCELERATION, from), board_at(b, ITEM_LOAD, from));
+    load_turned(b->load, (size_t)((to - from) * b->over), board_at(b, ITEM_POSITION, from),
+                board_at(b, ITEM_VELOCITY, from), board_at(b, ITEM_ACCELERATION, from), board_at(b, ITEM_LOAD, from));
 }
 
 static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
@@ -46,7 +47,8 @@ static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
     const struct trajectory *tr = b->trajectory;
     bool grip = r->contact->grip.given;
     const double *line = grip && tr->straight ? board_at(b, ITEM_ACCELERATION, from) : NULL;
-    const double *x = grip && !tr->straight ? board_at(b, ITEM_AX, from) : NULL, *y = x ? board_at(b, ITEM_AY, from) : NULL;
+    const double *x = grip && !tr->straight ? board_at(b, ITEM_AX, from) : NULL,
+                 *y = x ? board_at(b, ITEM_AY, from) : NULL;
     double *force = board_at(b, ITEM_LOAD, from), t[LOAD_CHUNK], ax[LOAD_CHUNK], ay[LOAD_CHUNK];
     (void)e;
     if (b->load->turned > 0) {

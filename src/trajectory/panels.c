@@ -1,11 +1,12 @@
-/* Between two edges x0, x1 the function is the quintic with the exact value, slope and second derivative at both (Hermite); the
-   integral over a piece is Gauss-Legendre quadrature with 8 points on three parts of it.
+/* Between two edges x0, x1 the function is the quintic with the exact value, slope and second derivative at both
+   (Hermite); the integral over a piece is Gauss-Legendre quadrature with 8 points on three parts of it.
 
-   A piece is halved until, at 0.3 and 0.6 of it, the quintic agrees with the quadrature to 5e-14 (units of the integral) and two roundings
-   of x, and quadrature of the whole with that of the parts. The quintic's error is h^6 f/46080 at most, in the middle; the parts'
-   quadrature is then better by 2^17. Pieces over which an integral grows by less than 5e-14 are kept as they are: so a kink (|g| at a
-   zero) ends after 20 halvings. Where g' jumps is to be a break; derivatives are taken just inside a piece's ends. Edges are summed with
-   their rounding errors (Neumaier), so that the error does not grow with the number of pieces. */
+   A piece is halved until, at 0.3 and 0.6 of it, the quintic agrees with the quadrature to 5e-14 (units of the
+   integral) and two roundings of x, and quadrature of the whole with that of the parts. The quintic's error is h^6
+   f/46080 at most, in the middle; the parts' quadrature is then better by 2^17. Pieces over which an integral grows by
+   less than 5e-14 are kept as they are: so a kink (|g| at a zero) ends after 20 halvings. Where g' jumps is to be a
+   break; derivatives are taken just inside a piece's ends. Edges are summed with their rounding errors (Neumaier), so
+   that the error does not grow with the number of pieces. */
 #include "trajectory/panels.h"
 
 #include <math.h>
@@ -16,8 +17,10 @@ enum { GAUSS = 8, PARTS = 3, DEEPEST = 60 };
 static const double TOLERANCE = 5e-14;
 static const double PART[PARTS + 1] = {0, 0.3, 0.6, 1};
 
-static const double GAUSS_AT[GAUSS / 2] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168};
-static const double GAUSS_WEIGHT[GAUSS / 2] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915};
+static const double GAUSS_AT[GAUSS / 2] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
+                                           0.96028985649753623168};
+static const double GAUSS_WEIGHT[GAUSS / 2] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054,
+                                               0.10122853629037625915};
 
 struct piece {
     double x0, x1, g[2], dg[2]; /* slopes at the ends, derivatives just inside them */
@@ -54,14 +57,17 @@ static double gauss_sum(double a, double b, const double *g)
 static void piece_measure(const struct build *b, struct piece *w)
 {
     enum { N = GAUSS * (PARTS + 1) + 6 };
-    double x[N], g[N], dg[N], h = w->x1 - w->x0, inside = fmin(1e-12 * h + 0x1p-50 * fmax(fabs(w->x0), fabs(w->x1)), 1e-3 * h), edge[PARTS + 1];
+    double x[N], g[N], dg[N], h = w->x1 - w->x0,
+                              inside = fmin(1e-12 * h + 0x1p-50 * fmax(fabs(w->x0), fabs(w->x1)), 1e-3 * h),
+                              edge[PARTS + 1];
     for (int k = 0; k <= PARTS; k++)
         edge[k] = k == PARTS ? w->x1 : w->x0 + PART[k] * h;
     for (int k = 0; k < PARTS; k++)
         gauss_nodes(edge[k], edge[k + 1], x + GAUSS * k);
     gauss_nodes(w->x0, w->x1, x + GAUSS * PARTS);
     double *ends = x + GAUSS * (PARTS + 1);
-    ends[0] = w->x0, ends[1] = w->x1, ends[2] = w->x0 + inside, ends[3] = w->x1 - inside, ends[4] = edge[1], ends[5] = edge[2];
+    ends[0] = w->x0, ends[1] = w->x1, ends[2] = w->x0 + inside, ends[3] = w->x1 - inside, ends[4] = edge[1],
+    ends[5] = edge[2];
     b->slope->at(b->slope->self, N, x, g, dg);
     for (int k = 0; k < PARTS; k++)
         w->part[k] = gauss_sum(edge[k], edge[k + 1], g + GAUSS * k);
@@ -101,7 +107,8 @@ static bool piece_fit(const struct build *b, const struct piece *w, double c[6])
     quintic(b->inverse ? h : rise, v, a, c);
     for (int k = 0; k < 2; k++) {
         double grown = k == 0 ? w->part[0] : w->part[0] + w->part[1];
-        double off = b->inverse ? (quintic_at(c, grown / rise) - PART[k + 1] * h) * w->inner[k] : quintic_at(c, PART[k + 1]) - grown;
+        double off = b->inverse ? (quintic_at(c, grown / rise) - PART[k + 1] * h) * w->inner[k]
+                                : quintic_at(c, PART[k + 1]) - grown;
         worst = fmax(worst, fabs(off));
     }
     return worst <= TOLERANCE + 0x1p-51 * fabs(w->x1) * fmax(w->g[0], w->g[1]);
@@ -114,13 +121,11 @@ static struct panels_piece *build_piece(struct build *b)
     size_t k = p->n / PANELS_BLOCK;
     if (k == p->room) {
         struct panels_piece **more = ARENA_TAKE(b->arena, struct panels_piece *, 2 * p->room + 8);
-        if (p->room > 0)
-            memcpy(more, p->block, p->room * sizeof *more);
+        if (p->room > 0) memcpy(more, p->block, p->room * sizeof *more);
         p->block = more;
         p->room = 2 * p->room + 8;
     }
-    if (!p->block[k])
-        p->block[k] = ARENA_TAKE(b->arena, struct panels_piece, PANELS_BLOCK);
+    if (!p->block[k]) p->block[k] = ARENA_TAKE(b->arena, struct panels_piece, PANELS_BLOCK);
     return &p->block[k][p->n++ % PANELS_BLOCK];
 }
 
@@ -168,19 +173,19 @@ static bool build_all(struct build *b, const double *breaks, size_t n_breaks)
 {
     *b->p = (struct panels){0};
     for (size_t i = 0; i + 1 < n_breaks; i++)
-        if (!build_between(b, breaks[i], breaks[i + 1]))
-            return false;
+        if (!build_between(b, breaks[i], breaks[i + 1])) return false;
     return true;
 }
 
-void panels_integral(const struct panels_slope *slope, const double *breaks, size_t n_breaks, struct arena *a, struct panels *p)
+void panels_integral(const struct panels_slope *slope, const double *breaks, size_t n_breaks, struct arena *a,
+                     struct panels *p)
 {
     struct build b = {.slope = slope, .arena = a, .p = p};
     build_all(&b, breaks, n_breaks);
 }
 
-bool panels_inverse(const struct panels_slope *slope, const double *breaks, size_t n_breaks, double least, struct arena *a, struct panels *p,
-                    double *where)
+bool panels_inverse(const struct panels_slope *slope, const double *breaks, size_t n_breaks, double least,
+                    struct arena *a, struct panels *p, double *where)
 {
     struct build b = {.slope = slope, .arena = a, .p = p, .inverse = true, .least = least};
     bool good = build_all(&b, breaks, n_breaks);
@@ -209,22 +214,18 @@ void panels_at(const struct panels *p, size_t n, const double *x, double *f, dou
     for (size_t k = 0; k < n; k++) {
         double at = x[k] < first ? first : x[k] > p->end ? p->end : x[k];
         if (!(at >= low && at < high)) {
-            i = k > 0 && i + 1 < p->n && at >= high && at < panels_edge(p, i + 2 < p->n ? i + 2 : p->n) ? i + 1 : panels_find(p, at);
+            i = k > 0 && i + 1 < p->n && at >= high && at < panels_edge(p, i + 2 < p->n ? i + 2 : p->n)
+                    ? i + 1
+                    : panels_find(p, at);
             c = panels_piece(p, i)->c;
             low = panels_edge(p, i);
             high = panels_edge(p, i + 1);
         }
         double h = high - low, q = (at - low) / h;
-        if (f)
-            f[k] = quintic_at(c, q);
-        if (df)
-            df[k] = (c[1] + q * (2 * c[2] + q * (3 * c[3] + q * (4 * c[4] + q * 5 * c[5])))) / h;
-        if (ddf)
-            ddf[k] = (2 * c[2] + q * (6 * c[3] + q * (12 * c[4] + q * 20 * c[5]))) / (h * h);
+        if (f) f[k] = quintic_at(c, q);
+        if (df) df[k] = (c[1] + q * (2 * c[2] + q * (3 * c[3] + q * (4 * c[4] + q * 5 * c[5])))) / h;
+        if (ddf) ddf[k] = (2 * c[2] + q * (6 * c[3] + q * (12 * c[4] + q * 20 * c[5]))) / (h * h);
     }
 }
 
-double panels_last(const struct panels *p)
-{
-    return quintic_at(panels_piece(p, p->n - 1)->c, 1);
-}
+double panels_last(const struct panels *p) { return quintic_at(panels_piece(p, p->n - 1)->c, 1); }

@@ -9,13 +9,13 @@
 enum { PANELS_BLOCK = 64 };
 
 struct panels_piece {
-    double edge;           /* where it begins                                      */
-    double c[6];           /* value at edge + q (next edge - edge): sum of c_j q^j */
+    double edge; /* where it begins                                      */
+    double c[6]; /* value at edge + q (next edge - edge): sum of c_j q^j */
 };
 
 struct panels {
-    size_t n, room;        /* pieces; blocks there is room for */
-    double end;            /* the last edge                    */
+    size_t n, room;              /* pieces; blocks there is room for */
+    double end;                  /* the last edge                    */
     struct panels_piece **block; /* of PANELS_BLOCK pieces     */
 };
 
@@ -36,14 +36,17 @@ struct panels_slope {
     const void *self;
 };
 
-/* f(x) = integral of g from breaks[0] to x. breaks[n_breaks >= 2], rising: where g' may jump; also where bisection begins. */
-void panels_integral(const struct panels_slope *slope, const double *breaks, size_t n_breaks, struct arena *a, struct panels *p);
+/* f(x) = integral of g from breaks[0] to x. breaks[n_breaks >= 2], rising: where g' may jump; also where bisection
+ * begins. */
+void panels_integral(const struct panels_slope *slope, const double *breaks, size_t n_breaks, struct arena *a,
+                     struct panels *p);
 
 /* x as a function of that integral. False, and *where is the place, if g is not above `least`. */
-bool panels_inverse(const struct panels_slope *slope, const double *breaks, size_t n_breaks, double least, struct arena *a, struct panels *p,
-                    double *where);
+bool panels_inverse(const struct panels_slope *slope, const double *breaks, size_t n_breaks, double least,
+                    struct arena *a, struct panels *p, double *where);
 
-/* f and its first two derivatives (NULL: not asked for) at n places x, in any order, fastest in rising order; x is held in the range. */
+/* f and its first two derivatives (NULL: not asked for) at n places x, in any order, fastest in rising order; x is held
+ * in the range. */
 void panels_at(const struct panels *p, size_t n, const double *x, double *f, double *df, double *ddf);
 
 /* The value at the last edge. */

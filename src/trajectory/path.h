@@ -9,20 +9,22 @@
 #include "scene/scene.h"
 #include "trajectory/course.h"
 
-struct path_out {           /* [n] each; NULL members are not asked for                   */
-    double *p[2];           /* m, place                                                   */
-    double *e[2];           /* unit tangent                                               */
-    double *bend[2];        /* 1/m, de/ds                                                 */
+struct path_out {    /* [n] each; NULL members are not asked for                   */
+    double *p[2];    /* m, place                                                   */
+    double *e[2];    /* unit tangent                                               */
+    double *bend[2]; /* 1/m, de/ds                                                 */
 };
 
 struct path {
-    double length;          /* m                                                          */
-    size_t n_strokes;       /* the motion may rest between strokes; 1: no stops on the way */
-    const double *strokes;  /* [n_strokes + 1] m: where they begin and end                */
+    double length;         /* m                                                          */
+    size_t n_strokes;      /* the motion may rest between strokes; 1: no stops on the way */
+    const double *strokes; /* [n_strokes + 1] m: where they begin and end                */
     size_t n_breaks;
-    const double *breaks;   /* [n_breaks] m, 0 to length: where curvature has kinks; NULL: it is the same everywhere */
-    void (*at)(const struct path *, size_t n, const double *s, const struct path_out *); /* s in m; beyond the ends the curve goes on */
-    void (*curvature)(const struct path *, size_t n, const double *s, double *square, double *rate); /* kappa^2 and its derivative by s */
+    const double *breaks; /* [n_breaks] m, 0 to length: where curvature has kinks; NULL: it is the same everywhere */
+    void (*at)(const struct path *, size_t n, const double *s,
+               const struct path_out *); /* s in m; beyond the ends the curve goes on */
+    void (*curvature)(const struct path *, size_t n, const double *s, double *square,
+                      double *rate); /* kappa^2 and its derivative by s */
     const void *state;
 };
 

@@ -1,11 +1,12 @@
-/* Straight from point to point. With motion.corner > 0 a corner of turning angle phi is rounded by a curve of length L = 2 |phi| corner, on which
-   the heading turns by
+/* Straight from point to point. With motion.corner > 0 a corner of turning angle phi is rounded by a curve of length L
+   = 2 |phi| corner, on which the heading turns by
 
      psi(z) = phi (z - sin(2 pi z) / (2 pi)),   kappa = 2 phi / L sin^2(pi z),   z = s / L from 0 to 1
 
-   so that curvature, and with it the acceleration, is continuous (on a circle's arc it would jump); corner is the smallest radius. The curve
-   leaves the straight d before the point, d = X(1/2) + Y(1/2) tan(phi / 2), where X, Y = L integral of cos psi, sin psi dz is its shape in the
-   direction of the straight (trajectory/panels.h: within 1e-13 L). Without rounding each straight is a stroke. */
+   so that curvature, and with it the acceleration, is continuous (on a circle's arc it would jump); corner is the
+   smallest radius. The curve leaves the straight d before the point, d = X(1/2) + Y(1/2) tan(phi / 2), where X, Y = L
+   integral of cos psi, sin psi dz is its shape in the direction of the straight (trajectory/panels.h: within 1e-13 L).
+   Without rounding each straight is a stroke. */
 #include <math.h>
 
 #include "num/real.h"
@@ -24,10 +25,7 @@ struct polyline {
     struct line_piece *piece;
 };
 
-static double corner_psi(double z)
-{
-    return z - real_sinpi(2 * z) / (2 * REAL_PI);
-}
+static double corner_psi(double z) { return z - real_sinpi(2 * z) / (2 * REAL_PI); }
 
 static void corner_cosine(const void *self, size_t n, const double *z, double *g, double *dg)
 {
@@ -97,12 +95,9 @@ static void polyline_at(const struct path *path, size_t n, const double *s, cons
         double p[2], e[2], bend[2];
         piece_at(&l->piece[polyline_find(l, s[i])], s[i], p, e, bend);
         for (int xy = 0; xy < 2; xy++) {
-            if (out->p[xy])
-                out->p[xy][i] = p[xy];
-            if (out->e[xy])
-                out->e[xy][i] = e[xy];
-            if (out->bend[xy])
-                out->bend[xy][i] = bend[xy];
+            if (out->p[xy]) out->p[xy][i] = p[xy];
+            if (out->e[xy]) out->e[xy][i] = e[xy];
+            if (out->bend[xy]) out->bend[xy][i] = bend[xy];
         }
     }
 }
@@ -140,7 +135,8 @@ static bool points_apart(const struct motion *m, size_t k, double e[2], double *
     double x = p[2] - p[0], y = p[3] - p[1];
     *length = sqrt(x * x + y * y);
     if (*length < 1e-9)
-        return err_set(e_out, ERR_SCENE, "motion.points: points %zu and %zu are in one place; leave one of them out", k + 1, k + 2);
+        return err_set(e_out, ERR_SCENE, "motion.points: points %zu and %zu are in one place; leave one of them out",
+                       k + 1, k + 2);
     e[0] = x / *length;
     e[1] = y / *length;
     return true;
@@ -151,28 +147,33 @@ static struct line_piece *piece_put(struct polyline *l, const double p[2], const
 {
     const struct line_piece *last = l->n > 0 ? &l->piece[l->n - 1] : NULL;
     struct line_piece *w = &l->piece[l->n++];
-    *w = (struct line_piece){.s = last ? last->s + last->length : 0, .p = {p[0], p[1]}, .e = {e[0], e[1]},
+    *w = (struct line_piece){.s = last ? last->s + last->length : 0,
+                             .p = {p[0], p[1]},
+                             .e = {e[0], e[1]},
                              .heading = real_atan2(e[1], e[0]) / REAL_PI};
     return w;
 }
 
-/* What the corner at point k is to be, from direction e to direction `next`; *room: m that it takes of the straights. */
-static bool corner_plan(const struct motion *m, size_t k, const double e[2], const double next[2], struct line_piece *corner, double *room,
-                        struct arena *a, struct err *err)
+/* What the corner at point k is to be, from direction e to direction `next`; *room: m that it takes of the straights.
+ */
+static bool corner_plan(const struct motion *m, size_t k, const double e[2], const double next[2],
+                        struct line_piece *corner, double *room, struct arena *a, struct err *err)
 {
     double turn = real_atan2(e[0] * next[1] - e[1] * next[0], e[0] * next[0] + e[1] * next[1]);
     *corner = (struct line_piece){.turn = 0};
     *room = 0;
-    if (m->corner == 0 || fabs(turn) < 1e-9)
-        return true;
+    if (m->corner == 0 || fabs(turn) < 1e-9) return true;
     if (fabs(turn) > 3.1)
-        return err_set(err, ERR_SCENE, "motion.points: at point %zu the path turns back on itself, which cannot be rounded; set motion.corner: 0",
-                       k + 1);
+        return err_set(
+            err, ERR_SCENE,
+            "motion.points: at point %zu the path turns back on itself, which cannot be rounded; set motion.corner: 0",
+            k + 1);
     *room = corner_make(corner, turn, m->corner, a);
     return true;
 }
 
-static void corner_put(struct polyline *l, const double *point, const double e[2], double room, const struct line_piece *corner)
+static void corner_put(struct polyline *l, const double *point, const double e[2], double room,
+                       const struct line_piece *corner)
 {
     const double p[2] = {point[0] - room * e[0], point[1] - room * e[1]};
     struct line_piece *w = piece_put(l, p, e);
@@ -182,8 +183,10 @@ static void corner_put(struct polyline *l, const double *point, const double e[2
     w->y = corner->y;
 }
 
-/* One straight, and the corner at its end if there is one. taken: m of the straight that the corner before it has; becomes that of the next. */
-static bool side_put(struct polyline *l, const struct motion *m, size_t k, double *taken, struct arena *a, struct err *err)
+/* One straight, and the corner at its end if there is one. taken: m of the straight that the corner before it has;
+ * becomes that of the next. */
+static bool side_put(struct polyline *l, const struct motion *m, size_t k, double *taken, struct arena *a,
+                     struct err *err)
 {
     double e[2], next[2], length, next_length, room = 0;
     struct line_piece corner = {.turn = 0};
@@ -193,13 +196,13 @@ static bool side_put(struct polyline *l, const struct motion *m, size_t k, doubl
         return false;
     if (*taken + room > length * (1 + 1e-12))
         return err_set(err, ERR_SCENE,
-                       "motion.corner: rounding takes %.4g m of the straight between points %zu and %zu, which is %.4g m long; lower "
+                       "motion.corner: rounding takes %.4g m of the straight between points %zu and %zu, which is %.4g "
+                       "m long; lower "
                        "motion.corner, or move the points apart",
                        *taken + room, k + 1, k + 2, length);
     const double p[2] = {m->points[2 * k] + *taken * e[0], m->points[2 * k + 1] + *taken * e[1]};
     piece_put(l, p, e)->length = fmax(length - *taken - room, 0);
-    if (corner.turn != 0)
-        corner_put(l, m->points + 2 * (k + 1), e, room, &corner);
+    if (corner.turn != 0) corner_put(l, m->points + 2 * (k + 1), e, room, &corner);
     *taken = room;
     return true;
 }
@@ -211,10 +214,8 @@ static double *polyline_borders(const struct polyline *l, struct arena *a, size_
     double *s = ARENA_TAKE(a, double, l->n + 1);
     size_t n = 0;
     for (size_t i = 0; i < l->n; i++)
-        if (i == 0 || l->piece[i].s > s[n - 1])
-            s[n++] = l->piece[i].s;
-    if (last->s + last->length > s[n - 1])
-        s[n++] = last->s + last->length;
+        if (i == 0 || l->piece[i].s > s[n - 1]) s[n++] = l->piece[i].s;
+    if (last->s + last->length > s[n - 1]) s[n++] = last->s + last->length;
     *count = n;
     return s;
 }
@@ -225,12 +226,16 @@ bool path_polyline(struct path *p, const struct motion *m, struct arena *a, stru
     double taken = 0;
     l->piece = ARENA_TAKE(a, struct line_piece, 2 * m->n_points);
     for (size_t k = 0; k + 1 < (size_t)m->n_points; k++)
-        if (!side_put(l, m, k, &taken, a, e))
-            return false;
+        if (!side_put(l, m, k, &taken, a, e)) return false;
     const struct line_piece *last = &l->piece[l->n - 1];
     double length = last->s + last->length, *ends = ARENA_TAKE(a, double, 2);
     ends[1] = length;
-    *p = (struct path){.length = length, .n_strokes = 1, .strokes = ends, .at = polyline_at, .curvature = polyline_curvature, .state = l};
+    *p = (struct path){.length = length,
+                       .n_strokes = 1,
+                       .strokes = ends,
+                       .at = polyline_at,
+                       .curvature = polyline_curvature,
+                       .state = l};
     p->breaks = polyline_borders(l, a, &p->n_breaks);
     if (m->corner == 0) {
         p->strokes = p->breaks;

@@ -1,6 +1,6 @@
-/* See scan.h. Golden section: W. Press et al., Numerical Recipes, section 10.2; a triple of instants whose middle one is the least is
-   narrowed to 1e-9 of a step, where y differs from its extreme by 1e-18 of what it varies by in a step. Two sides of a jump are two extremes: the
-   triple closes in on its lower side. */
+/* See scan.h. Golden section: W. Press et al., Numerical Recipes, section 10.2; a triple of instants whose middle one
+   is the least is narrowed to 1e-9 of a step, where y differs from its extreme by 1e-18 of what it varies by in a step.
+   Two sides of a jump are two extremes: the triple closes in on its lower side. */
 #include "trajectory/scan.h"
 
 #include <math.h>
@@ -20,7 +20,8 @@ static double golden(const struct scan *s, double sign, const double t[3], doubl
     static const double SHARE = 0.38196601125010515;
     double low = t[0], middle = t[1], high = t[2], width = 1e-9 * (high - low);
     while (high - low > width && low < middle && middle < high) {
-        double try = high - middle > middle - low ? middle + SHARE * (high - middle) : middle - SHARE * (middle - low), y = scan_at(s, sign, try);
+        double try = high - middle > middle - low ? middle + SHARE * (high - middle) : middle - SHARE * (middle - low),
+               y = scan_at(s, sign, try);
         if (y < least) {
             if (try > middle)
                 low = middle;
@@ -40,8 +41,7 @@ static double golden(const struct scan *s, double sign, const double t[3], doubl
 static void scan_triple(const struct scan *s, double sign, const double t[3], const double y[3], double *best)
 {
     double a = sign * y[0], b = sign * y[1], c = sign * y[2];
-    if (b > a || b > c || b - (fmax(a, c) - b) >= *best)
-        return;
+    if (b > a || b > c || b - (fmax(a, c) - b) >= *best) return;
     *best = fmin(*best, golden(s, sign, t, b));
 }
 
@@ -85,8 +85,7 @@ void scan_range(const struct scan *s, double from, double to, long steps, double
             for (int k = 0; k < 2; k++) {
                 double sign = k ? -1 : 1;
                 best[k] = fmin(best[k], sign * y[i]);
-                if (w.n >= 3)
-                    scan_triple(s, sign, w.t, w.y, &best[k]);
+                if (w.n >= 3) scan_triple(s, sign, w.t, w.y, &best[k]);
             }
         }
     }

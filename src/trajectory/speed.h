@@ -10,19 +10,22 @@
 #include "trajectory/path.h"
 
 struct speed {
-    double duration;        /* s                                                     */
-    double top;             /* m/s, largest                                          */
-    double distance;        /* m, travelled in the duration                          */
-    double reach[2];        /* m, least and greatest u                               */
-    double cycle;           /* s, after which it repeats itself; else the duration   */
-    long detail;            /* instants of a cycle that show all of its shape        */
-    void (*at)(const struct speed *, size_t n, const double *t, double *u, double *du, double *ddu); /* [n] each, NULL: not asked for;
-                                                                                       before 0 and after the duration the formula goes on */
-    double (*turning)(const struct speed *, double t0, double t1); /* instant in (t0, t1) at which u turns back, or NAN; NULL: never */
+    double duration; /* s                                                     */
+    double top;      /* m/s, largest                                          */
+    double distance; /* m, travelled in the duration                          */
+    double reach[2]; /* m, least and greatest u                               */
+    double cycle;    /* s, after which it repeats itself; else the duration   */
+    long detail;     /* instants of a cycle that show all of its shape        */
+    void (*at)(const struct speed *, size_t n, const double *t, double *u, double *du,
+               double *ddu); /* [n] each, NULL: not asked for;
+               before 0 and after the duration the formula goes on */
+    double (*turning)(const struct speed *, double t0,
+                      double t1); /* instant in (t0, t1) at which u turns back, or NAN; NULL: never */
     const void *state;
 };
 
-/* harmonic, constant, minimum_jerk (two_thirds where curvature does not vary), over each of the path's strokes in turn. */
+/* harmonic, constant, minimum_jerk (two_thirds where curvature does not vary), over each of the path's strokes in turn.
+ */
 void speed_strokes(struct speed *, int law, const struct path *, double duration, struct arena *);
 
 /* The same there and back between u = 0 and length, 2 rate strokes a second. */

@@ -5,12 +5,9 @@ static void still_at(const struct speed *speed, size_t n, const double *t, doubl
 {
     (void)speed, (void)t;
     for (size_t i = 0; i < n; i++) {
-        if (u)
-            u[i] = 0;
-        if (du)
-            du[i] = 0;
-        if (ddu)
-            ddu[i] = 0;
+        if (u) u[i] = 0;
+        if (du) du[i] = 0;
+        if (ddu) ddu[i] = 0;
     }
 }
 

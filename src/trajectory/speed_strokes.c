@@ -1,12 +1,13 @@
 /* Laws in closed form, over a stroke of length l in a time T, q = (t - t0) / T from 0 to 1:
 
      constant       p = q
-     harmonic       p = (1 - cos pi q) / 2                  simple harmonic motion from rest to rest, papers/000 section 2.3
-     minimum jerk   p = 10 q^3 - 15 q^4 + 6 q^5             T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688
+     harmonic       p = (1 - cos pi q) / 2                  simple harmonic motion from rest to rest, papers/000
+   section 2.3 minimum jerk   p = 10 q^3 - 15 q^4 + 6 q^5             T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688
 
-   u = u0 + l p. Strokes follow one another without a pause, each with its share of the duration by length, or go there and back: then 2 rate
-   strokes a second between u = 0 and l. So the speeds of back_and_forth and of four_in_line with strokes of the same length and time are the
-   same functions of time, and so are those of a circle and a line (papers/000 section 3.2).
+   u = u0 + l p. Strokes follow one another without a pause, each with its share of the duration by length, or go there
+   and back: then 2 rate strokes a second between u = 0 and l. So the speeds of back_and_forth and of four_in_line with
+   strokes of the same length and time are the same functions of time, and so are those of a circle and a line
+   (papers/000 section 3.2).
 
    Phase: there and back t 2 rate is rounded once, so after n strokes it is off by at most n 2^-53 strokes. */
 #include <math.h>
@@ -21,12 +22,12 @@ enum { STROKES_CHUNK = 256, STROKE_DETAIL = 64 };
 struct strokes {
     int law;
     bool folded;
-    double per_second;      /* folded                                        */
-    double length;          /* m, of each; NAN: not all the same             */
-    double time;            /* s, of each                                    */
+    double per_second; /* folded                                        */
+    double length;     /* m, of each; NAN: not all the same             */
+    double time;       /* s, of each                                    */
     size_t n;
-    const double *from;     /* [n + 1] m; NULL when folded                   */
-    double pace;            /* s per m: duration over the whole length       */
+    const double *from; /* [n + 1] m; NULL when folded                   */
+    double pace;        /* s per m: duration over the whole length       */
 };
 
 static size_t stroke_find(const struct strokes *s, double t)
@@ -45,7 +46,8 @@ static size_t stroke_find(const struct strokes *s, double t)
 struct strokes_at {
     size_t n;
     double q[STROKES_CHUNK], p[STROKES_CHUNK], dp[STROKES_CHUNK], ddp[STROKES_CHUNK];
-    double from[STROKES_CHUNK], length[STROKES_CHUNK], time[STROKES_CHUNK]; /* where the stroke starts, its signed length, m; s */
+    double from[STROKES_CHUNK], length[STROKES_CHUNK],
+        time[STROKES_CHUNK]; /* where the stroke starts, its signed length, m; s */
 };
 
 LANES_CLONES
@@ -151,8 +153,7 @@ static void strokes_at(const struct speed *speed, size_t n, const double *t, dou
             stroke_uneven(s, &a, t + first);
         stroke_shape(s->law, a.n, a.q, a.p, a.dp, a.ddp);
         for (int k = 0; k < 3; k++)
-            if (out[k])
-                stroke_out(&a, k, out[k] + first);
+            if (out[k]) stroke_out(&a, k, out[k] + first);
     }
 }
 
@@ -164,31 +165,43 @@ static double folded_turning(const struct speed *speed, double t0, double t1)
     return turn > t0 && turn < t1 && turn < speed->duration ? turn : NAN;
 }
 
-static double top_of(int law)
-{
-    return law == SPEED_HARMONIC ? REAL_PI / 2 : law == SPEED_MINIMUM_JERK ? 1.875 : 1;
-}
+static double top_of(int law) { return law == SPEED_HARMONIC ? REAL_PI / 2 : law == SPEED_MINIMUM_JERK ? 1.875 : 1; }
 
 void speed_strokes(struct speed *speed, int law, const struct path *path, double duration, struct arena *a)
 {
     struct strokes *s = ARENA_TAKE(a, struct strokes, 1);
     double length = path->length / (double)path->n_strokes;
-    *s = (struct strokes){.law = law, .n = path->n_strokes, .from = path->strokes, .pace = duration / path->length, .length = length,
+    *s = (struct strokes){.law = law,
+                          .n = path->n_strokes,
+                          .from = path->strokes,
+                          .pace = duration / path->length,
+                          .length = length,
                           .time = duration / (double)path->n_strokes};
     for (size_t i = 0; i < s->n; i++)
-        if (fabs(s->from[i] - length * (double)i) > 1e-15 * path->length)
-            s->length = NAN;
-    *speed = (struct speed){.duration = duration, .top = path->length / duration * top_of(law), .distance = path->length,
-                            .reach = {0, path->length}, .cycle = duration, .detail = STROKE_DETAIL * (long)s->n, .at = strokes_at, .state = s};
+        if (fabs(s->from[i] - length * (double)i) > 1e-15 * path->length) s->length = NAN;
+    *speed = (struct speed){.duration = duration,
+                            .top = path->length / duration * top_of(law),
+                            .distance = path->length,
+                            .reach = {0, path->length},
+                            .cycle = duration,
+                            .detail = STROKE_DETAIL * (long)s->n,
+                            .at = strokes_at,
+                            .state = s};
 }
 
 void speed_strokes_folded(struct speed *speed, int law, double length, double rate, double duration, struct arena *a)
 {
     struct strokes *s = ARENA_TAKE(a, struct strokes, 1);
     double whole, last, end = duration;
-    *s = (struct strokes){.law = law, .folded = true, .n = 1, .length = length, .per_second = 2 * rate, .time = 1 / (2 * rate)};
-    *speed = (struct speed){.duration = duration, .top = length * 2 * rate * top_of(law), .cycle = fmin(duration, 1 / rate),
-                            .detail = 2 * STROKE_DETAIL, .at = strokes_at, .turning = folded_turning, .state = s};
+    *s = (struct strokes){
+        .law = law, .folded = true, .n = 1, .length = length, .per_second = 2 * rate, .time = 1 / (2 * rate)};
+    *speed = (struct speed){.duration = duration,
+                            .top = length * 2 * rate * top_of(law),
+                            .cycle = fmin(duration, 1 / rate),
+                            .detail = 2 * STROKE_DETAIL,
+                            .at = strokes_at,
+                            .turning = folded_turning,
+                            .state = s};
     strokes_at(speed, 1, &end, &last, NULL, NULL);
     whole = floor(duration * s->per_second);
     speed->distance = whole * length + (whole / 2 != floor(whole / 2) ? length - last : last);

@@ -1,12 +1,14 @@
-/* As hands draw (the two-thirds power law): F. Lacquaniti, C. Terzuolo, P. Viviani, Acta Psychologica 54 (1983) 115: angular velocity in
-   proportion to curvature to the power 2/3, so speed to the radius of curvature to the power 1/3. On straight stretches that has no bounds;
-   here the square of a curvature 1 / straight is added, which it comes near to where the path is straighter than that:
+/* As hands draw (the two-thirds power law): F. Lacquaniti, C. Terzuolo, P. Viviani, Acta Psychologica 54 (1983) 115:
+   angular velocity in proportion to curvature to the power 2/3, so speed to the radius of curvature to the power 1/3.
+   On straight stretches that has no bounds; here the square of a curvature 1 / straight is added, which it comes near
+   to where the path is straighter than that:
 
      v(s) = K (kappa(s)^2 + 1 / straight^2)^(-1/6)
 
-   t(s) = 1/K integral of (kappa^2 + 1 / straight^2)^(1/6) ds, K such that t is the duration at the end; turned round into s(t) by
-   trajectory/panels.h (within 1e-13 m), whose derivatives are the speed and the acceleration. The motion does not begin or end at rest.
-   Where the path's curvature has a kink (the knots of a cubic spline) the acceleration along it jumps. */
+   t(s) = 1/K integral of (kappa^2 + 1 / straight^2)^(1/6) ds, K such that t is the duration at the end; turned round
+   into s(t) by trajectory/panels.h (within 1e-13 m), whose derivatives are the speed and the acceleration. The motion
+   does not begin or end at rest. Where the path's curvature has a kink (the knots of a cubic spline) the acceleration
+   along it jumps. */
 #include <math.h>
 
 #include "num/vecmath.h"
@@ -20,9 +22,9 @@ struct thirds_slope {
 };
 
 struct thirds {
-    struct panels s;        /* m, of t times pace                                              */
-    double pace;            /* m/s: speed where the path is straight                           */
-    double ends[2];         /* m/s, speed at both ends                                         */
+    struct panels s; /* m, of t times pace                                              */
+    double pace;     /* m/s: speed where the path is straight                           */
+    double ends[2];  /* m/s, speed at both ends                                         */
     double duration;
 };
 
@@ -53,12 +55,9 @@ static void thirds_at(const struct speed *speed, size_t n, const double *t, doub
         panels_at(&w->s, some, x, u ? u + first : NULL, du ? du + first : NULL, ddu ? ddu + first : NULL);
         for (size_t i = first; i < first + some; i++) {
             double over = t[i] < 0 ? t[i] : t[i] > w->duration ? t[i] - w->duration : 0;
-            if (u)
-                u[i] += over * w->ends[over > 0];
-            if (du)
-                du[i] *= w->pace;
-            if (ddu)
-                ddu[i] = over == 0 ? ddu[i] * w->pace * w->pace : 0;
+            if (u) u[i] += over * w->ends[over > 0];
+            if (du) du[i] *= w->pace;
+            if (ddu) ddu[i] = over == 0 ? ddu[i] * w->pace * w->pace : 0;
         }
     }
 }
@@ -68,16 +67,22 @@ void speed_two_thirds(struct speed *speed, const struct path *path, double strai
     struct thirds *w = ARENA_TAKE(a, struct thirds, 1);
     struct thirds_slope slope = {path, straight};
     double nowhere, top = 0;
-    panels_inverse(&(struct panels_slope){thirds_slope, &slope}, path->breaks, path->n_breaks, 0, a, &w->s, &nowhere); /* g >= 1 */
+    panels_inverse(&(struct panels_slope){thirds_slope, &slope}, path->breaks, path->n_breaks, 0, a, &w->s,
+                   &nowhere); /* g >= 1 */
     w->pace = w->s.end / duration;
     w->duration = duration;
     for (size_t i = 0; i <= w->s.n; i++) {
         double x = panels_edge(&w->s, i), v;
         panels_at(&w->s, 1, &x, NULL, &v, NULL);
         top = fmax(top, v * w->pace);
-        if (i == 0 || i == w->s.n)
-            w->ends[i > 0] = v * w->pace;
+        if (i == 0 || i == w->s.n) w->ends[i > 0] = v * w->pace;
     }
-    *speed = (struct speed){.duration = duration, .top = top, .distance = path->length, .reach = {0, path->length}, .cycle = duration,
-                            .detail = 4 * (long)w->s.n, .at = thirds_at, .state = w};
+    *speed = (struct speed){.duration = duration,
+                            .top = top,
+                            .distance = path->length,
+                            .reach = {0, path->length},
+                            .cycle = duration,
+                            .detail = 4 * (long)w->s.n,
+                            .at = thirds_at,
+                            .state = w};
 }

@@ -1,20 +1,22 @@
 /* A ball that rolls without slipping, its centre of mass r off its geometric centre:
 
      x = R theta - r sin(theta)            papers/000 equation 18, x = u + x(start) the way of the centre of mass
-     rise = -r cos(theta)                  height of the centre of mass over the geometric centre, which stays R above a level surface
-     bulge = lobe_height cos(lobes theta)  how much further out than R the rim lies where it touches
+     rise = -r cos(theta)                  height of the centre of mass over the geometric centre, which stays R above a
+   level surface bulge = lobe_height cos(lobes theta)  how much further out than R the rim lies where it touches
 
-     theta  rad, 0: the centre of mass is lowest     R, r  m     primes: by time, each the derivative of the formula above it:
-     theta' = u' / (R - r cos theta)       theta'' = (u'' - r sin(theta) theta'^2) / (R - r cos theta)
+     theta  rad, 0: the centre of mass is lowest     R, r  m     primes: by time, each the derivative of the formula
+   above it: theta' = u' / (R - r cos theta)       theta'' = (u'' - r sin(theta) theta'^2) / (R - r cos theta)
 
    Equations 16 and 17 put theta = x / R into the cosine, which is right for r = 0 only; here theta solves 18, and
    `printed` is -r cos(x/R) for who wants it as it stands. The point that touches is r sin(theta) away
    from x along the way; like the paper, what reads the surface reads it at x.
 
-   Equation 18 is Kepler's: phi - q sin(phi) = y, q = r / R < 1, y = x / R less whole turns, |y| <= pi. On [0, pi] the left side is rising and convex, so
-   Newton's method from above, from min(y + q, pi), falls to the root and nowhere overshoots but by rounding: a value that does not fall any more is the
-   root. (Each is iterated until it stands, whatever its neighbours do: values do not depend on how instants are grouped.) Whole turns are taken off y with
-   2 pi in three parts, the first two of 20 bits, so that phi keeps its digits however far the ball has rolled: what remains is the rounding of u itself. */
+   Equation 18 is Kepler's: phi - q sin(phi) = y, q = r / R < 1, y = x / R less whole turns, |y| <= pi. On [0, pi] the
+   left side is rising and convex, so Newton's method from above, from min(y + q, pi), falls to the root and nowhere
+   overshoots but by rounding: a value that does not fall any more is the root. (Each is iterated until it stands,
+   whatever its neighbours do: values do not depend on how instants are grouped.) Whole turns are taken off y with 2 pi
+   in three parts, the first two of 20 bits, so that phi keeps its digits however far the ball has rolled: what remains
+   is the rounding of u itself. */
 #include "trajectory/spin.h"
 
 #include <assert.h>
@@ -31,7 +33,11 @@ static const double TURN[3] = {6.283180236816406, 5.070360202807933e-06, 2.97741
 struct spin spin_make(const struct contact *c)
 {
     const struct ball *b = &c->ball;
-    return (struct spin){.radius = b->radius, .offset = b->offset, .start = b->start_angle, .lobe_height = b->lobe_height, .lobes = b->lobes};
+    return (struct spin){.radius = b->radius,
+                         .offset = b->offset,
+                         .start = b->start_angle,
+                         .lobe_height = b->lobe_height,
+                         .lobes = b->lobes};
 }
 
 struct chunk {
@@ -86,7 +92,8 @@ struct spin_way {
 };
 
 /* Turning, and what follows from it, at n <= SPIN_CHUNK instants. */
-static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way, const struct spin_out *out)
+static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way,
+                        const struct spin_out *out)
 {
     double r = p->offset;
     for (size_t i = 0; i < n; i++) {
@@ -94,29 +101,23 @@ static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, c
         double w = way->du ? way->du[i] / lever : 0;
         if (out->theta)
             out->theta[i] = o->turns[i] * TURN[0] + (o->turns[i] * TURN[1] + (o->turns[i] * TURN[2] + o->phi[i]));
-        if (out->turning)
-            out->turning[i] = w;
-        if (out->rise)
-            out->rise[i] = -r * c;
-        if (out->climb)
-            out->climb[i] = r * s * w;
-        if (out->lift)
-            out->lift[i] = r * (c * w * w + s * ((way->ddu[i] - r * s * w * w) / lever));
+        if (out->turning) out->turning[i] = w;
+        if (out->rise) out->rise[i] = -r * c;
+        if (out->climb) out->climb[i] = r * s * w;
+        if (out->lift) out->lift[i] = r * (c * w * w + s * ((way->ddu[i] - r * s * w * w) / lever));
     }
 }
 
-static void spin_rim(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way, const struct spin_out *out)
+static void spin_rim(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way,
+                     const struct spin_out *out)
 {
     double s[SPIN_CHUNK], c[SPIN_CHUNK], h = p->lobe_height, k = p->lobes;
-    if (!out->bulge && !out->swell && !out->heave)
-        return;
+    if (!out->bulge && !out->swell && !out->heave) return;
     spin_sincos(n, o->phi, p->lobes, s, c);
     for (size_t i = 0; i < n; i++) {
         double lever = p->radius - p->offset * o->c[i], w = way->du ? way->du[i] / lever : 0;
-        if (out->bulge)
-            out->bulge[i] = h * c[i];
-        if (out->swell)
-            out->swell[i] = -h * k * s[i] * w;
+        if (out->bulge) out->bulge[i] = h * c[i];
+        if (out->swell) out->swell[i] = -h * k * s[i] * w;
         if (out->heave)
             out->heave[i] = -h * k * (k * c[i] * w * w + s[i] * ((way->ddu[i] - p->offset * o->s[i] * w * w) / lever));
     }
@@ -130,26 +131,23 @@ static void spin_printed(const struct spin *p, size_t n, const struct chunk *o, 
         printed[i] = -p->offset * c[i];
 }
 
-static double *later(double *x, size_t first)
-{
-    return x ? x + first : NULL;
-}
+static double *later(double *x, size_t first) { return x ? x + first : NULL; }
 
-void spin_at(const struct spin *s, size_t n, const double *u, const double *du, const double *ddu, const struct spin_out *out)
+void spin_at(const struct spin *s, size_t n, const double *u, const double *du, const double *ddu,
+             const struct spin_out *out)
 {
     struct chunk o;
     assert(s->offset >= 0 && s->offset < s->radius && (ddu || (!out->lift && !out->heave)) &&
            (du || (!out->turning && !out->climb && !out->lift && !out->swell && !out->heave)));
     for (size_t first = 0; first < n; first += SPIN_CHUNK) {
         size_t some = n - first < SPIN_CHUNK ? n - first : SPIN_CHUNK;
-        struct spin_out at = {later(out->theta, first), later(out->turning, first), later(out->rise, first), later(out->climb, first),
-                              later(out->lift, first), later(out->bulge, first), later(out->swell, first),
-                              later(out->heave, first), later(out->printed, first)};
+        struct spin_out at = {later(out->theta, first), later(out->turning, first), later(out->rise, first),
+                              later(out->climb, first), later(out->lift, first),    later(out->bulge, first),
+                              later(out->swell, first), later(out->heave, first),   later(out->printed, first)};
         struct spin_way way = {du ? du + first : NULL, ddu ? ddu + first : NULL};
         spin_solve(s, some, u + first, &o);
         spin_motion(s, some, &o, &way, &at);
         spin_rim(s, some, &o, &way, &at);
-        if (at.printed)
-            spin_printed(s, some, &o, at.printed);
+        if (at.printed) spin_printed(s, some, &o, at.printed);
     }
 }

@@ -13,9 +13,10 @@ static bool stage_wanted(const struct contact *c, const struct scene *s)
 
 static double stage_work(const struct contact *c, const struct scene *s)
 {
-    static const double cycles[] = {[PATH_BACK_AND_FORTH] = 18, [PATH_LINE] = 14,     [PATH_FOUR_IN_LINE] = 18, [PATH_CIRCLE] = 35,
-                                    [PATH_SCRIBBLE] = 100,      [PATH_POLYLINE] = 40, [PATH_SPLINE] = 75,       [PATH_RECORDED] = 65, [PATH_STILL] = 5,
-                                    [PATH_INCLINE] = 20};
+    static const double cycles[] = {
+        [PATH_BACK_AND_FORTH] = 18, [PATH_LINE] = 14,     [PATH_FOUR_IN_LINE] = 18, [PATH_CIRCLE] = 35,
+        [PATH_SCRIBBLE] = 100,      [PATH_POLYLINE] = 40, [PATH_SPLINE] = 75,       [PATH_RECORDED] = 65,
+        [PATH_STILL] = 5,           [PATH_INCLINE] = 20};
     return cycles[c->motion.path] * s->accuracy.oversampling;
 }
 
@@ -29,7 +30,8 @@ static bool stage_open(struct stage_run *r, struct err *e)
     return true;
 }
 
-static const enum item stage_items[] = {ITEM_POSITION, ITEM_VELOCITY, ITEM_ACCELERATION, ITEM_X, ITEM_Y, ITEM_VX, ITEM_VY, ITEM_AX, ITEM_AY};
+static const enum item stage_items[] = {ITEM_POSITION, ITEM_VELOCITY, ITEM_ACCELERATION, ITEM_X, ITEM_Y,
+                                        ITEM_VX,       ITEM_VY,       ITEM_AX,           ITEM_AY};
 enum { STAGE_ITEMS = sizeof stage_items / sizeof stage_items[0] };
 
 /* False where the motion is read at other instants only. */
@@ -78,8 +80,9 @@ const struct stage trajectory_stage = {
     .does = "position, velocity and acceleration of the contact",
     .paper = "000 sec. 2.3, 3.2",
     .idle = "",
-    .gives = ITEM_BIT(ITEM_MOTION) | ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION) | ITEM_BIT(ITEM_X) | ITEM_BIT(ITEM_Y) |
-             ITEM_BIT(ITEM_VX) | ITEM_BIT(ITEM_VY) | ITEM_BIT(ITEM_AX) | ITEM_BIT(ITEM_AY),
+    .gives = ITEM_BIT(ITEM_MOTION) | ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION) |
+             ITEM_BIT(ITEM_X) | ITEM_BIT(ITEM_Y) | ITEM_BIT(ITEM_VX) | ITEM_BIT(ITEM_VY) | ITEM_BIT(ITEM_AX) |
+             ITEM_BIT(ITEM_AY),
     .wanted = stage_wanted,
     .work = stage_work,
     .open = stage_open,

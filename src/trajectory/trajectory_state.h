@@ -7,12 +7,12 @@
 #include "trajectory/speed.h"
 
 struct trajectory_state {
-    struct path path;       /* `at` is NULL on straight paths */
+    struct path path; /* `at` is NULL on straight paths */
     struct speed speed;
-    bool timed;             /* own time: the course and u(t)  */
+    bool timed; /* own time: the course and u(t)  */
     struct course course;
     struct panels far;
-    bool corners;           /* the motion rests at corners, where it may turn round */
+    bool corners; /* the motion rests at corners, where it may turn round */
 };
 
 #endif

@@ -1,4 +1,5 @@
-/* What the timings share: the thread's time, the time stamp counter, random numbers and a hash that are the same everywhere. */
+/* What the timings share: the thread's time, the time stamp counter, random numbers and a hash that are the same
+ * everywhere. */
 #ifndef TESTS_BENCH_BENCH_H
 #define TESTS_BENCH_BENCH_H
 #include <stddef.h>
@@ -15,10 +16,7 @@ static inline double bench_seconds_of(clockid_t clock)
 }
 
 /* That the thread has run. */
-static inline double bench_seconds(void)
-{
-    return bench_seconds_of(CLOCK_THREAD_CPUTIME_ID);
-}
+static inline double bench_seconds(void) { return bench_seconds_of(CLOCK_THREAD_CPUTIME_ID); }
 
 /* Cycles of the time stamp counter in a second. */
 static inline double bench_cycles_per_second(void)

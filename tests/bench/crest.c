@@ -1,7 +1,8 @@
-/* What the rolling curve in one coordinate costs (surface/crest.h): fractal heights 2.5 um apart, an amplitude of 10 um, under discs of several radii and over rows of several
-   lengths. One CSV row each: nanoseconds of the thread per height to find the arcs, arcs that are left over heights, nanoseconds per reading in rising order at the heights' pitch; and
-   for the same envelope at the heights by the search of surface/envelope.h, which the plane needs, nanoseconds per height. Linear time: the columns do not grow with n or
-   with the radius. */
+/* What the rolling curve in one coordinate costs (surface/crest.h): fractal heights 2.5 um apart, an amplitude of 10
+   um, under discs of several radii and over rows of several lengths. One CSV row each: nanoseconds of the thread per
+   height to find the arcs, arcs that are left over heights, nanoseconds per reading in rising order at the heights'
+   pitch; and for the same envelope at the heights by the search of surface/envelope.h, which the plane needs,
+   nanoseconds per height. Linear time: the columns do not grow with n or with the radius. */
 #include <math.h>
 #include <stdio.h>
 
@@ -59,8 +60,7 @@ static double search_time(double radius, long n)
         worst = fmax(worst, fabs(envelope_at(s, i, 0) - e[i]));
     start = bench_seconds() - start;
     arena_close(a);
-    if (worst > 1e-16)
-        printf("# the two differ by %g m\n", worst);
+    if (worst > 1e-16) printf("# the two differ by %g m\n", worst);
     return start / (double)n * 1e9;
 }
 

@@ -1,4 +1,5 @@
-/* decimal_9g beside printf's %.9g, in the same run: 20 million numbers, signs and exponents at random, of which none may be written differently.
+/* decimal_9g beside printf's %.9g, in the same run: 20 million numbers, signs and exponents at random, of which none
+   may be written differently.
 
        cc -O2 -std=c11 -D_GNU_SOURCE -Isrc tests/bench/decimal.c src/num/decimal.c -lm */
 #include "num/decimal.h"
@@ -34,7 +35,8 @@ int main(void)
         for (int i = 0; i < COUNT; i++)
             differing += strlen(theirs[i]) != length[i] || memcmp(ours[i], theirs[i], length[i]) != 0;
     }
-    printf("%%.9g: %.0f MB/s, %.1f ns a number; printf %.0f MB/s, %.1f ns: %.1f times faster; %ld of %d differ\n", bytes / least[0] / 1e6,
-           1e9 * least[0] / COUNT, bytes / least[1] / 1e6, 1e9 * least[1] / COUNT, least[1] / least[0], differing, COUNT * ROUNDS);
+    printf("%%.9g: %.0f MB/s, %.1f ns a number; printf %.0f MB/s, %.1f ns: %.1f times faster; %ld of %d differ\n",
+           bytes / least[0] / 1e6, 1e9 * least[0] / COUNT, bytes / least[1] / 1e6, 1e9 * least[1] / COUNT,
+           least[1] / least[0], differing, COUNT * ROUNDS);
     return differing != 0;
 }

@@ -1,5 +1,6 @@
-/* What a mode that begins softly costs: cycles per mode and sample of a bank of gammatones in calls of 64 samples with moving gains, and over what a plain
-   resonator takes (gammatone_cost in convolution/gammatone.c). One CSV row per gamma. */
+/* What a mode that begins softly costs: cycles per mode and sample of a bank of gammatones in calls of 64 samples with
+   moving gains, and over what a plain resonator takes (gammatone_cost in convolution/gammatone.c). One CSV row per
+   gamma. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -17,7 +18,8 @@ static const struct modes_point points[2] = {{frequency, decay, re[0], im[0]}, {
 
 static double plain(struct arena *a)
 {
-    struct resonators_ask ask = {.n = MODES, .quantity = MODES_VELOCITY, .rate = RATE, .frequency = frequency, .decay = decay, .ramp = FRAMES};
+    struct resonators_ask ask = {
+        .n = MODES, .quantity = MODES_VELOCITY, .rate = RATE, .frequency = frequency, .decay = decay, .ramp = FRAMES};
     struct resonators *r = resonators_make(a, &ask);
     uint64_t best = UINT64_MAX;
     for (int k = 0; k < REPEATS; k++) {

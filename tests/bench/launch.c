@@ -1,7 +1,8 @@
-/* What a moving response costs: a scene of 50 modes (100 Hz to 15 kHz, T60 = 0.9 (f/100 Hz)^-0.3 s) whose frequencies move by 2 % or
-   10 %, decays by 30 %, gains by 10 dB in 2 s, under noise, by resonators at nodes (launch.h). One CSV row per movement and hop: the
-   error that tests/unit/hop.h predicts, cycles (of the time stamp counter, in the thread's time) per sample, times real time at 44.1 kHz, resonators that
-   ring on average, and a hash of the sound, the same on every instruction set. */
+/* What a moving response costs: a scene of 50 modes (100 Hz to 15 kHz, T60 = 0.9 (f/100 Hz)^-0.3 s) whose frequencies
+   move by 2 % or 10 %, decays by 30 %, gains by 10 dB in 2 s, under noise, by resonators at nodes (launch.h). One CSV
+   row per movement and hop: the error that tests/unit/hop.h predicts, cycles (of the time stamp counter, in the
+   thread's time) per sample, times real time at 44.1 kHz, resonators that ring on average, and a hash of the sound, the
+   same on every instruction set. */
 #include <math.h>
 #include <stdio.h>
 
@@ -39,10 +40,7 @@ static void make(double movement)
 }
 
 /* There and back again, 2 s each. */
-static double along(double frame)
-{
-    return fabs(fmod(frame / RATE + 4, 4.0) / 2 - 1);
-}
+static double along(double frame) { return fabs(fmod(frame / RATE + 4, 4.0) / 2 - 1); }
 
 static void point(void *self, double frame, const struct modes_point *p)
 {
@@ -64,7 +62,8 @@ static double predict(int hop)
     double sum = 0;
     for (int i = 0; i < MODES; i++) {
         const struct mode *m = &modes[i];
-        double most = fmax(1, exp(m->tune)) * m->frequency, least = fmin(1, exp(m->damp)) * m->decay, top = fmax(1, exp(m->damp)) * m->decay;
+        double most = fmax(1, exp(m->tune)) * m->frequency, least = fmin(1, exp(m->damp)) * m->decay,
+               top = fmax(1, exp(m->damp)) * m->decay;
         double speed = hypot(2 * M_PI * most * m->tune, top * m->damp) / 2; /* rad/s^2 */
         sum += pow(hop_error(4, hop / RATE * speed / least), 2) / MODES;
     }
@@ -94,8 +93,7 @@ static struct figures run(int hop)
             own.hash = bench_hash(own.hash, sound, PIECE);
         }
         own.times = (double)(pieces * PIECE) / RATE / seconds;
-        if (own.times > best.times)
-            best = own;
+        if (own.times > best.times) best = own;
         launch_close(l);
     }
     best.cycles = bench_cycles_per_second() / RATE / best.times;
@@ -110,7 +108,8 @@ int main(void)
         for (int hop = 16; hop <= 256; hop *= 2) {
             make(movements[i]);
             struct figures f = run(hop);
-            printf("%g,%d,%.1f,%.0f,%.0f,%.0f,%016llx\n", movements[i], hop, predict(hop), f.cycles, f.times, f.active, (unsigned long long)f.hash);
+            printf("%g,%d,%.1f,%.0f,%.0f,%.0f,%016llx\n", movements[i], hop, predict(hop), f.cycles, f.times, f.active,
+                   (unsigned long long)f.hash);
         }
     return 0;
 }

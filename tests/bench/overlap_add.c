@@ -1,5 +1,6 @@
-/* Convolution with responses of 1 s at 44.1 kHz, whole seconds of noise: time and how many times faster than real time, for responses passed
-   one after the other (two at once have a share), for shares that all responses have all the time, and for one alone. */
+/* Convolution with responses of 1 s at 44.1 kHz, whole seconds of noise: time and how many times faster than real time,
+   for responses passed one after the other (two at once have a share), for shares that all responses have all the time,
+   and for one alone. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-/* What a mode costs: cycles (of the time stamp counter, in the thread's time) per sample of banks of resonators in calls of 64 samples, gains
-   ramped, poles fixed or ramped too (glide: e^(s/rate) of all poles once a call is in it); beside it a
-   plain scalar loop over the same modes, and what prototypes took (Zen 5 at 3.6 GHz, AVX-512; fixed: rotation
-   form, strict at 50 modes; glide: plus 5 % and the evaluation of poles). One CSV row per number of modes. */
+/* What a mode costs: cycles (of the time stamp counter, in the thread's time) per sample of banks of resonators in
+   calls of 64 samples, gains ramped, poles fixed or ramped too (glide: e^(s/rate) of all poles once a call is in it);
+   beside it a plain scalar loop over the same modes, and what prototypes took (Zen 5 at 3.6 GHz, AVX-512; fixed:
+   rotation form, strict at 50 modes; glide: plus 5 % and the evaluation of poles). One CSV row per number of modes. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -13,12 +13,18 @@ enum { MODES = 1000, FRAMES = 64, CALLS = 200, REPEATS = 15 };
 #define RATE 48000.0
 
 static double frequency[2][MODES], decay[2][MODES], re[2][MODES], im[2][MODES], f[FRAMES], y[FRAMES];
-static const struct modes_point points[2] = {{frequency[0], decay[0], re[0], im[0]}, {frequency[1], decay[1], re[1], im[1]}};
+static const struct modes_point points[2] = {{frequency[0], decay[0], re[0], im[0]},
+                                             {frequency[1], decay[1], re[1], im[1]}};
 
 /* Seconds per sample. */
 static double bank(struct arena *a, int n, bool glides)
 {
-    struct resonators_ask ask = {.n = n, .quantity = MODES_VELOCITY, .rate = RATE, .frequency = frequency[0], .decay = decay[0], .glides = glides,
+    struct resonators_ask ask = {.n = n,
+                                 .quantity = MODES_VELOCITY,
+                                 .rate = RATE,
+                                 .frequency = frequency[0],
+                                 .decay = decay[0],
+                                 .glides = glides,
                                  .ramp = FRAMES};
     struct resonators *r = resonators_make(a, &ask);
     double best = HUGE_VAL;
@@ -75,11 +81,13 @@ int main(void)
     }
     for (int n = 0; n < FRAMES; n++)
         f[n] = n % 7 - 3;
-    printf("modes,fixed_cycles,glide_cycles,scalar_cycles,times_faster,fixed_times_real_time,glide_times_real_time,prototype_fixed,prototype_glide\n");
+    printf("modes,fixed_cycles,glide_cycles,scalar_cycles,times_faster,fixed_times_real_time,glide_times_real_time,"
+           "prototype_fixed,prototype_glide\n");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        double fixed = bank(a, rows[i].modes, false), glide = bank(a, rows[i].modes, true), plain = scalar(rows[i].modes);
-        printf("%d,%.0f,%.0f,%.0f,%.1f,%.0f,%.0f,%s,%s\n", rows[i].modes, fixed * cycles, glide * cycles, plain * cycles, plain / fixed,
-               1 / (RATE * fixed), 1 / (RATE * glide), rows[i].fixed, rows[i].glide);
+        double fixed = bank(a, rows[i].modes, false), glide = bank(a, rows[i].modes, true),
+               plain = scalar(rows[i].modes);
+        printf("%d,%.0f,%.0f,%.0f,%.1f,%.0f,%.0f,%s,%s\n", rows[i].modes, fixed * cycles, glide * cycles,
+               plain * cycles, plain / fixed, 1 / (RATE * fixed), 1 / (RATE * glide), rows[i].fixed, rows[i].glide);
     }
     arena_close(a);
     return 0;

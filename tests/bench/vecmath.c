@@ -1,7 +1,8 @@
-/* Time per element of num/vecmath.h beside the same loop over libm, in the same run: time stamp counter ticks, the least of many
-   repetitions over arrays that stay in the first-level cache.
+/* Time per element of num/vecmath.h beside the same loop over libm, in the same run: time stamp counter ticks, the
+   least of many repetitions over arrays that stay in the first-level cache.
 
-       cc -O2 -std=c11 -D_GNU_SOURCE -ffp-contract=off -fopenmp-simd -Isrc tests/bench/vecmath.c src/num/vecmath.c -lm */
+       cc -O2 -std=c11 -D_GNU_SOURCE -ffp-contract=off -fopenmp-simd -Isrc tests/bench/vecmath.c src/num/vecmath.c -lm
+ */
 #include "num/vecmath.h"
 
 #include <math.h>
@@ -11,11 +12,11 @@
 
 enum { COUNT = 1000, REPEATS = 3000 };
 
-#define LIBM(name, expression)                                    \
-    static void name(size_t n, const double *x, double *y)        \
-    {                                                             \
-        for (size_t i = 0; i < n; i++)                            \
-            y[i] = (expression);                                  \
+#define LIBM(name, expression)                                                                                         \
+    static void name(size_t n, const double *x, double *y)                                                             \
+    {                                                                                                                  \
+        for (size_t i = 0; i < n; i++)                                                                                 \
+            y[i] = (expression);                                                                                       \
     }
 
 LIBM(libm_exp, exp(x[i]))
@@ -25,10 +26,7 @@ LIBM(libm_sine_and_cosine, sin(3.14159265358979323846 * x[i]) + cos(3.1415926535
 LIBM(libm_tanh, tanh(x[i]))
 LIBM(libm_softplus2, log1p(exp(-2 * fabs(x[i]))))
 
-static void our_pow(size_t n, const double *x, double *y)
-{
-    vecmath_pow(n, x, 1.3, y);
-}
+static void our_pow(size_t n, const double *x, double *y) { vecmath_pow(n, x, 1.3, y); }
 
 static void our_sine_and_cosine(size_t n, const double *x, double *y)
 {
@@ -55,12 +53,9 @@ int main(void)
         void (*ours)(size_t, const double *, double *), (*libm)(size_t, const double *, double *);
         double lo, hi;
     } rows[] = {
-        {"exp", vecmath_exp, libm_exp, -20, 20},
-        {"log", vecmath_log, libm_log, 1e-3, 10},
-        {"pow", our_pow, libm_pow, 1e-3, 10},
-        {"sincospi", our_sine_and_cosine, libm_sine_and_cosine, -10, 10},
-        {"tanh", vecmath_tanh, libm_tanh, -3, 3},
-        {"softplus2", vecmath_softplus2, libm_softplus2, -5, 5},
+        {"exp", vecmath_exp, libm_exp, -20, 20},  {"log", vecmath_log, libm_log, 1e-3, 10},
+        {"pow", our_pow, libm_pow, 1e-3, 10},     {"sincospi", our_sine_and_cosine, libm_sine_and_cosine, -10, 10},
+        {"tanh", vecmath_tanh, libm_tanh, -3, 3}, {"softplus2", vecmath_softplus2, libm_softplus2, -5, 5},
     };
     static double x[COUNT], y[COUNT];
     printf("%-10s %10s %10s %8s\n", "function", "ticks", "libm", "ratio");

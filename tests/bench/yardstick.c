@@ -1,6 +1,7 @@
-/* The yardstick of pipeline.py, timed between the renders: the core clock (a chain of dependent integer multiplications, 3 cycles each on every x86-64 of
-   these years), and seconds a sample that 50 modes take as one would write them down, a mode at a time (two multiplications by a pole and a gain; scalar, its
-   chain of additions and multiplications bounds it). Prints clock_hz and scalar_s. */
+/* The yardstick of pipeline.py, timed between the renders: the core clock (a chain of dependent integer
+   multiplications, 3 cycles each on every x86-64 of these years), and seconds a sample that 50 modes take as one would
+   write them down, a mode at a time (two multiplications by a pole and a gain; scalar, its chain of additions and
+   multiplications bounds it). Prints clock_hz and scalar_s. */
 #include <math.h>
 #include <stdio.h>
 

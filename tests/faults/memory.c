@@ -1,17 +1,18 @@
-/* Loaded into a program (LD_PRELOAD), runs its main many times, each time in a child of its own in which one allocation fails: the first, the second and so on until none
-   is left to fail. What it takes is in the environment:
+/* Loaded into a program (LD_PRELOAD), runs its main many times, each time in a child of its own in which one allocation
+   fails: the first, the second and so on until none is left to fail. What it takes is in the environment:
 
      FAULTS_OUT       the folder into which the program writes: made empty before each run
      FAULTS_WORK      a folder for what this program needs itself
      FAULTS_MOST      runs at most: of more allocations every one up to half of it, and then one in so many
      FAULTS_ALL       all allocations from the n-th on fail, not it alone
      FAULTS_AT        one run, in which this one fails, without all this: for a debugger
-     FAULTS_AGAIN     what failed is run again in what it left, undisturbed: there must then be what a run leaves that nothing befell
+     FAULTS_AGAIN     what failed is run again in what it left, undisturbed: there must then be what a run leaves that
+   nothing befell
 
-   A run may end with exit code 71, and then says so and leaves nothing (unless FAULTS_AGAIN). It may end with 0, when a library does without
-   what it did not get: then it leaves the same bytes, and prints the same, as a run that nothing befell. In JSON summaries, which hold times, numbers may differ; a table of timings knows
-   nothing of what an earlier run did.
-   Where main returns, no more blocks are held than then. */
+   A run may end with exit code 71, and then says so and leaves nothing (unless FAULTS_AGAIN). It may end with 0, when a
+   library does without what it did not get: then it leaves the same bytes, and prints the same, as a run that nothing
+   befell. In JSON summaries, which hold times, numbers may differ; a table of timings knows nothing of what an earlier
+   run did. Where main returns, no more blocks are held than then. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -31,14 +32,16 @@
 
 enum { MEMORY = 71, SECONDS = 60, SHOWN = 10 };
 
-extern void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t), *__libc_memalign(size_t, size_t);
+extern void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t),
+    *__libc_memalign(size_t, size_t);
 extern void __libc_free(void *);
 
 static atomic_long count, held; /* allocations asked for since main began; blocks held that were got since then */
 static long fails_at;           /* 0: none does */
 static bool all, counts;
 
-/* libsoxr 0.1.3 uses what it asks for without a look at whether it got it: of its allocations none fails (src/num/resample.c asks for more just before). */
+/* libsoxr 0.1.3 uses what it asks for without a look at whether it got it: of its allocations none fails
+ * (src/num/resample.c asks for more just before). */
 static bool soxr_crashes(const void *caller)
 {
     Dl_info who;
@@ -48,16 +51,14 @@ static bool soxr_crashes(const void *caller)
 /* Does this one fail? */
 static bool fails(const void *caller)
 {
-    if (!counts)
-        return false;
+    if (!counts) return false;
     long n = atomic_fetch_add(&count, 1) + 1;
     return fails_at > 0 && (n == fails_at || (all && n > fails_at)) && !soxr_crashes(caller);
 }
 
 static void *got(void *p)
 {
-    if (p && counts)
-        atomic_fetch_add(&held, 1);
+    if (p && counts) atomic_fetch_add(&held, 1);
     return p;
 }
 
@@ -67,35 +68,38 @@ static void *none(void)
     return NULL;
 }
 
-/* libsndfile 1.2 notes the chunks of a WAV that it reads in such a table, and uses it whether it got it or not: this one does not fail (src/file/wav_read.c asks
-   for more just before). */
+/* libsndfile 1.2 notes the chunks of a WAV that it reads in such a table, and uses it whether it got it or not: this
+   one does not fail (src/file/wav_read.c asks for more just before). */
 static bool sndfile_crashes(size_t n, size_t size) { return n == 20 && size == 96; }
 
 void *malloc(size_t n) { return fails(__builtin_return_address(0)) ? none() : got(__libc_malloc(n)); }
-void *calloc(size_t n, size_t size) { return !sndfile_crashes(n, size) && fails(__builtin_return_address(0)) ? none() : got(__libc_calloc(n, size)); }
-void *memalign(size_t to, size_t n) { return fails(__builtin_return_address(0)) ? none() : got(__libc_memalign(to, n)); }
+void *calloc(size_t n, size_t size)
+{
+    return !sndfile_crashes(n, size) && fails(__builtin_return_address(0)) ? none() : got(__libc_calloc(n, size));
+}
+void *memalign(size_t to, size_t n)
+{
+    return fails(__builtin_return_address(0)) ? none() : got(__libc_memalign(to, n));
+}
 void *aligned_alloc(size_t to, size_t n) { return memalign(to, n); }
 
 void *realloc(void *p, size_t n)
 {
-    if (!p)
-        return fails(__builtin_return_address(0)) ? none() : got(__libc_malloc(n));
+    if (!p) return fails(__builtin_return_address(0)) ? none() : got(__libc_malloc(n));
     return fails(__builtin_return_address(0)) ? none() : __libc_realloc(p, n);
 }
 
 int posix_memalign(void **p, size_t to, size_t n)
 {
     void *q = memalign(to, n);
-    if (!q)
-        return ENOMEM;
+    if (!q) return ENOMEM;
     *p = q;
     return 0;
 }
 
 void free(void *p)
 {
-    if (p && counts)
-        atomic_fetch_sub(&held, 1);
+    if (p && counts) atomic_fetch_sub(&held, 1);
     __libc_free(p);
 }
 
@@ -112,7 +116,7 @@ static struct program {
 static struct seen { /* by the parent too */
     long count, held;
     bool returned;
-} *seen;
+} * seen;
 
 static char out[4096], want[4096], printed[4096], said[4096], printed_then[4096];
 
@@ -125,15 +129,13 @@ static int remove_one(const char *path, const struct stat *s, int type, struct F
 static void empty(const char *folder)
 {
     nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
-    if (mkdir(folder, 0777) != 0)
-        abort();
+    if (mkdir(folder, 0777) != 0) abort();
 }
 
 static void onto(int fd, const char *path)
 {
     int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (file < 0 || dup2(file, fd) < 0 || close(file) != 0)
-        abort();
+    if (file < 0 || dup2(file, fd) < 0 || close(file) != 0) abort();
 }
 
 static _Noreturn void child(long n)
@@ -156,10 +158,8 @@ static int run(long n)
     *seen = (struct seen){0};
     fflush(stdout); /* what is not written yet would be written by the child too */
     pid_t pid = fork();
-    if (pid == 0)
-        child(n);
-    if (pid < 0 || waitpid(pid, &status, 0) != pid)
-        abort();
+    if (pid == 0) child(n);
+    if (pid < 0 || waitpid(pid, &status, 0) != pid) abort();
     return status;
 }
 
@@ -169,8 +169,7 @@ static char *slurp(const char *path, size_t *n)
 {
     struct stat s;
     int fd = open(path, O_RDONLY);
-    if (fd < 0 || fstat(fd, &s) != 0)
-        abort();
+    if (fd < 0 || fstat(fd, &s) != 0) abort();
     char *text = malloc((size_t)s.st_size + 1);
     ssize_t got_n = read(fd, text, (size_t)s.st_size);
     close(fd);
@@ -184,8 +183,7 @@ static size_t without_numbers(char *text, size_t n)
 {
     size_t left = 0;
     for (size_t i = 0; i < n; i++)
-        if (!strchr("0123456789.e+-", text[i]))
-            text[left++] = text[i];
+        if (!strchr("0123456789.e+-", text[i])) text[left++] = text[i];
     return left;
 }
 
@@ -193,8 +191,7 @@ static bool same(const char *a, const char *b, bool but_numbers)
 {
     size_t n[2];
     char *x = slurp(a, &n[0]), *y = slurp(b, &n[1]);
-    if (but_numbers)
-        n[0] = without_numbers(x, n[0]), n[1] = without_numbers(y, n[1]);
+    if (but_numbers) n[0] = without_numbers(x, n[0]), n[1] = without_numbers(y, n[1]);
     bool yes = n[0] == n[1] && memcmp(x, y, n[0]) == 0;
     free(x);
     free(y);
@@ -207,10 +204,7 @@ static bool ends(const char *name, const char *with)
     return n >= m && strcmp(name + n - m, with) == 0;
 }
 
-static bool holds_times(const char *name)
-{
-    return ends(name, ".json") && !ends(name, "manifest.json");
-}
+static bool holds_times(const char *name) { return ends(name, ".json") && !ends(name, "manifest.json"); }
 
 static char why[4400];
 
@@ -228,8 +222,7 @@ static bool within(const char *a, const char *b, bool contents)
     for (const struct dirent *f; good && (f = readdir(d));) {
         char in_a[2048], in_b[2048];
         struct stat s, t;
-        if (strcmp(f->d_name, ".") == 0 || strcmp(f->d_name, "..") == 0)
-            continue;
+        if (strcmp(f->d_name, ".") == 0 || strcmp(f->d_name, "..") == 0) continue;
         snprintf(in_a, sizeof in_a, "%s/%s", a, f->d_name);
         snprintf(in_b, sizeof in_b, "%s/%s", b, f->d_name);
         if (lstat(in_a, &s) != 0 || lstat(in_b, &t) != 0 || S_ISDIR(s.st_mode) != S_ISDIR(t.st_mode))
@@ -239,20 +232,17 @@ static bool within(const char *a, const char *b, bool contents)
         else if (contents && !ends(f->d_name, "timings.csv") && !same(in_a, in_b, holds_times(f->d_name)))
             good = because("other bytes: ", in_a);
     }
-    if (d)
-        closedir(d);
+    if (d) closedir(d);
     return good;
 }
 
 static bool as_wanted(void)
 {
-    return within(out, want, true) && within(want, out, false) && (same(printed, printed_then, false) || because("other text on standard output", ""));
+    return within(out, want, true) && within(want, out, false) &&
+           (same(printed, printed_then, false) || because("other text on standard output", ""));
 }
 
-static bool nothing_left(void)
-{
-    return rmdir(out) == 0 || because("left something behind", "");
-}
+static bool nothing_left(void) { return rmdir(out) == 0 || because("left something behind", ""); }
 
 /* ------------------------------------------------------------------ judging */
 
@@ -260,14 +250,16 @@ static bool ended(int status, long held_then)
 {
     size_t n;
     char *text = slurp(said, &n);
-    bool speaks = strncmp(text, getenv("FAULTS_SAYS") ? getenv("FAULTS_SAYS") : "rasp", getenv("FAULTS_SAYS") ? strlen(getenv("FAULTS_SAYS")) : 4) == 0 && strstr(text, "memory");
+    bool speaks = strncmp(text, getenv("FAULTS_SAYS") ? getenv("FAULTS_SAYS") : "rasp",
+                          getenv("FAULTS_SAYS") ? strlen(getenv("FAULTS_SAYS")) : 4) == 0 &&
+                  strstr(text, "memory");
     free(text);
-    if (WIFSIGNALED(status))
-        return because("signal ", strsignal(WTERMSIG(status)));
+    if (WIFSIGNALED(status)) return because("signal ", strsignal(WTERMSIG(status)));
     if (seen->returned && seen->held > held_then)
-        return because(seen->held > held_then + 1 ? "holds more blocks at its end than a run that nothing befell" : "holds a block more at its end than a run that nothing befell", "");
-    if (WEXITSTATUS(status) == 0)
-        return as_wanted();
+        return because(seen->held > held_then + 1 ? "holds more blocks at its end than a run that nothing befell"
+                                                  : "holds a block more at its end than a run that nothing befell",
+                       "");
+    if (WEXITSTATUS(status) == 0) return as_wanted();
     if (WEXITSTATUS(status) != MEMORY) {
         char code[16];
         snprintf(code, sizeof code, "%d", WEXITSTATUS(status));
@@ -306,13 +298,13 @@ static int search(void)
         return 1;
     }
     struct seen then = *seen;
-    if (rename(out, want) != 0 || rename(printed, printed_then) != 0)
-        abort();
-    long every = most / 2, stride = then.count > most && most > every ? (then.count - every + most - every - 1) / (most - every) : 1;
+    if (rename(out, want) != 0 || rename(printed, printed_then) != 0) abort();
+    long every = most / 2,
+         stride = then.count > most && most > every ? (then.count - every + most - every - 1) / (most - every) : 1;
     for (long n = 1; n <= then.count; n += n < every ? 1 : stride, runs++)
-        if (!one(n, again, then.held, codes) && bad++ < SHOWN)
-            told(n);
-    printf("%ld allocations, %ld runs: %ld done without, %ld out of memory, %ld wrong\n", then.count, runs, codes[0], codes[MEMORY], bad);
+        if (!one(n, again, then.held, codes) && bad++ < SHOWN) told(n);
+    printf("%ld allocations, %ld runs: %ld done without, %ld out of memory, %ld wrong\n", then.count, runs, codes[0],
+           codes[MEMORY], bad);
     return bad || codes[MEMORY] == 0;
 }
 
@@ -338,7 +330,8 @@ static int instead(int argc, char **argv, char **environment)
 
 typedef int start_of(main_of *, int, char **, void (*)(void), void (*)(void), void (*)(void), void *);
 
-int __libc_start_main(main_of *main, int argc, char **argv, void (*init)(void), void (*fini)(void), void (*loader)(void), void *stack)
+int __libc_start_main(main_of *main, int argc, char **argv, void (*init)(void), void (*fini)(void),
+                      void (*loader)(void), void *stack)
 {
     start_of *start = (start_of *)dlsym(RTLD_NEXT, "__libc_start_main");
     program.main = main;

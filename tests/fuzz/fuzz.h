@@ -1,5 +1,5 @@
-/* What fuzz targets share: the input as a file that has a path but no place on disk; or, for readers that look at names or at neighbours,
-   as a file in a folder that lasts as long as the process. */
+/* What fuzz targets share: the input as a file that has a path but no place on disk; or, for readers that look at names
+   or at neighbours, as a file in a folder that lasts as long as the process. */
 #ifndef FUZZ_H
 #define FUZZ_H
 #include <stddef.h>
@@ -21,8 +21,7 @@ struct fuzz_file {
 static inline struct fuzz_file fuzz_open(const uint8_t *data, size_t size)
 {
     struct fuzz_file f = {.fd = memfd_create("input", MFD_CLOEXEC)};
-    if (f.fd < 0 || write(f.fd, data, size) != (ssize_t)size || lseek(f.fd, 0, SEEK_SET) != 0)
-        abort();
+    if (f.fd < 0 || write(f.fd, data, size) != (ssize_t)size || lseek(f.fd, 0, SEEK_SET) != 0) abort();
     snprintf(f.path, sizeof f.path, "/proc/self/fd/%d", f.fd);
     return f;
 }
@@ -44,8 +43,7 @@ static inline void fuzz_folder_gone(void)
 static inline void fuzz_make_folder(char folder[40])
 {
     snprintf(folder, 40, "%s/rasp-fuzz-XXXXXX", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp");
-    if (!mkdtemp(folder))
-        abort();
+    if (!mkdtemp(folder)) abort();
 }
 
 /* Writes folder/name, of at most 8 different names, and puts its path into path. */
@@ -54,24 +52,21 @@ static inline const char *fuzz_put(char path[128], const char *name, const void 
     int i = 0;
     if (!fuzz_folder[0]) {
         fuzz_make_folder(fuzz_folder);
-        if (atexit(fuzz_folder_gone) != 0)
-            abort();
+        if (atexit(fuzz_folder_gone) != 0) abort();
     }
     while (i < 7 && fuzz_names[i][0] && strcmp(fuzz_names[i], name) != 0)
         i++;
     snprintf(fuzz_names[i], sizeof fuzz_names[i], "%s", name);
     snprintf(path, 128, "%s/%s", fuzz_folder, name);
     FILE *f = fopen(path, "wb");
-    if (!f || (size > 0 && fwrite(data, 1, size, f) != size) || fclose(f) != 0)
-        abort();
+    if (!f || (size > 0 && fwrite(data, 1, size, f) != size) || fclose(f) != 0) abort();
     return path;
 }
 
 /* A reader fails with a kind and a text, or succeeds without: anything else is a bug. */
 static inline void fuzz_check(bool ok, const struct err *e)
 {
-    if (ok != (e->kind == ERR_NONE) || (!ok && e->text[0] == '\0'))
-        abort();
+    if (ok != (e->kind == ERR_NONE) || (!ok && e->text[0] == '\0')) abort();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

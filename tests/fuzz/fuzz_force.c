@@ -15,11 +15,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bool ok = analyse_read(path, &given, a, &s, &e);
     fuzz_check(ok, &e);
     for (long i = 0; ok && s.has_force && i < s.signal.n; i++)
-        if (!isfinite(s.signal.force[i]))
-            abort();
+        if (!isfinite(s.signal.force[i])) abort();
     for (int i = 0; ok && !s.has_force && i < s.found.events.n; i++)
-        if (!isfinite(s.found.events.time[i]) || !isfinite(s.found.events.amplitude[i]))
-            abort();
+        if (!isfinite(s.found.events.time[i]) || !isfinite(s.found.events.amplitude[i])) abort();
     arena_close(a);
     return 0;
 }

@@ -1,4 +1,5 @@
-/* The height map readers of all formats, and filling: no height that is read is infinite, holes are counted right, and a filled map has none. */
+/* The height map readers of all formats, and filling: no height that is read is infinite, holes are counted right, and
+ * a filled map has none. */
 #include <math.h>
 
 #include "file/heightfile.h"
@@ -9,8 +10,7 @@ static void check_heights(const struct heightfile *h)
 {
     size_t holes = 0, first = 0;
     for (size_t i = 0; i < h->rows * h->columns; i++) {
-        if (isinf(h->z[i]))
-            abort();
+        if (isinf(h->z[i])) abort();
         first = isnan(h->z[i]) && !holes ? i : first;
         holes += isnan(h->z[i]);
     }
@@ -31,8 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         ok = heightfile_fill(f.path, &h, &e);
         fuzz_check(ok, &e);
         for (size_t i = 0; ok && i < h.rows * h.columns; i++)
-            if (!isfinite(h.z[i]))
-                abort();
+            if (!isfinite(h.z[i])) abort();
     }
     arena_close(a);
     close(f.fd);

@@ -1,5 +1,5 @@
-/* The mesh readers: indices are nodes, coordinates are finite; and what mesh_check makes of any mesh that is read. A Gmsh file as it is; what does not begin with '$' is TetGen's: .node, .ele and
-   .face, separated by lines "=". */
+/* The mesh readers: indices are nodes, coordinates are finite; and what mesh_check makes of any mesh that is read. A
+   Gmsh file as it is; what does not begin with '$' is TetGen's: .node, .ele and .face, separated by lines "=". */
 #include <math.h>
 #include <string.h>
 
@@ -26,8 +26,7 @@ static void write_part(const char *ending, const uint8_t *data, size_t n)
     char path[96];
     snprintf(path, sizeof path, "%s/m.%s", folder, ending);
     FILE *f = fopen(path, "wb");
-    if (!f || (n > 0 && fwrite(data, 1, n, f) != n) || fclose(f) != 0)
-        abort();
+    if (!f || (n > 0 && fwrite(data, 1, n, f) != n) || fclose(f) != 0) abort();
 }
 
 static bool read_tetgen(const uint8_t *data, size_t size, struct arena *a, struct mesh *m, struct err *e)
@@ -53,18 +52,15 @@ static void check_mesh(const struct mesh *m)
 {
     for (int i = 0; i < m->nodes; i++)
         for (int c = 0; c < 3; c++)
-            if (!isfinite(m->at[i][c]))
-                abort();
+            if (!isfinite(m->at[i][c])) abort();
     for (int i = 0; i < m->elements; i++)
         for (int k = 0; k < 10; k++)
             if (m->linear && k > 3 ? m->element[i][k] != -1 : m->element[i][k] < 0 || m->element[i][k] >= m->nodes)
                 abort();
     for (int g = 0; g < m->groups; g++)
         for (int i = 0; i < 3 * m->group[g].n; i++)
-            if (m->group[g].corner[i / 3][i % 3] < 0 || m->group[g].corner[i / 3][i % 3] >= m->nodes)
-                abort();
-    if (m->elements == 0)
-        abort();
+            if (m->group[g].corner[i / 3][i % 3] < 0 || m->group[g].corner[i / 3][i % 3] >= m->nodes) abort();
+    if (m->elements == 0) abort();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -80,8 +76,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     } else
         ok = read_tetgen(data, size, a, &m, &e);
     fuzz_check(ok, &e);
-    if (arena_bytes(a) > 1000 * size + 1000000)
-        abort();
+    if (arena_bytes(a) > 1000 * size + 1000000) abort();
     if (ok) {
         check_mesh(&m);
         ok = mesh_check(&m, a, &e);
@@ -91,8 +86,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         struct boundary b;
         mesh_raise(&m, a);
         boundary_make(&m, a, &b);
-        if (b.n < 4)
-            abort();
+        if (b.n < 4) abort();
     }
     arena_close(a);
     return 0;

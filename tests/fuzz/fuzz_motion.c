@@ -1,4 +1,5 @@
-/* Motions over time from a CSV: recorded places, with and without smoothing, and speeds; what is accepted is finite everywhere. */
+/* Motions over time from a CSV: recorded places, with and without smoothing, and speeds; what is accepted is finite
+ * everywhere. */
 #include <math.h>
 
 #include "fuzz.h"
@@ -10,8 +11,7 @@ enum { POINTS = 33 };
 static void check(const double *x)
 {
     for (int i = 0; i < POINTS; i++)
-        if (!isfinite(x[i]))
-            abort();
+        if (!isfinite(x[i])) abort();
 }
 
 static void places(const char *path, double cutoff, double duration)

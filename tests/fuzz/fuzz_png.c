@@ -1,4 +1,5 @@
-/* The reader of 16-bit grey PNG. Its chunks are given the checksums that they should have, else hardly any input would come past libpng's first look. */
+/* The reader of 16-bit grey PNG. Its chunks are given the checksums that they should have, else hardly any input would
+ * come past libpng's first look. */
 #include "file/heightfile_png.h"
 #include "heights.h"
 
@@ -18,8 +19,7 @@ static void mend(uint8_t *data, size_t size)
 {
     for (size_t at = 8; at + 12 <= size;) {
         size_t n = (size_t)data[at] << 24 | (size_t)data[at + 1] << 16 | (size_t)data[at + 2] << 8 | data[at + 3];
-        if (n > size - at - 12)
-            return;
+        if (n > size - at - 12) return;
         uint32_t crc = checksum(data + at + 4, n + 4);
         for (int k = 0; k < 4; k++)
             data[at + 8 + n + (size_t)k] = (uint8_t)(crc >> (24 - 8 * k));
@@ -30,8 +30,7 @@ static void mend(uint8_t *data, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     uint8_t *mended = malloc(size + 1);
-    if (!mended)
-        abort();
+    if (!mended) abort();
     memcpy(mended, data, size);
     mend(mended, size);
     heights_fuzz(heightfile_png_is, heightfile_png_read, mended, size);

@@ -19,7 +19,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char path[128];
     fuzz_put(path, "input.yaml", data, size);
-    as("rasp: 1\ncontacts:\n  - {name: a, surface: {recipe: input.yaml}}\n  - {name: b, surface: {recipe: input.yaml, roughness: {rms: 2 um}}}\n", "recipe.yaml");
+    as("rasp: 1\ncontacts:\n  - {name: a, surface: {recipe: input.yaml}}\n  - {name: b, surface: {recipe: input.yaml, "
+       "roughness: {rms: 2 um}}}\n",
+       "recipe.yaml");
     as("include: input.yaml\nmotion: {rate: 3 Hz}\n", "include.yaml");
     return 0;
 }

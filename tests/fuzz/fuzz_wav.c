@@ -13,8 +13,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bool ok = wav_read(f.path, a, &w, &e);
     fuzz_check(ok, &e);
     for (size_t i = 0; ok && i < w.frames * (size_t)w.channels; i++)
-        if (!isfinite(w.x[i]))
-            abort();
+        if (!isfinite(w.x[i])) abort();
     arena_close(a);
     close(f.fd);
     return 0;

@@ -1,5 +1,5 @@
-/* What the targets of the height map formats share: the reader of one format alone, so that each has its own time and its own corpus; what it accepts holds no
-   infinity, and is levelled. */
+/* What the targets of the height map formats share: the reader of one format alone, so that each has its own time and
+   its own corpus; what it accepts holds no infinity, and is levelled. */
 #ifndef HEIGHTS_H
 #define HEIGHTS_H
 #include <math.h>
@@ -13,7 +13,8 @@
 enum { HEIGHTS_ROOM = 1 << 26 };
 
 typedef bool heights_is(const struct bytes *b);
-typedef bool heights_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e);
+typedef bool heights_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h,
+                          struct err *e);
 
 static inline void heights_fuzz(heights_is *is, heights_read *read, const uint8_t *data, size_t size)
 {
@@ -25,12 +26,10 @@ static inline void heights_fuzz(heights_is *is, heights_read *read, const uint8_
     if (bytes_read(f.path, a, &b, &e) && is(&b)) {
         bool ok = read(f.path, &b, a, &h, &e);
         fuzz_check(ok, &e);
-        if (arena_bytes(a) > HEIGHTS_ROOM || (ok && (h.rows == 0 || h.columns == 0 || !h.format)))
-            abort();
+        if (arena_bytes(a) > HEIGHTS_ROOM || (ok && (h.rows == 0 || h.columns == 0 || !h.format))) abort();
         for (size_t i = 0; ok && i < h.rows * h.columns; i++)
             ok = !isinf(h.z[i]);
-        if (ok && !e.kind)
-            heightfile_level(&h, HEIGHTFILE_LEVEL_PLANE);
+        if (ok && !e.kind) heightfile_level(&h, HEIGHTFILE_LEVEL_PLANE);
     }
     arena_close(a);
     close(f.fd);

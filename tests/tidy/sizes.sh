@@ -1,4 +1,4 @@
-# Sizes of src/: fails beyond 800 lines a file or 100 a function; names what is beyond 600 and 60.
+# Sizes of src/: fails beyond 800 lines a file, 100 a function or 120 columns; names what is beyond 600 and 60 lines.
 . "$ROOT/tests/lib/test.sh"
 cd "$ROOT/src" || exit 1
 
@@ -20,6 +20,8 @@ ctags --version 2> /dev/null | grep -q Universal || skip "universal-ctags is not
 [ -n "$(over 0 0 | grep '()')" ] || fail "sizes: ctags finds no functions"
 wrong=$(over 800 100)
 [ -z "$wrong" ] || fail "$wrong"
+wide=$(find . -name '*.[ch]' -printf '%P\n' | xargs awk 'length > 120 { print FILENAME ":" FNR ": " length " columns" }')
+[ -z "$wide" ] || fail "$wide"
 warned=$(over 600 60)
 [ -z "$warned" ] || printf 'long, not refused:\n%s\n' "$warned"
 finish

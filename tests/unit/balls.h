@@ -19,13 +19,18 @@ static inline struct coupled *ball_make(struct arena *a, struct ball_case b)
 {
     struct err e = {0};
     struct coupled *c = NULL;
-    struct coupled_ask ask = {.integrator = b.integrator, .step = 1 / b.rate, .mass = BALL_MASS, .weight = BALL_MASS * b.gravity,
-                              .stiffness = b.kappa * BALL_MASS, .mu = b.mu};
+    struct coupled_ask ask = {.integrator = b.integrator,
+                              .step = 1 / b.rate,
+                              .mass = BALL_MASS,
+                              .weight = BALL_MASS * b.gravity,
+                              .stiffness = b.kappa * BALL_MASS,
+                              .mu = b.mu};
     ck_assert_msg(coupled_make(a, &ask, &c, &e), "%s", e.text);
     return c;
 }
 
-/* Speed of leaving, m/s, of an impact at v: (mu v - ln(1 + mu v)) is the same before and after (Papetti et al. 2011). */
+/* Speed of leaving, m/s, of an impact at v: (mu v - ln(1 + mu v)) is the same before and after (Papetti et al. 2011).
+ */
 static inline double ball_leaves(double mu, double v)
 {
     long double from = (long double)mu * v, kept = from - log1pl(from), low = -1, high = 0;
@@ -51,14 +56,12 @@ static inline struct ball_impact ball_impact(struct coupled *c, double rate, dou
     double surface[AT_ONCE] = {0}, force[AT_ONCE];
     coupled_start(c, v * phase / rate, -v, 0, NULL, false);
     while (coupled_state(c)->lift_offs == 0) {
-        if (!coupled_run(c, AT_ONCE, surface, NULL, force, e))
-            return r;
+        if (!coupled_run(c, AT_ONCE, surface, NULL, force, e)) return r;
         for (int i = 0; i < AT_ONCE; i++) {
             r.momentum += force[i] / rate;
             r.least = fmin(r.least, force[i]);
         }
-        if (coupled_state(c)->steps > 100000000)
-            return r;
+        if (coupled_state(c)->steps > 100000000) return r;
     }
     r.leaves = coupled_state(c)->speed;
     r.loss = coupled_state(c)->contact_loss;
@@ -69,7 +72,8 @@ static inline struct ball_impact ball_impact(struct coupled *c, double rate, dou
 /* A smooth ground, m: three hills of about 1.2 cm, 4 mm and 2.5 mm at 0.2 m/s. */
 static inline double ball_hills(double t)
 {
-    return 1e-6 * (cos(105 * t) + 0.3 * sin(310 * t + 1) + 0.1 * cos(503 * t + 2)) - 1e-6 * (1 + 0.3 * sin(1.0) + 0.1 * cos(2.0));
+    return 1e-6 * (cos(105 * t) + 0.3 * sin(310 * t + 1) + 0.1 * cos(503 * t + 2)) -
+           1e-6 * (1 + 0.3 * sin(1.0) + 0.1 * cos(2.0));
 }
 
 /* Heights every 1/BALL_RATE s of a run over `height` times the hills, dropped from `drop` above rest: [n]. */

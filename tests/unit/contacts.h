@@ -1,4 +1,5 @@
-/* What the tests of strikes and given forces share: one stage that makes a force, at a place that is still, run by hand; and the decimator after it. */
+/* What the tests of strikes and given forces share: one stage that makes a force, at a place that is still, run by
+ * hand; and the decimator after it. */
 #ifndef TESTS_UNIT_CONTACTS_H
 #define TESTS_UNIT_CONTACTS_H
 #include "stage.h"
@@ -19,14 +20,18 @@ struct shot {
     struct err e;
 };
 
-static double shot_ramp;    /* s: output.ramp */
+static double shot_ramp; /* s: output.ramp */
 
 static inline struct contact shot_contact(int model, double duration)
 {
-    struct contact c = {.name = "tap", .motion = {.path = PATH_STILL, .speed = NAN, .duration = duration},
-                        .scraper = {.mass = 0.02, .radius = NAN}, .contact = {.model = model, .gravity = 9.80665}};
-    c.scraper.response.object = c.surface.response.object = (struct object_given){.youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
-    c.contact.strike = (struct strike){.pulse = PULSE_HERTZ, .speed = 1, .stiffness = 1e8, .interval = NAN, .restitution = NAN};
+    struct contact c = {.name = "tap",
+                        .motion = {.path = PATH_STILL, .speed = NAN, .duration = duration},
+                        .scraper = {.mass = 0.02, .radius = NAN},
+                        .contact = {.model = model, .gravity = 9.80665}};
+    c.scraper.response.object = c.surface.response.object =
+        (struct object_given){.youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
+    c.contact.strike =
+        (struct strike){.pulse = PULSE_HERTZ, .speed = 1, .stiffness = 1e8, .interval = NAN, .restitution = NAN};
     c.contact.given = (struct given_force){.channel = 1, .scale = NAN, .rate = NAN, .column = "force_n"};
     return c;
 }
@@ -35,7 +40,7 @@ static inline void shot_room(struct shot *s, enum item item, int per_frame, long
 {
     struct signal *x = &s->board.signals[item];
     *x = (struct signal){per_frame, -SHOT_MARGIN, frames + 2 * SHOT_MARGIN, 0, NULL};
-    x->x = ARENA_TAKE(s->arena, double, x->capacity * per_frame + 8);
+    x->x = ARENA_TAKE(s->arena, double, x->capacity *per_frame + 8);
 }
 
 /* Opens the contact's stage; false, with the error in s->e, when it is refused. The caller closes the arena. */
@@ -46,7 +51,8 @@ static inline bool shot_open(struct shot *s, const struct stage *stage, const st
     s->scene.output.ramp = shot_ramp;
     s->scene.accuracy.oversampling = over;
     s->board = (struct board){.rate = rate, .over = over, .trajectory = &s->trajectory};
-    s->run = (struct stage_run){.stage = stage, .scene = &s->scene, .contact = &s->contact, .board = &s->board, .arena = s->arena};
+    s->run = (struct stage_run){
+        .stage = stage, .scene = &s->scene, .contact = &s->contact, .board = &s->board, .arena = s->arena};
     s->decimate = s->run;
     return trajectory_make(&c->motion, 1, s->arena, &s->trajectory, &s->e) && stage->open(&s->run, &s->e) &&
            decimate_stage.open(&s->decimate, &s->e);

@@ -7,8 +7,7 @@
 static inline void force_file_write(FILE *f, double *force, int n)
 {
     char head[129] = {0};
-    if (!f)
-        abort();
+    if (!f) abort();
     int used = snprintf(head + 10, 110, "{'descr': '<f8', 'fortran_order': False, 'shape': (%d,), }", n);
     memcpy(head, "\x93NUMPY\x01\x00\x76\x00", 10);
     memset(head + 10 + used, ' ', (size_t)(118 - used));

@@ -21,10 +21,7 @@ static inline void put(const void *p, size_t n)
     size += n;
 }
 
-static inline void text(const char *s)
-{
-    put(s, strlen(s));
-}
+static inline void text(const char *s) { put(s, strlen(s)); }
 
 static inline void number(uint64_t v, int bytes)
 {
@@ -32,10 +29,7 @@ static inline void number(uint64_t v, int bytes)
         put(&(unsigned char){(unsigned char)(v >> 8 * i)}, 1);
 }
 
-static inline void f64(double v)
-{
-    put(&v, 8);
-}
+static inline void f64(double v) { put(&v, 8); }
 
 /* An unnamed path of its own. */
 static inline int path_make(void)
@@ -49,8 +43,7 @@ static inline int path_make(void)
 static inline struct arena *memory(void)
 {
     static struct arena *a;
-    if (!a)
-        a = arena_open();
+    if (!a) a = arena_open();
     return a;
 }
 
@@ -70,10 +63,7 @@ static inline bool read_file(void)
     return ok;
 }
 
-static inline void accepted(void)
-{
-    ck_assert_msg(read_file(), "%s", e.text);
-}
+static inline void accepted(void) { ck_assert_msg(read_file(), "%s", e.text); }
 
 static inline void refused(const char *says)
 {

@@ -12,10 +12,24 @@ static inline struct contact impacts_contact(int prototype)
 {
     const struct impact_draws draws = {.mean = NAN, .deviation = NAN, .a1 = NAN, .b1 = NAN};
     struct contact c = {.name = "ball", .gain = 1, .contact = {.model = CONTACT_IMPACTS}};
-    c.contact.impacts = (struct impacts){
-        .prototype = prototype, .size = 0.5, .velocity = 0.5, .roughness = 0.5, .unit_force = 1, .amplitude = draws, .interval = draws, .zeta = NAN,
-        .theta = NAN, .depth = NAN, .rate = NAN, .least_amplitude = NAN, .least_interval = SAMPLE, .rub = {0.15, SAMPLE, SAMPLE},
-        .scratch = {0.15, 0.01, SAMPLE}, .radius = 1, .angle_to = NAN, .radius_to = NAN};
+    c.contact.impacts = (struct impacts){.prototype = prototype,
+                                         .size = 0.5,
+                                         .velocity = 0.5,
+                                         .roughness = 0.5,
+                                         .unit_force = 1,
+                                         .amplitude = draws,
+                                         .interval = draws,
+                                         .zeta = NAN,
+                                         .theta = NAN,
+                                         .depth = NAN,
+                                         .rate = NAN,
+                                         .least_amplitude = NAN,
+                                         .least_interval = SAMPLE,
+                                         .rub = {0.15, SAMPLE, SAMPLE},
+                                         .scratch = {0.15, 0.01, SAMPLE},
+                                         .radius = 1,
+                                         .angle_to = NAN,
+                                         .radius_to = NAN};
     return c;
 }
 

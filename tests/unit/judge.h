@@ -1,8 +1,11 @@
-/* A slow judge of the directional force: its definition as differential equations in time for the slope of S as a vector g in fixed axes
+/* A slow judge of the directional force: its definition as differential equations in time for the slope of S as a
+   vector g in fixed axes
 
-     dg/dt = |v| (T(c) e + T(d) n - g / l),   S' = g e         c = e' H e, d = e' H n (0 on a straight path), T with libm's tanh
+     dg/dt = |v| (T(c) e + T(d) n - g / l),   S' = g e         c = e' H e, d = e' H n (0 on a straight path), T with
+   libm's tanh
 
-   by GSL's adaptive Runge-Kutta method of order 8. Places, velocities and heights are the program's own (tested elsewhere). */
+   by GSL's adaptive Runge-Kutta method of order 8. Places, velocities and heights are the program's own (tested
+   elsewhere). */
 #ifndef JUDGE_H
 #define JUDGE_H
 #include <gsl/gsl_errno.h>
@@ -18,7 +21,7 @@ struct judge {
     const struct contact *c;
     const struct board *b;
     double alpha, since;
-    bool path, curved;  /* the surface follows the path; the path bends over the surface */
+    bool path, curved; /* the surface follows the path; the path bends over the surface */
 };
 
 struct judge_place {
@@ -30,16 +33,17 @@ static inline struct judge judge_of(const struct rig *g)
     const struct board *b = &g->run.board;
     const struct contact *c = &g->scene.contacts[0];
     bool path = b->relief->along == ALONG_PATH;
-    return (struct judge){.c = c, .b = b, .alpha = limiter_constant(c), .path = path, .curved = !path && !b->trajectory->straight};
+    return (struct judge){
+        .c = c, .b = b, .alpha = limiter_constant(c), .path = path, .curved = !path && !b->trajectory->straight};
 }
 
 static inline struct judge_place judge_at(const struct judge *j, double t)
 {
     struct judge_place p;
     double u, vx, vy, speed;
-    trajectory_at(j->b->trajectory, 1, &t, (struct trajectory_out){.u = &u, .du = &p.v, .x = &p.x, .y = &p.y, .vx = &vx, .vy = &vy});
-    if (j->path)
-        return (struct judge_place){u, 0, p.v, {1, 0}};
+    trajectory_at(j->b->trajectory, 1, &t,
+                  (struct trajectory_out){.u = &u, .du = &p.v, .x = &p.x, .y = &p.y, .vx = &vx, .vy = &vy});
+    if (j->path) return (struct judge_place){u, 0, p.v, {1, 0}};
     speed = sqrt(vx * vx + vy * vy) * (p.v < 0 ? -1 : 1);
     p.e[0] = j->curved ? (speed > 0 ? vx / speed : 0) : j->b->trajectory->e[0];
     p.e[1] = j->curved ? (speed > 0 ? vy / speed : 0) : j->b->trajectory->e[1];
@@ -49,8 +53,7 @@ static inline struct judge_place judge_at(const struct judge *j, double t)
 static inline double judge_alpha(const struct judge *j, double t)
 {
     double ax, ay, force, alpha;
-    if (!j->b->limiter)
-        return j->alpha;
+    if (!j->b->limiter) return j->alpha;
     trajectory_at(j->b->trajectory, 1, &t, (struct trajectory_out){.ax = &ax, .ay = &ay});
     load_at(j->b->load, 1, &t, &ax, &ay, &force);
     limiter_alpha(j->b->limiter, 1, &force, &alpha);
@@ -80,7 +83,9 @@ static inline int judge_rate(double t, const double y[], double dydt[], void *se
     judge_bend(j, &p, h);
     double e[2] = {p.e[0], p.e[1]}, n[2] = {-e[1], e[0]};
     double c = judge_limited(j, alpha, e[0] * e[0] * h[0] + 2 * e[0] * e[1] * h[1] + e[1] * e[1] * h[2]);
-    double d = j->curved ? judge_limited(j, alpha, e[0] * (n[0] * h[0] + n[1] * h[1]) + e[1] * (n[0] * h[1] + n[1] * h[2])) : 0;
+    double d = j->curved
+                   ? judge_limited(j, alpha, e[0] * (n[0] * h[0] + n[1] * h[1]) + e[1] * (n[0] * h[1] + n[1] * h[2]))
+                   : 0;
     for (int k = 0; k < 2; k++)
         dydt[k] = speed * (side * c * e[k] + d * n[k] - y[k] / j->c->contact.leak);
     dydt[4] = p.v * (y[0] * e[0] + y[1] * e[1]);
@@ -89,13 +94,16 @@ static inline int judge_rate(double t, const double y[], double dydt[], void *se
     return GSL_SUCCESS;
 }
 
-/* Means of the force by hats (force/hats.h) about n sub-intervals' starts, dt apart from 0 on; where it is asked for, the means of m v S' over them. Steps are kept short: where T is all but
-   constant long ones would miss what lies between their points. */
+/* Means of the force by hats (force/hats.h) about n sub-intervals' starts, dt apart from 0 on; where it is asked for,
+   the means of m v S' over them. Steps are kept short: where T is all but constant long ones would miss what lies
+   between their points. */
 static inline void judge_run(struct judge *j, long n, double dt, double *force, double *momenta)
 {
     gsl_odeiv2_system equations = {judge_rate, NULL, 5, j};
-    double y[5] = {0}, carried = 0, mass = j->c->scraper.mass, beta1 = j->c->contact.beta1, momentum = 0, scale[5] = {1, 1, 1e-3, 1e-3 * dt, 1e-3};
-    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_scaled_new(&equations, gsl_odeiv2_step_rk8pd, dt / 1000, 1e-13, 1e-11, 1, 0, scale);
+    double y[5] = {0}, carried = 0, mass = j->c->scraper.mass, beta1 = j->c->contact.beta1, momentum = 0,
+           scale[5] = {1, 1, 1e-3, 1e-3 * dt, 1e-3};
+    gsl_odeiv2_driver *driver =
+        gsl_odeiv2_driver_alloc_scaled_new(&equations, gsl_odeiv2_step_rk8pd, dt / 1000, 1e-13, 1e-11, 1, 0, scale);
     gsl_odeiv2_driver_set_hmax(driver, relief_finest(j->b->relief) / (8 * j->b->trajectory->top_speed));
     for (long i = 0; i < n; i++) {
         double t = (double)i * dt, end = (double)(i + 1) * dt;
@@ -109,8 +117,7 @@ static inline void judge_run(struct judge *j, long n, double dt, double *force, 
         force[i] = carried + (mean - momentum) / dt + beta1 * (y[2] - late) / dt;
         carried = (now - mean) / dt + beta1 * late / dt;
         momentum = now;
-        if (momenta)
-            momenta[i] = mean;
+        if (momenta) momenta[i] = mean;
     }
     gsl_odeiv2_driver_free(driver);
 }

@@ -1,4 +1,5 @@
-/* Two tetrahedra that share a face, volume 1/6 + 1/6 (in the file's units), written in every format, with a node that nothing uses. */
+/* Two tetrahedra that share a face, volume 1/6 + 1/6 (in the file's units), written in every format, with a node that
+ * nothing uses. */
 #ifndef TESTS_UNIT_MESH_FILES_H
 #define TESTS_UNIT_MESH_FILES_H
 #include "file/mesh.h"
@@ -10,15 +11,9 @@ static const double files_at[FILES_NODES][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
 static const int files_element[2][4] = {{11, 5, 7, 100}, {11, 7, 5, 8}};
 static const int files_triangle[2][3] = {{11, 5, 100}, {5, 7, 8}}; /* of the physical surfaces 3, "the top", and 4 */
 
-static inline void files_int(FILE *f, int x)
-{
-    fwrite(&x, 4, 1, f);
-}
+static inline void files_int(FILE *f, int x) { fwrite(&x, 4, 1, f); }
 
-static inline void files_size(FILE *f, uint64_t x)
-{
-    fwrite(&x, 8, 1, f);
-}
+static inline void files_size(FILE *f, uint64_t x) { fwrite(&x, 8, 1, f); }
 
 static inline void files_start(FILE *f, const char *version, bool binary)
 {
@@ -65,9 +60,11 @@ static inline void files_msh2(FILE *f, bool binary)
         fprintf(f, "%d %g %g %g\n", files_tag[i], files_at[i][0], files_at[i][1], files_at[i][2]);
     fputs("$EndNodes\n$Elements\n5\n1 15 2 0 1 11\n", f);
     for (int i = 0; i < 2; i++)
-        fprintf(f, "%d 2 2 %d 1 %d %d %d\n", 2 + i, 3 + i, files_triangle[i][0], files_triangle[i][1], files_triangle[i][2]);
+        fprintf(f, "%d 2 2 %d 1 %d %d %d\n", 2 + i, 3 + i, files_triangle[i][0], files_triangle[i][1],
+                files_triangle[i][2]);
     for (int i = 0; i < 2; i++)
-        fprintf(f, "%d 4 2 7 1 %d %d %d %d\n", 4 + i, files_element[i][0], files_element[i][1], files_element[i][2], files_element[i][3]);
+        fprintf(f, "%d 4 2 7 1 %d %d %d %d\n", 4 + i, files_element[i][0], files_element[i][1], files_element[i][2],
+                files_element[i][3]);
     fputs("$EndElements\n", f);
 }
 
@@ -105,8 +102,7 @@ static inline void files_entities(FILE *f, bool binary)
         files_reals(f, binary, box, 6);
         files_put(f, binary, 8, 1 + (i == 1));
         files_put(f, binary, 4, i < 2 ? 3 : 7);
-        if (i == 1)
-            files_put(f, binary, 4, 4);
+        if (i == 1) files_put(f, binary, 4, 4);
         files_put(f, binary, 8, 1);
         files_put(f, binary, 4, -1);
     }
@@ -170,7 +166,8 @@ static inline void files_tetgen(const char *name)
     f = fopen(folder_path(arena_format(folder_arena, "%s.ele", name)), "w");
     fputs("2 4 1\n", f);
     for (int i = 0; i < 2; i++)
-        fprintf(f, "%d %d %d %d %d -3.5\n", i, files_element[i][0], files_element[i][1], files_element[i][2], files_element[i][3]);
+        fprintf(f, "%d %d %d %d %d -3.5\n", i, files_element[i][0], files_element[i][1], files_element[i][2],
+                files_element[i][3]);
     fclose(f);
     f = fopen(folder_path(arena_format(folder_arena, "%s.face", name)), "w");
     fputs("3 1\n", f);

@@ -6,10 +6,7 @@
 #include "unit.h"
 
 static struct arena *meshes_pool;
-static inline void meshes_drain(void)
-{
-    arena_close(meshes_pool);
-}
+static inline void meshes_drain(void) { arena_close(meshes_pool); }
 
 static inline struct arena *meshes_arena(void)
 {
@@ -37,8 +34,7 @@ static inline struct mesh meshes_fine(const char *text, int fineness)
 static inline const struct mesh_group *meshes_group(const struct mesh *m, const char *name)
 {
     for (int i = 0; i < m->groups; i++)
-        if (!strcmp(m->group[i].name, name))
-            return &m->group[i];
+        if (!strcmp(m->group[i].name, name)) return &m->group[i];
     ck_abort_msg("%s has no group %s", m->name, name);
     return NULL;
 }

@@ -1,4 +1,5 @@
-/* What the tests of motions share: motions made in a pool, their whole state at an instant, and slow references for lengths. */
+/* What the tests of motions share: motions made in a pool, their whole state at an instant, and slow references for
+ * lengths. */
 #ifndef TESTS_UNIT_MOTIONS_H
 #define TESTS_UNIT_MOTIONS_H
 #include <gsl/gsl_errno.h>
@@ -7,17 +8,11 @@
 #include "trajectory/trajectory.h"
 #include "unit.h"
 
-static inline double between(double lo, double hi)
-{
-    return lo + (hi - lo) * drand48();
-}
+static inline double between(double lo, double hi) { return lo + (hi - lo) * drand48(); }
 
 static struct arena *motions_pool;
 
-static inline void motions_drain(void)
-{
-    arena_close(motions_pool);
-}
+static inline void motions_drain(void) { arena_close(motions_pool); }
 
 /* Memory for a test's motions, given back when its process ends. */
 static inline struct arena *motions_arena(void)
@@ -48,18 +43,21 @@ static inline void refused(const struct motion *m, enum err_kind kind, const cha
 }
 
 struct state {
-    double u, v, a;             /* along the path */
+    double u, v, a; /* along the path */
     double p[2], vel[2], acc[2];
 };
 
 static inline struct state at(const struct trajectory *tr, double t)
 {
     struct state s;
-    trajectory_at(tr, 1, &t, (struct trajectory_out){&s.u, &s.v, &s.a, &s.p[0], &s.p[1], &s.vel[0], &s.vel[1], &s.acc[0], &s.acc[1]});
+    trajectory_at(
+        tr, 1, &t,
+        (struct trajectory_out){&s.u, &s.v, &s.a, &s.p[0], &s.p[1], &s.vel[0], &s.vel[1], &s.acc[0], &s.acc[1]});
     return s;
 }
 
-/* (4 D(h/2) - D(h)) / 3 of central differences D of a member: the error is h^4 f^(5) / 480, and rounding 3e-16 f / h. */
+/* (4 D(h/2) - D(h)) / 3 of central differences D of a member: the error is h^4 f^(5) / 480, and rounding 3e-16 f / h.
+ */
 static inline double slope_by(const struct trajectory *tr, double t, double h, size_t member)
 {
     double d[2];
@@ -77,8 +75,7 @@ static inline double integral(double (*f)(double, void *), void *self, double a,
     gsl_function g = {f, self};
     double result = 0, error;
     gsl_set_error_handler_off();
-    if (a != b)
-        gsl_integration_qag(&g, a, b, 1e-15, 1e-14, 2000, GSL_INTEG_GAUSS61, w, &result, &error);
+    if (a != b) gsl_integration_qag(&g, a, b, 1e-15, 1e-14, 2000, GSL_INTEG_GAUSS61, w, &result, &error);
     gsl_integration_workspace_free(w);
     return result;
 }

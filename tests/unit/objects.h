@@ -7,12 +7,27 @@
 
 #define PI 3.14159265358979323846
 
-/* E = 12 (1 - nu^2) GPa, h = 1 mm, 1000 kg/m^3: a plate has D = 1 N m and rho h = 1 kg/m^2, so that w is the textbooks' lambda^2. */
+/* E = 12 (1 - nu^2) GPa, h = 1 mm, 1000 kg/m^3: a plate has D = 1 N m and rho h = 1 kg/m^2, so that w is the textbooks'
+ * lambda^2. */
 static inline struct object_given objects_given(int shape, int edges, double nu)
 {
-    struct object_given g = {.given = true, .shape = shape, .edges = edges, .length = 1.0, .width = 1.0, .thickness = 1e-3, .diameter = 2.0, .tension = NAN,
-                             .surface_tension = NAN, .youngs_modulus = 12e9 * (1.0 - nu * nu), .youngs_modulus_across = NAN, .shear_modulus = NAN,
-                             .poisson = nu, .density = 1000.0, .alpha = NAN, .beta = NAN, .loss = 1e-6};
+    struct object_given g = {.given = true,
+                             .shape = shape,
+                             .edges = edges,
+                             .length = 1.0,
+                             .width = 1.0,
+                             .thickness = 1e-3,
+                             .diameter = 2.0,
+                             .tension = NAN,
+                             .surface_tension = NAN,
+                             .youngs_modulus = 12e9 * (1.0 - nu * nu),
+                             .youngs_modulus_across = NAN,
+                             .shear_modulus = NAN,
+                             .poisson = nu,
+                             .density = 1000.0,
+                             .alpha = NAN,
+                             .beta = NAN,
+                             .loss = 1e-6};
     return g;
 }
 
@@ -22,8 +37,7 @@ static inline struct object objects_make(const struct object_given *g, int most,
     struct object o;
     const char *note;
     struct err e = {0};
-    if (!object_make(g, &ask, a, &o, &note, &e))
-        ck_abort_msg("%s", e.text);
+    if (!object_make(g, &ask, a, &o, &note, &e)) ck_abort_msg("%s", e.text);
     return o;
 }
 
@@ -39,10 +53,8 @@ static inline struct object_given objects_any(int shape)
 {
     struct object_given g = objects_given(shape, EDGES_FREE, 0.3);
     g.tension = g.surface_tension = 100.0;
-    if (shape == OBJECT_ROD)
-        g.thickness = NAN;
-    if (shape == OBJECT_ROD || shape == OBJECT_STRING)
-        g.diameter = 1e-3;
+    if (shape == OBJECT_ROD) g.thickness = NAN;
+    if (shape == OBJECT_ROD || shape == OBJECT_STRING) g.diameter = 1e-3;
     return g;
 }
 
@@ -65,7 +77,8 @@ static inline double objects_compliance(const struct object *o, const double x[2
     return sum;
 }
 
-/* Largest |integral of density phi_i phi_k - mass_i delta_ik| / mass over the box, by points x points Gauss nodes; round: polar. */
+/* Largest |integral of density phi_i phi_k - mass_i delta_ik| / mass over the box, by points x points Gauss nodes;
+ * round: polar. */
 static inline double objects_mass_error(const struct object *o, double density, int points, bool round)
 {
     int n = o->n;
@@ -76,7 +89,8 @@ static inline double objects_mass_error(const struct object *o, double density, 
     for (int i = 0; i < points; i++)
         for (int k = 0; k < points; k++) {
             double u = 0.5 * (1.0 + node[i]), x = o->low[0] + dx * u, y = o->low[1] + dy * 0.5 * (1.0 + node[k]);
-            double w = density * 0.25 * weight[i] * weight[k] * dx * dy, turn = 2.0 * PI * k / points, r = u * o->high[0];
+            double w = density * 0.25 * weight[i] * weight[k] * dx * dy, turn = 2.0 * PI * k / points,
+                   r = u * o->high[0];
             if (round) {
                 x = r * cos(turn);
                 y = r * sin(turn);
@@ -95,10 +109,11 @@ static inline double objects_mass_error(const struct object *o, double density, 
     return worst;
 }
 
-#define OBJECTS_NEAR(got, want, tolerance)                                                                                          \
-    do {                                                                                                                            \
-        double got_ = (got), want_ = (want);                                                                                        \
-        ck_assert_msg(fabs(got_ - want_) <= (tolerance)*fabs(want_), "%s = %.12g, not %.12g (%.2g)", #got, got_, want_, got_ / want_ - 1); \
+#define OBJECTS_NEAR(got, want, tolerance)                                                                             \
+    do {                                                                                                               \
+        double got_ = (got), want_ = (want);                                                                           \
+        ck_assert_msg(fabs(got_ - want_) <= (tolerance)*fabs(want_), "%s = %.12g, not %.12g (%.2g)", #got, got_,       \
+                      want_, got_ / want_ - 1);                                                                        \
     } while (0)
 
 #endif

@@ -13,7 +13,8 @@ static inline struct render_report renders_made(const char *text, const char *ba
     struct err e = {0};
     const char *messages = "";
     struct render_report report;
-    if (!scene_read_text(text, strlen(text), folder_path("scene.yaml"), &(struct scene_overrides){0}, folder_arena, &s, &messages, &e))
+    if (!scene_read_text(text, strlen(text), folder_path("scene.yaml"), &(struct scene_overrides){0}, folder_arena, &s,
+                         &messages, &e))
         ck_abort_msg("%s%s", messages, e.text);
     ck_assert_msg(render_scene(&s, folder_path(base), folder_arena, &report, &e), "%s", e.text);
     return report;

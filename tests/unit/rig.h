@@ -1,5 +1,5 @@
-/* A piece of the pipeline under test: a scene's stages up to an item, and a probe that keeps what that item holds. A test may put a surface of
-   its own in the place of the scene's roughness. */
+/* A piece of the pipeline under test: a scene's stages up to an item, and a probe that keeps what that item holds. A
+   test may put a surface of its own in the place of the scene's roughness. */
 #ifndef RIG_H
 #define RIG_H
 #include <stdbool.h>
@@ -15,23 +15,20 @@ struct rig {
     struct arena *arena;
     struct scene scene;
     struct run run;
-    double *x;          /* [frames * per_frame] */
+    double *x; /* [frames * per_frame] */
     long frames;
     int per_frame;
 };
 
 static struct {
     enum item item;
-    unsigned also;      /* further items that the plan is to make */
+    unsigned also; /* further items that the plan is to make */
     struct rig *rig;
 } rig_probe;
 
 static struct arena *rig_pool;
 
-static inline void rig_drain(void)
-{
-    arena_close(rig_pool);
-}
+static inline void rig_drain(void) { arena_close(rig_pool); }
 
 /* Memory for a test's texts and scenes, given back when its process ends. */
 static inline struct arena *rig_arena(void)
@@ -72,14 +69,22 @@ static inline bool rig_run(struct stage_run *r, long from, long to, struct err *
     struct rig *g = rig_probe.rig;
     (void)e;
     g->per_frame = r->board->signals[rig_probe.item].per_frame;
-    if (!g->x)
-        g->x = calloc((size_t)(g->frames * g->per_frame), sizeof *g->x);
-    memcpy(g->x + from * g->per_frame, board_at(r->board, rig_probe.item, from), (size_t)((to - from) * g->per_frame) * sizeof *g->x);
+    if (!g->x) g->x = calloc((size_t)(g->frames * g->per_frame), sizeof *g->x);
+    memcpy(g->x + from * g->per_frame, board_at(r->board, rig_probe.item, from),
+           (size_t)((to - from) * g->per_frame) * sizeof *g->x);
     return true;
 }
 
-static const struct stage rig_stage = {.name = "probe", .does = "", .paper = "", .idle = "", .gives = ITEM_BIT(ITEM_TABLE),
-                                       .asks = rig_asks, .wanted = rig_wanted, .work = rig_work, .open = rig_open, .run = rig_run};
+static const struct stage rig_stage = {.name = "probe",
+                                       .does = "",
+                                       .paper = "",
+                                       .idle = "",
+                                       .gives = ITEM_BIT(ITEM_TABLE),
+                                       .asks = rig_asks,
+                                       .wanted = rig_wanted,
+                                       .work = rig_work,
+                                       .open = rig_open,
+                                       .run = rig_run};
 
 /* The test's surface, while it has one; NULL: the scene's. */
 static struct relief_part *(*rig_relief)(struct arena *, const struct contact *);
@@ -92,8 +97,15 @@ static inline bool rig_relief_open(struct stage_run *r, struct err *e)
     return true;
 }
 
-static const struct stage rig_relief_stage = {.name = "relief", .does = "", .paper = "", .idle = "", .needs = ITEM_BIT(ITEM_SURFACE),
-                                              .gives = ITEM_BIT(ITEM_SURFACE), .wanted = rig_wanted, .work = rig_work, .open = rig_relief_open};
+static const struct stage rig_relief_stage = {.name = "relief",
+                                              .does = "",
+                                              .paper = "",
+                                              .idle = "",
+                                              .needs = ITEM_BIT(ITEM_SURFACE),
+                                              .gives = ITEM_BIT(ITEM_SURFACE),
+                                              .wanted = rig_wanted,
+                                              .work = rig_work,
+                                              .open = rig_relief_open};
 
 static inline const struct stage *rig_in_place_of(const struct stage *s)
 {
@@ -128,10 +140,9 @@ static inline struct rig *rig_record(struct scene *s, enum item item, long frame
     g->frames = frames;
     ck_assert_msg(plan_make(table, &s->contacts[0], s, g->arena, &p, &e), "%s", e.text);
     ck_assert_msg(run_open(&g->run, &p, s, NULL, &e), "%s", e.text);
-    for (long to = block; ; to += block) {
+    for (long to = block;; to += block) {
         ck_assert_msg(run_block(&g->run, to < frames ? to : frames, &e), "%s", e.text);
-        if (to >= frames)
-            break;
+        if (to >= frames) break;
     }
     g->scene = *s;
     return g;

@@ -7,10 +7,10 @@
 #include "unit.h"
 
 /* Four lines to which one more is added. */
-#define MIN                           \
-    "rasp: 1\n"                       \
-    "surface: {height_map: a.npy, response: a.csv}\n" \
-    "scraper: {mass: 20 g}\n"         \
+#define MIN                                                                                                            \
+    "rasp: 1\n"                                                                                                        \
+    "surface: {height_map: a.npy, response: a.csv}\n"                                                                  \
+    "scraper: {mass: 20 g}\n"                                                                                          \
     "motion: {path: line, to: [1 cm, 0], duration: 1 s}\n"
 
 static const char full[] =
@@ -30,7 +30,8 @@ static const char full[] =
     "  rate: 2 Hz\n"
     "  duration: 1.5 s\n"
     "grip: {angle: 0.5 rad}\n"
-    "contact: {model: scrape, force: paper, limiter: {alpha_min: 1 cm, alpha_max: 5 cm, zeta: 0.95, force_range: [0.2 N, 5 N]}}\n"
+    "contact: {model: scrape, force: paper, limiter: {alpha_min: 1 cm, alpha_max: 5 cm, zeta: 0.95, force_range: [0.2 "
+    "N, 5 N]}}\n"
     "accuracy: {preset: high, oversampling: 16}\n"
     "output: {sample_rate: 44.1 kHz, encoding: pcm16, level: {lufs: -23}, ramp: 20 ms, tail: 2 s,\n"
     "  diagnostics: {columns: [speed_m_per_s, normal_force_n]}}\n"

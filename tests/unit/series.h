@@ -13,7 +13,8 @@ static inline gsl_rng *series_rng(unsigned long seed)
     return g;
 }
 
-/* x_n = mean + X_n, X_n = -a1 X_(n-1) + E_n + b1 E_(n-1), E normal of that deviation, after 4000 values of warming up. */
+/* x_n = mean + X_n, X_n = -a1 X_(n-1) + E_n + b1 E_(n-1), E normal of that deviation, after 4000 values of warming up.
+ */
 static inline void series_draw(gsl_rng *g, double mean, double deviation, double a1, double b1, double *x, int n)
 {
     double y = 0, before = 0;
@@ -21,8 +22,7 @@ static inline void series_draw(gsl_rng *g, double mean, double deviation, double
         double now = deviation * gsl_ran_gaussian_ziggurat(g, 1);
         y = -a1 * y + now + b1 * before;
         before = now;
-        if (i >= 0)
-            x[i] = mean + y;
+        if (i >= 0) x[i] = mean + y;
     }
 }
 

@@ -1,4 +1,5 @@
-/* Small solids for tests: boxes and balls of quadratic tetrahedra on a grid of cells, each cell cut into six along its diagonal away from the middle. */
+/* Small solids for tests: boxes and balls of quadratic tetrahedra on a grid of cells, each cell cut into six along its
+ * diagonal away from the middle. */
 #ifndef SOLIDS_H
 #define SOLIDS_H
 #include "fem/solid.h"
@@ -11,16 +12,15 @@ struct solids {
     struct boundary boundary;
 };
 
-static inline int solids_compare(const void *x, const void *y)
-{
-    return memcmp(x, y, 3 * sizeof(int));
-}
+static inline int solids_compare(const void *x, const void *y) { return memcmp(x, y, 3 * sizeof(int)); }
 
 /* Faces that one element has: found by sorting all of them by their corners. */
 static inline void solids_boundary(struct solids *s, struct arena *a)
 {
     static const int face[4][6] = {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {2, 0, 3, 6, 7, 9}};
-    struct { int corner[3], node[6]; } *all = arena_take(a, 4 * (size_t)s->mesh.elements, sizeof *all);
+    struct {
+        int corner[3], node[6];
+    } *all = arena_take(a, 4 * (size_t)s->mesh.elements, sizeof *all);
     int n = 4 * s->mesh.elements;
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < 6; k++)
@@ -36,13 +36,14 @@ static inline void solids_boundary(struct solids *s, struct arena *a)
     qsort(all, (size_t)n, sizeof *all, solids_compare);
     s->boundary = (struct boundary){.face = arena_take(a, (size_t)n, sizeof *s->boundary.face)};
     for (int i = 0; i < n; i++) {
-        bool twin = (i > 0 && !solids_compare(&all[i], &all[i - 1])) || (i + 1 < n && !solids_compare(&all[i], &all[i + 1]));
-        if (!twin)
-            memcpy(s->boundary.face[s->boundary.n++], all[i].node, sizeof all[i].node);
+        bool twin =
+            (i > 0 && !solids_compare(&all[i], &all[i - 1])) || (i + 1 < n && !solids_compare(&all[i], &all[i + 1]));
+        if (!twin) memcpy(s->boundary.face[s->boundary.n++], all[i].node, sizeof all[i].node);
     }
 }
 
-/* Box, area and volume (of flat triangles and pyramids under them: to a few per cent for what is curved, which is all that is needed). */
+/* Box, area and volume (of flat triangles and pyramids under them: to a few per cent for what is curved, which is all
+ * that is needed). */
 static inline void solids_measure(struct solids *s)
 {
     struct boundary *b = &s->boundary;
@@ -86,7 +87,8 @@ static inline struct solids solids_box(const int n[3], const double size[3], str
             const int c[3] = {cell % n[0], cell / n[0] % n[1], cell / n[0] / n[1]};
             int g[10][3], *node = s.mesh.element[s.mesh.elements++], turned = 0;
             for (int k = 0; k < 3; k++) {
-                int up = 2 * c[k] + 1 > n[k] || n[k] == 1, from = up ? 2 * c[k] : 2 * c[k] + 2, to = up ? from + 2 : from - 2;
+                int up = 2 * c[k] + 1 > n[k] || n[k] == 1, from = up ? 2 * c[k] : 2 * c[k] + 2,
+                    to = up ? from + 2 : from - 2;
                 turned += !up;
                 g[0][k] = from, g[3][k] = to;
                 g[1][k] = paths[p][0] == k ? to : from;
@@ -135,8 +137,7 @@ static inline struct solid_held solids_hold(const struct solids *s, int hold, in
         double off = 0.0;
         for (int k = 0; k < 3; k++)
             off = fmax(off, fabs(s->mesh.at[s->boundary.face[i][k]][axis] - value));
-        if (off < 1e-9)
-            memcpy(h.corner[h.n++], s->boundary.face[i], sizeof *h.corner);
+        if (off < 1e-9) memcpy(h.corner[h.n++], s->boundary.face[i], sizeof *h.corner);
     }
     return h;
 }
@@ -158,15 +159,14 @@ static inline struct solid_modes solids_modes(const struct solids *s, const stru
     return modes;
 }
 
-static inline double solids_hz(const struct solid_modes *m, int i)
-{
-    return sqrt(m->lambda[i]) / (2.0 * SOLIDS_PI);
-}
+static inline double solids_hz(const struct solid_modes *m, int i) { return sqrt(m->lambda[i]) / (2.0 * SOLIDS_PI); }
 
-#define SOLIDS_NEAR(is, want, tolerance) \
-    do { \
-        double solids_is = (is), solids_want = (want); \
-        ck_assert_msg(fabs(solids_is - solids_want) <= (tolerance) * fabs(solids_want), "%s = %.9g, not %.9g (off by %.3g)", #is, solids_is, solids_want, solids_is / solids_want - 1.0); \
+#define SOLIDS_NEAR(is, want, tolerance)                                                                               \
+    do {                                                                                                               \
+        double solids_is = (is), solids_want = (want);                                                                 \
+        ck_assert_msg(fabs(solids_is - solids_want) <= (tolerance)*fabs(solids_want),                                  \
+                      "%s = %.9g, not %.9g (off by %.3g)", #is, solids_is, solids_want,                                \
+                      solids_is / solids_want - 1.0);                                                                  \
     } while (0)
 
 #endif

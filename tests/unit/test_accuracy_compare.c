@@ -1,4 +1,5 @@
-/* What `rasp accuracy` says of two sounds whose differences are known, and what it makes of errors whose order is known. */
+/* What `rasp accuracy` says of two sounds whose differences are known, and what it makes of errors whose order is
+ * known. */
 #include "cmd/accuracy.h"
 #include "file/wav.h"
 #include "scene/accuracy.h"
@@ -58,7 +59,8 @@ START_TEST(a_divergence)
 }
 END_TEST
 
-/* A sweep whose errors are made: oversampling's falls with the square of the steps, and the reference has what that leaves. */
+/* A sweep whose errors are made: oversampling's falls with the square of the steps, and the reference has what that
+ * leaves. */
 START_TEST(orders_and_own_error)
 {
     struct args args = {0};
@@ -79,8 +81,7 @@ START_TEST(orders_and_own_error)
     int knobs = 0;
     for (int i = 0; i < s.n_rows; i++) {
         const struct accuracy_row *r = &s.rows[i];
-        if (r->knob < 0)
-            continue;
+        if (r->knob < 0) continue;
         knobs++;
         double steps = accuracy_knob(&s.renders[r->total].set, KNOB_oversampling);
         ck_assert_msg(s.renders[r->total].front, "each costs more and is better");
@@ -90,14 +91,16 @@ START_TEST(orders_and_own_error)
         }
         double before = accuracy_knob(&s.renders[s.rows[i - 1].total].set, KNOB_oversampling);
         ck_assert_double_lt(before, steps); /* coarse to fine */
-        ck_assert_double_eq_tol(r->order, log2((pow(before, -2) - left) / (pow(steps, -2) - left)) / log2(steps / before), 1e-9);
+        ck_assert_double_eq_tol(r->order,
+                                log2((pow(before, -2) - left) / (pow(steps, -2) - left)) / log2(steps / before), 1e-9);
     }
     ck_assert_int_ge(knobs, 4);
     ck_assert_double_eq_tol(s.own_db, -20 * log10(left), 1e-3);
     ck_assert_double_eq_tol(s.own[KNOB_oversampling], left, 1e-7);
     for (int i = 0; i < s.n_renders; i++) /* no setting is rendered twice, the reference comes first, then high */
         for (int k = 0; k < i; k++)
-            ck_assert_double_ne(accuracy_knob(&s.renders[i].set, KNOB_oversampling), accuracy_knob(&s.renders[k].set, KNOB_oversampling));
+            ck_assert_double_ne(accuracy_knob(&s.renders[i].set, KNOB_oversampling),
+                                accuracy_knob(&s.renders[k].set, KNOB_oversampling));
     ck_assert_int_eq(s.reference, 0);
     ck_assert_double_eq(accuracy_knob(&s.renders[0].set, KNOB_oversampling), last);
     ck_assert_int_eq(s.high, 1);
@@ -105,7 +108,8 @@ START_TEST(orders_and_own_error)
 }
 END_TEST
 
-/* An unknown knob's row in the table would be one line of accuracy.def: here each knob that turns the scene has its rows, whichever it is. */
+/* An unknown knob's row in the table would be one line of accuracy.def: here each knob that turns the scene has its
+ * rows, whichever it is. */
 START_TEST(every_knob_has_its_rows)
 {
     for (int k = 0; k < KNOBS; k++) {

@@ -5,12 +5,14 @@
 #include "cmd/accuracy.h"
 #include "unit.h"
 
-/* Of any range that the picture may have, from a factor of 2.25 on (one setting alone) to nine decades: two numbers or more, within it, rising, and not too many to be read. */
+/* Of any range that the picture may have, from a factor of 2.25 on (one setting alone) to nine decades: two numbers or
+ * more, within it, rising, and not too many to be read. */
 START_TEST(two_numbers_at_least)
 {
     unsigned short state[3] = {1, 2, 3};
     for (int i = 0; i < 20000; i++) {
-        double tics[ACCURACY_REPORT_TICS], low = pow(10, 9 * erand48(state) - 4), high = low * (i % 3 ? 2.25 + 1e-9 : 2.25 * pow(10, 9 * erand48(state)));
+        double tics[ACCURACY_REPORT_TICS], low = pow(10, 9 * erand48(state) - 4),
+                                           high = low * (i % 3 ? 2.25 + 1e-9 : 2.25 * pow(10, 9 * erand48(state)));
         int n = accuracy_report_tics(low, high, tics);
         ck_assert_msg(n >= 2 && n <= 20, "%d labels from %g to %g", n, low, high);
         for (int k = 0; k < n; k++)

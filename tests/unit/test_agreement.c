@@ -1,4 +1,5 @@
-/* Until when a sound follows another: differences that grow as exp(t), whose instant is known; what is no divergence. */
+/* Until when a sound follows another: differences that grow as exp(t), whose instant is known; what is no divergence.
+ */
 #include "analysis/agreement.h"
 #include "unit.h"
 
@@ -28,15 +29,9 @@ static void make(double (*size)(double t))
         }
 }
 
-static double growing(double t)
-{
-    return fmin(1e-9 * exp(20 * t), 1.4); /* reaches 1/2 at log(0.5e9)/20 = 1.0015 s */
-}
+static double growing(double t) { return fmin(1e-9 * exp(20 * t), 1.4); /* reaches 1/2 at log(0.5e9)/20 = 1.0015 s */ }
 
-static double glitch(double t)
-{
-    return t > 0.5 && t < 0.52 ? 3 : 1e-5;
-}
+static double glitch(double t) { return t > 0.5 && t < 0.52 ? 3 : 1e-5; }
 
 static double nothing(double t)
 {
@@ -68,8 +63,7 @@ START_TEST(gaps)
 {
     make(nothing);
     for (int i = 0; i < N * CHANNELS; i++) {
-        if (i > N && i < N + 400)
-            a_x[i] = 0;
+        if (i > N && i < N + 400) a_x[i] = 0;
         b_x[i] = a_x[i] + 1e-3;
     }
     ck_assert_double_eq(run(), (double)N / RATE);

@@ -1,4 +1,5 @@
-/* alias: sampled modes and the taps together against the transfer functions in continuous time, for poles and gains that nobody picked. */
+/* alias: sampled modes and the taps together against the transfer functions in continuous time, for poles and gains
+ * that nobody picked. */
 #include <complex.h>
 #include <math.h>
 
@@ -32,15 +33,20 @@ static double complex continuous(const struct mode *m, int gamma, double omega)
     return all * (m->A / cpow(I * omega - s, gamma) - conj(m->A) / cpow(I * omega - conj(s), gamma)) / (2 * I);
 }
 
-/* Of its samples: (1/rate) sum' n^(gamma-1) p^n z^n / rate^(gamma-1), of gamma 1 with half of n = 0; sums of powers in closed form. */
+/* Of its samples: (1/rate) sum' n^(gamma-1) p^n z^n / rate^(gamma-1), of gamma 1 with half of n = 0; sums of powers in
+ * closed form. */
 static double complex powers(int gamma, double complex x)
 {
     double complex q = 1 / (1 - x);
     switch (gamma) {
-    case 1: return 0.5 * (1 + x) * q;
-    case 2: return x * q * q;
-    case 3: return x * (1 + x) * q * q * q;
-    default: return x * (1 + 4 * x + x * x) * q * q * q * q;
+    case 1:
+        return 0.5 * (1 + x) * q;
+    case 2:
+        return x * q * q;
+    case 3:
+        return x * (1 + x) * q * q * q;
+    default:
+        return x * (1 + 4 * x + x * x) * q * q * q * q;
     }
 }
 
@@ -60,8 +66,9 @@ static double complex taps(const struct alias *a, const struct mode *m, double o
     return sum;
 }
 
-/* From 0 to 0.4 of the rate, poles up to 0.45. The fit leaves 1e-4 of |A|/rate of an exponential; of t^(gamma-1) times that the derivatives' (gamma-1)!, and the
-   nearest image, 0.15 of the rate off at most, enters with a higher power: 4^(gamma-1). Without the taps it is up to 0.6 |A|/rate. */
+/* From 0 to 0.4 of the rate, poles up to 0.45. The fit leaves 1e-4 of |A|/rate of an exponential; of t^(gamma-1) times
+   that the derivatives' (gamma-1)!, and the nearest image, 0.15 of the rate off at most, enters with a higher power:
+   4^(gamma-1). Without the taps it is up to 0.6 |A|/rate. */
 START_TEST(continuous_up_to_two_fifths_of_the_rate)
 {
     struct arena *arena = arena_open();
@@ -86,8 +93,8 @@ START_TEST(continuous_up_to_two_fifths_of_the_rate)
 }
 END_TEST
 
-/* Value and slope at 0 Hz are those of continuous time to rounding, so that zeros there, single and double, are kept: against differences at +-1e-4 rad, whose
-   own error is a third of the third derivative, 1e-8. */
+/* Value and slope at 0 Hz are those of continuous time to rounding, so that zeros there, single and double, are kept:
+   against differences at +-1e-4 rad, whose own error is a third of the third derivative, 1e-8. */
 START_TEST(zeros_at_0_hz)
 {
     struct arena *arena = arena_open();
@@ -106,8 +113,9 @@ START_TEST(zeros_at_0_hz)
 }
 END_TEST
 
-/* A struck mode of velocity g (cos - (d/w) sin), as acceleration: A = g (j - d/w) s, D = Im(A/s) = g. Below its resonance it moves as -g omega^2/|s|^2; between 1e-3
-   and 0.02 of the rate, against the closed form g (j omega)^2/((j omega + d)^2 + w^2), to 1e-6 of that. Impulse invariance and D alone: g (w/rate)^2/12. */
+/* A struck mode of velocity g (cos - (d/w) sin), as acceleration: A = g (j - d/w) s, D = Im(A/s) = g. Below its
+   resonance it moves as -g omega^2/|s|^2; between 1e-3 and 0.02 of the rate, against the closed form g (j omega)^2/((j
+   omega + d)^2 + w^2), to 1e-6 of that. Impulse invariance and D alone: g (w/rate)^2/12. */
 START_TEST(an_acceleration_below_its_mode)
 {
     struct arena *arena = arena_open();
@@ -117,7 +125,8 @@ START_TEST(an_acceleration_below_its_mode)
         struct mode m = {f, d, g * (I - d / w) * (-d + I * w)};
         for (int k = 0; k < 20; k++) {
             double omega = 2 * M_PI * RATE * draw(1e-3, 0.02);
-            double complex s = I * omega, want = g * s * s / ((s + d) * (s + d) + w * w), plain = g + sampled(&m, 1, omega);
+            double complex s = I * omega, want = g * s * s / ((s + d) * (s + d) + w * w),
+                           plain = g + sampled(&m, 1, omega);
             ck_assert_double_gt(cabs(plain - want), 0.5 * g * pow(w / RATE, 2) / 12);
             ck_assert_double_lt(cabs(plain + taps(a, &m, omega) - want), 1e-3 * cabs(want) + 1e-11 * g);
         }
@@ -126,7 +135,8 @@ START_TEST(an_acceleration_below_its_mode)
 }
 END_TEST
 
-/* Taps by interpolation: third differences over STEP = pi/128 leave some 1e-7 of |A|/rate; modes that decay fast get their own. */
+/* Taps by interpolation: third differences over STEP = pi/128 leave some 1e-7 of |A|/rate; modes that decay fast get
+ * their own. */
 START_TEST(interpolated)
 {
     struct arena *arena = arena_open();

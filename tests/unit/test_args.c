@@ -4,8 +4,12 @@
 #include "base/args.h"
 
 static const struct args_option options[] = {
-    {"output", 'o', "FILE", false, "a value"},   {"set", 's', "PATH=VALUE", true, "repeatable"}, {"quiet", 'q', NULL, false, "a flag"},
-    {"dry-run", 'n', NULL, false, "a flag"},     {"jobs", 'j', "N", false, "a number"},          {"jot", 0, NULL, false, "shares its start"},
+    {"output", 'o', "FILE", false, "a value"},
+    {"set", 's', "PATH=VALUE", true, "repeatable"},
+    {"quiet", 'q', NULL, false, "a flag"},
+    {"dry-run", 'n', NULL, false, "a flag"},
+    {"jobs", 'j', "N", false, "a number"},
+    {"jot", 0, NULL, false, "shares its start"},
     {0},
 };
 
@@ -36,7 +40,8 @@ static void refused(const char *line, const char *text)
 
 START_TEST(test_forms)
 {
-    static const char *const same[] = {"--output x -q a b", "-o x a --quiet b", "a --output=x b -q", "-qox a b", "-qo x a -- b", "-ox -q -- a b"};
+    static const char *const same[] = {"--output x -q a b", "-o x a --quiet b", "a --output=x b -q",
+                                       "-qox a b",          "-qo x a -- b",     "-ox -q -- a b"};
     for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
         ck_assert_msg(parse(same[i]), "%s: %s", same[i], e.text);
         ck_assert_str_eq(args_value(&g, "output"), "x");

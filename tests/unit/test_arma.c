@@ -1,4 +1,5 @@
-/* arma: whitening and the estimates against a dense exact likelihood (Cholesky's factor of the covariance matrix), known series, and series that are none. */
+/* arma: whitening and the estimates against a dense exact likelihood (Cholesky's factor of the covariance matrix),
+ * known series, and series that are none. */
 #include "analysis/arma.h"
 
 #include <gsl/gsl_blas.h>
@@ -12,8 +13,7 @@ enum { SMALL = 70 };
 /* Covariance of the stationary series for a white process of deviation 1: closed form. */
 static double covariance(double a, double b, int k)
 {
-    if (k == 0)
-        return (1 + b * b - 2 * a * b) / (1 - a * a);
+    if (k == 0) return (1 + b * b - 2 * a * b) / (1 - a * a);
     return pow(-a, k - 1) * (b - a) * (1 - a * b) / (1 - a * a);
 }
 
@@ -62,7 +62,8 @@ struct dense {
 static double dense_cost(const gsl_vector *at, void *context)
 {
     struct dense *d = context;
-    double a = tanh(gsl_vector_get(at, 0)), b = tanh(gsl_vector_get(at, 1)), ones[SMALL], wx[SMALL], wo[SMALL], xx = 0, xo = 0, oo = 0, logarithms = 0;
+    double a = tanh(gsl_vector_get(at, 0)), b = tanh(gsl_vector_get(at, 1)), ones[SMALL], wx[SMALL], wo[SMALL], xx = 0,
+           xo = 0, oo = 0, logarithms = 0;
     gsl_matrix *l = factor(a, b, SMALL);
     for (int i = 0; i < SMALL; i++)
         ones[i] = 1;
@@ -92,8 +93,7 @@ static double dense_fit(struct dense *d, double *a, double *b)
         gsl_vector_set_all(step, 0.3);
         gsl_multimin_fminimizer_set(m, &f, start, step);
         for (int i = 0; i < 200 && gsl_multimin_fminimizer_size(m) > 1e-7; i++)
-            if (gsl_multimin_fminimizer_iterate(m))
-                break;
+            if (gsl_multimin_fminimizer_iterate(m)) break;
         if (gsl_multimin_fminimizer_minimum(m) < best) {
             best = gsl_multimin_fminimizer_minimum(m);
             *a = tanh(gsl_vector_get(gsl_multimin_fminimizer_x(m), 0));
@@ -120,7 +120,8 @@ START_TEST(test_likelihood)
         series_draw(g, 7, 0.5, sets[k][0], sets[k][1], d.x, SMALL);
         dense_fit(&d, &a, &b);
         arma_fit(d.x, SMALL, &f);
-        ck_assert_msg(fabs(f.a1 - a) < 1e-4 && fabs(f.b1 - b) < 1e-4, "%g %g, slowly %g %g", f.a1, f.b1, a, b); /* least to 1e-8: a parabola's foot to 1e-4 */
+        ck_assert_msg(fabs(f.a1 - a) < 1e-4 && fabs(f.b1 - b) < 1e-4, "%g %g, slowly %g %g", f.a1, f.b1, a,
+                      b); /* least to 1e-8: a parabola's foot to 1e-4 */
         ck_assert_double_eq_tol(f.mean, d.mean, 1e-4);
         ck_assert_double_eq_tol(f.deviation, d.deviation, 1e-4);
         ck_assert(!f.white);
@@ -142,16 +143,18 @@ START_TEST(test_recovers)
             struct arma f;
             series_draw(g, 3, 0.04, sets[k][0], sets[k][1], x, N);
             arma_fit(x, N, &f);
-            double z[4] = {(f.a1 - sets[k][0]) / sqrt(f.covariance[0]), (f.b1 - sets[k][1]) / sqrt(f.covariance[2]), (f.mean - 3) / sqrt(f.mean_variance),
-                           (f.deviation / 0.04 - 1) * sqrt(2.0 * N)};
+            double z[4] = {(f.a1 - sets[k][0]) / sqrt(f.covariance[0]), (f.b1 - sets[k][1]) / sqrt(f.covariance[2]),
+                           (f.mean - 3) / sqrt(f.mean_variance), (f.deviation / 0.04 - 1) * sqrt(2.0 * N)};
             for (int p = 0; p < 4; p++) {
                 ck_assert_msg(fabs(z[p]) < 5, "set %zu, seed %d, parameter %d: %g errors off", k, seed, p, z[p]);
                 square[p] += z[p] * z[p] / SEEDS;
             }
             gsl_rng_free(g);
         }
-        for (int p = 0; p < 4; p++) /* chi-squared of 40 over 40: 0.46 to 1.8 but for 2 in 1000; the mean's has Student's tails */
-            ck_assert_msg(square[p] > 0.42 && square[p] < (p == 2 ? 2.2 : 1.9), "set %zu, parameter %d: mean square %g errors", k, p, square[p]);
+        for (int p = 0; p < 4;
+             p++) /* chi-squared of 40 over 40: 0.46 to 1.8 but for 2 in 1000; the mean's has Student's tails */
+            ck_assert_msg(square[p] > 0.42 && square[p] < (p == 2 ? 2.2 : 1.9),
+                          "set %zu, parameter %d: mean square %g errors", k, p, square[p]);
     }
 }
 END_TEST
@@ -202,11 +205,13 @@ START_TEST(test_beat)
         arma_fit(x, N, &f);
         double z = f.a1 / sqrt(f.covariance[0]);
         ck_assert_msg(fabs(z) < 4 && f.covariance[0] < 0.01, "seed %d: a1 %g, %g errors off", seed, f.a1, z);
-        ck_assert_msg(f.b1 + 1 < 5 * sqrt(f.covariance[2]) && f.covariance[2] < 0.01, "seed %d: b1 %g +- %g", seed, f.b1, sqrt(f.covariance[2]));
+        ck_assert_msg(f.b1 + 1 < 5 * sqrt(f.covariance[2]) && f.covariance[2] < 0.01, "seed %d: b1 %g +- %g", seed,
+                      f.b1, sqrt(f.covariance[2]));
         square += z * z / SEEDS;
         gsl_rng_free(g);
     }
-    ck_assert_msg(square > 0.5 && square < 1.7, "mean square %g errors", square); /* chi-squared of 60 over 60: 0.53 to 1.66 but for 2 in 1000 */
+    ck_assert_msg(square > 0.5 && square < 1.7, "mean square %g errors",
+                  square); /* chi-squared of 60 over 60: 0.53 to 1.66 but for 2 in 1000 */
 }
 END_TEST
 
@@ -220,7 +225,8 @@ START_TEST(test_many)
     series_draw(g, 3, 0.04, -0.97, -0.34, x, N);
     arma_fit(x, N, &f);
     double z[2] = {(f.a1 + 0.97) / sqrt(f.covariance[0]), (f.b1 + 0.34) / sqrt(f.covariance[2])};
-    ck_assert_msg(fabs(z[0]) < 4 && fabs(z[1]) < 4 && sqrt(f.covariance[2]) < 0.006, "%g %g: %g %g errors off", f.a1, f.b1, z[0], z[1]);
+    ck_assert_msg(fabs(z[0]) < 4 && fabs(z[1]) < 4 && sqrt(f.covariance[2]) < 0.006, "%g %g: %g %g errors off", f.a1,
+                  f.b1, z[0], z[1]);
     for (int i = 0; i < STILL; i++)
         x[i] = 3;
     sane(x, N);

@@ -8,7 +8,8 @@
 #include "num/jacobi.h"
 #include "unit.h"
 
-static const double places[] = {1e-12, 1e-9, 1e-7, 1e-3, 0.1, 1.0, 2.404825557695773, 5.0, 13.7, 31.4, 64.0, 100.5, 200.25, 499.0};
+static const double places[] = {1e-12, 1e-9, 1e-7, 1e-3, 0.1,   1.0,    2.404825557695773,
+                                5.0,   13.7, 31.4, 64.0, 100.5, 200.25, 499.0};
 static const int orders[] = {0, 1, 2, 3, 7, 20, 50, 100};
 
 /* Relative to the amplitude sqrt(2/(pi x)) where J swings, to J where it does not yet. */
@@ -23,7 +24,8 @@ START_TEST(test_j)
                 double size = orders[n] + k < x ? sqrt(2.0 / (3.14159265358979323846 * x)) : 0.0;
                 gsl_sf_result want = {0};
                 gsl_sf_bessel_Jn_e(orders[n] + k, x, &want);
-                ck_assert_msg(fabs(j[k] - want.val) <= 1e-12 * fmax(fabs(want.val), size) + 1e-300, "J_%d(%g) = %.17g, not %.17g", orders[n] + k, x, j[k], want.val);
+                ck_assert_msg(fabs(j[k] - want.val) <= 1e-12 * fmax(fabs(want.val), size) + 1e-300,
+                              "J_%d(%g) = %.17g, not %.17g", orders[n] + k, x, j[k], want.val);
             }
         }
 }
@@ -40,7 +42,8 @@ START_TEST(test_i)
             for (int k = 0; k < 2; k++) {
                 gsl_sf_result want = {0};
                 gsl_sf_bessel_In_scaled_e(orders[n] + k, x, &want);
-                ck_assert_msg(fabs(i[k] - want.val) <= (1e-12 + (x < 1e-6 ? x : 0.0)) * 1.1 * fabs(want.val) + 1e-300, "I_%d(%g) = %.17g, not %.17g", orders[n] + k, x, i[k], want.val);
+                ck_assert_msg(fabs(i[k] - want.val) <= (1e-12 + (x < 1e-6 ? x : 0.0)) * 1.1 * fabs(want.val) + 1e-300,
+                              "I_%d(%g) = %.17g, not %.17g", orders[n] + k, x, i[k], want.val);
             }
         }
 }
@@ -55,7 +58,8 @@ START_TEST(test_zero_and_zeros)
     bessel_i(0, 5e-9, i); /* e^-x (1, x/2) */
     ck_assert_double_lt(fabs(i[0] - (1.0 - 5e-9)), 2e-16);
     ck_assert_double_lt(fabs(i[1] / (2.5e-9 * (1.0 - 5e-9)) - 1.0), 1e-15);
-    const double zeros[] = {2.404825557695773, 3.831705970207512, 5.135622301840683}; /* j_01, j_11, j_21 (DLMF 10.75) */
+    const double zeros[] = {2.404825557695773, 3.831705970207512,
+                            5.135622301840683}; /* j_01, j_11, j_21 (DLMF 10.75) */
     for (int n = 0; n < 3; n++) {
         bessel_j(n, zeros[n], j);
         ck_assert_double_lt(fabs(j[0]), 1e-15);
@@ -80,7 +84,8 @@ START_TEST(test_gauss)
 }
 END_TEST
 
-/* Orthonormal; the derivatives are those of the values (differences over 1e-5, so 1e-6 of the second derivative's size n^4). */
+/* Orthonormal; the derivatives are those of the values (differences over 1e-5, so 1e-6 of the second derivative's size
+ * n^4). */
 START_TEST(test_jacobi)
 {
     const int ends[][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 2}};

@@ -10,7 +10,8 @@ static double worst_error(const struct between *b, double frequency)
     for (int i = 0; i < N; i++)
         x[i] = sin(2 * M_PI * frequency * i + 0.7);
     for (long k = BETWEEN_REACH * BETWEEN_PHASES; k < (N - BETWEEN_REACH) * BETWEEN_PHASES; k++)
-        worst = fmax(worst, fabs(between_at(b, x, N, k) - sin(2 * M_PI * frequency * (double)k / BETWEEN_PHASES + 0.7)));
+        worst =
+            fmax(worst, fabs(between_at(b, x, N, k) - sin(2 * M_PI * frequency * (double)k / BETWEEN_PHASES + 0.7)));
     return worst;
 }
 

@@ -1,4 +1,5 @@
-/* The surface of a mesh: area and volume against closed forms, rays and nearest points against closed forms and a search in small steps. */
+/* The surface of a mesh: area and volume against closed forms, rays and nearest points against closed forms and a
+ * search in small steps. */
 #include "fem/boundary.h"
 #include "meshes.h"
 
@@ -9,10 +10,7 @@ static struct boundary of(const struct mesh *m)
     return b;
 }
 
-static double norm(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
+static double norm(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 START_TEST(test_box)
 {
@@ -27,10 +25,12 @@ START_TEST(test_box)
 }
 END_TEST
 
-/* A curved element: its volume by its own Jacobian (a cubic polynomial: Gauss' points of a cube folded into the tetrahedron, exact), against the integral over its four faces. */
+/* A curved element: its volume by its own Jacobian (a cubic polynomial: Gauss' points of a cube folded into the
+ * tetrahedron, exact), against the integral over its four faces. */
 START_TEST(test_curved_element)
 {
-    double at[10][3] = {{0, 0, 0}, {1, 0.1, 0}, {0.1, 1, 0}, {0, 0.2, 1}, {0.5, -0.07, 0.02}, {0.6, 0.6, -0.1}, {-0.1, 0.5, 0.05}, {0.03, 0, 0.5}, {0.55, 0.1, 0.6}, {0.1, 0.66, 0.55}};
+    double at[10][3] = {{0, 0, 0},        {1, 0.1, 0},       {0.1, 1, 0},    {0, 0.2, 1},      {0.5, -0.07, 0.02},
+                        {0.6, 0.6, -0.1}, {-0.1, 0.5, 0.05}, {0.03, 0, 0.5}, {0.55, 0.1, 0.6}, {0.1, 0.66, 0.55}};
     int element[1][10] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}};
     struct mesh m = {.nodes = 10, .elements = 1, .at = at, .element = element};
     struct boundary b = of(&m);
@@ -40,16 +40,20 @@ START_TEST(test_curved_element)
     static const int ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
     double volume = 0;
     for (int q = 0; q < 64; q++) {
-        double r = g[q % 4], s = g[q / 4 % 4], t = g[q / 16], l[4] = {0, r, (1 - r) * s, (1 - r) * (1 - s) * t}, j[3][3] = {{0}};
+        double r = g[q % 4], s = g[q / 4 % 4], t = g[q / 16], l[4] = {0, r, (1 - r) * s, (1 - r) * (1 - s) * t},
+               j[3][3] = {{0}};
         l[0] = 1 - l[1] - l[2] - l[3];
         for (int k = 0; k < 3; k++)
             for (int c = 0; c < 3; c++) {
                 j[k][c] = (4 * l[k + 1] - 1) * at[k + 1][c] - (4 * l[0] - 1) * at[0][c];
                 for (int i = 0; i < 6; i++)
                     for (int end = 0; end < 2; end++)
-                        j[k][c] += 4 * l[ends[i][1 - end]] * ((ends[i][end] == k + 1) - (ends[i][end] == 0)) * at[4 + i][c];
+                        j[k][c] +=
+                            4 * l[ends[i][1 - end]] * ((ends[i][end] == k + 1) - (ends[i][end] == 0)) * at[4 + i][c];
             }
-        double det = j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) + j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+        double det = j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
+                     j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
+                     j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
         volume += w[q % 4] * w[q / 4 % 4] * w[q / 16] * (1 - r) * (1 - r) * (1 - s) * det;
     }
     ck_assert_double_eq_tol(b.volume, volume, 1e-14);
@@ -89,7 +93,8 @@ START_TEST(test_ray_plate)
 }
 END_TEST
 
-/* Through nodes, where several faces meet, and again from the other faces' point of view: one face, the same each time, and no hole between them. */
+/* Through nodes, where several faces meet, and again from the other faces' point of view: one face, the same each time,
+ * and no hole between them. */
 START_TEST(test_ray_edges)
 {
     struct mesh m = meshes_fine("sphere:diameter=10cm", 1);
@@ -136,7 +141,9 @@ static double chance(uint64_t *seed)
 
 START_TEST(test_nearest_search)
 {
-    static const char *const shapes[] = {"sphere:diameter=10cm,fineness=1", "bowl:diameter=14cm,height=6cm,thickness=5mm,fineness=1", "ring:diameter=10cm,width=1cm,thickness=5mm,fineness=1"};
+    static const char *const shapes[] = {"sphere:diameter=10cm,fineness=1",
+                                         "bowl:diameter=14cm,height=6cm,thickness=5mm,fineness=1",
+                                         "ring:diameter=10cm,width=1cm,thickness=5mm,fineness=1"};
     uint64_t seed = 1;
     for (int s = 0; s < 3; s++) {
         struct mesh m = meshes_shape(shapes[s]);
@@ -146,7 +153,10 @@ START_TEST(test_nearest_search)
             struct boundary_point p;
             double d = boundary_nearest(&m, &b, place, &p), slow = slow_nearest(&m, &b, place);
             ck_assert_double_le(d, slow + 1e-12);
-            ck_assert_double_ge(d, slow - 1e-4); /* the search's steps are about 1/40 of 2 cm: 0.5 mm across, (0.25 mm)^2 / 2 d of distance */
+            ck_assert_double_ge(
+                d,
+                slow -
+                    1e-4); /* the search's steps are about 1/40 of 2 cm: 0.5 mm across, (0.25 mm)^2 / 2 d of distance */
             for (int c = 0; c < 3; c++)
                 off[c] = place[c] - p.at[c];
             ck_assert_double_eq_tol(norm(off), d, 1e-13);
@@ -159,8 +169,10 @@ START_TEST(test_nearest_plate)
 {
     struct mesh m = meshes_shape("plate:length=30cm,width=20cm,thickness=1cm");
     struct boundary b = of(&m);
-    static const double place[5][3] = {{0.1, 0.1, 0.5}, {0.1, 0.3, 0.5}, {0.4, 0.3, 0.11}, {0.15, 0.1, 0.0051}, {0.3, 0.2, 0.01}};
-    static const double nearest[5][3] = {{0.1, 0.1, 0.01}, {0.1, 0.2, 0.01}, {0.3, 0.2, 0.01}, {0.15, 0.1, 0.01}, {0.3, 0.2, 0.01}};
+    static const double place[5][3] = {
+        {0.1, 0.1, 0.5}, {0.1, 0.3, 0.5}, {0.4, 0.3, 0.11}, {0.15, 0.1, 0.0051}, {0.3, 0.2, 0.01}};
+    static const double nearest[5][3] = {
+        {0.1, 0.1, 0.01}, {0.1, 0.2, 0.01}, {0.3, 0.2, 0.01}, {0.15, 0.1, 0.01}, {0.3, 0.2, 0.01}};
     for (int i = 0; i < 5; i++) {
         struct boundary_point p;
         double d = boundary_nearest(&m, &b, place[i], &p), off[3];
@@ -180,7 +192,8 @@ START_TEST(test_sphere)
     struct boundary b = of(&m);
     uint64_t seed = 7;
     for (int i = 0; i < 200; i++) {
-        double v[3] = {2 * chance(&seed) - 1, 2 * chance(&seed) - 1, 2 * chance(&seed) - 1}, r = norm(v), in[3], from[3];
+        double v[3] = {2 * chance(&seed) - 1, 2 * chance(&seed) - 1, 2 * chance(&seed) - 1}, r = norm(v), in[3],
+               from[3];
         for (int c = 0; c < 3; c++) {
             in[c] = -v[c] / r;
             from[c] = -0.2 * in[c];
@@ -205,4 +218,5 @@ START_TEST(test_outer)
 }
 END_TEST
 
-UNIT("boundary", test_outer, test_box, test_curved_element, test_weights, test_ray_plate, test_ray_edges, test_nearest_search, test_nearest_plate, test_sphere)
+UNIT("boundary", test_outer, test_box, test_curved_element, test_weights, test_ray_plate, test_ray_edges,
+     test_nearest_search, test_nearest_plate, test_sphere)

@@ -60,7 +60,8 @@ START_TEST(ends_of_a_box)
 }
 END_TEST
 
-/* Round a ring: arc and height on its outer and its inner wall. Faces are curved to second order: 20 um off the true circle at most. */
+/* Round a ring: arc and height on its outer and its inner wall. Faces are curved to second order: 20 um off the true
+ * circle at most. */
 START_TEST(walls_of_a_ring)
 {
     struct chart c;
@@ -98,7 +99,8 @@ START_TEST(shapes_along_the_inward_normal)
         u[0] = 5 + y;
         u[2] = 2 - 3 * x + 40 * x * y - 7 * y * y;
     }
-    struct solid_modes s = {.n = 2, .nodes = mesh.nodes, .shape = shape, .lattice = solid_lattice_make(2), .face = boundary.face[0]};
+    struct solid_modes s = {
+        .n = 2, .nodes = mesh.nodes, .shape = shape, .lattice = solid_lattice_make(2), .face = boundary.face[0]};
     chart_make(&mesh, &boundary, CHART_TOP, &c);
     for (int i = 0; i < 20; i++) {
         double x = 0.3 * (i + 0.37) / 20, y = 0.2 * (19.3 - i) / 20;

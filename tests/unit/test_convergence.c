@@ -1,4 +1,5 @@
-/* Orders, what is left at the finest, and the front: against errors C h^p made for it, and against the front's definition in another form. */
+/* Orders, what is left at the finest, and the front: against errors C h^p made for it, and against the front's
+ * definition in another form. */
 #include "analysis/convergence.h"
 #include "unit.h"
 
@@ -64,12 +65,15 @@ END_TEST
 START_TEST(front_of_equals)
 {
     bool on[4];
-    convergence_front(4, (const double[4]){1, 1.04, 1.2, 2}, (const double[4]){-50, -50, -50.05, -50.2}, (struct convergence_equal){0.05, 0.1}, on);
+    convergence_front(4, (const double[4]){1, 1.04, 1.2, 2}, (const double[4]){-50, -50, -50.05, -50.2},
+                      (struct convergence_equal){0.05, 0.1}, on);
     ck_assert(on[0] && on[1]);  /* equal in both */
     ck_assert(!on[2] && on[3]); /* dearer for nothing; dearer for something */
-    convergence_front(2, (const double[2]){NAN, 1}, (const double[2]){-90, -50}, (struct convergence_equal){0.05, 0.1}, on);
+    convergence_front(2, (const double[2]){NAN, 1}, (const double[2]){-90, -50}, (struct convergence_equal){0.05, 0.1},
+                      on);
     ck_assert(!on[0] && on[1]); /* what was not timed is not on it, and puts none off it */
-    convergence_front(3, (const double[3]){1, 2, 1}, (const double[3]){-50, -INFINITY, NAN}, (struct convergence_equal){0.05, 0.1}, on);
+    convergence_front(3, (const double[3]){1, 2, 1}, (const double[3]){-50, -INFINITY, NAN},
+                      (struct convergence_equal){0.05, 0.1}, on);
     ck_assert(on[0] && on[1] && !on[2]);
 }
 END_TEST

@@ -1,4 +1,5 @@
-/* cosine: shares against quadrature of papers/002 equation 9 itself and against the closed form in extended precision. */
+/* cosine: shares against quadrature of papers/002 equation 9 itself and against the closed form in extended precision.
+ */
 #include <gsl/gsl_integration.h>
 
 #include "force/cosine.h"

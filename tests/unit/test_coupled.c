@@ -1,4 +1,5 @@
-/* The ball of coupled.h on rigid ground by its discrete gradient: single impacts against the closed form of Hunt and Crossley's law; contacts counted; errors. */
+/* The ball of coupled.h on rigid ground by its discrete gradient: single impacts against the closed form of Hunt and
+ * Crossley's law; contacts counted; errors. */
 #include "unit.h"
 
 #include "convolution/coupled_parts.h"
@@ -11,7 +12,8 @@ static struct err error;
 /* Parameters per unit of mass: kappa = k / m. */
 static struct coupled *ball(struct arena *a, double kappa, double mu, double gravity, double rate)
 {
-    struct coupled_ask ask = {INTEGRATOR_DISCRETE_GRADIENT, 1 / rate, 0.02, 0.02 * gravity, kappa * 0.02, mu, 0, NULL, NULL};
+    struct coupled_ask ask = {
+        INTEGRATOR_DISCRETE_GRADIENT, 1 / rate, 0.02, 0.02 * gravity, kappa * 0.02, mu, 0, NULL, NULL};
     struct coupled *c;
     error.kind = ERR_NONE;
     ck_assert_msg(coupled_make(a, &ask, &c, &error), "%s", error.text);
@@ -45,11 +47,11 @@ static double impact(double kappa, double mu, double v, double rate, double phas
     return out;
 }
 
-/* The speed out, by halving -mu (v_out - v_in) + ln[(1 + mu v_out) / (1 + mu v_in)] = 0, v_out < 0 (Papetti et al. 2011). */
+/* The speed out, by halving -mu (v_out - v_in) + ln[(1 + mu v_out) / (1 + mu v_in)] = 0, v_out < 0 (Papetti et al.
+ * 2011). */
 static double closed_form(double mu, double v)
 {
-    if (mu == 0)
-        return -v;
+    if (mu == 0) return -v;
     double low = fmax(-1 / mu, -v), high = -1e-300;
     for (int i = 0; i < 200; i++) {
         double out = (low + high) / 2;
@@ -86,15 +88,19 @@ START_TEST(test_elastic_impact_keeps_its_speed)
         for (int o = 0; o < 3; o++) {
             double least, most;
             errors(kappas[k], 0, 0.05, overs[o], &least, &most);
-            ck_assert_msg(fmax(fabs(least), fabs(most)) <= 1e-12, "kappa %g over %g: %g %g", kappas[k], overs[o], least, most);
+            ck_assert_msg(fmax(fabs(least), fabs(most)) <= 1e-12, "kappa %g over %g: %g %g", kappas[k], overs[o], least,
+                          most);
         }
 }
 END_TEST
 
-/* Order 2, and the same error whenever in a step the ball arrives, beyond `first` times RATE (10 steps a contact, more where mu v = 10). */
+/* Order 2, and the same error whenever in a step the ball arrives, beyond `first` times RATE (10 steps a contact, more
+ * where mu v = 10). */
 START_TEST(test_dissipative_impact_is_of_second_order)
 {
-    const struct { double kappa, mu, v, first; } cases[] = {{5e9, 1, 0.05, 1}, {5e11, 1, 0.05, 2}, {5e11, 1, 1, 2}, {5e11, 10, 1, 8}};
+    const struct {
+        double kappa, mu, v, first;
+    } cases[] = {{5e9, 1, 0.05, 1}, {5e11, 1, 0.05, 2}, {5e11, 1, 1, 2}, {5e11, 10, 1, 8}};
     for (int k = 0; k < 4; k++) {
         double before = 0;
         for (double over = 1; over <= 64; over *= 2) {
@@ -103,15 +109,17 @@ START_TEST(test_dissipative_impact_is_of_second_order)
             double order = log2(before / most);
             ck_assert_double_ge(least, 0); /* too little is lost, never too much */
             ck_assert(over <= cases[k].first || most - least <= 1e-6);
-            ck_assert_msg(over <= cases[k].first || fabs(order - 2) <= 0.1, "kappa %g mu %g v %g over %g: order %g", cases[k].kappa, cases[k].mu, cases[k].v, over, order);
+            ck_assert_msg(over <= cases[k].first || fabs(order - 2) <= 0.1, "kappa %g mu %g v %g over %g: order %g",
+                          cases[k].kappa, cases[k].mu, cases[k].v, over, order);
             before = most;
         }
     }
 }
 END_TEST
 
-/* 10 g at 1 m/s, mu = 0.3 s/m, stiffness up to contacts of a third of a step: never out of [exact, 1], and near the exact 0.8329 from 5 steps a contact on.
-   (SDT 2.3's impact loses nothing from 2.5 steps a contact down, and 1e-3 of its loss at 12.) */
+/* 10 g at 1 m/s, mu = 0.3 s/m, stiffness up to contacts of a third of a step: never out of [exact, 1], and near the
+   exact 0.8329 from 5 steps a contact on. (SDT 2.3's impact loses nothing from 2.5 steps a contact down, and 1e-3 of
+   its loss at 12.) */
 START_TEST(test_stiffness_up_to_contacts_below_a_step)
 {
     double exact = -closed_form(0.3, 1);
@@ -120,13 +128,13 @@ START_TEST(test_stiffness_up_to_contacts_below_a_step)
             double e = -impact(k / 0.01, 0.3, 1, rate, 0.4), contact = coupled_contact_time(0.01, k, 1) * rate;
             ck_assert_double_ge(e, exact - 1e-12);
             ck_assert_double_le(e, 1);
-            if (contact >= 5)
-                ck_assert_double_eq_tol(e, exact, 0.5 / (contact * contact));
+            if (contact >= 5) ck_assert_double_eq_tol(e, exact, 0.5 / (contact * contact));
         }
 }
 END_TEST
 
-/* kappa 1e12, mu 10, 1 m/s with 2 steps a contact, bouncing under weight: finite, no pull, and the energy never rises. */
+/* kappa 1e12, mu 10, 1 m/s with 2 steps a contact, bouncing under weight: finite, no pull, and the energy never rises.
+ */
 START_TEST(test_stiffest_ball_gains_nothing)
 {
     struct arena *a = arena_open();
@@ -187,13 +195,16 @@ START_TEST(test_errors_name_the_cause)
     error.kind = ERR_NONE;
     ck_assert(coupled_make(a, &ask, &c, &error));
     coupled_start(c, 1e-3, 0, 0, phi, false);
-    ck_assert(!coupled_run(c, 3, surface, phi, force, &error) && error.kind == ERR_NUMBERS && strstr(error.text, "surface") && strstr(error.text, "step 3"));
+    ck_assert(!coupled_run(c, 3, surface, phi, force, &error) && error.kind == ERR_NUMBERS &&
+              strstr(error.text, "surface") && strstr(error.text, "step 3"));
     error.kind = ERR_NONE;
     phi[4] = INFINITY;
-    ck_assert(!coupled_run(c, 2, surface, phi, force, &error) && error.kind == ERR_NUMBERS && strstr(error.text, "mode 5"));
+    ck_assert(!coupled_run(c, 2, surface, phi, force, &error) && error.kind == ERR_NUMBERS &&
+              strstr(error.text, "mode 5"));
     error.kind = ERR_NONE;
     coupled_start(c, 1e200, 1e200, 0, NULL, false);
-    ck_assert(!coupled_run(c, 2, surface, NULL, force, &error) && error.kind == ERR_NUMBERS && strstr(error.text, "finite") && strstr(error.text, "velocity"));
+    ck_assert(!coupled_run(c, 2, surface, NULL, force, &error) && error.kind == ERR_NUMBERS &&
+              strstr(error.text, "finite") && strstr(error.text, "velocity"));
     ask.step = 1 / 40000.0;
     error.kind = ERR_NONE;
     ck_assert(!coupled_make(a, &ask, &c, &error) && error.kind == ERR_SCENE && strstr(error.text, "mode 11"));
@@ -207,15 +218,22 @@ START_TEST(test_errors_name_the_cause)
 }
 END_TEST
 
-/* A ledger that is wrong by 0.9 and by 1.1 of what is allowed, either way, with each part of the energy the largest in turn: only the latter is refused, as an error of
-   numbers that names the part. */
+/* A ledger that is wrong by 0.9 and by 1.1 of what is allowed, either way, with each part of the energy the largest in
+   turn: only the latter is refused, as an error of numbers that names the part. */
 START_TEST(test_a_ledger_out_of_balance_is_refused)
 {
     static const char *const parts[] = {"the ball's velocity", "the ball's height", "the modes", "the contact"};
     struct arena *a = arena_open();
     double frequency = 1000, decay = 10, phi = 1, flat[100] = {0}, force[100];
-    struct coupled_ask ask = {.integrator = INTEGRATOR_DISCRETE_GRADIENT, .step = 1 / RATE, .mass = 0.02, .weight = 0.2, .stiffness = 1e8, .mu = 1, .n = 1,
-                              .frequency = &frequency, .decay = &decay};
+    struct coupled_ask ask = {.integrator = INTEGRATOR_DISCRETE_GRADIENT,
+                              .step = 1 / RATE,
+                              .mass = 0.02,
+                              .weight = 0.2,
+                              .stiffness = 1e8,
+                              .mu = 1,
+                              .n = 1,
+                              .frequency = &frequency,
+                              .decay = &decay};
     struct coupled *c;
     error.kind = ERR_NONE;
     ck_assert(coupled_make(a, &ask, &c, &error));
@@ -235,7 +253,8 @@ START_TEST(test_a_ledger_out_of_balance_is_refused)
         ck_assert_double_eq_tol(s->highest, s->energy, 1e-12 * s->energy);
         coupled_sum_add(i % 3 ? &c->contact_loss : &c->mode_loss, sign * (wrong ? 1.1 : 0.9) * bound);
         ck_assert_msg(coupled_balance(c, true, &error) == !wrong, "%d: %g, %g", i, s->residual, bound);
-        ck_assert(!wrong || (error.kind == ERR_NUMBERS && strstr(error.text, "off balance by") && strstr(error.text, arena_format(a, "most of it in %s", parts[part]))));
+        ck_assert(!wrong || (error.kind == ERR_NUMBERS && strstr(error.text, "off balance by") &&
+                             strstr(error.text, arena_format(a, "most of it in %s", parts[part]))));
         ck_assert(coupled_balance(c, false, &error)); /* rk4 has none to hold */
         error.kind = ERR_NONE;
     }
@@ -243,7 +262,8 @@ START_TEST(test_a_ledger_out_of_balance_is_refused)
 }
 END_TEST
 
-/* Lift-offs, landings and flights of a ball that keeps its energy: each impact of sqrt(2 g h) sends it up for 2 sqrt(2 h / g) again. */
+/* Lift-offs, landings and flights of a ball that keeps its energy: each impact of sqrt(2 g h) sends it up for 2 sqrt(2
+ * h / g) again. */
 START_TEST(test_flights_are_counted)
 {
     struct arena *a = arena_open();
@@ -261,8 +281,9 @@ START_TEST(test_flights_are_counted)
 }
 END_TEST
 
-/* What is seen in the midst of runs is what a ball says that runs so far and no further: bit by bit but for modes, where the cut rounds otherwise. Watching
-   changes no bit of the forces, nor of the account at the end. By each integrator, bouncing, and over a place that moves. */
+/* What is seen in the midst of runs is what a ball says that runs so far and no further: bit by bit but for modes,
+   where the cut rounds otherwise. Watching changes no bit of the forces, nor of the account at the end. By each
+   integrator, bouncing, and over a place that moves. */
 START_TEST(test_watching_changes_nothing)
 {
     enum { STEPS = 700, EVERY = 7, MODES = 9 };
@@ -282,23 +303,28 @@ START_TEST(test_watching_changes_nothing)
         struct coupled *c[3];
         int n = integrator == INTEGRATOR_EXACT_IMPACT ? 0 : MODES;
         for (int k = 0; k < 3; k++) {
-            ck_assert(coupled_make(a, &(struct coupled_ask){integrator, 1e-5, 0.02, 0.2, 1e8, 1, n, frequency, decay}, &c[k], &error));
+            ck_assert(coupled_make(a, &(struct coupled_ask){integrator, 1e-5, 0.02, 0.2, 1e8, 1, n, frequency, decay},
+                                   &c[k], &error));
             coupled_start(c[k], 1e-6, -0.01, 0, phi, false);
         }
         ck_assert(coupled_run(c[0], STEPS, surface, to, force, &error));
         coupled_watch(c[1], EVERY, seen);
         ck_assert(coupled_run(c[1], STEPS, surface, to, watched, &error));
-        ck_assert(!memcmp(force, watched, sizeof force) && !memcmp(coupled_state(c[0]), coupled_state(c[1]), sizeof *seen));
+        ck_assert(!memcmp(force, watched, sizeof force) &&
+                  !memcmp(coupled_state(c[0]), coupled_state(c[1]), sizeof *seen));
         ck_assert_int_gt(coupled_state(c[0])->lift_offs, 1);
         for (int i = 0; i < STEPS; i += EVERY) {
             const struct coupled_state *x = &seen[i / EVERY], *y = coupled_state(c[2]);
             double least = 1e-9 * y->highest;
-            ck_assert(x->steps == y->steps && x->lift_offs == y->lift_offs && x->landings == y->landings && x->flights == y->flights);
+            ck_assert(x->steps == y->steps && x->lift_offs == y->lift_offs && x->landings == y->landings &&
+                      x->flights == y->flights);
             ck_assert_double_eq_tol(x->height, y->height, 1e-13);
             ck_assert_double_eq_tol(x->penetration, y->penetration, 1e-13);
             ck_assert_double_eq_tol(x->contact_time, y->contact_time, 1e-10);
-            ck_assert(fabs(x->energy - y->energy) < least && fabs(x->surface_work - y->surface_work) < least && fabs(x->mode_loss - y->mode_loss) < least);
-            ck_assert(fabs(x->contact_loss - y->contact_loss) < least && (integrator == INTEGRATOR_RK4 || fabs(x->residual) < 1e-12 * y->highest));
+            ck_assert(fabs(x->energy - y->energy) < least && fabs(x->surface_work - y->surface_work) < least &&
+                      fabs(x->mode_loss - y->mode_loss) < least);
+            ck_assert(fabs(x->contact_loss - y->contact_loss) < least &&
+                      (integrator == INTEGRATOR_RK4 || fabs(x->residual) < 1e-12 * y->highest));
             for (int k = 0; k < MODES; k++)
                 on[k] = phi[k] + (to[k] - phi[k]) * (i + EVERY) / STEPS;
             ck_assert(coupled_run(c[2], EVERY, surface + i, on, cut + i, &error));
@@ -308,5 +334,7 @@ START_TEST(test_watching_changes_nothing)
 }
 END_TEST
 
-UNIT("coupled", test_a_ledger_out_of_balance_is_refused, test_flights_are_counted, test_watching_changes_nothing, test_closed_form_is_known, test_elastic_impact_keeps_its_speed, test_dissipative_impact_is_of_second_order,
-     test_stiffness_up_to_contacts_below_a_step, test_stiffest_ball_gains_nothing, test_contact_is_counted, test_errors_name_the_cause)
+UNIT("coupled", test_a_ledger_out_of_balance_is_refused, test_flights_are_counted, test_watching_changes_nothing,
+     test_closed_form_is_known, test_elastic_impact_keeps_its_speed, test_dissipative_impact_is_of_second_order,
+     test_stiffness_up_to_contacts_below_a_step, test_stiffest_ball_gains_nothing, test_contact_is_counted,
+     test_errors_name_the_cause)

@@ -1,5 +1,6 @@
-/* exact_impact against the closed form of an isolated impact (all of it: end, path, loss), against the discrete gradient in fine steps for what
-   the closed form does not know (gravity in the contact, a ground that moves), and against its own balance of energy. */
+/* exact_impact against the closed form of an isolated impact (all of it: end, path, loss), against the discrete
+   gradient in fine steps for what the closed form does not know (gravity in the contact, a ground that moves), and
+   against its own balance of energy. */
 #include "unit.h"
 
 #include "balls.h"
@@ -34,7 +35,8 @@ START_TEST(restitution_is_exact)
             for (int k = 0; k < 3; k++)
                 for (int over = 1; over <= 64; over *= 4) {
                     struct arena *a = arena_open();
-                    double of = worst_of(a, (struct ball_case){EXACT, kappas[i], mus[j], 0, BALL_RATE * over}, speeds[k]);
+                    double of =
+                        worst_of(a, (struct ball_case){EXACT, kappas[i], mus[j], 0, BALL_RATE * over}, speeds[k]);
                     ck_assert_msg(of <= 1e-11, "kappa %g mu %g v %g x%d: %g", kappas[i], mus[j], speeds[k], over, of);
                     worst = fmax(worst, of);
                     arena_close(a);
@@ -63,12 +65,15 @@ START_TEST(path_is_the_closed_form)
 }
 END_TEST
 
-/* Against the discrete gradient in steps 256 times finer (its error is printed first): settled on hills it follows, and bouncing. */
+/* Against the discrete gradient in steps 256 times finer (its error is printed first): settled on hills it follows, and
+ * bouncing. */
 START_TEST(rolls_like_the_discrete_gradient)
 {
     enum { N = 1323 };
     static double fine[N], finer[N], w[N];
-    static const struct { double height, drop; } scenes[] = {{1, 0}, {20, 0}, {5, 2e-6}};
+    static const struct {
+        double height, drop;
+    } scenes[] = {{1, 0}, {20, 0}, {5, 2e-6}};
     for (int i = 0; i < 3; i++) {
         struct ball_case b = {INTEGRATOR_DISCRETE_GRADIENT, 5e9, 1, BALL_GRAVITY, 0};
         double height = scenes[i].height, drop = scenes[i].drop, off[4];
@@ -81,21 +86,24 @@ START_TEST(rolls_like_the_discrete_gradient)
             ball_roll(b, 2 << k, height, drop, N, w);
             off[k] = ball_distance(N, w, finer);
         }
-        printf("hills of %g um: discrete gradient x128 off by %.2g m; exact_impact x2, x4, x8, x16: %.2g %.2g %.2g %.2g (order %.2f)\n", height,
-               ball_distance(N, fine, finer), off[0], off[1], off[2], off[3], log2(off[2] / off[3]));
+        printf("hills of %g um: discrete gradient x128 off by %.2g m; exact_impact x2, x4, x8, x16: %.2g %.2g %.2g "
+               "%.2g (order %.2f)\n",
+               height, ball_distance(N, fine, finer), off[0], off[1], off[2], off[3], log2(off[2] / off[3]));
         ck_assert_double_lt(off[3], 1e-2 * 1e-6 * height);
         ck_assert_double_eq_tol(log2(off[2] / off[3]), 2, 0.2);
     }
 }
 END_TEST
 
-/* Dropped from 1 cm: parabolas to rounding, each flight 2 v / g long (to the step), each landing at the speed of the lift-off before it,
-   bouncing off with the closed form's speed, but for gravity in the contact, whose work is lost at a rate of mu g (mu g t_c: 1e-3 here). */
+/* Dropped from 1 cm: parabolas to rounding, each flight 2 v / g long (to the step), each landing at the speed of the
+   lift-off before it, bouncing off with the closed form's speed, but for gravity in the contact, whose work is lost at
+   a rate of mu g (mu g t_c: 1e-3 here). */
 START_TEST(bounces)
 {
     struct arena *a = arena_open();
     struct err e = {0};
-    double mu = 0.2, g = BALL_GRAVITY, h = 1 / BALL_RATE, ground = 3, force, fell = 0.01, before = sqrt(2 * g * fell), flight = 0;
+    double mu = 0.2, g = BALL_GRAVITY, h = 1 / BALL_RATE, ground = 3, force, fell = 0.01, before = sqrt(2 * g * fell),
+           flight = 0;
     struct coupled *c = ball_make(a, (struct ball_case){EXACT, 5e9, mu, g, BALL_RATE});
     const struct coupled_state *s = coupled_state(c);
     coupled_start(c, ground + fell, 0, ground, NULL, false);
@@ -107,11 +115,9 @@ START_TEST(bounces)
             ck_assert_double_eq_tol(s->height - ground, fell - 0.5 * g * pow((double)s->steps * h, 2), 1e-13);
         else if (s->landings > landed)
             flight = airborne + up / s->impact;
-        if (s->landings == landed)
-            continue;
+        if (s->landings == landed) continue;
         ck_assert_double_eq_tol(s->impact, before, 1e-3 * before);
-        if (landed > 0)
-            ck_assert_double_eq_tol(flight, 2 * s->impact / g, h);
+        if (landed > 0) ck_assert_double_eq_tol(flight, 2 * s->impact / g, h);
         before = ball_leaves(mu, s->impact);
     }
     ck_assert_int_eq(s->landings, 8);
@@ -119,8 +125,8 @@ START_TEST(bounces)
 }
 END_TEST
 
-/* White heights at every step, 50 um: the ground falls away faster than 1/mu, hits at metres per second. Forces never pull, losses never fall,
-   the balance holds a hundred times better than asked, and momentum is handed over exactly. */
+/* White heights at every step, 50 um: the ground falls away faster than 1/mu, hits at metres per second. Forces never
+   pull, losses never fall, the balance holds a hundred times better than asked, and momentum is handed over exactly. */
 START_TEST(keeps_its_balance)
 {
     enum { N = 441000, AT_ONCE = 100 };
@@ -135,7 +141,9 @@ START_TEST(keeps_its_balance)
         coupled_start(c, coupled_rest(c, 0, NULL), 0, 0, NULL, true);
         for (int i = 0; i < N; i += AT_ONCE) {
             for (int k = 0; k < AT_ONCE; k++)
-                surface[k] = 50e-6 * ((double)((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 40) / 16777216 - 0.5);
+                surface[k] =
+                    50e-6 *
+                    ((double)((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 40) / 16777216 - 0.5);
             ck_assert_msg(coupled_run(c, AT_ONCE, surface, NULL, force, &e), "%s", e.text);
             for (int k = 0; k < AT_ONCE; k++) {
                 ck_assert_double_ge(force[k], 0);
@@ -144,8 +152,9 @@ START_TEST(keeps_its_balance)
             ck_assert_double_ge(s->contact_loss, lost);
             lost = s->contact_loss;
         }
-        printf("mu %g: %ld landings, at most %.2g m/s, %ld iterations at most (mean %.2f), residual %.2g of %.2g J\n", of[j], s->landings, s->impact_most,
-               s->iterations_most, (double)s->iterations / (double)s->contact_steps, s->residual, s->highest);
+        printf("mu %g: %ld landings, at most %.2g m/s, %ld iterations at most (mean %.2f), residual %.2g of %.2g J\n",
+               of[j], s->landings, s->impact_most, s->iterations_most, (double)s->iterations / (double)s->contact_steps,
+               s->residual, s->highest);
         ck_assert_double_lt(fabs(s->residual), 1e-12 * s->highest);
         ck_assert_double_eq_tol(momentum / BALL_MASS, s->speed, 1e-10);
         ck_assert_int_gt(s->landings, 50);
@@ -179,7 +188,15 @@ START_TEST(refuses)
     struct arena *a = arena_open();
     struct err e = {0};
     double one = 100, ground = 0, force;
-    struct coupled_ask ask = {.integrator = EXACT, .step = 1e-4, .mass = 1, .weight = 9.81, .stiffness = 1e9, .mu = 1, .n = 1, .frequency = &one, .decay = &one};
+    struct coupled_ask ask = {.integrator = EXACT,
+                              .step = 1e-4,
+                              .mass = 1,
+                              .weight = 9.81,
+                              .stiffness = 1e9,
+                              .mu = 1,
+                              .n = 1,
+                              .frequency = &one,
+                              .decay = &one};
     struct coupled *c;
     ck_assert(!coupled_make(a, &ask, &c, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
@@ -195,4 +212,5 @@ START_TEST(refuses)
 }
 END_TEST
 
-UNIT("coupled_exact", restitution_is_exact, path_is_the_closed_form, rolls_like_the_discrete_gradient, bounces, keeps_its_balance, rests, refuses)
+UNIT("coupled_exact", restitution_is_exact, path_is_the_closed_form, rolls_like_the_discrete_gradient, bounces,
+     keeps_its_balance, rests, refuses)

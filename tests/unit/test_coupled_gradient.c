@@ -1,5 +1,5 @@
-/* The discrete gradient on modes: its steps against a slow plain reference, ring-down against exact poles, whole trajectories against GSL's Runge-Kutta of
-   order 8, rest against statics. */
+/* The discrete gradient on modes: its steps against a slow plain reference, ring-down against exact poles, whole
+   trajectories against GSL's Runge-Kutta of order 8, rest against statics. */
 #include "unit.h"
 
 #include <complex.h>
@@ -33,16 +33,20 @@ static long double potential(const struct plain *r, long double xi)
 static long double plain_force(const struct plain *r, long double to)
 {
     long double by = to - r->xi, rate = 1 + r->mu * by / r->h;
-    long double gradient = fabsl(by) > 1e-12L * fabsl(r->xi) ? (potential(r, to) - potential(r, r->xi)) / by : r->xi > 0 ? r->k * r->xi * sqrtl(r->xi) : 0;
+    long double gradient = fabsl(by) > 1e-12L * fabsl(r->xi) ? (potential(r, to) - potential(r, r->xi)) / by
+                           : r->xi > 0                       ? r->k * r->xi * sqrtl(r->xi)
+                                                             : 0;
     return rate > 0 ? gradient * rate : 0;
 }
 
-static long double plain_modes(const struct plain *r, const double *phi, long double force, long double *q, long double *p)
+static long double plain_modes(const struct plain *r, const double *phi, long double force, long double *q,
+                               long double *p)
 {
     long double bent = 0;
     for (int i = 0; i < N; i++) {
         long double h = r->h, pull = (r->phi[i] + phi[i]) / 2 * force / r->mass[i];
-        long double middle = (r->p[i] + h / 2 * (pull - r->square[i] * r->q[i])) / (1 + r->damping[i] * h + r->square[i] * h * h / 4);
+        long double middle =
+            (r->p[i] + h / 2 * (pull - r->square[i] * r->q[i])) / (1 + r->damping[i] * h + r->square[i] * h * h / 4);
         q[i] = r->q[i] + h * middle;
         p[i] = 2 * middle - r->p[i];
         bent += phi[i] * q[i];
@@ -81,7 +85,8 @@ static struct coupled *on_modes(struct arena *a, int n, double kappa, double mu,
 {
     for (int i = 0; i < N; i++)
         decays[i] = 3 + 0.01 * frequencies[i];
-    struct coupled_ask ask = {INTEGRATOR_DISCRETE_GRADIENT, 1 / rate, 0.02, 0.02 * 9.81, kappa * 0.02, mu, n, frequencies, decays};
+    struct coupled_ask ask = {
+        INTEGRATOR_DISCRETE_GRADIENT, 1 / rate, 0.02, 0.02 * 9.81, kappa * 0.02, mu, n, frequencies, decays};
     struct coupled *c;
     error.kind = ERR_NONE;
     ck_assert_msg(coupled_make(a, &ask, &c, &error), "%s", error.text);
@@ -91,7 +96,14 @@ static struct coupled *on_modes(struct arena *a, int n, double kappa, double mu,
 static void plain_start(struct plain *r, const struct coupled *c, double kappa, double mu, const double *phi)
 {
     const struct coupled_state *s = coupled_state(c);
-    *r = (struct plain){.h = 1 / RATE, .m = 0.02, .weight = 0.02 * 9.81, .k = kappa * 0.02, .mu = mu, .w = s->height, .u = s->speed, .xi = s->penetration};
+    *r = (struct plain){.h = 1 / RATE,
+                        .m = 0.02,
+                        .weight = 0.02 * 9.81,
+                        .k = kappa * 0.02,
+                        .mu = mu,
+                        .w = s->height,
+                        .u = s->speed,
+                        .xi = s->penetration};
     for (int i = 0; i < N; i++) {
         complex double pole = 2 * RATE * ctanh((-decays[i] + 2 * M_PI * frequencies[i] * I) / (2 * RATE));
         r->damping[i] = -creal(pole);
@@ -107,12 +119,15 @@ static void shapes(double at, double *phi)
         phi[i] = 1.5 * sin((i + 1) * at);
 }
 
-/* Landings, lift-offs, resting and a place that moves (shapes change sign): step by step the plain reference's forces. Rounding
-   differs, and each bounce multiplies that by up to 4 (after 15 of the stiffest case 1e-6 would be left of it): 1e-10 is for the first 600 steps. */
+/* Landings, lift-offs, resting and a place that moves (shapes change sign): step by step the plain reference's forces.
+   Rounding differs, and each bounce multiplies that by up to 4 (after 15 of the stiffest case 1e-6 would be left of
+   it): 1e-10 is for the first 600 steps. */
 START_TEST(test_steps_are_the_plain_reference)
 {
     enum { STEPS = 600, PIECE = 120 };
-    const struct { double kappa, mu, bump; } cases[] = {{5e9, 1, 0}, {5e9, 0.1, 3e-6}, {5e11, 10, 1e-6}};
+    const struct {
+        double kappa, mu, bump;
+    } cases[] = {{5e9, 1, 0}, {5e9, 0.1, 3e-6}, {5e11, 10, 1e-6}};
     for (int k = 0; k < 3; k++) {
         struct arena *a = arena_open();
         struct coupled *c = on_modes(a, N, cases[k].kappa, cases[k].mu, RATE);
@@ -143,7 +158,8 @@ START_TEST(test_steps_are_the_plain_reference)
 }
 END_TEST
 
-/* Bent by a weight and let go, the ball out of reach: q = q0 exp(-sigma t) (cos wt + b sin wt), b = sigma~ / w~ of the step's pole; up to 0.4875 of the rate. */
+/* Bent by a weight and let go, the ball out of reach: q = q0 exp(-sigma t) (cos wt + b sin wt), b = sigma~ / w~ of the
+ * step's pole; up to 0.4875 of the rate. */
 START_TEST(test_modes_ring_down_with_their_own_poles)
 {
     static const double flat[1000];
@@ -156,11 +172,16 @@ START_TEST(test_modes_ring_down_with_their_own_poles)
     for (int k = 1; k <= 40; k++) {
         go(c, 1000, flat, NULL, force);
         for (int i = 0; i < N; i++) {
-            double t = 1000 * k / RATE, bent = phi[i] * 0.02 * 9.81 / (decays[i] * decays[i] + 4 * M_PI * M_PI * frequencies[i] * frequencies[i]);
+            double t = 1000 * k / RATE,
+                   bent = phi[i] * 0.02 * 9.81 /
+                          (decays[i] * decays[i] + 4 * M_PI * M_PI * frequencies[i] * frequencies[i]);
             complex double pole = ctanh((-decays[i] + 2 * M_PI * frequencies[i] * I) / (2 * RATE));
-            double turns = frequencies[i] * k * 1000 / RATE, angle = 2 * M_PI * (turns - floor(turns)), b = -creal(pole) / cimag(pole);
+            double turns = frequencies[i] * k * 1000 / RATE, angle = 2 * M_PI * (turns - floor(turns)),
+                   b = -creal(pole) / cimag(pole);
             coupled_mode(c, i, &q, &p);
-            ck_assert_msg(fabs(q - bent * exp(-decays[i] * t) * (cos(angle) + b * sin(angle))) <= 1e-10 * fabs(bent) * exp(-decays[i] * t), "mode %d after %g s", i, t);
+            ck_assert_msg(fabs(q - bent * exp(-decays[i] * t) * (cos(angle) + b * sin(angle))) <=
+                              1e-10 * fabs(bent) * exp(-decays[i] * t),
+                          "mode %d after %g s", i, t);
         }
     }
     ck_assert_int_eq(coupled_state(c)->contact_steps, 0);
@@ -168,7 +189,8 @@ START_TEST(test_modes_ring_down_with_their_own_poles)
 }
 END_TEST
 
-/* A surface of steps under a place that moves through the modes' nodal lines: the balance holds, the losses never fall, and the force hands over the ball's momentum. */
+/* A surface of steps under a place that moves through the modes' nodal lines: the balance holds, the losses never fall,
+ * and the force hands over the ball's momentum. */
 START_TEST(test_energy_balances_on_steps_and_moving)
 {
     enum { PIECE = 100 };
@@ -226,7 +248,8 @@ START_TEST(test_dropped_ball_comes_to_rest)
         ck_assert_double_eq_tol(s->height, coupled_rest(c, 0, phi), 1e-6 * xi);
         ck_assert(s->flight == 0 && s->lift_offs >= 1 && s->landings == s->lift_offs + 1);
         for (int i = 0; i < n; i++) {
-            double bent = phi[i] * 0.02 * 9.81 / (decays[i] * decays[i] + 4 * M_PI * M_PI * frequencies[i] * frequencies[i]);
+            double bent =
+                phi[i] * 0.02 * 9.81 / (decays[i] * decays[i] + 4 * M_PI * M_PI * frequencies[i] * frequencies[i]);
             coupled_mode(c, i, &q, &p);
             ck_assert_double_eq_tol(q, bent, 1e-6 * fabs(bent));
         }
@@ -325,7 +348,8 @@ START_TEST(test_trajectory_is_that_of_the_equations)
         decays[i] = 3 + 0.01 * frequencies[i];
     y[0] = -pow(9.81 / 5e9, 2.0 / 3);
     for (int i = 0; i < FEW; i++) {
-        y[2 + 2 * i] = m.from[i] * 0.02 * 9.81 / (decays[i] * decays[i] + 4 * M_PI * M_PI * frequencies[i] * frequencies[i]);
+        y[2 + 2 * i] =
+            m.from[i] * 0.02 * 9.81 / (decays[i] * decays[i] + 4 * M_PI * M_PI * frequencies[i] * frequencies[i]);
         y[0] -= m.from[i] * y[2 + 2 * i];
     }
     ck_assert_int_eq(gsl_odeiv2_driver_apply(d, &t, 882 / RATE, y), GSL_SUCCESS);
@@ -366,5 +390,6 @@ START_TEST(test_runs_may_be_cut_anywhere)
 }
 END_TEST
 
-UNIT("coupled_gradient", test_steps_are_the_plain_reference, test_modes_ring_down_with_their_own_poles, test_energy_balances_on_steps_and_moving,
-     test_dropped_ball_comes_to_rest, test_settled_ball_stays, test_trajectory_is_that_of_the_equations, test_runs_may_be_cut_anywhere)
+UNIT("coupled_gradient", test_steps_are_the_plain_reference, test_modes_ring_down_with_their_own_poles,
+     test_energy_balances_on_steps_and_moving, test_dropped_ball_comes_to_rest, test_settled_ball_stays,
+     test_trajectory_is_that_of_the_equations, test_runs_may_be_cut_anywhere)

@@ -1,5 +1,6 @@
-/* rk4 against the textbook's method written down plainly, mode by mode and stage by stage; against the closed form of an impact (as far off as the method is known to be, no more), against its own polynomial R(z) on free modes, and against
-   the discrete gradient in fine steps with modes and a moving place; and what it refuses. */
+/* rk4 against the textbook's method written down plainly, mode by mode and stage by stage; against the closed form of
+   an impact (as far off as the method is known to be, no more), against its own polynomial R(z) on free modes, and
+   against the discrete gradient in fine steps with modes and a moving place; and what it refuses. */
 #include "unit.h"
 
 #include <complex.h>
@@ -25,44 +26,61 @@ static double worst_bounce(double kappa, double mu, double v, double rate)
     return worst;
 }
 
-/* Worst errors of 32 phases found beforehand with another program (two digits): the method is right when it is just as wrong. */
+/* Worst errors of 32 phases found beforehand with another program (two digits): the method is right when it is just as
+ * wrong. */
 START_TEST(impact_is_off_as_known)
 {
-    static const struct { double kappa, mu, v; int over; double off; } known[] = {
-        {5e9, 1, 0.05, 1, 1.7e-5}, {5e9, 1, 0.05, 4, 1.8e-6}, {5e9, 1, 0.05, 16, 3e-8}, {5e11, 1, 0.05, 4, 1.7e-4}, {5e11, 1, 0.05, 16, 5.7e-6}, {5e11, 1, 0.05, 64, 1.4e-7}};
+    static const struct {
+        double kappa, mu, v;
+        int over;
+        double off;
+    } known[] = {{5e9, 1, 0.05, 1, 1.7e-5},  {5e9, 1, 0.05, 4, 1.8e-6},   {5e9, 1, 0.05, 16, 3e-8},
+                 {5e11, 1, 0.05, 4, 1.7e-4}, {5e11, 1, 0.05, 16, 5.7e-6}, {5e11, 1, 0.05, 64, 1.4e-7}};
     for (int i = 0; i < 6; i++) {
         double off = worst_bounce(known[i].kappa, known[i].mu, known[i].v, BALL_RATE * known[i].over);
-        printf("kappa %g mu %g v %g x%d: off by %.2g (known: %.2g)\n", known[i].kappa, known[i].mu, known[i].v, known[i].over, off, known[i].off);
+        printf("kappa %g mu %g v %g x%d: off by %.2g (known: %.2g)\n", known[i].kappa, known[i].mu, known[i].v,
+               known[i].over, off, known[i].off);
         ck_assert_double_lt(off, 1.2 * known[i].off);
         ck_assert_double_gt(off, 0.5 * known[i].off);
     }
 }
 END_TEST
 
-/* The bounds that the file's head gives, by steps per contact (6e-4, 2e-4, 4e-5), and up to a third for mu = 0 and 2. */
+/* The bounds that the file's head gives, by steps per contact (6e-4, 2e-4, 4e-5), and up to a third for mu = 0 and 2.
+ */
 START_TEST(impact_by_steps_per_contact)
 {
     static const double steps[] = {12.4, 18.6, 42}, most[] = {7e-4, 2.6e-4, 4e-5};
     for (int i = 0; i < 3; i++)
         for (double mu = 0; mu <= 2; mu += 1) {
-            double v = 0.05, kappa = 1e10, rate = steps[i] / coupled_contact_time(1, kappa, v), off = worst_bounce(kappa, mu, v, rate);
+            double v = 0.05, kappa = 1e10, rate = steps[i] / coupled_contact_time(1, kappa, v),
+                   off = worst_bounce(kappa, mu, v, rate);
             printf("%.1f steps per contact, mu %g: off by %.2g\n", steps[i], mu, off);
             ck_assert_double_lt(off, most[i]);
         }
 }
 END_TEST
 
-static struct coupled *plate(struct arena *a, int integrator, double rate, double kappa, int n, const double *f, const double *decay)
+static struct coupled *plate(struct arena *a, int integrator, double rate, double kappa, int n, const double *f,
+                             const double *decay)
 {
     struct err e = {0};
     struct coupled *c = NULL;
-    struct coupled_ask ask = {.integrator = integrator, .step = 1 / rate, .mass = BALL_MASS, .weight = BALL_MASS * BALL_GRAVITY, .stiffness = kappa * BALL_MASS, .mu = 1,
-                              .n = n, .frequency = f, .decay = decay};
+    struct coupled_ask ask = {.integrator = integrator,
+                              .step = 1 / rate,
+                              .mass = BALL_MASS,
+                              .weight = BALL_MASS * BALL_GRAVITY,
+                              .stiffness = kappa * BALL_MASS,
+                              .mu = 1,
+                              .n = n,
+                              .frequency = f,
+                              .decay = decay};
     ck_assert_msg(coupled_make(a, &ask, &c, &e), "%s", e.text);
     return c;
 }
 
-/* A ball that stays in the air over modes that ring (bent as if it lay on them): each mode turns by R(s h) per step, real and imaginary part of q - p/s*. */
+/* A ball that stays in the air over modes that ring (bent as if it lay on them): each mode turns by R(s h) per step,
+ * real and imaginary part of q - p/s*. */
 START_TEST(free_modes_turn_by_the_polynomial)
 {
     enum { N = 400, MODES = 11 };
@@ -84,8 +102,10 @@ START_TEST(free_modes_turn_by_the_polynomial)
     coupled_start(c, 1, 0, 0, phi, true);
     ck_assert_msg(coupled_run(c, N, ground, NULL, force, &e), "%s", e.text);
     for (int i = 0; i < MODES; i++) {
-        double complex s = -decay[i] + 2 * I * M_PI * f[i], z = s * h, r = 1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)));
-        double complex amplitude = (0 - conj(s) * q0[i]) / (s - conj(s)); /* q = 2 Re(amplitude e^(s t)) with q' = 0 at 0 */
+        double complex s = -decay[i] + 2 * I * M_PI * f[i], z = s * h,
+                       r = 1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)));
+        double complex amplitude =
+            (0 - conj(s) * q0[i]) / (s - conj(s)); /* q = 2 Re(amplitude e^(s t)) with q' = 0 at 0 */
         double q, want = 2 * creal(amplitude * cpow(r, N)), rate = 2 * creal(amplitude * s * cpow(r, N));
         coupled_mode(c, i, &q, &p);
         ck_assert_double_eq_tol(q, want, 1e-12 * q0[i] * (q0[i] > 0 ? 1 : -1));
@@ -98,12 +118,14 @@ END_TEST
 
 enum { ROLL = 1323, PLATE = 12 };
 
-/* The ball's height every 1/BALL_RATE s over hills on a plate of 12 modes (below 2 kHz), its place moving over shapes that change sign. Returns the residual, J. */
+/* The ball's height every 1/BALL_RATE s over hills on a plate of 12 modes (below 2 kHz), its place moving over shapes
+ * that change sign. Returns the residual, J. */
 static double roll_on_plate(int integrator, int over, double kappa, double drop, double *w)
 {
     struct arena *a = arena_open();
     struct err e = {0};
-    double f[PLATE], decay[PLATE], phi[PLATE], *surface = ARENA_TAKE(a, double, over), *force = ARENA_TAKE(a, double, over);
+    double f[PLATE], decay[PLATE], phi[PLATE], *surface = ARENA_TAKE(a, double, over),
+                                               *force = ARENA_TAKE(a, double, over);
     for (int i = 0; i < PLATE; i++) {
         f[i] = 140 + 150 * i;
         decay[i] = 10 + 2 * i;
@@ -119,20 +141,23 @@ static double roll_on_plate(int integrator, int over, double kappa, double drop,
         ck_assert_msg(coupled_run(c, over, surface, phi, force, &e), "%s", e.text);
         w[i] = coupled_state(c)->height;
     }
-    printf("x%-3d lift-offs %ld, work of the surface %.3g J, lost %.3g and %.3g J, residual %.2g J\n", over, coupled_state(c)->lift_offs, coupled_state(c)->surface_work,
-           coupled_state(c)->contact_loss, coupled_state(c)->mode_loss, coupled_state(c)->residual);
+    printf("x%-3d lift-offs %ld, work of the surface %.3g J, lost %.3g and %.3g J, residual %.2g J\n", over,
+           coupled_state(c)->lift_offs, coupled_state(c)->surface_work, coupled_state(c)->contact_loss,
+           coupled_state(c)->mode_loss, coupled_state(c)->residual);
     double residual = fabs(coupled_state(c)->residual);
     arena_close(a);
     return residual;
 }
 
-/* First 30 ms. The reference: discrete gradient x128 and x256, extrapolated (order 2). Always in contact: the surface and the shapes, straight between
-   steps, keep rk4 at order 2. Bouncing: order 2 or so.
-   The work of the moving place counts in the residual. */
+/* First 30 ms. The reference: discrete gradient x128 and x256, extrapolated (order 2). Always in contact: the surface
+   and the shapes, straight between steps, keep rk4 at order 2. Bouncing: order 2 or so. The work of the moving place
+   counts in the residual. */
 START_TEST(rolls_like_the_discrete_gradient)
 {
     static double fine[ROLL], finer[ROLL], w[ROLL];
-    static const struct { double drop, scale, residual; } scenes[] = {{0, 5e-6, 1e-20}, {20e-6, 2e-5, 2e-14}};
+    static const struct {
+        double drop, scale, residual;
+    } scenes[] = {{0, 5e-6, 1e-20}, {20e-6, 2e-5, 2e-14}};
     for (int i = 0; i < 2; i++) {
         double off[3], residual = 0;
         roll_on_plate(INTEGRATOR_DISCRETE_GRADIENT, 128, 1e9, scenes[i].drop, fine);
@@ -143,7 +168,8 @@ START_TEST(rolls_like_the_discrete_gradient)
             residual = roll_on_plate(RK4, 1 << 2 * k, 1e9, scenes[i].drop, w);
             off[k] = ball_distance(ROLL, w, finer);
         }
-        printf("drop of %g m: rk4 x1, x4, x16 off by %.2g %.2g %.2g m (discrete gradient x128: %.2g m)\n", scenes[i].drop, off[0], off[1], off[2], ball_distance(ROLL, fine, finer));
+        printf("drop of %g m: rk4 x1, x4, x16 off by %.2g %.2g %.2g m (discrete gradient x128: %.2g m)\n",
+               scenes[i].drop, off[0], off[1], off[2], ball_distance(ROLL, fine, finer));
         ck_assert_double_lt(off[0], 1e-2 * scenes[i].scale);
         ck_assert_double_lt(off[1], off[0] / 8);
         ck_assert_double_lt(off[2], off[1] / 8);
@@ -177,7 +203,8 @@ START_TEST(order_four_in_contact)
 }
 END_TEST
 
-/* The method as coupled_rk4.c's head has it, nothing carried over from step to step but the state: y = (w, q...), y' = (w', q'...), and the ledger. */
+/* The method as coupled_rk4.c's head has it, nothing carried over from step to step but the state: y = (w, q...), y' =
+ * (w', q'...), and the ledger. */
 enum { PLAIN = 13, LEGS = 5 };
 
 struct plain {
@@ -189,10 +216,12 @@ struct plain_step {
 };
 
 /* The rates of y at part c of the step. */
-static struct plain plain_rates(const struct coupled_ask *k, const struct plain *y, const struct plain_step *o, double c, double *force)
+static struct plain plain_rates(const struct coupled_ask *k, const struct plain *y, const struct plain_step *o,
+                                double c, double *force)
 {
     struct plain r = {.w = y->u};
-    double across = o->s_to - o->s, xi = o->s + c * across - y->w, closing = across / o->h - y->u, moved = across / o->h;
+    double across = o->s_to - o->s, xi = o->s + c * across - y->w, closing = across / o->h - y->u,
+           moved = across / o->h;
     for (int i = 0; i < PLAIN; i++) {
         double slant = o->phi_to[i] - o->phi[i], phi = o->phi[i] + c * slant;
         xi -= phi * y->q[i];
@@ -232,8 +261,9 @@ static void plain_step(const struct coupled_ask *k, struct plain *y, struct plai
         ((double *)y)[i] += o->h * ((const double *)&sum)[i];
 }
 
-/* Runs of one step to more than the ledger is closed in, the place moving or not, in contact and in flight. Tolerances: only the order of additions and where products are
-   taken differ, of a few thousand steps that each round to 1e-16 of what ball and modes have; measured 8e-15. */
+/* Runs of one step to more than the ledger is closed in, the place moving or not, in contact and in flight. Tolerances:
+   only the order of additions and where products are taken differ, of a few thousand steps that each round to 1e-16 of
+   what ball and modes have; measured 8e-15. */
 START_TEST(is_the_plain_method)
 {
     static const int legs[LEGS] = {1, 7, 300, 1000, 600};
@@ -248,7 +278,12 @@ START_TEST(is_the_plain_method)
         struct arena *a = arena_open();
         struct err e = {0};
         struct coupled *c = plate(a, RK4, 1 / h, 1e9, PLAIN, f, decay);
-        struct coupled_ask ask = {.mass = BALL_MASS, .weight = BALL_MASS * BALL_GRAVITY, .stiffness = 1e9 * BALL_MASS, .mu = 1, .frequency = f, .decay = decay};
+        struct coupled_ask ask = {.mass = BALL_MASS,
+                                  .weight = BALL_MASS * BALL_GRAVITY,
+                                  .stiffness = 1e9 * BALL_MASS,
+                                  .mu = 1,
+                                  .frequency = f,
+                                  .decay = decay};
         coupled_start(c, coupled_rest(c, 0, phi) + dropped * 20e-6, 0, 0, phi, true);
         struct plain y = {.w = coupled_state(c)->height};
         struct plain_step o = {.h = h};
@@ -286,11 +321,15 @@ START_TEST(is_the_plain_method)
                 deep = fmax(deep, fabs(y.q[i]));
                 off[2] = fmax(off[2], fmax(fabs(q - y.q[i]), fabs(p - y.p[i]) / (2 * M_PI * f[i])));
             }
-            off[3] = fmax(off[3], fmax(fabs(s->surface_work - y.work), fmax(fabs(s->contact_loss - y.contact_loss), fabs(s->mode_loss - y.mode_loss))) / s->highest);
+            off[3] = fmax(off[3], fmax(fabs(s->surface_work - y.work),
+                                       fmax(fabs(s->contact_loss - y.contact_loss), fabs(s->mode_loss - y.mode_loss))) /
+                                      s->highest);
             ck_assert_int_eq(s->contact_steps, pressed);
         }
-        printf("%s: force off by %.2g of its greatest, height by %.2g, modes by %.2g, ledger by %.2g; in contact %ld of %ld steps, %ld lift-offs\n", dropped ? "dropped" : "lying",
-               off[0] / most, off[1] / high, off[2] / deep, off[3], pressed, done, coupled_state(c)->lift_offs);
+        printf("%s: force off by %.2g of its greatest, height by %.2g, modes by %.2g, ledger by %.2g; in contact %ld "
+               "of %ld steps, %ld lift-offs\n",
+               dropped ? "dropped" : "lying", off[0] / most, off[1] / high, off[2] / deep, off[3], pressed, done,
+               coupled_state(c)->lift_offs);
         ck_assert_int_eq(coupled_state(c)->lift_offs > 0, dropped);
         ck_assert_double_lt(off[0], 1e-13 * most);
         ck_assert_double_lt(off[1], 1e-13 * high);
@@ -335,12 +374,21 @@ END_TEST
 /* 44.1 kHz: 5 kHz gets 37.5 1/s of the method's own, 20 kHz grows. */
 START_TEST(refuses_modes_it_spoils)
 {
-    static const struct { double f, decay; bool good; } of[] = {{5000, 39, true}, {5000, 36, false}, {500, 1, true}, {10000, 100, false}, {20000, 1000, false}};
+    static const struct {
+        double f, decay;
+        bool good;
+    } of[] = {{5000, 39, true}, {5000, 36, false}, {500, 1, true}, {10000, 100, false}, {20000, 1000, false}};
     for (int i = 0; i < 5; i++) {
         struct arena *a = arena_open();
         struct err e = {0};
-        struct coupled_ask ask = {.integrator = RK4, .step = 1 / BALL_RATE, .mass = 0.01, .weight = 0.1, .stiffness = 1e9, .n = 1,
-                                  .frequency = &of[i].f, .decay = &of[i].decay};
+        struct coupled_ask ask = {.integrator = RK4,
+                                  .step = 1 / BALL_RATE,
+                                  .mass = 0.01,
+                                  .weight = 0.1,
+                                  .stiffness = 1e9,
+                                  .n = 1,
+                                  .frequency = &of[i].f,
+                                  .decay = &of[i].decay};
         struct coupled *c;
         bool made = coupled_make(a, &ask, &c, &e);
         ck_assert_msg(made == of[i].good, "%g Hz, %g 1/s: %s", of[i].f, of[i].decay, e.text);
@@ -355,5 +403,6 @@ START_TEST(refuses_modes_it_spoils)
 }
 END_TEST
 
-UNIT("coupled_rk4", impact_is_off_as_known, impact_by_steps_per_contact, free_modes_turn_by_the_polynomial, rolls_like_the_discrete_gradient, order_four_in_contact,
-     is_the_plain_method, refuses_hard_impacts, refuses_modes_it_spoils)
+UNIT("coupled_rk4", impact_is_off_as_known, impact_by_steps_per_contact, free_modes_turn_by_the_polynomial,
+     rolls_like_the_discrete_gradient, order_four_in_contact, is_the_plain_method, refuses_hard_impacts,
+     refuses_modes_it_spoils)

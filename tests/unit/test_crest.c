@@ -1,12 +1,10 @@
-/* crest, crest_piece, crest_part: against the plain maximum over all heights, a search over smooth ground, closed forms, and itself in another order and in other windows. */
+/* crest, crest_piece, crest_part: against the plain maximum over all heights, a search over smooth ground, closed
+ * forms, and itself in another order and in other windows. */
 #include "surface/crest_part.h"
 
 #include "unit.h"
 
-static double between(double low, double high)
-{
-    return low + (high - low) * drand48();
-}
+static double between(double low, double high) { return low + (high - low) * drand48(); }
 
 /* ------------------------------------------------------------------ against the plain maximum */
 
@@ -23,8 +21,7 @@ static struct plain plain_at(const double *z, long n, long first, double radius,
     struct plain p = {-HUGE_VAL, 0, -HUGE_VAL};
     for (long i = 0; i < n; i++) {
         double d = x - (double)(first + i) * PITCH, s = sqrt(radius * radius - d * d), e = z[i] - d * d / (radius + s);
-        if (fabs(d) > radius)
-            continue;
+        if (fabs(d) > radius) continue;
         if (e > p.e)
             p = (struct plain){e, -d / s, p.e};
         else
@@ -40,20 +37,26 @@ static void ground_make(int kind, double *z)
     for (long i = 0; i < N; i++) {
         double noise = 1e-6 * (drand48() - 0.5);
         walk += 1e-5 * (drand48() - 0.5) + (drand48() < 0.02 ? between(-1e-3, 1e-3) : 0);
-        z[i] = kind == 0 ? noise : kind == 1 ? noise + (drand48() < 0.01 ? between(0, 5e-5) : 0) : kind == 2 ? 3e-5 * floor(3 * drand48())
-             : kind == 3 ? 2e-5 * cos(2 * M_PI * (double)i / 70) : walk;
+        z[i] = kind == 0   ? noise
+               : kind == 1 ? noise + (drand48() < 0.01 ? between(0, 5e-5) : 0)
+               : kind == 2 ? 3e-5 * floor(3 * drand48())
+               : kind == 3 ? 2e-5 * cos(2 * M_PI * (double)i / 70)
+                           : walk;
     }
 }
 
-/* Rounding: of places, 2e-16 of them, by the slope; of heights and caps, by themselves; of crossings, by the length of the window and the slopes' difference. At a cliff, where a
-   slope may be anything, the place may be taken 1e-15 m away. */
+/* Rounding: of places, 2e-16 of them, by the slope; of heights and caps, by themselves; of crossings, by the length of
+   the window and the slopes' difference. At a cliff, where a slope may be anything, the place may be taken 1e-15 m
+   away. */
 static void check_place(const struct crest *c, const double *z, long first, double radius, double x)
 {
     double e, slope, close = 1e-15, tolerance = 2e-17;
     crest_at(c, 1, &x, &e, &slope);
-    struct plain here = plain_at(z, N, first, radius, x), left = plain_at(z, N, first, radius, x - close), right = plain_at(z, N, first, radius, x + close);
+    struct plain here = plain_at(z, N, first, radius, x), left = plain_at(z, N, first, radius, x - close),
+                 right = plain_at(z, N, first, radius, x + close);
     double least = fmin(here.e, fmin(left.e, right.e)), most = fmax(here.e, fmax(left.e, right.e));
-    ck_assert_msg(e <= most + tolerance && e >= least - tolerance, "R %g, x %g: %.17g, and the largest is %.17g", radius, x, e, here.e);
+    ck_assert_msg(e <= most + tolerance && e >= least - tolerance, "R %g, x %g: %.17g, and the largest is %.17g",
+                  radius, x, e, here.e);
     if (here.e - here.second > 1e-14 && most - least < 1e-13)
         ck_assert_double_eq_tol(slope, here.slope, 1e-9 * (1 + fabs(here.slope)));
 }
@@ -104,7 +107,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ closed forms */
 
-/* One spike of 20 um on level ground: one arc from -sqrt(2 R H - H^2) to the same on the other side; beside it dips of d^2 / (8 R) between the heights. */
+/* One spike of 20 um on level ground: one arc from -sqrt(2 R H - H^2) to the same on the other side; beside it dips of
+ * d^2 / (8 R) between the heights. */
 START_TEST(a_spike_is_one_arc)
 {
     static double z[N];
@@ -127,7 +131,8 @@ START_TEST(a_spike_is_one_arc)
 }
 END_TEST
 
-/* The curve at a distance of R from a wave of 1 mm and 4 um, whose hollows are far wider than the disc: x = t - R s/sqrt(1 + s^2), E = z(t) + R/sqrt(1 + s^2) - R. */
+/* The curve at a distance of R from a wave of 1 mm and 4 um, whose hollows are far wider than the disc: x = t - R
+ * s/sqrt(1 + s^2), E = z(t) + R/sqrt(1 + s^2) - R. */
 static double parallel(double x, double radius)
 {
     double k = 2 * M_PI / 1e-3, t = x, s = 0;
@@ -142,7 +147,8 @@ static double parallel(double x, double radius)
 START_TEST(a_wave_is_a_parallel_curve)
 {
     static double z[N];
-    double radius = 1e-3, bend = 4e-6 * pow(2 * M_PI / 1e-3, 2), bound = PITCH * PITCH / 8 * (1 / radius + bend), worst = 0;
+    double radius = 1e-3, bend = 4e-6 * pow(2 * M_PI / 1e-3, 2), bound = PITCH * PITCH / 8 * (1 / radius + bend),
+           worst = 0;
     struct arena *a = arena_open();
     struct crest *c = crest_make(a, radius, PITCH, N);
     for (long i = 0; i < N; i++)
@@ -159,8 +165,8 @@ START_TEST(a_wave_is_a_parallel_curve)
 }
 END_TEST
 
-/* Over two spikes, of any heights, the disc rests on both where it passes from one to the other: its centre is then R from either. And over the
-   middle between two alike. */
+/* Over two spikes, of any heights, the disc rests on both where it passes from one to the other: its centre is then R
+   from either. And over the middle between two alike. */
 START_TEST(two_spikes)
 {
     double radius = 1e-3, middle[2], z[101];
@@ -173,10 +179,10 @@ START_TEST(two_spikes)
         z[0] = 0;
         z[100] = rise;
         crest_set(c, &(struct crest_ground){z, NULL, NULL}, 101, 0);
-        for (low = 0, high = 100 * PITCH; high - low > 1e-18;) { /* bisection: is the slope still that of the first arc? */
+        for (low = 0, high = 100 * PITCH;
+             high - low > 1e-18;) { /* bisection: is the slope still that of the first arc? */
             x = 0.5 * (low + high);
-            if (x == low || x == high)
-                break;
+            if (x == low || x == high) break;
             crest_at(c, 1, &x, &middle[0], &middle[1]);
             if (middle[1] <= 0 && fabs(middle[1] + x / sqrt(radius * radius - x * x)) < 1e-12)
                 low = x;
@@ -187,8 +193,7 @@ START_TEST(two_spikes)
         double up = middle[0] + radius, d = high - 100 * PITCH;
         ck_assert_double_eq_tol(hypot(high, up), radius, 1e-17);
         ck_assert_double_eq_tol(hypot(d, up - rise), radius, 1e-17);
-        if (k == 0)
-            ck_assert_double_eq_tol(high, 50 * PITCH, 1e-18);
+        if (k == 0) ck_assert_double_eq_tol(high, 50 * PITCH, 1e-18);
     }
     arena_close(a);
 }
@@ -209,8 +214,9 @@ static void ground_set(struct crest *c, const struct jets *g, long n, long first
 static double hermite(const struct jets *g, long i, double x)
 {
     double h = PITCH, y = 1 - x, x3 = x * x * x, y3 = y * y * y;
-    return g->z[i] * y3 * (1 + 3 * x + 6 * x * x) + g->z[i + 1] * x3 * (1 + 3 * y + 6 * y * y) + h * g->slope[i] * x * y3 * (1 + 3 * x) -
-           h * g->slope[i + 1] * y * x3 * (1 + 3 * y) + 0.5 * h * h * (g->bend[i] * x * x * y3 + g->bend[i + 1] * y * y * x3);
+    return g->z[i] * y3 * (1 + 3 * x + 6 * x * x) + g->z[i + 1] * x3 * (1 + 3 * y + 6 * y * y) +
+           h * g->slope[i] * x * y3 * (1 + 3 * x) - h * g->slope[i + 1] * y * x3 * (1 + 3 * y) +
+           0.5 * h * h * (g->bend[i] * x * x * y3 + g->bend[i + 1] * y * y * x3);
 }
 
 static double arc_on(const struct jets *g, double radius, double x, double t)
@@ -220,7 +226,8 @@ static double arc_on(const struct jets *g, double radius, double x, double t)
     return square < 0 ? -HUGE_VAL : hermite(g, i, t / PITCH - (double)i) - d * d / (radius + sqrt(square));
 }
 
-/* The largest of FINE places in each pitch, then a search between its neighbours by the golden section: off by rounding. */
+/* The largest of FINE places in each pitch, then a search between its neighbours by the golden section: off by
+ * rounding. */
 static double searched(const struct jets *g, double radius, double x)
 {
     enum { FINE = 32 };
@@ -241,7 +248,8 @@ static double searched(const struct jets *g, double radius, double x)
     return fmax(best, arc_on(g, radius, x, 0.5 * (low + high)));
 }
 
-/* Waves of which the shortest has 12 places, 4 of them: peaks of all heights, some under the disc, some between two others by a hair. */
+/* Waves of which the shortest has 12 places, 4 of them: peaks of all heights, some under the disc, some between two
+ * others by a hair. */
 static void ground_waves(struct jets *g, double high)
 {
     memset(g, 0, sizeof *g);
@@ -255,7 +263,8 @@ static void ground_waves(struct jets *g, double high)
     }
 }
 
-/* Discs far smaller and far larger than the waves, on gentle ones, and steep ones (slopes of 1). The search is off by rounding, 1e-16 of the height of a large disc's arc and of z. */
+/* Discs far smaller and far larger than the waves, on gentle ones, and steep ones (slopes of 1). The search is off by
+ * rounding, 1e-16 of the height of a large disc's arc and of z. */
 START_TEST(smooth_ground_against_a_search)
 {
     static const double radii[] = {2.01e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1};
@@ -270,16 +279,18 @@ START_TEST(smooth_ground_against_a_search)
             for (int i = 0; i < 150; i++) {
                 double x = between(0, N - 1) * PITCH, e, want = searched(&g, radii[k], x);
                 crest_at(c, 1, &x, &e, NULL);
-                ck_assert_msg(fabs(e - want) < 1e-18, "R %g, x %.9g: %.17g, and a search finds %.17g: %g", radii[k], x, e, want, e - want);
+                ck_assert_msg(fabs(e - want) < 1e-18, "R %g, x %.9g: %.17g, and a search finds %.17g: %g", radii[k], x,
+                              e, want, e - want);
             }
         }
     arena_close(a);
 }
 END_TEST
 
-/* At every switch, where a piece that is left out, or a place that is not quite found, shows: both sides hold the disc, and nothing is higher. Places between them
-   say little of either. A switch is found to 1e-6 of half a piece, 1.25e-12 m, times slopes of about 1. The smallest disc rests on nearly every piece of a ground whose bends
-   jump: there the one that the sieve must not leave out is that whose middle is hidden, not its end. */
+/* At every switch, where a piece that is left out, or a place that is not quite found, shows: both sides hold the disc,
+   and nothing is higher. Places between them say little of either. A switch is found to 1e-6 of half a piece, 1.25e-12
+   m, times slopes of about 1. The smallest disc rests on nearly every piece of a ground whose bends jump: there the one
+   that the sieve must not leave out is that whose middle is hidden, not its end. */
 START_TEST(switches_against_a_search)
 {
     static const double radii[] = {1e-5, 3e-5, 1e-4, 1e-3};
@@ -298,14 +309,14 @@ START_TEST(switches_against_a_search)
         double worst = 0, jump = 0;
         for (long i = 1; i < n; i++) {
             double at = s[i * CREST_NUMBERS + CREST_FROM], e[2];
-            if (s[i * CREST_NUMBERS + CREST_AT] - s[(i - 1) * CREST_NUMBERS + CREST_AT] < 1.5 * PITCH)
-                continue;
+            if (s[i * CREST_NUMBERS + CREST_AT] - s[(i - 1) * CREST_NUMBERS + CREST_AT] < 1.5 * PITCH) continue;
             crest_at(c, 2, (const double[2]){nextafter(at, 0), at}, e, NULL);
             jump = fmax(jump, fabs(e[0] - e[1]));
             worst = fmax(worst, fabs(e[1] - searched(&g, radii[k / 2], at)));
             seen++;
         }
-        ck_assert_msg(jump < 2e-12 && worst < 2e-12, "R %g, ground %d: the envelope jumps by %g, and is off by %g", radii[k / 2], k % 2, jump, worst);
+        ck_assert_msg(jump < 2e-12 && worst < 2e-12, "R %g, ground %d: the envelope jumps by %g, and is off by %g",
+                      radii[k / 2], k % 2, jump, worst);
     }
     ck_assert_int_gt(seen, 50);
     arena_close(a);
@@ -350,7 +361,8 @@ START_TEST(a_smooth_wave_is_a_parallel_curve)
 }
 END_TEST
 
-/* A parabola is its own polynomial: the disc on its crown, and on a hollow wider than it, to rounding: at its slope p it rests at p / b + R p/sqrt(1 + p^2). */
+/* A parabola is its own polynomial: the disc on its crown, and on a hollow wider than it, to rounding: at its slope p
+ * it rests at p / b + R p/sqrt(1 + p^2). */
 START_TEST(a_parabola_is_exact)
 {
     static struct jets g;
@@ -365,7 +377,8 @@ START_TEST(a_parabola_is_exact)
         }
         ground_set(c, &g, N, -300);
         for (int i = 0; i < 1000; i++) {
-            double t = between(-290, 290) * PITCH, p = b * t, length = sqrt(1 + p * p), x = t - radius * p / length, e, slope;
+            double t = between(-290, 290) * PITCH, p = b * t, length = sqrt(1 + p * p), x = t - radius * p / length, e,
+                   slope;
             crest_at(c, 1, &x, &e, &slope);
             ck_assert_double_eq_tol(e, 0.5 * b * t * t + radius / length - radius, 1e-17 + 1e-15 * fabs(b) * 1e-6);
             ck_assert_double_eq_tol(slope, p, 1e-9 * (1 + p * p));
@@ -375,12 +388,14 @@ START_TEST(a_parabola_is_exact)
 }
 END_TEST
 
-/* Two alike crowns, one higher by `rise`: the disc passes from one to the other where both hold it up. On the parabola -b (t - t_0)^2 / 2 it is so gentle that E = z_0 - (x - t_0)^2 / (2 (R + 1/b))
-   but for (x - t_0)^4 / R^3: the switch lies rise (R + 1/b) / D from the middle. */
+/* Two alike crowns, one higher by `rise`: the disc passes from one to the other where both hold it up. On the parabola
+   -b (t - t_0)^2 / 2 it is so gentle that E = z_0 - (x - t_0)^2 / (2 (R + 1/b)) but for (x - t_0)^4 / R^3: the switch
+   lies rise (R + 1/b) / D from the middle. */
 START_TEST(a_switch_is_where_both_hold)
 {
     static struct jets g;
-    double radius = 0.1, b = 2e4, apart = 200 * PITCH, wide = radius + 1 / b, rise = 3.3e-8, low = 200 * PITCH, high = 400 * PITCH, middle[2];
+    double radius = 0.1, b = 2e4, apart = 200 * PITCH, wide = radius + 1 / b, rise = 3.3e-8, low = 200 * PITCH,
+           high = 400 * PITCH, middle[2];
     struct arena *a = arena_open();
     struct crest *c = crest_make(a, radius, PITCH, N);
     for (long i = 0; i < N; i++) {
@@ -435,14 +450,12 @@ struct bed {
     int told;
 };
 
-static void told(void *self)
-{
-    ((struct bed *)self)->told++;
-}
+static void told(void *self) { ((struct bed *)self)->told++; }
 
 static void bed_make(struct bed *b, double radius, double pitch, double reach, double span)
 {
-    struct crest_plan p = {.radius = radius, .pitch = pitch, .reach = reach, .span = span, .points = !smooth, .exceeded = told, .self = b};
+    struct crest_plan p = {
+        .radius = radius, .pitch = pitch, .reach = reach, .span = span, .points = !smooth, .exceeded = told, .self = b};
     *b = (struct bed){.arena = arena_open(), .relief = {.along = ALONG_PATH}, .part = {.add = rough_add}};
     relief_add(&b->relief, &b->part);
     b->crest = crest_part(b->arena, &b->relief, &p);
@@ -455,7 +468,8 @@ struct jet {
 static struct jet bed_read(const struct bed *b, double x)
 {
     struct jet j = {0};
-    b->crest->add(b->crest, &(struct relief_points){1, &x, NULL}, &(struct relief_values){.z = &j.z, .x = &j.x, .xx = &j.xx});
+    b->crest->add(b->crest, &(struct relief_points){1, &x, NULL},
+                  &(struct relief_values){.z = &j.z, .x = &j.x, .xx = &j.xx});
     return j;
 }
 
@@ -494,8 +508,9 @@ START_TEST(order_does_not_matter)
 }
 END_TEST
 
-/* In blocks of 1024 heights and of 5334, about their ends and anywhere: the plain maximum over all heights within R. With towers at 0.98 R before or behind the ends,
-   which the disc touches there nearly as far away as it can. As near as rounding, 2e-16 of the place by the slope. */
+/* In blocks of 1024 heights and of 5334, about their ends and anywhere: the plain maximum over all heights within R.
+   With towers at 0.98 R before or behind the ends, which the disc touches there nearly as far away as it can. As near
+   as rounding, 2e-16 of the place by the slope. */
 START_TEST(blocks_see_all_heights)
 {
     static const double radii[] = {1e-4, 4e-3, 4e-3, 4e-3};
@@ -508,11 +523,13 @@ START_TEST(blocks_see_all_heights)
         apart = k > 1 ? (double)side * pitch : 0;
         towers = k == 2 ? 0.98 * radii[k] : -0.98 * radii[k];
         for (int i = 0; i < 120; i++) {
-            double x = i < 60 ? (double)(side * (i % 7 - 3)) * pitch + (i - 30) * 0.3 * pitch : between(-5e-2, 5e-2), most = -HUGE_VAL;
+            double x = i < 60 ? (double)(side * (i % 7 - 3)) * pitch + (i - 30) * 0.3 * pitch : between(-5e-2, 5e-2),
+                   most = -HUGE_VAL;
             for (long j = (long)floor(x / pitch) - reach - 1; j <= (long)ceil(x / pitch) + reach + 1; j++) {
                 double d = x - (double)j * pitch;
                 if (fabs(d) <= radii[k])
-                    most = fmax(most, rough((double)j * pitch) - d * d / (radii[k] + sqrt(radii[k] * radii[k] - d * d)));
+                    most =
+                        fmax(most, rough((double)j * pitch) - d * d / (radii[k] + sqrt(radii[k] * radii[k] - d * d)));
             }
             ck_assert_double_eq_tol(bed_read(&b, x).z, most, k > 1 ? 1e-15 : 2e-17);
         }
@@ -539,8 +556,9 @@ static double rough_top(double radius, double x, double t, double step)
     return most;
 }
 
-/* Smooth ground, about the ends of blocks and anywhere, against a search over places 1/8 of the pitch apart, and ever nearer about the best. The polynomials are off by
-   (k d)^6 / 46080 of 4 um / 11, k = 3.75e5 rad/m the finest wave's, and less of each of the rest: 3.8e-13 m. */
+/* Smooth ground, about the ends of blocks and anywhere, against a search over places 1/8 of the pitch apart, and ever
+   nearer about the best. The polynomials are off by (k d)^6 / 46080 of 4 um / 11, k = 3.75e5 rad/m the finest wave's,
+   and less of each of the rest: 3.8e-13 m. */
 START_TEST(blocks_of_smooth_ground)
 {
     double pitch = 1.5e-6, fine = pitch / 8;
@@ -552,10 +570,10 @@ START_TEST(blocks_of_smooth_ground)
         bed_make(&b, radius, pitch, radius, HUGE_VAL);
         long reach = (long)ceil(radius / pitch), side = 2 * reach > 1024 ? 2 * reach : 1024;
         for (int i = 0; i < 16; i++) {
-            double x = i < 8 ? (double)(side * (i % 7 - 3)) * pitch + (i - 4) * 0.3 * pitch : between(-5e-2, 5e-2), most = -HUGE_VAL;
+            double x = i < 8 ? (double)(side * (i % 7 - 3)) * pitch + (i - 4) * 0.3 * pitch : between(-5e-2, 5e-2),
+                   most = -HUGE_VAL;
             for (double t = x - radius; t <= x + radius; t += fine)
-                if (rough_arc(radius, x, t) > most - 1e-9)
-                    most = fmax(most, rough_top(radius, x, t, fine));
+                if (rough_arc(radius, x, t) > most - 1e-9) most = fmax(most, rough_top(radius, x, t, fine));
             ck_assert_double_eq_tol(bed_read(&b, x).z, most, 4e-13);
         }
         arena_close(b.arena);
@@ -596,7 +614,8 @@ START_TEST(a_greater_span_is_told_once)
 }
 END_TEST
 
-/* Slopes and second derivatives are those of the height between kinks: central differences over 1 nm; those of arcs are more than 1/R bent. */
+/* Slopes and second derivatives are those of the height between kinks: central differences over 1 nm; those of arcs are
+ * more than 1/R bent. */
 START_TEST(derivatives_between_kinks)
 {
     double step = 1e-9;
@@ -614,8 +633,7 @@ START_TEST(derivatives_between_kinks)
             seen++;
             ck_assert_double_eq_tol(m.x, (r.z - l.z) / (2 * step), 1e-7);
             ck_assert_double_eq_tol(m.xx, (r.x - l.x) / (2 * step), smooth ? 1 : 1e-2);
-            if (!smooth)
-                ck_assert_double_lt(m.xx, -1 / 1e-3 * (1 - 1e-12));
+            if (!smooth) ck_assert_double_lt(m.xx, -1 / 1e-3 * (1 - 1e-12));
         }
         ck_assert_int_gt(seen, 1800);
         arena_close(b.arena);
@@ -624,6 +642,7 @@ START_TEST(derivatives_between_kinks)
 }
 END_TEST
 
-UNIT("crest", the_plain_maximum, many_at_once, a_spike_is_one_arc, a_wave_is_a_parallel_curve, two_spikes, smooth_ground_against_a_search, switches_against_a_search, a_smooth_wave_is_a_parallel_curve,
-     a_parabola_is_exact, a_switch_is_where_both_hold, order_does_not_matter, blocks_see_all_heights, blocks_of_smooth_ground, a_shorter_reach, a_greater_span_is_told_once,
-     derivatives_between_kinks)
+UNIT("crest", the_plain_maximum, many_at_once, a_spike_is_one_arc, a_wave_is_a_parallel_curve, two_spikes,
+     smooth_ground_against_a_search, switches_against_a_search, a_smooth_wave_is_a_parallel_curve, a_parabola_is_exact,
+     a_switch_is_where_both_hold, order_does_not_matter, blocks_see_all_heights, blocks_of_smooth_ground,
+     a_shorter_reach, a_greater_span_is_told_once, derivatives_between_kinks)

@@ -9,7 +9,8 @@ static double draw(unsigned *seed)
     return (double)(*seed >> 8) / 0x1p23 - 1;
 }
 
-/* Pieces from all but flat to too hollow for the disc, centres from end to end and beyond; the eight of a group as unlike as can be, so that they are found in unlike numbers of passes. */
+/* Pieces from all but flat to too hollow for the disc, centres from end to end and beyond; the eight of a group as
+ * unlike as can be, so that they are found in unlike numbers of passes. */
 START_TEST(the_same_bits)
 {
     enum { GROUPS = 20000 };
@@ -21,7 +22,8 @@ START_TEST(the_same_bits)
         double terms[LANES][CREST_TERMS];
         for (int l = 0; l < LANES; l++) {
             double rough = pow(10, 1 + 3 * draw(&seed));
-            struct crest_jet a = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)}, b = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)};
+            struct crest_jet a = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)},
+                             b = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)};
             crest_piece_make(&d, &a, &b, terms[l]);
             at.y[l] = draw(&seed) * (g % 4 ? d.half : d.radius + d.half);
             for (int k = 0; k < CREST_TERMS; k++)
@@ -30,7 +32,8 @@ START_TEST(the_same_bits)
         crest_lanes_rest(&d, &at);
         for (int l = 0; l < LANES; l++) {
             struct crest_jet j = crest_piece_rest(&d, terms[l], at.y[l]);
-            ck_assert(!memcmp(&j.z, &at.z[l], sizeof j.z) && !memcmp(&j.slope, &at.slope[l], sizeof j.slope) && !memcmp(&j.bend, &at.bend[l], sizeof j.bend));
+            ck_assert(!memcmp(&j.z, &at.z[l], sizeof j.z) && !memcmp(&j.slope, &at.slope[l], sizeof j.slope) &&
+                      !memcmp(&j.bend, &at.bend[l], sizeof j.bend));
             ends += j.bend == -1 / d.radius || j.bend < -1e-9 / d.radius;
             middles += j.bend > 0;
         }

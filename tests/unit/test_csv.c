@@ -16,8 +16,7 @@ static bool read_bytes(const char *bytes, size_t n)
     ck_assert_int_ge(fd, 0);
     ck_assert_int_eq(write(fd, bytes, n), (ssize_t)n);
     close(fd);
-    if (!arena)
-        arena = arena_open();
+    if (!arena) arena = arena_open();
     e = (struct err){0};
     bool ok = csv_read(path, arena, &t, &e);
     unlink(path);
@@ -25,10 +24,7 @@ static bool read_bytes(const char *bytes, size_t n)
     return ok;
 }
 
-static bool read_text(const char *text)
-{
-    return read_bytes(text, strlen(text));
-}
+static bool read_text(const char *text) { return read_bytes(text, strlen(text)); }
 
 static const char *cell(size_t row, const char *name)
 {
@@ -193,4 +189,5 @@ START_TEST(written_is_read)
 }
 END_TEST
 
-UNIT("csv", plain, quotes, line_ends_and_mark, comments, refusals, files_that_cannot_be_read, too_many_columns, numbers, written_is_read)
+UNIT("csv", plain, quotes, line_ends_and_mark, comments, refusals, files_that_cannot_be_read, too_many_columns, numbers,
+     written_is_read)

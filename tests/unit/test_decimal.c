@@ -31,8 +31,7 @@ START_TEST(any_bits)
         uint64_t bits = next(&seed);
         double x;
         memcpy(&x, &bits, sizeof x);
-        if (!isnan(x))
-            same(x);
+        if (!isnan(x)) same(x);
     }
 }
 END_TEST
@@ -68,7 +67,8 @@ END_TEST
 /* Where the number of digits, the form or the power of two changes, and their neighbours. */
 START_TEST(edges)
 {
-    const double some[] = {0, -0.0, 1e-5, 9.999999995e-5, 99999.99995, 999999999.4, 999999999.5, 999999999.6, 1e9, 0.1 + 0.2, DBL_MAX, DBL_MIN, DBL_TRUE_MIN, INFINITY, -INFINITY};
+    const double some[] = {0,   -0.0,      1e-5,    9.999999995e-5, 99999.99995,  999999999.4, 999999999.5, 999999999.6,
+                           1e9, 0.1 + 0.2, DBL_MAX, DBL_MIN,        DBL_TRUE_MIN, INFINITY,    -INFINITY};
     for (size_t i = 0; i < sizeof some / sizeof some[0]; i++)
         same(some[i]);
     for (int e = -330; e < 309; e++) {

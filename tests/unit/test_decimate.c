@@ -9,8 +9,9 @@ struct start {
     const char *name, *text;
 };
 
-#define HEAD "rasp: 1\nseed: 3\naccuracy: {oversampling: %d}\n" \
-             "output: {sample_rate: %d, ramp: 0, quantity: force, diagnostics: {}}\n"
+#define HEAD                                                                                                           \
+    "rasp: 1\nseed: 3\naccuracy: {oversampling: %d}\n"                                                                 \
+    "output: {sample_rate: %d, ramp: 0, quantity: force, diagnostics: {}}\n"
 #define GROUND "surface: {roughness: {rms: 5 um}}\n"
 #define STILL "motion: {path: still, duration: 0.05 s}\n"
 #define PRESSED "scraper: {mass: 20 g}\nload: {constant: 1 N, approach: 0}\n"
@@ -26,8 +27,9 @@ static const struct start starts[] = {
     {"roll_coupled", HEAD GROUND LINE BALL "contact: {model: roll_coupled, roll: {stiffness: 1e8}}\n"},
     {"playback", HEAD GROUND LINE "load: {approach: 0}\ncontact: {model: playback}\n"},
     {"impacts", HEAD STILL "load: {approach: 0}\ncontact: {model: impacts, impacts: {prototype: rub}}\n"},
-    {"strike", HEAD STILL "scraper: {mass: 3 g}\n"
-               "contact: {model: strike, strike: {first: 0, pulse: half_sine, stiffness: 1e9, speed: 1 m/s}}\n"},
+    {"strike",
+     HEAD STILL "scraper: {mass: 3 g}\n"
+                "contact: {model: strike, strike: {first: 0, pulse: half_sine, stiffness: 1e9, speed: 1 m/s}}\n"},
 };
 enum { STARTS = sizeof starts / sizeof starts[0] };
 
@@ -58,8 +60,8 @@ START_TEST(momentum_from_the_first_sample)
             out += after->x[i];
         ck_assert_msg(early > 0.02 * size / FRAMES, "%s does not begin at full height: %g of %g", start->name, early,
                       size / FRAMES);
-        ck_assert_msg(fabs(out - in) < 1e-6 * size, "%s, %d Hz by %d: %.9g becomes %.9g, of %.3g",
-                      start->name, rates[r], overs[k], in, out, size);
+        ck_assert_msg(fabs(out - in) < 1e-6 * size, "%s, %d Hz by %d: %.9g becomes %.9g, of %.3g", start->name,
+                      rates[r], overs[k], in, out, size);
         rig_close(before);
         rig_close(after);
     }

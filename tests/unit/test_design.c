@@ -1,4 +1,5 @@
-/* Designs: cells, seeds, order, names and columns against lists worked out by hand, and what must not change when a design grows. */
+/* Designs: cells, seeds, order, names and columns against lists worked out by hand, and what must not change when a
+ * design grows. */
 #include <pthread.h>
 
 #include "base/hash.h"
@@ -8,8 +9,9 @@
 
 static struct arena *arena;
 
-static const char scene[] = "rasp: 1\ntitle: t\nseed: 3\nsurface: {roughness: {rms: 4 um}, response: x.csv}\nscraper: {mass: 20 g}\n"
-                            "motion: {path: back_and_forth, from: [0, 0], to: [6 cm, 0], rate: 2 Hz, duration: 1 s}\nload: {constant: 1 N}\n";
+static const char scene[] =
+    "rasp: 1\ntitle: t\nseed: 3\nsurface: {roughness: {rms: 4 um}, response: x.csv}\nscraper: {mass: 20 g}\n"
+    "motion: {path: back_and_forth, from: [0, 0], to: [6 cm, 0], rate: 2 Hz, duration: 1 s}\nload: {constant: 1 N}\n";
 
 static bool try_read(const char *text, struct design *d, const char **messages, struct err *e)
 {
@@ -50,13 +52,16 @@ static void names_are(const struct design *d, const char *names)
     ck_assert_str_eq(all, names);
 }
 
-#define TWO "factors:\n  motion.rate: [1 Hz, 2 Hz]\n  material:\n    - {label: dark wood, set: {surface.response: a.csv}}\n    - {label: metal}\n"
+#define TWO                                                                                                            \
+    "factors:\n  motion.rate: [1 Hz, 2 Hz]\n  material:\n    - {label: dark wood, set: {surface.response: a.csv}}\n  " \
+    "  - {label: metal}\n"
 
 START_TEST(crossed_first_factor_slowest)
 {
     arena = folder_make();
     struct design d = made(TWO "replicates: 2\n");
-    names_are(&d, "1Hz_dark_wood_r1 1Hz_dark_wood_r2 1Hz_metal_r1 1Hz_metal_r2 2Hz_dark_wood_r1 2Hz_dark_wood_r2 2Hz_metal_r1 2Hz_metal_r2");
+    names_are(&d, "1Hz_dark_wood_r1 1Hz_dark_wood_r2 1Hz_metal_r1 1Hz_metal_r2 2Hz_dark_wood_r1 2Hz_dark_wood_r2 "
+                  "2Hz_metal_r1 2Hz_metal_r2");
     ck_assert_int_eq(d.stimuli[5].cell, 2);
     ck_assert_int_eq(d.stimuli[5].replicate, 2);
     ck_assert_str_eq(design_label(&d, 5, 1), "dark wood");
@@ -89,8 +94,9 @@ END_TEST
 START_TEST(labels_in_names)
 {
     arena = folder_make();
-    struct design d = made("factors:\n  scraper.mass: [10 g, 2e-2 kg]\n  load.constant: [1 N]\n  surface.roughness.rms: [10 \xc2\xb5m]\n"
-                           "  surface.response: [../irs/a b.csv]\n  x: [{label: -3 dB (10%)}]\n");
+    struct design d = made(
+        "factors:\n  scraper.mass: [10 g, 2e-2 kg]\n  load.constant: [1 N]\n  surface.roughness.rms: [10 \xc2\xb5m]\n"
+        "  surface.response: [../irs/a b.csv]\n  x: [{label: -3 dB (10%)}]\n");
     names_are(&d, "10g_1N_10um_a_b_-3dB__10__ 2e-2kg_1N_10um_a_b_-3dB__10__");
     folder_remove();
 }
@@ -101,7 +107,8 @@ START_TEST(excluded_cells_and_lists)
     arena = folder_make();
     struct design d = made(TWO "exclude: [{material: metal, motion.rate: [2 Hz]}]\n");
     names_are(&d, "1Hz_dark_wood 1Hz_metal 2Hz_dark_wood");
-    struct design l = made(TWO "cells: [{material: metal, motion.rate: 2 Hz}, {motion.rate: 1 Hz, material: dark wood}]\n");
+    struct design l =
+        made(TWO "cells: [{material: metal, motion.rate: 2 Hz}, {motion.rate: 1 Hz, material: dark wood}]\n");
     names_are(&l, "2Hz_metal 1Hz_dark_wood");
     ck_assert_int_eq(l.stimuli[0].level[0], 1);
     folder_remove();
@@ -111,7 +118,8 @@ END_TEST
 START_TEST(recordings_are_cells)
 {
     arena = folder_make();
-    struct design d = made(TWO "replicates: 2\nexclude: [{motion.rate: 2 Hz}]\nrecordings: [{file: rec/wood plank.wav, material: dark wood}, {file: b.wav, name: \"{material}/x\"}]\n");
+    struct design d = made(TWO "replicates: 2\nexclude: [{motion.rate: 2 Hz}]\nrecordings: [{file: rec/wood plank.wav, "
+                               "material: dark wood}, {file: b.wav, name: \"{material}/x\"}]\n");
     names_are(&d, "1Hz_dark_wood_r1 1Hz_dark_wood_r2 1Hz_metal_r1 1Hz_metal_r2 wood_plank na/x");
     ck_assert_str_eq(d.stimuli[4].recording, folder_path("rec/wood plank.wav"));
     ck_assert_int_eq(d.stimuli[4].cell, 2);
@@ -138,9 +146,17 @@ static uint64_t seed_by_hand(const char *text, size_t n)
 
 START_TEST(seeds_are_the_documented_hash)
 {
-    static const char plain[] = "rasp design seed\0" "5\0" "2", with[] = "rasp design seed\0" "5\0" "2\0" "material\0" "metal";
+    static const char plain[] = "rasp design seed\0"
+                                "5\0"
+                                "2",
+                      with[] = "rasp design seed\0"
+                               "5\0"
+                               "2\0"
+                               "material\0"
+                               "metal";
     arena = folder_make();
-    struct design d = made("seed: 5\nreplicates: 2\n" TWO), i = made("seed: 5\nreplicates: 2\nindependent: [material]\n" TWO);
+    struct design d = made("seed: 5\nreplicates: 2\n" TWO),
+                  i = made("seed: 5\nreplicates: 2\nindependent: [material]\n" TWO);
     ck_assert(d.stimuli[1].seed == seed_by_hand(plain, sizeof plain));
     ck_assert(d.stimuli[7].seed == d.stimuli[1].seed && d.stimuli[0].seed != d.stimuli[1].seed);
     ck_assert(i.stimuli[3].seed == seed_by_hand(with, sizeof with));
@@ -152,8 +168,7 @@ END_TEST
 static const struct design_stimulus *find(const struct design *d, const char *name)
 {
     for (int i = 0; i < d->n_stimuli; i++)
-        if (strcmp(d->stimuli[i].name, name) == 0)
-            return &d->stimuli[i];
+        if (strcmp(d->stimuli[i].name, name) == 0) return &d->stimuli[i];
     ck_abort_msg("no %s", name);
     return NULL;
 }
@@ -164,7 +179,9 @@ START_TEST(growing_changes_no_other_stimulus)
     static const char rules[] = "independent: [b, a]\nreplicates: 2\nname: \"{a}{b}{replicate}\"\n";
     char small[400], more[400];
     snprintf(small, sizeof small, "%sfactors: {a: [{label: x}, {label: y}], b: [{label: p}, {label: q}]}\n", rules);
-    snprintf(more, sizeof more, "%sfactors: {b: [{label: o}, {label: p}, {label: q}], a: [{label: y}, {label: x}], motion.rate: [2 Hz]}\n", rules);
+    snprintf(more, sizeof more,
+             "%sfactors: {b: [{label: o}, {label: p}, {label: q}], a: [{label: y}, {label: x}], motion.rate: [2 Hz]}\n",
+             rules);
     struct design s = made(small), m = made(more);
     ck_assert_int_eq(m.n_stimuli, 12);
     for (int i = 0; i < s.n_stimuli; i++)
@@ -177,14 +194,16 @@ END_TEST
 START_TEST(order_is_deterministic)
 {
     arena = folder_make();
-    struct design a = made("order: {seed: 7}\nfactors: {a: [{label: x1}, {label: x2}, {label: x3}, {label: x4}, {label: x5}, {label: x6}]}\n");
-    struct design b = made("order: {seed: 7}\nfactors: {a: [{label: x0}, {label: x6}, {label: x2}, {label: x3}, {label: x4}, {label: x5}, {label: x1}]}\n");
-    struct design c = made("order: {seed: 8}\nfactors: {a: [{label: x1}, {label: x2}, {label: x3}, {label: x4}, {label: x5}, {label: x6}]}\n");
+    struct design a = made("order: {seed: 7}\nfactors: {a: [{label: x1}, {label: x2}, {label: x3}, {label: x4}, "
+                           "{label: x5}, {label: x6}]}\n");
+    struct design b = made("order: {seed: 7}\nfactors: {a: [{label: x0}, {label: x6}, {label: x2}, {label: x3}, "
+                           "{label: x4}, {label: x5}, {label: x1}]}\n");
+    struct design c = made("order: {seed: 8}\nfactors: {a: [{label: x1}, {label: x2}, {label: x3}, {label: x4}, "
+                           "{label: x5}, {label: x6}]}\n");
     int at = 0;
     bool same = true, sorted = true;
     for (int i = 0; i < b.n_stimuli; i++)
-        if (strcmp(b.stimuli[i].name, "x0") != 0)
-            ck_assert_str_eq(b.stimuli[i].name, a.stimuli[at++].name);
+        if (strcmp(b.stimuli[i].name, "x0") != 0) ck_assert_str_eq(b.stimuli[i].name, a.stimuli[at++].name);
     for (int i = 0; i < 6; i++) {
         same = same && strcmp(a.stimuli[i].name, c.stimuli[i].name) == 0;
         sorted = sorted && a.stimuli[i].cell == i;
@@ -211,10 +230,11 @@ static void column_is(const struct design *d, int f, const char *column, const c
 START_TEST(columns)
 {
     arena = folder_make();
-    struct design d = made("factors:\n  motion.rate: [1 Hz, 2.50 Hz]\n  scraper.mass: [20 g, 0.1 kg]\n  load.constant: [1, 2]\n"
-                           "  surface.object.youngs_modulus: [1 GPa, 12 MPa]\n  hardness: [{label: 12 MPa}]\n  speed: [{label: 5 cm/s}]\n"
-                           "  grade: [{label: 120}, {label: 80}]\n  mixed: [{label: 1 Hz}, {label: 1 m}]\n  Rough-ness: [{label: high}]\n"
-                           "  surface.response: [1.csv, 2.csv]\n");
+    struct design d = made(
+        "factors:\n  motion.rate: [1 Hz, 2.50 Hz]\n  scraper.mass: [20 g, 0.1 kg]\n  load.constant: [1, 2]\n"
+        "  surface.object.youngs_modulus: [1 GPa, 12 MPa]\n  hardness: [{label: 12 MPa}]\n  speed: [{label: 5 cm/s}]\n"
+        "  grade: [{label: 120}, {label: 80}]\n  mixed: [{label: 1 Hz}, {label: 1 m}]\n  Rough-ness: [{label: high}]\n"
+        "  surface.response: [1.csv, 2.csv]\n");
     column_is(&d, 0, "motion_rate_hz", "Hz", "1 2.5");
     column_is(&d, 1, "scraper_mass_kg", "kg", "0.02 0.1");
     column_is(&d, 2, "load_constant_n", "N", "1 2");
@@ -235,10 +255,14 @@ END_TEST
 START_TEST(rules)
 {
     arena = folder_make();
-    struct design d = made(""), e = made("level: {each: {lufs: -23}}\nlength: 250 ms\norder: design\ntitle: t\n"), s = made("level: scene\nlength: own\n");
-    ck_assert(d.level_rule == DESIGN_LEVEL_COMMON && d.level.peak == -3 && isnan(d.level.rms) && d.length_rule == DESIGN_LENGTH_LONGEST);
-    ck_assert(e.level_rule == DESIGN_LEVEL_EACH && e.level.lufs == -23 && isnan(e.level.peak) && e.length_rule == DESIGN_LENGTH_FIXED && e.length == 0.25);
-    ck_assert(s.level_rule == DESIGN_LEVEL_SCENE && isnan(s.level.peak) && s.length_rule == DESIGN_LENGTH_OWN && !s.shuffled);
+    struct design d = made(""), e = made("level: {each: {lufs: -23}}\nlength: 250 ms\norder: design\ntitle: t\n"),
+                  s = made("level: scene\nlength: own\n");
+    ck_assert(d.level_rule == DESIGN_LEVEL_COMMON && d.level.peak == -3 && isnan(d.level.rms) &&
+              d.length_rule == DESIGN_LENGTH_LONGEST);
+    ck_assert(e.level_rule == DESIGN_LEVEL_EACH && e.level.lufs == -23 && isnan(e.level.peak) &&
+              e.length_rule == DESIGN_LENGTH_FIXED && e.length == 0.25);
+    ck_assert(s.level_rule == DESIGN_LEVEL_SCENE && isnan(s.level.peak) && s.length_rule == DESIGN_LENGTH_OWN &&
+              !s.shuffled);
     ck_assert_str_eq(e.title, "t");
     folder_remove();
 }
@@ -247,8 +271,10 @@ END_TEST
 START_TEST(texts_of_trials)
 {
     arena = folder_make();
-    struct design d = made("text: \"a {material}, {motion.rate}, {replicate}!\"\nreplicates: 2\nfactors:\n  motion.rate: [1 Hz, 2 Hz]\n"
-                           "  material: [{label: w, text: \"plank of wood, thick\"}]\nrecordings: [{file: r.wav, material: w}, {file: s.wav, text: own}]\n");
+    struct design d = made(
+        "text: \"a {material}, {motion.rate}, {replicate}!\"\nreplicates: 2\nfactors:\n  motion.rate: [1 Hz, 2 Hz]\n"
+        "  material: [{label: w, text: \"plank of wood, thick\"}]\nrecordings: [{file: r.wav, material: w}, {file: "
+        "s.wav, text: own}]\n");
     ck_assert_str_eq(design_text(&d, 3, arena), "a plank of wood, thick, 2 Hz, 2!");
     ck_assert_ptr_null(design_text(&d, 4, arena));
     ck_assert_str_eq(design_text(&d, 5, arena), "own");
@@ -263,11 +289,13 @@ END_TEST
 START_TEST(hash_is_of_the_meaning)
 {
     arena = folder_make();
-    struct design a = made(TWO), b = made("# a comment\nseed:   1\n\n" TWO "order: design\n"), c = made("seed: 2\n" TWO), d = made(TWO "exclude: [{motion.rate: 1 Hz}]\n");
+    struct design a = made(TWO), b = made("# a comment\nseed:   1\n\n" TWO "order: design\n"),
+                  c = made("seed: 2\n" TWO), d = made(TWO "exclude: [{motion.rate: 1 Hz}]\n");
     ck_assert_str_eq(a.sha256, b.sha256);
     ck_assert_str_ne(a.sha256, c.sha256);
     ck_assert_str_ne(a.sha256, d.sha256);
-    struct design e = made("set: {motion.duration: 1 s}\n" TWO), f = made("set: {motion: {duration: 1 s}}\n" TWO), g = made("set: {motion.duration: 2 s}\n" TWO);
+    struct design e = made("set: {motion.duration: 1 s}\n" TWO), f = made("set: {motion: {duration: 1 s}}\n" TWO),
+                  g = made("set: {motion.duration: 2 s}\n" TWO);
     ck_assert_str_eq(e.sha256, f.sha256);
     ck_assert_str_ne(e.sha256, g.sha256);
     folder_remove();
@@ -288,9 +316,11 @@ START_TEST(scenes_are_laid_over)
 {
     arena = folder_make();
     folder_write("other.yaml", "include: [scene.yaml]\nmotion: {duration: 5 s}\n");
-    struct design d = made("set: {motion: {rate: 3 Hz, duration: 2 s}, scraper: {mass: 1 g}}\nfactors:\n  scraper.mass: [5 g, 7 g]\n"
-                           "  motion.to: [{label: far, value: [9 cm, 0]}]\n"
-                           "  what: [{label: a, base: other.yaml, set: {surface.response: sub/y.csv, output.stems: [force]}}, {label: b, set: {motion.duration: 4 s, title: null}}]\n");
+    struct design d =
+        made("set: {motion: {rate: 3 Hz, duration: 2 s}, scraper: {mass: 1 g}}\nfactors:\n  scraper.mass: [5 g, 7 g]\n"
+             "  motion.to: [{label: far, value: [9 cm, 0]}]\n"
+             "  what: [{label: a, base: other.yaml, set: {surface.response: sub/y.csv, output.stems: [force]}}, "
+             "{label: b, set: {motion.duration: 4 s, title: null}}]\n");
     struct scene a = scene_of(&d, 0), b = scene_of(&d, 3);
     ck_assert_str_eq(a.file, folder_path("other.yaml"));
     ck_assert_str_eq(a.contacts->surface.response.file, folder_path("sub/y.csv"));
@@ -308,10 +338,12 @@ START_TEST(keys_of_contacts)
 {
     arena = folder_make();
     struct design d = made("factors: {contacts.rod.gain: [1, 2]}\nset: {contacts.1.start: 1 s}\n");
-    folder_write("scene.yaml", "rasp: 1\ncontacts:\n  - {name: rod, surface: {roughness: {rms: 4 um}, response: x.csv}, scraper: {mass: 20 g}, load: {constant: 1 N},\n"
-                      "     motion: {path: line, from: [0, 0], to: [6 cm, 0], duration: 1 s}}\n"
-                      "  - {name: b, surface: {roughness: {rms: 4 um}, response: x.csv}, scraper: {mass: 20 g}, load: {constant: 1 N},\n"
-                      "     motion: {path: line, from: [0, 0], to: [6 cm, 0], duration: 1 s}}\n");
+    folder_write("scene.yaml", "rasp: 1\ncontacts:\n  - {name: rod, surface: {roughness: {rms: 4 um}, response: "
+                               "x.csv}, scraper: {mass: 20 g}, load: {constant: 1 N},\n"
+                               "     motion: {path: line, from: [0, 0], to: [6 cm, 0], duration: 1 s}}\n"
+                               "  - {name: b, surface: {roughness: {rms: 4 um}, response: x.csv}, scraper: {mass: 20 "
+                               "g}, load: {constant: 1 N},\n"
+                               "     motion: {path: line, from: [0, 0], to: [6 cm, 0], duration: 1 s}}\n");
     struct scene s = scene_of(&d, 1);
     ck_assert(s.contacts[0].gain == 2 && s.contacts[1].gain == 1 && s.contacts[1].start == 1);
     folder_remove();
@@ -322,13 +354,16 @@ END_TEST
 START_TEST(errors_stand_in_the_design)
 {
     arena = folder_make();
-    struct design d = made("set:\n  grip: {angle: 30 deg, azimuth: 0, friction: 0.3}\nfactors: {motion.path: [back_and_forth, circle]}\n");
+    struct design d = made(
+        "set:\n  grip: {angle: 30 deg, azimuth: 0, friction: 0.3}\nfactors: {motion.path: [back_and_forth, circle]}\n");
     struct scene s;
     const char *messages;
     struct err e = {0};
     ck_assert(!design_scene(&d, 1, arena, &s, &messages, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
-    ck_assert_msg(strstr(messages, "scene.yaml:6:") && strstr(messages, "(named at ") && strstr(messages, "design.yaml:2:7)"), "%s", messages);
+    ck_assert_msg(strstr(messages, "scene.yaml:6:") && strstr(messages, "(named at ") &&
+                      strstr(messages, "design.yaml:2:7)"),
+                  "%s", messages);
     struct design n = made("factors: {m: [{label: a, base: none.yaml}]}\n");
     e = (struct err){0};
     ck_assert(!design_scene(&n, 0, arena, &s, &messages, &e));
@@ -355,10 +390,10 @@ static void *many_scenes(void *design)
         const char *messages;
         struct err e = {0};
         int i = k % d->n_stimuli;
-        bool good = design_scene(d, i, a, &s, &messages, &e) && s.contacts->motion.rate == 1 + i / 2 && s.seed == d->stimuli[i].seed;
+        bool good = design_scene(d, i, a, &s, &messages, &e) && s.contacts->motion.rate == 1 + i / 2 &&
+                    s.seed == d->stimuli[i].seed;
         arena_close(a);
-        if (!good)
-            return design;
+        if (!good) return design;
     }
     return NULL;
 }
@@ -392,7 +427,8 @@ START_TEST(names_that_cannot_be)
     refused(TWO "name: \"{materail}\"\n", "did you mean {material}?");
     refused(TWO "name: \"{material\"\n", "a brace is left open");
     refused("name: manifest\n", "is that of a table");
-    refused(TWO "name: \"{material}\"\n", "two stimuli would be named 'dark_wood': 1 Hz, dark wood; and 2 Hz, dark wood");
+    refused(TWO "name: \"{material}\"\n",
+            "two stimuli would be named 'dark_wood': 1 Hz, dark wood; and 2 Hz, dark wood");
     refused("replicates: 2\nname: x\n", "put {replicate} into name:");
     refused("factors: {a: [{label: x}, {label: x.b}]}\n", "could have one name");
     refused("factors: {a: [{label: a b}, {label: a_b}]}\n", "two stimuli would be named 'a_b'");
@@ -409,7 +445,8 @@ START_TEST(sizes_that_cannot_be)
     refused("replicates: 1000001\n", "replicates must be");
     refused("replicates: 1000000\nfactors: {scraper.weight: [0, 1]}\n", "this makes 2000000 stimuli");
     refused("factors: {scraper.weight: []}\n", "must be a list of one level or more, not an empty list");
-    refused("a: &a [x, x, x, x, x, x, x, x, x, x]\nb: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a, *a]\nc: &c [*b, *b, *b, *b, *b, *b, *b, *b, *b, *b]\n"
+    refused("a: &a [x, x, x, x, x, x, x, x, x, x]\nb: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a, *a]\nc: &c [*b, *b, *b, "
+            "*b, *b, *b, *b, *b, *b, *b]\n"
             "d: &d [*c, *c, *c, *c, *c, *c, *c, *c, *c, *c]\ne: &e [*d, *d, *d, *d, *d, *d, *d, *d, *d, *d]\n",
             "values after expanding aliases");
     struct design d = made("replicates: 100000\n");
@@ -426,11 +463,14 @@ START_TEST(what_is_a_design)
     folder_write("b.yaml", "rasp: 1\ntitle: rasp-design\n");
     folder_write("c.yaml", "rasp-designs: 1\n");
     ck_assert(design_is(folder_path("a.yaml")));
-    ck_assert(!design_is(folder_path("b.yaml")) && !design_is(folder_path("c.yaml")) && !design_is(folder_path("none.yaml")));
+    ck_assert(!design_is(folder_path("b.yaml")) && !design_is(folder_path("c.yaml")) &&
+              !design_is(folder_path("none.yaml")));
     folder_remove();
 }
 END_TEST
 
-UNIT("design", crossed_first_factor_slowest, names_are_padded, without_factors_the_base_gives_the_name, labels_in_names, excluded_cells_and_lists,
-     recordings_are_cells, seeds_are_the_documented_hash, growing_changes_no_other_stimulus, order_is_deterministic, columns, rules, texts_of_trials, hash_is_of_the_meaning,
-     scenes_are_laid_over, keys_of_contacts, errors_stand_in_the_design, threads_share_a_design, names_that_cannot_be, sizes_that_cannot_be, what_is_a_design)
+UNIT("design", crossed_first_factor_slowest, names_are_padded, without_factors_the_base_gives_the_name, labels_in_names,
+     excluded_cells_and_lists, recordings_are_cells, seeds_are_the_documented_hash, growing_changes_no_other_stimulus,
+     order_is_deterministic, columns, rules, texts_of_trials, hash_is_of_the_meaning, scenes_are_laid_over,
+     keys_of_contacts, errors_stand_in_the_design, threads_share_a_design, names_that_cannot_be, sizes_that_cannot_be,
+     what_is_a_design)

@@ -1,4 +1,5 @@
-/* distance: against closed forms, and band powers against a slow DFT with the frequency axis cut into a million pieces. */
+/* distance: against closed forms, and band powers against a slow DFT with the frequency axis cut into a million pieces.
+ */
 #include <stdint.h>
 
 #include "analysis/distance.h"
@@ -47,7 +48,7 @@ START_TEST(counts_and_places)
     ck_assert(d.first.frame == 1 && d.first.channel == 1 && d.first.a == -0.5 && d.first.b == y[3]);
     ck_assert(d.worst.frame == 2 && d.worst.channel == 1 && d.worst.a == 0 && d.worst.b == y[5]);
     ck_assert_double_eq(d.largest / distance_step(&a, &b), 5); /* steps of the coarser, 16 bits */
-    y[0] = 5.0 / 32768; /* as far off: the first of them is told */
+    y[0] = 5.0 / 32768;                                        /* as far off: the first of them is told */
     distance_samples(&a, &b, &d);
     ck_assert(d.worst.frame == 0 && d.worst.channel == 0 && d.differing == 3);
     ck_assert_double_eq(distance_step(&b, &b), 1.0 / 8388608);
@@ -60,7 +61,8 @@ END_TEST
 START_TEST(equal_and_silent)
 {
     double x[] = {0.5, 0.25}, zero[] = {0, -0.0}, nothing[] = {0, 0};
-    struct wav a = {.rate = 100, .channels = 1, .frames = 2, .x = x}, b = {.rate = 100, .channels = 1, .frames = 2, .x = zero}, c = b;
+    struct wav a = {.rate = 100, .channels = 1, .frames = 2, .x = x},
+               b = {.rate = 100, .channels = 1, .frames = 2, .x = zero}, c = b;
     struct distance_samples d;
     distance_samples(&a, &a, &d);
     ck_assert(d.differing == 0 && d.largest == 0 && d.snr_db == INFINITY);
@@ -80,7 +82,8 @@ START_TEST(hash_of_the_audio)
     static double x[] = {0, 0.5, -0.25, -0.0, 1.0 / 3, -1}, many[15000];
     char hex[HASH_TEXT], other[HASH_TEXT];
     uint32_t s = 1;
-    struct wav w = {.rate = 48000, .channels = 2, .frames = 3, .x = x, .bits = 16}, v = {.rate = 44100, .channels = 3, .frames = 5000, .x = many};
+    struct wav w = {.rate = 48000, .channels = 2, .frames = 3, .x = x, .bits = 16},
+               v = {.rate = 44100, .channels = 3, .frames = 5000, .x = many};
     for (int i = 0; i < 15000; i++)
         many[i] = noise(&s);
     distance_hash(&w, hex);
@@ -134,8 +137,10 @@ START_TEST(sine_is_its_rms_in_its_band)
 {
     enum { N = 48000 };
     static double x[N];
-    static const struct { double hz, amplitude; int band; } cases[] = {
-        {1000, 1, 16}, {25, 0.5, 0}, {440, 0.1, 12}, {19000, 0.25, 29}, {890, 1e-4, 15}, {892, 1e-4, 16}};
+    static const struct {
+        double hz, amplitude;
+        int band;
+    } cases[] = {{1000, 1, 16}, {25, 0.5, 0}, {440, 0.1, 12}, {19000, 0.25, 29}, {890, 1e-4, 15}, {892, 1e-4, 16}};
     struct arena *arena = arena_open();
     struct wav w = {.rate = 48000, .channels = 1, .frames = N, .x = x};
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
@@ -145,7 +150,8 @@ START_TEST(sine_is_its_rms_in_its_band)
         distance_band_levels(&w, arena, level);
         for (int b = 0; b < DISTANCE_BANDS; b++)
             if (b == cases[c].band)
-                ck_assert_double_eq_tol(level[b], 20 * log10(cases[c].amplitude / sqrt(2)), 1e-9); /* whole periods: one bin */
+                ck_assert_double_eq_tol(level[b], 20 * log10(cases[c].amplitude / sqrt(2)),
+                                        1e-9); /* whole periods: one bin */
             else
                 ck_assert_double_lt(level[b], -230); /* rounding */
     }
@@ -186,15 +192,18 @@ START_TEST(white_rises_a_decibel_per_band)
     for (int i = 0; i < N; i++)
         x[i] = noise(&s) + noise(&s) + noise(&s); /* variance 1 */
     distance_band_levels(&w, arena, level);
-    for (int b = 0; b < DISTANCE_BANDS; b++) { /* relative deviation of a band's power: 1 / sqrt(bandwidth * duration) */
-        double width = distance_band_centre(b) * (pow(10, 0.05) - pow(10, -0.05)), sigma = 4.343 / sqrt(width * N / 48000);
+    for (int b = 0; b < DISTANCE_BANDS;
+         b++) { /* relative deviation of a band's power: 1 / sqrt(bandwidth * duration) */
+        double width = distance_band_centre(b) * (pow(10, 0.05) - pow(10, -0.05)),
+               sigma = 4.343 / sqrt(width * N / 48000);
         ck_assert_double_eq_tol(level[b], 10 * log10(width / 24000), 4 * sigma);
     }
     arena_close(arena);
 }
 END_TEST
 
-/* Power density of a signal by the definition of the DFT, integrated over a band in steps of a millionth of the Nyquist frequency. */
+/* Power density of a signal by the definition of the DFT, integrated over a band in steps of a millionth of the Nyquist
+ * frequency. */
 static double slow_band(const double *x, int n, double rate, const double edge[2])
 {
     enum { STEPS = 1000000 };
@@ -210,8 +219,7 @@ static double slow_band(const double *x, int n, double rate, const double edge[2
     }
     for (int j = 0; j < STEPS; j++) {
         double f = (j + 0.5) / STEPS * rate / 2;
-        if (f >= edge[0] && f < edge[1])
-            sum += p[(int)(f / rate * n + 0.5)] * (n / 2.0) / STEPS;
+        if (f >= edge[0] && f < edge[1]) sum += p[(int)(f / rate * n + 0.5)] * (n / 2.0) / STEPS;
     }
     free(p);
     return sum;
@@ -256,7 +264,8 @@ START_TEST(padded_and_cut_sounds_keep_their_level)
         double level[DISTANCE_BANDS];
         struct wav w = {.rate = 48000, .channels = 1, .frames = (size_t)lengths[k], .x = x};
         distance_band_levels(&w, arena, level);
-        /* The skirts of a cut sine outside its band (109 Hz away at least): 1 / (pi^2 T 109 Hz) of the power on each side. */
+        /* The skirts of a cut sine outside its band (109 Hz away at least): 1 / (pi^2 T 109 Hz) of the power on each
+         * side. */
         double lost = 2 * 48000.0 / lengths[k] / (pi * pi * 109);
         ck_assert_double_le(level[16], 20 * log10(1 / sqrt(2)) + 0.01);
         ck_assert_double_ge(level[16], 20 * log10(1 / sqrt(2)) + 10 * log10(1 - lost) - 0.01);
@@ -273,7 +282,8 @@ START_TEST(bin_at_zero_is_half_as_wide)
     for (int i = 0; i < 100; i++)
         x[i] = 1;
     distance_band_levels(&w, arena, level);
-    ck_assert_double_eq_tol(pow(10, level[0] / 10), distance_band_centre(0) * (pow(10, 0.05) - pow(10, -0.05)) / 40, 1e-12);
+    ck_assert_double_eq_tol(pow(10, level[0] / 10), distance_band_centre(0) * (pow(10, 0.05) - pow(10, -0.05)) / 40,
+                            1e-12);
     arena_close(arena);
 }
 END_TEST
@@ -303,7 +313,7 @@ START_TEST(worst_band)
     struct arena *arena = arena_open();
     for (int i = 0; i < N; i++) {
         double one = sin(2 * pi * (i % 48) / 48), quiet = sin(2 * pi * (i % 12) / 12);
-        x[2 * i] = y[2 * i] = one + 1e-2 * quiet;  /* 1000 Hz and, 40 dB below, 4000 Hz */
+        x[2 * i] = y[2 * i] = one + 1e-2 * quiet; /* 1000 Hz and, 40 dB below, 4000 Hz */
         x[2 * i + 1] = one + 1e-2 * quiet + 1e-4 * sin(2 * pi * (i % 4) / 4);
         y[2 * i + 1] = one + 2e-2 * quiet + 5e-4 * sin(2 * pi * (i % 4) / 4);
     }
@@ -333,8 +343,10 @@ START_TEST(bands_across_rates)
     static double x[N], y[N];
     struct distance_bands d;
     struct arena *arena = arena_open();
-    struct wav a = {.rate = 48000, .channels = 1, .frames = 48000, .x = x}, b = {.rate = 16000, .channels = 1, .frames = 16000, .x = y};
-    for (int i = 0; i < N; i++) { /* the 7700 Hz lie in the band at 8 kHz, which goes on above the Nyquist frequency of b */
+    struct wav a = {.rate = 48000, .channels = 1, .frames = 48000, .x = x},
+               b = {.rate = 16000, .channels = 1, .frames = 16000, .x = y};
+    for (int i = 0; i < N;
+         i++) { /* the 7700 Hz lie in the band at 8 kHz, which goes on above the Nyquist frequency of b */
         x[i] = sin(2 * pi * fmod(1000.0 * i / 48000, 1)) + sin(2 * pi * fmod(7700.0 * i / 48000, 1));
         y[i] = sin(2 * pi * fmod(1000.0 * i / 16000, 1));
     }
@@ -345,6 +357,7 @@ START_TEST(bands_across_rates)
 }
 END_TEST
 
-UNIT("distance", snr_of_a_scaled_copy, counts_and_places, equal_and_silent, hash_of_the_audio, hash_agrees_with_exactness, centres, sine_is_its_rms_in_its_band,
-     bin_on_an_edge_is_shared, white_rises_a_decibel_per_band, bands_as_a_slow_transform_has_them,
-     padded_and_cut_sounds_keep_their_level, bin_at_zero_is_half_as_wide, last_frame_of_a_cut_sound_counts, worst_band, bands_across_rates)
+UNIT("distance", snr_of_a_scaled_copy, counts_and_places, equal_and_silent, hash_of_the_audio,
+     hash_agrees_with_exactness, centres, sine_is_its_rms_in_its_band, bin_on_an_edge_is_shared,
+     white_rises_a_decibel_per_band, bands_as_a_slow_transform_has_them, padded_and_cut_sounds_keep_their_level,
+     bin_at_zero_is_half_as_wide, last_frame_of_a_cut_sound_counts, worst_band, bands_across_rates)

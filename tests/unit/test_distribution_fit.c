@@ -24,8 +24,9 @@ START_TEST(test_gaussian)
     for (int i = 0; i < N; i++)
         x[i] = -3 + gsl_ran_gaussian(g, 0.2);
     struct distribution_fits f = fit(N);
-    ck_assert_msg(f.gaussian_r2 > 0.98 && f.gaussian_r2 <= 1, "%g", f.gaussian_r2); /* 4000 in 25 bins: 6 % noise a bin, 0.4 % of the squares */
-    ck_assert(f.gaussian_distance < 1.04 / sqrt(N));                                 /* Lilliefors, 1 % */
+    ck_assert_msg(f.gaussian_r2 > 0.98 && f.gaussian_r2 <= 1, "%g",
+                  f.gaussian_r2);                    /* 4000 in 25 bins: 6 % noise a bin, 0.4 % of the squares */
+    ck_assert(f.gaussian_distance < 1.04 / sqrt(N)); /* Lilliefors, 1 % */
     ck_assert(fabs(f.skewness) < 4 * sqrt(6.0 / N) && fabs(f.kurtosis - 3) < 4 * sqrt(24.0 / N));
     ck_assert(isnan(f.gamma_shape) && isnan(f.exponential_mean)); /* all below 0 */
     for (int i = 0; i < N; i++)
@@ -51,7 +52,8 @@ START_TEST(test_least_squares)
 }
 END_TEST
 
-/* The fit of figure 9 done over again: the same bins, a simplex instead of Gauss and Newton, the density in the middle of 40 parts of each bin. */
+/* The fit of figure 9 done over again: the same bins, a simplex instead of Gauss and Newton, the density in the middle
+ * of 40 parts of each bin. */
 static struct {
     int bins;
     double from, width, density[64];
@@ -94,9 +96,9 @@ START_TEST(test_histogram)
     gsl_vector_set(at, 0, mean), gsl_vector_set(at, 1, sqrt(square)), gsl_vector_set_all(step, 0.1);
     gsl_multimin_fminimizer_set(m, &f, at, step);
     for (int i = 0; i < 500 && gsl_multimin_fminimizer_size(m) > 1e-9; i++)
-        if (gsl_multimin_fminimizer_iterate(m))
-            break;
-    ck_assert_double_eq_tol(fit(FEW).gaussian_r2, 1 - gsl_multimin_fminimizer_minimum(m) / all, 1e-4); /* the middles of 40 parts: 1e-5 */
+        if (gsl_multimin_fminimizer_iterate(m)) break;
+    ck_assert_double_eq_tol(fit(FEW).gaussian_r2, 1 - gsl_multimin_fminimizer_minimum(m) / all,
+                            1e-4); /* the middles of 40 parts: 1e-5 */
     gsl_multimin_fminimizer_free(m);
     gsl_vector_free(at);
     gsl_vector_free(step);
@@ -118,7 +120,8 @@ START_TEST(test_exponential)
     for (int i = 0; i < N; i += 2)
         x[i] = -1;
     f = fit(N);
-    ck_assert_msg(isnan(f.gamma_shape) && fabs(f.exponential_mean - 2.5) < 0.25, "%g", f.exponential_mean); /* of those above 0 */
+    ck_assert_msg(isnan(f.gamma_shape) && fabs(f.exponential_mean - 2.5) < 0.25, "%g",
+                  f.exponential_mean); /* of those above 0 */
     ck_assert(f.exponential_distance < 1.31 / sqrt(N / 2));
     gsl_rng_free(g);
 }
@@ -144,7 +147,8 @@ START_TEST(test_gamma)
         ck_assert(f.gamma_distance < 1.6 / sqrt(N));
         double best = gamma_likelihood(N, f.gamma_shape, f.gamma_scale);
         for (int d = 0; d < 4; d++) {
-            double a = f.gamma_shape * (1 + 0.01 * ((d & 1) ? 1 : -1)), b = f.gamma_scale * (1 + 0.01 * ((d & 2) ? 1 : -1));
+            double a = f.gamma_shape * (1 + 0.01 * ((d & 1) ? 1 : -1)),
+                   b = f.gamma_scale * (1 + 0.01 * ((d & 2) ? 1 : -1));
             ck_assert(gamma_likelihood(N, a, b) < best);
             ck_assert(gamma_likelihood(N, a, f.gamma_shape * f.gamma_scale / a) < best);
         }
@@ -190,7 +194,8 @@ START_TEST(test_odd_values)
             x[i] = 1 + pow(10, -spread) * (gsl_rng_uniform(g) - 0.5);
         f = fit(1000);
         ck_assert(isfinite(f.gaussian_r2) && isfinite(f.gaussian_distance));
-        ck_assert_msg(isnan(f.gamma_shape) ? spread >= 6 : fabs(f.gamma_distance - f.gaussian_distance) < 0.02, "%d: %g, %g", spread, f.gamma_distance, f.gaussian_distance);
+        ck_assert_msg(isnan(f.gamma_shape) ? spread >= 6 : fabs(f.gamma_distance - f.gaussian_distance) < 0.02,
+                      "%d: %g, %g", spread, f.gamma_distance, f.gaussian_distance);
         gsl_rng_free(g);
     }
     for (int i = 0; i < 1000; i++)
@@ -207,4 +212,5 @@ START_TEST(test_odd_values)
 }
 END_TEST
 
-UNIT("distribution_fit", test_gaussian, test_least_squares, test_histogram, test_exponential, test_gamma, test_distance, test_odd_values)
+UNIT("distribution_fit", test_gaussian, test_least_squares, test_histogram, test_exponential, test_gamma, test_distance,
+     test_odd_values)

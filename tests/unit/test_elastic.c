@@ -1,4 +1,5 @@
-/* Hooke's law: pulling along an axis gives Young's modulus and Poisson's contractions back; what is no material is refused. */
+/* Hooke's law: pulling along an axis gives Young's modulus and Poisson's contractions back; what is no material is
+ * refused. */
 #include "fem/elastic.h"
 
 #include "unit.h"
@@ -63,7 +64,8 @@ START_TEST(test_same)
     struct err e = {0};
     const double shear = 70e9 / 2.44;
     ck_assert(elastic_isotropic(70e9, 0.22, 2500.0, &s, &e));
-    ck_assert(elastic_orthotropic(&(struct elastic_wood){{70e9, 70e9, 70e9}, {shear, shear, shear}, {0.22, 0.22, 0.22}, 2500.0}, &t, &e));
+    ck_assert(elastic_orthotropic(
+        &(struct elastic_wood){{70e9, 70e9, 70e9}, {shear, shear, shear}, {0.22, 0.22, 0.22}, 2500.0}, &t, &e));
     for (int i = 0; i < 36; i++)
         ck_assert(fabs(s.c[i / 6][i % 6] - t.c[i / 6][i % 6]) < 1e-12 * 70e9);
 }
@@ -101,7 +103,8 @@ START_TEST(test_refused)
     refuse_wood(w, "no material");
     w = spruce, w.nu[1] = 3.6; /* 3.6^2 > 11/0.9 */
     refuse_wood(w, "no material");
-    w = (struct elastic_wood){{1e9, 1e9, 1e9}, {1e9, 1e9, 1e9}, {0.6, 0.6, 0.6}, 1.0}; /* each pair is possible, all three are not */
+    w = (struct elastic_wood){
+        {1e9, 1e9, 1e9}, {1e9, 1e9, 1e9}, {0.6, 0.6, 0.6}, 1.0}; /* each pair is possible, all three are not */
     refuse_wood(w, "no material");
 }
 END_TEST

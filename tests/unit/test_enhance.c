@@ -1,5 +1,5 @@
-/* enhance: the filter's transfer function, measured from its impulse response, against its closed form; its gain at the modes; what it makes of a mode in
-   series, against the gammatone. */
+/* enhance: the filter's transfer function, measured from its impulse response, against its closed form; its gain at the
+   modes; what it makes of a mode in series, against the gammatone. */
 #include <complex.h>
 #include <unistd.h>
 
@@ -8,7 +8,8 @@
 
 enum { RATE = 44100, MODES = 4, FRAMES = 1 << 16 };
 
-static const double frequency[MODES] = {310, 1220, 3105, 9600}, decay[MODES] = {9, 25, 40, 80}, gain[MODES] = {0.5, -2, 1, 0.25};
+static const double frequency[MODES] = {310, 1220, 3105, 9600}, decay[MODES] = {9, 25, 40, 80},
+                    gain[MODES] = {0.5, -2, 1, 0.25};
 static char folder[] = "/tmp/test_enhance.XXXXXX";
 
 static FILE *file_open(const char *name)
@@ -60,10 +61,14 @@ static void folder_remove(void)
 
 static struct rig *render(const char *table, const char *enhance, const char *quantity, enum item item, int block)
 {
-    struct scene s = rig_scene(rig_arena(), arena_format(rig_arena(), "rasp: 1\nsurface: {response: %s/%s}\nmotion: {path: line, from: [0, 0], to: [1, 0], duration: 0.1 s}\n"
-                                                         "contact: {model: given, given: {file: %s/impulse.npy, rate: %d}%s%s}\n"
-                                                         "output: {sample_rate: %d, quantity: %s}\n", folder, table, folder, RATE, *enhance ? ", enhance: " : "", enhance,
-                                                         RATE, quantity));
+    struct scene s = rig_scene(
+        rig_arena(),
+        arena_format(
+            rig_arena(),
+            "rasp: 1\nsurface: {response: %s/%s}\nmotion: {path: line, from: [0, 0], to: [1, 0], duration: 0.1 s}\n"
+            "contact: {model: given, given: {file: %s/impulse.npy, rate: %d}%s%s}\n"
+            "output: {sample_rate: %d, quantity: %s}\n",
+            folder, table, folder, RATE, *enhance ? ", enhance: " : "", enhance, RATE, quantity));
     return rig_record(&s, item, FRAMES, block);
 }
 
@@ -83,7 +88,8 @@ static double complex closed(double f, double db, int most)
     for (int k = 0; k < most; k++) {
         int i = order[k];
         double r = exp(-decay[i] / RATE), theta = 2 * M_PI * frequency[i] / RATE;
-        sum += (pow(10, db / 20) - 1) * fabs(gain[i]) / 2 * (1 - r * r) / 2 * (1 - z * z) / (1 - 2 * r * cos(theta) * z + r * r * z * z);
+        sum += (pow(10, db / 20) - 1) * fabs(gain[i]) / 2 * (1 - r * r) / 2 * (1 - z * z) /
+               (1 - 2 * r * cos(theta) * z + r * r * z * z);
     }
     return sum;
 }
@@ -93,7 +99,8 @@ START_TEST(transfer_function)
 {
     folder_make();
     for (int most = 1; most <= MODES; most += 3) {
-        struct rig *g = render("modes.csv", arena_format(rig_arena(), "{gain: 26 dB, modes: %d}", most), "force", ITEM_FORCE, 777);
+        struct rig *g =
+            render("modes.csv", arena_format(rig_arena(), "{gain: 26 dB, modes: %d}", most), "force", ITEM_FORCE, 777);
         double worst = 0;
         for (double f = 1; f < 22050; f *= 1.002)
             worst = fmax(worst, cabs(spectrum(g->x, f) - closed(f, 26, most)));
@@ -108,7 +115,8 @@ START_TEST(transfer_function)
 }
 END_TEST
 
-/* 2 sigma s/(s^2 + 2 sigma s + sigma^2 + omega^2) near the modes: to 1 % of the greatest from half to twice the frequency. */
+/* 2 sigma s/(s^2 + 2 sigma s + sigma^2 + omega^2) near the modes: to 1 % of the greatest from half to twice the
+ * frequency. */
 START_TEST(as_an_analogue_filter)
 {
     for (int i = 0; i < 3; i++)
@@ -116,25 +124,29 @@ START_TEST(as_an_analogue_filter)
             double r = exp(-decay[i] / RATE), theta = 2 * M_PI * frequency[i] / RATE, omega = 2 * M_PI * frequency[i];
             double complex z = cexp(-2 * I * M_PI * f / RATE), s = 2 * I * M_PI * f;
             double complex digital = (1 - r * r) / 2 * (1 - z * z) / (1 - 2 * r * cos(theta) * z + r * r * z * z);
-            double complex analogue = 2 * decay[i] * s / (s * s + 2 * decay[i] * s + decay[i] * decay[i] + omega * omega);
+            double complex analogue =
+                2 * decay[i] * s / (s * s + 2 * decay[i] * s + decay[i] * decay[i] + omega * omega);
             ck_assert_double_le(cabs(digital - analogue), 0.01);
         }
 }
 END_TEST
 
-/* What B adds, in series with the mode: sigma t |a| e^(-sigma t) sin(omega t + phase) times g, which is |a| g/e times Hermes' gammatone of gamma 2, but for shares
-   of about 1/(omega tau) and of the modes' skirts in each other. */
+/* What B adds, in series with the mode: sigma t |a| e^(-sigma t) sin(omega t + phase) times g, which is |a| g/e times
+   Hermes' gammatone of gamma 2, but for shares of about 1/(omega tau) and of the modes' skirts in each other. */
 START_TEST(a_double_pole_is_a_gammatone)
 {
     folder_make();
-    struct rig *with = render("modes.csv", "{gain: 40 dB, modes: 1}", "velocity", ITEM_SOUND, 1024), *without = render("modes.csv", "", "velocity", ITEM_SOUND, 1024);
+    struct rig *with = render("modes.csv", "{gain: 40 dB, modes: 1}", "velocity", ITEM_SOUND, 1024),
+               *without = render("modes.csv", "", "velocity", ITEM_SOUND, 1024);
     double g = pow(10, 2) - 1, wrong = 0, whole = 0;
     for (int n = 3; n < FRAMES; n++) {
-        double t = (n - 3.0) / RATE, x = decay[1] * t, want = g * gain[1] / M_E * x * exp(1 - x) * sin(2 * M_PI * frequency[1] * t) / RATE;
+        double t = (n - 3.0) / RATE, x = decay[1] * t,
+               want = g * gain[1] / M_E * x * exp(1 - x) * sin(2 * M_PI * frequency[1] * t) / RATE;
         wrong += pow(with->x[n] - without->x[n] - want, 2);
         whole += want * want;
     }
-    printf("against the gammatone: %.2e, 1/(omega tau) is %.2e\n", sqrt(wrong / whole), decay[1] / (2 * M_PI * frequency[1]));
+    printf("against the gammatone: %.2e, 1/(omega tau) is %.2e\n", sqrt(wrong / whole),
+           decay[1] / (2 * M_PI * frequency[1]));
     ck_assert_double_le(sqrt(wrong / whole), 0.02);
     rig_close(with);
     rig_close(without);
@@ -146,7 +158,8 @@ END_TEST
 START_TEST(strongest_on_the_way)
 {
     folder_make();
-    struct rig *one = render("modes.csv", "{gain: 20 dB, modes: 4}", "force", ITEM_FORCE, 1024), *two = render("two.csv", "{gain: 20 dB, modes: 4}", "force", ITEM_FORCE, 64);
+    struct rig *one = render("modes.csv", "{gain: 20 dB, modes: 4}", "force", ITEM_FORCE, 1024),
+               *two = render("two.csv", "{gain: 20 dB, modes: 4}", "force", ITEM_FORCE, 64);
     ck_assert(memcmp(one->x, two->x, FRAMES * sizeof *one->x) == 0);
     rig_close(one);
     rig_close(two);

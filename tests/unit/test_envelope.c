@@ -1,5 +1,5 @@
-/* envelope: against the plain maximum over every height there is, which must be the same number to the last bit, and the closed forms of a
-   plane's and a spike's envelope. */
+/* envelope: against the plain maximum over every height there is, which must be the same number to the last bit, and
+   the closed forms of a plane's and a spike's envelope. */
 #include "surface/envelope.h"
 
 #include "unit.h"
@@ -18,11 +18,14 @@ static double plain(const double *z, long columns, long rows, long x, long y, do
 
 enum { COLUMNS = 83, ROWS = 67 };
 
-/* Roughness of three kinds: small noise, noise with rare spikes, and steps; balls from smaller than the pitch to larger than the piece. */
+/* Roughness of three kinds: small noise, noise with rare spikes, and steps; balls from smaller than the pitch to larger
+ * than the piece. */
 static double rough(int kind)
 {
     double noise = 1e-6 * (drand48() - 0.5);
-    return kind == 0 ? noise : kind == 1 ? noise + (drand48() < 0.002 ? 5e-5 * drand48() : 0) : 3e-5 * floor(3 * drand48());
+    return kind == 0   ? noise
+           : kind == 1 ? noise + (drand48() < 0.002 ? 5e-5 * drand48() : 0)
+                       : 3e-5 * floor(3 * drand48());
 }
 
 static void check_piece(long columns, long rows, int kind, double radius)
@@ -30,13 +33,14 @@ static void check_piece(long columns, long rows, int kind, double radius)
     struct arena *a = arena_open();
     struct envelope *e = envelope_make(a, radius, 5e-6, columns, rows);
     long stride;
-    double *held = envelope_heights(e, &stride), *z = ARENA_TAKE(a, double, columns * rows);
+    double *held = envelope_heights(e, &stride), *z = ARENA_TAKE(a, double, columns *rows);
     for (int piece = 0; piece < 2; piece++) { /* the second one into the same memory */
         for (long i = 0; i < columns * rows; i++)
             held[i / columns * stride + i % columns] = z[i] = rough(kind);
         envelope_prepare(e);
         for (int k = 0; k < 400; k++) {
-            long x = k < 200 ? k % columns : (long)(drand48() * (double)columns), y = k < 200 ? k / 40 % rows : (long)(drand48() * (double)rows);
+            long x = k < 200 ? k % columns : (long)(drand48() * (double)columns),
+                 y = k < 200 ? k / 40 % rows : (long)(drand48() * (double)rows);
             ck_assert(envelope_at(e, x, y) == plain(z, columns, rows, x, y, radius, 5e-6));
         }
     }
@@ -56,8 +60,8 @@ START_TEST(the_plain_maximum)
 }
 END_TEST
 
-/* On a slope s the ball touches R s / sqrt(1 + s^2) uphill, and its lowest point is R (sqrt(1 + s^2) - 1) above the slope; the lattice
-   misses at most pitch^2/8 (1 + s^2)^(3/2) / R of it. */
+/* On a slope s the ball touches R s / sqrt(1 + s^2) uphill, and its lowest point is R (sqrt(1 + s^2) - 1) above the
+   slope; the lattice misses at most pitch^2/8 (1 + s^2)^(3/2) / R of it. */
 START_TEST(a_slope)
 {
     struct arena *a = arena_open();
@@ -92,7 +96,8 @@ START_TEST(a_spike_is_the_ball)
         for (long i = 0; i < 301; i += 3) {
             double d2 = ((double)((i - 150) * (i - 150)) + (double)((j - 150) * (j - 150))) * pitch * pitch;
             double want = d2 <= radius * radius * (1 + 1e-15) ? 2e-4 + sqrt(fmax(radius * radius - d2, 0)) - radius : 0;
-            ck_assert_double_eq_tol(envelope_at(e, i, j), want, 1e-17 + (fabs(d2 - radius * radius) < 1e-20 ? 1e-9 : 0));
+            ck_assert_double_eq_tol(envelope_at(e, i, j), want,
+                                    1e-17 + (fabs(d2 - radius * radius) < 1e-20 ? 1e-9 : 0));
         }
     arena_close(a);
 }

@@ -1,5 +1,6 @@
-/* fft against the sum that defines it, in long double, and against transforms known in closed form. FFTW's error grows like
-   sqrt(log n) times the root mean square of the spectrum; UNITS bounds its largest element in those units of 2^-53. */
+/* fft against the sum that defines it, in long double, and against transforms known in closed form. FFTW's error grows
+   like sqrt(log n) times the root mean square of the spectrum; UNITS bounds its largest element in those units of
+   2^-53. */
 #include "num/fft.h"
 
 #include <fftw3.h>
@@ -22,10 +23,7 @@ static void fill(double *x, size_t n, uint64_t state)
     }
 }
 
-static double largest_allowed(size_t n, double rms)
-{
-    return UNITS * 0x1p-53 * sqrt(log2((double)n)) * rms;
-}
+static double largest_allowed(size_t n, double rms) { return UNITS * 0x1p-53 * sqrt(log2((double)n)) * rms; }
 
 /* X[k] = sum of x[j] exp(-2 pi i j k/n); the angles from one table of n, exact in j k mod n. */
 static void slow(size_t n, const double *x, long double *re, long double *im)
@@ -166,8 +164,10 @@ START_TEST(shift)
     fft_forward(f, y, b[0], b[1]);
     for (int k = 0; k <= N / 2; k++) {
         long double c = cosl(2 * M_PIl * (k * D % N) / N), s = sinl(2 * M_PIl * (k * D % N) / N);
-        ck_assert_double_le((double)fabsl(b[0][k] - (a[0][k] * c + a[1][k] * s)), 3 * largest_allowed(N, sqrt(N / 3.0)));
-        ck_assert_double_le((double)fabsl(b[1][k] - (a[1][k] * c - a[0][k] * s)), 3 * largest_allowed(N, sqrt(N / 3.0)));
+        ck_assert_double_le((double)fabsl(b[0][k] - (a[0][k] * c + a[1][k] * s)),
+                            3 * largest_allowed(N, sqrt(N / 3.0)));
+        ck_assert_double_le((double)fabsl(b[1][k] - (a[1][k] * c - a[0][k] * s)),
+                            3 * largest_allowed(N, sqrt(N / 3.0)));
     }
     fft_close(f);
 }
@@ -204,8 +204,7 @@ START_TEST(no_simd)
         fftw_iodim64 dim = {(ptrdiff_t)n, 1, 1};
         double *x = fftw_malloc(LARGEST * sizeof(double)), *out = fftw_malloc(2 * BINS * sizeof(double));
         fftw_forget_wisdom();
-        fftw_plan p = fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, x, out, out + n / 2 + 1,
-                                                     FLAGS);
+        fftw_plan p = fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, x, out, out + n / 2 + 1, FLAGS);
         char *text = fftw_sprint_plan(p);
         ck_assert_msg(!strstr(text, "avx") && !strstr(text, "sse") && !strstr(text, "fv_"), "%s", text);
         fill(x, n, 2);
@@ -223,8 +222,8 @@ START_TEST(no_simd)
 }
 END_TEST
 
-/* The hash was made by this test with FFTW 3.3.10. It fails if FFTW has its twiddle factors from libm, whose sincos gives other
-   bits on CPUs with and without FMA (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2 shows it). */
+/* The hash was made by this test with FFTW 3.3.10. It fails if FFTW has its twiddle factors from libm, whose sincos
+   gives other bits on CPUs with and without FMA (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2 shows it). */
 START_TEST(same_bits_everywhere)
 {
     static double x[LARGEST], re[BINS], im[BINS];

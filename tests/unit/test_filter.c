@@ -1,5 +1,5 @@
-/* filter: the decimator's response evaluated from its taps in long double on a dense grid, and sines through it whose interval
-   means are known in closed form; Gaussians against their definition and transform. */
+/* filter: the decimator's response evaluated from its taps in long double on a dense grid, and sines through it whose
+   interval means are known in closed form; Gaussians against their definition and transform. */
 #include "num/filter.h"
 
 #include <stdbool.h>
@@ -12,7 +12,8 @@ enum { OVERS = sizeof overs / sizeof overs[0], GRID = 1500 };
 #define PASS_ERROR 2e-6 /* num/filter.h */
 #define STOP_GAIN 1e-6
 
-/* Gain from the continuous signal at f (in fs) to the output: mean over T = 1/over, then taps at (j + 1/2) T; hats: mean by a hat, taps at j T. */
+/* Gain from the continuous signal at f (in fs) to the output: mean over T = 1/over, then taps at (j + 1/2) T; hats:
+ * mean by a hat, taps at j T. */
 static long double gain(const struct filter *k, int over, long double f)
 {
     long double w = M_PIl * f / over, sum = 0;
@@ -35,8 +36,7 @@ static double largest(const struct filter *k, int over, double from, double to, 
 static void passes_and_stops(const struct filter *k, int over, const char *what, int taps)
 {
     double pass = largest(k, over, 0, 0.4535, 1), stop = 0;
-    if (over > 1)
-        stop = fmax(largest(k, over, 0.5465, 0.8, 0), largest(k, over, 0.8, over * 0.5, 0));
+    if (over > 1) stop = fmax(largest(k, over, 0.5465, 0.8, 0), largest(k, over, 0.8, over * 0.5, 0));
     printf("%sover = %2d: %4d taps, pass %.3g, stop %.3g\n", what, over, taps, pass, stop);
     ck_assert_double_le(pass, PASS_ERROR);
     ck_assert_double_le(stop, STOP_GAIN);
@@ -58,8 +58,7 @@ START_TEST(decimator_response_of_hats)
     for (int i = 0; i < OVERS; i++) {
         struct arena *a = arena_open();
         struct filter k = filter_decimator_hats(a, overs[i]);
-        if (overs[i] == 1)
-            ck_assert_double_lt(largest(&k, 1, 0.4535, 0.5, 1), 0.05);
+        if (overs[i] == 1) ck_assert_double_lt(largest(&k, 1, 0.4535, 0.5, 1), 0.05);
         passes_and_stops(&k, overs[i], "hats, ", k.taps);
         arena_close(a);
     }
@@ -151,7 +150,8 @@ START_TEST(gaussian_taps)
 }
 END_TEST
 
-/* exp(-2 (pi sigma f)^2); what is cut off beyond 6.5 sigma is 8e-11, and images add exp(-2 (pi sigma (1 - f))^2) < 2e-8 here. */
+/* exp(-2 (pi sigma f)^2); what is cut off beyond 6.5 sigma is 8e-11, and images add exp(-2 (pi sigma (1 - f))^2) < 2e-8
+ * here. */
 START_TEST(gaussian_response)
 {
     struct arena *a = arena_open();
@@ -195,5 +195,5 @@ START_TEST(gaussian_deviation)
 }
 END_TEST
 
-UNIT("filter", decimator_response, decimator_response_of_hats, decimator_sum_and_symmetry, decimated_sines, gaussian_taps, gaussian_response,
-     gaussian_of_no_width, gaussian_deviation)
+UNIT("filter", decimator_response, decimator_response_of_hats, decimator_sum_and_symmetry, decimated_sines,
+     gaussian_taps, gaussian_response, gaussian_of_no_width, gaussian_deviation)

@@ -1,18 +1,24 @@
-/* output.quantity: force, from a scene's text to its WAV: momenta in closed form, the stem of the same force, and that nothing rings. */
+/* output.quantity: force, from a scene's text to its WAV: momenta in closed form, the stem of the same force, and that
+ * nothing rings. */
 #include "renders.h"
 #include "response/modes.h"
 
 #define STILL "  motion: {path: still, duration: 0.2 s}\n"
 #define PULSE "strike: {pulse: half_sine, stiffness: 1 MN/m, speed: "
-#define TWO "rasp: 1\ncontacts:\n" \
-            "- name: hard\n  gain: 3\n  surface: {}\n  scraper: {mass: 10 g}\n" STILL "  contact: {model: strike, " PULSE "1.5 m/s}}\n" \
-            "- name: soft\n  gain: -0.5\n  surface: {}\n  scraper: {mass: 4 g}\n" STILL "  contact: {model: strike, " PULSE "2 m/s, first: 0.1 s}}\n"
+#define TWO                                                                                                            \
+    "rasp: 1\ncontacts:\n"                                                                                             \
+    "- name: hard\n  gain: 3\n  surface: {}\n  scraper: {mass: 10 g}\n" STILL "  contact: {model: strike, " PULSE      \
+    "1.5 m/s}}\n"                                                                                                      \
+    "- name: soft\n  gain: -0.5\n  surface: {}\n  scraper: {mass: 4 g}\n" STILL "  contact: {model: strike, " PULSE    \
+    "2 m/s, first: 0.1 s}}\n"
 
-/* Each impact hands over twice its momentum, times its contact's gain and the level's, whatever the filters on the way: their gain at 0 Hz is 1 to 1e-9. No contact has a response. */
+/* Each impact hands over twice its momentum, times its contact's gain and the level's, whatever the filters on the way:
+ * their gain at 0 Hz is 1 to 1e-9. No contact has a response. */
 START_TEST(momenta_are_kept)
 {
     folder_make();
-    struct render_report r = renders_made(TWO "output: {quantity: force, ramp: 0, encoding: float64, level: {full_scale: 2 N}}\n", "two");
+    struct render_report r =
+        renders_made(TWO "output: {quantity: force, ramp: 0, encoding: float64, level: {full_scale: 2 N}}\n", "two");
     struct wav w = renders_sound("two.wav");
     double first = 0, second = 0;
     ck_assert_int_eq(r.quantity, MODES_FORCE);
@@ -26,12 +32,15 @@ START_TEST(momenta_are_kept)
 }
 END_TEST
 
-/* The stem `force` is the force in newtons, as 32-bit floating point; the sound of one contact is that, but for its rounding. */
+/* The stem `force` is the force in newtons, as 32-bit floating point; the sound of one contact is that, but for its
+ * rounding. */
 START_TEST(it_is_the_stem)
 {
     folder_make();
-    renders_made("rasp: 1\nsurface: {roughness: {rms: 3 um}}\nscraper: {mass: 10 g}\nmotion: {path: line, to: [3 cm, 0], speed: 20 cm/s}\n"
-                 "output: {quantity: force, stems: [force], ramp: 0, encoding: float64, level: {full_scale: 1}}\n", "stem");
+    renders_made("rasp: 1\nsurface: {roughness: {rms: 3 um}}\nscraper: {mass: 10 g}\nmotion: {path: line, to: [3 cm, "
+                 "0], speed: 20 cm/s}\n"
+                 "output: {quantity: force, stems: [force], ramp: 0, encoding: float64, level: {full_scale: 1}}\n",
+                 "stem");
     struct wav w = renders_sound("stem.wav"), f = renders_sound("stem.force.wav");
     double most = 0;
     ck_assert(w.frames == f.frames && w.frames > 7000);

@@ -1,5 +1,6 @@
-/* Diagnostics rows of rendered scenes: forces against sums over the samples that a probe kept in the table's place (rig.h), with row numbers
-   by whole-number division; kinematics, normal force and alpha against closed forms. Numbers are printed with 9 digits: 5e-9 relative. */
+/* Diagnostics rows of rendered scenes: forces against sums over the samples that a probe kept in the table's place
+   (rig.h), with row numbers by whole-number division; kinematics, normal force and alpha against closed forms. Numbers
+   are printed with 9 digits: 5e-9 relative. */
 #include <unistd.h>
 
 #include "file/table.h"
@@ -17,7 +18,10 @@ static struct csv table_of(struct arena *a, const struct scene *s)
     struct render_report report;
     ck_assert_ptr_nonnull(mkdtemp(folder));
     ck_assert_msg(render_scene(s, arena_format(a, "%s/t", folder), a, &report, &e), "%s", e.text);
-    ck_assert_msg(table_read(arena_format(a, "%s/t.%s", folder, s->output.diagnostics.format == TABLE_NPY ? "npy" : "csv"), a, &t, &e), "%s", e.text);
+    ck_assert_msg(
+        table_read(arena_format(a, "%s/t.%s", folder, s->output.diagnostics.format == TABLE_NPY ? "npy" : "csv"), a, &t,
+                   &e),
+        "%s", e.text);
     ck_assert_int_eq(system(arena_format(a, "rm -r %s", folder)), 0);
     return t;
 }
@@ -37,8 +41,9 @@ static double value(const struct csv *t, size_t row, const char *name)
     return x;
 }
 
-static const char *const stroke = "scraper: {mass: 20 g}\nsurface: {roughness: {rms: 5 um}}\nstart: 37 ms\n"
-                                  "motion: {path: back_and_forth, from: [1 cm, 2 cm], to: [4 cm, -2 cm], rate: 5 Hz, duration: 0.13 s}\n";
+static const char *const stroke =
+    "scraper: {mass: 20 g}\nsurface: {roughness: {rms: 5 um}}\nstart: 37 ms\n"
+    "motion: {path: back_and_forth, from: [1 cm, 2 cm], to: [4 cm, -2 cm], rate: 5 Hz, duration: 0.13 s}\n";
 
 struct rates {
     long audio, table;
@@ -46,12 +51,15 @@ struct rates {
 };
 
 /* One sample a row; rates that divide the sample rate, and that do not; rows whose last ends after the motion. */
-static const struct rates rates[] = {{48000, 1000, 130}, {44100, 700, 91}, {48000, 700, 91}, {22050, 999, 130}, {16000, 16000, 2080}, {16000, 7, 1}};
+static const struct rates rates[] = {{48000, 1000, 130}, {44100, 700, 91},     {48000, 700, 91},
+                                     {22050, 999, 130},  {16000, 16000, 2080}, {16000, 7, 1}};
 enum { RATES = sizeof rates / sizeof rates[0] };
 
 static struct scene scene_at(struct arena *a, const struct rates *r, const char *rest)
 {
-    return rig_scene(a, arena_format(a, "rasp: 1\nseed: 3\noutput: {sample_rate: %ld Hz, diagnostics: {rate: %ld Hz}}\n%s", r->audio, r->table, rest));
+    return rig_scene(a,
+                     arena_format(a, "rasp: 1\nseed: 3\noutput: {sample_rate: %ld Hz, diagnostics: {rate: %ld Hz}}\n%s",
+                                  r->audio, r->table, rest));
 }
 
 /* Row k covers the samples n with floor(n rate_d / rate) = k that the motion touches. */
@@ -88,27 +96,33 @@ START_TEST(forces_of_a_row)
 }
 END_TEST
 
-/* What stands in row k is what holds at k / rate_d after the start of the contact, 37 ms after the scene's, to the nearest sample. */
+/* What stands in row k is what holds at k / rate_d after the start of the contact, 37 ms after the scene's, to the
+ * nearest sample. */
 START_TEST(kinematics_of_a_row)
 {
     struct arena *a = rig_arena();
     for (int c = 0; c < RATES; c++) {
         struct scene s = scene_at(a, &rates[c], stroke);
         struct csv t = table_of(a, &s);
-        double omega = 2 * pi * 5, amplitude = 0.025, top = omega * amplitude, start = rint(0.037 * (double)rates[c].audio) / (double)rates[c].audio;
+        double omega = 2 * pi * 5, amplitude = 0.025, top = omega * amplitude,
+               start = rint(0.037 * (double)rates[c].audio) / (double)rates[c].audio;
         for (size_t k = 0; k < t.rows; k++) {
-            double at = (double)k / (double)rates[c].table, u = amplitude * (1 - cos(omega * at)), v = top * sin(omega * at);
+            double at = (double)k / (double)rates[c].table, u = amplitude * (1 - cos(omega * at)),
+                   v = top * sin(omega * at);
             ck_assert_double_eq_tol(value(&t, k, "time_s"), start + at, 1e-9);
             ck_assert_double_eq_tol(value(&t, k, "stroke_m"), u, 1e-10);
             ck_assert_double_eq_tol(value(&t, k, "x_m"), 0.01 + 0.6 * u, 1e-10);
             ck_assert_double_eq_tol(value(&t, k, "y_m"), 0.02 - 0.8 * u, 1e-10);
             ck_assert_double_eq_tol(value(&t, k, "velocity_m_per_s"), v, 1e-8 * top);
             ck_assert_double_eq_tol(value(&t, k, "speed_m_per_s"), fabs(v), 1e-8 * top);
-            ck_assert_double_eq_tol(value(&t, k, "acceleration_m_per_s2"), omega * top * cos(omega * at), 1e-8 * omega * top);
+            ck_assert_double_eq_tol(value(&t, k, "acceleration_m_per_s2"), omega * top * cos(omega * at),
+                                    1e-8 * omega * top);
             ck_assert_double_eq_tol(value(&t, k, "vx_m_per_s"), 0.6 * v, 1e-8 * top);
             ck_assert_double_eq_tol(value(&t, k, "vy_m_per_s"), -0.8 * v, 1e-8 * top);
-            double q = fmin((0.13 - at) / 5e-3, 1), raised = q * q * q * (10 - 15 * q + 6 * q * q); /* 1.3 strokes: it ends at speed */
-            ck_assert_double_eq_tol(value(&t, k, "normal_force_n"), 0.02 * s.contacts[0].contact.gravity * raised, 1e-9);
+            double q = fmin((0.13 - at) / 5e-3, 1),
+                   raised = q * q * q * (10 - 15 * q + 6 * q * q); /* 1.3 strokes: it ends at speed */
+            ck_assert_double_eq_tol(value(&t, k, "normal_force_n"), 0.02 * s.contacts[0].contact.gravity * raised,
+                                    1e-9);
         }
         /* the last row begins less than a row before the motion's end */
         ck_assert_double_lt(value(&t, t.rows - 1, "time_s"), start + 0.13);
@@ -121,7 +135,8 @@ START_TEST(constant_loads)
 {
     static const struct rates r = {16000, 100, 13};
     struct arena *a = rig_arena();
-    struct scene s = scene_at(a, &r, arena_format(a, "%sload: {constant: 0.75 N}\ncontact: {limiter: {alpha: 4 cm}}\n", stroke));
+    struct scene s =
+        scene_at(a, &r, arena_format(a, "%sload: {constant: 0.75 N}\ncontact: {limiter: {alpha: 4 cm}}\n", stroke));
     struct csv t = table_of(a, &s);
     for (size_t k = 0; k < t.rows; k++) {
         ck_assert_str_eq(cell(&t, k, "normal_force_n"), "0.75");
@@ -139,8 +154,13 @@ START_TEST(rows_of_a_circle)
     char file[] = "/tmp/rasp_load_XXXXXX";
     int fd = mkstemp(file);
     ck_assert(fd >= 0 && dprintf(fd, "time_s,normal_force_n\n0,1\n0.2,1.5\n0.4,2\n") > 0 && close(fd) == 0);
-    struct scene s = scene_at(a, &r, arena_format(a, "scraper: {mass: 20 g}\nsurface: {roughness: {rms: 2 um}}\nload: {recorded: %s, approach: 20 ms, release: 40 ms}\n"
-                              "motion: {path: circle, center: [1 cm, 2 cm], radius: 5 cm, start_angle: 30 deg, turns: -1.5, duration: 0.4 s}\n", file));
+    struct scene s = scene_at(a, &r,
+                              arena_format(a,
+                                           "scraper: {mass: 20 g}\nsurface: {roughness: {rms: 2 um}}\nload: {recorded: "
+                                           "%s, approach: 20 ms, release: 40 ms}\n"
+                                           "motion: {path: circle, center: [1 cm, 2 cm], radius: 5 cm, start_angle: 30 "
+                                           "deg, turns: -1.5, duration: 0.4 s}\n",
+                                           file));
     struct csv t = table_of(a, &s);
     ck_assert_int_eq(unlink(file), 0);
     ck_assert_uint_eq(t.rows, 200);
@@ -153,22 +173,26 @@ START_TEST(rows_of_a_circle)
         ck_assert_double_eq_tol(value(&t, k, "vy_m_per_s"), -v * cos(angle), 1e-8);
         ck_assert_double_eq_tol(value(&t, k, "stroke_m"), v * at, 1e-9);
         ck_assert_double_eq_tol(value(&t, k, "velocity_m_per_s"), v, 1e-8);
-        ck_assert_double_eq_tol(value(&t, k, "normal_force_n"), (1 + 2.5 * at) * q * q * q * (10 - 15 * q + 6 * q * q), 1e-8);
-        ck_assert_double_eq_tol(value(&t, k, "alpha_m"), 0.05 - 0.04 * pow(at / 0.4, 0.95), 1e-9); /* of the force before it is lowered */
+        ck_assert_double_eq_tol(value(&t, k, "normal_force_n"), (1 + 2.5 * at) * q * q * q * (10 - 15 * q + 6 * q * q),
+                                1e-8);
+        ck_assert_double_eq_tol(value(&t, k, "alpha_m"), 0.05 - 0.04 * pow(at / 0.4, 0.95),
+                                1e-9); /* of the force before it is lowered */
         ck_assert_double_eq(value(&t, k, "lift_offs"), 0);
     }
 }
 END_TEST
 
 /* A grip that throws the scraper off the surface: omega^2 L tan theta = 4.2 g. */
-static const char *const thrown = "scraper: {mass: 20 g}\nsurface: {roughness: {rms: 5 um}}\ngrip: {angle: 30 deg, friction: 0.4, azimuth: 20 deg}\n"
-                                  "contact: {limiter: {alpha_min: 1 cm, alpha_max: 5 cm, zeta: 1.7, force_range: [0.05 N, 0.9 N]}}\n"
-                                  "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.4 cm, 0], rate: 30 Hz, duration: 0.1 s}\n";
+static const char *const thrown =
+    "scraper: {mass: 20 g}\nsurface: {roughness: {rms: 5 um}}\ngrip: {angle: 30 deg, friction: 0.4, azimuth: 20 deg}\n"
+    "contact: {limiter: {alpha_min: 1 cm, alpha_max: 5 cm, zeta: 1.7, force_range: [0.05 N, 0.9 N]}}\n"
+    "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.4 cm, 0], rate: 30 Hz, duration: 0.1 s}\n";
 
 /* Papers/000 equations 8 and 9 at any instant: N = (m g + m a tan theta) / (1 - mu tan theta). */
 static double thrown_load(const struct scene *s, double at)
 {
-    double omega = 2 * pi * 30, outwards = 0.002 * omega * omega * cos(omega * fmin(at, 0.1)) * cos(20 * pi / 180), tangent = tan(30 * pi / 180);
+    double omega = 2 * pi * 30, outwards = 0.002 * omega * omega * cos(omega * fmin(at, 0.1)) * cos(20 * pi / 180),
+           tangent = tan(30 * pi / 180);
     return 0.02 * (s->contacts[0].contact.gravity + outwards * tangent) / (1 - 0.4 * tangent);
 }
 
@@ -202,7 +226,8 @@ START_TEST(lift_offs_are_counted)
         struct csv t = table_of(a, &s);
         long over = (long)s.accuracy.oversampling, total = 0, *want = calloc(all[c].rows + 1, sizeof *want);
         for (long j = 0; j < all[c].audio / 10 * over; j++)
-            if (thrown_load(&s, (double)j / (double)(all[c].audio * over)) >= 0 && thrown_load(&s, (double)(j + 1) / (double)(all[c].audio * over)) < 0)
+            if (thrown_load(&s, (double)j / (double)(all[c].audio * over)) >= 0 &&
+                thrown_load(&s, (double)(j + 1) / (double)(all[c].audio * over)) < 0)
                 want[j / over * all[c].table / all[c].audio]++;
         ck_assert_uint_eq(t.rows, all[c].rows);
         for (size_t k = 0; k < t.rows; k++) {
@@ -223,10 +248,13 @@ static const char *header(struct arena *a, const struct csv *t)
     return all;
 }
 
-#define KINEMATICS "time_s,x_m,y_m,vx_m_per_s,vy_m_per_s,stroke_m,speed_m_per_s,velocity_m_per_s,acceleration_m_per_s2,normal_force_n"
+#define KINEMATICS                                                                                                     \
+    "time_s,x_m,y_m,vx_m_per_s,vy_m_per_s,stroke_m,speed_m_per_s,velocity_m_per_s,acceleration_m_per_s2,normal_force_" \
+    "n"
 #define FORCES "force_mean_n,force_rms_n,force_peak_n"
 
-/* All columns that the scene has, or those asked for: always in one order, with the same values, whatever else is computed. */
+/* All columns that the scene has, or those asked for: always in one order, with the same values, whatever else is
+ * computed. */
 START_TEST(columns)
 {
     static const struct rates r = {16000, 100, 10};
@@ -252,13 +280,16 @@ START_TEST(columns)
 }
 END_TEST
 
-/* Columns of what does not scrape: no normal force, no alpha; impacts are counted in the row in which they begin: every 30 ms from 21 ms on, at 100 rows a second. */
+/* Columns of what does not scrape: no normal force, no alpha; impacts are counted in the row in which they begin: every
+ * 30 ms from 21 ms on, at 100 rows a second. */
 START_TEST(impacts_are_counted)
 {
     struct arena *a = rig_arena();
-    struct scene s = scene_at(a, &(struct rates){16000, 100, 100},
-                              "scraper: {mass: 20 g}\nmotion: {path: still, at: [4 cm, 1 cm], duration: 1 s}\nstart: 50 ms\n"
-                              "contact: {model: strike, strike: {speed: 1 m/s, stiffness: 1e8 N/m^1.5, first: 21 ms, interval: 30 ms, count: 30}}\n");
+    struct scene s =
+        scene_at(a, &(struct rates){16000, 100, 100},
+                 "scraper: {mass: 20 g}\nmotion: {path: still, at: [4 cm, 1 cm], duration: 1 s}\nstart: 50 ms\n"
+                 "contact: {model: strike, strike: {speed: 1 m/s, stiffness: 1e8 N/m^1.5, first: 21 ms, interval: 30 "
+                 "ms, count: 30}}\n");
     struct csv t = table_of(a, &s);
     ck_assert_uint_eq(t.rows, 100);
     ck_assert(csv_column(&t, "normal_force_n") < 0 && csv_column(&t, "alpha_m") < 0 && csv_column(&t, "lift_offs") < 0);
@@ -305,9 +336,10 @@ START_TEST(a_rate_above_the_sample_rate_is_refused)
     ck_assert(plan_make(stages_table, &s.contacts[0], &s, a, &p, &e));
     ck_assert(!run_open(&run, &p, &s, NULL, &e)); /* nothing was written: there is nowhere to write to */
     ck_assert_int_eq(e.kind, ERR_SCENE);
-    ck_assert_msg(strstr(e.text, "output.diagnostics.rate: 16000.5 Hz is above output.sample_rate, 16000 Hz") != NULL, "%s", e.text);
+    ck_assert_msg(strstr(e.text, "output.diagnostics.rate: 16000.5 Hz is above output.sample_rate, 16000 Hz") != NULL,
+                  "%s", e.text);
 }
 END_TEST
 
-UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, rows_of_a_circle, load_and_alpha_of_a_grip, lift_offs_are_counted, impacts_are_counted, columns, npy_is_csv,
-     a_rate_above_the_sample_rate_is_refused)
+UNIT("force_table", forces_of_a_row, kinematics_of_a_row, constant_loads, rows_of_a_circle, load_and_alpha_of_a_grip,
+     lift_offs_are_counted, impacts_are_counted, columns, npy_is_csv, a_rate_above_the_sample_rate_is_refused)

@@ -10,10 +10,17 @@
 
 static struct fractal recipe(int interpolation)
 {
-    return (struct fractal){.given = true, .exponent = -1, .spectrum = SPECTRUM_POWER, .maximum = MAXIMUM, .pitch = 1e-4, .length = 0.2, .interpolation = interpolation};
+    return (struct fractal){.given = true,
+                            .exponent = -1,
+                            .spectrum = SPECTRUM_POWER,
+                            .maximum = MAXIMUM,
+                            .pitch = 1e-4,
+                            .length = 0.2,
+                            .interpolation = interpolation};
 }
 
-/* Least-squares slope of the logarithm of the periodogram's power over that of the line, and the largest departure from that line, dB. */
+/* Least-squares slope of the logarithm of the periodogram's power over that of the line, and the largest departure from
+ * that line, dB. */
 static double slope_of(const double *z, long n, double *off)
 {
     double re[1001], im[1001], power[1001], x = 0, y = 0, xx = 0, xy = 0, m = (double)n / 2 - 1;
@@ -31,7 +38,8 @@ static double slope_of(const double *z, long n, double *off)
     return slope;
 }
 
-/* Every line is where the power law has it: the phases alone are drawn. Of a steep one the last lines are lost in rounding, 1e-16 of the first. */
+/* Every line is where the power law has it: the phases alone are drawn. Of a steep one the last lines are lost in
+ * rounding, 1e-16 of the first. */
 START_TEST(the_periodogram_is_the_power_law)
 {
     static const double exponents[] = {0, -0.5, -1, -1.2, -2, 1};
@@ -85,7 +93,9 @@ START_TEST(between_the_heights)
         struct fractal f = recipe(kind);
         struct relief_part *p = part_of(a, &f);
         fractal_heights(&f, noise_make(1, "fractal"), z);
-        ck_assert_double_eq(p->kinks, kind == INTERPOLATION_NEAREST ? pitch / 2 : kind == INTERPOLATION_LINEAR ? pitch : 0);
+        ck_assert_double_eq(p->kinks, kind == INTERPOLATION_NEAREST  ? pitch / 2
+                                      : kind == INTERPOLATION_LINEAR ? pitch
+                                                                     : 0);
         for (int i = -4500; i < 4500; i += 7) {
             int k = ((i % 2000) + 2000) % 2000, next = (k + 1) % 2000;
             double share = 0.01 + 0.97 * drand48(), rise = z[next] - z[k];
@@ -103,14 +113,14 @@ START_TEST(between_the_heights)
                 ck_assert_double_eq(edge.v[0], fmax(z[k], z[next]));
             }
         }
-        if (kind == INTERPOLATION_SPLINE)
-            parts_derivatives(p, 0.5, false);
+        if (kind == INTERPOLATION_SPLINE) parts_derivatives(p, 0.5, false);
         arena_close(a);
     }
 }
 END_TEST
 
-/* The spline is C2, its second derivative straight between knots: of five even places within a cell the third differences are alike. */
+/* The spline is C2, its second derivative straight between knots: of five even places within a cell the third
+ * differences are alike. */
 START_TEST(the_spline_is_cubic)
 {
     struct arena *a = arena_open();
@@ -121,13 +131,15 @@ START_TEST(the_spline_is_cubic)
         for (int k = 0; k < 5; k++)
             c[k] = parts_at(p, knot + (0.1 + 0.2 * k) * 1e-4, 0, false).v[3];
         ck_assert_double_eq_tol(c[0] - 2 * c[2] + c[4], 0, 1e-9 * MAXIMUM / 1e-8);
-        ck_assert_double_eq_tol(parts_at(p, knot - tiny, 0, false).v[3], parts_at(p, knot + tiny, 0, false).v[3], 1e-6 * MAXIMUM / 1e-8);
+        ck_assert_double_eq_tol(parts_at(p, knot - tiny, 0, false).v[3], parts_at(p, knot + tiny, 0, false).v[3],
+                                1e-6 * MAXIMUM / 1e-8);
     }
     arena_close(a);
 }
 END_TEST
 
-/* The phases are those of the lines, whatever the length: the same draw at twice the pitch and length is the same heights. */
+/* The phases are those of the lines, whatever the length: the same draw at twice the pitch and length is the same
+ * heights. */
 START_TEST(the_draw_is_the_seeds)
 {
     struct fractal f = recipe(INTERPOLATION_SPLINE), wide = f;
@@ -161,7 +173,9 @@ static void fails(struct scene *s, const char *says)
 /* What a scene's reader tells with its place the stage keeps to as well. */
 START_TEST(refused_once_more)
 {
-    struct scene s = rig_scene(rig_arena(), HEAD "surface: {fractal: {interpolation: linear}}\nmotion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\n");
+    struct scene s =
+        rig_scene(rig_arena(), HEAD
+                  "surface: {fractal: {interpolation: linear}}\nmotion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\n");
     struct contact *c = (struct contact *)&s.contacts[0];
     c->surface.along = ALONG_PLANE;
     fails(&s, "set surface.along to path or x");
@@ -181,7 +195,8 @@ END_TEST
 START_TEST(repeating_is_told)
 {
     for (int cm = 20; cm <= 21; cm++) {
-        struct scene s = rig_scene(rig_arena(), arena_format(rig_arena(), HEAD "surface: {fractal: {length: 20 cm}}\n" WAY, cm));
+        struct scene s =
+            rig_scene(rig_arena(), arena_format(rig_arena(), HEAD "surface: {fractal: {length: 20 cm}}\n" WAY, cm));
         struct rig *g = rig_record(&s, ITEM_FORCE, 100, 100);
         ck_assert_int_eq(g->run.board.n_warnings, cm - 20);
         ck_assert(cm == 20 || strstr(g->run.board.warnings[0], "repeats itself every 0.2 m"));
@@ -190,5 +205,5 @@ START_TEST(repeating_is_told)
 }
 END_TEST
 
-UNIT("fractal", the_periodogram_is_the_power_law, the_largest_is_the_maximum, between_the_heights, the_spline_is_cubic, the_draw_is_the_seeds,
-     refused_once_more, repeating_is_told)
+UNIT("fractal", the_periodogram_is_the_power_law, the_largest_is_the_maximum, between_the_heights, the_spline_is_cubic,
+     the_draw_is_the_seeds, refused_once_more, repeating_is_told)

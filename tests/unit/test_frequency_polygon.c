@@ -1,4 +1,5 @@
-/* frequency_polygon: its integral, mean and deviation by quadrature, its closeness to the density of a large sample, and when it is needed. */
+/* frequency_polygon: its integral, mean and deviation by quadrature, its closeness to the density of a large sample,
+ * and when it is needed. */
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 
@@ -10,7 +11,8 @@ static void moments(const struct frequency_polygon *t, double m[3])
     m[0] = m[1] = m[2] = 0;
     for (int i = 0; i + 1 < t->n; i++)
         for (int k = 0; k < 2000; k++) {
-            double q = (k + 0.5) / 2000, h = t->value[i + 1] - t->value[i], x = t->value[i] + q * h, d = t->density[i] + q * (t->density[i + 1] - t->density[i]);
+            double q = (k + 0.5) / 2000, h = t->value[i + 1] - t->value[i], x = t->value[i] + q * h,
+                   d = t->density[i] + q * (t->density[i + 1] - t->density[i]);
             m[0] += d * h / 2000;
             m[1] += d * x * h / 2000;
             m[2] += d * x * x * h / 2000;
@@ -21,7 +23,8 @@ static double at(const struct frequency_polygon *t, double x)
 {
     for (int i = 0; i + 1 < t->n; i++)
         if (x >= t->value[i] && x <= t->value[i + 1])
-            return t->density[i] + (x - t->value[i]) / (t->value[i + 1] - t->value[i]) * (t->density[i + 1] - t->density[i]);
+            return t->density[i] +
+                   (x - t->value[i]) / (t->value[i + 1] - t->value[i]) * (t->density[i + 1] - t->density[i]);
     return 0;
 }
 
@@ -43,10 +46,12 @@ START_TEST(moments_and_density)
         ck_assert_double_eq_tol(sqrt(m[2]) / 2e-3, 1, 1e-6); /* the quadrature's */
         ck_assert(t.density[0] == 0 && t.density[t.n - 1] == 0);
         for (double z = -3; z < 4; z += 0.01) {
-            double density = kind ? gsl_ran_gamma_pdf((z + sqrt(3)) * sqrt(3), 3, 1) * sqrt(3) : gsl_ran_gaussian_pdf(z, 1);
+            double density =
+                kind ? gsl_ran_gamma_pdf((z + sqrt(3)) * sqrt(3), 3, 1) * sqrt(3) : gsl_ran_gaussian_pdf(z, 1);
             worst = fmax(worst, fabs(at(&t, 2e-3 * z) * 2e-3 - density));
         }
-        ck_assert_double_le(worst, 0.04); /* a bin holds 1 % of the sample and more: 3 % of 0.45, and the polygon cuts corners */
+        ck_assert_double_le(
+            worst, 0.04); /* a bin holds 1 % of the sample and more: 3 % of 0.45, and the polygon cuts corners */
     }
     arena_close(a);
     gsl_rng_free(r);

@@ -1,17 +1,19 @@
-/* gammatone: bodies that begin softly through the whole pipeline: every engine and reading that can against sums of the definition, sample by sample in
-   long double, for a force from a file and tables of two places, whose gains change their sign (shared) or whose poles move (separate). */
+/* gammatone: bodies that begin softly through the whole pipeline: every engine and reading that can against sums of the
+   definition, sample by sample in long double, for a force from a file and tables of two places, whose gains change
+   their sign (shared) or whose poles move (separate). */
 #include <unistd.h>
 
 #include "convolution/alias.h"
 #include "convolution/ring_choice.h"
-#include "rig.h"
 #include "force_file.h"
+#include "rig.h"
 
 enum { RATE = 8000, FRAMES = 2600, FORCED = 1600, MODES = 4, BLOCK = 700 };
 
 static const struct place {
     double f[MODES], d[MODES], g[MODES];
-} here = {{180, 420, 955, 1700}, {60, 70, 90, 120}, {1, -0.7, 0.5, 0.4}}, there = {{183, 413, 975, 1690}, {66, 60, 100, 115}, {0.5, -1, 0.7, 0.3}},
+} here = {{180, 420, 955, 1700}, {60, 70, 90, 120}, {1, -0.7, 0.5, 0.4}},
+  there = {{183, 413, 975, 1690}, {66, 60, 100, 115}, {0.5, -1, 0.7, 0.3}},
   turned = {{180, 420, 955, 1700}, {60, 70, 90, 120}, {-0.6, 0.9, 0.5, -0.2}};
 
 static char folder[] = "/tmp/test_gammatone.XXXXXX";
@@ -23,10 +25,12 @@ static void table_write(const char *name, const char *poles, const struct place 
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *f = fopen(path, "w");
     ck_assert_ptr_nonnull(f);
-    fprintf(f, "# poles: %s\n# quantity: acceleration\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n", poles);
+    fprintf(f, "# poles: %s\n# quantity: acceleration\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n",
+            poles);
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < MODES; i++)
-            fprintf(f, "%d,%d,0,%d,%.17g,%.17g,%.17g,0\n", k, k, i, (k ? q : p)->f[i], (k ? q : p)->d[i], (k ? q : p)->g[i]);
+            fprintf(f, "%d,%d,0,%d,%.17g,%.17g,%.17g,0\n", k, k, i, (k ? q : p)->f[i], (k ? q : p)->d[i],
+                    (k ? q : p)->g[i]);
     fclose(f);
 }
 
@@ -59,10 +63,12 @@ static void folder_remove(void)
 static struct rig *render(const char *table, int gamma, const char *how, const char *accuracy, int block)
 {
     char text[1000];
-    snprintf(text, sizeof text,
-             "rasp: 1\nsurface: {response: %s/%s, gammatone: %d, %s}\nmotion: {path: line, from: [0, 0], to: [1, 0], duration: %.17g}\n"
-             "contact: {model: given, given: {file: %s/force.npy, rate: %d}}\naccuracy: {%s}\noutput: {sample_rate: %d}\n",
-             folder, table, gamma, how, FORCED / (double)RATE, folder, RATE, accuracy, RATE);
+    snprintf(
+        text, sizeof text,
+        "rasp: 1\nsurface: {response: %s/%s, gammatone: %d, %s}\nmotion: {path: line, from: [0, 0], to: [1, 0], "
+        "duration: %.17g}\n"
+        "contact: {model: given, given: {file: %s/force.npy, rate: %d}}\naccuracy: {%s}\noutput: {sample_rate: %d}\n",
+        folder, table, gamma, how, FORCED / (double)RATE, folder, RATE, accuracy, RATE);
     struct scene s = rig_scene(rig_arena(), text);
     return rig_record(&s, ITEM_SOUND, FRAMES, block);
 }
@@ -79,20 +85,23 @@ static long double tone(bool shared, int gamma, long double u, long n)
 {
     long double t = n / (long double)RATE, sum = 0;
     for (int i = 0; i < MODES; i++) {
-        long double f = shared ? here.f[i] : between(here.f[i], there.f[i], u), d = shared ? here.d[i] : between(here.d[i], there.d[i], u);
+        long double f = shared ? here.f[i] : between(here.f[i], there.f[i], u),
+                    d = shared ? here.d[i] : between(here.d[i], there.d[i], u);
         long double g = shared ? here.g[i] + u * (turned.g[i] - here.g[i]) : between(here.g[i], there.g[i], u);
         sum += g * powl(t * d / (gamma - 1), gamma - 1) * expl((gamma - 1) - t * d) * sinl(2 * M_PIl * f * t);
     }
     return sum;
 }
 
-/* What is taken out of sampling frame n's sound of force frame m, at the place u (test_alias.c): sum of Im(A kappa), A = g (e d/(gamma - 1))^(gamma - 1). */
+/* What is taken out of sampling frame n's sound of force frame m, at the place u (test_alias.c): sum of Im(A kappa), A
+ * = g (e d/(gamma - 1))^(gamma - 1). */
 static long double taken(const struct alias *alias, bool shared, int gamma, long double u, long n)
 {
     long double sum = 0;
     for (int i = 0; i < MODES && n >= -ALIAS_REACH && n <= ALIAS_REACH; i++) {
         double re[ALIAS_TAPS], im[ALIAS_TAPS];
-        long double f = shared ? here.f[i] : between(here.f[i], there.f[i], u), d = shared ? here.d[i] : between(here.d[i], there.d[i], u);
+        long double f = shared ? here.f[i] : between(here.f[i], there.f[i], u),
+                    d = shared ? here.d[i] : between(here.d[i], there.d[i], u);
         long double g = shared ? here.g[i] + u * (turned.g[i] - here.g[i]) : between(here.g[i], there.g[i], u);
         alias_taps(alias, (double)f, (double)d, re, im);
         sum += g * powl(M_El * d / (gamma - 1), gamma - 1) * im[n + ALIAS_REACH];
@@ -126,7 +135,8 @@ static void check(const char *table, int gamma, const char *how, const char *acc
     rig_close(g);
 }
 
-/* Gains are straight lines between the two places, so a ramp has no error but at the motion's end, where they stop, within it. */
+/* Gains are straight lines between the two places, so a ramp has no error but at the motion's end, where they stop,
+ * within it. */
 START_TEST(fixed)
 {
     folder_make();
@@ -158,7 +168,8 @@ END_TEST
 START_TEST(the_same_bits)
 {
     folder_make();
-    struct rig *a = render("shared.csv", 1, "moving: fixed", "gain_ramp: 4", BLOCK), *b = render("shared.csv", 2, "moving: fixed", "gain_ramp: 4", BLOCK),
+    struct rig *a = render("shared.csv", 1, "moving: fixed", "gain_ramp: 4", BLOCK),
+               *b = render("shared.csv", 2, "moving: fixed", "gain_ramp: 4", BLOCK),
                *c = render("shared.csv", 2, "moving: fixed", "gain_ramp: 4", 37);
     struct scene s = a->scene;
     s.contacts[0].surface.response.gammatone = 0; /* not set by any key */

@@ -1,7 +1,7 @@
-/* gammatone_bank: the recursion against the gammatone's own formula in long double, sample by sample, and against the defining sum under gains that move. */
+/* gammatone_bank: the recursion against the gammatone's own formula in long double, sample by sample, and against the
+ * defining sum under gains that move. */
 #include "unit.h"
 
-#include "convolution/gammatone.h"
 #include "convolution/gammatone.h"
 
 enum { MODES = 11, N = 6000, FORCE = 700 };
@@ -23,7 +23,8 @@ static void modes(void)
 static long double tone(int i, int gamma, long double t)
 {
     long double tau = 1 / (long double)decay[i], peak = (gamma - 1) * tau;
-    return powl(t / peak, gamma - 1) * expl((gamma - 1) - t / tau) * size[i] * sinl(2 * M_PIl * frequency[i] * t + phase[i]);
+    return powl(t / peak, gamma - 1) * expl((gamma - 1) - t / tau) * size[i] *
+           sinl(2 * M_PIl * frequency[i] * t + phase[i]);
 }
 
 static struct modes_point gains(double share, double *re, double *im, int gamma)
@@ -89,7 +90,8 @@ START_TEST(greatest_value)
 }
 END_TEST
 
-/* Gains that change sign on the way go in with the force: y(n) = (1/rate) sum_m share(m) f(m) h(n - m), straight lines between calls. */
+/* Gains that change sign on the way go in with the force: y(n) = (1/rate) sum_m share(m) f(m) h(n - m), straight lines
+ * between calls. */
 START_TEST(gains_that_move)
 {
     static double f[N], y[N];
@@ -113,7 +115,8 @@ START_TEST(gains_that_move)
             long double want = 0;
             for (int m = 0; m <= n && m < FORCE; m++) {
                 int at = m / RAMP * RAMP;
-                double part = (m - at + 1.0) / RAMP, share = (1 - part) * cos(0.004 * (at - 1)) + part * cos(0.004 * (at + RAMP - 1));
+                double part = (m - at + 1.0) / RAMP,
+                       share = (1 - part) * cos(0.004 * (at - 1)) + part * cos(0.004 * (at + RAMP - 1));
                 for (int i = 0; i < MODES; i++)
                     want += share * f[m] * tone(i, gamma, (n - m) / (long double)RATE);
             }
@@ -132,7 +135,8 @@ START_TEST(falls)
 {
     for (int gamma = 1; gamma <= GAMMATONE_MOST; gamma++)
         for (double db = 1; db < 400; db *= 3) {
-            double x = gammatone_decibel(gamma, db) * log(10) / 20, m = gamma - 1, level = gamma > 1 ? m * log(x / m) + m - x : -x;
+            double x = gammatone_decibel(gamma, db) * log(10) / 20, m = gamma - 1,
+                   level = gamma > 1 ? m * log(x / m) + m - x : -x;
             ck_assert_double_eq_tol(20 / log(10) * level, -db, 1e-9 * db);
             ck_assert_double_ge(x, m);
             ck_assert_double_eq_tol(gammatone_fallen(gamma, gammatone_decibel(gamma, db)), db, 1e-9 * db);

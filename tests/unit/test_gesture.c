@@ -1,5 +1,5 @@
-/* gesture: the low-pass at steady speeds against its closed form, what it does at rest, under any modulation and above its limit, on straight and curved
-   motions, and how the force begins and ends. */
+/* gesture: the low-pass at steady speeds against its closed form, what it does at rest, under any modulation and above
+   its limit, on straight and curved motions, and how the force begins and ends. */
 #include "contacts.h"
 #include "num/noise.h"
 #include "rig.h"
@@ -32,7 +32,8 @@ static void hand_begin(struct hand *h)
     struct err e = {0};
     ck_assert_msg(trajectory_make(&h->contact.motion, 1, h->arena, &h->trajectory, &e), "%s", e.text);
     h->board.trajectory = &h->trajectory;
-    h->run = (struct stage_run){.stage = &gesture_stage, .scene = &h->scene, .contact = &h->contact, .board = &h->board, .arena = h->arena};
+    h->run = (struct stage_run){
+        .stage = &gesture_stage, .scene = &h->scene, .contact = &h->contact, .board = &h->board, .arena = h->arena};
     ck_assert_msg(gesture_stage.open(&h->run, &e), "%s", e.text);
     for (int k = 0; k < 2; k++) {
         struct signal *s = &h->board.signals[k ? ITEM_VELOCITY : ITEM_FORCE];
@@ -69,11 +70,13 @@ static double gain_at(const double *x, long n, double f, double rate)
     return sqrt(re * re + im * im);
 }
 
-/* |H| = 1 / sqrt(1 + r^(2 order)), r = tan(pi f / rate) / tan(pi f_c / rate): Butterworth's under the bilinear transform, -3 dB at f_c = cutoff v. The
-   impulse response has died to 1e-13 within 30 / (2 pi f_c) s. Either direction of the motion is the same. */
+/* |H| = 1 / sqrt(1 + r^(2 order)), r = tan(pi f / rate) / tan(pi f_c / rate): Butterworth's under the bilinear
+   transform, -3 dB at f_c = cutoff v. The impulse response has died to 1e-13 within 30 / (2 pi f_c) s. Either direction
+   of the motion is the same. */
 START_TEST(steady_speeds)
 {
-    const double rates[] = {22050, 48000, 192000}, speeds[] = {-0.3, 0.05, 1, 2.2}, parts[] = {0.01, 0.25, 0.5, 1, 2, 4};
+    const double rates[] = {22050, 48000, 192000}, speeds[] = {-0.3, 0.05, 1, 2.2},
+                 parts[] = {0.01, 0.25, 0.5, 1, 2, 4};
     for (int r = 0; r < 3; r++)
         for (int k = 0; k < 4; k++)
             for (int order = 1; order <= 2; order++) {
@@ -88,7 +91,8 @@ START_TEST(steady_speeds)
                 for (int p = 0; p < 6; p++) {
                     double f = parts[p] * cutoff, ratio = tan(M_PI * f / rates[r]) / tan(M_PI * cutoff / rates[r]);
                     if (f < rates[r] / 2)
-                        ck_assert_double_eq_tol(gain_at(h.force, h.n, f, rates[r]), 1 / sqrt(1 + pow(ratio, 2 * order)), 1e-11);
+                        ck_assert_double_eq_tol(gain_at(h.force, h.n, f, rates[r]), 1 / sqrt(1 + pow(ratio, 2 * order)),
+                                                1e-11);
                 }
                 arena_close(h.arena);
             }
@@ -114,7 +118,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ at rest, and in between */
 
-/* A constant force passes whatever the speed does; at rest what there is stands still to the bit, and goes on from there. */
+/* A constant force passes whatever the speed does; at rest what there is stands still to the bit, and goes on from
+ * there. */
 START_TEST(at_rest)
 {
     for (int order = 1; order <= 2; order++) {
@@ -149,8 +154,9 @@ START_TEST(from_rest)
 }
 END_TEST
 
-/* Speeds that jump about from sample to sample, from 0 to beyond the limit, and that swing at any audio frequency: a white force within 1 stays within
-   30, what is left of it when it ends does not grow for 10 s, and at a steady speed dies away. */
+/* Speeds that jump about from sample to sample, from 0 to beyond the limit, and that swing at any audio frequency: a
+   white force within 1 stays within 30, what is left of it when it ends does not grow for 10 s, and at a steady speed
+   dies away. */
 START_TEST(any_modulation)
 {
     struct noise noise = noise_make(1, "modulation");
@@ -159,7 +165,8 @@ START_TEST(any_modulation)
         double most = 0, after = 0;
         hand_begin(&h);
         for (long i = 0; i < h.n; i++) {
-            double u = noise_uniform(noise, (uint64_t)i, (uint64_t)k), swing = 0.5 + 0.5 * sin(2 * M_PI * pow(4, k / 2) * 20 * (double)i / 48000);
+            double u = noise_uniform(noise, (uint64_t)i, (uint64_t)k),
+                   swing = 0.5 + 0.5 * sin(2 * M_PI * pow(4, k / 2) * 20 * (double)i / 48000);
             h.velocity[i] = i >= 480000 ? 0.5 : k < 2 ? 2 * u * u * u : 1.2 * swing * swing;
             h.force[i] = i < 24000 ? 2 * noise_uniform(noise, (uint64_t)i, 100) - 1 : 0;
         }
@@ -182,8 +189,9 @@ START_TEST(above_the_limit)
     struct hand h = hand_bare(48000, 1e6, 2, 4000);
     hand_begin(&h);
     ck_assert_int_eq(h.board.n_warnings, 1);
-    ck_assert_msg(strstr(h.board.warnings[0], "the cutoff reaches 1e+06 Hz at 1 m/s; above 23520 Hz, 0.49 of the sample rate, the low-pass counts as open") != NULL, "%s",
-                  h.board.warnings[0]);
+    ck_assert_msg(strstr(h.board.warnings[0], "the cutoff reaches 1e+06 Hz at 1 m/s; above 23520 Hz, 0.49 of the "
+                                              "sample rate, the low-pass counts as open") != NULL,
+                  "%s", h.board.warnings[0]);
     for (long i = 0; i < h.n; i++)
         h.velocity[i] = 1;
     h.force[0] = 1;
@@ -199,8 +207,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ beginning and end */
 
-/* What is lowered and raised: from 0, over 5 ms, to 0 at the motion's end and after it, also where what is held at rest would stay. A given force begins as
-   it is, and is let go too. */
+/* What is lowered and raised: from 0, over 5 ms, to 0 at the motion's end and after it, also where what is held at rest
+   would stay. A given force begins as it is, and is let go too. */
 START_TEST(begins_and_ends)
 {
     for (int given = 0; given < 2; given++) {
@@ -238,13 +246,15 @@ static struct rig *rubbed(const char *motion, const char *cutoff, enum item item
     return rig_record(&s, item, 8820, STAGE_BLOCK);
 }
 
-/* Round a circle and along a line at the same speed: the same force, but for rounding. The cutoff is that of the speed, on both: with the speed halved and the
-   cutoff doubled it is the same again. */
+/* Round a circle and along a line at the same speed: the same force, but for rounding. The cutoff is that of the speed,
+   on both: with the speed halved and the cutoff doubled it is the same again. */
 START_TEST(motions)
 {
     struct rig *line = rubbed("{path: line, to: [10 cm, 0], speed: 50 cm/s}", "2 kHz", ITEM_FORCE);
-    struct rig *circle = rubbed("{path: circle, radius: 2 cm, turns: 0.7957747154594768, speed: 50 cm/s}", "2 kHz", ITEM_FORCE);
-    struct rig *slow = rubbed("{path: line, to: [5 cm, 0], speed: 25 cm/s}", "4 kHz", ITEM_FORCE), *other = rubbed("{path: line, to: [5 cm, 0], speed: 25 cm/s}", "2 kHz", ITEM_FORCE);
+    struct rig *circle =
+        rubbed("{path: circle, radius: 2 cm, turns: 0.7957747154594768, speed: 50 cm/s}", "2 kHz", ITEM_FORCE);
+    struct rig *slow = rubbed("{path: line, to: [5 cm, 0], speed: 25 cm/s}", "4 kHz", ITEM_FORCE),
+               *other = rubbed("{path: line, to: [5 cm, 0], speed: 25 cm/s}", "2 kHz", ITEM_FORCE);
     double most = 0, apart = 0;
     for (long i = 0; i < 8820; i++) {
         ck_assert_double_eq_tol(circle->x[i], line->x[i], 1e-9);
@@ -272,4 +282,5 @@ START_TEST(no_approach_beside_it)
 }
 END_TEST
 
-UNIT("gesture", steady_speeds, slopes, at_rest, from_rest, any_modulation, above_the_limit, begins_and_ends, motions, no_approach_beside_it)
+UNIT("gesture", steady_speeds, slopes, at_rest, from_rest, any_modulation, above_the_limit, begins_and_ends, motions,
+     no_approach_beside_it)

@@ -1,5 +1,6 @@
-/* given_samples, given_table: what a file holds comes through bit for bit at its own rate, as the same signal at another; means of a table against its
-   integral in closed form; where it ends, and what is refused, with file and line. */
+/* given_samples, given_table: what a file holds comes through bit for bit at its own rate, as the same signal at
+   another; means of a table against its integral in closed form; where it ends, and what is refused, with file and
+   line. */
 #include <unistd.h>
 
 #include "contacts.h"
@@ -11,8 +12,7 @@ static const char *path(const char *name)
 {
     static char all[4][100];
     static int k;
-    if (strstr(folder, "XXXXXX"))
-        ck_assert(mkdtemp(folder));
+    if (strstr(folder, "XXXXXX")) ck_assert(mkdtemp(folder));
     k = (k + 1) % 4;
     snprintf(all[k], sizeof all[k], "%s/%s", folder, name);
     return all[k];
@@ -104,7 +104,8 @@ START_TEST(npy_at_its_own_rate)
 }
 END_TEST
 
-/* A sine of 997 Hz under a Hann window of 0.1 s, which is band-limited as far as 1e-9 of it matters, at other rates: within -120 dB. */
+/* A sine of 997 Hz under a Hann window of 0.1 s, which is band-limited as far as 1e-9 of it matters, at other rates:
+ * within -120 dB. */
 START_TEST(resampled_is_the_same_signal)
 {
     static const double rates[] = {22050, 44100, 96000, 192000};
@@ -122,7 +123,8 @@ START_TEST(resampled_is_the_same_signal)
         const double *force = shot_force(&s, n + 10);
         for (long i = 0; i < n; i++) {
             double t = (double)i / rates[r];
-            ck_assert_double_eq_tol(force[i], 3 * sin(2 * M_PI * 997 * t) * (0.5 - 0.5 * cos(2 * M_PI * t / 0.1)), 3e-6);
+            ck_assert_double_eq_tol(force[i], 3 * sin(2 * M_PI * 997 * t) * (0.5 - 0.5 * cos(2 * M_PI * t / 0.1)),
+                                    3e-6);
         }
         arena_close(s.arena);
     }
@@ -137,14 +139,15 @@ static long double table_integral(size_t n, const double *t, const double *f, lo
 {
     long double sum = 0;
     for (size_t i = 0; i + 1 < n && t[i] < end; i++) {
-        long double stop = fminl(t[i + 1], end), d = stop - t[i], slope = ((long double)f[i + 1] - f[i]) / ((long double)t[i + 1] - t[i]);
+        long double stop = fminl(t[i + 1], end), d = stop - t[i],
+                    slope = ((long double)f[i + 1] - f[i]) / ((long double)t[i + 1] - t[i]);
         sum += d * (f[i] + slope * d / 2);
     }
     return sum;
 }
 
-/* 200 rows at distances from 1 us to 10 ms, so that sub-intervals hold none or many. Times are rounded once, to 1e-13 s (1e-8 of a sub-interval), which moves
-   a knot; over one sub-interval that is 1e-9 of what the force varies by. */
+/* 200 rows at distances from 1 us to 10 ms, so that sub-intervals hold none or many. Times are rounded once, to 1e-13 s
+   (1e-8 of a sub-interval), which moves a knot; over one sub-interval that is 1e-9 of what the force varies by. */
 START_TEST(table_means_are_exact)
 {
     enum { N = 200 };
@@ -166,7 +169,8 @@ START_TEST(table_means_are_exact)
         long frames = (long)(t[N - 1] * 44100) + 10;
         const double *force = shot_force(&s, frames);
         for (long i = 0; i < frames * over; i++) {
-            long double want = (table_integral(N, t, f, (i + 1) / per_second) - table_integral(N, t, f, i / per_second)) * per_second;
+            long double want =
+                (table_integral(N, t, f, (i + 1) / per_second) - table_integral(N, t, f, i / per_second)) * per_second;
             ck_assert_double_eq_tol(force[i], (double)want, 1e-9);
             sum += force[i];
         }
@@ -177,7 +181,8 @@ START_TEST(table_means_are_exact)
 }
 END_TEST
 
-/* A ramp whose ends fall on sub-intervals, at a rate that is a power of two: every mean is the value at its middle, to rounding. */
+/* A ramp whose ends fall on sub-intervals, at a rate that is a power of two: every mean is the value at its middle, to
+ * rounding. */
 START_TEST(ramp_means)
 {
     const char *text = "# a ramp\ntime_s,push\n0,1\n0.25,5\n";
@@ -188,7 +193,8 @@ START_TEST(ramp_means)
     c.contact.given.scale = 2;
     shot_ramp = 0.26; /* the ramp's largest force is its last */
     ck_assert_msg(shot_open(&s, &given_table_stage, &c, 8192, 4), "%s", s.e.text);
-    ck_assert(s.board.n_warnings == 1 && strstr(s.board.warnings[0], "the largest force comes 0.25 s after the scene's start"));
+    ck_assert(s.board.n_warnings == 1 &&
+              strstr(s.board.warnings[0], "the largest force comes 0.25 s after the scene's start"));
     const double *force = shot_force(&s, 2100);
     for (int i = 0; i < 2100 * 4; i++)
         ck_assert_double_eq_tol(force[i], i < 8192 ? 2 * (1 + 4 * (i + 0.5) / 8192) : 0, 4e-15);
@@ -203,7 +209,8 @@ START_TEST(table_decimated)
     static char text[200000];
     int length = snprintf(text, sizeof text, "time_s,force_n\n");
     for (int i = 0; i <= 4000; i++) /* rows 50 us apart: (2 pi 40 5e-5)^2 / 8 = 2e-5 off a straight line */
-        length += snprintf(text + length, sizeof text - (size_t)length, "%.17g,%.17g\n", i * 5e-5, sin(2 * M_PI * 40 * i * 5e-5));
+        length += snprintf(text + length, sizeof text - (size_t)length, "%.17g,%.17g\n", i * 5e-5,
+                           sin(2 * M_PI * 40 * i * 5e-5));
     write_text("a.csv", text, (size_t)length);
     struct contact c = giver(path("a.csv"), 0.2);
     struct shot s;
@@ -225,7 +232,7 @@ START_TEST(table_momentum_from_the_start)
     static const char *const tables[] = {"0,1\n0.01,1\n", "0,5\n1e-6,0\n", "0,-2\n0.0101,3\n0.013,0\n",
                                          "0,1\n3.3e-5,7\n3.3001e-5,0\n", "4e-6,9\n2e-5,9\n"};
     static const double integrals[] = {0.01, 2.5e-6, 0.5 * (-2 + 3) * 0.0101 + 1.5 * 0.0029, 4 * 3.3e-5 + 3.5e-9,
-                                      9 * 1.6e-5};
+                                       9 * 1.6e-5};
     static const double sizes[] = {0.01, 2.5e-6, 0.017, 1.3e-4, 1.44e-4};
     static const double rates[] = {22050, 44100, 48000, 192000};
     for (int k = 0; k < 20; k++)
@@ -359,5 +366,5 @@ START_TEST(missing)
 END_TEST
 
 UNIT("given", wav_at_its_own_rate, npy_at_its_own_rate, resampled_is_the_same_signal, table_means_are_exact, ramp_means,
-     table_decimated, table_momentum_from_the_start, samples_momentum_from_the_start, wavs_refused,
-     npys_refused, tables_refused, missing)
+     table_decimated, table_momentum_from_the_start, samples_momentum_from_the_start, wavs_refused, npys_refused,
+     tables_refused, missing)

@@ -1,5 +1,5 @@
-/* Resonators whose poles move (`glide`). Judges: the recursion that defines it, in long double with every sample's own pole and gain; the
-   amplitude |z| that retuning must leave alone (where a direct-form biquad, here too, does not). */
+/* Resonators whose poles move (`glide`). Judges: the recursion that defines it, in long double with every sample's own
+   pole and gain; the amplitude |z| that retuning must leave alone (where a direct-form biquad, here too, does not). */
 #include "unit.h"
 
 #include <complex.h>
@@ -29,10 +29,7 @@ static double frequency_at(const struct motion *m, int i, double n)
     return m->frequency[i] * (m->tune ? m->tune(n) : 1);
 }
 
-static double decay_at(const struct motion *m, int i, double n)
-{
-    return m->decay[i] * (m->damp ? m->damp(n) : 1);
-}
+static double decay_at(const struct motion *m, int i, double n) { return m->decay[i] * (m->damp ? m->damp(n) : 1); }
 
 static void fill(const struct motion *m, double n, const struct modes_point *p)
 {
@@ -50,7 +47,12 @@ static void glide(const struct motion *m, const double *f, double *y, int n, int
     struct arena *a = arena_open();
     double room[4][MAX] = {{0}};
     struct modes_point p = {.frequency = room[0], .decay = room[1], .re = room[2], .im = room[3]};
-    struct resonators_ask ask = {.n = m->n, .quantity = MODES_VELOCITY, .rate = RATE, .frequency = p.frequency, .decay = p.decay, .glides = true,
+    struct resonators_ask ask = {.n = m->n,
+                                 .quantity = MODES_VELOCITY,
+                                 .rate = RATE,
+                                 .frequency = p.frequency,
+                                 .decay = p.decay,
+                                 .glides = true,
                                  .ramp = ramp};
     struct resonators *r = resonators_make(a, &ask);
     fill(m, -1, &p);
@@ -146,8 +148,12 @@ START_TEST(poles_at_rest_equal_fixed_ones)
     glide(&m, f, y, N, 64);
     struct arena *a = arena_open();
     fill(&m, 0, &p);
-    struct resonators *r = resonators_make(a, &(struct resonators_ask){.n = m.n, .quantity = MODES_VELOCITY, .rate = RATE, .frequency = p.frequency,
-                                                                      .decay = p.decay, .ramp = 64});
+    struct resonators *r = resonators_make(a, &(struct resonators_ask){.n = m.n,
+                                                                       .quantity = MODES_VELOCITY,
+                                                                       .rate = RATE,
+                                                                       .frequency = p.frequency,
+                                                                       .decay = p.decay,
+                                                                       .ramp = 64});
     resonators_set(r, &p);
     resonators_run(r, f, z, N, &p);
     printf("against fixed poles: %.1e\n", apart(y, z, N));
@@ -156,7 +162,8 @@ START_TEST(poles_at_rest_equal_fixed_ones)
 }
 END_TEST
 
-/* Error of order ramp^2: 71 dB at 64. (A prototype had 79 dB with other modes; what counts is how long the highest ring.) */
+/* Error of order ramp^2: 71 dB at 64. (A prototype had 79 dB with other modes; what counts is how long the highest
+ * ring.) */
 START_TEST(ramped_poles_converge_at_order_2)
 {
     static double f[N], y[N], z[N];
@@ -169,10 +176,8 @@ START_TEST(ramped_poles_converge_at_order_2)
         glide(&m, f, y, N, ramp);
         double db = -20 * log10(apart(y, z, N));
         printf("ramp %3d: %.1f dB\n", ramp, db);
-        if (last > 0)
-            ck_assert_double_eq_tol(db - last, 12.04, 0.6);
-        if (ramp == 64)
-            ck_assert_double_eq_tol(db, 71, 2);
+        if (last > 0) ck_assert_double_eq_tol(db - last, 12.04, 0.6);
+        if (ramp == 64) ck_assert_double_eq_tol(db, 71, 2);
         last = db;
     }
 }
@@ -181,12 +186,15 @@ END_TEST
 /* ------------------------------------------------------------------ the amplitude */
 
 static double jump(double n) { return n < 2000 ? 1 : 10; }
-static double sweep(double n) { return n < 1919 ? 1 : n < 2879 ? 1 + 9 * (n - 1919) / 960 : 10; } /* 20 ms, from a call's end to a call's end */
-static double shake(double n) { return 1 + 0.1 * sin(2 * M_PI * 400 * n / RATE); }                /* 2 f0 */
+static double sweep(double n)
+{
+    return n < 1919 ? 1 : n < 2879 ? 1 + 9 * (n - 1919) / 960 : 10;
+} /* 20 ms, from a call's end to a call's end */
+static double shake(double n) { return 1 + 0.1 * sin(2 * M_PI * 400 * n / RATE); } /* 2 f0 */
 static double vibrato(double n) { return 1 + 0.02 * sin(2 * M_PI * 20 * n / RATE); }
 
-/* Amplitude of a mode of 200 Hz that rings while it is retuned, decay taken out: extremes over the time. Im z and Re z are the sounds of
-   gains 1 and j. */
+/* Amplitude of a mode of 200 Hz that rings while it is retuned, decay taken out: extremes over the time. Im z and Re z
+   are the sounds of gains 1 and j. */
 static void amplitude(double (*tune)(double), int ramp, double *least, double *most)
 {
     static double f[N], y[N], z[N];
@@ -211,8 +219,7 @@ static double biquad(double (*tune)(double))
         double fall = exp(-20 / RATE), u = 2 * fall * cos(2 * M_PI * 200 * tune(n) / RATE) * v - fall * fall * w;
         w = v;
         v = u;
-        if (n > 11000)
-            most = fmax(most, fabs(v) * exp(20 * n / RATE));
+        if (n > 11000) most = fmax(most, fabs(v) * exp(20 * n / RATE));
     }
     return most * sin(2 * M_PI * 200 / RATE);
 }
@@ -223,7 +230,10 @@ START_TEST(retuning_leaves_the_amplitude)
         const char *name;
         double (*tune)(double);
         double disturbed; /* the biquad's, by at least this factor */
-    } cases[] = {{"jump 200 -> 2000 Hz", jump, 1.05}, {"sweep in 20 ms", sweep, 1.05}, {"+-10 % at 2 f0", shake, 1e4}, {"+-2 % at 20 Hz", vibrato, 1.001}};
+    } cases[] = {{"jump 200 -> 2000 Hz", jump, 1.05},
+                 {"sweep in 20 ms", sweep, 1.05},
+                 {"+-10 % at 2 f0", shake, 1e4},
+                 {"+-2 % at 20 Hz", vibrato, 1.001}};
     for (int k = 0; k < 4; k++) {
         double least, most, direct = biquad(cases[k].tune);
         amplitude(cases[k].tune, 1, &least, &most);
@@ -235,11 +245,13 @@ START_TEST(retuning_leaves_the_amplitude)
 }
 END_TEST
 
-/* Linear ramps go along chords of the unit circle, which costs (dtheta)^2/12 (1 - 1/ramp^2) per sample, dtheta the turn per call. Never a gain. */
+/* Linear ramps go along chords of the unit circle, which costs (dtheta)^2/12 (1 - 1/ramp^2) per sample, dtheta the turn
+ * per call. Never a gain. */
 START_TEST(ramps_damp_a_little)
 {
     for (int ramp = 64; ramp >= 4; ramp /= 4) {
-        double least, most, turn = 2 * M_PI * 1800 / RATE * ramp / 960, lost = 960 * turn * turn / 12 * (1 - 1.0 / (ramp * ramp));
+        double least, most, turn = 2 * M_PI * 1800 / RATE * ramp / 960,
+                            lost = 960 * turn * turn / 12 * (1 - 1.0 / (ramp * ramp));
         amplitude(sweep, ramp, &least, &most);
         printf("sweep in 20 ms, ramp %2d: %.6f, expected %.6f\n", ramp, least, 1 - lost);
         ck_assert_double_eq_tol((1 - least) / lost, 1, 0.05);
@@ -258,7 +270,13 @@ START_TEST(nothing_grows)
     struct arena *a = arena_open();
     double frequency[2] = {100, 100}, decay[2] = {0, 0}, re[2] = {RATE, 0}, im[2] = {0, RATE}, f[97] = {1}, y[97];
     struct modes_point p = {.frequency = frequency, .decay = decay, .re = re, .im = im};
-    struct resonators_ask ask = {.n = 2, .quantity = MODES_VELOCITY, .rate = RATE, .frequency = frequency, .decay = decay, .glides = true, .ramp = 97};
+    struct resonators_ask ask = {.n = 2,
+                                 .quantity = MODES_VELOCITY,
+                                 .rate = RATE,
+                                 .frequency = frequency,
+                                 .decay = decay,
+                                 .glides = true,
+                                 .ramp = 97};
     struct resonators *r = resonators_make(a, &ask);
     double last = 2;
     resonators_set(r, &p);
@@ -272,13 +290,12 @@ START_TEST(nothing_grows)
         for (int n = 0; n < 97; n++)
             most = fmax(most, fabs(y[n]));
         ck_assert_double_le(most, last * (1 + 1e-12));
-        if (resonators_silent(r))
-            break;
+        if (resonators_silent(r)) break;
         last = 2; /* sum of Im z and Re z of two equal modes: sqrt 2 at most */
     }
     arena_close(a);
 }
 END_TEST
 
-UNIT("glide", equals_the_recursion, equals_the_recursion_where_poles_halt, poles_at_rest_equal_fixed_ones, ramped_poles_converge_at_order_2, retuning_leaves_the_amplitude,
-     ramps_damp_a_little, nothing_grows)
+UNIT("glide", equals_the_recursion, equals_the_recursion_where_poles_halt, poles_at_rest_equal_fixed_ones,
+     ramped_poles_converge_at_order_2, retuning_leaves_the_amplitude, ramps_damp_a_little, nothing_grows)

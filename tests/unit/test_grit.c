@@ -13,7 +13,8 @@ static struct relief_part *grains(struct arena *a, struct grit g, const char *na
     return p;
 }
 
-/* Heights of 400 x 400 places, half a millimetre apart (no grain touches two): independent, so that means are within 5 deviations / 400. */
+/* Heights of 400 x 400 places, half a millimetre apart (no grain touches two): independent, so that means are within 5
+ * deviations / 400. */
 START_TEST(mean_and_square)
 {
     static const double spreads[] = {0, 0.2, 0.5}, densities[] = {1e7, 2e8};
@@ -36,8 +37,8 @@ START_TEST(mean_and_square)
 }
 END_TEST
 
-/* Lone grains, one in a hundred of its diameters squared: their tops are local maxima with level ground around; how many there are on 40 mm x 40 mm, how high and
-   how wide, against Poisson's and the log-normal deviations. */
+/* Lone grains, one in a hundred of its diameters squared: their tops are local maxima with level ground around; how
+   many there are on 40 mm x 40 mm, how high and how wide, against Poisson's and the log-normal deviations. */
 START_TEST(counted)
 {
     enum { N = 800 };
@@ -61,14 +62,17 @@ START_TEST(counted)
                 bool top = z[j][i] > 0;
                 for (int k = 0; k < 9 && top; k++)
                     top = k == 4 || z[j + k / 3 - 1][i + k % 3 - 1] < z[j][i];
-                if (!top)
-                    continue;
+                if (!top) continue;
                 double u = i * step + 0.1 * quarter, v = j * step;
                 for (double d = step / 2; d > 1e-9; d /= 2)
                     for (int k = 0; k < 8; k++) { /* climb: twice in each direction */
-                        double x1 = u + (k % 4 == 0 ? d : k % 4 == 1 ? -d : 0), y1 = v + (k % 4 == 2 ? d : k % 4 == 3 ? -d : 0);
-                        if (parts_at(p, x1, y1, true).v[0] > parts_at(p, u, v, true).v[0])
-                            u = x1, v = y1;
+                        double x1 = u + (k % 4 == 0   ? d
+                                         : k % 4 == 1 ? -d
+                                                      : 0),
+                               y1 = v + (k % 4 == 2   ? d
+                                         : k % 4 == 3 ? -d
+                                                      : 0);
+                        if (parts_at(p, x1, y1, true).v[0] > parts_at(p, u, v, true).v[0]) u = x1, v = y1;
                     }
                 double h = parts_at(p, u, v, true).v[0] / g.height;
                 count++, height += h, square += h * h;
@@ -94,8 +98,7 @@ START_TEST(a_grain_is_the_bump)
     for (int i = 0; i < 4000000 && found < 3; i++) {
         double x = 50e-6 * (i % 2000), y = 50e-6 * (i / 2000);
         struct parts_point t = parts_at(p, x, y, true);
-        if (t.v[0] < 30e-6)
-            continue;
+        if (t.v[0] < 30e-6) continue;
         for (int n = 0; n < 8; n++) {
             double det = t.v[3] * t.v[5] - t.v[4] * t.v[4];
             x -= (t.v[5] * t.v[1] - t.v[4] * t.v[2]) / det, y -= (t.v[3] * t.v[2] - t.v[4] * t.v[1]) / det;
@@ -152,4 +155,5 @@ START_TEST(too_many_are_refused)
 }
 END_TEST
 
-UNIT("grit", mean_and_square, counted, a_grain_is_the_bump, trace_on_a_line, derivatives_and_continuity, too_many_are_refused)
+UNIT("grit", mean_and_square, counted, a_grain_is_the_bump, trace_on_a_line, derivatives_and_continuity,
+     too_many_are_refused)

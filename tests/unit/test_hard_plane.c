@@ -1,4 +1,5 @@
-/* Hard cases of the force on maps and curved paths, with floating-point traps on (invalid, division by zero, overflow). */
+/* Hard cases of the force on maps and curved paths, with floating-point traps on (invalid, division by zero, overflow).
+ */
 #include <fenv.h>
 
 #include "plane.h"
@@ -10,11 +11,12 @@ static double spike_height;
 /* Flat at 1 mm, but for one sample. */
 static struct relief_part *spike_map(struct arena *a, const struct contact *c)
 {
-    double *z = ARENA_TAKE(a, double, SIDE * SIDE);
+    double *z = ARENA_TAKE(a, double, SIDE *SIDE);
     for (int i = 0; i < SIDE * SIDE; i++)
         z[i] = 1e-3;
     z[20 * SIDE + 20] += spike_height;
-    return map_part(a, map_spline(a, &(struct height_map){z, SIDE, SIDE, {5e-6, 5e-6}}, c->surface.off_map), (double[]){0, 0}, "spike");
+    return map_part(a, map_spline(a, &(struct height_map){z, SIDE, SIDE, {5e-6, 5e-6}}, c->surface.off_map),
+                    (double[]){0, 0}, "spike");
 }
 
 /* The item's values, traps on; the scene's alpha if not NAN. */
@@ -39,7 +41,8 @@ static double peak_of(struct scene *s, enum item item, long frames)
     return most;
 }
 
-static const char *const motions[] = {"{path: line, to: [3 mm, 2.9 mm], speed: 20 cm/s}", "{path: line, to: [3 mm, 0], speed: 2 m/s}",
+static const char *const motions[] = {"{path: line, to: [3 mm, 2.9 mm], speed: 20 cm/s}",
+                                      "{path: line, to: [3 mm, 0], speed: 2 m/s}",
                                       "{path: circle, radius: 0.2 mm, center: [0.1 mm, 0.3 mm], speed: 20 cm/s}",
                                       "{path: back_and_forth, to: [0.3 mm, 0.3 mm], rate: 100 Hz, duration: 20 ms}"};
 
@@ -48,23 +51,27 @@ START_TEST(flat_map)
 {
     for (int k = 0; k < 4; k++)
         for (int paper = 0; paper < 2; paper++) {
-            struct scene s = plane_scene(spike_map, arena_format(rig_arena(), "contact: {%s}\nmotion: %s\n", paper ? "force: paper" : "", motions[k]));
+            struct scene s = plane_scene(spike_map, arena_format(rig_arena(), "contact: {%s}\nmotion: %s\n",
+                                                                 paper ? "force: paper" : "", motions[k]));
             spike_height = 0;
             ck_assert(peak_of(&s, ITEM_SUBFORCE, 700) == 0);
         }
 }
 END_TEST
 
-/* One sample sticks out, by so much that alpha z'' reaches 1e9: curvature within 1/alpha, the force within m (2 v^2 + |a| l) / alpha; it is felt. */
+/* One sample sticks out, by so much that alpha z'' reaches 1e9: curvature within 1/alpha, the force within m (2 v^2 +
+ * |a| l) / alpha; it is felt. */
 START_TEST(spike)
 {
-    static const double heights[] = {1e-9, 1e-6, 1e-3}, alphas[] = {1e-6, 0.03, 1000}, speeds[] = {0.2, 2, 0.2, M_PI * 100 * 0.3e-3 * M_SQRT2};
+    static const double heights[] = {1e-9, 1e-6, 1e-3}, alphas[] = {1e-6, 0.03, 1000},
+                        speeds[] = {0.2, 2, 0.2, M_PI * 100 * 0.3e-3 * M_SQRT2};
     for (int n = 0; n < 72; n++) {
         int k = n / 9 % 4;
         bool paper = n >= 36;
         double alpha = alphas[n % 3], v = speeds[k], acceleration = k == 3 ? 2 * M_PI * 100 * v : 0;
-        struct scene s = plane_scene(spike_map, arena_format(rig_arena(), "contact: {beta1: 0, smoothing: 0, force: %s}\nmotion: %s\n",
-                                                             paper ? "paper" : "directional", motions[k]));
+        struct scene s = plane_scene(
+            spike_map, arena_format(rig_arena(), "contact: {beta1: 0, smoothing: 0, force: %s}\nmotion: %s\n",
+                                    paper ? "paper" : "directional", motions[k]));
         s.contacts[0].contact.limiter.alpha = alpha;
         s.contacts[0].surface.off_map = n % 2 ? OFF_MAP_WRAP : OFF_MAP_MIRROR;
         spike_height = heights[n / 3 % 3];
@@ -84,8 +91,9 @@ START_TEST(limits_of_the_limiter)
 {
     for (int k = 0; k < 4; k++)
         for (int paper = 0; paper < 2; paper++) {
-            struct scene s = plane_scene(plane_rough_map, arena_format(rig_arena(), "contact: {smoothing: 0, force: %s}\nmotion: %s\n",
-                                                                       paper ? "paper" : "directional", motions[k]));
+            struct scene s = plane_scene(plane_rough_map,
+                                         arena_format(rig_arena(), "contact: {smoothing: 0, force: %s}\nmotion: %s\n",
+                                                      paper ? "paper" : "directional", motions[k]));
             s.contacts[0].contact.limiter.curve = LIMITER_NONE;
             struct rig *none = trapped(&s, ITEM_SUBFORCE, 700);
             s.contacts[0].contact.limiter.curve = LIMITER_TANH;
@@ -105,28 +113,35 @@ START_TEST(limits_of_the_limiter)
 }
 END_TEST
 
-/* 2 m/s: 8.3 samples of the map in an audio sample, one sub-interval each: no asperity is skipped: the judge, which visits them all, finds the same
-   force and momentum. */
+/* 2 m/s: 8.3 samples of the map in an audio sample, one sub-interval each: no asperity is skipped: the judge, which
+   visits them all, finds the same force and momentum. */
 START_TEST(eight_samples_in_one)
 {
-    static const char *const fast[] = {"{path: line, to: [20 mm, 1 mm], speed: 2 m/s}", "{path: circle, radius: 10 mm, speed: 2 m/s}",
+    static const char *const fast[] = {"{path: line, to: [20 mm, 1 mm], speed: 2 m/s}",
+                                       "{path: circle, radius: 10 mm, speed: 2 m/s}",
                                        "{path: circle, radius: 1 mm, speed: 2 m/s}"};
     for (int k = 0; k < 3; k++) {
-        struct scene s = plane_scene(plane_rough_map, arena_format(rig_arena(), "contact: {beta1: 0, smoothing: 0}\naccuracy: {oversampling: 1}\n"
-                                                                   "motion: %s\n", fast[k]));
+        struct scene s =
+            plane_scene(plane_rough_map, arena_format(rig_arena(),
+                                                      "contact: {beta1: 0, smoothing: 0}\naccuracy: {oversampling: 1}\n"
+                                                      "motion: %s\n",
+                                                      fast[k]));
         ck_assert_double_lt(judge_difference(&s, 150), 1e-3);
     }
 }
 END_TEST
 
-/* Rests: nothing moves, nothing is heard, and it goes on from there as it was. Corners, cusps and hairpins, with and without a stop. */
+/* Rests: nothing moves, nothing is heard, and it goes on from there as it was. Corners, cusps and hairpins, with and
+ * without a stop. */
 START_TEST(rests_and_corners)
 {
     static const char *const stops[] = {
         "{path: four_in_line, to: [2 mm, 1 mm], duration: 40 ms}",
         "{path: polyline, points: [[0, 0], [2 mm, 0], [2 mm, 2 mm], [0, 0]], duration: 40 ms}",
-        "{path: polyline, points: [[0, 0], [2 mm, 0], [2 mm, 2 mm], [0, 0.1 mm]], corner: 10 um, law: constant, duration: 40 ms}",
-        "{path: polyline, points: [[0, 0], [2 mm, 0], [0, 0.1 mm], [2 mm, 0.2 mm]], corner: 1 um, law: constant, duration: 40 ms}",
+        "{path: polyline, points: [[0, 0], [2 mm, 0], [2 mm, 2 mm], [0, 0.1 mm]], corner: 10 um, law: constant, "
+        "duration: 40 ms}",
+        "{path: polyline, points: [[0, 0], [2 mm, 0], [0, 0.1 mm], [2 mm, 0.2 mm]], corner: 1 um, law: constant, "
+        "duration: 40 ms}",
         "{path: polyline, points: [[0, 0], [2 mm, 1 mm], [0, 0], [2 mm, 1 mm]], law: harmonic, duration: 40 ms}",
         "{path: polyline, points: [[0, 0], [2 mm, 0], [2 mm, 2 mm]], corner: 0.2 mm, law: two_thirds, duration: 40 ms}",
         "{path: spline, points: [[0, 0], [2 mm, 0], [2 mm, 1 mm], [0, 0]], duration: 40 ms}",
@@ -136,8 +151,10 @@ START_TEST(rests_and_corners)
     };
     for (size_t k = 0; k < sizeof stops / sizeof stops[0]; k++)
         for (int paper = 0; paper < 2; paper++) {
-            struct scene s = plane_scene(plane_rough_map, arena_format(rig_arena(), "contact: {smoothing: 0, beta2: 0.7, force: %s}\nmotion: %s\n",
-                                                                       paper ? "paper" : "directional", stops[k]));
+            struct scene s =
+                plane_scene(plane_rough_map,
+                            arena_format(rig_arena(), "contact: {smoothing: 0, beta2: 0.7, force: %s}\nmotion: %s\n",
+                                         paper ? "paper" : "directional", stops[k]));
             double peak = peak_of(&s, ITEM_SUBFORCE, 2500);
             printf("%s: %.3g N\n", stops[k], peak);
             ck_assert_double_gt(peak, 0);

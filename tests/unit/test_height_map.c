@@ -1,5 +1,5 @@
-/* height_map: the stage on files written here: what becomes of their heights, which coordinates the surface follows, and what of their geometry
-   and place under the motion is refused. */
+/* height_map: the stage on files written here: what becomes of their heights, which coordinates the surface follows,
+   and what of their geometry and place under the motion is refused. */
 #include "file/heightfile_write.h"
 #include "scene/scene.h"
 #include "stage.h"
@@ -22,7 +22,12 @@ static void write_map(size_t columns, size_t rows, double pitch, double height)
     struct err e = {0};
     for (size_t i = 0; i < columns * rows; i++)
         z[i] = height * (i % 2 ? 1.0 : -1.0) * (double)(i % 7);
-    struct heightfile h = {.columns = columns, .rows = rows, .pitch_x = pitch, .pitch_y = rows > 1 ? 2 * pitch : pitch, .z = z, .metric = true};
+    struct heightfile h = {.columns = columns,
+                           .rows = rows,
+                           .pitch_x = pitch,
+                           .pitch_y = rows > 1 ? 2 * pitch : pitch,
+                           .z = z,
+                           .metric = true};
     ck_assert_msg(heightfile_write(map, &h, HEIGHTFILE_GSF, &w, &e), "%s", e.text);
 }
 
@@ -34,7 +39,11 @@ static struct contact stroke(void)
     close(handle);
     remove(map);
     return (struct contact){.name = "rod",
-                            .surface = {.height_map = map, .pitch = NAN, .height_scale = NAN, .height_range = NAN, .off_map = OFF_MAP_MIRROR},
+                            .surface = {.height_map = map,
+                                        .pitch = NAN,
+                                        .height_scale = NAN,
+                                        .height_range = NAN,
+                                        .off_map = OFF_MAP_MIRROR},
                             .contact = {.limiter = {.alpha = 0.03, .alpha_max = 0.05}},
                             .motion = {.path = PATH_LINE, .to = {5e-4, 0}, .speed = 0.1, .duration = NAN}};
 }
@@ -51,11 +60,13 @@ struct opened {
 /* Opens the stage; the surface lives in the arena. */
 static void open_map(struct opened *o, const struct contact *c)
 {
-    *o = (struct opened){.arena = arena_open(), .relief = {.along = c->surface.along, .origin = {c->surface.origin[0], c->surface.origin[1]}}};
+    *o = (struct opened){.arena = arena_open(),
+                         .relief = {.along = c->surface.along, .origin = {c->surface.origin[0], c->surface.origin[1]}}};
     ck_assert_msg(trajectory_make(&c->motion, 1, o->arena, &o->motion, &o->err), "%s", o->err.text);
     o->board = (struct board){.relief = &o->relief, .trajectory = &o->motion};
     static const struct scene none;
-    struct stage_run run = {.stage = &height_map_stage, .scene = &none, .contact = c, .board = &o->board, .arena = o->arena};
+    struct stage_run run = {
+        .stage = &height_map_stage, .scene = &none, .contact = c, .board = &o->board, .arena = o->arena};
     o->good = height_map_stage.open(&run, &o->err);
 }
 
@@ -101,7 +112,8 @@ START_TEST(heights_are_the_files)
 }
 END_TEST
 
-/* A map of several rows lies in the plane, its first sample at surface.origin, rows along y at the file's other pitch. */
+/* A map of several rows lies in the plane, its first sample at surface.origin, rows along y at the file's other pitch.
+ */
 START_TEST(maps_lie_in_the_plane)
 {
     struct contact c = stroke();
@@ -169,10 +181,17 @@ START_TEST(leaving_the_profile)
         double from, to, origin;
         bool inside;
     } cases[] = {
-        {ALONG_PATH, 0, 1e-3, 0, true},       {ALONG_PATH, 0.5, 0.501, 9, true},       {ALONG_PATH, 0, 1.001e-3, 0, false},
-        {ALONG_PATH, 0, -1e-3, 0, true},      {ALONG_X, 0, 1e-3, 0, true},             {ALONG_X, 0, 1e-3, 1e-6, false},
-        {ALONG_X, 0, -1e-4, 0, false},        {ALONG_X, 0.25, 0.2505, 0.25, true},     {ALONG_X, 0.25, 0.2505, 0.2494999, false},
-        {ALONG_X, 0.2505, 0.25, 0.25, true},  {ALONG_X, 0.2505, 0.25, 0.250001, false},
+        {ALONG_PATH, 0, 1e-3, 0, true},
+        {ALONG_PATH, 0.5, 0.501, 9, true},
+        {ALONG_PATH, 0, 1.001e-3, 0, false},
+        {ALONG_PATH, 0, -1e-3, 0, true},
+        {ALONG_X, 0, 1e-3, 0, true},
+        {ALONG_X, 0, 1e-3, 1e-6, false},
+        {ALONG_X, 0, -1e-4, 0, false},
+        {ALONG_X, 0.25, 0.2505, 0.25, true},
+        {ALONG_X, 0.25, 0.2505, 0.2494999, false},
+        {ALONG_X, 0.2505, 0.25, 0.25, true},
+        {ALONG_X, 0.2505, 0.25, 0.250001, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         c.surface.along = cases[i].along;
@@ -200,12 +219,16 @@ START_TEST(leaving_the_map)
         double center[2], radius;
         const char *word; /* NULL: inside */
     } cases[] = {
-        {{195e-6, 290e-6}, 194e-6, NULL},    {{195e-6, 290e-6}, 196e-6, "in x"}, {{150e-6, 290e-6}, 151e-6, "in x"},
-        {{195e-6, 150e-6}, 151e-6, "in y"},  {{195e-6, 430e-6}, 151e-6, "in y"}, {{195e-6, 429e-6}, 150e-6, NULL},
+        {{195e-6, 290e-6}, 194e-6, NULL},   {{195e-6, 290e-6}, 196e-6, "in x"}, {{150e-6, 290e-6}, 151e-6, "in x"},
+        {{195e-6, 150e-6}, 151e-6, "in y"}, {{195e-6, 430e-6}, 151e-6, "in y"}, {{195e-6, 429e-6}, 150e-6, NULL},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        c.motion = (struct motion){.path = PATH_CIRCLE, .radius = cases[i].radius, .center = {cases[i].center[0], cases[i].center[1]}, .turns = 1,
-                                   .speed = 0.1, .duration = NAN};
+        c.motion = (struct motion){.path = PATH_CIRCLE,
+                                   .radius = cases[i].radius,
+                                   .center = {cases[i].center[0], cases[i].center[1]},
+                                   .turns = 1,
+                                   .speed = 0.1,
+                                   .duration = NAN};
         c.surface.off_map = OFF_MAP_ERROR;
         write_map(40, 30, 10e-6, 1e-6);
         if (!cases[i].word)
@@ -217,4 +240,5 @@ START_TEST(leaving_the_map)
 }
 END_TEST
 
-UNIT("height_map", heights_are_the_files, maps_lie_in_the_plane, pitch_is_told_once, geometry_is_a_surfaces, leaving_the_profile, leaving_the_map)
+UNIT("height_map", heights_are_the_files, maps_lie_in_the_plane, pitch_is_told_once, geometry_is_a_surfaces,
+     leaving_the_profile, leaving_the_map)

@@ -82,10 +82,12 @@ START_TEST(npy_hostile)
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 5), }", "empty (0 x 5)");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (-1,), }", "not a whole number");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (4294967296, 4294967297), }", "and 8 bytes do");
-    npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 12297829382473034411), }", "and 8 bytes do"); /* 1 mod 2^64 */
+    npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 12297829382473034411), }",
+                "and 8 bytes do"); /* 1 mod 2^64 */
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (2305843009213693953,), }", "and 8 bytes do");
     npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999999,), }", "too large");
-    npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }", "2 numbers of 8 bytes should follow byte 128");
+    npy_refused("{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }",
+                "2 numbers of 8 bytes should follow byte 128");
     npy_refused("{'descr': '<f4', 'fortran_order': False, 'shape': (1,), }", "8 bytes do"); /* trailing data */
     npy_refused("{'descr': '<f8', 'fortran_order': False, }", "is missing");
     npy_refused("{'descr': '<f8', 'fortran_order': 0, 'shape': (1,), }", "neither True nor False");
@@ -142,7 +144,8 @@ START_TEST(quantum)
     npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (3,), }");
     put((const float[]){0.1F, -1.5F, 0.9F}, 12);
     accepted();
-    ck_assert(h.quantum == 0x1p-23 && h.bits == 24 && h.step == 0 && !h.metric && !strcmp(h.format, "NPY") && h.holes == 0);
+    ck_assert(h.quantum == 0x1p-23 && h.bits == 24 && h.step == 0 && !h.metric && !strcmp(h.format, "NPY") &&
+              h.holes == 0);
     npy(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }");
     put((const double[]){1, 0.5}, 16);
     accepted();
@@ -170,11 +173,13 @@ START_TEST(gsf_layout)
 {
     for (size_t extra = 0; extra < 4; extra++) { /* every length of padding */
         char head[200];
-        snprintf(head, sizeof head, GSF "XRes = 3\nYRes=2\n  XReal =  6e-6 \nYReal = 8e-6\nXYUnits = m\n\nTitle = a = b%.*s\n", (int)extra,
+        snprintf(head, sizeof head,
+                 GSF "XRes = 3\nYRes=2\n  XReal =  6e-6 \nYReal = 8e-6\nXYUnits = m\n\nTitle = a = b%.*s\n", (int)extra,
                  "xyz");
         gsf(head, 4 - strlen(head) % 4, 6);
         ck_assert_msg(read_file(), "%s", e.text);
-        ck_assert(h.columns == 3 && h.rows == 2 && h.metric && !strncmp(h.title, "a = b", 5) && !strcmp(h.format, "GSF"));
+        ck_assert(h.columns == 3 && h.rows == 2 && h.metric && !strncmp(h.title, "a = b", 5) &&
+                  !strcmp(h.format, "GSF"));
         ck_assert_double_eq_tol(h.pitch_x, 2e-6, 1e-21); /* one rounding */
         ck_assert_double_eq_tol(h.pitch_y, 4e-6, 1e-21);
         for (int i = 0; i < 6; i++)
@@ -199,7 +204,7 @@ START_TEST(gsf_units)
     check_unit("m", "m", 1, 1);
     check_unit("", "", 1, 1);
     check_unit("mm", "um", 1e-3, 1e-6);
-    check_unit("\xc2\xb5m", "nm", 1e-6, 1e-9); /* micro sign */
+    check_unit("\xc2\xb5m", "nm", 1e-6, 1e-9);    /* micro sign */
     check_unit("\xce\xbcm", "\xb5m", 1e-6, 1e-6); /* Greek mu; Latin-1 */
 }
 END_TEST
@@ -308,5 +313,6 @@ START_TEST(write_gsf)
 }
 END_TEST
 
-UNIT("heightfile", npy_float64, npy_types_by_hand, npy_hostile, npy_cut_short, npy_header_beyond_the_file, holes_are_kept_and_infinities_refused, quantum, gsf_layout,
-     gsf_units, gsf_hostile, gsf_padding, neither, write_gsf)
+UNIT("heightfile", npy_float64, npy_types_by_hand, npy_hostile, npy_cut_short, npy_header_beyond_the_file,
+     holes_are_kept_and_infinities_refused, quantum, gsf_layout, gsf_units, gsf_hostile, gsf_padding, neither,
+     write_gsf)

@@ -25,7 +25,9 @@ START_TEST(separators)
     reads("1 -2.5\t3e-6\n4   5\t .25 \n", 3, 2, z);
     reads("  1 , -2.5 ,3e-6 \r\n4,5,+0.25\r\n", 3, 2, z);
     reads("# a remark, 1\n\n1,-2.5,3e-6\n# 7,8,9\n4,5,0.25\n\n\n", 3, 2, z);
-    reads("\xef\xbb\xbf" "1,-2.5,3e-6\n4,5,0.25\n", 3, 2, z);
+    reads("\xef\xbb\xbf"
+          "1,-2.5,3e-6\n4,5,0.25\n",
+          3, 2, z);
     reads("1\n-2.5\n3e-6\n4\n5\n.25\n", 6, 1, z); /* one number a line: a profile */
     reads("1 -2.5 3e-6 4 5 .25", 6, 1, z);
 }

@@ -1,5 +1,5 @@
-/* heightfile_fill: against harmonic polynomials, which the five-point equation solves exactly (its error is a fourth derivative, and they have
-   none that do not cancel), and against the equation itself where there is no closed form. */
+/* heightfile_fill: against harmonic polynomials, which the five-point equation solves exactly (its error is a fourth
+   derivative, and they have none that do not cancel), and against the equation itself where there is no closed form. */
 #include "file/heightfile_fill.h"
 
 #include "heights.h"
@@ -23,20 +23,26 @@ static void count(struct heightfile *m)
 static double harmonic(int kind, double x, double y)
 {
     switch (kind) {
-        case 0: return 3e-6 + 0.01 * x - 0.02 * y;
-        case 1: return 5 * x * y;
-        case 2: return 40 * (x * x - y * y);
-        default: return 3e4 * (x * x * x - 3 * x * y * y);
+    case 0:
+        return 3e-6 + 0.01 * x - 0.02 * y;
+    case 1:
+        return 5 * x * y;
+    case 2:
+        return 40 * (x * x - y * y);
+    default:
+        return 3e4 * (x * x * x - 3 * x * y * y);
     }
 }
 
 /* A disc, a comb and single points, none at the edge. */
 static bool hole(int i, int j)
 {
-    return (i - 30) * (i - 30) + (j - 20) * (j - 20) < 150 || (j > 5 && j < 38 && (i == 5 || i == 6)) || (i * 7 + j * 13) % 11 == 0;
+    return (i - 30) * (i - 30) + (j - 20) * (j - 20) < 150 || (j > 5 && j < 38 && (i == 5 || i == 6)) ||
+           (i * 7 + j * 13) % 11 == 0;
 }
 
-/* Solved to 1e-12 of the range in residual; a residual r raises the solution by at most r n^2/8 across a hole of n samples. */
+/* Solved to 1e-12 of the range in residual; a residual r raises the solution by at most r n^2/8 across a hole of n
+ * samples. */
 START_TEST(harmonic_polynomials)
 {
     static const double pitch[][2] = {{1e-5, 1e-5}, {1e-5, 3e-5}, {4e-5, 1e-5}};
@@ -57,7 +63,8 @@ START_TEST(harmonic_polynomials)
             ck_assert_msg(heightfile_fill("m", &m, &e), "%s", e.text);
             ck_assert(holes > 500 && m.holes == 0 && m.filled == holes);
             for (int k = 0; k < W * H; k++)
-                ck_assert_msg(fabs(z[k] - want[k]) <= 1e-10 * (high - low), "kind %d, %d: %g, not %g", kind, k, z[k], want[k]);
+                ck_assert_msg(fabs(z[k] - want[k]) <= 1e-10 * (high - low), "kind %d, %d: %g, not %g", kind, k, z[k],
+                              want[k]);
         }
 }
 END_TEST
@@ -97,7 +104,8 @@ START_TEST(profiles)
         count(&m);
         if (k == 0) { /* 6 of 10 */
             e = (struct err){0};
-            ck_assert(!heightfile_fill("m", &m, &e) && e.kind == ERR_SCENE && strstr(e.text, "6 of 10 points are missing"));
+            ck_assert(!heightfile_fill("m", &m, &e) && e.kind == ERR_SCENE &&
+                      strstr(e.text, "6 of 10 points are missing"));
             p[0] = 2;
         }
     }

@@ -51,10 +51,8 @@ static void field(const char *name, const struct field *f)
     f64(f->xreal);
     component("yreal", 'd');
     f64(f->yreal);
-    if (f->xy)
-        unit("si_unit_xy", f->xy);
-    if (f->z)
-        unit("si_unit_z", f->z);
+    if (f->xy) unit("si_unit_xy", f->xy);
+    if (f->z) unit("si_unit_z", f->z);
     component("data", 'D');
     number((uint32_t)f->there, 4);
     for (int i = 0; i < f->there; i++)
@@ -93,7 +91,8 @@ START_TEST(one_channel)
     put("Topography", 11);
     end(at);
     accepted();
-    ck_assert(h.columns == 3 && h.rows == 2 && h.metric && h.bits == 53 && !strcmp(h.format, "GWY") && !strcmp(h.title, "Topography"));
+    ck_assert(h.columns == 3 && h.rows == 2 && h.metric && h.bits == 53 && !strcmp(h.format, "GWY") &&
+              !strcmp(h.title, "Topography"));
     ck_assert_double_eq_tol(h.pitch_x, 2e-6, 1e-21); /* one rounding */
     ck_assert_double_eq_tol(h.pitch_y, 4e-6, 1e-21);
     for (int i = 0; i < 6; i++)

@@ -7,10 +7,7 @@ enum { W = 37, H = 23 };
 
 static double z[W * H];
 
-static double wave(int k)
-{
-    return 1e-6 * (double)((k * 7919 + k * k) % 997) / 997;
-}
+static double wave(int k) { return 1e-6 * (double)((k * 7919 + k * k) % 997) / 997; }
 
 /* mean, slope_x, slope_y of a plane that is nothing else: rounding only. */
 START_TEST(plane)

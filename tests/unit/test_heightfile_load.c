@@ -1,4 +1,5 @@
-/* heightfile_load: scale, pitch, holes, levelling in their order; what is not plausible is refused, with a hint at the unit. */
+/* heightfile_load: scale, pitch, holes, levelling in their order; what is not plausible is refused, with a hint at the
+ * unit. */
 #include "file/heightfile_load.h"
 
 #include "file/heightfile_level.h"
@@ -50,7 +51,9 @@ END_TEST
 static void sdf(double x, double y)
 {
     char head[300];
-    snprintf(head, sizeof head, "aX\nNumPoints = 4\nNumProfiles = 4\nXscale = %.17g\nYscale = %.17g\nZscale = 1e-6\nDataType = 5\n*\n", x, y);
+    snprintf(head, sizeof head,
+             "aX\nNumPoints = 4\nNumProfiles = 4\nXscale = %.17g\nYscale = %.17g\nZscale = 1e-6\nDataType = 5\n*\n", x,
+             y);
     grid(head);
     text("1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 *");
 }
@@ -76,7 +79,8 @@ START_TEST(contradictions)
     o.pitch = 2e-6;
     ck_assert(load() && h.pitch_y == 2e-6);
     o.height_range = 1e-6;
-    fails("surface.height_range is for PNG, where white stands for it; this is SDF (text), which holds metres: leave it out");
+    fails("surface.height_range is for PNG, where white stands for it; this is SDF (text), which holds metres: leave "
+          "it out");
 }
 END_TEST
 
@@ -157,11 +161,13 @@ START_TEST(units)
     o = none;
     o.pitch = 1.4;
     grid("1 2 3 4");
-    fails("a pitch of 1.4 m between samples is not that of a surface profile (10 nm to 1 mm); check surface.pitch (taken as micrometres it would be 1.4e-06 m)");
+    fails("a pitch of 1.4 m between samples is not that of a surface profile (10 nm to 1 mm); check surface.pitch "
+          "(taken as micrometres it would be 1.4e-06 m)");
     o.pitch = 1e-12;
     fails("check surface.pitch (1e+06 times that would make sense: was a unit applied twice?)");
     o.pitch = 1e-6;
-    fails("heights span 3 m, which is not a surface profile's (1 nm to 10 mm); check its unit and surface.height_scale (taken as micrometres it would be 3e-06 m)");
+    fails("heights span 3 m, which is not a surface profile's (1 nm to 10 mm); check its unit and surface.height_scale "
+          "(taken as micrometres it would be 3e-06 m)");
     grid("0 1e-15 0 0");
     fails("heights span 1e-15 m");
     grid("0 0.011 0 0");
@@ -185,7 +191,8 @@ START_TEST(too_large)
     fails("should follow byte");
     h = (struct heightfile){.columns = 16385, .rows = 16384};
     e = (struct err){0};
-    ck_assert(!heightfile_room("big.gsf", &h, memory(), &e) && strstr(e.text, "16385 x 16384 samples; at most 268435456 are read"));
+    ck_assert(!heightfile_room("big.gsf", &h, memory(), &e) &&
+              strstr(e.text, "16385 x 16384 samples; at most 268435456 are read"));
     h.columns = (size_t)1 << 40, h.rows = (size_t)1 << 40;
     e = (struct err){0};
     ck_assert(!heightfile_room("big.gsf", &h, memory(), &e) && e.kind == ERR_SCENE);

@@ -1,5 +1,5 @@
-/* heightfile_png: PNG files put together by hand, with stored (uncompressed) deflate blocks, and their CRC and Adler sums made bit by bit
-   from the definitions. */
+/* heightfile_png: PNG files put together by hand, with stored (uncompressed) deflate blocks, and their CRC and Adler
+   sums made bit by bit from the definitions. */
 #include "heights.h"
 
 static void big(uint32_t v, int bytes)
@@ -75,7 +75,8 @@ START_TEST(grey16)
     static const double want[] = {0, 0x1234, 65535, 1, 256, 32768};
     png(3, 2, 16, 0, grey, sizeof grey);
     accepted();
-    ck_assert(h.columns == 3 && h.rows == 2 && h.white == 65535 && h.step == 1 && h.bits == 16 && !h.metric && !strcmp(h.format, "PNG"));
+    ck_assert(h.columns == 3 && h.rows == 2 && h.white == 65535 && h.step == 1 && h.bits == 16 && !h.metric &&
+              !strcmp(h.format, "PNG"));
     ck_assert(isnan(h.pitch_x) && isnan(h.pitch_y));
     for (int i = 0; i < 6; i++)
         ck_assert_double_eq(h.z[i], want[i]);

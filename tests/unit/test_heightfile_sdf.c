@@ -2,7 +2,8 @@
 #include "heights.h"
 
 /* The binary header; counts of `wide` bytes. */
-static void header(const char *version, int wide, unsigned points, unsigned profiles, const double scales[3], const int bytes[3])
+static void header(const char *version, int wide, unsigned points, unsigned profiles, const double scales[3],
+                   const int bytes[3])
 {
     size = 0;
     put(version, 8);
@@ -27,17 +28,20 @@ static void check_type(int type, int bytes, const uint64_t raw[4], const double 
     for (int i = 0; i < 4; i++)
         number(raw[i], bytes);
     accepted();
-    ck_assert(h.columns == 2 && h.rows == 2 && h.pitch_x == 1e-6 && h.pitch_y == 2e-6 && h.metric && !strcmp(h.format, "SDF (binary)"));
+    ck_assert(h.columns == 2 && h.rows == 2 && h.pitch_x == 1e-6 && h.pitch_y == 2e-6 && h.metric &&
+              !strcmp(h.format, "SDF (binary)"));
     size_t holes = 0;
     for (int i = 0; i < 4; i++) {
         holes += isnan(want[i]);
-        ck_assert_msg(isnan(want[i]) ? isnan(h.z[i]) : h.z[i] == want[i] * 1e-9, "type %d, height %d: %g", type, i, h.z[i]);
+        ck_assert_msg(isnan(want[i]) ? isnan(h.z[i]) : h.z[i] == want[i] * 1e-9, "type %d, height %d: %g", type, i,
+                      h.z[i]);
     }
     ck_assert_uint_eq(h.holes, holes);
     ck_assert(type == 3 || type == 7 ? h.step == 0 : h.step == 1e-9);
 }
 
-/* All eight types; the highest unsigned and the lowest signed of 16 and 32 bits stand for missing points, as does NaN. */
+/* All eight types; the highest unsigned and the lowest signed of 16 and 32 bits stand for missing points, as does NaN.
+ */
 START_TEST(binary_types)
 {
     check_type(0, 1, (const uint64_t[]){0, 1, 128, 255}, (const double[]){0, 1, 128, 255});
@@ -47,13 +51,15 @@ START_TEST(binary_types)
     check_type(4, 1, (const uint64_t[]){0, 1, 0x80, 0xff}, (const double[]){0, 1, -128, -1});
     check_type(5, 2, (const uint64_t[]){0, 1, 0x8001, 0x8000}, (const double[]){0, 1, -32767, NAN});
     check_type(6, 4, (const uint64_t[]){0, 1, 0x80000001, 0x80000000}, (const double[]){0, 1, -2147483647.0, NAN});
-    check_type(7, 8, (const uint64_t[]){0, 0x3ff0000000000000, 0xc004000000000000, 0x7ff8000000000000}, (const double[]){0, 1, -2.5, NAN});
+    check_type(7, 8, (const uint64_t[]){0, 0x3ff0000000000000, 0xc004000000000000, 0x7ff8000000000000},
+               (const double[]){0, 1, -2.5, NAN});
 }
 END_TEST
 
 START_TEST(binary_versions)
 {
-    header("bISO-2.0", 4, 70000, 1, (const double[]){1e-6, 0, 1e-9}, (const int[]){0, 0, 0}); /* 32-bit counts; a profile: Yscale 0 */
+    header("bISO-2.0", 4, 70000, 1, (const double[]){1e-6, 0, 1e-9},
+           (const int[]){0, 0, 0}); /* 32-bit counts; a profile: Yscale 0 */
     for (int i = 0; i < 70000; i++)
         number((unsigned)i, 1);
     accepted();
@@ -106,14 +112,17 @@ static void sdf(const char *lines, const char *data)
     text(data);
 }
 
-#define NPL "aNPL-V1.0\nManuFacID = Softgauges\nCreateDate = 210520051200\nModDate = 210520051200\nNumPoints = 5\nNumProfiles = 1\nXscale = 2.5E-07\n" \
-            "Yscale = 0\nZscale = 1E-06\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n"
+#define NPL                                                                                                            \
+    "aNPL-V1.0\nManuFacID = Softgauges\nCreateDate = 210520051200\nModDate = 210520051200\nNumPoints = "               \
+    "5\nNumProfiles = 1\nXscale = 2.5E-07\n"                                                                           \
+    "Yscale = 0\nZscale = 1E-06\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n"
 
 START_TEST(text_profile)
 {
     sdf(NPL, "-0.296539\n-0.270753\nBAD\n NaN\n1e1\n*\n*\n");
     accepted();
-    ck_assert(h.columns == 5 && h.rows == 1 && h.pitch_x == 2.5e-7 && isnan(h.pitch_y) && h.holes == 2 && h.first_hole == 2);
+    ck_assert(h.columns == 5 && h.rows == 1 && h.pitch_x == 2.5e-7 && isnan(h.pitch_y) && h.holes == 2 &&
+              h.first_hole == 2);
     ck_assert(h.z[0] == -0.296539 * 1e-6 && isnan(h.z[3]) && h.z[4] == 10 * 1e-6 && !strcmp(h.format, "SDF (text)"));
     sdf(NPL, "1 2 3\r\n4 5"); /* no second asterisk */
     accepted();
@@ -123,10 +132,13 @@ END_TEST
 /* Keys in other cases and another order, remarks, CR LF, more keys, integers. */
 START_TEST(text_map)
 {
-    sdf("aBCR-0.0\r\nnumprofiles = 2\r\nNUMPOINTS=2 ; two\r\nxscale = 1e-6\r\nyscale = 2e-6\r\nzscale = 1e-9\r\nColour = red\r\n; remark\r\nDataType = 5\r\n"
-        "  *\r\n", "1 2\r\n-32768 4\r\n*\r\ntrailer");
+    sdf("aBCR-0.0\r\nnumprofiles = 2\r\nNUMPOINTS=2 ; two\r\nxscale = 1e-6\r\nyscale = 2e-6\r\nzscale = 1e-9\r\nColour "
+        "= red\r\n; remark\r\nDataType = 5\r\n"
+        "  *\r\n",
+        "1 2\r\n-32768 4\r\n*\r\ntrailer");
     accepted();
-    ck_assert(h.columns == 2 && h.rows == 2 && h.pitch_y == 2e-6 && h.z[1] == 2 * 1e-9 && isnan(h.z[2]) && h.step == 1e-9);
+    ck_assert(h.columns == 2 && h.rows == 2 && h.pitch_y == 2e-6 && h.z[1] == 2 * 1e-9 && isnan(h.z[2]) &&
+              h.step == 1e-9);
 }
 END_TEST
 

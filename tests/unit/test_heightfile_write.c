@@ -12,7 +12,8 @@ static struct heightfile_written w;
 
 static void fill(void)
 {
-    m = (struct heightfile){.columns = W, .rows = H, .pitch_x = 1.394068e-6, .pitch_y = 2.5e-6, .z = z, .title = "a map"};
+    m = (struct heightfile){
+        .columns = W, .rows = H, .pitch_x = 1.394068e-6, .pitch_y = 2.5e-6, .z = z, .title = "a map"};
     for (int k = 0; k < W * H; k++)
         z[k] = 1e-6 * (k * k % 17) / 3 - 1e-6;
 }
@@ -30,21 +31,22 @@ static void back(enum heightfile_format format, const char *name)
     e = (struct err){0};
     ck_assert_msg(heightfile_read(path, memory(), &h, &e), "%s: %s", name, e.text);
     unlink(path);
-    ck_assert_msg(h.columns == m.columns && h.rows == m.rows && !strcmp(h.format, name), "%zu x %zu %s", h.columns, h.rows, h.format);
+    ck_assert_msg(h.columns == m.columns && h.rows == m.rows && !strcmp(h.format, name), "%zu x %zu %s", h.columns,
+                  h.rows, h.format);
     ck_assert_uint_eq(h.holes, m.holes);
 }
 
 static void same(double tolerance)
 {
     for (size_t i = 0; i < m.columns * m.rows; i++)
-        ck_assert_msg(isnan(z[i]) ? isnan(h.z[i]) : fabs(h.z[i] - z[i]) <= tolerance, "%zu: %g, not %g", i, h.z[i], z[i]);
+        ck_assert_msg(isnan(z[i]) ? isnan(h.z[i]) : fabs(h.z[i] - z[i]) <= tolerance, "%zu: %g, not %g", i, h.z[i],
+                      z[i]);
 }
 
 static void pitch(void)
 {
     ck_assert_double_eq_tol(h.pitch_x / m.pitch_x, 1, 5e-16); /* times n, over n */
-    if (m.rows > 1)
-        ck_assert_double_eq_tol(h.pitch_y / m.pitch_y, 1, 5e-16);
+    if (m.rows > 1) ck_assert_double_eq_tol(h.pitch_y / m.pitch_y, 1, 5e-16);
 }
 
 static void round_trips(void)
@@ -135,13 +137,23 @@ START_TEST(bytes_by_hand)
     double two[] = {1, -2.5};
     m = (struct heightfile){.columns = 2, .rows = 1, .pitch_x = 0.5, .pitch_y = NAN, .z = two};
     bytes(HEIGHTFILE_CSV, "# heights in m, 2 columns, 1 rows, pitch 0.5 m\n1,-2.5\n", 54);
-    static const char npy[] = "\x93NUMPY\1\0\x76\0{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }"
-                              "                                                            \n\0\0\0\0\0\0\xf0\x3f\0\0\0\0\0\0\x04\xc0";
+    static const char npy[] =
+        "\x93NUMPY\1\0\x76\0{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }"
+        "                                                            \n\0\0\0\0\0\0\xf0\x3f\0\0\0\0\0\0\x04\xc0";
     bytes(HEIGHTFILE_NPY, npy, sizeof npy - 1);
-    static const char sdf[] = "bISO-1.0rasp\0\0\0\0\0\0" "010120000000" "010120000000" "\2\0\1\0" "\0\0\0\0\0\0\xe0\x3f" "\0\0\0\0\0\0\0\0"
-                              "\0\0\0\0\0\0\xf0\x3f" "\0\0\0\0\0\0\xf0\xbf" "\0\7\0" "\0\0\0\0\0\0\xf0\x3f\0\0\0\0\0\0\x04\xc0";
+    static const char sdf[] = "bISO-1.0rasp\0\0\0\0\0\0"
+                              "010120000000"
+                              "010120000000"
+                              "\2\0\1\0"
+                              "\0\0\0\0\0\0\xe0\x3f"
+                              "\0\0\0\0\0\0\0\0"
+                              "\0\0\0\0\0\0\xf0\x3f"
+                              "\0\0\0\0\0\0\xf0\xbf"
+                              "\0\7\0"
+                              "\0\0\0\0\0\0\xf0\x3f\0\0\0\0\0\0\x04\xc0";
     bytes(HEIGHTFILE_SDF, sdf, sizeof sdf - 1);
-    static const char gsf[] = "Gwyddion Simple Field 1.0\nXRes = 2\nYRes = 1\nXReal = 1\nXYUnits = m\nZUnits = m\n\0\0\0\0\0\x80\x3f\0\0\x20\xc0";
+    static const char gsf[] = "Gwyddion Simple Field 1.0\nXRes = 2\nYRes = 1\nXReal = 1\nXYUnits = m\nZUnits = "
+                              "m\n\0\0\0\0\0\x80\x3f\0\0\x20\xc0";
     bytes(HEIGHTFILE_GSF, gsf, sizeof gsf - 1);
 }
 END_TEST

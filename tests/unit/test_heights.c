@@ -4,9 +4,9 @@
 #include <gsl/gsl_integration.h>
 
 #include "num/noise.h"
+#include "parts.h"
 #include "surface/blocks.h"
 #include "surface/tiles.h"
-#include "parts.h"
 
 struct power {
     const struct heights *h;
@@ -18,7 +18,10 @@ static double integrand(double g, void *data)
     const struct power *p = data;
     double z, slope, bend;
     heights_at(p->h, 1, &g, &z, &slope, &bend);
-    return (p->power < 0 ? slope * slope : p->power == 5 ? g * z : pow(z, p->power)) * exp(-0.5 * g * g) / sqrt(2 * M_PI);
+    return (p->power < 0    ? slope * slope
+            : p->power == 5 ? g * z
+                            : pow(z, p->power)) *
+           exp(-0.5 * g * g) / sqrt(2 * M_PI);
 }
 
 static double mean_of(const struct heights *h, int power)
@@ -32,7 +35,8 @@ static double mean_of(const struct heights *h, int power)
     return sum;
 }
 
-static const double shapes[][2] = {{0, 3}, {-1, 5}, {1, 5}, {0, 2.2}, {0, 30}, {-0.5, 3.2}, {2, 9}, {-3, 20}, {3, 40}, {0.3, 2.7}, {0, 3.001}, {-1e-3, 3}};
+static const double shapes[][2] = {{0, 3}, {-1, 5},  {1, 5},  {0, 2.2},   {0, 30},    {-0.5, 3.2},
+                                   {2, 9}, {-3, 20}, {3, 40}, {0.3, 2.7}, {0, 3.001}, {-1e-3, 3}};
 enum { SHAPES = 12 };
 
 START_TEST(moments_are_as_asked)
@@ -106,8 +110,9 @@ START_TEST(out_of_reach)
 }
 END_TEST
 
-/* 20 m of a profile and of a line in the plane, 8 longest waves apart at least: some 10 000 independent heights. Of the field's kurtosis the deviation
-   is bounded by five of sqrt(variance of z^4/10 000); 0.5 of that of the exact moments is allowed at kurtosis 5, as measured over other seeds. */
+/* 20 m of a profile and of a line in the plane, 8 longest waves apart at least: some 10 000 independent heights. Of the
+   field's kurtosis the deviation is bounded by five of sqrt(variance of z^4/10 000); 0.5 of that of the exact moments
+   is allowed at kurtosis 5, as measured over other seeds. */
 static void check_field(struct relief_part *p, double skewness, double kurtosis)
 {
     enum { N = 1 << 16 };

@@ -1,5 +1,5 @@
-/* The constants against their definition by quadrature, the formula against the energy of an interpolation error sampled in closed form. What
-   it predicts of a whole sound is compared with brute force in test_launch.c. */
+/* The constants against their definition by quadrature, the formula against the energy of an interpolation error
+   sampled in closed form. What it predicts of a whole sound is compared with brute force in test_launch.c. */
 #include "unit.h"
 
 #include <complex.h>
@@ -14,10 +14,7 @@ static double product(int order, double u)
     return order == 1 ? u : order == 2 ? u * (u - 1) / 2 : (u + 1) * u * (u - 1) * (u - 2) / 24;
 }
 
-static double from(int order)
-{
-    return order == 1 ? -0.5 : 0.0;
-}
+static double from(int order) { return order == 1 ? -0.5 : 0.0; }
 
 /* k_p by the midpoint rule in 20000 steps: error of order 1e-9. */
 START_TEST(constants_are_the_integrals)
@@ -46,8 +43,8 @@ START_TEST(inverse)
 }
 END_TEST
 
-/* e^(s tau) itself, s moving linearly in u, interpolated over nodes: the relative rms error over tau and u. The pole moves along the
-   imaginary axis by rho sigma per node; terms left out are of relative order rho^2. */
+/* e^(s tau) itself, s moving linearly in u, interpolated over nodes: the relative rms error over tau and u. The pole
+   moves along the imaginary axis by rho sigma per node; terms left out are of relative order rho^2. */
 static double measured(int order, double rho)
 {
     double error = 0, energy = 0;
@@ -58,8 +55,7 @@ static double measured(int order, double rho)
             for (int node = order == 4 ? -1 : 0; node <= (order == 4 ? 2 : order - 1); node++) {
                 double w = 1;
                 for (int other = order == 4 ? -1 : 0; other <= (order == 4 ? 2 : order - 1); other++)
-                    if (other != node)
-                        w *= (u - other) / (node - other);
+                    if (other != node) w *= (u - other) / (node - other);
                 sum += w * cexp((-1 + I * rho * node) * tau);
             }
             error += pow(cabs(sum - own), 2);
@@ -69,14 +65,16 @@ static double measured(int order, double rho)
     return sqrt(error / energy);
 }
 
-/* Within 2 dB up to 0.35; beyond, the terms left out make order 4 better than predicted: by 2.4 dB at 0.4, 3.5 dB at 0.5. */
+/* Within 2 dB up to 0.35; beyond, the terms left out make order 4 better than predicted: by 2.4 dB at 0.4, 3.5 dB at
+ * 0.5. */
 START_TEST(predicts_the_interpolation_error)
 {
     static const double rhos[] = {0.05, 0.1, 0.2, 0.35, 0.5};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 5; k++) {
             double rho = rhos[k], d = 20 * log10(hop_error(orders[i], rho) / measured(orders[i], rho));
-            printf("order %d, rho %.2f: predicted %.1f dB, %+.2f dB of measured\n", orders[i], rho, 20 * log10(hop_error(orders[i], rho)), d);
+            printf("order %d, rho %.2f: predicted %.1f dB, %+.2f dB of measured\n", orders[i], rho,
+                   20 * log10(hop_error(orders[i], rho)), d);
             ck_assert_double_gt(d, -0.5);
             ck_assert_double_lt(d, rho < 0.15 ? 0.5 : rho < 0.4 ? 2 : 4);
         }

@@ -1,5 +1,5 @@
-/* impact_duration: a law that holds exactly, with scatter (the error told against that of many repetitions), outliers that run into each other, what cannot
-   be told; and a train of bounces, whose law is closed form. */
+/* impact_duration: a law that holds exactly, with scatter (the error told against that of many repetitions), outliers
+   that run into each other, what cannot be told; and a train of bounces, whose law is closed form. */
 #include <gsl/gsl_randist.h>
 
 #include "analysis/impact_duration.h"
@@ -121,8 +121,9 @@ START_TEST(untold)
 }
 END_TEST
 
-/* An elastic impact of Hertz's lasts 2.943 x/v, x its greatest approach, and m v^2/2 = 2/5 k x^2.5, A = k x^1.5: t0 = 2.943 sqrt(5 m/(4 k)) (A/k)^(-1/6).
-   rasp scales its force by (1 + e)/2, e the restitution, for the momentum. Contact times are measured at 48 kHz from 20 samples on, at 192 kHz from 66. */
+/* An elastic impact of Hertz's lasts 2.943 x/v, x its greatest approach, and m v^2/2 = 2/5 k x^2.5, A = k x^1.5: t0
+   = 2.943 sqrt(5 m/(4 k)) (A/k)^(-1/6). rasp scales its force by (1 + e)/2, e the restitution, for the momentum.
+   Contact times are measured at 48 kHz from 20 samples on, at 192 kHz from 66. */
 START_TEST(bounces)
 {
     for (int k = 0; k < 2; k++) {

@@ -1,5 +1,6 @@
-/* impact_find: sums of raised cosines whose times, amplitudes and durations are known, apart and overlapping; ripples, signs, what is left out; Hertz's
-   impacts brought to the sample rate by rasp's own decimator, against their contact times. */
+/* impact_find: sums of raised cosines whose times, amplitudes and durations are known, apart and overlapping; ripples,
+   signs, what is left out; Hertz's impacts brought to the sample rate by rasp's own decimator, against their contact
+   times. */
 #include "analysis/impact_find.h"
 #include "contacts.h"
 #include "force/strike.h"
@@ -20,8 +21,7 @@ static void add(double middle, double duration, double amplitude)
 {
     for (long i = 0; i < N; i++) {
         double q = ((double)i - middle) / duration;
-        if (fabs(q) < 0.5)
-            y[i] += 0.5 * amplitude * (1 + cos(2 * M_PI * q));
+        if (fabs(q) < 0.5) y[i] += 0.5 * amplitude * (1 + cos(2 * M_PI * q));
     }
 }
 
@@ -36,17 +36,18 @@ static struct impact_found found_in(const struct impact_options *o, struct arena
 }
 
 /* Samples from the file's first to the impact's greatest force. */
-static double place(const struct impact_found *f, int i)
-{
-    return (f->events.time[i] - 0.25) * 48000;
-}
+static double place(const struct impact_found *f, int i) { return (f->events.time[i] - 0.25) * 48000; }
 
-/* 100 to 200 samples apart, at any fraction of a sample. Point samples of a raised cosine hold a little beyond half the sample rate, the less the
-   longer it is. Errors of time in samples, of amplitude and duration as shares. */
+/* 100 to 200 samples apart, at any fraction of a sample. Point samples of a raised cosine hold a little beyond half the
+   sample rate, the less the longer it is. Errors of time in samples, of amplitude and duration as shares. */
 START_TEST(apart)
 {
     static const double tolerance[][4] = {/* samples: time, amplitude, duration */
-                                          {6, 0.025, 8e-3, 8e-3}, {8, 0.016, 4e-3, 4e-3}, {12, 9e-3, 1e-3, 0.02}, {24, 3e-3, 1e-4, 2e-3}, {60, 1e-3, 1e-5, 1e-3}};
+                                          {6, 0.025, 8e-3, 8e-3},
+                                          {8, 0.016, 4e-3, 4e-3},
+                                          {12, 9e-3, 1e-3, 0.02},
+                                          {24, 3e-3, 1e-4, 2e-3},
+                                          {60, 1e-3, 1e-5, 1e-3}};
     for (int k = 0; k < 5; k++) {
         double given[400][3], at = 60, worst[3] = {0};
         struct arena *a = arena_open();
@@ -75,8 +76,8 @@ START_TEST(apart)
 }
 END_TEST
 
-/* Of two equal ones that overlap, each maximum lies outside the other down to a distance of half a duration, and so does its outer flank: all is known
-   but their contact times. Nearer ones make one maximum. */
+/* Of two equal ones that overlap, each maximum lies outside the other down to a distance of half a duration, and so
+   does its outer flank: all is known but their contact times. Nearer ones make one maximum. */
 START_TEST(overlapping)
 {
     struct arena *a = arena_open();
@@ -91,8 +92,11 @@ START_TEST(overlapping)
         for (int i = 0; i < 2; i++) {
             ck_assert_double_eq_tol(place(&f, i), 1000.3 + 40 * distance * i, 0.01);
             ck_assert_double_eq_tol(f.events.amplitude[i], 1, 3e-5);
-            double tolerance = distance > 0.74 || distance < 0.66 ? 1e-3 : 0.03; /* at 0.7 the other one is met above half height, on the inner side */
-            ck_assert_double_eq_tol(f.events.duration[i], 40.0 / 48000, tolerance * 40 / 48000); /* twice the width at half height */
+            double tolerance = distance > 0.74 || distance < 0.66
+                                   ? 1e-3
+                                   : 0.03; /* at 0.7 the other one is met above half height, on the inner side */
+            ck_assert_double_eq_tol(f.events.duration[i], 40.0 / 48000,
+                                    tolerance * 40 / 48000); /* twice the width at half height */
         }
     }
     memset(y, 0, sizeof y);
@@ -106,8 +110,8 @@ START_TEST(overlapping)
 }
 END_TEST
 
-/* Impacts of 26 samples, and among them `lumps` of two that make one maximum of 38 samples, 25 wide at half height: only these reach 32, and their ratio,
-   1.52, is not that of the rest. */
+/* Impacts of 26 samples, and among them `lumps` of two that make one maximum of 38 samples, 25 wide at half height:
+   only these reach 32, and their ratio, 1.52, is not that of the rest. */
 START_TEST(merged_few)
 {
     for (int lumps = 1; lumps <= 25; lumps += 12) {
@@ -118,16 +122,14 @@ START_TEST(merged_few)
             double amplitude = 0.5 + uniform();
             bool lump = n % 12 == 5 && n / 12 < lumps;
             add(at, 26, amplitude);
-            if (lump)
-                add(at + 12, 26, amplitude);
+            if (lump) add(at + 12, 26, amplitude);
         }
         struct impact_found f = found_in(&impact_find_options, a);
         ck_assert_int_eq(f.events.n, n);
         ck_assert_int_ge(f.feet, n - 1);
         ck_assert_double_eq_tol(f.stretch, 2, 0.01);
         for (int i = 0; i < n; i++)
-            if (!(i % 12 == 5 && i / 12 < lumps))
-                ck_assert_double_eq_tol(f.events.duration[i] * 48000, 26, 0.01 * 26);
+            if (!(i % 12 == 5 && i / 12 < lumps)) ck_assert_double_eq_tol(f.events.duration[i] * 48000, 26, 0.01 * 26);
         arena_close(a);
     }
 }
@@ -139,11 +141,11 @@ START_TEST(what_is_left_out)
     struct impact_options o = impact_find_options;
     memset(y, 0, sizeof y);
     add(1000, 30, 1);
-    add(1020, 4, 0.015); /* as a ripple beside it */
+    add(1020, 4, 0.015);  /* as a ripple beside it */
     add(2000, 30, 0.015); /* as strong, by itself */
     add(3000, 30, 5e-4);  /* below the threshold */
     add(4000, 200, 1);
-    add(4090, 6, 0.02);   /* on a flank: it rises 0.04 N above what follows, and hardly above the valley before it */
+    add(4090, 6, 0.02); /* on a flank: it rises 0.04 N above what follows, and hardly above the valley before it */
     struct impact_found f = found_in(&o, a);
     ck_assert_int_eq(f.events.n, 3);
     ck_assert(f.ripples == 2 && f.low == 1);
@@ -191,8 +193,9 @@ START_TEST(nothing_there)
 }
 END_TEST
 
-/* Hertz's impacts of 9 to 50 samples, decimated: every one is found, ripples are not, the middle is right within 0.01 of a sample, contact time within
-   1 % from 15 samples on. Half of its greatest force is passed at x = 0.63 of the greatest approach: 0.548 of the contact time, whence 1.824. */
+/* Hertz's impacts of 9 to 50 samples, decimated: every one is found, ripples are not, the middle is right within 0.01
+   of a sample, contact time within 1 % from 15 samples on. Half of its greatest force is passed at x = 0.63 of the
+   greatest approach: 0.548 of the contact time, whence 1.824. */
 START_TEST(decimated)
 {
     static const double lasts[] = {9, 15, 25, 50};
@@ -216,11 +219,9 @@ START_TEST(decimated)
             ck_assert(strike_next(&train, &i));
             ck_assert_double_eq_tol(f.events.time[n] * 48000, (i.start + 0.5 * i.lasts) * 48000, 0.01);
             ck_assert(f.events.alone[n]);
-            if (k > 0)
-                ck_assert_double_eq_tol(f.events.duration[n] / i.lasts, 1, 0.01);
+            if (k > 0) ck_assert_double_eq_tol(f.events.duration[n] / i.lasts, 1, 0.01);
         }
-        if (k == 3)
-            ck_assert_double_eq_tol(f.stretch, 1.824, 0.01);
+        if (k == 3) ck_assert_double_eq_tol(f.stretch, 1.824, 0.01);
         arena_close(s.arena);
     }
 }

@@ -1,5 +1,6 @@
-/* impact_law: shares against hand values, prototypes against the printed numbers, parameters between them, distributions and their inverses against GSL and
-   against plain bisection and quadrature, the walk, and what is refused. */
+/* impact_law: shares against hand values, prototypes against the printed numbers, parameters between them,
+   distributions and their inverses against GSL and against plain bisection and quadrature, the walk, and what is
+   refused. */
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_randist.h>
@@ -13,17 +14,29 @@ START_TEST(shares_by_hand)
     static const struct {
         double degrees, radius, share[3];
     } known[] = {
-        {0, 1, {1, 0, 0}}, {60, 1, {0.5, 0.5, 0}}, {120, 1, {0, 1, 0}}, {180, 1, {0, 0.5, 0.5}}, {240, 1, {0, 0, 1}}, {300, 1, {0.5, 0, 0.5}},
-        {360, 1, {1, 0, 0}}, {-120, 1, {0, 0, 1}}, {960, 1, {0, 0, 1}}, {30, 1, {0.75, 0.25, 0}}, {77, 0, {1 / 3., 1 / 3., 1 / 3.}},
-        {0, 0.5, {2 / 3., 1 / 6., 1 / 6.}}, {60, -1, {0, 0, 1}}, {0, -1, {0, 0.5, 0.5}}, {180, -1, {1, 0, 0}}, {0, -0.5, {1 / 6., 5 / 12., 5 / 12.}},
+        {0, 1, {1, 0, 0}},
+        {60, 1, {0.5, 0.5, 0}},
+        {120, 1, {0, 1, 0}},
+        {180, 1, {0, 0.5, 0.5}},
+        {240, 1, {0, 0, 1}},
+        {300, 1, {0.5, 0, 0.5}},
+        {360, 1, {1, 0, 0}},
+        {-120, 1, {0, 0, 1}},
+        {960, 1, {0, 0, 1}},
+        {30, 1, {0.75, 0.25, 0}},
+        {77, 0, {1 / 3., 1 / 3., 1 / 3.}},
+        {0, 0.5, {2 / 3., 1 / 6., 1 / 6.}},
+        {60, -1, {0, 0, 1}},
+        {0, -1, {0, 0.5, 0.5}},
+        {180, -1, {1, 0, 0}},
+        {0, -0.5, {1 / 6., 5 / 12., 5 / 12.}},
     };
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         double share[3];
         impact_law_shares(known[i].degrees * (M_PI / 180), known[i].radius, share);
         for (int k = 0; k < 3; k++) {
             ck_assert_double_eq_tol(share[k], known[i].share[k], 1e-14);
-            if (known[i].share[k] == 1)
-                ck_assert_double_eq(share[k], 1); /* an anchor is one */
+            if (known[i].share[k] == 1) ck_assert_double_eq(share[k], 1); /* an anchor is one */
         }
     }
 }
@@ -76,7 +89,8 @@ END_TEST
 /* 002's table I as printed, and its middle. Durations of equation 16, modulation of equation 17. */
 START_TEST(roll_is_table_1)
 {
-    static const double printed_table[2][8] = {{0.04, -0.97, 0.07, 0.43, 0.19e-3, -0.97, -0.34, 3.1e-3}, {0.04, -0.93, 0.32, 0.27, 0.85e-3, -0.93, 0.35, 6.4e-3}};
+    static const double printed_table[2][8] = {{0.04, -0.97, 0.07, 0.43, 0.19e-3, -0.97, -0.34, 3.1e-3},
+                                               {0.04, -0.93, 0.32, 0.27, 0.85e-3, -0.93, 0.35, 6.4e-3}};
     struct arena *a = arena_open();
     for (int i = 0; i <= 2; i++) {
         struct contact c = impacts_contact(PROTOTYPE_ROLL);
@@ -88,7 +102,8 @@ START_TEST(roll_is_table_1)
         for (int s = 0; s < 2; s++) {
             double want[4], mean, variance;
             for (int k = 0; k < 4; k++)
-                want[k] = i == 1 ? (printed_table[0][4 * s + k] + printed_table[1][4 * s + k]) / 2 : printed_table[i / 2][4 * s + k];
+                want[k] = i == 1 ? (printed_table[0][4 * s + k] + printed_table[1][4 * s + k]) / 2
+                                 : printed_table[i / 2][4 * s + k];
             double tolerance = i == 1 ? 1e-15 : 0;
             impact_law_moments(&l, s, &p, &mean, &variance);
             ck_assert_double_eq(mean, 0);
@@ -103,7 +118,8 @@ START_TEST(roll_is_table_1)
         ck_assert_double_eq_tol(p.rate, 3 * 0.3 / 0.8, 1e-15);
         ck_assert_double_eq(p.least_amplitude, 0.01 * p.mean[IMPACT_AMPLITUDE]);
         ck_assert_double_eq(p.shortest, p.least_amplitude * 0.7);
-        ck_assert_double_eq_tol(l.longest, 7.88e-4 * 0.8 * pow(0.007 * p.mean[IMPACT_AMPLITUDE], -0.29), 1e-9 * l.longest);
+        ck_assert_double_eq_tol(l.longest, 7.88e-4 * 0.8 * pow(0.007 * p.mean[IMPACT_AMPLITUDE], -0.29),
+                                1e-9 * l.longest);
         ck_assert(l.alone == IMPACT_ROLL && p.share[IMPACT_ROLL] == 1 && !l.walk);
     }
     arena_close(a);
@@ -124,7 +140,8 @@ START_TEST(what_is_given_takes_the_place_of_rolls)
     ck_assert(p.mean[0] == 2 && p.a1[0] == -0.5 && p.b1[0] == 0.25 && p.mean[1] == 0.02 && p.b1[1] == 0);
     ck_assert_double_eq_tol(p.a1[1], -0.95, 1e-15);
     ck_assert(p.zeta == 1e-3 && p.theta == 0.1 && p.depth == 0.6 && p.rate == 7);
-    impact_law_stationary(&l, IMPACT_AMPLITUDE, &p, &mean, &variance); /* 2 + 0.5 1.25/0.5; 0.25 (1 + 1/16 + 1/4)/0.75 */
+    impact_law_stationary(&l, IMPACT_AMPLITUDE, &p, &mean,
+                          &variance); /* 2 + 0.5 1.25/0.5; 0.25 (1 + 1/16 + 1/4)/0.75 */
     ck_assert_double_eq_tol(mean, 3.25, 1e-15);
     ck_assert_double_eq_tol(variance, 0.4375, 1e-15);
     ck_assert_double_eq_tol(p.least_amplitude, 0.05 * 3.25, 1e-15);
@@ -142,13 +159,15 @@ START_TEST(rub_and_scratch)
         c.contact.impacts.rub.duration = c.contact.impacts.scratch.duration = 1e-4;
         struct impact_law l = impacts_law(&c, 1, a);
         struct impact_parameters p = impacts_at(&l, 0);
-        ck_assert(l.alone == k && p.share[k] == 1 && p.zeta == 1e-4 && p.theta == 0 && p.depth == 0 && l.longest >= 1e-4 && l.longest < 1.001e-4);
+        ck_assert(l.alone == k && p.share[k] == 1 && p.zeta == 1e-4 && p.theta == 0 && p.depth == 0 &&
+                  l.longest >= 1e-4 && l.longest < 1.001e-4);
         for (int s = 0; s < 2; s++)
             ck_assert(p.mean[s] == 0 && p.a1[s] == 0 && p.b1[s] == 0);
         ck_assert(isinf(p.least_amplitude) && p.least_amplitude < 0);
         for (int i = 1; i < 100; i++) {
             double w = i / 100.0, interval = impact_law_draw(&l, IMPACT_INTERVAL, &p, w);
-            ck_assert_double_eq_tol(impact_law_draw(&l, IMPACT_AMPLITUDE, &p, w), gsl_cdf_gaussian_Pinv(w, 0.15), 1e-15);
+            ck_assert_double_eq_tol(impact_law_draw(&l, IMPACT_AMPLITUDE, &p, w), gsl_cdf_gaussian_Pinv(w, 0.15),
+                                    1e-15);
             ck_assert_double_eq_tol(interval, k == IMPACT_RUB ? SAMPLE : gsl_cdf_exponential_Pinv(w, 0.01), 1e-16);
         }
     }
@@ -185,13 +204,17 @@ START_TEST(parameters_between)
         ck_assert_double_eq_tol(p.a1[s], share[2] * q.a1[s], 1e-15);
         ck_assert_double_eq_tol(p.b1[s], share[2] * q.b1[s], 1e-15);
         impact_law_moments(&l, s, &p, &mean, &variance);
-        double m = s ? share[0] * SAMPLE + share[1] * 0.01 : 0, roll = s ? 0.52e-3 : 0.04; /* E[X^2] of a mixture is the sum of its parts' */
-        double square = share[2] * roll * roll + (s ? share[0] * SAMPLE * SAMPLE + share[1] * 2e-4 : share[0] * 0.0225 + share[1] * 0.09);
+        double m = s ? share[0] * SAMPLE + share[1] * 0.01 : 0,
+               roll = s ? 0.52e-3 : 0.04; /* E[X^2] of a mixture is the sum of its parts' */
+        double square = share[2] * roll * roll +
+                        (s ? share[0] * SAMPLE * SAMPLE + share[1] * 2e-4 : share[0] * 0.0225 + share[1] * 0.09);
         ck_assert_double_eq_tol(mean, m, 1e-17);
         ck_assert_double_eq_tol(variance, square - m * m, 1e-15 * square);
         impact_law_stationary(&l, s, &p, &mean, &variance);
         ck_assert_double_eq_tol(mean, p.mean[s] + m * (1 + p.b1[s]) / (1 + p.a1[s]), 1e-16);
-        ck_assert_double_eq_tol(variance, (square - m * m) * (1 + p.b1[s] * p.b1[s] - 2 * p.a1[s] * p.b1[s]) / (1 - p.a1[s] * p.a1[s]), 1e-15 * variance);
+        ck_assert_double_eq_tol(
+            variance, (square - m * m) * (1 + p.b1[s] * p.b1[s] - 2 * p.a1[s] * p.b1[s]) / (1 - p.a1[s] * p.a1[s]),
+            1e-15 * variance);
         rms = s ? rms : sqrt(mean * mean + variance);
     }
     ck_assert(isinf(p.least_amplitude) && p.least_amplitude < 0);
@@ -230,10 +253,12 @@ struct mixture {
 /* P(X <= x), or P(X > x). */
 static double probability(const struct mixture *m, double x, bool beyond)
 {
-    double (*g)(double, double) = beyond ? gsl_cdf_gaussian_Q : gsl_cdf_gaussian_P, sum = m->share[2] * g(x, m->deviation[2]);
-    if (!m->interval)
-        return sum + m->share[0] * g(x, m->deviation[0]) + m->share[1] * g(x, m->deviation[1]);
-    double exponential = x < 0 ? beyond : beyond ? gsl_cdf_exponential_Q(x, m->deviation[1]) : gsl_cdf_exponential_P(x, m->deviation[1]);
+    double (*g)(double, double) = beyond ? gsl_cdf_gaussian_Q : gsl_cdf_gaussian_P,
+                        sum = m->share[2] * g(x, m->deviation[2]);
+    if (!m->interval) return sum + m->share[0] * g(x, m->deviation[0]) + m->share[1] * g(x, m->deviation[1]);
+    double exponential = x < 0    ? beyond
+                         : beyond ? gsl_cdf_exponential_Q(x, m->deviation[1])
+                                  : gsl_cdf_exponential_P(x, m->deviation[1]);
     return sum + m->share[0] * ((x >= m->deviation[0]) != beyond) + m->share[1] * exponential;
 }
 
@@ -243,8 +268,7 @@ static double slow(const struct mixture *m, double w)
     double low = -20, high = 20;
     for (int i = 0; i < 2000 && high - low > 0; i++) {
         double x = 0.5 * (low + high);
-        if (x == low || x == high)
-            break;
+        if (x == low || x == high) break;
         if (w > 0.5 ? probability(m, x, true) <= 1 - w : probability(m, x, false) >= w)
             high = x;
         else
@@ -253,11 +277,12 @@ static double slow(const struct mixture *m, double w)
     return high;
 }
 
-/* All over the disk, near its anchors, and far out in the tails: 1e-12 of the standard deviation (GSL's own rounding, 1e-16 of F over the density, is
-   granted where F is flat). */
+/* All over the disk, near its anchors, and far out in the tails: 1e-12 of the standard deviation (GSL's own rounding,
+   1e-16 of F over the density, is granted where F is flat). */
 START_TEST(inverses_of_mixtures)
 {
-    static const double degrees[] = {1e-7, 10, 60, 119.99999, 130, 180, 239, 240.001, 300, 359.9}, radius[] = {1, 0.999999, 0.5, 0};
+    static const double degrees[] = {1e-7, 10, 60, 119.99999, 130, 180, 239, 240.001, 300, 359.9},
+                        radius[] = {1, 0.999999, 0.5, 0};
     static const double tail[] = {0x1p-53, 1e-12, 1e-7, 1e-3, 0.02};
     struct arena *a = arena_open();
     double worst = 0;
@@ -266,13 +291,20 @@ START_TEST(inverses_of_mixtures)
         struct impact_law l = impacts_law(&c, 1, a);
         struct impact_parameters p = impacts_at(&l, 0);
         for (int s = 0; s < 2; s++) {
-            struct mixture m = {{p.share[0], p.share[1], p.share[2]}, {s ? SAMPLE : 0.15, s ? 0.01 : 0.3, s ? 0.52e-3 : 0.04}, s == IMPACT_INTERVAL};
+            struct mixture m = {{p.share[0], p.share[1], p.share[2]},
+                                {s ? SAMPLE : 0.15, s ? 0.01 : 0.3, s ? 0.52e-3 : 0.04},
+                                s == IMPACT_INTERVAL};
             double mean, variance;
             impact_law_moments(&l, s, &p, &mean, &variance);
             for (int j = 0; j < 110; j++) {
-                double w = j < 100 ? (j + 0.5) / 100 : j % 2 ? tail[(j - 100) / 2] : 1 - tail[(j - 100) / 2], x = impact_law_draw(&l, s, &p, w), want = slow(&m, w);
-                double d = s ? 1e-9 : 1e-6, flat = (probability(&m, want + d, w < 0.5) - probability(&m, want - d, w < 0.5)) / (2 * d);
-                worst = fmax(worst, (fabs(x - want) - 1e-15 * fmin(w, 1 - w) / fmax(fabs(flat), 1e-300)) / sqrt(variance));
+                double w = j < 100 ? (j + 0.5) / 100
+                           : j % 2 ? tail[(j - 100) / 2]
+                                   : 1 - tail[(j - 100) / 2],
+                       x = impact_law_draw(&l, s, &p, w), want = slow(&m, w);
+                double d = s ? 1e-9 : 1e-6,
+                       flat = (probability(&m, want + d, w < 0.5) - probability(&m, want - d, w < 0.5)) / (2 * d);
+                worst =
+                    fmax(worst, (fabs(x - want) - 1e-15 * fmin(w, 1 - w) / fmax(fabs(flat), 1e-300)) / sqrt(variance));
             }
         }
     }
@@ -286,11 +318,13 @@ static double weighted(double x, void *self)
     const struct mixture *m = self;
     double d = m->share[2] * gsl_ran_gaussian_pdf(x, m->deviation[2]);
     d += m->interval ? m->share[1] * gsl_ran_exponential_pdf(x, m->deviation[1])
-                     : m->share[0] * gsl_ran_gaussian_pdf(x, m->deviation[0]) + m->share[1] * gsl_ran_gaussian_pdf(x, m->deviation[1]);
+                     : m->share[0] * gsl_ran_gaussian_pdf(x, m->deviation[0]) +
+                           m->share[1] * gsl_ran_gaussian_pdf(x, m->deviation[1]);
     return x * x * d;
 }
 
-/* E[X^2] by quadrature over the densities, and mean and E[X^2] of what is drawn at evenly spaced w (whose tails miss 1e-3 of it). */
+/* E[X^2] by quadrature over the densities, and mean and E[X^2] of what is drawn at evenly spaced w (whose tails miss
+ * 1e-3 of it). */
 START_TEST(moments_of_mixtures)
 {
     struct arena *a = arena_open();
@@ -300,7 +334,9 @@ START_TEST(moments_of_mixtures)
         struct impact_law l = impacts_law(&c, 1, a);
         struct impact_parameters p = impacts_at(&l, 0);
         for (int s = 0; s < 2; s++) {
-            struct mixture m = {{p.share[0], p.share[1], p.share[2]}, {s ? SAMPLE : 0.15, s ? 0.01 : 0.3, s ? 0.52e-3 : 0.04}, s == IMPACT_INTERVAL};
+            struct mixture m = {{p.share[0], p.share[1], p.share[2]},
+                                {s ? SAMPLE : 0.15, s ? 0.01 : 0.3, s ? 0.52e-3 : 0.04},
+                                s == IMPACT_INTERVAL};
             gsl_function f = {weighted, &m};
             double square[2], error, mean, variance, sums[2] = {0}, far = s ? 0.5 : 4;
             gsl_integration_qag(&f, -far, 0, 0, 1e-10, 1000, GSL_INTEG_GAUSS61, room, &square[0], &error);
@@ -331,7 +367,8 @@ static struct contact with_table(const char *path)
     return c;
 }
 
-/* A triangle on 0 .. 2 with its top at 1, of area 1/2 as it stands: P = x^2/2 up to 1, 1 - (2 - x)^2/2 beyond; mean 1, variance 1/6. */
+/* A triangle on 0 .. 2 with its top at 1, of area 1/2 as it stands: P = x^2/2 up to 1, 1 - (2 - x)^2/2 beyond; mean 1,
+ * variance 1/6. */
 START_TEST(a_triangle)
 {
     char path[32];
@@ -355,7 +392,8 @@ START_TEST(a_triangle)
 }
 END_TEST
 
-/* A density with a hole, a step at its left end and slopes of either sign: drawn values w back from the integral of the density by quadrature. */
+/* A density with a hole, a step at its left end and slopes of either sign: drawn values w back from the integral of the
+ * density by quadrature. */
 static const double bumps[][2] = {{-1, 2}, {0, 1}, {0.5, 0}, {1.5, 0}, {2, 3}, {2.25, 3}, {4, 0}};
 
 static double bumpy(double x)
@@ -370,7 +408,8 @@ static double bumpy_part(double x, int power)
 {
     double sum = 0;
     for (int i = 0; i < 6 && bumps[i][0] < x; i++) { /* Gauss-Legendre of 3 nodes, exact for degree 5 */
-        double low = bumps[i][0], high = fmin(x, bumps[i + 1][0]), half = 0.5 * (high - low), g[3] = {-sqrt(0.6), 0, sqrt(0.6)};
+        double low = bumps[i][0], high = fmin(x, bumps[i + 1][0]), half = 0.5 * (high - low),
+               g[3] = {-sqrt(0.6), 0, sqrt(0.6)};
         for (int k = 0; k < 3; k++) {
             double y = low + half * (1 + g[k]);
             sum += half * (k == 1 ? 8 : 5) / 9.0 * bumpy(y) * pow(y, power);
@@ -401,7 +440,8 @@ START_TEST(a_table_with_a_hole)
 }
 END_TEST
 
-/* Within a mixture: half-way between rub (a constant, inside the hole or inside a slope) and a rolling of that table. */
+/* Within a mixture: half-way between rub (a constant, inside the hole or inside a slope) and a rolling of that table.
+ */
 START_TEST(a_table_in_a_mixture)
 {
     static const double constant[] = {0.75, 3};
@@ -440,10 +480,12 @@ static void refused(const struct contact *c, enum err_kind kind, const char *tex
 
 START_TEST(tables_that_are_refused)
 {
-    static const char *const bad[][2] = {
-        {"value,density\n0,1\n1,-1\n", ":3: column 'density': -1 is below 0"}, {"value,density\n0,1\n1,1\n1,1\n", ":4: column 'value': 1 comes after 1"},
-        {"value,density\n0,1\n", "1 row"}, {"value,height\n0,1\n1,1\n", "no column 'density'"}, {"value,density\n0,0\n1,0\n", "area"},
-        {"value,density\n0,one\n1,0\n", ":2: column 'density'"}};
+    static const char *const bad[][2] = {{"value,density\n0,1\n1,-1\n", ":3: column 'density': -1 is below 0"},
+                                         {"value,density\n0,1\n1,1\n1,1\n", ":4: column 'value': 1 comes after 1"},
+                                         {"value,density\n0,1\n", "1 row"},
+                                         {"value,height\n0,1\n1,1\n", "no column 'density'"},
+                                         {"value,density\n0,0\n1,0\n", "area"},
+                                         {"value,density\n0,one\n1,0\n", ":2: column 'density'"}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         char path[32], text[100];
         impacts_file(path, bad[i][0]);
@@ -459,7 +501,8 @@ END_TEST
 
 START_TEST(scenes_that_are_refused)
 {
-    struct impact_draws draws = {1, 0.1, NAN, NAN, DISTRIBUTION_GAUSSIAN, NULL}, none = {NAN, 0.1, NAN, NAN, DISTRIBUTION_GAUSSIAN, NULL};
+    struct impact_draws draws = {1, 0.1, NAN, NAN, DISTRIBUTION_GAUSSIAN, NULL},
+                        none = {NAN, 0.1, NAN, NAN, DISTRIBUTION_GAUSSIAN, NULL};
     struct arena *a = arena_open();
     struct contact c = impacts_custom(draws, draws);
     impacts_law(&c, 1, a); /* which is not */
@@ -546,9 +589,10 @@ END_TEST
 
 START_TEST(walks_that_are_refused)
 {
-    static const char *const bad[][2] = {{"time_s,angle_deg,radius\n0,0,1\n1,0,1.01\n", ":3: column 'radius': 1.01 lies outside the disk"},
-                                         {"time_s,angle_deg,radius\n0,0,1\n0,0,1\n", ":3: column 'time_s'"},
-                                         {"time_s,angle,radius\n0,0,1\n1,0,1\n", "no column 'angle_deg'"}};
+    static const char *const bad[][2] = {
+        {"time_s,angle_deg,radius\n0,0,1\n1,0,1.01\n", ":3: column 'radius': 1.01 lies outside the disk"},
+        {"time_s,angle_deg,radius\n0,0,1\n0,0,1\n", ":3: column 'time_s'"},
+        {"time_s,angle,radius\n0,0,1\n1,0,1\n", "no column 'angle_deg'"}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         char path[32];
         struct contact c = disk(0, 1);
@@ -561,6 +605,8 @@ START_TEST(walks_that_are_refused)
 }
 END_TEST
 
-UNIT("impact_law", shares_by_hand, shares_are_those_of_the_printed_equations, shares_are_continuous, roll_is_table_1, what_is_given_takes_the_place_of_rolls,
-     rub_and_scratch, parameters_between, anchors_of_the_disk_are_the_prototypes, inverses_of_mixtures, moments_of_mixtures, a_triangle, a_table_with_a_hole,
-     a_table_in_a_mixture, tables_that_are_refused, scenes_that_are_refused, a_way_over_the_disk, from_one_place_to_another, walks_that_are_refused)
+UNIT("impact_law", shares_by_hand, shares_are_those_of_the_printed_equations, shares_are_continuous, roll_is_table_1,
+     what_is_given_takes_the_place_of_rolls, rub_and_scratch, parameters_between,
+     anchors_of_the_disk_are_the_prototypes, inverses_of_mixtures, moments_of_mixtures, a_triangle, a_table_with_a_hole,
+     a_table_in_a_mixture, tables_that_are_refused, scenes_that_are_refused, a_way_over_the_disk,
+     from_one_place_to_another, walks_that_are_refused)

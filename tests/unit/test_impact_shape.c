@@ -1,4 +1,5 @@
-/* impact_shape: each shape from its own samples, the Meixner window by its definition with log-gamma; R^2 against sums by hand; a force of many impacts. */
+/* impact_shape: each shape from its own samples, the Meixner window by its definition with log-gamma; R^2 against sums
+ * by hand; a force of many impacts. */
 #include <gsl/gsl_sf_gamma.h>
 
 #include "analysis/impact_shape.h"
@@ -6,13 +7,18 @@
 
 static double meixner(double n, double b, double xi)
 {
-    return n > -1 ? exp(0.5 * (b * log(1 - xi * xi) + gsl_sf_lngamma(n + b) - gsl_sf_lngamma(b) - gsl_sf_lngamma(n + 1)) + n * log(xi)) : 0;
+    return n > -1
+               ? exp(0.5 * (b * log(1 - xi * xi) + gsl_sf_lngamma(n + b) - gsl_sf_lngamma(b) - gsl_sf_lngamma(n + 1)) +
+                     n * log(xi))
+               : 0;
 }
 
-/* b, xi, onset in samples, of 400 at most. The reference is good to 1e-13, so R^2 is 1 to 1e-10, and parameters are known to about its root. */
+/* b, xi, onset in samples, of 400 at most. The reference is good to 1e-13, so R^2 is 1 to 1e-10, and parameters are
+ * known to about its root. */
 START_TEST(meixner_from_itself)
 {
-    static const double given[][3] = {{1.5, 0.8, 3}, {3, 0.9, 4.3}, {8, 0.7, 5.7}, {30, 0.5, 4}, {4, 0.95, 3.3}, {10, 0.98, 5}};
+    static const double given[][3] = {{1.5, 0.8, 3}, {3, 0.9, 4.3},  {8, 0.7, 5.7},
+                                      {30, 0.5, 4},  {4, 0.95, 3.3}, {10, 0.98, 5}};
     for (int k = 0; k < 6; k++) {
         double y[400], model[400];
         int n = given[k][1] > 0.9 ? 400 : 60;
@@ -31,7 +37,8 @@ START_TEST(meixner_from_itself)
 }
 END_TEST
 
-/* From whole n on, w^2 is a negative binomial distribution: it sums to 1, its mean is b xi^2/(1 - xi^2). (Of the test's own formula.) */
+/* From whole n on, w^2 is a negative binomial distribution: it sums to 1, its mean is b xi^2/(1 - xi^2). (Of the test's
+ * own formula.) */
 START_TEST(definition)
 {
     double sum = 0, mean = 0;
@@ -42,7 +49,8 @@ START_TEST(definition)
     }
     ck_assert_double_eq_tol(sum, 1, 1e-10);
     ck_assert_double_eq_tol(mean, 3.5 * 0.81 / 0.19, 1e-8);
-    ck_assert_double_eq_tol(meixner(5, 3.5, 0.9) / meixner(4, 3.5, 0.9), 0.9 * sqrt((4 + 3.5) / 5), 1e-12); /* ISO/IEC 14496-3's recursion */
+    ck_assert_double_eq_tol(meixner(5, 3.5, 0.9) / meixner(4, 3.5, 0.9), 0.9 * sqrt((4 + 3.5) / 5),
+                            1e-12); /* ISO/IEC 14496-3's recursion */
 }
 END_TEST
 
@@ -119,7 +127,7 @@ START_TEST(many)
         double expected = fabs(h.q[j]) < 0.5 ? pow(cos(M_PI * h.q[j]), 2) : 0;
         ck_assert_double_eq_tol(h.mean[j], expected, 0.01); /* durations are known to 1 % */
         ck_assert_double_eq_tol(h.model[0][j], h.mean[j], 0.01);
-        ck_assert_double_le(h.deviation[j], 0.03);          /* and places on 1/32 of a sample */
+        ck_assert_double_le(h.deviation[j], 0.03); /* and places on 1/32 of a sample */
     }
     f.events.n = 0;
     impact_shape_make(&s, &f, a, &h);

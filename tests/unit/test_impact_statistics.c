@@ -1,4 +1,5 @@
-/* impact_statistics: intervals cover what the series were drawn from, and each warning comes when it should and not else. */
+/* impact_statistics: intervals cover what the series were drawn from, and each warning comes when it should and not
+ * else. */
 #include "analysis/impact_statistics.h"
 
 #include "series.h"
@@ -10,31 +11,39 @@ static bool alone[MOST];
 struct plan {
     int n;
     double a1[2], b1[2], mean[2], deviation[2];
-    bool two;                   /* processes */
-    double floor;               /* of amplitudes */
+    bool two;     /* processes */
+    double floor; /* of amplitudes */
 };
 
 /* Like papers/002's table I at rho = 0. */
-static const struct plan smooth = {.n = MOST, .a1 = {-0.97, -0.97}, .b1 = {0.07, -0.34}, .mean = {0.43, 3.1e-3}, .deviation = {0.03, 0.19e-3}, .floor = -HUGE_VAL};
+static const struct plan smooth = {.n = MOST,
+                                   .a1 = {-0.97, -0.97},
+                                   .b1 = {0.07, -0.34},
+                                   .mean = {0.43, 3.1e-3},
+                                   .deviation = {0.03, 0.19e-3},
+                                   .floor = -HUGE_VAL};
 
 /* Like its other column, rho = 1, with the floor of prototype roll: about 3 % of the amplitudes are at it. */
-static const struct plan rough = {.n = MOST, .a1 = {-0.93, -0.93}, .b1 = {0.32, 0.35}, .mean = {0.27, 6.4e-3}, .deviation = {0.04, 0.85e-3}, .floor = 2.7e-3};
+static const struct plan rough = {.n = MOST,
+                                  .a1 = {-0.93, -0.93},
+                                  .b1 = {0.32, 0.35},
+                                  .mean = {0.27, 6.4e-3},
+                                  .deviation = {0.04, 0.85e-3},
+                                  .floor = 2.7e-3};
 
 static struct impact_events draw(struct plan p, unsigned long seed)
 {
     static double interval[MOST];
     gsl_rng *g = series_rng(seed);
     series_draw(g, p.mean[0], p.deviation[0], p.a1[0], p.b1[0], amplitude, p.n);
-    if (!p.two)
-        gsl_rng_set(g, seed);
+    if (!p.two) gsl_rng_set(g, seed);
     series_draw(g, p.mean[1], p.deviation[1], p.a1[1], p.b1[1], interval, p.n);
     gsl_rng_free(g);
     at[0] = 1;
     for (int i = 0; i < p.n; i++) {
         amplitude[i] = fmax(amplitude[i], p.floor);
         duration[i] = 1e-4;
-        if (i + 1 < p.n)
-            at[i + 1] = at[i] + fmax(interval[i], 1e-5);
+        if (i + 1 < p.n) at[i + 1] = at[i] + fmax(interval[i], 1e-5);
     }
     return (struct impact_events){p.n, at, amplitude, duration, alone, 0, {0}};
 }
@@ -50,8 +59,7 @@ static void make(const struct impact_events *v, bool demodulate, struct arena *a
 static bool warned(const char *of)
 {
     for (int i = 0; s.warnings[i]; i++)
-        if (strstr(s.warnings[i], of))
-            return true;
+        if (strstr(s.warnings[i], of)) return true;
     return false;
 }
 
@@ -142,7 +150,9 @@ START_TEST(test_warns)
     for (int i = 0; i < MOST; i++)
         amplitude[i] += gsl_ran_gaussian(g, 0.02);
     make(&v, true, a);
-    ck_assert_msg(warned("by one process only in part") && !warned("not driven") && s.one_process > 0.5 && s.one_process < 0.9, "%g", s.one_process);
+    ck_assert_msg(warned("by one process only in part") && !warned("not driven") && s.one_process > 0.5 &&
+                      s.one_process < 0.9,
+                  "%g", s.one_process);
     gsl_rng_free(g);
 
     v = draw(smooth, 6);
@@ -158,7 +168,8 @@ START_TEST(test_warns)
     p = smooth, p.a1[1] = p.b1[1] = 0;
     v = draw(p, 7);
     make(&v, true, a);
-    ck_assert(warned("intervals: white as they are") && s.series[1].ridge && s.series[1].a1.value == 0 && s.series[1].a1.low == -1 && s.series[1].a1.high == 1);
+    ck_assert(warned("intervals: white as they are") && s.series[1].ridge && s.series[1].a1.value == 0 &&
+              s.series[1].a1.low == -1 && s.series[1].a1.high == 1);
     ck_assert(holds(s.series[1].mean, 3.1e-3) && !s.series[0].ridge);
 
     v = draw(smooth, 8);
@@ -178,7 +189,8 @@ START_TEST(test_warns)
 }
 END_TEST
 
-/* What is at a floor: under a modulation that is divided out, in a force as far as alike impacts are told apart there; and what is not. */
+/* What is at a floor: under a modulation that is divided out, in a force as far as alike impacts are told apart there;
+ * and what is not. */
 START_TEST(test_floors)
 {
     struct arena *a = arena_open();
@@ -188,7 +200,9 @@ START_TEST(test_floors)
         for (int i = 0; i < MOST; i++)
             amplitude[i] *= 1 + 0.3 * sin(2 * M_PI * 5 * at[i] + seed);
         make(&v, true, a);
-        ck_assert_msg(s.modulation.found && warned("amplitudes are the smallest one, about 0.") && warned("by that: the mean is too high"), "seed %d", seed);
+        ck_assert_msg(s.modulation.found && warned("amplitudes are the smallest one, about 0.") &&
+                          warned("by that: the mean is too high"),
+                      "seed %d", seed);
         p.floor = -HUGE_VAL;
         v = draw(p, seed);
         p.floor = rough.floor;
@@ -214,12 +228,14 @@ START_TEST(test_floors)
     for (int i = 1; i < MOST; i++)
         at[i] = at[i - 1] + (i < MOST / 3 ? 1 / 44100.0 : fmax(3e-3 + 1e-3 * sin(i * i), 1e-3));
     make(&v, true, a);
-    ck_assert(warned("intervals are the smallest one, 2.268e-05: raised to a floor, as draws below one are (or drawn alike, as a rub's are)"));
+    ck_assert(warned("intervals are the smallest one, 2.268e-05: raised to a floor, as draws below one are (or drawn "
+                     "alike, as a rub's are)"));
     arena_close(a);
 }
 END_TEST
 
-/* Impacts that follow each other without a gap, at times that rounding moves, do not run into each other; by 1e-6 of their duration they do. */
+/* Impacts that follow each other without a gap, at times that rounding moves, do not run into each other; by 1e-6 of
+ * their duration they do. */
 START_TEST(test_touch)
 {
     struct arena *a = arena_open();
@@ -266,12 +282,15 @@ START_TEST(test_demodulates)
     for (int i = 0; i < MOST; i++)
         amplitude[i] = fmax(amplitude[i], 4e-3) * (1 + 0.3 * sin(2 * M_PI * 5 * at[i]));
     make(&v, true, a);
-    ck_assert(s.modulation.found && fabs(s.modulation.depth - 0.3) < 4 * s.modulation.depth_error && fabs(s.modulation.rate - 5) < 4 * s.modulation.rate_error);
+    ck_assert(s.modulation.found && fabs(s.modulation.depth - 0.3) < 4 * s.modulation.depth_error &&
+              fabs(s.modulation.rate - 5) < 4 * s.modulation.rate_error);
     ck_assert(warned("amplitudes are modulated, m = 0."));
-    ck_assert(holds(s.series[0].a1, -0.97) && holds(s.series[0].mean, 0.43) && memcmp(s.demodulated, amplitude, sizeof amplitude) != 0);
+    ck_assert(holds(s.series[0].a1, -0.97) && holds(s.series[0].mean, 0.43) &&
+              memcmp(s.demodulated, amplitude, sizeof amplitude) != 0);
     double variance = s.series[0].variance;
     make(&v, false, a);
-    ck_assert(!s.modulation.found && s.series[0].variance > variance * 1.1 && memcmp(s.demodulated, amplitude, sizeof amplitude) == 0);
+    ck_assert(!s.modulation.found && s.series[0].variance > variance * 1.1 &&
+              memcmp(s.demodulated, amplitude, sizeof amplitude) == 0);
     arena_close(a);
 }
 END_TEST
@@ -324,4 +343,5 @@ START_TEST(test_refuses)
 }
 END_TEST
 
-UNIT("impact_statistics", test_coverage, test_plain, test_warns, test_floors, test_touch, test_kurtosis, test_demodulates, test_flat, test_refuses)
+UNIT("impact_statistics", test_coverage, test_plain, test_warns, test_floors, test_touch, test_kurtosis,
+     test_demodulates, test_flat, test_refuses)

@@ -1,5 +1,5 @@
-/* impacts: the sub-intervals' means against quadrature of the sum of raised cosines, all momentum at many rates, the same force whatever the blocks and an
-   hour into the scene, memory, what is reported, and which impacts take place. */
+/* impacts: the sub-intervals' means against quadrature of the sum of raised cosines, all momentum at many rates, the
+   same force whatever the blocks and an hour into the scene, memory, what is reported, and which impacts take place. */
 #include <gsl/gsl_integration.h>
 
 #include "contacts.h"
@@ -47,8 +47,7 @@ static struct impact *drawn(struct shot *s, long *n)
     struct impact *all = malloc((size_t)room * sizeof *all);
     ck_assert_msg(impact_train_open(&s->run, &t, &s->e), "%s", s->e.text);
     for (*n = 0; t.any; ++*n) {
-        if (*n == room)
-            all = realloc(all, (size_t)(room *= 2) * sizeof *all);
+        if (*n == room) all = realloc(all, (size_t)(room *= 2) * sizeof *all);
         all[*n] = impact_train_take(&t);
     }
     return all;
@@ -70,8 +69,9 @@ static double mean_of(struct impact *i, double low, double high, gsl_integration
     return to > from ? gsl_integration_glfixed(&f, from, to, g) / (high - low) : 0;
 }
 
-/* 40 points over a whole impact at most: exact to rounding. A share is good to 4e-16 (cosine.h), times impact and sub-interval: an impact of 20 ms
-   over sub-intervals of 7 us makes that 1e-12 of its amplitude, which is below 3; times within 50 ms are good to 7e-18 s. */
+/* 40 points over a whole impact at most: exact to rounding. A share is good to 4e-16 (cosine.h), times impact and
+   sub-interval: an impact of 20 ms over sub-intervals of 7 us makes that 1e-12 of its amplitude, which is below 3;
+   times within 50 ms are good to 7e-18 s. */
 START_TEST(means_are_those_of_the_sum)
 {
     gsl_integration_glfixed_table *g = gsl_integration_glfixed_table_alloc(40);
@@ -107,9 +107,10 @@ static double after_start(const struct impact *i)
     return q <= -0.5 ? 1 : q >= 0.5 ? 0 : 0.5 - q - sin(2 * M_PI * q) / (2 * M_PI);
 }
 
-/* Sum of the sub-intervals, and of the decimated samples, against sum A t0 / 2: rounding of as many terms; the decimator's gain at 0 Hz is 1 to rounding, and
-   of what it leaves of the images 2e-7 remains. A series that is under way at the start is cut there at full height,
-   and what the decimator would spread before it is in the first samples. Of signed series a share of sum |A| t0 / 2. */
+/* Sum of the sub-intervals, and of the decimated samples, against sum A t0 / 2: rounding of as many terms; the
+   decimator's gain at 0 Hz is 1 to rounding, and of what it leaves of the images 2e-7 remains. A series that is under
+   way at the start is cut there at full height, and what the decimator would spread before it is in the first samples.
+   Of signed series a share of sum |A| t0 / 2. */
 START_TEST(momentum_is_kept)
 {
     for (int r = 0; r < RATES; r++)
@@ -170,8 +171,9 @@ static double block_of(struct shot *s, long from, double out[500])
     return peak;
 }
 
-/* An impact every 1/16 s of 3 ms at 8 kHz: one falls on every 500th frame. At 3600 s a time is known to 4.5e-13 s, 1.5e-10 of its duration, which moves
-   a mean by pi times as much of the peak at most. And what an hour takes is not more than what its first minute does. */
+/* An impact every 1/16 s of 3 ms at 8 kHz: one falls on every 500th frame. At 3600 s a time is known to 4.5e-13
+   s, 1.5e-10 of its duration, which moves a mean by pi times as much of the peak at most. And what an hour takes is not
+   more than what its first minute does. */
 START_TEST(an_hour_later)
 {
     struct contact c = even(1.0 / 16, 3e-3, 3700);
@@ -185,8 +187,7 @@ START_TEST(an_hour_later)
     ck_assert_double_eq_tol(peak, 0.7, 0.01);
     for (long from = 1000; from < 28800000; from += 500) {
         block_of(&s, from, late);
-        if (from == 480000)
-            minute = arena_bytes(s.arena);
+        if (from == 480000) minute = arena_bytes(s.arena);
     }
     for (int i = 0; i < 500; i++)
         ck_assert_double_eq_tol(late[i], early[i], 5e-10 * peak);
@@ -206,8 +207,7 @@ START_TEST(memory_does_not_grow)
     for (long from = 0; from < 480000; from += 1000) {
         s.board.signals[ITEM_SUBFORCE].first = from;
         ck_assert(impacts_stage.run(&s.run, from, from + 1000, &s.e));
-        if (from == 48000)
-            second = arena_bytes(s.arena);
+        if (from == 48000) second = arena_bytes(s.arena);
     }
     ck_assert_uint_le(arena_bytes(s.arena), second + 100000);
     arena_close(s.arena);
@@ -216,7 +216,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ which take place, and what is told */
 
-/* From the first that is not over at 0 to the last before the end, as they follow each other; they do not depend on the rate. */
+/* From the first that is not over at 0 to the last before the end, as they follow each other; they do not depend on the
+ * rate. */
 START_TEST(impacts_that_take_place)
 {
     for (int prototype = PROTOTYPE_ROLL; prototype <= PROTOTYPE_CUSTOM; prototype++) {
@@ -227,7 +228,8 @@ START_TEST(impacts_that_take_place)
         struct impact *a = drawn(&s[0], &n[0]), *b = drawn(&s[1], &n[1]);
         ck_assert_int_eq(n[0], n[1]);
         ck_assert_int_gt(n[0], 5);
-        ck_assert(a[0].time + a[0].duration / 2 > 0 && a[n[0] - 1].time < 0.3 && a[n[0] - 1].time + a[n[0] - 1].interval >= 0.3);
+        ck_assert(a[0].time + a[0].duration / 2 > 0 && a[n[0] - 1].time < 0.3 &&
+                  a[n[0] - 1].time + a[n[0] - 1].interval >= 0.3);
         for (long i = 0; i < n[0]; i++) {
             ck_assert_int_eq(memcmp(&a[i].time, &b[i].time, 4 * sizeof(double)), 0);
             ck_assert(i == 0 || a[i].time == a[i - 1].time + a[i - 1].interval);
@@ -240,7 +242,8 @@ START_TEST(impacts_that_take_place)
 }
 END_TEST
 
-/* The report against the list; impacts that follow each other without a gap do not overlap, those that last a hair longer do. */
+/* The report against the list; impacts that follow each other without a gap do not overlap, those that last a hair
+ * longer do. */
 START_TEST(report)
 {
     const double lasts[] = {4e-3, 4.001e-3};
@@ -286,5 +289,5 @@ START_TEST(too_long_a_one_is_refused)
 }
 END_TEST
 
-UNIT("impacts", means_are_those_of_the_sum, momentum_is_kept, blocks_do_not_matter, an_hour_later, memory_does_not_grow, impacts_that_take_place, report,
-     too_long_a_one_is_refused)
+UNIT("impacts", means_are_those_of_the_sum, momentum_is_kept, blocks_do_not_matter, an_hour_later, memory_does_not_grow,
+     impacts_that_take_place, report, too_long_a_one_is_refused)

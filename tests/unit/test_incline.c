@@ -1,5 +1,6 @@
-/* Free motion on a slope: closed forms of school mechanics in long double, the balance of energy with rotation, the equation of motion by small
-   steps, times of stopping, reaching and coming back, the clean ends of u, turning round, and what is refused. */
+/* Free motion on a slope: closed forms of school mechanics in long double, the balance of energy with rotation, the
+   equation of motion by small steps, times of stopping, reaching and coming back, the clean ends of u, turning round,
+   and what is refused. */
 #include "scene/incline.h"
 
 #include <stddef.h>
@@ -10,19 +11,28 @@
 
 static struct motion slope(double degrees, double speed, double friction, double length)
 {
-    return (struct motion){.path = PATH_INCLINE, .law = SPEED_AUTO, .from = {0.01, -0.02}, .to = {0.01 + 0.6 * length, -0.02 + 0.8 * length},
-                           .speed = NAN, .duration = NAN, .incline = degrees * M_PI / 180, .start_speed = speed, .rolling_friction = friction,
+    return (struct motion){.path = PATH_INCLINE,
+                           .law = SPEED_AUTO,
+                           .from = {0.01, -0.02},
+                           .to = {0.01 + 0.6 * length, -0.02 + 0.8 * length},
+                           .speed = NAN,
+                           .duration = NAN,
+                           .incline = degrees * M_PI / 180,
+                           .start_speed = speed,
+                           .rolling_friction = friction,
                            .gravity = 9.80665};
 }
 
 /* up_to: degrees and friction below these, speeds from 0.1 to 2 m/s. */
 static struct motion any_slope(double up_to, double friction)
 {
-    double degrees = between(-up_to, up_to), speed = between(0.1, 2), c = between(0, friction), length = between(0.05, 2);
+    double degrees = between(-up_to, up_to), speed = between(0.1, 2), c = between(0, friction),
+           length = between(0.05, 2);
     return slope(degrees, speed, c, length);
 }
 
-/* The four bodies of ball.body: a wall of 1 mm in 20 mm for the hollow one, by the formula for a shell between two spheres. */
+/* The four bodies of ball.body: a wall of 1 mm in 20 mm for the hollow one, by the formula for a shell between two
+ * spheres. */
 static const struct {
     int body;
     double wall, inertia;
@@ -36,7 +46,8 @@ static const struct {
 
 static struct contact rolling(int i, const struct motion *m)
 {
-    struct contact c = {.motion = *m, .ball = {.radius = 0.02, .mass = 0.1, .body = bodies[i].body, .wall = bodies[i].wall}};
+    struct contact c = {.motion = *m,
+                        .ball = {.radius = 0.02, .mass = 0.1, .body = bodies[i].body, .wall = bodies[i].wall}};
     c.contact.model = CONTACT_ROLL;
     c.contact.gravity = m->gravity;
     ball_settle(&c);
@@ -44,14 +55,16 @@ static struct contact rolling(int i, const struct motion *m)
     return c;
 }
 
-/* Up and down without friction: back at v = start speed after 2 v / a; energy kinetic + rotational + potential is the same all the time. */
+/* Up and down without friction: back at v = start speed after 2 v / a; energy kinetic + rotational + potential is the
+ * same all the time. */
 START_TEST(up_and_down)
 {
     for (int i = 0; i < 5; i++) {
         struct motion m = slope(7, 0.8, 0, 2);
         struct contact c = rolling(i, &m);
         struct trajectory tr = made(&c.motion);
-        long double a = 9.80665L * sinl(m.incline) / (1 + bodies[i].inertia), end = 2 * 0.8L / a, total = 0.5L * (1 + bodies[i].inertia) * 0.64L;
+        long double a = 9.80665L * sinl(m.incline) / (1 + bodies[i].inertia), end = 2 * 0.8L / a,
+                    total = 0.5L * (1 + bodies[i].inertia) * 0.64L;
         ck_assert(tr.straight && !tr.starts_at_rest && !tr.ends_at_rest);
         ck_assert_double_eq_tol(tr.duration, (double)end, 1e-15 * (double)end * 4);
         ck_assert_double_eq_tol(tr.reach[1], (double)(0.32L / a), 1e-15);
@@ -90,12 +103,14 @@ START_TEST(down_from_rest)
         struct contact c = rolling(i, &m);
         struct trajectory rolled = made(&c.motion);
         ck_assert_double_eq_tol(rolled.duration / slid.duration, sqrt(1 + bodies[i].inertia), 1e-15 * 2);
-        ck_assert_double_eq_tol(rolled.top_speed, sqrt(2 * 9.80665 * sin(10 * M_PI / 180) * 1.5 / (1 + bodies[i].inertia)), 1e-15 * 4);
+        ck_assert_double_eq_tol(rolled.top_speed,
+                                sqrt(2 * 9.80665 * sin(10 * M_PI / 180) * 1.5 / (1 + bodies[i].inertia)), 1e-15 * 4);
     }
 }
 END_TEST
 
-/* On the level without friction: constant speed. With it: v / (c g) s, v^2 / (2 c g) m, then rest for good, as long as the duration says. */
+/* On the level without friction: constant speed. With it: v / (c g) s, v^2 / (2 c g) m, then rest for good, as long as
+ * the duration says. */
 START_TEST(level)
 {
     struct motion m = slope(0, 0.3, 0, 2);
@@ -122,17 +137,19 @@ START_TEST(level)
 }
 END_TEST
 
-/* u'' = -(slope + friction sgn u') / (1 + inertia), held where friction is stronger, in 2000 steps in long double, each with the sign of the speed at its
-   start; the step in which the speed changes its sign is cut there, by bisection. */
+/* u'' = -(slope + friction sgn u') / (1 + inertia), held where friction is stronger, in 2000 steps in long double, each
+   with the sign of the speed at its start; the step in which the speed changes its sign is cut there, by bisection. */
 struct mover {
     long double u, v;
 };
 
 static long double force(const struct motion *m, long double v)
 {
-    long double s = m->gravity * sinl(m->incline), c = m->gravity * m->rolling_friction * cosl(m->incline), sgn = v > 0 ? 1 : v < 0 ? -1 : 0;
-    if (sgn == 0 && fabsl(s) <= c)
-        return 0;
+    long double s = m->gravity * sinl(m->incline), c = m->gravity * m->rolling_friction * cosl(m->incline),
+                sgn = v > 0   ? 1
+                      : v < 0 ? -1
+                              : 0;
+    if (sgn == 0 && fabsl(s) <= c) return 0;
     return -(s + c * (sgn != 0 ? sgn : s > 0 ? -1 : 1)) / (1 + m->inertia);
 }
 
@@ -146,8 +163,7 @@ static struct mover mover_step(const struct motion *m, struct mover x, long doub
 {
     struct mover next = mover_within(m, x, h);
     long double low = 0, high = h;
-    if (!(x.v * next.v < 0))
-        return next;
+    if (!(x.v * next.v < 0)) return next;
     for (int i = 0; i < 80; i++) {
         long double middle = (low + high) / 2;
         if (mover_within(m, x, middle).v * x.v > 0)
@@ -186,7 +202,8 @@ START_TEST(against_small_steps)
 }
 END_TEST
 
-/* Up with friction and down again: a lower speed, v^2 (sin - c cos) / (sin + c cos) of its square. u and its speed are continuous; its acceleration jumps. */
+/* Up with friction and down again: a lower speed, v^2 (sin - c cos) / (sin + c cos) of its square. u and its speed are
+ * continuous; its acceleration jumps. */
 START_TEST(back_with_friction)
 {
     struct motion m = slope(5, 1, 0.04, 3);
@@ -278,16 +295,16 @@ START_TEST(rules_agree)
         struct motion m = any_slope(20, i % 4 ? 0.2 : 0);
         m.start_speed *= i % 3 != 0;
         struct incline c = incline_make(&m);
-        if (c.over == INCLINE_STUCK)
-            continue;
-        if (i % 5 == 0)
-            m.duration = c.over == INCLINE_RESTS ? between(0.5, 2) * c.end : between(0.1, 1) * c.end;
+        if (c.over == INCLINE_STUCK) continue;
+        if (i % 5 == 0) m.duration = c.over == INCLINE_RESTS ? between(0.5, 2) * c.end : between(0.1, 1) * c.end;
         struct trajectory tr = made(&m);
         ck_assert(rules_rests(&m, false) == tr.starts_at_rest && rules_rests(&m, true) == tr.ends_at_rest);
         ck_assert_double_eq_tol(rules_speed(&m) / tr.mean_speed, 1, 1e-12);
         ck_assert(rules_straight(&m) && rules_law(&m) == SPEED_AUTO);
     }
-    struct contact c = {.motion = slope(-3, 0, 0, 1), .load = {.constant = NAN, .approach = NAN, .release = NAN}, .scraper = {.mass = 0.5}};
+    struct contact c = {.motion = slope(-3, 0, 0, 1),
+                        .load = {.constant = NAN, .approach = NAN, .release = NAN},
+                        .scraper = {.mass = 0.5}};
     c.contact.gravity = 10;
     static const int models[] = {CONTACT_SCRAPE, CONTACT_ROLL, CONTACT_ROLL_COUPLED, CONTACT_STRIKE};
     for (int i = 0; i < 4; i++) {
@@ -304,4 +321,5 @@ START_TEST(rules_agree)
 }
 END_TEST
 
-UNIT("incline", up_and_down, down_from_rest, level, against_small_steps, back_with_friction, durations, refusals, just_so, rules_agree)
+UNIT("incline", up_and_down, down_from_rest, level, against_small_steps, back_with_friction, durations, refusals,
+     just_so, rules_agree)

@@ -1,5 +1,5 @@
-/* Signals: each test is a process of its own that is sent one, and what it is ended with, when, and what it leaves. Machines that run tests are busy: a limit of half a second
-   (base/interrupt.h) is asked of the quickest of three. */
+/* Signals: each test is a process of its own that is sent one, and what it is ended with, when, and what it leaves.
+   Machines that run tests are busy: a limit of half a second (base/interrupt.h) is asked of the quickest of three. */
 #include <fcntl.h>
 #include <glob.h>
 #include <pthread.h>
@@ -30,7 +30,8 @@ static void rest(double s)
     nanosleep(&t, NULL);
 }
 
-/* Runs `what` in a process, and once it has said that it is ready sends it n signals. Its exit code, -1: a signal ended it; *took: s from the first signal on. */
+/* Runs `what` in a process, and once it has said that it is ready sends it n signals. Its exit code, -1: a signal ended
+ * it; *took: s from the first signal on. */
 static int ended(void (*what)(int ready), int number, int n, double *took)
 {
     int ends[2], status;
@@ -48,8 +49,7 @@ static int ended(void (*what)(int ready), int number, int n, double *took)
     close(ends[0]);
     double start = now();
     for (int i = 0; i < n; i++) {
-        if (i)
-            rest(0.02);
+        if (i) rest(0.02);
         kill(pid, number);
     }
     ck_assert_int_eq(waitpid(pid, &status, 0), pid);
@@ -59,8 +59,7 @@ static int ended(void (*what)(int ready), int number, int n, double *took)
 
 static void ready(int fd)
 {
-    if (write(fd, "", 1) != 1)
-        _exit(1);
+    if (write(fd, "", 1) != 1) _exit(1);
 }
 
 /* All three end with the code; the least time of them. */
@@ -184,8 +183,7 @@ END_TEST
 static void touch(const char *path)
 {
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
-    if (fd < 0)
-        _exit(1);
+    if (fd < 0) _exit(1);
     close(fd);
 }
 
@@ -273,8 +271,7 @@ END_TEST
 /* The signal that comes while one program becomes another is the other's. */
 static void becomes_another(int fd)
 {
-    if (!interrupt_pass_on())
-        _exit(1);
+    if (!interrupt_pass_on()) _exit(1);
     ready(fd);
     rest(0.1);
     interrupt_catch();
@@ -289,4 +286,5 @@ START_TEST(passed_on)
 }
 END_TEST
 
-UNIT("interrupt", wherever_it_is, in_order, words_are_whole, temporaries_go_and_the_child, what_is_held_together_is_whole, passed_on)
+UNIT("interrupt", wherever_it_is, in_order, words_are_whole, temporaries_go_and_the_child,
+     what_is_held_together_is_whole, passed_on)

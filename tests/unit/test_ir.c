@@ -25,7 +25,8 @@ static long double closed_form(int n, double rate)
 {
     long double t = n / (long double)rate, sum = 0, pi = acosl(-1.0L);
     for (int i = 0; i < MODES; i++)
-        sum += expl(-decay[i] * t) * (gain_re[i] * sinl(2 * pi * frequency[i] * t) + gain_im[i] * cosl(2 * pi * frequency[i] * t));
+        sum += expl(-decay[i] * t) *
+               (gain_re[i] * sinl(2 * pi * frequency[i] * t) + gain_im[i] * cosl(2 * pi * frequency[i] * t));
     return sum / rate * (n ? 1 : 0.5L);
 }
 
@@ -45,13 +46,15 @@ START_TEST(samples_modes)
     ck_assert_double_lt(worst * 48000 / sum, 1e-12);
     static double again[1001];
     again[1000] = 7;
-    ir_sample(s, MODES_VELOCITY, &point, again, 1000); /* shorter, after a longer one: the same samples, and none beyond */
+    ir_sample(s, MODES_VELOCITY, &point, again,
+              1000); /* shorter, after a longer one: the same samples, and none beyond */
     ck_assert(memcmp(h, again, 1000 * sizeof *h) == 0 && again[1000] == 7);
     arena_close(a);
 }
 END_TEST
 
-/* Poles may be others at every call, some of them or all: what a sampler has had before makes no difference, to the last bit. */
+/* Poles may be others at every call, some of them or all: what a sampler has had before makes no difference, to the
+ * last bit. */
 START_TEST(poles_move)
 {
     static double other[2000];
@@ -111,9 +114,13 @@ START_TEST(wav_is_the_table)
     struct err e = {0};
     struct modes m;
     struct ir ir, cut;
-    ck_assert_msg(ir_read(&(struct ir_ask){shipped("ceramic_tile_tap.wav"), 48000, NAN, NULL}, a, &ir, &e), "%s", e.text);
-    ck_assert_msg(ir_read(&(struct ir_ask){shipped("ceramic_tile_tap.wav"), 48000, 0.1, NULL}, a, &cut, &e), "%s", e.text);
-    ck_assert_msg(modes_table(shipped("ceramic_tile.csv"), &(struct modes_ask){.strongest = 1000, .pairing = 0.03, .rate = 48000}, a, &m, &e), "%s", e.text);
+    ck_assert_msg(ir_read(&(struct ir_ask){shipped("ceramic_tile_tap.wav"), 48000, NAN, NULL}, a, &ir, &e), "%s",
+                  e.text);
+    ck_assert_msg(ir_read(&(struct ir_ask){shipped("ceramic_tile_tap.wav"), 48000, 0.1, NULL}, a, &cut, &e), "%s",
+                  e.text);
+    ck_assert_msg(modes_table(shipped("ceramic_tile.csv"),
+                              &(struct modes_ask){.strongest = 1000, .pairing = 0.03, .rate = 48000}, a, &m, &e),
+                  "%s", e.text);
     ck_assert_uint_eq(ir.length, 12000);
     ck_assert_uint_eq(cut.length, 4800);
     struct modes_point p = {m.frequency, m.decay, ARENA_TAKE(a, double, m.n), ARENA_TAKE(a, double, m.n)};

@@ -10,10 +10,7 @@
 enum { LENGTH = 4000 };
 static char folder[64];
 
-static void path_of(char *path, size_t size, const char *name)
-{
-    snprintf(path, size, "%s/%s", folder, name);
-}
+static void path_of(char *path, size_t size, const char *name) { snprintf(path, size, "%s/%s", folder, name); }
 
 static void write_wav(const char *name, double rate, int channels, const double *x, size_t n)
 {
@@ -78,7 +75,8 @@ START_TEST(reads)
     struct places_mix mix;
     char path[128];
     make_folder();
-    write_index("# plank: oak\nfile_name,x_m,y_m,gain_db,z_m\nb.wav,0.1,0,-20,0\na.wav,0,0,0,0.0\n\"other rate.wav\",0.05,0.02,6,0\n");
+    write_index("# plank: oak\nfile_name,x_m,y_m,gain_db,z_m\nb.wav,0.1,0,-20,0\na.wav,0,0,0,0.0\n\"other "
+                "rate.wav\",0.05,0.02,6,0\n");
     ck_assert_msg(ir_set_read(&(struct ir_ask){folder, 48000, NAN, NULL}, a, &s, &e), "%s", e.text);
     ck_assert_int_eq(s.n, 3);
     ck_assert(places_kind(s.places) == PLACES_PLANE); /* by x: a.wav, "other rate.wav", b.wav */
@@ -209,10 +207,11 @@ START_TEST(jump)
         ck_assert_msg(ir_read(&(struct ir_ask){path, rates[k], NAN, NULL}, a, &ir, &e), "%s", e.text);
         for (size_t n = 0; n < ir.length; n++)
             sum += ir.h[n];
-        for (size_t n = (size_t)(0.01 * rates[k]); n < ir.length / 2; n++) /* far from the jump: the samples of the exponential */
+        for (size_t n = (size_t)(0.01 * rates[k]); n < ir.length / 2;
+             n++) /* far from the jump: the samples of the exponential */
             middle = fmax(middle, fabs(ir.h[n] * rates[k] - exp(-200.0 * (double)n / rates[k])));
-        printf("%g Hz: integral short by %.3f h(0+)/lower rate, far off by %.1e, h[0] R = %.4f\n", rates[k], (0.005 - sum) * low, middle,
-               ir.h[0] * rates[k]);
+        printf("%g Hz: integral short by %.3f h(0+)/lower rate, far off by %.1e, h[0] R = %.4f\n", rates[k],
+               (0.005 - sum) * low, middle, ir.h[0] * rates[k]);
         ck_assert_double_eq_tol(sum, 0.005, 2 * 200.0 / 12 / (44100.0 * 44100));
         ck_assert_double_lt(middle, 1e-8);
         for (int i = 0; i < 3; i++) {

@@ -36,8 +36,7 @@ static bool asked(struct list *l, int capacity, long column, long row)
     while (i < l->n && (l->at[i][0] != column || l->at[i][1] != row))
         i++;
     bool made = i == l->n;
-    if (made && l->n < capacity)
-        l->n++;
+    if (made && l->n < capacity) l->n++;
     i = i < l->n ? i : l->n - 1;
     memmove(l->at[1], l->at[0], (size_t)i * sizeof l->at[0]);
     l->at[0][0] = column;
@@ -58,8 +57,10 @@ static void compared(int capacity, bool walks)
         want += asked(&l, capacity, column, row);
         const double *got = kept_at(k, column, row);
         numbers_of(column, row, told);
-        ck_assert_msg(memcmp(got, told, sizeof told) == 0, "capacity %d: block %ld, %ld has another's numbers", capacity, column, row);
-        ck_assert_msg(fills == want, "capacity %d, asked %d times: %d blocks made, not %ld", capacity, n + 1, fills, want);
+        ck_assert_msg(memcmp(got, told, sizeof told) == 0, "capacity %d: block %ld, %ld has another's numbers",
+                      capacity, column, row);
+        ck_assert_msg(fills == want, "capacity %d, asked %d times: %d blocks made, not %ld", capacity, n + 1, fills,
+                      want);
     }
     ck_assert_uint_le(arena_bytes(a), kept_bytes(SIZE, (size_t)capacity));
     arena_close(a);

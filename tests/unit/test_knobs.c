@@ -1,4 +1,5 @@
-/* Which knobs of accuracy.def turn a scene: every shipped scene, begun, sounds the same to the bit whatever the others are; and every knob turns some scene. */
+/* Which knobs of accuracy.def turn a scene: every shipped scene, begun, sounds the same to the bit whatever the others
+ * are; and every knob turns some scene. */
 #include <dirent.h>
 
 #include "output/force_table.h"
@@ -22,8 +23,7 @@ static struct scene scene_of(const char *file, struct arena *a)
     struct scene s;
     struct err e = {0};
     const char *messages = "";
-    if (!scene_read(file, &(struct scene_overrides){0}, a, &s, &messages, &e))
-        ck_abort_msg("%s%s", messages, e.text);
+    if (!scene_read(file, &(struct scene_overrides){0}, a, &s, &messages, &e)) ck_abort_msg("%s%s", messages, e.text);
     return s;
 }
 
@@ -77,10 +77,11 @@ static void check_contact(const char *file, const struct scene *s, int contact)
                 differs |= accuracy_knob(&other, (enum knob)k) != accuracy_knob(&s->accuracy, (enum knob)k);
                 accuracy_turn(&t.accuracy, (enum knob)k, accuracy_knob(&other, (enum knob)k));
             }
-        if (!differs)
-            continue;
+        if (!differs) continue;
         ck_assert_int_eq(begun(&t, contact, y, a), n);
-        ck_assert_msg(memcmp(x, y, (size_t)n * sizeof *x) == 0, "%s, contact %d: turned by %s only, but %s of the other knobs changes it", file, contact, plan_knobs_text(knobs, a), others[i]);
+        ck_assert_msg(memcmp(x, y, (size_t)n * sizeof *x) == 0,
+                      "%s, contact %d: turned by %s only, but %s of the other knobs changes it", file, contact,
+                      plan_knobs_text(knobs, a), others[i]);
     }
     arena_close(a);
 }
@@ -104,16 +105,10 @@ static void check_folder(bool even)
 }
 
 /* In two halves, for the time that a test may take. */
-START_TEST(other_knobs_change_no_bit)
-{
-    check_folder(true);
-}
+START_TEST(other_knobs_change_no_bit) { check_folder(true); }
 END_TEST
 
-START_TEST(other_knobs_change_no_bit_either)
-{
-    check_folder(false);
-}
+START_TEST(other_knobs_change_no_bit_either) { check_folder(false); }
 END_TEST
 
 START_TEST(each_knob_turns_some_scene)
@@ -124,14 +119,14 @@ START_TEST(each_knob_turns_some_scene)
     ck_assert_ptr_nonnull(d);
     for (struct dirent *entry; all != (1u << KNOBS) - 1 && (entry = readdir(d));) {
         struct err e = {0};
-        if (!strstr(entry->d_name, ".yaml"))
-            continue;
+        if (!strstr(entry->d_name, ".yaml")) continue;
         struct scene s = scene_of(arena_format(a, "%s/%s", scenes_folder(a), entry->d_name), a);
         ck_assert_msg(plan_scene_knobs(&s, a, &knobs, &e), "%s: %s", entry->d_name, e.text);
         all |= knobs;
     }
     closedir(d);
-    ck_assert_msg(all == (1u << KNOBS) - 1, "no shipped scene is turned by %s", plan_knobs_text(~all & ((1u << KNOBS) - 1), a));
+    ck_assert_msg(all == (1u << KNOBS) - 1, "no shipped scene is turned by %s",
+                  plan_knobs_text(~all & ((1u << KNOBS) - 1), a));
     arena_close(a);
 }
 END_TEST
@@ -146,9 +141,12 @@ START_TEST(only_what_is_read)
         const char *surface, *scraper, *rest, *knobs;
     } cases[] = {
         {"", "", "output: {diagnostics: {columns: [force_rms_n]}}", "oversampling"},
-        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}", "", "", "oversampling, gain_ramp"},
-        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}, response_length: 10 ms", "", "", "oversampling, gain_ramp"},
-        {"", ", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}", "", "oversampling"},
+        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}", "", "",
+         "oversampling, gain_ramp"},
+        {", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}, response_length: 10 ms",
+         "", "", "oversampling, gain_ramp"},
+        {"", ", material: steel, object: {shape: bar, length: 40 cm, width: 4 cm, thickness: 1 cm}", "",
+         "oversampling"},
         {"", ", radius: 1 mm", "output: {diagnostics: {columns: [force_rms_n]}}", "oversampling, tip_heights"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -179,11 +177,14 @@ START_TEST(a_stage_names_its_knobs)
     with.turns = toy_turns;
     unneeded.knobs = KNOB_BIT(tip_heights);
     for (int n = 0; n == 0 || table[n - 1]; n++)
-        table[n] = stages_table[n] == &decimate_stage ? &with : stages_table[n] == &mix_stage ? &unneeded : stages_table[n];
+        table[n] = stages_table[n] == &decimate_stage ? &with
+                   : stages_table[n] == &mix_stage    ? &unneeded
+                                                      : stages_table[n];
     ck_assert_msg(plan_make(table, &s.contacts[0], &s, a, &p, &e), "%s", e.text);
     ck_assert_str_eq(plan_knobs_text(plan_knobs(&p), a), "oversampling, gain_ramp, contact_steps");
     arena_close(a);
 }
 END_TEST
 
-UNIT("knobs", other_knobs_change_no_bit, other_knobs_change_no_bit_either, each_knob_turns_some_scene, only_what_is_read, a_stage_names_its_knobs)
+UNIT("knobs", other_knobs_change_no_bit, other_knobs_change_no_bit_either, each_knob_turns_some_scene,
+     only_what_is_read, a_stage_names_its_knobs)

@@ -1,13 +1,13 @@
-/* Two judges, both sums over every pair of force sample and later frame, of responses in closed form: the definition, where every sample has the
-   response of its own place (`brute`), and what cubic interpolation between nodes makes of it (`windowed`). Neither has
-   anything in common with blocks, pools or clusters. */
+/* Two judges, both sums over every pair of force sample and later frame, of responses in closed form: the definition,
+   where every sample has the response of its own place (`brute`), and what cubic interpolation between nodes makes of
+   it (`windowed`). Neither has anything in common with blocks, pools or clusters. */
 #include "unit.h"
 
 #include <complex.h>
 
-#include "hop.h"
 #include "convolution/launch.h"
 #include "convolution/resonators.h"
+#include "hop.h"
 
 enum { MAX = 16, N = 2048, TAIL = 2048, ALL = N + TAIL };
 #define RATE 44100.0
@@ -105,8 +105,7 @@ static void windowed(const struct body *b)
         for (long k = -1; (k - 2) * b->hop < N; k++)
             for (long m = k < 2 ? 0 : (k - 2) * b->hop; m < N && m < (k + 2) * b->hop; m++) {
                 double w = window((double)m / b->hop - (double)k);
-                if (w * force[m] != 0)
-                    one(b, i, (double)(k * b->hop), (int)m, w * force[m]);
+                if (w * force[m] != 0) one(b, i, (double)(k * b->hop), (int)m, w * force[m]);
             }
 }
 
@@ -138,8 +137,8 @@ static double apart(void)
     return sqrt(d / s);
 }
 
-/* Clusters leave 1e-11 of a node at most, mostly much less; the judge's own products add up to 1e-12. Hops shorter than a block, of a few frames, of a prime
-   number of them, and longer than the sound are among them. */
+/* Clusters leave 1e-11 of a node at most, mostly much less; the judge's own products add up to 1e-12. Hops shorter than
+   a block, of a few frames, of a prime number of them, and longer than the sound are among them. */
 START_TEST(equals_the_windowed_sum)
 {
     static const int hops[] = {1, 2, 5, 16, 24, 64, 97, 128, 184, 300, 1016, 1024, 8192};
@@ -169,8 +168,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ the error of hops */
 
-/* Every pole moves by `turns` half bandwidths over the N frames, some up, some down, and nothing else does: rho = turns hop/N. Frequencies lie
-   far enough apart for the modes' energies to add. */
+/* Every pole moves by `turns` half bandwidths over the N frames, some up, some down, and nothing else does: rho = turns
+   hop/N. Frequencies lie far enough apart for the modes' energies to add. */
 static struct body evenly(double turns)
 {
     struct body b = body_of(12, 250, 0, 0);
@@ -208,8 +207,10 @@ START_TEST(error_is_as_predicted)
     double db[HOPS], turns = 1.4;
     measure(turns, db);
     for (int h = 0; h < HOPS; h++) {
-        double rho = turns * (512 >> h) / N, predicted = 20 * log10(hop_error(4, rho)), step = h ? db[h - 1] - db[h] : 0;
-        printf("hop %3d, rho %.3f: predicted %6.1f dB, measured %6.1f, %.2f from twice the hop\n", 512 >> h, rho, predicted, db[h], step);
+        double rho = turns * (512 >> h) / N, predicted = 20 * log10(hop_error(4, rho)),
+               step = h ? db[h - 1] - db[h] : 0;
+        printf("hop %3d, rho %.3f: predicted %6.1f dB, measured %6.1f, %.2f from twice the hop\n", 512 >> h, rho,
+               predicted, db[h], step);
         fflush(stdout);
         ck_assert_double_lt(fabs(db[h] - predicted), 2);
         if (h > 1) /* rho below 0.1 */
@@ -232,8 +233,7 @@ START_TEST(floor_bounds_what_is_dropped)
             double error = 20 * log10(apart());
             printf("floor %d dB, poles %s: %.1f dB\n", db, moves ? "move" : "rest", error);
             ck_assert_double_lt(error, db);
-            if (moves)
-                ck_assert_double_gt(error, db - 80);
+            if (moves) ck_assert_double_gt(error, db - 80);
         }
     }
 }
@@ -241,8 +241,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ poles at rest */
 
-/* The bank of resonators of test_resonators.c, equal to rounding whatever the hops are. With modes near 0 Hz and near rate/2, without decay, at
-   0 Hz, of acceleration. */
+/* The bank of resonators of test_resonators.c, equal to rounding whatever the hops are. With modes near 0 Hz and near
+   rate/2, without decay, at 0 Hz, of acceleration. */
 START_TEST(poles_at_rest_equal_resonators)
 {
     static const int hops[] = {1, 7, 64, 1000, 8192};
@@ -250,7 +250,7 @@ START_TEST(poles_at_rest_equal_resonators)
         for (int k = 0; k < 5; k++) {
             struct body b = body_of(11, 30, 0, 0);
             b.quantity = quantity;
-            if (quantity == MODES_VELOCITY) { /* of acceleration their direct terms drown all else */
+            if (quantity == MODES_VELOCITY) {          /* of acceleration their direct terms drown all else */
                 b.frequency[1] = 0, b.gain[1] = 2 * I; /* phase pi/2 */
                 b.frequency[2] = 1e-3;
             }
@@ -259,10 +259,15 @@ START_TEST(poles_at_rest_equal_resonators)
             b.hop = hops[k];
             run(&b, 0);
             struct arena *a = arena_open();
-            struct modes_point p = {ARENA_TAKE(a, double, b.n), ARENA_TAKE(a, double, b.n), ARENA_TAKE(a, double, b.n), ARENA_TAKE(a, double, b.n)};
+            struct modes_point p = {ARENA_TAKE(a, double, b.n), ARENA_TAKE(a, double, b.n), ARENA_TAKE(a, double, b.n),
+                                    ARENA_TAKE(a, double, b.n)};
             point(&b, 0, &p);
-            struct resonators *r = resonators_make(a, &(struct resonators_ask){.n = b.n, .quantity = quantity, .rate = RATE, .frequency = p.frequency,
-                                                                              .decay = p.decay, .ramp = 64});
+            struct resonators *r = resonators_make(a, &(struct resonators_ask){.n = b.n,
+                                                                               .quantity = quantity,
+                                                                               .rate = RATE,
+                                                                               .frequency = p.frequency,
+                                                                               .decay = p.decay,
+                                                                               .ramp = 64});
             resonators_set(r, &p);
             memset(judge, 0, sizeof judge);
             resonators_run(r, force, judge, ALL, &p);
@@ -273,7 +278,8 @@ START_TEST(poles_at_rest_equal_resonators)
 }
 END_TEST
 
-/* Without decay, moving, up to 0.49 rate: the error is hop.h's with sigma = rate/ALL, as if all died away within the time of the sums. */
+/* Without decay, moving, up to 0.49 rate: the error is hop.h's with sigma = rate/ALL, as if all died away within the
+ * time of the sums. */
 START_TEST(undamped_and_high_modes_move)
 {
     struct body b = body_of(4, 0, 0.001, 0.9);
@@ -328,7 +334,8 @@ START_TEST(silence)
     ck_assert_int_gt(launch_active(l), 50);
     memset(force, 0, sizeof force);
     int asked = b.asked, blocks = 0;
-    for (; launch_active(l) > 0 && blocks < 400; blocks++) { /* 1e-200 after 460 nepers: 7.7 s at the latest, 165 blocks */
+    for (; launch_active(l) > 0 && blocks < 400;
+         blocks++) { /* 1e-200 after 460 nepers: 7.7 s at the latest, 165 blocks */
         memset(sound, 0, sizeof sound);
         launch_run(l, force, sound, ALL / 2);
     }

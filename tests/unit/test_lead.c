@@ -50,13 +50,11 @@ static double worst(const struct filter *k, int over, int within, double f)
             for (long n = pass ? 0 : -leads; pass ? n < leads + within : n < 0; n++) {
                 long tap = i - over * n + k->reach;
                 double y = tap >= 0 && tap < k->taps ? over * k->tap[tap] : 0;
-                if (!pass)
-                    lead[-n - 1] = y;
+                if (!pass) lead[-n - 1] = y;
                 y += pass && n < leads ? lead[n] : 0;
                 re += pass * y * cos(2 * M_PI * f * ((double)n - t));
                 im -= pass * y * sin(2 * M_PI * f * ((double)n - t));
-                if (n == -1)
-                    lead_fold(lead, leads, 1);
+                if (n == -1) lead_fold(lead, leads, 1);
             }
         most = fmax(most, hypot(re - 1, im));
     }
@@ -64,7 +62,7 @@ static double worst(const struct filter *k, int over, int within, double f)
 }
 
 /* The table in num/lead.h: what is left of the error of an impulse's spectrum. Without the fold it is 0.15 throughout.
-   */
+ */
 START_TEST(spectrum_of_an_early_impulse)
 {
     static const double f[] = {0.001, 0.01, 0.1, 0.2, 0.3}, dB[] = {-112, -73, -33.5, -21.5, -13.5};

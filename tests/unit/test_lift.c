@@ -1,4 +1,5 @@
-/* lift: the share that presses, a force's parts over it against sums over many small steps, and the time that is counted. */
+/* lift: the share that presses, a force's parts over it against sums over many small steps, and the time that is
+ * counted. */
 #include "force/lift.h"
 
 #include "unit.h"
@@ -29,7 +30,8 @@ START_TEST(parts_of_a_straight_line)
 }
 END_TEST
 
-/* A force exp(sin t) under N = sin(t - 0.3), whose hats' parts are known: with half the step what is left of the impulse about each zero falls by 2^2 at least, over 200 steps' places. */
+/* A force exp(sin t) under N = sin(t - 0.3), whose hats' parts are known: with half the step what is left of the
+ * impulse about each zero falls by 2^2 at least, over 200 steps' places. */
 START_TEST(of_second_order)
 {
     double off[2] = {0};

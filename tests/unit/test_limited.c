@@ -1,5 +1,5 @@
-/* limited: means and moments of T over a piece against GSL's adaptive quadrature: where the curvature runs along a straight line, and where
-   it bulges. */
+/* limited: means and moments of T over a piece against GSL's adaptive quadrature: where the curvature runs along a
+   straight line, and where it bulges. */
 #include "surface/limited.h"
 
 #include <gsl/gsl_errno.h>
@@ -11,8 +11,8 @@
 
 static struct {
     int n, at[LIMITED_PIECES];
-    double alpha[LIMITED_POINTS], curvature[LIMITED_POINTS], bulge[LIMITED_PIECES], limited[LIMITED_POINTS], mean[LIMITED_PIECES],
-        moment[LIMITED_PIECES];
+    double alpha[LIMITED_POINTS], curvature[LIMITED_POINTS], bulge[LIMITED_PIECES], limited[LIMITED_POINTS],
+        mean[LIMITED_PIECES], moment[LIMITED_PIECES];
 } pieces;
 
 static void add_piece(double alpha, double c0, double c1, double bulge)
@@ -27,19 +27,14 @@ static void add_piece(double alpha, double c0, double c1, double bulge)
 
 static void run(bool bulges, bool limiter)
 {
-    limited_run(&(struct limited){pieces.n, 2 * pieces.n, pieces.at, pieces.alpha, pieces.curvature, bulges ? pieces.bulge : NULL, pieces.limited,
-                                  pieces.mean, pieces.moment}, limiter);
+    limited_run(&(struct limited){pieces.n, 2 * pieces.n, pieces.at, pieces.alpha, pieces.curvature,
+                                  bulges ? pieces.bulge : NULL, pieces.limited, pieces.mean, pieces.moment},
+                limiter);
 }
 
-static double between(double lo, double hi)
-{
-    return lo + (hi - lo) * drand48();
-}
+static double between(double lo, double hi) { return lo + (hi - lo) * drand48(); }
 
-static double signed_power(double lo, double hi)
-{
-    return (drand48() < 0.5 ? -1 : 1) * pow(10, between(lo, hi));
-}
+static double signed_power(double lo, double hi) { return (drand48() < 0.5 ? -1 : 1) * pow(10, between(lo, hi)); }
 
 /* ------------------------------------------------------------------ the judge */
 
@@ -73,12 +68,12 @@ static int passes(const struct line *l, double level, double *share, int n)
         at[1] = s != 0 ? -2 * c / s : NAN;
     }
     for (int k = 0; k < 2; k++)
-        if (at[k] > 0 && at[k] < 1)
-            share[n++] = at[k];
+        if (at[k] > 0 && at[k] < 1) share[n++] = at[k];
     return n;
 }
 
-/* alpha times the mean (power 0) or moment (power 1) of T. The steps of tanh are given to the quadrature as break points. */
+/* alpha times the mean (power 0) or moment (power 1) of T. The steps of tanh are given to the quadrature as break
+ * points. */
 static double quadrature(double x0, double x1, double b, int power)
 {
     static const double steps[] = {-20, -3, -1, 0, 1, 3, 20};
@@ -93,7 +88,9 @@ static double quadrature(double x0, double x1, double b, int power)
     qsort(share, (size_t)n, sizeof *share, ascending);
     for (int k = 0; k + 1 < n; k++) {
         double part, error;
-        int code = share[k] < share[k + 1] ? gsl_integration_qags(&f, share[k], share[k + 1], 1e-15, 1e-12, 1000, space, &part, &error) : -1;
+        int code = share[k] < share[k + 1]
+                       ? gsl_integration_qags(&f, share[k], share[k + 1], 1e-15, 1e-12, 1000, space, &part, &error)
+                       : -1;
         ck_assert_msg(code <= 0 || (code == GSL_EROUND && error < 1e-13), "%s", gsl_strerror(code));
         sum += code == -1 ? 0 : part;
     }
@@ -103,7 +100,8 @@ static double quadrature(double x0, double x1, double b, int power)
 
 /* ------------------------------------------------------------------ straight lines */
 
-/* x0 = alpha c0 and the way x1 - x0 over all decades that the two formulas and their border see, both signs; c itself between 1e-9 and 1e9. */
+/* x0 = alpha c0 and the way x1 - x0 over all decades that the two formulas and their border see, both signs; c itself
+ * between 1e-9 and 1e9. */
 START_TEST(means_and_moments_are_integrals)
 {
     double worst[2] = {0, 0};
@@ -114,7 +112,8 @@ START_TEST(means_and_moments_are_integrals)
         pieces.n = 0;
         for (int i = 0; i < LIMITED_PIECES; i++) {
             double alpha = pow(10, between(-6, 3));
-            double x0 = signed_power(-9, i % 2 ? 6 : 1.3), way = i % 16 == 0 ? 0 : signed_power(i % 3 ? -3.5 : -9, i % 4 ? 2 : 5);
+            double x0 = signed_power(-9, i % 2 ? 6 : 1.3),
+                   way = i % 16 == 0 ? 0 : signed_power(i % 3 ? -3.5 : -9, i % 4 ? 2 : 5);
             double x1 = i % 16 == 1 ? -x0 : i % 16 == 2 ? 0 : x0 + way;
             add_piece(alpha, x0 / alpha, x1 / alpha, 0);
             x[i][0] = alpha * (x0 / alpha);
@@ -134,7 +133,8 @@ START_TEST(means_and_moments_are_integrals)
 }
 END_TEST
 
-/* Beyond the border at 0.05 the moment is closed form too: x^2 2^-52 of cancellation over dx^2 is left, 1e-11 for x up to 20. */
+/* Beyond the border at 0.05 the moment is closed form too: x^2 2^-52 of cancellation over dx^2 is left, 1e-11 for x up
+ * to 20. */
 START_TEST(moments_beyond_the_border)
 {
     gsl_set_error_handler_off();
@@ -148,13 +148,14 @@ START_TEST(moments_beyond_the_border)
         run(false, true);
         for (int i = 0; i < LIMITED_PIECES; i++)
             if (fabs(pieces.curvature[2 * i + 1] - pieces.curvature[2 * i]) > 0.05)
-                ck_assert_double_eq_tol(pieces.moment[i], quadrature(pieces.curvature[2 * i], pieces.curvature[2 * i + 1], 0, 1), 1e-11);
+                ck_assert_double_eq_tol(pieces.moment[i],
+                                        quadrature(pieces.curvature[2 * i], pieces.curvature[2 * i + 1], 0, 1), 1e-11);
     }
 }
 END_TEST
 
-/* |T| and its mean stay within 1/alpha, however the curvature bulges (its first-order formula may step 2e-8 over them, and a
-   bulge brings 4 alpha b roundings); the moment of a T between -1/alpha and 1/alpha within 1/(4 alpha). */
+/* |T| and its mean stay within 1/alpha, however the curvature bulges (its first-order formula may step 2e-8 over them,
+   and a bulge brings 4 alpha b roundings); the moment of a T between -1/alpha and 1/alpha within 1/(4 alpha). */
 START_TEST(bounded_by_one_over_alpha)
 {
     srand48(4);
@@ -162,7 +163,9 @@ START_TEST(bounded_by_one_over_alpha)
         pieces.n = 0;
         for (int i = 0; i < LIMITED_PIECES; i++) {
             double c0 = signed_power(-2, 12), alpha = pow(10, between(-6, 3));
-            double c1 = i % 4 == 0 ? c0 + signed_power(-3, 1) / alpha : i % 2 ? signed_power(-2, 12) : c0 * (1 + signed_power(-16, 0));
+            double c1 = i % 4 == 0 ? c0 + signed_power(-3, 1) / alpha
+                        : i % 2    ? signed_power(-2, 12)
+                                   : c0 * (1 + signed_power(-16, 0));
             add_piece(alpha, c0, c1, i % 8 == 4 ? signed_power(-1, 6) / alpha : signed_power(-2, 12));
         }
         run(round % 2, true);
@@ -178,7 +181,8 @@ START_TEST(bounded_by_one_over_alpha)
 }
 END_TEST
 
-/* With alpha c below 1e-9 the limiter's relative effect, (alpha c)^2 / 3, is below a rounding: T, mean and moment are the unlimited ones. */
+/* With alpha c below 1e-9 the limiter's relative effect, (alpha c)^2 / 3, is below a rounding: T, mean and moment are
+ * the unlimited ones. */
 START_TEST(small_alpha_limits_nothing)
 {
     static double mean[LIMITED_PIECES], moment[LIMITED_PIECES], limited[LIMITED_POINTS];
@@ -193,7 +197,8 @@ START_TEST(small_alpha_limits_nothing)
         memcpy(limited, pieces.limited, sizeof limited);
         run(bulges, false);
         for (int i = 0; i < LIMITED_PIECES; i++) {
-            double c0 = pieces.curvature[2 * i], c1 = pieces.curvature[2 * i + 1], b = bulges ? 2.0 / 3 * pieces.bulge[i] : 0;
+            double c0 = pieces.curvature[2 * i], c1 = pieces.curvature[2 * i + 1],
+                   b = bulges ? 2.0 / 3 * pieces.bulge[i] : 0;
             ck_assert_double_eq_tol(limited[2 * i], c0, 1e-12);
             ck_assert_double_eq_tol(mean[i], (c0 + c1) / 2 + b, 1e-12);
             ck_assert_double_eq_tol(moment[i], (c1 - c0) / 12, 1e-12);
@@ -255,9 +260,12 @@ START_TEST(error_of_a_bulge)
             add_bulges(b);
             run(true, true);
             for (int i = 0; i < LIMITED_PIECES; i++) {
-                double alpha = pieces.alpha[2 * i], x0 = alpha * pieces.curvature[2 * i], x1 = alpha * pieces.curvature[2 * i + 1];
-                worst[0] = fmax(worst[0], fabs(alpha * pieces.mean[i] - quadrature(x0, x1, alpha * pieces.bulge[i], 0)));
-                worst[1] = fmax(worst[1], fabs(alpha * pieces.moment[i] - quadrature(x0, x1, alpha * pieces.bulge[i], 1)));
+                double alpha = pieces.alpha[2 * i], x0 = alpha * pieces.curvature[2 * i],
+                       x1 = alpha * pieces.curvature[2 * i + 1];
+                worst[0] =
+                    fmax(worst[0], fabs(alpha * pieces.mean[i] - quadrature(x0, x1, alpha * pieces.bulge[i], 0)));
+                worst[1] =
+                    fmax(worst[1], fabs(alpha * pieces.moment[i] - quadrature(x0, x1, alpha * pieces.bulge[i], 1)));
             }
         }
         double border = fmin(b, 1.0 / 64);
@@ -268,7 +276,8 @@ START_TEST(error_of_a_bulge)
 }
 END_TEST
 
-/* Root mean square error of alpha mean over a stretch of 0.4 in x with a bulge of 1/64, cut into equal pieces, for 512 places of the stretch. */
+/* Root mean square error of alpha mean over a stretch of 0.4 in x with a bulge of 1/64, cut into equal pieces, for 512
+ * places of the stretch. */
 static double error_of_cut(int cuts)
 {
     double square = 0;
@@ -310,10 +319,12 @@ START_TEST(neighbours_do_not_matter)
     memcpy(mean, pieces.mean, sizeof mean);
     memcpy(moment, pieces.moment, sizeof moment);
     for (int i = 0; i < LIMITED_PIECES; i++) {
-        double c0 = pieces.curvature[2 * i], c1 = pieces.curvature[2 * i + 1], alpha = pieces.alpha[2 * i], bulge = pieces.bulge[i];
+        double c0 = pieces.curvature[2 * i], c1 = pieces.curvature[2 * i + 1], alpha = pieces.alpha[2 * i],
+               bulge = pieces.bulge[i];
         int n = pieces.n;
         pieces.n = 0;
-        double first[2] = {pieces.curvature[0], pieces.curvature[1]}, first_alpha = pieces.alpha[0], first_bulge = pieces.bulge[0];
+        double first[2] = {pieces.curvature[0], pieces.curvature[1]}, first_alpha = pieces.alpha[0],
+               first_bulge = pieces.bulge[0];
         add_piece(alpha, c0, c1, bulge);
         run(true, true);
         ck_assert(pieces.mean[0] == mean[i] && pieces.moment[0] == moment[i]);
@@ -337,5 +348,6 @@ START_TEST(not_finite_is_not_endless)
 }
 END_TEST
 
-UNIT("limited", means_and_moments_are_integrals, moments_beyond_the_border, bounded_by_one_over_alpha, small_alpha_limits_nothing, symmetries,
-     error_of_a_bulge, halved_pieces_are_16_times_better, neighbours_do_not_matter, not_finite_is_not_endless)
+UNIT("limited", means_and_moments_are_integrals, moments_beyond_the_border, bounded_by_one_over_alpha,
+     small_alpha_limits_nothing, symmetries, error_of_a_bulge, halved_pieces_are_16_times_better,
+     neighbours_do_not_matter, not_finite_is_not_endless)

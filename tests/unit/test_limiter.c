@@ -3,13 +3,14 @@
 
 #include "unit.h"
 
-static const struct limiter paper = {.curve = LIMITER_TANH, .alpha = 0.03, .alpha_min = 0.01, .alpha_max = 0.05, .zeta = 0.95,
+static const struct limiter paper = {.curve = LIMITER_TANH,
+                                     .alpha = 0.03,
+                                     .alpha_min = 0.01,
+                                     .alpha_max = 0.05,
+                                     .zeta = 0.95,
                                      .force_range = {NAN, NAN}};
 
-static double between(double lo, double hi)
-{
-    return lo + (hi - lo) * drand48();
-}
+static double between(double lo, double hi) { return lo + (hi - lo) * drand48(); }
 
 static double alpha_of(const struct limiter_law *l, double force)
 {
@@ -18,8 +19,9 @@ static double alpha_of(const struct limiter_law *l, double force)
     return alpha;
 }
 
-/* The power's relative error is (2 + |zeta log base| / 4) 2^-52 (num/vecmath.h), of a nu that takes alpha_max - alpha_min of alpha; the base has
-   one rounding of N - N_min, the law a few: 8 + |zeta log base| units of 2^-53, relative to alpha_max. */
+/* The power's relative error is (2 + |zeta log base| / 4) 2^-52 (num/vecmath.h), of a nu that takes alpha_max -
+   alpha_min of alpha; the base has one rounding of N - N_min, the law a few: 8 + |zeta log base| units of 2^-53,
+   relative to alpha_max. */
 START_TEST(equations_6_and_7)
 {
     srand48(1);
@@ -56,7 +58,8 @@ END_TEST
 START_TEST(outside_counts_as_the_ends)
 {
     struct limiter_law l = limiter_make(&paper, 0.25, 1.75);
-    double under[] = {nextafter(0.25, 0), 0.25 - 1e-18, 0, -1e-18, -0.0, -5, -HUGE_VAL}, over[] = {nextafter(1.75, 2), 2, 1e9, HUGE_VAL};
+    double under[] = {nextafter(0.25, 0), 0.25 - 1e-18, 0, -1e-18, -0.0, -5, -HUGE_VAL},
+           over[] = {nextafter(1.75, 2), 2, 1e9, HUGE_VAL};
     for (int i = 0; i < 7; i++)
         ck_assert_double_eq(alpha_of(&l, under[i]), 0.05);
     for (int i = 0; i < 4; i++)
@@ -101,7 +104,8 @@ END_TEST
 
 START_TEST(constant_load)
 {
-    struct contact c = {.scraper = {.mass = 0.1}, .load = {.constant = NAN}, .contact = {.gravity = 9.80665, .limiter = paper}};
+    struct contact c = {
+        .scraper = {.mass = 0.1}, .load = {.constant = NAN}, .contact = {.gravity = 9.80665, .limiter = paper}};
     ck_assert_double_eq(limiter_constant(&c), 0.03);
     c.load.constant = 2;
     ck_assert_double_eq(limiter_constant(&c), 0.03);
@@ -132,4 +136,5 @@ START_TEST(many_as_one)
 }
 END_TEST
 
-UNIT("limiter", equations_6_and_7, ends_and_middle, outside_counts_as_the_ends, equal_extremes, range_given, constant_load, many_as_one)
+UNIT("limiter", equations_6_and_7, ends_and_middle, outside_counts_as_the_ends, equal_extremes, range_given,
+     constant_load, many_as_one)

@@ -1,5 +1,5 @@
-/* Gains at a listening place: other quantities by numeric differentiation, the monopole by its textbook formula and by filtering the velocity
-   numerically, the way through the air. */
+/* Gains at a listening place: other quantities by numeric differentiation, the monopole by its textbook formula and by
+   filtering the velocity numerically, the way through the air. */
 #include <complex.h>
 
 #include "response/listener.h"
@@ -8,7 +8,8 @@
 #define RHO 1.204
 #define C 343.2
 
-static const double frequencies[] = {331.0, 1870.0, 9000.0}, decays[] = {9, 40, 300}, gains[][2] = {{1.2, 0.4}, {-0.7, 1.1}, {0.3, -0.2}};
+static const double frequencies[] = {331.0, 1870.0, 9000.0}, decays[] = {9, 40, 300},
+                    gains[][2] = {{1.2, 0.4}, {-0.7, 1.1}, {0.3, -0.2}};
 
 static double at_touched(const struct modes *m, const struct modes_where *where, const struct modes_point *p)
 {
@@ -23,8 +24,14 @@ static double at_touched(const struct modes *m, const struct modes_where *where,
 /* A bell without an object, of three modes. */
 static struct modes bell(int quantity, double radius)
 {
-    return (struct modes){.n = 3, .quantity = quantity, .shared = true, .frequency = (double *)frequencies, .decay = (double *)decays, .radius = radius,
-                          .name = "bell.csv", .at = at_touched};
+    return (struct modes){.n = 3,
+                          .quantity = quantity,
+                          .shared = true,
+                          .frequency = (double *)frequencies,
+                          .decay = (double *)decays,
+                          .radius = radius,
+                          .name = "bell.csv",
+                          .at = at_touched};
 }
 
 static struct output heard(int radiator, const double *places, int n)
@@ -95,8 +102,9 @@ START_TEST(the_contact_is_heard_as_it_is)
 }
 END_TEST
 
-/* The derivative of what is heard as displacement is what is heard as velocity, and so on: central differences of order 4 in long double,
-   steps of 1e-6 s: (w h)^4/30 of 9 kHz is 3e-7 of that mode. Whatever the table holds, three quantities fit together. */
+/* The derivative of what is heard as displacement is what is heard as velocity, and so on: central differences of order
+   4 in long double, steps of 1e-6 s: (w h)^4/30 of 9 kHz is 3e-7 of that mode. Whatever the table holds, three
+   quantities fit together. */
 START_TEST(quantities_are_derivatives)
 {
     for (int held = MODES_DISPLACEMENT; held <= MODES_ACCELERATION; held++) {
@@ -113,8 +121,11 @@ START_TEST(quantities_are_derivatives)
         for (int q = 0; q < 2; q++)
             for (int n = 0; n < 200; n++) {
                 long double t = 1e-4L * n + 1e-5L, step = 1e-6L;
-                long double slope = (8 * (sound_at(&h[q], t + step) - sound_at(&h[q], t - step)) - sound_at(&h[q], t + 2 * step) + sound_at(&h[q], t - 2 * step)) / (12 * step);
-                double size = hypot(h[q + 1].re[0], h[q + 1].im[0]) + hypot(h[q + 1].re[1], h[q + 1].im[1]) + hypot(h[q + 1].re[2], h[q + 1].im[2]);
+                long double slope = (8 * (sound_at(&h[q], t + step) - sound_at(&h[q], t - step)) -
+                                     sound_at(&h[q], t + 2 * step) + sound_at(&h[q], t - 2 * step)) /
+                                    (12 * step);
+                double size = hypot(h[q + 1].re[0], h[q + 1].im[0]) + hypot(h[q + 1].re[1], h[q + 1].im[1]) +
+                              hypot(h[q + 1].re[2], h[q + 1].im[2]);
                 worst = fmax(worst, (double)fabsl(slope - sound_at(&h[q + 1], t)) / size);
             }
         printf("held %d: %.3g\n", held, worst);
@@ -123,9 +134,10 @@ START_TEST(quantities_are_derivatives)
 }
 END_TEST
 
-/* A mode of velocity A that hardly decays, as the pulsating sphere of Kinsler et al. 7.1: |p| = rho c v (a/r) ka / sqrt(1 + (ka)^2), which leads the
-   velocity by arctan(1/ka); at three frequencies, and in the limits of a volume flow Q = 4 pi a^2 v (|p| = rho f Q / (2 r)) and a plane wave. The
-   formula has real frequencies, the mode's decay of 1e-6 /s is 1e-9 of them. */
+/* A mode of velocity A that hardly decays, as the pulsating sphere of Kinsler et al. 7.1: |p| = rho c v (a/r) ka /
+   sqrt(1 + (ka)^2), which leads the velocity by arctan(1/ka); at three frequencies, and in the limits of a volume flow
+   Q = 4 pi a^2 v (|p| = rho f Q / (2 r)) and a plane wave. The formula has real frequencies, the mode's decay of 1e-6
+   /s is 1e-9 of them. */
 START_TEST(monopole_level_and_phase)
 {
     static const double tones[] = {10, 500, 2000, 8000, 20000}, decay[] = {1e-6, 1e-6, 1e-6, 1e-6, 1e-6};
@@ -142,18 +154,21 @@ START_TEST(monopole_level_and_phase)
     listener_apply(l, tones, decay, &(struct modes_point){f, d, re, im});
     for (int i = 0; i < 5; i++) {
         double ka = 2 * M_PI * tones[i] * a / C, level = RHO * C * a / r * ka / sqrt(1 + ka * ka), phase = atan(1 / ka);
-        printf("%g Hz: ka %.4g, %.2f dB re 1 Pa s/m, leads by %.3f rad\n", tones[i], ka, 20 * log10(hypot(re[i], im[i])), atan2(im[i], re[i]));
+        printf("%g Hz: ka %.4g, %.2f dB re 1 Pa s/m, leads by %.3f rad\n", tones[i], ka,
+               20 * log10(hypot(re[i], im[i])), atan2(im[i], re[i]));
         ck_assert_double_eq_tol(hypot(re[i], im[i]) / level, 1, 1e-7);
         ck_assert_double_eq_tol(atan2(im[i], re[i]), phase, 1e-7);
     }
-    ck_assert_double_eq_tol(hypot(re[0], im[0]) / (RHO * 10 * 4 * M_PI * a * a / (2 * r)), 1, 1e-4); /* (ka)^2/2 = 2.7e-5 */
-    ck_assert_double_eq_tol(hypot(re[4], im[4]) / (RHO * C * a / r), 1, 3e-3);                       /* 1/(2 (ka)^2) = 2.3e-3 */
+    ck_assert_double_eq_tol(hypot(re[0], im[0]) / (RHO * 10 * 4 * M_PI * a * a / (2 * r)), 1,
+                            1e-4);                                             /* (ka)^2/2 = 2.7e-5 */
+    ck_assert_double_eq_tol(hypot(re[4], im[4]) / (RHO * C * a / r), 1, 3e-3); /* 1/(2 (ka)^2) = 2.3e-3 */
     arena_close(arena);
 }
 END_TEST
 
-/* The whole response against the velocity, filtered: H = K s/(s + w) is p = K (v - w q), dq/dt = v - w q, integrated by Runge and Kutta's rule in long
-   double, 2e-8 s a step (error (w h)^4 of the fastest, 1e-14). Also of a table of displacement, and of acceleration. */
+/* The whole response against the velocity, filtered: H = K s/(s + w) is p = K (v - w q), dq/dt = v - w q, integrated by
+   Runge and Kutta's rule in long double, 2e-8 s a step (error (w h)^4 of the fastest, 1e-14). Also of a table of
+   displacement, and of acceleration. */
 START_TEST(monopole_is_the_filtered_velocity)
 {
     double place[3] = {0, 0, 0.5}, a = 0.012;
@@ -168,7 +183,8 @@ START_TEST(monopole_is_the_filtered_velocity)
         ck_assert(p.f[3] == 0 && fabs(p.d[3] / (C / a) - 1) < 1e-15 && p.re[3] == 0);
         for (int n = 0; n < 50000; n++) {
             long double t = n * h, v0 = sound_at(&v, t), v1 = sound_at(&v, t + h / 2), v2 = sound_at(&v, t + h);
-            long double k1 = v0 - w * q, k2 = v1 - w * (q + h / 2 * k1), k3 = v1 - w * (q + h / 2 * k2), k4 = v2 - w * (q + h * k3);
+            long double k1 = v0 - w * q, k2 = v1 - w * (q + h / 2 * k1), k3 = v1 - w * (q + h / 2 * k2),
+                        k4 = v2 - w * (q + h * k3);
             long double want = RHO * C * a / 0.5L * (v0 - w * q);
             worst = fmaxl(worst, fabsl(sound_at(&p, t) - want));
             most = fmaxl(most, fabsl(want));
@@ -180,8 +196,9 @@ START_TEST(monopole_is_the_filtered_velocity)
 }
 END_TEST
 
-/* No response at 0 Hz: the direct term of all components together is nothing beside one of them. Of an object whose own pole would decay within a sample
-   there is no such component, and the direct term is rho a^2/r times the jump of the velocity. */
+/* No response at 0 Hz: the direct term of all components together is nothing beside one of them. Of an object whose own
+   pole would decay within a sample there is no such component, and the direct term is rho a^2/r times the jump of the
+   velocity. */
 START_TEST(monopole_has_no_constant_pressure)
 {
     double place[3] = {0, 0, 2};
@@ -189,15 +206,17 @@ START_TEST(monopole_has_no_constant_pressure)
     struct modes large = bell(MODES_VELOCITY, 0.03), small = bell(MODES_VELOCITY, 1e-4);
     struct heard h = listen(&o, &large, 0, 48e3), s = listen(&o, &small, 0, 48e3);
     double one = RHO * 0.03 * 0.03 / 2 * (gains[0][1] + gains[1][1] + gains[2][1]), tiny = one / 9e4;
-    ck_assert_double_eq_tol(modes_direct(MODES_PRESSURE, h.n, h.f, h.d, &(struct modes_point){h.f, h.d, h.re, h.im}), 0, 1e-15 * one);
+    ck_assert_double_eq_tol(modes_direct(MODES_PRESSURE, h.n, h.f, h.d, &(struct modes_point){h.f, h.d, h.re, h.im}), 0,
+                            1e-15 * one);
     ck_assert_int_eq(s.n, 3);
     /* (s_i + w is w but for 9 kHz: 1.6 %, in quadrature) */
-    ck_assert_double_eq_tol(modes_direct(MODES_PRESSURE, s.n, s.f, s.d, &(struct modes_point){s.f, s.d, s.re, s.im}) / tiny, 1, 0.02);
+    ck_assert_double_eq_tol(
+        modes_direct(MODES_PRESSURE, s.n, s.f, s.d, &(struct modes_point){s.f, s.d, s.re, s.im}) / tiny, 1, 0.02);
 }
 END_TEST
 
-/* Two listening places: the far one hears the near one's response (but for the level, 1/r) later by (r2 - r1)/c, in whole samples and a rest, to
-   rounding; an object elsewhere is nearer to the other one. */
+/* Two listening places: the far one hears the near one's response (but for the level, 1/r) later by (r2 - r1)/c, in
+   whole samples and a rest, to rounding; an object elsewhere is nearer to the other one. */
 START_TEST(far_places_hear_it_later)
 {
     double places[6] = {0, 0, 1, 0.6, 0.9, 1.4}, rate = 44100;
@@ -213,7 +232,8 @@ START_TEST(far_places_hear_it_later)
     for (int n = 0; n < 1000; n++)
         most = fmax(most, (double)fabsl(sound_at(&near, n / (long double)rate)));
     for (int n = 0; n < 1000; n++)
-        ck_assert_double_eq_tol((double)sound_at(&far, n / (long double)rate) * r2, (double)sound_at(&near, ((double)far.delay + n - late) / rate), 1e-12 * most);
+        ck_assert_double_eq_tol((double)sound_at(&far, n / (long double)rate) * r2,
+                                (double)sound_at(&near, ((double)far.delay + n - late) / rate), 1e-12 * most);
 }
 END_TEST
 
@@ -239,9 +259,11 @@ START_TEST(distances_are_from_the_middle)
 {
     struct arena *a = arena_open();
     struct err e = {0};
-    struct object bar = {.shape = OBJECT_BAR, .low = {0, 0}, .high = {0.4, 0.02}, .radius = 0.05}, shell = {.shape = OBJECT_SHELL, .high = {0.9, 0}, .radius = 0.3};
+    struct object bar = {.shape = OBJECT_BAR, .low = {0, 0}, .high = {0.4, 0.02}, .radius = 0.05},
+                  shell = {.shape = OBJECT_SHELL, .high = {0.9, 0}, .radius = 0.3};
     struct modes m = bell(MODES_VELOCITY, 0.05), s = bell(MODES_VELOCITY, 0.3);
-    double place[3] = {1.2, 2.01, 0.7}, origin[2] = {1, 2}, d[4], f[4], re[2][4] = {{1, 1, 1}, {1, 1, 1}}, im[2][4] = {{0}};
+    double place[3] = {1.2, 2.01, 0.7}, origin[2] = {1, 2}, d[4], f[4], re[2][4] = {{1, 1, 1}, {1, 1, 1}},
+           im[2][4] = {{0}};
     struct output o = heard(RADIATOR_MONOPOLE, place, 1);
     struct listener_ask ask = {&o, 0, origin, 48e3, NULL};
     m.object = &bar, s.object = &shell;
@@ -252,11 +274,13 @@ START_TEST(distances_are_from_the_middle)
         ck_assert_msg(l != NULL, "%s", e.text);
         listener_apply(l, frequencies, decays, &(struct modes_point){f, d, re[k], im[k]});
         double ka = 2 * M_PI * frequencies[1] * both[k]->radius / C;
-        ck_assert_double_eq_tol(hypot(re[k][1], im[k][1]), RHO * C * both[k]->radius / r[k] * ka / sqrt(1 + ka * ka), 1e-2 * RHO * C * both[k]->radius / r[k]);
+        ck_assert_double_eq_tol(hypot(re[k][1], im[k][1]), RHO * C * both[k]->radius / r[k] * ka / sqrt(1 + ka * ka),
+                                1e-2 * RHO * C * both[k]->radius / r[k]);
     }
     arena_close(a);
 }
 END_TEST
 
-UNIT("listener", the_contact_is_heard_as_it_is, quantities_are_derivatives, monopole_level_and_phase, monopole_is_the_filtered_velocity,
-     monopole_has_no_constant_pressure, far_places_hear_it_later, what_cannot_be_is_refused, distances_are_from_the_middle)
+UNIT("listener", the_contact_is_heard_as_it_is, quantities_are_derivatives, monopole_level_and_phase,
+     monopole_is_the_filtered_velocity, monopole_has_no_constant_pressure, far_places_hear_it_later,
+     what_cannot_be_is_refused, distances_are_from_the_middle)

@@ -1,5 +1,6 @@
-/* The normal force under a ball that is heavier on one side or not round: against the second derivative of its centre's height, which is worked out here in long double
-   from equation 18 by bisection; closed forms of its least and greatest value at constant speed; its mean; every motion's range; the stage. */
+/* The normal force under a ball that is heavier on one side or not round: against the second derivative of its centre's
+   height, which is worked out here in long double from equation 18 by bisection; closed forms of its least and greatest
+   value at constant speed; its mean; every motion's range; the stage. */
 #include <stddef.h>
 
 #include "motions.h"
@@ -33,7 +34,8 @@ static struct load_law law_of(const struct contact *c, const struct trajectory *
 
 static long double height(const struct contact *c, const struct trajectory *tr, double t)
 {
-    long double R = c->ball.radius, r = c->ball.offset, x = at(tr, t).u + R * c->ball.start_angle - r * sinl(c->ball.start_angle);
+    long double R = c->ball.radius, r = c->ball.offset,
+                x = at(tr, t).u + R * c->ball.start_angle - r * sinl(c->ball.start_angle);
     long double low = (x - r) / R, high = (x + r) / R;
     for (int i = 0; i < 90; i++) {
         long double middle = (low + high) / 2;
@@ -45,8 +47,8 @@ static long double height(const struct contact *c, const struct trajectory *tr, 
     return -r * cosl(low) + c->ball.lobe_height * cosl(c->ball.lobes * low);
 }
 
-/* Central difference of order 8 of the second derivative; u is known to 1e-16 m, so that at 0.25 ms what is left is about 1e-8 m/s^2, and
-   less of the force's own high derivatives, at turns of 90 rad/s. */
+/* Central difference of order 8 of the second derivative; u is known to 1e-16 m, so that at 0.25 ms what is left is
+   about 1e-8 m/s^2, and less of the force's own high derivatives, at turns of 90 rad/s. */
 static double height_lift(const struct contact *c, const struct trajectory *tr, double t, double h)
 {
     static const long double w[] = {-205.0L / 72, 8.0L / 5, -1.0L / 5, 8.0L / 315, -1.0L / 560};
@@ -62,11 +64,18 @@ static struct contact on(int i)
     struct motion *m = &c.motion;
     c.ball.start_angle = i - 3;
     if (i % 6 < 2) /* up and down, with friction */
-        *m = (struct motion){.path = PATH_INCLINE, .to = {3, 0}, .speed = NAN, .duration = NAN, .incline = 0.1, .start_speed = 1.1, .rolling_friction = 0.02};
+        *m = (struct motion){.path = PATH_INCLINE,
+                             .to = {3, 0},
+                             .speed = NAN,
+                             .duration = NAN,
+                             .incline = 0.1,
+                             .start_speed = 1.1,
+                             .rolling_friction = 0.02};
     else if (i % 6 < 4)
         *m = (struct motion){.path = PATH_BACK_AND_FORTH, .to = {0.3, 0.1}, .rate = 0.7, .speed = NAN, .duration = 2};
     else
-        *m = (struct motion){.path = PATH_CIRCLE, .radius = 0.1, .turns = -2, .speed = NAN, .duration = 1.5, .law = SPEED_MINIMUM_JERK};
+        *m = (struct motion){
+            .path = PATH_CIRCLE, .radius = 0.1, .turns = -2, .speed = NAN, .duration = 1.5, .law = SPEED_MINIMUM_JERK};
     ball_settle(&c);
     return c;
 }
@@ -92,8 +101,9 @@ END_TEST
 
 /* ------------------------------------------------------------------ constant speed */
 
-/* N = m g + m v^2 r (R cos theta - r) / (R - r cos theta)^3: greatest at the lowest place, least at the highest, or, from r = R / 3 on, at
-   cos theta = (3 r^2 - R^2) / (2 R r). (The derivative of that fraction by cos theta vanishes there.) */
+/* N = m g + m v^2 r (R cos theta - r) / (R - r cos theta)^3: greatest at the lowest place, least at the highest, or,
+   from r = R / 3 on, at cos theta = (3 r^2 - R^2) / (2 R r). (The derivative of that fraction by cos theta vanishes
+   there.) */
 static double at_angle(const struct contact *c, double cosine)
 {
     double R = c->ball.radius, r = c->ball.offset, v = c->motion.speed, lever = R - r * cosine;
@@ -104,13 +114,17 @@ START_TEST(range)
 {
     srand48(1);
     for (int i = 0; i < 300; i++) {
-        double R = between(0.01, 0.05), share = i % 50 == 0 ? 0.995 : i % 10 == 0 ? between(0.5, 0.97) : between(0, 0.5);
+        double R = between(0.01, 0.05), share = i % 50 == 0   ? 0.995
+                                                : i % 10 == 0 ? between(0.5, 0.97)
+                                                              : between(0, 0.5);
         struct contact c = ball(R, share * R);
         c.motion.speed = between(0.1, 2) * pow(1 - share, 1.5), c.ball.start_angle = between(-6, 6);
         c.motion.to[0] = 2 * M_PI * R * (i % 50 == 0 ? 1.3 : between(1, 40));
         struct trajectory tr = made(&c.motion);
         struct load_law l = law_of(&c, &tr);
-        double r = c.ball.offset, least = r < R / 3 ? at_angle(&c, -1) : at_angle(&c, (3 * r * r - R * R) / (2 * R * r)), most = at_angle(&c, 1);
+        double r = c.ball.offset,
+               least = r < R / 3 ? at_angle(&c, -1) : at_angle(&c, (3 * r * r - R * R) / (2 * R * r)),
+               most = at_angle(&c, 1);
         ck_assert_double_eq_tol(l.most / most, 1, 1e-12);
         ck_assert_double_eq_tol((l.least - fmax(least, 0)) / most, 0, 1e-12);
         ck_assert(l.still == c.scraper.mass * 9.80665);
@@ -135,8 +149,8 @@ START_TEST(range)
 }
 END_TEST
 
-/* Over whole turns the ball's momentum is what it was: the mean of N over time is m g, whatever the offset; hollow balls too. The sum over even instants of
-   what repeats itself is exact to rounding. */
+/* Over whole turns the ball's momentum is what it was: the mean of N over time is m g, whatever the offset; hollow
+   balls too. The sum over even instants of what repeats itself is exact to rounding. */
 START_TEST(mean)
 {
     enum { N = 100000 };
@@ -169,9 +183,11 @@ START_TEST(range_of_any_motion)
         struct contact c = on(i % 12);
         c.ball.offset = c.ball.radius * between(0.05, 0.6);
         if (i % 5 == 1) /* 500 turns, of which one is fastest */
-            c.motion = (struct motion){.path = PATH_LINE, .law = SPEED_MINIMUM_JERK, .to = {500 * 0.1256, 0}, .speed = 0.5, .duration = NAN};
+            c.motion = (struct motion){
+                .path = PATH_LINE, .law = SPEED_MINIMUM_JERK, .to = {500 * 0.1256, 0}, .speed = 0.5, .duration = NAN};
         if (i % 5 == 0)
-            c.motion = (struct motion){.path = PATH_SPLINE, .points = bends, .n_points = 4, .straight = 0.1, .speed = 0.6, .duration = NAN};
+            c.motion = (struct motion){
+                .path = PATH_SPLINE, .points = bends, .n_points = 4, .straight = 0.1, .speed = 0.6, .duration = NAN};
         if (i % 5 == 2) /* lobes that are most of it */
             c.ball.lobe_height = 1e-4, c.ball.lobes = 101;
         ball_settle(&c);
@@ -243,14 +259,16 @@ START_TEST(stage)
     struct board b = {.trajectory = &tr, .over = OVER, .rate = 100};
     double *const items[] = {u, v, a, n};
     for (int k = 0; k < 4; k++)
-        b.signals[k == 3 ? ITEM_LOAD : ITEM_POSITION + k] = (struct signal){.per_frame = OVER, .capacity = FRAMES, .x = items[k]};
+        b.signals[k == 3 ? ITEM_LOAD : ITEM_POSITION + k] =
+            (struct signal){.per_frame = OVER, .capacity = FRAMES, .x = items[k]};
     struct stage_run run = {.stage = &load_stage, .contact = &c, .board = &b, .arena = motions_arena()};
     struct err e = {0};
     for (int i = 0; i < FRAMES * OVER; i++) {
         struct state s = at(&tr, i / 300.0);
         u[i] = s.u, v[i] = s.v, a[i] = s.a;
     }
-    ck_assert_uint_eq(load_stage.asks(&c, NULL), ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION));
+    ck_assert_uint_eq(load_stage.asks(&c, NULL),
+                      ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION));
     ck_assert(load_stage.open(&run, &e) && load_stage.run(&run, 0, 123, &e) && load_stage.run(&run, 123, FRAMES, &e));
     ck_assert(FRAMES / 100.0 > tr.duration);
     for (int i = 0; i < FRAMES * OVER; i++)

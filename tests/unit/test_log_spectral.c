@@ -22,7 +22,8 @@ static double slow_power(const struct wav *w, int channel, long from, long size,
     double re = 0, im = 0, pi = acos(-1);
     for (long i = 0; i < size; i++) {
         long at = from + i;
-        double x = at >= 0 && at < (long)w->frames ? w->x[at * w->channels + channel] : 0, hann = 0.5 - 0.5 * cos(2 * pi * ((double)i + 0.5) / (double)size);
+        double x = at >= 0 && at < (long)w->frames ? w->x[at * w->channels + channel] : 0,
+               hann = 0.5 - 0.5 * cos(2 * pi * ((double)i + 0.5) / (double)size);
         re += hann * x * cos(2 * pi * (double)(i * k) / (double)size);
         im += hann * x * sin(2 * pi * (double)(i * k) / (double)size);
     }
@@ -39,7 +40,8 @@ static double slow(const struct wav *a, const struct wav *b)
             for (int c = 0; c < a->channels; c++)
                 for (long from = -size / 2; from < (long)a->frames; from += size / 2)
                     for (long k = 0; k <= size / 2; k++) {
-                        double p = slow_power(a, c, from, size, k), q = pass ? slow_power(b, c, from, size, k) : 0, floor = 1e-6 * most;
+                        double p = slow_power(a, c, from, size, k), q = pass ? slow_power(b, c, from, size, k) : 0,
+                               floor = 1e-6 * most;
                         if (!pass)
                             most = fmax(most, p);
                         else if (p > floor || q > floor) {
@@ -65,7 +67,8 @@ START_TEST(as_a_plain_sum)
         struct wav a = wav_of(x, channels), b = wav_of(y, channels);
         double expected = slow(&a, &b);
         ck_assert_double_gt(expected, 0.5);
-        ck_assert_double_eq_tol(log_spectral(&a, &b), expected, 1e-6); /* bins at the floor's edge may round to either side */
+        ck_assert_double_eq_tol(log_spectral(&a, &b), expected,
+                                1e-6); /* bins at the floor's edge may round to either side */
     }
 }
 END_TEST
@@ -80,7 +83,8 @@ START_TEST(known_values)
     }
     struct wav a = wav_of(x, 1), half = wav_of(y, 1), silence = wav_of(still, 1);
     ck_assert_double_eq(log_spectral(&a, &a), 0);
-    ck_assert_double_eq_tol(log_spectral(&a, &half), 20 * log10(2), 0.01); /* the few bins between floor and 6 dB above it count less */
+    ck_assert_double_eq_tol(log_spectral(&a, &half), 20 * log10(2),
+                            0.01); /* the few bins between floor and 6 dB above it count less */
     ck_assert_double_eq(log_spectral(&silence, &a), 0);
     half.frames = N / 2; /* what both have */
     ck_assert_double_eq_tol(log_spectral(&a, &half), 20 * log10(2), 0.01);

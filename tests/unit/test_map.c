@@ -1,5 +1,5 @@
-/* map: coefficients against the interpolation equations, all six values against a slow direct sum of B-spline polynomials and against finite
-   differences, continuity across cells and seams, orientation, orders of convergence. */
+/* map: coefficients against the interpolation equations, all six values against a slow direct sum of B-spline
+   polynomials and against finite differences, continuity across cells and seams, orientation, orders of convergence. */
 #include "surface/map.h"
 
 #include "samples.h"
@@ -25,7 +25,8 @@ static void random_heights(long seed)
 
 static struct relief_part *made(struct arena *a, int off_map)
 {
-    return map_part(a, map_spline(a, &(struct height_map){&z[0][0], COLUMNS, ROWS, {pitch[0], pitch[1]}}, off_map), origin, "map");
+    return map_part(a, map_spline(a, &(struct height_map){&z[0][0], COLUMNS, ROWS, {pitch[0], pitch[1]}}, off_map),
+                    origin, "map");
 }
 
 static struct six read_at(struct relief_part *part, double x, double y)
@@ -37,19 +38,20 @@ static struct six read_at(struct relief_part *part, double x, double y)
 }
 
 /* Size of a value: 1 um over the pitch to the power of its derivatives. */
-static double size_of(int k)
-{
-    return 1e-6 / (pow(pitch[0], orders[k][0]) * pow(pitch[1], orders[k][1]));
-}
+static double size_of(int k) { return 1e-6 / (pow(pitch[0], orders[k][0]) * pow(pitch[1], orders[k][1])); }
 
-/* ------------------------------------------------------------------ the judge: coefficients by relaxation, sums of polynomials */
+/* ------------------------------------------------------------------ the judge: coefficients by relaxation, sums of
+ * polynomials */
 
-/* Solves (c[i-1] + 4 c[i] + c[i+1]) / 6 = right[i] along one row or column by Gauss-Seidel: each sweep at least halves the error. */
+/* Solves (c[i-1] + 4 c[i] + c[i+1]) / 6 = right[i] along one row or column by Gauss-Seidel: each sweep at least halves
+ * the error. */
 static void relax(const double *right, double *c, long n, long stride, int off_map)
 {
     for (int sweep = 0; sweep < 200; sweep++)
         for (long i = 0; i < n; i++)
-            c[i * stride] = (6 * right[i * stride] - c[samples_walked(n, off_map, i - 1) * stride] - c[samples_walked(n, off_map, i + 1) * stride]) / 4;
+            c[i * stride] = (6 * right[i * stride] - c[samples_walked(n, off_map, i - 1) * stride] -
+                             c[samples_walked(n, off_map, i + 1) * stride]) /
+                            4;
 }
 
 static void solve(int off_map, double c[ROWS][COLUMNS])
@@ -68,8 +70,8 @@ static double sum_at(double c[ROWS][COLUMNS], int off_map, double x, double y, i
     double qx = (x - origin[0]) / pitch[0], qy = (y - origin[1]) / pitch[1], sum = 0;
     for (long j = (long)floor(qy) - 3; j <= (long)floor(qy) + 4; j++)
         for (long i = (long)floor(qx) - 3; i <= (long)floor(qx) + 4; i++)
-            sum += c[samples_walked(ROWS, off_map, j)][samples_walked(COLUMNS, off_map, i)] * samples_b_spline(qx - (double)i, orders[k][0]) *
-                   samples_b_spline(qy - (double)j, orders[k][1]);
+            sum += c[samples_walked(ROWS, off_map, j)][samples_walked(COLUMNS, off_map, i)] *
+                   samples_b_spline(qx - (double)i, orders[k][0]) * samples_b_spline(qy - (double)j, orders[k][1]);
     return sum / (pow(pitch[0], orders[k][0]) * pow(pitch[1], orders[k][1]));
 }
 
@@ -86,12 +88,14 @@ START_TEST(values_are_sums_of_splines)
         struct relief_part *part = made(a, off_map);
         for (int n = 0; n < 2000; n++) {
             double far = n % 4 == 0 ? 10 : 1;
-            double x = origin[0] + far * (2 * drand48() - 0.7) * COLUMNS * pitch[0], y = origin[1] + far * (2 * drand48() - 0.7) * ROWS * pitch[1];
+            double x = origin[0] + far * (2 * drand48() - 0.7) * COLUMNS * pitch[0],
+                   y = origin[1] + far * (2 * drand48() - 0.7) * ROWS * pitch[1];
             struct six got = read_at(part, x, y);
             for (int k = 0; k < 6; k++)
                 ck_assert_double_eq_tol(got.v[k] / size_of(k), sum_at(c, off_map, x, y, k) / size_of(k), 1e-9);
         }
-        ck_assert(part->pitch[0] == pitch[0] && part->pitch[1] == pitch[1] && part->origin[0] == origin[0] && part->origin[1] == origin[1]);
+        ck_assert(part->pitch[0] == pitch[0] && part->pitch[1] == pitch[1] && part->origin[0] == origin[0] &&
+                  part->origin[1] == origin[1]);
         ck_assert(part->finest == 3e-6 && !part->linear && part->from[0] == origin[0] && part->from[1] == origin[1]);
         ck_assert_double_eq_tol(part->to[0], origin[0] + 22 * pitch[0], 1e-18);
         ck_assert_double_eq_tol(part->to[1], origin[1] + 16 * pitch[1], 1e-18);
@@ -110,14 +114,16 @@ START_TEST(samples_are_met)
         for (long j = -2 * ROWS; j < 3 * ROWS; j++)
             for (long i = -2 * COLUMNS; i < 3 * COLUMNS; i++) {
                 double got = read_at(part, origin[0] + (double)i * pitch[0], origin[1] + (double)j * pitch[1]).v[0];
-                ck_assert_double_eq_tol(got, z[samples_walked(ROWS, off_map, j)][samples_walked(COLUMNS, off_map, i)], 1e-13 * 1e-6);
+                ck_assert_double_eq_tol(got, z[samples_walked(ROWS, off_map, j)][samples_walked(COLUMNS, off_map, i)],
+                                        1e-13 * 1e-6);
             }
         arena_close(a);
     }
 }
 END_TEST
 
-/* A map of one direction is a profile: along x where rows are equal, along y where columns are. (An exchange of axes would show.) */
+/* A map of one direction is a profile: along x where rows are equal, along y where columns are. (An exchange of axes
+ * would show.) */
 START_TEST(single_directions)
 {
     for (int axis = 0; axis < 2; axis++) {
@@ -140,8 +146,8 @@ START_TEST(single_directions)
 }
 END_TEST
 
-/* First and second derivatives are those of the heights: central differences over 1e-3 pitch (1e-6 / 6 of the third derivative, at most 40 in
-   units of size_of, and 1e-6 of rounding in the second). */
+/* First and second derivatives are those of the heights: central differences over 1e-3 pitch (1e-6 / 6 of the third
+   derivative, at most 40 in units of size_of, and 1e-6 of rounding in the second). */
 START_TEST(derivatives_are_differences)
 {
     struct arena *a = arena_open();
@@ -149,11 +155,16 @@ START_TEST(derivatives_are_differences)
     struct relief_part *part = made(a, OFF_MAP_WRAP);
     for (int n = 0; n < 500; n++) {
         double d[2] = {1e-3 * pitch[0], 1e-3 * pitch[1]}, cell[2] = {floor(30 * drand48()), floor(30 * drand48())};
-        double x = origin[0] + (cell[0] + 0.1 + 0.8 * drand48()) * pitch[0], y = origin[1] + (cell[1] + 0.1 + 0.8 * drand48()) * pitch[1];
-        struct six s = read_at(part, x, y), e = read_at(part, x + d[0], y), w = read_at(part, x - d[0], y), o = read_at(part, x, y + d[1]),
-                   u = read_at(part, x, y - d[1]);
-        double want[6] = {s.v[0], (e.v[0] - w.v[0]) / (2 * d[0]), (o.v[0] - u.v[0]) / (2 * d[1]), (e.v[1] - w.v[1]) / (2 * d[0]),
-                          (o.v[1] - u.v[1]) / (2 * d[1]), (o.v[2] - u.v[2]) / (2 * d[1])};
+        double x = origin[0] + (cell[0] + 0.1 + 0.8 * drand48()) * pitch[0],
+               y = origin[1] + (cell[1] + 0.1 + 0.8 * drand48()) * pitch[1];
+        struct six s = read_at(part, x, y), e = read_at(part, x + d[0], y), w = read_at(part, x - d[0], y),
+                   o = read_at(part, x, y + d[1]), u = read_at(part, x, y - d[1]);
+        double want[6] = {s.v[0],
+                          (e.v[0] - w.v[0]) / (2 * d[0]),
+                          (o.v[0] - u.v[0]) / (2 * d[1]),
+                          (e.v[1] - w.v[1]) / (2 * d[0]),
+                          (o.v[1] - u.v[1]) / (2 * d[1]),
+                          (o.v[2] - u.v[2]) / (2 * d[1])};
         for (int k = 1; k < 6; k++)
             ck_assert_double_eq_tol(s.v[k] / size_of(k), want[k] / size_of(k), 2e-5);
     }
@@ -161,7 +172,8 @@ START_TEST(derivatives_are_differences)
 }
 END_TEST
 
-/* Up to second derivatives nothing jumps, anywhere a line of knots is crossed: inside, at the last sample and at the seam behind it. */
+/* Up to second derivatives nothing jumps, anywhere a line of knots is crossed: inside, at the last sample and at the
+ * seam behind it. */
 START_TEST(continuous_to_the_second_derivative)
 {
     for (int off_map = OFF_MAP_MIRROR; off_map <= OFF_MAP_ERROR; off_map++) {
@@ -192,7 +204,8 @@ START_TEST(symmetries_of_the_continuation)
         double period[2] = {COLUMNS * pitch[0], ROWS * pitch[1]}, end[2] = {22 * pitch[0], 16 * pitch[1]};
         for (int n = 0; n < 400; n++) {
             int axis = n % 2;
-            double here[2] = {origin[0] + end[0] * drand48(), origin[1] + end[1] * drand48()}, there[2] = {here[0], here[1]};
+            double here[2] = {origin[0] + end[0] * drand48(), origin[1] + end[1] * drand48()},
+                   there[2] = {here[0], here[1]};
             there[axis] = off_map == OFF_MAP_WRAP ? here[axis] + period[axis] * (double)(n % 7 - 3)
                                                   : 2 * (origin[axis] + (n % 4 < 2 ? 0 : end[axis])) - here[axis];
             struct six s = read_at(part, here[0], here[1]), t = read_at(part, there[0], there[1]);
@@ -215,9 +228,12 @@ static struct six errors_of(int n)
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++)
             wave[j * n + i] = cos(k * (i + j) / n);
-    struct relief_part *part = map_part(a, map_spline(a, &(struct height_map){wave, (size_t)n, (size_t)n, {1.0 / n, 1.0 / n}}, OFF_MAP_WRAP), (double[]){0, 0}, "wave");
+    struct relief_part *part =
+        map_part(a, map_spline(a, &(struct height_map){wave, (size_t)n, (size_t)n, {1.0 / n, 1.0 / n}}, OFF_MAP_WRAP),
+                 (double[]){0, 0}, "wave");
     for (int i = 0; i < 3000; i++) {
-        double x = drand48(), y = drand48(), c = cos(k * (x + y)), s = -k * sin(k * (x + y)), cc = -k * k * c, want[6] = {c, s, s, cc, cc, cc};
+        double x = drand48(), y = drand48(), c = cos(k * (x + y)), s = -k * sin(k * (x + y)), cc = -k * k * c,
+               want[6] = {c, s, s, cc, cc, cc};
         struct six got = read_at(part, x, y);
         for (int v = 0; v < 6; v++)
             worst.v[v] = fmax(worst.v[v], fabs(got.v[v] - want[v]) / pow(k, orders[v][0] + orders[v][1]));
@@ -245,5 +261,5 @@ START_TEST(orders_of_convergence)
 }
 END_TEST
 
-UNIT("map", values_are_sums_of_splines, samples_are_met, single_directions, derivatives_are_differences, continuous_to_the_second_derivative,
-     symmetries_of_the_continuation, orders_of_convergence)
+UNIT("map", values_are_sums_of_splines, samples_are_met, single_directions, derivatives_are_differences,
+     continuous_to_the_second_derivative, symmetries_of_the_continuation, orders_of_convergence)

@@ -1,12 +1,10 @@
-/* material.def: the words and the order of the scene's materials, sane figures, the law of damping against an oscillator. */
+/* material.def: the words and the order of the scene's materials, sane figures, the law of damping against an
+ * oscillator. */
 #include "scene/keys.h"
 #include "scene/material.h"
 #include "unit.h"
 
-static const struct choice *words(void)
-{
-    return keys_find("surface.material")->choices;
-}
+static const struct choice *words(void) { return keys_find("surface.material")->choices; }
 
 START_TEST(the_words_of_scenes_in_their_order)
 {
@@ -25,7 +23,8 @@ START_TEST(the_words_of_scenes_in_their_order)
 }
 END_TEST
 
-/* Ranges of solids; positive definite elasticity (nu_xy nu_yx < 1); what is isotropic is so in all its figures; plates ring (60 dB at 1 kHz: 0.02 to 20 s). */
+/* Ranges of solids; positive definite elasticity (nu_xy nu_yx < 1); what is isotropic is so in all its figures; plates
+ * ring (60 dB at 1 kHz: 0.02 to 20 s). */
 START_TEST(figures_are_sane)
 {
     for (const struct material *m = material_table; m->name; m++) {
@@ -40,7 +39,8 @@ START_TEST(figures_are_sane)
         if (m->across == m->youngs_modulus)
             ck_assert_double_eq_tol(m->shear * 2 * (1 + nu), m->youngs_modulus, 1e-6 * m->youngs_modulus);
         ck_assert_msg(strlen(m->source) > 20 && strlen(m->damping_source) > 20, "%s", m->name);
-        ck_assert_msg(!strpbrk(m->source, "\n\"") && !strpbrk(m->damping_source, "\n\""), "%s: the source is to fit a comment of a table", m->name);
+        ck_assert_msg(!strpbrk(m->source, "\n\"") && !strpbrk(m->damping_source, "\n\""),
+                      "%s: the source is to fit a comment of a table", m->name);
     }
 }
 END_TEST
@@ -59,16 +59,20 @@ START_TEST(speeds_of_sound)
 }
 END_TEST
 
-/* Amplitude after 20 periods of m x'' + c x' + k x = 0, m = 1, by small Runge-Kutta steps (error below 1e-8), c = alpha + beta k. */
+/* Amplitude after 20 periods of m x'' + c x' + k x = 0, m = 1, by small Runge-Kutta steps (error below 1e-8), c = alpha
+ * + beta k. */
 START_TEST(decay_of_an_oscillator)
 {
-    double w = 3000, alpha = 4, beta = 3e-6, c = alpha + beta * w * w, s = material_decay(alpha, beta, 0, w), x = 1, v = -s;
+    double w = 3000, alpha = 4, beta = 3e-6, c = alpha + beta * w * w, s = material_decay(alpha, beta, 0, w), x = 1,
+           v = -s;
     double wd = sqrt(w * w - s * s);
     int n = 20000;
     double h = 20 * 2 * M_PI / wd / n;
     for (int i = 0; i < n; i++) {
-        double k1 = v, l1 = -c * v - w * w * x, k2 = v + h / 2 * l1, l2 = -c * (v + h / 2 * l1) - w * w * (x + h / 2 * k1);
-        double k3 = v + h / 2 * l2, l3 = -c * (v + h / 2 * l2) - w * w * (x + h / 2 * k2), k4 = v + h * l3, l4 = -c * (v + h * l3) - w * w * (x + h * k3);
+        double k1 = v, l1 = -c * v - w * w * x, k2 = v + h / 2 * l1,
+               l2 = -c * (v + h / 2 * l1) - w * w * (x + h / 2 * k1);
+        double k3 = v + h / 2 * l2, l3 = -c * (v + h / 2 * l2) - w * w * (x + h / 2 * k2), k4 = v + h * l3,
+               l4 = -c * (v + h * l3) - w * w * (x + h * k3);
         x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
         v += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
     }

@@ -38,10 +38,7 @@ static double sine(long i, double how)
 }
 
 /* The same, and slowly to nothing at half a second. */
-static double swell(long i, double how)
-{
-    return fmin(1, (double)(RATE / 2 - i) / 4800) * sine(i, how);
-}
+static double swell(long i, double how) { return fmin(1, (double)(RATE / 2 - i) / 4800) * sine(i, how); }
 
 static struct measure of(double seconds, double ramp, bool loud)
 {
@@ -51,16 +48,18 @@ static struct measure of(double seconds, double ramp, bool loud)
     return m;
 }
 
-/* sin^4 at the middles of n equal parts of a quarter turn has the mean 3/8 for n of 3 or more. To a rounding of the sums. */
+/* sin^4 at the middles of n equal parts of a quarter turn has the mean 3/8 for n of 3 or more. To a rounding of the
+ * sums. */
 START_TEST(levels_are_those_of_the_whole_file)
 {
-    static const struct { double seconds, ramp, frames, kept, ramped; } rows[] = {
-        {NAN, 0.01, 4800, 4800, 0},    /* as it is */
-        {0.1, 0.01, 4800, 4800, 0},    /* the same */
-        {0.2, 0.01, 9600, 4800, 0},    /* silence behind it */
-        {0.05, 0.01, 2400, 1920, 480}, /* cut */
-        {0.05, 0, 2400, 2400, 0},
-        {0.01, 0.02, 480, 240, 240},   /* half of it at most */
+    static const struct {
+        double seconds, ramp, frames, kept, ramped;
+    } rows[] = {
+        {NAN, 0.01, 4800, 4800, 0},                                 /* as it is */
+        {0.1, 0.01, 4800, 4800, 0},                                 /* the same */
+        {0.2, 0.01, 9600, 4800, 0},                                 /* silence behind it */
+        {0.05, 0.01, 2400, 1920, 480},                              /* cut */
+        {0.05, 0, 2400, 2400, 0},      {0.01, 0.02, 480, 240, 240}, /* half of it at most */
     };
     close(mkstemps(file, 4));
     make(4800, constant, 0.5);
@@ -79,10 +78,13 @@ START_TEST(levels_are_those_of_the_whole_file)
 }
 END_TEST
 
-/* At a quarter of the rate the samples are 3.01 dB below the peak between them; BS.1770-4 Annex 2 allows 0.17 dB there for four times as many. Times scale. */
+/* At a quarter of the rate the samples are 3.01 dB below the peak between them; BS.1770-4 Annex 2 allows 0.17 dB there
+ * for four times as many. Times scale. */
 START_TEST(peaks_between_samples)
 {
-    static const struct { double frequency, below; } rows[] = {{100, 0.01}, {997, 0.01}, {12000, 0.17}};
+    static const struct {
+        double frequency, below;
+    } rows[] = {{100, 0.01}, {997, 0.01}, {12000, 0.17}};
     close(mkstemps(file, 4));
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         make(RATE / 2, swell, rows[i].frequency);
@@ -90,8 +92,7 @@ START_TEST(peaks_between_samples)
         printf("%g Hz: sample %.4f, true %.4f, %.3f LUFS\n", rows[i].frequency, m.peak, m.true_peak, m.lufs);
         ck_assert_double_ge(20 * log10(m.true_peak), -rows[i].below);
         ck_assert_double_le(20 * log10(m.true_peak), 0.05);
-        if (rows[i].frequency == 12000)
-            ck_assert_double_eq_tol(m.peak, sqrt(0.5), 1e-9);
+        if (rows[i].frequency == 12000) ck_assert_double_eq_tol(m.peak, sqrt(0.5), 1e-9);
     }
     unlink(file);
 }
@@ -109,8 +110,8 @@ START_TEST(peaks_at_the_end)
 }
 END_TEST
 
-/* BS.1770: a sine of 997 Hz and peak 1 in one channel of two has -3.01 LUFS; here the second adds a quarter of the power, +0.97. What is behind it is silent, and its blocks
-   do not count; those that overlap its end do. */
+/* BS.1770: a sine of 997 Hz and peak 1 in one channel of two has -3.01 LUFS; here the second adds a quarter of the
+   power, +0.97. What is behind it is silent, and its blocks do not count; those that overlap its end do. */
 START_TEST(loudness_is_that_of_the_parts_that_sound)
 {
     close(mkstemps(file, 4));
@@ -125,4 +126,5 @@ START_TEST(loudness_is_that_of_the_parts_that_sound)
 }
 END_TEST
 
-UNIT("measure", levels_are_those_of_the_whole_file, peaks_between_samples, peaks_at_the_end, loudness_is_that_of_the_parts_that_sound)
+UNIT("measure", levels_are_those_of_the_whole_file, peaks_between_samples, peaks_at_the_end,
+     loudness_is_that_of_the_parts_that_sound)

@@ -1,4 +1,5 @@
-/* What is no solid is refused in clear words, with a place and a cure; what is one passes. Meshes are broken by hand. */
+/* What is no solid is refused in clear words, with a place and a cure; what is one passes. Meshes are broken by hand.
+ */
 #include "fem/boundary.h"
 #include "fem/mesh_check.h"
 #include "fem/mesh_raise.h"
@@ -18,7 +19,10 @@ static struct mesh by_hand(int nodes, double (*at)[3], int elements, int (*corne
 /* A copy of the shape with corners only. */
 static struct mesh linear(const char *text)
 {
-    struct mesh m = meshes_shape(text), n = {.name = m.name, .at = arena_take(meshes_arena(), (size_t)m.nodes, sizeof *n.at), .elements = m.elements, .linear = true};
+    struct mesh m = meshes_shape(text), n = {.name = m.name,
+                                             .at = arena_take(meshes_arena(), (size_t)m.nodes, sizeof *n.at),
+                                             .elements = m.elements,
+                                             .linear = true};
     int *number = ARENA_TAKE(meshes_arena(), int, m.nodes);
     n.element = m.element;
     for (int i = 0; i < m.elements; i++)
@@ -105,7 +109,8 @@ START_TEST(test_flat_element)
 }
 END_TEST
 
-/* A midside pushed so far that the element folds: near a corner, beyond a quarter of its edge (the classical bound of the quadratic edge). */
+/* A midside pushed so far that the element folds: near a corner, beyond a quarter of its edge (the classical bound of
+ * the quadratic edge). */
 START_TEST(test_folded)
 {
     double at[4][3] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
@@ -126,7 +131,8 @@ END_TEST
 /* Two tetrahedra that should share a face, each with its own nodes there. */
 START_TEST(test_duplicate_nodes)
 {
-    double at[8][3] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}, {0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 1e-11}, {0, 0, -0.1}};
+    double at[8][3] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0},     {0, 0, 0.1},
+                       {0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 1e-11}, {0, 0, -0.1}};
     int corner[2][4] = {{0, 1, 2, 3}, {4, 6, 5, 7}};
     struct mesh m = by_hand(8, at, 2, corner);
     refused(&m, "3 nodes stand where another one stands");
@@ -142,7 +148,8 @@ START_TEST(test_touching)
     int by_node[2][4] = {{0, 1, 2, 3}, {0, 5, 4, 6}};
     struct mesh m = by_hand(7, at, 2, by_node);
     refused(&m, "2 bodies");
-    /* one body that comes back to itself: six of the eight octants, without two opposite ones that leave the origin's fans apart */
+    /* one body that comes back to itself: six of the eight octants, without two opposite ones that leave the origin's
+     * fans apart */
     int octants[6][4] = {{0, 1, 2, 3}, {0, 2, 4, 3}, {0, 4, 5, 3}, {0, 4, 2, 6}, {0, 2, 1, 6}, {0, 1, 5, 6}};
     m = by_hand(7, at, 4, octants);
     passes(&m);
@@ -151,7 +158,8 @@ START_TEST(test_touching)
 }
 END_TEST
 
-/* Of the eight cells round a node in the middle of a cube only two opposite ones stay: what is left is one body, and touches itself there. */
+/* Of the eight cells round a node in the middle of a cube only two opposite ones stay: what is left is one body, and
+ * touches itself there. */
 START_TEST(test_touching_node)
 {
     struct mesh m = linear("plate:length=2cm,width=2cm,thickness=2cm");
@@ -168,8 +176,7 @@ START_TEST(test_touching_node)
             near += cell[c] == 0 || cell[c] == -1;
             upper += cell[c] == 0;
         }
-        if (near < 3 || upper % 3 == 0)
-            memcpy(m.element[kept++], m.element[i], sizeof *m.element);
+        if (near < 3 || upper % 3 == 0) memcpy(m.element[kept++], m.element[i], sizeof *m.element);
     }
     ck_assert_int_eq(kept, m.elements - 30);
     m.elements = kept;
@@ -204,24 +211,29 @@ START_TEST(test_cavity)
 }
 END_TEST
 
-/* A large face against three small ones, which hang from a node in its middle: faces lie on one another and share no nodes. */
+/* A large face against three small ones, which hang from a node in its middle: faces lie on one another and share no
+ * nodes. */
 START_TEST(test_hanging)
 {
     double at[6][3] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}, {0.03, 0.03, 0}, {0, 0, -0.1}};
     int corner[4][4] = {{0, 1, 2, 3}, {0, 4, 1, 5}, {1, 4, 2, 5}, {2, 4, 0, 5}};
     struct mesh m = by_hand(6, at, 4, corner);
     refused(&m, "2 bodies");
-    /* joined elsewhere, inside a larger solid, it is a gap: the lower three are part of a body that surrounds the face */
-    double more[9][3] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}, {0.03, 0.03, 0}, {0, 0, -0.1}, {0.2, 0.2, 0.05}, {-0.2, 0.1, 0.05}, {0.1, -0.2, 0.05}};
-    int round[10][4] = {{0, 1, 2, 3}, {0, 4, 1, 5}, {1, 4, 2, 5}, {2, 4, 0, 5}, {1, 2, 3, 6}, {1, 5, 2, 6}, {2, 0, 3, 7}, {2, 5, 0, 7}, {0, 1, 3, 8}, {0, 5, 1, 8}};
+    /* joined elsewhere, inside a larger solid, it is a gap: the lower three are part of a body that surrounds the face
+     */
+    double more[9][3] = {{0, 0, 0},    {0.1, 0, 0},      {0, 0.1, 0},       {0, 0, 0.1},      {0.03, 0.03, 0},
+                         {0, 0, -0.1}, {0.2, 0.2, 0.05}, {-0.2, 0.1, 0.05}, {0.1, -0.2, 0.05}};
+    int round[10][4] = {{0, 1, 2, 3}, {0, 4, 1, 5}, {1, 4, 2, 5}, {2, 4, 0, 5}, {1, 2, 3, 6},
+                        {1, 5, 2, 6}, {2, 0, 3, 7}, {2, 5, 0, 7}, {0, 1, 3, 8}, {0, 5, 1, 8}};
     for (int i = 0; i < 10; i++) { /* all positive */
         double d[3][3];
         for (int k = 0; k < 3; k++)
             for (int c = 0; c < 3; c++)
                 d[k][c] = more[round[i][k + 1]][c] - more[round[i][0]][c];
-        double det = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) - d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) + d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
-        if (det < 0)
-            swap(round[i], 0, 1);
+        double det = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
+                     d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
+                     d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+        if (det < 0) swap(round[i], 0, 1);
     }
     m = by_hand(9, more, 10, round);
     struct err e = {0};
@@ -270,7 +282,8 @@ START_TEST(test_units)
     for (int i = 0; i < m.nodes; i++)
         for (int c = 0; c < 3; c++)
             m.at[i][c] *= 4000;
-    refused(&m, "80 m large, too large for an object; the file may be in mm or cm: give --unit mm (then it is 0.08 m) or --unit cm (0.8 m)");
+    refused(&m, "80 m large, too large for an object; the file may be in mm or cm: give --unit mm (then it is 0.08 m) "
+                "or --unit cm (0.8 m)");
     for (int i = 0; i < m.nodes; i++)
         for (int c = 0; c < 3; c++)
             m.at[i][c] *= 1e-5;
@@ -308,5 +321,6 @@ START_TEST(test_raise)
 }
 END_TEST
 
-UNIT("mesh_check", test_good, test_none, test_inverted, test_flat_element, test_folded, test_duplicate_nodes, test_touching, test_touching_node, test_hole, test_cavity, test_hanging, test_twice,
-     test_midsides, test_units, test_sliver, test_raise)
+UNIT("mesh_check", test_good, test_none, test_inverted, test_flat_element, test_folded, test_duplicate_nodes,
+     test_touching, test_touching_node, test_hole, test_cavity, test_hanging, test_twice, test_midsides, test_units,
+     test_sliver, test_raise)

@@ -1,4 +1,5 @@
-/* The fit of modes to recordings (analysis/modal.h): its basis against plain sums over samples, what comes back of known modes, and what must not. */
+/* The fit of modes to recordings (analysis/modal.h): its basis against plain sums over samples, what comes back of
+ * known modes, and what must not. */
 #include "unit.h"
 
 #include "analysis/modal_fit.h"
@@ -26,7 +27,8 @@ static void sound(const struct known *m, int modes, const double *force, long pu
 static const double one = 1.0;
 
 /* Modes of a response in noise of that rms; its last bits as they fall with another seed. */
-static void find(const struct known *m, int modes, double rms, unsigned seed, int flips, struct arena *a, struct modal_result *r)
+static void find(const struct known *m, int modes, double rms, unsigned seed, int flips, struct arena *a,
+                 struct modal_result *r)
 {
     double *y = ARENA_TAKE(a, double, N + 1), *noise = ARENA_TAKE(a, double, N + 1);
     struct err e = {0};
@@ -46,14 +48,19 @@ static const struct modal_mode *nearest(const struct modal_result *r, const stru
 {
     const struct modal_mode *best = &r->mode[0];
     for (int i = 1; i < r->n; i++)
-        if (fabs(r->mode[i].frequency - m->f) + 0.1 * fabs(r->mode[i].decay - m->d) < fabs(best->frequency - m->f) + 0.1 * fabs(best->decay - m->d))
+        if (fabs(r->mode[i].frequency - m->f) + 0.1 * fabs(r->mode[i].decay - m->d) <
+            fabs(best->frequency - m->f) + 0.1 * fabs(best->decay - m->d))
             best = &r->mode[i];
     return best;
 }
 
-static double gain_se(const struct modal_mode *m, int g) { return sqrt(m->gain_se[g] * m->gain_se[g] + m->gain_shared[g] * m->gain_shared[g]); }
+static double gain_se(const struct modal_mode *m, int g)
+{
+    return sqrt(m->gain_se[g] * m->gain_se[g] + m->gain_shared[g] * m->gain_shared[g]);
+}
 
-/* X of a pole, of a force within the stretch, before it and both, is the DFT of the recursion to 1e-10; dX/ds is its slope over 1e-4/s to 1e-6. */
+/* X of a pole, of a force within the stretch, before it and both, is the DFT of the recursion to 1e-10; dX/ds is its
+ * slope over 1e-4/s to 1e-6. */
 START_TEST(basis)
 {
     const double force[3] = {0.3, 1.0, 0.4};
@@ -78,7 +85,9 @@ START_TEST(basis)
             state = cplx_mul(state, p);
             state.re += n >= at && n < at + 3 ? force[n - at] : 0.0;
             for (int k = 0; n >= 300 && k < 8; k++)
-                sum[k] = cplx_add(sum[k], cplx_mul(state, cplx_exp((cplx){0.0, -f.bins[0].width * (double)(f.bins[0].first + k)}, (double)(n - 300) / RATE)));
+                sum[k] = cplx_add(
+                    sum[k], cplx_mul(state, cplx_exp((cplx){0.0, -f.bins[0].width * (double)(f.bins[0].first + k)},
+                                                     (double)(n - 300) / RATE)));
         }
         for (int k = 0; k < 8; k++)
             largest = fmax(largest, cplx_abs(sum[k]));
@@ -95,7 +104,8 @@ START_TEST(basis)
 }
 END_TEST
 
-/* Twelve random modes from 150 to 7000 Hz, levels over 20 dB, of 24 seeds each another draw: all of them, no other, within five standard errors; half of all within 0.67. */
+/* Twelve random modes from 150 to 7000 Hz, levels over 20 dB, of 24 seeds each another draw: all of them, no other,
+ * within five standard errors; half of all within 0.67. */
 START_TEST(random_modes)
 {
     double inside = 0.0, all = 0.0;
@@ -105,8 +115,10 @@ START_TEST(random_modes)
         struct known m[12];
         struct modal_result r;
         for (int i = 0; i < 12; i++) /* one in each part of the band, so that the noise lets one tell all */
-            m[i] = (struct known){150.0 + 570.0 * (i + 0.7 * noise_uniform(source, 1, (uint64_t)i)), real_exp(real_log(4.0) + 2.5 * noise_uniform(source, 2, (uint64_t)i)),
-                                  real_exp10(-noise_uniform(source, 3, (uint64_t)i)), 6.0 * noise_uniform(source, 4, (uint64_t)i)};
+            m[i] = (struct known){150.0 + 570.0 * (i + 0.7 * noise_uniform(source, 1, (uint64_t)i)),
+                                  real_exp(real_log(4.0) + 2.5 * noise_uniform(source, 2, (uint64_t)i)),
+                                  real_exp10(-noise_uniform(source, 3, (uint64_t)i)),
+                                  6.0 * noise_uniform(source, 4, (uint64_t)i)};
         find(m, 12, 1e-3, seed, 0, a, &r);
         ck_assert_int_eq(r.n, 12);
         for (int i = 0; i < 12; i++) {
@@ -125,11 +137,12 @@ START_TEST(random_modes)
 }
 END_TEST
 
-/* Two modes 2 Hz apart, two decays of one frequency, and one that is neither: as they are, under eight draws of noise and flips of last bits, which move a frequency by no more than a
-   tenth of its standard error. */
+/* Two modes 2 Hz apart, two decays of one frequency, and one that is neither: as they are, under eight draws of noise
+   and flips of last bits, which move a frequency by no more than a tenth of its standard error. */
 START_TEST(pairs_and_slopes)
 {
-    static const struct known m[] = {{700, 9, 1, 0.4}, {702, 12, 0.4, 2}, {1500, 5, 0.3, 1}, {1500, 40, 1, 1}, {3000, 20, 0.2, 0}};
+    static const struct known m[] = {
+        {700, 9, 1, 0.4}, {702, 12, 0.4, 2}, {1500, 5, 0.3, 1}, {1500, 40, 1, 1}, {3000, 20, 0.2, 0}};
     for (unsigned seed = 1; seed <= 8; seed++) {
         struct arena *a = arena_open();
         struct modal_result r, flipped;
@@ -181,8 +194,20 @@ START_TEST(strikes_and_hum)
     for (long i = 0; i < ALL; i++)
         y[i] += 1e-3 * noise[i] + 0.02 * real_sin(2.0 * REAL_PI * 150.0 * (double)i / RATE);
     struct modal_stretch s[3] = {{.y = y, .n = modal_length(LEAD - 8), .strike = -1},
-                                 {.y = y + LEAD - 8, .first = LEAD - 8, .n = modal_length(GAP), .ringing = 8 + PULSE, .group = 1, .fitted = true, .pulse = {LEAD, PULSE, force}},
-                                 {.y = y + LEAD + GAP - 8, .first = LEAD + GAP - 8, .n = modal_length(ALL - LEAD - GAP), .ringing = 8 + PULSE, .group = 2, .strike = 1, .fitted = true,
+                                 {.y = y + LEAD - 8,
+                                  .first = LEAD - 8,
+                                  .n = modal_length(GAP),
+                                  .ringing = 8 + PULSE,
+                                  .group = 1,
+                                  .fitted = true,
+                                  .pulse = {LEAD, PULSE, force}},
+                                 {.y = y + LEAD + GAP - 8,
+                                  .first = LEAD + GAP - 8,
+                                  .n = modal_length(ALL - LEAD - GAP),
+                                  .ringing = 8 + PULSE,
+                                  .group = 2,
+                                  .strike = 1,
+                                  .fitted = true,
                                   .pulse = {LEAD + GAP, PULSE, force}}};
     struct modal_data d = {.rate = RATE, .places = 1, .groups = 3, .stretches = 3, .stretch = s};
     struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
@@ -193,7 +218,8 @@ START_TEST(strikes_and_hum)
         const struct modal_mode *k = nearest(&r, &m[i]);
         ck_assert_double_eq_tol(k->frequency, m[i].f, 5.0 * k->frequency_se);
         ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
-        for (int g = 1; g < 3; g++) /* what rings on from the first strike, a tenth of the lowest mode, is none of the second's */
+        for (int g = 1; g < 3;
+             g++) /* what rings on from the first strike, a tenth of the lowest mode, is none of the second's */
             ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]), m[i].gain, 5.0 * gain_se(k, g));
     }
     ck_assert_double_ge(r.explained[1], 0.999);
@@ -201,8 +227,8 @@ START_TEST(strikes_and_hum)
 }
 END_TEST
 
-/* Strikes of random levels, up to 20 dB apart, in time with modes that ring through all of them: most of what is heard after a strike
-   is that of the ones before. */
+/* Strikes of random levels, up to 20 dB apart, in time with modes that ring through all of them: most of what is heard
+   after a strike is that of the ones before. */
 START_TEST(strikes_in_time)
 {
     enum { STRIKES = 8, PULSE = 6, GAP = 4000, ALL = STRIKES * GAP + 8 };
@@ -221,8 +247,14 @@ START_TEST(strikes_in_time)
             for (int i = 0; i < PULSE; i++)
                 force[k][i] = level[k] * real_sin(REAL_PI * (i + 0.5) / PULSE);
             sound(m, 3, force[k], PULSE, k * GAP + 8, ALL, y);
-            s[k] = (struct modal_stretch){.y = y + k * GAP, .first = k * GAP, .n = modal_length(GAP), .ringing = 8 + PULSE, .group = k,
-                                          .strike = k, .fitted = true, .pulse = {k * GAP + 8, PULSE, force[k]}};
+            s[k] = (struct modal_stretch){.y = y + k * GAP,
+                                          .first = k * GAP,
+                                          .n = modal_length(GAP),
+                                          .ringing = 8 + PULSE,
+                                          .group = k,
+                                          .strike = k,
+                                          .fitted = true,
+                                          .pulse = {k * GAP + 8, PULSE, force[k]}};
         }
         for (long i = 0; i < ALL; i++)
             y[i] += 1e-4 * noise[i];
@@ -237,7 +269,8 @@ START_TEST(strikes_in_time)
             ck_assert_double_eq_tol(k->decay, m[i].d, 5.0 * k->decay_se);
             for (int g = 0; g < STRIKES; g++) {
                 double se = gain_se(k, g) * level[g];
-                ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]) * level[g], m[i].gain * level[g], 5.0 * sqrt(before + se * se));
+                ck_assert_double_eq_tol(sqrt(k->re[g] * k->re[g] + k->im[g] * k->im[g]) * level[g],
+                                        m[i].gain * level[g], 5.0 * sqrt(before + se * se));
                 before += se * se;
             }
         }
@@ -248,9 +281,10 @@ START_TEST(strikes_in_time)
 }
 END_TEST
 
-/* An object that rests anew each time: eight strikes whose frequencies differ by 5e-4 and decays by a tenth, at 80 dB. The modes that there
-   are and no more, which poles that all strikes share would need; their means within 4 standard errors, their spread within what chance
-   makes of eight draws (chi squared of 7 degrees beyond 1e-4, the measured one drawn to that of all modes). */
+/* An object that rests anew each time: eight strikes whose frequencies differ by 5e-4 and decays by a tenth, at 80 dB.
+   The modes that there are and no more, which poles that all strikes share would need; their means within 4 standard
+   errors, their spread within what chance makes of eight draws (chi squared of 7 degrees beyond 1e-4, the measured one
+   drawn to that of all modes). */
 START_TEST(strikes_apart)
 {
     enum { STRIKES = 8, GAP = 8000, ALL = STRIKES * GAP };
@@ -270,8 +304,14 @@ START_TEST(strikes_apart)
                 own.d *= real_exp(0.1 * draw[k][2 * i + 1]);
                 sound(&own, 1, &one, 1, k * GAP + 8, (k + 1) * GAP, y);
             }
-            s[k] = (struct modal_stretch){.y = y + k * GAP, .first = k * GAP, .n = modal_length(GAP), .ringing = 9, .group = k,
-                                          .strike = k, .fitted = true, .pulse = {k * GAP + 8, 1, &one}};
+            s[k] = (struct modal_stretch){.y = y + k * GAP,
+                                          .first = k * GAP,
+                                          .n = modal_length(GAP),
+                                          .ringing = 9,
+                                          .group = k,
+                                          .strike = k,
+                                          .fitted = true,
+                                          .pulse = {k * GAP + 8, 1, &one}};
         }
         for (long i = 0; i < ALL; i++)
             y[i] += 1e-4 * noise[i];

@@ -5,7 +5,8 @@
 #include "response/mode_table_write.h"
 #include "unit.h"
 
-/* Complex gains all round the circle come back (12 digits: 1e-11), whatever the quantity; modes in the order asked for. */
+/* Complex gains all round the circle come back (12 digits: 1e-11), whatever the quantity; modes in the order asked for.
+ */
 START_TEST(what_is_written_is_read)
 {
     enum { N = 24 };
@@ -28,7 +29,8 @@ START_TEST(what_is_written_is_read)
         fprintf(out, "# poles: shared\n# quantity: %s\n", words[quantity]);
         mode_table_write_header(out);
         for (int place = 1; place <= 2; place++)
-            mode_table_write_place(out, &(struct mode_table_place){12, place, 0.1 * place, -0.0}, N, order, &(struct modes_point){f, decay, re, im}, quantity);
+            mode_table_write_place(out, &(struct mode_table_place){12, place, 0.1 * place, -0.0}, N, order,
+                                   &(struct modes_point){f, decay, re, im}, quantity);
         fclose(out);
         ck_assert_msg(mode_table_read("written.csv", a, &t, &e), "%s", e.text);
         ck_assert_int_eq(t.quantity, quantity);
@@ -37,8 +39,10 @@ START_TEST(what_is_written_is_read)
             for (size_t k = 0; k < N; k++) {
                 const struct mode_entry *v = &t.entry[t.first[place] + k];
                 size_t i = k; /* by rising frequency, whatever the order of rows */
-                double gain = v->slope[0].gain, phase = v->slope[0].phase, sign = quantity == MODES_VELOCITY ? im[i]
-                                                                                        : quantity == MODES_DISPLACEMENT ? re[i] : -re[i];
+                double gain = v->slope[0].gain, phase = v->slope[0].phase,
+                       sign = quantity == MODES_VELOCITY       ? im[i]
+                              : quantity == MODES_DISPLACEMENT ? re[i]
+                                                               : -re[i];
                 ck_assert_double_eq_tol(t.xy[2 * place], 0.1 * (double)(place + 1), 1e-12);
                 ck_assert_double_eq_tol(v->frequency, f[i], 1e-11 * f[i]);
                 ck_assert_double_eq_tol(v->slope[0].decay, decay[i], 1e-11 * decay[i]);
@@ -59,7 +63,8 @@ START_TEST(zeros_have_no_sign)
     int order = 0;
     char text[200] = "";
     FILE *out = fmemopen(text, sizeof text, "w");
-    mode_table_write_place(out, &(struct mode_table_place){12, 7, -0.0, 0.25}, 1, &order, &(struct modes_point){&f, &decay, &zero, &im}, MODES_VELOCITY);
+    mode_table_write_place(out, &(struct mode_table_place){12, 7, -0.0, 0.25}, 1, &order,
+                           &(struct modes_point){&f, &decay, &zero, &im}, MODES_VELOCITY);
     fclose(out);
     ck_assert_str_eq(text, "7,0,0.25,1,1,0.5,0,0\n");
 }

@@ -36,21 +36,28 @@ static struct modulation find(void)
 
 START_TEST(test_found)
 {
-    const struct planted sets[] = {{0.3, 6, 1, -0.97, 0.07, 0.03}, {0.3, 47.3, 5, -0.95, 0.2, 0.04}, {0.1, 3, 0, 0, 0, 0.1}, {0.8, 10, 2, -0.97, 0.07, 0.03}};
+    const struct planted sets[] = {{0.3, 6, 1, -0.97, 0.07, 0.03},
+                                   {0.3, 47.3, 5, -0.95, 0.2, 0.04},
+                                   {0.1, 3, 0, 0, 0, 0.1},
+                                   {0.8, 10, 2, -0.97, 0.07, 0.03}};
     enum { SEEDS = 12 };
     for (size_t k = 0; k < sizeof sets / sizeof sets[0]; k++) {
         double squares = 0;
         for (int seed = 1; seed <= SEEDS; seed++) {
             plant(sets[k], 100 * k + seed);
             struct modulation m = find();
-            ck_assert_msg(m.found && m.probability < MODULATION_PROBABILITY, "set %zu, seed %d: probability %g", k, seed, m.probability);
+            ck_assert_msg(m.found && m.probability < MODULATION_PROBABILITY, "set %zu, seed %d: probability %g", k,
+                          seed, m.probability);
             double z = (m.depth - sets[k].m) / m.depth_error, r = (m.rate - sets[k].nu) / m.rate_error;
-            ck_assert_msg(fabs(z) < 4 && fabs(r) < 4, "set %zu, seed %d: %g +- %g, %g +- %g Hz", k, seed, m.depth, m.depth_error, m.rate, m.rate_error);
-            double turns = (2 * M_PI * (m.rate - sets[k].nu) * 5.5 + m.phase - sets[k].phase) / (2 * M_PI); /* in the middle */
+            ck_assert_msg(fabs(z) < 4 && fabs(r) < 4, "set %zu, seed %d: %g +- %g, %g +- %g Hz", k, seed, m.depth,
+                          m.depth_error, m.rate, m.rate_error);
+            double turns =
+                (2 * M_PI * (m.rate - sets[k].nu) * 5.5 + m.phase - sets[k].phase) / (2 * M_PI); /* in the middle */
             ck_assert_msg(fabs(turns - rint(turns)) < 0.1, "set %zu, seed %d: %g turns off", k, seed, turns);
             squares += (z * z + r * r) / (2 * SEEDS);
         }
-        ck_assert_msg(squares > 0.3 && squares < 2, "set %zu: mean square %g errors", k, squares); /* chi-squared of 24 over 24: 0.33 to 2.1 but for 1 in 1000 */
+        ck_assert_msg(squares > 0.3 && squares < 2, "set %zu: mean square %g errors", k,
+                      squares); /* chi-squared of 24 over 24: 0.33 to 2.1 but for 1 in 1000 */
     }
 }
 END_TEST
@@ -63,13 +70,15 @@ START_TEST(test_none)
     for (int seed = 0; seed < SEEDS; seed++) {
         plant((struct planted){0, 0, 0, sets[seed % 3][0], sets[seed % 3][1], 0.03}, 7000 + seed);
         struct modulation m = find();
-        ck_assert(m.depth > 0 && m.rate >= 2 / (at[N - 1] - at[0]) * (1 - 1e-12) && m.rate <= 0.5 * N / (at[N - 1] - at[0]));
+        ck_assert(m.depth > 0 && m.rate >= 2 / (at[N - 1] - at[0]) * (1 - 1e-12) &&
+                  m.rate <= 0.5 * N / (at[N - 1] - at[0]));
         found += m.found;
         low += m.probability < 0.05;
         half += m.probability < 0.5;
     }
     ck_assert_msg(found <= 1, "%d of 150 found", found);
-    ck_assert_msg(low <= 17 && half >= 38 && half <= 95, "probability below 0.05: %d, below 0.5: %d, of 150", low, half); /* an upper bound that is near: 3.5 deviations above, and not far below */
+    ck_assert_msg(low <= 17 && half >= 38 && half <= 95, "probability below 0.05: %d, below 0.5: %d, of 150", low,
+                  half); /* an upper bound that is near: 3.5 deviations above, and not far below */
 }
 END_TEST
 
@@ -84,7 +93,8 @@ START_TEST(test_divided)
         variance[1] += (amplitude[i] - 0.4) * (amplitude[i] - 0.4) / N;
     }
     double is = 0.02 * 0.02 / (1 - 0.25);
-    ck_assert_msg(fabs(variance[0] / is - 1) < 0.2 && variance[1] > 10 * is, "%g %g, of %g", variance[0], variance[1], is);
+    ck_assert_msg(fabs(variance[0] / is - 1) < 0.2 && variance[1] > 10 * is, "%g %g, of %g", variance[0], variance[1],
+                  is);
 }
 END_TEST
 

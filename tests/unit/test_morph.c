@@ -1,5 +1,5 @@
-/* Separate poles between places: against the formulas of papers/000 section 2.4 written out with libm, mode by mode; continuity over the edges of
-   triangles; pairing; fading where a place lacks a mode and at half the sample rate. */
+/* Separate poles between places: against the formulas of papers/000 section 2.4 written out with libm, mode by mode;
+   continuity over the edges of triangles; pairing; fading where a place lacks a mode and at half the sample rate. */
 #include "tables.h"
 
 #include "response/places.h"
@@ -7,7 +7,11 @@
 static struct arena *arena;
 static const double pi = 3.14159265358979323846;
 
-static void setup(void) { arena = arena_open(); srand48(5); }
+static void setup(void)
+{
+    arena = arena_open();
+    srand48(5);
+}
 static void teardown(void) { arena_close(arena); }
 
 enum { MODES = 23, PLACES = 9 };
@@ -24,8 +28,8 @@ static char *text_of(const struct known *k, int places, const char *head)
     for (int p = 0; p < places; p++)
         for (int i = 0; i < MODES; i++)
             if (k[p].f[i] > 0)
-                sprintf(text + strlen(text), "%d,%.17g,%.17g,m%d,%.17g,%.17g,%.17g,%.17g\n", p, k[p].x, k[p].y, i, k[p].f[i], k[p].d[i], k[p].g[i],
-                        k[p].phase[i]);
+                sprintf(text + strlen(text), "%d,%.17g,%.17g,m%d,%.17g,%.17g,%.17g,%.17g\n", p, k[p].x, k[p].y, i,
+                        k[p].f[i], k[p].d[i], k[p].g[i], k[p].phase[i]);
     return text;
 }
 
@@ -83,8 +87,7 @@ START_TEST(on_a_line)
     for (int trial = 0; trial < 20; trial++) {
         fill(k, 2, 0.2);
         for (int i = 0; i < MODES; i++)
-            if (k[1].f[i] < 0 && k[0].f[i] < 0)
-                k[1].f[i] = 200 * pow(1.2, i);
+            if (k[1].f[i] < 0 && k[0].f[i] < 0) k[1].f[i] = 200 * pow(1.2, i);
         struct modes m = table_of(text_of(k, 2, "# pairing: ids\n" SEPARATE), MODES, arena);
         struct modes_point at = modes_point_make(arena, m.n);
         ck_assert(!m.shared && m.moves && m.n == MODES);
@@ -95,7 +98,8 @@ START_TEST(on_a_line)
                 ck_assert(table_at(&m, 0.3 * w, 0, &at) == 0);
                 if (k[0].f[i] > 0 && k[1].f[i] > 0)
                     check(&at, c, pow(k[0].f[i], 1 - w) * pow(k[1].f[i], w), pow(k[0].d[i], 1 - w) * pow(k[1].d[i], w),
-                          pow(fabs(k[0].g[i]), 1 - w) * pow(fabs(k[1].g[i]), w), angle(&k[0], i) + w * turn(angle(&k[0], i), angle(&k[1], i)));
+                          pow(fabs(k[0].g[i]), 1 - w) * pow(fabs(k[1].g[i]), w),
+                          angle(&k[0], i) + w * turn(angle(&k[0], i), angle(&k[1], i)));
                 else {
                     int p = k[0].f[i] > 0 ? 0 : 1;
                     check(&at, c, k[p].f[i], k[p].d[i], (p ? w : 1 - w) * fabs(k[p].g[i]), angle(&k[p], i));
@@ -143,8 +147,7 @@ START_TEST(in_a_triangle)
         for (int i = 0; i < MODES; i++)
             for (int p = 0; p < 3; p++) {
                 k[p].phase[i] = 5 * i + 1.1 * drand48() - (k[p].g[i] < 0 ? pi : 0);
-                if (p == 2 && k[0].f[i] < 0 && k[1].f[i] < 0 && k[2].f[i] < 0)
-                    k[2].f[i] = 200 * pow(1.2, i);
+                if (p == 2 && k[0].f[i] < 0 && k[1].f[i] < 0 && k[2].f[i] < 0) k[2].f[i] = 200 * pow(1.2, i);
             }
         struct modes m = table_of(text_of(k, 3, "# pairing: ids\n" SEPARATE), MODES, arena);
         struct modes_point at = modes_point_make(arena, m.n);
@@ -165,7 +168,8 @@ START_TEST(in_a_triangle)
                     }
                 c = component(&m, k, first, i);
                 ck_assert(table_at(&m, 0.3 * w[1], 0.2 * w[2], &at) == 0);
-                check(&at, c, exp(f / share), exp(d / share), share * exp(g / share), angle(&k[first], i) + phase / share);
+                check(&at, c, exp(f / share), exp(d / share), share * exp(g / share),
+                      angle(&k[first], i) + phase / share);
             }
         }
     }
@@ -173,7 +177,8 @@ START_TEST(in_a_triangle)
 }
 END_TEST
 
-/* Any phases, signs and missing modes on a grid: nothing jumps over an edge, and along an edge only its two ends count. */
+/* Any phases, signs and missing modes on a grid: nothing jumps over an edge, and along an edge only its two ends count.
+ */
 START_TEST(continuous_everywhere)
 {
     static struct known k[PLACES];
@@ -188,7 +193,8 @@ START_TEST(continuous_everywhere)
         struct modes m = table_of(text_of(k, PLACES, "# pairing: ids\n" SEPARATE), MODES, arena);
         struct modes_point at[2] = {modes_point_make(arena, m.n), modes_point_make(arena, m.n)};
         for (int way = 0; way < 60; way++) {
-            double x = 0.2 * drand48(), y = 0.2 * drand48(), dx = 0.2 * drand48() - x, dy = 0.2 * drand48() - y, worst = 0;
+            double x = 0.2 * drand48(), y = 0.2 * drand48(), dx = 0.2 * drand48() - x, dy = 0.2 * drand48() - y,
+                   worst = 0;
             if (way % 3 == 0) /* along lines of the grid, on both sides of which there are triangles */
                 dx = 0, x = 0.1;
             for (int s = 0; s <= 4000; s++) {
@@ -197,7 +203,8 @@ START_TEST(continuous_everywhere)
                 for (int i = 0; s > 0 && i < m.n; i++)
                     worst = fmax(worst, fmax(fabs(now->re[i] - before->re[i]), fabs(now->im[i] - before->im[i])));
             }
-            ck_assert_double_lt(worst, 60 * 0.01); /* the largest gain is exp(4), a change of sign takes 1/3 of the way or more */
+            ck_assert_double_lt(
+                worst, 60 * 0.01); /* the largest gain is exp(4), a change of sign takes 1/3 of the way or more */
             for (int side = -1; way % 3 == 0 && side <= 1; side += 2) {
                 table_at(&m, 0.1, y, &at[0]);
                 table_at(&m, 0.1 + side * 1e-9, y, &at[1]);
@@ -234,7 +241,8 @@ START_TEST(a_vortex_has_a_zero)
 }
 END_TEST
 
-/* Poles that are equal everywhere are so to the last bit, wherever the contact is: what `glide`, `launch` and `readout` agree on. */
+/* Poles that are equal everywhere are so to the last bit, wherever the contact is: what `glide`, `launch` and `readout`
+ * agree on. */
 START_TEST(equal_poles_stay)
 {
     static struct known k[PLACES];
@@ -249,17 +257,20 @@ START_TEST(equal_poles_stay)
     struct modes_point at = modes_point_make(arena, m.n);
     for (int s = 0; s < 200; s++) {
         table_at(&m, drand48(), drand48(), &at);
-        ck_assert(memcmp(at.frequency, m.frequency, MODES * sizeof(double)) == 0 && memcmp(at.decay, m.decay, MODES * sizeof(double)) == 0);
+        ck_assert(memcmp(at.frequency, m.frequency, MODES * sizeof(double)) == 0 &&
+                  memcmp(at.decay, m.decay, MODES * sizeof(double)) == 0);
     }
     teardown();
 }
 END_TEST
 
-/* A gain below -120 dB of the mode's largest is taken for that; one of 0 is a mode that is missing: it fades linearly. */
+/* A gain below -120 dB of the mode's largest is taken for that; one of 0 is a mode that is missing: it fades linearly.
+ */
 START_TEST(very_weak_gains)
 {
     setup();
-    struct modes m = table_of(SEPARATE COLUMNS "1,0,0,a,100,1,8,0\n2,1,0,a,110,2,1e-30,0\n1,0,0,b,300,1,8,0\n2,1,0,b,310,2,0,0\n1,0,0,c,500,9,0,0\n2,1,0,c,500,9,0,0\n",
+    struct modes m = table_of(SEPARATE COLUMNS "1,0,0,a,100,1,8,0\n2,1,0,a,110,2,1e-30,0\n1,0,0,b,300,1,8,0\n2,1,0,b,"
+                                               "310,2,0,0\n1,0,0,c,500,9,0,0\n2,1,0,c,500,9,0,0\n",
                               9, arena);
     struct modes_point p = modes_point_make(arena, m.n);
     table_at(&m, 1, 0, &p);
@@ -274,12 +285,15 @@ START_TEST(very_weak_gains)
 }
 END_TEST
 
-/* A mode whose frequency crosses 0.45 to 0.5 of the rate, 48 kHz: the raised cosine; what nowhere lies below 0.45 is dropped. */
+/* A mode whose frequency crosses 0.45 to 0.5 of the rate, 48 kHz: the raised cosine; what nowhere lies below 0.45 is
+ * dropped. */
 START_TEST(fades_at_half_the_rate)
 {
     setup();
-    struct modes m = table_of(SEPARATE COLUMNS "1,0,0,a,20000,5,2,0\n2,1,0,a,26000,5,2,0\n1,0,0,b,23960,5,1,0\n2,1,0,b,24100,5,1,0\n"
-                              "1,0,0,c,900,7,1,0\n2,1,0,c,950,6,1,1\n", 9, arena);
+    struct modes m =
+        table_of(SEPARATE COLUMNS "1,0,0,a,20000,5,2,0\n2,1,0,a,26000,5,2,0\n1,0,0,b,23960,5,1,0\n2,1,0,b,24100,5,1,0\n"
+                                  "1,0,0,c,900,7,1,0\n2,1,0,c,950,6,1,1\n",
+                 9, arena);
     struct modes_point p = modes_point_make(arena, m.n);
     ck_assert_int_eq(modes_drop_above(&m, 48000), 1);
     ck_assert(m.n == 2 && m.frequency[0] == 20000 && m.slowest[1] == 6);
@@ -300,7 +314,8 @@ END_TEST
 START_TEST(a_change_of_sign_turns)
 {
     setup();
-    struct modes m = table_of(SEPARATE COLUMNS "1,0,0,a,100,5,1,0.5\n2,1,0,a,100,5,-1,0.5\n3,2,0,a,100,5,1,0.5\n", 9, arena);
+    struct modes m =
+        table_of(SEPARATE COLUMNS "1,0,0,a,100,5,1,0.5\n2,1,0,a,100,5,-1,0.5\n3,2,0,a,100,5,1,0.5\n", 9, arena);
     struct modes_point p = modes_point_make(arena, m.n);
     for (int k = 0; k <= 20; k++) {
         double w = k / 10.0, angle = 0.5 + pi * (w < 1 ? w : 2 - w);
@@ -312,11 +327,13 @@ START_TEST(a_change_of_sign_turns)
 }
 END_TEST
 
-/* Ids that are not the same everywhere: modes are paired by frequency, unless the table says ids; the gate is that asked for. */
+/* Ids that are not the same everywhere: modes are paired by frequency, unless the table says ids; the gate is that
+ * asked for. */
 START_TEST(pairing_of_a_table)
 {
     setup();
-    static const char rows[] = "1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n1,0,0,c,300,5,1,0\n2,1,0,a,201,5,1,0\n2,1,0,b,303,5,1,0\n";
+    static const char rows[] =
+        "1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n1,0,0,c,300,5,1,0\n2,1,0,a,201,5,1,0\n2,1,0,b,303,5,1,0\n";
     char text[600];
     struct modes m;
     struct err e;
@@ -327,21 +344,29 @@ START_TEST(pairing_of_a_table)
     table_at(&m, 1, 0, &p);
     for (int i = 0; i < 3; i++) {
         double size = sqrt(p.re[i] * p.re[i] + p.im[i] * p.im[i]), f = p.frequency[i];
-        ck_assert((fabs(f - 100) < 1e-9 && size == 0) || (fabs(f - 201) < 1e-9 && size > 0.99) || (fabs(f - 303) < 1e-9 && size > 0.99));
+        ck_assert((fabs(f - 100) < 1e-9 && size == 0) || (fabs(f - 201) < 1e-9 && size > 0.99) ||
+                  (fabs(f - 303) < 1e-9 && size > 0.99));
     }
-    ck_assert(table_read(text, &(struct modes_ask){.strongest = 9, .pairing = 0.006, .rate = 48000}, arena, &m, &e) && m.n == 4); /* 200, 201 pair; 300, 303 do not */
+    ck_assert(table_read(text, &(struct modes_ask){.strongest = 9, .pairing = 0.006, .rate = 48000}, arena, &m, &e) &&
+              m.n == 4); /* 200, 201 pair; 300, 303 do not */
     snprintf(text, sizeof text, "# pairing: ids\n%s%s%s", SEPARATE, COLUMNS, rows);
     m = table_of(text, 9, arena);
     ck_assert_int_eq(m.n, 3);
     table_at(&m, 0.5, 0, &p);
-    ck_assert_double_eq_tol(p.frequency[0] * p.frequency[1] * p.frequency[2] / 300, sqrt(100 * 201) * sqrt(200 * 303), 1e-6);
-    snprintf(text, sizeof text, "%s%s1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n1,0,0,c,300,5,1,0\n2,1,0,a,105,5,1,0\n2,1,0,c,320,5,1,0\n", SEPARATE, COLUMNS);
+    ck_assert_double_eq_tol(p.frequency[0] * p.frequency[1] * p.frequency[2] / 300, sqrt(100 * 201) * sqrt(200 * 303),
+                            1e-6);
+    snprintf(text, sizeof text,
+             "%s%s1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n1,0,0,c,300,5,1,0\n2,1,0,a,105,5,1,0\n2,1,0,c,320,5,1,0\n",
+             SEPARATE, COLUMNS);
     m = table_of(text, 9, arena); /* one is lacking, the others' names hold, farther apart than the gate */
     ck_assert(m.n == 3 && m.note && strstr(m.note, "paired by name"));
-    snprintf(text, sizeof text, "# pairing: frequency\n%s%s1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n2,1,0,a,200,5,1,0\n2,1,0,b,100,5,1,0\n", SEPARATE, COLUMNS);
+    snprintf(text, sizeof text,
+             "# pairing: frequency\n%s%s1,0,0,a,100,5,1,0\n1,0,0,b,200,5,1,0\n2,1,0,a,200,5,1,0\n2,1,0,b,100,5,1,0\n",
+             SEPARATE, COLUMNS);
     m = table_of(text, 9, arena);
     table_at(&m, 0.3, 0, &p);
-    ck_assert(m.n == 2 && ((p.frequency[0] == 100 && p.frequency[1] == 200) || (p.frequency[1] == 100 && p.frequency[0] == 200)));
+    ck_assert(m.n == 2 &&
+              ((p.frequency[0] == 100 && p.frequency[1] == 200) || (p.frequency[1] == 100 && p.frequency[0] == 200)));
     teardown();
 }
 END_TEST
@@ -350,8 +375,11 @@ END_TEST
 START_TEST(slopes_between_places)
 {
     setup();
-    struct modes m = table_of(SEPARATE "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad,slope\n"
-                              "1,0,0,a,100,50,1,0,1\n1,0,0,a,100,5,4,0,2\n2,1,0,a,121,20,1,0,1\n2,1,0,a,121,200,9,0,2\n3,2,0,a,100,8,3,0,1\n", 1, arena);
+    struct modes m = table_of(
+        SEPARATE
+        "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad,slope\n"
+        "1,0,0,a,100,50,1,0,1\n1,0,0,a,100,5,4,0,2\n2,1,0,a,121,20,1,0,1\n2,1,0,a,121,200,9,0,2\n3,2,0,a,100,8,3,0,1\n",
+        1, arena);
     struct modes_point p = modes_point_make(arena, m.n);
     ck_assert_int_eq(m.n, 2);
     table_at(&m, 0.5, 0, &p);
@@ -402,8 +430,7 @@ START_TEST(grids_are_symmetric)
             table_at(&o, trial % 4 < 2 ? 0.3 - x : x, trial % 4 < 2 ? y : 0.2 - y, &b);
             for (int p = 0; p < NX * NY; p++) {
                 int column = x < 0.1 ? 0 : x < 0.22 ? 1 : 2, row = y < 0.1 ? 0 : 1;
-                if (p % NX < column || p % NX > column + 1 || p / NX < row || p / NX > row + 1)
-                    continue;
+                if (p % NX < column || p % NX > column + 1 || p / NX < row || p / NX > row + 1) continue;
                 table_at(&m, k[p].x, k[p].y, &at);
                 for (int i = 0; i < MODES; i++) {
                     double size = sqrt(at.re[i] * at.re[i] + at.im[i] * at.im[i]);
@@ -428,8 +455,8 @@ START_TEST(grids_are_symmetric)
 END_TEST
 
 /* Complex gains of separate poles on a line: cubics of the place come out as they are, gains through zero, poles in the
-   logarithm; a place that lacks a mode has it with a gain of 0 and the poles it has where it is strongest; what nears half
-   the rate fades. Logarithmic gains of the same table turn at the change of sign. */
+   logarithm; a place that lacks a mode has it with a gain of 0 and the poles it has where it is strongest; what nears
+   half the rate fades. Logarithmic gains of the same table turn at the change of sign. */
 START_TEST(complex_gains)
 {
     enum { N = 7 };
@@ -438,9 +465,9 @@ START_TEST(complex_gains)
     to += sprintf(to, "# gains: complex\n%s%s", SEPARATE, COLUMNS);
     for (int i = 0; i < N; i++) {
         double x = 0.1 * i, u = x - 0.23;
-        to += sprintf(to, "%d,%.17g,0,a,%.17g,%.17g,%.17g,0.3\n", i + 1, x, 500 * exp(u * u * u), 20 * exp(u - u * u), u * (1 + u * u));
-        if (i != 2)
-            to += sprintf(to, "%d,%.17g,0,b,%.17g,%.17g,2,1\n", i + 1, x, 3000.0, 30.0);
+        to += sprintf(to, "%d,%.17g,0,a,%.17g,%.17g,%.17g,0.3\n", i + 1, x, 500 * exp(u * u * u), 20 * exp(u - u * u),
+                      u * (1 + u * u));
+        if (i != 2) to += sprintf(to, "%d,%.17g,0,b,%.17g,%.17g,2,1\n", i + 1, x, 3000.0, 30.0);
         to += sprintf(to, "%d,%.17g,0,c,22800,40,1.5,0\n", i + 1, x);
     }
     struct modes m = table_of(text, 9, arena);
@@ -461,7 +488,8 @@ START_TEST(complex_gains)
                 ck_assert(q != 20 || (p.re[i] == 0 && p.im[i] == 0));
                 ck_assert(q % 10 || q == 20 || fabs(p.re[i] - 2 * cos(1)) < 1e-14);
             } else
-                ck_assert_double_eq_tol(p.re[i], 1.5 * 0.5, 1e-13); /* 22.8 kHz: in the middle of 0.45 to 0.5 of 48 kHz */
+                ck_assert_double_eq_tol(p.re[i], 1.5 * 0.5,
+                                        1e-13); /* 22.8 kHz: in the middle of 0.45 to 0.5 of 48 kHz */
         }
     }
     m = table_of(strchr(text, '\n') + 1, 9, arena);
@@ -472,5 +500,6 @@ START_TEST(complex_gains)
 }
 END_TEST
 
-UNIT("morph", on_a_line, at_the_places, in_a_triangle, continuous_everywhere, a_vortex_has_a_zero, equal_poles_stay, very_weak_gains, fades_at_half_the_rate, a_change_of_sign_turns,
-     pairing_of_a_table, slopes_between_places, grids_are_symmetric, complex_gains)
+UNIT("morph", on_a_line, at_the_places, in_a_triangle, continuous_everywhere, a_vortex_has_a_zero, equal_poles_stay,
+     very_weak_gains, fades_at_half_the_rate, a_change_of_sign_turns, pairing_of_a_table, slopes_between_places,
+     grids_are_symmetric, complex_gains)

@@ -1,7 +1,7 @@
-/* noise: the known answers of Random123, and statistics against closed forms. Seeds are fixed, so each statistic is one number; its
-   bound is where a fair generator would fail once in a million draws (4.9 standard deviations for sums; for the largest distance D
-   of n values from their distribution function, Kolmogorov's 2 exp(-2 n D^2) = 1e-6 gives sqrt(n) D = 2.694; for the largest
-   of k correlations, 1e-6/k of the two-sided normal tail). */
+/* noise: the known answers of Random123, and statistics against closed forms. Seeds are fixed, so each statistic is one
+   number; its bound is where a fair generator would fail once in a million draws (4.9 standard deviations for sums; for
+   the largest distance D of n values from their distribution function, Kolmogorov's 2 exp(-2 n D^2) = 1e-6 gives
+   sqrt(n) D = 2.694; for the largest of k correlations, 1e-6/k of the two-sided normal tail). */
 #include "num/noise.h"
 
 #include "unit.h"
@@ -29,7 +29,8 @@ START_TEST(known_answers)
 }
 END_TEST
 
-/* Keys worked out by hand from the published FNV-1a ("" is its offset, "a" is af63dc4c8601ec8c) and splitmix64 in Python. */
+/* Keys worked out by hand from the published FNV-1a ("" is its offset, "a" is af63dc4c8601ec8c) and splitmix64 in
+ * Python. */
 START_TEST(keys_are_stable)
 {
     ck_assert_uint_eq(noise_make(0, "").key, 0x5b21f68ffa77f14c);
@@ -109,15 +110,9 @@ static double distance(double *y, size_t n, double (*probability)(double))
     return most;
 }
 
-static double uniform_probability(double x)
-{
-    return x;
-}
+static double uniform_probability(double x) { return x; }
 
-static double normal_probability(double x)
-{
-    return 0.5 * erfc(-x * M_SQRT1_2);
-}
+static double normal_probability(double x) { return 0.5 * erfc(-x * M_SQRT1_2); }
 
 /* value is the mean of n terms of that standard deviation and expectation 0. */
 static void within(const char *what, double value, double deviation, size_t n)
@@ -156,8 +151,8 @@ START_TEST(normal_moments)
 }
 END_TEST
 
-/* The least distance is bounded as well: values spread too evenly are not random (P(sqrt(n) D < 0.275) = 8e-7; the theta series
-   sqrt(2 pi)/x exp(-pi^2/(8 x^2))). */
+/* The least distance is bounded as well: values spread too evenly are not random (P(sqrt(n) D < 0.275) = 8e-7; the
+   theta series sqrt(2 pi)/x exp(-pi^2/(8 x^2))). */
 START_TEST(not_too_even)
 {
     double *y = uniforms(noise_make(2, "even"), COUNT);
@@ -189,8 +184,8 @@ START_TEST(lags)
 }
 END_TEST
 
-/* Streams of one seed and different names, of one name and different seeds, and rows of one stream: 780 pairs each, 6.1 for
-   1e-6/780. */
+/* Streams of one seed and different names, of one name and different seeds, and rows of one stream: 780 pairs each, 6.1
+   for 1e-6/780. */
 START_TEST(streams)
 {
     static double y[3][STREAMS][SHORT];
@@ -226,11 +221,13 @@ START_TEST(any_length_same_numbers)
 }
 END_TEST
 
-/* The first words of the known answers as doubles; 0xe169c58d6627e8d5 >> 11 is odd, 0x41c83b0e408f276d >> 11 is even. */
+/* The first words of the known answers as doubles; 0xe169c58d6627e8d5 >> 11 is odd, 0x41c83b0e408f276d >> 11 is even.
+ */
 START_TEST(uniform_of_known_bits)
 {
     ck_assert_double_eq(noise_uniform((struct noise){0}, 0, 0), (double)(0xe169c58d6627e8d5 >> 11) / 0x1p53);
-    ck_assert_double_eq(noise_uniform((struct noise){UINT64_MAX}, UINT64_MAX, UINT64_MAX), (double)((0x41c83b0e408f276d >> 11) + 1) / 0x1p53);
+    ck_assert_double_eq(noise_uniform((struct noise){UINT64_MAX}, UINT64_MAX, UINT64_MAX),
+                        (double)((0x41c83b0e408f276d >> 11) + 1) / 0x1p53);
     uint64_t bits[2];
     double y[2];
     noise_bits((struct noise){0}, 0, 0, bits);

@@ -4,10 +4,7 @@
 #include "num/normal.h"
 #include "unit.h"
 
-static long double cdf(double x)
-{
-    return 0.5L * erfcl(-(long double)x / sqrtl(2));
-}
+static long double cdf(double x) { return 0.5L * erfcl(-(long double)x / sqrtl(2)); }
 
 /* Relative, both tails, across the three ranges' borders. */
 START_TEST(distribution_function)
@@ -16,9 +13,9 @@ START_TEST(distribution_function)
     for (int i = -37000; i <= 9000; i++) {
         double x = i / 1000.0 + 1e-7, error = (double)fabsl(normal_cdf(x) / cdf(x) - 1);
         worst = fmax(worst, error);
-        if (x > -5)
-            ck_assert_double_eq_tol(normal_cdf(x), gsl_cdf_ugaussian_P(x), 2e-15 * gsl_cdf_ugaussian_P(x));
-        ck_assert_double_eq_tol(normal_density(x), (double)(expl(-0.5L * (long double)x * x) / sqrtl(2 * acosl(-1))), 1e-15 * normal_density(x));
+        if (x > -5) ck_assert_double_eq_tol(normal_cdf(x), gsl_cdf_ugaussian_P(x), 2e-15 * gsl_cdf_ugaussian_P(x));
+        ck_assert_double_eq_tol(normal_density(x), (double)(expl(-0.5L * (long double)x * x) / sqrtl(2 * acosl(-1))),
+                                1e-15 * normal_density(x));
         double density;
         ck_assert_double_eq(normal_cdf_density(x, &density), normal_cdf(x));
         ck_assert_double_eq(density, normal_density(x));
@@ -30,11 +27,13 @@ START_TEST(distribution_function)
 }
 END_TEST
 
-/* x at which P is w: one Newton's step in extended precision finds the error. Over all the numbers that a uniform process can give. */
+/* x at which P is w: one Newton's step in extended precision finds the error. Over all the numbers that a uniform
+ * process can give. */
 static double error_of(double w)
 {
     double x = normal_quantile(w);
-    long double density = expl(-0.5L * (long double)x * x) / sqrtl(2 * acosl(-1)), miss = w < 0.5 ? cdf(x) - w : (1 - (long double)w) - cdf(-x);
+    long double density = expl(-0.5L * (long double)x * x) / sqrtl(2 * acosl(-1)),
+                miss = w < 0.5 ? cdf(x) - w : (1 - (long double)w) - cdf(-x);
     return fabs((double)(miss / density)) / fabs(x);
 }
 
@@ -61,7 +60,8 @@ START_TEST(symmetry_and_ends)
         ck_assert_double_lt(normal_quantile(i / 1024.0), normal_quantile((i + 1) / 1024.0));
     }
     ck_assert_double_eq(normal_quantile(0.5), 0);
-    ck_assert(isinf(normal_quantile(0)) && normal_quantile(0) < 0 && isinf(normal_quantile(1)) && normal_quantile(1) > 0);
+    ck_assert(isinf(normal_quantile(0)) && normal_quantile(0) < 0 && isinf(normal_quantile(1)) &&
+              normal_quantile(1) > 0);
 }
 END_TEST
 

@@ -69,7 +69,8 @@ START_TEST(test_damping)
 }
 END_TEST
 
-/* Overdamped: from above (stiffness) they end the list, from below (mass) others take their place; near the limit order turns round. */
+/* Overdamped: from above (stiffness) they end the list, from below (mass) others take their place; near the limit order
+ * turns round. */
 START_TEST(test_overdamped)
 {
     struct arena *a = arena_open();
@@ -104,10 +105,13 @@ START_TEST(test_material)
 {
     struct arena *a = arena_open();
     const struct material *oak = material_find(MATERIAL_OAK), *steel = material_find(MATERIAL_STEEL);
-    struct object_given g = objects_given(OBJECT_PLATE, EDGES_SUPPORTED, NAN), explicit = objects_given(OBJECT_PLATE, EDGES_SUPPORTED, oak->poisson);
+    struct object_given g = objects_given(OBJECT_PLATE, EDGES_SUPPORTED, NAN),
+                        explicit = objects_given(OBJECT_PLATE, EDGES_SUPPORTED, oak->poisson);
     g.material = MATERIAL_OAK, g.width = 0.4, g.youngs_modulus = g.density = g.loss = NAN;
-    explicit.width = 0.4, explicit.density = oak->density, explicit.youngs_modulus = oak->youngs_modulus, explicit.youngs_modulus_across = oak->across;
-    explicit.shear_modulus = oak->shear, explicit.loss = oak->loss, explicit.alpha = oak->alpha, explicit.beta = oak->beta;
+    explicit.width = 0.4, explicit.density = oak->density, explicit.youngs_modulus = oak->youngs_modulus,
+    explicit.youngs_modulus_across = oak->across;
+    explicit.shear_modulus = oak->shear, explicit.loss = oak->loss, explicit.alpha = oak->alpha,
+    explicit.beta = oak->beta;
     struct object o = objects_make(&g, 20, 1e9, a), want = objects_make(&explicit, 20, 1e9, a);
     ck_assert_mem_eq(o.frequency, want.frequency, 20 * sizeof(double));
     ck_assert_mem_eq(o.decay, want.decay, 20 * sizeof(double));
@@ -122,7 +126,8 @@ START_TEST(test_material)
 }
 END_TEST
 
-/* Timoshenko's first-order terms; steel bar 10 mm: the note begins near (k r)^2/2 (1 + 3.12) = 5 %, k = 54/m: 4.6 kHz. */
+/* Timoshenko's first-order terms; steel bar 10 mm: the note begins near (k r)^2/2 (1 + 3.12) = 5 %, k = 54/m: 4.6 kHz.
+ */
 START_TEST(test_notes)
 {
     struct arena *a = arena_open();
@@ -151,7 +156,8 @@ START_TEST(test_limits)
     struct arena *a = arena_open();
     for (int shape = OBJECT_BAR; shape <= OBJECT_SHELL; shape++) {
         struct object_given g = objects_any(shape);
-        struct object many = objects_make(&g, 60, 1e9, a), few = objects_make(&g, 25, 1e9, a), low = objects_make(&g, 60, many.frequency[30], a);
+        struct object many = objects_make(&g, 60, 1e9, a), few = objects_make(&g, 25, 1e9, a),
+                      low = objects_make(&g, 60, many.frequency[30], a);
         ck_assert(many.n == 60 && few.n == 25 && low.n > 20 && low.n <= 31);
         for (int i = 0; i < 25; i++)
             OBJECTS_NEAR(few.frequency[i], many.frequency[i], 2e-6);

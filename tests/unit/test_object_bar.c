@@ -1,4 +1,5 @@
-/* Bars, rods, strings: frequencies against published constants, shapes by quadrature, gains against static deflections. */
+/* Bars, rods, strings: frequencies against published constants, shapes by quadrature, gains against static deflections.
+ */
 #include "objects.h"
 #include "response/object_kinds.h"
 
@@ -11,7 +12,8 @@ START_TEST(test_roots)
         ck_assert_double_lt(fabs(object_beam_root(EDGES_FREE, i + 1) - free_free[i]), 1e-9);
     for (int i = 0; i < 4; i++)
         ck_assert_double_lt(fabs(object_beam_root(EDGES_CANTILEVER, i + 1) - cantilever[i]), 1e-9);
-    for (int i = 1; i < 10; i++) { /* in a form of their own: cosh as libm has it; z to 1e-14, times the slope of cos cosh */
+    for (int i = 1; i < 10;
+         i++) { /* in a form of their own: cosh as libm has it; z to 1e-14, times the slope of cos cosh */
         double z = object_beam_root(EDGES_CLAMPED, i), y = object_beam_root(EDGES_CANTILEVER, i);
         ck_assert_double_lt(fabs(cos(z) - 1.0 / cosh(z)), 1e-14 * z);
         ck_assert_double_lt(fabs(cos(y) + 1.0 / cosh(y)), 1e-14 * y);
@@ -76,8 +78,7 @@ START_TEST(test_shapes)
 {
     struct arena *a = arena_open();
     for (int edges = EDGES_FREE; edges <= EDGES_CANTILEVER; edges++) {
-        if (edges == EDGES_SUPPORTED)
-            continue;
+        if (edges == EDGES_SUPPORTED) continue;
         struct object o = objects_of(OBJECT_BAR, edges, 0.3, 2000, a);
         double *phi = ARENA_TAKE(a, double, o.n), sign = edges == EDGES_FREE ? 1.0 : -1.0;
         for (double x = 0.0; x <= 1.0; x += 0.125) {
@@ -100,8 +101,8 @@ START_TEST(test_shapes)
 }
 END_TEST
 
-/* Beam tables: centre load, between supports L^3/(48 EI), clamped L^3/(192 EI), tip of a cantilever L^3/(3 EI); a free bar's centre
-   against its two ends is the first of these. 200 modes leave out 1/n^4: below 1e-6. */
+/* Beam tables: centre load, between supports L^3/(48 EI), clamped L^3/(192 EI), tip of a cantilever L^3/(3 EI); a free
+   bar's centre against its two ends is the first of these. 200 modes leave out 1/n^4: below 1e-6. */
 START_TEST(test_static_bending)
 {
     struct arena *a = arena_open();
@@ -129,7 +130,8 @@ START_TEST(test_static_bending)
 }
 END_TEST
 
-/* Longitudinal: c/2L and its multiples, odd c/4L when one end is held; a tip pulled gives L/(EA): 1/n^2, so 1e-4 of 4000 modes. */
+/* Longitudinal: c/2L and its multiples, odd c/4L when one end is held; a tip pulled gives L/(EA): 1/n^2, so 1e-4 of
+ * 4000 modes. */
 START_TEST(test_longitudinal)
 {
     struct arena *a = arena_open();
@@ -177,7 +179,8 @@ START_TEST(test_string)
 }
 END_TEST
 
-/* Off the object the nearest place counts, and how far it is is said; sines beyond their table (513 orders) are the same sines. */
+/* Off the object the nearest place counts, and how far it is is said; sines beyond their table (513 orders) are the
+ * same sines. */
 START_TEST(test_off_and_many)
 {
     struct arena *a = arena_open();
@@ -195,5 +198,5 @@ START_TEST(test_off_and_many)
 }
 END_TEST
 
-UNIT("object_bar", test_roots, test_steel_bar, test_rod_and_tube, test_orthonormal, test_shapes, test_static_bending, test_longitudinal, test_string,
-     test_off_and_many)
+UNIT("object_bar", test_roots, test_steel_bar, test_rod_and_tube, test_orthonormal, test_shapes, test_static_bending,
+     test_longitudinal, test_string, test_off_and_many)

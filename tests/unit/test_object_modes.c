@@ -10,7 +10,8 @@ static double ask(const struct modes *m, double x, double y, double *re, double 
     return m->at(m, &w, &p);
 }
 
-/* q'' + 2 d q' + w^2 q = phi(x) phi(l)/m delta: velocity jumps to that, and the acceleration just after is -2 d times it. */
+/* q'' + 2 d q' + w^2 q = phi(x) phi(l)/m delta: velocity jumps to that, and the acceleration just after is -2 d times
+ * it. */
 START_TEST(test_gains)
 {
     struct arena *a = arena_open();
@@ -29,7 +30,7 @@ START_TEST(test_gains)
     for (int i = 0; i < 40; i++) {
         double d = m.decay[i], w = 2.0 * PI * m.frequency[i], start = phi[i] * heard[i] / m.object->mass[i];
         ck_assert(m.slowest[i] == d && m.object->frequency[i] == m.frequency[i]);
-        OBJECTS_NEAR(im[i], start, 1e-14);                      /* Im A at t = 0 */
+        OBJECTS_NEAR(im[i], start, 1e-14);                            /* Im A at t = 0 */
         OBJECTS_NEAR(re[i] * w - im[i] * d, -2.0 * d * start, 1e-12); /* Im(A s) */
     }
     OBJECTS_NEAR(ask(&m, origin[0] + 1.5, origin[1] + 0.5, re, im), 0.5, 1e-14);
@@ -59,7 +60,9 @@ START_TEST(test_reciprocity)
         for (int i = 0; i < 30; i++) {
             int k = 0; /* order is by strength, and that is by listener; pairs by their gain */
             for (int j = 0; j < 30; j++)
-                if (m[1].frequency[j] == m[0].frequency[i] && fabs(im[1][j] - im[0][i]) < fabs(im[1][k] - im[0][i]) + (m[1].frequency[k] != m[0].frequency[i]) * 1e9)
+                if (m[1].frequency[j] == m[0].frequency[i] &&
+                    fabs(im[1][j] - im[0][i]) <
+                        fabs(im[1][k] - im[0][i]) + (m[1].frequency[k] != m[0].frequency[i]) * 1e9)
                     k = j;
             ck_assert(m[1].frequency[k] == m[0].frequency[i]);
             ck_assert_double_le(fabs(im[1][k] - im[0][i]), 1e-13 * fabs(im[0][i]) + 1e-18);
@@ -71,7 +74,8 @@ START_TEST(test_reciprocity)
 }
 END_TEST
 
-/* A supported bar: its second mode is silent when struck or heard in the middle; heard at a quarter the sign turns across the middle. */
+/* A supported bar: its second mode is silent when struck or heard in the middle; heard at a quarter the sign turns
+ * across the middle. */
 START_TEST(test_nodes)
 {
     struct arena *a = arena_open();
@@ -91,8 +95,8 @@ START_TEST(test_nodes)
 }
 END_TEST
 
-/* The strongest by the mean of gain^2/(4 d), of a supported bar (3/8)/(m^2 4 d) whose d rises with the order: the lowest; a list of all is a
-   list of some with more behind it, and gains go with their modes. */
+/* The strongest by the mean of gain^2/(4 d), of a supported bar (3/8)/(m^2 4 d) whose d rises with the order: the
+   lowest; a list of all is a list of some with more behind it, and gains go with their modes. */
 START_TEST(test_strongest)
 {
     struct arena *a = arena_open();
@@ -106,7 +110,8 @@ START_TEST(test_strongest)
     const double end[2] = {1.0 / 3.0, 0.0}; /* heard there every third is silent */
     object_modes(&o, nowhere, end, 20, a, &few);
     for (int i = 0; i < few.n; i++)
-        ck_assert_msg(few.frequency[i] != o.frequency[2] && few.frequency[i] != o.frequency[5], "a silent mode is among the strongest 20");
+        ck_assert_msg(few.frequency[i] != o.frequency[2] && few.frequency[i] != o.frequency[5],
+                      "a silent mode is among the strongest 20");
     g = objects_given(OBJECT_DISK, EDGES_FREE, 0.3);
     o = objects_make(&g, 60, 1e9, a);
     object_modes(&o, nowhere, NULL, 25, a, &few);
@@ -123,7 +128,8 @@ START_TEST(test_strongest)
 }
 END_TEST
 
-/* A sphere answers alike wherever it is touched; heard elsewhere only the angle between counts: 90 degrees, on two ways round. */
+/* A sphere answers alike wherever it is touched; heard elsewhere only the angle between counts: 90 degrees, on two ways
+ * round. */
 START_TEST(test_shell)
 {
     struct arena *a = arena_open();

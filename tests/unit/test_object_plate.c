@@ -1,4 +1,5 @@
-/* Rectangular plates and membranes: published frequencies, orthonormal shapes, the sums against closed forms where both exist, static deflections. */
+/* Rectangular plates and membranes: published frequencies, orthonormal shapes, the sums against closed forms where both
+ * exist, static deflections. */
 #include "objects.h"
 #include "response/object_kinds.h"
 
@@ -9,22 +10,28 @@ static void expect(struct arena *a, int edges, double nu, const double *want, do
         OBJECTS_NEAR(objects_w(&o, i), want[i], tolerance);
 }
 
-/* Square plates, w a^2 sqrt(rho h/D): free, converged Legendre sums (6 digits) of other code; clamped, Leissa 1973 (5 digits,
-   themselves upper bounds that later work confirmed) */
+/* Square plates, w a^2 sqrt(rho h/D): free, converged Legendre sums (6 digits) of other code; clamped, Leissa 1973 (5
+   digits, themselves upper bounds that later work confirmed) */
 START_TEST(test_published)
 {
     struct arena *a = arena_open();
-    expect(a, EDGES_FREE, 0.3, (const double[]){13.4682, 19.5961, 24.2702, 34.8009, 34.8009, 61.0932, 61.0932, 63.6861, 69.2654, 77.1717, 0}, 5e-6);
+    expect(
+        a, EDGES_FREE, 0.3,
+        (const double[]){13.4682, 19.5961, 24.2702, 34.8009, 34.8009, 61.0932, 61.0932, 63.6861, 69.2654, 77.1717, 0},
+        5e-6);
     expect(a, EDGES_FREE, 0.33, (const double[]){13.1962, 19.2584, 24.4095, 34.2856, 34.2856, 0}, 5e-6);
     expect(a, EDGES_FREE, 0.2, (const double[]){14.3225, 20.6346, 23.7343, 36.3357, 36.3357, 0}, 5e-6);
-    expect(a, EDGES_CLAMPED, 0.3, (const double[]){35.985, 73.394, 73.394, 108.22, 131.58, 132.20, 165.00, 165.00, 0}, 5e-5);
+    expect(a, EDGES_CLAMPED, 0.3, (const double[]){35.985, 73.394, 73.394, 108.22, 131.58, 132.20, 165.00, 165.00, 0},
+           5e-5);
     expect(a, EDGES_CANTILEVER, 0.3, (const double[]){3.4710, 8.5066, 21.284, 27.199, 30.956, 0}, 5e-5);
-    expect(a, EDGES_SUPPORTED, 0.3, (const double[]){2 * PI * PI, 5 * PI * PI, 5 * PI * PI, 8 * PI * PI, 10 * PI * PI, 10 * PI * PI, 0}, 1e-9);
+    expect(a, EDGES_SUPPORTED, 0.3,
+           (const double[]){2 * PI * PI, 5 * PI * PI, 5 * PI * PI, 8 * PI * PI, 10 * PI * PI, 10 * PI * PI, 0}, 1e-9);
     arena_close(a);
 }
 END_TEST
 
-/* NAFEMS FV12: 10 m x 10 m x 0.05 m, E 200 GPa, nu 0.3, 8000 kg/m^3, free: its targets for the first three, the converged ones above. */
+/* NAFEMS FV12: 10 m x 10 m x 0.05 m, E 200 GPa, nu 0.3, 8000 kg/m^3, free: its targets for the first three, the
+ * converged ones above. */
 START_TEST(test_nafems)
 {
     struct arena *a = arena_open();
@@ -46,7 +53,8 @@ START_TEST(test_converged)
         struct object_given g = objects_given(OBJECT_PLATE, edges, 0.3);
         g.width = 0.4;
         g.youngs_modulus_across = 0.2 * g.youngs_modulus;
-        struct object few = objects_make(&g, 40, 1e9, a), many = objects_make(&g, edges == EDGES_CANTILEVER ? 100 : 200, 1e9, a);
+        struct object few = objects_make(&g, 40, 1e9, a),
+                      many = objects_make(&g, edges == EDGES_CANTILEVER ? 100 : 200, 1e9, a);
         for (int i = 0; i < 40; i++)
             OBJECTS_NEAR(few.frequency[i], many.frequency[i], edges == EDGES_CANTILEVER ? 5e-6 : 1e-6);
     }
@@ -61,10 +69,17 @@ START_TEST(test_ritz_supported)
     for (int wood = 0; wood < 2; wood++) {
         struct object_given g = objects_given(OBJECT_PLATE, EDGES_SUPPORTED, 0.37);
         g.width = 0.35;
-        double across = wood ? 0.06 * g.youngs_modulus : g.youngs_modulus, shear = wood ? 0.065 * g.youngs_modulus : g.youngs_modulus / 2.74;
+        double across = wood ? 0.06 * g.youngs_modulus : g.youngs_modulus,
+               shear = wood ? 0.065 * g.youngs_modulus : g.youngs_modulus / 2.74;
         g.youngs_modulus_across = across, g.shear_modulus = shear;
         struct object closed = objects_make(&g, 100, 1e9, a);
-        struct object_body b = {.given = &g, .key = "x", .youngs_modulus = g.youngs_modulus, .across = across, .shear = shear, .poisson = 0.37, .density = 1000.0};
+        struct object_body b = {.given = &g,
+                                .key = "x",
+                                .youngs_modulus = g.youngs_modulus,
+                                .across = across,
+                                .shear = shear,
+                                .poisson = 0.37,
+                                .density = 1000.0};
         struct object_limit limit = {.w = 1e12, .most = 100};
         struct object_list l = {0};
         struct err e = {0};
@@ -77,8 +92,8 @@ START_TEST(test_ritz_supported)
 }
 END_TEST
 
-/* Stretched by (Dx/D)^(1/4) along x and likewise along y, with D1 = nu sqrt(Dx Dy), Dk = (1 - nu)/2 sqrt(Dx Dy), an orthotropic plate has the
-   energies of an isotropic one: free, 1 m x 0.5 m, Ey = Ex/16 is the square. */
+/* Stretched by (Dx/D)^(1/4) along x and likewise along y, with D1 = nu sqrt(Dx Dy), Dk = (1 - nu)/2 sqrt(Dx Dy), an
+   orthotropic plate has the energies of an isotropic one: free, 1 m x 0.5 m, Ey = Ex/16 is the square. */
 START_TEST(test_orthotropic)
 {
     struct arena *a = arena_open();
@@ -109,8 +124,8 @@ START_TEST(test_orthonormal)
 }
 END_TEST
 
-/* Centre load: supported square 0.01160 P a^2/D, clamped 0.00560 (Timoshenko and Woinowsky-Krieger, articles 34 and 44), with one digit more 0.005612.
-   n modes leave out about a^2/(16 pi^2 n D). */
+/* Centre load: supported square 0.01160 P a^2/D, clamped 0.00560 (Timoshenko and Woinowsky-Krieger, articles 34 and
+   44), with one digit more 0.005612. n modes leave out about a^2/(16 pi^2 n D). */
 START_TEST(test_static_centre)
 {
     struct arena *a = arena_open();
@@ -125,7 +140,8 @@ START_TEST(test_static_centre)
 }
 END_TEST
 
-/* Forces P, -P, P, -P at the corners of a free plate twist it, w = P x y/(2 D (1 - nu)), so that their places give a b/(2 D (1 - nu)) per P. */
+/* Forces P, -P, P, -P at the corners of a free plate twist it, w = P x y/(2 D (1 - nu)), so that their places give a
+ * b/(2 D (1 - nu)) per P. */
 START_TEST(test_static_twist)
 {
     struct arena *a = arena_open();
@@ -158,8 +174,7 @@ START_TEST(test_nodal_lines)
         for (int i = 0; i < 30; i++) {
             bool odd = fabs(left[i] + right[i]) < 1e-12;
             ck_assert(odd || fabs(left[i] - right[i]) < 1e-12);
-            if (odd)
-                ck_assert_double_lt(fabs(on[i]), 1e-13);
+            if (odd) ck_assert_double_lt(fabs(on[i]), 1e-13);
             silent += odd && fabs(left[i]) > 0.01;
         }
         ck_assert_int_ge(silent, 10);
@@ -176,18 +191,17 @@ START_TEST(test_membrane)
     g.width = 0.7, g.surface_tension = 400.0;
     struct object o = objects_make(&g, 300, 1e9, a);
     double last = 0.0;
-    for (int i = 0; i < 300; i++) { /* the next above the last: no two are alike for 1 : 0.7 but (m, n) = (10 k.., ..), which 1e-9 keeps apart */
+    for (int i = 0; i < 300; i++) { /* the next above the last: no two are alike for 1 : 0.7 but (m, n) = (10 k.., ..),
+                                       which 1e-9 keeps apart */
         int same = 0;
         double next = INFINITY;
         for (int m = 1; m < 60; m++)
             for (int n = 1; n < 60; n++) {
                 double f = 10.0 * sqrt(m * m + n * n / 0.49);
                 same += fabs(f - last) < 1e-9 * f;
-                if (f > last * (1.0 + 1e-9))
-                    next = fmin(next, f);
+                if (f > last * (1.0 + 1e-9)) next = fmin(next, f);
             }
-        if (i > 0 && same > 1 && fabs(o.frequency[i] - last) < 1e-9 * last)
-            continue;
+        if (i > 0 && same > 1 && fabs(o.frequency[i] - last) < 1e-9 * last) continue;
         OBJECTS_NEAR(o.frequency[i], next, 1e-9);
         last = next;
     }
@@ -197,7 +211,8 @@ START_TEST(test_membrane)
 }
 END_TEST
 
-/* Very long and narrow: sums become those of a bar with plate stiffness, first bending 4.73^2 within the 1/50's effect. */
+/* Very long and narrow: sums become those of a bar with plate stiffness, first bending 4.73^2 within the 1/50's effect.
+ */
 START_TEST(test_narrow)
 {
     struct arena *a = arena_open();
@@ -210,5 +225,5 @@ START_TEST(test_narrow)
 }
 END_TEST
 
-UNIT("object_plate", test_published, test_nafems, test_converged, test_ritz_supported, test_orthotropic, test_orthonormal, test_static_centre, test_static_twist,
-     test_nodal_lines, test_membrane, test_narrow)
+UNIT("object_plate", test_published, test_nafems, test_converged, test_ritz_supported, test_orthotropic,
+     test_orthonormal, test_static_centre, test_static_twist, test_nodal_lines, test_membrane, test_narrow)

@@ -1,4 +1,5 @@
-/* Disks, drums and spherical shells: published frequencies, orthonormal shapes, static deflections, both members of a pair. */
+/* Disks, drums and spherical shells: published frequencies, orthonormal shapes, static deflections, both members of a
+ * pair. */
 #include "objects.h"
 
 /* Distinct frequencies against a rising list; every other one than n = 0 comes twice. */
@@ -15,14 +16,15 @@ static void expect(struct arena *a, int shape, int edges, double nu, const doubl
     }
 }
 
-/* Clamped, and free with nu = 0.33: Leissa, NASA SP-160, tables 2.1 and 2.5, whose free 5.253 is 0.2 % low; free with nu = 0.3 and supported: later
-   tables of five digits. */
+/* Clamped, and free with nu = 0.33: Leissa, NASA SP-160, tables 2.1 and 2.5, whose free 5.253 is 0.2 % low; free with
+   nu = 0.3 and supported: later tables of five digits. */
 START_TEST(test_disk_published)
 {
     struct arena *a = arena_open();
     expect(a, OBJECT_DISK, EDGES_CLAMPED, 0.3, (const double[]){10.2158, 21.26, 34.88, 39.771, 51.04, 60.82, 0}, 2e-4);
     expect(a, OBJECT_DISK, EDGES_FREE, 0.33, (const double[]){5.253, 9.084, 12.23, 20.52, 0}, 2e-3);
-    expect(a, OBJECT_DISK, EDGES_FREE, 0.3, (const double[]){5.3583, 9.0031, 12.439, 20.475, 21.835, 33.495, 35.260, 38.443, 0}, 4e-5);
+    expect(a, OBJECT_DISK, EDGES_FREE, 0.3,
+           (const double[]){5.3583, 9.0031, 12.439, 20.475, 21.835, 33.495, 35.260, 38.443, 0}, 4e-5);
     expect(a, OBJECT_DISK, EDGES_SUPPORTED, 0.3, (const double[]){4.9351, 13.898, 25.613, 29.720, 0}, 3e-5);
     arena_close(a);
 }
@@ -32,7 +34,8 @@ END_TEST
 START_TEST(test_drum_published)
 {
     struct arena *a = arena_open();
-    expect(a, OBJECT_DRUM, EDGES_FREE, 0.3, (const double[]){2.404825558, 3.831705970, 5.135622302, 5.520078110, 6.380161896, 7.015586670, 0}, 2e-9);
+    expect(a, OBJECT_DRUM, EDGES_FREE, 0.3,
+           (const double[]){2.404825558, 3.831705970, 5.135622302, 5.520078110, 6.380161896, 7.015586670, 0}, 2e-9);
     arena_close(a);
 }
 END_TEST
@@ -52,8 +55,9 @@ START_TEST(test_orthonormal)
 }
 END_TEST
 
-/* Centre load: clamped P a^2/(16 pi D), supported (3 + nu)/(1 + nu) times that (Timoshenko and Woinowsky-Krieger, article 19); n modes leave out about
-   A/(16 pi^2 n D). Off the centre, x = r a: clamped (1 - r^2)^2 times the first. Modes of other orders than 0 must all be there for that. */
+/* Centre load: clamped P a^2/(16 pi D), supported (3 + nu)/(1 + nu) times that (Timoshenko and Woinowsky-Krieger,
+   article 19); n modes leave out about A/(16 pi^2 n D). Off the centre, x = r a: clamped (1 - r^2)^2 times the first.
+   Modes of other orders than 0 must all be there for that. */
 START_TEST(test_disk_static)
 {
     struct arena *a = arena_open();
@@ -73,7 +77,8 @@ START_TEST(test_disk_static)
 }
 END_TEST
 
-/* A free disk's lowest pair: silent on its nodal diameters, louder elsewhere, sign kept across; together they do not know where 0 is. */
+/* A free disk's lowest pair: silent on its nodal diameters, louder elsewhere, sign kept across; together they do not
+ * know where 0 is. */
 START_TEST(test_pair)
 {
     struct arena *a = arena_open();
@@ -94,7 +99,8 @@ START_TEST(test_pair)
 }
 END_TEST
 
-/* Membrane theory's quadratic (Baker 1961) as the wall gets thin; breathing 2 E/((1 - nu) rho R^2); l = 1: 3 (1 + nu). */
+/* Membrane theory's quadratic (Baker 1961) as the wall gets thin; breathing 2 E/((1 - nu) rho R^2); l = 1: 3 (1 + nu).
+ */
 START_TEST(test_shell_frequencies)
 {
     struct arena *a = arena_open();
@@ -109,7 +115,8 @@ START_TEST(test_shell_frequencies)
     }
     for (int k = 0; k < 2; k++)
         OBJECTS_NEAR(objects_w(&o, k), found[k], 1e-6);
-    double rest[4] = {sqrt(2.0 * g.youngs_modulus / (0.7 * 1000.0)) / (1.0 - 0.5e-6), unit * sqrt(3.9), found[2], found[3]};
+    double rest[4] = {sqrt(2.0 * g.youngs_modulus / (0.7 * 1000.0)) / (1.0 - 0.5e-6), unit * sqrt(3.9), found[2],
+                      found[3]};
     for (int k = 0; k < 4; k++) {
         double nearest = INFINITY;
         for (int i = 0; i < o.n; i++)
@@ -120,7 +127,8 @@ START_TEST(test_shell_frequencies)
 }
 END_TEST
 
-/* A thick wall, h/R = 0.4: every frequency is an eigenvalue of the energies' 2 x 2 forms (object_shell.c), and the mass has its vector's ratio. */
+/* A thick wall, h/R = 0.4: every frequency is an eigenvalue of the energies' 2 x 2 forms (object_shell.c), and the mass
+ * has its vector's ratio. */
 START_TEST(test_shell_energies)
 {
     struct arena *a = arena_open();
@@ -131,7 +139,8 @@ START_TEST(test_shell_energies)
     int met = 0;
     for (int i = 0; i < o.n; i++)
         for (int l = 1; l < 60; l++) {
-            double big = l * (l + 1.0), turn = big * (big - 1.0 + 0.3), s = 2.6 + k * turn, c = 1.3 * big + k * turn, t = turn * (1.0 + k);
+            double big = l * (l + 1.0), turn = big * (big - 1.0 + 0.3), s = 2.6 + k * turn, c = 1.3 * big + k * turn,
+                   t = turn * (1.0 + k);
             double w = objects_w(&o, i), eigen = w * w * 1000.0 / 12e9; /* rho R^2 (1 - nu^2)/E */
             double left = (s - eigen) * (t - big * eigen) - c * c, ratio = (s - eigen) / c;
             bool same = fabs(left) < 1e-9 * (s + eigen) * (t + big * eigen);
@@ -142,8 +151,9 @@ START_TEST(test_shell_energies)
 }
 END_TEST
 
-/* The breathing mode alone gives (1 - nu)/(8 pi E h); all together, at the place of a load P, Reissner's sqrt(3 (1 - nu^2)) P R/(4 E h^2)
-   (E. Reissner, J. Math. Phys. 25, 1946, 279; Timoshenko and Woinowsky-Krieger), within terms h/R = 1/200 smaller times a few. */
+/* The breathing mode alone gives (1 - nu)/(8 pi E h); all together, at the place of a load P, Reissner's sqrt(3 (1 -
+   nu^2)) P R/(4 E h^2) (E. Reissner, J. Math. Phys. 25, 1946, 279; Timoshenko and Woinowsky-Krieger), within terms h/R
+   = 1/200 smaller times a few. */
 START_TEST(test_shell_static)
 {
     struct arena *a = arena_open();
@@ -155,9 +165,9 @@ START_TEST(test_shell_static)
     double breathing = sqrt(2.0 * g.youngs_modulus / (0.7 * 1000.0));
     int k = 0;
     for (int i = 0; i < o.n; i++)
-        if (fabs(objects_w(&o, i) - breathing) < fabs(objects_w(&o, k) - breathing))
-            k = i;
-    OBJECTS_NEAR(1.0 / (o.mass[k] * objects_w(&o, k) * objects_w(&o, k)), 0.7 / (8.0 * PI * g.youngs_modulus * 0.005), 1e-9);
+        if (fabs(objects_w(&o, i) - breathing) < fabs(objects_w(&o, k) - breathing)) k = i;
+    OBJECTS_NEAR(1.0 / (o.mass[k] * objects_w(&o, k) * objects_w(&o, k)), 0.7 / (8.0 * PI * g.youngs_modulus * 0.005),
+                 1e-9);
     arena_close(a);
 }
 END_TEST

@@ -1,5 +1,6 @@
-/* surface.origin with along: x: the profile's first sample lies at x = origin, so that the contact at x meets its place x - origin. Whoever
-   turns the sign, or forgets the origin, meets no bump where there is one, and the wrong roughness. */
+/* surface.origin with along: x: the profile's first sample lies at x = origin, so that the contact at x meets its place
+   x - origin. Whoever turns the sign, or forgets the origin, meets no bump where there is one, and the wrong roughness.
+ */
 #include <unistd.h>
 
 #include "rig.h"
@@ -11,7 +12,8 @@ static char map[] = "/tmp/test_origin_XXXXXX.npy";
 /* An NPY of float64: flat but for a bump of 1 um whose standard deviation is 40 um, at 15 mm of 40. */
 static void write_map(void)
 {
-    static const char header[] = "{'descr': '<f8', 'fortran_order': False, 'shape': (4001,), }                                       \n";
+    static const char header[] =
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (4001,), }                                       \n";
     static double z[SAMPLES];
     FILE *f = fdopen(mkstemps(map, 4), "wb"); /* each test is a process of its own */
     ck_assert_ptr_nonnull(f);
@@ -58,8 +60,9 @@ static long loudest(const struct rig *g)
     return best;
 }
 
-/* f_v = m v^2 z'' is largest on top of the bump: at x = origin + 15 mm, which the contact, 1/sqrt(2) of its 10 cm/s along x, passes at
-   sqrt(2) (origin + 15 mm - start) / (10 cm/s). Within 3 samples of 1/48000 s: a sample and a half of the decimator's, and the leak's lean. */
+/* f_v = m v^2 z'' is largest on top of the bump: at x = origin + 15 mm, which the contact, 1/sqrt(2) of its 10 cm/s
+   along x, passes at sqrt(2) (origin + 15 mm - start) / (10 cm/s). Within 3 samples of 1/48000 s: a sample and a half
+   of the decimator's, and the leak's lean. */
 START_TEST(the_bump_is_met_where_it_lies)
 {
     static const double starts[] = {0.02, 0.022, -0.031}, origins[] = {0.01, 0.01, -0.042};
@@ -69,15 +72,17 @@ START_TEST(the_bump_is_met_where_it_lies)
         double want = sqrt(2) * (origins[k] + 0.015 - starts[k]) / 0.1 * 48000;
         printf("start %g m, origin %g m: frame %ld, expected %.1f\n", starts[k], origins[k], loudest(g), want);
         ck_assert_double_eq_tol((double)loudest(g), want, 3);
-        ck_assert_double_gt(fabs(g->x[loudest(g)]), 0.3 * 0.02 * 0.005 * 1e-6 / (40e-6 * 40e-6)); /* m v_x^2 z'', less what is lost to averaging */
+        ck_assert_double_gt(fabs(g->x[loudest(g)]),
+                            0.3 * 0.02 * 0.005 * 1e-6 /
+                                (40e-6 * 40e-6)); /* m v_x^2 z'', less what is lost to averaging */
         rig_close(g);
     }
     remove(map);
 }
 END_TEST
 
-/* Surface and motion moved together are the same contact; moved alone they are not. Places are rounded to 1e-17 m, of which curvature
-   makes less than 1e-8 of the force. */
+/* Surface and motion moved together are the same contact; moved alone they are not. Places are rounded to 1e-17 m, of
+   which curvature makes less than 1e-8 of the force. */
 START_TEST(only_the_difference_counts)
 {
     static const char *const surfaces[] = {bump, rough};
@@ -85,7 +90,8 @@ START_TEST(only_the_difference_counts)
     for (int k = 0; k < 2; k++) {
         struct rig *here = force(surfaces[k], 0.02, 0.01), *there = force(surfaces[k], 0.02 + 0.0625, 0.01 + 0.0625);
         struct rig *alone = force(surfaces[k], 0.02, 0.0105), *against = force(surfaces[k], 0.02, -0.01);
-        printf("together %.3g, alone %.3g, other sign %.3g\n", apart(here, there), apart(here, alone), apart(here, against));
+        printf("together %.3g, alone %.3g, other sign %.3g\n", apart(here, there), apart(here, alone),
+               apart(here, against));
         ck_assert_double_lt(apart(here, there), 1e-8);
         ck_assert_double_gt(apart(here, alone), 0.5);
         ck_assert_double_gt(apart(here, against), 0.5);

@@ -146,8 +146,7 @@ START_TEST(killed_writer_leaves_nothing)
     if (child == 0) {
         struct outfile o;
         struct err e = {0};
-        if (outfile_open(&o, "a", &e) && fputs("half", o.stream) >= 0 && fflush(o.stream) == 0)
-            kill(getpid(), SIGKILL);
+        if (outfile_open(&o, "a", &e) && fputs("half", o.stream) >= 0 && fflush(o.stream) == 0) kill(getpid(), SIGKILL);
         _exit(1);
     }
     int status;
@@ -163,7 +162,9 @@ static void check_refused(const char *target, const char *says)
     struct outfile o;
     for (int how = 0; how < 3; how++) {
         struct err e = {0};
-        bool ok = how == 0 ? outfile_open(&o, target, &e) : how == 1 ? outfile_open_fd(&o, target, &e) : outfile_open_hidden(&o, target, &e);
+        bool ok = how == 0   ? outfile_open(&o, target, &e)
+                  : how == 1 ? outfile_open_fd(&o, target, &e)
+                             : outfile_open_hidden(&o, target, &e);
         ck_assert(!ok);
         ck_assert_int_eq(e.kind, ERR_CREATE);
         ck_assert_msg(strstr(e.text, says) != NULL, "%s", e.text);
@@ -202,8 +203,7 @@ START_TEST(write_protected_is_refused)
     if (child == 0) {
         struct outfile o;
         struct err e = {0};
-        if (geteuid() == 0 && (chmod(".", 0777) != 0 || setgid(65534) != 0 || setuid(65534) != 0))
-            _exit(2);
+        if (geteuid() == 0 && (chmod(".", 0777) != 0 || setgid(65534) != 0 || setuid(65534) != 0)) _exit(2);
         bool ok = outfile_open(&o, "a", &e);
         _exit(ok || e.kind != ERR_CREATE || !strstr(e.text, "cannot be written"));
     }
@@ -243,8 +243,7 @@ static void check_full(bool hidden)
     struct rlimit small = {.rlim_cur = 4096, .rlim_max = RLIM_INFINITY}, whole = {RLIM_INFINITY, RLIM_INFINITY};
     signal(SIGXFSZ, SIG_IGN);
     ck_assert(hidden ? outfile_open_hidden(&o, "a", &e) : outfile_open(&o, "a", &e));
-    if (hidden)
-        o.stream = fdopen(o.fd, "w");
+    if (hidden) o.stream = fdopen(o.fd, "w");
     ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &small), 0);
     fwrite(block, 1, sizeof block, o.stream);
     bool ok = outfile_commit(&o, &e);
@@ -277,6 +276,6 @@ START_TEST(mode_follows_umask)
 }
 END_TEST
 
-UNIT("outfile", appears_only_when_complete, hidden_name_does_the_same, names_taken_by_others_are_passed_by, hash_of_what_is_written, drop_leaves_nothing,
-     killed_writer_leaves_nothing, refusals, write_protected_is_refused, link_target_is_replaced_not_the_link, full_disk,
-     mode_follows_umask)
+UNIT("outfile", appears_only_when_complete, hidden_name_does_the_same, names_taken_by_others_are_passed_by,
+     hash_of_what_is_written, drop_leaves_nothing, killed_writer_leaves_nothing, refusals, write_protected_is_refused,
+     link_target_is_replaced_not_the_link, full_disk, mode_follows_umask)

@@ -74,11 +74,12 @@ static void brute(void)
 
 static void run(int cut)
 {
-    struct overlap_add *p = overlap_add_open(&(struct overlap_add_source){.n = KEYS, .length = length, .share = share_of, .response = response});
+    struct overlap_add *p = overlap_add_open(
+        &(struct overlap_add_source){.n = KEYS, .length = length, .share = share_of, .response = response});
     long total = N + (long)length;
     ck_assert_int_le(total + overlap_add_ahead(p), ROOM);
     memset(sound, 0, sizeof sound);
-    for (long at = 0, n = cut; at < total; at += n, n = cut > 0 ? cut : n % 700 + 37)
+    for (long at = 0, n = cut; at<total; at += n, n = cut> 0 ? cut : n % 700 + 37)
         overlap_add_run(p, force + at, sound + at, at + n < total ? n : total - at);
     overlap_add_close(p);
 }
@@ -135,7 +136,8 @@ START_TEST(silence_costs_nothing)
     ck_assert_int_eq(shares_asked, KEYS);
     for (int i = 0; i < 8192; i++)
         ck_assert(sound[i] == 0.0);
-    struct overlap_add *p = overlap_add_open(&(struct overlap_add_source){.n = 1, .length = 3, .share = share_of, .response = response});
+    struct overlap_add *p =
+        overlap_add_open(&(struct overlap_add_source){.n = 1, .length = 3, .share = share_of, .response = response});
     double f[OVERLAP_ADD_BLOCK + 16] = {0}, y[16];
     for (int i = 0; i < 16; i++)
         y[i] = i;
@@ -157,7 +159,8 @@ START_TEST(alone)
         for (int m = 0; m < N; m++)
             for (size_t k = 0; k < length; k++)
                 judge[(size_t)m + k] += h[0][k] * force[m];
-        struct overlap_add *o = overlap_add_open(&(struct overlap_add_source){.n = 1, .length = length, .response = response});
+        struct overlap_add *o =
+            overlap_add_open(&(struct overlap_add_source){.n = 1, .length = length, .response = response});
         overlap_add_run(o, force, sound, N + (long)length);
         overlap_add_close(o);
         ck_assert_int_eq(asked[0], 1);

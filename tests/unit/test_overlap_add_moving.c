@@ -1,5 +1,5 @@
-/* A response that moves, under noise: either reading against its defining sum, O(N L): each sample launches the response of its own place, or is heard through
-   the response of the present one. */
+/* A response that moves, under noise: either reading against its defining sum, O(N L): each sample launches the
+   response of its own place, or is heard through the response of the present one. */
 #include "unit.h"
 
 #include "convolution/overlap_add.h"
@@ -12,7 +12,8 @@ static double frequency[MODES], decay[MODES], size[MODES], phase[MODES];
 static double force[N + ROOM], sound[N + ROOM], judge[N + ROOM];
 static unsigned long long seed;
 
-/* Moving: gains sin(k pi x(n)) change sign; the poles too move with `shift`, so that it matters whether h is launched or read out. */
+/* Moving: gains sin(k pi x(n)) change sign; the poles too move with `shift`, so that it matters whether h is launched
+ * or read out. */
 struct body {
     double shift, speed;
     int hop, asked;
@@ -71,8 +72,7 @@ static void brute(enum overlap_add_reading reading, const struct body *b, size_t
     bool readout = reading == OVERLAP_ADD_READOUT;
     memset(judge, 0, sizeof judge);
     for (size_t n = 0; n < (readout ? N + length : N); n++) {
-        if (n == 0 || b->speed != 0)
-            response(b, (double)n, h, length);
+        if (n == 0 || b->speed != 0) response(b, (double)n, h, length);
         for (size_t k = 0; k < length && (!readout || k <= n); k++)
             judge[readout ? n : n + k] += h[k] * force[readout ? n - k : n];
     }

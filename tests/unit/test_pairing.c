@@ -1,20 +1,22 @@
-/* pairing: the assignment against every assignment there is; modes that sorting by frequency pairs wrongly; tracks over several places. */
+/* pairing: the assignment against every assignment there is; modes that sorting by frequency pairs wrongly; tracks over
+ * several places. */
 #include "response/pairing.h"
 
 #include "unit.h"
 
 static double least(int rows, int columns, const double *cost, double alone, int row, unsigned taken, int pairs)
 {
-    if (row == rows)
-        return alone * (rows + columns - 2 * pairs);
+    if (row == rows) return alone * (rows + columns - 2 * pairs);
     double best = least(rows, columns, cost, alone, row + 1, taken, pairs);
     for (int j = 0; j < columns; j++)
         if (!(taken >> j & 1) && cost[row * columns + j] < HUGE_VAL)
-            best = fmin(best, cost[row * columns + j] + least(rows, columns, cost, alone, row + 1, taken | 1u << j, pairs + 1));
+            best = fmin(best, cost[row * columns + j] +
+                                  least(rows, columns, cost, alone, row + 1, taken | 1u << j, pairs + 1));
     return best;
 }
 
-/* Random problems up to 7 x 7, also with forbidden pairs and small whole costs (many ties): the sum is the least of all. */
+/* Random problems up to 7 x 7, also with forbidden pairs and small whole costs (many ties): the sum is the least of
+ * all. */
 START_TEST(assignment_is_optimal)
 {
     srand48(3);
@@ -71,7 +73,8 @@ END_TEST
 /* One mode is missing at the second place: pairing the sorted frequencies by rank would pair all above it wrongly. */
 START_TEST(a_missing_mode_shifts_nothing)
 {
-    static const double f[6] = {100, 210, 340, 345, 480, 700}, d[6] = {5, 5, 5, 5, 5, 5}, g[5] = {101, 339, 346, 478, 702};
+    static const double f[6] = {100, 210, 340, 345, 480, 700}, d[6] = {5, 5, 5, 5, 5, 5},
+                        g[5] = {101, 339, 346, 478, 702};
     int column[5], wrong = 0, expect[5] = {0, 2, 3, 4, 5};
     pairing_modes(&(struct pairing_list){5, g, d}, &(struct pairing_list){6, f, d}, 0.03, column);
     for (int i = 0; i < 5; i++) {
@@ -95,7 +98,8 @@ START_TEST(the_gate)
     ck_assert_int_eq(column, -1);
     pairing_modes(&(struct pairing_list){1, &f, &d}, &(struct pairing_list){1, &f, &d}, 0, &column);
     ck_assert_int_eq(column, 0); /* equal is equal at any gate */
-    const double rows[2] = {1000, 1025}, columns[2] = {1050, 1050.1}, ones[2] = {1, 1}; /* near each other in a chain: 1000 has no partner all the same */
+    const double rows[2] = {1000, 1025}, columns[2] = {1050, 1050.1},
+                 ones[2] = {1, 1}; /* near each other in a chain: 1000 has no partner all the same */
     int two[2];
     pairing_modes(&(struct pairing_list){2, rows, ones}, &(struct pairing_list){2, columns, ones}, 0.03, two);
     ck_assert(two[0] == -1 && two[1] == 0);
@@ -117,8 +121,8 @@ START_TEST(decay_breaks_ties)
 }
 END_TEST
 
-/* Five places on a line; frequencies drift by 2 % from one to the next, 8 % in all, more than the gate; some modes are missing at some places, also
-   at the place in between, and each place has them in another order. */
+/* Five places on a line; frequencies drift by 2 % from one to the next, 8 % in all, more than the gate; some modes are
+   missing at some places, also at the place in between, and each place has them in another order. */
 START_TEST(tracks_follow_drift)
 {
     enum { PLACES = 5, MODES = 8 };
@@ -136,11 +140,9 @@ START_TEST(tracks_follow_drift)
         rows[k] = track[k];
         for (int i = 0; i < MODES; i++) {
             int mode = (3 * i + k) % MODES;
-            if ((mode == 2 && xy[2 * k] == 0.2) || (mode == 5 && xy[2 * k] < 0.15) || (mode == 6 && k == 1))
-                continue;
+            if ((mode == 2 && xy[2 * k] == 0.2) || (mode == 5 && xy[2 * k] < 0.15) || (mode == 6 && k == 1)) continue;
             f[k][list[k].n] = 100 * pow(1.5, mode) * pow(1.02, xy[2 * k] / 0.1 * (mode % 2 ? 1 : -1));
-            if (mode == 2)
-                f[k][list[k].n] = 225 * (1 + 0.05 * xy[2 * k]); /* missing in between: 1 % over the gap */
+            if (mode == 2) f[k][list[k].n] = 225 * (1 + 0.05 * xy[2 * k]); /* missing in between: 1 % over the gap */
             d[k][list[k].n] = 3;
             truth[k][list[k].n++] = mode;
         }
@@ -158,9 +160,11 @@ START_TEST(tracks_follow_drift)
     for (int i = 0; i < MODES; i++)
         for (int k = 0; k < i; k++)
             ck_assert(seen[i] != seen[k]);
-    ck_assert_int_eq(pairing_tracks(p, PLACES, xy, list, 0.001, rows), list[0].n + list[1].n + list[2].n + list[3].n + list[4].n); /* nothing pairs */
+    ck_assert_int_eq(pairing_tracks(p, PLACES, xy, list, 0.001, rows),
+                     list[0].n + list[1].n + list[2].n + list[3].n + list[4].n); /* nothing pairs */
     arena_close(a);
 }
 END_TEST
 
-UNIT("pairing", assignment_is_optimal, large_assignment, a_missing_mode_shifts_nothing, the_gate, decay_breaks_ties, tracks_follow_drift)
+UNIT("pairing", assignment_is_optimal, large_assignment, a_missing_mode_shifts_nothing, the_gate, decay_breaks_ties,
+     tracks_follow_drift)

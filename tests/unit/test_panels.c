@@ -1,7 +1,8 @@
-/* panels: integrals and inverses known in closed form, over long ways, through kinks, past jumps of the slope's derivative.
+/* panels: integrals and inverses known in closed form, over long ways, through kinks, past jumps of the slope's
+   derivative.
 
-   Tolerance: 5e-14 and two roundings of x are what each piece is made for, at two places of it; half-way it may be twice as much. Rounding of
-   the value is far less. */
+   Tolerance: 5e-14 and two roundings of x are what each piece is made for, at two places of it; half-way it may be
+   twice as much. Rounding of the value is far less. */
 #include "trajectory/panels.h"
 
 #include "unit.h"
@@ -91,7 +92,8 @@ START_TEST(kinks_are_found)
         double x = 10 * M_PI * i / 10000, k = floor(x / M_PI);
         ck_assert_double_eq_tol(value(&p, x, NULL, NULL), 2 * k + 1 - cos(x - k * M_PI), 1e-12);
     }
-    ck_assert(!panels_inverse(&(struct panels_slope){kinked, NULL}, breaks, 4, 1e-3, a, &p, &where)); /* it stands still there */
+    ck_assert(!panels_inverse(&(struct panels_slope){kinked, NULL}, breaks, 4, 1e-3, a, &p,
+                              &where)); /* it stands still there */
     ck_assert_double_le(fabs(sin(where)), 1e-3);
     arena_close(a);
 }
@@ -107,8 +109,7 @@ START_TEST(breaks_separate)
     for (int i = 0; i <= 200; i++) {
         double x = i / 100.0, want = x < 1 ? x : 1 + (x * x * x - 1) / 3;
         ck_assert_double_eq_tol(value(&p, x, &df, &ddf), want, 1e-13);
-        if (i != 100)
-            ck_assert_double_eq_tol(ddf, x < 1 ? 0 : 2 * x, 1e-7);
+        if (i != 100) ck_assert_double_eq_tol(ddf, x < 1 ? 0 : 2 * x, 1e-7);
     }
     ck_assert_uint_le(p.n, 4); /* a cubic is one piece */
     arena_close(a);

@@ -1,5 +1,6 @@
-/* patches: whatever was read before, a patch has the coefficients that a store which holds nothing makes, and those that its neighbours have; it is made once while there is room. That they are the
-   sum of the bands is tested in test_tiles. */
+/* patches: whatever was read before, a patch has the coefficients that a store which holds nothing makes, and those
+   that its neighbours have; it is made once while there is room. That they are the sum of the bands is tested in
+   test_tiles. */
 #include "surface/patches.h"
 
 #include <stdbool.h>
@@ -30,7 +31,8 @@ static void check_alone(struct patches *p, long column, long row)
 {
     struct arena *a = arena_open();
     const double *got = patches_at(p, column, row), *want = patches_at(patches_make(a, &ground), column, row);
-    ck_assert_msg(memcmp(got, want, SQUARE * sizeof *got) == 0, "patch %ld, %ld is not what it is by itself", column, row);
+    ck_assert_msg(memcmp(got, want, SQUARE * sizeof *got) == 0, "patch %ld, %ld is not what it is by itself", column,
+                  row);
     arena_close(a);
 }
 
@@ -53,7 +55,8 @@ START_TEST(the_same_in_any_order)
     struct patches *p = patches_make(a, &ground);
     size_t before = arena_bytes(a);
     for (int n = 0; n < 300; n++) {
-        long column = lrand48() % 2000 - 1000, row = lrand48() % 2000 - 1000, far = lrand48() % 100, dx = lrand48() % 3 - 1, dy = lrand48() % 3 - 1;
+        long column = lrand48() % 2000 - 1000, row = lrand48() % 2000 - 1000, far = lrand48() % 100,
+             dx = lrand48() % 3 - 1, dy = lrand48() % 3 - 1;
         for (long i = 0; i < 2 * far; i++)
             patches_at(p, column + dx * (i < far ? i : 2 * far - i), row + dy * (i < far ? i : 2 * far - i));
         for (int j = 0; j < 30; j++)
@@ -69,8 +72,9 @@ START_TEST(the_same_in_any_order)
 }
 END_TEST
 
-/* A line to and fro: each patch that is met is made once, of the finest band and of those that they are made of: half as many of each coarser band, and one more at each step of a row. Far longer
-   than what is held, and what was met last is still there. */
+/* A line to and fro: each patch that is met is made once, of the finest band and of those that they are made of: half
+   as many of each coarser band, and one more at each step of a row. Far longer than what is held, and what was met last
+   is still there. */
 START_TEST(made_once)
 {
     ground_make();

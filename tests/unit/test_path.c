@@ -1,7 +1,9 @@
-/* Curved paths: a circle against its closed form in long double; splines and rounded corners against GSL's splines, adaptive quadrature and root
-   finding; scribbles against the sum of sines worked out from the noise stream in long double; derivatives of all against finite differences.
+/* Curved paths: a circle against its closed form in long double; splines and rounded corners against GSL's splines,
+   adaptive quadrature and root finding; scribbles against the sum of sines worked out from the noise stream in long
+   double; derivatives of all against finite differences.
 
-   Tolerances: 1e-12 m is what trajectory.h promises; beside that the rounding of a place of up to 1 m, 1.1e-16, and of the length so far. */
+   Tolerances: 1e-12 m is what trajectory.h promises; beside that the rounding of a place of up to 1 m, 1.1e-16, and of
+   the length so far. */
 #include <gsl/gsl_spline.h>
 #include <stddef.h>
 
@@ -12,7 +14,8 @@
 
 static struct motion any(int path, int law, double duration)
 {
-    return (struct motion){.path = path, .law = law, .duration = duration, .speed = NAN, .straight = 0.1, .turns = 1, .radius = 0.05};
+    return (struct motion){
+        .path = path, .law = law, .duration = duration, .speed = NAN, .straight = 0.1, .turns = 1, .radius = 0.05};
 }
 
 /* ------------------------------------------------------------------ circle */
@@ -27,7 +30,8 @@ START_TEST(circle_is_closed_form)
         struct trajectory tr = made(&m);
         double t = i % 50 == 0 ? m.duration : between(0, m.duration);
         struct state s = at(&tr, t);
-        long double r = m.radius, way = m.turns < 0 ? -1 : 1, q = (long double)t / m.duration, a = m.start_angle + 2 * PI_L * m.turns * q;
+        long double r = m.radius, way = m.turns < 0 ? -1 : 1, q = (long double)t / m.duration,
+                    a = m.start_angle + 2 * PI_L * m.turns * q;
         long double length = 2 * PI_L * r * fabsl((long double)m.turns), v = length / m.duration;
         ck_assert_double_eq_tol(s.p[0], (double)(m.center[0] + r * cosl(a)), 1e-12);
         ck_assert_double_eq_tol(s.p[1], (double)(m.center[1] + r * sinl(a)), 1e-12);
@@ -129,9 +133,11 @@ START_TEST(spline_against_gsl)
         for (int i = 0; i <= 20; i++) {
             double w = i == 20 ? c.end : c.end * drand48(), s = chord_length(&c, knots, n, w);
             struct state got = at(&tr, 2 * s / tr.length);
-            double x = gsl_spline_eval(c.axis[0], w, NULL), y = gsl_spline_eval(c.axis[1], w, NULL), dx = gsl_spline_eval_deriv(c.axis[0], w, NULL);
+            double x = gsl_spline_eval(c.axis[0], w, NULL), y = gsl_spline_eval(c.axis[1], w, NULL),
+                   dx = gsl_spline_eval_deriv(c.axis[0], w, NULL);
             double dy = gsl_spline_eval_deriv(c.axis[1], w, NULL), ddx = gsl_spline_eval_deriv2(c.axis[0], w, NULL);
-            double ddy = gsl_spline_eval_deriv2(c.axis[1], w, NULL), speed = hypot(dx, dy), v = tr.length / 2, kappa = (dx * ddy - dy * ddx) / (speed * speed * speed);
+            double ddy = gsl_spline_eval_deriv2(c.axis[1], w, NULL), speed = hypot(dx, dy), v = tr.length / 2,
+                   kappa = (dx * ddy - dy * ddx) / (speed * speed * speed);
             ck_assert_double_eq_tol(got.p[0], x, 1e-12);
             ck_assert_double_eq_tol(got.p[1], y, 1e-12);
             ck_assert_double_eq_tol(got.vel[0], v * dx / speed, 1e-10 * v); /* direction turns by kappa 1e-12 */
@@ -175,7 +181,8 @@ static double corner_heading(double z, void *self)
     return c->sine ? sin(psi) : cos(psi);
 }
 
-/* One corner, of any angle: straight, rounded part, straight. The path's symmetry puts the middle of the rounded part on the bisector. */
+/* One corner, of any angle: straight, rounded part, straight. The path's symmetry puts the middle of the rounded part
+ * on the bisector. */
 START_TEST(corner_is_as_its_formula)
 {
     srand48(3);
@@ -184,7 +191,8 @@ START_TEST(corner_is_as_its_formula)
         double side = 40 * radius * fmax(1, tan(fabs(turn) / 2)), points[] = {0.3, -0.2, 0, 0, 0, 0};
         for (int k = 0; k < 2; k++)
             for (int xy = 0; xy < 2; xy++)
-                points[2 * k + 2 + xy] = points[2 * k + xy] + side * (xy ? sin(heading + k * turn) : cos(heading + k * turn));
+                points[2 * k + 2 + xy] =
+                    points[2 * k + xy] + side * (xy ? sin(heading + k * turn) : cos(heading + k * turn));
         struct motion m = any(PATH_POLYLINE, SPEED_CONSTANT, 1);
         m.points = points, m.n_points = 3, m.corner = radius;
         struct trajectory tr = made(&m);
@@ -205,7 +213,8 @@ START_TEST(corner_is_as_its_formula)
             ck_assert_double_eq_tol(s.p[1], points[1] + xy[0] * sin(heading) + xy[1] * cos(heading), 2e-12);
             ck_assert_double_eq_tol(s.vel[0], v * cos(psi), 1e-9 * v); /* 1e-12 m of way over a radius of 1e-4 m */
             ck_assert_double_eq_tol(s.vel[1], v * sin(psi), 1e-9 * v);
-            double kappa = turn / length * (1 - cos(2 * M_PI * z)), cross = (s.vel[0] * s.acc[1] - s.vel[1] * s.acc[0]) / (v * v * v);
+            double kappa = turn / length * (1 - cos(2 * M_PI * z)),
+                   cross = (s.vel[0] * s.acc[1] - s.vel[1] * s.acc[0]) / (v * v * v);
             ck_assert_double_eq_tol(cross, kappa, 1e-8 / radius);
             ck_assert_double_le(fabs(kappa), 1 / radius * (1 + 1e-12));
         }
@@ -235,7 +244,8 @@ START_TEST(polyline_strokes)
                 struct state s = at(&tr, t);
                 ck_assert_double_eq_tol(s.u, ends[i] + l * p, 1e-14);
                 for (int xy = 0; xy < 2; xy++)
-                    ck_assert_double_eq_tol(s.p[xy], points[2 * i + xy] + p * (points[2 * i + 2 + xy] - points[2 * i + xy]), 1e-14);
+                    ck_assert_double_eq_tol(
+                        s.p[xy], points[2 * i + xy] + p * (points[2 * i + 2 + xy] - points[2 * i + xy]), 1e-14);
             }
         for (int i = 1; i < 4; i++) {
             ck_assert_double_le(fabs(at(&tr, 2 * ends[i]).v), 1e-13);
@@ -299,8 +309,8 @@ static struct motion scribble(int law, double rate, double duration)
     return m;
 }
 
-/* In units of the speed and acceleration that the fastest sine alone could have. The frequencies' own rounding (2^x to 1 ulp) is a phase of
-   2 pi f t 3e-16. */
+/* In units of the speed and acceleration that the fastest sine alone could have. The frequencies' own rounding (2^x to
+   1 ulp) is a phase of 2 pi f t 3e-16. */
 START_TEST(scribble_is_its_sines)
 {
     struct motion m = scribble(SPEED_AUTO, 2.5, 20);
@@ -314,7 +324,8 @@ START_TEST(scribble_is_its_sines)
             long double p = m.center[xy], v = 0, a = 0;
             for (int k = 0; k < 4; k++) {
                 long double omega = 2 * PI_L * w.f[xy][k], phase = omega * t + w.phase[xy][k];
-                p += w.a[xy][k] * sinl(phase), v += omega * w.a[xy][k] * cosl(phase), a -= omega * omega * w.a[xy][k] * sinl(phase);
+                p += w.a[xy][k] * sinl(phase), v += omega * w.a[xy][k] * cosl(phase),
+                    a -= omega * omega * w.a[xy][k] * sinl(phase);
             }
             ck_assert_double_eq_tol(s.p[xy], (double)p, 1e-14);
             ck_assert_double_eq_tol(s.vel[xy], (double)v, 1e-12);
@@ -324,13 +335,15 @@ START_TEST(scribble_is_its_sines)
         ck_assert_double_eq_tol(s.v, hypot(s.vel[0], s.vel[1]), 1e-15);
         ck_assert_double_eq_tol(s.a * s.v, s.vel[0] * s.acc[0] + s.vel[1] * s.acc[1], 1e-13);
     }
-    ck_assert_double_ge(tr.box[1][0] - tr.box[0][0], 0.6 * m.size[0]); /* it is a scribble in that box, not a dot in it */
+    ck_assert_double_ge(tr.box[1][0] - tr.box[0][0],
+                        0.6 * m.size[0]); /* it is a scribble in that box, not a dot in it */
     ck_assert_double_ge(tr.box[1][1] - tr.box[0][1], 0.6 * m.size[1]);
     ck_assert(!tr.starts_at_rest && !tr.straight);
 }
 END_TEST
 
-/* The way travelled, against adaptive quadrature over a loop's tenths; and that it does not depend on how long the scribble goes on. */
+/* The way travelled, against adaptive quadrature over a loop's tenths; and that it does not depend on how long the
+ * scribble goes on. */
 START_TEST(scribble_length)
 {
     struct motion m = scribble(SPEED_AUTO, 3, 10), longer = scribble(SPEED_AUTO, 3, 40);
@@ -356,7 +369,8 @@ END_TEST
 /* The same curve under a law: place at a way of u is the place where the scribble's own time has gone that far. */
 START_TEST(scribble_under_a_law)
 {
-    struct motion own = scribble(SPEED_AUTO, 3, 4), even = scribble(SPEED_CONSTANT, 3, 4), jerk = scribble(SPEED_MINIMUM_JERK, 3, 4);
+    struct motion own = scribble(SPEED_AUTO, 3, 4), even = scribble(SPEED_CONSTANT, 3, 4),
+                  jerk = scribble(SPEED_MINIMUM_JERK, 3, 4);
     struct trajectory tr = made(&own), along = made(&even), rest = made(&jerk);
     ck_assert_double_eq_tol(along.length, tr.length, 1e-12);
     ck_assert_double_eq_tol(rest.length, tr.length, 1e-12);
@@ -388,7 +402,8 @@ START_TEST(scribble_by_seed)
     s.seed = 2;
     uint64_t other = trajectory_seed(&s, &one);
     s.seed = 1;
-    ck_assert(trajectory_seed(&s, &one) != other && trajectory_seed(&s, &one) == trajectory_seed(&s, &(struct contact){.name = "one"}));
+    ck_assert(trajectory_seed(&s, &one) != other &&
+              trajectory_seed(&s, &one) == trajectory_seed(&s, &(struct contact){.name = "one"}));
 }
 END_TEST
 
@@ -396,13 +411,14 @@ END_TEST
 
 static const double bends[] = {0, 0, 0.05, 0.02, 0.06, -0.04, 0.0, -0.03, -0.02, 0.05};
 
-/* Velocity and acceleration are the derivatives of the position. h is small against the shortest bend; at the borders of pieces the
-   fifth derivative jumps, which costs the difference one order. */
+/* Velocity and acceleration are the derivatives of the position. h is small against the shortest bend; at the borders
+   of pieces the fifth derivative jumps, which costs the difference one order. */
 START_TEST(derivatives_agree)
 {
-    struct motion m[] = {any(PATH_CIRCLE, SPEED_MINIMUM_JERK, 2), any(PATH_SPLINE, SPEED_HARMONIC, 2),   any(PATH_SPLINE, SPEED_AUTO, 2),
-                         any(PATH_POLYLINE, SPEED_CONSTANT, 2),   scribble(SPEED_AUTO, 2, 2),             scribble(SPEED_TWO_THIRDS, 2, 2),
-                         any(PATH_POLYLINE, SPEED_TWO_THIRDS, 2), scribble(SPEED_CONSTANT, 2, 2)};
+    struct motion m[] = {
+        any(PATH_CIRCLE, SPEED_MINIMUM_JERK, 2), any(PATH_SPLINE, SPEED_HARMONIC, 2), any(PATH_SPLINE, SPEED_AUTO, 2),
+        any(PATH_POLYLINE, SPEED_CONSTANT, 2),   scribble(SPEED_AUTO, 2, 2),          scribble(SPEED_TWO_THIRDS, 2, 2),
+        any(PATH_POLYLINE, SPEED_TWO_THIRDS, 2), scribble(SPEED_CONSTANT, 2, 2)};
     srand48(5);
     for (int k = 0; k < 8; k++) {
         m[k].points = bends, m[k].n_points = 5, m[k].corner = m[k].path == PATH_POLYLINE ? 0.005 : 0;
@@ -414,14 +430,17 @@ START_TEST(derivatives_agree)
             double h = 2e-5, t = between(h, 2 - h);
             struct state s = at(&tr, t);
             for (int xy = 0; xy < 2; xy++) {
-                worst[0] = fmax(worst[0], fabs(slope_by(&tr, t, h, offsetof(struct state, p) + 8 * (size_t)xy) - s.vel[xy]) / tr.top_speed);
-                worst[1] = fmax(worst[1], fabs(slope_by(&tr, t, h, offsetof(struct state, vel) + 8 * (size_t)xy) - s.acc[xy]) / most);
+                worst[0] =
+                    fmax(worst[0], fabs(slope_by(&tr, t, h, offsetof(struct state, p) + 8 * (size_t)xy) - s.vel[xy]) /
+                                       tr.top_speed);
+                worst[1] =
+                    fmax(worst[1],
+                         fabs(slope_by(&tr, t, h, offsetof(struct state, vel) + 8 * (size_t)xy) - s.acc[xy]) / most);
             }
             worst[2] = fmax(worst[2], fabs(slope_by(&tr, t, h, offsetof(struct state, u)) - s.v) / tr.top_speed);
             worst[3] = fmax(worst[3], fabs(slope_by(&tr, t, h, offsetof(struct state, v)) - s.a) / most);
         }
-        if (getenv("SHOW"))
-            printf("%d: v %.2g a %.2g along %.2g %.2g\n", k, worst[0], worst[1], worst[2], worst[3]);
+        if (getenv("SHOW")) printf("%d: v %.2g a %.2g along %.2g %.2g\n", k, worst[0], worst[1], worst[2], worst[3]);
         ck_assert_double_le(worst[0], 5e-9);
         ck_assert_double_le(worst[2], 5e-9);
         ck_assert_double_le(worst[1], 1e-7);
@@ -430,20 +449,23 @@ START_TEST(derivatives_agree)
 }
 END_TEST
 
-/* Any outputs left out, in batches of any length, in any order: as one by one; and before the start and after the end the ends hold. */
+/* Any outputs left out, in batches of any length, in any order: as one by one; and before the start and after the end
+ * the ends hold. */
 START_TEST(many_as_one)
 {
     enum { N = 700 };
     static double t[N], out[9][N], one[N];
-    struct motion m[] = {any(PATH_CIRCLE, SPEED_AUTO, 2), any(PATH_SPLINE, SPEED_AUTO, 2), any(PATH_POLYLINE, SPEED_CONSTANT, 2),
-                         any(PATH_POLYLINE, SPEED_AUTO, 2), scribble(SPEED_AUTO, 2, 2), scribble(SPEED_CONSTANT, 2, 2)};
+    struct motion m[] = {
+        any(PATH_CIRCLE, SPEED_AUTO, 2),   any(PATH_SPLINE, SPEED_AUTO, 2), any(PATH_POLYLINE, SPEED_CONSTANT, 2),
+        any(PATH_POLYLINE, SPEED_AUTO, 2), scribble(SPEED_AUTO, 2, 2),      scribble(SPEED_CONSTANT, 2, 2)};
     srand48(6);
     for (int k = 0; k < 6; k++) {
         m[k].points = bends, m[k].n_points = 5, m[k].corner = m[k].law == SPEED_CONSTANT ? 0.005 : 0;
         struct trajectory tr = made(&m[k]);
         for (int i = 0; i < N; i++)
             t[i] = k % 2 ? between(-0.1, 2.1) : 2.2 * i / N - 0.1;
-        trajectory_at(&tr, N, t, (struct trajectory_out){out[0], out[1], out[2], out[3], out[4], out[5], out[6], out[7], out[8]});
+        trajectory_at(&tr, N, t,
+                      (struct trajectory_out){out[0], out[1], out[2], out[3], out[4], out[5], out[6], out[7], out[8]});
         for (int i = 0; i < N; i++) {
             struct state s = at(&tr, t[i]);
             const double want[9] = {s.u, s.v, s.a, s.p[0], s.p[1], s.vel[0], s.vel[1], s.acc[0], s.acc[1]};
@@ -453,12 +475,15 @@ START_TEST(many_as_one)
         for (int c = 0; c < 9; c++) {
             double *only[9] = {NULL};
             only[c] = one;
-            trajectory_at(&tr, N, t, (struct trajectory_out){only[0], only[1], only[2], only[3], only[4], only[5], only[6], only[7], only[8]});
+            trajectory_at(&tr, N, t,
+                          (struct trajectory_out){only[0], only[1], only[2], only[3], only[4], only[5], only[6],
+                                                  only[7], only[8]});
             ck_assert_mem_eq(one, out[c], sizeof one);
         }
         struct state first = at(&tr, 0), last = at(&tr, 2), before = at(&tr, -HUGE_VAL), after = at(&tr, HUGE_VAL);
         ck_assert(first.u == 0 && before.u == 0 && before.p[0] == first.p[0] && before.acc[1] == first.acc[1]);
-        ck_assert(after.u == last.u && after.p[1] == last.p[1] && after.vel[0] == last.vel[0] && after.acc[0] == last.acc[0]);
+        ck_assert(after.u == last.u && after.p[1] == last.p[1] && after.vel[0] == last.vel[0] &&
+                  after.acc[0] == last.acc[0]);
         ck_assert_double_eq_tol(last.u, tr.length, 1e-13);
         ck_assert(tr.reach[0] == 0 && fabs(tr.reach[1] - tr.length) < 1e-13);
         for (int xy = 0; xy < 2; xy++)
@@ -471,7 +496,8 @@ END_TEST
 /* No curve but a stop at a sharp corner turns back. */
 START_TEST(curves_do_not_turn)
 {
-    struct motion m[] = {any(PATH_CIRCLE, SPEED_AUTO, 2), any(PATH_SPLINE, SPEED_AUTO, 2), scribble(SPEED_AUTO, 2, 2), scribble(SPEED_HARMONIC, 2, 2)};
+    struct motion m[] = {any(PATH_CIRCLE, SPEED_AUTO, 2), any(PATH_SPLINE, SPEED_AUTO, 2), scribble(SPEED_AUTO, 2, 2),
+                         scribble(SPEED_HARMONIC, 2, 2)};
     for (int k = 0; k < 4; k++) {
         m[k].points = bends, m[k].n_points = 5;
         struct trajectory tr = made(&m[k]);
@@ -483,11 +509,12 @@ START_TEST(curves_do_not_turn)
 }
 END_TEST
 
-/* Beyond the ends the place goes on without a jump in place or velocity (the third difference of a smooth way is small). */
+/* Beyond the ends the place goes on without a jump in place or velocity (the third difference of a smooth way is
+ * small). */
 START_TEST(goes_on_beyond_the_ends)
 {
-    struct motion m[] = {any(PATH_CIRCLE, SPEED_AUTO, 2), any(PATH_SPLINE, SPEED_AUTO, 2), scribble(SPEED_AUTO, 2, 2), any(PATH_POLYLINE, SPEED_CONSTANT, 2),
-                         any(PATH_SPLINE, SPEED_CONSTANT, 2)};
+    struct motion m[] = {any(PATH_CIRCLE, SPEED_AUTO, 2), any(PATH_SPLINE, SPEED_AUTO, 2), scribble(SPEED_AUTO, 2, 2),
+                         any(PATH_POLYLINE, SPEED_CONSTANT, 2), any(PATH_SPLINE, SPEED_CONSTANT, 2)};
     for (int k = 0; k < 5; k++) {
         m[k].points = bends, m[k].n_points = 5, m[k].corner = m[k].path == PATH_POLYLINE ? 0.005 : 0;
         struct trajectory tr = made(&m[k]);
@@ -499,7 +526,8 @@ START_TEST(goes_on_beyond_the_ends)
                 ck_assert_double_le(fabs(p[3][xy] - 3 * p[2][xy] + 3 * p[1][xy] - p[0][xy]), 30 * h * h * tr.top_speed);
             double far[2];
             trajectory_continued(&tr, end ? 2.05 : -0.05, far);
-            ck_assert_double_le(hypot(far[0] - at(&tr, t).p[0], far[1] - at(&tr, t).p[1]), 0.05 * tr.top_speed * 1.0000001);
+            ck_assert_double_le(hypot(far[0] - at(&tr, t).p[0], far[1] - at(&tr, t).p[1]),
+                                0.05 * tr.top_speed * 1.0000001);
             ck_assert_double_ge(hypot(far[0] - at(&tr, t).p[0], far[1] - at(&tr, t).p[1]), 0.01 * at(&tr, t).v);
         }
         double inside[2];
@@ -509,6 +537,6 @@ START_TEST(goes_on_beyond_the_ends)
 }
 END_TEST
 
-UNIT("path", circle_is_closed_form, circle_box, spline_against_gsl, spline_refusals, corner_is_as_its_formula, polyline_strokes,
-     scribble_is_its_sines, scribble_length, scribble_under_a_law, scribble_by_seed, derivatives_agree, many_as_one, curves_do_not_turn,
-     goes_on_beyond_the_ends)
+UNIT("path", circle_is_closed_form, circle_box, spline_against_gsl, spline_refusals, corner_is_as_its_formula,
+     polyline_strokes, scribble_is_its_sines, scribble_length, scribble_under_a_law, scribble_by_seed,
+     derivatives_agree, many_as_one, curves_do_not_turn, goes_on_beyond_the_ends)

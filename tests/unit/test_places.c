@@ -1,5 +1,5 @@
-/* places: weights against the linear functions they must reproduce, triangulations against the definition (no place inside a triangle's
-   circle) checked by brute force, the hull's distance against a dense search, the mix itself. */
+/* places: weights against the linear functions they must reproduce, triangulations against the definition (no place
+   inside a triangle's circle) checked by brute force, the hull's distance against a dense search, the mix itself. */
 #include "response/places.h"
 
 #include "unit.h"
@@ -16,7 +16,11 @@ static struct places *made(int n, const double *xy, enum places_kind kind)
     return p;
 }
 
-static void setup(void) { arena = arena_open(); srand48(7); }
+static void setup(void)
+{
+    arena = arena_open();
+    srand48(7);
+}
 static void teardown(void) { arena_close(arena); }
 
 /* Weights are a mix, and reproduce x and y where the point is on the hull. */
@@ -45,7 +49,7 @@ START_TEST(one_place)
     setup();
     double xy[] = {0.3, 0.4};
     struct places_mix m;
-    const int (*edge)[2];
+    const int(*edge)[2];
     struct places *p = made(1, xy, PLACES_ONE);
     ck_assert(places_at(p, 9, 9, &m) == 0 && m.n == 1 && m.index[0] == 0 && m.weight[0] == 1);
     ck_assert(places_edges(p, &edge) == 0);
@@ -53,7 +57,8 @@ START_TEST(one_place)
 }
 END_TEST
 
-/* Places in any order on a slanted line; also beside it and beyond its ends; the coordinates as given, to the last bit. */
+/* Places in any order on a slanted line; also beside it and beyond its ends; the coordinates as given, to the last bit.
+ */
 START_TEST(a_line)
 {
     setup();
@@ -67,7 +72,7 @@ START_TEST(a_line)
     ck_assert_double_eq_tol(places_at(p, 1.3 - 0.8, 1.4 + 0.6, &m), 1, 1e-15); /* beside: its foot is the place 0 */
     ck_assert_double_eq_tol(m.weight[0] * (m.index[0] == 0) + m.weight[1] * (m.index[1] == 0), 1, 1e-12);
     ck_assert(places_at(p, 1 - 5e-10, 1, &m) == 0); /* rounding of a path is not outside */
-    const int (*edge)[2];
+    const int(*edge)[2];
     ck_assert(places_edges(p, &edge) == 3 && edge[0][0] == 1 && edge[0][1] == 3 && edge[1][1] == 0 && edge[2][1] == 2);
     double bent[] = {0, 0, 1, 0, 0.5, 2e-9}, straight[] = {0, 0, 1, 0, 0.5, 9e-10};
     made(3, bent, PLACES_PLANE);
@@ -80,7 +85,7 @@ END_TEST
 static int triangles(const struct places *p, int n, int (*t)[3])
 {
     static bool joined[400][400];
-    const int (*edge)[2];
+    const int(*edge)[2];
     int count = 0, edges = places_edges(p, &edge);
     memset(joined, 0, sizeof joined);
     for (int k = 0; k < edges; k++) {
@@ -100,14 +105,16 @@ static int triangles(const struct places *p, int n, int (*t)[3])
 /* How far (relative to its radius) d lies inside the circle through a, b, c. */
 static double in_circle(const double *a, const double *b, const double *c, const double *d)
 {
-    long double bx = b[0] - (long double)a[0], by = b[1] - (long double)a[1], cx = c[0] - (long double)a[0], cy = c[1] - (long double)a[1];
+    long double bx = b[0] - (long double)a[0], by = b[1] - (long double)a[1], cx = c[0] - (long double)a[0],
+                cy = c[1] - (long double)a[1];
     long double area = 2 * (bx * cy - by * cx), bb = bx * bx + by * by, cc = cx * cx + cy * cy;
-    long double ux = (cy * bb - by * cc) / area, uy = (bx * cc - cx * bb) / area, dx = d[0] - a[0] - ux, dy = d[1] - a[1] - uy;
+    long double ux = (cy * bb - by * cc) / area, uy = (bx * cc - cx * bb) / area, dx = d[0] - a[0] - ux,
+                dy = d[1] - a[1] - uy;
     return (double)(1 - sqrtl((dx * dx + dy * dy) / (ux * ux + uy * uy)));
 }
 
-/* What places_at mixes at random points is a triangle whose circle holds no place (the definition of Delaunay's triangulation); every triangle
-   is found, since the points are dense; slack for cocircular places. */
+/* What places_at mixes at random points is a triangle whose circle holds no place (the definition of Delaunay's
+   triangulation); every triangle is found, since the points are dense; slack for cocircular places. */
 static void check_delaunay(const struct places *p, int n, const double *xy, double low, double high)
 {
     double worst = -1;
@@ -116,12 +123,12 @@ static void check_delaunay(const struct places *p, int n, const double *xy, doub
         struct places_mix m;
         double off = check_mix(p, xy, x, y);
         places_at(p, x, y, &m);
-        if (off > 0)
-            continue;
+        if (off > 0) continue;
         ck_assert_int_eq(m.n, 3);
         for (int k = 0; k < n; k++)
             if (k != m.index[0] && k != m.index[1] && k != m.index[2])
-                worst = fmax(worst, in_circle(xy + 2 * m.index[0], xy + 2 * m.index[1], xy + 2 * m.index[2], xy + 2 * k));
+                worst =
+                    fmax(worst, in_circle(xy + 2 * m.index[0], xy + 2 * m.index[1], xy + 2 * m.index[2], xy + 2 * k));
     }
     ck_assert_double_lt(worst, 1e-9);
 }
@@ -136,12 +143,14 @@ START_TEST(random_places_are_delaunays)
             xy[i] = 5 + 0.1 * drand48(); /* away from the origin */
         struct places *p = made(n, xy, PLACES_PLANE);
         check_delaunay(p, n, xy, 4.98, 5.12);
-        const int (*edge)[2];
-        int count = triangles(p, n, t), edges = places_edges(p, &edge), hull = 2 * edges - 3 * (edges - n + 1); /* Euler */
-        ck_assert_int_ge(count, 2 * n - 2 - hull);                                                              /* joined threes may also surround others */
+        const int(*edge)[2];
+        int count = triangles(p, n, t), edges = places_edges(p, &edge),
+            hull = 2 * edges - 3 * (edges - n + 1); /* Euler */
+        ck_assert_int_ge(count, 2 * n - 2 - hull);  /* joined threes may also surround others */
         long double area = 0;
         for (int i = 0; i < 20000; i++)
-            area += places_at(p, 5 + 0.1 * drand48(), 5 + 0.1 * drand48(), &(struct places_mix){0}) == 0 ? 0.01L / 20000 : 0;
+            area += places_at(p, 5 + 0.1 * drand48(), 5 + 0.1 * drand48(), &(struct places_mix){0}) == 0 ? 0.01L / 20000
+                                                                                                         : 0;
         ck_assert(area > 0 && area <= 0.0101L);
         ck_assert(n < 100 || area > 0.008L);
     }
@@ -160,8 +169,7 @@ START_TEST(holed_grids)
         double c = kind == 2 ? cos(0.3) : 1, s = kind == 2 ? sin(0.3) : 0;
         for (int i = 0; i < columns * rows; i++) {
             double x = 0.1 + 0.03 * (i % columns), y = 0.02 * (i / columns);
-            if (i == columns + 1)
-                continue;
+            if (i == columns + 1) continue;
             xy[2 * n] = c * x - s * y;
             xy[2 * n++ + 1] = s * x + c * y;
         }
@@ -195,7 +203,7 @@ START_TEST(circles)
         xy[2 * i + 1] = 0.1 * sin(0.05 * 3.14159265358979 * i);
     }
     xy[80] = xy[81] = 0;
-    const int (*edge)[2];
+    const int(*edge)[2];
     for (int n = 40; n <= 41; n++) {
         struct places *p = made(n, xy, PLACES_PLANE);
         ck_assert_int_eq(places_edges(p, &edge), 3 * n - 3 - 40);
@@ -234,10 +242,12 @@ START_TEST(distance_to_the_hull)
     struct places *p = made(30, xy, PLACES_PLANE);
     for (int i = 0; i < 50; i++) {
         double x = 4 * drand48() - 1.5, y = 4 * drand48() - 1.5, off = places_at(p, x, y, &m), least = 1e9;
-        for (int a = 0; a < 30; a++) /* segments between any two places fill the hull's boundary and more, none of it outside */
+        for (int a = 0; a < 30;
+             a++) /* segments between any two places fill the hull's boundary and more, none of it outside */
             for (int b = 0; b < a; b++)
                 for (int k = 0; k <= 1000; k++) {
-                    double dx = xy[2 * a] + (xy[2 * b] - xy[2 * a]) * k / 1000 - x, dy = xy[2 * a + 1] + (xy[2 * b + 1] - xy[2 * a + 1]) * k / 1000 - y;
+                    double dx = xy[2 * a] + (xy[2 * b] - xy[2 * a]) * k / 1000 - x,
+                           dy = xy[2 * a + 1] + (xy[2 * b + 1] - xy[2 * a + 1]) * k / 1000 - y;
                     least = fmin(least, dx * dx + dy * dy);
                 }
         if (off > 0)
@@ -297,14 +307,18 @@ END_TEST
 START_TEST(told)
 {
     setup();
-    double plank[] = {0.1, 0.037, 0, 0.037, 0.4, 0.037}, upright[] = {0.02, 0.3, 0.02, -0.1}, slanting[] = {1.3, 1.4, 1, 1, 1.6, 1.8}, plane[] = {0, 0, 0.2, 0, 0.05, -0.1};
+    double plank[] = {0.1, 0.037, 0, 0.037, 0.4, 0.037}, upright[] = {0.02, 0.3, 0.02, -0.1},
+           slanting[] = {1.3, 1.4, 1, 1, 1.6, 1.8}, plane[] = {0, 0, 0.2, 0, 0.05, -0.1};
     ck_assert_str_eq(places_told(made(3, plank, PLACES_LINE), arena), "its places lie on 0 <= x <= 40 cm, y = 3.7 cm");
-    ck_assert_str_eq(places_told(made(2, upright, PLACES_LINE), arena), "its places lie on x = 2 cm, -10 <= y <= 30 cm");
-    ck_assert_str_eq(places_told(made(3, slanting, PLACES_LINE), arena), "its places lie on the line from (100, 100) to (160, 180) cm");
-    ck_assert_str_eq(places_told(made(3, plane, PLACES_PLANE), arena), "its places lie within 0 <= x <= 20 cm, -10 <= y <= 0 cm");
+    ck_assert_str_eq(places_told(made(2, upright, PLACES_LINE), arena),
+                     "its places lie on x = 2 cm, -10 <= y <= 30 cm");
+    ck_assert_str_eq(places_told(made(3, slanting, PLACES_LINE), arena),
+                     "its places lie on the line from (100, 100) to (160, 180) cm");
+    ck_assert_str_eq(places_told(made(3, plane, PLACES_PLANE), arena),
+                     "its places lie within 0 <= x <= 20 cm, -10 <= y <= 0 cm");
     teardown();
 }
 END_TEST
 
-UNIT("places", one_place, told, a_line, random_places_are_delaunays, holed_grids, circles, symmetric_rings, distance_to_the_hull,
-     refused, nearly_straight_sides)
+UNIT("places", one_place, told, a_line, random_places_are_delaunays, holed_grids, circles, symmetric_rings,
+     distance_to_the_hull, refused, nearly_straight_sides)

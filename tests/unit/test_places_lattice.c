@@ -9,7 +9,11 @@
 static struct arena *arena;
 static const double pi = 3.14159265358979323846;
 
-static void setup(void) { arena = arena_open(); srand48(11); }
+static void setup(void)
+{
+    arena = arena_open();
+    srand48(11);
+}
 static void teardown(void) { arena_close(arena); }
 
 static struct places *made(int n, const double *xy, enum places_kind kind)
@@ -192,8 +196,7 @@ START_TEST(rectangle)
     for (int code = 0; code < 256; code++) {
         int at[4] = {code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6 & 3};
         double xy[8], value[4];
-        if ((1 << at[0] | 1 << at[1] | 1 << at[2] | 1 << at[3]) != 15)
-            continue;
+        if ((1 << at[0] | 1 << at[1] | 1 << at[2] | 1 << at[3]) != 15) continue;
         for (int k = 0; k < 4; k++) {
             memcpy(xy + 2 * k, corner[at[k]], 2 * sizeof *xy);
             value[k] = corner[at[k]][2];
@@ -292,8 +295,7 @@ START_TEST(growth)
             }
         }
         ck_assert_double_eq_tol(found, most, 1e-8 * most); /* 2^-32 is left out */
-        if (trial < 45)
-            ck_assert_double_lt(most, 2);
+        if (trial < 45) ck_assert_double_lt(most, 2);
         if (trial % 50 > 47 || trial == 0)
             printf("distances up to 1:%.1f, %d knots: errors grow %.2f times\n", trial < 45 ? 1.0 : 1 + trial / 50.0, n,
                    most);
@@ -317,12 +319,14 @@ START_TEST(goes_on)
         struct places *p = made(g.n, g.xy, PLACES_GRID);
         const double *rows = filled(p, g.n, value);
         double h = 1e-5, y = g.y[0] + (g.y[6] - g.y[0]) * drand48();
-        for (int line = 1; line < 7; line++) { /* second differences to the left and right; values up to 1, third derivatives up to 1/(1 cm)^3 */
+        for (int line = 1; line < 7; line++) { /* second differences to the left and right; values up to 1, third
+                                                  derivatives up to 1/(1 cm)^3 */
             double f[5], x = g.x[line];
             for (int k = 0; k < 5; k++)
                 f[k] = smooth(p, rows, x + (k - 2) * h, y);
             ck_assert_double_eq_tol(f[2] - f[1], f[3] - f[2], 1e-4);
-            ck_assert_double_eq_tol((f[0] - 2 * f[1] + f[2]) / h / h, (f[2] - 2 * f[3] + f[4]) / h / h, 4 * h * 60 / 1e-6);
+            ck_assert_double_eq_tol((f[0] - 2 * f[1] + f[2]) / h / h, (f[2] - 2 * f[3] + f[4]) / h / h,
+                                    4 * h * 60 / 1e-6);
         }
     }
 }
@@ -336,8 +340,7 @@ static double supported(int n, double x) { return sin(n * pi * x); }
 static double freed(int n, double x)
 {
     static const double root[] = {4.730040744862704, 7.853204624095838, 10.995607838001671};
-    if (n < 2)
-        return n == 0 ? 1 : sqrt(3) * (1 - 2 * x);
+    if (n < 2) return n == 0 ? 1 : sqrt(3) * (1 - 2 * x);
     double b = n < 5 ? root[n - 2] : (2 * n - 1) * pi / 2, s = n < 8 ? (cosh(b) - cos(b)) / (sinh(b) - sin(b)) : 1;
     double end = n < 8 ? 0.5 * ((1 - s) * exp(b * x) + (1 + s) * exp(-b * x))
                        : exp(-b * x) + (n % 2 ? -1 : 1) * exp(-b * (1 - x));

@@ -7,7 +7,11 @@
 static struct arena *arena;
 static const double pi = 3.14159265358979323846;
 
-static void setup(void) { arena = arena_open(); srand48(23); }
+static void setup(void)
+{
+    arena = arena_open();
+    srand48(23);
+}
 static void teardown(void) { arena_close(arena); }
 
 enum { MOST = 4000 };
@@ -28,8 +32,7 @@ static void lay(struct set *s, int rings, int least, bool middle, const double c
 {
     double radius = middle ? 0 : 0.02 + 0.05 * drand48();
     s->n = 0;
-    if (middle)
-        put(s, centre, 0, 0);
+    if (middle) put(s, centre, 0, 0);
     for (int j = 0; j < rings; j++) {
         int n = least + (int)(least * drand48());
         double first = 6 * drand48();
@@ -44,7 +47,8 @@ static void shuffle(struct set *s, double *value)
     for (int k = s->n - 1; k > 0; k--) {
         int other = (int)((k + 1) * drand48());
         for (int c = 0; c < 3; c++) {
-            double *p = c < 2 ? &s->xy[2 * k + c] : &value[k], *q = c < 2 ? &s->xy[2 * other + c] : &value[other], was = *p;
+            double *p = c < 2 ? &s->xy[2 * k + c] : &value[k], *q = c < 2 ? &s->xy[2 * other + c] : &value[other],
+                   was = *p;
             *p = *q;
             *q = was;
         }
@@ -96,7 +100,8 @@ START_TEST(harmonics)
     setup();
     for (int trial = 0; trial < 200; trial++) {
         int n = 5 + trial / 4, order = (int)(n * drand48() / 2);
-        double lag = 6 * drand48(), first = 6 * drand48(), w = 2 * pi * order / n, slope = 3 * sin(w) / (2 + cos(w)), off;
+        double lag = 6 * drand48(), first = 6 * drand48(), w = 2 * pi * order / n, slope = 3 * sin(w) / (2 + cos(w)),
+               off;
         s.n = 0;
         for (int k = 0; k < n; k++) {
             value[k] = cos(w * k + lag);
@@ -106,10 +111,12 @@ START_TEST(harmonics)
         struct field f = known(&s, value);
         ck_assert(places_smooth(f.p));
         for (int q = 0; q < 20; q++) {
-            double t = n * drand48(), k = floor(t), u = t - k, v = 1 - u, angle = first + 2 * pi * t / n, mean = order ? 0 : cos(lag);
+            double t = n * drand48(), k = floor(t), u = t - k, v = 1 - u, angle = first + 2 * pi * t / n,
+                   mean = order ? 0 : cos(lag);
             double want = v * v * (v + 3 * u) * cos(w * k + lag) + u * u * (u + 3 * v) * cos(w * (k + 1) + lag) -
                           u * v * (v * slope * sin(w * k + lag) - u * slope * sin(w * (k + 1) + lag));
-            double radius = 0.1 * drand48(), got = off_at(&f, centre[0] + 0.1 * cos(angle), centre[1] + 0.1 * sin(angle), &off);
+            double radius = 0.1 * drand48(),
+                   got = off_at(&f, centre[0] + 0.1 * cos(angle), centre[1] + 0.1 * sin(angle), &off);
             ck_assert_double_eq_tol(got, want, 1e-12);
             got = off_at(&f, centre[0] + 0.15 * cos(angle), centre[1] + 0.15 * sin(angle), &off);
             ck_assert_double_eq_tol(got, want, 1e-12);
@@ -156,8 +163,10 @@ START_TEST(polynomials)
         shuffle(&s, value);
         struct field f = known(&s, value);
         for (int q = 0; q < 100; q++) {
-            double r = least + (most - least) * drand48(), angle = 6.3 * drand48(), x = r * cos(angle), y = r * sin(angle);
-            ck_assert_double_eq_tol(at(&f, centre[0] + x, centre[1] + y), middle ? cubic(c, x, y) : cubic(c, r, 0), middle ? 1e-5 : 1e-11);
+            double r = least + (most - least) * drand48(), angle = 6.3 * drand48(), x = r * cos(angle),
+                   y = r * sin(angle);
+            ck_assert_double_eq_tol(at(&f, centre[0] + x, centre[1] + y), middle ? cubic(c, x, y) : cubic(c, r, 0),
+                                    middle ? 1e-5 : 1e-11);
         }
         for (int k = 0; k < s.n; k++)
             ck_assert_double_eq_tol(at(&f, s.xy[2 * k], s.xy[2 * k + 1]), value[k], 1e-11);
@@ -188,7 +197,8 @@ START_TEST(order_tells_nothing)
         struct field g = known(&s, value);
         for (int q = 0; q < 200; q++) {
             double x = centre[0] + 0.3 * (drand48() - 0.5), y = centre[1] + 0.3 * (drand48() - 0.5), off[3];
-            double a = off_at(&f, x, y, &off[0]), b = off_at(&g, x, y, &off[1]), e = off_at(&m, c * x + d * y + 0.7, d * x - c * y, &off[2]);
+            double a = off_at(&f, x, y, &off[0]), b = off_at(&g, x, y, &off[1]),
+                   e = off_at(&m, c * x + d * y + 0.7, d * x - c * y, &off[2]);
             ck_assert(a == b && off[0] == off[1]);
             ck_assert_double_eq_tol(a, e, 1e-11);
             ck_assert_double_eq_tol(off[0], off[2], 1e-13);
@@ -204,24 +214,26 @@ static int up(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Where a straight way meets the rings about the origin and the lines from there through the places; in order, each once. Returns how many. */
+/* Where a straight way meets the rings about the origin and the lines from there through the places; in order, each
+ * once. Returns how many. */
 static int crossings(const struct set *s, const double from[2], const double to[2], double *u)
 {
-    double by[2] = {to[0] - from[0], to[1] - from[1]}, square = by[0] * by[0] + by[1] * by[1], along = -(from[0] * by[0] + from[1] * by[1]) / square;
+    double by[2] = {to[0] - from[0], to[1] - from[1]}, square = by[0] * by[0] + by[1] * by[1],
+           along = -(from[0] * by[0] + from[1] * by[1]) / square;
     double side = fabs(from[0] * by[1] - from[1] * by[0]) / sqrt(square);
     int all = 0, n = 0;
     u[all++] = along;
     for (int k = 0; k < s->n; k++) {
         const double *p = s->xy + 2 * k;
-        double far = hypot(p[0], p[1]), half = far > side ? sqrt((far * far - side * side) / square) : 0, across = p[0] * by[1] - p[1] * by[0];
+        double far = hypot(p[0], p[1]), half = far > side ? sqrt((far * far - side * side) / square) : 0,
+               across = p[0] * by[1] - p[1] * by[0];
         u[all++] = along - half;
         u[all++] = along + half;
         u[all++] = across != 0 ? (p[1] * from[0] - p[0] * from[1]) / across : along;
     }
     qsort(u, (size_t)all, sizeof *u, up);
     for (int k = 0; k < all; k++)
-        if (u[k] > 1e-12 && u[k] < 1 - 1e-12 && (n == 0 || u[k] - u[n - 1] > 1e-9))
-            u[n++] = u[k];
+        if (u[k] > 1e-12 && u[k] < 1 - 1e-12 && (n == 0 || u[k] - u[n - 1] > 1e-9)) u[n++] = u[k];
     return n;
 }
 
@@ -259,10 +271,10 @@ START_TEST(goes_on_everywhere)
             enum { N = 24 };
             double a = u[k] + 1e-9, b = u[k + 1] - 1e-9, y[N + 1], worst = 0, sum = 0, weight = 0, want;
             double probe = a + (b - a) * 0.03;
-            if (b - a < 1e-3)
-                continue;
+            if (b - a < 1e-3) continue;
             for (int i = 0; i <= N; i++) {
-                double t = 0.5 * (a + b) - 0.5 * (b - a) * cos(pi * i / N), w = (i % 2 ? -1 : 1) * (i % N ? 1 : 0.5) / (probe - t);
+                double t = 0.5 * (a + b) - 0.5 * (b - a) * cos(pi * i / N),
+                       w = (i % 2 ? -1 : 1) * (i % N ? 1 : 0.5) / (probe - t);
                 y[i] = off_at(&f, from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), &off);
                 worst = fmax(worst, fabs(y[i]));
                 sum += w * y[i];
@@ -270,14 +282,16 @@ START_TEST(goes_on_everywhere)
             }
             want = off_at(&f, from[0] + probe * (to[0] - from[0]), from[1] + probe * (to[1] - from[1]), &off);
             if (trial % 3) /* not through the middle itself, where the angle turns at once */
-                ck_assert_msg(fabs(sum / weight - want) < 1e-6 * (1 + worst), "trial %d, piece %d of %d: off by %g", trial, k, n, sum / weight - want);
+                ck_assert_msg(fabs(sum / weight - want) < 1e-6 * (1 + worst), "trial %d, piece %d of %d: off by %g",
+                              trial, k, n, sum / weight - want);
         }
     }
     teardown();
 }
 END_TEST
 
-/* A place moved by 1 % of its ring's radius, or one lacking: triangles, linear. Places as a file rounds them: still rings. */
+/* A place moved by 1 % of its ring's radius, or one lacking: triangles, linear. Places as a file rounds them: still
+ * rings. */
 START_TEST(what_is_a_ring)
 {
     static struct set s;

@@ -1,13 +1,15 @@
-/* The planner on real scenes and on tables made to be wrong; the runner's promise that what is not planned is not touched. */
+/* The planner on real scenes and on tables made to be wrong; the runner's promise that what is not planned is not
+ * touched. */
 #include "output/force_table.h"
 #include "rig.h"
 #include "toy_echo.c"
 
-static const char *const scrape = "rasp: 1\n"
-                                  "surface: {roughness: {rms: 5 um}%s}\n"
-                                  "scraper: {mass: 20 g%s}\n"
-                                  "motion: {path: back_and_forth, from: [1 cm, 0], to: [5 cm, 0], rate: 4 Hz, duration: 0.1 s}\n"
-                                  "%s\n";
+static const char *const scrape =
+    "rasp: 1\n"
+    "surface: {roughness: {rms: 5 um}%s}\n"
+    "scraper: {mass: 20 g%s}\n"
+    "motion: {path: back_and_forth, from: [1 cm, 0], to: [5 cm, 0], rate: 4 Hz, duration: 0.1 s}\n"
+    "%s\n";
 
 static struct scene scene_of(struct arena *a, const char *surface, const char *scraper, const char *rest)
 {
@@ -24,8 +26,7 @@ static const char *running(struct arena *a, const struct plan *p)
 {
     const char *all = "";
     for (int i = 0; i < p->n; i++)
-        if (p->rows[i].verdict == PLAN_RUNS)
-            all = arena_format(a, "%s%s ", all, p->rows[i].stage->name);
+        if (p->rows[i].verdict == PLAN_RUNS) all = arena_format(a, "%s%s ", all, p->rows[i].stage->name);
     return all;
 }
 
@@ -46,24 +47,40 @@ START_TEST(only_what_a_scene_calls_for)
     const struct {
         const char *surface, *scraper, *rest, *plan;
     } cases[] = {
-        {"", "", "output: {diagnostics: {}}", "trajectory surface roughness scrape approach smooth decimate force_table "},
+        {"", "", "output: {diagnostics: {}}",
+         "trajectory surface roughness scrape approach smooth decimate force_table "},
         {bar, "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {bar, bar, "", "trajectory surface roughness scrape approach smooth decimate surface_resonators scraper_resonators mix "},
-        {bar, ", weight: 0, response: x.csv", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {bar, "", "grip: {}", "trajectory load limiter surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {bar, "", "grip: {}\ncontact: {limiter: {curve: none}}", "trajectory load surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {bar, "", "contact: {smoothing: 0 s}", "trajectory surface roughness scrape approach decimate surface_resonators mix "},
+        {bar, bar, "",
+         "trajectory surface roughness scrape approach smooth decimate surface_resonators scraper_resonators mix "},
+        {bar, ", weight: 0, response: x.csv", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {bar, "", "grip: {}",
+         "trajectory load limiter surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {bar, "", "grip: {}\ncontact: {limiter: {curve: none}}",
+         "trajectory load surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {bar, "", "contact: {smoothing: 0 s}",
+         "trajectory surface roughness scrape approach decimate surface_resonators mix "},
         {bar, "", "contact: {force: paper}",
-         "trajectory surface roughness paper_curvature smooth_curvature paper approach decimate surface_resonators mix "},
-        {", response: a.wav", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
-        {BAR ", response_length: 1 s", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
-        {BAR ", convolution: overlap_add", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
-        {BAR ", moving: launch, convolution: resonators", "", "", "trajectory surface roughness scrape approach smooth decimate surface_launch mix "},
-        {BAR ", moving: glide", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {BAR ", moving: readout", "", "", "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
-        {", space: {to: [1, 0]}", "", "", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {BAR, "", "output: {stems: [force]}", "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
-        {"", ", response: a.wav", "", "trajectory surface roughness scrape approach smooth decimate scraper_overlap_add mix "},
+         "trajectory surface roughness paper_curvature smooth_curvature paper approach decimate surface_resonators "
+         "mix "},
+        {", response: a.wav", "", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {BAR ", response_length: 1 s", "", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {BAR ", convolution: overlap_add", "", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {BAR ", moving: launch, convolution: resonators", "", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_launch mix "},
+        {BAR ", moving: glide", "", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {BAR ", moving: readout", "", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_overlap_add mix "},
+        {", space: {to: [1, 0]}", "", "",
+         "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {BAR, "", "output: {stems: [force]}",
+         "trajectory surface roughness scrape approach smooth decimate surface_resonators mix "},
+        {"", ", response: a.wav", "",
+         "trajectory surface roughness scrape approach smooth decimate scraper_overlap_add mix "},
         {"", "", "output: {diagnostics: {columns: [time_s, speed_m_per_s]}}", "trajectory force_table "},
         {"", "", "grip: {}\noutput: {diagnostics: {columns: [normal_force_n]}}", "trajectory load force_table "},
         {"", "", "grip: {}\noutput: {diagnostics: {columns: [alpha_m]}}", "trajectory load limiter force_table "},
@@ -89,13 +106,16 @@ START_TEST(wrong_tables_are_refused)
     struct err e = {0};
     second.name = "second_scrape";
     second.wanted = always;
-    const struct stage *twice[] = {&trajectory_stage, &roughness_stage, &second, &scrape_stage, &decimate_stage,
-                                   &ring_resonators_surface_stage, &mix_stage, NULL};
+    const struct stage *twice[] = {&trajectory_stage, &roughness_stage,
+                                   &second,           &scrape_stage,
+                                   &decimate_stage,   &ring_resonators_surface_stage,
+                                   &mix_stage,        NULL};
     ck_assert(!plan_make(twice, &s.contacts[0], &s, a, &p, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
     ck_assert_msg(strstr(e.text, "two stages give subforce") != NULL, "%s", e.text);
     e = (struct err){0};
-    const struct stage *hole[] = {&trajectory_stage, &roughness_stage, &scrape_stage, &ring_resonators_surface_stage, &orphan, NULL};
+    const struct stage *hole[] = {
+        &trajectory_stage, &roughness_stage, &scrape_stage, &ring_resonators_surface_stage, &orphan, NULL};
     ck_assert(!plan_make(hole, &s.contacts[0], &s, a, &p, &e));
     ck_assert_msg(strstr(e.text, "nothing in this scene gives its force") != NULL, "%s", e.text);
     e = (struct err){0};
@@ -113,10 +133,7 @@ enum { MOST = 64 };
 static struct stage spied[MOST];
 static int opened[MOST], ran[MOST], closed[MOST];
 
-static int spy_index(const struct stage_run *r)
-{
-    return (int)(r->stage - spied);
-}
+static int spy_index(const struct stage_run *r) { return (int)(r->stage - spied); }
 
 static bool spy_open(struct stage_run *r, struct err *e)
 {
@@ -133,8 +150,7 @@ static bool spy_run(struct stage_run *r, long from, long to, struct err *e)
 static void spy_close(struct stage_run *r)
 {
     closed[spy_index(r)]++;
-    if (stages_table[spy_index(r)]->close)
-        stages_table[spy_index(r)]->close(r);
+    if (stages_table[spy_index(r)]->close) stages_table[spy_index(r)]->close(r);
 }
 
 /* What is not in the plan is not opened, not run, not closed, and its items get no memory; what is in it is. */
@@ -204,7 +220,8 @@ START_TEST(a_toy_stage_takes_one_file_and_one_line)
 {
     static double dry[5120], wet[5120];
     struct arena *a = arena_open();
-    struct scene s = scene_of(a, arena_format(a, ", extrapolate: nearest, response: %s/irs/basswood_plank.csv", getenv("ROOT")), "", "");
+    struct scene s = scene_of(
+        a, arena_format(a, ", extrapolate: nearest, response: %s/irs/basswood_plank.csv", getenv("ROOT")), "", "");
     s.contacts[0].gain = 1;
     render_with(with_toy, &s, wet, 5120);
     render_with(stages_table, &s, dry, 5120);
@@ -219,4 +236,5 @@ START_TEST(a_toy_stage_takes_one_file_and_one_line)
 }
 END_TEST
 
-UNIT("plan", only_what_a_scene_calls_for, wrong_tables_are_refused, the_rest_is_not_touched, a_toy_stage_takes_one_file_and_one_line)
+UNIT("plan", only_what_a_scene_calls_for, wrong_tables_are_refused, the_rest_is_not_touched,
+     a_toy_stage_takes_one_file_and_one_line)

@@ -1,4 +1,5 @@
-/* The predicted work of every stage is a number, whatever a scene leaves unsaid: work functions read keys, and a key that is not given is NAN. */
+/* The predicted work of every stage is a number, whatever a scene leaves unsaid: work functions read keys, and a key
+ * that is not given is NAN. */
 #include <dirent.h>
 
 #include "pipeline/render_parts.h"
@@ -11,17 +12,20 @@ static bool read_it(const char *file, const char *text, const char **set, int n,
     struct scene_overrides over = {.set = set, .n = n};
     struct err e = {0};
     const char *messages;
-    return text ? scene_read_text(text, strlen(text), file, &over, a, s, &messages, &e) : scene_read(file, &over, a, s, &messages, &e);
+    return text ? scene_read_text(text, strlen(text), file, &over, a, s, &messages, &e)
+                : scene_read(file, &over, a, s, &messages, &e);
 }
 
-/* Every stage that the scene wants, whether it is needed or not. Engines for what rings are not chosen: their work is summed there, of what was read and measured. */
+/* Every stage that the scene wants, whether it is needed or not. Engines for what rings are not chosen: their work is
+ * summed there, of what was read and measured. */
 static void stages_known(const struct scene *s, const char *what)
 {
     for (int i = 0; i < s->n_contacts; i++)
         for (int k = 0; stages_table[k]; k++) {
             const struct stage *st = stages_table[k];
             double work = st->wanted(&s->contacts[i], s) ? st->work(&s->contacts[i], s) : 0;
-            ck_assert_msg(work >= 0 && isfinite(work), "%s: contact '%s': %g cycles of '%s'", what, s->contacts[i].name, work, st->name);
+            ck_assert_msg(work >= 0 && isfinite(work), "%s: contact '%s': %g cycles of '%s'", what, s->contacts[i].name,
+                          work, st->name);
         }
 }
 
@@ -31,8 +35,7 @@ static int known_with(const char *file, const char *text, const char **set, int 
     struct arena *a = arena_open();
     struct scene s;
     int good = read_it(file, text, set, n, a, &s);
-    if (good)
-        stages_known(&s, arena_format(a, "%s%s%s", file, n ? " with " : "", n ? set[n - 1] : ""));
+    if (good) stages_known(&s, arena_format(a, "%s%s%s", file, n ? " with " : "", n ? set[n - 1] : ""));
     arena_close(a);
     return good;
 }
@@ -51,7 +54,8 @@ static void planned(const char *file)
         ck_assert_msg(plan_known(&p.parts[i].plan, &e), "%s: %s", file, e.text);
         for (int k = 0; k < p.parts[i].plan.n; k++)
             whole += p.parts[i].plan.rows[k].verdict == PLAN_RUNS ? p.parts[i].plan.rows[k].work : 0;
-        ck_assert_msg(!p.parts[i].plan.targets || whole > 0, "%s: contact '%s': %g cycles", file, s.contacts[i].name, whole);
+        ck_assert_msg(!p.parts[i].plan.targets || whole > 0, "%s: contact '%s': %g cycles", file, s.contacts[i].name,
+                      whole);
     }
     arena_close(a);
 }
@@ -66,8 +70,7 @@ START_TEST(shipped_scenes_with_each_key_left_out)
     ck_assert_ptr_nonnull(d);
     for (const struct dirent *f; (f = readdir(d));) {
         const char *end = strrchr(f->d_name, '.'), *file = arena_format(a, "%s/%s", folder, f->d_name);
-        if (!end || strcmp(end, ".yaml") != 0)
-            continue;
+        if (!end || strcmp(end, ".yaml") != 0) continue;
         scenes++;
         planned(file);
         for (const struct key *k = keys_table; k->path; k++)
@@ -81,21 +84,39 @@ START_TEST(shipped_scenes_with_each_key_left_out)
 }
 END_TEST
 
-/* Grounds of each kind, under a scraper, tips and balls, along a path, an axis and in the plane, straight, turning and at rest. */
+/* Grounds of each kind, under a scraper, tips and balls, along a path, an axis and in the plane, straight, turning and
+ * at rest. */
 START_TEST(grounds_under_what_goes_over_them)
 {
-    static const char *const grounds[] = {
-        "roughness: {like: m.gsf}", "roughness: {like: m.gsf, like_pitch: 3 um}", "roughness: {like: m.gsf, grain: 2}", "roughness: {}", "height_map: m.gsf",
-        "height_map: m.gsf, pitch: 2 um", "height_map: m.gsf, roughness: {like: m.gsf}", "height_map: m.gsf, continuation: {}", "ridges: {spacing: 1 mm, height: 5 um}",
-        "grit: {density: 30 /mm^2}", "fractal: {}", "ridges: {spacing: 1 mm, height: 5 um}, roughness: {like: m.gsf}"};
-    static const char *const bodies[] = {"scraper: {mass: 10 g}", "scraper: {mass: 10 g, radius: 1 mm}", "scraper: {mass: 10 g, radius: 1 mm, patch: 0 m}",
-                                         "scraper: {mass: 10 g}\ngrip: {}", "ball: {radius: 5 mm, mass: 4 g}\ncontact: {model: roll}",
-                                         "ball: {radius: 5 mm, mass: 4 g}\ncontact: {model: roll, force: paper}", "ball: {radius: 5 mm, mass: 4 g}\ncontact: {model: roll_coupled}",
-                                         "scraper: {mass: 10 g}\ncontact: {model: playback}", "scraper: {mass: 10 g}\ncontact: {force: paper}"};
-    static const char *const motions[] = {"path: line, to: [1 cm, 0], duration: 0.1 s", "path: line, to: [1 cm, 2 mm], speed: 3 cm/s",
-                                          "path: back_and_forth, to: [1 cm, 0], rate: 3 Hz, duration: 1 s", "path: circle, radius: 4 mm, duration: 1 s",
-                                          "path: scribble, size: [1 cm, 1 cm], rate: 3 Hz, duration: 1 s", "path: polyline, points: [[0, 0], [1 cm, 0], [1 cm, 1 cm]], speed: 5 cm/s",
-                                          "path: still, at: [0, 0], duration: 0.1 s", "path: incline, to: [3 cm, 0]"};
+    static const char *const grounds[] = {"roughness: {like: m.gsf}",
+                                          "roughness: {like: m.gsf, like_pitch: 3 um}",
+                                          "roughness: {like: m.gsf, grain: 2}",
+                                          "roughness: {}",
+                                          "height_map: m.gsf",
+                                          "height_map: m.gsf, pitch: 2 um",
+                                          "height_map: m.gsf, roughness: {like: m.gsf}",
+                                          "height_map: m.gsf, continuation: {}",
+                                          "ridges: {spacing: 1 mm, height: 5 um}",
+                                          "grit: {density: 30 /mm^2}",
+                                          "fractal: {}",
+                                          "ridges: {spacing: 1 mm, height: 5 um}, roughness: {like: m.gsf}"};
+    static const char *const bodies[] = {"scraper: {mass: 10 g}",
+                                         "scraper: {mass: 10 g, radius: 1 mm}",
+                                         "scraper: {mass: 10 g, radius: 1 mm, patch: 0 m}",
+                                         "scraper: {mass: 10 g}\ngrip: {}",
+                                         "ball: {radius: 5 mm, mass: 4 g}\ncontact: {model: roll}",
+                                         "ball: {radius: 5 mm, mass: 4 g}\ncontact: {model: roll, force: paper}",
+                                         "ball: {radius: 5 mm, mass: 4 g}\ncontact: {model: roll_coupled}",
+                                         "scraper: {mass: 10 g}\ncontact: {model: playback}",
+                                         "scraper: {mass: 10 g}\ncontact: {force: paper}"};
+    static const char *const motions[] = {"path: line, to: [1 cm, 0], duration: 0.1 s",
+                                          "path: line, to: [1 cm, 2 mm], speed: 3 cm/s",
+                                          "path: back_and_forth, to: [1 cm, 0], rate: 3 Hz, duration: 1 s",
+                                          "path: circle, radius: 4 mm, duration: 1 s",
+                                          "path: scribble, size: [1 cm, 1 cm], rate: 3 Hz, duration: 1 s",
+                                          "path: polyline, points: [[0, 0], [1 cm, 0], [1 cm, 1 cm]], speed: 5 cm/s",
+                                          "path: still, at: [0, 0], duration: 0.1 s",
+                                          "path: incline, to: [3 cm, 0]"};
     static const char *const alongs[] = {"", "along: path, ", "along: x, ", "along: plane, "};
     int good = 0, of_like = 0;
     struct arena *a = arena_open();
@@ -103,7 +124,9 @@ START_TEST(grounds_under_what_goes_over_them)
         for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++)
             for (size_t m = 0; m < sizeof motions / sizeof *motions; m++)
                 for (size_t w = 0; w < sizeof alongs / sizeof *alongs; w++) {
-                    const char *text = arena_format(a, "rasp: 1\nsurface: {%s%s}\n%s\nmotion: {%s}\noutput: {quantity: force}\n", alongs[w], grounds[g], bodies[b], motions[m]);
+                    const char *text =
+                        arena_format(a, "rasp: 1\nsurface: {%s%s}\n%s\nmotion: {%s}\noutput: {quantity: force}\n",
+                                     alongs[w], grounds[g], bodies[b], motions[m]);
                     int one = known_with(text, text, NULL, 0);
                     good += one;
                     of_like += one && strstr(grounds[g], "like") ? 1 : 0;

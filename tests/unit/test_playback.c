@@ -1,5 +1,6 @@
-/* playback: the force of a surface that is played, against the sine surface's closed form, the same integral by a plain fine rule on the trajectory's own
-   functions, and the momentum that a spline's heights hand over, however fast they are passed. */
+/* playback: the force of a surface that is played, against the sine surface's closed form, the same integral by a plain
+   fine rule on the trajectory's own functions, and the momentum that a spline's heights hand over, however fast they
+   are passed. */
 #include "rig.h"
 #include "surface/map.h"
 #include "surface/profile.h"
@@ -19,16 +20,25 @@ static struct relief_part *sine(struct arena *a, const struct contact *c)
 {
     struct relief_part *p = ARENA_TAKE(a, struct relief_part, 1);
     (void)c;
-    *p = (struct relief_part){.name = "sine", .finest = wave / 8, .from = {-HUGE_VAL, -HUGE_VAL}, .to = {HUGE_VAL, HUGE_VAL}, .add = sine_add};
+    *p = (struct relief_part){.name = "sine",
+                              .finest = wave / 8,
+                              .from = {-HUGE_VAL, -HUGE_VAL},
+                              .to = {HUGE_VAL, HUGE_VAL},
+                              .add = sine_add};
     return p;
 }
 
-static struct rig *played(const char *motion, const char *surface, struct relief_part *(*relief)(struct arena *, const struct contact *), long frames, int block)
+static struct rig *played(const char *motion, const char *surface,
+                          struct relief_part *(*relief)(struct arena *, const struct contact *), long frames, int block)
 {
-    struct scene s = rig_scene(rig_arena(), arena_format(rig_arena(), "rasp: 1\nsurface: {%s, roughness: {exponent: -2, rms: 1 um, longest: 1 mm, shortest: 20 um}}\n"
-                                                         "motion: {%s}\nload: {approach: 0 s, release: 0 s}\n"
-                                                         "contact: {model: playback, playback: {stiffness: 2e5 N/m}}\n"
-                                                         "output: {sample_rate: 44.1 kHz, diagnostics: {rate: 1 kHz}}\n", surface, motion));
+    struct scene s = rig_scene(
+        rig_arena(),
+        arena_format(rig_arena(),
+                     "rasp: 1\nsurface: {%s, roughness: {exponent: -2, rms: 1 um, longest: 1 mm, shortest: 20 um}}\n"
+                     "motion: {%s}\nload: {approach: 0 s, release: 0 s}\n"
+                     "contact: {model: playback, playback: {stiffness: 2e5 N/m}}\n"
+                     "output: {sample_rate: 44.1 kHz, diagnostics: {rate: 1 kHz}}\n",
+                     surface, motion));
     rig_relief = relief;
     return rig_record(&s, ITEM_SUBFORCE, frames, block);
 }
@@ -36,11 +46,13 @@ static struct rig *played(const char *motion, const char *surface, struct relief
 /* Closed form at constant speed: k h (cos(a) - cos(b)) / (b - a), to 1e-9 of the greatest force; none after the end. */
 static void check_sine(double length, double lasts)
 {
-    struct rig *g = played(arena_format(rig_arena(), "path: line, from: [0, 0], to: [%g m, 0], duration: %g s", length, lasts), "along: path", sine,
-                           (long)(lasts * 44100) + 100, 700);
+    struct rig *g =
+        played(arena_format(rig_arena(), "path: line, from: [0, 0], to: [%g m, 0], duration: %g s", length, lasts),
+               "along: path", sine, (long)(lasts * 44100) + 100, 700);
     double dt = 1 / (44100.0 * g->per_frame), v = length / lasts, worst = 0;
     for (long i = 0; i < g->frames * g->per_frame; i++) {
-        double from = fmin((double)i * dt, lasts), to = fmin((double)(i + 1) * dt, lasts), a = 2 * M_PI * v * from / wave, b = 2 * M_PI * v * to / wave;
+        double from = fmin((double)i * dt, lasts), to = fmin((double)(i + 1) * dt, lasts),
+               a = 2 * M_PI * v * from / wave, b = 2 * M_PI * v * to / wave;
         double want = to > from ? 2e5 * height * (cos(a) - cos(b)) / (2 * M_PI * v / wave) / dt : 0;
         worst = fmax(worst, fabs(g->x[i] - want));
     }
@@ -87,10 +99,13 @@ static void check_plainly(const char *motion, const char *surface, bool plane)
 
 START_TEST(turning_and_curved_motions)
 {
-    check_plainly("path: back_and_forth, from: [0, 0], to: [4 cm, 0], rate: 20 Hz, duration: 1 s", "along: path", false);
-    check_plainly("path: back_and_forth, from: [1 mm, 0], to: [3 cm, 2 cm], rate: 20 Hz, duration: 1 s", "along: plane", true);
+    check_plainly("path: back_and_forth, from: [0, 0], to: [4 cm, 0], rate: 20 Hz, duration: 1 s", "along: path",
+                  false);
+    check_plainly("path: back_and_forth, from: [1 mm, 0], to: [3 cm, 2 cm], rate: 20 Hz, duration: 1 s", "along: plane",
+                  true);
     check_plainly("path: circle, center: [0, 0], radius: 8 mm, turns: 40, duration: 1 s", "along: plane", true);
-    check_plainly("path: scribble, center: [0, 0], size: [4 cm, 3 cm], rate: 8 Hz, duration: 1 s", "along: plane", true);
+    check_plainly("path: scribble, center: [0, 0], size: [4 cm, 3 cm], rate: 8 Hz, duration: 1 s", "along: plane",
+                  true);
 }
 END_TEST
 
@@ -117,12 +132,14 @@ static double spikes_sum(void)
     return sum;
 }
 
-/* The whole of the profile is passed at `speed`: sum f dt = k pitch / v sum z, the trapezium rule being exact for a spline that ends flat. */
+/* The whole of the profile is passed at `speed`: sum f dt = k pitch / v sum z, the trapezium rule being exact for a
+ * spline that ends flat. */
 static double momentum_off(double speed)
 {
     double lasts = PITCH * (HEIGHTS - 1) / speed, sum = 0;
     long frames = (long)(lasts * 44100) + 4;
-    struct rig *g = played(arena_format(rig_arena(), "path: line, from: [0, 0], to: [%.17g m, 0], duration: %.17g s", PITCH * (HEIGHTS - 1), lasts),
+    struct rig *g = played(arena_format(rig_arena(), "path: line, from: [0, 0], to: [%.17g m, 0], duration: %.17g s",
+                                        PITCH * (HEIGHTS - 1), lasts),
                            "along: path", spikes, frames, 1024);
     for (long i = 0; i < frames * g->per_frame; i++)
         sum += g->x[i] / (44100.0 * g->per_frame);
@@ -150,7 +167,8 @@ static struct relief_part *map(struct arena *a, const struct contact *c)
     srand48(5);
     for (int i = 0; i < 40 * 50; i++)
         z[i] = 1e-6 * drand48();
-    return map_part(a, map_spline(a, &(struct height_map){z, 50, 40, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin, "map");
+    return map_part(a, map_spline(a, &(struct height_map){z, 50, 40, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
+                    "map");
 }
 
 START_TEST(a_map_slantwise)
@@ -187,4 +205,5 @@ START_TEST(any_blocks)
 }
 END_TEST
 
-UNIT("playback", sine_at_constant_speed, turning_and_curved_motions, no_asperity_is_skipped, a_map_slantwise, any_blocks)
+UNIT("playback", sine_at_constant_speed, turning_and_curved_motions, no_asperity_is_skipped, a_map_slantwise,
+     any_blocks)

@@ -8,12 +8,15 @@
 #include "unit.h"
 
 /* One mode of 1 kHz, decay 60/s, gain 1 at x = 0 and 3 at x = 2 cm; one of 2 kHz that is strongest at x = 0. */
-static const char table[] = "# poles: shared\n# quantity: velocity\n# title: two places\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n"
-                            "a,0,0,1,1000,60,1,0\na,0,0,2,2000,90,-0.5,0\nb,0.02,0,1,1000,60,3,0\nb,0.02,0,2,2000,90,0.25,0\n";
+static const char table[] =
+    "# poles: shared\n# quantity: velocity\n# title: two "
+    "places\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n"
+    "a,0,0,1,1000,60,1,0\na,0,0,2,2000,90,-0.5,0\nb,0.02,0,1,1000,60,3,0\nb,0.02,0,2,2000,90,0.25,0\n";
 
 /* Half-way to the second place in 0.1 s, at constant speed. */
-static const char stroke[] = "rasp: 1\nsurface: {roughness: {}, response: modes.csv}\nscraper: {mass: 10 g}\n"
-                             "motion: {path: line, to: [1 cm, 0 cm], speed: 10 cm/s, law: constant}\noutput: {sample_rate: 8 kHz}\n";
+static const char stroke[] =
+    "rasp: 1\nsurface: {roughness: {}, response: modes.csv}\nscraper: {mass: 10 g}\n"
+    "motion: {path: line, to: [1 cm, 0 cm], speed: 10 cm/s, law: constant}\noutput: {sample_rate: 8 kHz}\n";
 
 /* A sound of 0.2 s, its scene, and a summary that lists the scene by that hash. */
 static void write_render(const char *hash)
@@ -26,7 +29,10 @@ static void write_render(const char *hash)
     folder_write("modes.csv", table);
     folder_write("x.scene.yaml", stroke);
     hash_bytes(stroke, strlen(stroke), hex);
-    snprintf(summary, sizeof summary, "{\"scene\": \"\", \"contacts\": [{\"name\": \"contact\"}], \"files\": [{\"kind\": \"wav\"}, {\"kind\": \"scene\", \"sha256\": \"%s\"}]}", hash ? hash : hex);
+    snprintf(summary, sizeof summary,
+             "{\"scene\": \"\", \"contacts\": [{\"name\": \"contact\"}], \"files\": [{\"kind\": \"wav\"}, {\"kind\": "
+             "\"scene\", \"sha256\": \"%s\"}]}",
+             hash ? hash : hex);
     folder_write("x.json", summary);
 }
 
@@ -52,13 +58,14 @@ START_TEST(table_of_modes)
     ck_assert(m[0].frequency == 1000 && m[0].decay == 60 && m[0].gain == 3);
     ck_assert(m[1].frequency == 2000 && m[1].decay == 90 && m[1].gain == 0.5);
     ck_assert_str_eq(p.title, "two places");
-    ck_assert(plot_panels_there(&p, PLOT_MODES) && plot_panels_there(&p, PLOT_DECAYS) && !plot_panels_there(&p, PLOT_MOTION));
+    ck_assert(plot_panels_there(&p, PLOT_MODES) && plot_panels_there(&p, PLOT_DECAYS) &&
+              !plot_panels_there(&p, PLOT_MOTION));
     folder_remove();
 }
 END_TEST
 
-/* Of a scene, the largest on the way: gains are linear between two places with shared poles, 1 at the start and 2 half-way; the other mode's, -0.5 to -0.125, is largest
-   at the start. The way is 10 cm/s t. Rounding: 1e-9. */
+/* Of a scene, the largest on the way: gains are linear between two places with shared poles, 1 at the start and 2
+   half-way; the other mode's, -0.5 to -0.125, is largest at the start. The way is 10 cm/s t. Rounding: 1e-9. */
 START_TEST(scene_beside_a_sound)
 {
     struct arena *a = folder_make();

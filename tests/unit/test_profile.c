@@ -1,6 +1,6 @@
-/* profile: coefficients against a dense solution of the interpolation equations (GSL, LU), values as a part of a relief against sums of
-   B-splines written out as polynomials, the closed response of a spline to a sine, orders of convergence, and the continuation beyond the
-   ends against a walk that steps one sample at a time. */
+/* profile: coefficients against a dense solution of the interpolation equations (GSL, LU), values as a part of a relief
+   against sums of B-splines written out as polynomials, the closed response of a spline to a sine, orders of
+   convergence, and the continuation beyond the ends against a walk that steps one sample at a time. */
 #include "surface/profile.h"
 
 #include <gsl/gsl_linalg.h>
@@ -24,7 +24,8 @@ static void solve_densely(const double *z, long n, int off_map, double *c)
     gsl_permutation_free(p);
 }
 
-/* |c| reaches 3 max|z| (the norm of the inverse), and each of the two recursions has roundings of 1/(1 - 0.27): 1e-15 of the largest. */
+/* |c| reaches 3 max|z| (the norm of the inverse), and each of the two recursions has roundings of 1/(1 - 0.27): 1e-15
+ * of the largest. */
 START_TEST(coefficients_solve_the_equations)
 {
     static const long sizes[] = {4, 5, 6, 7, 17, 64, 65, 200};
@@ -56,8 +57,8 @@ static void read_part(struct relief_part *part, size_t n, const double *x, doubl
     relief_at(&r, &(struct relief_points){n, x, NULL}, &(struct relief_values){.z = z, .x = slope, .xx = bend});
 }
 
-/* Heights come back as they were given: 1e-15 of the largest, wherever the knot lies. (Places of 600 + |i| pitches are two roundings
-   off; heights change by less than 4 of the largest a pitch.) */
+/* Heights come back as they were given: 1e-15 of the largest, wherever the knot lies. (Places of 600 + |i| pitches are
+   two roundings off; heights change by less than 4 of the largest a pitch.) */
 START_TEST(knots_are_the_samples)
 {
     enum { N = 999 };
@@ -73,7 +74,8 @@ START_TEST(knots_are_the_samples)
                 x[i] = 3e-3 + 5e-6 * (double)(first + i);
             read_part(part, N, x, height, NULL, NULL);
             for (long i = 0; i < N; i += 7)
-                ck_assert_double_eq_tol(height[i] / largest, z[samples_walked(N, off_map, first + i)] / largest, 1e-15 + 8 * 0x1p-53 * (600 + fabs((double)(first + i))));
+                ck_assert_double_eq_tol(height[i] / largest, z[samples_walked(N, off_map, first + i)] / largest,
+                                        1e-15 + 8 * 0x1p-53 * (600 + fabs((double)(first + i))));
         }
     }
     arena_close(a);
@@ -91,8 +93,8 @@ static double spline_at(struct profile *p, double q, int derivative)
     return sum / pow(p->pitch, derivative);
 }
 
-/* Anywhere, in any order, far enough apart that the window of coefficients is left on either side: the sum of B-splines there. Places are held
-   to 2^-53 of 40 mm, 1e-12 of a pitch. */
+/* Anywhere, in any order, far enough apart that the window of coefficients is left on either side: the sum of B-splines
+   there. Places are held to 2^-53 of 40 mm, 1e-12 of a pitch. */
 START_TEST(values_are_those_of_the_spline)
 {
     enum { N = 3000, POINTS = 4000 };
@@ -111,8 +113,10 @@ START_TEST(values_are_those_of_the_spline)
         for (int i = 0; i < POINTS; i++)
             for (int k = 0; k < 3; k++)
                 ck_assert_double_eq_tol(got[k][i], spline_at(p, x[i] + 2e-3, k), 1e-11 * 1e-6 / pow(h, k));
-        ck_assert(part->linear && part->pitch[0] == h && part->origin[0] == -2e-3 && part->pitch[1] == 0 && part->finest == h);
-        ck_assert(part->from[0] == -2e-3 && part->to[0] == h * (N - 1) - 2e-3 && part->from[1] == -HUGE_VAL && part->to[1] == HUGE_VAL);
+        ck_assert(part->linear && part->pitch[0] == h && part->origin[0] == -2e-3 && part->pitch[1] == 0 &&
+                  part->finest == h);
+        ck_assert(part->from[0] == -2e-3 && part->to[0] == h * (N - 1) - 2e-3 && part->from[1] == -HUGE_VAL &&
+                  part->to[1] == HUGE_VAL);
     }
     arena_close(a);
 }
@@ -142,8 +146,8 @@ START_TEST(curvature_is_a_broken_line)
 }
 END_TEST
 
-/* A whole number of periods under wrap: the spline's response to a sine of phase step w is closed, z'' = -(6/h^2)(1 - cos w)/(2 + cos w) z
-   and z' = 3 sin w / (h (2 + cos w)) times the cosine. */
+/* A whole number of periods under wrap: the spline's response to a sine of phase step w is closed, z'' = -(6/h^2)(1 -
+   cos w)/(2 + cos w) z and z' = 3 sin w / (h (2 + cos w)) times the cosine. */
 START_TEST(response_to_a_sine)
 {
     enum { N = 240 };
@@ -158,15 +162,17 @@ START_TEST(response_to_a_sine)
         read_part(profile_part(a, profile_from_samples(a, z, N, h, OFF_MAP_WRAP), "sine", 0), N, x, NULL, slope, bend);
         for (int i = 0; i < N; i++) {
             ck_assert_double_eq_tol(bend[i], -6 / (h * h) * (1 - cos(w)) / (2 + cos(w)) * z[i], 3e-14 * 3e-6 / (h * h));
-            ck_assert_double_eq_tol(slope[i], -3 * sin(w) / (h * (2 + cos(w))) * 3e-6 * sin(2 * M_PI * (periods * i % N) / N + 0.4),
-                                    2e-14 * 3e-6 / h);
+            ck_assert_double_eq_tol(
+                slope[i], -3 * sin(w) / (h * (2 + cos(w))) * 3e-6 * sin(2 * M_PI * (periods * i % N) / N + 0.4),
+                2e-14 * 3e-6 / h);
         }
     }
     arena_close(a);
 }
 END_TEST
 
-/* Largest error of a derivative of sin(2 pi q) sampled n times per period, over the period, as a part of the derivative's size. */
+/* Largest error of a derivative of sin(2 pi q) sampled n times per period, over the period, as a part of the
+ * derivative's size. */
 static double error_of(int n, int derivative)
 {
     struct arena *a = arena_open();
@@ -182,8 +188,8 @@ static double error_of(int n, int derivative)
     return worst;
 }
 
-/* Orders 4, 3 and 2 for height, slope and curvature anywhere between the knots; the leading errors of spline theory are w^4/384,
-   sqrt(3) w^3/216 and w^2/12 with w = 2 pi / n, and are met within a tenth. */
+/* Orders 4, 3 and 2 for height, slope and curvature anywhere between the knots; the leading errors of spline theory are
+   w^4/384, sqrt(3) w^3/216 and w^2/12 with w = 2 pi / n, and are met within a tenth. */
 START_TEST(orders_of_convergence)
 {
     static const double leading[] = {1.0 / 384, 0.0080188, 1.0 / 12};
@@ -196,7 +202,8 @@ START_TEST(orders_of_convergence)
 }
 END_TEST
 
-/* Far outside, on either side, any length of reading: what stepping sample by sample says, and symmetries at any distance. */
+/* Far outside, on either side, any length of reading: what stepping sample by sample says, and symmetries at any
+ * distance. */
 START_TEST(continued_for_ever)
 {
     static const long sizes[] = {4, 5, 33};
@@ -271,5 +278,6 @@ START_TEST(mirror_is_even)
 }
 END_TEST
 
-UNIT("profile", coefficients_solve_the_equations, knots_are_the_samples, values_are_those_of_the_spline, curvature_is_a_broken_line, response_to_a_sine,
-     orders_of_convergence, continued_for_ever, outputs_are_optional, mirror_is_even)
+UNIT("profile", coefficients_solve_the_equations, knots_are_the_samples, values_are_those_of_the_spline,
+     curvature_is_a_broken_line, response_to_a_sine, orders_of_convergence, continued_for_ever, outputs_are_optional,
+     mirror_is_even)

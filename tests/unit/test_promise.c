@@ -1,11 +1,14 @@
-/* promise_keep: what is chosen is the least that keeps the error by its own prediction; what is said stays; what is chosen once is not chosen again; what cannot be kept is
-   refused with the best that can be, which can be. That predictions hold is measured by cli/promise. */
+/* promise_keep: what is chosen is the least that keeps the error by its own prediction; what is said stays; what is
+   chosen once is not chosen again; what cannot be kept is refused with the best that can be, which can be. That
+   predictions hold is measured by cli/promise. */
 #include "pipeline/promise.h"
 
 #include "rig.h"
 
-#define SCENE "rasp: 1\nseed: 2\nsurface: {roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\nmotion: {path: line, to: [5 cm, 0], duration: 0.1 s}\n" \
-              "output: {quantity: force, sample_rate: 44100}\naccuracy: {error: %g dB%s}\n"
+#define SCENE                                                                                                          \
+    "rasp: 1\nseed: 2\nsurface: {roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\nmotion: {path: line, to: [5 cm, 0], " \
+    "duration: 0.1 s}\n"                                                                                               \
+    "output: {quantity: force, sample_rate: 44100}\naccuracy: {error: %g dB%s}\n"
 
 static struct scene scene_of(double error, const char *more)
 {
@@ -34,11 +37,13 @@ START_TEST(the_cheapest)
         ck_assert_int_eq(p.parts[0].knob, KNOB_oversampling);
         ck_assert_double_ge(over, before);
         before = over;
-        if (over == 1)
-            continue;
+        if (over == 1) continue;
         struct err e = {0};
-        coarser = scene_of(error - PROMISE_MARGIN, arena_format(rig_arena(), ", oversampling: %g", floor(over / 2))); /* nothing is free: no margin is kept */
-        ck_assert_msg(!promise_keep(&coarser, rig_arena(), &kept, NULL, &e), "at %g dB %g would do as well as %g", error, floor(over / 2), over);
+        coarser =
+            scene_of(error - PROMISE_MARGIN, arena_format(rig_arena(), ", oversampling: %g",
+                                                          floor(over / 2))); /* nothing is free: no margin is kept */
+        ck_assert_msg(!promise_keep(&coarser, rig_arena(), &kept, NULL, &e), "at %g dB %g would do as well as %g",
+                      error, floor(over / 2), over);
     }
     ck_assert_double_gt(before, 4);
 }
@@ -51,7 +56,9 @@ START_TEST(what_is_said_stays)
     ck_assert_double_eq(kept.accuracy.oversampling, 7);
     ck_assert_double_eq(kept.accuracy.gain_ramp, 3);
     ck_assert(p.parts[0].said && p.parts[0].value == 7);
-    struct scene plain = rig_scene(rig_arena(), "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], duration: 0.1 s}\noutput: {quantity: force}\naccuracy: high\n");
+    struct scene plain =
+        rig_scene(rig_arena(), "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1 "
+                               "cm, 0], duration: 0.1 s}\noutput: {quantity: force}\naccuracy: high\n");
     struct err e = {0};
     ck_assert(promise_keep(&plain, rig_arena(), &kept, &p, &e));
     ck_assert(!p.asked && !p.chosen && p.text == NULL);
@@ -97,26 +104,30 @@ END_TEST
 /* What is told as the best: of a scene whose last line gives the error. NAN: it is kept. */
 static double best_of(const char *scene, double error)
 {
-    struct scene s = rig_scene(rig_arena(), arena_format(rig_arena(), "%saccuracy: {error: %g dB}\n", scene, error)), kept;
+    struct scene s = rig_scene(rig_arena(), arena_format(rig_arena(), "%saccuracy: {error: %g dB}\n", scene, error)),
+                 kept;
     struct err e = {0};
     double best;
-    if (promise_keep(&s, rig_arena(), &kept, NULL, &e))
-        return NAN;
+    if (promise_keep(&s, rig_arena(), &kept, NULL, &e)) return NAN;
     const char *says = strstr(e.text, "the best that can be promised here is ");
     ck_assert_msg(says && sscanf(says + 38, "%lf dB", &best) == 1, "%s", e.text);
     return best;
 }
 
-/* The best is that of the scene, whatever is asked, and is kept; a decibel more is not. The first differences of these scenes fall far more slowly than the later ones:
-   the coupled ball's steps by 4 dB, then by 12 (by 12.0 and 0.2: oversampling within the steps), the circle's by 17, 11, 19. */
+/* The best is that of the scene, whatever is asked, and is kept; a decibel more is not. The first differences of these
+   scenes fall far more slowly than the later ones: the coupled ball's steps by 4 dB, then by 12 (by 12.0 and 0.2:
+   oversampling within the steps), the circle's by 17, 11, 19. */
 START_TEST(the_best_is_the_same)
 {
-    static const char *const scenes[] = {
-        "rasp: 1\nseed: 2\nsurface: {fractal: {exponent: -0.5, maximum: 0.1 um, pitch: 0.1 mm}}\nball: {radius: 1 cm, material: steel, patch: 0}\n"
-        "motion: {path: line, to: [1 cm, 0], duration: 0.05 s}\ncontact: {model: roll_coupled, roll: {kappa: 5e9 N/(m^1.5 kg), mu: 1 s/m, ground: rigid}}\n"
-        "output: {quantity: force, sample_rate: 44.1 kHz}\n",
-        "rasp: 1\nseed: 21\nsurface: {roughness: {exponent: -2, rms: 3 um, longest: 1 mm, shortest: 20 um}}\nscraper: {mass: 20 g}\n"
-        "motion: {path: circle, center: [15 cm, 4 cm], radius: 3 cm, turns: 1, duration: 0.6 s}\noutput: {quantity: force, sample_rate: 44.1 kHz}\n"};
+    static const char *const scenes[] = {"rasp: 1\nseed: 2\nsurface: {fractal: {exponent: -0.5, maximum: 0.1 um, "
+                                         "pitch: 0.1 mm}}\nball: {radius: 1 cm, material: steel, patch: 0}\n"
+                                         "motion: {path: line, to: [1 cm, 0], duration: 0.05 s}\ncontact: {model: "
+                                         "roll_coupled, roll: {kappa: 5e9 N/(m^1.5 kg), mu: 1 s/m, ground: rigid}}\n"
+                                         "output: {quantity: force, sample_rate: 44.1 kHz}\n",
+                                         "rasp: 1\nseed: 21\nsurface: {roughness: {exponent: -2, rms: 3 um, longest: 1 "
+                                         "mm, shortest: 20 um}}\nscraper: {mass: 20 g}\n"
+                                         "motion: {path: circle, center: [15 cm, 4 cm], radius: 3 cm, turns: 1, "
+                                         "duration: 0.6 s}\noutput: {quantity: force, sample_rate: 44.1 kHz}\n"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         double best = best_of(scenes[i], -240);
         ck_assert_double_lt(best, -105);
@@ -129,7 +140,8 @@ START_TEST(the_best_is_the_same)
 }
 END_TEST
 
-/* A contact whose gain is 0 is there for its table alone, which holds the force as it is: it is given the knobs that the force itself is, whatever rings. */
+/* A contact whose gain is 0 is there for its table alone, which holds the force as it is: it is given the knobs that
+ * the force itself is, whatever rings. */
 START_TEST(what_is_mute_has_a_force)
 {
     static const char rings[] = ", material: steel, object: {shape: bar, length: 20 cm, width: 3 cm, thickness: 2 mm}";
@@ -137,8 +149,12 @@ START_TEST(what_is_mute_has_a_force)
         struct scene kept, heard;
         struct promise p = kept_of(error, "", &heard);
         for (int i = 0; i < 2; i++) {
-            const char *text = arena_format(rig_arena(), "rasp: 1\nseed: 2\ngain: 0\nsurface: {roughness: {rms: 5 um}%s}\nscraper: {mass: 20 g}\nmotion: {path: line, to: [5 cm, 0], duration: 0.1 s}\n"
-                                                         "output: {%ssample_rate: 44100, diagnostics: {}}\naccuracy: {error: %g dB}\n", i ? rings : "", i ? "" : "quantity: force, ", error);
+            const char *text =
+                arena_format(rig_arena(),
+                             "rasp: 1\nseed: 2\ngain: 0\nsurface: {roughness: {rms: 5 um}%s}\nscraper: {mass: 20 "
+                             "g}\nmotion: {path: line, to: [5 cm, 0], duration: 0.1 s}\n"
+                             "output: {%ssample_rate: 44100, diagnostics: {}}\naccuracy: {error: %g dB}\n",
+                             i ? rings : "", i ? "" : "quantity: force, ", error);
             struct scene s = rig_scene(rig_arena(), text);
             struct promise mute;
             struct err e = {0};
@@ -150,4 +166,5 @@ START_TEST(what_is_mute_has_a_force)
 }
 END_TEST
 
-UNIT("promise", UNIT_LONG(the_best_is_the_same), the_cheapest, what_is_said_stays, chosen_once, the_best_is_told, what_is_mute_has_a_force)
+UNIT("promise", UNIT_LONG(the_best_is_the_same), the_cheapest, what_is_said_stays, chosen_once, the_best_is_told,
+     what_is_mute_has_a_force)

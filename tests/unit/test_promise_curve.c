@@ -63,26 +63,27 @@ START_TEST(enough)
 {
     for (int n = 0; n < 5; n++) {
         struct promise_curve o = of_power(1e-2, 2, n);
-        ck_assert_int_eq(promise_curve_enough(&o, 1e-3), n >= 2);       /* 4 does: e(4) = 6e-4, from what 1, 2 and 4 show */
-        ck_assert_int_eq(promise_curve_enough(&o, 1e-8), 0);            /* 64 has 2.4e-6, but who knows                   */
+        ck_assert_int_eq(promise_curve_enough(&o, 1e-3), n >= 2); /* 4 does: e(4) = 6e-4, from what 1, 2 and 4 show */
+        ck_assert_int_eq(promise_curve_enough(&o, 1e-8), 0);      /* 64 has 2.4e-6, but who knows                   */
         ck_assert_int_eq(promise_curve_enough(&o, 2e-2), n >= 1);
     }
 }
 END_TEST
 
-/* A curve that begins flat is settled at its end, or far out where its slope is its last; its best is what the rest says, and is asked for with success. */
+/* A curve that begins flat is settled at its end, or far out where its slope is its last; its best is what the rest
+ * says, and is asked for with success. */
 START_TEST(settled)
 {
     for (int n = 1; n <= 11; n++) {
         struct promise_curve o = of_power(1e-2, 2, n), longer = o;
         for (int i = 0; i < 2 && i < n; i++)
-            longer.apart[i] = o.apart[i] = 6e-4 - 1e-4 * i; /* falls by 1.6 dB, then by 0.6 to o.apart[2] = 4.7e-4, then by 12 */
+            longer.apart[i] = o.apart[i] =
+                6e-4 - 1e-4 * i; /* falls by 1.6 dB, then by 0.6 to o.apart[2] = 4.7e-4, then by 12 */
         longer.end = 100000;
         ck_assert_int_eq(promise_curve_settled(&o), n >= 6);
         ck_assert_int_eq(promise_curve_settled(&longer), n >= 6);
         ck_assert_int_eq(promise_curve_enough(&longer, 1e-12), n >= 6);
-        if (n != 6)
-            continue;
+        if (n != 6) continue;
         ck_assert_double_eq(promise_curve_best(&o), 64);
         ck_assert_double_eq_tol(promise_curve_error(&o, 64), 1e-2 / 64 / 64, 1e-15);
     }
@@ -92,7 +93,8 @@ START_TEST(settled)
 }
 END_TEST
 
-/* A last doubling that would go beyond the end is not run: a difference over less than a doubling is none of a power. */
+/* A last doubling that would go beyond the end is not run: a difference over less than a doubling is none of a power.
+ */
 START_TEST(doublings)
 {
     struct promise_curve o = of_power(1e-2, 2, 3);

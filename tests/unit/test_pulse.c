@@ -1,5 +1,6 @@
-/* pulse: against the regularised incomplete beta function (GSL's), which inverts the pulse, against the equation of motion integrated step by step in long
-   double, and against closed forms. From x' = v sqrt(1 - u), u = (x / x_m)^2.5:  q = I_u(2/5, 1/2) / 2, p = (1 - sqrt(1 - u)) / 2 on the way in. */
+/* pulse: against the regularised incomplete beta function (GSL's), which inverts the pulse, against the equation of
+   motion integrated step by step in long double, and against closed forms. From x' = v sqrt(1 - u), u = (x / x_m)^2.5:
+   q = I_u(2/5, 1/2) / 2, p = (1 - sqrt(1 - u)) / 2 on the way in. */
 #include <gsl/gsl_sf_gamma.h>
 
 #include "force/pulse.h"
@@ -21,7 +22,8 @@ START_TEST(contact_times)
 }
 END_TEST
 
-/* GSL states 1e-14 or so for beta_inc; p rises by up to 1.84 per q. The least u are of the pulse's first instants: relative there. */
+/* GSL states 1e-14 or so for beta_inc; p rises by up to 1.84 per q. The least u are of the pulse's first instants:
+ * relative there. */
 START_TEST(hertz_is_incomplete_beta)
 {
     struct pulse_shape hertz = pulse_make(PULSE_HERTZ);
@@ -34,7 +36,8 @@ START_TEST(hertz_is_incomplete_beta)
 }
 END_TEST
 
-/* m x'' = -k x^1.5 by Runge and Kutta's fourth order in long double, 200000 steps: their error is that of x^1.5 at x = 0, h^2.5 of what is there. */
+/* m x'' = -k x^1.5 by Runge and Kutta's fourth order in long double, 200000 steps: their error is that of x^1.5 at x =
+ * 0, h^2.5 of what is there. */
 START_TEST(hertz_is_its_equation)
 {
     enum { STEPS = 200000 };
@@ -64,7 +67,8 @@ START_TEST(half_sine_is_closed_form)
     struct pulse_shape sine = pulse_make(PULSE_HALF_SINE);
     for (int i = -100; i <= 1100; i++) {
         double q = i / 1000.0, inside = fmin(fmax(q, 0), 1);
-        ck_assert_double_eq_tol(pulse_share(&sine, q), (double)(0.5L - 0.5L * cosl(3.14159265358979323846L * inside)), 3e-16);
+        ck_assert_double_eq_tol(pulse_share(&sine, q), (double)(0.5L - 0.5L * cosl(3.14159265358979323846L * inside)),
+                                3e-16);
     }
 }
 END_TEST
@@ -89,4 +93,5 @@ START_TEST(shares_rise_from_0_to_1)
 }
 END_TEST
 
-UNIT("pulse", contact_times, hertz_is_incomplete_beta, hertz_is_its_equation, half_sine_is_closed_form, shares_rise_from_0_to_1)
+UNIT("pulse", contact_times, hertz_is_incomplete_beta, hertz_is_its_equation, half_sine_is_closed_form,
+     shares_rise_from_0_to_1)

@@ -1,4 +1,5 @@
-/* The sound does not depend on the sample rate: random scenes at two rates in third octaves, and the whole pipeline against transfer functions in continuous time. */
+/* The sound does not depend on the sample rate: random scenes at two rates in third octaves, and the whole pipeline
+ * against transfer functions in continuous time. */
 #include <complex.h>
 #include <unistd.h>
 
@@ -32,9 +33,10 @@ static void forget(void)
         }
 }
 
-/* Of the twenty scenes of evidence/rates.md those that were off by more than 1 dB, up to 46, while the strongest modes were chosen below half the rate and
-   what sampling folds in was left in: shells, plates, disks, rods and tables, given forces, impacts and scrapes, velocity and acceleration. 0.5 dB are
-   asked, 0.005 measured; 0.05 leaves room for neither. */
+/* Of the twenty scenes of evidence/rates.md those that were off by more than 1 dB, up to 46, while the strongest modes
+   were chosen below half the rate and what sampling folds in was left in: shells, plates, disks, rods and tables, given
+   forces, impacts and scrapes, velocity and acceleration. 0.5 dB are asked, 0.005 measured; 0.05 leaves room for
+   neither. */
 START_TEST(third_octaves)
 {
     static const int seeds[] = {4, 5, 6, 10, 11, 13, 17, 18, 19};
@@ -87,8 +89,11 @@ static struct rig *heard(const char *quantity, const char *engine, enum item ite
 {
     char text[1000];
     snprintf(text, sizeof text,
-             "rasp: 1\nsurface: {response: %s/table0.csv, convolution: %s}\nscraper: {mass: 1 g}\nmotion: {path: still, duration: 0.01 s}\n"
-             "contact: {model: strike, strike: {pulse: half_sine, stiffness: 4 MN/m, speed: 1 m/s, first: 3 ms}}\noutput: {quantity: %s, sample_rate: %d}\n", folder, engine, quantity, RATE);
+             "rasp: 1\nsurface: {response: %s/table0.csv, convolution: %s}\nscraper: {mass: 1 g}\nmotion: {path: "
+             "still, duration: 0.01 s}\n"
+             "contact: {model: strike, strike: {pulse: half_sine, stiffness: 4 MN/m, speed: 1 m/s, first: 3 "
+             "ms}}\noutput: {quantity: %s, sample_rate: %d}\n",
+             folder, engine, quantity, RATE);
     struct scene s = rig_scene(rig_arena(), text);
     return rig_record(&s, item, FRAMES, 1024);
 }
@@ -101,16 +106,20 @@ static double complex spectrum(const double *x, double omega)
     return sum;
 }
 
-/* Sound over force at 200 frequencies from 5 Hz to 0.4 of the rate, where sampled modes are their transfer functions: within 1e-4 (alias.c) of the sum of |A|/rate, added
-   up; and below the first mode, at 5 to 50 Hz, within 1e-8: the fit's error falls with the third power of omega towards 0 Hz, and responses are cut at -160 dB. */
+/* Sound over force at 200 frequencies from 5 Hz to 0.4 of the rate, where sampled modes are their transfer functions:
+   within 1e-4 (alias.c) of the sum of |A|/rate, added up; and below the first mode, at 5 to 50 Hz, within 1e-8: the
+   fit's error falls with the third power of omega towards 0 Hz, and responses are cut at -160 dB. */
 START_TEST(transfer_functions)
 {
-    static const char *const quantities[] = {"displacement", "velocity", "acceleration"}, *const engines[] = {"resonators", "overlap_add"};
+    static const char *const quantities[] = {"displacement", "velocity", "acceleration"}, *const engines[] = {
+                                                                                              "resonators",
+                                                                                              "overlap_add"};
     struct pole m[MODES];
     table(m);
     for (int q = 0; q < 3; q++)
         for (int e = 0; e < 2; e++) {
-            struct rig *sound = heard(quantities[q], engines[e], ITEM_SOUND), *force = heard(quantities[q], engines[e], ITEM_FORCE);
+            struct rig *sound = heard(quantities[q], engines[e], ITEM_SOUND),
+                       *force = heard(quantities[q], engines[e], ITEM_FORCE);
             double worst = 0, low = 0, unit = 0;
             for (int i = 0; i < MODES; i++)
                 unit += cabs(m[i].A * cpow(-m[i].d + 2 * M_PI * I * m[i].f, q - 1)) / RATE;
@@ -138,8 +147,7 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {third_octaves, transfer_functions};
-    if (!mkdtemp(folder))
-        abort();
+    if (!mkdtemp(folder)) abort();
     int failed = unit_run("rates", tests, sizeof tests / sizeof tests[0]);
     rmdir(folder);
     return failed;

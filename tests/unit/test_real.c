@@ -1,5 +1,5 @@
-/* real.h (SLEEF's deterministic scalar functions) against long double, and one hash of all results that every CPU and compiler must
-   reproduce: no fused multiply-add, no choice by CPU. */
+/* real.h (SLEEF's deterministic scalar functions) against long double, and one hash of all results that every CPU and
+   compiler must reproduce: no fused multiply-add, no choice by CPU. */
 #include "num/real.h"
 
 #include <stdint.h>
@@ -21,19 +21,18 @@ static long double ulps(double got, long double want)
     return fabsl(got - want) / ldexpl(1, (e < -1021 ? -1021 : e) - 53);
 }
 
-#define ONE(name) static double one_##name(double x) { return real_##name(x); }
-ONE(exp) ONE(exp10) ONE(log) ONE(log10) ONE(log1p) ONE(sin) ONE(cos) ONE(tan) ONE(tanh) ONE(sinpi) ONE(cospi)
+#define ONE(name)                                                                                                      \
+    static double one_##name(double x) { return real_##name(x); }
+ONE(exp)
+ONE(exp10) ONE(log) ONE(log10) ONE(log1p) ONE(sin) ONE(cos) ONE(tan) ONE(tanh) ONE(sinpi) ONE(cospi)
 
-static long double sinpi_reference(long double x)
+    static long double sinpi_reference(long double x)
 {
     long double r = remainderl(x, 2), a = fabsl(r) > 0.5L ? copysignl(1 - fabsl(r), r) : r; /* exact: x has 53 bits */
     return sinl(M_PIl * a);
 }
 
-static long double cospi_reference(long double x)
-{
-    return sinl(M_PIl * (0.5L - fabsl(remainderl(x, 2))));
-}
+static long double cospi_reference(long double x) { return sinl(M_PIl * (0.5L - fabsl(remainderl(x, 2)))); }
 
 static const struct {
     const char *name;
@@ -41,11 +40,16 @@ static const struct {
     long double (*reference)(long double);
     double lo, hi, bound; /* ulp: SLEEF's, u10 = 1.0, u05 = 0.506 for sinpi and cospi; the reference adds 1e-3 */
 } functions[] = {
-    {"exp", one_exp, expl, -700, 700, 1},           {"exp10", one_exp10, exp10l, -300, 300, 1.09},
-    {"log", one_log, logl, 1e-3, 1e3, 1},           {"log10", one_log10, log10l, 1e-3, 1e3, 1},
-    {"log1p", one_log1p, log1pl, -0.9, 10, 1},      {"sin", one_sin, sinl, -1e4, 1e4, 1},
-    {"cos", one_cos, cosl, -1e4, 1e4, 1},           {"tan", one_tan, tanl, -1e4, 1e4, 1},
-    {"tanh", one_tanh, tanhl, -5, 5, 1},            {"sinpi", one_sinpi, sinpi_reference, -300, 300, 0.51},
+    {"exp", one_exp, expl, -700, 700, 1},
+    {"exp10", one_exp10, exp10l, -300, 300, 1.09},
+    {"log", one_log, logl, 1e-3, 1e3, 1},
+    {"log10", one_log10, log10l, 1e-3, 1e3, 1},
+    {"log1p", one_log1p, log1pl, -0.9, 10, 1},
+    {"sin", one_sin, sinl, -1e4, 1e4, 1},
+    {"cos", one_cos, cosl, -1e4, 1e4, 1},
+    {"tan", one_tan, tanl, -1e4, 1e4, 1},
+    {"tanh", one_tanh, tanhl, -5, 5, 1},
+    {"sinpi", one_sinpi, sinpi_reference, -300, 300, 0.51},
     {"cospi", one_cospi, cospi_reference, -300, 300, 0.51},
 };
 enum { FUNCTIONS = sizeof functions / sizeof functions[0] };
@@ -101,7 +105,8 @@ START_TEST(same_bits_everywhere)
     uint64_t h = 0xcbf29ce484222325, state = 3;
     for (int i = 0; i < POINTS; i++)
         for (int k = 0; k < FUNCTIONS + 2; k++) {
-            double x = k < FUNCTIONS ? uniform(&state, functions[k].lo, functions[k].hi) : uniform(&state, 0.01, 100), y;
+            double x = k < FUNCTIONS ? uniform(&state, functions[k].lo, functions[k].hi) : uniform(&state, 0.01, 100),
+                   y;
             uint64_t u;
             y = k < FUNCTIONS ? functions[k].f(x) : k == FUNCTIONS ? real_pow(x, 1.7) : real_atan2(x - 50, 3);
             memcpy(&u, &y, sizeof u);

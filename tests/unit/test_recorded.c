@@ -1,6 +1,6 @@
-/* recorded: interpolation against GSL's natural splines; smoothing against a dense solution of its definition by GSL, and its gain on long sines
-   against the half power that is promised; turning points; the way travelled against quadrature; bad files. cubic and scan, which it
-   rests on, as well. */
+/* recorded: interpolation against GSL's natural splines; smoothing against a dense solution of its definition by GSL,
+   and its gain on long sines against the half power that is promised; turning points; the way travelled against
+   quadrature; bad files. cubic and scan, which it rests on, as well. */
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_spline.h>
 #include <stddef.h>
@@ -30,7 +30,8 @@ static const char *table_of(int n, const double *t, const double *x, const doubl
 
 static struct motion recorded(const char *file, double cutoff)
 {
-    return (struct motion){.path = PATH_RECORDED, .file = file, .cutoff = cutoff, .duration = NAN, .speed = NAN, .straight = 0.1};
+    return (struct motion){
+        .path = PATH_RECORDED, .file = file, .cutoff = cutoff, .duration = NAN, .speed = NAN, .straight = 0.1};
 }
 
 enum { MOST = 300 };
@@ -47,7 +48,8 @@ static double plane_speed(double t, void *self)
     return hypot(gsl_spline_eval_deriv(p->axis[0], t, NULL), gsl_spline_eval_deriv(p->axis[1], t, NULL));
 }
 
-/* Cut-off 0: natural cubic splines through the rows, whose first time is the start. Relative to the largest figure of each kind. */
+/* Cut-off 0: natural cubic splines through the rows, whose first time is the start. Relative to the largest figure of
+ * each kind. */
 START_TEST(interpolates)
 {
     srand48(1);
@@ -108,10 +110,8 @@ static void dense(int n, const double *t, const double *y, double p, double *f)
         gsl_matrix_set(q, (size_t)j + 1, (size_t)j, -1 / h0 - 1 / h1);
         gsl_matrix_set(q, (size_t)j + 2, (size_t)j, 1 / h1);
         gsl_matrix_set(r, (size_t)j, (size_t)j, (h0 + h1) / 3);
-        if (j > 0)
-            gsl_matrix_set(r, (size_t)j, (size_t)j - 1, h0 / 6);
-        if (j < n - 3)
-            gsl_matrix_set(r, (size_t)j, (size_t)j + 1, h1 / 6);
+        if (j > 0) gsl_matrix_set(r, (size_t)j, (size_t)j - 1, h0 / 6);
+        if (j < n - 3) gsl_matrix_set(r, (size_t)j, (size_t)j + 1, h1 / 6);
     }
     gsl_linalg_LU_decomp(r, perm, &sign);
     for (int c = 0; c < n; c++) {
@@ -138,7 +138,8 @@ static void dense(int n, const double *t, const double *y, double p, double *f)
     gsl_permutation_free(perm), gsl_permutation_free(whole);
 }
 
-/* p from the condition that a sine on evenly spaced knots has gain 1/sqrt 2, h the mean distance, worked out in other terms. */
+/* p from the condition that a sine on evenly spaced knots has gain 1/sqrt 2, h the mean distance, worked out in other
+ * terms. */
 START_TEST(smoothing_is_its_definition)
 {
     srand48(2);
@@ -179,15 +180,15 @@ static double gain(double rate, double frequency, double cutoff)
     return hypot(re, im) / norm;
 }
 
-/* Half the power at the cut-off, whatever the rate; 0.95 of it an octave below and 0.02 an octave above, as recorded.c says. */
+/* Half the power at the cut-off, whatever the rate; 0.95 of it an octave below and 0.02 an octave above, as recorded.c
+ * says. */
 START_TEST(half_power_at_the_cutoff)
 {
     static const double rates[] = {30, 60, 120, 240, 1000};
     for (int i = 0; i < 5; i++) {
         ck_assert_double_eq_tol(gain(rates[i], 12, 12), sqrt(0.5), 1e-6);
         ck_assert_double_eq_tol(gain(rates[i], 3, 3), sqrt(0.5), 1e-6);
-        if (rates[i] < 100)
-            continue;
+        if (rates[i] < 100) continue;
         ck_assert_double_eq_tol(pow(gain(rates[i], 6, 12), 2), 0.95, 0.01);
         ck_assert_double_eq_tol(pow(gain(rates[i], 24, 12), 2), 0.02, 0.005);
         ck_assert_double_ge(gain(rates[i], 1, 12), 0.9999);
@@ -213,7 +214,8 @@ START_TEST(lines_stay_and_motions_are_smooth)
         ck_assert_double_eq_tol(s.p[0], 0.02 + 0.3 * at0, 1e-13);
         ck_assert_double_eq_tol(s.p[1], 0.03 * sin(9 * (at0 + 7)), 2e-4);
         ck_assert_double_eq_tol(slope_by(&tr, at0, 1e-5, offsetof(struct state, p) + 8), s.vel[1], 1e-9);
-        ck_assert_double_eq_tol(slope_by(&tr, at0, 1e-5, offsetof(struct state, vel) + 8), s.acc[1], 3e-2); /* the third derivative jumps */
+        ck_assert_double_eq_tol(slope_by(&tr, at0, 1e-5, offsetof(struct state, vel) + 8), s.acc[1],
+                                3e-2); /* the third derivative jumps */
         ck_assert_double_eq_tol(slope_by(&tr, at0, 1e-5, offsetof(struct state, u)), s.v, 1e-9);
     }
     for (int i = 1; i + 1 < MOST; i++) { /* acceleration from both sides of a row */
@@ -225,7 +227,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ turning round */
 
-/* On a line: it turns where the velocity is 0, at instants known in closed form, and u goes on growing by what is travelled. */
+/* On a line: it turns where the velocity is 0, at instants known in closed form, and u goes on growing by what is
+ * travelled. */
 START_TEST(turns_on_a_line)
 {
     enum { N = 241 };
@@ -236,8 +239,7 @@ START_TEST(turns_on_a_line)
         y[i] = 0.05 * sin(2 * M_PI * 1.7 * t[i] + 0.4) * 0.8;
     }
     for (int k = 0; k < 2; k++) {
-        if (k == 1)
-            memset(y, 0, sizeof y);
+        if (k == 1) memset(y, 0, sizeof y);
         struct motion m = recorded(table_of(N, t, x, y), 0);
         struct trajectory tr = made(&m);
         unlink(m.file);
@@ -245,16 +247,17 @@ START_TEST(turns_on_a_line)
         double far = 0, step = 1.0 / 7000, last = at(&tr, 0).p[0];
         for (int i = 0; i < 14000; i++) {
             double turn = trajectory_turning(&tr, i * step, (i + 1) * step);
-            far += isnan(turn) ? fabs(at(&tr, (i + 1) * step).p[0] - last)
-                               : fabs(at(&tr, turn).p[0] - last) + fabs(at(&tr, (i + 1) * step).p[0] - at(&tr, turn).p[0]);
+            far += isnan(turn)
+                       ? fabs(at(&tr, (i + 1) * step).p[0] - last)
+                       : fabs(at(&tr, turn).p[0] - last) + fabs(at(&tr, (i + 1) * step).p[0] - at(&tr, turn).p[0]);
             last = at(&tr, (i + 1) * step).p[0];
-            if (isnan(turn))
-                continue;
+            if (isnan(turn)) continue;
             double phase = (1.7 * turn + 0.4 / (2 * M_PI)) * 2 - 0.5;
             ck_assert_double_eq_tol(phase, rint(phase), 1e-5); /* the spline's error: (2 pi 1.7 / 120)^4 / 384 */
             ck_assert_double_le(at(&tr, turn).v, 1e-13);
             ck_assert(at(&tr, turn - 1e-9).vel[0] * at(&tr, turn + 1e-9).vel[0] < 0);
-            ck_assert(isnan(trajectory_turning(&tr, turn, turn + step)) && isnan(trajectory_turning(&tr, turn - step, turn)));
+            ck_assert(isnan(trajectory_turning(&tr, turn, turn + step)) &&
+                      isnan(trajectory_turning(&tr, turn - step, turn)));
             found++;
         }
         ck_assert_int_eq(found, 7);
@@ -301,7 +304,8 @@ START_TEST(durations)
     ck_assert_double_eq_tol(part.length, whole.length, 1e-13);
     for (int i = 0; i <= 50; i++)
         for (int xy = 0; xy < 2; xy++)
-            ck_assert_double_eq_tol(at(&part, at(&whole, i / 100.0).u / whole.length * 0.6).p[xy], at(&whole, i / 100.0).p[xy], 1e-12);
+            ck_assert_double_eq_tol(at(&part, at(&whole, i / 100.0).u / whole.length * 0.6).p[xy],
+                                    at(&whole, i / 100.0).p[xy], 1e-12);
     m.duration = NAN;
     refused(&m, ERR_SCENE, "motion.duration must be given");
     unlink(m.file);
@@ -320,17 +324,21 @@ START_TEST(files_refused)
         double cutoff;
     } bad[] = {
         {"time_s,x,y_m\n0,1,1\n1,1,2\n", "no column 'x_m'", 0},
-        {"time_s;x_m;y_m\n0;1;1\n1;1;2\n", "no column 'time_s'; what is read here are time_s, x_m, y_m, separated by commas", 0},
+        {"time_s;x_m;y_m\n0;1;1\n1;1;2\n",
+         "no column 'time_s'; what is read here are time_s, x_m, y_m, separated by commas", 0},
         {"time_s,x_m,y_m\n", "0 rows; at least 2", 0},
         {"time_s,x_m,y_m\n0,0,0\n1,1,0\n", "2 rows cannot be smoothed", 0.1},
         {"time_s,x_m,y_m\n0,0,0\n1,nan,0\n", ":3: column 'x_m': 'nan' is not a", 0},
         {"time_s,x_m,y_m\n0,0,0\n1,0,5000\n", ":3: column 'y_m': 5000 m is farther than 100 m", 0},
         {"time_s,x_m,y_m\n0,0,0\n1,0,1\n0.5,1,1\n", ":4: column 'time_s': 0.5 s comes after 1 s; times must rise", 0},
-        {"time_s,x_m,y_m\n0,0,0\n9e-126,0,0.002\n1,0,0\n", ":3: column 'time_s': 9e-126 s comes 9e-126 s after the row before; a smooth way", 0},
-        {"time_s,x_m,y_m\n5,0,0\n5.1,0,0.002\n5.1000000009,1,0\n", ":4: column 'time_s': 5.1 s comes 9e-10 s after", 10},
+        {"time_s,x_m,y_m\n0,0,0\n9e-126,0,0.002\n1,0,0\n",
+         ":3: column 'time_s': 9e-126 s comes 9e-126 s after the row before; a smooth way", 0},
+        {"time_s,x_m,y_m\n5,0,0\n5.1,0,0.002\n5.1000000009,1,0\n", ":4: column 'time_s': 5.1 s comes 9e-10 s after",
+         10},
         {"time_s,x_m,y_m\n0,0,0\n1,0\n", ":3: 2 cells", 0},
         {"time_s,x_m,y_m\n0,1,1\n1,1,1\n2,1,1\n", "all positions are the same", 0},
-        {"time_s,x_m,y_m\n0,1,1\n1,1,2\n2,1,1\n", "motion.cutoff: 0.5 Hz is not below half of the 1 rows per second", 0.5},
+        {"time_s,x_m,y_m\n0,1,1\n1,1,2\n2,1,1\n", "motion.cutoff: 0.5 Hz is not below half of the 1 rows per second",
+         0.5},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct motion m = recorded(file_of(bad[i].text), bad[i].cutoff);
@@ -350,7 +358,8 @@ static void wave(const void *self, size_t n, const double *t, double *y)
 {
     const double *p = self; /* frequency, jump: 1 saw teeth */
     for (size_t i = 0; i < n; i++)
-        y[i] = p[1] != 0 ? t[i] * p[0] - floor(t[i] * p[0]) : sin(2 * M_PI * p[0] * t[i]) + 0.3 * sin(2 * M_PI * 2.2 * p[0] * t[i] + 1);
+        y[i] = p[1] != 0 ? t[i] * p[0] - floor(t[i] * p[0])
+                         : sin(2 * M_PI * p[0] * t[i]) + 0.3 * sin(2 * M_PI * 2.2 * p[0] * t[i] + 1);
 }
 
 /* Against 2 million instants; a saw's teeth reach up to 1 but for rounding. */
@@ -358,7 +367,8 @@ START_TEST(scan_finds_extremes)
 {
     srand48(4);
     for (int k = 0; k < 40; k++) {
-        double p[2] = {between(0.1, 5), 0}, from = between(-1, 1), to = from + between(0.1, 3), range[2], least = HUGE_VAL, most = -HUGE_VAL;
+        double p[2] = {between(0.1, 5), 0}, from = between(-1, 1), to = from + between(0.1, 3), range[2],
+               least = HUGE_VAL, most = -HUGE_VAL;
         scan_range(&(struct scan){wave, p}, from, to, 64 + (long)(40 * p[0] * (to - from)), range);
         for (int i = 0; i <= 2000000; i += k < 10 ? 1 : 20) {
             double t = from + (to - from) * (i / 2e6), y;
@@ -392,5 +402,5 @@ START_TEST(scan_finds_extremes)
 }
 END_TEST
 
-UNIT("recorded", interpolates, smoothing_is_its_definition, half_power_at_the_cutoff, lines_stay_and_motions_are_smooth, turns_on_a_line, an_ellipse_is_no_turn, durations,
-     files_refused, scan_finds_extremes)
+UNIT("recorded", interpolates, smoothing_is_its_definition, half_power_at_the_cutoff, lines_stay_and_motions_are_smooth,
+     turns_on_a_line, an_ellipse_is_no_turn, durations, files_refused, scan_finds_extremes)

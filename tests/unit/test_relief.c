@@ -17,18 +17,12 @@ static void cubic_add(struct relief_part *part, const struct relief_points *p, c
     double size = *(double *)part->state;
     for (size_t i = 0; i < p->n; i++) {
         double x = p->x[i], y = p->y ? p->y[i] : 0;
-        if (v->z)
-            v->z[i] += size * (x * x + 3 * x * y + y * y * y);
-        if (v->x)
-            v->x[i] += size * (2 * x + 3 * y);
-        if (v->y)
-            v->y[i] += size * (3 * x + 3 * y * y);
-        if (v->xx)
-            v->xx[i] += size * 2;
-        if (v->xy)
-            v->xy[i] += size * 3;
-        if (v->yy)
-            v->yy[i] += size * 6 * y;
+        if (v->z) v->z[i] += size * (x * x + 3 * x * y + y * y * y);
+        if (v->x) v->x[i] += size * (2 * x + 3 * y);
+        if (v->y) v->y[i] += size * (3 * x + 3 * y * y);
+        if (v->xx) v->xx[i] += size * 2;
+        if (v->xy) v->xy[i] += size * 3;
+        if (v->yy) v->yy[i] += size * 6 * y;
     }
 }
 
@@ -37,7 +31,8 @@ static struct relief_part *cubic(struct arena *a, double size, double knots, dou
     struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     double *state = ARENA_TAKE(a, double, 1);
     *state = size;
-    *part = (struct relief_part){.name = "cubic", .pitch = {knots, 0}, .finest = finest, .add = cubic_add, .state = state};
+    *part =
+        (struct relief_part){.name = "cubic", .pitch = {knots, 0}, .finest = finest, .add = cubic_add, .state = state};
     return part;
 }
 
@@ -46,11 +41,12 @@ static struct relief_part *random_map(struct arena *a)
     double z[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++)
         z[i] = 1e-6 * (drand48() - 0.5);
-    return map_part(a, map_spline(a, &(struct height_map){z, SIDE, SIDE, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin, "map");
+    return map_part(a, map_spline(a, &(struct height_map){z, SIDE, SIDE, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
+                    "map");
 }
 
-/* Each value is the sum of the parts' own, in the order in which they were added; what was in the arrays before is gone; what is not asked for
-   is not touched, and changes nothing of the rest. */
+/* Each value is the sum of the parts' own, in the order in which they were added; what was in the arrays before is
+   gone; what is not asked for is not touched, and changes nothing of the rest. */
 START_TEST(parts_are_summed)
 {
     struct arena *a = arena_open();
@@ -65,7 +61,8 @@ START_TEST(parts_are_summed)
     memset(one, 0, sizeof one);
     memset(sum, 0x55, sizeof sum);
     for (int k = 0; k < 3; k++)
-        parts[k]->add(parts[k], &p, &(struct relief_values){one[k][0], one[k][1], one[k][2], one[k][3], one[k][4], one[k][5]});
+        parts[k]->add(parts[k], &p,
+                      &(struct relief_values){one[k][0], one[k][1], one[k][2], one[k][3], one[k][4], one[k][5]});
     struct relief r = {.along = ALONG_PLANE};
     relief_at(&r, &p, &(struct relief_values){.z = sum[0]});
     for (int i = 0; i < POINTS; i++)
@@ -78,8 +75,9 @@ START_TEST(parts_are_summed)
             ck_assert(sum[v][i] == (one[0][v][i] + one[1][v][i]) + one[2][v][i]);
     for (int v = 0; v < 6; v++) {
         memset(some, 0x55, sizeof some);
-        relief_at(&r, &p, &(struct relief_values){v == 0 ? some[0] : NULL, v == 1 ? some[1] : NULL, v == 2 ? some[2] : NULL,
-                                                  v == 3 ? some[3] : NULL, v == 4 ? some[4] : NULL, v == 5 ? some[5] : NULL});
+        relief_at(&r, &p,
+                  &(struct relief_values){v == 0 ? some[0] : NULL, v == 1 ? some[1] : NULL, v == 2 ? some[2] : NULL,
+                                          v == 3 ? some[3] : NULL, v == 4 ? some[4] : NULL, v == 5 ? some[5] : NULL});
         ck_assert_mem_eq(some[v], sum[v], sizeof some[v]);
     }
     arena_close(a);
@@ -104,7 +102,8 @@ START_TEST(finest_of_all)
 }
 END_TEST
 
-/* auto: plane for what has a direction, or under a path that is no straight line; else path. What the scene or a map decided stays. */
+/* auto: plane for what has a direction, or under a path that is no straight line; else path. What the scene or a map
+ * decided stays. */
 START_TEST(settled_along)
 {
     static const struct {
@@ -113,18 +112,26 @@ START_TEST(settled_along)
         bool roughness, ridges;
         int want;
     } cases[] = {
-        {ALONG_AUTO, PATH_LINE, 1, true, false, ALONG_PATH},           {ALONG_AUTO, PATH_BACK_AND_FORTH, 1, true, false, ALONG_PATH},
-        {ALONG_AUTO, PATH_FOUR_IN_LINE, 1, false, false, ALONG_PATH},  {ALONG_AUTO, PATH_CIRCLE, 1, true, false, ALONG_PLANE},
-        {ALONG_AUTO, PATH_SCRIBBLE, 1, true, false, ALONG_PLANE},      {ALONG_AUTO, PATH_POLYLINE, 1, true, false, ALONG_PLANE},
-        {ALONG_AUTO, PATH_SPLINE, 1, true, false, ALONG_PLANE},        {ALONG_AUTO, PATH_RECORDED, 1, false, false, ALONG_PLANE},
-        {ALONG_AUTO, PATH_LINE, 4, true, false, ALONG_PLANE},          {ALONG_AUTO, PATH_LINE, 4, false, false, ALONG_PATH},
-        {ALONG_AUTO, PATH_LINE, 1, false, true, ALONG_PLANE},          {ALONG_PATH, PATH_CIRCLE, 4, true, true, ALONG_PATH},
-        {ALONG_X, PATH_CIRCLE, 4, true, true, ALONG_X},                {ALONG_PLANE, PATH_LINE, 1, true, false, ALONG_PLANE},
+        {ALONG_AUTO, PATH_LINE, 1, true, false, ALONG_PATH},
+        {ALONG_AUTO, PATH_BACK_AND_FORTH, 1, true, false, ALONG_PATH},
+        {ALONG_AUTO, PATH_FOUR_IN_LINE, 1, false, false, ALONG_PATH},
+        {ALONG_AUTO, PATH_CIRCLE, 1, true, false, ALONG_PLANE},
+        {ALONG_AUTO, PATH_SCRIBBLE, 1, true, false, ALONG_PLANE},
+        {ALONG_AUTO, PATH_POLYLINE, 1, true, false, ALONG_PLANE},
+        {ALONG_AUTO, PATH_SPLINE, 1, true, false, ALONG_PLANE},
+        {ALONG_AUTO, PATH_RECORDED, 1, false, false, ALONG_PLANE},
+        {ALONG_AUTO, PATH_LINE, 4, true, false, ALONG_PLANE},
+        {ALONG_AUTO, PATH_LINE, 4, false, false, ALONG_PATH},
+        {ALONG_AUTO, PATH_LINE, 1, false, true, ALONG_PLANE},
+        {ALONG_PATH, PATH_CIRCLE, 4, true, true, ALONG_PATH},
+        {ALONG_X, PATH_CIRCLE, 4, true, true, ALONG_X},
+        {ALONG_PLANE, PATH_LINE, 1, true, false, ALONG_PLANE},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct relief r = {.along = cases[i].along};
         struct contact c = {.motion = {.path = cases[i].path},
-                            .surface = {.roughness = {.given = cases[i].roughness, .grain = cases[i].grain}, .ridges = {.given = cases[i].ridges}}};
+                            .surface = {.roughness = {.given = cases[i].roughness, .grain = cases[i].grain},
+                                        .ridges = {.given = cases[i].ridges}}};
         relief_settle(&r, &c);
         ck_assert_msg(r.along == cases[i].want, "case %zu: %d", i, r.along);
         ck_assert(rules_straight(&c.motion) == (cases[i].path <= PATH_FOUR_IN_LINE));

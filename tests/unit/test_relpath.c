@@ -1,4 +1,5 @@
-/* base/relpath.c: the relative name, opened from the folder, must be the same file (same inode) as the name it was made from. */
+/* base/relpath.c: the relative name, opened from the folder, must be the same file (same inode) as the name it was made
+ * from. */
 #include "unit.h"
 
 #include <sys/stat.h>
@@ -6,7 +7,8 @@
 
 #include "base/relpath.h"
 
-static const char *const folders[] = {"a", "a/b", "a/b/c", "a/bc", "d"}, *const files[] = {"a/file", "a/b/file", "d/file", "file"};
+static const char *const folders[] = {"a", "a/b", "a/b/c", "a/bc", "d"}, *const files[] = {"a/file", "a/b/file",
+                                                                                           "d/file", "file"};
 enum { FOLDERS = sizeof folders / sizeof folders[0], FILES = sizeof files / sizeof files[0] };
 static char root[] = "/tmp/rasp-relpath-XXXXXX";
 
@@ -39,7 +41,8 @@ static void same_file(const char *file, const char *folder, const char *want)
     struct stat x, y;
     ck_assert_msg(!strcmp(name, want), "%s from %s is %s, not %s", file, folder ? folder : "(null)", name, want);
     ck_assert_int_eq(stat(file, &x), 0);
-    ck_assert_int_eq(stat(name[0] == '/' ? name : arena_format(a, "%s/%s", folder && *folder ? folder : ".", name), &y), 0);
+    ck_assert_int_eq(stat(name[0] == '/' ? name : arena_format(a, "%s/%s", folder && *folder ? folder : ".", name), &y),
+                     0);
     ck_assert(x.st_ino == y.st_ino && x.st_dev == y.st_dev);
     arena_close(a);
 }
@@ -80,7 +83,8 @@ END_TEST
 /* What is not there is called as it was when it was there. */
 START_TEST(test_missing)
 {
-    static const char *const file_of[] = {"d/file", "a/b/../../d/file", "./d/./file", "l/../../d//file", "d/../d/file"}, *const folder_of[] = {"", "a/b", "l", "d", "a/b/../../d"};
+    static const char *const file_of[] = {"d/file", "a/b/../../d/file", "./d/./file", "l/../../d//file", "d/../d/file"},
+                             *const folder_of[] = {"", "a/b", "l", "d", "a/b/../../d"};
     char here[4096];
     const char *before[5][5];
     struct arena *a = arena_open();
@@ -89,8 +93,10 @@ START_TEST(test_missing)
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < 5; i++)
             for (int k = 0; k < 5; k++) {
-                const char *file = i == 4 ? arena_format(a, "%s/%s", here, file_of[i]) : file_of[i], *name = relpath_make(file, folder_of[k], a);
-                ck_assert_msg(pass == 0 || !strcmp(name, before[i][k]), "%s from %s is %s, not %s", file, folder_of[k], name, before[i][k]);
+                const char *file = i == 4 ? arena_format(a, "%s/%s", here, file_of[i]) : file_of[i],
+                           *name = relpath_make(file, folder_of[k], a);
+                ck_assert_msg(pass == 0 || !strcmp(name, before[i][k]), "%s from %s is %s, not %s", file, folder_of[k],
+                              name, before[i][k]);
                 before[i][k] = name;
             }
         ck_assert_int_eq(rename(pass == 0 ? "d" : "away", pass == 0 ? "away" : "d"), 0);

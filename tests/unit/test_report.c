@@ -47,8 +47,9 @@ START_TEST(as_json)
     char *text = described(true);
     json_t *j = json_loads(text, 0, NULL);
     char *plain = json_dumps(j, JSON_COMPACT);
-    ck_assert_str_eq(plain, "{\"file\":\"a.gsf\",\"rows\":3,\"later\":{\"n\":7},\"none\":null,\"sq_m\":1.9999999999999999e-6,"
-                            "\"parts\":[{\"x\":[0.5,null],\"channel\":null,\"ok\":true}]}");
+    ck_assert_str_eq(plain,
+                     "{\"file\":\"a.gsf\",\"rows\":3,\"later\":{\"n\":7},\"none\":null,\"sq_m\":1.9999999999999999e-6,"
+                     "\"parts\":[{\"x\":[0.5,null],\"channel\":null,\"ok\":true}]}");
     free(plain);
     json_decref(j);
     free(text);

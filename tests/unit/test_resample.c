@@ -5,11 +5,13 @@
 
 #include "num/resample.h"
 
-static const double pairs[][2] = {{44100, 48000}, {48000, 44100}, {96000, 44100}, {44100, 96000}, {44100, 47999}, {48000, 44101},
-                                  {22050, 44100}, {44100, 22050}, {192000, 44100}, {8000, 48000}, {44100, 192000}, {96000, 48000}};
+static const double pairs[][2] = {{44100, 48000},  {48000, 44100}, {96000, 44100},  {44100, 96000},
+                                  {44100, 47999},  {48000, 44101}, {22050, 44100},  {44100, 22050},
+                                  {192000, 44100}, {8000, 48000},  {44100, 192000}, {96000, 48000}};
 enum { PAIRS = sizeof pairs / sizeof pairs[0] };
 
-/* u^9 e^-u sin(2 pi f t), u = t/tau: a decaying sine whose start is so soft that 40 bandwidths from f nothing is left: (1/40)^10 = -320 dB. */
+/* u^9 e^-u sin(2 pi f t), u = t/tau: a decaying sine whose start is so soft that 40 bandwidths from f nothing is left:
+ * (1/40)^10 = -320 dB. */
 static double soft(double t, double f)
 {
     double u = t * 4000, turn = 2 * M_PI * fmod(f * t, 1);
@@ -43,7 +45,8 @@ static double error_of(const double rate[2], double (*signal)(double, double), d
     return 20 * log10(most / peak);
 }
 
-/* Up, down, small fractions and odd ones. Demanded: 168 dB, libsoxr's 28 bits; a sample of delay would give +6 dB, a gain of 1e-7 -140 dB. */
+/* Up, down, small fractions and odd ones. Demanded: 168 dB, libsoxr's 28 bits; a sample of delay would give +6 dB, a
+ * gain of 1e-7 -140 dB. */
 START_TEST(closed_forms)
 {
     for (int k = 0; k < PAIRS; k++) {
@@ -77,7 +80,8 @@ START_TEST(no_aliases)
 }
 END_TEST
 
-/* At instants that both rates have, a doubled rate keeps the samples of a band-limited signal; an impulse stays where it is, symmetric. */
+/* At instants that both rates have, a doubled rate keeps the samples of a band-limited signal; an impulse stays where
+ * it is, symmetric. */
 START_TEST(no_delay_and_linear_phase)
 {
     struct arena *a = arena_open();
@@ -165,8 +169,9 @@ START_TEST(sum_from_the_first_sample)
 }
 END_TEST
 
-/* One hash of libsoxr 0.1.3 for every CPU, with and without FMA and AVX, whatever the environment holds. It fails when libsoxr has its
-   filters from glibc's libm (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2 shows it) or takes its AVX engine. */
+/* One hash of libsoxr 0.1.3 for every CPU, with and without FMA and AVX, whatever the environment holds. It fails when
+   libsoxr has its filters from glibc's libm (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2 shows it) or takes its AVX
+   engine. */
 START_TEST(bits)
 {
     struct arena *a = arena_open();

@@ -1,5 +1,5 @@
-/* The judge is the defining sum in long double, y[n] = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f[m] with half of h(0+) at m = n,
-   h in closed form: O(N^2) per mode, nothing in common with the recursion. */
+/* The judge is the defining sum in long double, y[n] = (1/rate) sum_{m <= n} h_{x(m)}((n-m)/rate) f[m] with half of
+   h(0+) at m = n, h in closed form: O(N^2) per mode, nothing in common with the recursion. */
 #include "unit.h"
 
 #include <complex.h>
@@ -38,7 +38,8 @@ static struct scene scene_of(int n, double lowest, double highest)
 
 static struct resonators *bank_of(struct arena *a, const struct scene *s, int ramp)
 {
-    struct resonators_ask ask = {.n = s->n, .quantity = s->quantity, .rate = RATE, .frequency = s->frequency, .decay = s->decay, .ramp = ramp};
+    struct resonators_ask ask = {
+        .n = s->n, .quantity = s->quantity, .rate = RATE, .frequency = s->frequency, .decay = s->decay, .ramp = ramp};
     return resonators_make(a, &ask);
 }
 
@@ -120,7 +121,8 @@ static double apart(const double *a, const double *b, int n)
 
 static double against_brute(int modes, double lowest, double highest, int ramp)
 {
-    double faster = ramp > 1 ? 30 : 1; /* decays: the more independent the errors of single samples, the steadier their sum */
+    double faster =
+        ramp > 1 ? 30 : 1; /* decays: the more independent the errors of single samples, the steadier their sum */
     static double f[N], y[N], z[N];
     struct scene s = scene_of(modes, lowest, highest);
     for (int i = 0; i < modes; i++)
@@ -195,7 +197,12 @@ START_TEST(frequency_and_decay_are_the_tables)
     static double y[N];
     static const double frequency[] = {20, 440, 5000, 0.49 * RATE}, decay[] = {0.5, 6.9, 300, 12};
     for (int k = 0; k < 4; k++) {
-        struct scene s = {.n = 1, .quantity = MODES_VELOCITY, .frequency = {frequency[k]}, .decay = {decay[k]}, .re = {0.3}, .im = {0.4}};
+        struct scene s = {.n = 1,
+                          .quantity = MODES_VELOCITY,
+                          .frequency = {frequency[k]},
+                          .decay = {decay[k]},
+                          .re = {0.3},
+                          .im = {0.4}};
         struct arena *a = arena_open();
         struct resonators *r = bank_of(a, &s, 64);
         struct modes_point to = point(&s);
@@ -209,10 +216,12 @@ START_TEST(frequency_and_decay_are_the_tables)
             aa += u * u, ab += u * v, bb += v * v, ac += u * w, bc += v * w;
         }
         long double det = aa * bb - ab * ab, c1 = (ac * bb - bc * ab) / det, c2 = (bc * aa - ac * ab) / det;
-        double radius = sqrt((double)-c2), found = acos((double)(c1 / 2) / radius) / (2 * M_PI) * RATE, rate = -log(radius) * RATE;
+        double radius = sqrt((double)-c2), found = acos((double)(c1 / 2) / radius) / (2 * M_PI) * RATE,
+               rate = -log(radius) * RATE;
         printf("f %.9g -> %.12g, decay %.9g -> %.12g\n", frequency[k], found, decay[k], rate);
         ck_assert_double_lt(fabs(found / frequency[k] - 1), 1e-8);
-        ck_assert_double_lt(fabs(rate / decay[k] - 1), 1e-6); /* T60 = ln(1000)/decay; the fit, not the bank, is the limit */
+        ck_assert_double_lt(fabs(rate / decay[k] - 1),
+                            1e-6); /* T60 = ln(1000)/decay; the fit, not the bank, is the limit */
         arena_close(a);
     }
 }
@@ -251,8 +260,9 @@ START_TEST(silence)
 }
 END_TEST
 
-/* A blow, then no force: groups go to rest one after another, each when its slowest mode has fallen to 1e-22 of the loudest and not before, and what is
-   left out is below 1e-20 of the loudest sound: 64 modes, 1e-22 each. The judge is the closed form. Modes without gain never wake. */
+/* A blow, then no force: groups go to rest one after another, each when its slowest mode has fallen to 1e-22 of the
+   loudest and not before, and what is left out is below 1e-20 of the loudest sound: 64 modes, 1e-22 each. The judge is
+   the closed form. Modes without gain never wake. */
 START_TEST(tails_go_to_rest)
 {
     enum { BLOCK = 256 };
@@ -263,7 +273,7 @@ START_TEST(tails_go_to_rest)
     for (int i = 0; i < 64; i++) {
         s.decay[i] = 20 * (1 + i / 8); /* 1/s, of each group its own */
         s.re[i] = 0;
-        s.im[i] = i / 8 == 6 ? 0 : 1;  /* one group has no gain */
+        s.im[i] = i / 8 == 6 ? 0 : 1; /* one group has no gain */
     }
     struct resonators *r = bank_of(a, &s, BLOCK);
     struct modes_point to = point(&s);
@@ -275,8 +285,10 @@ START_TEST(tails_go_to_rest)
         double sum = 0, seconds = (n + BLOCK - 1) / RATE;
         for (int i = 0; i < 64; i++)
             sum += s.im[i] * exp(-s.decay[i] * seconds) * cos(2 * M_PI * s.frequency[i] * seconds);
-        ck_assert_double_le(fabs(y[BLOCK - 1] - sum), 1e-9 * fabs(exp(-20 * seconds)) + 1e-20); /* phases of the judge are good to 1e-9 */
-        int early = 0, late = 0; /* half a neper of 50.7: the state's parts, and the loudest is taken at the first block's end */
+        ck_assert_double_le(fabs(y[BLOCK - 1] - sum),
+                            1e-9 * fabs(exp(-20 * seconds)) + 1e-20); /* phases of the judge are good to 1e-9 */
+        int early = 0,
+            late = 0; /* half a neper of 50.7: the state's parts, and the loudest is taken at the first block's end */
         for (int k = 0; k < 8; k++) {
             early += k != 6 && 20 * (1 + k) * seconds < log(1e22) - 0.5;
             late += k != 6 && 20 * (1 + k) * (seconds - BLOCK / RATE) < log(1e22) + 0.5;
@@ -304,8 +316,9 @@ START_TEST(no_modes)
 }
 END_TEST
 
-/* Acceleration is the derivative of velocity: under a steady force a free-standing mode ends at rest, so the sum of h_a and the direct
-   term vanish together. Without the term it is the whole of D f. The trapezium rule leaves (omega/rate)^2/12 = 1e-4 of it. */
+/* Acceleration is the derivative of velocity: under a steady force a free-standing mode ends at rest, so the sum of h_a
+   and the direct term vanish together. Without the term it is the whole of D f. The trapezium rule leaves
+   (omega/rate)^2/12 = 1e-4 of it. */
 START_TEST(acceleration_has_its_direct_term)
 {
     enum { LONG = 48000 };
@@ -313,7 +326,8 @@ START_TEST(acceleration_has_its_direct_term)
     struct scene s = {.n = 1, .quantity = MODES_ACCELERATION, .frequency = {250}, .decay = {30}};
     struct arena *a = arena_open();
     double omega = 2 * M_PI * 250, velocity = 3.0;
-    double complex gain = velocity * I * (-30 + I * omega); /* h_v = velocity cos(omega t) e^(-30 t) = Im(velocity j e^(s t)) */
+    double complex gain =
+        velocity * I * (-30 + I * omega); /* h_v = velocity cos(omega t) e^(-30 t) = Im(velocity j e^(s t)) */
     s.re[0] = creal(gain), s.im[0] = cimag(gain);
     struct modes_point to = point(&s);
     struct resonators *r = bank_of(a, &s, 64);
@@ -352,5 +366,6 @@ START_TEST(zero_hertz)
 }
 END_TEST
 
-UNIT("resonators", equals_the_defining_sum, ramped_gains_converge_at_order_2, cuts_do_not_matter, frequency_and_decay_are_the_tables,
-     silence, tails_go_to_rest, no_modes, acceleration_has_its_direct_term, zero_hertz)
+UNIT("resonators", equals_the_defining_sum, ramped_gains_converge_at_order_2, cuts_do_not_matter,
+     frequency_and_decay_are_the_tables, silence, tails_go_to_rest, no_modes, acceleration_has_its_direct_term,
+     zero_hertz)

@@ -3,7 +3,8 @@
 
 #include "parts.h"
 
-static const struct ridges sine = {.given = true, .spacing = 1e-3, .height = 20e-6, .width = 0.3e-3, .direction = M_PI / 2, .shape = RIDGE_SINE};
+static const struct ridges sine = {
+    .given = true, .spacing = 1e-3, .height = 20e-6, .width = 0.3e-3, .direction = M_PI / 2, .shape = RIDGE_SINE};
 
 static struct ridges with(int shape, double jitter, double variation)
 {
@@ -12,10 +13,7 @@ static struct ridges with(int shape, double jitter, double variation)
     return r;
 }
 
-static double at(struct relief_part *p, double q)
-{
-    return parts_at(p, q, 0, false).v[0];
-}
+static double at(struct relief_part *p, double q) { return parts_at(p, q, 0, false).v[0]; }
 
 START_TEST(shapes)
 {
@@ -50,15 +48,16 @@ static void census(int shape, double jitter, double variation)
         double best = -1, place = 0;
         for (int k = -200; k <= 200; k++) {
             double off = (jitter > 0 ? 0.0019 : 0) * k, z = at(p, (i + off) * 1e-3);
-            if (z > best)
-                best = z, place = off;
+            if (z > best) best = z, place = off;
         }
         double v = best / (shape == RIDGE_SINE ? 10e-6 : 20e-6);
         sum[0] += place / N, sum[1] += place * place / N, sum[2] += v / N, sum[3] += v * v / N;
     }
     double fourth = sqrt(6.0 / N); /* relative deviation of a variance's estimate, at most */
     ck_assert_double_eq_tol(sum[0], 0, 5 * jitter / sqrt(N) + 1e-9);
-    ck_assert_double_eq_tol(sqrt(sum[1]), jitter, 0.02 * jitter + 1e-9); /* the step moves a sine's tops by up to a few percent, the grid by 0.002 */
+    ck_assert_double_eq_tol(sqrt(sum[1]), jitter,
+                            0.02 * jitter +
+                                1e-9); /* the step moves a sine's tops by up to a few percent, the grid by 0.002 */
     ck_assert_double_eq_tol(sum[2], 1, 5 * variation / sqrt(N) + 2e-3);
     ck_assert_double_eq_tol(sqrt(fmax(0, sum[3] - sum[2] * sum[2])), variation, 5 * variation * fourth + 2e-3);
     arena_close(a);
@@ -81,13 +80,15 @@ START_TEST(direction)
     struct relief_part *line = ridges_part(a, &r, ALONG_PATH, noise_make(2, "d"));
     for (double d = 0; d < 3; d += 0.37) {
         r.direction = d;
-        struct relief_part *plane = ridges_part(a, &r, ALONG_PLANE, noise_make(2, "d")), *path = ridges_part(a, &r, ALONG_PATH, noise_make(2, "d"));
+        struct relief_part *plane = ridges_part(a, &r, ALONG_PLANE, noise_make(2, "d")),
+                           *path = ridges_part(a, &r, ALONG_PATH, noise_make(2, "d"));
         for (int i = 0; i < 300; i++) {
             double x = 1.3e-4 * i, y = -0.7e-4 * i, q = x * sin(d) - y * cos(d);
             ck_assert_double_eq_tol(parts_at(plane, x, y, true).v[0], at(line, q), 1e-16);
             ck_assert_double_eq(parts_at(plane, x, y, true).v[0] - parts_at(plane, x + 0, y, true).v[0], 0);
             ck_assert_double_eq(at(path, x), at(line, x));
-            ck_assert_double_eq_tol(parts_at(plane, x + 0.01 * cos(d), y + 0.01 * sin(d), true).v[0], at(line, q), 1e-15);
+            ck_assert_double_eq_tol(parts_at(plane, x + 0.01 * cos(d), y + 0.01 * sin(d), true).v[0], at(line, q),
+                                    1e-15);
         }
     }
     arena_close(a);
@@ -104,7 +105,8 @@ START_TEST(derivatives_and_continuity)
         parts_derivatives(ridges_part(a, &r, ALONG_PLANE, noise_make(3, "c2")), 0.1, true);
         parts_derivatives(ridges_part(a, &r, ALONG_X, noise_make(3, "c2")), 0.1, false);
         parts_continuous(ridges_part(a, &r, ALONG_PLANE, noise_make(3, "c2")), 50000, 0.01, 2, 0.4);
-        parts_any_order(ridges_part(a, &r, ALONG_PLANE, noise_make(3, "o")), ridges_part(a, &r, ALONG_PLANE, noise_make(3, "o")), 50e-6);
+        parts_any_order(ridges_part(a, &r, ALONG_PLANE, noise_make(3, "o")),
+                        ridges_part(a, &r, ALONG_PLANE, noise_make(3, "o")), 50e-6);
         parts_asked_alone(ridges_part(a, &r, ALONG_PLANE, noise_make(3, "o")));
     }
     arena_close(a);

@@ -18,7 +18,8 @@ static double wave_error(double w0, double zeta, double w, double dt, double las
         roll_follow_step(&f, a * sin(w * dt * (double)i), a * sin(w * dt * (double)(i + 1)));
         double complex turn = cexp(I * w * dt * (double)(i + 1));
         if ((double)i > 0.9 * (double)n)
-            worst = fmax(worst, fmax(fabs(f.y - cimag(y * turn)), fabs(f.rate - cimag(I * w * y * turn)) / w) / cabs(y));
+            worst =
+                fmax(worst, fmax(fabs(f.y - cimag(y * turn)), fabs(f.rate - cimag(I * w * y * turn)) / w) / cabs(y));
     }
     return worst;
 }
@@ -92,4 +93,5 @@ START_TEST(nothing_is_lost_without_damping)
 }
 END_TEST
 
-UNIT("roll_follow", waves_have_their_size_and_phase, waves_are_of_second_order, a_constant_is_balanced, poles_of_every_kind, nothing_is_lost_without_damping)
+UNIT("roll_follow", waves_have_their_size_and_phase, waves_are_of_second_order, a_constant_is_balanced,
+     poles_of_every_kind, nothing_is_lost_without_damping)

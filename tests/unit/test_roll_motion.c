@@ -4,12 +4,21 @@
 #include "rig.h"
 #include "trajectory/trajectory.h"
 
-enum { SAMPLES = 1 << 17, FIRST = 12, BANDS = 24 }; /* of 192 kHz, 0.68 s; third octaves from 2^(FIRST/3) * 2 Hz on, 32 Hz to 6.5 kHz */
+enum {
+    SAMPLES = 1 << 17,
+    FIRST = 12,
+    BANDS = 24
+}; /* of 192 kHz, 0.68 s; third octaves from 2^(FIRST/3) * 2 Hz on, 32 Hz to 6.5 kHz */
 
-static struct scene ball_scene(const char *model, const char *contact, const char *surface, const char *ball, const char *motion)
+static struct scene ball_scene(const char *model, const char *contact, const char *surface, const char *ball,
+                               const char *motion)
 {
-    return rig_scene(rig_arena(), arena_format(rig_arena(), "rasp: 1\nseed: 5\nsurface: {%s}\nball: {%s}\ncontact: {model: %s, %s}\nmotion: {%s}\nload: {approach: 0, release: 0}\n"
-                                                            "output: {sample_rate: 48000, diagnostics: {}}\naccuracy: {oversampling: 4}\n", surface, ball, model, contact, motion));
+    return rig_scene(rig_arena(),
+                     arena_format(rig_arena(),
+                                  "rasp: 1\nseed: 5\nsurface: {%s}\nball: {%s}\ncontact: {model: %s, %s}\nmotion: "
+                                  "{%s}\nload: {approach: 0, release: 0}\n"
+                                  "output: {sample_rate: 48000, diagnostics: {}}\naccuracy: {oversampling: 4}\n",
+                                  surface, ball, model, contact, motion));
 }
 
 /* Power in third octaves of SAMPLES forces, by Hann's window. */
@@ -27,8 +36,7 @@ static void thirds(const double *force, double power[BANDS])
         power[k] = 0;
     for (int i = 1; i <= SAMPLES / 2; i++) {
         int k = (int)floor(3 * log2(i * 192000.0 / SAMPLES / 2)) - FIRST;
-        if (k >= 0 && k < BANDS)
-            power[k] += re[i] * re[i] + im[i] * im[i];
+        if (k >= 0 && k < BANDS) power[k] += re[i] * re[i] + im[i] * im[i];
     }
     fft_close(f);
 }
@@ -40,7 +48,8 @@ static double correlation(const double *a, const double *b, int n)
     for (int i = 0; i < n; i++)
         s[0] += a[i] / n, s[1] += b[i] / n;
     for (int i = 0; i < n; i++)
-        s[2] += (a[i] - s[0]) * (a[i] - s[0]), s[3] += (b[i] - s[1]) * (b[i] - s[1]), s[4] += (a[i] - s[0]) * (b[i] - s[1]);
+        s[2] += (a[i] - s[0]) * (a[i] - s[0]), s[3] += (b[i] - s[1]) * (b[i] - s[1]),
+            s[4] += (a[i] - s[0]) * (b[i] - s[1]);
     return s[4] / sqrt(s[2] * s[3]);
 }
 
@@ -48,22 +57,32 @@ static double correlation(const double *a, const double *b, int n)
    and no damping but mu's make the same force, after half a second. */
 START_TEST(near_the_coupled_ball)
 {
-    const char *surface = "roughness: {rms: 3 nm}", *ball = "radius: 8 mm, mass: 5.4 g", *motion = "path: line, to: [35 cm, 0], speed: 25 cm/s";
-    struct scene here = ball_scene("roll", "smoothing: 0, limiter: {curve: none}, roll: {static_penetration: 1.2 um, damping_ratio: 0, scraping: 0}", surface, ball, motion);
+    const char *surface = "roughness: {rms: 3 nm}", *ball = "radius: 8 mm, mass: 5.4 g",
+               *motion = "path: line, to: [35 cm, 0], speed: 25 cm/s";
+    struct scene here = ball_scene(
+        "roll",
+        "smoothing: 0, limiter: {curve: none}, roll: {static_penetration: 1.2 um, damping_ratio: 0, scraping: 0}",
+        surface, ball, motion);
     long frames = 64800, from = 4 * 24000;
     struct rig *roll = rig_record(&here, ITEM_SUBFORCE, frames, 1024);
-    struct scene there = ball_scene("roll_coupled", arena_format(rig_arena(), "roll: {ground: rigid, stiffness: %.17g}", roll->run.board.roll.stiffness), surface, ball, motion);
+    struct scene there =
+        ball_scene("roll_coupled",
+                   arena_format(rig_arena(), "roll: {ground: rigid, stiffness: %.17g}", roll->run.board.roll.stiffness),
+                   surface, ball, motion);
     struct rig *coupled = rig_record(&there, ITEM_SUBFORCE, frames, 1024);
     double power[2][BANDS], worst = 0, *means = calloc((size_t)(4 * frames), sizeof *means);
     ck_assert_int_eq(coupled->per_frame, 4);
-    for (long i = 1; i < 4 * frames; i++) /* plain means, about the middle of a sub-interval: of two, about the start, as hats are */
+    for (long i = 1; i < 4 * frames;
+         i++) /* plain means, about the middle of a sub-interval: of two, about the start, as hats are */
         means[i] = 0.5 * (coupled->x[i - 1] + coupled->x[i]);
     thirds(roll->x + from, power[0]);
     thirds(means + from, power[1]);
     for (int k = 0; k < BANDS; k++) {
         double off = 10 * log10(power[0][k] / power[1][k]);
         printf("%.0f Hz: %.3g, %.3f dB\n", 2 * pow(2, (FIRST + k) / 3.0), power[1][k], off), fflush(stdout);
-        worst = fmax(worst, 2 * pow(2, (FIRST + k) / 3.0) < 80 ? 0 : fabs(off)); /* S leaks (contact.leak) below v / (2 pi l), 20 Hz */
+        worst = fmax(worst, 2 * pow(2, (FIRST + k) / 3.0) < 80
+                                ? 0
+                                : fabs(off)); /* S leaks (contact.leak) below v / (2 pi l), 20 Hz */
     }
     double alike = correlation(roll->x + from, means + from, SAMPLES);
     printf("correlation %.5f\n", alike), fflush(stdout);
@@ -99,27 +118,33 @@ static void bears(const char *name, struct scene s)
     printf("%s: mean force %.5f of N(t)+, in contact %.5f while pressed\n", name, mean / load, pressed), fflush(stdout);
     ck_assert_double_eq_tol(mean / load, 1, 0.005);
     ck_assert_double_gt(pressed, 0.99);
-    if (g)
-        rig_close(g);
+    if (g) rig_close(g);
 }
 
 START_TEST(the_mean_force_is_the_normal_force)
 {
     static const struct {
         const char *name, *surface, *ball, *motion;
-    } of[] = {
-        {"line", "roughness: {rms: 5 um}", "", "path: line, to: [35 cm, 0], speed: 25 cm/s"},
-        {"offset", "roughness: {rms: 5 um}", ", offset: 4 mm", "path: line, to: [35 cm, 0], speed: 25 cm/s"},
-        {"lifting", "roughness: {rms: 5 um}", ", offset: 4 mm", "path: line, to: [100 cm, 0], speed: 90 cm/s"},
-        {"reversal", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um", "path: back_and_forth, to: [20 mm, 3 mm], rate: 3 Hz, duration: 1.4 s"},
-        {"corners", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um",
-         "path: polyline, points: [[0, 0], [9 mm, 3 mm], [11 mm, 12 mm], [3 mm, 14 mm], [0, 13 mm], [1 mm, 5 mm], [14 mm, 2 mm]], duration: 1.4 s, law: minimum_jerk"},
-        {"cusps", "along: x, roughness: {rms: 4 um, shortest: 40 um}", "", "path: polyline, points: [[0, 0], [20 mm, 0], [0, 0.001 mm], [20 mm, 0.002 mm]], duration: 1.4 s"},
-        {"small circle", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um", "path: circle, radius: 1 mm, turns: 20, speed: 10 cm/s"},
-        {"circle", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um", "path: circle, radius: 15 mm, turns: 3, speed: 20 cm/s"},
-        {"ridges 8 mm apart", "along: x, ridges: {spacing: 8 mm, height: 20 um}", ", patch: 120 um", "path: line, to: [35 cm, 0], speed: 25 cm/s"}};
+    } of[] = {{"line", "roughness: {rms: 5 um}", "", "path: line, to: [35 cm, 0], speed: 25 cm/s"},
+              {"offset", "roughness: {rms: 5 um}", ", offset: 4 mm", "path: line, to: [35 cm, 0], speed: 25 cm/s"},
+              {"lifting", "roughness: {rms: 5 um}", ", offset: 4 mm", "path: line, to: [100 cm, 0], speed: 90 cm/s"},
+              {"reversal", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um",
+               "path: back_and_forth, to: [20 mm, 3 mm], rate: 3 Hz, duration: 1.4 s"},
+              {"corners", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um",
+               "path: polyline, points: [[0, 0], [9 mm, 3 mm], [11 mm, 12 mm], [3 mm, 14 mm], [0, 13 mm], [1 mm, 5 "
+               "mm], [14 mm, 2 mm]], duration: 1.4 s, law: minimum_jerk"},
+              {"cusps", "along: x, roughness: {rms: 4 um, shortest: 40 um}", "",
+               "path: polyline, points: [[0, 0], [20 mm, 0], [0, 0.001 mm], [20 mm, 0.002 mm]], duration: 1.4 s"},
+              {"small circle", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um",
+               "path: circle, radius: 1 mm, turns: 20, speed: 10 cm/s"},
+              {"circle", "along: x, ridges: {spacing: 1 mm, height: 20 um}", ", patch: 120 um",
+               "path: circle, radius: 15 mm, turns: 3, speed: 20 cm/s"},
+              {"ridges 8 mm apart", "along: x, ridges: {spacing: 8 mm, height: 20 um}", ", patch: 120 um",
+               "path: line, to: [35 cm, 0], speed: 25 cm/s"}};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
-        bears(of[i].name, ball_scene("roll", "smoothing: 0, roll: {scraping: 0}", of[i].surface, arena_format(rig_arena(), "radius: 8 mm, mass: 5.4 g%s", of[i].ball), of[i].motion));
+        bears(of[i].name,
+              ball_scene("roll", "smoothing: 0, roll: {scraping: 0}", of[i].surface,
+                         arena_format(rig_arena(), "radius: 8 mm, mass: 5.4 g%s", of[i].ball), of[i].motion));
 }
 END_TEST
 
@@ -131,9 +156,14 @@ START_TEST(force_grows_with_the_ground)
         double power[2][BANDS];
         struct roll_report report = {0};
         for (int k = 0; k < 2; k++) {
-            struct scene s = ball_scene("roll", arena_format(rig_arena(), "smoothing: 0, limiter: {curve: none}, roll: {scraping: 0, mu: 0%s}", ruled ? "" : ", static_penetration: 10 um"),
-                                        arena_format(rig_arena(), "roughness: {rms: %g um, exponent: 0, longest: 1 mm, shortest: %d um}", k ? 0.04 : 0.02, ruled ? 300 : 100), "radius: 1 mm, mass: 5.4 g",
-                                        ruled ? "path: line, to: [13 cm, 0], speed: 10 cm/s" : "path: line, to: [26 cm, 0], speed: 20 cm/s");
+            struct scene s = ball_scene(
+                "roll",
+                arena_format(rig_arena(), "smoothing: 0, limiter: {curve: none}, roll: {scraping: 0, mu: 0%s}",
+                             ruled ? "" : ", static_penetration: 10 um"),
+                arena_format(rig_arena(), "roughness: {rms: %g um, exponent: 0, longest: 1 mm, shortest: %d um}",
+                             k ? 0.04 : 0.02, ruled ? 300 : 100),
+                "radius: 1 mm, mass: 5.4 g",
+                ruled ? "path: line, to: [13 cm, 0], speed: 10 cm/s" : "path: line, to: [26 cm, 0], speed: 20 cm/s");
             struct rig *g = rig_record(&s, ITEM_SUBFORCE, 60000, 1024);
             thirds(g->x + 4 * 24000, power[k]);
             report = g->run.board.roll;
@@ -141,7 +171,8 @@ START_TEST(force_grows_with_the_ground)
         }
         for (int k = 0; k < BANDS; k++) {
             double at = 2 * pow(2, (FIRST + k) / 3.0), grows = 10 * log10(power[1][k] / power[0][k]);
-            printf("%s %.0f Hz: %.3f dB, resonance %.4g Hz\n", ruled ? "rule" : "given", at, grows, report.resonance), fflush(stdout);
+            printf("%s %.0f Hz: %.3f dB, resonance %.4g Hz\n", ruled ? "rule" : "given", at, grows, report.resonance),
+                fflush(stdout);
             ck_assert(at > 1700 || at < 50 || ruled || fabs(grows - 6.02) < 0.5);
             ck_assert(!ruled || at < 50 || at > 0.13 * report.resonance || fabs(grows - 6.02) < 0.5);
         }
@@ -149,4 +180,5 @@ START_TEST(force_grows_with_the_ground)
 }
 END_TEST
 
-UNIT("roll_motion", UNIT_LONG(near_the_coupled_ball), UNIT_LONG(the_mean_force_is_the_normal_force), force_grows_with_the_ground)
+UNIT("roll_motion", UNIT_LONG(near_the_coupled_ball), UNIT_LONG(the_mean_force_is_the_normal_force),
+     force_grows_with_the_ground)

@@ -1,8 +1,10 @@
-/* roughness: an ensemble (long readings of a fixed seed) against the density that the header promises, integrated by GSL.
+/* roughness: an ensemble (long readings of a fixed seed) against the density that the header promises, integrated by
+   GSL.
 
-   Statistical bounds. The mean of z^2 over a length L of a stationary Gaussian profile of one-sided density P has the relative variance
-   integral of P^2 dk / (L (integral of P dk)^2), and so has the power of a band of it, with the integrals over the band. Bounds are 5 standard
-   deviations, which a right profile passes 999 999 times in a million; with the seed fixed, always. */
+   Statistical bounds. The mean of z^2 over a length L of a stationary Gaussian profile of one-sided density P has the
+   relative variance integral of P^2 dk / (L (integral of P dk)^2), and so has the power of a band of it, with the
+   integrals over the band. Bounds are 5 standard deviations, which a right profile passes 999 999 times in a million;
+   with the seed fixed, always. */
 #include "surface/roughness.h"
 
 #include <gsl/gsl_errno.h>
@@ -14,7 +16,8 @@
 
 #define SIGMAS 5
 
-static const struct roughness usual = {.given = true, .exponent = -2.4, .rms = 4e-6, .longest = 2e-3, .shortest = 20e-6};
+static const struct roughness usual = {
+    .given = true, .exponent = -2.4, .rms = 4e-6, .longest = 2e-3, .shortest = 20e-6};
 
 static struct roughness with_exponent(double exponent)
 {
@@ -44,7 +47,8 @@ static double integral(const struct roughness *r, int power, double k0, double k
     k1 = fmin(k1, 1 / r->shortest);
     for (int i = 0; i < 2; i++)
         if (ends[i + 1] > ends[i]) {
-            ck_assert_int_eq(gsl_integration_qags(&f, ends[i], ends[i + 1], 0, 1e-11, 1000, space, &part, &error), GSL_SUCCESS);
+            ck_assert_int_eq(gsl_integration_qags(&f, ends[i], ends[i + 1], 0, 1e-11, 1000, space, &part, &error),
+                             GSL_SUCCESS);
             sum += part;
         }
     gsl_integration_workspace_free(space);
@@ -73,10 +77,12 @@ enum { EXPONENTS = 6 };
 
 START_TEST(density_integrates_to_the_square)
 {
-    static const double more[] = {-7.3, -1.5, -1 - 1e-6, -1 - 1e-8, -1 - 1e-10, -1 + 1e-10, -1 + 1e-8, -1 + 1e-6, -0.5, 1};
+    static const double more[] = {-7.3,       -1.5,      -1 - 1e-6, -1 - 1e-8, -1 - 1e-10,
+                                  -1 + 1e-10, -1 + 1e-8, -1 + 1e-6, -0.5,      1};
     for (int i = 0; i < 10 + EXPONENTS; i++) {
         struct roughness r = with_exponent(i < EXPONENTS ? exponents[i] : more[i - EXPONENTS]);
-        ck_assert_double_eq_tol(integral(&r, 1, 0, 1 / r.shortest) / (r.rms * r.rms), 1, 1e-8); /* 1e-16 / |exponent + 1| near -1 */
+        ck_assert_double_eq_tol(integral(&r, 1, 0, 1 / r.shortest) / (r.rms * r.rms), 1,
+                                1e-8); /* 1e-16 / |exponent + 1| near -1 */
     }
 }
 END_TEST
@@ -125,8 +131,8 @@ static struct moments measure(const struct roughness *r, const char *name, long 
     return m;
 }
 
-/* Without the line at k = 0, or with lines that do not stand for their share of P, the mean square is up to 5 % off (at exponent -8, which
-   42 m tell). */
+/* Without the line at k = 0, or with lines that do not stand for their share of P, the mean square is up to 5 % off (at
+   exponent -8, which 42 m tell). */
 START_TEST(mean_square_is_rms)
 {
     for (int i = 0; i < EXPONENTS; i++) {
@@ -134,16 +140,18 @@ START_TEST(mean_square_is_rms)
         long halves = i == EXPONENTS - 1 ? 4096 : 512;
         struct moments m = measure(&r, "mean square", -1000, halves);
         double sigma = spread_of(&r, 0, 1 / r.shortest, m.count * r.shortest / 4);
-        ck_assert_msg(fabs(m.sum[2] / m.count - 1) < SIGMAS * sigma, "exponent %g: mean square %g, sigma %g", r.exponent, m.sum[2] / m.count,
-                      sigma);
-        /* the same everywhere in a block: a sixteenth of a half block is about 1.5 correlation lengths, so that parts count as independent */
+        ck_assert_msg(fabs(m.sum[2] / m.count - 1) < SIGMAS * sigma, "exponent %g: mean square %g, sigma %g",
+                      r.exponent, m.sum[2] / m.count, sigma);
+        /* the same everywhere in a block: a sixteenth of a half block is about 1.5 correlation lengths, so that parts
+         * count as independent */
         for (int k = 0; k < PHASES; k++)
             ck_assert_double_eq_tol(m.phase[k] * PHASES / m.count, 1, SIGMAS * sigma * sqrt(2 * PHASES));
     }
 }
 END_TEST
 
-/* Skewness and kurtosis of n numbers, each correlated with `reach` others: variances 6 reach / n and 24 reach / n at most. */
+/* Skewness and kurtosis of n numbers, each correlated with `reach` others: variances 6 reach / n and 24 reach / n at
+ * most. */
 START_TEST(heights_are_gaussian)
 {
     struct roughness r = usual;
@@ -151,8 +159,10 @@ START_TEST(heights_are_gaussian)
     double sigma = spread_of(&r, 0, 1 / r.shortest, m.count * r.shortest / 4), independent = 2 / (sigma * sigma);
     double mean = m.sum[1] / m.count, var = m.sum[2] / m.count - mean * mean;
     double third = m.sum[3] / m.count - 3 * mean * m.sum[2] / m.count + 2 * mean * mean * mean;
-    double fourth = m.sum[4] / m.count - 4 * mean * m.sum[3] / m.count + 6 * mean * mean * m.sum[2] / m.count - 3 * pow(mean, 4);
-    double zero = sqrt(roughness_density(&r, 0) / 2 / (m.count * r.shortest / 4)) / r.rms; /* of the mean: the two-sided density at 0 */
+    double fourth =
+        m.sum[4] / m.count - 4 * mean * m.sum[3] / m.count + 6 * mean * mean * m.sum[2] / m.count - 3 * pow(mean, 4);
+    double zero = sqrt(roughness_density(&r, 0) / 2 / (m.count * r.shortest / 4)) /
+                  r.rms; /* of the mean: the two-sided density at 0 */
     ck_assert_double_eq_tol(mean, 0, SIGMAS * zero);
     ck_assert_double_eq_tol(third / pow(var, 1.5), 0, SIGMAS * sqrt(6 / independent));
     ck_assert_double_eq_tol(fourth / (var * var), 3, SIGMAS * sqrt(24 / independent));
@@ -163,7 +173,8 @@ END_TEST
 
 enum { SEGMENT = 16384, SEGMENTS = 256 };
 
-/* One-sided density at multiples of 1/(SEGMENT pitch), mean over half-overlapping Hann segments (Welch); power[0] is that at 0. */
+/* One-sided density at multiples of 1/(SEGMENT pitch), mean over half-overlapping Hann segments (Welch); power[0] is
+ * that at 0. */
 static void welch(const struct roughness *r, const char *name, double *power)
 {
     static double read[SEGMENT], z[SEGMENT], hann[SEGMENT];
@@ -182,13 +193,15 @@ static void welch(const struct roughness *r, const char *name, double *power)
             z[i] = read[i] * hann[i];
         gsl_fft_real_radix2_transform(z, 1, SEGMENT);
         for (int k = 0; k < SEGMENT / 2; k++)
-            power[k] += (z[k] * z[k] + (k ? z[SEGMENT - k] * z[SEGMENT - k] : 0)) * 2 * pitch / (SEGMENT * 0.375) / SEGMENTS;
+            power[k] +=
+                (z[k] * z[k] + (k ? z[SEGMENT - k] * z[SEGMENT - k] : 0)) * 2 * pitch / (SEGMENT * 0.375) / SEGMENTS;
     }
     p->close(p);
     arena_close(a);
 }
 
-/* Mean of the measured density over the lines in [lo, hi), relative to the mean of the promised one over the same lines. */
+/* Mean of the measured density over the lines in [lo, hi), relative to the mean of the promised one over the same
+ * lines. */
 static double band(const struct roughness *r, const double *power, double lo, double hi)
 {
     double dk = 1 / (SEGMENT * r->shortest / 4), got = 0, want = 0;
@@ -201,10 +214,10 @@ static double band(const struct roughness *r, const double *power, double lo, do
     return got / want;
 }
 
-/* Octaves down from the cut-off, far into the flat part, and what lies below them down to 0. Beside statistics (Welch's estimate with half
-   overlap has 1.06 times the variance of the length's own) the block's window, 1.4 lines of 49 cycles/m, rounds the kink at 500: 5 % of the
-   octave beside it at exponent -8, less in proportion to exponent^2. At -8 the last octave holds 1e-15 of the first: a window that leaks
-   shows there. */
+/* Octaves down from the cut-off, far into the flat part, and what lies below them down to 0. Beside statistics (Welch's
+   estimate with half overlap has 1.06 times the variance of the length's own) the block's window, 1.4 lines of 49
+   cycles/m, rounds the kink at 500: 5 % of the octave beside it at exponent -8, less in proportion to exponent^2. At -8
+   the last octave holds 1e-15 of the first: a window that leaks shows there. */
 START_TEST(spectrum_by_octaves)
 {
     static double power[SEGMENT / 2];
@@ -214,16 +227,17 @@ START_TEST(spectrum_by_octaves)
         welch(&r, "spectrum", power);
         for (double hi = k1 * 0.98; hi > k0 / 20; hi /= 2) {
             double lo = hi < k0 / 10 ? 0 : hi / 2, got = band(&r, power, lo, hi);
-            double bound = SIGMAS * 1.03 * spread_of(&r, lo, hi, length) + 0.05 * fmin(1, r.exponent * r.exponent / 64) + 0.002;
-            ck_assert_msg(fabs(got - 1) < bound, "exponent %g, %g to %g cycles/m: %g times the density, bound %g", r.exponent, lo, hi, got,
-                          bound);
+            double bound =
+                SIGMAS * 1.03 * spread_of(&r, lo, hi, length) + 0.05 * fmin(1, r.exponent * r.exponent / 64) + 0.002;
+            ck_assert_msg(fabs(got - 1) < bound, "exponent %g, %g to %g cycles/m: %g times the density, bound %g",
+                          r.exponent, lo, hi, got, bound);
         }
     }
 }
 END_TEST
 
-/* Nothing above 1/shortest, up to the 2/shortest that knots can tell, but the leak of the block's window: below 1e-9 of the density at the
-   cut-off. */
+/* Nothing above 1/shortest, up to the 2/shortest that knots can tell, but the leak of the block's window: below 1e-9 of
+   the density at the cut-off. */
 START_TEST(nothing_beyond_the_shortest)
 {
     static double power[SEGMENT / 2];
@@ -231,8 +245,7 @@ START_TEST(nothing_beyond_the_shortest)
     double dk = 1 / (SEGMENT * r.shortest / 4), k1 = 1 / r.shortest, edge = roughness_density(&r, k1 * 0.999), most = 0;
     welch(&r, "beyond", power);
     for (int k = 0; k < SEGMENT / 2; k++)
-        if (k * dk > 1.05 * k1)
-            most = fmax(most, power[k]);
+        if (k * dk > 1.05 * k1) most = fmax(most, power[k]);
     printf("roughness: density beyond 1/shortest at most %.2g of that below it\n", most / edge);
     ck_assert_double_lt(most, 1e-9 * edge);
 }
@@ -240,7 +253,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ reading */
 
-/* Any place, any length, any order, after any other: the same bits as one long reading; blocks of 4096 and of 16 000 samples. */
+/* Any place, any length, any order, after any other: the same bits as one long reading; blocks of 4096 and of 16 000
+ * samples. */
 START_TEST(any_order_same_bits)
 {
     enum { REACH = 60000 };
@@ -256,7 +270,8 @@ START_TEST(any_order_same_bits)
         for (int k = 0; k < 300; k++) {
             long first = (long)(drand48() * 2 * REACH), n = (long)(pow(drand48(), 4) * (double)(2 * REACH - first));
             often->read(often, first - REACH, n, part);
-            ck_assert_msg(memcmp(part, whole + first, (size_t)n * sizeof *part) == 0, "%ld from %ld on", n, first - REACH);
+            ck_assert_msg(memcmp(part, whole + first, (size_t)n * sizeof *part) == 0, "%ld from %ld on", n,
+                          first - REACH);
         }
         for (long k = 0; k < 2 * REACH; k += 1999) { /* one by one, backwards, across 0 */
             often->read(often, REACH - 1 - k, 1, part);
@@ -288,8 +303,8 @@ static double reach_of(const struct roughness *r)
     return integral(r, 2, 0, 1 / r->shortest) / (2 * rms2 * rms2) / (r->shortest / 4);
 }
 
-/* The autocorrelation over 128 blocks beyond one block: each lag is normal with variance reach / (numbers multiplied), and 500 000 lags
-   reach 5.2 deviations; 6.5 are allowed. */
+/* The autocorrelation over 128 blocks beyond one block: each lag is normal with variance reach / (numbers multiplied),
+   and 500 000 lags reach 5.2 deviations; 6.5 are allowed. */
 START_TEST(nothing_repeats)
 {
     enum { N = 128 * BLOCK, LAG = N - 8 * BLOCK };
@@ -309,7 +324,8 @@ START_TEST(nothing_repeats)
     ck_assert_double_gt(zero, 0);
     for (int lag = BLOCK; lag < LAG; lag++) {
         double correlation = z[lag] / zero * N / (N - lag);
-        ck_assert_msg(fabs(correlation) < 6.5 * sqrt(reach / (N - lag)), "lag of %g blocks: %g", (double)lag / BLOCK, correlation);
+        ck_assert_msg(fabs(correlation) < 6.5 * sqrt(reach / (N - lag)), "lag of %g blocks: %g", (double)lag / BLOCK,
+                      correlation);
     }
     p->close(p);
     arena_close(a);
@@ -325,9 +341,10 @@ static double correlation(const double *x, const double *y, int n)
     return xy / sqrt(xx * yy);
 }
 
-/* No half block is another one over again, whole or in part: over all pairs i, j of 200 of them on both sides of 0 with one difference i - j
-   or one sum i + j, the mean correlation is 0 within 6 of its standard deviations, sqrt(reach / (HALF pairs)); and no pair is alike: a half block
-   holds 24 independent numbers, whose correlation exceeds 0.9 once in 10^9 pairs. */
+/* No half block is another one over again, whole or in part: over all pairs i, j of 200 of them on both sides of 0 with
+   one difference i - j or one sum i + j, the mean correlation is 0 within 6 of its standard deviations, sqrt(reach /
+   (HALF pairs)); and no pair is alike: a half block holds 24 independent numbers, whose correlation exceeds 0.9 once in
+   10^9 pairs. */
 START_TEST(no_block_twice)
 {
     enum { HALVES = 200 };
@@ -338,16 +355,14 @@ START_TEST(no_block_twice)
     for (int i = 0; i < HALVES; i++)
         for (int j = 0; j < i; j++) {
             double alike = correlation(z[i], z[j], HALF);
-            if (fabs(alike) >= 0.9)
-                ck_abort_msg("half blocks %d and %d are alike", i, j);
+            if (fabs(alike) >= 0.9) ck_abort_msg("half blocks %d and %d are alike", i, j);
             sums[0][i - j] += alike, pairs[0][i - j]++;
             sums[1][i + j] += alike, pairs[1][i + j]++;
         }
     double each = sqrt(reach_of(&usual) / HALF);
     for (int how = 0; how < 2; how++)
         for (int k = 0; k < 2 * HALVES; k++)
-            if (pairs[how][k] > 9)
-                ck_assert_double_lt(fabs(sums[how][k]), 6 * each * sqrt(pairs[how][k]));
+            if (pairs[how][k] > 9) ck_assert_double_lt(fabs(sums[how][k]), 6 * each * sqrt(pairs[how][k]));
     p->close(p);
     arena_close(a);
 }
@@ -357,8 +372,8 @@ START_TEST(streams_and_seeds_differ)
 {
     enum { N = 1 << 18, KINDS = 4 };
     static double z[KINDS][N];
-    struct noise streams[KINDS] = {noise_make(7, "roughness/a"), noise_make(7, "roughness/b"), noise_make(8, "roughness/a"),
-                                   noise_make(7, "roughness/a")};
+    struct noise streams[KINDS] = {noise_make(7, "roughness/a"), noise_make(7, "roughness/b"),
+                                   noise_make(8, "roughness/a"), noise_make(7, "roughness/a")};
     struct arena *a = arena_open();
     for (int k = 0; k < KINDS; k++) {
         struct profile *p = roughness_make(a, &usual, streams[k]);
@@ -399,8 +414,8 @@ END_TEST
 
 extern const struct stage roughness_stage;
 
-/* On a line the stage's part is the profile above, of the stream of the contact's name; in the plane, asked for by a grain, one that
-   varies with y; with another height distribution not Gaussian. */
+/* On a line the stage's part is the profile above, of the stream of the contact's name; in the plane, asked for by a
+   grain, one that varies with y; with another height distribution not Gaussian. */
 START_TEST(stage_adds_its_part)
 {
     for (int kind = 0; kind < 3; kind++) {
@@ -432,8 +447,7 @@ START_TEST(stage_adds_its_part)
             ck_assert_double_eq_tol(got.v[0], z, 1e-15);
         else
             ck_assert_double_gt(fabs(got.v[0] - z), 1e-9);
-        if (kind == 1)
-            ck_assert_double_gt(fabs(parts_at(p, 77 * want->pitch, 1e-3, true).v[0] - got.v[0]), 1e-9);
+        if (kind == 1) ck_assert_double_gt(fabs(parts_at(p, 77 * want->pitch, 1e-3, true).v[0] - got.v[0]), 1e-9);
         parts_derivatives(p, 0.05, kind == 1);
         want->close(want);
         roughness_stage.close(&run);
@@ -454,7 +468,8 @@ START_TEST(refused)
         struct err e = {0};
         struct roughness_plan p;
         bad[i].kurtosis = i < 2 ? 3 : bad[i].kurtosis;
-        ck_assert(!roughness_plan(a, NULL, &bad[i], &p, &e) || !roughness_part(a, &p, &bad[i], ALONG_PATH, noise_make(1, "x"), &e));
+        ck_assert(!roughness_plan(a, NULL, &bad[i], &p, &e) ||
+                  !roughness_part(a, &p, &bad[i], ALONG_PATH, noise_make(1, "x"), &e));
         ck_assert_int_eq(e.kind, ERR_SCENE);
         ck_assert_msg(strstr(e.text, says[i]) != NULL, "%s", e.text);
         arena_close(a);
@@ -462,6 +477,6 @@ START_TEST(refused)
 }
 END_TEST
 
-UNIT("roughness", density_integrates_to_the_square, density_is_a_power_law, mean_square_is_rms, heights_are_gaussian, spectrum_by_octaves,
-     nothing_beyond_the_shortest, any_order_same_bits, far_places, nothing_repeats, no_block_twice, streams_and_seeds_differ, rms_is_a_factor,
-     stage_adds_its_part, refused)
+UNIT("roughness", density_integrates_to_the_square, density_is_a_power_law, mean_square_is_rms, heights_are_gaussian,
+     spectrum_by_octaves, nothing_beyond_the_shortest, any_order_same_bits, far_places, nothing_repeats, no_block_twice,
+     streams_and_seeds_differ, rms_is_a_factor, stage_adds_its_part, refused)

@@ -1,5 +1,5 @@
-/* A finished tail is not worked on: every shipped scene with silence behind its motion gives the same forces, sounds, tables and reports to the bit as where all stages work to the end,
-   and the stages before the modes have stopped. */
+/* A finished tail is not worked on: every shipped scene with silence behind its motion gives the same forces, sounds,
+   tables and reports to the bit as where all stages work to the end, and the stages before the modes have stopped. */
 #include <dirent.h>
 #include <limits.h>
 
@@ -14,15 +14,14 @@ struct rendered {
     long forces, sounds;
     char *rows;
     size_t n_rows;
-    struct board board;     /* reports; signals and laws are gone */
-    int stopped;            /* stages with a limit before the end */
+    struct board board; /* reports; signals and laws are gone */
+    int stopped;        /* stages with a limit before the end */
 };
 
 /* Appends what the board holds of an item, if it does. */
 static void keep(const struct board *b, enum item item, long from, long to, double *x, long *n)
 {
-    if (!board_has(b, item))
-        return;
+    if (!board_has(b, item)) return;
     long count = (to - from) * b->signals[item].per_frame;
     memcpy(x + *n, board_at(b, item, from), (size_t)count * sizeof *x);
     *n += count;
@@ -40,11 +39,10 @@ static void render(const struct scene *s, int contact, bool limits, struct rende
     ck_assert_msg(run_open(&r, &p, s, &(struct run_sinks){&table, &impacts}, &e), "%s", e.text);
     long frames = r.board.moving + 4 * STAGE_BLOCK;
     to->force = ARENA_TAKE(a, double, frames);
-    to->sound = ARENA_TAKE(a, double, frames * r.board.channels);
+    to->sound = ARENA_TAKE(a, double, frames *r.board.channels);
     to->forces = to->sounds = 0;
     for (int i = 0; i < r.n; i++) {
-        if (!limits)
-            r.stages[i].limit = LONG_MAX;
+        if (!limits) r.stages[i].limit = LONG_MAX;
         to->stopped += r.stages[i].limit < frames - STAGE_BLOCK;
     }
     for (long done = 0; done < frames;) {
@@ -66,11 +64,15 @@ static void check_contact(const char *file, const struct scene *s, int contact, 
     struct rendered x = {0}, y = {0};
     render(s, contact, true, &x, a);
     render(s, contact, false, &y, a);
-    ck_assert_msg(x.forces == y.forces && memcmp(x.force, y.force, (size_t)x.forces * sizeof *x.force) == 0, "%s: another force", file);
-    ck_assert_msg(x.sounds == y.sounds && memcmp(x.sound, y.sound, (size_t)x.sounds * sizeof *x.sound) == 0, "%s: another sound", file);
+    ck_assert_msg(x.forces == y.forces && memcmp(x.force, y.force, (size_t)x.forces * sizeof *x.force) == 0,
+                  "%s: another force", file);
+    ck_assert_msg(x.sounds == y.sounds && memcmp(x.sound, y.sound, (size_t)x.sounds * sizeof *x.sound) == 0,
+                  "%s: another sound", file);
     ck_assert_msg(x.n_rows == y.n_rows && memcmp(x.rows, y.rows, x.n_rows) == 0, "%s: another table", file);
-    ck_assert_msg(memcmp(&x.board.roll, &y.board.roll, sizeof x.board.roll) == 0, "%s: another report of the ball", file);
-    ck_assert_msg(x.board.lifted == y.board.lifted && x.board.impacts.count == y.board.impacts.count, "%s: another report", file);
+    ck_assert_msg(memcmp(&x.board.roll, &y.board.roll, sizeof x.board.roll) == 0, "%s: another report of the ball",
+                  file);
+    ck_assert_msg(x.board.lifted == y.board.lifted && x.board.impacts.count == y.board.impacts.count,
+                  "%s: another report", file);
     ck_assert_int_eq(y.stopped, 0);
     *stopped += x.stopped > 1;
     free(x.rows);
@@ -91,8 +93,7 @@ START_TEST(shipped_scenes_end_as_if_all_worked_on)
         struct scene s;
         struct err e = {0};
         const char *messages = "", *file = arena_format(a, "%s/%s", folder, entry->d_name);
-        if (!strstr(entry->d_name, ".yaml"))
-            continue;
+        if (!strstr(entry->d_name, ".yaml")) continue;
         if (!scene_read(file, &(struct scene_overrides){0}, a, &s, &messages, &e))
             ck_abort_msg("%s%s", messages, e.text);
         accuracy_preset(&s.accuracy, "draft");

@@ -1,4 +1,5 @@
-/* Scenes against structs and messages written down by hand: places, words, cures; merging, overrides, mutations of a good scene. */
+/* Scenes against structs and messages written down by hand: places, words, cures; merging, overrides, mutations of a
+ * good scene. */
 #include "scene/scene_read.h"
 
 #include <sys/stat.h>
@@ -27,7 +28,8 @@ START_TEST(test_full)
     ck_assert_str_eq(c->scraper.response.file, "scenes/rod.csv");
     ck_assert(c->surface.along == ALONG_X && c->surface.origin[0] == 0.01 && c->surface.origin[1] == -0.002);
     ck_assert(c->scraper.mass == 0.02 && c->scraper.weight == 0.3);
-    ck_assert(c->motion.path == PATH_BACK_AND_FORTH && c->motion.from[0] == 0.03 && c->motion.to[0] == 0.075 && c->motion.rate == 2);
+    ck_assert(c->motion.path == PATH_BACK_AND_FORTH && c->motion.from[0] == 0.03 && c->motion.to[0] == 0.075 &&
+              c->motion.rate == 2);
     ck_assert(c->motion.duration == 1.5 && isnan(c->motion.speed));
     ck_assert(c->grip.given && c->grip.angle == 0.5 && c->grip.friction == 0.3 && isnan(c->load.constant));
     ck_assert(c->contact.force == FORCE_PAPER && isnan(c->contact.leak) && c->contact.limiter.force_range[1] == 5);
@@ -58,9 +60,11 @@ START_TEST(test_defaults)
     ck_assert(c->motion.from[0] == 0 && c->motion.from[1] == 0 && isnan(c->motion.rate) && c->motion.law == SPEED_AUTO);
     ck_assert(!c->grip.given && isnan(c->load.constant) && c->contact.leak == 2e-3 && c->contact.smoothing == 50e-6);
     ck_assert(c->contact.gravity == 9.80665 && c->contact.beta1 == 0.05 && c->contact.beta2 == 1);
-    ck_assert(l->curve == LIMITER_TANH && l->alpha == 0.03 && l->alpha_min == 0.01 && l->alpha_max == 0.05 && isnan(l->force_range[0]));
+    ck_assert(l->curve == LIMITER_TANH && l->alpha == 0.03 && l->alpha_min == 0.01 && l->alpha_max == 0.05 &&
+              isnan(l->force_range[0]));
     ck_assert(r.scene.output.sample_rate == 48000 && r.scene.output.ramp == 0.01 && isnan(r.scene.output.tail));
-    ck_assert(!r.scene.output.diagnostics.given && !r.scene.output.diagnostics.columns && isnan(r.scene.output.level.peak));
+    ck_assert(!r.scene.output.diagnostics.given && !r.scene.output.diagnostics.columns &&
+              isnan(r.scene.output.level.peak));
     ck_assert_str_eq(r.scene.accuracy.preset, "standard");
     ck_assert(r.scene.accuracy.oversampling == 4);
     arena_close(r.arena);
@@ -73,10 +77,11 @@ static void applies_check(const struct key *k)
     const struct key *decides = keys_decider(k);
     int words = 0, bars = 0;
     ck_assert_msg((decides != NULL) == (k->applies != NULL), "%s", k->path);
-    if (!decides)
-        return;
+    if (!decides) return;
     if (!keys_words(k)) {
-        ck_assert_msg((decides->type == KEY_FILE || decides->type == KEY_NUMBER) && decides->standard && !*decides->standard, "%s", k->path);
+        ck_assert_msg((decides->type == KEY_FILE || decides->type == KEY_NUMBER) && decides->standard &&
+                          !*decides->standard,
+                      "%s", k->path);
         return;
     }
     ck_assert_msg(decides->type == KEY_CHOICE, "%s", k->path);
@@ -95,7 +100,9 @@ START_TEST(test_tables)
     ck_assert(r.scene.output.diagnostics.given);
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         for (int i = 0; i < 4; i++)
-            ck_assert_msg(k->preset[i] >= k->low && k->preset[i] <= k->high && (!k->whole || k->preset[i] == floor(k->preset[i])), "%s", k->name);
+            ck_assert_msg(k->preset[i] >= k->low && k->preset[i] <= k->high &&
+                              (!k->whole || k->preset[i] == floor(k->preset[i])),
+                          "%s", k->name);
     for (const struct key *k = keys_table; k->path; k++) {
         ck_assert_ptr_eq(keys_find(k->path), k);
         ck_assert_msg((k->type == KEY_CHOICE) == (k->choices != NULL), "%s", k->path);
@@ -109,10 +116,13 @@ END_TEST
 
 START_TEST(test_set)
 {
-    struct result r = read_good(full, SET("motion.rate=3 Hz", "motion.rate= 4 Hz ", "title=Fast: #1", "motion.to=[1 cm, 2 cm]", "surface.response=x.csv",
-                                          "output.level={lufs: null, peak: -1 dB}", "accuracy.gain_ramp=7", "grip=~", "load.constant=2 N"));
+    struct result r =
+        read_good(full, SET("motion.rate=3 Hz", "motion.rate= 4 Hz ", "title=Fast: #1", "motion.to=[1 cm, 2 cm]",
+                            "surface.response=x.csv", "output.level={lufs: null, peak: -1 dB}", "accuracy.gain_ramp=7",
+                            "grip=~", "load.constant=2 N"));
     const struct contact *c = r.scene.contacts;
-    ck_assert(c->motion.rate == 4 && c->motion.to[0] == 0.01 && c->motion.to[1] == 0.02 && !c->grip.given && c->load.constant == 2);
+    ck_assert(c->motion.rate == 4 && c->motion.to[0] == 0.01 && c->motion.to[1] == 0.02 && !c->grip.given &&
+              c->load.constant == 2);
     ck_assert_str_eq(r.scene.title, "Fast: #1");
     ck_assert_str_eq(c->surface.response.file, "x.csv"); /* seen from the current folder */
     ck_assert_str_eq(c->scraper.response.file, "scenes/rod.csv");
@@ -120,7 +130,8 @@ START_TEST(test_set)
     ck_assert(r.scene.accuracy.gain_ramp == 7 && r.scene.accuracy.oversampling == 16);
     arena_close(r.arena);
     r = read_good(MIN "accuracy: high\n", SET("accuracy.oversampling=3", "motion.to.1=2 mm"));
-    ck_assert(r.scene.accuracy.oversampling == 3 && r.scene.accuracy.gain_ramp == 16 && r.scene.contacts->motion.to[1] == 0.002);
+    ck_assert(r.scene.accuracy.oversampling == 3 && r.scene.accuracy.gain_ramp == 16 &&
+              r.scene.contacts->motion.to[1] == 0.002);
     arena_close(r.arena);
     r = read_good(full, SET("accuracy=draft"));
     ck_assert(r.scene.accuracy.oversampling == 1 && r.scene.accuracy.gain_ramp == 256);
@@ -132,17 +143,23 @@ END_TEST
 
 START_TEST(test_contacts)
 {
-    struct result r = read_good(two, SET("contacts.rod.motion.rate=3 Hz", "contacts.0.gain=0.7", "contacts.1.gain=0.5", "contacts.nail.motion.to.1=1 cm"));
+    struct result r = read_good(two, SET("contacts.rod.motion.rate=3 Hz", "contacts.0.gain=0.7", "contacts.1.gain=0.5",
+                                         "contacts.nail.motion.to.1=1 cm"));
     const struct contact *c = r.scene.contacts;
     ck_assert_int_eq(r.scene.n_contacts, 2);
     ck_assert_str_eq(c[0].name, "rod");
     ck_assert_str_eq(c[1].name, "nail");
-    ck_assert(c[0].motion.rate == 3 && c[0].gain == 0.7 && c[1].gain == 0.5 && c[1].start == 0.5 && c[1].motion.speed == 0.1 && c[1].motion.to[1] == 0.01);
+    ck_assert(c[0].motion.rate == 3 && c[0].gain == 0.7 && c[1].gain == 0.5 && c[1].start == 0.5 &&
+              c[1].motion.speed == 0.1 && c[1].motion.to[1] == 0.01);
     arena_close(r.arena);
-    r = read_with("rasp: 1\ncontacts:\n- surface: {roughness: {}}\n  scraper: {mass: 2 m}\n  motion: {path: line, to: [1, 0], duration: 1}\n", NULL);
+    r = read_with("rasp: 1\ncontacts:\n- surface: {roughness: {}}\n  scraper: {mass: 2 m}\n  motion: {path: line, to: "
+                  "[1, 0], duration: 1}\n",
+                  NULL);
     one_error(&r, "scenes/t.yaml:4:19: error: ", "contacts.0.scraper.mass needs a mass", "20 g");
     arena_close(r.arena);
-    r = read_with("rasp: 1\ncontacts:\n- &c\n  surface: {roughness: {}, response: a.csv}\n  scraper: {mass: 2 g}\n  motion: {path: line, to: [1, 0], duration: 1}\n- *c\n", NULL);
+    r = read_with("rasp: 1\ncontacts:\n- &c\n  surface: {roughness: {}, response: a.csv}\n  scraper: {mass: 2 g}\n  "
+                  "motion: {path: line, to: [1, 0], duration: 1}\n- *c\n",
+                  NULL);
     one_error(&r, "scenes/t.yaml:3:3: error: ", "two contacts are named 'contact'", "name of its own");
     arena_close(r.arena);
 }
@@ -162,9 +179,11 @@ static void make_files(void)
     folder_make();
     ck_assert_int_eq(mkdir(folder_path("sub"), 0700), 0);
     folder_write("base.yaml", MIN "title: base\naccuracy: high\noutput: {ramp: 1 s, level: {lufs: -23}}\n");
-    folder_write("sub/late.yaml", "scraper: {response: rod.csv}\nmotion: {to: [5 cm, 6 cm]}\noutput: {ramp: 2 s}\ntitle: late\n");
-    folder_write("main.yaml", "include: [base.yaml, sub/late.yaml]\nscraper: {mass: 7 g}\ntitle: main\naccuracy: {oversampling: 5}\n"
-                              "output: {level: {lufs: ~, rms: -30 dB}}\n");
+    folder_write("sub/late.yaml",
+                 "scraper: {response: rod.csv}\nmotion: {to: [5 cm, 6 cm]}\noutput: {ramp: 2 s}\ntitle: late\n");
+    folder_write("main.yaml",
+                 "include: [base.yaml, sub/late.yaml]\nscraper: {mass: 7 g}\ntitle: main\naccuracy: {oversampling: 5}\n"
+                 "output: {level: {lufs: ~, rms: -30 dB}}\n");
     folder_write("error.yaml", "include: [wrong.yaml]\ntitle: x\nseed: x\n");
     folder_write("wrong.yaml", MIN "gain: 3 s\n");
     folder_write("missing.yaml", MIN "include: [none.yaml, base.yaml]\n");
@@ -191,7 +210,8 @@ START_TEST(test_include)
     ck_assert_msg(r.good, "%s", r.messages);
     const struct contact *c = r.scene.contacts;
     ck_assert_str_eq(r.scene.title, "main");
-    ck_assert(c->scraper.mass == 0.007 && c->motion.to[0] == 0.05 && c->motion.to[1] == 0.06 && c->motion.duration == 1);
+    ck_assert(c->scraper.mass == 0.007 && c->motion.to[0] == 0.05 && c->motion.to[1] == 0.06 &&
+              c->motion.duration == 1);
     ck_assert_str_eq(c->scraper.response.file, folder_path("sub/rod.csv"));
     ck_assert_str_eq(c->surface.height_map, folder_path("a.npy"));
     ck_assert(r.scene.output.ramp == 2 && isnan(r.scene.output.level.lufs) && r.scene.output.level.rms == -30);
@@ -204,7 +224,8 @@ START_TEST(test_include)
     arena_close(r.arena);
     r = read_file("error.yaml");
     ck_assert(!r.good && r.err.kind == ERR_SCENE);
-    const char *second = strstr(r.messages, "wrong.yaml:5:7: error: gain needs"), *first = strstr(r.messages, "error.yaml:3:7: error: seed must");
+    const char *second = strstr(r.messages, "wrong.yaml:5:7: error: gain needs"),
+               *first = strstr(r.messages, "error.yaml:3:7: error: seed must");
     ck_assert_msg(first && second && first < second, "%s", r.messages);
     arena_close(r.arena);
     folder_remove();
@@ -213,12 +234,17 @@ END_TEST
 
 START_TEST(test_bad_files)
 {
-    static const struct { const char *name, *at, *place, *says, *cure; enum err_kind kind; } rows[] = {
-        {"missing.yaml", "missing.yaml", ":5:11: error: ", "none.yaml': No such file", "relative to that file's folder", ERR_INPUT},
+    static const struct {
+        const char *name, *at, *place, *says, *cure;
+        enum err_kind kind;
+    } rows[] = {
+        {"missing.yaml", "missing.yaml", ":5:11: error: ", "none.yaml': No such file", "relative to that file's folder",
+         ERR_INPUT},
         {"cycle.yaml", "sub/cycle2.yaml", ":1:11: error: ", "cycle.yaml' includes itself", "remove", ERR_SCENE},
         {"syntax.yaml", "syntax2.yaml", ":2:1: error: ", "not valid YAML", "brackets", ERR_SCENE},
         {"dup.yaml", "dup2.yaml", ":2:1: error: ", "duplicate key 'title'", "first set on line 1", ERR_SCENE},
-        {"both.yaml", "both.yaml", ":2:18: error: ", "output.level.peak and output.level.lufs exclude each other", "output.level.lufs: null", ERR_SCENE},
+        {"both.yaml", "both.yaml", ":2:18: error: ", "output.level.peak and output.level.lufs exclude each other",
+         "output.level.lufs: null", ERR_SCENE},
         {"deep0.yaml", "deep16.yaml", ":1:11: error: ", "too many includes", "remove", ERR_SCENE},
         {"no.yaml", "no.yaml", ": error: ", "cannot be read: No such file", "", ERR_INPUT},
         {"sub", "sub", ": error: ", "cannot be read: Is a directory", "", ERR_INPUT},
@@ -238,7 +264,8 @@ END_TEST
 
 /* ------------------------------------------------------------------ mutations */
 
-/* Bytes replaced, removed, doubled and exchanged: every result is either a scene whose numbers are in range or messages. */
+/* Bytes replaced, removed, doubled and exchanged: every result is either a scene whose numbers are in range or
+ * messages. */
 START_TEST(test_mutations)
 {
     static const char bytes[] = "{}[]:,-#&*!|>'\"%@` \n\t019eE.x\\~<?=\x01\x80\xc2\xff";
@@ -252,10 +279,18 @@ START_TEST(test_mutations)
         for (int edits = 1 + rand() % 3; edits > 0; edits--) {
             size_t at = (size_t)rand() % size;
             switch (rand() % 4) {
-            case 0: text[at] = bytes[(size_t)rand() % sizeof bytes]; break;
-            case 1: memmove(text + at, text + at + 1, --size - at); break;
-            case 2: memmove(text + at + 1, text + at, size++ - at); break;
-            default: text[at] ^= (char)(1 << rand() % 8); break;
+            case 0:
+                text[at] = bytes[(size_t)rand() % sizeof bytes];
+                break;
+            case 1:
+                memmove(text + at, text + at + 1, --size - at);
+                break;
+            case 2:
+                memmove(text + at + 1, text + at, size++ - at);
+                break;
+            default:
+                text[at] ^= (char)(1 << rand() % 8);
+                break;
             }
         }
         struct arena *a = arena_open();
@@ -287,5 +322,5 @@ START_TEST(test_cut_short)
 }
 END_TEST
 
-UNIT("scene_read", test_full, test_defaults, test_tables, test_set, test_contacts, test_include,
-     test_bad_files, test_mutations, test_cut_short)
+UNIT("scene_read", test_full, test_defaults, test_tables, test_set, test_contacts, test_include, test_bad_files,
+     test_mutations, test_cut_short)

@@ -1,4 +1,5 @@
-/* The scraping force on profiles and straight paths against a slow judge (tests/unit/judge.h): tolerances say what the closed forms leave out. */
+/* The scraping force on profiles and straight paths against a slow judge (tests/unit/judge.h): tolerances say what the
+ * closed forms leave out. */
 #include "force/hats.h"
 #include "judge.h"
 #include "surface/profile.h"
@@ -9,7 +10,8 @@ static const char *const head = "rasp: 1\n"
                                 "load: {approach: 0, release: 0}\n"
                                 "scraper: {mass: 20 g}\n";
 
-static const char *const reversing = "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.4 cm, 0], rate: 30 Hz, duration: 0.05 s}\n";
+static const char *const reversing =
+    "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.4 cm, 0], rate: 30 Hz, duration: 0.05 s}\n";
 
 static struct scene made(struct arena *a, const char *rest)
 {
@@ -22,11 +24,12 @@ static double against_judge(const char *rest, long frames)
     return judge_difference(&s, frames);
 }
 
-/* Vertical force only, through three reversals and at varying speed. The mean of S' over a piece h leaves out h/l / 60 of how T differs from a parabola
-   there: some 1e-5 of the pieces in which it saturates. */
+/* Vertical force only, through three reversals and at varying speed. The mean of S' over a piece h leaves out h/l / 60
+   of how T differs from a parabola there: some 1e-5 of the pieces in which it saturates. */
 START_TEST(vertical_force_through_reversals)
 {
-    double off = against_judge(arena_format(rig_arena(), "%s%s", "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\n",
+    double off = against_judge(arena_format(rig_arena(), "%s%s",
+                                            "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\n",
                                             reversing),
                                1600);
     ck_assert_double_lt(off, 5e-6);
@@ -35,44 +38,53 @@ END_TEST
 
 START_TEST(unlimited_force_through_reversals)
 {
-    double off = against_judge(
-        arena_format(rig_arena(), "%s%s",
-                     "surface: {roughness: {rms: 1 um, shortest: 100 um}}\ncontact: {beta1: 0, smoothing: 0 s, limiter: {curve: none}}\n", reversing),
-        1600);
+    double off = against_judge(arena_format(rig_arena(), "%s%s",
+                                            "surface: {roughness: {rms: 1 um, shortest: 100 um}}\ncontact: {beta1: 0, "
+                                            "smoothing: 0 s, limiter: {curve: none}}\n",
+                                            reversing),
+                               1600);
     ck_assert_double_lt(off, 5e-9);
 }
 END_TEST
 
-/* alpha follows the hand's force: it is taken as its mean over each sub-interval, over which it changes by a part in 1e4. */
+/* alpha follows the hand's force: it is taken as its mean over each sub-interval, over which it changes by a part in
+ * 1e4. */
 START_TEST(alpha_that_varies)
 {
-    double off = against_judge("surface: {roughness: {rms: 5 um}}\ngrip: {angle: 20 deg}\ncontact: {beta1: 0, smoothing: 0 s}\n"
-                               "motion: {path: back_and_forth, from: [1 cm, 0], to: [4 cm, 0], rate: 5 Hz, duration: 0.15 s}\n", 4000);
+    double off =
+        against_judge("surface: {roughness: {rms: 5 um}}\ngrip: {angle: 20 deg}\ncontact: {beta1: 0, smoothing: 0 s}\n"
+                      "motion: {path: back_and_forth, from: [1 cm, 0], to: [4 cm, 0], rate: 5 Hz, duration: 0.15 s}\n",
+                      4000);
     ck_assert_double_lt(off, 2e-5);
 }
 END_TEST
 
-/* Where the horizontal force dominates: zeros of S' inside a piece, where T steps, are met by a parabola; with beta2 other than 1 Simpson's rule is
-   taken over |S'|^beta2, and the speed as its mean over a sub-interval. */
+/* Where the horizontal force dominates: zeros of S' inside a piece, where T steps, are met by a parabola; with beta2
+   other than 1 Simpson's rule is taken over |S'|^beta2, and the speed as its mean over a sub-interval. */
 START_TEST(horizontal_force)
 {
-    const char *const models[] = {"{beta1: 1000, smoothing: 0 s}", "{beta1: 1000000, beta2: 2, smoothing: 0 s}", "{beta1: 1000, beta2: 0.8, smoothing: 0 s}"};
+    const char *const models[] = {"{beta1: 1000, smoothing: 0 s}", "{beta1: 1000000, beta2: 2, smoothing: 0 s}",
+                                  "{beta1: 1000, beta2: 0.8, smoothing: 0 s}"};
     const double bounds[] = {1e-3, 1e-3, 5e-3};
     for (int k = 0; k < 3; k++) {
-        double off = against_judge(arena_format(rig_arena(), "surface: {roughness: {rms: 5 um}}\ncontact: %s\n%s", models[k], reversing), 1600);
+        double off = against_judge(
+            arena_format(rig_arena(), "surface: {roughness: {rms: 5 um}}\ncontact: %s\n%s", models[k], reversing),
+            1600);
         ck_assert_double_lt(off, bounds[k]);
     }
 }
 END_TEST
 
-/* 20.6 sub-intervals a cycle, one a sample, nearly all force horizontal and its memory (the leak) short: in the one that holds a turn the way
-   there and back counts, not what is left of it at its end. Hats take the share of the way for that of the time, coarse here: compared is what they
-   add up to. */
+/* 20.6 sub-intervals a cycle, one a sample, nearly all force horizontal and its memory (the leak) short: in the one
+   that holds a turn the way there and back counts, not what is left of it at its end. Hats take the share of the way
+   for that of the time, coarse here: compared is what they add up to. */
 START_TEST(sub_intervals_are_cut_at_turns)
 {
-    struct scene s = made(rig_arena(), "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 500, smoothing: 0 s, leak: 50 um}\n"
-                                       "accuracy: {oversampling: 1}\n"
-                                       "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.1 cm, 0], rate: 97 Hz, duration: 0.15 s}\n");
+    struct scene s =
+        made(rig_arena(),
+             "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 500, smoothing: 0 s, leak: 50 um}\n"
+             "accuracy: {oversampling: 1}\n"
+             "motion: {path: back_and_forth, from: [1 cm, 0], to: [1.1 cm, 0], rate: 97 Hz, duration: 0.15 s}\n");
     s.output.sample_rate = 2000;
     struct rig *g = rig_record(&s, ITEM_SUBFORCE, 290, 1024);
     struct judge j = judge_of(g);
@@ -104,7 +116,9 @@ START_TEST(means_are_exact)
     double *coarse = NULL, worst = 0, rms = 0;
     struct arena *a = rig_arena();
     for (int over = 1; over <= 4; over *= 4) {
-        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 s}\naccuracy: {oversampling: %d}\n%s",
+        struct scene s = made(a, arena_format(a,
+                                              "surface: {roughness: {rms: 5 um}}\ncontact: {beta1: 0, smoothing: 0 "
+                                              "s}\naccuracy: {oversampling: %d}\n%s",
                                               over, reversing));
         struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
         if (!coarse) {
@@ -144,13 +158,15 @@ START_TEST(blocks_do_not_matter)
 }
 END_TEST
 
-/* Half a cycle of 2 Hz is 5512.5 samples at 22050 Hz: that sample begins and ends at the same place, but moves. With beta2 < 1 its force is
-   (beta1/dt) integral |S'|^beta2 |v|^(beta2 - 1) ds with the speed moved at, not 0 to a negative power; like its neighbours' it is small. */
+/* Half a cycle of 2 Hz is 5512.5 samples at 22050 Hz: that sample begins and ends at the same place, but moves. With
+   beta2 < 1 its force is (beta1/dt) integral |S'|^beta2 |v|^(beta2 - 1) ds with the speed moved at, not 0 to a negative
+   power; like its neighbours' it is small. */
 START_TEST(a_turn_in_the_middle_of_a_sample)
 {
     struct arena *a = rig_arena();
-    struct scene s = made(a, "surface: {roughness: {rms: 5 um}}\ncontact: {beta2: 0.8, smoothing: 0 s}\naccuracy: {oversampling: 1}\n"
-                             "motion: {path: back_and_forth, from: [1 cm, 0], to: [7 cm, 0], rate: 2 Hz, duration: 0.4 s}\n");
+    struct scene s = made(
+        a, "surface: {roughness: {rms: 5 um}}\ncontact: {beta2: 0.8, smoothing: 0 s}\naccuracy: {oversampling: 1}\n"
+           "motion: {path: back_and_forth, from: [1 cm, 0], to: [7 cm, 0], rate: 2 Hz, duration: 0.4 s}\n");
     s.output.sample_rate = 22050;
     struct rig *g = rig_record(&s, ITEM_SUBFORCE, 6000, 1024);
     ck_assert(isfinite(g->x[5512]));
@@ -159,14 +175,19 @@ START_TEST(a_turn_in_the_middle_of_a_sample)
 }
 END_TEST
 
-/* Two ends whose x differ in the last decimals only: the stroke runs straight across the profile. (It was once cut into endless pieces.) */
+/* Two ends whose x differ in the last decimals only: the stroke runs straight across the profile. (It was once cut into
+ * endless pieces.) */
 START_TEST(a_stroke_straight_across_but_for_rounding)
 {
     static const char *const ends[] = {"0.07", "0.070000000000000021", "0.070000000000021", "0.070000021"};
     struct arena *a = rig_arena();
     for (int k = 0; k < 4; k++) {
-        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}, along: x}\nmotion: {path: line, from: [7 cm, 0], to: [%s, 1 cm], "
-                                                 "speed: 20 cm/s}\n", ends[k]));
+        struct scene s = made(
+            a, arena_format(
+                   a,
+                   "surface: {roughness: {rms: 5 um}, along: x}\nmotion: {path: line, from: [7 cm, 0], to: [%s, 1 cm], "
+                   "speed: 20 cm/s}\n",
+                   ends[k]));
         struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
         for (long i = 0; i < 2400 * g->per_frame; i++)
             ck_assert_double_lt(fabs(g->x[i]), k < 3 ? 1e-300 : 1e-6);
@@ -175,14 +196,17 @@ START_TEST(a_stroke_straight_across_but_for_rounding)
 }
 END_TEST
 
-/* A smoothing of seconds is refused before its kernels are made: 50 us x 1000 m / 3 cm, and 10 ms x 1000 m / 3 cm at the finest rate. */
+/* A smoothing of seconds is refused before its kernels are made: 50 us x 1000 m / 3 cm, and 10 ms x 1000 m / 3 cm at
+ * the finest rate. */
 START_TEST(a_smoothing_of_seconds_is_refused)
 {
     static const double smoothing[] = {50e-6, 10e-3, 10e-3};
     static const char *const models[] = {"directional", "directional", "paper"};
     struct arena *a = rig_arena();
     for (int k = 0; k < 3; k++) {
-        struct scene s = made(a, arena_format(a, "surface: {roughness: {}}\ncontact: {force: %s}\naccuracy: {oversampling: 64}\n%s", models[k], reversing));
+        struct scene s =
+            made(a, arena_format(a, "surface: {roughness: {}}\ncontact: {force: %s}\naccuracy: {oversampling: 64}\n%s",
+                                 models[k], reversing));
         struct plan p;
         struct run r;
         struct err e = {0};
@@ -198,16 +222,20 @@ START_TEST(a_smoothing_of_seconds_is_refused)
 }
 END_TEST
 
-/* Sample n of the force belongs to n / rate, where a hat has its middle: a force of 40 Hz and less is there the hat's mean to second order; half a
-   sub-interval early or late is 1e-3 off. */
+/* Sample n of the force belongs to n / rate, where a hat has its middle: a force of 40 Hz and less is there the hat's
+   mean to second order; half a sub-interval early or late is 1e-3 off. */
 START_TEST(the_audio_force_is_not_delayed)
 {
     static const int overs[] = {1, 3, 4, 7};
     struct arena *a = rig_arena();
     for (int k = 0; k < 4; k++) {
-        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um, shortest: 5 mm, longest: 10 mm}}\naccuracy: {oversampling: %d}\n"
-                                                 "contact: {beta1: 0, smoothing: 0 s, limiter: {curve: none}}\n"
-                                                 "motion: {path: line, to: [3 cm, 0], speed: 20 cm/s}\n", overs[k]));
+        struct scene s = made(
+            a, arena_format(
+                   a,
+                   "surface: {roughness: {rms: 5 um, shortest: 5 mm, longest: 10 mm}}\naccuracy: {oversampling: %d}\n"
+                   "contact: {beta1: 0, smoothing: 0 s, limiter: {curve: none}}\n"
+                   "motion: {path: line, to: [3 cm, 0], speed: 20 cm/s}\n",
+                   overs[k]));
         struct rig *fine = rig_record(&s, ITEM_SUBFORCE, 6000, 1024), *g = rig_record(&s, ITEM_FORCE, 6000, 1024);
         double off = 0, all = 0;
         for (long n = 1000; n < 6000; n++) {
@@ -223,17 +251,21 @@ START_TEST(the_audio_force_is_not_delayed)
 }
 END_TEST
 
-/* The audio force where tanh saturates, against 64 sub-intervals a sample: of third order (plain means are of second: 4.4 a doubling), as images of f_v, whose
-   spectrum falls as 1/f, fold in with sinc^2. */
+/* The audio force where tanh saturates, against 64 sub-intervals a sample: of third order (plain means are of
+   second: 4.4 a doubling), as images of f_v, whose spectrum falls as 1/f, fold in with sinc^2. */
 START_TEST(third_order_in_the_sub_intervals)
 {
     static const int overs[] = {2, 4, 8, 64};
     struct rig *g[4];
     double off[3] = {0};
     for (int k = 0; k < 4; k++) {
-        struct scene s = made(rig_arena(), arena_format(rig_arena(), "surface: {roughness: {rms: 5 um, shortest: 20 um}}\naccuracy: {oversampling: %d}\n"
-                                                        "contact: {beta1: 0, smoothing: 0 s, limiter: {alpha: 1 cm}}\n"
-                                                        "motion: {path: line, to: [3 cm, 0], speed: 25 cm/s}\n", overs[k]));
+        struct scene s =
+            made(rig_arena(),
+                 arena_format(rig_arena(),
+                              "surface: {roughness: {rms: 5 um, shortest: 20 um}}\naccuracy: {oversampling: %d}\n"
+                              "contact: {beta1: 0, smoothing: 0 s, limiter: {alpha: 1 cm}}\n"
+                              "motion: {path: line, to: [3 cm, 0], speed: 25 cm/s}\n",
+                              overs[k]));
         g[k] = rig_record(&s, ITEM_FORCE, 4000, 1024);
     }
     for (int k = 0; k < 3; k++) {
@@ -273,7 +305,8 @@ static struct relief_part *flat_part(struct arena *a, const struct contact *c)
     return profile_part(a, profile_from_samples(a, z, 4, 1e-5, OFF_MAP_WRAP), "flat", 0);
 }
 
-/* A flat surface (4 samples of the same height) gives no force: what the spline's coefficients leave of it by rounding. */
+/* A flat surface (4 samples of the same height) gives no force: what the spline's coefficients leave of it by rounding.
+ */
 START_TEST(flat_surface_is_silent)
 {
     struct scene s = made(rig_arena(), arena_format(rig_arena(), "surface: {roughness: {}}\n%s", reversing));
@@ -285,14 +318,17 @@ START_TEST(flat_surface_is_silent)
 }
 END_TEST
 
-/* A limiter that never bites is no limiter; one that always bites bounds |S''| by 1/alpha, so |force| <= m v^2/alpha + leak and S' a terms. */
+/* A limiter that never bites is no limiter; one that always bites bounds |S''| by 1/alpha, so |force| <= m v^2/alpha +
+ * leak and S' a terms. */
 START_TEST(limits_of_the_limiter)
 {
     struct arena *a = rig_arena();
     const double alphas[] = {0, 1e-11, 1000};
     double *x[3], largest[3] = {0};
     for (int k = 0; k < 3; k++) {
-        struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 1 um, shortest: 1 mm, longest: 2 mm}}\ncontact: {beta1: 0, smoothing: 0 s}\n%s",
+        struct scene s = made(a, arena_format(a,
+                                              "surface: {roughness: {rms: 1 um, shortest: 1 mm, longest: 2 "
+                                              "mm}}\ncontact: {beta1: 0, smoothing: 0 s}\n%s",
                                               reversing));
         s.contacts[0].contact.limiter.curve = k == 0 ? LIMITER_NONE : LIMITER_TANH;
         s.contacts[0].contact.limiter.alpha = alphas[k];
@@ -314,11 +350,14 @@ START_TEST(limits_of_the_limiter)
 }
 END_TEST
 
-/* The hand lifts the scraper: exactly no force by a hat both of whose sub-intervals have N < 0; counted. omega^2 L tan theta = 4.2 g here. */
+/* The hand lifts the scraper: exactly no force by a hat both of whose sub-intervals have N < 0; counted. omega^2 L tan
+ * theta = 4.2 g here. */
 START_TEST(no_force_while_lifted_off)
 {
     struct arena *a = rig_arena();
-    struct scene s = made(a, arena_format(a, "surface: {roughness: {rms: 5 um}}\ngrip: {angle: 30 deg}\ncontact: {smoothing: 0 s}\n%s", reversing));
+    struct scene s = made(
+        a, arena_format(a, "surface: {roughness: {rms: 5 um}}\ngrip: {angle: 30 deg}\ncontact: {smoothing: 0 s}\n%s",
+                        reversing));
     struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2400, 1024);
     const struct board *b = &g->run.board;
     double lifted = 0;
@@ -328,8 +367,7 @@ START_TEST(no_force_while_lifted_off)
         trajectory_at(b->trajectory, 2, t, (struct trajectory_out){.ax = ax, .ay = ay});
         load_at(b->load, 2, t, ax, ay, load);
         bool up = load[0] + load[1] < 0;
-        if (up && before)
-            ck_assert(g->x[i] == 0);
+        if (up && before) ck_assert(g->x[i] == 0);
         before = up;
         lifted += up ? 1.0 / 192000 : 0;
     }
@@ -340,7 +378,7 @@ START_TEST(no_force_while_lifted_off)
 END_TEST
 
 UNIT("scrape", vertical_force_through_reversals, unlimited_force_through_reversals, alpha_that_varies, horizontal_force,
-     sub_intervals_are_cut_at_turns, oblique_stroke_over_an_extruded_profile,
-     means_are_exact, blocks_do_not_matter, a_turn_in_the_middle_of_a_sample,
-     a_stroke_straight_across_but_for_rounding, a_smoothing_of_seconds_is_refused, the_audio_force_is_not_delayed, third_order_in_the_sub_intervals, hats_add_up,
-     flat_surface_is_silent, limits_of_the_limiter, no_force_while_lifted_off)
+     sub_intervals_are_cut_at_turns, oblique_stroke_over_an_extruded_profile, means_are_exact, blocks_do_not_matter,
+     a_turn_in_the_middle_of_a_sample, a_stroke_straight_across_but_for_rounding, a_smoothing_of_seconds_is_refused,
+     the_audio_force_is_not_delayed, third_order_in_the_sub_intervals, hats_add_up, flat_surface_is_silent,
+     limits_of_the_limiter, no_force_while_lifted_off)

@@ -1,4 +1,5 @@
-/* Signed mode shapes at unit modal mass: of plates against their closed form, of tables against the object they were written from, and what is refused. */
+/* Signed mode shapes at unit modal mass: of plates against their closed form, of tables against the object they were
+ * written from, and what is refused. */
 #include <unistd.h>
 
 #include "objects.h"
@@ -6,10 +7,7 @@
 #include "response/space.h"
 
 static struct arena *pool;
-static void drain(void)
-{
-    arena_close(pool);
-}
+static void drain(void) { arena_close(pool); }
 
 static struct arena *memory(void)
 {
@@ -33,8 +31,9 @@ static struct modes *plate_modes(int n)
     return m;
 }
 
-/* phi = 2/sqrt(M) sin(a pi x/L) sin(b pi y/W), M = 0.7 kg, of the (a, b) whose frequency it has (12 digits; no two are alike here), at places all over the plate, so that
-   signs change across nodal lines; one overall sign of a mode is free. 1e-12 of the largest: rounding. */
+/* phi = 2/sqrt(M) sin(a pi x/L) sin(b pi y/W), M = 0.7 kg, of the (a, b) whose frequency it has (12 digits; no two are
+   alike here), at places all over the plate, so that signs change across nodal lines; one overall sign of a mode is
+   free. 1e-12 of the largest: rounding. */
 START_TEST(a_plate_is_sines)
 {
     const struct modes *m = plate_modes(30);
@@ -50,15 +49,13 @@ START_TEST(a_plate_is_sines)
             for (int b = 1; b < 40; b++) {
                 double kx = a * M_PI, ky = b * M_PI / 0.7, w = kx * kx + ky * ky;
                 double w_d = 2 * M_PI * s.frequency[i], undamped = sqrt(w_d * w_d + s.decay[i] * s.decay[i]);
-                if (fabs(undamped / w - 1) > 1e-10)
-                    continue;
+                if (fabs(undamped / w - 1) > 1e-10) continue;
                 matched++;
                 for (int k = 0; k < 200; k++) {
                     double x = fmod(0.013 + 0.754877666 * k, 1), y = 0.7 * fmod(0.37 + 0.5698402910 * k, 1);
                     shapes_at(&s, &(struct modes_where){x + origin[0], y + origin[1], 0}, phi);
                     double want = 2 / sqrt(0.7) * sin(kx * x) * sin(ky * y);
-                    if (k == 0)
-                        own[i] = want * phi[i] < 0 ? -1 : 1;
+                    if (k == 0) own[i] = want * phi[i] < 0 ? -1 : 1;
                     ck_assert_double_eq_tol(phi[i], own[i] * want, 1e-12 * 40);
                     changes += want * own[i] < -0.1;
                 }
@@ -68,21 +65,25 @@ START_TEST(a_plate_is_sines)
 }
 END_TEST
 
-/* A table of the driving point, in each quantity, gives |phi| back: gains are written with 9 digits or more, so 1e-8 of the largest, and near a nodal line,
-   where phi is the root of a gain, the root of that. */
+/* A table of the driving point, in each quantity, gives |phi| back: gains are written with 9 digits or more, so 1e-8 of
+   the largest, and near a nodal line, where phi is the root of a gain, the root of that. */
 static void write_table(const char *file, const struct modes *m, int quantity, int rows, double mirrored)
 {
     static const char *const names[] = {"displacement", "velocity", "acceleration"};
     FILE *f = fopen(file, "w");
     struct modes_point p = modes_point_make(memory(), m->n);
-    fprintf(f, "# quantity: %s\n# poles: shared\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n", names[quantity]);
+    fprintf(f, "# quantity: %s\n# poles: shared\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n",
+            names[quantity]);
     for (int row = 0; row < rows; row++) {
         double x = 0.07 + 0.09 * row + origin[0], y = 0.11 + 0.03 * row * row + origin[1];
         modes_at(m, &(struct modes_where){x, y, 0}, &p);
         for (int i = 0; i < m->n; i++) {
-            double w = 2 * M_PI * m->frequency[i], turn = atan2(w, -m->decay[i]), size = sqrt(w * w + m->decay[i] * m->decay[i]);
-            double phase = atan2(p.im[i], p.re[i]) + (quantity - 1) * turn, gain = sqrt(p.re[i] * p.re[i] + p.im[i] * p.im[i]) * pow(size, quantity - 1);
-            fprintf(f, "%d,%.9g,%.9g,%d,%.12g,%.12g,%.12g,%.12g\n", row + 1, x, y, i + 1, m->frequency[i], m->decay[i], gain * (i == 3 && row == 2 ? mirrored : 1), phase);
+            double w = 2 * M_PI * m->frequency[i], turn = atan2(w, -m->decay[i]),
+                   size = sqrt(w * w + m->decay[i] * m->decay[i]);
+            double phase = atan2(p.im[i], p.re[i]) + (quantity - 1) * turn,
+                   gain = sqrt(p.re[i] * p.re[i] + p.im[i] * p.im[i]) * pow(size, quantity - 1);
+            fprintf(f, "%d,%.9g,%.9g,%d,%.12g,%.12g,%.12g,%.12g\n", row + 1, x, y, i + 1, m->frequency[i], m->decay[i],
+                    gain * (i == 3 && row == 2 ? mirrored : 1), phase);
         }
     }
     fclose(f);
@@ -146,27 +147,45 @@ START_TEST(what_cannot_give_way_is_refused)
     ck_assert_msg(modes_table(file, &ask, memory(), &t, &e), "%s", e.text);
     refused(&t, "gains are those of another listening place", "contact.roll.ground: rigid");
     FILE *f = fopen(file, "w");
-    fprintf(f, "# quantity: velocity\n# poles: separate\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n1,0,0,1,400,5,1,%.12g\n2,0.1,0,1,410,5,1,%.12g\n", M_PI_2, M_PI_2);
+    fprintf(f,
+            "# quantity: velocity\n# poles: "
+            "separate\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n1,0,0,1,400,5,1,%.12g\n2,0.1,0,1,"
+            "410,5,1,%.12g\n",
+            M_PI_2, M_PI_2);
     fclose(f);
     ck_assert_msg(modes_table(file, &ask, memory(), &t, &e), "%s", e.text);
     refused(&t, "differ from place to place", "give surface.object");
     f = fopen(file, "w");
-    fprintf(f, "# quantity: velocity\n# poles: shared\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n1,0,0,1,400,5,1,0\n");
+    fprintf(f, "# quantity: velocity\n# poles: "
+               "shared\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n1,0,0,1,400,5,1,0\n");
     fclose(f);
     ck_assert_msg(modes_table(file, &ask, memory(), &t, &e), "%s", e.text);
     refused(&t, "at 400 Hz", "give surface.object");
-    struct space space = {.given = true, .from = {0.2, 0.1}, .to = {0.4, 0.3}, .dimension = 2, .dimension_to = NAN, .fundamental = 200, .gain = 1};
+    struct space space = {.given = true,
+                          .from = {0.2, 0.1},
+                          .to = {0.4, 0.3},
+                          .dimension = 2,
+                          .dimension_to = NAN,
+                          .fundamental = 200,
+                          .gain = 1};
     ck_assert_msg(space_modes(&space, &ask, memory(), &t, &e), "%s", e.text);
     refused(&t, "change over time", "contact.roll.ground: rigid");
     unlink(file);
 }
 END_TEST
 
-/* A cosine of velocity (phase pi/2) is off by decay / w only: taken; and the space of materials that stays gives one phi everywhere, phi^2 = Re(A/s) w. */
+/* A cosine of velocity (phase pi/2) is off by decay / w only: taken; and the space of materials that stays gives one
+ * phi everywhere, phi^2 = Re(A/s) w. */
 START_TEST(what_nearly_fits_is_taken)
 {
     struct modes_ask ask = {.strongest = 10, .pairing = 0.01, .rate = 48000};
-    struct space space = {.given = true, .from = {0.2, 0.1}, .to = {NAN, NAN}, .dimension = 2, .dimension_to = NAN, .fundamental = 200, .gain = 4};
+    struct space space = {.given = true,
+                          .from = {0.2, 0.1},
+                          .to = {NAN, NAN},
+                          .dimension = 2,
+                          .dimension_to = NAN,
+                          .fundamental = 200,
+                          .gain = 4};
     struct modes m;
     struct shapes s;
     struct err e = {0};
@@ -182,7 +201,10 @@ START_TEST(what_nearly_fits_is_taken)
     close(mkstemps(file, 4));
     for (int off = 0; off < 2; off++) {
         FILE *f = fopen(file, "w");
-        fprintf(f, "# quantity: velocity\n# poles: shared\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n1,0,0,1,400,5,1,%.12g\n", M_PI_2 + (off ? 0.06 : 0));
+        fprintf(f,
+                "# quantity: velocity\n# poles: "
+                "shared\nplace,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\n1,0,0,1,400,5,1,%.12g\n",
+                M_PI_2 + (off ? 0.06 : 0));
         fclose(f);
         ck_assert_msg(modes_table(file, &ask, memory(), &m, &e), "%s", e.text);
         ck_assert_int_eq(shapes_make(&m, "surface", memory(), &s, &e), !off);

@@ -1,4 +1,5 @@
-/* Meshes of simple solids: neighbours share their faces, the surface is closed and of the right genus, volumes and areas converge to the closed forms, elements are sound. */
+/* Meshes of simple solids: neighbours share their faces, the surface is closed and of the right genus, volumes and
+ * areas converge to the closed forms, elements are sound. */
 #include "fem/boundary.h"
 #include "fem/faces.h"
 #include "fem/mesh_check.h"
@@ -18,7 +19,11 @@ static const double pi = 3.14159265358979323846;
 #define MUG "mug:diameter=8cm,height=9.5cm,wall=4mm"
 #define BEAKER "mug:diameter=8cm,height=9.5cm,wall=4mm,bottom=6mm,handle=0"
 
-static const struct { const char *text; int euler; } all[] = {{PLATE, 2}, {BAR, 2}, {ROD, 2}, {TUBE, 0}, {RING, 0}, {BOWL, 2}, {BALL, 2}, {SHELL, 4}, {MUG, 0}, {BEAKER, 2}};
+static const struct {
+    const char *text;
+    int euler;
+} all[] = {{PLATE, 2}, {BAR, 2},  {ROD, 2},   {TUBE, 0}, {RING, 0},
+           {BOWL, 2},  {BALL, 2}, {SHELL, 4}, {MUG, 0},  {BEAKER, 2}};
 enum { ALL = sizeof all / sizeof all[0] };
 
 static struct boundary of(const struct mesh *m)
@@ -108,7 +113,8 @@ static double cut(double radius, double centre, double low, double high) /* volu
 
 static double bowl_volume(double diameter, double height, double t)
 {
-    double d = diameter / 2, f = d / 3, centre = (d * d + height * height - f * f) / (2 * height), radius = sqrt(f * f + centre * centre);
+    double d = diameter / 2, f = d / 3, centre = (d * d + height * height - f * f) / (2 * height),
+           radius = sqrt(f * f + centre * centre);
     return cut(radius, centre, 0, height) - cut(radius - t, centre, t, height);
 }
 
@@ -123,21 +129,32 @@ static double exact_volume(int which)
 {
     double R = 0.04, H = 0.095;
     switch (which) {
-    case 0: return 0.4 * 0.2 * 0.005;
-    case 1: return 0.3 * 0.03 * 0.01;
-    case 2: return 0.3 * pi * 1e-4;
-    case 3: return 0.3 * pi * (1e-4 - 0.64e-4);
-    case 4: return 0.005 * pi * (0.05 * 0.05 - 0.04 * 0.04);
-    case 5: return bowl_volume(0.14, 0.06, 0.002);
-    case 6: return pi / 6 * 0.05 * 0.05 * 0.05;
-    case 7: return pi / 6 * (0.05 * 0.05 * 0.05 - 0.046 * 0.046 * 0.046);
-    case 8: return pi * (R * R * H - 0.036 * 0.036 * (H - 0.004)) + handle_volume(R, H, 0.008);
-    default: return pi * (R * R * H - 0.036 * 0.036 * (H - 0.006));
+    case 0:
+        return 0.4 * 0.2 * 0.005;
+    case 1:
+        return 0.3 * 0.03 * 0.01;
+    case 2:
+        return 0.3 * pi * 1e-4;
+    case 3:
+        return 0.3 * pi * (1e-4 - 0.64e-4);
+    case 4:
+        return 0.005 * pi * (0.05 * 0.05 - 0.04 * 0.04);
+    case 5:
+        return bowl_volume(0.14, 0.06, 0.002);
+    case 6:
+        return pi / 6 * 0.05 * 0.05 * 0.05;
+    case 7:
+        return pi / 6 * (0.05 * 0.05 * 0.05 - 0.046 * 0.046 * 0.046);
+    case 8:
+        return pi * (R * R * H - 0.036 * 0.036 * (H - 0.004)) + handle_volume(R, H, 0.008);
+    default:
+        return pi * (R * R * H - 0.036 * 0.036 * (H - 0.006));
     }
 }
 
-/* Quadratic faces with midsides on a surface: its volume to the fourth power of their size, so 16 times better when cells are half as long; counts are whole, and from three
-   to five cells it is 7.7 times. Second order would be four times at most. */
+/* Quadratic faces with midsides on a surface: its volume to the fourth power of their size, so 16 times better when
+   cells are half as long; counts are whole, and from three to five cells it is 7.7 times. Second order would be four
+   times at most. */
 START_TEST(test_volume)
 {
     double exact = exact_volume(_i), off[2];
@@ -191,11 +208,17 @@ static double group_area(const struct mesh *m, const char *name)
 /* Flat triangles, so that what is round is some per cent small. */
 START_TEST(test_groups)
 {
-    static const struct { const char *text, *group; double area, tolerance; } groups[] = {
-        {PLATE, "x0", 0.2 * 0.005, 1e-12}, {PLATE, "x1", 0.2 * 0.005, 1e-12}, {PLATE, "y0", 0.4 * 0.005, 1e-12}, {PLATE, "y1", 0.4 * 0.005, 1e-12},
-        {PLATE, "z0", 0.4 * 0.2, 1e-12}, {BAR, "z1", 0.3 * 0.03, 1e-12}, {ROD, "x0", 3.14159e-4, 0.11}, {TUBE, "x1", 1.131e-4, 0.11}, {RING, "z0", 2.8274e-3, 0.01},
-        {RING, "z1", 2.8274e-3, 0.01}, {BOWL, "foot", 1.7104e-3, 0.05}, {MUG, "bottom", 5.02655e-3, 0.03}, {MUG, "rim", 9.5504e-4, 0.03}, {MUG, "handle", 4 * 0.008 * 3.14159 * 0.02375, 0.03},
-        {BEAKER, "rim", 9.5504e-4, 0.03}};
+    static const struct {
+        const char *text, *group;
+        double area, tolerance;
+    } groups[] = {{PLATE, "x0", 0.2 * 0.005, 1e-12}, {PLATE, "x1", 0.2 * 0.005, 1e-12},
+                  {PLATE, "y0", 0.4 * 0.005, 1e-12}, {PLATE, "y1", 0.4 * 0.005, 1e-12},
+                  {PLATE, "z0", 0.4 * 0.2, 1e-12},   {BAR, "z1", 0.3 * 0.03, 1e-12},
+                  {ROD, "x0", 3.14159e-4, 0.11},     {TUBE, "x1", 1.131e-4, 0.11},
+                  {RING, "z0", 2.8274e-3, 0.01},     {RING, "z1", 2.8274e-3, 0.01},
+                  {BOWL, "foot", 1.7104e-3, 0.05},   {MUG, "bottom", 5.02655e-3, 0.03},
+                  {MUG, "rim", 9.5504e-4, 0.03},     {MUG, "handle", 4 * 0.008 * 3.14159 * 0.02375, 0.03},
+                  {BEAKER, "rim", 9.5504e-4, 0.03}};
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
         struct mesh m = meshes_shape(groups[i].text);
         double area = group_area(&m, groups[i].group) / groups[i].area;
@@ -209,7 +232,8 @@ START_TEST(test_groups)
 }
 END_TEST
 
-/* Cells 1.5 times as long: of the same solid, some 1.5^2 to 1.5^3 times fewer elements (of what is slender 1.5 times; whole numbers of cells: 1.4 to 4.6). */
+/* Cells 1.5 times as long: of the same solid, some 1.5^2 to 1.5^3 times fewer elements (of what is slender 1.5 times;
+ * whole numbers of cells: 1.4 to 4.6). */
 START_TEST(test_coarser)
 {
     struct mesh m = meshes_shape(all[_i].text), n;
@@ -235,7 +259,8 @@ END_TEST
 /* The same text gives the same mesh, and units are what they say. */
 START_TEST(test_same)
 {
-    struct mesh m = meshes_shape("bar:length=30cm,width=3cm,thickness=1cm"), n = meshes_shape("bar:thickness=10mm,length=0.3,width=30 mm,fineness=2");
+    struct mesh m = meshes_shape("bar:length=30cm,width=3cm,thickness=1cm"),
+                n = meshes_shape("bar:thickness=10mm,length=0.3,width=30 mm,fineness=2");
     ck_assert_int_eq(m.nodes, n.nodes);
     ck_assert_mem_eq(m.at, n.at, (size_t)m.nodes * sizeof *m.at);
     ck_assert_mem_eq(m.element, n.element, (size_t)m.elements * sizeof *m.element);
@@ -243,7 +268,9 @@ START_TEST(test_same)
 }
 END_TEST
 
-static const struct { const char *text, *says; } wrong[] = {
+static const struct {
+    const char *text, *says;
+} wrong[] = {
     {"plat:length=1cm", "did you mean 'plate'"},
     {"cube:length=1cm", "shapes are plate, bar, rod, ring, bowl, sphere, mug"},
     {"plate", "needs its lengths"},

@@ -12,10 +12,7 @@
 
 static struct arena *a;
 
-__attribute__((constructor)) static void open_arena(void)
-{
-    a = arena_open();
-}
+__attribute__((constructor)) static void open_arena(void) { a = arena_open(); }
 
 static atomic_int made;
 
@@ -26,8 +23,7 @@ static bool make_text(const char *file, const void *how, struct arena *arena, vo
     usleep(2000);
     FILE *f = fopen(file, "r");
     size_t n = f ? fread(thing, 1, 15, f) : 0;
-    if (f)
-        fclose(f);
+    if (f) fclose(f);
     return n > 0 || err_set(e, ERR_INPUT, "%s: empty", file);
 }
 
@@ -61,8 +57,7 @@ static void *asks(void *shelf)
     struct arena *own = arena_open();
     struct err e = {0};
     for (int i = 0; i < 50; i++)
-        if (strcmp(take(shelf, &texts, own, &e), "one") != 0)
-            abort();
+        if (strcmp(take(shelf, &texts, own, &e), "one") != 0) abort();
     arena_close(own);
     return NULL;
 }
@@ -159,4 +154,5 @@ START_TEST(hashes_are_those_of_the_file)
 }
 END_TEST
 
-UNIT("shelf", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each, what_is_small_has_room, hashes_are_those_of_the_file)
+UNIT("shelf", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each,
+     what_is_small_has_room, hashes_are_those_of_the_file)

@@ -9,10 +9,7 @@ enum { MANY = LIMITED_PIECES };
 static struct slope_terms terms;
 static struct way_pieces pieces;
 
-static double between(double lo, double hi)
-{
-    return lo + (hi - lo) * drand48();
-}
+static double between(double lo, double hi) { return lo + (hi - lo) * drand48(); }
 
 /* Parabolas with no zero, one, or two, and zeros at their ends: the bits of the plain form. */
 START_TEST(crossings_as_plain)
@@ -26,8 +23,8 @@ START_TEST(crossings_as_plain)
     slope_terms_crossing(&terms, MANY);
     for (int i = 0; i < MANY; i++) {
         struct crossing c = crossing_slope(terms.start[i], terms.end[i], terms.mean[i]);
-        ck_assert_msg(terms.whole[i] == c.whole && terms.late[i] == c.late, "%d: %.17g %.17g, not %.17g %.17g", i, terms.whole[i], terms.late[i],
-                      c.whole, c.late);
+        ck_assert_msg(terms.whole[i] == c.whole && terms.late[i] == c.late, "%d: %.17g %.17g, not %.17g %.17g", i,
+                      terms.whole[i], terms.late[i], c.whole, c.late);
     }
 }
 END_TEST

@@ -1,4 +1,5 @@
-/* slopes: sums of exponentials recovered, the stated error against one worked out here, gains against the normal equations' optimum. */
+/* slopes: sums of exponentials recovered, the stated error against one worked out here, gains against the normal
+ * equations' optimum. */
 #include "response/slopes.h"
 
 #include "unit.h"
@@ -95,12 +96,12 @@ START_TEST(other_shapes)
     for (int kind = 0; kind < 6; kind++) {
         for (int i = 0; i < 200; i++) {
             double t = time[i], x = (t - 0.2) / 0.1;
-            amplitude[i] = kind == 0   ? exp(-sqrt(30 * t))                           /* stretched */
-                           : kind == 1 ? 1 / (1 + 20 * t * t)                         /* no exponential's tail */
-                           : kind == 2 ? t * exp(-8 * t) * (1 + 0.1 * sin(40 * t))    /* attack and ripple */
-                           : kind == 3 ? exp(-x * x)                                  /* a bump */
+            amplitude[i] = kind == 0   ? exp(-sqrt(30 * t))                        /* stretched */
+                           : kind == 1 ? 1 / (1 + 20 * t * t)                      /* no exponential's tail */
+                           : kind == 2 ? t * exp(-8 * t) * (1 + 0.1 * sin(40 * t)) /* attack and ripple */
+                           : kind == 3 ? exp(-x * x)                               /* a bump */
                            : kind == 4 ? exp(-5 * t) * (1 + 0.02 * (i * 7919 % 101 / 50.0 - 1)) /* noise */
-                                       : t < 0.5;                                     /* cut off */
+                                       : t < 0.5;                                               /* cut off */
         }
         struct slopes_series s = {200, time, amplitude, {0}};
         struct slopes_fit f = fitted(&s, 1);
@@ -134,7 +135,8 @@ START_TEST(shared_decays)
 }
 END_TEST
 
-/* Few samples limit the slopes; constants decay as slowly as allowed; silence is one silent slope; the scale does not matter. */
+/* Few samples limit the slopes; constants decay as slowly as allowed; silence is one silent slope; the scale does not
+ * matter. */
 START_TEST(small_cases)
 {
     double two[2] = {0, 0.1}, fall[2] = {1, 0.5}, level[2] = {1, 1}, rise[2] = {0.5, 1}, none[2] = {0, 0};

@@ -5,13 +5,14 @@
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
-static const char *const text = "rasp: 1\n"
-                                "seed: 5\n"
-                                "output: {diagnostics: {}}\n"
-                                "scraper: {mass: 20 g}\n"
-                                "surface: {roughness: {rms: 5 um}}\n"
-                                "motion: {path: back_and_forth, from: [1 cm, 0], to: [5 cm, 0], rate: 4 Hz, duration: 0.1 s}\n"
-                                "%s\n";
+static const char *const text =
+    "rasp: 1\n"
+    "seed: 5\n"
+    "output: {diagnostics: {}}\n"
+    "scraper: {mass: 20 g}\n"
+    "surface: {roughness: {rms: 5 um}}\n"
+    "motion: {path: back_and_forth, from: [1 cm, 0], to: [5 cm, 0], rate: 4 Hz, duration: 0.1 s}\n"
+    "%s\n";
 enum { FRAMES = 6000, OVER = 4 };
 
 static struct rig *recorded(const char *rest, double smoothing)
@@ -26,16 +27,16 @@ static double sigma_at(const struct rig *g, long i, double smoothing)
 {
     const struct board *b = &g->run.board;
     double t = (double)i / (48000.0 * OVER), ax, ay, alpha, n;
-    if (!b->limiter)
-        return smoothing * limiter_constant(&g->scene.contacts[0]) / 0.03 * 48000 * OVER;
+    if (!b->limiter) return smoothing * limiter_constant(&g->scene.contacts[0]) / 0.03 * 48000 * OVER;
     trajectory_at(b->trajectory, 1, &t, (struct trajectory_out){.ax = &ax, .ay = &ay});
     load_at(b->load, 1, &t, &ax, &ay, &n);
     limiter_alpha(b->limiter, 1, &n, &alpha);
     return smoothing * alpha / 0.03 * 48000 * OVER;
 }
 
-/* Every element spreads with a Gaussian of its own width (the stage ramps between kernels every 64 elements: second order in how
-   much sigma changes over 0.33 ms, here at most 2 %, so about 1e-4). Returns the relative rms difference. */
+/* Every element spreads with a Gaussian of its own width (the stage ramps between kernels every 64 elements: second
+   order in how much sigma changes over 0.33 ms, here at most 2 %, so about 1e-4). Returns the relative rms difference.
+ */
 static double against_definition(const char *rest, double smoothing)
 {
     struct rig *raw = recorded(rest, 0), *smooth = recorded(rest, smoothing);
@@ -68,17 +69,16 @@ static double against_definition(const char *rest, double smoothing)
 
 START_TEST(constant_width)
 {
-    ck_assert_double_lt(against_definition("load: {constant: 1 N}", 50e-6), 1e-9); /* cut at 6.5 sigma: 8e-11 of the sum */
+    ck_assert_double_lt(against_definition("load: {constant: 1 N}", 50e-6),
+                        1e-9); /* cut at 6.5 sigma: 8e-11 of the sum */
 }
 END_TEST
 
-START_TEST(width_that_follows_alpha)
-{
-    ck_assert_double_lt(against_definition("grip: {angle: 20 deg}", 50e-6), 1e-3);
-}
+START_TEST(width_that_follows_alpha) { ck_assert_double_lt(against_definition("grip: {angle: 20 deg}", 50e-6), 1e-3); }
 END_TEST
 
-/* The spectrum of smoothed noise falls as the Gaussian's does: compare energies of first differences, coarse but independent. */
+/* The spectrum of smoothed noise falls as the Gaussian's does: compare energies of first differences, coarse but
+ * independent. */
 START_TEST(smoothing_removes_high_frequencies)
 {
     struct rig *raw = recorded("load: {constant: 1 N}", 0), *smooth = recorded("load: {constant: 1 N}", 50e-6);
@@ -95,7 +95,8 @@ START_TEST(smoothing_removes_high_frequencies)
 }
 END_TEST
 
-/* Where the force at the audio rate is asked for, smoothing and decimation are one kernel: against one after the other, output by output. 1e-7 of the kernel is cut off. */
+/* Where the force at the audio rate is asked for, smoothing and decimation are one kernel: against one after the other,
+ * output by output. 1e-7 of the kernel is cut off. */
 START_TEST(joined_to_decimation)
 {
     struct arena *a = rig_arena();

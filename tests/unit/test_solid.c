@@ -3,8 +3,9 @@
 
 #include "solids.h"
 
-/* Free steel bar 0.3 m x 0.02 x 0.01. Euler and Bernoulli's lowest is 576.5 Hz; shear and rotary inertia lower it, by Timoshenko's theory to 574.3. One quadratic
-   element across is 0.2 % stiff for it, 1 % for the second mode of the same plane. Six rigid motions, and mass 0.471 kg. */
+/* Free steel bar 0.3 m x 0.02 x 0.01. Euler and Bernoulli's lowest is 576.5 Hz; shear and rotary inertia lower it, by
+   Timoshenko's theory to 574.3. One quadratic element across is 0.2 % stiff for it, 1 % for the second mode of the same
+   plane. Six rigid motions, and mass 0.471 kg. */
 START_TEST(test_bar)
 {
     struct arena *a = arena_open();
@@ -25,7 +26,8 @@ START_TEST(test_bar)
 }
 END_TEST
 
-/* Free square steel plate, a/h = 50: w a^2 sqrt(rho h/D) of thin plates (converged Legendre sums); these elements within 1 %, the fourth and fifth equal. */
+/* Free square steel plate, a/h = 50: w a^2 sqrt(rho h/D) of thin plates (converged Legendre sums); these elements
+ * within 1 %, the fourth and fifth equal. */
 START_TEST(test_plate)
 {
     const double want[10] = {13.4682, 19.5961, 24.2702, 34.8009, 34.8009, 61.0932, 61.0932, 63.6861, 69.2654, 77.1717};
@@ -43,10 +45,14 @@ START_TEST(test_plate)
 }
 END_TEST
 
-/* Free ball, w R/c_s of Lamb's two classes, with multiplicities 2 l + 1 (nu = 0.3): torsional l = 2, spheroidal 2, 1, torsional 3, spheroidal 3. */
+/* Free ball, w R/c_s of Lamb's two classes, with multiplicities 2 l + 1 (nu = 0.3): torsional l = 2, spheroidal 2, 1,
+ * torsional 3, spheroidal 3. */
 START_TEST(test_ball)
 {
-    const struct { double value; int times; } want[] = {{2.50113, 5}, {2.646217, 5}, {3.529987, 3}, {3.86470, 7}, {3.937401, 7}};
+    const struct {
+        double value;
+        int times;
+    } want[] = {{2.50113, 5}, {2.646217, 5}, {3.529987, 3}, {3.86470, 7}, {3.937401, 7}};
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solid_ask ask = {.material = &steel, .most = 27, .top = 1e6};
@@ -62,8 +68,9 @@ START_TEST(test_ball)
 }
 END_TEST
 
-/* Clamped at one end: bending in both planes, (1.875104/l)^2 sqrt(E I/rho A), and stretching, sqrt(E/rho)/(4 l). Elements twice as long as the bar is thick are 1 % stiff (half of
-   it is the clamp, which keeps the end from growing narrower). */
+/* Clamped at one end: bending in both planes, (1.875104/l)^2 sqrt(E I/rho A), and stretching, sqrt(E/rho)/(4 l).
+   Elements twice as long as the bar is thick are 1 % stiff (half of it is the clamp, which keeps the end from growing
+   narrower). */
 START_TEST(test_cantilever)
 {
     struct arena *a = arena_open();
@@ -78,8 +85,7 @@ START_TEST(test_cantilever)
     SOLIDS_NEAR(solids_hz(&m, 0), k * k * c * 0.01 / sqrt(12.0) / (2.0 * SOLIDS_PI), 1e-2);
     SOLIDS_NEAR(solids_hz(&m, 1), k * k * c * 0.02 / sqrt(12.0) / (2.0 * SOLIDS_PI), 1e-2);
     for (int i = 0; i < m.n; i++)
-        if (fabs(solids_hz(&m, i) * 4.0 * 0.3 / c - 1.0) < 5e-3)
-            found += 1.0;
+        if (fabs(solids_hz(&m, i) * 4.0 * 0.3 / c - 1.0) < 5e-3) found += 1.0;
     ck_assert(found > 0.0);
     for (int i = 0; i < s.mesh.nodes; i++)
         for (int k2 = 0; k2 < 3 && s.mesh.at[i][0] < 1e-9; k2++)
@@ -97,8 +103,9 @@ static struct solids supported(int n, struct solid_held held[4], struct arena *a
 }
 
 /* Hard simple supports: u along the sides' faces is 0, which is Navier's solution of Mindlin's plate:
-   w0^2 = (D/rho h) q^4 / (1 + q^2 (h^2/12 + D/(kappa G h))) to first order, q^2 = (m pi/a)^2 + (n pi/b)^2, kappa = 5/6. In-plane modes of such a plate: shear with
-   (m, 0): w = (m pi/a) c_s, from 3100 Hz up, above those tested. With 14 elements along a side 0.5 to 1.9 % stiff, with 28 a third of that. */
+   w0^2 = (D/rho h) q^4 / (1 + q^2 (h^2/12 + D/(kappa G h))) to first order, q^2 = (m pi/a)^2 + (n pi/b)^2, kappa = 5/6.
+   In-plane modes of such a plate: shear with (m, 0): w = (m pi/a) c_s, from 3100 Hz up, above those tested. With 14
+   elements along a side 0.5 to 1.9 % stiff, with 28 a third of that. */
 START_TEST(test_supported)
 {
     struct arena *a = arena_open();
@@ -152,14 +159,16 @@ START_TEST(test_turned)
 }
 END_TEST
 
-/* Rigid motions that supports leave: a face in the plane z = 0 leaves moving along z and tilting about x and y; that and a side x = 0, turning about their common edge;
-   two opposite sides, moving along x. */
+/* Rigid motions that supports leave: a face in the plane z = 0 leaves moving along z and tilting about x and y; that
+   and a side x = 0, turning about their common edge; two opposite sides, moving along x. */
 START_TEST(test_rigid)
 {
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solids s = solids_box((const int[]){3, 2, 2}, (const double[]){0.3, 0.2, 0.25}, a);
-    struct solid_held held[3] = {solids_hold(&s, SOLID_SUPPORTED, 2, 0.0, a), solids_hold(&s, SOLID_SUPPORTED, 0, 0.0, a), solids_hold(&s, SOLID_SUPPORTED, 0, 0.3, a)};
+    struct solid_held held[3] = {solids_hold(&s, SOLID_SUPPORTED, 2, 0.0, a),
+                                 solids_hold(&s, SOLID_SUPPORTED, 0, 0.0, a),
+                                 solids_hold(&s, SOLID_SUPPORTED, 0, 0.3, a)};
     struct solid_ask ask = {.material = &steel, .held = held, .n_held = 1, .most = 5, .top = 1e6};
     ck_assert_int_eq(solids_modes(&s, &ask, a).rigid, 3);
     ask.n_held = 2; /* 7 x 5 x 5 nodes; the edge's 5 lose all, the others of the faces two */
@@ -176,7 +185,8 @@ END_TEST
 /* n tetrahedra that do not touch. */
 static struct solids corners(int n, struct arena *a)
 {
-    static const double at[10][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.5, 0, 0}, {.5, .5, 0}, {0, .5, 0}, {0, 0, .5}, {.5, 0, .5}, {0, .5, .5}};
+    static const double at[10][3] = {{0, 0, 0},   {1, 0, 0},  {0, 1, 0},  {0, 0, 1},   {.5, 0, 0},
+                                     {.5, .5, 0}, {0, .5, 0}, {0, 0, .5}, {.5, 0, .5}, {0, .5, .5}};
     struct solids s = {.mesh = {.name = "corners", .nodes = 10 * n, .elements = n}};
     s.mesh.element = arena_take(a, (size_t)n, sizeof *s.mesh.element);
     s.mesh.at = arena_take(a, 10 * (size_t)n, sizeof *s.mesh.at);
@@ -190,7 +200,8 @@ static struct solids corners(int n, struct arena *a)
     return s;
 }
 
-/* A ball whose surface can only breathe: its faces meet smoothly, each node keeps its normal, and shapes there are along it. */
+/* A ball whose surface can only breathe: its faces meet smoothly, each node keeps its normal, and shapes there are
+ * along it. */
 START_TEST(test_smooth)
 {
     struct arena *a = arena_open();
@@ -205,11 +216,11 @@ START_TEST(test_smooth)
     ck_assert_int_eq(m.rigid, 0);
     for (int i = 0; i < s.mesh.nodes; i++) {
         const double *p = s.mesh.at[i], *u = m.shape + 3 * i;
-        if (sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) < 0.05 * (1.0 - 1e-9))
-            continue;
+        if (sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) < 0.05 * (1.0 - 1e-9)) continue;
         outside++;
         for (int k = 0; k < 3; k++) /* faces of 8 x 8 to a side are no sphere: their normals are off by some degrees */
-            ck_assert(fabs(u[(k + 1) % 3] * p[(k + 2) % 3] - u[(k + 2) % 3] * p[(k + 1) % 3]) <= 0.1 * 0.05 * sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+            ck_assert(fabs(u[(k + 1) % 3] * p[(k + 2) % 3] - u[(k + 2) % 3] * p[(k + 1) % 3]) <=
+                      0.1 * 0.05 * sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
     }
     ck_assert_int_eq(outside, 9 * 9 * 9 - 7 * 7 * 7);
     ck_assert_int_eq(m.freedoms, 3 * s.mesh.nodes - 2 * outside);
@@ -232,7 +243,8 @@ START_TEST(test_refused)
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solids s = solids_box((const int[]){1, 1, 1}, (const double[]){0.1, 0.1, 0.1}, a);
-    struct solid_held inside = {SOLID_CLAMPED, 1, (int[1][3]){{s.mesh.element[0][0], s.mesh.element[0][2], s.mesh.element[0][3]}}};
+    struct solid_held inside = {SOLID_CLAMPED, 1,
+                                (int[1][3]){{s.mesh.element[0][0], s.mesh.element[0][2], s.mesh.element[0][3]}}};
     struct solid_ask ask = {.material = &steel, .most = 5, .top = 100.0};
     refuse(&s, &ask, ERR_SCENE, "no mode below 100 Hz");
     ask.held = &inside, ask.n_held = 1;
@@ -253,7 +265,8 @@ START_TEST(test_refused)
 }
 END_TEST
 
-/* A single element has 24 modes that are not rigid, whatever more is asked for; every one of a cube held but for its middle node, 3. */
+/* A single element has 24 modes that are not rigid, whatever more is asked for; every one of a cube held but for its
+ * middle node, 3. */
 START_TEST(test_few)
 {
     struct arena *a = arena_open();
@@ -274,7 +287,8 @@ START_TEST(test_few)
 }
 END_TEST
 
-/* The first mode of a bar of three cells: 574.3 Hz, what Timoshenko's theory and fine meshes of order 2 agree on (test_bar). Every order is far better than the one below. */
+/* The first mode of a bar of three cells: 574.3 Hz, what Timoshenko's theory and fine meshes of order 2 agree on
+ * (test_bar). Every order is far better than the one below. */
 START_TEST(test_orders)
 {
     struct arena *a = arena_open();
@@ -287,12 +301,14 @@ START_TEST(test_orders)
         ck_assert_int_eq(m.rigid, 6);
         off[order] = solids_hz(&m, 0) / 574.3 - 1.0;
     }
-    ck_assert_msg(off[2] > 0.03 && off[3] < 0.1 * off[2] && off[4] < 0.3 * off[3] + 2e-4 && off[4] > -2e-4, "%g %g %g", off[2], off[3], off[4]);
+    ck_assert_msg(off[2] > 0.03 && off[3] < 0.1 * off[2] && off[4] < 0.3 * off[3] + 2e-4 && off[4] > -2e-4, "%g %g %g",
+                  off[2], off[3], off[4]);
     arena_close(a);
 }
 END_TEST
 
-/* A plate on four edges of order 3: held nodes are those of the net; pi^2 (D/(rho h))^(1/2) (m^2 + n^2)/a^2 less the shear of h/a = 1/50, which is 1 % in the fourth. */
+/* A plate on four edges of order 3: held nodes are those of the net; pi^2 (D/(rho h))^(1/2) (m^2 + n^2)/a^2 less the
+ * shear of h/a = 1/50, which is 1 % in the fourth. */
 START_TEST(test_order_held)
 {
     struct arena *a = arena_open();
@@ -312,4 +328,5 @@ START_TEST(test_order_held)
 }
 END_TEST
 
-UNIT("solid", test_orders, test_order_held, test_bar, test_plate, test_ball, test_cantilever, test_supported, test_turned, test_rigid, test_smooth, test_refused, test_few)
+UNIT("solid", test_orders, test_order_held, test_bar, test_plate, test_ball, test_cantilever, test_supported,
+     test_turned, test_rigid, test_smooth, test_refused, test_few)

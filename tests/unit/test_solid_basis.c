@@ -1,4 +1,5 @@
-/* Modes of equal frequency: the same shapes whatever the numbers of nodes and elements, and whatever basis the solver gave; signs. */
+/* Modes of equal frequency: the same shapes whatever the numbers of nodes and elements, and whatever basis the solver
+ * gave; signs. */
 #include "fem/solid_basis.h"
 
 #include "num/noise.h"
@@ -27,7 +28,8 @@ static struct solids shuffled(const struct solids *s, int *where, struct arena *
     return t;
 }
 
-/* 3e-7 of the largest component, sign aside: a symmetric shape has as many largest components of either sign, and the first of another order is another. */
+/* 3e-7 of the largest component, sign aside: a symmetric shape has as many largest components of either sign, and the
+ * first of another order is another. */
 static void expect_same(const struct solid_modes *x, const struct solid_modes *y, const int *where)
 {
     ck_assert_int_eq(x->n, y->n);
@@ -39,7 +41,8 @@ static void expect_same(const struct solid_modes *x, const struct solid_modes *y
             double a = u[k], b = v[3 * where[k / 3] + k % 3];
             same = fmax(same, fabs(a - b)), other = fmax(other, fabs(a + b)), most = fmax(most, fabs(a));
         }
-        ck_assert_msg(fmin(same, other) < 3e-7 * most, "mode %d (%.9g) differs by %g of %g", i, x->lambda[i], fmin(same, other), most);
+        ck_assert_msg(fmin(same, other) < 3e-7 * most, "mode %d (%.9g) differs by %g of %g", i, x->lambda[i],
+                      fmin(same, other), most);
     }
 }
 
@@ -50,7 +53,8 @@ START_TEST(test_order)
     struct solid_ask ask = {.material = &steel, .most = 30, .top = 1e6};
     struct solids s[3] = {solids_box((const int[]){6, 6, 2}, (const double[]){0.1, 0.1, 0.01}, a),
                           solids_ball(4, 0.05, a),
-                          solids_box((const int[]){12, 2, 2}, (const double[]){0.2, 0.01, 0.01}, a)}; /* it bends two ways that move the same places */
+                          solids_box((const int[]){12, 2, 2}, (const double[]){0.2, 0.01, 0.01},
+                                     a)}; /* it bends two ways that move the same places */
     for (int i = 0; i < 3; i++) {
         int *where = ARENA_TAKE(a, int, s[i].mesh.nodes), pairs = 0;
         struct solids t = shuffled(&s[i], where, a);
@@ -66,7 +70,8 @@ END_TEST
 
 START_TEST(test_sign)
 {
-    double u[4] = {0.5, -1.0, 1.0 - 1e-8, 0.0}, v[4] = {0.5, -1.0, 1.0 + 1e-5, 0.0}, zero[2] = {0.0, 0.0}, w[2] = {-3.0, 2.0};
+    double u[4] = {0.5, -1.0, 1.0 - 1e-8, 0.0}, v[4] = {0.5, -1.0, 1.0 + 1e-5, 0.0}, zero[2] = {0.0, 0.0},
+           w[2] = {-3.0, 2.0};
     solid_basis_sign(u, 4);
     ck_assert(u[0] == -0.5 && u[1] == 1.0 && u[2] < 0.0);
     solid_basis_sign(v, 4);

@@ -1,4 +1,5 @@
-/* The sparse solver and the count of eigenvalues against LAPACK's dense solver; assembled matrices: constant strain, mass, rigid motions. */
+/* The sparse solver and the count of eigenvalues against LAPACK's dense solver; assembled matrices: constant strain,
+ * mass, rigid motions. */
 #include "fem/solid_eigen.h"
 
 #include <lapacke.h>
@@ -53,16 +54,19 @@ static void close_rig(struct rig *r)
     arena_close(r->a);
 }
 
-/* u = A x: K u is 0 at every node inside (elements there are bent, of no symmetry), and u^T K u the volume times strain . C strain; rigid motions: K u = 0 at all. Mass: density times volume. */
+/* u = A x: K u is 0 at every node inside (elements there are bent, of no symmetry), and u^T K u the volume times strain
+ * . C strain; rigid motions: K u = 0 at all. Mass: density times volume. */
 static void expect_patch(int order)
 {
-    const double a[2][3][3] = {{{0.3, -0.7, 0.2}, {0.4, -0.5, 0.9}, {-0.1, 0.6, 0.8}}, {{0, -1, 2}, {1, 0, -3}, {-2, 3, 0}}};
+    const double a[2][3][3] = {{{0.3, -0.7, 0.2}, {0.4, -0.5, 0.9}, {-0.1, 0.6, 0.8}},
+                               {{0, -1, 2}, {1, 0, -3}, {-2, 3, 0}}};
     const double size[3] = {0.3, 0.2, 0.25};
     struct elastic c = solids_steel();
     struct rig r;
     open_order(&r, order, (const int[]){2, 3, 2}, size, false);
     for (int rigid = 0; rigid < 2; rigid++) {
-        double *u = ARENA_TAKE(r.a, double, r.f.n), *force = ARENA_TAKE(r.a, double, r.f.n), energy = 0.0, want = 0.0, most = 0.0;
+        double *u = ARENA_TAKE(r.a, double, r.f.n), *force = ARENA_TAKE(r.a, double, r.f.n), energy = 0.0, want = 0.0,
+               most = 0.0;
         for (int i = 0; i < r.f.n; i++)
             for (int k = 0; k < 3; k++)
                 u[i] += a[rigid][i % 3][k] * r.net.at[i / 3][k];
@@ -73,8 +77,7 @@ static void expect_patch(int order)
             for (int k = 0; k < 3; k++)
                 inside = inside && p[k] > 1e-9 && p[k] < size[k] - 1e-9;
             energy += u[i] * force[i];
-            if (inside || rigid)
-                most = fmax(most, fabs(force[i]));
+            if (inside || rigid) most = fmax(most, fabs(force[i]));
         }
         ck_assert_msg(most < 1e-12 * 200e9 * 0.3, "force %g N", most);
         const double strain[6] = {0.3, -0.5, 0.8, 1.5, 0.1, -0.3};
@@ -102,7 +105,8 @@ static double *dense_matrix(const cholmod_sparse *a, struct arena *arena)
     return d;
 }
 
-/* 60 of 1215 pairs, free and held: lambda to 1e-9 (rigid ones: of the highest), residuals, and the count between each two. */
+/* 60 of 1215 pairs, free and held: lambda to 1e-9 (rigid ones: of the highest), residuals, and the count between each
+ * two. */
 static void against_dense(bool held, struct rig *r)
 {
     struct err e = {0};
@@ -115,7 +119,8 @@ static void against_dense(bool held, struct rig *r)
     ck_assert_msg(solid_eigen(&r->x, &(struct solid_search){60, -1e8, 0}, &factor, &p, &e), "%s", e.text);
     ck_assert_int_eq(p.n, 60);
     for (int i = 0; i < 60; i++)
-        ck_assert_msg(fabs(p.lambda[i] - want[i]) < 1e-9 * fabs(want[i]) + 1e-11 * want[59], "%d: %.12g, not %.12g", i, p.lambda[i], want[i]);
+        ck_assert_msg(fabs(p.lambda[i] - want[i]) < 1e-9 * fabs(want[i]) + 1e-11 * want[59], "%d: %.12g, not %.12g", i,
+                      p.lambda[i], want[i]);
     ck_assert(solid_eigen_residual(&r->x, &p, held ? 0 : 6, held ? 60 : 54) < 1e-8);
     for (int i = held ? 0 : 5; i < 200; i += 13)
         if (want[i + 1] - want[i] > 1e-9 * want[i + 1])
@@ -161,7 +166,8 @@ START_TEST(test_start)
 }
 END_TEST
 
-/* Only three different eigenvalues, 20, 40 and 540 times: blocks of eight span all that one start leads to within three steps, and fresh ones have to find the rest. */
+/* Only three different eigenvalues, 20, 40 and 540 times: blocks of eight span all that one start leads to within three
+ * steps, and fresh ones have to find the rest. */
 START_TEST(test_exhausted)
 {
     enum { N = 600 };

@@ -1,4 +1,5 @@
-/* The quadratic tetrahedron: its mass in closed form, curved ones against a rule of 9^3 points, rigid motions, constant strain, rotation. */
+/* The quadratic tetrahedron: its mass in closed form, curved ones against a rule of 9^3 points, rigid motions, constant
+ * strain, rotation. */
 #include "fem/solid_element.h"
 
 #include "num/gauss.h"
@@ -14,7 +15,8 @@ static void make(double bend, double at[10][3])
     struct noise s = noise_make(1, "element");
     memcpy(at, corner, sizeof corner);
     for (int i = 0; i < 18; i++)
-        at[4 + i / 3][i % 3] = 0.5 * (corner[ends[i / 3][0]][i % 3] + corner[ends[i / 3][1]][i % 3]) + bend * (2.0 * noise_uniform(s, 0, (uint64_t)i) - 1.0);
+        at[4 + i / 3][i % 3] = 0.5 * (corner[ends[i / 3][0]][i % 3] + corner[ends[i / 3][1]][i % 3]) +
+                               bend * (2.0 * noise_uniform(s, 0, (uint64_t)i) - 1.0);
 }
 
 static const struct solid_lattice *quadratic_lattice(void)
@@ -36,7 +38,8 @@ static struct elastic spruce(void)
 {
     struct elastic s;
     struct err e = {0};
-    ck_assert(elastic_orthotropic(&(struct elastic_wood){{11e9, 0.5e9, 0.9e9}, {0.04e9, 0.75e9, 0.72e9}, {0.25, 0.37, 0.47}, 420.0}, &s, &e));
+    ck_assert(elastic_orthotropic(
+        &(struct elastic_wood){{11e9, 0.5e9, 0.9e9}, {0.04e9, 0.75e9, 0.72e9}, {0.25, 0.37, 0.47}, 420.0}, &s, &e));
     return s;
 }
 
@@ -45,11 +48,12 @@ static double six_volumes(double at[10][3])
     double d[3][3];
     for (int i = 0; i < 9; i++)
         d[i / 3][i % 3] = at[1 + i / 3][i % 3] - at[0][i % 3];
-    return d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) - d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) + d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+    return d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) - d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
+           d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
 }
 
-/* Entries over density V/420, from integral L0^a L1^b L2^c L3^d = 6 V a! b! c! d!/(a + b + c + d + 3)!: corners 6 and 1; corner and midside -4 if on
-   its edge, else -6; midsides 32, 16 if their edges meet, else 8. */
+/* Entries over density V/420, from integral L0^a L1^b L2^c L3^d = 6 V a! b! c! d!/(a + b + c + d + 3)!: corners 6 and
+   1; corner and midside -4 if on its edge, else -6; midsides 32, 16 if their edges meet, else 8. */
 START_TEST(test_mass)
 {
     double at[10][3];
@@ -61,7 +65,9 @@ START_TEST(test_mass)
     for (int i = 0; i < 10; i++)
         for (int j = 0; j <= i; j++) {
             const int *p = i > 3 ? ends[i - 4] : NULL, *q = j > 3 ? ends[j - 4] : NULL;
-            int shared = p && q ? (p[0] == q[0]) + (p[0] == q[1]) + (p[1] == q[0]) + (p[1] == q[1]) : p ? p[0] == j || p[1] == j : 0;
+            int shared = p && q ? (p[0] == q[0]) + (p[0] == q[1]) + (p[1] == q[0]) + (p[1] == q[1])
+                         : p    ? p[0] == j || p[1] == j
+                                : 0;
             double want = p && q ? (shared == 2 ? 32 : shared == 1 ? 16 : 8) : p ? (shared ? -4 : -6) : i == j ? 6 : 1;
             SOLIDS_NEAR(x.m[i][j], want * unit, 1e-12);
             ck_assert(x.m[i][j] == x.m[j][i]);
@@ -69,7 +75,8 @@ START_TEST(test_mass)
 }
 END_TEST
 
-/* Mass and volume of a curved one: determinant by differences of places, which are exact (to rounding) for quadratics. */
+/* Mass and volume of a curved one: determinant by differences of places, which are exact (to rounding) for quadratics.
+ */
 static double determinant(double at[10][3], const double l[3])
 {
     double j[10][3] = {{0}};
@@ -93,7 +100,8 @@ START_TEST(test_curved_mass)
     struct solid_element x = element(at, &steel);
     gauss_legendre(9, g, w);
     for (int p = 0; p < 729; p++) {
-        double r = 0.5 + 0.5 * g[p % 9], s = 0.5 + 0.5 * g[p / 9 % 9], t = 0.5 + 0.5 * g[p / 81], value[10], slope[10][3];
+        double r = 0.5 + 0.5 * g[p % 9], s = 0.5 + 0.5 * g[p / 9 % 9], t = 0.5 + 0.5 * g[p / 81], value[10],
+               slope[10][3];
         const double l[3] = {r, s * (1 - r), t * (1 - r) * (1 - s)};
         double weight = w[p % 9] * w[p / 9 % 9] * w[p / 81] / 8 * (1 - r) * (1 - r) * (1 - s) * determinant(at, l);
         solid_element_shapes(l, value, slope);
@@ -107,7 +115,8 @@ START_TEST(test_curved_mass)
 }
 END_TEST
 
-/* Energy u^T K u of the displacement u = a x (a matrix) is volume times strain . C strain: the constant strain a, with none for a rotation. */
+/* Energy u^T K u of the displacement u = a x (a matrix) is volume times strain . C strain: the constant strain a, with
+ * none for a rotation. */
 static void expect_energy(double bend, const struct elastic *s, const double a[3][3])
 {
     double at[10][3], u[30], want = 0.0, is = 0.0, size = 0.0;
@@ -128,7 +137,8 @@ static void expect_energy(double bend, const struct elastic *s, const double a[3
 START_TEST(test_constant_strain)
 {
     const struct elastic material[2] = {solids_steel(), spruce()};
-    const double strain[3][3] = {{0.3, -0.7, 0.2}, {0.4, -0.5, 0.9}, {-0.1, 0.6, 0.8}}, rotation[3][3] = {{0, -1, 2}, {1, 0, -3}, {-2, 3, 0}};
+    const double strain[3][3] = {{0.3, -0.7, 0.2}, {0.4, -0.5, 0.9}, {-0.1, 0.6, 0.8}},
+                 rotation[3][3] = {{0, -1, 2}, {1, 0, -3}, {-2, 3, 0}};
     for (int i = 0; i < 2; i++)
         for (int curved = 0; curved < 2; curved++) {
             expect_energy(0.05 * curved, &material[i], strain);
@@ -149,7 +159,10 @@ START_TEST(test_rigid)
             double force = 0.0, size = 0.0;
             for (int i = 0; i < 30; i++) {
                 int k = motion % 3, c = i % 3;
-                double u = motion < 3 ? c == k : c == (k + 1) % 3 ? at[i / 3][(k + 2) % 3] : c == (k + 2) % 3 ? -at[i / 3][(k + 1) % 3] : 0.0;
+                double u = motion < 3         ? c == k
+                           : c == (k + 1) % 3 ? at[i / 3][(k + 2) % 3]
+                           : c == (k + 2) % 3 ? -at[i / 3][(k + 1) % 3]
+                                              : 0.0;
                 force += x.k[row][i] * u;
                 size += fabs(x.k[row][i]) * 1.5;
             }

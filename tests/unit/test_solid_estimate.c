@@ -8,11 +8,15 @@ static struct solid_side side(const struct solids *s, const struct solid_modes *
     return (struct solid_side){&s->mesh, &s->boundary, m};
 }
 
-/* Free ball of order 2, cells two thirds as long: Lamb's 27 lowest (test_solid.c), in five groups of 5, 5, 3, 7, 7 that each mesh splits and turns in its own way. The estimate is
-   within a factor of two of the error of a group's middle (places are quadratic: power 4), and never of the other sign. */
+/* Free ball of order 2, cells two thirds as long: Lamb's 27 lowest (test_solid.c), in five groups of 5, 5, 3, 7, 7 that
+   each mesh splits and turns in its own way. The estimate is within a factor of two of the error of a group's middle
+   (places are quadratic: power 4), and never of the other sign. */
 START_TEST(test_ball)
 {
-    const struct { double value; int times; } want[] = {{2.50113, 5}, {2.646217, 5}, {3.529987, 3}, {3.86470, 7}, {3.937401, 7}};
+    const struct {
+        double value;
+        int times;
+    } want[] = {{2.50113, 5}, {2.646217, 5}, {3.529987, 3}, {3.86470, 7}, {3.937401, 7}};
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solid_ask ask = {.material = &steel, .most = 40, .top = 1e6};
@@ -46,8 +50,9 @@ static struct solids plate(int n, struct solid_held held[4], struct arena *a)
     return s;
 }
 
-/* Supported plate of order 2 against Mindlin's closed form (test_solid.c: to first order in thickness), 5 modes that are 0.5 to 2 % stiff: between 0.4 times and twice. It is too small, as the one cell through the
-   plate, which both meshes have, is part of the error. */
+/* Supported plate of order 2 against Mindlin's closed form (test_solid.c: to first order in thickness), 5 modes that
+   are 0.5 to 2 % stiff: between 0.4 times and twice. It is too small, as the one cell through the plate, which both
+   meshes have, is part of the error. */
 START_TEST(test_plate)
 {
     const int order[5][2] = {{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 1}};
@@ -69,14 +74,17 @@ START_TEST(test_plate)
     ck_assert(x.median > 0.0 && x.median <= x.most && fabs(x.error[x.worst]) == x.most);
     for (int i = 0; i < 5; i++) {
         double p = order[i][0] * SOLIDS_PI / 0.5, q = order[i][1] * SOLIDS_PI / 0.4, q2 = p * p + q * q;
-        double w2 = d / (7850.0 * h) * q2 * q2 / (1.0 + q2 * (h * h / 12.0 + d / (5.0 / 6.0 * g * h))), error = solids_hz(&m[0], i) * 2.0 * SOLIDS_PI / sqrt(w2) - 1.0;
-        ck_assert_msg(x.error[i] > 0.4 * error && x.error[i] < 2.0 * error, "mode %d: %g, not %g", i, x.error[i], error);
+        double w2 = d / (7850.0 * h) * q2 * q2 / (1.0 + q2 * (h * h / 12.0 + d / (5.0 / 6.0 * g * h))),
+               error = solids_hz(&m[0], i) * 2.0 * SOLIDS_PI / sqrt(w2) - 1.0;
+        ck_assert_msg(x.error[i] > 0.4 * error && x.error[i] < 2.0 * error, "mode %d: %g, not %g", i, x.error[i],
+                      error);
     }
     arena_close(a);
 }
 END_TEST
 
-/* The same mesh twice: nothing differs, and nothing is extrapolated. Only the two lowest modes for pairs: the others have none, as they are orthogonal. */
+/* The same mesh twice: nothing differs, and nothing is extrapolated. Only the two lowest modes for pairs: the others
+ * have none, as they are orthogonal. */
 START_TEST(test_pairs)
 {
     struct arena *a = arena_open();

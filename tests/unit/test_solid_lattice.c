@@ -1,4 +1,5 @@
-/* Lagrange's tetrahedra and triangles: nodes, one and zeros, polynomials read back, slopes by differences; what order 2 must agree with. */
+/* Lagrange's tetrahedra and triangles: nodes, one and zeros, polynomials read back, slopes by differences; what order 2
+ * must agree with. */
 #include "fem/solid_lattice.h"
 
 #include "fem/boundary.h"
@@ -26,7 +27,10 @@ START_TEST(test_nodes)
         ck_assert(t.n == nodes[order] && t.on_face == faces[order]);
         for (int i = 0; i < t.n; i++) {
             ck_assert_int_eq(t.at[i][0] + t.at[i][1] + t.at[i][2] + t.at[i][3], order);
-            solid_lattice_shapes(&t, (const double[]){(double)t.at[i][1] / order, (double)t.at[i][2] / order, (double)t.at[i][3] / order}, value, slope);
+            solid_lattice_shapes(
+                &t,
+                (const double[]){(double)t.at[i][1] / order, (double)t.at[i][2] / order, (double)t.at[i][3] / order},
+                value, slope);
             for (int k = 0; k < t.n; k++)
                 ck_assert_double_eq_tol(value[k], i == k, 1e-14);
         }
@@ -43,16 +47,20 @@ START_TEST(test_polynomials)
 {
     for (int order = 2; order <= 4; order++) {
         struct solid_lattice t = solid_lattice_make(order);
-        double value[SOLID_LATTICE_NODES], slope[SOLID_LATTICE_NODES][3], other[SOLID_LATTICE_NODES], none[SOLID_LATTICE_NODES][3];
+        double value[SOLID_LATTICE_NODES], slope[SOLID_LATTICE_NODES][3], other[SOLID_LATTICE_NODES],
+            none[SOLID_LATTICE_NODES][3];
         for (int p = 0; p < 4; p++) {
             double sum = 0.0, flat = 0.0;
             solid_lattice_shapes(&t, places[p], value, slope);
             for (int i = 0; i < t.n; i++)
-                sum += value[i] * polynomial(order, (const double[]){(double)t.at[i][1] / order, (double)t.at[i][2] / order, (double)t.at[i][3] / order});
+                sum += value[i] *
+                       polynomial(order, (const double[]){(double)t.at[i][1] / order, (double)t.at[i][2] / order,
+                                                          (double)t.at[i][3] / order});
             ck_assert_double_eq_tol(sum, polynomial(order, places[p]), 1e-12);
             solid_lattice_face(&t, places[p][0], places[p][1], other);
             for (int i = 0; i < t.on_face; i++)
-                flat += other[i] * polynomial(order, (const double[]){(double)t.face[i][1] / order, (double)t.face[i][2] / order, 0.0});
+                flat += other[i] * polynomial(order, (const double[]){(double)t.face[i][1] / order,
+                                                                      (double)t.face[i][2] / order, 0.0});
             ck_assert_double_eq_tol(flat, polynomial(order, (const double[]){places[p][0], places[p][1], 0.0}), 1e-12);
             for (int k = 0; k < 3; k++) {
                 double near[3] = {places[p][0], places[p][1], places[p][2]};

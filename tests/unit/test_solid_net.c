@@ -1,4 +1,5 @@
-/* Nodes of higher order: as many as Euler's count of corners, edges, faces and elements says, where their barycentric coordinates say, and shared. */
+/* Nodes of higher order: as many as Euler's count of corners, edges, faces and elements says, where their barycentric
+ * coordinates say, and shared. */
 #include "fem/solid_net.h"
 
 #include "fem/faces.h"
@@ -15,10 +16,13 @@ static void make(const char *text, int order)
     solid_net_make(&m, &b, order, meshes_arena(), &net);
 }
 
-/* Corners and edges of the mesh are its nodes; order p has p - 1 nodes on an edge, (p - 1)(p - 2)/2 on a face, (p - 1)(p - 2)(p - 3)/6 inside. */
+/* Corners and edges of the mesh are its nodes; order p has p - 1 nodes on an edge, (p - 1)(p - 2)/2 on a face, (p -
+ * 1)(p - 2)(p - 3)/6 inside. */
 START_TEST(test_count)
 {
-    static const char *const texts[] = {"plate:length=20cm,width=10cm,thickness=1cm,fineness=1", "ring:diameter=10cm,width=1cm,thickness=1cm,fineness=1", "sphere:diameter=5cm,fineness=1"};
+    static const char *const texts[] = {"plate:length=20cm,width=10cm,thickness=1cm,fineness=1",
+                                        "ring:diameter=10cm,width=1cm,thickness=1cm,fineness=1",
+                                        "sphere:diameter=5cm,fineness=1"};
     for (int i = 0; i < 3; i++)
         for (int p = 2; p <= 4; p++) {
             make(texts[i], p);
@@ -28,12 +32,14 @@ START_TEST(test_count)
                 corners += !corner[m.element[e / 4][e % 4]];
                 corner[m.element[e / 4][e % 4]] = true;
             }
-            ck_assert_int_eq(net.nodes, corners + (m.nodes - corners) * (p - 1) + faces * (p - 1) * (p - 2) / 2 + m.elements * (p - 1) * (p - 2) * (p - 3) / 6);
+            ck_assert_int_eq(net.nodes, corners + (m.nodes - corners) * (p - 1) + faces * (p - 1) * (p - 2) / 2 +
+                                            m.elements * (p - 1) * (p - 2) * (p - 3) / 6);
         }
 }
 END_TEST
 
-/* Places by the element's own corners and midsides, of every element that has the node; a face's nodes lie on the face. */
+/* Places by the element's own corners and midsides, of every element that has the node; a face's nodes lie on the face.
+ */
 START_TEST(test_places)
 {
     for (int p = 3; p <= 4; p++) {
@@ -45,7 +51,8 @@ START_TEST(test_places)
                 static const int ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
                 for (int k = 0; k < 10; k++)
                     for (int d = 0; d < 3; d++)
-                        at[d] += (k < 4 ? c[k] * (2 * c[k] - 1) : 4 * c[ends[k - 4][0]] * c[ends[k - 4][1]]) * m.at[m.element[e][k]][d];
+                        at[d] += (k < 4 ? c[k] * (2 * c[k] - 1) : 4 * c[ends[k - 4][0]] * c[ends[k - 4][1]]) *
+                                 m.at[m.element[e][k]][d];
                 for (int d = 0; d < 3; d++)
                     ck_assert_double_eq_tol(at[d], net.at[net.element[e * net.lattice.n + i]][d], 1e-15);
             }

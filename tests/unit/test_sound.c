@@ -1,4 +1,5 @@
-/* Sounds of several channels and their stems, from samples to WAVs; the level rules of one channel are in test_render.c. */
+/* Sounds of several channels and their stems, from samples to WAVs; the level rules of one channel are in
+ * test_render.c. */
 #include "num/noise.h"
 #include "output/sound.h"
 #include "output/stems.h"
@@ -9,9 +10,10 @@ static const double places[15] = {0, 0, 1, 1, 0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1};
 /* A scene whose sound has so many listening places, as floating point, unscaled. */
 static struct scene scene_of(int n, int encoding)
 {
-    struct scene s = {.output = {.sample_rate = 48000, .encoding = encoding, .channels = 1, .level = {NAN, NAN, NAN, NAN, NAN, false}}};
-    if (n > 1)
-        s.output.listen = (struct listen){true, RADIATOR_POINT, places, n, 1.2, 343};
+    struct scene s = {
+        .output = {
+            .sample_rate = 48000, .encoding = encoding, .channels = 1, .level = {NAN, NAN, NAN, NAN, NAN, false}}};
+    if (n > 1) s.output.listen = (struct listen){true, RADIATOR_POINT, places, n, 1.2, 343};
     return s;
 }
 
@@ -22,7 +24,8 @@ static double noise_at(long n, int channel)
 }
 
 /* Brings in `frames` frames in uneven pieces, and ends. */
-static struct sound_report sounded(struct arena *a, const struct scene *s, const char *name, long frames, double (*at)(long, int))
+static struct sound_report sounded(struct arena *a, const struct scene *s, const char *name, long frames,
+                                   double (*at)(long, int))
 {
     struct err e = {0};
     struct sound_report r;
@@ -42,8 +45,8 @@ static struct sound_report sounded(struct arena *a, const struct scene *s, const
     return r;
 }
 
-/* Three channels, each its own sound, by full scale and by a gain found afterwards: every sample in its place, ramped alike; peak, rms and each channel's
-   as counted here. */
+/* Three channels, each its own sound, by full scale and by a gain found afterwards: every sample in its place, ramped
+   alike; peak, rms and each channel's as counted here. */
 START_TEST(each_place_is_a_channel)
 {
     struct arena *a = folder_make();
@@ -60,7 +63,8 @@ START_TEST(each_place_is_a_channel)
         for (long n = 0; n < frames; n++)
             for (int k = 0; k < 3; k++) {
                 long edge = n < frames - 1 - n ? n : frames - 1 - n;
-                double ramp = edge < 480 ? pow(sin(M_PI / 2 * ((double)edge + 0.5) / 480), 2) : 1, want = noise_at(n, k) * ramp;
+                double ramp = edge < 480 ? pow(sin(M_PI / 2 * ((double)edge + 0.5) / 480), 2) : 1,
+                       want = noise_at(n, k) * ramp;
                 ck_assert_double_eq_tol(w.x[3 * n + k], r.gain * want, 1e-15);
                 peak[k] = fmax(peak[k], fabs(want));
                 squares[k] += want * want;
@@ -85,8 +89,9 @@ static double tone_at(long n, int channel)
     return 1e-3 * sin(2 * M_PI * 997 / 48000 * (double)n);
 }
 
-/* BS.1770: K-weighting is +0.691 dB at 997 Hz, which the formula takes off again, so a tone's loudness is 10 log10 of the sum of its channels' mean
-   squares: one channel counts twice (two ears), of more each once, surrounds too (a layout's would count 1.41). */
+/* BS.1770: K-weighting is +0.691 dB at 997 Hz, which the formula takes off again, so a tone's loudness is 10 log10 of
+   the sum of its channels' mean squares: one channel counts twice (two ears), of more each once, surrounds too (a
+   layout's would count 1.41). */
 START_TEST(loudness_counts_channels)
 {
     static const int counts[] = {1, 2, 5};
@@ -144,7 +149,8 @@ static const char *const all_stems[] = {"force", "surface", "scraper", NULL};
 /* Renders a sound of two parts, the second -0.75 of the first, and a force of 100 N, with the stems. */
 static bool stemmed(struct arena *a, const struct scene *s, long frames, struct err *e)
 {
-    const char *const paths[STEMS] = {folder_path("x.force.wav"), folder_path("x.surface.wav"), folder_path("x.scraper.wav")};
+    const char *const paths[STEMS] = {folder_path("x.force.wav"), folder_path("x.surface.wav"),
+                                      folder_path("x.scraper.wav")};
     struct sound *o = sound_open(s, folder_path("x.wav"), frames, a, e);
     struct stems *p = stems_open(s, paths, frames, a, e);
     struct sound_report r;
@@ -157,17 +163,20 @@ static bool stemmed(struct arena *a, const struct scene *s, long frames, struct 
             y[k] = -0.75 * x[k];
             sum[k] = x[k] + y[k];
         }
-        ck_assert_msg(stems_add(p, STEM_FORCE, &force, 1, e) && stems_add(p, STEM_SURFACE, x, 1, e) && stems_add(p, STEM_SCRAPER, y, 1, e) && sound_add(o, sum, 1, e), "%s", e->text);
+        ck_assert_msg(stems_add(p, STEM_FORCE, &force, 1, e) && stems_add(p, STEM_SURFACE, x, 1, e) &&
+                          stems_add(p, STEM_SCRAPER, y, 1, e) && sound_add(o, sum, 1, e),
+                      "%s", e->text);
     }
-    bool ok = sound_finish(o, &r, e) && stems_finish(p, r.gain, e) && sound_settle(o, e) && stems_settle(p, e) && sound_commit(o, e) && stems_commit(p, e);
-    if (!ok)
-        sound_drop(o);
+    bool ok = sound_finish(o, &r, e) && stems_finish(p, r.gain, e) && sound_settle(o, e) && stems_settle(p, e) &&
+              sound_commit(o, e) && stems_commit(p, e);
+    if (!ok) sound_drop(o);
     stems_drop(p);
     return ok;
 }
 
-/* Surface and scraper have the sound's gain, ramps and channels, so that they sum to it; the force is in newtons, of one channel, as floating point whatever
-   the sound is, without ramps. Of a level that is known at once, and of one that is found. */
+/* Surface and scraper have the sound's gain, ramps and channels, so that they sum to it; the force is in newtons, of
+   one channel, as floating point whatever the sound is, without ramps. Of a level that is known at once, and of one
+   that is found. */
 START_TEST(stems_sum_to_the_sound)
 {
     struct arena *a = folder_make();
@@ -179,11 +188,13 @@ START_TEST(stems_sum_to_the_sound)
         s.output.level.full_scale = known ? 2 : NAN;
         s.output.level.peak = known ? NAN : -20;
         ck_assert_msg(stemmed(a, &s, 3000, &e), "%s", e.text);
-        struct wav sum = renders_sound("x.wav"), force = renders_sound("x.force.wav"), x = renders_sound("x.surface.wav"), y = renders_sound("x.scraper.wav");
+        struct wav sum = renders_sound("x.wav"), force = renders_sound("x.force.wav"),
+                   x = renders_sound("x.surface.wav"), y = renders_sound("x.scraper.wav");
         ck_assert(sum.channels == 2 && x.channels == 2 && y.channels == 2 && force.channels == 1);
         ck_assert(sum.bits == 24 && x.bits == 24 && y.bits == 24 && force.bits == 0);
         for (size_t n = 0; n < 6000; n++)
-            ck_assert_double_eq_tol(x.x[n] + y.x[n], sum.x[n], 1.5 * ldexp(1, -23)); /* each is rounded to half a step */
+            ck_assert_double_eq_tol(x.x[n] + y.x[n], sum.x[n],
+                                    1.5 * ldexp(1, -23)); /* each is rounded to half a step */
         for (size_t n = 0; n < 3000; n++)
             ck_assert(force.x[n] == (float)(100 + noise_at((long)n, 0)));
         ck_assert_double_gt(fabs(x.x[3001]), 3 * fabs(sum.x[3001]));
@@ -201,7 +212,8 @@ START_TEST(a_stem_that_clips_is_refused)
     s.output.stems = (const char **)all_stems;
     ck_assert(!stemmed(a, &s, 3000, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
-    ck_assert_msg(strstr(e.text, "output.stems") && strstr(e.text, "x.surface.wav") && strstr(e.text, "float32"), "%s", e.text);
+    ck_assert_msg(strstr(e.text, "output.stems") && strstr(e.text, "x.surface.wav") && strstr(e.text, "float32"), "%s",
+                  e.text);
     ck_assert_int_eq(system(arena_format(a, "test -z \"$(ls -A %s)\"", folder_name)), 0);
     s.output.encoding = ENCODING_FLOAT32;
     e = (struct err){0};
@@ -216,8 +228,9 @@ static double one(long n, int channel)
     return 1;
 }
 
-/* Where a source is that passes at constant speed: its least distance is 1, its way from -x to x, with 1 over the farthest distance `depth` dB down.
-   The sound of it, and a stem of a body likewise, goes with 1 over that distance; the force keeps what it is. */
+/* Where a source is that passes at constant speed: its least distance is 1, its way from -x to x, with 1 over the
+   farthest distance `depth` dB down. The sound of it, and a stem of a body likewise, goes with 1 over that distance;
+   the force keeps what it is. */
 START_TEST(an_envelope_comes_and_goes)
 {
     struct arena *a = folder_make();
@@ -234,7 +247,7 @@ START_TEST(an_envelope_comes_and_goes)
         for (long n = 0; n < 4001; n++)
             for (int k = 0; k < 2; k++)
                 ck_assert_double_eq_tol(w.x[2 * n + k], 1 / hypot(1, x * (((double)n + 0.5) / 4001 * 2 - 1)), 1e-14);
-        ck_assert_double_eq(w.x[4000], 1); /* the middle one */
+        ck_assert_double_eq(w.x[4000], 1);                             /* the middle one */
         ck_assert_double_eq_tol(20 * log10(w.x[0]), -depths[i], 0.01); /* half a frame inside */
         ck_assert_double_eq(r.peak, 1);
         s.output.stems = (const char **)all_stems;
@@ -247,5 +260,5 @@ START_TEST(an_envelope_comes_and_goes)
 }
 END_TEST
 
-UNIT("sound", each_place_is_a_channel, loudness_counts_channels, pascals_have_a_level, copies_are_of_one_place, stems_sum_to_the_sound,
-     a_stem_that_clips_is_refused, an_envelope_comes_and_goes)
+UNIT("sound", each_place_is_a_channel, loudness_counts_channels, pascals_have_a_level, copies_are_of_one_place,
+     stems_sum_to_the_sound, a_stem_that_clips_is_refused, an_envelope_comes_and_goes)

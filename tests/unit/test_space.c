@@ -1,4 +1,5 @@
-/* The space of materials and shapes: shares against the printed equations, anchors against the closed forms worked out here, continuity, damping. */
+/* The space of materials and shapes: shares against the printed equations, anchors against the closed forms worked out
+ * here, continuity, damping. */
 #include "response/space.h"
 #include "response/space_anchors.h"
 #include "scene/material.h"
@@ -9,7 +10,13 @@ static const int materials[] = {MATERIAL_BASSWOOD, MATERIAL_STEEL, MATERIAL_GLAS
 
 static struct space still(double x, double y, double dimension)
 {
-    return (struct space){.given = true, .from = {x, y}, .to = {NAN, NAN}, .dimension = dimension, .dimension_to = NAN, .fundamental = 400, .gain = 2};
+    return (struct space){.given = true,
+                          .from = {x, y},
+                          .to = {NAN, NAN},
+                          .dimension = dimension,
+                          .dimension_to = NAN,
+                          .fundamental = 400,
+                          .gain = 2};
 }
 
 static struct modes make(struct arena *a, const struct space *s, int most, double rate)
@@ -79,7 +86,8 @@ START_TEST(shares_are_those_of_the_printed_equations)
 }
 END_TEST
 
-/* Not a jump anywhere: across the cut of the angle at theta = 0 and pi, and towards the centre, whatever the direction. */
+/* Not a jump anywhere: across the cut of the angle at theta = 0 and pi, and towards the centre, whatever the direction.
+ */
 START_TEST(shares_are_continuous)
 {
     double w[3], v[3];
@@ -118,8 +126,9 @@ static double free_bar(double b, const double *p)
     return cos(b) - 1 / cosh(b);
 }
 
-/* Timoshenko's dispersion, as the two coupled equations of deflection and turn: (k^2 S - w^2)(k^2 E I + S - I w^2) = k^2 S^2 for rho = A = 1, S = kappa G; the
-   smaller root lies below the shear cut-off's own branch. p = {k, E, kappa G, I}. */
+/* Timoshenko's dispersion, as the two coupled equations of deflection and turn: (k^2 S - w^2)(k^2 E I + S - I w^2) =
+   k^2 S^2 for rho = A = 1, S = kappa G; the smaller root lies below the shear cut-off's own branch. p = {k, E, kappa G,
+   I}. */
 static double timoshenko(double w2, const double *p)
 {
     double k2 = p[0] * p[0], shear = p[2];
@@ -137,22 +146,24 @@ static double bar_frequency(const struct material *m, int i)
 static double plate_frequency(const struct material *m, int i)
 {
     static double all[10000];
-    double nu = m->poisson, h3 = 1e-9, ratio = m->across / m->youngs_modulus, dx = m->youngs_modulus * h3 / 12 / (1 - nu * nu * ratio), dy = dx * ratio;
+    double nu = m->poisson, h3 = 1e-9, ratio = m->across / m->youngs_modulus,
+           dx = m->youngs_modulus * h3 / 12 / (1 - nu * nu * ratio), dy = dx * ratio;
     double twist = dx * nu * ratio + 2 * m->shear * h3 / 12;
     for (int p = 0; p < 100; p++)
         for (int q = 0; q < 100; q++)
-            all[100 * p + q] = dx * pow(p + 1, 4) + 2 * twist * pow((p + 1) * (q + 1) / 0.7, 2) + dy * pow((q + 1) / 0.7, 4);
+            all[100 * p + q] =
+                dx * pow(p + 1, 4) + 2 * twist * pow((p + 1) * (q + 1) / 0.7, 2) + dy * pow((q + 1) / 0.7, 4);
     for (int k = 0; k < 10000; k++) {
         int below = 0;
         for (int j = 0; j < 10000 && below <= i; j++)
             below += all[j] < all[k];
-        if (below == i)
-            return sqrt(all[k]);
+        if (below == i) return sqrt(all[k]);
     }
     return NAN;
 }
 
-/* Determinant of the two equations of motion of a spherical shell (Junger and Feit), tangential and radial; p = {nu, L, h^2/(12 R^2)}. */
+/* Determinant of the two equations of motion of a spherical shell (Junger and Feit), tangential and radial; p = {nu, L,
+ * h^2/(12 R^2)}. */
 static double shell(double w2, const double *p)
 {
     double nu = p[0], l = p[1], q = p[2], n = nu + l - 1;
@@ -175,7 +186,8 @@ START_TEST(anchors_are_themselves)
             const struct material *m = material_find(materials[k]);
             struct point p = point_at(cos(k * 2 * M_PI / 3), sin(k * 2 * M_PI / 3), d + 1);
             for (int i = 0; i < 40; i++) {
-                double w0 = 2 * M_PI * 400 * frequency[d](m, i) / frequency[d](m, 0), s = (m->alpha + m->beta * w0 * w0 + m->loss * w0) / 2;
+                double w0 = 2 * M_PI * 400 * frequency[d](m, i) / frequency[d](m, 0),
+                       s = (m->alpha + m->beta * w0 * w0 + m->loss * w0) / 2;
                 double w = sqrt(w0 * w0 - s * s), gain = d == 2 ? 2 * (2 * i + 5) / 5.0 : 2;
                 ck_assert_double_eq_tol(p.f[i], w / (2 * M_PI), 1e-12 * p.f[i]);
                 ck_assert_double_eq_tol(p.decay[i], s, 1e-12 * s);
@@ -186,8 +198,9 @@ START_TEST(anchors_are_themselves)
 }
 END_TEST
 
-/* Published: 2.7565, 5.4039 of a slender free bar (the steel bar of l/h = 30 lies up to 2 % lower), 0.701 = W of a shell's first mode for nu = 0.3 (Baker
-   1961: 0.7010 of a membrane, to which h = R/50 adds less than 0.1 %), against its ring frequency's limit. */
+/* Published: 2.7565, 5.4039 of a slender free bar (the steel bar of l/h = 30 lies up to 2 % lower), 0.701 = W of a
+   shell's first mode for nu = 0.3 (Baker 1961: 0.7010 of a membrane, to which h = R/50 adds less than 0.1 %), against
+   its ring frequency's limit. */
 START_TEST(known_ratios)
 {
     struct point bar = point_at(-0.5, sqrt(3) / 2, 1), wood = point_at(1, 0, 1), plate = point_at(-0.5, sqrt(3) / 2, 2);
@@ -231,7 +244,8 @@ START_TEST(dimensions_between)
         struct point low = point_at(0.3, 0.2, d), half = point_at(0.3, 0.2, d + 0.5), high = point_at(0.3, 0.2, d + 1);
         struct point above = point_at(0.3, 0.2, d + 1e-9), below = point_at(0.3, 0.2, d + 1 - 1e-9);
         for (int i = 0; i < 40; i++) {
-            double f[3] = {hypot(low.f[i], low.decay[i] / (2 * M_PI)), hypot(half.f[i], half.decay[i] / (2 * M_PI)), hypot(high.f[i], high.decay[i] / (2 * M_PI))};
+            double f[3] = {hypot(low.f[i], low.decay[i] / (2 * M_PI)), hypot(half.f[i], half.decay[i] / (2 * M_PI)),
+                           hypot(high.f[i], high.decay[i] / (2 * M_PI))};
             ck_assert_double_eq_tol(f[1], sqrt(f[0] * f[2]), 1e-11 * f[1]);
             ck_assert_double_eq_tol(half.im[i], sqrt(low.im[i] * high.im[i]), 1e-12 * half.im[i]);
             ck_assert_double_eq_tol(above.f[i], low.f[i], 1e-7 * low.f[i]);
@@ -241,14 +255,16 @@ START_TEST(dimensions_between)
 }
 END_TEST
 
-/* From metal to wood along the rim and along the chord, and from metal to glass: every mode of one frequency is damped more and more. */
+/* From metal to wood along the rim and along the chord, and from metal to glass: every mode of one frequency is damped
+ * more and more. */
 START_TEST(damping_grows_from_metal_to_wood)
 {
     double last[40] = {0}, chord[40] = {0}, glass[40] = {0};
     for (int k = 0; k <= 20; k++) {
         double u = k / 20.0, theta = 2 * M_PI / 3 * (1 - u);
         struct point p = point_at(cos(theta), sin(theta), 2);
-        struct point q = point_at(-0.5 + 1.5 * u, (1 - u) * sqrt(3) / 2, 2), g = point_at(cos(2 * M_PI / 3 * (1 + u)), sin(2 * M_PI / 3 * (1 + u)), 2);
+        struct point q = point_at(-0.5 + 1.5 * u, (1 - u) * sqrt(3) / 2, 2),
+                     g = point_at(cos(2 * M_PI / 3 * (1 + u)), sin(2 * M_PI / 3 * (1 + u)), 2);
         for (int i = 0; i < 40; i++) { /* over the frequency, which changes too */
             ck_assert_double_gt(p.decay[i] / p.f[i], last[i]);
             ck_assert_double_gt(q.decay[i] / q.f[i], chord[i]);
@@ -261,7 +277,8 @@ START_TEST(damping_grows_from_metal_to_wood)
 }
 END_TEST
 
-/* All over the disk and the dimensions: decays and frequencies positive and finite, modes in order, none over another. */
+/* All over the disk and the dimensions: decays and frequencies positive and finite, modes in order, none over another.
+ */
 START_TEST(always_stable_and_in_order)
 {
     for (int i = 0; i < 12; i++)
@@ -335,14 +352,16 @@ START_TEST(a_place_that_moves)
     struct modes_point p = {f, decay, re, im};
     for (int k = 0; k <= 1000; k++) {
         m.at(&m, &(struct modes_where){.share = k / 1000.0}, &p);
-        for (int i = 0; i < m.n; i++) /* the least is looked for at 257 places: it may lie up to (1/512 of the way)^2 of its log's curvature lower */
+        for (int i = 0; i < m.n; i++) /* the least is looked for at 257 places: it may lie up to (1/512 of the way)^2 of
+                                         its log's curvature lower */
             ck_assert_double_ge(decay[i], m.slowest[i] * (1 - 1e-3));
     }
     arena_close(a);
 }
 END_TEST
 
-/* Modes that leave the band on the way: full below 0.45 of the rate, gone above 0.5, smooth between; those that never are in it are left out. */
+/* Modes that leave the band on the way: full below 0.45 of the rate, gone above 0.5, smooth between; those that never
+ * are in it are left out. */
 START_TEST(fades_near_half_the_rate)
 {
     struct arena *a = arena_open();
@@ -356,14 +375,13 @@ START_TEST(fades_near_half_the_rate)
     for (int k = 0; k <= 4000; k++) {
         m.at(&m, &(struct modes_where){.share = k / 4000.0}, &p);
         for (int i = 0; i < m.n; i++) {
-            if (f[i] <= 0.45 * RATE)
-                ck_assert_double_ge(im[i], 2 * (1 - 1e-12));
-            if (f[i] >= 0.5 * RATE)
-                ck_assert(im[i] == 0 && re[i] == 0);
+            if (f[i] <= 0.45 * RATE) ck_assert_double_ge(im[i], 2 * (1 - 1e-12));
+            if (f[i] >= 0.5 * RATE) ck_assert(im[i] == 0 && re[i] == 0);
             faded += k == 4000 && f[i] >= 0.5 * RATE;
             between += f[i] > 0.45 * RATE && f[i] < 0.5 * RATE;
             if (k > 0)
-                ck_assert_double_eq_tol(im[i], last[i], 0.04 * 2 * 17); /* the strongest gain is (2 * 39 + 5)/5 = 17 times the first */
+                ck_assert_double_eq_tol(im[i], last[i],
+                                        0.04 * 2 * 17); /* the strongest gain is (2 * 39 + 5)/5 = 17 times the first */
             last[i] = im[i];
         }
     }
@@ -406,6 +424,6 @@ START_TEST(places_off_the_disk_are_refused)
 }
 END_TEST
 
-UNIT("space", shares_are_those_of_the_printed_equations, shares_are_continuous, anchors_are_themselves, known_ratios, the_centre_is_the_mean,
-     dimensions_between, damping_grows_from_metal_to_wood, always_stable_and_in_order, a_place_that_stays, a_place_that_moves, fades_near_half_the_rate,
-     places_off_the_disk_are_refused)
+UNIT("space", shares_are_those_of_the_printed_equations, shares_are_continuous, anchors_are_themselves, known_ratios,
+     the_centre_is_the_mean, dimensions_between, damping_grows_from_metal_to_wood, always_stable_and_in_order,
+     a_place_that_stays, a_place_that_moves, fades_near_half_the_rate, places_off_the_disk_are_refused)

@@ -1,4 +1,5 @@
-/* Spectrograms against closed forms: levels of sines on and between bins, a chirp's ridge, Parseval's theorem on noise, mean power. */
+/* Spectrograms against closed forms: levels of sines on and between bins, a chirp's ridge, Parseval's theorem on noise,
+ * mean power. */
 #include "output/spectrogram.h"
 #include "unit.h"
 
@@ -19,10 +20,7 @@ static struct spectrogram make(const double *x, size_t n, double from, double to
     return g;
 }
 
-static double at(const struct spectrogram *g, int bin, int column)
-{
-    return g->db[bin * g->columns + column];
-}
+static double at(const struct spectrogram *g, int bin, int column) { return g->db[bin * g->columns + column]; }
 
 static int loudest(const struct spectrogram *g, int column)
 {
@@ -54,12 +52,13 @@ static double *noise(size_t n)
     return x;
 }
 
-/* On bin k the periodic Hann window leaves the amplitude in k, half of it in k - 1 and k + 1, and nothing elsewhere. Tolerance: rounding of
-   the sine's argument, 1e-10 dB. */
+/* On bin k the periodic Hann window leaves the amplitude in k, half of it in k - 1 and k + 1, and nothing elsewhere.
+   Tolerance: rounding of the sine's argument, 1e-10 dB. */
 START_TEST(sine_on_a_bin)
 {
     a = arena_open();
-    struct spectrogram g = make(sine(RATE, 1, 1000), RATE, 0.2, 0.8, 7), h = make(sine(RATE, 0.01, 1000), RATE, 0.2, 0.8, 1);
+    struct spectrogram g = make(sine(RATE, 1, 1000), RATE, 0.2, 0.8, 7),
+                       h = make(sine(RATE, 0.01, 1000), RATE, 0.2, 0.8, 1);
     for (int c = 0; c < 7; c++) {
         ck_assert_int_eq(loudest(&g, c), 20);
         ck_assert_double_eq_tol(at(&g, 20, c), 0, 1e-10);
@@ -72,8 +71,8 @@ START_TEST(sine_on_a_bin)
 }
 END_TEST
 
-/* Half-way between bins the Hann window's transform is 8/(3 pi) of its maximum. The mirror image at -f, 80 bins away, falls with the third
-   power: less than 1e-5, 1e-4 dB. */
+/* Half-way between bins the Hann window's transform is 8/(3 pi) of its maximum. The mirror image at -f, 80 bins away,
+   falls with the third power: less than 1e-5, 1e-4 dB. */
 START_TEST(sine_between_bins)
 {
     a = arena_open();
@@ -86,7 +85,8 @@ START_TEST(sine_between_bins)
 }
 END_TEST
 
-/* f(t) = 500 Hz + 9000 Hz/s t over 2 s, 100 columns: each column's loudest bin is the frequency at its middle, within one bin. */
+/* f(t) = 500 Hz + 9000 Hz/s t over 2 s, 100 columns: each column's loudest bin is the frequency at its middle, within
+ * one bin. */
 START_TEST(chirp)
 {
     size_t n = 2 * RATE;
@@ -103,8 +103,8 @@ START_TEST(chirp)
 }
 END_TEST
 
-/* One window around frame 4800: sum over the bins, both signs of frequency, of |X_k|^2 is n times the energy of w x, where A_k = 2 |X_k| / W
-   and W = n / 2. Tolerance: rounding. */
+/* One window around frame 4800: sum over the bins, both signs of frequency, of |X_k|^2 is n times the energy of w x,
+   where A_k = 2 |X_k| / W and W = n / 2. Tolerance: rounding. */
 START_TEST(parseval)
 {
     a = arena_open();
@@ -122,9 +122,10 @@ START_TEST(parseval)
 }
 END_TEST
 
-/* A wide column is the mean power of its windows. 1 s of sine in 4 s, one column: 1/4 but for the edges. With windows every h samples
-   each weighs h/(4 s), and those that the sine's two ends cut each add less than one window: 2 h/(1 s) relative, 0.09 dB at h = 480.
-   And a click of one sample is seen wherever it falls: at worst half-way between two windows, where each weighs 1/2: -3.01 dB. */
+/* A wide column is the mean power of its windows. 1 s of sine in 4 s, one column: 1/4 but for the edges. With windows
+   every h samples each weighs h/(4 s), and those that the sine's two ends cut each add less than one window: 2 h/(1 s)
+   relative, 0.09 dB at h = 480. And a click of one sample is seen wherever it falls: at worst half-way between two
+   windows, where each weighs 1/2: -3.01 dB. */
 START_TEST(wide_columns)
 {
     size_t n = 4 * RATE;

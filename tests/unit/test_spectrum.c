@@ -6,10 +6,7 @@
 
 #include "unit.h"
 
-static double at(double k, void *s)
-{
-    return spectrum_at(s, k);
-}
+static double at(double k, void *s) { return spectrum_at(s, k); }
 
 /* Broken at the nodes and at the ends of the takeover. */
 static double quadrature(struct spectrum *s, double from, double to)
@@ -45,11 +42,19 @@ START_TEST(integrals_of_a_table)
     gsl_set_error_handler_off();
     for (int flat = 0; flat < 2; flat++)
         for (int cross = 0; cross < 3; cross++) {
-            struct spectrum s = {.n = 5, .k = nodes, .p = densities, .flat = flat, .takeover = cross == 0 ? 0 : cross == 1 ? 800 : 3e4};
-            static const double ends[][2] = {{0, 1e6}, {0, 100}, {250, 310}, {600, 4000}, {699, 701}, {2e4, 3e4}, {100, 8.9e4}, {9e4, 1e5}, {1000, 1000}};
+            struct spectrum s = {.n = 5,
+                                 .k = nodes,
+                                 .p = densities,
+                                 .flat = flat,
+                                 .takeover = cross == 0   ? 0
+                                             : cross == 1 ? 800
+                                                          : 3e4};
+            static const double ends[][2] = {{0, 1e6},   {0, 100},     {250, 310}, {600, 4000}, {699, 701},
+                                             {2e4, 3e4}, {100, 8.9e4}, {9e4, 1e5}, {1000, 1000}};
             for (int i = 0; i < 9; i++) {
                 double want = quadrature(&s, ends[i][0], ends[i][1]), got = spectrum_power(&s, ends[i][0], ends[i][1]);
-                ck_assert_msg(fabs(got - want) <= 1e-8 * want, "flat %d, takeover %g, %g to %g: %.12g, quadrature %.12g", flat, s.takeover, ends[i][0],
+                ck_assert_msg(fabs(got - want) <= 1e-8 * want,
+                              "flat %d, takeover %g, %g to %g: %.12g, quadrature %.12g", flat, s.takeover, ends[i][0],
                               ends[i][1], got, want);
             }
         }
@@ -95,7 +100,8 @@ START_TEST(takeover_is_power_complementary)
 }
 END_TEST
 
-/* A ring of power w at radius kappa has the share 2/pi asin(k/kappa) of it below k along any line: thin rings of W make the trace's power. */
+/* A ring of power w at radius kappa has the share 2/pi asin(k/kappa) of it below k along any line: thin rings of W make
+ * the trace's power. */
 START_TEST(rings_have_the_trace)
 {
     static const double exponents[] = {-2.4, 0, -1, -8, -0.5};
@@ -112,11 +118,13 @@ START_TEST(rings_have_the_trace)
         for (double k = top; k > 50; k /= 2) {
             double sum = 0;
             for (int i = 0; i < RINGS; i++) {
-                double in = 1 - (double)i / RINGS, out = 1 - (i + 1.0) / RINGS, kappa = top * (1 - 0.5 * (in * in + out * out));
+                double in = 1 - (double)i / RINGS, out = 1 - (i + 1.0) / RINGS,
+                       kappa = top * (1 - 0.5 * (in * in + out * out));
                 sum += (w[i] - w[i + 1]) * 2 / M_PI * asin(fmin(1, k / kappa));
             }
             double want = spectrum_power(&s, 0, k);
-            ck_assert_msg(fabs(sum / want - 1) < 2e-3, "exponent %g, below %g: %g of the trace", exponents[e], k, sum / want);
+            ck_assert_msg(fabs(sum / want - 1) < 2e-3, "exponent %g, below %g: %g of the trace", exponents[e], k,
+                          sum / want);
         }
     }
     arena_close(a);
@@ -127,9 +135,11 @@ END_TEST
 START_TEST(beyond_in_closed_form)
 {
     struct arena *a = arena_open();
-    struct spectrum flat = spectrum_power_law(a, 0, 1e-3, 1e-5, 1e-6), square = spectrum_power_law(a, -2, 1e-3, 1e-5, 1e-6);
+    struct spectrum flat = spectrum_power_law(a, 0, 1e-3, 1e-5, 1e-6),
+                    square = spectrum_power_law(a, -2, 1e-3, 1e-5, 1e-6);
     for (double kappa = 1e3; kappa < 1e5; kappa *= 1.3) {
-        ck_assert_double_eq_tol(spectrum_beyond(&flat, kappa) / (spectrum_at(&flat, 0) * sqrt(1e10 - kappa * kappa)), 1, 1e-9);
+        ck_assert_double_eq_tol(spectrum_beyond(&flat, kappa) / (spectrum_at(&flat, 0) * sqrt(1e10 - kappa * kappa)), 1,
+                                1e-9);
         double want = spectrum_at(&square, 0) * 1e6 / kappa * atan(sqrt(1e10 / (kappa * kappa) - 1));
         ck_assert_double_eq_tol(spectrum_beyond(&square, kappa) / want, 1, 1e-8);
     }
@@ -146,5 +156,5 @@ START_TEST(a_rising_one_is_of_no_surface)
 }
 END_TEST
 
-UNIT("spectrum", integrals_of_a_table, nodes_and_ends, takeover_is_power_complementary, rings_have_the_trace, beyond_in_closed_form,
-     a_rising_one_is_of_no_surface)
+UNIT("spectrum", integrals_of_a_table, nodes_and_ends, takeover_is_power_complementary, rings_have_the_trace,
+     beyond_in_closed_form, a_rising_one_is_of_no_surface)

@@ -1,5 +1,6 @@
-/* Speed laws: strokes against closed forms, the pairs of papers/000 section 3.2, the two-thirds power law against the law itself and against
-   quadrature, tables of speed against a plain reading of the same formulas in long double, and what is refused. */
+/* Speed laws: strokes against closed forms, the pairs of papers/000 section 3.2, the two-thirds power law against the
+   law itself and against quadrature, tables of speed against a plain reading of the same formulas in long double, and
+   what is refused. */
 #include <gsl/gsl_spline.h>
 #include <stddef.h>
 #include <unistd.h>
@@ -8,7 +9,14 @@
 
 static struct motion any(int path, int law, double duration)
 {
-    return (struct motion){.path = path, .law = law, .duration = duration, .speed = NAN, .straight = 0.1, .turns = 1, .radius = 0.05, .strokes = 4};
+    return (struct motion){.path = path,
+                           .law = law,
+                           .duration = duration,
+                           .speed = NAN,
+                           .straight = 0.1,
+                           .turns = 1,
+                           .radius = 0.05,
+                           .strokes = 4};
 }
 
 /* A file of a test, gone at its end. */
@@ -34,9 +42,11 @@ START_TEST(four_in_line)
         ck_assert(tr.straight && tr.starts_at_rest == (law < 2) && tr.ends_at_rest == (law < 2));
         for (int i = 0; i <= 4000; i++) {
             double t = i / 2000.0, q = fmod(t, 0.5) / 0.5, k = floor(t / 0.5);
-            if (i == 4000)
-                q = 1, k = 3;
-            double p = law == 0 ? (1 - cos(M_PI * q)) / 2 : law == 1 ? q * q * q * (10 - 15 * q + 6 * q * q) : q, u = 0.0375 * (k + p);
+            if (i == 4000) q = 1, k = 3;
+            double p = law == 0   ? (1 - cos(M_PI * q)) / 2
+                       : law == 1 ? q * q * q * (10 - 15 * q + 6 * q * q)
+                                  : q,
+                   u = 0.0375 * (k + p);
             struct state s = at(&tr, t);
             ck_assert_double_eq_tol(s.u, u, 1e-15);
             ck_assert_double_eq_tol(s.p[0], 0.01 + 0.8 * u, 1e-15);
@@ -107,11 +117,12 @@ END_TEST
 
 static const double bends[] = {0, 0, 0.05, 0.02, 0.06, -0.04, 0.0, -0.03, -0.02, 0.05};
 
-/* v (kappa^2 + 1 / straight^2)^(1/6) is the same all along, to what the curvature read from the state is off by (1e-9), and the
-   time is the integral of its inverse: so the constant is right. */
+/* v (kappa^2 + 1 / straight^2)^(1/6) is the same all along, to what the curvature read from the state is off by (1e-9),
+   and the time is the integral of its inverse: so the constant is right. */
 START_TEST(two_thirds_is_its_law)
 {
-    struct motion m[] = {any(PATH_SPLINE, SPEED_AUTO, 1.7), any(PATH_POLYLINE, SPEED_TWO_THIRDS, 1.7), any(PATH_SCRIBBLE, SPEED_TWO_THIRDS, 1.7)};
+    struct motion m[] = {any(PATH_SPLINE, SPEED_AUTO, 1.7), any(PATH_POLYLINE, SPEED_TWO_THIRDS, 1.7),
+                         any(PATH_SCRIBBLE, SPEED_TWO_THIRDS, 1.7)};
     for (int k = 0; k < 3; k++) {
         m[k].points = bends, m[k].n_points = 5, m[k].corner = k == 1 ? 0.004 : 0;
         m[k].size[0] = 0.08, m[k].size[1] = 0.05, m[k].rate = 2, m[k].straight = k == 0 ? 0.02 : 0.1;
@@ -152,8 +163,8 @@ static double thirds_slowness(double w, void *self)
     return speed * pow(kappa * kappa + 1 / (t->straight * t->straight), 1.0 / 6);
 }
 
-/* When a spline's point w is reached: the share of the integral of (kappa^2 + 1 / straight^2)^(1/6) ds, by GSL. The place at that time is the
-   spline's: 1e-12 m. */
+/* When a spline's point w is reached: the share of the integral of (kappa^2 + 1 / straight^2)^(1/6) ds, by GSL. The
+   place at that time is the spline's: 1e-12 m. */
 START_TEST(two_thirds_in_time)
 {
     double knots[5] = {0};
@@ -188,7 +199,8 @@ START_TEST(two_thirds_in_time)
 }
 END_TEST
 
-/* An ellipse drawn by two sines obeys the law by itself: K = (a b)^(1/3) omega. So under the law, without its bound, it takes its own times. */
+/* An ellipse drawn by two sines obeys the law by itself: K = (a b)^(1/3) omega. So under the law, without its bound, it
+ * takes its own times. */
 START_TEST(two_thirds_of_an_ellipse)
 {
     enum { N = 2001 };
@@ -210,21 +222,21 @@ END_TEST
 
 /* ------------------------------------------------------------------ given */
 
-/* The same interpolation, written out in long double in its textbook form (weights alpha = (1 + h1 / (h0 + h1)) / 3, Fritsch and Butland). */
+/* The same interpolation, written out in long double in its textbook form (weights alpha = (1 + h1 / (h0 + h1)) / 3,
+ * Fritsch and Butland). */
 static long double pchip_slope(const double *t, const double *v, int n, int i)
 {
-    if (n == 2)
-        return ((long double)v[1] - v[0]) / (t[1] - t[0]);
+    if (n == 2) return ((long double)v[1] - v[0]) / (t[1] - t[0]);
     if (i == 0 || i == n - 1) {
         int a = i ? n - 1 : 0, b = i ? n - 2 : 1, c = i ? n - 3 : 2;
         long double h0 = fabsl((long double)t[b] - t[a]), h1 = fabsl((long double)t[c] - t[b]);
         long double m0 = ((long double)v[b] - v[a]) / (t[b] - t[a]), m1 = ((long double)v[c] - v[b]) / (t[c] - t[b]);
         long double d = ((2 * h0 + h1) * m0 - h0 * m1) / (h0 + h1);
-        if (d * m0 <= 0)
-            return 0;
+        if (d * m0 <= 0) return 0;
         return m0 * m1 <= 0 && fabsl(d) > fabsl(3 * m0) ? 3 * m0 : d;
     }
-    long double h0 = (long double)t[i] - t[i - 1], h1 = (long double)t[i + 1] - t[i], m0 = (v[i] - (long double)v[i - 1]) / h0;
+    long double h0 = (long double)t[i] - t[i - 1], h1 = (long double)t[i + 1] - t[i],
+                m0 = (v[i] - (long double)v[i - 1]) / h0;
     long double m1 = (v[i + 1] - (long double)v[i]) / h1, alpha = (1 + h1 / (h0 + h1)) / 3;
     return m0 * m1 <= 0 ? 0 : m0 * m1 / (alpha * m1 + (1 - alpha) * m0);
 }
@@ -232,8 +244,10 @@ static long double pchip_slope(const double *t, const double *v, int n, int i)
 /* Speed at x, and the way from the start to there: the cubic's integral is Simpson's rule. */
 static long double pchip_at(const double *t, const double *v, int n, int i, long double x)
 {
-    long double h = (long double)t[i + 1] - t[i], q = (x - t[i]) / h, d0 = pchip_slope(t, v, n, i), d1 = pchip_slope(t, v, n, i + 1);
-    return v[i] * (1 + 2 * q) * (1 - q) * (1 - q) + v[i + 1] * q * q * (3 - 2 * q) + h * (d0 * q * (1 - q) * (1 - q) - d1 * q * q * (1 - q));
+    long double h = (long double)t[i + 1] - t[i], q = (x - t[i]) / h, d0 = pchip_slope(t, v, n, i),
+                d1 = pchip_slope(t, v, n, i + 1);
+    return v[i] * (1 + 2 * q) * (1 - q) * (1 - q) + v[i + 1] * q * q * (3 - 2 * q) +
+           h * (d0 * q * (1 - q) * (1 - q) - d1 * q * q * (1 - q));
 }
 
 static long double pchip_way(const double *t, const double *v, int n, long double x)
@@ -284,7 +298,8 @@ START_TEST(given_is_pchip)
         }
         for (int j = 0; j < 50; j++) { /* speed is C1: its slope has no jumps */
             double h = 1e-7, x = between(h, tr.duration - h);
-            ck_assert_double_eq_tol(slope_by(&tr, x, h, offsetof(struct state, v)), at(&tr, x).a, 1e-5 * (1 + fabs(at(&tr, x).a)) + 3e-3);
+            ck_assert_double_eq_tol(slope_by(&tr, x, h, offsetof(struct state, v)), at(&tr, x).a,
+                                    1e-5 * (1 + fabs(at(&tr, x).a)) + 3e-3);
         }
     }
 }
@@ -294,7 +309,8 @@ END_TEST
 START_TEST(given_is_folded)
 {
     const char *table = file_of("time_s,speed_m_per_s\n0,0\n0.2,0.3\n0.7,0.1\n1,0.4\n1.6,0.4\n2,0\n");
-    struct motion fold = any(PATH_BACK_AND_FORTH, SPEED_GIVEN, NAN), line = any(PATH_LINE, SPEED_GIVEN, NAN), circle = any(PATH_CIRCLE, SPEED_GIVEN, NAN);
+    struct motion fold = any(PATH_BACK_AND_FORTH, SPEED_GIVEN, NAN), line = any(PATH_LINE, SPEED_GIVEN, NAN),
+                  circle = any(PATH_CIRCLE, SPEED_GIVEN, NAN);
     fold.profile = line.profile = circle.profile = table;
     fold.to[1] = 0.07, line.to[1] = 1, circle.radius = 0.01;
     struct trajectory tr = made(&fold), way = made(&line), round = made(&circle);
@@ -305,14 +321,15 @@ START_TEST(given_is_folded)
         ck_assert_double_eq(at(&tr, t).v, at(&way, t).v * (fmod(k, 2) == 0 ? 1 : -1));
         ck_assert_double_eq(at(&tr, t).p[1], at(&tr, t).u);
         ck_assert_double_eq_tol(hypot(at(&round, t).vel[0], at(&round, t).vel[1]), at(&way, t).v, 1e-15);
-        ck_assert_double_eq_tol(atan2(sin(far / 0.01), cos(far / 0.01)), atan2(at(&round, t).p[1], at(&round, t).p[0]), 1e-11);
+        ck_assert_double_eq_tol(atan2(sin(far / 0.01), cos(far / 0.01)), atan2(at(&round, t).p[1], at(&round, t).p[0]),
+                                1e-11);
         double turn = trajectory_turning(&tr, t, (i + 1) / 1000.0);
-        if (isnan(turn))
-            continue;
+        if (isnan(turn)) continue;
         turns++;
         ck_assert_double_eq_tol(at(&way, turn).u, 0.07 * turns, 1e-15);
         ck_assert(at(&tr, turn - 1e-9).v * at(&tr, turn + 1e-9).v < 0);
-        ck_assert(isnan(trajectory_turning(&tr, turn, turn + 1e-3)) && isnan(trajectory_turning(&tr, turn - 1e-3, turn)));
+        ck_assert(isnan(trajectory_turning(&tr, turn, turn + 1e-3)) &&
+                  isnan(trajectory_turning(&tr, turn - 1e-3, turn)));
     }
     ck_assert_int_eq(turns, (int)(way.reach[1] / 0.07));
     ck_assert(tr.starts_at_rest && tr.ends_at_rest && tr.reach[1] == 0.07);
@@ -358,7 +375,8 @@ START_TEST(tables_refused)
         {"time_s,speed_m_per_s\n0,1\n1,-0.1\n", ":3: column 'speed_m_per_s': -0.1 is negative"},
         {"time_s,speed_m_per_s\n0,1\n1,x\n", ":3: column 'speed_m_per_s': 'x' is not a number"},
         {"time_s,speed_m_per_s\n0,1\n1,1\n1,2\n", ":4: column 'time_s': 1 s comes after 1 s"},
-        {"time_s,speed_m_per_s\n0,1\n1e-10,1\n1,2\n", ":3: column 'time_s': 1e-10 s comes 1e-10 s after the row before"},
+        {"time_s,speed_m_per_s\n0,1\n1e-10,1\n1,2\n",
+         ":3: column 'time_s': 1e-10 s comes 1e-10 s after the row before"},
         {"time_s,speed_m_per_s\n0,0\n1,0\n", "all speeds are 0"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -373,5 +391,5 @@ START_TEST(tables_refused)
 }
 END_TEST
 
-UNIT("speed", four_in_line, jerk_there_and_back, pairs_share_their_speed, two_thirds_is_its_law, two_thirds_in_time, two_thirds_of_an_ellipse,
-     given_is_pchip, given_is_folded, given_on_open_paths, tables_refused)
+UNIT("speed", four_in_line, jerk_there_and_back, pairs_share_their_speed, two_thirds_is_its_law, two_thirds_in_time,
+     two_thirds_of_an_ellipse, given_is_pchip, given_is_folded, given_on_open_paths, tables_refused)

@@ -1,5 +1,5 @@
-/* How a ball turns: equation 18 of papers/000 held in long double, whole turns, derivatives against differences of high order of the positions, hours of
-   rolling, backwards, grouping, and the limit of no offset. */
+/* How a ball turns: equation 18 of papers/000 held in long double, whole turns, derivatives against differences of high
+   order of the positions, hours of rolling, backwards, grouping, and the limit of no offset. */
 #include "trajectory/spin.h"
 
 #include <stddef.h>
@@ -8,10 +8,7 @@
 
 #define PI_L 3.141592653589793238462643383279502884L
 
-static double between(double lo, double hi)
-{
-    return lo + (hi - lo) * drand48();
-}
+static double between(double lo, double hi) { return lo + (hi - lo) * drand48(); }
 
 static struct spin ball(double offset)
 {
@@ -34,9 +31,11 @@ START_TEST(equation_18)
         for (int i = 0; i < 20000; i++) {
             struct spin s = ball(0.03 * shares[k]);
             s.start = between(-6.28, 6.28);
-            double u = i < 10000 ? between(-0.5, 0.5) : between(-3, 3) * pow(10, between(-12, 5)), theta = theta_at(&s, u);
+            double u = i < 10000 ? between(-0.5, 0.5) : between(-3, 3) * pow(10, between(-12, 5)),
+                   theta = theta_at(&s, u);
             long double x0 = (long double)s.radius * s.start - (long double)s.offset * sinl(s.start), x = u + x0;
-            long double got = (long double)s.radius * theta - (long double)s.offset * sinl(theta), scale = fmaxl(fmaxl(fabsl(x), fabsl(x0)), s.radius);
+            long double got = (long double)s.radius * theta - (long double)s.offset * sinl(theta),
+                        scale = fmaxl(fmaxl(fabsl(x), fabsl(x0)), s.radius);
             ck_assert_msg(fabsl(got - x) <= 1e-15L * scale, "r/R %g u %g: %Lg of %Lg", shares[k], u, got - x, scale);
         }
 }
@@ -68,7 +67,8 @@ START_TEST(turns)
 }
 END_TEST
 
-/* An hour at 30 m/s: 570 000 turns and more. cos(theta) and cos(lobes theta) stay within the rounding of u itself, by the equation in long double. */
+/* An hour at 30 m/s: 570 000 turns and more. cos(theta) and cos(lobes theta) stay within the rounding of u itself, by
+ * the equation in long double. */
 START_TEST(hours)
 {
     struct spin s = ball(0.004);
@@ -76,7 +76,8 @@ START_TEST(hours)
     for (int i = 0; i < 20000; i++) {
         double u = between(0.9, 1.1) * 3600 * 30, rise, bulge;
         spin_at(&s, 1, &u, NULL, NULL, &(struct spin_out){.rise = &rise, .bulge = &bulge});
-        long double y = (long double)u / s.radius, phi = y - 2 * PI_L * rintl(y / (2 * PI_L)), e = phi, q = (long double)s.offset / s.radius;
+        long double y = (long double)u / s.radius, phi = y - 2 * PI_L * rintl(y / (2 * PI_L)), e = phi,
+                    q = (long double)s.offset / s.radius;
         for (int k = 0; k < 100; k++)
             e -= (e - q * sinl(e) - phi) / (1 - q * cosl(e));
         double rounding = 2 * u * 1.2e-16 / s.radius; /* rad */
@@ -105,8 +106,8 @@ static struct moved moved(const struct spin *s, double a, double t)
     struct moved m;
     double x[3];
     motion(a, t, x);
-    spin_at(s, 1, &x[0], &x[1], &x[2], &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge,
-                                                          &m.swell, &m.heave, NULL});
+    spin_at(s, 1, &x[0], &x[1], &x[2],
+            &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave, NULL});
     return m;
 }
 
@@ -126,8 +127,10 @@ START_TEST(derivatives)
 {
     static const struct {
         size_t of, is;
-    } pairs[] = {{offsetof(struct moved, theta), offsetof(struct moved, turning)}, {offsetof(struct moved, rise), offsetof(struct moved, climb)},
-                 {offsetof(struct moved, climb), offsetof(struct moved, lift)},    {offsetof(struct moved, bulge), offsetof(struct moved, swell)},
+    } pairs[] = {{offsetof(struct moved, theta), offsetof(struct moved, turning)},
+                 {offsetof(struct moved, rise), offsetof(struct moved, climb)},
+                 {offsetof(struct moved, climb), offsetof(struct moved, lift)},
+                 {offsetof(struct moved, bulge), offsetof(struct moved, swell)},
                  {offsetof(struct moved, swell), offsetof(struct moved, heave)}};
     srand48(4);
     for (int i = 0; i < 2000; i++) {
@@ -135,8 +138,10 @@ START_TEST(derivatives)
         double a = i % 2 ? 0.1 : 0.03, t = between(0, 5), scale[5] = {30, 0.4, 15, 0.01, 1};
         s.start = between(-3, 3);
         struct moved m = moved(&s, a, t);
-        for (int k = 0; k < 5; k++) /* 1e-10: what order 8 leaves at 1 ms of a motion that turns 30 rad/s, and rounding over h */
-            ck_assert_double_eq_tol(difference(&s, a, t, 5e-4, pairs[k].of) / scale[k], *(double *)((char *)&m + pairs[k].is) / scale[k], 2e-10);
+        for (int k = 0; k < 5;
+             k++) /* 1e-10: what order 8 leaves at 1 ms of a motion that turns 30 rad/s, and rounding over h */
+            ck_assert_double_eq_tol(difference(&s, a, t, 5e-4, pairs[k].of) / scale[k],
+                                    *(double *)((char *)&m + pairs[k].is) / scale[k], 2e-10);
     }
 }
 END_TEST
@@ -172,8 +177,8 @@ START_TEST(round_ball)
     s.start = 0.7;
     double u = 0.1, v = 2, a = -3;
     struct moved m;
-    spin_at(&s, 1, &u, &v, &a, &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge,
-                                                          &m.swell, &m.heave, NULL});
+    spin_at(&s, 1, &u, &v, &a,
+            &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave, NULL});
     ck_assert_double_eq_tol(m.theta, 0.7 + 0.1 / 0.03, 1e-15 * 4);
     ck_assert_double_eq_tol(m.turning, 2 / 0.03, 1e-13);
     ck_assert(m.rise == 0 && m.climb == 0 && m.lift == 0);

@@ -1,5 +1,5 @@
-/* cmd/starters.c and scene/keys_reference.c: what rasp itself writes for people to start from must be scenes, ask for something to be
-   computed, name no file, and hide no mistake in what is commented out. */
+/* cmd/starters.c and scene/keys_reference.c: what rasp itself writes for people to start from must be scenes, ask for
+   something to be computed, name no file, and hide no mistake in what is commented out. */
 #include "unit.h"
 
 #include "cmd/starters.h"
@@ -48,9 +48,11 @@ START_TEST(test_starters_are_scenes)
         }
         must_read(text, starter->name, NULL);
         ck_assert_msg(s.output.diagnostics.given, "%s asks for nothing", starter->name);
-        ck_assert_msg(strstr(text, " irs/") && strstr(text, " surfaces/"), "%s does not say where responses and surfaces are", starter->name);
+        ck_assert_msg(strstr(text, " irs/") && strstr(text, " surfaces/"),
+                      "%s does not say where responses and surfaces are", starter->name);
         for (int i = 0; i < s.n_contacts; i++)
-            ck_assert(!s.contacts[i].surface.response.file && !s.contacts[i].scraper.response.file && !s.contacts[i].surface.height_map);
+            ck_assert(!s.contacts[i].surface.response.file && !s.contacts[i].scraper.response.file &&
+                      !s.contacts[i].surface.height_map);
         free(text);
     }
     arena_close(a);
@@ -66,7 +68,8 @@ START_TEST(test_what_is_off_is_right_too)
             size_t size;
             const char *set[] = {arena_format(a, "%s=%s", l->path, l->value), "surface.roughness=null"};
             const struct key *k = keys_find(l->path);
-            bool map = k && (!strcmp(k->path, "surface.height_map") || (k->applies && !strcmp(k->applies, "surface.height_map")));
+            bool map = k && (!strcmp(k->path, "surface.height_map") ||
+                             (k->applies && !strcmp(k->applies, "surface.height_map")));
             char *text = starter_text(starter, &size);
             const char *both[] = {set[0], set[1], "surface.height_map=x.npy", "surface.pitch=1 um"};
             if (l->off && map)
@@ -87,7 +90,8 @@ START_TEST(test_reference_is_a_scene_with_the_defaults)
     char *text = reference_text(&size);
     must_read(text, "reference", NULL);
     given = s;
-    must_read("rasp: 1\ntitle: a tool scraped back and forth on a rough plank\nsurface: {roughness: {}}\nscraper: {mass: 20 g}\n"
+    must_read("rasp: 1\ntitle: a tool scraped back and forth on a rough plank\nsurface: {roughness: {}}\nscraper: "
+              "{mass: 20 g}\n"
               "motion: {path: back_and_forth, to: [4.5 cm, 0], rate: 2 Hz, duration: 2 s}\noutput: {diagnostics: {}}\n",
               "short", NULL);
     ck_assert(given.contacts->contact.leak == s.contacts->contact.leak);
@@ -109,7 +113,8 @@ START_TEST(test_reference_has_every_key)
     char *text = reference_text(&size);
     for (const struct key *k = keys_table; k->path; k++) {
         const char *dot = strrchr(k->path, '.'), *name = dot ? dot + 1 : k->path;
-        ck_assert_msg((k->standard && *k->standard) || keys_reference_example(k->path), "%s needs an example in keys_reference.c", k->path);
+        ck_assert_msg((k->standard && *k->standard) || keys_reference_example(k->path),
+                      "%s needs an example in keys_reference.c", k->path);
         ck_assert_msg(strstr(text, arena_format(a, "\n%s: ", name)) || strstr(text, arena_format(a, " %s: ", name)) ||
                           strstr(text, arena_format(a, "#%s: ", name)),
                       "%s is not in the reference", k->path);
@@ -142,8 +147,7 @@ static int with_object(const char *path, const char **set)
 {
     const char *key = strstr(path, ".object.");
     size_t i = 0;
-    if (!key)
-        return 0;
+    if (!key) return 0;
     while (*objects[i][0] && strcmp(objects[i][0], key + 8))
         i++;
     set[0] = arena_format(a, "%.*s=%s", (int)(key + 7 - path), path, objects[i][1]);
@@ -154,7 +158,8 @@ static int with_object(const char *path, const char **set)
 /* Examples that the reference shows commented out are values that their keys take. */
 START_TEST(test_examples_are_taken)
 {
-    static const char *const with[][8] = { /* a ball's object needs what its mass does */
+    static const char *const with[][8] = {
+        /* a ball's object needs what its mass does */
         {"surface.pitch", "surface.height_map=x.npy", "surface.roughness=null"},
         {"surface.height_map", "surface.pitch=1 um", "surface.roughness=null"},
         {"surface.height_range", "surface.height_map=x.png"},
@@ -184,12 +189,14 @@ START_TEST(test_examples_are_taken)
         {"contact.impacts.amplitude.deviation", IMPACTS, "contact.impacts.prototype=roll"},
         {"contact.impacts.amplitude.a1", IMPACTS, "contact.impacts.prototype=roll"},
         {"contact.impacts.amplitude.b1", IMPACTS, "contact.impacts.prototype=roll"},
-        {"contact.impacts.amplitude.table", IMPACTS, "contact.impacts.prototype=roll", "contact.impacts.amplitude.distribution=table"},
+        {"contact.impacts.amplitude.table", IMPACTS, "contact.impacts.prototype=roll",
+         "contact.impacts.amplitude.distribution=table"},
         {"contact.impacts.interval.mean", IMPACTS, "contact.impacts.prototype=roll"},
         {"contact.impacts.interval.deviation", IMPACTS, "contact.impacts.prototype=roll"},
         {"contact.impacts.interval.a1", IMPACTS, "contact.impacts.prototype=roll"},
         {"contact.impacts.interval.b1", IMPACTS, "contact.impacts.prototype=roll"},
-        {"contact.impacts.interval.table", IMPACTS, "contact.impacts.prototype=roll", "contact.impacts.interval.distribution=table"},
+        {"contact.impacts.interval.table", IMPACTS, "contact.impacts.prototype=roll",
+         "contact.impacts.interval.distribution=table"},
         {"contact.impacts.duration.zeta", IMPACTS, "contact.impacts.prototype=roll"},
         {"contact.impacts.duration.theta", IMPACTS, "contact.impacts.prototype=roll"},
         {"contact.impacts.modulation.depth", IMPACTS, "contact.impacts.prototype=roll"},
@@ -205,18 +212,23 @@ START_TEST(test_examples_are_taken)
         {"motion.file", "motion.path=recorded", "motion.to=null"},
         {"motion.profile", "motion.law=given", "motion.duration=null"},
     };
-    static const char base[] = "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1}\nmotion: {path: line, to: [1, 1], duration: 1}\n"
-                               "output: {diagnostics: {}}\n";
+    static const char base[] =
+        "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1}\nmotion: {path: line, to: [1, 1], duration: 1}\n"
+        "output: {diagnostics: {}}\n";
     a = arena_open();
     for (const struct key *k = keys_table; k->path; k++) {
         const char *value = keys_reference_example(k->path), *set[12];
         struct scene_overrides over = {.set = set};
-        if (!value || !strncmp(k->path, "motion.rate", 11) || !strcmp(k->path, "motion.path") || !strcmp(k->path, "surface.recipe")) /* it would be read */
+        if (!value || !strncmp(k->path, "motion.rate", 11) || !strcmp(k->path, "motion.path") ||
+            !strcmp(k->path, "surface.recipe")) /* it would be read */
             continue;
         over.n = with_object(k->path, set);
         set[over.n++] = arena_format(a, "%s=%s", k->path, value);
         for (size_t i = 0; i < sizeof with / sizeof with[0]; i++)
-            for (int j = 1; (!strcmp(k->path, with[i][0]) || (!strncmp(k->path, "ball.object.", 12) && !strcmp(with[i][0], "ball.mass"))) && with[i][j]; j++)
+            for (int j = 1; (!strcmp(k->path, with[i][0]) ||
+                             (!strncmp(k->path, "ball.object.", 12) && !strcmp(with[i][0], "ball.mass"))) &&
+                            with[i][j];
+                 j++)
                 set[over.n++] = with[i][j];
         must_read(base, "base", &over);
     }
@@ -234,5 +246,5 @@ START_TEST(test_plain_paths)
 }
 END_TEST
 
-UNIT("starters", test_starters_are_scenes, test_what_is_off_is_right_too, test_reference_is_a_scene_with_the_defaults, test_reference_has_every_key,
-     test_examples_are_taken, test_plain_paths)
+UNIT("starters", test_starters_are_scenes, test_what_is_off_is_right_too, test_reference_is_a_scene_with_the_defaults,
+     test_reference_has_every_key, test_examples_are_taken, test_plain_paths)

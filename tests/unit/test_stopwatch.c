@@ -1,5 +1,5 @@
-/* base/stopwatch.c: asleep, wall time passes and CPU time does not; at work, both do. 50 ms of sleep against a bound of a fifth of it leaves
-   room for a loaded machine; the work goes on until the CPU clock says 20 ms. */
+/* base/stopwatch.c: asleep, wall time passes and CPU time does not; at work, both do. 50 ms of sleep against a bound of
+   a fifth of it leaves room for a loaded machine; the work goes on until the CPU clock says 20 ms. */
 #include "unit.h"
 
 #include <time.h>

@@ -1,5 +1,5 @@
-/* strike: sub-interval means against quadrature of the force itself, momentum and spectra at many rates against closed forms, times and momenta of bounce
-   trains against their sums, and what is refused. */
+/* strike: sub-interval means against quadrature of the force itself, momentum and spectra at many rates against closed
+   forms, times and momenta of bounce trains against their sums, and what is refused. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_gamma.h>
@@ -24,7 +24,8 @@ static struct contact striker(int pulse, double stiffness, double speed)
 static double stiffness_for(const struct contact *c, double lasts)
 {
     double m = c->scraper.mass, v = c->contact.strike.speed;
-    return c->contact.strike.pulse == PULSE_HALF_SINE ? m * (M_PI / lasts) * (M_PI / lasts) : 1.25 * m * v * v / pow(lasts * v / 2.9432751843247045, 2.5);
+    return c->contact.strike.pulse == PULSE_HALF_SINE ? m * (M_PI / lasts) * (M_PI / lasts)
+                                                      : 1.25 * m * v * v / pow(lasts * v / 2.9432751843247045, 2.5);
 }
 
 /* ------------------------------------------------------------------ means */
@@ -34,15 +35,15 @@ struct pulse_force {
     double start, lasts;
 };
 
-/* The force at an instant, N. Of hertz from the penetration: q = I_u(2/5, 1/2) / 2 is solved for u = y^2.5 by bisection. */
+/* The force at an instant, N. Of hertz from the penetration: q = I_u(2/5, 1/2) / 2 is solved for u = y^2.5 by
+ * bisection. */
 static double force_at(double t, void *self)
 {
     const struct pulse_force *p = self;
-    double q = (t - p->start) / p->lasts, m = p->c->scraper.mass, v = p->c->contact.strike.speed, k = p->c->contact.strike.stiffness, low = 0, high = 1;
-    if (q <= 0 || q >= 1)
-        return 0;
-    if (p->c->contact.strike.pulse == PULSE_HALF_SINE)
-        return v * sqrt(k * m) * sin(M_PI * q);
+    double q = (t - p->start) / p->lasts, m = p->c->scraper.mass, v = p->c->contact.strike.speed,
+           k = p->c->contact.strike.stiffness, low = 0, high = 1;
+    if (q <= 0 || q >= 1) return 0;
+    if (p->c->contact.strike.pulse == PULSE_HALF_SINE) return v * sqrt(k * m) * sin(M_PI * q);
     q = q > 0.5 ? 1 - q : q;
     for (int i = 0; i < 60; i++) {
         double u = 0.5 * (low + high);
@@ -54,8 +55,8 @@ static double force_at(double t, void *self)
     return k * pow(1.25 * m * v * v / k * low, 0.6);
 }
 
-/* Means of 40 sub-intervals per pulse or so, against adaptive quadrature: 1e-12 of the largest force. (The reference of hertz, near u = 1, is good
-   to a few 1e-13.) */
+/* Means of 40 sub-intervals per pulse or so, against adaptive quadrature: 1e-12 of the largest force. (The reference of
+   hertz, near u = 1, is good to a few 1e-13.) */
 START_TEST(means_are_those_of_the_force)
 {
     gsl_integration_workspace *w = gsl_integration_workspace_alloc(2000);
@@ -72,8 +73,7 @@ START_TEST(means_are_those_of_the_force)
         double peak = force_at(1.2345e-3 + 1.65e-4, &p), dt = 1.0 / (3 * 48000), worst = 0;
         for (int i = 0; i < 600; i++) {
             double lo = fmax(i * dt, p.start), hi = fmin((i + 1) * dt, p.start + p.lasts), mean = 0, error;
-            if (hi > lo)
-                gsl_integration_qags(&f, lo, hi, 1e-14 * peak * dt, 1e-13, 2000, w, &mean, &error);
+            if (hi > lo) gsl_integration_qags(&f, lo, hi, 1e-14 * peak * dt, 1e-13, 2000, w, &mean, &error);
             worst = fmax(worst, fabs(force[i] - mean / dt) / peak);
         }
         ck_assert_double_le(worst, 1e-12);
@@ -103,8 +103,9 @@ END_TEST
 
 /* ------------------------------------------------------------------ the same at any rate */
 
-/* From a tenth of a sample to 2000 samples, at every rate and oversampling, sub-samples and decimated: the sum of n terms is 2 m v to a few 1e-16 n; the
-   decimator's gain at 0 is 1 to rounding, and what it leaves of the images of 0 is 1e-6 of them (num/filter.h). */
+/* From a tenth of a sample to 2000 samples, at every rate and oversampling, sub-samples and decimated: the sum of n
+   terms is 2 m v to a few 1e-16 n; the decimator's gain at 0 is 1 to rounding, and what it leaves of the images of 0 is
+   1e-6 of them (num/filter.h). */
 START_TEST(momentum_is_kept)
 {
     for (int r = 0; r < RATES; r++)
@@ -173,8 +174,9 @@ static double magnitude(const double *x, long n, double rate, double f)
     return sqrt(re * re + im * im) / rate;
 }
 
-/* Spectrum of a half sine: 2 m v |cos(pi f t_c) / (1 - (2 f t_c)^2)|, at the third octaves from 50 Hz to 8 kHz. Its images from beyond the sub-rate are weaker
-   than 1/(2 f t_c)^2 of it at f = 8 x 22 kHz - 8 kHz, times the means' own gain there, f_3/f: 5e-6 of 2 m v. */
+/* Spectrum of a half sine: 2 m v |cos(pi f t_c) / (1 - (2 f t_c)^2)|, at the third octaves from 50 Hz to 8 kHz. Its
+   images from beyond the sub-rate are weaker than 1/(2 f t_c)^2 of it at f = 8 x 22 kHz - 8 kHz, times the means' own
+   gain there, f_3/f: 5e-6 of 2 m v. */
 START_TEST(spectrum_is_that_of_a_half_sine)
 {
     double lasts = 0.7e-3, want = 2 * 0.02 * 1.5;
@@ -233,10 +235,12 @@ START_TEST(bounces_follow_the_sum)
     c.contact.strike.restitution = e;
     ck_assert(strike_make(&c, 100, &s, &err));
     for (; strike_next(&s, &i); n++) {
-        double speed = v * pow(e, (double)n), start = first + contacts + 2 * v / g * e * (1 - pow(e, (double)n)) / (1 - e);
+        double speed = v * pow(e, (double)n),
+               start = first + contacts + 2 * v / g * e * (1 - pow(e, (double)n)) / (1 - e);
         ck_assert_double_eq_tol(i.start, start, 1e-13 * start);
         ck_assert_double_eq_tol(i.speed, speed, 1e-13 * speed);
-        ck_assert_double_eq_tol(i.lasts, 2.9432751843247 * pow(5 * m / (4 * k), 0.4) * pow(speed, -0.2), 1e-13 * i.lasts);
+        ck_assert_double_eq_tol(i.lasts, 2.9432751843247 * pow(5 * m / (4 * k), 0.4) * pow(speed, -0.2),
+                                1e-13 * i.lasts);
         ck_assert_double_eq_tol(i.momentum, m * speed * (1 + e), 1e-13 * i.momentum);
         contacts += i.lasts;
     }
@@ -245,7 +249,8 @@ START_TEST(bounces_follow_the_sum)
     ck_assert_int_eq(s.over, STRIKE_RESTS);
     ck_assert_double_lt(2 * e * last / g, 2.9432751843247 * pow(5 * m / (4 * k), 0.4) * pow(e * last, -0.2));
     /* beside the contacts all flights last 2 v e / (g (1 - e)), less those after the end */
-    ck_assert_double_eq_tol(i.start - contacts - first, 2 * v / g * e / (1 - e), 2 * v / g * e / (1 - e) * pow(e, (double)n) + 1e-12);
+    ck_assert_double_eq_tol(i.start - contacts - first, 2 * v / g * e / (1 - e),
+                            2 * v / g * e / (1 - e) * pow(e, (double)n) + 1e-12);
 }
 END_TEST
 
@@ -271,12 +276,10 @@ START_TEST(bounces_hand_over_their_momentum)
 END_TEST
 
 /* Share of a half sine's momentum at q, in closed form. */
-static double sine_share(double q)
-{
-    return q <= 0 ? 0 : q >= 1 ? 1 : 0.5 - 0.5 * cos(M_PI * q);
-}
+static double sine_share(double q) { return q <= 0 ? 0 : q >= 1 ? 1 : 0.5 - 0.5 * cos(M_PI * q); }
 
-/* 1e5 impacts a second at 8 kHz: a dozen in each sub-interval, those at its borders in two; and the n-th begins where it should. */
+/* 1e5 impacts a second at 8 kHz: a dozen in each sub-interval, those at its borders in two; and the n-th begins where
+ * it should. */
 START_TEST(repeated_impacts)
 {
     struct contact c = striker(PULSE_HALF_SINE, 0, 1);
@@ -289,7 +292,8 @@ START_TEST(repeated_impacts)
         double want = 0;
         for (int n = (int)(12.5 * i) - 2; n < 12.5 * i + 15; n++)
             if (n >= 0)
-                want += sine_share(((i + 1) / 8000.0 - n * 1e-5) / 0.9e-5) - sine_share((i / 8000.0 - n * 1e-5) / 0.9e-5);
+                want +=
+                    sine_share(((i + 1) / 8000.0 - n * 1e-5) / 0.9e-5) - sine_share((i / 8000.0 - n * 1e-5) / 0.9e-5);
         ck_assert_double_eq_tol(force[i], 2 * 0.02 * 8000 * want, 1e-6);
     }
     arena_close(s.arena);
@@ -345,7 +349,8 @@ START_TEST(left_out_impacts_are_told)
     c.contact.strike.count = 4;
     ck_assert_str_eq(warning(&c), "");
     c.contact.strike.count = 5;
-    ck_assert_str_eq(warning(&c), "contact 'tap': 4 of 5 impacts take place: the next one would not be over by the motion's end");
+    ck_assert_str_eq(warning(&c),
+                     "contact 'tap': 4 of 5 impacts take place: the next one would not be over by the motion's end");
     c.contact.strike.interval = NAN;
     c.contact.strike.restitution = 0.5;
     c.contact.strike.count = 0;
@@ -367,7 +372,9 @@ START_TEST(faded_impacts_are_told)
         ck_assert(shot_open(&s, &strike_stage, &c, 48000, 4));
         ck_assert_int_eq(s.board.n_warnings, k == 0);
         if (k == 0)
-            ck_assert(strstr(s.board.warnings[0], "the first impact comes 0.005 s after the scene's start and is faded in by output.ramp, 0.01 s"));
+            ck_assert(strstr(
+                s.board.warnings[0],
+                "the first impact comes 0.005 s after the scene's start and is faded in by output.ramp, 0.01 s"));
         arena_close(s.arena);
     }
 }
@@ -406,22 +413,28 @@ START_TEST(what_cannot_be_is_refused)
 }
 END_TEST
 
-/* k = 4/3 sqrt(R) E*: a steel ball of 10 mm radius (200 GPa, 0.29) on glass (70 GPa, 0.22), by hand: 1/E* = 0.9159 / 200e9 + 0.9516 / 70e9 = 1.81738e-11. */
+/* k = 4/3 sqrt(R) E*: a steel ball of 10 mm radius (200 GPa, 0.29) on glass (70 GPa, 0.22), by hand: 1/E* = 0.9159 /
+ * 200e9 + 0.9516 / 70e9 = 1.81738e-11. */
 START_TEST(stiffness_of_materials)
 {
     struct contact c = striker(PULSE_HERTZ, NAN, 1);
     struct err e = {0};
     double k;
     c.scraper.radius = 0.01;
-    c.scraper.response.object = (struct object_given){.youngs_modulus = 200e9, .youngs_modulus_across = NAN, .poisson = 0.29};
-    c.surface.response.object = (struct object_given){.youngs_modulus = 70e9, .youngs_modulus_across = NAN, .poisson = 0.22};
+    c.scraper.response.object =
+        (struct object_given){.youngs_modulus = 200e9, .youngs_modulus_across = NAN, .poisson = 0.29};
+    c.surface.response.object =
+        (struct object_given){.youngs_modulus = 70e9, .youngs_modulus_across = NAN, .poisson = 0.22};
     ck_assert(strike_stiffness(&c, &k, &e));
     ck_assert_double_eq_tol(k, 4.0 / 3 * 0.1 / 1.8173786e-11, 1e-6 * k);
     const struct material *steel = material_find(MATERIAL_STEEL), *oak = material_find(MATERIAL_OAK);
-    c.scraper.response.object = (struct object_given){.material = MATERIAL_STEEL, .youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
-    c.surface.response.object = (struct object_given){.material = MATERIAL_OAK, .youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
+    c.scraper.response.object = (struct object_given){
+        .material = MATERIAL_STEEL, .youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
+    c.surface.response.object = (struct object_given){
+        .material = MATERIAL_OAK, .youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
     ck_assert(strike_stiffness(&c, &k, &e));
-    double flexible = (1 - steel->poisson * steel->poisson) / steel->youngs_modulus + (1 - oak->poisson * oak->poisson) / oak->across;
+    double flexible =
+        (1 - steel->poisson * steel->poisson) / steel->youngs_modulus + (1 - oak->poisson * oak->poisson) / oak->across;
     ck_assert_double_eq_tol(k, 4.0 / 3 * 0.1 / flexible, 1e-14 * k);
     c.surface.response.object.youngs_modulus = 11e9; /* a key wins over the material, in all directions */
     ck_assert(strike_stiffness(&c, &k, &e));
@@ -431,6 +444,6 @@ START_TEST(stiffness_of_materials)
 END_TEST
 
 UNIT("strike", means_are_those_of_the_force, peak_force, momentum_is_kept, momentum_from_the_start,
-     spectrum_is_that_of_a_half_sine,      hertz_has_one_spectrum, bounces_follow_the_sum,
-     bounces_hand_over_their_momentum, repeated_impacts, an_hour_later_the_same, left_out_impacts_are_told, faded_impacts_are_told, what_cannot_be_is_refused,
-     stiffness_of_materials)
+     spectrum_is_that_of_a_half_sine, hertz_has_one_spectrum, bounces_follow_the_sum, bounces_hand_over_their_momentum,
+     repeated_impacts, an_hour_later_the_same, left_out_impacts_are_told, faded_impacts_are_told,
+     what_cannot_be_is_refused, stiffness_of_materials)

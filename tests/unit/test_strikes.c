@@ -1,4 +1,5 @@
-/* Strikes on a made-up object: two modes, struck by raised cosines at known times. The sound is a plain convolution in time. */
+/* Strikes on a made-up object: two modes, struck by raised cosines at known times. The sound is a plain convolution in
+ * time. */
 #include "unit.h"
 
 #include "analysis/strikes.h"
@@ -29,7 +30,8 @@ static struct made make(int strikes, const long *at, const double *peak, long la
     m.force = ARENA_TAKE(m.a, double, N);
     for (long i = 0; i < LENGTH; i++) {
         double t = (double)i / RATE;
-        m.h[i] = 3.0 * real_exp(-40.0 * t) * real_sin(2.0 * REAL_PI * 310.0 * t) + 2.0 * real_exp(-60.0 * t) * real_sin(2.0 * REAL_PI * 720.0 * t);
+        m.h[i] = 3.0 * real_exp(-40.0 * t) * real_sin(2.0 * REAL_PI * 310.0 * t) +
+                 2.0 * real_exp(-60.0 * t) * real_sin(2.0 * REAL_PI * 720.0 * t);
     }
     for (int k = 0; k < strikes; k++)
         for (long i = 0; i < PULSE; i++) {
@@ -40,7 +42,13 @@ static struct made make(int strikes, const long *at, const double *peak, long la
         }
     for (long i = 0; i < N; i++)
         m.sound[i] += noisy * noise(&state);
-    m.r = (struct strikes_recording){.name = "made", .sound = m.sound, .force = m.force, .n = N, .rate = RATE, .full = INFINITY, .force_full = INFINITY};
+    m.r = (struct strikes_recording){.name = "made",
+                                     .sound = m.sound,
+                                     .force = m.force,
+                                     .n = N,
+                                     .rate = RATE,
+                                     .full = INFINITY,
+                                     .force_full = INFINITY};
     return m;
 }
 
@@ -60,7 +68,8 @@ static int used(const struct strikes *s)
 
 static const double peaks[] = {10.0, 25.0, 16.0};
 
-/* Onsets within a pulse's first 0.5 % (2 samples) and the 4 beside it; momentum is peak PULSE/2 samples, but for its foot (2e-3). */
+/* Onsets within a pulse's first 0.5 % (2 samples) and the 4 beside it; momentum is peak PULSE/2 samples, but for its
+ * foot (2e-3). */
 START_TEST(apart)
 {
     const long at[] = {3000, 13000, 23000};
@@ -128,7 +137,8 @@ START_TEST(clipped)
 }
 END_TEST
 
-/* By the sound alone: onsets within 1 ms; the response has the shape of h through a pulse, so only its strikes are compared. */
+/* By the sound alone: onsets within 1 ms; the response has the shape of h through a pulse, so only its strikes are
+ * compared. */
 START_TEST(without_force)
 {
     const long at[] = {3000, 13000, 23000};
@@ -143,7 +153,8 @@ START_TEST(without_force)
 }
 END_TEST
 
-/* Offsets of a tenth and more of the greatest sample and force, and a hum in the pauses, leave the three strikes what they are. */
+/* Offsets of a tenth and more of the greatest sample and force, and a hum in the pauses, leave the three strikes what
+ * they are. */
 START_TEST(offset_and_hum)
 {
     struct made m = make(3, (const long[]){3000, 13000, 23000}, peaks, 0, 1e-5);
@@ -169,8 +180,8 @@ START_TEST(offset_and_hum)
 }
 END_TEST
 
-/* A hum with even harmonics is longer above 0 than below, its mean none: no offset, with a quiet part or, rung over throughout, without. The median is beside 0 by 0.016 of the peak.
-   A true offset under it comes off as what it is. */
+/* A hum with even harmonics is longer above 0 than below, its mean none: no offset, with a quiet part or, rung over
+   throughout, without. The median is beside 0 by 0.016 of the peak. A true offset under it comes off as what it is. */
 START_TEST(hum_is_no_offset)
 {
     struct made m = make(3, (const long[]){3000, 13000, 23000}, peaks, 0, 1e-5);
@@ -179,12 +190,14 @@ START_TEST(hum_is_no_offset)
         most = fmax(most, fabs(m.sound[i]));
     for (long i = 0; i < N; i++)
         for (int k = 0; k < 3; k++)
-            hum[i] += most * (const double[]){0.1, 0.05, 0.02}[k] * real_cos(2.0 * REAL_PI * 50.0 * (k + 1) * (double)i / RATE);
+            hum[i] += most * (const double[]){0.1, 0.05, 0.02}[k] *
+                      real_cos(2.0 * REAL_PI * 50.0 * (k + 1) * (double)i / RATE);
     for (int k = 0; k < 3; k++) {
         double offset = k == 2 ? 0.03 * most : 0.0, *sound = ARENA_TAKE(m.a, double, N);
         struct strikes_recording r = m.r;
         for (long i = 0; i < N; i++)
-            sound[i] = m.sound[i] + hum[i] + offset + (k == 1 ? 3.0 * most * real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE) : 0.0);
+            sound[i] = m.sound[i] + hum[i] + offset +
+                       (k == 1 ? 3.0 * most * real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE) : 0.0);
         r.sound = sound;
         r.force = NULL;
         const char *said = strikes_channel_prepare(&r, m.a);
@@ -219,7 +232,8 @@ START_TEST(last_bit_is_no_strike)
 }
 END_TEST
 
-/* Scaled after it clipped, so that nothing reaches what the file holds: a row of equal extremes, above or below. A slow sine in 20 steps has such rows, and does not clip. */
+/* Scaled after it clipped, so that nothing reaches what the file holds: a row of equal extremes, above or below. A slow
+ * sine in 20 steps has such rows, and does not clip. */
 START_TEST(clipped_and_scaled)
 {
     struct made m = make(3, (const long[]){3000, 13000, 23000}, peaks, 0, 0.0);
@@ -325,4 +339,5 @@ START_TEST(ringing)
 }
 END_TEST
 
-UNIT("test_strikes", not_good_enough, ringing, apart, overlapping, turned, late, clipped, without_force, offset_and_hum, hum_is_no_offset, last_bit_is_no_strike, clipped_and_scaled, single, refused)
+UNIT("test_strikes", not_good_enough, ringing, apart, overlapping, turned, late, clipped, without_force, offset_and_hum,
+     hum_is_no_offset, last_bit_is_no_strike, clipped_and_scaled, single, refused)

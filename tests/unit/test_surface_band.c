@@ -19,10 +19,7 @@ static double chance(void)
     return (double)(state >> 11) * 0x1p-53;
 }
 
-static double gauss(void)
-{
-    return sqrt(-2 * log(1 - chance())) * cos(2 * pi * chance());
-}
+static double gauss(void) { return sqrt(-2 * log(1 - chance())) * cos(2 * pi * chance()); }
 
 /* Power law k^a between two frequencies (cycles a sample), random phases: 600 lines. */
 static void fractal(double a, double from, double to, double rms)
@@ -31,7 +28,8 @@ static void fractal(double a, double from, double to, double rms)
     state = 7;
     memset(z, 0, sizeof z);
     for (int j = 0; j < 600; j++) {
-        double k = from * pow(to / from, (j + chance()) / 600), p = pow(k, a) * k, phase = 2 * pi * chance(); /* evenly in log k: a power of k P(k) each */
+        double k = from * pow(to / from, (j + chance()) / 600), p = pow(k, a) * k,
+               phase = 2 * pi * chance(); /* evenly in log k: a power of k P(k) each */
         sum += p;
         double c = cos(2 * pi * k), s = sin(2 * pi * k), x = sqrt(p) * cos(phase), y = sqrt(p) * sin(phase);
         for (int i = 0; i < N; i++) {
@@ -56,8 +54,8 @@ static const double pitch = 2e-6;
 
 #define PROFILE ((struct heightfile){.columns = N, .rows = 1, .pitch_x = pitch, .pitch_y = NAN, .z = z})
 
-/* The edge of the band within a twelfth of an octave and the window's half main lobe (4 of 8192 lines); the exponent within 0.2: three octaves
-   of a spectrum of 600 lines. */
+/* The edge of the band within a twelfth of an octave and the window's half main lobe (4 of 8192 lines); the exponent
+   within 0.2: three octaves of a spectrum of 600 lines. */
 START_TEST(power_law)
 {
     static const double exponents[] = {-1.5, -2.4, -3};
@@ -74,7 +72,8 @@ START_TEST(power_law)
 }
 END_TEST
 
-/* With white noise: its density is 2 pitch sigma^2; the limit is where the power law is 6 dB above it, or the band's edge. */
+/* With white noise: its density is 2 pitch sigma^2; the limit is where the power law is 6 dB above it, or the band's
+ * edge. */
 START_TEST(noise_floor)
 {
     double sigma = 3e-8;
@@ -131,7 +130,8 @@ START_TEST(ridges)
 {
     for (int i = 0; i < N; i++) {
         double t = fmod(i, 500) / 500 - 0.5;
-        z[i] = 20e-6 * exp(-t * t / (2 * 0.02 * 0.02)); /* harmonic n falls as exp(-2 (pi 0.02 n)^2): 80 dB down at n = 34, and 8 dB less where a node holds gaps as well */
+        z[i] = 20e-6 * exp(-t * t / (2 * 0.02 * 0.02)); /* harmonic n falls as exp(-2 (pi 0.02 n)^2): 80 dB down at n =
+                                                           34, and 8 dB less where a node holds gaps as well */
     }
     struct surface_band b = of(PROFILE, false);
     ck_assert_double_eq_tol(b.limit * pitch * 500, 33, 2);

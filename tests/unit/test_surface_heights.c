@@ -8,7 +8,7 @@ static const double pi = 3.14159265358979323846;
 
 enum { N = 4000, W = 200, H = 160 };
 
-static double z[N > W * H ? N : W * H];
+static double z[N > W *H ? N : W *H];
 
 /* A whole number of waves of 40 samples: all sums over them are those of the closed forms. */
 START_TEST(sine_profile)
@@ -22,7 +22,8 @@ START_TEST(sine_profile)
     double d = 2 * sin(pi / wave) / pitch; /* what the first difference makes of the wave */
     ck_assert_double_eq_tol(s.mean, 7e-6, 1e-17);
     ck_assert_double_eq_tol(s.sq, a / sqrt(2), 1e-16);
-    ck_assert_double_eq_tol(s.sa / (a * 2 / wave / sin(pi / wave)), 1, 1e-12); /* the midpoint sum of |sin| over 40 samples */
+    ck_assert_double_eq_tol(s.sa / (a * 2 / wave / sin(pi / wave)), 1,
+                            1e-12); /* the midpoint sum of |sin| over 40 samples */
     ck_assert(fabs(s.ssk) < 1e-9);
     ck_assert_double_eq_tol(s.sku, 1.5, 1e-9);
     ck_assert_double_eq_tol(s.sz, 2 * a * cos(pi / wave), 1e-16);
@@ -49,7 +50,8 @@ START_TEST(map_with_a_hole)
 }
 END_TEST
 
-/* One tall spike in a thousand: skewness and kurtosis of a two-valued distribution, (1 - 2p)/sqrt(p q) and 1/(p q) - 3. */
+/* One tall spike in a thousand: skewness and kurtosis of a two-valued distribution, (1 - 2p)/sqrt(p q) and 1/(p q) - 3.
+ */
 START_TEST(skewness_and_kurtosis)
 {
     struct heightfile h = {.columns = 1000, .rows = 1, .pitch_x = 1e-6, .pitch_y = NAN, .z = z};
@@ -92,8 +94,8 @@ START_TEST(steps)
 }
 END_TEST
 
-/* Closed forms at that pitch, and the 2.45 at a spline's knots: over all wavelengths t the spline's second derivative is
-   6 (2 - 2 cos t)/(4 + 2 cos t), the plain second difference 2 - 2 cos t. */
+/* Closed forms at that pitch, and the 2.45 at a spline's knots: over all wavelengths t the spline's second derivative
+   is 6 (2 - 2 cos t)/(4 + 2 cos t), the plain second difference 2 - 2 cos t. */
 START_TEST(noise_figures)
 {
     struct heightfile h = {.columns = 4, .rows = 1, .pitch_x = 5.6e-6, .pitch_y = NAN, .z = z, .quantum = 0.1e-9};

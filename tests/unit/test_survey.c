@@ -3,12 +3,12 @@
 
 #include "file/heightfile.h"
 #include "num/noise.h"
+#include "parts.h"
 #include "surface/blocks.h"
 #include "surface/continuation.h"
 #include "surface/heights.h"
 #include "surface/roughness.h"
 #include "surface/tiles.h"
-#include "parts.h"
 
 enum { N = 100000 };
 
@@ -27,7 +27,8 @@ static struct relief_part *line(struct arena *a, const struct spectrum *s, const
     return profile_part(a, blocks_make(a, s, noise_make(3, name)), "line", 0);
 }
 
-/* Between 4 times the roll-off and the cut-off: a third of an octave of n lines and 15 segments has the relative deviation sqrt(2/(15 n)). */
+/* Between 4 times the roll-off and the cut-off: a third of an octave of n lines and 15 segments has the relative
+ * deviation sqrt(2/(15 n)). */
 START_TEST(spectrum_of_a_known_one)
 {
     static const double exponents[] = {-2.4, -1, -4};
@@ -37,14 +38,17 @@ START_TEST(spectrum_of_a_known_one)
         struct relief_part *p = line(a, &s, "known");
         double *z = sampled(a, p, N, 5e-6), lines;
         for (int i = 0; i < N; i++)
-            z[i] += 1e-3 + 1e-6 * i; /* which levelling takes out; in the lowest nodes it would be seen through the Hann window */
+            z[i] +=
+                1e-3 +
+                1e-6 * i; /* which levelling takes out; in the lowest nodes it would be seen through the Hann window */
         struct spectrum m = survey_spectrum(a, &(struct survey_grid){z, N, 1, 5e-6});
         int looked = 0;
-        for (int i = 0; i < m.n && m.k[i] < 500; i++) /* flat, from 3 lines and 15 segments each: 4.5 deviations are 0.95 */
-            ck_assert_msg(m.p[i] < 1.95 * spectrum_at(&s, 0), "%g cycles/m: %g times the density", m.k[i], m.p[i] / spectrum_at(&s, 0));
+        for (int i = 0; i < m.n && m.k[i] < 500;
+             i++) /* flat, from 3 lines and 15 segments each: 4.5 deviations are 0.95 */
+            ck_assert_msg(m.p[i] < 1.95 * spectrum_at(&s, 0), "%g cycles/m: %g times the density", m.k[i],
+                          m.p[i] / spectrum_at(&s, 0));
         for (int i = 0; i < m.n; i++) {
-            if (m.k[i] < 4e3 || m.k[i] > 4e4)
-                continue;
+            if (m.k[i] < 4e3 || m.k[i] > 4e4) continue;
             lines = m.k[i] * 0.23 * 12500 * 5e-6;
             double want = spectrum_power(&s, m.k[i] * 0.891, m.k[i] * 1.122) / (m.k[i] * 0.231);
             ck_assert_double_eq_tol(m.p[i] / want, 1, 4.5 * sqrt(2 / lines / 15) + 0.03);
@@ -78,8 +82,9 @@ START_TEST(moments_of_known_heights)
 }
 END_TEST
 
-/* A field with known statistics written to a file, `like` it, and measured again: its rms within 1 %, thirds of an octave within 25 % (each has been estimated
-   twice from half a metre), skewness and kurtosis as those of the file, within chance. */
+/* A field with known statistics written to a file, `like` it, and measured again: its rms within 1 %, thirds of an
+   octave within 25 % (each has been estimated twice from half a metre), skewness and kurtosis as those of the file,
+   within chance. */
 START_TEST(like_a_file)
 {
     struct arena *a = arena_open();
@@ -109,9 +114,9 @@ START_TEST(like_a_file)
         ck_assert_double_eq_tol(got.kurtosis, want.kurtosis, 0.6);
         for (int i = 0; i < before.n; i++)
             if (before.k[i] > 2e3 && before.k[i] < 4.2e4)
-                ck_assert_msg(fabs(log2(after.p[i] / before.p[i])) < 0.5, "along %d, %g cycles/m: %g times", along, before.k[i], after.p[i] / before.p[i]);
-        if (made->close)
-            made->close(made);
+                ck_assert_msg(fabs(log2(after.p[i] / before.p[i])) < 0.5, "along %d, %g cycles/m: %g times", along,
+                              before.k[i], after.p[i] / before.p[i]);
+        if (made->close) made->close(made);
     }
     p->close(p);
     remove("like.gsf");
@@ -119,8 +124,9 @@ START_TEST(like_a_file)
 }
 END_TEST
 
-/* A map that is oversampled eight times, as the measured ones are, continued: the sum of both has the power law through the map's band limit up to the new cut-off,
-   2 dB off at most about the takeover, 1 dB elsewhere (a fit through two octaves, carried on over two more). */
+/* A map that is oversampled eight times, as the measured ones are, continued: the sum of both has the power law through
+   the map's band limit up to the new cut-off, 2 dB off at most about the takeover, 1 dB elsewhere (a fit through two
+   octaves, carried on over two more). */
 START_TEST(continuation_carries_on)
 {
     struct arena *a = arena_open();
@@ -141,19 +147,22 @@ START_TEST(continuation_carries_on)
     struct relief_points at = {4 * N, x, NULL};
     coarse->add(coarse, &at, &(struct relief_values){.z = sum});
     fine->add(fine, &at, &(struct relief_values){.z = sum});
-    struct spectrum both = survey_spectrum(a, &(struct survey_grid){sum, 4 * N, 1, 0.625e-6}), whole = spectrum_power_law(a, -2.4, 1e-3, 5e-6, 4e-6);
+    struct spectrum both = survey_spectrum(a, &(struct survey_grid){sum, 4 * N, 1, 0.625e-6}),
+                    whole = spectrum_power_law(a, -2.4, 1e-3, 5e-6, 4e-6);
     double level = spectrum_at(&s, 5e3) / spectrum_at(&whole, 5e3);
     for (int i = 0; i < both.n; i++)
         if (both.k[i] > 3e3 && both.k[i] < 1.7e5) {
             double off = 10 * log10(both.p[i] / spectrum_at(&whole, both.k[i]) / level);
-            ck_assert_msg(fabs(off) < (both.k[i] > 1.7e4 && both.k[i] < 4e4 ? 2.5 : 1.5), "%g cycles/m: %g dB", both.k[i], off);
+            ck_assert_msg(fabs(off) < (both.k[i] > 1.7e4 && both.k[i] < 4e4 ? 2.5 : 1.5), "%g cycles/m: %g dB",
+                          both.k[i], off);
         }
     /* given figures are kept to */
     want.exponent = -3, want.from = 50e-6;
     ck_assert(continuation_spectrum(a, &want, &map, &c, &e));
     ck_assert_double_eq_tol(c.takeover, 20e3, 1e-6);
     ck_assert_double_eq_tol(log(c.p[1] / c.p[0]) / log(c.k[1] / c.k[0]), -3, 1e-12);
-    /* and the level with them: just below k_c/sqrt 2 it is that of the law through the map there, half an octave being left for X to rise in */
+    /* and the level with them: just below k_c/sqrt 2 it is that of the law through the map there, half an octave being
+     * left for X to rise in */
     want.exponent = NAN;
     ck_assert(continuation_spectrum(a, &want, &map, &c, &e));
     struct spectrum measured = survey_spectrum(a, &(struct survey_grid){z, N, 1, 2.5e-6});
@@ -172,7 +181,8 @@ START_TEST(what_cannot_be_continued)
     struct spectrum s = spectrum_power_law(a, -2.4, 1e-3, 40e-6, 4e-6), c;
     struct relief_part *p = line(a, &s, "map");
     struct height_map map = {sampled(a, p, N, 2.5e-6), N, 1, {2.5e-6, 2.5e-6}};
-    struct continuation asked[] = {{true, NAN, NAN, 60e-6}, {true, NAN, 1e-2, 5e-6}, {true, NAN, NAN, 5e-6}, {true, NAN, NAN, 5e-6}};
+    struct continuation asked[] = {
+        {true, NAN, NAN, 60e-6}, {true, NAN, 1e-2, 5e-6}, {true, NAN, NAN, 5e-6}, {true, NAN, NAN, 5e-6}};
     static const char *const says[] = {"shortest", "two octaves", "flat", "too few"};
     for (int i = 0; i < 4; i++) {
         struct err e = {0};
@@ -187,4 +197,5 @@ START_TEST(what_cannot_be_continued)
 }
 END_TEST
 
-UNIT("survey", spectrum_of_a_known_one, moments_of_known_heights, like_a_file, continuation_carries_on, what_cannot_be_continued)
+UNIT("survey", spectrum_of_a_known_one, moments_of_known_heights, like_a_file, continuation_carries_on,
+     what_cannot_be_continued)

@@ -1,4 +1,5 @@
-/* Tables as NPY against the format's own description (numpy.lib.format): bytes written by hand, and what npy_write writes. */
+/* Tables as NPY against the format's own description (numpy.lib.format): bytes written by hand, and what npy_write
+ * writes. */
 #include <unistd.h>
 
 #include "file/npy.h"
@@ -46,7 +47,9 @@ START_TEST(fields_by_hand)
 {
     const double x[] = {0, 1.5, 0.25, -1e-300, 0.5, NAN};
     double v;
-    ck_assert_msg(read_npy("{'fortran_order': False, 'shape': (3,), 'descr': [(\"time_s\", '<f8'), ('force_n','<f8')]} ", x, 6), "%s", e.text);
+    ck_assert_msg(
+        read_npy("{'fortran_order': False, 'shape': (3,), 'descr': [(\"time_s\", '<f8'), ('force_n','<f8')]} ", x, 6),
+        "%s", e.text);
     ck_assert_uint_eq(t.rows, 3);
     ck_assert_uint_eq(t.columns, 2);
     ck_assert_str_eq(t.names[1], "force_n");
@@ -55,7 +58,9 @@ START_TEST(fields_by_hand)
     char room[CSV_ROOM];
     ck_assert_str_eq(csv_text(&t, 0, 1, room), "1.5");
     ck_assert(!csv_number(&t, 2, 1, &v, &e));
-    ck_assert_msg(strstr(e.text, ":3: column 'force_n': 'nan' is not a number") || strstr(e.text, ":3: column 'force_n': 'nan' is not a finite number"), "%s", e.text);
+    ck_assert_msg(strstr(e.text, ":3: column 'force_n': 'nan' is not a number") ||
+                      strstr(e.text, ":3: column 'force_n': 'nan' is not a finite number"),
+                  "%s", e.text);
     ck_assert(read_npy("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (0,)}", x, 0));
     ck_assert_uint_eq(t.rows, 0);
 }
@@ -65,13 +70,17 @@ START_TEST(refusals)
 {
     refused("{'descr': '<f8', 'fortran_order': False, 'shape': (2,)}", 2, "without named fields");
     refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (1, 2)}", 2, "of two dimensions");
-    refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3,)}", 2, "3 rows of 8 bytes should follow byte");
+    refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3,)}", 2,
+            "3 rows of 8 bytes should follow byte");
     refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (1,)}", 2, "and 16 bytes do");
-    refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (2305843009213693953,)}", 1, "and 8 bytes do"); /* 8 times it is 8 mod 2^64 */
+    refused("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (2305843009213693953,)}", 1,
+            "and 8 bytes do"); /* 8 times it is 8 mod 2^64 */
     refused("{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (2,)}", 1, "not of the type '<f8'");
     refused("{'descr': [('a', '<f8', (2,))], 'fortran_order': False, 'shape': (1,)}", 2, "a field should stand here");
-    refused("{'descr': [('a', '<f8') ('b', '<f8')], 'fortran_order': False, 'shape': (1,)}", 2, "the end of the list of fields");
-    refused("{'descr': [('a', '<f8'), ('a', '<f8')], 'fortran_order': False, 'shape': (1,)}", 2, "two fields are called 'a'");
+    refused("{'descr': [('a', '<f8') ('b', '<f8')], 'fortran_order': False, 'shape': (1,)}", 2,
+            "the end of the list of fields");
+    refused("{'descr': [('a', '<f8'), ('a', '<f8')], 'fortran_order': False, 'shape': (1,)}", 2,
+            "two fields are called 'a'");
     refused("{'descr': [], 'fortran_order': False, 'shape': (1,)}", 1, "a list without fields");
     refused("{'descr': [('a', '<f8')", 1, "NPY header");
 }
@@ -80,7 +89,8 @@ END_TEST
 /* The format asks for a header that ends in a line feed, and for data at a multiple of 64. */
 START_TEST(written_is_read)
 {
-    static const char *const names[] = {"time_s", "force_rms_n", "acceleration_m_per_s2", "x_m", "a", "bb", "ccc", "dddd", "eeeee"};
+    static const char *const names[] = {"time_s", "force_rms_n", "acceleration_m_per_s2", "x_m", "a", "bb", "ccc",
+                                        "dddd",   "eeeee"};
     for (size_t n = 1; n <= 9; n++)
         for (size_t rows = 1; rows <= 1000; rows *= 10) {
             char *text;

@@ -65,7 +65,8 @@ END_TEST
 START_TEST(not_a_number_equals_only_itself)
 {
     const struct table_distance_tolerance t[] = {{"*", 1e9, 1e9, false}, {0}};
-    struct table_distance d = compare("v\nnan\nnan\n1\ninf\ninf\n\"\"\n\"\"\nx\n1\n", "v\nNaN\n1\nnan\nInf\n-inf\n\"\"\n0\nx\n1 m\n", t);
+    struct table_distance d =
+        compare("v\nnan\nnan\n1\ninf\ninf\n\"\"\n\"\"\nx\n1\n", "v\nNaN\n1\nnan\nInf\n-inf\n\"\"\n0\nx\n1 m\n", t);
     ck_assert_uint_eq(d.columns[0].misses, 5); /* rows 1, 2, 4, 6, 8 */
     ck_assert_uint_eq(d.columns[0].worst_row, 1);
 }
@@ -128,5 +129,5 @@ START_TEST(tolerance_files)
 }
 END_TEST
 
-UNIT("table_distance", exact_is_text, tolerance_is_abs_plus_rel_of_a, not_a_number_equals_only_itself, star_is_for_the_others, shapes,
-     tolerance_for_no_column, tolerance_files)
+UNIT("table_distance", exact_is_text, tolerance_is_abs_plus_rel_of_a, not_a_number_equals_only_itself,
+     star_is_for_the_others, shapes, tolerance_for_no_column, tolerance_files)

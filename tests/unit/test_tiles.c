@@ -1,6 +1,7 @@
-/* tiles: long readings of a fixed seed against the spectrum asked for. Stated error of the field: 3 % of the density in bands of half an octave
-   (the block's window, a spline's images), excess kurtosis 0.1. To that comes chance: a band of n lines in m independent segments has the relative deviation
-   sqrt(2/(n m)) with a Hann window; bounds are 4.5 of it (several hundred bands are looked at). */
+/* tiles: long readings of a fixed seed against the spectrum asked for. Stated error of the field: 3 % of the density in
+   bands of half an octave (the block's window, a spline's images), excess kurtosis 0.1. To that comes chance: a band of
+   n lines in m independent segments has the relative deviation sqrt(2/(n m)) with a Hann window; bounds are 4.5 of it
+   (several hundred bands are looked at). */
 #include "surface/tiles.h"
 
 #include <gsl/gsl_fft_real.h>
@@ -65,13 +66,12 @@ static void check_bands(const struct measured *m, double exponent, double pitch,
         double got = 0, want = 0, lines = 0;
         lo = hi / sqrt(2);
         for (int k = 3; k < SEGMENT / 2; k++)
-            if (k * dk >= lo && k * dk < hi)
-                got += m->power[k], want += spectrum_at(&s, k * dk), lines++;
-        if (lines < 4)
-            break;
+            if (k * dk >= lo && k * dk < hi) got += m->power[k], want += spectrum_at(&s, k * dk), lines++;
+        if (lines < 4) break;
         double bound = 0.03 + 4.5 * sqrt(2 / lines / SEGMENTS);
-        ck_assert_msg(fabs(got / want - 1) < bound, "exponent %g, angle %g, %g to %g cycles/m: %g times the density, bound %g", exponent, angle, lo, hi,
-                      got / want, bound);
+        ck_assert_msg(fabs(got / want - 1) < bound,
+                      "exponent %g, angle %g, %g to %g cycles/m: %g times the density, bound %g", exponent, angle, lo,
+                      hi, got / want, bound);
     }
     arena_close(a);
 }
@@ -89,14 +89,16 @@ START_TEST(traces_have_the_spectrum_in_every_direction)
             /* 5 deviations: 200 segments of 82 mm, each about 40 longest waves */
             ck_assert_msg(fabs(m.sum[2] - 1) < 0.02, "exponent %g: mean square %g", exponents[e], m.sum[2]);
             ck_assert_msg(fabs(m.sum[3]) < 0.08, "exponent %g: third moment %g", exponents[e], m.sum[3]);
-            ck_assert_msg(fabs(m.sum[4] / (m.sum[2] * m.sum[2]) - 3) < 0.1, "exponent %g: kurtosis %g", exponents[e], m.sum[4] / (m.sum[2] * m.sum[2]));
+            ck_assert_msg(fabs(m.sum[4] / (m.sum[2] * m.sum[2]) - 3) < 0.1, "exponent %g: kurtosis %g", exponents[e],
+                          m.sum[4] / (m.sum[2] * m.sum[2]));
         }
         arena_close(a);
     }
 }
 END_TEST
 
-/* Eight times longer along the grain, which runs at 20 degrees: across it the trace is the recipe's, along it the recipe's eight times coarser. */
+/* Eight times longer along the grain, which runs at 20 degrees: across it the trace is the recipe's, along it the
+ * recipe's eight times coarser. */
 START_TEST(grain_lengthens_one_way)
 {
     static struct measured m;
@@ -111,8 +113,9 @@ START_TEST(grain_lengthens_one_way)
 }
 END_TEST
 
-/* A takeover: traces of what has only radial frequencies above 0.7 of it. All the power of its rings, and nothing in directions' sum below: the field's own
-   two-dimensional spectrum by the correlation of two parallel lines would say so; here, the rms. */
+/* A takeover: traces of what has only radial frequencies above 0.7 of it. All the power of its rings, and nothing in
+   directions' sum below: the field's own two-dimensional spectrum by the correlation of two parallel lines would say
+   so; here, the rms. */
 START_TEST(continuation_has_its_rings)
 {
     struct arena *a = arena_open();
@@ -138,10 +141,12 @@ END_TEST
 START_TEST(derivatives_and_continuity)
 {
     struct arena *a = arena_open();
-    struct relief_part *round = field(a, -2.4, (struct tiles_grain){1, 0, false}, "c2"), *grain = field(a, -1.5, (struct tiles_grain){5, 0.7, false}, "c2 grain");
+    struct relief_part *round = field(a, -2.4, (struct tiles_grain){1, 0, false}, "c2"),
+                       *grain = field(a, -1.5, (struct tiles_grain){5, 0.7, false}, "c2 grain");
     parts_derivatives(round, 0.05, true);
     parts_derivatives(grain, 0.05, true);
-    /* second derivatives go through their whole range in some 2 pitches, which is 100 steps; block borders and patches are crossed */
+    /* second derivatives go through their whole range in some 2 pitches, which is 100 steps; block borders and patches
+     * are crossed */
     parts_continuous(round, 100000, 0.01, 0, 0.2);
     parts_continuous(round, 100000, -0.01, 1.9, 0.2);
     parts_continuous(grain, 50000, -0.01, 0.4, 0.2);
@@ -152,15 +157,18 @@ END_TEST
 START_TEST(any_order)
 {
     struct arena *a = arena_open();
-    parts_any_order(field(a, -2.4, (struct tiles_grain){1, 0, false}, "order"), field(a, -2.4, (struct tiles_grain){1, 0, false}, "order"), 3e-6);
-    parts_any_order(field(a, -2, (struct tiles_grain){3, 1, false}, "order"), field(a, -2, (struct tiles_grain){3, 1, false}, "order"), 40e-6);
+    parts_any_order(field(a, -2.4, (struct tiles_grain){1, 0, false}, "order"),
+                    field(a, -2.4, (struct tiles_grain){1, 0, false}, "order"), 3e-6);
+    parts_any_order(field(a, -2, (struct tiles_grain){3, 1, false}, "order"),
+                    field(a, -2, (struct tiles_grain){3, 1, false}, "order"), 40e-6);
     parts_asked_alone(field(a, -2, (struct tiles_grain){3, 1, false}, "order"));
     arena_close(a);
 }
 END_TEST
 
-/* 30 m of straight path, a minute at 0.5 m/s: heights and, for the fine detail, second derivatives every 25 um. Autocorrelations beyond 0.3 m (some 16 blocks of the
-   longest waves) are normal with the variance (sum of squared correlations)/n; of a million lags the largest reaches 4.9 deviations, 6.5 are allowed. */
+/* 30 m of straight path, a minute at 0.5 m/s: heights and, for the fine detail, second derivatives every 25 um.
+   Autocorrelations beyond 0.3 m (some 16 blocks of the longest waves) are normal with the variance (sum of squared
+   correlations)/n; of a million lags the largest reaches 4.9 deviations, 6.5 are allowed. */
 START_TEST(nothing_repeats_in_a_minute)
 {
     enum { N = 1 << 20, NEAR = 12000 };
@@ -171,7 +179,8 @@ START_TEST(nothing_repeats_in_a_minute)
         x[i] = 28e-6 * i, y[i] = 0.13;
     for (int bend = 0; bend < 2; bend++) {
         memset(z, 0, 2 * N * sizeof *z);
-        p->add(p, &(struct relief_points){N, x, y}, &(struct relief_values){.z = bend ? NULL : z, .xx = bend ? z : NULL});
+        p->add(p, &(struct relief_points){N, x, y},
+               &(struct relief_values){.z = bend ? NULL : z, .xx = bend ? z : NULL});
         gsl_fft_real_radix2_transform(z, 1, 2 * N);
         z[0] *= z[0], z[N] *= z[N];
         for (int k = 1; k < N; k++) {
@@ -209,7 +218,8 @@ static double alike(struct relief_part *p, struct relief_part *q, double far)
 START_TEST(streams_and_far_places_differ)
 {
     struct arena *a = arena_open();
-    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0, false}, "a"), *q = field(a, -2.4, (struct tiles_grain){1, 0, false}, "b");
+    struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0, false}, "a"),
+                       *q = field(a, -2.4, (struct tiles_grain){1, 0, false}, "b");
     ck_assert_double_eq_tol(alike(p, p, 0), 1, 1e-12);
     ck_assert_double_lt(fabs(alike(p, q, 0)), 0.11);
     static const double far[] = {0.016, 1, 100, -50, 4194.304};
@@ -234,8 +244,9 @@ START_TEST(refused_where_negative)
 }
 END_TEST
 
-/* What lies beyond 1/shortest, relative to the density just below: images of lower octaves and, next to the edge, the leak of the block's window (4.4e-5; with a
-   corner at its ends 1.7e-4). Bounds are twice what tiles.c states. The estimate's own window has side lobes of -92 dB (Blackman and Harris, four terms). */
+/* What lies beyond 1/shortest, relative to the density just below: images of lower octaves and, next to the edge, the
+   leak of the block's window (4.4e-5; with a corner at its ends 1.7e-4). Bounds are twice what tiles.c states. The
+   estimate's own window has side lobes of -92 dB (Blackman and Harris, four terms). */
 START_TEST(little_beyond_the_shortest)
 {
     static const double exponents[] = {0, -2.4, -5}, bounds[] = {1.2e-4, 2.4e-4, 2e-3};
@@ -258,22 +269,20 @@ START_TEST(little_beyond_the_shortest)
         }
         for (int k = 1; k < SEGMENT / 2; k++) {
             double at = k * dk * 20e-6;
-            if (at > 0.8 && at < 0.96)
-                edge += power[k], lines++;
-            if (at > 1.1 && at < 2.8)
-                most = fmax(most, power[k]);
-            if (at > 1.1 && at < 1.2)
-                next = fmax(next, power[k]);
+            if (at > 0.8 && at < 0.96) edge += power[k], lines++;
+            if (at > 1.1 && at < 2.8) most = fmax(most, power[k]);
+            if (at > 1.1 && at < 1.2) next = fmax(next, power[k]);
         }
-        ck_assert_msg(most < bounds[e] * edge / lines, "exponent %g: %g of the edge", exponents[e], most * lines / edge);
-        if (e == 0)
-            ck_assert_msg(next < 9e-5 * edge / lines, "next to the edge: %g", next * lines / edge);
+        ck_assert_msg(most < bounds[e] * edge / lines, "exponent %g: %g of the edge", exponents[e],
+                      most * lines / edge);
+        if (e == 0) ck_assert_msg(next < 9e-5 * edge / lines, "next to the edge: %g", next * lines / edge);
         arena_close(a);
     }
 }
 END_TEST
 
-/* ------------------------------------------------------------------ the plain form: each band for itself, block by block */
+/* ------------------------------------------------------------------ the plain form: each band for itself, block by
+ * block */
 
 static double spline(double x)
 {
@@ -295,13 +304,15 @@ static double block_window(long i)
 
 static double coefficient(const double *tile, struct noise own, long i, long j)
 {
-    long half = TILE_SIDE / 2, mask = TILE_SIDE - 1, bi = (i - (i & (half - 1))) / half, bj = (j - (j & (half - 1))) / half;
+    long half = TILE_SIDE / 2, mask = TILE_SIDE - 1, bi = (i - (i & (half - 1))) / half,
+         bj = (j - (j & (half - 1))) / half;
     double sum = 0;
     for (long by = bj - 1; by <= bj; by++)
         for (long bx = bi - 1; bx <= bi; bx++) {
             uint64_t bits[2];
             noise_bits(own, (uint64_t)by, (uint64_t)bx, bits);
-            long x = i - bx * half, y = j - by * half, row = (y + (long)(bits[0] / TILE_SIDE % TILE_SIDE)) & mask, column = (x + (long)(bits[0] % TILE_SIDE)) & mask;
+            long x = i - bx * half, y = j - by * half, row = (y + (long)(bits[0] / TILE_SIDE % TILE_SIDE)) & mask,
+                 column = (x + (long)(bits[0] % TILE_SIDE)) & mask;
             sum += (bits[1] & 1 ? 1 : -1) * block_window(x) * block_window(y) * tile[row * TILE_ROW + column];
         }
     return sum;
@@ -316,20 +327,22 @@ static void band_plainly(const double *tile, struct noise own, double pitch, dou
             double c = coefficient(tile, own, i, j), f = p - (double)i, g = q - (double)j, step = 1e-4;
             v[0] += c * spline(f) * spline(g);
             v[1] += c * spline_bend(f) * spline(g) / (pitch * pitch);
-            v[2] += c * (spline(f + step) - spline(f - step)) * (spline(g + step) - spline(g - step)) / (4 * step * step * pitch * pitch);
+            v[2] += c * (spline(f + step) - spline(f - step)) * (spline(g + step) - spline(g - step)) /
+                    (4 * step * step * pitch * pitch);
             v[3] += c * spline(f) * spline_bend(g) / (pitch * pitch);
         }
 }
 
-/* Bands that are refined into one another and read as one, against their sum; along a path, and in places far apart, that patches jump between. xy by
-   differences: to 1e-8. */
+/* Bands that are refined into one another and read as one, against their sum; along a path, and in places far apart,
+   that patches jump between. xy by differences: to 1e-8. */
 START_TEST(the_sum_of_its_bands)
 {
     struct arena *a = arena_open();
     struct spectrum s = spectrum_power_law(a, -2.4, 2e-3, 20e-6, 4e-6);
     struct relief_part *p = field(a, -2.4, (struct tiles_grain){1, 0, false}, "bands");
     struct fft_plane *fft = fft_plane_open(TILE_SIDE);
-    double (*power)[TILE_LINES] = (double (*)[TILE_LINES])ARENA_TAKE(a, double, TILE_BANDS * TILE_LINES), *tiles[TILE_BANDS];
+    double(*power)[TILE_LINES] = (double(*)[TILE_LINES])ARENA_TAKE(a, double, TILE_BANDS *TILE_LINES),
+    *tiles[TILE_BANDS];
     struct noise own[TILE_BANDS];
     int bands = tile_rings(&s, power);
     tile_mend(bands, power);
@@ -337,14 +350,16 @@ START_TEST(the_sum_of_its_bands)
         uint64_t key[2];
         noise_bits(noise_make(7, "bands"), (uint64_t)b, UINT64_MAX, key);
         own[b] = (struct noise){key[0]};
-        tiles[b] = ARENA_TAKE(a, double, TILE_SIDE * TILE_ROW);
+        tiles[b] = ARENA_TAKE(a, double, TILE_SIDE *TILE_ROW);
         tile_make(power[b], own[b], fft, tiles[b]);
     }
     ck_assert_int_ge(bands, 6);
     srand48(3);
     for (int n = 0; n < 6000; n++) {
-        double x = n < 3000 ? 0.1 - 2.3e-6 * n : 2 * drand48() - 1, y = n < 3000 ? -0.02 + 1.1e-6 * n : 2 * drand48() - 1, got[4] = {0}, want[4] = {0}, size = 4e-6;
-        p->add(p, &(struct relief_points){1, &x, &y}, &(struct relief_values){.z = &got[0], .xx = &got[1], .xy = &got[2], .yy = &got[3]});
+        double x = n < 3000 ? 0.1 - 2.3e-6 * n : 2 * drand48() - 1,
+               y = n < 3000 ? -0.02 + 1.1e-6 * n : 2 * drand48() - 1, got[4] = {0}, want[4] = {0}, size = 4e-6;
+        p->add(p, &(struct relief_points){1, &x, &y},
+               &(struct relief_values){.z = &got[0], .xx = &got[1], .xy = &got[2], .yy = &got[3]});
         for (int b = 0; b < bands; b++)
             band_plainly(tiles[b], own[b], 5e-6 * (1 << b), x, y, want);
         for (int k = 0; k < 4; k++, size = 1e5)
@@ -355,5 +370,6 @@ START_TEST(the_sum_of_its_bands)
 }
 END_TEST
 
-UNIT("tiles", the_sum_of_its_bands, traces_have_the_spectrum_in_every_direction, grain_lengthens_one_way, continuation_has_its_rings, derivatives_and_continuity, any_order,
-     nothing_repeats_in_a_minute, little_beyond_the_shortest, streams_and_far_places_differ, refused_where_negative)
+UNIT("tiles", the_sum_of_its_bands, traces_have_the_spectrum_in_every_direction, grain_lengthens_one_way,
+     continuation_has_its_rings, derivatives_and_continuity, any_order, nothing_repeats_in_a_minute,
+     little_beyond_the_shortest, streams_and_far_places_differ, refused_where_negative)

@@ -1,5 +1,6 @@
-/* tip: the stage on surfaces given by a formula. What it gives is held against closed envelopes smoothed by quadrature, against a plain
-   search at a finer pitch, and against itself in another order. All tolerances follow from surface/rolling.c and crests.c, "Errors". */
+/* tip: the stage on surfaces given by a formula. What it gives is held against closed envelopes smoothed by quadrature,
+   against a plain search at a finer pitch, and against itself in another order. All tolerances follow from
+   surface/rolling.c and crests.c, "Errors". */
 #include "stage.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
@@ -19,13 +20,12 @@ static void formula_add(struct relief_part *part, const struct relief_points *p,
     for (size_t i = 0; i < p->n; i++) {
         double x = p->x[i], y = p->y ? p->y[i] : 0, z = f(x, y);
         v->z[i] += z;
-        if (!v->xx)
-            continue;
-        double l = f(x - e, y), r = f(x + e, y), b = f(x, y - e), a = f(x, y + e), smooth = fmax(fabs(l - r), fabs(a - b)) < 1e-6;
+        if (!v->xx) continue;
+        double l = f(x - e, y), r = f(x + e, y), b = f(x, y - e), a = f(x, y + e),
+               smooth = fmax(fabs(l - r), fabs(a - b)) < 1e-6;
         v->x[i] += smooth * (r - l) / (2 * e);
         v->xx[i] += smooth * (l + r - 2 * z) / (e * e);
-        if (!v->yy)
-            continue;
+        if (!v->yy) continue;
         v->y[i] += smooth * (a - b) / (2 * e);
         v->yy[i] += smooth * (a + b - 2 * z) / (e * e);
         v->xy[i] += smooth * (f(x + e, y + e) - f(x - e, y + e) - f(x + e, y - e) + f(x - e, y - e)) / (4 * e * e);
@@ -49,12 +49,15 @@ static double kinked; /* m: where the formula may jump, in one coordinate; 0: no
 static bool tip_try(struct tip *t, height *f, int along, const double radius_patch_finest[3], struct err *e)
 {
     *t = (struct tip){.arena = arena_open(), .relief = {.along = along}, .f = f};
-    t->part = (struct relief_part){.name = "formula", .finest = radius_patch_finest[2], .kinks = kinked, .add = formula_add, .state = &t->f};
-    t->contact = (struct contact){.name = "ball", .scraper = {.radius = radius_patch_finest[0], .patch = radius_patch_finest[1]}};
+    t->part = (struct relief_part){
+        .name = "formula", .finest = radius_patch_finest[2], .kinks = kinked, .add = formula_add, .state = &t->f};
+    t->contact = (struct contact){.name = "ball",
+                                  .scraper = {.radius = radius_patch_finest[0], .patch = radius_patch_finest[1]}};
     t->trajectory = (struct trajectory){.straight = true, .box = {{-5e-4, 0}, {5e-4, 0}}};
     t->board = (struct board){.relief = &t->relief, .trajectory = &t->trajectory};
     static const struct scene scene = {.accuracy = {.tip_heights = 1}};
-    t->run = (struct stage_run){.stage = &tip_stage, .scene = &scene, .contact = &t->contact, .board = &t->board, .arena = t->arena};
+    t->run = (struct stage_run){
+        .stage = &tip_stage, .scene = &scene, .contact = &t->contact, .board = &t->board, .arena = t->arena};
     relief_add(&t->relief, &t->part);
     return tip_stage.open(&t->run, e);
 }
@@ -73,13 +76,14 @@ static struct read tip_read(const struct tip *t, double x, double y)
 {
     struct read r = {0};
     bool plane = t->relief.along == ALONG_PLANE;
-    relief_at(&t->relief, &(struct relief_points){1, &x, plane ? &y : NULL},
-              &(struct relief_values){&r.z, &r.x, plane ? &r.y : NULL, &r.xx, plane ? &r.xy : NULL, plane ? &r.yy : NULL});
+    relief_at(
+        &t->relief, &(struct relief_points){1, &x, plane ? &y : NULL},
+        &(struct relief_values){&r.z, &r.x, plane ? &r.y : NULL, &r.xx, plane ? &r.xy : NULL, plane ? &r.yy : NULL});
     return r;
 }
 
-/* f smoothed by a Gaussian of standard deviation s, and its second derivative, by a sum over 7 s in steps of s/1000: for a kink, off by
-   1/12 of the step^2. */
+/* f smoothed by a Gaussian of standard deviation s, and its second derivative, by a sum over 7 s in steps of s/1000:
+   for a kink, off by 1/12 of the step^2. */
 static struct read smoothed(height *f, double x, double s)
 {
     enum { STEPS = 7000 };
@@ -95,10 +99,7 @@ static struct read smoothed(height *f, double x, double s)
     return (struct read){.z = sum.z / whole, .x = sum.x / whole, .xx = sum.xx / whole};
 }
 
-static double between(double low, double high)
-{
-    return low + (high - low) * drand48();
-}
+static double between(double low, double high) { return low + (high - low) * drand48(); }
 
 /* ------------------------------------------------------------------ closed forms */
 
@@ -127,20 +128,18 @@ END_TEST
 #define SPIKE_RADIUS 1e-3
 #define SPIKE_HEIGHT 2e-5
 
-static double spike(double x, double y)
-{
-    return x * x + y * y < 1e-18 ? SPIKE_HEIGHT : 0;
-}
+static double spike(double x, double y) { return x * x + y * y < 1e-18 ? SPIKE_HEIGHT : 0; }
 
 static double spike_envelope(double x, double y)
 {
-    double d2 = x * x + y * y, cap = d2 < SPIKE_RADIUS * SPIKE_RADIUS ? sqrt(SPIKE_RADIUS * SPIKE_RADIUS - d2) - SPIKE_RADIUS : -1;
+    double d2 = x * x + y * y,
+           cap = d2 < SPIKE_RADIUS * SPIKE_RADIUS ? sqrt(SPIKE_RADIUS * SPIKE_RADIUS - d2) - SPIKE_RADIUS : -1;
     return fmax(SPIKE_HEIGHT + cap, 0);
 }
 
-/* Kinks of J = sqrt(2 H/R) = 0.2 where the ball leaves the ground: the curvature peaks there at 0.4 J/patch = 4000 1/m, of which 1 %; the
-   height is off by h^2/12 of that and (spline) h^4/384 of a fourth derivative of 4000/patch^2; slope by sqrt(3)/216 h^3 of a third
-   derivative of 0.6 4000/patch, and as much again from the kinks. */
+/* Kinks of J = sqrt(2 H/R) = 0.2 where the ball leaves the ground: the curvature peaks there at 0.4 J/patch = 4000 1/m,
+   of which 1 %; the height is off by h^2/12 of that and (spline) h^4/384 of a fourth derivative of 4000/patch^2; slope
+   by sqrt(3)/216 h^3 of a third derivative of 0.6 4000/patch, and as much again from the kinks. */
 START_TEST(spike_is_a_cap)
 {
     double patch = 2e-5, h = patch / 4, peak = 4000;
@@ -167,8 +166,8 @@ static double ripple(double x, double y)
     return 4e-6 * cos(2 * M_PI * x / 1e-3);
 }
 
-/* The curve at a distance of R = 1 mm above the ripple, whose hollows have a radius of curvature of 6.3 mm: x = t - R s/sqrt(1 + s^2),
-   E = z(t) + R/sqrt(1 + s^2) - R, solved for t. */
+/* The curve at a distance of R = 1 mm above the ripple, whose hollows have a radius of curvature of 6.3 mm: x = t - R
+   s/sqrt(1 + s^2), E = z(t) + R/sqrt(1 + s^2) - R, solved for t. */
 static double ripple_envelope(double x, double y)
 {
     double k = 2 * M_PI / 1e-3, t = x;
@@ -182,7 +181,8 @@ static double ripple_envelope(double x, double y)
 }
 
 /* d = 2.5 um: the ball touches up to d^2/8 (1/R + 158 1/m) = 0.9 nm higher between the samples; the mean of
-   that stays in the height, and a saw-tooth of it in the curvature, smoothed over the patch: 0.9 nm / 2 / patch^2 at most, 1.1 1/m, of 188. */
+   that stays in the height, and a saw-tooth of it in the curvature, smoothed over the patch: 0.9 nm / 2 / patch^2 at
+   most, 1.1 1/m, of 188. */
 START_TEST(ripple_is_an_offset_curve)
 {
     struct tip t;
@@ -194,7 +194,8 @@ START_TEST(ripple_is_an_offset_curve)
         ck_assert(got.z < want.z + 1e-12 && got.z > want.z - missed);
         ck_assert_double_eq_tol(got.xx, want.xx, missed / 2 / (patch * patch));
     }
-    ck_assert(fabs(smoothed(ripple_envelope, 0, patch).xx - smoothed(ripple, 0, patch).xx) > 15); /* it is not the ripple */
+    ck_assert(fabs(smoothed(ripple_envelope, 0, patch).xx - smoothed(ripple, 0, patch).xx) >
+              15); /* it is not the ripple */
     arena_close(t.arena);
 }
 END_TEST
@@ -212,7 +213,8 @@ static double groove_envelope(double x, double y)
     return from > 0 ? sqrt(1e-6 - from * from) - 1e-3 : 0;
 }
 
-/* 0.1 mm wide, 50 um deep: a ball of 1 mm sinks in by 1.25 um. A kink of 0.1 in the middle, so that the curvature peaks at 2000 1/m. */
+/* 0.1 mm wide, 50 um deep: a ball of 1 mm sinks in by 1.25 um. A kink of 0.1 in the middle, so that the curvature peaks
+ * at 2000 1/m. */
 START_TEST(groove_is_bridged)
 {
     struct tip t;
@@ -233,7 +235,8 @@ END_TEST
 
 static double knob(double x, double y)
 {
-    double d2 = x * x + y * y, cap = d2 < KNOB_RADIUS * KNOB_RADIUS ? sqrt(KNOB_RADIUS * KNOB_RADIUS - d2) - KNOB_RADIUS : -1;
+    double d2 = x * x + y * y,
+           cap = d2 < KNOB_RADIUS * KNOB_RADIUS ? sqrt(KNOB_RADIUS * KNOB_RADIUS - d2) - KNOB_RADIUS : -1;
     return fmax(SPIKE_HEIGHT + cap, 0);
 }
 
@@ -286,13 +289,11 @@ static double waves(double x, double y)
     return 1e-5 * cos(2 * M_PI * x / 2e-4);
 }
 
-static double waves_turned(double x, double y)
-{
-    return waves(x * cos(0.5) + y * sin(0.5), 0);
-}
+static double waves_turned(double x, double y) { return waves(x * cos(0.5) + y * sin(0.5), 0); }
 
-/* The same waves across a direction of 0.5 rad: along that, the ball's way is the one in one coordinate. Each is too low by up to
-   d^2/8 (1/R + 9870 1/m); the curvature peaks in the hollows at 0.4/patch of a kink of 0.19, 7600 1/m, of which 1 %, or h^2/12 to either side in the height. */
+/* The same waves across a direction of 0.5 rad: along that, the ball's way is the one in one coordinate. Each is too
+   low by up to d^2/8 (1/R + 9870 1/m); the curvature peaks in the hollows at 0.4/patch of a kink of 0.19, 7600 1/m, of
+   which 1 %, or h^2/12 to either side in the height. */
 START_TEST(ridges_are_as_in_one_coordinate)
 {
     struct tip line, plane;
@@ -314,18 +315,13 @@ START_TEST(ridges_are_as_in_one_coordinate)
 }
 END_TEST
 
-static double waves_up(double x, double y)
-{
-    return waves((x - y) / sqrt(2), 0);
-}
+static double waves_up(double x, double y) { return waves((x - y) / sqrt(2), 0); }
 
-static double waves_down(double x, double y)
-{
-    return waves((x + y) / sqrt(2), 0);
-}
+static double waves_down(double x, double y) { return waves((x + y) / sqrt(2), 0); }
 
-/* Diagonally, with d = 5 um, where the mixed term of Taylor's formula is as large as it gets, 62 nm: the ball stays under its way over the line
-   but for 10 nm (h^2/12 of the kinks' curvature, 3800 1/m; d^3/17 z'''), and above it less d^2/8 (1/R + |z''|). */
+/* Diagonally, with d = 5 um, where the mixed term of Taylor's formula is as large as it gets, 62 nm: the ball stays
+   under its way over the line but for 10 nm (h^2/12 of the kinks' curvature, 3800 1/m; d^3/17 z'''), and above it less
+   d^2/8 (1/R + |z''|). */
 START_TEST(crests_on_the_diagonal)
 {
     static height *const formulas[2] = {waves_up, waves_down};
@@ -360,8 +356,8 @@ static double rough(double x, double y)
 }
 
 struct plainly {
-    double radius, patch, d; /* d: between heights          */
-    long reach, stride, most;/* in d: of the ball, between centres, of the Gaussian */
+    double radius, patch, d;  /* d: between heights          */
+    long reach, stride, most; /* in d: of the ball, between centres, of the Gaussian */
     bool plane;
 };
 
@@ -399,8 +395,9 @@ static struct read plain_way(const struct plainly *p, double x, double y)
     return (struct read){.z = sum.z / whole, .xx = sum.xx / whole, .xy = sum.xy / whole};
 }
 
-/* An eighth of the pitch between heights, a quarter of the lattice between centres. The curvature of the way reaches 3000 1/m, of which 1 %
-   for kinks and spline, or h^2/12 of it in the height; and what the ball misses between heights, d^2/8 (1/R + 3.5e4 1/m), over 2 patch^2. */
+/* An eighth of the pitch between heights, a quarter of the lattice between centres. The curvature of the way reaches
+   3000 1/m, of which 1 % for kinks and spline, or h^2/12 of it in the height; and what the ball misses between heights,
+   d^2/8 (1/R + 3.5e4 1/m), over 2 patch^2. */
 START_TEST(rough_line_against_a_plain_search)
 {
     double patch = 1e-5, h = patch / 4, missed = 1.25e-6 * 1.25e-6 / 8 * 37000, largest = 0, worst = 0;
@@ -423,7 +420,8 @@ END_TEST
 START_TEST(rough_plane_against_a_plain_search)
 {
     double patch = 1e-5, h = patch / 4, missed = h * h / 8 * 2 * 45000;
-    struct plainly plainly = {.radius = 1e-4, .patch = patch, .d = h / 2, .reach = 32, .stride = 1, .most = 40, .plane = true};
+    struct plainly plainly = {
+        .radius = 1e-4, .patch = patch, .d = h / 2, .reach = 32, .stride = 1, .most = 40, .plane = true};
     struct tip t;
     tip_make(&t, rough, ALONG_PLANE, 1e-4, patch, 5e-6);
     for (int k = 0; k < 8; k++) {
@@ -437,7 +435,8 @@ START_TEST(rough_plane_against_a_plain_search)
 }
 END_TEST
 
-/* A ball much smaller than the waves is a point: what is left is the surface smoothed (each wave by exp(-(k patch)^2/2)), and R s^2/2 at most. */
+/* A ball much smaller than the waves is a point: what is left is the surface smoothed (each wave by exp(-(k
+ * patch)^2/2)), and R s^2/2 at most. */
 START_TEST(small_ball_is_a_point)
 {
     double patch = 2e-5, damped = exp(-0.5 * pow(2 * M_PI / 2e-4 * patch, 2)), k = 2 * M_PI / 2e-4;
@@ -449,7 +448,8 @@ START_TEST(small_ball_is_a_point)
             double x = between(-1e-3, 1e-3);
             struct read r = tip_read(&t, x, between(-1e-3, 1e-3));
             ck_assert_double_eq_tol(r.z, damped * waves(x, 0), 1e-5 * damped * 1e-4 + lies);
-            ck_assert_double_eq_tol(r.xx, -damped * k * k * waves(x, 0), 0.003 * damped * k * k * 1e-5); /* (h k)^2/12 = 0.0021 */
+            ck_assert_double_eq_tol(r.xx, -damped * k * k * waves(x, 0),
+                                    0.003 * damped * k * k * 1e-5); /* (h k)^2/12 = 0.0021 */
             ck_assert_double_eq_tol(r.yy, 0, 1e-4);
         }
         arena_close(t.arena);
@@ -461,8 +461,8 @@ END_TEST
 
 enum { PLACES = 100 };
 
-/* One by one in any order, in another instance, alone in a third: the same bits. Places lie far apart, so that blocks are forgotten and made
-   again. */
+/* One by one in any order, in another instance, alone in a third: the same bits. Places lie far apart, so that blocks
+   are forgotten and made again. */
 START_TEST(order_does_not_matter)
 {
     for (int along = ALONG_PATH; along <= ALONG_PLANE; along += 2) {
@@ -495,8 +495,9 @@ START_TEST(order_does_not_matter)
 }
 END_TEST
 
-/* Second derivatives do not jump, at knots (h = 5 um) or where blocks meet, and all are derivatives of the height: central differences with
-   steps of 20 nm, whose own errors are 2e-22/eps^2 of rounding and eps z'''/2 where a knot lies between. */
+/* Second derivatives do not jump, at knots (h = 5 um) or where blocks meet, and all are derivatives of the height:
+   central differences with steps of 20 nm, whose own errors are 2e-22/eps^2 of rounding and eps z'''/2 where a knot
+   lies between. */
 START_TEST(derivatives_are_continuous)
 {
     struct tip t;
@@ -571,5 +572,6 @@ START_TEST(wanted_with_a_radius)
 END_TEST
 
 UNIT("tip", flat_stays_flat, spike_is_a_cap, ripple_is_an_offset_curve, groove_is_bridged, knob_is_a_spherical_cap,
-     ridges_are_as_in_one_coordinate, crests_on_the_diagonal, rough_line_against_a_plain_search, rough_plane_against_a_plain_search,
-     small_ball_is_a_point, order_does_not_matter, derivatives_are_continuous, too_large_a_ball, a_missed_peak_is_told, wanted_with_a_radius)
+     ridges_are_as_in_one_coordinate, crests_on_the_diagonal, rough_line_against_a_plain_search,
+     rough_plane_against_a_plain_search, small_ball_is_a_point, order_does_not_matter, derivatives_are_continuous,
+     too_large_a_ball, a_missed_peak_is_told, wanted_with_a_radius)

@@ -1,14 +1,19 @@
-/* What accuracy.tip_heights buys: ridges across the path are the same surface extruded (surface.along: x, heights twice as dense) and in the plane
-   (another lattice, another search), so that the two forces differ by what the heights between the samples are worth. */
+/* What accuracy.tip_heights buys: ridges across the path are the same surface extruded (surface.along: x, heights twice
+   as dense) and in the plane (another lattice, another search), so that the two forces differ by what the heights
+   between the samples are worth. */
 #include "rig.h"
 
 static struct rig *force(const char *along, int heights)
 {
     struct arena *a = rig_arena();
-    struct scene s = rig_scene(a, arena_format(a, "rasp: 1\nsurface: {along: %s, ridges: {spacing: 2 mm, height: 20 um, jitter: 0.1, variation: 0.2}}\n"
-                                                  "scraper: {mass: 20 g, radius: 1 mm, patch: 20 um}\nload: {approach: 0 s, release: 0 s}\n"
-                                                  "motion: {path: line, from: [10 cm, 0], to: [10.5 cm, 0], speed: 10 cm/s}\n"
-                                                  "accuracy: {preset: standard, tip_heights: %d}\noutput: {diagnostics: {}}\n", along, heights));
+    struct scene s = rig_scene(
+        a, arena_format(
+               a,
+               "rasp: 1\nsurface: {along: %s, ridges: {spacing: 2 mm, height: 20 um, jitter: 0.1, variation: 0.2}}\n"
+               "scraper: {mass: 20 g, radius: 1 mm, patch: 20 um}\nload: {approach: 0 s, release: 0 s}\n"
+               "motion: {path: line, from: [10 cm, 0], to: [10.5 cm, 0], speed: 10 cm/s}\n"
+               "accuracy: {preset: standard, tip_heights: %d}\noutput: {diagnostics: {}}\n",
+               along, heights));
     return rig_record(&s, ITEM_FORCE, 2400, 1024);
 }
 
@@ -25,7 +30,8 @@ static double agreement(int heights)
     return 10 * log10(all / off);
 }
 
-/* Between heights d apart a ball of radius R misses up to d^2 / (8 R') of a crest of radius R': 12 dB per doubling, less where kinks meet. */
+/* Between heights d apart a ball of radius R misses up to d^2 / (8 R') of a crest of radius R': 12 dB per doubling,
+ * less where kinks meet. */
 START_TEST(denser_heights_agree_better)
 {
     double once = agreement(1), twice = agreement(2), four = agreement(4);

@@ -1,5 +1,6 @@
-/* tip over the grounds there are, as a ball of roll_coupled meets them: profiles that are drawn, measured ones, a map in the plane. Against the
-   plain maximum over heights read far more densely (through every height the stage reads), on smooth ground searched from there on, and what is refused and told. */
+/* tip over the grounds there are, as a ball of roll_coupled meets them: profiles that are drawn, measured ones, a map
+   in the plane. Against the plain maximum over heights read far more densely (through every height the stage reads), on
+   smooth ground searched from there on, and what is refused and told. */
 #include <unistd.h>
 
 #include "pipeline/stages.h"
@@ -19,8 +20,7 @@ static void step(struct floor *g, const struct stage *s)
 {
     struct err e = {0};
     struct stage_run *r = &g->opened[g->n];
-    if (!s->wanted(&g->contact, &g->scene))
-        return;
+    if (!s->wanted(&g->contact, &g->scene)) return;
     *r = g->run;
     r->stage = s;
     ck_assert_msg(s->open(r, &e), "%s", e.text);
@@ -30,17 +30,22 @@ static void step(struct floor *g, const struct stage *s)
 static void ground_close(struct floor *g)
 {
     for (int i = 0; i < g->n; i++)
-        if (g->opened[i].stage->close)
-            g->opened[i].stage->close(&g->opened[i]);
+        if (g->opened[i].stage->close) g->opened[i].stage->close(&g->opened[i]);
 }
 
 /* The surface of a scene, as it is before the tip; the contact is a ball's. */
 static void ground_make(struct floor *g, const char *surface, double radius, double patch)
 {
-    static const struct stage *const parts[] = {&surface_stage, &height_map_stage, &continuation_stage, &roughness_stage, &ridges_stage, &grit_stage, &fractal_stage};
+    static const struct stage *const parts[] = {&surface_stage,   &height_map_stage, &continuation_stage,
+                                                &roughness_stage, &ridges_stage,     &grit_stage,
+                                                &fractal_stage};
     struct err e = {0};
-    *g = (struct floor){.scene = rig_scene(rig_arena(), arena_format(rig_arena(), "rasp: 1\noutput: {diagnostics: {}}\nscraper: {mass: 1 g, radius: 1 cm}\n"
-                                                                      "surface: %s\nmotion: {path: line, to: [2 cm, 0], speed: 20 cm/s}\n", surface))};
+    *g = (struct floor){
+        .scene = rig_scene(rig_arena(),
+                           arena_format(rig_arena(),
+                                        "rasp: 1\noutput: {diagnostics: {}}\nscraper: {mass: 1 g, radius: 1 cm}\n"
+                                        "surface: %s\nmotion: {path: line, to: [2 cm, 0], speed: 20 cm/s}\n",
+                                        surface))};
     g->contact = g->scene.contacts[0];
     g->contact.contact.model = CONTACT_ROLL_COUPLED;
     g->contact.scraper.radius = radius;
@@ -77,10 +82,12 @@ static double arc_at(const struct relief *r, double radius, double x, double t)
     return square < 0 ? -HUGE_VAL : height_at(r, t) - off * off / (radius + sqrt(square));
 }
 
-/* The same of smooth ground between the heights: from each that comes within `missed` of the best so far, ever nearer. */
+/* The same of smooth ground between the heights: from each that comes within `missed` of the best so far, ever nearer.
+ */
 static double searched_at(const struct relief *r, const double radius_span_missed[3], double d, double x)
 {
-    double radius = radius_span_missed[0], most = plain_at(r, radius, radius_span_missed[1], d, x), least = most - radius_span_missed[2];
+    double radius = radius_span_missed[0], most = plain_at(r, radius, radius_span_missed[1], d, x),
+           least = most - radius_span_missed[2];
     double reach = fmin(radius, sqrt(2 * radius * radius_span_missed[1]));
     for (double i = ceil((x - reach) / d); i * d <= x + reach; i++) {
         double t = i * d, best = arc_at(r, radius, x, t);
@@ -109,8 +116,10 @@ static void ground_look(const struct relief *r, double *span, double *bend)
     *span = 1.2 * (most - least);
 }
 
-/* Of ground with kinks: never above the denser maximum but for rounding, and below it by d^2/8 (1/R + |z''|) at most, and a thousandth of the span where it is level. */
-static void check_kinked(const char *surface, const struct relief *bare, const struct relief *with, double radius, int places)
+/* Of ground with kinks: never above the denser maximum but for rounding, and below it by d^2/8 (1/R + |z''|) at most,
+ * and a thousandth of the span where it is level. */
+static void check_kinked(const char *surface, const struct relief *bare, const struct relief *with, double radius,
+                         int places)
 {
     double span, bend, worst = 0, d = with->first->finest;
     ground_look(bare, &span, &bend);
@@ -121,17 +130,21 @@ static void check_kinked(const char *surface, const struct relief *bare, const s
         ck_assert_msg(got <= want + 1e-15, "%s: %g above the largest", surface, got - want);
         worst = fmax(worst, want - got);
     }
-    printf("%s, R = %g m: d = %g m, too low by at most %g m of %g m that are allowed, heights span %g m\n", surface, radius, d, worst, missed, span / 1.2);
+    printf("%s, R = %g m: d = %g m, too low by at most %g m of %g m that are allowed, heights span %g m\n", surface,
+           radius, d, worst, missed, span / 1.2);
     ck_assert_msg(worst <= missed && worst > 0, "%s: %g below, and at most %g", surface, worst, missed);
 }
 
-/* Of smooth ground: `share` of the span on either side; where that is 0, the stage reads it at its knots, and rounding alone is left. */
-static void check_smooth(const char *surface, const struct relief *bare, const struct relief *with, const double radius_share[2], int places)
+/* Of smooth ground: `share` of the span on either side; where that is 0, the stage reads it at its knots, and rounding
+ * alone is left. */
+static void check_smooth(const char *surface, const struct relief *bare, const struct relief *with,
+                         const double radius_share[2], int places)
 {
     double radius = radius_share[0], span, bend, worst = 0, d = with->first->finest, fine = d / 20;
     ground_look(bare, &span, &bend);
     for (int i = 0; i < places; i++) {
-        double x = 2e-2 * drand48(), want = searched_at(bare, (double[]){radius, span, fine * fine / 4 * (1 / radius + bend)}, fine, x);
+        double x = 2e-2 * drand48(),
+               want = searched_at(bare, (double[]){radius, span, fine * fine / 4 * (1 / radius + bend)}, fine, x);
         worst = fmax(worst, fabs(want - height_at(with, x)));
     }
     printf("%s, R = %g m: d = %g m, off by at most %g of the span\n", surface, radius, d, worst / span);
@@ -158,18 +171,25 @@ START_TEST(drawn_profiles)
 {
     check_ground("{roughness: {rms: 3 um, exponent: -2.2, longest: 1 mm, shortest: 40 um}}", 1e-2, 1e-5, 100);
     check_ground("{roughness: {rms: 3 um, exponent: -2.2, longest: 1 mm, shortest: 40 um}}", 10, 1e-5, 20);
-    check_ground("{along: path, ridges: {shape: round, spacing: 1 mm, height: 50 um, width: 0.3 mm}, roughness: {rms: 1 um}}", 5e-3, 1e-5, 100);
+    check_ground(
+        "{along: path, ridges: {shape: round, spacing: 1 mm, height: 50 um, width: 0.3 mm}, roughness: {rms: 1 um}}",
+        5e-3, 1e-5, 100);
     check_ground("{along: x, grit: {density: 10 /mm^2, diameter: 0.2 mm, height: 40 um}}", 1e-2, 1e-5, 100);
 }
 END_TEST
 
-/* Kinks and steps are among the heights that are read: between straight lines and under steps the ball is too low by d^2/(8 R) at most. */
+/* Kinks and steps are among the heights that are read: between straight lines and under steps the ball is too low by
+ * d^2/(8 R) at most. */
 START_TEST(fractal_profiles)
 {
     static const char *const kinds[3] = {"nearest", "linear", "spline"};
     for (int k = 0; k < 3; k++) {
-        check_ground(arena_format(rig_arena(), "{fractal: {exponent: -0.5, interpolation: %s}}", kinds[k]), 1e-2, 1e-5, 100);
-        check_ground(arena_format(rig_arena(), "{fractal: {exponent: -1.2, maximum: 10 um, pitch: 37 um, interpolation: %s}}", kinds[k]), 2e-3, 1e-5, 100);
+        check_ground(arena_format(rig_arena(), "{fractal: {exponent: -0.5, interpolation: %s}}", kinds[k]), 1e-2, 1e-5,
+                     100);
+        check_ground(arena_format(rig_arena(),
+                                  "{fractal: {exponent: -1.2, maximum: 10 um, pitch: 37 um, interpolation: %s}}",
+                                  kinds[k]),
+                     2e-3, 1e-5, 100);
     }
     check_ground("{fractal: {exponent: -1.2, maximum: 1 nm, interpolation: linear}}", 5e-3, 1e-5, 10);
 }
@@ -183,15 +203,17 @@ START_TEST(measured_profiles)
     for (int k = 0; k < 3; k++) {
         const char *file = arena_format(rig_arena(), "%s/../shared/data/surfaces/%s.npy", root, names[k]);
         if (access(file, R_OK) == 0)
-            check_ground(arena_format(rig_arena(), "{height_map: %s, pitch: 1.394068 um}", file), k == 0 ? 1 : 1e-2, 1e-5, 50);
+            check_ground(arena_format(rig_arena(), "{height_map: %s, pitch: 1.394068 um}", file), k == 0 ? 1 : 1e-2,
+                         1e-5, 50);
         else
             printf("%s is not there: not looked at\n", names[k]);
     }
 }
 END_TEST
 
-/* Smoothed as well: kinked ground under a patch, against the denser maximum smoothed by a sum over 7 standard deviations in steps of an eighth of one. The kinks of E and the
-   lattice of the patch, h^2/11 of the greatest curvature (1/R and what is left of the ridges', after smoothing), and what is missed between heights. */
+/* Smoothed as well: kinked ground under a patch, against the denser maximum smoothed by a sum over 7 standard
+   deviations in steps of an eighth of one. The kinks of E and the lattice of the patch, h^2/11 of the greatest
+   curvature (1/R and what is left of the ridges', after smoothing), and what is missed between heights. */
 START_TEST(fractal_under_a_patch)
 {
     struct floor bare, with;
@@ -220,7 +242,8 @@ END_TEST
 
 enum { UP = 36, DENSE = 2 }; /* steps of the lattice to 4.5 standard deviations; heights to a step */
 
-/* E at multiples of h by the plain maximum over a square of heights, the map's own, h/2 apart; smoothed by the Gaussian's sum: as surface/rolling.c says, but read plainly. */
+/* E at multiples of h by the plain maximum over a square of heights, the map's own, h/2 apart; smoothed by the
+ * Gaussian's sum: as surface/rolling.c says, but read plainly. */
 static double smoothed_plainly(const struct relief *r, double radius, double h, const double at[2])
 {
     long reach = (long)ceil(radius / h) * DENSE, half = UP * DENSE / 2 + reach, side = 2 * half + 1;
@@ -228,7 +251,8 @@ static double smoothed_plainly(const struct relief *r, double radius, double h, 
     for (long j = -half; j <= half; j++)
         for (long i = -half; i <= half; i++) {
             double x = at[0] + (double)i * h / DENSE, y = at[1] + (double)j * h / DENSE;
-            relief_at(r, &(struct relief_points){1, &x, &y}, &(struct relief_values){.z = &z[(j + half) * side + i + half]});
+            relief_at(r, &(struct relief_points){1, &x, &y},
+                      &(struct relief_values){.z = &z[(j + half) * side + i + half]});
         }
     for (long b = -UP / 2; b <= UP / 2; b++)
         for (long a = -UP / 2; a <= UP / 2; a++) {
@@ -237,7 +261,8 @@ static double smoothed_plainly(const struct relief *r, double radius, double h, 
                 for (long i = -reach; i <= reach; i++) {
                     double d2 = (double)(i * i + j * j) * h * h / DENSE / DENSE;
                     if (d2 <= radius * radius)
-                        e = fmax(e, z[(b * DENSE + j + half) * side + a * DENSE + i + half] - d2 / (radius + sqrt(radius * radius - d2)));
+                        e = fmax(e, z[(b * DENSE + j + half) * side + a * DENSE + i + half] -
+                                        d2 / (radius + sqrt(radius * radius - d2)));
                 }
             sum += g * e;
             whole += g;
@@ -246,7 +271,8 @@ static double smoothed_plainly(const struct relief *r, double radius, double h, 
     return sum / whole;
 }
 
-/* Obliquely over a rough map. Both read heights densely enough (curvatures up to 2e4 1/m in either direction, h/2 = 2.5 um: 0.03 um). */
+/* Obliquely over a rough map. Both read heights densely enough (curvatures up to 2e4 1/m in either direction, h/2 = 2.5
+ * um: 0.03 um). */
 START_TEST(a_map_along_a_path)
 {
     struct floor g;
@@ -286,14 +312,12 @@ START_TEST(a_patch_of_nothing)
 {
     refused("{along: plane, roughness: {}}", 0, CONTACT_ROLL_COUPLED, "set ball.patch");
     refused("{along: path, roughness: {}}", 0, CONTACT_ROLL, "set it to the radius of the contact patch");
-    refused("{along: path, roughness: {longest: 10 um, shortest: 0.1 um}}", 0, CONTACT_ROLL_COUPLED, "take a coarser surface");
+    refused("{along: path, roughness: {longest: 10 um, shortest: 0.1 um}}", 0, CONTACT_ROLL_COUPLED,
+            "take a coarser surface");
 }
 END_TEST
 
-static double tower(double x)
-{
-    return 1e-6 * cos(x / 1e-4) + (fabs(x - 0.1) < 3e-7 ? 1e-3 : 0);
-}
+static double tower(double x) { return 1e-6 * cos(x / 1e-4) + (fabs(x - 0.1) < 3e-7 ? 1e-3 : 0); }
 
 static void tower_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
 {
@@ -302,7 +326,8 @@ static void tower_add(struct relief_part *part, const struct relief_points *p, c
         v->z[i] += tower(p->x[i]);
 }
 
-/* A large ball looks as far as the heights that were looked at ask for, and a peak that the first look missed is told, once. */
+/* A large ball looks as far as the heights that were looked at ask for, and a peak that the first look missed is told,
+ * once. */
 START_TEST(a_missed_peak_is_told)
 {
     struct floor g;
@@ -321,4 +346,5 @@ START_TEST(a_missed_peak_is_told)
 }
 END_TEST
 
-UNIT("tip_grounds", drawn_profiles, fractal_profiles, measured_profiles, fractal_under_a_patch, a_map_along_a_path, a_patch_of_nothing, a_missed_peak_is_told)
+UNIT("tip_grounds", drawn_profiles, fractal_profiles, measured_profiles, fractal_under_a_patch, a_map_along_a_path,
+     a_patch_of_nothing, a_missed_peak_is_told)

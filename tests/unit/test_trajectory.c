@@ -1,10 +1,10 @@
-/* trajectory, straight motions: positions, velocities and accelerations against the closed forms in long double (64-bit mantissa), derivatives
-   against finite differences of the level below, turning points against the sign of the velocity. Curved ones: test_path.c, test_speed.c,
-   test_recorded.c.
+/* trajectory, straight motions: positions, velocities and accelerations against the closed forms in long double (64-bit
+   mantissa), derivatives against finite differences of the level below, turning points against the sign of the
+   velocity. Curved ones: test_path.c, test_speed.c, test_recorded.c.
 
-   Tolerances. What is fed to sin and cos is 2 r t half turns, one product, rounded to 2^-53 of itself: after r t cycles the phase is off by
-   at most 2 pi r t 2^-53 rad. Beside that come a few roundings: 1e-15 of the largest value. For rates that are powers of two the product
-   is exact and hours are as good as milliseconds. */
+   Tolerances. What is fed to sin and cos is 2 r t half turns, one product, rounded to 2^-53 of itself: after r t cycles
+   the phase is off by at most 2 pi r t 2^-53 rad. Beside that come a few roundings: 1e-15 of the largest value. For
+   rates that are powers of two the product is exact and hours are as good as milliseconds. */
 #include "motions.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -13,26 +13,35 @@
 
 static struct motion harmonic_motion(double rate, double duration)
 {
-    return (struct motion){.path = PATH_BACK_AND_FORTH, .from = {between(-1, 1), between(-1, 1)}, .to = {between(-1, 1), between(-1, 1)},
-                           .rate = rate, .duration = duration, .speed = NAN};
+    return (struct motion){.path = PATH_BACK_AND_FORTH,
+                           .from = {between(-1, 1), between(-1, 1)},
+                           .to = {between(-1, 1), between(-1, 1)},
+                           .rate = rate,
+                           .duration = duration,
+                           .speed = NAN};
 }
 
 static struct motion line_motion(int law, double distance, double duration)
 {
     double angle = between(0, 6.28);
-    return (struct motion){.path = PATH_LINE, .law = law, .to = {distance * cos(angle), distance * sin(angle)}, .duration = duration,
-                           .speed = NAN, .rate = NAN};
+    return (struct motion){.path = PATH_LINE,
+                           .law = law,
+                           .to = {distance * cos(angle), distance * sin(angle)},
+                           .duration = duration,
+                           .speed = NAN,
+                           .rate = NAN};
 }
-
 
 /* Largest differences from the closed form, as parts of the length, the top speed and the largest acceleration. */
 static void check_harmonic(const struct trajectory *tr, double rate, double t, double tolerance)
 {
-    long double amplitude = tr->length / 2.0L, omega = 2 * PI_L * rate, phase = fmodl((long double)rate * t, 1) * 2 * PI_L;
+    long double amplitude = tr->length / 2.0L, omega = 2 * PI_L * rate,
+                phase = fmodl((long double)rate * t, 1) * 2 * PI_L;
     struct state s = at(tr, t);
     ck_assert_double_le((double)fabsl(s.u - amplitude * (1 - cosl(phase))), tolerance * tr->length);
     ck_assert_double_le((double)fabsl(s.v - amplitude * omega * sinl(phase)), tolerance * (double)(amplitude * omega));
-    ck_assert_double_le((double)fabsl(s.a - amplitude * omega * omega * cosl(phase)), tolerance * (double)(amplitude * omega * omega));
+    ck_assert_double_le((double)fabsl(s.a - amplitude * omega * omega * cosl(phase)),
+                        tolerance * (double)(amplitude * omega * omega));
 }
 
 /* Up to 1400 cycles every figure is within 1e-12: of its largest value, and position within 1e-12 m. */
@@ -69,7 +78,8 @@ END_TEST
 /* The instants at which rounding could slip: ends, turns, smallest steps beside them. */
 START_TEST(harmonic_at_extremes)
 {
-    struct motion m = {.path = PATH_BACK_AND_FORTH, .from = {0.03, 0.02}, .to = {0.075, 0.02}, .rate = 2, .duration = 10};
+    struct motion m = {
+        .path = PATH_BACK_AND_FORTH, .from = {0.03, 0.02}, .to = {0.075, 0.02}, .rate = 2, .duration = 10};
     struct trajectory tr = made(&m);
     double omega = 4 * M_PI, a0 = tr.length / 2 * omega * omega;
     for (int k = 0; k <= 40; k++) {
@@ -100,9 +110,11 @@ START_TEST(lines_are_closed_forms)
         double t = share * duration;
         long double d = jerk.length, q = (long double)t / duration, v = d / duration, r = 1 - q;
         struct state s = at(&jerk, t);
-        ck_assert_double_eq_tol((double)(s.u - d * q * q * q * (10 - 15 * q + 6 * q * q)), 0, fmin(1e-12, 4e-15 * (double)d));
+        ck_assert_double_eq_tol((double)(s.u - d * q * q * q * (10 - 15 * q + 6 * q * q)), 0,
+                                fmin(1e-12, 4e-15 * (double)d));
         ck_assert_double_eq_tol((double)(s.v - 30 * v * q * q * r * r), 0, 1e-15 * jerk.top_speed);
-        ck_assert_double_eq_tol((double)(s.a - 60 * v / duration * q * r * (1 - 2 * q)), 0, 1e-14 * (double)(v / duration));
+        ck_assert_double_eq_tol((double)(s.a - 60 * v / duration * q * r * (1 - 2 * q)), 0,
+                                1e-14 * (double)(v / duration));
         s = at(&even, t);
         ck_assert_double_eq_tol((double)(s.u - d * q), 0, fmin(1e-12, 5e-16 * (double)d));
         ck_assert_double_eq_tol((double)(s.v - v), 0, 5e-16 * (double)v);
@@ -164,7 +176,8 @@ END_TEST
 
 START_TEST(ends_hold)
 {
-    struct motion motions[] = {harmonic_motion(1.3, 2.9), line_motion(SPEED_CONSTANT, 0.1, 0.6), line_motion(SPEED_MINIMUM_JERK, 0.1, 0.6)};
+    struct motion motions[] = {harmonic_motion(1.3, 2.9), line_motion(SPEED_CONSTANT, 0.1, 0.6),
+                               line_motion(SPEED_MINIMUM_JERK, 0.1, 0.6)};
     for (int i = 0; i < 3; i++) {
         struct trajectory tr = made(&motions[i]);
         struct state first = at(&tr, 0), last = at(&tr, tr.duration);
@@ -175,8 +188,7 @@ START_TEST(ends_hold)
             ck_assert(e.u == last.u && e.v == last.v && e.a == last.a);
         }
         ck_assert_double_eq(first.u, 0);
-        if (i > 0)
-            ck_assert_double_eq(last.u, tr.length);
+        if (i > 0) ck_assert_double_eq(last.u, tr.length);
     }
 }
 END_TEST
@@ -201,7 +213,8 @@ START_TEST(many_as_one)
 {
     enum { N = 1000 };
     static double t[N], u[N + 1], v[N + 1], a[N + 1], only[N + 1];
-    struct motion motions[] = {harmonic_motion(3.7, 2), line_motion(SPEED_CONSTANT, 0.1, 2), line_motion(SPEED_MINIMUM_JERK, 0.1, 2)};
+    struct motion motions[] = {harmonic_motion(3.7, 2), line_motion(SPEED_CONSTANT, 0.1, 2),
+                               line_motion(SPEED_MINIMUM_JERK, 0.1, 2)};
     srand48(5);
     for (int i = 0; i < N; i++)
         t[i] = between(-0.1, 2.1);
@@ -212,7 +225,9 @@ START_TEST(many_as_one)
             trajectory_at(&tr, (size_t)n, t, (struct trajectory_out){.u = u, .du = v, .ddu = a});
             for (int out = 0; out < 3; out++) {
                 trajectory_at(&tr, (size_t)n, t,
-                              (struct trajectory_out){.u = out == 0 ? only : NULL, .du = out == 1 ? only : NULL, .ddu = out == 2 ? only : NULL});
+                              (struct trajectory_out){.u = out == 0 ? only : NULL,
+                                                      .du = out == 1 ? only : NULL,
+                                                      .ddu = out == 2 ? only : NULL});
                 ck_assert_mem_eq(only, out == 0 ? u : out == 1 ? v : a, (size_t)n * sizeof *u);
             }
             ck_assert(u[n] == 77 && v[n] == 77 && a[n] == 77 && only[n] == 77);
@@ -220,8 +235,7 @@ START_TEST(many_as_one)
                 struct state s = at(&tr, t[i]);
                 ck_assert(s.u == u[i] && s.v == v[i] && s.a == a[i]);
             }
-            if (n == N)
-                break;
+            if (n == N) break;
         }
 }
 END_TEST
@@ -236,7 +250,8 @@ START_TEST(turns_where_velocity_does)
         struct trajectory tr = made(&m);
         int found = 0;
         for (double t = 0; t < duration; t += step) {
-            double end = fmin(t + step, duration), turn = trajectory_turning(&tr, t, end), before = at(&tr, t).v, after = at(&tr, end).v;
+            double end = fmin(t + step, duration), turn = trajectory_turning(&tr, t, end), before = at(&tr, t).v,
+                   after = at(&tr, end).v;
             if (isnan(turn)) {
                 ck_assert_double_ge(before * after, -1e-12 * tr.top_speed * tr.top_speed);
                 continue;
@@ -245,7 +260,8 @@ START_TEST(turns_where_velocity_does)
             double beside = 1e-12 * duration + 1e-9 / rate;
             ck_assert(turn > t && turn < end);
             ck_assert_double_le(fabs(at(&tr, turn).v), 1e-12 * tr.top_speed);
-            ck_assert_double_lt(at(&tr, turn - beside).v * at(&tr, turn + beside).v, turn + beside < duration ? 0 : HUGE_VAL);
+            ck_assert_double_lt(at(&tr, turn - beside).v * at(&tr, turn + beside).v,
+                                turn + beside < duration ? 0 : HUGE_VAL);
         }
         int turns = (int)ceil(2 * rate * duration) - 1;
         ck_assert_int_eq(found, turns);
@@ -258,10 +274,10 @@ START_TEST(turn_on_a_border)
     struct motion m = {.path = PATH_BACK_AND_FORTH, .to = {0.1, 0}, .rate = 2, .duration = 1};
     struct trajectory tr = made(&m);
     ck_assert_double_eq(trajectory_turning(&tr, 0.2, 0.3), 0.25);
-    ck_assert(isnan(trajectory_turning(&tr, 0.25, 0.3)));   /* open interval: the two sides of a turn are two stretches */
+    ck_assert(isnan(trajectory_turning(&tr, 0.25, 0.3))); /* open interval: the two sides of a turn are two stretches */
     ck_assert(isnan(trajectory_turning(&tr, 0.2, 0.25)));
     ck_assert(isnan(trajectory_turning(&tr, 0.9, 1.0)));
-    ck_assert(isnan(trajectory_turning(&tr, 0.9, 1.1)));    /* the end is no turn: nothing moves after it */
+    ck_assert(isnan(trajectory_turning(&tr, 0.9, 1.1))); /* the end is no turn: nothing moves after it */
     srand48(7);
     for (int k = 1; k < 2000; k++) { /* however 2 r t is rounded */
         m.rate = pow(10, between(-1, 2)), m.duration = 10000;
@@ -279,7 +295,8 @@ END_TEST
 
 START_TEST(top_speed_is_the_top)
 {
-    struct motion motions[] = {harmonic_motion(1.25, 2), line_motion(SPEED_CONSTANT, 0.1, 2), line_motion(SPEED_MINIMUM_JERK, 0.1, 2)};
+    struct motion motions[] = {harmonic_motion(1.25, 2), line_motion(SPEED_CONSTANT, 0.1, 2),
+                               line_motion(SPEED_MINIMUM_JERK, 0.1, 2)};
     for (int k = 0; k < 3; k++) {
         struct trajectory tr = made(&motions[k]);
         double top = 0;
@@ -290,7 +307,8 @@ START_TEST(top_speed_is_the_top)
 }
 END_TEST
 
-/* Inside it is the motion; outside the same formula goes on: a cosine, a straight line, a fifth-order polynomial (long double). */
+/* Inside it is the motion; outside the same formula goes on: a cosine, a straight line, a fifth-order polynomial (long
+ * double). */
 START_TEST(test_continued)
 {
     struct motion m = {.path = PATH_BACK_AND_FORTH, .to = {0.06, 0}, .rate = 3, .duration = 0.4, .speed = NAN};
@@ -300,25 +318,27 @@ START_TEST(test_continued)
         struct trajectory tr = made(&m);
         for (int i = -50; i <= 150; i++) {
             double t = 0.004 * i, u;
-            long double q = (long double)t / 0.4L, want = k == 0   ? 0.03L * (1 - cosl(2 * 3.14159265358979323846264L * 3 * t))
-                                                          : k == 1 ? 0.06L * q
-                                                                   : 0.06L * q * q * q * (10 + q * (-15 + 6 * q));
+            long double q = (long double)t / 0.4L,
+                        want = k == 0   ? 0.03L * (1 - cosl(2 * 3.14159265358979323846264L * 3 * t))
+                               : k == 1 ? 0.06L * q
+                                        : 0.06L * q * q * q * (10 + q * (-15 + 6 * q));
             double place[2];
             trajectory_continued(&tr, t, place);
             ck_assert_double_eq_tol(place[0], (double)want, 1e-13);
             ck_assert_double_eq(place[1], 0);
             trajectory_at(&tr, 1, &t, (struct trajectory_out){.u = &u});
-            if (i >= 0 && i <= 100)
-                ck_assert_double_eq_tol(place[0], u, 1e-15);
+            if (i >= 0 && i <= 100) ck_assert_double_eq_tol(place[0], u, 1e-15);
         }
     }
 }
 END_TEST
 
-/* One place, at rest, for as long as is asked; any instant, also before and after; the rules and the figures of the whole say so. */
+/* One place, at rest, for as long as is asked; any instant, also before and after; the rules and the figures of the
+ * whole say so. */
 START_TEST(still_stays)
 {
-    struct motion m = {.path = PATH_STILL, .at = {0.12, -0.037}, .to = {NAN, NAN}, .rate = NAN, .speed = NAN, .duration = 2.5};
+    struct motion m = {
+        .path = PATH_STILL, .at = {0.12, -0.037}, .to = {NAN, NAN}, .rate = NAN, .speed = NAN, .duration = 2.5};
     struct trajectory tr = made(&m);
     for (double t = -1; t < 4; t += 0.01) {
         struct state s = at(&tr, t);
@@ -332,7 +352,8 @@ START_TEST(still_stays)
         ck_assert(isnan(trajectory_turning(&tr, t, t + 0.02)));
     }
     ck_assert(tr.straight && tr.starts_at_rest && tr.ends_at_rest && tr.e[0] == 1 && tr.e[1] == 0);
-    ck_assert(tr.length == 0 && tr.duration == 2.5 && tr.cycle == 2.5 && tr.top_speed == 0 && tr.mean_speed == 0 && tr.detail > 0);
+    ck_assert(tr.length == 0 && tr.duration == 2.5 && tr.cycle == 2.5 && tr.top_speed == 0 && tr.mean_speed == 0 &&
+              tr.detail > 0);
     ck_assert_int_eq(trajectory_frames(&tr, 48000), 120001);
     ck_assert(rules_straight(&m) && rules_rests(&m, false) && rules_rests(&m, true) && rules_speed(&m) == 0);
     m.duration = NAN;
@@ -349,21 +370,24 @@ extern const struct stage trajectory_stage;
 START_TEST(stage_lays_out_the_board)
 {
     enum { FRAMES = 700, OVER = 3, ITEMS = 9 };
-    static const enum item items[ITEMS] = {ITEM_POSITION, ITEM_VELOCITY, ITEM_ACCELERATION, ITEM_X, ITEM_Y, ITEM_VX, ITEM_VY, ITEM_AX, ITEM_AY};
+    static const enum item items[ITEMS] = {ITEM_POSITION, ITEM_VELOCITY, ITEM_ACCELERATION, ITEM_X, ITEM_Y,
+                                           ITEM_VX,       ITEM_VY,       ITEM_AX,           ITEM_AY};
     static double x[ITEMS][FRAMES * OVER + 1];
     struct scene s = {.seed = 1};
-    struct contact c = {.name = "rod", .motion = {.path = PATH_CIRCLE, .radius = 0.05, .turns = 2, .duration = 0.6, .speed = NAN}};
+    struct contact c = {.name = "rod",
+                        .motion = {.path = PATH_CIRCLE, .radius = 0.05, .turns = 2, .duration = 0.6, .speed = NAN}};
     for (int left_out = 0; left_out < ITEMS; left_out++) {
         struct board b = {.over = OVER, .rate = 1000};
         for (int k = 0; k < ITEMS; k++)
-            if (k != left_out)
-                b.signals[items[k]] = (struct signal){.per_frame = OVER, .capacity = FRAMES, .x = x[k]};
-        struct stage_run run = {.stage = &trajectory_stage, .contact = &c, .board = &b, .arena = motions_arena(), .scene = &s};
+            if (k != left_out) b.signals[items[k]] = (struct signal){.per_frame = OVER, .capacity = FRAMES, .x = x[k]};
+        struct stage_run run = {
+            .stage = &trajectory_stage, .contact = &c, .board = &b, .arena = motions_arena(), .scene = &s};
         struct err e = {0};
         memset(x, 0, sizeof x);
         ck_assert(trajectory_stage.open(&run, &e));
         ck_assert_int_eq(b.moving, 601);
-        ck_assert(trajectory_stage.run(&run, 0, 1, &e) && trajectory_stage.run(&run, 1, 400, &e) && trajectory_stage.run(&run, 400, FRAMES, &e));
+        ck_assert(trajectory_stage.run(&run, 0, 1, &e) && trajectory_stage.run(&run, 1, 400, &e) &&
+                  trajectory_stage.run(&run, 400, FRAMES, &e));
         for (int i = 0; i < FRAMES * OVER; i++) {
             struct state w = at(b.trajectory, (double)i / (1000 * OVER));
             const double want[ITEMS] = {w.u, w.v, w.a, w.p[0], w.p[1], w.vel[0], w.vel[1], w.acc[0], w.acc[1]};
@@ -372,12 +396,14 @@ START_TEST(stage_lays_out_the_board)
         }
     }
     struct board b = {.over = OVER, .rate = 1000};
-    struct stage_run run = {.stage = &trajectory_stage, .contact = &c, .board = &b, .arena = motions_arena(), .scene = &s};
+    struct stage_run run = {
+        .stage = &trajectory_stage, .contact = &c, .board = &b, .arena = motions_arena(), .scene = &s};
     struct err e = {0};
     c.motion.turns = 0;
     ck_assert(!trajectory_stage.open(&run, &e) && strstr(e.text, "contact 'rod': motion.turns"));
 }
 END_TEST
 
-UNIT("trajectory", still_stays, stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly,
-     derivatives_agree, ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)
+UNIT("trajectory", still_stays, stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours,
+     harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly, derivatives_agree, ends_hold, made_from_motion,
+     many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)

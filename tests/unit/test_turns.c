@@ -1,6 +1,7 @@
-/* Motions that stop and turn back exactly: pauses and reversals of recordings and polylines in the plane, many of them, drawn from seeds. At the
-   turns the contact's steps are of the size of the coordinates' last places, so that chords point anywhere. The force must be finite (the runner
-   refuses what is not), and from rest to rest its sum is the momentum's change: none. */
+/* Motions that stop and turn back exactly: pauses and reversals of recordings and polylines in the plane, many of them,
+   drawn from seeds. At the turns the contact's steps are of the size of the coordinates' last places, so that chords
+   point anywhere. The force must be finite (the runner refuses what is not), and from rest to rest its sum is the
+   momentum's change: none. */
 #include <unistd.h>
 
 #include "rig.h"
@@ -14,13 +15,11 @@ static char *drawn_polyline(struct arena *a, int seed)
         x += (i % 2 ? -1 : 1) * (10 + (int)(60 * drand48()));
         points = arena_format(a, "%s, [%d mm, %d mm]", points, x, seed % 3 ? 20 : 20 + i);
     }
-    return arena_format(a, "motion: {path: polyline, points: %s], duration: %.17g s}\n", points, 0.06 + 0.01 * (seed % 13));
+    return arena_format(a, "motion: {path: polyline, points: %s], duration: %.17g s}\n", points,
+                        0.06 + 0.01 * (seed % 13));
 }
 
-static double jerk(double p)
-{
-    return p < 0 ? 0 : p > 1 ? 1 : p * p * p * (10 + p * (-15 + p * 6));
-}
+static double jerk(double p) { return p < 0 ? 0 : p > 1 ? 1 : p * p * p * (10 + p * (-15 + p * 6)); }
 
 /* There, a pause, half way back, a pause, there again; positions held to `grain` m. */
 static void recording(const char *file, int seed, double grain)
@@ -31,9 +30,9 @@ static void recording(const char *file, int seed, double grain)
     srand48(seed);
     double way = 0.01 + 0.04 * drand48(), pause = 0.05 * drand48(), up = seed % 2 ? 0 : 0.02 * drand48();
     for (int i = 0; i <= 48; i++) {
-        double t = i / 120.0, s = jerk(t / 0.1) - 0.5 * jerk((t - 0.1 - pause) / 0.08) + 0.5 * jerk((t - 0.25) / 0.1), x = 0.1 + way * s, y = 0.03 + up * s;
-        if (grain > 0)
-            x = grain * rint(x / grain), y = grain * rint(y / grain);
+        double t = i / 120.0, s = jerk(t / 0.1) - 0.5 * jerk((t - 0.1 - pause) / 0.08) + 0.5 * jerk((t - 0.25) / 0.1),
+               x = 0.1 + way * s, y = 0.03 + up * s;
+        if (grain > 0) x = grain * rint(x / grain), y = grain * rint(y / grain);
         fprintf(f, "%.6f,%.9f,%.9f\n", t, x, y);
     }
     fclose(f);
@@ -53,7 +52,8 @@ static double left_over(struct scene *s, long frames)
     return fabs(sum) / all;
 }
 
-static const char *const head = "rasp: 1\nsurface: {along: plane, roughness: {rms: 4 um}}\nscraper: {mass: 20 g}\naccuracy: draft\noutput: {diagnostics: {}}\n"
+static const char *const head = "rasp: 1\nsurface: {along: plane, roughness: {rms: 4 um}}\nscraper: {mass: 20 "
+                                "g}\naccuracy: draft\noutput: {diagnostics: {}}\n"
                                 "load: {approach: 0 s, release: 0 s}\n";
 static const char *const forces[] = {"contact: {beta1: 0, smoothing: 0}\n", "contact: {force: paper, smoothing: 0}\n"};
 
@@ -81,8 +81,8 @@ START_TEST(recordings_with_pauses)
     for (int seed = 0; seed < 27; seed += 5) { /* each grain, cutoff and force */
         struct arena *a = arena_open();
         recording(file, seed, grains[seed % 3]);
-        struct scene s = rig_scene(a, arena_format(a, "%s%smotion: {path: recorded, file: %s, cutoff: %g}\n", head, forces[seed % 4 == 3], file,
-                                                   cutoffs[seed / 3 % 3]));
+        struct scene s = rig_scene(a, arena_format(a, "%s%smotion: {path: recorded, file: %s, cutoff: %g}\n", head,
+                                                   forces[seed % 4 == 3], file, cutoffs[seed / 3 % 3]));
         left_over(&s, 19203);
         arena_close(a);
     }

@@ -1,5 +1,6 @@
-/* Quantities against the doubles that the compiler makes of the same decimal number: equal to the last bit (one rounding). Degrees
-   against published decimals of pi/6 and, elsewhere, the plain formula within its three roundings. Numbers and distances of base/text.c are tested here too. */
+/* Quantities against the doubles that the compiler makes of the same decimal number: equal to the last bit (one
+   rounding). Degrees against published decimals of pi/6 and, elsewhere, the plain formula within its three roundings.
+   Numbers and distances of base/text.c are tested here too. */
 #include "scene/units.h"
 
 #include "base/text.h"
@@ -12,32 +13,104 @@ static const struct {
     enum key_dimension dimension;
     double value;
 } good[] = {
-    {"20 g", KEY_MASS, 0.02},          {"20g", KEY_MASS, 0.02},           {"1 kg", KEY_MASS, 1},           {"0.3 kg", KEY_MASS, 0.3},
-    {"7 mg", KEY_MASS, 7e-6},          {"3 ug", KEY_MASS, 3e-9},          {"5.6 um", KEY_LENGTH, 5.6e-6},  {"5.6 \xc2\xb5m", KEY_LENGTH, 5.6e-6},
-    {"5.6 \xce\xbcm", KEY_LENGTH, 5.6e-6}, {"7.5 cm", KEY_LENGTH, 0.075}, {"2.3 mm", KEY_LENGTH, 2.3e-3}, {"0.7 nm", KEY_LENGTH, 0.7e-9},
-    {"1.1 km", KEY_LENGTH, 1100},      {"3 m", KEY_LENGTH, 3},            {"3", KEY_LENGTH, 3},            {"-3 cm", KEY_LENGTH, -0.03},
-    {"+3 cm", KEY_LENGTH, 0.03},       {".5 m", KEY_LENGTH, 0.5},         {"5. m", KEY_LENGTH, 5},         {"1e-3 m", KEY_LENGTH, 1e-3},
-    {"1E2 mm", KEY_LENGTH, 0.1},       {"1e3m", KEY_LENGTH, 1000},        {"0 m", KEY_LENGTH, 0},          {"0.0 nm", KEY_LENGTH, 0},
-    {"2 Hz", KEY_FREQUENCY, 2},        {"1 kHz", KEY_FREQUENCY, 1000},    {"44.1 kHz", KEY_FREQUENCY, 44100}, {"48 kHz", KEY_FREQUENCY, 48000},
-    {"1.5 MHz", KEY_FREQUENCY, 1.5e6}, {"3 mHz", KEY_FREQUENCY, 3e-3},    {"2 GHz", KEY_FREQUENCY, 2e9},   {"10 ms", KEY_TIME, 0.01},
-    {"50 us", KEY_TIME, 50e-6},        {"50 \xc2\xb5s", KEY_TIME, 50e-6}, {"0.1 s", KEY_TIME, 0.1},        {"3 ns", KEY_TIME, 3e-9},
-    {"1.5 N", KEY_FORCE, 1.5},         {"1.7 mN", KEY_FORCE, 1.7e-3},     {"2 kN", KEY_FORCE, 2000},       {"10 cm/s", KEY_SPEED, 0.1},
-    {"3.3 mm/s", KEY_SPEED, 3.3e-3},   {"3.3 m/s", KEY_SPEED, 3.3},       {"9.81 m/s^2", KEY_ACCELERATION, 9.81}, {"9.80665 m/s2", KEY_ACCELERATION, 9.80665},
-    {"9.81 m/s\xc2\xb2", KEY_ACCELERATION, 9.81}, {"5 mm/s^2", KEY_ACCELERATION, 5e-3}, {"0.3 rad", KEY_ANGLE, 0.3}, {"3 mrad", KEY_ANGLE, 3e-3},
-    {"-3 dB", KEY_DECIBEL, -3},        {"-3", KEY_DECIBEL, -3},           {"-23", KEY_LUFS, -23},          {"-23 LUFS", KEY_LUFS, -23},
-    {"0.05", KEY_FORCE_COEFFICIENT, 0.05}, {"0.05 N s/m", KEY_FORCE_COEFFICIENT, 0.05}, {"0.05 N (s/m)^beta2", KEY_FORCE_COEFFICIENT, 0.05},
-    {"0.01", KEY_OUTPUT, 0.01},        {"10 mm/s", KEY_OUTPUT, 0.01},     {"3 um", KEY_OUTPUT, 3e-6},      {"2 m/s^2", KEY_OUTPUT, 2},
-    {"7 um/s", KEY_OUTPUT, 7e-6},      {"4 nm", KEY_OUTPUT, 4e-9},        {"0.3", KEY_NONE, 0.3},          {"-2.4", KEY_NONE, -2.4},
-    {"12.7 /mm^2", KEY_PER_AREA, 12.7e6}, {"3/cm\xc2\xb2", KEY_PER_AREA, 3e4}, {"0.3 /m2", KEY_PER_AREA, 0.3}, {"0.07 /um^2", KEY_PER_AREA, 7e10},
-    {"12 GPa", KEY_PRESSURE, 12e9},    {"0.8 MPa", KEY_PRESSURE, 0.8e6},  {"3 kPa", KEY_PRESSURE, 3000},   {"20 uPa", KEY_OUTPUT, 20e-6},
-    {"650 kg/m^3", KEY_DENSITY, 650},  {"0.65 g/cm^3", KEY_DENSITY, 650}, {"0.65 g/cm\xc2\xb3", KEY_DENSITY, 650}, {"7.1 g/m3", KEY_DENSITY, 7.1e-3},
-    {"2.2 kN/m", KEY_FORCE_PER_LENGTH, 2200}, {"3.3 N/mm", KEY_FORCE_PER_LENGTH, 3300}, {"7 N/cm", KEY_FORCE_PER_LENGTH, 700}, {"5 N/m", KEY_FORCE_PER_LENGTH, 5},
-    {"12.7 1/s", KEY_PER_TIME, 12.7},  {"12.7/s", KEY_PER_TIME, 12.7},    {"12.7 /s", KEY_PER_TIME, 12.7}, {"12.7", KEY_PER_TIME, 12.7},
-    {"2.1 MN/m", KEY_STIFFNESS, 2.1e6}, {"1.1 GN/m^1.5", KEY_STIFFNESS, 1.1e9}, {"7 N/m^(3/2)", KEY_STIFFNESS, 7}, {"3 N/mm", KEY_STIFFNESS, 3000},
-    {"5e9 N/(m^1.5 kg)", KEY_STIFFNESS_PER_MASS, 5e9}, {"2.3 MN/m^1.5/kg", KEY_STIFFNESS_PER_MASS, 2.3e6}, {"5e7", KEY_STIFFNESS_PER_MASS, 5e7},
-    {"0.3 s/m", KEY_PER_SPEED, 0.3},   {"7 ms/m", KEY_PER_SPEED, 7e-3},   {"0.1 N s/m^2.5", KEY_DISSIPATION, 0.1}, {"3 kN*s/m^2.5", KEY_DISSIPATION, 3000},
-    {"1.5 N", KEY_OUTPUT, 1.5},        {"2 kN", KEY_OUTPUT, 2000},
-    {"1e-300", KEY_NONE, 1e-300},      {"0e999", KEY_NONE, 0},
+    {"20 g", KEY_MASS, 0.02},
+    {"20g", KEY_MASS, 0.02},
+    {"1 kg", KEY_MASS, 1},
+    {"0.3 kg", KEY_MASS, 0.3},
+    {"7 mg", KEY_MASS, 7e-6},
+    {"3 ug", KEY_MASS, 3e-9},
+    {"5.6 um", KEY_LENGTH, 5.6e-6},
+    {"5.6 \xc2\xb5m", KEY_LENGTH, 5.6e-6},
+    {"5.6 \xce\xbcm", KEY_LENGTH, 5.6e-6},
+    {"7.5 cm", KEY_LENGTH, 0.075},
+    {"2.3 mm", KEY_LENGTH, 2.3e-3},
+    {"0.7 nm", KEY_LENGTH, 0.7e-9},
+    {"1.1 km", KEY_LENGTH, 1100},
+    {"3 m", KEY_LENGTH, 3},
+    {"3", KEY_LENGTH, 3},
+    {"-3 cm", KEY_LENGTH, -0.03},
+    {"+3 cm", KEY_LENGTH, 0.03},
+    {".5 m", KEY_LENGTH, 0.5},
+    {"5. m", KEY_LENGTH, 5},
+    {"1e-3 m", KEY_LENGTH, 1e-3},
+    {"1E2 mm", KEY_LENGTH, 0.1},
+    {"1e3m", KEY_LENGTH, 1000},
+    {"0 m", KEY_LENGTH, 0},
+    {"0.0 nm", KEY_LENGTH, 0},
+    {"2 Hz", KEY_FREQUENCY, 2},
+    {"1 kHz", KEY_FREQUENCY, 1000},
+    {"44.1 kHz", KEY_FREQUENCY, 44100},
+    {"48 kHz", KEY_FREQUENCY, 48000},
+    {"1.5 MHz", KEY_FREQUENCY, 1.5e6},
+    {"3 mHz", KEY_FREQUENCY, 3e-3},
+    {"2 GHz", KEY_FREQUENCY, 2e9},
+    {"10 ms", KEY_TIME, 0.01},
+    {"50 us", KEY_TIME, 50e-6},
+    {"50 \xc2\xb5s", KEY_TIME, 50e-6},
+    {"0.1 s", KEY_TIME, 0.1},
+    {"3 ns", KEY_TIME, 3e-9},
+    {"1.5 N", KEY_FORCE, 1.5},
+    {"1.7 mN", KEY_FORCE, 1.7e-3},
+    {"2 kN", KEY_FORCE, 2000},
+    {"10 cm/s", KEY_SPEED, 0.1},
+    {"3.3 mm/s", KEY_SPEED, 3.3e-3},
+    {"3.3 m/s", KEY_SPEED, 3.3},
+    {"9.81 m/s^2", KEY_ACCELERATION, 9.81},
+    {"9.80665 m/s2", KEY_ACCELERATION, 9.80665},
+    {"9.81 m/s\xc2\xb2", KEY_ACCELERATION, 9.81},
+    {"5 mm/s^2", KEY_ACCELERATION, 5e-3},
+    {"0.3 rad", KEY_ANGLE, 0.3},
+    {"3 mrad", KEY_ANGLE, 3e-3},
+    {"-3 dB", KEY_DECIBEL, -3},
+    {"-3", KEY_DECIBEL, -3},
+    {"-23", KEY_LUFS, -23},
+    {"-23 LUFS", KEY_LUFS, -23},
+    {"0.05", KEY_FORCE_COEFFICIENT, 0.05},
+    {"0.05 N s/m", KEY_FORCE_COEFFICIENT, 0.05},
+    {"0.05 N (s/m)^beta2", KEY_FORCE_COEFFICIENT, 0.05},
+    {"0.01", KEY_OUTPUT, 0.01},
+    {"10 mm/s", KEY_OUTPUT, 0.01},
+    {"3 um", KEY_OUTPUT, 3e-6},
+    {"2 m/s^2", KEY_OUTPUT, 2},
+    {"7 um/s", KEY_OUTPUT, 7e-6},
+    {"4 nm", KEY_OUTPUT, 4e-9},
+    {"0.3", KEY_NONE, 0.3},
+    {"-2.4", KEY_NONE, -2.4},
+    {"12.7 /mm^2", KEY_PER_AREA, 12.7e6},
+    {"3/cm\xc2\xb2", KEY_PER_AREA, 3e4},
+    {"0.3 /m2", KEY_PER_AREA, 0.3},
+    {"0.07 /um^2", KEY_PER_AREA, 7e10},
+    {"12 GPa", KEY_PRESSURE, 12e9},
+    {"0.8 MPa", KEY_PRESSURE, 0.8e6},
+    {"3 kPa", KEY_PRESSURE, 3000},
+    {"20 uPa", KEY_OUTPUT, 20e-6},
+    {"650 kg/m^3", KEY_DENSITY, 650},
+    {"0.65 g/cm^3", KEY_DENSITY, 650},
+    {"0.65 g/cm\xc2\xb3", KEY_DENSITY, 650},
+    {"7.1 g/m3", KEY_DENSITY, 7.1e-3},
+    {"2.2 kN/m", KEY_FORCE_PER_LENGTH, 2200},
+    {"3.3 N/mm", KEY_FORCE_PER_LENGTH, 3300},
+    {"7 N/cm", KEY_FORCE_PER_LENGTH, 700},
+    {"5 N/m", KEY_FORCE_PER_LENGTH, 5},
+    {"12.7 1/s", KEY_PER_TIME, 12.7},
+    {"12.7/s", KEY_PER_TIME, 12.7},
+    {"12.7 /s", KEY_PER_TIME, 12.7},
+    {"12.7", KEY_PER_TIME, 12.7},
+    {"2.1 MN/m", KEY_STIFFNESS, 2.1e6},
+    {"1.1 GN/m^1.5", KEY_STIFFNESS, 1.1e9},
+    {"7 N/m^(3/2)", KEY_STIFFNESS, 7},
+    {"3 N/mm", KEY_STIFFNESS, 3000},
+    {"5e9 N/(m^1.5 kg)", KEY_STIFFNESS_PER_MASS, 5e9},
+    {"2.3 MN/m^1.5/kg", KEY_STIFFNESS_PER_MASS, 2.3e6},
+    {"5e7", KEY_STIFFNESS_PER_MASS, 5e7},
+    {"0.3 s/m", KEY_PER_SPEED, 0.3},
+    {"7 ms/m", KEY_PER_SPEED, 7e-3},
+    {"0.1 N s/m^2.5", KEY_DISSIPATION, 0.1},
+    {"3 kN*s/m^2.5", KEY_DISSIPATION, 3000},
+    {"1.5 N", KEY_OUTPUT, 1.5},
+    {"2 kN", KEY_OUTPUT, 2000},
+    {"1e-300", KEY_NONE, 1e-300},
+    {"0e999", KEY_NONE, 0},
 };
 
 START_TEST(test_good)
@@ -56,7 +129,10 @@ END_TEST
 /* Every thousandth from 0.001 to 20 with each prefix equals the literal with the exponent, which strtod rounds once. */
 START_TEST(test_one_rounding)
 {
-    static const struct { const char *unit; int power; } units[] = {{"nm", -9}, {"um", -6}, {"mm", -3}, {"cm", -2}, {"km", 3}};
+    static const struct {
+        const char *unit;
+        int power;
+    } units[] = {{"nm", -9}, {"um", -6}, {"mm", -3}, {"cm", -2}, {"km", 3}};
     struct arena *a = arena_open();
     int multiplied_differs = 0;
     for (size_t u = 0; u < 5; u++)
@@ -88,7 +164,8 @@ START_TEST(test_degrees)
         char text[32];
         snprintf(text, sizeof text, "%.1f deg", i / 10.0);
         ck_assert(units_read(text, KEY_ANGLE, &x, a, &fault));
-        ck_assert_msg(fabs(x - i * pi / 1800) <= 2.3e-16 * x * 2, "%s", text); /* the plain formula rounds three times */
+        ck_assert_msg(fabs(x - i * pi / 1800) <= 2.3e-16 * x * 2, "%s",
+                      text); /* the plain formula rounds three times */
     }
     arena_close(a);
 }
@@ -187,10 +264,18 @@ END_TEST
 
 START_TEST(test_text)
 {
-    static const struct { double x; enum key_dimension d; const char *text; } rows[] = {
-        {0.02, KEY_MASS, "20 g"}, {1e-9, KEY_LENGTH, "1 nm"}, {50e-6, KEY_TIME, "50 us"}, {48000, KEY_FREQUENCY, "48 kHz"}, {0, KEY_TIME, "0 s"},
-        {-0.03, KEY_LENGTH, "-30 mm"}, {0.5, KEY_NONE, "0.5"}, {1000, KEY_MASS, "1000 kg"}, {3600, KEY_TIME, "3600 s"}, {-200, KEY_DECIBEL, "-200 dB"},
-        {1e-30, KEY_OUTPUT, "1e-30"}, {1.5707, KEY_ANGLE, "1.5707 rad"}, {1e5, KEY_FORCE, "100 kN"}, {1.5e7, KEY_PER_AREA, "15 /mm^2"}, {1, KEY_PER_AREA, "1 /m^2"}, {1e6, KEY_FORCE_COEFFICIENT, "1000000 N s/m"}};
+    static const struct {
+        double x;
+        enum key_dimension d;
+        const char *text;
+    } rows[] = {{0.02, KEY_MASS, "20 g"},     {1e-9, KEY_LENGTH, "1 nm"},
+                {50e-6, KEY_TIME, "50 us"},   {48000, KEY_FREQUENCY, "48 kHz"},
+                {0, KEY_TIME, "0 s"},         {-0.03, KEY_LENGTH, "-30 mm"},
+                {0.5, KEY_NONE, "0.5"},       {1000, KEY_MASS, "1000 kg"},
+                {3600, KEY_TIME, "3600 s"},   {-200, KEY_DECIBEL, "-200 dB"},
+                {1e-30, KEY_OUTPUT, "1e-30"}, {1.5707, KEY_ANGLE, "1.5707 rad"},
+                {1e5, KEY_FORCE, "100 kN"},   {1.5e7, KEY_PER_AREA, "15 /mm^2"},
+                {1, KEY_PER_AREA, "1 /m^2"},  {1e6, KEY_FORCE_COEFFICIENT, "1000000 N s/m"}};
     struct arena *a = arena_open();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         ck_assert_str_eq(units_text(rows[i].x, rows[i].d, a), rows[i].text);
@@ -212,9 +297,12 @@ START_TEST(test_numbers)
     double x;
     int i;
     uint64_t u;
-    ck_assert(text_double("2.5", &x) && x == 2.5 && !text_double("2.5 ", &x) && !text_double("", &x) && !text_double(".", &x) && !text_double("1e", &x));
-    ck_assert(text_int("-12", -20, 20, &i) && i == -12 && !text_int("21", -20, 20, &i) && !text_int("1x", -20, 20, &i) && !text_int("99999999999", 0, 9, &i));
-    ck_assert(text_u64("18446744073709551615", &u) && u == UINT64_MAX && !text_u64("18446744073709551616", &u) && !text_u64("-1", &u) && !text_u64("", &u));
+    ck_assert(text_double("2.5", &x) && x == 2.5 && !text_double("2.5 ", &x) && !text_double("", &x) &&
+              !text_double(".", &x) && !text_double("1e", &x));
+    ck_assert(text_int("-12", -20, 20, &i) && i == -12 && !text_int("21", -20, 20, &i) &&
+              !text_int("1x", -20, 20, &i) && !text_int("99999999999", 0, 9, &i));
+    ck_assert(text_u64("18446744073709551615", &u) && u == UINT64_MAX && !text_u64("18446744073709551616", &u) &&
+              !text_u64("-1", &u) && !text_u64("", &u));
     ck_assert_uint_eq(text_number_length("1e5m"), 3);
     ck_assert_uint_eq(text_number_length("5em"), 1);
     ck_assert_uint_eq(text_number_length("-.5x"), 3);
@@ -224,10 +312,11 @@ END_TEST
 START_TEST(test_distance)
 {
     static const char *const names[] = {"trajectory", "rate", "rasp", "motion", NULL};
-    ck_assert_int_eq(text_distance("trajetcory", "trajectory"), 1); /* neighbours exchanged: Levenshtein's distance is 2 */
+    ck_assert_int_eq(text_distance("trajetcory", "trajectory"),
+                     1); /* neighbours exchanged: Levenshtein's distance is 2 */
     ck_assert_int_eq(text_distance("kitten", "sitting"), 3);
     ck_assert_int_eq(text_distance("", "abc"), 3);
-    ck_assert_int_eq(text_distance("ca", "abc"), 3);                /* optimal string alignment */
+    ck_assert_int_eq(text_distance("ca", "abc"), 3); /* optimal string alignment */
     ck_assert_int_eq(text_distance("same", "same"), 0);
     ck_assert_str_eq(text_nearest("trajetcory", names), "trajectory");
     ck_assert_str_eq(text_nearest("mtoion", names), "motion");
@@ -238,15 +327,30 @@ END_TEST
 
 START_TEST(test_utf8)
 {
-    static const struct { const char *s; int n; uint32_t code; } rows[] = {
-        {"a", 1, 'a'}, {"\xc2\xb5", 2, 0xb5}, {"\xe2\x82\xac", 3, 0x20ac}, {"\xf0\x9f\x98\x80", 4, 0x1f600}, {"\xc0\x80", 0, 0}, {"\x80", 0, 0},
-        {"\xed\xa0\x80", 0, 0}, {"\xf4\x90\x80\x80", 0, 0}, {"\xe0\x80\xaf", 0, 0}, {"\xc2", 0, 0}, {"\xff", 0, 0}, {"\xf0\x8f\xbf\xbf", 0, 0}};
+    static const struct {
+        const char *s;
+        int n;
+        uint32_t code;
+    } rows[] = {{"a", 1, 'a'},
+                {"\xc2\xb5", 2, 0xb5},
+                {"\xe2\x82\xac", 3, 0x20ac},
+                {"\xf0\x9f\x98\x80", 4, 0x1f600},
+                {"\xc0\x80", 0, 0},
+                {"\x80", 0, 0},
+                {"\xed\xa0\x80", 0, 0},
+                {"\xf4\x90\x80\x80", 0, 0},
+                {"\xe0\x80\xaf", 0, 0},
+                {"\xc2", 0, 0},
+                {"\xff", 0, 0},
+                {"\xf0\x8f\xbf\xbf", 0, 0}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         uint32_t code = 0;
-        ck_assert_msg(text_utf8(rows[i].s, strlen(rows[i].s), &code) == rows[i].n && code == rows[i].code, "row %zu", i);
+        ck_assert_msg(text_utf8(rows[i].s, strlen(rows[i].s), &code) == rows[i].n && code == rows[i].code, "row %zu",
+                      i);
     }
     ck_assert_uint_eq(text_utf8_count("5 \xc2\xb5m\xff", 6), 5);
 }
 END_TEST
 
-UNIT("units", test_good, test_one_rounding, test_degrees, test_bad, test_long, test_text, test_numbers, test_distance, test_utf8)
+UNIT("units", test_good, test_one_rounding, test_degrees, test_bad, test_long, test_text, test_numbers, test_distance,
+     test_utf8)

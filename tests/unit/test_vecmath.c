@@ -1,9 +1,9 @@
-/* vecmath against long double (64-bit significand: the references are within 1e-3 ulp of a double), its special values, and one
-   hash of all results that every compiler, optimisation level and instruction set must reproduce. */
+/* vecmath against long double (64-bit significand: the references are within 1e-3 ulp of a double), its special values,
+   and one hash of all results that every compiler, optimisation level and instruction set must reproduce. */
 #include "num/vecmath.h"
 
-#include <float.h>
 #include <fenv.h>
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 
@@ -65,10 +65,7 @@ static double worst(const struct trial *t)
     return most;
 }
 
-static long double softplus2l(long double x)
-{
-    return log1pl(expl(-2 * fabsl(x)));
-}
+static long double softplus2l(long double x) { return log1pl(expl(-2 * fabsl(x))); }
 
 /* Bounds: those of num/vecmath.h where it gives ulp; what is measured is printed. */
 START_TEST(errors)
@@ -159,8 +156,8 @@ END_TEST
 /* y is exactly the value wanted, sign of zero included; or both are NaN. */
 static void expect(const char *name, double x, double y, double want)
 {
-    ck_assert_msg((isnan(want) && isnan(y)) || (y == want && signbit(y) == signbit(want)), "%s(%a) = %a, not %a", name, x, y,
-                  want);
+    ck_assert_msg((isnan(want) && isnan(y)) || (y == want && signbit(y) == signbit(want)), "%s(%a) = %a, not %a", name,
+                  x, y, want);
 }
 
 START_TEST(special_values)
@@ -170,18 +167,37 @@ START_TEST(special_values)
         void (*f)(size_t n, const double *x, double *y);
         double x, want;
     } special[] = {
-        {"exp", vecmath_exp, 0, 1}, {"exp", vecmath_exp, -0.0, 1}, {"exp", vecmath_exp, -HUGE_VAL, 0},
-        {"exp", vecmath_exp, HUGE_VAL, HUGE_VAL}, {"exp", vecmath_exp, -708.4, 0}, {"exp", vecmath_exp, -1e300, 0},
-        {"exp", vecmath_exp, 709.781, HUGE_VAL}, {"exp", vecmath_exp, 709.8, HUGE_VAL}, {"exp", vecmath_exp, 1e300, HUGE_VAL}, {"exp", vecmath_exp, NAN, NAN},
-        {"exp", vecmath_exp, __builtin_nan("0xfff"), NAN}, {"tanh", vecmath_tanh, __builtin_nan("0xfff"), NAN},
-        {"log", vecmath_log, 1, 0}, {"log", vecmath_log, 0, -HUGE_VAL}, {"log", vecmath_log, -0.0, -HUGE_VAL},
-        {"log", vecmath_log, -1, NAN}, {"log", vecmath_log, -HUGE_VAL, NAN}, {"log", vecmath_log, HUGE_VAL, HUGE_VAL},
-        {"log", vecmath_log, NAN, NAN}, {"log", vecmath_log, -DBL_TRUE_MIN, NAN},
-        {"tanh", vecmath_tanh, 0, 0}, {"tanh", vecmath_tanh, -0.0, -0.0}, {"tanh", vecmath_tanh, HUGE_VAL, 1},
-        {"tanh", vecmath_tanh, -HUGE_VAL, -1}, {"tanh", vecmath_tanh, 1e300, 1}, {"tanh", vecmath_tanh, NAN, NAN},
+        {"exp", vecmath_exp, 0, 1},
+        {"exp", vecmath_exp, -0.0, 1},
+        {"exp", vecmath_exp, -HUGE_VAL, 0},
+        {"exp", vecmath_exp, HUGE_VAL, HUGE_VAL},
+        {"exp", vecmath_exp, -708.4, 0},
+        {"exp", vecmath_exp, -1e300, 0},
+        {"exp", vecmath_exp, 709.781, HUGE_VAL},
+        {"exp", vecmath_exp, 709.8, HUGE_VAL},
+        {"exp", vecmath_exp, 1e300, HUGE_VAL},
+        {"exp", vecmath_exp, NAN, NAN},
+        {"exp", vecmath_exp, __builtin_nan("0xfff"), NAN},
+        {"tanh", vecmath_tanh, __builtin_nan("0xfff"), NAN},
+        {"log", vecmath_log, 1, 0},
+        {"log", vecmath_log, 0, -HUGE_VAL},
+        {"log", vecmath_log, -0.0, -HUGE_VAL},
+        {"log", vecmath_log, -1, NAN},
+        {"log", vecmath_log, -HUGE_VAL, NAN},
+        {"log", vecmath_log, HUGE_VAL, HUGE_VAL},
+        {"log", vecmath_log, NAN, NAN},
+        {"log", vecmath_log, -DBL_TRUE_MIN, NAN},
+        {"tanh", vecmath_tanh, 0, 0},
+        {"tanh", vecmath_tanh, -0.0, -0.0},
+        {"tanh", vecmath_tanh, HUGE_VAL, 1},
+        {"tanh", vecmath_tanh, -HUGE_VAL, -1},
+        {"tanh", vecmath_tanh, 1e300, 1},
+        {"tanh", vecmath_tanh, NAN, NAN},
         {"tanh", vecmath_tanh, -DBL_TRUE_MIN, -DBL_TRUE_MIN},
-        {"softplus2", vecmath_softplus2, HUGE_VAL, 0}, {"softplus2", vecmath_softplus2, -1e300, 0},
-        {"softplus2", vecmath_softplus2, NAN, NAN}, {"softplus2", vecmath_softplus2, 0, 0x1.62e42fefa39efp-1},
+        {"softplus2", vecmath_softplus2, HUGE_VAL, 0},
+        {"softplus2", vecmath_softplus2, -1e300, 0},
+        {"softplus2", vecmath_softplus2, NAN, NAN},
+        {"softplus2", vecmath_softplus2, 0, 0x1.62e42fefa39efp-1},
     };
     for (size_t i = 0; i < sizeof special / sizeof special[0]; i++) {
         double y;
@@ -196,9 +212,25 @@ START_TEST(special_powers)
     static const struct {
         double x, p, want;
     } special[] = {
-        {0, 0.5, 0}, {0, 2, 0}, {-0.0, 2, 0}, {0, -1, HUGE_VAL}, {0, 0, 1}, {HUGE_VAL, 0.5, HUGE_VAL}, {HUGE_VAL, -2, 0},
-        {1, 123.4, 1}, {-1, 0.5, NAN}, {NAN, 2, NAN}, {NAN, 0, 1}, {0.7, 1, 0.7}, {0, 1, 0}, {10, 400, HUGE_VAL}, {10, -400, 0},
-        {2, 1023, 0x1p1023}, {1e300, 1e300, HUGE_VAL}, {1e300, -1e300, 0}, {2, NAN, NAN},
+        {0, 0.5, 0},
+        {0, 2, 0},
+        {-0.0, 2, 0},
+        {0, -1, HUGE_VAL},
+        {0, 0, 1},
+        {HUGE_VAL, 0.5, HUGE_VAL},
+        {HUGE_VAL, -2, 0},
+        {1, 123.4, 1},
+        {-1, 0.5, NAN},
+        {NAN, 2, NAN},
+        {NAN, 0, 1},
+        {0.7, 1, 0.7},
+        {0, 1, 0},
+        {10, 400, HUGE_VAL},
+        {10, -400, 0},
+        {2, 1023, 0x1p1023},
+        {1e300, 1e300, HUGE_VAL},
+        {1e300, -1e300, 0},
+        {2, NAN, NAN},
     };
     for (size_t i = 0; i < sizeof special / sizeof special[0]; i++) {
         double y;
@@ -262,7 +294,8 @@ static void arguments(double *x)
 {
     uint64_t state = 4;
     for (int i = 0; i < MANY; i++) {
-        double kinds[] = {uniform(&state, -3, 3), uniform(&state, -750, 750), decades(&state, 1e-300, 1e300), 0.25 * i, 1 + 1e-9 * i};
+        double kinds[] = {uniform(&state, -3, 3), uniform(&state, -750, 750), decades(&state, 1e-300, 1e300), 0.25 * i,
+                          1 + 1e-9 * i};
         x[i] = kinds[i % 5];
     }
     x[17] = NAN, x[18] = HUGE_VAL, x[19] = -HUGE_VAL, x[20] = -0.0;
@@ -304,5 +337,5 @@ START_TEST(same_bits_in_any_piece)
 }
 END_TEST
 
-UNIT("vecmath", errors, power, sine_and_cosine, sine_and_cosine_exact_at_quarters, special_values, special_powers, no_exceptions,
-     tanh_and_softplus_together, same_bits_in_every_build, same_bits_in_any_piece)
+UNIT("vecmath", errors, power, sine_and_cosine, sine_and_cosine_exact_at_quarters, special_values, special_powers,
+     no_exceptions, tanh_and_softplus_together, same_bits_in_every_build, same_bits_in_any_piece)

@@ -6,10 +6,7 @@
 static struct arena *a;
 static struct warning *all;
 
-static void add(const char *file, const char *text, bool exact)
-{
-    tell_add(&all, file, text, exact, a);
-}
+static void add(const char *file, const char *text, bool exact) { tell_add(&all, file, text, exact, a); }
 
 /* "text [files]" of each, with a + where some have other numbers. */
 static const char *listed(void)
@@ -49,7 +46,8 @@ START_TEST(test_other_numbers)
     add("e", "cut at four s (-3.5 dB)", false);
     add("f", "cut at 4 s", false);
     add("g", "cut at 4", false);
-    ck_assert_str_eq(listed(), "cut at 4 s (-3.5 dB)+ [a b c]; cut at 4 m (-3.5 dB) [d]; cut at four s (-3.5 dB) [e]; cut at 4 s [f]; cut at 4 [g]");
+    ck_assert_str_eq(listed(), "cut at 4 s (-3.5 dB)+ [a b c]; cut at 4 m (-3.5 dB) [d]; cut at four s (-3.5 dB) [e]; "
+                               "cut at 4 s [f]; cut at 4 [g]");
     arena_close(a);
 }
 END_TEST
@@ -68,7 +66,8 @@ START_TEST(test_one_file)
 }
 END_TEST
 
-/* What it tells with the numbers of an earlier file counts as told by that one, which is not lost when its own come, too. */
+/* What it tells with the numbers of an earlier file counts as told by that one, which is not lost when its own come,
+ * too. */
 START_TEST(test_crossed)
 {
     a = arena_open();
@@ -94,7 +93,9 @@ START_TEST(test_names)
     add("c", "irs/hit-1.csv: 3 modes", false);
     add("d", "irs/hit-2.csv: 3 modes", false);
     add("e", "irs/hit-2.csv: 4 modes", false);
-    ck_assert_str_eq(listed(), "contact 'c1': off [a]; contact 'c2': off [b]; irs/hit-1.csv: 3 modes [c]; irs/hit-2.csv: 3 modes+ [d e]");
+    ck_assert_str_eq(
+        listed(),
+        "contact 'c1': off [a]; contact 'c2': off [b]; irs/hit-1.csv: 3 modes [c]; irs/hit-2.csv: 3 modes+ [d e]");
     arena_close(a);
 }
 END_TEST

@@ -1,4 +1,5 @@
-/* base/watch.c: a file that is written anew has changed, though its bytes, its size and the time that programs may set are those of before; one that is only read has not. */
+/* base/watch.c: a file that is written anew has changed, though its bytes, its size and the time that programs may set
+ * are those of before; one that is only read has not. */
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -47,8 +47,7 @@ static uint32_t word(size_t at)
 static size_t chunk(const char *name, size_t n)
 {
     for (size_t at = 12; at + 8 <= n; at += 8 + word(at + 4) + word(at + 4) % 2)
-        if (!memcmp(disk + at, name, 4))
-            return at + 8;
+        if (!memcmp(disk + at, name, 4)) return at + 8;
     return 0;
 }
 
@@ -75,7 +74,8 @@ END_TEST
 
 START_TEST(rounds_to_nearest_even)
 {
-    const double q = 1.0 / 8388608, x[] = {0.5 * q, 1.5 * q, -0.5 * q, -1.5 * q, 0.499 * q, 2.501 * q, 1 - 0.51 * q - q};
+    const double q = 1.0 / 8388608,
+                 x[] = {0.5 * q, 1.5 * q, -0.5 * q, -1.5 * q, 0.499 * q, 2.501 * q, 1 - 0.51 * q - q};
     const int want[] = {0, 2, 0, -2, 0, 3, 8388606};
     folder_enter();
     put("a.wav", (struct wav_format){.rate = 48000, .channels = 1, .bits = 24}, x, 7);
@@ -146,7 +146,9 @@ static void check_round_trip(struct wav_format f)
     uint32_t s = 1;
     for (size_t i = 0; i < FRAMES * 3; i++) {
         s = s * 1664525 + 1013904223;
-        x[i] = f.bits == 16 ? (int16_t)(s >> 16) / 32768.0 : f.bits == 24 ? ((int)(s >> 8) - 8388608) / 8388608.0 : (float)(s * 1e-9);
+        x[i] = f.bits == 16   ? (int16_t)(s >> 16) / 32768.0
+               : f.bits == 24 ? ((int)(s >> 8) - 8388608) / 8388608.0
+                              : (float)(s * 1e-9);
     }
     struct wav_out *w = wav_create("a.wav", &f, &e);
     ck_assert_msg(w != NULL, "%s", e.text);
@@ -220,10 +222,12 @@ static void check_create(const char *path, struct wav_format f, enum err_kind ki
 START_TEST(create_refuses)
 {
     folder_enter();
-    check_create("no/a.wav", (struct wav_format){.rate = 48000, .channels = 1, .bits = 16}, ERR_CREATE, "folder does not exist");
+    check_create("no/a.wav", (struct wav_format){.rate = 48000, .channels = 1, .bits = 16}, ERR_CREATE,
+                 "folder does not exist");
     check_create("/tmp", (struct wav_format){.rate = 48000, .channels = 1, .bits = 16}, ERR_CREATE, "is a folder");
     check_create("a.wav", (struct wav_format){.rate = 48000, .channels = 1, .bits = 20}, ERR_SCENE, "20 bits");
-    check_create("a.wav", (struct wav_format){.rate = 48000.5, .channels = 1, .bits = 16}, ERR_SCENE, "whole number of Hz");
+    check_create("a.wav", (struct wav_format){.rate = 48000.5, .channels = 1, .bits = 16}, ERR_SCENE,
+                 "whole number of Hz");
     check_create("a.wav", (struct wav_format){.rate = NAN, .channels = 1, .bits = 16}, ERR_SCENE, "whole number of Hz");
     check_create("a.wav", (struct wav_format){.rate = 48000, .channels = 0, .bits = 16}, ERR_SCENE, "channels");
     wav_drop(NULL);
@@ -315,5 +319,5 @@ START_TEST(drop_leaves_nothing)
 }
 END_TEST
 
-UNIT("wav", layout_of_plain_pcm, rounds_to_nearest_even, title_comment_and_no_peak, same_bytes_a_second_later, round_trips,
-     nothing_is_clipped, create_refuses, full_disk, read_refuses, drop_leaves_nothing)
+UNIT("wav", layout_of_plain_pcm, rounds_to_nearest_even, title_comment_and_no_peak, same_bytes_a_second_later,
+     round_trips, nothing_is_clipped, create_refuses, full_disk, read_refuses, drop_leaves_nothing)

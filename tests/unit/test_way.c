@@ -1,5 +1,6 @@
-/* way: the pieces of straight, turning and curved motions against the geometry they must keep: they tile what is travelled, lie on the path, and
-   cross no line of knots; what is said of each (halves, bulges, directions, slopes) against the surface read directly. */
+/* way: the pieces of straight, turning and curved motions against the geometry they must keep: they tile what is
+   travelled, lie on the path, and cross no line of knots; what is said of each (halves, bulges, directions, slopes)
+   against the surface read directly. */
 #include "force/way.h"
 
 #include "surface/limiter.h"
@@ -12,7 +13,8 @@ enum { MOST = 60000, FRAMES = 600 };
 
 static struct {
     int n, interval[MOST], heading[MOST], flushes;
-    double length[MOST], ends[MOST][2][2], e[MOST][2][2], c[MOST][2][2], bulge[MOST][2], alpha[MOST][2], slope[MOST][2], bend[MOST][2], mean[MOST];
+    double length[MOST], ends[MOST][2][2], e[MOST][2][2], c[MOST][2][2], bulge[MOST][2], alpha[MOST][2], slope[MOST][2],
+        bend[MOST][2], mean[MOST];
 } all;
 
 static int first_interval;
@@ -66,7 +68,8 @@ static void prepare(const struct motion *m, double rate, int over)
         x[k] = ARENA_TAKE(arena, double, n);
         board.signals[items[k]] = (struct signal){over, 0, FRAMES + 1, 0, x[k]};
     }
-    trajectory_at(&motion, n, t, (struct trajectory_out){.u = x[0], .du = x[1], .x = x[2], .y = x[3], .vx = x[4], .vy = x[5]});
+    trajectory_at(&motion, n, t,
+                  (struct trajectory_out){.u = x[0], .du = x[1], .x = x[2], .y = x[3], .vx = x[4], .vy = x[5]});
     run = (struct stage_run){.contact = &contact, .board = &board, .arena = arena};
 }
 
@@ -97,8 +100,7 @@ static void surface_plane(int maps)
     static const double other[2] = {4.1e-6, 4.7e-6}, there[2] = {1e-3, -2e-3};
     relief = (struct relief){.along = ALONG_PLANE};
     relief_add(&relief, random_map(pitch, origin));
-    if (maps > 1)
-        relief_add(&relief, random_map(other, there));
+    if (maps > 1) relief_add(&relief, random_map(other, there));
 }
 
 static void surface_profile(int along)
@@ -107,7 +109,8 @@ static void surface_profile(int along)
     for (int i = 0; i < 300; i++)
         z[i] = 1e-7 * drand48();
     relief = (struct relief){.along = along};
-    relief_add(&relief, profile_part(arena, profile_from_samples(arena, z, 300, pitch[0], OFF_MAP_MIRROR), "profile", origin[0]));
+    relief_add(&relief, profile_part(arena, profile_from_samples(arena, z, 300, pitch[0], OFF_MAP_MIRROR), "profile",
+                                     origin[0]));
 }
 
 /* ------------------------------------------------------------------ checks */
@@ -119,7 +122,8 @@ static double u_at(double t)
     return u;
 }
 
-/* Lengths add up to what is travelled in each sub-interval; points are chained. slip: m, by which neighbours' common points may differ. */
+/* Lengths add up to what is travelled in each sub-interval; points are chained. slip: m, by which neighbours' common
+ * points may differ. */
 static void check_tiling(int n, double slip)
 {
     double dt = 1 / (board.rate * board.over), here = 0;
@@ -165,7 +169,8 @@ static void check_pairs(void)
         for (int k = 0; k < 3; k++) {
             const double *at = all.ends[i + k / 2][k > 0 ? 1 : 0], *e = all.e[i + k / 2][k > 0 ? 1 : 0];
             double xx, xy, yy, ex = e[0], ey = e[1];
-            relief_at(&relief, &(struct relief_points){1, &at[0], &at[1]}, &(struct relief_values){.xx = &xx, .xy = &xy, .yy = &yy});
+            relief_at(&relief, &(struct relief_points){1, &at[0], &at[1]},
+                      &(struct relief_values){.xx = &xx, .xy = &xy, .yy = &yy});
             h[k][0] = ex * ex * xx + 2 * ex * ey * xy + ey * ey * yy;
             h[k][1] = -ex * ey * xx + (ex * ex - ey * ey) * xy + ex * ey * yy;
             size = fmax(size, fabs(xx) + fabs(xy) + fabs(yy));
@@ -174,7 +179,8 @@ static void check_pairs(void)
             for (int half = 0; half < 2; half++) {
                 ck_assert_double_eq_tol(all.c[i + half][0][channel], h[half][channel], 1e-14 * size);
                 ck_assert_double_eq_tol(all.c[i + half][1][channel], h[half + 1][channel], 1e-14 * size);
-                ck_assert_double_eq_tol(all.bulge[i + half][channel], (h[1][channel] - (h[0][channel] + h[2][channel]) / 2) / 4, 1e-14 * size);
+                ck_assert_double_eq_tol(all.bulge[i + half][channel],
+                                        (h[1][channel] - (h[0][channel] + h[2][channel]) / 2) / 4, 1e-14 * size);
             }
     }
 }
@@ -187,7 +193,10 @@ START_TEST(straight_ways)
     static const double to[][2] = {{2e-3, 0}, {-1e-3, 1.5e-3}, {0, 1e-3}, {1e-3, 1e-3}, {3e-4, -2e-3}, {-1e-3, -1e-9}};
     for (int k = 0; k < 30; k++) {
         double far = k % 5 == 4 ? 3 : 0, *place = (double[]){far + 1e-3, far - 1e-3};
-        struct motion m = {.path = PATH_LINE, .from = {place[0], place[1]}, .to = {place[0] + to[k % 6][0], place[1] + to[k % 6][1]}, .speed = NAN,
+        struct motion m = {.path = PATH_LINE,
+                           .from = {place[0], place[1]},
+                           .to = {place[0] + to[k % 6][0], place[1] + to[k % 6][1]},
+                           .speed = NAN,
                            .duration = 0.01};
         arena = arena_open();
         srand48(k);
@@ -197,7 +206,8 @@ START_TEST(straight_ways)
             surface_plane(1 + k % 2);
         prepare(&m, 48000, 1 + k % 4);
         travel(WAY_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, WAY_CHUNK);
-        ck_assert(way.halves == (k >= 12) && way.n_grids == (k < 12 ? 1 : 2 + 2 * (k % 2)) && way.channels == 1 && !way.curved);
+        ck_assert(way.halves == (k >= 12) && way.n_grids == (k < 12 ? 1 : 2 + 2 * (k % 2)) && way.channels == 1 &&
+                  !way.curved);
         check_tiling(480 * board.over, 1e-16 + 1e-15 * far);
         if (k >= 12) {
             check_knots(2e-7);
@@ -236,15 +246,21 @@ END_TEST
 
 /* ------------------------------------------------------------------ curved */
 
-/* Circles of a tenth of a millimetre to a metre, from each quadrant's border, either way round: on the circle, tangent, and cut at
-   knots. Where a circle touches a line of knots between two places, a piece goes over it by h^2 / (8 radius). */
+/* Circles of a tenth of a millimetre to a metre, from each quadrant's border, either way round: on the circle, tangent,
+   and cut at knots. Where a circle touches a line of knots between two places, a piece goes over it by h^2 / (8
+   radius). */
 START_TEST(circles)
 {
     static const double radii[] = {1e-4, 1e-3, 1e-2, 1};
     for (int k = 0; k < 32; k++) {
         double radius = radii[k / 8], step = 0.2 / 96000;
-        struct motion m = {.path = PATH_CIRCLE, .radius = radius, .center = {0.3e-3, -0.2e-3}, .start_angle = (k % 4) * M_PI / 2 - 1e-2 * (k % 3),
-                           .turns = k % 8 < 4 ? 1 : -1, .speed = 0.2, .duration = NAN};
+        struct motion m = {.path = PATH_CIRCLE,
+                           .radius = radius,
+                           .center = {0.3e-3, -0.2e-3},
+                           .start_angle = (k % 4) * M_PI / 2 - 1e-2 * (k % 3),
+                           .turns = k % 8 < 4 ? 1 : -1,
+                           .speed = 0.2,
+                           .duration = NAN};
         arena = arena_open();
         srand48(k);
         surface_plane(1);
@@ -257,24 +273,34 @@ START_TEST(circles)
         check_pairs();
         for (int i = 0; i < all.n; i++)
             for (int end = 0; end < 2; end++) {
-                double x = all.ends[i][end][0] - m.center[0], y = all.ends[i][end][1] - m.center[1], r = sqrt(x * x + y * y), way_round = m.turns;
+                double x = all.ends[i][end][0] - m.center[0], y = all.ends[i][end][1] - m.center[1],
+                       r = sqrt(x * x + y * y), way_round = m.turns;
                 /* the Hermite curve over h is h^4 / (384 radius^3) off, and turned by less than (h / radius)^3 */
-                ck_assert_double_eq_tol(r, radius, 1.01 * pow(step, 4) / (384 * pow(radius, 3)) + 4e-15 * (radius + 1e-3));
-                ck_assert_double_eq_tol(all.e[i][end][0], -y / r * way_round, pow(step / radius, 3) + 8e-16 * (radius + 1e-3) / step);
-                ck_assert_double_eq_tol(all.e[i][end][1], x / r * way_round, pow(step / radius, 3) + 8e-16 * (radius + 1e-3) / step);
+                ck_assert_double_eq_tol(r, radius,
+                                        1.01 * pow(step, 4) / (384 * pow(radius, 3)) + 4e-15 * (radius + 1e-3));
+                ck_assert_double_eq_tol(all.e[i][end][0], -y / r * way_round,
+                                        pow(step / radius, 3) + 8e-16 * (radius + 1e-3) / step);
+                ck_assert_double_eq_tol(all.e[i][end][1], x / r * way_round,
+                                        pow(step / radius, 3) + 8e-16 * (radius + 1e-3) / step);
             }
         arena_close(arena);
     }
 }
 END_TEST
 
-/* A circle whose top touches a line of knots: from below, through a little, and not. However it meets, the pieces tile it. */
+/* A circle whose top touches a line of knots: from below, through a little, and not. However it meets, the pieces tile
+ * it. */
 START_TEST(tangent_to_knots)
 {
     for (int k = -3; k <= 3; k++) {
         double radius = 1e-3, touch = k == 0 ? 0 : (k < 0 ? -1 : 1) * pow(10, -abs(k) * 3), step = 0.2 / 96000;
-        struct motion m = {.path = PATH_CIRCLE, .radius = radius, .center = {0, origin[1] + 10 * pitch[1] - radius + touch * pitch[1]},
-                           .start_angle = M_PI / 2 - 0.05, .turns = 0.1, .speed = 0.2, .duration = NAN};
+        struct motion m = {.path = PATH_CIRCLE,
+                           .radius = radius,
+                           .center = {0, origin[1] + 10 * pitch[1] - radius + touch * pitch[1]},
+                           .start_angle = M_PI / 2 - 0.05,
+                           .turns = 0.1,
+                           .speed = 0.2,
+                           .duration = NAN};
         arena = arena_open();
         srand48(3);
         surface_plane(1);
@@ -288,11 +314,17 @@ START_TEST(tangent_to_knots)
 }
 END_TEST
 
-/* A there-and-back of a polyline turns at a point: both ways are travelled, each on its side, though the turn lies inside a sub-interval. */
+/* A there-and-back of a polyline turns at a point: both ways are travelled, each on its side, though the turn lies
+ * inside a sub-interval. */
 START_TEST(curved_there_and_back)
 {
     static const double points[] = {0, 0, 1e-3, 0.5e-3, 0, 0};
-    struct motion m = {.path = PATH_POLYLINE, .points = points, .n_points = 3, .speed = NAN, .duration = 0.0107, .law = SPEED_MINIMUM_JERK};
+    struct motion m = {.path = PATH_POLYLINE,
+                       .points = points,
+                       .n_points = 3,
+                       .speed = NAN,
+                       .duration = 0.0107,
+                       .law = SPEED_MINIMUM_JERK};
     arena = arena_open();
     srand48(4);
     surface_plane(1);
@@ -319,7 +351,8 @@ static void keep(double *to)
     memcpy(to + 2 * n, all.ends, 4 * n * sizeof *to);
 }
 
-/* However sub-intervals are grouped, and wherever the buffer of pieces is full, also in the middle of a long stretch: the same bits. */
+/* However sub-intervals are grouped, and wherever the buffer of pieces is full, also in the middle of a long stretch:
+ * the same bits. */
 START_TEST(chunks_do_not_matter)
 {
     static double one[7 * MOST], other[7 * MOST];
@@ -349,7 +382,8 @@ START_TEST(chunks_do_not_matter)
 }
 END_TEST
 
-/* The printed equations' channels: z_xx and z_yy with alphas of their own, the slope along the path and its derivative. */
+/* The printed equations' channels: z_xx and z_yy with alphas of their own, the slope along the path and its derivative.
+ */
 START_TEST(values_per_axis)
 {
     struct motion m = {.path = PATH_CIRCLE, .radius = 1e-3, .turns = 1, .speed = NAN, .duration = 0.02};
@@ -362,23 +396,30 @@ START_TEST(values_per_axis)
     for (int i = 0; i < all.n; i++) {
         const double *at = all.ends[i][1], *e = all.e[i][1];
         double x, y, xx, xy, yy;
-        relief_at(&relief, &(struct relief_points){1, &at[0], &at[1]}, &(struct relief_values){NULL, &x, &y, &xx, &xy, &yy});
+        relief_at(&relief, &(struct relief_points){1, &at[0], &at[1]},
+                  &(struct relief_values){NULL, &x, &y, &xx, &xy, &yy});
         ck_assert(all.c[i][1][0] == xx && all.c[i][1][1] == yy && all.alpha[i][0] == 0.03 && all.alpha[i][1] == 0.015);
         ck_assert_double_eq_tol(all.slope[i][1], e[0] * x + e[1] * y, 1e-15 * (fabs(x) + fabs(y)));
-        ck_assert_double_eq_tol(all.bend[i][1], e[0] * e[0] * xx + 2 * e[0] * e[1] * xy + e[1] * e[1] * yy, 1e-15 * (fabs(xx) + fabs(xy) + fabs(yy)));
+        ck_assert_double_eq_tol(all.bend[i][1], e[0] * e[0] * xx + 2 * e[0] * e[1] * xy + e[1] * e[1] * yy,
+                                1e-15 * (fabs(xx) + fabs(xy) + fabs(yy)));
     }
     arena_close(arena);
 }
 END_TEST
 
-/* The common case's short cut gives the pieces of the plain form: all the same numbers, wherever the flushes fall and points are shared. */
+/* The common case's short cut gives the pieces of the plain form: all the same numbers, wherever the flushes fall and
+ * points are shared. */
 START_TEST(straight_ways_as_plain)
 {
     static const double to[][2] = {{2e-3, 0}, {-1e-3, 1.5e-3}, {1e-3, 1e-3}, {0, 1e-3}};
     static double length[MOST], ends[MOST][2][2], mean[MOST];
     static int interval[MOST];
     for (int k = 0; k < 32; k++) {
-        struct motion m = {.path = k % 2 ? PATH_BACK_AND_FORTH : PATH_LINE, .from = {1e-3, 1e-3}, .rate = 100, .speed = NAN, .duration = 0.01,
+        struct motion m = {.path = k % 2 ? PATH_BACK_AND_FORTH : PATH_LINE,
+                           .from = {1e-3, 1e-3},
+                           .rate = 100,
+                           .speed = NAN,
+                           .duration = 0.01,
                            .to = {1e-3 + to[k / 2 % 4][0], 1e-3 + to[k / 2 % 4][1]}};
         arena = arena_open();
         srand48(k);
@@ -397,7 +438,8 @@ START_TEST(straight_ways_as_plain)
         way.straight = false;
         all.n = 0;
         for (first_interval = 0; first_interval < 480 * board.over; first_interval += WAY_CHUNK)
-            way_run(&way, &run, first_interval, 480 * board.over - first_interval < WAY_CHUNK ? 480 * board.over - first_interval : WAY_CHUNK);
+            way_run(&way, &run, first_interval,
+                    480 * board.over - first_interval < WAY_CHUNK ? 480 * board.over - first_interval : WAY_CHUNK);
         ck_assert_int_eq(all.n, n);
         for (int i = 0; i < n; i++)
             ck_assert(length[i] == all.length[i] && mean[i] == all.mean[i] && interval[i] == all.interval[i] &&
@@ -408,4 +450,5 @@ START_TEST(straight_ways_as_plain)
 }
 END_TEST
 
-UNIT("way", straight_ways, straight_ways_as_plain, turning_ways, circles, tangent_to_knots, curved_there_and_back, chunks_do_not_matter, values_per_axis)
+UNIT("way", straight_ways, straight_ways_as_plain, turning_ways, circles, tangent_to_knots, curved_there_and_back,
+     chunks_do_not_matter, values_per_axis)

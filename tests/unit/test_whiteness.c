@@ -37,7 +37,8 @@ START_TEST(test_box)
         low += p < 0.5;
         lower += p < 0.05;
     }
-    ck_assert_msg(abs(low - 200) < 40 && abs(lower - 20) < 16, "%d below 0.5, %d below 0.05, of 400", low, lower); /* 4 and 3.7 deviations */
+    ck_assert_msg(abs(low - 200) < 40 && abs(lower - 20) < 16, "%d below 0.5, %d below 0.05, of 400", low,
+                  lower); /* 4 and 3.7 deviations */
     series_draw(g, 0, 1, 0, 0.35, x, N);
     whiteness_correlation(x, N, LAGS + 1, r);
     double q = whiteness_box(r, N, LAGS, 0, &p), fewer;

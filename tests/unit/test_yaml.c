@@ -1,4 +1,5 @@
-/* YAML texts against the tree and the places that YAML's specification gives them by hand, and texts that must be refused. */
+/* YAML texts against the tree and the places that YAML's specification gives them by hand, and texts that must be
+ * refused. */
 #include "file/yaml.h"
 
 #include <sys/stat.h>
@@ -25,9 +26,11 @@ START_TEST(test_tree)
 {
     struct arena *a = arena_open();
     struct yaml *y = yaml_open(a);
-    struct yaml_node *root = parsed(y, "# remark\nmass: 20 g  # heavy\nmotion:\n  to: [3 cm, \"x\"]\n  law: {p: 'q'}\nlist:\n- a\n- b: c\n");
+    struct yaml_node *root =
+        parsed(y, "# remark\nmass: 20 g  # heavy\nmotion:\n  to: [3 cm, \"x\"]\n  law: {p: 'q'}\nlist:\n- a\n- b: c\n");
     ck_assert(root && y->diag->n == 0 && root->kind == YAML_MAP && root->n == 3);
-    struct yaml_node *mass = yaml_get(root, "mass"), *to = yaml_find(root, "motion.to"), *p = yaml_find(root, "motion.law.p");
+    struct yaml_node *mass = yaml_get(root, "mass"), *to = yaml_find(root, "motion.to"),
+                     *p = yaml_find(root, "motion.law.p");
     ck_assert_str_eq(mass->text, "20 g");
     ck_assert(mass->plain && !to->first->next->plain && !p->plain);
     place_is(mass, 2, 7, 4);
@@ -85,8 +88,12 @@ static const struct {
     {"b: \xc2\xb5\na: \xff\n", "t.yaml:2:4: error: not valid UTF-8", "^", "UTF-8"},
     {"a: \xc2\xb5\xff\n", "t.yaml:1:5: error: not valid UTF-8", "^", "UTF-8"},
     {"a: x\x07\n", "t.yaml:1:5: error: control character U+0007", "^", "remove"},
-    {"\xef\xbb\xbf" "a: 1\n", "t.yaml: error: encoded as UTF-8 with a byte order mark", "", "without a byte order mark"},
-    {"\xff\xfe" "a", "t.yaml: error: encoded as UTF-16", "", "UTF-8"},
+    {"\xef\xbb\xbf"
+     "a: 1\n",
+     "t.yaml: error: encoded as UTF-8 with a byte order mark", "", "without a byte order mark"},
+    {"\xff\xfe"
+     "a",
+     "t.yaml: error: encoded as UTF-16", "", "UTF-8"},
     {"%YAML 3.0\n---\na: 1\n", "t.yaml:1:1: error: not valid YAML", "^", "near here"},
 };
 
@@ -101,7 +108,8 @@ START_TEST(test_bad)
         ck_assert_msg(strncmp(text, bad[i].place, strlen(bad[i].place)) == 0, "case %zu: %s", i, text);
         ck_assert_msg(strstr(text, bad[i].cure) != NULL, "case %zu: %s", i, text);
         ck_assert_msg(strstr(text, "\n1 error\n") != NULL, "case %zu: %s", i, text);
-        ck_assert_msg(!caret == !*bad[i].caret && (!caret || strncmp(caret, carets + 2, strlen(carets) - 2) == 0), "case %zu: %s", i, text);
+        ck_assert_msg(!caret == !*bad[i].caret && (!caret || strncmp(caret, carets + 2, strlen(carets) - 2) == 0),
+                      "case %zu: %s", i, text);
         arena_close(a);
     }
 }
@@ -190,7 +198,8 @@ START_TEST(test_files)
     ck_assert(!yaml_bytes_read(y, name, none) && y->missing);
     ck_assert(!yaml_bytes_read(y, folder, none));
     const char *text = diag_text(y->diag);
-    ck_assert(strstr(text, "no.yaml: error: cannot be read: No such file") && strstr(text, "error: cannot be read: Is a directory"));
+    ck_assert(strstr(text, "no.yaml: error: cannot be read: No such file") &&
+              strstr(text, "error: cannot be read: Is a directory"));
     FILE *f = fopen(name, "w");
     for (int i = 0; i < 100000; i++) /* more than one step of the buffer */
         fprintf(f, "#%d\n", i);
@@ -233,7 +242,8 @@ START_TEST(test_caret)
     ck_assert_str_eq(diag_text(y->diag), "t.yaml:1:10: error: no anchor 'no' before this\n"
                                          "    1 | \xc2\xb5\xe2\x82\xac: {x:\t\t*no}\n"
                                          "      |        \t\t^~~\n"
-                                         "      = help: an anchor (&name) must stand before its aliases (*name); put quotes around a text that starts with *\n"
+                                         "      = help: an anchor (&name) must stand before its aliases (*name); put "
+                                         "quotes around a text that starts with *\n"
                                          "1 error\n");
     y = yaml_open(a);
     char *text = ARENA_TAKE(a, char, 3000);
@@ -259,7 +269,8 @@ START_TEST(test_shown)
     const char *told = diag_text(y->diag);
     ck_assert_msg(!strchr(told, '\x1b'), "%s", told);
     diag_add(y->diag, (struct diag_place){NULL, 0, 0, 0}, "\x9b\xc2\x9b", "%s", "\x1b\xc2\xb5\xff");
-    ck_assert(strstr(diag_text(y->diag), "error: \\x1b\xc2\xb5\\xff\n") && strstr(diag_text(y->diag), "help: \\x9b\\xc2\\x9b\n"));
+    ck_assert(strstr(diag_text(y->diag), "error: \\x1b\xc2\xb5\\xff\n") &&
+              strstr(diag_text(y->diag), "help: \\x9b\\xc2\\x9b\n"));
     arena_close(a);
 }
 END_TEST
@@ -282,4 +293,5 @@ START_TEST(test_many)
 }
 END_TEST
 
-UNIT("yaml", test_tree, test_alias, test_bad, test_nul, test_bomb, test_limits, test_keys_limit, test_files, test_value, test_caret, test_shown, test_many)
+UNIT("yaml", test_tree, test_alias, test_bad, test_nul, test_bomb, test_limits, test_keys_limit, test_files, test_value,
+     test_caret, test_shown, test_many)

@@ -1,5 +1,5 @@
-/* A toy stage, to prove that an effect is one file and one line: this file, and the line in stages_with_toy.def. It adds to the sound
-   what was there 100 samples ago, at half its level. */
+/* A toy stage, to prove that an effect is one file and one line: this file, and the line in stages_with_toy.def. It
+   adds to the sound what was there 100 samples ago, at half its level. */
 #include "stage.h"
 
 enum { TOY_DELAY = 100 };

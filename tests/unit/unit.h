@@ -1,6 +1,7 @@
-/* A unit test program: START_TEST functions, then UNIT("name", test_a, test_b, ...). Each test runs in its own process (Check), so
-   that a crash is one failure. The last line of its output, "name: N passed, N failed", is what tests/run.sh counts.
-   UNIT_LONG(test_c) is left out of builds with sanitizers, which are five times as slow: long numbers from code that other tests run there. */
+/* A unit test program: START_TEST functions, then UNIT("name", test_a, test_b, ...). Each test runs in its own process
+   (Check), so that a crash is one failure. The last line of its output, "name: N passed, N failed", is what
+   tests/run.sh counts. UNIT_LONG(test_c) is left out of builds with sanitizers, which are five times as slow: long
+   numbers from code that other tests run there. */
 #ifndef UNIT_H
 #define UNIT_H
 #include <check.h>
@@ -13,8 +14,7 @@ static inline int unit_run(const char *name, const TTest *const *tests, size_t n
 {
     Suite *suite = suite_create(name);
     for (size_t i = 0; i < n; i++) {
-        if (!tests[i])
-            continue;
+        if (!tests[i]) continue;
         TCase *one = tcase_create(tests[i]->name);
         tcase_set_timeout(one, 300);
         tcase_add_test(one, tests[i]);
@@ -42,10 +42,10 @@ static inline int unit_run(const char *name, const TTest *const *tests, size_t n
 #define UNIT_LONG(test) (test)
 #endif
 
-#define UNIT(name, ...)                                                               \
-    int main(void)                                                                    \
-    {                                                                                 \
-        const TTest *const tests[] = {__VA_ARGS__};                                   \
-        return unit_run(name, tests, sizeof tests / sizeof tests[0]);                 \
+#define UNIT(name, ...)                                                                                                \
+    int main(void)                                                                                                     \
+    {                                                                                                                  \
+        const TTest *const tests[] = {__VA_ARGS__};                                                                    \
+        return unit_run(name, tests, sizeof tests / sizeof tests[0]);                                                  \
     }
 #endif
