@@ -14,7 +14,7 @@
 #include "cmd/tell.h"
 #include "cmd/version.h"
 #include "fem/shapes.h"
-#include "fem/touch.h"
+#include "fem/solid.h"
 #include "file/csv.h"
 #include "num/real.h"
 #include "output/mark.h"
@@ -29,15 +29,15 @@ static void rows(FILE *f, const struct compute *k);
 static double off(const void *self, double x, double y)
 {
     struct boundary_point p;
-    return chart_point((const struct chart *)self, x, y, &p) ? 0.0 : (double)INFINITY;
+    return boundary_map_point((const struct boundary_map *)self, x, y, &p) ? 0.0 : (double)INFINITY;
 }
 
 /* Gains jump where the surface turns from one of these to the other: by more than half a right angle. */
 static bool bends(const void *self, const double from[2], const double to[2])
 {
     struct boundary_point p, q;
-    return chart_point((const struct chart *)self, from[0], from[1], &p) &&
-           chart_point((const struct chart *)self, to[0], to[1], &q) &&
+    return boundary_map_point((const struct boundary_map *)self, from[0], from[1], &p) &&
+           boundary_map_point((const struct boundary_map *)self, to[0], to[1], &q) &&
            p.normal[0] * q.normal[0] + p.normal[1] * q.normal[1] + p.normal[2] * q.normal[2] < 0.7071;
 }
 
@@ -52,15 +52,15 @@ static double size_of(const struct compute *k)
 static bool read_face(struct compute *k, struct err *e)
 {
     const char *word = args_value(&k->c->args, "face");
-    int face = CHART_TOP;
-    while (word && chart_faces[face] && strcmp(word, chart_faces[face]) != 0)
+    int face = BOUNDARY_TOP;
+    while (word && boundary_map_sides[face] && strcmp(word, boundary_map_sides[face]) != 0)
         face++;
-    if (!chart_faces[face])
+    if (!boundary_map_sides[face])
         return err_set(e, ERR_USAGE, "--face: '%s' is not top, bottom, right, left, back, front, around or inside",
                        word);
-    chart_make(&k->mesh, &k->boundary, face, &k->chart);
+    boundary_map_make(&k->mesh, &k->boundary, face, &k->chart);
     const double *low = k->boundary.low, *high = k->boundary.high;
-    if (face >= CHART_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
+    if (face >= BOUNDARY_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
         return err_set(e, ERR_SCENE,
                        "--face %s goes round the axis x = y = 0, and the solid lies beside it (x %.6g to %.6g m, y "
                        "%.6g to %.6g m); move the mesh so that the axis runs through "
@@ -126,7 +126,7 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
 /* What is slender is touched along its middle, all else on a grid. */
 static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
 {
-    const struct chart *c = &k->chart;
+    const struct boundary_map *c = &k->chart;
     double wide = c->high[0] - c->low[0], high = c->high[1] - c->low[1];
     struct modes_ground ground = {.self = c,
                                   .off = off,
@@ -136,7 +136,7 @@ static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
                                   .standard = {17, 9},
                                   .fit = fit};
     struct modes_places p;
-    if (c->face >= CHART_AROUND)
+    if (c->face >= BOUNDARY_AROUND)
         ground.remark =
             "; x is the arc round the axis x = y = 0 of the mesh's file, y is z, and the solid must be where they lead";
     if (wide > 6 * high) memcpy(ground.standard, (int[2]){33, 1}, sizeof ground.standard);
@@ -147,7 +147,7 @@ static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
     k->xy = p.xy;
     k->point = ARENA_TAKE(k->c->arena, struct boundary_point, p.n);
     for (int i = 0; i < p.n; i++)
-        chart_point(c, p.xy[i][0], p.xy[i][1], &k->point[i]);
+        boundary_map_point(c, p.xy[i][0], p.xy[i][1], &k->point[i]);
     return true;
 }
 
@@ -156,8 +156,8 @@ static double gains_at(const void *self, double x, double y, const struct modes_
 {
     const struct compute *k = (const struct compute *)self;
     struct boundary_point at;
-    if (!chart_point(&k->chart, x, y, &at)) return (double)INFINITY;
-    touch_shapes(&k->modes, &at, k->phi);
+    if (!boundary_map_point(&k->chart, x, y, &at)) return (double)INFINITY;
+    solid_participation(&k->modes, &at, k->phi);
     for (int i = 0; i < k->n; i++) {
         to->frequency[i] = k->frequency[i];
         to->decay[i] = k->decay[i];
@@ -177,7 +177,7 @@ static bool modes_compute_places_settle(struct compute *k, struct err *e)
     if (args_given(g, "points")) return true;
     k->phi = ARENA_TAKE(k->c->arena, double, k->modes.n);
     k->ear_phi = ARENA_TAKE(k->c->arena, double, k->modes.n);
-    if (k->elsewhere) touch_shapes(&k->modes, &k->ear, k->ear_phi);
+    if (k->elsewhere) solid_participation(&k->modes, &k->ear, k->ear_phi);
     if (!read_places(k, &fit, e)) return false;
     k->error = modes_places_error(&fit, &k->laid);
     return true;
@@ -194,7 +194,7 @@ static bool read_listen(struct compute *k, struct err *e)
     if (!text) return true;
     if (commas != 2) {
         if (!modes_lengths(k->c, &(struct modes_lengths){"listen", "X,Y", 2}, at, e)) return false;
-        return chart_point(&k->chart, at[0], at[1], &k->ear) ||
+        return boundary_map_point(&k->chart, at[0], at[1], &k->ear) ||
                err_set(e, ERR_SCENE,
                        "--listen: the place (%.9g, %.9g) m lies off the object; a point X,Y,Z of space takes the "
                        "nearest of the surface",
@@ -269,10 +269,10 @@ static void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TE
     hash_add(&h, wholes, sizeof wholes);
     if (k->boundary.outer < k->boundary.area)
         add_text(&h, "radius_m of the outer skin"); /* an older table counted walls of cavities */
-    for (int i = 0; i < k->n_held; i++) {
-        hash_add(&h, &k->held[i].hold, sizeof k->held[i].hold);
-        add_text(&h, k->held_names[i]);
-        hash_add(&h, k->held[i].corner, (size_t)k->held[i].n * sizeof *k->held[i].corner);
+    for (int i = 0; i < k->n_fixed; i++) {
+        hash_add(&h, &k->fixed[i].hold, sizeof k->fixed[i].hold);
+        add_text(&h, k->fixed_names[i]);
+        hash_add(&h, k->fixed[i].corner, (size_t)k->fixed[i].n * sizeof *k->fixed[i].corner);
     }
     add_text(&h, args_given(&k->c->args, "grid") || args_given(&k->c->args, "places") ? "so many places"
                                                                                       : "as many places as needed");
@@ -349,7 +349,7 @@ static void notes(FILE *f, const char *text, struct arena *a)
 
 /* Shapes in steps of 2^-23 (1.2e-7) of a mode's greatest, anywhere on the solid: what is left of a nodal line but
    rounding becomes 0. Up to 1e-9 of it depends on the order of additions, most of slender solids and of equal
-   frequencies, whose basis is fixed (fem/solid_basis.c). */
+   frequencies, whose basis is fixed (fem/solid_eigen.c). */
 static void settle(const struct compute *k, const double *step, double *phi)
 {
     for (int i = 0; i < k->modes.n; i++)
@@ -376,11 +376,11 @@ static double *gains(const struct compute *k)
     double *gain = ARENA_TAKE(k->c->arena, double, (long)k->places * k->n), *phi = ARENA_TAKE(k->c->arena, double, all),
            *ear = ARENA_TAKE(k->c->arena, double, all);
     if (k->elsewhere) {
-        touch_shapes(&k->modes, &k->ear, ear);
+        solid_participation(&k->modes, &k->ear, ear);
         settle(k, step, ear);
     }
     for (int p = 0; p < k->places; p++) {
-        touch_shapes(&k->modes, &k->point[p], phi);
+        solid_participation(&k->modes, &k->point[p], phi);
         settle(k, step, phi);
         for (int i = 0; i < k->n; i++)
             gain[(long)p * k->n + i] = phi[k->mode[i]] * (k->elsewhere ? ear : phi)[k->mode[i]];
@@ -428,7 +428,7 @@ static bool modes_compute_write(const struct compute *k, const char *file, const
         fputs("# places: points of a list, the nearest of the surface\n", f);
     else
         fprintf(f, "# places: on the solid as seen from its side '%s': its %s, moved by (%.9g, %.9g) m\n",
-                chart_faces[k->chart.face], axes[k->chart.face], k->origin[0], k->origin[1]);
+                boundary_map_sides[k->chart.face], axes[k->chart.face], k->origin[0], k->origin[1]);
     modes_places_write(f, k->error, &k->laid, k->c->arena);
     fprintf(f, "# radius_m: %.9g\n", sqrt(k->boundary.outer / (4.0 * REAL_PI)));
     const struct boundary *b = &k->boundary;
@@ -437,9 +437,9 @@ static bool modes_compute_write(const struct compute *k, const char *file, const
     fprintf(f, "# object: %s, x %.9g to %.9g m, y %.9g to %.9g m, z %.9g to %.9g m, %.6g kg\n",
             text_shown(k->c->arena, k->mesh.name), b->low[0], b->high[0], b->low[1], b->high[1], b->low[2], b->high[2],
             k->modes.mass);
-    for (int i = 0; i < k->n_held; i++)
-        fprintf(f, "# %s: %s\n", k->held[i].hold == SOLID_CLAMPED ? "clamped" : "supported",
-                text_shown(k->c->arena, k->held_names[i]));
+    for (int i = 0; i < k->n_fixed; i++)
+        fprintf(f, "# %s: %s\n", k->fixed[i].hold == SOLID_CLAMPED ? "clamped" : "supported",
+                text_shown(k->c->arena, k->fixed_names[i]));
     material(f, &k->material);
     fprintf(f,
             "# holds: linear elasticity by finite elements, %d tetrahedra of order %ld, %ld freedoms; no radiation\n",

@@ -3,8 +3,8 @@
 #define CMD_MODES_COMPUTE_H
 #include "base/hash.h"
 #include "cmd/modes.h"
-#include "fem/chart.h"
-#include "fem/solid_estimate.h"
+#include "fem/boundary.h"
+#include "fem/solid.h"
 #include "scene/material.h"
 
 struct compute_material {
@@ -20,12 +20,12 @@ struct compute {
     struct mesh mesh;
     struct boundary boundary;
     struct compute_material material;
-    struct solid_held *held;
-    const char **held_names; /* [n_held] */
-    int n_held;
+    struct solid_fixed *fixed;
+    const char **fixed_names; /* [n_held] */
+    int n_fixed;
     double top; /* Hz */
     long most, order;
-    struct chart chart;
+    struct boundary_map chart;
     double origin[2]; /* m */
     int quantity;     /* enum modes_quantity */
     int places, left_out;

@@ -10,8 +10,8 @@
 
 #include "base/text.h"
 #include "fem/mesh_check.h"
-#include "fem/mesh_raise.h"
 #include "fem/shapes.h"
+#include "fem/topology.h"
 #include "num/real.h"
 #include "scene/keys.h"
 #include "scene/keys_text.h"
@@ -115,7 +115,7 @@ static bool read_mesh(struct compute *k, struct err *e)
         !(shape ? shapes_mesh(shape, a, &k->mesh, e)
                 : mesh_read(g->operands[0], unit, a, &k->mesh, e) && mesh_check(&k->mesh, a, e)))
         return false;
-    mesh_raise(&k->mesh, a);
+    topology_elevate(&k->mesh, a);
     boundary_make(&k->mesh, a, &k->boundary);
     return true;
 }
@@ -152,7 +152,7 @@ static bool wooden(struct compute_material *m, double youngs_modulus, double den
     w.nu[0] = r->poisson_rt * t->across / r->youngs_modulus; /* of a pull along y: nu_TR = nu_RT E_T/E_R */
     w.nu[1] = r->poisson_lr;
     w.nu[2] = t->poisson;
-    return elastic_orthotropic(&w, &m->elastic, e);
+    return solid_element_orthotropic(&w, &m->elastic, e);
 }
 
 static bool read_material(struct compute *k, struct err *e)
@@ -193,13 +193,13 @@ static bool read_material(struct compute *k, struct err *e)
                            : "--alpha and --beta must not be below 0");
     if (!modes_compute_solid_limits_material(k, density, e)) return false;
     return wood ? wooden(m, m->youngs_modulus, density, e)
-                : elastic_isotropic(m->youngs_modulus, m->poisson, density, &m->elastic, e);
+                : solid_element_isotropic(m->youngs_modulus, m->poisson, density, &m->elastic, e);
 }
 
 /* ------------------------------------------------------------------ what holds it */
 
 /* The faces of the box's plane "x0" ... "z1". */
-static bool plane(const struct compute *k, const char *word, struct solid_held *h)
+static bool plane(const struct compute *k, const char *word, struct solid_fixed *h)
 {
     const struct boundary *b = &k->boundary;
     int axis = word[0] - 'x';
@@ -217,7 +217,7 @@ static bool plane(const struct compute *k, const char *word, struct solid_held *
     return true;
 }
 
-static bool group(const struct mesh *m, const char *word, struct solid_held *h)
+static bool group(const struct mesh *m, const char *word, struct solid_fixed *h)
 {
     for (int i = 0; i < m->groups; i++)
         if (!strcmp(m->group[i].name, word)) {
@@ -233,7 +233,7 @@ static bool hold(struct compute *k, const char *option, int how, struct err *e)
     int n;
     const char **words = args_values(&k->c->args, option, &n);
     for (int i = 0; i < n; i++) {
-        struct solid_held *h = &k->held[k->n_held];
+        struct solid_fixed *h = &k->fixed[k->n_fixed];
         h->hold = how;
         if (!group(&k->mesh, words[i], h) && !plane(k, words[i], h)) {
             const char *list = "";
@@ -248,19 +248,19 @@ static bool hold(struct compute *k, const char *option, int how, struct err *e)
                            "--%s %s: the solid has no face that lies in that plane; name faces in the mesh (a physical "
                            "surface), or take another",
                            option, words[i]);
-        k->held_names[k->n_held++] = words[i];
+        k->fixed_names[k->n_fixed++] = words[i];
     }
     return true;
 }
 
 /* --clamp, --support: the faces of k->mesh into k->held. */
-static bool modes_compute_solid_held(struct compute *k, struct err *e)
+static bool modes_compute_solid_fixed(struct compute *k, struct err *e)
 {
     int clamped, supported;
     args_values(&k->c->args, "clamp", &clamped);
     args_values(&k->c->args, "support", &supported);
-    k->held = ARENA_TAKE(k->c->arena, struct solid_held, clamped + supported + 1);
-    k->held_names = ARENA_TAKE(k->c->arena, const char *, clamped + supported + 1);
+    k->fixed = ARENA_TAKE(k->c->arena, struct solid_fixed, clamped + supported + 1);
+    k->fixed_names = ARENA_TAKE(k->c->arena, const char *, clamped + supported + 1);
     return hold(k, "clamp", SOLID_CLAMPED, e) && hold(k, "support", SOLID_SUPPORTED, e);
 }
 
@@ -275,7 +275,7 @@ bool modes_compute_solid_read(struct compute *k, struct err *e)
         return false;
     if (!(k->top > 0 && k->top <= 1e7))
         return err_set(e, ERR_USAGE, "--top: %g Hz is not above 0 and at most 10 MHz", k->top);
-    if (!read_material(k, e) || !read_mesh(k, e) || !modes_compute_solid_held(k, e)) return false;
+    if (!read_material(k, e) || !read_mesh(k, e) || !modes_compute_solid_fixed(k, e)) return false;
     k->note = k->mesh.note;
     return modes_compute_solid_limits_solid(k, e);
 }
@@ -283,8 +283,8 @@ bool modes_compute_solid_read(struct compute *k, struct err *e)
 bool modes_compute_solid_solve(struct compute *k, struct err *e)
 {
     struct solid_ask ask = {.material = &k->material.elastic,
-                            .held = k->held,
-                            .n_held = k->n_held,
+                            .fixed = k->fixed,
+                            .n_fixed = k->n_fixed,
                             .order = (int)k->order,
                             .most = (int)k->most,
                             .top = k->top};
@@ -320,7 +320,7 @@ bool modes_compute_solid_solve(struct compute *k, struct err *e)
 }
 
 /* --estimate: how far the frequencies of `rasp modes compute` are off, from a second, coarser computation
- * (fem/solid_estimate.h). */
+ * (fem/solid.h). */
 
 #define LONGER 1.5 /* cells of the coarser mesh */
 #define LEAST 1.15 /* of that, where whole numbers of cells allow no more */
@@ -332,17 +332,21 @@ static bool solve_coarse(struct compute *k, struct compute *c, struct err *e)
 {
     struct solid_ask ask = {
         .material = &k->material.elastic, .order = (int)c->order, .most = k->modes.n + BEYOND, .top = 3 * k->top};
-    if (c->mesh.at != k->mesh.at && !modes_compute_solid_held(c, e)) return false;
-    ask.held = c->held;
-    ask.n_held = c->n_held;
+    if (c->mesh.at != k->mesh.at && !modes_compute_solid_fixed(c, e)) return false;
+    ask.fixed = c->fixed;
+    ask.n_fixed = c->n_fixed;
     return solid_modes(&c->mesh, &c->boundary, &ask, k->c->arena, &c->modes, e);
 }
 
 static bool coarser(struct compute *k, struct compute *c, struct err *e)
 {
     const char *shape = args_value(&k->c->args, "shape");
-    *c = (struct compute){
-        .c = k->c, .mesh = k->mesh, .boundary = k->boundary, .held = k->held, .n_held = k->n_held, .order = k->order};
+    *c = (struct compute){.c = k->c,
+                          .mesh = k->mesh,
+                          .boundary = k->boundary,
+                          .fixed = k->fixed,
+                          .n_fixed = k->n_fixed,
+                          .order = k->order};
     if (!shape) {
         c->order--;
         return c->order >= SOLID_LATTICE_LEAST || err_set(e, ERR_USAGE,
@@ -350,7 +354,7 @@ static bool coarser(struct compute *k, struct compute *c, struct err *e)
                                                           "and there is none below 2: add --order 3 (or 4)");
     }
     if (!shapes_mesh_coarser(shape, LONGER, k->c->arena, &c->mesh, e)) return false;
-    mesh_raise(&c->mesh, k->c->arena);
+    topology_elevate(&c->mesh, k->c->arena);
     boundary_make(&c->mesh, k->c->arena, &c->boundary);
     return true;
 }

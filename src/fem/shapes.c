@@ -3,32 +3,249 @@
 #include "fem/shapes.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "fem/shapes_kinds.h"
+#include "fem/topology.h"
 #include "scene/units.h"
 
-static const struct shapes_kind *const kinds[] = {&shapes_plate, &shapes_plate_bar, &shapes_rod, &shapes_ring,
-                                                  &shapes_bowl,  &shapes_sphere,    &shapes_mug};
-enum { KINDS = sizeof kinds / sizeof kinds[0] };
+/* Cells into tetrahedra: the diagonal of every face of a cell starts at the corner of lowest rank, so that two cells
+   agree on the face they share (Dompierre, Labbe, Vallet, Camarero: How to subdivide pyramids, prisms and hexahedra
+   into tetrahedra, 1999). From the cell's lowest corner V the three faces that V is not on, each two triangles, are
+   seen: six tetrahedra. Where all their three diagonals avoid the corner O opposite to V, the three tetrahedra round
+   V-O become two: the middle one and O's, so five. Rank: lattice points of even i + j + k first, so that the diagonals
+   of a regular lattice are those of a union jack and the mesh has the symmetry of the solid; then the order in which
+   they are met. */
+
+struct shapes_maker {
+    const struct shapes_blocks *s;
+    struct mesh *m;
+    struct topology_merge points;
+    struct topology_edges edges;
+    bool *odd; /* [nodes] */
+    struct {
+        const char *group;
+        int corner[3];
+    } * face;
+    int faces;
+};
+
+struct cell {
+    const struct shapes_block *block;
+    int at[3], corner[8]; /* lattice place; nodes: bit 0, 1, 2 of the index is the direction */
+};
+
+struct shapes_block *shapes_blocks_add(struct shapes_blocks *s, int which, int n0, int n1, int n2)
+{
+    s->block[s->n] = (struct shapes_block){.n = {n0, n1, n2}, .which = which};
+    return &s->block[s->n++];
+}
+
+double shapes_blocks_nodes(const struct shapes_blocks *s, int order)
+{
+    double n = 0;
+    for (int i = 0; i < s->n; i++)
+        n += ((double)order * s->block[i].n[0] + 1) * ((double)order * s->block[i].n[1] + 1) *
+             ((double)order * s->block[i].n[2] + 1);
+    return n;
+}
+
+static int node_at(struct shapes_maker *k, const double at[3])
+{
+    memcpy(k->m->at[k->m->nodes], at, 3 * sizeof *at);
+    return k->m->nodes++;
+}
+
+/* The node of a lattice point, made if no other block has one there. */
+static int corner_at(struct shapes_maker *k, const struct shapes_block *b, const int c[3])
+{
+    double at[3];
+    k->s->place(k->s->shape, b->which, (double[3]){c[0], c[1], c[2]}, at);
+    int *node = topology_merge_at(&k->points, at);
+    if (*node < 0) {
+        *node = node_at(k, at);
+        k->odd[*node] = (c[0] + c[1] + c[2]) % 2 != 0;
+    }
+    return *node;
+}
+
+static void midside(struct shapes_maker *k, const struct cell *c, int p, int q, int *node)
+{
+    int *known = topology_edges_at(&k->edges, c->corner[p], c->corner[q]);
+    if (*known < 0) {
+        double mid[3], at[3];
+        for (int d = 0; d < 3; d++)
+            mid[d] = c->at[d] + 0.5 * ((p >> d & 1) + (q >> d & 1));
+        k->s->place(k->s->shape, c->block->which, mid, at);
+        *known = node_at(k, at);
+    }
+    *node = *known;
+}
+
+/* Six times the volume of the tetrahedron of straight edges. */
+static double turning(const struct mesh *m, const struct cell *c, const int t[4])
+{
+    double e[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int d = 0; d < 3; d++)
+            e[i][d] = m->at[c->corner[t[i + 1]]][d] - m->at[c->corner[t[0]]][d];
+    return e[2][0] * (e[0][1] * e[1][2] - e[0][2] * e[1][1]) + e[2][1] * (e[0][2] * e[1][0] - e[0][0] * e[1][2]) +
+           e[2][2] * (e[0][0] * e[1][1] - e[0][1] * e[1][0]);
+}
+
+/* Of four corners of the cell, in any orientation. */
+static void tetrahedron(struct shapes_maker *k, const struct cell *c, int p, int q, int r, int s)
+{
+    int t[4] = {p, q, r, s}, *e = k->m->element[k->m->elements++];
+    if (turning(k->m, c, t) < 0) {
+        t[1] = r;
+        t[2] = q;
+    }
+    for (int i = 0; i < 4; i++)
+        e[i] = c->corner[t[i]];
+    for (int i = 0; i < 6; i++)
+        midside(k, c, t[topology_edge_nodes[i][0]], t[topology_edge_nodes[i][1]], &e[4 + i]);
+}
+
+static bool before(const struct shapes_maker *k, int a, int b) { return k->odd[a] != k->odd[b] ? k->odd[b] : a < b; }
+
+/* Index of the one of lowest rank among n corners. */
+static int lowest(const struct shapes_maker *k, const struct cell *c, const int *corner, int n)
+{
+    int best = 0;
+    for (int i = 1; i < n; i++)
+        if (before(k, c->corner[corner[i]], c->corner[corner[best]])) best = i;
+    return best;
+}
+
+/* Corners round the face that lies at corner `at` across direction d, beginning there. */
+static void face_of(int at, int d, int corner[4])
+{
+    int e = 1 << (d + 1) % 3, f = 1 << (d + 2) % 3;
+    corner[0] = at;
+    corner[1] = at ^ e;
+    corner[2] = at ^ e ^ f;
+    corner[3] = at ^ f;
+}
+
+static void split(struct shapes_maker *k, const struct cell *c)
+{
+    static const int all[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    int v = lowest(k, c, all, 8), o = v ^ 7, avoid = 0, q[3][4], first[3];
+    for (int d = 0; d < 3; d++) {
+        face_of(o, d, q[d]);
+        first[d] = lowest(k, c, q[d], 4);
+        avoid += first[d] % 2;
+    }
+    for (int d = 0; d < 3; d++)
+        for (int half = 0; half < 2; half++) {
+            int i = q[d][first[d]], j = q[d][(first[d] + 1 + half) % 4], l = q[d][(first[d] + 2 + half) % 4];
+            if (avoid < 3 || (i != o && j != o && l != o)) tetrahedron(k, c, v, i, j, l);
+        }
+    if (avoid == 3) {
+        tetrahedron(k, c, v, o ^ 1, o ^ 2, o ^ 4);
+        tetrahedron(k, c, o, o ^ 1, o ^ 2, o ^ 4);
+    }
+}
+
+/* The cell's faces at a side of the block that has a name. */
+static void name_faces(struct shapes_maker *k, const struct cell *c)
+{
+    for (int d = 0; d < 3; d++)
+        for (int end = 0; end < 2; end++) {
+            if (!c->block->side[d][end] || c->at[d] != (end ? c->block->n[d] - 1 : 0)) continue;
+            int q[4];
+            face_of(end << d, d, q);
+            int i = lowest(k, c, q, 4);
+            for (int half = 0; half < 2; half++, k->faces++) {
+                k->face[k->faces].group = c->block->side[d][end];
+                for (int j = 0; j < 3; j++)
+                    k->face[k->faces].corner[j] = c->corner[q[(i + (j ? j + half : 0)) % 4]];
+            }
+        }
+}
+
+static void make_block(struct shapes_maker *k, const struct shapes_block *b, struct arena *a)
+{
+    size_t row = (size_t)b->n[0] + 1, plane = row * ((size_t)b->n[1] + 1);
+    int *node = ARENA_TAKE(a, int, plane *((size_t)b->n[2] + 1)), i[3];
+    for (i[2] = 0; i[2] <= b->n[2]; i[2]++)
+        for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
+            for (i[0] = 0; i[0] <= b->n[0]; i[0]++)
+                node[(size_t)i[2] * plane + (size_t)i[1] * row + (size_t)i[0]] = corner_at(k, b, i);
+    for (i[2] = 0; i[2] < b->n[2]; i[2]++)
+        for (i[1] = 0; i[1] < b->n[1]; i[1]++)
+            for (i[0] = 0; i[0] < b->n[0]; i[0]++) {
+                struct cell c = {.block = b, .at = {i[0], i[1], i[2]}};
+                for (int q = 0; q < 8; q++)
+                    c.corner[q] = node[((size_t)i[2] + (size_t)(q >> 2)) * plane +
+                                       ((size_t)i[1] + (size_t)(q >> 1 & 1)) * row + (size_t)i[0] + (size_t)(q & 1)];
+                split(k, &c);
+                name_faces(k, &c);
+            }
+}
+
+static struct mesh_group *group_of(struct mesh *m, const char *name)
+{
+    for (int i = 0; i < m->groups; i++)
+        if (!strcmp(m->group[i].name, name)) return &m->group[i];
+    m->group[m->groups].name = name;
+    return &m->group[m->groups++];
+}
+
+static void make_groups(const struct shapes_maker *k, struct arena *a)
+{
+    k->m->group = ARENA_TAKE(a, struct mesh_group, SHAPES_BLOCKS_MOST * 6);
+    for (int i = 0; i < k->faces; i++)
+        group_of(k->m, k->face[i].group)->n++;
+    for (int i = 0; i < k->m->groups; i++) {
+        k->m->group[i].corner = arena_take(a, (size_t)k->m->group[i].n, sizeof *k->m->group[i].corner);
+        k->m->group[i].n = 0;
+    }
+    for (int i = 0; i < k->faces; i++) {
+        struct mesh_group *g = group_of(k->m, k->face[i].group);
+        memcpy(g->corner[g->n++], k->face[i].corner, sizeof k->face[i].corner);
+    }
+}
+
+void shapes_blocks_mesh(const struct shapes_blocks *s, struct arena *a, struct mesh *m)
+{
+    struct shapes_maker k = {.s = s, .m = m};
+    size_t nodes = (size_t)shapes_blocks_nodes(s, 2), cells = 0, faces = 0;
+    for (int i = 0; i < s->n; i++) {
+        const int *n = s->block[i].n;
+        cells += (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
+        faces += 4 * ((size_t)n[0] * (size_t)n[1] + (size_t)n[1] * (size_t)n[2] + (size_t)n[2] * (size_t)n[0]);
+    }
+    m->at = arena_take(a, nodes, sizeof *m->at);
+    m->element = arena_take(a, 6 * cells, sizeof *m->element);
+    k.face = arena_take(a, faces, sizeof *k.face);
+    k.odd = ARENA_TAKE(a, bool, nodes);
+    topology_merge_open(&k.points, s->size, 1e-8, nodes, a);
+    topology_edges_open(&k.edges, a);
+    for (int i = 0; i < s->n; i++)
+        make_block(&k, &s->block[i], a);
+    make_groups(&k, a);
+}
 
 static const double thinnest = 1e-4; /* of the largest length: thinner ones are wrong units rather than objects */
 
 static const char *shape_list(struct arena *a)
 {
-    const char *all = kinds[0]->name;
-    for (int i = 1; i < KINDS; i++)
-        all = arena_format(a, "%s, %s", all, kinds[i]->name);
+    const char *all = shapes_kinds[0]->name;
+    for (int i = 1; i < SHAPES_KINDS; i++)
+        all = arena_format(a, "%s, %s", all, shapes_kinds[i]->name);
     return all;
 }
 
 static const struct shapes_kind *kind_of(const char *name, struct arena *a, struct err *e)
 {
-    const char *names[KINDS + 1] = {0};
-    for (int i = 0; i < KINDS; i++) {
-        names[i] = kinds[i]->name;
-        if (!strcmp(name, names[i])) return kinds[i];
+    const char *names[SHAPES_KINDS + 1] = {0};
+    for (int i = 0; i < SHAPES_KINDS; i++) {
+        names[i] = shapes_kinds[i]->name;
+        if (!strcmp(name, names[i])) return shapes_kinds[i];
     }
     const char *near = text_nearest(name, names);
     if (near)
@@ -46,17 +263,17 @@ static const char *key_list(const struct shapes_kind *k, struct arena *a)
     return arena_format(a, "%s, fineness", all);
 }
 
-/* Index of the key, SHAPES_KINDS_LENGTHS: fineness; -1: none. */
+/* Index of the key, SHAPES_LENGTHS: fineness; -1: none. */
 static int key_of(const struct shapes_kind *k, const char *key, struct arena *a, struct err *e)
 {
-    const char *names[SHAPES_KINDS_LENGTHS + 2] = {0};
+    const char *names[SHAPES_LENGTHS + 2] = {0};
     int n = 0;
     for (; k->key[n]; n++) {
         names[n] = k->key[n];
         if (!strcmp(key, k->key[n])) return n;
     }
     names[n] = "fineness";
-    if (!strcmp(key, names[n])) return SHAPES_KINDS_LENGTHS;
+    if (!strcmp(key, names[n])) return SHAPES_LENGTHS;
     const char *near = text_nearest(key, names);
     if (near)
         err_set(e, ERR_USAGE, "%s has no '%s'; did you mean '%s'?", k->name, key, near);
@@ -69,7 +286,7 @@ static bool read_value(const struct shapes_kind *k, int key, const char *text, s
                        struct err *e)
 {
     struct units_fault fault = {0};
-    if (key == SHAPES_KINDS_LENGTHS)
+    if (key == SHAPES_LENGTHS)
         return text_int(text, 1, 6, &q->fineness) ||
                err_set(e, ERR_USAGE,
                        "fineness is '%s', and must be a whole number from 1 (coarse) to 6; 2 is the default", text);
@@ -141,12 +358,12 @@ static void find_cell(const struct shapes_kind *k, struct shapes_ask *q, double 
     k->blocks(q, a, s);
 }
 
-static bool make(const char *text, double longer, struct arena *a, struct mesh *m, struct err *e)
+bool shapes_mesh_coarser(const char *text, double longer, struct arena *a, struct mesh *m, struct err *e)
 {
     struct shapes_ask q = {.fineness = 2};
     char *copy = arena_text(a, text), *colon = strchr(copy, ':');
     struct shapes_blocks s;
-    for (int i = 0; i < SHAPES_KINDS_LENGTHS; i++)
+    for (int i = 0; i < SHAPES_LENGTHS; i++)
         q.length[i] = NAN;
     if (colon) *colon = '\0';
     const struct shapes_kind *k = kind_of(copy, a, e);
@@ -155,7 +372,7 @@ static bool make(const char *text, double longer, struct arena *a, struct mesh *
         return err_set(e, ERR_USAGE, "%s needs its lengths, such as %s:%s=10cm,...: it has %s", copy, copy, k->key[0],
                        key_list(k, a));
     q.nodes = k->nodes;
-    if (!read_pairs(k, colon + 1, &q, a, e) || !check_proportions(k, &q, e) || !k->check(&q, e) ||
+    if (!read_pairs(k, colon + 1, &q, a, e) || !check_proportions(k, &q, e) || (k->check && !k->check(&q, e)) ||
         !check_proportions(k, &q, e))
         return false;
     *m = (struct mesh){.name = arena_text(a, text)};
@@ -164,18 +381,17 @@ static bool make(const char *text, double longer, struct arena *a, struct mesh *
     return true;
 }
 
-bool shapes_mesh(const char *text, struct arena *a, struct mesh *m, struct err *e) { return make(text, 1, a, m, e); }
-
-bool shapes_mesh_coarser(const char *text, double longer, struct arena *a, struct mesh *m, struct err *e)
+bool shapes_mesh(const char *text, struct arena *a, struct mesh *m, struct err *e)
 {
-    return make(text, longer, a, m, e);
+    return shapes_mesh_coarser(text, 1, a, m, e);
 }
 
 int shapes_order(const char *text)
 {
     size_t n = strcspn(text, ":");
-    for (int i = 0; i < KINDS; i++)
-        if (n == strlen(kinds[i]->name) && !memcmp(text, kinds[i]->name, n)) return kinds[i]->order;
+    for (int i = 0; i < SHAPES_KINDS; i++)
+        if (n == strlen(shapes_kinds[i]->name) && !memcmp(text, shapes_kinds[i]->name, n))
+            return shapes_kinds[i]->order;
     return 3;
 }
 

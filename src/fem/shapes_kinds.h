@@ -1,34 +1,57 @@
-/* The shapes, each in a file of its own: check() fills in the lengths that are not given and says which does not fit;
- * blocks() lays the solid out. */
+/* A solid put together of blocks, each a lattice of n[0] x n[1] x n[2] hexahedral cells; blocks are joined where their
+ * lattice points coincide. */
 #ifndef FEM_SHAPES_KINDS_H
 #define FEM_SHAPES_KINDS_H
-#include "fem/shapes_blocks.h"
+#include "file/mesh.h"
 
-enum { SHAPES_KINDS_LENGTHS = 5 };
+enum { SHAPES_BLOCKS_MOST = 12 };
+
+struct shapes_block {
+    int n[3], which;        /* which: passed to place() */
+    const char *side[3][2]; /* group of the faces at 0 and at n of each direction; NULL: none */
+};
+
+struct shapes_blocks {
+    int n;
+    struct shapes_block block[SHAPES_BLOCKS_MOST];
+    double size; /* m, largest extent: points nearer than 1e-8 of it are one */
+    /* Where lattice place c of block `which` lies, m; also between lattice points (halves). Blocks that share a side
+     * must agree on it. */
+    void (*place)(const void *shape, int which, const double c[3], double at[3]);
+    const void *shape;
+};
+
+/* One more block. */
+struct shapes_block *shapes_blocks_add(struct shapes_blocks *s, int which, int n0, int n1, int n2);
+
+/* Points of the lattices with each cell cut into `order` along each side, those that blocks share counted for each: at
+ * least as many as nodes of elements of that order. */
+double shapes_blocks_nodes(const struct shapes_blocks *s, int order);
+
+/* Cells are split into tetrahedra so that neighbours agree; a midside lies where its edge's middle in the lattice lies,
+ * so on the true surface. */
+void shapes_blocks_mesh(const struct shapes_blocks *s, struct arena *a, struct mesh *m);
+
+enum { SHAPES_LENGTHS = 5 };
 
 struct shapes_ask {
-    double length[SHAPES_KINDS_LENGTHS]; /* m, in the order of the shape's keys; NAN: not given */
-    int fineness;                        /* 1 to 6 */
-    double nodes;                        /* of the kind, unless check() knows better */
-    double cell;                         /* m, the length a cell should have */
+    double length[SHAPES_LENGTHS]; /* m, in the order of the shape's keys; NAN: not given */
+    int fineness;                  /* 1 to 6 */
+    double nodes;                  /* of the kind, unless check() knows better */
+    double cell;                   /* m, the length a cell should have */
 };
 
 struct shapes_kind {
-    const char *name, *key[SHAPES_KINDS_LENGTHS + 1]; /* NULL-terminated */
-    int needed;                                       /* the first so many keys must be given */
-    int order;                                        /* the least costly one, 3 or 4 */
-    double nodes;                                     /* of elements of that order at fineness 2, about */
+    const char *name, *key[SHAPES_LENGTHS + 1]; /* NULL-terminated */
+    int needed;                                 /* the first so many keys must be given */
+    int order;                                  /* the least costly one, 3 or 4 */
+    double nodes;                               /* of elements of that order at fineness 2, about */
+    /* Fills in the lengths that are not given and says which does not fit; NULL: all fit. */
     bool (*check)(struct shapes_ask *q, struct err *e);
     void (*blocks)(const struct shapes_ask *q, struct arena *a, struct shapes_blocks *s);
 };
 
-extern const struct shapes_kind shapes_plate, shapes_plate_bar, shapes_rod, shapes_ring, shapes_bowl, shapes_sphere,
-    shapes_mug;
-
-/* Cells along a length, at least so many. */
-int shapes_kinds_cells(const struct shapes_ask *q, double length, int least);
-
-/* Cells through a thickness: one at fineness 1 and 2, two at 3 and 4, three above; more where it is thick. */
-int shapes_kinds_across(const struct shapes_ask *q, double thickness);
+enum { SHAPES_KINDS = 7 };
+extern const struct shapes_kind *const shapes_kinds[SHAPES_KINDS + 1]; /* then NULL */
 
 #endif

@@ -2,23 +2,22 @@
 #ifndef FEM_SOLID_H
 #define FEM_SOLID_H
 #include "fem/boundary.h"
-#include "fem/elastic.h"
-#include "fem/solid_lattice.h"
+#include "fem/solid_element.h"
 #include "file/mesh.h"
 
 enum solid_hold { SOLID_FREE, SOLID_CLAMPED, SOLID_SUPPORTED };
 
-struct solid_held { /* faces that are held: clamped, u = 0; supported: u along the face = 0, free along its normal (a
+struct solid_fixed { /* faces that are held: clamped, u = 0; supported: u along the face = 0, free along its normal (a
                        hinge for what is thin) */
-    int hold;       /* enum solid_hold */
+    int hold;        /* enum solid_hold */
     int n;
     int (*corner)[3]; /* corners of the faces, of the mesh's boundary */
 };
 
 struct solid_ask {
     const struct elastic *material;
-    const struct solid_held *held;
-    int n_held;
+    const struct solid_fixed *fixed;
+    int n_fixed;
     int order;  /* of the displacement, 2 to 4; 0: 2 */
     int most;   /* modes, rigid ones not counted */
     double top; /* Hz, modes above are left out */
@@ -45,5 +44,30 @@ struct solid_modes {
    ERR_NUMBERS: no convergence; ERR_SCENE: no mode below top; too large for the memory, with the number of freedoms. */
 bool solid_modes(const struct mesh *m, const struct boundary *b, const struct solid_ask *ask, struct arena *a,
                  struct solid_modes *s, struct err *e);
+
+/* Mode shapes where the surface is touched: phi[s->n], 1/sqrt(kg): displacement of each mode along the inward normal,
+ * that of a force that presses. */
+void solid_participation(const struct solid_modes *s, const struct boundary_point *p, double *phi);
+
+/* How far the modes of a mesh are off, from those of a coarser mesh of the same solid. */
+struct solid_side {
+    const struct mesh *mesh;
+    const struct boundary *boundary;
+    const struct solid_modes *modes;
+};
+
+struct solid_estimate {
+    double ratio;  /* of the cells' lengths, coarse to fine (mean of the elements' longest edges); 1: the same mesh */
+    double share;  /* of the difference, 1/(ratio^4 - 1); of the same mesh 1 */
+    double *error; /* [fine modes] (f - f_true)/f, about; NAN: none of the coarse modes moves alike */
+    int unpaired;
+    double median, most; /* of |error|, of those paired; NAN: none is */
+    int worst;           /* which is `most` */
+};
+
+/* Richardson's extrapolation, mode by mode: error = (f_coarse - f)/f/(ratio^4 - 1), as if frequencies fell with the
+ * fourth power of the cells' length. See solid.c for what that is worth. */
+void solid_estimate(const struct solid_side *fine, const struct solid_side *coarse, struct arena *a,
+                    struct solid_estimate *s);
 
 #endif

@@ -7,6 +7,11 @@
 #include "base/text.h"
 #include "file/mesh_formats.h"
 
+void mesh_note(struct mesh *m, struct arena *a, const char *text)
+{
+    m->note = m->note ? arena_format(a, "%s\n%s", m->note, text) : text;
+}
+
 bool mesh_read(const char *path, double unit, struct arena *a, struct mesh *m, struct err *e)
 {
     if (!(unit > 0) || !isfinite(unit))

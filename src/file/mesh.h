@@ -20,7 +20,7 @@ struct mesh {
     const char *name; /* file, or text of --shape, for messages */
     int nodes, elements, groups;
     double (*at)[3];          /* [nodes] m */
-    int (*element)[10];       /* [elements]; of a linear mesh midsides are -1 until mesh_raise (fem/mesh_raise.h) */
+    int (*element)[10];       /* [elements]; of a linear mesh midsides are -1 until topology_elevate (fem/topology.h) */
     struct mesh_group *group; /* [groups] */
     bool linear;              /* elements have their four corners only */
     const char *note;         /* lines, warnings; NULL: none */
@@ -32,5 +32,8 @@ struct mesh {
    a solid demands: fem/mesh_check.h. ERR_INPUT; ERR_SCENE "file:line: what" (binary: "file: byte N: what"); no file,
    however broken or large its counts, makes it crash, hang or take more memory than some times its length. */
 bool mesh_read(const char *path, double unit, struct arena *a, struct mesh *m, struct err *e);
+
+/* Appends a line to m->note. */
+void mesh_note(struct mesh *m, struct arena *a, const char *text);
 
 #endif

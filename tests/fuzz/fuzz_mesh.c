@@ -5,7 +5,7 @@
 
 #include "fem/boundary.h"
 #include "fem/mesh_check.h"
-#include "fem/mesh_raise.h"
+#include "fem/topology.h"
 #include "file/mesh_formats.h"
 #include "fuzz.h"
 
@@ -84,7 +84,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     if (ok) {
         struct boundary b;
-        mesh_raise(&m, a);
+        topology_elevate(&m, a);
         boundary_make(&m, a, &b);
         if (b.n < 4) abort();
     }

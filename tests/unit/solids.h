@@ -130,9 +130,9 @@ static inline struct solids solids_ball(int n, double radius, struct arena *a)
 }
 
 /* Corners of the faces whose corners all have that coordinate. */
-static inline struct solid_held solids_hold(const struct solids *s, int hold, int axis, double value, struct arena *a)
+static inline struct solid_fixed solids_hold(const struct solids *s, int hold, int axis, double value, struct arena *a)
 {
-    struct solid_held h = {hold, 0, arena_take(a, (size_t)s->boundary.n, sizeof *h.corner)};
+    struct solid_fixed h = {hold, 0, arena_take(a, (size_t)s->boundary.n, sizeof *h.corner)};
     for (int i = 0; i < s->boundary.n; i++) {
         double off = 0.0;
         for (int k = 0; k < 3; k++)
@@ -147,7 +147,7 @@ static inline struct elastic solids_steel(void)
 {
     struct elastic steel;
     struct err e = {0};
-    ck_assert(elastic_isotropic(200e9, 0.3, 7850.0, &steel, &e));
+    ck_assert(solid_element_isotropic(200e9, 0.3, 7850.0, &steel, &e));
     return steel;
 }
 

@@ -1,6 +1,6 @@
 /* Hooke's law: pulling along an axis gives Young's modulus and Poisson's contractions back; what is no material is
  * refused. */
-#include "fem/elastic.h"
+#include "fem/solid_element.h"
 
 #include "unit.h"
 
@@ -26,7 +26,7 @@ START_TEST(test_isotropic)
     struct elastic s;
     struct err e = {0};
     double stress[6];
-    ck_assert(elastic_isotropic(200e9, 0.3, 7850.0, &s, &e));
+    ck_assert(solid_element_isotropic(200e9, 0.3, 7850.0, &s, &e));
     stress_of(&s, (const double[]){1 / 200e9, -0.3 / 200e9, -0.3 / 200e9, 0, 0, 0}, stress);
     expect(stress, (const double[]){1, 0, 0, 0, 0, 0});
     stress_of(&s, (const double[]){0, 0, 0, 0, 2.6 / 200e9, 0}, stress);
@@ -43,7 +43,7 @@ START_TEST(test_orthotropic)
     struct elastic s;
     struct err e = {0};
     double stress[6];
-    ck_assert(elastic_orthotropic(&spruce, &s, &e));
+    ck_assert(solid_element_orthotropic(&spruce, &s, &e));
     const double *m = spruce.e, yz = spruce.nu[0], xz = spruce.nu[1], xy = spruce.nu[2];
     stress_of(&s, (const double[]){1 / m[0], -xy / m[0], -xz / m[0], 0, 0, 0}, stress);
     expect(stress, (const double[]){1, 0, 0, 0, 0, 0});
@@ -63,8 +63,8 @@ START_TEST(test_same)
     struct elastic s, t;
     struct err e = {0};
     const double shear = 70e9 / 2.44;
-    ck_assert(elastic_isotropic(70e9, 0.22, 2500.0, &s, &e));
-    ck_assert(elastic_orthotropic(
+    ck_assert(solid_element_isotropic(70e9, 0.22, 2500.0, &s, &e));
+    ck_assert(solid_element_orthotropic(
         &(struct elastic_wood){{70e9, 70e9, 70e9}, {shear, shear, shear}, {0.22, 0.22, 0.22}, 2500.0}, &t, &e));
     for (int i = 0; i < 36; i++)
         ck_assert(fabs(s.c[i / 6][i % 6] - t.c[i / 6][i % 6]) < 1e-12 * 70e9);
@@ -75,7 +75,7 @@ static void refuse_isotropic(double young, double poisson, double density, const
 {
     struct elastic s;
     struct err e = {0};
-    ck_assert(!elastic_isotropic(young, poisson, density, &s, &e));
+    ck_assert(!solid_element_isotropic(young, poisson, density, &s, &e));
     ck_assert_int_eq(e.kind, ERR_USAGE);
     ck_assert_msg(strstr(e.text, says) != NULL, "%s", e.text);
 }
@@ -84,7 +84,7 @@ static void refuse_wood(struct elastic_wood w, const char *says)
 {
     struct elastic s;
     struct err e = {0};
-    ck_assert(!elastic_orthotropic(&w, &s, &e));
+    ck_assert(!solid_element_orthotropic(&w, &s, &e));
     ck_assert_int_eq(e.kind, ERR_USAGE);
     ck_assert_msg(strstr(e.text, says) != NULL, "%s", e.text);
 }

@@ -2,7 +2,7 @@
  */
 #include "fem/boundary.h"
 #include "fem/mesh_check.h"
-#include "fem/mesh_raise.h"
+#include "fem/topology.h"
 #include "meshes.h"
 
 /* Elements by hand, linear. */
@@ -117,7 +117,7 @@ START_TEST(test_folded)
     int corner[1][4] = {{0, 1, 2, 3}};
     for (int k = 0; k < 2; k++) {
         struct mesh m = by_hand(4, at, 1, corner);
-        mesh_raise(&m, meshes_arena());
+        topology_elevate(&m, meshes_arena());
         m.note = NULL;
         m.at[m.element[0][4]][0] = k ? 0.1 * 0.24 : 0.1 * 0.26;
         if (k)
@@ -263,7 +263,7 @@ START_TEST(test_midsides)
     double at[5][3] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}, {0, 0, -0.1}};
     int corner[2][4] = {{0, 1, 2, 3}, {0, 2, 1, 4}};
     struct mesh m = by_hand(5, at, 2, corner);
-    mesh_raise(&m, meshes_arena());
+    topology_elevate(&m, meshes_arena());
     m.note = NULL;
     passes(&m);
     double(*more)[3] = arena_take(meshes_arena(), (size_t)m.nodes + 1, sizeof *more);
@@ -307,7 +307,7 @@ START_TEST(test_raise)
     struct mesh m = linear(CUBE);
     struct boundary b;
     int corners = m.nodes;
-    mesh_raise(&m, meshes_arena());
+    topology_elevate(&m, meshes_arena());
     ck_assert(!m.linear);
     ck_assert_ptr_nonnull(strstr(m.note, "gmsh -order 2"));
     boundary_make(&m, meshes_arena(), &b);
@@ -316,7 +316,7 @@ START_TEST(test_raise)
     ck_assert_double_eq_tol(b.volume, 8e-6, 1e-18);
     passes(&m);
     int nodes = m.nodes;
-    mesh_raise(&m, meshes_arena());
+    topology_elevate(&m, meshes_arena());
     ck_assert_int_eq(m.nodes, nodes);
 }
 END_TEST

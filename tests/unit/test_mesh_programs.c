@@ -1,7 +1,7 @@
 /* Meshes as Gmsh and TetGen themselves write them: read, sound, and of the right volume, surface and groups. */
 #include "fem/boundary.h"
 #include "fem/mesh_check.h"
-#include "fem/mesh_raise.h"
+#include "fem/topology.h"
 #include "file/mesh.h"
 #include "folder.h"
 
@@ -16,7 +16,7 @@ static struct mesh read_sound(const char *path, struct boundary *b)
     ck_assert_msg(mesh_read(path, 0.01, folder_arena, &m, &e), "%s", e.text);
     ck_assert_msg(mesh_check(&m, folder_arena, &e), "%s", e.text);
     ck_assert_msg(!m.note || !strstr(m.note, "turned back"), "%s", m.note);
-    mesh_raise(&m, folder_arena);
+    topology_elevate(&m, folder_arena);
     ck_assert_msg(mesh_check(&m, folder_arena, &e), "%s", e.text);
     boundary_make(&m, folder_arena, b);
     return m;

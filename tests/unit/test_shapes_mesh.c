@@ -1,9 +1,9 @@
 /* Meshes of simple solids: neighbours share their faces, the surface is closed and of the right genus, volumes and
  * areas converge to the closed forms, elements are sound. */
 #include "fem/boundary.h"
-#include "fem/faces.h"
 #include "fem/mesh_check.h"
-#include "fem/solid_net.h"
+#include "fem/solid_matrices.h"
+#include "fem/topology.h"
 #include "meshes.h"
 
 static const double pi = 3.14159265358979323846;
@@ -50,10 +50,10 @@ START_TEST(test_conform)
 {
     for (int fineness = 1; fineness <= 2; fineness++) {
         struct mesh m = meshes_fine(all[_i].text, fineness);
-        struct faces_face *f = faces_sorted(&m, meshes_arena());
+        struct topology_face *f = topology_faces(&m, meshes_arena());
         int n = 4 * m.elements, outer = 0;
         for (int i = 0, alike; i < n; i += alike) {
-            alike = faces_alike(f + i, n - i);
+            alike = topology_faces_alike(f + i, n - i);
             ck_assert_int_le(alike, 2);
             outer += alike == 1;
         }
@@ -99,7 +99,7 @@ START_TEST(test_freedoms)
     struct mesh m = meshes_shape(all[_i].text);
     struct boundary b = of(&m);
     struct solid_net net;
-    solid_net_make(&m, &b, shapes_order(all[_i].text), meshes_arena(), &net); /* as `rasp modes compute` does */
+    solid_matrices_net(&m, &b, shapes_order(all[_i].text), meshes_arena(), &net); /* as `rasp modes compute` does */
     ck_assert_int_ge(3 * net.nodes, 15000);
     ck_assert_int_le(3 * net.nodes, 80000);
 }

@@ -76,8 +76,8 @@ START_TEST(test_cantilever)
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solids s = solids_box((const int[]){20, 2, 1}, (const double[]){0.3, 0.02, 0.01}, a);
-    struct solid_held end = solids_hold(&s, SOLID_CLAMPED, 0, 0.0, a);
-    struct solid_ask ask = {.material = &steel, .held = &end, .n_held = 1, .most = 12, .top = 20000.0};
+    struct solid_fixed end = solids_hold(&s, SOLID_CLAMPED, 0, 0.0, a);
+    struct solid_ask ask = {.material = &steel, .fixed = &end, .n_fixed = 1, .most = 12, .top = 20000.0};
     struct solid_modes m = solids_modes(&s, &ask, a);
     double c = sqrt(200e9 / 7850.0), k = 1.8751041 / 0.3, found = 0.0;
     ck_assert_int_eq(m.rigid, 0);
@@ -94,11 +94,11 @@ START_TEST(test_cantilever)
 }
 END_TEST
 
-static struct solids supported(int n, struct solid_held held[4], struct arena *a)
+static struct solids supported(int n, struct solid_fixed fixed[4], struct arena *a)
 {
     struct solids s = solids_box((const int[]){n, n, 1}, (const double[]){0.5, 0.4, 0.02}, a);
     for (int i = 0; i < 4; i++)
-        held[i] = solids_hold(&s, SOLID_SUPPORTED, i / 2, i % 2 ? i / 2 ? 0.4 : 0.5 : 0.0, a);
+        fixed[i] = solids_hold(&s, SOLID_SUPPORTED, i / 2, i % 2 ? i / 2 ? 0.4 : 0.5 : 0.0, a);
     return s;
 }
 
@@ -110,9 +110,9 @@ START_TEST(test_supported)
 {
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
-    struct solid_held held[4];
-    struct solids s = supported(14, held, a);
-    struct solid_ask ask = {.material = &steel, .held = held, .n_held = 4, .most = 6, .top = 20000.0};
+    struct solid_fixed fixed[4];
+    struct solids s = supported(14, fixed, a);
+    struct solid_ask ask = {.material = &steel, .fixed = fixed, .n_fixed = 4, .most = 6, .top = 20000.0};
     struct solid_modes m = solids_modes(&s, &ask, a);
     const int order[5][2] = {{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 1}};
     double h = 0.02, d = 200e9 * h * h * h / (12.0 * 0.91), g = 200e9 / 2.6;
@@ -132,9 +132,9 @@ START_TEST(test_turned)
     const double r[3][3] = {{0.36, 0.48, -0.8}, {-0.8, 0.6, 0.0}, {0.48, 0.64, 0.6}};
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
-    struct solid_held held[4];
-    struct solids s = supported(6, held, a);
-    struct solid_ask ask = {.material = &steel, .held = held, .n_held = 4, .most = 6, .top = 20000.0};
+    struct solid_fixed fixed[4];
+    struct solids s = supported(6, fixed, a);
+    struct solid_ask ask = {.material = &steel, .fixed = fixed, .n_fixed = 4, .most = 6, .top = 20000.0};
     struct solid_modes m = solids_modes(&s, &ask, a), t;
     for (int i = 0; i < s.mesh.nodes; i++) {
         double p[3];
@@ -166,17 +166,17 @@ START_TEST(test_rigid)
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solids s = solids_box((const int[]){3, 2, 2}, (const double[]){0.3, 0.2, 0.25}, a);
-    struct solid_held held[3] = {solids_hold(&s, SOLID_SUPPORTED, 2, 0.0, a),
-                                 solids_hold(&s, SOLID_SUPPORTED, 0, 0.0, a),
-                                 solids_hold(&s, SOLID_SUPPORTED, 0, 0.3, a)};
-    struct solid_ask ask = {.material = &steel, .held = held, .n_held = 1, .most = 5, .top = 1e6};
+    struct solid_fixed fixed[3] = {solids_hold(&s, SOLID_SUPPORTED, 2, 0.0, a),
+                                   solids_hold(&s, SOLID_SUPPORTED, 0, 0.0, a),
+                                   solids_hold(&s, SOLID_SUPPORTED, 0, 0.3, a)};
+    struct solid_ask ask = {.material = &steel, .fixed = fixed, .n_fixed = 1, .most = 5, .top = 1e6};
     ck_assert_int_eq(solids_modes(&s, &ask, a).rigid, 3);
-    ask.n_held = 2; /* 7 x 5 x 5 nodes; the edge's 5 lose all, the others of the faces two */
+    ask.n_fixed = 2; /* 7 x 5 x 5 nodes; the edge's 5 lose all, the others of the faces two */
     struct solid_modes m = solids_modes(&s, &ask, a);
     ck_assert(m.rigid == 1 && m.freedoms == 525 - 2 * 30 - 2 * 20 - 3 * 5);
-    ask.held = held + 1;
+    ask.fixed = fixed + 1;
     ck_assert_int_eq(solids_modes(&s, &ask, a).rigid, 1);
-    ask.n_held = 0;
+    ask.n_fixed = 0;
     ck_assert_int_eq(solids_modes(&s, &ask, a).rigid, 6);
     arena_close(a);
 }
@@ -207,10 +207,10 @@ START_TEST(test_smooth)
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solids s = solids_ball(4, 0.05, a);
-    struct solid_held all = {SOLID_SUPPORTED, s.boundary.n, arena_take(a, (size_t)s.boundary.n, sizeof *all.corner)};
+    struct solid_fixed all = {SOLID_SUPPORTED, s.boundary.n, arena_take(a, (size_t)s.boundary.n, sizeof *all.corner)};
     for (int i = 0; i < s.boundary.n; i++)
         memcpy(all.corner[i], s.boundary.face[i], sizeof *all.corner);
-    struct solid_ask ask = {.material = &steel, .held = &all, .n_held = 1, .most = 8, .top = 1e6};
+    struct solid_ask ask = {.material = &steel, .fixed = &all, .n_fixed = 1, .most = 8, .top = 1e6};
     struct solid_modes m = solids_modes(&s, &ask, a);
     int outside = 0;
     ck_assert_int_eq(m.rigid, 0);
@@ -243,23 +243,23 @@ START_TEST(test_refused)
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solids s = solids_box((const int[]){1, 1, 1}, (const double[]){0.1, 0.1, 0.1}, a);
-    struct solid_held inside = {SOLID_CLAMPED, 1,
-                                (int[1][3]){{s.mesh.element[0][0], s.mesh.element[0][2], s.mesh.element[0][3]}}};
+    struct solid_fixed inside = {SOLID_CLAMPED, 1,
+                                 (int[1][3]){{s.mesh.element[0][0], s.mesh.element[0][2], s.mesh.element[0][3]}}};
     struct solid_ask ask = {.material = &steel, .most = 5, .top = 100.0};
     refuse(&s, &ask, ERR_SCENE, "no mode below 100 Hz");
-    ask.held = &inside, ask.n_held = 1;
+    ask.fixed = &inside, ask.n_fixed = 1;
     refuse(&s, &ask, ERR_SCENE, "not on the surface");
-    ask.n_held = 0, ask.top = 1e6;
+    ask.n_fixed = 0, ask.top = 1e6;
     int swap = s.mesh.element[3][0];
     s.mesh.element[3][0] = s.mesh.element[3][1], s.mesh.element[3][1] = swap;
     refuse(&s, &ask, ERR_SCENE, "element 4");
     s = corners(2, a);
     refuse(&s, &ask, ERR_NUMBERS, "6 motions of the solid as a whole should cost no energy");
     s = corners(1, a);
-    struct solid_held sides[3];
+    struct solid_fixed sides[3];
     for (int i = 0; i < 3; i++)
         sides[i] = solids_hold(&s, SOLID_CLAMPED, i, 0.0, a);
-    ask.held = sides, ask.n_held = 3;
+    ask.fixed = sides, ask.n_fixed = 3;
     refuse(&s, &ask, ERR_SCENE, "every node of the solid is held");
     arena_close(a);
 }
@@ -277,10 +277,10 @@ START_TEST(test_few)
     struct solid_modes m = solids_modes(&s, &ask, a);
     ck_assert(m.n == 24 && m.rigid == 6 && m.all);
     s = solids_box((const int[]){1, 1, 1}, (const double[]){0.1, 0.1, 0.1}, a);
-    struct solid_held all[6];
+    struct solid_fixed all[6];
     for (int i = 0; i < 6; i++)
         all[i] = solids_hold(&s, SOLID_CLAMPED, i / 2, i % 2 ? 0.1 : 0.0, a);
-    ask.held = all, ask.n_held = 6;
+    ask.fixed = all, ask.n_fixed = 6;
     m = solids_modes(&s, &ask, a);
     ck_assert(m.n == 3 && m.rigid == 0 && m.all && m.freedoms == 3);
     arena_close(a);
@@ -314,10 +314,10 @@ START_TEST(test_order_held)
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
     struct solids s = solids_box((const int[]){5, 5, 1}, (const double[]){0.5, 0.5, 0.01}, a);
-    struct solid_held held[4];
+    struct solid_fixed fixed[4];
     for (int i = 0; i < 4; i++)
-        held[i] = solids_hold(&s, SOLID_SUPPORTED, i / 2, i % 2 ? 0.5 : 0.0, a);
-    struct solid_ask ask = {.material = &steel, .held = held, .n_held = 4, .order = 3, .most = 3, .top = 20000.0};
+        fixed[i] = solids_hold(&s, SOLID_SUPPORTED, i / 2, i % 2 ? 0.5 : 0.0, a);
+    struct solid_ask ask = {.material = &steel, .fixed = fixed, .n_fixed = 4, .order = 3, .most = 3, .top = 20000.0};
     struct solid_modes m = solids_modes(&s, &ask, a);
     double unit = SOLIDS_PI / 2.0 * sqrt(200e9 * 1e-4 / (12.0 * 0.91 * 7850.0)) / 0.25;
     const double want[3] = {2, 5, 5};

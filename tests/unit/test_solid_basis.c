@@ -1,6 +1,6 @@
 /* Modes of equal frequency: the same shapes whatever the numbers of nodes and elements, and whatever basis the solver
  * gave; signs. */
-#include "fem/solid_basis.h"
+#include "fem/solid_eigen.h"
 
 #include "num/noise.h"
 #include "solids.h"
@@ -72,13 +72,13 @@ START_TEST(test_sign)
 {
     double u[4] = {0.5, -1.0, 1.0 - 1e-8, 0.0}, v[4] = {0.5, -1.0, 1.0 + 1e-5, 0.0}, zero[2] = {0.0, 0.0},
            w[2] = {-3.0, 2.0};
-    solid_basis_sign(u, 4);
+    solid_eigen_sign(u, 4);
     ck_assert(u[0] == -0.5 && u[1] == 1.0 && u[2] < 0.0);
-    solid_basis_sign(v, 4);
+    solid_eigen_sign(v, 4);
     ck_assert(v[0] == 0.5 && v[1] == -1.0);
-    solid_basis_sign(zero, 2);
+    solid_eigen_sign(zero, 2);
     ck_assert(zero[0] == 0.0 && zero[1] == 0.0);
-    solid_basis_sign(w, 2);
+    solid_eigen_sign(w, 2);
     ck_assert(w[0] == 3.0 && w[1] == -2.0);
 }
 END_TEST

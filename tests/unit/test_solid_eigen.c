@@ -4,7 +4,6 @@
 
 #include <lapacke.h>
 
-#include "fem/solid_count.h"
 #include "num/noise.h"
 #include "solids.h"
 
@@ -29,23 +28,23 @@ static void bend_inside(struct solids *s, double bend)
     }
 }
 
-static void open_order(struct rig *r, int order, const int n[3], const double size[3], bool held)
+static void open_order(struct rig *r, int order, const int n[3], const double size[3], bool fixed)
 {
     struct elastic steel = solids_steel();
     struct err e = {0};
     r->a = arena_open();
     r->s = solids_box(n, size, r->a);
     bend_inside(&r->s, 0.005);
-    struct solid_held face = solids_hold(&r->s, SOLID_CLAMPED, 0, 0.0, r->a);
-    struct solid_ask ask = {.material = &steel, .held = &face, .n_held = held};
-    solid_net_make(&r->s.mesh, &r->s.boundary, order, r->a, &r->net);
-    ck_assert(solid_freedoms_make(&r->net, &ask, r->a, &r->f, &e));
+    struct solid_fixed face = solids_hold(&r->s, SOLID_CLAMPED, 0, 0.0, r->a);
+    struct solid_ask ask = {.material = &steel, .fixed = &face, .n_fixed = fixed};
+    solid_matrices_net(&r->s.mesh, &r->s.boundary, order, r->a, &r->net);
+    ck_assert(solid_matrices_freedoms(&r->net, &ask, r->a, &r->f, &e));
     ck_assert(solid_matrices_open(&r->net, &steel, &r->f, &r->x, &e));
 }
 
-static void open_rig(struct rig *r, const int n[3], const double size[3], bool held)
+static void open_rig(struct rig *r, const int n[3], const double size[3], bool fixed)
 {
-    open_order(r, 2, n, size, held);
+    open_order(r, 2, n, size, fixed);
 }
 
 static void close_rig(struct rig *r)
@@ -107,7 +106,7 @@ static double *dense_matrix(const cholmod_sparse *a, struct arena *arena)
 
 /* 60 of 1215 pairs, free and held: lambda to 1e-9 (rigid ones: of the highest), residuals, and the count between each
  * two. */
-static void against_dense(bool held, struct rig *r)
+static void against_dense(bool fixed, struct rig *r)
 {
     struct err e = {0};
     struct solid_pairs p;
@@ -121,22 +120,22 @@ static void against_dense(bool held, struct rig *r)
     for (int i = 0; i < 60; i++)
         ck_assert_msg(fabs(p.lambda[i] - want[i]) < 1e-9 * fabs(want[i]) + 1e-11 * want[59], "%d: %.12g, not %.12g", i,
                       p.lambda[i], want[i]);
-    ck_assert(solid_eigen_residual(&r->x, &p, held ? 0 : 6, held ? 60 : 54) < 1e-8);
-    for (int i = held ? 0 : 5; i < 200; i += 13)
+    ck_assert(solid_eigen_residual(&r->x, &p, fixed ? 0 : 6, fixed ? 60 : 54) < 1e-8);
+    for (int i = fixed ? 0 : 5; i < 200; i += 13)
         if (want[i + 1] - want[i] > 1e-9 * want[i + 1])
-            ck_assert_int_eq(solid_count(&r->x, factor, 0.5 * (want[i] + want[i + 1])), i + 1);
-    ck_assert_int_eq(solid_count(&r->x, factor, -1e8), 0);
-    ck_assert_int_eq(solid_count(&r->x, factor, 2.0 * want[n - 1]), n);
+            ck_assert_int_eq(solid_eigen_count(&r->x, factor, 0.5 * (want[i] + want[i + 1])), i + 1);
+    ck_assert_int_eq(solid_eigen_count(&r->x, factor, -1e8), 0);
+    ck_assert_int_eq(solid_eigen_count(&r->x, factor, 2.0 * want[n - 1]), n);
     cholmod_free_factor(&factor, &r->x.common);
     solid_eigen_close(&p);
 }
 
 START_TEST(test_dense)
 {
-    for (int held = 0; held < 2; held++) {
+    for (int fixed = 0; fixed < 2; fixed++) {
         struct rig r;
-        open_rig(&r, (const int[]){4, 3, 1}, (const double[]){0.3, 0.2, 0.05}, held);
-        against_dense(held, &r);
+        open_rig(&r, (const int[]){4, 3, 1}, (const double[]){0.3, 0.2, 0.05}, fixed);
+        against_dense(fixed, &r);
         close_rig(&r);
     }
 }

@@ -22,7 +22,7 @@ static void make(double bend, double at[10][3])
 static const struct solid_lattice *quadratic_lattice(void)
 {
     static struct solid_lattice t;
-    t = solid_lattice_make(2);
+    t = solid_element_lattice(2);
     return &t;
 }
 
@@ -38,7 +38,7 @@ static struct elastic spruce(void)
 {
     struct elastic s;
     struct err e = {0};
-    ck_assert(elastic_orthotropic(
+    ck_assert(solid_element_orthotropic(
         &(struct elastic_wood){{11e9, 0.5e9, 0.9e9}, {0.04e9, 0.75e9, 0.72e9}, {0.25, 0.37, 0.47}, 420.0}, &s, &e));
     return s;
 }

@@ -1,5 +1,5 @@
 /* Errors that are estimated against those that closed forms tell, and modes that have no pair. */
-#include "fem/solid_estimate.h"
+#include "fem/solid.h"
 
 #include "solids.h"
 
@@ -42,11 +42,11 @@ START_TEST(test_ball)
 }
 END_TEST
 
-static struct solids plate(int n, struct solid_held held[4], struct arena *a)
+static struct solids plate(int n, struct solid_fixed fixed[4], struct arena *a)
 {
     struct solids s = solids_box((const int[]){n, n, 1}, (const double[]){0.5, 0.4, 0.02}, a);
     for (int i = 0; i < 4; i++)
-        held[i] = solids_hold(&s, SOLID_SUPPORTED, i / 2, i % 2 ? i / 2 ? 0.4 : 0.5 : 0.0, a);
+        fixed[i] = solids_hold(&s, SOLID_SUPPORTED, i / 2, i % 2 ? i / 2 ? 0.4 : 0.5 : 0.0, a);
     return s;
 }
 
@@ -58,13 +58,13 @@ START_TEST(test_plate)
     const int order[5][2] = {{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 1}};
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
-    struct solid_held held[4];
-    struct solid_ask ask = {.material = &steel, .held = held, .n_held = 4, .most = 6, .top = 20000.0};
+    struct solid_fixed fixed[4];
+    struct solid_ask ask = {.material = &steel, .fixed = fixed, .n_fixed = 4, .most = 6, .top = 20000.0};
     struct solids s[2];
     struct solid_modes m[2];
     struct solid_estimate x;
     for (int i = 0; i < 2; i++, ask.most = 12) {
-        s[i] = plate(i ? 8 : 12, held, a);
+        s[i] = plate(i ? 8 : 12, fixed, a);
         m[i] = solids_modes(&s[i], &ask, a);
     }
     struct solid_side fine = side(&s[0], &m[0]), coarse = side(&s[1], &m[1]);
@@ -89,9 +89,9 @@ START_TEST(test_pairs)
 {
     struct arena *a = arena_open();
     struct elastic steel = solids_steel();
-    struct solid_held held[4];
-    struct solids s = plate(6, held, a);
-    struct solid_ask ask = {.material = &steel, .held = held, .n_held = 4, .most = 6, .top = 20000.0};
+    struct solid_fixed fixed[4];
+    struct solids s = plate(6, fixed, a);
+    struct solid_ask ask = {.material = &steel, .fixed = fixed, .n_fixed = 4, .most = 6, .top = 20000.0};
     struct solid_modes m = solids_modes(&s, &ask, a), few = m;
     struct solid_side fine = side(&s, &m), coarse = side(&s, &few);
     struct solid_estimate x;

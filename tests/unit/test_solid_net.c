@@ -1,8 +1,8 @@
 /* Nodes of higher order: as many as Euler's count of corners, edges, faces and elements says, where their barycentric
  * coordinates say, and shared. */
-#include "fem/solid_net.h"
+#include "fem/solid_matrices.h"
 
-#include "fem/faces.h"
+#include "fem/topology.h"
 #include "meshes.h"
 
 static struct mesh m;
@@ -13,7 +13,7 @@ static void make(const char *text, int order)
 {
     m = meshes_shape(text);
     boundary_make(&m, meshes_arena(), &b);
-    solid_net_make(&m, &b, order, meshes_arena(), &net);
+    solid_matrices_net(&m, &b, order, meshes_arena(), &net);
 }
 
 /* Corners and edges of the mesh are its nodes; order p has p - 1 nodes on an edge, (p - 1)(p - 2)/2 on a face, (p -

@@ -1,8 +1,8 @@
 /* Places of the plane on a solid, and its shapes there. */
-#include "fem/chart.h"
+#include "fem/boundary.h"
 
 #include "fem/shapes.h"
-#include "fem/touch.h"
+#include "fem/solid.h"
 #include "num/real.h"
 #include "unit.h"
 
@@ -20,10 +20,10 @@ static void solid(const char *shape)
 
 static void found(int face, double x, double y, const double at[3], const double normal[3])
 {
-    struct chart c;
+    struct boundary_map c;
     struct boundary_point p;
-    chart_make(&mesh, &boundary, face, &c);
-    ck_assert_msg(chart_point(&c, x, y, &p), "%s %g %g", chart_faces[face], x, y);
+    boundary_map_make(&mesh, &boundary, face, &c);
+    ck_assert_msg(boundary_map_point(&c, x, y, &p), "%s %g %g", boundary_map_sides[face], x, y);
     for (int i = 0; i < 3; i++) {
         ck_assert_double_eq_tol(p.at[i], at[i], 1e-12);
         ck_assert_double_eq_tol(p.normal[i], normal[i], 1e-12);
@@ -34,12 +34,12 @@ static void found(int face, double x, double y, const double at[3], const double
 START_TEST(sides_of_a_box)
 {
     solid("plate:length=30cm,width=20cm,thickness=1cm");
-    found(CHART_TOP, 0.11, 0.07, (double[]){0.11, 0.07, 0.01}, (double[]){0, 0, 1});
-    found(CHART_BOTTOM, 0.11, 0.07, (double[]){0.11, 0.07, 0}, (double[]){0, 0, -1});
-    found(CHART_RIGHT, 0.07, 0.004, (double[]){0.3, 0.07, 0.004}, (double[]){1, 0, 0});
-    found(CHART_LEFT, 0.07, 0.004, (double[]){0, 0.07, 0.004}, (double[]){-1, 0, 0});
-    found(CHART_BACK, 0.07, 0.004, (double[]){0.07, 0.2, 0.004}, (double[]){0, 1, 0});
-    found(CHART_FRONT, 0.07, 0.004, (double[]){0.07, 0, 0.004}, (double[]){0, -1, 0});
+    found(BOUNDARY_TOP, 0.11, 0.07, (double[]){0.11, 0.07, 0.01}, (double[]){0, 0, 1});
+    found(BOUNDARY_BOTTOM, 0.11, 0.07, (double[]){0.11, 0.07, 0}, (double[]){0, 0, -1});
+    found(BOUNDARY_RIGHT, 0.07, 0.004, (double[]){0.3, 0.07, 0.004}, (double[]){1, 0, 0});
+    found(BOUNDARY_LEFT, 0.07, 0.004, (double[]){0, 0.07, 0.004}, (double[]){-1, 0, 0});
+    found(BOUNDARY_BACK, 0.07, 0.004, (double[]){0.07, 0.2, 0.004}, (double[]){0, 1, 0});
+    found(BOUNDARY_FRONT, 0.07, 0.004, (double[]){0.07, 0, 0.004}, (double[]){0, -1, 0});
     arena_close(arena);
 }
 END_TEST
@@ -47,15 +47,15 @@ END_TEST
 /* Edges and corners of the box belong to it, what lies beside does not. */
 START_TEST(ends_of_a_box)
 {
-    struct chart c;
+    struct boundary_map c;
     struct boundary_point p;
     solid("plate:length=30cm,width=20cm,thickness=1cm");
-    chart_make(&mesh, &boundary, CHART_TOP, &c);
+    boundary_map_make(&mesh, &boundary, BOUNDARY_TOP, &c);
     for (int i = 0; i <= 4; i++)
         for (int j = 0; j <= 4; j++)
-            ck_assert_msg(chart_point(&c, 0.3 * i / 4, 0.2 * j / 4, &p), "%d %d", i, j);
-    ck_assert(!chart_point(&c, -1e-6, 0.1, &p));
-    ck_assert(!chart_point(&c, 0.1, 0.2 + 1e-6, &p));
+            ck_assert_msg(boundary_map_point(&c, 0.3 * i / 4, 0.2 * j / 4, &p), "%d %d", i, j);
+    ck_assert(!boundary_map_point(&c, -1e-6, 0.1, &p));
+    ck_assert(!boundary_map_point(&c, 0.1, 0.2 + 1e-6, &p));
     arena_close(arena);
 }
 END_TEST
@@ -64,24 +64,24 @@ END_TEST
  * circle at most. */
 START_TEST(walls_of_a_ring)
 {
-    struct chart c;
+    struct boundary_map c;
     struct boundary_point p;
     solid("ring:diameter=20cm,width=2cm,thickness=3cm");
-    for (int face = CHART_AROUND; face <= CHART_INSIDE; face++) {
-        double radius = face == CHART_AROUND ? 0.1 : 0.08, out = face == CHART_AROUND ? 1 : -1;
-        chart_make(&mesh, &boundary, face, &c);
+    for (int face = BOUNDARY_AROUND; face <= BOUNDARY_INSIDE; face++) {
+        double radius = face == BOUNDARY_AROUND ? 0.1 : 0.08, out = face == BOUNDARY_AROUND ? 1 : -1;
+        boundary_map_make(&mesh, &boundary, face, &c);
         ck_assert_double_eq_tol(c.radius, 0.1, 2e-5);
         for (int i = 0; i < 12; i++) {
             double angle = 2 * M_PI * i / 12 + 0.1;
-            ck_assert(chart_point(&c, angle * c.radius, 0.013, &p));
+            ck_assert(boundary_map_point(&c, angle * c.radius, 0.013, &p));
             ck_assert_double_eq_tol(p.at[0], radius * cos(angle), 2e-5);
             ck_assert_double_eq_tol(p.at[1], radius * sin(angle), 2e-5);
             ck_assert_double_eq_tol(p.at[2], 0.013, 1e-12);
             ck_assert_double_eq_tol(p.normal[0] * cos(angle) + p.normal[1] * sin(angle), out, 1e-3);
         }
     }
-    chart_make(&mesh, &boundary, CHART_TOP, &c);
-    ck_assert(!chart_point(&c, 0, 0, &p)); /* the hole */
+    boundary_map_make(&mesh, &boundary, BOUNDARY_TOP, &c);
+    ck_assert(!boundary_map_point(&c, 0, 0, &p)); /* the hole */
     arena_close(arena);
 }
 END_TEST
@@ -89,7 +89,7 @@ END_TEST
 /* A displacement field that is a polynomial of second degree is read back exactly: minus its normal part. */
 START_TEST(shapes_along_the_inward_normal)
 {
-    struct chart c;
+    struct boundary_map c;
     struct boundary_point p;
     solid("plate:length=30cm,width=20cm,thickness=1cm");
     double *shape = ARENA_TAKE(arena, double, 6L * mesh.nodes), phi[2];
@@ -100,18 +100,18 @@ START_TEST(shapes_along_the_inward_normal)
         u[2] = 2 - 3 * x + 40 * x * y - 7 * y * y;
     }
     struct solid_modes s = {
-        .n = 2, .nodes = mesh.nodes, .shape = shape, .lattice = solid_lattice_make(2), .face = boundary.face[0]};
-    chart_make(&mesh, &boundary, CHART_TOP, &c);
+        .n = 2, .nodes = mesh.nodes, .shape = shape, .lattice = solid_element_lattice(2), .face = boundary.face[0]};
+    boundary_map_make(&mesh, &boundary, BOUNDARY_TOP, &c);
     for (int i = 0; i < 20; i++) {
         double x = 0.3 * (i + 0.37) / 20, y = 0.2 * (19.3 - i) / 20;
-        ck_assert(chart_point(&c, x, y, &p));
-        touch_shapes(&s, &p, phi);
+        ck_assert(boundary_map_point(&c, x, y, &p));
+        solid_participation(&s, &p, phi);
         ck_assert_double_eq_tol(phi[0], -1, 1e-12);
         ck_assert_double_eq_tol(phi[1], -(2 - 3 * x + 40 * x * y - 7 * y * y), 1e-11);
     }
-    chart_make(&mesh, &boundary, CHART_LEFT, &c);
-    ck_assert(chart_point(&c, 0.15, 0.005, &p));
-    touch_shapes(&s, &p, phi);
+    boundary_map_make(&mesh, &boundary, BOUNDARY_LEFT, &c);
+    ck_assert(boundary_map_point(&c, 0.15, 0.005, &p));
+    solid_participation(&s, &p, phi);
     ck_assert_double_eq_tol(phi[1], 5.15, 1e-11);
     arena_close(arena);
 }
