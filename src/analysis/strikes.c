@@ -3,62 +3,54 @@
    In a channel of the force: a strike is a pulse above the noise (the level that a fiftieth of all hundredths of a
    second stay below) by the threshold and above 2 % of the greatest force. It begins and ends where it stands 0.5 % of
    its peak above the channel's offset just before it: what follows, the undershoot of an amplifier and the hammer's own
-   ringing, is not force. Another pulse of at least a fifth of the peak within the gap is the same strike doubled.
+   ringing, is not force. Another pulse of at least a fifth of the peak within 50 ms is the same strike doubled.
 
    In the sound alone: a strike is where the level of the first difference (which favours a strike's high frequencies
    over what still rings) within 1 ms rises by 6 dB above its greatest of the 25 ms before, and above the noise by the
    threshold; it begins where the sound leaves what it was just before. The file's rounding is noise, too: where all
-   else is silent, the last bit of what rings out would be the next strike. */
+   else is silent, the last bit of what rings out would be the next strike.
+
+   Offset of a channel: the mean of the longest quiet part, in whole tenths of a second, in which hum of 50 or 60 Hz and
+   its harmonics has none. Where no tenth is quiet, that of the median and the mean of all which is nearer to 0, if both
+   are of one sign: most of a recording of strikes is ringing then, which is as often above as below, but even harmonics
+   of a hum move the median, and pulses the mean. It is taken off where it is more than a thousandth of the greatest
+   sample and four standard errors: thresholds and energies are about 0.
+
+   Clipping, in files that hold more than they were recorded with (floating point, or scaled afterwards): the greatest
+   sample stands several times in a row, and the signal leaves it at once. A slow wave in few bits has such rows too,
+   but leaves them by single steps, which are the least difference between neighbours that there is. */
 #include "analysis/strikes.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "analysis/strikes_level.h"
 #include "num/real.h"
 
-const struct strikes_options strikes_options = {.threshold = 20.0, .gap = 0.05};
-
-static const double least_share = 0.02; /* of the greatest force: less is no strike */
-static const double edge_share = 0.005; /* of a pulse's peak: where it begins and ends */
-static const double double_share = 0.2; /* of the peak: a second pulse */
-static const double apart = 5e-4;       /* s: nearer pulses are one, with what a low-pass makes of its edges */
-static const double shortest = 0.01;    /* s of sound that a strike needs behind it */
-static const double quiet_share =
-    0.0316; /* of the loudest sound: 30 dB below it a strike is not what the recording is about */
+static const double least_share = 0.02;   /* of the greatest force: less is no strike */
+static const double edge_share = 0.005;   /* of a pulse's peak: where it begins and ends */
+static const double double_share = 0.2;   /* of the peak: a second pulse */
+static const double doubled_time = 0.05;  /* s, strikes closer than that are one doubled strike (a bouncing hammer) */
+static const double one_pulse = 5e-4;     /* s: nearer pulses are one, with what a low-pass makes of its edges */
+static const double shortest = 0.01;      /* s of sound that a strike needs behind it */
+static const double quiet_share = 0.0316; /* of the loudest sound: 30 dB below it a strike is not what the recording is
+                                             about */
 static const double fewest_steps = 256.0; /* of the file, that a strike is high */
 static const double gap_least = 0.002;    /* s */
-static const double way = 0.02;           /* s, the longest way from force to sound */
+static const double longest_delay = 0.02; /* s, from force to sound */
 static const double arrival = 0.05;       /* of the greatest step in that time: the sound is there */
 static const double clip_share = 0.9999;  /* of what the file can hold */
+static const double considerable = 1e-3;  /* of the greatest sample: an offset */
 
 enum {
-    BESIDE = 4
-}; /* samples to each side of a pulse that are force too: what a converter's low-pass makes of its edges */
-
-struct finder {
-    const struct strikes_recording *r;
-    const struct strikes_options *o;
-    struct arena *a;
-    struct strikes *s;
-    const double *force; /* upright */
+    BESIDE = 4, /* samples to each side of a pulse that are force too: what a converter's low-pass makes of it */
+    ROW = 3,
+    STEPS = 4 /* of clipping: samples in a row, steps by which it is left */
 };
 
-static void add(struct finder *f, struct strikes_one v)
+static void note(struct strikes *s, struct arena *a, const char *text)
 {
-    struct strikes *s = f->s;
-    if ((s->n & (s->n - 1)) == 0) {
-        struct strikes_one *more = ARENA_TAKE(f->a, struct strikes_one, s->n ? 2 * s->n : 1);
-        if (s->n) memcpy(more, s->strike, (size_t)s->n * sizeof *more);
-        s->strike = more;
-    }
-    s->strike[s->n++] = v;
-}
-
-static void note(struct finder *f, const char *text)
-{
-    f->s->note = f->s->note ? arena_format(f->a, "%s\n%s", f->s->note, text) : text;
+    s->note = s->note ? arena_format(a, "%s\n%s", s->note, text) : text;
 }
 
 static double greatest(const double *x, long from, long to)
@@ -69,300 +61,374 @@ static double greatest(const double *x, long from, long to)
     return most;
 }
 
-struct limits {
-    double full, offset;
-    const double *clip;
+static double mean(const double *x, long from, long to)
+{
+    double sum = 0.0;
+    for (long i = from; i < to; i++)
+        sum += x[i];
+    return sum / (double)(to - from);
+}
+
+/* The value that `below` of x[n] are not above. */
+static double ranked(const double *x, long n, long below)
+{
+    struct arena *a = arena_open();
+    double *work = ARENA_TAKE(a, double, n);
+    memcpy(work, x, (size_t)n * sizeof *x);
+    double found = n ? gsl_stats_select(work, 1, (size_t)n, (size_t)below) : 0.0;
+    arena_close(a);
+    return found;
+}
+
+static double *differences(const double *x, long n, struct arena *a)
+{
+    double *step = ARENA_TAKE(a, double, n);
+    for (long i = 1; i < n; i++)
+        step[i] = x[i] - x[i - 1];
+    return step;
+}
+
+struct levels {
+    long frame, n; /* samples of a frame, frames */
+    double *rms;   /* [n] about the frame's own mean */
+    double floor;  /* the level that a fiftieth of them stay below: a recording of strikes is quiet for so long at
+                      least, or its floor is the ringing's */
 };
 
-static bool clips(const double *x, long from, long to, const struct limits *l)
+/* In frames of `seconds`, of at least one sample. */
+static struct levels levels(const double *x, const struct strikes_recording *r, double seconds, struct arena *a)
 {
-    bool any = false;
+    struct levels l = {.frame = (long)fmax(1.0, rint(seconds * r->rate))};
+    l.n = r->n / l.frame;
+    l.rms = ARENA_TAKE(a, double, l.n);
+    for (long k = 0; k < l.n; k++) {
+        const double *y = x + k * l.frame;
+        double middle = mean(y, 0, l.frame), square = 0.0;
+        for (long i = 0; i < l.frame; i++)
+            square += (y[i] - middle) * (y[i] - middle);
+        l.rms[k] = sqrt(square / (double)l.frame);
+    }
+    l.floor = ranked(l.rms, l.n, l.n / 50);
+    return l;
+}
+
+/* ------------------------------------------------------------------ channels */
+
+/* *error: its standard error. */
+static double offset_of(const double *x, const struct strikes_recording *r, double *error)
+{
+    struct arena *a = arena_open();
+    struct levels l = levels(x, r, 0.1, a);
+    long from = 0, to = 0, first = 0; /* frames of the longest quiet part */
+    for (long k = 0; k <= l.n; k++) {
+        if (k < l.n && l.rms[k] <= 2.0 * l.floor) continue;
+        if (k - first > to - from) {
+            from = first;
+            to = k;
+        }
+        first = k + 1;
+    }
+    double offset;
+    *error = 0.0;
+    if (to > from && l.floor < 0.5 * greatest(l.rms, 0, l.n)) {
+        offset = mean(x, from * l.frame, to * l.frame);
+        *error = l.floor / sqrt((double)((to - from) * l.frame));
+    } else {
+        double middle = ranked(x, r->n, r->n / 2), all = mean(x, 0, r->n);
+        offset = middle * all <= 0.0 ? 0.0 : fabs(middle) < fabs(all) ? middle : all;
+    }
+    arena_close(a);
+    return offset;
+}
+
+/* Does x[n] stand at its extreme of that sign in a row, and leave it at once on both sides? */
+static bool stands(const double *x, long n, double extreme, double step)
+{
+    for (long i = 1, row = 0; i < n; i++) {
+        row = x[i] == extreme ? row + 1 : 0;
+        if (row >= ROW && i + 1 < n && x[i + 1] != extreme && i > row && fabs(x[i + 1] - extreme) > STEPS * step &&
+            fabs(x[i - row] - extreme) > STEPS * step)
+            return true;
+    }
+    return false;
+}
+
+void strikes_clip(struct strikes_channel *c, long n)
+{
+    const double *x = c->x;
+    double least = 0.0, most = 0.0, step = INFINITY;
+    for (long i = 0; i < n; i++) {
+        least = fmin(least, x[i]);
+        most = fmax(most, x[i]);
+        if (i && x[i] != x[i - 1]) step = fmin(step, fabs(x[i] - x[i - 1]));
+    }
+    c->clip[0] = least < 0.0 && stands(x, n, least, step) ? least : 0.0;
+    c->clip[1] = most > 0.0 && stands(x, n, most, step) ? most : 0.0;
+}
+
+/* A copy of the channel, turned over and less its offset. */
+static void change(struct strikes_channel *c, long n, double sign, double offset, struct arena *a)
+{
+    double *to = ARENA_TAKE(a, double, n);
+    for (long i = 0; i < n; i++)
+        to[i] = sign * c->x[i] - offset;
+    c->x = to;
+}
+
+static void prepare(struct strikes_channel *c, const char *name, const struct strikes_recording *r, struct strikes *s,
+                    struct arena *a)
+{
+    double most = 0.0, error, offset = offset_of(c->x, r, &error);
+    for (long i = 0; i < r->n; i++)
+        most = fmax(most, fabs(c->x[i] - offset));
+    if (fabs(offset) > fmax(considerable * most, 4.0 * error) && most > 0.0) {
+        change(c, r->n, 1.0, offset, a);
+        c->offset = offset;
+        note(s, a, arena_format(a, "the %s stands beside 0, by %.3g: that offset is taken off", name, offset));
+    }
+    strikes_clip(c, r->n);
+}
+
+static bool clips(const struct strikes_channel *c, long from, long to)
+{
     for (long i = from; i < to; i++)
-        any = any || fabs(x[i] + l->offset) >= clip_share * l->full || (l->clip[0] < 0.0 && x[i] <= l->clip[0]) ||
-              (l->clip[1] > 0.0 && x[i] >= l->clip[1]);
-    return any;
+        if (fabs(c->x[i] + c->offset) >= clip_share * c->full || (c->clip[0] < 0.0 && c->x[i] <= c->clip[0]) ||
+            (c->clip[1] > 0.0 && c->x[i] >= c->clip[1]))
+            return true;
+    return false;
+}
+
+/* A hammer pushes: its greatest force is positive. */
+static void turn_up(struct strikes_recording *r, struct strikes *s, struct arena *a)
+{
+    struct strikes_channel *c = &r->force;
+    double up = 0.0, down = 0.0;
+    for (long i = 0; i < r->n; i++) {
+        up = fmax(up, c->x[i]);
+        down = fmax(down, -c->x[i]);
+    }
+    if (down <= up) return;
+    change(c, r->n, -1.0, 0.0, a);
+    *c = (struct strikes_channel){c->x, c->full, -c->offset, {-c->clip[1], -c->clip[0]}};
+    note(s, a, "the force points down in its channel, and is taken the other way round");
 }
 
 /* ------------------------------------------------------------------ by the force */
 
 /* The pulse whose maximum is at `top`. */
-static struct strikes_one pulse(const struct finder *f, long top)
+static struct strikes_one pulse(const struct strikes_recording *r, long top)
 {
-    const double *x = f->force, rate = f->r->rate;
-    long foot = top, early = (long)(0.003 * rate), late = (long)(0.001 * rate), n = 0;
-    struct strikes_one v = {.end = f->r->n};
+    const double *x = r->force.x;
+    long foot = top, early = (long)(0.003 * r->rate), late = (long)(0.001 * r->rate);
     while (foot > 0 && x[foot] > 0.1 * x[top])
         foot--;
-    for (long i = foot - early > 0 ? foot - early : 0; i < foot - late; i++, n++)
-        v.base += x[i];
-    v.base = n ? v.base / (double)n : 0.0;
+    long from = foot - early > 0 ? foot - early : 0;
+    struct strikes_one v = {.base = from < foot - late ? mean(x, from, foot - late) : 0.0};
     v.peak = x[top] - v.base;
     for (v.onset = foot; v.onset > 0 && v.onset > foot - late && x[v.onset] - v.base > edge_share * v.peak;)
         v.onset--;
-    for (v.over = top; v.over < f->r->n && x[v.over] - v.base > edge_share * v.peak;)
+    for (v.over = top; v.over < r->n && x[v.over] - v.base > edge_share * v.peak;)
         v.over++;
     v.onset = v.onset > BESIDE ? v.onset - BESIDE : 0;
-    v.over = v.over + BESIDE < f->r->n ? v.over + BESIDE : f->r->n;
+    v.over = v.over + BESIDE < r->n ? v.over + BESIDE : r->n;
     return v;
 }
 
-/* The first maximum of a stretch above the threshold that begins at `at`; *after: where the stretch ends. */
-static long top_of(const struct finder *f, long at, double threshold, long *after)
+static void by_force(const struct strikes_recording *r, double threshold, struct strikes *s, struct arena *a)
 {
-    long top = at, i = at;
-    for (; i < f->r->n && f->force[i] > fmax(0.5 * threshold, 0.05 * f->force[top]); i++)
-        if (f->force[i] > f->force[top]) top = i;
-    *after = i;
-    return top;
-}
-
-static void take_pulse(struct finder *f, struct strikes_one v)
-{
-    struct strikes_one *last = f->s->n ? &f->s->strike[f->s->n - 1] : NULL;
-    if (!last || (double)(v.onset - last->onset) > f->o->gap * f->r->rate) {
-        add(f, v);
-    } else if (v.peak > double_share * last->peak && (double)(v.onset - last->over) > apart * f->r->rate) {
-        last->doubled = true;
-        last->over = v.over;
-        last->peak = fmax(last->peak, v.peak);
-    }
-}
-
-/* N s, and whether the force or the sound reaches what the file holds. */
-static void measure(const struct finder *f, struct strikes_one *v)
-{
-    const struct strikes_recording *r = f->r;
-    v->momentum = 0.0;
-    for (long i = v->onset; i < v->over; i++)
-        v->momentum += (f->force[i] - v->base) / r->rate;
-    v->clipped = clips(r->force, v->onset, v->over, &(struct limits){r->force_full, r->force_offset, r->force_clip});
-}
-
-static void by_force(struct finder *f)
-{
-    const struct strikes_recording *r = f->r;
-    struct strikes_level level = strikes_level(f->force, r->n, r->rate, 0.01, f->a);
-    double most = greatest(f->force, 0, r->n),
-           threshold = fmax(level.floor * real_exp10(f->o->threshold / 20.0), least_share * most);
-    for (long i = 0, after; i < r->n; i++)
-        if (f->force[i] > threshold) {
-            take_pulse(f, pulse(f, top_of(f, i, threshold, &after)));
-            i = after;
+    const double *x = r->force.x;
+    double least = fmax(levels(x, r, 0.01, a).floor * real_exp10(threshold / 20.0), least_share * greatest(x, 0, r->n));
+    for (long i = 0; i < r->n; i++) {
+        if (x[i] <= least) continue;
+        long top = i; /* the first maximum until the force has fallen */
+        for (; i < r->n && x[i] > fmax(0.5 * least, 0.05 * x[top]); i++)
+            if (x[i] > x[top]) top = i;
+        struct strikes_one v = pulse(r, top), *last = s->n ? &s->strike[s->n - 1] : NULL;
+        if (!last || (double)(v.onset - last->onset) > doubled_time * r->rate) {
+            s->strike[s->n++] = v;
+        } else if (v.peak > double_share * last->peak && (double)(v.onset - last->over) > one_pulse * r->rate) {
+            last->doubled = true;
+            last->over = v.over;
+            last->peak = fmax(last->peak, v.peak);
         }
-    for (int k = 0; k < f->s->n; k++)
-        measure(f, &f->s->strike[k]);
-}
-
-/* A hammer pushes: its greatest force is positive. */
-static void upright(struct finder *f)
-{
-    const double *x = f->r->force;
-    double up = 0.0, down = 0.0, *other;
-    for (long i = 0; i < f->r->n; i++) {
-        up = fmax(up, x[i]);
-        down = fmax(down, -x[i]);
     }
-    f->s->sign = down > up ? -1.0 : 1.0;
-    f->force = x;
-    if (down <= up) return;
-    f->force = other = ARENA_TAKE(f->a, double, f->r->n);
-    for (long i = 0; i < f->r->n; i++)
-        other[i] = -x[i];
-    note(f, "the force points down in its channel, and is taken the other way round");
+    for (struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
+        for (long i = v->onset; i < v->over; i++)
+            v->momentum += (x[i] - v->base) / r->rate;
+        v->clipped = clips(&r->force, v->onset, v->over);
+    }
 }
 
 /* ------------------------------------------------------------------ by the sound */
 
-/* Where the sound leaves what it was in the 2 ms before `from`. */
-static long leaves(const struct finder *f, long from, long to)
+/* Where the sound departs from what it was in the 2 ms before `from`. */
+static long departs(const struct strikes_recording *r, long from, long to)
 {
-    const double *x = f->r->sound;
-    long before = (long)(0.002 * f->r->rate), first = from - before > 0 ? from - before : 0;
-    double mean = 0.0, swing = 0.0, peak = greatest(x, from, to);
+    const double *x = r->sound.x;
+    long before = (long)(0.002 * r->rate), first = from - before > 0 ? from - before : 0;
+    double middle = 0.0, swing = 0.0, peak = greatest(x, from, to);
     for (long i = first; i < from; i++)
-        mean += x[i] / (double)(from - first);
+        middle += x[i] / (double)(from - first);
     for (long i = first; i < from; i++)
-        swing = fmax(swing, fabs(x[i] - mean));
-    while (from < to && fabs(x[from] - mean) <= fmax(1.5 * swing, 0.05 * peak))
+        swing = fmax(swing, fabs(x[i] - middle));
+    while (from < to && fabs(x[from] - middle) <= fmax(1.5 * swing, 0.05 * peak))
         from++;
     return from;
 }
 
-static void take_rise(struct finder *f, long at)
+static void by_sound(const struct strikes_recording *r, double threshold, struct strikes *s, struct arena *a)
 {
-    const struct strikes_recording *r = f->r;
-    long ms = (long)fmax(1.0, 0.001 * r->rate), to = at + 3 * ms < r->n ? at + 3 * ms : r->n;
-    long onset = leaves(f, at - ms > 0 ? at - ms : 0, to), late = onset + 20 * ms < r->n ? onset + 20 * ms : r->n;
-    struct strikes_one *last = f->s->n ? &f->s->strike[f->s->n - 1] : NULL;
-    if (last && (double)(onset - last->onset) <= f->o->gap * r->rate)
-        last->doubled = last->doubled || (double)(onset - last->onset) > 0.005 * r->rate;
-    else
-        add(f,
-            (struct strikes_one){
-                .onset = onset, .over = onset, .end = r->n, .peak = greatest(r->sound, onset, late), .momentum = NAN});
-}
-
-static void by_sound(struct finder *f)
-{
-    const struct strikes_recording *r = f->r;
-    double *steps = ARENA_TAKE(f->a, double, r->n), factor = real_exp10(f->o->threshold / 20.0);
-    for (long i = 1; i < r->n; i++)
-        steps[i] = r->sound[i] - r->sound[i - 1];
-    struct strikes_level fine = strikes_level(steps, r->n, r->rate, 0.001, f->a),
-                         coarse = strikes_level(steps, r->n, r->rate, 0.01, f->a);
-    double noise = fmax(coarse.floor, sqrt(2.0) * r->rounding),
-           least = fmax(noise * factor, 1e-3 * greatest(fine.rms, 0, fine.n));
+    const double *step = differences(r->sound.x, r->n, a);
+    struct levels fine = levels(step, r, 0.001, a);
+    double noise = fmax(levels(step, r, 0.01, a).floor, sqrt(2.0) * r->rounding),
+           least = fmax(noise * real_exp10(threshold / 20.0), 1e-3 * greatest(fine.rms, 0, fine.n));
+    long ms = (long)fmax(1.0, 0.001 * r->rate);
     for (long k = 0; k < fine.n; k++) {
-        double before = greatest(fine.rms, k > 25 ? k - 25 : 0, k);
-        if (fine.rms[k] > least && fine.rms[k] > 2.0 * before) take_rise(f, k * fine.frame);
+        if (fine.rms[k] <= least || fine.rms[k] <= 2.0 * greatest(fine.rms, k > 25 ? k - 25 : 0, k)) continue;
+        long at = k * fine.frame, to = at + 3 * ms < r->n ? at + 3 * ms : r->n,
+             onset = departs(r, at - ms > 0 ? at - ms : 0, to), late = onset + 20 * ms < r->n ? onset + 20 * ms : r->n;
+        struct strikes_one *last = s->n ? &s->strike[s->n - 1] : NULL;
+        if (last && (double)(onset - last->onset) <= doubled_time * r->rate)
+            last->doubled = last->doubled || (double)(onset - last->onset) > 0.005 * r->rate;
+        else
+            s->strike[s->n++] = (struct strikes_one){
+                .onset = onset, .over = onset, .peak = greatest(r->sound.x, onset, late), .momentum = NAN};
     }
 }
 
-/* ------------------------------------------------------------------ both */
-
-static void ends(struct finder *f)
-{
-    struct strikes *s = f->s;
-    const struct strikes_recording *r = f->r;
-    long margin = (long)(0.0005 * r->rate);
-    if (s->n && (double)(r->n - s->strike[s->n - 1].onset) < shortest * r->rate) {
-        s->n--;
-        note(f, "a strike within the last 10 ms of the recording is left out");
-    }
-    for (int k = 0; k < s->n; k++) {
-        struct strikes_one *v = &s->strike[k];
-        v->end = k + 1 < s->n ? s->strike[k + 1].onset - margin : r->n;
-        v->clipped = v->clipped || clips(r->sound, v->onset, v->end, &(struct limits){r->full, r->offset, r->clip});
-    }
-}
-
-static bool worth_looking(const struct strikes_recording *r, struct err *e)
-{
-    if ((double)r->n < shortest * r->rate)
-        return err_set(e, ERR_SCENE, "%s lasts %.3g ms; a strike and what rings after it take at least 10 ms", r->name,
-                       1e3 * (double)r->n / r->rate);
-    if (greatest(r->sound, 0, r->n) == 0.0)
-        return err_set(e, ERR_SCENE, "%s: the sound is silent (all samples are 0): is --channel right?", r->name);
-    if (r->force && greatest(r->force, 0, r->n) == 0.0)
-        return err_set(e, ERR_SCENE,
-                       "%s: the channel of the force is silent (all samples are 0): is --force-channel right?",
-                       r->name);
-    return true;
-}
+/* ------------------------------------------------------------------ which of them */
 
 /* Of doubled strikes without force and of those that are much quieter than what else the recording holds the rest of
  * the table would be about something else. */
-static bool choose(struct finder *f, struct err *e)
+static bool choose(const struct strikes_recording *r, struct strikes *s, struct arena *a, struct err *e)
 {
-    const struct strikes_recording *r = f->r;
-    struct strikes *s = f->s;
-    int clipped = 0, quiet = 0, used = 0;
+    int clipped = 0, quiet = 0, doubled = 0;
     long soon = (long)(0.05 * r->rate);
-    double loudest = greatest(r->sound, 0, r->n);
+    double loudest = greatest(r->sound.x, 0, r->n);
+    for (struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
+        long to = v->onset + soon < v->end ? v->onset + soon : v->end;
+        v->left_out = v->clipped                                                   ? "clipped"
+                      : greatest(r->sound.x, v->onset, to) < quiet_share * loudest ? "too quiet"
+                      : v->doubled && !r->force.x                                  ? "doubled"
+                                                                                   : NULL;
+        clipped += v->clipped;
+        quiet += v->left_out && !strcmp(v->left_out, "too quiet");
+        doubled += v->left_out && !strcmp(v->left_out, "doubled");
+    }
+    for (int k = 0; k < s->n && clipped + quiet + doubled == s->n; k++) /* of doubled ones alone all */
+        if (!strcmp(s->strike[k].left_out, "doubled")) s->strike[k].left_out = NULL;
+    if (clipped == s->n)
+        return err_set(e, ERR_SCENE,
+                       "%s: %s clipped: no strike keeps below what the file can hold; record it again at a lower level",
+                       r->name, s->n == 1 ? "the only strike is" : arena_format(a, "all %d strikes are", s->n));
+    if (clipped + quiet == s->n)
+        return err_set(e, ERR_SCENE,
+                       "%s: no strike can be used: %d of %d are clipped, the others more than 30 dB quieter than "
+                       "the loudest sound of the recording; cut that out",
+                       r->name, clipped, s->n);
+    if (quiet)
+        note(s, a,
+             arena_format(a,
+                          "%d of %d strikes are more than 30 dB quieter than the loudest sound of the recording, "
+                          "and are left out",
+                          quiet, s->n));
+    return true;
+}
+
+/* A run of one value where the sound rings is a gap: a lost block, or a gate. */
+static bool no_gap(const struct strikes_recording *r, const struct strikes_one *v, struct err *e)
+{
+    const double *x = r->sound.x;
+    long least = (long)(gap_least * r->rate);
+    for (long i = v->over + 1, run = 1; i < v->end; i++) {
+        run = x[i] == x[i - 1] ? run + 1 : 1;
+        if (run < least) continue;
+        long from = i - run + 1, to = i;
+        while (to < v->end && x[to] == x[i])
+            to++;
+        if (greatest(x, from - least > v->over ? from - least : v->over, from) > 20.0 * r->rounding &&
+            greatest(x, to, to + least < v->end ? to + least : v->end) > 20.0 * r->rounding)
+            return err_set(e, ERR_SCENE,
+                           "%s: from %.4g s on the sound stands still for %.3g ms while the object rings: the "
+                           "recording has a gap; record it again",
+                           r->name, (double)from / r->rate, 1e3 * (double)(to - from) / r->rate);
+        i = to;
+        run = 1;
+    }
+    return true;
+}
+
+/* Enough of the file's steps to tell a mode from their rounding, which follows the sound where that is faint; and no
+ * gap. */
+static bool sound_enough(const struct strikes_recording *r, const struct strikes *s, struct err *e)
+{
+    double peak = 0.0;
+    for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++)
+        peak = fmax(peak, v->left_out ? 0.0 : greatest(r->sound.x, v->onset, v->end));
+    double steps = r->rounding > 0.0 ? peak / (r->rounding * sqrt(12.0)) : HUGE_VAL;
+    if (steps < fewest_steps)
+        return err_set(e, ERR_SCENE,
+                       "%s: the loudest strike is only %.0f of the file's steps high (%.0f are needed): what they "
+                       "round away would be taken for modes; record it with more bits, or louder",
+                       r->name, steps, fewest_steps);
+    for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++)
+        if (!v->left_out && !no_gap(r, v, e)) return false;
+    return true;
+}
+
+bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a, struct strikes *s, struct err *e)
+{
+    bool force = r->force.x != NULL;
+    *s = (struct strikes){.strike = ARENA_TAKE(a, struct strikes_one, (double)r->n / (doubled_time * r->rate) + 2.0)};
+    prepare(&r->sound, "sound", r, s, a);
+    if (force) prepare(&r->force, "force", r, s, a);
+    if ((double)r->n < shortest * r->rate)
+        return err_set(e, ERR_SCENE, "%s lasts %.3g ms; a strike and what rings after it take at least 10 ms", r->name,
+                       1e3 * (double)r->n / r->rate);
+    if (greatest(r->sound.x, 0, r->n) == 0.0)
+        return err_set(e, ERR_SCENE, "%s: the sound is silent (all samples are 0): is --channel right?", r->name);
+    if (force && greatest(r->force.x, 0, r->n) == 0.0)
+        return err_set(e, ERR_SCENE,
+                       "%s: the channel of the force is silent (all samples are 0): is --force-channel right?",
+                       r->name);
+    if (force) {
+        turn_up(r, s, a);
+        by_force(r, threshold, s, a);
+    } else {
+        by_sound(r, threshold, s, a);
+    }
+    if (s->n && (double)(r->n - s->strike[s->n - 1].onset) < shortest * r->rate) {
+        s->n--;
+        note(s, a, "a strike within the last 10 ms of the recording is left out");
+    }
     if (s->n == 0)
         return err_set(e, ERR_SCENE,
                        "%s: no strike is found: nothing in its %s rises %g dB above the noise at once; a lower "
                        "--strike-threshold finds softer ones, "
                        "and a recording that is an impulse response already wants --impulse",
-                       r->name, r->force ? "force" : "sound", f->o->threshold);
-    for (int k = 0; k < s->n; k++) {
-        struct strikes_one *v = &s->strike[k];
-        v->left_out =
-            v->clipped ? "clipped"
-            : greatest(r->sound, v->onset, v->onset + soon < v->end ? v->onset + soon : v->end) < quiet_share * loudest
-                ? "too quiet"
-            : v->doubled && !r->force ? "doubled"
-                                      : NULL;
-        clipped += v->clipped;
-        quiet += v->left_out && !strcmp(v->left_out, "too quiet");
-        used += !v->left_out;
+                       r->name, force ? "force" : "sound", threshold);
+    for (struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
+        v->end = v + 1 < s->strike + s->n ? v[1].onset - (long)(0.0005 * r->rate) : r->n;
+        v->clipped = v->clipped || clips(&r->sound, v->onset, v->end);
     }
-    for (int k = 0; k < s->n && !used; k++) /* of doubled ones alone all */
-        if (!strcmp(s->strike[k].left_out, "doubled")) s->strike[k].left_out = NULL;
-    for (int k = 0; k < s->n; k++)
-        used += !s->strike[k].left_out;
-    if (!used && clipped == s->n)
-        return err_set(e, ERR_SCENE,
-                       "%s: %s clipped: no strike keeps below what the file can hold; record it again at a lower level",
-                       r->name, s->n == 1 ? "the only strike is" : arena_format(f->a, "all %d strikes are", s->n));
-    if (quiet)
-        note(f, arena_format(f->a,
-                             "%d of %d strikes are more than 30 dB quieter than the loudest sound of the recording, "
-                             "and are left out",
-                             quiet, s->n));
-    return used || err_set(e, ERR_SCENE,
-                           "%s: no strike can be used: %d of %d are clipped, the others more than 30 dB quieter than "
-                           "the loudest sound of the recording; cut that out",
-                           r->name, clipped, s->n);
-}
-
-/* Enough of the file's steps to tell a mode from their rounding, which follows the sound where that is faint. */
-static bool fine_enough(const struct finder *f, struct err *e)
-{
-    const struct strikes_recording *r = f->r;
-    double peak = 0.0, steps;
-    for (int k = 0; k < f->s->n; k++)
-        peak =
-            fmax(peak, f->s->strike[k].left_out ? 0.0 : greatest(r->sound, f->s->strike[k].onset, f->s->strike[k].end));
-    steps = r->rounding > 0.0 ? peak / (r->rounding * sqrt(12.0)) : HUGE_VAL;
-    return steps >= fewest_steps || err_set(e, ERR_SCENE,
-                                            "%s: the loudest strike is only %.0f of the file's steps high (%.0f are "
-                                            "needed): what they round away would be taken for modes; "
-                                            "record it with more bits, or louder",
-                                            r->name, steps, fewest_steps);
-}
-
-/* A run of one value where the sound rings is a gap: a lost block, or a gate. */
-static bool no_gap(const struct finder *f, struct err *e)
-{
-    const struct strikes_recording *r = f->r;
-    long least = (long)(gap_least * r->rate);
-    for (int k = 0; k < f->s->n; k++) {
-        const struct strikes_one *v = &f->s->strike[k];
-        for (long i = v->over + 1, run = 1; i < v->end && !v->left_out; i++) {
-            run = r->sound[i] == r->sound[i - 1] ? run + 1 : 1;
-            if (run < least) continue;
-            long from = i - run + 1, to = i;
-            while (to < v->end && r->sound[to] == r->sound[i])
-                to++;
-            double before = greatest(r->sound, from - least > v->over ? from - least : v->over, from),
-                   after = greatest(r->sound, to, to + least < v->end ? to + least : v->end);
-            if (before > fmax(20.0 * r->rounding, 0.0) && after > fmax(20.0 * r->rounding, 0.0))
-                return err_set(e, ERR_SCENE,
-                               "%s: from %.4g s on the sound stands still for %.3g ms while the object rings: the "
-                               "recording has a gap; record it again",
-                               r->name, (double)from / r->rate, 1e3 * (double)(to - from) / r->rate);
-            i = to;
-            run = 1;
-        }
-    }
-    return true;
+    return choose(r, s, a, e) && sound_enough(r, s, e);
 }
 
 /* ------------------------------------------------------------------ length, delay */
 
-static int rising(const void *x, const void *y)
+double strikes_ringing(const struct strikes_recording *r, const struct strikes *s)
 {
-    double p = *(const double *)x, q = *(const double *)y;
-    return (p > q) - (p < q);
-}
-
-double strikes_ringing(const struct strikes_recording *r, const struct strikes *s, struct arena *a)
-{
-    double *steps = ARENA_TAKE(a, double, r->n), longest = 0.0;
-    for (long i = 1; i < r->n; i++)
-        steps[i] = r->sound[i] - r->sound[i - 1];
-    const double *of[2] = {r->sound, steps}; /* the sound's low modes, its high ones */
+    struct arena *a = arena_open();
+    const double *of[2] = {r->sound.x, differences(r->sound.x, r->n, a)}; /* the sound's low modes, its high ones */
+    double longest = 0.25;
     for (int q = 0; q < 2; q++) {
-        struct strikes_level l = strikes_level(of[q], r->n, r->rate, 0.01, a);
-        double *sorted = ARENA_TAKE(a, double, l.n + 1);
-        memcpy(sorted, l.rms, (size_t)l.n * sizeof *sorted);
-        qsort(sorted, (size_t)l.n, sizeof *sorted, rising);
-        double floor = 1.5 * fmax(sorted[l.n / 5],
-                                  r->rounding); /* rumble comes and goes: not the quietest moment, and 50 ms together */
+        struct levels l = levels(of[q], r, 0.01, a);
+        /* rumble comes and goes: not the quietest moment, and 50 ms together */
+        double floor = 1.5 * fmax(ranked(l.rms, l.n, l.n / 5), r->rounding);
         for (int k = 0; k < s->n; k++) {
             long first = s->strike[k].onset / l.frame, end = s->strike[k].end / l.frame, last = first;
             double peak = greatest(l.rms, first, end), power = HUGE_VAL;
+            if (s->strike[k].left_out) continue;
             for (; last + 5 <= end && power > floor * floor; last++) {
                 power = 0.0;
                 for (long i = last; i < last + 5; i++)
@@ -370,44 +436,27 @@ double strikes_ringing(const struct strikes_recording *r, const struct strikes *
             }
             last = power > floor * floor ? end : last;
             double range = peak > floor ? 20.0 * real_log10(peak / floor) : 0.0, more = 1.0 + 20.0 / fmax(range, 13.0);
-            if (!s->strike[k].left_out) longest = fmax(longest, more * (double)((last - first) * l.frame) / r->rate);
+            longest = fmax(longest, more * (double)((last - first) * l.frame) / r->rate);
         }
     }
-    return fmax(longest, 0.25);
+    arena_close(a);
+    return longest;
 }
 
-double strikes_delay(const struct strikes_recording *r, const struct strikes *s, struct arena *a)
+double strikes_delay(const struct strikes_recording *r, const struct strikes *s)
 {
-    double *delay = ARENA_TAKE(a, double, s->n + 1);
+    struct arena *a = arena_open();
+    double *delay = ARENA_TAKE(a, double, s->n), *step = differences(r->sound.x, r->n, a);
     int n = 0;
-    for (int k = 0; k < s->n; k++) {
-        const struct strikes_one *v = &s->strike[k];
-        long most = (long)(way * r->rate), to = v->onset + most < v->end ? v->onset + most : v->end, i = v->onset + 1;
-        double loudest = 0.0;
-        for (long j = i; j < to; j++)
-            loudest = fmax(loudest, fabs(r->sound[j] - r->sound[j - 1]));
-        while (i < to && fabs(r->sound[i] - r->sound[i - 1]) < arrival * loudest)
+    for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
+        long most = (long)(longest_delay * r->rate), to = v->onset + most < v->end ? v->onset + most : v->end,
+             i = v->onset + 1;
+        double loudest = greatest(step, i, to);
+        while (i < to && fabs(step[i]) < arrival * loudest)
             i++;
         if (!v->left_out && i < to) delay[n++] = (double)(i - v->onset - BESIDE) / r->rate;
     }
-    qsort(delay, (size_t)n, sizeof *delay, rising);
-    return n ? fmax(delay[n / 2], 0.0) : 0.0;
-}
-
-/* ------------------------------------------------------------------ all */
-
-bool strikes_find(const struct strikes_recording *r, const struct strikes_options *o, struct arena *a,
-                  struct strikes *s, struct err *e)
-{
-    struct finder f = {.r = r, .o = o, .a = a, .s = s};
-    *s = (struct strikes){.sign = 1.0};
-    if (!worth_looking(r, e)) return false;
-    if (r->force) {
-        upright(&f);
-        by_force(&f);
-    } else {
-        by_sound(&f);
-    }
-    ends(&f);
-    return choose(&f, e) && fine_enough(&f, e) && no_gap(&f, e);
+    double middle = n ? fmax(ranked(delay, n, n / 2), 0.0) : 0.0;
+    arena_close(a);
+    return middle;
 }

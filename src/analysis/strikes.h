@@ -6,19 +6,20 @@
 #include "base/arena.h"
 #include "base/err.h"
 
+struct strikes_channel {
+    const double *x; /* [n of the recording], quantity per full scale already applied */
+    double full;     /* the greatest value that the file can hold, in x's unit: what reaches it is clipped; INFINITY:
+                        floating point */
+    double offset;   /* that strikes_find took off */
+    double clip[2];  /* levels below and above at which it clips all the same; 0: it does not */
+};
+
 struct strikes_recording {
-    const char *name;    /* file, for messages */
-    const double *sound; /* [n], quantity per full scale already applied */
-    const double *force; /* [n] N; NULL: no channel holds it */
+    const char *name;                    /* file, for messages */
+    struct strikes_channel sound, force; /* force: N; its x NULL: no channel holds it */
     long n;
-    double rate; /* Hz */
-    double full; /* the greatest value that the file can hold, in the sound's and the force's own unit: what reaches it
-                    is clipped; INFINITY: floating point */
-    double force_full;
-    double offset, force_offset; /* that strikes_channel.h took off */
-    double clip[2],
-        force_clip[2]; /* levels below and above at which a channel clips (strikes_channel.h); 0: it does not */
-    double rounding;   /* rms of what the file's steps do to the sound; 0: not known */
+    double rate;     /* Hz */
+    double rounding; /* rms of what the file's steps do to the sound; 0: not known */
 };
 
 struct strikes_one {
@@ -34,26 +35,23 @@ struct strikes_one {
 struct strikes {
     int n;
     struct strikes_one *strike; /* [n] by onset */
-    double sign;                /* -1: the force channel points down, and is taken the other way round */
     const char *note;           /* lines; NULL */
 };
 
-struct strikes_options {
-    double threshold; /* onset: rise of the short-time level above the noise, dB; 20 */
-    double gap;       /* s, strikes closer than that are one doubled strike (a bouncing hammer); 0.05 */
-};
-extern const struct strikes_options strikes_options;
+/* Takes a considerable offset off the channels, turns the force upwards (both in copies), and finds where they clip and
+   what strikes there are. threshold: dB by which an onset's short-time level rises above the noise. ERR_SCENE: silent
+   (nothing above the noise, or all 0), clipped throughout, no strike, shorter than 10 ms: what is wrong and what to
+   do. */
+bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a, struct strikes *s, struct err *e);
 
-/* ERR_SCENE: silent (nothing above the noise, or all 0), clipped throughout, no strike, shorter than 10 ms: what is
- * wrong and what to do. */
-bool strikes_find(const struct strikes_recording *r, const struct strikes_options *o, struct arena *a,
-                  struct strikes *s, struct err *e);
+/* Sets the levels at which a channel of n samples clips, though the file could hold more. */
+void strikes_clip(struct strikes_channel *c, long n);
 
 /* How long the sound of all strikes rings, s: until the loudest has sunk into the noise, and as much longer as 20 dB
  * more take. */
-double strikes_ringing(const struct strikes_recording *r, const struct strikes *s, struct arena *a);
+double strikes_ringing(const struct strikes_recording *r, const struct strikes *s);
 
 /* By which the sound comes after the force, s: the median over strikes. */
-double strikes_delay(const struct strikes_recording *r, const struct strikes *s, struct arena *a);
+double strikes_delay(const struct strikes_recording *r, const struct strikes *s);
 
 #endif

@@ -29,7 +29,7 @@ static bool sound(const struct modes_extract *x, const char *file, int what, str
     double *frames = ARENA_TAKE(x->arena, double, length * x->n);
     for (int k = 0; k < x->n; k++)
         for (long i = 0; what == RESIDUAL && i < x->place[k].recording.n; i++)
-            frames[i * x->n + k] = x->place[k].recording.sound[i];
+            frames[i * x->n + k] = x->place[k].recording.sound.x[i];
     for (int s = 0; s < x->data.stretches; s++)
         for (long i = 0; i < x->data.stretch[s].n; i++)
             frames[(x->data.stretch[s].first + i) * x->n + x->data.stretch[s].place] +=

@@ -18,10 +18,10 @@ struct modes_extract_given {
     double radius, distance;     /* m; NAN: not given */
     double delay;                /* s; NAN: to be found */
     bool impulse, spectrogram;
-    const char *only; /* strikes that are fitted, as 1,3,5-7; NULL: all that can be */
-    double low, high; /* Hz; NAN: by the band */
-    double fastest;   /* 1/s; NAN: by the rate */
-    struct strikes_options strikes;
+    const char *only;                                   /* strikes that are fitted, as 1,3,5-7; NULL: all that can be */
+    double low, high;                                   /* Hz; NAN: by the band */
+    double fastest;                                     /* 1/s; NAN: by the rate */
+    double threshold;                                   /* dB, of strikes */
     const char *output, *residual, *resynthesis, *plot; /* files; NULL: not wanted */
     bool svg;
 };

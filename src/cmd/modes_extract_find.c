@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "analysis/modal_complex.h"
-#include "analysis/strikes_channel.h"
 #include "cmd/modes_extract.h"
 #include "num/fft.h"
 #include "num/real.h"
@@ -62,11 +61,11 @@ static long begins(const double *h, long n, double most)
 /* A recording that is a response already: its delay is taken off; if none is given, what is silent before it. */
 static bool impulse(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
 {
-    const struct strikes_recording *r = &p->recording;
-    double most = 0.0, clip[2];
+    struct strikes_recording *r = &p->recording;
+    double most = 0.0;
     for (long i = 0; i < r->n; i++)
-        most = fmax(most, fabs(r->sound[i]));
-    long shift = isnan(x->given.delay) ? begins(r->sound, r->n, most) : (long)rint(x->given.delay * r->rate);
+        most = fmax(most, fabs(r->sound.x[i]));
+    long shift = isnan(x->given.delay) ? begins(r->sound.x, r->n, most) : (long)rint(x->given.delay * r->rate);
     most = 0.0;
     if (isnan(x->given.delay) && shift)
         place_note(x, p,
@@ -77,14 +76,14 @@ static bool impulse(struct modes_extract *x, struct modes_extract_place *p, stru
         return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name,
                        1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
     for (long i = shift; i < r->n; i++)
-        most = fmax(most, fabs(r->sound[i]));
+        most = fmax(most, fabs(r->sound.x[i]));
     if (most == 0.0)
         return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
-    strikes_channel_clip(r->sound, r->n, clip);
-    if (most >= 0.9999 * r->full || clip[0] < 0.0 || clip[1] > 0.0)
+    strikes_clip(&r->sound, r->n);
+    if (most >= 0.9999 * r->sound.full || r->sound.clip[0] < 0.0 || r->sound.clip[1] > 0.0)
         place_note(x, p, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
     p->delay = (double)shift / r->rate;
-    p->strikes = (struct strikes){.n = 1, .strike = ARENA_TAKE(x->arena, struct strikes_one, 1), .sign = 1.0};
+    p->strikes = (struct strikes){.n = 1, .strike = ARENA_TAKE(x->arena, struct strikes_one, 1)};
     p->strikes.strike[0] =
         (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
     return true;
@@ -115,8 +114,7 @@ static bool strikes(struct modes_extract *x, struct modes_extract_place *p, stru
 {
     int left = 0;
     if (x->given.impulse) return impulse(x, p, e);
-    place_note(x, p, strikes_channel_prepare(&p->recording, x->arena));
-    if (!strikes_find(&p->recording, &x->given.strikes, x->arena, &p->strikes, e)) return false;
+    if (!strikes_find(&p->recording, x->given.threshold, x->arena, &p->strikes, e)) return false;
     place_note(x, p, p->strikes.note);
     for (int k = 0; k < p->strikes.n; k++) {
         bool yes;
@@ -126,9 +124,9 @@ static bool strikes(struct modes_extract *x, struct modes_extract_place *p, stru
     }
     if (!left)
         return err_set(e, ERR_SCENE, "%s: --strikes %s leaves no strike that can be fitted", p->shown, x->given.only);
-    p->delay = !p->recording.force      ? 0.0
+    p->delay = !p->recording.force.x    ? 0.0
                : !isnan(x->given.delay) ? x->given.delay
-                                        : strikes_delay(&p->recording, &p->strikes, x->arena);
+                                        : strikes_delay(&p->recording, &p->strikes);
     return true;
 }
 
@@ -147,7 +145,7 @@ static void add(struct modes_extract *x, struct modal_stretch *list, struct mode
 {
     const struct strikes_recording *r = &p->recording;
     s.n = modal_length((end < r->n ? end : r->n) - s.first);
-    s.y = r->sound + s.first;
+    s.y = r->sound.x + s.first;
     s.place = (int)(p - x->place);
     if ((double)(s.n - s.ringing) < shortest * r->rate) return;
     if (p->stretches++ == 0) p->first = x->data.stretches;
@@ -158,11 +156,11 @@ static void add(struct modes_extract *x, struct modal_stretch *list, struct mode
 static struct modal_pulse pulse(struct modes_extract *x, const struct modes_extract_place *p, int strike, long at)
 {
     const struct strikes_one *v = &p->strikes.strike[strike];
-    long n = p->recording.force ? v->over - v->onset : 1;
+    long n = p->recording.force.x ? v->over - v->onset : 1;
     double *f = ARENA_TAKE(x->arena, double, n);
     f[0] = 1.0;
-    for (long i = 0; p->recording.force && i < n; i++)
-        f[i] = p->strikes.sign * p->recording.force[v->onset + i] - v->base;
+    for (long i = 0; p->recording.force.x && i < n; i++)
+        f[i] = p->recording.force.x[v->onset + i] - v->base;
     return (struct modal_pulse){at, n, f};
 }
 
@@ -170,9 +168,9 @@ static void place_stretches(struct modes_extract *x, struct modal_stretch *list,
 {
     const struct strikes *s = &p->strikes;
     const struct strikes_recording *r = &p->recording;
-    bool force = r->force != NULL;
+    bool force = r->force.x != NULL;
     long late = (long)rint(p->delay * x->rate), early = (long)ceil(before * x->rate),
-         longest = (long)(strikes_ringing(r, s, x->arena) * x->rate);
+         longest = (long)(strikes_ringing(r, s) * x->rate);
     if (!x->given.impulse && s->strike[0].onset - early > (long)(lead_least * x->rate))
         add(x, list, p, (struct modal_stretch){.group = x->data.groups++, .strike = -1}, s->strike[0].onset - early);
     for (int k = 0; k < s->n; k++) {
@@ -202,7 +200,7 @@ static void band_of_force(struct modes_extract *x, struct modes_extract_place *p
     struct fft *fft = fft_open((size_t)n);
     p->low = 0.0;
     p->high = 0.49 * x->rate;
-    for (int s = p->first; p->recording.force && s < p->first + p->stretches; s++) {
+    for (int s = p->first; p->recording.force.x && s < p->first + p->stretches; s++) {
         const struct modal_stretch *st = &x->data.stretch[s];
         if (!st->fitted || st->strike < 0) continue;
         const struct modal_pulse *q = &st->pulse;
@@ -323,7 +321,7 @@ static int strike_gains(const struct modes_extract *x, const struct modal_mode *
         if (st->strike < 0 || !st->fitted || !isfinite(m->gain_se[st->group]) || !(m->gain_se[st->group] > 0.0))
             continue;
         const struct strikes_one *v = &p->strikes.strike[st->strike];
-        bool alone = !x->given.impulse && !p->recording.force;
+        bool alone = !x->given.impulse && !p->recording.force.x;
         double back = alone ? (double)(st->pulse.at - v->onset) / x->rate : 0.0, unit = x->given.impulse ? 1.0
                                                                                         : alone          ? 1.0 / v->peak
                                                                                                          : x->rate;

@@ -40,7 +40,7 @@ static bool numbers(struct modes_extract *x, struct err *e)
     return args_whole(a, "channel", channels, &g->channel, e) &&
            args_whole(a, "force-channel", channels, &g->force_channel, e) &&
            args_number(a, "scale", scales, &g->scale, e) && args_number(a, "force-scale", scales, &g->force_scale, e) &&
-           args_number(a, "strike-threshold", rise, &g->strikes.threshold, e) &&
+           args_number(a, "strike-threshold", rise, &g->threshold, e) &&
            quantity(x, "radius", KEY_LENGTH, &g->radius, e) && quantity(x, "distance", KEY_LENGTH, &g->distance, e) &&
            quantity(x, "delay", KEY_TIME, &g->delay, e) && quantity(x, "low", KEY_FREQUENCY, &g->low, e) &&
            quantity(x, "high", KEY_FREQUENCY, &g->high, e) && args_number(a, "fastest", scales, &g->fastest, e);
@@ -123,7 +123,7 @@ bool modes_extract_options(struct modes_extract *x, struct err *e)
                                       .fastest = NAN,
                                       .low = NAN,
                                       .high = NAN,
-                                      .strikes = strikes_options};
+                                      .threshold = 20.0};
     g->impulse = args_given(&x->c->args, "impulse");
     g->only = args_value(&x->c->args, "strikes");
     if (!word(x, "quantity", quantities, &g->quantity, e) || !word(x, "method", methods, &method, e) || !numbers(x, e))

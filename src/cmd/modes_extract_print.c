@@ -7,7 +7,7 @@
 
 static void strikes(const struct modes_extract *x, const struct modes_extract_place *p)
 {
-    bool force = p->recording.force != NULL;
+    bool force = p->recording.force.x != NULL;
     int used = 0;
     for (int k = 0; k < p->strikes.n; k++)
         used += !p->strikes.strike[k].left_out;

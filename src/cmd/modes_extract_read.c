@@ -174,14 +174,13 @@ static bool samples(struct modes_extract *x, struct modes_extract_place *p, stru
     if (!has_channels(x, p, e)) return false;
     double scale = p->gain * (isnan(g->scale) ? 1.0 : g->scale),
            force_scale = isnan(g->force_scale) ? 1.0 : g->force_scale;
-    p->recording = (struct strikes_recording){.name = p->shown,
-                                              .n = (long)w.frames,
-                                              .rate = w.rate,
-                                              .full = w.bits ? fabs(scale) : INFINITY,
-                                              .force_full = w.bits ? force_scale : INFINITY};
-    p->recording.rounding = fabs(scale) * rounding(&w, (int)g->channel - 1);
-    p->recording.sound = channel(&w, g->channel, scale, x->arena);
-    p->recording.force = g->force_channel ? channel(&w, g->force_channel, force_scale, x->arena) : NULL;
+    struct strikes_recording *r = &p->recording;
+    *r = (struct strikes_recording){.name = p->shown, .n = (long)w.frames, .rate = w.rate};
+    r->rounding = fabs(scale) * rounding(&w, (int)g->channel - 1);
+    r->sound.x = channel(&w, g->channel, scale, x->arena);
+    r->sound.full = w.bits ? fabs(scale) : INFINITY;
+    if (g->force_channel) r->force.x = channel(&w, g->force_channel, force_scale, x->arena);
+    r->force.full = w.bits ? force_scale : INFINITY;
     if (x->rate == 0.0) x->rate = w.rate;
     return x->rate == w.rate ||
            err_set(e, ERR_SCENE,
