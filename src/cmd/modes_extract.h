@@ -1,15 +1,22 @@
-/* Parts of `rasp modes extract`: options, reading, finding, table, report, picture. */
+/* Parts of `rasp modes extract`: from recordings to modes (modes_extract_find), and what is written of them. */
 #ifndef CMD_MODES_EXTRACT_H
 #define CMD_MODES_EXTRACT_H
 #include "analysis/modal.h"
 #include "analysis/spectral_distance.h"
 #include "analysis/strikes.h"
 #include "base/hash.h"
-#include "base/outfile.h"
 #include "cmd/modes.h"
 #include "output/gnuplot.h"
 
-enum { MODES_EXTRACT_NOTES = 64, MODES_EXTRACT_STRIKES = 250 };
+enum { MODES_EXTRACT_NOTES = 64 };
+
+enum {
+    MODES_EXTRACT_TABLE,
+    MODES_EXTRACT_RESIDUAL,
+    MODES_EXTRACT_RESYNTHESIS,
+    MODES_EXTRACT_PLOT,
+    MODES_EXTRACT_FILES
+};
 
 struct modes_extract_given {
     long channel, force_channel; /* from 1; force 0: none */
@@ -17,13 +24,13 @@ struct modes_extract_given {
     int quantity;                /* enum modes_quantity of the sound's channel */
     double radius, distance;     /* m; NAN: not given */
     double delay;                /* s; NAN: to be found */
-    bool impulse, spectrogram;
-    const char *only;                                   /* strikes that are fitted, as 1,3,5-7; NULL: all that can be */
-    double low, high;                                   /* Hz; NAN: by the band */
-    double fastest;                                     /* 1/s; NAN: by the rate */
-    double threshold;                                   /* dB, of strikes */
-    const char *output, *residual, *resynthesis, *plot; /* files; NULL: not wanted */
-    bool svg;
+    bool impulse, spectrogram, svg;
+    const char *only;                      /* strikes that are fitted, as 1,3,5-7; NULL: all that can be */
+    double low, high;                      /* Hz; NAN: by the band */
+    double fastest;                        /* 1/s; NAN: by the rate */
+    double threshold;                      /* dB, of strikes */
+    long modes;                            /* at most */
+    const char *file[MODES_EXTRACT_FILES]; /* outputs; NULL: not wanted */
 };
 
 struct modes_extract_place {
@@ -33,25 +40,20 @@ struct modes_extract_place {
     char hash[HASH_TEXT];
     bool placed;       /* a place was given */
     double x, y, gain; /* m; factor of the sound */
-    int channels, bits;
     struct strikes_recording recording;
     struct strikes strikes;
     double delay;                      /* s, by which the sound comes after the force */
-    double low, high;                  /* Hz, the force's reach */
+    double high;                       /* Hz, the force's reach */
     int first, stretches;              /* of x->data */
     double explained;                  /* share of the energy of the strikes that are fitted */
     double predicted;                  /* ... of those that are not; NAN: there are none */
-    struct spectral_distance distance; /* from a strike to what its modes make of it: of those that are predicted the
-                                          loudest, else of those that are fitted */
-    int shown_stretch;                 /* which one that is */
-    double noise;                      /* rms */
+    int loudest;                       /* stretch: of strikes that are predicted the loudest, else of those fitted */
+    struct spectral_distance distance; /* from that strike to what its modes make of it */
 };
 
-struct modes_extract_mode { /* h(t) = Im A e^(s t) per N s at every place, t from the strike; without force of a strike
-                               whose sound's peak is 1 */
-    double frequency, decay, frequency_se, decay_se, frequency_between, decay_between, share;
-    double *re, *im, *gain_se; /* [places] */
-    int mode, slope;
+struct modes_extract_gain { /* h(t) = Im A e^(s t) per N s, t from the strike; without force of a strike whose sound's
+                               peak is 1 */
+    double re, im, se;      /* se: of |A| */
 };
 
 struct modes_extract {
@@ -64,12 +66,10 @@ struct modes_extract {
     double rate, low, high;            /* Hz; the band that is searched */
     struct modal_data data;
     struct modal_result found;
-    int components, modes;
-    struct modes_extract_mode *heard; /* [components] of the sound's channel */
-    struct modes_extract_mode *mode;  /* of the table's quantity */
+    struct modes_extract_gain *sound; /* [found.n][n] of the sound's channel */
+    struct modes_extract_gain *gain;  /* ... of the table's quantity */
     int quantity;                     /* of the table */
-    bool physical;
-    const char *why_not; /* what lacks for a physical level; NULL */
+    const char *why_not;              /* what lacks for a physical level; NULL */
     const char *note[MODES_EXTRACT_NOTES];
     int notes;
     double median_decay;     /* 1/s, of all components alike */
@@ -77,23 +77,13 @@ struct modes_extract {
                                 300/s */
 };
 
-void modes_extract_find_note(struct modes_extract *x, const char *text);
-/* Share of a strike's energy that the modes explain; NAN: it is no part of the fit's data. */
-double modes_extract_find_explained(const struct modes_extract *x, const struct modes_extract_place *p, int strike);
-bool modes_extract_options(struct modes_extract *x, struct err *e);
-
-/* Operands to places, with their samples. */
-bool modes_extract_read(struct modes_extract *x, struct err *e);
-
-/* Responses, modes, what they explain. */
+/* Strikes, responses, modes, gains, what they explain. */
 bool modes_extract_find(struct modes_extract *x, struct err *e);
+/* |X|^2 of y[n], padded with 0: [size/2 + 1]. */
+double *modes_extract_find_power(const double *y, long n, long size, struct arena *a);
 
-/* Divides out a monopole's radiation, if its sizes are given. */
-void modes_extract_write_radiation(struct modes_extract *x);
-
-void modes_extract_write(FILE *f, const struct modes_extract *x);
-void modes_extract_print(const struct modes_extract *x);
-bool modes_extract_json(const struct modes_extract *x, struct err *e);
-void modes_extract_plot(void *self, struct gnuplot *g); /* self: struct modes_extract */
+void modes_extract_write_table(FILE *f, const struct modes_extract *x);
+bool modes_extract_write_report(const struct modes_extract *x, bool json, struct err *e);
+void modes_extract_write_picture(void *self, struct gnuplot *g); /* self: struct modes_extract */
 
 #endif

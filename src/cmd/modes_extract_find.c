@@ -1,8 +1,14 @@
-/* From recordings to modes: strikes, the stretches that are fitted, the fit, and what it explains.
+/* From recordings to modes: strikes, the stretches that are fitted, the fit, what it explains, and each mode's gains.
 
    With a force a stretch begins just before its strike, and what rings on from earlier strikes is carried into it
    (analysis/modal_fit.h). Without one it begins a millisecond after the strike, when a hard hammer has left, and has
-   gains of its own, which are taken back to the strike by e^(-s t). */
+   gains of its own, which are taken back to the strike by e^(-s t).
+
+   A microphone's pressure is, without the sizes of a radiator, taken as proportional to the acceleration of the
+   surface, as of a small source: gains then hold what the path through the air did to each mode. With them each mode's
+   gain is divided by a monopole's H(s), pressure over velocity (response/radiator_monopole.c). */
+#include <gsl/gsl_sort_double.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,11 +17,14 @@
 #include "cmd/modes_extract.h"
 #include "num/fft.h"
 #include "num/real.h"
+#include "response/radiator_monopole.h"
+
+enum { STRIKES = 250 };
 
 static const double before = 4e-4;     /* s of a stretch before its force */
 static const double past = 1e-3;       /* s after a strike without force: the hammer has left */
 static const double shortest = 0.01;   /* s of sound that a stretch needs */
-static const double lead_least = 0.05; /* s of silence before the first strike that tell the noise */
+static const double lead_least = 0.05; /* s of silence before the first strike that show the noise */
 static const double reach = 1e-4;      /* of the force's greatest power: what lies below is noise */
 static const double half = 0.5;        /* of a strike's energy: modes that explain less are not its own */
 static const double enough = 0.9;      /* of all strikes' */
@@ -24,30 +33,36 @@ static const double much = 0.2;        /* of the energy: what follows the force 
 static const double fastest[2] = {600.0, 0.05}; /* 1/s, and of the rate: what decays faster than the less of the two is
                                                    no mode unless one asks for it */
 static const double slow = 300.0;               /* 1/s, of decays that the median by energy is about */
+static const double air_density = 1.204, air_speed = 343.2; /* kg/m^3, m/s: as output.listen has them by default */
 
-void modes_extract_find_note(struct modes_extract *x, const char *text)
+/* The lines of a text, each once, of a place (NULL: of none). */
+static void note(struct modes_extract *x, const struct modes_extract_place *p, const char *text)
 {
     for (const char *line = text; line && *line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL) {
-        const char *one = arena_format(x->arena, "%.*s", (int)strcspn(line, "\n"), line);
-        bool known = false;
-        for (int k = 0; k < x->notes; k++)
-            known = known || !strcmp(x->note[k], one);
-        if (!known && x->notes < MODES_EXTRACT_NOTES) x->note[x->notes++] = one;
+        const char *one =
+            arena_format(x->arena, "%s%s%.*s", p ? p->name : "", p ? ": " : "", (int)strcspn(line, "\n"), line);
+        int k = 0;
+        while (k < x->notes && strcmp(x->note[k], one) != 0)
+            k++;
+        if (k == x->notes && k < MODES_EXTRACT_NOTES) x->note[x->notes++] = one;
     }
-}
-
-static void place_note(struct modes_extract *x, const struct modes_extract_place *p, const char *text)
-{
-    for (const char *line = text; line && *line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
-        modes_extract_find_note(x, arena_format(x->arena, "%s: %.*s", p->name, (int)strcspn(line, "\n"), line));
 }
 
 /* ------------------------------------------------------------------ strikes */
 
+static double greatest(const double *x, long from, long to)
+{
+    double most = 0.0;
+    for (long i = from; i < to; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
 /* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins
  * there, if all before is fainter. One more stays, as sample 0. */
-static long begins(const double *h, long n, double most)
+static long begins(const double *h, long n)
 {
+    double most = greatest(h, 0, n);
     long at = 0, start, quiet = 0;
     while (at < n && fabs(h[at]) < 0.2 * most)
         at++;
@@ -62,26 +77,23 @@ static long begins(const double *h, long n, double most)
 static bool impulse(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
 {
     struct strikes_recording *r = &p->recording;
-    double most = 0.0;
-    for (long i = 0; i < r->n; i++)
-        most = fmax(most, fabs(r->sound.x[i]));
-    long shift = isnan(x->given.delay) ? begins(r->sound.x, r->n, most) : (long)rint(x->given.delay * r->rate);
-    most = 0.0;
-    if (isnan(x->given.delay) && shift)
-        place_note(x, p,
-                   arena_format(x->arena,
-                                "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)",
-                                1e3 * (double)shift / r->rate));
+    struct strikes_channel *c = &r->sound;
+    bool given = !isnan(x->given.delay);
+    long shift = given ? (long)rint(x->given.delay * r->rate) : begins(c->x, r->n);
+    if (!given && shift)
+        note(x, p,
+             arena_format(x->arena,
+                          "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)",
+                          1e3 * (double)shift / r->rate));
     if ((double)(r->n - shift) < 0.01 * r->rate)
         return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name,
                        1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
-    for (long i = shift; i < r->n; i++)
-        most = fmax(most, fabs(r->sound.x[i]));
+    double most = greatest(c->x, shift, r->n);
     if (most == 0.0)
         return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
-    strikes_clip(&r->sound, r->n);
-    if (most >= 0.9999 * r->sound.full || r->sound.clip[0] < 0.0 || r->sound.clip[1] > 0.0)
-        place_note(x, p, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
+    strikes_clip(c, r->n);
+    if (most >= 0.9999 * c->full || c->clip[0] < 0.0 || c->clip[1] > 0.0)
+        note(x, p, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
     p->delay = (double)shift / r->rate;
     p->strikes = (struct strikes){.n = 1, .strike = ARENA_TAKE(x->arena, struct strikes_one, 1)};
     p->strikes.strike[0] =
@@ -89,12 +101,11 @@ static bool impulse(struct modes_extract *x, struct modes_extract_place *p, stru
     return true;
 }
 
-/* --strikes 1,3,5-7 */
-static bool chosen(const struct modes_extract *x, int strike, int strikes, bool *yes, struct err *e)
+/* --strikes 1,3,5-7: leaves the others out. */
+static bool only(const struct modes_extract *x, struct strikes *s, struct err *e)
 {
-    const char *text = x->given.only;
-    *yes = !text;
-    while (text && *text) {
+    bool *chosen = ARENA_TAKE(x->arena, bool, s->n);
+    for (const char *text = x->given.only; *text;) {
         char *end;
         long from = strtol(text, &end, 10), to = from;
         if (end != text && *end == '-') {
@@ -103,28 +114,27 @@ static bool chosen(const struct modes_extract *x, int strike, int strikes, bool 
         }
         if (end == text || (*end && *end != ',') || from < 1 || to < from)
             return err_set(e, ERR_USAGE, "--strikes: '%s' is not of the form 1,3,5-7", x->given.only);
-        if (to > strikes) return err_set(e, ERR_USAGE, "--strikes: '%s': there are %d strikes", x->given.only, strikes);
-        *yes = *yes || (strike + 1 >= from && strike + 1 <= to);
+        if (to > s->n) return err_set(e, ERR_USAGE, "--strikes: '%s': there are %d strikes", x->given.only, s->n);
+        for (long k = from; k <= to; k++)
+            chosen[k - 1] = true;
         text = *end ? end + 1 : end;
     }
+    for (int k = 0; k < s->n; k++)
+        if (!chosen[k] && !s->strike[k].left_out) s->strike[k].left_out = "not in --strikes";
     return true;
 }
 
 static bool strikes(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
 {
     int left = 0;
-    if (x->given.impulse) return impulse(x, p, e);
     if (!strikes_find(&p->recording, x->given.threshold, x->arena, &p->strikes, e)) return false;
-    place_note(x, p, p->strikes.note);
-    for (int k = 0; k < p->strikes.n; k++) {
-        bool yes;
-        if (!chosen(x, k, p->strikes.n, &yes, e)) return false;
-        if (!yes && !p->strikes.strike[k].left_out) p->strikes.strike[k].left_out = "not in --strikes";
+    note(x, p, p->strikes.note);
+    if (x->given.only && !only(x, &p->strikes, e)) return false;
+    for (int k = 0; k < p->strikes.n; k++)
         left += !p->strikes.strike[k].left_out;
-    }
     if (!left)
         return err_set(e, ERR_SCENE, "%s: --strikes %s leaves no strike that can be fitted", p->shown, x->given.only);
-    p->delay = !p->recording.force.x    ? 0.0
+    p->delay = !x->given.force_channel  ? 0.0
                : !isnan(x->given.delay) ? x->given.delay
                                         : strikes_delay(&p->recording, &p->strikes);
     return true;
@@ -132,120 +142,114 @@ static bool strikes(struct modes_extract *x, struct modes_extract_place *p, stru
 
 /* ------------------------------------------------------------------ stretches */
 
-static int room(const struct modes_extract *x)
-{
-    int n = 0;
-    for (int k = 0; k < x->n; k++)
-        n += x->place[k].strikes.n + 1;
-    return n;
-}
-
-static void add(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p,
-                struct modal_stretch s, long end)
-{
-    const struct strikes_recording *r = &p->recording;
-    s.n = modal_length((end < r->n ? end : r->n) - s.first);
-    s.y = r->sound.x + s.first;
-    s.place = (int)(p - x->place);
-    if ((double)(s.n - s.ringing) < shortest * r->rate) return;
-    if (p->stretches++ == 0) p->first = x->data.stretches;
-    list[x->data.stretches++] = s;
-}
-
 /* The force of a strike as late as the sound comes; without a channel for it a unit impulse at that sample. */
 static struct modal_pulse pulse(struct modes_extract *x, const struct modes_extract_place *p, int strike, long at)
 {
     const struct strikes_one *v = &p->strikes.strike[strike];
-    long n = p->recording.force.x ? v->over - v->onset : 1;
+    const double *force = p->recording.force.x;
+    long n = force ? v->over - v->onset : 1;
     double *f = ARENA_TAKE(x->arena, double, n);
     f[0] = 1.0;
-    for (long i = 0; p->recording.force.x && i < n; i++)
-        f[i] = p->recording.force.x[v->onset + i] - v->base;
+    for (long i = 0; force && i < n; i++)
+        f[i] = force[v->onset + i] - v->base;
     return (struct modal_pulse){at, n, f};
 }
 
-static void place_stretches(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p)
+/* One before the first strike, where there is room, and one for each strike. */
+static void add_stretches(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p)
 {
     const struct strikes *s = &p->strikes;
     const struct strikes_recording *r = &p->recording;
-    bool force = r->force.x != NULL;
+    bool force = x->given.force_channel, response = x->given.impulse;
     long late = (long)rint(p->delay * x->rate), early = (long)ceil(before * x->rate),
+         begin = response ? 1
+                 : force  ? late - early
+                          : (long)(past * x->rate),
          longest = (long)(strikes_ringing(r, s) * x->rate);
-    if (!x->given.impulse && s->strike[0].onset - early > (long)(lead_least * x->rate))
-        add(x, list, p, (struct modal_stretch){.group = x->data.groups++, .strike = -1}, s->strike[0].onset - early);
-    for (int k = 0; k < s->n; k++) {
-        const struct strikes_one *v = &s->strike[k];
-        struct modal_stretch st = {.first = v->onset + (x->given.impulse ? 1
-                                                        : force          ? late - early
-                                                                         : (long)(past * x->rate)),
-                                   .group = x->data.groups++,
-                                   .strike = k,
-                                   .fitted = !v->left_out};
-        long end = k + 1 < s->n ? s->strike[k + 1].onset + (force ? late - early : -early) : r->n,
-             most = st.first + longest;
-        st.first = st.first > 0 ? st.first : 0;
-        st.ringing = force ? v->over + late - st.first : 0;
-        st.pulse = pulse(x, p, k, force ? v->onset + late : x->given.impulse ? v->onset : st.first);
-        add(x, list, p, st, end < most ? end : most);
+    p->first = x->data.stretches;
+    for (int k = -1; k < s->n; k++) {
+        struct modal_stretch st = {.y = r->sound.x, .place = (int)(p - x->place), .strike = k};
+        long end = k + 1 < s->n ? s->strike[k + 1].onset + (force && k >= 0 ? late - early : -early) : r->n;
+        if (k < 0 && (response || end <= (long)(lead_least * x->rate))) continue;
+        if (k >= 0) {
+            const struct strikes_one *v = &s->strike[k];
+            st.first = v->onset + begin;
+            end = end < st.first + longest ? end : st.first + longest;
+            st.first = st.first > 0 ? st.first : 0;
+            st.fitted = !v->left_out;
+            st.ringing = force ? v->over + late - st.first : 0;
+            st.pulse = pulse(x, p, k, force ? v->onset + late : response ? v->onset : st.first);
+        }
+        st.group = x->data.groups++;
+        st.y += st.first;
+        st.n = modal_length((end < r->n ? end : r->n) - st.first);
+        if ((double)(st.n - st.ringing) >= shortest * r->rate) list[x->data.stretches++] = st;
     }
+    p->stretches = x->data.stretches - p->first;
 }
 
-/* Where the force of the strikes that are fitted holds something, Hz. */
-static void band_of_force(struct modes_extract *x, struct modes_extract_place *p)
+double *modes_extract_find_power(const double *y, long n, long size, struct arena *a)
+{
+    double *re = ARENA_TAKE(a, double, size / 2 + 1), *im = ARENA_TAKE(a, double, size / 2 + 1),
+           *padded = ARENA_TAKE(a, double, size);
+    struct fft *fft = fft_open((size_t)size);
+    memcpy(padded, y, (size_t)(n < size ? n : size) * sizeof *y);
+    fft_forward(fft, padded, re, im);
+    fft_close(fft);
+    for (long i = 0; i <= size / 2; i++)
+        re[i] = re[i] * re[i] + im[i] * im[i];
+    return re;
+}
+
+/* Hz, up to which the force of the strikes that are fitted holds something. */
+static double reach_of_force(const struct modes_extract *x, const struct modes_extract_place *p)
 {
     struct arena *a = arena_open();
-    long n = (long)fft_good_size((size_t)(0.1 * x->rate)), half_n = n / 2;
-    double *power = ARENA_TAKE(a, double, half_n + 1), *re = ARENA_TAKE(a, double, half_n + 1),
-           *im = ARENA_TAKE(a, double, half_n + 1), *f = ARENA_TAKE(a, double, n), most = 0.0;
-    struct fft *fft = fft_open((size_t)n);
-    p->low = 0.0;
-    p->high = 0.49 * x->rate;
+    long n = (long)fft_good_size((size_t)(0.1 * x->rate));
+    double *power = ARENA_TAKE(a, double, n / 2 + 1), most = 0.0, high = 0.49 * x->rate;
     for (int s = p->first; p->recording.force.x && s < p->first + p->stretches; s++) {
         const struct modal_stretch *st = &x->data.stretch[s];
-        if (!st->fitted || st->strike < 0) continue;
-        const struct modal_pulse *q = &st->pulse;
-        memset(f, 0, (size_t)n * sizeof *f);
-        memcpy(f, q->f, (size_t)(q->n < n ? q->n : n) * sizeof *f);
-        fft_forward(fft, f, re, im);
-        for (long k = 0; k <= half_n; k++)
-            power[k] += re[k] * re[k] + im[k] * im[k];
+        if (!st->fitted) continue;
+        const double *one = modes_extract_find_power(st->pulse.f, st->pulse.n, n, a);
+        for (long k = 0; k <= n / 2; k++)
+            power[k] += one[k];
     }
-    for (long k = 0; k <= half_n; k++)
+    for (long k = 0; k <= n / 2; k++)
         most = fmax(most, power[k]);
-    for (long k = half_n; most > 0.0 && k > 0 && power[k] < reach * most; k--)
-        p->high = fmin(p->high, (double)(k - 1) * x->rate / (double)n);
-    fft_close(fft);
+    for (long k = n / 2; most > 0.0 && k > 0 && power[k] < reach * most; k--)
+        high = fmin(high, (double)(k - 1) * x->rate / (double)n);
     arena_close(a);
+    return high;
 }
 
 static bool stretches(struct modes_extract *x, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
-    struct modal_stretch *list = ARENA_TAKE(x->arena, struct modal_stretch, room(x));
+    int room = 0, fitted = 0;
+    for (int k = 0; k < x->n; k++)
+        room += x->place[k].strikes.n + 1;
+    struct modal_stretch *list = ARENA_TAKE(x->arena, struct modal_stretch, room);
     double *rounding = ARENA_TAKE(x->arena, double, x->n);
-    int fitted = 0;
     x->data = (struct modal_data){.rate = x->rate, .places = x->n, .stretch = list, .rounding = rounding};
-    x->low = 20.0;
     x->high = 0.49 * x->rate;
     for (int k = 0; k < x->n; k++) {
         struct modes_extract_place *p = &x->place[k];
-        place_stretches(x, list, p);
-        band_of_force(x, p);
+        add_stretches(x, list, p);
+        p->high = reach_of_force(x, p);
         rounding[k] = p->recording.rounding;
-        x->low = fmax(x->low, p->low);
         x->high = fmin(x->high, p->high);
     }
     for (int s = 0; s < x->data.stretches; s++)
         fitted += list[s].fitted;
-    if (x->data.stretches > MODES_EXTRACT_STRIKES)
+    if (x->data.stretches > STRIKES)
         return err_set(e, ERR_SCENE, "%s: %d strikes are more than the %d that are fitted together; cut the recording",
-                       x->place[0].shown, x->data.stretches, MODES_EXTRACT_STRIKES);
+                       x->place[0].shown, x->data.stretches, STRIKES);
     if (!fitted)
         return err_set(e, ERR_SCENE, "%s: no strike has %.3g ms of sound behind it", x->place[0].shown, 1e3 * shortest);
     if (g->high > x->high)
-        modes_extract_find_note(
-            x, arena_format(x->arena, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high));
-    x->low = isnan(g->low) ? x->low : fmax(g->low, 1.0);
+        note(x, NULL,
+             arena_format(x->arena, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high));
+    x->low = isnan(g->low) ? 20.0 : fmax(g->low, 1.0);
     x->high = isnan(g->high) ? x->high : fmin(g->high, x->high);
     return x->low < x->high ||
            err_set(e, ERR_SCENE,
@@ -255,8 +259,9 @@ static bool stretches(struct modes_extract *x, struct err *e)
 
 /* ------------------------------------------------------------------ what it explains */
 
-/* Energies of the strikes of a place, noise off, that are fitted or not, and what is explained of them. */
-static double share(const struct modes_extract *x, int from, int to, bool fitted)
+/* Share (of each stretch: part) of the energy of the strikes [from, to) that are fitted, or not. NAN: there are none.
+ */
+static double share(const struct modes_extract *x, int from, int to, bool fitted, const double *part)
 {
     double all = 0.0, known = 0.0;
     for (int s = from; s < to; s++) {
@@ -266,207 +271,46 @@ static double share(const struct modes_extract *x, int from, int to, bool fitted
         for (long i = 0; i < st->n; i++)
             energy += st->y[i] * st->y[i];
         all += energy;
-        known += energy * x->found.explained[s];
+        known += energy * part[s];
     }
     return all > 0.0 ? known / all : NAN;
 }
 
-double modes_extract_find_explained(const struct modes_extract *x, const struct modes_extract_place *p, int strike)
+static void compare(struct modes_extract *x, struct modes_extract_place *p)
 {
-    for (int s = p->first; s < p->first + p->stretches; s++)
-        if (x->data.stretch[s].strike == strike) return x->found.explained[s];
-    return NAN;
-}
-
-static void compare(struct modes_extract *x)
-{
-    for (int k = 0; k < x->n; k++) {
-        struct modes_extract_place *p = &x->place[k];
-        double most = -1.0;
-        p->explained = share(x, p->first, p->first + p->stretches, true);
-        p->predicted = share(x, p->first, p->first + p->stretches, false);
-        p->noise = x->found.noise[k];
-        for (int s = p->first; s < p->first + p->stretches; s++) {
-            const struct modal_stretch *st = &x->data.stretch[s];
-            const struct strikes_one *v = st->strike >= 0 ? &p->strikes.strike[st->strike] : NULL;
-            double worth = !v || (!st->fitted && strcmp(v->left_out, "not in --strikes")) ? -1.0
-                           : st->fitted                                                   ? v->peak
-                                                                                          : 1e6 * v->peak;
-            if (worth > most) {
-                most = worth;
-                p->shown_stretch = s;
-            }
-        }
-        const struct modal_stretch *st = &x->data.stretch[p->shown_stretch];
-        p->distance =
-            spectral_distance(st->y + st->ringing, x->found.model[p->shown_stretch] + st->ringing, st->n - st->ringing,
-                              &(struct spectral_distance_band){x->rate, x->low, x->high, p->noise * p->noise});
+    double most = -1.0;
+    p->explained = share(x, p->first, p->first + p->stretches, true, x->found.explained);
+    p->predicted = share(x, p->first, p->first + p->stretches, false, x->found.explained);
+    for (int s = p->first; s < p->first + p->stretches; s++) {
+        const struct modal_stretch *st = &x->data.stretch[s];
+        const struct strikes_one *v = &p->strikes.strike[st->strike < 0 ? 0 : st->strike];
+        double worth = st->fitted ? v->peak : 1e6 * v->peak;
+        if (st->strike < 0 || (!st->fitted && strcmp(v->left_out, "not in --strikes") != 0) || worth <= most) continue;
+        most = worth;
+        p->loudest = s;
     }
+    const struct modal_stretch *st = &x->data.stretch[p->loudest];
+    double noise = x->found.noise[p - x->place];
+    p->distance = spectral_distance(st->y + st->ringing, x->found.model[p->loudest] + st->ringing, st->n - st->ringing,
+                                    &(struct spectral_distance_band){x->rate, x->low, x->high, noise * noise});
 }
 
-/* ------------------------------------------------------------------ modes of places */
-
-struct strike_gain {
-    double size, se, shared, phase; /* shared: of all strikes alike */
-};
-
-/* A of a component in the strikes of a place that are fitted, t from the strike, per N s (without force of a strike
- * whose sound's peak is 1). Returns how many there are. */
-static int strike_gains(const struct modes_extract *x, const struct modal_mode *m, const struct modes_extract_place *p,
-                        struct strike_gain *g)
+/* Are most modes, by their shares, loud in one of the strikes alone? As the modes of different objects are. */
+static bool alone(const struct modes_extract *x)
 {
-    int n = 0;
-    for (int k = p->first; k < p->first + p->stretches; k++) {
-        const struct modal_stretch *st = &x->data.stretch[k];
-        if (st->strike < 0 || !st->fitted || !isfinite(m->gain_se[st->group]) || !(m->gain_se[st->group] > 0.0))
-            continue;
-        const struct strikes_one *v = &p->strikes.strike[st->strike];
-        bool alone = !x->given.impulse && !p->recording.force.x;
-        double back = alone ? (double)(st->pulse.at - v->onset) / x->rate : 0.0, unit = x->given.impulse ? 1.0
-                                                                                        : alone          ? 1.0 / v->peak
-                                                                                                         : x->rate;
-        cplx a = cplx_scale(unit, cplx_mul((cplx){m->re[st->group], m->im[st->group]},
-                                           cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back)));
-        double scale = unit * real_exp(m->decay * back);
-        g[n++] = (struct strike_gain){cplx_abs(a), scale * m->gain_se[st->group], scale * m->gain_shared[st->group],
-                                      real_atan2(a.im, a.re)};
-    }
-    return n;
-}
-
-/* The place's gain: of its strikes the mean of sizes, weighted by noise and by how far strikes differ, and the phase of
- * the most certain. */
-static void place_gain(const struct modes_extract *x, const struct modal_mode *m, int k, struct modes_extract_mode *to)
-{
-    const struct modes_extract_place *p = &x->place[k];
-    struct arena *a = arena_open();
-    struct strike_gain *g = ARENA_TAKE(a, struct strike_gain, p->stretches + 1);
-    int n = strike_gains(x, m, p, g), best = 0;
-    double mean = 0.0, apart = 0.0, noise = 0.0, weights = 0.0, size = 0.0, shared = 0.0;
-    for (int i = 0; i < n; i++)
-        mean += g[i].size / n;
-    for (int i = 0; i < n; i++) {
-        apart += n > 1 ? (g[i].size - mean) * (g[i].size - mean) / (n - 1) : 0.0;
-        noise += g[i].se * g[i].se / n;
-        best = g[i].se / fmax(g[i].size, 1e-300) < g[best].se / fmax(g[best].size, 1e-300) ? i : best;
-    }
-    apart = n > 2 ? fmax(apart - 2.0 * noise, 0.0) : 0.0; /* of few strikes chance alone makes some */
-    for (int i = 0; i < n; i++) {
-        double w = 1.0 / (g[i].se * g[i].se + apart);
-        weights += w;
-        size += w * g[i].size;
-        shared += w * g[i].shared;
-    }
-    to->re[k] = n ? size / weights * real_cos(g[best].phase) : 0.0;
-    to->im[k] = n ? size / weights * real_sin(g[best].phase) : 0.0;
-    to->gain_se[k] = n ? sqrt(1.0 / weights + shared * shared / (weights * weights)) : 0.0;
-    arena_close(a);
-}
-
-static int rising(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
-static double median_decay(const struct modes_extract *x)
-{
-    int n = x->components;
-    double *d = ARENA_TAKE(x->arena, double, n);
-    for (int i = 0; i < n; i++)
-        d[i] = x->heard[i].decay;
-    qsort(d, (size_t)n, sizeof *d, rising);
-    return n % 2 ? d[n / 2] : 0.5 * (d[n / 2 - 1] + d[n / 2]);
-}
-
-static int slower(const void *a, const void *b)
-{
-    const struct modes_extract_mode *m = a, *k = b;
-    return (m->decay > k->decay) - (m->decay < k->decay);
-}
-
-/* Shares add up to 1 and are none below 0, so that components which cancel do not rule. Between modes it is
- * interpolated, so that two of equal shares do not change places by chance. */
-static double median_by_energy(const struct modes_extract *x)
-{
-    struct modes_extract_mode *m = ARENA_TAKE(x->arena, struct modes_extract_mode, x->components);
-    double all = 0.0, below = 0.0, at = 0.0, decay = NAN;
-    int n = 0;
-    for (int k = 0; k < x->components; k++)
-        if (x->heard[k].decay <= slow) {
-            m[n++] = x->heard[k];
-            all += x->heard[k].share;
-        }
-    qsort(m, (size_t)n, sizeof *m, slower);
-    for (int i = 0; i < n && (i == 0 || at < 0.5 * all); i++) {
-        double last = at, from = decay;
-        at = below + 0.5 * m[i].share;
-        below += m[i].share;
-        decay = m[i].decay;
-        if (i > 0 && at > 0.5 * all) decay = from * real_pow(decay / from, (0.5 * all - last) / (at - last));
-    }
-    return decay;
-}
-
-static void take_modes(struct modes_extract *x)
-{
-    x->components = x->found.n;
-    x->modes = x->found.modes;
-    x->heard = ARENA_TAKE(x->arena, struct modes_extract_mode, x->components);
-    for (int i = 0; i < x->components; i++) {
-        const struct modal_mode *m = &x->found.mode[i];
-        struct modes_extract_mode *to = &x->heard[i];
-        *to = (struct modes_extract_mode){m->frequency,
-                                          m->decay,
-                                          m->frequency_se,
-                                          m->decay_se,
-                                          m->frequency_between,
-                                          m->decay_between,
-                                          m->share,
-                                          NULL,
-                                          NULL,
-                                          NULL,
-                                          m->mode,
-                                          m->slope};
-        to->re = ARENA_TAKE(x->arena, double, x->n);
-        to->im = ARENA_TAKE(x->arena, double, x->n);
-        to->gain_se = ARENA_TAKE(x->arena, double, x->n);
-        for (int k = 0; k < x->n; k++)
-            place_gain(x, m, k, to);
-    }
-    x->median_decay = median_decay(x);
-    x->median_by_energy = median_by_energy(x);
-}
-
-/* Of the modes' own energy in the strikes that are fitted what the strike holds that each is loudest in: the median by
-   shares. Near 1 each mode is heard in one strike alone. */
-static double alone(const struct modes_extract *x, int *strikes)
-{
-    double *part = ARENA_TAKE(x->arena, double, x->found.n), all = 0.0, below = 0.0;
-    for (int i = 0; i < x->found.n; i++) {
-        const struct modal_mode *m = &x->found.mode[i];
+    double all = 0.0, common = 0.0;
+    for (const struct modal_mode *m = x->found.mode; m < x->found.mode + x->found.n; m++) {
         double most = 0.0, sum = 0.0;
-        *strikes = 0;
         for (int s = 0; s < x->data.stretches; s++) {
-            const struct modal_stretch *st = &x->data.stretch[s];
-            double power = m->re[st->group] * m->re[st->group] + m->im[st->group] * m->im[st->group];
-            if (!st->fitted || st->strike < 0) continue;
-            most = fmax(most, power);
-            sum += power;
-            ++*strikes;
+            int q = x->data.stretch[s].group;
+            if (!x->data.stretch[s].fitted) continue;
+            most = fmax(most, m->re[q] * m->re[q] + m->im[q] * m->im[q]);
+            sum += m->re[q] * m->re[q] + m->im[q] * m->im[q];
         }
-        part[i] = most / sum;
         all += m->share;
+        common += most / sum <= single ? m->share : 0.0;
     }
-    for (double least = 0.0;;) { /* the next greater part, until half of the shares lie below */
-        double next = 2.0;
-        for (int i = 0; i < x->found.n; i++)
-            if (part[i] > least) next = fmin(next, part[i]);
-        for (int i = 0; i < x->found.n; i++)
-            below += part[i] == next ? x->found.mode[i].share : 0.0;
-        if (below >= 0.5 * all || next > 1.0) return next;
-        least = next;
-    }
+    return common < 0.5 * all;
 }
 
 /* The fit must explain nearly all of what it was made of, and of every strike half at least, or it is none of this
@@ -474,15 +318,10 @@ static double alone(const struct modes_extract *x, int *strikes)
 static bool explains(struct modes_extract *x, struct err *e)
 {
     int worst = -1, strikes = 0;
-    double direct = 0.0, all = 0.0, known = 0.0;
+    double direct = 0.0, known = share(x, 0, x->data.stretches, true, x->found.fitted);
     for (int s = 0; s < x->data.stretches; s++) {
-        const struct modal_stretch *st = &x->data.stretch[s];
-        double energy = 0.0;
-        if (!st->fitted || st->strike < 0) continue;
-        for (long i = 0; i < st->n; i++)
-            energy += st->y[i] * st->y[i];
-        all += energy;
-        known += energy * x->found.fitted[s];
+        if (!x->data.stretch[s].fitted) continue;
+        strikes++;
         worst = worst < 0 || x->found.fitted[s] < x->found.fitted[worst] ? s : worst;
         direct = fmax(direct, x->found.direct[s]);
     }
@@ -490,16 +329,16 @@ static bool explains(struct modes_extract *x, struct err *e)
     const char *name = x->place[st->place].shown;
     double percent = 100.0 * fmax(x->found.fitted[worst], 0.0);
     if (direct > much && x->given.force_channel)
-        modes_extract_find_note(x, arena_format(x->arena,
-                                                "up to %.0f %% of the sound follows the force at once and is in no "
-                                                "mode: the object moves as a whole, or modes decay faster "
-                                                "than --fastest",
-                                                100.0 * direct));
+        note(x, NULL,
+             arena_format(x->arena,
+                          "up to %.0f %% of the sound follows the force at once and is in no mode: the object moves as "
+                          "a whole, or modes decay faster than --fastest",
+                          100.0 * direct));
     if (x->given.spectrogram) {
         if (percent < 100.0 * half)
-            modes_extract_find_note(
-                x, arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more",
-                                percent, st->strike + 1));
+            note(x, NULL,
+                 arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more",
+                              percent, st->strike + 1));
         return true;
     }
     if (percent < 100.0 * half)
@@ -509,13 +348,13 @@ static bool explains(struct modes_extract *x, struct err *e)
             "object, struck and left to ring, and does the sound begin at the strike? Without this strike "
             "(--strikes) or in a narrower band (--low, --high) there may be one",
             name, percent, st->strike + 1);
-    if (known < enough * all)
+    if (known < enough)
         return err_set(e, ERR_SCENE,
                        "%s: the modes that were found explain only %.0f %% of what rings, so there is no table: noise "
                        "and speech are explained so far, an object that is struck and left to ring is explained by "
                        "%.0f %% and more; choose strikes (--strikes) or a narrower band (--low, --high)",
-                       name, 100.0 * known / all, 100.0 * enough);
-    if (alone(x, &strikes) > single && strikes >= 4)
+                       name, 100.0 * known, 100.0 * enough);
+    if (strikes >= 4 && alone(x))
         return err_set(e, ERR_SCENE,
                        "%s: most modes are heard in one of the %d strikes alone, so there is no table: are these "
                        "different objects? Choose the strikes of one (--strikes)",
@@ -523,29 +362,173 @@ static bool explains(struct modes_extract *x, struct err *e)
     return true;
 }
 
+/* ------------------------------------------------------------------ gains */
+
+struct strike_gain {
+    double size, se, shared, phase; /* shared: of all strikes alike */
+};
+
+/* A of a component in the strikes of a place that are fitted. Returns how many there are. */
+static int strike_gains(const struct modes_extract *x, const struct modal_mode *m, const struct modes_extract_place *p,
+                        struct strike_gain *g)
+{
+    bool force = x->given.force_channel, response = x->given.impulse;
+    int n = 0;
+    for (int k = p->first; k < p->first + p->stretches; k++) {
+        const struct modal_stretch *st = &x->data.stretch[k];
+        double se = m->gain_se[st->group];
+        if (!st->fitted || !isfinite(se) || se <= 0.0) continue;
+        const struct strikes_one *v = &p->strikes.strike[st->strike];
+        double back = force || response ? 0.0 : (double)(st->pulse.at - v->onset) / x->rate,
+               unit = response ? 1.0
+                      : force  ? x->rate
+                               : 1.0 / v->peak,
+               scale = unit * real_exp(m->decay * back);
+        cplx a = cplx_scale(unit, cplx_mul((cplx){m->re[st->group], m->im[st->group]},
+                                           cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back)));
+        g[n++] =
+            (struct strike_gain){cplx_abs(a), scale * se, scale * m->gain_shared[st->group], real_atan2(a.im, a.re)};
+    }
+    return n;
+}
+
+/* The place's gain: of its strikes the mean of sizes, weighted by noise and by how far strikes differ, and the phase of
+ * the most certain. */
+static struct modes_extract_gain place_gain(const struct modes_extract *x, const struct modal_mode *m,
+                                            const struct modes_extract_place *p)
+{
+    struct arena *a = arena_open();
+    struct strike_gain *g = ARENA_TAKE(a, struct strike_gain, p->stretches + 1);
+    int n = strike_gains(x, m, p, g), best = 0;
+    double mean = 0.0, between = 0.0, noise = 0.0, weights = 0.0, size = 0.0, shared = 0.0;
+    for (int i = 0; i < n; i++)
+        mean += g[i].size / n;
+    for (int i = 0; i < n; i++) {
+        between += n > 1 ? (g[i].size - mean) * (g[i].size - mean) / (n - 1) : 0.0;
+        noise += g[i].se * g[i].se / n;
+        best = g[i].se / fmax(g[i].size, 1e-300) < g[best].se / fmax(g[best].size, 1e-300) ? i : best;
+    }
+    between = n > 2 ? fmax(between - 2.0 * noise, 0.0) : 0.0; /* of few strikes chance alone makes some */
+    for (int i = 0; i < n; i++) {
+        double w = 1.0 / (g[i].se * g[i].se + between);
+        weights += w;
+        size += w * g[i].size;
+        shared += w * g[i].shared;
+    }
+    struct modes_extract_gain gain = {0.0, 0.0, 0.0};
+    if (n)
+        gain = (struct modes_extract_gain){size / weights * real_cos(g[best].phase),
+                                           size / weights * real_sin(g[best].phase),
+                                           sqrt(1.0 / weights + shared * shared / (weights * weights))};
+    arena_close(a);
+    return gain;
+}
+
+/* Of the sound, and of the table's quantity: a monopole's radiation is divided out, if its sizes are given. */
+static void gains(struct modes_extract *x)
+{
+    const struct modes_extract_given *g = &x->given;
+    bool divides = g->quantity == MODES_PRESSURE && !isnan(g->radius);
+    x->quantity = g->quantity != MODES_PRESSURE ? g->quantity : divides ? MODES_VELOCITY : MODES_ACCELERATION;
+    x->sound = x->gain = ARENA_TAKE(x->arena, struct modes_extract_gain, x->found.n * x->n);
+    for (int i = 0; i < x->found.n; i++)
+        for (int k = 0; k < x->n; k++)
+            x->sound[i * x->n + k] = place_gain(x, &x->found.mode[i], &x->place[k]);
+    if (!divides) return;
+    struct radiator_monopole r = radiator_monopole(g->radius, g->distance, air_density, air_speed);
+    x->gain = ARENA_TAKE(x->arena, struct modes_extract_gain, x->found.n * x->n);
+    for (int i = 0; i < x->found.n * x->n; i++) {
+        const struct modal_mode *m = &x->found.mode[i / x->n];
+        struct modes_extract_gain a = x->sound[i];
+        double h[2], s[2] = {-m->decay, 2.0 * REAL_PI * m->frequency};
+        radiator_monopole_at(&r, s, h);
+        double power = h[0] * h[0] + h[1] * h[1];
+        x->gain[i] = (struct modes_extract_gain){(a.re * h[0] + a.im * h[1]) / power,
+                                                 (a.im * h[0] - a.re * h[1]) / power, a.se / sqrt(power)};
+    }
+}
+
+/* What a physical level lacks: the first that applies. */
+static void level(struct modes_extract *x)
+{
+    static const char air_note[] = "a microphone's pressure is taken as proportional to the surface's acceleration "
+                                   "(--radius and --distance would divide a monopole out)";
+    const struct modes_extract_given *g = &x->given;
+    bool air = g->quantity == MODES_PRESSURE && isnan(g->radius), force = g->force_channel || g->impulse;
+    const struct {
+        bool lacks;
+        const char *why;
+    } reasons[] = {
+        {!force && x->n > 1,
+         "no channel holds the force, so that gains at each place are those of a strike whose sound there "
+         "has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be "
+         "compared with each other; --force-channel, or impulse responses with --impulse and one --delay "
+         "for all, keep what is between them"},
+        {!force, "no channel holds the force, so that gains are those of a strike whose sound's peak is 1, and "
+                 "hold the hammer's spectrum"},
+        {air, air_note},
+        {isnan(g->scale) && g->impulse, "--scale, what the file's full scale is, is not given"},
+        {isnan(g->scale), "--scale and --force-scale, what the channels' full scales are, are not given"},
+        {true, NULL},
+    };
+    int k = 0;
+    while (!reasons[k].lacks)
+        k++;
+    x->why_not = reasons[k].why;
+    if (air && !force) note(x, NULL, air_note);
+    if (x->why_not) note(x, NULL, arena_format(x->arena, "the level is relative: %s", x->why_not));
+}
+
+/* Of decays. By energy: shares add up to 1 and are none below 0, so that components which cancel do not rule; each
+   stands at the middle of its share, and between them it is interpolated, so that two of equal shares do not change
+   places by chance. */
+static void medians(struct modes_extract *x)
+{
+    size_t n = (size_t)x->found.n;
+    double *decay = ARENA_TAKE(x->arena, double, n), *part = ARENA_TAKE(x->arena, double, n);
+    double all = 0.0, below = 0.0, at = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        decay[i] = x->found.mode[i].decay;
+        part[i] = x->found.mode[i].share;
+        all += decay[i] <= slow ? part[i] : 0.0;
+    }
+    gsl_sort2(decay, 1, part, 1, n);
+    x->median_decay = gsl_stats_median_from_sorted_data(decay, 1, n);
+    x->median_by_energy = NAN;
+    for (size_t i = 0; i < n && decay[i] <= slow && (i == 0 || at < 0.5 * all); i++) {
+        double last = at;
+        at = below + 0.5 * part[i];
+        below += part[i];
+        x->median_by_energy = i > 0 && at > 0.5 * all
+                                  ? decay[i - 1] * real_pow(decay[i] / decay[i - 1], (0.5 * all - last) / (at - last))
+                                  : decay[i];
+    }
+}
+
 /* ------------------------------------------------------------------ all */
 
 bool modes_extract_find(struct modes_extract *x, struct err *e)
 {
-    long most = 50;
-    if (!args_whole(&x->c->args, "modes", (const long[2]){1, 100000}, &most, e)) return false;
+    const struct modes_extract_given *g = &x->given;
     for (int k = 0; k < x->n; k++)
-        if (!strikes(x, &x->place[k], e)) return false;
+        if (!(g->impulse ? impulse : strikes)(x, &x->place[k], e)) return false;
     if (!stretches(x, e)) return false;
-    struct modal_options o = {.most = (int)most,
+    struct modal_options o = {.most = (int)g->modes,
                               .low = x->low,
                               .high = x->high,
-                              .fastest =
-                                  isnan(x->given.fastest) ? fmin(fastest[0], fastest[1] * x->rate) : x->given.fastest,
-                              .spectrogram = x->given.spectrogram,
+                              .fastest = isnan(g->fastest) ? fmin(fastest[0], fastest[1] * x->rate) : g->fastest,
+                              .spectrogram = g->spectrogram,
                               .threshold = 0.1};
     if (!modal_find(&x->data, &o, x->arena, &x->found, e)) return err_at(e, "%s", x->place[0].shown);
     if (x->found.n == 0)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown,
                        x->low, x->high);
     if (!explains(x, e)) return false;
-    take_modes(x);
-    modes_extract_find_note(x, x->found.note);
-    compare(x);
+    note(x, NULL, x->found.note);
+    for (int k = 0; k < x->n; k++)
+        compare(x, &x->place[k]);
+    gains(x);
+    level(x);
+    medians(x);
     return true;
 }

@@ -1,171 +1,331 @@
-/* The mode table of `rasp modes extract`, and what of the sound goes into it.
-
-   A microphone's pressure is, without the sizes of a radiator, taken as proportional to the acceleration of the
-   surface, as of a small source: gains then hold what the way through the air did to each mode. With them each mode's
-   gain is divided by a monopole's H(s), pressure over velocity (response/radiator_monopole.c). */
+/* What `rasp modes extract` writes of the modes: the mode table, the report, the picture. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdio.h>
 
 #include "cmd/modes_extract.h"
+#include "cmd/report.h"
+#include "num/fft.h"
 #include "num/real.h"
-#include "response/radiator_monopole.h"
 
-static const double air_density = 1.204, air_speed = 343.2; /* kg/m^3, m/s: as output.listen has them by default */
+static double size(const struct modes_extract_gain *g) { return sqrt(g->re * g->re + g->im * g->im); }
 
-static void divide(const struct radiator_monopole *r, int places, struct modes_extract_mode *m)
+static int used(const struct strikes *s)
 {
-    double h[2], s[2] = {-m->decay, 2.0 * REAL_PI * m->frequency};
-    radiator_monopole_at(r, s, h);
-    double power = h[0] * h[0] + h[1] * h[1];
-    for (int k = 0; k < places; k++) {
-        double re = m->re[k], im = m->im[k];
-        m->re[k] = (re * h[0] + im * h[1]) / power;
-        m->im[k] = (im * h[0] - re * h[1]) / power;
-        m->gain_se[k] /= sqrt(power);
-    }
+    int n = 0;
+    for (int k = 0; k < s->n; k++)
+        n += !s->strike[k].left_out;
+    return n;
 }
 
-static double *copy(const double *x, int n, struct arena *a)
-{
-    double *y = ARENA_TAKE(a, double, n);
-    memcpy(y, x, (size_t)n * sizeof *x);
-    return y;
-}
+static double t60(const struct modal_mode *m) { return 3.0 * real_log(10.0) / m->decay; }
 
-static void level(struct modes_extract *x)
+/* ------------------------------------------------------------------ table */
+
+static void comments(FILE *f, const struct modes_extract *x)
 {
     const struct modes_extract_given *g = &x->given;
-    bool air = g->quantity == MODES_PRESSURE && isnan(g->radius);
-    if (!g->force_channel && !g->impulse && x->n > 1)
-        x->why_not = "no channel holds the force, so that gains at each place are those of a strike whose sound there "
-                     "has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be "
-                     "compared with each other; --force-channel, or impulse responses with --impulse and one --delay "
-                     "for all, keep what is between them";
-    else if (!g->force_channel && !g->impulse)
-        x->why_not = "no channel holds the force, so that gains are those of a strike whose sound's peak is 1, and "
-                     "hold the hammer's spectrum";
-    else if (air)
-        x->why_not = "a microphone's pressure is taken as proportional to the surface's acceleration (--radius and "
-                     "--distance would divide a monopole out)";
-    else if (isnan(g->scale))
-        x->why_not = g->impulse ? "--scale, what the file's full scale is, is not given"
-                                : "--scale and --force-scale, what the channels' full scales are, are not given";
-    if (air && !g->force_channel && !g->impulse)
-        modes_extract_find_note(x, "a microphone's pressure is taken as proportional to the surface's acceleration "
-                                   "(--radius and --distance would divide a monopole out)");
-    x->physical = !x->why_not;
-    if (x->why_not) modes_extract_find_note(x, arena_format(x->arena, "the level is relative: %s", x->why_not));
-}
-
-void modes_extract_write_radiation(struct modes_extract *x)
-{
-    const struct modes_extract_given *g = &x->given;
-    bool divides = g->quantity == MODES_PRESSURE && !isnan(g->radius);
-    struct radiator_monopole r =
-        divides ? radiator_monopole(g->radius, g->distance, air_density, air_speed) : (struct radiator_monopole){0};
-    x->quantity = g->quantity != MODES_PRESSURE ? g->quantity : divides ? MODES_VELOCITY : MODES_ACCELERATION;
-    x->mode = ARENA_TAKE(x->arena, struct modes_extract_mode, x->components);
-    for (int i = 0; i < x->components; i++) {
-        struct modes_extract_mode *m = &x->mode[i];
-        *m = x->heard[i];
-        m->re = copy(m->re, x->n, x->arena);
-        m->im = copy(m->im, x->n, x->arena);
-        m->gain_se = copy(m->gain_se, x->n, x->arena);
-        if (divides) divide(&r, x->n, m);
-    }
-    level(x);
-}
-
-/* ------------------------------------------------------------------ comments */
-
-static void sources(FILE *f, const struct modes_extract *x)
-{
+    fprintf(f, "# poles: shared\n# quantity: %s\n", modes_quantity_name(x->quantity));
+    if (x->why_not)
+        fprintf(f, "# normalisation: relative: %s\n", x->why_not);
+    else
+        fprintf(f, "# normalisation: (%s)/(N s), physical\n", modes_quantity_unit(x->quantity));
     for (int k = 0; k < x->n; k++) {
         const struct modes_extract_place *p = &x->place[k];
-        int used = 0;
-        for (int i = 0; i < p->strikes.n; i++)
-            used += !p->strikes.strike[i].left_out;
         fprintf(f, "# source %d: %s, sha256 %s\n", k + 1, p->name, p->hash);
-        if (!x->given.impulse) fprintf(f, "# strikes %d: %d of %d used\n", k + 1, used, p->strikes.n);
+        if (!g->impulse) fprintf(f, "# strikes %d: %d of %d used\n", k + 1, used(&p->strikes), p->strikes.n);
     }
-}
-
-static void method(FILE *f, const struct modes_extract *x)
-{
     fprintf(f, "# method: %s, then output error on DFT bins, %.6g to %.6g Hz at %g Hz\n",
-            x->given.spectrogram ? "peaks of the power spectrogram" : "ESPRIT in sub-bands", x->low, x->high, x->rate);
+            g->spectrogram ? "peaks of the power spectrogram" : "ESPRIT in sub-bands", x->low, x->high, x->rate);
     for (int k = 0; k < x->n; k++)
         fprintf(f, "# explained %d: %.4g of the energy in the band that does not follow the force at once\n", k + 1,
                 x->place[k].explained);
-    if (x->given.quantity == MODES_PRESSURE && !isnan(x->given.radius))
-        fprintf(f, "# radiation: a monopole of %.9g m at %.9g m is divided out\n# radius_m: %.9g\n", x->given.radius,
-                x->given.distance, x->given.radius);
-}
-
-/* "# error MODE.SLOPE: ...": se is the standard error by noise, se_between the standard deviation from strike to
- * strike. */
-static void errors(FILE *f, const struct modes_extract *x)
-{
-    for (int i = 0; i < x->components; i++) {
-        const struct modes_extract_mode *m = &x->mode[i];
+    if (g->quantity == MODES_PRESSURE && !isnan(g->radius))
+        fprintf(f, "# radiation: a monopole of %.9g m at %.9g m is divided out\n# radius_m: %.9g\n", g->radius,
+                g->distance, g->radius);
+    for (int i = 0; i < x->found.n; i++) { /* se: by noise; se_between: standard deviation from strike to strike */
+        const struct modal_mode *m = &x->found.mode[i];
         double gain = 0.0;
         for (int k = 0; k < x->n; k++)
-            gain = fmax(gain, m->gain_se[k]);
+            gain = fmax(gain, x->gain[i * x->n + k].se);
         fprintf(
             f,
             "# error %d.%d: frequency_hz se %.3g se_between %.3g, decay_per_s se %.3g se_between %.3g, gain se %.3g\n",
             m->mode, m->slope, m->frequency_se, m->frequency_between, m->decay_se, m->decay_between, gain);
     }
-}
-
-static void comments(FILE *f, const struct modes_extract *x)
-{
-    fprintf(f, "# poles: shared\n# quantity: %s\n", modes_quantity_name(x->quantity));
-    if (x->physical)
-        fprintf(f, "# normalisation: (%s)/(N s), physical\n", modes_quantity_unit(x->quantity));
-    else
-        fprintf(f, "# normalisation: relative: %s\n", x->why_not);
-    sources(f, x);
-    method(f, x);
-    errors(f, x);
     for (int k = 0; k < x->notes; k++)
         fprintf(f, "# note %d: %s\n", k + 1, x->note[k]);
 }
 
-/* ------------------------------------------------------------------ rows */
-
-static double unsigned_zero(double v) { return v == 0.0 ? 0.0 : v; }
-
 /* All slopes of a mode have the frequency of its first. */
-static double frequency(const struct modes_extract *x, const struct modes_extract_mode *m)
+static double frequency(const struct modes_extract *x, const struct modal_mode *m)
 {
-    for (int i = 0; i < x->components; i++)
-        if (x->mode[i].mode == m->mode && x->mode[i].slope == 1) return x->mode[i].frequency;
+    for (const struct modal_mode *first = x->found.mode; first < x->found.mode + x->found.n; first++)
+        if (first->mode == m->mode && first->slope == 1) return first->frequency;
     return m->frequency;
 }
 
-static void row(FILE *f, const struct modes_extract *x, const struct modes_extract_mode *m, int k, bool slopes)
-{
-    const struct modes_extract_place *p = &x->place[k];
-    double along = x->quantity == MODES_VELOCITY       ? m->im[k]
-                   : x->quantity == MODES_ACCELERATION ? -m->re[k]
-                                                       : m->re[k],
-           sign = along < 0.0 ? -1.0 : 1.0;
-    double gain = sign * sqrt(m->re[k] * m->re[k] + m->im[k] * m->im[k]),
-           phase = gain != 0.0 ? real_atan2(sign * m->im[k], sign * m->re[k]) : 0.0;
-    fprintf(f, "%d,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g", k + 1, unsigned_zero(p->x), unsigned_zero(p->y), m->mode,
-            frequency(x, m), m->decay, unsigned_zero(gain), unsigned_zero(phase));
-    if (slopes) fprintf(f, ",%d", m->slope);
-    fputc('\n', f);
-}
+static double unsigned_zero(double v) { return v == 0.0 ? 0.0 : v; }
 
-void modes_extract_write(FILE *f, const struct modes_extract *x)
+void modes_extract_write_table(FILE *f, const struct modes_extract *x)
 {
-    bool slopes = x->components > x->modes;
+    bool slopes = x->found.n > x->found.modes;
     comments(f, x);
     fprintf(f, "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad%s\n", slopes ? ",slope" : "");
     for (int k = 0; k < x->n; k++)
-        for (int i = 0; i < x->components; i++)
-            row(f, x, &x->mode[i], k, slopes);
+        for (int i = 0; i < x->found.n; i++) {
+            const struct modal_mode *m = &x->found.mode[i];
+            const struct modes_extract_gain *a = &x->gain[i * x->n + k];
+            double along = x->quantity == MODES_VELOCITY       ? a->im
+                           : x->quantity == MODES_ACCELERATION ? -a->re
+                                                               : a->re,
+                   sign = along < 0.0 ? -1.0 : 1.0, gain = sign * size(a),
+                   phase = gain != 0.0 ? real_atan2(sign * a->im, sign * a->re) : 0.0;
+            fprintf(f, "%d,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g", k + 1, unsigned_zero(x->place[k].x),
+                    unsigned_zero(x->place[k].y), m->mode, frequency(x, m), m->decay, unsigned_zero(gain),
+                    unsigned_zero(phase));
+            fprintf(f, slopes ? ",%d\n" : "\n", m->slope);
+        }
+}
+
+/* ------------------------------------------------------------------ report */
+
+static void report_strikes(struct report *r, const struct modes_extract *x, const struct modes_extract_place *p)
+{
+    bool force = x->given.force_channel;
+    bool text = !x->given.impulse;
+    if (text)
+        report_text(r, "strikes: %d found, %d used\n%6s %10s %12s %12s %10s\n", p->strikes.n, used(&p->strikes),
+                    "strike", "onset_s", force ? "peak_force" : "peak_sound", force ? "momentum" : "", "explained");
+    report_list(r, "strikes");
+    for (int k = 0; k < p->strikes.n; k++) {
+        const struct strikes_one *v = &p->strikes.strike[k];
+        double onset = (double)v->onset / x->rate, explained = NAN;
+        for (int s = p->first; s < p->first + p->stretches; s++)
+            if (x->data.stretch[s].strike == k) explained = x->found.explained[s];
+        report_object(r, NULL);
+        report_set(r, "onset_s:n peak:n momentum:n clipped:b doubled:b used:b left_out:s explained:n", onset, v->peak,
+                   v->momentum, v->clipped, v->doubled, !v->left_out, v->left_out, explained);
+        report_end(r);
+        if (text)
+            report_text(r, "%6d %10.4f %12.4g %12s %10s %s%s\n", k + 1, onset, v->peak,
+                        force ? arena_format(x->arena, "%.4g", v->momentum) : "",
+                        isnan(explained) ? "-" : arena_format(x->arena, "%.1f%%", 100.0 * explained),
+                        v->left_out  ? "left out: "
+                        : v->doubled ? "doubled"
+                                     : "",
+                        v->left_out ? v->left_out : "");
+    }
+    report_end(r);
+    if (force) report_text(r, "force: up to %.5g Hz, sound %.3g ms after it\n", p->high, 1e3 * p->delay);
+}
+
+static void report_place(struct report *r, const struct modes_extract *x, int k)
+{
+    const struct modes_extract_place *p = &x->place[k];
+    const struct spectral_distance *d = &p->distance;
+    double noise = x->found.noise[k];
+    report_object(r, NULL);
+    report_set(r, "file:s sha256:s x_m:n y_m:n", p->shown, p->hash, p->x, p->y);
+    report_text(r, "%s", p->shown);
+    if (p->placed) report_text(r, " at x = %.6g m, y = %.6g m", p->x, p->y);
+    report_text(r, ": %g Hz, %.4g s\n", x->rate, (double)p->recording.n / x->rate);
+    report_strikes(r, x, p);
+    report_set(r, "low_hz:n high_hz:n delay_s:n explained:n predicted:n noise_rms:n", 0.0, p->high, p->delay,
+               p->explained, p->predicted, noise);
+    report_text(r, "modes explain %.2f %% of the energy that does not follow the force at once; noise %.3g rms\n",
+                100.0 * p->explained, noise);
+    if (!isnan(p->predicted)) report_text(r, "and %.2f %% of the strikes that were not fitted\n", 100.0 * p->predicted);
+    report_object(r, "distance");
+    report_set(r, "third_octave_mean_db:n third_octave_worst_db:n third_octave_worst_hz:n log_spectral_db:n",
+               d->third_octave_mean, d->third_octave_worst, d->worst_at, d->log_spectral);
+    report_end(r);
+    report_text(r,
+                "strike to modes: third octaves %.2f dB (mean of %d), %.2f dB (worst, %g Hz); log-spectral distance "
+                "%.2f dB\n",
+                d->third_octave_mean, d->bands, d->third_octave_worst, d->worst_at, d->log_spectral);
+    report_end(r);
+}
+
+static void report_mode(struct report *r, const struct modes_extract *x, int i)
+{
+    const struct modal_mode *m = &x->found.mode[i];
+    const struct modes_extract_gain *gain = &x->gain[i * x->n], *most = gain;
+    report_object(r, NULL);
+    report_set(r,
+               "mode:i slope:i frequency_hz:n frequency_se:n frequency_se_between:n decay_per_s:n decay_se:n "
+               "decay_se_between:n t60_s:n share:n",
+               m->mode, m->slope, m->frequency, m->frequency_se, m->frequency_between, m->decay, m->decay_se,
+               m->decay_between, t60(m), m->share);
+    report_list(r, "places");
+    for (const struct modes_extract_gain *g = gain; g < gain + x->n; g++) {
+        report_object(r, NULL);
+        report_set(r, "gain:n gain_se:n phase_rad:n phase_se_rad:n", size(g), g->se, real_atan2(g->im, g->re),
+                   g->se / size(g));
+        report_end(r);
+        most = size(g) > size(most) ? g : most;
+    }
+    report_end(r);
+    report_end(r);
+    report_text(r, "%5d %13.7g %9.2g %10.2g %11.4g %9.2g %10.2g %12.5g %9.2g", m->mode, m->frequency, m->frequency_se,
+                m->frequency_between, t60(m), t60(m) * m->decay_se / m->decay, t60(m) * m->decay_between / m->decay,
+                size(most), most->se);
+    report_text(r, x->found.n > x->found.modes ? "%7d\n" : "\n", m->slope);
+}
+
+bool modes_extract_write_report(const struct modes_extract *x, bool json, struct err *e)
+{
+    struct report r = report_open(stdout, json);
+    report_set(&r,
+               "table:s sample_rate:n method:s quantity:s physical:b low_hz:n high_hz:n median_decay_per_s:n "
+               "median_decay_by_energy_per_s:n",
+               x->given.file[MODES_EXTRACT_TABLE], x->rate, x->given.spectrogram ? "spectrogram" : "esprit",
+               modes_quantity_name(x->quantity), !x->why_not, x->low, x->high, x->median_decay, x->median_by_energy);
+    report_list(&r, "places");
+    for (int k = 0; k < x->n; k++)
+        report_place(&r, x, k);
+    report_end(&r);
+    report_text(&r, "%d mode%s between %.5g and %.5g Hz, median decay %.4g 1/s, by energy %.4g 1/s\n", x->found.modes,
+                x->found.modes == 1 ? "" : "s", x->low, x->high, x->median_decay, x->median_by_energy);
+    report_text(&r, "%5s %13s %9s %10s %11s %9s %10s %12s %9s%s\n", "mode", "frequency_hz", "se", "se_between", "t60_s",
+                "se", "se_between", "largest_gain", "se", x->found.n > x->found.modes ? "  slope" : "");
+    report_list(&r, "modes");
+    for (int i = 0; i < x->found.n; i++)
+        report_mode(&r, x, i);
+    report_end(&r);
+    if (x->why_not)
+        report_text(&r, "gains relative, of %s\n", modes_quantity_name(x->quantity));
+    else
+        report_text(&r, "gains in (%s)/(N s)\n", modes_quantity_unit(x->quantity));
+    report_set(&r, "warnings:t", x->note, x->notes);
+    if (x->notes) report_text(&r, "warning%s:\n", x->notes == 1 ? "" : "s");
+    for (int k = 0; k < x->notes; k++)
+        report_text(&r, "  %s\n", x->note[k]);
+    return report_close(&r, 12, e);
+}
+
+/* ------------------------------------------------------------------ picture */
+
+#define BLUE "#0072b2"
+#define RED "#d55e00"
+#define GREY "#888888"
+
+enum { COLUMNS = 900, POINTS = 700 };
+
+static double decibel(double power) { return power > 0.0 ? 10.0 * real_log10(power) : -400.0; }
+
+/* A row of data: the strike, its modes, what is left. */
+static void levels(struct gnuplot *g, double at, const double power[3])
+{
+    fprintf(g->in, "%.6g %.5g %.5g %.5g\n", at, decibel(power[0]), decibel(power[1]), decibel(power[2]));
+}
+
+/* $s: spectra of y[n], in a column of the picture the greatest of its bins: lines stay as high as they are. */
+static void spectra(struct gnuplot *g, double *const y[3], long n, double rate, double low, double high)
+{
+    struct arena *a = arena_open();
+    long padded = (long)fft_good_size((size_t)(2 * n));
+    double *power[3];
+    for (int k = 0; k < 3; k++)
+        power[k] = modes_extract_find_power(y[k], n, padded, a);
+    fputs("$s << END\n", g->in);
+    for (int c = 0; c < COLUMNS; c++) {
+        double from = low * real_pow(high / low, (double)c / COLUMNS),
+               to = low * real_pow(high / low, (c + 1.0) / COLUMNS), most[3] = {0};
+        for (long i = (long)(from / rate * (double)padded); i <= (long)(to / rate * (double)padded) && i <= padded / 2;
+             i++)
+            for (int k = 0; k < 3; k++)
+                most[k] = fmax(most[k], power[k][i] / (rate * rate));
+        levels(g, sqrt(from * to), most);
+    }
+    fputs("END\n", g->in);
+    arena_close(a);
+}
+
+/* $m: each mode's frequency, the height that it has there, |A|/(2 decay), and T60, both with two standard errors. */
+static void stems(struct gnuplot *g, const struct modes_extract *x)
+{
+    fputs("$m << END\n", g->in);
+    for (int i = 0; i < x->found.n; i++) {
+        const struct modal_mode *m = &x->found.mode[i];
+        const struct modes_extract_gain *a = &x->sound[i * x->n];
+        double gain = size(a), height = decibel(gain * gain / (4.0 * m->decay * m->decay)), off_gain = a->se / gain,
+               off_decay = m->decay_se / m->decay, off = 2.0 * sqrt(off_gain * off_gain + off_decay * off_decay);
+        fprintf(g->in, "%.7g %.5g %.5g %.5g %.5g %.5g %.5g\n", m->frequency, height,
+                height + 20.0 * real_log10(fmax(1.0 - off, 1e-3)), height + 20.0 * real_log10(1.0 + off), t60(m),
+                t60(m) / (1.0 + 2.0 * m->decay_se / m->decay), t60(m) / fmax(1.0 - 2.0 * m->decay_se / m->decay, 0.01));
+    }
+    fputs("END\n", g->in);
+}
+
+/* $l: mean squares of y[n] over time. */
+static void decays(struct gnuplot *g, double *const y[3], long n, double rate)
+{
+    long step = n / POINTS > 16 ? n / POINTS : 16;
+    fputs("$l << END\n", g->in);
+    for (long i = 0; i + step <= n; i += step) {
+        double power[3] = {0};
+        for (int k = 0; k < 3; k++) {
+            for (long j = i; j < i + step; j++)
+                power[k] += y[k][j] * y[k][j];
+            power[k] /= (double)step;
+        }
+        levels(g, ((double)i + 0.5 * (double)step) / rate, power);
+    }
+    fputs("END\n", g->in);
+}
+
+static void curves(struct gnuplot *g, const char *data)
+{
+    fprintf(g->in,
+            "plot %s using 1:2 with lines linewidth 1.2 linecolor rgb '" GREY
+            "' title 'strike', '' using 1:4 with lines linewidth 1 linecolor rgb '#f0b48a' title "
+            "'what is left', '' using 1:3 with lines linewidth 1.2 linecolor rgb '" BLUE "' title 'its modes'",
+            data);
+}
+
+/* Of the first place's loudest strike, above: the spectrum of its sound, from the hammer's end on, with its modes' and
+   of what is left, and each mode as a stem; below: levels over time, and decays over frequency. */
+void modes_extract_write_picture(void *self, struct gnuplot *g)
+{
+    struct modes_extract *x = self;
+    const struct modes_extract_place *p = &x->place[0];
+    const struct modal_stretch *st = &x->data.stretch[p->loudest];
+    long n = st->n - st->ringing;
+    double low = fmax(20.0, 0.7 * x->low), high = fmin(1.4 * x->high, 0.5 * x->rate), *y[3];
+    for (int k = 0; k < 3; k++)
+        y[k] = ARENA_TAKE(x->arena, double, n);
+    for (long i = 0; i < n; i++) {
+        y[0][i] = st->y[st->ringing + i];
+        y[1][i] = x->found.model[p->loudest][st->ringing + i];
+        y[2][i] = y[0][i] - y[1][i];
+    }
+    gnuplot_page(g, x->given.svg, 1100, 900);
+    fputs("set key noenhanced outside top horizontal center samplen 2\n", g->in);
+    gnuplot_put_setting(
+        g, "multiplot title",
+        arena_format(x->arena, "%s: %d modes explain %.1f %%", p->name, x->found.modes, 100.0 * p->explained));
+    fprintf(g->in,
+            "set size 1,0.56\nset origin 0,0.4\nset logscale x\nset xrange [%.6g:%.6g]\nset xlabel "
+            "'frequency / Hz'\nset ylabel 'level / dB'\n",
+            low, high);
+    spectra(g, y, n, x->rate, low, high);
+    stems(g, x);
+    fputs("stats $s using 2 nooutput\nset yrange [STATS_max - 90:STATS_max + 6]\n", g->in);
+    curves(g, "$s");
+    fputs(", $m using 1:2:(0):(-200) with vectors nohead linewidth 0.6 linecolor rgb '" RED
+          "' notitle, '' using 1:2:3:4 with yerrorbars pointtype 7 pointsize 0.5 linecolor rgb '" RED
+          "' title 'modes, ± 2 standard errors'\nunset logscale x\n",
+          g->in);
+    decays(g, y, n, x->rate);
+    fprintf(g->in,
+            "set size 0.5,0.4\nset origin 0,0\nset xrange [0:%.6g]\nset xlabel 'time / s'\nset yrange [*:*]\nstats $l "
+            "using 2 nooutput\nset yrange [STATS_max - 80:STATS_max + 6]\n",
+            (double)n / x->rate);
+    curves(g, "$l");
+    fprintf(g->in,
+            "\nset origin 0.5,0\nset logscale xy\nset xrange [%.6g:%.6g]\nset yrange [*:*]\nset xlabel 'frequency / "
+            "Hz'\nset ylabel 'T60 / s'\n"
+            "plot $m using 1:5:6:7 with yerrorbars pointtype 7 pointsize 0.5 linecolor rgb '" RED
+            "' notitle\nunset multiplot\n",
+            low, high);
 }
