@@ -17,7 +17,7 @@
 #include "cmd/tell.h"
 #include "num/real.h"
 #include "output/mark.h"
-#include "response/mode_table_write.h"
+#include "response/mode_table.h"
 #include "response/object_kinds.h"
 #include "scene/ball.h"
 #include "scene/keys.h"

@@ -18,7 +18,7 @@
 #include "file/csv.h"
 #include "num/real.h"
 #include "output/mark.h"
-#include "response/mode_table_write.h"
+#include "response/mode_table.h"
 
 static void rows(FILE *f, const struct compute *k);
 
@@ -226,7 +226,7 @@ static bool modes_compute_places(struct compute *k, struct err *e)
 
    A unit impulse (1 N s) that presses at x makes a mass-normalised mode move, where it is heard, by phi(x) phi(l)/w_d
    e^(-d t) sin(w_d t), displacement along the inward normal; velocity is Im(A e^(s t)) with A = phi(x) phi(l) (j -
-   d/w_d), as of objects of closed form (response/object_modes.c).
+   d/w_d), as of objects of closed form (response/object.c).
 
    One table on every CPU: one kind of kernels (cmd/modes.c), nine digits of frequencies, gains of shapes to seven
    digits of each mode's greatest. So tables agree to these where another version of the library, or another kind of

@@ -6,7 +6,7 @@
 
    A microphone's pressure is, without the sizes of a radiator, taken as proportional to the acceleration of the
    surface, as of a small source: gains then hold what the path through the air did to each mode. With them each mode's
-   gain is divided by a monopole's H(s), pressure over velocity (response/radiator_monopole.c). */
+   gain is divided by a monopole's H(s), pressure over velocity (response/radiator.c). */
 #include <gsl/gsl_sort_double.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -17,7 +17,7 @@
 #include "cmd/modes_extract.h"
 #include "num/fft.h"
 #include "num/real.h"
-#include "response/radiator_monopole.h"
+#include "response/radiator.h"
 
 enum { STRIKES = 250 };
 

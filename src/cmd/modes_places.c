@@ -19,7 +19,7 @@
 
 #include "cmd/tell.h"
 #include "num/real.h"
-#include "response/morph_points.h"
+#include "response/morph.h"
 
 static void line(struct modes_places *p, const double ends[4], int n, struct arena *a);
 

@@ -77,7 +77,7 @@ static bool reach_told(const struct modes *m, const struct stage_run *r, const d
                    "surface.extrapolate: nearest",
                    r->contact->name, ring_choice_about(r->contact, RING_SURFACE),
                    place ? "ablation.place is" : "the motion reaches", p[0], p[1], out, m->name, m->places ? ": " : "",
-                   m->places ? places_told(m->places, r->arena) : "");
+                   m->places ? places_text(m->places, r->arena) : "");
 }
 
 bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)

@@ -9,7 +9,6 @@
 #include "convolution/overlap_add.h"
 #include "convolution/ring.h"
 #include "response/ir.h"
-#include "response/ir_set.h"
 #include "response/places.h"
 #include "scene/ablation.h"
 
@@ -96,7 +95,7 @@ static bool recorded_inside(const struct ring_overlap *s, const struct stage_run
                            "surface.extrapolate: nearest",
                            r->contact->name,
                            s->one && !isnan(r->contact->ablation.place[0]) ? "ablation.place is" : "the motion reaches",
-                           p[0], p[1], out, r->contact->surface.response.file, places_told(s->set.places, r->arena));
+                           p[0], p[1], out, r->contact->surface.response.file, places_text(s->set.places, r->arena));
     }
     return true;
 }

@@ -18,7 +18,7 @@ static void ground_phi(const struct roll_ground *g, long frame, double *phi)
     double t = (double)frame / g->board->rate;
     struct modes_where at = g->first;
     if (g->moves) trajectory_at(g->board->trajectory, 1, &t, (struct trajectory_out){.x = &at.x, .y = &at.y});
-    shapes_at(&g->shapes, &at, phi);
+    modes_shapes_at(&g->shapes, &at, phi);
 }
 
 static void ground_ramps(struct roll_ground *g, const struct stage_run *r)
@@ -45,7 +45,8 @@ bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct e
                        "surface.object, or take ground: rigid",
                        c->name, rules_responds(given) ? "a recorded response has none" : "it has no response");
     if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e)) return false;
-    if (!shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e)) return err_at(e, "contact '%s'", c->name);
+    if (!modes_shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e))
+        return err_at(e, "contact '%s'", c->name);
     ground_ramps(g, r);
     return ring_reach(&choice->modes, r, e) || err_about(e, c->name, ring_choice_about(c, RING_SURFACE));
 }

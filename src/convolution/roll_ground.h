@@ -1,15 +1,15 @@
 /* What gives way under a rolling ball: the surface's modes, and their shapes at the contact's place as it moves. */
 #ifndef CONVOLUTION_ROLL_GROUND_H
 #define CONVOLUTION_ROLL_GROUND_H
-#include "response/shapes.h"
+#include "response/modes.h"
 #include "stage.h"
 
 struct roll_ground {
-    struct shapes shapes;     /* n 0: rigid                                        */
-    bool moves;               /* phi changes on the way                            */
-    struct modes_where first; /* the place that counts where it does not           */
-    double *phi, *from, *to;  /* [n] at a frame; at the ends of the present ramp   */
-    long ramp, ramp_end;      /* frames                                            */
+    struct modes_shapes shapes; /* n 0: rigid                                        */
+    bool moves;                 /* phi changes on the way                            */
+    struct modes_where first;   /* the place that counts where it does not           */
+    double *phi, *from, *to;    /* [n] at a frame; at the ends of the present ramp   */
+    long ramp, ramp_end;        /* frames                                            */
     const struct board *board;
 };
 

@@ -43,7 +43,9 @@ struct shapes_block *shapes_blocks_add(struct shapes_blocks *s, int which, int n
     return &s->block[s->n++];
 }
 
-double shapes_blocks_nodes(const struct shapes_blocks *s, int order)
+/* Points of the lattices with each cell cut into `order` along each side, those that blocks share counted for each: at
+ * least as many as nodes of elements of that order. */
+static double blocks_nodes(const struct shapes_blocks *s, int order)
 {
     double n = 0;
     for (int i = 0; i < s->n; i++)
@@ -210,10 +212,12 @@ static void make_groups(const struct shapes_maker *k, struct arena *a)
     }
 }
 
-void shapes_blocks_mesh(const struct shapes_blocks *s, struct arena *a, struct mesh *m)
+/* Cells are split into tetrahedra so that neighbours agree; a midside lies where its edge's middle in the lattice lies,
+ * so on the true surface. */
+static void blocks_mesh(const struct shapes_blocks *s, struct arena *a, struct mesh *m)
 {
     struct shapes_maker k = {.s = s, .m = m};
-    size_t nodes = (size_t)shapes_blocks_nodes(s, 2), cells = 0, faces = 0;
+    size_t nodes = (size_t)blocks_nodes(s, 2), cells = 0, faces = 0;
     for (int i = 0; i < s->n; i++) {
         const int *n = s->block[i].n;
         cells += (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
@@ -349,7 +353,7 @@ static void find_cell(const struct shapes_kind *k, struct shapes_ask *q, double 
     for (int i = 0; i < 40; i++) {
         t.cell = sqrt(low * high);
         k->blocks(&t, a, s);
-        if (shapes_blocks_nodes(s, k->order) > q->nodes)
+        if (blocks_nodes(s, k->order) > q->nodes)
             low = t.cell;
         else
             high = t.cell;
@@ -377,7 +381,7 @@ bool shapes_mesh_coarser(const char *text, double longer, struct arena *a, struc
         return false;
     *m = (struct mesh){.name = arena_text(a, text)};
     find_cell(k, &q, longer, a, &s);
-    shapes_blocks_mesh(&s, a, m);
+    blocks_mesh(&s, a, m);
     return true;
 }
 

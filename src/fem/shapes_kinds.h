@@ -24,14 +24,6 @@ struct shapes_blocks {
 /* One more block. */
 struct shapes_block *shapes_blocks_add(struct shapes_blocks *s, int which, int n0, int n1, int n2);
 
-/* Points of the lattices with each cell cut into `order` along each side, those that blocks share counted for each: at
- * least as many as nodes of elements of that order. */
-double shapes_blocks_nodes(const struct shapes_blocks *s, int order);
-
-/* Cells are split into tetrahedra so that neighbours agree; a midside lies where its edge's middle in the lattice lies,
- * so on the true surface. */
-void shapes_blocks_mesh(const struct shapes_blocks *s, struct arena *a, struct mesh *m);
-
 enum { SHAPES_LENGTHS = 5 };
 
 struct shapes_ask {

@@ -558,7 +558,8 @@ cholmod_sparse *solid_matrices_shifted(struct solid_matrices *x, double shift)
     return a;
 }
 
-cholmod_dense solid_matrices_column(double *v, size_t n)
+/* An array as CHOLMOD wants it. */
+static cholmod_dense column_of(double *v, size_t n)
 {
     return (cholmod_dense){
         .nrow = n, .ncol = 1, .nzmax = n, .d = n, .x = v, .xtype = CHOLMOD_REAL, .dtype = CHOLMOD_DOUBLE};
@@ -567,7 +568,7 @@ cholmod_dense solid_matrices_column(double *v, size_t n)
 void solid_matrices_times(struct solid_matrices *x, cholmod_sparse *a, const double *v, double *y)
 {
     double one[2] = {1.0, 0.0}, zero[2] = {0.0, 0.0};
-    cholmod_dense in = solid_matrices_column((double *)v, a->ncol), out = solid_matrices_column(y, a->nrow);
+    cholmod_dense in = column_of((double *)v, a->ncol), out = column_of(y, a->nrow);
     cholmod_sdmult(a, 0, one, zero, &in, &out, &x->common);
 }
 

@@ -62,9 +62,6 @@ enum { SOLID_MATRICES_WIDE = 8 };
 
 void solid_matrices_times_block(const cholmod_sparse *a, const double *v, double *y, double *room);
 
-/* An array as CHOLMOD wants it. */
-cholmod_dense solid_matrices_column(double *v, size_t n);
-
 /* Says that memory does not suffice; returns false. */
 bool solid_matrices_no_memory(size_t freedoms, struct err *e);
 

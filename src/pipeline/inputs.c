@@ -19,7 +19,7 @@ static const char *why_unreadable(const char *file)
     return S_ISREG(s.st_mode) ? NULL : "is not a file";
 }
 
-/* A response may be a folder, whose reader looks for its places in index.csv (response/ir_set.h). */
+/* A response may be a folder, whose reader looks for its places in index.csv (response/ir.h). */
 static bool may_be_folder(const char *where, const char *file)
 {
     struct stat s;

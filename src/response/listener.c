@@ -4,7 +4,7 @@
    (Constants of integration are left out: the displacement that a velocity would leave behind, a jump of displacement
    at t = 0. An acceleration's jump of velocity is its direct term, modes_direct.) contact       H = 1: the motion of
    the place that is touched, or what a table holds point         H = 1: the motion of another place; the modes are made
-   for it (listener_place) monopole      radiator_monopole.c, with a component of its own plate radiator_plate.c: H of
+   for it (listener_place) monopole      radiator.c, with a component of its own plate radiator.c: H of
    each mode by quadrature, once
 
    The way through the air: a channel is later than that of the nearest listening place by d = (r - r_nearest) / c rate
@@ -21,8 +21,7 @@
 #include <string.h>
 
 #include "num/real.h"
-#include "response/radiator_monopole.h"
-#include "response/radiator_plate.h"
+#include "response/radiator.h"
 
 struct listener {
     int n, radiator, extra, quantity;

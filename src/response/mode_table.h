@@ -12,17 +12,19 @@
                       separate: a place's own; a place may lack a mode; decays above 0.
        gains          of separate poles, between places: logarithmic (papers/000; the default), or complex: as numbers
    that may pass zero quantity       displacement, velocity or acceleration, per N s pairing        ids: modes of one id
-   are one mode; frequency: see pairing.h. Default: ids, unless places differ in the ids they have, and ids that several
+   are one mode; frequency: see morph.h. Default: ids, unless places differ in the ids they have, and ids that several
    have are not within 12 % of one frequency for the most part radius_m       of a sphere of the object's size, for a
    monopole's sound (optional) normalisation, source, ...   free text */
 #ifndef RESPONSE_MODE_TABLE_H
 #define RESPONSE_MODE_TABLE_H
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/arena.h"
 #include "base/err.h"
 #include "file/csv.h"
+#include "response/modes.h"
 
 struct mode_slope {
     double decay, gain, phase;
@@ -54,5 +56,22 @@ bool mode_table_read(const char *path, struct arena *a, struct mode_table *t, st
 
 /* For an error in a place: sets ERR_SCENE "file:line: place 'name' text", line its first; returns false. */
 bool mode_table_bad_place(const struct mode_table *t, size_t place, const char *text, struct err *e);
+
+/* Writing a mode table: the format that mode_table.h reads. */
+
+/* The columns' line; comments ("# key: value") go before it. */
+void mode_table_write_header(FILE *f);
+
+/* One place's rows: modes order[0 .. n-1] of the point, numbered from 1 in that order, numbers with as many digits as
+   the place says (zero without sign). Gains have the sign of the mode shapes' product: that of Re A of a displacement,
+   Im A of a velocity, -Re A of an acceleration (phases near 0, pi/2, pi). */
+struct mode_table_place {
+    int digits; /* 12 of closed forms; 9 of what linear algebra on another CPU would give other last digits */
+    int id;
+    double x, y; /* m */
+};
+
+void mode_table_write_place(FILE *f, const struct mode_table_place *place, int n, const int *order,
+                            const struct modes_point *p, int quantity);
 
 #endif

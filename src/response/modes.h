@@ -2,7 +2,7 @@
    (papers/000 equation 10 with A_i(t) an exponential; a mode of several slopes is several components of one frequency).
    Complex gain: A = gain e^(j phase), so that h(t) = Im sum A_i e^(s_i t), s_i = -decay + j 2 pi f.
 
-   A `struct modes` comes from a mode table (modes_table.c), a closed-form object (object_modes.c), or a place in the
+   A `struct modes` comes from a mode table (modes.c), a closed-form object (object.c), or a place in the
    space of materials (space.c); all are read through `at`. */
 #ifndef RESPONSE_MODES_H
 #define RESPONSE_MODES_H
@@ -26,6 +26,7 @@ enum modes_quantity {
 
 /* "velocity" and "m/s" of such a quantity, for messages. */
 const char *modes_quantity_name(int quantity);
+
 const char *modes_quantity_unit(int quantity);
 
 struct modes_where {
@@ -39,6 +40,7 @@ struct modes_point {           /* what rings when it is touched there; arrays [n
 };
 
 struct object;
+
 struct places;
 
 struct modes {
@@ -83,6 +85,7 @@ struct modes_ask {
     double pairing, rate;
     struct shelf *shelf; /* of the scene (base/shelf.h); NULL: none */
 };
+
 bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e);
 
 /* The direct term D of an acceleration (or pressure) at those gains (its delta at t = 0: what the force itself adds):
@@ -96,10 +99,34 @@ bool modes_in_band(const struct modes_ask *ask, double lowest, double highest);
 /* Components that nowhere lie below MODES_TOP times the rate cannot be sampled: drops them (sets n), returns how many
  * there were. */
 #define MODES_TOP 0.45
+
 int modes_drop_above(struct modes *m, double rate);
 
 /* Time after which a unit impulse's response has decayed by `decibel` (> 0) below its initial amplitude bound; slowest
  * mode. */
 double modes_ring_time(const struct modes *m, double decibel);
+
+/* Signed mode shapes at the place that is touched, for what gives way under a contact: the object's displacement there
+   is sum phi_i q_i,
+
+     q_i'' + 2 sigma_i q_i' + |s_i|^2 q_i = phi_i f,   s_i = -sigma_i + j 2 pi f_i
+
+   phi scaled to unit modal mass (1/sqrt(kg)). Of objects of closed form phi = shape / sqrt(modal mass), exact and
+   signed; of a mode table with shared poles the gains must be those of the driving point (heard where it is touched):
+   real positive phi_i^2. */
+struct modes_shapes {
+    int n;
+    const double *frequency, *decay; /* [n] Hz (damped), 1/s */
+    bool moves;                      /* phi depends on the place */
+    const struct modes *modes;
+    void *self;
+};
+
+/* From a body's modes; they must stay. key ("surface"): for messages. ERR_SCENE: separate poles, poles that travel, or
+ * gains that are not those of the driving point. */
+bool modes_shapes_make(const struct modes *m, const char *key, struct arena *a, struct modes_shapes *s, struct err *e);
+
+/* phi[n] at a place (the scene's coordinates), 1/sqrt(kg). */
+void modes_shapes_at(const struct modes_shapes *s, const struct modes_where *where, double *phi);
 
 #endif

@@ -50,18 +50,16 @@ struct object_inside { /* what o->self points at */
     const void *table;       /* bind's */
 };
 
-extern const struct object_kind object_bar, object_string, object_plate, object_disk, object_membrane, object_drum,
-    object_shell;
+extern const struct object_kind object_kinds_bar, object_kinds_string, object_plate, object_kinds_disk,
+    object_kinds_membrane, object_kinds_drum, object_kinds_shell;
 
-/* ---- object.c */
+/* ------------------------------------------------------------------ object.c */
+
 static inline const struct object_inside *object_inside(const struct object *o)
 {
     return (const struct object_inside *)o->self;
 }
 void object_keep_table(struct object *o, struct arena *a, const void *table);
-
-/* The same object with modes chosen[0..n) of o in that order. */
-void object_pick(const struct object *o, const int *chosen, int n, struct arena *a, struct object *picked);
 
 /* Moves (x, y) to the nearest place of the box; returns how far. */
 double object_nearest(const struct object *o, double *x, double *y);
@@ -70,15 +68,7 @@ double object_nearest(const struct object *o, double *x, double *y);
 void object_list_add(struct object_list *l, struct arena *a, struct object_mode m);
 void object_list_cut(struct object_list *l, const struct object_limit *limit);
 
-/* ---- object_body.c: NULL: a needed size or figure is missing, or sizes do not fit, ERR_SCENE */
-const struct object_body *object_body_make(const struct object_given *given, const char *key, struct arena *a,
-                                           struct err *e);
-
-/* ---- object_beam.c: bending of a slender bar, edges not supported */
-double object_beam_root(int edges, int i);                /* beta L of mode i = 1, 2, ... */
-void object_beam_bind(struct arena *a, struct object *o); /* a = i */
-
-/* ---- object_sine.c: phi = f(pi a x/(2 length)) sin(pi b y/(2 width)), f sin, or cos where c is 1; b = 0: no second
+/* phi = f(pi a x/(2 length)) sin(pi b y/(2 width)), f sin, or cos where c is 1; b = 0: no second
  * factor */
 void object_sine_bind(struct arena *a, struct object *o);
 /* Modes (m, n) >= 1 of w = law(m pi/length, n pi/width) that rises with both. */
@@ -91,25 +81,7 @@ struct object_sine_law {
 void object_sine_list(const struct object_body *b, const struct object_sine_law *law, const struct object_limit *limit,
                       struct arena *a, struct object_list *l);
 
-/* ---- object_plate.c */
-struct object_plate {               /* of an orthotropic plate; N m, kg/m^2 */
-    double dx, dy, coupling, twist; /* E_x h^3/(12(1 - nu_x nu_y)), ..., nu_x dy, G h^3/12 */
-    double area_density, thickness, shear;
-};
-bool object_plate_stiffness(const struct object_body *b, struct object_plate *p, struct err *e);
-double object_plate_excess(const void *plate, double w);
-double object_plate_supported(const void *plate, double kx, double ky);
-
-/* ---- object_plate_warburton.c: rad/s, about that of the `most`-th mode */
-double object_plate_warburton(const struct object_body *b, const struct object_plate *p,
-                              const struct object_limit *limit, struct arena *a);
-
-/* ---- object_plate_ritz.c: any edges */
-bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a,
-                       struct object_list *l, struct err *e);
-void object_plate_ritz_bind(struct arena *a, struct object *o);
-
-/* ---- object_radial.c: phi = R_ns(r) cos n theta (c = 0) or sin n theta (c = 1), n = a, s = b, lambda = own */
+/* phi = R_ns(r) cos n theta (c = 0) or sin n theta (c = 1), n = a, s = b, lambda = own */
 struct object_radial {
     double (*zero)(const struct object_radial *, int n,
                    double lambda); /* changes sign at the lambda of order n, which lie above 0.9 n and 0.1 */
@@ -122,10 +94,25 @@ void object_radial_list(const struct object_radial *q, const struct object_limit
                         struct arena *a, struct object_list *l);
 void object_radial_bind(struct arena *a, struct object *o); /* the list's work is the object_radial */
 
-/* ---- object_sum.c: sum[0..modes) = sum over t < n of weight[t] row_t, rows [n][modes], in order */
+/* sum[0..modes) = sum over t < n of weight[t] row_t, rows [n][modes], in order */
 void object_sum(int n, int modes, const double *rows, const double *weight, double *sum);
 
-/* ---- object_shell.c: shapes seen from a place that is not the pole */
-void object_shell_from(const struct object *o, const double pole[2], const double place[2], double *phi);
+/* ------------------------------------------------------------------ object_kinds.c */
+
+/* NULL: a needed size or figure is missing, or sizes do not fit, ERR_SCENE */
+const struct object_body *object_kinds_body(const struct object_given *given, const char *key, struct arena *a,
+                                            struct err *e);
+
+/* Bending of a slender bar, edges not supported: beta L of mode i = 1, 2, ... */
+double object_kinds_beam_root(int edges, int i);
+
+/* Shapes of a shell seen from a place that is not the pole */
+void object_kinds_shell_from(const struct object *o, const double pole[2], const double place[2], double *phi);
+
+/* ------------------------------------------------------------------ object_plate.c */
+
+/* Modes of a plate with any edges. */
+bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a,
+                       struct object_list *l, struct err *e);
 
 #endif

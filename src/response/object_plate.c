@@ -4,17 +4,26 @@
        Dx = Ex h^3/(12 (1 - nu_x nu_y)),  Dy likewise,  nu_y = nu_x Ey/Ex,  D1 = nu_x Dy,  Dk = G h^3/12,
        supported all round:  rho h w^2 = Dx kx^4 + 2 (D1 + 2 Dk) kx^2 ky^2 + Dy ky^4,   kx = m pi/a, ky = n pi/b,
 
-   shapes sin(kx x) sin(ky y), masses rho h a b/4. Other edges: object_plate_ritz.c.
+   shapes sin(kx x) sin(ky y), masses rho h a b/4. Other edges: object_plate_ritz.
 
    What thin-plate theory leaves out lowers frequencies, to first order (Mindlin 1951), by k^2/2 (h^2/12 + D/(kappa G
    h)), kappa = 5/6, k^2 = w sqrt(rho h/D), here with D = sqrt(Dx Dy). Across the grain through the thickness wood
    shears more easily than G says. */
-#include <math.h>
-
-#include "num/real.h"
 #include "response/object_kinds.h"
 
-bool object_plate_stiffness(const struct object_body *b, struct object_plate *p, struct err *e)
+#include <gsl/gsl_eigen.h>
+#include <math.h>
+
+#include "num/gauss.h"
+#include "num/jacobi.h"
+#include "num/real.h"
+
+struct plate {                      /* of an orthotropic plate; N m, kg/m^2 */
+    double dx, dy, coupling, twist; /* E_x h^3/(12(1 - nu_x nu_y)), ..., nu_x dy, G h^3/12 */
+    double area_density, thickness, shear;
+};
+
+static bool plate_stiffness(const struct object_body *b, struct plate *p, struct err *e)
 {
     double h = b->given->thickness, nu = b->poisson, coupled = 1.0 - nu * nu * b->across / b->youngs_modulus;
     if (!(coupled > 0.0))
@@ -34,29 +43,396 @@ bool object_plate_stiffness(const struct object_body *b, struct object_plate *p,
     return true;
 }
 
-double object_plate_supported(const void *plate, double kx, double ky)
+static double plate_supported(const void *plate, double kx, double ky)
 {
-    const struct object_plate *p = (const struct object_plate *)plate;
+    const struct plate *p = (const struct plate *)plate;
     double x2 = kx * kx, y2 = ky * ky;
     return sqrt((p->dx * x2 * x2 + 2.0 * (p->coupling + 2.0 * p->twist) * x2 * y2 + p->dy * y2 * y2) / p->area_density);
 }
 
-double object_plate_excess(const void *plate, double w)
+static double plate_excess(const void *plate, double w)
 {
-    const struct object_plate *p = (const struct object_plate *)plate;
+    const struct plate *p = (const struct plate *)plate;
     double d = sqrt(p->dx * p->dy), k2 = w * sqrt(p->area_density / d), h = p->thickness;
     return 0.5 * k2 * (h * h / 12.0 + d / (5.0 / 6.0 * p->shear * h));
+}
+
+/* About how high the modes of a rectangular plate lie: Rayleigh's quotient of products of beam functions (G. B.
+   Warburton, Proc. Inst. Mech. Eng. 168, 1954, 371), for orthotropic plates
+
+       rho h w^2 = Dx (pi/a)^4 Gx^4 + Dy (pi/b)^4 Gy^4 + (pi/a)^2 (pi/b)^2 (2 D1 Hx Hy + 4 Dk Jx Jy),
+
+   with his G, H, J of each beam function. A few percent off: it only says how many functions the sums below need.
+ */
+
+/* Warburton's G, H, J of the i-th beam function, i = 0, 1, ... */
+static void beam_terms(int edges, bool across, int i, double g[3])
+{
+    bool free_free = edges == EDGES_FREE || across;
+    g[0] = edges == EDGES_CANTILEVER && !across ? i + 0.5 : free_free ? i - 0.5 : i + 1.5;
+    if (edges == EDGES_CANTILEVER && !across && i == 0) g[0] = 0.597;
+    double cross = 2.0 / (g[0] * REAL_PI), twist = free_free ? 6.0 : edges == EDGES_CANTILEVER ? 2.0 : -2.0;
+    g[1] = g[0] * g[0] * (1.0 - cross);
+    g[2] = g[0] * g[0] * (1.0 + twist / (g[0] * REAL_PI));
+    if (free_free && i < 2) {
+        g[0] = g[1] = 0.0;
+        g[2] = i * 12.0 / (REAL_PI * REAL_PI);
+    }
+}
+
+static double estimate(const struct object_body *b, const struct plate *p, int i, int k)
+{
+    double x[3], y[3], sx = REAL_PI / b->given->length, sy = REAL_PI / b->given->width;
+    int edges = b->given->edges;
+    beam_terms(edges, false, i, x);
+    beam_terms(edges, edges == EDGES_CANTILEVER, k, y);
+    double x2 = sx * sx * x[0] * x[0], y2 = sy * sy * y[0] * y[0], cross = sx * sx * sy * sy;
+    double sum =
+        p->dx * x2 * x2 + p->dy * y2 * y2 + cross * (2.0 * p->coupling * x[1] * y[1] + 4.0 * p->twist * x[2] * y[2]);
+    return sqrt(fmax(sum, 0.0) / p->area_density);
+}
+
+/* (i, k) has at least (i - 1)(k - 1) modes below it. */
+static double highest(const struct object_body *b, const struct plate *p, const struct object_limit *limit,
+                      struct arena *a)
+{
+    struct object_list l = {0};
+    for (int i = 0; i < limit->most + 2; i++)
+        for (int k = 0; k < (limit->most + 4) / (i > 1 ? i - 1 : 1) + 2; k++) {
+            double w = estimate(b, p, i, k);
+            if (w > 0.0) object_list_add(&l, a, (struct object_mode){.w = w, .a = i, .b = k});
+        }
+    object_list_cut(&l, limit);
+    return l.mode[l.n - 1].w;
+}
+
+/* Modes of a thin rectangular plate, isotropic or orthotropic, with any edges, by Rayleigh and Ritz (W. Ritz, Ann.
+   Phys. 28, 1909, 737; Leissa, J. Sound Vib. 31, 1973, 257; orthogonal polynomials: R. B. Bhat, J. Sound Vib. 102,
+   1985, 493):
+
+       w(x, y) = sum c_mn X_m(xi) Y_n(eta),   xi, eta in [-1, 1],   X, Y orthonormal polynomials that keep the edges'
+   geometric conditions (num/jacobi.h: zeros of order 0 free, 1 supported, 2 clamped), K c = rho h w^2 c,   K_(mn)(pq) =
+   Dx A_mp d_nq + Dy d_mp A_nq + D1 (B_mp B_qn + B_pm B_nq) + 4 Dk C_mp C_nq, A = int X'' X'',  B_mp = int X_m'' X_p,  C
+   = int X' X'   (each derivative times 2/length),   M = 1.
+
+   Free edges ask for nothing: their conditions are natural ones, which the sums meet as they converge, exponentially.
+   The rigid motions of a free plate are three of the functions; they are left out. Where both ends of an axis are held
+   alike, even and odd functions do not mix: two to four smaller problems. K c = mu^-1 c is solved as c = mu K c
+   (gsl_eigen_gensymmv with 1 and K, which is graded): the low modes are the large mu, so that they, too, have relative
+   precision.
+
+   Functions along x: degree up to k a/2 + MARGIN, k the wave number (rho h w^2/Dx)^(1/4) of the highest mode asked for
+   (polynomials need more than pi per wave length); of their products those within a superellipse of degrees. Against
+   twice the MARGIN: free and clamped plates, isotropic and orthotropic, 20 to 200 modes, 1:1 to 25:1, are at most 8e-7
+   too high, cantilevers 4e-6 (moments are singular in the corners where free and clamped edges meet). The frequency of
+   the highest mode is estimated (above); if that was too low all is done again, higher.
+
+   Time grows as the cube of the number of functions per class; at most MOST modes
+   are computed, and of plates so narrow that they need more than FUNCTIONS those that FUNCTIONS give (a note says so).
+ */
+
+#define MARGIN 9.0
+
+enum { MOST = 400, FUNCTIONS = 700, CLASSES = 4 };
+
+struct axis { /* functions along one axis */
+    struct jacobi functions;
+    bool halves; /* even and odd ones do not mix */
+    int n;
+    double *a, *b, *c; /* [n][n], in 1/m^4, 1/m^2, 1/m^2 */
+};
+
+struct class
+{
+    int n, (*term)[2]; /* m, n of each product */
+    double *vector;    /* [modes][n], unit length */
+    int modes;
+};
+
+struct ritz {
+    struct plate plate;
+    struct axis x, y;
+    struct class class[CLASSES];
+};
+
+/* ------------------------------------------------------------------ integrals along one axis */
+
+static double dot(const double *w, const double *f, const double *g, int n)
+{
+    double sum = 0.0;
+    for (int i = 0; i < n; i++)
+        sum += w[i] * f[i] * g[i];
+    return sum;
+}
+
+static void axis_integrals(struct axis *s, double length, struct arena *a)
+{
+    int n = s->n, points = n + 4;
+    double *node = ARENA_TAKE(a, double, points), *weight = ARENA_TAKE(a, double, points),
+           *row = ARENA_TAKE(a, double, 3 * n);
+    double *f[3];
+    for (int d = 0; d < 3; d++)
+        f[d] = ARENA_TAKE(a, double, n *points);
+    gauss_legendre(points, node, weight);
+    for (int q = 0; q < points; q++) {
+        jacobi_slopes(&s->functions, n, node[q], row, row + n, row + 2 * n);
+        for (int d = 0; d < 3; d++)
+            for (int k = 0; k < n; k++)
+                f[d][k * points + q] = row[d * n + k];
+    }
+    double r = 4.0 / (length * length);
+    s->a = ARENA_TAKE(a, double, n *n);
+    s->b = ARENA_TAKE(a, double, n *n);
+    s->c = ARENA_TAKE(a, double, n *n);
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < n; k++) {
+            s->a[i * n + k] = r * r * dot(weight, f[2] + i * points, f[2] + k * points, points);
+            s->b[i * n + k] = r * dot(weight, f[2] + i * points, f[0] + k * points, points);
+            s->c[i * n + k] = r * dot(weight, f[1] + i * points, f[1] + k * points, points);
+        }
+}
+
+static void axis_make(struct axis *s, int ends, double length, double stiffness, double area_density, double w)
+{
+    double degree = 0.5 * length * sqrt(w * sqrt(area_density / stiffness)) + MARGIN;
+    int edge[4][2] = {
+        [EDGES_FREE] = {0, 0}, [EDGES_SUPPORTED] = {1, 1}, [EDGES_CLAMPED] = {2, 2}, [EDGES_CANTILEVER] = {0, 2}};
+    s->functions = jacobi_make(edge[ends][0], edge[ends][1]);
+    s->halves = ends != EDGES_CANTILEVER;
+    s->n = (int)ceil(fmin(degree, 1e6)) + 1 - edge[ends][0] - edge[ends][1];
+}
+
+/* False: too many functions for all modes below w. */
+static bool axes_make(struct ritz *r, const struct object_given *g, double w)
+{
+    int across = g->edges == EDGES_CANTILEVER ? EDGES_FREE : g->edges;
+    axis_make(&r->x, g->edges, g->length, r->plate.dx, r->plate.area_density, w);
+    axis_make(&r->y, across, g->width, r->plate.dy, r->plate.area_density, w);
+    double classes = (r->x.halves ? 2.0 : 1.0) * (r->y.halves ? 2.0 : 1.0);
+    return r->x.n <= JACOBI_MOST && r->y.n <= JACOBI_MOST && (double)r->x.n * r->y.n <= FUNCTIONS * classes;
+}
+
+/* ------------------------------------------------------------------ one class of symmetry */
+
+static bool is_rigid(const struct ritz *r, int m, int n)
+{
+    return r->x.functions.b == 0 && r->y.functions.b == 0 && m + n < 2;
+}
+
+static void class_terms(struct class *c, const struct ritz *r, int which, struct arena *a)
+{
+    int sx = r->x.halves ? 2 : 1, sy = r->y.halves ? 2 : 1;
+    if (which >= sx * sy) return;
+    c->term = (int(*)[2])arena_take(a, (size_t)(r->x.n * r->y.n), sizeof *c->term);
+    for (int m = which % sx; m < r->x.n; m += sx)
+        for (int n = which / sx; n < r->y.n; n += sy) {
+            double u = (double)m / r->x.n, v = (double)n / r->y.n;
+            if (is_rigid(r, m, n) || u * u * u + v * v * v > 1.0) continue;
+            c->term[c->n][0] = m;
+            c->term[c->n++][1] = n;
+        }
+}
+
+static double stiffness(const struct ritz *r, const int i[2], const int k[2])
+{
+    const struct plate *p = &r->plate;
+    int x = i[0] * r->x.n + k[0], xt = k[0] * r->x.n + i[0], y = i[1] * r->y.n + k[1], yt = k[1] * r->y.n + i[1];
+    double sum =
+        p->coupling * (r->x.b[x] * r->y.b[yt] + r->x.b[xt] * r->y.b[y]) + 4.0 * p->twist * r->x.c[x] * r->y.c[y];
+    if (i[1] == k[1]) sum += p->dx * r->x.a[x];
+    if (i[0] == k[0]) sum += p->dy * r->y.a[y];
+    return sum / p->area_density;
+}
+
+/* Cholesky in a scratch copy: GSL would end the program where it is not. */
+static bool is_positive(const gsl_matrix *k, gsl_matrix *l)
+{
+    int n = (int)k->size1;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            const double *row_i = l->data + (size_t)i * l->tda, *row_j = l->data + (size_t)j * l->tda;
+            double left = gsl_matrix_get(k, i, j);
+            for (int m = 0; m < j; m++)
+                left -= row_i[m] * row_j[m];
+            if (i == j && !(left > 0.0)) return false;
+            gsl_matrix_set(l, i, j, i == j ? sqrt(left) : left / row_j[j]);
+        }
+    return true;
+}
+
+/* 1/w^2, falling, and vectors; false: K is not positive definite. */
+static bool class_eigen(const struct class *c, const struct ritz *r, gsl_vector *mu, gsl_matrix *v)
+{
+    gsl_matrix *k = gsl_matrix_alloc(c->n, c->n), *one = gsl_matrix_alloc(c->n, c->n);
+    gsl_eigen_gensymmv_workspace *work = gsl_eigen_gensymmv_alloc(c->n);
+    for (int i = 0; i < c->n; i++)
+        for (int j = 0; j < c->n; j++)
+            gsl_matrix_set(k, i, j, stiffness(r, c->term[i], c->term[j]));
+    bool good = is_positive(k, one);
+    gsl_matrix_set_identity(one);
+    good = good && gsl_eigen_gensymmv(one, k, mu, v, work) == 0 &&
+           gsl_eigen_gensymmv_sort(mu, v, GSL_EIGEN_SORT_VAL_DESC) == 0;
+    gsl_eigen_gensymmv_free(work);
+    gsl_matrix_free(one);
+    gsl_matrix_free(k);
+    return good;
+}
+
+/* Unit length; of the largest coefficients (to 1e-9) the first is positive. */
+static void take_vector(const gsl_matrix *v, int column, int n, double *out)
+{
+    double sum = 0.0, largest = 0.0;
+    int first = 0;
+    for (int i = 0; i < n; i++) {
+        out[i] = gsl_matrix_get(v, i, column);
+        sum += out[i] * out[i];
+        if (fabs(out[i]) > largest * (1.0 + 1e-9)) {
+            largest = fabs(out[i]);
+            first = i;
+        }
+    }
+    double scale = (out[first] < 0.0 ? -1.0 : 1.0) / sqrt(sum);
+    for (int i = 0; i < n; i++)
+        out[i] *= scale;
+}
+
+static bool class_solve(struct ritz *r, int which, double w, struct arena *a, struct object_list *l)
+{
+    struct class *c = &r->class[which];
+    class_terms(c, r, which, a);
+    if (c->n == 0) return true;
+    gsl_vector *mu = gsl_vector_alloc(c->n);
+    gsl_matrix *v = gsl_matrix_alloc(c->n, c->n);
+    bool good = class_eigen(c, r, mu, v);
+    while (good && c->modes < c->n && gsl_vector_get(mu, c->modes) > 1.0 / (w * w))
+        c->modes++;
+    c->vector = ARENA_TAKE(a, double, c->modes * c->n);
+    for (int i = 0; i < c->modes; i++) {
+        take_vector(v, i, c->n, c->vector + (size_t)i * c->n);
+        object_list_add(l, a, (struct object_mode){.w = 1.0 / sqrt(gsl_vector_get(mu, i)), .a = which, .b = i});
+    }
+    gsl_matrix_free(v);
+    gsl_vector_free(mu);
+    return good;
+}
+
+/* ------------------------------------------------------------------ the plate */
+
+/* All modes below w. */
+static bool solve(struct ritz *r, const struct object_body *b, double w, struct arena *a, struct object_list *l)
+{
+    const struct object_given *g = b->given;
+    axes_make(r, g, w);
+    axis_integrals(&r->x, g->length, a);
+    axis_integrals(&r->y, g->width, a);
+    for (int i = 0; i < CLASSES; i++)
+        if (!class_solve(r, i, w, a, l)) return false;
+    for (int i = 0; i < l->n; i++) {
+        l->mode[i].mass = r->plate.area_density * g->length * g->width;
+        l->mode[i].excess = plate_excess(&r->plate, l->mode[i].w);
+    }
+    return true;
+}
+
+bool object_plate_ritz(const struct object_body *b, const struct object_limit *limit, struct arena *a,
+                       struct object_list *l, struct err *e)
+{
+    struct object_limit few = {limit->w, limit->most < MOST ? limit->most : MOST, limit->low};
+    struct ritz *r = ARENA_TAKE(a, struct ritz, 1);
+    if (!plate_stiffness(b, &r->plate, e)) return false;
+    double w = fmin(1.08 * highest(b, &r->plate, &few, a), few.w);
+    for (;; w = fmin(1.2 * w, few.w)) {
+        *r = (struct ritz){.plate = r->plate};
+        *l = (struct object_list){.work = r};
+        while (!axes_make(r, b->given, w))
+            few.w = w = 0.95 * w;
+        if (!solve(r, b, w, a, l))
+            return err_set(e, ERR_SCENE,
+                           "%s: this stiffness is not positive, or so different along and across that numbers do not "
+                           "reach: youngs_modulus "
+                           "%g Pa, across %g Pa, shear_modulus %g Pa, poisson %g",
+                           b->key, b->youngs_modulus, b->across, b->shear, b->poisson);
+        if (l->n >= few.most || w >= few.w) break;
+    }
+    l->capped = l->n < few.most ? few.w < limit->w : limit->most > MOST;
+    object_list_cut(l, &few);
+    return true;
+}
+
+/* ------------------------------------------------------------------ shapes */
+
+struct block { /* the modes of one class */
+    int n, modes, (*term)[2];
+    double *c; /* [n][modes], times 2: the mean of phi^2 over the plate is 1 */
+    int *to;   /* [modes] place in phi */
+};
+
+struct table {
+    struct jacobi x, y;
+    int nx, ny;
+    struct block block[CLASSES];
+};
+
+static void block_sum(const struct block *k, const double *x, const double *y, double *phi)
+{
+    double weight[2 * FUNCTIONS], sum[MOST];
+    for (int t = 0; t < k->n; t++)
+        weight[t] = x[k->term[t][0]] * y[k->term[t][1]];
+    object_sum(k->n, k->modes, k->c, weight, sum);
+    for (int i = 0; i < k->modes; i++)
+        phi[k->to[i]] = sum[i];
+}
+
+static double shapes(const struct object *o, double x, double y, double *phi)
+{
+    const struct table *t = (const struct table *)object_inside(o)->table;
+    double fx[JACOBI_MOST], fy[JACOBI_MOST], off = object_nearest(o, &x, &y);
+    jacobi_values(&t->x, t->nx, 2.0 * x / o->high[0] - 1.0, fx);
+    jacobi_values(&t->y, t->ny, 2.0 * y / o->high[1] - 1.0, fy);
+    for (int i = 0; i < CLASSES; i++)
+        if (t->block[i].modes > 0) block_sum(&t->block[i], fx, fy, phi);
+    return off;
+}
+
+static void block_make(struct block *k, const struct class *c, int which, const struct object *o, struct arena *a)
+{
+    const struct object_mode *mode = object_inside(o)->list.mode;
+    k->n = c->n;
+    k->term = c->term;
+    k->to = ARENA_TAKE(a, int, o->n);
+    for (int i = 0; i < o->n; i++)
+        if (mode[i].a == which) k->to[k->modes++] = i;
+    k->c = ARENA_TAKE(a, double, k->n * k->modes);
+    for (int i = 0; i < k->modes; i++)
+        for (int t = 0; t < k->n; t++)
+            k->c[(size_t)t * k->modes + i] = 2.0 * c->vector[(size_t)mode[k->to[i]].b * c->n + t];
+}
+
+static void ritz_bind(struct arena *a, struct object *o)
+{
+    const struct ritz *r = (const struct ritz *)object_inside(o)->list.work;
+    struct table *t = ARENA_TAKE(a, struct table, 1);
+    t->x = r->x.functions;
+    t->y = r->y.functions;
+    t->nx = r->x.n;
+    t->ny = r->y.n;
+    o->terms = 0;
+    for (int i = 0; i < CLASSES; i++) {
+        block_make(&t->block[i], &r->class[i], i, o, a);
+        o->terms += (double)t->block[i].n * t->block[i].modes;
+    }
+    o->shapes = shapes;
+    object_keep_table(o, a, t);
 }
 
 static bool list(const struct object_body *b, const struct object_limit *limit, struct arena *a, struct object_list *l,
                  struct err *e)
 {
     const struct object_given *g = b->given;
-    struct object_plate p;
+    struct plate p;
     if (g->edges != EDGES_SUPPORTED) return object_plate_ritz(b, limit, a, l, e);
-    if (!object_plate_stiffness(b, &p, e)) return false;
-    struct object_sine_law law = {object_plate_supported, object_plate_excess, &p,
-                                  0.25 * p.area_density * g->length * g->width};
+    if (!plate_stiffness(b, &p, e)) return false;
+    struct object_sine_law law = {plate_supported, plate_excess, &p, 0.25 * p.area_density * g->length * g->width};
     object_sine_list(b, &law, limit, a, l);
     return true;
 }
@@ -71,7 +447,7 @@ static void bind(struct arena *a, struct object *o)
     if (g->edges == EDGES_SUPPORTED)
         object_sine_bind(a, o);
     else
-        object_plate_ritz_bind(a, o);
+        ritz_bind(a, o);
 }
 
 const struct object_kind object_plate = {"thin-plate theory", list, bind};

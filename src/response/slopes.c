@@ -4,7 +4,7 @@
    any g_sk
 
    Variable projection (Golub, Pereyra, SIAM J. Numer. Anal. 10, 1973): for given decays the gains are a linear
-   least-squares problem (slopes_gains.c), so that only x_k = log(d_k T), T the longest time, is searched, by Levenberg
+   least-squares problem, so that only x_k = log(d_k T), T the longest time, is searched, by Levenberg
    and Marquardt's steps with Kaufman's derivative (BIT 15, 1975): r = P a, dr/dx_k = P (g_k d_k t e^(-d_k t)), P the
    projection off the columns. Times may be unevenly spaced, which matrix pencils do not allow.
 
@@ -18,21 +18,126 @@
    + - * / sqrt and num/: same bits everywhere. */
 #include "response/slopes.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
+#include "num/lanes.h"
 #include "num/real.h"
-#include "response/slopes_gains.h"
+#include "num/vecmath.h"
+
+/* The linear part of slopes.c. */
+struct gains {
+    struct slopes_series *series;
+    int count, samples;                      /* series; samples of all */
+    double *t, *a;                           /* [samples] time/T, amplitudes/largest, series after series */
+    double *e[SLOPES_MOST], *q[SLOPES_MOST]; /* [samples] columns e^(-exp(x) t), orthogonal columns */
+    double *r;                               /* [samples] residual */
+};
+
+/* Gains of given decays: a linear least-squares problem, by orthogonal columns (Gram and Schmidt, twice, which leaves
+   them orthogonal to rounding); a column of which less than 1e-10 is left depends on those before it, and has gain 0.
+ */
+
+LANES_CLONES
+static double dot(const double *x, const double *y, int n)
+{
+    double sum[LANES] = {0};
+    int i = 0;
+    for (; i + LANES <= n; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++)
+            sum[l] += x[i + l] * y[i + l];
+    for (; i < n; i++)
+        sum[0] += x[i] * y[i];
+    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+
+LANES_CLONES
+static void take_off(double *restrict x, const double *restrict q, double by, int n)
+{
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        x[i] -= by * q[i];
+}
+
+/* Takes the directions q[0 .. k) off x[from .. from + n), twice; coefficients are added to c (NULL: not wanted). */
+static void project(const struct gains *g, int k, double *x, int from, int n, double *c)
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (int j = 0; j < k; j++) {
+            double by = dot(g->q[j] + from, x + from, n);
+            take_off(x + from, g->q[j] + from, by, n);
+            if (c) c[j] += by;
+        }
+}
+
+/* Unit length, or 0 when next to nothing is left of `before`. Returns the length. */
+static double make_unit(double *x, int n, double before)
+{
+    double size = sqrt(dot(x, x, n));
+    bool none = !(size > 1e-10 * before);
+    for (int i = 0; i < n; i++)
+        x[i] = none ? 0.0 : x[i] / size;
+    return none ? 0.0 : size;
+}
+
+/* Gains of one series by back-substitution in R g = c. */
+static void solve_gains(int k, double R[][SLOPES_MOST], const double *c, double *gain)
+{
+    memset(gain, 0, SLOPES_MOST * sizeof *gain);
+    for (int j = k - 1; j >= 0; j--) {
+        double sum = c[j];
+        for (int i = j + 1; i < k; i++)
+            sum -= R[j][i] * gain[i];
+        gain[j] = R[j][j] > 0.0 ? sum / R[j][j] : 0.0;
+    }
+}
+
+static void fit_series(struct gains *g, int s, int from, int k)
+{
+    double R[SLOPES_MOST][SLOPES_MOST] = {{0}}, c[SLOPES_MOST] = {0};
+    int n = g->series[s].n;
+    for (int j = 0; j < k; j++) {
+        double column[SLOPES_MOST] = {0};
+        memcpy(g->q[j] + from, g->e[j] + from, (size_t)n * sizeof(double));
+        double before = sqrt(dot(g->e[j] + from, g->e[j] + from, n));
+        project(g, j, g->q[j], from, n, column);
+        for (int i = 0; i < j; i++)
+            R[i][j] = column[i];
+        R[j][j] = make_unit(g->q[j] + from, n, before);
+    }
+    memcpy(g->r + from, g->a + from, (size_t)n * sizeof(double));
+    project(g, k, g->r, from, n, c);
+    solve_gains(k, R, c, g->series[s].gain);
+}
+
+static void exponentials(const struct gains *g, double x, double *e)
+{
+    double d = -real_exp(x);
+    for (int i = 0; i < g->samples; i++)
+        e[i] = d * g->t[i];
+    vecmath_exp((size_t)g->samples, e, e);
+}
+
+/* Fits the gains for the decays exp(x[k])/T; returns the sum of squares that is left (in r). */
+static double fit_gains(struct gains *g, const double *x, int k)
+{
+    for (int j = 0; j < k; j++)
+        exponentials(g, x[j], g->e[j]);
+    for (int s = 0, from = 0; s < g->count; from += g->series[s++].n)
+        fit_series(g, s, from, k);
+    return dot(g->r, g->r, g->samples);
+}
 
 enum { STARTS = 2, STEPS = 40, PER_DECADE = 8 };
 
 static const double enough = 1e-3, apart = 0.4; /* of the error; of x */
 
 struct work {
-    struct slopes_gains g;
+    struct gains g;
     double largest;         /* |amplitude| */
     double low, high;       /* bounds of x */
     double *v[SLOPES_MOST]; /* [samples] derivatives */
@@ -42,16 +147,10 @@ struct work {
 
 /* ------------------------------------------------------------------ search */
 
-static int up(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 /* Into the bounds and apart: sorts, and moves what is too near by equal shares. False: there is no room. */
 static bool space_out(const struct work *w, double *x, int k)
 {
-    qsort(x, (size_t)k, sizeof *x, up);
+    gsl_sort(x, 1, (size_t)k);
     for (int pass = 0; pass < 30; pass++) {
         bool good = true;
         x[0] = fmax(x[0], w->low);
@@ -102,7 +201,7 @@ static void derivatives(struct work *w, const double *x, int k)
             double by = w->g.series[s].gain[j] * d;
             for (int i = from; i < from + w->g.series[s].n; i++)
                 w->v[j][i] = by * w->g.t[i] * w->g.e[j][i];
-            slopes_gains_project(&w->g, k, w->v[j], from, w->g.series[s].n, NULL);
+            project(&w->g, k, w->v[j], from, w->g.series[s].n, NULL);
         }
     }
 }
@@ -112,9 +211,9 @@ static bool step(const struct work *w, const double *x, int k, double damping, d
 {
     double A[SLOPES_MOST][SLOPES_MOST] = {{0}}, b[SLOPES_MOST];
     for (int i = 0; i < k; i++) {
-        b[i] = -slopes_gains_dot(w->v[i], w->g.r, w->g.samples);
+        b[i] = -dot(w->v[i], w->g.r, w->g.samples);
         for (int j = 0; j <= i; j++)
-            A[i][j] = slopes_gains_dot(w->v[i], w->v[j], w->g.samples);
+            A[i][j] = dot(w->v[i], w->v[j], w->g.samples);
     }
     for (int i = 0; i < k; i++)
         A[i][i] += damping * A[i][i];
@@ -127,12 +226,12 @@ static bool step(const struct work *w, const double *x, int k, double damping, d
 /* Moves x[k] to a minimum near it and returns the sum of squares there. */
 static double descend(struct work *w, double *x, int k)
 {
-    double least = slopes_gains_fit(&w->g, x, k), damping = 1e-2, to[SLOPES_MOST];
+    double least = fit_gains(&w->g, x, k), damping = 1e-2, to[SLOPES_MOST];
     for (int i = 0, idle = 0; i < STEPS && idle < 3 && damping < 1e9; i++) {
         derivatives(w, x, k);
         double sum = HUGE_VAL;
         while (damping < 1e9 && step(w, x, k, damping, to)) {
-            sum = space_out(w, to, k) ? slopes_gains_fit(&w->g, to, k) : HUGE_VAL;
+            sum = space_out(w, to, k) ? fit_gains(&w->g, to, k) : HUGE_VAL;
             if (sum < least) break;
             damping *= 4.0;
         }
@@ -142,22 +241,22 @@ static double descend(struct work *w, double *x, int k)
         damping *= 0.1;
         memcpy(x, to, (size_t)k * sizeof *x);
     }
-    return slopes_gains_fit(&w->g, x, k);
+    return fit_gains(&w->g, x, k);
 }
 
 static double grid_at(const struct work *w, int g) { return w->low + (w->high - w->low) * g / (w->grid - 1); }
 
 /* What one more column of the grid would take off the sum of squares, beside the k that are fitted; v[0] is work. */
-static double promise(struct work *w, int g, int k)
+static double improvement(struct work *w, int g, int k)
 {
     double sum = 0.0;
     memcpy(w->v[0], w->column + (size_t)g * w->g.samples, (size_t)w->g.samples * sizeof(double));
     for (int s = 0, from = 0; s < w->g.count; from += w->g.series[s++].n) {
         int n = w->g.series[s].n;
-        double before = sqrt(slopes_gains_dot(w->v[0] + from, w->v[0] + from, n));
-        slopes_gains_project(&w->g, k, w->v[0], from, n, NULL);
-        slopes_gains_unit(w->v[0] + from, n, before);
-        double by = slopes_gains_dot(w->v[0] + from, w->g.r + from, n);
+        double before = sqrt(dot(w->v[0] + from, w->v[0] + from, n));
+        project(&w->g, k, w->v[0], from, n, NULL);
+        make_unit(w->v[0] + from, n, before);
+        double by = dot(w->v[0] + from, w->g.r + from, n);
         sum += by * by;
     }
     return sum;
@@ -166,10 +265,10 @@ static double promise(struct work *w, int g, int k)
 /* The best peaks over the grid, as starts. */
 static int starts(struct work *w, int k, double *start)
 {
-    double best[STARTS] = {0}, before = 0.0, here = promise(w, 0, k);
+    double best[STARTS] = {0}, before = 0.0, here = improvement(w, 0, k);
     int n = 0;
     for (int g = 0; g < w->grid; g++) {
-        double after = g + 1 < w->grid ? promise(w, g + 1, k) : 0.0;
+        double after = g + 1 < w->grid ? improvement(w, g + 1, k) : 0.0;
         bool peak = here >= before && here >= after && here > 0.0;
         int at = n < STARTS ? n : STARTS;
         while (peak && at > 0 && best[at - 1] < here)
@@ -191,7 +290,7 @@ static int starts(struct work *w, int k, double *start)
 static bool grow(struct work *w, double *x, int k, double *least)
 {
     double start[STARTS], best[SLOPES_MOST] = {0};
-    slopes_gains_fit(&w->g, x, k);
+    fit_gains(&w->g, x, k);
     int n = starts(w, k, start);
     *least = HUGE_VAL;
     for (int i = 0; i < n; i++) {
@@ -243,7 +342,7 @@ static void lay_grid(struct arena *a, struct work *w)
     w->grid = (int)((w->high - w->low) * PER_DECADE / 2.302585) + 2;
     w->column = ARENA_TAKE(a, double, (size_t)w->grid * w->g.samples);
     for (int g = 0; g < w->grid; g++)
-        slopes_gains_exponentials(&w->g, grid_at(w, g), w->column + (size_t)g * w->g.samples);
+        exponentials(&w->g, grid_at(w, g), w->column + (size_t)g * w->g.samples);
     for (int j = 0; j < SLOPES_MOST; j++) {
         w->g.e[j] = ARENA_TAKE(a, double, w->g.samples);
         w->g.q[j] = ARENA_TAKE(a, double, w->g.samples);
@@ -274,12 +373,12 @@ struct slopes_fit slopes_fit(struct slopes_series *series, int count)
     struct slopes_fit f = {.n = 1};
     double all[SLOPES_MOST][SLOPES_MOST] = {{0}};
     int most = SLOPES_MOST;
-    double longest = lay_out(a, &w, &most), total = slopes_gains_dot(w.g.a, w.g.a, w.g.samples);
+    double longest = lay_out(a, &w, &most), total = dot(w.g.a, w.g.a, w.g.samples);
     lay_grid(a, &w);
     int n = total > 0.0 ? choose(&w, most, total, all) : 0;
     f.n = n > 0 ? n : 1;
-    qsort(all[f.n - 1], (size_t)f.n, sizeof **all, up);
-    double left = slopes_gains_fit(&w.g, all[f.n - 1], f.n);
+    gsl_sort(all[f.n - 1], 1, (size_t)f.n);
+    double left = fit_gains(&w.g, all[f.n - 1], f.n);
     f.error = total > 0.0 ? sqrt(left / total) : 0.0;
     for (int k = 0; k < f.n; k++) {
         f.decay[k] = real_exp(all[f.n - 1][k]) / longest;

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 
 #include "fuzz.h"
-#include "response/ir_set.h"
+#include "response/ir.h"
 
 static const unsigned char sound[] = {
     'R', 'I', 'F', 'F',  44, 0, 0, 0, 'W', 'A', 'V', 'E', 'f', 'm', 't', ' ', 16, 0, 0, 0,  1, 0,  1, 0,  0x80, 0xbb,

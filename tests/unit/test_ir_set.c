@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "file/wav.h"
-#include "response/ir_set.h"
+#include "response/ir.h"
 
 enum { LENGTH = 4000 };
 static char folder[64];

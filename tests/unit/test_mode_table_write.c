@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include "response/mode_table.h"
-#include "response/mode_table_write.h"
 #include "unit.h"
 
 /* Complex gains all round the circle come back (12 digits: 1e-11), whatever the quantity; modes in the order asked for.

@@ -9,16 +9,16 @@ START_TEST(test_roots)
     const double free_free[] = {4.730040745, 7.853204624, 10.995607838, 14.137165491, 17.278759657};
     const double cantilever[] = {1.875104069, 4.694091133, 7.854757438, 10.995540735};
     for (int i = 0; i < 5; i++)
-        ck_assert_double_lt(fabs(object_beam_root(EDGES_FREE, i + 1) - free_free[i]), 1e-9);
+        ck_assert_double_lt(fabs(object_kinds_beam_root(EDGES_FREE, i + 1) - free_free[i]), 1e-9);
     for (int i = 0; i < 4; i++)
-        ck_assert_double_lt(fabs(object_beam_root(EDGES_CANTILEVER, i + 1) - cantilever[i]), 1e-9);
+        ck_assert_double_lt(fabs(object_kinds_beam_root(EDGES_CANTILEVER, i + 1) - cantilever[i]), 1e-9);
     for (int i = 1; i < 10;
          i++) { /* in a form of their own: cosh as libm has it; z to 1e-14, times the slope of cos cosh */
-        double z = object_beam_root(EDGES_CLAMPED, i), y = object_beam_root(EDGES_CANTILEVER, i);
+        double z = object_kinds_beam_root(EDGES_CLAMPED, i), y = object_kinds_beam_root(EDGES_CANTILEVER, i);
         ck_assert_double_lt(fabs(cos(z) - 1.0 / cosh(z)), 1e-14 * z);
         ck_assert_double_lt(fabs(cos(y) + 1.0 / cosh(y)), 1e-14 * y);
     }
-    OBJECTS_NEAR(object_beam_root(EDGES_FREE, 1000), 1000.5 * PI, 1e-15);
+    OBJECTS_NEAR(object_kinds_beam_root(EDGES_FREE, 1000), 1000.5 * PI, 1e-15);
 }
 END_TEST
 
@@ -84,7 +84,7 @@ START_TEST(test_shapes)
         for (double x = 0.0; x <= 1.0; x += 0.125) {
             o.shapes(&o, x, 0.5, phi);
             for (int i = 0; i < 3; i += 2) {
-                double z = object_beam_root(edges, i + 1), c = cosh(z) - cos(z), s = sinh(z) - sin(z);
+                double z = object_kinds_beam_root(edges, i + 1), c = cosh(z) - cos(z), s = sinh(z) - sin(z);
                 double ratio = edges == EDGES_CANTILEVER ? s / (cosh(z) + cos(z)) : c / s;
                 double want = cosh(z * x) + sign * cos(z * x) - ratio * (sinh(z * x) + sign * sin(z * x));
                 ck_assert_double_lt(fabs(phi[i] - want), 1e-10);

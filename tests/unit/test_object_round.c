@@ -127,7 +127,7 @@ START_TEST(test_shell_frequencies)
 }
 END_TEST
 
-/* A thick wall, h/R = 0.4: every frequency is an eigenvalue of the energies' 2 x 2 forms (object_shell.c), and the mass
+/* A thick wall, h/R = 0.4: every frequency is an eigenvalue of the energies' 2 x 2 forms (object_kinds.c), and the mass
  * has its vector's ratio. */
 START_TEST(test_shell_energies)
 {

@@ -1,6 +1,6 @@
 /* pairing: the assignment against every assignment there is; modes that sorting by frequency pairs wrongly; tracks over
  * several places. */
-#include "response/pairing.h"
+#include "response/morph.h"
 
 #include "unit.h"
 
@@ -26,7 +26,7 @@ START_TEST(assignment_is_optimal)
         double cost[49], alone = 0.2 + drand48(), sum = 0;
         for (int i = 0; i < rows * columns; i++)
             cost[i] = drand48() < 0.25 ? HUGE_VAL : trial % 3 ? drand48() * (trial % 2 ? 1 : 3) : floor(4 * drand48());
-        pairing_assign(rows, columns, cost, alone, column);
+        morph_assign(rows, columns, cost, alone, column);
         unsigned taken = 0;
         int pairs = 0;
         for (int i = 0; i < rows; i++)
@@ -64,7 +64,7 @@ START_TEST(large_assignment)
         g[i] = f[where[i]] * (1 + 0.004 * (drand48() - 0.5));
         h[i] = d[where[i]];
     }
-    pairing_modes(&(struct pairing_list){N, g, h}, &(struct pairing_list){N, f, d}, 0.03, column);
+    morph_pair(&(struct morph_list){N, g, h}, &(struct morph_list){N, f, d}, 0.03, column);
     for (int i = 0; i < N; i++)
         ck_assert_int_eq(column[i], where[i]);
 }
@@ -76,7 +76,7 @@ START_TEST(a_missing_mode_shifts_nothing)
     static const double f[6] = {100, 210, 340, 345, 480, 700}, d[6] = {5, 5, 5, 5, 5, 5},
                         g[5] = {101, 339, 346, 478, 702};
     int column[5], wrong = 0, expect[5] = {0, 2, 3, 4, 5};
-    pairing_modes(&(struct pairing_list){5, g, d}, &(struct pairing_list){6, f, d}, 0.03, column);
+    morph_pair(&(struct morph_list){5, g, d}, &(struct morph_list){6, f, d}, 0.03, column);
     for (int i = 0; i < 5; i++) {
         ck_assert_int_eq(column[i], expect[i]);
         wrong += i != expect[i];
@@ -90,20 +90,20 @@ START_TEST(the_gate)
 {
     double f = 1000, d = 1, inside = 1029.9, outside = 1030.1, below = 1000 / 1.0301;
     int column;
-    pairing_modes(&(struct pairing_list){1, &f, &d}, &(struct pairing_list){1, &inside, &d}, 0.03, &column);
+    morph_pair(&(struct morph_list){1, &f, &d}, &(struct morph_list){1, &inside, &d}, 0.03, &column);
     ck_assert_int_eq(column, 0);
-    pairing_modes(&(struct pairing_list){1, &f, &d}, &(struct pairing_list){1, &outside, &d}, 0.03, &column);
+    morph_pair(&(struct morph_list){1, &f, &d}, &(struct morph_list){1, &outside, &d}, 0.03, &column);
     ck_assert_int_eq(column, -1);
-    pairing_modes(&(struct pairing_list){1, &f, &d}, &(struct pairing_list){1, &below, &d}, 0.03, &column);
+    morph_pair(&(struct morph_list){1, &f, &d}, &(struct morph_list){1, &below, &d}, 0.03, &column);
     ck_assert_int_eq(column, -1);
-    pairing_modes(&(struct pairing_list){1, &f, &d}, &(struct pairing_list){1, &f, &d}, 0, &column);
+    morph_pair(&(struct morph_list){1, &f, &d}, &(struct morph_list){1, &f, &d}, 0, &column);
     ck_assert_int_eq(column, 0); /* equal is equal at any gate */
     const double rows[2] = {1000, 1025}, columns[2] = {1050, 1050.1},
                  ones[2] = {1, 1}; /* near each other in a chain: 1000 has no partner all the same */
     int two[2];
-    pairing_modes(&(struct pairing_list){2, rows, ones}, &(struct pairing_list){2, columns, ones}, 0.03, two);
+    morph_pair(&(struct morph_list){2, rows, ones}, &(struct morph_list){2, columns, ones}, 0.03, two);
     ck_assert(two[0] == -1 && two[1] == 0);
-    pairing_modes(&(struct pairing_list){1, &f, &d}, &(struct pairing_list){0, NULL, NULL}, 0.03, &column);
+    morph_pair(&(struct morph_list){1, &f, &d}, &(struct morph_list){0, NULL, NULL}, 0.03, &column);
     ck_assert_int_eq(column, -1);
 }
 END_TEST
@@ -114,9 +114,9 @@ START_TEST(decay_breaks_ties)
     static const double f[2] = {1000, 1000.001}, d[2] = {5, 50}, swapped[2] = {48, 5.1}, g[2] = {1000.0005, 1000.0006};
     static const double apart[2] = {1000, 1005};
     int column[2];
-    pairing_modes(&(struct pairing_list){2, g, swapped}, &(struct pairing_list){2, f, d}, 0.03, column);
+    morph_pair(&(struct morph_list){2, g, swapped}, &(struct morph_list){2, f, d}, 0.03, column);
     ck_assert(column[0] == 1 && column[1] == 0);
-    pairing_modes(&(struct pairing_list){2, apart, swapped}, &(struct pairing_list){2, apart, d}, 0.03, column);
+    morph_pair(&(struct morph_list){2, apart, swapped}, &(struct morph_list){2, apart, d}, 0.03, column);
     ck_assert(column[0] == 0 && column[1] == 1);
 }
 END_TEST
@@ -129,14 +129,14 @@ START_TEST(tracks_follow_drift)
     static const double xy[2 * PLACES] = {0.4, 0, 0, 0, 0.2, 0, 0.1, 0, 0.3, 0};
     double f[PLACES][MODES], d[PLACES][MODES];
     int truth[PLACES][MODES], track[PLACES][MODES], *rows[PLACES], seen[64];
-    struct pairing_list list[PLACES];
+    struct morph_list list[PLACES];
     struct arena *a = arena_open();
     struct places *p;
     struct err e = {0};
     int bad;
     ck_assert(places_make(a, PLACES, xy, &p, &bad, &e));
     for (int k = 0; k < PLACES; k++) {
-        list[k] = (struct pairing_list){0, f[k], d[k]};
+        list[k] = (struct morph_list){0, f[k], d[k]};
         rows[k] = track[k];
         for (int i = 0; i < MODES; i++) {
             int mode = (3 * i + k) % MODES;
@@ -147,7 +147,7 @@ START_TEST(tracks_follow_drift)
             truth[k][list[k].n++] = mode;
         }
     }
-    ck_assert_int_eq(pairing_tracks(p, PLACES, xy, list, 0.03, rows), MODES);
+    ck_assert_int_eq(morph_tracks(p, PLACES, xy, list, 0.03, rows), MODES);
     for (int mode = 0; mode < MODES; mode++)
         seen[mode] = -1;
     for (int k = 0; k < PLACES; k++)
@@ -160,7 +160,7 @@ START_TEST(tracks_follow_drift)
     for (int i = 0; i < MODES; i++)
         for (int k = 0; k < i; k++)
             ck_assert(seen[i] != seen[k]);
-    ck_assert_int_eq(pairing_tracks(p, PLACES, xy, list, 0.001, rows),
+    ck_assert_int_eq(morph_tracks(p, PLACES, xy, list, 0.001, rows),
                      list[0].n + list[1].n + list[2].n + list[3].n + list[4].n); /* nothing pairs */
     arena_close(a);
 }

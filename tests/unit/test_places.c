@@ -309,12 +309,12 @@ START_TEST(told)
     setup();
     double plank[] = {0.1, 0.037, 0, 0.037, 0.4, 0.037}, upright[] = {0.02, 0.3, 0.02, -0.1},
            slanting[] = {1.3, 1.4, 1, 1, 1.6, 1.8}, plane[] = {0, 0, 0.2, 0, 0.05, -0.1};
-    ck_assert_str_eq(places_told(made(3, plank, PLACES_LINE), arena), "its places lie on 0 <= x <= 40 cm, y = 3.7 cm");
-    ck_assert_str_eq(places_told(made(2, upright, PLACES_LINE), arena),
+    ck_assert_str_eq(places_text(made(3, plank, PLACES_LINE), arena), "its places lie on 0 <= x <= 40 cm, y = 3.7 cm");
+    ck_assert_str_eq(places_text(made(2, upright, PLACES_LINE), arena),
                      "its places lie on x = 2 cm, -10 <= y <= 30 cm");
-    ck_assert_str_eq(places_told(made(3, slanting, PLACES_LINE), arena),
+    ck_assert_str_eq(places_text(made(3, slanting, PLACES_LINE), arena),
                      "its places lie on the line from (100, 100) to (160, 180) cm");
-    ck_assert_str_eq(places_told(made(3, plane, PLACES_PLANE), arena),
+    ck_assert_str_eq(places_text(made(3, plane, PLACES_PLANE), arena),
                      "its places lie within 0 <= x <= 20 cm, -10 <= y <= 0 cm");
     teardown();
 }

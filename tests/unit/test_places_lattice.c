@@ -2,7 +2,7 @@
    mirrored values; the growth of errors against sums of cardinal functions; a plate's mode shapes in closed form
    against the error that a table may have. */
 #include "response/places.h"
-#include "response/places_spline.h"
+#include "response/places_smooth.h"
 
 #include "unit.h"
 
@@ -276,8 +276,8 @@ START_TEST(growth)
         int n = 3 + trial % 45;
         double at[48], most = 0;
         knots(n, trial < 45 ? 1 : 1 + trial / 50.0, at);
-        struct places_spline s = places_spline_make(arena, n, at);
-        double found = places_spline_grows(&s, arena), sum[48 * 7] = {0};
+        struct places_spline s = places_smooth_spline_make(arena, n, at);
+        double found = places_smooth_spline_grows(&s, arena), sum[48 * 7] = {0};
         for (int i = 0; i < n; i++) {
             double f[48] = {0}, m[48];
             const double *from[48];
@@ -285,7 +285,7 @@ START_TEST(growth)
             for (int k = 0; k < n; k++)
                 from[k] = &f[k], to[k] = &m[k];
             f[i] = 1;
-            places_spline_slopes(&s, 1, from, to);
+            places_smooth_spline_slopes(&s, 1, from, to);
             for (int k = 0; k < 7 * (n - 1); k++) {
                 int cell = k / 7;
                 double h = at[cell + 1] - at[cell], u = (k % 7 + 1) / 8.0, v = 1 - u;

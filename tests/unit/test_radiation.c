@@ -3,7 +3,7 @@
 #include <complex.h>
 
 #include "response/listener.h"
-#include "response/radiator_plate.h"
+#include "response/radiator.h"
 #include "unit.h"
 
 #define RHO 1.204

@@ -356,7 +356,7 @@ START_TEST(shapes_follow_the_contact)
     for (long n = 0; n <= 4800; n++) {
         for (long end = 0; end < 2; end++) {
             double at = 3 * (double)(n / 64 + end) * 64 / 48000 / tr.length;
-            shapes_at(&ground.shapes, &(struct modes_where){0.01 + 0.27 * at, 0.02 + 0.15 * at, 0}, knots[end]);
+            modes_shapes_at(&ground.shapes, &(struct modes_where){0.01 + 0.27 * at, 0.02 + 0.15 * at, 0}, knots[end]);
         }
         for (int i = 0; i < 20; i++) {
             ck_assert_double_eq_tol(phi[i], knots[0][i] + (double)(n % 64) / 64 * (knots[1][i] - knots[0][i]), 1e-11);

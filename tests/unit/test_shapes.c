@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "objects.h"
-#include "response/shapes.h"
+#include "response/modes.h"
 #include "response/space.h"
 
 static struct arena *pool;
@@ -37,11 +37,11 @@ static struct modes *plate_modes(int n)
 START_TEST(a_plate_is_sines)
 {
     const struct modes *m = plate_modes(30);
-    struct shapes s;
+    struct modes_shapes s;
     struct err e = {0};
     double phi[30], own[30] = {0};
     int changes = 0, matched = 0;
-    ck_assert_msg(shapes_make(m, "surface", memory(), &s, &e), "%s", e.text);
+    ck_assert_msg(modes_shapes_make(m, "surface", memory(), &s, &e), "%s", e.text);
     ck_assert_int_eq(s.n, 30);
     ck_assert(s.moves);
     for (int i = 0; i < s.n; i++)
@@ -53,7 +53,7 @@ START_TEST(a_plate_is_sines)
                 matched++;
                 for (int k = 0; k < 200; k++) {
                     double x = fmod(0.013 + 0.754877666 * k, 1), y = 0.7 * fmod(0.37 + 0.5698402910 * k, 1);
-                    shapes_at(&s, &(struct modes_where){x + origin[0], y + origin[1], 0}, phi);
+                    modes_shapes_at(&s, &(struct modes_where){x + origin[0], y + origin[1], 0}, phi);
                     double want = 2 / sqrt(0.7) * sin(kx * x) * sin(ky * y);
                     if (k == 0) own[i] = want * phi[i] < 0 ? -1 : 1;
                     ck_assert_double_eq_tol(phi[i], own[i] * want, 1e-12 * 40);
@@ -89,11 +89,11 @@ static void write_table(const char *file, const struct modes *m, int quantity, i
     fclose(f);
 }
 
-static bool read_table(const char *file, struct modes *m, struct shapes *s, struct err *e)
+static bool read_table(const char *file, struct modes *m, struct modes_shapes *s, struct err *e)
 {
     struct modes_ask ask = {.strongest = 100, .pairing = 0.01, .rate = 48000};
     ck_assert_msg(modes_table(file, &ask, memory(), m, e), "%s", e->text);
-    return shapes_make(m, "surface", memory(), s, e);
+    return modes_shapes_make(m, "surface", memory(), s, e);
 }
 
 START_TEST(a_table_gives_its_root)
@@ -104,16 +104,16 @@ START_TEST(a_table_gives_its_root)
     double phi[12], own[12];
     for (int quantity = 0; quantity < 3; quantity++) {
         struct modes t;
-        struct shapes s, exact;
+        struct modes_shapes s, exact;
         struct err e = {0};
         write_table(file, m, quantity, 5, 1);
         ck_assert_msg(read_table(file, &t, &s, &e), "%s", e.text);
-        ck_assert(shapes_make(m, "surface", memory(), &exact, &e));
+        ck_assert(modes_shapes_make(m, "surface", memory(), &exact, &e));
         ck_assert_int_eq(s.n, 12);
         for (int row = 0; row < 5; row++) {
             struct modes_where where = {0.07 + 0.09 * row + origin[0], 0.11 + 0.03 * row * row + origin[1], 0};
-            shapes_at(&s, &where, phi);
-            shapes_at(&exact, &where, own);
+            modes_shapes_at(&s, &where, phi);
+            modes_shapes_at(&exact, &where, own);
             for (int i = 0; i < 12; i++) {
                 int k = 0;
                 while (fabs(m->frequency[k] - s.frequency[i]) > 1e-9 * s.frequency[i])
@@ -128,9 +128,9 @@ END_TEST
 
 static void refused(struct modes *m, const char *why, const char *cure)
 {
-    struct shapes s;
+    struct modes_shapes s;
     struct err e = {0};
-    ck_assert(!shapes_make(m, "surface", memory(), &s, &e));
+    ck_assert(!modes_shapes_make(m, "surface", memory(), &s, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
     ck_assert_msg(strstr(e.text, why) && strstr(e.text, cure), "%s", e.text);
 }
@@ -187,12 +187,12 @@ START_TEST(what_nearly_fits_is_taken)
                           .fundamental = 200,
                           .gain = 4};
     struct modes m;
-    struct shapes s;
+    struct modes_shapes s;
     struct err e = {0};
     double phi[10];
     ck_assert_msg(space_modes(&space, &ask, memory(), &m, &e), "%s", e.text);
-    ck_assert_msg(shapes_make(&m, "surface", memory(), &s, &e), "%s", e.text);
-    shapes_at(&s, &(struct modes_where){0.3, 0.1, 0}, phi);
+    ck_assert_msg(modes_shapes_make(&m, "surface", memory(), &s, &e), "%s", e.text);
+    modes_shapes_at(&s, &(struct modes_where){0.3, 0.1, 0}, phi);
     struct modes_point p = modes_point_make(memory(), m.n);
     modes_at(&m, &(struct modes_where){0, 0, 0}, &p);
     for (int i = 0; i < s.n; i++) /* of h_v = g e^(-d t) (cos - (d/w) sin), A = g (j - d/w): displacement g/w sin */
@@ -207,7 +207,7 @@ START_TEST(what_nearly_fits_is_taken)
                 M_PI_2 + (off ? 0.06 : 0));
         fclose(f);
         ck_assert_msg(modes_table(file, &ask, memory(), &m, &e), "%s", e.text);
-        ck_assert_int_eq(shapes_make(&m, "surface", memory(), &s, &e), !off);
+        ck_assert_int_eq(modes_shapes_make(&m, "surface", memory(), &s, &e), !off);
     }
     unlink(file);
 }

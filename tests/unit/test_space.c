@@ -1,7 +1,6 @@
 /* The space of materials and shapes: shares against the printed equations, anchors against the closed forms worked out
  * here, continuity, damping. */
 #include "response/space.h"
-#include "response/space_anchors.h"
 #include "scene/material.h"
 #include "unit.h"
 

@@ -1,6 +1,7 @@
-/* A flat object in an infinite baffle: Rayleigh's integral over its mode shapes. See radiator_plate.c. */
-#ifndef RESPONSE_RADIATOR_PLATE_H
-#define RESPONSE_RADIATOR_PLATE_H
+/* The simplest radiator: a sphere of the object's size whose whole surface moves as the place that is heard does. See
+ * radiator.c. */
+#ifndef RESPONSE_RADIATOR_H
+#define RESPONSE_RADIATOR_H
 #include <stdbool.h>
 
 #include "base/arena.h"
@@ -8,6 +9,23 @@
 #include "response/modes.h"
 #include "response/object.h"
 
+struct radiator_monopole {
+    double gain; /* Pa per m/s, K = rho c a / r */
+    double pole; /* 1/s, w = c / a              */
+};
+
+struct radiator_monopole radiator_monopole(double radius, double distance, double density, double sound_speed);
+
+/* H(s), complex. */
+void radiator_monopole_at(const struct radiator_monopole *m, const double s[2], double h[2]);
+
+/* The share w / (s + w) K of a mode's complex velocity gain at pole s that goes to the radiator's own pole. */
+void radiator_monopole_own(const struct radiator_monopole *m, const double s[2], double share[2]);
+
+/* Is the own pole slow enough to be sampled? */
+bool radiator_monopole_sampled(const struct radiator_monopole *m, double rate);
+
+/* A flat object in an infinite baffle: Rayleigh's integral over its mode shapes. See radiator.c. */
 struct radiator_plate {
     const struct modes
         *modes; /* of velocity, linear in the shape where they are touched: made with `listen` = reference */

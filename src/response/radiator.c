@@ -1,3 +1,133 @@
+#include "response/radiator.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "num/real.h"
+#include "num/vecmath.h"
+
+/* One coordinate cut into panels for Gauss-Legendre's rule, fine enough for what turns and for what is nearly singular.
+ */
+enum { PANELS_MOST = 4096, PANELS_POINTS = 12 /* most in a panel */ };
+
+struct panels {
+    double low, high;
+    double wave;         /* rad per unit of the coordinate, by which the integrand turns        */
+    double foot, height; /* where it is singular: real part, imaginary part of the coordinate   */
+    int n;               /* panels */
+    double ends[PANELS_MOST + 1];
+};
+
+/* Pulsating sphere (Morse and Ingard, Theoretical Acoustics, 7.1; Kinsler et al., Fundamentals of Acoustics, 7.1):
+   surface velocity v on a sphere of radius a makes at the distance r > a of its middle the pressure
+
+       p = rho c v (a / r) j k a / (1 + j k a) e^(-j k (r - a)) ,   k = w / c ,
+
+   that is, without the delay (r - a)/c, p = H(s) v with
+
+       H(s) = K s / (s + w) ,   K = rho c a / r (Pa per m/s) ,   w = c / a (1/s) .
+
+   A velocity that is Im sum A_i e^(s_i t) from t = 0 on becomes, by partial fractions, exactly
+
+       p(t) = Im sum A_i H(s_i) e^(s_i t)  +  e^(-w t) Im sum A_i K w / (s_i + w) :
+
+   modes of other gains, and one component of the radiator's own, of 0 Hz. s_i + w = 0 cannot be, as the frequency of no
+   mode is 0. No response at 0 Hz (H(0) = 0), so no direct term: modes_direct's sum over all components is 0 but for
+   rounding.
+
+   A sampled response stands for the continuous one while it does not decay within a sample. The own component is kept
+   while w <= 2.4 rate (a = 3 mm at 48 kHz); of a smaller object it is left out, and modes_direct, whose sum is then Im
+   sum A_i K / (s_i + w), puts its whole area at t = 0: K/w = rho a^2 / r is then all that counts, and the pressure is
+   the acceleration of a volume. What is lost is the fraction j w_audio / w of that one component. (At 2.4 both ways are
+   off alike; a small object's own pole, sampled, would be far too loud: by w / (2 rate).) */
+
+#define FASTEST 2.4 /* own pole over sample rate */
+
+struct radiator_monopole radiator_monopole(double radius, double distance, double density, double sound_speed)
+{
+    return (struct radiator_monopole){density * sound_speed * radius / distance, sound_speed / radius};
+}
+
+/* factor / (s + w) */
+static void over(const struct radiator_monopole *m, const double s[2], const double factor[2], double q[2])
+{
+    double x = s[0] + m->pole, y = s[1], power = x * x + y * y;
+    q[0] = (factor[0] * x + factor[1] * y) / power;
+    q[1] = (factor[1] * x - factor[0] * y) / power;
+}
+
+void radiator_monopole_at(const struct radiator_monopole *m, const double s[2], double h[2])
+{
+    over(m, s, (const double[2]){m->gain * s[0], m->gain * s[1]}, h);
+}
+
+void radiator_monopole_own(const struct radiator_monopole *m, const double s[2], double share[2])
+{
+    over(m, s, (const double[2]){m->gain * m->pole, 0}, share);
+}
+
+bool radiator_monopole_sampled(const struct radiator_monopole *m, double rate) { return m->pole <= FASTEST * rate; }
+
+/* e^(j k x) over a panel of width W needs about W k / 2 points of Gauss-Legendre's rule, and
+   then each one more takes the error down by orders of magnitude: 12 points over 4 pi of phase leave 4e-12. A
+   singularity j d above or below the panel's middle leaves about (u + sqrt(u^2 + 1))^(-24), u = 2 d / W: 7e-10 at d =
+   W/2. */
+
+/* Nodes and weights on [-1, 1] by Newton's method on Legendre's polynomial; its start is within the reach of the root
+ * next to it. */
+static void rule(int n, double *x, double *w)
+{
+    for (int k = 0; k < n; k++) {
+        double at = real_cospi((k + 0.75) / (n + 0.5)), slope = 1;
+        for (int step = 0; step < 8; step++) {
+            double p = at, before = 1;
+            for (int j = 2; j <= n; j++) {
+                double next = ((2 * j - 1) * at * p - (j - 1) * before) / j;
+                before = p;
+                p = next;
+            }
+            slope = n * (at * p - before) / (at * at - 1);
+            at -= p / slope;
+        }
+        x[k] = at;
+        w[k] = 2 / ((1 - at * at) * slope * slope);
+    }
+}
+
+static double far_of(const struct panels *x, double low, double high)
+{
+    double beside = x->foot < low ? low - x->foot : x->foot > high ? x->foot - high : 0;
+    return sqrt(beside * beside + x->height * x->height);
+}
+
+/* Adds the panels between low and high: each no wider than 4 pi of phase, and no wider than twice its distance from the
+   singularity. False: too many. */
+static bool panels_split(struct panels *x, double low, double high)
+{
+    if (x->n == PANELS_MOST) return false;
+    double middle = 0.5 * (low + high), width = high - low;
+    if (width * x->wave > 4 * REAL_PI || width > 2 * far_of(x, low, high))
+        return middle > low && middle < high && panels_split(x, low, middle) && panels_split(x, middle, high);
+    x->ends[x->n++] = low;
+    x->ends[x->n] = high;
+    return true;
+}
+
+/* Nodes and weights, `points` to a panel; returns how many there are. */
+static int panels_points(const struct panels *x, int points, double *at, double *weight)
+{
+    double node[PANELS_POINTS], share[PANELS_POINTS];
+    rule(points, node, share);
+    for (int k = 0; k < x->n; k++)
+        for (int i = 0; i < points; i++) {
+            double half = 0.5 * (x->ends[k + 1] - x->ends[k]);
+            at[k * points + i] = x->ends[k] + half * (1 + node[i]);
+            weight[k * points + i] = half * share[i];
+        }
+    return x->n * points;
+}
+
 /* Rayleigh's integral (Rayleigh, Theory of Sound II, 278; Fahy and Gardonio, Sound and Structural Vibration, 3.2): a
    flat surface that moves with the normal velocity v_n(y) e^(s t) in an infinite rigid baffle, z = 0, makes at the
    place x, z > 0, the pressure
@@ -25,16 +155,8 @@
    the complex plane: the foot of the listening place, z above). Panels are halved until rules of 10 and 12 points
    differ by less than 1e-9 of int |phi_i|/R dS in every mode; measured by refinement the 12 points are then within
    1e-11 of it. */
-#include "response/radiator_plate.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "num/real.h"
-#include "num/vecmath.h"
-#include "response/radiator_panels.h"
-
-enum { MOST_PLACES = 96, COARSE = 10, FINE = RADIATOR_PANELS_POINTS, HALVINGS = 6 };
+enum { MOST_PLACES = 96, COARSE = 10, FINE = PANELS_POINTS, HALVINGS = 6 };
 
 #define SETTLED 1e-9
 #define MOST_POINTS 2e7
@@ -96,9 +218,9 @@ void radiator_plate_reference(const struct object *o, struct arena *a, double pl
 struct work {
     const struct radiator_plate *given;
     int n;
-    double far;                   /* m, R_0 */
-    struct radiator_panels *axes; /* [2]: x and y, or r and angle */
-    double *inverse;              /* [n]: 1/A(l) of what A(y) is projected on: (re, im)/|A(l)|^2 in two arrays */
+    double far;          /* m, R_0 */
+    struct panels *axes; /* [2]: x and y, or r and angle */
+    double *inverse;     /* [n]: 1/A(l) of what A(y) is projected on: (re, im)/|A(l)|^2 in two arrays */
     double *inverse_im;
     struct modes_point point;
     double *shape, *grow, *turn, *c; /* [n] */
@@ -137,7 +259,7 @@ static void integrate(struct work *w, int points, struct arena *a)
     for (int k = 0; k < 2; k++) {
         at[k] = ARENA_TAKE(a, double, w->axes[k].n *points);
         weight[k] = ARENA_TAKE(a, double, w->axes[k].n *points);
-        n[k] = radiator_panels_points(&w->axes[k], points, at[k], weight[k]);
+        n[k] = panels_points(&w->axes[k], points, at[k], weight[k]);
     }
     for (int k = 0; k < 2; k++)
         memset(w->sum[k], 0, (size_t)w->n * sizeof *w->sum[k]);
@@ -173,7 +295,7 @@ static bool axes_make(struct work *w, double fine)
     const struct radiator_plate *p = w->given;
     const struct object *o = p->object;
     double x = p->place[0] - p->origin[0], y = p->place[1] - p->origin[1], z = p->place[2], top = 0, wave[2];
-    struct radiator_panels *u = &w->axes[0], *v = &w->axes[1];
+    struct panels *u = &w->axes[0], *v = &w->axes[1];
     for (int i = 0; i < w->n; i++)
         top = fmax(top, 2 * REAL_PI * p->modes->frequency[i] / p->sound_speed);
     waves(p, wave);
@@ -189,7 +311,7 @@ static bool axes_make(struct work *w, double fine)
         v->wave = a * v->wave, v->foot = v->low + REAL_PI,
         v->height = real_log1p(above + sqrt(above * (above + 2))) / fine;
     }
-    return radiator_panels_split(u, u->low, u->high) && radiator_panels_split(v, v->low, v->high) &&
+    return panels_split(u, u->low, u->high) && panels_split(v, v->low, v->high) &&
            (double)u->n * v->n * FINE * FINE < MOST_POINTS;
 }
 
@@ -226,7 +348,7 @@ static struct work work_make(const struct radiator_plate *p, struct arena *a)
     struct work w = {.given = p,
                      .n = n,
                      .far = radiator_plate_distance(p->object, p->origin, p->place),
-                     .axes = ARENA_TAKE(a, struct radiator_panels, 2),
+                     .axes = ARENA_TAKE(a, struct panels, 2),
                      .point = modes_point_make(a, n)};
     double **arrays[] = {&w.inverse, &w.inverse_im, &w.shape, &w.grow, &w.turn, &w.c, &w.sum[0], &w.sum[1], &w.size};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
@@ -275,7 +397,7 @@ bool radiator_plate(const struct radiator_plate *p, struct arena *a, double *re,
 /* Most integrals settle at once; constants measured with 256-bit vectors. */
 double radiator_plate_cost(const struct radiator_plate *p, struct arena *a)
 {
-    struct work w = {.given = p, .n = p->modes->n, .axes = ARENA_TAKE(a, struct radiator_panels, 2)};
+    struct work w = {.given = p, .n = p->modes->n, .axes = ARENA_TAKE(a, struct panels, 2)};
     double panels =
         p->place[2] > 0 && axes_make(&w, 1) ? (double)w.axes[0].n * w.axes[1].n : 0; /* else it is refused at once */
     return (panels * (COARSE * COARSE + FINE * FINE) + MOST_PLACES) *
