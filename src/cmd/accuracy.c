@@ -12,8 +12,8 @@
 #include "base/outfile.h"
 #include "base/text.h"
 #include "num/real.h"
+#include "output/gnuplot.h"
 #include "output/mark.h"
-#include "output/picture.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
@@ -415,7 +415,7 @@ static bool tell(struct accuracy_sweep *s, struct err *e)
         accuracy_report_table(s, csv.stream);
         ok = outfile_settle(&csv, e);
     }
-    ok = ok && (!s->plot || picture_draw(&plot, s->plot, text_ends(s->plot, ".svg"), accuracy_report_plot, s, e));
+    ok = ok && (!s->plot || gnuplot_draw(&plot, s->plot, text_ends(s->plot, ".svg"), accuracy_report_plot, s, e));
     interrupt_hold();
     ok = ok && (!s->plot || outfile_commit(&plot, e)) && (!s->csv || outfile_commit(&csv, e));
     interrupt_go();
@@ -441,16 +441,15 @@ const struct command accuracy_command = {
     .name = "accuracy",
     .summary = "shows what accuracy costs: error and time of each preset and knob",
     .does = "Renders the scene with each preset, and with each value that a preset has of each knob that turns it "
-            "(rasp plan lists them), and prints how far each is from the "
-            "preset reference: the samples' error in dB, the worst difference of third octaves, the distance of "
-            "spectra (windows of 5, 20 and 80 ms); and what it costs: CPU time, times "
-            "real time, peak memory. alone: all other knobs at reference, so that the knob's own error shows; order: "
-            "the power of the knob with which that falls (of a knob in dB, dB per dB); "
-            "total: all other knobs as the scene has them. The error that reference has itself is extrapolated from "
-            "that, and smaller ones are marked. * marks what nothing else beats in both "
-            "error and CPU time. Where two renders diverge, as of a ball that bounces, it says from when on, and "
-            "compares levels and spectra of what comes after. A scene without a sound is "
-            "compared by its contact force. Each render is a process of its own, one at a time, in a temporary folder.",
+            "(rasp plan lists them), and prints how far each is from the preset reference: the samples' error in dB, "
+            "the worst difference of third octaves, the distance of spectra (windows of 5, 20 and 80 ms); and what it "
+            "costs: CPU time, times real time, peak memory. alone: all other knobs at reference, so that the knob's "
+            "own error shows; order: the power of the knob with which that falls (of a knob in dB, dB per dB); total: "
+            "all other knobs as the scene has them. The error that reference has itself is extrapolated from that, and "
+            "smaller ones are marked. * marks what nothing else beats in both error and CPU time. Where two renders "
+            "diverge, as of a ball that bounces, it says from when on, and compares levels and spectra of what comes "
+            "after. A scene without a sound is compared by its contact force. Each render is a process of its own, one "
+            "at a time, in a temporary folder.",
     .operands = "SCENE",
     .least = 1,
     .most = 1,

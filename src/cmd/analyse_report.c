@@ -13,8 +13,8 @@
 #include "cmd/report.h"
 #include "file/csv.h"
 #include "num/real.h"
+#include "output/gnuplot.h"
 #include "output/mark.h"
-#include "output/picture.h"
 
 /* Intervals are shown in ms. */
 static double shown(int series, double x) { return series == STATISTICS_AMPLITUDE ? x : 1e3 * x; }
@@ -45,9 +45,8 @@ static void print_source(struct report *r, const struct analyse_source *s, long 
             report_text(r, "%.4g times the width at half height (of %ld impact%s; 2: raised cosines, 1.82: Hertz's)\n",
                         f->stretch, f->feet, plural(f->feet));
         else
-            report_text(r,
-                        "taken as twice the width at half height, as of raised cosines (none stands alone, or all are "
-                        "short)\n");
+            report_text(r, "taken as twice the width at half height, as of raised cosines (none stands alone, or all "
+                           "are short)\n");
     } else {
         report_text(r, "%s: %d impact%s in %.6g s", s->file, v->n, plural(v->n), v->time[v->n - 1] - v->time[0]);
         if (s->found.touching)
@@ -333,11 +332,10 @@ struct part {
 /* No value that the keys refuse (scene/keys.def): said here, with what to do. */
 static bool value_fits(const char *what, double x, double low, double high, struct err *e)
 {
-    return (x >= low && x <= high) ||
-           err_set(e, ERR_SCENE,
-                   "%s is %.6g, and a scene takes %.6g to %.6g: no file is written. Is the unit right, and the series "
-                   "steady? A part of it may be",
-                   what, x, low, high);
+    return (x >= low && x <= high) || err_set(e, ERR_SCENE,
+                                              "%s is %.6g, and a scene takes %.6g to %.6g: no file is written. Is the "
+                                              "unit right, and the series steady? A part of it may be",
+                                              what, x, low, high);
 }
 
 static bool values_fit(const struct analysis *a, struct err *e)
@@ -353,12 +351,11 @@ static bool values_fit(const struct analysis *a, struct err *e)
     }
     const struct impact_modulation *m = &a->statistics.modulation;
     if (m->found && m->rate > 1000)
-        return err_set(
-            e, ERR_SCENE,
-            "the rate of the modulation is %.6g Hz, and a scene takes 0 to 1000: no file is written. If it is a beat "
-            "of the series with its own grid, "
-            "--keep-modulation leaves it in the amplitudes; of a force of either sign, --signed may find none",
-            m->rate);
+        return err_set(e, ERR_SCENE,
+                       "the rate of the modulation is %.6g Hz, and a scene takes 0 to 1000: no file is written. If it "
+                       "is a beat of the series with its own grid, --keep-modulation leaves it in the amplitudes; of a "
+                       "force of either sign, --signed may find none",
+                       m->rate);
     if (!a->lasts)
         return err_set(e, ERR_SCENE, "%s: no duration is known, and a scene needs one: %s", a->source.file,
                        analyse_notes_unknown(a));
@@ -380,8 +377,7 @@ static bool longest_fits(const struct part *p, struct err *e)
     return a->duration.theta == 0 || lasts <= 10 ||
            err_set(e, ERR_SCENE,
                    "with theta %.4g an impact of the least amplitude that a scene takes would last %.4g s, and at most "
-                   "10 s make sense: no file is "
-                   "written. Give a lower --theta",
+                   "10 s make sense: no file is written. Give a lower --theta",
                    a->duration.theta, lasts);
 }
 
@@ -706,8 +702,9 @@ static void draw_duration(void *self, struct gnuplot *g)
                    "plot $series with points pointtype 7 pointsize 0.35 linecolor rgb '" BLUE "' title 'impacts'");
     if (a->single.file)
         fprintf(g->in,
-                ", $single with points pointtype 6 pointsize 0.7 linecolor rgb '" GREEN "' title 'single impacts', "
-                "%.9g*x**(-(%.9g)) with lines linewidth 1 dashtype 2 linecolor rgb '" GREEN "' title 'step 1'",
+                ", $single with points pointtype 6 pointsize 0.7 linecolor rgb '" GREEN
+                "' title 'single impacts', %.9g*x**(-(%.9g)) with lines linewidth 1 dashtype 2 linecolor rgb '" GREEN
+                "' title 'step 1'",
                 1e3 * d->zeta_single, d->theta_single);
     fprintf(g->in, ", %.9g*x**(-%.9g) with lines linewidth 2 linecolor rgb '" RED "' title '%.4g ms A^-%.3f'\n",
             1e3 * d->zeta, d->theta, 1e3 * d->zeta, d->theta);
@@ -729,11 +726,10 @@ static void draw_shape(void *self, struct gnuplot *g)
             "END\nset xlabel 'time from the maximum / duration'\nset ylabel 'force / amplitude'\nset xrange "
             "[-0.75:0.75]\nset yrange [-0.1:1.15]\n"
             "plot $x using 1:3:4 with filledcurves fillcolor rgb '#cfe3f1' title '± 1 standard deviation', '' using "
-            "1:2 with lines linewidth 2.5 linecolor "
-            "rgb '" BLUE "' title 'mean', '' using 1:5 with lines linewidth 2 dashtype 2 linecolor rgb '" RED
-            "' title 'raised cosine, R² of the mean %.4f', "
-            "'' using 1:6 with lines linewidth 2 dashtype 4 linecolor rgb '" GREEN
-            "' title 'Meixner window, R² of the mean %.4f'\n",
+            "1:2 with lines linewidth 2.5 linecolor rgb '" BLUE
+            "' title 'mean', '' using 1:5 with lines linewidth 2 dashtype 2 linecolor rgb '" RED
+            "' title 'raised cosine, R² of the mean %.4f', '' using 1:6 with lines linewidth 2 dashtype 4 linecolor "
+            "rgb '" GREEN "' title 'Meixner window, R² of the mean %.4f'\n",
             h->of_mean[0].r2, h->of_mean[1].r2);
 }
 
@@ -766,7 +762,7 @@ bool analyse_report_plot(struct analysis *a, const char *prefix, bool svg, struc
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         const char *file = arena_format(a->arena, "%s.%s.%s", prefix, all[i].name, svg ? "svg" : "png");
         if (!all[i].there) continue;
-        if (!mark_permits(file, NULL, a->force, e) || !picture_draw(&to->o[to->n], file, svg, all[i].draw, &p, e))
+        if (!mark_permits(file, NULL, a->force, e) || !gnuplot_draw(&to->o[to->n], file, svg, all[i].draw, &p, e))
             return false;
         to->name[to->n++] = file;
     }

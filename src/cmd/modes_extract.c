@@ -14,7 +14,7 @@
 #include "file/wav.h"
 #include "num/real.h"
 #include "output/mark.h"
-#include "output/picture.h"
+#include "output/gnuplot.h"
 #include "scene/rules.h"
 #include "scene/units.h"
 
@@ -346,7 +346,7 @@ static bool prepare(struct modes_extract *x, struct written *o, struct err *e)
     return outfile_settle(&o->table, e) && sound(x, MODES_EXTRACT_RESYNTHESIS, &o->sound[0], e) &&
            sound(x, MODES_EXTRACT_RESIDUAL, &o->sound[1], e) &&
            (!file[MODES_EXTRACT_PLOT] ||
-            (picture_draw(&o->picture, file[MODES_EXTRACT_PLOT], x->given.svg, modes_extract_write_picture, x, e) &&
+            (gnuplot_draw(&o->picture, file[MODES_EXTRACT_PLOT], x->given.svg, modes_extract_write_picture, x, e) &&
              outfile_settle(&o->picture, e)));
 }
 

@@ -14,8 +14,8 @@
 #include "cmd/tell.h"
 #include "file/table.h"
 #include "file/wav.h"
+#include "output/gnuplot.h"
 #include "output/mark.h"
-#include "output/picture.h"
 #include "pipeline/outputs.h"
 #include "scene/scene_read.h"
 
@@ -544,7 +544,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
         o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p.file) - 4, p.file, p.svg ? "svg" : "png");
     if (!plot_data(&p, e) || !plot_spares(&p, target, e) ||
         !mark_permits(target, NULL, args_given(&c->args, "force"), e) ||
-        !picture_write(target, p.svg, plot_page, &p, e))
+        !gnuplot_write(target, p.svg, plot_page, &p, e))
         return (int)e->kind;
     printf("%s ", target);
     /* what the page shows, as a line */
@@ -564,22 +564,19 @@ static int plot_run(struct cmd_call *c, struct err *e)
 const struct command plot_command = {
     .name = "plot",
     .summary = "draws a render: waveform, spectrogram, forces, motion, modes",
-    .does = "For NAME.wav writes NAME.png: the waveform, the spectrogram (Hann window of 20 ms, the 80 dB below the "
-            "loudest place, up to 20 kHz) "
-            "and, from the diagnostics beside it (NAME.csv, NAME.npy, or NAME.CONTACT.csv), the contact force and the "
-            "normal force with alpha, on one time "
-            "axis; below them the way of the contact from above, coloured by speed, and the modes of what rings "
-            "(NAME.scene.yaml): stems of their largest gain on that way, coloured by "
-            "their time of decay. A table that is not of the same render, as the hashes in NAME.json tell, is left out "
-            "with a warning; without NAME.json it is "
-            "taken to be. Panels without data are left out; what was drawn is printed. For NAME.csv or NAME.npy, of a "
-            "render without sound, what the table has; a mode table gives the modes, and "
-            "their decays over frequency. Of several channels one is drawn. Needs gnuplot.\n"
-            "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of "
-            "sounds. The page shows every stimulus, with its factors, and plays it (of what has no sound: contact and "
-            "normal force and motion), or says why it failed; it needs no "
-            "script, and nothing from elsewhere. Its pictures are drawn anew, into a folder beside it: gallery_files/ "
-            "of gallery.html. Sounds are linked where they are.",
+    .does =
+        "For NAME.wav writes NAME.png: the waveform, the spectrogram (Hann window of 20 ms, the 80 dB below the "
+        "loudest place, up to 20 kHz) and, from the diagnostics beside it (NAME.csv, NAME.npy, or NAME.CONTACT.csv), "
+        "the contact force and the normal force with alpha, on one time axis; below them the way of the contact from "
+        "above, coloured by speed, and the modes of what rings (NAME.scene.yaml): stems of their largest gain on that "
+        "way, coloured by their time of decay. A table that is not of the same render, as the hashes in NAME.json "
+        "tell, is left out with a warning; without NAME.json it is taken to be. Panels without data are left out; what "
+        "was drawn is printed. For NAME.csv or NAME.npy, of a render without sound, what the table has; a mode table "
+        "gives the modes, and their decays over frequency. Of several channels one is drawn. Needs gnuplot.\n"
+        "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of sounds. "
+        "The page shows every stimulus, with its factors, and plays it (of what has no sound: contact and normal force "
+        "and motion), or says why it failed; it needs no script, and nothing from elsewhere. Its pictures are drawn "
+        "anew, into a folder beside it: gallery_files/ of gallery.html. Sounds are linked where they are.",
     .operands = "NAME.wav|NAME.csv|NAME.npy|FOLDER/|manifest.csv",
     .least = 1,
     .most = 1,

@@ -14,8 +14,8 @@
 #include "base/relpath.h"
 #include "base/text.h"
 #include "cmd/plot.h"
+#include "output/gnuplot.h"
 #include "output/mark.h"
-#include "output/picture.h"
 
 enum kind { SOUND, SILENT, FAILED }; /* silent: a render that made tables only */
 
@@ -157,7 +157,7 @@ static bool draw_item(struct page *g, struct item *item, struct err *e)
     bool ok = plot_data(&p, &why);
     if (!ok)
         item->why = arena_text(g->arena, why.text);
-    else if (mark_permits(target, NULL, g->of->force, e) && picture_write(target, p.svg, draw, &p, e))
+    else if (mark_permits(target, NULL, g->of->force, e) && gnuplot_write(target, p.svg, draw, &p, e))
         item->picture = target;
     arena_close(a);
     return e->kind == ERR_NONE;

@@ -5,11 +5,14 @@
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/interrupt.h"
+#include "base/outfile.h"
 #include "base/scratch.h"
+#include "output/mark.h"
 
 /* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore or block are not by it. */
 static int spawn(pid_t *pid, const int fd[3])
@@ -37,7 +40,8 @@ static int spawn(pid_t *pid, const int fd[3])
     return code;
 }
 
-bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
+/* Its standard output goes to the descriptor; no initialisation file is read. ERR_UNBUILT: it is not installed. */
+static bool start(struct gnuplot *g, int output, struct err *e)
 {
     int ends[2], code;
     *g = (struct gnuplot){.complaints = scratch_open()};
@@ -53,25 +57,15 @@ bool gnuplot_open(struct gnuplot *g, int output, struct err *e)
     fclose(g->complaints);
     if (code == 0) interrupt_wait(g->pid, NULL, NULL);
     if (code == ENOENT || code == EACCES)
-        return err_set(
-            e, ERR_UNBUILT,
-            "the program gnuplot draws the plot and is not on the PATH: install it (Debian: gnuplot-nox and, for the "
-            "labels, fonts-dejavu-core)");
+        return err_set(e, ERR_UNBUILT,
+                       "the program gnuplot draws the plot and is not on the PATH: install it (Debian: gnuplot-nox "
+                       "and, for the labels, fonts-dejavu-core)");
     return err_set(e, err_system(ERR_CREATE), "gnuplot cannot be started: %s", strerror(code ? code : errno));
 }
 
-/* The first line of what it complained about that holds more than blanks and the mark of a column. */
-static void first_complaint(FILE *f, char *line, int size)
-{
-    rewind(f);
-    while (fgets(line, size, f)) {
-        line[strcspn(line, "\n")] = '\0';
-        if (line[strspn(line, " \t^")]) return;
-    }
-    snprintf(line, (size_t)size, "it said nothing");
-}
-
-bool gnuplot_close(struct gnuplot *g, struct err *e)
+/* Ends its input and waits. ERR_IO with the first line of its complaints that holds more than blanks and the mark of a
+   column. */
+static bool finish(struct gnuplot *g, struct err *e)
 {
     char line[400];
     int status = 0;
@@ -82,11 +76,48 @@ bool gnuplot_close(struct gnuplot *g, struct err *e)
         (interrupt_seen() || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))))
         err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
     else if (!ok) {
-        first_complaint(g->complaints, line, sizeof line);
-        err_set(e, ERR_IO, "gnuplot failed: %s", line);
+        bool says = false;
+        rewind(g->complaints);
+        while (!says && fgets(line, sizeof line, g->complaints)) {
+            line[strcspn(line, "\n")] = '\0';
+            says = line[strspn(line, " \t^")];
+        }
+        err_set(e, ERR_IO, "gnuplot failed: %s", says ? line : "it said nothing");
     }
     fclose(g->complaints);
     return ok;
+}
+
+/* gnuplot does not notice a full disk: is the last thing of the format there? */
+static bool is_whole(int fd, bool svg)
+{
+    char tail[13] = "";
+    struct stat s;
+    if (fstat(fd, &s) != 0 || s.st_size < 12 || pread(fd, tail, 12, s.st_size - 12) != 12) return false;
+    return svg ? strstr(tail, "</svg>") != NULL : memcmp(tail + 4, "IEND", 4) == 0;
+}
+
+bool gnuplot_draw(struct outfile *o, const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g),
+                  void *self, struct err *e)
+{
+    struct gnuplot g;
+    if (!outfile_open_fd(o, target, e)) return false;
+    if (!start(&g, o->fd, e)) {
+        outfile_drop(o);
+        return false;
+    }
+    draw(self, &g);
+    bool ok = finish(&g, e);
+    if (ok && (!is_whole(o->fd, svg) || !mark_picture(o->fd, svg)))
+        ok = err_set(e, ERR_IO, "%s: cannot be written whole (is the disk full?)", target);
+    if (!ok) outfile_drop(o);
+    return ok;
+}
+
+bool gnuplot_write(const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g), void *self, struct err *e)
+{
+    struct outfile o;
+    return gnuplot_draw(&o, target, svg, draw, self, e) && outfile_commit(&o, e);
 }
 
 void gnuplot_put_text(struct gnuplot *g, const char *text)

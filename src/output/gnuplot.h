@@ -6,18 +6,22 @@
 
 #include "base/err.h"
 
+struct outfile;
+
 struct gnuplot {
     FILE *in;         /* write commands and inline data here      */
     FILE *complaints; /* its stderr, an unnamed temporary file    */
     pid_t pid;
 };
 
-/* Starts it with its standard output going to the descriptor; no initialisation file is read. SIGPIPE must be ignored.
-   ERR_UNBUILT: it is not installed. */
-bool gnuplot_open(struct gnuplot *g, int output, struct err *e);
+/* A picture, under a name that appears only when it is whole: `draw` writes all commands, with a terminal that is svg
+   or pngcairo. SIGPIPE must be ignored. ERR_UNBUILT: gnuplot is not installed; ERR_CREATE, ERR_IO. */
+bool gnuplot_write(const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g), void *self,
+                   struct err *e);
 
-/* Ends its input and waits. ERR_IO with its first complaint when it failed. */
-bool gnuplot_close(struct gnuplot *g, struct err *e);
+/* The same, but without its name yet: o is to be committed, or dropped. Failed: nothing is open. */
+bool gnuplot_draw(struct outfile *o, const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g),
+                  void *self, struct err *e);
 
 /* 'text' as gnuplot reads it: single quotes doubled, nothing expanded; control characters are shown as '?'. */
 void gnuplot_put_text(struct gnuplot *g, const char *text);
