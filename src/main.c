@@ -2,9 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cmd/commands.h"
-#include "cmd/program.h"
-#include "cmd/version.h"
+#include "cmd/cmd.h"
 
 static int unknown_command(const char *word)
 {
@@ -14,7 +12,7 @@ static int unknown_command(const char *word)
         err_set(&e, ERR_USAGE, "no command '%s'; did you mean '%s'?", word, meant);
     else
         err_set(&e, ERR_USAGE, "no command '%s'", word);
-    return program_complain("", &e);
+    return cmd_complain("", &e);
 }
 
 /* `rasp help [COMMAND]`; `rasp help --man` is the body of man rasp(1). */
@@ -28,7 +26,7 @@ static int run_help(int argc, char **argv)
     if (!strcmp(argv[0], "--man"))
         commands_print_man(stdout);
     else if (m)
-        cmd_print_help(m);
+        commands_print_help(m);
     else
         return unknown_command(argv[0]);
     return 0;
@@ -46,14 +44,14 @@ static int run_bare(int argc, char **argv)
     struct arena *a = arena_open();
     int code = 0;
     if (!args_parse(&g, options, argc, argv, a, &e))
-        code = program_complain("", &e);
+        code = cmd_complain("", &e);
     else if (g.help)
         commands_print(stdout);
     else if (args_given(&g, "version"))
         version_print(args_given(&g, "verbose"));
     else {
         err_set(&e, ERR_USAGE, "options of a command come after its name");
-        code = program_complain("", &e);
+        code = cmd_complain("", &e);
     }
     arena_close(a);
     return code;
@@ -68,7 +66,7 @@ static int run(int argc, char **argv)
     if (argv[1][0] == '-') return run_bare(argc - 1, argv + 1);
     if (!strcmp(argv[1], "help")) return run_help(argc - 2, argv + 2);
     const struct command *m = commands_find(argv[1]);
-    return m ? program_run(m, argc - 2, argv + 2) : unknown_command(argv[1]);
+    return m ? cmd_run(m, argc - 2, argv + 2) : unknown_command(argv[1]);
 }
 
-int main(int argc, char **argv) { return program_main(run, argc, argv); }
+int main(int argc, char **argv) { return cmd_main(run, argc, argv); }

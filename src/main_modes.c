@@ -1,8 +1,7 @@
 /* rasp-modes ACTION ...: `rasp modes` with the actions that need sparse and dense linear algebra, in a program of its
  * own, so that rasp starts without them. */
+#include "cmd/cmd.h"
 #include "cmd/modes.h"
-#include "cmd/program.h"
-#include "cmd/version.h"
 
 extern void openblas_set_num_threads(int n);
 
@@ -17,7 +16,7 @@ static int run(int argc, char **argv)
     struct command modes = modes_command;
     if (version_asked(argc - 1, argv + 1)) return 0;
     modes.run = modes_run;
-    return program_run(&modes, argc - 1, argv + 1);
+    return cmd_run(&modes, argc - 1, argv + 1);
 }
 
-int main(int argc, char **argv) { return program_main(run, argc, argv); }
+int main(int argc, char **argv) { return cmd_main(run, argc, argv); }

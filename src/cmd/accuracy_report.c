@@ -91,12 +91,12 @@ static const char *own_text(const struct accuracy_sweep *s)
 
 static const char *divergence_text(const struct accuracy_sweep *s)
 {
-    return arena_format(s->call->arena,
-                        "It is chaotic: from %.2f s on, high and reference are two sounds of one kind. Samples are "
-                        "compared up to there (alone, total); third octaves, spectra "
-                        "and levels after it; follows: how long each goes with reference. high and reference, equally "
-                        "right, have spectra %.2g dB apart: less is no merit.",
-                        s->until, s->renders[s->high].error.spectral);
+    return arena_format(
+        s->call->arena,
+        "It is chaotic: from %.2f s on, high and reference are two sounds of one kind. Samples are compared up to "
+        "there (alone, total); third octaves, spectra and levels after it; follows: how long each goes with reference. "
+        "high and reference, equally right, have spectra %.2g dB apart: less is no merit.",
+        s->until, s->renders[s->high].error.spectral);
 }
 
 /* ------------------------------------------------------------------ cells */
@@ -211,8 +211,7 @@ bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
     report_note(&r, "",
                 arena_format(a,
                              "total: all other knobs as the scene has them (=); alone: the others at reference. CPU: "
-                             "of the render, the least of %d run%s. *: nothing is "
-                             "cheaper and better.",
+                             "of the render, the least of %d run%s. *: nothing is cheaper and better.",
                              s->runs, s->runs == 1 ? "" : "s"));
     report_text(&r, "\n%-24s  %10s %6s  %10s %-*s  %7s %8s", "", "alone", "order", "total", BAR, "", "3rd oct",
                 "spectrum");
@@ -346,12 +345,11 @@ void accuracy_report_plot(void *sweep, struct gnuplot *g)
             n += shown(s, &s->rows[end], &error);
         if (n == 0) continue;
         const char *c = s->rows[i].knob < 0 ? "#888888" : colours[colour++ % (int)(sizeof colours / sizeof *colours)];
-        fprintf(
-            g->in,
-            "%s$b%d using 1:2 with linespoints linewidth 1.5 pointtype 7 pointsize 0.8 linecolor rgb '%s' title '%s', "
-            "'' using 1:2:3 with labels noenhanced offset %s font ',%d' textcolor rgb '%s' notitle",
-            between, i, c, s->rows[i].knob < 0 ? "presets" : s->rows[i].name,
-            s->rows[i].knob < 0 ? "-0.9,-0.3 right" : "0.6,0.6 left", s->rows[i].knob < 0 ? 11 : 8, c);
+        fprintf(g->in,
+                "%s$b%d using 1:2 with linespoints linewidth 1.5 pointtype 7 pointsize 0.8 linecolor rgb '%s' title "
+                "'%s', '' using 1:2:3 with labels noenhanced offset %s font ',%d' textcolor rgb '%s' notitle",
+                between, i, c, s->rows[i].knob < 0 ? "presets" : s->rows[i].name,
+                s->rows[i].knob < 0 ? "-0.9,-0.3 right" : "0.6,0.6 left", s->rows[i].knob < 0 ? 11 : 8, c);
         between = ", ";
     }
     if (front)

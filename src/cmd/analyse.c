@@ -133,8 +133,7 @@ static bool not_even(const struct csv *t, const double *time, size_t drifted, st
     if (bad > n) bad = drifted;
     return err_set(e, ERR_SCENE,
                    "%s:%d: rows are not evenly spaced: %.9g s comes %.6g s after the row before, where most come after "
-                   "%.6g s. A force is read at one "
-                   "rate (a table of impacts has the column amplitude_n)",
+                   "%.6g s. A force is read at one rate (a table of impacts has the column amplitude_n)",
                    t->file, t->lines[bad], time[bad], time[bad] - time[bad - 1], step);
 }
 
@@ -262,14 +261,13 @@ static void analyse_notes_force(struct analysis *a, const struct analyse_source 
     if (known > 0 && real_exp(samples / known) < 6)
         analyse_note(a,
                      "%s: impacts last %.2g samples: the low-pass of the sample rate widens them, and its ripples may "
-                     "count as impacts: use a higher rate, or "
-                     "raise --prominence to 0.25",
+                     "count as impacts: use a higher rate, or raise --prominence to 0.25",
                      s->file, real_exp(samples / known));
     if ((double)f->ripples > 10 * n)
         analyse_note(a,
                      "%s: %ld maxima are left out as not prominent, against %.0f impact%s: a force that ripples "
-                     "without falling between, as of a contact that never "
-                     "parts, is no series of impacts; a lower --prominence takes the ripples",
+                     "without falling between, as of a contact that never parts, is no series of impacts; a lower "
+                     "--prominence takes the ripples",
                      s->file, f->ripples, n, v->n == 1 ? "" : "s");
     if ((double)f->touching > 0.05 * n)
         analyse_note(a, "%s: %.0f %% of the impacts run into a neighbour: amplitudes and widths are those of sums",
@@ -300,8 +298,8 @@ static void analyse_notes_force(struct analysis *a, const struct analyse_source 
     if (f->stretch < 1.7 || f->stretch > 2.1)
         analyse_note(a,
                      "%s: contact times come out as %.3g times the widths at half height, where raised cosines have 2 "
-                     "and Hertz's impacts 1.82: many of those that stand "
-                     "alone are merged, or of another shape; zeta is as wrong as that",
+                     "and Hertz's impacts 1.82: many of those that stand alone are merged, or of another shape; zeta "
+                     "is as wrong as that",
                      s->file, f->stretch);
 }
 
@@ -377,9 +375,9 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
         if (a->constant) impact_duration_constant(&a->source.found.events, a->arena, d);
         const char *taken = given ? "and zeta means little" : "so the median is taken for all, and theta as 0";
         if (a->theta == ANALYSE_THETA_NONE)
-            analyse_note(a, "too few impacts stand alone, or amplitudes are all alike, to tell how durations depend on "
-                            "them: the median is taken for all, and theta as 0. "
-                            "Single impacts (--single) help, or --theta");
+            analyse_note(
+                a, "too few impacts stand alone, or amplitudes are all alike, to tell how durations depend on them: "
+                   "the median is taken for all, and theta as 0. Single impacts (--single) help, or --theta");
         else if (few)
             analyse_note(a, "the duration of only %ld of %d impacts is known, where %d tell a law, %s", d->n,
                          a->source.found.events.n, IMPACT_DURATION_MANY, taken);
@@ -390,8 +388,7 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
     if (a->lasts && !a->constant && d->theta > 0 && d->r2 < -0.05)
         analyse_note(a,
                      "theta %.3g does not hold here (R2 %.4g: a constant duration would do better). Where outliers "
-                     "made it, as impacts that run into each other "
-                     "do, single impacts (--single) help, or --theta",
+                     "made it, as impacts that run into each other do, single impacts (--single) help, or --theta",
                      d->theta, d->r2);
     return true;
 }
@@ -468,8 +465,7 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
     if (f->events.n < STATISTICS_LEAST && f->low >= STATISTICS_LEAST)
         analyse_note(a,
                      "%s: %ld maxima lie below the threshold, %.3g of the greatest force, %.4g N. If they are the "
-                     "impacts, it outweighs them all: is it one? Leave it out of the file, or lower "
-                     "--threshold",
+                     "impacts, it outweighs them all: is it one? Leave it out of the file, or lower --threshold",
                      a->source.file, f->low, a->given.options.threshold,
                      fmax(f->greatest, a->given.options.both ? -f->least : 0));
     for (int i = 1; i < v->n; i++)
@@ -583,24 +579,19 @@ const struct command analyse_command = {
     .name = "analyse",
     .summary = "impacts in a force: their statistics, and a scene part that draws impacts like them",
     .does = "Finds the impacts in a force (a WAV, a one-dimensional NPY, or a CSV with time_s and a column of newtons, "
-            "such as diagnostics at the sample rate), or "
-            "takes them from a table (CSV with time_s, amplitude_n and maybe duration_s, as output.impacts writes it). "
-            "Prints what papers/002 estimates of their "
-            "amplitudes and of the times between them, with 95 % intervals: means, ARMA(1,1) filters, the whitened "
-            "series and their distributions, whether one "
-            "process drives both, a modulation; how durations depend on amplitudes, in 002's two steps; which shape "
-            "impacts have (raised cosine, Meixner window); "
-            "and what makes the estimates doubtful. Draws that were raised to a floor bias means (too high) and "
-            "deviations (too small): they are told in a table of impacts, "
-            "but in a force, where weak impacts close together merge, mostly not. In a series of a long tail (marginal "
-            "lognormal, rough) a slight modulation may be found where "
-            "there is none: --keep-modulation leaves it. "
-            "The parameter file is a scene part with contact.model impacts: a scene that includes it draws other "
-            "impacts of the amplitudes, intervals and durations found. "
-            "How near it comes depends on how well the force is a series of impacts: bounces are, a contact that never "
-            "parts is not, and the notes say so. "
-            "The force should be whole: what output.ramp, load.approach or load.release fade is weaker but no longer, "
-            "and theta comes out too small.",
+            "such as diagnostics at the sample rate), or takes them from a table (CSV with time_s, amplitude_n and "
+            "maybe duration_s, as output.impacts writes it). Prints what papers/002 estimates of their amplitudes and "
+            "of the times between them, with 95 % intervals: means, ARMA(1,1) filters, the whitened series and their "
+            "distributions, whether one process drives both, a modulation; how durations depend on amplitudes, in "
+            "002's two steps; which shape impacts have (raised cosine, Meixner window); and what makes the estimates "
+            "doubtful. Draws that were raised to a floor bias means (too high) and deviations (too small): they are "
+            "told in a table of impacts, but in a force, where weak impacts close together merge, mostly not. In a "
+            "series of a long tail (marginal lognormal, rough) a slight modulation may be found where there is none: "
+            "--keep-modulation leaves it. The parameter file is a scene part with contact.model impacts: a scene that "
+            "includes it draws other impacts of the amplitudes, intervals and durations found. How near it comes "
+            "depends on how well the force is a series of impacts: bounces are, a contact that never parts is not, and "
+            "the notes say so. The force should be whole: what output.ramp, load.approach or load.release fade is "
+            "weaker but no longer, and theta comes out too small.",
     .operands = "FILE",
     .least = 1,
     .most = 1,

@@ -171,15 +171,12 @@ static const struct args_option options[] = {
 const struct command check_command = {
     .name = "check",
     .summary = "finds what is wrong with scenes, without rendering them",
-    .does =
-        "Reads each scene and says all that is wrong with its text, each fault with its line: unknown keys, wrong "
-        "units, values out of range or at odds "
-        "with each other, columns that are not there, nothing to compute. If nothing is, then the first that is wrong "
-        "with the rest: files that are "
-        "missing, damaged or have changed, a motion that leaves them. "
-        "Only what shows in the sound itself, such as clipping, it cannot know. "
-        "Of a design (rasp-design(5)) the scene of every stimulus is read so, and a fault that many have is told once. "
-        "A scene or design without fault is reported on standard output as ok. The exit code is the worst of all.",
+    .does = "Reads each scene and says all that is wrong with its text, each fault with its line: unknown keys, wrong "
+            "units, values out of range or at odds with each other, columns that are not there, nothing to compute. If "
+            "nothing is, then the first that is wrong with the rest: files that are missing, damaged or have changed, "
+            "a motion that leaves them. Only what shows in the sound itself, such as clipping, it cannot know. Of a "
+            "design (rasp-design(5)) the scene of every stimulus is read so, and a fault that many have is told once. "
+            "A scene or design without fault is reported on standard output as ok. The exit code is the worst of all.",
     .operands = "SCENE|DESIGN...",
     .least = 1,
     .most = -1,

@@ -1,47 +1,41 @@
-/* See cmd.h: commands of several actions, recipes, scenes with the changes of the command line, help. */
+/* See cmd.h: commands of several actions, recipes, scenes with the changes of the command line; running a command. */
 #include "cmd/cmd.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <gsl/gsl_errno.h>
+#include <jansson.h>
+#include <signal.h>
 #include <stdio.h>
+#include <stdio_ext.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "base/interrupt.h"
+#include "base/lastwords.h"
+#include "base/memory.h"
 #include "base/text.h"
-#include "base/wrap.h"
 #include "cmd/tell.h"
 #include "file/yaml_bytes.h"
 #include "file/yaml_parse.h"
 #include "scene/scene_read.h"
 
-static int count(const struct action *table)
-{
-    int n = 0;
-    while (table[n].name)
-        n++;
-    return n;
-}
-
-/* "info, convert or synth" */
-static const char *all_names(const struct action *table, struct arena *a)
-{
-    const char *list = table[0].name;
-    for (int i = 1, n = count(table); i < n; i++)
-        list = arena_format(a, "%s%s%s", list, i + 1 < n ? ", " : " or ", table[i].name);
-    return list;
-}
-
+/* The action of that name. ERR_USAGE */
 static const struct action *find(const char *command, const struct action *table, struct cmd_call *c, struct err *e)
 {
-    const char *word = c->args.operands[0], **names = ARENA_TAKE(c->arena, const char *, count(table) + 1);
+    const char *word = c->args.operands[0], *names[CMD_ACTIONS + 1] = {NULL}, *list = "";
     for (int i = 0; table[i].name; i++) {
-        names[i] = table[i].name;
         if (!strcmp(word, table[i].name)) return &table[i];
+        names[i] = table[i].name;
+        list = arena_format(c->arena, "%s%s%s", list, i == 0 ? "" : table[i + 1].name ? ", " : " or ", names[i]);
     }
     const char *meant = text_nearest(word, names);
     if (meant)
         err_set(e, ERR_USAGE, "no action '%s'; did you mean '%s'?", word, meant);
     else
-        err_set(e, ERR_USAGE, "no action '%s': write rasp %s %s", word, command, all_names(table, c->arena));
+        err_set(e, ERR_USAGE, "no action '%s': write rasp %s %s", word, command, list);
     return NULL;
 }
 
@@ -71,8 +65,6 @@ int cmd_actions(const char *command, const struct action *table, struct cmd_call
     }
     return action->run(&inner, e);
 }
-
-/* Reading a recipe of surface keys, or a scene: see recipe.h. */
 
 bool cmd_recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err *e)
 {
@@ -143,8 +135,6 @@ bool cmd_spares(const char *output, const char *what, const char *input, const c
                    cure);
 }
 
-/* What several subcommands share: reading a scene with the command line's changes, and --help. */
-
 bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e)
 {
     int n;
@@ -161,57 +151,113 @@ bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struc
 
 /* ------------------------------------------------------------------ options */
 
-static const struct args_option shared[] = {
-    {"diagnostics", 0, "text|json", false,
-     "errors and warnings as text (the default), or as JSON on standard error, one object a line"},
-};
+static const struct args_option shared = {
+    "diagnostics", 0, "text|json", false,
+    "errors and warnings as text (the default), or as JSON on standard error, one object a line"};
 
-enum { SHARED = sizeof shared / sizeof *shared };
-
-bool cmd_shared(const struct args_option *o)
-{
-    for (int i = 0; i < SHARED; i++)
-        if (!strcmp(o->name, shared[i].name)) return true;
-    return false;
-}
+bool cmd_shared(const struct args_option *o) { return !strcmp(o->name, shared.name); }
 
 const struct args_option *cmd_options(const struct command *m, struct arena *a)
 {
     int n = 0;
     while (m->options[n].name)
         n++;
-    struct args_option *all = ARENA_TAKE(a, struct args_option, n + SHARED + 1);
+    struct args_option *all = ARENA_TAKE(a, struct args_option, n + 2);
     if (n) memcpy(all, m->options, (size_t)n * sizeof *all);
-    memcpy(all + n, shared, sizeof shared);
+    all[n] = shared;
     return all;
 }
 
-/* ------------------------------------------------------------------ help */
+/* ------------------------------------------------------------------ running a command */
 
-static void print_option(const struct args_option *o)
+/* What was printed has to have arrived: a full disk or a closed pipe is an error, unless there is a worse one already.
+ */
+static int close_stdout(int code)
 {
-    char head[96], letter[8] = "    ";
-    if (o->letter) snprintf(letter, sizeof letter, "-%c, ", o->letter);
-    int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, o->name, o->value ? "=" : "", o->value ? o->value : "");
-    printf("%-26s  ", head);
-    wrap_print(stdout, o->help, n > 26 ? n + 2 : 28, "                            ");
+    int failed = ferror(stdout);
+    if (failed && __fpending(stdout) == 0)
+        putchar('\n'); /* else nothing is left that would say why it cannot be written */
+    int pending = __fpending(stdout) != 0;
+    errno = 0;
+    if (fclose(stdout) != 0) failed |= pending || errno != EBADF;
+    if (!failed) return code;
+    fprintf(stderr, "rasp: error: cannot write to standard output: %s\n",
+            errno ? strerror(errno) : "what was printed is not complete");
+    return code ? code : ERR_IO;
 }
 
-void cmd_print_help(const struct command *m)
+int cmd_complain(const char *command, const struct err *e)
 {
-    static const struct args_option help = {"help", 'h', NULL, false, "this text"};
-    printf("rasp %s: %s\n\nExamples:\n", m->name, m->summary);
-    for (const char *p = m->examples; *p;) {
-        size_t n = strcspn(p, "\n");
-        printf("  %.*s\n", (int)n, p);
-        p += n + (p[n] == '\n');
+    char line[sizeof e->text + 64];
+    snprintf(line, sizeof line, "rasp%s%s: error: %s\n", *command ? " " : "", command, e->text);
+    tell_paint(stderr, line);
+    if (e->kind == ERR_USAGE) fprintf(stderr, "Try: rasp %s%s--help\n", command, *command ? " " : "");
+    return (int)e->kind;
+}
+
+/* Known before anything is taken: --diagnostics=json, or two words. */
+static bool asks_json(int argc, char **argv)
+{
+    for (int i = 0; i < argc; i++)
+        if (!strcmp(argv[i], "--diagnostics=json") ||
+            (!strcmp(argv[i], "--diagnostics") && i + 1 < argc && !strcmp(argv[i + 1], "json")))
+            return true;
+    return false;
+}
+
+int cmd_run(const struct command *m, int argc, char **argv)
+{
+    bool json = asks_json(argc, argv);
+    if (json) lastwords_as_json();
+    struct err e = {0};
+    struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
+    if (json) tell_as_json(&c);
+    int code = 0;
+    if (!args_parse(&c.args, cmd_options(m, c.arena), argc, argv, c.arena, &e))
+        code = (int)e.kind;
+    else if (c.args.help)
+        commands_print_help(m);
+    else if (!tell_begin(&c, &e))
+        code = (int)e.kind;
+    else if (c.args.n_operands < m->least)
+        err_set(&e, ERR_USAGE, "%s missing; usage: rasp %s [OPTION]... %s",
+                m->least > 1 ? "operands are" : "an operand is", m->name, m->operands);
+    else if (m->most >= 0 && c.args.n_operands > m->most)
+        err_set(&e, ERR_USAGE, "extra operand '%s'; usage: rasp %s [OPTION]... %s", c.args.operands[m->most], m->name,
+                m->operands);
+    else
+        code = m->run(&c, &e);
+    tell_end(&c);
+    if (e.kind == ERR_INTERRUPTED) interrupt_tell();
+    if (e.kind) {
+        tell_error(&c, m->name, &e);
+        code = (int)e.kind;
     }
-    printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
-    wrap_print(stdout, m->does, 0, "");
-    printf("\nOptions:\n");
-    struct arena *a = arena_open();
-    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
-        print_option(o);
-    arena_close(a);
-    print_option(&help);
+    arena_close(c.arena);
+    return code;
+}
+
+/* GSL's own way with errors, but for one: no memory left is no fault of the program. */
+static void gsl_complains(const char *reason, const char *file, int line, int code)
+{
+    if (code == GSL_ENOMEM) memory_out("GSL: %s", reason);
+    fprintf(stderr, "gsl: %s:%d: %s\n", file, line, reason);
+    abort();
+}
+
+int cmd_main(int (*run)(int argc, char **argv), int argc, char **argv)
+{
+    /* Where stdin, stdout or stderr is closed, an output file would take its number and messages would land in it.
+   Reading this end of /dev/null gives nothing and writing it fails. */
+    int fd;
+    do
+        fd = open("/dev/null", O_RDONLY);
+    while (fd >= 0 && fd <= STDERR_FILENO);
+    if (fd >= 0) close(fd);
+    interrupt_catch();
+    gsl_set_error_handler(gsl_complains);
+    json_set_alloc_funcs(memory_take, free); /* what jansson gets no memory for is else left out */
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a file that grows past its limit is a write error, exit 74 */
+    return close_stdout(run(argc, argv));
 }

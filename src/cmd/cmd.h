@@ -8,9 +8,9 @@
 #include "base/arena.h"
 #include "base/args.h"
 #include "base/err.h"
-#include "cmd/cmd.h"
 #include "scene/scene.h"
 #include <stdbool.h>
+#include <stdio.h>
 
 struct cmd_tell; /* cmd/tell.c */
 
@@ -26,10 +26,11 @@ struct action; /* below */
 
 struct command {
     const char *name;
-    const char *summary;               /* half a line for the list of commands, no full stop          */
-    const char *does;                  /* a paragraph or two for --help                               */
-    const char *operands;              /* as in the usage line: "SCENE...", "A B"; "": none           */
-    int least, most;                   /* number of operands; most < 0: any number                    */
+    const char *group;    /* title of the group that begins with it in the list of commands; NULL: none    */
+    const char *summary;  /* half a line for the list of commands, no full stop          */
+    const char *does;     /* a paragraph or two for --help                               */
+    const char *operands; /* as in the usage line: "SCENE...", "A B"; "": none           */
+    int least, most;      /* number of operands; most < 0: any number                    */
     const struct args_option *options; /* its own (cmd_options has the rest); ends with {0}; never NULL */
     const struct action *actions;      /* what the first operand may be, ends with name NULL; NULL: no such command */
     const char *examples;              /* shell lines, each ending in \n; a line may end in # comment */
@@ -58,10 +59,7 @@ const struct args_option *cmd_options(const struct command *m, struct arena *a);
  * and a summary. */
 bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struct err *e);
 
-/* --help of one command: summary, examples, usage, options. */
-void cmd_print_help(const struct command *m);
-
-enum { CMD_ACTION_OPTIONS = 40 };
+enum { CMD_ACTIONS = 8, CMD_ACTION_OPTIONS = 40 };
 
 struct action {
     const char *name;
@@ -90,5 +88,31 @@ const char *cmd_recipe_remark(struct cmd_call *c, const char *file, const char *
 /* The output is not the input, under whatever name (same device and inode; NULL: none is read or written). what: "the
  * table"; cure: "-o OTHER.csv". ERR_CREATE */
 bool cmd_spares(const char *output, const char *what, const char *input, const char *cure, struct err *e);
+
+/* The whole of main: standard streams that are closed are filled, signals are set, `run` is called, stdout is closed.
+ * Returns the exit code. */
+int cmd_main(int (*run)(int argc, char **argv), int argc, char **argv);
+
+/* Runs a command with the words behind its name, and tells of its error. Returns the exit code. */
+int cmd_run(const struct command *m, int argc, char **argv);
+
+/* Prints "rasp COMMAND: error: text" ("": of rasp itself) and returns the exit code. */
+int cmd_complain(const char *command, const struct err *e);
+
+/* commands.c: the table of subcommands, in groups as the usage shows them. */
+extern const struct command *const commands_table[];   /* in the order of the usage, ends with NULL */
+const struct command *commands_find(const char *name); /* NULL: none */
+const char *commands_nearest(const char *word);        /* NULL: nothing like it */
+void commands_print(FILE *f);                          /* the usage with all commands */
+void commands_print_man(FILE *f);                      /* the commands and their options, in mdoc */
+void commands_print_help(const struct command *m);     /* --help: summary, examples, usage, options */
+
+/* version.c: `rasp --version`, and with --verbose what a bug report needs. */
+void version_print(bool verbose);
+/* Prints if the words ask for no more than that: --version and, before or behind it, --verbose (-V, -v). False: they do
+ * not. */
+bool version_asked(int argc, char **argv);
+/* "0.1.0", and of what state of the source the program was built: "f650ae05d2ab"; "unknown". */
+extern const char version_number[], version_revision[];
 
 #endif

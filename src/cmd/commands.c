@@ -1,49 +1,31 @@
 /* Every subcommand, in the groups and the order of the usage. */
-#include "cmd/commands.h"
+#include "cmd/cmd.h"
 
 #include <ctype.h>
 #include <string.h>
 
 #include "base/text.h"
+#include "base/wrap.h"
 
-struct group {
-    const char *title;
-    const struct command *members[6];
-};
-
-static const struct group groups[] = {
-    {"Sound from scenes", {&render_command, &plan_command}},
-    {"Sets of stimuli", {&batch_command, &merge_command}},
-    {"Writing scenes", {&new_command, &explain_command, &check_command}},
-    {"Looking at results", {&compare_command, &golden_command, &plot_command, &accuracy_command, &analyse_command}},
-    {"Surfaces and objects", {&surface_command, &modes_command}},
-    {"The shell", {&completion_command}},
-    {NULL, {NULL}},
-};
+const struct command *const commands_table[] = {
+    &render_command,  &plan_command,    &batch_command,      &merge_command,
+    &new_command,     &explain_command, &check_command,      &compare_command,
+    &golden_command,  &plot_command,    &accuracy_command,   &analyse_command,
+    &surface_command, &modes_command,   &completion_command, NULL};
 
 const struct command *commands_find(const char *name)
 {
-    for (const struct group *g = groups; g->title; g++)
-        for (int i = 0; g->members[i]; i++)
-            if (!strcmp(g->members[i]->name, name)) return g->members[i];
-    return NULL;
-}
-
-const struct command *commands_at(int i)
-{
-    for (const struct group *g = groups; g->title; g++)
-        for (int k = 0; g->members[k]; k++)
-            if (i-- == 0) return g->members[k];
-    return NULL;
+    const struct command *const *m = commands_table;
+    while (*m && strcmp((*m)->name, name) != 0)
+        m++;
+    return *m;
 }
 
 const char *commands_nearest(const char *word)
 {
-    const char *names[33] = {"help"};
-    int n = 1;
-    for (const struct group *g = groups; g->title; g++)
-        for (int i = 0; g->members[i] && n < 32; i++)
-            names[n++] = g->members[i]->name;
+    const char *names[sizeof commands_table / sizeof *commands_table + 1] = {"help"};
+    for (int i = 0; commands_table[i]; i++)
+        names[i + 1] = commands_table[i]->name;
     return text_nearest(word, names);
 }
 
@@ -56,10 +38,9 @@ void commands_print(FILE *f)
           "  rasp explain motion.rate         # what a key means, its unit, range and default\n\n"
           "Usage: rasp COMMAND [OPTION]... [OPERAND]...\n",
           f);
-    for (const struct group *g = groups; g->title; g++) {
-        fprintf(f, "\n%s:\n", g->title);
-        for (int i = 0; g->members[i]; i++)
-            fprintf(f, "  %-10s %s\n", g->members[i]->name, g->members[i]->summary);
+    for (const struct command *const *m = commands_table; *m; m++) {
+        if ((*m)->group) fprintf(f, "\n%s:\n", (*m)->group);
+        fprintf(f, "  %-10s %s\n", (*m)->name, (*m)->summary);
     }
     fputs("\n`rasp help COMMAND` explains a command; `rasp --version --verbose` belongs in bug reports.\n"
           "Manual: man rasp, man rasp-scene, man rasp-design\n",
@@ -95,10 +76,39 @@ static void man_command(FILE *f, const struct command *m)
 
 void commands_print_man(FILE *f)
 {
-    for (const struct group *g = groups; g->title; g++) {
-        fprintf(f, ".Ss %s\n.Bl -tag -width Ds\n", g->title);
-        for (int i = 0; g->members[i]; i++)
-            man_command(f, g->members[i]);
-        fputs(".El\n", f);
+    for (const struct command *const *m = commands_table; *m; m++) {
+        if ((*m)->group) fprintf(f, "%s.Ss %s\n.Bl -tag -width Ds\n", m == commands_table ? "" : ".El\n", (*m)->group);
+        man_command(f, *m);
     }
+    fputs(".El\n", f);
+}
+
+/* ------------------------------------------------------------------ help */
+
+static void print_option(const struct args_option *o)
+{
+    char head[96], letter[8] = "    ";
+    if (o->letter) snprintf(letter, sizeof letter, "-%c, ", o->letter);
+    int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, o->name, o->value ? "=" : "", o->value ? o->value : "");
+    printf("%-26s  ", head);
+    wrap_print(stdout, o->help, n > 26 ? n + 2 : 28, "                            ");
+}
+
+void commands_print_help(const struct command *m)
+{
+    static const struct args_option help = {"help", 'h', NULL, false, "this text"};
+    printf("rasp %s: %s\n\nExamples:\n", m->name, m->summary);
+    for (const char *p = m->examples; *p;) {
+        size_t n = strcspn(p, "\n");
+        printf("  %.*s\n", (int)n, p);
+        p += n + (p[n] == '\n');
+    }
+    printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
+    wrap_print(stdout, m->does, 0, "");
+    printf("\nOptions:\n");
+    struct arena *a = arena_open();
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
+        print_option(o);
+    arena_close(a);
+    print_option(&help);
 }

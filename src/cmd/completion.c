@@ -10,42 +10,33 @@
 
 #include "base/arena.h"
 #include "cmd/cmd.h"
-#include "cmd/commands.h"
+#include "cmd/new.h"
 #include "cmd/plot.h"
-#include "cmd/starters.h"
 #include "scene/keys_text.h"
 
-enum { COMPLETION_WORDS = 63, COMPLETION_SUFFIXES = 7 };
+enum { WORDS = 63, SUFFIXES = 7 };
 
 /* What may stand in a place; all false: anything, of which nothing is known. */
-struct completion_place {
-    bool files, folders;                           /* any file; folders                                           */
-    bool settings, names;                          /* KEY=VALUE as of --set; what `rasp explain` takes            */
-    const char *suffixes[COMPLETION_SUFFIXES + 1]; /* files that end so ("yaml"); NULL-terminated                 */
-    const char *words[COMPLETION_WORDS + 1];       /* NULL-terminated                                             */
-    bool list;                                     /* several of the words, with commas between                   */
+struct place {
+    bool files, folders;                /* any file; folders                                           */
+    bool settings, names;               /* KEY=VALUE as of --set; what `rasp explain` takes            */
+    const char *suffixes[SUFFIXES + 1]; /* files that end so ("yaml"); NULL-terminated                 */
+    const char *words[WORDS + 1];       /* NULL-terminated                                             */
+    bool list;                          /* several of the words, with commas between                   */
 };
 
 /* A key that --set takes, and its words if it has any. */
-struct completion_setting {
+struct setting {
     const char *path;
     const char *const *words; /* NULL-terminated; NULL: none */
 };
 
-static void completion_bash(FILE *f, struct arena *a);
-static void completion_zsh(FILE *f, struct arena *a);
-static void completion_fish(FILE *f, struct arena *a);
-
-static const char *const any_file[] = {"FILE", "A", "B", "IN", "OUT", "RECORDING", "MESH", "PREFIX", NULL};
-static const char *const folder[] = {"FOLDER", "FOLDER/", "DIR", "DIR/", NULL};
-static const char *const yaml_file[] = {"SCENE", "RECIPE", "DESIGN", NULL};
-static const char *const key_name[] = {"KEY", "SECTION", NULL};
-
+/* Is the word one of `list`, which ends with NULL? */
 static bool is_one(const char *word, const char *const *list)
 {
-    for (; *list; list++)
-        if (!strcmp(*list, word)) return true;
-    return false;
+    while (*list && strcmp(*list, word) != 0)
+        list++;
+    return *list;
 }
 
 static void add(const char **list, int room, const char *word)
@@ -56,65 +47,80 @@ static void add(const char **list, int room, const char *word)
     if (n < room) list[n] = word;
 }
 
-static bool is_word_list(const char *text)
+/* What the text stands for: the value of an option, or operands. */
+static struct place place_of(const char *text, struct arena *a)
 {
-    for (const char *p = text; *p; p++)
-        if (isupper((unsigned char)*p) || *p == ' ') return false;
-    return strchr(text, '|');
-}
-
-static struct completion_place place_of(const char *text, struct arena *a)
-{
-    struct completion_place p = {.list = strstr(text, ",...") != NULL};
-    bool words = is_word_list(text);
+    static const char *const any_file[] = {"FILE", "A", "B", "IN", "OUT", "RECORDING", "MESH", "PREFIX", NULL},
+                             *const folder[] = {"FOLDER", "FOLDER/", "DIR", "DIR/", NULL},
+                             *const yaml_file[] = {"SCENE", "RECIPE", "DESIGN", NULL},
+                             *const key_name[] = {"KEY", "SECTION", NULL};
+    struct place p = {.list = strstr(text, ",...") != NULL};
+    bool words = strchr(text, '|');
+    for (const char *s = text; *s; s++)
+        words = words && !isupper((unsigned char)*s) && *s != ' ';
     for (const char *s = text; *s;) {
         size_t n = strcspn(s, " |[],;:()"), end = n;
         while (end > 3 && !strncmp(s + end - 3, "...", 3))
             end -= 3;
-        const char *token = arena_format(a, "%.*s", (int)end, s);
-        if (words && *token)
-            add(p.words, COMPLETION_WORDS, token);
-        else {
-            const char *dot = strchr(token, '.');
-            p.settings = p.settings || !strcmp(token, "PATH=VALUE");
-            p.names = p.names || is_one(token, key_name);
-            for (int k = 0; k < PLOT_PANELS && !strcmp(token, "PANEL"); k++)
-                add(p.words, COMPLETION_WORDS, plot_panels_words[k]);
-            p.files = p.files || is_one(token, any_file);
-            p.folders = p.folders || is_one(token, folder);
-            if (dot && isupper((unsigned char)token[0]) && islower((unsigned char)dot[1]))
-                add(p.suffixes, COMPLETION_SUFFIXES, dot + 1);
-            if (is_one(token, yaml_file) || (dot && !strcmp(dot, ".yaml"))) {
-                add(p.suffixes, COMPLETION_SUFFIXES, "yaml");
-                add(p.suffixes, COMPLETION_SUFFIXES, "yml");
-            }
-        }
+        const char *token = arena_format(a, "%.*s", (int)end, s), *dot = strchr(token, '.');
         s += n + !!s[n];
+        if (words) {
+            if (*token) add(p.words, WORDS, token);
+            continue;
+        }
+        p.settings = p.settings || !strcmp(token, "PATH=VALUE");
+        p.names = p.names || is_one(token, key_name);
+        for (int k = 0; k < PLOT_PANELS && !strcmp(token, "PANEL"); k++)
+            add(p.words, WORDS, plot_panels_words[k]);
+        p.files = p.files || is_one(token, any_file);
+        p.folders = p.folders || is_one(token, folder);
+        if (dot && isupper((unsigned char)token[0]) && islower((unsigned char)dot[1]))
+            add(p.suffixes, SUFFIXES, dot + 1);
+        if (is_one(token, yaml_file) || (dot && !strcmp(dot, ".yaml"))) {
+            add(p.suffixes, SUFFIXES, "yaml");
+            add(p.suffixes, SUFFIXES, "yml");
+        }
     }
     return p;
 }
 
-/* The value of an option; the operands of a command, or of an action of it (NULL: of the command). */
-static struct completion_place completion_value(const struct args_option *o, struct arena *a)
+/* The operands of a command, or of an action of it (NULL: of the command). */
+static struct place operands_of(const struct command *m, const struct action *action, struct arena *a)
 {
-    return place_of(o->value, a);
-}
-
-static struct completion_place completion_operands(const struct command *m, const struct action *action,
-                                                   struct arena *a)
-{
-    struct completion_place p = place_of(action ? action->operands : m->operands, a);
-    for (const struct starter *s = starters_table; m == &new_command && s->name; s++)
-        add(p.words, COMPLETION_WORDS, s->name);
+    struct place p = place_of(action ? action->operands : m->operands, a);
+    for (const struct new_starter *s = new_starters; m == &new_command && s->name; s++)
+        add(p.words, WORDS, s->name);
     return p;
 }
 
+/* The command itself (NULL), then its actions, then NULL. */
+static const struct action *next_action(const struct command *m, const struct action *x)
+{
+    x = x ? x + 1 : m->actions;
+    return x && x->name ? x : NULL;
+}
+
 /* Does the action (NULL: all do) take the option? */
-static bool completion_takes(const struct action *action, const struct args_option *o)
+static bool takes(const struct action *action, const struct args_option *o)
 {
     for (int i = 0; action && i < CMD_ACTION_OPTIONS && action->options[i]; i++)
         if (!strcmp(action->options[i], o->name)) return true;
     return !action || cmd_shared(o);
+}
+
+static void put_list(FILE *f, const char *between, const char *const *words)
+{
+    for (int i = 0; words && words[i]; i++)
+        fprintf(f, "%s%s", i ? between : "", words[i]);
+}
+
+/* The names of commands, or of a command's actions. */
+static void put_names(FILE *f, const struct command *m)
+{
+    for (int i = 0; !m && commands_table[i]; i++)
+        fprintf(f, "%s%s", i ? " " : "", commands_table[i]->name);
+    for (const struct action *x = NULL; m && (x = next_action(m, x));)
+        fprintf(f, "%s%s", x == m->actions ? "" : " ", x->name);
 }
 
 static const char *const *words_of(const struct key *k, struct arena *a)
@@ -128,28 +134,31 @@ static const char *const *words_of(const struct key *k, struct arena *a)
     return words;
 }
 
-/* ends with path NULL */
-static const struct completion_setting *completion_settings(struct arena *a)
+/* ends with path NULL; keys: the paths alone */
+static const struct setting *settings(const char ***keys, struct arena *a)
 {
     int n = 0, most = 4;
     for (const struct key *k = keys_table; k->path; k++)
         most++;
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         most++;
-    struct completion_setting *all = ARENA_TAKE(a, struct completion_setting, most);
+    struct setting *all = ARENA_TAKE(a, struct setting, most);
     for (const struct key *k = keys_table; k->path; k++)
-        all[n++] = (struct completion_setting){k->path, words_of(k, a)};
-    all[n++] = (struct completion_setting){"accuracy", keys_presets};
-    all[n++] = (struct completion_setting){"accuracy.preset", keys_presets};
-    all[n++] = (struct completion_setting){"accuracy.error", NULL};
+        all[n++] = (struct setting){k->path, words_of(k, a)};
+    all[n++] = (struct setting){"accuracy", keys_presets};
+    all[n++] = (struct setting){"accuracy.preset", keys_presets};
+    all[n++] = (struct setting){"accuracy.error", NULL};
     for (const struct key_knob *k = keys_knobs; k->name; k++)
-        all[n++] = (struct completion_setting){arena_format(a, "accuracy.%s", k->name), NULL};
+        all[n++] = (struct setting){arena_format(a, "accuracy.%s", k->name), NULL};
+    *keys = ARENA_TAKE(a, const char *, n + 1);
+    for (int i = 0; i < n; i++)
+        (*keys)[i] = all[i].path;
     return all;
 }
 
 /* The text between single quotes, each character of `risky` with a backslash before it, each single quote as `quote`
  * has it. */
-static const char *completion_quoted(const char *text, const char *risky, const char *quote, struct arena *a)
+static const char *quoted_as(const char *text, const char *risky, const char *quote, struct arena *a)
 {
     size_t longest = strlen(quote) > 2 ? strlen(quote) : 2, n = 0;
     char *out = arena_take(a, longest * strlen(text) + 3, 1);
@@ -167,39 +176,6 @@ static const char *completion_quoted(const char *text, const char *risky, const 
     out[n] = '\0';
     return out;
 }
-
-static int completion_run(struct cmd_call *c, struct err *e)
-{
-    const char *shell = c->args.operands[0];
-    if (!strcmp(shell, "bash"))
-        completion_bash(stdout, c->arena);
-    else if (!strcmp(shell, "zsh"))
-        completion_zsh(stdout, c->arena);
-    else if (!strcmp(shell, "fish"))
-        completion_fish(stdout, c->arena);
-    else
-        err_set(e, ERR_USAGE, "no completion for '%s': write bash, zsh or fish", shell);
-    return (int)e->kind;
-}
-
-static const struct args_option options[] = {{0}};
-
-const struct command completion_command = {
-    .name = "completion",
-    .summary = "prints a script that completes rasp's words in a shell",
-    .does = "Completed are commands, actions, options, the words that options take, files by their endings, keys of "
-            "scenes after --set (and their words behind the "
-            "equals sign) and after rasp explain. `make install` puts the three scripts where the shells find them; "
-            "without it, load one as the examples show.",
-    .operands = "bash|zsh|fish",
-    .least = 1,
-    .most = 1,
-    .options = options,
-    .examples = "source <(rasp completion bash)                               # bash: in ~/.bashrc\n"
-                "rasp completion zsh > ~/.zfunc/_rasp                         # zsh: a folder of $fpath\n"
-                "rasp completion fish > ~/.config/fish/completions/rasp.fish  # fish\n",
-    .run = completion_run,
-};
 
 /* The completion for bash, 4.4 or later. bash breaks words at =, unless COMP_WORDBREAKS says otherwise: the script
    glues them, and takes from what it answers all up to the last = of the word that is completed. */
@@ -291,136 +267,97 @@ static const char body[] =
     "}\n"
     "complete -F _rasp rasp\n";
 
-static void put_words(FILE *f, const char *const *words)
+static void bash_place(FILE *f, struct place p)
 {
-    for (int i = 0; words && words[i]; i++)
-        fprintf(f, "%s%s", i ? " " : "", words[i]);
-}
-
-static void put_place(FILE *f, const struct completion_place *p)
-{
-    const char *gap = "";
-    const char *const rules[] = {p->files ? "@files" : NULL, p->folders ? "@folders" : NULL,
-                                 p->settings ? "@settings" : NULL, p->names ? "@names" : NULL};
-    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
-        if (rules[i]) {
-            fprintf(f, "%s%s", gap, rules[i]);
-            gap = " ";
-        }
-    for (int i = 0; !p->files && p->suffixes[i]; i++, gap = " ")
-        fprintf(f, "%s@.%s", gap, p->suffixes[i]);
-    if (!p->files && !p->folders && p->suffixes[0]) fputs(" @folders", f);
-    if (p->list && p->words[0]) {
+    const char *rules[6 + SUFFIXES] = {NULL};
+    int n = 0;
+    if (p.files) rules[n++] = "@files";
+    if (p.folders) rules[n++] = "@folders";
+    if (p.settings) rules[n++] = "@settings";
+    if (p.names) rules[n++] = "@names";
+    put_list(f, " ", rules);
+    const char *gap = n ? " " : "";
+    for (int i = 0; !p.files && p.suffixes[i]; i++, gap = " ")
+        fprintf(f, "%s@.%s", gap, p.suffixes[i]);
+    if (!p.files && !p.folders && p.suffixes[0]) fputs(" @folders", f);
+    if (p.list && p.words[0]) {
         fprintf(f, "%s@list", gap);
         gap = " ";
     }
-    fputs(p->words[0] ? gap : "", f);
-    put_words(f, p->words);
-}
-
-static void put_options(FILE *f, const struct command *m, const struct action *action, struct arena *a)
-{
-    fprintf(f, "        '%s%s%s') echo '", m->name, action ? " " : "", action ? action->name : "");
-    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
-        if (completion_takes(action, o)) {
-            if (o->letter) fprintf(f, "-%c ", o->letter);
-            fprintf(f, "--%s ", o->name);
-        }
-    fputs("-h --help' ;;\n", f);
-}
-
-static void put_operands(FILE *f, const struct command *m, const struct action *action, struct arena *a)
-{
-    struct completion_place p = completion_operands(m, action, a);
-    fprintf(f, "        '%s%s%s') echo '", m->name, action ? " " : "", action ? action->name : "");
-    put_place(f, &p);
+    fputs(p.words[0] ? gap : "", f);
+    put_list(f, " ", p.words);
     fputs("' ;;\n", f);
 }
 
-static void put_values(FILE *f, const struct command *m, struct arena *a)
+static void bash_case(FILE *f, const struct command *m, const struct action *x)
 {
-    for (const struct args_option *o = cmd_options(m, a); o->name; o++) {
-        if (!o->value) continue;
-        struct completion_place p = completion_value(o, a);
-        fprintf(f, "        '%s --%s'", m->name, o->name);
-        if (o->letter) fprintf(f, " | '%s -%c'", m->name, o->letter);
-        fputs(") echo '", f);
-        put_place(f, &p);
-        fputs("' ;;\n", f);
-    }
+    fprintf(f, "        '%s%s%s') echo '", m->name, x ? " " : "", x ? x->name : "");
 }
 
-static void open_case(FILE *f, const char *name, const char *word)
+static void bash(FILE *f, struct arena *a)
 {
-    fprintf(f, "%s()\n{\n    case %s in\n", name, word);
-}
-
-static void close_case(FILE *f, const char *last) { fprintf(f, "        *) %s ;;\n    esac\n}\n", last); }
-
-static void put_all_operands(FILE *f, struct arena *a)
-{
-    open_case(f, "_rasp_operands", "$1");
-    for (int i = 0; commands_at(i); i++) {
-        const struct command *m = commands_at(i);
-        if (!m->actions) put_operands(f, m, NULL, a);
-        for (const struct action *x = m->actions; x && x->name; x++)
-            put_operands(f, m, x, a);
-    }
-    fputs("        help) echo \"$_rasp_commands\" ;;\n", f);
-    close_case(f, ":");
-}
-
-static void put_all_options(FILE *f, struct arena *a)
-{
-    open_case(f, "_rasp_options", "$1");
-    for (int i = 0; commands_at(i); i++) {
-        const struct command *m = commands_at(i);
-        put_options(f, m, NULL, a);
-        for (const struct action *x = m->actions; x && x->name; x++)
-            put_options(f, m, x, a);
-    }
-    fputs("        '') echo '-h --help -V --version -v --verbose' ;;\n", f);
-    close_case(f, ":");
-}
-
-static void completion_bash(FILE *f, struct arena *a)
-{
-    fputs("# Completion of rasp for bash, made by `rasp completion bash`.\n", f);
-    fputs("_rasp_commands='", f);
-    for (int i = 0; commands_at(i); i++)
-        fprintf(f, "%s ", commands_at(i)->name);
-    fputs("help'\n", f);
-    const struct completion_setting *s = completion_settings(a);
-    fputs("_rasp_keys='", f);
-    for (int i = 0; s[i].path; i++)
-        fprintf(f, "%s%s", i ? " " : "", s[i].path);
+    static const char begin[] = "%s()\n{\n    case %s in\n", end[] = "        *) %s ;;\n    esac\n}\n";
+    const char **keys;
+    fputs("# Completion of rasp for bash, made by `rasp completion bash`.\n_rasp_commands='", f);
+    put_names(f, NULL);
+    fputs(" help'\n_rasp_keys='", f);
+    const struct setting *s = settings(&keys, a);
+    put_list(f, " ", keys);
     fputs("'\n_rasp_names='", f);
-    put_words(f, keys_text_names(a));
+    put_list(f, " ", keys_text_names(a));
     fputs("'\n", f);
-    open_case(f, "_rasp_words", "$1");
+    fprintf(f, begin, "_rasp_words", "$1");
     for (; s->path; s++)
         if (s->words) {
             fprintf(f, "        %s) echo '", s->path);
-            put_words(f, s->words);
+            put_list(f, " ", s->words);
             fputs("' ;;\n", f);
         }
-    close_case(f, ":");
-    open_case(f, "_rasp_actions", "$1");
-    for (int i = 0; commands_at(i); i++)
-        if (commands_at(i)->actions) {
-            fprintf(f, "        %s) echo '", commands_at(i)->name);
-            for (const struct action *x = commands_at(i)->actions; x->name; x++)
-                fprintf(f, "%s%s", x == commands_at(i)->actions ? "" : " ", x->name);
+    fprintf(f, end, ":");
+    fprintf(f, begin, "_rasp_actions", "$1");
+    for (const struct command *const *m = commands_table; *m; m++)
+        if ((*m)->actions) {
+            fprintf(f, "        %s) echo '", (*m)->name);
+            put_names(f, *m);
             fputs("' ;;\n", f);
         }
-    close_case(f, ":");
-    put_all_options(f, a);
-    put_all_operands(f, a);
+    fprintf(f, end, ":");
+    fprintf(f, begin, "_rasp_options", "$1");
+    for (const struct command *const *m = commands_table; *m; m++) {
+        const struct action *x = NULL;
+        do {
+            bash_case(f, *m, x);
+            for (const struct args_option *o = cmd_options(*m, a); o->name; o++) {
+                if (!takes(x, o)) continue;
+                if (o->letter) fprintf(f, "-%c ", o->letter);
+                fprintf(f, "--%s ", o->name);
+            }
+            fputs("-h --help' ;;\n", f);
+        } while ((x = next_action(*m, x)));
+    }
+    fputs("        '') echo '-h --help -V --version -v --verbose' ;;\n", f);
+    fprintf(f, end, ":");
+    fprintf(f, begin, "_rasp_operands", "$1");
+    for (const struct command *const *m = commands_table; *m; m++) {
+        const struct action *x = (*m)->actions;
+        do {
+            bash_case(f, *m, x);
+            bash_place(f, operands_of(*m, x, a));
+        } while (x && (x = next_action(*m, x)));
+    }
+    fputs("        help) echo \"$_rasp_commands\" ;;\n", f);
+    fprintf(f, end, ":");
     fputs("# _rasp_value COMMAND OPTION: what the option takes; exit code 1: nothing.\n", f);
-    open_case(f, "_rasp_value", "\"$1 $2\"");
-    for (int i = 0; commands_at(i); i++)
-        put_values(f, commands_at(i), a);
-    close_case(f, "return 1");
+    fprintf(f, begin, "_rasp_value", "\"$1 $2\"");
+    for (const struct command *const *m = commands_table; *m; m++)
+        for (const struct args_option *o = cmd_options(*m, a); o->name; o++) {
+            if (!o->value) continue;
+            fprintf(f, "        '%s --%s'", (*m)->name, o->name);
+            if (o->letter) fprintf(f, " | '%s -%c'", (*m)->name, o->letter);
+            fputs(") echo '", f);
+            bash_place(f, place_of(o->value, a));
+        }
+    fprintf(f, end, "return 1");
     fputs(body, f);
 }
 
@@ -461,109 +398,96 @@ static const char tail[] =
     "}\n"
     "_rasp \"$@\"\n";
 
-static const char *quoted(const char *text, struct arena *a) { return completion_quoted(text, "", "'\\''", a); }
-
 /* In a specification of _arguments. */
 static const char *escaped(const char *text, struct arena *a)
 {
-    const char *q = completion_quoted(text, "[]:\\", "'\\''", a);
+    const char *q = quoted_as(text, "[]:\\", "'\\''", a);
     return arena_format(a, "%.*s", (int)strlen(q) - 2, q + 1);
 }
 
 /* ":message:action" of _arguments. */
-static void put_action(FILE *f, const char *message, const struct completion_place *p, struct arena *a)
+static void put_action(FILE *f, const char *message, struct place p, struct arena *a)
 {
     fprintf(f, ":%s:", escaped(message, a));
-    if (p->settings)
+    if (p.settings)
         fputs("_rasp_setting", f);
-    else if (p->words[0]) {
-        fputs(p->list ? "_values -s , word " : "(", f);
-        for (int i = 0; p->words[i]; i++)
-            fprintf(f, "%s%s", i ? " " : "", p->words[i]);
-        fputs(p->list ? "" : ")", f);
-    } else if (p->names)
+    else if (p.words[0]) {
+        fputs(p.list ? "_values -s , word " : "(", f);
+        put_list(f, " ", p.words);
+        fputs(p.list ? "" : ")", f);
+    } else if (p.names)
         fputs("_rasp_name", f);
-    else if (p->files)
+    else if (p.files)
         fputs("_files", f);
-    else if (p->suffixes[0]) {
+    else if (p.suffixes[0]) {
         fputs("_files -g \"*.(", f);
-        for (int i = 0; p->suffixes[i]; i++)
-            fprintf(f, "%s%s", i ? "|" : "", p->suffixes[i]);
+        put_list(f, "|", p.suffixes);
         fputs(")(-.)\"", f);
-    } else if (p->folders)
+    } else if (p.folders)
         fputs("_files -/", f);
-}
-
-static void put_option(FILE *f, const struct args_option *o, struct arena *a)
-{
-    const char *plus = o->value ? "+" : "", *equals = o->value ? "=" : "";
-    fputs(" \\\n        ", f);
-    if (o->letter && o->many)
-        fprintf(f, "'*'{-%c%s,--%s%s}'[%s]", o->letter, plus, o->name, equals, escaped(o->help, a));
-    else if (o->letter)
-        fprintf(f, "'(-%c --%s)'{-%c%s,--%s%s}'[%s]", o->letter, o->name, o->letter, plus, o->name, equals,
-                escaped(o->help, a));
-    else
-        fprintf(f, "'%s--%s%s[%s]", o->many ? "*" : "", o->name, equals, escaped(o->help, a));
-    if (o->value) {
-        struct completion_place p = completion_value(o, a);
-        put_action(f, o->value, &p, a);
-    }
     fputc('\'', f);
 }
 
 static void put_arguments(FILE *f, const struct command *m, const struct action *action, struct arena *a)
 {
-    struct completion_place p = completion_operands(m, action, a);
     const char *operands = action ? action->operands : m->operands;
     fprintf(f, "    _arguments -s -S : '(-h --help)'{-h,--help}'[this command]'");
-    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
-        if (completion_takes(action, o)) put_option(f, o, a);
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++) {
+        if (!takes(action, o)) continue;
+        const char *plus = o->value ? "+" : "", *equals = o->value ? "=" : "", *help = escaped(o->help, a);
+        fputs(" \\\n        ", f);
+        if (o->letter && o->many)
+            fprintf(f, "'*'{-%c%s,--%s%s}'[%s]", o->letter, plus, o->name, equals, help);
+        else if (o->letter)
+            fprintf(f, "'(-%c --%s)'{-%c%s,--%s%s}'[%s]", o->letter, o->name, o->letter, plus, o->name, equals, help);
+        else
+            fprintf(f, "'%s--%s%s[%s]", o->many ? "*" : "", o->name, equals, help);
+        if (o->value)
+            put_action(f, o->value, place_of(o->value, a), a);
+        else
+            fputc('\'', f);
+    }
     if (*operands) {
         fputs(" \\\n        '*", f);
-        put_action(f, operands, &p, a);
-        fputc('\'', f);
+        put_action(f, operands, operands_of(m, action, a), a);
     }
     fputc('\n', f);
 }
 
-static void completion_zsh(FILE *f, struct arena *a)
+static void zsh(FILE *f, struct arena *a)
 {
+    const char **keys;
+    const struct setting *s = settings(&keys, a);
     fputs(head, f);
     fputs("\n_rasp_tables()\n{\n    _rasp_commands=(\n", f);
-    for (int i = 0; commands_at(i); i++)
-        fprintf(f, "        %s\n", quoted(arena_format(a, "%s:%s", commands_at(i)->name, commands_at(i)->summary), a));
-    fputs("        'help:explains a command'\n    )\n    _rasp_keys=(", f);
-    for (const struct completion_setting *s = completion_settings(a); s->path; s++)
-        fprintf(f, " %s", s->path);
-    fputs(" )\n    _rasp_names=(", f);
-    for (const char **names = keys_text_names(a); *names; names++)
-        fprintf(f, " %s", *names);
+    for (const struct command *const *m = commands_table; *m; m++)
+        fprintf(f, "        %s\n", quoted_as(arena_format(a, "%s:%s", (*m)->name, (*m)->summary), "", "'\\''", a));
+    fputs("        'help:explains a command'\n    )\n    _rasp_keys=( ", f);
+    put_list(f, " ", keys);
+    fputs(" )\n    _rasp_names=( ", f);
+    put_list(f, " ", keys_text_names(a));
     fputs(" )\n    _rasp_words=(\n", f);
-    for (const struct completion_setting *s = completion_settings(a); s->path; s++) {
-        if (!s->words) continue;
-        fprintf(f, "        %s '", s->path);
-        for (int i = 0; s->words[i]; i++)
-            fprintf(f, "%s%s", i ? " " : "", s->words[i]);
-        fputs("'\n", f);
-    }
+    for (; s->path; s++)
+        if (s->words) {
+            fprintf(f, "        %s '", s->path);
+            put_list(f, " ", s->words);
+            fputs("'\n", f);
+        }
     fputs("    )\n}\n\n_rasp_name()\n{\n    compadd -a _rasp_names\n    _files -g \"*.(yaml|yml)(-.)\"\n}\n", f);
-    for (int i = 0; commands_at(i); i++) {
-        const struct command *m = commands_at(i);
-        fprintf(f, "\n_rasp_of_%s()\n{\n", m->name);
-        if (m->actions) {
+    for (const struct command *const *m = commands_table; *m; m++) {
+        fprintf(f, "\n_rasp_of_%s()\n{\n", (*m)->name);
+        if ((*m)->actions) {
             fputs("    local state\n    local -a line\n    _arguments -C '1:action:(", f);
-            for (const struct action *x = m->actions; x->name; x++)
-                fprintf(f, "%s%s", x == m->actions ? "" : " ", x->name);
+            put_names(f, *m);
             fputs(")' '*::operand:->operand'\n    [[ $state = operand ]] || return 0\n    case $line[1] in\n", f);
-            for (const struct action *x = m->actions; x->name; x++) {
+            for (const struct action *x = NULL; (x = next_action(*m, x));) {
                 fprintf(f, "    %s)\n", x->name);
-                put_arguments(f, m, x, a);
+                put_arguments(f, *m, x, a);
                 fputs("    ;;\n", f);
             }
             fputs("    esac\n", f);
         } else
-            put_arguments(f, m, NULL, a);
+            put_arguments(f, *m, NULL, a);
         fputs("}\n", f);
     }
     fputs("\n_rasp_of_help()\n{\n    _arguments '1:command:->command'\n    _describe -t commands command "
@@ -598,78 +522,60 @@ static const char fish_head[] =
     "    printf '%s=\\n' $__rasp_keys\n"
     "end\n";
 
-static const char *fish_quoted(const char *text, struct arena *a) { return completion_quoted(text, "\\", "\\'", a); }
+static const char *fish_quoted(const char *text, struct arena *a) { return quoted_as(text, "\\", "\\'", a); }
 
 /* -a and what else a place asks for. */
-static void fish_put_place(FILE *f, const struct completion_place *p, struct arena *a)
+static void fish_place(FILE *f, struct place p, struct arena *a)
 {
-    const char *all = "";
-    if (p->settings) all = "(__rasp_settings)";
-    for (int i = 0; p->words[i]; i++)
-        all = arena_format(a, "%s%s%s", all, *all ? " " : "", p->words[i]);
-    if (p->list && *all) all = arena_format(a, "(__fish_append , %s)", all);
-    if (p->names) all = arena_format(a, "%s $__rasp_names", all);
-    for (int i = 0; !p->files && p->suffixes[i]; i++)
-        all = arena_format(a, "%s (__fish_complete_suffix .%s)", all, p->suffixes[i]);
-    if (p->folders && !p->files) all = arena_format(a, "%s (__fish_complete_directories)", all);
-    if (!p->files) fputs(" -f", f);
-    if (p->suffixes[0] && !p->files) fputs(" -k", f);
+    const char *all = p.settings ? "(__rasp_settings)" : "";
+    for (int i = 0; p.words[i]; i++)
+        all = arena_format(a, "%s%s%s", all, *all ? " " : "", p.words[i]);
+    if (p.list && *all) all = arena_format(a, "(__fish_append , %s)", all);
+    if (p.names) all = arena_format(a, "%s $__rasp_names", all);
+    for (int i = 0; !p.files && p.suffixes[i]; i++)
+        all = arena_format(a, "%s (__fish_complete_suffix .%s)", all, p.suffixes[i]);
+    if (p.folders && !p.files) all = arena_format(a, "%s (__fish_complete_directories)", all);
+    if (!p.files) fputs(" -f", f);
+    if (p.suffixes[0] && !p.files) fputs(" -k", f);
     if (*all) fprintf(f, " -a %s", fish_quoted(all, a));
-}
-
-static void fish_put_option(FILE *f, const char *where, const struct args_option *o, struct arena *a)
-{
-    fprintf(f, "complete -c rasp -n %s", fish_quoted(where, a));
-    if (o->letter) fprintf(f, " -s %c", o->letter);
-    fprintf(f, " -l %s -d %s", o->name, fish_quoted(o->help, a));
-    if (o->value) {
-        struct completion_place p = completion_value(o, a);
-        fputs(" -r", f);
-        fish_put_place(f, &p, a);
-    }
     fputc('\n', f);
 }
 
-static void put_group(FILE *f, const struct command *m, const struct action *action, struct arena *a)
+static void fish_option(FILE *f, const char *where, const struct args_option *o, struct arena *a)
+{
+    fprintf(f, "complete -c rasp -n %s", where);
+    if (o->letter) fprintf(f, " -s %c", o->letter);
+    fprintf(f, " -l %s -d %s%s", o->name, fish_quoted(o->help, a), o->value ? " -r" : "\n");
+    if (o->value) fish_place(f, place_of(o->value, a), a);
+}
+
+static void fish_group(FILE *f, const struct command *m, const struct action *x, struct arena *a)
 {
     static const struct args_option help = {"help", 'h', NULL, false, "this command"};
-    struct completion_place p = completion_operands(m, action, a);
-    const char *where = arena_format(a, "__rasp_in %s%s%s", m->name, action ? " " : "", action ? action->name : "");
+    const char *where = fish_quoted(arena_format(a, "__rasp_in %s%s%s", m->name, x ? " " : "", x ? x->name : ""), a);
     for (const struct args_option *o = cmd_options(m, a); o->name; o++)
-        if (completion_takes(action, o)) fish_put_option(f, where, o, a);
-    fish_put_option(f, where, &help, a);
-    fprintf(f, "complete -c rasp -n %s", fish_quoted(where, a));
-    fish_put_place(f, &p, a);
-    fputc('\n', f);
+        if (takes(x, o)) fish_option(f, where, o, a);
+    fish_option(f, where, &help, a);
+    fprintf(f, "complete -c rasp -n %s", where);
+    fish_place(f, operands_of(m, x, a), a);
 }
 
-static void put_command(FILE *f, const struct command *m, struct arena *a)
+static void fish(FILE *f, struct arena *a)
 {
-    fprintf(f, "\ncomplete -c rasp -f -n __rasp_in -a %s -d %s\n", m->name, fish_quoted(m->summary, a));
-    if (!m->actions) put_group(f, m, NULL, a);
-    for (const struct action *x = m->actions; x && x->name; x++) {
-        fprintf(f, "complete -c rasp -f -n '__rasp_in %s; and __rasp_no_action' -a %s\n", m->name, x->name);
-        put_group(f, m, x, a);
-    }
-}
-
-static void completion_fish(FILE *f, struct arena *a)
-{
+    const char **keys;
+    const struct setting *s = settings(&keys, a);
     fputs(fish_head, f);
-    fputs("set -g __rasp_keys", f);
-    for (const struct completion_setting *s = completion_settings(a); s->path; s++)
-        fprintf(f, " %s", s->path);
-    fputs("\nset -g __rasp_names", f);
-    for (const char **names = keys_text_names(a); *names; names++)
-        fprintf(f, " %s", *names);
+    fputs("set -g __rasp_keys ", f);
+    put_list(f, " ", keys);
+    fputs("\nset -g __rasp_names ", f);
+    put_list(f, " ", keys_text_names(a));
     fputs("\nfunction __rasp_words\n    switch $argv[1]\n", f);
-    for (const struct completion_setting *s = completion_settings(a); s->path; s++) {
-        if (!s->words) continue;
-        fprintf(f, "        case %s\n            printf '%s=%%s\\n'", s->path, s->path);
-        for (int i = 0; s->words[i]; i++)
-            fprintf(f, " %s", s->words[i]);
-        fputc('\n', f);
-    }
+    for (; s->path; s++)
+        if (s->words) {
+            fprintf(f, "        case %s\n            printf '%s=%%s\\n' ", s->path, s->path);
+            put_list(f, " ", s->words);
+            fputc('\n', f);
+        }
     fputs("        case '*'\n            return 1\n    end\nend\n", f);
     fputs("\ncomplete -c rasp -n __rasp_in -s h -l help -d 'the commands'\n"
           "complete -c rasp -n __rasp_in -s V -l version -d 'the version'\n"
@@ -677,9 +583,47 @@ static void completion_fish(FILE *f, struct arena *a)
           "complete -c rasp -f -n __rasp_in -a help -d 'explains a command'\n"
           "complete -c rasp -f -n '__rasp_in help' -a '",
           f);
-    for (int i = 0; commands_at(i); i++)
-        fprintf(f, "%s%s", i ? " " : "", commands_at(i)->name);
+    put_names(f, NULL);
     fputs("'\n", f);
-    for (int i = 0; commands_at(i); i++)
-        put_command(f, commands_at(i), a);
+    for (const struct command *const *m = commands_table; *m; m++) {
+        fprintf(f, "\ncomplete -c rasp -f -n __rasp_in -a %s -d %s\n", (*m)->name, fish_quoted((*m)->summary, a));
+        if (!(*m)->actions) fish_group(f, *m, NULL, a);
+        for (const struct action *x = NULL; (x = next_action(*m, x));) {
+            fprintf(f, "complete -c rasp -f -n '__rasp_in %s; and __rasp_no_action' -a %s\n", (*m)->name, x->name);
+            fish_group(f, *m, x, a);
+        }
+    }
 }
+
+static int completion_run(struct cmd_call *c, struct err *e)
+{
+    const char *shell = c->args.operands[0];
+    if (!strcmp(shell, "bash"))
+        bash(stdout, c->arena);
+    else if (!strcmp(shell, "zsh"))
+        zsh(stdout, c->arena);
+    else if (!strcmp(shell, "fish"))
+        fish(stdout, c->arena);
+    else
+        err_set(e, ERR_USAGE, "no completion for '%s': write bash, zsh or fish", shell);
+    return (int)e->kind;
+}
+
+static const struct args_option options[] = {{0}};
+
+const struct command completion_command = {
+    .name = "completion",
+    .group = "The shell",
+    .summary = "prints a script that completes rasp's words in a shell",
+    .does = "Completed are commands, actions, options, the words that options take, files by their endings, keys of "
+            "scenes after --set (and their words behind the equals sign) and after rasp explain. `make install` puts "
+            "the three scripts where the shells find them; without it, load one as the examples show.",
+    .operands = "bash|zsh|fish",
+    .least = 1,
+    .most = 1,
+    .options = options,
+    .examples = "source <(rasp completion bash)                               # bash: in ~/.bashrc\n"
+                "rasp completion zsh > ~/.zfunc/_rasp                         # zsh: a folder of $fpath\n"
+                "rasp completion fish > ~/.config/fish/completions/rasp.fish  # fish\n",
+    .run = completion_run,
+};

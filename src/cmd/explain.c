@@ -298,8 +298,7 @@ const struct command explain_command = {
         "Without an operand: a scene with every key there is, explained. With a key or a section (motion.rate, motion, "
         "accuracy.oversampling): its type, unit, range, default and meaning. With a key of designs (factors, level, "
         "length): what it is for; with design: all of them; rasp-design(5) has the rest. With a scene file: the "
-        "effective scene, in which every "
-        "default and accuracy knob is written out; rendering it gives the same bytes.",
+        "effective scene, in which every default and accuracy knob is written out; rendering it gives the same bytes.",
     .operands = "[KEY | SECTION | SCENE]",
     .least = 0,
     .most = 1,

@@ -17,18 +17,17 @@ static int merge_command_run(struct cmd_call *c, struct err *e)
     const char *folder = c->args.n_operands ? c->args.operands[0] : "FOLDER";
     return err_set(e, ERR_USAGE,
                    "shards need no merging: copy what they made into one folder, with its hidden folder .rasp (rsync "
-                   "-a, cp -r), and run the same command once more without --shard: "
-                   "rasp batch DESIGN -o %s",
+                   "-a, cp -r), and run the same command once more without --shard: rasp batch DESIGN -o %s",
                    folder);
 }
 
 const struct command merge_command = {
     .name = "merge",
     .summary = "says how the shards of a set are joined",
-    .does = "The shards of rasp batch --shard need no merging. What they made on other machines is copied into one "
-            "folder, with its hidden folder .rasp; the same rasp batch command, without --shard, then "
-            "sets the level and writes the tables. With --no-render it renders nothing, and names what is missing. The "
-            "exit code is 64.",
+    .does =
+        "The shards of rasp batch --shard need no merging. What they made on other machines is copied into one folder, "
+        "with its hidden folder .rasp; the same rasp batch command, without --shard, then sets the level and writes "
+        "the tables. With --no-render it renders nothing, and names what is missing. The exit code is 64.",
     .operands = "[FOLDER]",
     .most = 1,
     .options = merge_options,

@@ -10,9 +10,9 @@
 
 #include "base/outfile.h"
 #include "base/text.h"
+#include "cmd/cmd.h"
 #include "cmd/modes.h"
 #include "cmd/tell.h"
-#include "cmd/version.h"
 #include "fem/shapes.h"
 #include "fem/solid.h"
 #include "file/csv.h"
@@ -63,8 +63,7 @@ static bool read_face(struct compute *k, struct err *e)
     if (face >= BOUNDARY_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
         return err_set(e, ERR_SCENE,
                        "--face %s goes round the axis x = y = 0, and the solid lies beside it (x %.6g to %.6g m, y "
-                       "%.6g to %.6g m); move the mesh so that the axis runs through "
-                       "its middle",
+                       "%.6g to %.6g m); move the mesh so that the axis runs through its middle",
                        word, low[0], high[0], low[1], high[1]);
     return true;
 }
@@ -204,8 +203,8 @@ static bool read_listen(struct compute *k, struct err *e)
     double far = boundary_nearest(&k->mesh, &k->boundary, at, &k->ear);
     return far <= POINT_OFF * size_of(k) ||
            err_set(e, ERR_SCENE,
-                   "--listen: the point lies %.3g m off the surface; it is heard where the surface moves, "
-                   "and output.listen of a scene says how that radiates",
+                   "--listen: the point lies %.3g m off the surface; it is heard where the surface moves, and "
+                   "output.listen of a scene says how that radiates",
                    far);
 }
 

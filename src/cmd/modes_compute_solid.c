@@ -66,11 +66,11 @@ static bool modes_compute_solid_limits_solid(struct compute *k, struct err *e)
         note(k,
              arena_format(a, "the solid has a mass of %.4g kg; are its lengths and its density (kg/m^3) right?", mass));
     if (!(speed >= slowest && speed <= fastest))
-        note(k, arena_format(a,
-                             "sqrt(Young's modulus/density), the speed of waves along a bar, is %.3g m/s, and in "
-                             "solids some 30 (rubber) to 18000 m/s (diamond); are the units right? Bare numbers "
-                             "are Pa and kg/m^3",
-                             speed));
+        note(k, arena_format(
+                    a,
+                    "sqrt(Young's modulus/density), the speed of waves along a bar, is %.3g m/s, and in solids some 30 "
+                    "(rubber) to 18000 m/s (diamond); are the units right? Bare numbers are Pa and kg/m^3",
+                    speed));
     return true;
 }
 
@@ -396,16 +396,15 @@ void modes_compute_solid_estimate_write(FILE *f, const struct compute *k)
     if (args_given(&k->c->args, "shape"))
         fprintf(f,
                 "# estimate: by how much frequencies are too high, (f_coarse - f)/(r^4 - 1) of a second mesh of %d "
-                "tetrahedra, %ld freedoms, whose cells are r = %.3g times as long (as if errors fell "
-                "with the fourth power of length: flat and free solids converge faster, held edges beside free ones "
-                "more slowly; cells that are as long in both, as the one through a thin wall, "
-                "show no error); ?: no mode of the second mesh moves alike\n",
+                "tetrahedra, %ld freedoms, whose cells are r = %.3g times as long (as if errors fell with the fourth "
+                "power of length: flat and free solids converge faster, held edges beside free ones more slowly; cells "
+                "that are as long in both, as the one through a thin wall, show no error); ?: no mode of the second "
+                "mesh moves alike\n",
                 k->coarse_elements, k->coarse_freedoms, s->ratio);
     else
         fprintf(f,
                 "# estimate: by how much frequencies of order %ld (%ld freedoms) are higher on the same mesh: the "
-                "error of that order, more than that of this one; ?: no mode of that order "
-                "moves alike\n",
+                "error of that order, more than that of this one; ?: no mode of that order moves alike\n",
                 k->coarse_order, k->coarse_freedoms);
     fprintf(f, "# estimate of all: %s\n", modes_compute_solid_estimate_says(k));
     /* Modes as the table counts them, ten a line. */

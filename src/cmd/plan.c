@@ -112,12 +112,11 @@ static int plan_run(struct cmd_call *c, struct err *e)
 const struct command plan_command = {
     .name = "plan",
     .summary = "shows which stages a scene runs, why, and at what predicted cost",
-    .does = "Lists for each contact the stages that will run, in order, with what they read and make, their share of "
-            "the predicted cost and the "
-            "equations they follow; then those that will not run, and why not; where the scene asks for an error "
-            "(accuracy.error), what knobs are chosen and what they are predicted to leave. Nothing is rendered, but "
-            "all that "
-            "the scene names is read, and what rasp check refuses is refused here, too.",
+    .does =
+        "Lists for each contact the stages that will run, in order, with what they read and make, their share of the "
+        "predicted cost and the equations they follow; then those that will not run, and why not; where the scene asks "
+        "for an error (accuracy.error), what knobs are chosen and what they are predicted to leave. Nothing is "
+        "rendered, but all that the scene names is read, and what rasp check refuses is refused here, too.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,

@@ -447,9 +447,9 @@ static void draw_timed(const struct plot_page *p, int panel, const double place[
                     decibel(o->rms));
         else
             fprintf(g->in, "set key title '%ssilent'\n", which);
-        fputs("plot $sound using 1:2:3 with filledcurves fillcolor rgb '#0072b2' notitle, "
-              "'' using 1:2 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle, "
-              "'' using 1:3 with lines linewidth 0.5 linecolor rgb '#0072b2' notitle\n"
+        fputs("plot $sound using 1:2:3 with filledcurves fillcolor rgb '#0072b2' notitle, '' using 1:2 with lines "
+              "linewidth 0.5 linecolor rgb '#0072b2' notitle, '' using 1:3 with lines linewidth 0.5 linecolor rgb "
+              "'#0072b2' notitle\n"
               "unset key\nset key notitle\n",
               g->in);
     } else if (panel == PLOT_SPECTROGRAM)

@@ -280,25 +280,22 @@ static int render_run(struct cmd_call *c, struct err *e)
 
 const struct command render_command = {
     .name = "render",
+    .group = "Sound from scenes",
     .summary = "renders scenes into sound files",
     .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv or NAME.npy (if the scene asks for "
-            "diagnostics), NAME.impacts.csv (if it asks for the series of "
-            "impacts), NAME.scene.yaml (the effective scene: rendering it gives the same bytes) and NAME.json (level, "
-            "cost per stage, real-time factor, which files were written). "
-            "A file whose samples are all 0, for nothing was there or for it was rounded away, is warned of, and so is "
-            "each silent channel of several; and so are samples beyond full scale, which "
-            "floating point holds (integers refuse them), with how many they are and how far beyond: in words and in "
-            "the summary (silent, samples_beyond_full_scale). "
-            "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes "
-            "reads is refused, whatever "
-            "the names are (an effective scene may be rendered onto itself: its bytes stay the same), and so are two "
-            "scenes that would write "
-            "the same file. What an earlier render wrote is replaced; another file, or a symbolic link, is only with "
-            "--force: rasp(1), FILES. Where the scene asks for an error (accuracy.error), the knobs that it leaves "
-            "unsaid are chosen as the cheapest that keep it, and told; what cannot be kept "
-            "is refused. A NAME.csv or NAME.wav of an earlier render that this one does not replace stays, with a "
-            "warning. Several scenes "
-            "are all read before the first is rendered; the first that fails ends the run.",
+            "diagnostics), NAME.impacts.csv (if it asks for the series of impacts), NAME.scene.yaml (the effective "
+            "scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which "
+            "files were written). A file whose samples are all 0, for nothing was there or for it was rounded away, is "
+            "warned of, and so is each silent channel of several; and so are samples beyond full scale, which floating "
+            "point holds (integers refuse them), with how many they are and how far beyond: in words and in the "
+            "summary (silent, samples_beyond_full_scale). Nothing half-written is ever left behind. An output that "
+            "would replace a file that one of the scenes reads is refused, whatever the names are (an effective scene "
+            "may be rendered onto itself: its bytes stay the same), and so are two scenes that would write the same "
+            "file. What an earlier render wrote is replaced; another file, or a symbolic link, is only with --force: "
+            "rasp(1), FILES. Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are "
+            "chosen as the cheapest that keep it, and told; what cannot be kept is refused. A NAME.csv or NAME.wav of "
+            "an earlier render that this one does not replace stays, with a warning. Several scenes are all read "
+            "before the first is rendered; the first that fails ends the run.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,

@@ -48,8 +48,7 @@ static void note_ends(struct surface_info *i, bool down)
         if (s->fall[k])
             NOTE(i,
                  "the %s %zu %s fall away by %s, in steps unlike any other: an edge artefact of resampling; cut them "
-                 "off (rasp surface convert "
-                 "--crop)",
+                 "off (rasp surface convert --crop)",
                  ends[down][k], s->fall[k],
                  down            ? "rows"
                  : i->h.rows > 1 ? "columns"
@@ -86,8 +85,7 @@ static void surface_info_notes(struct surface_info *i)
         if (s->noise <= 0.1 * limit) continue;
         NOTE(i,
              "steps of %s make a curvature noise of %.3g 1/m, %.0f %% of what the limiter lets through at alpha = %s: "
-             "it will be heard; "
-             "export more bits (float32), or smooth and resample to a wider pitch",
+             "it will be heard; export more bits (float32), or smooth and resample to a wider pitch",
              len(i, s->step), s->noise, 100 * s->noise / limit, len(i, alphas[k]));
         break;
     }
@@ -104,8 +102,7 @@ static void surface_info_notes(struct surface_info *i)
         if (b->beyond > 0.1)
             NOTE(i,
                  "%.0f %% of the mean square curvature%s lies above the band limit, where there is no surface: %s; "
-                 "smooth "
-                 "it (a Gaussian of %s) before use",
+                 "smooth it (a Gaussian of %s) before use",
                  100 * b->beyond,
                  i->h.rows == 1 ? ""
                  : down         ? " in y"
@@ -117,8 +114,7 @@ static void surface_info_notes(struct surface_info *i)
     if (p->stands_out)
         NOTE(i,
              "it resembles itself %zu samples (%s) further on (autocorrelation %.2f): rows of an image laid end to "
-             "end, so that neighbours every "
-             "%zu samples are none?",
+             "end, so that neighbours every %zu samples are none?",
              p->lag, len(i, (double)p->lag * i->h.pitch_x), p->peak, p->lag);
 }
 

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
-#include "cmd/program.h"
+#include "cmd/cmd.h"
 
 #define RED "\033[1;31m"
 #define MAGENTA "\033[1;35m"
@@ -310,7 +310,7 @@ void tell_error(struct cmd_call *c, const char *command, const struct err *e)
     if (!e->place.file) placed.place = operand_in(c, e->text);
     if ((t->json || t->kept) && !t->told) put(c, of_err(&placed));
     t->told = false;
-    if (!t->json) program_complain(command, e);
+    if (!t->json) cmd_complain(command, e);
 }
 
 void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e)
@@ -326,7 +326,7 @@ void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus
     } else {
         struct err told = {0};
         err_set(&told, e->kind, "%s: %s", stimulus, e->text);
-        program_complain(command, &told);
+        cmd_complain(command, &told);
     }
 }
 

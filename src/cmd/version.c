@@ -1,7 +1,7 @@
 /* The version of rasp, of the compiler and its flags, of the instruction set and of every library.
    The build may define RASP_REVISION, RASP_FLAGS and RASP_PACKAGES ("NAME VERSION;" of each, by pkg-config), quoted
    texts. OpenBLAS and LAPACKE are rasp-modes'. */
-#include "cmd/version.h"
+#include "cmd/cmd.h"
 
 #include <ebur128.h>
 #include <fftw3.h>

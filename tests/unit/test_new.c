@@ -1,8 +1,8 @@
-/* cmd/starters.c and scene/keys_reference.c: what rasp itself writes for people to start from must be scenes, ask for
+/* cmd/new.c and scene/keys_reference.c: what rasp itself writes for people to start from must be scenes, ask for
    something to be computed, name no file, and hide no mistake in what is commented out. */
 #include "unit.h"
 
-#include "cmd/starters.h"
+#include "cmd/new.h"
 #include "scene/keys.h"
 #include "scene/keys_reference.h"
 #include "scene/keys_text.h"
@@ -11,11 +11,11 @@
 static struct arena *a;
 static struct scene s;
 
-static char *starter_text(const struct starter *starter, size_t *size)
+static char *starter_text(const struct new_starter *starter, size_t *size)
 {
     char *text = NULL;
     FILE *f = open_memstream(&text, size);
-    starters_print(f, starter, "irs", a);
+    new_print(f, starter, "irs", a);
     fclose(f);
     return text;
 }
@@ -39,10 +39,10 @@ static void must_read(const char *text, const char *name, const struct scene_ove
 START_TEST(test_starters_are_scenes)
 {
     a = arena_open();
-    for (const struct starter *starter = starters_table; starter->name; starter++) {
+    for (const struct new_starter *starter = new_starters; starter->name; starter++) {
         size_t size;
         char *text = starter_text(starter, &size);
-        if (!starter->head) { /* the design, which cli/new and cli/new_renders try */
+        if (!starter->text) { /* the design, which cli/new and cli/new_renders try */
             free(text);
             continue;
         }
@@ -63,8 +63,9 @@ END_TEST
 START_TEST(test_what_is_off_is_right_too)
 {
     a = arena_open();
-    for (const struct starter *starter = starters_table; starter->name; starter++)
-        for (const struct keys_line *l = starter->head; l && l->path; l++) {
+    for (const struct new_starter *starter = new_starters; starter->name; starter++)
+        for (const struct keys_line *l = starter->text ? new_lines(starter->text, a) : NULL; l && l->path && l->value;
+             l++) {
             size_t size;
             const char *set[] = {arena_format(a, "%s=%s", l->path, l->value), "surface.roughness=null"};
             const struct key *k = keys_find(l->path);
@@ -246,5 +247,5 @@ START_TEST(test_plain_paths)
 }
 END_TEST
 
-UNIT("starters", test_starters_are_scenes, test_what_is_off_is_right_too, test_reference_is_a_scene_with_the_defaults,
+UNIT("new", test_starters_are_scenes, test_what_is_off_is_right_too, test_reference_is_a_scene_with_the_defaults,
      test_reference_has_every_key, test_examples_are_taken, test_plain_paths)
