@@ -9,8 +9,8 @@
    Frames before 0 are zero. A stage says when it is opened how far around a frame it reads (back, ahead); the runner
    then lets everything before it run that much ahead in time, so that no stage delays or buffers for another. Values of
    sub-sampled items belong to the instant (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_CURVATURE_Y and
-   ITEM_SLOPE, which are means weighted by a hat about it (force/hats.h), and ITEM_SUBFORCE, which is such a mean where
-   board->hats says so, else the exact mean over the interval that starts there. */
+   ITEM_SLOPE, which are means weighted by a linear B-spline about it (force/path_integral.h), and ITEM_SUBFORCE, which
+   is such a mean where board->bspline says so, else the exact mean over the interval that starts there. */
 #ifndef STAGE_H
 #define STAGE_H
 #include <assert.h>
@@ -122,7 +122,7 @@ struct board {
     int channels; /* listening places                            */
     struct smoothing
         *smoothing; /* of ITEM_SUBFORCE, last before the stages that follow; NULL: none that could be taken over */
-    bool hats;      /* ITEM_SUBFORCE: means weighted by hats; set by the opening stage that gives it */
+    bool bspline;   /* ITEM_SUBFORCE: means weighted by linear B-splines; set by the opening stage that gives it */
     long moving;    /* frames that the motion touches              */
     unsigned alive; /* items that some stage of the plan reads     */
     struct signal signals[ITEM_COUNT];

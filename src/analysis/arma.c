@@ -189,7 +189,7 @@ static void descend(struct search *s, struct point *p, struct arma *f)
 }
 
 /* How the variance of the mean, 1/sum U^2, changes with a1 and b1. */
-static void slope_make(const struct search *s, struct arma *f)
+static void path_integral_make(const struct search *s, struct arma *f)
 {
     double step = 1e-4 * (1 - fabs(f->a1)), other = 1e-4 * (1 - fabs(f->b1));
     struct pass low = pass_make(s, f->a1 - step, f->b1), high = pass_make(s, f->a1 + step, f->b1);
@@ -230,7 +230,7 @@ void arma_fit(const double *x, int n, struct arma *f)
     f->mean = s.centre + s.unit * p.mean;
     f->deviation = s.unit * sqrt(p.energy / (n - (f->white ? 1 : 3)));
     f->mean_variance = f->deviation * f->deviation / p.ones;
-    slope_make(&s, f);
+    path_integral_make(&s, f);
 }
 
 double arma_whiten(const double *x, int n, double a1, double b1, double *w)

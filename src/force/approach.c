@@ -1,8 +1,8 @@
 /* The scraper is lowered at the start and raised at the end, so that contact does not begin with a click: the force of
-   each sub-interval (of each hat, where the force is means by hats) times the share at its middle to which the scraper
-   is lowered (trajectory/load.h: a minimum-jerk step, 10 u^3 - 15 u^4 + 6 u^5, over load.approach and load.release).
-   Papers/000 has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture it comes after
-   the low-pass, in gesture.c. */
+   each sub-interval (of each B-spline, where the force is means by those) times the share at its middle to which the
+   scraper is lowered (trajectory/load.h: a minimum-jerk step, 10 u^3 - 15 u^4 + 6 u^5, over load.approach and
+   load.release). Papers/000 has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture
+   it comes after the low-pass, in gesture.c. */
 #include "scene/rules.h"
 #include "stage.h"
 #include "trajectory/load.h"
@@ -34,7 +34,7 @@ static bool approach_run(struct stage_run *r, long from, long to, struct err *e)
     struct board *b = r->board;
     double *force = board_at(b, ITEM_SUBFORCE, from), rate = b->rate * b->over, t = (double)from / b->rate,
            end = (double)to / b->rate;
-    double middle = b->hats ? 0 : 0.5;
+    double middle = b->bspline ? 0 : 0.5;
     (void)e;
     if (t >= l->approach && end <= l->duration - l->release) return true;
     for (long i = 0; i < (to - from) * b->over; i++)

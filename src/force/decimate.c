@@ -1,6 +1,6 @@
-/* From means over sub-intervals, or means weighted by hats (board->hats), to samples of the force at the audio rate: a
-   linear-phase low-pass that also undoes the means' droop (num/filter.h, filter_decimator). Delay is compensated:
-   sample n is the force at n / rate.
+/* From means over sub-intervals, or means weighted by linear B-splines (board->bspline), to samples of the force at the
+   audio rate: a linear-phase low-pass that also undoes the means' droop (num/filter.h, filter_decimator). Delay is
+   compensated: sample n is the force at n / rate.
 
    A smoothing of constant width before it (force/smooth.c) is joined to its kernel. Of the two together hardly more is
    left than of the Gaussian alone, since the long ends of a low-pass are those of its edge, where the Gaussian has let
@@ -68,7 +68,7 @@ static bool decimate_open(struct stage_run *r, struct err *e)
     struct arena *scratch = arena_open();
     struct smoothing *s = r->board->smoothing;
     int over = r->board->over;
-    struct filter f = r->board->hats ? filter_decimator_hats(scratch, over) : filter_decimator(scratch, over);
+    struct filter f = r->board->bspline ? filter_decimator_hats(scratch, over) : filter_decimator(scratch, over);
     (void)e;
     if (s) {
         s->taken = true;

@@ -10,18 +10,17 @@
    curvatures, "the window size in each dimension ... proportional to alpha_x and alpha_y" (section 2.2, last
    paragraph); the force is formed from them afterwards. At rest curvature and slope are those of the point touched.
 
-   Curvatures and |slope|^beta2 are on the board as means weighted by hats (force/hats.h), exact where the speed is
-   constant over a sub-interval: a piece whose middle is at the share q of it gives (1 - q) mean - share moment to the
-   hat of its start, q mean + share moment to that of its end. v_x^2, v_y^2 and |v|^beta2 are means of those of the
-   sub-intervals on both sides of the hat. What a change of speed within a hat has to do with the surface there is left
-   out: of order dt^2 v'/v, -90 dB of the force at 48 kHz without oversampling and v'/v = 30 1/s. Under a ball that
-   rolls these are the scraping terms of equation 19, times contact.roll.scraping. */
+   Curvatures and |slope|^beta2 are on the board as means weighted by linear B-splines (force/path_integral.h), exact
+   where the speed is constant over a sub-interval: a piece whose middle is at the share q of it gives (1 - q) mean -
+   share moment to the B-spline of its start, q mean + share moment to that of its end. v_x^2, v_y^2 and |v|^beta2 are
+   means of those of the sub-intervals on both sides of its centre. What a change of speed within it has to do with the
+   surface there is left out: of order dt^2 v'/v, -90 dB of the force at 48 kHz without oversampling and v'/v = 30 1/s.
+   Under a ball that rolls these are the scraping terms of equation 19, times contact.roll.scraping. */
 #include <math.h>
 #include <string.h>
 
-#include "force/crossing.h"
-#include "force/lift.h"
-#include "force/way.h"
+#include "force/path_cells.h"
+#include "force/path_integral.h"
 #include "num/real.h"
 #include "scene/rules.h"
 #include "surface/relief.h"
@@ -30,12 +29,12 @@
 enum { PAPER_X, PAPER_Y, PAPER_SLOPE, PAPER_SIGNALS }; /* curvatures, as the way's channels, and |dz/du|^beta2 */
 
 struct paper {
-    struct way way;
+    struct path_cells path;
     double beta1, beta2;
-    double whole[PAPER_SIGNALS][WAY_CHUNK], late[PAPER_SIGNALS][WAY_CHUNK],
-        length[WAY_CHUNK]; /* integrals of x ds, x s ds; m travelled */
-    double touched[PAPER_SIGNALS][WAY_CHUNK], last[PAPER_SIGNALS],
-        carried[PAPER_SIGNALS]; /* at the last point of a sub-interval; of all; for the next hat */
+    double whole[PAPER_SIGNALS][CELLS_CHUNK], late[PAPER_SIGNALS][CELLS_CHUNK],
+        length[CELLS_CHUNK]; /* integrals of x ds, x s ds; m travelled */
+    double touched[PAPER_SIGNALS][CELLS_CHUNK], last[PAPER_SIGNALS],
+        carried[PAPER_SIGNALS]; /* at the last point of a sub-interval; of all; for the next B-spline */
     bool begun;
 };
 
@@ -54,9 +53,9 @@ static void paper_gather(struct paper *s, int signal, int k, const double of[3])
 }
 
 /* Before it begins to move the contact touches the first place. */
-static void paper_begin(struct paper *s, const struct way_pieces *p)
+static void paper_begin(struct paper *s, const struct cells *p)
 {
-    for (int c = 0; c < s->way.channels; c++)
+    for (int c = 0; c < s->path.channels; c++)
         s->last[c] = p->limited[c][p->at[0]];
     s->last[PAPER_SLOPE] = fabs(p->slope[p->at[0]]);
     for (int c = 0; c < PAPER_SIGNALS; c++)
@@ -64,7 +63,7 @@ static void paper_begin(struct paper *s, const struct way_pieces *p)
     s->begun = true;
 }
 
-static void paper_use(void *self, const struct way_pieces *p)
+static void paper_use(void *self, const struct cells *p)
 {
     struct paper *s = self;
     if (!s->begun && p->n > 0) paper_begin(s, p);
@@ -72,12 +71,12 @@ static void paper_use(void *self, const struct way_pieces *p)
         int k = p->interval[i], at = p->at[i];
         double h = p->length[i], a = p->slope[at], b = p->slope[at + 1],
                middle = 0.5 * (a + b) + h * p->heading[i] / 8 * (p->bend[at] - p->bend[at + 1]);
-        for (int c = 0; c < s->way.channels; c++) {
+        for (int c = 0; c < s->path.channels; c++) {
             paper_gather(s, c, k, (double[]){h, p->mean[c][i], 0.5 * p->mean[c][i] + p->moment[c][i]});
             s->touched[c][k] = p->limited[c][at + 1];
         }
         if (s->beta1 != 0) {
-            struct crossing crossed = crossing_power((double[]){a, middle, b}, s->beta2);
+            struct magnitude crossed = path_integral_power((double[]){a, middle, b}, s->beta2);
             paper_gather(s, PAPER_SLOPE, k, (double[]){h, crossed.whole, crossed.late});
             s->touched[PAPER_SLOPE][k] = fabs(b);
         }
@@ -93,7 +92,7 @@ static bool paper_wanted(const struct contact *c, const struct scene *s)
 
 static double paper_work(const struct contact *c, const struct scene *s)
 {
-    return (c->contact.limiter.curve == LIMITER_TANH ? 160 : 70) * way_work(c, s);
+    return (c->contact.limiter.curve == LIMITER_TANH ? 160 : 70) * path_cells_work(c, s);
 }
 
 static bool paper_curvature_open(struct stage_run *r, struct err *e)
@@ -101,15 +100,15 @@ static bool paper_curvature_open(struct stage_run *r, struct err *e)
     struct paper *s = ARENA_TAKE(r->arena, struct paper, 1);
     s->beta1 = r->contact->contact.beta1;
     s->beta2 = r->contact->contact.beta2;
-    s->way.use = paper_use;
-    s->way.self = s;
+    s->path.use = paper_use;
+    s->path.self = s;
     r->state = s;
     r->ahead = 1;
-    return way_make(&s->way, r, WAY_AXES, HUGE_VAL, e);
+    return path_cells_make(&s->path, r, CELLS_AXES, HUGE_VAL, e);
 }
 
-/* One signal's means by hats, from the chunk's sub-intervals. */
-static void paper_hats(struct paper *s, int signal, double *out, int n)
+/* One signal's means by B-splines, from the chunk's sub-intervals. */
+static void paper_bsplines(struct paper *s, int signal, double *out, int n)
 {
     for (int i = 0; i < n; i++) {
         double l = s->length[i], whole = l > 0 ? s->whole[signal][i] / l : paper_at_rest(s, signal);
@@ -126,14 +125,14 @@ static bool paper_curvature_run(struct stage_run *r, long from, long to, struct 
     struct board *b = r->board;
     (void)e;
     for (long first = from * b->over, last = to * b->over; first < last;) {
-        int n = way_some(first, last);
+        int n = cells_chunk(first, last);
         memset(s->whole, 0, sizeof s->whole);
         memset(s->late, 0, sizeof s->late);
         memset(s->length, 0, sizeof s->length);
-        way_run(&s->way, r, first, n);
-        paper_hats(s, PAPER_X, way_values(b, ITEM_CURVATURE, first), n);
-        if (board_has(b, ITEM_CURVATURE_Y)) paper_hats(s, PAPER_Y, way_values(b, ITEM_CURVATURE_Y, first), n);
-        paper_hats(s, PAPER_SLOPE, way_values(b, ITEM_SLOPE, first), n);
+        path_cells_run(&s->path, r, first, n);
+        paper_bsplines(s, PAPER_X, cells_values(b, ITEM_CURVATURE, first), n);
+        if (board_has(b, ITEM_CURVATURE_Y)) paper_bsplines(s, PAPER_Y, cells_values(b, ITEM_CURVATURE_Y, first), n);
+        paper_bsplines(s, PAPER_SLOPE, cells_values(b, ITEM_SLOPE, first), n);
         first += n;
     }
     return true;
@@ -142,7 +141,7 @@ static bool paper_curvature_run(struct stage_run *r, long from, long to, struct 
 static unsigned paper_curvature_asks(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return way_asks(c);
+    return path_cells_asks(c);
 }
 
 const struct stage paper_curvature_stage = {
@@ -165,8 +164,8 @@ const struct stage paper_curvature_stage = {
 
 struct paper_speeds {
     double x, y, power; /* means over a sub-interval: v_x^2, v_y^2, m^2/s^2; |v|^beta2 */
-    double early,
-        late; /* its parts of the hats about its ends, each a half but where it is lifted off (force/lift.h) */
+    double early, late; /* its parts of the B-splines about its ends, each a half but where it is lifted off
+                           (force/path_integral.h) */
 };
 
 static bool paper_open(struct stage_run *r, struct err *e)
@@ -175,7 +174,7 @@ static bool paper_open(struct stage_run *r, struct err *e)
     r->state = ARENA_TAKE(r->arena, struct paper_speeds, 1); /* of the sub-interval before */
     r->ahead = 1;
     r->ends = r->board->moving;
-    r->board->hats = true;
+    r->board->bspline = true;
     return true;
 }
 
@@ -190,7 +189,7 @@ static double paper_velocity(const struct board *b, long k, int axis)
 {
     const struct trajectory *tr = b->trajectory;
     bool path = b->relief->along == ALONG_PATH, ends = path || tr->straight;
-    const double *place = way_values(b, ends ? ITEM_POSITION : axis ? ITEM_Y : ITEM_X, k);
+    const double *place = cells_values(b, ends ? ITEM_POSITION : axis ? ITEM_Y : ITEM_X, k);
     double scale = path ? axis == 0 : tr->straight ? tr->e[axis] : 1;
     return (place[1] - place[0]) * b->rate * b->over * scale;
 }
@@ -201,24 +200,25 @@ static struct paper_speeds paper_speeds(const struct stage_run *r, long k)
     const struct board *b = r->board;
     double beta2 = r->contact->contact.beta2, vx = paper_velocity(b, k, 0),
            vy = b->relief->along == ALONG_PLANE ? paper_velocity(b, k, 1) : 0;
-    double speed = fabs(*way_values(b, ITEM_POSITION, k + 1) - *way_values(b, ITEM_POSITION, k)) * b->rate * b->over;
+    double speed =
+        fabs(*cells_values(b, ITEM_POSITION, k + 1) - *cells_values(b, ITEM_POSITION, k)) * b->rate * b->over;
     struct paper_speeds s = {vx * vx, vy * vy, beta2 == 1 ? speed : speed > 0 ? real_pow(speed, beta2) : 0, 0.5, 0.5};
     if (board_has(b, ITEM_LOAD))
-        lift_cut(*way_values(b, ITEM_LOAD, k), *way_values(b, ITEM_LOAD, k + 1), &s.early, &s.late);
+        path_integral_cut(*cells_values(b, ITEM_LOAD, k), *cells_values(b, ITEM_LOAD, k + 1), &s.early, &s.late);
     return s;
 }
 
-/* By the hat between two sub-intervals. */
+/* By the B-spline between two sub-intervals. */
 static double paper_force(const struct stage_run *r, long k, const struct paper_speeds *before,
                           const struct paper_speeds *after)
 {
     const struct board *b = r->board;
     const struct contact_model *m = &r->contact->contact;
-    double yy = board_has(b, ITEM_CURVATURE_Y) ? *way_values(b, ITEM_CURVATURE_Y, k) : 0;
+    double yy = board_has(b, ITEM_CURVATURE_Y) ? *cells_values(b, ITEM_CURVATURE_Y, k) : 0;
     double force = r->contact->scraper.mass *
-                   (*way_values(b, ITEM_CURVATURE, k) * (before->late * before->x + after->early * after->x) +
+                   (*cells_values(b, ITEM_CURVATURE, k) * (before->late * before->x + after->early * after->x) +
                     yy * (before->late * before->y + after->early * after->y));
-    force += m->beta1 * *way_values(b, ITEM_SLOPE, k) * (before->late * before->power + after->early * after->power);
+    force += m->beta1 * *cells_values(b, ITEM_SLOPE, k) * (before->late * before->power + after->early * after->power);
     return m->model == CONTACT_ROLL ? m->roll.scraping * force : force;
 }
 
@@ -234,14 +234,14 @@ static bool paper_run(struct stage_run *r, long from, long to, struct err *e)
         force[k - first] = paper_force(r, k, before, &after);
         *before = after;
     }
-    lift_count(b, first, (int)(last - first));
+    path_integral_lifted(b, first, (int)(last - first));
     return true;
 }
 
 static unsigned paper_asks(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return way_asks(c) | (rules_plane(c) ? ITEM_BIT(ITEM_CURVATURE_Y) : 0);
+    return path_cells_asks(c) | (rules_plane(c) ? ITEM_BIT(ITEM_CURVATURE_Y) : 0);
 }
 
 const struct stage paper_stage = {

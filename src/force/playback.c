@@ -20,7 +20,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "force/way.h"
+#include "force/path_cells.h"
 #include "trajectory/trajectory.h"
 
 enum { BATCH = 512, GAUSS = 5, TURNS = 4 };
@@ -36,7 +36,7 @@ struct cubic {
 };
 
 struct playback {
-    struct way way; /* its places and grids alone */
+    struct path_cells path; /* its places and knots alone */
     double stiffness, longest;
     double *force; /* of the present chunk */
     int n;         /* points */
@@ -102,8 +102,8 @@ static void playback_flush(struct playback *p)
 {
     double z[BATCH];
     if (p->n == 0) return;
-    relief_at(p->way.relief,
-              &(struct relief_points){(size_t)p->n, p->x, p->way.relief->along == ALONG_PLANE ? p->y : NULL},
+    relief_at(p->path.relief,
+              &(struct relief_points){(size_t)p->n, p->x, p->path.relief->along == ALONG_PLANE ? p->y : NULL},
               &(struct relief_values){.z = z});
     for (int i = 0; i < p->n; i++)
         p->force[p->interval[i]] += p->share[i] * z[i];
@@ -126,7 +126,7 @@ static void playback_piece(struct playback *p, const struct cubic c[2], int inte
 /* ------------------------------------------------------------------ cutting */
 
 /* The family's next knot behind that of `from` (NAN: the first), up to `to`. */
-static struct crossing playback_next(const struct way_grid *g, const struct cubic *c, double from, double to,
+static struct crossing playback_next(const struct knot_lines *g, const struct cubic *c, double from, double to,
                                      double last)
 {
     double a = (cubic_at(c, from) - g->origin) / g->pitch, b = (cubic_at(c, to) - g->origin) / g->pitch;
@@ -140,22 +140,22 @@ static struct crossing playback_next(const struct way_grid *g, const struct cubi
 static void playback_stretch(struct playback *p, const struct cubic c[2], int interval, const double ends[2],
                              double share)
 {
-    struct crossing next[WAY_GRIDS];
-    const struct way *w = &p->way;
+    struct crossing next[CELLS_KNOTS];
+    const struct path_cells *w = &p->path;
     double fastest = 0, at = ends[0], to = ends[1];
     for (int k = 0; k < 2; k++)
         fastest += fabs(c[k].a[1]) + 2 * fabs(c[k].a[2]) + 3 * fabs(c[k].a[3]);
     double step = fastest > 0 ? p->longest / fastest : HUGE_VAL;
-    for (int g = 0; g < w->n_grids; g++)
-        next[g] = playback_next(&w->grids[g], &c[w->grids[g].axis], at, to, NAN);
+    for (int g = 0; g < w->n_knots; g++)
+        next[g] = playback_next(&w->knots[g], &c[w->knots[g].axis], at, to, NAN);
     while (at < to) {
         double end = fmin(to, fmax(at + step, at + 1e-12));
-        for (int g = 0; g < w->n_grids; g++)
+        for (int g = 0; g < w->n_knots; g++)
             end = fmin(end, fmax(next[g].at, at));
         if (end > at) playback_piece(p, c, interval, at, end, share);
         at = end;
-        for (int g = 0; g < w->n_grids; g++)
-            if (next[g].at <= at) next[g] = playback_next(&w->grids[g], &c[w->grids[g].axis], at, to, next[g].knot);
+        for (int g = 0; g < w->n_knots; g++)
+            if (next[g].at <= at) next[g] = playback_next(&w->knots[g], &c[w->knots[g].axis], at, to, next[g].knot);
     }
 }
 
@@ -176,16 +176,16 @@ static void playback_interval(struct playback *p, const struct cubic c[2], int i
 
 /* ------------------------------------------------------------------ the stage */
 
-static void playback_place(const struct way *w, const struct board *b, long k, double h, struct cubic c[2])
+static void playback_place(const struct path_cells *w, const struct board *b, long k, double h, struct cubic c[2])
 {
     if (w->curved) {
-        const double *x = way_values(b, ITEM_X, k), *y = way_values(b, ITEM_Y, k), *vx = way_values(b, ITEM_VX, k),
-                     *vy = way_values(b, ITEM_VY, k);
+        const double *x = cells_values(b, ITEM_X, k), *y = cells_values(b, ITEM_Y, k),
+                     *vx = cells_values(b, ITEM_VX, k), *vy = cells_values(b, ITEM_VY, k);
         c[0] = cubic_of(x[0], x[1], vx[0], vx[1], h);
         c[1] = cubic_of(y[0], y[1], vy[0], vy[1], h);
         return;
     }
-    const double *u = way_values(b, ITEM_POSITION, k), *v = way_values(b, ITEM_VELOCITY, k);
+    const double *u = cells_values(b, ITEM_POSITION, k), *v = cells_values(b, ITEM_VELOCITY, k);
     struct cubic along = cubic_of(u[0], u[1], v[0], v[1], h);
     for (int axis = 0; axis < 2; axis++)
         c[axis] = cubic_times(along, w->from[axis], w->e[axis]);
@@ -195,13 +195,13 @@ static void playback_place(const struct way *w, const struct board *b, long k, d
 static void playback_chunk(struct playback *p, const struct board *b, long first, int n)
 {
     double dt = 1 / (b->rate * b->over), end = b->trajectory->duration;
-    p->force = way_values(b, ITEM_SUBFORCE, first);
+    p->force = cells_values(b, ITEM_SUBFORCE, first);
     memset(p->force, 0, (size_t)n * sizeof *p->force);
     for (int i = 0; i < n; i++) {
         double h = fmin(dt, end - (double)(first + i) * dt);
         struct cubic c[2];
         if (!(h > 0)) break;
-        playback_place(&p->way, b, first + i, h, c);
+        playback_place(&p->path, b, first + i, h, c);
         playback_interval(p, c, i, p->stiffness * h / dt);
     }
     playback_flush(p);
@@ -213,12 +213,12 @@ static bool playback_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_PLAYBACK;
 }
 
-static double playback_work(const struct contact *c, const struct scene *s) { return 90 * way_work(c, s); }
+static double playback_work(const struct contact *c, const struct scene *s) { return 90 * path_cells_work(c, s); }
 
 static unsigned playback_asks(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return way_asks(c);
+    return path_cells_asks(c);
 }
 
 static bool playback_open(struct stage_run *r, struct err *e)
@@ -228,7 +228,7 @@ static bool playback_open(struct stage_run *r, struct err *e)
     r->ahead = 1;
     p->stiffness = r->contact->contact.playback;
     p->longest = relief_finest(r->board->relief) / 2;
-    return way_place(&p->way, r, e);
+    return path_cells_place(&p->path, r, e);
 }
 
 static bool playback_run(struct stage_run *r, long from, long to, struct err *e)
@@ -236,7 +236,7 @@ static bool playback_run(struct stage_run *r, long from, long to, struct err *e)
     const struct board *b = r->board;
     (void)e;
     for (long first = from * b->over, last = to * b->over; first < last;) {
-        int n = way_some(first, last);
+        int n = cells_chunk(first, last);
         playback_chunk(r->state, b, first, n);
         first += n;
     }

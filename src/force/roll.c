@@ -24,14 +24,14 @@
    offset and the lobes of the rim (bulge, which is not in the paper) press the ball deeper and less deep as N(t)
    does, quasi-statically: on level ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll_told.c says where
    it does not). With penetration: paper, rho = R - r cos(x/R) + S + bulge as printed, x that of equation 18, S leaked
-   (force/slope.c), k and lambda by hand, and N(t) without the lobes.
+   (force/path_integral.c), k and lambda by hand, and N(t) without the lobes.
 
    Where N(t) < 0, as when an offset ball spins fast, it is clear of the surface: no force at all. Without a static
    normal force (contact.gravity: 0) there is no rest and no resonance, and f_roll is what of N(t) presses. */
 #include <math.h>
 #include <string.h>
 
-#include "force/lift.h"
+#include "force/path_integral.h"
 #include "force/roll_follow.h"
 #include "force/roll_law.h"
 #include "force/roll_stiffness.h"
@@ -63,11 +63,11 @@ struct roll_state {
     double shift, excess[2]; /* m, r; N, force less N(t)+ in the last sub-interval, and in that before */
     double slow[2];          /* m, rho less follows[] where the last sub-interval began and ended */
     /* At the start of the chunk's first sub-interval and at each one's end: */
-    double follows[WAY_CHUNK + 1], rate[WAY_CHUNK + 1]; /* m, m/s: y (printed: S) and its rate */
-    double mean[WAY_CHUNK];          /* m, of y or S over each                                      */
-    double rests_at[WAY_CHUNK + 1];  /* m: delta (N(t)/N)^(2/3); printed: R - r cos(x/R) + bulge */
-    double rise[WAY_CHUNK + 1];      /* m, of the centre of mass over where it is lowest (trajectory/spin.h) */
-    double rho[WAY_CHUNK + 1], last; /* m; at the end of the chunk before                      */
+    double follows[CELLS_CHUNK + 1], rate[CELLS_CHUNK + 1]; /* m, m/s: y (printed: S) and its rate */
+    double mean[CELLS_CHUNK];          /* m, of y or S over each                                      */
+    double rests_at[CELLS_CHUNK + 1];  /* m: delta (N(t)/N)^(2/3); printed: R - r cos(x/R) + bulge */
+    double rise[CELLS_CHUNK + 1];      /* m, of the centre of mass over where it is lowest (trajectory/spin.h) */
+    double rho[CELLS_CHUNK + 1], last; /* m; at the end of the chunk before                      */
 };
 
 static bool roll_wanted(const struct contact *c, const struct scene *s)
@@ -87,7 +87,7 @@ static double roll_work(const struct contact *c, const struct scene *s)
 {
     bool round = c->ball.offset == 0 && c->ball.lobe_height == 0;
     double piece = c->contact.limiter.curve == LIMITER_TANH ? 180 : 80;
-    return piece * way_work(c, s) + (round ? 60 : 210) * s->accuracy.oversampling;
+    return piece * path_cells_work(c, s) + (round ? 60 : 210) * s->accuracy.oversampling;
 }
 
 /* ------------------------------------------------------------------ opening */
@@ -134,7 +134,7 @@ static bool roll_open(struct stage_run *r, struct err *e)
     struct roll_state *s = ARENA_TAKE(r->arena, struct roll_state, 1);
     s->spin = spin_make(c);
     s->round = c->ball.offset == 0 && c->ball.lobe_height == 0;
-    s->printed = s->scrape.slope.rising = c->contact.roll.penetration == PENETRATION_PAPER;
+    s->printed = s->scrape.path.rising = c->contact.roll.penetration == PENETRATION_PAPER;
     s->added = c->contact.force == FORCE_PAPER;
     s->touches = true;
     r->state = s;
@@ -142,7 +142,7 @@ static bool roll_open(struct stage_run *r, struct err *e)
     if (!scrape_make(&s->scrape, r, c->contact.roll.scraping, e) || (s->printed && !roll_printed(c, s, e)))
         return false;
     if (!s->printed) roll_rests(r, s);
-    r->board->hats = true;
+    r->board->bspline = true;
     roll_reports(s, r->board);
     return true;
 }
@@ -152,7 +152,7 @@ static bool roll_open(struct stage_run *r, struct err *e)
 /* S and dS/dt = v S'(u) - |v| S/l. */
 static void roll_follows_printed(struct roll_state *s, const double *v, double dt, int n)
 {
-    const struct slope *l = &s->scrape.slope;
+    const struct path_integral *l = &s->scrape.path;
     for (int i = 0; i < n; i++) {
         s->follows[i + 1] = l->heights[i];
         s->rate[i + 1] = v[i + 1] * l->ends[i] - fabs(v[i + 1]) * l->heights[i] / l->leak;
@@ -164,7 +164,7 @@ static void roll_follows_printed(struct roll_state *s, const double *v, double d
    early = (2 start + end)/6, late = (start + 2 end)/6. */
 static void roll_follows(struct roll_state *s, const double *v, double dt, int n)
 {
-    const struct slope *l = &s->scrape.slope;
+    const struct path_integral *l = &s->scrape.path;
     for (int i = 0; i < n; i++) {
         double from = s->climbing, to = s->climbing = v[i + 1] * l->ends[i], mean = l->climbed[i] / dt;
         double early = (mean - from) / dt, late = (to - mean) / dt;
@@ -177,11 +177,11 @@ static void roll_follows(struct roll_state *s, const double *v, double dt, int n
 /* rests_at[], and rise[] of what is not round. */
 static void roll_turns(struct roll_state *s, const struct board *b, const double *load, long first, int n)
 {
-    double bulge[WAY_CHUNK + 1], *at = s->rests_at;
+    double bulge[CELLS_CHUNK + 1], *at = s->rests_at;
     const struct roll_stiffness *rests = &s->rests;
     if (!s->round)
-        spin_at(&s->spin, (size_t)n + 1, way_values(b, ITEM_POSITION, first), way_values(b, ITEM_VELOCITY, first), NULL,
-                &(struct spin_out){.rise = s->rise, .printed = s->printed ? at : NULL, .bulge = bulge});
+        spin_at(&s->spin, (size_t)n + 1, cells_values(b, ITEM_POSITION, first), cells_values(b, ITEM_VELOCITY, first),
+                NULL, &(struct spin_out){.rise = s->rise, .printed = s->printed ? at : NULL, .bulge = bulge});
     for (int i = 0; i <= n && !s->round; i++)
         s->rise[i] += bulge[i] + s->spin.offset;
     for (int i = 0; i <= n && s->printed; i++)
@@ -208,7 +208,7 @@ static struct roll_parts roll_force(struct roll_state *s, int i, double dt)
     return roll_law_force(&s->law, &from, &to, s->mean[i] + 0.5 * (s->slow[0] + slow) - bend / 12, dt);
 }
 
-/* Of what no weight presses: the straight line of N(t), whose part below 0 is cut off (force/lift.h). */
+/* Of what no weight presses: the straight line of N(t), whose part below 0 is cut off (force/path_integral.h). */
 static struct roll_parts roll_weightless(const double *load, int i)
 {
     if (!load) return (struct roll_parts){0};
@@ -219,16 +219,16 @@ static struct roll_parts roll_weightless(const double *load, int i)
 static double roll_excess(const struct roll_state *s, const double *load, int i, struct roll_parts f)
 {
     if (!load) return f.early + f.late - s->rests.normal;
-    lift_cut(load[i], load[i + 1], &f.early, &f.late);
-    double pressed = lift_pressed(load[i], load[i + 1]);
+    path_integral_cut(load[i], load[i + 1], &f.early, &f.late);
+    double pressed = path_integral_pressed(load[i], load[i + 1]);
     double twice = pressed < 1 ? pressed * fmax(load[i], load[i + 1]) : load[i] + load[i + 1];
     return f.early + f.late - 0.5 * twice;
 }
 
-/* To the scraping terms' hats, or (added) alone. */
+/* To the scraping terms' parts, or (added) alone. */
 static void roll_add(struct roll_state *s, const double *load, double dt, int n)
 {
-    struct hats *h = &s->scrape.hats;
+    struct bspline *h = &s->scrape.bspline;
     bool weightless = !s->printed && !(s->rests.normal > 0);
     double softness = s->printed || weightless ? 0 : s->rests.rest / (1.5 * s->rests.normal); /* m/N */
     double holding = 2 * REAL_PI * HOLDING * dt * softness;
@@ -252,7 +252,7 @@ static void roll_add(struct roll_state *s, const double *load, double dt, int n)
 static double roll_contact(struct roll_state *s, const double *load, int i, bool *leaves)
 {
     bool before = s->touches, weightless = !s->printed && !(s->rests.normal > 0);
-    double pressed = load ? lift_pressed(load[i], load[i + 1]) : 1;
+    double pressed = load ? path_integral_pressed(load[i], load[i + 1]) : 1;
     s->touches = !(load && load[i + 1] < 0) && (weightless || s->rho[i + 1] > 0);
     *leaves = before && !s->touches;
     return s->idle ? 0 : pressed * (weightless ? 1 : roll_law_contact(s->rho[i], s->rho[i + 1]));
@@ -262,10 +262,10 @@ static double roll_contact(struct roll_state *s, const double *load, int i, bool
    much deeper the ground presses in there. */
 static double roll_height(const struct roll_state *s, const struct board *b, long first, int i)
 {
-    const struct way *w = &s->scrape.slope.way;
-    double u = way_values(b, ITEM_POSITION, first)[i], z;
-    double x = w->curved ? way_values(b, ITEM_X, first)[i] : w->from[0] + u * w->e[0];
-    double y = w->curved ? way_values(b, ITEM_Y, first)[i] : w->from[1] + u * w->e[1];
+    const struct path_cells *w = &s->scrape.path.cells;
+    double u = cells_values(b, ITEM_POSITION, first)[i], z;
+    double x = w->curved ? cells_values(b, ITEM_X, first)[i] : w->from[0] + u * w->e[0];
+    double y = w->curved ? cells_values(b, ITEM_Y, first)[i] : w->from[1] + u * w->e[1];
     const double *across = w->relief->along == ALONG_PLANE ? &y : NULL;
     relief_at(w->relief, &(struct relief_points){1, &x, across}, &(struct relief_values){.z = &z});
     return z - (s->printed ? 0 : s->follows[i]) + (s->round ? 0 : s->rise[i]);
@@ -301,9 +301,9 @@ static void roll_chunk(struct roll_state *s, struct stage_run *r, long first, in
 {
     struct board *b = r->board;
     double dt = 1 / (b->rate * b->over);
-    const double *load = lift_load(b, first), *v = way_values(b, ITEM_VELOCITY, first);
+    const double *load = path_integral_load(b, first), *v = cells_values(b, ITEM_VELOCITY, first);
     if (s->added)
-        slope_run(&s->scrape.slope, r, first, n);
+        path_integral_run(&s->scrape.path, r, first, n);
     else
         scrape_force(&s->scrape, r, first, n);
     if (s->printed)
@@ -319,17 +319,17 @@ static void roll_chunk(struct roll_state *s, struct stage_run *r, long first, in
     if (!board_has(b, ITEM_SUBFORCE)) /* a table may ask for the ball's height alone */
         return;
     if (s->added)
-        hats_add(&s->scrape.hats, b, first, n);
+        path_integral_add(&s->scrape.bspline, b, first, n);
     else
-        hats_lay(&s->scrape.hats, b, first, n);
+        path_integral_lay(&s->scrape.bspline, b, first, n);
 }
 
 static bool roll_run(struct stage_run *r, long from, long to, struct err *e)
 {
     int over = r->board->over;
     (void)e;
-    for (long first = from * over, last = to * over; first < last; first += way_some(first, last))
-        roll_chunk(r->state, r, first, way_some(first, last));
+    for (long first = from * over, last = to * over; first < last; first += cells_chunk(first, last))
+        roll_chunk(r->state, r, first, cells_chunk(first, last));
     return true;
 }
 
@@ -337,7 +337,7 @@ static void roll_skip(struct stage_run *r, long frame)
 {
     struct roll_state *s = r->state;
     (void)frame;
-    scrape_forget(&s->scrape);
+    scrape_reset(&s->scrape);
     s->climbing = s->shift = s->excess[0] = s->excess[1] = 0;
     s->follow.y = s->follow.rate = s->follows[0] = s->rate[0] = 0;
     s->touches = true;
@@ -347,7 +347,7 @@ static void roll_skip(struct stage_run *r, long frame)
 static unsigned roll_asks(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return way_asks(c);
+    return path_cells_asks(c);
 }
 
 const struct stage roll_stage = {

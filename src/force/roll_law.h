@@ -27,7 +27,7 @@ struct roll_end {
 };
 
 struct roll_parts {
-    double early, late; /* N, as in force/hats.h */
+    double early, late; /* N, as in force/path_integral.h */
 };
 
 /* Of max(0, k rho^1.5 (1 + mu rho')) over dt (s), from a to b, where the mean of rho is `mean` (m). */

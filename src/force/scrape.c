@@ -4,14 +4,14 @@
      f_h = beta1 | |v| S' |^beta2           horizontal force, N                                      papers/000 eq. 3
 
      m     mass of the scraper, kg          v        velocity along the path, m/s
-     S'    dS/ds, force/slope.c             beta1    N (s/m)^beta2
+     S'    dS/ds, force/path_integral.c             beta1    N (s/m)^beta2
 
    Departures from papers/000, and why. Equation 2 keeps only S'' v^2 of the second time derivative of S and leaves out
    2 S_xy v_x v_y and the gradient times the acceleration: momentum is lost at every reversal, and the force changes
    when the axes are turned; here f_v is the whole derivative along the path. One S serves both forces.
 
-   What goes on the board are means weighted by hats (force/hats.h). With P = m |v| S', and since v dt = du, a
-   sub-interval's parts of f_v are
+   What goes on the board are means weighted by linear B-splines (force/path_integral.h). With P = m |v| S', and since v
+   dt = du, a sub-interval's parts of f_v are
 
      early  (mean P - P(start)) / dt        late  (P(end) - mean P) / dt        mean P = m/dt times the integral of S'
    ds over it
@@ -37,14 +37,14 @@ bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err
     s->beta2 = m->beta2;
     s->mass = r->contact->scraper.mass;
     s->share = share;
-    s->slope.crossing = share * m->beta1 != 0;
-    return slope_make(&s->slope, r, e);
+    s->path.crossing = share * m->beta1 != 0;
+    return path_integral_make(&s->path, r, e);
 }
 
-void scrape_forget(struct scrape *s)
+void scrape_reset(struct scrape *s)
 {
-    slope_forget(&s->slope);
-    s->momentum = s->hats.carried = 0;
+    path_integral_reset(&s->path);
+    s->momentum = s->bspline.carried = 0;
 }
 
 /* rubbed[i] N: beta1 |v|^(beta2 - 1) at the mean speed. */
@@ -53,7 +53,7 @@ static void scrape_rubbed(const struct scrape *s, double per_second, int n, doub
     for (int i = 0; i < n; i++)
         rubbed[i] = s->beta1;
     for (int i = 0; i < n && s->beta2 != 1; i++)
-        if (s->slope.crossed[i] > 0) rubbed[i] = s->beta1 * real_pow(s->slope.travelled[i] * per_second, s->beta2 - 1);
+        if (s->path.crossed[i] > 0) rubbed[i] = s->beta1 * real_pow(s->path.travelled[i] * per_second, s->beta2 - 1);
 }
 
 /* Both parts of f_h, N, from rubbed[]. `changes` is (v1 - v0)/(v1 + v0), and 0 where these are not the ends of the
@@ -61,8 +61,8 @@ static void scrape_rubbed(const struct scrape *s, double per_second, int n, doub
 LANES_CLONES
 static void scrape_horizontal(struct scrape *s, const double *v, double per_second, int n, const double *rubbed)
 {
-    const struct slope *l = &s->slope;
-    double power = s->beta2 / 6, *early = s->hats.early, *late = s->hats.late;
+    const struct path_integral *l = &s->path;
+    double power = s->beta2 / 6, *early = s->bspline.early, *late = s->bspline.late;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
         double mean = l->travelled[i] * per_second, a = fabs(v[i]), b = fabs(v[i + 1]);
@@ -79,8 +79,9 @@ static void scrape_horizontal(struct scrape *s, const double *v, double per_seco
 LANES_CLONES
 static void scrape_vertical(struct scrape *s, const double *v, int n, double per_second, double share)
 {
-    const double *ends = s->slope.ends, *climbed = s->slope.climbed;
-    double momentum[WAY_CHUNK + 1], mass = s->mass, *restrict early = s->hats.early, *restrict late = s->hats.late;
+    const double *ends = s->path.ends, *climbed = s->path.climbed;
+    double momentum[CELLS_CHUNK + 1],
+        mass = s->mass, *restrict early = s->bspline.early, *restrict late = s->bspline.late;
     momentum[0] = s->momentum;
 #pragma omp simd
     for (int i = 0; i < n; i++)
@@ -97,9 +98,9 @@ static void scrape_vertical(struct scrape *s, const double *v, int n, double per
 void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n)
 {
     const struct board *b = r->board;
-    double rubbed[WAY_CHUNK], per_second = b->rate * b->over, share = s->share * per_second;
-    slope_run(&s->slope, r, first, n);
-    const double *v = way_values(b, ITEM_VELOCITY, first);
+    double rubbed[CELLS_CHUNK], per_second = b->rate * b->over, share = s->share * per_second;
+    path_integral_run(&s->path, r, first, n);
+    const double *v = cells_values(b, ITEM_VELOCITY, first);
     scrape_rubbed(s, per_second, n, rubbed);
     scrape_horizontal(s, v, per_second, n, rubbed);
     scrape_vertical(s, v, n, per_second, share);
@@ -119,9 +120,9 @@ static double scrape_work(const struct contact *c, const struct scene *s)
 {
     bool straight = rules_straight(&c->motion), plane = rules_along(c) == ALONG_PLANE;
     double limited = c->contact.limiter.curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling,
-           way = way_work(c, s);
+           way = path_cells_work(c, s);
     if (plane && !straight) return limited * (850 * over + 2200 * (way / 2 - over));
-    return limited * (straight && !plane ? 70 : 150) * way; /* cut by way_straight.c, or not */
+    return limited * (straight && !plane ? 70 : 150) * way; /* cut by path_cells.c, or not */
 }
 
 static bool scrape_open(struct stage_run *r, struct err *e)
@@ -130,14 +131,14 @@ static bool scrape_open(struct stage_run *r, struct err *e)
     r->state = s;
     r->ahead = 1;
     r->ends = r->board->moving;
-    r->board->hats = true;
+    r->board->bspline = true;
     return scrape_make(s, r, 1, e);
 }
 
 /* Does nothing move in those n sub-intervals, or to and from them, so that there is no force? */
 static bool scrape_rests(const struct scrape *s, const struct board *b, long first, int n)
 {
-    const double *u = way_values(b, ITEM_POSITION, first), *v = way_values(b, ITEM_VELOCITY, first);
+    const double *u = cells_values(b, ITEM_POSITION, first), *v = cells_values(b, ITEM_VELOCITY, first);
     if (s->momentum != 0) return false;
     for (int i = 0; i <= n; i++)
         if (v[i] != 0 || u[i] != u[0]) return false;
@@ -150,12 +151,12 @@ static bool scrape_run(struct stage_run *r, long from, long to, struct err *e)
     struct board *b = r->board;
     (void)e;
     for (long first = from * b->over, last = to * b->over; first < last;) {
-        int n = way_some(first, last);
+        int n = cells_chunk(first, last);
         if (scrape_rests(s, b, first, n))
-            memset(&s->hats, 0, offsetof(struct hats, carried));
+            memset(&s->bspline, 0, offsetof(struct bspline, carried));
         else
             scrape_force(s, r, first, n);
-        hats_lay(&s->hats, b, first, n);
+        path_integral_lay(&s->bspline, b, first, n);
         first += n;
     }
     return true;
@@ -164,13 +165,13 @@ static bool scrape_run(struct stage_run *r, long from, long to, struct err *e)
 static void scrape_skip(struct stage_run *r, long frame)
 {
     (void)frame;
-    scrape_forget(r->state);
+    scrape_reset(r->state);
 }
 
 static unsigned scrape_asks(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return way_asks(c);
+    return path_cells_asks(c);
 }
 
 const struct stage scrape_stage = {

@@ -79,7 +79,7 @@ static double table_power(const struct spectrum *s, double from, double to)
 }
 
 /* Where X varies: 64 steps of half a pi/64 each in log k. */
-static double crossing_power(const struct spectrum *s, double from, double to)
+static double path_integral_power(const struct spectrum *s, double from, double to)
 {
     enum { STEPS = 64 };
     double span = real_log(to / from), sum = 0;
@@ -100,7 +100,7 @@ double spectrum_power(const struct spectrum *s, double from, double to)
     if (from >= to) return 0;
     if (s->takeover <= 0) return table_power(s, from, to);
     double lo = s->takeover * sqrt(0.5), hi = s->takeover * sqrt(2), c0 = fmax(from, lo), c1 = fmin(to, hi);
-    return (c0 < c1 ? crossing_power(s, c0, c1) : 0) + (to > hi ? table_power(s, fmax(from, hi), to) : 0);
+    return (c0 < c1 ? path_integral_power(s, c0, c1) : 0) + (to > hi ? table_power(s, fmax(from, hi), to) : 0);
 }
 
 double spectrum_top(const struct spectrum *s) { return s->k[s->n - 1]; }

@@ -94,7 +94,7 @@ static inline int judge_rate(double t, const double y[], double dydt[], void *se
     return GSL_SUCCESS;
 }
 
-/* Means of the force by hats (force/hats.h) about n sub-intervals' starts, dt apart from 0 on; where it is asked for,
+/* Means of the force by hats (force/path_integral.h) about n sub-intervals' starts, dt apart from 0 on; where it is asked for,
    the means of m v S' over them. Steps are kept short: where T is all but constant long ones would miss what lies
    between their points. */
 static inline void judge_run(struct judge *j, long n, double dt, double *force, double *momenta)

@@ -1,6 +1,6 @@
 /* The scraping force on profiles and straight paths against a slow judge (tests/unit/judge.h): tolerances say what the
  * closed forms leave out. */
-#include "force/hats.h"
+#include "force/path_integral.h"
 #include "judge.h"
 #include "surface/profile.h"
 
@@ -281,17 +281,18 @@ START_TEST(third_order_in_the_sub_intervals)
 }
 END_TEST
 
-/* A force that stands at 1 N, then jumps: hats by their definition, 1 - |t - t_j| / dt; they add up to the mean. */
-START_TEST(hats_add_up)
+/* A force that stands at 1 N, then jumps: B-splines by their definition, 1 - |t - t_j| / dt; they add up to the mean.
+ */
+START_TEST(bsplines_add_up)
 {
-    struct hats h = {.early = {0.5, 0.5, 0.5, 0}, .late = {0.5, 0.5, 0.25, 0}};
+    struct bspline h = {.early = {0.5, 0.5, 0.5, 0}, .late = {0.5, 0.5, 0.25, 0}};
     struct board b = {.rate = 48000, .over = 1};
     double x[4] = {9, 9, 9, 9};
     static const double want[] = {0.5, 1, 1, 0.25};
     b.signals[ITEM_SUBFORCE] = (struct signal){.per_frame = 1, .capacity = 4, .x = x};
-    hats_lay(&h, &b, 0, 2);
+    path_integral_lay(&h, &b, 0, 2);
     h.early[0] = h.early[2], h.late[0] = h.late[2], h.early[1] = h.late[1] = 0;
-    hats_lay(&h, &b, 2, 2);
+    path_integral_lay(&h, &b, 2, 2);
     for (int i = 0; i < 4; i++)
         ck_assert_double_eq(x[i], want[i]);
     ck_assert_double_eq(x[0] + x[1] + x[2] + x[3], 1 + 1 + 0.75);
@@ -380,5 +381,5 @@ END_TEST
 UNIT("scrape", vertical_force_through_reversals, unlimited_force_through_reversals, alpha_that_varies, horizontal_force,
      sub_intervals_are_cut_at_turns, oblique_stroke_over_an_extruded_profile, means_are_exact, blocks_do_not_matter,
      a_turn_in_the_middle_of_a_sample, a_stroke_straight_across_but_for_rounding, a_smoothing_of_seconds_is_refused,
-     the_audio_force_is_not_delayed, third_order_in_the_sub_intervals, hats_add_up, flat_surface_is_silent,
+     the_audio_force_is_not_delayed, third_order_in_the_sub_intervals, bsplines_add_up, flat_surface_is_silent,
      limits_of_the_limiter, no_force_while_lifted_off)

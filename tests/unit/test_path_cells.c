@@ -1,7 +1,7 @@
-/* way: the pieces of straight, turning and curved motions against the geometry they must keep: they tile what is
+/* path_cells: the cells of straight, turning and curved motions against the geometry they must keep: they tile what is
    travelled, lie on the path, and cross no line of knots; what is said of each (halves, bulges, directions, slopes)
    against the surface read directly. */
-#include "force/way.h"
+#include "force/path_cells.h"
 
 #include "surface/limiter.h"
 #include "surface/map.h"
@@ -13,19 +13,19 @@ enum { MOST = 60000, FRAMES = 600 };
 
 static struct {
     int n, interval[MOST], heading[MOST], flushes;
-    double length[MOST], ends[MOST][2][2], e[MOST][2][2], c[MOST][2][2], bulge[MOST][2], alpha[MOST][2], slope[MOST][2],
-        bend[MOST][2], mean[MOST];
+    double length[MOST], ends[MOST][2][2], e[MOST][2][2], c[MOST][2][2], sagitta[MOST][2], alpha[MOST][2],
+        slope[MOST][2], bend[MOST][2], mean[MOST];
 } all;
 
 static int first_interval;
 
-static void gather(void *self, const struct way_pieces *p)
+static void gather(void *self, const struct cells *p)
 {
     (void)self;
     all.flushes++;
     for (int i = 0; i < p->n; i++, all.n++) {
         ck_assert_int_lt(all.n, MOST);
-        ck_assert(p->n <= LIMITED_PIECES && p->points <= LIMITED_POINTS && p->at[i] >= 0 && p->at[i] + 1 < p->points);
+        ck_assert(p->n <= LIMITER_CELLS && p->points <= LIMITER_POINTS && p->at[i] >= 0 && p->at[i] + 1 < p->points);
         all.interval[all.n] = first_interval + p->interval[i];
         all.heading[all.n] = p->heading[i];
         all.length[all.n] = p->length[i];
@@ -35,7 +35,7 @@ static void gather(void *self, const struct way_pieces *p)
             all.ends[all.n][k][0] = p->x[at], all.ends[all.n][k][1] = p->y[at];
             all.e[all.n][k][0] = p->ex[at], all.e[all.n][k][1] = p->ey[at];
             all.c[all.n][k][0] = p->curvature[0][at], all.c[all.n][k][1] = p->curvature[1][at];
-            all.bulge[all.n][k] = p->bulge[k][i], all.alpha[all.n][k] = p->alpha[k][p->at[i]];
+            all.sagitta[all.n][k] = p->sagitta[k][i], all.alpha[all.n][k] = p->alpha[k][p->at[i]];
             all.slope[all.n][k] = p->slope[at], all.bend[all.n][k] = p->bend[at];
         }
     }
@@ -49,7 +49,7 @@ static struct trajectory motion;
 static struct relief relief;
 static struct board board;
 static struct stage_run run;
-static struct way way;
+static struct path_cells path;
 
 static void prepare(const struct motion *m, double rate, int over)
 {
@@ -73,16 +73,16 @@ static void prepare(const struct motion *m, double rate, int over)
     run = (struct stage_run){.contact = &contact, .board = &board, .arena = arena};
 }
 
-/* All pieces of `n` sub-intervals, in chunks of at most `some`. */
-static void travel(enum way_kind kind, double longest, int n, int some)
+/* All cells of `n` sub-intervals, in chunks of at most `some`. */
+static void travel(enum cells_kind kind, double longest, int n, int some)
 {
     struct err e = {0};
-    memset(&way, 0, sizeof way);
-    ck_assert_msg(way_make(&way, &run, kind, longest, &e), "%s", e.text);
-    way.use = gather;
+    memset(&path, 0, sizeof path);
+    ck_assert_msg(path_cells_make(&path, &run, kind, longest, &e), "%s", e.text);
+    path.use = gather;
     all.n = all.flushes = 0;
     for (first_interval = 0; first_interval < n; first_interval += some)
-        way_run(&way, &run, first_interval, n - first_interval < some ? n - first_interval : some);
+        path_cells_run(&path, &run, first_interval, n - first_interval < some ? n - first_interval : some);
 }
 
 static const double pitch[2] = {3e-6, 5e-6}, origin[2] = {-1.3e-6, 2.1e-6};
@@ -133,7 +133,7 @@ static void check_tiling(int n, double slip)
         double want = isnan(turn) ? fabs(u1 - u0) : fabs(u_at(turn) - u0) + fabs(u1 - u_at(turn)), sum = 0;
         for (; i < all.n && all.interval[i] == k; i++) {
             ck_assert_double_gt(all.length[i], 0);
-            ck_assert_double_le(all.length[i], way.longest * (1 + 1e-9));
+            ck_assert_double_le(all.length[i], path.longest * (1 + 1e-9));
             sum += all.length[i];
             here += all.heading[i] * all.length[i];
             for (int axis = 0; axis < 2 && i > 0; axis++)
@@ -150,9 +150,9 @@ static void check_knots(double slack)
 {
     int met = 0;
     for (int i = 0; i < all.n; i++)
-        for (int g = 0; g < way.n_grids; g++) {
-            double a = (all.ends[i][0][way.grids[g].axis] - way.grids[g].origin) / way.grids[g].pitch;
-            double b = (all.ends[i][1][way.grids[g].axis] - way.grids[g].origin) / way.grids[g].pitch;
+        for (int g = 0; g < path.n_knots; g++) {
+            double a = (all.ends[i][0][path.knots[g].axis] - path.knots[g].origin) / path.knots[g].pitch;
+            double b = (all.ends[i][1][path.knots[g].axis] - path.knots[g].origin) / path.knots[g].pitch;
             double low = fmin(a, b), high = fmax(a, b), knot = rint(0.5 * (low + high));
             ck_assert_msg(fmin(knot - low, high - knot) < slack, "piece %d from knot %.9g to %.9g", i, a, b);
             met += fabs(b - rint(b)) < 1e-9;
@@ -160,7 +160,7 @@ static void check_knots(double slack)
     ck_assert_int_gt(met, all.n / 50);
 }
 
-/* The limits that way_make sets itself, and the pairs of pieces that bulge: against the surface at the points. */
+/* The limits that path_cells_make sets itself, and the pairs of cells that bulge: against the surface at the points. */
 static void check_pairs(void)
 {
     for (int i = 0; i < all.n; i += 2) {
@@ -175,11 +175,11 @@ static void check_pairs(void)
             h[k][1] = -ex * ey * xx + (ex * ex - ey * ey) * xy + ex * ey * yy;
             size = fmax(size, fabs(xx) + fabs(xy) + fabs(yy));
         }
-        for (int channel = 0; channel < way.channels; channel++)
+        for (int channel = 0; channel < path.channels; channel++)
             for (int half = 0; half < 2; half++) {
                 ck_assert_double_eq_tol(all.c[i + half][0][channel], h[half][channel], 1e-14 * size);
                 ck_assert_double_eq_tol(all.c[i + half][1][channel], h[half + 1][channel], 1e-14 * size);
-                ck_assert_double_eq_tol(all.bulge[i + half][channel],
+                ck_assert_double_eq_tol(all.sagitta[i + half][channel],
                                         (h[1][channel] - (h[0][channel] + h[2][channel]) / 2) / 4, 1e-14 * size);
             }
     }
@@ -188,7 +188,7 @@ static void check_pairs(void)
 /* ------------------------------------------------------------------ straight */
 
 /* A profile along the path, along x at an angle, a map at angles: far too, several grids, knots far apart and close. */
-START_TEST(straight_ways)
+START_TEST(straight_paths)
 {
     static const double to[][2] = {{2e-3, 0}, {-1e-3, 1.5e-3}, {0, 1e-3}, {1e-3, 1e-3}, {3e-4, -2e-3}, {-1e-3, -1e-9}};
     for (int k = 0; k < 30; k++) {
@@ -205,14 +205,14 @@ START_TEST(straight_ways)
         else
             surface_plane(1 + k % 2);
         prepare(&m, 48000, 1 + k % 4);
-        travel(WAY_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, WAY_CHUNK);
-        ck_assert(way.halves == (k >= 12) && way.n_grids == (k < 12 ? 1 : 2 + 2 * (k % 2)) && way.channels == 1 &&
-                  !way.curved);
+        travel(CELLS_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, CELLS_CHUNK);
+        ck_assert(path.halves == (k >= 12) && path.n_knots == (k < 12 ? 1 : 2 + 2 * (k % 2)) && path.channels == 1 &&
+                  !path.curved);
         check_tiling(480 * board.over, 1e-16 + 1e-15 * far);
         if (k >= 12) {
             check_knots(2e-7);
             check_pairs();
-        } else if (way.e[0] != 0) {
+        } else if (path.e[0] != 0) {
             check_knots(2e-7);
         }
         arena_close(arena);
@@ -221,7 +221,7 @@ START_TEST(straight_ways)
 END_TEST
 
 /* Back and forth, turning in the middle of a sub-interval: way and heading on either side. */
-START_TEST(turning_ways)
+START_TEST(turning_paths)
 {
     for (int plane = 0; plane < 2; plane++) {
         struct motion m = {.path = PATH_BACK_AND_FORTH, .to = {3e-3, plane * 1e-3}, .rate = 97, .duration = 0.05};
@@ -232,7 +232,7 @@ START_TEST(turning_ways)
         else
             surface_profile(ALONG_PATH);
         prepare(&m, 8000, 1);
-        travel(WAY_ALONG, 1e-3, 399, WAY_CHUNK);
+        travel(CELLS_ALONG, 1e-3, 399, CELLS_CHUNK);
         check_tiling(399, 1e-16);
         check_knots(2e-7);
         int turns = 0;
@@ -266,8 +266,8 @@ START_TEST(circles)
         surface_plane(1);
         prepare(&m, 48000, 2);
         int n = (int)fmin(1000, floor(motion.duration * 96000));
-        travel(WAY_ALONG, 1e-3, n, WAY_CHUNK);
-        ck_assert(way.halves && way.curved && way.channels == 2);
+        travel(CELLS_ALONG, 1e-3, n, CELLS_CHUNK);
+        ck_assert(path.halves && path.curved && path.channels == 2);
         check_tiling(n, 1e-15);
         check_knots(2e-7 + step * step / (8 * radius) / pitch[0]);
         check_pairs();
@@ -288,7 +288,7 @@ START_TEST(circles)
 }
 END_TEST
 
-/* A circle whose top touches a line of knots: from below, through a little, and not. However it meets, the pieces tile
+/* A circle whose top touches a line of knots: from below, through a little, and not. However it meets, the cells tile
  * it. */
 START_TEST(tangent_to_knots)
 {
@@ -306,7 +306,7 @@ START_TEST(tangent_to_knots)
         surface_plane(1);
         prepare(&m, 48000, 2);
         int n = (int)floor(motion.duration * 96000);
-        travel(WAY_ALONG, 1e-3, n, WAY_CHUNK);
+        travel(CELLS_ALONG, 1e-3, n, CELLS_CHUNK);
         check_tiling(n, 1e-15);
         check_knots(2e-7 + step * step / (8 * radius) / pitch[0]);
         arena_close(arena);
@@ -329,7 +329,7 @@ START_TEST(curved_there_and_back)
     srand48(4);
     surface_plane(1);
     prepare(&m, 48000, 1);
-    travel(WAY_ALONG, 1e-3, 512, WAY_CHUNK);
+    travel(CELLS_ALONG, 1e-3, 512, CELLS_CHUNK);
     check_tiling(512, 1e-15);
     double furthest = 0;
     for (int i = 0; i < all.n; i++) {
@@ -351,7 +351,7 @@ static void keep(double *to)
     memcpy(to + 2 * n, all.ends, 4 * n * sizeof *to);
 }
 
-/* However sub-intervals are grouped, and wherever the buffer of pieces is full, also in the middle of a long stretch:
+/* However sub-intervals are grouped, and wherever the buffer of cells is full, also in the middle of a long stretch:
  * the same bits. */
 START_TEST(chunks_do_not_matter)
 {
@@ -367,16 +367,16 @@ START_TEST(chunks_do_not_matter)
             surface_plane(k == 2 ? 2 : 1);
         prepare(k == 3 ? &circle : &line, k == 3 ? 20000 : 1000, 1);
         int n = k == 3 ? 500 : 10;
-        travel(WAY_ALONG, 1e-4, n, WAY_CHUNK);
-        int pieces = all.n, flushes = all.flushes;
-        ck_assert_int_gt(pieces, 3 * LIMITED_PIECES);
+        travel(CELLS_ALONG, 1e-4, n, CELLS_CHUNK);
+        int cells = all.n, flushes = all.flushes;
+        ck_assert_int_gt(cells, 3 * LIMITER_CELLS);
         check_tiling(n, 1e-15);
         keep(one);
-        travel(WAY_ALONG, 1e-4, n, k == 3 ? 7 : 1);
+        travel(CELLS_ALONG, 1e-4, n, k == 3 ? 7 : 1);
         keep(other);
-        ck_assert_int_eq(all.n, pieces);
+        ck_assert_int_eq(all.n, cells);
         ck_assert_int_ne(all.flushes, flushes);
-        ck_assert_mem_eq(one, other, 7 * (size_t)pieces * sizeof *one);
+        ck_assert_mem_eq(one, other, 7 * (size_t)cells * sizeof *one);
         arena_close(arena);
     }
 }
@@ -391,8 +391,8 @@ START_TEST(values_per_axis)
     srand48(5);
     surface_plane(2);
     prepare(&m, 48000, 1);
-    travel(WAY_AXES, HUGE_VAL, 500, WAY_CHUNK);
-    ck_assert(way.channels == 2 && way.ratio == 0.5);
+    travel(CELLS_AXES, HUGE_VAL, 500, CELLS_CHUNK);
+    ck_assert(path.channels == 2 && path.ratio == 0.5);
     for (int i = 0; i < all.n; i++) {
         const double *at = all.ends[i][1], *e = all.e[i][1];
         double x, y, xx, xy, yy;
@@ -407,9 +407,9 @@ START_TEST(values_per_axis)
 }
 END_TEST
 
-/* The common case's short cut gives the pieces of the plain form: all the same numbers, wherever the flushes fall and
+/* The common case's short cut gives the cells of the plain form: all the same numbers, wherever the flushes fall and
  * points are shared. */
-START_TEST(straight_ways_as_plain)
+START_TEST(straight_paths_as_plain)
 {
     static const double to[][2] = {{2e-3, 0}, {-1e-3, 1.5e-3}, {1e-3, 1e-3}, {0, 1e-3}};
     static double length[MOST], ends[MOST][2][2], mean[MOST];
@@ -428,18 +428,19 @@ START_TEST(straight_ways_as_plain)
         else
             surface_plane(k < 24 ? 1 : 2);
         prepare(&m, 48000, 1 + k % 4);
-        travel(WAY_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, WAY_CHUNK);
-        ck_assert(way.straight);
+        travel(CELLS_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, CELLS_CHUNK);
+        ck_assert(path.straight);
         int n = all.n;
         for (int i = 0; i < n; i++) {
             length[i] = all.length[i], mean[i] = all.mean[i], interval[i] = all.interval[i];
             memcpy(ends[i], all.ends[i], sizeof ends[i]);
         }
-        way.straight = false;
+        path.straight = false;
         all.n = 0;
-        for (first_interval = 0; first_interval < 480 * board.over; first_interval += WAY_CHUNK)
-            way_run(&way, &run, first_interval,
-                    480 * board.over - first_interval < WAY_CHUNK ? 480 * board.over - first_interval : WAY_CHUNK);
+        for (first_interval = 0; first_interval < 480 * board.over; first_interval += CELLS_CHUNK)
+            path_cells_run(&path, &run, first_interval,
+                           480 * board.over - first_interval < CELLS_CHUNK ? 480 * board.over - first_interval
+                                                                           : CELLS_CHUNK);
         ck_assert_int_eq(all.n, n);
         for (int i = 0; i < n; i++)
             ck_assert(length[i] == all.length[i] && mean[i] == all.mean[i] && interval[i] == all.interval[i] &&
@@ -450,5 +451,5 @@ START_TEST(straight_ways_as_plain)
 }
 END_TEST
 
-UNIT("way", straight_ways, straight_ways_as_plain, turning_ways, circles, tangent_to_knots, curved_there_and_back,
-     chunks_do_not_matter, values_per_axis)
+UNIT("path_cells", straight_paths, straight_paths_as_plain, turning_paths, circles, tangent_to_knots,
+     curved_there_and_back, chunks_do_not_matter, values_per_axis)

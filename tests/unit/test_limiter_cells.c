@@ -1,6 +1,6 @@
 /* limited: means and moments of T over a piece against GSL's adaptive quadrature: where the curvature runs along a
    straight line, and where it bulges. */
-#include "surface/limited.h"
+#include "surface/limiter.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
@@ -10,26 +10,26 @@
 /* ------------------------------------------------------------------ pieces, each with two points of its own */
 
 static struct {
-    int n, at[LIMITED_PIECES];
-    double alpha[LIMITED_POINTS], curvature[LIMITED_POINTS], bulge[LIMITED_PIECES], limited[LIMITED_POINTS],
-        mean[LIMITED_PIECES], moment[LIMITED_PIECES];
+    int n, at[LIMITER_CELLS];
+    double alpha[LIMITER_POINTS], curvature[LIMITER_POINTS], sagitta[LIMITER_CELLS], limited[LIMITER_POINTS],
+        mean[LIMITER_CELLS], moment[LIMITER_CELLS];
 } pieces;
 
-static void add_piece(double alpha, double c0, double c1, double bulge)
+static void add_piece(double alpha, double c0, double c1, double sagitta)
 {
     int i = pieces.n++;
     pieces.at[i] = 2 * i;
     pieces.alpha[2 * i] = pieces.alpha[2 * i + 1] = alpha;
     pieces.curvature[2 * i] = c0;
     pieces.curvature[2 * i + 1] = c1;
-    pieces.bulge[i] = bulge;
+    pieces.sagitta[i] = sagitta;
 }
 
 static void run(bool bulges, bool limiter)
 {
-    limited_run(&(struct limited){pieces.n, 2 * pieces.n, pieces.at, pieces.alpha, pieces.curvature,
-                                  bulges ? pieces.bulge : NULL, pieces.limited, pieces.mean, pieces.moment},
-                limiter);
+    limiter_cells(&(struct limiter_cells){pieces.n, 2 * pieces.n, pieces.at, pieces.alpha, pieces.curvature,
+                                          bulges ? pieces.sagitta : NULL, pieces.limited, pieces.mean, pieces.moment},
+                  limiter);
 }
 
 static double between(double lo, double hi) { return lo + (hi - lo) * drand48(); }
@@ -108,9 +108,9 @@ START_TEST(means_and_moments_are_integrals)
     gsl_set_error_handler_off();
     srand48(2);
     for (int round = 0; round < 40; round++) {
-        double x[LIMITED_PIECES][2];
+        double x[LIMITER_CELLS][2];
         pieces.n = 0;
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             double alpha = pow(10, between(-6, 3));
             double x0 = signed_power(-9, i % 2 ? 6 : 1.3),
                    way = i % 16 == 0 ? 0 : signed_power(i % 3 ? -3.5 : -9, i % 4 ? 2 : 5);
@@ -120,7 +120,7 @@ START_TEST(means_and_moments_are_integrals)
             x[i][1] = alpha * (x1 / alpha);
         }
         run(round % 2, true); /* a bulge of 0 is none */
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             double mean = fabs(pieces.alpha[2 * i] * pieces.mean[i] - quadrature(x[i][0], x[i][1], 0, 0));
             double moment = fabs(pieces.alpha[2 * i] * pieces.moment[i] - quadrature(x[i][0], x[i][1], 0, 1));
             worst[0] = fmax(worst[0], mean);
@@ -141,12 +141,12 @@ START_TEST(moments_beyond_the_border)
     srand48(3);
     for (int round = 0; round < 10; round++) {
         pieces.n = 0;
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             double x0 = between(-20, 20);
             add_piece(1, x0, x0 + signed_power(-1.3, 4), 0);
         }
         run(false, true);
-        for (int i = 0; i < LIMITED_PIECES; i++)
+        for (int i = 0; i < LIMITER_CELLS; i++)
             if (fabs(pieces.curvature[2 * i + 1] - pieces.curvature[2 * i]) > 0.05)
                 ck_assert_double_eq_tol(pieces.moment[i],
                                         quadrature(pieces.curvature[2 * i], pieces.curvature[2 * i + 1], 0, 1), 1e-11);
@@ -161,7 +161,7 @@ START_TEST(bounded_by_one_over_alpha)
     srand48(4);
     for (int round = 0; round < 400; round++) {
         pieces.n = 0;
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             double c0 = signed_power(-2, 12), alpha = pow(10, between(-6, 3));
             double c1 = i % 4 == 0 ? c0 + signed_power(-3, 1) / alpha
                         : i % 2    ? signed_power(-2, 12)
@@ -169,9 +169,9 @@ START_TEST(bounded_by_one_over_alpha)
             add_piece(alpha, c0, c1, i % 8 == 4 ? signed_power(-1, 6) / alpha : signed_power(-2, 12));
         }
         run(round % 2, true);
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             double alpha = pieces.alpha[2 * i], limit = (1 + 0x1p-51) / alpha;
-            double wider = round % 2 ? 1 + 2e-8 + 0x1p-50 * alpha * fabs(pieces.bulge[i]) : 1 + 0x1p-51;
+            double wider = round % 2 ? 1 + 2e-8 + 0x1p-50 * alpha * fabs(pieces.sagitta[i]) : 1 + 0x1p-51;
             ck_assert_double_le(fabs(pieces.limited[2 * i]), limit);
             ck_assert_double_le(fabs(pieces.limited[2 * i + 1]), limit);
             ck_assert_double_le(fabs(pieces.mean[i]), wider / alpha);
@@ -185,20 +185,20 @@ END_TEST
  * the unlimited ones. */
 START_TEST(small_alpha_limits_nothing)
 {
-    static double mean[LIMITED_PIECES], moment[LIMITED_PIECES], limited[LIMITED_POINTS];
+    static double mean[LIMITER_CELLS], moment[LIMITER_CELLS], limited[LIMITER_POINTS];
     srand48(5);
     for (int bulges = 0; bulges < 2; bulges++) {
         pieces.n = 0;
-        for (int i = 0; i < LIMITED_PIECES; i++)
+        for (int i = 0; i < LIMITER_CELLS; i++)
             add_piece(1e-12, between(-1000, 1000), between(-1000, 1000), between(-1000, 1000));
         run(bulges, true);
         memcpy(mean, pieces.mean, sizeof mean);
         memcpy(moment, pieces.moment, sizeof moment);
         memcpy(limited, pieces.limited, sizeof limited);
         run(bulges, false);
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             double c0 = pieces.curvature[2 * i], c1 = pieces.curvature[2 * i + 1],
-                   b = bulges ? 2.0 / 3 * pieces.bulge[i] : 0;
+                   b = bulges ? 2.0 / 3 * pieces.sagitta[i] : 0;
             ck_assert_double_eq_tol(limited[2 * i], c0, 1e-12);
             ck_assert_double_eq_tol(mean[i], (c0 + c1) / 2 + b, 1e-12);
             ck_assert_double_eq_tol(moment[i], (c1 - c0) / 12, 1e-12);
@@ -213,23 +213,23 @@ END_TEST
 /* Swapped ends have the same mean and the opposite moment; all signs turned turn the mean. */
 START_TEST(symmetries)
 {
-    static double mean[LIMITED_PIECES], moment[LIMITED_PIECES];
+    static double mean[LIMITER_CELLS], moment[LIMITER_CELLS];
     srand48(6);
     for (int turned = 0; turned < 2; turned++) {
         pieces.n = 0;
-        for (int i = 0; i < LIMITED_PIECES; i++)
+        for (int i = 0; i < LIMITER_CELLS; i++)
             add_piece(0.03, signed_power(-3, 5), signed_power(-3, 5), signed_power(-3, 1));
         run(true, true);
         memcpy(mean, pieces.mean, sizeof mean);
         memcpy(moment, pieces.moment, sizeof moment);
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             double c = pieces.curvature[2 * i], sign = turned ? -1 : 1;
             pieces.curvature[2 * i] = sign * pieces.curvature[2 * i + 1];
             pieces.curvature[2 * i + 1] = sign * c;
-            pieces.bulge[i] *= sign;
+            pieces.sagitta[i] *= sign;
         }
         run(true, true);
-        for (int i = 0; i < LIMITED_PIECES; i++) {
+        for (int i = 0; i < LIMITER_CELLS; i++) {
             ck_assert_double_eq_tol(0.03 * pieces.mean[i], (turned ? -0.03 : 0.03) * mean[i], 1e-11);
             ck_assert_double_eq_tol(0.03 * pieces.moment[i], (turned ? 0.03 : -0.03) * moment[i], 1e-11);
         }
@@ -243,7 +243,7 @@ END_TEST
 static void add_bulges(double b)
 {
     pieces.n = 0;
-    for (int i = 0; i < LIMITED_PIECES; i++) {
+    for (int i = 0; i < LIMITER_CELLS; i++) {
         double x0 = between(-5 - 1.2 * b, 5 + 1.2 * b), alpha = pow(10, between(-6, 3));
         add_piece(alpha, x0 / alpha, (x0 + signed_power(-4, i % 3 ? 0.5 : 2)) / alpha, (i % 2 ? b : -b) / alpha);
     }
@@ -259,13 +259,13 @@ START_TEST(error_of_a_bulge)
         for (int round = 0; round < 10; round++) {
             add_bulges(b);
             run(true, true);
-            for (int i = 0; i < LIMITED_PIECES; i++) {
+            for (int i = 0; i < LIMITER_CELLS; i++) {
                 double alpha = pieces.alpha[2 * i], x0 = alpha * pieces.curvature[2 * i],
                        x1 = alpha * pieces.curvature[2 * i + 1];
                 worst[0] =
-                    fmax(worst[0], fabs(alpha * pieces.mean[i] - quadrature(x0, x1, alpha * pieces.bulge[i], 0)));
+                    fmax(worst[0], fabs(alpha * pieces.mean[i] - quadrature(x0, x1, alpha * pieces.sagitta[i], 0)));
                 worst[1] =
-                    fmax(worst[1], fabs(alpha * pieces.moment[i] - quadrature(x0, x1, alpha * pieces.bulge[i], 1)));
+                    fmax(worst[1], fabs(alpha * pieces.moment[i] - quadrature(x0, x1, alpha * pieces.sagitta[i], 1)));
             }
         }
         double border = fmin(b, 1.0 / 64);
@@ -312,19 +312,19 @@ END_TEST
 /* Whatever surrounds a piece, its bits are the same: pieces that are halved share their work with others. */
 START_TEST(neighbours_do_not_matter)
 {
-    static double mean[LIMITED_PIECES], moment[LIMITED_PIECES];
+    static double mean[LIMITER_CELLS], moment[LIMITER_CELLS];
     srand48(8);
     add_bulges(3);
     run(true, true);
     memcpy(mean, pieces.mean, sizeof mean);
     memcpy(moment, pieces.moment, sizeof moment);
-    for (int i = 0; i < LIMITED_PIECES; i++) {
+    for (int i = 0; i < LIMITER_CELLS; i++) {
         double c0 = pieces.curvature[2 * i], c1 = pieces.curvature[2 * i + 1], alpha = pieces.alpha[2 * i],
-               bulge = pieces.bulge[i];
+               bulge = pieces.sagitta[i];
         int n = pieces.n;
         pieces.n = 0;
         double first[2] = {pieces.curvature[0], pieces.curvature[1]}, first_alpha = pieces.alpha[0],
-               first_bulge = pieces.bulge[0];
+               first_bulge = pieces.sagitta[0];
         add_piece(alpha, c0, c1, bulge);
         run(true, true);
         ck_assert(pieces.mean[0] == mean[i] && pieces.moment[0] == moment[i]);
@@ -348,6 +348,6 @@ START_TEST(not_finite_is_not_endless)
 }
 END_TEST
 
-UNIT("limited", means_and_moments_are_integrals, moments_beyond_the_border, bounded_by_one_over_alpha,
+UNIT("limiter_cells", means_and_moments_are_integrals, moments_beyond_the_border, bounded_by_one_over_alpha,
      small_alpha_limits_nothing, symmetries, error_of_a_bulge, halved_pieces_are_16_times_better,
      neighbours_do_not_matter, not_finite_is_not_endless)

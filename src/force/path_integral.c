@@ -1,0 +1,406 @@
+/* One limited trajectory S along the path, its slope and its height.
+
+     dS'/ds + S'/l = T(c) + kappa S_n       S' = dS/ds, slope of S along the path; s arc length      after papers/000
+   eq. 4, 5 dS_n/ds + S_n/l = T(d) - kappa S'      S_n, slope across the path (only where the path is curved) dS/ds +
+   S/l = S'                       S, height, m           (read by what rolls with penetration: paper)
+
+     c = e' H e, d = e' H n   second derivatives of z along the unit tangent e, and mixed with the normal n, 1/m; H the
+   surface's Hessian l     contact.leak, m    kappa    curvature of the path in the plane, 1/m    T    tanh(alpha c) /
+   alpha
+
+   The paper defines only S'' (equations 4, 5) but uses S' in equation 3 and S in equation 16; the integral of the
+   limited curvature drifts away as a random walk, hence the leak l, twice. Slope and height come from one trajectory:
+   the raw slope z' would bring back what the limiter removed. (S', S_n) is one vector, the slope of S in the plane;
+   kappa turns it as the path turns, so that a tight turn and a reversal, where S' changes sign, are the same thing in
+   the limit. Along a profile that follows the path there is no S_n. All start from 0 at the start of the motion.
+
+   Over a cell of length h (z = h/l <= 1/16, phi(z) = (1 - e^-z)/z, chi = (1 - phi)/z)
+
+     S'(end)           = (1 - z phi) S' + phi h mean(T) + z (1 - z/2) h moment(T)
+     integral of S' ds = h (phi S' + chi h mean(T) - (1 - z/2) h moment(T) + z h (mean(T) - (T_start + T_end)/2) / 60)
+     S(end)            = (1 - z phi) (S + h S') + h^2 ((phi - chi) mean(T) - (1 - z) moment(T))
+
+   mean and first moment of T in closed form (surface/limiter.c), the last term of the second line as of a parabola.
+   Left out is the leak's weight beyond its straight line: z^2/24 of what T varies by within the cell, of S z h^2/12
+   times it and 9/20 z^2 of the moment's part. The turn of a cell is taken half before, half after it (error (kappa
+   h)^2/24 of the cell's part), with kappa h moment(T) of T across it. Where S' changes sign inside a cell it is taken
+   as a parabola (power 1) or two straight lines. */
+#include "force/path_integral.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "num/lanes.h"
+#include "num/vecmath.h"
+
+/* ------------------------------------------------------------------ terms */
+
+enum { CROSSING_RUN = 16 };
+
+#define PATH_LEAK 2e-3 /* m, where the scene has no contact.leak: under a ball with contact.force: paper */
+#define INLINE static inline __attribute__((always_inline))
+
+/* phi = (1 - e^-z) / z and chi = (1 - phi) / z for 0 <= z <= 1/16: the series' first term left out is z^8 / 9! < 1e-15.
+ */
+LANES_CLONES
+static void terms_leak(struct path_terms *t, const double *length, double leak, int n)
+{
+    double per_leak = 1 / leak;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        double z = length[i] * per_leak, third = z * (1.0 / 3), fifth = z * (1.0 / 5), seventh = z * (1.0 / 7);
+        double rest = 1 - third * (1 - z / 4 * (1 - fifth * (1 - 0.5 * third * (1 - seventh * (1 - z / 8)))));
+        double phi = 1 - z / 2 * rest;
+        t->z[i] = z;
+        t->phi[i] = phi;
+        t->chi[i] = 0.5 * rest;
+        t->decay[i] = 1 - z * phi;
+    }
+}
+
+/* at: NULL where the cells are chained, whose points are then loaded one after another. */
+INLINE void terms_each(struct path_terms *t, const struct cells *p, int channel, const int *at)
+{
+    const double *means = p->mean[channel], *moments = p->moment[channel], *limited = p->limited[channel],
+                 *length = p->length;
+    double *restrict bent = t->bent[channel];
+    int n = p->n;
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        bent[i] = t->phi[i] * length[i] * means[i] + t->z[i] * ((1 - t->z[i] / 2) * length[i] * moments[i]);
+    n = channel == 0 ? n : 0;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        int a = at ? at[i] : i, b = a + 1;
+        double h = length[i], z = t->z[i], bow = z * h * (means[i] - 0.5 * (limited[a] + limited[b])) * (1.0 / 60);
+        t->risen[i] = t->chi[i] * h * means[i] - (1 - z / 2) * h * moments[i] + bow;
+    }
+}
+
+LANES_CLONES
+static void terms_channel(struct path_terms *t, const struct cells *p, int channel)
+{
+    terms_each(t, p, channel, p->at);
+}
+
+LANES_CLONES
+static void terms_chained(struct path_terms *t, const struct cells *p, int channel) { terms_each(t, p, channel, NULL); }
+
+void path_integral_terms(struct path_terms *t, const struct cells *p, int channels, double leak)
+{
+    terms_leak(t, p->length, leak, p->n);
+    bool chained = limiter_chained(p->n, p->points, p->at);
+    for (int k = 0; k < channels; k++)
+        if (chained)
+            terms_chained(t, p, k);
+        else
+            terms_channel(t, p, k);
+}
+
+LANES_CLONES
+void path_integral_mean(struct path_terms *t, int n)
+{
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        t->mean[i] = t->phi[i] * t->start[i] + t->risen[i];
+}
+
+/* Of |S'| over a cell on which S' goes from a to b, with that mean: of the parabola a (1 - q) + b q + bow q (1 - q),
+   which has one zero between ends of opposite signs. Both outcomes of every question are worked out. */
+INLINE void magnitude_some(struct path_terms *t, int from, int to)
+{
+#pragma omp simd
+    for (int i = from; i < to; i++) {
+        double a = t->start[i], b = t->end[i], mean = t->mean[i];
+        double bow = 6 * (mean - 0.5 * (a + b)), p = b - a + bow, square = p * p + 4 * bow * a;
+        double root = sqrt(lanes_select(square > 0, square, 0)), s = lanes_select(p < 0, p - root, p + root);
+        double q = lanes_select(s != 0, -2 * a / lanes_select(s != 0, s, 1), 0),
+               late = 0.5 * mean + (b - a) * (1.0 / 12);
+        int inside = (q >= 0) & (q <= 1);
+        q = lanes_select(inside, q, s / lanes_select(inside | (bow == 0), 1, 2 * bow));
+        double before = q * (a + q * (0.5 * p - q * bow * (1.0 / 3))),
+               lately = q * q * (0.5 * a + q * (p * (1.0 / 3) - 0.25 * q * bow));
+        int one_sign = a * b >= 0;
+        t->whole[i] = lanes_select(one_sign, fabs(mean), fabs(before) + fabs(mean - before));
+        t->late[i] = lanes_select(one_sign, lanes_select(mean < 0, -late, late), fabs(lately) + fabs(late - lately));
+    }
+}
+
+/* The same where no cell has a zero; false, and worth nothing, where one has. */
+INLINE bool magnitude_none(struct path_terms *t, int from, int to)
+{
+    int some = 0;
+#pragma omp simd reduction(| : some)
+    for (int i = from; i < to; i++) {
+        double a = t->start[i], b = t->end[i], mean = t->mean[i], late = 0.5 * mean + (b - a) * (1.0 / 12);
+        some |= a * b < 0;
+        t->whole[i] = fabs(mean);
+        t->late[i] = lanes_select(mean < 0, -late, late);
+    }
+    return !some;
+}
+
+/* Root and divisions are for the few runs of cells in which the slope changes its sign. */
+LANES_CLONES
+void path_integral_magnitude(struct path_terms *t, int n)
+{
+    for (int from = 0; from < n; from += CROSSING_RUN) {
+        int to = from + CROSSING_RUN < n ? from + CROSSING_RUN : n;
+        if (!magnitude_none(t, from, to)) magnitude_some(t, from, to);
+    }
+}
+
+/* Of |S'|^power over a cell: Simpson's rule, or two powers of straight lines on each side of a zero. */
+struct magnitude path_integral_power(const double s[3], double power)
+{
+    double p[3] = {fabs(s[0]), fabs(s[1]), fabs(s[2])}, q = p[0] / (s[0] * s[2] < 0 ? p[0] + p[2] : 1);
+    if (power != 1) vecmath_pow(3, p, power, p);
+    double before = p[0] * q / (1 + power), after = p[2] * (1 - q) / (1 + power);
+    if (s[0] * s[2] < 0)
+        return (struct magnitude){before + after, before * q / (2 + power) + after * (1 - (1 - q) / (2 + power))};
+    return (struct magnitude){(p[0] + 4 * p[1] + p[2]) / 6, (2 * p[1] + p[2]) / 6};
+}
+
+/* ------------------------------------------------------------------ slope */
+
+static void slope_fill(struct path_integral *s, int upto)
+{
+    for (; s->filled < upto; s->filled++) {
+        s->ends[s->filled] = s->slope;
+        s->heights[s->filled] = s->height;
+    }
+}
+
+/* The slope vector as seen from axes turned by the angle of that sine and cosine. */
+static void slope_rotate(struct path_integral *s, double sine, double cosine)
+{
+    double before = s->slope;
+    s->slope = before * cosine + s->across * sine;
+    s->across = s->across * cosine - before * sine;
+}
+
+/* From the axes the slope is in to those at a point; at once where the path has a corner. */
+static void slope_face(struct path_integral *s, double ex, double ey)
+{
+    if (s->ex != 0 || s->ey != 0) slope_rotate(s, s->ex * ey - s->ey * ex, s->ex * ex + s->ey * ey);
+    s->ex = ex;
+    s->ey = ey;
+}
+
+/* The unit vector half way between the axes at a cell's two ends, which are never opposed (force/path_cells.c). */
+static void slope_halfway(const struct cells *p, int i, double *ex, double *ey)
+{
+    double x = p->ex[p->at[i]] + p->ex[p->at[i] + 1], y = p->ey[p->at[i]] + p->ey[p->at[i] + 1],
+           length = sqrt(x * x + y * y);
+    *ex = x / length;
+    *ey = y / length;
+}
+
+/* Height at the cell's end, from the slope at its start in the direction of travel. */
+static double slope_rise(const struct path_integral *s, const struct cells *p, int i, double a)
+{
+    double h = p->length[i], z = s->terms.z[i], phi = s->terms.phi[i], chi = s->terms.chi[i];
+    return s->terms.decay[i] * (s->height + h * a) + h * h * ((phi - chi) * p->mean[0][i] - (1 - z) * p->moment[0][i]);
+}
+
+/* Length times the sine of the angle by which a cell turns on the way. */
+static double slope_turn(const struct cells *p, int i)
+{
+    int a = p->at[i], b = a + 1;
+    return p->length[i] * (p->ex[a] * p->ey[b] - p->ey[a] * p->ex[b]);
+}
+
+/* What T varies by within a cell that turns goes partly to the side: T is taken along e half way, and e turns about
+ * it. */
+static void slope_lean(struct path_integral *s, const struct cells *p, int i)
+{
+    double turn = p->heading[i] * slope_turn(p, i);
+    s->slope -= turn * p->moment[1][i];
+    s->across += turn * p->moment[0][i];
+}
+
+/* Slope at the end of a cell of a way that turns, or whose height is asked for. */
+static void slope_cell(struct path_integral *s, const struct cells *p, int i)
+{
+    double ex, ey;
+    slope_fill(s, p->interval[i]);
+    if (s->cells.curved) {
+        slope_halfway(p, i, &ex, &ey);
+        slope_face(s, p->ex[p->at[i]], p->ey[p->at[i]]);
+        slope_face(s, ex, ey);
+        s->across = p->heading[i] * path_terms_end(&s->terms, 1, i, s->across * p->heading[i]);
+    }
+    double a = s->terms.start[i] = s->slope * p->heading[i], b = s->terms.end[i] = path_terms_end(&s->terms, 0, i, a);
+    if (s->rising) s->height = slope_rise(s, p, i, a);
+    s->slope = b * p->heading[i];
+    if (s->cells.curved) {
+        slope_lean(s, p, i);
+        slope_face(s, p->ex[p->at[i] + 1], p->ey[p->at[i] + 1]);
+    }
+}
+
+/* The same of a straight way whose slope alone is asked for. Each cell waits for the one before it, for a
+   multiplication and an addition: the sign of the direction is taken out of that, and each cell writes its
+   sub-interval's end, the last of them what stays. */
+static void slope_straight(struct path_integral *s, const struct cells *p)
+{
+    struct path_terms *t = &s->terms;
+    int heading = p->heading[0], last = p->interval[0];
+    double along = s->slope * heading;
+    slope_fill(s, last);
+    for (int i = 0; i < p->n; i++) {
+        int k = p->interval[i];
+        if (p->heading[i] != heading) {
+            heading = -heading;
+            along = -along;
+        }
+        for (int rest = last + 1; rest < k; rest++) /* sub-intervals without a way */
+            s->ends[rest] = along * heading;
+        t->start[i] = along;
+        t->end[i] = along = path_terms_end(t, 0, i, along);
+        s->ends[k] = along * heading;
+        last = k;
+    }
+    s->slope = along * heading;
+    s->filled = last;
+}
+
+/* whole[], late[] of |S'|^power. */
+static void slope_crossing(struct path_integral *s, int n)
+{
+    struct path_terms *t = &s->terms;
+    if (s->power == 1) {
+        path_integral_magnitude(t, n);
+        return;
+    }
+    for (int i = 0; i < n; i++) {
+        struct magnitude c = path_integral_power(
+            (double[]){t->start[i], 1.5 * t->mean[i] - 0.25 * (t->start[i] + t->end[i]), t->end[i]}, s->power);
+        t->whole[i] = c.whole;
+        t->late[i] = c.late;
+    }
+}
+
+/* To the cells' sub-intervals: how far they are, how S' goes over them. */
+static void slope_gather(struct path_integral *s, const struct cells *p)
+{
+    const struct path_terms *t = &s->terms;
+    bool curved = s->cells.curved, crossing = s->crossing;
+    for (int i = 0; i < p->n; i++) {
+        double h = p->length[i];
+        int k = p->interval[i];
+        if (crossing) {
+            s->crossed[k] += h * t->whole[i];
+            s->crossed_late[k] += h * (s->travelled[k] * t->whole[i] + h * t->late[i]);
+        }
+        s->climbed[k] += h * t->mean[i] + (curved ? h * slope_turn(p, i) * p->mean[1][i] / 6 : 0);
+        s->travelled[k] += h;
+    }
+}
+
+static void slope_use(void *self, const struct cells *p)
+{
+    struct path_integral *s = self;
+    path_integral_terms(&s->terms, p, s->cells.curved ? 2 : 1, s->leak);
+    if (s->cells.curved || s->rising)
+        for (int i = 0; i < p->n; i++)
+            slope_cell(s, p, i);
+    else
+        slope_straight(s, p);
+    path_integral_mean(&s->terms, p->n);
+    if (s->crossing) slope_crossing(s, p->n);
+    slope_gather(s, p);
+}
+
+bool path_integral_make(struct path_integral *s, struct stage_run *r, struct err *e)
+{
+    double given = r->contact->contact.leak;
+    s->leak = given > 0 ? given : PATH_LEAK;
+    s->power = r->contact->contact.beta2;
+    s->cells.use = slope_use;
+    s->cells.self = s;
+    return path_cells_make(&s->cells, r, CELLS_ALONG, s->leak / 16, e);
+}
+
+void path_integral_reset(struct path_integral *s) { s->slope = s->across = s->height = s->ex = s->ey = 0; }
+
+void path_integral_run(struct path_integral *s, const struct stage_run *r, long first, int n)
+{
+    memset(s->crossed, 0, sizeof s->crossed);
+    memset(s->crossed_late, 0, sizeof s->crossed_late);
+    memset(s->climbed, 0, sizeof s->climbed);
+    memset(s->travelled, 0, sizeof s->travelled);
+    s->filled = 0;
+    path_cells_run(&s->cells, r, first, n);
+    slope_fill(s, n);
+}
+
+/* ------------------------------------------------------------------ lift */
+
+/* The force jumps where the normal force N(t) passes through 0, at the share q0 = a / (a - b) of a
+   sub-interval in which N goes from a to b. A force f = f_0 + g q has
+
+     early = integral of (1 - q) f dq = f_0/2 + g/6        late = integral of q f dq = f_0/2 + g/3
+
+   and of these the integrals from 0 to q0, or from q0 to 1, are taken instead. What is left out is f'' dt^2 and N''
+   dt^2 over the one sub-interval: a jump, whose place is known to second order. */
+
+const double *path_integral_load(const struct board *b, long first)
+{
+    return board_has(b, ITEM_LOAD) ? cells_values(b, ITEM_LOAD, first) : NULL;
+}
+
+double path_integral_pressed(double a, double b)
+{
+    double most = fmax(a, b), least = fmin(a, b);
+    return least >= 0 ? 1 : most > 0 ? most / (most - least) : 0;
+}
+
+void path_integral_cut(double a, double b, double *early, double *late)
+{
+    double share = path_integral_pressed(a, b), from = a < 0 ? 1 - share : 0, to = a < 0 ? 1 : share;
+    if (share == 1) return;
+    double start = 4 * *early - 2 * *late, rise = 6 * (*late - *early), square = to * to - from * from,
+           cube = to * to * to - from * from * from;
+    double whole = start * share + 0.5 * rise * square;
+    *late = 0.5 * start * square + rise * cube / 3;
+    *early = whole - *late;
+}
+
+void path_integral_lifted(struct board *b, long first, int n)
+{
+    const double *load = path_integral_load(b, first);
+    for (int i = 0; load && i < n; i++)
+        if ((first + i) / b->over < b->moving - 1)
+            b->lifted += (1 - path_integral_pressed(load[i], load[i + 1])) / (b->rate * b->over);
+}
+
+/* ------------------------------------------------------------------ bsplines */
+
+void path_integral_add(struct bspline *h, struct board *b, long first, int n)
+{
+    double *force = cells_values(b, ITEM_SUBFORCE, first);
+    const double *load = path_integral_load(b, first);
+    if (!load && n > 0) {
+        force[0] += h->carried + h->early[0];
+        for (int i = 1; i < n; i++)
+            force[i] += h->late[i - 1] + h->early[i];
+        h->carried = h->late[n - 1];
+        return;
+    }
+    for (int i = 0; i < n; i++) {
+        double early = h->early[i], late = h->late[i];
+        if (load) path_integral_cut(load[i], load[i + 1], &early, &late);
+        force[i] += h->carried + early;
+        h->carried = late;
+    }
+}
+
+void path_integral_lay(struct bspline *h, struct board *b, long first, int n)
+{
+    double *force = cells_values(b, ITEM_SUBFORCE, first);
+    for (int i = 0; i < n; i++)
+        force[i] = 0;
+    path_integral_add(h, b, first, n);
+    path_integral_lifted(b, first, n);
+}
