@@ -70,7 +70,7 @@ $(BUILD)/%.o: src/%.c $(BUILD)/flags
 	$Q$(CC) $(CFLAGS) $(DEFINES) -MMD -MP -c -o $@ $<
 
 # A sqrt that may set errno is not vectorised.
-$(BUILD)/force/path_integral.o $(BUILD)/surface/crest_lanes.o: private DEFINES = -fno-math-errno
+$(BUILD)/force/path_integral.o $(BUILD)/surface/rolling_envelope.o: private DEFINES = -fno-math-errno
 # gcc 12 turns products of complex numbers in loops, too, into vfmaddsub.
 $(BUILD)/analysis/modal_search.o: private DEFINES = -fno-tree-vectorize
 # -O3 alone keeps the sums of eight lanes in registers where these are narrower than eight.

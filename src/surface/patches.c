@@ -11,7 +11,7 @@
 
 #include "num/lanes.h"
 #include "num/real.h"
-#include "surface/kept.h"
+#include "surface/block_cache.h"
 #include "surface/tile.h"
 
 enum {
@@ -45,8 +45,8 @@ struct band {
     const double *tile; /* [N][TILE_ROW]: surface/tile.h */
     struct noise stream;
     struct laid laid[LAID * LAID];
-    struct kept *patches; /* [SIDE][SIDE], of this band and all coarser ones */
-    struct band *coarser; /* NULL: none */
+    struct block_cache *patches; /* [SIDE][SIDE], of this band and all coarser ones */
+    struct band *coarser;        /* NULL: none */
 };
 
 struct patches {
@@ -167,11 +167,14 @@ static void patch_fill(void *self, long column, long row, double *c)
     struct band *b = self;
     own_sum(b, column * PATCH_CELLS - PATCH_EDGE, row * PATCH_CELLS - PATCH_EDGE, c);
     if (!b->coarser) return;
-    const double *coarse = kept_at(b->coarser->patches, floor_over(column, 2), floor_over(row, 2));
+    const double *coarse = block_cache_at(b->coarser->patches, floor_over(column, 2), floor_over(row, 2));
     refine(coarse + (row & 1) * (PATCH_CELLS / 2 * SIDE) + (column & 1) * (PATCH_CELLS / 2), c);
 }
 
-const double *patches_at(struct patches *p, long column, long row) { return kept_at(p->bands[0].patches, column, row); }
+const double *patches_at(struct patches *p, long column, long row)
+{
+    return block_cache_at(p->bands[0].patches, column, row);
+}
 
 /* ------------------------------------------------------------------ making */
 
@@ -179,7 +182,7 @@ size_t patches_made(const struct patches *p)
 {
     size_t all = 0;
     for (const struct band *b = p->bands; b; b = b->coarser)
-        all += kept_made(b->patches);
+        all += block_cache_made(b->patches);
     return all;
 }
 
@@ -194,7 +197,7 @@ size_t patches_bytes(int bands, bool once)
 {
     size_t all = sizeof(struct patches) + 64;
     for (int b = 0; b < bands; b++)
-        all += kept_bytes(PATCH_NUMBERS, capacity_of(b, once));
+        all += block_cache_bytes(PATCH_NUMBERS, capacity_of(b, once));
     return all;
 }
 
@@ -211,7 +214,7 @@ struct patches *patches_make(struct arena *a, const struct patches_plan *plan)
                            .tile = plan->tiles[k],
                            .stream = plan->streams[k],
                            .coarser = k + 1 < plan->bands ? b + 1 : NULL};
-        b->patches = kept_make(a, PATCH_NUMBERS, capacity_of(k, plan->once), patch_fill, b);
+        b->patches = block_cache_make(a, PATCH_NUMBERS, capacity_of(k, plan->once), patch_fill, b);
     }
     return p;
 }

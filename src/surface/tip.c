@@ -6,19 +6,20 @@
    the upper envelope (grey-scale dilation) that drives a rolling ball in papers/002, fig. 1 (there with the ball's
    centre, E + R). It has kinks where the ball comes to rest on the next asperity, on which a curvature limiter does not
    converge: no contact is a point, and E is smoothed by a Gaussian of standard deviation scraper.patch (ball.patch) in
-   m, in the coordinates that the surface follows. The rest, and its errors: surface/rolling.c. A ball whose flight and
-   contact are computed (roll_coupled) needs no derivative, and takes E itself where ball.patch is 0 (surface/crest.c).
+   m, in the coordinates that the surface follows. The rest, and its errors: surface/contact_patch.c. A ball whose
+   flight and contact are computed (roll_coupled) needs no derivative, and takes E itself where ball.patch is 0
+   (surface/rolling_envelope.c).
 
    Departures. Along a path (or x) the surface is extruded and the ball a disc. The ball looks beyond the edge of a map,
    up to R, by surface.off_map; for `error` as `mirror` does.
 
-   In one coordinate smooth ground is read as polynomials of fifth degree between places (surface/crest_piece.c), and E
-   is the ball's exact way over these. Of cubic splines (measured profiles, fractal ground) the places are the knots,
-   and nothing is lost; else they lie as far apart as the surface's finest scale, accuracy.tip_heights times as densely:
-   the force under a marble on wood is then off by -99 dB, and by -137 dB where it is 2. A surface with kinks is read by
-   its heights alone: E then dips by d^2 / (8 R) between two of them, d apart, even on level ground; d is so small that
-   this is a thousandth of the span H of heights, and a whole share of the kinks' pitch, so that they are met. In the
-   plane heights are taken every patch / 4 or half the surface's finest scale, whichever is less, and
+   In one coordinate smooth ground is read as polynomials of fifth degree between places (surface/rolling_envelope.c),
+   and E is the ball's exact way over these. Of cubic splines (measured profiles, fractal ground) the places are the
+   knots, and nothing is lost; else they lie as far apart as the surface's finest scale, accuracy.tip_heights times as
+   densely: the force under a marble on wood is then off by -99 dB, and by -137 dB where it is 2. A surface with kinks
+   is read by its heights alone: E then dips by d^2 / (8 R) between two of them, d apart, even on level ground; d is so
+   small that this is a thousandth of the span H of heights, and a whole share of the kinks' pitch, so that they are
+   met. In the plane heights are taken every patch / 4 or half the surface's finest scale, whichever is less, and
    accuracy.tip_heights times as densely; each doubling brings the force some 10 dB nearer (from 37 to 47 and 60 dB for
    a patch of 20 um on ridges, tests/unit/test_tip_accuracy.c).
 
@@ -26,17 +27,19 @@
    more than 65 536 of them, as far as sqrt(2 R H), beyond which nothing touches on a surface whose heights span H. For
    H, 16 384 places in the box of the motion are read, R (at most 1 mm) beyond it included; H is half as much again, or
    that span and the map's own together if that is more. Should heights turn up that span more, the render says so. */
+#include <math.h>
+
+#include "num/real.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
-#include "surface/crests.h"
+#include "surface/contact_patch.h"
 #include "surface/height_map.h"
+#include "surface/reading.h"
 #include "surface/relief.h"
-#include "surface/rolling.h"
-#include "surface/tip_work.h"
 #include "trajectory/trajectory.h"
 
-#include <math.h>
+#define TIP_DIP 1e-3 /* of the span of heights: what the way of a tip without a patch may dip between two of them */
 
 enum { SCOUTS = 16384, SCOUT_BATCH = 1024, SIDE_MOST = 2048, LINE_MOST = 1 << 21, REACH_ALL = 65536 }; /* heights */
 
@@ -94,6 +97,87 @@ static double tip_map_span(const struct height_map *m)
     return most > least ? most - least : 0;
 }
 
+/* ------------------------------------------------------------------ predicted work */
+
+/* Cycles per metre of ground that the tip has not been over. In the plane (surface/contact_patch.c) a way of the ball
+   that goes along an axis takes, every h = patch / 4,
+
+     WIDE points of its envelope     POINT cycles of search each, and GATHER for each of the heights that a block of
+   CREST x CREST points looks at, over these a row of heights d apart        WIDE points' width, the reach on both
+   sides, and a block's own side; HEIGHT cycles each, the surface's and its coefficients' in it
+
+   and one that goes aslant |cos| + |sin| times as many blocks. Fitted to 15 lines over roughness of 0.1 to 10 um from 5
+   to 100 um on, under balls of 0.5 mm to 2 cm with patches of 5 to 100 um, of 1.6e10 to 2.2e11 cycles a metre: within
+   20 % of all (one CPU with AVX-512; tests/bench/planned.py has other scenes). The reach is sqrt(2 R H), H 1.5 times
+   what heights are likely to span. */
+enum {
+    CREST = 32,
+    BLOCK = 64,
+    WIDE = 16 + 3 + 2 * 28 + CREST - 1
+}; /* a block of splines, what their kernel reads beyond, and what a block of the envelope has too many */
+
+#define POINT 1500
+#define GATHER 3.5
+#define HEIGHT 45
+
+#define MAP_SPAN 20e-6 /* m, of any map */
+
+/* m, the surface's finest scale, as far as the scene tells. */
+static double likely_finest(const struct surface *s)
+{
+    double finest = s->height_map ? isnan(s->pitch) ? READING_MAP_PITCH : s->pitch : HUGE_VAL;
+    finest = fmin(finest, s->roughness.given ? reading_roughness(&s->roughness) : HUGE_VAL);
+    finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
+    finest = fmin(finest, s->ridges.given ? s->ridges.spacing / 8 : HUGE_VAL);
+    return fmin(finest, s->grit.given ? s->grit.diameter / 8 : HUGE_VAL);
+}
+
+/* m, between places where the ground under a tip without a patch is read. */
+static double likely_pitch(const struct contact *c)
+{
+    const struct surface *s = &c->surface;
+    double finest = likely_finest(s);
+    if (!s->fractal.given) return finest / 4;
+    return fmin(fmin(finest, s->fractal.pitch) / 4, sqrt(8 * c->scraper.radius * TIP_DIP * 2 * s->fractal.maximum));
+}
+
+/* m between the greatest and least height: of what is random 8 times the rms. */
+static double likely_span(const struct surface *s)
+{
+    double span = s->height_map ? MAP_SPAN : 0;
+    span += s->roughness.given ? 8 * (s->roughness.like ? MAP_SPAN / 8 : s->roughness.rms) : 0;
+    span += s->ridges.given ? s->ridges.height * (1 + 4 * s->ridges.variation) : 0;
+    return span + (s->grit.given ? s->grit.height * real_exp(4 * s->grit.spread) : 0);
+}
+
+/* |cos| + |sin| of the motion's heading; in the mean where it turns. */
+static double aslant(const struct motion *m)
+{
+    double dx = fabs(m->to[0] - m->from[0]), dy = fabs(m->to[1] - m->from[1]), way = sqrt(dx * dx + dy * dy);
+    return rules_straight(m) && way > 0 ? (dx + dy) / way : 4 / REAL_PI;
+}
+
+static double plane_metre(const struct contact *c, double dense)
+{
+    const struct scraper *s = &c->scraper;
+    double h = s->patch / PATCH_POINTS, finer = ceil(h / fmin(h, likely_finest(&c->surface) / 2) * dense * (1 - 1e-12)),
+           d = h / finer;
+    double reach = fmin(s->radius, sqrt(2 * s->radius * 1.5 * likely_span(&c->surface)));
+    struct rolling_plan p = {
+        .radius = s->radius, .patch = s->patch, .reach = reach, .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
+    double side = (double)contact_patch_side(&p), envelope = WIDE * (POINT + GATHER * side * side / (CREST * CREST));
+    double heights = finer * (WIDE * finer + 2 * reach / d + BLOCK) * HEIGHT;
+    return aslant(&c->motion) * (envelope + heights) / h;
+}
+
+/* Measured along a line: cycles per point of the lattice, or per place that is read. */
+static double tip_work_metre(const struct contact *c, double dense)
+{
+    double patch = c->scraper.patch;
+    if (patch == 0) return 2e2 * dense / likely_pitch(c);
+    return rules_along(c) == ALONG_PLANE ? plane_metre(c, dense) : 8e2 * dense / (patch / PATCH_POINTS);
+}
+
 /* ------------------------------------------------------------------ the stage */
 
 static void tip_exceeded(void *self)
@@ -111,7 +195,7 @@ static void tip_exceeded(void *self)
 static double tip_wanted_pitch(const struct stage_run *r, const struct relief *under)
 {
     double patch = r->contact->scraper.patch, finest = relief_finest(under) / 2,
-           coarse = patch > 0 ? patch / ROLLING_PER_PATCH : finest;
+           coarse = patch > 0 ? patch / PATCH_POINTS : finest;
     bool smooth = under->along != ALONG_PLANE && relief_kinks(under) == 0 && isfinite(finest);
     return (smooth ? 2 * finest : fmin(coarse, finest)) / r->scene->accuracy.tip_heights;
 }
@@ -147,7 +231,7 @@ static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *un
     const struct scraper *s = &r->contact->scraper;
     bool plane = under->along == ALONG_PLANE;
     double wanted = tip_wanted_pitch(r, under),
-           finer = s->patch > 0 ? ceil(s->patch / ROLLING_PER_PATCH / wanted * (1 - 1e-12)) : 1;
+           finer = s->patch > 0 ? ceil(s->patch / PATCH_POINTS / wanted * (1 - 1e-12)) : 1;
     bool look = plane || s->patch == 0 || relief_kinks(under) > 0 || s->radius > REACH_ALL * wanted / 2;
     double scouted = look ? tip_scouted(under, r->board->trajectory, fmin(s->radius, 1e-3)) : 0,
            map = tip_map_span(r->board->height_map);
@@ -159,7 +243,7 @@ static struct rolling_plan tip_plan(struct stage_run *r, const struct relief *un
                              .self = r,
                              .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1,
                              .points = relief_kinks(under) > 0};
-    p.pitch = plane ? p.patch / ROLLING_PER_PATCH / p.finer : tip_pitch(r, under, &p, scouted);
+    p.pitch = plane ? p.patch / PATCH_POINTS / p.finer : tip_pitch(r, under, &p, scouted);
     if (!plane && p.reach / p.pitch <= REACH_ALL) return p;
     p.span = fmax(1.5 * scouted, scouted + map);
     p.reach = fmin(s->radius, sqrt(2 * s->radius * p.span));
@@ -170,10 +254,9 @@ static bool tip_affordable(const struct stage_run *r, const struct rolling_plan 
                            struct err *e)
 {
     bool plane = under->along == ALONG_PLANE,
-         fine = !(relief_finest(under) / 2 >= p->patch / ROLLING_PER_PATCH && p->patch > 0);
-    struct crest_plan crest = crests_line(p);
+         fine = !(relief_finest(under) / 2 >= p->patch / PATCH_POINTS && p->patch > 0);
     const char *tool = ball_tool(r->contact);
-    long side = plane ? crests_side(p) : crest_part_window(&crest), most = plane ? SIDE_MOST : LINE_MOST;
+    long side = plane ? contact_patch_side(p) : rolling_envelope_window(p), most = plane ? SIDE_MOST : LINE_MOST;
     if (side <= most) return true;
     err_about(e, r->contact->name, ball_rolls(r->contact) ? "ball.radius" : "scraper.radius");
     return err_set(e, ERR_SCENE,
@@ -211,12 +294,12 @@ static bool tip_open(struct stage_run *r, struct err *e)
     *under = *relief;
     if (!tip_smoothed(r, under, e)) return false;
     struct rolling_plan p = tip_plan(r, under);
-    struct crest_plan crest = crests_line(&p);
     under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
     if (!tip_affordable(r, &p, under, e)) return false;
     relief->first = NULL;
     relief->under = under;
-    relief_add(relief, p.patch > 0 ? rolling_part(r->arena, under, &p) : crest_part(r->arena, under, &crest));
+    relief_add(relief,
+               p.patch > 0 ? contact_patch_part(r->arena, under, &p) : rolling_envelope_part(r->arena, under, &p));
     return true;
 }
 

@@ -1,6 +1,6 @@
 /* tip: the stage on surfaces given by a formula. What it gives is held against closed envelopes smoothed by quadrature,
    against a plain search at a finer pitch, and against itself in another order. All tolerances follow from
-   surface/rolling.c and crests.c, "Errors". */
+   surface/contact_patch.c, "Errors". */
 #include "stage.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"

@@ -243,7 +243,7 @@ END_TEST
 enum { UP = 36, DENSE = 2 }; /* steps of the lattice to 4.5 standard deviations; heights to a step */
 
 /* E at multiples of h by the plain maximum over a square of heights, the map's own, h/2 apart; smoothed by the
- * Gaussian's sum: as surface/rolling.c says, but read plainly. */
+ * Gaussian's sum: as surface/contact_patch.c says, but read plainly. */
 static double smoothed_plainly(const struct relief *r, double radius, double h, const double at[2])
 {
     long reach = (long)ceil(radius / h) * DENSE, half = UP * DENSE / 2 + reach, side = 2 * half + 1;

@@ -1,14 +1,14 @@
-/* What the rolling curve in one coordinate costs (surface/crest.h): fractal heights 2.5 um apart, an amplitude of 10
-   um, under discs of several radii and over rows of several lengths. One CSV row each: nanoseconds of the thread per
-   height to find the arcs, arcs that are left over heights, nanoseconds per reading in rising order at the heights'
-   pitch; and for the same envelope at the heights by the search of surface/envelope.h, which the plane needs,
-   nanoseconds per height. Linear time: the columns do not grow with n or with the radius. */
+/* What the rolling curve in one coordinate costs (surface/rolling_envelope.h): fractal heights 2.5 um apart, an
+   amplitude of 10 um, under discs of several radii and over rows of several lengths. One CSV row each: nanoseconds of
+   the thread per height to find the arcs, arcs that are left over heights, nanoseconds per reading in rising order at
+   the heights' pitch; and for the same envelope at the heights by the search of surface/envelope.h, which the plane
+   needs, nanoseconds per height. Linear time: the columns do not grow with n or with the radius. */
 #include <math.h>
 #include <stdio.h>
 
 #include "bench.h"
-#include "surface/crest.h"
 #include "surface/envelope.h"
+#include "surface/rolling_envelope.h"
 
 #define PITCH 2.5e-6
 
@@ -35,12 +35,12 @@ static void ground_make(void)
 static void crest_time(double radius, long n, double best[2])
 {
     struct arena *a = arena_open();
-    struct crest *c = crest_make(a, radius, PITCH, n);
+    struct rolling_envelope *c = rolling_envelope_make(a, radius, PITCH, n);
     for (int k = 0; k < REPEATS; k++) {
         double start = bench_seconds();
-        crest_set(c, &(struct crest_ground){z, NULL, NULL}, n, 0);
+        rolling_envelope_set(c, &(struct envelope_ground){z, NULL, NULL}, n, 0);
         double middle = bench_seconds();
-        crest_at(c, (size_t)n, x, e, NULL);
+        rolling_envelope_at(c, (size_t)n, x, e, NULL);
         best[0] = fmin(best[0], (middle - start) / (double)n * 1e9);
         best[1] = fmin(best[1], (bench_seconds() - middle) / (double)n * 1e9);
     }

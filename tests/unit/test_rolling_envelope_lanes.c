@@ -1,7 +1,7 @@
-/* crest_lanes against crest_piece, one disc at a time: the same bits. */
+/* Eight discs at a time against one disc at a time: the same bits. */
 #include "unit.h"
 
-#include "surface/crest_lanes.h"
+#include "surface/rolling_envelope.h"
 
 static double draw(unsigned *seed)
 {
@@ -17,21 +17,21 @@ START_TEST(the_same_bits)
     unsigned seed = 1;
     int ends = 0, middles = 0;
     for (int g = 0; g < GROUPS; g++) {
-        struct crest_disc d = crest_piece_disc(1e-3 * (1.1 + draw(&seed)), 5e-5);
-        struct crest_lanes at;
-        double terms[LANES][CREST_TERMS];
+        struct disc d = rolling_envelope_disc(1e-3 * (1.1 + draw(&seed)), 5e-5);
+        struct rest_lanes at;
+        double terms[LANES][ENVELOPE_TERMS];
         for (int l = 0; l < LANES; l++) {
             double rough = pow(10, 1 + 3 * draw(&seed));
-            struct crest_jet a = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)},
-                             b = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)};
-            crest_piece_make(&d, &a, &b, terms[l]);
+            struct height_jet a = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)},
+                              b = {1e-6 * draw(&seed), 1e-4 * rough * draw(&seed), rough * draw(&seed)};
+            rolling_envelope_terms(&d, &a, &b, terms[l]);
             at.y[l] = draw(&seed) * (g % 4 ? d.half : d.radius + d.half);
-            for (int k = 0; k < CREST_TERMS; k++)
+            for (int k = 0; k < ENVELOPE_TERMS; k++)
                 at.terms[k][l] = terms[l][k];
         }
-        crest_lanes_rest(&d, &at);
+        rolling_envelope_rest_lanes(&d, &at);
         for (int l = 0; l < LANES; l++) {
-            struct crest_jet j = crest_piece_rest(&d, terms[l], at.y[l]);
+            struct height_jet j = rolling_envelope_rest(&d, terms[l], at.y[l]);
             ck_assert(!memcmp(&j.z, &at.z[l], sizeof j.z) && !memcmp(&j.slope, &at.slope[l], sizeof j.slope) &&
                       !memcmp(&j.bend, &at.bend[l], sizeof j.bend));
             ends += j.bend == -1 / d.radius || j.bend < -1e-9 / d.radius;
@@ -42,4 +42,4 @@ START_TEST(the_same_bits)
 }
 END_TEST
 
-UNIT("crest_lanes", the_same_bits)
+UNIT("rolling_envelope_lanes", the_same_bits)

@@ -1,5 +1,5 @@
-/* kept: against a plain list of blocks in the order in which they were asked for last. */
-#include "surface/kept.h"
+/* block_cache: against a plain list of blocks in the order in which they were asked for last. */
+#include "surface/block_cache.h"
 
 #include <stdbool.h>
 
@@ -47,7 +47,7 @@ static bool asked(struct list *l, int capacity, long column, long row)
 static void compared(int capacity, bool walks)
 {
     struct arena *a = arena_open();
-    struct kept *k = kept_make(a, SIZE, (size_t)capacity, filled, &fills);
+    struct block_cache *k = block_cache_make(a, SIZE, (size_t)capacity, filled, &fills);
     struct list l = {0};
     long column = -5, row = 1L << 40, want = fills = 0;
     for (int n = 0; n < 20000; n++) {
@@ -55,14 +55,14 @@ static void compared(int capacity, bool walks)
         column = walks ? column + lrand48() % 3 - 1 : lrand48() % 11 - 5;
         row = walks ? row + lrand48() % 3 - 1 : (1L << 40) * (lrand48() % 7 - 3);
         want += asked(&l, capacity, column, row);
-        const double *got = kept_at(k, column, row);
+        const double *got = block_cache_at(k, column, row);
         numbers_of(column, row, told);
         ck_assert_msg(memcmp(got, told, sizeof told) == 0, "capacity %d: block %ld, %ld has another's numbers",
                       capacity, column, row);
         ck_assert_msg(fills == want, "capacity %d, asked %d times: %d blocks made, not %ld", capacity, n + 1, fills,
                       want);
     }
-    ck_assert_uint_le(arena_bytes(a), kept_bytes(SIZE, (size_t)capacity));
+    ck_assert_uint_le(arena_bytes(a), block_cache_bytes(SIZE, (size_t)capacity));
     arena_close(a);
 }
 
@@ -82,13 +82,13 @@ START_TEST(to_and_fro)
 {
     enum { WAY = 100, HELD = 60, TURNS = 10 };
     struct arena *a = arena_open();
-    struct kept *k = kept_make(a, SIZE, HELD, filled, &fills);
+    struct block_cache *k = block_cache_make(a, SIZE, HELD, filled, &fills);
     fills = 0;
     for (long n = 0; n < TURNS * WAY; n++)
-        kept_at(k, n / WAY % 2 ? WAY - 1 - n % WAY : n % WAY, 0);
+        block_cache_at(k, n / WAY % 2 ? WAY - 1 - n % WAY : n % WAY, 0);
     ck_assert_int_eq(fills, WAY + (TURNS - 1) * (WAY - HELD));
     arena_close(a);
 }
 END_TEST
 
-UNIT("kept", oldest_goes_first, to_and_fro)
+UNIT("block_cache", oldest_goes_first, to_and_fro)

@@ -1,8 +1,9 @@
-/* See kept.h. Blocks lie in chains, one for each value of a hash, and in a ring from the newest to the oldest; number 0
+/* Blocks lie in chains, one for each value of a hash, and in a ring from the newest to the oldest; number 0
  * is no block, and the ring's two ends. */
-#include "surface/kept.h"
+#include "surface/block_cache.h"
 
 #include <stdint.h>
+#include <string.h>
 
 struct block {
     long column, row;
@@ -11,12 +12,12 @@ struct block {
     size_t newer, older;
 };
 
-struct kept {
+struct block_cache {
     struct arena *arena;
     size_t size, capacity, held, made, chains; /* chains: a power of two */
     struct block *blocks;                      /* [capacity + 1] */
     size_t *first;                             /* [chains] */
-    kept_fill *fill;
+    block_cache_fill *fill;
     void *self;
 };
 
@@ -28,32 +29,32 @@ static size_t chains_for(size_t capacity)
     return chains;
 }
 
-struct kept *kept_make(struct arena *a, size_t size, size_t capacity, kept_fill *fill, void *self)
+struct block_cache *block_cache_make(struct arena *a, size_t size, size_t capacity, block_cache_fill *fill, void *self)
 {
-    struct kept *k = ARENA_TAKE(a, struct kept, 1);
+    struct block_cache *k = ARENA_TAKE(a, struct block_cache, 1);
     size_t chains = chains_for(capacity);
-    *k = (struct kept){.arena = a,
-                       .size = size,
-                       .capacity = capacity,
-                       .chains = chains,
-                       .fill = fill,
-                       .self = self,
-                       .blocks = ARENA_TAKE(a, struct block, capacity + 1),
-                       .first = ARENA_TAKE(a, size_t, chains)};
+    *k = (struct block_cache){.arena = a,
+                              .size = size,
+                              .capacity = capacity,
+                              .chains = chains,
+                              .fill = fill,
+                              .self = self,
+                              .blocks = ARENA_TAKE(a, struct block, capacity + 1),
+                              .first = ARENA_TAKE(a, size_t, chains)};
     return k;
 }
 
 /* As the arena rounds it. */
 static size_t rounded(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
-size_t kept_bytes(size_t size, size_t capacity)
+size_t block_cache_bytes(size_t size, size_t capacity)
 {
-    return rounded(sizeof(struct kept)) + capacity * rounded(size * sizeof(double)) +
+    return rounded(sizeof(struct block_cache)) + capacity * rounded(size * sizeof(double)) +
            rounded((capacity + 1) * sizeof(struct block)) + rounded(chains_for(capacity) * sizeof(size_t));
 }
 
 /* The multiplier is 2^64 over the golden ratio (Knuth, The Art of Computer Programming, 6.4). */
-static size_t *chain_of(const struct kept *k, long column, long row)
+static size_t *chain_of(const struct block_cache *k, long column, long row)
 {
     uint64_t mixed = ((uint64_t)row * 0x9E3779B97F4A7C15u + (uint64_t)column) * 0x9E3779B97F4A7C15u;
     return &k->first[(size_t)(mixed >> 32) & (k->chains - 1)];
@@ -74,7 +75,7 @@ static void block_lead(struct block *blocks, size_t i)
 }
 
 /* A number that is free, or that of the block not asked for the longest, which is forgotten. */
-static size_t block_free(struct kept *k)
+static size_t block_free(struct block_cache *k)
 {
     if (k->held < k->capacity) {
         k->blocks[++k->held].numbers = ARENA_TAKE(k->arena, double, k->size);
@@ -88,7 +89,7 @@ static size_t block_free(struct kept *k)
     return i;
 }
 
-const double *kept_at(struct kept *k, long column, long row)
+const double *block_cache_at(struct block_cache *k, long column, long row)
 {
     size_t *chain = chain_of(k, column, row), i = *chain;
     struct block *b = k->blocks;
@@ -110,4 +111,18 @@ const double *kept_at(struct kept *k, long column, long row)
     return b[i].numbers;
 }
 
-size_t kept_made(const struct kept *k) { return k->made; }
+size_t block_cache_made(const struct block_cache *k) { return k->made; }
+
+long block_cache_index(long i, long n) { return i >= 0 ? i / n : -((-i + n - 1) / n); }
+
+void block_cache_gather(const struct lattice *g, const long from[2], const long size[2], double *out, long stride)
+{
+    for (long by = block_cache_index(from[1], g->side[1]); by * g->side[1] < from[1] + size[1]; by++)
+        for (long bx = block_cache_index(from[0], g->side[0]); bx * g->side[0] < from[0] + size[0]; bx++) {
+            const double *b = block_cache_at(g->blocks, bx, by);
+            long x = bx * g->side[0] - from[0], y = by * g->side[1] - from[1];
+            long x0 = x > 0 ? x : 0, x1 = x + g->side[0] < size[0] ? x + g->side[0] : size[0];
+            for (long j = y > 0 ? y : 0; j < y + g->side[1] && j < size[1]; j++)
+                memcpy(out + j * stride + x0, b + (j - y) * g->side[0] + (x0 - x), (size_t)(x1 - x0) * sizeof *out);
+        }
+}

@@ -1,6 +1,6 @@
-/* crest, crest_piece, crest_part: against the plain maximum over all heights, a search over smooth ground, closed
- * forms, and itself in another order and in other windows. */
-#include "surface/crest_part.h"
+/* crest, crest_piece, rolling_envelope_part: against the plain maximum over all heights, a search over smooth ground,
+ * closed forms, and itself in another order and in other windows. */
+#include "surface/rolling_envelope.h"
 
 #include "unit.h"
 
@@ -48,10 +48,10 @@ static void ground_make(int kind, double *z)
 /* Rounding: of places, 2e-16 of them, by the slope; of heights and caps, by themselves; of crossings, by the length of
    the window and the slopes' difference. At a cliff, where a slope may be anything, the place may be taken 1e-15 m
    away. */
-static void check_place(const struct crest *c, const double *z, long first, double radius, double x)
+static void check_place(const struct rolling_envelope *c, const double *z, long first, double radius, double x)
 {
     double e, slope, close = 1e-15, tolerance = 2e-17;
-    crest_at(c, 1, &x, &e, &slope);
+    rolling_envelope_at(c, 1, &x, &e, &slope);
     struct plain here = plain_at(z, N, first, radius, x), left = plain_at(z, N, first, radius, x - close),
                  right = plain_at(z, N, first, radius, x + close);
     double least = fmin(here.e, fmin(left.e, right.e)), most = fmax(here.e, fmax(left.e, right.e));
@@ -69,10 +69,10 @@ START_TEST(the_plain_maximum)
     srand48(1);
     for (int kind = 0; kind < 5; kind++)
         for (int k = 0; k < 6; k++) {
-            struct crest *c = crest_make(a, radii[k], PITCH, N);
+            struct rolling_envelope *c = rolling_envelope_make(a, radii[k], PITCH, N);
             long first = (long)between(-3000, 3000);
             ground_make(kind, z);
-            crest_set(c, &(struct crest_ground){z, NULL, NULL}, N, first);
+            rolling_envelope_set(c, &(struct envelope_ground){z, NULL, NULL}, N, first);
             for (int i = 0; i < PLACES; i++) {
                 double at = i < N ? i : between(0, N - 1);
                 check_place(c, z, first, radii[k], ((double)first + at) * PITCH);
@@ -87,17 +87,17 @@ START_TEST(many_at_once)
 {
     static double z[N], x[PLACES], e[PLACES], slope[PLACES];
     struct arena *a = arena_open();
-    struct crest *c = crest_make(a, 1e-3, PITCH, N);
+    struct rolling_envelope *c = rolling_envelope_make(a, 1e-3, PITCH, N);
     srand48(2);
     ground_make(1, z);
-    crest_set(c, &(struct crest_ground){z, NULL, NULL}, N, 0);
+    rolling_envelope_set(c, &(struct envelope_ground){z, NULL, NULL}, N, 0);
     for (int kind = 0; kind < 3; kind++) {
         for (int i = 0; i < PLACES; i++)
             x[i] = PITCH * (kind == 0 ? (double)i / 4 : kind == 1 ? (PLACES - i) / 4.0 : between(0, N - 1));
-        crest_at(c, PLACES, x, e, slope);
+        rolling_envelope_at(c, PLACES, x, e, slope);
         for (int i = 0; i < PLACES; i++) {
             double one[2];
-            crest_at(c, 1, &x[i], &one[0], &one[1]);
+            rolling_envelope_at(c, 1, &x[i], &one[0], &one[1]);
             ck_assert(one[0] == e[i] && one[1] == slope[i]);
         }
     }
@@ -114,12 +114,12 @@ START_TEST(a_spike_is_one_arc)
     static double z[N];
     double radius = 1e-3, high = 2e-5, far = sqrt(2 * radius * high - high * high), dip = PITCH * PITCH / 8 / radius;
     struct arena *a = arena_open();
-    struct crest *c = crest_make(a, radius, PITCH, N);
+    struct rolling_envelope *c = rolling_envelope_make(a, radius, PITCH, N);
     z[300] = high;
-    crest_set(c, &(struct crest_ground){z, NULL, NULL}, N, -300);
+    rolling_envelope_set(c, &(struct envelope_ground){z, NULL, NULL}, N, -300);
     for (int k = 0; k < 1000; k++) {
         double x = between(-290, 290) * PITCH, e, slope, arc = high - x * x / (radius + sqrt(radius * radius - x * x));
-        crest_at(c, 1, &x, &e, &slope);
+        rolling_envelope_at(c, 1, &x, &e, &slope);
         if (fabs(x) < far - PITCH) {
             ck_assert_double_eq_tol(e, arc, 1e-19);
             ck_assert_double_eq_tol(slope, -x / sqrt(radius * radius - x * x), 1e-13);
@@ -150,13 +150,13 @@ START_TEST(a_wave_is_a_parallel_curve)
     double radius = 1e-3, bend = 4e-6 * pow(2 * M_PI / 1e-3, 2), bound = PITCH * PITCH / 8 * (1 / radius + bend),
            worst = 0;
     struct arena *a = arena_open();
-    struct crest *c = crest_make(a, radius, PITCH, N);
+    struct rolling_envelope *c = rolling_envelope_make(a, radius, PITCH, N);
     for (long i = 0; i < N; i++)
         z[i] = 4e-6 * cos(2 * M_PI / 1e-3 * PITCH * (double)(i - 300));
-    crest_set(c, &(struct crest_ground){z, NULL, NULL}, N, -300);
+    rolling_envelope_set(c, &(struct envelope_ground){z, NULL, NULL}, N, -300);
     for (int k = 0; k < 2000; k++) {
         double x = between(-200, 200) * PITCH, e;
-        crest_at(c, 1, &x, &e, NULL);
+        rolling_envelope_at(c, 1, &x, &e, NULL);
         ck_assert_double_le(e, parallel(x, radius) + 1e-17);
         worst = fmax(worst, parallel(x, radius) - e);
     }
@@ -171,25 +171,25 @@ START_TEST(two_spikes)
 {
     double radius = 1e-3, middle[2], z[101];
     struct arena *a = arena_open();
-    struct crest *c = crest_make(a, radius, PITCH, 101);
+    struct rolling_envelope *c = rolling_envelope_make(a, radius, PITCH, 101);
     for (int k = 0; k < 50; k++) {
         double rise = k == 0 ? 0 : between(-2e-5, 2e-5), low = -HUGE_VAL, high, x;
         for (int i = 0; i < 101; i++)
             z[i] = -1e-3;
         z[0] = 0;
         z[100] = rise;
-        crest_set(c, &(struct crest_ground){z, NULL, NULL}, 101, 0);
+        rolling_envelope_set(c, &(struct envelope_ground){z, NULL, NULL}, 101, 0);
         for (low = 0, high = 100 * PITCH;
              high - low > 1e-18;) { /* bisection: is the slope still that of the first arc? */
             x = 0.5 * (low + high);
             if (x == low || x == high) break;
-            crest_at(c, 1, &x, &middle[0], &middle[1]);
+            rolling_envelope_at(c, 1, &x, &middle[0], &middle[1]);
             if (middle[1] <= 0 && fabs(middle[1] + x / sqrt(radius * radius - x * x)) < 1e-12)
                 low = x;
             else
                 high = x;
         }
-        crest_at(c, 1, &high, &middle[0], NULL);
+        rolling_envelope_at(c, 1, &high, &middle[0], NULL);
         double up = middle[0] + radius, d = high - 100 * PITCH;
         ck_assert_double_eq_tol(hypot(high, up), radius, 1e-17);
         ck_assert_double_eq_tol(hypot(d, up - rise), radius, 1e-17);
@@ -205,9 +205,9 @@ struct jets {
     double z[N], slope[N], bend[N];
 };
 
-static void ground_set(struct crest *c, const struct jets *g, long n, long first)
+static void ground_set(struct rolling_envelope *c, const struct jets *g, long n, long first)
 {
-    crest_set(c, &(struct crest_ground){g->z, g->slope, g->bend}, n, first);
+    rolling_envelope_set(c, &(struct envelope_ground){g->z, g->slope, g->bend}, n, first);
 }
 
 /* Every derivative of a piece's polynomial from those of its ends by Hermite's own basis (x from 0 to 1). */
@@ -273,12 +273,12 @@ START_TEST(smooth_ground_against_a_search)
     srand48(11);
     for (int steep = 0; steep < 2; steep++)
         for (int k = 0; k < 6; k++) {
-            struct crest *c = crest_make(a, radii[k], PITCH, N);
+            struct rolling_envelope *c = rolling_envelope_make(a, radii[k], PITCH, N);
             ground_waves(&g, steep ? 1e-6 : 2e-8);
             ground_set(c, &g, N, 0);
             for (int i = 0; i < 150; i++) {
                 double x = between(0, N - 1) * PITCH, e, want = searched(&g, radii[k], x);
-                crest_at(c, 1, &x, &e, NULL);
+                rolling_envelope_at(c, 1, &x, &e, NULL);
                 ck_assert_msg(fabs(e - want) < 1e-18, "R %g, x %.9g: %.17g, and a search finds %.17g: %g", radii[k], x,
                               e, want, e - want);
             }
@@ -299,18 +299,18 @@ START_TEST(switches_against_a_search)
     int seen = 0;
     srand48(12);
     for (int k = 0; k < 8; k++) {
-        struct crest *c = crest_make(a, radii[k / 2], PITCH, N);
+        struct rolling_envelope *c = rolling_envelope_make(a, radii[k / 2], PITCH, N);
         const double *s;
         ground_waves(&g, k % 2 ? 1e-6 : 2e-7);
         for (long i = 0; i < N && k < 2; i++)
             g.bend[i] += between(-8, 8) / radii[0];
         ground_set(c, &g, N, 0);
-        long n = crest_between(c, 0, (N - 1) * PITCH, &s);
+        long n = rolling_envelope_between(c, 0, (N - 1) * PITCH, &s);
         double worst = 0, jump = 0;
         for (long i = 1; i < n; i++) {
-            double at = s[i * CREST_NUMBERS + CREST_FROM], e[2];
-            if (s[i * CREST_NUMBERS + CREST_AT] - s[(i - 1) * CREST_NUMBERS + CREST_AT] < 1.5 * PITCH) continue;
-            crest_at(c, 2, (const double[2]){nextafter(at, 0), at}, e, NULL);
+            double at = s[i * STRETCH_NUMBERS + STRETCH_FROM], e[2];
+            if (s[i * STRETCH_NUMBERS + STRETCH_AT] - s[(i - 1) * STRETCH_NUMBERS + STRETCH_AT] < 1.5 * PITCH) continue;
+            rolling_envelope_at(c, 2, (const double[2]){nextafter(at, 0), at}, e, NULL);
             jump = fmax(jump, fabs(e[0] - e[1]));
             worst = fmax(worst, fabs(e[1] - searched(&g, radii[k / 2], at)));
             seen++;
@@ -329,7 +329,7 @@ static double wave_error(double radius, int per)
     static struct jets g;
     struct arena *a = arena_open();
     double pitch = 1e-3 / per, k = 2 * M_PI / 1e-3, worst = 0;
-    struct crest *c = crest_make(a, radius, pitch, N);
+    struct rolling_envelope *c = rolling_envelope_make(a, radius, pitch, N);
     for (long i = 0; i < 4 * per; i++) {
         double t = k * pitch * (double)(i - 2 * per);
         g.z[i] = 4e-6 * cos(t), g.slope[i] = -4e-6 * k * sin(t), g.bend[i] = -4e-6 * k * k * cos(t);
@@ -337,7 +337,7 @@ static double wave_error(double radius, int per)
     ground_set(c, &g, 4 * per, -2 * per);
     for (int i = 0; i < 2000; i++) {
         double x = between(-1e-3, 1e-3), e;
-        crest_at(c, 1, &x, &e, NULL);
+        rolling_envelope_at(c, 1, &x, &e, NULL);
         worst = fmax(worst, fabs(e - parallel(x, radius)));
     }
     arena_close(a);
@@ -370,7 +370,7 @@ START_TEST(a_parabola_is_exact)
     struct arena *a = arena_open();
     for (int k = 0; k < 3; k++) {
         double b = (double[]){-2e4, -10, 900}[k];
-        struct crest *c = crest_make(a, radius, PITCH, N);
+        struct rolling_envelope *c = rolling_envelope_make(a, radius, PITCH, N);
         for (long i = 0; i < N; i++) {
             double x = PITCH * (double)(i - 300);
             g.z[i] = 0.5 * b * x * x, g.slope[i] = b * x, g.bend[i] = b;
@@ -379,7 +379,7 @@ START_TEST(a_parabola_is_exact)
         for (int i = 0; i < 1000; i++) {
             double t = between(-290, 290) * PITCH, p = b * t, length = sqrt(1 + p * p), x = t - radius * p / length, e,
                    slope;
-            crest_at(c, 1, &x, &e, &slope);
+            rolling_envelope_at(c, 1, &x, &e, &slope);
             ck_assert_double_eq_tol(e, 0.5 * b * t * t + radius / length - radius, 1e-17 + 1e-15 * fabs(b) * 1e-6);
             ck_assert_double_eq_tol(slope, p, 1e-9 * (1 + p * p));
         }
@@ -397,7 +397,7 @@ START_TEST(a_switch_is_where_both_hold)
     double radius = 0.1, b = 2e4, apart = 200 * PITCH, wide = radius + 1 / b, rise = 3.3e-8, low = 200 * PITCH,
            high = 400 * PITCH, middle[2];
     struct arena *a = arena_open();
-    struct crest *c = crest_make(a, radius, PITCH, N);
+    struct rolling_envelope *c = rolling_envelope_make(a, radius, PITCH, N);
     for (long i = 0; i < N; i++) {
         double left = PITCH * (double)(i - 200), right = PITCH * (double)(i - 400), x = i < 300 ? left : right;
         g.z[i] = -0.5 * b * x * x + (i < 300 ? 0 : rise), g.slope[i] = -b * x, g.bend[i] = -b;
@@ -405,7 +405,7 @@ START_TEST(a_switch_is_where_both_hold)
     ground_set(c, &g, N, 0);
     while (high - low > 1e-17) {
         double x = 0.5 * (low + high);
-        crest_at(c, 1, &x, &middle[0], &middle[1]);
+        rolling_envelope_at(c, 1, &x, &middle[0], &middle[1]);
         if (middle[1] < 0)
             low = x;
         else
@@ -454,11 +454,11 @@ static void told(void *self) { ((struct bed *)self)->told++; }
 
 static void bed_make(struct bed *b, double radius, double pitch, double reach, double span)
 {
-    struct crest_plan p = {
+    struct rolling_plan p = {
         .radius = radius, .pitch = pitch, .reach = reach, .span = span, .points = !smooth, .exceeded = told, .self = b};
     *b = (struct bed){.arena = arena_open(), .relief = {.along = ALONG_PATH}, .part = {.add = rough_add}};
     relief_add(&b->relief, &b->part);
-    b->crest = crest_part(b->arena, &b->relief, &p);
+    b->crest = rolling_envelope_part(b->arena, &b->relief, &p);
 }
 
 struct jet {
@@ -642,7 +642,7 @@ START_TEST(derivatives_between_kinks)
 }
 END_TEST
 
-UNIT("crest", the_plain_maximum, many_at_once, a_spike_is_one_arc, a_wave_is_a_parallel_curve, two_spikes,
+UNIT("rolling_envelope", the_plain_maximum, many_at_once, a_spike_is_one_arc, a_wave_is_a_parallel_curve, two_spikes,
      smooth_ground_against_a_search, switches_against_a_search, a_smooth_wave_is_a_parallel_curve, a_parabola_is_exact,
      a_switch_is_where_both_hold, order_does_not_matter, blocks_see_all_heights, blocks_of_smooth_ground,
      a_shorter_reach, a_greater_span_is_told_once, derivatives_between_kinks)
