@@ -27,6 +27,12 @@ static void note(struct modal_result *r, struct arena *a, const char *text)
     r->note = r->note ? arena_format(a, "%s\n%s", r->note, text) : text;
 }
 
+/* A note about n of them, if there are any: its text behind the number, of one and of several. */
+static void note_number(struct modal_result *r, struct arena *a, int n, const char *one, const char *several)
+{
+    if (n) note(r, a, arena_format(a, "%d %s", n, n == 1 ? one : several));
+}
+
 /* ------------------------------------------------------------------ search */
 
 /* Minus twice the log likelihood of what is left, with a noise of its own in every 64 bins of every stretch, and what
@@ -39,7 +45,7 @@ static double score(struct modal_fit *f)
     modal_fit_noise(f, 0.0);
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
-        if (!f->data->stretch[s].fitted || f->data->stretch[s].strike < 0) continue;
+        if (!f->data->stretch[s].fitted) continue;
         for (long from = 0; from + PART <= b->n; from += PART) {
             double power = 1e-290;
             for (long k = from; k < from + PART; k++)
@@ -111,20 +117,17 @@ static void redraw(struct modal_block *b, const struct modal_block *was, uint64_
 
 static bool survives(struct modal_fit *f, int i, double limit)
 {
-    int of[MODAL_BLOCK], n = modal_settle_near(f, i, 8, of), kept = 0;
+    int kept = 0;
     struct arena *a = arena_open();
     struct modal_block *was = ARENA_TAKE(a, struct modal_block, 1), *b = ARENA_TAKE(a, struct modal_block, 1);
     struct noise source = noise_make(1, "modes that survive");
-    modal_block_open(was, f, n, of, NULL, 0, NULL, a);
+    modal_settle_open(was, f, i, 8, a);
     modal_block_gains(was);
     for (int k = 0; k < DRAWS; k++) {
-        int at = 0;
-        modal_block_open(b, f, n, of, NULL, 0, NULL, a);
+        int at = modal_settle_open(b, f, i, 8, a);
         redraw(b, was, (uint64_t)k << 20 | (uint64_t)i << 32, source);
         modal_block_polish(b, 4);
         double chi = b->chi;
-        while (b->of[at] != i)
-            at++;
         modal_block_drop(b, at);
         modal_block_polish(b, b->m ? 5 : 0);
         kept += b->chi - chi >= limit;
@@ -150,58 +153,34 @@ static int drop_unstable(struct modal_fit *f)
 
 /* ------------------------------------------------------------------ results */
 
-static void order_by_frequency(struct modal_fit *f)
-{
-    size_t size = (size_t)f->data->groups * sizeof *f->part;
-    struct arena *a = arena_open();
-    struct modal_part *mine = ARENA_TAKE(a, struct modal_part, f->data->groups);
-    for (int i = 1; i < f->m; i++)
-        for (int k = i; k > 0 && f->c[k].s.im < f->c[k - 1].s.im; k--) {
-            struct modal_part *at = f->part + k * f->data->groups, *before = at - f->data->groups;
-            struct modal_component c = f->c[k];
-            f->c[k] = f->c[k - 1];
-            f->c[k - 1] = c;
-            memcpy(mine, at, size);
-            memcpy(at, before, size);
-            memcpy(before, mine, size);
-        }
-    arena_close(a);
-}
-
-/* What a component makes on all bins of a stretch, times the recording: its part of the energy. */
-static double projected(const struct modal_fit *f, int i)
+/* Of the recordings times what is left of them, over the strikes that are fitted. */
+static double product(const struct modal_fit *f)
 {
     double sum = 0.0;
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
-        struct arena *a = arena_open();
-        double *x[8];
-        const struct modal_part *mine = &f->part[i * f->data->groups + f->data->stretch[s].group];
-        cplx g = cplx_scale(0.5, mine->gain);
-        for (int c = 0; c < 8; c++)
-            x[c] = ARENA_TAKE(a, double, b->n + 1);
-        if (f->data->stretch[s].fitted && f->data->stretch[s].strike >= 0) {
-            struct modal_line line = modal_fit_line(f, s, mine->pole);
-            modal_fit_basis(b, &line, 0, b->n, x);
-            for (long k = 0; k < b->n; k++)
-                sum += b->yr[k] * (g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k])) +
-                       b->yi[k] * (g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]));
-        }
-        arena_close(a);
+        for (long k = 0; f->data->stretch[s].fitted && k < b->n; k++)
+            sum += b->yr[k] * b->rr[k] + b->yi[k] * b->ri[k];
     }
-    return fmax(sum, 0.0);
+    return sum;
+}
+
+/* A component's part of the recordings' energy. */
+static double projected(struct modal_fit *f, int i)
+{
+    double without = product(f);
+    modal_fit_put(f, i, 1.0);
+    double with = product(f);
+    modal_fit_put(f, i, -1.0);
+    return fmax(with - without, 0.0);
 }
 
 static void errors(struct modal_fit *f, int i, struct modal_mode *m)
 {
-    int of[MODAL_BLOCK], n = modal_settle_near(f, i, 16, of), at = 0;
     double se[2];
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
-    while (b->of[at] != i)
-        at++;
-    modal_block_errors(b, at, se, m->gain_se, m->gain_shared);
+    modal_block_errors(b, modal_settle_open(b, f, i, 16, a), se, m->gain_se, m->gain_shared);
     m->frequency_se = se[0] / (2.0 * REAL_PI);
     m->decay_se = se[1] * m->decay;
     arena_close(a);
@@ -353,7 +332,7 @@ static bool lasts(const struct modal_fit *f, int i)
     double size[MODAL_STRETCHES], least = HUGE_VAL, most = 0.0;
     modal_fit_sizes(f, i, size);
     for (int s = 0; s < f->data->stretches; s++)
-        if (f->data->stretch[s].fitted && f->data->stretch[s].strike >= 0) {
+        if (f->data->stretch[s].fitted) {
             least = fmin(least, size[s]);
             most = fmax(most, size[s]);
         }
@@ -413,7 +392,6 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     double all = 0.0;
     r->noise = ARENA_TAKE(a, double, d->places);
     r->model = arena_take(a, (size_t)d->stretches, sizeof *r->model);
-    order_by_frequency(f);
     predict(f);
     r->mode = ARENA_TAKE(a, struct modal_mode, f->m + 1);
     for (int i = 0; i < f->m; i++) {
@@ -450,10 +428,7 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     }
     number(r, a);
     sounds(f, explain(f, r->explained, NULL, a), r, a);
-    if (hums)
-        note(r, a,
-             arena_format(a, "%d line%s not decay (hum) and %s left out", hums, hums == 1 ? " does" : "s do",
-                          hums == 1 ? "is" : "are"));
+    note_number(r, a, hums, "line does not decay (hum) and is left out", "lines do not decay (hum) and are left out");
 }
 
 /* The data with the few loudest strikes alone to be fitted: what those do not tell, none does. */
@@ -517,18 +492,13 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     explain(&f, r->fitted, r->direct, inner);
     weakest = drop_weakest(&f);
     report(&f, a, r);
-    if (fast)
-        note(r, a,
-             arena_format(a, "%d component%s faster than %.4g/s %s left out (--fastest)", fast,
-                          fast == 1 ? " that decays" : "s that decay", o->fastest, fast == 1 ? "is" : "are"));
-    if (undamped)
-        note(r, a,
-             arena_format(a, "%d component%s no more than chance %s left out", undamped,
-                          undamped == 1 ? " that decays by" : "s that decay by", undamped == 1 ? "is" : "are"));
-    if (weakest)
-        note(r, a,
-             arena_format(a, "%d more mode%s than the %d strongest %s found", weakest, weakest == 1 ? "" : "s", o->most,
-                          weakest == 1 ? "was" : "were"));
+    note_number(r, a, fast,
+                arena_format(a, "component that decays faster than %.4g/s is left out (--fastest)", o->fastest),
+                arena_format(a, "components that decay faster than %.4g/s are left out (--fastest)", o->fastest));
+    note_number(r, a, undamped, "component that decays by no more than chance is left out",
+                "components that decay by no more than chance are left out");
+    note_number(r, a, weakest, arena_format(a, "more mode than the %d strongest was found", o->most),
+                arena_format(a, "more modes than the %d strongest were found", o->most));
     arena_close(inner);
     return true;
 }

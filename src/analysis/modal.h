@@ -17,7 +17,7 @@ struct modal_stretch {        /* part of a recording, after a strike, or before 
     long ringing;             /* samples into the stretch from which on nothing pushes */
     int group;                /* stretches of one group share gains, those of all poles */
     int place, strike;        /* strike -1: a lead */
-    bool fitted;              /* false: it is predicted only */
+    bool fitted;              /* false: it is predicted only; a lead is neither */
     struct modal_pulse pulse; /* none: n 0 */
 };
 

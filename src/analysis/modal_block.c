@@ -167,7 +167,7 @@ static void stretch_add(struct modal_block *b, int s, bool full, struct group *g
 static bool counts(const struct modal_block *b, int s)
 {
     const struct modal_stretch *st = &b->fit->data->stretch[s];
-    return b->stretches ? b->stretches[s] : st->fitted && st->strike >= 0;
+    return b->stretches ? b->stretches[s] : st->fitted;
 }
 
 /* The group's sums, its linear columns swept out; false: none of its stretches counts. */
@@ -272,39 +272,34 @@ static double own_inverse(const struct modal_block *b, const struct modal_normal
 }
 
 /* The step of all poles, damped: of the shared ones, step[p], and own[groups][p]; returns what it would take off chi.
-   The shared ones' normal equations are sum N - N (N + W)^-1 N, their right side sum r - N (N + W)^-1 (r - W apart). */
+   The shared ones' normal equations are sum N - N (N + W)^-1 N = sum W (N + W)^-1 N, their right side
+   sum r - N (N + W)^-1 (r - W apart) = sum W ((N + W)^-1 (r - W apart) + apart); W holds the damping, too. */
 static double solve(struct modal_block *b, double damping, double *step, double *own)
 {
     int p = 2 * b->m, n = p + 1, groups = b->fit->data->groups;
     struct arena *arena = arena_open();
-    double *inverse = ARENA_TAKE(arena, double, n *n), *product = ARENA_TAKE(arena, double, p *n),
-           *a = ARENA_TAKE(arena, double, n *n), apart[POLES], weight[POLES], scale[POLES] = {0}, fall = 0.0;
+    double *inverse = ARENA_TAKE(arena, double, n *n), *a = ARENA_TAKE(arena, double, n *n), apart[POLES],
+           weight[POLES], scale[POLES] = {0}, fall = 0.0;
     bool swept[POLES];
-    memset(b->normal, 0, sizeof b->normal);
     for (int g = 0; g < groups; g++) {
         const struct modal_normal *e = &b->each[g];
         if (!e->used) continue;
         apart_of(b, g, apart, weight);
         fall += own_inverse(b, e, apart, weight, damping, inverse);
-        for (int i = 0; i < p; i++)
-            for (int j = 0; j < n; j++) { /* (N + W)^-1 N, and (N + W)^-1 (r - W apart) */
-                double sum = 0.0;
-                for (int k = 0; k < p && j < p; k++)
-                    sum += inverse[i * n + k] * e->a[k * p + j];
-                product[i * n + j] = j < p ? sum : inverse[i * n + p];
-            }
         for (int i = 0; i < p; i++) {
-            for (int j = 0; j < n; j++) {
+            double damped = weight[i] + damping * e->a[i * p + i];
+            for (int j = 0; j < p; j++) {
                 double sum = 0.0;
                 for (int k = 0; k < p; k++)
-                    sum += e->a[i * p + k] * product[k * n + j];
-                a[i * n + j] += (j < p ? e->a[i * p + j] : e->right[i]) - sum;
-                if (j < p) b->normal[i * p + j] += e->a[i * p + j] - sum;
+                    sum += inverse[i * n + k] * e->a[k * p + j];
+                a[i * n + j] += damped * sum;
             }
+            a[i * n + p] += damped * inverse[i * n + p] + weight[i] * apart[i];
             scale[i] += e->scale[i];
         }
     }
     for (int i = 0; i < p; i++) {
+        memcpy(b->normal + i * p, a + i * n, (size_t)p * sizeof *a);
         step[i] = a[i * n + p];
         a[p * n + i] = a[i * n + p];
         a[i * n + i] *= 1.0 + damping;
@@ -417,21 +412,10 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         b->r[s] = ARENA_TAKE(a, double, 2 * n);
         memcpy(b->r[s], bins->rr + b->from[s], (size_t)n * sizeof(double));
         memcpy(b->r[s] + n, bins->ri + b->from[s], (size_t)n * sizeof(double));
-        double room[8][CHUNK], *x[8];
-        for (int c = 0; c < 8; c++)
-            x[c] = room[c];
         for (int i = 0; i < m; i++) {
             const struct modal_part *mine = &b->part[i * d->groups + d->stretch[s].group];
             struct modal_line line = modal_fit_line(f, s, mine->pole);
-            for (long at = 0; at < n; at += CHUNK) {
-                long part = at + CHUNK < n ? CHUNK : n - at;
-                cplx g = cplx_scale(0.5, mine->gain);
-                modal_fit_basis(bins, &line, b->from[s] + at, b->from[s] + at + part, x);
-                for (long k = 0; k < part; k++) {
-                    b->r[s][at + k] += g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k]);
-                    b->r[s][n + at + k] += g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]);
-                }
-            }
+            modal_fit_add_line(bins, &line, mine->gain, b->from[s], b->to[s], b->r[s], b->r[s] + n);
         }
     }
     for (int g = 0; g < d->groups; g++) {
@@ -485,19 +469,25 @@ static cplx stepped(const struct modal_block *b, cplx s, const double *step)
                   clamp(s.im + clamp(step[0], -wide, wide), f->low, f->high)};
 }
 
-/* The poles and gains of `from` go to b, its poles on by the steps (NULL: as they are). */
-static void copy_parts(struct modal_block *b, const struct modal_part *from, const cplx *s, const double *step,
-                       const double *own)
+struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a)
 {
-    int groups = b->fit->data->groups;
-    memcpy(b->part, from, (size_t)(b->m * groups) * sizeof *from);
-    for (int i = 0; i < b->m && step; i++) {
-        b->s[i] = stepped(b, s[i], step + 2 * i);
-        for (int g = 0; g < groups; g++) {
-            struct modal_part *p = &b->part[i * groups + g];
-            p->pole = b->each[g].used ? stepped(b, p->pole, own + (g * b->m + i) * 2) : b->s[i];
-        }
-    }
+    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * f->data->groups);
+    b->each = ARENA_TAKE(a, struct modal_normal, f->data->groups);
+    b->noise = ARENA_TAKE(a, double, f->data->groups);
+    return b;
+}
+
+void modal_block_copy(struct modal_block *to, const struct modal_block *from)
+{
+    size_t groups = (size_t)from->fit->data->groups;
+    struct modal_part *part = to->part;
+    struct modal_normal *each = to->each;
+    double *noise = to->noise;
+    *to = *from;
+    to->part = memcpy(part, from->part, MODAL_BLOCK * groups * sizeof *part);
+    to->each = memcpy(each, from->each, groups * sizeof *each);
+    to->noise = memcpy(noise, from->noise, groups * sizeof *noise);
 }
 
 bool modal_block_polish(struct modal_block *b, int steps)
@@ -505,28 +495,28 @@ bool modal_block_polish(struct modal_block *b, int steps)
     int groups = b->fit->data->groups;
     double damping = 1e-3, step[POLES];
     struct arena *inner = arena_open();
-    struct modal_block *was = ARENA_TAKE(inner, struct modal_block, 1);
-    struct modal_part *part = ARENA_TAKE(inner, struct modal_part, b->m * groups);
-    struct modal_normal *spare = ARENA_TAKE(b->a, struct modal_normal, groups);
+    struct modal_block *was = modal_block_room(b->fit, inner);
     double *own = ARENA_TAKE(inner, double, groups * 2 * b->m);
     bool converged = false, better = true;
     pass(b, steps > 0, NULL);
     for (int k = 0; k < steps && better && !converged; k++) {
         double enough = b->fit->tolerance;
         converged = solve(b, 0.0, step, own) < enough;
-        *was = *b;
-        memcpy(part, b->part, (size_t)(b->m * groups) * sizeof *part);
+        modal_block_copy(was, b);
         better = false;
         for (int t = 0; t < TRIES && !better && !converged; t++) {
             solve(b, damping, step, own);
-            copy_parts(b, part, was->s, step, own);
-            b->each = spare;
+            for (int i = 0; i < b->m; i++) {
+                b->s[i] = stepped(b, b->s[i], step + 2 * i);
+                for (int g = 0; g < groups; g++) {
+                    struct modal_part *p = &b->part[i * groups + g];
+                    p->pole = b->each[g].used ? stepped(b, p->pole, own + (g * b->m + i) * 2) : b->s[i];
+                }
+            }
             pass(b, true, NULL);
             better = b->chi <= was->chi;
-            spare = better ? was->each : spare;
             if (!better) {
-                *b = *was;
-                copy_parts(b, part, NULL, NULL, NULL);
+                modal_block_copy(b, was);
                 damping = fmax(8.0 * damping, 1e-4);
             }
         }

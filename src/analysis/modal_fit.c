@@ -58,32 +58,6 @@ static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, 
         b->scale[k] = 1.0;
 }
 
-/* What the lead of a recording holds, smooth over 40 Hz, is noise in its other stretches, too. */
-static void floors_of_leads(struct modal_fit *f);
-
-void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a)
-{
-    *f = (struct modal_fit){.data = d,
-                            .options = o,
-                            .a = a,
-                            .low = 2.0 * REAL_PI * o->low,
-                            .high = 2.0 * REAL_PI * o->high,
-                            .typical = {modal_spread_stated[0], modal_spread_stated[1]},
-                            .tolerance = 1e-2};
-    f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
-    for (int k = 0; k < d->stretches; k++) {
-        open_bins(f, &d->stretch[k], &f->bins[k]);
-        if (d->stretch[k].fitted && d->stretch[k].strike >= 0) f->strikes++;
-        if (d->stretch[k].fitted && d->stretch[k].strike >= 0)
-            f->longest = fmax(f->longest, (double)d->stretch[k].n / d->rate);
-    }
-    f->most = o->most + o->most / 4 + 10;
-    f->slowest = 0.02 / f->longest;
-    f->fastest = 1.5 * o->fastest; /* what stands for several fast modes until they are found may be faster than they */
-    modal_fit_rest(f);
-    floors_of_leads(f);
-}
-
 /* ------------------------------------------------------------------ noise */
 
 static int rising(const void *x, const void *y)
@@ -194,6 +168,7 @@ void modal_fit_noise(struct modal_fit *f, double width)
     }
 }
 
+/* What the lead of a recording holds, smooth over 40 Hz, is noise in its other stretches, too. */
 static void floors_of_leads(struct modal_fit *f)
 {
     const struct modal_data *d = f->data;
@@ -212,6 +187,28 @@ static void floors_of_leads(struct modal_fit *f)
             }
         arena_close(a);
     }
+}
+
+void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a)
+{
+    *f = (struct modal_fit){.data = d,
+                            .options = o,
+                            .a = a,
+                            .low = 2.0 * REAL_PI * o->low,
+                            .high = 2.0 * REAL_PI * o->high,
+                            .typical = {modal_spread_stated[0], modal_spread_stated[1]},
+                            .tolerance = 1e-2};
+    f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
+    for (int k = 0; k < d->stretches; k++) {
+        open_bins(f, &d->stretch[k], &f->bins[k]);
+        if (d->stretch[k].fitted) f->strikes++;
+        if (d->stretch[k].fitted) f->longest = fmax(f->longest, (double)d->stretch[k].n / d->rate);
+    }
+    f->most = o->most + o->most / 4 + 10;
+    f->slowest = 0.02 / f->longest;
+    f->fastest = 1.5 * o->fastest; /* what stands for several fast modes until they are found may be faster than they */
+    modal_fit_rest(f);
+    floors_of_leads(f);
 }
 
 /* ------------------------------------------------------------------ a mode on the bins */
@@ -282,21 +279,26 @@ void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, lon
 
 /* ------------------------------------------------------------------ components */
 
-/* rest of a stretch += Re part of gain times what the line makes. */
-static void add_line(struct modal_bins *b, const struct modal_line *line, cplx gain)
+void modal_fit_add_line(const struct modal_bins *b, const struct modal_line *line, cplx gain, long from, long to,
+                        double *re, double *im)
 {
     double room[8][CHUNK], *x[8];
     cplx g = cplx_scale(0.5, gain);
     for (int c = 0; c < 8; c++)
         x[c] = room[c];
-    for (long from = 0; from < b->n; from += CHUNK) {
-        long n = from + CHUNK < b->n ? CHUNK : b->n - from;
+    for (long n; from < to; from += n, re += n, im += n) {
+        n = from + CHUNK < to ? CHUNK : to - from;
         modal_fit_basis(b, line, from, from + n, x);
         for (long k = 0; k < n; k++) {
-            b->rr[from + k] += g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k]);
-            b->ri[from + k] += g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]);
+            re[k] += g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k]);
+            im[k] += g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]);
         }
     }
+}
+
+static void add_to_rest(struct modal_bins *b, const struct modal_line *line, cplx gain)
+{
+    modal_fit_add_line(b, line, gain, 0, b->n, b->rr, b->ri);
 }
 
 /* What rings on into a stretch: the state x that earlier strikes of its place have left at its first sample makes x (1
@@ -307,7 +309,7 @@ static void add_ringing(const struct modal_fit *f, int s, cplx pole, cplx state,
     double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
     cplx p = cplx_exp(pole, 1.0 / rate), left = cplx_sub(state, cplx_mul(state, cplx_exp(pole, (double)st->n / rate)));
     struct modal_line line = {p.re, p.im, size, 0.0, 0.0, 0.0, 1.0 / rate, 0.0};
-    add_line(&f->bins[s], &line, cplx_scale(sign, left));
+    add_to_rest(&f->bins[s], &line, cplx_scale(sign, left));
 }
 
 /* The state at a strike's pulse that its force makes with a gain of 1, and how a state grows from the stretch's first
@@ -350,7 +352,7 @@ void modal_fit_put(struct modal_fit *f, int i, double sign)
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_part *p = &f->part[i * d->groups + d->stretch[s].group];
         struct modal_line line = modal_fit_line(f, s, p->pole);
-        if (cplx_square(p->gain) > 0.0) add_line(&f->bins[s], &line, cplx_scale(sign, p->gain));
+        if (cplx_square(p->gain) > 0.0) add_to_rest(&f->bins[s], &line, cplx_scale(sign, p->gain));
         if (d->stretch[s].strike >= 0 && cplx_square(state[s]) > 1e-24 * cplx_square(p->gain))
             add_ringing(f, s, p->pole, state[s], sign);
     }

@@ -124,10 +124,16 @@ void modal_fit_rest(struct modal_fit *f);                             /* rest an
 struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s);
 /* X, dX/ds and the same of the mirror pole at bins [from, to): x[0 ... 7][to - from], re and im each. */
 void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long to, double *const x[8]);
+/* re, im[to - from] += the real part of gain times what the line makes. */
+void modal_fit_add_line(const struct modal_bins *b, const struct modal_line *line, cplx gain, long from, long to,
+                        double *re, double *im);
 
 /* modal_block.c */
 void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
                       int extras, const bool *stretches, struct arena *a);
+/* A block that modal_block_copy can make like another; both of one fit. */
+struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a);
+void modal_block_copy(struct modal_block *to, const struct modal_block *from);
 void modal_block_gains(struct modal_block *b); /* gains of its poles, noise, chi */
 void modal_block_worth(
     struct modal_block *b,
@@ -145,16 +151,18 @@ int modal_block_sweep(double *a, int n, int from, int to, const double *scale, b
 /* modal_settle.c */
 int modal_settle_near(const struct modal_fit *f, int i, int most,
                       int *of); /* components whose bands touch i's, i too, by frequency */
+/* Opens a block of those; returns where i is in it. */
+int modal_settle_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a);
 double modal_settle_refine(struct modal_fit *f, int n, const int *of,
                            int steps); /* fits them anew, the greatest move in standard errors */
-double modal_settle_sweeps(struct modal_fit *f, int most, int rounds);
+void modal_settle_sweeps(struct modal_fit *f, int most, int rounds);
 double modal_settle_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
 void modal_settle_drop(struct modal_fit *f, int i, int most); /* component i; the others of `most` are fitted anew */
 void modal_settle_eliminate(struct modal_fit *f, double limit);
 void modal_settle(struct modal_fit *f);
 int modal_settle_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
-double modal_settle_limit(const struct modal_fit *f,
-                          double chi4); /* of chi squared of 2 + 2 groups degrees, as likely as chi4 of four */
+double modal_settle_limit(const struct modal_fit *f, double chi4); /* of chi squared of 2 + 2 groups degrees, as likely
+                                                                      as chi4 of four */
 
 /* modal_spread.c */
 extern const double modal_spread_stated[2]; /* spreads before they are measured, and where one strike is all */

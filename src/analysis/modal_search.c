@@ -8,16 +8,7 @@
 #include "analysis/modal_fit.h"
 #include "num/fft.h"
 
-enum {
-    SAMPLES = 128,
-    ROWS = 40,
-    ORDER = 12,
-    EDGE = 3,
-    ITERATIONS = 60,
-
-    WEAKEST = 3,
-    NEIGHBOURS = 8
-};
+enum { SAMPLES = 128, ROWS = 40, ORDER = 12, EDGE = 3, WEAKEST = 3, NEIGHBOURS = 8 };
 
 static const double enter = 38.0; /* chi squared of 4 degrees, chance 1.1e-7 */
 
@@ -42,7 +33,7 @@ static void residual_make(const struct modal_fit *f, struct arena *a, struct res
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_stretch *st = &d->stretch[s];
         const struct modal_bins *b = &f->bins[s];
-        if (!st->fitted || st->strike < 0) continue;
+        if (!st->fitted) continue;
         struct fft *own = fft_open((size_t)st->n);
         double *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         memcpy(re + b->first, b->rr, (size_t)b->n * sizeof *re);
@@ -80,85 +71,39 @@ static int envelope(const struct residual *r, int s, const struct modal_stretch 
     return to > from ? (int)(to - from) : 0;
 }
 
-/* ------------------------------------------------------------------ eigenvalues of a small complex matrix */
+/* ------------------------------------------------------------------ ESPRIT */
 
-/* By Hessenberg's form and shifted QR steps with plane rotations (as EISPACK's comqr); a[n][n] is overwritten. */
-static int eigenvalues(cplx *a, int n, cplx *value)
+/* Eigenvalues of the complex a[n][n]. GSL has them of real matrices: [Re a, -Im a; Im a, Re a] has those of a and their
+   conjugates. With j times more than the norm of a added to all of them, a's own are those above the real axis. */
+static int eigenvalues(const cplx *a, int n, cplx *value)
 {
-    for (int k = 1; k < n - 1; k++) { /* elimination with pivoting (comhes) */
-        int best = k;
-        for (int i = k + 1; i < n; i++)
-            if (cplx_square(a[i * n + k - 1]) > cplx_square(a[best * n + k - 1])) best = i;
-        if (cplx_square(a[best * n + k - 1]) == 0.0) continue;
-        for (int j = k - 1; best != k && j < n; j++) {
-            cplx t = a[best * n + j];
-            a[best * n + j] = a[k * n + j];
-            a[k * n + j] = t;
-        }
-        for (int i = 0; best != k && i < n; i++) {
-            cplx t = a[i * n + best];
-            a[i * n + best] = a[i * n + k];
-            a[i * n + k] = t;
-        }
-        for (int i = k + 1; i < n; i++) {
-            cplx q = cplx_div(a[i * n + k - 1], a[k * n + k - 1]);
-            if (cplx_square(q) == 0.0) continue;
-            for (int j = k - 1; j < n; j++)
-                a[i * n + j] = cplx_sub(a[i * n + j], cplx_mul(q, a[k * n + j]));
-            for (int j = 0; j < n; j++)
-                a[j * n + k] = cplx_add(a[j * n + k], cplx_mul(q, a[j * n + i]));
-        }
-    }
+    double up = 1.0;
     int found = 0;
-    for (int end = n - 1, tries = 0; end >= 0; tries++) {
-        int low = end;
-        while (low > 0 && cplx_abs(a[low * n + low - 1]) >
-                              1e-14 * (cplx_abs(a[low * n + low]) + cplx_abs(a[(low - 1) * n + low - 1])))
-            low--;
-        if (low == end || tries > ITERATIONS) {
-            if (low == end) value[found++] = a[end * n + end];
-            end--;
-            tries = 0;
-            continue;
+    if (n == 0) return 0;
+    for (int i = 0; i < n * n; i++)
+        up += cplx_abs(a[i]);
+    size_t m = (size_t)n;
+    gsl_matrix *real = gsl_matrix_alloc(2 * m, 2 * m);
+    gsl_vector_complex *all = gsl_vector_complex_alloc(2 * m);
+    gsl_eigen_nonsymm_workspace *w = gsl_eigen_nonsymm_alloc(2 * m);
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++) {
+            cplx at = cplx_add(a[i * m + j], (cplx){0.0, i == j ? up : 0.0});
+            gsl_matrix_set(real, i, j, at.re);
+            gsl_matrix_set(real, m + i, m + j, at.re);
+            gsl_matrix_set(real, m + i, j, at.im);
+            gsl_matrix_set(real, i, m + j, -at.im);
         }
-        cplx p = a[(end - 1) * n + end - 1], q = a[(end - 1) * n + end], r = a[end * n + end - 1], s = a[end * n + end];
-        cplx half = cplx_scale(0.5, cplx_sub(p, s)), inside = cplx_add(cplx_mul(half, half), cplx_mul(q, r));
-        double size = cplx_abs(inside), re = sqrt(0.5 * (size + fabs(inside.re))),
-               im = re > 0.0 ? 0.5 * inside.im / re : 0.0;
-        cplx root = inside.re >= 0.0 ? (cplx){re, im} : (cplx){fabs(im), inside.im < 0.0 ? -re : re};
-        cplx plus = cplx_add(half, root), minus = cplx_sub(half, root),
-             shift = cplx_add(s, cplx_square(plus) < cplx_square(minus) ? plus : minus);
-        if (tries % 10 == 9) shift = cplx_add(shift, (cplx){cplx_abs(r), 0.0});
-        double c[64];
-        cplx t[64];
-        for (int i = low; i <= end; i++)
-            a[i * n + i] = cplx_sub(a[i * n + i], shift);
-        for (int k = low; k < end; k++) {
-            cplx x = a[k * n + k], y = a[(k + 1) * n + k];
-            double norm = sqrt(cplx_square(x) + cplx_square(y)), ax = cplx_abs(x);
-            c[k] = norm > 0.0 ? ax / norm : 1.0;
-            t[k] = norm == 0.0 ? (cplx){0}
-                   : ax > 0.0  ? cplx_scale(1.0 / (ax * norm), cplx_mul(x, cplx_conj(y)))
-                               : (cplx){y.re / norm, -y.im / norm};
-            for (int j = k; j <= end; j++) {
-                cplx u = a[k * n + j], v = a[(k + 1) * n + j];
-                a[k * n + j] = cplx_add(cplx_scale(c[k], u), cplx_mul(t[k], v));
-                a[(k + 1) * n + j] = cplx_sub(cplx_scale(c[k], v), cplx_mul(cplx_conj(t[k]), u));
-            }
+    if (gsl_eigen_nonsymm(real, all, w) == GSL_SUCCESS)
+        for (size_t i = 0; i < 2 * m && found < n; i++) {
+            gsl_complex at = gsl_vector_complex_get(all, i);
+            if (at.dat[1] > 0.0) value[found++] = (cplx){at.dat[0], at.dat[1] - up};
         }
-        for (int k = low; k < end; k++)
-            for (int i = low; i <= (k + 2 < end ? k + 2 : end); i++) {
-                cplx u = a[i * n + k], v = a[i * n + k + 1];
-                a[i * n + k] = cplx_add(cplx_scale(c[k], u), cplx_mul(cplx_conj(t[k]), v));
-                a[i * n + k + 1] = cplx_sub(cplx_scale(c[k], v), cplx_mul(t[k], u));
-            }
-        for (int i = low; i <= end; i++)
-            a[i * n + i] = cplx_add(a[i * n + i], shift);
-    }
+    gsl_eigen_nonsymm_free(w);
+    gsl_vector_complex_free(all);
+    gsl_matrix_free(real);
     return found;
 }
-
-/* ------------------------------------------------------------------ ESPRIT */
 
 /* psi of U_up psi = U_down by normal equations of orthonormal columns: (I - u u^H) is inverted in closed form, u the
  * last row. */
@@ -251,7 +196,7 @@ double modal_search_round(struct modal_fit *f, double *noise)
     modal_fit_noise(f, 0.0);
     for (int s = 0; s < f->data->stretches; s++) {
         struct modal_bins *b = &f->bins[s];
-        for (long k = 0; k < b->n && f->data->stretch[s].fitted && f->data->stretch[s].strike >= 0; k++) {
+        for (long k = 0; k < b->n && f->data->stretch[s].fitted; k++) {
             most = fmax(most, (b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k]) / b->scale[k]);
             *noise = fmin(*noise, b->variance[k] / b->scale[k]);
         }
@@ -268,7 +213,7 @@ static double power_of(const struct modal_fit *f, cplx s, const struct modal_par
     for (int k = 0; k < f->data->stretches; k++) {
         const struct modal_bins *b = &f->bins[k];
         long at = (long)rint(s.im / b->width) - b->first;
-        if (!f->data->stretch[k].fitted || f->data->stretch[k].strike < 0 || at < 0 || at >= b->n) continue;
+        if (!f->data->stretch[k].fitted || at < 0 || at >= b->n) continue;
         struct modal_line line = modal_fit_line(f, k, s);
         modal_fit_basis(b, &line, at, at + 1, x);
         most = fmax(most, 0.25 * cplx_square(part[f->data->stretch[k].group].gain) *
@@ -283,7 +228,7 @@ static double stands_out(const struct modal_fit *f, double low, double high)
     double excess = 0.0, count = 0.0, most = 0.0, power = 0.0;
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
-        if (!f->data->stretch[s].fitted || f->data->stretch[s].strike < 0) continue;
+        if (!f->data->stretch[s].fitted) continue;
         long from = (long)ceil(low / b->width) - b->first, to = (long)floor(high / b->width) - b->first;
         for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++) {
             double q = (b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k]) / b->variance[k];
@@ -321,13 +266,8 @@ static void rough_only(struct modal_block *b, double limit, double least)
 /* Drops that of the weakest components without which chi rises least, the others fitted anew, until all are needed. */
 static void needed_only(struct modal_block *b, double limit)
 {
-    int groups = b->fit->data->groups;
     struct arena *a = arena_open();
-    struct modal_block *try = ARENA_TAKE(a, struct modal_block, 1), *best = ARENA_TAKE(a, struct modal_block, 1);
-    struct modal_part *room[2] = {ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * groups),
-                                  ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * groups)};
-    struct modal_normal *each = ARENA_TAKE(a, struct modal_normal, groups);
-    double *noise = ARENA_TAKE(a, double, groups);
+    struct modal_block *try = modal_block_room(b->fit, a), *best = modal_block_room(b->fit, a);
     double worth[MODAL_BLOCK];
     while (b->m > 0) {
         double least = HUGE_VAL;
@@ -337,25 +277,14 @@ static void needed_only(struct modal_block *b, double limit)
             for (int k = 0; k < b->m; k++)
                 less += b->of[k] < 0 && worth[k] < worth[i];
             if (b->of[i] >= 0 || worth[i] > 100.0 * limit || less >= WEAKEST) continue;
-            *try = *b;
-            try->part = room[0];
-            try->each = each;
-            try->noise = noise;
-            memcpy(try->part, b->part, (size_t)(MODAL_BLOCK * groups) * sizeof *b->part);
+            modal_block_copy(try, b);
             modal_block_drop(try, i);
             modal_block_polish(try, try->m ? 3 : 0);
-            if (try->chi < least) {
-                least = try->chi;
-                memcpy(room[1], room[0], (size_t)(MODAL_BLOCK * groups) * sizeof *room[0]);
-                *best = *try;
-            }
+            if (try->chi < least) modal_block_copy(best, try);
+            least = fmin(least, try->chi);
         }
         if (least - b->chi >= limit) break;
-        memcpy(b->part, room[1], (size_t)(MODAL_BLOCK * groups) * sizeof *room[1]);
-        memcpy(b->s, best->s, sizeof b->s);
-        memcpy(b->of, best->of, sizeof b->of);
-        memcpy(b->spread, best->spread, sizeof b->spread);
-        b->m = best->m;
+        modal_block_copy(b, best);
         modal_block_polish(b, 5);
     }
     arena_close(a);
@@ -437,9 +366,7 @@ static int candidates(const struct modal_fit *f, const struct residual *r, long 
     int n[MODAL_STRETCHES], longest = 0, poles = 0;
     cplx z[ORDER];
     for (int s = 0; s < d->stretches; s++) {
-        n[s] = d->stretch[s].fitted && d->stretch[s].strike >= 0
-                   ? envelope(r, s, &d->stretch[s], centre, wide, turn, y[s])
-                   : 0;
+        n[s] = d->stretch[s].fitted ? envelope(r, s, &d->stretch[s], centre, wide, turn, y[s]) : 0;
         longest = n[s] > longest ? n[s] : longest;
     }
     int order = esprit(y, n, d->stretches, z);

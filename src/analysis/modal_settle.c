@@ -1,5 +1,5 @@
 /* A fit as a whole: blocks of neighbours in turn until nothing moves, and the modes that it does without. */
-#include <stdlib.h>
+#include <gsl/gsl_cdf.h>
 #include <string.h>
 
 #include "analysis/modal_fit.h"
@@ -43,6 +43,15 @@ int modal_settle_near(const struct modal_fit *f, int i, int most, int *of)
     return n;
 }
 
+int modal_settle_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a)
+{
+    int of[MODAL_BLOCK], n = modal_settle_near(f, i, most, of), at = 0;
+    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
+    while (b->of[at] != i)
+        at++;
+    return at;
+}
+
 double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
 {
     struct arena *a = arena_open();
@@ -73,63 +82,51 @@ double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
     return most;
 }
 
-static int by_frequency(const void *x, const void *y)
+/* By frequency, so that nothing depends on the order in which components came. */
+static void order(struct modal_fit *f)
 {
-    const cplx *a = x, *b = y;
-    return (a->im > b->im) - (a->im < b->im);
+    size_t groups = (size_t)f->data->groups;
+    for (int i = 1; i < f->m; i++)
+        for (int k = i; k > 0 && f->c[k].s.im < f->c[k - 1].s.im; k--) {
+            struct modal_component c = f->c[k];
+            f->c[k] = f->c[k - 1];
+            f->c[k - 1] = c;
+            for (size_t g = 0; g < groups; g++) {
+                struct modal_part *at = f->part + (size_t)k * groups + g, mine = *at;
+                *at = at[-(ptrdiff_t)groups];
+                at[-(ptrdiff_t)groups] = mine;
+            }
+        }
 }
 
-double modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
+void modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
 {
-    double left = 0.0;
-    for (int k = 0; k < rounds; k++) {
-        struct arena *a = arena_open();
-        cplx *order = ARENA_TAKE(a, cplx, f->m + 1); /* index, frequency */
-        int of[MODAL_BLOCK];
-        for (int i = 0; i < f->m; i++)
-            order[i] = (cplx){(double)i, f->c[i].s.im};
-        qsort(order, (size_t)f->m, sizeof *order, by_frequency);
+    double left = HUGE_VAL;
+    for (int k = 0; k < rounds && left > still; k++) {
         left = 0.0;
+        order(f);
         for (int i = 0; i < f->m; i++)
-            if (f->c[(int)order[i].re].moved > still) {
-                int n = modal_settle_near(f, (int)order[i].re, most, of);
+            if (f->c[i].moved > still) {
+                int of[MODAL_BLOCK], n = modal_settle_near(f, i, most, of);
                 left = fmax(left, modal_settle_refine(f, n, of, 5));
             }
-        arena_close(a);
-        if (left <= still) break;
     }
-    return left;
 }
 
 /* ------------------------------------------------------------------ what a fit can do without */
 
 double modal_settle_limit(const struct modal_fit *f, double chi4)
 {
-    double chance = real_exp(-0.5 * chi4) * (1.0 + 0.5 * chi4), low = chi4, high = chi4 + 20.0 * f->data->groups;
-    for (int k = 0; k < 60; k++) {
-        double x = 0.5 * (low + high), term = real_exp(-0.5 * x), sum = term;
-        for (int i = 1; i <= f->data->groups; i++) {
-            term *= 0.5 * x / i;
-            sum += term;
-        }
-        if (sum > chance)
-            low = x;
-        else
-            high = x;
-    }
-    return 0.5 * (low + high);
+    return gsl_cdf_chisq_Qinv(real_exp(-0.5 * chi4) * (1.0 + 0.5 * chi4), 2.0 + 2.0 * f->data->groups);
 }
 
 double modal_settle_rise(struct modal_fit *f, int i)
 {
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    int of[MODAL_BLOCK], n = modal_settle_near(f, i, NEIGHBOURS, of), at = 0;
-    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
+    int at = modal_settle_open(b, f, i, NEIGHBOURS, a);
     modal_block_gains(b);
     double chi = b->chi;
-    while (b->of[at] != i)
-        at++;
     modal_block_drop(b, at);
     modal_block_polish(b, b->m ? 4 : 0);
     double rise = b->chi - chi;

@@ -212,7 +212,7 @@ void modal_spectrogram(struct modal_fit *f)
         double energy = 0.0;
         for (long i = d->stretch[k].ringing; i < d->stretch[k].n; i++)
             energy += d->stretch[k].y[i] * d->stretch[k].y[i];
-        if (d->stretch[k].fitted && d->stretch[k].strike >= 0 && energy > most) {
+        if (d->stretch[k].fitted && energy > most) {
             most = energy;
             loudest = k;
         }

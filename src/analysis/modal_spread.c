@@ -24,15 +24,11 @@ static int rising(const void *x, const void *y)
 static struct moments moments(const struct modal_fit *f, int i, int q)
 {
     struct moments m = {0, 0.0, 0.0};
-    int of[MODAL_BLOCK], n = modal_settle_near(f, i, 8, of), at = 0;
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     double *by = ARENA_TAKE(a, double, f->data->groups), *variance = ARENA_TAKE(a, double, f->data->groups), all = 0.0,
            mean = 0.0, scatter = 0.0, noise = 0.0, share = 0.0;
-    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
-    while (b->of[at] != i)
-        at++;
-    m.n = modal_block_apart(b, at, q, by, variance);
+    m.n = modal_block_apart(b, modal_settle_open(b, f, i, 8, a), q, by, variance);
     for (int k = 0; k < m.n; k++) {
         double w = 1.0 / (variance[k] + f->c[i].spread[q] * f->c[i].spread[q]);
         all += w;
