@@ -316,9 +316,11 @@ static void add_ringing(const struct modal_fit *f, int s, cplx pole, cplx state,
  * sample to there. */
 static cplx forced(const struct modal_fit *f, const struct modal_stretch *st, cplx pole, cplx *grown)
 {
-    cplx sum = {0};
-    for (long k = 0; k < st->pulse.n; k++)
-        sum = cplx_add(sum, cplx_scale(st->pulse.f[k], cplx_exp(pole, -(double)k / f->data->rate)));
+    cplx sum = {0}, back = cplx_exp(pole, -1.0 / f->data->rate);
+    for (long k = st->pulse.n - 1; k >= 0; k--) {
+        sum = cplx_mul(sum, back);
+        sum.re += st->pulse.f[k];
+    }
     *grown = cplx_exp(pole, (double)(st->pulse.at - st->first) / f->data->rate);
     return sum;
 }
