@@ -8,7 +8,7 @@
 #include "num/fft.h"
 #include "num/noise.h"
 
-enum { ROUNDS = 10, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 8 };
+enum { ROUNDS = 10, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 4 };
 
 static const double stable = 23.5;   /* chi squared of 4 degrees that a mode must keep under noise drawn anew */
 static const double certain = 100.0; /* ... above which all draws do */

@@ -210,8 +210,8 @@ void modal_settle(struct modal_fit *f)
         for (int i = 0; i < f->m; i++)
             f->c[i].moved = fmax(f->c[i].moved, 1.0);
         m = f->m;
-        do
-            modal_settle_sweeps(f, 8, ROUNDS);
+        do /* at first once: many leave, and need not be converged before */
+            modal_settle_sweeps(f, 8, k ? ROUNDS : 1);
         while (modal_settle_runaways(f));
         modal_fit_rest(f);
         modal_fit_noise(f, 0.0);
