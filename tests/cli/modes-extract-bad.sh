@@ -10,7 +10,8 @@ while IFS=$'\t' read -r name force wanted what; do
     [ "$force" = 0 ] || words=(--force-channel 2)
     echo "$what$([ "$force" = 0 ] || echo ", with its force")"
     code=0
-    (ulimit -t "$limit"; extract "$name.wav" "${words[@]}" --json -f -o "$name.csv" > "$name.json") || code=$?
+    (ulimit -t "$limit"; extract "$name.wav" "${words[@]}" --json -f -o "$name.csv" > "$name.json" 2> err) || code=$?
+    sed -E 's/only [0-9]+ % of strike [0-9]+/only P % of strike S/' err >&2 # which they are is no promise
     [ "$code" = 0 ] || [ ! -e "$name.csv" ] || echo "a table all the same"
     if [ "$code" = 0 ] && [ "$wanted" = "unless right" ]; then
         python3 "$ROOT/tests/lib/bad_recordings.py" 1 "$name" "$name.json"
