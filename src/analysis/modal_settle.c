@@ -187,19 +187,22 @@ static double loudness(const struct modal_fit *f, int i)
     return all > 0.0 ? mine / all : 0.0;
 }
 
+/* One after the other, the loudest first: without it what it cancelled with may be right. */
 int modal_settle_runaways(struct modal_fit *f)
 {
-    int dropped = 0;
-    for (int i = 0; i < f->m;)
-        if (-f->c[i].s.re > 0.99 * f->fastest || loudness(f, i) > cancels) {
-            for (int k = 0; k < f->m; k++)
-                if (distance(f, i, k) < touches) f->c[k].moved = 1.0;
-            modal_fit_drop(f, i);
-            dropped++;
-        } else {
-            i++;
+    for (int dropped = 0;; dropped++) {
+        double most = 0.0;
+        int loudest = -1;
+        for (int i = 0; i < f->m; i++) {
+            double size = loudness(f, i);
+            if ((-f->c[i].s.re > 0.99 * f->fastest || size > cancels) && size > most) {
+                most = size;
+                loudest = i;
+            }
         }
-    return dropped;
+        if (loudest < 0) return dropped;
+        modal_settle_drop(f, loudest, NEIGHBOURS + 1);
+    }
 }
 
 void modal_settle(struct modal_fit *f)
