@@ -103,7 +103,7 @@ demo:
 check:
 	@scripts/setup.sh build test
 	$(SUB) all unit
-	@BUILD=$(BUILD) CC=$(CC) tests/run.sh
+	@BUILD=$(BUILD) CC=$(CC) AFTER=scripts/weight.sh tests/run.sh
 
 # Every warning is an error, with both compilers.
 warnings: warnings-gcc warnings-clang

@@ -4,7 +4,7 @@
 #     tests/run.sh --list [KIND ...]
 #     tests/run.sh --set KIND[/NAME] ...       renews the expected files of cli, plans and golden tests: look at the diff
 # BUILD is the build folder (default build), JOBS how many run at once. The last line is "N passed, N failed[, N skipped]";
-# the exit code is 0 only if something ran and nothing failed. What each kind is: tests/README.md.
+# the exit code is 0 only if something ran and nothing failed. AFTER is a command whose output stands before that line. What each kind is: tests/README.md.
 set -uo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -119,6 +119,8 @@ export SCRATCH COUNTS
 : > "$COUNTS"
 trap 'rm -rf "$SCRATCH"' EXIT
 echo "$tests" | sed '/^$/d' | xargs -r -d '\n' -P "$JOBS" -I{} tests/run.sh --one {}
+
+${AFTER:-:}
 
 awk -v expected="$(echo "$tests" | grep -c .)" '
     { passed += $1; failed += $2; skipped += $3 }
